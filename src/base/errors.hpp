@@ -1,0 +1,24 @@
+// How bad input is reported: one exception type, and the words for a name that nobody knows.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mortise {
+
+/// Bad input: a scene, a mesh or a command line that cannot be what its author meant.
+/// what() is one line: the file, the place (key, line or coordinates), the value, what was expected.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The candidate nearest to `name` in edit distance; empty if none is near (more than half of its letters differ).
+std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
+
+/// "unknown WHAT 'NAME'; did you mean 'NEAREST'? known: a, b, c"
+std::string unknown_name(const std::string& what, const std::string& name,
+                         const std::vector<std::string>& candidates);
+
+}  // namespace mortise

@@ -1,0 +1,23 @@
+// Eigen aliases used in every room.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+namespace mortise {
+
+using Vec2 = Eigen::Vector2d;
+using Vec4 = Eigen::Vector4d;
+using VecX = Eigen::VectorXd;
+using MatX = Eigen::MatrixXd;
+
+/// n x 2, a row a point: coordinates or displacements, in the scene's length unit.
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+/// n x 4, a row a place: stresses (11, 22, 33, 12), tension positive.
+using Stresses = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+
+/// Compressed columns, int indices. Symmetric matrices store their lower triangle only.
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+}  // namespace mortise

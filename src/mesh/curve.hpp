@@ -1,0 +1,27 @@
+// A contact curve: the edges of a boundary, strung into one chain.
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace mortise {
+
+/// Edges in the order and direction in which the body lies on the left, so that the outward normal is on the right.
+/// edges[i].nodes[1] == edges[i+1].nodes[0].
+struct Curve {
+  int boundary;                 ///< index into Mesh::boundaries
+  int body;                     ///< index into Mesh::bodies
+  std::vector<Edge> edges;
+  std::vector<CellSide> sides;  ///< the cell side of each edge
+  bool closed;                  ///< the last edge ends where the first begins
+};
+
+/// The boundary's edges as one chain.
+/// Throws InputError, with coordinates, where they branch, fall into pieces, or belong to more than one body.
+Curve contact_curve(const Mesh& mesh, int boundary);
+
+/// Nodes along the chain, ends and middles, each once.
+std::vector<int> curve_nodes(const Curve& curve);
+
+}  // namespace mortise

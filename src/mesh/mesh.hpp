@@ -1,0 +1,73 @@
+// A mesh as plain data: nodes, cells grouped by body, named boundaries made of edges.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace mortise {
+
+enum class CellKind { tri3, tri6, quad4, quad8, quad9 };
+
+/// Nodes of a cell: corners counter-clockwise, then the middles of the sides (side i joins corner i to i+1),
+/// then the centre of a quad9. The order of gmsh and of VTK.
+struct Cell {
+  CellKind kind;
+  int body;                  ///< index into Mesh::bodies
+  std::array<int, 9> nodes;  ///< rows of Mesh::nodes; the first node_count(kind) are used
+};
+
+/// An edge of a cell: both ends, and the middle node if node_count is 3.
+struct Edge {
+  int node_count;            ///< 2 or 3
+  std::array<int, 3> nodes;  ///< start, end, middle (middle = -1 when node_count is 2)
+};
+
+/// A physical curve.
+struct Boundary {
+  std::string name;
+  std::vector<Edge> edges;  ///< in no particular order or direction
+};
+
+struct Mesh {
+  std::string source;                 ///< the file it came from, for messages
+  Points nodes;                       ///< every node belongs to at least one cell
+  std::vector<Cell> cells;            ///< sorted by body
+  std::vector<std::string> bodies;    ///< physical surfaces, a name each
+  std::vector<Boundary> boundaries;   ///< physical curves
+};
+
+constexpr int node_count(CellKind kind) {
+  constexpr std::array<int, 5> counts{3, 6, 4, 8, 9};
+  return counts[static_cast<std::size_t>(kind)];
+}
+
+constexpr int corner_count(CellKind kind) {
+  return kind == CellKind::tri3 || kind == CellKind::tri6 ? 3 : 4;
+}
+
+constexpr bool is_quadratic(CellKind kind) { return kind != CellKind::tri3 && kind != CellKind::quad4; }
+
+/// Index of the body or boundary called `name`. Throws InputError with the known names.
+int body_index(const Mesh& mesh, const std::string& name);
+int boundary_index(const Mesh& mesh, const std::string& name);
+
+/// Names of all boundaries, in their order.
+std::vector<std::string> boundary_names(const Mesh& mesh);
+
+/// The side of a cell that an edge lies on.
+struct CellSide {
+  int cell;  ///< index into Mesh::cells
+  int side;  ///< joins corner `side` to the next one, counter-clockwise
+};
+
+/// Nodes of a side, in the cell's counter-clockwise direction: the body lies on its left.
+Edge side_edge(const Cell& cell, int side);
+
+/// For each edge of a boundary, the one cell side it lies on.
+/// Throws InputError, with coordinates, where an edge belongs to no cell or to two (it is not on the boundary).
+std::vector<CellSide> sides_of(const Mesh& mesh, const Boundary& boundary);
+
+}  // namespace mortise

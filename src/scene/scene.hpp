@@ -1,0 +1,108 @@
+// A scene as plain data: what the user's .toml says, checked for sense but not yet against a mesh.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace mortise {
+
+enum class Plane { strain, stress };
+enum class Condition { unilateral, bilateral };
+enum class InitialGap { measured, closed };
+enum class MethodKind { mortar, ddm };
+enum class Integration { segments, elements };
+enum class Multipliers { quadratic, linear, dual };
+
+/// Units are the scene's own, used throughout (SI if E is in Pa and lengths in m).
+struct Material {
+  double young = 0;              ///< E, stress, > 0
+  double poisson = 0;            ///< nu, -1 < nu < 0.5 (plane stress: <= 0.5)
+  double thermal_expansion = 0;  ///< alpha, 1/K
+};
+
+struct BodySpec {
+  std::string name;      ///< physical surface
+  std::string material;  ///< key of Scene::materials
+};
+
+/// One [[boundary]] entry: exactly one of displacement, pressure, traction.
+struct BoundarySpec {
+  std::string key;                        ///< where it stands, for messages: "boundary.2 (line 31)"
+  std::vector<std::string> on;            ///< physical curves
+  std::optional<double> displacement_x;   ///< prescribed u1, length
+  std::optional<double> displacement_y;   ///< prescribed u2, length
+  std::optional<double> pressure;         ///< positive pushes onto the body, stress
+  std::optional<Vec2> traction;           ///< stress
+};
+
+/// One [[body_force]] entry: force per volume.
+struct BodyForceSpec {
+  std::string key;
+  std::string body;
+  Vec2 force = Vec2::Zero();
+};
+
+/// One [[initial_strain]] entry: a strain, or a temperature change (strain alpha dT in all three directions).
+struct InitialStrainSpec {
+  std::string key;
+  std::string body;
+  std::optional<double> temperature_change;  ///< K
+  Vec4 strain = Vec4::Zero();                ///< (11, 22, 33, 12), tensor shear strain
+};
+
+/// One [[contact]] entry.
+struct ContactSpec {
+  std::string key;
+  std::array<std::string, 2> between;         ///< physical curves
+  Condition condition = Condition::unilateral;
+  InitialGap initial_gap = InitialGap::measured;
+  std::string multipliers_on;                 ///< one of `between`; empty: the finer side
+};
+
+struct Method {
+  MethodKind kind = MethodKind::mortar;
+  Integration integration = Integration::segments;
+  Multipliers multipliers = Multipliers::quadratic;  ///< on 2-node edges quadratic means linear
+};
+
+struct Scene {
+  std::string path;                            ///< the .toml, for messages
+  std::string title;
+  std::string mesh_file;                       ///< absolute or relative to the working directory
+  std::map<std::string, double> mesh_parameters;
+  Plane plane = Plane::strain;
+  std::map<std::string, Material> materials;
+  std::vector<BodySpec> bodies;
+  std::vector<BoundarySpec> boundaries;
+  std::vector<BodyForceSpec> body_forces;
+  std::vector<InitialStrainSpec> initial_strains;
+  std::vector<ContactSpec> contacts;
+  Method method;
+};
+
+/// The words of the scene file for the enums ("strain", "bilateral", ...).
+std::string to_string(Plane value);
+std::string to_string(Condition value);
+std::string to_string(InitialGap value);
+std::string to_string(MethodKind value);
+std::string to_string(Integration value);
+std::string to_string(Multipliers value);
+
+/// One `--set KEY=VALUE`, e.g. {"contact.0.multipliers_on", "lower_contact"}.
+struct Override {
+  std::string key;
+  std::string value;
+};
+
+/// "KEY=VALUE" split at the first '='. Throws InputError if there is none or the key is empty.
+Override parse_override(const std::string& text);
+
+/// Reads and checks a scene file, with `--set` overrides applied before the checks.
+/// Throws InputError naming the file, the line or override, the value and what was expected.
+Scene read_scene(const std::string& path, const std::vector<Override>& overrides = {});
+
+}  // namespace mortise
