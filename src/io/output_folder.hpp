@@ -8,23 +8,27 @@ namespace mortise {
 
 /// Files are written into a hidden folder beside the target; commit() puts it in the target's place in one atomic
 /// step (renameat2 with RENAME_EXCHANGE where the target exists). Killed before that, the old results stand.
-/// Files in the old folder that mortise did not write are carried over, never deleted.
+/// Files in the old folder that mortise did not write are carried over, never deleted. What mortise writes is listed
+/// in output_folder.cpp.
 class OutputFolder {
  public:
-  /// Throws InputError if the folder cannot be made or `target` is a file.
+  /// Makes the hidden folder, and the target's parents; tidies up after processes that died while writing here.
+  /// Throws InputError if the folder cannot be made, `target` is a file, or the work goes on inside `target` (the
+  /// current folder would be exchanged under our feet).
   explicit OutputFolder(std::filesystem::path target);
   /// Removes what was not committed.
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
-  /// Where to write the file `name` before commit().
+  /// Where to write the file `name`, one of those listed, before commit().
   std::filesystem::path path(const std::string& name) const;
+  /// Once, after all files are written and closed. Throws InputError if the file system refuses.
   void commit();
 
  private:
   std::filesystem::path target_;
-  std::filesystem::path staging_;
+  std::filesystem::path staging_;  ///< empty after commit()
 };
 
 }  // namespace mortise

@@ -10,8 +10,8 @@ namespace mortise {
 /// Edges in the order and direction in which the body lies on the left, so that the outward normal is on the right.
 /// edges[i].nodes[1] == edges[i+1].nodes[0].
 struct Curve {
-  int boundary;                 ///< index into Mesh::boundaries
-  int body;                     ///< index into Mesh::bodies
+  int boundary;  ///< index into Mesh::boundaries
+  int body;      ///< index into Mesh::bodies
   std::vector<Edge> edges;
   std::vector<CellSide> sides;  ///< the cell side of each edge
   bool closed;                  ///< the last edge ends where the first begins

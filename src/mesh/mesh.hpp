@@ -32,11 +32,11 @@ struct Boundary {
 };
 
 struct Mesh {
-  std::string source;                 ///< the file it came from, for messages
-  Points nodes;                       ///< every node belongs to at least one cell
-  std::vector<Cell> cells;            ///< sorted by body
-  std::vector<std::string> bodies;    ///< physical surfaces, a name each
-  std::vector<Boundary> boundaries;   ///< physical curves
+  std::string source;                ///< the file it came from, for messages
+  Points nodes;                      ///< every node belongs to at least one cell
+  std::vector<Cell> cells;           ///< sorted by body
+  std::vector<std::string> bodies;   ///< physical surfaces, a name each
+  std::vector<Boundary> boundaries;  ///< physical curves
 };
 
 constexpr int node_count(CellKind kind) {
@@ -44,9 +44,7 @@ constexpr int node_count(CellKind kind) {
   return counts[static_cast<std::size_t>(kind)];
 }
 
-constexpr int corner_count(CellKind kind) {
-  return kind == CellKind::tri3 || kind == CellKind::tri6 ? 3 : 4;
-}
+constexpr int corner_count(CellKind kind) { return kind == CellKind::tri3 || kind == CellKind::tri6 ? 3 : 4; }
 
 constexpr bool is_quadratic(CellKind kind) { return kind != CellKind::tri3 && kind != CellKind::quad4; }
 

@@ -1,26 +1,21 @@
 // A scene as plain data: what the user's .toml says, checked for sense but not yet against a mesh.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/model.hpp"
 #include "base/types.hpp"
 
 namespace mortise {
 
-enum class Plane { strain, stress };
-enum class Condition { unilateral, bilateral };
-enum class InitialGap { measured, closed };
-enum class MethodKind { mortar, ddm };
-enum class Integration { segments, elements };
-enum class Multipliers { quadratic, linear, dual };
-
 /// Units are the scene's own, used throughout (SI if E is in Pa and lengths in m).
 struct Material {
   double young = 0;              ///< E, stress, > 0
-  double poisson = 0;            ///< nu, -1 < nu < 0.5 (plane stress: <= 0.5)
+  double poisson = 0;            ///< nu, -1 < nu < 0.5
   double thermal_expansion = 0;  ///< alpha, 1/K
 };
 
@@ -31,12 +26,12 @@ struct BodySpec {
 
 /// One [[boundary]] entry: exactly one of displacement, pressure, traction.
 struct BoundarySpec {
-  std::string key;                        ///< where it stands, for messages: "boundary.2 (line 31)"
-  std::vector<std::string> on;            ///< physical curves
-  std::optional<double> displacement_x;   ///< prescribed u1, length
-  std::optional<double> displacement_y;   ///< prescribed u2, length
-  std::optional<double> pressure;         ///< positive pushes onto the body, stress
-  std::optional<Vec2> traction;           ///< stress
+  std::string key;                       ///< where it stands, for messages: "boundary.2 (line 31)", counted from 0
+  std::vector<std::string> on;           ///< physical curves
+  std::optional<double> displacement_x;  ///< prescribed u1, length
+  std::optional<double> displacement_y;  ///< prescribed u2, length
+  std::optional<double> pressure;        ///< positive pushes onto the body, stress
+  std::optional<Vec2> traction;          ///< stress
 };
 
 /// One [[body_force]] entry: force per volume.
@@ -57,10 +52,10 @@ struct InitialStrainSpec {
 /// One [[contact]] entry.
 struct ContactSpec {
   std::string key;
-  std::array<std::string, 2> between;         ///< physical curves
+  std::array<std::string, 2> between;  ///< physical curves
   Condition condition = Condition::unilateral;
   InitialGap initial_gap = InitialGap::measured;
-  std::string multipliers_on;                 ///< one of `between`; empty: the finer side
+  std::string multipliers_on;  ///< one of `between`; empty: the finer side
 };
 
 struct Method {
@@ -70,9 +65,9 @@ struct Method {
 };
 
 struct Scene {
-  std::string path;                            ///< the .toml, for messages
+  std::string path;  ///< the .toml, for messages
   std::string title;
-  std::string mesh_file;                       ///< absolute or relative to the working directory
+  std::string mesh_file;  ///< absolute or relative to the working directory
   std::map<std::string, double> mesh_parameters;
   Plane plane = Plane::strain;
   std::map<std::string, Material> materials;

@@ -1,0 +1,22 @@
+// Two plates that meet along a circular arc of radius 0.5 about (0.4, -0.1),
+// x2 = 0.1 (sqrt(9 + 80 x1 - 100 x1^2) - 1) (Aronov and Rodin 2019, problem 10(a)).
+// Parameters (gmsh -setnumber NAME VALUE) and their defaults:
+//   n_upper 80, n_lower 100   elements along the contact line of the upper and the lower plate
+//   spacing 0    contact vertices even in arc length; 1: even in x1
+//   order 2      quadratic elements; 1: linear
+//   kind 0       quadrilaterals; 1: triangles
+//   nine_node 0  8-node quadrilaterals; 1: 9-node (order 2)
+//   straight 0   second-order nodes on the curve; 1: at the middles of straight edges (order 2)
+
+DefineConstant[ n_upper = 80, n_lower = 100, order = 2, kind = 0, nine_node = 0, straight = 0, spacing = 0 ];
+
+Macro LineAt
+  height = 0.1 * (Sqrt(9 + 80 * x - 100 * x^2) - 1);
+Return
+line_kind = Str("arc");
+arc_x = 0.4;
+arc_y = -0.1;
+knots[] = {0, 0.8};
+
+Include "common/two_plates.geo";
+Call TwoPlates;

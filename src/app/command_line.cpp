@@ -1,0 +1,162 @@
+#include "app/command_line.hpp"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "app/sweep.hpp"
+#include "app/write_results.hpp"
+#include "base/errors.hpp"
+#include "io/gmsh_mesh.hpp"
+
+namespace mortise {
+namespace {
+
+struct Options {
+  std::string scene;
+  std::vector<std::string> set, vary;
+  std::string output;
+  bool quiet = false;
+  int threads = 0;
+};
+
+std::vector<Override> overrides(const Options& options) {
+  std::vector<Override> list;
+  for (const std::string& text : options.set) list.push_back(parse_override(text));
+  return list;
+}
+
+std::string stem(const Options& options) { return std::filesystem::path(options.scene).stem().string(); }
+
+// The stages on one line of the terminal as they begin, wiped at the end; nothing into files and pipes.
+class StageLine {
+ public:
+  explicit StageLine(bool quiet) : active_(!quiet && isatty(STDERR_FILENO)) {}
+  ~StageLine() {
+    if (active_) std::cerr << "\r\033[K" << std::flush;
+  }
+  void operator()(const std::string& stage) const {
+    if (active_) std::cerr << "\r\033[K" << stage << " ..." << std::flush;
+  }
+
+ private:
+  bool active_;
+};
+
+int exit_code(Status status) { return status == Status::solved ? 0 : 2; }
+
+int solve(const Options& options) {
+  const Scene scene = read_scene(options.scene, overrides(options));
+  const std::filesystem::path folder = options.output.empty() ? "out/" + stem(options) : options.output;
+  Results results;
+  {
+    const StageLine line(options.quiet);
+    results = solve_scene(scene, [&](const std::string& stage) { line(stage); });
+    line("write");
+    write_results(scene, results, folder);
+  }
+  if (!options.quiet) std::cout << terminal_summary(scene, results, folder);
+  if (results.status != Status::solved)
+    std::cerr << "mortise: " << scene.path << ": " << to_string(results.status) << " (see the summary's checks)\n";
+  return exit_code(results.status);
+}
+
+// What the scene will model, and what it leaves out.
+int check(const Options& options) {
+  const Scene scene = read_scene(options.scene, overrides(options));
+  const CheckedScene checked = check_scene(scene);
+  if (options.quiet) return 0;
+  std::cout << scene.title << "\n  mesh       " << checked.mesh.source << ": " << checked.mesh.nodes.rows() << " nodes, "
+            << checked.mesh.cells.size() << " elements\n";
+  for (const BodySpec& body : scene.bodies) {
+    const Material& m = scene.materials.at(body.material);
+    std::cout << "  body       " << body.name << ": " << body.material << ", E = " << m.young << ", nu = " << m.poisson
+              << ", plane " << to_string(scene.plane) << "\n";
+  }
+  for (const ContactPair& pair : checked.pairs)
+    std::cout << "  contact    " << pair.spec.between[0] << " - " << pair.spec.between[1] << ": "
+              << to_string(pair.spec.condition) << ", frictionless, gap " << to_string(pair.spec.initial_gap) << ", "
+              << pair.coupling.gap0.size() << " multipliers on " << pair.spec.multipliers_on << ", facing over "
+              << pair.coupling.covered_length << "\n";
+  std::cout << "  left out   friction, large displacements, plasticity, time" << (scene.body_forces.empty() ? ", body forces" : "")
+            << (scene.initial_strains.empty() ? ", initial strains" : "") << "\n";
+  return 0;
+}
+
+int mesh(const Options& options) {
+  const Scene scene = read_scene(options.scene, overrides(options));
+  const std::string output = options.output.empty() ? "out/" + stem(options) + ".msh" : options.output;
+  write_msh(scene.mesh_file, scene.mesh_parameters, output);
+  if (!options.quiet) std::cout << output << "\n";
+  return 0;
+}
+
+int sweep(const Options& options) {
+  std::vector<Variation> variations;
+  for (const std::string& text : options.vary) variations.push_back(parse_variation(text));
+  const std::string csv = options.output.empty() ? "out/" + stem(options) + "_sweep.csv" : options.output;
+  const Status worst = sweep(options.scene, overrides(options), variations, csv, [&](const std::string& line) {
+    if (!options.quiet) std::cerr << line << "\n";
+  });
+  if (!options.quiet) std::cout << csv << "\n";
+  return exit_code(worst);
+}
+
+CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, Options& options,
+                      const std::string& output) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->add_option("scene", options.scene, "scene file (.toml)")->required();
+  command->add_option("--set", options.set, "KEY=VALUE: override a value of the scene, e.g. mesh.parameters.n_upper=40")
+      ->allow_extra_args(false);
+  if (!output.empty()) command->add_option("-o,--output", options.output, output);
+  command->add_flag("--quiet", options.quiet, "print errors only");
+  command->add_option("--threads", options.threads, "threads of the factorisation (default: all cores)")
+      ->check(CLI::Range(1, 1024));
+  return command;
+}
+
+int parse_and_run(int argc, const char* const* argv) {
+  CLI::App app("Two-dimensional frictionless contact of linear-elastic bodies on meshes that do not match.");
+  app.set_version_flag("--version", std::string("mortise ") + MORTISE_VERSION);
+  app.require_subcommand(1);
+  app.footer("Exit status: 0 solved and all checks hold; 1 bad input; 2 a check fails or no convergence; 3 internal error.");
+  Options options;
+  CLI::App* solve_command = add_command(app, "solve", "mesh, solve, check and write the results of a scene", options,
+                                        "folder of the results (default: out/SCENE)");
+  CLI::App* check_command = add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
+  CLI::App* mesh_command =
+      add_command(app, "mesh", "write the mesh of a scene", options, ".msh to write (default: out/SCENE.msh)");
+  CLI::App* sweep_command = add_command(app, "sweep", "solve a scene many times, one CSV row a run", options,
+                                        ".csv to write (default: out/SCENE_sweep.csv)");
+  sweep_command->add_option("--vary", options.vary, "KEY=V1,V2,...: values to run through; repeat for combinations")
+      ->required()
+      ->allow_extra_args(false);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    throw InputError(std::string("command line: ") + error.what() + " (mortise --help)");
+  }
+  set_solver_threads(options.threads);
+  if (*solve_command) return solve(options);
+  if (*check_command) return check(options);
+  if (*mesh_command) return mesh(options);
+  return sweep(options);
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const InputError& error) {
+    std::cerr << "mortise: error: " << error.what() << "\n";
+    return 1;
+  } catch (const std::exception& error) {
+    std::cerr << "mortise: internal error: " << error.what() << "\n";
+    return 3;
+  }
+}
+
+}  // namespace mortise

@@ -1,0 +1,53 @@
+#include "app/contact_pair.hpp"
+
+namespace mortise {
+
+std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, const Constraints& constraints) {
+  std::vector<ContactPair> pairs;
+  for (const ContactSpec& spec : scene.contacts) {
+    std::array<Curve, 2> curves;
+    std::array<double, 2> edge_size{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      curves[i] = contact_curve(mesh, scene_boundary(scene, mesh, spec.key + ".between", spec.between[i]));
+      edge_size[i] = curve_length(mesh.nodes, curves[i]) / double(curves[i].edges.size());
+    }
+    // Equal meshes differ by round-off in their lengths: the first is the multiplier side then.
+    const bool second = spec.multipliers_on.empty() ? edge_size[1] < (1 - 1e-6) * edge_size[0]
+                                                    : spec.multipliers_on == spec.between[1];
+    ContactPair pair;
+    pair.spec = spec;
+    pair.spec.multipliers_on = spec.between[second ? 1 : 0];
+    pair.multiplier = std::move(curves[second ? 1 : 0]);
+    pair.opposite = std::move(curves[second ? 0 : 1]);
+    pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, scene.method.integration);
+    pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, constraints,
+                           {scene.method.integration, scene.method.multipliers, spec.initial_gap});
+    pairs.push_back(std::move(pair));
+  }
+  return pairs;
+}
+
+StackedCoupling stack(const std::vector<ContactPair>& pairs, Eigen::Index unknowns) {
+  StackedCoupling all;
+  all.first_row.push_back(0);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const ContactPair& pair : pairs) {
+    const SparseMatrix& B = pair.coupling.B;
+    for (Eigen::Index j = 0; j < B.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(B, j); it; ++it)
+        entries.emplace_back(all.first_row.back() + int(it.row()), int(j), it.value());
+    all.first_row.push_back(all.first_row.back() + int(B.rows()));
+  }
+  all.B.resize(all.first_row.back(), unknowns);
+  all.B.setFromTriplets(entries.begin(), entries.end());
+  all.gap0.resize(all.B.rows());
+  all.scale.resize(all.B.rows());
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const Coupling& c = pairs[p].coupling;
+    all.gap0.segment(all.first_row[p], c.gap0.size()) = c.gap0;
+    all.scale.segment(all.first_row[p], c.scale.size()) = c.scale;
+  }
+  return all;
+}
+
+}  // namespace mortise

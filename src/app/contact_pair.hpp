@@ -1,0 +1,29 @@
+// The contact pairs of a scene: which curve carries the multipliers, and the coupling.
+#pragma once
+
+#include "app/discretisation.hpp"
+#include "contact/coupling.hpp"
+
+namespace mortise {
+
+struct ContactPair {
+  ContactSpec spec;
+  Curve multiplier, opposite;
+  std::vector<ContactPoint> points;
+  Coupling coupling;
+};
+
+/// One a [[contact]] entry. Multipliers lie on the side the scene names, else on the one with the shorter edges (the
+/// first if they are equal). Throws InputError for unknown curves or curves that are no chains.
+std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, const Constraints& constraints);
+
+/// The rows of all pairs below one another.
+struct StackedCoupling {
+  SparseMatrix B;
+  VecX gap0, scale;
+  std::vector<int> first_row;  ///< of each pair, and the total at the end
+};
+
+StackedCoupling stack(const std::vector<ContactPair>& pairs, Eigen::Index unknowns);
+
+}  // namespace mortise

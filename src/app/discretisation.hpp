@@ -1,0 +1,30 @@
+// From a scene and its mesh to the equations of the bodies, contact apart.
+#pragma once
+
+#include "fem/assembly.hpp"
+#include "fem/constraints.hpp"
+#include "scene/scene.hpp"
+
+namespace mortise {
+
+/// K u = load + contact forces, u given where `constraints` say so. One law a body.
+struct Discretisation {
+  std::vector<ElasticLaw> laws;
+  SparseMatrix stiffness;   ///< lower triangle, stress units
+  VecX load;                ///< force per thickness, initial strains included
+  VecX initial_load;        ///< the part of `load` that initial strains make
+  double initial_energy = 0;///< of the initial strains held at zero strain, per thickness
+  Constraints constraints;
+};
+
+/// Throws InputError where the scene names a body or boundary that the mesh does not have, leaves a body without
+/// material, or prescribes two values at one node.
+Discretisation discretise(const Scene& scene, const Mesh& mesh);
+
+/// Index of the boundary that `key` of the scene names. Throws InputError with the known names.
+int scene_boundary(const Scene& scene, const Mesh& mesh, const std::string& key, const std::string& name);
+
+/// Strain energy 1/2 int (eps - eps0) : C : (eps - eps0), per thickness (J/m in SI).
+double strain_energy(const Discretisation& discretisation, const VecX& u);
+
+}  // namespace mortise

@@ -1,0 +1,67 @@
+// One scene from data to results.
+#pragma once
+
+#include <functional>
+
+#include "app/contact_results.hpp"
+#include "app/discretisation.hpp"
+#include "fem/stress.hpp"
+#include "solve/saddle_point.hpp"
+
+namespace mortise {
+
+enum class Status { solved, not_converged, check_failed };
+std::string to_string(Status status);
+
+/// One figure that must stay below its limit.
+struct Check {
+  std::string name;
+  double value;
+  double limit;
+  bool ok() const { return value <= limit; }  // NaN fails
+};
+
+/// Seconds of the stages, summary.json "seconds".
+struct Seconds {
+  double mesh = 0, assemble = 0, couple = 0, factorise = 0, solve = 0, recover = 0, write = 0;
+  double total() const { return mesh + assemble + couple + factorise + solve + recover + write; }
+};
+
+/// Everything a run knows at its end.
+struct Results {
+  Status status = Status::solved;
+  Mesh mesh;
+  BodyPoints points;
+  Discretisation discretisation;
+  std::vector<ContactPair> pairs;
+  VecX u;                                    ///< 2 x nodes, length
+  StressField stress;
+  std::vector<ContactResults> contacts;      ///< one a pair
+  double energy = 0;                         ///< strain energy per thickness
+  int unknowns = 0;                          ///< free displacement unknowns
+  int multipliers = 0;                       ///< rows of the coupling
+  std::size_t factor_bytes = 0;
+  Seconds seconds;
+  std::vector<Check> checks;
+  std::vector<std::string> notes;            ///< what a user should know; nothing that fails
+};
+
+/// Called as each stage begins, with its name.
+using Progress = std::function<void(const std::string& stage)>;
+
+/// Reads or makes the mesh and solves. Throws InputError for bad input, and where nothing holds a body.
+Results solve_scene(const Scene& scene, const Progress& progress = {});
+
+/// The same on a mesh that is already there.
+Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress = {});
+
+/// A scene that was meshed and validated, but not solved.
+struct CheckedScene {
+  Mesh mesh;
+  std::vector<ContactPair> pairs;
+};
+
+/// Everything solve_scene would refuse before it factorises, refused. Throws InputError as it does.
+CheckedScene check_scene(const Scene& scene);
+
+}  // namespace mortise

@@ -1,0 +1,108 @@
+#include "app/summary.hpp"
+
+#include <iomanip>
+#include <sstream>
+
+#include "app/write_results.hpp"
+
+namespace mortise {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The multiplier space that is really used: quadratic needs 3-node edges.
+std::string space_word(const Scene& scene, const Results& r) {
+  const bool quadratic_edges =
+      std::any_of(r.pairs.begin(), r.pairs.end(), [](const ContactPair& p) { return p.multiplier.edges[0].node_count == 3; });
+  if (scene.method.multipliers == Multipliers::quadratic && !quadratic_edges) return to_string(Multipliers::linear);
+  return to_string(scene.method.multipliers);
+}
+
+Json contact_json(const ContactPair& pair, const ContactResults& c) {
+  return {{"between", pair.spec.between},
+          {"length", c.length},
+          {"length_in_contact", c.length_in_contact},
+          {"force", {c.force.x(), c.force.y()}},
+          {"pressure", {{"min", c.p_min}, {"mean", c.p_mean}, {"max", c.p_max}}},
+          {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
+}
+
+}  // namespace
+
+Json summary_json(const Scene& scene, const Results& r) {
+  Json on = Json::array(), condition = Json::array(), gap = Json::array(), contact = Json::array();
+  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
+    const ContactSpec& spec = r.pairs[k].spec;
+    on.push_back(spec.multipliers_on);
+    condition.push_back(to_string(spec.condition));
+    gap.push_back(to_string(spec.initial_gap));
+    contact.push_back(contact_json(r.pairs[k], r.contacts[k]));
+  }
+  Json checks = Json::array();
+  for (const Check& c : r.checks)
+    checks.push_back({{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"ok", c.ok()}});
+  const Seconds& s = r.seconds;
+  return {{"title", scene.title},
+          {"scene", scene.path},
+          {"version", MORTISE_VERSION},
+          {"status", to_string(r.status)},
+          {"method",
+           {{"kind", to_string(scene.method.kind)},
+            {"integration", to_string(scene.method.integration)},
+            {"multipliers", space_word(scene, r)},
+            {"multipliers_on", on},
+            {"solver", "direct"},
+            {"condition", condition},
+            {"initial_gap", gap}}},
+          {"mesh",
+           {{"nodes", r.mesh.nodes.rows()},
+            {"elements", r.mesh.cells.size()},
+            {"dofs", r.unknowns},
+            {"multipliers", r.multipliers}}},
+          {"seconds",
+           {{"mesh", s.mesh},
+            {"assemble", s.assemble},
+            {"couple", s.couple},
+            {"factorise", s.factorise},
+            {"solve", s.solve},
+            {"recover", s.recover},
+            {"write", s.write},
+            {"total", s.total()}}},
+          {"iterations", {{"contact", r.pairs.empty() ? 0 : 1}, {"linear", 0}, {"interface", 0}}},
+          {"energy", r.energy},
+          {"contact", contact},
+          {"checks", checks},
+          {"notes", r.notes}};
+}
+
+std::string terminal_summary(const Scene& scene, const Results& r, const std::filesystem::path& folder) {
+  std::ostringstream out;
+  out << scene.title << "\n";
+  out << "  mesh      " << r.mesh.nodes.rows() << " nodes, " << r.mesh.cells.size() << " elements; " << r.unknowns
+      << " unknowns, " << r.multipliers << " multipliers\n";
+  out << std::setprecision(6);
+  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
+    const ContactResults& c = r.contacts[k];
+    const ContactSpec& spec = r.pairs[k].spec;
+    out << "  contact   " << spec.between[0] << " - " << spec.between[1] << ": " << to_string(spec.condition) << ", gap "
+        << to_string(spec.initial_gap) << ", " << space_word(scene, r) << " multipliers on " << spec.multipliers_on
+        << "\n            pressure " << c.p_min << " ... " << c.p_max << " (mean " << c.p_mean << "), force ("
+        << c.force.x() << ", " << c.force.y() << ") on " << c.multiplier.curve << "\n            length " << c.length
+        << ", in contact " << c.length_in_contact << "; undeformed gap " << r.pairs[k].coupling.gap_min << " ... "
+        << r.pairs[k].coupling.gap_max << "\n";
+  }
+  out << "  energy    " << r.energy << "\n";
+  out << std::setprecision(2);
+  for (const Check& c : r.checks)
+    out << "  " << (c.ok() ? "ok    " : "FAILED") << "    " << c.name << ": " << c.value << " (limit " << c.limit << ")\n";
+  for (std::size_t i = 0; i < std::min<std::size_t>(r.notes.size(), 5); ++i) out << "  note      " << r.notes[i] << "\n";
+  if (r.notes.size() > 5) out << "  note      " << r.notes.size() - 5 << " more in summary.json\n";
+  const Seconds& s = r.seconds;
+  out << std::fixed << std::setprecision(3) << "  seconds   mesh " << s.mesh << ", assemble " << s.assemble << ", couple "
+      << s.couple << ", factorise " << s.factorise << ", solve " << s.solve << ", recover " << s.recover << ", write "
+      << s.write << "; total " << s.total() << "\n";
+  out << "  " << to_string(r.status) << "; results in " << folder.string() << "/ (result.vtu opens in ParaView)\n";
+  return out.str();
+}
+
+}  // namespace mortise

@@ -1,0 +1,91 @@
+#include "contact/projection.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace mortise {
+namespace {
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// Real roots of c0 + c1 x + c2 x^2, without cancellation. Returns how many.
+int quadratic_roots(double c0, double c1, double c2, std::array<double, 2>& roots) {
+  const double discriminant = c1 * c1 - 4 * c0 * c2;
+  if (discriminant < 0 || (c1 == 0 && c2 == 0)) return 0;
+  const double q = -(c1 + std::copysign(std::sqrt(discriminant), c1)) / 2;
+  if (q == 0) {  // c1 = 0 and c0 c2 = 0
+    roots[0] = 0;
+    return 1;
+  }
+  roots[0] = c0 / q;
+  if (std::abs(c2) <= 1e-14 * std::abs(q)) return 1;  // the other root is far away
+  roots[1] = q / c2;
+  return 2;
+}
+
+}  // namespace
+
+std::optional<Hit> project_onto_edge(const Points& nodes, const Curve& curve, int edge, const Vec2& x, const Vec2& n) {
+  const Edge& e = curve.edges[std::size_t(edge)];
+  // Offsets from the line at start, end and middle, and the polynomial through them.
+  const double start = cross(nodes.row(e.nodes[0]).transpose() - x, n);
+  const double end = cross(nodes.row(e.nodes[1]).transpose() - x, n);
+  const double middle = e.node_count == 3 ? cross(nodes.row(e.nodes[2]).transpose() - x, n) : (start + end) / 2;
+  // Bernstein coefficients of one sign: no root on the edge (with a margin for projection_tolerance).
+  const double bulge = 2 * middle - (start + end) / 2;
+  const double margin = 4 * projection_tolerance * (std::abs(end - start) + std::abs(bulge - start));
+  if ((start > margin && end > margin && bulge > margin) || (start < -margin && end < -margin && bulge < -margin))
+    return {};
+
+  std::array<double, 2> roots{};
+  const int count = quadratic_roots(middle, (end - start) / 2, (start + end) / 2 - middle, roots);
+  std::optional<Hit> best;
+  for (int i = 0; i < count; ++i) {
+    const double xi = roots[std::size_t(i)];
+    if (std::abs(xi) > 1 + projection_tolerance) continue;
+    const EdgePoint p = edge_point(nodes, e, xi);
+    if (p.normal().dot(n) >= 0) continue;
+    const double distance = (p.position - x).dot(n);
+    if (!best || std::abs(distance) < std::abs(best->distance)) best = Hit{edge, xi, distance};
+  }
+  return best;
+}
+
+std::optional<Hit> project_onto_curve(const Points& nodes, const Curve& curve, const Vec2& x, const Vec2& n) {
+  std::optional<Hit> best;
+  for (int edge = 0; edge < int(curve.edges.size()); ++edge) {
+    const std::optional<Hit> hit = project_onto_edge(nodes, curve, edge, x, n);
+    if (hit && (!best || std::abs(hit->distance) < std::abs(best->distance))) best = hit;
+  }
+  return best;
+}
+
+std::optional<double> foot_on_edge(const Points& nodes, const Edge& edge, const Vec2& x) {
+  const auto offset = [&](double xi) {  // (x - edge(xi)) . edge'(xi)
+    const EdgePoint p = edge_point(nodes, edge, xi);
+    return (x - p.position).dot(p.tangent);
+  };
+  const Vec2 curvature = edge.node_count == 3 ? Vec2((nodes.row(edge.nodes[0]) + nodes.row(edge.nodes[1]) -
+                                                      2 * nodes.row(edge.nodes[2])).transpose())
+                                              : Vec2::Zero();  // edge''
+  double xi = 0;
+  for (int step = 0; step < 20 && std::abs(xi) < 2; ++step) {
+    const EdgePoint p = edge_point(nodes, edge, xi);
+    const Vec2 away = x - p.position;
+    const double change = away.dot(p.tangent) / (p.tangent.squaredNorm() - away.dot(curvature));
+    xi += change;
+    if (std::abs(change) < 1e-15) break;
+  }
+  if (std::abs(xi) < 1 && std::abs(offset(xi)) <= 1e-12 * edge_point(nodes, edge, xi).tangent.squaredNorm()) return xi;
+
+  double low = -1, high = 1;  // the offset falls from positive to negative where the foot lies inside
+  if (offset(low) <= 0 || offset(high) >= 0) return {};
+  while (high - low > 1e-15) {
+    xi = (low + high) / 2;
+    if (xi == low || xi == high) break;
+    (offset(xi) > 0 ? low : high) = xi;
+  }
+  return xi;
+}
+
+}  // namespace mortise

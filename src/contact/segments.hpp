@@ -1,0 +1,46 @@
+// Segments of the multiplier side, and the points at which contact is integrated.
+#pragma once
+
+#include <vector>
+
+#include "base/model.hpp"
+#include "contact/projection.hpp"
+
+namespace mortise {
+
+/// A piece of an edge of the multiplier side that faces one edge of the opposite side: both sides' shape functions
+/// are smooth on it.
+struct Segment {
+  int edge;           ///< of the multiplier side
+  double begin, end;  ///< reference coordinates on that edge, begin < end
+  int opposite_edge;
+};
+
+/// Cuts the multiplier side at the opposite side's vertices, projected along the multiplier side's normals.
+/// Pieces that face nothing are left out (partial overlap).
+std::vector<Segment> find_segments(const Points& nodes, const Curve& multiplier, const Curve& opposite);
+
+/// A quadrature point of a contact pair.
+struct ContactPoint {
+  int edge;           ///< of the multiplier side
+  double xi;
+  double ds;          ///< weight times length element, length
+  Vec2 normal;        ///< unit, out of the multiplier side's body
+  int opposite_edge;
+  double eta;         ///< reference coordinate on the opposite edge
+  double gap;         ///< (x_opposite - x_multiplier) . normal, undeformed, length, positive when open
+};
+
+/// Gauss points on each segment: exact on straight edges for the product of both sides' shape functions.
+/// Integration::elements takes the same rule on whole edges without cutting; points that face nothing are left out.
+std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multiplier, const Curve& opposite,
+                                         Integration integration);
+
+/// Length of a curve, or of one of its edges.
+double curve_length(const Points& nodes, const Curve& curve);
+double edge_length(const Points& nodes, const Edge& edge);
+
+/// Length of an edge from its start to xi.
+double length_to(const Points& nodes, const Edge& edge, double xi);
+
+}  // namespace mortise

@@ -1,0 +1,28 @@
+// Stiffness and loads. Degree of freedom 2 i + c is component c of the displacement of node i.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "fem/material.hpp"
+#include "mesh/mesh.hpp"
+
+namespace mortise {
+
+/// K_ab = int B_a^T C B_b (docs/theory.md eq. 4), lower triangle, 2 nodes x 2 nodes, stress units (thickness 1).
+/// `laws` holds one law a body.
+SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticLaw>& laws);
+
+/// load += int B^T C : eps0, for the bodies whose law has an initial strain.
+void add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, VecX& load);
+
+/// load += int N b over a body; b is a force per volume.
+void add_body_force(const Mesh& mesh, int body, const Vec2& force, VecX& load);
+
+/// Traction (force per area) on a boundary as a function of the place and the outward unit normal.
+using Traction = std::function<Vec2(const Vec2& position, const Vec2& normal)>;
+
+/// load += int N t ds over a boundary. `gauss_points` an edge.
+void add_traction(const Mesh& mesh, int boundary, const Traction& traction, VecX& load, int gauss_points = 4);
+
+}  // namespace mortise

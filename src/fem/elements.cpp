@@ -1,0 +1,154 @@
+#include "fem/elements.hpp"
+
+#include <Eigen/LU>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "fem/quadrature.hpp"
+
+namespace mortise {
+namespace {
+
+// Quadrilateral corners and side middles in node order.
+constexpr std::array<double, 9> quad_xi{-1, 1, 1, -1, 0, 1, 0, -1, 0};
+constexpr std::array<double, 9> quad_eta{-1, -1, 1, 1, -1, 0, 1, 0, 0};
+
+CellShape triangle_3(double x, double y) {
+  CellShape s;
+  s.N = {1 - x - y, x, y};
+  s.dN[0] = {-1, -1};
+  s.dN[1] = {1, 0};
+  s.dN[2] = {0, 1};
+  return s;
+}
+
+CellShape triangle_6(double x, double y) {
+  const double z = 1 - x - y;
+  CellShape s;
+  s.N = {z * (2 * z - 1), x * (2 * x - 1), y * (2 * y - 1), 4 * z * x, 4 * x * y, 4 * y * z};
+  s.dN[0] = {1 - 4 * z, 1 - 4 * z};
+  s.dN[1] = {4 * x - 1, 0};
+  s.dN[2] = {0, 4 * y - 1};
+  s.dN[3] = {4 * (z - x), -4 * x};
+  s.dN[4] = {4 * y, 4 * x};
+  s.dN[5] = {-4 * y, 4 * (z - y)};
+  return s;
+}
+
+CellShape quadrilateral_4(double x, double y) {
+  CellShape s;
+  for (std::size_t a = 0; a < 4; ++a) {
+    const double xa = quad_xi[a], ya = quad_eta[a];
+    s.N[a] = (1 + xa * x) * (1 + ya * y) / 4;
+    s.dN[a] = {xa * (1 + ya * y) / 4, ya * (1 + xa * x) / 4};
+  }
+  return s;
+}
+
+CellShape quadrilateral_8(double x, double y) {
+  CellShape s;
+  for (std::size_t a = 0; a < 4; ++a) {
+    const double xa = quad_xi[a], ya = quad_eta[a];
+    s.N[a] = (1 + xa * x) * (1 + ya * y) * (xa * x + ya * y - 1) / 4;
+    s.dN[a] = {xa * (1 + ya * y) * (2 * xa * x + ya * y) / 4, ya * (1 + xa * x) * (xa * x + 2 * ya * y) / 4};
+  }
+  for (std::size_t a = 4; a < 8; ++a) {
+    const double xa = quad_xi[a], ya = quad_eta[a];
+    if (xa == 0) {
+      s.N[a] = (1 - x * x) * (1 + ya * y) / 2;
+      s.dN[a] = {-x * (1 + ya * y), ya * (1 - x * x) / 2};
+    } else {
+      s.N[a] = (1 + xa * x) * (1 - y * y) / 2;
+      s.dN[a] = {xa * (1 - y * y) / 2, -y * (1 + xa * x)};
+    }
+  }
+  return s;
+}
+
+// Quadratic Lagrange polynomial of the node at `at` in {-1, 0, 1}, and its derivative.
+double lagrange(double at, double x) { return at == 0 ? 1 - x * x : x * (x + at) / 2; }
+double lagrange_slope(double at, double x) { return at == 0 ? -2 * x : x + at / 2; }
+
+CellShape quadrilateral_9(double x, double y) {
+  CellShape s;
+  for (std::size_t a = 0; a < 9; ++a) {
+    const double xa = quad_xi[a], ya = quad_eta[a];
+    s.N[a] = lagrange(xa, x) * lagrange(ya, y);
+    s.dN[a] = {lagrange_slope(xa, x) * lagrange(ya, y), lagrange(xa, x) * lagrange_slope(ya, y)};
+  }
+  return s;
+}
+
+}  // namespace
+
+CellShape cell_shape(CellKind kind, const Vec2& xi) {
+  switch (kind) {
+    case CellKind::tri3:
+      return triangle_3(xi.x(), xi.y());
+    case CellKind::tri6:
+      return triangle_6(xi.x(), xi.y());
+    case CellKind::quad4:
+      return quadrilateral_4(xi.x(), xi.y());
+    case CellKind::quad8:
+      return quadrilateral_8(xi.x(), xi.y());
+    case CellKind::quad9:
+      return quadrilateral_9(xi.x(), xi.y());
+  }
+  throw std::logic_error("cell_shape: unknown cell kind");
+}
+
+Points reference_nodes(CellKind kind) {
+  Points nodes(node_count(kind), 2);
+  if (corner_count(kind) == 3) {
+    const double x[] = {0, 1, 0, 0.5, 0.5, 0}, y[] = {0, 0, 1, 0, 0.5, 0.5};
+    for (int a = 0; a < node_count(kind); ++a) nodes.row(a) << x[a], y[a];
+  } else {
+    for (int a = 0; a < node_count(kind); ++a) nodes.row(a) << quad_xi[std::size_t(a)], quad_eta[std::size_t(a)];
+  }
+  return nodes;
+}
+
+Vec2 reference_centre(CellKind kind) { return corner_count(kind) == 3 ? Vec2(1. / 3, 1. / 3) : Vec2(0, 0); }
+
+EdgeShape edge_shape(int node_count, double xi) {
+  if (node_count == 2) return {{(1 - xi) / 2, (1 + xi) / 2, 0}, {-0.5, 0.5, 0}};
+  return {{lagrange(-1, xi), lagrange(1, xi), lagrange(0, xi)},
+          {lagrange_slope(-1, xi), lagrange_slope(1, xi), lagrange_slope(0, xi)}};
+}
+
+EdgePoint edge_point(const Points& nodes, const Edge& edge, double xi) {
+  const EdgeShape s = edge_shape(edge.node_count, xi);
+  EdgePoint p{Vec2::Zero(), Vec2::Zero()};
+  for (std::size_t a = 0; a < std::size_t(edge.node_count); ++a) {
+    p.position += s.N[a] * nodes.row(edge.nodes[a]).transpose();
+    p.tangent += s.dN[a] * nodes.row(edge.nodes[a]).transpose();
+  }
+  return p;
+}
+
+void check_cells(const Mesh& mesh) {
+  std::array<std::vector<CellShape>, 5> shapes;  // per kind: at the nodes and at the quadrature points
+  for (const CellKind kind : {CellKind::tri3, CellKind::tri6, CellKind::quad4, CellKind::quad8, CellKind::quad9}) {
+    auto& list = shapes[std::size_t(kind)];
+    const Points at = reference_nodes(kind);
+    for (int a = 0; a < at.rows(); ++a) list.push_back(cell_shape(kind, at.row(a)));
+    for (const Vec2& xi : cell_rule(kind).points) list.push_back(cell_shape(kind, xi));
+  }
+  for (const Cell& cell : mesh.cells) {
+    for (const CellShape& s : shapes[std::size_t(cell.kind)]) {
+      Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
+      for (int a = 0; a < node_count(cell.kind); ++a)
+        J += s.dN[std::size_t(a)] * mesh.nodes.row(cell.nodes[std::size_t(a)]);
+      // Round-off of the determinant is far below this; a cell flatter than 1e-10 is no cell.
+      if (J.determinant() > 1e-10 * J.squaredNorm()) continue;
+      std::ostringstream text;
+      const Vec2 corner = mesh.nodes.row(cell.nodes[0]);
+      text << mesh.source << ": body '" << mesh.bodies[std::size_t(cell.body)] << "': the element near ("
+           << corner.x() << ", " << corner.y() << ") is inverted or degenerate (Jacobian " << J.determinant()
+           << "); expected a positive Jacobian everywhere";
+      throw InputError(text.str());
+    }
+  }
+}
+
+}  // namespace mortise

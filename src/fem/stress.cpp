@@ -1,0 +1,101 @@
+#include "fem/stress.hpp"
+
+#include <Eigen/LU>
+
+#include "fem/quadrature.hpp"
+
+namespace mortise {
+namespace {
+
+// Samples of one kind and the matrix that extends them to the nodes.
+struct Recovery {
+  std::vector<CellShape> samples;
+  CellShape centre;
+  MatX to_nodes;  // node_count x sample count
+};
+
+// 1, x, y, xy: as many as there are samples.
+MatX monomials(const Points& at, Eigen::Index count) {
+  MatX m(at.rows(), count);
+  for (Eigen::Index i = 0; i < at.rows(); ++i) {
+    const Eigen::Vector4d all(1, at(i, 0), at(i, 1), at(i, 0) * at(i, 1));
+    m.row(i) = all.head(count).transpose();
+  }
+  return m;
+}
+
+Recovery recovery_of(CellKind kind) {
+  const CellRule rule = stress_points(kind);
+  const auto count = Eigen::Index(rule.points.size());
+  Recovery r;
+  Points at(count, 2);
+  for (Eigen::Index q = 0; q < count; ++q) {
+    at.row(q) = rule.points[std::size_t(q)].transpose();
+    r.samples.push_back(cell_shape(kind, rule.points[std::size_t(q)]));
+  }
+  r.centre = cell_shape(kind, reference_centre(kind));
+  r.to_nodes = monomials(reference_nodes(kind), count) * monomials(at, count).inverse();
+  return r;
+}
+
+std::vector<Recovery> all_recoveries() {
+  std::vector<Recovery> all;
+  for (const CellKind kind : {CellKind::tri3, CellKind::tri6, CellKind::quad4, CellKind::quad8, CellKind::quad9})
+    all.push_back(recovery_of(kind));
+  return all;
+}
+
+}  // namespace
+
+Vec4 stress_at(const Mesh& mesh, const Cell& cell, const ElasticLaw& law, const VecX& u, const CellShape& shape) {
+  Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero(), u_xi = Eigen::Matrix2d::Zero();  // (i, j) = d value_j / d xi_i
+  for (std::size_t a = 0; a < std::size_t(node_count(cell.kind)); ++a) {
+    x_xi += shape.dN[a] * mesh.nodes.row(cell.nodes[a]);
+    u_xi += shape.dN[a] * u.segment<2>(2 * cell.nodes[a]).transpose();
+  }
+  const Eigen::Matrix2d grad = x_xi.inverse() * u_xi;  // (i, j) = d u_j / d x_i
+  return law.stiffness * Eigen::Vector3d(grad(0, 0), grad(1, 1), grad(0, 1) + grad(1, 0)) + law.stress0;
+}
+
+StressField recover_stress(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                           const VecX& u) {
+  const std::vector<Recovery> recoveries = all_recoveries();
+  StressField field{Stresses::Zero(Eigen::Index(points.node.size()), 4), Stresses(Eigen::Index(mesh.cells.size()), 4)};
+  std::vector<int> cells_at(points.node.size(), 0);
+  std::vector<int> point_of_node(std::size_t(mesh.nodes.rows()));
+  int body = -1;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const Cell& cell = mesh.cells[e];
+    if (cell.body != body) {  // cells are sorted by body
+      body = cell.body;
+      for (int p = points.first[std::size_t(body)]; p < points.first[std::size_t(body) + 1]; ++p)
+        point_of_node[std::size_t(points.node[std::size_t(p)])] = p;
+    }
+    const Recovery& r = recoveries[std::size_t(cell.kind)];
+    const ElasticLaw& law = laws[std::size_t(body)];
+    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor, 4, 4> samples(Eigen::Index(r.samples.size()), 4);
+    for (std::size_t q = 0; q < r.samples.size(); ++q)
+      samples.row(Eigen::Index(q)) = stress_at(mesh, cell, law, u, r.samples[q]).transpose();
+    field.centres.row(Eigen::Index(e)) = stress_at(mesh, cell, law, u, r.centre).transpose();
+    for (int a = 0; a < node_count(cell.kind); ++a) {
+      const int p = point_of_node[std::size_t(cell.nodes[std::size_t(a)])];
+      field.points.row(p) += r.to_nodes.row(a) * samples;
+      ++cells_at[std::size_t(p)];
+    }
+  }
+  for (std::size_t p = 0; p < cells_at.size(); ++p) field.points.row(Eigen::Index(p)) /= cells_at[p];
+  return field;
+}
+
+Stresses gauss_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const VecX& u) {
+  const std::vector<Recovery> recoveries = all_recoveries();
+  std::vector<Vec4> list;
+  for (const Cell& cell : mesh.cells)
+    for (const CellShape& shape : recoveries[std::size_t(cell.kind)].samples)
+      list.push_back(stress_at(mesh, cell, laws[std::size_t(cell.body)], u, shape));
+  Stresses stresses(Eigen::Index(list.size()), 4);
+  for (std::size_t i = 0; i < list.size(); ++i) stresses.row(Eigen::Index(i)) = list[i].transpose();
+  return stresses;
+}
+
+}  // namespace mortise

@@ -1,0 +1,167 @@
+#include "io/gmsh_session.hpp"
+
+#include <gmsh.h>
+#include <omp.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
+#include <clocale>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "base/errors.hpp"
+#include "io/geo_file.hpp"
+
+namespace mortise {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Also after a .geo has been read, which may set any option. AbortOnError stays off: with it on, gmsh 4.8 throws a
+/// string out of an OpenMP region, which ends the process. Errors are found in the log instead.
+void set_options() {
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::option::setNumber("General.Verbosity", 2);
+  gmsh::option::setNumber("General.AbortOnError", 0);
+  gmsh::option::setNumber("General.NumThreads", 1);
+}
+
+/// gmsh's first error since the start, as one line; empty if there was none.
+std::string first_error() {
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  const std::string mark = "Error: ";
+  std::string first;
+  int more = 0;
+  for (const std::string& line : log) {
+    if (line.rfind(mark, 0) != 0) continue;
+    if (first.empty()) {
+      first = line.substr(mark.size());
+    } else {
+      ++more;
+    }
+  }
+  for (char& c : first) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  if (more > 0) first += " (and " + std::to_string(more) + " more)";
+  return first;
+}
+
+/// Runs a step of gmsh; whatever it throws or only logs becomes an InputError. gmsh 4.8 throws strings and numbers.
+template <typename Step>
+void run(const std::string& file, const std::string& what, Step step) {
+  std::string thrown;
+  try {
+    step();
+  } catch (const std::exception& error) {
+    thrown = error.what();
+  } catch (const std::string& text) {
+    thrown = text;
+  } catch (...) {
+    thrown = "failed without a message";
+  }
+  const std::string logged = first_error();
+  const std::string& message = logged.empty() ? thrown : logged;
+  if (!message.empty()) throw InputError(file + ": gmsh, " + what + ": " + message);
+}
+
+void check_parameters(const std::string& file, const std::map<std::string, double>& parameters) {
+  const std::vector<std::string> known = geo_parameters(file);
+  for (const auto& [name, value] : parameters) {
+    bool found = false;
+    for (const std::string& candidate : known) found = found || candidate == name;
+    if (!found) throw InputError(file + ": " + unknown_name("parameter (DefineConstant)", name, known));
+    if (!std::isfinite(value)) throw InputError(file + ": parameter '" + name + "' is not a finite number");
+  }
+}
+
+/// A file that lives in memory as long as this object, with a path that gmsh can open.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const std::string& text) : descriptor_(memfd_create("mortise", MFD_CLOEXEC)) {
+    if (descriptor_ < 0) throw std::runtime_error("memfd_create failed");
+    if (::write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
+      ::close(descriptor_);
+      throw std::runtime_error("writing to a memory file failed");
+    }
+  }
+  ~MemoryFile() { ::close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+/// Assignments, then the .geo itself: DefineConstant leaves a variable alone that exists already.
+/// gmsh's own way, -setnumber, cannot be undone: its values outlive gmsh::finalize and would leak into the next mesh.
+std::string preamble(const std::string& file, const std::map<std::string, double>& parameters) {
+  std::string text;
+  for (const auto& [name, value] : parameters) {
+    std::array<char, 40> digits{};
+    std::snprintf(digits.data(), digits.size(), "%.17g", value);
+    text += name + " = " + digits.data() + ";\n";
+  }
+  return text + "Include \"" + fs::absolute(file).string() + "\";\n";
+}
+
+bool has_cells() {
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types, 2);
+  return !types.empty();
+}
+
+}  // namespace
+
+GmshSession::GmshSession() : omp_threads_(omp_get_max_threads()), locale_(std::setlocale(LC_ALL, nullptr)) {
+  std::string name = "mortise";
+  std::string option = "-v";
+  std::string value = "0";
+  std::array<char*, 3> arguments{name.data(), option.data(), value.data()};
+  gmsh::initialize(static_cast<int>(arguments.size()), arguments.data(), false);
+  set_options();
+  gmsh::logger::start();
+}
+
+GmshSession::~GmshSession() {
+  gmsh::logger::stop();
+  gmsh::finalize();
+  omp_set_num_threads(omp_threads_);
+  std::setlocale(LC_ALL, locale_.c_str());
+}
+
+void GmshSession::open(const std::string& file, const std::map<std::string, double>& parameters) {
+  const fs::path extension = fs::path(file).extension();
+  if (extension != ".geo" && extension != ".msh") {
+    throw InputError(file + ": a mesh file ends in .geo or .msh");
+  }
+  if (!fs::is_regular_file(file)) throw InputError(file + ": no such file");
+  if (extension == ".msh" && !parameters.empty()) {
+    throw InputError(file + ": parameter '" + parameters.begin()->first +
+                     "' given to a mesh; only a .geo has parameters");
+  }
+  if (extension == ".geo") check_parameters(file, parameters);
+
+  if (parameters.empty()) {
+    run(file, "reading", [&] { gmsh::open(file); });
+  } else {
+    const MemoryFile script(preamble(file, parameters));
+    run(file, "reading", [&] { gmsh::open(script.path()); });
+  }
+  if (extension == ".msh") return;
+  set_options();
+  if (!has_cells()) run(file, "meshing", [] { gmsh::model::mesh::generate(2); });
+}
+
+void GmshSession::write(const std::string& output) {
+  gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
+  gmsh::option::setNumber("Mesh.SaveAll", 0);
+  run(output, "writing", [&] { gmsh::write(output); });
+}
+
+}  // namespace mortise

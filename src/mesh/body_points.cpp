@@ -1,0 +1,35 @@
+#include "mesh/body_points.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace mortise {
+
+BodyPoints body_points(const Mesh& mesh) {
+  BodyPoints points;
+  points.first.push_back(0);
+  std::vector<int> last_body(std::size_t(mesh.nodes.rows()), -1);
+  auto cell = mesh.cells.begin();
+  for (int body = 0; body < int(mesh.bodies.size()); ++body) {
+    for (; cell != mesh.cells.end() && cell->body == body; ++cell)
+      for (int a = 0; a < node_count(cell->kind); ++a) {
+        const int node = cell->nodes[std::size_t(a)];
+        if (last_body[std::size_t(node)] == body) continue;
+        last_body[std::size_t(node)] = body;
+        points.node.push_back(node);
+      }
+    std::sort(points.node.begin() + points.first.back(), points.node.end());
+    points.first.push_back(int(points.node.size()));
+  }
+  return points;
+}
+
+int point_of(const BodyPoints& points, int body, int node) {
+  const auto begin = points.node.begin() + points.first[std::size_t(body)];
+  const auto end = points.node.begin() + points.first[std::size_t(body) + 1];
+  const auto found = std::lower_bound(begin, end, node);
+  assert(found != end && *found == node);
+  return int(found - points.node.begin());
+}
+
+}  // namespace mortise

@@ -1,0 +1,21 @@
+// The nodes of each body as a numbering of its own: a node that two bodies share counts once in each.
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace mortise {
+
+/// Points first[b] .. first[b + 1] - 1 belong to body b; node[p] is the mesh node of point p, ascending in a body.
+struct BodyPoints {
+  std::vector<int> first;
+  std::vector<int> node;
+};
+
+BodyPoints body_points(const Mesh& mesh);
+
+/// The point of a node in a body that has it.
+int point_of(const BodyPoints& points, int body, int node);
+
+}  // namespace mortise

@@ -1,0 +1,128 @@
+#include "mesh/curve.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "base/errors.hpp"
+#include "mesh/place.hpp"
+
+namespace mortise {
+namespace {
+
+/// Edges by the node they start from or end at. Seen from its body every edge runs the same way round, so on a chain
+/// a node starts one edge at most and ends one at most.
+using EdgeAt = std::unordered_map<int, std::size_t>;
+
+Vec2 point(const Mesh& mesh, int node) { return mesh.nodes.row(node).transpose(); }
+
+[[noreturn]] void fail(const Mesh& mesh, int boundary, const std::string& trouble) {
+  throw InputError(mesh.source + ": boundary '" + mesh.boundaries[boundary].name + "' " + trouble);
+}
+
+void check_one_body(const Mesh& mesh, int boundary, const std::vector<CellSide>& sides) {
+  const int first = mesh.cells[sides.front().cell].body;
+  for (const CellSide& side : sides) {
+    const Cell& cell = mesh.cells[side.cell];
+    if (cell.body == first) continue;
+    fail(mesh, boundary,
+         "belongs to more than one body: '" + mesh.bodies[first] + "', and '" + mesh.bodies[cell.body] + "' " +
+             near_point(point(mesh, cell.nodes[side.side])) + "; expected a contact curve of one body");
+  }
+}
+
+EdgeAt edges_by_node(const Mesh& mesh, int boundary, const std::vector<Edge>& edges, int end) {
+  EdgeAt table;
+  table.reserve(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const int node = edges[i].nodes[end];
+    if (!table.emplace(node, i).second) {
+      fail(mesh, boundary,
+           "branches " + near_point(point(mesh, node)) + ": more than two of its edges meet; expected one chain");
+    }
+  }
+  return table;
+}
+
+/// Of a closed chain: the edge that starts at the leftmost (then lowest) node, whatever the order of the file.
+std::size_t leftmost_edge(const Mesh& mesh, const std::vector<Edge>& edges) {
+  const auto before = [&mesh](const Edge& a, const Edge& b) {
+    const Vec2 p = point(mesh, a.nodes[0]);
+    const Vec2 q = point(mesh, b.nodes[0]);
+    return p.x() != q.x() ? p.x() < q.x() : p.y() < q.y();
+  };
+  return static_cast<std::size_t>(std::min_element(edges.begin(), edges.end(), before) - edges.begin());
+}
+
+[[noreturn]] void fail_pieces(const Mesh& mesh, int boundary, int node_of_one, int node_of_other) {
+  fail(mesh, boundary,
+       "falls into pieces: one starts " + near_point(point(mesh, node_of_one)) + ", another " +
+           near_point(point(mesh, node_of_other)) + "; expected one chain");
+}
+
+/// The edge that no edge leads to; on a closed chain the leftmost.
+std::size_t first_edge(const Mesh& mesh, int boundary, const std::vector<Edge>& edges, const EdgeAt& ending) {
+  std::size_t first = edges.size();
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (ending.contains(edges[i].nodes[0])) continue;
+    if (first < edges.size()) fail_pieces(mesh, boundary, edges[first].nodes[0], edges[i].nodes[0]);
+    first = i;
+  }
+  return first < edges.size() ? first : leftmost_edge(mesh, edges);
+}
+
+/// Indices of the edges, each followed by the one that starts where it ends.
+std::vector<std::size_t> chain_order(const Mesh& mesh, int boundary, const std::vector<Edge>& edges) {
+  const EdgeAt starting = edges_by_node(mesh, boundary, edges, 0);
+  const EdgeAt ending = edges_by_node(mesh, boundary, edges, 1);
+
+  std::vector<std::size_t> order{first_edge(mesh, boundary, edges, ending)};
+  std::vector<char> visited(edges.size(), 0);
+  visited[order[0]] = 1;
+  for (auto next = starting.find(edges[order[0]].nodes[1]); next != starting.end() && !visited[next->second];
+       next = starting.find(edges[order.back()].nodes[1])) {
+    visited[next->second] = 1;
+    order.push_back(next->second);
+  }
+
+  const auto left_out = std::find(visited.begin(), visited.end(), 0);
+  if (left_out != visited.end()) {
+    fail_pieces(mesh, boundary, edges[order[0]].nodes[0], edges[left_out - visited.begin()].nodes[0]);
+  }
+  return order;
+}
+
+}  // namespace
+
+Curve contact_curve(const Mesh& mesh, int boundary) {
+  const Boundary& source = mesh.boundaries[boundary];
+  if (source.edges.empty()) fail(mesh, boundary, "has no edges");
+  const std::vector<CellSide> sides = sides_of(mesh, source);
+  check_one_body(mesh, boundary, sides);
+
+  std::vector<Edge> directed;
+  directed.reserve(sides.size());
+  for (const CellSide& side : sides) directed.push_back(side_edge(mesh.cells[side.cell], side.side));
+
+  Curve curve{boundary, mesh.cells[sides.front().cell].body, {}, {}, false};
+  curve.edges.reserve(sides.size());
+  curve.sides.reserve(sides.size());
+  for (const std::size_t i : chain_order(mesh, boundary, directed)) {
+    curve.edges.push_back(directed[i]);
+    curve.sides.push_back(sides[i]);
+  }
+  curve.closed = curve.edges.back().nodes[1] == curve.edges.front().nodes[0];
+  return curve;
+}
+
+std::vector<int> curve_nodes(const Curve& curve) {
+  std::vector<int> nodes;
+  nodes.reserve(2 * curve.edges.size() + 1);
+  for (const Edge& edge : curve.edges) {
+    nodes.push_back(edge.nodes[0]);
+    if (edge.node_count == 3) nodes.push_back(edge.nodes[2]);
+  }
+  if (!curve.closed) nodes.push_back(curve.edges.back().nodes[1]);
+  return nodes;
+}
+
+}  // namespace mortise

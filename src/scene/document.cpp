@@ -1,0 +1,156 @@
+// The only file that knows toml++.
+#include "scene/document.hpp"
+
+// toml++ 3.3 asserts, in debug builds, on some text that it goes on to refuse properly, for example "[#".
+#define TOML_ASSERT(condition) static_assert(true)
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <sstream>
+#include <utility>
+
+#include "scene/fail.hpp"
+
+namespace mortise::scene_file {
+namespace {
+
+/// The shortest decimal that reads back as the same number.
+std::string shortest(double number) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+  return {digits.data(), end.ptr};
+}
+
+Node convert(const toml::node& source, std::string name, std::string path, const Place& document);
+
+std::vector<Node> convert_entries(const toml::table& table, const std::string& path, const Place& document) {
+  using Entry = std::pair<toml::source_position, Node>;
+  std::vector<Entry> entries;
+  for (const auto& [key, value] : table) {
+    const std::string name{key.str()};
+    entries.emplace_back(key.source().begin, convert(value, name, join_path(path, name), document));
+  }
+  // toml++ sorts by name; we keep the order of the file.
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.first < b.first; });
+  std::vector<Node> nodes;
+  for (Entry& entry : entries) nodes.push_back(std::move(entry.second));
+  return nodes;
+}
+
+std::vector<Node> convert_items(const toml::array& array, const std::string& path, const Place& document) {
+  std::vector<Node> nodes;
+  for (const toml::node& item : array) {
+    const std::string index = std::to_string(nodes.size());
+    nodes.push_back(convert(item, index, join_path(path, index), document));
+  }
+  return nodes;
+}
+
+std::string date_text(const toml::node& source) {
+  std::ostringstream text;
+  source.visit([&text](const auto& value) {
+    if constexpr (toml::is_chronological<decltype(value)>) text << *value;
+  });
+  return text.str();
+}
+
+void convert_scalar(const toml::node& source, Node& node) {
+  if (const auto* text = source.as_string()) {
+    node.kind = Node::Kind::string;
+    node.text = text->get();
+  } else if (const auto* integer = source.as_integer()) {
+    node.kind = Node::Kind::number;
+    node.number = static_cast<double>(integer->get());
+    node.text = std::to_string(integer->get());
+  } else if (const auto* real = source.as_floating_point()) {
+    node.kind = Node::Kind::number;
+    node.number = real->get();
+    node.text = shortest(real->get());
+  } else if (const auto* boolean = source.as_boolean()) {
+    node.kind = Node::Kind::boolean;
+    node.text = boolean->get() ? "true" : "false";
+  } else {
+    node.kind = Node::Kind::date;
+    node.text = date_text(source);
+  }
+}
+
+/// `document` is the place of the whole document; the line is added unless it is an override.
+Node convert(const toml::node& source, std::string name, std::string path, const Place& document) {
+  Node node;
+  node.name = std::move(name);
+  node.path = std::move(path);
+  node.place = document;
+  if (document.setting.empty()) node.place.line = static_cast<int>(source.source().begin.line);
+  if (const auto* table = source.as_table()) {
+    node.kind = Node::Kind::table;
+    node.items = convert_entries(*table, node.path, document);
+  } else if (const auto* array = source.as_array()) {
+    node.kind = Node::Kind::list;
+    node.items = convert_items(*array, node.path, document);
+  } else {
+    convert_scalar(source, node);
+  }
+  return node;
+}
+
+bool has_line_break(const std::string& text) { return text.find_first_of("\r\n") != std::string::npos; }
+
+}  // namespace
+
+std::string join_path(const std::string& path, const std::string& name) {
+  return path.empty() ? name : path + "." + name;
+}
+
+Node parse_document(const std::string& text, const std::string& file) {
+  Place place;
+  place.file = file;
+  try {
+    Node root = convert(toml::parse(text, file), "", "", place);
+    root.place.line = 0;
+    return root;
+  } catch (const toml::parse_error& error) {
+    place.line = static_cast<int>(error.source().begin.line);
+    fail(place, "", "not valid TOML: " + std::string{error.description()});
+  }
+}
+
+Node parse_value(const std::string& text, const Node& spot, const Place& place) {
+  try {
+    // A line break would let the text set other keys than its own.
+    if (!has_line_break(text)) {
+      const toml::table table = toml::parse("value = " + text);
+      return convert(*table.get("value"), spot.name, spot.path, place);
+    }
+  } catch (const toml::parse_error&) {
+    // No TOML value, so a bare word such as ddm.
+  }
+  Node node;
+  node.kind = Node::Kind::string;
+  node.name = spot.name;
+  node.path = spot.path;
+  node.place = place;
+  node.text = text;
+  return node;
+}
+
+std::vector<std::string> split_key(const std::string& key) {
+  if (has_line_break(key) || key.find('=') != std::string::npos) return {};
+  try {
+    const toml::table document = toml::parse(key + " = 0");
+    std::vector<std::string> parts;
+    for (const toml::table* table = &document; table != nullptr;) {
+      if (table->size() != 1) return {};  // a comment or a [header] rather than a key
+      const auto entry = table->begin();
+      parts.emplace_back(entry->first.str());
+      table = entry->second.as_table();
+    }
+    return parts;
+  } catch (const toml::parse_error&) {
+    return {};
+  }
+}
+
+}  // namespace mortise::scene_file

@@ -1,0 +1,75 @@
+#include "scene/fail.hpp"
+
+#include "base/errors.hpp"
+
+namespace mortise::scene_file {
+namespace {
+
+constexpr std::size_t longest_value = 80;
+
+std::string one_line(const std::string& text) {
+  std::string line;
+  for (const char c : text) {
+    if (c == '\n') {
+      line += "\\n";
+    } else if (c == '\t') {
+      line += "\\t";
+    } else {
+      line += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+    }
+  }
+  return line;
+}
+
+std::string clipped(const std::string& text) {
+  return text.size() <= longest_value ? text : text.substr(0, longest_value) + "...";
+}
+
+std::string describe_list(const Node& list) {
+  std::string text;
+  for (const Node& item : list.items) text += (text.empty() ? "" : ", ") + describe(item);
+  return "[" + clipped(text) + "]";
+}
+
+}  // namespace
+
+void fail(const Place& place, const std::string& path, const std::string& trouble) {
+  std::string text = place.file;
+  if (!place.setting.empty()) {
+    text += ": " + place.setting;
+  } else if (place.line > 0) {
+    text += ":" + std::to_string(place.line);
+  }
+  if (!path.empty()) text += ": " + path;
+  throw InputError(one_line(text + ": " + trouble));
+}
+
+void fail(const Node& node, const std::string& trouble) { fail(node.place, node.path, trouble); }
+
+std::string describe(const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::table:
+      return "a table";
+    case Node::Kind::list:
+      return describe_list(node);
+    case Node::Kind::string:
+      return "'" + clipped(node.text) + "'";
+    case Node::Kind::date:
+      return "the date or time " + node.text;
+    case Node::Kind::number:
+    case Node::Kind::boolean:
+      break;
+  }
+  return node.text;
+}
+
+std::string locate(const Node& node) {
+  const Place& place = node.place;
+  return node.path + " (" + (place.setting.empty() ? "line " + std::to_string(place.line) : place.setting) + ")";
+}
+
+const Node& blame(const Node& first, const Node& second) {
+  return !first.place.setting.empty() && second.place.setting.empty() ? first : second;
+}
+
+}  // namespace mortise::scene_file

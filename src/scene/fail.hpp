@@ -1,0 +1,24 @@
+// Refusing a scene: one line that says where, what and why.
+#pragma once
+
+#include <string>
+
+#include "scene/document.hpp"
+
+namespace mortise::scene_file {
+
+/// Throws InputError "FILE:LINE: PATH: TROUBLE", or "FILE: --set KEY=VALUE: PATH: TROUBLE" for an override.
+/// Line breaks and other control characters in the parts are escaped, so that it stays one line.
+[[noreturn]] void fail(const Place& place, const std::string& path, const std::string& trouble);
+[[noreturn]] void fail(const Node& node, const std::string& trouble);
+
+/// The value for messages: -3, 'abc', ['left', 'right'] or "a table"; long ones are clipped.
+std::string describe(const Node& node);
+
+/// "boundary.2 (line 31)", or "boundary.2 (--set KEY=VALUE)".
+std::string locate(const Node& node);
+
+/// Of two values that do not go together the one to blame: `second`, unless only `first` comes from an override.
+const Node& blame(const Node& first, const Node& second);
+
+}  // namespace mortise::scene_file

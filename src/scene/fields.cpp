@@ -1,0 +1,114 @@
+#include "scene/fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortise::scene_file {
+namespace {
+
+[[noreturn]] void fail_expected(const Node& node, const std::string& expected) {
+  fail(node, "expected " + expected + ", found " + describe(node));
+}
+
+std::string quoted_list(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "'" : ", '") + word + "'";
+  return list;
+}
+
+}  // namespace
+
+void expect_table(const Node& node) {
+  if (node.kind != Node::Kind::table) fail_expected(node, "a table");
+}
+
+void expect_keys(const Node& node, const std::vector<std::string>& known) {
+  expect_table(node);
+  for (const Node& entry : node.items) {
+    if (std::find(known.begin(), known.end(), entry.name) != known.end()) continue;
+    fail(entry.place, node.path, unknown_name("key", entry.name, known));
+  }
+}
+
+const Node* find(const Node& table, const std::string& name) {
+  const auto found =
+      std::find_if(table.items.begin(), table.items.end(), [&name](const Node& entry) { return entry.name == name; });
+  return found == table.items.end() ? nullptr : &*found;
+}
+
+const Node& require(const Node& table, const std::string& name, const std::string& expected) {
+  const Node* node = find(table, name);
+  if (node == nullptr) fail(table, "'" + name + "' is missing; expected " + expected);
+  return *node;
+}
+
+const Node& exactly_one(const Node& table, const std::vector<std::string>& names) {
+  const Node* one = nullptr;
+  for (const std::string& name : names) {
+    const Node* node = find(table, name);
+    if (node == nullptr) continue;
+    if (one != nullptr) {
+      fail(blame(*one, *node).place, table.path,
+           "'" + one->name + "' and '" + node->name + "' exclude each other; expected exactly one of " +
+               quoted_list(names));
+    }
+    one = node;
+  }
+  if (one == nullptr) fail(table, "expected exactly one of " + quoted_list(names) + ", found none");
+  return *one;
+}
+
+double number(const Node& node) {
+  if (node.kind != Node::Kind::number) fail_expected(node, "a number");
+  if (!std::isfinite(node.number)) fail_expected(node, "a finite number");
+  return node.number;
+}
+
+double positive_number(const Node& node) {
+  const double value = number(node);
+  if (value <= 0) fail_expected(node, "a number > 0");
+  return value;
+}
+
+Vec2 number_pair(const Node& node) {
+  if (node.kind != Node::Kind::list || node.items.size() != 2) fail_expected(node, "a list of two numbers [x, y]");
+  return {number(node.items[0]), number(node.items[1])};
+}
+
+const std::string& text(const Node& node) {
+  if (node.kind != Node::Kind::string) fail_expected(node, "a string");
+  return node.text;
+}
+
+const std::string& name(const Node& node) {
+  if (node.kind != Node::Kind::string || node.text.empty()) fail_expected(node, "a name");
+  return node.text;
+}
+
+std::vector<const Node*> names(const Node& node) {
+  if (node.kind == Node::Kind::string) {
+    name(node);
+    return {&node};
+  }
+  if (node.kind != Node::Kind::list || node.items.empty()) fail_expected(node, "a list of names");
+  std::vector<const Node*> list;
+  for (const Node& item : node.items) {
+    name(item);
+    list.push_back(&item);
+  }
+  return list;
+}
+
+std::vector<const Node*> entries(const Node& root, const std::string& section) {
+  const Node* node = find(root, section);
+  if (node == nullptr) return {};
+  if (node->kind != Node::Kind::list) fail_expected(*node, "entries that each start with [[" + section + "]]");
+  std::vector<const Node*> list;
+  for (const Node& item : node->items) {
+    expect_table(item);
+    list.push_back(&item);
+  }
+  return list;
+}
+
+}  // namespace mortise::scene_file

@@ -1,0 +1,15 @@
+// Files that a user names: reading them, and what to say when they are not there.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace mortise::scene_file {
+
+/// What is wrong with `path` as a file to read, with the nearest file of the same ending beside it; empty if nothing.
+std::string file_trouble(const std::filesystem::path& path);
+
+/// The whole text of a file. Throws InputError, naming the file, if it cannot be read.
+std::string read_text(const std::filesystem::path& path);
+
+}  // namespace mortise::scene_file

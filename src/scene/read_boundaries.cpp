@@ -1,0 +1,83 @@
+// [[boundary]]
+#include <algorithm>
+#include <cmath>
+
+#include "scene/fields.hpp"
+#include "scene/once.hpp"
+#include "scene/sections.hpp"
+
+namespace mortise::scene_file {
+namespace {
+
+/// The material that is stiffest, as the node of its Young's modulus.
+const Node& largest_young(const Node& root) {
+  const Node* largest = nullptr;
+  for (const Node& material : find(root, "materials")->items) {
+    const Node* young = find(material, "young");
+    if (largest == nullptr || young->number > largest->number) largest = young;
+  }
+  return *largest;
+}
+
+/// Small strains cannot hold under a load larger than every Young's modulus: rather 1e6 is missing somewhere.
+void check_load(const Node& load, double size, const Node& root) {
+  const Node& young = largest_young(root);
+  if (size <= young.number) return;
+  fail(blame(young, load).place, load.path,
+       "expected a load below every Young's modulus (the largest is " + describe(young) + ", " + locate(young) +
+           "), found " + describe(load) + "; probably a unit mismatch");
+}
+
+void read_displacement(const Node& node, BoundarySpec& boundary) {
+  expect_keys(node, {"x", "y"});
+  if (node.items.empty()) fail(node, "is empty; expected x, y or both");
+  if (const Node* x = find(node, "x")) boundary.displacement_x = number(*x);
+  if (const Node* y = find(node, "y")) boundary.displacement_y = number(*y);
+}
+
+void read_what(const Node& what, const Node& root, BoundarySpec& boundary) {
+  if (what.name == "displacement") {
+    read_displacement(what, boundary);
+  } else if (what.name == "pressure") {
+    boundary.pressure = number(what);
+    check_load(what, std::abs(*boundary.pressure), root);
+  } else {
+    boundary.traction = number_pair(what);
+    check_load(what, boundary.traction->norm(), root);
+  }
+}
+
+/// Each curve once in an entry, with at most one load and each displacement component once in all entries.
+void check_once(const Node& entry, const Node& what, const std::vector<const Node*>& curves, Once& once) {
+  Once in_this_entry;
+  for (const Node* curve : curves) {
+    const std::string subject = "curve '" + curve->text + "' ";
+    in_this_entry.take(subject + "is named", *curve, entry);
+    if (what.kind != Node::Kind::table) {
+      once.take(subject + "carries a load", blame(what, *curve), entry);
+      continue;
+    }
+    for (const Node& component : what.items) {
+      once.take(subject + "is given displacement." + component.name, blame(component, *curve), entry);
+    }
+  }
+}
+
+}  // namespace
+
+void read_boundaries(const Node& root, Scene& scene) {
+  Once once;
+  for (const Node* entry : entries(root, "boundary")) {
+    expect_keys(*entry, {"on", "displacement", "pressure", "traction"});
+    BoundarySpec boundary;
+    boundary.key = locate(*entry);
+    const std::vector<const Node*> curves = names(require(*entry, "on", "the names of physical curves"));
+    for (const Node* curve : curves) boundary.on.push_back(curve->text);
+    const Node& what = exactly_one(*entry, {"displacement", "pressure", "traction"});
+    read_what(what, root, boundary);
+    check_once(*entry, what, curves, once);
+    scene.boundaries.push_back(boundary);
+  }
+}
+
+}  // namespace mortise::scene_file

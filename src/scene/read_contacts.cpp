@@ -1,0 +1,50 @@
+// [[contact]]
+#include "scene/fields.hpp"
+#include "scene/once.hpp"
+#include "scene/sections.hpp"
+
+namespace mortise::scene_file {
+namespace {
+
+std::array<std::string, 2> read_between(const Node& node, const Node& entry, Once& once) {
+  if (node.kind != Node::Kind::list || node.items.size() != 2) {
+    fail(node, "expected a list of two names, found " + describe(node));
+  }
+  const std::vector<const Node*> curves = names(node);
+  if (curves[0]->text == curves[1]->text) {
+    fail(node, "expected two different curves, found '" + curves[0]->text + "' twice");
+  }
+  for (const Node* curve : curves) once.take("curve '" + curve->text + "' is in a contact pair", *curve, entry);
+  return {curves[0]->text, curves[1]->text};
+}
+
+std::string read_multipliers_on(const Node& entry, const ContactSpec& contact) {
+  const Node* node = find(entry, "multipliers_on");
+  if (node == nullptr) return {};
+  const auto& [first, second] = contact.between;
+  if (name(*node) != first && node->text != second) {
+    const Node& between = *find(entry, "between");
+    fail(blame(between, *node).place, node->path, unknown_name("curve of this pair", node->text, {first, second}));
+  }
+  return node->text;
+}
+
+}  // namespace
+
+void read_contacts(const Node& root, Scene& scene) {
+  Once once;
+  for (const Node* entry : entries(root, "contact")) {
+    expect_keys(*entry, {"between", "condition", "initial_gap", "multipliers_on"});
+    ContactSpec contact;
+    contact.key = locate(*entry);
+    contact.between = read_between(require(*entry, "between", "a list of two physical curves"), *entry, once);
+    contact.condition =
+        choice(find(*entry, "condition"), {Condition::unilateral, Condition::bilateral}, contact.condition);
+    contact.initial_gap =
+        choice(find(*entry, "initial_gap"), {InitialGap::measured, InitialGap::closed}, contact.initial_gap);
+    contact.multipliers_on = read_multipliers_on(*entry, contact);
+    scene.contacts.push_back(contact);
+  }
+}
+
+}  // namespace mortise::scene_file

@@ -1,0 +1,49 @@
+// [mesh]
+#include <filesystem>
+
+#include "scene/fields.hpp"
+#include "scene/files.hpp"
+#include "scene/sections.hpp"
+
+namespace mortise::scene_file {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// In the scene file relative to that file; on the command line relative to the working directory.
+fs::path resolve(const Node& file, const std::string& scene_path) {
+  const fs::path path{name(file)};
+  if (!file.place.setting.empty()) return path;
+  return (fs::path{scene_path}.parent_path() / path).lexically_normal();
+}
+
+void check_mesh_file(const Node& file, const fs::path& path) {
+  if (path.extension() != ".geo" && path.extension() != ".msh") {
+    fail(file, "expected a .geo or a .msh file, found '" + file.text + "'");
+  }
+  const std::string trouble = file_trouble(path);
+  if (!trouble.empty()) fail(file, "'" + path.string() + "': " + trouble);
+}
+
+}  // namespace
+
+void read_mesh_section(const Node& root, Scene& scene) {
+  const Node& mesh = require(root, "mesh", "a table [mesh] with file = \"NAME.geo\" or \"NAME.msh\"");
+  expect_keys(mesh, {"file", "parameters"});
+  const Node& file = require(mesh, "file", "the name of a .geo or a .msh file");
+  const fs::path path = resolve(file, scene.path);
+  check_mesh_file(file, path);
+  scene.mesh_file = path.string();
+  const Node* parameters = find(mesh, "parameters");
+  if (parameters == nullptr) return;
+  expect_table(*parameters);
+  for (const Node& parameter : parameters->items) {
+    if (path.extension() != ".geo") {
+      fail(blame(file, parameter).place, parameter.path,
+           "a .msh is meshed already and takes no parameters; expected a .geo, found '" + file.text + "'");
+    }
+    scene.mesh_parameters[parameter.name] = number(parameter);
+  }
+}
+
+}  // namespace mortise::scene_file

@@ -1,0 +1,75 @@
+// A scene file from text to checked data.
+#include <filesystem>
+
+#include "scene/fields.hpp"
+#include "scene/files.hpp"
+#include "scene/overrides.hpp"
+#include "scene/sections.hpp"
+
+namespace mortise::scene_file {
+namespace {
+
+Node load_document(const std::string& path) {
+  Place place;
+  place.file = path;
+  const std::string ending = std::filesystem::path{path}.extension().string();
+  if (ending == ".geo" || ending == ".msh") {
+    fail(place, "", "this is a geometry or a mesh; expected a scene file (.toml) that names it under [mesh]");
+  }
+  const std::string trouble = file_trouble(path);
+  if (!trouble.empty()) fail(place, "", trouble);
+  return parse_document(read_text(path), path);
+}
+
+void read_title(const Node& root, Scene& scene) {
+  if (const Node* title = find(root, "title")) scene.title = text(*title);
+}
+
+void read_model(const Node& root, Scene& scene) {
+  const Node* model = find(root, "model");
+  if (model == nullptr) return;
+  expect_keys(*model, {"plane"});
+  scene.plane = choice(find(*model, "plane"), {Plane::strain, Plane::stress}, scene.plane);
+}
+
+void read_method(const Node& root, Scene& scene) {
+  const Node* node = find(root, "method");
+  if (node == nullptr) return;
+  expect_keys(*node, {"kind", "integration", "multipliers"});
+  Method& method = scene.method;
+  method.kind = choice(find(*node, "kind"), {MethodKind::mortar, MethodKind::ddm}, method.kind);
+  method.integration =
+      choice(find(*node, "integration"), {Integration::segments, Integration::elements}, method.integration);
+  method.multipliers = choice(find(*node, "multipliers"),
+                              {Multipliers::quadratic, Multipliers::linear, Multipliers::dual}, method.multipliers);
+}
+
+Scene read_sections(const Node& root, const std::string& path) {
+  expect_keys(root, {"title", "mesh", "model", "materials", "bodies", "boundary", "body_force", "initial_strain",
+                     "contact", "method"});
+  Scene scene;
+  scene.path = path;
+  read_title(root, scene);
+  read_mesh_section(root, scene);
+  read_model(root, scene);
+  read_bodies(root, scene);
+  read_boundaries(root, scene);
+  read_body_forces(root, scene);
+  read_initial_strains(root, scene);
+  read_contacts(root, scene);
+  read_method(root, scene);
+  return scene;
+}
+
+}  // namespace
+}  // namespace mortise::scene_file
+
+namespace mortise {
+
+Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
+  scene_file::Node root = scene_file::load_document(path);
+  for (const Override& override_ : overrides) scene_file::apply_override(root, override_);
+  return scene_file::read_sections(root, path);
+}
+
+}  // namespace mortise

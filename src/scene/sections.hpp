@@ -1,0 +1,26 @@
+// The sections of a scene file, each read and checked by a function of its own.
+// All take the document (after overrides) and write their part of `scene`; all throw InputError.
+#pragma once
+
+#include "scene/document.hpp"
+#include "scene/scene.hpp"
+
+namespace mortise::scene_file {
+
+/// [mesh]: the file, which must exist, and the parameters of a .geo.
+void read_mesh_section(const Node& root, Scene& scene);
+
+/// [materials.NAME] and [bodies]: every body has a material, every material a body.
+void read_bodies(const Node& root, Scene& scene);
+
+/// [[boundary]]: on each curve at most one load, and each displacement component once. After read_bodies.
+void read_boundaries(const Node& root, Scene& scene);
+
+/// [[body_force]] and [[initial_strain]]: each body once in either. After read_bodies.
+void read_body_forces(const Node& root, Scene& scene);
+void read_initial_strains(const Node& root, Scene& scene);
+
+/// [[contact]]: pairs of two curves, each curve in one pair only.
+void read_contacts(const Node& root, Scene& scene);
+
+}  // namespace mortise::scene_file

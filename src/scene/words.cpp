@@ -1,0 +1,76 @@
+// The words of the scene file for the enums.
+#include <cassert>
+
+#include "scene/scene.hpp"
+
+namespace mortise {
+
+std::string to_string(Plane value) {
+  switch (value) {
+    case Plane::strain:
+      return "strain";
+    case Plane::stress:
+      return "stress";
+  }
+  assert(false && "no such Plane");
+  return {};
+}
+
+std::string to_string(Condition value) {
+  switch (value) {
+    case Condition::unilateral:
+      return "unilateral";
+    case Condition::bilateral:
+      return "bilateral";
+  }
+  assert(false && "no such Condition");
+  return {};
+}
+
+std::string to_string(InitialGap value) {
+  switch (value) {
+    case InitialGap::measured:
+      return "measured";
+    case InitialGap::closed:
+      return "closed";
+  }
+  assert(false && "no such InitialGap");
+  return {};
+}
+
+std::string to_string(MethodKind value) {
+  switch (value) {
+    case MethodKind::mortar:
+      return "mortar";
+    case MethodKind::ddm:
+      return "ddm";
+  }
+  assert(false && "no such MethodKind");
+  return {};
+}
+
+std::string to_string(Integration value) {
+  switch (value) {
+    case Integration::segments:
+      return "segments";
+    case Integration::elements:
+      return "elements";
+  }
+  assert(false && "no such Integration");
+  return {};
+}
+
+std::string to_string(Multipliers value) {
+  switch (value) {
+    case Multipliers::quadratic:
+      return "quadratic";
+    case Multipliers::linear:
+      return "linear";
+    case Multipliers::dual:
+      return "dual";
+  }
+  assert(false && "no such Multipliers");
+  return {};
+}
+
+}  // namespace mortise

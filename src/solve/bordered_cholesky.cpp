@@ -1,0 +1,223 @@
+#include "solve/bordered_cholesky.hpp"
+
+#include <amd.h>
+#include <cholmod.h>
+#include <omp.h>
+
+#include <stdexcept>
+#include <thread>
+
+extern "C" void openblas_set_num_threads(int threads);
+
+namespace mortise {
+namespace {
+
+// The border's diagonal: K and B are of unit size, so any m far above m's number of rows keeps the border positive.
+constexpr double border_diagonal = 1e20;
+
+// Approximate minimum degree on the graph of blocks (nodes), the border last.
+std::vector<int> ordering(const SparseMatrix& K, Eigen::Index border, const std::vector<int>& blocks) {
+  const int n = int(K.cols()), block_count = blocks.empty() ? 0 : blocks.back() + 1;
+  std::vector<int> first_of(std::size_t(block_count) + 1, n), start{0}, row;
+  for (int i = n - 1; i >= 0; --i) first_of[std::size_t(blocks[std::size_t(i)])] = i;
+  for (int b = 0; b < block_count; ++b) {
+    const int column = first_of[std::size_t(b)];
+    for (SparseMatrix::InnerIterator it(K, column); it; ++it) {
+      const int r = blocks[std::size_t(it.row())];
+      if (r > b && (int(row.size()) == start.back() || row.back() != r)) row.push_back(r);
+    }
+    start.push_back(int(row.size()));
+  }
+  std::vector<int> block_order(std::size_t(block_count) + 1);
+  if (amd_order(block_count, start.data(), row.data(), block_order.data(), nullptr, nullptr) < AMD_OK)
+    throw std::runtime_error("AMD ordering failed");
+  std::vector<int> order;
+  order.reserve(std::size_t(n + border));
+  for (int k = 0; k < block_count; ++k) {
+    const auto b = std::size_t(block_order[std::size_t(k)]);
+    for (int i = first_of[b]; i < first_of[b + 1]; ++i) order.push_back(i);
+  }
+  for (int r = 0; r < border; ++r) order.push_back(n + r);
+  return order;
+}
+
+// [K B^T; B m I], lower triangle.
+SparseMatrix bordered_matrix(const SparseMatrix& K, const SparseMatrix& B) {
+  const Eigen::Index n = K.cols(), m = B.rows();
+  SparseMatrix A(n + m, n + m);
+  A.resizeNonZeros(K.nonZeros() + B.nonZeros() + m);
+  int at = 0;
+  const auto append = [&](Eigen::Index row, double value) {
+    A.innerIndexPtr()[at] = int(row);
+    A.valuePtr()[at++] = value;
+  };
+  for (Eigen::Index j = 0; j < n; ++j) {
+    A.outerIndexPtr()[j] = at;
+    for (SparseMatrix::InnerIterator it(K, j); it; ++it) append(it.row(), it.value());
+    for (SparseMatrix::InnerIterator it(B, j); it; ++it) append(n + it.row(), it.value());
+  }
+  for (Eigen::Index r = 0; r < m; ++r) {
+    A.outerIndexPtr()[n + r] = at;
+    append(n + r, border_diagonal);
+  }
+  A.outerIndexPtr()[n + m] = at;
+  return A;
+}
+
+cholmod_sparse view(SparseMatrix& A) {
+  cholmod_sparse s{};
+  s.nrow = std::size_t(A.rows());
+  s.ncol = std::size_t(A.cols());
+  s.nzmax = std::size_t(A.nonZeros());
+  s.p = A.outerIndexPtr();
+  s.i = A.innerIndexPtr();
+  s.x = A.valuePtr();
+  s.stype = -1;
+  s.itype = CHOLMOD_INT;
+  s.xtype = CHOLMOD_REAL;
+  s.dtype = CHOLMOD_DOUBLE;
+  s.sorted = 1;
+  s.packed = 1;
+  return s;
+}
+
+}  // namespace
+
+void set_solver_threads(int threads) {
+  // CHOLMOD's own OpenMP loops and OpenBLAS's threads fight for the cores; the dense kernels gain more.
+  omp_set_max_active_levels(0);
+  openblas_set_num_threads(threads > 0 ? threads : int(std::max(1u, std::thread::hardware_concurrency())));
+}
+
+// A supernode's part of the border: rows [row, row + count) of its block, for its columns that belong to K.
+struct BorderBlock {
+  Eigen::Map<const MatX, 0, Eigen::OuterStride<>> V;  // count x columns
+  const int* rows;                                    // permuted indices of the rows
+  Eigen::Index first_column;                          // permuted
+};
+
+struct BorderedCholesky::Factor {
+  cholmod_common common;
+  cholmod_factor* L = nullptr;
+  int n = 0, m = 0;
+  int failed_at = -1;
+
+  Factor() { cholmod_start(&common); }
+  ~Factor() {
+    cholmod_free_factor(&L, &common);
+    cholmod_finish(&common);
+  }
+  const int* perm() const { return static_cast<const int*>(L->Perm); }
+
+  // Calls visit(BorderBlock) for each supernode that has border rows.
+  template <typename Visit>
+  void for_each_border_block(Visit visit) const {
+    const auto* super = static_cast<const int*>(L->super);
+    const auto* pi = static_cast<const int*>(L->pi);
+    const auto* px = static_cast<const int*>(L->px);
+    const auto* s = static_cast<const int*>(L->s);
+    for (std::size_t k = 0; k < L->nsuper; ++k) {
+      const int rows = pi[k + 1] - pi[k];
+      int columns = super[k + 1] - super[k];
+      while (columns > 0 && perm()[super[k] + columns - 1] >= n) --columns;  // relaxed supernodes may mix both
+      int first = rows;
+      while (first > 0 && perm()[s[pi[k] + first - 1]] >= n) --first;  // the border is last in every row list
+      if (columns == 0 || first == rows) continue;
+      const double* block = static_cast<const double*>(L->x) + px[k];
+      visit(BorderBlock{{block + first, rows - first, columns, Eigen::OuterStride<>(rows)}, s + pi[k] + first, super[k]});
+    }
+  }
+
+  VecX solve(int system, const VecX& b) {
+    cholmod_dense rhs{};
+    rhs.nrow = rhs.nzmax = rhs.d = std::size_t(b.size());
+    rhs.ncol = 1;
+    rhs.x = const_cast<double*>(b.data());
+    rhs.xtype = CHOLMOD_REAL;
+    rhs.dtype = CHOLMOD_DOUBLE;
+    cholmod_dense* x = cholmod_solve(system, L, &rhs, &common);
+    if (!x) throw std::runtime_error("CHOLMOD solve failed");
+    VecX result = Eigen::Map<const VecX>(static_cast<const double*>(x->x), b.size());
+    cholmod_free_dense(&x, &common);
+    return result;
+  }
+};
+
+BorderedCholesky::BorderedCholesky(const SparseMatrix& K, const SparseMatrix& B, const std::vector<int>& blocks)
+    : factor_(std::make_unique<Factor>()) {
+  Factor& f = *factor_;
+  f.n = int(K.cols());
+  f.m = int(B.rows());
+  cholmod_common& c = f.common;
+  c.supernodal = CHOLMOD_SUPERNODAL;
+  c.nmethods = 1;
+  c.method[0].ordering = CHOLMOD_GIVEN;
+  c.print = 0;
+  std::vector<int> order = ordering(K, B.rows(), blocks);
+  SparseMatrix A = bordered_matrix(K, B);
+  cholmod_sparse matrix = view(A);
+  f.L = cholmod_analyze_p(&matrix, order.data(), nullptr, 0, &c);
+  if (!f.L) throw std::runtime_error("CHOLMOD could not analyse the matrix: out of memory or too large");
+  cholmod_factorize(&matrix, f.L, &c);
+  if (c.status == CHOLMOD_NOT_POSDEF) {
+    f.failed_at = f.perm()[f.L->minor];
+    return;
+  }
+  if (c.status < CHOLMOD_OK) throw std::runtime_error("CHOLMOD could not factorise the matrix: out of memory");
+
+  compliance_ = MatX::Zero(f.m, f.m);
+  MatX product;
+  f.for_each_border_block([&](const BorderBlock& block) {
+    const Eigen::Index count = block.V.rows();
+    product.setZero(count, count);
+    product.selfadjointView<Eigen::Lower>().rankUpdate(block.V);
+    for (Eigen::Index j = 0; j < count; ++j)
+      for (Eigen::Index i = j; i < count; ++i) {
+        const int r = f.perm()[block.rows[i]] - f.n, s = f.perm()[block.rows[j]] - f.n;
+        compliance_(std::max(r, s), std::min(r, s)) += product(i, j);
+      }
+  });
+}
+
+BorderedCholesky::~BorderedCholesky() = default;
+BorderedCholesky::BorderedCholesky(BorderedCholesky&&) noexcept = default;
+
+int BorderedCholesky::failed_at() const { return factor_->failed_at; }
+
+const MatX& BorderedCholesky::border_compliance() const { return compliance_; }
+
+VecX BorderedCholesky::forward(const VecX& f) {
+  const Factor& F = *factor_;
+  VecX b = VecX::Zero(F.n + F.m);
+  for (int k = 0; k < F.n + F.m; ++k)
+    if (F.perm()[k] < F.n) b(k) = f(F.perm()[k]);
+  forward_ = factor_->solve(CHOLMOD_L, b);
+  VecX response = VecX::Zero(F.m);
+  F.for_each_border_block([&](const BorderBlock& block) {
+    const VecX part = block.V * forward_.segment(block.first_column, block.V.cols());
+    for (Eigen::Index i = 0; i < part.size(); ++i) response(F.perm()[block.rows[i]] - F.n) += part(i);
+  });
+  return response;
+}
+
+VecX BorderedCholesky::backward(const VecX& lambda) const {
+  const Factor& F = *factor_;
+  VecX y = forward_;
+  for (int k = 0; k < F.n + F.m; ++k)
+    if (F.perm()[k] >= F.n) y(k) = 0;  // so that the border adds nothing in the substitution
+  VecX at_rows;
+  F.for_each_border_block([&](const BorderBlock& block) {
+    at_rows.resize(block.V.rows());
+    for (Eigen::Index i = 0; i < at_rows.size(); ++i) at_rows(i) = lambda(F.perm()[block.rows[i]] - F.n);
+    y.segment(block.first_column, block.V.cols()).noalias() -= block.V.transpose() * at_rows;
+  });
+  const VecX x = factor_->solve(CHOLMOD_Lt, y);
+  VecX u(F.n);
+  for (int k = 0; k < F.n + F.m; ++k)
+    if (F.perm()[k] < F.n) u(F.perm()[k]) = x(k);
+  return u;
+}
+
+std::size_t BorderedCholesky::factor_bytes() const { return factor_->L->xsize * sizeof(double); }
+
+}  // namespace mortise

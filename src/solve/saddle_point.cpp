@@ -1,0 +1,162 @@
+#include "solve/saddle_point.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "base/stopwatch.hpp"
+
+namespace mortise {
+namespace {
+
+// The system on the free unknowns, dimensionless, its border extended by one unit row for each spring.
+struct Reduced {
+  SparseMatrix K, border;
+  std::vector<int> free;    // reduced -> full
+  std::vector<int> blocks;  // reduced -> node, densely numbered
+};
+
+Reduced reduce(const SaddlePointSystem& s) {
+  Reduced r;
+  const auto n = int(s.K.cols());
+  std::vector<int> to_reduced(std::size_t(n), -1);
+  int last_node = -1, block = -1;
+  for (int i = 0; i < n; ++i) {
+    if (s.fixed[std::size_t(i)]) continue;
+    to_reduced[std::size_t(i)] = int(r.free.size());
+    if (i / 2 != last_node) ++block;
+    last_node = i / 2;
+    r.free.push_back(i);
+    r.blocks.push_back(block);
+  }
+  const auto count = Eigen::Index(r.free.size());
+
+  r.K.resize(count, count);
+  r.K.reserve(s.K.nonZeros());
+  std::vector<char> spring(std::size_t(n), 0);
+  for (const int i : s.grounded) spring[std::size_t(i)] = 1;
+  for (Eigen::Index j = 0; j < count; ++j) {
+    r.K.startVec(j);
+    for (SparseMatrix::InnerIterator it(s.K, r.free[std::size_t(j)]); it; ++it) {
+      const int i = to_reduced[std::size_t(it.row())];
+      if (i < 0) continue;
+      const double stiffness = i == j && spring[std::size_t(it.row())] ? 1 : 0;
+      r.K.insertBack(i, j) = it.value() / s.stiffness_scale + stiffness;
+    }
+  }
+  r.K.finalize();
+
+  const Eigen::Index m = s.B.rows(), springs = Eigen::Index(s.grounded.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(std::size_t(s.B.nonZeros() + springs));
+  for (Eigen::Index j = 0; j < count; ++j)
+    for (SparseMatrix::InnerIterator it(s.B, r.free[std::size_t(j)]); it; ++it)
+      entries.emplace_back(it.row(), j, it.value() / s.row_scale(it.row()));
+  for (Eigen::Index k = 0; k < springs; ++k)
+    entries.emplace_back(m + k, to_reduced[std::size_t(s.grounded[std::size_t(k)])], 1);
+  r.border.resize(m + springs, count);
+  r.border.setFromTriplets(entries.begin(), entries.end());
+  return r;
+}
+
+// Solves [C, C_s; C_s^T, S - 1] (lambda, mu) = rhs for the multipliers and the springs' forces mu (theory eq. 18),
+// where all blocks but the 1 are in `compliance`. The first m rows are positive definite.
+class MultiplierSystem {
+ public:
+  MultiplierSystem(const MatX& compliance, Eigen::Index m) : m_(m), springs_(compliance.rows() - m) {
+    cholesky_.compute(compliance.topLeftCorner(m, m));
+    coupling_ = compliance.bottomLeftCorner(springs_, m).transpose();
+    reduced_ = cholesky_.solve(coupling_);
+    MatX corner = compliance.bottomRightCorner(springs_, springs_).selfadjointView<Eigen::Lower>();
+    corner -= MatX::Identity(springs_, springs_) + coupling_.transpose() * reduced_;
+    if (springs_ > 0) corner_.compute(corner);
+    diagonal_ = compliance.diagonal().head(m);
+  }
+
+  // A row of B that the rows before it already imply: its pivot is round-off of its own size.
+  int dependent_row() const {
+    for (Eigen::Index i = 0; i < m_; ++i) {
+      const double pivot = cholesky_.matrixLLT()(i, i);
+      if (!(pivot * pivot > 1e-13 * diagonal_(i))) return int(i);
+    }
+    return -1;
+  }
+
+  VecX solve(const VecX& rhs) const {
+    VecX x(m_ + springs_);
+    const VecX first = cholesky_.solve(rhs.head(m_));
+    if (springs_ > 0) x.tail(springs_) = corner_.solve(rhs.tail(springs_) - coupling_.transpose() * first);
+    x.head(m_) = first - reduced_ * x.tail(springs_);
+    return x;
+  }
+
+ private:
+  Eigen::Index m_, springs_;
+  Eigen::LLT<MatX> cholesky_;
+  MatX coupling_, reduced_;
+  Eigen::PartialPivLU<MatX> corner_;
+  VecX diagonal_;
+};
+
+double largest_entry(const VecX& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; }
+
+}  // namespace
+
+SaddlePointSolution solve_saddle_point(const SaddlePointSystem& s) {
+  SaddlePointSolution solution;
+  Stopwatch watch;
+  const Eigen::Index m = s.B.rows();
+  std::optional<BorderedCholesky> factor;
+  std::vector<int> free;
+  {
+    Reduced reduced = reduce(s);
+    factor.emplace(reduced.K, reduced.border, reduced.blocks);
+    free = std::move(reduced.free);
+  }
+  if (factor->failed_at() >= 0) {
+    solution.status = SaddlePointSolution::Status::not_positive_definite;
+    solution.failed_at = free[std::size_t(std::min<std::size_t>(std::size_t(factor->failed_at()), free.size() - 1))];
+    return solution;
+  }
+  const MultiplierSystem multipliers(factor->border_compliance(), m);
+  solution.factor_bytes = factor->factor_bytes();
+  solution.factorise_seconds = watch.lap();
+  if (multipliers.dependent_row() >= 0) {
+    solution.status = SaddlePointSolution::Status::dependent_constraints;
+    solution.failed_at = multipliers.dependent_row();
+    return solution;
+  }
+
+  solution.u = s.value;
+  solution.lambda = VecX::Zero(m);
+  const auto symmetric = s.K.selfadjointView<Eigen::Lower>();
+  VecX Ku = symmetric * solution.u;
+  // The first pass solves, the second refines: what is left then is round-off of the residual itself.
+  for (int pass = 0; pass < 2; ++pass) {
+    const VecX Bl = s.B.transpose() * solution.lambda;
+    VecX force(Eigen::Index(free.size()));
+    for (std::size_t i = 0; i < free.size(); ++i)
+      force(Eigen::Index(i)) = (s.f(free[i]) - Ku(free[i]) - Bl(free[i])) / s.stiffness_scale;
+    VecX rhs = factor->forward(force);
+    rhs.head(m) -= (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
+    const VecX lambda = multipliers.solve(rhs);
+    const VecX u = factor->backward(lambda);
+    for (std::size_t i = 0; i < free.size(); ++i) solution.u(free[i]) += u(Eigen::Index(i));
+    solution.lambda += s.stiffness_scale * lambda.head(m).cwiseQuotient(s.row_scale);
+    Ku = symmetric * solution.u;
+
+    const VecX pressure = s.B.transpose() * solution.lambda;
+    double worst = 0;
+    for (const int i : free) worst = std::max(worst, std::abs(s.f(i) - Ku(i) - pressure(i)));
+    const double size = std::max({largest_entry(s.f), largest_entry(Ku), largest_entry(pressure)});
+    solution.force_residual = size > 0 ? worst / size : 0;
+    const double largest = largest_entry(solution.u);
+    const VecX open = (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
+    solution.constraint_residual = largest > 0 ? largest_entry(open) / largest : 0;
+    if (std::max(solution.force_residual, solution.constraint_residual) < 1e-13) break;
+  }
+  solution.solve_seconds = watch.lap();
+  return solution;
+}
+
+}  // namespace mortise

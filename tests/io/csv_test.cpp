@@ -1,0 +1,52 @@
+#include "io/csv.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "scratch_file.hpp"
+
+namespace mortise {
+namespace {
+
+using testing_files::ScratchFolder;
+using testing_files::text_of;
+
+TEST(Csv, WritesWordsNumbersAndEmptyFields) {
+  const ScratchFolder folder;
+  const auto file = folder.path() / "a.csv";
+  write_csv(file, {{"curve", {"top", "the \"lower\", left"}, {}}, {"p", {}, {1.5, std::nan("")}}});
+  EXPECT_EQ(text_of(file), "curve,p\ntop,1.5\n\"the \"\"lower\"\", left\",\n");
+}
+
+TEST(Csv, NumbersComeBackToTheBit) {
+  const ScratchFolder folder;
+  const auto file = folder.path() / "a.csv";
+  const std::vector<double> numbers{1.0 / 3, -2.5e-310, 210e9, -0.0, std::numeric_limits<double>::max(), 1e-12 + 1};
+  write_csv(file, {{"x", {}, numbers}});
+  std::istringstream lines(text_of(file));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "x");
+  for (const double number : numbers) {
+    std::getline(lines, line);
+    EXPECT_EQ(std::strtod(line.c_str(), nullptr), number);
+  }
+}
+
+TEST(Csv, ATableWithoutRowsHasItsHeader) {
+  const ScratchFolder folder;
+  write_csv(folder.path() / "a.csv", {{"a", {}, {}}, {"b", {}, {}}});
+  EXPECT_EQ(text_of(folder.path() / "a.csv"), "a,b\n");
+}
+
+TEST(Csv, SaysWhatCannotBeWritten) {
+  EXPECT_THROW(write_csv("/nowhere/a.csv", {{"x", {}, {1.0}}}), InputError);
+  EXPECT_THROW(write_csv("/dev/full", {{"x", {}, {1.0}}}), InputError);
+}
+
+}  // namespace
+}  // namespace mortise

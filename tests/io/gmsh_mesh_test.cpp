@@ -1,0 +1,249 @@
+#include "io/gmsh_mesh.hpp"
+
+#include <gmsh.h>
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <clocale>
+#include <cmath>
+
+#include "../mesh/grid.hpp"
+#include "base/errors.hpp"
+#include "mesh/curve.hpp"
+#include "scratch_file.hpp"
+
+namespace mortise {
+namespace {
+
+using testing_files::ScratchFolder;
+using testing_meshes::message_of;
+
+/// Two bodies along y = 1; the lower one of two surfaces, the right of which may be recombined, and the upper one
+/// upside down (its curve loop runs clockwise). A physical point and a point far out of the plane are to be ignored.
+const char* const kTwoPlates = R"(
+DefineConstant[ n_upper = 4 ];
+DefineConstant[ n_lower = {3, Min 1, Name "Mesh/n_lower"}, quads = 0, order = 1, quad9 = 0 ];
+Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {2, 0, 0};
+Point(4) = {2, 1, 0}; Point(5) = {1, 1, 0}; Point(6) = {0, 1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 1};
+Line(7) = {2, 5};
+Curve Loop(1) = {1, 7, 5, 6}; Plane Surface(1) = {1};
+Curve Loop(2) = {2, 3, 4, -7}; Plane Surface(2) = {2};
+Point(11) = {0, 1, 0}; Point(12) = {2, 1, 0}; Point(13) = {2, 2, 0}; Point(14) = {0, 2, 0}; Point(99) = {7, 7, 7};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 11};
+Curve Loop(11) = {-11, -14, -13, -12}; Plane Surface(11) = {11};
+Transfinite Curve {1:7} = n_lower + 1; Transfinite Curve {11:14} = n_upper + 1; Transfinite Surface {1, 2, 11};
+If(quads > 0) Recombine Surface {2}; EndIf
+If(quads > 1) Recombine Surface {1, 11}; EndIf
+Mesh.ElementOrder = order;
+Mesh.SecondOrderIncomplete = 1 - quad9;
+Physical Surface("upper") = {11};
+Physical Surface("lower") = {1, 2};
+Physical Curve("lower_contact") = {-4, -5}; Physical Curve("upper_contact") = {11}; Physical Curve("base") = {1, 2};
+Physical Point("corner") = {1, 99};
+)";
+
+using Parameters = std::map<std::string, double>;
+
+/// Cells and edges told by their coordinates, sorted: the same for the same mesh however it is numbered.
+std::vector<std::vector<long>> shape(const Mesh& mesh) {
+  std::vector<std::vector<long>> rows;
+  const auto add_point = [&](int node) {
+    // The offset keeps coordinates with few digits off the limit of rounding.
+    for (int axis = 0; axis < 2; ++axis) rows.back().push_back(std::lround(1e7 * mesh.nodes(node, axis) + 0.123));
+  };
+  for (const Cell& cell : mesh.cells) {
+    rows.push_back({static_cast<long>(cell.kind), cell.body});
+    for (int i = 0; i < node_count(cell.kind); ++i) add_point(cell.nodes[i]);
+  }
+  for (int b = 0; b < static_cast<int>(mesh.boundaries.size()); ++b) {
+    for (const Edge& edge : mesh.boundaries[b].edges) {
+      rows.push_back({100, b, edge.node_count});
+      const auto before = [&](int a, int b) { return mesh.nodes.row(a).sum() < mesh.nodes.row(b).sum(); };
+      const auto [start, end] = std::minmax(edge.nodes[0], edge.nodes[1], before);  // a 2.2 file turns some round
+      for (const int node : {start, end, edge.nodes[2]}) {
+        if (node >= 0) add_point(node);
+      }
+    }
+  }
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+double area(const Mesh& mesh, int body) {
+  double sum = 0;
+  for (const Cell& cell : mesh.cells) {
+    if (cell.body != body) continue;
+    for (int side = 0; side < corner_count(cell.kind); ++side) {
+      const Edge edge = side_edge(cell, side);
+      const auto a = mesh.nodes.row(edge.nodes[0]);
+      const auto b = mesh.nodes.row(edge.nodes[1]);
+      sum += 0.5 * (a(0) * b(1) - a(1) * b(0));
+    }
+  }
+  return sum;
+}
+
+/// Meshes a .geo and writes it by gmsh's own hand.
+void write_by_gmsh(const std::string& geo, const std::string& msh, double version, bool binary) {
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::open(geo);
+  gmsh::model::mesh::generate(2);
+  gmsh::option::setNumber("Mesh.MshFileVersion", version);
+  gmsh::option::setNumber("Mesh.Binary", binary ? 1 : 0);
+  gmsh::write(msh);
+  gmsh::finalize();
+}
+
+struct Variety {
+  const char* name;
+  int quads, order, quad9;
+  std::vector<CellKind> kinds;  // in "lower" and "upper" together, sorted
+  friend void PrintTo(const Variety& variety, std::ostream* out) { *out << variety.name; }
+};
+
+const std::vector<Variety>& varieties() {
+  using enum CellKind;
+  static const std::vector<Variety> all{
+      {"triangles", 0, 1, 0, {tri3}},     {"triangles6", 0, 2, 0, {tri6}},    {"quads", 2, 1, 0, {quad4}},
+      {"quads8", 2, 2, 0, {quad8}},       {"quads9", 2, 2, 1, {quad9}},       {"mixed", 1, 1, 0, {tri3, quad4}},
+      {"mixed8", 1, 2, 0, {tri6, quad8}}, {"mixed9", 1, 2, 1, {tri6, quad9}},
+  };
+  return all;
+}
+
+std::vector<CellKind> kinds_of(const Mesh& mesh) {
+  std::vector<CellKind> kinds;
+  for (const Cell& cell : mesh.cells) kinds.push_back(cell.kind);
+  std::sort(kinds.begin(), kinds.end());
+  kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
+  return kinds;
+}
+
+class GmshMesh : public testing::TestWithParam<Variety> {};
+
+TEST_P(GmshMesh, GeoIsMeshed) {
+  const Variety& variety = GetParam();
+  const ScratchFolder folder;
+  const std::string geo = folder.write("two.geo", kTwoPlates);
+  const Mesh mesh = load_mesh(geo, {{"quads", variety.quads}, {"order", variety.order}, {"quad9", variety.quad9}});
+  EXPECT_EQ(mesh.source, geo);
+  EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"upper", "lower"}));
+  EXPECT_EQ(boundary_names(mesh), (std::vector<std::string>{"lower_contact", "upper_contact", "base"}));
+  EXPECT_EQ(kinds_of(mesh), variety.kinds);
+  for (int body = 0; body < 2; ++body) EXPECT_NEAR(area(mesh, body), 2.0, 1e-12);  // exact, counter-clockwise
+  EXPECT_TRUE(std::is_sorted(mesh.cells.begin(), mesh.cells.end(),
+                             [](const Cell& a, const Cell& b) { return a.body < b.body; }));
+
+  std::vector<char> used(static_cast<std::size_t>(mesh.nodes.rows()), 0);
+  for (const Cell& cell : mesh.cells) {
+    for (int i = 0; i < node_count(cell.kind); ++i) used[cell.nodes[i]] = 1;
+  }
+  EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);
+
+  EXPECT_EQ(contact_curve(mesh, 0).edges.size(), 6U);
+  EXPECT_EQ(contact_curve(mesh, 1).edges.size(), 4U);
+  EXPECT_NEAR(mesh.nodes(contact_curve(mesh, 0).edges.front().nodes[0], 0), 2.0,
+              1e-12);  // body on the left: from x = 2
+  EXPECT_NEAR(mesh.nodes(contact_curve(mesh, 1).edges.front().nodes[0], 0), 0.0, 1e-12);
+}
+
+TEST_P(GmshMesh, MshOfEveryFormatIsTheSame) {
+  const Variety& variety = GetParam();
+  const ScratchFolder folder;
+  const Parameters parameters{{"quads", variety.quads}, {"order", variety.order}, {"quad9", variety.quad9}};
+  std::string values;
+  for (const auto& [name, value] : parameters) values += name + " = " + std::to_string(value) + ";\n";
+  const std::string geo = folder.write("two.geo", values + kTwoPlates);
+  const auto expected = shape(load_mesh(folder.write("plain.geo", kTwoPlates), parameters));
+  const std::string msh = (folder.path() / "two.msh").string();
+  for (const double version : {2.2, 4.1}) {
+    for (const bool binary : {false, true}) {
+      write_by_gmsh(geo, msh, version, binary);
+      const Mesh mesh = load_mesh(msh, {});
+      EXPECT_TRUE(shape(mesh) == expected) << "version " << version << " binary " << binary;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GmshMesh, testing::ValuesIn(varieties()),
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
+
+/// Upper and lower contact edges with these parameters.
+std::pair<std::size_t, std::size_t> edge_counts(const std::string& geo, const Parameters& parameters) {
+  const Mesh mesh = load_mesh(geo, parameters);
+  return {mesh.boundaries[1].edges.size(), mesh.boundaries[0].edges.size()};
+}
+
+TEST(GmshParameters, OverrideBothFormsOfDefineConstant) {
+  const ScratchFolder folder;
+  const std::string geo = folder.write("two plates.geo", kTwoPlates);
+  EXPECT_EQ(edge_counts(geo, {}), std::pair(std::size_t{4}, std::size_t{6}));
+  EXPECT_EQ(edge_counts(geo, {{"n_upper", 7}}), std::pair(std::size_t{7}, std::size_t{6}));
+  EXPECT_EQ(edge_counts(geo, {{"n_lower", 5}}), std::pair(std::size_t{4}, std::size_t{10}));
+}
+
+TEST(GmshParameters, DoNotLeakIntoTheNextMesh) {
+  // gmsh's -setnumber does: its values outlive gmsh::finalize.
+  const ScratchFolder folder;
+  const std::string geo = folder.write("two.geo", kTwoPlates);
+  EXPECT_EQ(edge_counts(geo, {{"n_upper", 7}, {"n_lower", 2}}), std::pair(std::size_t{7}, std::size_t{4}));
+  EXPECT_EQ(edge_counts(geo, {}), std::pair(std::size_t{4}, std::size_t{6}));
+}
+
+TEST(GmshParameters, ReachIncludedFilesToTheLastDigit) {
+  const ScratchFolder folder;
+  folder.write("part/size.geo", "DefineConstant[ a = 1 ];\n");
+  const std::string geo = folder.write("a.geo", R"(
+    Include "part/size.geo";
+    Point(1) = {0, 0, 0}; Point(2) = {a, 0, 0}; Point(3) = {0, 1, 0};
+    Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1}; Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};
+    Transfinite Curve {1:3} = 2; Physical Surface("body") = {1};
+  )");
+  EXPECT_EQ(load_mesh(geo, {{"a", 1.0 / 3}}).nodes.col(0).maxCoeff(), 1.0 / 3);
+  EXPECT_EQ(load_mesh(geo, {{"a", 3e-5}}).nodes.col(0).maxCoeff(), 3e-5);
+}
+
+TEST(GmshSession, LeavesTheProcessAsItWas) {
+  const ScratchFolder folder;
+  const std::string good = folder.write("good.geo", kTwoPlates);
+  const std::string bad = folder.write("bad.geo", "Point(1) = {0;");
+  omp_set_num_threads(3);
+  const std::string locale = std::setlocale(LC_ALL, nullptr);
+  load_mesh(good, {});
+  EXPECT_THROW(load_mesh(bad, {}), InputError);
+  EXPECT_EQ(omp_get_max_threads(), 3);
+  EXPECT_EQ(std::setlocale(LC_ALL, nullptr), locale);
+  EXPECT_NO_THROW(load_mesh(good, {}));  // and gmsh can be started again
+}
+
+TEST(GmshMeshFile, AGeoMayMeshItself) {
+  const ScratchFolder folder;
+  const std::string geo = folder.write("two.geo", std::string(kTwoPlates) + "Mesh 2;\nMesh.ElementOrder = 2;\n");
+  EXPECT_EQ(kinds_of(load_mesh(geo, {})), std::vector<CellKind>{CellKind::tri3});
+}
+
+TEST(WriteMsh, CanBeReadBack) {
+  const ScratchFolder folder;
+  const std::string geo = folder.write("two.geo", kTwoPlates);
+  const std::string msh = (folder.path() / "a.msh").string();
+  const Parameters parameters{{"quads", 1}, {"order", 2}, {"n_upper", 5}};
+  write_msh(geo, parameters, msh);
+  EXPECT_EQ(shape(load_mesh(msh, {})), shape(load_mesh(geo, parameters)));
+  EXPECT_EQ(testing_files::text_of(msh).substr(0, 16), "$MeshFormat\n4.1 ");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);  // nothing half-written
+}
+
+TEST(WriteMsh, SaysWhatCannotBeWritten) {
+  const ScratchFolder folder;
+  const std::string geo = folder.write("two.geo", kTwoPlates);
+  EXPECT_EQ(message_of<InputError>([&] { write_msh(geo, {}, "a.vtk"); }),
+            "a.vtk: the name of a mesh to write ends in .msh");
+  const std::string message = message_of<InputError>([&] { write_msh(geo, {}, "/nowhere/a.msh"); });
+  EXPECT_NE(message.find("/nowhere/a.msh: "), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace mortise

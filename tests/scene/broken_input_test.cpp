@@ -1,0 +1,130 @@
+// One row a mistake that a user can make: every message is one line that names the file, the place and the remedy.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/errors.hpp"
+#include "broken_rows.hpp"
+#include "scene/scene.hpp"
+#include "scene_files.hpp"
+
+namespace mortise {
+namespace {
+
+using test::Row;
+using test::TempFolder;
+
+std::string one_line(std::string text) {
+  const std::size_t at = text.find('\n');
+  return at == std::string::npos ? text : text.replace(at, 1, "\\n");
+}
+
+std::string message_of(const std::string& path, const std::vector<Override>& overrides) {
+  try {
+    read_scene(path, overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+class BrokenInput : public testing::TestWithParam<Row> {
+ protected:
+  BrokenInput() {
+    folder_.write("plates.geo", "");
+    folder_.write("plates.msh", "");
+    std::filesystem::create_directory(folder_.path("folder.geo"));
+  }
+
+  /// The message, and in `place` how it must start.
+  std::string message(const Row& row, std::string& place) const {
+    place = folder_.path("scene.toml");
+    if (row.good.empty()) {
+      place += ": --set " + one_line(row.bad) + ": ";
+      return message_of(folder_.write("scene.toml", test::every_key), {parse_override(row.bad)});
+    }
+    std::string text = test::every_key;
+    const std::size_t at = text.find(row.good);
+    if (at == std::string::npos) return "no such text in the scene: " + row.good;
+    text.replace(at, row.good.size(), row.bad);
+    const auto line = 1 + row.line + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    place += row.line < 0 ? ":" : ":" + std::to_string(line) + ": ";
+    return message_of(folder_.write("scene.toml", text), {});
+  }
+
+  TempFolder folder_;
+};
+
+TEST_P(BrokenInput, IsRefusedInOneLineThatSaysWhereAndWhy) {
+  std::string place;
+  const std::string text = message(GetParam(), place);
+  EXPECT_TRUE(text.starts_with(place)) << text << "\nexpected it to start with " << place;
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  for (const std::string& part : GetParam().expect) EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scene, BrokenInput, testing::ValuesIn(test::all_rows()),
+                         [](const auto& row) { return row.param.name; });
+
+TEST(BrokenSceneFile, NotThere) {
+  const TempFolder folder;
+  folder.write("parabola_1.toml", "");
+  const std::string text = message_of(folder.path("parabola1.toml"), {});
+  EXPECT_EQ(text, folder.path("parabola1.toml") + ": no such file; did you mean 'parabola_1.toml'?");
+}
+
+TEST(BrokenSceneFile, IsAFolder) {
+  const TempFolder folder;
+  EXPECT_EQ(message_of(folder.path(""), {}), folder.path("") + ": is a folder; expected a file");
+}
+
+TEST(BrokenSceneFile, IsAMesh) {
+  const TempFolder folder;
+  const std::string path = folder.write("plates.geo", "Point(1) = {0, 0, 0};");
+  EXPECT_EQ(message_of(path, {}).find(path + ": this is a geometry or a mesh; expected a scene file"), 0u);
+}
+
+TEST(BrokenSceneFile, IsEmpty) {
+  const TempFolder folder;
+  const std::string path = folder.write("scene.toml", "");
+  EXPECT_EQ(message_of(path, {}).find(path + ": 'mesh' is missing; expected a table [mesh]"), 0u);
+}
+
+TEST(BrokenSceneFile, IsBinary) {
+  const TempFolder folder;
+  const std::string path = folder.write("scene.toml", std::string("\x7f"
+                                                                  "ELF\0\0\xff\xfe",
+                                                                  8));
+  EXPECT_EQ(message_of(path, {}).find(path + ":1: not valid TOML"), 0u);
+}
+
+TEST(BrokenSceneFile, HasParametersThatAnOverrideMakesUseless) {
+  const TempFolder folder;
+  const std::string msh = folder.write("plates.msh", "");
+  const std::string path = folder.write("scene.toml", test::every_key);
+  EXPECT_EQ(message_of(path, {{"mesh.file", msh}}).find(path + ": --set mesh.file=" + msh + ": mesh.parameters"), 0u);
+}
+
+TEST(BrokenSceneFile, HasNoMaterialsOrBodies) {
+  const TempFolder folder;
+  folder.write("block.msh", "");
+  const std::string mesh = "mesh.file = 'block.msh'\n";
+  EXPECT_NE(message_of(folder.write("a.toml", mesh), {}).find("'materials' is missing"), std::string::npos);
+  const std::string material = "materials.steel = { young = 1, poisson = 0 }\n";
+  EXPECT_NE(message_of(folder.write("b.toml", mesh + material), {}).find("'bodies' is missing"), std::string::npos);
+}
+
+TEST(BrokenSceneFile, HasNoEntriesForAnOverride) {
+  const TempFolder folder;
+  folder.write("block.msh", "");
+  const std::string path = folder.write("scene.toml", test::shortest_scene);
+  EXPECT_EQ(message_of(path, {{"boundary.0.pressure", "1"}}),
+            path + ": --set boundary.0.pressure=1: boundary: no entry with index 0; there are 0 entries");
+  EXPECT_EQ(message_of(path, {{"contact.condition", "bilateral"}}),
+            path +
+                ": --set contact.condition=bilateral: contact: expected an index, found 'condition'; "
+                "there are 0 entries");
+}
+
+}  // namespace
+}  // namespace mortise

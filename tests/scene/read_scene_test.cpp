@@ -1,0 +1,143 @@
+// Expected values: exact, they stand in the scene text of scene_files.hpp.
+#include <gtest/gtest.h>
+
+#include "base/errors.hpp"
+#include "scene/scene.hpp"
+#include "scene_files.hpp"
+
+namespace mortise {
+namespace {
+
+using test::TempFolder;
+
+class EveryKey : public testing::Test {
+ protected:
+  EveryKey() {
+    folder_.write("plates.geo", "");
+    scene_ = read_scene(folder_.write("scene.toml", test::every_key));
+  }
+  TempFolder folder_;
+  Scene scene_;
+};
+
+TEST_F(EveryKey, MeshAndModel) {
+  EXPECT_EQ(scene_.path, folder_.path("scene.toml"));
+  EXPECT_EQ(scene_.title, "Every key");
+  EXPECT_EQ(scene_.mesh_file, folder_.path("plates.geo"));
+  EXPECT_EQ(scene_.mesh_parameters, (std::map<std::string, double>{{"height", 0.25}, {"n_upper", 80}}));
+  EXPECT_EQ(scene_.plane, Plane::stress);
+}
+
+TEST_F(EveryKey, MaterialsAndBodiesInTheOrderOfTheFile) {
+  ASSERT_EQ(scene_.materials.size(), 2u);
+  EXPECT_EQ(scene_.materials["steel"].young, 210e9);
+  EXPECT_EQ(scene_.materials["steel"].poisson, 0.3);
+  EXPECT_EQ(scene_.materials["steel"].thermal_expansion, 0);
+  EXPECT_EQ(scene_.materials["brass"].thermal_expansion, 19e-6);
+  ASSERT_EQ(scene_.bodies.size(), 3u);
+  EXPECT_EQ(scene_.bodies[0].name, "upper");
+  EXPECT_EQ(scene_.bodies[0].material, "steel");
+  EXPECT_EQ(scene_.bodies[1].name, "lower");
+  EXPECT_EQ(scene_.bodies[1].material, "brass");
+  EXPECT_EQ(scene_.bodies[2].name, "base");
+}
+
+TEST_F(EveryKey, Boundaries) {
+  ASSERT_EQ(scene_.boundaries.size(), 4u);
+  const auto& [symmetry, bottom, top, right] =
+      std::tie(scene_.boundaries[0], scene_.boundaries[1], scene_.boundaries[2], scene_.boundaries[3]);
+  EXPECT_EQ(symmetry.key, "boundary.0 (line 24)");
+  EXPECT_EQ(symmetry.on, (std::vector<std::string>{"upper_left", "lower_left"}));
+  EXPECT_EQ(symmetry.displacement_x, 0);
+  EXPECT_FALSE(symmetry.displacement_y || symmetry.pressure || symmetry.traction);
+  EXPECT_EQ(bottom.on, std::vector<std::string>{"bottom"});
+  EXPECT_EQ(bottom.displacement_x, 0.001);
+  EXPECT_EQ(bottom.displacement_y, -0.002);
+  EXPECT_EQ(top.pressure, 10e6);
+  EXPECT_FALSE(top.displacement_x || top.displacement_y || top.traction);
+  EXPECT_EQ(right.traction, Vec2(1e6, -2e6));
+}
+
+TEST_F(EveryKey, BodyForcesAndInitialStrains) {
+  ASSERT_EQ(scene_.body_forces.size(), 1u);
+  EXPECT_EQ(scene_.body_forces[0].body, "lower");
+  EXPECT_EQ(scene_.body_forces[0].force, Vec2(0, -76e3));
+  ASSERT_EQ(scene_.initial_strains.size(), 2u);
+  EXPECT_EQ(scene_.initial_strains[0].body, "lower");
+  EXPECT_EQ(scene_.initial_strains[0].temperature_change, 50);
+  EXPECT_EQ(scene_.initial_strains[0].strain, Vec4::Zero());
+  EXPECT_EQ(scene_.initial_strains[1].body, "upper");
+  EXPECT_FALSE(scene_.initial_strains[1].temperature_change);
+  EXPECT_EQ(scene_.initial_strains[1].strain, Vec4(1e-3, 2e-3, 4e-3, 3e-3));  // 11, 22, 33, 12
+}
+
+TEST_F(EveryKey, ContactsAndMethod) {
+  ASSERT_EQ(scene_.contacts.size(), 2u);
+  EXPECT_EQ(scene_.contacts[0].key, "contact.0 (line 52)");
+  EXPECT_EQ(scene_.contacts[0].between, (std::array<std::string, 2>{"upper_contact", "lower_contact"}));
+  EXPECT_EQ(scene_.contacts[0].condition, Condition::bilateral);
+  EXPECT_EQ(scene_.contacts[0].initial_gap, InitialGap::closed);
+  EXPECT_EQ(scene_.contacts[0].multipliers_on, "lower_contact");
+  EXPECT_EQ(scene_.contacts[1].condition, Condition::unilateral);
+  EXPECT_EQ(scene_.contacts[1].initial_gap, InitialGap::measured);
+  EXPECT_EQ(scene_.contacts[1].multipliers_on, "");
+  EXPECT_EQ(scene_.method.kind, MethodKind::ddm);
+  EXPECT_EQ(scene_.method.integration, Integration::elements);
+  EXPECT_EQ(scene_.method.multipliers, Multipliers::dual);
+}
+
+TEST(ReadScene, WhatTheFileLeavesOutTakesItsDefault) {
+  const TempFolder folder;
+  folder.write("block.msh", "");
+  const Scene scene = read_scene(folder.write("scene.toml", test::shortest_scene));
+  EXPECT_EQ(scene.title, "");
+  EXPECT_TRUE(scene.mesh_parameters.empty());
+  EXPECT_EQ(scene.plane, Plane::strain);
+  EXPECT_TRUE(scene.boundaries.empty() && scene.body_forces.empty());
+  EXPECT_TRUE(scene.initial_strains.empty() && scene.contacts.empty());
+  EXPECT_EQ(scene.method.kind, MethodKind::mortar);
+  EXPECT_EQ(scene.method.integration, Method{}.integration);
+  EXPECT_EQ(scene.method.multipliers, Method{}.multipliers);
+}
+
+TEST(ReadScene, DifferentThingsOnOneCurveAreFine) {
+  const TempFolder folder;
+  folder.write("block.msh", "");
+  const std::string text = test::shortest_scene + R"(
+[[boundary]]
+on = "top"
+displacement = { x = 0 }
+[[boundary]]
+on = "top"
+pressure = 1e6
+[[boundary]]
+on = "top"
+displacement = { y = 0 }
+)";
+  EXPECT_EQ(read_scene(folder.write("scene.toml", text)).boundaries.size(), 3u);
+}
+
+TEST(ReadScene, TomlMayBeWrittenInAnyOfItsForms) {
+  const TempFolder folder;
+  folder.write("block.msh", "");
+  const std::string text =
+      "mesh.file = 'block.msh'\r\nmaterials = { steel = { young = 2_000, poisson = 0 } }\r\n"
+      "bodies.\"the block\" = \"steel\"\r\nboundary = [{ on = ['a',\r\n 'b'], pressure = -1 }]\r\n";
+  const Scene scene = read_scene(folder.write("scene.toml", "\xEF\xBB\xBF" + text));
+  EXPECT_EQ(scene.bodies[0].name, "the block");
+  EXPECT_EQ(scene.materials.at("steel").young, 2000);
+  EXPECT_EQ(scene.boundaries[0].pressure, -1);
+}
+
+TEST(ReadScene, WordsOfTheEnums) {
+  EXPECT_EQ(to_string(Plane::strain) + to_string(Plane::stress), "strainstress");
+  EXPECT_EQ(to_string(Condition::unilateral) + to_string(Condition::bilateral), "unilateralbilateral");
+  EXPECT_EQ(to_string(InitialGap::measured) + to_string(InitialGap::closed), "measuredclosed");
+  EXPECT_EQ(to_string(MethodKind::mortar) + to_string(MethodKind::ddm), "mortarddm");
+  EXPECT_EQ(to_string(Integration::segments) + to_string(Integration::elements), "segmentselements");
+  EXPECT_EQ(to_string(Multipliers::quadratic) + to_string(Multipliers::linear) + to_string(Multipliers::dual),
+            "quadraticlineardual");
+}
+
+}  // namespace
+}  // namespace mortise
