@@ -13,8 +13,7 @@ Macro LineAt
   height = -1.25 * x^2 + x + 0.2;
   slope = -2.5 * x + 1;
 Return
-line_kind = Str("cubic");
-cubic_length = 0.8;
+line_kind = Str("parabola");
 knots[] = {0, 0.8};
 
 Include "common/two_plates.geo";

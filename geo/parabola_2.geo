@@ -13,8 +13,7 @@ Macro LineAt
   height = -1.875 * x^2 + 1.5 * x + 0.1;
   slope = -3.75 * x + 1.5;
 Return
-line_kind = Str("cubic");
-cubic_length = 0.8;
+line_kind = Str("parabola");
 knots[] = {0, 0.8};
 
 Include "common/two_plates.geo";

@@ -10,6 +10,7 @@ SetFactory("Built-in");
 Mesh.ElementOrder = order;
 Mesh.SecondOrderIncomplete = 1 - nine_node;
 Mesh.SecondOrderLinear = straight;
+Mesh.LcIntegrationPrecision = 1e-12;  // even in arc length to 1e-6; gmsh's default leaves 2e-5
 
 Macro Body
   around = newll;

@@ -2,96 +2,60 @@
 // Each plate has its own contact curve with its own nodes; the two curves are the same line and share their end points'
 // coordinates. Both plates are structured meshes, n_upper and n_lower elements wide and 3/8 of that high.
 // A scene gives, before it calls TwoPlates:
-//   Macro LineAt   at x1 = x, the height of the contact line, and its slope where line_kind is "cubic"
-//   line_kind      of what its pieces are made: "straight" lines, an "arc" about arc_x, arc_y, or "cubic" Hermite
-//                  polynomials in x1, no longer than cubic_length along x1, which also follow any parabola exactly
+//   Macro LineAt   at x1 = x, the height of the contact line, and its slope where line_kind is "parabola"
+//   line_kind      what its pieces are: "straight", an "arc" about arc_x, arc_y, a "parabola" (all three exact), or a
+//                  "spline" through points of the line, spline_steps of them across the width
 //   knots[]        x1 at the ends of its pieces, 0 ... 0.8; a knot is a vertex of both meshes. A piece between x1 = a and b
 //                  takes Round(n b / 0.8) - Round(n a / 0.8) of the n elements
-//   spacing        0: the vertices of a piece are even in arc length; 1: the vertices are even in x1
-// Where the vertices' places are computed here (spacing 1, and a line of many cubics: gmsh takes minutes to divide one), each
-// element is a curve of its own.
+//   spacing        0: the vertices of a piece are even in arc length; 1: they are even in x1, and each element is a piece
 
 Include "body.geo";
 width = 0.8;
 height_total = 0.6;
 
-// One piece of a contact curve with `elements` elements.
-//   in   x_a, x_b        its ends
-//        point, height, slope   the point at x_a, and the line there
-//   out  piece           the curve; point, height and slope are those of x_b now
+// One piece of a contact curve.
+//   in   x_b, elements          its right end; elements along it
+//        x, height, slope, point   its left end, and the line and the point there; after the call those of the right end
+//   out  piece                  the curve
 Macro Piece
-  pieces = 1;
-  If (StrCmp(line_kind, "cubic") == 0)
-    pieces = Ceil((x_b - x_a) / cubic_length - 1e-9);
-  EndIf
-  third = (x_b - x_a) / (3 * pieces);
+  x_a = x;
   nodes[] = {point};
-  For j In {1 : pieces}
-    If (StrCmp(line_kind, "cubic") == 0)
-      point = newp;
-      Point(point) = {x + third, height + third * slope, 0};
-      nodes[] += point;
-    EndIf
-    x = x_a * (1 - j / pieces) + x_b * (j / pieces);
+  If (StrCmp(line_kind, "parabola") == 0)
+    third = (x_b - x_a) / 3;
+    p = newp;
+    Point(p) = {x_a + third, height + third * slope, 0};
+    x = x_b;
     Call LineAt;
-    If (StrCmp(line_kind, "cubic") == 0)
-      point = newp;
-      Point(point) = {x - third, height - third * slope, 0};
-      nodes[] += point;
-    EndIf
-    point = newp;
-    Point(point) = {x, height, 0};
-    nodes[] += point;
-  EndFor
+    Point(p + 1) = {x_b - third, height - third * slope, 0};
+    nodes[] += {p, p + 1};
+  EndIf
+  If (StrCmp(line_kind, "spline") == 0)
+    steps = Max(4, Ceil(spline_steps * (x_b - x_a) / width));
+    For j In {1 : steps - 1}
+      x = x_a + (x_b - x_a) * j / steps;
+      Call LineAt;
+      p = newp;
+      Point(p) = {x, height, 0};
+      nodes[] += p;
+    EndFor
+  EndIf
+  x = x_b;
+  Call LineAt;
+  point = newp;
+  Point(point) = {x, height, 0};
+  nodes[] += point;
+
   piece = newc;
-  If (StrCmp(line_kind, "cubic") == 0)
-    Bezier(piece) = nodes[];
+  If (StrCmp(line_kind, "straight") == 0)
+    Line(piece) = nodes[];
   ElseIf (StrCmp(line_kind, "arc") == 0)
     Circle(piece) = {nodes[0], centre, point};
+  ElseIf (StrCmp(line_kind, "parabola") == 0)
+    Bezier(piece) = nodes[];
   Else
-    Line(piece) = nodes[];
+    Spline(piece) = nodes[];
   EndIf
   Transfinite Curve{piece} = elements + 1;
-Return
-
-// Arc length of the contact line by Gauss's rule with three points.
-//   in   x_a, x_b
-//   out  arc
-Macro ArcLength
-  arc = 0;
-  For g In {-1 : 1}
-    x = (x_a + x_b) / 2 + g * Sqrt(0.6) * (x_b - x_a) / 2;
-    Call LineAt;
-    arc += (8 - 3 * Fabs(g)) / 18 * (x_b - x_a) * Sqrt(1 + slope^2);
-  EndFor
-Return
-
-// Where n elements of equal arc length end: Newton's method on the arc length, summed over cells one cubic long.
-//   in   n
-//   out  ends[]
-Macro EvenArcLength
-  cells = Ceil(width / cubic_length - 1e-9);
-  arcs[] = {0};
-  For j In {1 : cells}
-    x_a = width * ((j - 1) / cells);
-    x_b = width * (j / cells);
-    Call ArcLength;
-    arcs[] += arcs[j - 1] + arc;
-  EndFor
-  ends[] = {0};
-  For i In {1 : n - 1}
-    x_b = width * (i / n);
-    For k In {1 : 6}
-      j = Floor(cells * x_b / width);
-      x_a = width * (j / cells);
-      Call ArcLength;
-      x = x_b;
-      Call LineAt;
-      x_b += (arcs[cells] * i / n - arcs[j] - arc) / Sqrt(1 + slope^2);
-    EndFor
-    ends[] += x_b;
-  EndFor
-  ends[] += width;
 Return
 
 // One plate's contact curve.
@@ -105,10 +69,6 @@ Macro ContactCurve
     For i In {0 : n}
       ends[] += width * (i / n);
     EndFor
-  ElseIf (StrCmp(line_kind, "cubic") == 0)
-    If (cubic_length < width)
-      Call EvenArcLength;
-    EndIf
   EndIf
   If (StrCmp(line_kind, "arc") == 0)
     centre = newp;
@@ -121,9 +81,8 @@ Macro ContactCurve
   point = left;
   contact[] = {};
   For k In {1 : #ends[] - 1}
-    x_a = ends[k - 1];
     x_b = ends[k];
-    elements = (#ends[] == n + 1) ? 1 : Round(n * x_b / width) - Round(n * x_a / width);
+    elements = (spacing == 1) ? 1 : Round(n * x_b / width) - Round(n * x / width);
     Call Piece;
     contact[] += piece;
   EndFor

@@ -202,6 +202,9 @@ void write_msh(const std::string& file, const std::map<std::string, double>& par
   namespace fs = std::filesystem;
   const fs::path target = output;
   if (target.extension() != ".msh") throw InputError(output + ": the name of a mesh to write ends in .msh");
+  if (target.has_parent_path() && !fs::is_directory(target.parent_path())) {
+    throw InputError(output + ": cannot be written: there is no such folder");
+  }
 
   GmshSession session;
   session.open(file, parameters);

@@ -100,6 +100,8 @@ class MemoryFile {
 
 /// Assignments, then the .geo itself: DefineConstant leaves a variable alone that exists already.
 /// gmsh's own way, -setnumber, cannot be undone: its values outlive gmsh::finalize and would leak into the next mesh.
+/// Without parameters too: of a .geo that it opens itself, gmsh 4.8 silently drops the last statement if no newline
+/// follows, of an included one it does not.
 std::string preamble(const std::string& file, const std::map<std::string, double>& parameters) {
   std::string text;
   for (const auto& [name, value] : parameters) {
@@ -147,13 +149,12 @@ void GmshSession::open(const std::string& file, const std::map<std::string, doub
   }
   if (extension == ".geo") check_parameters(file, parameters);
 
-  if (parameters.empty()) {
+  if (extension == ".msh") {
     run(file, "reading", [&] { gmsh::open(file); });
-  } else {
-    const MemoryFile script(preamble(file, parameters));
-    run(file, "reading", [&] { gmsh::open(script.path()); });
+    return;
   }
-  if (extension == ".msh") return;
+  const MemoryFile script(preamble(file, parameters));
+  run(file, "reading", [&] { gmsh::open(script.path()); });
   set_options();
   if (!has_cells()) run(file, "meshing", [] { gmsh::model::mesh::generate(2); });
 }

@@ -25,10 +25,21 @@ std::string clipped(const std::string& text) {
   return text.size() <= longest_value ? text : text.substr(0, longest_value) + "...";
 }
 
+/// Appended piece by piece: gcc 12 warns falsely (-Wrestrict) of "[" + std::string.
+std::string quoted(char before, const std::string& text, char after) {
+  std::string all(1, before);
+  all += text;
+  all += after;
+  return all;
+}
+
 std::string describe_list(const Node& list) {
   std::string text;
-  for (const Node& item : list.items) text += (text.empty() ? "" : ", ") + describe(item);
-  return "[" + clipped(text) + "]";
+  for (const Node& item : list.items) {
+    if (!text.empty()) text += ", ";
+    text += describe(item);
+  }
+  return quoted('[', clipped(text), ']');
 }
 
 }  // namespace
@@ -38,7 +49,8 @@ void fail(const Place& place, const std::string& path, const std::string& troubl
   if (!place.setting.empty()) {
     text += ": " + place.setting;
   } else if (place.line > 0) {
-    text += ":" + std::to_string(place.line);
+    text += ':';
+    text += std::to_string(place.line);
   }
   if (!path.empty()) text += ": " + path;
   throw InputError(one_line(text + ": " + trouble));
@@ -53,7 +65,7 @@ std::string describe(const Node& node) {
     case Node::Kind::list:
       return describe_list(node);
     case Node::Kind::string:
-      return "'" + clipped(node.text) + "'";
+      return quoted('\'', clipped(node.text), '\'');
     case Node::Kind::date:
       return "the date or time " + node.text;
     case Node::Kind::number:

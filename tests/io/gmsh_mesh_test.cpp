@@ -60,7 +60,7 @@ std::vector<std::vector<long>> shape(const Mesh& mesh) {
   for (int b = 0; b < static_cast<int>(mesh.boundaries.size()); ++b) {
     for (const Edge& edge : mesh.boundaries[b].edges) {
       rows.push_back({100, b, edge.node_count});
-      const auto before = [&](int a, int b) { return mesh.nodes.row(a).sum() < mesh.nodes.row(b).sum(); };
+      const auto before = [&](int p, int q) { return mesh.nodes.row(p).sum() < mesh.nodes.row(q).sum(); };
       const auto [start, end] = std::minmax(edge.nodes[0], edge.nodes[1], before);  // a 2.2 file turns some round
       for (const int node : {start, end, edge.nodes[2]}) {
         if (node >= 0) add_point(node);
@@ -223,6 +223,13 @@ TEST(GmshMeshFile, AGeoMayMeshItself) {
   const ScratchFolder folder;
   const std::string geo = folder.write("two.geo", std::string(kTwoPlates) + "Mesh 2;\nMesh.ElementOrder = 2;\n");
   EXPECT_EQ(kinds_of(load_mesh(geo, {})), std::vector<CellKind>{CellKind::tri3});
+}
+
+TEST(GmshMeshFile, LastStatementCountsWithoutANewlineToo) {
+  // gmsh 4.8 drops it without a word from a .geo that it opens directly.
+  const ScratchFolder folder;
+  const std::string geo = folder.write("two.geo", std::string(kTwoPlates) + "Physical Curve(\"last\") = {13};");
+  EXPECT_EQ(boundary_names(load_mesh(geo, {})).back(), "last");
 }
 
 TEST(WriteMsh, CanBeReadBack) {

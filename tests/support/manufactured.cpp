@@ -1,0 +1,138 @@
+#include "support/manufactured.hpp"
+
+#include <Eigen/LU>
+#include <complex>
+#include <stdexcept>
+
+#include "contact/coupling.hpp"
+#include "fem/assembly.hpp"
+#include "fem/quadrature.hpp"
+#include "fem/stress.hpp"
+#include "solve/saddle_point.hpp"
+
+namespace mortise::test {
+namespace {
+
+using Complex = std::complex<double>;
+const Complex c2(0.3, -0.2), c3(-0.4, 0.3), c4(0.25, 0.35), d1(-0.5, 0.1), d2(0.3, 0.4), d3(-0.2, 0.3);
+
+Vec2 traction_at(const ExactField& exact, const Vec2& x, const Vec2& n) {
+  const Vec4 s = exact.stress(x);
+  return {s(0) * n.x() + s(3) * n.y(), s(3) * n.x() + s(1) * n.y()};
+}
+
+void prescribe_exactly(const Mesh& mesh, const ExactField& exact, const std::string& name, Constraints& constraints) {
+  for (const Edge& edge : mesh.boundaries[std::size_t(boundary_index(mesh, name))].edges)
+    for (std::size_t a = 0; a < std::size_t(edge.node_count); ++a) {
+      const int node = edge.nodes[a];
+      constraints.fixed[std::size_t(2 * node)] = constraints.fixed[std::size_t(2 * node + 1)] = 1;
+      constraints.value.segment<2>(2 * node) = exact.displacement(mesh.nodes.row(node).transpose());
+    }
+}
+
+VecX exact_loads(const Mesh& mesh, const ExactField& exact) {
+  VecX load = VecX::Zero(2 * mesh.nodes.rows());
+  for (const char* side : {"upper_left", "upper_right", "lower_left", "lower_right"})
+    add_traction(mesh, boundary_index(mesh, side),
+                 [&](const Vec2& x, const Vec2& n) -> Vec2 { return traction_at(exact, x, n); }, load);
+  for (const char* curve : {"upper_contact", "lower_contact"})
+    add_traction(mesh, boundary_index(mesh, curve),
+                 [&](const Vec2& x, const Vec2& n) -> Vec2 {
+                   const Vec2 t = traction_at(exact, x, n);
+                   return t - t.dot(n) * n;
+                 },
+                 load);
+  return load;
+}
+
+// Squared L2 and energy errors of the displacements.
+std::pair<double, double> body_errors(const Mesh& mesh, const ExactField& exact, const ElasticLaw& law, const VecX& u) {
+  Eigen::Matrix3d C;
+  C << law.stiffness.row(0), law.stiffness.row(1), law.stiffness.row(3);
+  const Eigen::Matrix3d compliance = C.inverse();
+  double l2 = 0, energy = 0;
+  for (const Cell& cell : mesh.cells) {
+    const CellRule rule = product_rule(cell.kind, 4);
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const CellShape s = cell_shape(cell.kind, rule.points[q]);
+      Vec2 x = Vec2::Zero(), value = Vec2::Zero();
+      Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
+      for (std::size_t a = 0; a < std::size_t(node_count(cell.kind)); ++a) {
+        x += s.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
+        value += s.N[a] * u.segment<2>(2 * cell.nodes[a]);
+        J += s.dN[a] * mesh.nodes.row(cell.nodes[a]);
+      }
+      const double dV = rule.weights[q] * J.determinant();
+      const Vec4 e = stress_at(mesh, cell, law, u, s) - exact.stress(x);
+      const Eigen::Vector3d difference(e(0), e(1), e(3));
+      l2 += dV * (value - exact.displacement(x)).squaredNorm();
+      energy += dV * difference.dot(compliance * difference);
+    }
+  }
+  return {l2, energy};
+}
+
+double pressure_error(const Mesh& mesh, const ExactField& exact, const TwoPlates& plates, const Curve& curve,
+                      const Coupling& coupling, const VecX& pressure) {
+  const LineRule rule = gauss_legendre(5);
+  double sum = 0;
+  for (int e = 0; e < int(curve.edges.size()); ++e)
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const EdgePoint p = edge_point(mesh.nodes, curve.edges[std::size_t(e)], rule.points[q]);
+      const double h = 1e-6, slope = (plates.height(p.position.x() + h) - plates.height(p.position.x() - h)) / (2 * h);
+      const Vec2 n = Vec2(-slope, 1).normalized();  // of the exact line; its sign does not matter
+      const double sigma_n = traction_at(exact, p.position, n).dot(n);
+      const double difference = interpolate(coupling, curve, pressure, e, rule.points[q]) + sigma_n;
+      sum += rule.weights[q] * p.jacobian() * difference * difference;
+    }
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+Vec2 ExactField::displacement(const Vec2& x) const {
+  const double mu = young / (2 * (1 + poisson)), kappa = 3 - 4 * poisson;
+  const Complex z(x.x(), x.y());
+  const Complex phi = z * z * (c2 + z * (c3 + z * c4)), dphi = z * (2. * c2 + z * (3. * c3 + z * 4. * c4));
+  const Complex psi = z * (d1 + z * (d2 + z * d3));
+  const Complex u = (kappa * phi - z * std::conj(dphi) - std::conj(psi)) / (2 * mu);
+  return {u.real(), u.imag()};
+}
+
+Vec4 ExactField::stress(const Vec2& x) const {
+  const Complex z(x.x(), x.y());
+  const Complex dphi = z * (2. * c2 + z * (3. * c3 + z * 4. * c4)), ddphi = 2. * c2 + z * (6. * c3 + z * 12. * c4);
+  const Complex dpsi = d1 + z * (2. * d2 + z * 3. * d3);
+  const double sum = 4 * dphi.real();
+  const Complex deviator = 2. * (std::conj(z) * ddphi + dpsi);  // s22 - s11 + 2 i s12
+  const double s22 = (sum + deviator.real()) / 2, s11 = (sum - deviator.real()) / 2;
+  return {s11, s22, poisson * sum, deviator.imag() / 2};
+}
+
+Errors manufactured_errors(const ManufacturedCase& which) {
+  const ExactField exact;
+  const Mesh mesh = mesh_of(which.plates);
+  const std::vector<ElasticLaw> laws(2, elastic_law(exact.young, exact.poisson, Plane::strain));
+  const SparseMatrix K = assemble_stiffness(mesh, laws);
+  const VecX load = exact_loads(mesh, exact);
+  Constraints constraints = no_constraints(mesh);
+  prescribe_exactly(mesh, exact, "top", constraints);
+  prescribe_exactly(mesh, exact, "bottom", constraints);
+
+  const Curve upper = contact_curve(mesh, boundary_index(mesh, "upper_contact"));
+  const Curve lower = contact_curve(mesh, boundary_index(mesh, "lower_contact"));
+  const Curve& multiplier = which.multipliers_on_lower ? lower : upper;
+  const Curve& opposite = which.multipliers_on_lower ? upper : lower;
+  const Coupling coupling =
+      couple(mesh, multiplier, opposite, contact_points(mesh.nodes, multiplier, opposite, which.integration),
+             constraints, {which.integration, which.multipliers, InitialGap::closed});
+  const VecX g = -coupling.gap0;
+  const SaddlePointSolution s = solve_saddle_point({K, load, coupling.B, g, constraints.fixed, constraints.value,
+                                                    exact.young, coupling.scale, {}});
+  if (s.status != SaddlePointSolution::Status::solved) throw std::runtime_error("manufactured case not solved");
+  const auto [l2, energy] = body_errors(mesh, exact, laws[0], s.u);
+  return {std::sqrt(l2), std::sqrt(energy),
+          pressure_error(mesh, exact, which.plates, multiplier, coupling, -multiplier_values(coupling, s.lambda))};
+}
+
+}  // namespace mortise::test

@@ -1,0 +1,33 @@
+// An exact plane-strain field, and two plates in contact that it solves.
+#pragma once
+
+#include "support/two_plates.hpp"
+#include "base/model.hpp"
+
+namespace mortise::test {
+
+/// A field without body force from the Kolosov-Muskhelishvili potentials phi = c2 z^2 + c3 z^3 + c4 z^4 and
+/// psi = d1 z + d2 z^2 + d3 z^3: 2 mu (u1 + i u2) = kappa phi - z conj(phi') - conj(psi).
+struct ExactField {
+  double young = 1, poisson = 0.3;
+  Vec2 displacement(const Vec2& x) const;
+  Vec4 stress(const Vec2& x) const;
+};
+
+struct ManufacturedCase {
+  TwoPlates plates;
+  Multipliers multipliers = Multipliers::quadratic;
+  Integration integration = Integration::segments;
+  bool multipliers_on_lower = true;
+};
+
+/// Errors against the exact field, absolute: ||u||_L2, energy norm, ||p||_L2 along the multiplier side.
+struct Errors {
+  double displacement, energy, pressure;
+};
+
+/// Solves with exact displacements on top and bottom, exact tractions on the vertical sides, and the exact tangential
+/// tractions on both contact curves; the normal ones are left to the contact.
+Errors manufactured_errors(const ManufacturedCase& which);
+
+}  // namespace mortise::test
