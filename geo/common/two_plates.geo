@@ -69,6 +69,7 @@ Macro ContactCurve
     For i In {0 : n}
       ends[] += width * (i / n);
     EndFor
+    Mesh.LcIntegrationPrecision = 1e-9;  // no curve is divided; 1e-12 would take seconds on the splines
   EndIf
   If (StrCmp(line_kind, "arc") == 0)
     centre = newp;

@@ -18,7 +18,7 @@ struct Line {
 const Line lines[] = {
     {"parabola_1", [](double x) { return -1.25 * x * x + x + 0.2; }, 12},
     {"circle", [](double x) { return 0.1 * (std::sqrt(9 + 80 * x - 100 * x * x) - 1); }, 12},
-    {"cosine", [](double x) { return 0.1 * std::cos(std::numbers::pi * (x + 0.4) / 0.2) + 0.3; }, 20},
+    {"cosine", [](double x) { return 0.1 * std::cos(std::numbers::pi * (x + 0.4) / 0.2) + 0.3; }, 32},
 };
 
 struct Expected {
