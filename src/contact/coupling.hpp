@@ -11,7 +11,7 @@ namespace mortise {
 
 struct CouplingOptions {
   Integration integration = Integration::segments;
-  Multipliers multipliers = Multipliers::quadratic;
+  Multipliers multipliers = Multipliers::linear;
   InitialGap initial_gap = InitialGap::measured;
 };
 

@@ -46,6 +46,7 @@ std::optional<Hit> project_onto_edge(const Points& nodes, const Curve& curve, in
     const EdgePoint p = edge_point(nodes, e, xi);
     if (p.normal().dot(n) >= 0) continue;
     const double distance = (p.position - x).dot(n);
+    if (distance < -2 * p.jacobian()) continue;  // d position / d xi is half the edge
     if (!best || std::abs(distance) < std::abs(best->distance)) best = Hit{edge, xi, distance};
   }
   return best;

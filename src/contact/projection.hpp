@@ -20,7 +20,8 @@ inline constexpr double projection_tolerance = 1e-9;
 
 /// Where the line x + distance * n meets the edge: the roots of (edge(xi) - x) x n = 0, a polynomial of the edge's
 /// own degree (docs/theory.md eq. 8), solved in closed form. Only where the edge faces the line (its outward normal
-/// against n); of two such places the one nearer to x.
+/// against n) and lies behind x by no more than its own length (a body's far side is no contact); of two such places
+/// the one nearer to x.
 std::optional<Hit> project_onto_edge(const Points& nodes, const Curve& curve, int edge, const Vec2& x, const Vec2& n);
 
 /// The nearest of all edges of the curve that face the line. Nothing if the line misses the curve.

@@ -61,7 +61,7 @@ struct ContactSpec {
 struct Method {
   MethodKind kind = MethodKind::mortar;
   Integration integration = Integration::segments;
-  Multipliers multipliers = Multipliers::quadratic;  ///< on 2-node edges quadratic means linear
+  Multipliers multipliers = Multipliers::linear;  ///< on 2-node edges quadratic means linear
 };
 
 struct Scene {

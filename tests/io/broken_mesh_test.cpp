@@ -7,12 +7,12 @@
 #include "../mesh/grid.hpp"
 #include "base/errors.hpp"
 #include "io/gmsh_mesh.hpp"
-#include "scratch_file.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mortise {
 namespace {
 
-using testing_files::ScratchFolder;
+using test::TemporaryFolder;
 using testing_meshes::message_of;
 
 /// A unit square with its lower left corner at (x, x), curves 10 s + 1..4, surface s, not in any physical group.
@@ -161,7 +161,7 @@ std::vector<Broken> broken_meshes() {
 
 TEST(BrokenMesh, IsRefusedInOneLineThatSaysWhere) {
   for (const Broken& broken : broken_meshes()) {
-    const ScratchFolder folder;
+    const TemporaryFolder folder;
     const std::string file = folder.write(broken.file, broken.text);
     const std::string message = message_of<InputError>([&] { load_mesh(file, broken.parameters); });
     for (const std::string& said : broken.said) {
@@ -178,7 +178,7 @@ TEST(BrokenMesh, NoSuchFile) {
 }
 
 TEST(BrokenMesh, UpsideDownAsAWholeIsNotBroken) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("a.msh", msh(kUnitNodes, "1 3 2 1 1 1 4 3 2\n2 2 2 1 1 2 3 5\n"));
   const Mesh mesh = load_mesh(file, {});
   ASSERT_EQ(mesh.cells.size(), 2U);

@@ -7,23 +7,23 @@
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "scratch_file.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mortise {
 namespace {
 
-using testing_files::ScratchFolder;
-using testing_files::text_of;
+using test::TemporaryFolder;
+using test::text_of;
 
 TEST(Csv, WritesWordsNumbersAndEmptyFields) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto file = folder.path() / "a.csv";
   write_csv(file, {{"curve", {"top", "the \"lower\", left"}, {}}, {"p", {}, {1.5, std::nan("")}}});
   EXPECT_EQ(text_of(file), "curve,p\ntop,1.5\n\"the \"\"lower\"\", left\",\n");
 }
 
 TEST(Csv, NumbersComeBackToTheBit) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto file = folder.path() / "a.csv";
   const std::vector<double> numbers{1.0 / 3, -2.5e-310, 210e9, -0.0, std::numeric_limits<double>::max(), 1e-12 + 1};
   write_csv(file, {{"x", {}, numbers}});
@@ -38,7 +38,7 @@ TEST(Csv, NumbersComeBackToTheBit) {
 }
 
 TEST(Csv, ATableWithoutRowsHasItsHeader) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write_csv(folder.path() / "a.csv", {{"a", {}, {}}, {"b", {}, {}}});
   EXPECT_EQ(text_of(folder.path() / "a.csv"), "a,b\n");
 }

@@ -4,16 +4,16 @@
 
 #include "../mesh/grid.hpp"
 #include "base/errors.hpp"
-#include "scratch_file.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mortise {
 namespace {
 
-using testing_files::ScratchFolder;
+using test::TemporaryFolder;
 using Names = std::vector<std::string>;
 
 TEST(GeoParameters, AreTheNumbersInDefineConstant) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("a.geo", R"(
     DefineConstant[ n_upper = 80 ];
     DefineConstant [ n_lower = {60, Min 1, Max 99, Name "Mesh/n, [lower"}, h = f(1, 2), plain ];
@@ -29,7 +29,7 @@ TEST(GeoParameters, AreTheNumbersInDefineConstant) {
 }
 
 TEST(GeoParameters, ComeFromIncludedFilesToo) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   folder.write("part/b.geo", "DefineConstant[ b = 1 ];\nInclude \"c.geo\";\nInclude \"../a.geo\";");
   folder.write("part/c.geo", "DefineConstant[ c = 1 ];");
   const std::string file = folder.write("a.geo", R"(
@@ -42,7 +42,7 @@ TEST(GeoParameters, ComeFromIncludedFilesToo) {
 }
 
 TEST(GeoParameters, OfUnfinishedTextDoNotHang) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   for (const char* text : {"", "DefineConstant", "DefineConstant[", "DefineConstant[ a = {1,", "\"", "/*", "Include \"",
                            "DefineConstant[ a = \"", "//"}) {
     EXPECT_NO_THROW(geo_parameters(folder.write("a.geo", text))) << text;
@@ -50,7 +50,7 @@ TEST(GeoParameters, OfUnfinishedTextDoNotHang) {
 }
 
 TEST(GeoParameters, RefuseTheExitCommand) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("a.geo", "// Exit;\nx = \"Exit\";\nExit;\n");
   const std::string message = testing_meshes::message_of<InputError>([&] { geo_parameters(file); });
   EXPECT_EQ(message, file + ", line 3: the command Exit would end the program; remove it");

@@ -11,12 +11,12 @@
 #include "../mesh/grid.hpp"
 #include "base/errors.hpp"
 #include "mesh/curve.hpp"
-#include "scratch_file.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mortise {
 namespace {
 
-using testing_files::ScratchFolder;
+using test::TemporaryFolder;
 using testing_meshes::message_of;
 
 /// Two bodies along y = 1; the lower one of two surfaces, the right of which may be recombined, and the upper one
@@ -126,7 +126,7 @@ class GmshMesh : public testing::TestWithParam<Variety> {};
 
 TEST_P(GmshMesh, GeoIsMeshed) {
   const Variety& variety = GetParam();
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string geo = folder.write("two.geo", kTwoPlates);
   const Mesh mesh = load_mesh(geo, {{"quads", variety.quads}, {"order", variety.order}, {"quad9", variety.quad9}});
   EXPECT_EQ(mesh.source, geo);
@@ -152,7 +152,7 @@ TEST_P(GmshMesh, GeoIsMeshed) {
 
 TEST_P(GmshMesh, MshOfEveryFormatIsTheSame) {
   const Variety& variety = GetParam();
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const Parameters parameters{{"quads", variety.quads}, {"order", variety.order}, {"quad9", variety.quad9}};
   std::string values;
   for (const auto& [name, value] : parameters) values += name + " = " + std::to_string(value) + ";\n";
@@ -178,7 +178,7 @@ std::pair<std::size_t, std::size_t> edge_counts(const std::string& geo, const Pa
 }
 
 TEST(GmshParameters, OverrideBothFormsOfDefineConstant) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string geo = folder.write("two plates.geo", kTwoPlates);
   EXPECT_EQ(edge_counts(geo, {}), std::pair(std::size_t{4}, std::size_t{6}));
   EXPECT_EQ(edge_counts(geo, {{"n_upper", 7}}), std::pair(std::size_t{7}, std::size_t{6}));
@@ -187,14 +187,14 @@ TEST(GmshParameters, OverrideBothFormsOfDefineConstant) {
 
 TEST(GmshParameters, DoNotLeakIntoTheNextMesh) {
   // gmsh's -setnumber does: its values outlive gmsh::finalize.
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string geo = folder.write("two.geo", kTwoPlates);
   EXPECT_EQ(edge_counts(geo, {{"n_upper", 7}, {"n_lower", 2}}), std::pair(std::size_t{7}, std::size_t{4}));
   EXPECT_EQ(edge_counts(geo, {}), std::pair(std::size_t{4}, std::size_t{6}));
 }
 
 TEST(GmshParameters, ReachIncludedFilesToTheLastDigit) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   folder.write("part/size.geo", "DefineConstant[ a = 1 ];\n");
   const std::string geo = folder.write("a.geo", R"(
     Include "part/size.geo";
@@ -207,7 +207,7 @@ TEST(GmshParameters, ReachIncludedFilesToTheLastDigit) {
 }
 
 TEST(GmshSession, LeavesTheProcessAsItWas) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string good = folder.write("good.geo", kTwoPlates);
   const std::string bad = folder.write("bad.geo", "Point(1) = {0;");
   omp_set_num_threads(3);
@@ -220,31 +220,31 @@ TEST(GmshSession, LeavesTheProcessAsItWas) {
 }
 
 TEST(GmshMeshFile, AGeoMayMeshItself) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string geo = folder.write("two.geo", std::string(kTwoPlates) + "Mesh 2;\nMesh.ElementOrder = 2;\n");
   EXPECT_EQ(kinds_of(load_mesh(geo, {})), std::vector<CellKind>{CellKind::tri3});
 }
 
 TEST(GmshMeshFile, LastStatementCountsWithoutANewlineToo) {
   // gmsh 4.8 drops it without a word from a .geo that it opens directly.
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string geo = folder.write("two.geo", std::string(kTwoPlates) + "Physical Curve(\"last\") = {13};");
   EXPECT_EQ(boundary_names(load_mesh(geo, {})).back(), "last");
 }
 
 TEST(WriteMsh, CanBeReadBack) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string geo = folder.write("two.geo", kTwoPlates);
   const std::string msh = (folder.path() / "a.msh").string();
   const Parameters parameters{{"quads", 1}, {"order", 2}, {"n_upper", 5}};
   write_msh(geo, parameters, msh);
   EXPECT_EQ(shape(load_mesh(msh, {})), shape(load_mesh(geo, parameters)));
-  EXPECT_EQ(testing_files::text_of(msh).substr(0, 16), "$MeshFormat\n4.1 ");
+  EXPECT_EQ(test::text_of(msh).substr(0, 16), "$MeshFormat\n4.1 ");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);  // nothing half-written
 }
 
 TEST(WriteMsh, SaysWhatCannotBeWritten) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string geo = folder.write("two.geo", kTwoPlates);
   EXPECT_EQ(message_of<InputError>([&] { write_msh(geo, {}, "a.vtk"); }),
             "a.vtk: the name of a mesh to write ends in .msh");

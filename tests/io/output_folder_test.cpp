@@ -11,14 +11,14 @@
 #include "../mesh/grid.hpp"
 #include "base/errors.hpp"
 #include "io/exchange.hpp"
-#include "scratch_file.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mortise {
 namespace {
 
 namespace fs = std::filesystem;
-using testing_files::ScratchFolder;
-using testing_files::text_of;
+using test::TemporaryFolder;
+using test::text_of;
 using Names = std::set<std::string>;
 
 Names names_in(const fs::path& folder) {
@@ -37,7 +37,7 @@ void write_results(const fs::path& target, const std::string& text) {
 }
 
 TEST(OutputFolder, AppearsOnCommit) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const fs::path target = scratch.path() / "out" / "deep" / "run1";
   {
     OutputFolder folder(target);
@@ -50,7 +50,7 @@ TEST(OutputFolder, AppearsOnCommit) {
 }
 
 TEST(OutputFolder, LeavesNoTraceWithoutCommit) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   write_results(scratch.path() / "run1", "old");
   {
     OutputFolder folder(scratch.path() / "run1");
@@ -61,7 +61,7 @@ TEST(OutputFolder, LeavesNoTraceWithoutCommit) {
 }
 
 TEST(OutputFolder, ReplacesOurFilesAndKeepsTheUsers) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const fs::path target = scratch.path() / "run1";
   scratch.write("run1/contact.csv", "old");  // ours, and not written again
   scratch.write("run1/summary.json", "old");
@@ -77,7 +77,7 @@ TEST(OutputFolder, ReplacesOurFilesAndKeepsTheUsers) {
 }
 
 TEST(OutputFolder, KeepsThePermissionsOfTheFolder) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const fs::path target = scratch.path() / "run1";
   fs::create_directory(target);
   fs::permissions(target, fs::perms::owner_all | fs::perms::group_read);
@@ -86,7 +86,7 @@ TEST(OutputFolder, KeepsThePermissionsOfTheFolder) {
 }
 
 TEST(OutputFolder, FollowsALinkToTheFolder) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   fs::create_directory(scratch.path() / "disk");
   fs::create_directory_symlink(scratch.path() / "disk", scratch.path() / "run1");
   write_results(scratch.path() / "run1/", "new");
@@ -95,7 +95,7 @@ TEST(OutputFolder, FollowsALinkToTheFolder) {
 }
 
 TEST(OutputFolder, RefusesAFileAndTheCurrentFolder) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const std::string file = scratch.write("run1", "a file");
   const auto trouble = [](const fs::path& target) {
     return testing_meshes::message_of<InputError>([&] { const OutputFolder folder(target); });
@@ -117,7 +117,7 @@ pid_t dead_process() {
 }
 
 TEST(OutputFolder, TidiesUpAfterTheDeadOnly) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const std::string dead = ".run1." + std::to_string(dead_process()) + ".mortise";
   const std::string alive = ".run1." + std::to_string(getppid()) + ".mortise";
   scratch.write(dead + "/result.vtu", "half-writ");
@@ -131,7 +131,7 @@ TEST(OutputFolder, TidiesUpAfterTheDeadOnly) {
 }
 
 TEST(OutputFolder, BringsBackWhatAKilledExchangeLeft) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const std::string dead = ".run1." + std::to_string(dead_process()) + ".mortise";
   scratch.write(dead + "-old/notes.txt", "mine");  // the target itself, put aside, and no new one in its place
   scratch.write(dead + "/result.vtu", "complete");
@@ -142,7 +142,7 @@ TEST(OutputFolder, BringsBackWhatAKilledExchangeLeft) {
 }
 
 TEST(ExchangeFolders, InOneStepOrInThree) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   scratch.write("a/name", "a");
   scratch.write("b/name", "b");
   const fs::path a = scratch.path() / "a";
@@ -167,7 +167,7 @@ TEST(ExchangeFolders, InOneStepOrInThree) {
 }
 
 TEST(OutputFolder, IsWholeWheneverTheWriterIsKilled) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const fs::path target = scratch.path() / "run1";
   write_results(target, "0 ");
   scratch.write("run1/notes.txt", "mine");

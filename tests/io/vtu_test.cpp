@@ -8,16 +8,16 @@
 #include "../mesh/grid.hpp"
 #include "base/errors.hpp"
 #include "mesh/curve.hpp"
-#include "scratch_file.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mortise {
 namespace {
 
-using testing_files::ScratchFolder;
+using test::TemporaryFolder;
 using testing_meshes::plate;
 
 /// Runs a script that has `mesh`, read by meshio, and numpy as `np`; true if all its assertions hold.
-bool meshio_says(const ScratchFolder& folder, const std::string& file, const std::string& assertions) {
+bool meshio_says(const TemporaryFolder& folder, const std::string& file, const std::string& assertions) {
   const std::string script =
       folder.write("check.py", "import sys, meshio, numpy as np\nmesh = meshio.read('" + file +
                                    "')\nkinds = {b.type: len(b.data) for b in mesh.cells}\n" + assertions);
@@ -32,7 +32,7 @@ class Vtu : public testing::Test {
                  "python3-meshio ***\n\n";
     GTEST_SKIP() << "meshio is missing";
   }
-  const ScratchFolder folder_;
+  const TemporaryFolder folder_;
   const std::string file_ = (folder_.path() / "a.vtu").string();
 };
 
@@ -132,7 +132,7 @@ TEST(VtuFile, SaysWhatCannotBeWritten) {
 }
 
 TEST(VtuFile, WithoutCellsIsWrittenAllTheSame) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   EXPECT_NO_THROW(write_vtu(folder.path() / "a.vtu", VtuGrid{}));
 }
 

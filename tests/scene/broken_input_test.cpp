@@ -12,7 +12,7 @@ namespace mortise {
 namespace {
 
 using test::Row;
-using test::TempFolder;
+using test::TemporaryFolder;
 
 std::string one_line(std::string text) {
   const std::size_t at = text.find('\n');
@@ -52,7 +52,7 @@ class BrokenInput : public testing::TestWithParam<Row> {
     return message_of(folder_.write("scene.toml", text), {});
   }
 
-  TempFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_P(BrokenInput, IsRefusedInOneLineThatSaysWhereAndWhy) {
@@ -67,31 +67,31 @@ INSTANTIATE_TEST_SUITE_P(Scene, BrokenInput, testing::ValuesIn(test::all_rows())
                          [](const auto& row) { return row.param.name; });
 
 TEST(BrokenSceneFile, NotThere) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("parabola_1.toml", "");
   const std::string text = message_of(folder.path("parabola1.toml"), {});
   EXPECT_EQ(text, folder.path("parabola1.toml") + ": no such file; did you mean 'parabola_1.toml'?");
 }
 
 TEST(BrokenSceneFile, IsAFolder) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   EXPECT_EQ(message_of(folder.path(""), {}), folder.path("") + ": is a folder; expected a file");
 }
 
 TEST(BrokenSceneFile, IsAMesh) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.write("plates.geo", "Point(1) = {0, 0, 0};");
   EXPECT_EQ(message_of(path, {}).find(path + ": this is a geometry or a mesh; expected a scene file"), 0u);
 }
 
 TEST(BrokenSceneFile, IsEmpty) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.write("scene.toml", "");
   EXPECT_EQ(message_of(path, {}).find(path + ": 'mesh' is missing; expected a table [mesh]"), 0u);
 }
 
 TEST(BrokenSceneFile, IsBinary) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.write("scene.toml", std::string("\x7f"
                                                                   "ELF\0\0\xff\xfe",
                                                                   8));
@@ -99,14 +99,14 @@ TEST(BrokenSceneFile, IsBinary) {
 }
 
 TEST(BrokenSceneFile, HasParametersThatAnOverrideMakesUseless) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string msh = folder.write("plates.msh", "");
   const std::string path = folder.write("scene.toml", test::every_key);
   EXPECT_EQ(message_of(path, {{"mesh.file", msh}}).find(path + ": --set mesh.file=" + msh + ": mesh.parameters"), 0u);
 }
 
 TEST(BrokenSceneFile, HasNoMaterialsOrBodies) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("block.msh", "");
   const std::string mesh = "mesh.file = 'block.msh'\n";
   EXPECT_NE(message_of(folder.write("a.toml", mesh), {}).find("'materials' is missing"), std::string::npos);
@@ -115,7 +115,7 @@ TEST(BrokenSceneFile, HasNoMaterialsOrBodies) {
 }
 
 TEST(BrokenSceneFile, HasNoEntriesForAnOverride) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("block.msh", "");
   const std::string path = folder.write("scene.toml", test::shortest_scene);
   EXPECT_EQ(message_of(path, {{"boundary.0.pressure", "1"}}),

@@ -7,10 +7,10 @@
 namespace mortise {
 namespace {
 
-using test::TempFolder;
+using test::TemporaryFolder;
 
 Scene read_with(const std::vector<std::string>& settings, const std::string& text = test::every_key) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("plates.geo", "");
   folder.write("block.msh", "");
   std::vector<Override> overrides;
@@ -51,7 +51,7 @@ TEST(Overrides, NumbersWordsListsAndTables) {
 }
 
 TEST(Overrides, CreateWhatIsMissing) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const Scene scene = read_with({"model.plane=stress", "method.kind=ddm", "mesh.file=" + folder.write("new.geo", ""),
                                  "mesh.parameters.new=3", "materials.brass.young=1e11", "materials.brass.poisson=0.35",
                                  "bodies.other=brass", "contact=[{between=['a', 'b']}]", "contact.condition=bilateral"},
@@ -86,7 +86,7 @@ TEST(Overrides, ALineBreakCannotSetASecondKey) {
 }
 
 TEST(Overrides, MeshFileIsRelativeToTheWorkingDirectory) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string mesh = std::filesystem::relative(folder.write("other.geo", "")).string();
   EXPECT_EQ(read_with({"mesh.file=" + mesh}).mesh_file, mesh);
 }

@@ -8,7 +8,7 @@
 namespace mortise {
 namespace {
 
-using test::TempFolder;
+using test::TemporaryFolder;
 
 class EveryKey : public testing::Test {
  protected:
@@ -16,7 +16,7 @@ class EveryKey : public testing::Test {
     folder_.write("plates.geo", "");
     scene_ = read_scene(folder_.write("scene.toml", test::every_key));
   }
-  TempFolder folder_;
+  TemporaryFolder folder_;
   Scene scene_;
 };
 
@@ -87,7 +87,7 @@ TEST_F(EveryKey, ContactsAndMethod) {
 }
 
 TEST(ReadScene, WhatTheFileLeavesOutTakesItsDefault) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("block.msh", "");
   const Scene scene = read_scene(folder.write("scene.toml", test::shortest_scene));
   EXPECT_EQ(scene.title, "");
@@ -101,7 +101,7 @@ TEST(ReadScene, WhatTheFileLeavesOutTakesItsDefault) {
 }
 
 TEST(ReadScene, DifferentThingsOnOneCurveAreFine) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("block.msh", "");
   const std::string text = test::shortest_scene + R"(
 [[boundary]]
@@ -118,7 +118,7 @@ displacement = { y = 0 }
 }
 
 TEST(ReadScene, TomlMayBeWrittenInAnyOfItsForms) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("block.msh", "");
   const std::string text =
       "mesh.file = 'block.msh'\r\nmaterials = { steel = { young = 2_000, poisson = 0 } }\r\n"

@@ -1,39 +1,11 @@
-// Scene files for the tests: a folder of their own and a scene that uses every key.
+// Scene files for the tests.
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 #include <string>
 
+#include "support/temporary_folder.hpp"
+
 namespace mortise::test {
-
-/// A new folder under testing::TempDir() that goes when the object goes. Tests may run in parallel processes.
-class TempFolder {
- public:
-  TempFolder() {
-    static int count = 0;
-    path_ = std::filesystem::path{testing::TempDir()} /
-            ("mortise_scene_" + std::to_string(getpid()) + "_" + std::to_string(count++));
-    std::filesystem::create_directories(path_);
-  }
-  ~TempFolder() { std::filesystem::remove_all(path_); }
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-
-  std::string path(const std::string& name) const { return (path_ / name).string(); }
-
-  /// Writes a file and returns its path.
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline const std::string every_key = R"(title = "Every key"
 

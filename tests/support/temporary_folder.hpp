@@ -9,24 +9,25 @@
 #include <sstream>
 #include <string>
 
-namespace mortise::testing_files {
+namespace mortise::test {
 
 /// A fresh folder, removed with this object.
-class ScratchFolder {
+class TemporaryFolder {
  public:
-  ScratchFolder() {
+  TemporaryFolder() {
     std::string name = (std::filesystem::path(testing::TempDir()) / "mortise_XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch folder " + name);
     path_ = name;
   }
-  ~ScratchFolder() {
+  ~TemporaryFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
   }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   std::filesystem::path path() const { return path_; }
+  std::string path(const std::string& name) const { return (path_ / name).string(); }
 
   /// Writes a file and returns its path.
   std::string write(const std::string& name, const std::string& text) const {
@@ -47,4 +48,4 @@ inline std::string text_of(const std::filesystem::path& file) {
   return text.str();
 }
 
-}  // namespace mortise::testing_files
+}  // namespace mortise::test

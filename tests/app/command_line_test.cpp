@@ -1,0 +1,211 @@
+// The command line from outside: exit statuses, messages, files.
+#include "app/command_line.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int status;
+  std::string out, err;
+};
+
+Outcome mortise(std::vector<std::string> arguments) {
+  std::vector<const char*> argv{"mortise"};
+  for (const std::string& a : arguments) argv.push_back(a.c_str());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int status = run_command_line(int(argv.size()), argv.data());
+  return {status, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
+}
+
+std::string geo(const std::string& name) { return std::string(MORTISE_SOURCE_DIR) + "/geo/" + name; }
+
+nlohmann::json summary(const std::string& folder) {
+  return nlohmann::json::parse(std::ifstream(folder + "/summary.json"));
+}
+
+TEST(CommandLine, SolveWritesTheFilesAndSaysSo) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path("run");
+  const Outcome o = mortise({"solve", geo("patch_flat.toml"), "-o", out});
+  EXPECT_EQ(o.status, 0) << o.err;
+  for (const char* name : {"result.vtu", "contact.vtu", "contact.csv", "contact_centres.csv", "summary.json"})
+    EXPECT_TRUE(fs::exists(fs::path(out) / name)) << name;
+  EXPECT_NE(o.out.find("solved"), std::string::npos);
+  EXPECT_LE(std::count(o.out.begin(), o.out.end(), '\n'), 24) << "one screen";
+}
+
+TEST(CommandLine, SummaryHasTheKeysOtherProgramsRead) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mortise({"solve", geo("stack.toml"), "-o", folder.path("run")}).status, 0);
+  const nlohmann::json s = summary(folder.path("run"));
+  for (const char* key : {"title", "scene", "version", "status", "energy"}) EXPECT_TRUE(s.contains(key)) << key;
+  for (const char* key :
+       {"kind", "integration", "multipliers", "multipliers_on", "solver", "condition", "initial_gap"})
+    EXPECT_TRUE(s["method"].contains(key)) << key;
+  for (const char* key : {"nodes", "elements", "dofs", "multipliers"}) EXPECT_GT(s["mesh"][key].get<int>(), 0) << key;
+  for (const char* key : {"mesh", "assemble", "couple", "factorise", "solve", "recover", "write", "total"})
+    EXPECT_GE(s["seconds"][key].get<double>(), 0) << key;
+  for (const char* key : {"contact", "linear", "interface"}) EXPECT_TRUE(s["iterations"].contains(key)) << key;
+  ASSERT_EQ(s["contact"].size(), 2u);
+  EXPECT_NEAR(s["contact"][0]["pressure"]["mean"].get<double>(), 10e6, 1);
+  EXPECT_NEAR(std::abs(s["contact"][0]["force"][1].get<double>()), 8e6, 1);  // 10 MPa on 0.8 m
+  EXPECT_NEAR(s["contact"][1]["length_in_contact"].get<double>(), 0.8, 1e-12);
+  for (const auto& check : s["checks"]) EXPECT_TRUE(check["ok"].get<bool>()) << check["name"];
+}
+
+TEST(CommandLine, ContactCsvHasOneRowANodeOrderedByArcLength) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mortise({"solve", geo("patch_flat.toml"), "-o", folder.path("run")}).status, 0);
+  std::ifstream file(folder.path("run/contact.csv"));
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, "pair,curve,s,x,y,u_n,p,gap,sigma_n,sigma_2");
+  std::map<std::string, std::vector<double>> s;
+  while (std::getline(file, line)) {
+    std::stringstream fields(line);
+    std::string pair, curve, value;
+    std::getline(fields, pair, ',');
+    std::getline(fields, curve, ',');
+    std::getline(fields, value, ',');
+    s[curve].push_back(std::stod(value));
+  }
+  EXPECT_EQ(s["upper_contact"].size(), 15u);  // 7 quadratic edges
+  EXPECT_EQ(s["lower_contact"].size(), 23u);
+  for (const auto& [curve, list] : s) {
+    EXPECT_TRUE(std::is_sorted(list.begin(), list.end())) << curve;
+    EXPECT_NEAR(list.front(), 0, 1e-12);
+    EXPECT_NEAR(list.back(), 0.8, 1e-12);
+  }
+}
+
+TEST(CommandLine, UnilateralContactThatPullsIsNotConverged) {
+  const TemporaryFolder folder;
+  const Outcome o = mortise({"solve", geo("cosine.toml"), "--set", "contact.condition=unilateral", "--set",
+                             "mesh.parameters.n_upper=40", "--set", "mesh.parameters.n_lower=50", "-o",
+                             folder.path("run")});
+  EXPECT_EQ(o.status, 2);
+  EXPECT_EQ(summary(folder.path("run"))["status"], "not_converged");  // written, and marked so
+}
+
+TEST(CommandLine, CheckSaysWhatTheSceneModelsAndWritesNothing) {
+  const TemporaryFolder folder;
+  const auto before = fs::current_path();
+  fs::current_path(folder.path(""));
+  const Outcome o = mortise({"check", geo("rings.toml")});
+  fs::current_path(before);
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.out.find("frictionless"), std::string::npos);
+  EXPECT_TRUE(fs::is_empty(folder.path("")));
+}
+
+TEST(CommandLine, MeshWritesAMeshThatSolves) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mortise({"mesh", geo("patch_inclined.toml"), "-o", folder.path("m.msh")}).status, 0);
+  const Outcome o = mortise({"solve", geo("patch_inclined.toml"), "--set", "mesh={file=\"" + folder.path("m.msh") + "\"}",
+                             "-o", folder.path("run")});
+  EXPECT_EQ(o.status, 0) << o.err;
+}
+
+TEST(CommandLine, SweepWritesOneRowARun) {
+  const TemporaryFolder folder;
+  const Outcome o = mortise({"sweep", geo("patch_flat.toml"), "--vary", "mesh.parameters.n_upper=3,4,5", "--vary",
+                             "contact.multipliers_on=upper_contact,lower_contact", "-o", folder.path("s.csv")});
+  EXPECT_EQ(o.status, 0) << o.err;
+  std::ifstream file(folder.path("s.csv"));
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line.find("mesh.parameters.n_upper,contact.multipliers_on,status,"), 0u) << line;
+  int rows = 0;
+  while (std::getline(file, line)) {
+    ++rows;
+    EXPECT_NE(line.find(",solved,"), std::string::npos) << line;
+  }
+  EXPECT_EQ(rows, 6);
+}
+
+TEST(CommandLine, HelpAndVersionSucceed) {
+  EXPECT_EQ(mortise({"--help"}).status, 0);
+  EXPECT_EQ(mortise({"solve", "--help"}).status, 0);
+  const Outcome o = mortise({"--version"});
+  EXPECT_EQ(o.status, 0);
+  EXPECT_TRUE(std::regex_search(o.out, std::regex("mortise [0-9]+\\.[0-9]+\\.[0-9]+"))) << o.out;
+}
+
+// ---- Bad input: one line, exit status 1, the output folder untouched ----
+
+struct BadInput {
+  const char* name;
+  std::vector<std::string> arguments;     // after "solve SCENE -o FOLDER", unless `command` is set
+  std::vector<std::string> expected;      // parts of the message
+  const char* scene = "patch_flat.toml";
+};
+
+const BadInput bad_input[] = {
+    {"NoBodyOfThatName", {"--set", "bodies={uper=\"steel\", lower=\"steel\"}"}, {"uper", "upper", "body"}},
+    {"BodyWithoutMaterial", {"--set", "bodies={upper=\"steel\"}"}, {"lower", "material"}},
+    {"NoBoundaryOfThatName", {"--set", "boundary.0.on=[\"left\"]"}, {"left", "boundary.0"}},
+    {"NoContactCurveOfThatName",
+     {"--set", "contact.0.between=[\"upper_contakt\",\"lower_contact\"]"},
+     {"upper_contakt", "upper_contact"}},
+    {"NothingHoldsTheLowerBody", {"--set", "boundary.1.displacement={x=0}"}, {"nothing holds", "translation"}},
+    {"NothingHoldsAnything",
+     {"--set", "boundary=[{on=[\"top\"], pressure=1e6}]"},
+     {"nothing holds"}},
+    {"BoundariesDisagree", {"--set", "boundary.1.displacement={x=0.1,y=0}"}, {"one value a node", "(0, 0)"}},
+    {"ContactCurveInTwoPieces",
+     {"--set", "contact.0.between=[\"upper_contact\",\"lower_left\"]"},
+     {"lower_left"}},
+    {"DdmIsNotThere", {"--set", "method.kind=ddm"}, {"ddm", "mortar"}},
+    {"UnknownParameterOfTheGeo", {"--set", "mesh.parameters.n_uper=4"}, {"n_uper", "n_upper"}},
+    {"ElementsOfThirdOrder", {"--set", "mesh.parameters.order=3"}, {"patch_flat.geo", "16"}},
+    {"NoSuchMesh", {"--set", "mesh.file=/no/such.geo"}, {"/no/such.geo"}},
+    {"OverrideWithoutValue", {"--set", "method.kind"}, {"method.kind"}},
+    {"UnknownOption", {"--fast"}, {"--fast"}},
+    {"ThreadsNotANumber", {"--threads", "many"}, {"many"}},
+    {"ThreadsZero", {"--threads", "0"}, {"threads"}},
+    {"CurvesThatDoNotFace",
+     {"--set", "contact.0.between=[\"top\",\"bottom\"]", "--set", "contact.0.initial_gap=measured"},
+     {"face"}},
+};
+
+class BadInputs : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadInputs, OneLineExitOneFolderUntouched) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments{"solve", geo(GetParam().scene), "-o", folder.path("run")};
+  arguments.insert(arguments.end(), GetParam().arguments.begin(), GetParam().arguments.end());
+  const Outcome o = mortise(arguments);
+  EXPECT_EQ(o.status, 1) << o.err;
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+  EXPECT_EQ(o.err.find("mortise: error: "), 0u) << o.err;
+  for (const std::string& part : GetParam().expected) EXPECT_NE(o.err.find(part), std::string::npos) << o.err;
+  EXPECT_FALSE(fs::exists(folder.path("run")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, BadInputs, testing::ValuesIn(bad_input),
+                         [](const auto& row) { return std::string(row.param.name); });
+
+TEST(BadCommands, MissingOrUnknown) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{}, {"solv"}, {"solve"}, {"solve", "a.toml", "b.toml"}, {"sweep", "x.toml"},
+                                             {"solve", "/no/such.toml"}}) {
+    const Outcome o = mortise(arguments);
+    EXPECT_EQ(o.status, 1);
+    EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+  }
+}
+
+}  // namespace
+}  // namespace mortise::test

@@ -1,0 +1,147 @@
+// Which room may enter which (docs/architecture.md), held against the sources themselves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace mortise {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+const fs::path project = MORTISE_SOURCE_DIR;
+
+// The rooms of src/, and whose headers each may include beside its own.
+const std::map<std::string, Names> may_enter{
+    {"base", {}},
+    {"mesh", {"base"}},
+    {"fem", {"base", "mesh"}},
+    {"contact", {"base", "mesh", "fem"}},
+    {"solve", {"base"}},
+    {"ddm", {"base", "mesh", "fem", "contact", "solve"}},
+    {"scene", {"base"}},
+    {"io", {"base", "mesh", "fem"}},
+    {"app", {"base", "mesh", "fem", "contact", "solve", "ddm", "scene", "io"}},
+};
+
+// Headers of others, and the one room that may use them; `sources_only`: not in its headers, so that nobody who
+// includes ours needs theirs.
+struct Foreign {
+  std::string what, header, room;
+  bool sources_only;
+};
+const std::vector<Foreign> foreigners{
+    {"gmsh", R"(gmsh\..*)", "io", true},
+    {"VTK", R"(vtk\w+\.h)", "io", true},
+    {"CHOLMOD", R"((.*/)?cholmod.*)", "solve", true},
+    {"AMD", R"((.*/)?amd\.h)", "solve", true},
+    {"nlohmann-json", R"(nlohmann/.*)", "app", false},
+    {"CLI11", R"(CLI/.*)", "app", false},
+    {"toml++", R"(toml\+\+.*)", "scene", true},
+};
+
+const Names top_level{
+    "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "dev",   "src", "geo",
+    "freefem",        "verification",      "tests",     "docs",    "build", "out"};  // the last two are made by the
+                                                                                     // presets and by runs; git ignores
+                                                                                     // them
+
+// What is wrong with one include of `file` (a path below src/); empty if nothing.
+std::string trouble(const fs::path& file, const std::string& header, bool quoted) {
+  const std::string room = file.begin()->string();
+  if (!may_enter.count(room)) return "'" + room + "' is no room of src/";
+  const std::string other = fs::path(header).begin()->string();
+  if (may_enter.count(other)) {
+    if (other == room || may_enter.at(room).count(other)) return "";
+    return "the room '" + room + "' may not include \"" + header + "\"";
+  }
+  if (quoted) return "\"" + header + "\" names no room; expected \"" + room + "/...\", or <...> for headers of others";
+  for (const Foreign& f : foreigners) {
+    if (!std::regex_match(header, std::regex(f.header))) continue;
+    if (room != f.room || (f.sources_only && file.extension() != ".cpp"))
+      return "<" + header + ">: " + f.what + " is for src/" + f.room + "/" + (f.sources_only ? "*.cpp" : "") + " only";
+  }
+  return "";
+}
+
+// One "src/FILE:LINE: what" for every include that breaks a rule.
+std::vector<std::string> violations(const fs::path& file, std::istream& text) {
+  static const std::regex include(R"(\s*#\s*include\s*([<"])([^>"]+)[>"].*)");
+  std::vector<std::string> found;
+  std::string line;
+  for (int number = 1; std::getline(text, line); ++number) {
+    std::smatch match;
+    if (!std::regex_match(line, match, include)) continue;
+    const std::string what = trouble(file, match[2], match[1] == "\"");
+    if (!what.empty()) found.push_back("src/" + file.generic_string() + ":" + std::to_string(number) + ": " + what);
+  }
+  return found;
+}
+
+std::vector<std::string> violations_of(const std::string& file, const std::string& text) {
+  std::istringstream stream(text);
+  return violations(file, stream);
+}
+
+TEST(IncludeRules, HoldInAllOfSrc) {
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(project / "src")) {
+    const fs::path extension = entry.path().extension();
+    if (!entry.is_regular_file() || (extension != ".hpp" && extension != ".cpp")) continue;
+    ++files;
+    std::ifstream text(entry.path());
+    ASSERT_TRUE(text) << entry.path();
+    for (const std::string& what : violations(entry.path().lexically_relative(project / "src"), text))
+      ADD_FAILURE() << what;
+  }
+  EXPECT_GT(files, 50) << "not the source tree? " << project;
+}
+
+TEST(IncludeRules, NameFileAndLineOfAForbiddenInclude) {
+  EXPECT_EQ(
+      violations_of("mesh/mesh.cpp", "#include <vector>\n\n#include \"solve/saddle_point.hpp\"\n"),
+      std::vector<std::string>{"src/mesh/mesh.cpp:3: the room 'mesh' may not include \"solve/saddle_point.hpp\""});
+  for (const auto& [file, text] : std::vector<std::pair<std::string, std::string>>{
+           {"solve/a.cpp", "#include \"mesh/mesh.hpp\""},
+           {"io/a.hpp", "#  include <gmsh.h>  // for the model"},
+           {"io/a.hpp", "#include <vtkPoints.h>"},
+           {"fem/a.cpp", "#include <vtkPoints.h>"},
+           {"solve/a.hpp", "#include <suitesparse/cholmod.h>"},
+           {"ddm/a.cpp", "#include <amd.h>"},
+           {"scene/a.cpp", "#include <nlohmann/json.hpp>"},
+           {"app/a.cpp", "#include <toml++/toml.h>"},
+           {"scene/a.hpp", "#include <toml++/toml.h>"},
+           {"scene/a.cpp", "#include <app/solve_scene.hpp>"},
+           {"fem/a.cpp", "#include \"assembly.hpp\""},
+           {"attic/a.cpp", "#include <vector>"},
+       })
+    EXPECT_EQ(violations_of(file, text).size(), 1u) << file << ": " << text;
+}
+
+TEST(IncludeRules, AllowWhatTheTableAllows) {
+  for (const auto& [file, text] : std::vector<std::pair<std::string, std::string>>{
+           {"app/a.cpp", "#include \"ddm/a.hpp\"\n#include <nlohmann/json.hpp>\n#include <CLI/CLI.hpp>"},
+           {"io/a.cpp", "#include <gmsh.h>\n#include <vtkPoints.h>\n#include \"fem/elements.hpp\""},
+           {"solve/a.cpp", "#include <amd.h>\n#include <cholmod.h>\n#include <Eigen/LU>"},
+           {"scene/a.cpp", "#include <toml++/toml.h>\n// #include \"app/a.hpp\""},
+       })
+    EXPECT_EQ(violations_of(file, text), std::vector<std::string>{}) << file << ": " << text;
+}
+
+TEST(TopLevel, HoldsTheListedEntriesOnly) {
+  for (const auto& entry : fs::directory_iterator(project)) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_TRUE(name.front() == '.' || top_level.count(name)) << entry.path().string() << ": not a place for this";
+  }
+}
+
+}  // namespace
+}  // namespace mortise

@@ -1,0 +1,51 @@
+# Installs a build tree into a prefix of its own, builds the example against it, runs it and looks at what it prints.
+# cmake -D BUILD=<build tree> -D SOURCE=<source tree> -D WORK=<scratch folder> -D CONFIG= -D COMPILER= -D FLAGS=
+#       -D GENERATOR= -P install_example.cmake
+file(REMOVE_RECURSE ${WORK})
+set(prefix ${WORK}/prefix)
+
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    string(JOIN " " command ${ARGV})
+    message(FATAL_ERROR "${command}\nended with ${status}:\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+file(GLOB_RECURSE config ${prefix}/*/mortiseConfig.cmake)
+file(GLOB_RECURSE license ${prefix}/LICENSE)
+foreach(file "${config}" "${license}" ${prefix}/bin/mortise ${prefix}/include/mortise/app/solve_scene.hpp)
+  if(NOT EXISTS "${file}")
+    message(FATAL_ERROR "not installed: '${file}' (configuration, licence, executable or headers)")
+  endif()
+endforeach()
+run(${prefix}/bin/mortise --version)
+
+# The prefix moves before it is used: nothing in it may remember where it was, or where mortise was built.
+file(RENAME ${prefix} ${WORK}/moved)
+file(GLOB_RECURSE package ${WORK}/moved/*/mortise*.cmake)
+foreach(file ${package})
+  file(READ ${file} text)
+  foreach(place ${SOURCE} ${BUILD} ${prefix} "/lib[a-z_]*(gmsh|cholmod|amd|openblas)[.]so")
+    if(text MATCHES "${place}")
+      message(FATAL_ERROR "${file} names ${CMAKE_MATCH_0}, a place of the machine that built it")
+    endif()
+  endforeach()
+endforeach()
+
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/example -G ${GENERATOR}
+    -D CMAKE_PREFIX_PATH=${WORK}/moved -D CMAKE_BUILD_TYPE=${CONFIG} -D CMAKE_CXX_COMPILER=${COMPILER}
+    "-DCMAKE_CXX_FLAGS=${FLAGS}")
+run(${CMAKE_COMMAND} --build ${WORK}/example)
+run(${WORK}/example/example ${SOURCE}/geo/parabola_1.toml mesh.parameters.n_upper=40 mesh.parameters.n_lower=50)
+
+# 10 MPa on the top of two plates held sideways: the mean contact pressure is near that on any mesh.
+if(NOT output MATCHES "mean ([0-9.e+]+)")
+  message(FATAL_ERROR "no mean pressure in the example's output:\n${output}")
+endif()
+if(CMAKE_MATCH_1 LESS 0.9e7 OR CMAKE_MATCH_1 GREATER 1.1e7)
+  message(FATAL_ERROR "mean pressure ${CMAKE_MATCH_1}; expected 1e7 within 10 %:\n${output}")
+endif()
+message(STATUS "mean pressure ${CMAKE_MATCH_1}")

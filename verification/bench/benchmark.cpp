@@ -1,0 +1,211 @@
+// Speed and memory of the mortar solve: its stages, and the whole against its limit, one Cholesky solve of the same
+// stiffness by CHOLMOD. `mortise_benchmark --help` for the options.
+#include <benchmark/benchmark.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <list>
+#include <thread>
+
+#include "app/solve_scene.hpp"
+#include "base/stopwatch.hpp"
+#include "io/gmsh_mesh.hpp"
+#include "limit.hpp"
+#include "peak_memory.hpp"
+
+namespace mortise::bench {
+namespace {
+
+struct Options {
+  int up_to = 320;
+  bool stages = true, table = true;
+  int threads = 0, repeats = 5;
+  std::vector<std::string> others;  // for Google Benchmark
+};
+
+Options read_options(int argc, char** argv) {
+  Options options;
+  CLI::App app("Speed and memory of the mortar solve on parabola 1: stages, and the whole against CHOLMOD alone.");
+  app.add_option("--up-to", options.up_to, "largest mesh: elements along the upper contact curve (default 320)");
+  app.add_flag_callback(
+      "--full", [&] { options.up_to = 640; }, "640x800 too");
+  app.add_flag("!--no-stages", options.stages, "leave the stages out");
+  app.add_flag("!--no-table", options.table, "leave the table out");
+  app.add_option("--threads", options.threads, "threads of the factorisation (default: all cores)");
+  app.add_option("--repeats", options.repeats, "runs of each that the table takes medians of (default 5)")
+      ->check(CLI::Range(3, 1000));
+  app.allow_extras();
+  app.footer(
+      "All other options go to Google Benchmark: --benchmark_filter=320x400/recover, --benchmark_format=json, ...");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::exit(app.exit(error));
+  }
+  options.others = app.remaining();
+  return options;
+}
+
+// One size of parabola 1, meshed.
+struct Case {
+  std::string name;
+  Scene scene;
+  Mesh mesh;
+  double limit_megabytes = 0, whole_megabytes = 0;
+};
+
+Case make_case(int n_upper) {
+  const std::string upper = std::to_string(n_upper), lower = std::to_string(n_upper * 5 / 4);
+  Scene scene = read_scene(MORTISE_SOURCE_DIR "/geo/parabola_1.toml",
+                           {{"mesh.parameters.n_upper", upper}, {"mesh.parameters.n_lower", lower}});
+  Mesh mesh = load_mesh(scene.mesh_file, scene.mesh_parameters);
+  return {upper + "x" + lower, std::move(scene), std::move(mesh)};
+}
+
+void measure_memory(Case& c) {
+  GroundedSystem system;
+  c.limit_megabytes = peak_megabytes([&] { system = grounded_system(c.mesh, discretise(c.scene, c.mesh)); },
+                                     [&] { cholmod_solution(system); });
+  c.whole_megabytes = peak_megabytes([] {}, [&] { solve_scene(c.scene, std::move(c.mesh)); });
+}
+
+// Where solve_scene stands before it factorises and when it has solved, for the stages that begin there.
+struct Midway {
+  Results results;
+  StackedCoupling coupling;
+  VecX g;
+  std::vector<int> grounded;
+};
+
+Midway midway(const Case& c) {
+  Midway m{solve_scene(c.scene, c.mesh), {}, {}, {}};
+  const Constraints& constraints = m.results.discretisation.constraints;
+  m.coupling = stack(m.results.pairs, constraints.value.size());
+  m.g = -m.coupling.gap0;
+  m.grounded = grounding_unknowns(c.mesh, constraints,
+                                  free_motions(c.mesh, constraints, SparseMatrix(0, constraints.value.size())));
+  return m;
+}
+
+// The stage as a benchmark; what it needs is made before the clock runs.
+template <typename Work>
+void add_stage(const Case& c, const std::string& stage, const Work& work) {
+  const auto run = [&c, work](benchmark::State& state) {
+    const Midway m = midway(c);
+    for (auto _ : state) benchmark::DoNotOptimize(work(m));
+  };
+  benchmark::RegisterBenchmark((c.name + "/" + stage).c_str(), run)->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
+void add_stages(const Case& c) {
+  add_stage(c, "assemble_stiffness",
+            [&c](const Midway& m) { return assemble_stiffness(c.mesh, m.results.discretisation.laws); });
+  add_stage(c, "segments_and_coupling", [&c](const Midway& m) {
+    return stack(couple_pairs(c.scene, c.mesh, m.results.discretisation.constraints), m.g.size());
+  });
+  add_stage(c, "factorise_and_solve", [](const Midway& m) {
+    const Discretisation& d = m.results.discretisation;
+    return solve_saddle_point({d.stiffness, d.load, m.coupling.B, m.g, d.constraints.fixed, d.constraints.value,
+                               d.laws.front().young, m.coupling.scale, m.grounded});
+  });
+  add_stage(c, "recover_stress", [&c](const Midway& m) {
+    return recover_stress(c.mesh, m.results.points, m.results.discretisation.laws, m.results.u);
+  });
+  add_stage(c, "solve_scene", [&c](const Midway&) { return solve_scene(c.scene, c.mesh); });
+}
+
+void run_stages(const std::list<Case>& cases, const Options& options) {
+  for (const Case& c : cases) add_stages(c);
+  std::string name = "mortise_benchmark";
+  std::vector<std::string> others = options.others;
+  std::vector<char*> arguments{name.data()};
+  for (std::string& other : others) arguments.push_back(other.data());
+  int count = int(arguments.size());
+  arguments.push_back(nullptr);
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) std::exit(1);
+  benchmark::RunSpecifiedBenchmarks();
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return (values[(n - 1) / 2] + values[n / 2]) / 2;
+}
+
+// Seconds of the runs of one piece of work.
+struct Runs {
+  std::vector<double> seconds;
+
+  template <typename Work>
+  void time(const Work& work) {
+    Stopwatch watch;
+    work();
+    seconds.push_back(watch.lap());
+  }
+};
+
+void print_row(const Case& c, int repeats) {
+  GroundedSystem system = grounded_system(c.mesh, discretise(c.scene, c.mesh));
+  Runs limit, whole;
+  std::vector<Seconds> stages;
+  for (int i = 0; i < repeats; ++i) {
+    limit.time([&] { cholmod_solution(system); });
+    Mesh mesh = c.mesh;
+    whole.time([&] { stages.push_back(solve_scene(c.scene, std::move(mesh)).seconds); });
+  }
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < limit.seconds.size(); ++i) ratios.push_back(whole.seconds[i] / limit.seconds[i]);
+  const auto stage = [&](double Seconds::*which) {
+    std::vector<double> seconds;
+    for (const Seconds& s : stages) seconds.push_back(s.*which);
+    return median(seconds);
+  };
+  std::printf("%-9s %9d %9.4f %9.4f %6.2f %6.2f..%-6.2f %8.0f %8.0f %6.2f  %8.4f %8.4f %8.4f %8.4f %8.4f\n",
+              c.name.c_str(), int(system.f.size()), median(limit.seconds), median(whole.seconds),
+              median(whole.seconds) / median(limit.seconds), *std::min_element(ratios.begin(), ratios.end()),
+              *std::max_element(ratios.begin(), ratios.end()), c.limit_megabytes, c.whole_megabytes,
+              c.whole_megabytes / c.limit_megabytes, stage(&Seconds::assemble), stage(&Seconds::couple),
+              stage(&Seconds::factorise), stage(&Seconds::solve), stage(&Seconds::recover));
+  std::fflush(stdout);
+}
+
+void print_table(const std::list<Case>& cases, const Options& options, double empty_megabytes) {
+  std::printf(
+      "\nlimit: CHOLMOD analyse (AMD) + factorise (supernodal) + solve of the grounded stiffness.\n"
+      "whole: solve_scene from the mesh to recovered stresses. Medians of %d runs, in turns; range: of the\n"
+      "single pairs' ratios; threads: %d. MB: peak of a process that does nothing else, mesh and libraries\n"
+      "(%.0f MB) included.\n\n",
+      options.repeats, options.threads > 0 ? options.threads : int(std::thread::hardware_concurrency()),
+      empty_megabytes);
+  std::printf("%-9s %9s %9s %9s %6s %14s %8s %8s %6s  %8s %8s %8s %8s %8s\n", "mesh", "unknowns", "limit s", "whole s",
+              "ratio", "range", "limit MB", "whole MB", "ratio", "assemble", "couple", "factor", "solve", "recover");
+  for (const Case& c : cases) print_row(c, options.repeats);
+}
+
+void run(const Options& options) {
+  set_solver_threads(options.threads);
+  const double empty_megabytes = peak_megabytes([] {}, [] {});
+  std::list<Case> cases;
+  for (const int n_upper : {40, 80, 160, 320, 640})
+    if (n_upper <= options.up_to) cases.push_back(make_case(n_upper));
+  // Children start with what this process holds: before anything is solved here.
+  if (options.table)
+    for (Case& c : cases) measure_memory(c);
+  if (options.stages) run_stages(cases, options);
+  if (options.table) print_table(cases, options, empty_megabytes);
+}
+
+}  // namespace
+}  // namespace mortise::bench
+
+int main(int argc, char** argv) {
+  try {
+    mortise::bench::run(mortise::bench::read_options(argc, argv));
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "mortise_benchmark: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,266 @@
+#!/usr/bin/python3
+"""One picture of a run: the deformed bodies with von Mises stress, and the pressure along each contact line.
+
+Usage: picture.py RESULTS [PICTURE] [--scale FACTOR] [--dpi DPI]
+
+RESULTS is the folder that `mortise solve` wrote; read are result.vtu, contact.vtu, contact.csv and summary.json
+(docs/files.md). PICTURE is a .png, .pdf or .svg, by default RESULTS.png beside the folder. --scale magnifies the
+displacements; by default the largest is drawn as about 4 % of the size of the bodies.
+"""
+
+import argparse
+import csv
+import json
+import math
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import meshio
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.ticker import ScalarFormatter
+
+CORNERS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
+COLOURS = ["#e8452c", "#4aa3e8"]  # multiplier side, opposite side
+
+
+def shape_functions(kind, x, y):
+    """Shape functions of a VTK cell, points x nodes, as in src/fem/elements.cpp."""
+    if kind in ("triangle", "triangle6"):
+        z = 1 - x - y
+        if kind == "triangle":
+            return np.stack([z, x, y], axis=1)
+        corners = [z * (2 * z - 1), x * (2 * x - 1), y * (2 * y - 1)]
+        return np.stack(corners + [4 * z * x, 4 * x * y, 4 * y * z], axis=1)
+    xa, ya = [-1, 1, 1, -1, 0, 1, 0, -1, 0], [-1, -1, 1, 1, -1, 0, 1, 0, 0]
+    if kind == "quad":
+        return np.stack([(1 + a * x) * (1 + b * y) / 4 for a, b in zip(xa[:4], ya[:4])], axis=1)
+    if kind == "quad9":
+        quadratic = lambda a, t: 1 - t * t if a == 0 else t * (t + a) / 2
+        return np.stack([quadratic(a, x) * quadratic(b, y) for a, b in zip(xa, ya)], axis=1)
+    corners = [(1 + a * x) * (1 + b * y) * (a * x + b * y - 1) / 4 for a, b in zip(xa[:4], ya[:4])]
+    sides = [(1 - x * x) * (1 + b * y) / 2 if a == 0 else (1 + a * x) * (1 - y * y) / 2 for a, b in zip(xa[4:8], ya[4:8])]
+    return np.stack(corners + sides, axis=1)
+
+
+def subdivision(kind, n):
+    """Reference points that cut a cell n times along each side, and the triangles between them."""
+    i, j = np.meshgrid(np.arange(n + 1), np.arange(n + 1), indexing="ij")
+    number = np.arange((n + 1) ** 2).reshape(n + 1, n + 1)
+    a, b, c, d = (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:])
+    lower, upper = np.stack([a, b, d], axis=-1), np.stack([b, c, d], axis=-1)
+    if CORNERS[kind] == 4:
+        triangles = np.concatenate([lower.reshape(-1, 3), upper.reshape(-1, 3)])
+        return 2 * i.ravel() / n - 1, 2 * j.ravel() / n - 1, triangles
+    inside = i[:-1, :-1] + j[:-1, :-1]
+    triangles = np.concatenate([lower[inside < n], upper[inside < n - 1]])
+    return i.ravel() / n, j.ravel() / n, triangles
+
+
+def shaded_triangles(mesh, points, values):
+    """Points, values and triangles of all cells, fine enough for curved sides."""
+    cells = [block for block in mesh.cells if block.type in CORNERS]
+    total = sum(len(block.data) for block in cells)
+    positions, colours, triangles, first = [], [], [], 0
+    for block in cells:
+        linear = block.type in ("triangle", "quad")
+        n = 1 if block.type == "triangle" else int(np.clip(math.sqrt(40000 / total), 1 if linear else 2, 8))
+        x, y, local = subdivision(block.type, n)
+        N = shape_functions(block.type, x, y)
+        positions.append(np.einsum("qa,eac->eqc", N, points[block.data]).reshape(-1, 2))
+        colours.append(np.einsum("qa,ea->eq", N, values[block.data]).ravel())
+        offsets = first + len(x) * np.arange(len(block.data))
+        triangles.append((offsets[:, None, None] + local[None]).reshape(-1, 3))
+        first += len(x) * len(block.data)
+    return np.concatenate(positions), np.concatenate(colours), np.concatenate(triangles)
+
+
+def outlines(mesh):
+    """Sides that one cell has alone, a row of nodes each (start, end, and middle or start again)."""
+    sides = {}
+    for block in mesh.cells:
+        corners = CORNERS.get(block.type, 0)
+        for cell in block.data:
+            for i in range(corners):
+                start, end = cell[i], cell[(i + 1) % corners]
+                middle = cell[corners + i] if len(cell) > corners else -1
+                sides.setdefault((min(start, end), max(start, end)), []).append((start, end, middle))
+    return [found[0] for found in sides.values() if len(found) == 1]
+
+
+def polylines(points, edges):
+    """Edges (start, end, middle; middle < 0 if straight) as lists of points."""
+    xi = np.linspace(-1, 1, 7)[:, None]
+    lines = []
+    for start, end, middle in edges:
+        a, b = points[start], points[end]
+        c = points[middle] if middle >= 0 else (a + b) / 2
+        lines.append(xi * (xi - 1) / 2 * a + xi * (xi + 1) / 2 * b + (1 - xi * xi) * c)
+    return lines
+
+
+def round_scale(value):
+    """The nearest of ..., 1, 2, 5, 10, 20, ... below."""
+    power = 10 ** math.floor(math.log10(value))
+    return max(step for step in (1, 2, 5) if step * power <= value * (1 + 1e-9)) * power
+
+
+def size_of(points):
+    return float(np.linalg.norm(np.ptp(points, axis=0)))
+
+
+def choose_scale(points, displacements):
+    largest = float(np.linalg.norm(displacements, axis=1).max())
+    return round_scale(0.04 * size_of(points) / largest) if largest > 0 else 1.0
+
+
+def stress_range(stress):
+    """Without the singular corners. A uniform stress gets a range around it."""
+    low, high = np.percentile(stress, [0.5, 99.5])
+    if high - low < 1e-3 * abs(high):
+        return 0.0, 1.25 * high or 1.0
+    return low, high
+
+
+def draw_bodies(axes, results, scale):
+    mesh, contact = meshio.read(results / "result.vtu"), results / "contact.vtu"
+    points, u = mesh.points[:, :2], mesh.point_data["displacement"][:, :2]
+    scale = choose_scale(points, u) if scale is None else scale
+    moved, stress = points + scale * u, mesh.point_data["von_mises"].ravel()
+    low, high = stress_range(stress)
+    xy, values, triangles = shaded_triangles(mesh, moved, stress)
+    shading = axes.tripcolor(*xy.T, triangles, values, shading="gouraud", cmap="viridis", vmin=low, vmax=high)
+    edges = outlines(mesh)
+    axes.add_collection(LineCollection(polylines(points, edges), colors="0.6", linewidths=0.6, linestyles=(0, (5, 4))))
+    axes.add_collection(LineCollection(polylines(moved, edges), colors="black", linewidths=0.8))
+    if contact.exists():
+        curve = meshio.read(contact)
+        at = curve.points[:, :2] + scale * curve.point_data["displacement"][:, :2]
+        lines = [(*row[:2], row[2] if len(row) > 2 else -1) for block in curve.cells for row in block.data]
+        axes.add_collection(LineCollection(polylines(at, lines), colors="white", linewidths=2.6))
+        axes.add_collection(LineCollection(polylines(at, lines), colors="black", linewidths=1.1))
+    axes.set_aspect("equal")
+    axes.margins(0.03)
+    extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}
+    clipped = (int(stress.min() < low * (1 - 1e-9)), int(stress.max() > high * (1 + 1e-9)))
+    bar = axes.figure.colorbar(shading, ax=axes, extend=extend[clipped], pad=0.02, aspect=25)
+    bar.set_label("von Mises stress (scene's units)")
+    bar.formatter = scientific()
+    bar.update_ticks()
+    axes.set_xlabel("$x_1$")
+    axes.set_ylabel("$x_2$")
+    return scale
+
+
+def scientific():
+    formatter = ScalarFormatter(useMathText=True)
+    formatter.set_powerlimits((-3, 4))
+    return formatter
+
+
+def read_csv(path):
+    """Columns of a contact table; empty fields become NaN."""
+    with open(path, newline="") as file:
+        rows = list(csv.DictReader(file))
+    number = lambda text: float(text) if text else math.nan
+    return {
+        name: np.array([row[name] if name == "curve" else number(row[name]) for row in rows]) for name in rows[0]
+    }
+
+
+def arc_length_on(along, s, points):
+    """Arc length at the place of the polyline `along` nearest to each point."""
+    start, step = along[:-1], np.diff(along, axis=0)
+    from_start = points[:, None, :] - start[None]
+    t = np.clip((from_start * step).sum(axis=2) / (step**2).sum(axis=1), 0, 1)
+    distance = np.linalg.norm(from_start - t[..., None] * step, axis=2)
+    nearest, row = distance.argmin(axis=1), np.arange(len(points))
+    return s[nearest] + t[row, nearest] * np.diff(s)[nearest]
+
+
+def pressure_range(curves):
+    """Limits of y that show nearly all of the curves: the few values at singular corners may leave the panel."""
+    values = np.concatenate(curves)
+    values = values[np.isfinite(values)]
+    first, last = np.percentile(values, [2, 98])
+    middle, half = (first + last) / 2, max((last - first) / 2, 0.02 * abs(first + last) / 2)
+    low = min(max(middle - 1.6 * half, values.min() - 0.25 * half), middle - 1.1 * half)
+    high = max(min(middle + 1.6 * half, values.max() + 0.25 * half), middle + 1.1 * half)
+    if 0 < first < 0.3 * last:
+        low = min(low, 0.0)
+    return (low, high) if high > low else (low - 1, high + 1)
+
+
+def draw_pair(axes, table, multiplier_side, between):
+    """p along the contact line, and -sigma_n of both bodies, over the arc length of the multiplier side."""
+    opposite = between[0] if between[1] == multiplier_side else between[1]
+    xy = np.stack([table["x"], table["y"]], axis=1)
+    on = table["curve"] == multiplier_side
+    other = (table["curve"] == opposite) & np.isfinite(table["gap"])
+    s, p = table["s"][on], table["p"][on]
+    s_other = arc_length_on(xy[on], s, xy[other])
+    mine, theirs = -table["sigma_n"][on], -table["sigma_n"][other]
+    axes.plot(s, p, color="0.15", linewidth=1.7, label="$p$ (multipliers)", zorder=2)
+    axes.plot(s, mine, color=COLOURS[0], linewidth=0.9, label=f"$-\\sigma_n$ of {multiplier_side}", zorder=3)
+    axes.plot(s_other, theirs, color=COLOURS[1], linewidth=0.9, dashes=(5, 2), label=f"$-\\sigma_n$ of {opposite}", zorder=4)
+    low, high = pressure_range([p, mine, theirs])
+    axes.set_ylim(low, high)
+    axes.set_xlim(s.min(), s.max())
+    everything = np.concatenate([p, mine, theirs])
+    off = everything[(everything > high) | (everything < low)]
+    label = f"arc length $s$ along {multiplier_side}"
+    if len(off) > 0:
+        farthest = off[np.argmax(np.abs(off - (low + high) / 2))]
+        label += f"    ({len(off)} of {np.isfinite(everything).sum()} values off the scale, the farthest {farthest:.3g})"
+    axes.set_xlabel(label)
+    axes.yaxis.set_major_formatter(scientific())
+    axes.grid(color="0.9", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.set_ylabel("contact pressure")
+    axes.legend(loc="upper center", ncol=3, frameon=False, fontsize=8, bbox_to_anchor=(0.5, 1.17))
+
+
+def draw(results, picture, scale=None, dpi=130):
+    summary = json.loads((results / "summary.json").read_text())
+    pairs, multiplier_sides = summary["contact"], summary["method"]["multipliers_on"]
+    extent = np.ptp(meshio.read(results / "result.vtu").points[:, :2], axis=0)
+    above = float(np.clip(6.6 * extent[1] / extent[0], 2.5, 6.5))
+    below = 2.5
+    figure = plt.figure(figsize=(8, above + below * len(pairs) + 0.6), layout="constrained")
+    panels = figure.subplots(1 + len(pairs), 1, gridspec_kw={"height_ratios": [above] + [below] * len(pairs)}, squeeze=False)
+    used = draw_bodies(panels[0, 0], results, scale)
+    panels[0, 0].set_title(f"displacements \u00d7 {used:g}, undeformed outline dashed", fontsize=9)
+    figure.suptitle(summary["title"] or summary["scene"], fontsize=11)
+    if summary["status"] != "solved":
+        panels[0, 0].set_title(summary["status"].replace("_", " "), loc="right", color="#c00000", fontsize=10)
+    if pairs:
+        table = read_csv(results / "contact.csv")
+        for k, (pair, side) in enumerate(zip(pairs, multiplier_sides)):
+            rows = table["pair"] == k
+            draw_pair(panels[1 + k, 0], {name: column[rows] for name, column in table.items()}, side, pair["between"])
+    if picture.suffix.lower() == ".png":
+        figure.savefig(picture, dpi=dpi, pil_kwargs={"optimize": True})
+    else:
+        figure.savefig(picture, dpi=dpi)
+    plt.close(figure)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("results", type=Path, help="folder that mortise solve wrote")
+    parser.add_argument("picture", type=Path, nargs="?", help=".png, .pdf or .svg (default: RESULTS.png)")
+    parser.add_argument("--scale", type=float, help="magnification of the displacements")
+    parser.add_argument("--dpi", type=int, default=130)
+    options = parser.parse_args()
+    if not (options.results / "summary.json").is_file():
+        parser.error(f"{options.results}: no summary.json there; expected the folder of a run of mortise solve")
+    picture = options.picture or options.results.with_name(options.results.resolve().name + ".png")
+    draw(options.results, picture, options.scale, options.dpi)
+    print(picture)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,83 @@
+"""The picture of a run, and that other programs can read what it is made from."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+
+import picture
+
+ROOT = Path(__file__).resolve().parents[2]
+MORTISE = Path(os.environ.get("MORTISE", ROOT / "build/release/mortise"))
+
+
+@pytest.fixture(scope="module")
+def solve(tmp_path_factory):
+    """Runs a scene once and returns the folder of its results."""
+    if not MORTISE.is_file():
+        pytest.skip(f"{MORTISE} is missing: ./dev build makes it")
+    folders = {}
+
+    def run(scene):
+        if scene not in folders:
+            folders[scene] = tmp_path_factory.mktemp(scene) / "results"
+            subprocess.run([MORTISE, "solve", ROOT / f"geo/{scene}.toml", "-o", folders[scene], "--quiet"], check=True)
+        return folders[scene]
+
+    return run
+
+
+def png_size(path):
+    """Width and height from the header of a PNG file."""
+    data = path.read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    return int.from_bytes(data[16:20], "big"), int.from_bytes(data[20:24], "big")
+
+
+@pytest.mark.parametrize("scene", ["patch_flat", "rings", "stack"])
+def test_picture_is_drawn_beside_the_results(solve, scene):
+    results = solve(scene)
+    before = sorted(results.iterdir())
+    subprocess.run([sys.executable, picture.__file__, results, "--dpi", "60"], check=True)
+    width, height = png_size(results.with_name("results.png"))
+    assert width == 8 * 60 and height > 200
+    assert sorted(results.iterdir()) == before
+
+
+@pytest.mark.parametrize("scene", ["patch_flat", "rings"])
+def test_meshio_reads_quadratic_cells(solve, scene):
+    mesh = meshio.read(solve(scene) / "result.vtu")
+    assert {block.type for block in mesh.cells} == {"quad8"}
+    assert mesh.point_data["displacement"].shape == (len(mesh.points), 3)
+    assert mesh.point_data["stress"].shape == (len(mesh.points), 4)
+    assert {block.type for block in meshio.read(solve(scene) / "contact.vtu").cells} == {"line3"}
+
+
+def test_sub_triangles_cover_the_bodies(solve):
+    """Quarter rings between the radii 1 and 3: area 2 pi, up to the error of the sub-triangles' straight sides."""
+    mesh = meshio.read(solve("rings") / "result.vtu")
+    xy, _, triangles = picture.shaded_triangles(mesh, mesh.points[:, :2], mesh.point_data["von_mises"].ravel())
+    a, b = xy[triangles[:, 1]] - xy[triangles[:, 0]], xy[triangles[:, 2]] - xy[triangles[:, 0]]
+    twice_the_area = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    assert (twice_the_area > 0).all()
+    assert twice_the_area.sum() / 2 == pytest.approx(2 * np.pi, rel=1e-3)
+
+
+@pytest.mark.parametrize("kind, n", [("triangle", 1), ("triangle6", 3), ("quad", 1), ("quad8", 4), ("quad9", 2)])
+def test_shape_functions_and_subdivision(kind, n):
+    x, y, triangles = picture.subdivision(kind, n)
+    N = picture.shape_functions(kind, x, y)
+    np.testing.assert_allclose(N.sum(axis=1), 1, atol=1e-14)
+    corners = picture.CORNERS[kind]
+    assert len(triangles) == (n * n if corners == 3 else 2 * n * n)
+    area = lambda t: np.linalg.det(np.stack([[x[j] - x[t[0]], y[j] - y[t[0]]] for j in t[1:]])) / 2
+    assert sum(area(t) for t in triangles) == pytest.approx(0.5 if corners == 3 else 4)
+
+
+def test_a_folder_without_results_is_refused(tmp_path):
+    run = subprocess.run([sys.executable, picture.__file__, tmp_path], capture_output=True, text=True, check=False)
+    assert run.returncode == 2 and "summary.json" in run.stderr
