@@ -1,10 +1,8 @@
 #include "fem/elements.hpp"
 
-#include <Eigen/LU>
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "fem/quadrature.hpp"
 
 namespace mortise {
 namespace {
@@ -127,24 +125,29 @@ EdgePoint edge_point(const Points& nodes, const Edge& edge, double xi) {
 }
 
 void check_cells(const Mesh& mesh) {
-  std::array<std::vector<CellShape>, 5> shapes;  // per kind: at the nodes and at the quadrature points
+  std::array<std::vector<CellShape>, 5> shapes;  // per kind: at the nodes and the centre
   for (const CellKind kind : {CellKind::tri3, CellKind::tri6, CellKind::quad4, CellKind::quad8, CellKind::quad9}) {
     auto& list = shapes[std::size_t(kind)];
     const Points at = reference_nodes(kind);
     for (int a = 0; a < at.rows(); ++a) list.push_back(cell_shape(kind, at.row(a)));
-    for (const Vec2& xi : cell_rule(kind).points) list.push_back(cell_shape(kind, xi));
+    list.push_back(cell_shape(kind, reference_centre(kind)));
   }
   for (const Cell& cell : mesh.cells) {
+    const int count = node_count(cell.kind);
+    std::array<Vec2, 9> x;
+    for (std::size_t a = 0; a < std::size_t(count); ++a) x[a] = mesh.nodes.row(cell.nodes[a]).transpose();
     for (const CellShape& s : shapes[std::size_t(cell.kind)]) {
-      Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
-      for (int a = 0; a < node_count(cell.kind); ++a)
-        J += s.dN[std::size_t(a)] * mesh.nodes.row(cell.nodes[std::size_t(a)]);
+      Vec2 x_xi = Vec2::Zero(), x_eta = Vec2::Zero();
+      for (std::size_t a = 0; a < std::size_t(count); ++a) {
+        x_xi += s.dN[a].x() * x[a];
+        x_eta += s.dN[a].y() * x[a];
+      }
+      const double jacobian = x_xi.x() * x_eta.y() - x_xi.y() * x_eta.x();
       // Round-off of the determinant is far below this; a cell flatter than 1e-10 is no cell.
-      if (J.determinant() > 1e-10 * J.squaredNorm()) continue;
+      if (jacobian > 1e-10 * (x_xi.squaredNorm() + x_eta.squaredNorm())) continue;
       std::ostringstream text;
-      const Vec2 corner = mesh.nodes.row(cell.nodes[0]);
-      text << mesh.source << ": body '" << mesh.bodies[std::size_t(cell.body)] << "': the element near ("
-           << corner.x() << ", " << corner.y() << ") is inverted or degenerate (Jacobian " << J.determinant()
+      text << mesh.source << ": body '" << mesh.bodies[std::size_t(cell.body)] << "': the element near (" << x[0].x()
+           << ", " << x[0].y() << ") is inverted or degenerate (Jacobian " << jacobian
            << "); expected a positive Jacobian everywhere";
       throw InputError(text.str());
     }

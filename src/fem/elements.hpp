@@ -42,8 +42,8 @@ struct EdgePoint {
 
 EdgePoint edge_point(const Points& nodes, const Edge& edge, double xi);
 
-/// Throws InputError naming the place if the Jacobian of a cell is not positive at its corners, its quadrature
-/// points and its side middles: an inverted or degenerate cell.
+/// Throws InputError naming the place if the Jacobian of a cell is not positive at its nodes and its centre: an
+/// inverted or degenerate cell.
 void check_cells(const Mesh& mesh);
 
 }  // namespace mortise

@@ -1,0 +1,157 @@
+#include "contact/coupling.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/errors.hpp"
+#include "contact/multiplier_space.hpp"
+#include "support/two_plates.hpp"
+
+namespace mortise {
+namespace {
+
+using test::TwoPlates;
+
+struct Pair {
+  Mesh mesh;
+  Curve multiplier, opposite;
+  std::vector<ContactPoint> points;
+  Coupling coupling;
+};
+
+Pair pair_of(const TwoPlates& plates, CouplingOptions options, const Constraints* constraints = nullptr) {
+  Pair p{test::mesh_of(plates), {}, {}, {}, {}};
+  p.multiplier = contact_curve(p.mesh, boundary_index(p.mesh, "lower_contact"));
+  p.opposite = contact_curve(p.mesh, boundary_index(p.mesh, "upper_contact"));
+  p.points = contact_points(p.mesh.nodes, p.multiplier, p.opposite, options.integration);
+  p.coupling = couple(p.mesh, p.multiplier, p.opposite, p.points, constraints ? *constraints : no_constraints(p.mesh),
+                      options);
+  return p;
+}
+
+TwoPlates parabola(int n_upper, int n_lower) {
+  TwoPlates plates;
+  plates.height = [](double x) { return -1.25 * x * x + x + 0.2; };
+  plates.n_upper = n_upper;
+  plates.n_lower = n_lower;
+  return plates;
+}
+
+constexpr Multipliers spaces[] = {Multipliers::quadratic, Multipliers::linear, Multipliers::dual};
+
+TEST(Coupling, RigidTranslationsOpenNoGap) {
+  for (const Multipliers space : spaces)
+    for (const Integration integration : {Integration::segments, Integration::elements}) {
+      const Pair p = pair_of(parabola(8, 11), {integration, space, InitialGap::closed});
+      VecX u(p.coupling.B.cols());
+      for (Eigen::Index i = 0; i < u.size(); ++i) u(i) = i % 2 ? 2.0 : -3.0;
+      EXPECT_LE((p.coupling.B * u).cwiseQuotient(p.coupling.scale).cwiseAbs().maxCoeff(), 1e-13);
+    }
+}
+
+TEST(Coupling, ForcesAndMomentsOfAnyMultipliersAreEqualAndOpposite) {
+  for (const Multipliers space : spaces) {
+    const Pair p = pair_of(parabola(7, 12), {Integration::segments, space, InitialGap::measured});
+    const VecX lambda = VecX::Random(p.coupling.B.rows());
+    const VecX f = p.coupling.B.transpose() * lambda;
+    Vec2 force = Vec2::Zero();
+    double moment = 0, size = 0;
+    for (Eigen::Index i = 0; i < p.mesh.nodes.rows(); ++i) {
+      const Vec2 at = p.mesh.nodes.row(i).transpose(), on = f.segment<2>(2 * i);
+      force += on;
+      moment += at.x() * on.y() - at.y() * on.x();
+      size += on.norm();
+    }
+    EXPECT_LE(force.norm(), 1e-14 * size);
+    EXPECT_LE(std::abs(moment), 1e-13 * size);  // the pressure acts along the line that joins both points
+  }
+}
+
+TEST(Coupling, RowsSumToTheLengthAndTheirScaleIsPositive) {
+  for (const Multipliers space : spaces) {
+    const Pair p = pair_of(parabola(7, 12), {Integration::segments, space, InitialGap::closed});
+    double sum = 0;  // each row is int psi ...: all of them together int 1
+    for (const ContactPoint& c : p.points) sum += c.ds;
+    EXPECT_NEAR(p.coupling.covered_length, sum, 1e-14);
+    EXPECT_NEAR(sum, curve_length(p.mesh.nodes, p.multiplier), 1e-6);  // 3 Gauss points on curved edges
+    EXPECT_GT(p.coupling.scale.minCoeff(), 0);
+  }
+}
+
+TEST(Coupling, MeasuredGapOfPlatesApart) {
+  TwoPlates plates;  // flat
+  Pair p{test::mesh_of(plates), {}, {}, {}, {}};
+  for (const Cell& cell : p.mesh.cells)
+    if (cell.body == 0)
+      for (int a = 0; a < node_count(cell.kind); ++a) {
+        double& y = p.mesh.nodes(cell.nodes[std::size_t(a)], 1);
+        if (y < 0.31) y = 0.3 + 0.01 * 0.8;  // the contact nodes, once each
+      }
+  p.multiplier = contact_curve(p.mesh, boundary_index(p.mesh, "lower_contact"));
+  p.opposite = contact_curve(p.mesh, boundary_index(p.mesh, "upper_contact"));
+  p.points = contact_points(p.mesh.nodes, p.multiplier, p.opposite, Integration::segments);
+  const Coupling c = couple(p.mesh, p.multiplier, p.opposite, p.points, no_constraints(p.mesh),
+                            {Integration::segments, Multipliers::linear, InitialGap::measured});
+  EXPECT_NEAR(c.gap_min, 0.008, 1e-14);
+  EXPECT_NEAR(c.gap_max, 0.008, 1e-14);
+  for (Eigen::Index r = 0; r < c.gap0.size(); ++r) EXPECT_NEAR(c.gap0(r), 0.008 * c.scale(r), 1e-15);  // psi >= 0
+}
+
+TEST(DualMultipliers, AreBiorthogonalAlsoOnPartOfAnEdge) {
+  const Pair p = pair_of(parabola(7, 12), {Integration::segments, Multipliers::dual, InitialGap::closed});
+  std::vector<ContactPoint> part;
+  for (const ContactPoint& c : p.points)
+    if (c.edge == 3 && c.xi < 0.4) part.push_back(c);
+  ASSERT_GE(part.size(), 3u);
+  const EdgeMultipliers dual = edge_multipliers(p.multiplier.edges[3], Multipliers::dual, part);
+  Eigen::Matrix3d D = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d weight = Eigen::Vector3d::Zero();
+  for (const ContactPoint& c : part) {
+    const EdgeShape s = edge_shape(3, c.xi);
+    const Eigen::Vector3d N(s.N[0], s.N[1], s.N[2]);
+    D += c.ds * dual.shape(c.xi) * N.transpose();
+    weight += c.ds * N;
+  }
+  EXPECT_LE((D - Eigen::Matrix3d(weight.asDiagonal())).cwiseAbs().maxCoeff(), 1e-12 * weight.cwiseAbs().maxCoeff());
+}
+
+TEST(Dropped, EndsHeldOnBothSidesShareTheirNeighboursRow) {
+  TwoPlates plates;
+  Mesh mesh = test::mesh_of(plates);
+  Constraints held = no_constraints(mesh);
+  for (const char* wall : {"upper_left", "lower_left"})
+    for (int c = 0; c < 2; ++c) prescribe(mesh, boundary_index(mesh, wall), c, 0, held);
+  const Pair free = pair_of(plates, {}), tied = pair_of(plates, {}, &held);
+  ASSERT_EQ(tied.coupling.dropped.size(), 1u);
+  EXPECT_EQ(mesh.nodes(tied.coupling.dropped[0].node, 0), 0);
+  EXPECT_EQ(tied.coupling.B.rows(), free.coupling.B.rows() - 1);
+  const VecX values = multiplier_values(tied.coupling, VecX::LinSpaced(tied.coupling.B.rows(), 1, 2));
+  EXPECT_GT(values.minCoeff(), 0);  // the tied one has its neighbour's value
+}
+
+TEST(Dropped, MultipliersThatFaceNothingAreZeroAndNamed) {
+  TwoPlates plates;
+  Pair p{test::mesh_of(plates), {}, {}, {}, {}};
+  std::vector<char> moved(std::size_t(p.mesh.nodes.rows()), 0);
+  for (const Cell& cell : p.mesh.cells)
+    for (int a = 0; a < node_count(cell.kind) && cell.body == 0; ++a) moved[std::size_t(cell.nodes[std::size_t(a)])] = 1;
+  for (Eigen::Index i = 0; i < p.mesh.nodes.rows(); ++i)
+    if (moved[std::size_t(i)]) p.mesh.nodes(i, 0) += 0.3;
+  p.multiplier = contact_curve(p.mesh, boundary_index(p.mesh, "lower_contact"));
+  p.opposite = contact_curve(p.mesh, boundary_index(p.mesh, "upper_contact"));
+  p.points = contact_points(p.mesh.nodes, p.multiplier, p.opposite, Integration::segments);
+  const Coupling c = couple(p.mesh, p.multiplier, p.opposite, p.points, no_constraints(p.mesh), {});
+  EXPECT_EQ(c.dropped.size(), 4u);  // vertices at 0, 1/11, 2/11, 3/11 of 0.8; the one at 4/11 = 0.29 still counts
+  EXPECT_NEAR(c.covered_length, 0.5, 1e-12);
+}
+
+TEST(Coupling, CurvesThatDoNotFaceAreAnError) {
+  const Mesh mesh = test::mesh_of({});
+  const Curve top = contact_curve(mesh, boundary_index(mesh, "top")),
+              bottom = contact_curve(mesh, boundary_index(mesh, "bottom"));
+  const auto points = contact_points(mesh.nodes, top, bottom, Integration::segments);
+  EXPECT_TRUE(points.empty());
+  EXPECT_THROW(couple(mesh, top, bottom, points, no_constraints(mesh), {}), InputError);
+}
+
+}  // namespace
+}  // namespace mortise

@@ -1,0 +1,163 @@
+#include "contact/projection.hpp"
+
+#include <gtest/gtest.h>
+
+#include "contact/segments.hpp"
+#include "support/two_plates.hpp"
+
+namespace mortise {
+namespace {
+
+// One straight edge from (1, 0) to (0, 0): its body lies below, its normal points up.
+struct StraightEdge {
+  Points nodes = (Points(2, 2) << 1, 0, 0, 0).finished();
+  Curve curve{0, 0, {{2, {0, 1, -1}}}, {}, false};
+};
+
+// A quadratic edge through (1, 0), (0.5, 0.1), (0, 0).
+struct BentEdge {
+  Points nodes = (Points(3, 2) << 1, 0, 0, 0, 0.5, 0.1).finished();
+  Curve curve{0, 0, {{3, {0, 1, 2}}}, {}, false};
+};
+
+TEST(Projection, HitsAStraightEdgeWhereExpected) {
+  const StraightEdge e;
+  const auto hit = project_onto_edge(e.nodes, e.curve, 0, Vec2(0.25, 2), Vec2(0, -1));
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->xi, 0.5, 1e-15);
+  EXPECT_NEAR(hit->distance, 2, 1e-15);
+}
+
+TEST(Projection, AlongAnInclinedLineAndFromBehind) {
+  const StraightEdge e;
+  const Vec2 n = Vec2(1, -1).normalized();
+  const auto hit = project_onto_edge(e.nodes, e.curve, 0, Vec2(0.2, 0.3), n);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->xi, 0, 1e-14);
+  EXPECT_NEAR(hit->distance, 0.3 * std::sqrt(2), 1e-14);
+  EXPECT_NEAR(project_onto_edge(e.nodes, e.curve, 0, Vec2(0.5, -0.1), Vec2(0, -1))->distance, -0.1, 1e-15);
+}
+
+TEST(Projection, IgnoresWhatDoesNotFaceOrLiesFarBehind) {
+  const StraightEdge e;
+  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, Vec2(0.5, -1), Vec2(0, 1)));    // its back
+  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, Vec2(0.5, -1.1), Vec2(0, -1)));  // deeper than it is long
+  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, Vec2(1.1, 1), Vec2(0, -1)));    // beside it
+}
+
+TEST(Projection, EndsCountToTheTolerance) {
+  const StraightEdge e;
+  for (const double x : {0.0, 1.0, -1e-12, 1 + 1e-12})
+    EXPECT_TRUE(project_onto_edge(e.nodes, e.curve, 0, Vec2(x, 0), Vec2(0, -1))) << x;
+  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, Vec2(1 + 1e-8, 0), Vec2(0, -1)));
+}
+
+TEST(Projection, OnABentEdgeTheHitLiesOnTheLine) {
+  const BentEdge e;
+  for (const double x : {0.01, 0.3, 0.77})
+    for (const double slope : {-0.4, 0.0, 0.2}) {
+      const Vec2 from(x, 0.5), n = Vec2(slope, -1).normalized();
+      const auto hit = project_onto_edge(e.nodes, e.curve, 0, from, n);
+      if (!hit) continue;
+      const Vec2 at = edge_point(e.nodes, e.curve.edges[0], hit->xi).position;
+      EXPECT_NEAR((at - from - hit->distance * n).norm(), 0, 1e-14);
+    }
+}
+
+TEST(Foot, IsWhereTheNormalPassesThroughThePoint) {
+  const BentEdge e;
+  for (const double xi : {-0.99, -0.5, 0.0, 0.3, 0.9})
+    for (const double away : {-0.05, 0.0, 1e-12, 0.2}) {
+      const EdgePoint p = edge_point(e.nodes, e.curve.edges[0], xi);
+      const auto foot = foot_on_edge(e.nodes, e.curve.edges[0], p.position + away * p.normal());
+      ASSERT_TRUE(foot) << xi << " " << away;
+      EXPECT_NEAR(*foot, xi, 1e-12);
+    }
+  EXPECT_FALSE(foot_on_edge(e.nodes, e.curve.edges[0], Vec2(2, 0)));
+}
+
+// ---- Segments ----
+
+using test::TwoPlates;
+
+struct Curves {
+  Mesh mesh;
+  Curve upper, lower;
+};
+
+Curves curves_of(const TwoPlates& plates) {
+  Curves c{test::mesh_of(plates), {}, {}};
+  c.upper = contact_curve(c.mesh, boundary_index(c.mesh, "upper_contact"));
+  c.lower = contact_curve(c.mesh, boundary_index(c.mesh, "lower_contact"));
+  return c;
+}
+
+double covered(const std::vector<Segment>& segments, const Curves& c, const Curve& side) {
+  double length = 0;
+  for (const Segment& s : segments)
+    length += length_to(c.mesh.nodes, side.edges[std::size_t(s.edge)], s.end) -
+              length_to(c.mesh.nodes, side.edges[std::size_t(s.edge)], s.begin);
+  return length;
+}
+
+TEST(Segments, OfFlatMeshesAreTheCommonRefinement) {
+  const Curves c = curves_of({});  // 7 against 11 edges: 17 pieces
+  const auto segments = find_segments(c.mesh.nodes, c.lower, c.upper);
+  EXPECT_EQ(segments.size(), 17u);
+  EXPECT_NEAR(covered(segments, c, c.lower), 0.8, 1e-15);
+}
+
+TEST(Segments, OfMatchingMeshesAreTheEdges) {
+  TwoPlates plates;
+  plates.height = [](double x) { return 0.3 + 0.1 * std::sin(7 * x); };
+  plates.n_upper = plates.n_lower = 9;
+  const Curves c = curves_of(plates);
+  const auto segments = find_segments(c.mesh.nodes, c.lower, c.upper);
+  ASSERT_EQ(segments.size(), 9u);
+  for (const Segment& s : segments) EXPECT_EQ(s.end - s.begin, 2);
+}
+
+TEST(Segments, CoverACurvedLineFromBothSides) {
+  TwoPlates plates;
+  plates.height = [](double x) { return -1.875 * x * x + 1.5 * x + 0.1; };
+  plates.n_upper = 13;
+  plates.n_lower = 8;
+  const Curves c = curves_of(plates);
+  for (const auto& [side, other] : {std::pair(&c.lower, &c.upper), std::pair(&c.upper, &c.lower)}) {
+    const auto segments = find_segments(c.mesh.nodes, *side, *other);
+    EXPECT_NEAR(covered(segments, c, *side), curve_length(c.mesh.nodes, *side), 1e-12);
+    for (std::size_t i = 1; i < segments.size(); ++i)
+      EXPECT_GE(segments[i].edge, segments[i - 1].edge);
+  }
+}
+
+TEST(Segments, CoverOnlyWhereTheCurvesFaceEachOther) {
+  Curves c = curves_of({});
+  // The upper plate pushed to the right by a quarter of an edge and more: the lower one sticks out on the left.
+  const auto body = std::find(c.mesh.bodies.begin(), c.mesh.bodies.end(), "upper") - c.mesh.bodies.begin();
+  std::vector<char> moved(std::size_t(c.mesh.nodes.rows()), 0);
+  for (const Cell& cell : c.mesh.cells)
+    if (cell.body == body)
+      for (int a = 0; a < node_count(cell.kind); ++a) moved[std::size_t(cell.nodes[std::size_t(a)])] = 1;
+  for (Eigen::Index i = 0; i < c.mesh.nodes.rows(); ++i)
+    if (moved[std::size_t(i)]) c.mesh.nodes(i, 0) += 0.13;
+  EXPECT_NEAR(covered(find_segments(c.mesh.nodes, c.lower, c.upper), c, c.lower), 0.67, 1e-12);
+  EXPECT_NEAR(covered(find_segments(c.mesh.nodes, c.upper, c.lower), c, c.upper), 0.67, 1e-12);
+}
+
+TEST(Segments, VerticesThatAlmostCoincideMakeNoSlivers) {
+  for (const double shift : {1e-14, 1e-12, -1e-12, 1e-10}) {
+    TwoPlates plates;
+    plates.n_upper = plates.n_lower = 6;
+    Curves c = curves_of(plates);
+    for (const Edge& e : c.upper.edges)
+      for (const int node : e.nodes)
+        if (c.mesh.nodes(node, 0) > 0.01 && c.mesh.nodes(node, 0) < 0.79) c.mesh.nodes(node, 0) += shift;
+    const auto segments = find_segments(c.mesh.nodes, c.lower, c.upper);
+    EXPECT_EQ(segments.size(), 6u) << shift;
+    EXPECT_NEAR(covered(segments, c, c.lower), 0.8, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace mortise

@@ -1,0 +1,169 @@
+#include "solve/saddle_point.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+
+namespace mortise {
+namespace {
+
+// A chain of nodes with two unknowns each: positive definite but for what `free_end` leaves loose.
+SparseMatrix chain_stiffness(int nodes) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i + 1 < nodes; ++i)
+    for (int c = 0; c < 2; ++c) {
+      const int a = 2 * i + c, b = a + 2;
+      const double k = 1 + 0.1 * i + c;
+      entries.emplace_back(a, a, k);
+      entries.emplace_back(b, b, k);
+      entries.emplace_back(b, a, -k);
+    }
+  for (int i = 0; i < nodes; ++i) {  // couples both components of a node without holding them
+    entries.emplace_back(2 * i, 2 * i, 0.3);
+    entries.emplace_back(2 * i + 1, 2 * i + 1, 0.3);
+    entries.emplace_back(2 * i + 1, 2 * i, -0.3);
+  }
+  SparseMatrix K(2 * nodes, 2 * nodes);
+  K.setFromTriplets(entries.begin(), entries.end());
+  return K;
+}
+
+struct Problem {
+  SparseMatrix K, B;
+  VecX f, g, value, scale;
+  std::vector<char> fixed;
+};
+
+// Two chains; the second one floats (all of it may move by (1, 1)) until B holds it.
+Problem two_chains(bool with_constraints) {
+  const int nodes = 12;
+  const SparseMatrix one = chain_stiffness(nodes);
+  Problem p;
+  std::vector<Eigen::Triplet<double>> entries, rows;
+  for (int block = 0; block < 2; ++block)
+    for (int j = 0; j < one.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(one, j); it; ++it)
+        entries.emplace_back(2 * nodes * block + int(it.row()), 2 * nodes * block + j, it.value());
+  p.K.resize(4 * nodes, 4 * nodes);
+  p.K.setFromTriplets(entries.begin(), entries.end());
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> value(-1, 1);
+  if (with_constraints)
+    for (int r = 0; r < 5; ++r)
+      for (int k = 0; k < 4; ++k) {
+        rows.emplace_back(r, 2 * (2 * r + k / 2) + k % 2, value(random));
+        rows.emplace_back(r, 2 * nodes + 2 * (2 * r + k / 2) + k % 2, value(random));
+      }
+  p.B.resize(with_constraints ? 5 : 0, 4 * nodes);
+  p.B.setFromTriplets(rows.begin(), rows.end());
+  p.f = VecX::NullaryExpr(4 * nodes, [&] { return value(random); });
+  p.g = VecX::NullaryExpr(p.B.rows(), [&] { return value(random); });
+  p.scale = VecX::Ones(p.B.rows());
+  p.fixed.assign(std::size_t(4 * nodes), 0);
+  p.value = VecX::Zero(4 * nodes);
+  p.fixed[0] = 1;
+  p.value(0) = 0.25;
+  return p;
+}
+
+SaddlePointSolution solve(const Problem& p, std::vector<int> grounded) {
+  return solve_saddle_point({p.K, p.f, p.B, p.g, p.fixed, p.value, 1, p.scale, std::move(grounded)});
+}
+
+// The same system, dense and by LU with full pivoting.
+VecX dense_solution(const Problem& p) {
+  const Eigen::Index n = p.K.rows(), m = p.B.rows();
+  MatX A = MatX::Zero(n + m, n + m);
+  A.topLeftCorner(n, n) = MatX(p.K).selfadjointView<Eigen::Lower>();
+  A.bottomLeftCorner(m, n) = MatX(p.B);
+  A.topRightCorner(n, m) = MatX(p.B).transpose();
+  VecX rhs(n + m);
+  rhs << p.f, p.g;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (p.fixed[std::size_t(i)]) {
+      A.row(i).setZero();
+      A(i, i) = 1;
+      rhs(i) = p.value(i);
+    }
+  return A.fullPivLu().solve(rhs);
+}
+
+TEST(SaddlePoint, AgreesWithADenseSolverWhereBHoldsAFloatingBody) {
+  const Problem p = two_chains(true);
+  const SaddlePointSolution s = solve(p, {24});  // a spring at the second chain's first unknown
+  ASSERT_EQ(s.status, SaddlePointSolution::Status::solved);
+  VecX all(s.u.size() + s.lambda.size());
+  all << s.u, s.lambda;
+  const VecX exact = dense_solution(p);
+  EXPECT_LE((all - exact).cwiseAbs().maxCoeff(), 1e-10 * exact.cwiseAbs().maxCoeff());
+  EXPECT_LE(s.force_residual, 1e-12);
+  EXPECT_LE(s.constraint_residual, 1e-12);
+}
+
+TEST(SaddlePoint, DoesNotDependOnWhichUnknownIsGrounded) {
+  const Problem p = two_chains(true);
+  const VecX a = solve(p, {24}).u, b = solve(p, {41}).u;
+  EXPECT_LE((a - b).cwiseAbs().maxCoeff(), 1e-10 * a.cwiseAbs().maxCoeff());
+}
+
+TEST(SaddlePoint, ScalesDoNotChangeTheAnswer) {
+  Problem p = two_chains(true);
+  const SaddlePointSolution a = solve(p, {24});
+  p.K *= 2e11;
+  p.f *= 2e11;
+  p.B = SparseMatrix(1e-3 * p.B);
+  p.g *= 1e-3;
+  const SaddlePointSolution b = solve_saddle_point({p.K, p.f, p.B, p.g, p.fixed, p.value, 2e11, 1e-3 * p.scale, {24}});
+  EXPECT_LE((a.u - b.u).cwiseAbs().maxCoeff(), 1e-12 * a.u.cwiseAbs().maxCoeff());
+  EXPECT_LE((a.lambda - b.lambda / 2e14).cwiseAbs().maxCoeff(), 1e-10 * a.lambda.cwiseAbs().maxCoeff());
+}
+
+TEST(SaddlePoint, WithoutConstraintsItIsACholeskySolve) {
+  Problem p = two_chains(false);
+  p.fixed[24] = 1;
+  const SaddlePointSolution s = solve(p, {});
+  ASSERT_EQ(s.status, SaddlePointSolution::Status::solved);
+  EXPECT_LE((s.u - dense_solution(p)).cwiseAbs().maxCoeff(), 1e-11 * s.u.cwiseAbs().maxCoeff());
+}
+
+TEST(SaddlePoint, NamesTheUnknownThatNothingHolds) {
+  const SaddlePointSolution s = solve(two_chains(false), {});
+  EXPECT_EQ(s.status, SaddlePointSolution::Status::not_positive_definite);
+  EXPECT_GE(s.failed_at, 24);  // in the second chain
+}
+
+TEST(SaddlePoint, NamesTheRowThatFollowsFromOthers) {
+  Problem p = two_chains(true);
+  SparseMatrix twice(6, p.B.cols());
+  std::vector<Eigen::Triplet<double>> rows;
+  for (int j = 0; j < p.B.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(p.B, j); it; ++it) {
+      rows.emplace_back(int(it.row()), j, it.value());
+      if (it.row() == 2) rows.emplace_back(5, j, 2 * it.value());
+    }
+  twice.setFromTriplets(rows.begin(), rows.end());
+  p.B = twice;
+  p.g = VecX::Zero(6);
+  p.scale = VecX::Ones(6);
+  const SaddlePointSolution s = solve(p, {24});
+  EXPECT_EQ(s.status, SaddlePointSolution::Status::dependent_constraints);
+  EXPECT_EQ(s.failed_at, 5);
+}
+
+TEST(BorderedCholesky, ItsByProductIsTheBordersCompliance) {
+  Problem p = two_chains(true);
+  SparseMatrix K = p.K;
+  for (int i = 0; i < K.rows(); ++i) K.coeffRef(i, i) += 0.1;
+  std::vector<int> blocks;
+  for (int i = 0; i < int(K.rows()); ++i) blocks.push_back(i / 2);
+  const BorderedCholesky factor(K, p.B, blocks);
+  ASSERT_EQ(factor.failed_at(), -1);
+  const MatX dense = MatX(K).selfadjointView<Eigen::Lower>();
+  const MatX expected = MatX(p.B) * dense.inverse() * MatX(p.B).transpose();
+  const MatX actual = factor.border_compliance().selfadjointView<Eigen::Lower>();
+  EXPECT_LE((actual - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.cwiseAbs().maxCoeff());
+}
+
+}  // namespace
+}  // namespace mortise
