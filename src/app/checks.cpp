@@ -106,8 +106,7 @@ void contact_checks(const Scene& scene, Results& r) {
 
 }  // namespace
 
-void add_checks(const SaddlePointSolution& solution, const StackedCoupling& coupling, const Scene& scene,
-                Results& r) {
+void add_checks(const SaddlePointSolution& solution, const StackedCoupling& coupling, const Scene& scene, Results& r) {
   r.checks.push_back({"residual of the forces", solution.force_residual, 1e-10});
   r.checks.push_back({"residual of the contact condition", solution.constraint_residual, 1e-10});
   balance_of_bodies(solution, coupling.B, r);

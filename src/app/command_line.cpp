@@ -67,8 +67,8 @@ int check(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const CheckedScene checked = check_scene(scene);
   if (options.quiet) return 0;
-  std::cout << scene.title << "\n  mesh       " << checked.mesh.source << ": " << checked.mesh.nodes.rows() << " nodes, "
-            << checked.mesh.cells.size() << " elements\n";
+  std::cout << scene.title << "\n  mesh       " << checked.mesh.source << ": " << checked.mesh.nodes.rows()
+            << " nodes, " << checked.mesh.cells.size() << " elements\n";
   for (const BodySpec& body : scene.bodies) {
     const Material& m = scene.materials.at(body.material);
     std::cout << "  body       " << body.name << ": " << body.material << ", E = " << m.young << ", nu = " << m.poisson
@@ -79,16 +79,18 @@ int check(const Options& options) {
               << to_string(pair.spec.condition) << ", frictionless, gap " << to_string(pair.spec.initial_gap) << ", "
               << pair.coupling.gap0.size() << " multipliers on " << pair.spec.multipliers_on << ", facing over "
               << pair.coupling.covered_length << "\n";
-  std::cout << "  left out   friction, large displacements, plasticity, time" << (scene.body_forces.empty() ? ", body forces" : "")
+  std::cout << "  left out   friction, large displacements, plasticity, time"
+            << (scene.body_forces.empty() ? ", body forces" : "")
             << (scene.initial_strains.empty() ? ", initial strains" : "") << "\n";
   return 0;
 }
 
 int mesh(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
-  const std::string output = options.output.empty() ? "out/" + stem(options) + ".msh" : options.output;
-  write_msh(scene.mesh_file, scene.mesh_parameters, output);
-  if (!options.quiet) std::cout << output << "\n";
+  const std::filesystem::path output = options.output.empty() ? "out/" + stem(options) + ".msh" : options.output;
+  if (output.has_parent_path()) std::filesystem::create_directories(output.parent_path());
+  write_msh(scene.mesh_file, scene.mesh_parameters, output.string());
+  if (!options.quiet) std::cout << output.string() << "\n";
   return 0;
 }
 
@@ -120,11 +122,13 @@ int parse_and_run(int argc, const char* const* argv) {
   CLI::App app("Two-dimensional frictionless contact of linear-elastic bodies on meshes that do not match.");
   app.set_version_flag("--version", std::string("mortise ") + MORTISE_VERSION);
   app.require_subcommand(1);
-  app.footer("Exit status: 0 solved and all checks hold; 1 bad input; 2 a check fails or no convergence; 3 internal error.");
+  app.footer(
+      "Exit status: 0 solved and all checks hold; 1 bad input; 2 a check fails or no convergence; 3 internal error.");
   Options options;
   CLI::App* solve_command = add_command(app, "solve", "mesh, solve, check and write the results of a scene", options,
                                         "folder of the results (default: out/SCENE)");
-  CLI::App* check_command = add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
+  CLI::App* check_command =
+      add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
   CLI::App* mesh_command =
       add_command(app, "mesh", "write the mesh of a scene", options, ".msh to write (default: out/SCENE.msh)");
   CLI::App* sweep_command = add_command(app, "sweep", "solve a scene many times, one CSV row a run", options,

@@ -12,8 +12,8 @@ std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, cons
       edge_size[i] = curve_length(mesh.nodes, curves[i]) / double(curves[i].edges.size());
     }
     // Equal meshes differ by round-off in their lengths: the first is the multiplier side then.
-    const bool second = spec.multipliers_on.empty() ? edge_size[1] < (1 - 1e-6) * edge_size[0]
-                                                    : spec.multipliers_on == spec.between[1];
+    const bool second =
+        spec.multipliers_on.empty() ? edge_size[1] < (1 - 1e-6) * edge_size[0] : spec.multipliers_on == spec.between[1];
     ContactPair pair;
     pair.spec = spec;
     pair.spec.multipliers_on = spec.between[second ? 1 : 0];

@@ -18,8 +18,8 @@ struct Place {
 struct CurveNode {
   int node;
   double s;
-  Place place;   // on one of the edges that meet at the node
-  Vec2 normal;   // mean of the edges' normals there
+  Place place;  // on one of the edges that meet at the node
+  Vec2 normal;  // mean of the edges' normals there
 };
 
 // An end on a symmetry plane continues as its mirror image: the prescribed component of the mean normal vanishes.
@@ -43,7 +43,8 @@ std::vector<CurveNode> nodes_along(const Mesh& mesh, const Curve& curve, const C
     }
     const double length = edge_length(mesh.nodes, edge);
     if (edge.node_count == 3)  // the part of the length before the middle node: the same rule on half the edge
-      list.push_back({edge.nodes[2], s + length_to(mesh.nodes, edge, 0), {e, 0}, edge_point(mesh.nodes, edge, 0).normal()});
+      list.push_back(
+          {edge.nodes[2], s + length_to(mesh.nodes, edge, 0), {e, 0}, edge_point(mesh.nodes, edge, 0).normal()});
     s += length;
     list.push_back({edge.nodes[1], s, {e, 1}, edge_point(mesh.nodes, edge, 1).normal()});
   }
@@ -60,7 +61,8 @@ std::vector<CurveNode> nodes_along(const Mesh& mesh, const Curve& curve, const C
 std::optional<Place> foot_of(const Mesh& mesh, const Curve& multiplier, const std::vector<CurveNode>& along,
                              const Vec2& x) {
   const auto nearest = std::min_element(along.begin(), along.end(), [&](const CurveNode& a, const CurveNode& b) {
-    return (mesh.nodes.row(a.node).transpose() - x).squaredNorm() < (mesh.nodes.row(b.node).transpose() - x).squaredNorm();
+    return (mesh.nodes.row(a.node).transpose() - x).squaredNorm() <
+           (mesh.nodes.row(b.node).transpose() - x).squaredNorm();
   });
   std::optional<Place> best;
   double distance = std::numeric_limits<double>::infinity();
@@ -100,8 +102,8 @@ double normal_stress(const Eigen::Ref<const Eigen::RowVector4d>& s, const Vec2& 
 ContactNode node_results(const Mesh& mesh, const CurveNode& at, int body, const Vec2& normal, const BodyPoints& points,
                          const StressField& stress, const VecX& u) {
   const auto s = stress.points.row(point_of(points, body, at.node));
-  return {at.node, at.s,  mesh.nodes.row(at.node).transpose(), normal, u.segment<2>(2 * at.node).dot(normal), nan, nan,
-          normal_stress(s, at.normal), s(1)};
+  return {at.node, at.s, mesh.nodes.row(at.node).transpose(), normal, u.segment<2>(2 * at.node).dot(normal),
+          nan,     nan,  normal_stress(s, at.normal),         s(1)};
 }
 
 std::vector<ContactCentre> centre_results(const Mesh& mesh, const Curve& curve, const StressField& stress) {
@@ -146,8 +148,7 @@ double difference(const std::vector<ContactNode>& nodes) {
 }  // namespace
 
 ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const Constraints& constraints,
-                               const BodyPoints& points, const StressField& stress, const VecX& u,
-                               const VecX& lambda) {
+                               const BodyPoints& points, const StressField& stress, const VecX& u, const VecX& lambda) {
   const bool measured = pair.spec.initial_gap == InitialGap::measured;
   const std::vector<CurveNode> along = nodes_along(mesh, pair.multiplier, constraints);
   ContactResults r;
@@ -191,15 +192,18 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
   // Both curves keep their bodies on the left, so they run against each other.
   const Vec2 front = r.multiplier.nodes.front().position, back = r.multiplier.nodes.back().position;
   const bool backwards = front.x() > back.x() || (front.x() == back.x() && front.y() > back.y());
-  if (backwards) reverse(r.multiplier, r.length);
-  else reverse(r.opposite, curve_length(mesh.nodes, pair.opposite));
+  if (backwards)
+    reverse(r.multiplier, r.length);
+  else
+    reverse(r.opposite, curve_length(mesh.nodes, pair.opposite));
 
   for (const ContactPoint& c : pair.points) {
     const double p = interpolate(pair.coupling, pair.multiplier, r.pressure, c.edge, c.xi);
-    r.force -= c.ds * p * c.normal;
     r.p_mean += c.ds * p;
     if (p > 0 || pair.spec.condition == Condition::bilateral) r.length_in_contact += c.ds;
   }
+  const VecX contact = -(pair.coupling.B.transpose() * lambda);
+  for (const CurveNode& at : along) r.force += contact.segment<2>(2 * at.node);
   r.p_mean /= pair.coupling.covered_length;
   r.p_min = r.pressure.minCoeff();
   r.p_max = r.pressure.maxCoeff();

@@ -46,7 +46,6 @@ struct ContactResults {
 /// s runs along both curves from the end of the multiplier side with the smaller x (then y).
 /// `lambda` holds the pair's row values (stress).
 ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const Constraints& constraints,
-                               const BodyPoints& points, const StressField& stress, const VecX& u,
-                               const VecX& lambda);
+                               const BodyPoints& points, const StressField& stress, const VecX& u, const VecX& lambda);
 
 }  // namespace mortise

@@ -45,9 +45,11 @@ void apply(const Scene& scene, const Mesh& mesh, const BoundarySpec& spec, Discr
     if (spec.displacement_x) prescribe(mesh, boundary, 0, *spec.displacement_x, d.constraints);
     if (spec.displacement_y) prescribe(mesh, boundary, 1, *spec.displacement_y, d.constraints);
     if (spec.pressure)
-      add_traction(mesh, boundary, [&](const Vec2&, const Vec2& n) -> Vec2 { return -*spec.pressure * n; }, d.load);
+      add_traction(
+          mesh, boundary, [&](const Vec2&, const Vec2& n) -> Vec2 { return -*spec.pressure * n; }, d.load);
     if (spec.traction)
-      add_traction(mesh, boundary, [&](const Vec2&, const Vec2&) -> Vec2 { return *spec.traction; }, d.load);
+      add_traction(
+          mesh, boundary, [&](const Vec2&, const Vec2&) -> Vec2 { return *spec.traction; }, d.load);
   }
 }
 

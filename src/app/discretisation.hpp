@@ -10,10 +10,10 @@ namespace mortise {
 /// K u = load + contact forces, u given where `constraints` say so. One law a body.
 struct Discretisation {
   std::vector<ElasticLaw> laws;
-  SparseMatrix stiffness;   ///< lower triangle, stress units
-  VecX load;                ///< force per thickness, initial strains included
-  VecX initial_load;        ///< the part of `load` that initial strains make
-  double initial_energy = 0;///< of the initial strains held at zero strain, per thickness
+  SparseMatrix stiffness;     ///< lower triangle, stress units
+  VecX load;                  ///< force per thickness, initial strains included
+  VecX initial_load;          ///< the part of `load` that initial strains make
+  double initial_energy = 0;  ///< of the initial strains held at zero strain, per thickness
   Constraints constraints;
 };
 

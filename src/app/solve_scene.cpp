@@ -132,15 +132,15 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress) {
   const StackedCoupling coupling = stack(r.pairs, d.load.size());
   require_held(scene, r.mesh, d.constraints, coupling);
   const auto floating = free_motions(r.mesh, d.constraints, SparseMatrix(0, d.load.size()));
+  const std::vector<int> grounded = grounding_unknowns(r.mesh, d.constraints, floating);
   r.seconds.couple = watch.lap();
 
   stage("solve");
   double young = 0;
   for (const ElasticLaw& law : d.laws) young = std::max(young, law.young);
   const VecX g = -coupling.gap0;
-  SaddlePointSolution solution =
-      solve_saddle_point({d.stiffness, d.load, coupling.B, g, d.constraints.fixed, d.constraints.value, young,
-                          coupling.scale, grounding_unknowns(r.mesh, d.constraints, floating)});
+  SaddlePointSolution solution = solve_saddle_point(
+      {d.stiffness, d.load, coupling.B, g, d.constraints.fixed, d.constraints.value, young, coupling.scale, grounded});
   require_solved(scene, r, coupling, solution);
   r.u = solution.u;
   r.seconds.factorise = solution.factorise_seconds;

@@ -10,7 +10,8 @@
 
 namespace mortise {
 
-enum class Status { solved, not_converged, check_failed };
+/// In the order of severity.
+enum class Status { solved, check_failed, not_converged };
 std::string to_string(Status status);
 
 /// One figure that must stay below its limit.
@@ -34,16 +35,16 @@ struct Results {
   BodyPoints points;
   Discretisation discretisation;
   std::vector<ContactPair> pairs;
-  VecX u;                                    ///< 2 x nodes, length
+  VecX u;  ///< 2 x nodes, length
   StressField stress;
-  std::vector<ContactResults> contacts;      ///< one a pair
-  double energy = 0;                         ///< strain energy per thickness
-  int unknowns = 0;                          ///< free displacement unknowns
-  int multipliers = 0;                       ///< rows of the coupling
+  std::vector<ContactResults> contacts;  ///< one a pair
+  double energy = 0;                     ///< strain energy per thickness
+  int unknowns = 0;                      ///< free displacement unknowns
+  int multipliers = 0;                   ///< rows of the coupling
   std::size_t factor_bytes = 0;
   Seconds seconds;
   std::vector<Check> checks;
-  std::vector<std::string> notes;            ///< what a user should know; nothing that fails
+  std::vector<std::string> notes;  ///< what a user should know; nothing that fails
 };
 
 /// Called as each stage begins, with its name.

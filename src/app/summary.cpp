@@ -1,5 +1,6 @@
 #include "app/summary.hpp"
 
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
@@ -12,8 +13,8 @@ using Json = nlohmann::ordered_json;
 
 // The multiplier space that is really used: quadratic needs 3-node edges.
 std::string space_word(const Scene& scene, const Results& r) {
-  const bool quadratic_edges =
-      std::any_of(r.pairs.begin(), r.pairs.end(), [](const ContactPair& p) { return p.multiplier.edges[0].node_count == 3; });
+  const bool quadratic_edges = std::any_of(r.pairs.begin(), r.pairs.end(),
+                                           [](const ContactPair& p) { return p.multiplier.edges[0].node_count == 3; });
   if (scene.method.multipliers == Multipliers::quadratic && !quadratic_edges) return to_string(Multipliers::linear);
   return to_string(scene.method.multipliers);
 }
@@ -84,23 +85,25 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
     const ContactResults& c = r.contacts[k];
     const ContactSpec& spec = r.pairs[k].spec;
-    out << "  contact   " << spec.between[0] << " - " << spec.between[1] << ": " << to_string(spec.condition) << ", gap "
-        << to_string(spec.initial_gap) << ", " << space_word(scene, r) << " multipliers on " << spec.multipliers_on
-        << "\n            pressure " << c.p_min << " ... " << c.p_max << " (mean " << c.p_mean << "), force ("
-        << c.force.x() << ", " << c.force.y() << ") on " << c.multiplier.curve << "\n            length " << c.length
-        << ", in contact " << c.length_in_contact << "; undeformed gap " << r.pairs[k].coupling.gap_min << " ... "
-        << r.pairs[k].coupling.gap_max << "\n";
+    out << "  contact   " << spec.between[0] << " - " << spec.between[1] << ": " << to_string(spec.condition)
+        << ", gap " << to_string(spec.initial_gap) << ", " << space_word(scene, r) << " multipliers on "
+        << spec.multipliers_on << "\n            pressure " << c.p_min << " ... " << c.p_max << " (mean " << c.p_mean
+        << "), force (" << c.force.x() << ", " << c.force.y() << ") on " << c.multiplier.curve
+        << "\n            length " << c.length << ", in contact " << c.length_in_contact << "; undeformed gap "
+        << r.pairs[k].coupling.gap_min << " ... " << r.pairs[k].coupling.gap_max << "\n";
   }
   out << "  energy    " << r.energy << "\n";
   out << std::setprecision(2);
   for (const Check& c : r.checks)
-    out << "  " << (c.ok() ? "ok    " : "FAILED") << "    " << c.name << ": " << c.value << " (limit " << c.limit << ")\n";
-  for (std::size_t i = 0; i < std::min<std::size_t>(r.notes.size(), 5); ++i) out << "  note      " << r.notes[i] << "\n";
+    out << "  " << (c.ok() ? "ok    " : "FAILED") << "    " << c.name << ": " << c.value << " (limit " << c.limit
+        << ")\n";
+  for (std::size_t i = 0; i < std::min<std::size_t>(r.notes.size(), 5); ++i)
+    out << "  note      " << r.notes[i] << "\n";
   if (r.notes.size() > 5) out << "  note      " << r.notes.size() - 5 << " more in summary.json\n";
   const Seconds& s = r.seconds;
-  out << std::fixed << std::setprecision(3) << "  seconds   mesh " << s.mesh << ", assemble " << s.assemble << ", couple "
-      << s.couple << ", factorise " << s.factorise << ", solve " << s.solve << ", recover " << s.recover << ", write "
-      << s.write << "; total " << s.total() << "\n";
+  out << std::fixed << std::setprecision(3) << "  seconds   mesh " << s.mesh << ", assemble " << s.assemble
+      << ", couple " << s.couple << ", factorise " << s.factorise << ", solve " << s.solve << ", recover " << s.recover
+      << ", write " << s.write << "; total " << s.total() << "\n";
   out << "  " << to_string(r.status) << "; results in " << folder.string() << "/ (result.vtu opens in ParaView)\n";
   return out.str();
 }

@@ -76,7 +76,8 @@ Variation parse_variation(const std::string& text) {
   std::stringstream values(split.value);
   for (std::string value; std::getline(values, value, ',');) variation.values.push_back(value);
   if (variation.values.empty())
-    throw InputError("--vary " + text + ": no value; expected KEY=VALUE1,VALUE2,... such as "
+    throw InputError("--vary " + text +
+                     ": no value; expected KEY=VALUE1,VALUE2,... such as "
                      "mesh.parameters.n_upper=20,40,80");
   return variation;
 }
@@ -102,11 +103,11 @@ Status sweep(const std::string& scene_path, const std::vector<Override>& overrid
       const Results results = solve_scene(read_scene(scene_path, all));
       words.push_back(to_string(results.status));
       table.add(words, figures(results));
-      if (results.status != Status::solved) worst = results.status;
+      worst = std::max(worst, results.status);
     } catch (const InputError& error) {
       words.push_back(std::string("bad input: ") + error.what());
       table.add(words, {});
-      worst = Status::check_failed;
+      worst = std::max(worst, Status::check_failed);
     }
     table.write(csv);
     report(line + ": " + words.back());

@@ -40,9 +40,8 @@ VtuGrid result_grid(const Results& r) {
     grid.cells.push_back(cell);
   }
   const std::vector<std::string> stress_names{"11", "22", "33", "12"};
-  grid.point_fields = {{"displacement", u, {}},
-                       {"stress", r.stress.points, stress_names},
-                       {"von_mises", von_mises_stress, {}}};
+  grid.point_fields = {
+      {"displacement", u, {}}, {"stress", r.stress.points, stress_names}, {"von_mises", von_mises_stress, {}}};
   grid.cell_fields = {{"body", body, {}}, {"stress_centre", r.stress.centres, stress_names}};
   return grid;
 }

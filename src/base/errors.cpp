@@ -36,12 +36,10 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   return best;
 }
 
-std::string unknown_name(const std::string& what, const std::string& name,
-                         const std::vector<std::string>& candidates) {
+std::string unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& candidates) {
   std::string text = "unknown " + what + " '" + name + "'";
   const std::string nearest = nearest_name(name, candidates);
-  if (!nearest.empty()) text += "; did you mean '" + nearest + "'?";
-  text += " known: ";
+  text += nearest.empty() ? "; known: " : "; did you mean '" + nearest + "'? known: ";
   for (std::size_t i = 0; i < candidates.size(); ++i) text += (i ? ", " : "") + candidates[i];
   return text;
 }

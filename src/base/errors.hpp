@@ -18,7 +18,6 @@ class InputError : public std::runtime_error {
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
 
 /// "unknown WHAT 'NAME'; did you mean 'NEAREST'? known: a, b, c"
-std::string unknown_name(const std::string& what, const std::string& name,
-                         const std::vector<std::string>& candidates);
+std::string unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& candidates);
 
 }  // namespace mortise

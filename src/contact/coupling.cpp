@@ -52,9 +52,8 @@ struct Accumulated {
   VecX gap, scale;
 };
 
-Accumulated accumulate(const Curve& multiplier, const Curve& opposite,
-                       const std::vector<ContactPoint>& points, const CouplingOptions& options,
-                       const Coupling& coupling) {
+Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std::vector<ContactPoint>& points,
+                       const CouplingOptions& options, const Coupling& coupling) {
   const auto count = Eigen::Index(coupling.node.size());
   Accumulated sums{{}, VecX::Zero(count), VecX::Zero(count)};
   sums.B.reserve(points.size() * 36);

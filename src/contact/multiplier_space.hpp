@@ -8,7 +8,7 @@
 
 namespace mortise {
 
-/// psi(xi) = A N(xi), N the `order`-degree Lagrange functions of start, end (and middle): the identity for standard
+/// psi(xi) = A N(xi), N the Lagrange functions of start, end (and middle): the identity for standard
 /// spaces, biorthogonal to N for dual ones.
 struct EdgeMultipliers {
   int count;  ///< 2 (start, end) or 3 (and middle)

@@ -66,9 +66,10 @@ std::optional<double> foot_on_edge(const Points& nodes, const Edge& edge, const 
     const EdgePoint p = edge_point(nodes, edge, xi);
     return (x - p.position).dot(p.tangent);
   };
-  const Vec2 curvature = edge.node_count == 3 ? Vec2((nodes.row(edge.nodes[0]) + nodes.row(edge.nodes[1]) -
-                                                      2 * nodes.row(edge.nodes[2])).transpose())
-                                              : Vec2::Zero();  // edge''
+  const Vec2 curvature =
+      edge.node_count == 3
+          ? Vec2((nodes.row(edge.nodes[0]) + nodes.row(edge.nodes[1]) - 2 * nodes.row(edge.nodes[2])).transpose())
+          : Vec2::Zero();  // edge''
   double xi = 0;
   for (int step = 0; step < 20 && std::abs(xi) < 2; ++step) {
     const EdgePoint p = edge_point(nodes, edge, xi);

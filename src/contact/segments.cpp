@@ -84,8 +84,8 @@ std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multi
         hit = project_onto_edge(nodes, opposite, piece.opposite_edge, p.position, p.normal());
       if (!hit) hit = project_onto_curve(nodes, opposite, p.position, p.normal());
       if (!hit) continue;
-      points.push_back({piece.edge, xi, rule.weights[q] * half * p.jacobian(), p.normal(), hit->edge, hit->xi,
-                        hit->distance});
+      points.push_back(
+          {piece.edge, xi, rule.weights[q] * half * p.jacobian(), p.normal(), hit->edge, hit->xi, hit->distance});
     }
   }
   return points;

@@ -22,13 +22,13 @@ std::vector<Segment> find_segments(const Points& nodes, const Curve& multiplier,
 
 /// A quadrature point of a contact pair.
 struct ContactPoint {
-  int edge;           ///< of the multiplier side
+  int edge;  ///< of the multiplier side
   double xi;
-  double ds;          ///< weight times length element, length
-  Vec2 normal;        ///< unit, out of the multiplier side's body
+  double ds;    ///< weight times length element, length
+  Vec2 normal;  ///< unit, out of the multiplier side's body
   int opposite_edge;
-  double eta;         ///< reference coordinate on the opposite edge
-  double gap;         ///< (x_opposite - x_multiplier) . normal, undeformed, length, positive when open
+  double eta;  ///< reference coordinate on the opposite edge
+  double gap;  ///< (x_opposite - x_multiplier) . normal, undeformed, length, positive when open
 };
 
 /// Gauss points on each segment: exact on straight edges for the product of both sides' shape functions.

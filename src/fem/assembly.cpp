@@ -218,8 +218,7 @@ void add_traction(const Mesh& mesh, int boundary, const Traction& traction, VecX
       const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
       const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);
       const Vec2 t = rule.weights[q] * p.jacobian() * traction(p.position, p.normal());
-      for (std::size_t a = 0; a < std::size_t(edge.node_count); ++a)
-        load.segment<2>(2 * edge.nodes[a]) += s.N[a] * t;
+      for (std::size_t a = 0; a < std::size_t(edge.node_count); ++a) load.segment<2>(2 * edge.nodes[a]) += s.N[a] * t;
     }
   }
 }

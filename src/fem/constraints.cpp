@@ -115,8 +115,9 @@ std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Const
     std::vector<RigidMotion> motion;
     for (Eigen::Index b = 0; b < bodies; ++b) {
       const Eigen::Vector3d part = eigen.eigenvectors().block<3, 1>(3 * b, m);
-      if (part.norm() > 1e-6) motion.push_back({int(b), part.head<2>(), part(2) / frames.size[std::size_t(b)],
-                                                       frames.centre[std::size_t(b)]});
+      if (part.norm() > 1e-6)
+        motion.push_back(
+            {int(b), part.head<2>(), part(2) / frames.size[std::size_t(b)], frames.centre[std::size_t(b)]});
     }
     motions.push_back(motion);
   }
@@ -132,8 +133,7 @@ std::vector<int> grounding_unknowns(const Mesh& mesh, const Constraints& constra
       for (int p = points.first[std::size_t(motion.body)]; p < points.first[std::size_t(motion.body) + 1]; ++p) {
         const int node = points.node[std::size_t(p)];
         const Vec2 arm = mesh.nodes.row(node).transpose() - motion.centre;
-        fields.block<2, 1>(2 * node, Eigen::Index(m)) =
-            motion.translation + motion.rotation * Vec2(-arm.y(), arm.x());
+        fields.block<2, 1>(2 * node, Eigen::Index(m)) = motion.translation + motion.rotation * Vec2(-arm.y(), arm.x());
       }
   for (Eigen::Index i = 0; i < fields.rows(); ++i)
     if (constraints.fixed[std::size_t(i)]) fields.row(i).setZero();

@@ -14,8 +14,8 @@ ElasticLaw elastic_law(double young, double poisson, Plane plane, const Vec4& in
 
   ElasticLaw law;
   law.young = young;
-  law.stiffness << coupling + 2 * mu, coupling, 0,  //
-      coupling, coupling + 2 * mu, 0,               //
+  law.stiffness << coupling + 2 * mu, coupling, 0,                              //
+      coupling, coupling + 2 * mu, 0,                                           //
       plane == Plane::strain ? lame : 0, plane == Plane::strain ? lame : 0, 0,  //
       0, 0, mu;
   const Vec4& e = initial_strain;

@@ -124,7 +124,8 @@ struct BorderedCholesky::Factor {
       while (first > 0 && perm()[s[pi[k] + first - 1]] >= n) --first;  // the border is last in every row list
       if (columns == 0 || first == rows) continue;
       const double* block = static_cast<const double*>(L->x) + px[k];
-      visit(BorderBlock{{block + first, rows - first, columns, Eigen::OuterStride<>(rows)}, s + pi[k] + first, super[k]});
+      visit(
+          BorderBlock{{block + first, rows - first, columns, Eigen::OuterStride<>(rows)}, s + pi[k] + first, super[k]});
     }
   }
 

@@ -9,14 +9,14 @@ namespace mortise {
 
 /// Unknowns come in pairs (2 i, 2 i + 1: one node). Any units: the system is made dimensionless by the two scales.
 struct SaddlePointSystem {
-  const SparseMatrix& K;          ///< n x n, lower triangle, positive semidefinite, stress units
-  const VecX& f;                  ///< n, force per thickness
-  const SparseMatrix& B;          ///< m x n, length
-  const VecX& g;                  ///< m, length^2
-  const std::vector<char>& fixed; ///< n: unknowns whose value is prescribed
-  const VecX& value;              ///< n, length
-  double stiffness_scale;         ///< a typical entry of K (Young's modulus)
-  const VecX& row_scale;          ///< m: size of each row of B, length
+  const SparseMatrix& K;           ///< n x n, lower triangle, positive semidefinite, stress units
+  const VecX& f;                   ///< n, force per thickness
+  const SparseMatrix& B;           ///< m x n, length
+  const VecX& g;                   ///< m, length^2
+  const std::vector<char>& fixed;  ///< n: unknowns whose value is prescribed
+  const VecX& value;               ///< n, length
+  double stiffness_scale;          ///< a typical entry of K (Young's modulus)
+  const VecX& row_scale;           ///< m: size of each row of B, length
   /// Unknowns that springs must hold for K to be positive definite (one for each motion that only B resists). The
   /// springs are taken out again exactly: docs/theory.md eq. 18.
   std::vector<int> grounded;

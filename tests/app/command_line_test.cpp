@@ -51,8 +51,7 @@ TEST(CommandLine, SummaryHasTheKeysOtherProgramsRead) {
   ASSERT_EQ(mortise({"solve", geo("stack.toml"), "-o", folder.path("run")}).status, 0);
   const nlohmann::json s = summary(folder.path("run"));
   for (const char* key : {"title", "scene", "version", "status", "energy"}) EXPECT_TRUE(s.contains(key)) << key;
-  for (const char* key :
-       {"kind", "integration", "multipliers", "multipliers_on", "solver", "condition", "initial_gap"})
+  for (const char* key : {"kind", "integration", "multipliers", "multipliers_on", "solver", "condition", "initial_gap"})
     EXPECT_TRUE(s["method"].contains(key)) << key;
   for (const char* key : {"nodes", "elements", "dofs", "multipliers"}) EXPECT_GT(s["mesh"][key].get<int>(), 0) << key;
   for (const char* key : {"mesh", "assemble", "couple", "factorise", "solve", "recover", "write", "total"})
@@ -92,9 +91,9 @@ TEST(CommandLine, ContactCsvHasOneRowANodeOrderedByArcLength) {
 
 TEST(CommandLine, UnilateralContactThatPullsIsNotConverged) {
   const TemporaryFolder folder;
-  const Outcome o = mortise({"solve", geo("cosine.toml"), "--set", "contact.condition=unilateral", "--set",
-                             "mesh.parameters.n_upper=40", "--set", "mesh.parameters.n_lower=50", "-o",
-                             folder.path("run")});
+  const Outcome o =
+      mortise({"solve", geo("cosine.toml"), "--set", "contact.condition=unilateral", "--set",
+               "mesh.parameters.n_upper=40", "--set", "mesh.parameters.n_lower=50", "-o", folder.path("run")});
   EXPECT_EQ(o.status, 2);
   EXPECT_EQ(summary(folder.path("run"))["status"], "not_converged");  // written, and marked so
 }
@@ -113,8 +112,8 @@ TEST(CommandLine, CheckSaysWhatTheSceneModelsAndWritesNothing) {
 TEST(CommandLine, MeshWritesAMeshThatSolves) {
   const TemporaryFolder folder;
   ASSERT_EQ(mortise({"mesh", geo("patch_inclined.toml"), "-o", folder.path("m.msh")}).status, 0);
-  const Outcome o = mortise({"solve", geo("patch_inclined.toml"), "--set", "mesh={file=\"" + folder.path("m.msh") + "\"}",
-                             "-o", folder.path("run")});
+  const Outcome o = mortise({"solve", geo("patch_inclined.toml"), "--set",
+                             "mesh={file=\"" + folder.path("m.msh") + "\"}", "-o", folder.path("run")});
   EXPECT_EQ(o.status, 0) << o.err;
 }
 
@@ -147,8 +146,8 @@ TEST(CommandLine, HelpAndVersionSucceed) {
 
 struct BadInput {
   const char* name;
-  std::vector<std::string> arguments;     // after "solve SCENE -o FOLDER", unless `command` is set
-  std::vector<std::string> expected;      // parts of the message
+  std::vector<std::string> arguments;  // after "solve SCENE -o FOLDER", unless `command` is set
+  std::vector<std::string> expected;   // parts of the message
   const char* scene = "patch_flat.toml";
 };
 
@@ -160,13 +159,9 @@ const BadInput bad_input[] = {
      {"--set", "contact.0.between=[\"upper_contakt\",\"lower_contact\"]"},
      {"upper_contakt", "upper_contact"}},
     {"NothingHoldsTheLowerBody", {"--set", "boundary.1.displacement={x=0}"}, {"nothing holds", "translation"}},
-    {"NothingHoldsAnything",
-     {"--set", "boundary=[{on=[\"top\"], pressure=1e6}]"},
-     {"nothing holds"}},
+    {"NothingHoldsAnything", {"--set", "boundary=[{on=[\"top\"], pressure=1e6}]"}, {"nothing holds"}},
     {"BoundariesDisagree", {"--set", "boundary.1.displacement={x=0.1,y=0}"}, {"one value a node", "(0, 0)"}},
-    {"ContactCurveInTwoPieces",
-     {"--set", "contact.0.between=[\"upper_contact\",\"lower_left\"]"},
-     {"lower_left"}},
+    {"ContactCurveInTwoPieces", {"--set", "contact.0.between=[\"upper_contact\",\"lower_left\"]"}, {"lower_left"}},
     {"DdmIsNotThere", {"--set", "method.kind=ddm"}, {"ddm", "mortar"}},
     {"UnknownParameterOfTheGeo", {"--set", "mesh.parameters.n_uper=4"}, {"n_uper", "n_upper"}},
     {"ElementsOfThirdOrder", {"--set", "mesh.parameters.order=3"}, {"patch_flat.geo", "16"}},
@@ -198,9 +193,8 @@ INSTANTIATE_TEST_SUITE_P(Table, BadInputs, testing::ValuesIn(bad_input),
                          [](const auto& row) { return std::string(row.param.name); });
 
 TEST(BadCommands, MissingOrUnknown) {
-  for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{}, {"solv"}, {"solve"}, {"solve", "a.toml", "b.toml"}, {"sweep", "x.toml"},
-                                             {"solve", "/no/such.toml"}}) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {}, {"solv"}, {"solve"}, {"solve", "a.toml", "b.toml"}, {"sweep", "x.toml"}, {"solve", "/no/such.toml"}}) {
     const Outcome o = mortise(arguments);
     EXPECT_EQ(o.status, 1);
     EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;

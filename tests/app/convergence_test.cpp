@@ -69,11 +69,10 @@ TEST_P(Convergence, RatesAndErrorsOnAllLines) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Quadratic, Convergence,
-                         testing::Combine(testing::Values(CellKind::quad8, CellKind::tri6),
-                                          testing::Values(Multipliers::quadratic, Multipliers::linear,
-                                                          Multipliers::dual),
-                                          testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(
+    Quadratic, Convergence,
+    testing::Combine(testing::Values(CellKind::quad8, CellKind::tri6),
+                     testing::Values(Multipliers::quadratic, Multipliers::linear, Multipliers::dual), testing::Bool()));
 INSTANTIATE_TEST_SUITE_P(Linear, Convergence,
                          testing::Combine(testing::Values(CellKind::quad4, CellKind::tri3),
                                           testing::Values(Multipliers::linear, Multipliers::dual), testing::Bool()));

@@ -84,8 +84,7 @@ TEST(Units, MetresAndPascalsAgreeWithMillimetresAndMegapascals) {
   EXPECT_LE((a.u - b.u / 1000).cwiseAbs().maxCoeff(), 1e-9 * a.u.cwiseAbs().maxCoeff());
   EXPECT_LE((a.stress.points - 1e6 * b.stress.points).cwiseAbs().maxCoeff(),
             1e-9 * a.stress.points.cwiseAbs().maxCoeff());
-  EXPECT_LE((a.contacts[0].pressure - 1e6 * b.contacts[0].pressure).cwiseAbs().maxCoeff(),
-            1e-9 * a.contacts[0].p_max);
+  EXPECT_LE((a.contacts[0].pressure - 1e6 * b.contacts[0].pressure).cwiseAbs().maxCoeff(), 1e-9 * a.contacts[0].p_max);
   EXPECT_NEAR(a.energy, b.energy, 1e-9 * a.energy);  // Pa m^2 = MPa mm^2
 }
 

@@ -23,8 +23,8 @@ Pair pair_of(const TwoPlates& plates, CouplingOptions options, const Constraints
   p.multiplier = contact_curve(p.mesh, boundary_index(p.mesh, "lower_contact"));
   p.opposite = contact_curve(p.mesh, boundary_index(p.mesh, "upper_contact"));
   p.points = contact_points(p.mesh.nodes, p.multiplier, p.opposite, options.integration);
-  p.coupling = couple(p.mesh, p.multiplier, p.opposite, p.points, constraints ? *constraints : no_constraints(p.mesh),
-                      options);
+  p.coupling =
+      couple(p.mesh, p.multiplier, p.opposite, p.points, constraints ? *constraints : no_constraints(p.mesh), options);
   return p;
 }
 
@@ -133,7 +133,8 @@ TEST(Dropped, MultipliersThatFaceNothingAreZeroAndNamed) {
   Pair p{test::mesh_of(plates), {}, {}, {}, {}};
   std::vector<char> moved(std::size_t(p.mesh.nodes.rows()), 0);
   for (const Cell& cell : p.mesh.cells)
-    for (int a = 0; a < node_count(cell.kind) && cell.body == 0; ++a) moved[std::size_t(cell.nodes[std::size_t(a)])] = 1;
+    for (int a = 0; a < node_count(cell.kind) && cell.body == 0; ++a)
+      moved[std::size_t(cell.nodes[std::size_t(a)])] = 1;
   for (Eigen::Index i = 0; i < p.mesh.nodes.rows(); ++i)
     if (moved[std::size_t(i)]) p.mesh.nodes(i, 0) += 0.3;
   p.multiplier = contact_curve(p.mesh, boundary_index(p.mesh, "lower_contact"));

@@ -40,9 +40,9 @@ TEST(Projection, AlongAnInclinedLineAndFromBehind) {
 
 TEST(Projection, IgnoresWhatDoesNotFaceOrLiesFarBehind) {
   const StraightEdge e;
-  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, Vec2(0.5, -1), Vec2(0, 1)));    // its back
+  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, Vec2(0.5, -1), Vec2(0, 1)));     // its back
   EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, Vec2(0.5, -1.1), Vec2(0, -1)));  // deeper than it is long
-  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, Vec2(1.1, 1), Vec2(0, -1)));    // beside it
+  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, Vec2(1.1, 1), Vec2(0, -1)));     // beside it
 }
 
 TEST(Projection, EndsCountToTheTolerance) {
@@ -126,8 +126,7 @@ TEST(Segments, CoverACurvedLineFromBothSides) {
   for (const auto& [side, other] : {std::pair(&c.lower, &c.upper), std::pair(&c.upper, &c.lower)}) {
     const auto segments = find_segments(c.mesh.nodes, *side, *other);
     EXPECT_NEAR(covered(segments, c, *side), curve_length(c.mesh.nodes, *side), 1e-12);
-    for (std::size_t i = 1; i < segments.size(); ++i)
-      EXPECT_GE(segments[i].edge, segments[i - 1].edge);
+    for (std::size_t i = 1; i < segments.size(); ++i) EXPECT_GE(segments[i].edge, segments[i - 1].edge);
   }
 }
 

@@ -33,15 +33,17 @@ void prescribe_exactly(const Mesh& mesh, const ExactField& exact, const std::str
 VecX exact_loads(const Mesh& mesh, const ExactField& exact) {
   VecX load = VecX::Zero(2 * mesh.nodes.rows());
   for (const char* side : {"upper_left", "upper_right", "lower_left", "lower_right"})
-    add_traction(mesh, boundary_index(mesh, side),
-                 [&](const Vec2& x, const Vec2& n) -> Vec2 { return traction_at(exact, x, n); }, load);
+    add_traction(
+        mesh, boundary_index(mesh, side),
+        [&](const Vec2& x, const Vec2& n) -> Vec2 { return traction_at(exact, x, n); }, load);
   for (const char* curve : {"upper_contact", "lower_contact"})
-    add_traction(mesh, boundary_index(mesh, curve),
-                 [&](const Vec2& x, const Vec2& n) -> Vec2 {
-                   const Vec2 t = traction_at(exact, x, n);
-                   return t - t.dot(n) * n;
-                 },
-                 load);
+    add_traction(
+        mesh, boundary_index(mesh, curve),
+        [&](const Vec2& x, const Vec2& n) -> Vec2 {
+          const Vec2 t = traction_at(exact, x, n);
+          return t - t.dot(n) * n;
+        },
+        load);
   return load;
 }
 
@@ -127,8 +129,8 @@ Errors manufactured_errors(const ManufacturedCase& which) {
       couple(mesh, multiplier, opposite, contact_points(mesh.nodes, multiplier, opposite, which.integration),
              constraints, {which.integration, which.multipliers, InitialGap::closed});
   const VecX g = -coupling.gap0;
-  const SaddlePointSolution s = solve_saddle_point({K, load, coupling.B, g, constraints.fixed, constraints.value,
-                                                    exact.young, coupling.scale, {}});
+  const SaddlePointSolution s = solve_saddle_point(
+      {K, load, coupling.B, g, constraints.fixed, constraints.value, exact.young, coupling.scale, {}});
   if (s.status != SaddlePointSolution::Status::solved) throw std::runtime_error("manufactured case not solved");
   const auto [l2, energy] = body_errors(mesh, exact, laws[0], s.u);
   return {std::sqrt(l2), std::sqrt(energy),

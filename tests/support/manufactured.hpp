@@ -1,8 +1,8 @@
 // An exact plane-strain field, and two plates in contact that it solves.
 #pragma once
 
-#include "support/two_plates.hpp"
 #include "base/model.hpp"
+#include "support/two_plates.hpp"
 
 namespace mortise::test {
 

@@ -18,7 +18,14 @@ class Plate {
       for (int i = 0; i < n_; ++i) {
         const int x = 2 * i, y = 2 * j;
         if (corner_count(kind_) == 4) {
-          add({{{x, y}, {x + 2, y}, {x + 2, y + 2}, {x, y + 2}, {x + 1, y}, {x + 2, y + 1}, {x + 1, y + 2}, {x, y + 1},
+          add({{{x, y},
+                {x + 2, y},
+                {x + 2, y + 2},
+                {x, y + 2},
+                {x + 1, y},
+                {x + 2, y + 1},
+                {x + 1, y + 2},
+                {x, y + 1},
                 {x + 1, y + 1}}});
         } else {
           add({{{x, y}, {x + 2, y}, {x + 2, y + 2}, {x + 1, y}, {x + 2, y + 1}, {x + 1, y + 1}}});
@@ -32,8 +39,8 @@ class Plate {
     const int count = across ? m_ : n_, at = far ? 2 * (across ? n_ : m_) : 0;
     for (int k = 0; k < count; ++k) {
       const auto node = [&](int along) { return across ? number(at, along) : number(along, at); };
-      b.edges.push_back({is_quadratic(kind_) ? 3 : 2,
-                         {node(2 * k), node(2 * k + 2), is_quadratic(kind_) ? node(2 * k + 1) : -1}});
+      b.edges.push_back(
+          {is_quadratic(kind_) ? 3 : 2, {node(2 * k), node(2 * k + 2), is_quadratic(kind_) ? node(2 * k + 1) : -1}});
     }
     return b;
   }
@@ -42,7 +49,8 @@ class Plate {
   using Grid = std::array<std::pair<int, int>, 9>;
   void add(const Grid& grid) {
     Cell cell{kind_, body_, {}};
-    for (std::size_t a = 0; a < std::size_t(node_count(kind_)); ++a) cell.nodes[a] = number(grid[a].first, grid[a].second);
+    for (std::size_t a = 0; a < std::size_t(node_count(kind_)); ++a)
+      cell.nodes[a] = number(grid[a].first, grid[a].second);
     mesh_.cells.push_back(cell);
   }
   int number(int i, int j) {
@@ -75,10 +83,14 @@ Mesh mesh_of(const TwoPlates& p) {
   });
   upper.add_cells();
   lower.add_cells();
-  mesh.boundaries = {upper.boundary("top", false, true),           lower.boundary("bottom", false, false),
-                     upper.boundary("upper_left", true, false),    upper.boundary("upper_right", true, true),
-                     lower.boundary("lower_left", true, false),    lower.boundary("lower_right", true, true),
-                     upper.boundary("upper_contact", false, false), lower.boundary("lower_contact", false, true)};
+  mesh.boundaries = {upper.boundary("top", false, true),
+                     lower.boundary("bottom", false, false),
+                     upper.boundary("upper_left", true, false),
+                     upper.boundary("upper_right", true, true),
+                     lower.boundary("lower_left", true, false),
+                     lower.boundary("lower_right", true, true),
+                     upper.boundary("upper_contact", false, false),
+                     lower.boundary("lower_contact", false, true)};
   mesh.nodes.resize(Eigen::Index(nodes.size()), 2);
   for (std::size_t i = 0; i < nodes.size(); ++i) mesh.nodes.row(Eigen::Index(i)) = nodes[i].transpose();
   return mesh;
