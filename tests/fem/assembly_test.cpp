@@ -1,0 +1,181 @@
+#include "fem/assembly.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fem/constraints.hpp"
+#include "fem/stress.hpp"
+#include "support/two_plates.hpp"
+
+namespace mortise {
+namespace {
+
+using test::TwoPlates;
+
+constexpr CellKind kinds[] = {CellKind::tri3, CellKind::tri6, CellKind::quad4, CellKind::quad8, CellKind::quad9};
+
+Mesh curved_plates(CellKind kind) {
+  TwoPlates plates;
+  plates.height = [](double x) { return -1.25 * x * x + x + 0.2; };
+  plates.n_upper = 5;
+  plates.n_lower = 8;
+  plates.kind_upper = plates.kind_lower = kind;
+  return test::mesh_of(plates);
+}
+
+VecX field(const Mesh& mesh, const std::function<Vec2(const Vec2&)>& u) {
+  VecX values(2 * mesh.nodes.rows());
+  for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i) values.segment<2>(2 * i) = u(mesh.nodes.row(i).transpose());
+  return values;
+}
+
+TEST(Stiffness, ResistsNoRigidMotion) {
+  for (const CellKind kind : kinds) {
+    const Mesh mesh = curved_plates(kind);
+    const SparseMatrix K = assemble_stiffness(mesh, std::vector<ElasticLaw>(2, elastic_law(1, 0.3, Plane::strain)));
+    for (const auto& motion :
+         {field(mesh, [](const Vec2&) { return Vec2(1, 0); }), field(mesh, [](const Vec2&) { return Vec2(0, 1); }),
+          field(mesh, [](const Vec2& x) { return Vec2(-x.y(), x.x()); })})
+      EXPECT_LE((K.selfadjointView<Eigen::Lower>() * motion).cwiseAbs().maxCoeff(), 1e-14);
+  }
+}
+
+TEST(Stiffness, EnergyOfUniformStrainIsExactOnStraightElements) {
+  for (const CellKind kind : kinds) {
+    TwoPlates plates;
+    plates.kind_upper = plates.kind_lower = kind;
+    const Mesh mesh = test::mesh_of(plates);
+    const ElasticLaw law = elastic_law(3, 0.25, Plane::stress);
+    const SparseMatrix K = assemble_stiffness(mesh, {law, law});
+    const VecX u = field(mesh, [](const Vec2& x) { return Vec2(0.1 * x.x() + 0.2 * x.y(), -0.3 * x.y()); });
+    const Eigen::Vector3d strain(0.1, -0.3, 0.2);
+    const Vec4 stress = law.stiffness * strain;
+    const double density = 0.5 * (stress(0) * strain(0) + stress(1) * strain(1) + stress(3) * strain(2));
+    EXPECT_NEAR(0.5 * u.dot(K.selfadjointView<Eigen::Lower>() * u), density * 0.8 * 0.6, 1e-14);
+  }
+}
+
+TEST(Law, PlaneStressHasNoStressAcrossAndPlaneStrainNoStrain) {
+  const Eigen::Vector3d strain(1e-3, -2e-3, 5e-4);
+  const Vec4 flat = elastic_law(200, 0.3, Plane::stress).stiffness * strain;
+  EXPECT_EQ(flat(2), 0);
+  const Vec4 thick = elastic_law(200, 0.3, Plane::strain).stiffness * strain;
+  EXPECT_NEAR(thick(2), 0.3 * (thick(0) + thick(1)), 1e-15);
+  // Uniaxial plane stress: sigma = E eps when eps_22 = -nu eps_11.
+  const Vec4 bar = elastic_law(200, 0.3, Plane::stress).stiffness * Eigen::Vector3d(1e-3, -0.3e-3, 0);
+  EXPECT_NEAR(bar(0), 0.2, 1e-15);
+  EXPECT_NEAR(bar(1), 0, 1e-16);
+}
+
+TEST(Law, FreeThermalExpansionIsWithoutStressInThePlane) {
+  const double e = 1e-3;
+  for (const Plane plane : {Plane::stress, Plane::strain}) {
+    const ElasticLaw law = elastic_law(200, 0.3, plane, Vec4(e, e, e, 0));
+    const double in_plane = plane == Plane::strain ? 1.3 * e : e;  // (1 + nu) alpha dT in plane strain
+    const Vec4 s = law.stiffness * Eigen::Vector3d(in_plane, in_plane, 0) + law.stress0;
+    EXPECT_NEAR(s(0), 0, 1e-15);
+    EXPECT_NEAR(s(1), 0, 1e-15);
+    EXPECT_NEAR(s(2), plane == Plane::strain ? -200 * e : 0, 1e-15);
+  }
+}
+
+TEST(Law, VonMisesOfKnownStates) {
+  EXPECT_NEAR(von_mises(Vec4(5, 0, 0, 0)), 5, 1e-15);
+  EXPECT_NEAR(von_mises(Vec4(0, 0, 0, 2)), 2 * std::sqrt(3), 1e-15);
+  EXPECT_NEAR(von_mises(Vec4(-7, -7, -7, 0)), 0, 1e-15);
+}
+
+TEST(Loads, PressureOnAClosedOutlineIsInBalance) {
+  for (const CellKind kind : kinds) {
+    const Mesh mesh = curved_plates(kind);
+    VecX load = VecX::Zero(2 * mesh.nodes.rows());
+    for (const char* name : {"top", "upper_left", "upper_right", "upper_contact"})
+      add_traction(
+          mesh, boundary_index(mesh, name), [](const Vec2&, const Vec2& n) -> Vec2 { return -3 * n; }, load);
+    Vec2 force = Vec2::Zero();
+    double moment = 0;
+    for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i) {
+      force += load.segment<2>(2 * i);
+      moment += mesh.nodes(i, 0) * load(2 * i + 1) - mesh.nodes(i, 1) * load(2 * i);
+    }
+    EXPECT_LE(force.norm(), 1e-14);
+    EXPECT_LE(std::abs(moment), 1e-14);
+  }
+}
+
+TEST(Loads, BodyForceSumsToForceTimesArea) {
+  for (const CellKind kind : kinds) {
+    TwoPlates plates;
+    plates.kind_upper = plates.kind_lower = kind;
+    const Mesh mesh = test::mesh_of(plates);
+    VecX load = VecX::Zero(2 * mesh.nodes.rows());
+    add_body_force(mesh, 1, Vec2(2, -5), load);
+    Vec2 sum = Vec2::Zero();
+    for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i) sum += load.segment<2>(2 * i);
+    EXPECT_NEAR(sum.x(), 2 * 0.24, 1e-14);
+    EXPECT_NEAR(sum.y(), -5 * 0.24, 1e-14);
+  }
+}
+
+TEST(Stress, OfALinearFieldIsExactEverywhere) {
+  for (const CellKind kind : kinds) {
+    const Mesh mesh = curved_plates(kind);
+    const std::vector<ElasticLaw> laws(2, elastic_law(3, 0.25, Plane::strain));
+    const VecX u =
+        field(mesh, [](const Vec2& x) { return Vec2(0.1 * x.x() + 0.2 * x.y(), 0.4 * x.x() - 0.3 * x.y()); });
+    const Vec4 exact = laws[0].stiffness * Eigen::Vector3d(0.1, -0.3, 0.6);
+    const StressField s = recover_stress(mesh, body_points(mesh), laws, u);
+    const Stresses gauss = gauss_stresses(mesh, laws, u);
+    for (const Stresses* field : {&s.points, &s.centres, &gauss})
+      EXPECT_LE((field->rowwise() - exact.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(Stress, OfAQuadraticFieldIsExactAtTheNodesOfRectangles) {
+  // 8- and 9-node rectangles: the stress is linear, their 2 x 2 samples are exact, and so is the extension.
+  for (const CellKind kind : {CellKind::quad8, CellKind::quad9}) {
+    TwoPlates plates;
+    plates.kind_upper = plates.kind_lower = kind;
+    const Mesh mesh = test::mesh_of(plates);
+    const std::vector<ElasticLaw> laws(2, elastic_law(3, 0.25, Plane::strain));
+    const VecX u = field(mesh, [](const Vec2& x) { return Vec2(x.x() * x.x() + x.x() * x.y(), x.y() * x.y()); });
+    const BodyPoints points = body_points(mesh);
+    const StressField s = recover_stress(mesh, points, laws, u);
+    for (std::size_t p = 0; p < points.node.size(); ++p) {
+      const Vec2 x = mesh.nodes.row(points.node[p]).transpose();
+      const Vec4 exact = laws[0].stiffness * Eigen::Vector3d(2 * x.x() + x.y(), 2 * x.y(), x.x());
+      EXPECT_LE((s.points.row(Eigen::Index(p)).transpose() - exact).cwiseAbs().maxCoeff(), 1e-11);
+    }
+  }
+}
+
+TEST(FreeMotions, AreCountedAndNamed) {
+  const Mesh mesh = test::mesh_of({});
+  const SparseMatrix none(0, 2 * mesh.nodes.rows());
+  Constraints c = no_constraints(mesh);
+  EXPECT_EQ(free_motions(mesh, c, none).size(), 6u);
+  prescribe(mesh, boundary_index(mesh, "bottom"), 0, 0, c);
+  prescribe(mesh, boundary_index(mesh, "bottom"), 1, 0, c);
+  EXPECT_EQ(free_motions(mesh, c, none).size(), 3u);
+  prescribe(mesh, boundary_index(mesh, "upper_left"), 0, 0, c);
+  const auto motions = free_motions(mesh, c, none);
+  ASSERT_EQ(motions.size(), 1u);
+  EXPECT_NE(describe(mesh, motions[0]).find("body 'upper': translation (0, "), std::string::npos)
+      << describe(mesh, motions[0]);
+  const auto grounded = grounding_unknowns(mesh, c, motions);
+  ASSERT_EQ(grounded.size(), 1u);
+  EXPECT_EQ(grounded[0] % 2, 1);  // vertical
+}
+
+TEST(CheckCells, NamesTheInvertedElement) {
+  for (const CellKind kind : kinds) {
+    Mesh mesh = test::mesh_of({[](double) { return 0.3; }, 3, 4, kind, kind});
+    EXPECT_NO_THROW(check_cells(mesh));
+    const Cell& cell = mesh.cells[2];
+    const Vec2 a = mesh.nodes.row(cell.nodes[1]);
+    mesh.nodes.row(cell.nodes[1]) = mesh.nodes.row(cell.nodes[0]) - (a.transpose() - mesh.nodes.row(cell.nodes[0]));
+    EXPECT_THROW(check_cells(mesh), std::runtime_error);
+  }
+}
+
+}  // namespace
+}  // namespace mortise
