@@ -12,17 +12,14 @@ extern "C" void openblas_set_num_threads(int threads);
 namespace mortise {
 namespace {
 
-// The border's diagonal: K and B are of unit size, so any m far above m's number of rows keeps the border positive.
-constexpr double border_diagonal = 1e20;
-
-// Approximate minimum degree on the graph of blocks (nodes), the border last.
-std::vector<int> ordering(const SparseMatrix& K, Eigen::Index border, const std::vector<int>& blocks) {
-  const int n = int(K.cols()), block_count = blocks.empty() ? 0 : blocks.back() + 1;
+// Approximate minimum degree on the graph of blocks (nodes) of K, the border last.
+std::vector<int> ordering(const SparseMatrix& matrix, const std::vector<int>& blocks) {
+  const int n = int(blocks.size()), block_count = blocks.empty() ? 0 : blocks.back() + 1;
   std::vector<int> first_of(std::size_t(block_count) + 1, n), start{0}, row;
   for (int i = n - 1; i >= 0; --i) first_of[std::size_t(blocks[std::size_t(i)])] = i;
   for (int b = 0; b < block_count; ++b) {
     const int column = first_of[std::size_t(b)];
-    for (SparseMatrix::InnerIterator it(K, column); it; ++it) {
+    for (SparseMatrix::InnerIterator it(matrix, column); it && it.row() < n; ++it) {
       const int r = blocks[std::size_t(it.row())];
       if (r > b && (int(row.size()) == start.back() || row.back() != r)) row.push_back(r);
     }
@@ -32,36 +29,13 @@ std::vector<int> ordering(const SparseMatrix& K, Eigen::Index border, const std:
   if (amd_order(block_count, start.data(), row.data(), block_order.data(), nullptr, nullptr) < AMD_OK)
     throw std::runtime_error("AMD ordering failed");
   std::vector<int> order;
-  order.reserve(std::size_t(n + border));
+  order.reserve(std::size_t(matrix.cols()));
   for (int k = 0; k < block_count; ++k) {
     const auto b = std::size_t(block_order[std::size_t(k)]);
     for (int i = first_of[b]; i < first_of[b + 1]; ++i) order.push_back(i);
   }
-  for (int r = 0; r < border; ++r) order.push_back(n + r);
+  for (int r = n; r < int(matrix.cols()); ++r) order.push_back(r);
   return order;
-}
-
-// [K B^T; B m I], lower triangle.
-SparseMatrix bordered_matrix(const SparseMatrix& K, const SparseMatrix& B) {
-  const Eigen::Index n = K.cols(), m = B.rows();
-  SparseMatrix A(n + m, n + m);
-  A.resizeNonZeros(K.nonZeros() + B.nonZeros() + m);
-  int at = 0;
-  const auto append = [&](Eigen::Index row, double value) {
-    A.innerIndexPtr()[at] = int(row);
-    A.valuePtr()[at++] = value;
-  };
-  for (Eigen::Index j = 0; j < n; ++j) {
-    A.outerIndexPtr()[j] = at;
-    for (SparseMatrix::InnerIterator it(K, j); it; ++it) append(it.row(), it.value());
-    for (SparseMatrix::InnerIterator it(B, j); it; ++it) append(n + it.row(), it.value());
-  }
-  for (Eigen::Index r = 0; r < m; ++r) {
-    A.outerIndexPtr()[n + r] = at;
-    append(n + r, border_diagonal);
-  }
-  A.outerIndexPtr()[n + m] = at;
-  return A;
 }
 
 cholmod_sparse view(SparseMatrix& A) {
@@ -144,27 +118,27 @@ struct BorderedCholesky::Factor {
   }
 };
 
-BorderedCholesky::BorderedCholesky(const SparseMatrix& K, const SparseMatrix& B, const std::vector<int>& blocks)
+BorderedCholesky::BorderedCholesky(SparseMatrix matrix, const std::vector<int>& blocks)
     : factor_(std::make_unique<Factor>()) {
   Factor& f = *factor_;
-  f.n = int(K.cols());
-  f.m = int(B.rows());
+  f.n = int(blocks.size());
+  f.m = int(matrix.cols()) - f.n;
   cholmod_common& c = f.common;
   c.supernodal = CHOLMOD_SUPERNODAL;
   c.nmethods = 1;
   c.method[0].ordering = CHOLMOD_GIVEN;
   c.print = 0;
-  std::vector<int> order = ordering(K, B.rows(), blocks);
-  SparseMatrix A = bordered_matrix(K, B);
-  cholmod_sparse matrix = view(A);
-  f.L = cholmod_analyze_p(&matrix, order.data(), nullptr, 0, &c);
+  std::vector<int> order = ordering(matrix, blocks);
+  cholmod_sparse A = view(matrix);
+  f.L = cholmod_analyze_p(&A, order.data(), nullptr, 0, &c);
   if (!f.L) throw std::runtime_error("CHOLMOD could not analyse the matrix: out of memory or too large");
-  cholmod_factorize(&matrix, f.L, &c);
+  cholmod_factorize(&A, f.L, &c);
   if (c.status == CHOLMOD_NOT_POSDEF) {
     f.failed_at = f.perm()[f.L->minor];
     return;
   }
   if (c.status < CHOLMOD_OK) throw std::runtime_error("CHOLMOD could not factorise the matrix: out of memory");
+  matrix = SparseMatrix();
 
   compliance_ = MatX::Zero(f.m, f.m);
   MatX product;

@@ -12,6 +12,9 @@ namespace mortise {
 /// Threads of the dense kernels inside the factorisation; 0: as many as there are cores.
 void set_solver_threads(int threads);
 
+/// The m of the bordered matrix: far above anything that a border of unit size leaves of it.
+inline constexpr double border_diagonal = 1e20;
+
 /// Cholesky factor L of a positive definite K, with C = B K^-1 B^T as a by-product (docs/theory.md eq. 15 to 17).
 ///
 /// CHOLMOD factorises the bordered matrix [K B^T; B m I], the border ordered last and m too large to matter, and the
@@ -21,9 +24,10 @@ void set_solver_threads(int threads);
 /// back-substitution a multiplier to form C.
 class BorderedCholesky {
  public:
-  /// K: n x n, lower triangle; B: m x n, its rows of about unit size when K is of about unit size.
-  /// `blocks` groups the unknowns that share a node (ascending, 0, 0, 1, 1, 2, ...): ordered together.
-  BorderedCholesky(const SparseMatrix& K, const SparseMatrix& B, const std::vector<int>& blocks);
+  /// `matrix` is the lower triangle of [K B^T; B m I]: n columns of K with the rows of B below them, then the border's
+  /// columns, each with border_diagonal alone. K and the rows of B are of about unit size. It is freed once factorised.
+  /// `blocks` groups the n unknowns that share a node (ascending, 0, 0, 1, 1, 2, ...): ordered together.
+  BorderedCholesky(SparseMatrix matrix, const std::vector<int>& blocks);
   ~BorderedCholesky();
   BorderedCholesky(BorderedCholesky&&) noexcept;
 

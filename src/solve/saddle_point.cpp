@@ -9,16 +9,17 @@
 namespace mortise {
 namespace {
 
-// The system on the free unknowns, dimensionless, its border extended by one unit row for each spring.
+// The system on the free unknowns, dimensionless, as BorderedCholesky wants it: the border is the rows of B and one
+// unit row for each spring.
 struct Reduced {
-  SparseMatrix K, border;
+  SparseMatrix matrix;
   std::vector<int> free;    // reduced -> full
   std::vector<int> blocks;  // reduced -> node, densely numbered
 };
 
 Reduced reduce(const SaddlePointSystem& s) {
   Reduced r;
-  const auto n = int(s.K.cols());
+  const int n = int(s.K.cols());
   std::vector<int> to_reduced(std::size_t(n), -1);
   int last_node = -1, block = -1;
   for (int i = 0; i < n; ++i) {
@@ -29,33 +30,28 @@ Reduced reduce(const SaddlePointSystem& s) {
     r.free.push_back(i);
     r.blocks.push_back(block);
   }
-  const auto count = Eigen::Index(r.free.size());
+  std::vector<int> spring(std::size_t(n), -1);
+  for (std::size_t k = 0; k < s.grounded.size(); ++k) spring[std::size_t(s.grounded[k])] = int(k);
 
-  r.K.resize(count, count);
-  r.K.reserve(s.K.nonZeros());
-  std::vector<char> spring(std::size_t(n), 0);
-  for (const int i : s.grounded) spring[std::size_t(i)] = 1;
-  for (Eigen::Index j = 0; j < count; ++j) {
-    r.K.startVec(j);
-    for (SparseMatrix::InnerIterator it(s.K, r.free[std::size_t(j)]); it; ++it) {
+  const int count = int(r.free.size()), m = int(s.B.rows()), border = m + int(s.grounded.size());
+  r.matrix.resize(count + border, count + border);
+  r.matrix.reserve(s.K.nonZeros() + s.B.nonZeros() + border + Eigen::Index(s.grounded.size()));
+  for (int j = 0; j < count; ++j) {
+    const int column = r.free[std::size_t(j)], held = spring[std::size_t(column)];
+    r.matrix.startVec(j);
+    for (SparseMatrix::InnerIterator it(s.K, column); it; ++it) {
       const int i = to_reduced[std::size_t(it.row())];
-      if (i < 0) continue;
-      const double stiffness = i == j && spring[std::size_t(it.row())] ? 1 : 0;
-      r.K.insertBack(i, j) = it.value() / s.stiffness_scale + stiffness;
+      if (i >= 0) r.matrix.insertBack(i, j) = it.value() / s.stiffness_scale + (i == j && held >= 0 ? 1 : 0);
     }
+    for (SparseMatrix::InnerIterator it(s.B, column); it; ++it)
+      r.matrix.insertBack(count + it.row(), j) = it.value() / s.row_scale(it.row());
+    if (held >= 0) r.matrix.insertBack(count + m + held, j) = 1;
   }
-  r.K.finalize();
-
-  const Eigen::Index m = s.B.rows(), springs = Eigen::Index(s.grounded.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(std::size_t(s.B.nonZeros() + springs));
-  for (Eigen::Index j = 0; j < count; ++j)
-    for (SparseMatrix::InnerIterator it(s.B, r.free[std::size_t(j)]); it; ++it)
-      entries.emplace_back(it.row(), j, it.value() / s.row_scale(it.row()));
-  for (Eigen::Index k = 0; k < springs; ++k)
-    entries.emplace_back(m + k, to_reduced[std::size_t(s.grounded[std::size_t(k)])], 1);
-  r.border.resize(m + springs, count);
-  r.border.setFromTriplets(entries.begin(), entries.end());
+  for (int j = count; j < count + border; ++j) {
+    r.matrix.startVec(j);
+    r.matrix.insertBack(j, j) = border_diagonal;
+  }
+  r.matrix.finalize();
   return r;
 }
 
@@ -106,20 +102,16 @@ SaddlePointSolution solve_saddle_point(const SaddlePointSystem& s) {
   SaddlePointSolution solution;
   Stopwatch watch;
   const Eigen::Index m = s.B.rows();
-  std::optional<BorderedCholesky> factor;
-  std::vector<int> free;
-  {
-    Reduced reduced = reduce(s);
-    factor.emplace(reduced.K, reduced.border, reduced.blocks);
-    free = std::move(reduced.free);
-  }
-  if (factor->failed_at() >= 0) {
+  Reduced reduced = reduce(s);
+  BorderedCholesky factor(std::move(reduced.matrix), reduced.blocks);
+  const std::vector<int>& free = reduced.free;
+  if (factor.failed_at() >= 0) {
     solution.status = SaddlePointSolution::Status::not_positive_definite;
-    solution.failed_at = free[std::size_t(std::min<std::size_t>(std::size_t(factor->failed_at()), free.size() - 1))];
+    solution.failed_at = free[std::size_t(std::min<std::size_t>(std::size_t(factor.failed_at()), free.size() - 1))];
     return solution;
   }
-  const MultiplierSystem multipliers(factor->border_compliance(), m);
-  solution.factor_bytes = factor->factor_bytes();
+  const MultiplierSystem multipliers(factor.border_compliance(), m);
+  solution.factor_bytes = factor.factor_bytes();
   solution.factorise_seconds = watch.lap();
   if (multipliers.dependent_row() >= 0) {
     solution.status = SaddlePointSolution::Status::dependent_constraints;
@@ -137,10 +129,10 @@ SaddlePointSolution solve_saddle_point(const SaddlePointSystem& s) {
     VecX force(Eigen::Index(free.size()));
     for (std::size_t i = 0; i < free.size(); ++i)
       force(Eigen::Index(i)) = (s.f(free[i]) - Ku(free[i]) - Bl(free[i])) / s.stiffness_scale;
-    VecX rhs = factor->forward(force);
+    VecX rhs = factor.forward(force);
     rhs.head(m) -= (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
     const VecX lambda = multipliers.solve(rhs);
-    const VecX u = factor->backward(lambda);
+    const VecX u = factor.backward(lambda);
     for (std::size_t i = 0; i < free.size(); ++i) solution.u(free[i]) += u(Eigen::Index(i));
     solution.lambda += s.stiffness_scale * lambda.head(m).cwiseQuotient(s.row_scale);
     Ku = symmetric * solution.u;

@@ -1,8 +1,6 @@
 // The saddle-point system of contact: K u + B^T lambda = f, B u = g, with some unknowns prescribed.
 #pragma once
 
-#include <optional>
-
 #include "solve/bordered_cholesky.hpp"
 
 namespace mortise {

@@ -157,7 +157,10 @@ TEST(BorderedCholesky, ItsByProductIsTheBordersCompliance) {
   for (int i = 0; i < K.rows(); ++i) K.coeffRef(i, i) += 0.1;
   std::vector<int> blocks;
   for (int i = 0; i < int(K.rows()); ++i) blocks.push_back(i / 2);
-  const BorderedCholesky factor(K, p.B, blocks);
+  const Eigen::Index n = K.rows(), m = p.B.rows();
+  MatX bordered = MatX::Zero(n + m, n + m);
+  bordered << MatX(K), MatX::Zero(n, m), MatX(p.B), border_diagonal * MatX::Identity(m, m);
+  const BorderedCholesky factor(bordered.sparseView(), blocks);
   ASSERT_EQ(factor.failed_at(), -1);
   const MatX dense = MatX(K).selfadjointView<Eigen::Lower>();
   const MatX expected = MatX(p.B) * dense.inverse() * MatX(p.B).transpose();
