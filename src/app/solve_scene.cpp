@@ -24,7 +24,9 @@ std::string place(const Mesh& mesh, int node) {
 
 // Rows of B over their size: what contact can hold.
 SparseMatrix unit_rows(const StackedCoupling& coupling) {
-  return SparseMatrix(coupling.scale.cwiseInverse().asDiagonal() * coupling.B);
+  SparseMatrix rows = coupling.B;
+  for (Eigen::Index k = 0; k < rows.nonZeros(); ++k) rows.valuePtr()[k] /= coupling.scale(rows.innerIndexPtr()[k]);
+  return rows;
 }
 
 void require_held(const Scene& scene, const Mesh& mesh, const Constraints& constraints,

@@ -2,12 +2,10 @@
 
 #include <amd.h>
 #include <cholmod.h>
-#include <omp.h>
 
 #include <stdexcept>
-#include <thread>
 
-extern "C" void openblas_set_num_threads(int threads);
+#include "solve/threads.hpp"
 
 namespace mortise {
 namespace {
@@ -56,12 +54,6 @@ cholmod_sparse view(SparseMatrix& A) {
 }
 
 }  // namespace
-
-void set_solver_threads(int threads) {
-  // CHOLMOD's own OpenMP loops and OpenBLAS's threads fight for the cores; the dense kernels gain more.
-  omp_set_max_active_levels(0);
-  openblas_set_num_threads(threads > 0 ? threads : int(std::max(1u, std::thread::hardware_concurrency())));
-}
 
 // A supernode's part of the border: rows [row, row + count) of its block, for its columns that belong to K.
 struct BorderBlock {
@@ -132,6 +124,7 @@ BorderedCholesky::BorderedCholesky(SparseMatrix matrix, const std::vector<int>& 
   cholmod_sparse A = view(matrix);
   f.L = cholmod_analyze_p(&A, order.data(), nullptr, 0, &c);
   if (!f.L) throw std::runtime_error("CHOLMOD could not analyse the matrix: out of memory or too large");
+  apply_solver_threads(c.fl);
   cholmod_factorize(&A, f.L, &c);
   if (c.status == CHOLMOD_NOT_POSDEF) {
     f.failed_at = f.perm()[f.L->minor];

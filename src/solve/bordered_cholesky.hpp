@@ -9,9 +9,6 @@
 
 namespace mortise {
 
-/// Threads of the dense kernels inside the factorisation; 0: as many as there are cores.
-void set_solver_threads(int threads);
-
 /// The m of the bordered matrix: far above anything that a border of unit size leaves of it.
 inline constexpr double border_diagonal = 1e20;
 

@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <list>
-#include <thread>
+#include <string>
 
 #include "app/solve_scene.hpp"
 #include "base/stopwatch.hpp"
 #include "io/gmsh_mesh.hpp"
 #include "limit.hpp"
 #include "peak_memory.hpp"
+#include "solve/threads.hpp"
 
 namespace mortise::bench {
 namespace {
@@ -32,7 +33,7 @@ Options read_options(int argc, char** argv) {
       "--full", [&] { options.up_to = 640; }, "640x800 too");
   app.add_flag("!--no-stages", options.stages, "leave the stages out");
   app.add_flag("!--no-table", options.table, "leave the table out");
-  app.add_option("--threads", options.threads, "threads of the factorisation (default: all cores)");
+  app.add_option("--threads", options.threads, "threads of the factorisation (default: all cores for large meshes, else 1)");
   app.add_option("--repeats", options.repeats, "runs of each that the table takes medians of (default 5)")
       ->check(CLI::Range(3, 1000));
   app.allow_extras();
@@ -176,9 +177,9 @@ void print_table(const std::list<Case>& cases, const Options& options, double em
   std::printf(
       "\nlimit: CHOLMOD analyse (AMD) + factorise (supernodal) + solve of the grounded stiffness.\n"
       "whole: solve_scene from the mesh to recovered stresses. Medians of %d runs, in turns; range: of the\n"
-      "single pairs' ratios; threads: %d. MB: peak of a process that does nothing else, mesh and libraries\n"
+      "single pairs' ratios; threads: %s. MB: peak of a process that does nothing else, mesh and libraries\n"
       "(%.0f MB) included.\n\n",
-      options.repeats, options.threads > 0 ? options.threads : int(std::thread::hardware_concurrency()),
+      options.repeats, options.threads > 0 ? std::to_string(options.threads).c_str() : "as mortise chooses",
       empty_megabytes);
   std::printf("%-9s %9s %9s %9s %6s %14s %8s %8s %6s  %8s %8s %8s %8s %8s\n", "mesh", "unknowns", "limit s", "whole s",
               "ratio", "range", "limit MB", "whole MB", "ratio", "assemble", "couple", "factor", "solve", "recover");

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "solve/threads.hpp"
+
 namespace mortise::bench {
 namespace {
 
@@ -70,6 +72,7 @@ VecX cholmod_solution(GroundedSystem& system) {
   cholmod_sparse K = view(system.K);
   cholmod_dense f = view(system.f);
   cholmod_factor* L = cholmod_analyze(&K, &c);
+  apply_solver_threads(c.fl);
   if (L) cholmod_factorize(&K, L, &c);
   cholmod_dense* x = L && c.status == CHOLMOD_OK ? cholmod_solve(CHOLMOD_A, L, &f, &c) : nullptr;
   VecX u;
