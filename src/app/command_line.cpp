@@ -114,7 +114,9 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
       ->allow_extra_args(false);
   if (!output.empty()) command->add_option("-o,--output", options.output, output);
   command->add_flag("--quiet", options.quiet, "print errors only");
-  command->add_option("--threads", options.threads, "threads of the factorisation (default: all cores for large meshes, else 1)")
+  command
+      ->add_option("--threads", options.threads,
+                   "threads of the factorisation (default: all cores for large meshes, else 1)")
       ->check(CLI::Range(1, 1024));
   return command;
 }

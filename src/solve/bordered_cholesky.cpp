@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "solve/huge_pages.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -17,9 +18,9 @@ std::vector<int> ordering(const SparseMatrix& matrix, const std::vector<int>& bl
   for (int i = n - 1; i >= 0; --i) first_of[std::size_t(blocks[std::size_t(i)])] = i;
   for (int b = 0; b < block_count; ++b) {
     const int column = first_of[std::size_t(b)];
-    for (SparseMatrix::InnerIterator it(matrix, column); it && it.row() < n; ++it) {
+    for (SparseMatrix::InnerIterator it(matrix, column); it; ++it) {
       const int r = blocks[std::size_t(it.row())];
-      if (r > b && (int(row.size()) == start.back() || row.back() != r)) row.push_back(r);
+      if (r < b && (int(row.size()) == start.back() || row.back() != r)) row.push_back(r);
     }
     start.push_back(int(row.size()));
   }
@@ -44,7 +45,7 @@ cholmod_sparse view(SparseMatrix& A) {
   s.p = A.outerIndexPtr();
   s.i = A.innerIndexPtr();
   s.x = A.valuePtr();
-  s.stype = -1;
+  s.stype = 1;
   s.itype = CHOLMOD_INT;
   s.xtype = CHOLMOD_REAL;
   s.dtype = CHOLMOD_DOUBLE;
@@ -125,6 +126,7 @@ BorderedCholesky::BorderedCholesky(SparseMatrix matrix, const std::vector<int>& 
   f.L = cholmod_analyze_p(&A, order.data(), nullptr, 0, &c);
   if (!f.L) throw std::runtime_error("CHOLMOD could not analyse the matrix: out of memory or too large");
   apply_solver_threads(c.fl);
+  const HugePages huge_pages;
   cholmod_factorize(&A, f.L, &c);
   if (c.status == CHOLMOD_NOT_POSDEF) {
     f.failed_at = f.perm()[f.L->minor];

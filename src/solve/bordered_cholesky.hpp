@@ -21,8 +21,9 @@ inline constexpr double border_diagonal = 1e20;
 /// back-substitution a multiplier to form C.
 class BorderedCholesky {
  public:
-  /// `matrix` is the lower triangle of [K B^T; B m I]: n columns of K with the rows of B below them, then the border's
-  /// columns, each with border_diagonal alone. K and the rows of B are of about unit size. It is freed once factorised.
+  /// `matrix` is the upper triangle of [K B^T; B m I] (which spares CHOLMOD a transposition): n columns of K, then the
+  /// columns of B^T with border_diagonal below them. K and the rows of B are of about unit size. It is freed once
+  /// factorised.
   /// `blocks` groups the n unknowns that share a node (ascending, 0, 0, 1, 1, 2, ...): ordered together.
   BorderedCholesky(SparseMatrix matrix, const std::vector<int>& blocks);
   ~BorderedCholesky();

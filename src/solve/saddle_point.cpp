@@ -34,24 +34,31 @@ Reduced reduce(const SaddlePointSystem& s) {
   for (std::size_t k = 0; k < s.grounded.size(); ++k) spring[std::size_t(s.grounded[k])] = int(k);
 
   const int count = int(r.free.size()), m = int(s.B.rows()), border = m + int(s.grounded.size());
-  r.matrix.resize(count + border, count + border);
-  r.matrix.reserve(s.K.nonZeros() + s.B.nonZeros() + border + Eigen::Index(s.grounded.size()));
-  for (int j = 0; j < count; ++j) {
-    const int column = r.free[std::size_t(j)], held = spring[std::size_t(column)];
-    r.matrix.startVec(j);
-    for (SparseMatrix::InnerIterator it(s.K, column); it; ++it) {
-      const int i = to_reduced[std::size_t(it.row())];
-      if (i >= 0) r.matrix.insertBack(i, j) = it.value() / s.stiffness_scale + (i == j && held >= 0 ? 1 : 0);
+  // The columns below the diagonal, read as rows above it: an entry (i, j) goes to column i, and comes in order.
+  const auto for_each_entry = [&](auto visit) {
+    for (int j = 0; j < count; ++j) {
+      const int column = r.free[std::size_t(j)], held = spring[std::size_t(column)];
+      for (SparseMatrix::InnerIterator it(s.K, column); it; ++it) {
+        const int i = to_reduced[std::size_t(it.row())];
+        if (i >= 0) visit(i, j, it.value() / s.stiffness_scale + (i == j && held >= 0 ? 1 : 0));
+      }
+      for (SparseMatrix::InnerIterator it(s.B, column); it; ++it)
+        visit(count + int(it.row()), j, it.value() / s.row_scale(it.row()));
+      if (held >= 0) visit(count + m + held, j, 1.0);
     }
-    for (SparseMatrix::InnerIterator it(s.B, column); it; ++it)
-      r.matrix.insertBack(count + it.row(), j) = it.value() / s.row_scale(it.row());
-    if (held >= 0) r.matrix.insertBack(count + m + held, j) = 1;
-  }
-  for (int j = count; j < count + border; ++j) {
-    r.matrix.startVec(j);
-    r.matrix.insertBack(j, j) = border_diagonal;
-  }
-  r.matrix.finalize();
+    for (int i = count; i < count + border; ++i) visit(i, i, border_diagonal);
+  };
+  r.matrix.resize(count + border, count + border);
+  int* start = r.matrix.outerIndexPtr();
+  for_each_entry([&](int i, int, double) { ++start[i + 1]; });
+  for (int i = 0; i < count + border; ++i) start[i + 1] += start[i];
+  r.matrix.resizeNonZeros(start[count + border]);
+  std::vector<int> next(start, start + count + border);
+  for_each_entry([&](int i, int j, double value) {
+    const int at = next[std::size_t(i)]++;
+    r.matrix.innerIndexPtr()[at] = j;
+    r.matrix.valuePtr()[at] = value;
+  });
   return r;
 }
 
@@ -69,11 +76,13 @@ class MultiplierSystem {
     diagonal_ = compliance.diagonal().head(m);
   }
 
-  // A row of B that the rows before it already imply: its pivot is round-off of its own size.
+  // A row of B that the rows before it already imply: its pivot is round-off of its own size, or the factorisation
+  // stopped there (its row of the factor does not give back the diagonal then).
   int dependent_row() const {
+    const MatX& L = cholesky_.matrixLLT();
     for (Eigen::Index i = 0; i < m_; ++i) {
-      const double pivot = cholesky_.matrixLLT()(i, i);
-      if (!(pivot * pivot > 1e-13 * diagonal_(i))) return int(i);
+      const double pivot = L(i, i) * L(i, i), size = L.row(i).head(i + 1).squaredNorm();
+      if (!(pivot > 1e-13 * diagonal_(i)) || !(std::abs(size - diagonal_(i)) < 1e-8 * diagonal_(i))) return int(i);
     }
     return -1;
   }

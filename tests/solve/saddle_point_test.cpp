@@ -159,7 +159,8 @@ TEST(BorderedCholesky, ItsByProductIsTheBordersCompliance) {
   for (int i = 0; i < int(K.rows()); ++i) blocks.push_back(i / 2);
   const Eigen::Index n = K.rows(), m = p.B.rows();
   MatX bordered = MatX::Zero(n + m, n + m);
-  bordered << MatX(K), MatX::Zero(n, m), MatX(p.B), border_diagonal * MatX::Identity(m, m);
+  bordered << MatX(MatX(K).transpose()), MatX(p.B).transpose(), MatX::Zero(m, n),
+      border_diagonal * MatX::Identity(m, m);
   const BorderedCholesky factor(bordered.sparseView(), blocks);
   ASSERT_EQ(factor.failed_at(), -1);
   const MatX dense = MatX(K).selfadjointView<Eigen::Lower>();

@@ -33,7 +33,8 @@ Options read_options(int argc, char** argv) {
       "--full", [&] { options.up_to = 640; }, "640x800 too");
   app.add_flag("!--no-stages", options.stages, "leave the stages out");
   app.add_flag("!--no-table", options.table, "leave the table out");
-  app.add_option("--threads", options.threads, "threads of the factorisation (default: all cores for large meshes, else 1)");
+  app.add_option("--threads", options.threads,
+                 "threads of the factorisation (default: all cores for large meshes, else 1)");
   app.add_option("--repeats", options.repeats, "runs of each that the table takes medians of (default 5)")
       ->check(CLI::Range(3, 1000));
   app.allow_extras();
