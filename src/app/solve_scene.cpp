@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "base/stopwatch.hpp"
 #include "io/gmsh_mesh.hpp"
+#include "mesh/place.hpp"
 
 namespace mortise {
 namespace {
@@ -16,11 +17,7 @@ void require_available(const Scene& scene) {
     throw InputError(scene.path + ": method.kind = \"ddm\" is not available in this version; expected \"mortar\"");
 }
 
-std::string place(const Mesh& mesh, int node) {
-  std::ostringstream text;
-  text << "(" << mesh.nodes(node, 0) << ", " << mesh.nodes(node, 1) << ")";
-  return text.str();
-}
+std::string near_node(const Mesh& mesh, int node) { return near_point(mesh.nodes.row(node).transpose()); }
 
 // Rows of B over their size: what contact can hold.
 SparseMatrix unit_rows(const StackedCoupling& coupling) {
@@ -42,7 +39,7 @@ void require_solved(const Scene& scene, const Results& r, const StackedCoupling&
   using Status = SaddlePointSolution::Status;
   if (solution.status == Status::not_positive_definite) {
     const int node = solution.failed_at / 2;
-    throw InputError(scene.path + ": the stiffness is not positive definite at the node " + place(r.mesh, node) +
+    throw InputError(scene.path + ": the stiffness is not positive definite " + near_node(r.mesh, node) +
                      ": a part of a body that nothing holds, or elements far out of shape there");
   }
   if (solution.status == Status::dependent_constraints) {
@@ -51,8 +48,8 @@ void require_solved(const Scene& scene, const Results& r, const StackedCoupling&
     const Coupling& c = r.pairs[k].coupling;
     std::size_t a = 0;
     while (c.row[a] != solution.failed_at - coupling.first_row[k]) ++a;
-    throw InputError(scene.path + ": " + r.pairs[k].spec.key + ": the contact condition at " +
-                     place(r.mesh, c.node[a]) +
+    throw InputError(scene.path + ": " + r.pairs[k].spec.key + ": the contact condition " +
+                     near_node(r.mesh, c.node[a]) +
                      " already follows from the others: prescribed displacements or other contact pairs hold the "
                      "same nodes; put the multipliers on the other curve or release the prescribed displacement");
   }
@@ -63,7 +60,7 @@ void add_notes(Results& r) {
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
     const ContactPair& pair = r.pairs[k];
     for (const DroppedMultiplier& d : pair.coupling.dropped)
-      r.notes.push_back(pair.spec.key + ": multiplier at " + place(r.mesh, d.node) + " " + d.reason);
+      r.notes.push_back(pair.spec.key + ": multiplier " + near_node(r.mesh, d.node) + " " + d.reason);
     const double gap = std::max(std::abs(pair.coupling.gap_min), std::abs(pair.coupling.gap_max));
     double edge_size = 0;
     for (const Edge& edge : pair.multiplier.edges) edge_size = std::max(edge_size, edge_length(r.mesh.nodes, edge));

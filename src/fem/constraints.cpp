@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "mesh/body_points.hpp"
+#include "mesh/place.hpp"
 
 namespace mortise {
 namespace {
@@ -51,8 +52,8 @@ void prescribe(const Mesh& mesh, int boundary, int component, double value, Cons
       if (constraints.fixed[std::size_t(dof)] && constraints.value(dof) != value) {
         std::ostringstream text;
         text << mesh.source << ": boundary '" << curve.name << "': displacement " << (component ? "y" : "x") << " = "
-             << value << " at (" << mesh.nodes(edge.nodes[a], 0) << ", " << mesh.nodes(edge.nodes[a], 1)
-             << "), where another boundary prescribes " << constraints.value(dof) << "; expected one value a node";
+             << value << " " << near_point(mesh.nodes.row(edge.nodes[a]).transpose())
+             << ", where another boundary prescribes " << constraints.value(dof) << "; expected one value a node";
         throw InputError(text.str());
       }
       constraints.fixed[std::size_t(dof)] = 1;

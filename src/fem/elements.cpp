@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "mesh/place.hpp"
 
 namespace mortise {
 namespace {
@@ -146,9 +147,8 @@ void check_cells(const Mesh& mesh) {
       // Round-off of the determinant is far below this; a cell flatter than 1e-10 is no cell.
       if (jacobian > 1e-10 * (x_xi.squaredNorm() + x_eta.squaredNorm())) continue;
       std::ostringstream text;
-      text << mesh.source << ": body '" << mesh.bodies[std::size_t(cell.body)] << "': the element near (" << x[0].x()
-           << ", " << x[0].y() << ") is inverted or degenerate (Jacobian " << jacobian
-           << "); expected a positive Jacobian everywhere";
+      text << mesh.source << ": body '" << mesh.bodies[std::size_t(cell.body)] << "': the element " << near_point(x[0])
+           << " is inverted or degenerate (Jacobian " << jacobian << "); expected a positive Jacobian everywhere";
       throw InputError(text.str());
     }
   }

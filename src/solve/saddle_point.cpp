@@ -66,14 +66,15 @@ Reduced reduce(const SaddlePointSystem& s) {
 // where all blocks but the 1 are in `compliance`. The first m rows are positive definite.
 class MultiplierSystem {
  public:
-  MultiplierSystem(const MatX& compliance, Eigen::Index m) : m_(m), springs_(compliance.rows() - m) {
-    cholesky_.compute(compliance.topLeftCorner(m, m));
+  MultiplierSystem(const MatX& compliance, Eigen::Index m)
+      : m_(m), springs_(compliance.rows() - m), diagonal_(compliance.diagonal().head(m)) {
+    if (m_ > 0) cholesky_.compute(compliance.topLeftCorner(m, m));
+    if (m_ == 0 || springs_ == 0) return;  // without rows nothing needs springs
     coupling_ = compliance.bottomLeftCorner(springs_, m).transpose();
     reduced_ = cholesky_.solve(coupling_);
     MatX corner = compliance.bottomRightCorner(springs_, springs_).selfadjointView<Eigen::Lower>();
     corner -= MatX::Identity(springs_, springs_) + coupling_.transpose() * reduced_;
-    if (springs_ > 0) corner_.compute(corner);
-    diagonal_ = compliance.diagonal().head(m);
+    corner_.compute(corner);
   }
 
   // A row of B that the rows before it already imply: its pivot is round-off of its own size, or the factorisation
@@ -88,19 +89,21 @@ class MultiplierSystem {
   }
 
   VecX solve(const VecX& rhs) const {
-    VecX x(m_ + springs_);
-    const VecX first = cholesky_.solve(rhs.head(m_));
-    if (springs_ > 0) x.tail(springs_) = corner_.solve(rhs.tail(springs_) - coupling_.transpose() * first);
-    x.head(m_) = first - reduced_ * x.tail(springs_);
+    VecX x = rhs;
+    if (m_ == 0) return x;
+    x.head(m_) = cholesky_.solve(rhs.head(m_));
+    if (springs_ == 0) return x;
+    x.tail(springs_) = corner_.solve(rhs.tail(springs_) - coupling_.transpose() * x.head(m_));
+    x.head(m_) -= reduced_ * x.tail(springs_);
     return x;
   }
 
  private:
   Eigen::Index m_, springs_;
+  VecX diagonal_;
   Eigen::LLT<MatX> cholesky_;
   MatX coupling_, reduced_;
   Eigen::PartialPivLU<MatX> corner_;
-  VecX diagonal_;
 };
 
 double largest_entry(const VecX& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; }

@@ -164,7 +164,7 @@ const BadInput bad_input[] = {
     {"ContactCurveInTwoPieces", {"--set", "contact.0.between=[\"upper_contact\",\"lower_left\"]"}, {"lower_left"}},
     {"DdmIsNotThere", {"--set", "method.kind=ddm"}, {"ddm", "mortar"}},
     {"UnknownParameterOfTheGeo", {"--set", "mesh.parameters.n_uper=4"}, {"n_uper", "n_upper"}},
-    {"ElementsOfThirdOrder", {"--set", "mesh.parameters.order=3"}, {"patch_flat.geo", "16"}},
+    {"ElementsOfThirdOrder", {"--set", "mesh.parameters.order=3"}, {"patch_flat.geo", "Quadrilateral"}},
     {"NoSuchMesh", {"--set", "mesh.file=/no/such.geo"}, {"/no/such.geo"}},
     {"OverrideWithoutValue", {"--set", "method.kind"}, {"method.kind"}},
     {"UnknownOption", {"--fast"}, {"--fast"}},

@@ -145,7 +145,7 @@ TEST(Segments, CoverOnlyWhereTheCurvesFaceEachOther) {
 }
 
 TEST(Segments, VerticesThatAlmostCoincideMakeNoSlivers) {
-  for (const double shift : {1e-14, 1e-12, -1e-12, 1e-10}) {
+  for (const double shift : {1e-14, 1e-12, -1e-12, 1e-11}) {
     TwoPlates plates;
     plates.n_upper = plates.n_lower = 6;
     Curves c = curves_of(plates);
