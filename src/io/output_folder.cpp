@@ -23,12 +23,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// All that mortise ever writes. Add a new output here: what is not listed is taken for the user's and carried over.
-constexpr std::array<std::string_view, 6> kOwnFiles{"result.vtu",          "contact.vtu",   "contact.csv",
+constexpr std::array<std::string_view, 6> own_files{"result.vtu",          "contact.vtu",   "contact.csv",
                                                     "contact_centres.csv", "interface.csv", "summary.json"};
-constexpr std::string_view kSuffix = ".mortise";
+constexpr std::string_view staging_suffix = ".mortise";
 
 bool is_listed(const std::string& name) {
-  return std::find(kOwnFiles.begin(), kOwnFiles.end(), name) != kOwnFiles.end();
+  return std::find(own_files.begin(), own_files.end(), name) != own_files.end();
 }
 
 bool is_own(const fs::path& file) { return is_listed(file.filename().string()) && !fs::is_directory(file); }
@@ -37,7 +37,7 @@ bool is_own(const fs::path& file) { return is_listed(file.filename().string()) &
 fs::path staging_path(const fs::path& target, pid_t process) {
   std::string name = ".";
   name += target.filename().string() + "." + std::to_string(process);
-  return target.parent_path() / name.append(kSuffix);
+  return target.parent_path() / name.append(staging_suffix);
 }
 
 /// The process that a staging folder (or one put aside) of `target` belongs to.
@@ -82,7 +82,7 @@ void tidy_up(const fs::path& target) {
     if (process && !is_running(*process)) left_over.push_back(entry.path());
   }
   for (const fs::path& folder : left_over) {
-    const bool was_target = !folder.filename().string().ends_with(kSuffix);
+    const bool was_target = !folder.filename().string().ends_with(staging_suffix);
     if (was_target && !fs::exists(target)) {
       fs::rename(folder, target);
     } else if (!fs::exists(target) || carry_over(folder, target)) {
@@ -138,7 +138,7 @@ OutputFolder::~OutputFolder() {
 }
 
 fs::path OutputFolder::path(const std::string& name) const {
-  assert(is_listed(name) && "a new output belongs into kOwnFiles");
+  assert(is_listed(name) && "a new output belongs into own_files");
   return staging_ / name;
 }
 

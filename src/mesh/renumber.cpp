@@ -10,13 +10,13 @@
 namespace mortise {
 namespace {
 
-constexpr std::uint32_t kBits = 16;  // per axis: 65536 x 65536 squares
+constexpr std::uint32_t bits = 16;  // per axis: 65536 x 65536 squares
 
 /// Position of the square (x, y) along the Hilbert curve, two bits a level from the coarsest down; the turn of the
 /// pattern from level to level is done by turning x and y instead (H. S. Warren, Hacker's Delight, chapter 16).
 std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
   std::uint64_t position = 0;
-  for (std::uint32_t s = 1U << (kBits - 1); s > 0; s >>= 1) {
+  for (std::uint32_t s = 1U << (bits - 1); s > 0; s >>= 1) {
     const std::uint32_t rx = (x & s) ? 1 : 0;
     const std::uint32_t ry = (y & s) ? 1 : 0;
     position = 4 * position + ((3 * rx) ^ ry);
@@ -46,7 +46,7 @@ std::vector<CellKey> cell_order(const Mesh& mesh) {
   const Vec2 low = mesh.nodes.colwise().minCoeff().transpose();
   const Vec2 high = mesh.nodes.colwise().maxCoeff().transpose();
   const double size = (high - low).maxCoeff();
-  const double scale = size > 0 ? ((1U << kBits) - 1) / size : 0.0;
+  const double scale = size > 0 ? ((1U << bits) - 1) / size : 0.0;
 
   std::vector<CellKey> keys(mesh.cells.size());
   for (std::size_t c = 0; c < keys.size(); ++c) {

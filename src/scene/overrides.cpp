@@ -93,12 +93,12 @@ bool means_every_pair(const Parts& parts, const Node* contacts) {
 
 }  // namespace
 
-void apply_override(Node& root, const Override& override_) {
-  Setting setting{.parts = split_key(override_.key), .value = override_.value, .place = root.place};
-  setting.place.setting = "--set " + override_.key + "=" + override_.value;
+void apply_override(Node& root, const Override& change) {
+  Setting setting{.parts = split_key(change.key), .value = change.value, .place = root.place};
+  setting.place.setting = "--set " + change.key + "=" + change.value;
   if (setting.parts.empty()) {
     fail(setting.place, "",
-         "'" + override_.key + "' is not a dotted key; expected one such as method.kind or boundary.2.pressure");
+         "'" + change.key + "' is not a dotted key; expected one such as method.kind or boundary.2.pressure");
   }
   const Node* contacts = find(root, "contact");
   if (!means_every_pair(setting.parts, contacts)) {

@@ -68,7 +68,7 @@ namespace mortise {
 
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
   scene_file::Node root = scene_file::load_document(path);
-  for (const Override& override_ : overrides) scene_file::apply_override(root, override_);
+  for (const Override& change : overrides) scene_file::apply_override(root, change);
   return scene_file::read_sections(root, path);
 }
 
