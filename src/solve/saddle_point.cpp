@@ -66,10 +66,11 @@ Reduced reduce(const SaddlePointSystem& s) {
 // where all blocks but the 1 are in `compliance`. The first m rows are positive definite.
 class MultiplierSystem {
  public:
-  MultiplierSystem(const MatX& compliance, Eigen::Index m)
-      : m_(m), springs_(compliance.rows() - m), diagonal_(compliance.diagonal().head(m)) {
-    if (m_ > 0) cholesky_.compute(compliance.topLeftCorner(m, m));
-    if (m_ == 0 || springs_ == 0) return;  // without rows nothing needs springs
+  MultiplierSystem(const MatX& compliance, Eigen::Index m) : m_(m), springs_(compliance.rows() - m) {
+    if (m_ == 0) return;  // without rows nothing needs springs
+    cholesky_.compute(compliance.topLeftCorner(m, m));
+    diagonal_ = compliance.diagonal().head(m);
+    if (springs_ == 0) return;
     coupling_ = compliance.bottomLeftCorner(springs_, m).transpose();
     reduced_ = cholesky_.solve(coupling_);
     MatX corner = compliance.bottomRightCorner(springs_, springs_).selfadjointView<Eigen::Lower>();
@@ -100,8 +101,8 @@ class MultiplierSystem {
 
  private:
   Eigen::Index m_, springs_;
-  VecX diagonal_;
   Eigen::LLT<MatX> cholesky_;
+  VecX diagonal_;
   MatX coupling_, reduced_;
   Eigen::PartialPivLU<MatX> corner_;
 };
