@@ -5,7 +5,6 @@
 
 #include <stdexcept>
 
-#include "solve/huge_pages.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -126,7 +125,6 @@ BorderedCholesky::BorderedCholesky(SparseMatrix matrix, const std::vector<int>& 
   f.L = cholmod_analyze_p(&A, order.data(), nullptr, 0, &c);
   if (!f.L) throw std::runtime_error("CHOLMOD could not analyse the matrix: out of memory or too large");
   apply_solver_threads(c.fl);
-  const HugePages huge_pages;
   cholmod_factorize(&A, f.L, &c);
   if (c.status == CHOLMOD_NOT_POSDEF) {
     f.failed_at = f.perm()[f.L->minor];
