@@ -6,7 +6,7 @@
 namespace mortise {
 namespace {
 
-// Force and moment about `centre` of nodal forces, and the sum of their sizes (moments: over `arm`).
+// Force and moment of nodal forces, and the sum of their sizes.
 struct Resultant {
   Vec2 force = Vec2::Zero();
   double moment = 0, size = 0;

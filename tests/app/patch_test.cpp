@@ -23,11 +23,6 @@ double patch_error(const Results& r, const Vec4& stress) {
   return worst;
 }
 
-struct PatchCase {
-  CellKind upper, lower;
-  Multipliers multipliers;
-};
-
 class Patch : public testing::TestWithParam<std::tuple<std::pair<CellKind, CellKind>, Multipliers, bool, bool>> {};
 
 TEST_P(Patch, FlatAndInclined) {
