@@ -77,7 +77,7 @@ void balance_of_contact(const SaddlePointSolution& solution, const StackedCoupli
   r.checks.push_back({"contact moments equal and opposite", moment, 1e-10});
 }
 
-// p >= 0, gap >= 0 and p gap = 0 on unilateral rows, in the sense of the multipliers (docs/theory.md eq. 19).
+// p >= 0, gap >= 0 and p gap = 0 on unilateral rows, in the sense of the multipliers (docs/theory.md eq. 24).
 void unilateral_checks(const SaddlePointSolution& solution, const StackedCoupling& coupling, Results& r) {
   const std::vector<char> unilateral = unilateral_rows(r.pairs);
   if (std::find(unilateral.begin(), unilateral.end(), 1) == unilateral.end()) return;

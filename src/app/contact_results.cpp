@@ -169,7 +169,7 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
   const bool measured = pair.spec.initial_gap == InitialGap::measured;
   const std::vector<CurveNode> along = nodes_along(mesh, pair.multiplier, constraints);
   ContactResults r;
-  r.pressure = -multiplier_values(pair.coupling, lambda);
+  r.pressure = 0 - multiplier_values(pair.coupling, lambda).array();  // 0 - 0 is 0, -0 is not
   r.multiplier.curve = mesh.boundaries[std::size_t(pair.multiplier.boundary)].name;
   r.opposite.curve = mesh.boundaries[std::size_t(pair.opposite.boundary)].name;
 

@@ -8,7 +8,7 @@
 namespace mortise {
 
 /// lambda <= 0 and w >= 0 and lambda w = 0 on unilateral rows, w = 0 on the others, where w = r - C lambda - H mu is
-/// what is left open of each row (docs/theory.md eq. 19 to 21). Any consistent units.
+/// what is left open of each row (docs/theory.md eq. 24 to 26). Any consistent units.
 struct ComplementarityProblem {
   const MatX& compliance;               ///< (m + s) x (m + s), lower triangle, as MultiplierSystem wants it
   const VecX& rhs;                      ///< (r, h), m + s
@@ -30,7 +30,7 @@ struct ActiveSetOptions {
   int patience = 10;
   /// Steps from the start before a guess from joined rows takes over (on loads that change by 1 to 10 % from run to
   /// run, more than 1 save nothing); and rows that are too few to join.
-  int start_steps = 1, few_rows = 12;
+  int start_steps = 1, few_rows = 4;
   /// A row pulls if its lambda_a / scale_a is above this part of the largest, and is penetrated if its -w is above this
   /// part of the largest term of any w: round-off changes no row.
   double pull_tolerance = 1e-10, penetration_tolerance = 1e-11;
