@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/notes.hpp"
 #include "app/solve_scene.hpp"
 #include "base/errors.hpp"
 #include "support/plate_scenes.hpp"
@@ -154,6 +155,27 @@ TEST(Floating, ABodyTipsOnceTheLoadLeavesItsFoot) {
   const std::string message = message_of([] { solve_scene(tipping_scene(80e6), mesh_of({})); });
   EXPECT_NE(message.find("body 'upper'"), std::string::npos) << message;
   EXPECT_NE(message.find("away from the contact"), std::string::npos) << message;
+}
+
+TEST(Floating, OfThreeBodiesTheOneThatIsPulledIsNamed) {
+  const std::string message = message_of([] { solved("stack", {{"boundary.2.pressure", "-1e6"}}); });
+  EXPECT_NE(message.find("body 'upper': translation (0, 1), rotation 0: the load"), std::string::npos) << message;
+}
+
+TEST(Floating, BilateralContactPullsTheNextBodyAlong) {
+  const std::string message = message_of([] {
+    solved("stack", {{"contact.0.condition", "bilateral"}, {"boundary.2.pressure", "-1e6"}});
+  });
+  for (const char* body : {"body 'upper': translation (0, 1)", "body 'middle': translation (0, 1)"})
+    EXPECT_NE(message.find(body), std::string::npos) << message;
+}
+
+TEST(Unsettled, ANoteNamesThePlaces) {
+  Results r = solved("gap_close", {{"contact.multipliers_on", "lower_contact"}});
+  add_notes({0, 11}, r);
+  ASSERT_FALSE(r.notes.empty());
+  EXPECT_NE(r.notes[0].find("did not settle"), std::string::npos) << r.notes[0];
+  EXPECT_NE(r.notes[0].find("near (0.8, 0.3), near (0, 0.3)"), std::string::npos) << r.notes[0];
 }
 
 // ---- Initial gaps ----
