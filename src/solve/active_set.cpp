@@ -126,6 +126,12 @@ std::vector<char> guess(const ComplementarityProblem& fine, const ActiveSetOptio
 ActiveSetResult settle_active_set(const ComplementarityProblem& p, const std::vector<char>& start,
                                   const ActiveSetOptions& options) {
   ActiveSetResult r;
+  if (p.scale.size() == 0) {  // no contact
+    r.system.emplace(p.compliance, p.rhs.size(), std::vector<int>{});
+    r.solution = VecX::Zero(p.rhs.size());
+    r.status = ActiveSetResult::Status::settled;
+    return r;
+  }
   const std::vector<char> all(std::size_t(p.scale.size()), 1);
   iterate(p, start.empty() ? all : start, options.start_steps, options, r);
   if (r.status != ActiveSetResult::Status::not_settled) return r;

@@ -46,7 +46,7 @@ struct ActiveSetResult {
   std::vector<ActiveSetStep> steps;  ///< on all rows
   int coarse_steps = 0;              ///< on joined rows
   int dependent_row = -1;
-  VecX drift;                              ///< s: a motion that the closed rows leave loose; empty if there is none
+  VecX drift;                              ///< s: a motion that the closed rows leave loose; zero if there is none
   bool driven = false;                     ///< the load drives `drift`, in its direction
   std::optional<MultiplierSystem> system;  ///< of the final active set
 };
