@@ -7,27 +7,9 @@
 //   straight 0   second-order nodes on the curve; 1: at the middles of straight edges (order 2)
 
 DefineConstant[ n_upper = 7, n_middle = 11, n_lower = 5, order = 2, kind = 0, nine_node = 0, straight = 0 ];
-Include "common/body.geo";
-width = 0.8;
-
-// One plate, n elements wide, from x2 = y_a to y_b; its curves: c below, c + 1 right, c + 2 above, c + 3 left.
-Macro Plate
-  p = newp;
-  Point(p) = {0, y_a, 0};
-  Point(p + 1) = {width, y_a, 0};
-  Point(p + 2) = {width, y_b, 0};
-  Point(p + 3) = {0, y_b, 0};
-  c = newc;
-  Line(c) = {p, p + 1};
-  Line(c + 1) = {p + 1, p + 2};
-  Line(c + 2) = {p + 2, p + 3};
-  Line(c + 3) = {p + 3, p};
-  Transfinite Curve{c, c + 2} = n + 1;
-  Transfinite Curve{c + 1, c + 3} = Max(1, Round(n * (y_b - y_a) / width)) + 1;
-  loop[] = {c : c + 3};
-  corners[] = {p : p + 3};
-  Call Body;
-Return
+Include "common/plate.geo";
+x_a = 0;
+x_b = 0.8;
 
 n = n_upper;
 y_a = 0.4;

@@ -134,8 +134,9 @@ int parse_and_run(int argc, const char* const* argv) {
       add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
   CLI::App* mesh_command =
       add_command(app, "mesh", "write the mesh of a scene", options, ".msh to write (default: out/SCENE.msh)");
-  CLI::App* sweep_command = add_command(app, "sweep", "solve a scene many times, one CSV row a run", options,
-                                        ".csv to write (default: out/SCENE_sweep.csv)");
+  CLI::App* sweep_command = add_command(
+      app, "sweep", "solve a scene many times, one CSV row a run; each starts from the contact of the one before",
+      options, ".csv to write (default: out/SCENE_sweep.csv)");
   sweep_command->add_option("--vary", options.vary, "KEY=V1,V2,...: values to run through; repeat for combinations")
       ->required()
       ->allow_extra_args(false);

@@ -27,6 +27,22 @@ std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, cons
   return pairs;
 }
 
+std::vector<int> row_nodes(const std::vector<ContactPair>& pairs) {
+  std::vector<int> nodes;
+  for (const ContactPair& pair : pairs) {
+    const std::vector<int> of_pair = row_nodes(pair.coupling);
+    nodes.insert(nodes.end(), of_pair.begin(), of_pair.end());
+  }
+  return nodes;
+}
+
+std::vector<char> unilateral_rows(const std::vector<ContactPair>& pairs) {
+  std::vector<char> rows;
+  for (const ContactPair& pair : pairs)
+    rows.insert(rows.end(), std::size_t(pair.coupling.gap0.size()), pair.spec.condition == Condition::unilateral);
+  return rows;
+}
+
 StackedCoupling stack(const std::vector<ContactPair>& pairs, Eigen::Index unknowns) {
   StackedCoupling all;
   all.first_row.push_back(0);

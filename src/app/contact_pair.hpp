@@ -24,6 +24,10 @@ struct StackedCoupling {
   std::vector<int> first_row;  ///< of each pair, and the total at the end
 };
 
+/// Of the stacked rows: the node of each one's first multiplier; and whether it may open.
+std::vector<int> row_nodes(const std::vector<ContactPair>& pairs);
+std::vector<char> unilateral_rows(const std::vector<ContactPair>& pairs);
+
 StackedCoupling stack(const std::vector<ContactPair>& pairs, Eigen::Index unknowns);
 
 }  // namespace mortise

@@ -132,7 +132,7 @@ double difference(const std::vector<ContactNode>& nodes) {
   std::vector<std::pair<double, double>> differences;  // |p + sigma_n|, length
   double length = 0, force = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (std::isnan(nodes[i].gap)) continue;
+    if (std::isnan(nodes[i].gap) || nodes[i].p == 0) continue;  // faces nothing, or has parted
     const double width = (nodes[std::min(i + 1, nodes.size() - 1)].s - nodes[i > 0 ? i - 1 : 0].s) / 2;
     differences.emplace_back(std::abs(nodes[i].p + nodes[i].sigma_n), width);
     length += width;
@@ -145,6 +145,23 @@ double difference(const std::vector<ContactNode>& nodes) {
   return 0;
 }
 
+// The smallest p at the contact points, and between those of an edge where the parabola through its three is lowest.
+double least_pressure(const ContactPair& pair, const VecX& pressure) {
+  const auto& points = pair.points;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ContactPoint& c = points[i];
+    least = std::min(least, interpolate(pair.coupling, pair.multiplier, pressure, c.edge, c.xi));
+    const auto& on = pair.coupling.on_edge[std::size_t(c.edge)];
+    if (on[2] < 0 || i + 1 == points.size() || points[i + 1].edge != c.edge) continue;
+    const double start = pressure(on[0]), end = pressure(on[1]), middle = pressure(on[2]);
+    const double slope = (end - start) / 2, bend = (start + end) / 2 - middle;  // p = middle + slope xi + bend xi^2
+    const double lowest = bend > 0 ? -slope / (2 * bend) : c.xi;
+    if (lowest > c.xi && lowest < points[i + 1].xi) least = std::min(least, middle - slope * slope / (4 * bend));
+  }
+  return least;
+}
+
 }  // namespace
 
 ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const Constraints& constraints,
@@ -152,7 +169,7 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
   const bool measured = pair.spec.initial_gap == InitialGap::measured;
   const std::vector<CurveNode> along = nodes_along(mesh, pair.multiplier, constraints);
   ContactResults r;
-  r.pressure = -multiplier_values(pair.coupling, lambda);
+  r.pressure = 0 - multiplier_values(pair.coupling, lambda).array();  // 0 - 0 is 0, -0 is not
   r.multiplier.curve = mesh.boundaries[std::size_t(pair.multiplier.boundary)].name;
   r.opposite.curve = mesh.boundaries[std::size_t(pair.opposite.boundary)].name;
 
@@ -197,16 +214,26 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
   else
     reverse(r.opposite, curve_length(mesh.nodes, pair.opposite));
 
+  r.p_least = least_pressure(pair, r.pressure);
+  r.p_min = std::numeric_limits<double>::infinity();
+  r.p_max = -r.p_min;
+  for (const ContactNode& n : r.multiplier.nodes) {
+    if (std::isnan(n.gap)) continue;
+    r.p_min = std::min(r.p_min, n.p);
+    r.p_max = std::max(r.p_max, n.p);
+  }
+  if (r.p_min > r.p_max) {  // the opposite side faces parts of edges only
+    r.p_min = r.pressure.minCoeff();
+    r.p_max = r.pressure.maxCoeff();
+  }
   for (const ContactPoint& c : pair.points) {
     const double p = interpolate(pair.coupling, pair.multiplier, r.pressure, c.edge, c.xi);
     r.p_mean += c.ds * p;
-    if (p > 0 || pair.spec.condition == Condition::bilateral) r.length_in_contact += c.ds;
+    if (p > 1e-9 * r.p_max || pair.spec.condition == Condition::bilateral) r.length_in_contact += c.ds;
   }
   const VecX contact = -(pair.coupling.B.transpose() * lambda);
   for (const CurveNode& at : along) r.force += contact.segment<2>(2 * at.node);
   r.p_mean /= pair.coupling.covered_length;
-  r.p_min = r.pressure.minCoeff();
-  r.p_max = r.pressure.maxCoeff();
   r.sigma_n_difference = std::max(difference(r.multiplier.nodes), difference(r.opposite.nodes));
   return r;
 }

@@ -1,13 +1,11 @@
 #include "app/solve_scene.hpp"
 
-#include <cmath>
-#include <sstream>
-
 #include "app/checks.hpp"
+#include "app/notes.hpp"
+#include "app/refusals.hpp"
 #include "base/errors.hpp"
 #include "base/stopwatch.hpp"
 #include "io/gmsh_mesh.hpp"
-#include "mesh/place.hpp"
 
 namespace mortise {
 namespace {
@@ -17,64 +15,16 @@ void require_available(const Scene& scene) {
     throw InputError(scene.path + ": method.kind = \"ddm\" is not available in this version; expected \"mortar\"");
 }
 
-std::string near_node(const Mesh& mesh, int node) { return near_point(mesh.nodes.row(node).transpose()); }
-
-// Rows of B over their size: what contact can hold.
-SparseMatrix unit_rows(const StackedCoupling& coupling) {
-  SparseMatrix rows = coupling.B;
-  for (Eigen::Index k = 0; k < rows.nonZeros(); ++k) rows.valuePtr()[k] /= coupling.scale(rows.innerIndexPtr()[k]);
-  return rows;
+// The rows that are closed at first: those of a run on the same mesh, else (empty) all.
+std::vector<char> starting_rows(const ActiveSet* start, const Results& r) {
+  if (!start || start->nodes.rows() != r.mesh.nodes.rows() || start->nodes != r.mesh.nodes) return {};
+  return start->node == row_nodes(r.pairs) ? start->active : std::vector<char>{};
 }
 
-void require_held(const Scene& scene, const Mesh& mesh, const Constraints& constraints,
-                  const StackedCoupling& coupling) {
-  const auto motions = free_motions(mesh, constraints, unit_rows(coupling));
-  if (motions.empty()) return;
-  throw InputError(scene.path + ": nothing holds " + describe(mesh, motions.front()) +
-                   "; expected prescribed displacements or contact that prevent it");
-}
-
-void require_solved(const Scene& scene, const Results& r, const StackedCoupling& coupling,
-                    const SaddlePointSolution& solution) {
-  using Status = SaddlePointSolution::Status;
-  if (solution.status == Status::not_positive_definite) {
-    const int node = solution.failed_at / 2;
-    throw InputError(scene.path + ": the stiffness is not positive definite " + near_node(r.mesh, node) +
-                     ": a part of a body that nothing holds, or elements far out of shape there");
-  }
-  if (solution.status == Status::dependent_constraints) {
-    std::size_t k = 0;
-    while (coupling.first_row[k + 1] <= solution.failed_at) ++k;
-    const Coupling& c = r.pairs[k].coupling;
-    std::size_t a = 0;
-    while (c.row[a] != solution.failed_at - coupling.first_row[k]) ++a;
-    throw InputError(scene.path + ": " + r.pairs[k].spec.key + ": the contact condition " +
-                     near_node(r.mesh, c.node[a]) +
-                     " already follows from the others: prescribed displacements or other contact pairs hold the "
-                     "same nodes; put the multipliers on the other curve or release the prescribed displacement");
-  }
-}
-
-// What a user should know that no check fails for.
-void add_notes(Results& r) {
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
-    const ContactPair& pair = r.pairs[k];
-    for (const DroppedMultiplier& d : pair.coupling.dropped)
-      r.notes.push_back(pair.spec.key + ": multiplier " + near_node(r.mesh, d.node) + " " + d.reason);
-    const double gap = std::max(std::abs(pair.coupling.gap_min), std::abs(pair.coupling.gap_max));
-    double edge_size = 0;
-    for (const Edge& edge : pair.multiplier.edges) edge_size = std::max(edge_size, edge_length(r.mesh.nodes, edge));
-    const double displacement = r.u.cwiseAbs().maxCoeff();
-    // A quadratic edge misses a smooth curve by far less than a percent of its length; a gap that small between
-    // curves that differ everywhere is the meshes' own.
-    if (pair.spec.initial_gap == InitialGap::measured && gap > 1e-3 * displacement && gap < 1e-2 * edge_size) {
-      std::ostringstream text;
-      text << pair.spec.key << ": the undeformed gap (up to " << gap << ") is small against the elements (" << edge_size
-           << ") but not against the displacements (" << displacement
-           << "); if the curves are one curve, set initial_gap = \"closed\"";
-      r.notes.push_back(text.str());
-    }
-  }
+double largest_young(const Discretisation& d) {
+  double young = 0;
+  for (const ElasticLaw& law : d.laws) young = std::max(young, law.young);
+  return young;
 }
 
 }  // namespace
@@ -91,13 +41,13 @@ std::string to_string(Status status) {
   return "";
 }
 
-Results solve_scene(const Scene& scene, const Progress& progress) {
+Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSet* start) {
   require_available(scene);
   Stopwatch watch;
   if (progress) progress("mesh");
   Mesh mesh = load_mesh(scene.mesh_file, scene.mesh_parameters);
   const double seconds = watch.lap();
-  Results results = solve_scene(scene, std::move(mesh), progress);
+  Results results = solve_scene(scene, std::move(mesh), progress, start);
   results.seconds.mesh = seconds;
   return results;
 }
@@ -107,11 +57,14 @@ CheckedScene check_scene(const Scene& scene) {
   CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters), {}};
   const Constraints constraints = discretise(scene, checked.mesh).constraints;
   checked.pairs = couple_pairs(scene, checked.mesh, constraints);
+  require_closed(scene, checked.mesh, checked.pairs);
   require_held(scene, checked.mesh, constraints, stack(checked.pairs, 2 * checked.mesh.nodes.rows()));
   return checked;
 }
 
-Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress) {
+ActiveSet active_set(const Results& r) { return {r.mesh.nodes, row_nodes(r.pairs), r.active}; }
+
+Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
   require_available(scene);
   const auto stage = [&](const char* name) {
     if (progress) progress(name);
@@ -129,18 +82,20 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress) {
   stage("couple");
   r.pairs = couple_pairs(scene, r.mesh, d.constraints);
   const StackedCoupling coupling = stack(r.pairs, d.load.size());
+  require_closed(scene, r.mesh, r.pairs);
   require_held(scene, r.mesh, d.constraints, coupling);
-  const auto floating = free_motions(r.mesh, d.constraints, SparseMatrix(0, d.load.size()));
-  const std::vector<int> grounded = grounding_unknowns(r.mesh, d.constraints, floating);
+  const Floating floating = find_floating(r.mesh, d.constraints);
   r.seconds.couple = watch.lap();
 
   stage("solve");
-  double young = 0;
-  for (const ElasticLaw& law : d.laws) young = std::max(young, law.young);
   const VecX g = -coupling.gap0;
   SaddlePointSolution solution = solve_saddle_point(
-      {d.stiffness, d.load, coupling.B, g, d.constraints.fixed, d.constraints.value, young, coupling.scale, grounded});
-  require_solved(scene, r, coupling, solution);
+      {d.stiffness, d.load, coupling.B, g, d.constraints.fixed, d.constraints.value, largest_young(d), coupling.scale,
+       floating.grounded, unilateral_rows(r.pairs), starting_rows(start, r)});
+  require_solved(scene, r, floating, solution);
+  r.active = solution.active;
+  r.steps = solution.steps;
+  r.coarse_steps = solution.coarse_steps;
   r.u = solution.u;
   r.seconds.factorise = solution.factorise_seconds;
   r.seconds.solve = solution.solve_seconds;
@@ -157,7 +112,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress) {
         r.mesh, r.pairs[k], d.constraints, r.points, r.stress, r.u,
         solution.lambda.segment(coupling.first_row[k], coupling.first_row[k + 1] - coupling.first_row[k])));
   add_checks(solution, coupling, scene, r);
-  add_notes(r);
+  add_notes(solution.unsettled, r);
   r.seconds.recover = watch.lap();
   return r;
 }

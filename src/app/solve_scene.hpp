@@ -28,6 +28,13 @@ struct Seconds {
   double total() const { return mesh + assemble + couple + factorise + solve + recover + write; }
 };
 
+/// Where contact was closed, for a later run on the same mesh to start from.
+struct ActiveSet {
+  Points nodes;              ///< of the mesh
+  std::vector<int> node;     ///< of each row: where its first multiplier sits
+  std::vector<char> active;  ///< of each row
+};
+
 /// Everything a run knows at its end.
 struct Results {
   Status status = Status::solved;
@@ -41,6 +48,9 @@ struct Results {
   double energy = 0;                     ///< strain energy per thickness
   int unknowns = 0;                      ///< free displacement unknowns
   int multipliers = 0;                   ///< rows of the coupling
+  std::vector<char> active;              ///< of each row: closed (always so in bilateral pairs)
+  std::vector<ActiveSetStep> steps;      ///< one a solve of the contact problem
+  int coarse_steps = 0;                  ///< and on joined rows
   std::size_t factor_bytes = 0;
   Seconds seconds;
   std::vector<Check> checks;
@@ -51,10 +61,13 @@ struct Results {
 using Progress = std::function<void(const std::string& stage)>;
 
 /// Reads or makes the mesh and solves. Throws InputError for bad input, and where nothing holds a body.
-Results solve_scene(const Scene& scene, const Progress& progress = {});
+/// `start`: the active set to start from; all rows closed where there is none, or it belongs to another mesh.
+Results solve_scene(const Scene& scene, const Progress& progress = {}, const ActiveSet* start = nullptr);
 
 /// The same on a mesh that is already there.
-Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress = {});
+Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr);
+
+ActiveSet active_set(const Results& results);
 
 /// A scene that was meshed and validated, but not solved.
 struct CheckedScene {

@@ -28,6 +28,43 @@ Json contact_json(const ContactPair& pair, const ContactResults& c) {
           {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
 }
 
+Json steps_json(const Results& r) {
+  Json steps = Json::array();
+  for (const ActiveSetStep& s : r.steps)
+    steps.push_back({{"active", s.active}, {"changed", s.changed}, {"penetration", s.penetration}, {"pull", s.pull}});
+  return steps;
+}
+
+// One row a solve, where there was more than one.
+void print_steps(const Results& r, std::ostream& out) {
+  if (r.steps.size() < 2) return;
+  out << "  steps     " << std::setw(6) << "closed" << std::setw(10) << "changing" << std::setw(16) << "penetration"
+      << std::setw(16) << "pull\n";
+  for (std::size_t k = 0; k < r.steps.size(); ++k) {
+    if (r.steps.size() > 14 && k == 7) {
+      out << "            ... summary.json has all\n";
+      k = r.steps.size() - 7;
+    }
+    const ActiveSetStep& s = r.steps[k];
+    out << std::setw(10) << k + 1 << "  " << std::setw(6) << s.active << std::setw(10) << s.changed << std::setw(16)
+        << s.penetration << std::setw(15) << s.pull << "\n";
+  }
+}
+
+// How contact was found, in words.
+std::string contact_words(const Results& r) {
+  const int unilateral = int(std::count_if(
+      r.pairs.begin(), r.pairs.end(), [](const ContactPair& p) { return p.spec.condition == Condition::unilateral; }));
+  if (unilateral == 0) return "";
+  if (r.steps.size() > 1)
+    return std::to_string(r.steps.size()) + " solves until nothing pulls or overlaps" +
+           (r.coarse_steps > 0 ? ", and " + std::to_string(r.coarse_steps) + " smaller ones for the second's start"
+                               : "");
+  return std::all_of(r.active.begin(), r.active.end(), [](char a) { return a; })
+             ? "one solve: nothing pulls, contact is closed everywhere"
+             : "one solve: the active set of the start holds";
+}
+
 }  // namespace
 
 Json summary_json(const Scene& scene, const Results& r) {
@@ -69,7 +106,12 @@ Json summary_json(const Scene& scene, const Results& r) {
             {"recover", s.recover},
             {"write", s.write},
             {"total", s.total()}}},
-          {"iterations", {{"contact", r.pairs.empty() ? 0 : 1}, {"linear", 0}, {"interface", 0}}},
+          {"iterations",
+           {{"contact", r.pairs.empty() ? 0 : r.steps.size()},
+            {"contact_coarse", r.coarse_steps},
+            {"linear", 0},
+            {"interface", 0}}},
+          {"contact_steps", steps_json(r)},
           {"energy", r.energy},
           {"contact", contact},
           {"checks", checks},
@@ -92,6 +134,10 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
         << "\n            length " << c.length << ", in contact " << c.length_in_contact << "; undeformed gap "
         << r.pairs[k].coupling.gap_min << " ... " << r.pairs[k].coupling.gap_max << "\n";
   }
+  out << std::setprecision(3);
+  print_steps(r, out);
+  if (const std::string words = contact_words(r); !words.empty()) out << "            " << words << "\n";
+  out << std::setprecision(6) << "  largest   displacement " << r.u.cwiseAbs().maxCoeff() << "\n";
   out << "  energy    " << r.energy << "\n";
   out << std::setprecision(2);
   for (const Check& c : r.checks)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -18,6 +19,7 @@ Row figures(const Results& r) {
           {"elements", double(r.mesh.cells.size())},
           {"dofs", r.unknowns},
           {"multipliers", r.multipliers},
+          {"iterations.contact", double(r.pairs.empty() ? 0 : r.steps.size())},
           {"energy", r.energy},
           {"seconds.mesh", r.seconds.mesh},
           {"seconds.solve", r.seconds.total() - r.seconds.mesh}};
@@ -89,6 +91,7 @@ Status sweep(const std::string& scene_path, const std::vector<Override>& overrid
   for (const Variation& v : variations) total *= v.values.size();
   Table table(variations);
   Status worst = Status::solved;
+  std::optional<ActiveSet> start;  // of the run before: solve_scene ignores it on another mesh
   for (std::size_t run = 0; run < total; ++run) {
     std::vector<Override> all = overrides;
     std::vector<std::string> words;
@@ -100,7 +103,8 @@ Status sweep(const std::string& scene_path, const std::vector<Override>& overrid
       line += " " + variations[v].key + "=" + words.back();
     }
     try {
-      const Results results = solve_scene(read_scene(scene_path, all));
+      const Results results = solve_scene(read_scene(scene_path, all), {}, start ? &*start : nullptr);
+      start = active_set(results);
       words.push_back(to_string(results.status));
       table.add(words, figures(results));
       worst = std::max(worst, results.status);

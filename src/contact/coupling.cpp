@@ -49,13 +49,13 @@ bool prescribed_on_both_sides(const Mesh& mesh, const Edge& edge, std::size_t lo
 // What the contact points say of each multiplier before any is dropped.
 struct Accumulated {
   std::vector<Eigen::Triplet<double>> B;  // multiplier x degree of freedom
-  VecX gap, scale;
+  VecX gap, scale, weight;                // int psi g0, int |psi|, int psi
 };
 
 Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std::vector<ContactPoint>& points,
                        const CouplingOptions& options, const Coupling& coupling) {
   const auto count = Eigen::Index(coupling.node.size());
-  Accumulated sums{{}, VecX::Zero(count), VecX::Zero(count)};
+  Accumulated sums{{}, VecX::Zero(count), VecX::Zero(count), VecX::Zero(count)};
   sums.B.reserve(points.size() * 36);
   for (auto first = points.begin(); first != points.end();) {
     const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
@@ -70,6 +70,7 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
       for (int i = 0; i < space.count; ++i) {
         const int a = multipliers[std::size_t(i)];
         sums.scale(a) += std::abs(psi(i));
+        sums.weight(a) += psi(i);
         if (options.initial_gap == InitialGap::measured) sums.gap(a) += psi(i) * p.gap;
         for (int c = 0; c < 2; ++c) {
           for (std::size_t b = 0; b < std::size_t(edge.node_count); ++b)
@@ -83,21 +84,24 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
   return sums;
 }
 
-// Fills coupling.row: multipliers without support have none, prescribed ones share the row of the nearest free one
-// along the curve (so that constants stay in the space: Wohlmuth 2000, the end edges of a mortar).
+// Fills coupling.row: multipliers without support have none. Prescribed ones, and those whose weighted gap says nothing
+// of the gap's sign (psi of a quadratic edge of which a part faces the other side), share the row of the nearest free
+// one along the curve (so that constants stay in the space: Wohlmuth 2000, the end edges of a mortar).
 void number_rows(const Mesh& mesh, const Curve& multiplier, const Curve& opposite, const Constraints& constraints,
-                 const VecX& scale, Coupling& coupling) {
-  enum class State { free, tied, unsupported };
+                 const Accumulated& sums, Coupling& coupling) {
+  enum class State { free, prescribed, weightless, unsupported };
   std::vector<State> state(coupling.node.size(), State::free);
   for (std::size_t e = 0; e < multiplier.edges.size(); ++e) {
     const double length = edge_length(mesh.nodes, multiplier.edges[e]);
     for (std::size_t i = 0; i < 3; ++i) {
       const int a = coupling.on_edge[e][i];
       if (a < 0) continue;
-      if (scale(a) < 1e-10 * length) {
+      if (sums.scale(a) < 1e-10 * length) {
         state[std::size_t(a)] = State::unsupported;
       } else if (prescribed_on_both_sides(mesh, multiplier.edges[e], i, opposite, constraints)) {
-        state[std::size_t(a)] = State::tied;
+        state[std::size_t(a)] = State::prescribed;
+      } else if (sums.weight(a) < 0.05 * sums.scale(a)) {
+        state[std::size_t(a)] = State::weightless;
       }
     }
   }
@@ -121,7 +125,9 @@ void number_rows(const Mesh& mesh, const Curve& multiplier, const Curve& opposit
         if (k >= 0 && k < int(order.size()) && state[std::size_t(order[std::size_t(k)])] == State::free)
           coupling.row[a] = coupling.row[std::size_t(order[std::size_t(k)])];
     coupling.dropped.push_back(
-        {coupling.node[a], "normal displacement prescribed on both sides: pressure of the nearest free node"});
+        {coupling.node[a], state[a] == State::prescribed
+                               ? "normal displacement prescribed on both sides: pressure of the nearest free node"
+                               : "little of its edge faces the other side: pressure of the nearest free node"});
   }
   coupling.gap0 = VecX::Zero(rows);
   coupling.scale = VecX::Zero(rows);
@@ -139,7 +145,7 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
   Coupling coupling;
   number_multipliers(multiplier, options.multipliers, coupling);
   const Accumulated sums = accumulate(multiplier, opposite, points, options, coupling);
-  number_rows(mesh, multiplier, opposite, constraints, sums.scale, coupling);
+  number_rows(mesh, multiplier, opposite, constraints, sums, coupling);
 
   coupling.gap_min = coupling.gap_max = points.front().gap;
   for (const ContactPoint& p : points) {
@@ -160,6 +166,14 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
   coupling.B.resize(coupling.gap0.size(), 2 * mesh.nodes.rows());
   coupling.B.setFromTriplets(entries.begin(), entries.end());
   return coupling;
+}
+
+std::vector<int> row_nodes(const Coupling& coupling) {
+  std::vector<int> nodes(std::size_t(coupling.gap0.size()), -1);
+  for (std::size_t a = 0; a < coupling.row.size(); ++a)
+    if (coupling.row[a] >= 0 && nodes[std::size_t(coupling.row[a])] < 0)
+      nodes[std::size_t(coupling.row[a])] = coupling.node[a];
+  return nodes;
 }
 
 VecX multiplier_values(const Coupling& coupling, const VecX& row_values) {

@@ -40,6 +40,9 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
                 const std::vector<ContactPoint>& points, const Constraints& constraints,
                 const CouplingOptions& options);
 
+/// For each row the node of its first multiplier.
+std::vector<int> row_nodes(const Coupling& coupling);
+
 /// Multipliers from the rows' values: value[row[a]], zero without support.
 VecX multiplier_values(const Coupling& coupling, const VecX& row_values);
 

@@ -1,7 +1,9 @@
 #include "fem/constraints.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -36,6 +38,20 @@ BodyFrames body_frames(const Mesh& mesh, const BodyPoints& points) {
 double motion_at(int k, const Vec2& x, const Vec2& centre, double size, int c) {
   if (k < 2) return k == c ? 1 : 0;
   return c == 0 ? -(x.y() - centre.y()) / size : (x.x() - centre.x()) / size;
+}
+
+// The displacements of all nodes, a column a motion.
+MatX displacements(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions) {
+  const BodyPoints points = body_points(mesh);
+  MatX fields = MatX::Zero(2 * mesh.nodes.rows(), Eigen::Index(motions.size()));
+  for (std::size_t m = 0; m < motions.size(); ++m)
+    for (const RigidMotion& motion : motions[m])
+      for (int p = points.first[std::size_t(motion.body)]; p < points.first[std::size_t(motion.body) + 1]; ++p) {
+        const int node = points.node[std::size_t(p)];
+        const Vec2 arm = mesh.nodes.row(node).transpose() - motion.centre;
+        fields.block<2, 1>(2 * node, Eigen::Index(m)) = motion.translation + motion.rotation * Vec2(-arm.y(), arm.x());
+      }
+  return fields;
 }
 
 }  // namespace
@@ -127,15 +143,7 @@ std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Const
 
 std::vector<int> grounding_unknowns(const Mesh& mesh, const Constraints& constraints,
                                     const std::vector<std::vector<RigidMotion>>& motions) {
-  const BodyPoints points = body_points(mesh);
-  MatX fields = MatX::Zero(2 * mesh.nodes.rows(), Eigen::Index(motions.size()));  // a column a motion
-  for (std::size_t m = 0; m < motions.size(); ++m)
-    for (const RigidMotion& motion : motions[m])
-      for (int p = points.first[std::size_t(motion.body)]; p < points.first[std::size_t(motion.body) + 1]; ++p) {
-        const int node = points.node[std::size_t(p)];
-        const Vec2 arm = mesh.nodes.row(node).transpose() - motion.centre;
-        fields.block<2, 1>(2 * node, Eigen::Index(m)) = motion.translation + motion.rotation * Vec2(-arm.y(), arm.x());
-      }
+  MatX fields = displacements(mesh, motions);
   for (Eigen::Index i = 0; i < fields.rows(); ++i)
     if (constraints.fixed[std::size_t(i)]) fields.row(i).setZero();
   std::vector<int> unknowns;
@@ -149,13 +157,43 @@ std::vector<int> grounding_unknowns(const Mesh& mesh, const Constraints& constra
   return unknowns;
 }
 
+std::vector<RigidMotion> motion_through(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions,
+                                        const std::vector<int>& unknowns, const VecX& values) {
+  const MatX fields = displacements(mesh, motions);
+  MatX at(values.size(), fields.cols());
+  for (Eigen::Index k = 0; k < values.size(); ++k) at.row(k) = fields.row(unknowns[std::size_t(k)]);
+  const VecX parts = at.partialPivLu().solve(values);
+  std::map<int, RigidMotion> sum;  // by body
+  for (std::size_t m = 0; m < motions.size(); ++m)
+    for (const RigidMotion& motion : motions[m]) {
+      RigidMotion& total = sum.try_emplace(motion.body, motion.body, Vec2::Zero(), 0.0, motion.centre).first->second;
+      total.translation += parts(Eigen::Index(m)) * motion.translation;
+      total.rotation += parts(Eigen::Index(m)) * motion.rotation;
+    }
+  double size = 0;
+  for (const auto& [body, motion] : sum) size = std::max(size, motion.translation.norm());
+  if (size == 0)
+    for (const auto& [body, motion] : sum) size = std::max(size, std::abs(motion.rotation));
+  std::vector<RigidMotion> result;
+  for (auto& [body, motion] : sum) {
+    motion.translation /= size;
+    motion.rotation /= size;
+    result.push_back(motion);
+  }
+  return result;
+}
+
 std::string describe(const Mesh& mesh, const std::vector<RigidMotion>& motion) {
   std::ostringstream text;
   text.precision(3);
+  double size = 0;
+  for (const RigidMotion& m : motion) size = std::max({size, m.translation.norm(), std::abs(m.rotation)});
+  const auto shown = [&](double value) { return std::abs(value) < 1e-6 * size ? 0 : value; };  // round-off
   const char* separator = "";
   for (const RigidMotion& m : motion) {
-    text << separator << "body '" << mesh.bodies[std::size_t(m.body)] << "': translation (" << m.translation.x() << ", "
-         << m.translation.y() << "), rotation " << m.rotation;
+    if (m.translation.norm() < 1e-6 * size && std::abs(m.rotation) < 1e-6 * size) continue;
+    text << separator << "body '" << mesh.bodies[std::size_t(m.body)] << "': translation (" << shown(m.translation.x())
+         << ", " << shown(m.translation.y()) << "), rotation " << shown(m.rotation);
     separator = "; ";
   }
   return text.str();

@@ -38,6 +38,10 @@ std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Const
 std::vector<int> grounding_unknowns(const Mesh& mesh, const Constraints& constraints,
                                     const std::vector<std::vector<RigidMotion>>& motions);
 
+/// The combination of `motions` in which the grounded `unknowns` move by `values`, of unit size. One entry a body.
+std::vector<RigidMotion> motion_through(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions,
+                                        const std::vector<int>& unknowns, const VecX& values);
+
 /// "body 'upper': translation (0, 1), rotation 0; ..." for messages.
 std::string describe(const Mesh& mesh, const std::vector<RigidMotion>& motion);
 

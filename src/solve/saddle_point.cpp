@@ -1,7 +1,5 @@
 #include "solve/saddle_point.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "base/stopwatch.hpp"
@@ -62,52 +60,38 @@ Reduced reduce(const SaddlePointSystem& s) {
   return r;
 }
 
-// Solves [C, C_s; C_s^T, S - 1] (lambda, mu) = rhs for the multipliers and the springs' forces mu (theory eq. 18),
-// where all blocks but the 1 are in `compliance`. The first m rows are positive definite.
-class MultiplierSystem {
- public:
-  MultiplierSystem(const MatX& compliance, Eigen::Index m) : m_(m), springs_(compliance.rows() - m) {
-    if (m_ == 0) return;  // without rows nothing needs springs
-    cholesky_.compute(compliance.topLeftCorner(m, m));
-    diagonal_ = compliance.diagonal().head(m);
-    if (springs_ == 0) return;
-    coupling_ = compliance.bottomLeftCorner(springs_, m).transpose();
-    reduced_ = cholesky_.solve(coupling_);
-    MatX corner = compliance.bottomRightCorner(springs_, springs_).selfadjointView<Eigen::Lower>();
-    corner -= MatX::Identity(springs_, springs_) + coupling_.transpose() * reduced_;
-    corner_.compute(corner);
-  }
-
-  // A row of B that the rows before it already imply: its pivot is round-off of its own size, or the factorisation
-  // stopped there (its row of the factor does not give back the diagonal then).
-  int dependent_row() const {
-    const MatX& L = cholesky_.matrixLLT();
-    for (Eigen::Index i = 0; i < m_; ++i) {
-      const double pivot = L(i, i) * L(i, i), size = L.row(i).head(i + 1).squaredNorm();
-      if (!(pivot > 1e-13 * diagonal_(i)) || !(std::abs(size - diagonal_(i)) < 1e-8 * diagonal_(i))) return int(i);
-    }
-    return -1;
-  }
-
-  VecX solve(const VecX& rhs) const {
-    VecX x = rhs;
-    if (m_ == 0) return x;
-    x.head(m_) = cholesky_.solve(rhs.head(m_));
-    if (springs_ == 0) return x;
-    x.tail(springs_) = corner_.solve(rhs.tail(springs_) - coupling_.transpose() * x.head(m_));
-    x.head(m_) -= reduced_ * x.tail(springs_);
-    return x;
-  }
-
- private:
-  Eigen::Index m_, springs_;
-  Eigen::LLT<MatX> cholesky_;
-  VecX diagonal_;
-  MatX coupling_, reduced_;
-  Eigen::PartialPivLU<MatX> corner_;
-};
-
 double largest_entry(const VecX& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; }
+
+// Back to the system's units: rows over their size are lengths, multipliers over it stresses.
+void take_over(const SaddlePointSystem& s, ActiveSetResult&& set, SaddlePointSolution& solution) {
+  using Status = SaddlePointSolution::Status;
+  solution.active = std::move(set.active);
+  solution.steps = std::move(set.steps);
+  solution.coarse_steps = set.coarse_steps;
+  solution.unsettled = std::move(set.wrong);
+  solution.drift = std::move(set.drift);
+  solution.driven = set.driven;
+  solution.failed_at = set.dependent_row;
+  for (ActiveSetStep& step : solution.steps) step.pull *= s.stiffness_scale;
+  if (set.status == ActiveSetResult::Status::dependent_row) solution.status = Status::dependent_constraints;
+  if (set.status == ActiveSetResult::Status::not_settled) solution.status = Status::not_settled;
+  if (set.status == ActiveSetResult::Status::unheld) solution.status = Status::unheld;
+}
+
+void measure_residuals(const SaddlePointSystem& s, const std::vector<int>& free, const VecX& Ku,
+                       SaddlePointSolution& solution) {
+  const VecX pressure = s.B.transpose() * solution.lambda;
+  double worst = 0;
+  for (const int i : free) worst = std::max(worst, std::abs(s.f(i) - Ku(i) - pressure(i)));
+  const double largest = largest_entry(solution.u);
+  const double size = std::max(
+      {largest_entry(s.f), largest_entry(Ku), largest_entry(pressure), rigid_part * s.stiffness_scale * largest});
+  solution.force_residual = size > 0 ? worst / size : 0;
+  VecX open = (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
+  for (Eigen::Index a = 0; a < open.size(); ++a)
+    if (!solution.active[std::size_t(a)]) open(a) = 0;
+  solution.constraint_residual = largest > 0 ? largest_entry(open) / largest : 0;
+}
 
 }  // namespace
 
@@ -123,19 +107,15 @@ SaddlePointSolution solve_saddle_point(const SaddlePointSystem& s) {
     solution.failed_at = free[std::size_t(std::min<std::size_t>(std::size_t(factor.failed_at()), free.size() - 1))];
     return solution;
   }
-  const MultiplierSystem multipliers(factor.border_compliance(), m);
   solution.factor_bytes = factor.factor_bytes();
   solution.factorise_seconds = watch.lap();
-  if (multipliers.dependent_row() >= 0) {
-    solution.status = SaddlePointSolution::Status::dependent_constraints;
-    solution.failed_at = multipliers.dependent_row();
-    return solution;
-  }
 
   solution.u = s.value;
   solution.lambda = VecX::Zero(m);
+  const std::vector<char> unilateral = s.unilateral.empty() ? std::vector<char>(std::size_t(m), 0) : s.unilateral;
   const auto symmetric = s.K.selfadjointView<Eigen::Lower>();
   VecX Ku = symmetric * solution.u;
+  std::optional<MultiplierSystem> multipliers;  // of the active set
   // The first pass solves, as a rule to round-off of the residual itself; a second one refines where it did not.
   for (int pass = 0; pass < 2; ++pass) {
     const VecX Bl = s.B.transpose() * solution.lambda;
@@ -144,20 +124,22 @@ SaddlePointSolution solve_saddle_point(const SaddlePointSystem& s) {
       force(Eigen::Index(i)) = (s.f(free[i]) - Ku(free[i]) - Bl(free[i])) / s.stiffness_scale;
     VecX rhs = factor.forward(force);
     rhs.head(m) -= (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
-    const VecX lambda = multipliers.solve(rhs);
+    VecX lambda;
+    if (pass == 0) {
+      ActiveSetResult set = settle_active_set({factor.border_compliance(), rhs, s.row_scale, unilateral}, s.start);
+      lambda = std::move(set.solution);
+      multipliers = std::move(set.system);
+      take_over(s, std::move(set), solution);
+      using Status = SaddlePointSolution::Status;
+      if (solution.status == Status::dependent_constraints || solution.status == Status::unheld) return solution;
+    } else {
+      lambda = multipliers->solve(rhs);
+    }
     const VecX u = factor.backward(lambda);
     for (std::size_t i = 0; i < free.size(); ++i) solution.u(free[i]) += u(Eigen::Index(i));
     solution.lambda += s.stiffness_scale * lambda.head(m).cwiseQuotient(s.row_scale);
     Ku = symmetric * solution.u;
-
-    const VecX pressure = s.B.transpose() * solution.lambda;
-    double worst = 0;
-    for (const int i : free) worst = std::max(worst, std::abs(s.f(i) - Ku(i) - pressure(i)));
-    const double size = std::max({largest_entry(s.f), largest_entry(Ku), largest_entry(pressure)});
-    solution.force_residual = size > 0 ? worst / size : 0;
-    const double largest = largest_entry(solution.u);
-    const VecX open = (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
-    solution.constraint_residual = largest > 0 ? largest_entry(open) / largest : 0;
+    measure_residuals(s, free, Ku, solution);
     if (std::max(solution.force_residual, solution.constraint_residual) < 1e-11) break;
   }
   solution.solve_seconds = watch.lap();

@@ -1,6 +1,8 @@
-// The saddle-point system of contact: K u + B^T lambda = f, B u = g, with some unknowns prescribed.
+// The saddle-point system of contact: K u + B^T lambda = f, with B u = g or, on unilateral rows, B u >= g, lambda <= 0
+// and lambda (B u - g) = 0; some unknowns prescribed.
 #pragma once
 
+#include "solve/active_set.hpp"
 #include "solve/bordered_cholesky.hpp"
 
 namespace mortise {
@@ -17,18 +19,31 @@ struct SaddlePointSystem {
   const VecX& row_scale;           ///< m: size of each row of B, length
   /// Unknowns that springs must hold for K to be positive definite (one for each motion that only B resists). The
   /// springs are taken out again exactly: docs/theory.md eq. 18.
-  std::vector<int> grounded;
+  std::vector<int> grounded = {};
+  std::vector<char> unilateral = {};  ///< m: rows that may open; empty: none
+  std::vector<char> start = {};       ///< m: rows that are closed at first; empty: all
 };
 
-struct SaddlePointSolution {
-  enum class Status { solved, not_positive_definite, dependent_constraints };
-  Status status = Status::solved;
-  int failed_at = -1;  ///< the unknown of K, or the row of B, where it is not `solved`
+/// Forces are compared with this part of stiffness times displacement where they are smaller: those of a body that
+/// moves without being deformed are round-off of that product.
+inline constexpr double rigid_part = 1e-3;
 
-  VecX u;       ///< n, length
-  VecX lambda;  ///< m, stress
-  /// Largest entry of f - K u - B^T lambda over that of its terms, on free unknowns; and of B u - g (each row over
-  /// its scale) over the largest displacement.
+struct SaddlePointSolution {
+  /// not_settled: u and lambda are those of the last active set. unheld: only `drift` is given.
+  enum class Status { solved, not_positive_definite, dependent_constraints, not_settled, unheld };
+  Status status = Status::solved;
+  int failed_at = -1;  ///< the unknown of K that is not positive definite, or the row of B that depends on others
+
+  VecX u;                            ///< n, length
+  VecX lambda;                       ///< m, stress
+  std::vector<char> active;          ///< m: the rows that are closed
+  std::vector<ActiveSetStep> steps;  ///< one a solve; penetrations are lengths, pulls are stresses
+  int coarse_steps = 0;              ///< solves on joined rows, to start from
+  std::vector<int> unsettled;        ///< rows that the last step would still change
+  VecX drift;                        ///< where `unheld`: the grounded unknowns in the motion that no closed row holds
+  bool driven = false;               ///< the load drives that motion
+  /// Largest entry of f - K u - B^T lambda over that of its terms (or rigid_part), on free unknowns; and of B u - g
+  /// (each closed row over its scale) over the largest displacement.
   double force_residual = 0, constraint_residual = 0;
   double factorise_seconds = 0, solve_seconds = 0;
   std::size_t factor_bytes = 0;

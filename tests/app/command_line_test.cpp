@@ -89,13 +89,55 @@ TEST(CommandLine, ContactCsvHasOneRowANodeOrderedByArcLength) {
   }
 }
 
-TEST(CommandLine, UnilateralContactThatPullsIsNotConverged) {
+TEST(CommandLine, TheStepsOfTheActiveSetAreShownWhereThereAreMore) {
   const TemporaryFolder folder;
-  const Outcome o =
-      mortise({"solve", geo("cosine.toml"), "--set", "contact.condition=unilateral", "--set",
-               "mesh.parameters.n_upper=40", "--set", "mesh.parameters.n_lower=50", "-o", folder.path("run")});
-  EXPECT_EQ(o.status, 2);
-  EXPECT_EQ(summary(folder.path("run"))["status"], "not_converged");  // written, and marked so
+  const Outcome o = mortise({"solve", geo("cosine.toml"), "-o", folder.path("run")});
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.out.find("changing"), std::string::npos) << o.out;
+  const nlohmann::json s = summary(folder.path("run"));
+  const auto& steps = s["contact_steps"];
+  EXPECT_GT(steps.size(), 1u);
+  EXPECT_EQ(steps.size(), s["iterations"]["contact"].get<std::size_t>());
+  EXPECT_EQ(steps[0]["active"], s["mesh"]["multipliers"]);  // the first closes all
+  EXPECT_GT(steps[0]["pull"].get<double>(), 0);
+  EXPECT_EQ(steps.back()["changed"], 0);
+  EXPECT_LT(steps.back()["active"], s["mesh"]["multipliers"]);
+}
+
+TEST(CommandLine, OneSolveIsSaidToBeOne) {
+  const TemporaryFolder folder;
+  const Outcome o = mortise({"solve", geo("patch_flat.toml"), "-o", folder.path("run")});
+  EXPECT_NE(o.out.find("one solve"), std::string::npos) << o.out;
+  EXPECT_EQ(o.out.find("changing"), std::string::npos) << o.out;
+  EXPECT_EQ(summary(folder.path("run"))["iterations"]["contact"], 1);
+}
+
+TEST(CommandLine, ASweepOfALoadStartsFromTheRunBefore) {
+  const TemporaryFolder folder;
+  const auto steps = [&](const std::string& values) {
+    EXPECT_EQ(
+        mortise({"sweep", geo("lift_off.toml"), "--vary", "boundary.2.pressure=" + values, "-o", folder.path("s.csv")})
+            .status,
+        0);
+    std::ifstream file(folder.path("s.csv"));
+    std::string line;
+    std::getline(file, line);
+    const auto column = [](const std::string& row, std::size_t k) {
+      std::stringstream fields(row);
+      std::string field;
+      for (std::size_t i = 0; i <= k; ++i) std::getline(fields, field, ',');
+      return field;
+    };
+    std::size_t k = 0;
+    while (column(line, k) != "iterations.contact") ++k;
+    std::vector<int> list;
+    while (std::getline(file, line)) list.push_back(std::stoi(column(line, k)));
+    return list;
+  };
+  const std::vector<int> run = steps("1e6,1.01e6,1.02e6,1.03e6"), alone = steps("1.03e6");
+  ASSERT_EQ(run.size(), 4u);
+  EXPECT_LT(run[3], alone[0]);
+  EXPECT_LT(run[1] + run[2] + run[3], 3 * alone[0]);
 }
 
 TEST(CommandLine, CheckSaysWhatTheSceneModelsAndWritesNothing) {
@@ -170,6 +212,11 @@ const BadInput bad_input[] = {
     {"UnknownOption", {"--fast"}, {"--fast"}},
     {"ThreadsNotANumber", {"--threads", "many"}, {"many"}},
     {"ThreadsZero", {"--threads", "0"}, {"threads"}},
+    {"TheLoadPullsTheBodyAway", {"--set", "boundary.2.pressure=-1e6"}, {"nothing holds", "'upper'", "(0, 1)"}},
+    {"AClosedGapThatIsOpen",
+     {"--set", "contact.initial_gap=closed", "--set", "mesh.parameters.gap=0.01"},
+     {"0.01 apart", "measured"},
+     "gap_close.toml"},
     {"CurvesThatDoNotFace",
      {"--set", "contact.0.between=[\"top\",\"bottom\"]", "--set", "contact.0.initial_gap=measured"},
      {"face"}},

@@ -154,5 +154,28 @@ TEST(Coupling, CurvesThatDoNotFaceAreAnError) {
   EXPECT_THROW(couple(mesh, top, bottom, points, no_constraints(mesh), {}), InputError);
 }
 
+TEST(Coupling, EveryRowsWeightIsPositiveHoweverLittleOfAnEdgeFaces) {
+  // The opposite side ends inside an edge of the multiplier side, at any place of it: int psi, which is what a gap of 1
+  // makes of a row, must have the sign of a gap.
+  for (const Multipliers space : spaces)
+    for (const double shift : {1e-3, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07}) {
+      TwoPlates plates;
+      plates.n_upper = plates.n_lower = 10;
+      Pair p = pair_of(plates, {Integration::segments, space, InitialGap::measured});
+      for (const Cell& cell : p.mesh.cells)
+        for (int a = 0; a < node_count(cell.kind); ++a)
+          if (double& x = p.mesh.nodes(cell.nodes[std::size_t(a)], 0); cell.body == 0 && x < 10) x += 10 - shift;
+      for (Eigen::Index i = 0; i < p.mesh.nodes.rows(); ++i)
+        if (p.mesh.nodes(i, 0) > 9) p.mesh.nodes(i, 0) -= 10;
+      const auto points = contact_points(p.mesh.nodes, p.multiplier, p.opposite, Integration::segments);
+      std::vector<ContactPoint> apart = points;
+      for (ContactPoint& point : apart) point.gap = 1;
+      const Coupling c = couple(p.mesh, p.multiplier, p.opposite, apart, no_constraints(p.mesh),
+                                {Integration::segments, space, InitialGap::measured});
+      EXPECT_GE(c.gap0.cwiseQuotient(c.scale).minCoeff(), 0.02) << "shift " << shift;
+      EXPECT_NEAR(c.gap0.sum(), c.covered_length, 1e-12);  // psi sum to one
+    }
+}
+
 }  // namespace
 }  // namespace mortise

@@ -1,0 +1,11 @@
+// What a user should know that no check fails for.
+#pragma once
+
+#include "app/solve_scene.hpp"
+
+namespace mortise {
+
+/// Fills results.notes. `unsettled`: rows of the stacked coupling that the active set would still change.
+void add_notes(const std::vector<int>& unsettled, Results& results);
+
+}  // namespace mortise

@@ -1,0 +1,78 @@
+#include "solve/multiplier_system.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace mortise {
+namespace {
+
+// Below this part of what one row alone could hold with, a motion is loose.
+constexpr double loose_limit = 1e-10;
+
+}  // namespace
+
+MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs, std::vector<int> active)
+    : m_(compliance.rows() - springs), springs_(springs), active_(std::move(active)) {
+  const auto count = Eigen::Index(active_.size());
+  MatX C(count, count);
+  H_.resize(count, springs_);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const int column = active_[std::size_t(j)];
+    for (Eigen::Index i = j; i < count; ++i) C(i, j) = compliance(active_[std::size_t(i)], column);
+    H_.row(j) = compliance.col(column).tail(springs_).transpose();
+  }
+  diagonal_ = C.diagonal();
+  if (count > 0) cholesky_.compute(C);
+  if (springs_ == 0 || m_ == 0 || dependent_row() >= 0) return;
+
+  MatX T = MatX::Zero(springs_, springs_);
+  if (count > 0) {
+    reduced_ = cholesky_.solve(H_);
+    T = H_.transpose() * reduced_;
+  }
+  const double one_row =
+      compliance.bottomLeftCorner(springs_, m_).cwiseAbs2().maxCoeff() / compliance.diagonal().head(m_).maxCoeff();
+  const Eigen::SelfAdjointEigenSolver<MatX> eigen(T);
+  Eigen::Index loose = 0;
+  while (loose < springs_ && !(eigen.eigenvalues()(loose) > loose_limit * one_row)) ++loose;
+  loose_ = eigen.eigenvectors().leftCols(loose);
+  held_ = eigen.eigenvectors().rightCols(springs_ - loose);
+  stiffness_ = eigen.eigenvalues().tail(springs_ - loose);
+}
+
+int MultiplierSystem::dependent_row() const {
+  if (active_.empty()) return -1;
+  // Its pivot is round-off of its own size, or the factorisation stopped there (its row of the factor does not give
+  // back the diagonal then).
+  const MatX& L = cholesky_.matrixLLT();
+  for (Eigen::Index i = 0; i < diagonal_.size(); ++i) {
+    const double pivot = L(i, i) * L(i, i), size = L.row(i).head(i + 1).squaredNorm();
+    if (!(pivot > 1e-13 * diagonal_(i)) || !(std::abs(size - diagonal_(i)) < 1e-8 * diagonal_(i)))
+      return active_[std::size_t(i)];
+  }
+  return -1;
+}
+
+VecX MultiplierSystem::on_active(const VecX& rhs) const {
+  VecX r(Eigen::Index(active_.size()));
+  for (std::size_t i = 0; i < active_.size(); ++i) r(Eigen::Index(i)) = rhs(active_[i]);
+  return active_.empty() ? r : cholesky_.solve(r);
+}
+
+VecX MultiplierSystem::solve(const VecX& rhs) const {
+  VecX x = VecX::Zero(m_ + springs_), lambda = on_active(rhs);
+  if (springs_ > 0 && m_ > 0) {
+    const VecX along = held_.transpose() * unbalanced(rhs, lambda);
+    const VecX motion = held_ * along.cwiseQuotient(stiffness_);  // -mu
+    x.tail(springs_) = -motion;
+    if (!active_.empty()) lambda += reduced_ * motion;
+  }
+  for (std::size_t i = 0; i < active_.size(); ++i) x(active_[i]) = lambda(Eigen::Index(i));
+  return x;
+}
+
+VecX MultiplierSystem::drift(const VecX& rhs) const {
+  if (loose_.cols() == 0) return VecX::Zero(springs_);
+  return loose_ * (loose_.transpose() * unbalanced(rhs, on_active(rhs)));
+}
+
+}  // namespace mortise

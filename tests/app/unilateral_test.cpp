@@ -1,0 +1,256 @@
+// Unilateral contact from scene to results: exact answers, complementarity, bodies that only contact holds.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/notes.hpp"
+#include "app/solve_scene.hpp"
+#include "base/errors.hpp"
+#include "support/plate_scenes.hpp"
+
+namespace mortise::test {
+namespace {
+
+Scene scene(const std::string& name, const std::vector<Override>& overrides = {}) {
+  return read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/" + name + ".toml", overrides);
+}
+
+Results solved(const std::string& name, const std::vector<Override>& overrides = {}) {
+  return solve_scene(scene(name, overrides));
+}
+
+double figure(const Results& r, const std::string& check) {
+  for (const Check& c : r.checks)
+    if (c.name == check) return c.value;
+  ADD_FAILURE() << "no check " << check;
+  return 0;
+}
+
+void expect_complementary(const Results& r) {
+  EXPECT_NE(r.status, Status::not_converged);
+  for (const char* check : {"p >= 0 at the multipliers", "weighted gap >= 0", "p gap = 0", "residual of the forces",
+                            "force balance of each body", "contact forces equal and opposite"})
+    EXPECT_LE(figure(r, check), 1e-9) << check;
+}
+
+const char* const spaces[] = {"linear", "quadratic", "dual"};
+
+std::string message_of(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// ---- gap_close: uniaxial strain, exact on both sides of touching ----
+
+class GapClose : public testing::TestWithParam<std::tuple<double, const char*, const char*, int>> {};
+
+TEST_P(GapClose, IsExact) {
+  const auto [down, space, side, kind] = GetParam();
+  const Results r = solved("gap_close", {{"boundary.2.displacement", "{y=" + std::to_string(-down) + "e-4}"},
+                                         {"method.multipliers", space},
+                                         {"contact.multipliers_on", side},
+                                         {"mesh.parameters.kind", std::to_string(kind)}});
+  const double gap = 1e-4, d = down * 1e-4, M_upper = 210e9 * 0.7 / (1.3 * 0.4), M_lower = M_upper / 3;
+  const double p = std::max(0.0, (d - gap) / (0.3 / M_upper + 0.3 / M_lower));
+  EXPECT_EQ(r.status, Status::solved);
+  for (const ContactSide* s : {&r.contacts[0].multiplier, &r.contacts[0].opposite})
+    for (const ContactNode& n : s->nodes) {
+      EXPECT_NEAR(n.p, p, 1e-10 * 47e6);
+      EXPECT_NEAR(n.gap, std::max(0.0, gap - d), 1e-10 * d);
+    }
+  EXPECT_NEAR(r.energy, 0.8 * p * p * 0.15 * (1 / M_upper + 1 / M_lower), 1e-10 * 3769);
+  EXPECT_NEAR(r.contacts[0].length_in_contact, p > 0 ? 0.8 : 0, 1e-12);
+  EXPECT_LE(r.steps.size(), 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothSidesOfTouching, GapClose,
+                         testing::Combine(testing::Values(0.5, 0.999999, 1.000001, 3), testing::ValuesIn(spaces),
+                                          testing::Values("upper_contact", "lower_contact"), testing::Values(0, 1)));
+
+// ---- Scenes where contact is lost ----
+
+class LostContact : public testing::TestWithParam<std::tuple<const char*, bool>> {};
+
+TEST_P(LostContact, CosineSettlesQuicklyAndIsComplementary) {
+  const auto [space, on_lower] = GetParam();
+  for (const auto& [n_upper, n_lower] : {std::pair(20, 25), {25, 20}, {40, 40}, {40, 50}, {80, 100}}) {
+    const Results r = solved("cosine", {{"mesh.parameters.n_upper", std::to_string(n_upper)},
+                                        {"mesh.parameters.n_lower", std::to_string(n_lower)},
+                                        {"method.multipliers", space},
+                                        {"contact.multipliers_on", on_lower ? "lower_contact" : "upper_contact"}});
+    expect_complementary(r);
+    EXPECT_LE(r.steps.size(), 12u);
+    EXPECT_LT(r.contacts[0].length_in_contact, r.contacts[0].length);
+    EXPECT_NEAR(r.contacts[0].force.y(), on_lower ? -8e6 : 8e6, 1);  // 10 MPa on 0.8 m
+    if (n_upper >= 40) EXPECT_NEAR(r.energy, 120.155, 0.15);         // 160x200, frozen
+  }
+}
+
+TEST_P(LostContact, LiftOffPartsWhereABeamOnItsSupportWould) {
+  const auto [space, on_block] = GetParam();
+  const Results r = solved("lift_off", {{"method.multipliers", space},
+                                        {"contact.multipliers_on", on_block ? "block_contact" : "plate_contact"}});
+  expect_complementary(r);
+  EXPECT_LE(r.steps.size(), 12u);
+  EXPECT_NEAR(r.contacts[0].length_in_contact, 0.4, 0.1);    // a slender beam on a rigid support: 0.8 m - 2 F / q
+  EXPECT_NEAR(std::abs(r.contacts[0].force.y()), 0.6e6, 1);  // pressure less the force that bends it off
+  EXPECT_GT(r.contacts[0].multiplier.nodes.back().gap, 1e-5);
+  EXPECT_EQ(r.contacts[0].multiplier.nodes.back().p, 0);
+}
+
+TEST_P(LostContact, APunchFacesAPartOfTheBlock) {
+  const auto [space, on_block] = GetParam();
+  const Results r =
+      solved("punch", {{"method.multipliers", space}, {"contact.multipliers_on", on_block ? "block_top" : "foot"}});
+  expect_complementary(r);
+  EXPECT_NEAR(std::abs(r.contacts[0].force.y()), 2e6, 1e-3);
+  EXPECT_NEAR(r.contacts[0].length_in_contact, 0.2, 1e-9);
+  EXPECT_NEAR(r.energy, 10.1447, 5e-3);  // 160x200 elements, frozen
+}
+
+INSTANTIATE_TEST_SUITE_P(Spaces, LostContact, testing::Combine(testing::ValuesIn(spaces), testing::Bool()));
+
+// ---- Bodies that only contact holds ----
+
+TEST(Floating, ALoadThatPullsIsAnErrorThatNamesTheMotion) {
+  const std::string message = message_of([] { solved("lift_off", {{"boundary.2.pressure", "-1e6"}}); });
+  EXPECT_NE(message.find("body 'plate': translation (0, 1), rotation 0"), std::string::npos) << message;
+  EXPECT_NE(message.find("away from the contact"), std::string::npos) << message;
+}
+
+TEST(Floating, ABodyAcrossAGapIsPushedOntoTheOther) {
+  // The top is pressed instead of moved: p is the pressure, whatever the gap.
+  const Results r = solved("gap_close", {{"boundary.2", "{on=[\"top\"], pressure=10e6}"}});
+  EXPECT_EQ(r.status, Status::solved);
+  EXPECT_NEAR(r.contacts[0].p_min, 10e6, 1e-2);
+  EXPECT_NEAR(r.contacts[0].p_max, 10e6, 1e-2);
+}
+
+// Nothing but contact resists the upper plate's fall and its rotation about the top, which a push from the left drives.
+Scene tipping_scene(double push) {
+  Scene s = clamped_scene();
+  s.boundaries[0].on = {"lower_left", "lower_right"};
+  BoundarySpec top, left;
+  top.key = left.key = "boundary";
+  top.on = {"top"};
+  top.displacement_x = 0;
+  left.on = {"upper_left"};
+  left.traction = Vec2(push, 0);
+  s.boundaries.push_back(top);
+  s.boundaries.push_back(left);
+  s.contacts[0].condition = Condition::unilateral;
+  return s;
+}
+
+TEST(Floating, ABodyTipsOnceTheLoadLeavesItsFoot) {
+  // 8 MN press at the middle of 0.8 m; push * 0.3 m acts 0.15 m below the top: it tips above 71.1 MPa.
+  const Results r = solve_scene(tipping_scene(60e6), mesh_of({}));
+  expect_complementary(r);
+  EXPECT_LT(r.contacts[0].length_in_contact, 0.6);
+  const std::string message = message_of([] { solve_scene(tipping_scene(80e6), mesh_of({})); });
+  EXPECT_NE(message.find("body 'upper'"), std::string::npos) << message;
+  EXPECT_NE(message.find("away from the contact"), std::string::npos) << message;
+}
+
+TEST(Floating, OfThreeBodiesTheOneThatIsPulledIsNamed) {
+  const std::string message = message_of([] { solved("stack", {{"boundary.2.pressure", "-1e6"}}); });
+  EXPECT_NE(message.find("body 'upper': translation (0, 1), rotation 0: the load"), std::string::npos) << message;
+}
+
+TEST(Floating, BilateralContactPullsTheNextBodyAlong) {
+  const std::string message = message_of([] {
+    solved("stack", {{"contact.0.condition", "bilateral"}, {"boundary.2.pressure", "-1e6"}});
+  });
+  for (const char* body : {"body 'upper': translation (0, 1)", "body 'middle': translation (0, 1)"})
+    EXPECT_NE(message.find(body), std::string::npos) << message;
+}
+
+TEST(Unsettled, ANoteNamesThePlaces) {
+  Results r = solved("gap_close", {{"contact.multipliers_on", "lower_contact"}});
+  add_notes({0, 11}, r);
+  ASSERT_FALSE(r.notes.empty());
+  EXPECT_NE(r.notes[0].find("did not settle"), std::string::npos) << r.notes[0];
+  EXPECT_NE(r.notes[0].find("near (0.8, 0.3), near (0, 0.3)"), std::string::npos) << r.notes[0];
+}
+
+// ---- Initial gaps ----
+
+TEST(InitialGaps, AClosedGapThatIsOpenIsAnError) {
+  const std::string message = message_of([] {
+    solved("gap_close", {{"contact.initial_gap", "closed"}, {"mesh.parameters.gap", "2e-3"}});
+  });
+  for (const char* part : {"contact.0", "closed", "0.002 apart near (", "at most", "measured"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+TEST(InitialGaps, MeshesOfOneCurveAreClosedHoweverCoarse) {
+  for (const char* name : {"cosine", "circle", "parabola_2", "tent_c", "rings"})
+    for (const char* order : {"1", "2"})
+      for (const auto& [a, b] : {std::pair("8", "11"), {"16", "20"}, {"40", "12"}}) {
+        const bool rings = std::string(name) == "rings";
+        EXPECT_NO_THROW(check_scene(scene(name, {{"mesh.parameters.order", order},
+                                                 {rings ? "mesh.parameters.n_inner" : "mesh.parameters.n_upper", a},
+                                                 {rings ? "mesh.parameters.n_outer" : "mesh.parameters.n_lower", b}})))
+            << name << " order " << order << " " << a << "x" << b;
+      }
+}
+
+TEST(InitialGaps, TheHintSaysWhenAMeasuredGapIsTheMeshesOwn) {
+  const auto hinted = [](const Results& r) {
+    return std::any_of(r.notes.begin(), r.notes.end(),
+                       [](const std::string& n) { return n.find("initial_gap = \"closed\"") != std::string::npos; });
+  };
+  EXPECT_TRUE(hinted(solved(
+      "parabola_1",
+      {{"contact.initial_gap", "measured"}, {"mesh.parameters.n_upper", "20"}, {"mesh.parameters.n_lower", "25"}})));
+  EXPECT_FALSE(hinted(solved("gap_close")));
+}
+
+// ---- Starts, units ----
+
+TEST(Start, APreviousActiveSetSavesStepsAndChangesNoAnswer) {
+  const Results first = solved("lift_off");
+  const ActiveSet set = active_set(first);
+  const Scene next = scene("lift_off", {{"boundary.3.traction", "[0, 1.95e6]"}});
+  const Results cold = solve_scene(next), warm = solve_scene(next, {}, &set);
+  EXPECT_EQ(warm.active, cold.active);
+  EXPECT_LE((warm.u - cold.u).cwiseAbs().maxCoeff(), 1e-10 * cold.u.cwiseAbs().maxCoeff());
+  // Twice the load is the same contact, on a closed gap: one step.
+  const Scene twice = scene("lift_off", {{"boundary.2.pressure", "2e6"}, {"boundary.3.traction", "[0, 4e6]"}});
+  EXPECT_EQ(solve_scene(twice, {}, &set).steps.size(), 1u);
+  EXPECT_GT(solve_scene(twice).steps.size(), 1u);
+}
+
+TEST(Start, AnActiveSetOfAnotherMeshIsIgnored) {
+  const ActiveSet set = active_set(solved("lift_off", {{"mesh.parameters.n_block", "40"}}));
+  const Results cold = solved("lift_off"), warm = solve_scene(scene("lift_off"), {}, &set);
+  EXPECT_EQ(warm.steps.size(), cold.steps.size());
+}
+
+TEST(Units, UnilateralMetresAndPascalsAgreeWithMillimetresAndMegapascals) {
+  TwoPlates plates;
+  plates.height = [](double x) { return 0.1 * std::cos(std::numbers::pi * (x + 0.4) / 0.2) + 0.3; };
+  plates.n_upper = 20;
+  plates.n_lower = 25;
+  Mesh metres = mesh_of(plates), millimetres = metres;
+  millimetres.nodes *= 1000;
+  Scene pascals = clamped_scene(), megapascals;
+  pascals.boundaries[0].on = {"upper_left", "lower_left"};
+  pascals.contacts[0].condition = Condition::unilateral;
+  megapascals = pascals;
+  megapascals.materials["steel"].young *= 1e-6;
+  *megapascals.boundaries.back().pressure *= 1e-6;
+  const Results a = solve_scene(pascals, metres), b = solve_scene(megapascals, millimetres);
+  EXPECT_GT(a.steps.size(), 1u);
+  EXPECT_EQ(a.active, b.active);
+  EXPECT_LE((a.u - b.u / 1000).cwiseAbs().maxCoeff(), 1e-9 * a.u.cwiseAbs().maxCoeff());
+  EXPECT_LE((a.contacts[0].pressure - 1e6 * b.contacts[0].pressure).cwiseAbs().maxCoeff(), 1e-9 * a.contacts[0].p_max);
+}
+
+}  // namespace
+}  // namespace mortise::test

@@ -1,0 +1,90 @@
+// Gaps that two meshes of one curve make, against real ones.
+#include "contact/mesh_gap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/two_plates.hpp"
+
+namespace mortise {
+namespace {
+
+using test::TwoPlates;
+
+struct Curves {
+  Mesh mesh;
+  Curve multiplier, opposite;
+  std::vector<ContactPoint> points;
+};
+
+// Both plates of one mesh, the upper one lifted by `gap`.
+Curves curves_of(const TwoPlates& plates, double gap = 0) {
+  Curves c{test::mesh_of(plates), {}, {}, {}};
+  for (Eigen::Index i = 0; i < c.mesh.nodes.rows(); ++i) {
+    const auto in_upper = [&](const Cell& cell) {
+      return cell.body == 0 && std::find(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind), int(i)) !=
+                                   cell.nodes.begin() + node_count(cell.kind);
+    };
+    if (std::any_of(c.mesh.cells.begin(), c.mesh.cells.end(), in_upper)) c.mesh.nodes(i, 1) += gap;
+  }
+  c.multiplier = contact_curve(c.mesh, boundary_index(c.mesh, "lower_contact"));
+  c.opposite = contact_curve(c.mesh, boundary_index(c.mesh, "upper_contact"));
+  c.points = contact_points(c.mesh.nodes, c.multiplier, c.opposite, Integration::segments);
+  return c;
+}
+
+TwoPlates circle(int n_upper, int n_lower, CellKind kind) {
+  TwoPlates plates;
+  plates.height = [](double x) { return std::sqrt(0.25 - (x - 0.4) * (x - 0.4)); };  // radius 0.5
+  plates.n_upper = n_upper;
+  plates.n_lower = n_lower;
+  plates.kind_upper = plates.kind_lower = kind;
+  return plates;
+}
+
+TEST(Sagittas, OfAStraightCurveVanish) {
+  for (const CellKind kind : {CellKind::quad4, CellKind::quad8}) {
+    TwoPlates plates;
+    plates.kind_upper = plates.kind_lower = kind;
+    const Curves c = curves_of(plates);
+    for (const double s : sagittas(c.mesh.nodes, c.multiplier)) EXPECT_LE(s, 1e-15);
+  }
+}
+
+TEST(Sagittas, OfChordsAreAtLeastTheArcsDistance) {
+  const Curves c = curves_of(circle(20, 31, CellKind::quad4));
+  const std::vector<double> list = sagittas(c.mesh.nodes, c.multiplier);
+  for (std::size_t e = 0; e < list.size(); ++e) {
+    const double h = edge_length(c.mesh.nodes, c.multiplier.edges[e]);
+    const double exact = 0.5 - std::sqrt(0.25 - h * h / 4);
+    EXPECT_GE(list[e], 0.9 * exact);
+    EXPECT_LE(list[e], 2 * exact);
+  }
+}
+
+TEST(OpenPlace, NoneBetweenTwoMeshesOfOneCurve) {
+  for (const CellKind kind : {CellKind::quad4, CellKind::quad8, CellKind::tri3, CellKind::tri6})
+    for (const auto& [n_upper, n_lower] : {std::pair(5, 8), {8, 5}, {4, 40}, {20, 31}}) {
+      const Curves c = curves_of(circle(n_upper, n_lower, kind));
+      EXPECT_FALSE(open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points)) << n_upper << " " << n_lower;
+      EXPECT_FALSE(open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points, 1e-6));
+    }
+}
+
+TEST(OpenPlace, IsARealGap) {
+  const double gap = 2e-3;  // on flat edges of 0.1 and 0.07 the limit is 1 % of the longer
+  TwoPlates plates;
+  plates.n_upper = 8;
+  plates.n_lower = 12;
+  const Curves c = curves_of(plates, gap);
+  const auto open = open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points);
+  ASSERT_TRUE(open);
+  EXPECT_NEAR(open->gap, gap, 1e-14);
+  EXPECT_NEAR(open->limit, 1e-3, 1e-12);
+  EXPECT_NEAR(open->position.y(), 0.3, 1e-12);
+  EXPECT_FALSE(open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points, 0.021));
+}
+
+}  // namespace
+}  // namespace mortise

@@ -1,0 +1,250 @@
+// The complementarity problem of unilateral rows, against a search through all active sets (exact).
+#include "solve/active_set.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+
+#include "solve/coarse_rows.hpp"
+
+namespace mortise {
+namespace {
+
+struct Problem {
+  MatX compliance;  // full
+  VecX rhs, scale;
+  std::vector<char> unilateral;
+  Eigen::Index m() const { return scale.size(); }
+  ComplementarityProblem view() const { return {compliance, rhs, scale, unilateral}; }
+};
+
+// C = V V^T with rows V of `rank` columns, s free motions H.
+Problem random_problem(std::mt19937& random, Eigen::Index m, Eigen::Index springs, bool some_bilateral) {
+  std::normal_distribution<double> value;
+  const auto draw = [&] { return value(random); };
+  Problem p;
+  const MatX V = MatX::NullaryExpr(m, m + 1, draw);
+  p.compliance = MatX::Zero(m + springs, m + springs);
+  p.compliance.topLeftCorner(m, m) = V * V.transpose();
+  const MatX H = MatX::NullaryExpr(springs, m, draw);
+  p.compliance.bottomLeftCorner(springs, m) = H;
+  p.compliance.topRightCorner(m, springs) = H.transpose();
+  p.compliance.bottomRightCorner(springs, springs).setIdentity();
+  p.rhs = VecX::NullaryExpr(m + springs, draw);
+  p.scale = VecX::NullaryExpr(m, [&] { return 0.1 + std::abs(value(random)); });
+  p.unilateral.assign(std::size_t(m), 1);
+  if (some_bilateral)
+    for (std::size_t a = 0; a < std::size_t(m); a += 3) p.unilateral[a] = 0;
+  return p;
+}
+
+// What is open of each row.
+VecX gaps(const Problem& p, const VecX& x) { return p.rhs.head(p.m()) - p.compliance.topRows(p.m()) * x; }
+
+// (lambda, mu) of the only feasible active set, by trying all; nothing if none is.
+std::optional<VecX> search(const Problem& p) {
+  const Eigen::Index m = p.m(), springs = p.rhs.size() - m;
+  for (int set = 0; set < 1 << m; ++set) {
+    bool allowed = true;
+    std::vector<Eigen::Index> rows;
+    for (int a = 0; a < m; ++a) {
+      allowed = allowed && (p.unilateral[std::size_t(a)] || (set >> a & 1));
+      if (set >> a & 1) rows.push_back(a);
+    }
+    if (!allowed) continue;
+    const std::size_t bars = rows.size();
+    for (Eigen::Index k = 0; k < springs; ++k) rows.push_back(m + k);
+    MatX A = p.compliance(rows, rows);
+    A.bottomRightCorner(springs, springs).setZero();
+    VecX x = VecX::Zero(m + springs);
+    if (!rows.empty()) {
+      const Eigen::FullPivLU<MatX> lu(A);
+      if (!lu.isInvertible()) continue;
+      x(rows) = lu.solve(VecX(p.rhs(rows)));
+    }
+    const VecX w = gaps(p, x);
+    bool feasible = true;
+    const double tolerance = 1e-10 * (1 + x.cwiseAbs().maxCoeff());
+    for (Eigen::Index a = 0; a < m; ++a)
+      if (p.unilateral[std::size_t(a)]) feasible = feasible && x(a) <= tolerance && w(a) >= -tolerance;
+    if (feasible && bars >= std::size_t(springs)) return x;
+  }
+  return {};
+}
+
+void expect_solution(const Problem& p, const ActiveSetResult& r, const VecX& exact) {
+  ASSERT_EQ(r.status, ActiveSetResult::Status::settled);
+  EXPECT_LE((r.solution - exact).cwiseAbs().maxCoeff(), 1e-8 * (1 + exact.cwiseAbs().maxCoeff()));
+  EXPECT_LE(r.solution.head(p.m()).cwiseProduct(gaps(p, r.solution)).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+class ActiveSets : public testing::TestWithParam<std::tuple<bool, Eigen::Index>> {};
+
+TEST_P(ActiveSets, AgreesWithASearchThroughAllSets) {
+  const auto [some_bilateral, springs] = GetParam();
+  std::mt19937 random(11);
+  int unheld = 0;
+  for (int run = 0; run < 300; ++run) {
+    const Problem p = random_problem(random, 2 + run % 9, springs, some_bilateral);
+    if (p.m() < springs) continue;
+    const auto exact = search(p);
+    const ActiveSetResult r = settle_active_set(p.view());
+    if (exact) {
+      expect_solution(p, r, *exact);
+    } else {
+      ++unheld;
+      EXPECT_NE(r.status, ActiveSetResult::Status::settled);
+    }
+  }
+  if (springs == 0) EXPECT_EQ(unheld, 0);  // a positive definite problem always has a solution
+  if (springs > 0 && !some_bilateral) EXPECT_GT(unheld, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, ActiveSets, testing::Combine(testing::Bool(), testing::Values(0, 1, 2)));
+
+Problem held_problem(const MatX& C, const VecX& rhs) {
+  const Eigen::Index m = C.rows();
+  return {C, rhs, VecX::Ones(m), std::vector<char>(std::size_t(m), 1)};
+}
+
+TEST(ActiveSet, BreaksTheCycleOfThePlainMethod) {
+  // The plain method goes round through four active sets here (found by search; p >= 0, C p >= -rhs).
+  MatX C(3, 3);
+  C << 4, 5, -5, 5, 9, -5, -5, -5, 7;
+  const Problem p = held_problem(C, Eigen::Vector3d(-2, -1, 3));
+  ActiveSetOptions plain;
+  plain.patience = plain.start_steps = 1000;
+  plain.max_steps = 100;
+  EXPECT_EQ(settle_active_set(p.view(), {1, 1, 1}, plain).status, ActiveSetResult::Status::not_settled);
+  expect_solution(p, settle_active_set(p.view()), *search(p));
+}
+
+TEST(ActiveSet, OneSolveWhereNothingPulls) {
+  const ActiveSetResult r = settle_active_set(held_problem(MatX::Identity(3, 3), -VecX::Ones(3)).view());
+  EXPECT_EQ(r.status, ActiveSetResult::Status::settled);
+  EXPECT_EQ(r.steps.size(), 1u);
+  EXPECT_EQ(r.steps[0].active, 3);
+  EXPECT_EQ(r.steps[0].changed, 0);
+}
+
+TEST(ActiveSet, RoundOffChangesNoRow) {
+  // lambda = 0 (to 1e-14 of the largest) on row 1, and w = 0 on row 2 although it is open at the start.
+  for (const double tiny : {1e-14, -1e-14}) {
+    const Problem p = held_problem(MatX::Identity(3, 3), Eigen::Vector3d(-1, tiny, tiny));
+    const ActiveSetResult r = settle_active_set(p.view(), {1, 1, 0});
+    EXPECT_EQ(r.status, ActiveSetResult::Status::settled);
+    EXPECT_EQ(r.steps.size(), 1u);
+  }
+}
+
+TEST(ActiveSet, NothingTouches) {
+  const ActiveSetResult r = settle_active_set(held_problem(MatX::Identity(4, 4), VecX::Ones(4)).view());
+  EXPECT_EQ(r.status, ActiveSetResult::Status::settled);
+  EXPECT_EQ(r.solution.norm(), 0);
+  EXPECT_EQ(r.steps.back().active, 0);
+}
+
+TEST(ActiveSet, ABodyPushedOntoContactFromAnEmptySetFindsIt) {
+  std::mt19937 random(3);
+  Problem p = random_problem(random, 6, 1, false);
+  p.compliance.row(6).head(6).setConstant(-1);  // the motion closes every row
+  p.compliance.col(6).head(6).setConstant(-1);
+  p.rhs(6) = 2;  // and the load drives it
+  expect_solution(p, settle_active_set(p.view(), std::vector<char>(6, 0)), *search(p));
+}
+
+TEST(ActiveSet, ABodyPulledAwayIsUnheldAndDriven) {
+  std::mt19937 random(3);
+  Problem p = random_problem(random, 6, 1, false);
+  p.compliance.row(6).head(6).setConstant(-1);
+  p.compliance.col(6).head(6).setConstant(-1);
+  p.rhs(6) = -2;
+  const ActiveSetResult r = settle_active_set(p.view());
+  EXPECT_EQ(r.status, ActiveSetResult::Status::unheld);
+  EXPECT_TRUE(r.driven);
+  EXPECT_LT(r.drift(0), 0);
+}
+
+TEST(ActiveSet, ABodyThatNothingDrives) {
+  std::mt19937 random(3);
+  Problem p = random_problem(random, 4, 1, false);
+  p.compliance.row(4).head(4).setConstant(-1);
+  p.compliance.col(4).head(4).setConstant(-1);
+  p.rhs.setOnes();
+  p.rhs(4) = 0;
+  // From the start nothing holds it, and no load says where it goes.
+  const ActiveSetResult r = settle_active_set(p.view(), std::vector<char>(4, 0));
+  EXPECT_EQ(r.status, ActiveSetResult::Status::unheld);
+  EXPECT_FALSE(r.driven);
+  // From closed rows it ends where it just touches.
+  const ActiveSetResult touching = settle_active_set(p.view());
+  ASSERT_EQ(touching.status, ActiveSetResult::Status::settled);
+  EXPECT_LE(touching.solution.head(4).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(ActiveSet, NamesADependentRow) {
+  MatX C = MatX::Identity(3, 3);
+  C(2, 0) = C(0, 2) = 1;
+  const ActiveSetResult r = settle_active_set(held_problem(C, -VecX::Ones(3)).view());
+  EXPECT_EQ(r.status, ActiveSetResult::Status::dependent_row);
+  EXPECT_EQ(r.dependent_row, 2);
+}
+
+// A beam under a line of rows: the inverse of a bending stiffness on an elastic foundation, pressed, and pulled at one
+// end. It peels off its support from there.
+Problem peeling(Eigen::Index m) {
+  const double h = 1.0 / double(m);
+  MatX D = MatX::Zero(m, m);
+  for (Eigen::Index a = 1; a + 1 < m; ++a) D.row(a).segment(a - 1, 3) = Eigen::RowVector3d(1, -2, 1) / (h * h);
+  MatX K = 1e-6 * h * D.transpose() * D + 1e-3 * h * MatX::Identity(m, m);
+  const MatX foundation = 1e-3 / h * MatX::Identity(m, m);
+  const MatX beam = K.inverse();
+  VecX load = -VecX::Constant(m, h);
+  load(m - 1) += 0.1;
+  Problem p = held_problem(beam + foundation, beam * load);
+  return p;
+}
+
+TEST(ActiveSet, TheNumberOfStepsDoesNotGrowWithTheRows) {
+  for (const Eigen::Index m : {50, 100, 200, 400}) {
+    const Problem p = peeling(m);
+    const ActiveSetResult r = settle_active_set(p.view());
+    ASSERT_EQ(r.status, ActiveSetResult::Status::settled);
+    EXPECT_LE(r.steps.size(), 6u) << m;
+    EXPECT_GT(r.steps.back().active, 0);
+    EXPECT_LT(r.steps.back().active, m);
+    ActiveSetOptions plain;
+    plain.start_steps = 1000;
+    const ActiveSetResult slow = settle_active_set(p.view(), std::vector<char>(std::size_t(m), 1), plain);
+    EXPECT_EQ(slow.active, r.active);
+    std::printf("%3d rows: %zu steps, plain %zu\n", int(m), r.steps.size(), slow.steps.size());
+  }
+}
+
+TEST(ActiveSet, ItsOwnAnswerIsAStartThatTakesOneStep) {
+  const Problem p = peeling(100);
+  const ActiveSetResult r = settle_active_set(p.view());
+  const ActiveSetResult again = settle_active_set(p.view(), r.active);
+  EXPECT_EQ(again.steps.size(), 1u);
+  EXPECT_EQ(again.active, r.active);
+}
+
+TEST(CoarseRows, JoinNeighboursThatMayBothOpen) {
+  std::mt19937 random(5);
+  Problem p = random_problem(random, 7, 1, false);
+  p.unilateral = {1, 1, 0, 1, 1, 1, 0};
+  const CoarseRows c = join_rows(p.view());
+  EXPECT_EQ(c.group, (std::vector<int>{0, 0, 1, 2, 2, 3, 4}));
+  EXPECT_EQ(c.unilateral, (std::vector<char>{1, 0, 1, 1, 0}));
+  EXPECT_NEAR(c.scale.sum(), p.scale.sum(), 1e-12);
+  // One stress on all rows is one stress on all joined rows: the same gaps, added up.
+  VecX fine(8), coarse(6);
+  fine << p.scale, 0.5;
+  coarse << c.scale, 0.5;
+  const VecX w = gaps(p, fine), v = c.rhs.head(5) - (c.compliance * coarse).head(5);
+  EXPECT_NEAR(v.dot(c.scale), w.dot(p.scale), 1e-12);
+}
+
+}  // namespace
+}  // namespace mortise
