@@ -1,0 +1,34 @@
+"""What the tests need: both programs, or a skip that says which is missing; and the runner as a process."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import run
+
+VERIFY = Path(__file__).with_name("verify.py")
+
+
+@pytest.fixture(scope="session")
+def programs():
+    try:
+        return run.find_programs()
+    except run.MissingProgram as missing:
+        pytest.skip(str(missing))
+
+
+@pytest.fixture
+def verify(tmp_path):
+    """Runs verify.py; returns the process and the table of report.json, None if there is none."""
+
+    def run_verify(*arguments, **environment):
+        command = [sys.executable, VERIFY, "-o", tmp_path / "report", *arguments]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, env={**os.environ, **environment})
+        report = tmp_path / "report/report.json"
+        return done, json.loads(report.read_text()) if report.is_file() else None
+
+    return run_verify

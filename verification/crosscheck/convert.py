@@ -1,0 +1,147 @@
+"""A gmsh mesh as FreeFEM reads it: one medit file a body, triangles of the corner nodes, curves as edge references."""
+
+from dataclasses import dataclass
+
+import meshio
+import numpy as np
+
+from cases import CaseError
+
+CORNERS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
+UNNAMED = 0  # reference of the boundary edges that no physical curve names
+
+
+@dataclass
+class Body:
+    """One body as FreeFEM sees it: straight-sided triangles on the corner nodes of the mesh."""
+
+    name: str
+    points: np.ndarray  # vertices x 2, in the order of the mesh's nodes
+    triangles: np.ndarray  # counterclockwise
+    edges: np.ndarray  # of the boundary
+    labels: np.ndarray  # of the edges: tag of the physical curve
+
+    def size(self):
+        return float(np.linalg.norm(np.ptp(self.points, axis=0)))
+
+    def nodes(self, order):
+        """Nodes and triangles with the middles of the sides where the order is 2 (as VTK numbers triangle6)."""
+        if order == 1:
+            return self.points, self.triangles
+        sides, number = np.unique(sides_of(self.triangles), axis=0, return_inverse=True)
+        middles = self.points[sides].mean(axis=1)
+        number = len(self.points) + number.reshape(3, -1).T
+        return np.concatenate([self.points, middles]), np.concatenate([self.triangles, number], axis=1)
+
+
+def sides_of(triangles):
+    """The sides 01, 12, 20 of all triangles, first all 01; each as sorted pair."""
+    return np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+
+
+def split_quadrilaterals(points, quads):
+    """Two triangles for each quadrilateral, cut by its shorter diagonal; corner 0 to corner 2 if they are equal.
+
+    Diagonals count as equal up to 1e-9 of their length, so that round-off of the coordinates decides nothing.
+    """
+    first = np.linalg.norm(points[quads[:, 2]] - points[quads[:, 0]], axis=1)
+    second = np.linalg.norm(points[quads[:, 3]] - points[quads[:, 1]], axis=1)
+    by_first = (first <= second * (1 + 1e-9))[:, None, None]
+    cut_02, cut_13 = quads[:, [[0, 1, 2], [0, 2, 3]]], quads[:, [[0, 1, 3], [1, 2, 3]]]
+    return np.where(by_first, cut_02, cut_13).reshape(-1, 3)
+
+
+def counterclockwise(points, triangles):
+    a, b = points[triangles[:, 1]] - points[triangles[:, 0]], points[triangles[:, 2]] - points[triangles[:, 0]]
+    clockwise = a[:, 0] * b[:, 1] < a[:, 1] * b[:, 0]
+    return np.where(clockwise[:, None], triangles[:, [0, 2, 1]], triangles)
+
+
+def corner_triangles(mesh, name):
+    """The triangles of a body on the nodes of the whole mesh."""
+    found = []
+    points = mesh.points[:, :2]
+    for block, chosen in zip(mesh.cells, mesh.cell_sets[name]):
+        if block.type in CORNERS and chosen is not None and len(chosen) > 0:
+            cells = block.data[np.asarray(chosen, dtype=int), : CORNERS[block.type]]
+            found.append(split_quadrilaterals(points, cells) if CORNERS[block.type] == 4 else cells)
+    if not found:
+        raise CaseError(f"the mesh has no cells of the body '{name}'")
+    return counterclockwise(points, np.concatenate(found).astype(int))
+
+
+def curve_edges(mesh, name):
+    """Corner nodes of the edges of a physical curve."""
+    pairs = zip(mesh.cells, mesh.cell_sets[name])
+    found = [
+        block.data[np.asarray(chosen, dtype=int), :2]
+        for block, chosen in pairs
+        if block.type in ("line", "line3") and chosen is not None and len(chosen) > 0
+    ]
+    return np.sort(np.concatenate(found), axis=1).astype(int) if found else np.empty((0, 2), dtype=int)
+
+
+def curve_tags(mesh):
+    """Tag of each physical curve by name."""
+    return {name: int(tag) for name, (tag, dimension) in mesh.field_data.items() if dimension == 1}
+
+
+def edge_labels(mesh):
+    """Tag of the physical curve of each named edge, by its two nodes."""
+    labels, names = {}, {}
+    for name, tag in curve_tags(mesh).items():
+        for edge in map(tuple, curve_edges(mesh, name)):
+            if edge in labels:
+                raise CaseError(f"curves '{names[edge]}' and '{name}' share an edge; medit edges have one reference")
+            labels[edge], names[edge] = tag, name
+    return labels
+
+
+def read_body(mesh, name, labels):
+    """A body out of a mesh; `labels` as edge_labels finds them."""
+    if name not in mesh.cell_sets or mesh.field_data[name][1] != 2:
+        raise CaseError(f"the mesh has no physical surface '{name}'")
+    triangles = corner_triangles(mesh, name)
+    used, local = np.unique(triangles, return_inverse=True)
+    sides, count = np.unique(sides_of(triangles), axis=0, return_counts=True)
+    boundary = sides[count == 1]
+    return Body(
+        name=name,
+        points=np.ascontiguousarray(mesh.points[used, :2]),
+        triangles=local.reshape(triangles.shape),
+        edges=np.searchsorted(used, boundary),
+        labels=np.array([labels.get(tuple(edge), UNNAMED) for edge in boundary]),
+    )
+
+
+def read_bodies(mesh, names):
+    """The bodies of a mesh by name."""
+    labels = edge_labels(mesh)
+    return {name: read_body(mesh, name, labels) for name in names}
+
+
+def body_order(mesh, names):
+    """The names in the order in which mortise numbers the bodies: by the tags of the physical surfaces."""
+    return sorted(names, key=lambda name: mesh.field_data[name][0])
+
+
+def body_of_curve(bodies, tag):
+    """Name of the body on whose boundary a curve lies."""
+    owners = [name for name, body in bodies.items() if tag in body.labels]
+    if len(owners) != 1:
+        raise CaseError(f"the curve of tag {tag} bounds {len(owners)} bodies; expected 1")
+    return owners[0]
+
+
+def write_medit(body, path):
+    """ASCII, 17 digits, vertices with reference 0, triangles with 1."""
+    meshio.write(
+        path,
+        meshio.Mesh(
+            body.points,
+            [("triangle", body.triangles), ("line", body.edges)],
+            point_data={"medit:ref": np.zeros(len(body.points), dtype=int)},
+            cell_data={"medit:ref": [np.ones(len(body.triangles), dtype=int), body.labels]},
+        ),
+        file_format="medit",
+    )

@@ -1,0 +1,133 @@
+"""One case: run both programs, compare, and hold the figures against the limits of the table."""
+
+import math
+import shutil
+import statistics
+import time
+from dataclasses import asdict, dataclass, field
+
+import compare
+import run
+from cases import CaseError
+
+
+@dataclass
+class Figure:
+    """One number of a case and what it must not pass: a largest difference, or a smallest rate."""
+
+    name: str
+    value: float
+    limit: float
+    is_rate: bool = False
+
+    @property
+    def ok(self):
+        return bool(self.value >= self.limit) if self.is_rate else bool(self.value <= self.limit)
+
+
+@dataclass
+class Result:
+    """A row of the report. status: ok; failed: a figure passes its limit; error: the case did not run to its end."""
+
+    name: str
+    level: str
+    scene: str
+    side: str
+    folder: str  # of the last step, below the report's folder
+    status: str = "ok"
+    message: str = ""
+    figures: list = field(default_factory=list)
+    steps: list = field(default_factory=list)  # a table for each mesh: its name, differences, mortise's status
+    timing: dict = field(default_factory=dict)
+    seconds: float = 0.0
+
+    def as_table(self):
+        return {**asdict(self), "figures": [{**asdict(figure), "ok": figure.ok} for figure in self.figures]}
+
+
+def rates(values):
+    """log2 of successive ratios: 2 means that halving the elements divides the difference by 4."""
+    return [math.log2(a / b) if a > 0 and b > 0 else math.nan for a, b in zip(values, values[1:])]
+
+
+def mean_rate(values):
+    """From the first to the last of the values, a halving."""
+    found = rates(values)
+    return sum(found) / len(found) if found else math.nan
+
+
+def figures_of(case, steps):
+    """The last step's differences against the limits, and the rates of the series against the least rates."""
+    figures = [Figure(name, steps[-1]["differences"][name], limit) for name, limit in case.limits.items()]
+    for name, least in case.least_rates.items():
+        values = [step["differences"][name] for step in steps]
+        figures.append(Figure(f"rate of {name}", mean_rate(values), least, is_rate=True))
+    return figures
+
+
+def differences(case, comparison):
+    if case.level == "same_problem":
+        return compare.mean_differences(comparison, case.kinks)
+    return compare.largest_differences(comparison)
+
+
+def run_step(programs, case, step, folder):
+    """One mesh of a case; leaves difference.vtu and pressure.csv in its folder."""
+    solved = run.solve_step(programs, step, folder)
+    comparison = compare.compare(solved, step)
+    compare.write_difference(comparison, folder / "difference.vtu")
+    compare.write_pressures(comparison.curve, folder / "pressure.csv")
+    return {
+        "mesh": step.mesh_name,
+        "differences": differences(case, comparison),
+        "mortise_status": solved.status,
+        "mortise_seconds": solved.mortise_seconds,
+        "freefem_seconds": solved.freefem_seconds,
+    }
+
+
+def measure(programs, case, folder):
+    """Both programs in turns; medians of the whole processes and of the solutions alone, and their ratios."""
+    step, samples = case.steps[0], {"mortise": [], "freefem": [], "mortise_solve": [], "freefem_solve": []}
+    for _ in range(case.repeats):
+        solved = run.solve_step(programs, step, folder)
+        seconds, theirs = run.mortise_summary(folder)["seconds"], run.freefem_summary(folder)
+        samples["mortise"].append(solved.mortise_seconds)
+        samples["freefem"].append(solved.freefem_seconds)
+        samples["mortise_solve"].append(seconds["factorise"] + seconds["solve"])
+        samples["freefem_solve"].append(theirs["seconds_solve"])
+    medians = {name: statistics.median(values) for name, values in samples.items()}
+    return {
+        "mesh": step.mesh_name,
+        "unknowns": theirs["unknowns"],
+        "multipliers": theirs["multipliers"],
+        "repeats": case.repeats,
+        **medians,
+        "ratio": medians["freefem"] / medians["mortise"],
+        "ratio_solve": medians["freefem_solve"] / medians["mortise_solve"],
+    }
+
+
+def folder_of(case, step):
+    """Below the report's folder. A series has a folder for each mesh."""
+    return case.name if len(case.steps) == 1 else f"{case.name}/{step.mesh_name}"
+
+
+def judge(programs, case, output):
+    """Runs a case into its folder below `output`. Never raises because of the case itself."""
+    result = Result(case.name, case.level, case.scene, case.side, folder_of(case, case.steps[-1]))
+    start = time.perf_counter()
+    shutil.rmtree(output / case.name, ignore_errors=True)
+    try:
+        if case.level == "timing":
+            result.timing = measure(programs, case, output / result.folder)
+        else:
+            for step in case.steps:
+                result.steps.append(run_step(programs, case, step, output / folder_of(case, step)))
+            result.figures = figures_of(case, result.steps)
+            result.status = "ok" if all(figure.ok for figure in result.figures) else "failed"
+    except (CaseError, OSError, KeyError, ValueError) as error:
+        result.status = "error"
+        result.message = str(error) if isinstance(error, (CaseError, OSError)) else f"{type(error).__name__}: {error}"
+    result.seconds = time.perf_counter() - start
+    return result

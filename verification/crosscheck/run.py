@@ -1,0 +1,176 @@
+"""Both programs on one mesh: gmsh's mesh through mortise, its conversion, the two solutions, the time of each."""
+
+import json
+import os
+import shutil
+import subprocess
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import meshio
+
+import convert
+import scene as scenes
+from cases import CaseError
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPT = ROOT / "freefem/mortar.edp"
+RESULTS = ("result.vtu", "contact.csv", "summary.json")
+SOLVED = (0, 2)  # exit status of mortise: 2 is a check that fails, with the results written
+TIME_LIMIT = 1800  # seconds for one run of one program
+
+
+class MissingProgram(Exception):
+    """A program that is not there, with how to get it."""
+
+
+@dataclass(frozen=True)
+class Programs:
+    mortise: Path
+    freefem: str
+
+
+@dataclass
+class Solved:
+    """What one step left in its folder."""
+
+    folder: Path
+    bodies: list  # convert.Body, first the multiplier side's
+    body_numbers: list  # of these bodies in mortise's results
+    status: str  # of mortise, as in summary.json
+    mortise_seconds: float  # whole process
+    freefem_seconds: float
+
+
+def find_freefem():
+    return shutil.which("FreeFem++")
+
+
+def find_programs():
+    """mortise (the environment variable MORTISE, or the release build) and FreeFem++ (on the PATH)."""
+    mortise = Path(os.environ.get("MORTISE", ROOT / "build/release/mortise")).absolute()
+    if not mortise.is_file():
+        raise MissingProgram(f"{mortise} is missing: ./dev build makes it, or MORTISE names another")
+    freefem = find_freefem()
+    if freefem is None:
+        raise MissingProgram("FreeFem++ is not on the PATH: ./dev setup installs it, or apt-get install freefem++")
+    return Programs(mortise, freefem)
+
+
+def last_lines(text, count=6):
+    return "\n".join(text.strip().splitlines()[-count:])
+
+
+def run_program(command, expected=(0,), **options):
+    """Runs a program and returns its seconds; CaseError with its last lines if it fails."""
+    start = time.perf_counter()
+    try:
+        done = subprocess.run(
+            [str(word) for word in command],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            timeout=TIME_LIMIT,
+            check=False,
+            **options,
+        )
+    except subprocess.TimeoutExpired as late:
+        raise CaseError(f"{Path(command[0]).name} did not end within {TIME_LIMIT} s") from late
+    seconds = time.perf_counter() - start
+    if done.returncode not in expected:
+        raise CaseError(f"{Path(command[0]).name}: exit status {done.returncode}\n{last_lines(done.stdout)}")
+    return seconds, done.stdout
+
+
+def set_options(values):
+    """--set KEY=VALUE for each entry."""
+    return [word for key, value in values.items() for word in ("--set", f"{key}={value}")]
+
+
+def make_mesh(programs, scene_file, sizes, parameters, path):
+    values = {**parameters, **sizes}
+    overrides = {f"mesh.parameters.{key}": value for key, value in values.items()}
+    run_program([programs.mortise, "mesh", scene_file, *set_options(overrides), "-o", path])
+
+
+def solve_by_mortise(programs, scene_file, mesh_file, step, folder):
+    """mortise on the mesh as it lies in the file; its physics are the scene's own."""
+    overrides = {
+        "mesh.file": mesh_file.absolute(),
+        "mesh.parameters": "{}",
+        "contact.multipliers_on": step.side,
+        "contact.condition": "bilateral",
+        "method.multipliers": step.mortise["multipliers"],
+        "method.integration": step.mortise["integration"],
+    }
+    command = [programs.mortise, "solve", scene_file, *set_options(overrides), "-o", folder, "--quiet"]
+    seconds, output = run_program(command, SOLVED)
+    for name in RESULTS:
+        if not (folder / name).is_file():
+            raise CaseError(f"mortise wrote no {name}\n{last_lines(output)}")
+    return seconds
+
+
+def freefem_environment():
+    """FreeFEM's own variables, where the user has not set them: its modules, and the scripts to include."""
+    defaults = {"FF_LOADPATH": "/usr/lib/freefem++", "FF_INCLUDEPATH": str(SCRIPT.parent)}
+    return {**defaults, **os.environ}
+
+
+def solve_by_freefem(programs, case_file):
+    """FreeFEM's results lie beside the case file."""
+    for old in case_file.parent.glob("freefem_*.txt"):
+        old.unlink()
+    command = [programs.freefem, "-nw", "-v", "0", SCRIPT, "-case", case_file]
+    seconds, output = run_program(command, cwd=case_file.parent, env=freefem_environment())
+    for name in ("multiplier", "opposite", "contact", "summary"):
+        if not (case_file.parent / f"freefem_{name}.txt").is_file():
+            raise CaseError(f"FreeFem++ wrote no freefem_{name}.txt\n{last_lines(output)}")
+    return seconds
+
+
+def convert_step(step, scene, mesh_file, folder):
+    """The two medit files and case.txt; returns the bodies and their numbers in mortise's results."""
+    mesh = meshio.read(mesh_file, file_format="gmsh")  # of itself it tries another reader first, and prints
+    bodies = convert.read_bodies(mesh, scene["bodies"])
+    tags = convert.curve_tags(mesh)
+    contact_tags = [tags[step.side], tags[scenes.opposite_side(scene, step.side)]]
+    names = [convert.body_of_curve(bodies, tag) for tag in contact_tags]
+    files = ["multiplier.mesh", "opposite.mesh"]
+    for name, file in zip(names, files):
+        convert.write_medit(bodies[name], folder / file)
+    text = scenes.case_text(scene, names, files, contact_tags, tags, step.freefem)
+    (folder / "case.txt").write_text(text)
+    numbers = [convert.body_order(mesh, scene["bodies"]).index(name) for name in names]
+    return [bodies[name] for name in names], numbers
+
+
+def prepare(programs, step, folder):
+    """Mesh and converted mesh of a step; returns the scene file, the mesh file, the bodies and their numbers."""
+    folder.mkdir(parents=True, exist_ok=True)
+    scene_file = ROOT / f"geo/{step.scene}.toml"
+    scene = scenes.read_scene(scene_file)
+    mesh_file = folder / "mesh.msh"
+    make_mesh(programs, scene_file, scenes.size_parameters(scene, step.mesh), step.mesh_parameters, mesh_file)
+    return scene_file, mesh_file, *convert_step(step, scene, mesh_file, folder)
+
+
+def solve_step(programs, step, folder):
+    """Everything of one step: mesh, conversion, both solutions."""
+    scene_file, mesh_file, bodies, numbers = prepare(programs, step, folder)
+    mortise_seconds = solve_by_mortise(programs, scene_file, mesh_file, step, folder / "mortise")
+    freefem_seconds = solve_by_freefem(programs, (folder / "case.txt").absolute())
+    status = mortise_summary(folder)["status"]
+    return Solved(folder, bodies, numbers, status, mortise_seconds, freefem_seconds)
+
+
+def mortise_summary(folder):
+    return json.loads((folder / "mortise/summary.json").read_text())
+
+
+def freefem_summary(folder):
+    """Key and value of each line of freefem_summary.txt."""
+    lines = (folder / "freefem_summary.txt").read_text().split("\n")
+    return {key: float(value) for key, value in (line.split() for line in lines if line.strip())}

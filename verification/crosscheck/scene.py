@@ -1,0 +1,85 @@
+"""The physics of a scene, read from its file and not from mortise, and the case file that FreeFEM reads."""
+
+import tomllib
+
+from cases import CaseError
+
+INITIAL_GAP = "measured"  # where the scene says nothing (docs/files.md)
+ORDER_OF_MULTIPLIERS = {"linear": 1, "quadratic": 2}
+
+
+def read_scene(path):
+    """The scene's tables; scenes with other than one contact pair are refused."""
+    with open(path, "rb") as file:
+        scene = tomllib.load(file)
+    if len(scene.get("contact", [])) != 1:
+        raise CaseError(f"{path}: {len(scene.get('contact', []))} contact pairs; the FreeFEM scripts take exactly 1")
+    return scene
+
+
+def size_parameters(scene, sizes):
+    """Values of the first two mesh parameters, in the order of the scene file."""
+    return dict(zip(scene["mesh"]["parameters"], sizes))
+
+
+def opposite_side(scene, side):
+    between = scene["contact"][0]["between"]
+    if side not in between:
+        raise CaseError(f"multipliers on '{side}'; the scene's contact is between {' and '.join(between)}")
+    return between[1] if side == between[0] else between[0]
+
+
+def strain_of(entry, material):
+    """Initial strain 11, 22, 33, 12."""
+    if "temperature_change" in entry:
+        strain = material["thermal_expansion"] * entry["temperature_change"]
+        return [strain, strain, strain, 0.0]
+    return [entry["strain"].get(key, 0.0) for key in ("xx", "yy", "zz", "xy")]
+
+
+def material_of(scene, body):
+    return scene["materials"][scene["bodies"][body]]
+
+
+def boundary_lines(scene, tags):
+    """Prescribed displacements and loads, one line of the case file each."""
+    for entry in scene.get("boundary", []):
+        curves = [entry["on"]] if isinstance(entry["on"], str) else entry["on"]
+        for label in (tags[curve] for curve in curves):
+            for component, value in entry.get("displacement", {}).items():
+                yield f"displacement {label} {component} {float(value)!r}"
+            if "pressure" in entry:
+                yield f"pressure {label} {float(entry['pressure'])!r}"
+            if "traction" in entry:
+                yield "traction {} {!r} {!r}".format(label, *map(float, entry["traction"]))
+
+
+def body_lines(scene, bodies):
+    """Initial strains and body forces; a body's index is its place in `bodies`."""
+    for entry in scene.get("initial_strain", []):
+        strain = " ".join(repr(float(e)) for e in strain_of(entry, material_of(scene, entry["body"])))
+        yield f"initial_strain {bodies.index(entry['body'])} {strain}"
+    for entry in scene.get("body_force", []):
+        yield "body_force {} {!r} {!r}".format(bodies.index(entry["body"]), *map(float, entry["force"]))
+
+
+def case_text(scene, bodies, files, contact_tags, tags, freefem):
+    """The case file; `bodies`, `files` and `contact_tags`: first of the multiplier side, then of the opposite side."""
+    contact = scene["contact"][0]
+    lines = [f"plane {scene.get('model', {}).get('plane', 'strain')}"]
+    for body, file in zip(bodies, files):
+        material = material_of(scene, body)
+        lines.append(f"body {file} {float(material['young'])!r} {float(material['poisson'])!r}")
+    lines += [
+        "contact {} {}".format(*contact_tags),
+        f"order {freefem['order']}",
+        f"multipliers {ORDER_OF_MULTIPLIERS[freefem['multipliers']]}",
+        f"integration {freefem['integration']}",
+        f"gauss {freefem['gauss']}",
+        f"gap {contact.get('initial_gap', INITIAL_GAP)}",
+        "condition bilateral",
+        *boundary_lines(scene, tags),
+        *body_lines(scene, bodies),
+        "end",
+    ]
+    return "\n".join(lines) + "\n"
