@@ -1,8 +1,32 @@
 #include "app/contact_pair.hpp"
 
+#include "contact/nodal_transfer.hpp"
+
 namespace mortise {
 
-std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, const Constraints& constraints) {
+namespace {
+
+// True if the multipliers lie on the second curve of a pair, where the scene does not say.
+bool on_second(const Scene& scene, const std::array<Curve, 2>& curves, const std::array<double, 2>& edge_size,
+               const std::vector<char>& dirichlet) {
+  // Equal meshes differ by round-off in their lengths: the first is the multiplier side then.
+  const bool second_finer = edge_size[1] < (1 - 1e-6) * edge_size[0],
+             first_finer = edge_size[0] < (1 - 1e-6) * edge_size[1];
+  if (dirichlet.empty()) return second_finer;
+  if (scene.method.ddm.scheme == Scheme::neumann_dirichlet) return dirichlet[std::size_t(curves[1].body)];
+  return first_finer;
+}
+
+void append(const SparseMatrix& rows, int first, std::vector<Eigen::Triplet<double>>& entries) {
+  for (Eigen::Index j = 0; j < rows.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(rows, j); it; ++it)
+      entries.emplace_back(first + int(it.row()), int(j), it.value());
+}
+
+}  // namespace
+
+std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, const Constraints& constraints,
+                                      const std::vector<char>& dirichlet) {
   std::vector<ContactPair> pairs;
   for (const ContactSpec& spec : scene.contacts) {
     std::array<Curve, 2> curves;
@@ -11,9 +35,8 @@ std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, cons
       curves[i] = contact_curve(mesh, scene_boundary(scene, mesh, spec.key + ".between", spec.between[i]));
       edge_size[i] = curve_length(mesh.nodes, curves[i]) / double(curves[i].edges.size());
     }
-    // Equal meshes differ by round-off in their lengths: the first is the multiplier side then.
-    const bool second =
-        spec.multipliers_on.empty() ? edge_size[1] < (1 - 1e-6) * edge_size[0] : spec.multipliers_on == spec.between[1];
+    const bool second = spec.multipliers_on.empty() ? on_second(scene, curves, edge_size, dirichlet)
+                                                    : spec.multipliers_on == spec.between[1];
     ContactPair pair;
     pair.spec = spec;
     pair.spec.multipliers_on = spec.between[second ? 1 : 0];
@@ -22,6 +45,8 @@ std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, cons
     pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, scene.method.integration);
     pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, constraints,
                            {scene.method.integration, scene.method.multipliers, spec.initial_gap});
+    if (scene.method.kind == MethodKind::ddm && scene.method.ddm.transfer == Transfer::nodal)
+      transfer_by_nodes(mesh, pair.multiplier, pair.opposite, pair.coupling);
     pairs.push_back(std::move(pair));
   }
   return pairs;
@@ -46,16 +71,18 @@ std::vector<char> unilateral_rows(const std::vector<ContactPair>& pairs) {
 StackedCoupling stack(const std::vector<ContactPair>& pairs, Eigen::Index unknowns) {
   StackedCoupling all;
   all.first_row.push_back(0);
-  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Eigen::Triplet<double>> gaps, loads;
   for (const ContactPair& pair : pairs) {
-    const SparseMatrix& B = pair.coupling.B;
-    for (Eigen::Index j = 0; j < B.outerSize(); ++j)
-      for (SparseMatrix::InnerIterator it(B, j); it; ++it)
-        entries.emplace_back(all.first_row.back() + int(it.row()), int(j), it.value());
-    all.first_row.push_back(all.first_row.back() + int(B.rows()));
+    append(pair.coupling.B, all.first_row.back(), gaps);
+    if (pair.coupling.loads.size() > 0) append(pair.coupling.loads, all.first_row.back(), loads);
+    all.first_row.push_back(all.first_row.back() + int(pair.coupling.B.rows()));
   }
   all.B.resize(all.first_row.back(), unknowns);
-  all.B.setFromTriplets(entries.begin(), entries.end());
+  all.B.setFromTriplets(gaps.begin(), gaps.end());
+  if (!loads.empty()) {
+    all.loads.resize(all.first_row.back(), unknowns);
+    all.loads.setFromTriplets(loads.begin(), loads.end());
+  }
   all.gap0.resize(all.B.rows());
   all.scale.resize(all.B.rows());
   for (std::size_t p = 0; p < pairs.size(); ++p) {

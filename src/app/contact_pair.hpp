@@ -15,14 +15,20 @@ struct ContactPair {
 
 /// One a [[contact]] entry. Multipliers lie on the side the scene names, else on the one with the shorter edges (the
 /// first if they are equal). Throws InputError for unknown curves or curves that are no chains.
-std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, const Constraints& constraints);
+/// In domain decomposition, where `dirichlet` says of each body whether it takes the displacement, the default is that
+/// body's curve, or the one with the longer edges where both bodies take both.
+std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, const Constraints& constraints,
+                                      const std::vector<char>& dirichlet = {});
 
 /// The rows of all pairs below one another.
 struct StackedCoupling {
   SparseMatrix B;
+  SparseMatrix loads;  ///< as in Coupling; empty where B is meant
   VecX gap0, scale;
   std::vector<int> first_row;  ///< of each pair, and the total at the end
 };
+
+inline const SparseMatrix& load_rows(const StackedCoupling& c) { return c.loads.size() > 0 ? c.loads : c.B; }
 
 /// Of the stacked rows: the node of each one's first multiplier; and whether it may open.
 std::vector<int> row_nodes(const std::vector<ContactPair>& pairs);

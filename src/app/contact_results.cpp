@@ -231,7 +231,7 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
     r.p_mean += c.ds * p;
     if (p > 1e-9 * r.p_max || pair.spec.condition == Condition::bilateral) r.length_in_contact += c.ds;
   }
-  const VecX contact = -(pair.coupling.B.transpose() * lambda);
+  const VecX contact = -(load_rows(pair.coupling).transpose() * lambda);
   for (const CurveNode& at : along) r.force += contact.segment<2>(2 * at.node);
   r.p_mean /= pair.coupling.covered_length;
   r.sigma_n_difference = std::max(difference(r.multiplier.nodes), difference(r.opposite.nodes));

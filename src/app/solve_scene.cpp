@@ -1,8 +1,10 @@
 #include "app/solve_scene.hpp"
 
 #include "app/checks.hpp"
+#include "app/decompose.hpp"
 #include "app/notes.hpp"
 #include "app/refusals.hpp"
+#include "app/roles.hpp"
 #include "base/errors.hpp"
 #include "base/stopwatch.hpp"
 #include "io/gmsh_mesh.hpp"
@@ -10,15 +12,15 @@
 namespace mortise {
 namespace {
 
-void require_available(const Scene& scene) {
-  if (scene.method.kind == MethodKind::ddm)
-    throw InputError(scene.path + ": method.kind = \"ddm\" is not available in this version; expected \"mortar\"");
-}
-
 // The rows that are closed at first: those of a run on the same mesh, else (empty) all.
 std::vector<char> starting_rows(const ActiveSet* start, const Results& r) {
   if (!start || start->nodes.rows() != r.mesh.nodes.rows() || start->nodes != r.mesh.nodes) return {};
   return start->node == row_nodes(r.pairs) ? start->active : std::vector<char>{};
+}
+
+// Bodies that take the displacement in domain decomposition; empty for the mortar method.
+std::vector<char> roles(const Scene& scene, const Mesh& mesh, const std::vector<ElasticLaw>& laws) {
+  return scene.method.kind == MethodKind::ddm ? dirichlet_bodies(scene, mesh, laws) : std::vector<char>{};
 }
 
 double largest_young(const Discretisation& d) {
@@ -42,7 +44,6 @@ std::string to_string(Status status) {
 }
 
 Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSet* start) {
-  require_available(scene);
   Stopwatch watch;
   if (progress) progress("mesh");
   Mesh mesh = load_mesh(scene.mesh_file, scene.mesh_parameters);
@@ -53,10 +54,10 @@ Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSe
 }
 
 CheckedScene check_scene(const Scene& scene) {
-  require_available(scene);
   CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters), {}};
-  const Constraints constraints = discretise(scene, checked.mesh).constraints;
-  checked.pairs = couple_pairs(scene, checked.mesh, constraints);
+  const Discretisation d = discretise(scene, checked.mesh);
+  const Constraints& constraints = d.constraints;
+  checked.pairs = couple_pairs(scene, checked.mesh, constraints, roles(scene, checked.mesh, d.laws));
   require_closed(scene, checked.mesh, checked.pairs);
   require_held(scene, checked.mesh, constraints, stack(checked.pairs, 2 * checked.mesh.nodes.rows()));
   return checked;
@@ -65,7 +66,6 @@ CheckedScene check_scene(const Scene& scene) {
 ActiveSet active_set(const Results& r) { return {r.mesh.nodes, row_nodes(r.pairs), r.active}; }
 
 Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
-  require_available(scene);
   const auto stage = [&](const char* name) {
     if (progress) progress(name);
   };
@@ -80,7 +80,8 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
   r.seconds.assemble = watch.lap();
 
   stage("couple");
-  r.pairs = couple_pairs(scene, r.mesh, d.constraints);
+  const std::vector<char> dirichlet = roles(scene, r.mesh, d.laws);
+  r.pairs = couple_pairs(scene, r.mesh, d.constraints, dirichlet);
   const StackedCoupling coupling = stack(r.pairs, d.load.size());
   require_closed(scene, r.mesh, r.pairs);
   require_held(scene, r.mesh, d.constraints, coupling);
@@ -89,9 +90,20 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
 
   stage("solve");
   const VecX g = -coupling.gap0;
-  SaddlePointSolution solution = solve_saddle_point(
-      {d.stiffness, d.load, coupling.B, g, d.constraints.fixed, d.constraints.value, largest_young(d), coupling.scale,
-       floating.grounded, unilateral_rows(r.pairs), starting_rows(start, r)});
+  const SaddlePointSystem system{d.stiffness,
+                                 d.load,
+                                 coupling.B,
+                                 g,
+                                 d.constraints.fixed,
+                                 d.constraints.value,
+                                 largest_young(d),
+                                 coupling.scale,
+                                 floating.grounded,
+                                 unilateral_rows(r.pairs),
+                                 starting_rows(start, r),
+                                 coupling.loads.size() > 0 ? &coupling.loads : nullptr};
+  SaddlePointSolution solution =
+      scene.method.kind == MethodKind::ddm ? decompose(scene, system, dirichlet, r) : solve_saddle_point(system);
   require_solved(scene, r, floating, solution);
   r.active = solution.active;
   r.steps = solution.steps;

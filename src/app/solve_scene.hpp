@@ -5,6 +5,7 @@
 
 #include "app/contact_results.hpp"
 #include "app/discretisation.hpp"
+#include "ddm/interface.hpp"
 #include "fem/stress.hpp"
 #include "solve/saddle_point.hpp"
 
@@ -35,6 +36,16 @@ struct ActiveSet {
   std::vector<char> active;  ///< of each row
 };
 
+/// How domain decomposition found the interface.
+struct InterfaceRun {
+  std::vector<std::string> dirichlet;  ///< bodies that took the displacement
+  Acceleration acceleration;
+  double beta;        ///< 0 where none was used
+  Spectrum spectrum;  ///< of the interface, where it was needed
+  double factor;      ///< by which a step reduced the residuals in the end
+  std::vector<RelaxationStep> history;
+};
+
 /// Everything a run knows at its end.
 struct Results {
   Status status = Status::solved;
@@ -44,13 +55,14 @@ struct Results {
   std::vector<ContactPair> pairs;
   VecX u;  ///< 2 x nodes, length
   StressField stress;
-  std::vector<ContactResults> contacts;  ///< one a pair
-  double energy = 0;                     ///< strain energy per thickness
-  int unknowns = 0;                      ///< free displacement unknowns
-  int multipliers = 0;                   ///< rows of the coupling
-  std::vector<char> active;              ///< of each row: closed (always so in bilateral pairs)
-  std::vector<ActiveSetStep> steps;      ///< one a solve of the contact problem
-  int coarse_steps = 0;                  ///< and on joined rows
+  std::vector<ContactResults> contacts;   ///< one a pair
+  double energy = 0;                      ///< strain energy per thickness
+  int unknowns = 0;                       ///< free displacement unknowns
+  int multipliers = 0;                    ///< rows of the coupling
+  std::vector<char> active;               ///< of each row: closed (always so in bilateral pairs)
+  std::vector<ActiveSetStep> steps;       ///< one a solve of the contact problem
+  int coarse_steps = 0;                   ///< and on joined rows
+  std::optional<InterfaceRun> interface;  ///< where method.kind is ddm
   std::size_t factor_bytes = 0;
   Seconds seconds;
   std::vector<Check> checks;

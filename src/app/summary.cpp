@@ -35,6 +35,34 @@ Json steps_json(const Results& r) {
   return steps;
 }
 
+Json interface_json(const Scene& scene, const Results& r) {
+  if (!r.interface) return nullptr;
+  const InterfaceRun& run = *r.interface;
+  const Residuals last = run.history.back().residuals;
+  return {{"scheme", to_string(scene.method.ddm.scheme)},
+          {"acceleration", to_string(run.acceleration)},
+          {"dirichlet", run.dirichlet},
+          {"beta", run.beta},
+          {"eigenvalues", {run.spectrum.smallest, run.spectrum.largest}},
+          {"factor", run.factor},
+          {"kinematic", last.kinematic},
+          {"force", last.force}};
+}
+
+void print_interface(const Scene& scene, const Results& r, std::ostream& out) {
+  if (!r.interface) return;
+  const InterfaceRun& run = *r.interface;
+  const Residuals last = run.history.back().residuals;
+  out << "  interface " << to_string(scene.method.ddm.scheme) << ", acceleration " << to_string(run.acceleration);
+  if (run.beta > 0)
+    out << ", beta " << run.beta << " (closed contact: best " << run.spectrum.best_beta() << ", converges below "
+        << run.spectrum.largest_beta() << ")";
+  out << "\n            displacement taken by";
+  for (const std::string& body : run.dirichlet) out << " " << body;
+  out << "; " << run.history.size() << " steps to residuals " << last.kinematic << " (kinematic), " << last.force
+      << " (force); " << run.factor << " a step\n";
+}
+
 // One row a solve, where there was more than one.
 void print_steps(const Results& r, std::ostream& out) {
   if (r.steps.size() < 2) return;
@@ -55,7 +83,7 @@ void print_steps(const Results& r, std::ostream& out) {
 std::string contact_words(const Results& r) {
   const int unilateral = int(std::count_if(
       r.pairs.begin(), r.pairs.end(), [](const ContactPair& p) { return p.spec.condition == Condition::unilateral; }));
-  if (unilateral == 0) return "";
+  if (unilateral == 0 || r.interface) return "";
   if (r.steps.size() > 1)
     return std::to_string(r.steps.size()) + " solves until nothing pulls or overlaps" +
            (r.coarse_steps > 0 ? ", and " + std::to_string(r.coarse_steps) + " smaller ones for the second's start"
@@ -110,8 +138,9 @@ Json summary_json(const Scene& scene, const Results& r) {
            {{"contact", r.pairs.empty() ? 0 : r.steps.size()},
             {"contact_coarse", r.coarse_steps},
             {"linear", 0},
-            {"interface", 0}}},
+            {"interface", r.interface ? r.interface->history.size() : 0}}},
           {"contact_steps", steps_json(r)},
+          {"interface", interface_json(scene, r)},
           {"energy", r.energy},
           {"contact", contact},
           {"checks", checks},
@@ -135,6 +164,7 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
         << r.pairs[k].coupling.gap_min << " ... " << r.pairs[k].coupling.gap_max << "\n";
   }
   out << std::setprecision(3);
+  print_interface(scene, r, out);
   print_steps(r, out);
   if (const std::string words = contact_words(r); !words.empty()) out << "            " << words << "\n";
   out << std::setprecision(6) << "  largest   displacement " << r.u.cwiseAbs().maxCoeff() << "\n";

@@ -23,6 +23,12 @@ Row figures(const Results& r) {
           {"energy", r.energy},
           {"seconds.mesh", r.seconds.mesh},
           {"seconds.solve", r.seconds.total() - r.seconds.mesh}};
+  if (r.interface)
+    row.insert(row.end(), {{"iterations.interface", double(r.interface->history.size())},
+                           {"interface.factor", r.interface->factor},
+                           {"interface.beta", r.interface->beta},
+                           {"interface.eigenvalue.smallest", r.interface->spectrum.smallest},
+                           {"interface.eigenvalue.largest", r.interface->spectrum.largest}});
   for (std::size_t k = 0; k < r.contacts.size(); ++k) {
     const ContactResults& c = r.contacts[k];
     const std::string at = "contact." + std::to_string(k) + ".";

@@ -123,6 +123,18 @@ void write_centres_csv(const Results& r, const std::filesystem::path& path) {
   write_csv(path, columns);
 }
 
+void write_interface_csv(const InterfaceRun& run, const std::filesystem::path& path) {
+  std::vector<CsvColumn> columns;
+  for (const char* name : {"step", "kinematic", "force", "beta", "seconds"}) columns.push_back({name, {}, {}});
+  for (std::size_t k = 0; k < run.history.size(); ++k) {
+    const RelaxationStep& step = run.history[k];
+    std::size_t c = 0;
+    for (const double value : {double(k + 1), step.residuals.kinematic, step.residuals.force, step.beta, step.seconds})
+      columns[c++].numbers.push_back(value);
+  }
+  write_csv(path, columns);
+}
+
 }  // namespace
 
 void write_results(const Scene& scene, Results& results, const std::filesystem::path& folder) {
@@ -134,6 +146,7 @@ void write_results(const Scene& scene, Results& results, const std::filesystem::
     write_contact_csv(results, output.path("contact.csv"));
     write_centres_csv(results, output.path("contact_centres.csv"));
   }
+  if (results.interface) write_interface_csv(*results.interface, output.path("interface.csv"));
   results.seconds.write = watch.lap();
   std::ofstream file(output.path("summary.json"));
   file << summary_json(scene, results).dump(2) << "\n";

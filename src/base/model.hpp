@@ -10,4 +10,10 @@ enum class MethodKind { mortar, ddm };
 enum class Integration { segments, elements };
 enum class Multipliers { quadratic, linear, dual };
 
+// Domain decomposition: the iteration, what makes it faster, and how pressures and displacements go from one curve to
+// the other.
+enum class Scheme { neumann_dirichlet, neumann_neumann, dirichlet_dirichlet };
+enum class Acceleration { none, aitken, anderson, krylov };
+enum class Transfer { mortar, nodal };
+
 }  // namespace mortise

@@ -14,6 +14,8 @@ class Stopwatch {
     start_ = now;
     return seconds;
   }
+  /// Seconds since construction or the last lap, without starting a new one.
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
  private:
   using Clock = std::chrono::steady_clock;

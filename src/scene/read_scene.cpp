@@ -32,18 +32,6 @@ void read_model(const Node& root, Scene& scene) {
   scene.plane = choice(find(*model, "plane"), {Plane::strain, Plane::stress}, scene.plane);
 }
 
-void read_method(const Node& root, Scene& scene) {
-  const Node* node = find(root, "method");
-  if (node == nullptr) return;
-  expect_keys(*node, {"kind", "integration", "multipliers"});
-  Method& method = scene.method;
-  method.kind = choice(find(*node, "kind"), {MethodKind::mortar, MethodKind::ddm}, method.kind);
-  method.integration =
-      choice(find(*node, "integration"), {Integration::segments, Integration::elements}, method.integration);
-  method.multipliers = choice(find(*node, "multipliers"),
-                              {Multipliers::quadratic, Multipliers::linear, Multipliers::dual}, method.multipliers);
-}
-
 Scene read_sections(const Node& root, const std::string& path) {
   expect_keys(root, {"title", "mesh", "model", "materials", "bodies", "boundary", "body_force", "initial_strain",
                      "contact", "method"});

@@ -58,10 +58,22 @@ struct ContactSpec {
   std::string multipliers_on;  ///< one of `between`; empty: the finer side
 };
 
+/// How domain decomposition iterates; only where Method::kind is ddm.
+struct DdmSpec {
+  Scheme scheme = Scheme::neumann_dirichlet;
+  std::optional<Acceleration> acceleration;  ///< default: krylov, and anderson where contact may open
+  std::optional<double> beta;                ///< relaxation, > 0; default: estimated
+  std::vector<std::string> dirichlet;        ///< bodies that take the displacement; default: the softer ones
+  Transfer transfer = Transfer::mortar;
+  double tolerance = 1e-8;  ///< of both residuals
+  int max_iterations = 100;
+};
+
 struct Method {
   MethodKind kind = MethodKind::mortar;
   Integration integration = Integration::segments;
   Multipliers multipliers = Multipliers::linear;  ///< on 2-node edges quadratic means linear
+  DdmSpec ddm;
 };
 
 struct Scene {
@@ -86,6 +98,9 @@ std::string to_string(InitialGap value);
 std::string to_string(MethodKind value);
 std::string to_string(Integration value);
 std::string to_string(Multipliers value);
+std::string to_string(Scheme value);
+std::string to_string(Acceleration value);
+std::string to_string(Transfer value);
 
 /// One `--set KEY=VALUE`, e.g. {"contact.0.multipliers_on", "lower_contact"}.
 struct Override {

@@ -73,4 +73,43 @@ std::string to_string(Multipliers value) {
   return {};
 }
 
+std::string to_string(Scheme value) {
+  switch (value) {
+    case Scheme::neumann_dirichlet:
+      return "neumann_dirichlet";
+    case Scheme::neumann_neumann:
+      return "neumann_neumann";
+    case Scheme::dirichlet_dirichlet:
+      return "dirichlet_dirichlet";
+  }
+  assert(false && "no such Scheme");
+  return {};
+}
+
+std::string to_string(Acceleration value) {
+  switch (value) {
+    case Acceleration::none:
+      return "none";
+    case Acceleration::aitken:
+      return "aitken";
+    case Acceleration::anderson:
+      return "anderson";
+    case Acceleration::krylov:
+      return "krylov";
+  }
+  assert(false && "no such Acceleration");
+  return {};
+}
+
+std::string to_string(Transfer value) {
+  switch (value) {
+    case Transfer::mortar:
+      return "mortar";
+    case Transfer::nodal:
+      return "nodal";
+  }
+  assert(false && "no such Transfer");
+  return {};
+}
+
 }  // namespace mortise

@@ -20,13 +20,16 @@ struct SaddlePointSystem {
   /// Unknowns that springs must hold for K to be positive definite (one for each motion that only B resists). The
   /// springs are taken out again exactly: docs/theory.md eq. 18.
   std::vector<int> grounded = {};
-  std::vector<char> unilateral = {};  ///< m: rows that may open; empty: none
-  std::vector<char> start = {};       ///< m: rows that are closed at first; empty: all
+  std::vector<char> unilateral = {};    ///< m: rows that may open; empty: none
+  std::vector<char> start = {};         ///< m: rows that are closed at first; empty: all
+  const SparseMatrix* loads = nullptr;  ///< m x n: loads^T lambda are the forces; null: B. Not of solve_saddle_point
 };
 
 /// Forces are compared with this part of stiffness times displacement where they are smaller: those of a body that
 /// moves without being deformed are round-off of that product.
 inline constexpr double rigid_part = 1e-3;
+
+inline const SparseMatrix& load_rows(const SaddlePointSystem& s) { return s.loads ? *s.loads : s.B; }
 
 struct SaddlePointSolution {
   /// not_settled: u and lambda are those of the last active set. unheld: only `drift` is given.
@@ -48,6 +51,9 @@ struct SaddlePointSolution {
   double factorise_seconds = 0, solve_seconds = 0;
   std::size_t factor_bytes = 0;
 };
+
+/// Fills the two residuals of u and lambda, where the `active` rows are closed.
+void measure_residuals(const SaddlePointSystem& system, SaddlePointSolution& solution);
 
 SaddlePointSolution solve_saddle_point(const SaddlePointSystem& system);
 

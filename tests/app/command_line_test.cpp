@@ -204,7 +204,6 @@ const BadInput bad_input[] = {
     {"NothingHoldsAnything", {"--set", "boundary=[{on=[\"top\"], pressure=1e6}]"}, {"nothing holds"}},
     {"BoundariesDisagree", {"--set", "boundary.1.displacement={x=0.1,y=0}"}, {"one value a node", "(0, 0)"}},
     {"ContactCurveInTwoPieces", {"--set", "contact.0.between=[\"upper_contact\",\"lower_left\"]"}, {"lower_left"}},
-    {"DdmIsNotThere", {"--set", "method.kind=ddm"}, {"ddm", "mortar"}},
     {"UnknownParameterOfTheGeo", {"--set", "mesh.parameters.n_uper=4"}, {"n_uper", "n_upper"}},
     {"ElementsOfThirdOrder", {"--set", "mesh.parameters.order=3"}, {"patch_flat.geo", "Quadrilateral"}},
     {"NoSuchMesh", {"--set", "mesh.file=/no/such.geo"}, {"/no/such.geo"}},

@@ -26,7 +26,7 @@ const std::map<std::string, Names> may_enter{
     {"fem", {"base", "mesh"}},
     {"contact", {"base", "mesh", "fem"}},
     {"solve", {"base"}},
-    {"ddm", {"base", "mesh", "fem", "contact", "solve"}},
+    {"ddm", {"base", "solve"}},
     {"scene", {"base"}},
     {"io", {"base", "mesh", "fem"}},
     {"app", {"base", "mesh", "fem", "contact", "solve", "ddm", "scene", "io"}},

@@ -1,0 +1,82 @@
+#include "app/decompose.hpp"
+
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "mesh/place.hpp"
+
+namespace mortise {
+namespace {
+
+std::vector<char> unknowns_of(const Mesh& mesh, const std::vector<char>& bodies) {
+  std::vector<char> member(std::size_t(2 * mesh.nodes.rows()), 0);
+  for (const Cell& cell : mesh.cells)
+    for (int a = 0; a < node_count(cell.kind); ++a)
+      for (int c = 0; c < 2; ++c)
+        member[std::size_t(2 * cell.nodes[std::size_t(a)] + c)] = bodies[std::size_t(cell.body)];
+  return member;
+}
+
+std::string at_unknown(const Mesh& mesh, int unknown) { return near_point(mesh.nodes.row(unknown / 2).transpose()); }
+
+// What the iteration did not reach, and what would.
+std::string trouble(const DdmSolution& d, const std::vector<RelaxationStep>& history, const DdmSpec& spec) {
+  const Residuals& last = history.back().residuals;
+  std::ostringstream text;
+  text << "the interface iteration " << (d.status == DdmSolution::Status::diverged ? "diverges" : "did not converge")
+       << ": after " << history.size() << " steps the residuals are " << last.kinematic << " (kinematic) and "
+       << last.force << " (force), where " << spec.tolerance << " was asked for; a step multiplies them by "
+       << d.factor;
+  if (d.spectrum.largest > 0)
+    text << "; the eigenvalues of the interface are " << d.spectrum.smallest << " ... " << d.spectrum.largest
+         << ": beta converges below " << d.spectrum.largest_beta() << ", best at " << d.spectrum.best_beta();
+  return text.str();
+}
+
+[[noreturn]] void refuse(const Scene& scene, const Results& r, const DdmSolution& d) {
+  using Reached = DdmSolution::Status;
+  if (d.status == Reached::not_positive_definite)
+    throw InputError(scene.path + ": the stiffness is not positive definite " +
+                     at_unknown(r.mesh, d.solution.failed_at) +
+                     ": a part of a body that nothing holds, or elements far out of shape there");
+  if (d.status == Reached::dependent_row)
+    throw InputError(scene.path + ": the bodies that take the displacement do not feel the multiplier " +
+                     near_point(r.mesh.nodes.row(row_nodes(r.pairs)[std::size_t(d.solution.failed_at)]).transpose()) +
+                     ": expected contact.multipliers_on to name the curve of the body that takes the displacement (or "
+                     "the coarser curve), or method.kind = \"mortar\"");
+  if (d.status == Reached::unbalanced)
+    throw InputError(
+        scene.path +
+        ": method.transfer = \"nodal\" does not keep the forces in balance: expected scheme = "
+        "\"neumann_dirichlet\" with method.dirichlet naming the bodies that only contact holds, or transfer "
+        "= \"mortar\"");
+  throw InputError(scene.path + ": method.scheme = \"" + to_string(scene.method.ddm.scheme) +
+                   "\" is for bilateral contact, and contact pulls here; expected \"neumann_dirichlet\", or "
+                   "contact.condition = \"bilateral\"");
+}
+
+}  // namespace
+
+SaddlePointSolution decompose(const Scene& scene, const SaddlePointSystem& system, const std::vector<char>& dirichlet,
+                              Results& r) {
+  const DdmSpec& spec = scene.method.ddm;
+  const DdmOptions options{spec.scheme, spec.acceleration.value_or(Acceleration::krylov), spec.beta, spec.tolerance,
+                           spec.max_iterations};
+  DdmSolution d = solve_by_ddm(system, unknowns_of(r.mesh, dirichlet), options);
+  using Reached = DdmSolution::Status;
+  if (d.status == Reached::not_positive_definite || d.status == Reached::dependent_row ||
+      d.status == Reached::cannot_open || d.status == Reached::unbalanced)
+    refuse(scene, r, d);
+
+  InterfaceRun run{{}, options.acceleration, d.beta, d.spectrum, d.factor, std::move(d.history)};
+  for (std::size_t b = 0; b < dirichlet.size(); ++b)
+    if (dirichlet[b]) run.dirichlet.push_back(r.mesh.bodies[b]);
+  if (d.status != Reached::converged) {
+    r.status = Status::not_converged;
+    r.notes.push_back(trouble(d, run.history, spec));
+  }
+  r.interface = std::move(run);
+  return std::move(d.solution);
+}
+
+}  // namespace mortise

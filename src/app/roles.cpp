@@ -1,0 +1,116 @@
+#include "app/roles.hpp"
+
+#include <algorithm>
+
+#include "base/errors.hpp"
+#include "contact/segments.hpp"
+#include "mesh/curve.hpp"
+
+namespace mortise {
+namespace {
+
+// Two bodies with a contact pair or common nodes between them.
+struct Link {
+  int body, other;
+  bool differ;      // in contact: different roles
+  bool body_finer;  // in contact: its edges are the shorter ones, or as long
+  std::string key;
+};
+
+std::vector<Link> contact_links(const Scene& scene, const Mesh& mesh) {
+  std::vector<Link> links;
+  for (const ContactSpec& spec : scene.contacts) {
+    std::array<int, 2> body{};
+    std::array<double, 2> edge_size{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Curve curve = contact_curve(mesh, scene_boundary(scene, mesh, spec.key + ".between", spec.between[i]));
+      body[i] = curve.body;
+      edge_size[i] = curve_length(mesh.nodes, curve) / double(curve.edges.size());
+    }
+    links.push_back({body[0], body[1], true, edge_size[0] <= (1 + 1e-6) * edge_size[1], spec.key});
+  }
+  return links;
+}
+
+void add_shared_nodes(const Mesh& mesh, std::vector<Link>& links) {
+  std::vector<int> owner(std::size_t(mesh.nodes.rows()), -1);
+  for (const Cell& cell : mesh.cells)
+    for (int a = 0; a < node_count(cell.kind); ++a) {
+      int& first = owner[std::size_t(cell.nodes[std::size_t(a)])];
+      if (first < 0) first = cell.body;
+      if (first != cell.body) links.push_back({first, cell.body, false, false, "common nodes"});
+    }
+}
+
+// One set of bodies that hang together, dealt out in two: sides[b] is 0 or 1, -1 for bodies of other sets.
+std::vector<int> deal_out(const Scene& scene, const Mesh& mesh, const std::vector<Link>& links, int first) {
+  std::vector<int> side(mesh.bodies.size(), -1);
+  side[std::size_t(first)] = 0;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Link& link : links) {
+      int& a = side[std::size_t(link.body)];
+      int& b = side[std::size_t(link.other)];
+      if (a < 0 && b < 0) continue;
+      if (a >= 0 && b >= 0) {
+        if ((a != b) != link.differ)
+          throw InputError(scene.path + ": " + link.key + ": '" + mesh.bodies[std::size_t(link.body)] + "' and '" +
+                           mesh.bodies[std::size_t(link.other)] +
+                           "' cannot take the displacement in turns: domain decomposition needs bodies in a chain, "
+                           "each in contact with others of the opposite role only; expected method.kind = \"mortar\"");
+        continue;
+      }
+      (a < 0 ? a : b) = link.differ ? 1 - std::max(a, b) : std::max(a, b);
+      changed = true;
+    }
+  }
+  return side;
+}
+
+// The side whose bodies take the displacement, as the scene says it; -1 if it says nothing.
+int named_side(const Scene& scene, const Mesh& mesh, const std::vector<int>& side) {
+  int named = -1;
+  for (const std::string& name : scene.method.ddm.dirichlet) {
+    const int s = side[std::size_t(body_index(mesh, name))];
+    if (s >= 0 && named >= 0 && s != named)
+      throw InputError(scene.path + ": method.dirichlet: '" + name + "' is in contact with a body of the same role");
+    named = std::max(named, s);
+  }
+  return named;
+}
+
+// The side with the softer bodies; of equally stiff ones that with the finer curves.
+int softer_side(const std::vector<Link>& links, const std::vector<int>& side, const std::vector<ElasticLaw>& laws) {
+  std::array<double, 2> stiffest{};
+  std::array<int, 2> finer{};
+  for (std::size_t b = 0; b < side.size(); ++b)
+    if (side[b] >= 0) stiffest[std::size_t(side[b])] = std::max(stiffest[std::size_t(side[b])], laws[b].young);
+  for (const Link& link : links)
+    if (link.differ && side[std::size_t(link.body)] >= 0)
+      ++finer[std::size_t(side[std::size_t(link.body_finer ? link.body : link.other)])];
+  if (stiffest[0] != stiffest[1]) return stiffest[1] < stiffest[0];
+  return finer[1] > finer[0];
+}
+
+}  // namespace
+
+std::vector<char> dirichlet_bodies(const Scene& scene, const Mesh& mesh, const std::vector<ElasticLaw>& laws) {
+  std::vector<Link> links = contact_links(scene, mesh);
+  const std::size_t contacts = links.size();
+  add_shared_nodes(mesh, links);
+  std::vector<char> dirichlet(mesh.bodies.size(), 0), dealt(mesh.bodies.size(), 0);
+  for (std::size_t k = 0; k < contacts; ++k) {
+    if (dealt[std::size_t(links[k].body)]) continue;
+    const std::vector<int> side = deal_out(scene, mesh, links, links[k].body);
+    const int named = named_side(scene, mesh, side);
+    const int chosen = named >= 0 ? named : softer_side(links, side, laws);
+    for (std::size_t b = 0; b < side.size(); ++b) {
+      if (side[b] < 0) continue;
+      dealt[b] = 1;
+      dirichlet[b] = side[b] == chosen;
+    }
+  }
+  return dirichlet;
+}
+
+}  // namespace mortise

@@ -1,0 +1,45 @@
+// Bodies that play one role, each solved alone: what a pressure does to their contact curves.
+#pragma once
+
+#include "solve/bordered_cholesky.hpp"
+#include "solve/saddle_point.hpp"
+
+namespace mortise {
+
+/// Factorised once. With B the group's columns of the coupling, its displacements under the multipliers lambda are
+///
+///   u = K^-1 (f - B^T lambda) - R mu,   so that   B u = response - C lambda - H mu,   H = B R,
+///
+/// (with nodal transfer B^T and H^T are those of the system's `loads`), where R are the group's rigid motions that
+/// nothing but contact holds (floating bodies), K^-1 is taken with one unknown a motion held, and the load must be in
+/// balance: H^T lambda = work (docs/theory.md eq. 29 and 30). Everything is dimensionless, as in the saddle-point
+/// system.
+class BodyGroup {
+ public:
+  /// `member`: one entry an unknown of the system. The rows are the system's own.
+  BodyGroup(const SaddlePointSystem& system, const std::vector<char>& member);
+
+  /// -1, or the unknown at which the group's stiffness is not positive definite: nothing below may be used then.
+  int failed_at = -1;
+  Eigen::Index motions = 0;  ///< s
+  MatX compliance;           ///< (m + s) x (m + s), lower triangle: [C; H^T, .]; where C is symmetric
+  VecX response, work;       ///< m, s
+  MatX C, H;                 ///< m x m (full), m x s
+
+  /// Adds the group's displacements under the load and the multipliers to u (n, length).
+  void add_displacements(const VecX& lambda, const VecX& mu, VecX& u) const;
+
+  /// Adds the displacements under the forces that u leaves unbalanced (n, over the stiffness scale): one step of
+  /// iterative refinement. add_displacements() may not be called any more.
+  void refine(const VecX& unbalanced, VecX& u);
+
+ private:
+  VecX on_free(const VecX& v) const;
+  void add_from_free(const VecX& part, VecX& u) const;
+
+  Eigen::Index unused_ = 0;  // rows of the border before those that load: B, where it is not they
+  std::vector<int> free_;
+  std::unique_ptr<BorderedCholesky> factor_;
+};
+
+}  // namespace mortise

@@ -1,0 +1,199 @@
+#include "ddm/interface.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <memory>
+#include <numeric>
+
+namespace mortise {
+namespace {
+
+std::vector<int> all_rows(Eigen::Index m) {
+  std::vector<int> rows(static_cast<std::size_t>(m));
+  std::iota(rows.begin(), rows.end(), 0);
+  return rows;
+}
+
+// [C H; H^T .] of a group with other motions than its own, lower triangle.
+MatX with_motions(const MatX& C, const MatX& H) {
+  const Eigen::Index m = C.rows(), s = H.cols();
+  MatX compliance = MatX::Zero(m + s, m + s);
+  compliance.topLeftCorner(m, m) = C;
+  compliance.bottomLeftCorner(s, m) = H.transpose();
+  return compliance;
+}
+
+VecX stacked(const VecX& a, const VecX& b) {
+  VecX all(a.size() + b.size());
+  all << a, b;
+  return all;
+}
+
+// What lambda leaves open, but for the motions.
+VecX open(const Interface& s, const VecX& lambda) { return s.gap - s.neumann.C * lambda - s.dirichlet.C * lambda; }
+
+// Multipliers that a group takes for given displacements (the inverse of its C, its own motions free), and its share of
+// a gap or a jump: by `weight`.
+struct Share {
+  std::shared_ptr<const MultiplierSystem> stiffness;
+  const BodyGroup* group;
+  double weight;
+
+  VecX multipliers(const VecX& displacement) const {
+    return stiffness->solve(stacked(displacement, VecX::Zero(group->motions))).head(displacement.size());
+  }
+};
+
+// `soft`: the softer group gets the larger share (of gaps), else the stiffer one (of jumps).
+std::array<Share, 2> shares(const Interface& s, bool soft) {
+  const double n = s.neumann.C.trace(), d = s.dirichlet.C.trace();
+  std::array<Share, 2> both{Share{nullptr, &s.neumann, (soft ? n : d) / (n + d)},
+                            Share{nullptr, &s.dirichlet, (soft ? d : n) / (n + d)}};
+  for (Share& share : both)
+    share.stiffness =
+        std::make_shared<MultiplierSystem>(share.group->compliance, share.group->motions, all_rows(s.gap.size()));
+  return both;
+}
+
+VecX solve_small(const MatX& A, const VecX& b) { return A.cols() > 0 ? VecX(A.partialPivLu().solve(b)) : b; }
+
+}  // namespace
+
+Interface make_interface(const BodyGroup& neumann, const BodyGroup& dirichlet, const SaddlePointSystem& s,
+                         const std::vector<char>& unilateral) {
+  const VecX gap0 = (s.B * s.value - s.g).cwiseQuotient(s.row_scale);
+  MatX H(gap0.size(), neumann.motions + dirichlet.motions);
+  H << neumann.H, dirichlet.H;
+  MatX compliance = with_motions(dirichlet.C, H);
+  auto system = std::make_shared<MultiplierSystem>(compliance, H.cols(), all_rows(gap0.size()));
+  const VecX gap = gap0 + neumann.response + dirichlet.response;
+  return {neumann,
+          dirichlet,
+          gap,
+          gap0,
+          H,
+          stacked(neumann.work, dirichlet.work),
+          s.row_scale,
+          unilateral,
+          std::move(compliance),
+          std::move(system)};
+}
+
+Taken dirichlet_takes(const Interface& s, const VecX& lambda, const std::vector<char>& start) {
+  const Eigen::Index m = s.gap.size();
+  const VecX rhs = stacked(s.gap - s.neumann.C * lambda, s.work);
+  if (s.unilateral.empty()) {
+    const VecX x = s.dirichlet_system->solve(rhs);
+    return {x.head(m), x.tail(s.H.cols()), {}};
+  }
+  ActiveSetResult set = settle_active_set({s.dirichlet_compliance, rhs, s.scale, s.unilateral}, start);
+  return {set.solution.head(m), set.solution.tail(s.H.cols()), std::move(set.active)};
+}
+
+Residuals residuals(const Interface& s, const VecX& lambda, const VecX& z) {
+  const VecX taken = lambda + z;
+  const double displacement = std::max(largest_entry(s.neumann.response - s.neumann.C * taken),
+                                       largest_entry(s.dirichlet.response - s.dirichlet.C * taken));
+  const double multiplier = largest_entry(taken.cwiseQuotient(s.scale));
+  const double gap = largest_entry(s.dirichlet.C * z), force = largest_entry(z.cwiseQuotient(s.scale));
+  return {gap > 0 ? gap / displacement : 0, force > 0 ? force / multiplier : 0};
+}
+
+InterfaceIteration neumann_dirichlet(const Interface& s) {
+  const Eigen::Index m = s.gap.size();
+  InterfaceIteration iteration;
+  iteration.multipliers = [](const VecX& lambda) { return lambda; };
+  // A floating Neumann group needs a load in balance from the start.
+  iteration.start = VecX::Zero(m);
+  if (s.neumann.motions > 0) iteration.start = s.dirichlet_system->solve(stacked(iteration.start, s.work)).head(m);
+  iteration.affine = s.unilateral.empty();
+  auto closed = std::make_shared<std::vector<char>>();  // of the last step, to start the next from
+  iteration.correction = [&s, closed](const VecX& x) -> VecX {
+    VecX lambda = x;  // without rows that an accelerated step has left pulling
+    for (std::size_t a = 0; a < s.unilateral.size(); ++a)
+      if (s.unilateral[a]) lambda(Eigen::Index(a)) = std::min(lambda(Eigen::Index(a)), 0.0);
+    Taken taken = dirichlet_takes(s, lambda, *closed);
+    *closed = std::move(taken.active);
+    return taken.lambda - x;
+  };
+  return iteration;
+}
+
+InterfaceIteration neumann_neumann(const Interface& s) {
+  const auto both = shares(s, false);
+  const Eigen::Index m = s.gap.size();
+  // The multipliers of each group where B u of the Neumann group is x and contact is closed.
+  const auto taken = [&s, both, m](const VecX& x) -> std::array<VecX, 2> {
+    const VecX first = s.neumann.response - x, second = s.dirichlet.response + s.gap0 + x;
+    return {both[0].stiffness->solve(stacked(first, s.neumann.work)).head(m),
+            both[1].stiffness->solve(stacked(second, s.dirichlet.work)).head(m)};
+  };
+  // x also moves along with the floating bodies, so that the jump does no work on their motions.
+  MatX SH(m, s.H.cols());
+  for (Eigen::Index k = 0; k < s.H.cols(); ++k)
+    SH.col(k) = both[0].multipliers(s.H.col(k)) + both[1].multipliers(s.H.col(k));
+  const MatX HSH = s.H.transpose() * SH;
+  InterfaceIteration iteration;
+  iteration.start = VecX::Zero(m);
+  iteration.multipliers = [both, taken](const VecX& x) -> VecX {
+    const auto lambda = taken(x);
+    return both[1].weight * lambda[0] + both[0].weight * lambda[1];
+  };
+  iteration.correction = [&s, both, taken, SH, HSH](const VecX& x) -> VecX {
+    const auto lambda = taken(x);
+    VecX jump = lambda[0] - lambda[1];
+    const VecX along = solve_small(HSH, s.H.transpose() * jump);
+    jump -= SH * along;
+    VecX z = s.H * along;
+    for (const Share& share : both) z += share.weight * share.weight * (share.group->C * jump);
+    return z;
+  };
+  return iteration;
+}
+
+InterfaceIteration dirichlet_dirichlet(const Interface& s) {
+  const auto both = shares(s, true);
+  const Eigen::Index m = s.gap.size();
+  const auto precondition = [both](const VecX& gap) {
+    VecX z = VecX::Zero(gap.size());
+    for (const Share& share : both) z += share.weight * share.weight * share.multipliers(gap);
+    return z;
+  };
+  MatX MH(m, s.H.cols());
+  for (Eigen::Index k = 0; k < s.H.cols(); ++k) MH.col(k) = precondition(s.H.col(k));
+  const MatX HMH = s.H.transpose() * MH;
+  InterfaceIteration iteration;
+  iteration.multipliers = [](const VecX& lambda) { return lambda; };
+  iteration.start = MH * solve_small(HMH, s.work);  // in balance
+  iteration.correction = [&s, precondition, MH, HMH](const VecX& lambda) -> VecX {
+    const VecX z = precondition(open(s, lambda));
+    return z + MH * solve_small(HMH, s.work - s.H.transpose() * (lambda + z));
+  };
+  return iteration;
+}
+
+Spectrum spectrum(const InterfaceIteration& iteration) {
+  const VecX at_start = iteration.correction(iteration.start);
+  const Eigen::Index n = at_start.size(), most = std::min<Eigen::Index>(n, 25);
+  MatX V = MatX::Zero(n, most + 1), hessenberg = MatX::Zero(most + 1, most);
+  for (Eigen::Index i = 0; i < n; ++i) V(i, 0) = std::sin(double(i * i) + 1);  // something of every eigenvector
+  V.col(0).normalize();
+  Eigen::Index steps = 0;
+  while (steps < most) {
+    VecX image = at_start - iteration.correction(iteration.start + V.col(steps));
+    for (int twice = 0; twice < 2; ++twice) {
+      const VecX along = V.leftCols(steps + 1).transpose() * image;
+      image -= V.leftCols(steps + 1) * along;
+      hessenberg.col(steps).head(steps + 1) += along;
+    }
+    const double left = image.norm();
+    hessenberg(steps + 1, steps) = left;
+    ++steps;
+    if (!(left > 1e-12 * hessenberg.cwiseAbs().maxCoeff())) break;
+    V.col(steps) = image / left;
+  }
+  const VecX sizes = hessenberg.topLeftCorner(steps, steps).eigenvalues().cwiseAbs();
+  return {sizes.minCoeff(), sizes.maxCoeff()};
+}
+
+}  // namespace mortise

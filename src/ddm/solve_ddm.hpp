@@ -1,0 +1,44 @@
+// Domain decomposition: each body solved alone, the interface brought to agreement by iteration.
+#pragma once
+
+#include "ddm/interface.hpp"
+
+namespace mortise {
+
+struct DdmOptions {
+  Scheme scheme = Scheme::neumann_dirichlet;
+  Acceleration acceleration = Acceleration::krylov;
+  std::optional<double> beta;  ///< default: estimated
+  double tolerance = 1e-8;
+  int max_iterations = 100;
+};
+
+struct DdmSolution {
+  /// dependent_row: the Dirichlet group does not feel solution.failed_at, a row of B. cannot_open: the multipliers pull
+  /// somewhere, and the scheme is for bilateral contact. unbalanced: the transfer is not conservative, and a body that
+  /// takes the pressure floats, or the scheme wants both bodies to take it.
+  enum class Status {
+    converged,
+    not_converged,
+    diverged,
+    not_positive_definite,
+    dependent_row,
+    cannot_open,
+    unbalanced
+  };
+  Status status = Status::not_converged;
+  SaddlePointSolution solution;         ///< of the last iterate; its status is not used
+  std::vector<RelaxationStep> history;  ///< the bilateral iteration, then the one of contact that may open
+  double beta = 0;                      ///< as given or estimated; 0 where none is used
+  Spectrum spectrum;                    ///< of the iteration with all contact closed, where it was needed
+  double factor = 0;                    ///< by which a step reduced the residuals in the end
+};
+
+/// Solves the saddle-point system by iterations between two groups of bodies. `dirichlet`: n, the unknowns of the group
+/// that takes the displacement; the other group takes the pressure. No row of B may lie within one group.
+/// beta is estimated as the best one for the spectrum.
+/// Where rows may open, the bilateral problem is solved first; if nothing pulls, that is the solution.
+DdmSolution solve_by_ddm(const SaddlePointSystem& system, const std::vector<char>& dirichlet, const DdmOptions& options,
+                         const StepReport& report = {});
+
+}  // namespace mortise
