@@ -24,6 +24,7 @@ class Step:
     mesh_parameters: dict  # beside the sizes: kind, order, straight
     mortise: dict  # multipliers, integration: as in the scene file
     freefem: dict  # order, multipliers, integration, gauss
+    condition: str  # bilateral or unilateral
     same_nodes: bool  # whether both programs have the same unknowns at the same places
 
     @property
@@ -65,7 +66,7 @@ def matches(name, globs):
     return any(fnmatchcase(name, glob) for glob in globs)
 
 
-def one_discretisation_step(table, scene, mesh, side, space, integration):
+def one_discretisation_step(table, scene, mesh, side, space, integration, condition="bilateral"):
     """A step in which both programs have the same spaces and quadrature."""
     spaces = table["same_discretisation"]
     chosen = spaces["spaces"][space]
@@ -77,6 +78,7 @@ def one_discretisation_step(table, scene, mesh, side, space, integration):
         mesh_parameters={**spaces["parameters"], "order": chosen["order"]},
         mortise=method,
         freefem={**method, "order": chosen["order"], "gauss": chosen["gauss"]},
+        condition=condition,
         same_nodes=True,
     )
 
@@ -84,16 +86,20 @@ def one_discretisation_step(table, scene, mesh, side, space, integration):
 def same_discretisation(table):
     level = table["same_discretisation"]
     for group in level["scenes"]:
+        condition = group.get("condition", "bilateral")
         product = itertools.product(
             group["names"], group["meshes"], level["spaces"], level["integrations"], group["sides"]
         )
         for scene, mesh, space, integration, side in product:
             name = f"same_discretisation/{scene}/{mesh}/{space}/{integration}/{side}"
+            if condition == "unilateral":
+                name += "/unilateral"
             if matches(name, level["exclude"]):
                 continue
-            step = one_discretisation_step(table, scene, mesh, side, space, integration)
+            step = one_discretisation_step(table, scene, mesh, side, space, integration, condition)
             quick = matches(name, level["quick"])
-            yield Case("same_discretisation", name, (step,), limits=level["limits"], quick=quick)
+            limits = {**level["limits"], **({"active": 0} if condition == "unilateral" else {})}
+            yield Case("same_discretisation", name, (step,), limits=limits, quick=quick)
 
 
 def same_problem(table):
@@ -103,7 +109,7 @@ def same_problem(table):
     for group in level["scenes"]:
         for scene, side in itertools.product(group["names"], group["sides"]):
             steps = tuple(
-                Step(scene, mesh_size(mesh), side, parameters, method, level["freefem"], same_nodes=False)
+                Step(scene, mesh_size(mesh), side, parameters, method, level["freefem"], "bilateral", same_nodes=False)
                 for mesh in group["meshes"]
             )
             yield Case(

@@ -140,7 +140,7 @@ def energy_difference(comparison):
 
 
 def largest_differences(comparison):
-    """Same discretisation: max |du| / max |u| and max |dp| / max |p|, and the energy."""
+    """Same discretisation: max |du| / max |u| and max |dp| / max |p|, the energy; multipliers that only one has closed."""
     difference = max(lengths(f.mortise - f.freefem).max() for f in comparison.fields)
     size = max(lengths(f.freefem).max() for f in comparison.fields)
     curve = comparison.curve
@@ -148,6 +148,7 @@ def largest_differences(comparison):
         "displacement": ratio(difference, size),
         "pressure": ratio(np.abs(curve.mortise - curve.freefem).max(), np.abs(curve.freefem).max()),
         "energy": energy_difference(comparison),
+        "active": int(np.sum((curve.mortise > 0) != (curve.freefem > 0))),
     }
 
 

@@ -63,7 +63,7 @@ def worst_of(results):
     """Of each scene the result whose figures come nearest to their limits, or pass them by most."""
     worst = {}
     for result in results:
-        passed = [f.value / f.limit for f in result.figures if not f.is_rate]
+        passed = [f.value / f.limit for f in result.figures if not f.is_rate and f.limit > 0]
         nearness = max(passed, default=0)
         if result.steps and (result.scene not in worst or not nearness <= worst[result.scene][0]):
             worst[result.scene] = nearness, result

@@ -15,7 +15,8 @@ import scene as scenes
 from cases import CaseError
 
 ROOT = Path(__file__).resolve().parents[2]
-SCRIPT = ROOT / "freefem/mortar.edp"
+SCRIPTS = {"bilateral": ROOT / "freefem/mortar.edp", "unilateral": ROOT / "freefem/active_set.edp"}
+SCRIPT = SCRIPTS["bilateral"]
 RESULTS = ("result.vtu", "contact.csv", "summary.json")
 SOLVED = (0, 2)  # exit status of mortise: 2 is a check that fails, with the results written
 TIME_LIMIT = 1800  # seconds for one run of one program
@@ -101,7 +102,7 @@ def solve_by_mortise(programs, scene_file, mesh_file, step, folder):
         "mesh.file": mesh_file.absolute(),
         "mesh.parameters": "{}",
         "contact.multipliers_on": step.side,
-        "contact.condition": "bilateral",
+        "contact.condition": step.condition,
         "method.multipliers": step.mortise["multipliers"],
         "method.integration": step.mortise["integration"],
     }
@@ -119,11 +120,11 @@ def freefem_environment():
     return {**defaults, **os.environ}
 
 
-def solve_by_freefem(programs, case_file):
+def solve_by_freefem(programs, case_file, script=SCRIPT):
     """FreeFEM's results lie beside the case file."""
     for old in case_file.parent.glob("freefem_*.txt"):
         old.unlink()
-    command = [programs.freefem, "-nw", "-v", "0", SCRIPT, "-case", case_file]
+    command = [programs.freefem, "-nw", "-v", "0", script, "-case", case_file]
     seconds, output = run_program(command, cwd=case_file.parent, env=freefem_environment())
     for name in ("multiplier", "opposite", "contact", "summary"):
         if not (case_file.parent / f"freefem_{name}.txt").is_file():
@@ -161,7 +162,7 @@ def solve_step(programs, step, folder):
     """Everything of one step: mesh, conversion, both solutions."""
     scene_file, mesh_file, bodies, numbers = prepare(programs, step, folder)
     mortise_seconds = solve_by_mortise(programs, scene_file, mesh_file, step, folder / "mortise")
-    freefem_seconds = solve_by_freefem(programs, (folder / "case.txt").absolute())
+    freefem_seconds = solve_by_freefem(programs, (folder / "case.txt").absolute(), SCRIPTS[step.condition])
     status = mortise_summary(folder)["status"]
     return Solved(folder, bodies, numbers, status, mortise_seconds, freefem_seconds)
 

@@ -77,7 +77,6 @@ def case_text(scene, bodies, files, contact_tags, tags, freefem):
         f"integration {freefem['integration']}",
         f"gauss {freefem['gauss']}",
         f"gap {contact.get('initial_gap', INITIAL_GAP)}",
-        "condition bilateral",
         *boundary_lines(scene, tags),
         *body_lines(scene, bodies),
         "end",

@@ -98,7 +98,6 @@ def test_case_file_holds_the_physics_of_the_scene():
     assert lines[-1] == "end"
     assert set(lines[3:-1]) == {
         "contact 10 3", "order 2", "multipliers 2", "integration elements", "gauss 3", "gap closed",
-        "condition bilateral",
         "displacement 2 y 0.0", "displacement 7 y 0.0", "displacement 4 x 0.0", "displacement 9 x 0.0",
         f"initial_strain 0 {strain} {strain} {strain} 0.0",
     }  # fmt: skip

@@ -18,7 +18,7 @@ from cases import CaseError, all_cases, choose
 from judge import judge
 
 SKIPPED = 77
-SHORT = {"displacement": "u", "pressure": "p", "pressure_inside": "p inside", "energy": "energy"}
+SHORT = {"displacement": "u", "pressure": "p", "pressure_inside": "p inside", "energy": "energy", "active": "active"}
 
 
 def read_options(arguments):
