@@ -44,6 +44,10 @@ std::string trouble(const DdmSolution& d, const std::vector<RelaxationStep>& his
                      near_point(r.mesh.nodes.row(row_nodes(r.pairs)[std::size_t(d.solution.failed_at)]).transpose()) +
                      ": expected contact.multipliers_on to name the curve of the body that takes the displacement (or "
                      "the coarser curve), or method.kind = \"mortar\"");
+  if (d.status == Reached::unheld)
+    throw InputError(scene.path +
+                     ": contact opens until nothing holds a body; expected a load that presses it on, or prescribed "
+                     "displacements that hold it (method.kind = \"mortar\" names the motion)");
   if (d.status == Reached::unbalanced)
     throw InputError(
         scene.path +
@@ -64,9 +68,7 @@ SaddlePointSolution decompose(const Scene& scene, const SaddlePointSystem& syste
                            spec.max_iterations};
   DdmSolution d = solve_by_ddm(system, unknowns_of(r.mesh, dirichlet), options);
   using Reached = DdmSolution::Status;
-  if (d.status == Reached::not_positive_definite || d.status == Reached::dependent_row ||
-      d.status == Reached::cannot_open || d.status == Reached::unbalanced)
-    refuse(scene, r, d);
+  if (d.status >= Reached::not_positive_definite) refuse(scene, r, d);
 
   InterfaceRun run{{}, options.acceleration, d.beta, d.spectrum, d.factor, std::move(d.history)};
   for (std::size_t b = 0; b < dirichlet.size(); ++b)

@@ -20,7 +20,7 @@ using Stresses = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 /// Compressed columns, int indices. Symmetric matrices store their lower triangle only.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-/// Largest absolute value; 0 of an empty vector.
-inline double largest_entry(const VecX& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; }
+/// Largest absolute value; 0 of an empty vector, NaN where there is one.
+inline double largest_entry(const VecX& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0; }
 
 }  // namespace mortise

@@ -87,6 +87,9 @@ Taken dirichlet_takes(const Interface& s, const VecX& lambda, const std::vector<
     return {x.head(m), x.tail(s.H.cols()), {}};
   }
   ActiveSetResult set = settle_active_set({s.dirichlet_compliance, rhs, s.scale, s.unilateral}, start);
+  using Status = ActiveSetResult::Status;
+  if (set.status == Status::unheld || set.status == Status::dependent_row)
+    return {VecX::Constant(m, std::nan("")), VecX::Zero(s.H.cols()), {}, false};
   return {set.solution.head(m), set.solution.tail(s.H.cols()), std::move(set.active)};
 }
 

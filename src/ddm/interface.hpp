@@ -56,6 +56,7 @@ InterfaceIteration dirichlet_dirichlet(const Interface& interface);
 struct Taken {
   VecX lambda, mu;           ///< m, s: its multipliers, and the motions of the floating bodies
   std::vector<char> active;  ///< m: its closed rows, where any may open
+  bool held = true;          ///< false: contact opens until nothing holds a body; lambda is not a number then
 };
 
 /// `start`: closed rows to start from, where any may open.

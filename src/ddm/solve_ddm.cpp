@@ -113,6 +113,10 @@ DdmSolution solve_by_ddm(const SaddlePointSystem& s, const std::vector<char>& di
     InterfaceIteration iteration = neumann_dirichlet(opening);
     iteration.start = lambda;
     lambda = run(opening, iteration, bilateral, options, report, d);
+    if (!dirichlet_takes(opening, lambda).held) {
+      d.status = DdmSolution::Status::unheld;
+      return d;
+    }
     finish(s, opening, lambda, {&neumann_group, &dirichlet_group}, solution);
   } else {
     finish(s, closed, lambda, {&neumann_group, &dirichlet_group}, solution);

@@ -16,7 +16,8 @@ struct DdmOptions {
 struct DdmSolution {
   /// dependent_row: the Dirichlet group does not feel solution.failed_at, a row of B. cannot_open: the multipliers pull
   /// somewhere, and the scheme is for bilateral contact. unbalanced: the transfer is not conservative, and a body that
-  /// takes the pressure floats, or the scheme wants both bodies to take it.
+  /// takes the pressure floats, or the scheme wants both bodies to take it. unheld: contact opens until nothing holds a
+  /// body. From not_positive_definite on there is no solution.
   enum class Status {
     converged,
     not_converged,
@@ -24,7 +25,8 @@ struct DdmSolution {
     not_positive_definite,
     dependent_row,
     cannot_open,
-    unbalanced
+    unbalanced,
+    unheld
   };
   Status status = Status::not_converged;
   SaddlePointSolution solution;         ///< of the last iterate; its status is not used

@@ -234,6 +234,10 @@ TEST(Decompose, NodalTransferToAFloatingBodyIsAnError) {
 
 // ---- Errors ----
 
+TEST(Decompose, ALoadThatPullsABodyAwayIsAnError) {
+  expect_contains(message_of([] { ddm("lift_off", {{"boundary.2.pressure", "-1e6"}}); }), "nothing holds a body");
+}
+
 TEST(Decompose, SchemesForBilateralContactSaySo) {
   expect_contains(message_of([] {
                     ddm("cosine", {{"method.scheme", "neumann_neumann"}});

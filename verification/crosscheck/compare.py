@@ -119,8 +119,9 @@ def compare(solved, step):
     fields, curve = displacements(solved, order, step.same_nodes), pressures(solved, step.side)
     if step.same_nodes:
         rows = run.mortise_summary(solved.folder)["mesh"]["multipliers"]
-        if rows != len(curve.s):
-            raise CaseError(f"{rows} multipliers in mortise, {len(curve.s)} in FreeFEM")
+        theirs = int(run.freefem_summary(solved.folder)["multipliers"])
+        if rows != theirs:
+            raise CaseError(f"{rows} multipliers in mortise, {theirs} in FreeFEM")
     energies = run.mortise_summary(solved.folder)["energy"], run.freefem_summary(solved.folder)["energy"]
     return Comparison(fields, curve, energies)
 

@@ -1,0 +1,77 @@
+"""mortise by domain decomposition: many runs of one scene at once, or one run with its results."""
+
+import csv
+import os
+import subprocess
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+MORTISE = Path(os.environ.get("MORTISE", ROOT / "build/release/mortise")).absolute()
+YOUNG = 210e9  # of the lower body, in the scenes' units
+SOLVED = (0, 2)  # exit status: 2 is a check that fails, or no convergence, with the results written
+TIME_LIMIT = 1800  # seconds for one call
+
+
+class MortiseError(Exception):
+    """mortise cannot be run, or refuses, with what it said."""
+
+
+def call(*arguments):
+    """Runs mortise, or says why it did not run."""
+    if not MORTISE.is_file():
+        raise MortiseError(f"{MORTISE} is missing: ./dev build makes it, or MORTISE names another")
+    command = [str(word) for word in (MORTISE, *arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT, check=False)
+    if done.returncode not in SOLVED:
+        raise MortiseError(f"{' '.join(command)}: exit status {done.returncode}\n{done.stderr.strip()}")
+
+
+def scene_file(name):
+    return ROOT / f"geo/{name}.toml"
+
+
+def options(settings):
+    """--set KEY=VALUE for each setting; the method is always domain decomposition."""
+    return [word for key, value in {"method.kind": "ddm", **settings}.items() for word in ("--set", f"{key}={value}")]
+
+
+def sizes(mesh):
+    """Elements along the contact line of the upper and of the lower body."""
+    return {"mesh.parameters.n_upper": mesh[0], "mesh.parameters.n_lower": mesh[1]}
+
+
+def stiffness(ratio):
+    """An upper body `ratio` times as stiff as the lower one."""
+    return {"materials.other": f"{{ young = {YOUNG * ratio!r}, poisson = 0.3 }}", "bodies.upper": "other"}
+
+
+def number_or_text(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def sweep(scene, settings, vary):
+    """The rows of `mortise sweep`: one dictionary a run. `vary`: key and its values."""
+    words = [w for key, values in vary.items() for w in ("--vary", f"{key}={','.join(str(v) for v in values)}")]
+    with tempfile.TemporaryDirectory() as folder:
+        table = Path(folder) / "sweep.csv"
+        call("sweep", scene_file(scene), *options(settings), *words, "-o", table, "--quiet")
+        with open(table, newline="") as file:
+            return [{key: number_or_text(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def outcome(row, most_steps):
+    """converged, diverged or unfinished; a check that fails on a coarse mesh is none of these matters."""
+    if row["status"] != "not_converged":
+        return "converged"
+    return "diverged" if row["iterations.interface"] < most_steps or row["interface.factor"] > 1 else "unfinished"
+
+
+def write_csv(path, rows):
+    with open(path, "w", newline="") as file:
+        writer = csv.DictWriter(file, rows[0].keys())
+        writer.writeheader()
+        writer.writerows(rows)
