@@ -44,8 +44,9 @@ struct InterfaceIteration {
 /// group is in unilateral contact with the moved Neumann group (Krause & Wohlmuth 2002).
 InterfaceIteration neumann_dirichlet(const Interface& interface);
 
-/// x = the Dirichlet group's normal displacement; z = both groups' displacements, weighted, under the jump of the
-/// multipliers (Toselli & Widlund 2005, section 1.3.4; balanced for floating bodies: Mandel 1993). Bilateral.
+/// x = B u of the Neumann group, which closed contact gives the other too; z = both groups' displacements, weighted,
+/// under the jump of the multipliers (Toselli & Widlund 2005, section 1.3.4; balanced for floating bodies: Mandel
+/// 1993). Bilateral.
 InterfaceIteration neumann_neumann(const Interface& interface);
 
 /// x = lambda; z = both groups' multipliers, weighted, under the gap that lambda leaves (Toselli & Widlund 2005,
