@@ -59,8 +59,7 @@ VecX solve_small(const MatX& A, const VecX& b) { return A.cols() > 0 ? VecX(A.pa
 
 }  // namespace
 
-Interface make_interface(const BodyGroup& neumann, const BodyGroup& dirichlet, const SaddlePointSystem& s,
-                         const std::vector<char>& unilateral) {
+Interface make_interface(const BodyGroup& neumann, const BodyGroup& dirichlet, const SaddlePointSystem& s) {
   const VecX gap0 = (s.B * s.value - s.g).cwiseQuotient(s.row_scale);
   MatX H(gap0.size(), neumann.motions + dirichlet.motions);
   H << neumann.H, dirichlet.H;
@@ -74,7 +73,7 @@ Interface make_interface(const BodyGroup& neumann, const BodyGroup& dirichlet, c
           H,
           stacked(neumann.work, dirichlet.work),
           s.row_scale,
-          unilateral,
+          {},
           std::move(compliance),
           std::move(system)};
 }
@@ -84,13 +83,13 @@ Taken dirichlet_takes(const Interface& s, const VecX& lambda, const std::vector<
   const VecX rhs = stacked(s.gap - s.neumann.C * lambda, s.work);
   if (s.unilateral.empty()) {
     const VecX x = s.dirichlet_system->solve(rhs);
-    return {x.head(m), x.tail(s.H.cols()), {}};
+    return {x.head(m), x.tail(s.H.cols()), {}, true, {}};
   }
   ActiveSetResult set = settle_active_set({s.dirichlet_compliance, rhs, s.scale, s.unilateral}, start);
   using Status = ActiveSetResult::Status;
   if (set.status == Status::unheld || set.status == Status::dependent_row)
-    return {VecX::Constant(m, std::nan("")), VecX::Zero(s.H.cols()), {}, false};
-  return {set.solution.head(m), set.solution.tail(s.H.cols()), std::move(set.active)};
+    return {VecX::Constant(m, std::nan("")), VecX::Zero(s.H.cols()), {}, false, {}};
+  return {set.solution.head(m), set.solution.tail(s.H.cols()), std::move(set.active), true, std::move(set.system)};
 }
 
 Residuals residuals(const Interface& s, const VecX& lambda, const VecX& z) {
@@ -98,7 +97,8 @@ Residuals residuals(const Interface& s, const VecX& lambda, const VecX& z) {
   const double displacement = std::max(largest_entry(s.neumann.response - s.neumann.C * taken),
                                        largest_entry(s.dirichlet.response - s.dirichlet.C * taken));
   const double multiplier = largest_entry(taken.cwiseQuotient(s.scale));
-  const double gap = largest_entry(s.dirichlet.C * z), force = largest_entry(z.cwiseQuotient(s.scale));
+  const double gap = std::max(largest_entry(s.dirichlet.C * z), largest_entry(s.neumann.C * z));
+  const double force = largest_entry(z.cwiseQuotient(s.scale));
   return {gap > 0 ? gap / displacement : 0, force > 0 ? force / multiplier : 0};
 }
 
@@ -109,7 +109,6 @@ InterfaceIteration neumann_dirichlet(const Interface& s) {
   // A floating Neumann group needs a load in balance from the start.
   iteration.start = VecX::Zero(m);
   if (s.neumann.motions > 0) iteration.start = s.dirichlet_system->solve(stacked(iteration.start, s.work)).head(m);
-  iteration.affine = s.unilateral.empty();
   auto closed = std::make_shared<std::vector<char>>();  // of the last step, to start the next from
   iteration.correction = [&s, closed](const VecX& x) -> VecX {
     VecX lambda = x;  // without rows that an accelerated step has left pulling
@@ -118,6 +117,16 @@ InterfaceIteration neumann_dirichlet(const Interface& s) {
     Taken taken = dirichlet_takes(s, lambda, *closed);
     *closed = std::move(taken.active);
     return taken.lambda - x;
+  };
+  return iteration;
+}
+
+InterfaceIteration neumann_dirichlet(const Interface& s, MultiplierSystem closed, VecX start) {
+  InterfaceIteration iteration;
+  iteration.multipliers = [](const VecX& lambda) { return lambda; };
+  iteration.start = std::move(start);
+  iteration.correction = [&s, closed = std::move(closed)](const VecX& x) -> VecX {
+    return closed.solve(stacked(s.gap - s.neumann.C * x, s.work)).head(x.size()) - x;
   };
   return iteration;
 }

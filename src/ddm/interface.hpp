@@ -13,36 +13,37 @@ namespace mortise {
 /// What the multipliers lambda leave open, (C_N + C_D) lambda + H mu = gap with H^T lambda = work closing it
 /// (docs/theory.md eq. 31). Dimensionless, as BodyGroup. References stay with the caller.
 struct Interface {
-  const BodyGroup& neumann;    ///< takes the pressure
-  const BodyGroup& dirichlet;  ///< takes the displacement
-  VecX gap;                    ///< m: open without pressure, initial gaps and prescribed displacements included
-  VecX gap0;                   ///< m: the part of it that is not the groups' response
-  MatX H;                      ///< m x s: rigid motions, the Neumann group's first
-  VecX work;                   ///< s
-  const VecX& scale;           ///< m: row scales, length
-  const std::vector<char>& unilateral;  ///< m: rows that may open; empty: none
+  const BodyGroup& neumann;      ///< takes the pressure
+  const BodyGroup& dirichlet;    ///< takes the displacement
+  VecX gap;                      ///< m: open without pressure, initial gaps and prescribed displacements included
+  VecX gap0;                     ///< m: the part of it that is not the groups' response
+  MatX H;                        ///< m x s: rigid motions, the Neumann group's first
+  VecX work;                     ///< s
+  const VecX& scale;             ///< m: row scales, length
+  std::vector<char> unilateral;  ///< m: rows that may open; empty: none
   /// [C_D H; H^T .], lower triangle, and its solution on all rows: what the Dirichlet group takes to close a gap.
   MatX dirichlet_compliance;
   std::shared_ptr<const MultiplierSystem> dirichlet_system;
 };
 
 /// `Interface::dirichlet_system->dependent_row()` must be asked before anything else is: the Dirichlet group does not
-/// feel such a row of B.
-Interface make_interface(const BodyGroup& neumann, const BodyGroup& dirichlet, const SaddlePointSystem& system,
-                         const std::vector<char>& unilateral);
+/// feel such a row of B. All rows are closed.
+Interface make_interface(const BodyGroup& neumann, const BodyGroup& dirichlet, const SaddlePointSystem& system);
 
 /// An iteration x := x + beta z(x) for the interface.
 struct InterfaceIteration {
   VecX start;
   Correction correction;                           ///< z(x)
   std::function<VecX(const VecX& x)> multipliers;  ///< lambda of an iterate
-  bool affine = true;                              ///< z is affine in x
 };
 
 /// x = lambda; z = r - lambda, r the multipliers that the Dirichlet group takes where the Neumann group has moved under
 /// lambda (Aronov & Rodin 2019, section 5; Toselli & Widlund 2005, section 1.3.3). With unilateral rows the Dirichlet
 /// group is in unilateral contact with the moved Neumann group (Krause & Wohlmuth 2002).
 InterfaceIteration neumann_dirichlet(const Interface& interface);
+
+/// The same with the closed rows kept: those of `closed`, a system of [C_D H; H^T .]. x is zero on the other rows.
+InterfaceIteration neumann_dirichlet(const Interface& interface, MultiplierSystem closed, VecX start);
 
 /// x = B u of the Neumann group, which closed contact gives the other too; z = both groups' displacements, weighted,
 /// under the jump of the multipliers (Toselli & Widlund 2005, section 1.3.4; balanced for floating bodies: Mandel
@@ -58,16 +59,18 @@ struct Taken {
   VecX lambda, mu;           ///< m, s: its multipliers, and the motions of the floating bodies
   std::vector<char> active;  ///< m: its closed rows, where any may open
   bool held = true;          ///< false: contact opens until nothing holds a body; lambda is not a number then
+  std::optional<MultiplierSystem> closed;  ///< [C_D H; H^T .] on the closed rows, where any may open
 };
 
 /// `start`: closed rows to start from, where any may open.
 Taken dirichlet_takes(const Interface& interface, const VecX& lambda, const std::vector<char>& start = {});
 
 /// Of lambda, where the Dirichlet group takes lambda + z. Force: largest z over the largest multiplier (each over its
-/// row's scale); kinematic: the largest gap that lambda leaves, C_D z, over the largest normal displacement.
+/// row's scale); kinematic: the largest gap that lambda leaves, C_D z, or lambda + z does, C_N z, over the largest
+/// normal displacement.
 Residuals residuals(const Interface& interface, const VecX& lambda, const VecX& z);
 
-/// Ends of the spectrum of an affine iteration's x -> z(0) - z(x), by 25 steps of Arnoldi's method: with a fixed beta
+/// Ends of the spectrum of a bilateral iteration's x -> z(0) - z(x), by 25 steps of Arnoldi's method: with a fixed beta
 /// a step multiplies the error by up to max |1 - beta eigenvalue|.
 struct Spectrum {
   double smallest = 0, largest = 0;  ///< 0: not estimated

@@ -1,5 +1,7 @@
 #include "ddm/solve_ddm.hpp"
 
+#include <algorithm>
+
 #include "base/stopwatch.hpp"
 
 namespace mortise {
@@ -17,32 +19,22 @@ InterfaceIteration make_iteration(Scheme scheme, const Interface& interface) {
   return {};
 }
 
-// Runs one iteration, adds to the history, and returns the multipliers.
-// `closed` is the iteration with all contact closed, whose spectrum says what beta to take.
-VecX run(const Interface& interface, const InterfaceIteration& iteration, const InterfaceIteration& closed,
-         const DdmOptions& options, const StepReport& report, DdmSolution& d) {
-  const bool direct = options.scheme == Scheme::neumann_dirichlet;
-  RelaxationOptions relaxation{options.acceleration, 1, options.tolerance, options.max_iterations};
-  if (!iteration.affine && options.acceleration == Acceleration::krylov)
-    relaxation.acceleration = Acceleration::anderson;
-  if (relaxation.acceleration != Acceleration::krylov) {
-    if (d.spectrum.largest == 0) d.spectrum = spectrum(closed);
-    relaxation.beta = d.beta = options.beta.value_or(d.spectrum.best_beta());
+using Status = DdmSolution::Status;
+
+// Runs an iteration, adds it to d, and returns the last iterate.
+VecX run(const InterfaceIteration& iteration, const Measure& measure, const RelaxationOptions& options,
+         const StepReport& report, DdmSolution& d) {
+  RelaxationResult result = relax(iteration.correction, measure, iteration.start, options, report);
+  const double before = d.history.empty() ? 0 : d.history.back().seconds;
+  for (RelaxationStep& step : result.history) {
+    step.seconds += before;
+    d.history.push_back(step);
   }
-  // z of the Neumann-Dirichlet iteration is at hand; the other schemes ask the Dirichlet group.
-  const Measure measure = [&](const VecX& x, const VecX& z) {
-    if (direct) return residuals(interface, x, z);
-    const VecX lambda = iteration.multipliers(x);
-    return residuals(interface, lambda, dirichlet_takes(interface, lambda).lambda - lambda);
-  };
-  RelaxationResult result = relax(iteration.correction, measure, iteration.start, relaxation, report);
-  d.history.insert(d.history.end(), result.history.begin(), result.history.end());
   d.factor = result.factor;
-  using Status = RelaxationResult::Status;
-  d.status = result.status == Status::converged  ? DdmSolution::Status::converged
-             : result.status == Status::diverged ? DdmSolution::Status::diverged
-                                                 : DdmSolution::Status::not_converged;
-  return iteration.multipliers(result.x);
+  d.status = result.status == RelaxationResult::Status::converged  ? Status::converged
+             : result.status == RelaxationResult::Status::diverged ? Status::diverged
+                                                                   : Status::not_converged;
+  return std::move(result.x);
 }
 
 bool pulls(const SaddlePointSystem& s, const VecX& lambda) {
@@ -51,6 +43,53 @@ bool pulls(const SaddlePointSystem& s, const VecX& lambda) {
   for (std::size_t a = 0; a < s.unilateral.size(); ++a)
     if (s.unilateral[a] && size(Eigen::Index(a)) > limit) return true;
   return false;
+}
+
+// Unilateral contact by Newton's method: the Dirichlet group's contact under lambda says which rows are closed, and GCR
+// finds lambda with these closed. It starts from all rows closed, where a rough lambda will do.
+VecX settle_closed_rows(const SaddlePointSystem& s, Interface& interface, const InterfaceIteration& bilateral,
+                        const DdmOptions& options, const StepReport& report, DdmSolution& d) {
+  const Measure measure = [&](const VecX& x, const VecX& z) { return residuals(interface, x, z); };
+  VecX lambda = run(bilateral, measure, {Acceleration::krylov, 1, 0.1, options.max_iterations}, report, d);
+  interface.unilateral = s.unilateral;
+  Taken taken;
+  while (true) {
+    taken = dirichlet_takes(interface, lambda, taken.active);
+    const bool converged = measure(lambda, taken.lambda - lambda).largest() <= options.tolerance;
+    d.status = converged ? Status::converged : Status::not_converged;
+    const int left = options.max_iterations - int(d.history.size());
+    if (converged || !taken.held || left <= 0) return lambda;
+    lambda = run(neumann_dirichlet(interface, *std::move(taken.closed), taken.lambda), measure,
+                 {Acceleration::krylov, 1, options.tolerance, left}, report, d);
+  }
+}
+
+// The scheme as it stands, with the chosen acceleration: first with all rows closed, then, where that pulls, with those
+// of `interface` open that may be.
+VecX iterate(const SaddlePointSystem& s, Interface& interface, const InterfaceIteration& closed,
+             const DdmOptions& options, const StepReport& report, DdmSolution& d) {
+  RelaxationOptions relaxation{options.acceleration, 1, options.tolerance, options.max_iterations};
+  if (options.acceleration != Acceleration::krylov) {
+    d.spectrum = spectrum(closed);
+    relaxation.beta = d.beta = options.beta.value_or(d.spectrum.best_beta());
+  }
+  // z of the Neumann-Dirichlet iteration is at hand; the other schemes ask the Dirichlet group.
+  const bool direct = options.scheme == Scheme::neumann_dirichlet;
+  const Measure measure = [&](const VecX& x, const VecX& z) {
+    if (direct) return residuals(interface, x, z);
+    const VecX lambda = closed.multipliers(x);
+    return residuals(interface, lambda, dirichlet_takes(interface, lambda).lambda - lambda);
+  };
+  const VecX lambda = closed.multipliers(run(closed, measure, relaxation, report, d));
+  if (d.status != Status::converged || !pulls(s, lambda)) return lambda;
+  if (!direct) {
+    d.status = Status::cannot_open;
+    return lambda;
+  }
+  interface.unilateral = s.unilateral;
+  InterfaceIteration opening = neumann_dirichlet(interface);
+  opening.start = lambda;
+  return run(opening, measure, relaxation, report, d);
 }
 
 // Displacements and multipliers from the last iterate. What the Dirichlet group takes is a step further than lambda, in
@@ -86,41 +125,34 @@ DdmSolution solve_by_ddm(const SaddlePointSystem& s, const std::vector<char>& di
   solution.factorise_seconds = watch.lap();
   for (const BodyGroup* group : {&neumann_group, &dirichlet_group})
     if (group->failed_at >= 0) {
-      d.status = DdmSolution::Status::not_positive_definite;
+      d.status = Status::not_positive_definite;
       solution.failed_at = group->failed_at;
       return d;
     }
 
   if (s.loads && (neumann_group.motions > 0 || options.scheme != Scheme::neumann_dirichlet)) {
-    d.status = DdmSolution::Status::unbalanced;
+    d.status = Status::unbalanced;
     return d;
   }
-  const std::vector<char> none;
-  const Interface closed = make_interface(neumann_group, dirichlet_group, s, none);
-  solution.failed_at = closed.dirichlet_system->dependent_row();
+  Interface interface = make_interface(neumann_group, dirichlet_group, s);
+  solution.failed_at = interface.dirichlet_system->dependent_row();
   if (solution.failed_at >= 0) {
-    d.status = DdmSolution::Status::dependent_row;
+    d.status = Status::dependent_row;
     return d;
   }
-  const InterfaceIteration bilateral = make_iteration(options.scheme, closed);
-  VecX lambda = run(closed, bilateral, bilateral, options, report, d);
-  if (d.status == DdmSolution::Status::converged && pulls(s, lambda)) {
-    if (options.scheme != Scheme::neumann_dirichlet) {
-      d.status = DdmSolution::Status::cannot_open;
-      return d;
-    }
-    const Interface opening = make_interface(neumann_group, dirichlet_group, s, s.unilateral);
-    InterfaceIteration iteration = neumann_dirichlet(opening);
-    iteration.start = lambda;
-    lambda = run(opening, iteration, bilateral, options, report, d);
-    if (!dirichlet_takes(opening, lambda).held) {
-      d.status = DdmSolution::Status::unheld;
-      return d;
-    }
-    finish(s, opening, lambda, {&neumann_group, &dirichlet_group}, solution);
-  } else {
-    finish(s, closed, lambda, {&neumann_group, &dirichlet_group}, solution);
+  const InterfaceIteration closed = make_iteration(options.scheme, interface);
+  const bool may_open = std::find(s.unilateral.begin(), s.unilateral.end(), 1) != s.unilateral.end();
+  VecX lambda;
+  if (may_open && options.scheme == Scheme::neumann_dirichlet && options.acceleration == Acceleration::krylov)
+    lambda = settle_closed_rows(s, interface, closed, options, report, d);
+  else
+    lambda = iterate(s, interface, closed, options, report, d);
+  if (d.status == Status::cannot_open) return d;
+  if (!dirichlet_takes(interface, lambda).held) {
+    d.status = Status::unheld;
+    return d;
   }
+  finish(s, interface, lambda, {&neumann_group, &dirichlet_group}, solution);
   solution.solve_seconds = watch.lap();
   return d;
 }

@@ -21,6 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
+import ddm_runs  # makes launch known
 import launch
 
 sys.path.append(str(Path(__file__).resolve().parent.with_name("crosscheck")))
@@ -98,6 +99,7 @@ def mortise_iterates(case, mesh, folder, places, steps):
         "mesh.file": mesh,
         "mesh.parameters": "{}",
         "contact.multipliers_on": SIDE,
+        "method.kind": "ddm",
         "method.multipliers": method["multipliers"],
         "method.integration": method["integration"],
         "method.acceleration": "none",
@@ -108,7 +110,7 @@ def mortise_iterates(case, mesh, folder, places, steps):
     for k in range(1, steps + 1):
         results = folder / "mortise"
         stop = {"method.max_iterations": k}
-        launch.call("solve", launch.scene_file(SCENE), *launch.options({**settings, **stop}), "-o", results, "--quiet")
+        launch.solve(SCENE, {**settings, **stop}, results)
         rows = compare.read_contact(results / "contact.csv", SIDE)
         found.append(rows[compare.match(places, rows[:, 1:3], 1.0, f"multipliers on {SIDE}"), 3])
     with open(results / "interface.csv", newline="") as file:

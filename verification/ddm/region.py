@@ -30,6 +30,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Rectangle
 
+import ddm_runs  # makes launch known
 import launch
 
 SCENE = "parabola_1"
@@ -59,7 +60,7 @@ def setting(mesh, ratio, role):
 
 def eigenvalues(mesh, ratio, role):
     """Smallest and largest mu, from a run of one step."""
-    (row,) = launch.sweep(SCENE, {**setting(mesh, ratio, role), "method.max_iterations": 1}, {"method.beta": [0.001]})
+    (row,) = ddm_runs.sweep(SCENE, {**setting(mesh, ratio, role), "method.max_iterations": 1}, {"method.beta": [0.001]})
     return row["interface.eigenvalue.smallest"], row["interface.eigenvalue.largest"]
 
 
@@ -72,7 +73,7 @@ def judged(row, ratio, role, on_grid):
     beta, steps, measured = row["method.beta"], int(row["iterations.interface"]), row["interface.factor"]
     smallest, largest = row["interface.eigenvalue.smallest"], row["interface.eigenvalue.largest"]
     predicted, border = predicted_factor(beta, smallest, largest), 2 / largest
-    outcome = launch.outcome(row, MOST_STEPS)
+    outcome = ddm_runs.outcome(row, MOST_STEPS)
     compared = outcome != "diverged" and steps >= ENOUGH_STEPS
     bound_only = role != FLOATING and 1 - beta * smallest > beta * largest - 1
     right_side = abs(beta / border - 1) < NEAR_BORDER or (outcome == "diverged") == (beta > border)
@@ -100,7 +101,7 @@ def measure(mesh, ratio, role, betas):
     """Runs over the grid of beta, at the best beta, and about the border."""
     smallest, largest = eigenvalues(mesh, ratio, role)
     others = [2 / (smallest + largest), *(2 / largest * f for f in OF_BORDER)]
-    rows = launch.sweep(SCENE, setting(mesh, ratio, role), {"method.beta": [*map(float, betas), *others]})
+    rows = ddm_runs.sweep(SCENE, setting(mesh, ratio, role), {"method.beta": [*map(float, betas), *others]})
     return [judged(row, ratio, role, on_grid=i < len(betas)) for i, row in enumerate(rows)]
 
 

@@ -10,6 +10,7 @@ import argparse
 import sys
 from pathlib import Path
 
+import ddm_runs  # makes launch known
 import launch
 
 SCENES = {
@@ -38,7 +39,7 @@ def shortened(row, scene, mesh, scheme):
         "ratio": float(f"{young / launch.YOUNG:.6g}"),
         "scheme": scheme,
         "acceleration": row.get("method.acceleration", DEFAULT),
-        "outcome": launch.outcome(row, MOST_STEPS),
+        "outcome": ddm_runs.outcome(row, MOST_STEPS),
         "steps": int(row["iterations.interface"]),
         "factor": row["interface.factor"],
         "mu_smallest": row["interface.eigenvalue.smallest"],
@@ -51,11 +52,11 @@ def measure(scene, mesh, ratios, schemes, accelerations):
     """The default method, then all schemes and accelerations, on one mesh."""
     settings = {**SCENES[scene], **launch.sizes(mesh), **launch.stiffness(1)}
     young = {"materials.other.young": [launch.YOUNG * ratio for ratio in ratios]}
-    rows = [shortened(row, scene, mesh, DEFAULT) for row in launch.sweep(scene, settings, young)]
+    rows = [shortened(row, scene, mesh, DEFAULT) for row in ddm_runs.sweep(scene, settings, young)]
     settings["method.max_iterations"] = MOST_STEPS
     for scheme in schemes:
         choice = {**settings, "method.scheme": scheme}
-        found = launch.sweep(scene, choice, {**young, "method.acceleration": accelerations})
+        found = ddm_runs.sweep(scene, choice, {**young, "method.acceleration": accelerations})
         rows += [shortened(row, scene, mesh, scheme) for row in found]
     return rows
 

@@ -7,6 +7,7 @@ import pytest
 
 import history
 import iterates
+import ddm_runs  # makes launch known
 import launch
 import region
 import run
@@ -85,8 +86,8 @@ def test_iterates_are_freefems(programs, space, beta):
 def test_history(tmp_path):
     folders = [tmp_path / name for name in ("none", "krylov")]
     for folder in folders:
-        settings = {**launch.sizes((8, 10)), "method.acceleration": folder.name}
-        launch.call("solve", launch.scene_file("parabola_1"), *launch.options(settings), "-o", folder, "--quiet")
+        settings = {**launch.sizes((8, 10)), "method.kind": "ddm", "method.acceleration": folder.name}
+        launch.solve("parabola_1", settings, folder)
     command = [sys.executable, history.__file__, *folders]
     subprocess.run(command, check=True)
     subprocess.run([*command, tmp_path / "both.svg"], check=True)

@@ -1,6 +1,7 @@
-"""mortise by domain decomposition: many runs of one scene at once, or one run with its results."""
+"""Runs of mortise: many of one scene at once, or one with its results."""
 
 import csv
+import json
 import os
 import subprocess
 import tempfile
@@ -32,8 +33,8 @@ def scene_file(name):
 
 
 def options(settings):
-    """--set KEY=VALUE for each setting; the method is always domain decomposition."""
-    return [word for key, value in {"method.kind": "ddm", **settings}.items() for word in ("--set", f"{key}={value}")]
+    """--set KEY=VALUE for each setting."""
+    return [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
 
 
 def sizes(mesh):
@@ -53,6 +54,20 @@ def number_or_text(text):
         return text
 
 
+def solve(scene, settings, folder):
+    """Solves geo/SCENE.toml, or the scene file at a path, into a folder; returns the table of summary.json."""
+    path = scene if isinstance(scene, Path) else scene_file(scene)
+    call("solve", path, *options(settings), "-o", folder, "--quiet")
+    return json.loads((Path(folder) / "summary.json").read_text())
+
+
+def columns(path):
+    """The columns of a CSV file: lists of numbers, or of texts."""
+    with open(path, newline="") as file:
+        rows = [{key: number_or_text(value) for key, value in row.items()} for row in csv.DictReader(file)]
+    return {key: [row[key] for row in rows] for key in rows[0]} if rows else {}
+
+
 def sweep(scene, settings, vary):
     """The rows of `mortise sweep`: one dictionary a run. `vary`: key and its values."""
     words = [w for key, values in vary.items() for w in ("--vary", f"{key}={','.join(str(v) for v in values)}")]
@@ -61,13 +76,6 @@ def sweep(scene, settings, vary):
         call("sweep", scene_file(scene), *options(settings), *words, "-o", table, "--quiet")
         with open(table, newline="") as file:
             return [{key: number_or_text(value) for key, value in row.items()} for row in csv.DictReader(file)]
-
-
-def outcome(row, most_steps):
-    """converged, diverged or unfinished; a check that fails on a coarse mesh is none of these matters."""
-    if row["status"] != "not_converged":
-        return "converged"
-    return "diverged" if row["iterations.interface"] < most_steps or row["interface.factor"] > 1 else "unfinished"
 
 
 def write_csv(path, rows):

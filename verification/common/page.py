@@ -1,0 +1,53 @@
+"""Sections of the report: HTML with tables and pictures, in one style.
+
+A study writes its results into a folder of its own, out/NAME, and beside them section.html: a fragment whose pictures
+are files below that folder. A fragment is a page by itself as it stands (every browser opens it); the report puts
+several together.
+"""
+
+import html
+
+STYLE = """
+body { font: 15px/1.45 system-ui, sans-serif; color: #1c1c1c; max-width: 1180px; margin: 2em auto; padding: 0 1em }
+h1 { font-size: 1.6em } h2 { font-size: 1.3em; margin-top: 2.2em; border-bottom: 1px solid #ccc }
+h3 { font-size: 1.05em }
+table { border-collapse: collapse; font-size: 13px; margin: 1em 0; display: block; overflow-x: auto }
+th, td { padding: 2px 9px; text-align: left; border-bottom: 1px solid #e4e4e4; white-space: nowrap }
+th { background: #f4f4f4 } td.number { text-align: right; font-variant-numeric: tabular-nums }
+td.ok { color: #17702a } td.failed, td.error, .bad { color: #b80000; font-weight: 600 }
+img { max-width: 100%; border: 1px solid #e4e4e4 } p { max-width: 80ch }
+figure { margin: 1.2em 0 } figcaption { font-size: 13.5px; max-width: 90ch }
+"""
+
+
+def cell(value):
+    """A table's cell; numbers stand right, the words ok, failed and error in their colours."""
+    text = str(value)
+    kind = text if text in ("ok", "failed", "error") else "number" if text[:1].isdigit() or text[:1] in "-–" else ""
+    return f'<td class="{kind}">{html.escape(text)}</td>'
+
+
+def table(heading, rows):
+    head = "".join(f"<th>{html.escape(text)}</th>" for text in heading)
+    body = "\n".join("<tr>" + "".join(map(cell, row)) + "</tr>" for row in rows)
+    return f"<table>\n<tr>{head}</tr>\n{body}\n</table>\n"
+
+
+def paragraph(text):
+    return f"<p>{html.escape(text)}</p>\n"
+
+
+def heading(text, level=3):
+    return f"<h{level}>{html.escape(text)}</h{level}>\n"
+
+
+def picture(path, caption):
+    """A picture by its path below the study's folder."""
+    text = html.escape(caption)
+    return f'<figure><img src="{html.escape(str(path))}" alt="{text}"><figcaption>{text}</figcaption></figure>\n'
+
+
+def write_section(folder, name, title, parts):
+    """FOLDER/section.html: `parts` (HTML texts) under a title that links to #NAME."""
+    body = f'<section id="{name}">\n<h2>{html.escape(title)}</h2>\n' + "".join(parts) + "</section>\n"
+    (folder / "section.html").write_text(f'<meta charset="utf-8"><style>{STYLE}</style>\n' + body)
