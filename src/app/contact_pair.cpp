@@ -44,7 +44,7 @@ std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, cons
     pair.opposite = std::move(curves[second ? 0 : 1]);
     pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, scene.method.integration);
     pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, constraints,
-                           {scene.method.integration, scene.method.multipliers, spec.initial_gap});
+                           {scene.method.multipliers, spec.initial_gap});
     if (scene.method.kind == MethodKind::ddm && scene.method.ddm.transfer == Transfer::nodal)
       transfer_by_nodes(mesh, pair.multiplier, pair.opposite, pair.coupling);
     pairs.push_back(std::move(pair));

@@ -17,8 +17,6 @@ std::vector<char> unknowns_of(const Mesh& mesh, const std::vector<char>& bodies)
   return member;
 }
 
-std::string at_unknown(const Mesh& mesh, int unknown) { return near_point(mesh.nodes.row(unknown / 2).transpose()); }
-
 // What the iteration did not reach, and what would.
 std::string trouble(const DdmSolution& d, const std::vector<RelaxationStep>& history, const DdmSpec& spec) {
   const Residuals& last = history.back().residuals;
@@ -35,10 +33,6 @@ std::string trouble(const DdmSolution& d, const std::vector<RelaxationStep>& his
 
 [[noreturn]] void refuse(const Scene& scene, const Results& r, const DdmSolution& d) {
   using Reached = DdmSolution::Status;
-  if (d.status == Reached::not_positive_definite)
-    throw InputError(scene.path + ": the stiffness is not positive definite " +
-                     at_unknown(r.mesh, d.solution.failed_at) +
-                     ": a part of a body that nothing holds, or elements far out of shape there");
   if (d.status == Reached::dependent_row)
     throw InputError(scene.path + ": the bodies that take the displacement do not feel the multiplier " +
                      near_point(r.mesh.nodes.row(row_nodes(r.pairs)[std::size_t(d.solution.failed_at)]).transpose()) +
@@ -68,7 +62,11 @@ SaddlePointSolution decompose(const Scene& scene, const SaddlePointSystem& syste
                            spec.max_iterations};
   DdmSolution d = solve_by_ddm(system, unknowns_of(r.mesh, dirichlet), options);
   using Reached = DdmSolution::Status;
-  if (d.status >= Reached::not_positive_definite) refuse(scene, r, d);
+  if (d.status == Reached::not_positive_definite) {
+    d.solution.status = SaddlePointSolution::Status::not_positive_definite;
+    return std::move(d.solution);
+  }
+  if (d.status > Reached::not_positive_definite) refuse(scene, r, d);
 
   InterfaceRun run{{}, options.acceleration, d.beta, d.spectrum, d.factor, std::move(d.history)};
   for (std::size_t b = 0; b < dirichlet.size(); ++b)

@@ -7,7 +7,8 @@
 namespace mortise {
 
 /// Solves by domain decomposition; `dirichlet`: of each body (dirichlet_bodies). Fills results.interface, adds notes
-/// and sets the status where the iteration did not converge. Throws InputError where the scene has no such solution.
+/// and sets the status where the iteration did not converge. Throws InputError where the scene has no such solution,
+/// but for a stiffness that is not positive definite, which the solution's status says (require_solved).
 SaddlePointSolution decompose(const Scene& scene, const SaddlePointSystem& system, const std::vector<char>& dirichlet,
                               Results& results);
 

@@ -113,7 +113,6 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
   r.seconds.solve = solution.solve_seconds;
   r.multipliers = int(coupling.B.rows());
   for (const char fixed : d.constraints.fixed) r.unknowns += !fixed;
-  r.factor_bytes = solution.factor_bytes;
   watch.lap();
 
   stage("recover");

@@ -63,7 +63,6 @@ struct Results {
   std::vector<ActiveSetStep> steps;       ///< one a solve of the contact problem
   int coarse_steps = 0;                   ///< and on joined rows
   std::optional<InterfaceRun> interface;  ///< where method.kind is ddm
-  std::size_t factor_bytes = 0;
   Seconds seconds;
   std::vector<Check> checks;
   std::vector<std::string> notes;  ///< what a user should know; nothing that fails

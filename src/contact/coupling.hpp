@@ -10,7 +10,6 @@
 namespace mortise {
 
 struct CouplingOptions {
-  Integration integration = Integration::segments;
   Multipliers multipliers = Multipliers::linear;
   InitialGap initial_gap = InitialGap::measured;
 };

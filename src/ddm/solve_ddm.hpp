@@ -30,7 +30,7 @@ struct DdmSolution {
   };
   Status status = Status::not_converged;
   SaddlePointSolution solution;         ///< of the last iterate; its status is not used
-  std::vector<RelaxationStep> history;  ///< the bilateral iteration, then the one of contact that may open
+  std::vector<RelaxationStep> history;  ///< of all iterations that were run, one after the other
   double beta = 0;                      ///< as given or estimated; 0 where none is used
   Spectrum spectrum;                    ///< of the iteration with all contact closed, where it was needed
   double factor = 0;                    ///< by which a step reduced the residuals in the end
@@ -39,7 +39,8 @@ struct DdmSolution {
 /// Solves the saddle-point system by iterations between two groups of bodies. `dirichlet`: n, the unknowns of the group
 /// that takes the displacement; the other group takes the pressure. No row of B may lie within one group.
 /// beta is estimated as the best one for the spectrum.
-/// Where rows may open, the bilateral problem is solved first; if nothing pulls, that is the solution.
+/// Where rows may open, Newton's method finds the closed ones with `krylov`; the other accelerations solve the
+/// bilateral problem first and iterate on the projected pressure if that pulls (docs/theory.md, section 11).
 DdmSolution solve_by_ddm(const SaddlePointSystem& system, const std::vector<char>& dirichlet, const DdmOptions& options,
                          const StepReport& report = {});
 

@@ -61,7 +61,7 @@ struct ContactSpec {
 /// How domain decomposition iterates; only where Method::kind is ddm.
 struct DdmSpec {
   Scheme scheme = Scheme::neumann_dirichlet;
-  std::optional<Acceleration> acceleration;  ///< default: krylov, and anderson where contact may open
+  std::optional<Acceleration> acceleration;  ///< default: krylov
   std::optional<double> beta;                ///< relaxation, > 0; default: estimated
   std::vector<std::string> dirichlet;        ///< bodies that take the displacement; default: the softer ones
   Transfer transfer = Transfer::mortar;

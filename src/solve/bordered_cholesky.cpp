@@ -186,6 +186,4 @@ VecX BorderedCholesky::backward(const VecX& lambda) const {
   return u;
 }
 
-std::size_t BorderedCholesky::factor_bytes() const { return factor_->L->xsize * sizeof(double); }
-
 }  // namespace mortise

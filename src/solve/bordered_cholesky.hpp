@@ -40,9 +40,6 @@ class BorderedCholesky {
   /// K^-1 (f - B^T lambda) for the last f of forward().
   VecX backward(const VecX& lambda) const;
 
-  /// Bytes of the factor, and its number of entries.
-  std::size_t factor_bytes() const;
-
  private:
   struct Factor;
   std::unique_ptr<Factor> factor_;

@@ -54,7 +54,6 @@ SaddlePointSolution solve_saddle_point(const SaddlePointSystem& s) {
     solution.failed_at = free[std::size_t(std::min<std::size_t>(std::size_t(factor.failed_at()), free.size() - 1))];
     return solution;
   }
-  solution.factor_bytes = factor.factor_bytes();
   solution.factorise_seconds = watch.lap();
 
   solution.u = s.value;

@@ -49,7 +49,6 @@ struct SaddlePointSolution {
   /// (each closed row over its scale) over the largest displacement.
   double force_residual = 0, constraint_residual = 0;
   double factorise_seconds = 0, solve_seconds = 0;
-  std::size_t factor_bytes = 0;
 };
 
 /// Fills the two residuals of u and lambda, where the `active` rows are closed.

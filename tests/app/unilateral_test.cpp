@@ -7,6 +7,7 @@
 #include "app/notes.hpp"
 #include "app/solve_scene.hpp"
 #include "base/errors.hpp"
+#include "support/messages.hpp"
 #include "support/plate_scenes.hpp"
 
 namespace mortise::test {
@@ -35,15 +36,6 @@ void expect_complementary(const Results& r) {
 }
 
 const char* const spaces[] = {"linear", "quadratic", "dual"};
-
-std::string message_of(const std::function<void()>& run) {
-  try {
-    run();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 // ---- gap_close: uniaxial strain, exact on both sides of touching ----
 

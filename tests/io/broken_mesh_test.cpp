@@ -7,13 +7,14 @@
 #include "../mesh/grid.hpp"
 #include "base/errors.hpp"
 #include "io/gmsh_mesh.hpp"
+#include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise {
 namespace {
 
+using test::message_of;
 using test::TemporaryFolder;
-using testing_meshes::message_of;
 
 /// A unit square with its lower left corner at (x, x), curves 10 s + 1..4, surface s, not in any physical group.
 std::string square(int s, const std::string& x) {

@@ -4,6 +4,7 @@
 
 #include "../mesh/grid.hpp"
 #include "base/errors.hpp"
+#include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise {
@@ -52,7 +53,7 @@ TEST(GeoParameters, OfUnfinishedTextDoNotHang) {
 TEST(GeoParameters, RefuseTheExitCommand) {
   const TemporaryFolder folder;
   const std::string file = folder.write("a.geo", "// Exit;\nx = \"Exit\";\nExit;\n");
-  const std::string message = testing_meshes::message_of<InputError>([&] { geo_parameters(file); });
+  const std::string message = test::message_of<InputError>([&] { geo_parameters(file); });
   EXPECT_EQ(message, file + ", line 3: the command Exit would end the program; remove it");
 }
 

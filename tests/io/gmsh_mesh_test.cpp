@@ -11,13 +11,14 @@
 #include "../mesh/grid.hpp"
 #include "base/errors.hpp"
 #include "mesh/curve.hpp"
+#include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise {
 namespace {
 
+using test::message_of;
 using test::TemporaryFolder;
-using testing_meshes::message_of;
 
 /// Two bodies along y = 1; the lower one of two surfaces, the right of which may be recombined, and the upper one
 /// upside down (its curve loop runs clockwise). A physical point and a point far out of the plane are to be ignored.

@@ -11,6 +11,7 @@
 #include "../mesh/grid.hpp"
 #include "base/errors.hpp"
 #include "io/exchange.hpp"
+#include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise {
@@ -98,7 +99,7 @@ TEST(OutputFolder, RefusesAFileAndTheCurrentFolder) {
   const TemporaryFolder scratch;
   const std::string file = scratch.write("run1", "a file");
   const auto trouble = [](const fs::path& target) {
-    return testing_meshes::message_of<InputError>([&] { const OutputFolder folder(target); });
+    return test::message_of<InputError>([&] { const OutputFolder folder(target); });
   };
   EXPECT_EQ(trouble(file), file + ": cannot write results here: it is a file, expected a folder");
   EXPECT_EQ(text_of(file), "a file");

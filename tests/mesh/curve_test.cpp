@@ -8,14 +8,15 @@
 
 #include "base/errors.hpp"
 #include "grid.hpp"
+#include "support/messages.hpp"
 
 namespace mortise {
 namespace {
 
+using test::message_of;
 using testing_meshes::all_kinds;
 using testing_meshes::Lattice;
 using testing_meshes::make_cell;
-using testing_meshes::message_of;
 using testing_meshes::plate;
 
 Vec2 at(const Mesh& mesh, int node) { return mesh.nodes.row(node).transpose(); }

@@ -93,15 +93,4 @@ inline const std::vector<CellKind>& all_kinds() {
   return kinds;
 }
 
-/// what() of the InputError that `step` throws; a note if it throws none.
-template <typename Error, typename Step>
-std::string message_of(Step step) {
-  try {
-    step();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "(nothing was thrown)";
-}
-
 }  // namespace mortise::testing_meshes

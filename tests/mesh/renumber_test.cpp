@@ -7,11 +7,12 @@
 
 #include "base/errors.hpp"
 #include "grid.hpp"
+#include "support/messages.hpp"
 
 namespace mortise {
 namespace {
 
-using testing_meshes::message_of;
+using test::message_of;
 using testing_meshes::plate;
 
 /// Corner coordinates of all cells: the same mesh, however numbered, has the same.

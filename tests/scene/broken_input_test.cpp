@@ -7,6 +7,7 @@
 #include "broken_rows.hpp"
 #include "scene/scene.hpp"
 #include "scene_files.hpp"
+#include "support/messages.hpp"
 
 namespace mortise {
 namespace {
@@ -20,12 +21,7 @@ std::string one_line(std::string text) {
 }
 
 std::string message_of(const std::string& path, const std::vector<Override>& overrides) {
-  try {
-    read_scene(path, overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::message_of([&] { read_scene(path, overrides); });
 }
 
 class BrokenInput : public testing::TestWithParam<Row> {

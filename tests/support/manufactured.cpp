@@ -127,7 +127,7 @@ Errors manufactured_errors(const ManufacturedCase& which) {
   const Curve& opposite = which.multipliers_on_lower ? upper : lower;
   const Coupling coupling =
       couple(mesh, multiplier, opposite, contact_points(mesh.nodes, multiplier, opposite, which.integration),
-             constraints, {which.integration, which.multipliers, InitialGap::closed});
+             constraints, {which.multipliers, InitialGap::closed});
   const VecX g = -coupling.gap0;
   const SaddlePointSolution s = solve_saddle_point(
       {K, load, coupling.B, g, constraints.fixed, constraints.value, exact.young, coupling.scale, {}});
