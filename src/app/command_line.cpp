@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "app/diagnose.hpp"
 #include "app/sweep.hpp"
 #include "app/write_results.hpp"
 #include "base/errors.hpp"
@@ -18,7 +19,7 @@ struct Options {
   std::string scene;
   std::vector<std::string> set, vary;
   std::string output;
-  bool quiet = false;
+  bool quiet = false, diagnose = false;
   int threads = 0;
 };
 
@@ -54,6 +55,10 @@ int solve(const Options& options) {
   {
     const StageLine line(options.quiet);
     results = solve_scene(scene, [&](const std::string& stage) { line(stage); });
+    if (options.diagnose) {
+      line("diagnose");
+      diagnose(scene, results);
+    }
     line("write");
     write_results(scene, results, folder);
   }
@@ -99,9 +104,10 @@ int sweep(const Options& options) {
   std::vector<Variation> variations;
   for (const std::string& text : options.vary) variations.push_back(parse_variation(text));
   const std::string csv = options.output.empty() ? "out/" + stem(options) + "_sweep.csv" : options.output;
-  const Status worst = sweep(options.scene, overrides(options), variations, csv, [&](const std::string& line) {
-    if (!options.quiet) std::cerr << line << "\n";
-  });
+  const Status worst =
+      sweep(options.scene, overrides(options), variations, csv, options.diagnose, [&](const std::string& line) {
+        if (!options.quiet) std::cerr << line << "\n";
+      });
   if (!options.quiet) std::cout << csv << "\n";
   return exit_code(worst);
 }
@@ -130,6 +136,11 @@ int parse_and_run(int argc, const char* const* argv) {
   Options options;
   CLI::App* solve_command = add_command(app, "solve", "mesh, solve, check and write the results of a scene", options,
                                         "folder of the results (default: out/SCENE)");
+  const auto add_diagnose = [&](CLI::App* command) {
+    command->add_flag("--diagnose", options.diagnose,
+                      "find the inf-sup constant too: do the meshes control the pressure?");
+  };
+  add_diagnose(solve_command);
   CLI::App* check_command =
       add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
   CLI::App* mesh_command =
@@ -140,6 +151,7 @@ int parse_and_run(int argc, const char* const* argv) {
   sweep_command->add_option("--vary", options.vary, "KEY=V1,V2,...: values to run through; repeat for combinations")
       ->required()
       ->allow_extra_args(false);
+  add_diagnose(sweep_command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

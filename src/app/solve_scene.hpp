@@ -46,6 +46,12 @@ struct InterfaceRun {
   std::vector<RelaxationStep> history;
 };
 
+/// How well the displacements control the multipliers (diagnose).
+struct InfSupReport {
+  double beta;    ///< inf-sup constant, dimensionless
+  Vec2 position;  ///< where the worst pressure is largest
+};
+
 /// Everything a run knows at its end.
 struct Results {
   Status status = Status::solved;
@@ -63,6 +69,7 @@ struct Results {
   std::vector<ActiveSetStep> steps;       ///< one a solve of the contact problem
   int coarse_steps = 0;                   ///< and on joined rows
   std::optional<InterfaceRun> interface;  ///< where method.kind is ddm
+  std::optional<InfSupReport> inf_sup;    ///< where the run was asked to diagnose
   Seconds seconds;
   std::vector<Check> checks;
   std::vector<std::string> notes;  ///< what a user should know; nothing that fails

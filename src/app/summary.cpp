@@ -4,7 +4,9 @@
 #include <iomanip>
 #include <sstream>
 
+#include "app/diagnose.hpp"
 #include "app/write_results.hpp"
+#include "mesh/place.hpp"
 
 namespace mortise {
 namespace {
@@ -141,6 +143,7 @@ Json summary_json(const Scene& scene, const Results& r) {
             {"interface", r.interface ? r.interface->history.size() : 0}}},
           {"contact_steps", steps_json(r)},
           {"interface", interface_json(scene, r)},
+          {"inf_sup", r.inf_sup ? Json(r.inf_sup->beta) : Json()},
           {"energy", r.energy},
           {"contact", contact},
           {"checks", checks},
@@ -169,6 +172,9 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
   if (const std::string words = contact_words(r); !words.empty()) out << "            " << words << "\n";
   out << std::setprecision(6) << "  largest   displacement " << r.u.cwiseAbs().maxCoeff() << "\n";
   out << "  energy    " << r.energy << "\n";
+  if (r.inf_sup)
+    out << "  inf-sup   " << r.inf_sup->beta << ", worst " << near_point(r.inf_sup->position) << " (limit "
+        << inf_sup_limit << ")\n";
   out << std::setprecision(2);
   for (const Check& c : r.checks)
     out << "  " << (c.ok() ? "ok    " : "FAILED") << "    " << c.name << ": " << c.value << " (limit " << c.limit

@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "app/diagnose.hpp"
 #include "base/errors.hpp"
 #include "io/csv.hpp"
 
@@ -29,6 +30,7 @@ Row figures(const Results& r) {
                            {"interface.beta", r.interface->beta},
                            {"interface.eigenvalue.smallest", r.interface->spectrum.smallest},
                            {"interface.eigenvalue.largest", r.interface->spectrum.largest}});
+  if (r.inf_sup) row.emplace_back("inf_sup", r.inf_sup->beta);
   for (std::size_t k = 0; k < r.contacts.size(); ++k) {
     const ContactResults& c = r.contacts[k];
     const std::string at = "contact." + std::to_string(k) + ".";
@@ -91,7 +93,7 @@ Variation parse_variation(const std::string& text) {
 }
 
 Status sweep(const std::string& scene_path, const std::vector<Override>& overrides,
-             const std::vector<Variation>& variations, const std::filesystem::path& csv,
+             const std::vector<Variation>& variations, const std::filesystem::path& csv, bool diagnosed,
              const std::function<void(const std::string& line)>& report) {
   std::size_t total = 1;
   for (const Variation& v : variations) total *= v.values.size();
@@ -109,7 +111,9 @@ Status sweep(const std::string& scene_path, const std::vector<Override>& overrid
       line += " " + variations[v].key + "=" + words.back();
     }
     try {
-      const Results results = solve_scene(read_scene(scene_path, all), {}, start ? &*start : nullptr);
+      const Scene scene = read_scene(scene_path, all);
+      Results results = solve_scene(scene, {}, start ? &*start : nullptr);
+      if (diagnosed) diagnose(scene, results);
       start = active_set(results);
       words.push_back(to_string(results.status));
       table.add(words, figures(results));

@@ -19,10 +19,10 @@ Variation parse_variation(const std::string& text);
 
 /// Runs every combination (the last variation fastest) and writes one CSV row a run after each, atomically.
 /// A run on the same mesh as the one before starts from its active set.
-/// A run that is bad input gets a row that says so; `report` is called after each run.
-/// Returns the worst status of all runs (bad input counts as check_failed).
+/// `diagnosed`: with the inf-sup constant (diagnose). A run that is bad input gets a row that says so; `report` is
+/// called after each run. Returns the worst status of all runs (bad input counts as check_failed).
 Status sweep(const std::string& scene_path, const std::vector<Override>& overrides,
-             const std::vector<Variation>& variations, const std::filesystem::path& csv,
+             const std::vector<Variation>& variations, const std::filesystem::path& csv, bool diagnosed,
              const std::function<void(const std::string& line)>& report);
 
 }  // namespace mortise

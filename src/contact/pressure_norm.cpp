@@ -1,0 +1,33 @@
+#include "contact/pressure_norm.hpp"
+
+#include <algorithm>
+
+#include "contact/multiplier_space.hpp"
+
+namespace mortise {
+
+SparseMatrix pressure_norm(const Points& nodes, const Curve& multiplier, const std::vector<ContactPoint>& points,
+                           Multipliers space, const Coupling& coupling) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (auto first = points.begin(); first != points.end();) {
+    const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
+    const Edge& edge = multiplier.edges[std::size_t(first->edge)];
+    const auto& on = coupling.on_edge[std::size_t(first->edge)];
+    const EdgeMultipliers shapes = edge_multipliers(edge, space, {first, last});
+    const double h = edge_length(nodes, edge);
+    for (; first != last; ++first) {
+      const Eigen::Vector3d psi = shapes.shape(first->xi);
+      for (int i = 0; i < shapes.count; ++i)
+        for (int j = 0; j < shapes.count; ++j) {
+          const int a = coupling.row[std::size_t(on[std::size_t(i)])],
+                    b = coupling.row[std::size_t(on[std::size_t(j)])];
+          if (a >= 0 && b >= 0) entries.emplace_back(a, b, h * first->ds * psi(i) * psi(j));
+        }
+    }
+  }
+  SparseMatrix norm(coupling.gap0.size(), coupling.gap0.size());
+  norm.setFromTriplets(entries.begin(), entries.end());
+  return norm;
+}
+
+}  // namespace mortise
