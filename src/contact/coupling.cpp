@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/errors.hpp"
+#include "contact/multiplier_rows.hpp"
 #include "contact/multiplier_space.hpp"
 
 namespace mortise {
@@ -24,38 +25,17 @@ void number_multipliers(const Curve& curve, Multipliers space, Coupling& couplin
   }
 }
 
-// True if the constraints give the displacement of a node along n.
-bool normal_prescribed(const Constraints& constraints, int node, const Vec2& n) {
-  for (int c = 0; c < 2; ++c)
-    if (std::abs(n(c)) > 1e-8 && !constraints.fixed[std::size_t(2 * node + c)]) return false;
-  return true;
-}
-
-// True if the normal displacements of both sides are prescribed at a node of the multiplier side.
-bool prescribed_on_both_sides(const Mesh& mesh, const Edge& edge, std::size_t local, const Curve& opposite,
-                              const Constraints& constraints) {
-  const EdgePoint p = edge_point(mesh.nodes, edge, local == 0 ? -1 : local == 1 ? 1 : 0);
-  const Vec2 n = p.normal();
-  if (!normal_prescribed(constraints, edge.nodes[local], n)) return false;
-  const auto hit = project_onto_curve(mesh.nodes, opposite, p.position, n);
-  if (!hit) return false;
-  const Edge& other = opposite.edges[std::size_t(hit->edge)];
-  const EdgeShape s = edge_shape(other.node_count, hit->xi);
-  for (std::size_t b = 0; b < std::size_t(other.node_count); ++b)
-    if (std::abs(s.N[b]) > 1e-8 && !normal_prescribed(constraints, other.nodes[b], n)) return false;
-  return true;
-}
-
 // What the contact points say of each multiplier before any is dropped.
 struct Accumulated {
   std::vector<Eigen::Triplet<double>> B;  // multiplier x degree of freedom
-  VecX gap, scale, weight;                // int psi g0, int |psi|, int psi
+  VecX gap;                               // int psi g0
+  Support support;
 };
 
 Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std::vector<ContactPoint>& points,
                        const CouplingOptions& options, const Coupling& coupling) {
   const auto count = Eigen::Index(coupling.node.size());
-  Accumulated sums{{}, VecX::Zero(count), VecX::Zero(count), VecX::Zero(count)};
+  Accumulated sums{{}, VecX::Zero(count), {VecX::Zero(count), VecX::Zero(count), VecX::Zero(count)}};
   sums.B.reserve(points.size() * 36);
   for (auto first = points.begin(); first != points.end();) {
     const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
@@ -69,8 +49,9 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
       const Eigen::Vector3d psi = p.ds * space.shape(p.xi);
       for (int i = 0; i < space.count; ++i) {
         const int a = multipliers[std::size_t(i)];
-        sums.scale(a) += std::abs(psi(i));
-        sums.weight(a) += psi(i);
+        sums.support.scale(a) += std::abs(psi(i));
+        sums.support.weight(a) += psi(i);
+        sums.support.faced(a) += p.ds;
         if (options.initial_gap == InitialGap::measured) sums.gap(a) += psi(i) * p.gap;
         for (int c = 0; c < 2; ++c) {
           for (std::size_t b = 0; b < std::size_t(edge.node_count); ++b)
@@ -82,55 +63,6 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
     }
   }
   return sums;
-}
-
-// Fills coupling.row: multipliers without support have none. Prescribed ones, and those whose weighted gap says nothing
-// of the gap's sign (psi of a quadratic edge of which a part faces the other side), share the row of the nearest free
-// one along the curve (so that constants stay in the space: Wohlmuth 2000, the end edges of a mortar).
-void number_rows(const Mesh& mesh, const Curve& multiplier, const Curve& opposite, const Constraints& constraints,
-                 const Accumulated& sums, Coupling& coupling) {
-  enum class State { free, prescribed, weightless, unsupported };
-  std::vector<State> state(coupling.node.size(), State::free);
-  for (std::size_t e = 0; e < multiplier.edges.size(); ++e) {
-    const double length = edge_length(mesh.nodes, multiplier.edges[e]);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const int a = coupling.on_edge[e][i];
-      if (a < 0) continue;
-      if (sums.scale(a) < 1e-10 * length) {
-        state[std::size_t(a)] = State::unsupported;
-      } else if (prescribed_on_both_sides(mesh, multiplier.edges[e], i, opposite, constraints)) {
-        state[std::size_t(a)] = State::prescribed;
-      } else if (sums.weight(a) < 0.05 * sums.scale(a)) {
-        state[std::size_t(a)] = State::weightless;
-      }
-    }
-  }
-  coupling.row.assign(coupling.node.size(), -1);
-  std::vector<int> order;  // multipliers along the curve: start, middle, end of each edge
-  int rows = 0;
-  for (const auto& on : coupling.on_edge)
-    for (const int a : {on[0], on[2], on[1]})
-      if (a >= 0 && (order.empty() || order.back() != a)) order.push_back(a);
-  for (const int a : order)
-    if (state[std::size_t(a)] == State::free && coupling.row[std::size_t(a)] < 0) coupling.row[std::size_t(a)] = rows++;
-  for (int i = 0; i < int(order.size()); ++i) {
-    const auto a = std::size_t(order[std::size_t(i)]);
-    if (coupling.row[a] >= 0) continue;
-    if (state[a] == State::unsupported) {
-      coupling.dropped.push_back({coupling.node[a], "faces nothing: pressure zero"});
-      continue;
-    }
-    for (int away = 1; away < int(order.size()) && coupling.row[a] < 0; ++away)
-      for (const int k : {i - away, i + away})
-        if (k >= 0 && k < int(order.size()) && state[std::size_t(order[std::size_t(k)])] == State::free)
-          coupling.row[a] = coupling.row[std::size_t(order[std::size_t(k)])];
-    coupling.dropped.push_back(
-        {coupling.node[a], state[a] == State::prescribed
-                               ? "normal displacement prescribed on both sides: pressure of the nearest free node"
-                               : "little of its edge faces the other side: pressure of the nearest free node"});
-  }
-  coupling.gap0 = VecX::Zero(rows);
-  coupling.scale = VecX::Zero(rows);
 }
 
 }  // namespace
@@ -145,7 +77,7 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
   Coupling coupling;
   number_multipliers(multiplier, options.multipliers, coupling);
   const Accumulated sums = accumulate(multiplier, opposite, points, options, coupling);
-  number_rows(mesh, multiplier, opposite, constraints, sums, coupling);
+  number_rows(mesh, multiplier, opposite, constraints, options.initial_gap, sums.support, coupling);
 
   coupling.gap_min = coupling.gap_max = points.front().gap;
   for (const ContactPoint& p : points) {
@@ -156,7 +88,7 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
   for (std::size_t a = 0; a < coupling.row.size(); ++a) {
     if (coupling.row[a] < 0) continue;
     coupling.gap0(coupling.row[a]) += sums.gap(Eigen::Index(a));
-    coupling.scale(coupling.row[a]) += sums.scale(Eigen::Index(a));
+    coupling.scale(coupling.row[a]) += sums.support.scale(Eigen::Index(a));
   }
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(sums.B.size());

@@ -1,0 +1,140 @@
+#include "contact/multiplier_rows.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "mesh/place.hpp"
+
+namespace mortise {
+namespace {
+
+enum class State { free, prescribed, apart, weightless, hardly_facing, unsupported };
+
+std::string reason(State state) {
+  switch (state) {
+    case State::free:
+      break;
+    case State::prescribed:
+      return "normal displacement prescribed on both sides: pressure of the nearest free node";
+    case State::apart:
+      return "normal displacements prescribed on both sides, which stay apart: pressure zero";
+    case State::weightless:
+    case State::hardly_facing:
+      return "little of its edge faces the other side: pressure of the nearest free node";
+    case State::unsupported:
+      return "faces nothing: pressure zero";
+  }
+  return "";
+}
+
+std::string between(const Mesh& mesh, const Curve& multiplier, const Curve& opposite) {
+  return mesh.source + ": contact between '" + mesh.boundaries[std::size_t(multiplier.boundary)].name + "' and '" +
+         mesh.boundaries[std::size_t(opposite.boundary)].name + "': ";
+}
+
+// True if the constraints give the displacement of a node along n.
+bool normal_prescribed(const Constraints& constraints, int node, const Vec2& n) {
+  for (int c = 0; c < 2; ++c)
+    if (std::abs(n(c)) > 1e-8 && !constraints.fixed[std::size_t(2 * node + c)]) return false;
+  return true;
+}
+
+// The gap that prescribed displacements leave at a node of the multiplier side; nothing unless both sides' normal
+// displacements are prescribed there.
+std::optional<double> prescribed_gap(const Mesh& mesh, const Edge& edge, std::size_t local, const Curve& opposite,
+                                     const Constraints& constraints, InitialGap initial_gap) {
+  const EdgePoint p = edge_point(mesh.nodes, edge, local == 0 ? -1 : local == 1 ? 1 : 0);
+  const Vec2 n = p.normal();
+  if (!normal_prescribed(constraints, edge.nodes[local], n)) return {};
+  const auto hit = project_onto_curve(mesh.nodes, opposite, p.position, n);
+  if (!hit) return {};
+  const auto value = [&](int node) { return constraints.value.segment<2>(2 * node).dot(n); };
+  double gap = (initial_gap == InitialGap::measured ? hit->distance : 0) - value(edge.nodes[local]);
+  const Edge& other = opposite.edges[std::size_t(hit->edge)];
+  const EdgeShape s = edge_shape(other.node_count, hit->xi);
+  for (std::size_t b = 0; b < std::size_t(other.node_count); ++b) {
+    if (std::abs(s.N[b]) > 1e-8 && !normal_prescribed(constraints, other.nodes[b], n)) return {};
+    gap += s.N[b] * value(other.nodes[b]);
+  }
+  return gap;
+}
+
+std::vector<State> find_states(const Mesh& mesh, const Curve& multiplier, const Curve& opposite,
+                               const Constraints& constraints, InitialGap initial_gap, const Support& support,
+                               const Coupling& coupling) {
+  std::vector<State> state(coupling.node.size(), State::free);
+  VecX length = VecX::Zero(Eigen::Index(state.size()));  // of each multiplier's edges
+  for (std::size_t e = 0; e < multiplier.edges.size(); ++e)
+    for (const int a : coupling.on_edge[e])
+      if (a >= 0) length(a) += edge_length(mesh.nodes, multiplier.edges[e]);
+  for (std::size_t e = 0; e < multiplier.edges.size(); ++e)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int a = coupling.on_edge[e][i];
+      if (a < 0) continue;
+      State& found = state[std::size_t(a)];
+      if (support.scale(a) < 1e-10 * length(a)) {
+        found = State::unsupported;
+        continue;
+      }
+      const auto gap = prescribed_gap(mesh, multiplier.edges[e], i, opposite, constraints, initial_gap);
+      const double round_off = 1e-9 * length(a);
+      if (gap && *gap < -round_off) {
+        std::ostringstream text;
+        text << between(mesh, multiplier, opposite) << "the prescribed displacements of the two sides overlap by "
+             << -*gap << " " << near_point(mesh.nodes.row(coupling.node[std::size_t(a)]).transpose())
+             << "; expected values that close the gap or leave it open";
+        throw InputError(text.str());
+      }
+      if (gap)
+        found = *gap > round_off ? State::apart : State::prescribed;
+      else if (support.weight(a) < 0.05 * support.scale(a))
+        found = State::weightless;
+      else if (support.faced(a) < faced_limit * length(a))
+        found = State::hardly_facing;
+    }
+  return state;
+}
+
+// Multipliers along the curve: start, middle, end of each edge.
+std::vector<int> along(const Coupling& coupling) {
+  std::vector<int> order;
+  for (const auto& on : coupling.on_edge)
+    for (const int a : {on[0], on[2], on[1]})
+      if (a >= 0 && (order.empty() || order.back() != a)) order.push_back(a);
+  return order;
+}
+
+}  // namespace
+
+void number_rows(const Mesh& mesh, const Curve& multiplier, const Curve& opposite, const Constraints& constraints,
+                 InitialGap initial_gap, const Support& support, Coupling& coupling) {
+  std::vector<State> state = find_states(mesh, multiplier, opposite, constraints, initial_gap, support, coupling);
+  const auto count = [&](State which) { return std::count(state.begin(), state.end(), which); };
+  if (count(State::free) == 0)  // better extrapolated than none
+    std::replace(state.begin(), state.end(), State::hardly_facing, State::free);
+  if (count(State::free) == 0 && count(State::prescribed) > 0)
+    throw InputError(between(mesh, multiplier, opposite) +
+                     "the normal displacements are prescribed on both curves everywhere, so contact has nothing to "
+                     "decide; expected at least one curve that is free to move along its normal");
+  coupling.row.assign(coupling.node.size(), -1);
+  const std::vector<int> order = along(coupling);
+  const auto free = [&](int i) { return state[std::size_t(order[std::size_t(i)])] == State::free; };
+  int rows = 0;
+  for (const int a : order)
+    if (state[std::size_t(a)] == State::free && coupling.row[std::size_t(a)] < 0) coupling.row[std::size_t(a)] = rows++;
+  for (int i = 0; i < int(order.size()); ++i) {
+    const auto a = std::size_t(order[std::size_t(i)]);
+    if (coupling.row[a] >= 0) continue;
+    coupling.dropped.push_back({coupling.node[a], reason(state[a])});
+    if (state[a] == State::unsupported || state[a] == State::apart) continue;
+    for (int away = 1; away < int(order.size()) && coupling.row[a] < 0; ++away)
+      for (const int k : {i - away, i + away})
+        if (k >= 0 && k < int(order.size()) && free(k))
+          coupling.row[a] = coupling.row[std::size_t(order[std::size_t(k)])];
+  }
+  coupling.gap0 = VecX::Zero(rows);
+  coupling.scale = VecX::Zero(rows);
+}
+
+}  // namespace mortise

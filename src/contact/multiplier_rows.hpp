@@ -1,0 +1,26 @@
+// Which multipliers are unknowns of their own.
+#pragma once
+
+#include "contact/coupling.hpp"
+
+namespace mortise {
+
+/// What the contact points say of each multiplier.
+struct Support {
+  VecX scale, weight;  ///< int |psi|, int psi, length
+  VecX faced;          ///< how much of its edges faces the other side, length
+};
+
+/// Part of a multiplier's edges that must face the other side. Of less, what little gap there is weighs against the
+/// whole psi: p at the node would be extrapolated by about 1 / part.
+inline constexpr double faced_limit = 0.25;
+
+/// Fills coupling.row, coupling.dropped and the sizes of gap0 and scale. Multipliers without support have no row. Those
+/// of nodes where both sides' normal displacements are prescribed, those whose weighted gap says nothing of the gap's
+/// sign, and those whose edges hardly face the other side share the row of the nearest free one along the curve (so
+/// that constants stay in the space: Wohlmuth 2000, the end edges of a mortar). Where the prescribed displacements
+/// leave the sides apart, the pressure is zero. Throws InputError where they overlap, and where no multiplier is free.
+void number_rows(const Mesh& mesh, const Curve& multiplier, const Curve& opposite, const Constraints& constraints,
+                 InitialGap initial_gap, const Support& support, Coupling& coupling);
+
+}  // namespace mortise
