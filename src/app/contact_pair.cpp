@@ -1,6 +1,10 @@
 #include "app/contact_pair.hpp"
 
+#include <algorithm>
+
+#include "base/errors.hpp"
 #include "contact/nodal_transfer.hpp"
+#include "mesh/place.hpp"
 
 namespace mortise {
 
@@ -8,13 +12,27 @@ namespace {
 
 // True if the multipliers lie on the second curve of a pair, where the scene does not say.
 bool on_second(const Scene& scene, const std::array<Curve, 2>& curves, const std::array<double, 2>& edge_size,
-               const std::vector<char>& dirichlet) {
+               const std::vector<ElasticLaw>& laws, const std::vector<char>& dirichlet) {
   // Equal meshes differ by round-off in their lengths: the first is the multiplier side then.
   const bool second_finer = edge_size[1] < (1 - 1e-6) * edge_size[0],
              first_finer = edge_size[0] < (1 - 1e-6) * edge_size[1];
-  if (dirichlet.empty()) return second_finer;
+  if (dirichlet.empty()) {
+    const double first = contact_modulus(laws[std::size_t(curves[0].body)]),
+                 second = contact_modulus(laws[std::size_t(curves[1].body)]);
+    if (std::max(first, second) > stiffer_limit * std::min(first, second)) return second < first;
+    return second_finer;
+  }
   if (scene.method.ddm.scheme == Scheme::neumann_dirichlet) return dirichlet[std::size_t(curves[1].body)];
   return first_finer;
+}
+
+void require_own_nodes(const Mesh& mesh, const ContactSpec& spec, const std::array<Curve, 2>& curves) {
+  const std::vector<int> first = curve_nodes(curves[0]);
+  for (const int node : curve_nodes(curves[1]))
+    if (std::find(first.begin(), first.end(), node) != first.end())
+      throw InputError(mesh.source + ": " + spec.key + ": '" + spec.between[0] + "' and '" + spec.between[1] +
+                       "' have a common node " + near_point(mesh.nodes.row(node).transpose()) +
+                       "; expected curves with points of their own (in a .geo: a point and a curve for each body)");
 }
 
 void append(const SparseMatrix& rows, int first, std::vector<Eigen::Triplet<double>>& entries) {
@@ -25,7 +43,7 @@ void append(const SparseMatrix& rows, int first, std::vector<Eigen::Triplet<doub
 
 }  // namespace
 
-std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, const Constraints& constraints,
+std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, const Discretisation& d,
                                       const std::vector<char>& dirichlet) {
   std::vector<ContactPair> pairs;
   for (const ContactSpec& spec : scene.contacts) {
@@ -35,7 +53,8 @@ std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, cons
       curves[i] = contact_curve(mesh, scene_boundary(scene, mesh, spec.key + ".between", spec.between[i]));
       edge_size[i] = curve_length(mesh.nodes, curves[i]) / double(curves[i].edges.size());
     }
-    const bool second = spec.multipliers_on.empty() ? on_second(scene, curves, edge_size, dirichlet)
+    require_own_nodes(mesh, spec, curves);
+    const bool second = spec.multipliers_on.empty() ? on_second(scene, curves, edge_size, d.laws, dirichlet)
                                                     : spec.multipliers_on == spec.between[1];
     ContactPair pair;
     pair.spec = spec;
@@ -43,7 +62,7 @@ std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, cons
     pair.multiplier = std::move(curves[second ? 1 : 0]);
     pair.opposite = std::move(curves[second ? 0 : 1]);
     pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, scene.method.integration);
-    pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, constraints,
+    pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, d.constraints,
                            {scene.method.multipliers, spec.initial_gap});
     if (scene.method.kind == MethodKind::ddm && scene.method.ddm.transfer == Transfer::nodal)
       transfer_by_nodes(mesh, pair.multiplier, pair.opposite, pair.coupling);

@@ -13,11 +13,16 @@ struct ContactPair {
   Coupling coupling;
 };
 
-/// One a [[contact]] entry. Multipliers lie on the side the scene names, else on the one with the shorter edges (the
-/// first if they are equal). Throws InputError for unknown curves or curves that are no chains.
+/// A body more than this many times as stiff as the other does not carry the multipliers by default: where its mesh is
+/// the finer one too, the other body hardly feels them (docs/stability.md, inf-sup).
+inline constexpr double stiffer_limit = 10;
+
+/// One a [[contact]] entry. Multipliers lie on the side the scene names, else on the much softer body (stiffer_limit),
+/// else on the side with the shorter edges (the first if they are equal). Throws InputError for unknown curves, curves
+/// that are no chains, and curves with common nodes.
 /// In domain decomposition, where `dirichlet` says of each body whether it takes the displacement, the default is that
 /// body's curve, or the one with the longer edges where both bodies take both.
-std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, const Constraints& constraints,
+std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, const Discretisation& discretisation,
                                       const std::vector<char>& dirichlet = {});
 
 /// The rows of all pairs below one another.

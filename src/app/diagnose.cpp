@@ -10,12 +10,6 @@
 namespace mortise {
 namespace {
 
-// Stiffness of a body against a line load on its edge: E / (1 - nu^2) in plane strain, E in plane stress.
-double contact_modulus(const ElasticLaw& law) {
-  const double c11 = law.stiffness(0, 0), c12 = law.stiffness(0, 1);
-  return (c11 * c11 - c12 * c12) / c11;
-}
-
 // S of all pairs, each over its contact modulus E* (1 / E* = sum of the bodies' 1 / E').
 SparseMatrix stacked_norm(const Scene& scene, const Results& r, const StackedCoupling& coupling) {
   std::vector<Eigen::Triplet<double>> entries;

@@ -6,6 +6,6 @@
 namespace mortise {
 
 /// Fills results.notes. `unsettled`: rows of the stacked coupling that the active set would still change.
-void add_notes(const std::vector<int>& unsettled, Results& results);
+void add_notes(const Scene& scene, const std::vector<int>& unsettled, Results& results);
 
 }  // namespace mortise

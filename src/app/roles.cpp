@@ -12,22 +12,34 @@ namespace {
 // Two bodies with a contact pair or common nodes between them.
 struct Link {
   int body, other;
-  bool differ;      // in contact: different roles
-  bool body_finer;  // in contact: its edges are the shorter ones, or as long
+  bool differ;                             // in contact: different roles
+  bool body_finer;                         // in contact: its edges are the shorter ones, or as long
+  bool body_prescribed, other_prescribed;  // in contact: its curve's normal displacements are all given
   std::string key;
 };
 
-std::vector<Link> contact_links(const Scene& scene, const Mesh& mesh) {
+bool prescribed(const Mesh& mesh, const Curve& curve, const Constraints& constraints) {
+  for (const Edge& edge : curve.edges)
+    for (int a = 0; a < edge.node_count; ++a) {
+      const Vec2 n = edge_point(mesh.nodes, edge, a == 0 ? -1 : a == 1 ? 1 : 0).normal();
+      if (!prescribed_along(constraints, edge.nodes[std::size_t(a)], n)) return false;
+    }
+  return true;
+}
+
+std::vector<Link> contact_links(const Scene& scene, const Mesh& mesh, const Constraints& constraints) {
   std::vector<Link> links;
   for (const ContactSpec& spec : scene.contacts) {
     std::array<int, 2> body{};
     std::array<double, 2> edge_size{};
+    std::array<bool, 2> given{};
     for (std::size_t i = 0; i < 2; ++i) {
       const Curve curve = contact_curve(mesh, scene_boundary(scene, mesh, spec.key + ".between", spec.between[i]));
       body[i] = curve.body;
       edge_size[i] = curve_length(mesh.nodes, curve) / double(curve.edges.size());
+      given[i] = prescribed(mesh, curve, constraints);
     }
-    links.push_back({body[0], body[1], true, edge_size[0] <= (1 + 1e-6) * edge_size[1], spec.key});
+    links.push_back({body[0], body[1], true, edge_size[0] <= (1 + 1e-6) * edge_size[1], given[0], given[1], spec.key});
   }
   return links;
 }
@@ -38,7 +50,7 @@ void add_shared_nodes(const Mesh& mesh, std::vector<Link>& links) {
     for (int a = 0; a < node_count(cell.kind); ++a) {
       int& first = owner[std::size_t(cell.nodes[std::size_t(a)])];
       if (first < 0) first = cell.body;
-      if (first != cell.body) links.push_back({first, cell.body, false, false, "common nodes"});
+      if (first != cell.body) links.push_back({first, cell.body, false, false, false, false, "common nodes"});
     }
 }
 
@@ -79,23 +91,29 @@ int named_side(const Scene& scene, const Mesh& mesh, const std::vector<int>& sid
   return named;
 }
 
-// The side with the softer bodies; of equally stiff ones that with the finer curves.
+// The side with the softer bodies; of equally stiff ones that with the finer curves. A body whose whole curve is
+// prescribed cannot take the displacement.
 int softer_side(const std::vector<Link>& links, const std::vector<int>& side, const std::vector<ElasticLaw>& laws) {
   std::array<double, 2> stiffest{};
-  std::array<int, 2> finer{};
+  std::array<int, 2> finer{}, given{};
   for (std::size_t b = 0; b < side.size(); ++b)
     if (side[b] >= 0) stiffest[std::size_t(side[b])] = std::max(stiffest[std::size_t(side[b])], laws[b].young);
-  for (const Link& link : links)
-    if (link.differ && side[std::size_t(link.body)] >= 0)
-      ++finer[std::size_t(side[std::size_t(link.body_finer ? link.body : link.other)])];
+  for (const Link& link : links) {
+    if (!link.differ || side[std::size_t(link.body)] < 0) continue;
+    const auto body = std::size_t(side[std::size_t(link.body)]), other = 1 - body;
+    ++finer[link.body_finer ? body : other];
+    given[body] += link.body_prescribed;
+    given[other] += link.other_prescribed;
+  }
+  if (given[0] != given[1]) return given[1] < given[0];
   if (stiffest[0] != stiffest[1]) return stiffest[1] < stiffest[0];
   return finer[1] > finer[0];
 }
 
 }  // namespace
 
-std::vector<char> dirichlet_bodies(const Scene& scene, const Mesh& mesh, const std::vector<ElasticLaw>& laws) {
-  std::vector<Link> links = contact_links(scene, mesh);
+std::vector<char> dirichlet_bodies(const Scene& scene, const Mesh& mesh, const Discretisation& d) {
+  std::vector<Link> links = contact_links(scene, mesh, d.constraints);
   const std::size_t contacts = links.size();
   add_shared_nodes(mesh, links);
   std::vector<char> dirichlet(mesh.bodies.size(), 0), dealt(mesh.bodies.size(), 0);
@@ -103,7 +121,7 @@ std::vector<char> dirichlet_bodies(const Scene& scene, const Mesh& mesh, const s
     if (dealt[std::size_t(links[k].body)]) continue;
     const std::vector<int> side = deal_out(scene, mesh, links, links[k].body);
     const int named = named_side(scene, mesh, side);
-    const int chosen = named >= 0 ? named : softer_side(links, side, laws);
+    const int chosen = named >= 0 ? named : softer_side(links, side, d.laws);
     for (std::size_t b = 0; b < side.size(); ++b) {
       if (side[b] < 0) continue;
       dealt[b] = 1;

@@ -19,8 +19,8 @@ std::vector<char> starting_rows(const ActiveSet* start, const Results& r) {
 }
 
 // Bodies that take the displacement in domain decomposition; empty for the mortar method.
-std::vector<char> roles(const Scene& scene, const Mesh& mesh, const std::vector<ElasticLaw>& laws) {
-  return scene.method.kind == MethodKind::ddm ? dirichlet_bodies(scene, mesh, laws) : std::vector<char>{};
+std::vector<char> roles(const Scene& scene, const Mesh& mesh, const Discretisation& d) {
+  return scene.method.kind == MethodKind::ddm ? dirichlet_bodies(scene, mesh, d) : std::vector<char>{};
 }
 
 double largest_young(const Discretisation& d) {
@@ -57,7 +57,7 @@ CheckedScene check_scene(const Scene& scene) {
   CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters), {}};
   const Discretisation d = discretise(scene, checked.mesh);
   const Constraints& constraints = d.constraints;
-  checked.pairs = couple_pairs(scene, checked.mesh, constraints, roles(scene, checked.mesh, d.laws));
+  checked.pairs = couple_pairs(scene, checked.mesh, d, roles(scene, checked.mesh, d));
   require_closed(scene, checked.mesh, checked.pairs);
   require_held(scene, checked.mesh, constraints, stack(checked.pairs, 2 * checked.mesh.nodes.rows()));
   return checked;
@@ -80,8 +80,8 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
   r.seconds.assemble = watch.lap();
 
   stage("couple");
-  const std::vector<char> dirichlet = roles(scene, r.mesh, d.laws);
-  r.pairs = couple_pairs(scene, r.mesh, d.constraints, dirichlet);
+  const std::vector<char> dirichlet = roles(scene, r.mesh, d);
+  r.pairs = couple_pairs(scene, r.mesh, d, dirichlet);
   const StackedCoupling coupling = stack(r.pairs, d.load.size());
   require_closed(scene, r.mesh, r.pairs);
   require_held(scene, r.mesh, d.constraints, coupling);
@@ -123,7 +123,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
         r.mesh, r.pairs[k], d.constraints, r.points, r.stress, r.u,
         solution.lambda.segment(coupling.first_row[k], coupling.first_row[k + 1] - coupling.first_row[k])));
   add_checks(solution, coupling, scene, r);
-  add_notes(solution.unsettled, r);
+  add_notes(scene, solution.unsettled, r);
   r.seconds.recover = watch.lap();
   return r;
 }

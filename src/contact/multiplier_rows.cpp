@@ -33,20 +33,13 @@ std::string between(const Mesh& mesh, const Curve& multiplier, const Curve& oppo
          mesh.boundaries[std::size_t(opposite.boundary)].name + "': ";
 }
 
-// True if the constraints give the displacement of a node along n.
-bool normal_prescribed(const Constraints& constraints, int node, const Vec2& n) {
-  for (int c = 0; c < 2; ++c)
-    if (std::abs(n(c)) > 1e-8 && !constraints.fixed[std::size_t(2 * node + c)]) return false;
-  return true;
-}
-
 // The gap that prescribed displacements leave at a node of the multiplier side; nothing unless both sides' normal
 // displacements are prescribed there.
 std::optional<double> prescribed_gap(const Mesh& mesh, const Edge& edge, std::size_t local, const Curve& opposite,
                                      const Constraints& constraints, InitialGap initial_gap) {
   const EdgePoint p = edge_point(mesh.nodes, edge, local == 0 ? -1 : local == 1 ? 1 : 0);
   const Vec2 n = p.normal();
-  if (!normal_prescribed(constraints, edge.nodes[local], n)) return {};
+  if (!prescribed_along(constraints, edge.nodes[local], n)) return {};
   const auto hit = project_onto_curve(mesh.nodes, opposite, p.position, n);
   if (!hit) return {};
   const auto value = [&](int node) { return constraints.value.segment<2>(2 * node).dot(n); };
@@ -54,7 +47,7 @@ std::optional<double> prescribed_gap(const Mesh& mesh, const Edge& edge, std::si
   const Edge& other = opposite.edges[std::size_t(hit->edge)];
   const EdgeShape s = edge_shape(other.node_count, hit->xi);
   for (std::size_t b = 0; b < std::size_t(other.node_count); ++b) {
-    if (std::abs(s.N[b]) > 1e-8 && !normal_prescribed(constraints, other.nodes[b], n)) return {};
+    if (std::abs(s.N[b]) > 1e-8 && !prescribed_along(constraints, other.nodes[b], n)) return {};
     gap += s.N[b] * value(other.nodes[b]);
   }
   return gap;

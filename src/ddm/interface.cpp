@@ -94,8 +94,12 @@ Taken dirichlet_takes(const Interface& s, const VecX& lambda, const std::vector<
 
 Residuals residuals(const Interface& s, const VecX& lambda, const VecX& z) {
   const VecX taken = lambda + z;
-  const double displacement = std::max(largest_entry(s.neumann.response - s.neumann.C * taken),
-                                       largest_entry(s.dirichlet.response - s.dirichlet.C * taken));
+  double displacement = 0;  // where it is zero, that of its terms: they leave round-off
+  for (const BodyGroup* group : {&s.neumann, &s.dirichlet}) {
+    const VecX pressed = group->C * taken;
+    const double terms = std::max(largest_entry(group->response), largest_entry(pressed));
+    displacement = std::max({displacement, largest_entry(group->response - pressed), rigid_part * terms});
+  }
   const double multiplier = largest_entry(taken.cwiseQuotient(s.scale));
   const double gap = std::max(largest_entry(s.dirichlet.C * z), largest_entry(s.neumann.C * z));
   const double force = largest_entry(z.cwiseQuotient(s.scale));

@@ -77,6 +77,12 @@ void prescribe(const Mesh& mesh, int boundary, int component, double value, Cons
     }
 }
 
+bool prescribed_along(const Constraints& constraints, int node, const Vec2& n) {
+  for (int c = 0; c < 2; ++c)
+    if (std::abs(n(c)) > 1e-8 && !constraints.fixed[std::size_t(2 * node + c)]) return false;
+  return true;
+}
+
 std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Constraints& constraints,
                                                    const SparseMatrix& rows) {
   const BodyPoints points = body_points(mesh);

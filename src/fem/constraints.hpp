@@ -19,6 +19,9 @@ Constraints no_constraints(const Mesh& mesh);
 /// stands at a node (boundaries may share nodes, but must agree there).
 void prescribe(const Mesh& mesh, int boundary, int component, double value, Constraints& constraints);
 
+/// True if the displacement of a node along the unit vector n is prescribed.
+bool prescribed_along(const Constraints& constraints, int node, const Vec2& n);
+
 /// A small motion of a body as a whole: u(x) = translation + rotation * (-(x2 - centre2), x1 - centre1).
 struct RigidMotion {
   int body;

@@ -25,6 +25,11 @@ ElasticLaw elastic_law(double young, double poisson, Plane plane, const Vec4& in
   return law;
 }
 
+double contact_modulus(const ElasticLaw& law) {
+  const double c11 = law.stiffness(0, 0), c12 = law.stiffness(0, 1);
+  return (c11 * c11 - c12 * c12) / c11;
+}
+
 double von_mises(const Vec4& s) {
   const double a = s(0) - s(1), b = s(1) - s(2), c = s(2) - s(0);
   return std::sqrt((a * a + b * b + c * c) / 2 + 3 * s(3) * s(3));

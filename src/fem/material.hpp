@@ -21,6 +21,9 @@ struct ElasticLaw {
 /// Expects young > 0 and -1 < poisson < 1/2.
 ElasticLaw elastic_law(double young, double poisson, Plane plane, const Vec4& initial_strain = Vec4::Zero());
 
+/// Stiffness of a body's edge against a pressure on it: E / (1 - nu^2) in plane strain, E in plane stress.
+double contact_modulus(const ElasticLaw& law);
+
 /// sqrt(3/2 s:s), s the deviator of (11, 22, 33, 12).
 double von_mises(const Vec4& stress);
 
