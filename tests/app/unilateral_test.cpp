@@ -164,7 +164,7 @@ TEST(Floating, BilateralContactPullsTheNextBodyAlong) {
 
 TEST(Unsettled, ANoteNamesThePlaces) {
   Results r = solved("gap_close", {{"contact.multipliers_on", "lower_contact"}});
-  add_notes({0, 11}, r);
+  add_notes(scene("gap_close", {}), {0, 11}, r);
   ASSERT_FALSE(r.notes.empty());
   EXPECT_NE(r.notes[0].find("did not settle"), std::string::npos) << r.notes[0];
   EXPECT_NE(r.notes[0].find("near (0.8, 0.3), near (0, 0.3)"), std::string::npos) << r.notes[0];

@@ -104,8 +104,8 @@ void add_stages(const Case& c) {
   add_stage(c, "assemble_stiffness",
             [&c](const Midway& m) { return assemble_stiffness(c.mesh, m.results.discretisation.laws); });
   add_stage(c, "segments_and_coupling", [&c](const Midway& m) {
-    const Constraints& constraints = m.results.discretisation.constraints;
-    return stack(couple_pairs(c.scene, c.mesh, constraints), constraints.value.size());
+    const Discretisation& d = m.results.discretisation;
+    return stack(couple_pairs(c.scene, c.mesh, d), d.load.size());
   });
   add_stage(c, "factorise_and_solve", [](const Midway& m) {
     const Discretisation& d = m.results.discretisation;

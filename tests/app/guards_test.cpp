@@ -1,0 +1,245 @@
+// Where a pressure cannot be trusted, a run says so: errors, notes and defaults of docs/stability.md.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/diagnose.hpp"
+#include "support/messages.hpp"
+#include "support/plate_scenes.hpp"
+
+namespace mortise::test {
+namespace {
+
+bool noted(const Results& r, const std::string& part) {
+  return std::any_of(r.notes.begin(), r.notes.end(),
+                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
+}
+
+std::string all_notes(const Results& r) {
+  std::string all;
+  for (const std::string& note : r.notes) all += note + "\n";
+  return all.empty() ? "(no notes)" : all;
+}
+
+BoundarySpec moved(const char* on, double y) {
+  BoundarySpec b;
+  b.key = "boundary";
+  b.on = {on};
+  b.displacement_y = y;
+  return b;
+}
+
+Scene solved_by(Scene scene, MethodKind kind) {
+  scene.method.kind = kind;
+  return scene;
+}
+
+// ---- Prescribed contact curves ----
+
+TEST(PrescribedContact, OnBothCurvesEverywhereIsAnError) {
+  Scene s = uniaxial_scene();
+  s.boundaries.push_back(moved("upper_contact", 0));
+  s.boundaries.push_back(moved("lower_contact", 0));
+  for (const MethodKind kind : {MethodKind::mortar, MethodKind::ddm})
+    expect_contains(message_of([&] { solve_scene(solved_by(s, kind), mesh_of({})); }), "contact has nothing to decide");
+}
+
+TEST(PrescribedContact, ThatOverlapsIsAnErrorThatNamesThePlace) {
+  Scene s = uniaxial_scene();
+  s.boundaries.push_back(moved("upper_contact", -1e-5));
+  s.boundaries.push_back(moved("lower_contact", 0));
+  const std::string message = message_of([&] { solve_scene(s, mesh_of({})); });
+  expect_contains(message, "overlap by 1e-05 near (");
+}
+
+TEST(PrescribedContact, OfOneBodyGivesTheOtherTheDisplacementInDomainDecomposition) {
+  Scene s = uniaxial_scene();
+  s.boundaries.push_back(moved("lower_contact", 0));
+  TwoPlates plates;
+  plates.n_upper = 5;  // the lower body is the finer one, which would take the displacement
+  const Results r = solve_scene(solved_by(s, MethodKind::ddm), mesh_of(plates));
+  ASSERT_TRUE(r.interface.has_value());
+  EXPECT_EQ(r.interface->dirichlet, std::vector<std::string>{"upper"});
+  EXPECT_NE(r.status, Status::not_converged);
+  EXPECT_NEAR(r.contacts[0].p_min, 10e6, 1);
+  EXPECT_NEAR(r.contacts[0].p_max, 10e6, 1);
+}
+
+// ---- Curves ----
+
+TEST(Curves, WithACommonNodeAreAnError) {
+  Mesh mesh = mesh_of({});
+  // The first node of the upper contact curve becomes that of the lower one, which lies at the same place.
+  const auto at = [&](const char* name) {
+    for (const Edge& edge : mesh.boundaries[std::size_t(boundary_index(mesh, name))].edges)
+      for (const int node : {edge.nodes[0], edge.nodes[1]})
+        if (std::abs(mesh.nodes(node, 0)) < 1e-12) return node;
+    return -1;
+  };
+  const int kept = at("lower_contact"), gone = at("upper_contact");
+  ASSERT_NE(kept, gone);
+  const auto renamed = [&](int from, int to) {
+    for (Cell& cell : mesh.cells) std::replace(cell.nodes.begin(), cell.nodes.end(), from, to);
+    for (Boundary& boundary : mesh.boundaries)
+      for (Edge& edge : boundary.edges) std::replace(edge.nodes.begin(), edge.nodes.end(), from, to);
+  };
+  const int last = int(mesh.nodes.rows()) - 1;  // takes the place of the node that goes
+  renamed(gone, kept);
+  mesh.nodes.row(gone) = mesh.nodes.row(last);
+  renamed(last, gone);
+  mesh.nodes.conservativeResize(last, 2);
+  expect_contains(message_of([&] { solve_scene(uniaxial_scene(), mesh); }), "have a common node near (0, 0.3)");
+}
+
+TwoPlates tent(int n_upper, int n_lower) {
+  TwoPlates plates;
+  plates.height = [](double x) { return 0.3 - 0.2 * std::abs(x - 0.4); };  // turns by 23 degrees
+  plates.n_upper = n_upper;
+  plates.n_lower = n_lower;
+  return plates;
+}
+
+TEST(Curves, AKinkThatOneMeshCutsShortIsNoted) {
+  EXPECT_FALSE(noted(solve_scene(hydrostatic_scene(), mesh_of(tent(8, 10))), "kink"));
+  const Results r = solve_scene(hydrostatic_scene(), mesh_of(tent(8, 11)));
+  EXPECT_TRUE(noted(r, "'upper_contact' has a kink of 23 degrees near (0.4, 0.3)")) << all_notes(r);
+}
+
+TEST(Curves, EdgesThatTurnTooFarAreNoted) {
+  TwoPlates plates;
+  plates.height = [](double x) { return 0.3 + 0.05 * std::cos(2 * EIGEN_PI * x / 0.4); };
+  plates.n_upper = 6;
+  plates.n_lower = 8;
+  const Results coarse = solve_scene(clamped_scene(), mesh_of(plates));
+  EXPECT_TRUE(noted(coarse, "degrees: the mesh is coarse for the curve")) << all_notes(coarse);
+  plates.n_upper = 40;
+  plates.n_lower = 50;
+  const Results fine = solve_scene(clamped_scene(), mesh_of(plates));
+  EXPECT_FALSE(noted(fine, "the mesh is coarse")) << all_notes(fine);
+}
+
+TEST(Curves, AMultiplierWhoseEdgeHardlyFacesTheOtherSideFollowsItsNeighbour) {
+  // The upper plate ends 5 % into an edge of the lower one.
+  const auto pressures = [](double width) {
+    TwoPlates plates;
+    plates.n_lower = 8;
+    Mesh mesh = mesh_of(plates);
+    std::vector<char> of_upper(std::size_t(mesh.nodes.rows()), 0);
+    for (const Cell& cell : mesh.cells)
+      if (mesh.bodies[std::size_t(cell.body)] == "upper")
+        for (int a = 0; a < node_count(cell.kind); ++a) of_upper[std::size_t(cell.nodes[std::size_t(a)])] = 1;
+    for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i)
+      if (of_upper[std::size_t(i)]) mesh.nodes(i, 0) *= width / 0.8;
+    Scene s = uniaxial_scene();
+    s.contacts[0].multipliers_on = "lower_contact";
+    return solve_scene(s, mesh).contacts[0];
+  };
+  const ContactResults c = pressures(0.505);  // edges of 0.1
+  EXPECT_LT(c.p_max, 30e6);
+  EXPECT_GT(c.p_min, -10e6);
+}
+
+// ---- Stiffness ----
+
+Scene contrast(double ratio) {
+  Scene s = clamped_scene();
+  s.materials["stiff"] = {210e9 * ratio, 0.3, 0};
+  s.bodies[0].material = "stiff";  // upper
+  return s;
+}
+
+TEST(Stiffness, TheMuchStifferBodyDoesNotCarryTheMultipliersByDefault) {
+  TwoPlates plates;
+  plates.n_upper = 24;
+  plates.n_lower = 8;
+  const auto side = [&](double ratio) {
+    return solve_scene(contrast(ratio), mesh_of(plates)).pairs[0].spec.multipliers_on;
+  };
+  EXPECT_EQ(side(1), "upper_contact");  // the finer one
+  EXPECT_EQ(side(9), "upper_contact");
+  EXPECT_EQ(side(11), "lower_contact");
+  EXPECT_EQ(side(1e6), "lower_contact");
+}
+
+TEST(Stiffness, TheInfSupConstantTellsAndItsNoteSaysWhatToDo) {
+  TwoPlates plates;
+  plates.height = [](double x) { return -1.25 * x * x + x + 0.2; };
+  plates.kind_upper = plates.kind_lower = CellKind::quad4;
+  plates.n_upper = 24;
+  plates.n_lower = 8;
+  const auto beta = [&](Scene s, const std::string& side, bool& warned) {
+    s.contacts[0].multipliers_on = side;
+    Results r = solve_scene(s, mesh_of(plates));
+    diagnose(s, r);
+    warned = noted(r, "the inf-sup constant is");
+    return r.inf_sup->beta;
+  };
+  bool warned = false;
+  EXPECT_GT(beta(contrast(1), "upper_contact", warned), inf_sup_limit);
+  EXPECT_FALSE(warned);
+  EXPECT_LT(beta(contrast(1e4), "upper_contact", warned), inf_sup_limit / 10);
+  EXPECT_TRUE(warned);
+  EXPECT_GT(beta(contrast(1e4), "", warned), inf_sup_limit);
+  EXPECT_FALSE(warned);
+}
+
+TEST(Stiffness, TheInfSupConstantDoesNotDependOnTheMeshNorOnUnits) {
+  std::vector<double> beta;
+  for (const int n : {8, 16, 32}) {
+    TwoPlates plates;
+    plates.height = [](double x) { return -1.25 * x * x + x + 0.2; };
+    plates.n_upper = n;
+    plates.n_lower = n * 5 / 4;
+    Scene s = clamped_scene();
+    Results r = solve_scene(s, mesh_of(plates));
+    diagnose(s, r);
+    beta.push_back(r.inf_sup->beta);
+    Mesh millimetres = mesh_of(plates);
+    millimetres.nodes *= 1000;
+    s.materials["steel"].young = 210e3;
+    s.boundaries.back().pressure = 10;
+    Results same = solve_scene(s, std::move(millimetres));
+    diagnose(s, same);
+    EXPECT_NEAR(same.inf_sup->beta, beta.back(), 1e-9);
+  }
+  EXPECT_GT(beta.back(), 0.9 * beta.front());
+  EXPECT_LT(beta.back(), 1.1 * beta.front());
+}
+
+// ---- What the equations and the elements can do ----
+
+TEST(Limits, NearlyIncompressibleBodiesAreNoted) {
+  Scene s = uniaxial_scene();
+  s.materials["steel"].poisson = 0.48;
+  TwoPlates plates;
+  EXPECT_FALSE(noted(solve_scene(s, mesh_of(plates)), "nearly incompressible"));
+  plates.kind_upper = CellKind::quad4;
+  const Results r = solve_scene(s, mesh_of(plates));
+  EXPECT_TRUE(noted(r, "body 'upper' is nearly incompressible")) << all_notes(r);
+  EXPECT_FALSE(noted(r, "body 'lower'"));
+  s.materials["steel"].poisson = 0.495;
+  EXPECT_TRUE(noted(solve_scene(s, mesh_of({})), "6-node triangles"));
+  s.plane = Plane::stress;
+  EXPECT_FALSE(noted(solve_scene(s, mesh_of({})), "nearly incompressible"));
+}
+
+TEST(Limits, LargeDisplacementsAreNoted) {
+  Scene s = uniaxial_scene();
+  EXPECT_FALSE(noted(solve_scene(s, mesh_of({})), "small displacements"));
+  s.boundaries.back().pressure = 1e11;
+  EXPECT_TRUE(noted(solve_scene(s, mesh_of({})), "small displacements"));
+}
+
+TEST(Limits, AMeasuredGapFarFromTheOriginIsNoted) {
+  Scene s = uniaxial_scene();
+  s.contacts[0].initial_gap = InitialGap::measured;
+  Mesh mesh = mesh_of({});
+  EXPECT_FALSE(noted(solve_scene(s, mesh), "are rounded to about"));
+  mesh.nodes.array() += 1e6;
+  const Results r = solve_scene(s, mesh);
+  EXPECT_TRUE(noted(r, "are rounded to about")) << all_notes(r);
+}
+
+}  // namespace
+}  // namespace mortise::test
