@@ -35,11 +35,18 @@ Rows examine(const ComplementarityProblem& p, const ActiveSetResult& r) {
   return rows;
 }
 
+// A stress that opens no row by more than round-off.
+double negligible_stress(const ComplementarityProblem& p) {
+  if (p.round_off == 0) return 0;
+  const Eigen::Index m = p.scale.size();
+  return p.round_off / largest_entry(p.compliance.topLeftCorner(m, m).selfadjointView<Eigen::Lower>() * p.scale);
+}
+
 // Unilateral rows that must not stay as they are: closed and pulling, or open and penetrated.
 std::vector<int> wrong_rows(const ComplementarityProblem& p, const ActiveSetOptions& options, const Rows& rows,
                             const std::vector<char>& active) {
-  const double pull = options.pull_tolerance * largest_entry(rows.stress);
-  const double penetration = options.penetration_tolerance * rows.w_size;
+  const double pull = std::max(options.pull_tolerance * largest_entry(rows.stress), negligible_stress(p));
+  const double penetration = std::max(options.penetration_tolerance * rows.w_size, p.round_off);
   const double drift = 1e-8 * largest_entry(rows.opening);
   std::vector<int> wrong;
   for (Eigen::Index a = 0; a < p.scale.size(); ++a) {

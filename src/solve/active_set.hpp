@@ -14,6 +14,8 @@ struct ComplementarityProblem {
   const VecX& rhs;                      ///< (r, h), m + s
   const VecX& scale;                    ///< m: lambda_a / scale_a is what is compared with other rows'
   const std::vector<char>& unilateral;  ///< m: rows that may open
+  /// A w that is smaller is round-off of what it was computed from, and so are lambda that make no larger w.
+  double round_off = 0;
 };
 
 /// One solve of the problem.

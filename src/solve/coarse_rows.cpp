@@ -25,6 +25,7 @@ CoarseRows join_rows(const ComplementarityProblem& fine) {
   const MatX half = MatX(fine.compliance.selfadjointView<Eigen::Lower>()) * P;
   c.compliance = P.transpose() * half;
   c.rhs = P.transpose() * fine.rhs;
+  c.round_off = fine.round_off;
   return c;
 }
 

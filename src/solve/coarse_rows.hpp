@@ -11,8 +11,9 @@ struct CoarseRows {
   MatX compliance;
   VecX rhs, scale;
   std::vector<char> unilateral;
+  double round_off;
 
-  ComplementarityProblem problem() const { return {compliance, rhs, scale, unilateral}; }
+  ComplementarityProblem problem() const { return {compliance, rhs, scale, unilateral, round_off}; }
 };
 
 /// Joins rows 0 and 1, 2 and 3, ... where both may open or neither may. A joined row is the sum of both (before they

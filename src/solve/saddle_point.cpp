@@ -24,6 +24,11 @@ void take_over(const SaddlePointSystem& s, ActiveSetResult&& set, SaddlePointSol
   if (set.status == ActiveSetResult::Status::unheld) solution.status = Status::unheld;
 }
 
+// The largest displacement without contact, floating bodies held by their springs: what gaps are differences of.
+double free_displacement(const SaddlePointSystem& s, const BorderedCholesky& factor, Eigen::Index border) {
+  return std::max(largest_entry(s.value), largest_entry(factor.backward(VecX::Zero(border))));
+}
+
 }  // namespace
 
 void measure_residuals(const SaddlePointSystem& s, SaddlePointSolution& solution) {
@@ -72,7 +77,9 @@ SaddlePointSolution solve_saddle_point(const SaddlePointSystem& s) {
     rhs.head(m) -= (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
     VecX lambda;
     if (pass == 0) {
-      ActiveSetResult set = settle_active_set({factor.border_compliance(), rhs, s.row_scale, unilateral}, s.start);
+      const double round_off = s.unilateral.empty() ? 0 : 1e-12 * free_displacement(s, factor, rhs.size());
+      ActiveSetResult set =
+          settle_active_set({factor.border_compliance(), rhs, s.row_scale, unilateral, round_off}, s.start);
       lambda = std::move(set.solution);
       multipliers = std::move(set.system);
       take_over(s, std::move(set), solution);

@@ -126,7 +126,8 @@ Scene contrast(double ratio) {
   return s;
 }
 
-// The lower plate's edges are 0.1 long; the upper plate is squeezed to a width of its own. Multipliers on the lower one.
+// The lower plate's edges are 0.1 long; the upper plate is squeezed to a width of its own. Multipliers on the lower
+// one.
 Results narrow_upper_plate(double width) {
   TwoPlates plates;
   plates.n_lower = 8;
@@ -211,6 +212,25 @@ TEST(Stiffness, TheInfSupConstantDoesNotDependOnTheMeshNorOnUnits) {
   }
   EXPECT_GT(beta.back(), 0.9 * beta.front());
   EXPECT_LT(beta.back(), 1.1 * beta.front());
+}
+
+// ---- Contact that just touches ----
+
+// p and the gap are zero at once: no row may chatter, no check may compare round-off with round-off.
+TEST(Touching, IsSolvedWithoutPressure) {
+  Scene s = uniaxial_scene();  // pulled along the contact line instead of pressed on it
+  s.contacts[0].condition = Condition::unilateral;
+  s.boundaries.back() = {};
+  s.boundaries.back().key = "boundary";
+  s.boundaries.back().on = {"upper_right", "lower_right"};
+  s.boundaries.back().pressure = 10e6;
+  for (const Multipliers space : {Multipliers::linear, Multipliers::quadratic, Multipliers::dual}) {
+    s.method.multipliers = space;
+    const Results r = solve_scene(s, mesh_of({}));
+    EXPECT_EQ(r.status, Status::solved) << to_string(space);
+    EXPECT_LT(r.contacts[0].p_max, 1e-3);
+    EXPECT_LE(r.steps.size(), 3U);
+  }
 }
 
 // ---- What the equations and the elements can do ----
