@@ -6,7 +6,7 @@
 namespace mortise {
 
 /// The smallest eigenvalue beta^2 of B K^-1 B^T q = beta^2 S q over the multipliers q that do no work on motions which
-/// only contact holds: the numerical inf-sup test (Chapelle & Bathe 1993; docs/theory.md eq. 51).
+/// only contact holds: the numerical inf-sup test (Chapelle & Bathe 1993; docs/theory.md eq. 41).
 struct InfSup {
   double beta = 0;
   VecX mode;  ///< m: the q of it, largest entry 1; zero on rows that are not active. Empty if no row is active
