@@ -1,11 +1,16 @@
-"""The report: report.json with every figure, report.md and report.html for people."""
+"""The report: report.json with every figure, report.md and report.html for people, section.html for the whole report."""
 
 import html
 import json
 import math
 import platform
+import sys
 from datetime import datetime, timezone
+from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+
+import page
 import pictures
 from judge import rates
 
@@ -29,18 +34,6 @@ LEVELS = {
         "seconds.factorise + seconds.solve, FreeFEM's seconds_solve. The ratio is FreeFEM over mortise.",
     ),
 }
-STYLE = """
-body { font: 15px/1.45 system-ui, sans-serif; color: #1c1c1c; max-width: 1180px; margin: 2em auto; padding: 0 1em }
-h1 { font-size: 1.6em } h2 { font-size: 1.3em; margin-top: 2.2em; border-bottom: 1px solid #ccc }
-h3 { font-size: 1.05em }
-table { border-collapse: collapse; font-size: 13px; margin: 1em 0; display: block; overflow-x: auto }
-th, td { padding: 2px 9px; text-align: left; border-bottom: 1px solid #e4e4e4; white-space: nowrap }
-th { background: #f4f4f4 } td.number { text-align: right; font-variant-numeric: tabular-nums }
-td.ok { color: #17702a } td.failed, td.error, .bad { color: #b80000; font-weight: 600 }
-img { max-width: 100%; border: 1px solid #e4e4e4 } p { max-width: 80ch }
-"""
-
-
 def of_level(results, level):
     """Results of a level, first those that do not hold."""
     return sorted((r for r in results if r.level == level), key=lambda r: r.status == "ok")
@@ -241,9 +234,23 @@ def write_html(results, output, seconds, drawn):
             if at == level:
                 parts.append(f'<h3>{html.escape(caption)}</h3>\n<img src="{path}" alt="{html.escape(caption)}">')
         parts += ["<h3>All cases</h3>" if level != "timing" else "", html_table(*TABLES[level](found))]
-    head = f'<meta charset="utf-8"><title>mortise against FreeFEM</title><style>{STYLE}</style>'
-    page = f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n' + "\n".join(parts) + "\n</body></html>\n"
-    (output / "report.html").write_text(page)
+    head = f'<meta charset="utf-8"><title>mortise against FreeFEM</title><style>{page.STYLE}</style>'
+    text = f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n' + "\n".join(parts) + "\n</body></html>\n"
+    (output / "report.html").write_text(text)
+
+
+def write_section(results, output, seconds, drawn):
+    """The part of the whole report: tables by scene, the rates and the times."""
+    parts = [page.paragraph(summary_line(results, seconds))]
+    for level, (title, text) in LEVELS.items():
+        found = of_level(results, level)
+        if not found:
+            continue
+        parts += [page.heading(title), page.paragraph(text)]
+        heading, rows = TABLES[level](found) if level == "timing" else worst_table(found)
+        parts.append(page.table(heading, [[getattr(cell, "name", cell) for cell in row] for row in rows]))
+        parts += [page.picture(path, caption) for at, caption, path in drawn if at == level and "rates" in path]
+    page.write_section(output, "verify", "The same scenes by FreeFEM", parts)
 
 
 def write(results, output, seconds):
@@ -252,3 +259,4 @@ def write(results, output, seconds):
     write_json(results, output, seconds)
     write_markdown(results, output, seconds, drawn)
     write_html(results, output, seconds, drawn)
+    write_section(results, output, seconds, drawn)

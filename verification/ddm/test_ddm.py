@@ -8,6 +8,7 @@ import pytest
 import history
 import iterates
 import ddm_runs  # makes launch known
+import ddm_study
 import launch
 import region
 import run
@@ -95,3 +96,12 @@ def test_history(tmp_path):
     assert "<svg" in (tmp_path / "both.svg").read_text()[:1000]
     refused = subprocess.run([*command, tmp_path], capture_output=True, text=True, check=False)
     assert refused.returncode == 2 and "interface.csv" in refused.stderr
+
+
+def test_the_table_of_steps_has_a_cell_a_ratio_and_a_number_a_mesh(tmp_path):
+    row = {"scene": "cosine", "scheme": "default", "acceleration": "default"}
+    rows = [{**row, "ratio": r, "mesh": m, "steps": n, "outcome": o} for r, m, n, o in
+            [(1, "20x25", 7, "converged"), (10, "20x25", 300, "unfinished"), (1, "40x50", 8, "converged")]]
+    launch.write_csv(tmp_path / "steps.csv", rows)
+    table = ddm_study.steps_table(tmp_path / "steps.csv")
+    assert ">7, 8</td>" in table and ">unfinished</td>" in table and ">cosine</td>" in table
