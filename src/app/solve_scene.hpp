@@ -46,6 +46,14 @@ struct InterfaceRun {
   std::vector<RelaxationStep> history;
 };
 
+/// How the iterative solver found the solution.
+struct LinearRun {
+  int steps;
+  double factor;                   ///< by which a step multiplied the larger residual in the end
+  double tau_border;               ///< tau must be below; 0 where any will do (accelerated)
+  std::vector<Residuals> history;  ///< before each step, and at the end
+};
+
 /// Everything a run knows at its end.
 struct Results {
   Status status = Status::solved;
@@ -63,6 +71,7 @@ struct Results {
   std::vector<ActiveSetStep> steps;       ///< one a solve of the contact problem
   int coarse_steps = 0;                   ///< and on joined rows
   std::optional<InterfaceRun> interface;  ///< where method.kind is ddm
+  std::optional<LinearRun> linear;        ///< where method.solver is mssor
   std::size_t factor_bytes = 0;
   Seconds seconds;
   std::vector<Check> checks;
