@@ -20,7 +20,8 @@ struct Watch {
   const MssorOptions& options;
   MssorSolution& result;
   double limit = options.tolerance;  ///< of the residuals as they are measured here
-  double smallest = infinity;
+  double smallest = infinity;  ///< residual
+  std::vector<double> sizes = {};  ///< of the residual, dimensionless
   VecX forces = VecX(system.n());  ///< work space
 
   // Of the iterate x with residual r, dimensionless; forces are compared with what is known of them without another
@@ -37,15 +38,21 @@ struct Watch {
 
   // True while there is something left to do.
   bool go_on(const VecX& x, const VecX& r) {
-    const Residuals residuals = measure(x, r);
-    result.history.push_back(residuals);
-    const double size = std::isfinite(r.sum()) ? residuals.largest() : infinity;
+    const double size = r.norm();
+    sizes.push_back(size);
     smallest = std::min(smallest, size);
-    if (size <= limit) result.status = Status::converged;
-    if (!(size <= divergence * smallest) || size == infinity) result.status = Status::diverged;
+    result.history.push_back(measure(x, r));
+    if (result.history.back().largest() <= limit) result.status = Status::converged;
+    if (!(size <= divergence * smallest)) result.status = Status::diverged;  // or not a number
     if (result.status != Status::not_converged || result.steps >= options.max_iterations) return false;
     ++result.steps;
     return true;
+  }
+
+  // Geometric mean of what a step multiplied the residual by over the last half of the steps.
+  double factor() const {
+    const std::size_t last = sizes.size() - 1, middle = last / 2;
+    return last > middle ? std::pow(sizes[last] / sizes[middle], 1 / double(last - middle)) : 0;
   }
 };
 
@@ -150,12 +157,6 @@ double pull(const SaddlePointSystem& s, const VecX& lambda) {
   return most;
 }
 
-double rate(const std::vector<Residuals>& history) {
-  const std::size_t last = history.size() - 1, middle = last / 2;
-  if (last == middle) return 0;
-  return std::pow(history[last].largest() / history[middle].largest(), 1 / double(last - middle));
-}
-
 }  // namespace
 
 MssorSolution solve_by_mssor(const SaddlePointSystem& s, const MssorOptions& options) {
@@ -174,25 +175,23 @@ MssorSolution solve_by_mssor(const SaddlePointSystem& s, const MssorOptions& opt
   VecX x = VecX::Zero(reduced.rhs.size()), r = reduced.rhs;
   // Where round-off has parted the residual from that of x, or forces are larger than they are compared with here, the
   // iteration starts again from x.
-  while (true) {
-    const int before = result.steps;
+  for (double last = infinity;;) {
     iterate(M, steps, x, r);
     take_over(s, reduced, x, solution);
     const double reached = std::max(solution.force_residual, solution.constraint_residual);
     if (result.status == Status::diverged || result.steps >= options.max_iterations) break;
     if (result.status == Status::converged && reached <= options.tolerance) break;
-    if (result.steps == before) {  // x is all that this arithmetic gives
-      result.status = Status::not_converged;
-      break;
-    }
     if (result.status == Status::converged) steps.limit *= 0.5 * std::min(1.0, options.tolerance / reached);
     result.status = Status::not_converged;
+    if (!(reached < 0.5 * last)) break;  // all that this arithmetic gives
+    last = reached;
+    steps.smallest = infinity;
     residual(reduced, x, r);
   }
   if (std::max(solution.force_residual, solution.constraint_residual) <= options.tolerance)
     result.status = Status::converged;
   if (options.acceleration == Acceleration::none) result.tau_border = tau_border(reduced, options.omega);
-  result.factor = rate(result.history);
+  result.factor = steps.factor();
   solution.steps.push_back({int(reduced.m()), 0, 0, pull(s, solution.lambda)});
   if (result.status == Status::converged && solution.steps[0].pull > pull_tolerance * largest_entry(solution.lambda))
     result.status = Status::cannot_open;

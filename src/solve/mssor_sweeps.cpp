@@ -40,6 +40,7 @@ void split(const SparseMatrix& lower, SweepSystem& r) {
     r.start.push_back(int(r.column.size()));
     if (!(r.D(i) > 0) && r.not_positive < 0) r.not_positive = r.unknown[std::size_t(i)];
   }
+  r.D_inverse = r.D.cwiseInverse();
 }
 
 void set_rows(const SaddlePointSystem& s, SweepSystem& r) {
@@ -58,6 +59,30 @@ void set_loads(const SaddlePointSystem& s, SweepSystem& r) {
   for (Eigen::Index k = 0; k < r.n(); ++k) r.rhs(k) = load(r.unknown[std::size_t(k)]);
   r.rhs.tail(r.m()) = (s.g - s.B * s.value).cwiseQuotient(s.row_scale);
   r.largest_value = largest_entry(s.value);
+}
+
+// Row i of L times x. Four sums: one would have every addition wait for the one before.
+double row_of_L(const SweepSystem& s, Eigen::Index i, const double* x) {
+  const int end = s.start[std::size_t(i) + 1];
+  int k = s.start[std::size_t(i)];
+  const double* value = s.value.data();
+  const int* column = s.column.data();
+  double a = 0, b = 0, c = 0, d = 0;
+  for (; k + 3 < end; k += 4) {
+    a += value[k] * x[column[k]];
+    b += value[k + 1] * x[column[k + 1]];
+    c += value[k + 2] * x[column[k + 2]];
+    d += value[k + 3] * x[column[k + 3]];
+  }
+  for (; k < end; ++k) a += value[k] * x[column[k]];
+  return (a + b) + (c + d);
+}
+
+// y += column i of L^T times factor.
+void add_row_of_L(const SweepSystem& s, Eigen::Index i, double factor, double* y) {
+  const double* value = s.value.data();
+  const int* column = s.column.data();
+  for (int k = s.start[std::size_t(i)]; k < s.start[std::size_t(i) + 1]; ++k) y[column[k]] += value[k] * factor;
 }
 
 constexpr double pivot_round_off = 1e-12;
@@ -89,15 +114,8 @@ SweepSystem sweep_system(const SaddlePointSystem& s) {
 void multiply(const SweepSystem& s, const VecX& x, VecX& y) {
   const Eigen::Index n = s.n();
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double x_i = x(i);
-    double sum = s.D(i) * x_i;
-    for (int k = s.start[std::size_t(i)]; k < s.start[std::size_t(i) + 1]; ++k) {
-      const double L = s.value[std::size_t(k)];
-      const int j = s.column[std::size_t(k)];
-      sum += L * x(j);
-      y(j) += L * x_i;  // row j < i is done with
-    }
-    y(i) = sum;
+    add_row_of_L(s, i, x(i), y.data());  // to rows before i, which have their sums
+    y(i) = s.D(i) * x(i) + row_of_L(s, i, x.data());
   }
   y.head(n).noalias() += s.B.transpose() * x.tail(s.m());
   y.tail(s.m()).noalias() = s.B * x.head(n);
@@ -106,17 +124,12 @@ void multiply(const SweepSystem& s, const VecX& x, VecX& y) {
 void solve_Q(const SweepSystem& s, double omega, VecX& x) {
   const Eigen::Index n = s.n();
   for (Eigen::Index i = 0; i < n; ++i) {  // (D + omega L)^-1
-    double sum = 0;
-    for (int k = s.start[std::size_t(i)]; k < s.start[std::size_t(i) + 1]; ++k)
-      sum += s.value[std::size_t(k)] * x(s.column[std::size_t(k)]);
-    x(i) = (x(i) - omega * sum) / s.D(i);
+    x(i) = (x(i) - omega * row_of_L(s, i, x.data())) * s.D_inverse(i);
   }
   x.array() *= omega * (2 - omega) * s.D.array();
   for (Eigen::Index i = n; i-- > 0;) {  // (D + omega L^T)^-1: row i of L is column i of L^T
-    x(i) /= s.D(i);
-    const double part = omega * x(i);
-    for (int k = s.start[std::size_t(i)]; k < s.start[std::size_t(i) + 1]; ++k)
-      x(s.column[std::size_t(k)]) -= s.value[std::size_t(k)] * part;
+    x(i) *= s.D_inverse(i);
+    add_row_of_L(s, i, -omega * x(i), x.data());
   }
 }
 

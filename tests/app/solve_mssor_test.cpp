@@ -8,6 +8,7 @@
 
 #include "app/summary.hpp"
 #include "app/sweep.hpp"
+#include "app/write_results.hpp"
 #include "base/errors.hpp"
 #include "support/temporary_folder.hpp"
 
