@@ -5,6 +5,7 @@
 #include "app/notes.hpp"
 #include "app/refusals.hpp"
 #include "app/roles.hpp"
+#include "app/solve_mssor.hpp"
 #include "base/errors.hpp"
 #include "base/stopwatch.hpp"
 #include "io/gmsh_mesh.hpp"
@@ -21,6 +22,12 @@ std::vector<char> starting_rows(const ActiveSet* start, const Results& r) {
 // Bodies that take the displacement in domain decomposition; empty for the mortar method.
 std::vector<char> roles(const Scene& scene, const Mesh& mesh, const Discretisation& d) {
   return scene.method.kind == MethodKind::ddm ? dirichlet_bodies(scene, mesh, d) : std::vector<char>{};
+}
+
+SaddlePointSolution solve_system(const Scene& scene, const SaddlePointSystem& system,
+                                 const std::vector<char>& dirichlet, Results& r) {
+  if (scene.method.kind == MethodKind::ddm) return decompose(scene, system, dirichlet, r);
+  return scene.method.solver == Solver::mssor ? solve_mssor(scene, system, r) : solve_saddle_point(system);
 }
 
 double largest_young(const Discretisation& d) {
@@ -102,8 +109,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
                                  unilateral_rows(r.pairs),
                                  starting_rows(start, r),
                                  coupling.loads.size() > 0 ? &coupling.loads : nullptr};
-  SaddlePointSolution solution =
-      scene.method.kind == MethodKind::ddm ? decompose(scene, system, dirichlet, r) : solve_saddle_point(system);
+  SaddlePointSolution solution = solve_system(scene, system, dirichlet, r);
   require_solved(scene, r, floating, solution);
   r.active = solution.active;
   r.steps = solution.steps;

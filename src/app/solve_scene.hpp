@@ -52,6 +52,14 @@ struct InfSupReport {
   Vec2 position;  ///< where the worst pressure is largest
 };
 
+/// How the iterative solver found the solution.
+struct LinearRun {
+  int steps;
+  double factor;                   ///< by which a step multiplied the residual in the end
+  double tau_border;               ///< tau must be below; 0 where any will do (accelerated)
+  std::vector<Residuals> history;  ///< before each step, and at the end
+};
+
 /// Everything a run knows at its end.
 struct Results {
   Status status = Status::solved;
@@ -70,6 +78,7 @@ struct Results {
   int coarse_steps = 0;                   ///< and on joined rows
   std::optional<InterfaceRun> interface;  ///< where method.kind is ddm
   std::optional<InfSupReport> inf_sup;    ///< where the run was asked to diagnose
+  std::optional<LinearRun> linear;        ///< where method.solver is mssor
   Seconds seconds;
   std::vector<Check> checks;
   std::vector<std::string> notes;  ///< what a user should know; nothing that fails

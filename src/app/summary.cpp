@@ -51,6 +51,30 @@ Json interface_json(const Scene& scene, const Results& r) {
           {"force", last.force}};
 }
 
+Json linear_json(const Scene& scene, const Results& r) {
+  if (!r.linear) return nullptr;
+  const MssorSpec& spec = scene.method.mssor;
+  const Residuals last = r.linear->history.back();
+  return {{"acceleration", to_string(spec.acceleration)},
+          {"omega", spec.omega},
+          {"tau", spec.tau},
+          {"tau_border", r.linear->tau_border},
+          {"factor", r.linear->factor},
+          {"kinematic", last.kinematic},
+          {"force", last.force}};
+}
+
+void print_linear(const Scene& scene, const Results& r, std::ostream& out) {
+  if (!r.linear) return;
+  const MssorSpec& spec = scene.method.mssor;
+  const Residuals last = r.linear->history.back();
+  out << "  solver    mssor, omega " << spec.omega << ", tau " << spec.tau << ", acceleration "
+      << to_string(spec.acceleration);
+  if (r.linear->tau_border > 0) out << " (converges for tau below " << r.linear->tau_border << ")";
+  out << "\n            " << r.linear->steps << " steps to residuals " << last.kinematic << " (kinematic), "
+      << last.force << " (force); " << r.linear->factor << " a step\n";
+}
+
 void print_interface(const Scene& scene, const Results& r, std::ostream& out) {
   if (!r.interface) return;
   const InterfaceRun& run = *r.interface;
@@ -119,7 +143,7 @@ Json summary_json(const Scene& scene, const Results& r) {
             {"integration", to_string(scene.method.integration)},
             {"multipliers", space_word(scene, r)},
             {"multipliers_on", on},
-            {"solver", "direct"},
+            {"solver", to_string(scene.method.solver)},
             {"condition", condition},
             {"initial_gap", gap}}},
           {"mesh",
@@ -139,11 +163,12 @@ Json summary_json(const Scene& scene, const Results& r) {
           {"iterations",
            {{"contact", r.pairs.empty() ? 0 : r.steps.size()},
             {"contact_coarse", r.coarse_steps},
-            {"linear", 0},
+            {"linear", r.linear ? r.linear->steps : 0},
             {"interface", r.interface ? r.interface->history.size() : 0}}},
           {"contact_steps", steps_json(r)},
           {"interface", interface_json(scene, r)},
           {"inf_sup", r.inf_sup ? Json(r.inf_sup->beta) : Json()},
+          {"linear", linear_json(scene, r)},
           {"energy", r.energy},
           {"contact", contact},
           {"checks", checks},
@@ -168,6 +193,7 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
   }
   out << std::setprecision(3);
   print_interface(scene, r, out);
+  print_linear(scene, r, out);
   print_steps(r, out);
   if (const std::string words = contact_words(r); !words.empty()) out << "            " << words << "\n";
   out << std::setprecision(6) << "  largest   displacement " << r.u.cwiseAbs().maxCoeff() << "\n";

@@ -31,6 +31,11 @@ Row figures(const Results& r) {
                            {"interface.eigenvalue.smallest", r.interface->spectrum.smallest},
                            {"interface.eigenvalue.largest", r.interface->spectrum.largest}});
   if (r.inf_sup) row.emplace_back("inf_sup", r.inf_sup->beta);
+  if (r.linear)
+    row.insert(row.end(), {{"iterations.linear", double(r.linear->steps)},
+                           {"linear.factor", r.linear->factor},
+                           {"linear.tau_border", r.linear->tau_border},
+                           {"seconds.linear", r.seconds.solve}});
   for (std::size_t k = 0; k < r.contacts.size(); ++k) {
     const ContactResults& c = r.contacts[k];
     const std::string at = "contact." + std::to_string(k) + ".";

@@ -8,12 +8,13 @@ enum class Condition { unilateral, bilateral };
 enum class InitialGap { measured, closed };
 enum class MethodKind { mortar, ddm };
 enum class Integration { segments, elements };
+enum class Solver { direct, mssor };
 enum class Multipliers { quadratic, linear, dual };
 
-// Domain decomposition: the iteration, what makes it faster, and how pressures and displacements go from one curve to
-// the other.
+// Domain decomposition: the iteration, what makes it (or an iterative solver) faster, and how pressures and
+// displacements go from one curve to the other.
 enum class Scheme { neumann_dirichlet, neumann_neumann, dirichlet_dirichlet };
-enum class Acceleration { none, aitken, anderson, krylov };
+enum class Acceleration { none, aitken, anderson, krylov, minres };  // minres: of mssor only
 enum class Transfer { mortar, nodal };
 
 }  // namespace mortise

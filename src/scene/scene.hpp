@@ -69,10 +69,21 @@ struct DdmSpec {
   int max_iterations = 100;
 };
 
+/// How the iterative solver goes; only where Method::solver is mssor.
+struct MssorSpec {
+  double omega = 1.3;                                ///< 0 < omega < 2
+  double tau = 0.7;                                  ///< > 0
+  Acceleration acceleration = Acceleration::krylov;  ///< none, krylov, minres
+  double tolerance = 1e-10;                          ///< of both residuals
+  int max_iterations = 20000;
+};
+
 struct Method {
   MethodKind kind = MethodKind::mortar;
   Integration integration = Integration::segments;
   Multipliers multipliers = Multipliers::linear;  ///< on 2-node edges quadratic means linear
+  Solver solver = Solver::direct;
+  MssorSpec mssor;
   DdmSpec ddm;
 };
 
@@ -97,6 +108,7 @@ std::string to_string(Condition value);
 std::string to_string(InitialGap value);
 std::string to_string(MethodKind value);
 std::string to_string(Integration value);
+std::string to_string(Solver value);
 std::string to_string(Multipliers value);
 std::string to_string(Scheme value);
 std::string to_string(Acceleration value);

@@ -60,6 +60,17 @@ std::string to_string(Integration value) {
   return {};
 }
 
+std::string to_string(Solver value) {
+  switch (value) {
+    case Solver::direct:
+      return "direct";
+    case Solver::mssor:
+      return "mssor";
+  }
+  assert(false && "no such Solver");
+  return {};
+}
+
 std::string to_string(Multipliers value) {
   switch (value) {
     case Multipliers::quadratic:
@@ -96,6 +107,8 @@ std::string to_string(Acceleration value) {
       return "anderson";
     case Acceleration::krylov:
       return "krylov";
+    case Acceleration::minres:
+      return "minres";
   }
   assert(false && "no such Acceleration");
   return {};

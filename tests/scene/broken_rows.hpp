@@ -160,6 +160,24 @@ inline Rows contact_rows() {
   };
 }
 
+inline Rows solver_rows() {
+  const std::string kind = "kind = \"ddm\"", mortar = "kind = \"mortar\"\n", mssor = mortar + "solver = \"mssor\"\n";
+  return {
+      {"NotASolver", kind, mortar + "solver = \"msor\"", {"method.solver: unknown solver 'msor'", "'mssor'"}, 1},
+      {"MssorInDdm", kind, kind + "\nsolver = \"mssor\"", {"method.solver: ", "expected kind = \"mortar\""}, 1},
+      {"OmegaOfNoSolver", kind, mortar + "omega = 1", {"method.omega: belongs", "expected solver = \"mssor\""}, 1},
+      {"TauInDdm", kind, kind + "\ntau = 1", {"method.tau: belongs", "expected solver = \"mssor\""}, 1},
+      {"OmegaIsTwo", kind, mssor + "omega = 2", {"method.omega", "0 and 2 (both excluded), found 2"}, 2},
+      {"OmegaIsAuto", kind, mssor + "omega = \"auto\"", {"method.omega: expected a number, found 'auto'"}, 2},
+      {"TauIsZero", kind, mssor + "tau = 0", {"method.tau: expected a number > 0, found 0"}, 2},
+      {"AndersonWithMssor", kind, mssor + "acceleration = \"anderson\"", {"'anderson'", "none, krylov, minres"}, 2},
+      {"MinresInDdm", kind, kind + "\nacceleration = \"minres\"", {"unknown acceleration 'minres'", "krylov"}, 1},
+      {"SchemeWithMssor", kind, mssor + "scheme = \"neumann_neumann\"", {"method.scheme", "kind = \"ddm\""}, 2},
+      {"ToleranceOfNone", kind, mortar + "tolerance = 1e-8", {"belongs to an iteration", "solver = \"mssor\""}, 1},
+      {"StepsOfNone", kind, mortar + "max_iterations = 9", {"method.max_iterations: belongs to an iteration"}, 1},
+  };
+}
+
 inline Rows override_rows() {
   return {
       {"SetWrongWord", "", "method.kind=mortr", {"method.kind: unknown kind 'mortr'", "'mortar'"}},
@@ -204,7 +222,8 @@ inline Rows override_rows() {
 
 inline Rows all_rows() {
   Rows rows;
-  for (const Rows& some : {toml_rows(), mesh_rows(), material_rows(), load_rows(), contact_rows(), override_rows()}) {
+  for (const Rows& some :
+       {toml_rows(), mesh_rows(), material_rows(), load_rows(), contact_rows(), solver_rows(), override_rows()}) {
     rows.insert(rows.end(), some.begin(), some.end());
   }
   return rows;

@@ -1,0 +1,202 @@
+#include "solve/mssor.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "base/stopwatch.hpp"
+#include "solve/mssor_border.hpp"
+
+namespace mortise {
+namespace {
+
+using Status = MssorSolution::Status;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double divergence = 1e6;       // growth of a residual
+constexpr double pull_tolerance = 1e-9;  // of the largest multiplier, as the check of p >= 0
+
+// Says when to stop, and keeps the history.
+struct Watch {
+  const SweepSystem& system;
+  const MssorOptions& options;
+  MssorSolution& result;
+  double limit = options.tolerance;  ///< of the residuals as they are measured here
+  double smallest = infinity;  ///< residual
+  std::vector<double> sizes = {};  ///< of the residual, dimensionless
+  VecX forces = VecX(system.n());  ///< work space
+
+  // Of the iterate x with residual r, dimensionless; forces are compared with what is known of them without another
+  // product: never more than measure_residuals compares them with but where prescribed displacements make them large.
+  Residuals measure(const VecX& x, const VecX& r) {
+    const Eigen::Index n = system.n(), m = system.m();
+    forces.noalias() = system.B.transpose() * x.tail(m);
+    const double largest = std::max(x.head(n).lpNorm<Eigen::Infinity>(), system.largest_value);
+    const double size = std::max(
+        {system.rhs.head(n).lpNorm<Eigen::Infinity>(), forces.lpNorm<Eigen::Infinity>(), rigid_part * largest});
+    const double force = r.head(n).lpNorm<Eigen::Infinity>(), open = m > 0 ? r.tail(m).lpNorm<Eigen::Infinity>() : 0;
+    return {largest > 0 ? open / largest : open, size > 0 ? force / size : force};
+  }
+
+  // True while there is something left to do.
+  bool go_on(const VecX& x, const VecX& r) {
+    const double size = r.norm();
+    sizes.push_back(size);
+    smallest = std::min(smallest, size);
+    result.history.push_back(measure(x, r));
+    if (result.history.back().largest() <= limit) result.status = Status::converged;
+    if (!(size <= divergence * smallest)) result.status = Status::diverged;  // or not a number
+    if (result.status != Status::not_converged || result.steps >= options.max_iterations) return false;
+    ++result.steps;
+    return true;
+  }
+
+  // Geometric mean of what a step multiplied the residual by over the last half of the steps.
+  double factor() const {
+    const std::size_t last = sizes.size() - 1, middle = last / 2;
+    return last > middle ? std::pow(sizes[last] / sizes[middle], 1 / double(last - middle)) : 0;
+  }
+};
+
+void residual(const SweepSystem& s, const VecX& x, VecX& r) {
+  multiply(s, x, r);
+  r = s.rhs - r;
+}
+
+void stationary(SweepPreconditioner& M, Watch& watch, VecX& x, VecX& r) {
+  VecX z(x.size());
+  while (watch.go_on(x, r)) {
+    M.solve(r, z);
+    x += z;
+    residual(M.system, x, r);
+  }
+}
+
+// Freund & Nachtigal 1994, algorithm 3.1 without look-ahead. v is the residual of the Lanczos iterate, r that of x.
+void symmetric_qmr(SweepPreconditioner& M, Watch& watch, VecX& x, VecX& r) {
+  const Eigen::Index size = x.size();
+  VecX v = r, z(size), q(size), Aq(size), d = VecX::Zero(size), Ad = d;
+  M.solve(v, q);
+  double rho = v.dot(q), theta = 0, tau = v.norm();
+  while (rho != 0 && watch.go_on(x, r)) {
+    multiply(M.system, q, Aq);
+    const double sigma = q.dot(Aq);
+    if (sigma == 0) break;
+    const double alpha = rho / sigma, old = theta * theta;
+    v -= alpha * Aq;
+    theta = v.norm() / tau;
+    const double c2 = 1 / (1 + theta * theta);
+    tau *= theta * std::sqrt(c2);
+    d = c2 * old * d + c2 * alpha * q;
+    Ad = c2 * old * Ad + c2 * alpha * Aq;
+    x += d;
+    r -= Ad;
+    M.solve(v, z);
+    const double next = v.dot(z);
+    q = z + next / rho * q;
+    rho = next;
+  }
+}
+
+// Paige & Saunders 1975, preconditioned as in Elman, Silvester & Wathen 2014, algorithm 4.1; w, Aw: directions and
+// their images, newest first.
+void minres(SweepPreconditioner& M, Watch& watch, VecX& x, VecX& r) {
+  const Eigen::Index size = x.size();
+  VecX v = r, older = VecX::Zero(size), next(size), z(size), Az(size);
+  VecX w[3] = {VecX::Zero(size), VecX::Zero(size), VecX::Zero(size)}, Aw[3] = {w[0], w[0], w[0]};
+  M.solve_blocks(v, z);
+  double gamma = std::sqrt(v.dot(z)), gamma_old = 1, eta = gamma, s = 0, s_old = 0, c = 1, c_old = 1;
+  while (gamma > 0 && watch.go_on(x, r)) {
+    z /= gamma;
+    multiply(M.system, z, Az);
+    const double delta = Az.dot(z);
+    next = Az - delta / gamma * v - gamma / gamma_old * older;
+    older.swap(v);
+    v.swap(next);
+    std::swap(w[2], w[1]);
+    std::swap(w[1], w[0]);
+    std::swap(Aw[2], Aw[1]);
+    std::swap(Aw[1], Aw[0]);
+    const double a0 = c * delta - c_old * s * gamma, a2 = s * delta + c_old * c * gamma, a3 = s_old * gamma;
+    w[0] = z - a3 * w[2] - a2 * w[1];
+    Aw[0] = Az - a3 * Aw[2] - a2 * Aw[1];
+    M.solve_blocks(v, z);
+    gamma_old = gamma;
+    gamma = std::sqrt(std::max(0.0, v.dot(z)));
+    const double a1 = std::hypot(a0, gamma);
+    w[0] /= a1;
+    Aw[0] /= a1;
+    c_old = c;
+    s_old = s;
+    c = a0 / a1;
+    s = gamma / a1;
+    x += c * eta * w[0];
+    r -= c * eta * Aw[0];
+    eta *= -s;
+  }
+}
+
+void iterate(SweepPreconditioner& M, Watch& watch, VecX& x, VecX& r) {
+  if (watch.options.acceleration == Acceleration::none) return stationary(M, watch, x, r);
+  if (watch.options.acceleration == Acceleration::minres) return minres(M, watch, x, r);
+  symmetric_qmr(M, watch, x, r);
+}
+
+// u and lambda in the system's units.
+void take_over(const SaddlePointSystem& s, const SweepSystem& reduced, const VecX& x, SaddlePointSolution& solution) {
+  solution.u = s.value;
+  for (Eigen::Index k = 0; k < reduced.n(); ++k) solution.u(reduced.unknown[std::size_t(k)]) = x(k);
+  solution.lambda = s.stiffness_scale * x.tail(reduced.m()).cwiseQuotient(s.row_scale);
+  solution.active.assign(std::size_t(reduced.m()), 1);
+  measure_residuals(s, solution);
+}
+
+// Largest tension of a unilateral row.
+double pull(const SaddlePointSystem& s, const VecX& lambda) {
+  double most = 0;
+  for (std::size_t a = 0; a < s.unilateral.size(); ++a)
+    if (s.unilateral[a]) most = std::max(most, lambda(Eigen::Index(a)));
+  return most;
+}
+
+}  // namespace
+
+MssorSolution solve_by_mssor(const SaddlePointSystem& s, const MssorOptions& options) {
+  MssorSolution result;
+  SaddlePointSolution& solution = result.solution;
+  Stopwatch watch;
+  const SweepSystem reduced = sweep_system(s);
+  solution.factorise_seconds = watch.lap();
+  if (reduced.not_positive >= 0 || reduced.dependent_row >= 0) {
+    result.status = reduced.not_positive >= 0 ? Status::not_positive_definite : Status::dependent_row;
+    solution.failed_at = reduced.not_positive >= 0 ? reduced.not_positive : reduced.dependent_row;
+    return result;
+  }
+  SweepPreconditioner M{reduced, options.omega, options.tau};
+  Watch steps{reduced, options, result};
+  VecX x = VecX::Zero(reduced.rhs.size()), r = reduced.rhs;
+  // Where round-off has parted the residual from that of x, or forces are larger than they are compared with here, the
+  // iteration starts again from x.
+  for (double last = infinity;;) {
+    iterate(M, steps, x, r);
+    take_over(s, reduced, x, solution);
+    const double reached = std::max(solution.force_residual, solution.constraint_residual);
+    if (result.status == Status::diverged || result.steps >= options.max_iterations) break;
+    if (result.status == Status::converged && reached <= options.tolerance) break;
+    if (result.status == Status::converged) steps.limit *= 0.5 * std::min(1.0, options.tolerance / reached);
+    result.status = Status::not_converged;
+    if (!(reached < 0.5 * last)) break;  // all that this arithmetic gives
+    last = reached;
+    steps.smallest = infinity;
+    residual(reduced, x, r);
+  }
+  if (std::max(solution.force_residual, solution.constraint_residual) <= options.tolerance)
+    result.status = Status::converged;
+  if (options.acceleration == Acceleration::none) result.tau_border = tau_border(reduced, options.omega);
+  result.factor = steps.factor();
+  solution.steps.push_back({int(reduced.m()), 0, 0, pull(s, solution.lambda)});
+  if (result.status == Status::converged && solution.steps[0].pull > pull_tolerance * largest_entry(solution.lambda))
+    result.status = Status::cannot_open;
+  solution.solve_seconds = watch.lap();
+  return result;
+}
+
+}  // namespace mortise
