@@ -106,6 +106,8 @@ def judge(rows, variant, reading):
         "circle: rank correlation": fits["circle"]["rank"],
         "parabolas over circle": over_circle(of["parabolas"], of["circle"], reading),
         "factor between meshes": between,
+        "factor, circle": middle(factors(of["circle"], reading)),
+        "factor, straight": middle(factors(of["straight"], reading)),
         "fits": bool(close and BETWEEN_MESHES[0] <= between <= BETWEEN_MESHES[1]),
     }
 
@@ -118,10 +120,12 @@ def judge_all(rows):
 def printed_figures(rows):
     """What the printed tables themselves show: parabolas over circle, and the factor between meshes."""
     variant = rows[0]["variant"]
-    parabolas, circle = (targets(rows, variant, name) for name in ("parabolas", "circle"))
+    parabolas, circle, straight = (targets(rows, variant, name) for name in ("parabolas", "circle", "straight"))
     return {
         "parabolas over circle": over_circle(parabolas, circle, "printed"),
         "factor between meshes": middle(factors(parabolas, "printed")),
+        "factor, circle": middle(factors(circle, "printed")),
+        "factor, straight": middle(factors(straight, "printed")),
     }
 
 

@@ -33,11 +33,11 @@ def roughness(scene, curve, name="sigma_n"):
     return float(np.abs(v[1:-1] - (v[:-2] + v[2:]) / 2)[here].mean() / size(scene, curve, name))
 
 
-def apart(scene, a, b, name="sigma_n"):
-    """Largest distance between two curves, relative to the mean value of the first."""
+def apart(scene, a, b, name="sigma_n", share=1):
+    """Largest distance between two curves (or what a share of the nodes stays below) over the mean value of the first."""
     here = inner(scene, a["x"])
     difference = a[name] - np.interp(a["x"], b["x"], b[name])
-    return float(np.abs(difference[here]).max() / size(scene, a, name))
+    return float(np.quantile(np.abs(difference[here]), share) / size(scene, a, name))
 
 
 def away(scene, curve, reference, name="sigma_n"):

@@ -29,15 +29,14 @@ def measure(store, row, say=lambda text: None):
         for side in preprint.OTHER:
             arguments = (store, row["scene"], row["mesh"], {**settings, **CLOSED}, side, row["body"], row["at"])
             found[f"{space}_on_{side}"] = oscillation.delta_of(*arguments)
-            robust = oscillation.delta_of(*arguments, measure=oscillation.without_zeros)
-            found[f"{space}_on_{side}_without_zeros"] = robust
+            found[f"worst_{space}_on_{side}"] = oscillation.delta_of(*arguments, measure=oscillation.share_of_worst)
     return found
 
 
 def judged(row, found):
-    quadratic = [found[f"quadratic_on_{side}"] for side in preprint.OTHER]
-    linear = [found[f"linear_on_{side}"] for side in preprint.OTHER]
-    better, best = min(quadratic), min(quadratic + linear)
+    both = {name: found[name] for name in (f"quadratic_on_{side}" for side in preprint.OTHER)}
+    better = min(both.values())
+    best = min(better, *(found[f"linear_on_{side}"] for side in preprint.OTHER))
     mapped = {
         f"quadratic, {name}": found[f"quadratic_on_{side(row['active'])}"] for name, side in preprint.MAPPINGS.items()
     }
@@ -48,7 +47,7 @@ def judged(row, found):
         "better": better,
         "best": best,
         "default": found[f"linear_on_{finer(row['mesh'])}"],
-        "better_without_zeros": min(found[f"quadratic_on_{side}_without_zeros"] for side in preprint.OTHER),
+        "better_share_of_worst": found["worst_" + min(both, key=both.get)],
         "printed_over_better": row["printed"] / better,
         "printed_over_best": row["printed"] / best,
         "better_ok": better <= row["printed"],
