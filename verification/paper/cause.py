@@ -1,4 +1,4 @@
-"""Why the preprint's stresses oscillate: the tables again with other ways to make the gap, the integrals and the mesh.
+"""Why the preprint's stresses oscillate: the tables again with other ways to treat gap, integrals and mesh.
 
 A variant is a change of the settings. Each is held against the printed tables by both readings of "active": size (median
 of ours/printed over the rows of a series), order (parabolas over circle), and the factor by which delta falls from one
@@ -35,6 +35,7 @@ VARIANTS = {
 ONLY_CURVED = ("contact.initial_gap", *EVEN_X1, *STRAIGHT)  # no difference on straight lines: both meshes lie on them
 FACTOR = 3
 BETWEEN_MESHES = (3, 5)
+EQUAL = 1.05  # distances up to this ratio are not told apart
 
 
 def settings_of(variant, scene):
@@ -135,6 +136,7 @@ def distance(verdict):
 
 
 def nearest(verdicts, fitting=True):
-    """The verdict nearest to the printed parabola rows, of those that fit if any does."""
+    """The verdict nearest to the printed parabola rows, of those that fit if any does; the first of equally near ones."""
     fit = [verdict for verdict in verdicts if verdict["fits"]] if fitting else []
-    return min(fit or verdicts, key=distance)
+    least = min(map(distance, fit or verdicts))
+    return next(verdict for verdict in fit or verdicts if distance(verdict) <= EQUAL * least)

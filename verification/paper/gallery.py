@@ -1,8 +1,8 @@
 """The preprint's figures 3-9, 11-28, 30 and 31 from our results: same quantities, scenes, meshes and axes.
 
 The preprint's figures are not redrawn from it: only what each shows and what is said of it is known. Ours is the
-preprint's discretisation with segments and a closed gap; pale lines are the variant of cause.py that comes nearest to the
-printed tables.
+preprint's discretisation with segments and a closed gap; pale lines are the variant of cause.py that comes nearest to
+the printed tables.
 """
 
 import html
@@ -13,6 +13,7 @@ import page
 
 MESH, MATCHING = (80, 100), (80, 80)
 PIECE = (0.44, 0.76)
+DECOMPOSED = [(26, "parabola_1", (41, 50)), (27, "parabola_2", (39, 51)), (28, "parabola_2", (76, 101))]
 NAMES = {
     "tent_a": "tent (a)",
     "tent_b": "tent (b)",
@@ -91,7 +92,7 @@ def entries():
     says = "No oscillation of u_n is visible, here and in all scenes."
     yield entry(6, text, says, claims.displacement_is_smooth, displacement, "tent_a")
     for k, scene in enumerate(claims.TENTS):
-        text = f"Normal stress on a piece of {NAMES[scene]}, 80x100 against matching meshes, G2 active; one scale for 7 to 9."
+        text = f"Normal stress on a piece of {NAMES[scene]}, 80x100 against matching meshes, G2 active; one scale for 7-9."
         says = "Practically no oscillation but at the ends, whatever the angle."
         yield entry(7 + k, text, says, claims.tents_do_not_oscillate, piece_against_matching, scene)
     curves = ("circle", "parabola_1", "parabola_2")
@@ -112,14 +113,14 @@ def entries():
         says = "Larger oscillation than on finer meshes."
         yield entry(19 + k, text, says, claims.coarse_against_fine, one_body, "parabola_1", body)
     for k, scene in enumerate(curves):
-        text = f"Normal stress on {NAMES[scene]} at the centres of the elements, 80x100 against matching meshes, G2 active."
+        text = f"Normal stress on {NAMES[scene]} at element centres, 80x100 against matching meshes, G2 active."
         says = "Smaller oscillation than at the nodes."
         yield entry(21 + k, text, says, claims.nodes_against_centres(scene), against_matching, scene, "centres")
     for number, name in ((24, "sigma_11"), (25, "sigma_22")):
         text = f"Field of {name} for parabola 2, 80x80 and 80x100, G1 active; one scale."
         says = "On 80x100 the oscillation is visible in the field."
         yield entry(number, text, says, claims.field_oscillates(name), field, name)
-    for number, scene, mesh in ((26, "parabola_1", (41, 50)), (27, "parabola_2", (39, 51)), (28, "parabola_2", (76, 101))):
+    for number, scene, mesh in DECOMPOSED:
         text = f"Contact pressure on {NAMES[scene]} by domain decomposition, {mesh[0]}x{mesh[1]}, 3-node triangles."
         says = "One curve for both bodies; far less oscillation than by the mortar method."
         yield entry(number, text, says, claims.decomposed(scene, mesh), decomposition, scene, mesh)
@@ -154,7 +155,8 @@ def section(rows):
     """HTML: pictures side by side, each with its caption below."""
     yield '<div style="display:grid;grid-template-columns:repeat(auto-fill,minmax(400px,1fr));gap:0 1.2em">\n'
     for row in rows:
-        caption = f"<b>Figure {row['figure']}.</b> {html.escape(row['caption'])}<br>The preprint: {html.escape(row['says'])}"
+        caption = f"<b>Figure {row['figure']}.</b> {html.escape(row['caption'])}"
+        caption += f"<br>The preprint: {html.escape(row['says'])}"
         caption += f"<br>Here: {html.escape(row['found'])} <b>Ours: {html.escape(row['holds'])}.</b>"
         wide = ' style="grid-column:1/-1"' if row["figure"] in (24, 25) else ""
         image = f'<img src="{row["picture"]}" alt="Figure {row["figure"]}">'
@@ -165,4 +167,4 @@ def section(rows):
 def table(rows):
     """For Markdown."""
     heading = ["figure", "shows", "the preprint says", "here", "holds"]
-    return heading, [[str(r["figure"]), r["caption"], r["says"], r["found"], r["holds"]] for r in rows]
+    return heading, [[str(row["figure"]), *(row[name] for name in ("caption", "says", "found", "holds"))] for row in rows]

@@ -38,9 +38,8 @@ def line(path, curves, name="sigma_n", piece=None, whole=False, y_limits=None):
     for text, (style, curve) in curves.items():
         axes.plot(curve["x"], factor * curve[name], label=text, **style)
     axes.set(xlabel=r"$x_1$, m", ylabel=label, xlim=piece or (0, 0.8))
-    if not whole:
-        judged = piece or (0.03, 0.77)
-        axes.set_ylim(y_limits or limits([curve for _, curve in curves.values()], name, factor, judged))
+    judged = piece or ((0, 0.8) if whole else (0.03, 0.77))
+    axes.set_ylim(y_limits or limits([curve for _, curve in curves.values()], name, factor, judged))
     axes.grid(alpha=0.25)
     axes.legend(fontsize=7.5, frameon=False, ncol=2, loc="upper center")
     save(figure, path)

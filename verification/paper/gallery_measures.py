@@ -10,7 +10,8 @@ import numpy as np
 import preprint
 
 NEAR_A_CORNER = 0.04  # m along x1
-NEAR_THE_LINE = 0.05  # m, of the fields
+NEAR_THE_LINE = 0.02  # m, of the fields
+BODIES = ("G1", "G2")  # in the order of result.vtu: upper, lower
 QUADRILATERAL = [(0, 4, 7), (4, 1, 5), (5, 2, 6), (6, 3, 7), (4, 5, 7), (5, 6, 7)]  # an 8-node cell as triangles
 
 
@@ -34,7 +35,7 @@ def roughness(scene, curve, name="sigma_n"):
 
 
 def apart(scene, a, b, name="sigma_n", share=1):
-    """Largest distance between two curves (or what a share of the nodes stays below) over the mean value of the first."""
+    """Largest distance between two curves over the mean value of the first; or what a share of the nodes stays below."""
     here = inner(scene, a["x"])
     difference = a[name] - np.interp(a["x"], b["x"], b[name])
     return float(np.quantile(np.abs(difference[here]), share) / size(scene, a, name))
@@ -65,15 +66,15 @@ def fields(folder):
     }
 
 
-def fields_apart(field, matching, curve, name):
-    """Mean distance of a stress in the upper body from that of matching meshes, near the contact line and away from its
-    ends, over the mean size of that stress there. Both upper meshes are the same; `curve` is the upper contact line."""
-    upper = lambda f: np.flatnonzero(f["body"] == 0)
-    ordered = lambda f: upper(f)[np.lexsort(f["points"][upper(f)].T.round(7))]
+def fields_apart(field, matching, curve, name, body):
+    """Mean distance of a stress in a body from that of matching meshes, near the contact line and away from its ends,
+    over the mean size of that stress there. The body's mesh is the same in both; `curve` is its contact line."""
+    of_body = lambda f: np.flatnonzero(f["body"] == BODIES.index(body))
+    ordered = lambda f: of_body(f)[np.lexsort(f["points"][of_body(f)].T.round(7))]
     a, b = ordered(field), ordered(matching)
-    if np.abs(field["points"][a] - matching["points"][b]).max() > 1e-6:
-        raise ValueError("the upper bodies have different nodes")
+    if len(a) != len(b) or np.abs(field["points"][a] - matching["points"][b]).max() > 1e-6:
+        raise ValueError(f"{body} has different nodes in the two runs")
     x, y = field["points"][a].T
-    above = y - np.interp(x, curve["x"], curve["y"])
-    here = (above < NEAR_THE_LINE) & (x > NEAR_A_CORNER) & (x < 0.8 - NEAR_A_CORNER)
+    off_the_line = np.abs(y - np.interp(x, curve["x"], curve["y"]))
+    here = (off_the_line < NEAR_THE_LINE) & (x > NEAR_A_CORNER) & (x < 0.8 - NEAR_A_CORNER)
     return float(np.abs(field[name][a] - matching[name][b])[here].mean() / np.abs(matching[name][b])[here].mean())

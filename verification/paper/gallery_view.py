@@ -1,5 +1,6 @@
 """Curves for the gallery: a reading of "active", our method, and the variant that comes nearest to the preprint's."""
 
+import json
 from dataclasses import dataclass
 
 import cause
@@ -40,6 +41,10 @@ class View:
 
     def cosine(self, mesh, active, body):
         return self.store.curve("cosine", mesh, {**paper_runs.METHOD, **self.sides(active)}, body)
+
+    def cosine_status(self, mesh, active):
+        folder = self.store.run("cosine", mesh, {**paper_runs.METHOD, **self.sides(active)})
+        return json.loads((folder / "summary.json").read_text())["status"]
 
     def sides(self, active):
         return paper_runs.on_side(preprint.MAPPINGS[self.reading](active))

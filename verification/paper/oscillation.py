@@ -2,7 +2,7 @@
 
 delta(x1) = |sigma_2 - s| / |s| on one body's contact line, with s of matching meshes that have this body's elements on
 both sides; its mean over the nodes (or element centres) leaves out those of the first and the last element, where the
-stress is singular. Near the ends and kinks it may still be singular, and s may be near a zero: then a few places make the mean.
+stress is singular. Beside them and beside kinks it is large still, or s near a zero: then a few places make the mean.
 `share_of_worst` tells that.
 """
 

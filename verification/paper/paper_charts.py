@@ -93,7 +93,8 @@ def mean_by_mesh(rows, variant, scene, value):
 
 def stress_curves(path, store, chosen, side, scene, mesh):
     """sigma_n of both bodies along x1, a panel for each variant, against matching meshes."""
-    figure, panels = plt.subplots(len(chosen), 1, figsize=(8.6, 2.1 * len(chosen) + 0.4), sharex=True, layout="constrained")
+    size = (8.6, 2.1 * len(chosen) + 0.4)
+    figure, panels = plt.subplots(len(chosen), 1, figsize=size, sharex=True, layout="constrained")
     for axes, name in zip(panels, chosen):
         settings = cause.settings_of(name, scene)
         for body in ("G2", "G1"):

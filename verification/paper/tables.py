@@ -84,7 +84,7 @@ def ratios(rows):
         here = of_series(rows, series)
         if here:
             middle = lambda name: float(np.median([row["printed"] / row[name] for row in here]))
-            yield {"series": series, "rows": len(here), **{name: middle(name) for name in ("better", "best", "default")}}
+            yield {"series": series, "rows": len(here)} | {name: middle(name) for name in ("better", "best", "default")}
 
 
 def exceptions(rows, name="better"):
