@@ -35,7 +35,7 @@ def roughness(scene, curve, name="sigma_n"):
 
 
 def apart(scene, a, b, name="sigma_n", share=1):
-    """Largest distance between two curves over the mean value of the first; or what a share of the nodes stays below."""
+    """Largest distance of two curves over the mean value of the first; or what a share of the nodes stays below."""
     here = inner(scene, a["x"])
     difference = a[name] - np.interp(a["x"], b["x"], b[name])
     return float(np.quantile(np.abs(difference[here]), share) / size(scene, a, name))

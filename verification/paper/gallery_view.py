@@ -37,13 +37,15 @@ class View:
         return oscillation.matching_curve(self.store, scene, mesh, cause.VARIANTS[variant], body, at)
 
     def folder_with_fields(self, scene, mesh, active, variant=cause.OURS):
-        return self.store.run(scene, mesh, self.settings(active, variant), fields=True)
+        settings = {key: value for key, value in self.settings(active, variant).items() if key != paper_runs.STRESS}
+        return self.store.run(scene, mesh, settings, fields=True)
 
     def cosine(self, mesh, active, body):
         return self.store.curve("cosine", mesh, {**paper_runs.METHOD, **self.sides(active)}, body)
 
-    def cosine_status(self, mesh, active):
-        folder = self.store.run("cosine", mesh, {**paper_runs.METHOD, **self.sides(active)})
+    def cosine_status(self, mesh, method):
+        """How the run ends with the multipliers on the side that the program chooses."""
+        folder = self.store.run("cosine", mesh, method)
         return json.loads((folder / "summary.json").read_text())["status"]
 
     def sides(self, active):

@@ -46,7 +46,7 @@ def predicted(scene, mesh):
 
 
 def swing(store, scene, mesh, side):
-    """Largest distance of sigma_n from matching meshes on the multiplier side, with the gap enforced, corners left out."""
+    """Largest distance of sigma_n from matching meshes on the multiplier side, the gap enforced, corners left out."""
     enforced = {**METHOD, "contact.initial_gap": "measured", **on_side(side)}
     curve, reference = store.curve(scene, mesh, enforced, side), matching_curve(store, scene, mesh, enforced, side)
     return float(np.abs(curve["sigma_n"] - reference["sigma_n"])[inner(scene, curve["x"])].max())

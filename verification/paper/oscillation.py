@@ -8,12 +8,12 @@ stress is singular. Beside them and beside kinks it is large still, or s near a 
 
 import numpy as np
 
-from paper_runs import on_side
+from paper_runs import STRESS, on_side
 
 LEFT_OUT = {"nodes": 3, "centres": 1}  # of a line of 3-node edges, at either end
 SAME_PLACE = 1e-9  # m
 WORST = 6  # places
-OF_THE_MESH = ("mesh.parameters.spacing", "mesh.parameters.straight", "method.multipliers")
+OF_THE_MESH = ("mesh.parameters.spacing", "mesh.parameters.straight", "method.multipliers", STRESS)
 
 
 def delta(curve, reference, at="nodes"):

@@ -63,8 +63,10 @@ def study(store, output, size, say):
     found["verdicts"] = cause.judge_all(found["variants"])
     best = cause.nearest(found["verdicts"])
     found["best"], found["printed"] = best, cause.printed_figures(found["variants"])
+    whole = len({row["mesh"] for row in printed if row["at"] == "nodes"}) > 1  # else there is no factor between meshes
+    found["trend"] = cause.nearest_in_trend(found["verdicts"], found["printed"]) if whole else None
     paper_charts.variants(output / "variants.png", found["variants"], found["verdicts"])
-    chosen = list(dict.fromkeys([cause.OURS, MEASURED, best["variant"]]))
+    chosen = list(dict.fromkeys([cause.OURS, MEASURED, best["variant"], (found["trend"] or best)["variant"]]))
     paper_charts.by_mesh(output / "meshes.png", found["variants"], chosen, best["reading"])
     side = preprint.MAPPINGS[best["reading"]]("G1")
     paper_charts.stress_curves(output / "curves.png", store, chosen, side, SCENE, size.curves_mesh)

@@ -16,11 +16,11 @@ SERIES_COLOURS = {"straight": "#7a7a7a", "circle": "#2e6fab", "parabolas": "#d14
 MARKS = {"straight": "s", "circle": "o", "parabolas": "^"}
 
 
-def legend_above(figure, axes):
+def legend_above(figure, axes, columns=4):
     """One legend of an axes' labels above all panels."""
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="upper center", ncol=4, frameon=False, fontsize=8.5)
-    share = 0.32 / figure.get_figheight()
+    figure.legend(handles, labels, loc="upper center", ncol=columns, frameon=False, fontsize=8.5)
+    share = (0.32 if len(labels) <= columns else 0.5) / figure.get_figheight()
     figure.get_layout_engine().set(rect=(0, 0, 1, 1 - share))
 
 
@@ -67,7 +67,7 @@ def variants(path, rows, verdicts):
 
 def by_mesh(path, rows, chosen, reading):
     """delta over the number of elements, circle and parabola 2: printed, and by some variants."""
-    styles = dict(zip(chosen, ("#2e6fab", "#e0a030", "#d1495b")))
+    styles = dict(zip(chosen, ("#2e6fab", "#e0a030", "#d1495b", "#3a8a4d")))
     figure, panels = plt.subplots(1, 2, figsize=(8.6, 3.5), sharey=True, layout="constrained")
     for axes, scene in zip(panels, ("circle", "parabola_2")):
         of = lambda name, value: mean_by_mesh(rows, name, scene, value)
@@ -80,7 +80,7 @@ def by_mesh(path, rows, chosen, reading):
         axes.minorticks_off()
         axes.grid(alpha=0.25)
     panels[0].set_ylabel(r"$\delta$, geometric mean of the 4 rows")
-    legend_above(figure, panels[0])
+    legend_above(figure, panels[0], columns=3)
     save(figure, path)
 
 

@@ -16,9 +16,11 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import launch
+import nodal_stress
 
 SIDES = {"G1": "upper_contact", "G2": "lower_contact"}
 METHOD = {"method.multipliers": "quadratic"}  # of the preprint; the other defaults are the scenes' own
+STRESS, AT_THE_NODES = "study.stress", "at the nodes"  # a setting of curves only, not of mortise: nodal_stress.py
 FILES = {"nodes": "contact.csv", "centres": "contact_centres.csv"}
 
 
@@ -62,15 +64,34 @@ class Store:
             self.solved += 1
         return folder
 
-    def curve(self, scene, mesh, settings, body, at="nodes"):
-        """Columns of one body's contact line by x1, at its nodes or its element centres."""
-        path = self.run(scene, mesh, settings) / FILES[at]
+    def nodal_stresses(self, scene, mesh, settings):
+        """Path of the stresses taken at the nodes, row by row of contact.csv. Needs result.vtu once."""
+        path = self.run(scene, mesh, settings) / "nodal_stress.csv"
+        if not path.is_file():
+            fields = path.with_name("result.vtu")
+            kept = fields.is_file()
+            self.run(scene, mesh, settings, fields=True)
+            launch.write_csv(path, nodal_stress.at_contact(path.parent))
+            if not kept:
+                fields.unlink()
+        return path
+
+    def table(self, path):
         if path not in self.tables:
             self.tables[path] = {name: np.array(values) for name, values in launch.columns(path).items()}
-        table = self.tables[path]
+        return self.tables[path]
+
+    def curve(self, scene, mesh, settings, body, at="nodes"):
+        """Columns of one body's contact line by x1, at its nodes or its element centres."""
+        settings = dict(settings)
+        direct = settings.pop(STRESS, None) == AT_THE_NODES and at == "nodes"
+        table = self.table(self.run(scene, mesh, settings) / FILES[at])
+        if direct:
+            table = {**table, **self.table(self.nodal_stresses(scene, mesh, settings))}
         here = np.flatnonzero(table["curve"] == SIDES[body])
         order = here[np.argsort(table["x"][here])]
-        return {name: values[order] for name, values in table.items()}
+        curve = {name: values[order] for name, values in table.items()}
+        return nodal_stress.replaced(curve) if direct else curve
 
 
 def on_side(body):

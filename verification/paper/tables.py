@@ -9,7 +9,6 @@ multipliers on the finer side.
 import numpy as np
 
 import oscillation
-import page
 import preprint
 from paper_runs import METHOD
 
@@ -131,11 +130,3 @@ def markdown_table(heading, rows):
 def as_table(rows):
     """Dictionaries as heading and cells."""
     return list(rows[0]), [[short(value) for value in row.values()] for row in rows]
-
-
-def html(rows):
-    return page.table(COLUMNS.values(), lines(rows))
-
-
-def markdown(rows):
-    return "\n".join(markdown_table(COLUMNS.values(), lines(rows)))

@@ -148,7 +148,7 @@ def test_quick_study_is_whole(quick):
     pictures = [row["picture"] for row in gallery] + ["tables.png", "variants.png", "meshes.png", "curves.png"]
     section, markdown = (folder / "section.html").read_text(), (folder / "paper.md").read_text()
     for picture in pictures:
-        assert 8000 < (folder / picture).stat().st_size < 200000 and f'src="{picture}"' in section
+        assert 3000 < (folder / picture).stat().st_size < 100000 and f'src="{picture}"' in section
     assert section.count("<tr>") >= 24 and "| 5 | parabola_2 | 40x50 | nodes | G2 | G2 | 0.17 |" in markdown
 
 
