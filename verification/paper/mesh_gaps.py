@@ -10,10 +10,10 @@ import json
 
 import numpy as np
 
-import launch
 from gallery_measures import inner
 from oscillation import matching_curve
-from paper_runs import METHOD, on_side
+from paper_runs import METHOD, on_side  # makes launch known
+import launch
 
 CLOSED = {"contact.initial_gap": "closed"}
 CURVATURE = {"parabola_1": (-1.25, 1.0), "parabola_2": (-1.875, 1.5)}  # a, b of x2 = a x1^2 + b x1 + c

@@ -9,9 +9,7 @@ import meshio
 import numpy as np
 from scipy.spatial import cKDTree
 
-import launch
-
-POISSON = 0.3  # of the preprint's scenes; plane strain
+YOUNG, POISSON = 210e9, 0.3  # of the preprint's scenes; plane strain
 BODIES = {"upper_contact": 0, "lower_contact": 1}
 NODES = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0)])  # in VTK's order
 
@@ -31,7 +29,7 @@ def derivatives(x, y):
 
 def element_stresses(points, displacements):
     """Stresses 11, 22, 12 of elements at their own nodes: elements x 8 x 3, of coordinates and u, elements x 8 x 2."""
-    mu = launch.YOUNG / 2 / (1 + POISSON)
+    mu = YOUNG / 2 / (1 + POISSON)
     lame = 2 * mu * POISSON / (1 - 2 * POISSON)
     stresses = np.empty((len(points), 8, 3))
     for k, (x, y) in enumerate(NODES):
@@ -59,10 +57,9 @@ def averaged(folder):
     return points, body, total / count[:, None]
 
 
-def at_contact(folder):
-    """Columns s_11, s_22, s_12: the stresses at the rows of contact.csv, in each row's own body."""
+def at_contact(folder, table):
+    """Rows with s_11, s_22, s_12: the stresses at the rows of contact.csv (its columns), in each row's own body."""
     points, body, stresses = averaged(folder)
-    table = launch.columns(folder / "contact.csv")
     places, found = np.stack([table["x"], table["y"]], axis=1), np.empty((len(table["x"]), 3))
     for curve, number in BODIES.items():
         here, own = np.flatnonzero(np.array(table["curve"]) == curve), np.flatnonzero(body == number)

@@ -71,7 +71,7 @@ class Store:
             fields = path.with_name("result.vtu")
             kept = fields.is_file()
             self.run(scene, mesh, settings, fields=True)
-            launch.write_csv(path, nodal_stress.at_contact(path.parent))
+            launch.write_csv(path, nodal_stress.at_contact(path.parent, self.table(path.with_name("contact.csv"))))
             if not kept:
                 fields.unlink()
         return path

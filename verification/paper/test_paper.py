@@ -12,6 +12,7 @@ import mesh_gaps
 import oscillation
 import paper
 import paper_runs  # makes launch known
+import nodal_stress
 import preprint
 import launch
 
@@ -88,6 +89,34 @@ def test_predicted_gap_is_that_of_quadratic_edges():
         largest = max(largest, np.abs((Y - y(X)) / np.hypot(1, 2 * a * X + b)).max())
     assert mesh_gaps.length("parabola_2") == pytest.approx(s[-1], rel=1e-6)
     assert 2 * largest == pytest.approx(mesh_gaps.predicted("parabola_2", (n, n)), rel=0.05)
+
+
+def test_nodal_stresses_of_a_uniform_strain():
+    """Of a distorted 8-node element, against Hooke's law for plane strain written out."""
+    corners = np.array([(0, 0), (1, 0.1), (1.2, 0.9), (-0.1, 1)])
+    middles = (corners + np.roll(corners, -1, axis=0)) / 2 + [[0.02, 0.03]] * 4
+    points = np.concatenate([corners, middles])
+    a, b, c, d = 1e-3, 2e-4, -4e-4, -5e-4  # u = (a x + b y, c x + d y)
+    u = np.stack([a * points[:, 0] + b * points[:, 1], c * points[:, 0] + d * points[:, 1]], axis=1)
+    found = nodal_stress.element_stresses(points[None], u[None])[0]
+    E, nu = 210e9, 0.3
+    factor = E / (1 + nu) / (1 - 2 * nu)
+    expected = [factor * ((1 - nu) * a + nu * d), factor * ((1 - nu) * d + nu * a), E / (1 + nu) * (b + c) / 2]
+    assert found == pytest.approx(np.array([expected] * 8), rel=1e-10)
+
+
+def test_nodal_stresses_come_near_the_recovered_ones_and_are_kept(store):
+    settings = {**cause.VARIANTS[cause.OURS], **paper_runs.on_side("G2")}
+    own = store.curve("circle", (16, 20), {**settings, **cause.DIRECT}, "G1")
+    recovered = store.curve("circle", (16, 20), settings, "G1")
+    for name in ("sigma_2", "sigma_n"):
+        inner = slice(5, -5)
+        assert own[name][inner] == pytest.approx(recovered[name][inner], rel=0.1)
+        assert np.abs(own[name] - recovered[name]).max() > 1  # Pa; they are not the same figures
+    solved = store.solved
+    store.curve("circle", (16, 20), {**settings, **cause.DIRECT}, "G2")
+    assert store.solved == solved
+    assert not list(store.folder.glob("*/result.vtu"))
 
 
 def test_roughness_of_a_line_and_of_a_zigzag():
