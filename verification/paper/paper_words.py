@@ -149,12 +149,17 @@ def parts(found):
     yield "table", (list(tables.COLUMNS.values()), list(tables.lines(found["rows"])))
 
 
+def about_the_gallery(found):
+    best = found["best"]
+    return f"'The variant' and the pale lines are '{best['variant']}'; {best['reading']}, in ours and in the variant."
+
+
 def markdown(found):
     forms = {"text": "{0}\n", "heading": "## {0}\n", "picture": "![{0[1]}]({0[0]})\n"}
     lines = ["# The preprint's study", "", *(f"- {line}" for line in summary(found)), ""]
     for kind, value in parts(found):
         lines += tables.markdown_table(*value) if kind == "table" else [forms[kind].format(value)]
-    lines += ["## Gallery", "", *tables.markdown_table(*gallery.table(found["gallery"]))]
+    lines += ["## Gallery", "", about_the_gallery(found), "", *tables.markdown_table(*gallery.table(found["gallery"]))]
     return "\n".join(lines)
 
 
@@ -167,5 +172,6 @@ def write_html(output, found):
     }
     first = [page.paragraph(line) for line in summary(found)]
     body = [makers[kind](value) for kind, value in parts(found)]
-    last = [page.heading("Gallery: the preprint's figures from our results"), *gallery.section(found["gallery"])]
-    page.write_section(output, "paper", "The preprint's study", [*first, *body, *last])
+    last = [page.heading("Gallery: the preprint's figures from our results"), page.paragraph(about_the_gallery(found))]
+    figures = gallery.section(found["gallery"])
+    page.write_section(output, "paper", "The preprint's study", [*first, *body, *last, *figures])
