@@ -1,0 +1,176 @@
+"""The chart in words and tables: OUT/section.html, and docs/charts.md with its pictures."""
+
+import shutil
+from pathlib import Path
+
+import advice
+import chart_runs  # makes launch and page known
+import launch
+import page
+from chart_methods import PROBLEMS, TURNS, label
+
+INTRODUCTION = (
+    "Accuracy and speed, one against the other: every method on a sequence of meshes, each half as wide as the one "
+    "before. Upwards is the error, to the right the seconds from the mesh to recovered stresses (assembly, coupling, "
+    "factorisation, solution, recovery and checks; no meshing, no writing), one thread, the median of 3 to {turns} "
+    "runs that took turns. Nothing on the thick grey line is beaten in both.",
+    "FreeFEM's seconds are those that its scripts report, of the processor: assembly, coupling and solution, no "
+    "recovery. A part of them is the coupling, written in FreeFEM's own interpreted language; the columns of "
+    "chart.csv keep it apart. Its triangles are those of the curve T3, with straight sides also for P2. The manufactured "
+    "problem has loads that vary from place to place, which its case files cannot say: no curves there.",
+)
+KNOWN = {
+    "manufactured": "u, stresses and p are exact (a field without body force from Kolosov-Muskhelishvili potentials).",
+    "rings": "u, stresses and p are exact (Lamé). As p is constant along the line, linear multipliers on the finer side "
+    "come out far better than they do in general.",
+    "parabola_1": "No exact answer: p against a reference on meshes that shrink towards the ends of the line; the energy "
+    "norm as sqrt(|E - E_ref| / E_ref), E the strain energy, which is the energy norm of the error but for what the "
+    "contact conditions add. At the ends p is singular and not square-integrable: p in L2 is taken without a tenth of the "
+    "line at each end. Errors below the trust in the reference are not drawn.",
+}
+
+
+def trust_lines(about, rows):
+    """How far the reference can be trusted, in sentences."""
+    table = about["reference"]
+    trust, differences = table["trust"], table["differences"]
+    largest = {key: max(float(d[key]) for d in differences.values()) for key in ("e_p_l2_inner", "e_p_max_inner")}
+    yield (
+        f"The reference of parabola_1 ({table['columns']} columns, {table['unknowns']} unknowns): two others of "
+        f"different gradings differ from it by {largest['e_p_l2_inner']:.1e} in p (L2) and {largest['e_p_max_inner']:.1e} "
+        f"(largest); trusted to twice that, {trust['e_p_l2_inner']:.1e} and {trust['e_p_max_inner']:.1e}. Its energy, "
+        f"extrapolated to h = 0 (Richardson with the measured rate, {table['energy_rates']['3']:.2f}), is "
+        f"{table['energy']:.8g} J/m, trusted to {trust['energy']:.1e}, or {trust['e_energy']:.1e} in the energy norm."
+    )
+    yield (
+        f"On even meshes the energy converges as h^{table['energy_rate_even_meshes']:.2f}: near the ends p grows as "
+        f"r^{table['energy_rate_even_meshes'] / 2 - 1:.2f}."
+    )
+    for name in ("freefem_p1", "freefem_p2"):
+        mine = [row for row in rows if (row["problem"], row["method"]) == ("parabola_1", name) and row["e_p_l2_inner"]]
+        if mine:
+            series = ", ".join(f"{row['mesh']} {row['e_p_l2_inner']:.1e}" for row in mine)
+            yield f"{label(name)} approaches the same reference, in p (L2): {series}."
+
+
+def check_rows(checks):
+    for c in checks:
+        yield [
+            *(c["problem"], label(c["method"]), c["mesh"], f"{c['chart']:.4f}", f"{c['process']:.4f}"),
+            *(f"{c['reported']:.4f}", f"{c['ratio']:.3f}"),
+        ]
+
+
+CHECK_HEADING = ("problem", "method", "mesh", "chart, s", "process, s", "summary.json, s", "process / chart")
+CHECK_TEXT = (
+    "Two of these seconds against the executable, timed from outside: the whole process `mortise solve --threads 1`, less "
+    "the meshing and writing of its summary.json and less the {start:.2f} s in which a process that does nothing starts."
+)
+ECONOMY_HEADING = ("study", "scene", "way", "unknowns", "steps", "seconds", "whole process, s", "difference of p")
+ECONOMY_TEXT = (
+    "Half of a symmetric scene against the whole (the same elements on the half, symmetry at its end), and bilateral "
+    "against unilateral contact where nothing opens. Seconds from assembly to recovery, one thread, medians; the "
+    "difference is the largest of p over its largest value."
+)
+ELEMENTS_HEADING = ("problem", "elements", "error in p at most", "mesh", "unknowns", "seconds")
+ELEMENTS_TEXT = "Linear or quadratic elements for a coarse answer: the quickest mesh of the chart for each."
+
+
+def economy_rows(rows):
+    for row in rows:
+        yield [
+            *(row["study"], row["scene"], row["way"], row["unknowns"], row["steps"]),
+            *(f"{row['seconds']:.4f}", f"{row['whole']:.3f}", f"{row['difference_of_p']:.1e}"),
+        ]
+
+
+def saving_lines(rows):
+    """What the half model and the bilateral condition save: the ratios of the seconds."""
+    for study, ways in (("half", ("whole", "half")), ("condition", ("unilateral", "bilateral"))):
+        for scene in dict.fromkeys(row["scene"] for row in rows if row["study"] == study):
+            full, less = (next(r for r in rows if (r["scene"], r["way"]) == (scene, way)) for way in ways)
+            yield f"{scene}: {ways[1]} takes {less['seconds'] / full['seconds']:.2f} of the seconds of {ways[0]}"
+
+
+def element_rows(rows):
+    for row in rows:
+        seconds = f"{row['seconds']:.4f}" if "seconds" in row else ""
+        mesh = row.get("mesh", "not reached")
+        yield [
+            *(row["problem"], label(row["method"]), advice.percent(row["target"])),
+            *(mesh, row.get("unknowns", ""), seconds),
+        ]
+
+
+def machine_line(about):
+    m = about["machine"]
+    return (
+        f"{m['processor']}, {m['cores']} cores (load {m['load_average']:.1f} at the end of the run), {m['mortise']} at "
+        f"{m['commit']}, FreeFEM {m['freefem']}, {m['date'][:10]}."
+    )
+
+
+def contents(rows, about, checks, economy, elements):
+    """Everything in order, as pairs of a kind and its content."""
+    yield from (("text", text.format(turns=TURNS["full"])) for text in INTRODUCTION)
+    yield "heading", "What to use"
+    yield "table", (advice.HEADING, list(advice.table(rows)))
+    yield from (("text", sentence) for sentence in advice.recommendation(rows))
+    if checks:
+        own = max(check["start"] for check in checks)
+        yield "text", (
+            f"Where seconds are below about 0.1, starting the program ({own:.2f} s here), meshing and writing take "
+            "longer than the solution: there any method will do, and accuracy costs nothing."
+        )
+    for problem in (p for p in PROBLEMS if any(row["problem"] == p for row in rows)):
+        yield "heading", PROBLEMS[problem]["title"]
+        yield "text", KNOWN[problem]
+        yield "picture", (f"{problem}.png", PROBLEMS[problem]["title"] + ": errors against seconds")
+    yield from (("text", line) for line in trust_lines(about, rows))
+    yield from (("text", f"Left out: {label(name)}: {said}") for name, said in about["left_out"].items())
+    yield "heading", "Are the seconds right?"
+    if checks:
+        yield "text", CHECK_TEXT.format(start=max(check["start"] for check in checks))
+        yield "table", (CHECK_HEADING, list(check_rows(checks)))
+    yield "text", machine_line(about)
+    yield "heading", "Model no more than a scene needs"
+    yield "text", ECONOMY_TEXT
+    yield "table", (ECONOMY_HEADING, list(economy_rows(economy)))
+    yield "text", "; ".join(saving_lines(economy)) + "."
+    yield "text", ELEMENTS_TEXT
+    yield "table", (ELEMENTS_HEADING, list(element_rows(elements)))
+
+
+def write_html(output, parts, rates):
+    as_html = {
+        "text": page.paragraph,
+        "heading": page.heading,
+        "table": lambda content: page.table(*content),
+        "picture": lambda content: page.picture(*content),
+    }
+    body = [as_html[kind](content) for kind, content in parts]
+    body += [page.heading("Rates of the last halving"), page.table(("problem", "method", "p", "energy", "largest"), rates)]
+    page.write_section(output, "chart", "Accuracy against speed", body)
+
+
+def markdown_table(heading, rows):
+    line = lambda cells: "| " + " | ".join(map(str, cells)) + " |"
+    return "\n".join([line(heading), "|" + "---|" * len(heading), *map(line, rows)]) + "\n"
+
+
+def write_docs(output, parts):
+    """docs/charts.md, and its pictures in docs/charts/."""
+    folder = launch.ROOT / "docs/charts"
+    folder.mkdir(exist_ok=True)
+    text = ["# Accuracy against speed\n"]
+    for kind, content in parts:
+        if kind == "picture":
+            shutil.copy(output / content[0], folder / Path(content[0]).name)
+            text.append(f"![{content[1]}](charts/{content[0]})\n")
+        elif kind == "table":
+            text.append(markdown_table(*content))
+        else:
+            text.append(f"## {content}\n" if kind == "heading" else f"{content}\n")
+    text.append("## To have it again\n\n`./dev chart --docs` measures, draws and writes this page (15 minutes on an idle\n"
+                "machine of 2 cores; it goes on where it was stopped). All figures are in `out/chart/chart.csv`.\n")
+    (launch.ROOT / "docs/charts.md").write_text("\n".join(text))

@@ -1,0 +1,66 @@
+"""Two seconds of the chart against the executable itself, timed from outside.
+
+The whole process `mortise solve --threads 1` by time.perf_counter, less the meshing and writing that its summary.json
+reports, less the start of a process that does nothing (`mortise --version`: loading of the libraries). What remains
+should be the chart's seconds: the ratio of the two is near 1, a little above it for what nobody counts (reading the
+scene, freeing memory).
+"""
+
+import json
+import os
+import statistics
+import subprocess
+import time
+
+import chart_runs
+import launch
+from chart_methods import mesh_name, mesh_of, ways
+
+PICKED = {
+    "full": (("parabola_1", "q8_linear", 4), ("rings", "q4_linear", 5)),
+    "quick": (("parabola_1", "q8_linear", 2), ("rings", "q4_linear", 2)),
+}
+REPEATS = 5
+
+
+def seconds_of(*arguments):
+    command = [str(word) for word in (launch.MORTISE, *arguments)]
+    start = time.perf_counter()
+    done = subprocess.run(
+        command, capture_output=True, text=True, check=False, env={**os.environ, **chart_runs.ONE_THREAD}
+    )
+    seconds = time.perf_counter() - start
+    if done.returncode not in launch.SOLVED:
+        raise launch.MortiseError(f"{' '.join(command)}: exit status {done.returncode}\n{done.stderr.strip()}")
+    return seconds
+
+
+def timed(problem, settings, folder):
+    """The seconds of one process less meshing and writing; and the seconds of the stages that it reports."""
+    arguments = ["solve", launch.scene_file(problem), *launch.options(settings)]
+    whole = seconds_of(*arguments, "-o", folder, "--quiet", "--threads", 1)
+    own = json.loads((folder / "summary.json").read_text())["seconds"]
+    return whole - own["mesh"] - own["write"], own["total"] - own["mesh"] - own["write"]
+
+
+def check(rows, output, quick):
+    """A row for each picked figure: the chart's seconds, the process's, their ratio. What the chart lacks is left out."""
+    found = []
+    start = statistics.median(seconds_of("--version") for _ in range(REPEATS))
+    for problem, method, level in PICKED["quick" if quick else "full"]:
+        mesh = mesh_name(mesh_of(problem, level))
+        key = (problem, method, mesh)
+        charted = next((row for row in rows if (row["problem"], row["method"], row["mesh"]) == key), None)
+        if charted is None:
+            continue
+        settings = dict(ways(problem, level, quick))[method]
+        outside, inside = zip(*(timed(problem, settings, output / "timing") for _ in range(REPEATS)))
+        process = statistics.median(outside) - start
+        found.append(
+            {
+                **{"problem": problem, "method": method, "mesh": mesh, "chart": charted["s_total"]},
+                **{"process": process, "start": start, "reported": statistics.median(inside)},
+                "ratio": process / charted["s_total"],
+            }
+        )
+    return found
