@@ -104,9 +104,9 @@ Errors manufactured_errors(const ManufacturedCase& which) {
   const SaddlePointSolution s = solve_saddle_point(
       {K, load, coupling.B, g, constraints.fixed, constraints.value, exact.young, coupling.scale, {}});
   if (s.status != SaddlePointSolution::Status::solved) throw std::runtime_error("manufactured case not solved");
-  const FieldErrors e = field_errors(mesh, laws, s.u,
-                                     {[&](const Vec2& x, int) { return exact.displacement(x); },
-                                      [&](const Vec2& x, int) { return exact.stress(x); }});
+  const FieldErrors e = field_errors(
+      mesh, laws, s.u,
+      {[&](const Vec2& x, int) { return exact.displacement(x); }, [&](const Vec2& x, int) { return exact.stress(x); }});
   return {e.displacement, e.energy,
           pressure_error(mesh, exact, which.plates, multiplier, coupling, -multiplier_values(coupling, s.lambda))};
 }

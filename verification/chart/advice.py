@@ -1,7 +1,7 @@
 """What the chart comes to in words: which method and mesh for 5 %, 1 % and 0.1 % in p, and one for everything."""
 
 import pareto
-from chart_methods import PROBLEMS, label
+from chart_methods import METHODS, PROBLEMS, label
 from chart_pictures import PANELS
 
 TARGETS = (0.05, 0.01, 0.001)
@@ -33,7 +33,7 @@ def table(rows):
     """A row of HEADING for each problem and target."""
     for problem in PROBLEMS:
         mine = by_mortise(of_problem(rows, problem))
-        for target, row in pareto.advice(mine, PANELS[problem][0], TARGETS).items():
+        for target, row in pareto.advice(mine, PANELS[problem][0], TARGETS, list(METHODS)).items():
             if row is None:
                 yield [problem, percent(target), "no mesh of the chart reaches it", "", "", "", ""]
                 continue
@@ -52,9 +52,9 @@ def recommendation(rows):
         return ["No method reaches every error that another one reaches: take the table's, by problem."]
     best, cost = order[0]
     sentences = [
-        f"One method for everything: {label(best)}. Over the problems and errors of the table it takes {cost:.2g} times the "
-        "seconds of the quickest method for each (geometric mean; a method that misses an error which another one "
-        "reaches does not count)."
+        f"One method for everything: {label(best)}. Over the problems and errors of the table it takes {cost:.2g} "
+        "times the seconds of the quickest method for each (geometric mean; a method that misses an error which "
+        "another one reaches does not count)."
     ]
     if len(order) > 1:
         others = "; ".join(f"{label(method)} {value:.2g}" for method, value in order[1:])

@@ -10,23 +10,25 @@ import page
 from chart_methods import PROBLEMS, TURNS, label
 
 INTRODUCTION = (
-    "Accuracy and speed, one against the other: every method on a sequence of meshes, each half as wide as the one "
-    "before. Upwards is the error, to the right the seconds from the mesh to recovered stresses (assembly, coupling, "
-    "factorisation, solution, recovery and checks; no meshing, no writing), one thread, the median of 3 to {turns} "
-    "runs that took turns. Nothing on the thick grey line is beaten in both.",
+    "Accuracy and speed, one against the other: every method on a sequence of meshes, each with elements half as wide "
+    "as the one before. Upwards is the error, to the right the seconds from the mesh to recovered stresses (assembly, "
+    "coupling, factorisation, solution, recovery and checks; no meshing, no writing): one thread, processor time, the "
+    "median of 3 to {turns} runs that took turns. Nothing on the thick grey line is beaten in both.",
     "FreeFEM's seconds are those that its scripts report, of the processor: assembly, coupling and solution, no "
     "recovery. A part of them is the coupling, written in FreeFEM's own interpreted language; the columns of "
-    "chart.csv keep it apart. Its triangles are those of the curve T3, with straight sides also for P2. The manufactured "
-    "problem has loads that vary from place to place, which its case files cannot say: no curves there.",
+    "chart.csv keep it apart. Its triangles are those of the curve T3, with straight sides also for P2. The "
+    "manufactured problem has loads that vary from place to place, which its case files cannot say: no curves there.",
 )
 KNOWN = {
     "manufactured": "u, stresses and p are exact (a field without body force from Kolosov-Muskhelishvili potentials).",
-    "rings": "u, stresses and p are exact (Lamé). As p is constant along the line, linear multipliers on the finer side "
-    "come out far better than they do in general.",
-    "parabola_1": "No exact answer: p against a reference on meshes that shrink towards the ends of the line; the energy "
-    "norm as sqrt(|E - E_ref| / E_ref), E the strain energy, which is the energy norm of the error but for what the "
-    "contact conditions add. At the ends p is singular and not square-integrable: p in L2 is taken without a tenth of the "
-    "line at each end. Errors below the trust in the reference are not drawn.",
+    "rings": "u, stresses and p are exact (Lamé). As p is constant along the line, p comes out far better here than it "
+    "does in general.",
+    "parabola_1": "No exact answer: p against a reference on meshes that shrink towards the ends of the line; the "
+    "energy norm as sqrt(|E - E_ref| / E_ref), E the strain energy, which is the energy norm of the error but for what "
+    "the contact conditions add. At the ends p is singular and not square-integrable: p in L2 is taken without a tenth "
+    "of the line at each end. Errors below the trust in the reference are not drawn. The graded mesh has as many "
+    "elements as the others of its name; its columns shrink towards both ends (column i of n at (2 i / n)^3 / 2 of the "
+    "width, mirrored) and its rows towards the line.",
 }
 
 
@@ -37,9 +39,10 @@ def trust_lines(about, rows):
     largest = {key: max(float(d[key]) for d in differences.values()) for key in ("e_p_l2_inner", "e_p_max_inner")}
     yield (
         f"The reference of parabola_1 ({table['columns']} columns, {table['unknowns']} unknowns): two others of "
-        f"different gradings differ from it by {largest['e_p_l2_inner']:.1e} in p (L2) and {largest['e_p_max_inner']:.1e} "
-        f"(largest); trusted to twice that, {trust['e_p_l2_inner']:.1e} and {trust['e_p_max_inner']:.1e}. Its energy, "
-        f"extrapolated to h = 0 (Richardson with the measured rate, {table['energy_rates']['3']:.2f}), is "
+        f"different gradings differ from it by {largest['e_p_l2_inner']:.1e} in p (L2) and "
+        f"{largest['e_p_max_inner']:.1e} (largest); trusted to twice that, {trust['e_p_l2_inner']:.1e} and "
+        f"{trust['e_p_max_inner']:.1e}. Its energy, extrapolated to h = 0 (Richardson with the "
+        f"measured rate, {table['energy_rates']['3']:.2f}), is "
         f"{table['energy']:.8g} J/m, trusted to {trust['energy']:.1e}, or {trust['e_energy']:.1e} in the energy norm."
     )
     yield (
@@ -63,8 +66,9 @@ def check_rows(checks):
 
 CHECK_HEADING = ("problem", "method", "mesh", "chart, s", "process, s", "summary.json, s", "process / chart")
 CHECK_TEXT = (
-    "Two of these seconds against the executable, timed from outside: the whole process `mortise solve --threads 1`, less "
-    "the meshing and writing of its summary.json and less the {start:.2f} s in which a process that does nothing starts."
+    "Two of these seconds against the executable, timed from outside by the wall clock: the whole process "
+    "`mortise solve --threads 1`, less the meshing and writing of its summary.json and less the {start:.2f} s in which "
+    "a process that does nothing starts."
 )
 ECONOMY_HEADING = ("study", "scene", "way", "unknowns", "steps", "seconds", "whole process, s", "difference of p")
 ECONOMY_TEXT = (
@@ -106,7 +110,9 @@ def machine_line(about):
     m = about["machine"]
     return (
         f"{m['processor']}, {m['cores']} cores (load {m['load_average']:.1f} at the end of the run), {m['mortise']} at "
-        f"{m['commit']}, FreeFEM {m['freefem']}, {m['date'][:10]}."
+        f"{m['commit']}, FreeFEM {m['freefem']}, {m['date'][:10]}. The wall clock went "
+        f"{about['wall_over_processor'] or 1:.2f} times as fast as the processor's (median of the runs of 10 ms and "
+        "more); where that is well above 1, other work disturbed the run."
     )
 
 
@@ -149,7 +155,8 @@ def write_html(output, parts, rates):
         "picture": lambda content: page.picture(*content),
     }
     body = [as_html[kind](content) for kind, content in parts]
-    body += [page.heading("Rates of the last halving"), page.table(("problem", "method", "p", "energy", "largest"), rates)]
+    heading = ("problem", "method", "p, L2", "energy norm", "p, largest")
+    body += [page.heading("Rates of the last halving"), page.table(heading, rates)]
     page.write_section(output, "chart", "Accuracy against speed", body)
 
 
@@ -171,6 +178,8 @@ def write_docs(output, parts):
             text.append(markdown_table(*content))
         else:
             text.append(f"## {content}\n" if kind == "heading" else f"{content}\n")
-    text.append("## To have it again\n\n`./dev chart --docs` measures, draws and writes this page (15 minutes on an idle\n"
-                "machine of 2 cores; it goes on where it was stopped). All figures are in `out/chart/chart.csv`.\n")
+    text.append(
+        "## To have it again\n\n`./dev chart --docs` measures, draws and writes this page (at most 15 minutes on an "
+        "idle machine of\n2 cores; it goes on where it was stopped). All figures are in `out/chart/chart.csv`.\n"
+    )
     (launch.ROOT / "docs/charts.md").write_text("\n".join(text))

@@ -4,6 +4,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from PIL import Image  # matplotlib needs it too
 from matplotlib.ticker import LogLocator, NullFormatter
 
 import pareto
@@ -93,8 +94,11 @@ def draw_problem(path, rows, problem):
     figure.legend(handles, labels, loc="lower center", ncol=6, frameon=False, fontsize=9, handlelength=3.6)
     figure.get_layout_engine().set(rect=(0, 0.12, 1, 0.88), w_pad=0.08)
     figure.suptitle(PROBLEMS[problem]["title"], fontsize=11.5)
-    figure.savefig(path, dpi=90, pil_kwargs={"optimize": True})
+    figure.savefig(path, dpi=90)
     plt.close(figure)
+    with Image.open(path) as picture:
+        few_colours = picture.convert("RGB").quantize(64, dither=Image.Dither.NONE)
+    few_colours.save(path, optimize=True)
 
 
 def draw_all(folder, rows):

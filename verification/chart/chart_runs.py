@@ -20,7 +20,7 @@ TOOL = Path(
 ).absolute()
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 ERRORS = ("e_energy", "e_p_l2", "e_p_l2_inner", "e_p_max_inner")
-STAGES = ("s_assemble", "s_couple", "s_factorise", "s_solve", "s_recover", "s_total")
+STAGES = ("s_assemble", "s_couple", "s_factorise", "s_solve", "s_recover", "s_total", "s_wall")
 SIZES = ("nodes", "elements", "dofs", "multipliers", "interface_steps")
 COLUMNS = (
     *("problem", "method", "mesh", "n", "status", "turns", *SIZES, "energy", *ERRORS, *STAGES),
@@ -97,7 +97,7 @@ def runs(problem, mesh_text, named_ways, turns, folder, reference=None):
     """The methods' rows on one mesh, the refused ones with what was said, and whether they were kept from before."""
     named_ways = list(named_ways)
     options = ["--reference", reference] if reference else []
-    key = digest(TOOL if TOOL.is_file() else "", *(run_words(*way) for way in named_ways), turns, *options[1:])
+    key = digest(TOOL if TOOL.is_file() else "", *(run_words(*way) for way in named_ways), turns, COLUMNS, *options[1:])
 
     def make():
         rows, said = tool(problem, named_ways, turns, *options)

@@ -10,8 +10,8 @@ inline constexpr double left_out = 0.1;
 
 /// All relative, NaN where nothing is known. Of p: of the multiplier side, against its own norm or largest value there.
 struct RunErrors {
-  double energy;     ///< energy norm
-  double p_l2;       ///< whole contact line
+  double energy;  ///< energy norm
+  double p_l2;    ///< whole contact line
   double p_l2_inner;
   double p_max_inner;  ///< over quadrature points and nodes
 };

@@ -141,6 +141,7 @@ def measured(problem, mesh, name, order, turns, folder, exact):
         **{"multipliers": int(summary["multipliers"]), "interface_steps": 0},
         **{"energy": summary["energy"], "e_energy": energy, **errors},
         **{"s_assemble": assemble, "s_couple": couple, "s_factorise": 0.0, "s_solve": solve, "s_recover": 0.0},
+        "s_wall": None,
         **{"s_total": statistics.median(totals), "s_total_min": min(totals), "s_total_max": max(totals)},
     }
 
@@ -148,7 +149,7 @@ def measured(problem, mesh, name, order, turns, folder, exact):
 def runs(problem, mesh, ways, turns, folder, exact, reference=None):
     """The rows on one mesh, and whether they were kept from before."""
     scripts = [launch.ROOT / "freefem" / script for script in SCRIPTS]
-    key = chart_runs.digest(*scripts, version(), ways, turns, *([reference] if reference else []))
+    key = chart_runs.digest(*scripts, version(), ways, turns, chart_runs.COLUMNS, *([reference] if reference else []))
     make = lambda: [measured(problem, mesh, name, order, turns, folder, exact) for name, order in ways]
     try:
         return chart_runs.kept(folder / f"freefem_{problem}_{mesh_name(mesh)}.json", key, make)

@@ -40,11 +40,12 @@ Lame lame_of(const Scene& scene, const Mesh& mesh) {
   const auto a = [&](std::size_t b) { return 2 * (lame.lambda[b] + lame.mu[b]) / scale; };
   const auto b = [&](std::size_t body, double r) { return -2 * lame.mu[body] / (r * r) / scale; };
   Eigen::Matrix4d M;
-  M << a(inner), b(inner, r0), 0, 0,                             //
-      a(inner), b(inner, r1), -a(outer), -b(outer, r1),          //
-      r1, 1 / r1, -r1, -1 / r1,                                  //
+  M << a(inner), b(inner, r0), 0, 0,                     //
+      a(inner), b(inner, r1), -a(outer), -b(outer, r1),  //
+      r1, 1 / r1, -r1, -1 / r1,                          //
       0, 0, a(outer), b(outer, r2);
-  const Eigen::Vector4d right(-pressure_on(scene, "inner_bore") / scale, 0, 0, -pressure_on(scene, "outer_rim") / scale);
+  const Eigen::Vector4d right(-pressure_on(scene, "inner_bore") / scale, 0, 0,
+                              -pressure_on(scene, "outer_rim") / scale);
   const Eigen::Vector4d x = M.partialPivLu().solve(right);
   lame.A.resize(2);
   lame.B.resize(2);

@@ -2,6 +2,8 @@
 
 import math
 
+AS_GOOD = 1.15  # seconds within this factor of the quickest count as equal: timings vary by so much
+
 
 def usable(row, error):
     return row.get(error) not in (None, "") and float(row[error]) > 0 and float(row["s_total"]) > 0
@@ -17,12 +19,19 @@ def front(rows, error):
     return chosen
 
 
-def advice(rows, error, targets):
-    """For each target the quickest row whose error is at most that, or None."""
+def advice(rows, error, targets, prefer=()):
+    """For each target the quickest row whose error is at most that, or None.
+
+    Where others are as good as equally quick, the one whose method stands first in `prefer`.
+    """
+    rank = {method: place for place, method in enumerate(prefer)}
     found = {}
     for target in targets:
         good = [row for row in rows if usable(row, error) and row[error] <= target]
-        found[target] = min(good, key=lambda row: row["s_total"], default=None)
+        least = min((row["s_total"] for row in good), default=0)
+        equal = [row for row in good if row["s_total"] <= AS_GOOD * least] if prefer else good
+        key = lambda row: (rank.get(row["method"], len(rank)), row["s_total"])
+        found[target] = min(equal, key=key, default=None)
     return found
 
 

@@ -2,8 +2,8 @@
 
 Both plates get the same number of columns, so that nothing is lost at the contact line, and elements that shrink
 towards the ends of the line, where the stress is singular (8 nodes, quadratic multipliers). Three gradings are solved:
-column i of n lies at (2 i / n)^g / 2 of the width, g = 2, 3, 4, and the rows shrink likewise. They share nothing but the
-number of columns: their errors at the ends and in the middle differ by much. The middle one is the reference.
+column i of n lies at (2 i / n)^g / 2 of the width, g = 2, 3, 4, and the rows shrink likewise. They share nothing but
+the number of columns: their errors at the ends and in the middle differ by much. The middle one is the reference.
 
 - pressure: how far the other two are from it, in each norm, is what it can be trusted to, times SAFETY.
 - energy: of each grading extrapolated to h = 0 (Aitken on n / 4, n / 2, n); the reference is that of g = 3, trusted to

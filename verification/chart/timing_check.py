@@ -44,7 +44,7 @@ def timed(problem, settings, folder):
 
 
 def check(rows, output, quick):
-    """A row for each picked figure: the chart's seconds, the process's, their ratio. What the chart lacks is left out."""
+    """A row for each picked figure that the chart has: its seconds there, those of the process, their ratio."""
     found = []
     start = statistics.median(seconds_of("--version") for _ in range(REPEATS))
     for problem, method, level in PICKED["quick" if quick else "full"]:
