@@ -41,7 +41,7 @@ def checked(rows, about, output, quick):
     """The seconds of chart.json's timing check, measured now where there are none."""
     if "timing_check" not in about:
         about["timing_check"] = timing_check.check(rows, output, quick)
-        (output / "chart.json").write_text(json.dumps(about, indent=1) + "\n")
+        chart_runs.write_json(output / "chart.json", about)
     for c in about["timing_check"]:
         print(
             f"{c['problem']} {c['method']} {c['mesh']}: chart {c['chart']:.4f} s, process {c['process']:.4f} s, "

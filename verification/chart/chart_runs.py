@@ -41,17 +41,22 @@ def digest(*parts):
     return sha.hexdigest()[:16]
 
 
+def write_json(path, table):
+    """The file appears whole or not at all."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_suffix(".part")
+    temporary.write_text(json.dumps(table, indent=1) + "\n")
+    temporary.replace(path)
+
+
 def kept(path, key, make):
-    """What `make` returns, or the file's content if it was made with the same key before."""
+    """What `make` returns, or the file's content if it was made with the same key before; and whether it was."""
     if path.is_file():
         old = json.loads(path.read_text())
         if old["key"] == key:
             return old["rows"], True
     rows = make()
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_suffix(".part")
-    temporary.write_text(json.dumps({"key": key, "rows": rows}, indent=1))
-    temporary.replace(path)
+    write_json(path, {"key": key, "rows": rows})
     return rows, False
 
 
@@ -93,21 +98,30 @@ def of_turns(rows):
     }
 
 
+def solve_ways(problem, named_ways, turns, options):
+    """For each way, by its words: its row, or what was said where it is refused."""
+    rows, said = tool(problem, named_ways, turns, *options)
+    found = {}
+    for name, settings in named_ways:
+        mine = [row for row in rows if row["name"] == name]
+        refused = next((line for line in said.splitlines() if line.startswith(name + ":")), name)
+        found[run_words(name, settings)] = {"refused": refused} if mine[0]["status"] == "refused" else of_turns(mine)
+    return found
+
+
 def runs(problem, mesh_text, named_ways, turns, folder, reference=None):
-    """The methods' rows on one mesh, the refused ones with what was said, and whether they were kept from before."""
-    named_ways = list(named_ways)
-    options = ["--reference", reference] if reference else []
-    key = digest(TOOL if TOOL.is_file() else "", *(run_words(*way) for way in named_ways), turns, COLUMNS, *options[1:])
+    """The methods' rows on one mesh, the refused ones with what was said, and whether all were kept from before.
 
-    def make():
-        rows, said = tool(problem, named_ways, turns, *options)
-        refused = [row["name"] for row in rows if row["status"] == "refused"]
-        solved = [row for row in rows if row["status"] != "refused"]
-        names = dict.fromkeys(row["name"] for row in solved)
-        return {
-            "rows": [of_turns([row for row in solved if row["name"] == name]) for name in names],
-            "refused": {name: next((t for t in said.splitlines() if t.startswith(name)), name) for name in refused},
-        }
-
-    found, old = kept(folder / f"{problem}_{mesh_text}.json", key, make)
-    return found["rows"], found["refused"], old
+    The ways that the file of the mesh does not have yet are run together, by turns.
+    """
+    options, path = (["--reference", reference] if reference else []), folder / f"{problem}_{mesh_text}.json"
+    key = digest(TOOL if TOOL.is_file() else "", turns, COLUMNS, *options[1:])
+    table = json.loads(path.read_text()) if path.is_file() else {}
+    known = table["ways"] if table.get("key") == key else {}
+    missing = [way for way in named_ways if run_words(*way) not in known]
+    if missing:
+        known |= solve_ways(problem, missing, turns, options)
+        write_json(path, {"key": key, "ways": known})
+    found = {way[0]: known[run_words(*way)] for way in named_ways}
+    rows = [row for row in found.values() if "refused" not in row]
+    return rows, {name: row["refused"] for name, row in found.items() if "refused" in row}, not missing

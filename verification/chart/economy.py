@@ -23,8 +23,8 @@ from chart_pictures import PANELS
 SAME = 1e-9  # of the largest p
 HALVES = ("parabola_1", "circle", "tent_a", "tent_b", "tent_c")
 CONDITIONS = ("parabola_1", "circle", "rings")
-MESH = {"full": (160, 200), "quick": (32, 40)}
-REPEATS = {"full": 5, "quick": 2}
+MESH = {"full": (128, 160), "quick": (32, 40)}
+REPEATS = {"full": 3, "quick": 2}
 
 
 def replaced(text, old, new, path):

@@ -1,7 +1,6 @@
 """All runs of the chart: chart.csv from mortise_chart and FreeFEM, resumed where runs are there already."""
 
 import datetime
-import json
 import math
 import os
 import platform
@@ -75,6 +74,7 @@ def say_once(refused, said, say):
     """Methods that the executable refuses, each the first time with its words."""
     for name, message in refused.items():
         if name not in said:
+            message = message.removeprefix(f"{name}: ").replace(f"{launch.ROOT}/", "")
             say(f"  left out: {label(name)}: {message}")
             said[name] = message
 
@@ -123,6 +123,6 @@ def measure(output, quick, say=progress):
         **{"machine": machine(), "wall_over_processor": waiting, "seconds": time.perf_counter() - start},
         **{"reference": table, "left_out": said, "quick": quick},
     }
-    (output / "chart.json").write_text(json.dumps(about, indent=1) + "\n")
+    chart_runs.write_json(output / "chart.json", about)
     say(f"{len(rows)} rows in {output}/chart.csv", start)
     return rows, about

@@ -6,7 +6,8 @@ AS_GOOD = 1.15  # seconds within this factor of the quickest count as equal: tim
 
 
 def usable(row, error):
-    return row.get(error) not in (None, "") and float(row[error]) > 0 and float(row["s_total"]) > 0
+    """Whether a run is an answer, and its error is known."""
+    return row["status"] != "not_converged" and (row.get(error) or 0) > 0
 
 
 def front(rows, error):
@@ -19,15 +20,33 @@ def front(rows, error):
     return chosen
 
 
-def advice(rows, error, targets, prefer=()):
-    """For each target the quickest row whose error is at most that, or None.
+def by_method(rows, error):
+    """The usable rows of each method, from the coarsest mesh to the finest."""
+    found = {}
+    for row in sorted((r for r in rows if usable(r, error)), key=lambda r: r["n"]):
+        found.setdefault(row["method"], []).append(row)
+    return found
 
-    Where others are as good as equally quick, the one whose method stands first in `prefer`.
+
+def first_good(series, error, target):
+    """Place of the coarsest mesh from which on all meshes of a method have errors of at most the target, or None."""
+    place = len(series)
+    while place > 0 and series[place - 1][error] <= target:
+        place -= 1
+    return place if place < len(series) else None
+
+
+def advice(rows, error, targets, prefer=()):
+    """For each target the quickest row whose error is at most that, as are those of all finer meshes of its method.
+
+    None where there is no such row. Where others are as good as equally quick, the one whose method stands first in
+    `prefer`.
     """
     rank = {method: place for place, method in enumerate(prefer)}
     found = {}
     for target in targets:
-        good = [row for row in rows if usable(row, error) and row[error] <= target]
+        places = [(series, first_good(series, error, target)) for series in by_method(rows, error).values()]
+        good = [series[place] for series, place in places if place is not None]
         least = min((row["s_total"] for row in good), default=0)
         equal = [row for row in good if row["s_total"] <= AS_GOOD * least] if prefer else good
         key = lambda row: (rank.get(row["method"], len(rank)), row["s_total"])
@@ -35,25 +54,36 @@ def advice(rows, error, targets, prefer=()):
     return found
 
 
-def general(problems, error, targets):
-    """The method that costs least over all problems and targets, and how many times the quickest it costs.
+def seconds_at(series, error, target):
+    """Seconds of a method for an error, between two meshes by a power law; those of the coarsest mesh if that is good
+    enough already; None if the finest is not."""
+    place = first_good(series, error, target)
+    if place is None or place == 0:
+        return None if place is None else series[0]["s_total"]
+    coarse, fine = series[place - 1], series[place]
+    part = math.log(coarse[error] / target) / math.log(coarse[error] / fine[error])
+    return coarse["s_total"] * (fine["s_total"] / coarse["s_total"]) ** part
 
-    `problems`: the rows of each problem. The cost of a method is the geometric mean over problems and targets of its
-    quickest seconds over those of the quickest method of all; a method that misses a target which another reaches is
-    out. Returns pairs of a method and its cost, cheapest first.
+
+def general(problems, error, targets, least=0.0):
+    """The methods by what they cost over all problems and targets: pairs of a method and its cost, cheapest first.
+
+    `problems`: the rows of each problem; `error`: of rows, the error that counts. Only methods that all problems have
+    take part. The cost is the geometric mean over problems and targets of the method's seconds (seconds_at) over the
+    least of all methods; seconds below `least` count as that. A method that misses a target which another reaches is
+    out, a target that none reaches does not count.
     """
-    logs, out = {}, set()
-    methods = {row["method"] for rows in problems for row in rows}
+    common = set.intersection(*({row["method"] for row in rows} for rows in problems)) if problems else set()
+    tables = []
     for rows in problems:
-        of_all = advice(rows, error(rows), targets)
-        for target in (t for t in targets if of_all[t]):
-            for method in methods:
-                own = advice([row for row in rows if row["method"] == method], error(rows), [target])[target]
-                if own is None:
-                    out.add(method)
-                    continue
-                logs.setdefault(method, []).append(math.log(own["s_total"] / of_all[target]["s_total"]))
-    costs = {method: math.exp(sum(v) / len(v)) for method, v in logs.items() if method not in out}
+        series = by_method([row for row in rows if row["method"] in common], error(rows))
+        for target in targets:
+            seconds = {method: seconds_at(mine, error(rows), target) for method, mine in series.items()}
+            tables.append({method: max(value, least) for method, value in seconds.items() if value})
+    tables = [table for table in tables if table]
+    methods = set.intersection(*map(set, tables)) if tables else set()
+    logs = {m: [math.log(table[m] / min(table.values())) for table in tables] for m in methods}
+    costs = {method: math.exp(sum(values) / len(values)) for method, values in logs.items()}
     return sorted(costs.items(), key=lambda pair: pair[1])
 
 
