@@ -87,7 +87,7 @@ def graded_or_even(rows):
     even = {method: seconds for method, seconds in even.items() if seconds}
     if not graded or not even:
         return "Where the stress is singular (parabola_1), a mesh that shrinks towards the ends converges faster."
-    best = min(even, key=even.get)
+    best, _ = ordered(sorted(even.items(), key=lambda pair: pair[1]))[0]
     return (
         f"Where the stress is singular (parabola_1), let the mesh shrink towards the ends: {percent(TARGETS[-1])} in p "
         f"takes {digits(graded)} s so, and {digits(even[best])} s at best on even meshes ({label(best)}); finer meshes "

@@ -45,7 +45,7 @@ def checked(rows, about, output, quick):
     for c in about["timing_check"]:
         print(
             f"{c['problem']} {c['method']} {c['mesh']}: chart {c['chart']:.4f} s, process {c['process']:.4f} s, "
-            f"ratio {c['ratio']:.3f}"
+            f"ratio {c['ratio']:.3f}; processor {c['processor']:.4f} s, ratio {c['processor_ratio']:.3f}"
         )
     return about["timing_check"]
 
