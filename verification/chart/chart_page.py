@@ -15,8 +15,8 @@ INTRODUCTION = (
     "coupling, factorisation, solution, recovery and checks; no meshing, no writing): one thread, processor time, the "
     "median of 3 to {turns} runs that took turns. Nothing on the thick grey line is beaten in both.",
     "Curves are named by element (T3, T6 triangles of 3 and 6 nodes; Q4, Q8, Q9 quadrilaterals) and multipliers; these "
-    "lie on the finer side and are integrated on segments where nothing else is said. DDM is domain decomposition, with "
-    "linear multipliers and to its default tolerance. Meshes are elements along the two contact curves: 8x10 has 8 on "
+    "lie on the finer side and are integrated on segments where nothing else is said. DDM is domain decomposition, "
+    "with linear multipliers and to its default tolerance. Meshes are elements along the two contact curves: 8x10 has 8 on "
     "the upper (inner) body's and 10 on the lower (outer) one's.",
     "FreeFEM's seconds are those that its scripts report, of the processor: assembly, coupling and solution, no "
     "recovery. A part of them is the coupling, written in FreeFEM's own interpreted language; the columns of "

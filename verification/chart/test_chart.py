@@ -3,6 +3,7 @@
 import csv
 import math
 import re
+import shutil
 
 import numpy as np
 import pytest
@@ -134,7 +135,8 @@ def test_energy_norm_of_a_field_that_the_triangles_have(order):
 def test_quick_run_has_every_row(quick):
     rows, levels = quick["rows"], chart_methods.LEVELS["quick"]
     refused = set(quick["about"]["left_out"])
-    assert refused <= {"q8_mssor"} and all(any(name in text for text in quick["said"]) for name in refused)
+    assert refused <= {"q8_mssor"}
+    assert all(any(chart_methods.label(name) in text for text in quick["said"]) for name in refused)
     expected = {
         (problem, name, chart_methods.mesh_name(chart_methods.mesh_of(problem, level)))
         for problem in chart_methods.PROBLEMS
@@ -181,6 +183,16 @@ def test_freefem_on_the_same_triangles_has_the_same_errors(quick):
         for ours, theirs in pairs:
             for error in ("e_energy", "e_p_l2_inner", "e_p_max_inner"):
                 assert theirs[error] == pytest.approx(ours[error], rel=1e-6), (problem, ours["mesh"], error)
+
+
+def test_without_freefem_its_curves_are_missing_and_that_is_said(quick, tmp_path, monkeypatch):
+    shutil.copytree(quick["output"], tmp_path / "chart")
+    monkeypatch.setattr(freefem_chart, "version", lambda: None)
+    said = []
+    rows, about = measure.measure(tmp_path / "chart", True, lambda text, start=None: said.append(text))
+    assert any("FreeFem++ is not on the PATH" in text for text in said) and about["machine"]["freefem"] == "missing"
+    ours = [r for r in quick["rows"] if not r["method"].startswith("freefem")]
+    assert rows == ours
 
 
 def test_a_second_run_repeats_nothing_and_all_is_drawn(quick, capsys):
