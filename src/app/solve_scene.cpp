@@ -72,7 +72,8 @@ CheckedScene check_scene(const Scene& scene) {
 
 ActiveSet active_set(const Results& r) { return {r.mesh.nodes, row_nodes(r.pairs), r.active}; }
 
-Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
+Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start,
+                    const Adjust& adjust) {
   const auto stage = [&](const char* name) {
     if (progress) progress(name);
   };
@@ -83,6 +84,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
   stage("assemble");
   r.points = body_points(r.mesh);
   r.discretisation = discretise(scene, r.mesh);
+  if (adjust) adjust(r.mesh, r.discretisation);
   const Discretisation& d = r.discretisation;
   r.seconds.assemble = watch.lap();
 

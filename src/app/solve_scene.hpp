@@ -91,8 +91,13 @@ using Progress = std::function<void(const std::string& stage)>;
 /// `start`: the active set to start from; all rows closed where there is none, or it belongs to another mesh.
 Results solve_scene(const Scene& scene, const Progress& progress = {}, const ActiveSet* start = nullptr);
 
-/// The same on a mesh that is already there.
-Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr);
+/// Changes the equations of the bodies before they are solved: loads and prescribed displacements that no scene file
+/// can say, such as functions of the place.
+using Adjust = std::function<void(const Mesh& mesh, Discretisation& discretisation)>;
+
+/// The same on a mesh that is already there. `adjust` is called when the scene has been discretised.
+Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr,
+                    const Adjust& adjust = {});
 
 ActiveSet active_set(const Results& results);
 

@@ -1,14 +1,13 @@
 #include "support/manufactured.hpp"
 
-#include <Eigen/LU>
 #include <complex>
 #include <stdexcept>
 
 #include "contact/coupling.hpp"
 #include "fem/assembly.hpp"
 #include "fem/quadrature.hpp"
-#include "fem/stress.hpp"
 #include "solve/saddle_point.hpp"
+#include "support/field_errors.hpp"
 
 namespace mortise::test {
 namespace {
@@ -19,59 +18,6 @@ const Complex c2(0.3, -0.2), c3(-0.4, 0.3), c4(0.25, 0.35), d1(-0.5, 0.1), d2(0.
 Vec2 traction_at(const ExactField& exact, const Vec2& x, const Vec2& n) {
   const Vec4 s = exact.stress(x);
   return {s(0) * n.x() + s(3) * n.y(), s(3) * n.x() + s(1) * n.y()};
-}
-
-void prescribe_exactly(const Mesh& mesh, const ExactField& exact, const std::string& name, Constraints& constraints) {
-  for (const Edge& edge : mesh.boundaries[std::size_t(boundary_index(mesh, name))].edges)
-    for (std::size_t a = 0; a < std::size_t(edge.node_count); ++a) {
-      const int node = edge.nodes[a];
-      constraints.fixed[std::size_t(2 * node)] = constraints.fixed[std::size_t(2 * node + 1)] = 1;
-      constraints.value.segment<2>(2 * node) = exact.displacement(mesh.nodes.row(node).transpose());
-    }
-}
-
-VecX exact_loads(const Mesh& mesh, const ExactField& exact) {
-  VecX load = VecX::Zero(2 * mesh.nodes.rows());
-  for (const char* side : {"upper_left", "upper_right", "lower_left", "lower_right"})
-    add_traction(
-        mesh, boundary_index(mesh, side),
-        [&](const Vec2& x, const Vec2& n) -> Vec2 { return traction_at(exact, x, n); }, load);
-  for (const char* curve : {"upper_contact", "lower_contact"})
-    add_traction(
-        mesh, boundary_index(mesh, curve),
-        [&](const Vec2& x, const Vec2& n) -> Vec2 {
-          const Vec2 t = traction_at(exact, x, n);
-          return t - t.dot(n) * n;
-        },
-        load);
-  return load;
-}
-
-// Squared L2 and energy errors of the displacements.
-std::pair<double, double> body_errors(const Mesh& mesh, const ExactField& exact, const ElasticLaw& law, const VecX& u) {
-  Eigen::Matrix3d C;
-  C << law.stiffness.row(0), law.stiffness.row(1), law.stiffness.row(3);
-  const Eigen::Matrix3d compliance = C.inverse();
-  double l2 = 0, energy = 0;
-  for (const Cell& cell : mesh.cells) {
-    const CellRule rule = product_rule(cell.kind, 4);
-    for (std::size_t q = 0; q < rule.points.size(); ++q) {
-      const CellShape s = cell_shape(cell.kind, rule.points[q]);
-      Vec2 x = Vec2::Zero(), value = Vec2::Zero();
-      Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
-      for (std::size_t a = 0; a < std::size_t(node_count(cell.kind)); ++a) {
-        x += s.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
-        value += s.N[a] * u.segment<2>(2 * cell.nodes[a]);
-        J += s.dN[a] * mesh.nodes.row(cell.nodes[a]);
-      }
-      const double dV = rule.weights[q] * J.determinant();
-      const Vec4 e = stress_at(mesh, cell, law, u, s) - exact.stress(x);
-      const Eigen::Vector3d difference(e(0), e(1), e(3));
-      l2 += dV * (value - exact.displacement(x)).squaredNorm();
-      energy += dV * difference.dot(compliance * difference);
-    }
-  }
-  return {l2, energy};
 }
 
 double pressure_error(const Mesh& mesh, const ExactField& exact, const TwoPlates& plates, const Curve& curve,
@@ -111,6 +57,32 @@ Vec4 ExactField::stress(const Vec2& x) const {
   return {s11, s22, poisson * sum, deviator.imag() / 2};
 }
 
+void prescribe_exactly(const Mesh& mesh, const ExactField& exact, const std::string& name, Constraints& constraints) {
+  for (const Edge& edge : mesh.boundaries[std::size_t(boundary_index(mesh, name))].edges)
+    for (std::size_t a = 0; a < std::size_t(edge.node_count); ++a) {
+      const int node = edge.nodes[a];
+      constraints.fixed[std::size_t(2 * node)] = constraints.fixed[std::size_t(2 * node + 1)] = 1;
+      constraints.value.segment<2>(2 * node) = exact.displacement(mesh.nodes.row(node).transpose());
+    }
+}
+
+VecX exact_loads(const Mesh& mesh, const ExactField& exact) {
+  VecX load = VecX::Zero(2 * mesh.nodes.rows());
+  for (const char* side : {"upper_left", "upper_right", "lower_left", "lower_right"})
+    add_traction(
+        mesh, boundary_index(mesh, side),
+        [&](const Vec2& x, const Vec2& n) -> Vec2 { return traction_at(exact, x, n); }, load);
+  for (const char* curve : {"upper_contact", "lower_contact"})
+    add_traction(
+        mesh, boundary_index(mesh, curve),
+        [&](const Vec2& x, const Vec2& n) -> Vec2 {
+          const Vec2 t = traction_at(exact, x, n);
+          return t - t.dot(n) * n;
+        },
+        load);
+  return load;
+}
+
 Errors manufactured_errors(const ManufacturedCase& which) {
   const ExactField exact;
   const Mesh mesh = mesh_of(which.plates);
@@ -132,8 +104,10 @@ Errors manufactured_errors(const ManufacturedCase& which) {
   const SaddlePointSolution s = solve_saddle_point(
       {K, load, coupling.B, g, constraints.fixed, constraints.value, exact.young, coupling.scale, {}});
   if (s.status != SaddlePointSolution::Status::solved) throw std::runtime_error("manufactured case not solved");
-  const auto [l2, energy] = body_errors(mesh, exact, laws[0], s.u);
-  return {std::sqrt(l2), std::sqrt(energy),
+  const FieldErrors e = field_errors(
+      mesh, laws, s.u,
+      {[&](const Vec2& x, int) { return exact.displacement(x); }, [&](const Vec2& x, int) { return exact.stress(x); }});
+  return {e.displacement, e.energy,
           pressure_error(mesh, exact, which.plates, multiplier, coupling, -multiplier_values(coupling, s.lambda))};
 }
 

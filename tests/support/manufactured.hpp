@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/model.hpp"
+#include "fem/constraints.hpp"
 #include "support/two_plates.hpp"
 
 namespace mortise::test {
@@ -13,6 +14,12 @@ struct ExactField {
   Vec2 displacement(const Vec2& x) const;
   Vec4 stress(const Vec2& x) const;
 };
+
+/// Prescribes the exact displacements on a boundary, both components.
+void prescribe_exactly(const Mesh& mesh, const ExactField& exact, const std::string& name, Constraints& constraints);
+
+/// The exact tractions on the vertical sides of two plates, and the tangential ones on both contact curves.
+VecX exact_loads(const Mesh& mesh, const ExactField& exact);
 
 struct ManufacturedCase {
   TwoPlates plates;

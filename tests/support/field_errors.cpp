@@ -1,0 +1,47 @@
+#include "support/field_errors.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "fem/quadrature.hpp"
+#include "fem/stress.hpp"
+
+namespace mortise::test {
+namespace {
+
+// Strains (11, 22, twice 12) from stresses (11, 22, 12).
+Eigen::Matrix3d compliance(const ElasticLaw& law) {
+  Eigen::Matrix3d C;
+  C << law.stiffness.row(0), law.stiffness.row(1), law.stiffness.row(3);
+  return C.inverse();
+}
+
+}  // namespace
+
+FieldErrors field_errors(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const VecX& u, const Field& exact) {
+  std::vector<Eigen::Matrix3d> compliances;
+  for (const ElasticLaw& law : laws) compliances.push_back(compliance(law));
+  double l2 = 0, energy = 0;
+  for (const Cell& cell : mesh.cells) {
+    const auto body = std::size_t(cell.body);
+    const CellRule rule = product_rule(cell.kind, 4);
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const CellShape s = cell_shape(cell.kind, rule.points[q]);
+      Vec2 x = Vec2::Zero(), value = Vec2::Zero();
+      Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
+      for (std::size_t a = 0; a < std::size_t(node_count(cell.kind)); ++a) {
+        x += s.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
+        value += s.N[a] * u.segment<2>(2 * cell.nodes[a]);
+        J += s.dN[a] * mesh.nodes.row(cell.nodes[a]);
+      }
+      const double dV = rule.weights[q] * J.determinant();
+      const Vec4 e = stress_at(mesh, cell, laws[body], u, s) - exact.stress(x, cell.body);
+      const Eigen::Vector3d difference(e(0), e(1), e(3));
+      l2 += dV * (value - exact.displacement(x, cell.body)).squaredNorm();
+      energy += dV * difference.dot(compliances[body] * difference);
+    }
+  }
+  return {std::sqrt(l2), std::sqrt(energy)};
+}
+
+}  // namespace mortise::test

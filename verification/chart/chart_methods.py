@@ -1,0 +1,109 @@
+"""What is charted: the methods, the problems and their meshes. Data only.
+
+A method is a dictionary of the scene's keys (docs/files.md), as `mortise solve --set` takes them, so that every curve
+can be had again by hand. A row whose keys the executable refuses is skipped, and says so.
+"""
+
+T3 = {"mesh.parameters.kind": 1, "mesh.parameters.order": 1}
+T6 = {"mesh.parameters.kind": 1}
+Q4 = {"mesh.parameters.order": 1}
+Q9 = {"mesh.parameters.nine_node": 1}
+DDM = {"method.kind": "ddm", "method.max_iterations": 1000}
+FIXED = {**DDM, "method.acceleration": "none"}
+QUADRATIC, LINEAR, DUAL = ({"method.multipliers": name} for name in ("quadratic", "linear", "dual"))
+
+# name: the label of its curve, settings, and the largest number of times that its coarsest mesh is halved
+METHODS = {
+    "q8_linear": ("Q8, linear (default)", LINEAR, 5),
+    "q8_quadratic": ("Q8, quadratic", QUADRATIC, 5),
+    "q8_dual": ("Q8, dual", DUAL, 4),
+    "q8_elements": ("Q8, linear, no cutting", {**LINEAR, "method.integration": "elements"}, 4),
+    "q8_coarser": ("Q8, linear, coarser side", LINEAR, 4),
+    "q9_linear": ("Q9, linear", {**Q9, **LINEAR}, 5),
+    "t6_linear": ("T6, linear", {**T6, **LINEAR}, 5),
+    "t6_quadratic": ("T6, quadratic", {**T6, **QUADRATIC}, 4),
+    "q4_linear": ("Q4, linear", {**Q4, **LINEAR}, 6),
+    "t3_linear": ("T3, linear", {**T3, **LINEAR}, 6),
+    "q8_ddm": ("Q8, DDM (default)", {**LINEAR, **DDM}, 5),
+    "q8_ddm_fixed": ("Q8, DDM, fixed β", {**LINEAR, **FIXED}, 4),
+    "t3_ddm_fixed": ("T3, DDM, β = 0.3", {**T3, **LINEAR, **FIXED, "method.beta": 0.3}, 5),
+    "q8_mssor": ("Q8, MSSOR", {**LINEAR, "method.solver": "mssor"}, 4),
+}
+# Only where the mesh may shrink towards the ends of the contact line: parabola_1.
+GRADED = {"q8_graded": ("Q8, linear, graded mesh", {**LINEAR, "chart.grading": 3}, 5)}
+# Order of the displacements; linear multipliers, segments, straight-sided triangles.
+FREEFEM = {"freefem_p1": ("FreeFEM P1", 1, 5), "freefem_p2": ("FreeFEM P2", 2, 4)}
+
+# Settings of a method that have other names in each problem. beta = 0.3 and the roles with it are the preprint's: the
+# upper body takes the displacement; on the rings the program's choice, the soft outer one.
+OWN = {
+    "q8_coarser": {
+        "manufactured": {"contact.multipliers_on": "upper_contact"},
+        "rings": {"contact.multipliers_on": "inner_contact"},
+        "parabola_1": {"contact.multipliers_on": "upper_contact"},
+    },
+    "t3_ddm_fixed": {
+        "manufactured": {"method.dirichlet": "upper"},
+        "rings": {},
+        "parabola_1": {"method.dirichlet": "upper"},
+    },
+}
+
+# The coarsest mesh, its size parameters, and what FreeFEM's script solves it (none: it takes constant loads only).
+PROBLEMS = {
+    "manufactured": {
+        "title": "Manufactured field on two plates along a parabola (exact)",
+        "sizes": ("n_upper", "n_lower"),
+        "coarsest": (8, 10),
+        "freefem": None,
+    },
+    "rings": {
+        "title": "Two rings under pressure (Lamé, exact)",
+        "sizes": ("n_inner", "n_outer"),
+        "coarsest": (6, 8),
+        "freefem": ("rings", "outer_contact"),
+    },
+    "parabola_1": {
+        "title": "Two plates along parabola 1 (against a reference)",
+        "sizes": ("n_upper", "n_lower"),
+        "coarsest": (8, 10),
+        "freefem": ("parabola_1", "lower_contact"),
+    },
+}
+QUICK_METHODS = ("q8_linear", "q8_quadratic", "q4_linear", "t3_linear", "q8_ddm", "q8_mssor", "q8_graded", "freefem_p1")
+LEVELS = {"full": 7, "quick": 3}
+TURNS = {"full": 5, "quick": 2}
+
+
+def mesh_of(problem, level):
+    """Elements along the two contact curves after so many halvings."""
+    return tuple(n << level for n in PROBLEMS[problem]["coarsest"])
+
+
+def mesh_name(mesh):
+    return "x".join(map(str, mesh))
+
+
+def size_settings(problem, mesh):
+    return {f"mesh.parameters.{key}": n for key, n in zip(PROBLEMS[problem]["sizes"], mesh)}
+
+
+def ways(problem, level, quick):
+    """Name and settings of the methods that are run by mortise at a level."""
+    table = {**METHODS, **(GRADED if problem == "parabola_1" else {})}
+    for name, (_, settings, deepest) in table.items():
+        if level <= deepest and (not quick or name in QUICK_METHODS):
+            own = OWN.get(name, {}).get(problem, {})
+            yield name, {**size_settings(problem, mesh_of(problem, level)), **settings, **own}
+
+
+def freefem_ways(problem, level, quick):
+    """Name and order of the displacements of the methods that FreeFEM runs at a level."""
+    if PROBLEMS[problem]["freefem"]:
+        for name, (_, order, deepest) in FREEFEM.items():
+            if level <= deepest and (not quick or name in QUICK_METHODS):
+                yield name, order
+
+
+def label(name):
+    return {**METHODS, **GRADED, **FREEFEM}[name][0]

@@ -1,0 +1,147 @@
+"""Model no more than a scene needs: what half of a symmetric scene, bilateral contact and linear elements save.
+
+half        Scenes that are symmetric about x1 = 0.4 m, whole and as their left half with symmetry there, on meshes that
+            coincide (even in x1). Both must have the same p on the left half.
+condition   Scenes where nothing opens, as unilateral and as bilateral contact: p must be the same.
+elements    For an answer to 5 % and 1 % in p: the quickest mesh of linear and of quadratic elements (from chart.csv).
+
+Seconds are those of assembly to recovery in summary.json, one thread, medians of repeats in turns; `whole` has meshing
+and writing too. Written is economy.csv.
+"""
+
+import json
+import statistics
+import time
+
+import numpy as np
+
+import chart_runs
+import launch
+import pareto
+from chart_pictures import PANELS
+
+SAME = 1e-9  # of the largest p
+HALVES = ("parabola_1", "circle", "tent_a", "tent_b", "tent_c")
+CONDITIONS = ("parabola_1", "circle", "rings")
+MESH = {"full": (128, 160), "quick": (32, 40)}
+REPEATS = {"full": 3, "quick": 2}
+
+
+def replaced(text, old, new, path):
+    if old not in text:
+        raise launch.MortiseError(f"{path}: expected '{old}', of which the half model is made")
+    return text.replace(old, new)
+
+
+def half_scene(name, folder):
+    """The left half of geo/NAME.toml as a scene of its own in the folder; returns its path.
+
+    Of the geometry's text: half the width, twice as many rows for the same columns, the line up to the middle.
+    """
+    geo = launch.ROOT / "geo"
+    (folder / "common").mkdir(parents=True, exist_ok=True)
+    (folder / "common/body.geo").write_text((geo / "common/body.geo").read_text())
+    plates = (geo / "common/two_plates.geo").read_text()
+    plates = replaced(plates, "width = 0.8;", "width = 0.4;", "two_plates.geo")
+    plates = replaced(plates, "Round(3 * n / 8)", "Round(3 * n / 4)", "two_plates.geo")
+    (folder / "common/two_plates.geo").write_text(plates)
+    text = (geo / f"{name}.geo").read_text()
+    knots = "knots[] = {0, 0.8};" if "knots[] = {0, 0.8};" in text else "knots[] = {0, 0.4, 0.8};"
+    (folder / f"half_{name}.geo").write_text(replaced(text, knots, "knots[] = {0, 0.4};", f"{name}.geo"))
+    toml = (geo / f"{name}.toml").read_text()
+    path = folder / f"half_{name}.toml"
+    path.write_text(replaced(toml, f'file = "{name}.geo"', f'file = "half_{name}.geo"', f"{name}.toml"))
+    return path
+
+
+def solve(scene, settings, folder):
+    """summary.json of one run on one thread, with the seconds of the process as `process`."""
+    start = time.perf_counter()
+    launch.call("solve", scene, *launch.options(settings), "-o", folder, "--quiet", "--threads", 1)
+    process = time.perf_counter() - start
+    return {**json.loads((folder / "summary.json").read_text()), "process": process}
+
+
+def stages(summary):
+    own = summary["seconds"]
+    return own["total"] - own["mesh"] - own["write"]
+
+
+def pressure(folder):
+    """x and p along the multiplier side."""
+    table = launch.columns(folder / "contact.csv")
+    mine = [i for i, curve in enumerate(table["curve"]) if curve == table["curve"][0]]
+    return np.array([[table["x"][i], table["p"][i]] for i in mine])
+
+
+def compare(study, scene, named, output, repeats, same_p):
+    """One row for each of two named ways (path, settings) to solve a scene, the seconds' medians taken in turns."""
+    summaries = {name: [] for name in named}
+    for _ in range(repeats):
+        for name, (path, settings) in named.items():
+            summaries[name].append(solve(path, settings, output / f"economy/{scene}_{name}"))
+    tables = [pressure(output / f"economy/{scene}_{name}") for name in named]
+    difference = same_p(*tables) / np.abs(tables[0][:, 1]).max()
+    for name in named:
+        first = summaries[name][0]
+        yield {
+            **{"study": study, "scene": scene, "way": name, "unknowns": first["mesh"]["dofs"]},
+            "steps": first["iterations"]["contact"],
+            "seconds": statistics.median(map(stages, summaries[name])),
+            "whole": statistics.median(summary["process"] for summary in summaries[name]),
+            "difference_of_p": difference,
+        }
+
+
+def largest_difference(first, second):
+    """Of p at the nodes of the second, which must be among those of the first."""
+    rows = np.array([np.argmin(np.abs(first[:, 0] - x)) for x in second[:, 0]])
+    if np.abs(first[rows, 0] - second[:, 0]).max() > 1e-9:
+        return np.inf
+    return np.abs(first[rows, 1] - second[:, 1]).max()
+
+
+def halves(mesh, output, repeats):
+    for scene in HALVES:
+        even = {} if scene.startswith("tent") else {"mesh.parameters.spacing": 1}
+        half = tuple(n // 2 for n in mesh)
+        named = {
+            "whole": (launch.scene_file(scene), {**launch.sizes(mesh), **even}),
+            "half": (half_scene(scene, output / "economy/scenes"), {**launch.sizes(half), **even}),
+        }
+        yield from compare("half", scene, named, output, repeats, largest_difference)
+
+
+def conditions(mesh, output, repeats):
+    for scene in CONDITIONS:
+        rings = {"mesh.parameters.n_inner": mesh[0], "mesh.parameters.n_outer": mesh[1]}
+        sizes = rings if scene == "rings" else launch.sizes(mesh)
+        named = {
+            condition: (launch.scene_file(scene), {**sizes, "contact.condition": condition})
+            for condition in ("unilateral", "bilateral")
+        }
+        yield from compare("condition", scene, named, output, repeats, largest_difference)
+
+
+def elements(rows):
+    """The quickest mesh of each kind of element for 5 % and 1 % in p, from the rows of chart.csv."""
+    for problem in dict.fromkeys(row["problem"] for row in rows):
+        for method in ("t3_linear", "q4_linear", "t6_linear", "q8_linear"):
+            mine = [row for row in rows if row["problem"] == problem and row["method"] == method]
+            found = pareto.advice(mine, PANELS[problem][0], (0.05, 0.01))
+            for target, row in found.items():
+                seconds = {"mesh": row["mesh"], "unknowns": row["dofs"], "seconds": row["s_total"]} if row else {}
+                yield {"problem": problem, "method": method, "target": target, **seconds}
+
+
+def measure(output, quick):
+    """The rows of `half` and `condition`, kept in a file while the executable is the same."""
+    size = "quick" if quick else "full"
+    key = chart_runs.digest(launch.MORTISE, __doc__, HALVES, CONDITIONS, MESH, REPEATS, size)
+    make = lambda: [
+        *halves(MESH[size], output, REPEATS[size]),
+        *conditions(MESH[size], output, REPEATS[size]),
+    ]
+    rows, old = chart_runs.kept(output / f"economy/rows_{size}.json", key, make)
+    launch.write_csv(output / "economy.csv", rows)
+    return rows, old

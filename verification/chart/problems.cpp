@@ -1,0 +1,70 @@
+#include "problems.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "graded_plates.hpp"
+#include "io/gmsh_mesh.hpp"
+#include "lame.hpp"
+#include "reference_pressure.hpp"
+#include "support/manufactured.hpp"
+
+namespace mortise::chart {
+namespace {
+
+// Takes `key` out of the settings.
+std::optional<double> take(std::vector<Override>& settings, const std::string& key) {
+  const auto found = std::find_if(settings.begin(), settings.end(), [&](const Override& o) { return o.key == key; });
+  if (found == settings.end()) return std::nullopt;
+  const double value = std::stod(found->value);
+  settings.erase(found);
+  return value;
+}
+
+double parabola(double x) { return -1.25 * x * x + x + 0.2; }
+
+// Exact displacements on top and bottom, exact tractions on the vertical sides, exact tangential ones on the contact
+// line; the normal ones are left to the contact.
+void make_manufactured(Problem& p) {
+  const test::ExactField exact;
+  p.scene.boundaries.clear();
+  for (auto& [name, material] : p.scene.materials) material = {exact.young, exact.poisson, 0};
+  p.adjust = [exact](const Mesh& mesh, Discretisation& d) {
+    d.load += test::exact_loads(mesh, exact);
+    for (const char* side : {"top", "bottom"}) test::prescribe_exactly(mesh, exact, side, d.constraints);
+  };
+  p.exact = test::Field{[exact](const Vec2& x, int) { return exact.displacement(x); },
+                        [exact](const Vec2& x, int) { return exact.stress(x); }};
+  p.pressure = [exact](const Vec2& x) {
+    const Vec4 s = exact.stress(x);
+    const Vec2 n = Vec2(2.5 * x.x() - 1, 1).normalized();
+    return -(s(0) * n.x() * n.x() + 2 * s(3) * n.x() * n.y() + s(1) * n.y() * n.y());
+  };
+}
+
+void make_rings(Problem& p) {
+  const Lame lame = lame_of(p.scene, p.mesh);
+  p.exact = test::Field{[lame](const Vec2& x, int body) { return lame.displacement(x, body); },
+                        [lame](const Vec2& x, int body) { return lame.stress(x, body); }};
+  p.pressure = [lame](const Vec2&) { return lame.pressure; };
+}
+
+}  // namespace
+
+Problem make_problem(const std::string& name, std::vector<Override> settings, const std::string& reference) {
+  if (name != "manufactured" && name != "rings" && name != "parabola_1")
+    throw std::runtime_error("unknown problem '" + name + "'; known: manufactured, rings, parabola_1");
+  const std::string file = name == "rings" ? "rings" : "parabola_1";
+  const std::optional<double> grading = take(settings, "chart.grading");
+  Problem p;
+  p.scene = read_scene(MORTISE_SOURCE_DIR "/geo/" + file + ".toml", settings);
+  p.mesh = grading ? graded_plates(parabola, p.scene.mesh_parameters, *grading)
+                   : load_mesh(p.scene.mesh_file, p.scene.mesh_parameters);
+  if (name == "manufactured") make_manufactured(p);
+  if (name == "rings") make_rings(p);
+  if (name == "parabola_1" && !reference.empty()) p.pressure = reference_pressure(reference);
+  return p;
+}
+
+}  // namespace mortise::chart
