@@ -49,7 +49,7 @@ struct InterfaceRun {
 /// How the iterative solver found the solution.
 struct LinearRun {
   int steps;
-  double factor;                   ///< by which a step multiplied the residual in the end   
+  double factor;                   ///< by which a step multiplied the residual in the end
   double tau_border;               ///< tau must be below; 0 where any will do (accelerated)
   std::vector<Residuals> history;  ///< before each step, and at the end
 };
