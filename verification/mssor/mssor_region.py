@@ -37,9 +37,10 @@ OTHERWISE = {"diverged": {"marker": "x", "color": "#c00000"}, "unfinished": {"ma
 def judged(row, mesh, acceleration, border, on_grid):
     """One run of a sweep as a row of map.csv."""
     omega, tau, outcome = row["method.omega"], row["method.tau"], mssor_runs.outcome(row)
-    right = outcome != "diverged"
-    if acceleration == "none" and abs(tau / border - 1) > NEAR_BORDER:
-        right = (outcome == "diverged") == (tau > border)
+    if acceleration == "none":
+        right = abs(tau / border - 1) < NEAR_BORDER or (outcome == "diverged") == (tau > border)
+    else:
+        right = outcome == "converged"
     return {
         "mesh": mssor_runs.name_of(mesh),
         "acceleration": acceleration,
