@@ -20,9 +20,9 @@ struct Watch {
   const MssorOptions& options;
   MssorSolution& result;
   double limit = options.tolerance;  ///< of the residuals as they are measured here
-  double smallest = infinity;  ///< residual
-  std::vector<double> sizes = {};  ///< of the residual, dimensionless
-  VecX forces = VecX(system.n());  ///< work space
+  double smallest = infinity;        ///< residual
+  std::vector<double> sizes = {};    ///< of the residual, dimensionless
+  VecX forces = VecX(system.n());    ///< work space
 
   // Of the iterate x with residual r, dimensionless; forces are compared with what is known of them without another
   // product: never more than measure_residuals compares them with but where prescribed displacements make them large.

@@ -24,8 +24,8 @@ struct MssorSolution {
   SaddlePointSolution solution;
   int steps = 0;                   ///< evaluations of M^-1, or of its blocks
   std::vector<Residuals> history;  ///< before each step, and at the end
-  double factor = 0;               ///< by which a step multiplied the residual (Euclidean norm) in the end: geometric mean
-  double tau_border = 0;           ///< of acceleration none: tau_border(); else 0
+  double factor = 0;      ///< by which a step multiplied the residual (Euclidean norm) in the end: geometric mean
+  double tau_border = 0;  ///< of acceleration none: tau_border(); else 0
 };
 
 /// The stationary method from u = 0, lambda = 0 (prescribed displacements in place) is

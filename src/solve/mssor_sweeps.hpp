@@ -12,7 +12,7 @@ namespace mortise {
 /// scale.
 struct SweepSystem {
   std::vector<int> unknown;        ///< n: the k-th one's number in the system that was given
-  VecX D, D_inverse;  ///< n: diagonal of K, and one over it
+  VecX D, D_inverse;               ///< n: diagonal of K, and one over it
   std::vector<int> start, column;  ///< n + 1, entries: the strict lower triangle L of K = D + L + L^T by rows
   std::vector<double> value;       ///< entries
   Eigen::SparseMatrix<double, Eigen::RowMajor> B;  ///< m x n

@@ -17,20 +17,30 @@ from matplotlib.ticker import StrMethodFormatter
 import mssor_runs
 import launch
 
-OMEGAS = {"full": [0.3, 0.5, 0.7, 0.9, 1.1, 1.3, 1.5, 1.7, 1.9], "coarse": [0.9, 1.3, 1.7]}
-TAUS = {"full": [float(f"{t:.3g}") for t in np.geomspace(0.02, 8, 11)], "coarse": [0.2, 1.5, 8]}
+OMEGAS = {
+    "full": [0.3, 0.5, 0.7, 0.9, 1.1, 1.3, 1.5, 1.7, 1.9],
+    "usual": [0.5, 0.9, 1.3, 1.6, 1.8],
+    "coarse": [0.8, 1.3, 1.7],
+}
+TAUS = {
+    "full": [float(f"{t:.3g}") for t in np.geomspace(0.02, 8, 11)],
+    "usual": [0.05, 0.3, 0.9, 1.5, 2.5, 5],
+    "coarse": [0.3, 1.5, 5],
+}
 OF_BORDER = [0.97, 1.03]  # tau as fractions of the border, beside the grid
 NEAR_BORDER = 0.01  # relative: no claim about runs that are nearer
 ACCELERATIONS = {"none": "stationary", "krylov": "as preconditioner (symmetric QMR)"}
 TOLERANCE = 1e-8
+OTHERWISE = {"diverged": {"marker": "x", "color": "#c00000"}, "unfinished": {"marker": ".", "color": "0.5"}}
 
 
 def judged(row, mesh, acceleration, border, on_grid):
     """One run of a sweep as a row of map.csv."""
     omega, tau, outcome = row["method.omega"], row["method.tau"], mssor_runs.outcome(row)
-    right = outcome != "diverged"
-    if acceleration == "none" and abs(tau / border - 1) > NEAR_BORDER:
-        right = (outcome == "diverged") == (tau > border)
+    if acceleration == "none":
+        right = abs(tau / border - 1) < NEAR_BORDER or (outcome == "diverged") == (tau > border)
+    else:
+        right = outcome == "converged"
     return {
         "mesh": mssor_runs.name_of(mesh),
         "acceleration": acceleration,
@@ -94,14 +104,15 @@ def draw_panel(axes, rows, mesh, acceleration, colours):
             steps[np.searchsorted(taus, r["tau"]), np.searchsorted(omegas, r["omega"])] = r["steps"]
     x, y = edges(omegas), np.exp(edges(np.log(taus)))
     drawn = axes.pcolormesh(x, y, steps, cmap="viridis_r", norm=colours)
-    for outcome, style in (("diverged", {"marker": "x", "color": "#c00000"}), ("unfinished", {"marker": ".", "color": "0.5"})):
+    for outcome, style in OTHERWISE.items():
         some = [r for r in here if r["outcome"] == outcome]
         axes.plot([r["omega"] for r in some], [r["tau"] for r in some], linestyle="", markersize=5, **style)
     least = best(rows, mesh, acceleration)
     if least:
         axes.plot(least["omega"], least["tau"], "*", color="white", markeredgecolor="black", markersize=12)
-        axes.annotate(f"{least['steps']} steps", (least["omega"], least["tau"]), (0, 9), textcoords="offset points",
-                      ha="center", fontsize=9, bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1})  # fmt: skip
+        words = {"ha": "center", "fontsize": 9, "textcoords": "offset points"}
+        white = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1}
+        axes.annotate(f"{least['steps']} steps", (least["omega"], least["tau"]), (0, 9), bbox=white, **words)
     axes.set(yscale="log", xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
     axes.set_title(f"{mesh}, {ACCELERATIONS[acceleration]}", fontsize=10)
     return drawn
@@ -110,7 +121,8 @@ def draw_panel(axes, rows, mesh, acceleration, colours):
 def draw(path, rows):
     """A row a mesh, a column an acceleration."""
     meshes = list(dict.fromkeys(r["mesh"] for r in rows))
-    figure, panels = plt.subplots(len(meshes), 2, figsize=(9.6, 0.9 + 3.5 * len(meshes)), squeeze=False, layout="constrained")
+    size = (9.6, 0.9 + 3.5 * len(meshes))
+    figure, panels = plt.subplots(len(meshes), 2, figsize=size, squeeze=False, layout="constrained")
     for column, acceleration in enumerate(ACCELERATIONS):
         steps = [r["steps"] for r in rows if r["acceleration"] == acceleration and r["outcome"] == "converged"]
         colours = LogNorm(min(steps), max(steps))
@@ -119,7 +131,8 @@ def draw(path, rows):
             drawn = draw_panel(axes, rows, mesh, acceleration, colours)
             if acceleration == "none":
                 border = sorted({(r["omega"], r["tau_border"]) for r in rows if r["mesh"] == mesh})
-                axes.plot(*zip(*border), color="black", linewidth=1.8, label=r"border $\tau_{border}(\omega)$, eq. (38)")
+                of_border = {"color": "black", "linewidth": 1.8, "label": r"border $\tau_{border}(\omega)$, eq. (38)"}
+                axes.plot(*zip(*border), **of_border)
             axes.set_xlabel(r"$\omega$")
         bar = figure.colorbar(drawn, ax=panels[:, column], pad=0.02, aspect=40, label=f"steps to {TOLERANCE:g}")
         for axis_ticks in (bar.ax.yaxis.set_major_formatter, bar.ax.yaxis.set_minor_formatter):
