@@ -1,0 +1,73 @@
+"""The atlas as a page: OUT/section.html, and docs/stability.md with its pictures."""
+
+import shutil
+
+import atlas_runs  # makes launch and page known
+import launch
+import page
+
+STATES = {
+    "fixed": "cannot happen in mortise: solved exactly",
+    "default": "avoided by the default",
+    "guarded": "guarded: mortise refuses or warns",
+    "shown": "mortise's own checks show it",
+    "open": "not guarded",
+}
+DOCS = launch.ROOT / "docs"
+HEAD = """# Where it fails
+
+Each method has a region where it works and a border where it stops. This page shows the borders, why they are there, and
+what mortise does about them. It is written by `./dev atlas --docs` (verification/atlas) from runs of mortise itself; the
+numbers are those of that run. What mortise says is quoted. The states are: **fixed**, it cannot happen; **default**, the
+defaults keep away from it; **guarded**, mortise refuses or warns; **shown**, a check or the status of the run tells of
+it; **open**, nothing tells.
+"""
+
+
+def outcomes(rows):
+    """How many runs ended in which way, as words."""
+    counts = {}
+    for row in rows:
+        counts[row["outcome"]] = counts.get(row["outcome"], 0) + 1
+    return ", ".join(f"{count} {outcome}" for outcome, count in sorted(counts.items(), key=lambda item: -item[1]))
+
+
+def study_html(result):
+    study, rows = result["study"], result["rows"]
+    yield page.heading(f"{result['number']}. {study.TITLE}")
+    yield page.paragraph(study.INTRODUCTION)
+    yield page.picture(f"{result['name']}/picture.png", study.CAPTION)
+    heading = ["what fails", "begins at", "state", "mortise"]
+    yield page.table(heading, [[r["name"], r["begins"], r["state"], r["mortise"]] for r in result["regions"]])
+    for region in result["regions"]:
+        yield page.paragraph(f"{region['name']}: {region['why']}")
+    yield page.paragraph(f"{len(rows)} runs: {outcomes(rows)}. Table: {result['name']}/rows.csv")
+
+
+def write_html(folder, results, quick):
+    parts = [page.paragraph("States: " + "; ".join(f"{state}: {words}" for state, words in STATES.items()) + ".")]
+    if quick:
+        parts.append(page.paragraph("Quick: a subset of the runs; the bounds are those of the subset."))
+    for result in results:
+        parts += study_html(result)
+    page.write_section(folder, "atlas", "Where each method fails: the stability atlas", parts)
+
+
+def study_markdown(result):
+    study = result["study"]
+    yield f"\n## {result['number']}. {study.TITLE}\n\n{study.INTRODUCTION}\n"
+    yield f"![{study.TITLE}](stability/{result['name']}.png)\n\n{study.CAPTION}\n"
+    yield "| what fails | begins at | state |\n|---|---|---|"
+    yield from (f"| {r['name']} | {r['begins']} | {r['state']} |" for r in result["regions"])
+    yield ""
+    yield from (f"- **{r['name']}.** {r['why']} *mortise:* {r['mortise']}" for r in result["regions"])
+    yield f"\n{len(result['rows'])} runs: {outcomes(result['rows'])}."
+
+
+def write_docs(folder, results):
+    """docs/stability.md and docs/stability/*.png."""
+    (DOCS / "stability").mkdir(exist_ok=True)
+    for result in results:
+        shutil.copyfile(folder / result["name"] / "picture.png", DOCS / "stability" / f"{result['name']}.png")
+    lines = [line for result in results for line in study_markdown(result)]
+    (DOCS / "stability.md").write_text(HEAD + "\n".join(lines) + "\n")
