@@ -4,6 +4,7 @@
 STUDIES is the table of the studies, a module each. A study has
   TITLE, INTRODUCTION   words
   runs(quick)           its runs (atlas_runs), or an empty list
+  extra(folder, quick)  rows of another study that this one shows (optional)
   complete(rows)        rows with figures that compare runs with one another (optional)
   draw(rows, path)      one picture
   regions(rows)         the failures found: name, why (theory, source), begins (words with the number), bound (the number),
@@ -54,6 +55,7 @@ def carry_out(number, name, study, folder, quick):
     start = time.monotonic()
     print(f"study {number}: {study.TITLE}", flush=True)
     rows, fresh = atlas_runs.run_all(study.runs(quick), folder / name, name)
+    rows += study.extra(folder, quick) if hasattr(study, "extra") else []
     rows = study.complete(rows) if hasattr(study, "complete") else rows
     atlas_runs.write_table(folder / name / "rows.csv", rows)
     study.draw(rows, folder / name / "picture.png")
