@@ -2,15 +2,15 @@
 """The stability atlas: where each method fails, how it shows, why, where it begins, and what mortise does about it.
 
 STUDIES is the table of the studies, a module each. A study has
-  TITLE, INTRODUCTION   words
+  TITLE, INTRODUCTION, CAPTION   words
   runs(quick)           its runs (atlas_runs), or an empty list
   extra(folder, quick)  rows of another study that this one shows (optional)
   complete(rows)        rows with figures that compare runs with one another (optional)
   draw(rows, path)      one picture
-  regions(rows)         the failures found: name, why (theory, source), begins (words with the number), bound (the number),
-                        state (fixed, default, guarded, shown, open), mortise (what it does, its message quoted)
-Written are OUT/STUDY/rows.jsonl, rows.csv, picture.png, regions.json, and OUT/section.html. A run whose result is there is
-not repeated. --docs writes docs/stability.md and its pictures from what the full atlas has found.
+  regions(rows)         the failures found (atlas_regions.region): name, where it begins in words and as a number, state
+                        (fixed, default, guarded, shown, open), why (theory, source), what mortise does, quoted
+Written are OUT/STUDY/rows.jsonl, rows.csv, picture.png, regions.json, and OUT/section.html. A run whose result is there
+is not repeated. --docs writes docs/stability.md and its pictures from what the full atlas has found.
 Exit status 1 if a run ends as it must not: an internal error, a crash, a hang.
 """
 

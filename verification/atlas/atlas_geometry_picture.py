@@ -26,7 +26,9 @@ def draw_kinks(axes, rows):
     for number, name in enumerate(dict.fromkeys(row["line"] for row in of_part(rows, "kink"))):
         for side, style in (("upper_bottom", "-"), ("lower_top", "--")):
             label = name if style == "-" else None
-            draw_line(axes, of_part(rows, "kink", line=name, side=side), label, "p_error", style=style, colour=f"C{number}")
+            draw_line(
+                axes, of_part(rows, "kink", line=name, side=side), label, "p_error", style=style, colour=f"C{number}"
+            )
     axes.set(xlabel="slope at the kinks, degrees (dashed: multipliers below)", yscale="log", title="kinks")
 
 
@@ -35,9 +37,15 @@ def draw_walls(axes, rows):
         counts = sorted({row["count"] for row in of_part(rows, "wall", line=kind)})[1:]
         for count, style in zip(counts, ("--", "-")):
             label = f"{kind}, {count // 2} to {count} elements"
-            draw_line(axes, of_part(rows, "wall", line=kind, count=count), label, "growth", style=style, colour=f"C{number}")
+            draw_line(
+                axes, of_part(rows, "wall", line=kind, count=count), label, "growth", style=style, colour=f"C{number}"
+            )
     axes.axhline(1, color="0.6", linewidth=0.8)
-    axes.set(xlabel="slope of the line at the walls, degrees", ylabel="largest p, over that on the coarser mesh", title="fixed walls")
+    axes.set(
+        xlabel="slope of the line at the walls, degrees",
+        ylabel="largest p, over that on the coarser mesh",
+        title="fixed walls",
+    )
     axes.set_ylim(0.6, 3)
 
 
@@ -46,7 +54,13 @@ def draw_rings(axes, rows):
         for gap, style in (("closed", "-"), ("measured", "--")):
             line = of_part(rows, "rings", line=f"{edges}, {gap}")
             draw_line(axes, line, f"{edges}, {gap}", "p_error", style=style, colour=f"C{number}")
-    axes.set(xlabel="elements on the quarter circle", xscale="log", yscale="log", ylim=(1e-12, 10), title="rings: edges and gap")
+    axes.set(
+        xlabel="elements on the quarter circle",
+        xscale="log",
+        yscale="log",
+        ylim=(1e-12, 10),
+        title="rings: edges and gap",
+    )
     axes.set_xticks([4, 8, 16, 32, 64], ["4", "8", "16", "32", "64"])
     axes.minorticks_off()
 
@@ -55,8 +69,12 @@ def draw_cosine(axes, rows):
     for number, space in enumerate(("linear", "quadratic", "dual")):
         for side, style in (("upper_bottom", "-"), ("lower_top", "--")):
             label = space if style == "-" else None
-            draw_line(axes, of_part(rows, "cosine", line=space, side=side), label, "p_error", style=style, colour=f"C{number}")
-    axes.set(xlabel="elements a period (dashed: multipliers below)", xscale="log", yscale="log", title="curvature: cosine")
+            draw_line(
+                axes, of_part(rows, "cosine", line=space, side=side), label, "p_error", style=style, colour=f"C{number}"
+            )
+    axes.set(
+        xlabel="elements a period (dashed: multipliers below)", xscale="log", yscale="log", title="curvature: cosine"
+    )
     axes.set_xticks([1, 2, 4, 8, 16], ["1", "2", "4", "8", "16"])
     axes.minorticks_off()
 

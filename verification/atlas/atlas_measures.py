@@ -1,4 +1,4 @@
-"""What the atlas measures in a results folder: each function takes the folder and the run, and returns named figures."""
+"""What the atlas measures in a results folder: functions that take the folder and the run, and return named figures."""
 
 import hashlib
 import json
@@ -60,7 +60,7 @@ def pressure(folder, run):
 
 
 def swing(folder, run):
-    """How p swings from node to node: |p[i-1] - 2 p[i] + p[i+1]| / 4, mean and largest, over the mean |p|; without END."""
+    """How p swings from node to node: |p[i-1] - 2 p[i] + p[i+1]| / 4, mean and largest, over the mean |p|; no END."""
     side = multiplier_side(folder)
     s, p = side["s"] / side["s"][-1], side["p"]
     second = np.abs(np.diff(p, 2)) / 4
@@ -91,7 +91,8 @@ def lame(materials):
     gap = lambda p: (
         ring(*materials[1], p, RINGS["outside"], b, c)[1](b) - ring(*materials[0], RINGS["inside"], p, a, b)[1](b)
     )
-    exact = -gap(0) / (gap(1) - gap(0))  # the gap is linear in p
+    some = RINGS["inside"]
+    exact = -gap(0) * some / (gap(some) - gap(0))  # the gap is linear in p
     rings = [ring(*materials[0], RINGS["inside"], exact, a, b), ring(*materials[1], exact, RINGS["outside"], b, c)]
     return exact, rings
 
@@ -138,8 +139,8 @@ def digests(folder, run):
 
 
 def uniform_facing(folder, run):
-    """As uniform, of the multipliers up to run["last"], where the last edge ends that faces the other side: p_error; and
-    of p at the nodes that face it themselves: p_error_facing. The edges are run["edge"] long."""
+    """As uniform, of the multipliers up to run["last"], where the last edge ends that faces the other side: p_error;
+    and of p at the nodes that face it themselves: p_error_facing. The edges are run["edge"] long."""
     columns = launch.columns(folder / "contact.csv")
     first, exact, edge = columns["curve"][0], run.get("exact", 10e6), run["edge"]
     side = [i for i, curve in enumerate(columns["curve"]) if curve == first]

@@ -50,7 +50,8 @@ def cells_of(one):
     for j in range(0, last_j + 1, 2):
         for i in range(0, last_i + 1, 2):
             corners = [node(i, j), node(i + 2, j), node(i + 2, j + 2), node(i, j + 2)]
-            middles = [node(i + 1, j), node(i + 2, j + 1), node(i + 1, j + 2), node(i, j + 1)] if one["order"] == 2 else []
+            middles = [node(i + 1, j), node(i + 2, j + 1), node(i + 1, j + 2), node(i, j + 1)]
+            middles = middles if one["order"] == 2 else []
             cells.append(corners + middles)
             second = one["split"] is not None and s_of[i + 1] > one["split"]
             tops = (("top2", j == last_j and second), ("top", j == last_j and not second))

@@ -7,20 +7,28 @@ import launch
 import page
 
 STATES = {
-    "fixed": "cannot happen in mortise: solved exactly",
-    "default": "avoided by the default",
-    "guarded": "guarded: mortise refuses or warns",
-    "shown": "mortise's own checks show it",
-    "open": "not guarded",
+    "fixed": "does not happen: the runs do not find it",
+    "default": "the defaults keep away from it",
+    "guarded": "mortise refuses the scene, or a note says so",
+    "shown": "a check fails, or the status is not_converged",
+    "open": "some runs are off, and nothing tells",
 }
 DOCS = launch.ROOT / "docs"
 HEAD = """# Where it fails
 
-Each method has a region where it works and a border where it stops. This page shows the borders, why they are there, and
-what mortise does about them. It is written by `./dev atlas --docs` (verification/atlas) from runs of mortise itself; the
-numbers are those of that run. What mortise says is quoted. The states are: **fixed**, it cannot happen; **default**, the
-defaults keep away from it; **guarded**, mortise refuses or warns; **shown**, a check or the status of the run tells of
-it; **open**, nothing tells.
+Each method has a region where it works and a border where it stops. This page shows the borders, why they are there,
+and what mortise does about them. It is written by `./dev atlas --docs` (verification/atlas) from runs of mortise
+itself, and the numbers and messages are those of that run. The states:
+
+| state | means |
+|---|---|
+| fixed | does not happen: the runs do not find it |
+| default | the defaults keep away from it |
+| guarded | mortise refuses the scene, or a note says so |
+| shown | a check fails, or the status of the run is not_converged |
+| open | some runs are off, and neither status nor checks nor notes tell |
+
+Runs marked as failing the check of p against sigma_n are often right: the meshes are coarse on purpose.
 """
 
 

@@ -13,6 +13,23 @@ def sorted_by(rows, key):
     return sorted(rows, key=lambda row: row[key])
 
 
+def say(value, form="g"):
+    """A number as words; "none" if there is none."""
+    return "none" if value is None else format(value, form)
+
+
+def ends(values, step):
+    """Every `step`-th of a list, and its last: what the quick atlas takes."""
+    return [*values[:-1:step], values[-1]]
+
+
+def told(bad):
+    """How mortise tells of runs that are off: not at all of some (open), by a refusal or a note, or by checks."""
+    if any(row["outcome"] == "solved" and not row["note_count"] for row in bad):
+        return "open"
+    return "guarded" if all(row["outcome"] == "refused" or row["note_count"] for row in bad) else "shown"
+
+
 def first(rows, key, holds):
     """The value of `key` in the first row, ascending in it, that fulfils a condition; None if none does."""
     return next((row[key] for row in sorted_by(rows, key) if holds(row)), None)

@@ -77,7 +77,9 @@ def execute(run):
             status, stderr, seconds = done.returncode, done.stderr, time.monotonic() - start
         except subprocess.TimeoutExpired:
             status, stderr, seconds = None, "", None
-        row = {**run["axes"], "outcome": outcome(status, seconds), "seconds": seconds, "message": message(stderr, folder)}
+        row = {
+            **run["axes"], "outcome": outcome(status, seconds), "seconds": seconds, "message": message(stderr, folder)
+        }
         if status in launch.SOLVED:
             for measure in ("summary", *run.get("measures", [])):
                 row.update(getattr(atlas_measures, measure)(out, run))
@@ -117,7 +119,9 @@ def run_all(runs, folder, label):
                 fresh += 1
             rows.append(known[key])
             if number % 50 == 0 or number == len(runs):
-                print(f"  {label}: {number}/{len(runs)} runs, {fresh} new, {time.monotonic() - start:.0f} s", flush=True)
+                print(
+                    f"  {label}: {number}/{len(runs)} runs, {fresh} new, {time.monotonic() - start:.0f} s", flush=True
+                )
     return rows, fresh
 
 

@@ -4,17 +4,21 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from atlas_measures import END
-from atlas_regions import checks_of, region, solved
+from atlas_regions import checks_of, region, solved, told
 
 TITLE = "Mesh ratio and multiplier side"
 INTRODUCTION = (
-    "Two meshes whose elements differ in length by a ratio of up to 20, multipliers on either, three multiplier spaces, "
-    "linear and 8-node quadrilaterals. Rings: p against the exact constant pressure (Lamé). parabola_1: p against that of "
-    "matching meshes, 96x96, without a tenth of the length at either end. The coarser mesh always has 6 elements along the "
+    "Two meshes whose elements differ in length by a ratio of up to 20, multipliers on either, three multiplier "
+    "spaces, "
+    "linear and 8-node quadrilaterals. Rings: p against the exact constant pressure (Lamé). parabola_1: p against "
+    "that of "
+    "matching meshes, 96x96, without a tenth of the length at either end. The coarser mesh always has 6 elements "
+    "along the "
     "line in the rings and 8 in parabola_1, so that the error at 1:1 is that of the coarse mesh itself."
 )
 CAPTION = (
-    "Left of 1 the multipliers are on the coarser mesh, right of 1 on the finer one. The dashed lines are 1 % and 10 %. "
+    "Left of 1 the multipliers are on the coarser mesh, right of 1 on the finer one. The dashed lines are 1 % and 10 "
+    "%. "
     "Open symbols: mortise's check of p against the bodies' stress fails."
 )
 RATIOS = [1, 1.5, 2, 3, 5, 10, 20]
@@ -53,7 +57,7 @@ def run_of(scene, order, space, ratio, on_fine):
 
 
 def runs(quick):
-    ratios = [1, 3, 10] if quick else RATIOS
+    ratios = [1, 10] if quick else RATIOS
     cases = [(scene, order, space) for scene in CURVES for order in SPACES for space in SPACES[order]]
     sides = [(ratio, on_fine) for ratio in ratios for on_fine in (True, False) if ratio > 1 or on_fine]
     reference = run_of("parabola_1", 2, "linear", 1, True)
@@ -120,7 +124,7 @@ def side_rows(rows, fine):
 
 
 def side_region(rows, fine):
-    words, bounds = [], []
+    words, bounds, bad = [], [], []
     for scene in CURVES:
         for order in SPACES:
             for space in SPACES[order]:
@@ -128,11 +132,15 @@ def side_region(rows, fine):
                     continue
                 row = bound_of(rows, side_rows(rows, fine), scene=scene, order=order, space=space)
                 if row:
-                    words.append(f"{scene}, {['linear', 'quadratic'][order - 1]} elements, {space}: {as_ratio(row['ratio'])} ({figure_of(row):.1%})")
+                    words.append(
+                        f"{scene}, {['linear', 'quadratic'][order - 1]} elements, {space}: {as_ratio(row['ratio'])} "
+                        f"({figure_of(row):.1%})"
+                    )
+                    bad.append(row)
                     bounds.append(max(row["ratio"], 1 / row["ratio"]))
     limits = f"{LIMITS['rings']:.0%} (rings) or {LIMITS['parabola_1']:.0%} (parabola_1)"
     begins = f"p off by more than {limits}, and twice as much as at 1:1: " + ("; ".join(words) or "nowhere")
-    return begins, min(bounds, default=None)
+    return begins, min(bounds, default=None), told(bad) if bad else "fixed"
 
 
 def worst_at(rows, scene, order, ratio):
@@ -141,29 +149,34 @@ def worst_at(rows, scene, order, ratio):
 
 
 def fine_region(rows):
-    begins, bound = side_region(rows, True)
+    begins, bound, state = side_region(rows, True)
     ratio = max(row["ratio"] for row in rows)
     fine, coarse = worst_at(rows, "rings", 2, ratio), worst_at(rows, "rings", 2, 1 / ratio)
     why = (
-        "The multipliers of a finer side follow the facets of the coarser one: p takes the shape of the coarse mesh's error of the curve, though it stays stable "
-        "(the inf-sup constant of mortar spaces does not depend on the ratio: Wohlmuth 2000; Belgacem 1999). On a smooth curve the coarser side is the better "
+        "The multipliers of a finer side follow the facets of the coarser one: p takes the shape of the coarse "
+        "mesh's error of the curve, though it stays stable "
+        "(the inf-sup constant of mortar spaces does not depend on the ratio: Wohlmuth 2000; Belgacem 1999). On a "
+        "smooth curve the coarser side is the better "
         "one for them, on flat lines and at corners it is not."
     )
     mortise = (
-        f"The default is the side with the shorter edges, for scenes that are not smooth (theory, section 9). In rings with 8-node quadrilaterals at {ratio:g}:1 it is off by "
-        f"{fine:.1e}, multipliers on the coarser side by {coarse:.1e}. Checks that fail: {checks_of(side_rows(rows, True))}."
+        "The default is the side with the shorter edges, for scenes that are not smooth (theory, section 9). In "
+        f"rings with 8-node quadrilaterals at {ratio:g}:1 it is off by "
+        f"{fine:.1e}, multipliers on the coarser side by {coarse:.1e}. Checks that fail: "
+        f"{checks_of(side_rows(rows, True))}."
     )
-    return region("Multipliers on the finer side", begins, bound, "shown", why, mortise)
+    return region("Multipliers on the finer side", begins, bound, state, why, mortise)
 
 
 def coarse_region(rows):
-    begins, bound = side_region(rows, False)
+    begins, bound, state = side_region(rows, False)
     why = (
-        "Few multipliers see a mean of what happens between them: p cannot vary within an edge of the coarse side (best approximation, Bernardi, Maday & Patera 1994), "
+        "Few multipliers see a mean of what happens between them: p cannot vary within an edge of the coarse side "
+        "(best approximation, Bernardi, Maday & Patera 1994), "
         "but the finer mesh does not disturb it."
     )
     mortise = f"contact.multipliers_on chooses the side. Checks that fail: {checks_of(side_rows(rows, False))}."
-    return region("Multipliers on the coarser side", begins, bound, "shown", why, mortise)
+    return region("Multipliers on the coarser side", begins, bound, state, why, mortise)
 
 
 def segments_region(rows):
@@ -171,12 +184,20 @@ def segments_region(rows):
     over = sorted((row for row in line if figure_of(row) > LIMIT), key=lambda row: max(row["ratio"], 1 / row["ratio"]))
     worst = max(figure_of(row) for row in line)
     bound = max(over[0]["ratio"], 1 / over[0]["ratio"]) if over else None
-    begins = f"rings: {as_ratio(over[0]['ratio'])} ({figure_of(over[0]):.1%}); at worst {worst:.1%}" if over else f"rings: p off by {worst:.1%} at most"
+    begins = (
+        f"rings: {as_ratio(over[0]['ratio'])} ({figure_of(over[0]):.1%}); at worst {worst:.1%}"
+        if over
+        else f"rings: p off by {worst:.1%} at most"
+    )
     why = (
-        "Gauss points on whole edges integrate across the vertices of the other side, where its shape functions have kinks: the weights of the two sides do "
+        "Gauss points on whole edges integrate across the vertices of the other side, where its shape functions have "
+        "kinks: the weights of the two sides do "
         "not match and the patch test is lost (Farah, Popp & Wall 2015; Puso & Laursen 2004)."
     )
-    mortise = "method.integration = \"segments\" is the default: edges are cut at the vertices of both meshes. With \"elements\" nothing is said."
+    mortise = (
+        "method.integration = \"segments\" is the default: edges are cut at the vertices of both meshes. With "
+        "\"elements\" nothing is said."
+    )
     return region("Whole edges instead of segments", begins, bound, "default", why, mortise)
 
 

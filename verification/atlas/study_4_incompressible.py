@@ -2,16 +2,19 @@
 
 import matplotlib.pyplot as plt
 
-from atlas_regions import checks_of, first, largest, quote, region, solved
+from atlas_regions import checks_of, ends, first, largest, quote, region, say, solved, told
 
 TITLE = "Near incompressibility (plane strain)"
 INTRODUCTION = (
-    "Poisson's ratio of both rings from 0.3 to 0.499999, five elements, two meshes (12:16 and 24:32 elements along the arcs): "
-    "displacement and contact pressure against Lamé, and the mean stress at the elements' centres, which is constant in each "
+    "Poisson's ratio of both rings from 0.3 to 0.499999, five elements, two meshes (12:16 and 24:32 elements along "
+    "the arcs): "
+    "displacement and contact pressure against Lamé, and the mean stress at the elements' centres, which is constant "
+    "in each "
     "ring. The flat patch test with the same values."
 )
 CAPTION = (
-    "Errors against 1 - 2 nu. Full lines 12:16, dashed 24:32. The mean stress is that at the centres of the elements, root of "
+    "Errors against 1 - 2 nu. Full lines 12:16, dashed 24:32. The mean stress is that at the centres of the "
+    "elements, root of "
     "the mean square of its error over the contact pressure."
 )
 POISSON = [0.3, 0.4, 0.45, 0.49, 0.499, 0.4999, 0.49999, 0.499999]
@@ -54,8 +57,13 @@ def patch(element, poisson):
 
 
 def runs(quick):
-    values = POISSON[::3] if quick else POISSON
-    listed = [rings(element, poisson, mesh) for mesh in MESHES for element in ELEMENTS for poisson in values]
+    values = ends(POISSON, 3) if quick else POISSON
+    listed = [
+        rings(element, poisson, mesh)
+        for mesh in (MESHES[:1] if quick else MESHES)
+        for element in ELEMENTS
+        for poisson in values
+    ]
     return listed + [patch(element, poisson) for element in ELEMENTS for poisson in values]
 
 
@@ -96,45 +104,62 @@ def bound_of(rows, element, key, limit):
 def listed(rows, key, limit):
     """For each element the nu at which a figure exceeds the limit, as words, and the least."""
     bounds = {element: bound_of(rows, element, key, limit) for element in ELEMENTS}
-    words = [
-        f"{element} {bound:g} ({value:.1%})" if bound else f"{element} none" for element, (bound, value) in bounds.items()
-    ]
+    at = lambda bound, value: f"{bound:g} ({value:.1%})" if bound else "none"
+    words = [f"{element} {at(*pair)}" for element, pair in bounds.items()]
     return "; ".join(words), min((bound for bound, _ in bounds.values() if bound), default=None)
 
 
 def displacement_region(rows):
     words, bound = listed(rows, "u_error", LIMIT)
-    silent = [r for r in rows if r["scene"] == "rings" and r["outcome"] == "solved" and r["u_error"] > LIMIT and not r["note_count"]]
+    bad = [row for row in rows if row["scene"] == "rings" and solved(row) and row["u_error"] > LIMIT]
+    silent = [row for row in bad if row["outcome"] == "solved" and not row["note_count"]]
     why = (
-        "With nu near 0.5 each quadrature point demands a constant area; where these demands are more than the displacements can follow, the "
-        "element stiffens (volumetric locking; Hughes, The Finite Element Method, section 4.4). 6-node triangles have the most freedom for each demand (3 points); "
+        "With nu near 0.5 each quadrature point demands a constant area; where these demands are more than the "
+        "displacements can follow, the "
+        "element stiffens (volumetric locking; Hughes, The Finite Element Method, section 4.4). 6-node triangles "
+        "have the most freedom for each demand (3 points); "
         "8- and 9-node quadrilaterals with 3 x 3 points and both linear elements do not have enough."
     )
     warned = quote([row for row in rows if row["poisson"] > 0.49 and row.get("note_count")])
-    mortise = f"mortise integrates the stiffness fully and has no mixed elements. It says {warned}; {len(silent)} of these runs end as solved with an error above {LIMIT:.0%}."
+    mortise = (
+        f"mortise integrates the stiffness fully and has no mixed elements. It says {warned}; {len(silent)} of these "
+        f"runs end as solved with an error above {LIMIT:.0%}."
+    )
     begins = f"nu at which u is off by more than {LIMIT:.0%} (12:16) - {words}"
-    return region("Locking: displacements too small", begins, bound, "open" if silent else "guarded", why, mortise)
+    return region("Locking: displacements too small", begins, bound, told(bad), why, mortise)
 
 
 def pressure_region(rows):
     words, bound = listed(rows, "p_error", 0.01)
     why = (
-        "The contact pressure is a multiplier, in balance with the load; of what the bodies do it feels only how the load is shared. "
-        "That is wrong where the bodies lock to a different degree, and where the stiffened mesh follows the line badly."
+        "The contact pressure is a multiplier, in balance with the load; of what the bodies do it feels only how the "
+        "load is shared. "
+        "That is wrong where the bodies lock to a different degree, and where the stiffened mesh follows the line "
+        "badly."
     )
     fails = [row for row in rows if row["scene"] == "rings" and "sigma_n" in row["failed_checks"]]
     mortise = f"The check of p against sigma_n fails in {len(fails)} of the runs on rings."
-    return region("Contact pressure", f"nu at which p is off by more than 1 % (12:16) - {words}", bound, "shown", why, mortise)
+    bad = [row for row in rows if row["scene"] == "rings" and solved(row) and row["p_error"] > 0.01]
+    begins = f"nu at which p is off by more than 1 % (12:16) - {words}"
+    return region("Contact pressure", begins, bound, told(bad), why, mortise)
 
 
 def stress_region(rows):
     words, bound = listed(rows, "mean_stress_error", LIMIT)
     why = (
-        "The mean stress is 2 mu / (1 - 2 nu) (times about 1 / 3) the area's change, so an error of the area's change is magnified by 1 / (1 - 2 nu) "
-        "(Hughes, section 4.4): stress_centre swings from element to element long before u is off. At the points of theory, eq. 20 the stress is better than at the centre."
+        "The mean stress is 2 mu / (1 - 2 nu) (times about 1 / 3) the area's change, so an error of the area's "
+        "change is magnified by 1 / (1 - 2 nu) "
+        "(Hughes, section 4.4): stress_centre swings from element to element long before u is off. At the points of "
+        "theory, eq. 20 the stress is better than at the centre."
     )
-    mortise = "Nothing tells of it as long as p and sigma_n at the contact agree to 10 %."
-    return region("Mean stress in the bodies", f"nu at which it is off by {LIMIT:.0%} of p (12:16) - {words}", bound, "open", why, mortise)
+    bad = [row for row in rows if row["scene"] == "rings" and solved(row) and row["mean_stress_error"] > LIMIT]
+    unsaid = [row for row in bad if row["outcome"] == "solved" and not row["note_count"]]
+    mortise = (
+        f"{len(unsaid)} of the {len(bad)} runs beyond that end as solved without a note: p and sigma_n at the "
+        "contact agree to 10 % still."
+    )
+    begins = f"nu at which it is off by {LIMIT:.0%} of p (12:16) - {words}"
+    return region("Mean stress in the bodies", begins, bound, told(bad), why, mortise)
 
 
 def patch_region(rows):
@@ -142,11 +167,16 @@ def patch_region(rows):
     bound = first(line, "poisson", lambda row: "residual" in row["failed_checks"])
     worst = largest(line, "p_error")
     why = (
-        "A uniform stress is in the space of every element, so locking does not touch it; what remains is rounding, magnified by the condition of K, "
+        "A uniform stress is in the space of every element, so locking does not touch it; what remains is rounding, "
+        "magnified by the condition of K, "
         "which grows as 1 / (1 - 2 nu) (Golub & Van Loan, section 2.7)."
     )
     mortise = f"Checks that fail: {checks_of(line)}."
-    begins = f"p off by {worst:.0e} at most; the residual's limit of 1e-10 is passed from nu = {bound:g}" if bound else f"p off by {worst:.0e} at most"
+    begins = (
+        f"p off by {worst:.0e} at most; the residual's limit of 1e-10 is passed from nu = {say(bound)}"
+        if bound
+        else f"p off by {worst:.0e} at most"
+    )
     return region("Rounding", begins, bound, "shown", why, mortise)
 
 

@@ -4,20 +4,24 @@ import subprocess
 import sys
 from pathlib import Path
 
-import matplotlib.pyplot as plt
-
+import atlas_iterations_picture
 import atlas_mesh
 import launch
+from atlas_iterations_picture import count_of, of_part
 from atlas_regions import first, quote, region, solved
 
 TITLE = "Iterations: active set and relaxation"
 INTRODUCTION = (
-    "Scenes in which rows stand at the border of opening: lift_off over the force that bends the plate off; gap_close with the prescribed displacement within "
-    "1e-1 to 1e-14 of the gap; a flat line with p = 0 exactly (compressed along the line only) and small pressures on it; cosine, hertz and rings with the "
-    "gap as the meshes have it; unilateral domain decomposition. And the region of beta in which Neumann-Dirichlet converges (verification/ddm/region.py)."
+    "Scenes in which rows stand at the border of opening: lift_off over the force that bends the plate off; "
+    "gap_close with the prescribed displacement within "
+    "1e-1 to 1e-14 of the gap; a flat line with p = 0 exactly (compressed along the line only) and small pressures "
+    "on it; cosine, hertz and rings with the "
+    "gap as the meshes have it; unilateral domain decomposition. And the region of beta in which Neumann-Dirichlet "
+    "converges (verification/ddm/region.py)."
 )
 CAPTION = (
-    "Steps of the active set (solves), and of domain decomposition. Crosses: not converged. In the last panel the border predicted from the eigenvalues against runs that "
+    "Steps of the active set (solves), and of domain decomposition. Crosses: not converged; runs that are refused "
+    "are not drawn. In the last panel the border predicted from the eigenvalues against runs that "
     "converge (dots) and diverge (crosses)."
 )
 SPACES = ["linear", "quadratic", "dual"]
@@ -31,7 +35,12 @@ REGION = Path(__file__).resolve().parents[1] / "ddm/region.py"
 
 
 def geo(part, scene, settings, value, line):
-    return {"axes": {"part": part, "value": value, "line": line}, "scene": scene, "settings": settings, "measures": ["pressure"]}
+    return {
+        "axes": {"part": part, "value": value, "line": line},
+        "scene": scene,
+        "settings": settings,
+        "measures": ["pressure"],
+    }
 
 
 def lift(force, space, mesh):
@@ -60,7 +69,11 @@ def others(quick):
         for space in SPACES:
             settings = {**launch.sizes(mesh), "method.multipliers": space}
             yield geo("others", "cosine", settings, n, f"cosine, {space}")
-            rings = {"mesh.parameters.n_inner": mesh[0], "mesh.parameters.n_outer": mesh[1], "contact.initial_gap": "measured"}
+            rings = {
+                "mesh.parameters.n_inner": mesh[0],
+                "mesh.parameters.n_outer": mesh[1],
+                "contact.initial_gap": "measured",
+            }
             edges = {"mesh.parameters.straight": 1, "method.multipliers": space}
             yield geo("others", "rings", {**rings, **edges}, n, f"rings, measured, straight edges, {space}")
         yield geo("others", "hertz", {"boundary.2.pressure": 4.6e6 * 4.0**-n}, n, "hertz, loads")
@@ -78,8 +91,10 @@ def decomposed(quick):
 
 
 def runs(quick):
-    forces, steps = (FORCES[::3], PERTURBATIONS[::2]) if quick else (FORCES, PERTURBATIONS)
-    listed = [lift(force, space, mesh) for mesh in ((32,) if quick else (32, 64)) for space in SPACES for force in forces]
+    forces, steps = (FORCES[::5], PERTURBATIONS[::2]) if quick else (FORCES, PERTURBATIONS)
+    listed = [
+        lift(force, space, mesh) for mesh in ((32,) if quick else (32, 64)) for space in SPACES for force in forces
+    ]
     values = [-value for value in steps] + [0] + steps
     listed += [near_gap(value, space) for space in SPACES for value in values]
     listed += [sideways(value, space) for space in SPACES for value in values]
@@ -99,69 +114,8 @@ def extra(folder, quick):
     return [{"part": "region", **dict(zip(columns, values))} for values in zip(*columns.values())]
 
 
-def of_part(rows, part):
-    return [row for row in rows if row["part"] == part]
-
-
-def count_of(row):
-    return row["interface_steps"] if row["part"] == "ddm" else row["steps"]
-
-
-def draw_part(axes, rows, part, place=lambda value: value):
-    for number, name in enumerate(dict.fromkeys(row["line"] for row in of_part(rows, part))):
-        line = sorted((row for row in of_part(rows, part) if row["line"] == name and solved(row)), key=lambda row: row["value"])
-        x = [place(row["value"]) for row in line]
-        axes.plot(x, [count_of(row) for row in line], "-", color=f"C{number}", linewidth=1.1, label=name)
-        for at, row in zip(x, line):
-            axes.plot(at, count_of(row), "x" if row["outcome"] == "not converged" else "o", color=f"C{number}", markersize=5)
-    axes.legend(fontsize=7)
-    axes.grid(alpha=0.25)
-
-
-def draw_region(axes, rows):
-    found = [row for row in of_part(rows, "region") if row["dirichlet"] == "upper"]
-    for outcome, marker, colour in (("converged", "o", "C0"), ("unfinished", ".", "0.5"), ("diverged", "x", "#c00000")):
-        some = [row for row in found if row["outcome"] == outcome]
-        axes.plot([row["ratio"] for row in some], [row["beta"] for row in some], marker, color=colour, markersize=3, label=outcome)
-    border = sorted({(row["ratio"], 2 / row["mu_largest"]) for row in found})
-    axes.plot(*zip(*border), "k-", linewidth=1.2, label=r"$2/\mu_{max}$")
-    axes.set(xscale="log", yscale="log", xlabel="$E_{upper}/E_{lower}$, upper body takes the displacement", ylabel=r"relaxation $\beta$")
-    axes.legend(fontsize=7, loc="lower left")
-    axes.grid(alpha=0.25)
-
-
-def signed(value):
-    """A place on an axis of powers of ten of either sign."""
-    powers = [0, *PERTURBATIONS]
-    place = powers.index(abs(value))
-    return place if value >= 0 else -place
-
-
 def draw(rows, path):
-    figure = plt.figure(figsize=(14, 8), layout="constrained")
-    grid = figure.add_gridspec(2, 6)
-    lift_axes, near_axes, other_axes = (figure.add_subplot(grid[0, 2 * k : 2 * k + 2]) for k in range(3))
-    ddm_axes, region_axes = (figure.add_subplot(grid[1, 3 * k : 3 * k + 3]) for k in range(2))
-    draw_part(lift_axes, rows, "lift_off")
-    lift_axes.set(xlabel="upward force / that of lift_off.toml", title="lift_off", yscale="log", ylim=(0.8, 200))
-    draw_part(near_axes, rows, "near", signed)
-    ticks = range(-len(PERTURBATIONS), len(PERTURBATIONS) + 1)
-    powers = [f"{v:.0e}".replace("e-0", "e-") for v in PERTURBATIONS]
-    near_axes.set_xticks(ticks, [*("-" + text for text in reversed(powers)), "0", *powers], rotation=60, fontsize=8)
-    near_axes.set(xlabel="distance from the border of contact", title="at the border of contact", yscale="log", ylim=(0.8, 200))
-    draw_part(other_axes, rows, "others")
-    other_axes.set(xlabel="mesh (hertz: load, a quarter each)", title="many places of contact", ylim=(0, 12))
-    draw_part(ddm_axes, rows, "ddm")
-    ddm_axes.set(xlabel="mesh", title="cosine, unilateral, domain decomposition", yscale="log", ylim=(8, 300))
-    for axes in (other_axes, ddm_axes):
-        axes.set_xticks(range(len(MESHES)), [f"{upper}x{lower}" for upper, lower in MESHES])
-    for axes in (lift_axes, near_axes, other_axes):
-        axes.set_ylabel("steps of the active set")
-    ddm_axes.set_ylabel("steps of domain decomposition")
-    draw_region(region_axes, rows)
-    region_axes.set_title("relaxation with a fixed beta, parabola_1")
-    figure.savefig(path, dpi=80)
-    plt.close(figure)
+    atlas_iterations_picture.draw(rows, path, PERTURBATIONS, MESHES)
 
 
 def widest(rows, holds):
@@ -175,25 +129,40 @@ def border_regions(rows):
     wrong_way = [row for row in line if row["outcome"] == "refused"]
     calm = [row for row in line if row["outcome"] == "solved"]
     why = (
-        "Where p and the gap vanish together the sign of both is rounding, and a row changes side in every step; the active set's finite end (Hintermüller, Ito & Kunisch 2003) is "
-        "that of exact arithmetic. The tolerances are relative to the largest multiplier, and here that is rounding too."
+        "Where p and the gap vanish together the sign of both is rounding, and a row changes side in every step; the "
+        "active set's finite end (Hintermüller, Ito & Kunisch 2003) is "
+        "that of exact arithmetic. The tolerances are relative to the largest multiplier, and here that is rounding "
+        "too."
     )
     yield region(
         "p = 0 and gap = 0 at once: the active set goes round",
-        f"not converged after {max(row['steps'] for row in line if solved(row))} solves within {cycles:g} of the border (of the load)" if cycles is not None else "not found",
+        (
+            f"not converged after {max(row['steps'] for row in line if solved(row))} solves within {cycles:g} of the "
+            "border (of the load)"
+            if cycles is not None
+            else "not found"
+        ),
         cycles,
         "fixed" if cycles is None else "shown",
         why,
-        f"Status not_converged, with the places: {quote(line, lambda row: row['outcome'] == 'not converged')}. Outside the border the motion is named: {quote(wrong_way)}.",
+        f"Status not_converged, with the places: {quote(line, lambda row: row['outcome'] == 'not converged')}. "
+        f"Outside the border the motion is named: {quote(wrong_way)}.",
     )
     yield region(
         "p = 0 and gap = 0 at once: checks of rounding by rounding",
-        f"checks fail within {noise:g} of the border; from there on {max(row['steps'] for row in calm)} steps at most" if noise is not None else "not found",
+        (
+            f"checks fail within {noise:g} of the border; from there on {max(row['steps'] for row in calm)} steps at "
+            "most"
+            if noise is not None
+            else "not found"
+        ),
         noise,
         "fixed" if noise is None else "shown",
-        "A check that divides by the largest multiplier has nothing to measure by where all are rounding (Higham, Accuracy and Stability of Numerical Algorithms, chapter 1: relative errors of zero).",
+        "A check that divides by the largest multiplier has nothing to measure by where all are rounding (Higham, "
+        "Accuracy and Stability of Numerical Algorithms, chapter 1: relative errors of zero).",
         "The run ends as check_failed although p is right to 1e-12 of the stresses: a false alarm. "
-        f"Failing checks: {'; '.join(sorted({row['failed_checks'] for row in line if row['outcome'] == 'check'})) or 'none'}.",
+        "Failing checks: "
+        f"{'; '.join(sorted({row['failed_checks'] for row in line if row['outcome'] == 'check'})) or 'none'}.",
     )
 
 
@@ -203,10 +172,14 @@ def lift_region(rows):
     most = max(row["steps"] for row in line if row["outcome"] in ("solved", "check"))
     begins = f"at {bound:g} times the force (resultant 0, a moment left)" if bound is not None else "not found"
     why = (
-        "The force then cancels the pressure: no multiplier <= 0 balances the moment that is left, so the problem has no solution (Farkas; theory, section 10), but the load's work on the lifting "
+        "The force then cancels the pressure: no multiplier <= 0 balances the moment that is left, so the problem "
+        "has no solution (Farkas; theory, section 10), but the load's work on the lifting "
         "motion is rounding and not clearly positive."
     )
-    mortise = f"Below it at most {most} steps. There: {quote(line, lambda row: row['outcome'] == 'not converged')}; other meshes end as check_failed with a pressure of rounding."
+    mortise = (
+        f"Below it at most {most} steps. There: {quote(line, lambda row: row['outcome'] == 'not converged')}; other "
+        "meshes end as check_failed with a pressure of rounding."
+    )
     return region("Lift-off to the last point", begins, bound, "fixed" if bound is None else "shown", why, mortise)
 
 
@@ -214,11 +187,19 @@ def many_region(rows):
     line = of_part(rows, "others")
     most, bad = max(row["steps"] for row in line), [row for row in line if row["outcome"] == "not converged"]
     why = (
-        "From a set that is too large the method opens a curve a few rows a step, more steps on finer meshes, and on many small gaps it may cycle (Hüeber & Wohlmuth 2005; Júdice & Pires 1994)."
+        "From a set that is too large the method opens a curve a few rows a step, more steps on finer meshes, and on "
+        "many small gaps it may cycle (Hüeber & Wohlmuth 2005; Júdice & Pires 1994)."
     )
     mortise = "The second step starts from joined rows, and a rule of single changes ends cycles (theory, section 10)."
     begins = f"not found: at most {most} steps in {len(line)} runs" if not bad else f"{len(bad)} of {len(line)} runs"
-    return region("Many places of contact", begins, float(len(bad)) or None, "fixed" if not bad and most <= BAR else "shown", why, mortise)
+    return region(
+        "Many places of contact",
+        begins,
+        float(len(bad)) or None,
+        "fixed" if not bad and most <= BAR else "shown",
+        why,
+        mortise,
+    )
 
 
 def ddm_region(rows):
@@ -227,12 +208,18 @@ def ddm_region(rows):
     aitken = [row for row in line if row["line"].startswith("aitken")]
     failed = [row for row in aitken if row["outcome"] == "not converged"]
     bad = [row for row in krylov if row["outcome"] == "not converged"]
-    begins = f"default acceleration: {len(bad)} of {len(krylov)} runs fail, at most {max(count_of(row) for row in krylov)} steps; aitken: {len(failed)} of {len(aitken)}"
+    begins = (
+        f"default acceleration: {len(bad)} of {len(krylov)} runs fail, at most "
+        f"{max(count_of(row) for row in krylov)} steps; aitken: {len(failed)} of {len(aitken)}"
+    )
     why = (
-        "The Dirichlet body's contact problem makes the map piecewise linear: relaxation by one number meets kinks of the map where rows open and close (Krause & Wohlmuth 2002; Küttler & Wall 2008)."
+        "The Dirichlet body's contact problem makes the map piecewise linear: relaxation by one number meets kinks "
+        "of the map where rows open and close (Krause & Wohlmuth 2002; Küttler & Wall 2008)."
     )
     mortise = f"The default does not relax by one number. Else not_converged: {quote(failed)}."
-    return region("Unilateral domain decomposition", begins, float(len(failed)), "default" if not bad else "shown", why, mortise)
+    return region(
+        "Unilateral domain decomposition", begins, float(len(failed)), "default" if not bad else "shown", why, mortise
+    )
 
 
 def relaxation_region(rows):
@@ -240,9 +227,22 @@ def relaxation_region(rows):
     border = {row["ratio"]: 2 / row["mu_largest"] for row in found}
     words = ", ".join(f"{border[ratio]:.3g} at {ratio:g}" for ratio in sorted(border))
     agree = sum(int(row["ok"]) for row in found)
-    why = "A step multiplies the error by the eigenvalues of I - beta (I + C_D^-1 C_N), which are all below 1 in size for 0 < beta < 2 / mu_max only (Toselli & Widlund 2005, section 1.3.3; theory, eq. 33)."
-    mortise = f"beta = \"auto\" takes the best beta from the eigenvalues; the default acceleration needs none. {agree} of {len(found)} runs lie on the predicted side with the predicted factor."
-    return region("Fixed relaxation", f"beta, by E_upper/E_lower (displacement on the upper body): {words}", min(border.values()), "default", why, mortise)
+    why = (
+        "A step multiplies the error by the eigenvalues of I - beta (I + C_D^-1 C_N), which are all below 1 in size "
+        "for 0 < beta < 2 / mu_max only (Toselli & Widlund 2005, section 1.3.3; theory, eq. 33)."
+    )
+    mortise = (
+        f"beta = \"auto\" takes the best beta from the eigenvalues; the default acceleration needs none. {agree} of "
+        f"{len(found)} runs lie on the predicted side with the predicted factor."
+    )
+    return region(
+        "Fixed relaxation",
+        f"beta, by E_upper/E_lower (displacement on the upper body): {words}",
+        min(border.values()),
+        "default",
+        why,
+        mortise,
+    )
 
 
 def regions(rows):
