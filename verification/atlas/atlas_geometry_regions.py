@@ -24,8 +24,7 @@ def kink_regions(rows, limit):
         first(with_vertex, "value", over(1e-8)),
         "fixed",
         "Each edge has its own normal, and the segments end at the vertices, so a kink is only a jump of the normal "
-        "between two edges "
-        "(Puso & Laursen 2004 with averaged normals would smear it).",
+        "between two edges (Puso & Laursen 2004 average the normals at the nodes instead).",
         "The geometries in geo/ put a vertex on every kink.",
     )
     bound, tells = first(without, "value", over(limit)), first(
@@ -39,9 +38,8 @@ def kink_regions(rows, limit):
         bound,
         told([row for row in without if over(limit)(row)]),
         "An edge across the kink is another line: the two bodies overlap or part by h sin(theta) / 2 or so, and the "
-        "normals of one side are not those of the other, "
-        "so that equal and opposite forces are not equal pressures (Strang & Fix, An Analysis of the Finite Element "
-        "Method, section 4.4, on changed domains).",
+        "normals of one side are not those of the other, so that equal and opposite forces are not equal pressures "
+        "(Strang & Fix, An Analysis of the Finite Element Method, section 4.4, on changed domains).",
         (
             f"A check fails, or the scene is refused, from {tells:g} degrees: {checks_of(without)}; {quote(without)}."
             if tells
@@ -64,9 +62,8 @@ def wall_region(rows):
     )
     why = (
         "Where the line meets a wall at an angle the body's corner is sharper or blunter than a right one, and the "
-        "stress goes as r^(a - 1) with "
-        "a < 1 (Williams 1952; Dundurs & Lee 1972 for frictionless contact): the largest p is no number of the "
-        "problem, but of the mesh."
+        "stress goes as r^(a - 1) with a < 1 (Williams 1952; Dundurs & Lee 1972 for frictionless contact): the "
+        "largest p is no number of the problem, but of the mesh."
     )
     failing = checks_of(line)
     mortise = (
@@ -97,8 +94,7 @@ def ring_regions(rows, limit):
         pick(straight) / pick(curved),
         "default",
         "A polygon turns where the curve is smooth, so the normals are off by h / (2 R) however high the order of "
-        "the displacements (Strang & Fix, section 4.4; "
-        "Ciarlet & Raviart 1972 for curved elements).",
+        "the displacements (Strang & Fix, section 4.4; Ciarlet & Raviart 1972 for curved elements).",
         "Second-order nodes lie on the curve by default (the parameter straight = 0 of the geometries).",
     )
     measured = [row for row in of_part(rows, "rings") if row["line"].endswith("measured")]
@@ -114,8 +110,8 @@ def ring_regions(rows, limit):
         last(measured, "value", over(limit)),
         "open" if unsaid else "guarded",
         "The two polygons overlap and part by the sagitta, h^2 / (8 R), and a gap g costs a pressure of E g / h "
-        "(theory, section 2): as h falls the error of linear and straight "
-        "edges does so only as E h / R, which for stiff bodies is more than p.",
+        "(theory, section 2): as h falls the error of linear and straight edges does so only as E h / R, which for "
+        "stiff bodies is more than p.",
         'Geometries of one curve are to be initial_gap = "closed"; a measured pair of this kind gets the note '
         f"{quote(measured)}.",
     )
@@ -133,9 +129,9 @@ def cosine_region(rows, limit):
     notes = quote(line)
     why = (
         "The two meshes of a strongly curved line differ in position and normal by amounts of (h kappa)^2 and more "
-        "(the consistency error of the mortar method on curved lines: "
-        "Flemisch, Melenk & Wohlmuth 2005), and higher multiplier spaces follow them. With one element a period the "
-        "mesh is a straight line: the curve is lost, and nothing in the mesh says so."
+        "(the consistency error of the mortar method on curved lines: Flemisch, Melenk & Wohlmuth 2005), and higher "
+        "multiplier spaces follow them. With one element a period the mesh is a straight line: the curve is lost, "
+        "and nothing in the mesh says so."
     )
     mortise = (
         f"Checks fail up to {say(failing)} elements a period: {checks_of(line)}; notes and refusals: {notes}. "
@@ -165,8 +161,8 @@ def sliver_regions(rows, limit):
         "fixed",
         "Segments of zero length, or points that project just past the end of an edge, drop a part of the line or "
         "count it twice in codes with absolute tolerances (Farah, Popp & Wall 2015).",
-        "Cuts nearer than 1e-9 of an edge are one cut, and a point that misses its edge by so little is found on the "
-        "neighbour (contact/segments).",
+        "Cuts nearer than 1e-9 of an edge are one cut, and a point that misses its edge by so little is found on "
+        "the neighbour (contact/segments).",
     )
     worst = largest([row for row in out if row["value"] <= 1e-6], "p_error")
     ratio = max(row["p_error"] / row["value"] for row in out if 1e-8 <= row["value"] <= 1e-3)
@@ -177,9 +173,9 @@ def sliver_regions(rows, limit):
         f"element; below 1e-6 by at most {worst:.0e}",
         bound,
         "fixed",
-        "The load on the part that sticks out must be borne by the last elements of the line: by equilibrium their p "
-        "changes by a few times the fraction. A code that drops "
-        "or keeps a whole edge by a tolerance jumps instead (Cichosz & Bischoff 2011).",
+        "The load on the part that sticks out must be borne by the last elements of the line: by equilibrium their "
+        "p changes by a few times the fraction. A code that drops or keeps a whole edge by a tolerance jumps "
+        "instead (Cichosz & Bischoff 2011).",
         "The multipliers' functions are integrated over the part that faces the other side: p changes in proportion "
         f"down to 1e-14, without a jump. Failing checks: {checks_of(out)}.",
     )

@@ -23,9 +23,8 @@ def state_of(rows):
 
 
 DEPENDENT = (
-    "A row of the coupling whose displacements are all prescribed says nothing of the unknowns, and rows that others "
-    "imply make the saddle-point matrix singular "
-    "(Brezzi & Fortin 1991, section II.1: B must have full rank)."
+    "A row of the coupling whose displacements are all prescribed says nothing of the unknowns, and rows that "
+    "others imply make the saddle-point matrix singular (Brezzi & Fortin 1991, section II.1: B must have full rank)."
 )
 GROUPS = [
     (
@@ -42,8 +41,9 @@ GROUPS = [
     (
         "Ends prescribed so that they overlap",
         lambda name: name.startswith("left ends prescribed, overlap"),
-        "The condition at the end contradicts the prescribed values; the multiplier takes the neighbour's row, whose "
-        "weighted gap contains the overlap (Wohlmuth 2000 ties end multipliers for homogeneous conditions only).",
+        "The condition at the end contradicts the prescribed values; the multiplier takes the neighbour's row, "
+        "whose weighted gap contains the overlap (Wohlmuth 2000 ties end multipliers for homogeneous conditions "
+        "only).",
     ),
     (
         "Nodes that both bodies share",
@@ -113,13 +113,13 @@ def covered_region(rows, limit):
     untold = [row for row in line if row["p_error"] > limit and row["outcome"] == "solved"]
     why = (
         "Over the fraction q of its edge the shape function of the far node is at most q, so its value is an "
-        "extrapolation over 1 / q from an integral of the size of q^2: "
-        "errors are magnified by 1 / q^2 (Cichosz & Bischoff 2011)."
+        "extrapolation over 1 / q from an integral of the size of q^2: errors are magnified by 1 / q^2 (Cichosz & "
+        "Bischoff 2011)."
     )
     mortise = (
         "Multipliers whose weighted gap has no sign, or without support, are tied or left out with a note (theory, "
-        f"section 4). p where the sides face each other is off by {facing:.0e} at most. "
-        f"{len(untold)} runs with a value off by more than {limit:.0%} end as solved."
+        f"section 4). p where the sides face each other is off by {facing:.0e} at most. {len(untold)} runs with a "
+        f"value off by more than {limit:.0%} end as solved."
     )
     begins = (
         f"{factor}p at the node past the end is off by more than {limit:.0%} from q = {words} (with an error of "

@@ -31,6 +31,30 @@ itself, and the numbers and messages are those of that run. The states:
 Runs marked as failing the check of p against sigma_n are often right: the meshes are coarse on purpose.
 """
 
+REFERENCES = """
+## References
+
+Beyond those of [theory.md](theory.md):
+
+- F. Ben Belgacem, "The mortar finite element method with Lagrange multipliers", Numer. Math. 84 (1999) 173-197
+- C. Bernardi, Y. Maday, A. T. Patera, "A new nonconforming approach to domain decomposition: the mortar element method",
+  in: Nonlinear Partial Differential Equations and Their Applications (1994) 13-51
+- F. Brezzi, M. Fortin, "Mixed and hybrid finite element methods", Springer (1991)
+- P. G. Ciarlet, P.-A. Raviart, "Interpolation theory over curved elements, with applications to finite element methods",
+  Comput. Methods Appl. Mech. Engrg. 1 (1972) 217-249
+- J. Dundurs, M.-S. Lee, "Stress concentration at a sharp edge in contact problems", J. Elasticity 2 (1972) 109-112
+- P. Farah, A. Popp, W. A. Wall, "Segment-based vs. element-based integration for mortar methods in computational contact
+  mechanics", Comput. Mech. 55 (2015) 209-228
+- B. Flemisch, J. M. Melenk, B. I. Wohlmuth, "Mortar methods with curved interfaces", Appl. Numer. Math. 54 (2005) 339-361
+- G. H. Golub, C. F. Van Loan, "Matrix computations", Johns Hopkins University Press (1996)
+- A. Greenbaum, "Iterative methods for solving linear systems", SIAM (1997)
+- N. J. Higham, "Accuracy and stability of numerical algorithms", SIAM (2002)
+- T. J. R. Hughes, "The finite element method", Prentice-Hall (1987)
+- G. Strang, G. J. Fix, "An analysis of the finite element method", Prentice-Hall (1973)
+- M. L. Williams, "Stress singularities resulting from various boundary conditions in angular corners of plates in
+  extension", J. Appl. Mech. 19 (1952) 526-528
+"""
+
 
 def outcomes(rows):
     """How many runs ended in which way, as words."""
@@ -78,4 +102,4 @@ def write_docs(folder, results):
     for result in results:
         shutil.copyfile(folder / result["name"] / "picture.png", DOCS / "stability" / f"{result['name']}.png")
     lines = [line for result in results for line in study_markdown(result)]
-    (DOCS / "stability.md").write_text(HEAD + "\n".join(lines) + "\n")
+    (DOCS / "stability.md").write_text(HEAD + "\n".join(lines) + "\n" + REFERENCES)

@@ -9,17 +9,16 @@ from atlas_regions import checks_of, region, solved, told
 TITLE = "Mesh ratio and multiplier side"
 INTRODUCTION = (
     "Two meshes whose elements differ in length by a ratio of up to 20, multipliers on either, three multiplier "
-    "spaces, "
-    "linear and 8-node quadrilaterals. Rings: p against the exact constant pressure (Lamé). parabola_1: p against "
-    "that of "
-    "matching meshes, 96x96, without a tenth of the length at either end. The coarser mesh always has 6 elements "
-    "along the "
-    "line in the rings and 8 in parabola_1, so that the error at 1:1 is that of the coarse mesh itself."
+    "spaces, linear and 8-node quadrilaterals. Rings: p against the exact constant pressure (Lamé). parabola_1: p "
+    "against that of matching meshes, 96x96, without a tenth of the length at either end. The coarser mesh always "
+    "has 6 elements along the line in the rings and 8 in parabola_1, so that the error at 1:1 is that of the coarse "
+    "mesh itself."
 )
 CAPTION = (
-    "Left of 1 the multipliers are on the coarser mesh, right of 1 on the finer one. The dashed lines are 1 % and 10 "
-    "%. "
-    "Open symbols: mortise's check of p against the bodies' stress fails."
+    "Left of 1 the multipliers are on the coarser mesh, right of 1 on the finer one; the colours are the multiplier "
+    "spaces. The dashed lines are 1 % and 10 %. Open symbols: mortise's check of p against the bodies' stress "
+    "fails. Whole edges instead of segments do no harm where the finer side has the multipliers and none of its "
+    "edges crosses a vertex."
 )
 RATIOS = [1, 1.5, 2, 3, 5, 10, 20]
 COARSE = {"rings": 6, "parabola_1": 8}
@@ -79,7 +78,7 @@ def draw_panel(axes, rows, scene, order):
     for space in SPACES[order]:
         line = [row for row in select(rows, scene=scene, order=order, space=space) if solved(row)]
         ratios, values = [row["ratio"] for row in line], [figure_of(row) for row in line]
-        axes.plot(ratios, values, "-", color=COLOURS[space], label=f"{space} multipliers")
+        axes.plot(ratios, values, "-", color=COLOURS[space], label=space)
         for row in line:
             fill = "none" if "sigma_n" in row["failed_checks"] else COLOURS[space]
             axes.plot(row["ratio"], figure_of(row), "o", color=COLOURS[space], markerfacecolor=fill, markersize=5)
@@ -101,7 +100,7 @@ def draw(rows, path):
         line[0].set_ylabel(name)
     for axes in panels[1]:
         axes.set_xlabel("elements on the multiplier side : on the opposite side")
-    panels[0, 1].legend(fontsize=9, loc="lower right")
+    figure.legend(*panels[0, 1].get_legend_handles_labels(), loc="outside lower center", ncol=4, frameon=False, fontsize=9)
     figure.savefig(path, dpi=85)
     plt.close(figure)
 
@@ -154,16 +153,14 @@ def fine_region(rows):
     fine, coarse = worst_at(rows, "rings", 2, ratio), worst_at(rows, "rings", 2, 1 / ratio)
     why = (
         "The multipliers of a finer side follow the facets of the coarser one: p takes the shape of the coarse "
-        "mesh's error of the curve, though it stays stable "
-        "(the inf-sup constant of mortar spaces does not depend on the ratio: Wohlmuth 2000; Belgacem 1999). On a "
-        "smooth curve the coarser side is the better "
-        "one for them, on flat lines and at corners it is not."
+        "mesh's error of the curve, though it stays stable (the inf-sup constant of mortar spaces does not depend "
+        "on the ratio: Wohlmuth 2000; Belgacem 1999). On a smooth curve the coarser side is the better one for "
+        "them, on flat lines and at corners it is not."
     )
     mortise = (
         "The default is the side with the shorter edges, for scenes that are not smooth (theory, section 9). In "
-        f"rings with 8-node quadrilaterals at {ratio:g}:1 it is off by "
-        f"{fine:.1e}, multipliers on the coarser side by {coarse:.1e}. Checks that fail: "
-        f"{checks_of(side_rows(rows, True))}."
+        f"rings with 8-node quadrilaterals at {ratio:g}:1 it is off by {fine:.1e}, multipliers on the coarser side "
+        f"by {coarse:.1e}. Checks that fail: {checks_of(side_rows(rows, True))}."
     )
     return region("Multipliers on the finer side", begins, bound, state, why, mortise)
 
@@ -172,8 +169,7 @@ def coarse_region(rows):
     begins, bound, state = side_region(rows, False)
     why = (
         "Few multipliers see a mean of what happens between them: p cannot vary within an edge of the coarse side "
-        "(best approximation, Bernardi, Maday & Patera 1994), "
-        "but the finer mesh does not disturb it."
+        "(best approximation, Bernardi, Maday & Patera 1994), but the finer mesh does not disturb it."
     )
     mortise = f"contact.multipliers_on chooses the side. Checks that fail: {checks_of(side_rows(rows, False))}."
     return region("Multipliers on the coarser side", begins, bound, state, why, mortise)
@@ -190,9 +186,9 @@ def segments_region(rows):
         else f"rings: p off by {worst:.1%} at most"
     )
     why = (
-        "Gauss points on whole edges integrate across the vertices of the other side, where its shape functions have "
-        "kinks: the weights of the two sides do "
-        "not match and the patch test is lost (Farah, Popp & Wall 2015; Puso & Laursen 2004)."
+        "Gauss points on whole edges integrate across the vertices of the other side, where its shape functions "
+        "have kinks: the weights of the two sides do not match and the patch test is lost (Farah, Popp & Wall 2015; "
+        "Puso & Laursen 2004)."
     )
     mortise = (
         "method.integration = \"segments\" is the default: edges are cut at the vertices of both meshes. With "

@@ -8,17 +8,13 @@ from atlas_regions import ends, first, largest, quote, region, solved
 TITLE = "Stiffness contrast"
 INTRODUCTION = (
     "Young's moduli of the two bodies in ratios of 1e-6 to 1e6. Mortar method: p of rings against Lamé (multipliers "
-    "on either "
-    "side, linear), of the flat patch test, and the residuals. Domain decomposition on parabola_1, 20x25: steps to "
-    "1e-8 of "
-    "each scheme and acceleration, at most 300; Neumann-Dirichlet also with the roles the wrong way round (the "
-    "stiffer body "
-    "takes the displacement)."
+    "on either side, linear), of the flat patch test, and the residuals. Domain decomposition on parabola_1, 20x25: "
+    "steps to 1e-8 of each scheme and acceleration, at most 300; Neumann-Dirichlet also with the roles the wrong "
+    "way round (the stiffer body takes the displacement)."
 )
 CAPTION = (
     "Above: error of p and residual of the forces (mortar method), against the ratio. Below: steps of domain "
-    "decomposition; crosses at the "
-    "top: not converged in 300 steps, diverged, or refused."
+    "decomposition; crosses at the top: not converged in 300 steps, diverged, or refused."
 )
 RATIOS = [10.0**k for k in range(-6, 7)]
 OUTER = 70e9
@@ -174,15 +170,13 @@ def mortar_region(rows):
     residual = largest(line, "force_residual")
     begins = (
         f"not found from 1e-6 to 1e6: p is off by at most {patch_worst:.0e} (patch) and {rings_worst:.0e} (rings, "
-        "12:16, the error of the "
-        f"mesh); residual of the forces at most {residual:.0e} (limit 1e-10)"
+        f"12:16, the error of the mesh); residual of the forces at most {residual:.0e} (limit 1e-10)"
     )
     why = (
-        "A saddle-point system with moduli 1e12 apart loses as many digits if it is solved by iteration or without "
-        "scaling (Benzi, Golub & "
-        "Liesen 2005, section 10). Which side carries the multipliers is no matter of stiffness as long as the "
-        "equations are solved as one "
-        "system; it decides only in methods that solve one body after the other."
+        "The condition of the system grows with the ratio of the moduli, and iterative or unscaled solvers lose "
+        "digits with it (Benzi, Golub & Liesen 2005, section 3.5). Which side carries the multipliers is no matter "
+        "of stiffness as long as the equations are solved as one system; it decides only in methods that solve one "
+        "body after the other."
     )
     mortise = "One direct solve of a dimensionless system (theory, sections 5 and 6), with either side."
     return region("Mortar method", begins, bound, "fixed" if bound is None else "shown", why, mortise)
@@ -211,10 +205,9 @@ def default_region(rows):
     )
     why = (
         "The steps depend on the largest eigenvalue of I + C_D^-1 C_N, which grows with the stiffness of the body "
-        "that takes the displacement "
-        "over that of the other (Toselli & Widlund 2005, section 1.3.3; theory, eq. 33). With the displacement on "
-        "the softer body it stays of the "
-        "size of 1; Neumann-Neumann and Dirichlet-Dirichlet weigh the two bodies by their compliances to the same end."
+        "that takes the displacement over that of the other (Toselli & Widlund 2005, section 1.3.3; theory, eq. "
+        "33). With the displacement on the softer body it stays of the size of 1; Neumann-Neumann and "
+        "Dirichlet-Dirichlet weigh the two bodies by their compliances to the same end."
     )
     mortise = "By default the softer bodies take the displacement (method.dirichlet)."
     bound = min((max(row["ratio"], 1 / row["ratio"]) for row in bad), default=None)
@@ -231,11 +224,10 @@ def wrong_region(rows):
             found.append(f"{acceleration}: {text(up)} (upper stiffer), {text(down)} (lower stiffer)")
     why = (
         "With the displacement on the stiffer body the eigenvalues spread over 1 ... E_stiff / E_soft, and beta "
-        "below 2 / mu_max makes steps of "
-        "1 - beta on the modes near 1: as many steps as the ratio (Toselli & Widlund 2005, section 1.3.3). "
-        "Anderson's and Krylov's methods need as many steps as there are "
-        "clusters of eigenvalues, until rounding in residuals that the large eigenvalues magnify ends it (Greenbaum "
-        "1997, section 4)."
+        "below 2 / mu_max makes steps of 1 - beta on the modes near 1: as many steps as the ratio (Toselli & "
+        "Widlund 2005, section 1.3.3). Anderson's and Krylov's methods need as many steps as there are clusters of "
+        "eigenvalues, until rounding in residuals that the large eigenvalues magnify ends it (Greenbaum 1997, "
+        "chapter 4)."
     )
     mortise = "Status not_converged, with the eigenvalues and the beta that would converge: " + quote(
         rows, lambda row: row["outcome"] == "not converged"

@@ -8,17 +8,14 @@ from atlas_regions import ends, solved
 TITLE = "Over-constraint"
 INTRODUCTION = (
     "Contact conditions that other conditions already fix, or contradict: prescribed displacements on one contact "
-    "curve, on both, at "
-    "the ends; nodes that both bodies share; three bodies that meet at a point; an edge that faces the other side "
-    "with a part of its length only. Two plates of "
-    "8-node quadrilaterals, 7 and 11 along a flat line, pressure 10 MPa; p is exactly 10 MPa where that is said."
+    "curve, on both, at the ends; nodes that both bodies share; three bodies that meet at a point; an edge that "
+    "faces the other side with a part of its length only. Two plates of 8-node quadrilaterals, 7 and 11 along a "
+    "flat line, pressure 10 MPa; p is exactly 10 MPa where that is said."
 )
 CAPTION = (
     "Left: how each case ends, for multipliers on either side and three spaces. Right: the error of the largest "
-    "nodal p where the last "
-    "edge of the multiplier side faces the other side with the fraction q of its length only (on a base 1e6 times as "
-    "stiff, p = 10 MPa). "
-    "Open symbols: a check fails."
+    "nodal p where the last edge of the multiplier side faces the other side with the fraction q of its length only "
+    "(on a base 1e6 times as stiff, p = 10 MPa). Open symbols: a check fails."
 )
 EXACT = 10e6
 LIMIT = 0.01

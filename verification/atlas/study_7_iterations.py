@@ -13,16 +13,15 @@ from atlas_regions import first, quote, region, solved
 TITLE = "Iterations: active set and relaxation"
 INTRODUCTION = (
     "Scenes in which rows stand at the border of opening: lift_off over the force that bends the plate off; "
-    "gap_close with the prescribed displacement within "
-    "1e-1 to 1e-14 of the gap; a flat line with p = 0 exactly (compressed along the line only) and small pressures "
-    "on it; cosine, hertz and rings with the "
-    "gap as the meshes have it; unilateral domain decomposition. And the region of beta in which Neumann-Dirichlet "
-    "converges (verification/ddm/region.py)."
+    "gap_close with the prescribed displacement within 1e-1 to 1e-14 of the gap; a flat line with p = 0 exactly "
+    "(compressed along the line only) and small pressures on it; cosine, hertz and rings with the gap as the meshes "
+    "have it; unilateral domain decomposition. And the region of beta in which Neumann-Dirichlet converges "
+    "(verification/ddm/region.py)."
 )
 CAPTION = (
     "Steps of the active set (solves), and of domain decomposition. Crosses: not converged; runs that are refused "
-    "are not drawn. In the last panel the border predicted from the eigenvalues against runs that "
-    "converge (dots) and diverge (crosses)."
+    "are not drawn. In the last panel the border predicted from the eigenvalues against runs that converge (dots) "
+    "and diverge (crosses)."
 )
 SPACES = ["linear", "quadratic", "dual"]
 PERTURBATIONS = [1e-14, 1e-12, 1e-9, 1e-6, 1e-3, 1e-1]
@@ -129,10 +128,9 @@ def border_regions(rows):
     wrong_way = [row for row in line if row["outcome"] == "refused"]
     calm = [row for row in line if row["outcome"] == "solved"]
     why = (
-        "Where p and the gap vanish together the sign of both is rounding, and a row changes side in every step; the "
-        "active set's finite end (Hintermüller, Ito & Kunisch 2003) is "
-        "that of exact arithmetic. The tolerances are relative to the largest multiplier, and here that is rounding "
-        "too."
+        "Where p and the gap vanish together the sign of both is rounding, and a row changes side in every step; "
+        "the active set's finite end (Hintermüller, Ito & Kunisch 2003) is that of exact arithmetic. The tolerances "
+        "are relative to the largest multiplier, and here that is rounding too."
     )
     yield region(
         "p = 0 and gap = 0 at once: the active set goes round",
@@ -160,8 +158,7 @@ def border_regions(rows):
         "fixed" if noise is None else "shown",
         "A check that divides by the largest multiplier has nothing to measure by where all are rounding (Higham, "
         "Accuracy and Stability of Numerical Algorithms, chapter 1: relative errors of zero).",
-        "The run ends as check_failed although p is right to 1e-12 of the stresses: a false alarm. "
-        "Failing checks: "
+        "The run ends as check_failed although p is right to 1e-12 of the stresses: a false alarm. Failing checks: "
         f"{'; '.join(sorted({row['failed_checks'] for row in line if row['outcome'] == 'check'})) or 'none'}.",
     )
 
@@ -173,8 +170,8 @@ def lift_region(rows):
     begins = f"at {bound:g} times the force (resultant 0, a moment left)" if bound is not None else "not found"
     why = (
         "The force then cancels the pressure: no multiplier <= 0 balances the moment that is left, so the problem "
-        "has no solution (Farkas; theory, section 10), but the load's work on the lifting "
-        "motion is rounding and not clearly positive."
+        "has no solution (Farkas; theory, section 10), but the load's work on the lifting motion is rounding and "
+        "not clearly positive."
     )
     mortise = (
         f"Below it at most {most} steps. There: {quote(line, lambda row: row['outcome'] == 'not converged')}; other "
@@ -187,8 +184,8 @@ def many_region(rows):
     line = of_part(rows, "others")
     most, bad = max(row["steps"] for row in line), [row for row in line if row["outcome"] == "not converged"]
     why = (
-        "From a set that is too large the method opens a curve a few rows a step, more steps on finer meshes, and on "
-        "many small gaps it may cycle (Hüeber & Wohlmuth 2005; Júdice & Pires 1994)."
+        "From a set that is too large the method opens a curve a few rows a step, more steps on finer meshes, and "
+        "on many small gaps it may cycle (Hüeber & Wohlmuth 2005; Júdice & Pires 1994)."
     )
     mortise = "The second step starts from joined rows, and a rule of single changes ends cycles (theory, section 10)."
     begins = f"not found: at most {most} steps in {len(line)} runs" if not bad else f"{len(bad)} of {len(line)} runs"

@@ -9,17 +9,15 @@ from atlas_regions import checks_of, ends, first, largest, last, quote, region, 
 TITLE = "Units, magnitudes, far coordinates, repetition"
 INTRODUCTION = (
     "The same problem in other units must give the same digits. Two plates along a parabola (8-node quadrilaterals, "
-    "12 and 15 "
-    "along the line, pressure 10 MPa, closed gap), and two blocks 0.1 mm apart of which the upper one is pushed down "
-    "by 0.3 mm "
-    "(measured gap). Coordinates (with the prescribed displacements), moduli with pressures, and pressures alone are "
-    "multiplied by powers of ten; or all coordinates are shifted. The figure is the largest difference of p over the "
-    "largest p, after scaling back."
+    "12 and 15 along the line, pressure 10 MPa, closed gap), and two blocks 0.1 mm apart of which the upper one is "
+    "pushed down by 0.3 mm (measured gap). Coordinates (with the prescribed displacements), moduli with pressures, "
+    "and pressures alone are multiplied by powers of ten; or all coordinates are shifted. The figure is the largest "
+    "difference of p over the largest p, after scaling back."
 )
 CAPTION = (
-    "Largest difference of p from the unscaled run, over the largest p (dotted: 1e-6). Runs that mortise refuses are "
-    "crosses at the top. "
-    "Dashed: machine epsilon times the shift, over the shorter element (0.053 m) and over the measured gap (0.1 mm)."
+    "Largest difference of p from the unscaled run, over the largest p (dotted: 1e-6). Runs that mortise refuses "
+    "are crosses at the top. Dashed: machine epsilon times the shift, over the shorter element (0.053 m) and over "
+    "the measured gap (0.1 mm)."
 )
 SCALES = [10.0**k for k in (-9, -6, -3, 0, 3, 6, 9)]
 LOADS = [*(10.0**k for k in range(0, 11, 2)), 1e11, 1e12]  # Pa
@@ -147,9 +145,8 @@ def units_region(rows):
     worst = largest(scaled_rows, "difference")
     begins = f"not found from 1e-9 to 1e9: p differs by at most {worst:.0e}"
     why = (
-        "A direct solver whose rows differ in size by the units loses digits: K is of the size of E, the coupling of "
-        "that of an "
-        "edge (Golub & Van Loan, Matrix Computations, section 3.5, scaling)."
+        "A direct solver whose rows differ in size by the units loses digits: K is of the size of E, the coupling "
+        "of that of an edge (Golub & Van Loan, Matrix Computations, section 3.5, scaling)."
     )
     mortise = (
         "The system is made dimensionless before it is factorised (theory, section 5); all tolerances are relative."
@@ -168,8 +165,7 @@ def load_region(rows):
     )
     why = (
         "The equations are those of small strains, linear in the load: p scales with it however large it is. Beyond "
-        "strains of a few "
-        "per cent the answer is that of the equations, not of the bodies (Kikuchi & Oden 1988)."
+        "strains of a few per cent the answer is that of the equations, not of the bodies (Kikuchi & Oden 1988)."
     )
     said = f"From {noted:g} Pa on a note says {quote(line, solved)}." if noted else "Below that nothing is said."
     mortise = f"A load above every Young's modulus is refused: {quote(line, lambda row: not solved(row))}. {said}"
@@ -206,8 +202,7 @@ def threads_region(rows):
     )
     why = (
         "Sums in another order round otherwise (floating-point addition is not associative; Higham, Accuracy and "
-        "Stability of "
-        "Numerical Algorithms, chapter 4), and more threads sum in another order."
+        "Stability of Numerical Algorithms, chapter 4), and more threads sum in another order."
     )
     mortise = (
         "The number of threads is fixed by the size of the mesh and the machine, or by --threads; with the same "
