@@ -15,7 +15,7 @@ def counts(rows, verdicts):
 def state_of(rows):
     """What can be said of a group of cases as a whole: the worst of its runs."""
     found = {row["verdict"] for row in rows}
-    if "wrong, and nothing tells" in found:
+    if "wrong, and solved" in found:
         return "open"
     if found <= {"right"}:
         return "fixed"
@@ -75,7 +75,8 @@ def case_region(rows, name, chosen, why, verdicts):
     group = of_case(rows, chosen)
     wrong = [row for row in group if row["verdict"].startswith("wrong")]
     refused = quote(group, lambda row: row["outcome"] == "refused")
-    said = f"{refused}. " if refused != "nothing" else ""
+    note = quote(wrong)
+    said = f"{refused}. " if refused != "nothing" else f"The only word is the note {note}. " if note != "nothing" else ""
     checks = checks_of(group)
     checks = f"Failing checks: {checks}. " if checks != "none" else ""
     worst = largest([row for row in wrong if row["right"] == "exact"], "p_error")
@@ -103,7 +104,7 @@ def covered_region(rows, limit):
     }
     words = "; ".join(
         f"{space} {-bound:g}" if bound else f"{space}: not found"
-        for space, bound in bounds.items() if any(r["space"] == space for r in line)
+        for space, bound in bounds.items()
     )
     at = lambda q: [
         row["p_error"] / row["p_error_facing"] for row in line if row["space"] == "linear" and row["value"] == q

@@ -11,7 +11,7 @@ STATES = {
     "default": "the defaults keep away from it",
     "guarded": "mortise refuses the scene, or a note says so",
     "shown": "a check fails, or the status is not_converged",
-    "open": "some runs are off, and nothing tells",
+    "open": "some runs are off and end as solved, without a note that means it",
 }
 DOCS = launch.ROOT / "docs"
 HEAD = """# Where it fails
@@ -26,7 +26,7 @@ itself, and the numbers and messages are those of that run. The states:
 | default | the defaults keep away from it |
 | guarded | mortise refuses the scene, or a note says so |
 | shown | a check fails, or the status of the run is not_converged |
-| open | some runs are off, and neither status nor checks nor notes tell |
+| open | some runs are off and end as solved, without a note that means it |
 
 Runs marked as failing the check of p against sigma_n are often right: the meshes are coarse on purpose.
 """

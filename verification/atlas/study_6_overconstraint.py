@@ -62,7 +62,7 @@ VERDICTS = [
     "no exact answer",
     "refused",
     "wrong, and a check fails",
-    "wrong, and nothing tells",
+    "wrong, and solved",
 ]
 
 
@@ -135,7 +135,7 @@ def verdict(row):
     good = {"exact": row["p_error"] <= 1e-6, "zero": abs(row["p_max"]) < 1e-6 * EXACT, "refusal": False}[row["right"]]
     if good:
         return "right" if row["outcome"] == "solved" else "right, but a check fails"
-    return "wrong, and nothing tells" if row["outcome"] == "solved" else "wrong, and a check fails"
+    return "wrong, and solved" if row["outcome"] == "solved" else "wrong, and a check fails"
 
 
 def complete(rows):
