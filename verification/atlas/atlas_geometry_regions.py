@@ -67,8 +67,7 @@ def wall_region(rows):
     )
     failing = checks_of(line)
     mortise = (
-        f"The check of p against sigma_n leaves out 10 % of the length for this reason; failing checks: {failing}. p "
-        "away from the corner converges."
+        f"The check of p against sigma_n leaves out 10 % of the length for this reason; failing checks: {failing}."
     )
     found = [bound for bound in bounds.values() if bound]
     return region(

@@ -1,6 +1,8 @@
 """The atlas as a page: OUT/section.html, and docs/stability.md with its pictures."""
 
-import shutil
+import textwrap
+
+from PIL import Image
 
 import atlas_runs  # makes launch and page known
 import launch
@@ -85,14 +87,18 @@ def write_html(folder, results, quick):
     page.write_section(folder, "atlas", "Where each method fails: the stability atlas", parts)
 
 
+def wrapped(text, indent=""):
+    return textwrap.fill(text, 120, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+
+
 def study_markdown(result):
     study = result["study"]
-    yield f"\n## {result['number']}. {study.TITLE}\n\n{study.INTRODUCTION}\n"
-    yield f"![{study.TITLE}](stability/{result['name']}.png)\n\n{study.CAPTION}\n"
+    yield f"\n## {result['number']}. {study.TITLE}\n\n{wrapped(study.INTRODUCTION)}\n"
+    yield f"![{study.TITLE}](stability/{result['name']}.png)\n\n{wrapped(study.CAPTION)}\n"
     yield "| what fails | begins at | state |\n|---|---|---|"
     yield from (f"| {r['name']} | {r['begins']} | {r['state']} |" for r in result["regions"])
     yield ""
-    yield from (f"- **{r['name']}.** {r['why']} *mortise:* {r['mortise']}" for r in result["regions"])
+    yield from (wrapped(f"- **{r['name']}.** {r['why']} *mortise:* {r['mortise']}", "  ") for r in result["regions"])
     yield f"\n{len(result['rows'])} runs: {outcomes(result['rows'])}."
 
 
@@ -100,6 +106,7 @@ def write_docs(folder, results):
     """docs/stability.md and docs/stability/*.png."""
     (DOCS / "stability").mkdir(exist_ok=True)
     for result in results:
-        shutil.copyfile(folder / result["name"] / "picture.png", DOCS / "stability" / f"{result['name']}.png")
+        picture = Image.open(folder / result["name"] / "picture.png").convert("RGB")
+        picture.quantize(64).save(DOCS / "stability" / f"{result['name']}.png", optimize=True)
     lines = [line for result in results for line in study_markdown(result)]
     (DOCS / "stability.md").write_text(HEAD + "\n".join(lines) + "\n" + REFERENCES)

@@ -13,8 +13,8 @@ INTRODUCTION = (
     "sliding on the left and below): whatever the line between them, p is exactly 10 MPa on it. Lines: tents (kinks "
     "up to 85 degrees, with or without a vertex at the kinks), a cosine with 1 to 16 elements a period, flat lines "
     "whose vertices miss each other. Rings against Lamé: edges straight or curved, gap closed or measured. Walls: "
-    "an inclined line between fixed vertical walls, pressure on top, refined three times: how the largest p grows "
-    "with each."
+    "an inclined line between fixed vertical walls, pressure on top, refined twice: how the largest p grows with "
+    "each."
 )
 CAPTION = (
     "Each panel one part. Crosses: refused. Open symbols: a check of mortise fails. The dashed lines are 1 %."
