@@ -20,7 +20,9 @@ bool on_second(const Scene& scene, const std::array<Curve, 2>& curves, const std
     const double first = contact_modulus(laws[std::size_t(curves[0].body)]),
                  second = contact_modulus(laws[std::size_t(curves[1].body)]);
     if (std::max(first, second) > stiffer_limit * std::min(first, second)) return second < first;
-    return second_finer;
+    const double ratio = std::max(edge_size[0] / edge_size[1], edge_size[1] / edge_size[0]);
+    const Curve& coarser = curves[second_finer ? 0 : 1];
+    return coarser.edges[0].node_count == 2 && ratio > facet_limit ? !second_finer : second_finer;
   }
   if (scene.method.ddm.scheme == Scheme::neumann_dirichlet) return dirichlet[std::size_t(curves[1].body)];
   return first_finer;

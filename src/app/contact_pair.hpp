@@ -17,11 +17,15 @@ struct ContactPair {
 /// the finer one too, the other body hardly feels them (docs/stability.md, inf-sup).
 inline constexpr double stiffer_limit = 10;
 
+/// Edges this many times as long as the other side's carry the multipliers by default if they are straight: on the
+/// finer side the pressure would follow their facets (docs/stability.md, mesh ratio).
+inline constexpr double facet_limit = 1.5;
+
 /// One a [[contact]] entry. Multipliers lie on the side the scene names, else on the much softer body (stiffer_limit),
-/// else on the side with the shorter edges (the first if they are equal). Throws InputError for unknown curves, curves
-/// that are no chains, and curves with common nodes.
-/// In domain decomposition, where `dirichlet` says of each body whether it takes the displacement, the default is that
-/// body's curve, or the one with the longer edges where both bodies take both.
+/// else on much longer straight edges (facet_limit), else on the side with the shorter edges (the first if equal).
+/// Throws InputError for unknown curves, curves that are no chains, and curves with common nodes. In domain
+/// decomposition, where `dirichlet` says of each body whether it takes the displacement, the default is that body's
+/// curve, or the one with the longer edges where both bodies take both.
 std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, const Discretisation& discretisation,
                                       const std::vector<char>& dirichlet = {});
 

@@ -169,6 +169,20 @@ TEST(Stiffness, TheMuchStifferBodyDoesNotCarryTheMultipliersByDefault) {
   EXPECT_EQ(side(1e6), "lower_contact");
 }
 
+TEST(Curves, LongStraightEdgesCarryTheMultipliersByDefault) {
+  const auto side = [](int n_upper, CellKind kind) {
+    TwoPlates plates;
+    plates.kind_upper = plates.kind_lower = kind;
+    plates.n_upper = n_upper;
+    plates.n_lower = 10;
+    return solve_scene(clamped_scene(), mesh_of(plates)).pairs[0].spec.multipliers_on;
+  };
+  EXPECT_EQ(side(14, CellKind::quad4), "upper_contact");
+  EXPECT_EQ(side(16, CellKind::quad4), "lower_contact");
+  EXPECT_EQ(side(6, CellKind::tri3), "upper_contact");
+  EXPECT_EQ(side(16, CellKind::quad8), "upper_contact");
+}
+
 TEST(Stiffness, TheInfSupConstantTellsAndItsNoteSaysWhatToDo) {
   TwoPlates plates;
   plates.height = [](double x) { return -1.25 * x * x + x + 0.2; };

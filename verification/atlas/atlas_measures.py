@@ -36,6 +36,11 @@ def summary(folder, run):
     }
 
 
+def inf_sup(folder, run):
+    """The inf-sup constant of a run with --diagnose."""
+    return {"inf_sup": json.loads((folder / "summary.json").read_text())["inf_sup"]}
+
+
 def multiplier_side(folder):
     """s, x, y, p along the multiplier side of the first pair."""
     columns = launch.columns(folder / "contact.csv")
