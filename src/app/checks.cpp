@@ -91,7 +91,7 @@ void unilateral_checks(const SaddlePointSolution& solution, const StackedCouplin
   if (std::find(unilateral.begin(), unilateral.end(), 1) == unilateral.end()) return;
   const VecX gap = (coupling.B * solution.u + coupling.gap0).cwiseQuotient(coupling.scale);
   const double displacement = solution.u.cwiseAbs().maxCoeff(), least = least_pressure(r),
-               p_size = std::max(least, solution.lambda.cwiseAbs().maxCoeff());
+               p_size = std::max(10 * least, solution.lambda.cwiseAbs().maxCoeff());
   double pull = 0, penetration = 0, product = 0, dip = 0;
   for (Eigen::Index a = 0; a < gap.size(); ++a) {
     if (!unilateral[std::size_t(a)]) continue;
@@ -101,7 +101,7 @@ void unilateral_checks(const SaddlePointSolution& solution, const StackedCouplin
   }
   for (std::size_t k = 0; k < r.pairs.size(); ++k)
     if (r.pairs[k].spec.condition == Condition::unilateral)
-      dip = std::max(dip, relative(-r.contacts[k].p_least, std::max(least, r.contacts[k].pressure.maxCoeff())));
+      dip = std::max(dip, relative(-r.contacts[k].p_least, std::max(10 * least, r.contacts[k].pressure.maxCoeff())));
   r.checks.push_back({"p >= 0 at the multipliers", relative(pull, p_size), limit});
   r.checks.push_back({"weighted gap >= 0", relative(penetration, displacement), limit});
   r.checks.push_back({"p gap = 0", relative(product, p_size * displacement), limit});

@@ -133,8 +133,8 @@ def border_regions(rows):
     calm = [row for row in line if row["outcome"] == "solved"]
     why = (
         "Where p and the gap vanish together the sign of both is rounding, and a row changes side in every step; "
-        "the active set's finite end (Hintermüller, Ito & Kunisch 2003) is that of exact arithmetic. The tolerances "
-        "are relative to the largest multiplier, and here that is rounding too."
+        "the active set's finite end (Hintermüller, Ito & Kunisch 2003) is that of exact arithmetic. A floor for "
+        "both (theory, section 10) makes p = 0 itself quiet; a pull just above the floor is decided by rounding still."
     )
     yield region(
         "p = 0 and gap = 0 at once: the active set goes round",
