@@ -101,8 +101,7 @@ void note_locking(const Scene& scene, Results& r) {
          << (linear ? "linear elements lock, displacements are too small"
                     : "stresses inside swing from element to element")
          << "; expected "
-         << (linear ? "quadratic elements, or poisson < 0.4"
-                    : "6-node triangles and a finer mesh, or poisson < 0.49");
+         << (linear ? "quadratic elements, or poisson < 0.4" : "6-node triangles and a finer mesh, or poisson < 0.49");
     r.notes.push_back(text.str());
   }
 }
