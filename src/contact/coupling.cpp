@@ -1,6 +1,7 @@
 #include "contact/coupling.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "base/errors.hpp"
@@ -35,7 +36,10 @@ struct Accumulated {
 Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std::vector<ContactPoint>& points,
                        const CouplingOptions& options, const Coupling& coupling) {
   const auto count = Eigen::Index(coupling.node.size());
-  Accumulated sums{{}, VecX::Zero(count), {VecX::Zero(count), VecX::Zero(count), VecX::Zero(count)}};
+  Accumulated sums{{},
+                   VecX::Zero(count),
+                   {VecX::Zero(count), VecX::Zero(count), VecX::Zero(count),
+                    VecX::Constant(count, std::numeric_limits<double>::infinity())}};
   sums.B.reserve(points.size() * 36);
   for (auto first = points.begin(); first != points.end();) {
     const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
@@ -52,6 +56,7 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
         sums.support.scale(a) += std::abs(psi(i));
         sums.support.weight(a) += psi(i);
         sums.support.faced(a) += p.ds;
+        sums.support.nearest(a) = std::min(sums.support.nearest(a), std::abs(p.gap));
         if (options.initial_gap == InitialGap::measured) sums.gap(a) += psi(i) * p.gap;
         for (int c = 0; c < 2; ++c) {
           for (std::size_t b = 0; b < std::size_t(edge.node_count); ++b)

@@ -9,11 +9,13 @@ namespace mortise {
 struct Support {
   VecX scale, weight;  ///< int |psi|, int psi, length
   VecX faced;          ///< how much of its edges faces the other side, length
+  VecX nearest;        ///< the smallest gap there (or overlap), undeformed, length
 };
 
 /// Part of a multiplier's edges that must face the other side. Of less, what little gap there is weighs against the
-/// whole psi: p at the node would be extrapolated by about 1 / part.
-inline constexpr double faced_limit = 0.25;
+/// whole psi: p at the node would be extrapolated by about 1 / part. Where the sides are further apart than these edges
+/// are long it does not matter.
+inline constexpr double faced_limit = 0.1;
 
 /// Fills coupling.row, coupling.dropped and the sizes of gap0 and scale. Multipliers without support have no row. Those
 /// of nodes where both sides' normal displacements are prescribed, those whose weighted gap says nothing of the gap's
