@@ -7,13 +7,17 @@ from atlas_regions import quote, region, solved
 TITLE = "Inf-sup constant"
 INTRODUCTION = (
     "How well the displacements control the pressure (theory, section 13): the inf-sup constant of parabola_1 for "
-    "every multiplier space, five elements, multipliers on the coarser or the finer mesh, on sequences of meshes and for "
-    "ratios of the elements up to 10; and for stiffnesses in ratios up to 1e6, with the multipliers on the finer mesh of "
+    "every multiplier space, five elements, multipliers on the coarser or the finer mesh, on sequences of meshes and "
+    "for "
+    "ratios of the elements up to 10; and for stiffnesses in ratios up to 1e6, with the multipliers on the finer "
+    "mesh of "
     "the stiffer body, and where the program puts them."
 )
 CAPTION = (
-    "Left: against the number of elements, 4:5. Middle: against the ratio of the meshes (20 elements on the coarser); right of "
-    "1 the multipliers lie on the finer one. Right: against the ratio of the stiffnesses, 4-node and 8-node quadrilaterals 60:20. "
+    "Left: against the number of elements, 4:5. Middle: against the ratio of the meshes (20 elements on the "
+    "coarser); right of "
+    "1 the multipliers lie on the finer one. Right: against the ratio of the stiffnesses, 4-node and 8-node "
+    "quadrilaterals 60:20. "
     "Dashed: the limit below which `mortise solve --diagnose` warns."
 )
 ELEMENTS = {
@@ -79,7 +83,8 @@ def of(rows, **axes):
 
 def line(axes, rows, x, colour, style, label):
     if rows:
-        axes.plot([r[x] for r in rows], [r["inf_sup"] for r in rows], "o" + style, markersize=3, color=colour, label=label)
+        values = [row["inf_sup"] for row in rows]
+        axes.plot([row[x] for row in rows], values, "o" + style, markersize=3, color=colour, label=label)
 
 
 def draw(rows, path):
@@ -87,13 +92,15 @@ def draw(rows, path):
     for number, element in enumerate(ELEMENTS):
         for space, style in SPACES.items():
             name = f"{element}, {space}"
-            line(panels[0], of(rows, part="sizes", element=element, space=space, side="lower"), "lower", f"C{number}", style, name)
+            of_sizes = of(rows, part="sizes", element=element, space=space, side="lower")
+            line(panels[0], of_sizes, "lower", f"C{number}", style, name)
             line(panels[1], of(rows, part="ratios", element=element, space=space), "ratio", f"C{number}", style, None)
             of_contrast = {"part": "contrasts", "element": element, "space": space}
             line(panels[2], of(rows, **of_contrast, side="upper"), "contrast", f"C{number}", style, None)
             for row in of(rows, **of_contrast, side="default"):
                 panels[2].plot(row["contrast"], row["inf_sup"], "s", markersize=6, color=f"C{number}", fillstyle="none")
-    for axes, label in zip(panels, ("elements along the line", "elements: multiplier side / other side", "E upper / E lower")):
+    labels = ("elements along the line", "elements: multiplier side / other side", "E upper / E lower")
+    for axes, label in zip(panels, labels):
         axes.axhline(LIMIT, color="0.4", linestyle="--", linewidth=0.9)
         axes.set(xscale="log", yscale="log", xlabel=label)
         axes.grid(alpha=0.25)
@@ -113,15 +120,19 @@ def mesh_region(rows):
             found = of(rows, part="sizes", element=element, space=space, side=side)
             falls.append(found[-1]["inf_sup"] / found[0]["inf_sup"])
     why = (
-        "Multipliers on the trace mesh of one body, of its own order or less, are controlled by that body alone, whatever the "
-        "other's mesh (Wohlmuth 2000; Belgacem 1999). Quadratic and dual spaces have constants near a third of the linear "
+        "Multipliers on the trace mesh of one body, of its own order or less, are controlled by that body alone, "
+        "whatever the "
+        "other's mesh (Wohlmuth 2000; Belgacem 1999). Quadratic and dual spaces have constants near a third of the "
+        "linear "
         "one's on quadratic elements: their finest pressures swing from node to node, where the element feels least."
     )
     begins = (
-        f"not found: between {min(values):.2f} and {max(values):.2f} on all meshes and ratios; from the coarsest to the finest mesh "
+        f"not found: between {min(values):.2f} and {max(values):.2f} on all meshes and ratios; from the coarsest to "
+        f"the finest mesh "
         f"times {min(falls):.2f} to {max(falls):.2f}"
     )
-    return region("Meshes, spaces and sides, bodies of one stiffness", begins, None, "fixed", why, "Linear multipliers are the default.")
+    name = "Meshes, spaces and sides, bodies of one stiffness"
+    return region(name, begins, None, "fixed", why, "Linear multipliers are the default.")
 
 
 def contrast_region(rows):
@@ -132,17 +143,22 @@ def contrast_region(rows):
     worst = max(stiff, key=lambda row: row["p_max_summary"])
     silent = [row for row in low if "inf-sup" not in row.get("notes", "")]
     why = (
-        "On the finer mesh of the stiffer body the finest pressures hardly move that body, and the coarser body cannot follow "
-        "them: the constant falls as the root of the ratio of the stiffnesses (theory, eq. 41). The multipliers then force the "
+        "On the finer mesh of the stiffer body the finest pressures hardly move that body, and the coarser body "
+        "cannot follow "
+        "them: the constant falls as the root of the ratio of the stiffnesses (theory, eq. 41). The multipliers then "
+        "force the "
         "soft body's coarse trace onto every fine node, and what no displacement resists is noise."
     )
     mortise = (
-        f"The default puts the multipliers on the softer body beyond a ratio of 10 (smallest constant {default:.2f}). Where the scene asks "
-        f"for the other side, --diagnose says {quote(low)}. The check of p against sigma_n fails there: the largest p is "
+        f"The default puts the multipliers on the softer body beyond a ratio of 10 (smallest constant "
+        f"{default:.2f}). Where the scene asks "
+        f"for the other side, --diagnose says {quote(low)}. The check of p against sigma_n fails there: the largest "
+        f"p is "
         f"{worst['p_max_summary']:.1e} Pa where its mean is 1e7 ({worst['element']}, ratio {worst['contrast']:g})."
     )
     begins = f"below {LIMIT} from a ratio of {bound:g} of the stiffnesses (60:20)" if bound else "not reached"
-    return region("Multipliers on the finer mesh of a much stiffer body", begins, bound, "default" if not silent else "open", why, mortise)
+    name = "Multipliers on the finer mesh of a much stiffer body"
+    return region(name, begins, bound, "open" if silent else "default", why, mortise)
 
 
 def regions(rows):

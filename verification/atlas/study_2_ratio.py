@@ -159,7 +159,8 @@ def fine_region(rows):
     )
     parabola = [worst_at(rows, "parabola_1", 2, value) for value in (ratio, 1 / ratio)]
     mortise = (
-        "The default is the side with the shorter edges, for scenes that are not smooth (theory, section 9), but of linear "
+        "The default is the side with the shorter edges, for scenes that are not smooth (theory, section 9), but of "
+        "linear "
         "elements the side with the longer ones beyond a ratio of 1.5. With 8-node "
         f"quadrilaterals and linear multipliers at {ratio:g}:1 p is off by {fine:.1e} in rings ({coarse:.1e} with the "
         f"multipliers on the coarser side), by {parabola[0]:.1e} in parabola_1 ({parabola[1]:.1e}). Checks that fail: "

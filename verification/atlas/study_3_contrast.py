@@ -174,7 +174,8 @@ def mortar_region(rows):
     )
     why = (
         "The condition of the system grows with the ratio of the moduli, and iterative or unscaled solvers lose "
-        "digits with it (Benzi, Golub & Liesen 2005, section 3.5). With quadratic elements in a ratio of 3:4 each side's "
+        "digits with it (Benzi, Golub & Liesen 2005, section 3.5). With quadratic elements in a ratio of 3:4 each "
+        "side's "
         "trace can follow the other's multipliers; where it cannot, see study 1."
     )
     mortise = "One direct solve of a dimensionless system (theory, sections 5 and 6), with either side."

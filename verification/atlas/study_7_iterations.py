@@ -162,7 +162,8 @@ def border_regions(rows):
         "fixed" if noise is None else "shown",
         "A check that divides by the largest multiplier has nothing to measure by where all are rounding (Higham, "
         "Accuracy and Stability of Numerical Algorithms, chapter 1: relative errors of zero).",
-        f"The run ends as check_failed although p is rounding, {noisy_pressure(line):.0e} Pa at most: a false alarm. Failing "
+        f"The run ends as check_failed although p is rounding, {noisy_pressure(line):.0e} Pa at most: a false alarm. "
+        f"Failing "
         f"checks: {'; '.join(sorted({row['failed_checks'] for row in line if row['outcome'] == 'check'})) or 'none'}.",
     )
 

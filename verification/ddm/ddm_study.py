@@ -50,7 +50,8 @@ def steps_table(path):
         cells = []
         for ratio in ratios:
             of_ratio = [row for row in mine if row["ratio"] == ratio]
-            cells.append(", ".join(row["steps"] if row["outcome"] == "converged" else row["outcome"] for row in of_ratio))
+            ends = (row["steps"] if row["outcome"] == "converged" else row["outcome"] for row in of_ratio)
+            cells.append(", ".join(ends))
         found.append([*key, *cells])
     return page.table(["scene", "scheme", "acceleration", *(f"E ratio {float(ratio):g}" for ratio in ratios)], found)
 
@@ -70,14 +71,18 @@ def main(arguments=None):
     draw_histories(options.output, (20, 25) if options.quick else (80, 100))
     parts = [
         page.paragraph(
-            "Each body solved alone, the interface brought to agreement by iteration. With a fixed relaxation the error is "
-            "multiplied by at most max |1 - beta mu| in a step, mu the eigenvalues of the interface: predicted border and "
+            "Each body solved alone, the interface brought to agreement by iteration. With a fixed relaxation the "
+            "error is "
+            "multiplied by at most max |1 - beta mu| in a step, mu the eigenvalues of the interface: predicted "
+            "border and "
             "measured factors."
         ),
         page.picture("region.png", "Where a fixed beta converges: measured factors (colour), predicted border (line)."),
         page.picture("history.png", "parabola_1: residuals step by step, plain and accelerated."),
         page.heading("Steps to 1e-8"),
-        page.paragraph("The numbers of a cell belong to the meshes of steps.csv, coarsest first; the default is krylov."),
+        page.paragraph(
+            "The numbers of a cell belong to the meshes of steps.csv, coarsest first; the default is krylov."
+        ),
         steps_table(options.output / "steps.csv"),
     ]
     page.write_section(options.output, "ddm", "Domain decomposition: where it converges, and how fast", parts)
