@@ -1,4 +1,13 @@
-"""What studies share to name the failures they find."""
+"""What studies share: elements, and how they name the failures they find."""
+
+# Parameters of the geometries in geo/.
+ELEMENTS = {
+    "3-node triangles": {"order": 1, "kind": 1},
+    "4-node quadrilaterals": {"order": 1, "kind": 0},
+    "6-node triangles": {"order": 2, "kind": 1},
+    "8-node quadrilaterals": {"order": 2, "kind": 0},
+    "9-node quadrilaterals": {"order": 2, "kind": 0, "nine_node": 1},
+}
 
 STATES = ("fixed", "default", "guarded", "shown", "open")
 

@@ -2,7 +2,7 @@
 
 import matplotlib.pyplot as plt
 
-from atlas_regions import quote, region, solved
+from atlas_regions import ELEMENTS, quote, region, solved
 
 TITLE = "Inf-sup constant"
 INTRODUCTION = (
@@ -20,13 +20,6 @@ CAPTION = (
     "quadrilaterals 60:20. "
     "Dashed: the limit below which `mortise solve --diagnose` warns."
 )
-ELEMENTS = {
-    "3-node triangles": {"order": 1, "kind": 1},
-    "4-node quadrilaterals": {"order": 1, "kind": 0},
-    "6-node triangles": {"order": 2, "kind": 1},
-    "8-node quadrilaterals": {"order": 2, "kind": 0},
-    "9-node quadrilaterals": {"order": 2, "kind": 0, "nine_node": 1},
-}
 SPACES = {"linear": "-", "quadratic": "--", "dual": ":"}
 SIZES = [10, 20, 40, 80, 160]
 RATIOS = [1 / 10, 1 / 5, 1 / 2, 1, 2, 5, 10]  # of the multiplier side's elements to the other's

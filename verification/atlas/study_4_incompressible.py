@@ -2,7 +2,7 @@
 
 import matplotlib.pyplot as plt
 
-from atlas_regions import checks_of, ends, first, largest, quote, region, say, solved, told
+from atlas_regions import ELEMENTS, checks_of, ends, first, largest, quote, region, say, solved, told
 
 TITLE = "Near incompressibility (plane strain)"
 INTRODUCTION = (
@@ -15,13 +15,6 @@ CAPTION = (
     "elements, root of the mean square of its error over the contact pressure."
 )
 POISSON = [0.3, 0.4, 0.45, 0.49, 0.499, 0.4999, 0.49999, 0.499999]
-ELEMENTS = {
-    "3-node triangles": {"order": 1, "kind": 1},
-    "4-node quadrilaterals": {"order": 1, "kind": 0},
-    "6-node triangles": {"order": 2, "kind": 1},
-    "8-node quadrilaterals": {"order": 2, "kind": 0},
-    "9-node quadrilaterals": {"order": 2, "kind": 0, "nine_node": 1},
-}
 MESHES = [(12, 16), (24, 32)]
 YOUNG = (210e9, 70e9)
 LIMIT = 0.1
