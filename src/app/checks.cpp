@@ -38,9 +38,8 @@ void balance_of_bodies(const SaddlePointSolution& solution, const SparseMatrix& 
   const VecX Ku = d.stiffness.selfadjointView<Eigen::Lower>() * solution.u;
   for (Eigen::Index i = 0; i < forces.size(); ++i)
     if (d.constraints.fixed[std::size_t(i)]) forces(i) = Ku(i);  // load + contact + reaction
-  double force = 0, moment = 0, young = 0;
-  for (const ElasticLaw& law : d.laws) young = std::max(young, law.young);
-  const double rigid = rigid_part * young * solution.u.cwiseAbs().maxCoeff();
+  double force = 0, moment = 0;
+  const double rigid = rigid_part * largest_young(d) * solution.u.cwiseAbs().maxCoeff();
   for (int b = 0; b < int(r.mesh.bodies.size()); ++b) {
     Vec2 low(1e300, 1e300), high(-1e300, -1e300);
     for (int p = r.points.first[std::size_t(b)]; p < r.points.first[std::size_t(b) + 1]; ++p) {
@@ -59,10 +58,8 @@ void balance_of_bodies(const SaddlePointSolution& solution, const SparseMatrix& 
 
 // A pressure that would matter to the bodies: where contact carries none, p is round-off of this.
 double least_pressure(const Results& r) {
-  double young = 0;
-  for (const ElasticLaw& law : r.discretisation.laws) young = std::max(young, law.young);
   const auto size = r.mesh.nodes.colwise().maxCoeff() - r.mesh.nodes.colwise().minCoeff();
-  return rigid_part * young * r.u.cwiseAbs().maxCoeff() / size.norm();
+  return rigid_part * largest_young(r.discretisation) * r.u.cwiseAbs().maxCoeff() / size.norm();
 }
 
 // What the contact puts on both sides of a pair, together: it must vanish.

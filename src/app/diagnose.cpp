@@ -37,9 +37,8 @@ void diagnose(const Scene& scene, Results& r) {
   const Discretisation& d = r.discretisation;
   const StackedCoupling coupling = stack(r.pairs, d.load.size());
   const Floating floating = find_floating(r.mesh, d.constraints);
-  double young = 0;
-  for (const ElasticLaw& law : d.laws) young = std::max(young, law.young);
-  const ContactSystem system{d.stiffness, coupling.B, d.constraints.fixed, young, coupling.scale, floating.grounded};
+  const ContactSystem system{d.stiffness,      coupling.B,     d.constraints.fixed,
+                             largest_young(d), coupling.scale, floating.grounded};
   const InfSup found = inf_sup(system, stacked_norm(scene, r, coupling), r.active);
   if (found.mode.size() == 0) return;
   Eigen::Index worst = 0;

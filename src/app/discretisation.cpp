@@ -85,6 +85,12 @@ Discretisation discretise(const Scene& scene, const Mesh& mesh) {
   return d;
 }
 
+double largest_young(const Discretisation& d) {
+  double young = 0;
+  for (const ElasticLaw& law : d.laws) young = std::max(young, law.young);
+  return young;
+}
+
 double strain_energy(const Discretisation& d, const VecX& u) {
   const VecX Ku = d.stiffness.selfadjointView<Eigen::Lower>() * u;
   return 0.5 * u.dot(Ku) - u.dot(d.initial_load) + d.initial_energy;

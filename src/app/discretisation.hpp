@@ -17,6 +17,9 @@ struct Discretisation {
   Constraints constraints;
 };
 
+/// The largest Young's modulus of all bodies, stress.
+double largest_young(const Discretisation& discretisation);
+
 /// Throws InputError where the scene names a body or boundary that the mesh does not have, leaves a body without
 /// material, or prescribes two values at one node.
 Discretisation discretise(const Scene& scene, const Mesh& mesh);

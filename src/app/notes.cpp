@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 #include "contact/mesh_gap.hpp"
@@ -38,7 +39,7 @@ void note_mesh_gap(const ContactPair& pair, Results& r) {
   r.notes.push_back(text.str());
 }
 
-int degrees(double angle) { return int(std::lround(angle * 180 / 3.14159265358979323846)); }
+int degrees(double angle) { return int(std::lround(angle * 180 / std::numbers::pi)); }
 
 // Both meshes must follow the contact line: its curvature, and its kinks (docs/stability.md, geometry).
 void note_shape(const ContactPair& pair, Results& r) {

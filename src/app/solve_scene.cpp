@@ -30,12 +30,6 @@ SaddlePointSolution solve_system(const Scene& scene, const SaddlePointSystem& sy
   return scene.method.solver == Solver::mssor ? solve_mssor(scene, system, r) : solve_saddle_point(system);
 }
 
-double largest_young(const Discretisation& d) {
-  double young = 0;
-  for (const ElasticLaw& law : d.laws) young = std::max(young, law.young);
-  return young;
-}
-
 }  // namespace
 
 std::string to_string(Status status) {

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "contact/segments.hpp"
 
 namespace mortise {
 namespace {
 
-constexpr double kink = 20 * 3.14159265358979323846 / 180;
+constexpr double kink = 20 * std::numbers::pi / 180;
 
 double angle_between(const Vec2& a, const Vec2& b) {
   return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));

@@ -55,7 +55,7 @@ struct ContactSpec {
   std::array<std::string, 2> between;  ///< physical curves
   Condition condition = Condition::unilateral;
   InitialGap initial_gap = InitialGap::measured;
-  std::string multipliers_on;  ///< one of `between`; empty: the finer side
+  std::string multipliers_on;  ///< one of `between`; empty: couple_pairs chooses
 };
 
 /// How domain decomposition iterates; only where Method::kind is ddm.
