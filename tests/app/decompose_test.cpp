@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "support/differences.hpp"
 #include "support/messages.hpp"
 
 namespace mortise::test {
@@ -21,16 +22,6 @@ Results run(const std::string& name, Overrides overrides, const Overrides& more 
 Results ddm(const std::string& name, Overrides overrides, const Overrides& more = {}) {
   overrides.push_back({"method.kind", "ddm"});
   return run(name, overrides, more);
-}
-
-// Largest difference of the pressures over the largest pressure.
-double pressure_difference(const Results& a, const Results& b) {
-  double difference = 0, size = 0;
-  for (std::size_t k = 0; k < a.contacts.size(); ++k) {
-    difference = std::max(difference, largest_entry(a.contacts[k].pressure - b.contacts[k].pressure));
-    size = std::max(size, largest_entry(b.contacts[k].pressure));
-  }
-  return difference / size;
 }
 
 double displacement_difference(const Results& a, const Results& b) {

@@ -10,6 +10,7 @@
 #include "app/sweep.hpp"
 #include "app/write_results.hpp"
 #include "base/errors.hpp"
+#include "support/differences.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise::test {
@@ -35,15 +36,6 @@ Overrides plates(int upper, int lower, int kind = 0, int order = 2) {
           {"mesh.parameters.n_lower", std::to_string(lower)},
           {"mesh.parameters.kind", std::to_string(kind)},
           {"mesh.parameters.order", std::to_string(order)}};
-}
-
-double pressure_difference(const Results& a, const Results& b) {
-  double difference = 0, size = 0;
-  for (std::size_t k = 0; k < a.contacts.size(); ++k) {
-    difference = std::max(difference, largest_entry(a.contacts[k].pressure - b.contacts[k].pressure));
-    size = std::max(size, largest_entry(b.contacts[k].pressure));
-  }
-  return difference / size;
 }
 
 void expect_as_direct(const Results& a, const Results& b) {

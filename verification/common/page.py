@@ -20,8 +20,17 @@ figure { margin: 1.2em 0 } figcaption { font-size: 13.5px; max-width: 90ch }
 """
 
 
+class Link:
+    """A cell that leads to a folder."""
+
+    def __init__(self, name, folder):
+        self.name, self.folder = name, folder
+
+
 def cell(value):
     """A table's cell; numbers stand right, the words ok, failed and error in their colours."""
+    if isinstance(value, Link):
+        return f'<td><a href="{html.escape(value.folder)}/">{html.escape(value.name)}</a></td>'
     text = str(value)
     kind = text if text in ("ok", "failed", "error") else "number" if text[:1].isdigit() or text[:1] in "-–" else ""
     return f'<td class="{kind}">{html.escape(text)}</td>'

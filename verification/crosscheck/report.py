@@ -1,4 +1,4 @@
-"""The report: report.json with every figure, report.md and report.html for people, section.html for the whole report."""
+"""The report: report.json with every figure, report.md and report.html for people, section.html for the whole."""
 
 import html
 import json
@@ -75,7 +75,7 @@ def one_mesh_table(results):
     for result in results:
         values = {figure.name: figure.value for figure in result.figures}
         cells = [number(values.get(name)) for name in names]
-        rows.append([result.status, Link(result), *cells, f"{result.seconds:.1f}"])
+        rows.append([result.status, page.Link(result.name, result.folder), *cells, f"{result.seconds:.1f}"])
     return heading, rows
 
 
@@ -86,14 +86,15 @@ def figure_row(result, name):
     rate = next((f for f in result.figures if f.name == f"rate of {name}"), None)
     holds = all(f.ok for f in result.figures if f.name in (name, f"rate of {name}"))
     both = [", ".join(f"{r:.2f}" for r in rates(values)), f"{rate.value:.2f} ≥ {rate.limit:g}"] if rate else ["", ""]
-    return ["ok" if holds else "failed", Link(result), name, *map(number, values), number(limit), *both]
+    link = page.Link(result.name, result.folder)
+    return ["ok" if holds else "failed", link, name, *map(number, values), number(limit), *both]
 
 
 def series_table(results):
     """A row for each quantity of each series."""
     heading = ["", "case", "quantity", "coarse", "middle", "fine", "limit of fine", "rates", "mean rate ≥ least"]
     rows = [figure_row(result, name) for result in results if result.figures for name in result.steps[0]["differences"]]
-    rows += [[r.status, Link(r), *[""] * (len(heading) - 2)] for r in results if not r.figures]
+    rows += [[r.status, page.Link(r.name, r.folder), *[""] * (len(heading) - 2)] for r in results if not r.figures]
     return heading, sorted(rows, key=lambda row: row[0] == "ok")
 
 
@@ -105,7 +106,7 @@ def timing_table(results):
     rows = []
     for r in results:
         texts = [f.format(r.timing[key]) for f, key in zip(formats, keys)] if r.timing else [""] * len(keys)
-        rows.append([r.status, Link(r), *texts])
+        rows.append([r.status, page.Link(r.name, r.folder), *texts])
     return heading, rows
 
 
@@ -129,30 +130,10 @@ def worst_table(results):
 TABLES = {"same_discretisation": one_mesh_table, "same_problem": series_table, "timing": timing_table}
 
 
-class Link:
-    """The name of a case, which leads to its folder."""
-
-    def __init__(self, result):
-        self.name, self.folder = result.name, result.folder
-
-
 def markdown_table(heading, rows):
-    text = lambda cell: f"[{cell.name}]({cell.folder})" if isinstance(cell, Link) else str(cell).replace("|", "\\|")
+    text = lambda cell: f"[{cell.name}]({cell.folder})" if isinstance(cell, page.Link) else str(cell).replace("|", "\\|")
     lines = [heading, ["---"] * len(heading), *([text(cell) for cell in row] for row in rows)]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
-
-
-def html_cell(cell):
-    if isinstance(cell, Link):
-        return f'<td><a href="{html.escape(cell.folder)}/">{html.escape(cell.name)}</a></td>'
-    kind = cell if cell in ("ok", "failed", "error") else "number" if cell[:1].isdigit() or cell[:1] in "-–" else ""
-    return f'<td class="{kind}">{html.escape(cell)}</td>'
-
-
-def html_table(heading, rows):
-    head = "".join(f"<th>{html.escape(text)}</th>" for text in heading)
-    body = "\n".join("<tr>" + "".join(map(html_cell, row)) + "</tr>" for row in rows)
-    return f"<table>\n<tr>{head}</tr>\n{body}\n</table>\n"
 
 
 def summary_line(results, seconds):
@@ -229,11 +210,11 @@ def write_html(results, output, seconds, drawn):
             continue
         parts.append(f'<h2 id="{level}">{title}</h2>\n<p>{html.escape(text)}</p>')
         if level != "timing":
-            parts += ["<h3>By scene</h3>", html_table(*worst_table(found))]
+            parts += ["<h3>By scene</h3>", page.table(*worst_table(found))]
         for at, caption, path in drawn:
             if at == level:
                 parts.append(f'<h3>{html.escape(caption)}</h3>\n<img src="{path}" alt="{html.escape(caption)}">')
-        parts += ["<h3>All cases</h3>" if level != "timing" else "", html_table(*TABLES[level](found))]
+        parts += ["<h3>All cases</h3>" if level != "timing" else "", page.table(*TABLES[level](found))]
     head = f'<meta charset="utf-8"><title>mortise against FreeFEM</title><style>{page.STYLE}</style>'
     text = f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n' + "\n".join(parts) + "\n</body></html>\n"
     (output / "report.html").write_text(text)
