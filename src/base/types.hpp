@@ -3,6 +3,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
 
 namespace mortise {
 
@@ -22,5 +25,21 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 /// Largest absolute value; 0 of an empty vector, NaN where there is one.
 inline double largest_entry(const VecX& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0; }
+
+/// The larger one; NaN where either is. std::max keeps whichever came first.
+inline double largest(double a, double b) { return std::isnan(a) || a > b ? a : b; }
+
+/// The largest of one or more; NaN where there is one.
+inline double largest(std::initializer_list<double> values) {
+  double found = *values.begin();
+  for (const double value : values) found = largest(found, value);
+  return found;
+}
+
+/// value / size; 0 of 0 over 0. NaN where either is not finite: finite over infinite would pass for small.
+inline double fraction(double value, double size) {
+  if (!std::isfinite(value) || !std::isfinite(size)) return std::numeric_limits<double>::quiet_NaN();
+  return value == 0 ? 0 : value / size;
+}
 
 }  // namespace mortise
