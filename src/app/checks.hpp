@@ -9,4 +9,8 @@ namespace mortise {
 void add_checks(const SaddlePointSolution& solution, const StackedCoupling& coupling, const Scene& scene,
                 Results& results);
 
+/// A pressure that matters to no body, stress: 1e-3 of the largest stress in any, or what round-off of the
+/// displacements makes of a contact that carries none. It does not change where bodies are moved as a whole.
+double negligible_pressure(const Results& results);
+
 }  // namespace mortise

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "app/diagnose.hpp"
+#include "app/model_summary.hpp"
 #include "app/sweep.hpp"
 #include "app/write_results.hpp"
 #include "base/errors.hpp"
@@ -73,19 +74,15 @@ int check(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const CheckedScene checked = check_scene(scene);
   if (options.quiet) return 0;
-  std::cout << scene.title << "\n  mesh       " << checked.mesh.source << ": " << checked.mesh.nodes.rows()
-            << " nodes, " << checked.mesh.cells.size() << " elements\n";
-  for (const BodySpec& body : scene.bodies) {
-    const Material& m = scene.materials.at(body.material);
-    std::cout << "  body       " << body.name << ": " << body.material << ", E = " << m.young << ", nu = " << m.poisson
-              << ", plane " << to_string(scene.plane) << "\n";
-  }
+  std::cout << scene.title << "\n  mesh      " << checked.mesh.source << ": " << checked.mesh.nodes.rows() << " nodes, "
+            << checked.mesh.cells.size() << " elements\n"
+            << model_lines(scene, checked.discretisation);
   for (const ContactPair& pair : checked.pairs)
-    std::cout << "  contact    " << pair.spec.between[0] << " - " << pair.spec.between[1] << ": "
+    std::cout << "  contact   " << pair.spec.between[0] << " - " << pair.spec.between[1] << ": "
               << to_string(pair.spec.condition) << ", frictionless, gap " << to_string(pair.spec.initial_gap) << ", "
               << pair.coupling.gap0.size() << " multipliers on " << pair.spec.multipliers_on << ", facing over "
               << pair.coupling.covered_length << "\n";
-  std::cout << "  left out   friction, large displacements, plasticity, time"
+  std::cout << "  left out  friction, large displacements, plasticity, time"
             << (scene.body_forces.empty() ? ", body forces" : "")
             << (scene.initial_strains.empty() ? ", initial strains" : "") << "\n";
   return 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "app/contact_length.hpp"
+
 namespace mortise {
 namespace {
 
@@ -126,25 +128,6 @@ void reverse(ContactSide& side, double length) {
   for (ContactCentre& c : side.centres) c.s = length - c.s;
 }
 
-// The |p + sigma_n| that 90 % of the length in contact stays below, over the mean |p|. A mean over all of it would
-// speak of the corner points, where the exact stress is singular.
-double difference(const std::vector<ContactNode>& nodes) {
-  std::vector<std::pair<double, double>> differences;  // |p + sigma_n|, length
-  double length = 0, force = 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (std::isnan(nodes[i].gap) || nodes[i].p == 0) continue;  // faces nothing, or has parted
-    const double width = (nodes[std::min(i + 1, nodes.size() - 1)].s - nodes[i > 0 ? i - 1 : 0].s) / 2;
-    differences.emplace_back(std::abs(nodes[i].p + nodes[i].sigma_n), width);
-    length += width;
-    force += width * std::abs(nodes[i].p);
-  }
-  std::sort(differences.begin(), differences.end());
-  double below = 0;
-  for (const auto& [value, width] : differences)
-    if ((below += width) >= 0.9 * length) return force > 0 ? value * length / force : 0;
-  return 0;
-}
-
 // The smallest p at the contact points, and between those of an edge where the parabola through its three is lowest.
 double least_pressure(const ContactPair& pair, const VecX& pressure) {
   const auto& points = pair.points;
@@ -218,23 +201,20 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
   r.p_min = std::numeric_limits<double>::infinity();
   r.p_max = -r.p_min;
   for (const ContactNode& n : r.multiplier.nodes) {
-    if (std::isnan(n.gap)) continue;
+    if (std::isnan(n.gap) && n.p == 0) continue;
     r.p_min = std::min(r.p_min, n.p);
-    r.p_max = std::max(r.p_max, n.p);
+    r.p_max = largest(r.p_max, n.p);
   }
   if (r.p_min > r.p_max) {  // the opposite side faces parts of edges only
     r.p_min = r.pressure.minCoeff();
     r.p_max = r.pressure.maxCoeff();
   }
-  for (const ContactPoint& c : pair.points) {
-    const double p = interpolate(pair.coupling, pair.multiplier, r.pressure, c.edge, c.xi);
-    r.p_mean += c.ds * p;
-    if (p > 1e-9 * r.p_max || pair.spec.condition == Condition::bilateral) r.length_in_contact += c.ds;
-  }
+  for (const ContactPoint& c : pair.points)
+    r.p_mean += c.ds * interpolate(pair.coupling, pair.multiplier, r.pressure, c.edge, c.xi);
+  r.length_in_contact = length_in_contact(mesh.nodes, pair, r.pressure);
   const VecX contact = -(load_rows(pair.coupling).transpose() * lambda);
   for (const CurveNode& at : along) r.force += contact.segment<2>(2 * at.node);
   r.p_mean /= pair.coupling.covered_length;
-  r.sigma_n_difference = std::max(difference(r.multiplier.nodes), difference(r.opposite.nodes));
   return r;
 }
 

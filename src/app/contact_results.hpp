@@ -36,14 +36,11 @@ struct ContactResults {
   ContactSide multiplier, opposite;
   VecX pressure;                 ///< one a multiplier (Coupling::node)
   double length = 0;             ///< of the multiplier side
-  double length_in_contact = 0;  ///< where it faces the opposite side and p > 0 (bilateral: any p)
+  double length_in_contact = 0;  ///< as length_in_contact() says
   Vec2 force = Vec2::Zero();     ///< of the contact on the multiplier side's body, per thickness
-  double p_min = 0, p_max = 0;   ///< at the nodes of the multiplier side that face the other
+  double p_min = 0, p_max = 0;   ///< at the nodes of the multiplier side that face the other or carry pressure
   double p_mean = 0;             ///< over the length that faces the other side
   double p_least = 0;            ///< the smallest between the nodes too, where the sides face each other
-  /// What |p + sigma_n| stays below on 90 % of the length in contact, over the mean |p| there; the larger of the two
-  /// bodies.
-  double sigma_n_difference = 0;
 };
 
 /// s runs along both curves from the end of the multiplier side with the smaller x (then y).

@@ -53,6 +53,8 @@ void apply(const Scene& scene, const Mesh& mesh, const BoundarySpec& spec, Discr
   }
 }
 
+Vec2 sum(const VecX& forces) { return forces.reshaped(2, forces.size() / 2).rowwise().sum(); }
+
 double area(const Mesh& mesh, int body) {
   VecX load = VecX::Zero(2 * mesh.nodes.rows());
   add_body_force(mesh, body, Vec2(1, 0), load);  // int N, which sums to the area
@@ -78,9 +80,16 @@ Discretisation discretise(const Scene& scene, const Mesh& mesh) {
   for (std::size_t b = 0; b < d.laws.size(); ++b)
     if (d.laws[b].energy0 != 0) d.initial_energy += d.laws[b].energy0 * area(mesh, int(b));
   d.load = d.initial_load;
-  for (const BodyForceSpec& spec : scene.body_forces)
+  for (const BodyForceSpec& spec : scene.body_forces) {
+    const Vec2 before = sum(d.load);
     add_body_force(mesh, find_body(scene, mesh, spec.key, spec.body), spec.force, d.load);
-  for (const BoundarySpec& spec : scene.boundaries) apply(scene, mesh, spec, d);
+    d.body_sums.push_back(sum(d.load) - before);
+  }
+  for (const BoundarySpec& spec : scene.boundaries) {
+    const Vec2 before = sum(d.load);
+    apply(scene, mesh, spec, d);
+    d.boundary_sums.push_back(sum(d.load) - before);
+  }
   d.stiffness = assemble_stiffness(mesh, d.laws);
   return d;
 }

@@ -15,6 +15,9 @@ struct Discretisation {
   VecX initial_load;          ///< the part of `load` that initial strains make
   double initial_energy = 0;  ///< of the initial strains held at zero strain, per thickness
   Constraints constraints;
+  /// Sums of the nodal forces of each of Scene::boundaries (zero of prescribed displacements) and of
+  /// Scene::body_forces, force per thickness.
+  std::vector<Vec2> boundary_sums, body_sums;
 };
 
 /// The largest Young's modulus of all bodies, stress.

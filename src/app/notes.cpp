@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <sstream>
 
+#include "app/large_displacement.hpp"
 #include "contact/mesh_gap.hpp"
 #include "contact/turns.hpp"
 #include "mesh/place.hpp"
@@ -26,17 +28,71 @@ void note_unsettled(const std::vector<int>& unsettled, Results& r) {
                     " still changes");
 }
 
-// Enforced, a gap that only the meshes make causes pressures of about E gap / h.
-void note_mesh_gap(const ContactPair& pair, Results& r) {
-  if (pair.spec.initial_gap != InitialGap::measured) return;
-  const double gap = std::max(std::abs(pair.coupling.gap_min), std::abs(pair.coupling.gap_max));
-  const double displacement = r.u.cwiseAbs().maxCoeff();
-  if (gap < 1e-3 * displacement || open_place(r.mesh.nodes, pair.multiplier, pair.opposite, pair.points, 1e-6)) return;
+// "x = 0.1 ... 0.9, y = 0.2"
+std::string range(const std::vector<Vec2>& places) {
+  Vec2 low = places[0], high = places[0];
+  for (const Vec2& x : places) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
   std::ostringstream text;
-  text << pair.spec.key << ": the undeformed gap (up to " << gap
-       << ") is nowhere more than two meshes of one curve show, but not small against the displacements (up to "
-       << displacement << "); if the curves are one curve, set initial_gap = \"closed\"";
+  const auto write = [&](const char* name, double from, double to) {
+    text << name << from + 0.0;
+    if (to - from > 1e-6 * (high - low).norm()) text << " ... " << to + 0.0;
+  };
+  write("x = ", low.x(), high.x());
+  write(", y = ", low.y(), high.y());
+  return text.str();
+}
+
+// One note for each reason.
+void note_dropped(const ContactPair& pair, Results& r) {
+  std::map<std::string, std::vector<Vec2>> places;
+  for (const DroppedMultiplier& d : pair.coupling.dropped)
+    places[d.reason].push_back(r.mesh.nodes.row(d.node).transpose());
+  for (const auto& [reason, at] : places)
+    r.notes.push_back(pair.spec.key + ": " + std::to_string(at.size()) +
+                      (at.size() == 1 ? " multiplier of '" : " multipliers of '") + pair.spec.multipliers_on + "' (" +
+                      range(at) + ") " + reason);
+}
+
+// A gap that two meshes of one curve may make: of both signs, and nowhere wider than they can.
+bool may_be_the_meshes_own(const ContactPair& pair, const Results& r) {
+  const double low = pair.coupling.gap_min, high = pair.coupling.gap_max;
+  return low < 0 && high > 0 && std::min(-low, high) > 1e-3 * std::max(-low, high) &&
+         !open_place(r.mesh.nodes, pair.multiplier, pair.opposite, pair.points, 1e-6);
+}
+
+// Enforced, a gap that only the meshes make causes pressures of about E gap / h; dropped, a true one is missing.
+void note_gap(const ContactPair& pair, Results& r) {
+  const double low = pair.coupling.gap_min, high = pair.coupling.gap_max;
+  const double gap = std::max(std::abs(low), std::abs(high)), displacement = largest_entry(r.u);
+  const bool meshes_own = may_be_the_meshes_own(pair, r);
+  std::ostringstream text;
+  text << pair.spec.key << ": ";
+  if (pair.spec.initial_gap == InitialGap::measured) {
+    if (!meshes_own || gap < 1e-3 * displacement) return;
+    text << "the undeformed gap (" << low << " ... " << high
+         << ") is of both signs and nowhere more than two meshes of one curve show, but not small against the "
+            "displacements (up to "
+         << displacement << "); if the curves are one curve, set initial_gap = \"closed\"";
+  } else {
+    if (gap <= (meshes_own ? 0.1 : 0.01) * displacement) return;
+    text << "initial_gap = \"closed\" leaves out gaps of " << low << " ... " << high
+         << ", which are not small against the displacements (up to " << displacement << "): "
+         << (meshes_own ? "right if the curves are one curve"
+                        : "a clearance or an interference that is meant needs initial_gap = \"measured\"");
+  }
   r.notes.push_back(text.str());
+}
+
+// Two independent approximations of one stress: what they differ by, the discretisation leaves open.
+void note_comparison(const ContactPair& pair, const std::optional<StressComparison>& found, Results& r) {
+  if (!found || found->difference <= 0.1) return;
+  r.notes.push_back(pair.spec.key + ": p and the stress in the bodies differ by up to " +
+                    std::to_string(std::lround(100 * found->difference)) +
+                    " % of the mean p on 90 % of the contact, as on '" + found->curve + "' " +
+                    near_point(found->position) + ": the mesh is coarse there; expected a finer one");
 }
 
 int degrees(double angle) { return int(std::lround(angle * 180 / std::numbers::pi)); }
@@ -76,17 +132,6 @@ void note_far_from_origin(const ContactPair& pair, Results& r) {
   r.notes.push_back(text.str());
 }
 
-// The equations are those of small displacements. A plate that turns or shifts as a whole counts too: its normals turn.
-void note_large_displacement(Results& r) {
-  const Vec2 size = (r.mesh.nodes.colwise().maxCoeff() - r.mesh.nodes.colwise().minCoeff()).transpose();
-  const double largest = r.u.cwiseAbs().maxCoeff();
-  if (largest <= 0.02 * size.norm()) return;
-  std::ostringstream text;
-  text << "displacements are up to " << largest << ", " << std::round(100 * largest / size.norm())
-       << " % of the size of the whole: the equations are those of small displacements";
-  r.notes.push_back(text.str());
-}
-
 // Poisson's ratio from which elements lock in plane strain: docs/stability.md, near incompressibility.
 void note_locking(const Scene& scene, Results& r) {
   if (scene.plane != Plane::strain) return;
@@ -111,14 +156,14 @@ void note_locking(const Scene& scene, Results& r) {
 
 void add_notes(const Scene& scene, const std::vector<int>& unsettled, Results& r) {
   note_unsettled(unsettled, r);
-  note_large_displacement(r);
+  if (auto note = large_displacement(r)) r.notes.push_back(*std::move(note));
   note_locking(scene, r);
-  for (const ContactPair& pair : r.pairs) {
-    for (const DroppedMultiplier& d : pair.coupling.dropped)
-      r.notes.push_back(pair.spec.key + ": multiplier " + near_node(r.mesh, d.node) + " " + d.reason);
-    note_mesh_gap(pair, r);
-    note_shape(pair, r);
-    note_far_from_origin(pair, r);
+  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
+    note_dropped(r.pairs[k], r);
+    note_gap(r.pairs[k], r);
+    note_shape(r.pairs[k], r);
+    note_far_from_origin(r.pairs[k], r);
+    note_comparison(r.pairs[k], r.against_sigma_n[k], r);
   }
 }
 

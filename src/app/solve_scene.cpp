@@ -55,8 +55,9 @@ Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSe
 }
 
 CheckedScene check_scene(const Scene& scene) {
-  CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters), {}};
-  const Discretisation d = discretise(scene, checked.mesh);
+  CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters), {}, {}};
+  checked.discretisation = discretise(scene, checked.mesh);
+  const Discretisation& d = checked.discretisation;
   const Constraints& constraints = d.constraints;
   checked.pairs = couple_pairs(scene, checked.mesh, d, roles(scene, checked.mesh, d));
   require_closed(scene, checked.mesh, checked.pairs);
@@ -124,6 +125,9 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
     r.contacts.push_back(contact_results(
         r.mesh, r.pairs[k], d.constraints, r.points, r.stress, r.u,
         solution.lambda.segment(coupling.first_row[k], coupling.first_row[k + 1] - coupling.first_row[k])));
+  const double negligible = negligible_pressure(r);
+  for (std::size_t k = 0; k < r.pairs.size(); ++k)
+    r.against_sigma_n.push_back(compare_with_stress(r.mesh, r.pairs[k], r.contacts[k], d.constraints, negligible));
   add_checks(solution, coupling, scene, r);
   add_notes(scene, solution.unsettled, r);
   r.seconds.recover = watch.lap();

@@ -5,6 +5,7 @@
 
 #include "app/contact_results.hpp"
 #include "app/discretisation.hpp"
+#include "app/stress_comparison.hpp"
 #include "ddm/interface.hpp"
 #include "fem/stress.hpp"
 #include "solve/saddle_point.hpp"
@@ -69,16 +70,17 @@ struct Results {
   std::vector<ContactPair> pairs;
   VecX u;  ///< 2 x nodes, length
   StressField stress;
-  std::vector<ContactResults> contacts;   ///< one a pair
-  double energy = 0;                      ///< strain energy per thickness
-  int unknowns = 0;                       ///< free displacement unknowns
-  int multipliers = 0;                    ///< rows of the coupling
-  std::vector<char> active;               ///< of each row: closed (always so in bilateral pairs)
-  std::vector<ActiveSetStep> steps;       ///< one a solve of the contact problem
-  int coarse_steps = 0;                   ///< and on joined rows
-  std::optional<InterfaceRun> interface;  ///< where method.kind is ddm
-  std::optional<InfSupReport> inf_sup;    ///< where the run was asked to diagnose
-  std::optional<LinearRun> linear;        ///< where method.solver is mssor
+  std::vector<ContactResults> contacts;                          ///< one a pair
+  std::vector<std::optional<StressComparison>> against_sigma_n;  ///< one a pair; nothing where not compared
+  double energy = 0;                                             ///< strain energy per thickness
+  int unknowns = 0;                                              ///< free displacement unknowns
+  int multipliers = 0;                                           ///< rows of the coupling
+  std::vector<char> active;                                      ///< of each row: closed (always so in bilateral pairs)
+  std::vector<ActiveSetStep> steps;                              ///< one a solve of the contact problem
+  int coarse_steps = 0;                                          ///< and on joined rows
+  std::optional<InterfaceRun> interface;                         ///< where method.kind is ddm
+  std::optional<InfSupReport> inf_sup;                           ///< where the run was asked to diagnose
+  std::optional<LinearRun> linear;                               ///< where method.solver is mssor
   Seconds seconds;
   std::vector<Check> checks;
   std::vector<std::string> notes;  ///< what a user should know; nothing that fails
@@ -104,6 +106,7 @@ ActiveSet active_set(const Results& results);
 /// A scene that was meshed and validated, but not solved.
 struct CheckedScene {
   Mesh mesh;
+  Discretisation discretisation;
   std::vector<ContactPair> pairs;
 };
 

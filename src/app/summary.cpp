@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "app/diagnose.hpp"
+#include "app/model_summary.hpp"
 #include "app/write_results.hpp"
 #include "mesh/place.hpp"
 
@@ -21,12 +22,20 @@ std::string space_word(const Scene& scene, const Results& r) {
   return to_string(scene.method.multipliers);
 }
 
-Json contact_json(const ContactPair& pair, const ContactResults& c) {
+Json comparison_json(const std::optional<StressComparison>& found) {
+  if (!found) return nullptr;
+  return {{"difference", found->difference},
+          {"curve", found->curve},
+          {"position", {found->position.x(), found->position.y()}}};
+}
+
+Json contact_json(const ContactPair& pair, const ContactResults& c, const std::optional<StressComparison>& compared) {
   return {{"between", pair.spec.between},
           {"length", c.length},
           {"length_in_contact", c.length_in_contact},
           {"force", {c.force.x(), c.force.y()}},
           {"pressure", {{"min", c.p_min}, {"mean", c.p_mean}, {"max", c.p_max}}},
+          {"against_sigma_n", comparison_json(compared)},
           {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
 }
 
@@ -105,6 +114,23 @@ void print_steps(const Results& r, std::ostream& out) {
   }
 }
 
+void print_comparison(const std::optional<StressComparison>& found, std::ostream& out) {
+  if (found)
+    out << "            p and the bodies' sigma_n differ by " << std::setprecision(2) << 100 * found->difference
+        << std::setprecision(6) << " % of the mean on 90 % of the contact\n";
+  else
+    out << "            p not compared with the bodies' sigma_n: no p, or all of it beside singular corners\n";
+}
+
+// Those that fail; summary.json has all.
+void print_checks(const std::vector<Check>& checks, std::ostream& out) {
+  const auto hold = std::count_if(checks.begin(), checks.end(), [](const Check& c) { return c.ok(); });
+  out << "  checks    " << hold << " of " << checks.size() << " hold (equilibrium, contact condition)\n"
+      << std::setprecision(2);
+  for (const Check& c : checks)
+    if (!c.ok()) out << "  FAILED    " << c.name << ": " << c.value << " (limit " << c.limit << ")\n";
+}
+
 // How contact was found, in words.
 std::string contact_words(const Results& r) {
   const int unilateral = int(std::count_if(
@@ -128,7 +154,7 @@ Json summary_json(const Scene& scene, const Results& r) {
     on.push_back(spec.multipliers_on);
     condition.push_back(to_string(spec.condition));
     gap.push_back(to_string(spec.initial_gap));
-    contact.push_back(contact_json(r.pairs[k], r.contacts[k]));
+    contact.push_back(contact_json(r.pairs[k], r.contacts[k], r.against_sigma_n[k]));
   }
   Json checks = Json::array();
   for (const Check& c : r.checks)
@@ -138,6 +164,7 @@ Json summary_json(const Scene& scene, const Results& r) {
           {"scene", scene.path},
           {"version", MORTISE_VERSION},
           {"status", to_string(r.status)},
+          {"model", model_json(scene, r.discretisation)},
           {"method",
            {{"kind", to_string(scene.method.kind)},
             {"integration", to_string(scene.method.integration)},
@@ -180,7 +207,7 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
   out << scene.title << "\n";
   out << "  mesh      " << r.mesh.nodes.rows() << " nodes, " << r.mesh.cells.size() << " elements; " << r.unknowns
       << " unknowns, " << r.multipliers << " multipliers\n";
-  out << std::setprecision(6);
+  out << std::setprecision(6) << model_lines(scene, r.discretisation);
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
     const ContactResults& c = r.contacts[k];
     const ContactSpec& spec = r.pairs[k].spec;
@@ -190,6 +217,7 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
         << "), force (" << c.force.x() << ", " << c.force.y() << ") on " << c.multiplier.curve
         << "\n            length " << c.length << ", in contact " << c.length_in_contact << "; undeformed gap "
         << r.pairs[k].coupling.gap_min << " ... " << r.pairs[k].coupling.gap_max << "\n";
+    print_comparison(r.against_sigma_n[k], out);
   }
   out << std::setprecision(3);
   print_interface(scene, r, out);
@@ -201,10 +229,7 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
   if (r.inf_sup)
     out << "  inf-sup   " << r.inf_sup->beta << ", worst " << near_point(r.inf_sup->position) << " (limit "
         << inf_sup_limit << ")\n";
-  out << std::setprecision(2);
-  for (const Check& c : r.checks)
-    out << "  " << (c.ok() ? "ok    " : "FAILED") << "    " << c.name << ": " << c.value << " (limit " << c.limit
-        << ")\n";
+  print_checks(r.checks, out);
   for (std::size_t i = 0; i < std::min<std::size_t>(r.notes.size(), 5); ++i)
     out << "  note      " << r.notes[i] << "\n";
   if (r.notes.size() > 5) out << "  note      " << r.notes.size() - 5 << " more in summary.json\n";

@@ -16,8 +16,8 @@ struct CouplingOptions {
 
 /// A multiplier that was left out or tied to its neighbour, and why.
 struct DroppedMultiplier {
-  int node;  ///< of the mesh
-  std::string reason;
+  int node;            ///< of the mesh
+  std::string reason;  ///< to be read after "40 multipliers"
 };
 
 /// Multipliers sit at nodes of the multiplier side; lambda = sum_a psi_a lambda_a (docs/theory.md eq. 10 to 12). Row r

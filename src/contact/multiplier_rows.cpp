@@ -16,14 +16,14 @@ std::string reason(State state) {
     case State::free:
       break;
     case State::prescribed:
-      return "normal displacement prescribed on both sides: pressure of the nearest free node";
+      return "with normal displacement prescribed on both sides: pressure of the nearest free node";
     case State::apart:
-      return "normal displacements prescribed on both sides, which stay apart: pressure zero";
+      return "with normal displacement prescribed on both sides, which stay apart: pressure zero";
     case State::weightless:
     case State::hardly_facing:
-      return "little of its edge faces the other side: pressure of the nearest free node";
+      return "whose edges hardly face the other side: pressure of the nearest free node";
     case State::unsupported:
-      return "faces nothing: pressure zero";
+      return "facing nothing: pressure zero";
   }
   return "";
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 namespace mortise {
 
@@ -22,6 +23,19 @@ BodyPoints body_points(const Mesh& mesh) {
     points.first.push_back(int(points.node.size()));
   }
   return points;
+}
+
+std::vector<int> bonded_to(const Mesh& mesh, const BodyPoints& points) {
+  std::vector<int> first(mesh.bodies.size()), owner(mesh.nodes.rows(), -1);
+  std::iota(first.begin(), first.end(), 0);
+  for (int body = 0; body < int(first.size()); ++body)
+    for (int p = points.first[body]; p < points.first[body + 1]; ++p) {
+      int& other = owner[points.node[p]];
+      if (other < 0) other = body;
+      const int low = std::min(first[other], first[body]), high = std::max(first[other], first[body]);
+      if (low != high) std::replace(first.begin(), first.end(), high, low);
+    }
+  return first;
 }
 
 int point_of(const BodyPoints& points, int body, int node) {

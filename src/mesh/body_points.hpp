@@ -15,6 +15,9 @@ struct BodyPoints {
 
 BodyPoints body_points(const Mesh& mesh);
 
+/// For each body the first of those that it hangs together with by common nodes: itself if there are none.
+std::vector<int> bonded_to(const Mesh& mesh, const BodyPoints& points);
+
 /// The point of a node in a body that has it.
 int point_of(const BodyPoints& points, int body, int node);
 

@@ -148,10 +148,10 @@ TEST(Curves, AMultiplierWhoseEdgeHardlyFacesTheOtherSideFollowsItsNeighbour) {
   // On the much stiffer base p is that of a flat die, 10 MPa.
   for (const double width : {0.50001, 0.501, 0.51}) {
     const Results r = narrow_upper_plate(width);
-    EXPECT_TRUE(noted(r, "near (0.6, 0.3) little of its edge faces the other side")) << width << all_notes(r);
+    EXPECT_TRUE(noted(r, "(x = 0.6, y = 0.3) whose edges hardly face the other side")) << width << all_notes(r);
     EXPECT_NEAR(r.contacts[0].p_max, 10e6, 1e6) << width;
   }
-  EXPECT_FALSE(noted(narrow_upper_plate(0.53), "little of its edge"));
+  EXPECT_FALSE(noted(narrow_upper_plate(0.53), "hardly face"));
 }
 
 // ---- Stiffness ----

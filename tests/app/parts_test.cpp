@@ -1,0 +1,109 @@
+// Parts with corners in contact, as they are drawn every day: right answers are called right, in few words.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/solve_scene.hpp"
+
+namespace mortise::test {
+namespace {
+
+Results solved(const std::string& name, const std::string& parameter = "", const std::string& value = "") {
+  std::vector<Override> overrides;
+  if (!parameter.empty()) overrides.push_back({parameter, value});
+  return solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/" + name + ".toml", overrides));
+}
+
+// Solved, with one note a pair at most, which names a place.
+void expect_few_words(const Results& r) {
+  EXPECT_EQ(r.status, Status::solved);
+  for (const Check& check : r.checks) EXPECT_TRUE(check.ok()) << check.name << ": " << check.value;
+  EXPECT_LE(r.notes.size(), r.pairs.size());
+  for (const std::string& note : r.notes)
+    EXPECT_TRUE(note.find("near (") != std::string::npos || note.find("(x = ") != std::string::npos) << note;
+}
+
+void expect_force(const Vec2& force, const Vec2& exact) {
+  EXPECT_LE((force - exact).norm(), 1e-8 * exact.norm()) << force.transpose();
+}
+
+Vec2 force_on(const Results& r, std::size_t pair, const std::string& curve) {
+  const ContactResults& c = r.contacts[pair];
+  return c.multiplier.curve == curve ? c.force : Vec2(-c.force);
+}
+
+class Refined : public testing::TestWithParam<int> {};
+
+TEST_P(Refined, ABeamOnThreeSupports) {
+  const Results r = solved("beam_on_supports", "mesh.parameters.n", std::to_string(GetParam()));
+  expect_few_words(r);
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) sum += force_on(r, k, "foot_" + std::to_string(k)).y();
+  EXPECT_NEAR(sum, 1e6, 1e-3);  // 1 MPa on 1 m
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, Refined, testing::Values(3, 4, 8, 12));
+
+TEST(Parts, ADovetail) {
+  const Results r = solved("dovetail");
+  expect_few_words(r);
+  const double pull = 20e6 * (0.05 - 0.04 / std::sqrt(3));  // the flank is at 60 degrees: its normal is at 30
+  expect_force(force_on(r, 0, "tenon_flank"), {-pull * std::sqrt(3), -pull});
+}
+
+TEST(Parts, AShaftInAVBlock) {
+  const Results r = solved("v_block");
+  expect_few_words(r);
+  const Vec2 weight = r.discretisation.body_sums[0];
+  EXPECT_NEAR(weight.y(), -2e8 * std::numbers::pi / 2 * 0.02 * 0.02, 1);
+  expect_force(force_on(r, 0, "shaft_foot"), {weight.y(), -weight.y()});
+}
+
+TEST(Parts, ABlockInAnL) {
+  const Results r = solved("block_in_l");
+  expect_few_words(r);
+  expect_force(force_on(r, 0, "block_sides"), {5e5, 1e6});
+}
+
+TEST(Parts, TwoStackedBlocksUnderTheirWeight) {
+  const Results r = solved("stacked_blocks");
+  expect_few_words(r);
+  expect_force(force_on(r, 0, "upper_foot"), {0, 25e3});
+  for (const ContactNode& n : r.contacts[0].multiplier.nodes) EXPECT_NEAR(n.p, 25e3, 1e-6 * 25e3);
+}
+
+TEST(Parts, TwoBondedMaterialsAreOneBodyForTheBalance) {
+  const Results r = solved("bonded_pair");
+  expect_few_words(r);
+  expect_force(force_on(r, 0, "lining_foot"), {0, 10e6});
+}
+
+// ---- p against the bodies' stress ----
+
+TEST(AgainstSigmaN, ACoarseMeshIsNamedWithItsPlace) {
+  const Results r = solved("v_block", "mesh.parameters.n", "6");
+  ASSERT_TRUE(r.against_sigma_n[0].has_value());
+  EXPECT_GT(r.against_sigma_n[0]->difference, 0.1);
+  ASSERT_FALSE(r.notes.empty());
+  EXPECT_EQ(r.status, Status::solved);
+  bool named = false;
+  for (const std::string& note : r.notes)
+    named = named || (note.find("p and the stress in the bodies differ") != std::string::npos &&
+                      note.find("near (") != std::string::npos);
+  EXPECT_TRUE(named) << r.notes.front();
+}
+
+TEST(AgainstSigmaN, DoesNotChangeWhereAllIsMovedAsAWhole) {
+  const Results still = solved("v_block");
+  const Results moved = solved("v_block", "boundary.1", "{on = \"ground\", displacement = { y = -0.009 }}");
+  EXPECT_NEAR(moved.against_sigma_n[0]->difference, still.against_sigma_n[0]->difference, 1e-5);
+}
+
+TEST(AgainstSigmaN, IsNotComparedWhereContactCarriesNothing) {
+  const Results r = solved("v_block", "body_force.0.force", "[0, 0]");
+  EXPECT_FALSE(r.against_sigma_n[0].has_value());
+}
+
+}  // namespace
+}  // namespace mortise::test
