@@ -67,7 +67,7 @@ def wall_region(rows):
     )
     failing = checks_of(line)
     mortise = (
-        f"The check of p against sigma_n leaves out 10 % of the length for this reason; failing checks: {failing}."
+        f"The note on p against sigma_n leaves such corners out for this reason; failing checks: {failing}."
     )
     found = [bound for bound in bounds.values() if bound]
     return region(

@@ -30,7 +30,7 @@ itself, and the numbers and messages are those of that run. The states:
 | shown | a check fails, or the status of the run is not_converged |
 | open | some runs are off and end as solved, without a note that means it |
 
-Runs marked as failing the check of p against sigma_n are often right: the meshes are coarse on purpose.
+Runs with the note on p against sigma_n are often right: the meshes are coarse on purpose.
 """
 
 REFERENCES = """

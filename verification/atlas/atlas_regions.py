@@ -63,12 +63,8 @@ def quote(rows, holds=lambda row: True, most=330):
     return "nothing"
 
 
-def short(check):
-    return check.replace("p against the bodies' sigma_n on 90 % of the length", "p against sigma_n")
-
-
 def checks_of(rows):
-    """Names of the checks that fail in any of the rows."""
+    """Names of the checks that fail in any of the rows, and the note on p against sigma_n."""
     names = {name for row in rows for name in row.get("failed_checks", "").split("; ") if name}
     return ", ".join(sorted(names)) or "none"
 

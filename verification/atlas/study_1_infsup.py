@@ -145,7 +145,7 @@ def contrast_region(rows):
     mortise = (
         f"The default puts the multipliers on the softer body beyond a ratio of 10 (smallest constant "
         f"{default:.2f}). Where the scene asks "
-        f"for the other side, --diagnose says {quote(low)}. The check of p against sigma_n fails there: the largest "
+        f"for the other side, --diagnose says {quote(low)}. The note on p against sigma_n comes there: the largest "
         f"p is "
         f"{worst['p_max_summary']:.1e} Pa where its mean is 1e7 ({worst['element']}, ratio {worst['contrast']:g})."
     )

@@ -16,8 +16,8 @@ INTRODUCTION = (
 )
 CAPTION = (
     "Left of 1 the multipliers are on the coarser mesh, right of 1 on the finer one; the colours are the multiplier "
-    "spaces. The dashed lines are 1 % and 10 %. Open symbols: mortise's check of p against the bodies' stress "
-    "fails. Whole edges instead of segments do no harm where the finer side has the multipliers and none of its "
+    "spaces. The dashed lines are 1 % and 10 %. Open symbols: mortise notes that p and the bodies' stress differ "
+    "by more than 10 %. Whole edges instead of segments do no harm where the finer side has the multipliers and none of its "
     "edges crosses a vertex."
 )
 RATIOS = [1, 1.5, 2, 3, 5, 10, 20]

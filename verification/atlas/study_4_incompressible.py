@@ -134,7 +134,7 @@ def pressure_region(rows):
         "mesh follows the line badly."
     )
     fails = [row for row in rows if row["scene"] == "rings" and "sigma_n" in row["failed_checks"]]
-    mortise = f"The check of p against sigma_n fails in {len(fails)} of the runs on rings."
+    mortise = f"The note on p against sigma_n comes in {len(fails)} of the runs on rings."
     bad = [row for row in rows if row["scene"] == "rings" and solved(row) and off(rows, row, "p_error", 0.01)]
     begins = f"nu at which p is off by more than 1 % and twice what it is at 0.3 (12:16) - {words}"
     return region("Contact pressure", begins, bound, told(bad), why, mortise)
