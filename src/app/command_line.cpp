@@ -3,14 +3,19 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <iostream>
+#include <new>
 
 #include "app/diagnose.hpp"
 #include "app/model_summary.hpp"
 #include "app/sweep.hpp"
+#include "app/terminal.hpp"
 #include "app/write_results.hpp"
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "io/gmsh_mesh.hpp"
+#include "io/output_folder.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -20,13 +25,14 @@ struct Options {
   std::string scene;
   std::vector<std::string> set, vary;
   std::string output;
-  bool quiet = false, diagnose = false;
+  bool quiet = false, diagnose = false, no_programs = false;
   int threads = 0;
 };
 
 std::vector<Override> overrides(const Options& options) {
   std::vector<Override> list;
   for (const std::string& text : options.set) list.push_back(parse_override(text));
+  if (options.no_programs) list.push_back({"mesh.programs", "false"});  // last, so that nothing undoes it
   return list;
 }
 
@@ -36,22 +42,29 @@ std::string stem(const Options& options) { return std::filesystem::path(options.
 class StageLine {
  public:
   explicit StageLine(bool quiet) : active_(!quiet && isatty(STDERR_FILENO)) {}
-  ~StageLine() {
-    if (active_) std::cerr << "\r\033[K" << std::flush;
-  }
-  void operator()(const std::string& stage) const {
-    if (active_) std::cerr << "\r\033[K" << stage << " ..." << std::flush;
-  }
+  ~StageLine() { write("\r\033[K"); }
+  void operator()(const std::string& stage) const { write("\r\033[K" + stage + " ..."); }
 
  private:
+  // Past PrintableStream: these control characters are our own.
+  void write(const std::string& text) const {
+    if (active_) std::fputs(text.c_str(), stderr);
+  }
   bool active_;
 };
+
+// Its title on one line.
+Scene shown(Scene scene) {
+  scene.title = printable(scene.title);
+  return scene;
+}
 
 int exit_code(Status status) { return status == Status::solved ? 0 : 2; }
 
 int solve(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const std::filesystem::path folder = options.output.empty() ? "out/" + stem(options) : options.output;
+  check_output_folder(folder);
   Results results;
   {
     const StageLine line(options.quiet);
@@ -63,7 +76,7 @@ int solve(const Options& options) {
     line("write");
     write_results(scene, results, folder);
   }
-  if (!options.quiet) std::cout << terminal_summary(scene, results, folder);
+  if (!options.quiet) std::cout << terminal_summary(shown(scene), results, folder);
   if (results.status != Status::solved)
     std::cerr << "mortise: " << scene.path << ": " << to_string(results.status) << " (see the summary's checks)\n";
   return exit_code(results.status);
@@ -74,9 +87,11 @@ int check(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const CheckedScene checked = check_scene(scene);
   if (options.quiet) return 0;
-  std::cout << scene.title << "\n  mesh      " << checked.mesh.source << ": " << checked.mesh.nodes.rows() << " nodes, "
-            << checked.mesh.cells.size() << " elements\n"
-            << model_lines(scene, checked.discretisation);
+  std::cout << shown(scene).title << "
+  mesh      " << checked.mesh.source << ": " << checked.mesh.nodes.rows()
+            << " nodes, " << checked.mesh.cells.size() << " elements
+"
+            << model_lines(shown(scene), checked.discretisation);
   for (const ContactPair& pair : checked.pairs)
     std::cout << "  contact   " << pair.spec.between[0] << " - " << pair.spec.between[1] << ": "
               << to_string(pair.spec.condition) << ", frictionless, gap " << to_string(pair.spec.initial_gap) << ", "
@@ -92,7 +107,8 @@ int mesh(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const std::filesystem::path output = options.output.empty() ? "out/" + stem(options) + ".msh" : options.output;
   if (output.has_parent_path()) std::filesystem::create_directories(output.parent_path());
-  write_msh(scene.mesh_file, scene.mesh_parameters, output.string());
+  check_msh_target(output.string(), {scene.path, scene.mesh_file});
+  write_msh(scene.mesh_file, scene.mesh_parameters, output.string(), scene.geo_limits);
   if (!options.quiet) std::cout << output.string() << "\n";
   return 0;
 }
@@ -117,6 +133,8 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
       ->allow_extra_args(false);
   if (!output.empty()) command->add_option("-o,--output", options.output, output);
   command->add_flag("--quiet", options.quiet, "print errors only");
+  command->add_flag("--no-programs", options.no_programs,
+                    "refuse a .geo that runs programs or writes files: it is a program itself");
   command
       ->add_option("--threads", options.threads,
                    "threads of the factorisation (default: all cores for large meshes, else 1)")
@@ -165,13 +183,22 @@ int parse_and_run(int argc, const char* const* argv) {
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv) {
+  const PrintableStream out(std::cout);
+  const PrintableStream err(std::cerr);
+  const auto refuse = [](const std::string& line) {
+    std::cerr << "mortise: error: " << printable(line) << "\n";
+    return 1;
+  };
   try {
     return parse_and_run(argc, argv);
   } catch (const InputError& error) {
-    std::cerr << "mortise: error: " << error.what() << "\n";
-    return 1;
+    return refuse(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return refuse(error.path1().string() + ": " + error.code().message());
+  } catch (const std::bad_alloc&) {
+    return refuse("out of memory: the mesh is too large for this machine");
   } catch (const std::exception& error) {
-    std::cerr << "mortise: internal error: " << error.what() << "\n";
+    std::cerr << "mortise: internal error: " << printable(error.what()) << "\n";
     return 3;
   }
 }

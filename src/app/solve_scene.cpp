@@ -47,7 +47,7 @@ std::string to_string(Status status) {
 Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSet* start) {
   Stopwatch watch;
   if (progress) progress("mesh");
-  Mesh mesh = load_mesh(scene.mesh_file, scene.mesh_parameters);
+  Mesh mesh = load_mesh(scene.mesh_file, scene.mesh_parameters, scene.geo_limits);
   const double seconds = watch.lap();
   Results results = solve_scene(scene, std::move(mesh), progress, start);
   results.seconds.mesh = seconds;
@@ -55,7 +55,7 @@ Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSe
 }
 
 CheckedScene check_scene(const Scene& scene) {
-  CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters), {}, {}};
+  CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters, scene.geo_limits), {}, {}};
   checked.discretisation = discretise(scene, checked.mesh);
   const Discretisation& d = checked.discretisation;
   const Constraints& constraints = d.constraints;

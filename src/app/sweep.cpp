@@ -7,7 +7,9 @@
 
 #include "app/diagnose.hpp"
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "io/csv.hpp"
+#include "io/staged_file.hpp"
 
 namespace mortise {
 namespace {
@@ -66,10 +68,9 @@ class Table {
       columns_[i].numbers.resize(rows_, std::numeric_limits<double>::quiet_NaN());
   }
   void write(const std::filesystem::path& path) const {
-    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
-    const std::filesystem::path staged = path.string() + ".part";
-    write_csv(staged, columns_);
-    std::filesystem::rename(staged, path);
+    StagedFile staged(path);
+    write_csv(staged.path(), columns_);
+    staged.commit();
   }
 
  private:
@@ -83,6 +84,12 @@ class Table {
   std::vector<CsvColumn> columns_;
   std::size_t rows_ = 0;
 };
+
+// Whether a file with that header is a table of ours: its columns end with "status", or go on with the figures. No
+// scene, geometry or mesh begins so.
+bool is_table(const std::string& header) {
+  return header.ends_with(",status") || header.find(",status,nodes,elements,dofs,") != std::string::npos;
+}
 
 }  // namespace
 
@@ -101,6 +108,8 @@ Variation parse_variation(const std::string& text) {
 Status sweep(const std::string& scene_path, const std::vector<Override>& overrides,
              const std::vector<Variation>& variations, const std::filesystem::path& csv, bool diagnosed,
              const std::function<void(const std::string& line)>& report) {
+  if (csv.has_parent_path()) std::filesystem::create_directories(csv.parent_path());
+  check_target(csv, {scene_path}, is_table);
   std::size_t total = 1;
   for (const Variation& v : variations) total *= v.values.size();
   Table table(variations);
@@ -125,7 +134,7 @@ Status sweep(const std::string& scene_path, const std::vector<Override>& overrid
       table.add(words, figures(results));
       worst = std::max(worst, results.status);
     } catch (const InputError& error) {
-      words.push_back(std::string("bad input: ") + error.what());
+      words.push_back(printable(std::string("bad input: ") + error.what()));
       table.add(words, {});
       worst = std::max(worst, Status::check_failed);
     }

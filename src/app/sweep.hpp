@@ -17,7 +17,8 @@ struct Variation {
 /// Throws InputError if there is no '=' or no value.
 Variation parse_variation(const std::string& text);
 
-/// Runs every combination (the last variation fastest) and writes one CSV row a run after each, atomically.
+/// Runs every combination (the last variation fastest) and writes one CSV row a run after each, atomically. Throws
+/// InputError if `csv` is a file of the scene's, or one that is there and no such table.
 /// A run on the same mesh as the one before starts from its active set.
 /// `diagnosed`: with the inf-sup constant (diagnose). A run that is bad input gets a row that says so; `report` is
 /// called after each run. Returns the worst status of all runs (bad input counts as check_failed).

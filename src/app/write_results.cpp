@@ -140,18 +140,22 @@ void write_interface_csv(const InterfaceRun& run, const std::filesystem::path& p
 void write_results(const Scene& scene, Results& results, const std::filesystem::path& folder) {
   Stopwatch watch;
   OutputFolder output(folder);
-  write_vtu(output.path("result.vtu"), result_grid(results));
-  if (!results.pairs.empty()) {
-    write_vtu(output.path("contact.vtu"), contact_grid(results));
-    write_contact_csv(results, output.path("contact.csv"));
-    write_centres_csv(results, output.path("contact_centres.csv"));
+  try {
+    write_vtu(output.path("result.vtu"), result_grid(results));
+    if (!results.pairs.empty()) {
+      write_vtu(output.path("contact.vtu"), contact_grid(results));
+      write_contact_csv(results, output.path("contact.csv"));
+      write_centres_csv(results, output.path("contact_centres.csv"));
+    }
+    if (results.interface) write_interface_csv(*results.interface, output.path("interface.csv"));
+  } catch (const InputError& error) {
+    throw InputError(output.with_target(error.what()));
   }
-  if (results.interface) write_interface_csv(*results.interface, output.path("interface.csv"));
   results.seconds.write = watch.lap();
   std::ofstream file(output.path("summary.json"));
   file << summary_json(scene, results).dump(2) << "\n";
-  if (!file.flush()) throw InputError(folder.string() + ": cannot write summary.json");
   file.close();
+  if (!file) throw InputError(folder.string() + ": cannot write summary.json");
   output.commit();
 }
 

@@ -6,20 +6,31 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <string_view>
 
 #include "base/errors.hpp"
 
 namespace mortise {
 namespace {
 
-/// Quoted where a plain field would be read as something else (RFC 4180).
+bool is_number(const std::string& word) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+/// Quoted where a plain field would be read as something else (RFC 4180; the semicolon parts fields in some countries).
+/// A spreadsheet takes what starts with = + - @ for a formula: an apostrophe before it says that it is text (OWASP,
+/// "CSV injection").
 void append_word(std::string& text, const std::string& word) {
-  if (word.find_first_of(",\"\r\n") == std::string::npos) {
+  const bool formula = !word.empty() && std::string_view("=+-@\t\r").find(word[0]) != std::string_view::npos;
+  const std::string field = formula && !is_number(word) ? "'" + word : word;
+  if (field.find_first_of(",;\"\t\r\n") == std::string::npos && field == word) {
     text += word;
     return;
   }
   text += '"';
-  for (const char c : word) {
+  for (const char c : field) {
     if (c == '"') text += '"';
     text += c;
   }

@@ -14,7 +14,8 @@ struct CsvColumn {
   std::vector<double> numbers;
 };
 
-/// All columns have the same length. Throws InputError if the file cannot be written.
+/// All columns have the same length. A word that a spreadsheet would take for a formula gets an apostrophe before it.
+/// Throws InputError if the file cannot be written.
 void write_csv(const std::filesystem::path& path, const std::vector<CsvColumn>& columns);
 
 }  // namespace mortise

@@ -1,74 +1,51 @@
 #include "io/geo_file.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <fstream>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
 #include <set>
-#include <sstream>
 
 #include "base/errors.hpp"
+#include "io/geo_programs.hpp"
+#include "io/geo_text.hpp"
 
 namespace mortise {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string read_text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
+/// The plain number at `i`, if there is one and nothing but a separator follows it.
+std::optional<double> number_at(const std::string& code, std::size_t i) {
+  i = skip_spaces(code, i);
+  double value = 0;
+  const auto [end, error] = std::from_chars(code.data() + i, code.data() + code.size(), value);
+  if (error != std::errc()) return std::nullopt;
+  const std::size_t next = skip_spaces(code, static_cast<std::size_t>(end - code.data()));
+  const bool whole = next >= code.size() || std::string_view(",}=").find(code[next]) != std::string_view::npos;
+  return whole ? std::optional(value) : std::nullopt;
 }
 
-/// The text with comments and the insides of strings turned into spaces: every other character keeps its place.
-std::string code_of(const std::string& text) {
-  std::string code = text;
-  std::size_t i = 0;
-  const auto blank_until = [&](const std::string& stop) {
-    const std::size_t found = text.find(stop, i);
-    const std::size_t end = found == std::string::npos ? text.size() : found;
-    for (; i < end; ++i) {
-      if (code[i] != '\n') code[i] = ' ';
+std::optional<double> number_behind(const std::string& entry, const char* word) {
+  const std::vector<std::size_t> ends = ends_of_word(entry, word);
+  return ends.empty() ? std::nullopt : number_at(entry, ends.front());
+}
+
+/// The numbers of Choices{1, 2} or Choices{0="no", 1="yes"}; none if one of them is not plain.
+std::vector<double> choices_of(const std::string& entry) {
+  std::vector<double> choices;
+  for (const std::size_t end : ends_of_word(entry, "Choices")) {
+    const std::size_t open = skip_spaces(entry, end);
+    if (open >= entry.size() || entry[open] != '{') return {};
+    const std::size_t stop = skip_brackets(entry, open);
+    for (std::size_t i = open; i < stop && entry[i] != '}'; i = std::min(entry.find_first_of(",}", i + 1), stop)) {
+      const std::optional<double> choice = number_at(entry, i + 1);
+      if (!choice) return {};
+      choices.push_back(*choice);
     }
-    i = end;
-  };
-  while (i < text.size()) {
-    if (text.compare(i, 2, "//") == 0) {
-      blank_until("\n");
-    } else if (text.compare(i, 2, "/*") == 0) {
-      code[i] = code[i + 1] = ' ';
-      i += 2;
-      blank_until("*/");
-      if (i < text.size()) code[i] = code[i + 1] = ' ';
-    } else if (text[i] == '"') {
-      ++i;
-      blank_until("\"");
-    }
-    ++i;
   }
-  return code;
-}
-
-bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
-std::size_t skip_spaces(const std::string& code, std::size_t i) {
-  while (i < code.size() && std::isspace(static_cast<unsigned char>(code[i])) != 0) ++i;
-  return i;
-}
-
-std::size_t skip_word(const std::string& code, std::size_t i) {
-  while (i < code.size() && in_word(code[i])) ++i;
-  return i;
-}
-
-/// Positions just behind each occurrence of the whole word.
-std::vector<std::size_t> ends_of_word(const std::string& code, const std::string& word) {
-  std::vector<std::size_t> ends;
-  for (std::size_t i = code.find(word); i != std::string::npos; i = code.find(word, i + 1)) {
-    const std::size_t end = i + word.size();
-    if ((i == 0 || !in_word(code[i - 1])) && (end == code.size() || !in_word(code[end]))) ends.push_back(end);
-  }
-  return ends;
+  return choices;
 }
 
 /// Whether the entry that goes on at `i` (behind its name) has a string for its default.
@@ -77,69 +54,111 @@ bool is_string(const std::string& code, std::size_t i) {
   if (i >= code.size() || code[i] != '=') return false;
   i = skip_spaces(code, i + 1);
   if (i < code.size() && code[i] == '{') i = skip_spaces(code, i + 1);
-  return i < code.size() && (code[i] == '"' || code.compare(i, 3, "Str") == 0);
+  return i < code.size() && (code[i] == '"' || code[i] == '\'' || code.compare(i, 3, "Str") == 0);
 }
 
-/// Names of the list "[ a = 1, b = {2, Min 1}, c ]" that starts at `i`.
-void add_constants(const std::string& code, std::size_t i, std::vector<std::string>& names) {
+/// The list "[ a = 1, b = {2, Min 1}, c ]" that starts at `i`.
+void add_constants(const std::string& code, std::size_t i, std::vector<GeoParameter>& parameters) {
   i = skip_spaces(code, i);
   if (i >= code.size() || (code[i] != '[' && code[i] != '(')) return;
-  int depth = 0;
-  do {
-    const char c = code[i++];
-    if (c == '[' || c == '(' || c == '{') ++depth;
-    if (c == ']' || c == ')' || c == '}') --depth;
-    if (depth != 1 || (c != '[' && c != '(' && c != ',')) continue;
+  const std::size_t stop = skip_brackets(code, i);
+  while (++i < stop) {
     const std::size_t start = skip_spaces(code, i);
     const std::size_t end = skip_word(code, start);
-    if (end > start && !is_string(code, end)) names.push_back(code.substr(start, end - start));
-    i = end;
-  } while (depth > 0 && i < code.size());
-}
-
-void check_no_exit(const fs::path& file, const std::string& code) {
-  for (const std::size_t end : ends_of_word(code, "Exit")) {
-    const auto line = 1 + std::count(code.begin(), code.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-    throw InputError(file.string() + ", line " + std::to_string(line) +
-                     ": the command Exit would end the program; remove it");
+    for (i = end; i < stop && code[i] != ',' && code[i] != ']' && code[i] != ')';) {
+      i = code[i] == '{' || code[i] == '(' || code[i] == '[' ? skip_brackets(code, i) : i + 1;
+    }
+    if (end == start || is_string(code, end)) continue;
+    const std::string entry = code.substr(end, std::min(i, stop) - end);
+    parameters.push_back(
+        {code.substr(start, end - start), number_behind(entry, "Min"), number_behind(entry, "Max"), choices_of(entry)});
   }
 }
 
-/// The files that this one reads with Include or Merge "name".
-std::vector<fs::path> included_files(const fs::path& file, const std::string& text, const std::string& code) {
-  std::vector<fs::path> files;
-  for (const char* word : {"Include", "Merge"}) {
-    for (const std::size_t end : ends_of_word(code, word)) {
-      const std::size_t start = skip_spaces(code, end);
-      if (start >= code.size() || code[start] != '"') continue;
-      const std::size_t stop = text.find('"', start + 1);
-      if (stop == std::string::npos) continue;
-      const fs::path name = text.substr(start + 1, stop - start - 1);
-      if (name.extension() == ".msh") continue;
-      files.push_back(file.parent_path() / name);
+void check_no_exit(const GeoText& geo) {
+  for (const char* word : {"Exit", "Abort"}) {
+    for (const std::size_t end : ends_of_word(geo.code, word)) {
+      throw InputError(place_of(geo, end) + ": the command " + word + " would end the program; remove it");
     }
   }
-  return files;
 }
 
-void scan(const fs::path& file, std::set<fs::path>& seen, std::vector<std::string>& names) {
-  if (!fs::is_regular_file(file) || !seen.insert(fs::weakly_canonical(file)).second) return;
-  const std::string text = read_text(file);
-  const std::string code = code_of(text);
-  check_no_exit(file, code);
-  for (const std::size_t end : ends_of_word(code, "DefineConstant")) add_constants(code, end, names);
-  for (const fs::path& included : included_files(file, text, code)) scan(included, seen, names);
+bool is_text(const fs::path& file) {
+  std::error_code ignored;
+  return file.extension() != ".msh" && fs::is_regular_file(file, ignored);
+}
+
+/// Calls visit(GeoText) for `file` and the files it includes, each once.
+template <typename Visit>
+void for_each_text(const fs::path& file, std::set<fs::path>& seen, Visit visit) {
+  std::error_code ignored;
+  if (!is_text(file) || !seen.insert(fs::weakly_canonical(file, ignored)).second) return;
+  const GeoText geo = read_geo_text(file);
+  visit(geo);
+  for (const GeoInclude& include : includes_of(geo)) for_each_text(include.file, seen, visit);
+}
+
+std::string decimal(double value) {
+  std::array<char, 40> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.10g", value);
+  return digits.data();
+}
+
+void check_range(const fs::path& file, const GeoParameter& parameter, double value) {
+  std::string expected;
+  if (parameter.min && value < *parameter.min) expected = "at least " + decimal(*parameter.min);
+  if (parameter.max && value > *parameter.max) expected = "at most " + decimal(*parameter.max);
+  if (!parameter.choices.empty() &&
+      std::find(parameter.choices.begin(), parameter.choices.end(), value) == parameter.choices.end()) {
+    for (const double choice : parameter.choices) expected += (expected.empty() ? "" : " or ") + decimal(choice);
+  }
+  if (expected.empty()) return;
+  throw InputError(file.string() + ": parameter '" + parameter.name + "' = " + decimal(value) + ": expected " +
+                   expected + ", as its DefineConstant says");
 }
 
 }  // namespace
 
-std::vector<std::string> geo_parameters(const fs::path& file) {
+std::vector<GeoParameter> geo_parameters(const fs::path& file) {
   std::set<fs::path> seen;
-  std::vector<std::string> names;
-  scan(file, seen, names);
+  std::vector<GeoParameter> parameters;
+  for_each_text(file, seen, [&](const GeoText& geo) {
+    check_no_exit(geo);
+    for (const std::size_t end : ends_of_word(geo.code, "DefineConstant")) add_constants(geo.code, end, parameters);
+  });
   std::set<std::string> listed;
-  std::erase_if(names, [&listed](const std::string& name) { return !listed.insert(name).second; });
-  return names;
+  std::erase_if(parameters, [&](const GeoParameter& parameter) { return !listed.insert(parameter.name).second; });
+  return parameters;
+}
+
+std::vector<fs::path> geo_inputs(const fs::path& file) {
+  std::set<fs::path> seen;
+  std::vector<fs::path> files{file};
+  for_each_text(file, seen, [&](const GeoText& geo) {
+    for (const GeoInclude& include : includes_of(geo)) {
+      if (!include.file.empty()) files.push_back(include.file);
+    }
+  });
+  return files;
+}
+
+void check_geo(const fs::path& file, const std::map<std::string, double>& values, bool programs) {
+  const std::vector<GeoParameter> known = geo_parameters(file);
+  std::vector<std::string> names;
+  for (const GeoParameter& parameter : known) names.push_back(parameter.name);
+  for (const auto& [name, value] : values) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      throw InputError(file.string() + ": " + unknown_name("parameter (DefineConstant)", name, names));
+    }
+    if (!std::isfinite(value)) {
+      throw InputError(file.string() + ": parameter '" + name + "' is not a finite number");
+    }
+    check_range(file, known[found - names.begin()], value);
+  }
+  if (programs) return;
+  std::set<fs::path> seen;
+  for_each_text(file, seen, [](const GeoText& geo) { check_no_programs(geo); });
 }
 
 }  // namespace mortise

@@ -1,15 +1,33 @@
-// What a .geo says about itself before gmsh reads it: the parameters that can be set from outside.
+// What a .geo says about itself before gmsh reads it: the parameters that can be set from outside, the files it reads,
+// and whether it runs programs.
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace mortise {
 
-/// Numbers that `file` and the files it includes name in DefineConstant, in the order of the text, each once.
+/// A number that a .geo names in DefineConstant: n = {7, Min 1, Max 99, Choices{1, 2}}.
+struct GeoParameter {
+  std::string name;
+  std::optional<double> min, max;  ///< where the .geo gives them as plain numbers
+  std::vector<double> choices;     ///< if any: the only values
+};
+
+/// Parameters of `file` and the files it includes, in the order of the text, each once.
 /// An Include whose name is not a plain string is not followed.
-/// Throws InputError, with the line, at an Exit command: gmsh would end our process there, with exit status 0.
-std::vector<std::string> geo_parameters(const std::filesystem::path& file);
+/// Throws InputError, with the line, at an Exit or Abort command, with which gmsh would end our process.
+std::vector<GeoParameter> geo_parameters(const std::filesystem::path& file);
+
+/// `file` and all files that it reads by Include or Merge with plain names, themselves or through one another.
+std::vector<std::filesystem::path> geo_inputs(const std::filesystem::path& file);
+
+/// Throws InputError unless all `values` are finite, of parameters that the .geo has, and in the ranges it gives.
+/// Without `programs` also, with the line, at the first command that runs a program or writes a file
+/// (geo_programs.hpp).
+void check_geo(const std::filesystem::path& file, const std::map<std::string, double>& values, bool programs);
 
 }  // namespace mortise

@@ -1,5 +1,6 @@
 #include "io/gmsh_session.hpp"
 
+#include <fcntl.h>
 #include <gmsh.h>
 #include <omp.h>
 #include <sys/mman.h>
@@ -7,12 +8,11 @@
 
 #include <array>
 #include <clocale>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 #include "base/errors.hpp"
-#include "io/geo_file.hpp"
+#include "base/printable.hpp"
 
 namespace mortise {
 namespace {
@@ -22,13 +22,13 @@ namespace fs = std::filesystem;
 /// Also after a .geo has been read, which may set any option. AbortOnError stays off: with it on, gmsh 4.8 throws a
 /// string out of an OpenMP region, which ends the process. Errors are found in the log instead.
 void set_options() {
-  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::option::setNumber("General.Terminal", 1);  // GmshGuard keeps it from the terminal, and quotes the last line
   gmsh::option::setNumber("General.Verbosity", 2);
   gmsh::option::setNumber("General.AbortOnError", 0);
   gmsh::option::setNumber("General.NumThreads", 1);
 }
 
-/// gmsh's first error since the start, as one line; empty if there was none.
+/// gmsh's first error since the start; empty if there was none.
 std::string first_error() {
   std::vector<std::string> log;
   gmsh::logger::get(log);
@@ -42,9 +42,6 @@ std::string first_error() {
     } else {
       ++more;
     }
-  }
-  for (char& c : first) {
-    if (c == '\n' || c == '\r') c = ' ';
   }
   if (more > 0) first += " (and " + std::to_string(more) + " more)";
   return first;
@@ -65,17 +62,7 @@ void run(const std::string& file, const std::string& what, Step step) {
   }
   const std::string logged = first_error();
   const std::string& message = logged.empty() ? thrown : logged;
-  if (!message.empty()) throw InputError(file + ": gmsh, " + what + ": " + message);
-}
-
-void check_parameters(const std::string& file, const std::map<std::string, double>& parameters) {
-  const std::vector<std::string> known = geo_parameters(file);
-  for (const auto& [name, value] : parameters) {
-    bool found = false;
-    for (const std::string& candidate : known) found = found || candidate == name;
-    if (!found) throw InputError(file + ": " + unknown_name("parameter (DefineConstant)", name, known));
-    if (!std::isfinite(value)) throw InputError(file + ": parameter '" + name + "' is not a finite number");
-  }
+  if (!message.empty()) throw InputError(file + ": gmsh, " + what + ": " + printable(message));
 }
 
 /// A file that lives in memory as long as this object, with a path that gmsh can open.
@@ -98,18 +85,62 @@ class MemoryFile {
   int descriptor_;
 };
 
+/// Whether gmsh can be given this text between quotes: its strings know no escapes, and end at 1023 characters.
+bool can_be_quoted(const std::string& text) {
+  return text.size() < 1000 && text.find_first_of("\"\\") == std::string::npos && printable(text) == text;
+}
+
+/// A path to a .geo in words that gmsh can be given. A folder whose name cannot be quoted goes by the number of a
+/// descriptor, and the files that the .geo includes are found from there.
+class QuotedPath {
+ public:
+  explicit QuotedPath(const std::string& file) : path_(fs::absolute(file)) {
+    const std::string name = path_.filename().string();
+    if (!can_be_quoted(name)) {
+      throw InputError(file + ": gmsh cannot open a file with quotes, backslashes or control characters in its name");
+    }
+    if (can_be_quoted(path_.string())) return;
+    folder_ = path_.parent_path().string();
+    descriptor_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor_ < 0) throw InputError(file + ": its folder cannot be opened");
+    path_ = number() + "/" + name;
+  }
+  ~QuotedPath() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  QuotedPath(const QuotedPath&) = delete;
+  QuotedPath& operator=(const QuotedPath&) = delete;
+
+  std::string path() const { return path_.string(); }
+  /// A message with the folder's own name in it again.
+  std::string shown(std::string message) const {
+    for (std::size_t i = 0; descriptor_ >= 0 && (i = message.find(number(), i)) != std::string::npos;) {
+      message.replace(i, number().size(), folder_);
+      i += folder_.size();
+    }
+    return message;
+  }
+
+ private:
+  std::string number() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+  fs::path path_;
+  std::string folder_;
+  int descriptor_ = -1;
+};
+
 /// Assignments, then the .geo itself: DefineConstant leaves a variable alone that exists already.
 /// gmsh's own way, -setnumber, cannot be undone: its values outlive gmsh::finalize and would leak into the next mesh.
 /// Without parameters too: of a .geo that it opens itself, gmsh 4.8 silently drops the last statement if no newline
 /// follows, of an included one it does not.
-std::string preamble(const std::string& file, const std::map<std::string, double>& parameters) {
+std::string preamble(const std::string& path, const std::map<std::string, double>& parameters) {
   std::string text;
   for (const auto& [name, value] : parameters) {
     std::array<char, 40> digits{};
     std::snprintf(digits.data(), digits.size(), "%.17g", value);
     text += name + " = " + digits.data() + ";\n";
   }
-  return text + "Include \"" + fs::absolute(file).string() + "\";\n";
+  return text + "Include \"" + path + "\";\n";
 }
 
 bool has_cells() {
@@ -138,25 +169,19 @@ GmshSession::~GmshSession() {
 }
 
 void GmshSession::open(const std::string& file, const std::map<std::string, double>& parameters) {
-  const fs::path extension = fs::path(file).extension();
-  if (extension != ".geo" && extension != ".msh") {
-    throw InputError(file + ": a mesh file ends in .geo or .msh");
-  }
-  if (!fs::is_regular_file(file)) throw InputError(file + ": no such file");
-  if (extension == ".msh" && !parameters.empty()) {
-    throw InputError(file + ": parameter '" + parameters.begin()->first +
-                     "' given to a mesh; only a .geo has parameters");
-  }
-  if (extension == ".geo") check_parameters(file, parameters);
-
-  if (extension == ".msh") {
+  if (fs::path(file).extension() == ".msh") {
     run(file, "reading", [&] { gmsh::open(file); });
     return;
   }
-  const MemoryFile script(preamble(file, parameters));
-  run(file, "reading", [&] { gmsh::open(script.path()); });
-  set_options();
-  if (!has_cells()) run(file, "meshing", [] { gmsh::model::mesh::generate(2); });
+  const QuotedPath quoted(file);
+  const MemoryFile script(preamble(quoted.path(), parameters));
+  try {
+    run(file, "reading", [&] { gmsh::open(script.path()); });
+    set_options();
+    if (!has_cells()) run(file, "meshing", [] { gmsh::model::mesh::generate(2); });
+  } catch (const InputError& error) {
+    throw InputError(quoted.shown(error.what()));
+  }
 }
 
 void GmshSession::write(const std::string& output) {

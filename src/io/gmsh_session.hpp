@@ -18,7 +18,7 @@ class GmshSession {
   GmshSession& operator=(const GmshSession&) = delete;
 
   /// Opens a .msh, or a .geo with these values for its DefineConstant names, and meshes its surfaces unless the .geo
-  /// has done so itself. Throws InputError with gmsh's own message.
+  /// has done so itself. Throws InputError with gmsh's own message. A GmshGuard should be there.
   void open(const std::string& file, const std::map<std::string, double>& parameters);
 
   /// Writes the open mesh as .msh, format 4.1. Throws InputError with gmsh's own message.

@@ -97,7 +97,16 @@ fs::path resolved(const fs::path& target) {
   return path.has_filename() ? path : path.parent_path();
 }
 
-void check_target(const fs::path& shown, const fs::path& target) {
+/// A folder of the name of one of our files: we would neither replace nor carry it over.
+void check_no_folders(const fs::path& shown, const fs::path& target) {
+  for (const std::string_view name : own_files) {
+    if (!fs::is_directory(target / name)) continue;
+    throw InputError((shown / name).string() +
+                     ": is a folder where a file of results goes; expected it to be moved away");
+  }
+}
+
+void check_folder(const fs::path& shown, const fs::path& target) {
   if (fs::exists(target) && !fs::is_directory(target)) {
     throw InputError(shown.string() + ": cannot write results here: it is a file, expected a folder");
   }
@@ -107,6 +116,7 @@ void check_target(const fs::path& shown, const fs::path& target) {
     throw InputError(shown.string() + ": cannot write results here: it is or holds the current folder; " +
                      "expected a folder of their own");
   }
+  check_no_folders(shown, target);
 }
 
 [[noreturn]] void fail(const fs::path& target, const fs::filesystem_error& error) {
@@ -115,10 +125,16 @@ void check_target(const fs::path& shown, const fs::path& target) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(fs::path target) {
+void check_output_folder(const fs::path& target) try {
+  check_folder(target, resolved(target));
+} catch (const fs::filesystem_error& error) {
+  fail(target, error);
+}
+
+OutputFolder::OutputFolder(fs::path target) : shown_(target) {
   try {
     target_ = resolved(target);
-    check_target(target, target_);
+    check_folder(target, target_);
     fs::create_directories(target_.parent_path());
     tidy_up(target_);
     staging_ = staging_path(target_, getpid());
@@ -140,6 +156,12 @@ OutputFolder::~OutputFolder() {
 fs::path OutputFolder::path(const std::string& name) const {
   assert(is_listed(name) && "a new output belongs into own_files");
   return staging_ / name;
+}
+
+std::string OutputFolder::with_target(std::string message) const {
+  const std::string hidden = staging_.string();
+  const std::size_t at = hidden.empty() ? std::string::npos : message.find(hidden);
+  return at == std::string::npos ? message : message.replace(at, hidden.size(), shown_.string());
 }
 
 void OutputFolder::commit() {

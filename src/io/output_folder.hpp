@@ -6,6 +6,10 @@
 
 namespace mortise {
 
+/// Throws InputError where results cannot be put, as far as can be told before they are written: `target` is a file, or
+/// holds the current folder, or a folder with the name of one of our files.
+void check_output_folder(const std::filesystem::path& target);
+
 /// Files are written into a hidden folder beside the target; commit() puts it in the target's place in one atomic
 /// step (renameat2 with RENAME_EXCHANGE where the target exists). Killed before that, the old results stand.
 /// Files in the old folder that mortise did not write are carried over, never deleted. What mortise writes is listed
@@ -13,8 +17,8 @@ namespace mortise {
 class OutputFolder {
  public:
   /// Makes the hidden folder, and the target's parents; tidies up after processes that died while writing here.
-  /// Throws InputError if the folder cannot be made, `target` is a file, or the work goes on inside `target` (the
-  /// current folder would be exchanged under our feet).
+  /// Throws InputError if the folder cannot be made, `target` is a file, a folder in it has the name of a file of ours,
+  /// or the work goes on inside `target` (the current folder would be exchanged under our feet).
   explicit OutputFolder(std::filesystem::path target);
   /// Removes what was not committed.
   ~OutputFolder();
@@ -23,10 +27,13 @@ class OutputFolder {
 
   /// Where to write the file `name`, one of those listed, before commit().
   std::filesystem::path path(const std::string& name) const;
+  /// A message with the target's name, as it was given, for the hidden folder's.
+  std::string with_target(std::string message) const;
   /// Once, after all files are written and closed. Throws InputError if the file system refuses.
   void commit();
 
  private:
+  std::filesystem::path shown_;  ///< the target as it was given
   std::filesystem::path target_;
   std::filesystem::path staging_;  ///< empty after commit()
 };

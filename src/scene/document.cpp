@@ -3,10 +3,12 @@
 
 // toml++ 3.3 asserts, in debug builds, on some text that it goes on to refuse properly, for example "[#".
 #define TOML_ASSERT(condition) static_assert(true)
+#define TOML_MAX_NESTED_VALUES 32  // lists and inline tables in one another
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <sstream>
 #include <utility>
@@ -96,6 +98,39 @@ Node convert(const toml::node& source, std::string name, std::string path, const
   return node;
 }
 
+constexpr int deepest_key = 32;
+
+/// Position of the quote that closes the one at `i`, or `i` if none does on its line, nearby.
+std::size_t end_of_quoted(const std::string& text, std::size_t i) {
+  const std::size_t last = std::min(text.size(), i + 4096);
+  for (std::size_t end = i + 1; end < last && text[end] != '\n'; ++end) {
+    if (text[end] == text[i]) return end;
+    if (text[end] == '\\' && text[i] == '"') ++end;
+  }
+  return i;
+}
+
+/// Whether some key has more parts than a scene ever needs. toml++ goes one call deeper with each: 20 000 parts end the
+/// process. Found without parsing, as a row of words with dots between them, wherever it stands.
+bool has_deep_key(const std::string& text) {
+  int parts = 0;       // of the row so far
+  char before = '\n';  // the last character that is no blank: '.', 'w' for a word, else another
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') i = end_of_quoted(text, i);
+    if (c == ' ' || c == '\t') continue;
+    const bool in_word = std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '"' || c == '\'';
+    const bool goes_on = i > 0 && before == 'w' && text[i - 1] != ' ' && text[i - 1] != '\t';
+    if (in_word && !goes_on) parts = before == '.' ? parts + 1 : 1;
+    if (!in_word && !(c == '.' && before == 'w')) parts = 0;
+    if (parts > deepest_key) return true;
+    before = in_word ? 'w' : c;
+  }
+  return false;
+}
+
+constexpr const char* too_deep = "a key of more than 32 parts; expected one such as method.kind";
+
 bool has_line_break(const std::string& text) { return text.find_first_of("\r\n") != std::string::npos; }
 
 }  // namespace
@@ -107,6 +142,7 @@ std::string join_path(const std::string& path, const std::string& name) {
 Node parse_document(const std::string& text, const std::string& file) {
   Place place;
   place.file = file;
+  if (has_deep_key(text)) fail(place, "", too_deep);
   try {
     Node root = convert(toml::parse(text, file), "", "", place);
     root.place.line = 0;
@@ -118,6 +154,7 @@ Node parse_document(const std::string& text, const std::string& file) {
 }
 
 Node parse_value(const std::string& text, const Node& spot, const Place& place) {
+  if (has_deep_key(text)) fail(place, spot.path, too_deep);
   try {
     // A line break would let the text set other keys than its own.
     if (!has_line_break(text)) {
@@ -137,7 +174,7 @@ Node parse_value(const std::string& text, const Node& spot, const Place& place) 
 }
 
 std::vector<std::string> split_key(const std::string& key) {
-  if (has_line_break(key) || key.find('=') != std::string::npos) return {};
+  if (has_line_break(key) || key.find('=') != std::string::npos || has_deep_key(key)) return {};
   try {
     const toml::table document = toml::parse(key + " = 0");
     std::vector<std::string> parts;

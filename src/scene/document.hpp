@@ -27,14 +27,16 @@ struct Node {
   std::vector<Node> items;  ///< of a table or a list
 };
 
-/// Parses the text of a scene file. Throws InputError with file, line and what TOML expected.
+/// Parses the text of a scene file. Throws InputError with file, line and what TOML expected, and where a key has more
+/// than 32 parts.
 Node parse_document(const std::string& text, const std::string& file);
 
 /// The value that the right-hand side of an override stands for: a TOML value (number, bool, quoted string, list,
 /// inline table) if it is one, else the text itself as a string. It takes name and path of `spot`, where it will stand.
 Node parse_value(const std::string& text, const Node& spot, const Place& place);
 
-/// The parts of a dotted TOML key (quoted parts may contain dots); empty if `key` is not one.
+/// The parts of a dotted TOML key (quoted parts may contain dots); empty if `key` is not one, or has more
+/// than 32.
 std::vector<std::string> split_key(const std::string& key);
 
 /// "PATH.NAME", or NAME at the top of the document.

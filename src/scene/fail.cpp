@@ -1,28 +1,16 @@
 #include "scene/fail.hpp"
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 
 namespace mortise::scene_file {
 namespace {
 
 constexpr std::size_t longest_value = 80;
+constexpr std::size_t longest_setting = 400;
 
-std::string one_line(const std::string& text) {
-  std::string line;
-  for (const char c : text) {
-    if (c == '\n') {
-      line += "\\n";
-    } else if (c == '\t') {
-      line += "\\t";
-    } else {
-      line += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-    }
-  }
-  return line;
-}
-
-std::string clipped(const std::string& text) {
-  return text.size() <= longest_value ? text : text.substr(0, longest_value) + "...";
+std::string clipped(const std::string& text, std::size_t longest = longest_value) {
+  return text.size() <= longest ? text : text.substr(0, longest) + "...";
 }
 
 /// Appended piece by piece: gcc 12 warns falsely (-Wrestrict) of "[" + std::string.
@@ -47,13 +35,13 @@ std::string describe_list(const Node& list) {
 void fail(const Place& place, const std::string& path, const std::string& trouble) {
   std::string text = place.file;
   if (!place.setting.empty()) {
-    text += ": " + place.setting;
+    text += ": " + clipped(place.setting, longest_setting);
   } else if (place.line > 0) {
     text += ':';
     text += std::to_string(place.line);
   }
-  if (!path.empty()) text += ": " + path;
-  throw InputError(one_line(text + ": " + trouble));
+  if (!path.empty()) text += ": " + clipped(path, longest_setting);
+  throw InputError(printable(text + ": " + trouble));
 }
 
 void fail(const Node& node, const std::string& trouble) { fail(node.place, node.path, trouble); }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <vector>
 
@@ -13,6 +12,8 @@ namespace mortise::scene_file {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t largest_scene = 4'000'000;  // characters
 
 std::string nearest_file(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path{"."};
@@ -32,20 +33,22 @@ std::string file_trouble(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) return "is a folder; expected a file";
-  if (fs::exists(status)) return {};
+  if (fs::is_regular_file(status)) return {};
+  if (fs::exists(status)) return "is a device or a pipe; expected a file";
   if (status.type() != fs::file_type::not_found) return "cannot be looked at: " + error.message();
   const std::string nearest = nearest_file(path);
   return "no such file" + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
 }
 
 std::string read_text(const fs::path& path) {
+  Place place;
+  place.file = path.string();
   std::ifstream stream(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream.is_open() || stream.bad()) {
-    Place place;
-    place.file = path.string();
-    fail(place, "", "cannot be read; expected a readable file");
-  }
+  std::string text(largest_scene + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream.is_open() || stream.bad()) fail(place, "", "cannot be read; expected a readable file");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > largest_scene) fail(place, "", "is larger than 4 MB; expected a scene file, a page or two of text");
   return text;
 }
 

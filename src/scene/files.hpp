@@ -9,7 +9,7 @@ namespace mortise::scene_file {
 /// What is wrong with `path` as a file to read, with the nearest file of the same ending beside it; empty if nothing.
 std::string file_trouble(const std::filesystem::path& path);
 
-/// The whole text of a file. Throws InputError, naming the file, if it cannot be read.
+/// The whole text of a scene file. Throws InputError, naming the file, if it cannot be read or is larger than 4 MB.
 std::string read_text(const std::filesystem::path& path);
 
 }  // namespace mortise::scene_file

@@ -98,7 +98,8 @@ void apply_override(Node& root, const Override& change) {
   setting.place.setting = "--set " + change.key + "=" + change.value;
   if (setting.parts.empty()) {
     fail(setting.place, "",
-         "'" + change.key + "' is not a dotted key; expected one such as method.kind or boundary.2.pressure");
+         "'" + change.key.substr(0, 80) +
+             "' is not a dotted key; expected one such as method.kind or boundary.2.pressure");
   }
   const Node* contacts = find(root, "contact");
   if (!means_every_pair(setting.parts, contacts)) {

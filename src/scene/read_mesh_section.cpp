@@ -25,11 +25,20 @@ void check_mesh_file(const Node& file, const fs::path& path) {
   if (!trouble.empty()) fail(file, "'" + path.string() + "': " + trouble);
 }
 
+void read_limits(const Node& mesh, Scene& scene) {
+  if (const Node* limit = find(mesh, "time_limit")) scene.geo_limits.seconds = positive_number(*limit);
+  if (const Node* programs = find(mesh, "programs")) {
+    if (programs->kind != Node::Kind::boolean) fail(*programs, "expected true or false, found " + describe(*programs));
+    scene.geo_limits.programs = programs->text == "true";
+  }
+}
+
 }  // namespace
 
 void read_mesh_section(const Node& root, Scene& scene) {
   const Node& mesh = require(root, "mesh", "a table [mesh] with file = \"NAME.geo\" or \"NAME.msh\"");
-  expect_keys(mesh, {"file", "parameters"});
+  expect_keys(mesh, {"file", "parameters", "time_limit", "programs"});
+  read_limits(mesh, scene);
   const Node& file = require(mesh, "file", "the name of a .geo or a .msh file");
   const fs::path path = resolve(file, scene.path);
   check_mesh_file(file, path);

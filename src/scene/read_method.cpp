@@ -22,6 +22,8 @@ int read_count(const Node& node) {
 }
 
 void read_ddm(const Node& node, Scene& scene) {
+  if (scene.contacts.empty())
+    fail(*find(node, "kind"), "domain decomposition needs a [[contact]] to iterate on; expected one, or \"mortar\"");
   DdmSpec& ddm = scene.method.ddm;
   ddm.scheme = choice(find(node, "scheme"),
                       {Scheme::neumann_dirichlet, Scheme::neumann_neumann, Scheme::dirichlet_dirichlet}, ddm.scheme);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/geo_limits.hpp"
 #include "base/model.hpp"
 #include "base/types.hpp"
 
@@ -92,6 +93,7 @@ struct Scene {
   std::string title;
   std::string mesh_file;  ///< absolute or relative to the working directory
   std::map<std::string, double> mesh_parameters;
+  GeoLimits geo_limits;
   Plane plane = Plane::strain;
   std::map<std::string, Material> materials;
   std::vector<BodySpec> bodies;

@@ -216,6 +216,15 @@ const BadInput bad_input[] = {
      {"--set", "contact.initial_gap=closed", "--set", "mesh.parameters.gap=0.01"},
      {"0.01 apart", "measured"},
      "gap_close.toml"},
+    {"NegativeNumberOfElements",
+     {"--set", "mesh.parameters.n_upper=-3"},
+     {"patch_flat.geo", "'n_upper' = -3", "at least 1"}},
+    {"DomainDecompositionWithoutAPair",
+     {"--set", "contact=[]", "--set", "method.kind=ddm"},
+     {"method.kind", "[[contact]]"}},
+    {"KeyOfTooManyParts",
+     {"--set", "a.b.c.d.e.f.g.h.i.j.a.b.c.d.e.f.g.h.i.j.a.b.c.d.e.f.g.h.i.j.k.l.m.n=1"},
+     {"dotted key"}},
     {"CurvesThatDoNotFace",
      {"--set", "contact.0.between=[\"top\",\"bottom\"]", "--set", "contact.0.initial_gap=measured"},
      {"face"}},
@@ -237,6 +246,103 @@ TEST_P(BadInputs, OneLineExitOneFolderUntouched) {
 
 INSTANTIATE_TEST_SUITE_P(Table, BadInputs, testing::ValuesIn(bad_input),
                          [](const auto& row) { return std::string(row.param.name); });
+
+// ---- Files of others ----
+
+void expect_refused(const Outcome& o, const std::string& said) {
+  EXPECT_EQ(o.status, 1) << o.err;
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+  EXPECT_NE(o.err.find(said), std::string::npos) << o.err;
+}
+
+/// A copy of geo/patch_flat.toml with its .geo made plain: one file in one folder.
+std::string scene_in(const TemporaryFolder& folder, const std::string& change = "") {
+  const std::string geometry = text_of(geo("patch_flat.geo"));
+  fs::create_directory(folder.path("common"));
+  for (const auto& entry : fs::directory_iterator(geo("common")))
+    fs::copy_file(entry.path(), folder.path("common") / entry.path().filename());
+  folder.write("patch_flat.geo", change + geometry);
+  return folder.write("scene.toml", text_of(geo("patch_flat.toml")));
+}
+
+TEST(CommandLineFiles, ASweepNeverReplacesWhatIsNotItsOwn) {
+  const TemporaryFolder folder;
+  const std::string scene = scene_in(folder), text = text_of(scene);
+  const std::vector<std::string> start{"sweep", scene, "--vary", "mesh.parameters.n_upper=3", "-o"};
+  const auto run = [&](const std::string& csv) {
+    std::vector<std::string> arguments = start;
+    arguments.push_back(csv);
+    return mortise(arguments);
+  };
+  expect_refused(run(scene), "it is the input");
+  fs::create_symlink(scene, folder.path("link.csv"));
+  expect_refused(run(folder.path("link.csv")), "it is the input");
+  expect_refused(run(folder.path("patch_flat.geo")), "mortise did not write");
+  expect_refused(run(folder.write("mine.csv", "a,b\n1,2\n")), "mortise did not write");
+  expect_refused(run(folder.path("common")), "it is a folder");
+  fs::create_symlink("loop.csv", folder.path("loop.csv"));
+  expect_refused(run(folder.path("loop.csv")), "loop.csv");
+  expect_refused(run("/proc/no/such.csv"), "/proc/no");
+  const std::string part = folder.write("s.csv.part", "mine");
+  for (int again = 0; again < 2; ++again) EXPECT_EQ(run(folder.path("s.csv")).status, 0);
+  EXPECT_EQ(text_of(part), "mine");
+  EXPECT_EQ(text_of(scene), text);
+}
+
+TEST(CommandLineFiles, AMeshNeverReplacesItsOwnInput) {
+  const TemporaryFolder folder;
+  const std::string scene = scene_in(folder), msh = folder.path("m.msh");
+  ASSERT_EQ(mortise({"mesh", scene, "-o", msh}).status, 0);
+  const std::string text = text_of(msh);
+  expect_refused(mortise({"mesh", scene, "--set", "mesh={file=\"" + msh + "\"}", "-o", msh}), "it is the input");
+  EXPECT_EQ(text_of(msh), text);
+  EXPECT_EQ(mortise({"mesh", scene, "-o", msh}).status, 0);  // an older mesh may be
+}
+
+TEST(CommandLineFiles, ResultsGoNowhereThatIsNoFolderOfTheirOwn) {
+  const TemporaryFolder folder;
+  fs::create_symlink("loop", folder.path("loop"));
+  fs::create_directories(folder.path("run/result.vtu"));
+  for (const std::string& out :
+       {folder.write("file", "x"), folder.path("loop"), folder.path("run"), std::string("/proc/x")})
+    expect_refused(mortise({"solve", geo("patch_flat.toml"), "-o", out}), out);
+  EXPECT_TRUE(fs::is_directory(folder.path("run/result.vtu")));
+}
+
+TEST(CommandLineFiles, WithoutProgramsAGeoThatRunsOneIsRefused) {
+  const TemporaryFolder folder;
+  const std::string proof = folder.path("proof");
+  const std::string scene = scene_in(folder, "SystemCall \"touch " + proof + "\";\n");
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"solve", scene, "-o", folder.path("run")}, {"check", scene}, {"mesh", scene, "-o", folder.path("m.msh")}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--no-programs", "--set", "mesh.programs=true"});
+    expect_refused(mortise(arguments), "patch_flat.geo, line 1: 'SystemCall'");
+  }
+  const Outcome o =
+      mortise({"sweep", scene, "--no-programs", "--vary", "mesh.parameters.n_upper=3", "-o", folder.path("s.csv")});
+  EXPECT_EQ(o.status, 2);
+  EXPECT_NE(o.err.find("'SystemCall'"), std::string::npos) << o.err;
+  EXPECT_FALSE(fs::exists(proof));
+  EXPECT_EQ(mortise({"check", scene}).status, 0);  // allowed unless it is asked for
+  EXPECT_TRUE(fs::exists(proof));
+}
+
+TEST(CommandLineFiles, ControlCharactersDoNotReachTheTerminal) {
+  const TemporaryFolder folder;
+  const std::string title = "title=\"red \\u001B[31m, bell \\u0007,\\nforged line \\u009B\"";
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"solve", geo("patch_flat.toml"), "-o", folder.path("run\x1b[2J"), "--set", title},
+           {"check", geo("patch_flat.toml"), "--set", title},
+           {"check", folder.path("none\n\x1b.toml")},
+           {"solve\x1b"}}) {
+    const Outcome o = mortise(command);
+    for (const char c : o.out + o.err)
+      EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20 || c == '\n') << o.out << o.err;
+    EXPECT_EQ((o.out + o.err).find("\nforged"), std::string::npos) << o.out;
+    EXPECT_EQ((o.out + o.err).find("\xc2\x9b"), std::string::npos) << o.out;
+  }
+}
 
 TEST(BadCommands, MissingOrUnknown) {
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{

@@ -22,6 +22,16 @@ TEST(Csv, WritesWordsNumbersAndEmptyFields) {
   EXPECT_EQ(text_of(file), "curve,p\ntop,1.5\n\"the \"\"lower\"\", left\",\n");
 }
 
+TEST(Csv, NoWordIsAFormula) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.csv";
+  write_csv(file, {{"=name", {"=1+1", "+a", "-b", "@c", "\td", "a;=1", "-3", "-1.5e6"}, {}},
+                   {"x", {}, {-1, -2, -3, -4, -5, -6, -7, -8}}});
+  EXPECT_EQ(
+      text_of(file),
+      "\"'=name\",x\n\"'=1+1\",-1\n\"'+a\",-2\n\"'-b\",-3\n\"'@c\",-4\n\"'\td\",-5\n\"a;=1\",-6\n-3,-7\n-1.5e6,-8\n");
+}
+
 TEST(Csv, NumbersComeBackToTheBit) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a.csv";

@@ -10,8 +10,15 @@
 namespace mortise {
 namespace {
 
+using test::message_of;
 using test::TemporaryFolder;
 using Names = std::vector<std::string>;
+
+Names names_of(const std::string& file) {
+  Names names;
+  for (const GeoParameter& parameter : geo_parameters(file)) names.push_back(parameter.name);
+  return names;
+}
 
 TEST(GeoParameters, AreTheNumbersInDefineConstant) {
   const TemporaryFolder folder;
@@ -26,7 +33,7 @@ TEST(GeoParameters, AreTheNumbersInDefineConstant) {
     DefineConstant[ word = "a", choice = {"b", Name "c"}, joined = Str("d") ];
     MyDefineConstant[ other = 1 ];
   )");
-  EXPECT_EQ(geo_parameters(file), (Names{"n_upper", "n_lower", "h", "plain", "angle"}));
+  EXPECT_EQ(names_of(file), (Names{"n_upper", "n_lower", "h", "plain", "angle"}));
 }
 
 TEST(GeoParameters, ComeFromIncludedFilesToo) {
@@ -39,7 +46,7 @@ TEST(GeoParameters, ComeFromIncludedFilesToo) {
     // Include "part/none.geo";
     Include "missing.geo";
   )");
-  EXPECT_EQ(geo_parameters(file), (Names{"a", "b", "c"}));
+  EXPECT_EQ(names_of(file), (Names{"a", "b", "c"}));
 }
 
 TEST(GeoParameters, OfUnfinishedTextDoNotHang) {
@@ -48,6 +55,53 @@ TEST(GeoParameters, OfUnfinishedTextDoNotHang) {
                            "DefineConstant[ a = \"", "//"}) {
     EXPECT_NO_THROW(geo_parameters(folder.write("a.geo", text))) << text;
   }
+}
+
+TEST(GeoParameters, HaveTheRangesThatTheGeoGives) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.geo", R"(
+    DefineConstant[ n = {7, Min 1, Max 2e2, Step 1, Name "Max 5"}, h = {1, Min 0.5*x, Max -y}, free = 3,
+                    kind = {0, Choices{0="quads", 1="triangles"}}, order = {2, Choices{1, 2}} ];
+  )");
+  const std::vector<GeoParameter> parameters = geo_parameters(file);
+  ASSERT_EQ(parameters.size(), 5U);
+  EXPECT_EQ(parameters[0].min, 1.0);
+  EXPECT_EQ(parameters[0].max, 200.0);
+  for (const int i : {1, 2}) EXPECT_FALSE(parameters[i].min || parameters[i].max) << parameters[i].name;
+  EXPECT_EQ(parameters[3].choices, (std::vector<double>{0, 1}));
+  EXPECT_EQ(parameters[4].choices, (std::vector<double>{1, 2}));
+}
+
+TEST(GeoParameters, OutsideTheirRangeAreRefused) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.geo", "DefineConstant[ n = {7, Min 1, Max 9}, kind = {0, Choices{0, 1}} ];");
+  const auto message = [&](const std::string& name, double value) {
+    return message_of([&] { check_geo(file, {{name, value}}, true); });
+  };
+  EXPECT_EQ(message("n", -3), file + ": parameter 'n' = -3: expected at least 1, as its DefineConstant says");
+  test::expect_contains(message("n", 10), "expected at most 9");
+  test::expect_contains(message("kind", 2), "expected 0 or 1");
+  for (const double good : {1.0, 9.0}) EXPECT_NO_THROW(check_geo(file, {{"n", good}}, true));
+}
+
+TEST(GeoParameters, ANegativeNumberOfElementsIsRefusedByEveryGeoOfOurs) {
+  const std::string geo = std::string(MORTISE_SOURCE_DIR) + "/geo/";
+  for (const auto& entry : std::filesystem::directory_iterator(geo)) {
+    if (entry.path().extension() != ".geo") continue;
+    for (const GeoParameter& parameter : geo_parameters(entry.path())) {
+      if (parameter.name.starts_with("n_")) {
+        EXPECT_EQ(parameter.min, 1.0) << entry.path() << " " << parameter.name;
+      }
+    }
+  }
+}
+
+TEST(GeoInputs, AreAllFilesThatItReads) {
+  const TemporaryFolder folder;
+  folder.write("part/b.geo", "Merge \"c.msh\";");
+  const std::string file = folder.write("a.geo", "Include 'part/b.geo';\nMerge StrCat(\"x\", \"y\");");
+  EXPECT_EQ(geo_inputs(file),
+            (std::vector<std::filesystem::path>{file, folder.path("part/b.geo"), folder.path("part/c.msh")}));
 }
 
 TEST(GeoParameters, RefuseTheExitCommand) {

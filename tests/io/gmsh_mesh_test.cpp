@@ -3,10 +3,12 @@
 #include <gmsh.h>
 #include <gtest/gtest.h>
 #include <omp.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <clocale>
 #include <cmath>
+#include <csignal>
 
 #include "../mesh/grid.hpp"
 #include "base/errors.hpp"
@@ -242,6 +244,63 @@ TEST(WriteMsh, CanBeReadBack) {
   EXPECT_EQ(shape(load_mesh(msh, {})), shape(load_mesh(geo, parameters)));
   EXPECT_EQ(test::text_of(msh).substr(0, 16), "$MeshFormat\n4.1 ");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);  // nothing half-written
+}
+
+TEST(GmshMeshFile, AFoldersNameIsNoCode) {
+  const TemporaryFolder folder;
+  const std::string proof = folder.path("proof");
+  const std::string name = "a\"; SystemCall \"touch " + std::string("proof") + "\"; x=\"\n\\b";
+  folder.write(name + "/part/plates.geo", kTwoPlates);
+  const std::string geo = folder.write(name + "/two.geo", "Include \"part/plates.geo\";\n");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  EXPECT_EQ(kinds_of(load_mesh(geo, {{"n_upper", 5}})), std::vector<CellKind>{CellKind::tri3});
+  folder.write(name + "/bad.geo", "\n\nx = y;\n");
+  const std::string message = message_of([&] { load_mesh(folder.path(name + "/bad.geo"), {}); });
+  std::filesystem::current_path(before);
+  EXPECT_FALSE(std::filesystem::exists(proof));
+  EXPECT_NE(message.find("line 3: Unknown variable 'y'"), std::string::npos) << message;
+  EXPECT_EQ(message.find("/proc/"), std::string::npos) << message;
+}
+
+TEST(GmshMeshFile, AFileNameThatGmshCannotBeGivenIsRefused) {
+  const TemporaryFolder folder;
+  const std::string geo = folder.write("a\"b.geo", kTwoPlates);
+  test::expect_contains(message_of([&] { load_mesh(geo, {}); }), "quotes, backslashes");
+}
+
+TEST(WriteMsh, NeverReplacesAnInputOrAFileOfAnotherKind) {
+  const TemporaryFolder folder;
+  const std::string geo = folder.write("two.geo", std::string(kTwoPlates) + "If(0) Merge \"part.msh\"; EndIf\n");
+  const std::string part = folder.write("part.msh", "$MeshFormat\n");
+  const std::string link = folder.path("link.msh");
+  std::filesystem::create_hard_link(part, link);
+  const std::string notes = folder.write("notes.msh", "my notes\n");
+  test::expect_contains(message_of([&] { write_msh(geo, {}, link); }), "it is the input");
+  test::expect_contains(message_of([&] { write_msh(geo, {}, notes); }), "mortise did not write");
+  std::filesystem::create_directory(folder.path("folder.msh"));
+  test::expect_contains(message_of([&] { write_msh(geo, {}, folder.path("folder.msh")); }), "it is a folder");
+  EXPECT_EQ(test::text_of(part), "$MeshFormat\n");
+  EXPECT_EQ(test::text_of(notes), "my notes\n");
+}
+
+TEST(WriteMsh, OnAFullDiskTheOldMeshStands) {
+  const TemporaryFolder folder;
+  const std::string geo = folder.write("two.geo", kTwoPlates);
+  const std::string msh = folder.path("a.msh");
+  write_msh(geo, {}, msh);
+  const std::string old = test::text_of(msh);
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit small{1500, limit.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);  // then a write beyond the limit fails, as on a full disk
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string message = message_of([&] { write_msh(geo, {{"n_upper", 30}}, msh); });
+  setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_TRUE(message.starts_with(msh + ": cannot be written: ")) << message;
+  EXPECT_EQ(test::text_of(msh), old);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
 }
 
 TEST(WriteMsh, SaysWhatCannotBeWritten) {

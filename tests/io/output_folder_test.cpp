@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <functional>
 #include <random>
 #include <set>
 
@@ -191,6 +192,24 @@ TEST(OutputFolder, IsWholeWheneverTheWriterIsKilled) {
   EXPECT_EQ(names_in(scratch.path()), Names{"run1"});
   EXPECT_EQ(names_in(target), (Names{"result.vtu", "summary.json", "notes.txt", "pictures"}));
   EXPECT_EQ(text_of(target / "pictures" / "a.png"), "mine too");
+}
+
+TEST(OutputFolder, AFolderWithTheNameOfOneOfOurFilesIsRefused) {
+  const test::TemporaryFolder folder;
+  const std::string mine = folder.write("run/result.vtu/mine.txt", "mine");
+  for (const auto& step : std::vector<std::function<void()>>{[&] { check_output_folder(folder.path("run")); },
+                                                             [&] { OutputFolder output(folder.path("run")); }}) {
+    test::expect_contains(test::message_of(step), folder.path("run/result.vtu") + ": is a folder");
+  }
+  EXPECT_EQ(test::text_of(mine), "mine");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(OutputFolder, MessagesNameTheTarget) {
+  const test::TemporaryFolder folder;
+  const OutputFolder output(folder.path("run"));
+  EXPECT_EQ(output.with_target(output.path("contact.csv").string() + ": cannot be written"),
+            folder.path("run/contact.csv") + ": cannot be written");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // One row a mistake that a user can make: every message is one line that names the file, the place and the remedy.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 
@@ -72,6 +73,68 @@ TEST(BrokenSceneFile, NotThere) {
 TEST(BrokenSceneFile, IsAFolder) {
   const TemporaryFolder folder;
   EXPECT_EQ(message_of(folder.path(""), {}), folder.path("") + ": is a folder; expected a file");
+}
+
+TEST(BrokenSceneFile, IsADeviceOrAPipe) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder.path("pipe.toml");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& path : {pipe, std::string("/dev/zero")})
+    EXPECT_EQ(message_of(path, {}), path + ": is a device or a pipe; expected a file");
+  const std::string geo = folder.path("pipe.geo");
+  ASSERT_EQ(mkfifo(geo.c_str(), 0600), 0);
+  const std::string text = message_of(folder.write("scene.toml", "mesh.file = 'pipe.geo'\n"), {});
+  EXPECT_NE(text.find("pipe.geo': is a device or a pipe"), std::string::npos) << text;
+}
+
+TEST(BrokenSceneFile, IsTooLarge) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("scene.toml", std::string(5'000'000, '#'));
+  EXPECT_EQ(message_of(path, {}).find(path + ": is larger than 4 MB"), 0u);
+}
+
+std::string dotted(int parts) {
+  std::string key = "a";
+  for (int i = 1; i < parts; ++i) key += i % 2 ? ".b" : " . \"c d\"";
+  return key;
+}
+
+TEST(BrokenSceneFile, HasAKeyOfTwentyThousandParts) {
+  const TemporaryFolder folder;
+  for (const std::string& text :
+       {dotted(20000) + " = 1", "[" + dotted(20000) + "]", "a = { " + dotted(20000) + " = 1 }"}) {
+    const std::string path = folder.write("scene.toml", text);
+    EXPECT_EQ(message_of(path, {}).find(path + ": a key of more than 32 parts"), 0u);
+  }
+  const std::string path = folder.write("scene.toml", test::every_key);
+  for (const Override& change : {Override{dotted(20000), "1"}, Override{"title", "{" + dotted(20000) + "=1}"}}) {
+    const std::string text = message_of(path, {change});
+    EXPECT_EQ(text.find(path + ": --set "), 0u) << text;
+    EXPECT_LT(text.size(), 2000u);
+  }
+}
+
+TEST(BrokenSceneFile, HasListsInOneAnotherWithoutEnd) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("scene.toml", "a = " + std::string(20000, '[') + std::string(20000, ']'));
+  EXPECT_EQ(message_of(path, {}).find(path + ":1: not valid TOML"), 0u);
+}
+
+TEST(BrokenSceneFile, DotsInProseAreNoKey) {
+  const TemporaryFolder folder;
+  std::string prose = "# " + std::string(300, '.') + "\n#";
+  for (int i = 0; i < 60; ++i) prose += " One sentence.";
+  const std::string path = folder.write("scene.toml", prose + "\n" + std::string(test::every_key));
+  EXPECT_EQ(message_of(path, {}).find("32 parts"), std::string::npos);
+}
+
+TEST(BrokenSceneFile, HasDomainDecompositionWithoutAPair) {
+  const TemporaryFolder folder;
+  folder.write("block.msh", "");
+  const std::string path = folder.write("scene.toml", test::shortest_scene);
+  EXPECT_EQ(message_of(path, {{"method.kind", "ddm"}})
+                .find(path + ": --set method.kind=ddm: method.kind: domain decomposition needs a [[contact]]"),
+            0u);
 }
 
 TEST(BrokenSceneFile, IsAMesh) {

@@ -57,6 +57,8 @@ inline Rows mesh_rows() {
       {"MeshFileOfAnotherKind", "\"plates.geo\"", "\"plates.stl\"", {"expected a .geo or a .msh", "'plates.stl'"}},
       {"ParametersOfAMsh", "\"plates.geo\"", "\"plates.msh\"", {"mesh.parameters.n_upper", "no parameters"}, 1},
       {"ParameterIsAString", "n_upper = 80", "n_upper = \"80\"", {"n_upper: expected a number, found '80'"}},
+      {"TimeLimitIsZero", "parameters =", "time_limit = 0\nparameters =", {"mesh.time_limit: expected"}},
+      {"ProgramsIsAWord", "parameters =", "programs = 'no'\nparameters =", {"mesh.programs: expected true or false"}},
       {"ParametersAreAList", "{ n_upper = 80, height = 0.25 }", "[80]", {"expected a table, found [80]"}},
       {"NotAPlane", "plane = \"stress\"", "plane = \"stretch\"", {"model.plane: unknown plane 'stretch'", "stress"}},
   };

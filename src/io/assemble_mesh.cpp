@@ -1,0 +1,143 @@
+#include "io/assemble_mesh.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "base/errors.hpp"
+#include "io/element_types.hpp"
+#include "io/mesh_groups.hpp"
+#include "io/orientation.hpp"
+#include "io/repeated.hpp"
+#include "mesh/place.hpp"
+#include "mesh/renumber.hpp"
+
+namespace mortise {
+namespace {
+
+[[noreturn]] void fail_kind(const Mesh& mesh, const std::string& group, const ElementBlock& block,
+                            const std::string& expected) {
+  throw InputError(mesh.source + ": " + group + " has elements of a kind that is not supported, '" +
+                   element_type(block.type)->name + "', " +
+                   near_point(mesh.nodes.row(block.nodes.front()).transpose()) + "; expected " + expected);
+}
+
+std::optional<CellKind> cell_kind(int type) {
+  switch (type) {
+    case 2:
+      return CellKind::tri3;
+    case 3:
+      return CellKind::quad4;
+    case 9:
+      return CellKind::tri6;
+    case 10:
+      return CellKind::quad9;
+    case 16:
+      return CellKind::quad8;
+    default:
+      return std::nullopt;
+  }
+}
+
+void append_cells(Mesh& mesh, const ElementBlock& block, int body) {
+  const std::optional<CellKind> kind = cell_kind(block.type);
+  if (!kind) {
+    fail_kind(mesh, "body '" + mesh.bodies[body] + "'", block,
+              "triangles of 3 or 6 nodes, quadrilaterals of 4, 8 or 9");
+  }
+  const int count = node_count(*kind);
+  for (auto node = block.nodes.begin(); node != block.nodes.end(); node += count) {
+    Cell cell{*kind, body, {}};
+    cell.nodes.fill(-1);
+    std::copy_n(node, count, cell.nodes.begin());
+    mesh.cells.push_back(cell);
+  }
+}
+
+/// The blocks of a physical group, by entity.
+std::vector<const ElementBlock*> blocks_of(const MeshData& data, const PhysicalGroup& group) {
+  std::vector<const ElementBlock*> blocks;
+  for (const ElementBlock& block : data.blocks) {
+    if (block.dimension == group.dimension && !block.nodes.empty() &&
+        std::find(block.groups.begin(), block.groups.end(), group.tag) != block.groups.end()) {
+      blocks.push_back(&block);
+    }
+  }
+  return blocks;
+}
+
+void add_body(Mesh& mesh, const MeshData& data, const PhysicalGroup& group) {
+  const int body = static_cast<int>(mesh.bodies.size());
+  mesh.bodies.push_back(group.name);
+  const std::vector<const ElementBlock*> blocks = blocks_of(data, group);
+  if (blocks.empty()) throw InputError(data.file + ": physical surface '" + group.name + "' has no cells");
+  std::size_t first = mesh.cells.size();
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    append_cells(mesh, *blocks[k], body);
+    if (k + 1 < blocks.size() && blocks[k + 1]->entity == blocks[k]->entity) continue;
+    orient_cells(mesh, first);
+    first = mesh.cells.size();
+  }
+}
+
+void add_boundary(Mesh& mesh, const MeshData& data, const PhysicalGroup& group) {
+  Boundary boundary{group.name, {}};
+  for (const ElementBlock* block : blocks_of(data, group)) {
+    if (block->type != 1 && block->type != 8) {
+      fail_kind(mesh, "boundary '" + group.name + "'", *block, "lines of 2 or 3 nodes");
+    }
+    const int count = block->type == 1 ? 2 : 3;
+    for (auto node = block->nodes.begin(); node != block->nodes.end(); node += count) {
+      boundary.edges.push_back({count, {node[0], node[1], count == 3 ? node[2] : -1}});
+    }
+  }
+  if (boundary.edges.empty()) {
+    throw InputError(data.file + ": physical curve '" + group.name + "' has no edges; does it name a curve?");
+  }
+  mesh.boundaries.push_back(std::move(boundary));
+}
+
+/// Only nodes of cells count: a .geo may keep points of construction anywhere.
+void check_plane(const Mesh& mesh, const MeshData& data) {
+  const double size = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
+  for (const Cell& cell : mesh.cells) {
+    for (int i = 0; i < node_count(cell.kind); ++i) {
+      const int node = cell.nodes[i];
+      const double z = data.nodes[node][2];
+      if (std::abs(z) <= 1e-9 * size) continue;
+      throw InputError(mesh.source + ": body '" + mesh.bodies[cell.body] + "' leaves the plane z = 0 " +
+                       near_point(mesh.nodes.row(node).transpose()) + ", z = " + std::to_string(z));
+    }
+  }
+}
+
+}  // namespace
+
+Mesh assemble_mesh(MeshData data) {
+  std::stable_sort(data.blocks.begin(), data.blocks.end(), [](const ElementBlock& a, const ElementBlock& b) {
+    return std::tie(a.dimension, a.entity, a.type) < std::tie(b.dimension, b.entity, b.type);
+  });
+  std::stable_sort(data.groups.begin(), data.groups.end(),
+                   [](const PhysicalGroup& a, const PhysicalGroup& b) { return a.tag < b.tag; });
+  check_groups(data);
+
+  Mesh mesh;
+  mesh.source = data.file;
+  mesh.nodes.resize(static_cast<Eigen::Index>(data.nodes.size()), 2);
+  for (std::size_t i = 0; i < data.nodes.size(); ++i) {
+    mesh.nodes.row(static_cast<Eigen::Index>(i)) << data.nodes[i][0], data.nodes[i][1];
+  }
+  for (const PhysicalGroup& group : data.groups) {
+    if (group.dimension == 2) add_body(mesh, data, group);
+  }
+  check_plane(mesh, data);
+  for (const PhysicalGroup& group : data.groups) {
+    if (group.dimension == 1) add_boundary(mesh, data, group);
+  }
+  check_no_repetition(mesh);
+  renumber(mesh);
+  return mesh;
+}
+
+}  // namespace mortise

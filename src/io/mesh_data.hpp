@@ -1,0 +1,52 @@
+// A mesh as files hold it, before it is put into bodies and boundaries: from gmsh's process and from our .msh reader
+// alike.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mortise {
+
+/// Elements of one kind on one curve or surface.
+struct ElementBlock {
+  int dimension;            ///< 1 or 2
+  int entity;               ///< tag of the curve or surface
+  int type;                 ///< gmsh's number of the kind, in element_type
+  std::vector<int> groups;  ///< tags of the physical groups, > 0, each once
+  std::vector<int> nodes;   ///< rows of MeshData::nodes, as many an element as its kind has
+};
+
+/// A physical curve or surface, with elements or without.
+struct PhysicalGroup {
+  int dimension;
+  int tag;
+  std::string name;  ///< may be empty
+};
+
+/// Blocks and groups of dimension 1 and 2 only, in any order.
+struct MeshData {
+  std::string file;  ///< for messages
+  std::vector<std::array<double, 3>> nodes;
+  std::vector<PhysicalGroup> groups;
+  std::vector<ElementBlock> blocks;
+};
+
+/// Rows of nodes by the tags that a file gives them, which may be any numbers > 0.
+class NodeRows {
+ public:
+  /// The tag of row i is tags[i].
+  explicit NodeRows(const std::vector<std::int64_t>& tags);
+  /// The row, or -1 if no node has that tag.
+  int find(std::int64_t tag) const;
+
+ private:
+  std::vector<int> dense_;                            // by tag; of tags that leave few gaps
+  std::vector<std::pair<std::int64_t, int>> by_tag_;  // sorted; of others
+};
+
+/// Index of an entry that came before, or -1 if all differ.
+std::int64_t first_repeated(const std::vector<std::int64_t>& tags);
+
+}  // namespace mortise
