@@ -135,12 +135,12 @@ DdmSolution solve_by_ddm(const SaddlePointSystem& s, const std::vector<char>& di
     return d;
   }
   Interface interface = make_interface(neumann_group, dirichlet_group, s);
-  solution.failed_at = interface.dirichlet_system->dependent_row();
+  const InterfaceIteration closed = make_iteration(options.scheme, interface);
+  solution.failed_at = closed.dependent_row;
   if (solution.failed_at >= 0) {
     d.status = Status::dependent_row;
     return d;
   }
-  const InterfaceIteration closed = make_iteration(options.scheme, interface);
   const bool may_open = std::find(s.unilateral.begin(), s.unilateral.end(), 1) != s.unilateral.end();
   VecX lambda;
   if (may_open && options.scheme == Scheme::neumann_dirichlet && options.acceleration == Acceleration::krylov)
@@ -153,6 +153,7 @@ DdmSolution solve_by_ddm(const SaddlePointSystem& s, const std::vector<char>& di
     return d;
   }
   finish(s, interface, lambda, {&neumann_group, &dirichlet_group}, solution);
+  if (!std::isfinite(largest(solution.force_residual, solution.constraint_residual))) d.status = Status::diverged;
   solution.solve_seconds = watch.lap();
   return d;
 }
