@@ -92,6 +92,15 @@ VecX iterate(const SaddlePointSystem& s, Interface& interface, const InterfaceIt
   return run(opening, measure, relaxation, report, d);
 }
 
+// Motions of the groups' springs, the Neumann group's first, in the order of the system's.
+MatX as_grounded(const SaddlePointSystem& s, const BodyGroup& neumann, const MatX& motions) {
+  MatX all(motions.rows(), motions.cols());
+  Eigen::Index first = 0, second = neumann.motions;
+  for (std::size_t k = 0; k < s.grounded.size(); ++k)
+    all.row(k) = motions.row(neumann.has(s.grounded[k]) ? first++ : second++);
+  return all;
+}
+
 // Displacements and multipliers from the last iterate. What the Dirichlet group takes is a step further than lambda, in
 // balance, and nowhere pulls where contact may open.
 void finish(const SaddlePointSystem& s, const Interface& interface, const VecX& iterate,
@@ -99,6 +108,7 @@ void finish(const SaddlePointSystem& s, const Interface& interface, const VecX& 
   const VecX lambda = dirichlet_takes(interface, iterate).lambda;
   const Taken taken = dirichlet_takes(interface, lambda);
   solution.active = taken.active;
+  if (taken.closed) solution.loose = as_grounded(s, *groups[0], taken.closed->loose());
   if (solution.active.empty()) solution.active.assign(std::size_t(s.B.rows()), 1);
   solution.lambda = s.stiffness_scale * lambda.cwiseQuotient(s.row_scale);
   solution.u = s.value;
