@@ -33,11 +33,17 @@ std::string trouble(const DdmSolution& d, const std::vector<RelaxationStep>& his
 
 [[noreturn]] void refuse(const Scene& scene, const Results& r, const DdmSolution& d) {
   using Reached = DdmSolution::Status;
-  if (d.status == Reached::dependent_row)
-    throw InputError(scene.path + ": the bodies that take the displacement do not feel the multiplier " +
+  if (d.status == Reached::dependent_row) {
+    const bool one_side = scene.method.ddm.scheme == Scheme::neumann_dirichlet;
+    throw InputError(scene.path + ": the bodies that take the displacement" +
+                     (one_side ? "" : " (all, with scheme = \"" + to_string(scene.method.ddm.scheme) + "\")") +
+                     " do not feel the multiplier " +
                      near_point(r.mesh.nodes.row(row_nodes(r.pairs)[std::size_t(d.solution.failed_at)]).transpose()) +
-                     ": expected contact.multipliers_on to name the curve of the body that takes the displacement (or "
-                     "the coarser curve), or method.kind = \"mortar\"");
+                     ": expected contact.multipliers_on to name " +
+                     (one_side ? "the curve of the body that takes the displacement (or the coarser curve)"
+                               : "the coarser curve, or scheme = \"neumann_dirichlet\"") +
+                     ", or method.kind = \"mortar\"");
+  }
   if (d.status == Reached::unheld)
     throw InputError(scene.path +
                      ": contact opens until nothing holds a body; expected a load that presses it on, or prescribed "

@@ -1,9 +1,11 @@
 #include "app/refusals.hpp"
 
+#include <Eigen/LU>
 #include <sstream>
 
 #include "base/errors.hpp"
 #include "contact/mesh_gap.hpp"
+#include "contact/smooth_normals.hpp"
 #include "mesh/place.hpp"
 
 namespace mortise {
@@ -31,10 +33,32 @@ SparseMatrix unit_rows(const StackedCoupling& coupling) {
 [[noreturn]] void fail_unheld(const Scene& scene, const Results& r, const Floating& floating,
                               const SaddlePointSolution& solution) {
   const auto motion = motion_through(r.mesh, floating.motions, floating.grounded, solution.drift);
-  throw InputError(
-      scene.path + ": nothing holds " + describe(r.mesh, motion) + ": " +
-      (solution.driven ? "the load moves it away from the contact" : "no load presses it onto the contact") +
-      "; expected a load that presses it on, or prescribed displacements that hold it");
+  throw InputError(scene.path + ": nothing holds " + describe(r.mesh, motion) +
+                   ": the load moves it away from the contact; expected a load that presses it on, or prescribed "
+                   "displacements that hold it");
+}
+
+std::string held_note(const Mesh& mesh, const std::vector<RigidMotion>& motion) {
+  return "nothing holds " + describe(mesh, motion) +
+         ", but no load drives it either: held at zero, which changes no pressure";
+}
+
+// One unknown a motion, away from the contact curves where there are enough: what is prescribed on these changes them.
+std::vector<int> unknowns_to_hold(const Mesh& mesh, const std::vector<ContactPair>& pairs, Constraints constraints,
+                                  const std::vector<std::vector<RigidMotion>>& motions) {
+  const std::vector<int> anywhere = grounding_unknowns(mesh, constraints, motions);
+  for (const ContactPair& pair : pairs)
+    for (const Curve* curve : {&pair.multiplier, &pair.opposite})
+      for (const int node : curve_nodes(*curve)) constraints.fixed[2 * node] = constraints.fixed[2 * node + 1] = 1;
+  const std::vector<int> away = grounding_unknowns(mesh, constraints, motions);
+  const MatX at = motion_fields(mesh, motions)(away, Eigen::all);
+  return at.fullPivLu().isInvertible() ? away : anywhere;
+}
+
+// The load drives a motion whose work is more than `round_off` of its terms.
+bool drives(const VecX& load, const VecX& motion, double round_off) {
+  const VecX work = load.cwiseProduct(motion);
+  return std::abs(work.sum()) > round_off * work.lpNorm<1>();
 }
 
 }  // namespace
@@ -46,12 +70,35 @@ Floating find_floating(const Mesh& mesh, const Constraints& constraints) {
   return floating;
 }
 
-void require_held(const Scene& scene, const Mesh& mesh, const Constraints& constraints,
-                  const StackedCoupling& coupling) {
-  const auto motions = free_motions(mesh, constraints, unit_rows(coupling));
-  if (motions.empty()) return;
-  throw InputError(scene.path + ": nothing holds " + describe(mesh, motions.front()) +
-                   "; expected prescribed displacements or contact that prevent it");
+std::vector<std::string> hold_free_motions(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                                           const StackedCoupling& coupling, Discretisation& d) {
+  std::vector<std::string> notes;
+  const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions, double round_off) {
+    const MatX fields = motion_fields(mesh, motions);
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      if (drives(d.load, fields.col(k), round_off))
+        throw InputError(scene.path + ": nothing holds " + describe(mesh, motions[k]) +
+                         "; expected prescribed displacements or contact that prevent it");
+      notes.push_back(held_note(mesh, motions[k]));
+    }
+    for (const int unknown : unknowns_to_hold(mesh, pairs, d.constraints, motions)) d.constraints.fixed[unknown] = 1;
+  };
+  hold(free_motions(mesh, d.constraints, unit_rows(coupling)), 1e-9);
+  std::vector<ContactNormal> normals;
+  double edge_error = 0;
+  for (const ContactPair& pair : pairs) {
+    const SmoothNormals of_pair = smooth_normals(mesh.nodes, pair.multiplier, pair.opposite, pair.points);
+    normals.insert(normals.end(), of_pair.normals.begin(), of_pair.normals.end());
+    edge_error = std::max(edge_error, of_pair.edge_error);
+  }
+  hold(free_motions(mesh, d.constraints, normals), std::max(1e-9, edge_error));
+  return notes;
+}
+
+void hold_loose_motions(const Floating& floating, const SaddlePointSolution& solution, Results& r) {
+  for (const auto& values : solution.loose.colwise())
+    r.notes.push_back(held_note(r.mesh, motion_through(r.mesh, floating.motions, floating.grounded, values)));
+  for (const int unknown : held_unknowns(floating.grounded, solution)) r.discretisation.constraints.fixed[unknown] = 1;
 }
 
 void require_closed(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/solve_scene.hpp"
+#include "fem/rigid_motions.hpp"
 
 namespace mortise {
 
@@ -13,15 +14,21 @@ struct Floating {
 
 Floating find_floating(const Mesh& mesh, const Constraints& constraints);
 
-/// Throws InputError where a body may move although all contact is closed.
-void require_held(const Scene& scene, const Mesh& mesh, const Constraints& constraints,
-                  const StackedCoupling& coupling);
+/// Motions that neither prescribed displacements nor closed contact resist: the one that a load drives is an
+/// InputError, the others are held at one unknown each, which changes no pressure, and told in a line each. Contact
+/// resists them by its rows, and as the curves that the meshes stand for do (smooth_normals): a disc turns freely
+/// whatever its chords say.
+std::vector<std::string> hold_free_motions(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                                           const StackedCoupling& coupling, Discretisation& discretisation);
 
 /// Throws InputError where a gap that the scene calls closed is wider than two meshes of one curve can show.
 void require_closed(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs);
 
+/// Motions that the closed rows leave loose and no load drives: a note each, and its unknowns count as held.
+void hold_loose_motions(const Floating& floating, const SaddlePointSolution& solution, Results& results);
+
 /// Throws InputError where the solver found the stiffness not positive definite, contact conditions that depend on one
-/// another, or a body that the closed rows do not hold.
+/// another, or a body that the load moves away from the closed rows.
 void require_solved(const Scene& scene, const Results& results, const Floating& floating,
                     const SaddlePointSolution& solution);
 

@@ -30,6 +30,15 @@ SaddlePointSolution solve_system(const Scene& scene, const SaddlePointSystem& sy
   return scene.method.solver == Solver::mssor ? solve_mssor(scene, system, r) : solve_saddle_point(system);
 }
 
+// An answer that is no number is none, whatever the checks make of it.
+void require_finite(const SaddlePointSolution& solution, Results& r) {
+  if (std::isfinite(largest(solution.force_residual, solution.constraint_residual))) return;
+  r.status = Status::not_converged;
+  r.notes.push_back(
+      "the displacements or pressures are not finite numbers; expected loads, displacements and lengths "
+      "whose squares do not overflow");
+}
+
 }  // namespace
 
 std::string to_string(Status status) {
@@ -57,11 +66,10 @@ Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSe
 CheckedScene check_scene(const Scene& scene) {
   CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters, scene.geo_limits), {}, {}};
   checked.discretisation = discretise(scene, checked.mesh);
-  const Discretisation& d = checked.discretisation;
-  const Constraints& constraints = d.constraints;
+  Discretisation& d = checked.discretisation;
   checked.pairs = couple_pairs(scene, checked.mesh, d, roles(scene, checked.mesh, d));
   require_closed(scene, checked.mesh, checked.pairs);
-  require_held(scene, checked.mesh, constraints, stack(checked.pairs, 2 * checked.mesh.nodes.rows()));
+  hold_free_motions(scene, checked.mesh, checked.pairs, stack(checked.pairs, d.load.size()), d);
   return checked;
 }
 
@@ -88,7 +96,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
   r.pairs = couple_pairs(scene, r.mesh, d, dirichlet);
   const StackedCoupling coupling = stack(r.pairs, d.load.size());
   require_closed(scene, r.mesh, r.pairs);
-  require_held(scene, r.mesh, d.constraints, coupling);
+  r.notes = hold_free_motions(scene, r.mesh, r.pairs, coupling, r.discretisation);
   const Floating floating = find_floating(r.mesh, d.constraints);
   r.seconds.couple = watch.lap();
 
@@ -108,6 +116,8 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
                                  coupling.loads.size() > 0 ? &coupling.loads : nullptr};
   SaddlePointSolution solution = solve_system(scene, system, dirichlet, r);
   require_solved(scene, r, floating, solution);
+  require_finite(solution, r);
+  hold_loose_motions(floating, solution, r);
   r.active = solution.active;
   r.steps = solution.steps;
   r.coarse_steps = solution.coarse_steps;

@@ -1,6 +1,8 @@
 // Bodies that play one role, each solved alone: what a pressure does to their contact curves.
 #pragma once
 
+#include <algorithm>
+
 #include "solve/bordered_cholesky.hpp"
 #include "solve/saddle_point.hpp"
 
@@ -25,6 +27,9 @@ class BodyGroup {
   MatX compliance;           ///< (m + s) x (m + s), lower triangle: [C; H^T, .]; where C is symmetric
   VecX response, work;       ///< m, s
   MatX C, H;                 ///< m x m (full), m x s
+
+  /// True of its free unknowns.
+  bool has(int unknown) const { return std::binary_search(free_.begin(), free_.end(), unknown); }
 
   /// Adds the group's displacements under the load and the multipliers to u (n, length).
   void add_displacements(const VecX& lambda, const VecX& mu, VecX& u) const;

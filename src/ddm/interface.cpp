@@ -55,6 +55,11 @@ std::array<Share, 2> shares(const Interface& s, bool soft) {
   return both;
 }
 
+int dependent_row(const std::array<Share, 2>& both) {
+  const int first = both[0].stiffness->dependent_row();
+  return first >= 0 ? first : both[1].stiffness->dependent_row();
+}
+
 VecX solve_small(const MatX& A, const VecX& b) { return A.cols() > 0 ? VecX(A.partialPivLu().solve(b)) : b; }
 
 }  // namespace
@@ -97,18 +102,20 @@ Residuals residuals(const Interface& s, const VecX& lambda, const VecX& z) {
   double displacement = 0;  // where it is zero, that of its terms: they leave round-off
   for (const BodyGroup* group : {&s.neumann, &s.dirichlet}) {
     const VecX pressed = group->C * taken;
-    const double terms = std::max(largest_entry(group->response), largest_entry(pressed));
-    displacement = std::max({displacement, largest_entry(group->response - pressed), rigid_part * terms});
+    const double terms = largest(largest_entry(group->response), largest_entry(pressed));
+    displacement = largest({displacement, largest_entry(group->response - pressed), rigid_part * terms});
   }
   const double multiplier = largest_entry(taken.cwiseQuotient(s.scale));
-  const double gap = std::max(largest_entry(s.dirichlet.C * z), largest_entry(s.neumann.C * z));
+  const double gap = largest(largest_entry(s.dirichlet.C * z), largest_entry(s.neumann.C * z));
   const double force = largest_entry(z.cwiseQuotient(s.scale));
-  return {gap > 0 ? gap / displacement : 0, force > 0 ? force / multiplier : 0};
+  return {fraction(gap, displacement), fraction(force, multiplier)};
 }
 
 InterfaceIteration neumann_dirichlet(const Interface& s) {
   const Eigen::Index m = s.gap.size();
   InterfaceIteration iteration;
+  iteration.dependent_row = s.dirichlet_system->dependent_row();
+  if (iteration.dependent_row >= 0) return iteration;
   iteration.multipliers = [](const VecX& lambda) { return lambda; };
   // A floating Neumann group needs a load in balance from the start.
   iteration.start = VecX::Zero(m);
@@ -138,6 +145,9 @@ InterfaceIteration neumann_dirichlet(const Interface& s, MultiplierSystem closed
 InterfaceIteration neumann_neumann(const Interface& s) {
   const auto both = shares(s, false);
   const Eigen::Index m = s.gap.size();
+  InterfaceIteration iteration;
+  iteration.dependent_row = dependent_row(both);
+  if (iteration.dependent_row >= 0) return iteration;
   // The multipliers of each group where B u of the Neumann group is x and contact is closed.
   const auto taken = [&s, both, m](const VecX& x) -> std::array<VecX, 2> {
     const VecX first = s.neumann.response - x, second = s.dirichlet.response + s.gap0 + x;
@@ -149,7 +159,6 @@ InterfaceIteration neumann_neumann(const Interface& s) {
   for (Eigen::Index k = 0; k < s.H.cols(); ++k)
     SH.col(k) = both[0].multipliers(s.H.col(k)) + both[1].multipliers(s.H.col(k));
   const MatX HSH = s.H.transpose() * SH;
-  InterfaceIteration iteration;
   iteration.start = VecX::Zero(m);
   iteration.multipliers = [both, taken](const VecX& x) -> VecX {
     const auto lambda = taken(x);
@@ -170,6 +179,9 @@ InterfaceIteration neumann_neumann(const Interface& s) {
 InterfaceIteration dirichlet_dirichlet(const Interface& s) {
   const auto both = shares(s, true);
   const Eigen::Index m = s.gap.size();
+  InterfaceIteration iteration;
+  iteration.dependent_row = dependent_row(both);
+  if (iteration.dependent_row >= 0) return iteration;
   const auto precondition = [both](const VecX& gap) {
     VecX z = VecX::Zero(gap.size());
     for (const Share& share : both) z += share.weight * share.weight * share.multipliers(gap);
@@ -178,7 +190,6 @@ InterfaceIteration dirichlet_dirichlet(const Interface& s) {
   MatX MH(m, s.H.cols());
   for (Eigen::Index k = 0; k < s.H.cols(); ++k) MH.col(k) = precondition(s.H.col(k));
   const MatX HMH = s.H.transpose() * MH;
-  InterfaceIteration iteration;
   iteration.multipliers = [](const VecX& lambda) { return lambda; };
   iteration.start = MH * solve_small(HMH, s.work);  // in balance
   iteration.correction = [&s, precondition, MH, HMH](const VecX& lambda) -> VecX {
@@ -190,6 +201,7 @@ InterfaceIteration dirichlet_dirichlet(const Interface& s) {
 
 Spectrum spectrum(const InterfaceIteration& iteration) {
   const VecX at_start = iteration.correction(iteration.start);
+  if (at_start.size() == 0 || !at_start.allFinite()) return {};
   const Eigen::Index n = at_start.size(), most = std::min<Eigen::Index>(n, 25);
   MatX V = MatX::Zero(n, most + 1), hessenberg = MatX::Zero(most + 1, most);
   for (Eigen::Index i = 0; i < n; ++i) V(i, 0) = std::sin(double(i * i) + 1);  // something of every eigenvector

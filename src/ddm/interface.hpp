@@ -26,12 +26,14 @@ struct Interface {
   std::shared_ptr<const MultiplierSystem> dirichlet_system;
 };
 
-/// `Interface::dirichlet_system->dependent_row()` must be asked before anything else is: the Dirichlet group does not
-/// feel such a row of B. All rows are closed.
+/// All rows are closed. An iteration's `dependent_row` must be asked before anything else is.
 Interface make_interface(const BodyGroup& neumann, const BodyGroup& dirichlet, const SaddlePointSystem& system);
 
 /// An iteration x := x + beta z(x) for the interface.
 struct InterfaceIteration {
+  /// -1, or a row of B that others imply in a group which takes a displacement (that group does not feel the row by
+  /// itself): nothing below is given then.
+  int dependent_row = -1;
   VecX start;
   Correction correction;                           ///< z(x)
   std::function<VecX(const VecX& x)> multipliers;  ///< lambda of an iterate

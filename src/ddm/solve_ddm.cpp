@@ -92,6 +92,15 @@ VecX iterate(const SaddlePointSystem& s, Interface& interface, const InterfaceIt
   return run(opening, measure, relaxation, report, d);
 }
 
+// Motions of the groups' springs, the Neumann group's first, in the order of the system's.
+MatX as_grounded(const SaddlePointSystem& s, const BodyGroup& neumann, const MatX& motions) {
+  MatX all(motions.rows(), motions.cols());
+  Eigen::Index first = 0, second = neumann.motions;
+  for (std::size_t k = 0; k < s.grounded.size(); ++k)
+    all.row(k) = motions.row(neumann.has(s.grounded[k]) ? first++ : second++);
+  return all;
+}
+
 // Displacements and multipliers from the last iterate. What the Dirichlet group takes is a step further than lambda, in
 // balance, and nowhere pulls where contact may open.
 void finish(const SaddlePointSystem& s, const Interface& interface, const VecX& iterate,
@@ -99,6 +108,7 @@ void finish(const SaddlePointSystem& s, const Interface& interface, const VecX& 
   const VecX lambda = dirichlet_takes(interface, iterate).lambda;
   const Taken taken = dirichlet_takes(interface, lambda);
   solution.active = taken.active;
+  if (taken.closed) solution.loose = as_grounded(s, *groups[0], taken.closed->loose());
   if (solution.active.empty()) solution.active.assign(std::size_t(s.B.rows()), 1);
   solution.lambda = s.stiffness_scale * lambda.cwiseQuotient(s.row_scale);
   solution.u = s.value;
@@ -135,12 +145,12 @@ DdmSolution solve_by_ddm(const SaddlePointSystem& s, const std::vector<char>& di
     return d;
   }
   Interface interface = make_interface(neumann_group, dirichlet_group, s);
-  solution.failed_at = interface.dirichlet_system->dependent_row();
+  const InterfaceIteration closed = make_iteration(options.scheme, interface);
+  solution.failed_at = closed.dependent_row;
   if (solution.failed_at >= 0) {
     d.status = Status::dependent_row;
     return d;
   }
-  const InterfaceIteration closed = make_iteration(options.scheme, interface);
   const bool may_open = std::find(s.unilateral.begin(), s.unilateral.end(), 1) != s.unilateral.end();
   VecX lambda;
   if (may_open && options.scheme == Scheme::neumann_dirichlet && options.acceleration == Acceleration::krylov)
@@ -153,6 +163,7 @@ DdmSolution solve_by_ddm(const SaddlePointSystem& s, const std::vector<char>& di
     return d;
   }
   finish(s, interface, lambda, {&neumann_group, &dirichlet_group}, solution);
+  if (!std::isfinite(largest(solution.force_residual, solution.constraint_residual))) d.status = Status::diverged;
   solution.solve_seconds = watch.lap();
   return d;
 }

@@ -14,7 +14,8 @@ struct DdmOptions {
 };
 
 struct DdmSolution {
-  /// dependent_row: the Dirichlet group does not feel solution.failed_at, a row of B. cannot_open: the multipliers pull
+  /// dependent_row: a group that takes a displacement (the Dirichlet group; in Neumann-Neumann and
+  /// Dirichlet-Dirichlet both) does not feel solution.failed_at, a row of B. cannot_open: the multipliers pull
   /// somewhere, and the scheme is for bilateral contact. unbalanced: the transfer is not conservative, and a body that
   /// takes the pressure floats, or the scheme wants both bodies to take it. unheld: contact opens until nothing holds a
   /// body. From not_positive_definite on there is no solution.

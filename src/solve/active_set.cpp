@@ -14,8 +14,6 @@ std::vector<int> active_rows(const std::vector<char>& active) {
   return rows;
 }
 
-double largest_entry(const VecX& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; }
-
 // What one solve says of the rows.
 struct Rows {
   VecX w;             // m: what is left open
@@ -29,9 +27,9 @@ Rows examine(const ComplementarityProblem& p, const ActiveSetResult& r) {
   Rows rows;
   const VecX closed = (p.compliance.selfadjointView<Eigen::Lower>() * r.solution).head(m);
   rows.w = p.rhs.head(m) - closed;
-  rows.w_size = std::max(largest_entry(p.rhs.head(m)), largest_entry(closed));
+  rows.w_size = largest(largest_entry(p.rhs.head(m)), largest_entry(closed));
   rows.stress = r.solution.head(m).cwiseQuotient(p.scale);
-  if (r.driven) rows.opening = p.compliance.bottomLeftCorner(springs, m).transpose() * r.drift;
+  if (r.drift.any()) rows.opening = p.compliance.bottomLeftCorner(springs, m).transpose() * r.drift;
   return rows;
 }
 
@@ -78,17 +76,17 @@ bool solve_closed(const ComplementarityProblem& p, ActiveSetResult& r) {
   if (r.dependent_row >= 0) return false;
   r.solution = r.system->solve(p.rhs);
   r.drift = r.system->drift(p.rhs);
-  r.driven = r.drift.norm() > 1e-10 * p.rhs.norm();  // else it is round-off
-  if (!r.driven && r.system->loose().cols() > 0) r.drift = r.system->loose().col(0);
   return true;
 }
 
-// The method from a given active set. r.wrong is empty where it ended.
+// The method from a given active set. r.wrong is empty where it ended, also on a solution that is not finite
+// (not_settled).
 void iterate(const ComplementarityProblem& p, std::vector<char> start, int max_steps, const ActiveSetOptions& options,
              ActiveSetResult& r) {
   using Status = ActiveSetResult::Status;
   const auto m = std::size_t(p.scale.size());
   r.active = std::move(start);
+  r.wrong.clear();
   for (std::size_t a = 0; a < m; ++a)
     if (!p.unilateral[a]) r.active[a] = 1;
   std::size_t fewest = m + 1;
@@ -96,10 +94,12 @@ void iterate(const ComplementarityProblem& p, std::vector<char> start, int max_s
   for (int step = 1;; ++step) {
     r.status = Status::dependent_row;
     if (!solve_closed(p, r)) return;
+    r.status = Status::not_settled;
     const Rows rows = examine(p, r);
+    if (!r.solution.allFinite() || !rows.w.allFinite()) return;
     r.wrong = wrong_rows(p, options, rows, r.active);
     r.steps.push_back(describe(p, rows, r.active));
-    r.status = r.system->loose().cols() > 0 ? Status::unheld : Status::settled;
+    r.status = r.drift.any() ? Status::unheld : Status::settled;
     if (r.wrong.empty()) return;
     r.status = Status::not_settled;
     if (step == max_steps) return;  // the solution belongs to r.active
@@ -141,7 +141,7 @@ ActiveSetResult settle_active_set(const ComplementarityProblem& p, const std::ve
   }
   const std::vector<char> all(std::size_t(p.scale.size()), 1);
   iterate(p, start.empty() ? all : start, options.start_steps, options, r);
-  if (r.status != ActiveSetResult::Status::not_settled) return r;
+  if (r.status != ActiveSetResult::Status::not_settled || r.wrong.empty()) return r;
   std::vector<char> next = guess(p, options, r.coarse_steps);
   if (next == r.active)  // nothing learned
     for (const int a : r.wrong) next[std::size_t(a)] ^= 1;

@@ -39,7 +39,8 @@ struct ActiveSetOptions {
 };
 
 struct ActiveSetResult {
-  /// unheld: settled, but the closed rows leave a motion loose (`drift`).
+  /// not_settled: also where the solution is not finite (`wrong` is empty then).
+  /// unheld: settled, but the load drives a motion that the closed rows leave loose (`drift`).
   enum class Status { settled, not_settled, dependent_row, unheld };
   Status status = Status::not_settled;
   VecX solution;                     ///< (lambda, mu), m + s
@@ -48,9 +49,8 @@ struct ActiveSetResult {
   std::vector<ActiveSetStep> steps;  ///< on all rows
   int coarse_steps = 0;              ///< on joined rows
   int dependent_row = -1;
-  VecX drift;                              ///< s: a motion that the closed rows leave loose; zero if there is none
-  bool driven = false;                     ///< the load drives `drift`, in its direction
-  std::optional<MultiplierSystem> system;  ///< of the final active set
+  VecX drift;                              ///< s: a motion that the load drives and no closed row holds, or zero
+  std::optional<MultiplierSystem> system;  ///< of the final active set; its loose motions are zero in `solution`
 };
 
 /// The primal-dual active set method, which is a semismooth Newton method (Hintermueller, Ito & Kunisch 2003; for

@@ -14,6 +14,7 @@ namespace {
 std::vector<int> ordering(const SparseMatrix& matrix, const std::vector<int>& blocks) {
   const int n = int(blocks.size()), block_count = blocks.empty() ? 0 : blocks.back() + 1;
   std::vector<int> first_of(std::size_t(block_count) + 1, n), start{0}, row;
+  row.reserve(1);  // AMD wants an address also where nothing is coupled
   for (int i = n - 1; i >= 0; --i) first_of[std::size_t(blocks[std::size_t(i)])] = i;
   for (int b = 0; b < block_count; ++b) {
     const int column = first_of[std::size_t(b)];

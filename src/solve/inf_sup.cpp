@@ -34,12 +34,12 @@ InfSup inf_sup(const ContactSystem& s, const SparseMatrix& norm, const std::vect
   C = Z.transpose() * C * Z;
   S = Z.transpose() * S * Z;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> eigen(C, S);
-  result.beta = std::sqrt(std::max(0.0, eigen.eigenvalues()(0)));
+  result.beta = std::sqrt(largest(0, eigen.eigenvalues()(0)));
   const VecX q = (Z * eigen.eigenvectors().col(0)).cwiseQuotient(scale);
-  Eigen::Index largest = 0;
-  q.cwiseAbs().maxCoeff(&largest);
+  Eigen::Index at = 0;
+  q.cwiseAbs().maxCoeff(&at);
   result.mode = VecX::Zero(m);
-  result.mode(rows) = q / q(largest);
+  result.mode(rows) = q / q(at);
   return result;
 }
 

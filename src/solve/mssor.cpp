@@ -29,11 +29,10 @@ struct Watch {
   Residuals measure(const VecX& x, const VecX& r) {
     const Eigen::Index n = system.n(), m = system.m();
     forces.noalias() = system.B.transpose() * x.tail(m);
-    const double largest = std::max(x.head(n).lpNorm<Eigen::Infinity>(), system.largest_value);
-    const double size = std::max(
-        {system.rhs.head(n).lpNorm<Eigen::Infinity>(), forces.lpNorm<Eigen::Infinity>(), rigid_part * largest});
-    const double force = r.head(n).lpNorm<Eigen::Infinity>(), open = m > 0 ? r.tail(m).lpNorm<Eigen::Infinity>() : 0;
-    return {largest > 0 ? open / largest : open, size > 0 ? force / size : force};
+    const double displacement = largest(largest_entry(x.head(n)), system.largest_value);
+    const double size = largest({largest_entry(system.rhs.head(n)), largest_entry(forces),
+                                 rigid_part * largest_entry(system.D.cwiseProduct(x.head(n)))});
+    return {fraction(largest_entry(r.tail(m)), displacement), fraction(largest_entry(r.head(n)), size)};
   }
 
   // True while there is something left to do.
@@ -43,7 +42,7 @@ struct Watch {
     smallest = std::min(smallest, size);
     result.history.push_back(measure(x, r));
     if (result.history.back().largest() <= limit) result.status = Status::converged;
-    if (!(size <= divergence * smallest)) result.status = Status::diverged;  // or not a number
+    if (!std::isfinite(size) || size > divergence * smallest) result.status = Status::diverged;
     if (result.status != Status::not_converged || result.steps >= options.max_iterations) return false;
     ++result.steps;
     return true;
@@ -76,7 +75,7 @@ void symmetric_qmr(SweepPreconditioner& M, Watch& watch, VecX& x, VecX& r) {
   VecX v = r, z(size), q(size), Aq(size), d = VecX::Zero(size), Ad = d;
   M.solve(v, q);
   double rho = v.dot(q), theta = 0, tau = v.norm();
-  while (rho != 0 && watch.go_on(x, r)) {
+  while (watch.go_on(x, r) && rho != 0) {
     multiply(M.system, q, Aq);
     const double sigma = q.dot(Aq);
     if (sigma == 0) break;
@@ -104,7 +103,7 @@ void minres(SweepPreconditioner& M, Watch& watch, VecX& x, VecX& r) {
   VecX w[3] = {VecX::Zero(size), VecX::Zero(size), VecX::Zero(size)}, Aw[3] = {w[0], w[0], w[0]};
   M.solve_blocks(v, z);
   double gamma = std::sqrt(v.dot(z)), gamma_old = 1, eta = gamma, s = 0, s_old = 0, c = 1, c_old = 1;
-  while (gamma > 0 && watch.go_on(x, r)) {
+  while (watch.go_on(x, r) && gamma > 0) {
     z /= gamma;
     multiply(M.system, z, Az);
     const double delta = Az.dot(z);
@@ -178,7 +177,7 @@ MssorSolution solve_by_mssor(const SaddlePointSystem& s, const MssorOptions& opt
   for (double last = infinity;;) {
     iterate(M, steps, x, r);
     take_over(s, reduced, x, solution);
-    const double reached = std::max(solution.force_residual, solution.constraint_residual);
+    const double reached = largest(solution.force_residual, solution.constraint_residual);
     if (result.status == Status::diverged || result.steps >= options.max_iterations) break;
     if (result.status == Status::converged && reached <= options.tolerance) break;
     if (result.status == Status::converged) steps.limit *= 0.5 * std::min(1.0, options.tolerance / reached);
@@ -188,7 +187,7 @@ MssorSolution solve_by_mssor(const SaddlePointSystem& s, const MssorOptions& opt
     steps.smallest = infinity;
     residual(reduced, x, r);
   }
-  if (std::max(solution.force_residual, solution.constraint_residual) <= options.tolerance)
+  if (largest(solution.force_residual, solution.constraint_residual) <= options.tolerance)
     result.status = Status::converged;
   if (options.acceleration == Acceleration::none) result.tau_border = tau_border(reduced, options.omega);
   result.factor = steps.factor();

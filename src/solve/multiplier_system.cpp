@@ -1,11 +1,15 @@
 #include "solve/multiplier_system.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "base/columns.hpp"
 
 namespace mortise {
 namespace {
 
-// Below this part of what one row alone could hold with, a motion is loose.
+// Below this part of what one row alone could hold with, a motion is loose. It opens the rows by less than the root of
+// this part of its size.
 constexpr double loose_limit = 1e-10;
 
 }  // namespace
@@ -34,7 +38,7 @@ MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs,
   const Eigen::SelfAdjointEigenSolver<MatX> eigen(T);
   Eigen::Index loose = 0;
   while (loose < springs_ && !(eigen.eigenvalues()(loose) > loose_limit * one_row)) ++loose;
-  loose_ = eigen.eigenvectors().leftCols(loose);
+  loose_ = told_apart(eigen.eigenvectors().leftCols(loose));
   held_ = eigen.eigenvectors().rightCols(springs_ - loose);
   stiffness_ = eigen.eigenvalues().tail(springs_ - loose);
 }
@@ -71,8 +75,14 @@ VecX MultiplierSystem::solve(const VecX& rhs) const {
 }
 
 VecX MultiplierSystem::drift(const VecX& rhs) const {
-  if (loose_.cols() == 0) return VecX::Zero(springs_);
-  return loose_ * (loose_.transpose() * unbalanced(rhs, on_active(rhs)));
+  VecX drift = VecX::Zero(springs_);
+  if (loose_.cols() == 0) return drift;
+  const VecX y = on_active(rhs), work = unbalanced(rhs, y),
+             terms = rhs.tail(springs_).cwiseAbs() + H_.cwiseAbs().transpose() * y.cwiseAbs();
+  for (const auto& motion : loose_.colwise())
+    if (std::abs(motion.dot(work)) > std::sqrt(loose_limit) * motion.cwiseAbs().dot(terms))
+      drift += motion.dot(work) * motion;
+  return drift;
 }
 
 }  // namespace mortise

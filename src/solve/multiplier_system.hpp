@@ -27,9 +27,10 @@ class MultiplierSystem {
   /// (lambda, mu), m + s, for the right-hand side (r, h), m + s.
   VecX solve(const VecX& rhs) const;
 
-  /// The motions that the active rows leave loose, s x count: the springs' unknowns in each.
+  /// The motions that the active rows leave loose, s x count: the springs' unknowns in each, told_apart.
   const MatX& loose() const { return loose_; }
-  /// The loose motion that the load drives, s, in its direction: H drift is how the rows open under it.
+  /// The loose motion that the load drives, s, in its direction: H drift is how the rows open under it. Zero where the
+  /// work of the load and the rows is no more than rows do that a motion opens too little to be held by them.
   VecX drift(const VecX& rhs) const;
 
  private:

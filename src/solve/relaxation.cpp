@@ -61,7 +61,8 @@ class Monitor {
     sizes_.push_back(z.norm());
     smallest_ = std::min(smallest_, sizes_.back());
     if (residuals.largest() <= options_.tolerance) result_.status = RelaxationResult::Status::converged;
-    if (!(sizes_.back() <= divergence * smallest_)) result_.status = RelaxationResult::Status::diverged;
+    if (!std::isfinite(sizes_.back()) || sizes_.back() > divergence * smallest_)
+      result_.status = RelaxationResult::Status::diverged;
     return result_.status == RelaxationResult::Status::not_converged &&
            int(result_.history.size()) < options_.max_iterations;
   }

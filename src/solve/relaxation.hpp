@@ -20,7 +20,7 @@ struct RelaxationOptions {
 struct Residuals {
   double kinematic;  ///< of the displacements
   double force;      ///< of the pressures
-  double largest() const { return std::max(kinematic, force); }
+  double largest() const { return mortise::largest(kinematic, force); }
 };
 
 /// One iterate, before the step that was taken from it.
@@ -43,7 +43,8 @@ using Correction = std::function<VecX(const VecX& x)>;                          
 using Measure = std::function<Residuals(const VecX& x, const VecX& z)>;         ///< of an iterate
 using StepReport = std::function<void(int step, const RelaxationStep& taken)>;  ///< progress
 
-/// Iterates from x until the largest residual is below the tolerance, or z is 1e6 times the smallest seen (diverged).
+/// Iterates from x until the largest residual is below the tolerance, or z is 1e6 times the smallest seen or not
+/// finite (diverged).
 ///   none      x += beta z
 ///   aitken    beta from the last two corrections (Kuettler & Wall 2008)
 ///   anderson  least squares over all corrections so far (Anderson 1965), which is IQN-ILS (Degroote, Bathe &

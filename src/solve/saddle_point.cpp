@@ -16,7 +16,7 @@ void take_over(const SaddlePointSystem& s, ActiveSetResult&& set, SaddlePointSol
   solution.coarse_steps = set.coarse_steps;
   solution.unsettled = std::move(set.wrong);
   solution.drift = std::move(set.drift);
-  solution.driven = set.driven;
+  if (set.dependent_row < 0) solution.loose = set.system->loose();
   solution.failed_at = set.dependent_row;
   for (ActiveSetStep& step : solution.steps) step.pull *= s.stiffness_scale;
   if (set.status == ActiveSetResult::Status::dependent_row) solution.status = Status::dependent_constraints;
@@ -26,25 +26,53 @@ void take_over(const SaddlePointSystem& s, ActiveSetResult&& set, SaddlePointSol
 
 // The largest displacement without contact, floating bodies held by their springs: what gaps are differences of.
 double free_displacement(const SaddlePointSystem& s, const BorderedCholesky& factor, Eigen::Index border) {
-  return std::max(largest_entry(s.value), largest_entry(factor.backward(VecX::Zero(border))));
+  return largest(largest_entry(s.value), largest_entry(factor.backward(VecX::Zero(border))));
+}
+
+// K u, and |K| |u|: the sizes of the terms that each entry is the sum of.
+struct Product {
+  VecX sum, size;
+};
+
+Product multiply(const SparseMatrix& lower, const VecX& u) {
+  Product p{VecX::Zero(u.size()), VecX::Zero(u.size())};
+  const auto add = [&](int row, double term) {
+    p.sum(row) += term;
+    p.size(row) += std::abs(term);
+  };
+  for (int j = 0; j < int(lower.cols()); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
+      add(int(it.row()), it.value() * u(j));
+      if (it.row() != j) add(j, it.value() * u(it.row()));
+    }
+  return p;
 }
 
 }  // namespace
 
+std::vector<int> held_unknowns(const std::vector<int>& grounded, const SaddlePointSolution& solution) {
+  std::vector<int> held;
+  for (Eigen::Index k = 0; k < solution.loose.rows(); ++k)
+    if (solution.loose.cols() > 0 && largest_entry(solution.loose.row(k).transpose()) > 1e-6)
+      held.push_back(grounded[k]);
+  return held;
+}
+
 void measure_residuals(const SaddlePointSystem& s, SaddlePointSolution& solution) {
-  const VecX Ku = s.K.selfadjointView<Eigen::Lower>() * solution.u,
-             pressure = load_rows(s).transpose() * solution.lambda;
-  double worst = 0;
-  for (Eigen::Index i = 0; i < Ku.size(); ++i)
-    if (!s.fixed[std::size_t(i)]) worst = std::max(worst, std::abs(s.f(i) - Ku(i) - pressure(i)));
-  const double largest = largest_entry(solution.u);
-  const double size = std::max(
-      {largest_entry(s.f), largest_entry(Ku), largest_entry(pressure), rigid_part * s.stiffness_scale * largest});
-  solution.force_residual = size > 0 ? worst / size : 0;
+  const Product Ku = multiply(s.K, solution.u);
+  const VecX pressure = load_rows(s).transpose() * solution.lambda;
+  const double forces = largest({largest_entry(s.f), largest_entry(Ku.sum), largest_entry(pressure)});
+  solution.force_residual = fraction(0, forces);
+  std::vector<char> held = s.fixed;
+  for (const int unknown : held_unknowns(s.grounded, solution)) held[unknown] = 1;
+  for (Eigen::Index i = 0; i < pressure.size(); ++i)
+    if (!held[i])
+      solution.force_residual = largest(solution.force_residual, fraction(std::abs(s.f(i) - Ku.sum(i) - pressure(i)),
+                                                                          largest(forces, rigid_part * Ku.size(i))));
   VecX open = (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
   for (Eigen::Index a = 0; a < open.size(); ++a)
     if (!solution.active[std::size_t(a)]) open(a) = 0;
-  solution.constraint_residual = largest > 0 ? largest_entry(open) / largest : 0;
+  solution.constraint_residual = fraction(largest_entry(open), largest_entry(solution.u));
 }
 
 SaddlePointSolution solve_saddle_point(const SaddlePointSystem& s) {
@@ -81,8 +109,8 @@ SaddlePointSolution solve_saddle_point(const SaddlePointSystem& s) {
       ActiveSetResult set =
           settle_active_set({factor.border_compliance(), rhs, s.row_scale, unilateral, round_off}, s.start);
       lambda = std::move(set.solution);
-      multipliers = std::move(set.system);
       take_over(s, std::move(set), solution);
+      multipliers = std::move(set.system);
       using Status = SaddlePointSolution::Status;
       if (solution.status == Status::dependent_constraints || solution.status == Status::unheld) return solution;
     } else {
@@ -93,8 +121,10 @@ SaddlePointSolution solve_saddle_point(const SaddlePointSystem& s) {
     solution.lambda += s.stiffness_scale * lambda.head(m).cwiseQuotient(s.row_scale);
     Ku = symmetric * solution.u;
     measure_residuals(s, solution);
-    if (std::max(solution.force_residual, solution.constraint_residual) < 1e-11) break;
+    if (largest(solution.force_residual, solution.constraint_residual) < 1e-11) break;
   }
+  if (!std::isfinite(largest(solution.force_residual, solution.constraint_residual)))
+    solution.status = SaddlePointSolution::Status::not_settled;
   solution.solve_seconds = watch.lap();
   return solution;
 }

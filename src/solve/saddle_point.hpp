@@ -25,14 +25,16 @@ struct SaddlePointSystem {
   const SparseMatrix* loads = nullptr;  ///< m x n: loads^T lambda are the forces; null: B. Not of solve_saddle_point
 };
 
-/// Forces are compared with this part of stiffness times displacement where they are smaller: those of a body that
-/// moves without being deformed are round-off of that product.
+/// Forces are compared with this part of stiffness times displacement, |K| |u| in their own row, where they are
+/// smaller: those of a body that moves without being deformed are round-off of that product, and so are those in thin
+/// elements, whose stiffness is many times the material's (|K| |u| is what Oettli & Prager 1964 compare a residual
+/// with).
 inline constexpr double rigid_part = 1e-3;
 
 inline const SparseMatrix& load_rows(const SaddlePointSystem& s) { return s.loads ? *s.loads : s.B; }
 
 struct SaddlePointSolution {
-  /// not_settled: u and lambda are those of the last active set. unheld: only `drift` is given.
+  /// not_settled: u and lambda are those of the last active set, or are not finite. unheld: only `drift` is given.
   enum class Status { solved, not_positive_definite, dependent_constraints, not_settled, unheld };
   Status status = Status::solved;
   int failed_at = -1;  ///< the unknown of K that is not positive definite, or the row of B that depends on others
@@ -43,15 +45,19 @@ struct SaddlePointSolution {
   std::vector<ActiveSetStep> steps;  ///< one a solve; penetrations are lengths, pulls are stresses
   int coarse_steps = 0;              ///< solves on joined rows, to start from
   std::vector<int> unsettled;        ///< rows that the last step would still change
-  VecX drift;                        ///< where `unheld`: the grounded unknowns in the motion that no closed row holds
-  bool driven = false;               ///< the load drives that motion
-  /// Largest entry of f - K u - B^T lambda over that of its terms (or rigid_part), on free unknowns; and of B u - g
-  /// (each closed row over its scale) over the largest displacement.
+  VecX drift;                        ///< where `unheld`: the grounded unknowns in the motion that the load drives
+  MatX loose;                        ///< a column a motion that no closed row holds nor load drives: likewise, 0 in u
+  /// Largest entry of f - K u - B^T lambda, on free unknowns, over the largest entry of its terms or, if that is more,
+  /// over rigid_part of |K| |u| in the same row; and of B u - g (each closed row over its scale) over the largest
+  /// displacement. NaN where u, lambda or one of these terms is not finite.
   double force_residual = 0, constraint_residual = 0;
   double factorise_seconds = 0, solve_seconds = 0;
 };
 
-/// Fills the two residuals of u and lambda, where the `active` rows are closed.
+/// The grounded unknowns that take part in loose motions: springs hold them, with less than 1e-5 of the forces.
+std::vector<int> held_unknowns(const std::vector<int>& grounded, const SaddlePointSolution& solution);
+
+/// Fills the two residuals of u and lambda, where the `active` rows are closed. held_unknowns() have none.
 void measure_residuals(const SaddlePointSystem& system, SaddlePointSolution& solution);
 
 SaddlePointSolution solve_saddle_point(const SaddlePointSystem& system);

@@ -254,6 +254,37 @@ TEST(Decompose, MultipliersThatTheDirichletBodyDoesNotFeelAreAnError) {
   expect_contains(message_of([&] { ddm("parabola_1", overrides); }), "do not feel the multiplier near (");
 }
 
+// On the finer side one body or the other does not feel every multiplier, whichever is called the Dirichlet body.
+TEST(Decompose, SchemesThatMakeBothBodiesTakeADisplacementAskBoth) {
+  for (const char* scheme : {"neumann_neumann", "dirichlet_dirichlet"})
+    for (const char* dirichlet : {"upper", "lower"})
+      for (const char* load :
+           {"{ on = [\"top\"], pressure = 1e7 }", "{ on = [\"top\"], displacement = { y = -1e-5 } }"}) {
+        const Overrides overrides{{"mesh.parameters.n_upper", "4"},   {"mesh.parameters.n_lower", "11"},
+                                  {"mesh.parameters.order", "1"},     {"contact.multipliers_on", "lower_contact"},
+                                  {"contact.condition", "bilateral"}, {"boundary.2", load},
+                                  {"method.dirichlet", dirichlet},    {"method.scheme", scheme}};
+        expect_contains(message_of([&] { ddm("patch_flat", overrides); }), "do not feel the multiplier near (");
+      }
+}
+
+TEST(Decompose, WithoutAContactPairThereIsNothingToIterateOn) {
+  expect_contains(message_of([] {
+                    ddm("patch_flat", {{"contact", "[]"}});
+                  }),
+                  "expected a contact pair, or method.kind = \"mortar\"");
+}
+
+TEST(Decompose, WhatOverflowsIsNotSolved) {
+  for (const char* y : {"-1e300", "-1e308"})
+    for (const char* acceleration : {"none", "aitken", "anderson", "krylov"}) {
+      const Results r =
+          ddm("patch_flat", {{"boundary.2", std::string("{ on = [\"top\"], displacement = { y = ") + y + " } }"},
+                             {"method.acceleration", acceleration}});
+      EXPECT_EQ(r.status, Status::not_converged) << y << acceleration;
+    }
+}
+
 TEST(Decompose, KeysOfDomainDecompositionNeedIt) {
   expect_contains(message_of([] { run("rings", {{"method.beta", "0.3"}}); }), "expected kind = \"ddm\"");
   expect_contains(message_of([] { ddm("rings", {{"method.beta", "-1"}}); }), "method.beta");

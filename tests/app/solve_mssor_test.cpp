@@ -140,5 +140,17 @@ TEST(SolveMssor, ASweepVariesItsParameters) {
   EXPECT_EQ(rows, 4);
 }
 
+TEST(SolveMssor, WhatOverflowsIsNotSolved) {
+  for (const char* acceleration : {"none", "krylov", "minres"}) {
+    for (const char* y : {"-1e300", "-1e308"}) {
+      const std::string top = std::string("{ on = [\"top\"], displacement = { y = ") + y + " } }";
+      EXPECT_EQ(run("patch_flat", mssor({{"boundary.2", top}}, acceleration)).status, Status::not_converged);
+    }
+    const Overrides tau = {{"method.tau", "1e300"}, {"method.max_iterations", "200"}};
+    const Results r = run("patch_flat", mssor(tau, acceleration));
+    EXPECT_TRUE(r.status == Status::not_converged || r.u.allFinite());
+  }
+}
+
 }  // namespace
 }  // namespace mortise::test

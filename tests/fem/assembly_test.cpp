@@ -148,48 +148,6 @@ TEST(Stress, OfAQuadraticFieldIsExactAtTheNodesOfRectangles) {
   }
 }
 
-TEST(FreeMotions, AreCountedAndNamed) {
-  const Mesh mesh = test::mesh_of({});
-  const SparseMatrix none(0, 2 * mesh.nodes.rows());
-  Constraints c = no_constraints(mesh);
-  EXPECT_EQ(free_motions(mesh, c, none).size(), 6u);
-  prescribe(mesh, boundary_index(mesh, "bottom"), 0, 0, c);
-  prescribe(mesh, boundary_index(mesh, "bottom"), 1, 0, c);
-  EXPECT_EQ(free_motions(mesh, c, none).size(), 3u);
-  prescribe(mesh, boundary_index(mesh, "upper_left"), 0, 0, c);
-  const auto motions = free_motions(mesh, c, none);
-  ASSERT_EQ(motions.size(), 1u);
-  EXPECT_NE(describe(mesh, motions[0]).find("body 'upper': translation (0, "), std::string::npos)
-      << describe(mesh, motions[0]);
-  const auto grounded = grounding_unknowns(mesh, c, motions);
-  ASSERT_EQ(grounded.size(), 1u);
-  EXPECT_EQ(grounded[0] % 2, 1);  // vertical
-}
-
-TEST(FreeMotions, AreFoundFromWhatTheGroundedUnknownsDo) {
-  const Mesh mesh = test::mesh_of({});
-  Constraints c = no_constraints(mesh);
-  prescribe(mesh, boundary_index(mesh, "bottom"), 0, 0, c);
-  prescribe(mesh, boundary_index(mesh, "bottom"), 1, 0, c);
-  prescribe(mesh, boundary_index(mesh, "top"), 0, 0, c);
-  const auto motions = free_motions(mesh, c, SparseMatrix(0, 2 * mesh.nodes.rows()));
-  const auto grounded = grounding_unknowns(mesh, c, motions);
-  ASSERT_EQ(grounded.size(), 2u);  // up and down, and about the top's nodes, which all move sideways alike
-  // A turn by 0.1 about (0.4, 0.6): what the grounded unknowns do in it gives it back, over its largest translation.
-  VecX values(2);
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    const Vec2 arm = mesh.nodes.row(grounded[std::size_t(k)] / 2).transpose() - Vec2(0.4, 0.6);
-    values(k) = 0.1 * (grounded[std::size_t(k)] % 2 ? arm.x() : -arm.y());
-  }
-  const auto motion = motion_through(mesh, motions, grounded, values);
-  ASSERT_EQ(motion.size(), 1u);
-  EXPECT_EQ(motion[0].body, 0);
-  EXPECT_NEAR(motion[0].centre.y(), 0.45, 1e-12);
-  EXPECT_NEAR(motion[0].translation.x(), 1, 1e-10);  // the body's centre lies 0.15 below the pivot
-  EXPECT_NEAR(motion[0].translation.y(), 0, 1e-10);
-  EXPECT_NEAR(motion[0].rotation, 1 / 0.15, 1e-8);
-}
-
 TEST(CheckCells, NamesTheInvertedElement) {
   for (const CellKind kind : kinds) {
     Mesh mesh = test::mesh_of({[](double) { return 0.3; }, 3, 4, kind, kind});

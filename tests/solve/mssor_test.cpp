@@ -317,5 +317,33 @@ TEST(BandOrder, NumbersAShuffledChainAlongItself) {
   EXPECT_TRUE(order == along || order == back);
 }
 
+TEST(Mssor, WhatIsNotFiniteDivergesAndNeverConverges) {
+  for (const Acceleration acceleration : {Acceleration::none, Acceleration::krylov, Acceleration::minres}) {
+    for (const double bad : {std::nan(""), HUGE_VAL, 1e300}) {  // of the last the squares overflow
+      Problem p = two_chains();
+      p.f(9) = bad;
+      const MssorSolution s = solve_by_mssor(p.system(), {.acceleration = acceleration});
+      EXPECT_EQ(s.status, Status::diverged) << bad;
+      EXPECT_FALSE(s.history.empty());
+    }
+    const Problem p = two_chains();
+    const MssorSolution s = solve_by_mssor(p.system(), {.tau = 1e300, .acceleration = acceleration});
+    if (s.status == Status::converged) EXPECT_LE(s.solution.force_residual, 1e-10);
+    EXPECT_FALSE(s.history.empty());
+  }
+}
+
+TEST(Mssor, NoLoadIsNoDisplacement) {
+  for (const Acceleration acceleration : {Acceleration::none, Acceleration::krylov, Acceleration::minres}) {
+    Problem p = two_chains();
+    p.f.setZero();
+    p.g.setZero();
+    p.value.setZero();
+    const MssorSolution s = solve_by_mssor(p.system(), {.acceleration = acceleration});
+    EXPECT_EQ(s.status, Status::converged);
+    EXPECT_EQ(largest_entry(s.solution.u), 0);
+  }
+}
+
 }  // namespace
 }  // namespace mortise

@@ -107,5 +107,29 @@ TEST(Relaxation, NotANumberIsDivergence) {
   EXPECT_EQ(r.status, RelaxationResult::Status::diverged);
 }
 
+TEST(Relaxation, WhatIsNotFiniteDivergesAtOnce) {
+  const Measure nothing_left = [](const VecX&, const VecX&) { return Residuals{0, 0}; };
+  for (const Acceleration acceleration :
+       {Acceleration::none, Acceleration::aitken, Acceleration::anderson, Acceleration::krylov})
+    for (const double bad : {std::nan(""), HUGE_VAL}) {
+      const Correction correction = [bad](const VecX& x) -> VecX { return VecX::Constant(x.size(), bad); };
+      const RelaxationResult r = relax(correction, nothing_left, VecX::Zero(3), {.acceleration = acceleration});
+      EXPECT_EQ(r.status, RelaxationResult::Status::diverged);
+      EXPECT_EQ(r.history.size(), 1U);
+    }
+}
+
+TEST(Relaxation, AResidualThatIsNotANumberDoesNotConverge) {
+  const Affine problem(spread);
+  for (const bool kinematic : {true, false}) {
+    const Measure measure = [kinematic](const VecX&, const VecX&) {
+      return Residuals{kinematic ? std::nan("") : 0, kinematic ? 0 : std::nan("")};
+    };
+    const RelaxationResult r =
+        relax(problem.correction(), measure, VecX::Zero(problem.b.size()), {.beta = 0.4, .max_iterations = 30});
+    EXPECT_NE(r.status, RelaxationResult::Status::converged);
+  }
+}
+
 }  // namespace
 }  // namespace mortise

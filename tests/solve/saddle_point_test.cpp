@@ -169,5 +169,80 @@ TEST(BorderedCholesky, ItsByProductIsTheBordersCompliance) {
   EXPECT_LE((actual - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.cwiseAbs().maxCoeff());
 }
 
+// ---- Residuals: what they see, and what they must not lose ----
+
+SaddlePointSystem system_of(const Problem& p) { return {p.K, p.f, p.B, p.g, p.fixed, p.value, 1, p.scale, {24}}; }
+
+TEST(SaddlePoint, AResidualOfWhatIsNotFiniteIsNotANumber) {
+  const Problem p = two_chains(true);
+  const SaddlePointSystem system = system_of(p);
+  const SaddlePointSolution good = solve_saddle_point(system);
+  for (const double bad : {std::nan(""), HUGE_VAL, 1e308}) {  // of the last the products overflow
+    SaddlePointSolution s = good;
+    s.u(30) = bad;
+    measure_residuals(system, s);
+    EXPECT_TRUE(std::isnan(s.force_residual)) << bad;
+    s = good;
+    s.u(20) = bad;
+    s.active[0] = 0;
+    measure_residuals(system, s);
+    EXPECT_TRUE(std::isnan(s.force_residual) || std::isnan(s.constraint_residual)) << bad;
+    s = good;
+    s.lambda(2) = std::isnan(bad) ? bad : HUGE_VAL;
+    measure_residuals(system, s);
+    EXPECT_TRUE(std::isnan(s.force_residual)) << bad;
+  }
+}
+
+TEST(SaddlePoint, LoadsThatAreNotFiniteAreNotSolved) {
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    Problem p = two_chains(true);
+    p.f(7) = bad;
+    EXPECT_EQ(solve(p, {24}).status, SaddlePointSolution::Status::not_settled);
+    p = two_chains(true);
+    p.g(1) = bad;
+    EXPECT_EQ(solve(p, {24}).status, SaddlePointSolution::Status::not_settled);
+    p = two_chains(true);
+    p.value(0) = bad;
+    EXPECT_EQ(solve(p, {24}).status, SaddlePointSolution::Status::not_settled);
+    p = two_chains(false);
+    p.fixed[24] = 1;
+    p.f(30) = bad;
+    EXPECT_EQ(solve(p, {}).status, SaddlePointSolution::Status::not_settled) << "without contact";
+  }
+}
+
+// Springs of very different stiffness, as thin elements make them: node to node 1e8 along, 1 across.
+Problem stiff_chain() {
+  Problem p = two_chains(false);
+  for (int j = 0; j < p.K.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(p.K, j); it; ++it)
+      if (it.row() % 2 == 0 && j % 2 == 0) it.valueRef() *= 1e8;
+  for (const int i : {24, 47}) p.fixed[std::size_t(i)] = 1;
+  p.value(24) = 0.25;
+  return p;
+}
+
+TEST(SaddlePoint, RoundOffOfStiffElementsIsNoResidual) {
+  const SaddlePointSolution s = solve(stiff_chain(), {});
+  EXPECT_LE(s.force_residual, 1e-11);
+}
+
+TEST(SaddlePoint, AWrongDisplacementIsAResidual) {
+  for (const Problem& p : {two_chains(true), stiff_chain()}) {
+    const SaddlePointSystem system{p.K, p.f, p.B, p.g, p.fixed, p.value, 1, p.scale, {}};
+    SaddlePointSolution s = p.B.rows() > 0 ? solve(p, {24}) : solve(p, {});
+    const VecX u = s.u;
+    const bool stiff = p.B.rows() == 0;  // across, its springs are nothing beside the forces along
+    for (Eigen::Index i = 0; i < u.size(); i += stiff ? 2 : 1) {
+      if (p.fixed[std::size_t(i)]) continue;
+      s.u = u;
+      s.u(i) += 1e-8 * largest_entry(u);
+      measure_residuals(system, s);
+      EXPECT_GT(s.force_residual, 1e-10) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mortise

@@ -10,6 +10,7 @@
 
 #include "app/solve_scene.hpp"
 #include "base/stopwatch.hpp"
+#include "fem/rigid_motions.hpp"
 #include "io/gmsh_mesh.hpp"
 #include "limit.hpp"
 #include "peak_memory.hpp"

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "fem/rigid_motions.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise::bench {

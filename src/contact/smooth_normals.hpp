@@ -1,0 +1,24 @@
+// The normals of the curve that a mesh stands for, where its own edges have those of their chords.
+#pragma once
+
+#include "contact/segments.hpp"
+#include "fem/rigid_motions.hpp"
+
+namespace mortise {
+
+/// At each vertex of the multiplier side's edges that face the opposite side: the normal of the circle through the
+/// vertex and its neighbours, exact on straight lines and circles however the vertices are spaced; where edges meet at
+/// more than 20 degrees, the normals of both. A turn of a disc about its centre moves nothing along these, while the
+/// chords' own normals resist it by as much as the spacing is uneven.
+struct SmoothNormals {
+  std::vector<ContactNormal> normals;
+  /// How far the edges leave such a curve, as part of its radius: angle^2 / 8 of a chord, angle^4 / 128 of a 3-node
+  /// edge (an upper bound for a parabola through three points of an arc). What loads do in such a turn is known no
+  /// better.
+  double edge_error = 0;
+};
+
+SmoothNormals smooth_normals(const Points& nodes, const Curve& multiplier, const Curve& opposite,
+                             const std::vector<ContactPoint>& points);
+
+}  // namespace mortise

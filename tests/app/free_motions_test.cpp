@@ -1,0 +1,94 @@
+// Motions that nothing holds: the pressure does not depend on them unless a load drives them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/solve_scene.hpp"
+#include "support/differences.hpp"
+#include "support/messages.hpp"
+#include "support/plate_scenes.hpp"
+
+namespace mortise::test {
+namespace {
+
+BoundarySpec held(std::vector<std::string> on, std::optional<double> x, std::optional<double> y) {
+  BoundarySpec b;
+  b.key = "boundary";
+  b.on = std::move(on);
+  b.displacement_x = x;
+  b.displacement_y = y;
+  return b;
+}
+
+// The upper plate is pressed on by 10 MPa and held by nothing but contact.
+Scene pressed_on() {
+  Scene scene = uniaxial_scene();
+  scene.boundaries[0] = held({"lower_left"}, 0, {});
+  return scene;
+}
+
+int held_notes(const Results& r) {
+  int count = 0;
+  for (const std::string& note : r.notes) count += note.find("nothing holds body 'upper'") != std::string::npos;
+  return count;
+}
+
+TEST(FreeMotions, APlateThatMaySlideIsHeldByEveryMethodAndThePressureIsExact) {
+  for (const char* method : {"direct", "ddm", "mssor"}) {
+    SCOPED_TRACE(method);
+    Scene scene = pressed_on();
+    if (std::string(method) == "ddm") scene.method.kind = MethodKind::ddm;
+    if (std::string(method) == "mssor") scene.method.solver = Solver::mssor;
+    const Results r = solve_scene(scene, mesh_of({}));
+    EXPECT_EQ(r.status, Status::solved);
+    EXPECT_EQ(held_notes(r), 1);
+    const VecX& p = r.contacts[0].pressure;
+    EXPECT_LE(largest_entry(p - VecX::Constant(p.size(), 10e6)), 1e-7 * 10e6);
+  }
+}
+
+// A line that is an arc of radius 0.5 about (0.4, -0.1); its vertices are even in x, so unevenly spaced on the arc.
+TwoPlates saddle(int n, CellKind kind) {
+  TwoPlates plates;
+  plates.height = [](double x) { return std::sqrt(0.25 - (x - 0.4) * (x - 0.4)) - 0.1; };
+  plates.n_upper = n;
+  plates.n_lower = n * 5 / 4;
+  plates.kind_upper = plates.kind_lower = kind;
+  return plates;
+}
+
+TEST(FreeMotions, ASaddleOnARoundTopMayTurnWhateverItsChordsSay) {
+  for (const CellKind kind : {CellKind::tri3, CellKind::quad4, CellKind::tri6, CellKind::quad8}) {
+    const double reference = largest_entry(solve_scene(pressed_on(), mesh_of(saddle(32, CellKind::quad8))).u);
+    for (const int n : {8, 12, 16, 24}) {
+      SCOPED_TRACE(std::to_string(int(kind)) + ", " + std::to_string(n));
+      const Results r = solve_scene(pressed_on(), mesh_of(saddle(n, kind)));
+      EXPECT_NE(r.status, Status::not_converged);
+      EXPECT_EQ(held_notes(r), 1);
+      EXPECT_LE(largest_entry(r.u), 2 * reference);
+      EXPECT_NEAR(std::abs(r.contacts[0].force.y()), 10e6 * 0.8, 1e-6 * 10e6);  // balances the load, on whichever side
+    }
+  }
+}
+
+TEST(FreeMotions, AMotionThatTheLoadDrivesIsAnError) {
+  for (const bool round : {false, true}) {
+    Scene scene = pressed_on();
+    BoundarySpec across;
+    across.key = "boundary";
+    across.on = {"top"};
+    across.traction = Vec2(1e5, 0);
+    scene.boundaries.push_back(across);
+    const TwoPlates plates = round ? saddle(12, CellKind::quad4) : TwoPlates{};
+    expect_contains(message_of([&] { solve_scene(scene, mesh_of(plates)); }), "nothing holds body 'upper'");
+  }
+}
+
+TEST(FreeMotions, WhatAnOvalLineHoldsIsHeld) {
+  TwoPlates plates = saddle(12, CellKind::quad8);
+  plates.height = [](double x) { return 1.02 * std::sqrt(0.25 - (x - 0.4) * (x - 0.4)) - 0.1; };
+  EXPECT_EQ(held_notes(solve_scene(pressed_on(), mesh_of(plates))), 0);
+}
+
+}  // namespace
+}  // namespace mortise::test
