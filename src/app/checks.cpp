@@ -123,6 +123,7 @@ void coverage_check(const Scene& scene, Results& r) {
 std::string not_finite(const SaddlePointSolution& solution, const Results& r) {
   if (!solution.u.allFinite()) return "displacements";
   if (!solution.lambda.allFinite()) return "contact pressures";
+  if (!std::isfinite(solution.force_residual) || !std::isfinite(solution.constraint_residual)) return "residuals";
   if (!r.stress.points.allFinite() || !r.stress.centres.allFinite()) return "stresses";
   if (!std::isfinite(r.energy)) return "the energy";
   for (const ContactResults& c : r.contacts)

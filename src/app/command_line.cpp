@@ -87,10 +87,8 @@ int check(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const CheckedScene checked = check_scene(scene);
   if (options.quiet) return 0;
-  std::cout << shown(scene).title << "
-  mesh      " << checked.mesh.source << ": " << checked.mesh.nodes.rows()
-            << " nodes, " << checked.mesh.cells.size() << " elements
-"
+  std::cout << shown(scene).title << "\n  mesh      " << checked.mesh.source << ": " << checked.mesh.nodes.rows()
+            << " nodes, " << checked.mesh.cells.size() << " elements\n"
             << model_lines(shown(scene), checked.discretisation);
   for (const ContactPair& pair : checked.pairs)
     std::cout << "  contact   " << pair.spec.between[0] << " - " << pair.spec.between[1] << ": "

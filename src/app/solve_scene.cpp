@@ -30,15 +30,6 @@ SaddlePointSolution solve_system(const Scene& scene, const SaddlePointSystem& sy
   return scene.method.solver == Solver::mssor ? solve_mssor(scene, system, r) : solve_saddle_point(system);
 }
 
-// An answer that is no number is none, whatever the checks make of it.
-void require_finite(const SaddlePointSolution& solution, Results& r) {
-  if (std::isfinite(largest(solution.force_residual, solution.constraint_residual))) return;
-  r.status = Status::not_converged;
-  r.notes.push_back(
-      "the displacements or pressures are not finite numbers; expected loads, displacements and lengths "
-      "whose squares do not overflow");
-}
-
 }  // namespace
 
 std::string to_string(Status status) {
@@ -116,7 +107,6 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
                                  coupling.loads.size() > 0 ? &coupling.loads : nullptr};
   SaddlePointSolution solution = solve_system(scene, system, dirichlet, r);
   require_solved(scene, r, floating, solution);
-  require_finite(solution, r);
   hold_loose_motions(floating, solution, r);
   r.active = solution.active;
   r.steps = solution.steps;
