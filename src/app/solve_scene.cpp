@@ -1,5 +1,6 @@
 #include "app/solve_scene.hpp"
 
+#include "app/audit.hpp"
 #include "app/checks.hpp"
 #include "app/decompose.hpp"
 #include "app/notes.hpp"
@@ -55,10 +56,11 @@ Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSe
 }
 
 CheckedScene check_scene(const Scene& scene) {
-  CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters), {}};
+  CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters), {}, {}};
   const Discretisation d = discretise(scene, checked.mesh);
   const Constraints& constraints = d.constraints;
   checked.pairs = couple_pairs(scene, checked.mesh, d, roles(scene, checked.mesh, d));
+  checked.warnings = audit_scene(scene, checked.mesh, checked.pairs);
   require_closed(scene, checked.mesh, checked.pairs);
   require_held(scene, checked.mesh, constraints, stack(checked.pairs, 2 * checked.mesh.nodes.rows()));
   return checked;
@@ -86,6 +88,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
   const std::vector<char> dirichlet = roles(scene, r.mesh, d);
   r.pairs = couple_pairs(scene, r.mesh, d, dirichlet);
   const StackedCoupling coupling = stack(r.pairs, d.load.size());
+  r.notes = audit_scene(scene, r.mesh, r.pairs);
   require_closed(scene, r.mesh, r.pairs);
   require_held(scene, r.mesh, d.constraints, coupling);
   const Floating floating = find_floating(r.mesh, d.constraints);
@@ -126,6 +129,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
         solution.lambda.segment(coupling.first_row[k], coupling.first_row[k + 1] - coupling.first_row[k])));
   add_checks(solution, coupling, scene, r);
   add_notes(scene, solution.unsettled, r);
+  for (std::string& line : audit_solution(scene, r)) r.notes.push_back(std::move(line));
   r.seconds.recover = watch.lap();
   return r;
 }

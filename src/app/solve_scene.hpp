@@ -105,6 +105,7 @@ ActiveSet active_set(const Results& results);
 struct CheckedScene {
   Mesh mesh;
   std::vector<ContactPair> pairs;
+  std::vector<std::string> warnings;  ///< of the audit
 };
 
 /// Everything solve_scene would refuse before it factorises, refused. Throws InputError as it does.
