@@ -10,13 +10,15 @@ std::vector<std::string> audit_scene(const Scene& scene, const Mesh& mesh, const
   const AuditedBodies bodies = audited_bodies(mesh, pairs);
   if (bodies.outline.pieces.size() < 2) return {};
   const std::vector<Encounter> found = encounters(bodies);
-  std::vector<std::string> lines = overlap_lines(scene, bodies, found);
-  const std::vector<std::string> meetings = meeting_lines(bodies, found);
-  lines.insert(lines.end(), meetings.begin(), meetings.end());
+  LineOfBodies found_lines = overlap_lines(scene, bodies, found);
+  found_lines.merge(meeting_lines(bodies, found));  // of two bodies the overlap speaks
+  std::vector<std::string> lines;
+  for (auto& [pair, line] : found_lines) lines.push_back(std::move(line));
   return lines;
 }
 
 std::vector<std::string> audit_solution(const Scene&, const Results& r) {
+  if (r.status == Status::not_converged) return {};  // where the bodies are is not known
   if (r.mesh.bodies.size() < 2 && r.pairs.empty()) return {};
   const AuditedBodies bodies = audited_bodies(r.mesh, r.pairs);
   std::vector<std::string> lines = end_lines(bodies, r);

@@ -1,6 +1,7 @@
 #include "app/audit_bodies.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -36,7 +37,7 @@ int main_name(const AuditedBodies& b, const std::vector<int>& edges) {
     best = name;
     longest = length;
   }
-  return longest > 0.5 * total ? best : -1;
+  return longest > total / 3 ? best : -1;
 }
 
 }  // namespace
@@ -106,6 +107,8 @@ Vec2 middle_of(const AuditedBodies& b, const std::vector<int>& edges) {
     distance = d;
     best = middle(e);
   }
+  for (int c = 0; c < 2; ++c)
+    if (std::abs(best(c)) < 1e-9 * length) best(c) = 0;  // no round-off in messages
   return best;
 }
 

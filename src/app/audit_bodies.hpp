@@ -32,7 +32,8 @@ bool face_each_other(const Vec2& normal, const OutlinePlace& place);
 /// "bodies 'a' and 'b'", or "two pieces of body 'a'".
 std::string two_bodies(const Mesh& mesh, int first, int second);
 
-/// The name that covers most of the edges' length, quoted; "an unnamed boundary of 'body'" if most has none.
+/// The name that covers most of the edges' length, quoted; "an unnamed boundary of 'body'" where no name covers a
+/// third.
 std::string name_of(const AuditedBodies& bodies, const std::vector<int>& edges);
 
 /// What to write so that contact is there: [[contact]] between the two names.

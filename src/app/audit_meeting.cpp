@@ -1,4 +1,3 @@
-#include <map>
 #include <sstream>
 
 #include "app/audit_before.hpp"
@@ -27,22 +26,23 @@ std::string line(const AuditedBodies& b, int first, int second, const Meeting& f
 
 }  // namespace
 
-std::vector<std::string> meeting_lines(const AuditedBodies& b, const std::vector<Encounter>& encounters) {
+LineOfBodies meeting_lines(const AuditedBodies& b, const std::vector<Encounter>& encounters) {
   std::map<std::pair<int, int>, Meeting> found;  // of the first body's edges with the second
   for (const Encounter& e : encounters) {
     if (e.meets == 0) continue;
-    Meeting& m = found[{b.outline.edges[e.edge].body, b.outline.pieces[e.piece].body}];
-    m.length += e.meets;
+    const int first = b.outline.edges[e.edge].body, second = b.outline.pieces[e.piece].body;
+    Meeting& m = found[{first, second}];
+    m.length += first == second ? e.meets / 2 : e.meets;  // both pieces of one body are looked at
     m.edges.push_back(e.edge);
     m.facing.insert(m.facing.end(), e.facing.begin(), e.facing.end());
   }
-  std::vector<std::string> lines;
+  LineOfBodies lines;
   for (const auto& [bodies, m] : found) {  // both directions see the same: that of the larger length speaks
     const auto back = found.find({bodies.second, bodies.first});
     const double other = back == found.end() || bodies.first == bodies.second ? 0 : back->second.length;
     const bool first = bodies.first <= bodies.second;
     if (first ? other > (1 + 1e-6) * m.length : other * (1 + 1e-6) >= m.length) continue;
-    lines.push_back(line(b, bodies.first, bodies.second, m));
+    lines[std::minmax(bodies.first, bodies.second)] = line(b, bodies.first, bodies.second, m);
   }
   return lines;
 }

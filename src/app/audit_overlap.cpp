@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <sstream>
 
 #include "app/audit_before.hpp"
@@ -12,9 +12,10 @@ namespace {
 
 // Two pieces that cover one another in part: what lies inside, seen from both.
 struct Overlap {
-  std::vector<int> edges, facing;  // unpaired ones, of either piece, and what is nearest
-  double depth = 0;                // of those
-  double length = 0, area = 0;     // of all, the larger of both directions; the area if it is thin
+  std::array<std::vector<int>, 2>
+      edges;                    // of either piece: unpaired ones inside the other, and what is nearest to them
+  double depth = 0;             // of those
+  double length = 0, area = 0;  // of all, the larger of both directions; the area if it is thin
 };
 
 // Runs of edges that hang together; a run in a contact pair with the other body, at least at its end, is meant.
@@ -42,7 +43,8 @@ std::vector<const Encounter*> unpaired_runs(const AuditedBodies& b, const std::v
   return unpaired;
 }
 
-void add_direction(const AuditedBodies& b, const std::vector<const Encounter*>& inside, Overlap& overlap) {
+// What one piece, the first or the second, has inside the other.
+void add_direction(const AuditedBodies& b, const std::vector<const Encounter*>& inside, int own, Overlap& overlap) {
   double length = 0, area = 0;
   for (const Encounter* e : inside) {
     length += e->inside;
@@ -51,8 +53,8 @@ void add_direction(const AuditedBodies& b, const std::vector<const Encounter*>& 
   overlap.length = std::max(overlap.length, length);
   overlap.area = std::max(overlap.area, area);
   for (const Encounter* e : unpaired_runs(b, inside)) {
-    overlap.edges.push_back(e->edge);
-    overlap.facing.insert(overlap.facing.end(), e->facing.begin(), e->facing.end());
+    overlap.edges[own].push_back(e->edge);
+    overlap.edges[1 - own].insert(overlap.edges[1 - own].end(), e->facing.begin(), e->facing.end());
     overlap.depth = std::max(overlap.depth, e->depth);
   }
 }
@@ -99,40 +101,39 @@ double thickness(const PieceOutline& piece) { return 2 * piece.area / piece.peri
 std::string line(const AuditedBodies& b, const Overlap& overlap, int first, int second) {
   std::ostringstream text;
   text << two_bodies(b.mesh, first, second) << " are drawn into one another by " << overlap.depth << " "
-       << near_point(middle_of(b, overlap.edges)) << " (" << name_of(b, overlap.edges) << ", "
-       << name_of(b, overlap.facing) << "), and no contact pair presses them apart there: ";
+       << near_point(middle_of(b, overlap.edges[0])) << " (" << name_of(b, overlap.edges[0]) << ", "
+       << name_of(b, overlap.edges[1]) << "), and no contact pair presses them apart there: ";
   text << (first == second ? "make them one, or two bodies with a contact pair"
-                           : advice(b, overlap.edges, overlap.facing) + " or draw them apart");
+                           : advice(b, overlap.edges[0], overlap.edges[1]) + " or draw them apart");
   return text.str();
 }
 
 }  // namespace
 
-std::vector<std::string> overlap_lines(const Scene& scene, const AuditedBodies& b,
-                                       const std::vector<Encounter>& encounters) {
+LineOfBodies overlap_lines(const Scene& scene, const AuditedBodies& b, const std::vector<Encounter>& encounters) {
   std::map<std::pair<int, int>, std::vector<const Encounter*>> directions;
   for (const Encounter& e : encounters)
     if (e.inside > 0) directions[{b.outline.edges[e.edge].piece, e.piece}].push_back(&e);
   std::map<std::pair<int, int>, Overlap> overlaps;
   for (const auto& [pieces, inside] : directions)
-    add_direction(b, inside, overlaps[std::minmax(pieces.first, pieces.second)]);
+    add_direction(b, inside, pieces.first < pieces.second ? 0 : 1, overlaps[std::minmax(pieces.first, pieces.second)]);
 
   std::map<std::pair<int, int>, Overlap> by_body;  // the deepest
   for (const auto& [pieces, overlap] : overlaps) {
     const PieceOutline &first = b.outline.pieces[pieces.first], &second = b.outline.pieces[pieces.second];
-    const bool deep = !overlap.edges.empty() && overlap.depth > std::min(thickness(first), thickness(second)) / 4;
+    const bool deep = !overlap.edges[0].empty() && overlap.depth > std::min(thickness(first), thickness(second)) / 4;
     if (deep || covered_part(b, pieces.first, pieces.second, overlap) > 0.5) {
       const auto& inside = directions.count(pieces) ? directions[pieces] : directions[{pieces.second, pieces.first}];
       std::vector<int> edges;
       for (const Encounter* e : inside) edges.push_back(e->edge);
       refuse(scene, b, pieces.first, pieces.second, middle_of(b, edges));
     }
-    if (overlap.edges.empty() || overlap.depth == 0) continue;
+    if (overlap.edges[0].empty() || overlap.depth == 0) continue;
     Overlap& deepest = by_body[std::minmax(first.body, second.body)];
     if (overlap.depth > (1 + 1e-6) * deepest.depth) deepest = overlap;
   }
-  std::vector<std::string> lines;
-  for (const auto& [bodies, overlap] : by_body) lines.push_back(line(b, overlap, bodies.first, bodies.second));
+  LineOfBodies lines;
+  for (const auto& [bodies, overlap] : by_body) lines[bodies] = line(b, overlap, bodies.first, bodies.second);
   return lines;
 }
 

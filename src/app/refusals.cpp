@@ -46,12 +46,13 @@ Floating find_floating(const Mesh& mesh, const Constraints& constraints) {
   return floating;
 }
 
-void require_held(const Scene& scene, const Mesh& mesh, const Constraints& constraints,
-                  const StackedCoupling& coupling) {
+void require_held(const Scene& scene, const Mesh& mesh, const Constraints& constraints, const StackedCoupling& coupling,
+                  const std::vector<std::string>& findings) {
   const auto motions = free_motions(mesh, constraints, unit_rows(coupling));
   if (motions.empty()) return;
   throw InputError(scene.path + ": nothing holds " + describe(mesh, motions.front()) +
-                   "; expected prescribed displacements or contact that prevent it");
+                   "; expected prescribed displacements or contact that prevent it" +
+                   (findings.empty() ? "" : ": " + findings.front()));
 }
 
 void require_closed(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs) {

@@ -13,9 +13,10 @@ struct Floating {
 
 Floating find_floating(const Mesh& mesh, const Constraints& constraints);
 
-/// Throws InputError where a body may move although all contact is closed.
-void require_held(const Scene& scene, const Mesh& mesh, const Constraints& constraints,
-                  const StackedCoupling& coupling);
+/// Throws InputError where a body may move although all contact is closed. The first of the audit's `findings` ends
+/// the message: probably a pair is missing.
+void require_held(const Scene& scene, const Mesh& mesh, const Constraints& constraints, const StackedCoupling& coupling,
+                  const std::vector<std::string>& findings);
 
 /// Throws InputError where a gap that the scene calls closed is wider than two meshes of one curve can show.
 void require_closed(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs);

@@ -62,7 +62,7 @@ CheckedScene check_scene(const Scene& scene) {
   checked.pairs = couple_pairs(scene, checked.mesh, d, roles(scene, checked.mesh, d));
   checked.warnings = audit_scene(scene, checked.mesh, checked.pairs);
   require_closed(scene, checked.mesh, checked.pairs);
-  require_held(scene, checked.mesh, constraints, stack(checked.pairs, 2 * checked.mesh.nodes.rows()));
+  require_held(scene, checked.mesh, constraints, stack(checked.pairs, 2 * checked.mesh.nodes.rows()), checked.warnings);
   return checked;
 }
 
@@ -90,7 +90,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
   const StackedCoupling coupling = stack(r.pairs, d.load.size());
   r.notes = audit_scene(scene, r.mesh, r.pairs);
   require_closed(scene, r.mesh, r.pairs);
-  require_held(scene, r.mesh, d.constraints, coupling);
+  require_held(scene, r.mesh, d.constraints, coupling, r.notes);
   const Floating floating = find_floating(r.mesh, d.constraints);
   r.seconds.couple = watch.lap();
 
