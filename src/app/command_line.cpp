@@ -98,6 +98,7 @@ int check(const Options& options) {
   std::cout << "  left out  friction, large displacements, plasticity, time"
             << (scene.body_forces.empty() ? ", body forces" : "")
             << (scene.initial_strains.empty() ? ", initial strains" : "") << "\n";
+  for (const std::string& warning : checked.warnings) std::cout << "  warning    " << warning << "\n";
   return 0;
 }
 

@@ -71,14 +71,16 @@ Floating find_floating(const Mesh& mesh, const Constraints& constraints) {
 }
 
 std::vector<std::string> hold_free_motions(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                                           const StackedCoupling& coupling, Discretisation& d) {
+                                           const StackedCoupling& coupling, const std::vector<std::string>& findings,
+                                           Discretisation& d) {
   std::vector<std::string> notes;
   const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions, double round_off) {
     const MatX fields = motion_fields(mesh, motions);
     for (std::size_t k = 0; k < motions.size(); ++k) {
       if (drives(d.load, fields.col(k), round_off))
         throw InputError(scene.path + ": nothing holds " + describe(mesh, motions[k]) +
-                         "; expected prescribed displacements or contact that prevent it");
+                         "; expected prescribed displacements or contact that prevent it" +
+                         (findings.empty() ? "" : ": " + findings.front()));
       notes.push_back(held_note(mesh, motions[k]));
     }
     for (const int unknown : unknowns_to_hold(mesh, pairs, d.constraints, motions)) d.constraints.fixed[unknown] = 1;

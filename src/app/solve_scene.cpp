@@ -1,5 +1,6 @@
 #include "app/solve_scene.hpp"
 
+#include "app/audit.hpp"
 #include "app/checks.hpp"
 #include "app/decompose.hpp"
 #include "app/notes.hpp"
@@ -30,6 +31,10 @@ SaddlePointSolution solve_system(const Scene& scene, const SaddlePointSystem& sy
   return scene.method.solver == Solver::mssor ? solve_mssor(scene, system, r) : solve_saddle_point(system);
 }
 
+void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+  lines.insert(lines.end(), more.begin(), more.end());
+}
+
 }  // namespace
 
 std::string to_string(Status status) {
@@ -55,12 +60,14 @@ Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSe
 }
 
 CheckedScene check_scene(const Scene& scene) {
-  CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters, scene.geo_limits), {}, {}};
+  CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters, scene.geo_limits), {}, {}, {}};
   checked.discretisation = discretise(scene, checked.mesh);
   Discretisation& d = checked.discretisation;
   checked.pairs = couple_pairs(scene, checked.mesh, d, roles(scene, checked.mesh, d));
+  checked.warnings = audit_scene(scene, checked.mesh, checked.pairs);
   require_closed(scene, checked.mesh, checked.pairs);
-  hold_free_motions(scene, checked.mesh, checked.pairs, stack(checked.pairs, d.load.size()), d);
+  append(checked.warnings, hold_free_motions(scene, checked.mesh, checked.pairs,
+                                             stack(checked.pairs, d.load.size()), checked.warnings, d));
   return checked;
 }
 
@@ -86,8 +93,9 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
   const std::vector<char> dirichlet = roles(scene, r.mesh, d);
   r.pairs = couple_pairs(scene, r.mesh, d, dirichlet);
   const StackedCoupling coupling = stack(r.pairs, d.load.size());
+  r.notes = audit_scene(scene, r.mesh, r.pairs);
   require_closed(scene, r.mesh, r.pairs);
-  r.notes = hold_free_motions(scene, r.mesh, r.pairs, coupling, r.discretisation);
+  append(r.notes, hold_free_motions(scene, r.mesh, r.pairs, coupling, r.notes, r.discretisation));
   const Floating floating = find_floating(r.mesh, d.constraints);
   r.seconds.couple = watch.lap();
 
@@ -130,6 +138,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
     r.against_sigma_n.push_back(compare_with_stress(r.mesh, r.pairs[k], r.contacts[k], d.constraints, negligible));
   add_checks(solution, coupling, scene, r);
   add_notes(scene, solution.unsettled, r);
+  append(r.notes, audit_solution(scene, r));
   r.seconds.recover = watch.lap();
   return r;
 }

@@ -108,6 +108,7 @@ struct CheckedScene {
   Mesh mesh;
   Discretisation discretisation;
   std::vector<ContactPair> pairs;
+  std::vector<std::string> warnings;  ///< of the audit
 };
 
 /// Everything solve_scene would refuse before it factorises, refused. Throws InputError as it does.

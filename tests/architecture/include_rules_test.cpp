@@ -39,6 +39,7 @@ struct Foreign {
   bool sources_only;
 };
 const std::vector<Foreign> foreigners{
+    {"Boost", R"(boost/.*)", "mesh", true},
     {"gmsh", R"(gmsh\..*)", "io", true},
     {"VTK", R"(vtk\w+\.h)", "io", true},
     {"CHOLMOD", R"((.*/)?cholmod.*)", "solve", true},
@@ -114,6 +115,7 @@ TEST(IncludeRules, NameFileAndLineOfAForbiddenInclude) {
            {"io/a.hpp", "#  include <gmsh.h>  // for the model"},
            {"io/a.hpp", "#include <vtkPoints.h>"},
            {"fem/a.cpp", "#include <vtkPoints.h>"},
+           {"mesh/a.hpp", "#include <boost/geometry.hpp>"},
            {"solve/a.hpp", "#include <suitesparse/cholmod.h>"},
            {"ddm/a.cpp", "#include <amd.h>"},
            {"scene/a.cpp", "#include <nlohmann/json.hpp>"},

@@ -31,6 +31,18 @@ itself, and the numbers and messages are those of that run. The states:
 | open | some runs are off and end as solved, without a note that means it |
 
 Runs with the note on p against sigma_n are often right: the meshes are coarse on purpose.
+
+## Before any method: the audit
+
+A scene may be solved exactly and not be the one that was meant. `mortise check` and `mortise solve` look at the outlines
+of all bodies, named or not, for what a scene does not say. Refused: elements listed twice, an edge in two loads, bodies
+drawn over one another (one covers more than half of the other, or reaches more than a quarter of its thickness into it
+where no contact pair is). Said in one line for two bodies, with the place and what to write: boundaries that meet, or
+overlap a little, where no pair stands between them (within 1 % of the edges, and what two meshes of one curve show).
+After the solve: bodies that pass through one another where no pair stands between them, and contact of a pair that
+reaches the end of a curve where the boundary goes on smoothly and faces the other body: the pressure would go on there
+(two cylinders: peaks of 2 to 4 times the true one). Silent by intent: bodies that share nodes, an interference along a
+pair, bodies with a gap between them that stays open.
 """
 
 REFERENCES = """

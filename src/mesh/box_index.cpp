@@ -1,0 +1,55 @@
+#include "mesh/box_index.hpp"
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <iterator>
+
+namespace mortise {
+namespace {
+
+namespace geometry = boost::geometry;
+using Point = geometry::model::d2::point_xy<double>;
+using Rectangle = geometry::model::box<Point>;
+using Entry = std::pair<Rectangle, int>;
+
+Point point(const Vec2& x) { return {x.x(), x.y()}; }
+
+Rectangle rectangle(const Box& box) { return {point(box.min()), point(box.max())}; }
+
+std::vector<Entry> entries(const std::vector<Box>& boxes) {
+  std::vector<Entry> list;
+  list.reserve(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) list.emplace_back(rectangle(boxes[i]), int(i));
+  return list;
+}
+
+}  // namespace
+
+struct BoxIndex::Tree {
+  geometry::index::rtree<Entry, geometry::index::linear<8>> boxes;
+};
+
+BoxIndex::BoxIndex(const std::vector<Box>& boxes)
+    : tree_(std::make_unique<Tree>(Tree{decltype(Tree::boxes)(entries(boxes))})) {}
+BoxIndex::~BoxIndex() = default;
+BoxIndex::BoxIndex(BoxIndex&&) noexcept = default;
+BoxIndex& BoxIndex::operator=(BoxIndex&&) noexcept = default;
+
+std::vector<int> BoxIndex::meeting(const Box& box) const {
+  std::vector<int> numbers;
+  for (auto it = tree_->boxes.qbegin(geometry::index::intersects(rectangle(box))); it != tree_->boxes.qend(); ++it)
+    numbers.push_back(it->second);
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+void BoxIndex::nearest_first(const Vec2& x, const std::function<bool(int, double)>& visit) const {
+  const auto all = static_cast<unsigned>(tree_->boxes.size());
+  for (auto it = tree_->boxes.qbegin(geometry::index::nearest(point(x), all)); it != tree_->boxes.qend(); ++it)
+    if (!visit(it->second, geometry::distance(point(x), it->first))) return;
+}
+
+}  // namespace mortise

@@ -1,0 +1,34 @@
+// Boxes in the plane, to be looked up by place: an R-tree.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace mortise {
+
+using Box = Eigen::AlignedBox2d;
+
+class BoxIndex {
+ public:
+  explicit BoxIndex(const std::vector<Box>& boxes);
+  ~BoxIndex();
+  BoxIndex(BoxIndex&&) noexcept;
+  BoxIndex& operator=(BoxIndex&&) noexcept;
+
+  /// Numbers of the boxes that have a point in common with `box`, ascending.
+  std::vector<int> meeting(const Box& box) const;
+
+  /// Calls `visit` with the numbers of the boxes, nearest to x first, until it returns false.
+  /// `visit(number, distance)`: distance of the box from x, 0 inside.
+  void nearest_first(const Vec2& x, const std::function<bool(int, double)>& visit) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace mortise

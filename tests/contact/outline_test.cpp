@@ -1,0 +1,29 @@
+#include "contact/outline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesh/grid.hpp"
+
+namespace mortise::test {
+namespace {
+
+TEST(Outline, KnowsTheSignedDistanceOfEveryPoint) {
+  for (const CellKind kind : testing_meshes::all_kinds()) {
+    const Mesh mesh = testing_meshes::plate(kind, 3, 2);  // [0, 3] x [0, 2]
+    const Outline o = outline(boundary_edges(mesh), mesh.nodes);
+    ASSERT_EQ(o.pieces.size(), 1U);
+    EXPECT_DOUBLE_EQ(o.pieces[0].area, 6);
+    EXPECT_DOUBLE_EQ(o.pieces[0].perimeter, 10);
+    for (double x = -1.05; x < 4; x += 0.3)
+      for (double y = -1.05; y < 3; y += 0.3) {
+        const Vec2 out(std::max({-x, x - 3, 0.}), std::max({-y, y - 2, 0.}));
+        const double inside = std::min({x, 3 - x, y, 2 - y});
+        EXPECT_NEAR(nearest(o, 0, {x, y}).distance, inside > 0 ? -inside : out.norm(), 1e-12) << x << " " << y;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace mortise::test
