@@ -1,18 +1,30 @@
 #include "app/contact_pair.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "base/errors.hpp"
 #include "contact/nodal_transfer.hpp"
 #include "mesh/place.hpp"
+#include "mesh/thickness.hpp"
 
 namespace mortise {
 
 namespace {
 
+// The curve that faces the other on nearly all of its length, where the other does not: 0 or 1, or -1 if there is none.
+int covered_curve(const Points& nodes, const std::array<Curve, 2>& curves) {
+  const double first = covered_part(nodes, curves[0], curves[1]), second = covered_part(nodes, curves[1], curves[0]);
+  const double round_off = 1e-9;  // of a part that is exactly a limit
+  if (std::max(first, second) < covered_limit - round_off) return -1;
+  if (std::min(first, second) > uncovered_limit + round_off) return -1;
+  return second > first ? 1 : 0;
+}
+
 // True if the multipliers lie on the second curve of a pair, where the scene does not say.
-bool on_second(const Scene& scene, const std::array<Curve, 2>& curves, const std::array<double, 2>& edge_size,
-               const std::vector<ElasticLaw>& laws, const std::vector<char>& dirichlet) {
+bool on_second(const Scene& scene, const Points& nodes, const std::array<Curve, 2>& curves,
+               const std::array<double, 2>& edge_size, const std::vector<ElasticLaw>& laws,
+               const std::vector<char>& dirichlet) {
   // Equal meshes differ by round-off in their lengths: the first is the multiplier side then.
   const bool second_finer = edge_size[1] < (1 - 1e-6) * edge_size[0],
              first_finer = edge_size[0] < (1 - 1e-6) * edge_size[1];
@@ -20,6 +32,7 @@ bool on_second(const Scene& scene, const std::array<Curve, 2>& curves, const std
     const double first = contact_modulus(laws[std::size_t(curves[0].body)]),
                  second = contact_modulus(laws[std::size_t(curves[1].body)]);
     if (std::max(first, second) > stiffer_limit * std::min(first, second)) return second < first;
+    if (const int covered = covered_curve(nodes, curves); covered >= 0) return covered == 1;
     const double ratio = std::max(edge_size[0] / edge_size[1], edge_size[1] / edge_size[0]);
     const Curve& coarser = curves[second_finer ? 0 : 1];
     return coarser.edges[0].node_count == 2 && ratio > facet_limit ? !second_finer : second_finer;
@@ -48,15 +61,19 @@ void append(const SparseMatrix& rows, int first, std::vector<Eigen::Triplet<doub
 std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, const Discretisation& d,
                                       const std::vector<char>& dirichlet) {
   std::vector<ContactPair> pairs;
+  std::map<int, std::vector<Edge>> outlines;  // of each body that is in contact
   for (const ContactSpec& spec : scene.contacts) {
     std::array<Curve, 2> curves;
     std::array<double, 2> edge_size{};
     for (std::size_t i = 0; i < 2; ++i) {
       curves[i] = contact_curve(mesh, scene_boundary(scene, mesh, spec.key + ".between", spec.between[i]));
+      const auto [body, is_new] = outlines.try_emplace(curves[i].body);
+      if (is_new) body->second = outline(mesh, curves[i].body);
+      curves[i].thickness = thickness_behind(mesh.nodes, curves[i], body->second);
       edge_size[i] = curve_length(mesh.nodes, curves[i]) / double(curves[i].edges.size());
     }
     require_own_nodes(mesh, spec, curves);
-    const bool second = spec.multipliers_on.empty() ? on_second(scene, curves, edge_size, d.laws, dirichlet)
+    const bool second = spec.multipliers_on.empty() ? on_second(scene, mesh.nodes, curves, edge_size, d.laws, dirichlet)
                                                     : spec.multipliers_on == spec.between[1];
     ContactPair pair;
     pair.spec = spec;

@@ -159,7 +159,8 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
   for (const CurveNode& at : along) {
     ContactNode n = node_results(mesh, at, pair.multiplier.body, at.normal, points, stress, u);
     n.p = interpolate(pair.coupling, pair.multiplier, r.pressure, at.place.edge, at.place.xi);
-    if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite, n.position, at.normal)) {
+    if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite,
+                                            {n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)})) {
       const Vec2 other = value_at(u, pair.opposite.edges[std::size_t(hit->edge)], hit->xi);
       n.gap = (measured ? hit->distance : 0) + other.dot(at.normal) - n.u_n;
     }

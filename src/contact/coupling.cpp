@@ -56,7 +56,7 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
         sums.support.scale(a) += std::abs(psi(i));
         sums.support.weight(a) += psi(i);
         sums.support.faced(a) += p.ds;
-        sums.support.nearest(a) = std::min(sums.support.nearest(a), std::abs(p.gap));
+        sums.support.nearest(a) = std::min(sums.support.nearest(a), std::max(p.gap, 0.0));
         if (options.initial_gap == InitialGap::measured) sums.gap(a) += psi(i) * p.gap;
         for (int c = 0; c < 2; ++c) {
           for (std::size_t b = 0; b < std::size_t(edge.node_count); ++b)
@@ -76,9 +76,10 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
                 const std::vector<ContactPoint>& points, const Constraints& constraints,
                 const CouplingOptions& options) {
   if (points.empty())
-    throw InputError(mesh.source + ": contact between '" + mesh.boundaries[std::size_t(multiplier.boundary)].name +
-                     "' and '" + mesh.boundaries[std::size_t(opposite.boundary)].name +
-                     "': the curves do not face each other anywhere");
+    throw InputError(
+        mesh.source + ": contact between '" + mesh.boundaries[std::size_t(multiplier.boundary)].name + "' and '" +
+        mesh.boundaries[std::size_t(opposite.boundary)].name +
+        "': the curves do not face each other anywhere, or overlap by more than half of a body's thickness");
   Coupling coupling;
   number_multipliers(multiplier, options.multipliers, coupling);
   const Accumulated sums = accumulate(multiplier, opposite, points, options, coupling);

@@ -6,19 +6,46 @@
 namespace mortise {
 namespace {
 
-double angle(const Vec2& a, const Vec2& b) { return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b))); }
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+double angle(const Vec2& a, const Vec2& b) { return std::abs(std::atan2(cross(a, b), a.dot(b))); }
+
+// An edge as its curve meets it: a piece of length h with its curvature at the middle, whose middle node lies `ahead`
+// of halfway along it.
+struct Piece {
+  double h, curvature, ahead;
+  Vec2 start, end;  // tangents
+};
+
+Piece piece_of(const Points& nodes, const Edge& edge) {
+  const EdgePoint middle = edge_point(nodes, edge, 0);
+  const Vec2 start = edge_point(nodes, edge, -1).tangent, end = edge_point(nodes, edge, 1).tangent;
+  const Vec2& t = middle.tangent;       // half of the way from end to end
+  const Vec2 bend = (end - start) / 2;  // second derivative; twice the way from the middle node back to halfway
+  const double half = t.norm();
+  return {2 * half, cross(t, bend) / (half * half * half), -bend.dot(t) / (2 * half), start, end};
+}
 
 }  // namespace
 
 std::vector<double> sagittas(const Points& nodes, const Curve& curve) {
-  const std::size_t count = curve.edges.size();
-  const auto tangent = [&](std::size_t e, double xi) { return edge_point(nodes, curve.edges[e], xi).tangent; };
+  std::vector<Piece> pieces;
+  for (const Edge& edge : curve.edges) pieces.push_back(piece_of(nodes, edge));
+  const std::size_t count = pieces.size();
   std::vector<double> list;
   for (std::size_t e = 0; e < count; ++e) {
-    double turn = angle(tangent(e, -1), tangent(e, 1));
-    if (e + 1 < count || curve.closed) turn = std::max(turn, angle(tangent(e, 0), tangent((e + 1) % count, 0)));
-    if (e > 0 || curve.closed) turn = std::max(turn, angle(tangent((e + count - 1) % count, 0), tangent(e, 0)));
-    list.push_back(edge_length(nodes, curve.edges[e]) * turn / 8);
+    const std::size_t before = e > 0 ? e - 1 : curve.closed ? count - 1 : e;
+    const std::size_t after = e + 1 < count ? e + 1 : curve.closed ? 0 : e;
+    const Piece &p = pieces[e], &b = pieces[before], &a = pieces[after];
+    const double kink = count == 1
+                            ? angle(p.start, p.end)  // no neighbour tells: as if the edge were straight
+                            : std::max(before != e ? angle(b.end, p.start) : 0, after != e ? angle(p.end, a.start) : 0);
+    double cubic = 0;
+    if (curve.edges[e].node_count == 3 && count > 1) {
+      const double apart = (before != e ? (b.h + p.h) / 2 : 0) + (after != e ? (p.h + a.h) / 2 : 0);
+      const double change = (a.curvature - b.curvature) / apart;
+      cubic = std::abs(change * p.h * p.h / 24 - p.curvature * p.ahead) * p.h / (3 * std::sqrt(3));
+    }
+    list.push_back(p.h * kink / 8 + cubic);
   }
   return list;
 }

@@ -8,9 +8,11 @@
 
 namespace mortise {
 
-/// For each edge of a curve, how far it may lie from the curve that it stands for: h theta / 8, the sagitta of an arc
-/// of length h that turns by theta. theta is the angle by which the mesh turns there: between the edge's own ends, or
-/// its middle and its neighbours' middles, whichever is larger. Length.
+/// For each edge of a curve, how far it may lie from the curve that it stands for, length: h theta / 8, the sagitta of
+/// an arc of length h that turns by theta, the larger angle of the mesh's kinks at the edge's ends; and of 3-node edges
+/// what a parabola misses of a curvature kappa that changes along it (docs/theory.md eq. 28). An estimate, up to 4
+/// times too large where only kinks tell; of equal size on both sides of a true corner, which it cannot tell from a
+/// mesh's.
 std::vector<double> sagittas(const Points& nodes, const Curve& curve);
 
 /// A contact point whose gap is more than two meshes of one curve can show, and what they can.

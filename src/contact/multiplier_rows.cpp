@@ -35,12 +35,13 @@ std::string between(const Mesh& mesh, const Curve& multiplier, const Curve& oppo
 
 // The gap that prescribed displacements leave at a node of the multiplier side; nothing unless both sides' normal
 // displacements are prescribed there.
-std::optional<double> prescribed_gap(const Mesh& mesh, const Edge& edge, std::size_t local, const Curve& opposite,
-                                     const Constraints& constraints, InitialGap initial_gap) {
-  const EdgePoint p = edge_point(mesh.nodes, edge, local == 0 ? -1 : local == 1 ? 1 : 0);
-  const Vec2 n = p.normal();
+std::optional<double> prescribed_gap(const Mesh& mesh, const Curve& multiplier, int e, std::size_t local,
+                                     const Curve& opposite, const Constraints& constraints, InitialGap initial_gap) {
+  const Edge& edge = multiplier.edges[e];
+  const Line line = line_from(mesh.nodes, multiplier, e, local == 0 ? -1 : local == 1 ? 1 : 0);
+  const Vec2& n = line.n;
   if (!prescribed_along(constraints, edge.nodes[local], n)) return {};
-  const auto hit = project_onto_curve(mesh.nodes, opposite, p.position, n);
+  const auto hit = project_onto_curve(mesh.nodes, opposite, line);
   if (!hit) return {};
   const auto value = [&](int node) { return constraints.value.segment<2>(2 * node).dot(n); };
   double gap = (initial_gap == InitialGap::measured ? hit->distance : 0) - value(edge.nodes[local]);
@@ -70,7 +71,7 @@ std::vector<State> find_states(const Mesh& mesh, const Curve& multiplier, const 
         found = State::unsupported;
         continue;
       }
-      const auto gap = prescribed_gap(mesh, multiplier.edges[e], i, opposite, constraints, initial_gap);
+      const auto gap = prescribed_gap(mesh, multiplier, int(e), i, opposite, constraints, initial_gap);
       const double round_off = 1e-9 * length(a);
       if (gap && *gap < -round_off) {
         std::ostringstream text;

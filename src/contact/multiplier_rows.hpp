@@ -9,7 +9,7 @@ namespace mortise {
 struct Support {
   VecX scale, weight;  ///< int |psi|, int psi, length
   VecX faced;          ///< how much of its edges faces the other side, length
-  VecX nearest;        ///< the smallest gap there (or overlap), undeformed, length
+  VecX nearest;        ///< the smallest gap there, undeformed, length; 0 where the sides overlap
 };
 
 /// Part of a multiplier's edges that must face the other side. Of less, what little gap there is weighs against the

@@ -9,26 +9,26 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Mean of the normals of the edges that meet at each node of the curve.
-std::map<int, Vec2> nodal_normals(const Mesh& mesh, const Curve& curve) {
-  std::map<int, Vec2> normals;
-  for (const Edge& edge : curve.edges)
-    for (std::size_t a = 0; a < std::size_t(edge.node_count); ++a) {
-      const Vec2 n = edge_point(mesh.nodes, edge, a == 0 ? -1 : a == 1 ? 1 : 0).normal();
-      normals.try_emplace(edge.nodes[a], Vec2::Zero()).first->second += n;
+// From each node of the curve, along the mean of the normals of the edges that meet there.
+std::map<int, Line> nodal_lines(const Mesh& mesh, const Curve& curve) {
+  std::map<int, Line> lines;
+  for (int e = 0; e < int(curve.edges.size()); ++e)
+    for (std::size_t a = 0; a < std::size_t(curve.edges[e].node_count); ++a) {
+      const Line line = line_from(mesh.nodes, curve, e, a == 0 ? -1 : a == 1 ? 1 : 0);
+      const auto [it, added] = lines.emplace(curve.edges[e].nodes[a], line);
+      if (!added) it->second.n += line.n;
     }
-  for (auto& [node, n] : normals) n.normalize();
-  return normals;
+  for (auto& [node, line] : lines) line.n.normalize();
+  return lines;
 }
 
 // Place of the curve that a node of the other curve faces.
-std::optional<Hit> place_facing(const Mesh& mesh, const Curve& curve, int node, const Vec2& normal) {
-  const Vec2 x = mesh.nodes.row(node).transpose();
-  if (const auto hit = project_onto_curve(mesh.nodes, curve, x, normal)) return hit;
+std::optional<Hit> place_facing(const Mesh& mesh, const Curve& curve, const Line& line) {
+  if (const auto hit = project_onto_curve(mesh.nodes, curve, line)) return hit;
   for (int e = 0; e < int(curve.edges.size()); ++e)
     for (const double xi : {-1.0, 1.0}) {
       const EdgePoint end = edge_point(mesh.nodes, curve.edges[std::size_t(e)], xi);
-      if ((end.position - x).norm() < 0.2 * end.jacobian()) return Hit{e, xi, 0};
+      if ((end.position - line.x).norm() < 0.2 * end.jacobian()) return Hit{e, xi, 0};
     }
   return {};
 }
@@ -36,8 +36,8 @@ std::optional<Hit> place_facing(const Mesh& mesh, const Curve& curve, int node, 
 // -B_multiplier I u, with I u the opposite side's displacement at the nodes of the multiplier side.
 void add_displacements(const Mesh& mesh, const Curve& multiplier, const Curve& opposite, const SparseMatrix& B,
                        Triplets& entries) {
-  for (const auto& [node, normal] : nodal_normals(mesh, multiplier)) {
-    const auto hit = place_facing(mesh, opposite, node, normal);
+  for (const auto& [node, line] : nodal_lines(mesh, multiplier)) {
+    const auto hit = place_facing(mesh, opposite, line);
     if (!hit) continue;
     const Edge& edge = opposite.edges[std::size_t(hit->edge)];
     const EdgeShape s = edge_shape(edge.node_count, hit->xi);
@@ -52,8 +52,8 @@ void add_displacements(const Mesh& mesh, const Curve& multiplier, const Curve& o
 void add_pressures(const Mesh& mesh, const Curve& multiplier, const Curve& opposite, const Coupling& coupling,
                    Triplets& entries) {
   std::map<int, std::vector<std::pair<int, double>>> at_node;  // node -> rows and psi there
-  for (const auto& [node, normal] : nodal_normals(mesh, opposite)) {
-    const auto hit = place_facing(mesh, multiplier, node, normal);
+  for (const auto& [node, line] : nodal_lines(mesh, opposite)) {
+    const auto hit = place_facing(mesh, multiplier, line);
     if (!hit) continue;
     const auto& on = coupling.on_edge[std::size_t(hit->edge)];
     const int count = on[2] >= 0 ? 3 : 2;

@@ -1,7 +1,9 @@
 #include "contact/projection.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace mortise {
 namespace {
@@ -25,7 +27,17 @@ int quadratic_roots(double c0, double c1, double c2, std::array<double, 2>& root
 
 }  // namespace
 
-std::optional<Hit> project_onto_edge(const Points& nodes, const Curve& curve, int edge, const Vec2& x, const Vec2& n) {
+double deepest_overlap(const Curve& curve, int edge) {
+  return curve.thickness.empty() ? std::numeric_limits<double>::infinity() : curve.thickness[edge] / 2;
+}
+
+Line line_from(const Points& nodes, const Curve& curve, int edge, double xi) {
+  const EdgePoint p = edge_point(nodes, curve.edges[edge], xi);
+  return {p.position, p.normal(), deepest_overlap(curve, edge)};
+}
+
+std::optional<Hit> project_onto_edge(const Points& nodes, const Curve& curve, int edge, const Line& line) {
+  const auto& [x, n, depth] = line;
   const Edge& e = curve.edges[std::size_t(edge)];
   // Offsets from the line at start, end and middle, and the polynomial through them.
   const double start = cross(nodes.row(e.nodes[0]).transpose() - x, n);
@@ -46,16 +58,16 @@ std::optional<Hit> project_onto_edge(const Points& nodes, const Curve& curve, in
     const EdgePoint p = edge_point(nodes, e, xi);
     if (p.normal().dot(n) >= 0) continue;
     const double distance = (p.position - x).dot(n);
-    if (distance < -2 * p.jacobian()) continue;  // d position / d xi is half the edge
+    if (-distance > std::min(depth, deepest_overlap(curve, edge))) continue;
     if (!best || std::abs(distance) < std::abs(best->distance)) best = Hit{edge, xi, distance};
   }
   return best;
 }
 
-std::optional<Hit> project_onto_curve(const Points& nodes, const Curve& curve, const Vec2& x, const Vec2& n) {
+std::optional<Hit> project_onto_curve(const Points& nodes, const Curve& curve, const Line& line) {
   std::optional<Hit> best;
   for (int edge = 0; edge < int(curve.edges.size()); ++edge) {
-    const std::optional<Hit> hit = project_onto_edge(nodes, curve, edge, x, n);
+    const std::optional<Hit> hit = project_onto_edge(nodes, curve, edge, line);
     if (hit && (!best || std::abs(hit->distance) < std::abs(best->distance))) best = hit;
   }
   return best;

@@ -7,9 +7,8 @@
 namespace mortise {
 namespace {
 
-std::optional<Hit> hit_from(const Points& nodes, const Edge& edge, double xi, const Curve& opposite) {
-  const EdgePoint p = edge_point(nodes, edge, xi);
-  return project_onto_curve(nodes, opposite, p.position, p.normal());
+std::optional<Hit> hit_from(const Points& nodes, const Curve& curve, int edge, double xi, const Curve& opposite) {
+  return project_onto_curve(nodes, opposite, line_from(nodes, curve, edge, xi));
 }
 
 // Start and end node of the opposite edges first .. last.
@@ -21,8 +20,9 @@ std::vector<int> vertices_between(const Curve& opposite, int first, int last) {
 }
 
 // Where to cut one edge, ascending, from -1 to 1. Cuts nearer than projection_tolerance to another are one cut.
-std::vector<double> cuts_of(const Points& nodes, const Edge& edge, const Curve& opposite) {
-  const std::optional<Hit> from = hit_from(nodes, edge, -1, opposite), to = hit_from(nodes, edge, 1, opposite);
+std::vector<double> cuts_of(const Points& nodes, const Curve& curve, int e, const Curve& opposite) {
+  const Edge& edge = curve.edges[e];
+  const auto from = hit_from(nodes, curve, e, -1, opposite), to = hit_from(nodes, curve, e, 1, opposite);
   int first = 0, last = int(opposite.edges.size()) - 1;  // an end that hits nothing: look through the whole curve
   if (from && to) {
     first = std::min(from->edge, to->edge);
@@ -53,10 +53,9 @@ int gauss_count(const Edge& edge, const Edge& opposite) {
 std::vector<Segment> find_segments(const Points& nodes, const Curve& multiplier, const Curve& opposite) {
   std::vector<Segment> segments;
   for (int e = 0; e < int(multiplier.edges.size()); ++e) {
-    const Edge& edge = multiplier.edges[std::size_t(e)];
-    const std::vector<double> cuts = cuts_of(nodes, edge, opposite);
+    const std::vector<double> cuts = cuts_of(nodes, multiplier, e, opposite);
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-      if (const auto hit = hit_from(nodes, edge, (cuts[i] + cuts[i + 1]) / 2, opposite))
+      if (const auto hit = hit_from(nodes, multiplier, e, (cuts[i] + cuts[i + 1]) / 2, opposite))
         segments.push_back({e, cuts[i], cuts[i + 1], hit->edge});
   }
   return segments;
@@ -80,9 +79,9 @@ std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multi
       const EdgePoint p = edge_point(nodes, edge, xi);
       // A segment knows its opposite edge; the whole curve is asked where a cut was merged away (or there are none).
       std::optional<Hit> hit;
-      if (piece.opposite_edge >= 0)
-        hit = project_onto_edge(nodes, opposite, piece.opposite_edge, p.position, p.normal());
-      if (!hit) hit = project_onto_curve(nodes, opposite, p.position, p.normal());
+      const Line line{p.position, p.normal(), deepest_overlap(multiplier, piece.edge)};
+      if (piece.opposite_edge >= 0) hit = project_onto_edge(nodes, opposite, piece.opposite_edge, line);
+      if (!hit) hit = project_onto_curve(nodes, opposite, line);
       if (!hit) continue;
       points.push_back(
           {piece.edge, xi, rule.weights[q] * half * p.jacobian(), p.normal(), hit->edge, hit->xi, hit->distance});
@@ -102,6 +101,18 @@ double length_to(const Points& nodes, const Edge& edge, double xi) {
 }
 
 double edge_length(const Points& nodes, const Edge& edge) { return length_to(nodes, edge, 1); }
+
+double covered_part(const Points& nodes, const Curve& curve, const Curve& opposite) {
+  static const LineRule rule = gauss_legendre(2);
+  double length = 0, covered = 0;
+  for (int e = 0; e < int(curve.edges.size()); ++e)
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const double ds = rule.weights[q] * edge_point(nodes, curve.edges[e], rule.points[q]).jacobian();
+      length += ds;
+      if (hit_from(nodes, curve, e, rule.points[q], opposite)) covered += ds;
+    }
+  return covered / length;
+}
 
 double curve_length(const Points& nodes, const Curve& curve) {
   double length = 0;

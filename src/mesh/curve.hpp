@@ -15,6 +15,8 @@ struct Curve {
   std::vector<Edge> edges;
   std::vector<CellSide> sides;  ///< the cell side of each edge
   bool closed;                  ///< the last edge ends where the first begins
+  /// Of the body behind each edge, length (mesh/thickness.hpp); empty: not asked for, without limit.
+  std::vector<double> thickness{};
 };
 
 /// The boundary's edges as one chain.

@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "contact/multiplier_space.hpp"
+#include "mesh/thickness.hpp"
 #include "support/two_plates.hpp"
 
 namespace mortise {
@@ -148,8 +149,9 @@ TEST(Dropped, MultipliersThatFaceNothingAreZeroAndNamed) {
 
 TEST(Coupling, CurvesThatDoNotFaceAreAnError) {
   const Mesh mesh = test::mesh_of({});
-  const Curve top = contact_curve(mesh, boundary_index(mesh, "top")),
-              bottom = contact_curve(mesh, boundary_index(mesh, "bottom"));
+  Curve top = contact_curve(mesh, boundary_index(mesh, "top")),
+        bottom = contact_curve(mesh, boundary_index(mesh, "bottom"));
+  for (Curve* c : {&top, &bottom}) c->thickness = thickness_behind(mesh.nodes, *c, outline(mesh, c->body));
   const auto points = contact_points(mesh.nodes, top, bottom, Integration::segments);
   EXPECT_TRUE(points.empty());
   EXPECT_THROW(couple(mesh, top, bottom, points, no_constraints(mesh), {}), InputError);

@@ -63,6 +63,58 @@ TEST(Sagittas, OfChordsAreAtLeastTheArcsDistance) {
   }
 }
 
+// How far each edge of the lower plate's line lies from `height`, by the vertical distance and the slope.
+std::vector<double> distances(const Curves& c, const std::function<double(double)>& height) {
+  std::vector<double> list;
+  for (const Edge& e : c.multiplier.edges) {
+    double largest = 0;
+    for (double xi = -1; xi <= 1; xi += 0.0625) {
+      const Vec2 x = edge_point(c.mesh.nodes, e, xi).position;
+      const double slope = (height(x.x() + 1e-5) - height(x.x() - 1e-5)) / 2e-5;
+      largest = std::max(largest, std::abs(x.y() - height(x.x())) / std::hypot(1, slope));
+    }
+    list.push_back(largest);
+  }
+  return list;
+}
+
+TEST(Sagittas, OfQuadraticEdgesAreWhatParabolasMiss) {
+  const std::function<double(double)> curves[] = {
+      [](double x) { return std::sqrt(0.25 - (x - 0.4) * (x - 0.4)); },           // circle
+      [](double x) { return 0.3 + 0.05 * std::cos(5 * x); },                      // cosine
+      [](double x) { return 0.5 * std::sqrt(1 - (x - 0.3) * (x - 0.3) / 0.49); }  // ellipse, not symmetric
+  };
+  for (const auto& height : curves)
+    for (const int n : {6, 12, 24, 48}) {
+      TwoPlates plates;
+      plates.height = height;
+      plates.n_upper = plates.n_lower = n;
+      const Curves c = curves_of(plates);
+      const std::vector<double> bound = sagittas(c.mesh.nodes, c.multiplier), exact = distances(c, height);
+      for (std::size_t e = 0; e < bound.size(); ++e) EXPECT_LE(exact[e], 2 * bound[e]) << n << " " << e;
+      EXPECT_LE(*std::max_element(bound.begin(), bound.end()), 20 * *std::max_element(exact.begin(), exact.end())) << n;
+    }
+}
+
+// Middle nodes at half the way in x1: the edges are the parabola, and the estimate falls faster than h^3.
+TEST(Sagittas, OfAParabolaInQuadraticEdgesFallAtTheFourthOrder) {
+  const auto largest = [](int n) {
+    TwoPlates plates;
+    plates.height = [](double x) { return 0.2 + x - 1.25 * x * x; };
+    plates.n_upper = plates.n_lower = n;
+    const Curves c = curves_of(plates);
+    const std::vector<double> list = sagittas(c.mesh.nodes, c.multiplier);
+    return *std::max_element(list.begin(), list.end());
+  };
+  EXPECT_LE(largest(40), largest(20) / 12);
+  EXPECT_LE(largest(80), largest(40) / 12);
+}
+
+TEST(OpenPlace, AClearanceOfAThousandthIsNotTheQuadraticMeshesOwn) {
+  const Curves c = curves_of(circle(20, 31, CellKind::quad8), 5e-4);
+  EXPECT_TRUE(open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points, 1e-6));
+}
+
 TEST(OpenPlace, NoneBetweenTwoMeshesOfOneCurve) {
   for (const CellKind kind : {CellKind::quad4, CellKind::quad8, CellKind::tri3, CellKind::tri6})
     for (const auto& [n_upper, n_lower] : {std::pair(5, 8), {8, 5}, {4, 40}, {20, 31}}) {

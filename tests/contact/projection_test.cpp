@@ -22,7 +22,7 @@ struct BentEdge {
 
 TEST(Projection, HitsAStraightEdgeWhereExpected) {
   const StraightEdge e;
-  const auto hit = project_onto_edge(e.nodes, e.curve, 0, Vec2(0.25, 2), Vec2(0, -1));
+  const auto hit = project_onto_edge(e.nodes, e.curve, 0, {Vec2(0.25, 2), Vec2(0, -1), 1});
   ASSERT_TRUE(hit);
   EXPECT_NEAR(hit->xi, 0.5, 1e-15);
   EXPECT_NEAR(hit->distance, 2, 1e-15);
@@ -31,25 +31,29 @@ TEST(Projection, HitsAStraightEdgeWhereExpected) {
 TEST(Projection, AlongAnInclinedLineAndFromBehind) {
   const StraightEdge e;
   const Vec2 n = Vec2(1, -1).normalized();
-  const auto hit = project_onto_edge(e.nodes, e.curve, 0, Vec2(0.2, 0.3), n);
+  const auto hit = project_onto_edge(e.nodes, e.curve, 0, {Vec2(0.2, 0.3), n, 1});
   ASSERT_TRUE(hit);
   EXPECT_NEAR(hit->xi, 0, 1e-14);
   EXPECT_NEAR(hit->distance, 0.3 * std::sqrt(2), 1e-14);
-  EXPECT_NEAR(project_onto_edge(e.nodes, e.curve, 0, Vec2(0.5, -0.1), Vec2(0, -1))->distance, -0.1, 1e-15);
+  EXPECT_NEAR(project_onto_edge(e.nodes, e.curve, 0, {Vec2(0.5, -0.1), Vec2(0, -1), 1})->distance, -0.1, 1e-15);
 }
 
-TEST(Projection, IgnoresWhatDoesNotFaceOrLiesFarBehind) {
-  const StraightEdge e;
-  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, Vec2(0.5, -1), Vec2(0, 1)));     // its back
-  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, Vec2(0.5, -1.1), Vec2(0, -1)));  // deeper than it is long
-  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, Vec2(1.1, 1), Vec2(0, -1)));     // beside it
+TEST(Projection, IgnoresWhatDoesNotFaceOrLiesDeeperThanItsLineOrEdgeAllows) {
+  StraightEdge e;
+  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, {Vec2(0.5, -1), Vec2(0, 1), 1}));  // its back
+  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, {Vec2(0.5, -1.1), Vec2(0, -1), 1}));
+  EXPECT_TRUE(project_onto_edge(e.nodes, e.curve, 0, {Vec2(0.5, -1.1), Vec2(0, -1), 1.2}));
+  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, {Vec2(1.1, 1), Vec2(0, -1), 1}));  // beside it
+  e.curve.thickness = {2};                                                               // of which half
+  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, {Vec2(0.5, -1.1), Vec2(0, -1), 1.2}));
+  EXPECT_TRUE(project_onto_edge(e.nodes, e.curve, 0, {Vec2(0.5, -0.9), Vec2(0, -1), 1.2}));
 }
 
 TEST(Projection, EndsCountToTheTolerance) {
   const StraightEdge e;
   for (const double x : {0.0, 1.0, -1e-12, 1 + 1e-12})
-    EXPECT_TRUE(project_onto_edge(e.nodes, e.curve, 0, Vec2(x, 0), Vec2(0, -1))) << x;
-  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, Vec2(1 + 1e-8, 0), Vec2(0, -1)));
+    EXPECT_TRUE(project_onto_edge(e.nodes, e.curve, 0, {Vec2(x, 0), Vec2(0, -1), 1})) << x;
+  EXPECT_FALSE(project_onto_edge(e.nodes, e.curve, 0, {Vec2(1 + 1e-8, 0), Vec2(0, -1), 1}));
 }
 
 TEST(Projection, OnABentEdgeTheHitLiesOnTheLine) {
@@ -57,7 +61,7 @@ TEST(Projection, OnABentEdgeTheHitLiesOnTheLine) {
   for (const double x : {0.01, 0.3, 0.77})
     for (const double slope : {-0.4, 0.0, 0.2}) {
       const Vec2 from(x, 0.5), n = Vec2(slope, -1).normalized();
-      const auto hit = project_onto_edge(e.nodes, e.curve, 0, from, n);
+      const auto hit = project_onto_edge(e.nodes, e.curve, 0, {from, n, 1});
       if (!hit) continue;
       const Vec2 at = edge_point(e.nodes, e.curve.edges[0], hit->xi).position;
       EXPECT_NEAR((at - from - hit->distance * n).norm(), 0, 1e-14);
