@@ -12,9 +12,10 @@ STRANGE_NAMES = ("\x1b[31mred\x07", "two\nlines", "n" * 300, "d/" * 2100 + "x", 
 DEEP = "a" + ".a" * 20000 + "=1"
 WRONG_OVERRIDES = ("", "=", "title", "=x", "a.b.c=1", "boundary.x=1", "boundary..pressure=1", ".=1",
                    "mesh.file=/dev/zero", "mesh.file=no_such.msh", "mesh.file=/", "mesh.file=", "bodies=1",
-                   "materials.steel.young=nan", "materials.steel.young=-inf", "materials.steel.young=1e999", "contact.condition=\x1b[31mred",
-                   "method=1", "method.kind=two\nlines", "boundary.99.pressure=1", "boundary.-1.pressure=1", DEEP,
-                   "boundary.0={", "contact.0.between=['a','b','c']", "method.tolerance=0")
+                   "materials.steel.young=nan", "materials.steel.young=-inf", "materials.steel.young=1e999",
+                   "contact.condition=\x1b[31mred", "method=1", "method.kind=two\nlines", "boundary.99.pressure=1",
+                   "boundary.-1.pressure=1", "boundary.0={", DEEP, "method.tolerance=0",
+                   "contact.0.between=['a','b','c']")
 ODD_OVERRIDES = ("title=", "contact=[]", "title=" + "a" * 100000, "boundary=" + "[" * 5000, "contact.between=[]",
                  "boundary.0={on='lower_bottom'}", "materials.steel.young=1e300", "model.plane=strain",
                  "title=\x1b[2Jx")
@@ -119,7 +120,7 @@ def output_case(random):
     refused = ["scene.toml", "./scene.toml", "scene.toml/results", mesh, mesh + "/results" + ending,
                "full" + ending, f"full{ending}/results{ending}", "/proc/no_such" + ending, "/sys/no_such/x" + ending]
     refused += {"solve": ["file", "taken"], "mesh": ["folder.msh", "name.vtu"], "sweep": ["folder.csv"]}[verb]
-    allowed = ["folder", "new/deep" + ending, "file" + ending, "dangling" + ending, "linked" + ending, "loop" + ending, ".", "out/"]
+    allowed = ["folder", ".", "out/"] + [name + ending for name in ("new/deep", "file", "dangling", "linked", "loop")]
     target = random.choice(refused) if random.random() < 0.6 else random.choice(allowed + list(STRANGE_NAMES))
     more = ["--vary", "title=a,b"] if verb == "sweep" else []
     expect = REFUSED if target in refused else ANY

@@ -145,4 +145,5 @@ def make_geo_case(random, options):
         name = random.choice(FOLDERS) + "/mesh.geo"
         return geo_case(f"in a folder {name[:-9]!r}", PLATES, ANY, name=name, command=command)
     what = random.choice(list(ENDLESS))
-    return geo_case(what, PLATES + ENDLESS[what], REFUSED, command=command)
+    limit = ["--set", "mesh.time_limit=3"] if NO_PROGRAMS in options else []  # both came together
+    return geo_case(what, PLATES + ENDLESS[what], REFUSED, *limit, command=command)

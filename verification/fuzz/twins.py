@@ -86,27 +86,41 @@ def carried(setting, by):
     return Setting(scene, setting.mesh)
 
 
+def iterates(method):
+    return method["kind"] == "ddm" or method.get("solver") == "mssor"
+
+
+def limit_of(method, least):
+    """How far p may be off: what an iteration is asked for, times what a slow one may still have before it."""
+    return max(least, 1e3 * method.get("tolerance", 1e-8)) if iterates(method) else least
+
+
+def twin_of(setting, name, other, factor=1.0, back=lambda x, y: (x, y), kind="4.1 ascii", tag_of=lambda node: node + 1):
+    """`other` is `setting` in other words. Whether an iteration ends within its steps may hang on the words."""
+    told = setting.scene["method"]
+    return Twin(name, case_of(other, name, kind, tag_of), factor, back, limit_of(told, 1e-6), not iterates(told))
+
+
 def said_otherwise(random, setting):
     """One twin of the scene that is the same problem in other words."""
     size = max(max(abs(x), abs(y)) for x, y in setting.mesh.nodes)
     choice = random.choice(("units", "isometry", "shift", "carried", "mesh file"))
     if choice == "units":
-        back = lambda x, y: (x / 1e3, y / 1e3)
-        return Twin("in other units", case_of(in_millimetres(setting), "in other units"), 1e-6, back)
+        return twin_of(setting, "in other units", in_millimetres(setting), 1e-6, lambda x, y: (x / 1e3, y / 1e3))
     if choice == "isometry":
         name, matrix = random.choice(list(ISOMETRIES.items()))
         inverse = transpose(matrix)
-        return Twin(name, case_of(turned(setting, matrix), name), back=lambda x, y: tuple(apply(inverse, (x, y))))
+        return twin_of(setting, name, turned(setting, matrix), back=lambda x, y: tuple(apply(inverse, (x, y))))
     if choice == "shift":
         a, b = size * random.uniform(-3, 3), size * random.uniform(-3, 3)
         other = replace(setting, mesh=plates.moved(setting.mesh, lambda x, y: (x + a, y + b)))
-        return Twin("elsewhere", case_of(other, "elsewhere"), back=lambda x, y: (x - a, y - b))
+        return twin_of(setting, "elsewhere", other, back=lambda x, y: (x - a, y - b))
     if choice == "carried":
         by = [1e-3 * size * random.uniform(-1, 1) for _ in "xy"]
-        return Twin("carried along", case_of(carried(setting, by), "carried along"))
+        return twin_of(setting, "carried along", carried(setting, by))
     other = replace(setting, mesh=plates.shuffled(setting.mesh, random))
     kind, stride = random.choice(msh_file.KINDS), random.choice((1, 3, 1000))
-    return Twin(f"mesh file {kind}", case_of(other, kind, kind, lambda node: stride * node + 7))
+    return twin_of(setting, f"mesh file {kind}", other, kind=kind, tag_of=lambda node: stride * node + 7)
 
 
 def solved_otherwise(random, setting):
@@ -114,12 +128,11 @@ def solved_otherwise(random, setting):
     scene = copy.deepcopy(setting.scene)
     if "contact" not in scene:
         return None
-    told, limit = scene["method"], 1e-5
-    if told["kind"] == "ddm" or told.get("solver") == "mssor":
+    told = scene["method"]
+    if iterates(told):
         if told.get("transfer") == "nodal":
             return None
         scene["method"] = {k: v for k, v in told.items() if k in ("multipliers", "integration")} | {"kind": "mortar"}
-        limit = max(limit, 1e4 * told.get("tolerance", 0))
     elif random.random() < 0.5:
         scene["method"] = told | {"kind": "ddm", "acceleration": random.choice(("krylov", "anderson"))}
     else:
@@ -129,6 +142,7 @@ def solved_otherwise(random, setting):
         if "multipliers_on" not in pair:
             return None
     other = "by " + (scene["method"].get("solver") or scene["method"]["kind"])
+    limit = max(limit_of(told, 1e-5), limit_of(scene["method"], 1e-5))
     return Twin(other, case_of(replace(setting, scene=scene), other), limit=limit, same_verdict=False)
 
 
