@@ -78,7 +78,7 @@ def options_case(random):
 def number_case(random):
     value = random.choice(NUMBERS)
     words = ["solve", "scene.toml", "-o", "results", f"--threads={value}"]
-    return command(f"--threads {value!r}", plain(random), words, ANY if value == " 1" else REFUSED, ("results",))
+    return command(f"--threads {value!r}", plain(random), words, ANY if value in (" 1", "0x10") else REFUSED, ("results",))
 
 
 def override_case(random):

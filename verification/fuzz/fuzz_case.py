@@ -45,6 +45,7 @@ class Case:
     output: tuple = ()  # paths that the call may make or change
     results: str | None = None  # folder in which summary.json must stand if the exit status is 0 or 2
     thrust: float | None = None  # force of every contact pair, from equilibrium
+    accuracy: float = 1e-6  # how far forces may be off, relatively
     largest_file: int | None = None  # bytes after which the disk is full
     setting: object = None  # the Setting of a valid scene
     twins: list = field(default_factory=list)

@@ -20,8 +20,7 @@ def make_valid(r, _):
     setting = valid_scenes.valid_setting(r)
     kind = r.choice(msh_file.KINDS)
     words = [f"{k} = {v}" for k, v in setting.scene["method"].items()]
-    made = fuzz_case.solve_case("valid scene", ", ".join(words), *twins.files_of(setting, kind), thrust=setting.thrust)
-    made.setting = setting
+    made = twins.case_of(setting, ", ".join(words), kind)
     if r.random() < 0.6:
         twin = twins.said_otherwise(r, setting) if r.random() < 0.6 else twins.solved_otherwise(r, setting)
         made.twins = [twin] if twin else []

@@ -130,7 +130,7 @@ def force(case, run, folder):
     if run.status != 0 or case.thrust is None:
         return None
     for pair in results_files.summary(os.path.join(folder, case.results))["contact"]:
-        if not abs(abs(pair["force"][1] or 0) - case.thrust) <= 1e-6 * case.thrust:
+        if not abs(abs(pair["force"][1] or 0) - case.thrust) <= case.accuracy * case.thrust:
             return f"contact force {pair['force'][1]} on {pair['between']}, equilibrium asks for {case.thrust}"
 
 

@@ -87,7 +87,7 @@ def carried(setting, by):
 
 
 def iterates(method):
-    return method["kind"] == "ddm" or method.get("solver") == "mssor"
+    return method.get("kind") == "ddm" or method.get("solver") == "mssor"
 
 
 def limit_of(method, least):
@@ -147,4 +147,6 @@ def solved_otherwise(random, setting):
 
 
 def case_of(setting, what, kind="4.1 ascii", tag_of=lambda node: node + 1):
-    return solve_case("valid scene", what, *files_of(setting, kind, tag_of), thrust=setting.thrust)
+    accuracy = limit_of(setting.scene.get("method", {}), 1e-6)
+    files = files_of(setting, kind, tag_of)
+    return solve_case("valid scene", what, *files, thrust=setting.thrust, accuracy=accuracy, setting=setting)
