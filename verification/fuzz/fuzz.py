@@ -38,7 +38,7 @@ def arguments(words=None):
 
 def options_of(program):
     """What its --help lists: a newer option is used where it is there."""
-    done = subprocess.run([program, "solve", "--help"], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([program, "solve", "--help"], capture_output=True, text=True, timeout=600, check=False)
     return done.stdout
 
 

@@ -12,6 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+PATIENCE = 10  # time limits after which even a starved process is ended
 MEMORY = 4 * 2**30  # bytes of address space: a scene without an end must not fill the machine
 
 
@@ -81,6 +82,24 @@ def end(process):
     process.wait()
 
 
+def status_within(process, limit):
+    """The exit status, or None of a process that hangs; one that only waits for a busy processor is given more time."""
+    for _ in range(PATIENCE):
+        try:
+            return process.wait(timeout=limit)
+        except subprocess.TimeoutExpired:
+            if not is_starved(process, limit):
+                return None
+    return None
+
+
+def is_starved(process, limit):
+    """Whether the process could run, and has been let to for less than a quarter of the time limit."""
+    fields = Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    seconds = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")  # of itself and for it in the kernel
+    return fields[0] in "RD" and seconds < limit / 4
+
+
 def call(program, case, folder):
     """Runs mortise on the case's files, which stand in `folder`."""
     before, start = snapshot(folder), time.monotonic()
@@ -90,10 +109,7 @@ def call(program, case, folder):
                                restore_signals=False, preexec_fn=limits(program, case))
     with ThreadPoolExecutor(2) as readers:
         texts = [readers.submit(beginning, stream) for stream in (process.stderr, process.stdout)]
-        try:
-            status = process.wait(timeout=program.time_limit)
-        except subprocess.TimeoutExpired:
-            status = None
+        status = status_within(process, program.time_limit)
         end(process)
     said, printed = (text.result() for text in texts)
     return Outcome(status, said, printed, before, snapshot(folder), time.monotonic() - start)
