@@ -66,8 +66,8 @@ CheckedScene check_scene(const Scene& scene) {
   checked.pairs = couple_pairs(scene, checked.mesh, d, roles(scene, checked.mesh, d));
   checked.warnings = audit_scene(scene, checked.mesh, checked.pairs);
   require_closed(scene, checked.mesh, checked.pairs);
-  append(checked.warnings, hold_free_motions(scene, checked.mesh, checked.pairs,
-                                             stack(checked.pairs, d.load.size()), checked.warnings, d));
+  append(checked.warnings, hold_free_motions(scene, checked.mesh, checked.pairs, stack(checked.pairs, d.load.size()),
+                                             checked.warnings, d));
   return checked;
 }
 

@@ -84,12 +84,12 @@ struct Facing {
   double edge;
 };
 
-std::optional<Facing> facing(const Mesh& mesh, const Vec2& x, const Vec2& n, double edge, const Curve& other,
+std::optional<Facing> facing(const Mesh& mesh, const Line& line, double edge, const Curve& other,
                              const std::unordered_map<int, double>& angles, const Constraints& constraints) {
   for (const Vertex& v : vertices_of(other))
-    if ((mesh.nodes.row(v.node).transpose() - x).norm() < 0.05 * edge)
+    if ((mesh.nodes.row(v.node).transpose() - line.x).norm() < 0.05 * edge)
       return Facing{corner_at(v, angles, constraints), edges_at(mesh.nodes, other, v)};
-  const auto hit = project_onto_curve(mesh.nodes, other, x, n);
+  const auto hit = project_onto_curve(mesh.nodes, other, line);
   if (!hit) return {};
   return Facing{{straight}, edge_length(mesh.nodes, other.edges[hit->edge])};
 }
@@ -113,7 +113,8 @@ std::vector<SingularPoint> singular_points(const Mesh& mesh, const Curve& first,
       if (corner.is_straight()) continue;
       const Vec2 x = mesh.nodes.row(v.node).transpose();
       const double edge = edges_at(mesh.nodes, *curve, v);
-      const auto opposite = facing(mesh, x, normal_at(mesh.nodes, *curve, v), edge, *other, angles, constraints);
+      const Line line{x, normal_at(mesh.nodes, *curve, v), deepest_overlap(*curve, std::max(v.before, v.after))};
+      const auto opposite = facing(mesh, line, edge, *other, angles, constraints);
       if (opposite && is_singular(corner, opposite->corner)) points.push_back({x, std::max(edge, opposite->edge)});
     }
   return points;

@@ -39,14 +39,10 @@ struct Foreign {
   bool sources_only;
 };
 const std::vector<Foreign> foreigners{
-    {"Boost", R"(boost/.*)", "mesh", true},
-    {"gmsh", R"(gmsh\..*)", "io", true},
-    {"VTK", R"(vtk\w+\.h)", "io", true},
-    {"CHOLMOD", R"((.*/)?cholmod.*)", "solve", true},
-    {"AMD", R"((.*/)?amd\.h)", "solve", true},
-    {"nlohmann-json", R"(nlohmann/.*)", "app", false},
-    {"CLI11", R"(CLI/.*)", "app", false},
-    {"toml++", R"(toml\+\+.*)", "scene", true},
+    {"Boost", R"(boost/.*)", "mesh", true},    {"gmsh", R"(gmsh\..*)", "io", true},
+    {"VTK", R"(vtk\w+\.h)", "io", true},       {"CHOLMOD", R"((.*/)?cholmod.*)", "solve", true},
+    {"AMD", R"((.*/)?amd\.h)", "solve", true}, {"nlohmann-json", R"(nlohmann/.*)", "app", false},
+    {"CLI11", R"(CLI/.*)", "app", false},      {"toml++", R"(toml\+\+.*)", "scene", true},
 };
 
 const Names top_level{

@@ -1,0 +1,83 @@
+"""One case of the fuzzer: files, one call of mortise, and what may come of it."""
+
+import os
+import stat
+from dataclasses import dataclass, field
+from typing import Callable, NamedTuple
+
+ANY, SOLVED, REFUSED = "any", "solved", "refused"
+
+
+class Link(str):
+    """A symbolic link to this path."""
+
+
+class Pipe:
+    """A named pipe that nobody writes to."""
+
+
+class Folder:
+    """An empty folder."""
+
+
+class FullDevice:
+    """A node of the device that is always full, of the case's own: a program may replace what it writes to."""
+
+
+class Twin(NamedTuple):
+    """A second call whose pressures must be those of the first: the same problem said, or solved, in another way."""
+
+    name: str
+    case: "Case"
+    factor: float = 1.0  # its pressures over the first's
+    back: Callable = lambda x, y: (x, y)  # from its places to the first's
+    limit: float = 1e-6  # largest difference of p, over the largest p
+    same_verdict: bool = True  # the exit status must be the same too
+
+
+@dataclass
+class Case:
+    kind: str  # row of the summary table
+    what: str  # what is strange in it
+    files: dict  # path in the case's folder: bytes, Link, Pipe or Folder
+    words: list  # arguments of mortise, which runs in that folder
+    expect: str = ANY  # REFUSED: only exit status 1 is right; SOLVED: only 0 or 2
+    output: tuple = ()  # paths that the call may make or change
+    results: str | None = None  # folder in which summary.json must stand if the exit status is 0 or 2
+    thrust: float | None = None  # force of every contact pair, from equilibrium
+    accuracy: float = 1e-6  # how far forces may be off, relatively
+    largest_file: int | None = None  # bytes after which the disk is full
+    setting: object = None  # the Setting of a valid scene
+    twins: list = field(default_factory=list)
+
+    def write(self, folder):
+        """Puts the files into `folder`."""
+        for name, content in self.files.items():
+            path = os.path.join(folder, name)
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            if isinstance(content, Link):
+                os.symlink(content, path)
+            elif isinstance(content, FullDevice):
+                make_full_device(path)
+            elif isinstance(content, Pipe):
+                os.mkfifo(path)
+            elif isinstance(content, Folder):
+                os.makedirs(path, exist_ok=True)
+            else:
+                with open(path, "wb") as file:
+                    file.write(content)
+
+
+def make_full_device(path):
+    """Needs root; without, a pipe is as unfit for results."""
+    try:
+        os.mknod(path, stat.S_IFCHR | 0o666, os.makedev(1, 7))
+    except OSError:
+        os.mkfifo(path)
+
+
+def solve_case(kind, what, scene, mesh, *more, **settings):
+    """`mortise solve scene.toml` of a scene and a mesh, both bytes."""
+    files = {"scene.toml": scene, "mesh.msh": mesh}
+    words = ["solve", "scene.toml", "-o", "results", *more]
+    return Case(kind, what, files, words, output=("results",), results="results", **settings)

@@ -1,0 +1,128 @@
+"""One call of mortise in a folder of its own: what it said, how it ended, and what it did to the files."""
+
+import hashlib
+import os
+import resource
+import signal
+import stat
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+PATIENCE = 10  # time limits after which even a starved process is ended
+MEMORY = 4 * 2**30  # bytes of address space: a scene without an end must not fill the machine
+
+
+@dataclass
+class Program:
+    path: str
+    time_limit: float = 20  # seconds for one call
+    sanitized: bool = False
+
+
+@dataclass
+class Outcome:
+    status: int | None  # exit status; below 0: the signal that ended it; None: it hung
+    said: str  # standard error
+    printed: str  # standard output
+    before: dict  # what stood in the folder: path, what it is
+    after: dict
+    seconds: float = 0.0
+
+
+def snapshot(folder):
+    """Every path below the folder: kind, and digest of the content or target of the link."""
+    found = {}
+    for root, names, files in os.walk(folder):
+        for name in names + files:
+            path = os.path.join(root, name)
+            found[os.path.relpath(path, folder)] = describe(path)
+    return found
+
+
+def describe(path):
+    mode = os.lstat(path).st_mode
+    if stat.S_ISLNK(mode):
+        return "link to " + os.readlink(path)
+    if stat.S_ISDIR(mode):
+        return "folder"
+    if stat.S_ISREG(mode):
+        return hashlib.sha1(Path(path).read_bytes()).hexdigest()
+    return f"device or pipe {stat.S_IFMT(mode):o}"
+
+
+def environment(program):
+    """One thread for each call, and reports of the sanitizers as an exit status of their own."""
+    chosen = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "ASAN_OPTIONS": "detect_leaks=0:exitcode=99",
+              "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1:exitcode=99"}
+    return os.environ | chosen
+
+
+def limits(program, case):
+    def set_limits():
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        if not program.sanitized:  # which reserves terabytes
+            resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        if case.largest_file is not None:
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # the write fails, as on a full disk
+            resource.setrlimit(resource.RLIMIT_FSIZE, (case.largest_file, case.largest_file))
+
+    return set_limits
+
+
+def end(process):
+    """Ends the process and all that it started."""
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+    process.wait()
+
+
+def status_within(process, limit):
+    """The exit status, or None of a process that hangs; one that only waits for a busy processor is given more time."""
+    for _ in range(PATIENCE):
+        try:
+            return process.wait(timeout=limit)
+        except subprocess.TimeoutExpired:
+            if not is_starved(process, limit):
+                return None
+    return None
+
+
+def is_starved(process, limit):
+    """Whether the process could run, and has been let to for less than a quarter of the time limit."""
+    fields = Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    seconds = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")  # of itself and for it in the kernel
+    return fields[0] in "RD" and seconds < limit / 4
+
+
+def call(program, case, folder):
+    """Runs mortise on the case's files, which stand in `folder`."""
+    before, start = snapshot(folder), time.monotonic()
+    words = [program.path, *(word.encode("utf-8", "surrogateescape") for word in case.words)]
+    process = subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, env=environment(program), start_new_session=True,
+                               restore_signals=False, preexec_fn=limits(program, case))
+    with ThreadPoolExecutor(2) as readers:
+        texts = [readers.submit(beginning, stream) for stream in (process.stderr, process.stdout)]
+        status = status_within(process, program.time_limit)
+        end(process)
+    said, printed = (text.result() for text in texts)
+    return Outcome(status, said, printed, before, snapshot(folder), time.monotonic() - start)
+
+
+def beginning(stream):
+    """The first million bytes; the rest is read and dropped, so that the program can go on."""
+    with stream:
+        first = stream.read(2**20)
+        while stream.read(2**20):
+            pass
+    return first.decode("utf-8", "surrogateescape")
+
+
+if sys.platform != "linux":
+    raise SystemExit("the fuzzer needs Linux: sessions, limits and devices")

@@ -1,0 +1,171 @@
+"""Random scenes that are right: plates on one another with documented settings, each with a tiny mesh of its own."""
+
+import math
+from dataclasses import dataclass
+
+import plates
+
+@dataclass
+class Setting:
+    """A scene as dictionaries, its mesh, and the contact force that equilibrium asks for (None where it does not)."""
+
+    scene: dict
+    mesh: plates.Mesh
+    thrust: float | None = None  # F2 of every pair on the body above, per unit of thickness
+
+
+def contact_line(random, length):
+    """A line of one of four shapes, as a function of x; nearly flat, as parts in contact are."""
+    shape = random.choice(("flat", "flat", "inclined", "parabola", "sine"))
+    height = length * random.uniform(-0.15, 0.15)
+    if shape == "flat":
+        return lambda x: 0.0
+    if shape == "inclined":
+        return lambda x: height * x / length
+    if shape == "parabola":
+        return lambda x: 4 * height * x * (length - x) / length**2
+    return lambda x: height / 4 * math.sin(2 * math.pi * x / length)
+
+
+def raised(line, height):
+    return lambda x: line(x) + height
+
+
+def flat(_):
+    return 0.0
+
+
+def make_plates(random, length):
+    """One to three plates, from below; each line of contact is one line, or a gap or an overlap of 1e-3 apart."""
+    count = random.choice((1, 2, 2, 2, 2, 2, 2, 3))
+    names = ("lower", "upper", "third")[:count]
+    lines = [flat] + [contact_line(random, length) for _ in names[1:]] + [flat]
+    gap = length * random.choice((0, 0, 0, 1e-3, -1e-3, 1e-5)) if count > 1 else 0
+    narrow = count > 1 and random.random() < 0.15  # a punch
+    cell = random.choice(plates.CELL_TYPES)
+    mixed, straight = random.random() < 0.2, random.random() < 0.2
+    made, floor = [], 0.0
+    for k, name in enumerate(names):
+        thickness = length * random.uniform(0.3, 0.8)
+        below = raised(lines[k], floor + (gap if k else 0))
+        above = raised(lines[k + 1], floor + thickness)
+        left, right = (0.2 * length, 0.8 * length) if narrow and k == count - 1 else (0.0, length)
+        kind = random.choice(plates.CELL_TYPES) if mixed else cell
+        size = random.randint(1, 6), random.randint(1, 3)
+        made.append(plates.Plate(name, left, right, below, above, *size, kind, straight))
+        floor += thickness
+    return made, gap
+
+
+def materials(random, young, heated):
+    """One or two materials; with a thermal expansion where a temperature needs it."""
+    made = {}
+    for name in random.choice((("steel",), ("steel", "rubber"))):
+        factor = 1.0 if name == "steel" else 10 ** random.uniform(-2, 2)
+        made[name] = {"young": young * factor, "poisson": random.choice((0.0, 0.2, 0.3, 0.45, -0.2))}
+        if heated:
+            made[name]["thermal_expansion"] = 1.2e-5
+    return made
+
+
+def boundary(random, made, load):
+    """Supports of every plate against moving sideways, of the lowest also down; the load on top."""
+    entries = [{"on": "lower_bottom", "displacement": {"y": 0}}]
+    sides = random.choice(("left", "right", "both", "tops"))
+    for plate in made:
+        curves = [f"{plate.name}_{side}" for side in (("left", "right") if sides == "both" else (sides,))]
+        if sides == "tops":
+            curves = ["lower_bottom" if plate is made[0] else f"{plate.name}_top"]
+            if plate is not made[0] and plate is not made[-1]:
+                curves = [f"{plate.name}_left"]
+        entries.append({"on": curves if len(curves) > 1 else curves[0], "displacement": {"x": 0}})
+    entries.append({"on": f"{made[-1].name}_top", **load})
+    return entries
+
+
+def top_load(random, young, length):
+    """A load on the uppermost edge: a pressure or a traction that presses, or a displacement downwards."""
+    strain = 10 ** random.uniform(-6, -3)
+    kind = random.choice(("pressure", "pressure", "traction", "displacement"))
+    if kind == "pressure":
+        return {"pressure": young * strain}, young * strain
+    if kind == "traction":
+        return {"traction": [0.0, -young * strain]}, young * strain
+    return {"displacement": {"y": -strain * length}}, None
+
+
+def method(random, pairs, bodies):
+    """Settings of the method; about half of them the mortar method with a direct solver."""
+    chosen = {"kind": random.choice(("mortar", "mortar", "ddm"))}
+    if random.random() < 0.5:
+        chosen["multipliers"] = random.choice(("linear", "quadratic", "dual"))
+    if random.random() < 0.2:
+        chosen["integration"] = random.choice(("segments", "elements"))
+    if chosen["kind"] == "ddm":
+        iteration(random, chosen, bodies)
+    elif pairs and random.random() < 0.3:
+        chosen |= {"solver": "mssor", "acceleration": random.choice(("none", "krylov", "minres"))}
+        if random.random() < 0.5:
+            chosen |= {"omega": random.uniform(0.3, 1.8), "tau": 10 ** random.uniform(-1.5, 0.3)}
+    if random.random() < 0.3 and (chosen["kind"] == "ddm" or "solver" in chosen):
+        chosen |= {"tolerance": 10 ** random.uniform(-11, -4), "max_iterations": random.choice((1, 10, 300, 300))}
+    return chosen
+
+
+def iteration(random, chosen, bodies):
+    """Settings of domain decomposition."""
+    chosen["scheme"] = random.choice(("neumann_dirichlet", "neumann_neumann", "dirichlet_dirichlet"))
+    if random.random() < 0.3 and chosen["scheme"] == "neumann_dirichlet":
+        chosen["dirichlet"] = random.choice(bodies)
+    if random.random() < 0.6:
+        chosen["acceleration"] = random.choice(("none", "aitken", "anderson", "krylov"))
+    if random.random() < 0.3:
+        chosen["beta"] = random.choice(("auto", 0.1, 0.5, 1))
+    if random.random() < 0.1:
+        chosen["transfer"] = random.choice(("mortar", "nodal"))
+
+
+def contacts(random, made, gap):
+    entries = []
+    for below, above in zip(made, made[1:]):
+        curves = [f"{above.name}_bottom", f"{below.name}_top"]
+        random.shuffle(curves)
+        entry = {"between": curves}
+        if random.random() < 0.6:
+            entry["condition"] = random.choice(("unilateral", "bilateral"))
+        if random.random() < 0.5:
+            known = ("measured",) if gap and random.random() < 0.9 else ("measured", "closed")
+            entry["initial_gap"] = random.choice(known)
+        if random.random() < 0.5:
+            entry["multipliers_on"] = random.choice(curves)
+        entries.append(entry)
+    return entries
+
+
+def valid_setting(random):
+    """A random scene; whether contact opens, an iteration converges or a check fails is mortise's to say."""
+    length, young = random.choice((1.0, 1.0, 1e-3, 1e3)), random.choice((1.0, 2.1e11, 7e4))
+    made, gap = make_plates(random, length)
+    names = [plate.name for plate in made]
+    heated = random.random() < 0.15
+    load, pressed = top_load(random, young, length)
+    known = materials(random, young, heated)
+    bodies = {name: random.choice(list(known)) for name in names}
+    scene = {
+        "title": random.choice(("plates", "", "Größe: 3 µm ½")),
+        "mesh": {"file": "mesh.msh"},
+        "model": {"plane": random.choice(("strain", "stress"))},
+        "materials": {name: known[name] for name in known if name in bodies.values()},
+        "bodies": bodies,
+        "boundary": boundary(random, made, load),
+        "contact": contacts(random, made, gap),
+        "method": method(random, len(made) - 1, names),
+    }
+    if heated:
+        scene["initial_strain"] = [{"body": random.choice(names), "temperature_change": random.uniform(-100, 100)}]
+    if random.random() < 0.1:
+        scene["body_force"] = [{"body": names[0], "force": [0.0, -1e-4 * young / length]}]
+    width = made[-1].right - made[-1].left
+    # Only where nothing but contact holds the bodies above the lowest up: then each pair carries the whole load.
+    thrust = pressed * width if pressed and scene["contact"] else None
+    return Setting({k: v for k, v in scene.items() if v != []}, plates.plates_mesh(made), thrust)
