@@ -7,7 +7,7 @@
 //   nine_node 0  8-node quadrilaterals; 1: 9-node (order 2)
 //   straight 0   second-order nodes on the curve; 1: at the middles of straight edges (order 2)
 
-DefineConstant[ n_upper = {7, Min 1}, n_lower = {11, Min 1}, gap = 1e-4, order = 2, kind = 0, nine_node = 0, straight = 0 ];
+DefineConstant[ n_upper = 7, n_lower = 11, gap = 1e-4, order = 2, kind = 0, nine_node = 0, straight = 0 ];
 Include "common/plate.geo";
 x_a = 0;
 x_b = 0.8;

@@ -9,7 +9,7 @@
 //   nine_node 0  8-node quadrilaterals; 1: 9-node (order 2)
 //   straight 0   second-order nodes on the curve; 1: at the middles of straight edges (order 2)
 
-DefineConstant[ n_upper = {20, Min 1}, n_lower = {25, Min 1}, half_width = 0.01, radius = 1, block_width = 1, block_height = 1,
+DefineConstant[ n_upper = 20, n_lower = 25, half_width = 0.01, radius = 1, block_width = 1, block_height = 1,
                 order = 2, kind = 0, nine_node = 0, straight = 0 ];
 Include "common/body.geo";
 

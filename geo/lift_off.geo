@@ -6,7 +6,7 @@
 //   nine_node 0  8-node quadrilaterals; 1: 9-node (order 2)
 //   straight 0   second-order nodes on the curve; 1: at the middles of straight edges (order 2)
 
-DefineConstant[ n_plate = {64, Min 1}, n_block = {80, Min 1}, order = 2, kind = 0, nine_node = 0, straight = 0 ];
+DefineConstant[ n_plate = 64, n_block = 80, order = 2, kind = 0, nine_node = 0, straight = 0 ];
 Include "common/plate.geo";
 x_a = 0;
 x_b = 0.8;

@@ -7,7 +7,7 @@
 //   nine_node 0  8-node quadrilaterals; 1: 9-node (order 2)
 //   straight 0   second-order nodes on the curve; 1: at the middles of straight edges (order 2)
 
-DefineConstant[ n_upper = {80, Min 1}, n_lower = {100, Min 1}, order = 2, kind = 0, nine_node = 0, straight = 0, spacing = 0 ];
+DefineConstant[ n_upper = 80, n_lower = 100, order = 2, kind = 0, nine_node = 0, straight = 0, spacing = 0 ];
 
 Macro LineAt
   height = -1.875 * x^2 + 1.5 * x + 0.1;

@@ -6,7 +6,7 @@
 //   nine_node 0  8-node quadrilaterals; 1: 9-node (order 2)
 //   straight 0   second-order nodes on the curve; 1: at the middles of straight edges (order 2)
 
-DefineConstant[ n_punch = {40, Min 1}, n_block = {90, Min 1}, order = 2, kind = 0, nine_node = 0, straight = 0 ];
+DefineConstant[ n_punch = 40, n_block = 90, order = 2, kind = 0, nine_node = 0, straight = 0 ];
 Include "common/plate.geo";
 
 n = n_punch;

@@ -6,5 +6,5 @@
 //   nine_node 0  8-node quadrilaterals; 1: 9-node (order 2)
 //   straight 0   second-order nodes on the curve; 1: at the middles of straight edges (order 2)
 
-DefineConstant[ n_inner = {12, Min 1}, n_outer = {16, Min 1}, order = 2, kind = 0, nine_node = 0, straight = 0 ];
+DefineConstant[ n_inner = 12, n_outer = 16, order = 2, kind = 0, nine_node = 0, straight = 0 ];
 Include "common/two_rings.geo";

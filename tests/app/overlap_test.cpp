@@ -191,7 +191,7 @@ Results under_a_punch(const std::string& side) {
 TEST(Default, TheCoveredSidesPressureIsNearerToTheStress) {
   const Results r = under_a_punch(""), finer = under_a_punch("block_north");
   EXPECT_EQ(r.pairs[0].spec.multipliers_on, "punch_south");
-  EXPECT_LT(r.contacts[0].sigma_n_difference, finer.contacts[0].sigma_n_difference);
+  EXPECT_LT(r.against_sigma_n[0]->difference, finer.against_sigma_n[0]->difference);
   EXPECT_TRUE(r.pairs[0].coupling.dropped.empty());
 }
 
