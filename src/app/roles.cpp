@@ -113,10 +113,6 @@ int softer_side(const std::vector<Link>& links, const std::vector<int>& side, co
 }  // namespace
 
 std::vector<char> dirichlet_bodies(const Scene& scene, const Mesh& mesh, const Discretisation& d) {
-  if (scene.contacts.empty())
-    throw InputError(scene.path +
-                     ": method.kind = \"ddm\" iterates between bodies in contact, and no [[contact]] says " +
-                     "which they are; expected a contact pair, or method.kind = \"mortar\"");
   std::vector<Link> links = contact_links(scene, mesh, d.constraints);
   const std::size_t contacts = links.size();
   add_shared_nodes(mesh, links);

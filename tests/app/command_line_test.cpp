@@ -218,7 +218,7 @@ const BadInput bad_input[] = {
      "gap_close.toml"},
     {"NegativeNumberOfElements",
      {"--set", "mesh.parameters.n_upper=-3"},
-     {"patch_flat.geo", "'n_upper' = -3", "at least 1"}},
+     {"patch_flat.geo", "n_upper = -3", "at least 1"}},
     {"DomainDecompositionWithoutAPair",
      {"--set", "contact=[]", "--set", "method.kind=ddm"},
      {"method.kind", "[[contact]]"}},

@@ -272,7 +272,7 @@ TEST(Decompose, WithoutAContactPairThereIsNothingToIterateOn) {
   expect_contains(message_of([] {
                     ddm("patch_flat", {{"contact", "[]"}});
                   }),
-                  "expected a contact pair, or method.kind = \"mortar\"");
+                  "needs a [[contact]] to iterate on");
 }
 
 TEST(Decompose, WhatOverflowsIsNotSolved) {

@@ -76,7 +76,7 @@ TEST(FreeMotions, AMotionThatTheLoadDrivesIsAnError) {
     Scene scene = pressed_on();
     BoundarySpec across;
     across.key = "boundary";
-    across.on = {"top"};
+    across.on = {"upper_left"};
     across.traction = Vec2(1e5, 0);
     scene.boundaries.push_back(across);
     const TwoPlates plates = round ? saddle(12, CellKind::quad4) : TwoPlates{};

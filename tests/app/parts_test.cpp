@@ -15,13 +15,15 @@ Results solved(const std::string& name, const std::string& parameter = "", const
   return solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/" + name + ".toml", overrides));
 }
 
-// Solved, with one note a pair at most, which names a place.
+// Solved, with one note a pair at most, which names a place or a body.
 void expect_few_words(const Results& r) {
   EXPECT_EQ(r.status, Status::solved);
   for (const Check& check : r.checks) EXPECT_TRUE(check.ok()) << check.name << ": " << check.value;
   EXPECT_LE(r.notes.size(), r.pairs.size());
   for (const std::string& note : r.notes)
-    EXPECT_TRUE(note.find("near (") != std::string::npos || note.find("(x = ") != std::string::npos) << note;
+    EXPECT_TRUE(note.find("near (") != std::string::npos || note.find("(x = ") != std::string::npos ||
+                note.find("body '") != std::string::npos)
+        << note;
 }
 
 void expect_force(const Vec2& force, const Vec2& exact) {

@@ -4,12 +4,14 @@
 
 #include "../mesh/grid.hpp"
 #include "base/errors.hpp"
+#include "io/gmsh_mesh.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise {
 namespace {
 
+using test::expect_contains;
 using test::message_of;
 using test::TemporaryFolder;
 using Names = std::vector<std::string>;
@@ -84,14 +86,15 @@ TEST(GeoParameters, OutsideTheirRangeAreRefused) {
   for (const double good : {1.0, 9.0}) EXPECT_NO_THROW(check_geo(file, {{"n", good}}, true));
 }
 
-TEST(GeoParameters, ANegativeNumberOfElementsIsRefusedByEveryGeoOfOurs) {
+TEST(GeoParameters, EveryGeoOfOursRefusesANumberOfElementsThatCannotBe) {
   const std::string geo = std::string(MORTISE_SOURCE_DIR) + "/geo/";
   for (const auto& entry : std::filesystem::directory_iterator(geo)) {
     if (entry.path().extension() != ".geo") continue;
     for (const GeoParameter& parameter : geo_parameters(entry.path())) {
-      if (parameter.name.starts_with("n_")) {
-        EXPECT_EQ(parameter.min, 1.0) << entry.path() << " " << parameter.name;
-      }
+      if (!parameter.name.starts_with("n_")) continue;
+      for (const double count : {-3.0, 0.0, 7.5})
+        expect_contains(message_of([&] { load_mesh(entry.path().string(), {{parameter.name, count}}); }),
+                        "expected a whole number of elements, at least 1");
     }
   }
 }
