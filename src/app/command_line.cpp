@@ -98,7 +98,7 @@ int check(const Options& options) {
   std::cout << "  left out  friction, large displacements, plasticity, time"
             << (scene.body_forces.empty() ? ", body forces" : "")
             << (scene.initial_strains.empty() ? ", initial strains" : "") << "\n";
-  for (const std::string& warning : checked.warnings) std::cout << "  warning    " << warning << "\n";
+  for (const std::string& warning : checked.warnings) std::cout << "  note      " << warning << "\n";
   return 0;
 }
 
@@ -121,6 +121,8 @@ int sweep(const Options& options) {
         if (!options.quiet) std::cerr << line << "\n";
       });
   if (!options.quiet) std::cout << csv << "\n";
+  if (worst != Status::solved)
+    std::cerr << "mortise: " << options.scene << ": not every run is solved (see the status in " << csv << ")\n";
   return exit_code(worst);
 }
 
@@ -185,7 +187,7 @@ int run_command_line(int argc, const char* const* argv) {
   const PrintableStream out(std::cout);
   const PrintableStream err(std::cerr);
   const auto refuse = [](const std::string& line) {
-    std::cerr << "mortise: error: " << printable(line) << "\n";
+    std::cerr << "mortise: error: " << in_short(printable(line)) << "\n";
     return 1;
   };
   try {

@@ -25,17 +25,18 @@ int covered_curve(const Points& nodes, const std::array<Curve, 2>& curves) {
 bool on_second(const Scene& scene, const Points& nodes, const std::array<Curve, 2>& curves,
                const std::array<double, 2>& edge_size, const std::vector<ElasticLaw>& laws,
                const std::vector<char>& dirichlet) {
-  // Equal meshes differ by round-off in their lengths: the first is the multiplier side then.
-  const bool second_finer = edge_size[1] < (1 - 1e-6) * edge_size[0],
-             first_finer = edge_size[0] < (1 - 1e-6) * edge_size[1];
+  // Equal meshes differ by round-off in their lengths: the first is the multiplier side then. So do those at a limit.
+  constexpr double margin = 1e-6;
+  const bool second_finer = edge_size[1] < (1 - margin) * edge_size[0],
+             first_finer = edge_size[0] < (1 - margin) * edge_size[1];
   if (dirichlet.empty()) {
     const double first = contact_modulus(laws[std::size_t(curves[0].body)]),
                  second = contact_modulus(laws[std::size_t(curves[1].body)]);
-    if (std::max(first, second) > stiffer_limit * std::min(first, second)) return second < first;
+    if (std::max(first, second) > (1 + margin) * stiffer_limit * std::min(first, second)) return second < first;
     if (const int covered = covered_curve(nodes, curves); covered >= 0) return covered == 1;
     const double ratio = std::max(edge_size[0] / edge_size[1], edge_size[1] / edge_size[0]);
     const Curve& coarser = curves[second_finer ? 0 : 1];
-    return coarser.edges[0].node_count == 2 && ratio > facet_limit ? !second_finer : second_finer;
+    return coarser.edges[0].node_count == 2 && ratio > (1 + margin) * facet_limit ? !second_finer : second_finer;
   }
   if (scene.method.ddm.scheme == Scheme::neumann_dirichlet) return dirichlet[std::size_t(curves[1].body)];
   return first_finer;

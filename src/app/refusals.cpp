@@ -55,7 +55,8 @@ std::vector<int> unknowns_to_hold(const Mesh& mesh, const std::vector<ContactPai
   return at.fullPivLu().isInvertible() ? away : anywhere;
 }
 
-// The load drives a motion whose work is more than `round_off` of its terms, and than what rounding of the motion makes.
+// The load drives a motion whose work is more than `round_off` of its terms, and than what rounding of the motion
+// makes.
 bool drives(const VecX& load, const VecX& motion, double round_off) {
   const VecX work = load.cwiseProduct(motion);
   const double least = 1e-12 * load.lpNorm<1>() * motion.lpNorm<Eigen::Infinity>();

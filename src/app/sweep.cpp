@@ -94,6 +94,8 @@ bool is_table(const std::string& header) {
 }  // namespace
 
 Variation parse_variation(const std::string& text) {
+  if (text.find('=') == std::string::npos || text.front() == '=')
+    throw InputError("--vary '" + text + "': expected KEY=VALUE1,VALUE2,... such as mesh.parameters.n_upper=20,40,80");
   const Override split = parse_override(text);
   Variation variation{split.key, {}};
   std::stringstream values(split.value);

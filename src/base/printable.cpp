@@ -1,35 +1,75 @@
 #include "base/printable.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+
 namespace mortise {
 namespace {
 
-bool is_control(unsigned char c) { return c < 0x20 || c == 0x7f; }
+using Byte = unsigned char;
 
-std::string escaped(unsigned char c) {
+// A character of UTF-8 text: its number, and how many bytes it takes; no bytes if they are no UTF-8.
+struct Character {
+  std::uint32_t code;
+  std::size_t bytes;
+};
+
+Character character_at(const std::string& text, std::size_t i) {
+  const Byte first = Byte(text[i]);
+  const std::size_t bytes = first < 0x80 ? 1 : first >> 5 == 6 ? 2 : first >> 4 == 14 ? 3 : first >> 3 == 30 ? 4 : 0;
+  if (bytes == 0 || i + bytes > text.size()) return {0, 0};
+  std::uint32_t code = bytes == 1 ? first : first & (0x7fu >> bytes);
+  for (std::size_t k = 1; k < bytes; ++k) {
+    const Byte next = Byte(text[i + k]);
+    if (next >> 6 != 2) return {0, 0};
+    code = code << 6 | (next & 0x3f);
+  }
+  constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xd800 && code < 0xe000;
+  return code < least[bytes] || code > 0x10ffff || surrogate ? Character{0, 0} : Character{code, bytes};
+}
+
+// Controls, and what turns the direction of a line round or cannot be seen.
+bool is_unseen(std::uint32_t c) {
+  return c < 0x20 || (c >= 0x7f && c < 0xa0) || (c >= 0x200b && c < 0x2010) || (c >= 0x2028 && c < 0x202f) ||
+         (c >= 0x2060 && c < 0x2070) || c == 0xfeff || c >= 0xe0000;
+}
+
+std::string escaped(std::uint32_t c) {
   if (c == '\n') return "\\n";
   if (c == '\r') return "\\r";
   if (c == '\t') return "\\t";
-  constexpr const char* digits = "0123456789abcdef";
-  return {'\\', 'x', digits[c >> 4], digits[c & 15]};
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), c < 0x100 ? "\\x%02x" : "\\u%04x", c);
+  return text.data();
 }
 
 }  // namespace
 
 std::string printable(const std::string& text) {
   std::string shown;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
-    if (is_control(c)) {
-      shown += escaped(c);
-    } else if (c == 0xc2 && next >= 0x80 && next < 0xa0) {  // U+0080 to U+009F
-      shown += escaped(next);
-      ++i;
-    } else {
-      shown += text[i];
-    }
+  for (std::size_t i = 0; i < text.size();) {
+    const Character c = character_at(text, i);
+    if (c.bytes == 0)
+      shown += escaped(Byte(text[i]));
+    else if (is_unseen(c.code))
+      shown += escaped(c.code);
+    else
+      shown += text.substr(i, c.bytes);
+    i += std::max<std::size_t>(c.bytes, 1);
   }
   return shown;
+}
+
+std::string in_short(const std::string& line) {
+  constexpr std::size_t start = 700, end = 200;
+  if (line.size() <= start + end) return line;
+  std::size_t from = line.size() - end, to = start;
+  while (from < line.size() && Byte(line[from]) >> 6 == 2) ++from;  // not within a character
+  while (Byte(line[to]) >> 6 == 2) --to;
+  return line.substr(0, to) + " [...] " + line.substr(from);
 }
 
 }  // namespace mortise

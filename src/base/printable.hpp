@@ -5,8 +5,12 @@
 
 namespace mortise {
 
-/// The text with line breaks, tabs and all other control characters (C0, DEL and, in UTF-8, C1) written as \n, \t,
-/// \x1b: one line that cannot steer a terminal. Text without them comes back as it is.
+/// The text with line breaks, tabs and all other control characters written as \n, \t, \x1b, bytes that are no UTF-8
+/// as \xff, and characters that turn a line round or cannot be seen as \u202e: one line that cannot steer a terminal.
+/// Text without them comes back as it is.
 std::string printable(const std::string& text);
+
+/// A line of more than 900 bytes without its middle.
+std::string in_short(const std::string& line);
 
 }  // namespace mortise

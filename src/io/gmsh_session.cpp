@@ -129,6 +129,12 @@ class QuotedPath {
   int descriptor_ = -1;
 };
 
+std::string number_text(double value) {
+  std::array<char, 40> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.17g", value);
+  return digits.data();
+}
+
 /// Assignments, then the .geo itself: DefineConstant leaves a variable alone that exists already.
 /// gmsh's own way, -setnumber, cannot be undone: its values outlive gmsh::finalize and would leak into the next mesh.
 /// Without parameters too: of a .geo that it opens itself, gmsh 4.8 silently drops the last statement if no newline
@@ -136,11 +142,17 @@ class QuotedPath {
 std::string preamble(const std::string& path, const std::map<std::string, double>& parameters) {
   std::string text;
   for (const auto& [name, value] : parameters) {
-    std::array<char, 40> digits{};
-    std::snprintf(digits.data(), digits.size(), "%.17g", value);
-    text += name + " = " + digits.data() + ";\n";
+    text += name + " = " + number_text(value) + ";\n";
   }
   return text + "Include \"" + path + "\";\n";
+}
+
+// gmsh writes beyond its tables at orders that it does not have.
+void require_order(const std::string& file) {
+  double order = 0;
+  gmsh::option::getNumber("Mesh.ElementOrder", order);
+  if (order != 1 && order != 2)
+    throw InputError(file + ": Mesh.ElementOrder = " + number_text(order) + ": expected 1 (linear) or 2 (quadratic)");
 }
 
 bool has_cells() {
@@ -178,6 +190,7 @@ void GmshSession::open(const std::string& file, const std::map<std::string, doub
   try {
     run(file, "reading", [&] { gmsh::open(script.path()); });
     set_options();
+    require_order(file);
     if (!has_cells()) run(file, "meshing", [] { gmsh::model::mesh::generate(2); });
   } catch (const InputError& error) {
     throw InputError(quoted.shown(error.what()));

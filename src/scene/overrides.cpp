@@ -132,7 +132,7 @@ Override parse_override(const std::string& text) {
   const std::string key = trimmed(text.substr(0, equals));
   if (equals == std::string::npos || key.empty()) {
     scene_file::Place place;
-    place.file = "--set " + text;
+    place.file = "--set '" + text + "'";
     scene_file::fail(place, "", "expected KEY=VALUE, for example method.kind=ddm");
   }
   return {key, trimmed(text.substr(equals + 1))};

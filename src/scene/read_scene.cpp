@@ -16,6 +16,7 @@ Node load_document(const std::string& path) {
   if (ending == ".geo" || ending == ".msh") {
     fail(place, "", "this is a geometry or a mesh; expected a scene file (.toml) that names it under [mesh]");
   }
+  if (path.empty()) throw InputError("command line: the name of the scene is empty; expected a scene file (.toml)");
   const std::string trouble = file_trouble(path);
   if (!trouble.empty()) fail(place, "", trouble);
   return parse_document(read_text(path), path);

@@ -205,7 +205,7 @@ const BadInput bad_input[] = {
     {"BoundariesDisagree", {"--set", "boundary.1.displacement={x=0.1,y=0}"}, {"one value a node", "(0, 0)"}},
     {"ContactCurveInTwoPieces", {"--set", "contact.0.between=[\"upper_contact\",\"lower_left\"]"}, {"lower_left"}},
     {"UnknownParameterOfTheGeo", {"--set", "mesh.parameters.n_uper=4"}, {"n_uper", "n_upper"}},
-    {"ElementsOfThirdOrder", {"--set", "mesh.parameters.order=3"}, {"patch_flat.geo", "Quadrilateral"}},
+    {"ElementsOfThirdOrder", {"--set", "mesh.parameters.order=3"}, {"patch_flat.geo", "Mesh.ElementOrder = 3", "expected 1"}},
     {"NoSuchMesh", {"--set", "mesh.file=/no/such.geo"}, {"/no/such.geo"}},
     {"OverrideWithoutValue", {"--set", "method.kind"}, {"method.kind"}},
     {"UnknownOption", {"--fast"}, {"--fast"}},

@@ -154,6 +154,18 @@ TEST(Curves, AMultiplierWhoseEdgeHardlyFacesTheOtherSideFollowsItsNeighbour) {
   EXPECT_FALSE(noted(narrow_upper_plate(0.53), "hardly face"));
 }
 
+TEST(Curves, TheSideAtALimitDoesNotHangOnWhereTheSceneLies) {
+  // Straight edges exactly 1.5 times as long as the other side's, from places where lengths round differently.
+  TwoPlates plates;
+  plates.kind_upper = plates.kind_lower = CellKind::quad4;
+  plates.n_upper = 6, plates.n_lower = 9;
+  for (int k = 0; k < 20; ++k) {
+    Mesh mesh = mesh_of(plates);
+    mesh.nodes.array() += 0.1 * k * std::sqrt(2);
+    EXPECT_EQ(solve_scene(uniaxial_scene(), std::move(mesh)).pairs[0].spec.multipliers_on, "lower_contact") << k;
+  }
+}
+
 // ---- Stiffness ----
 
 TEST(Stiffness, TheMuchStifferBodyDoesNotCarryTheMultipliersByDefault) {

@@ -16,5 +16,19 @@ TEST(Printable, ControlCharactersAreWrittenOut) {
   EXPECT_EQ(printable(std::string("\0", 1)), "\\x00");
 }
 
+TEST(Printable, WhatTurnsALineRoundOrIsNoUtf8IsWrittenOut) {
+  EXPECT_EQ(printable("\u202e left"), "\\u202e left");
+  EXPECT_EQ(printable("\xff\xc3(\xe2\x82"), "\\xff\\xc3(\\xe2\\x82");
+  EXPECT_EQ(printable("\xc0\x8a\xed\xa0\x80"), "\\xc0\\x8a\\xed\\xa0\\x80");  // overlong, a surrogate
+}
+
+TEST(InShort, ALongLineLosesItsMiddle) {
+  EXPECT_EQ(in_short("short"), "short");
+  const std::string line = "start " + std::string(5000, 'x') + " end";
+  EXPECT_LT(in_short(line).size(), 1000u);
+  EXPECT_EQ(in_short(line).substr(0, 6), "start ");
+  EXPECT_TRUE(in_short(line).ends_with(" end"));
+}
+
 }  // namespace
 }  // namespace mortise

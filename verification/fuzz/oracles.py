@@ -2,6 +2,7 @@
 
 import json
 import os
+import unicodedata
 
 import results_files
 from fuzz_case import REFUSED, SOLVED
@@ -26,6 +27,11 @@ def internal_error(case, run, folder):
         return f"exit status {run.status}: {run.said.strip()[:200]!r}"
 
 
+def steers(character):
+    """Controls, what turns a line round, and bytes that are no UTF-8; a character that no font has does no harm."""
+    return unicodedata.category(character) in ("Cc", "Cf", "Cs", "Zl", "Zp")
+
+
 def one_line(case, run, folder):
     """Exit status 1: one printable line that says where."""
     if run.status != 1:
@@ -33,8 +39,7 @@ def one_line(case, run, folder):
     lines = run.said.split("\n")
     if lines[-1] != "" or len(lines) != 2 or not lines[0].startswith("mortise: error: "):
         return f"not one line 'mortise: error: ...': {run.said[:200]!r}"
-    if not lines[0].isprintable():
-        strange = next(c for c in lines[0] if not c.isprintable())
+    if strange := next(filter(steers, lines[0]), None):
         return f"a character {strange!r} that is not printable: {lines[0][:200]!r}"
     if len(lines[0]) > LONGEST_LINE:
         return f"a line of {len(lines[0])} characters"
@@ -45,14 +50,17 @@ def place(case, run, folder):
     if run.status != 1 or case.words == []:
         return None
     names = [os.path.basename(name) for name in case.files] + [word for word in case.words if word]
-    if not any(name in run.said for name in [*names, "command line"]):
+    names += [os.path.dirname(name) for name in names if os.path.dirname(name).strip("/")]
+    names = [name.encode("ascii", "backslashreplace").decode().replace("\\udc", "\\x").replace("\n", "\\n")[:200]
+             for name in names] + names  # as messages write them
+    if not any(name in run.said for name in [*names, "command line", "--set", "--vary"]):
         return f"no place in {run.said[:200]!r}"
 
 
 def terminal(case, run, folder):
     """Nothing reaches the terminal that it would obey."""
     for where, text in (("standard output", run.printed), ("standard error", run.said)):
-        strange = next((c for c in text if c not in "\n\t" and not c.isprintable()), None)
+        strange = next((c for c in text if c not in "\n\t" and steers(c)), None)
         if strange and not (run.status == 1 and where == "standard error"):  # one_line says it
             return f"a raw {strange!r} on {where}"
 
