@@ -76,8 +76,8 @@ def judged(row, ratio, role, on_grid):
     predicted, border = predicted_factor(beta, smallest, largest), 2 / largest
     outcome = ddm_runs.outcome(row, MOST_STEPS)
     compared = outcome != "diverged" and steps >= ENOUGH_STEPS
-    # At the best beta both are equal: neither round-off nor the mode of max mu alone decides, the bound holds.
-    bound_only = role != FLOATING and 1 - beta * smallest > (1 - TIE) * (beta * largest - 1)
+    # At the best beta both are equal, and the mode of max mu alone shows the factor.
+    bound_only = role != FLOATING and 1 - beta * smallest > (1 + TIE) * (beta * largest - 1)
     right_side = abs(beta / border - 1) < NEAR_BORDER or (outcome == "diverged") == (beta > border)
     deviation = measured / predicted - 1
     within = abs(deviation) <= LIMIT or bound_only and deviation <= LIMIT
