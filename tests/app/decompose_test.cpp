@@ -269,10 +269,7 @@ TEST(Decompose, SchemesThatMakeBothBodiesTakeADisplacementAskBoth) {
 }
 
 TEST(Decompose, WithoutAContactPairThereIsNothingToIterateOn) {
-  expect_contains(message_of([] {
-                    ddm("patch_flat", {{"contact", "[]"}});
-                  }),
-                  "needs a [[contact]] to iterate on");
+  expect_contains(message_of([] { ddm("patch_flat", {{"contact", "[]"}}); }), "needs a [[contact]] to iterate on");
 }
 
 TEST(Decompose, WhatOverflowsIsNotSolved) {

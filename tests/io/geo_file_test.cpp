@@ -93,7 +93,9 @@ TEST(GeoParameters, EveryGeoOfOursRefusesANumberOfElementsThatCannotBe) {
     for (const GeoParameter& parameter : geo_parameters(entry.path())) {
       if (!parameter.name.starts_with("n_")) continue;
       for (const double count : {-3.0, 0.0, 7.5})
-        expect_contains(message_of([&] { load_mesh(entry.path().string(), {{parameter.name, count}}); }),
+        expect_contains(message_of([&] {
+                          load_mesh(entry.path().string(), {{parameter.name, count}});
+                        }),
                         "expected a whole number of elements, at least 1");
     }
   }
