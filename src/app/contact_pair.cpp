@@ -5,6 +5,7 @@
 
 #include "base/errors.hpp"
 #include "contact/nodal_transfer.hpp"
+#include "mesh/body_points.hpp"
 #include "mesh/place.hpp"
 #include "mesh/thickness.hpp"
 
@@ -62,6 +63,9 @@ void append(const SparseMatrix& rows, int first, std::vector<Eigen::Triplet<doub
 std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, const Discretisation& d,
                                       const std::vector<char>& dirichlet) {
   std::vector<ContactPair> pairs;
+  if (scene.contacts.empty()) return pairs;
+  const BoundaryEdges boundary = boundary_edges(mesh);
+  const std::vector<int> bonded = bonded_to(mesh, body_points(mesh));
   std::map<int, std::vector<Edge>> outlines;  // of each body that is in contact
   for (const ContactSpec& spec : scene.contacts) {
     std::array<Curve, 2> curves;
@@ -69,7 +73,7 @@ std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, cons
     for (std::size_t i = 0; i < 2; ++i) {
       curves[i] = contact_curve(mesh, scene_boundary(scene, mesh, spec.key + ".between", spec.between[i]));
       const auto [body, is_new] = outlines.try_emplace(curves[i].body);
-      if (is_new) body->second = outline(mesh, curves[i].body);
+      if (is_new) body->second = outline(boundary, bonded, curves[i].body);
       curves[i].thickness = thickness_behind(mesh.nodes, curves[i], body->second);
       edge_size[i] = curve_length(mesh.nodes, curves[i]) / double(curves[i].edges.size());
     }

@@ -107,6 +107,16 @@ void note_shape(const ContactPair& pair, Results& r) {
       r.notes.push_back(pair.spec.key + ": an edge of " + name(*curve) + " " + near_point(sharpest.position) +
                         " turns by " + std::to_string(degrees(sharpest.angle)) +
                         " degrees: the mesh is coarse for the curve; expected at most 30");
+    if (const auto straight = straight_sides(r.mesh.nodes, *curve);
+        straight && straight->sagitta > 0.01 * largest_entry(r.u)) {
+      std::ostringstream text;
+      text << pair.spec.key << ": " << name(*curve) << " turns at " << straight->vertices
+           << " vertices between straight 3-node edges, whose chords miss the curve by up to " << straight->sagitta
+           << " " << near_point(straight->position) << ", not small against the displacements (up to "
+           << largest_entry(r.u)
+           << "): gaps and peaks of p are the mesh's; expected middle nodes on the curve (Mesh.SecondOrderLinear = 0)";
+      r.notes.push_back(text.str());
+    }
     // A gap that is measured is meant: a corner may stand on a flat side.
     if (pair.spec.initial_gap != InitialGap::closed) continue;
     if (const auto kink = missed_kink(r.mesh.nodes, *curve, *other))

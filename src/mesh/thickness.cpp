@@ -1,35 +1,12 @@
 #include "mesh/thickness.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
-#include <numeric>
 
 namespace mortise {
 namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-struct KeyedSide {
-  std::uint64_t key;  // one number for both directions of an edge
-  CellSide side;
-};
-
-// Of each body, whether it hangs together with this one by common nodes.
-std::vector<char> joined_with(const Mesh& mesh, int body) {
-  std::vector<int> group(mesh.bodies.size()), first(std::size_t(mesh.nodes.rows()), -1);
-  std::iota(group.begin(), group.end(), 0);
-  for (const Cell& cell : mesh.cells)
-    for (int a = 0; a < corner_count(cell.kind); ++a) {
-      int& other = first[cell.nodes[a]];
-      if (other < 0) other = cell.body;
-      const int from = group[other], to = group[cell.body];
-      if (from != to) std::replace(group.begin(), group.end(), from, to);
-    }
-  std::vector<char> joined;
-  for (const int g : group) joined.push_back(g == group[body]);
-  return joined;
-}
 
 struct Straight {
   int start, end;
@@ -51,24 +28,10 @@ std::vector<Straight> pieces_of(const std::vector<Edge>& edges) {
 
 }  // namespace
 
-std::vector<Edge> outline(const Mesh& mesh, int body) {
-  const std::vector<char> joined = joined_with(mesh, body);
-  std::vector<KeyedSide> sides;
-  for (int c = 0; c < int(mesh.cells.size()); ++c) {
-    const Cell& cell = mesh.cells[c];
-    if (!joined[cell.body]) continue;
-    const int corners = corner_count(cell.kind);
-    for (int s = 0; s < corners; ++s) {
-      const auto [low, high] = std::minmax(cell.nodes[s], cell.nodes[(s + 1) % corners]);
-      sides.push_back({std::uint64_t(low) << 32 | std::uint64_t(high), {c, s}});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const KeyedSide& a, const KeyedSide& b) { return a.key < b.key; });
+std::vector<Edge> outline(const BoundaryEdges& boundary, const std::vector<int>& bonded, int body) {
   std::vector<Edge> edges;
-  for (std::size_t i = 0, next = 0; i < sides.size(); i = next) {
-    for (next = i + 1; next < sides.size() && sides[next].key == sides[i].key;) ++next;
-    if (next == i + 1) edges.push_back(side_edge(mesh.cells[sides[i].side.cell], sides[i].side.side));
-  }
+  for (const BoundaryEdge& edge : boundary.edges)
+    if (!edge.shared && bonded[edge.body] == bonded[body]) edges.push_back(edge.edge);
   return edges;
 }
 

@@ -58,6 +58,17 @@ TEST(Notes, ClosedIsAdvisedWhereTheMeshesMakeTheGap) {
   EXPECT_EQ(notes_with(r, "set initial_gap = \"closed\""), 1) << all(r);
 }
 
+// ---- Shape ----
+
+TEST(Notes, StraightSidesOfACurvedLineAreNamed) {
+  const std::string pin = "tests/parts/pin_in_hole.toml";
+  const Results straight = solved(pin, {{"mesh.parameters.straight", "1"}});
+  EXPECT_EQ(notes_with(straight, "between straight 3-node edges"), 2) << all(straight);  // of either curve
+  const Results curved = solved(pin, {});
+  EXPECT_EQ(notes_with(curved, "between straight 3-node edges"), 0) << all(curved);
+  EXPECT_GT(straight.contacts[0].p_max, 1.05 * curved.contacts[0].p_max);
+}
+
 // ---- Displacements ----
 
 TEST(Notes, AClearanceOfThreePercentOfTheRadiusIsALargeDisplacement) {

@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "contact/multiplier_space.hpp"
+#include "mesh/body_points.hpp"
 #include "mesh/thickness.hpp"
 #include "support/two_plates.hpp"
 
@@ -151,7 +152,9 @@ TEST(Coupling, CurvesThatDoNotFaceAreAnError) {
   const Mesh mesh = test::mesh_of({});
   Curve top = contact_curve(mesh, boundary_index(mesh, "top")),
         bottom = contact_curve(mesh, boundary_index(mesh, "bottom"));
-  for (Curve* c : {&top, &bottom}) c->thickness = thickness_behind(mesh.nodes, *c, outline(mesh, c->body));
+  const BoundaryEdges boundary = boundary_edges(mesh);
+  const std::vector<int> bonded = bonded_to(mesh, body_points(mesh));
+  for (Curve* c : {&top, &bottom}) c->thickness = thickness_behind(mesh.nodes, *c, outline(boundary, bonded, c->body));
   const auto points = contact_points(mesh.nodes, top, bottom, Integration::segments);
   EXPECT_TRUE(points.empty());
   EXPECT_THROW(couple(mesh, top, bottom, points, no_constraints(mesh), {}), InputError);

@@ -2,21 +2,26 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/body_points.hpp"
 #include "mesh/grid.hpp"
 #include "support/patches.hpp"
 
 namespace mortise {
 namespace {
 
+std::vector<Edge> outline_of(const Mesh& mesh, int body) {
+  return outline(boundary_edges(mesh), bonded_to(mesh, body_points(mesh)), body);
+}
+
 std::vector<double> thickness(const Mesh& mesh, const std::string& boundary) {
   const Curve curve = contact_curve(mesh, boundary_index(mesh, boundary));
-  return thickness_behind(mesh.nodes, curve, outline(mesh, curve.body));
+  return thickness_behind(mesh.nodes, curve, outline_of(mesh, curve.body));
 }
 
 TEST(Outline, OfAPlateIsItsFourSides) {
   for (const CellKind kind : testing_meshes::all_kinds()) {
     const Mesh mesh = testing_meshes::plate(kind, 5, 3);
-    const std::vector<Edge> edges = outline(mesh, 0);
+    const std::vector<Edge> edges = outline_of(mesh, 0);
     EXPECT_EQ(edges.size(), 16u);
     double twice_area = 0;  // positive: the body lies on the left
     for (const Edge& e : edges)
