@@ -105,8 +105,8 @@ int check(const Options& options) {
 int mesh(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const std::filesystem::path output = options.output.empty() ? "out/" + stem(options) + ".msh" : options.output;
-  if (output.has_parent_path()) std::filesystem::create_directories(output.parent_path());
   check_msh_target(output.string(), {scene.path, scene.mesh_file});
+  if (output.has_parent_path()) std::filesystem::create_directories(output.parent_path());
   write_msh(scene.mesh_file, scene.mesh_parameters, output.string(), scene.geo_limits);
   if (!options.quiet) std::cout << output.string() << "\n";
   return 0;
