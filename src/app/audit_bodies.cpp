@@ -86,6 +86,8 @@ std::string name_of(const AuditedBodies& b, const std::vector<int>& edges) {
 }
 
 std::string advice(const AuditedBodies& b, const std::vector<int>& edges, const std::vector<int>& others) {
+  if (b.outline.edges[edges.front()].body == b.outline.edges[others.front()].body)
+    return "make them one (in a .geo: BooleanFragments or Coherence), or two bodies with a contact pair";
   const int first = main_name(b, edges), second = main_name(b, others);
   const auto word = [&](int name) { return name >= 0 ? "\"" + b.mesh.boundaries[name].name + "\"" : "..."; };
   return std::string(first < 0 || second < 0 ? "name the boundaries there as physical curves and write" : "write") +

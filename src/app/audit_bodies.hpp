@@ -36,7 +36,7 @@ std::string two_bodies(const Mesh& mesh, int first, int second);
 /// third.
 std::string name_of(const AuditedBodies& bodies, const std::vector<int>& edges);
 
-/// What to write so that contact is there: [[contact]] between the two names.
+/// What to write so that contact is there: [[contact]] between the two names; of two pieces of one body, to join them.
 std::string advice(const AuditedBodies& bodies, const std::vector<int>& edges, const std::vector<int>& others);
 
 /// The edge whose middle is nearest to the middle of all: where to look. Its middle.

@@ -44,11 +44,8 @@ std::string line(const AuditedBodies& b, int first, int second, const Crossing& 
   text << two_bodies(b.mesh, first, second) << " pass through one another by " << c.depth << " ("
        << std::lround(100 * c.depth / largest) << " % of the largest displacement) "
        << near_point(middle_of(b, c.edges)) << " (" << name_of(b, c.edges) << ", " << name_of(b, c.others)
-       << "), and no contact pair keeps them apart there: the results are not those of two bodies; ";
-  if (first == second)
-    text << "make them one (in a .geo: BooleanFragments or Coherence), or two bodies with a contact pair";
-  else
-    text << advice(b, c.edges, c.others);
+       << "), and no contact pair keeps them apart there: the results are not those of two bodies; "
+       << advice(b, c.edges, c.others);
   return text.str();
 }
 

@@ -16,11 +16,7 @@ std::string line(const AuditedBodies& b, int first, int second, const Meeting& f
   std::ostringstream text;
   text << two_bodies(b.mesh, first, second) << " meet " << near_point(middle_of(b, found.edges)) << " over a length of "
        << found.length << " (" << name_of(b, found.edges) << ", " << name_of(b, found.facing)
-       << "), and no contact pair keeps them apart there: ";
-  if (first == second)
-    text << "make them one (in a .geo: BooleanFragments or Coherence), or two bodies with a contact pair";
-  else
-    text << advice(b, found.edges, found.facing);
+       << "), and no contact pair keeps them apart there: " << advice(b, found.edges, found.facing);
   return text.str();
 }
 

@@ -102,9 +102,9 @@ std::string line(const AuditedBodies& b, const Overlap& overlap, int first, int 
   std::ostringstream text;
   text << two_bodies(b.mesh, first, second) << " are drawn into one another by " << overlap.depth << " "
        << near_point(middle_of(b, overlap.edges[0])) << " (" << name_of(b, overlap.edges[0]) << ", "
-       << name_of(b, overlap.edges[1]) << "), and no contact pair presses them apart there: ";
-  text << (first == second ? "make them one, or two bodies with a contact pair"
-                           : advice(b, overlap.edges[0], overlap.edges[1]) + " or draw them apart");
+       << name_of(b, overlap.edges[1])
+       << "), and no contact pair presses them apart there: " << advice(b, overlap.edges[0], overlap.edges[1])
+       << (first == second ? "" : " or draw them apart");
   return text.str();
 }
 
