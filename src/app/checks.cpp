@@ -40,7 +40,7 @@ void balance_of_bodies(const SaddlePointSolution& solution, const SparseMatrix& 
   VecX forces = d.load + contact;
   const VecX Ku = d.stiffness.selfadjointView<Eigen::Lower>() * solution.u;
   for (Eigen::Index i = 0; i < forces.size(); ++i)
-    if (d.constraints.fixed[std::size_t(i)]) forces(i) = Ku(i);  // load + contact + reaction
+    if (d.constraints.fixed[i]) forces(i) = Ku(i);  // load + contact + reaction
   double force = 0, moment = 0;
   const double rigid = rigid_part * largest_young(d) * largest_entry(solution.u);
   for (const std::vector<int>& nodes : nodes_of_bodies(r)) {
@@ -66,7 +66,7 @@ void balance_of_contact(const SaddlePointSolution& solution, const StackedCoupli
   double force = 0, moment = 0;
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
     const int first = coupling.first_row[k], rows = coupling.first_row[k + 1] - first;
-    const VecX contact = load_rows(r.pairs[k].coupling).transpose() * solution.lambda.segment(first, rows);
+    const VecX contact = r.pairs[k].coupling.B.transpose() * solution.lambda.segment(first, rows);
     const ContactResults& c = r.contacts[k];
     const Vec2 centre = c.multiplier.nodes[c.multiplier.nodes.size() / 2].position;
     Resultant sum;
@@ -90,7 +90,7 @@ void unilateral_checks(const SaddlePointSolution& solution, const StackedCouplin
                p_size = largest(10 * least, largest_entry(solution.lambda));
   double pull = 0, penetration = 0, product = 0, dip = 0;
   for (Eigen::Index a = 0; a < gap.size(); ++a) {
-    if (!unilateral[std::size_t(a)]) continue;
+    if (!unilateral[a]) continue;
     pull = largest(pull, solution.lambda(a));
     penetration = largest(penetration, -gap(a));
     product = largest(product, std::abs(solution.lambda(a) * gap(a)));
@@ -150,7 +150,7 @@ void add_checks(const SaddlePointSolution& solution, const StackedCoupling& coup
   const double tolerance = ddm ? scene.method.ddm.tolerance : of_forces;
   r.checks.push_back({"residual of the forces", solution.force_residual, of_forces});
   r.checks.push_back({"residual of the contact condition", solution.constraint_residual, tolerance});
-  balance_of_bodies(solution, load_rows(coupling), std::max(1e-9, 10 * of_forces), r);
+  balance_of_bodies(solution, coupling.B, std::max(1e-9, 10 * of_forces), r);
   balance_of_contact(solution, coupling, r);
   coverage_check(scene, r);
   unilateral_checks(solution, coupling, std::max(tolerance, 1e-9), r);

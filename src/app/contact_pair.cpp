@@ -4,7 +4,6 @@
 #include <map>
 
 #include "base/errors.hpp"
-#include "contact/nodal_transfer.hpp"
 #include "mesh/body_points.hpp"
 #include "mesh/place.hpp"
 #include "mesh/thickness.hpp"
@@ -31,15 +30,14 @@ bool on_second(const Scene& scene, const Points& nodes, const std::array<Curve, 
   const bool second_finer = edge_size[1] < (1 - margin) * edge_size[0],
              first_finer = edge_size[0] < (1 - margin) * edge_size[1];
   if (dirichlet.empty()) {
-    const double first = contact_modulus(laws[std::size_t(curves[0].body)]),
-                 second = contact_modulus(laws[std::size_t(curves[1].body)]);
+    const double first = contact_modulus(laws[curves[0].body]), second = contact_modulus(laws[curves[1].body]);
     if (std::max(first, second) > (1 + margin) * stiffer_limit * std::min(first, second)) return second < first;
     if (const int covered = covered_curve(nodes, curves); covered >= 0) return covered == 1;
     const double ratio = std::max(edge_size[0] / edge_size[1], edge_size[1] / edge_size[0]);
     const Curve& coarser = curves[second_finer ? 0 : 1];
     return coarser.edges[0].node_count == 2 && ratio > (1 + margin) * facet_limit ? !second_finer : second_finer;
   }
-  if (scene.method.ddm.scheme == Scheme::neumann_dirichlet) return dirichlet[std::size_t(curves[1].body)];
+  if (scene.method.ddm.scheme == Scheme::neumann_dirichlet) return dirichlet[curves[1].body];
   return first_finer;
 }
 
@@ -88,8 +86,6 @@ std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, cons
     pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, scene.method.integration);
     pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, d.constraints,
                            {scene.method.multipliers, spec.initial_gap});
-    if (scene.method.kind == MethodKind::ddm && scene.method.ddm.transfer == Transfer::nodal)
-      transfer_by_nodes(mesh, pair.multiplier, pair.opposite, pair.coupling);
     pairs.push_back(std::move(pair));
   }
   return pairs;
@@ -107,25 +103,20 @@ std::vector<int> row_nodes(const std::vector<ContactPair>& pairs) {
 std::vector<char> unilateral_rows(const std::vector<ContactPair>& pairs) {
   std::vector<char> rows;
   for (const ContactPair& pair : pairs)
-    rows.insert(rows.end(), std::size_t(pair.coupling.gap0.size()), pair.spec.condition == Condition::unilateral);
+    rows.insert(rows.end(), pair.coupling.gap0.size(), pair.spec.condition == Condition::unilateral);
   return rows;
 }
 
 StackedCoupling stack(const std::vector<ContactPair>& pairs, Eigen::Index unknowns) {
   StackedCoupling all;
   all.first_row.push_back(0);
-  std::vector<Eigen::Triplet<double>> gaps, loads;
+  std::vector<Eigen::Triplet<double>> entries;
   for (const ContactPair& pair : pairs) {
-    append(pair.coupling.B, all.first_row.back(), gaps);
-    if (pair.coupling.loads.size() > 0) append(pair.coupling.loads, all.first_row.back(), loads);
+    append(pair.coupling.B, all.first_row.back(), entries);
     all.first_row.push_back(all.first_row.back() + int(pair.coupling.B.rows()));
   }
   all.B.resize(all.first_row.back(), unknowns);
-  all.B.setFromTriplets(gaps.begin(), gaps.end());
-  if (!loads.empty()) {
-    all.loads.resize(all.first_row.back(), unknowns);
-    all.loads.setFromTriplets(loads.begin(), loads.end());
-  }
+  all.B.setFromTriplets(entries.begin(), entries.end());
   all.gap0.resize(all.B.rows());
   all.scale.resize(all.B.rows());
   for (std::size_t p = 0; p < pairs.size(); ++p) {

@@ -37,12 +37,9 @@ std::vector<ContactPair> couple_pairs(const Scene& scene, const Mesh& mesh, cons
 /// The rows of all pairs below one another.
 struct StackedCoupling {
   SparseMatrix B;
-  SparseMatrix loads;  ///< as in Coupling; empty where B is meant
   VecX gap0, scale;
   std::vector<int> first_row;  ///< of each pair, and the total at the end
 };
-
-inline const SparseMatrix& load_rows(const StackedCoupling& c) { return c.loads.size() > 0 ? c.loads : c.B; }
 
 /// Of the stacked rows: the node of each one's first multiplier; and whether it may open.
 std::vector<int> row_nodes(const std::vector<ContactPair>& pairs);

@@ -28,7 +28,7 @@ struct CurveNode {
 Vec2 mirrored(const Vec2& n, const Constraints& constraints, int node) {
   Vec2 m = n;
   for (int c = 0; c < 2; ++c)
-    if (constraints.fixed[std::size_t(2 * node + c)]) m(c) = 0;
+    if (constraints.fixed[2 * node + c]) m(c) = 0;
   return m.norm() > 1e-3 ? m.normalized() : n;
 }
 
@@ -36,7 +36,7 @@ std::vector<CurveNode> nodes_along(const Mesh& mesh, const Curve& curve, const C
   std::vector<CurveNode> list;
   double s = 0;
   for (int e = 0; e < int(curve.edges.size()); ++e) {
-    const Edge& edge = curve.edges[std::size_t(e)];
+    const Edge& edge = curve.edges[e];
     const Vec2 n = edge_point(mesh.nodes, edge, -1).normal();
     if (e == 0) {
       list.push_back({edge.nodes[0], s, {e, -1}, n});
@@ -73,9 +73,9 @@ std::optional<Place> foot_of(const Mesh& mesh, const Curve& multiplier, const st
     int e = nearest->place.edge + step;
     if (multiplier.closed) e = (e + count) % count;
     if (e < 0 || e >= count) continue;
-    const auto xi = foot_on_edge(mesh.nodes, multiplier.edges[std::size_t(e)], x);
+    const auto xi = foot_on_edge(mesh.nodes, multiplier.edges[e], x);
     if (!xi) continue;
-    const double d = (edge_point(mesh.nodes, multiplier.edges[std::size_t(e)], *xi).position - x).norm();
+    const double d = (edge_point(mesh.nodes, multiplier.edges[e], *xi).position - x).norm();
     if (d < distance) {
       distance = d;
       best = Place{e, *xi};
@@ -84,7 +84,7 @@ std::optional<Place> foot_of(const Mesh& mesh, const Curve& multiplier, const st
   // Between two edges' normals, or at the very node: the node itself, unless it is an end that lies off to the side.
   const Vec2 away = x - mesh.nodes.row(nearest->node).transpose();
   const double sideways = std::abs(away.x() * nearest->normal.y() - away.y() * nearest->normal.x());
-  const double size = edge_length(mesh.nodes, multiplier.edges[std::size_t(nearest->place.edge)]);
+  const double size = edge_length(mesh.nodes, multiplier.edges[nearest->place.edge]);
   if (away.norm() < distance && sideways < 0.1 * size) best = nearest->place;
   return best;
 }
@@ -92,7 +92,7 @@ std::optional<Place> foot_of(const Mesh& mesh, const Curve& multiplier, const st
 Vec2 value_at(const VecX& u, const Edge& edge, double xi) {
   const EdgeShape s = edge_shape(edge.node_count, xi);
   Vec2 value = Vec2::Zero();
-  for (std::size_t a = 0; a < std::size_t(edge.node_count); ++a) value += s.N[a] * u.segment<2>(2 * edge.nodes[a]);
+  for (int a = 0; a < edge.node_count; ++a) value += s.N[a] * u.segment<2>(2 * edge.nodes[a]);
   return value;
 }
 
@@ -135,7 +135,7 @@ double least_pressure(const ContactPair& pair, const VecX& pressure) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ContactPoint& c = points[i];
     least = std::min(least, interpolate(pair.coupling, pair.multiplier, pressure, c.edge, c.xi));
-    const auto& on = pair.coupling.on_edge[std::size_t(c.edge)];
+    const auto& on = pair.coupling.on_edge[c.edge];
     if (on[2] < 0 || i + 1 == points.size() || points[i + 1].edge != c.edge) continue;
     const double start = pressure(on[0]), end = pressure(on[1]), middle = pressure(on[2]);
     const double slope = (end - start) / 2, bend = (start + end) / 2 - middle;  // p = middle + slope xi + bend xi^2
@@ -153,15 +153,15 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
   const std::vector<CurveNode> along = nodes_along(mesh, pair.multiplier, constraints);
   ContactResults r;
   r.pressure = 0 - multiplier_values(pair.coupling, lambda).array();  // 0 - 0 is 0, -0 is not
-  r.multiplier.curve = mesh.boundaries[std::size_t(pair.multiplier.boundary)].name;
-  r.opposite.curve = mesh.boundaries[std::size_t(pair.opposite.boundary)].name;
+  r.multiplier.curve = mesh.boundaries[pair.multiplier.boundary].name;
+  r.opposite.curve = mesh.boundaries[pair.opposite.boundary].name;
 
   for (const CurveNode& at : along) {
     ContactNode n = node_results(mesh, at, pair.multiplier.body, at.normal, points, stress, u);
     n.p = interpolate(pair.coupling, pair.multiplier, r.pressure, at.place.edge, at.place.xi);
     if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite,
                                             {n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)})) {
-      const Vec2 other = value_at(u, pair.opposite.edges[std::size_t(hit->edge)], hit->xi);
+      const Vec2 other = value_at(u, pair.opposite.edges[hit->edge], hit->xi);
       n.gap = (measured ? hit->distance : 0) + other.dot(at.normal) - n.u_n;
     }
     r.multiplier.nodes.push_back(n);
@@ -174,7 +174,7 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
       r.opposite.nodes.back().p = 0;
       continue;
     }
-    const Edge& edge = pair.multiplier.edges[std::size_t(foot->edge)];
+    const Edge& edge = pair.multiplier.edges[foot->edge];
     const EdgePoint m = edge_point(mesh.nodes, edge, foot->xi);
     // At a vertex of the multiplier side its mean normal, as in that side's own rows.
     const auto vertex = std::find_if(along.begin(), along.end(), [&](const CurveNode& c) {
@@ -213,7 +213,7 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
   for (const ContactPoint& c : pair.points)
     r.p_mean += c.ds * interpolate(pair.coupling, pair.multiplier, r.pressure, c.edge, c.xi);
   r.length_in_contact = length_in_contact(mesh.nodes, pair, r.pressure);
-  const VecX contact = -(load_rows(pair.coupling).transpose() * lambda);
+  const VecX contact = -(pair.coupling.B.transpose() * lambda);
   for (const CurveNode& at : along) r.force += contact.segment<2>(2 * at.node);
   r.p_mean /= pair.coupling.covered_length;
   return r;

@@ -9,11 +9,10 @@ namespace mortise {
 namespace {
 
 std::vector<char> unknowns_of(const Mesh& mesh, const std::vector<char>& bodies) {
-  std::vector<char> member(std::size_t(2 * mesh.nodes.rows()), 0);
+  std::vector<char> member(2 * mesh.nodes.rows(), 0);
   for (const Cell& cell : mesh.cells)
     for (int a = 0; a < node_count(cell.kind); ++a)
-      for (int c = 0; c < 2; ++c)
-        member[std::size_t(2 * cell.nodes[std::size_t(a)] + c)] = bodies[std::size_t(cell.body)];
+      for (int c = 0; c < 2; ++c) member[2 * cell.nodes[a] + c] = bodies[cell.body];
   return member;
 }
 
@@ -38,7 +37,7 @@ std::string trouble(const DdmSolution& d, const std::vector<RelaxationStep>& his
     throw InputError(scene.path + ": the bodies that take the displacement" +
                      (one_side ? "" : " (all, with scheme = \"" + to_string(scene.method.ddm.scheme) + "\")") +
                      " do not feel the multiplier " +
-                     near_point(r.mesh.nodes.row(row_nodes(r.pairs)[std::size_t(d.solution.failed_at)]).transpose()) +
+                     near_point(r.mesh.nodes.row(row_nodes(r.pairs)[d.solution.failed_at]).transpose()) +
                      ": expected contact.multipliers_on to name " +
                      (one_side ? "the curve of the body that takes the displacement (or the coarser curve)"
                                : "the coarser curve, or scheme = \"neumann_dirichlet\"") +
@@ -48,12 +47,6 @@ std::string trouble(const DdmSolution& d, const std::vector<RelaxationStep>& his
     throw InputError(scene.path +
                      ": contact opens until nothing holds a body; expected a load that presses it on, or prescribed "
                      "displacements that hold it (method.kind = \"mortar\" names the motion)");
-  if (d.status == Reached::unbalanced)
-    throw InputError(
-        scene.path +
-        ": method.transfer = \"nodal\" does not keep the forces in balance: expected scheme = "
-        "\"neumann_dirichlet\" with method.dirichlet naming the bodies that only contact holds, or transfer "
-        "= \"mortar\"");
   throw InputError(scene.path + ": method.scheme = \"" + to_string(scene.method.ddm.scheme) +
                    "\" is for bilateral contact, and contact pulls here; expected \"neumann_dirichlet\", or "
                    "contact.condition = \"bilateral\"");

@@ -17,7 +17,7 @@ SparseMatrix stacked_norm(const Scene& scene, const Results& r, const StackedCou
     const ContactPair& pair = r.pairs[k];
     double compliance = 0;
     for (const Curve* side : {&pair.multiplier, &pair.opposite})
-      compliance += 1 / contact_modulus(r.discretisation.laws[std::size_t(side->body)]);
+      compliance += 1 / contact_modulus(r.discretisation.laws[side->body]);
     const SparseMatrix S =
         pressure_norm(r.mesh.nodes, pair.multiplier, pair.points, scene.method.multipliers, pair.coupling);
     for (Eigen::Index j = 0; j < S.outerSize(); ++j)
@@ -43,7 +43,7 @@ void diagnose(const Scene& scene, Results& r) {
   if (found.mode.size() == 0) return;
   Eigen::Index worst = 0;
   found.mode.maxCoeff(&worst);
-  r.inf_sup = InfSupReport{found.beta, r.mesh.nodes.row(row_nodes(r.pairs)[std::size_t(worst)]).transpose()};
+  r.inf_sup = InfSupReport{found.beta, r.mesh.nodes.row(row_nodes(r.pairs)[worst]).transpose()};
   if (found.beta >= inf_sup_limit) return;
   std::ostringstream text;
   text << "the inf-sup constant is " << found.beta << " (below " << inf_sup_limit

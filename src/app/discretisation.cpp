@@ -22,11 +22,10 @@ int find_body(const Scene& scene, const Mesh& mesh, const std::string& key, cons
 std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh) {
   std::vector<const Material*> materials(mesh.bodies.size(), nullptr);
   for (const BodySpec& body : scene.bodies)
-    materials[std::size_t(find_body(scene, mesh, "bodies." + body.name, body.name))] =
-        &scene.materials.at(body.material);
+    materials[find_body(scene, mesh, "bodies." + body.name, body.name)] = &scene.materials.at(body.material);
   std::vector<Vec4> strains(mesh.bodies.size(), Vec4::Zero());
   for (const InitialStrainSpec& spec : scene.initial_strains) {
-    const auto b = std::size_t(find_body(scene, mesh, spec.key, spec.body));
+    const int b = find_body(scene, mesh, spec.key, spec.body);
     strains[b] += spec.strain;
     if (spec.temperature_change && materials[b])
       strains[b].head<3>().array() += materials[b]->thermal_expansion * *spec.temperature_change;

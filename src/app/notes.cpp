@@ -22,7 +22,7 @@ void note_unsettled(const std::vector<int>& unsettled, Results& r) {
   const std::vector<int> nodes = row_nodes(r.pairs);
   std::string places;
   for (std::size_t i = 0; i < std::min<std::size_t>(unsettled.size(), 5); ++i)
-    places += (i > 0 ? ", " : "") + near_node(r.mesh, nodes[std::size_t(unsettled[i])]);
+    places += (i > 0 ? ", " : "") + near_node(r.mesh, nodes[unsettled[i]]);
   if (unsettled.size() > 5) places += " and " + std::to_string(unsettled.size() - 5) + " more";
   r.notes.push_back("the active set did not settle in " + std::to_string(r.steps.size()) + " steps: contact " + places +
                     " still changes");
@@ -99,7 +99,7 @@ int degrees(double angle) { return int(std::lround(angle * 180 / std::numbers::p
 
 // Both meshes must follow the contact line: its curvature, and its kinks (docs/stability.md, geometry).
 void note_shape(const ContactPair& pair, Results& r) {
-  const auto name = [&](const Curve& curve) { return "'" + r.mesh.boundaries[std::size_t(curve.boundary)].name + "'"; };
+  const auto name = [&](const Curve& curve) { return "'" + r.mesh.boundaries[curve.boundary].name + "'"; };
   for (const auto& [curve, other] :
        {std::pair{&pair.multiplier, &pair.opposite}, std::pair{&pair.opposite, &pair.multiplier}}) {
     const Turn sharpest = sharpest_edge(r.mesh.nodes, *curve);

@@ -25,7 +25,7 @@ SparseMatrix unit_rows(const StackedCoupling& coupling) {
   while (r.pairs[k].coupling.gap0.size() <= row) row -= int(r.pairs[k++].coupling.gap0.size());
   const Coupling& c = r.pairs[k].coupling;
   throw InputError(scene.path + ": " + r.pairs[k].spec.key + ": the contact condition " +
-                   near_node(r.mesh, row_nodes(c)[std::size_t(row)]) +
+                   near_node(r.mesh, row_nodes(c)[row]) +
                    " already follows from the others: prescribed displacements or other contact pairs hold the "
                    "same nodes; put the multipliers on the other curve or release the prescribed displacement");
 }

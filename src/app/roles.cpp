@@ -22,7 +22,7 @@ bool prescribed(const Mesh& mesh, const Curve& curve, const Constraints& constra
   for (const Edge& edge : curve.edges)
     for (int a = 0; a < edge.node_count; ++a) {
       const Vec2 n = edge_point(mesh.nodes, edge, a == 0 ? -1 : a == 1 ? 1 : 0).normal();
-      if (!prescribed_along(constraints, edge.nodes[std::size_t(a)], n)) return false;
+      if (!prescribed_along(constraints, edge.nodes[a], n)) return false;
     }
   return true;
 }
@@ -45,10 +45,10 @@ std::vector<Link> contact_links(const Scene& scene, const Mesh& mesh, const Cons
 }
 
 void add_shared_nodes(const Mesh& mesh, std::vector<Link>& links) {
-  std::vector<int> owner(std::size_t(mesh.nodes.rows()), -1);
+  std::vector<int> owner(mesh.nodes.rows(), -1);
   for (const Cell& cell : mesh.cells)
     for (int a = 0; a < node_count(cell.kind); ++a) {
-      int& first = owner[std::size_t(cell.nodes[std::size_t(a)])];
+      int& first = owner[cell.nodes[a]];
       if (first < 0) first = cell.body;
       if (first != cell.body) links.push_back({first, cell.body, false, false, false, false, "common nodes"});
     }
@@ -57,17 +57,17 @@ void add_shared_nodes(const Mesh& mesh, std::vector<Link>& links) {
 // One set of bodies that hang together, dealt out in two: sides[b] is 0 or 1, -1 for bodies of other sets.
 std::vector<int> deal_out(const Scene& scene, const Mesh& mesh, const std::vector<Link>& links, int first) {
   std::vector<int> side(mesh.bodies.size(), -1);
-  side[std::size_t(first)] = 0;
+  side[first] = 0;
   for (bool changed = true; changed;) {
     changed = false;
     for (const Link& link : links) {
-      int& a = side[std::size_t(link.body)];
-      int& b = side[std::size_t(link.other)];
+      int& a = side[link.body];
+      int& b = side[link.other];
       if (a < 0 && b < 0) continue;
       if (a >= 0 && b >= 0) {
         if ((a != b) != link.differ)
-          throw InputError(scene.path + ": " + link.key + ": '" + mesh.bodies[std::size_t(link.body)] + "' and '" +
-                           mesh.bodies[std::size_t(link.other)] +
+          throw InputError(scene.path + ": " + link.key + ": '" + mesh.bodies[link.body] + "' and '" +
+                           mesh.bodies[link.other] +
                            "' cannot take the displacement in turns: domain decomposition needs bodies in a chain, "
                            "each in contact with others of the opposite role only; expected method.kind = \"mortar\"");
         continue;
@@ -83,7 +83,7 @@ std::vector<int> deal_out(const Scene& scene, const Mesh& mesh, const std::vecto
 int named_side(const Scene& scene, const Mesh& mesh, const std::vector<int>& side) {
   int named = -1;
   for (const std::string& name : scene.method.ddm.dirichlet) {
-    const int s = side[std::size_t(body_index(mesh, name))];
+    const int s = side[body_index(mesh, name)];
     if (s >= 0 && named >= 0 && s != named)
       throw InputError(scene.path + ": method.dirichlet: '" + name + "' is in contact with a body of the same role");
     named = std::max(named, s);
@@ -97,10 +97,10 @@ int softer_side(const std::vector<Link>& links, const std::vector<int>& side, co
   std::array<double, 2> stiffest{};
   std::array<int, 2> finer{}, given{};
   for (std::size_t b = 0; b < side.size(); ++b)
-    if (side[b] >= 0) stiffest[std::size_t(side[b])] = std::max(stiffest[std::size_t(side[b])], laws[b].young);
+    if (side[b] >= 0) stiffest[side[b]] = std::max(stiffest[side[b]], laws[b].young);
   for (const Link& link : links) {
-    if (!link.differ || side[std::size_t(link.body)] < 0) continue;
-    const auto body = std::size_t(side[std::size_t(link.body)]), other = 1 - body;
+    if (!link.differ || side[link.body] < 0) continue;
+    const int body = side[link.body], other = 1 - body;
     ++finer[link.body_finer ? body : other];
     given[body] += link.body_prescribed;
     given[other] += link.other_prescribed;
@@ -118,7 +118,7 @@ std::vector<char> dirichlet_bodies(const Scene& scene, const Mesh& mesh, const D
   add_shared_nodes(mesh, links);
   std::vector<char> dirichlet(mesh.bodies.size(), 0), dealt(mesh.bodies.size(), 0);
   for (std::size_t k = 0; k < contacts; ++k) {
-    if (dealt[std::size_t(links[k].body)]) continue;
+    if (dealt[links[k].body]) continue;
     const std::vector<int> side = deal_out(scene, mesh, links, links[k].body);
     const int named = named_side(scene, mesh, side);
     const int chosen = named >= 0 ? named : softer_side(links, side, d.laws);

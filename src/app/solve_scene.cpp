@@ -111,8 +111,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
                                  coupling.scale,
                                  floating.grounded,
                                  unilateral_rows(r.pairs),
-                                 starting_rows(start, r),
-                                 coupling.loads.size() > 0 ? &coupling.loads : nullptr};
+                                 starting_rows(start, r)};
   SaddlePointSolution solution = solve_system(scene, system, dirichlet, r);
   require_solved(scene, r, floating, solution);
   hold_loose_motions(floating, solution, r);

@@ -16,27 +16,25 @@ namespace {
 // Bodies are written apart: a node that two bodies share is a point of each, with each body's stress.
 VtuGrid result_grid(const Results& r) {
   VtuGrid grid;
-  const auto count = Eigen::Index(r.points.node.size());
+  const Eigen::Index count = r.points.node.size();
   grid.points.resize(count, 2);
-  MatX u(count, 2), von_mises_stress(count, 1), body(Eigen::Index(r.mesh.cells.size()), 1);
+  MatX u(count, 2), von_mises_stress(count, 1), body(r.mesh.cells.size(), 1);
   for (Eigen::Index p = 0; p < count; ++p) {
-    const int node = r.points.node[std::size_t(p)];
+    const int node = r.points.node[p];
     grid.points.row(p) = r.mesh.nodes.row(node);
     u.row(p) = r.u.segment<2>(2 * node).transpose();
     von_mises_stress(p, 0) = von_mises(r.stress.points.row(p).transpose());
   }
-  std::vector<int> point_of_node(std::size_t(r.mesh.nodes.rows()));
+  std::vector<int> point_of_node(r.mesh.nodes.rows());
   int current = -1;
   for (std::size_t e = 0; e < r.mesh.cells.size(); ++e) {
     Cell cell = r.mesh.cells[e];
     if (cell.body != current) {
       current = cell.body;
-      for (int p = r.points.first[std::size_t(current)]; p < r.points.first[std::size_t(current) + 1]; ++p)
-        point_of_node[std::size_t(r.points.node[std::size_t(p)])] = p;
+      for (int p = r.points.first[current]; p < r.points.first[current + 1]; ++p) point_of_node[r.points.node[p]] = p;
     }
-    for (int a = 0; a < node_count(cell.kind); ++a)
-      cell.nodes[std::size_t(a)] = point_of_node[std::size_t(cell.nodes[std::size_t(a)])];
-    body(Eigen::Index(e), 0) = cell.body;
+    for (int a = 0; a < node_count(cell.kind); ++a) cell.nodes[a] = point_of_node[cell.nodes[a]];
+    body(e, 0) = cell.body;
     grid.cells.push_back(cell);
   }
   const std::vector<std::string> stress_names{"11", "22", "33", "12"};
@@ -54,15 +52,15 @@ VtuGrid contact_grid(const Results& r) {
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
     sides.emplace_back(&r.contacts[k].multiplier, &r.pairs[k].multiplier);
     sides.emplace_back(&r.contacts[k].opposite, &r.pairs[k].opposite);
-    count += Eigen::Index(r.contacts[k].multiplier.nodes.size() + r.contacts[k].opposite.nodes.size());
+    count += r.contacts[k].multiplier.nodes.size() + r.contacts[k].opposite.nodes.size();
   }
   grid.points.resize(count, 2);
   MatX u(count, 2), normal(count, 2), p(count, 1), gap(count, 1), sigma_n(count, 1);
   Eigen::Index i = 0;
-  std::vector<int> point_of_node(std::size_t(r.mesh.nodes.rows()));
+  std::vector<int> point_of_node(r.mesh.nodes.rows());
   for (const auto& [side, curve] : sides) {
     for (const ContactNode& n : side->nodes) {
-      point_of_node[std::size_t(n.node)] = int(i);
+      point_of_node[n.node] = int(i);
       grid.points.row(i) = n.position.transpose();
       u.row(i) = r.u.segment<2>(2 * n.node).transpose();
       normal.row(i) = n.normal.transpose();
@@ -71,8 +69,7 @@ VtuGrid contact_grid(const Results& r) {
       sigma_n(i++, 0) = n.sigma_n;
     }
     for (Edge edge : curve->edges) {
-      for (std::size_t a = 0; a < std::size_t(edge.node_count); ++a)
-        edge.nodes[a] = point_of_node[std::size_t(edge.nodes[a])];
+      for (int a = 0; a < edge.node_count; ++a) edge.nodes[a] = point_of_node[edge.nodes[a]];
       grid.edges.push_back(edge);
     }
   }

@@ -11,10 +11,8 @@ enum class Integration { segments, elements };
 enum class Solver { direct, mssor };
 enum class Multipliers { quadratic, linear, dual };
 
-// Domain decomposition: the iteration, what makes it (or an iterative solver) faster, and how pressures and
-// displacements go from one curve to the other.
+// Domain decomposition: the iteration, and what makes it (or an iterative solver) faster.
 enum class Scheme { neumann_dirichlet, neumann_neumann, dirichlet_dirichlet };
 enum class Acceleration { none, aitken, anderson, krylov, minres };  // minres: of mssor only
-enum class Transfer { mortar, nodal };
 
 }  // namespace mortise

@@ -35,7 +35,7 @@ struct Accumulated {
 
 Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std::vector<ContactPoint>& points,
                        const CouplingOptions& options, const Coupling& coupling) {
-  const auto count = Eigen::Index(coupling.node.size());
+  const Eigen::Index count = coupling.node.size();
   Accumulated sums{{},
                    VecX::Zero(count),
                    {VecX::Zero(count), VecX::Zero(count), VecX::Zero(count),
@@ -43,25 +43,25 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
   sums.B.reserve(points.size() * 36);
   for (auto first = points.begin(); first != points.end();) {
     const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
-    const Edge& edge = multiplier.edges[std::size_t(first->edge)];
-    const auto& multipliers = coupling.on_edge[std::size_t(first->edge)];
+    const Edge& edge = multiplier.edges[first->edge];
+    const auto& multipliers = coupling.on_edge[first->edge];
     const EdgeMultipliers space = edge_multipliers(edge, options.multipliers, {first, last});
     for (; first != last; ++first) {
       const ContactPoint& p = *first;
-      const Edge& other = opposite.edges[std::size_t(p.opposite_edge)];
+      const Edge& other = opposite.edges[p.opposite_edge];
       const EdgeShape N = edge_shape(edge.node_count, p.xi), M = edge_shape(other.node_count, p.eta);
       const Eigen::Vector3d psi = p.ds * space.shape(p.xi);
       for (int i = 0; i < space.count; ++i) {
-        const int a = multipliers[std::size_t(i)];
+        const int a = multipliers[i];
         sums.support.scale(a) += std::abs(psi(i));
         sums.support.weight(a) += psi(i);
         sums.support.faced(a) += p.ds;
         sums.support.nearest(a) = std::min(sums.support.nearest(a), std::max(p.gap, 0.0));
         if (options.initial_gap == InitialGap::measured) sums.gap(a) += psi(i) * p.gap;
         for (int c = 0; c < 2; ++c) {
-          for (std::size_t b = 0; b < std::size_t(edge.node_count); ++b)
+          for (int b = 0; b < edge.node_count; ++b)
             sums.B.emplace_back(a, 2 * edge.nodes[b] + c, -psi(i) * N.N[b] * p.normal(c));
-          for (std::size_t b = 0; b < std::size_t(other.node_count); ++b)
+          for (int b = 0; b < other.node_count; ++b)
             sums.B.emplace_back(a, 2 * other.nodes[b] + c, psi(i) * M.N[b] * p.normal(c));
         }
       }
@@ -77,8 +77,8 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
                 const CouplingOptions& options) {
   if (points.empty())
     throw InputError(
-        mesh.source + ": contact between '" + mesh.boundaries[std::size_t(multiplier.boundary)].name + "' and '" +
-        mesh.boundaries[std::size_t(opposite.boundary)].name +
+        mesh.source + ": contact between '" + mesh.boundaries[multiplier.boundary].name + "' and '" +
+        mesh.boundaries[opposite.boundary].name +
         "': the curves do not face each other anywhere, or overlap by more than half of a body's thickness");
   Coupling coupling;
   number_multipliers(multiplier, options.multipliers, coupling);
@@ -93,40 +93,38 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
   }
   for (std::size_t a = 0; a < coupling.row.size(); ++a) {
     if (coupling.row[a] < 0) continue;
-    coupling.gap0(coupling.row[a]) += sums.gap(Eigen::Index(a));
-    coupling.scale(coupling.row[a]) += sums.support.scale(Eigen::Index(a));
+    coupling.gap0(coupling.row[a]) += sums.gap(a);
+    coupling.scale(coupling.row[a]) += sums.support.scale(a);
   }
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(sums.B.size());
   for (const auto& t : sums.B)
-    if (coupling.row[std::size_t(t.row())] >= 0)
-      entries.emplace_back(coupling.row[std::size_t(t.row())], t.col(), t.value());
+    if (coupling.row[t.row()] >= 0) entries.emplace_back(coupling.row[t.row()], t.col(), t.value());
   coupling.B.resize(coupling.gap0.size(), 2 * mesh.nodes.rows());
   coupling.B.setFromTriplets(entries.begin(), entries.end());
   return coupling;
 }
 
 std::vector<int> row_nodes(const Coupling& coupling) {
-  std::vector<int> nodes(std::size_t(coupling.gap0.size()), -1);
+  std::vector<int> nodes(coupling.gap0.size(), -1);
   for (std::size_t a = 0; a < coupling.row.size(); ++a)
-    if (coupling.row[a] >= 0 && nodes[std::size_t(coupling.row[a])] < 0)
-      nodes[std::size_t(coupling.row[a])] = coupling.node[a];
+    if (coupling.row[a] >= 0 && nodes[coupling.row[a]] < 0) nodes[coupling.row[a]] = coupling.node[a];
   return nodes;
 }
 
 VecX multiplier_values(const Coupling& coupling, const VecX& row_values) {
-  VecX values = VecX::Zero(Eigen::Index(coupling.row.size()));
+  VecX values = VecX::Zero(coupling.row.size());
   for (std::size_t a = 0; a < coupling.row.size(); ++a)
-    if (coupling.row[a] >= 0) values(Eigen::Index(a)) = row_values(coupling.row[a]);
+    if (coupling.row[a] >= 0) values(a) = row_values(coupling.row[a]);
   return values;
 }
 
 double interpolate(const Coupling& coupling, const Curve& multiplier, const VecX& values, int edge, double xi) {
-  const auto& on = coupling.on_edge[std::size_t(edge)];
-  const int count = on[2] >= 0 ? multiplier.edges[std::size_t(edge)].node_count : 2;
+  const auto& on = coupling.on_edge[edge];
+  const int count = on[2] >= 0 ? multiplier.edges[edge].node_count : 2;
   const EdgeShape s = edge_shape(count, xi);
   double value = 0;
-  for (std::size_t i = 0; i < std::size_t(count); ++i) value += s.N[i] * values(on[i]);
+  for (int i = 0; i < count; ++i) value += s.N[i] * values(on[i]);
   return value;
 }
 

@@ -24,7 +24,6 @@ struct DroppedMultiplier {
 /// of B belongs to all multipliers a with row[a] == r.
 struct Coupling {
   SparseMatrix B;                           ///< rows x degrees of freedom: int psi (u_opposite - u_multiplier) . n ds
-  SparseMatrix loads;                       ///< rows by which the multipliers act on the bodies; empty: B itself
   VecX gap0;                                ///< rows: int psi g0 ds, length^2; zero where the gap is closed
   VecX scale;                               ///< rows: int |psi| ds, length
   std::vector<int> node;                    ///< multiplier -> node of the mesh
@@ -34,9 +33,6 @@ struct Coupling {
   double gap_min = 0, gap_max = 0;          ///< undeformed, over all contact points
   std::vector<DroppedMultiplier> dropped;
 };
-
-/// The rows whose transpose gives the forces of the multipliers on the bodies.
-inline const SparseMatrix& load_rows(const Coupling& c) { return c.loads.size() > 0 ? c.loads : c.B; }
 
 /// Throws InputError if the curves do not face each other anywhere.
 Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite,

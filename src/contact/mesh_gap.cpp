@@ -58,7 +58,7 @@ std::optional<OpenPlace> open_place(const Points& nodes, const Curve& multiplier
   for (const Edge& edge : opposite.edges) opposite_length.push_back(edge_length(nodes, edge));
   std::optional<OpenPlace> worst;
   for (const ContactPoint& p : points) {
-    const auto e = std::size_t(p.edge), o = std::size_t(p.opposite_edge);
+    const int e = p.edge, o = p.opposite_edge;
     const double limit = 2 * (sagitta[e] + opposite_sagitta[o]) + slack * std::max(length[e], opposite_length[o]);
     if (std::abs(p.gap) > limit && (!worst || std::abs(p.gap) - limit > std::abs(worst->gap) - worst->limit))
       worst = OpenPlace{edge_point(nodes, multiplier.edges[e], p.xi).position, p.gap, limit};

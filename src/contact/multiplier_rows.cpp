@@ -29,8 +29,8 @@ std::string reason(State state) {
 }
 
 std::string between(const Mesh& mesh, const Curve& multiplier, const Curve& opposite) {
-  return mesh.source + ": contact between '" + mesh.boundaries[std::size_t(multiplier.boundary)].name + "' and '" +
-         mesh.boundaries[std::size_t(opposite.boundary)].name + "': ";
+  return mesh.source + ": contact between '" + mesh.boundaries[multiplier.boundary].name + "' and '" +
+         mesh.boundaries[opposite.boundary].name + "': ";
 }
 
 // The gap that prescribed displacements leave at a node of the multiplier side; nothing unless both sides' normal
@@ -45,9 +45,9 @@ std::optional<double> prescribed_gap(const Mesh& mesh, const Curve& multiplier, 
   if (!hit) return {};
   const auto value = [&](int node) { return constraints.value.segment<2>(2 * node).dot(n); };
   double gap = (initial_gap == InitialGap::measured ? hit->distance : 0) - value(edge.nodes[local]);
-  const Edge& other = opposite.edges[std::size_t(hit->edge)];
+  const Edge& other = opposite.edges[hit->edge];
   const EdgeShape s = edge_shape(other.node_count, hit->xi);
-  for (std::size_t b = 0; b < std::size_t(other.node_count); ++b) {
+  for (int b = 0; b < other.node_count; ++b) {
     if (std::abs(s.N[b]) > 1e-8 && !prescribed_along(constraints, other.nodes[b], n)) return {};
     gap += s.N[b] * value(other.nodes[b]);
   }
@@ -58,7 +58,7 @@ std::vector<State> find_states(const Mesh& mesh, const Curve& multiplier, const 
                                const Constraints& constraints, InitialGap initial_gap, const Support& support,
                                const Coupling& coupling) {
   std::vector<State> state(coupling.node.size(), State::free);
-  VecX length = VecX::Zero(Eigen::Index(state.size()));  // of each multiplier's edges
+  VecX length = VecX::Zero(state.size());  // of each multiplier's edges
   for (std::size_t e = 0; e < multiplier.edges.size(); ++e)
     for (const int a : coupling.on_edge[e])
       if (a >= 0) length(a) += edge_length(mesh.nodes, multiplier.edges[e]);
@@ -66,7 +66,7 @@ std::vector<State> find_states(const Mesh& mesh, const Curve& multiplier, const 
     for (std::size_t i = 0; i < 3; ++i) {
       const int a = coupling.on_edge[e][i];
       if (a < 0) continue;
-      State& found = state[std::size_t(a)];
+      State& found = state[a];
       if (support.scale(a) < 1e-10 * length(a)) {
         found = State::unsupported;
         continue;
@@ -76,7 +76,7 @@ std::vector<State> find_states(const Mesh& mesh, const Curve& multiplier, const 
       if (gap && *gap < -round_off) {
         std::ostringstream text;
         text << between(mesh, multiplier, opposite) << "the prescribed displacements of the two sides overlap by "
-             << -*gap << " " << near_point(mesh.nodes.row(coupling.node[std::size_t(a)]).transpose())
+             << -*gap << " " << near_point(mesh.nodes.row(coupling.node[a]).transpose())
              << "; expected values that close the gap or leave it open";
         throw InputError(text.str());
       }
@@ -113,19 +113,18 @@ void number_rows(const Mesh& mesh, const Curve& multiplier, const Curve& opposit
                      "decide; expected at least one curve that is free to move along its normal");
   coupling.row.assign(coupling.node.size(), -1);
   const std::vector<int> order = along(coupling);
-  const auto free = [&](int i) { return state[std::size_t(order[std::size_t(i)])] == State::free; };
+  const auto free = [&](int i) { return state[order[i]] == State::free; };
   int rows = 0;
   for (const int a : order)
-    if (state[std::size_t(a)] == State::free && coupling.row[std::size_t(a)] < 0) coupling.row[std::size_t(a)] = rows++;
+    if (state[a] == State::free && coupling.row[a] < 0) coupling.row[a] = rows++;
   for (int i = 0; i < int(order.size()); ++i) {
-    const auto a = std::size_t(order[std::size_t(i)]);
+    const int a = order[i];
     if (coupling.row[a] >= 0) continue;
     coupling.dropped.push_back({coupling.node[a], reason(state[a])});
     if (state[a] == State::unsupported || state[a] == State::apart) continue;
     for (int away = 1; away < int(order.size()) && coupling.row[a] < 0; ++away)
       for (const int k : {i - away, i + away})
-        if (k >= 0 && k < int(order.size()) && free(k))
-          coupling.row[a] = coupling.row[std::size_t(order[std::size_t(k)])];
+        if (k >= 0 && k < int(order.size()) && free(k)) coupling.row[a] = coupling.row[order[k]];
   }
   coupling.gap0 = VecX::Zero(rows);
   coupling.scale = VecX::Zero(rows);

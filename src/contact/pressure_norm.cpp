@@ -11,16 +11,15 @@ SparseMatrix pressure_norm(const Points& nodes, const Curve& multiplier, const s
   std::vector<Eigen::Triplet<double>> entries;
   for (auto first = points.begin(); first != points.end();) {
     const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
-    const Edge& edge = multiplier.edges[std::size_t(first->edge)];
-    const auto& on = coupling.on_edge[std::size_t(first->edge)];
+    const Edge& edge = multiplier.edges[first->edge];
+    const auto& on = coupling.on_edge[first->edge];
     const EdgeMultipliers shapes = edge_multipliers(edge, space, {first, last});
     const double h = edge_length(nodes, edge);
     for (; first != last; ++first) {
       const Eigen::Vector3d psi = shapes.shape(first->xi);
       for (int i = 0; i < shapes.count; ++i)
         for (int j = 0; j < shapes.count; ++j) {
-          const int a = coupling.row[std::size_t(on[std::size_t(i)])],
-                    b = coupling.row[std::size_t(on[std::size_t(j)])];
+          const int a = coupling.row[on[i]], b = coupling.row[on[j]];
           if (a >= 0 && b >= 0) entries.emplace_back(a, b, h * first->ds * psi(i) * psi(j));
         }
     }

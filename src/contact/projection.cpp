@@ -38,7 +38,7 @@ Line line_from(const Points& nodes, const Curve& curve, int edge, double xi) {
 
 std::optional<Hit> project_onto_edge(const Points& nodes, const Curve& curve, int edge, const Line& line) {
   const auto& [x, n, depth] = line;
-  const Edge& e = curve.edges[std::size_t(edge)];
+  const Edge& e = curve.edges[edge];
   // Offsets from the line at start, end and middle, and the polynomial through them.
   const double start = cross(nodes.row(e.nodes[0]).transpose() - x, n);
   const double end = cross(nodes.row(e.nodes[1]).transpose() - x, n);
@@ -53,7 +53,7 @@ std::optional<Hit> project_onto_edge(const Points& nodes, const Curve& curve, in
   const int count = quadratic_roots(middle, (end - start) / 2, (start + end) / 2 - middle, roots);
   std::optional<Hit> best;
   for (int i = 0; i < count; ++i) {
-    const double xi = roots[std::size_t(i)];
+    const double xi = roots[i];
     if (std::abs(xi) > 1 + projection_tolerance) continue;
     const EdgePoint p = edge_point(nodes, e, xi);
     if (p.normal().dot(n) >= 0) continue;

@@ -14,8 +14,8 @@ std::optional<Hit> hit_from(const Points& nodes, const Curve& curve, int edge, d
 // Start and end node of the opposite edges first .. last.
 std::vector<int> vertices_between(const Curve& opposite, int first, int last) {
   std::vector<int> vertices;
-  for (int e = first; e <= last; ++e) vertices.push_back(opposite.edges[std::size_t(e)].nodes[0]);
-  vertices.push_back(opposite.edges[std::size_t(last)].nodes[1]);
+  for (int e = first; e <= last; ++e) vertices.push_back(opposite.edges[e].nodes[0]);
+  vertices.push_back(opposite.edges[last].nodes[1]);
   return vertices;
 }
 
@@ -71,8 +71,8 @@ std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multi
   }
   std::vector<ContactPoint> points;
   for (const Segment& piece : pieces) {
-    const Edge& edge = multiplier.edges[std::size_t(piece.edge)];
-    const Edge& other = opposite.edges[std::size_t(std::max(piece.opposite_edge, 0))];
+    const Edge& edge = multiplier.edges[piece.edge];
+    const Edge& other = opposite.edges[std::max(piece.opposite_edge, 0)];
     const LineRule rule = gauss_legendre(gauss_count(edge, other));
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const double half = (piece.end - piece.begin) / 2, xi = piece.begin + half * (1 + rule.points[q]);

@@ -12,7 +12,7 @@ namespace mortise {
 ///
 ///   u = K^-1 (f - B^T lambda) - R mu,   so that   B u = response - C lambda - H mu,   H = B R,
 ///
-/// (with nodal transfer B^T and H^T are those of the system's `loads`), where R are the group's rigid motions that
+/// where R are the group's rigid motions that
 /// nothing but contact holds (floating bodies), K^-1 is taken with one unknown a motion held, and the load must be in
 /// balance: H^T lambda = work (docs/theory.md eq. 29 and 30). Everything is dimensionless, as in the saddle-point
 /// system.
@@ -24,7 +24,7 @@ class BodyGroup {
   /// -1, or the unknown at which the group's stiffness is not positive definite: nothing below may be used then.
   int failed_at = -1;
   Eigen::Index motions = 0;  ///< s
-  MatX compliance;           ///< (m + s) x (m + s), lower triangle: [C; H^T, .]; where C is symmetric
+  MatX compliance;           ///< (m + s) x (m + s), lower triangle: [C; H^T, .]
   VecX response, work;       ///< m, s
   MatX C, H;                 ///< m x m (full), m x s
 
@@ -42,7 +42,6 @@ class BodyGroup {
   VecX on_free(const VecX& v) const;
   void add_from_free(const VecX& part, VecX& u) const;
 
-  Eigen::Index unused_ = 0;  // rows of the border before those that load: B, where it is not they
   std::vector<int> free_;
   std::unique_ptr<BorderedCholesky> factor_;
 };

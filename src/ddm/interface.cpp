@@ -9,7 +9,7 @@ namespace mortise {
 namespace {
 
 std::vector<int> all_rows(Eigen::Index m) {
-  std::vector<int> rows(static_cast<std::size_t>(m));
+  std::vector<int> rows(m);
   std::iota(rows.begin(), rows.end(), 0);
   return rows;
 }
@@ -124,7 +124,7 @@ InterfaceIteration neumann_dirichlet(const Interface& s) {
   iteration.correction = [&s, closed](const VecX& x) -> VecX {
     VecX lambda = x;  // without rows that an accelerated step has left pulling
     for (std::size_t a = 0; a < s.unilateral.size(); ++a)
-      if (s.unilateral[a]) lambda(Eigen::Index(a)) = std::min(lambda(Eigen::Index(a)), 0.0);
+      if (s.unilateral[a]) lambda(a) = std::min(lambda(a), 0.0);
     Taken taken = dirichlet_takes(s, lambda, *closed);
     *closed = std::move(taken.active);
     return taken.lambda - x;

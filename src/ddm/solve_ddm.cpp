@@ -43,7 +43,7 @@ bool pulls(const SaddlePointSystem& s, const VecX& lambda) {
   const VecX size = lambda.cwiseQuotient(s.row_scale);
   const double limit = ActiveSetOptions{}.pull_tolerance * largest_entry(size);
   for (std::size_t a = 0; a < s.unilateral.size(); ++a)
-    if (s.unilateral[a] && size(Eigen::Index(a)) > limit) return true;
+    if (s.unilateral[a] && size(a) > limit) return true;
   return false;
 }
 
@@ -111,7 +111,7 @@ void finish(const SaddlePointSystem& s, const Interface& interface, const VecX& 
   const Taken taken = dirichlet_takes(interface, lambda);
   solution.active = taken.active;
   if (taken.closed) solution.loose = as_grounded(s, *groups[0], taken.closed->loose());
-  if (solution.active.empty()) solution.active.assign(std::size_t(s.B.rows()), 1);
+  if (solution.active.empty()) solution.active.assign(s.B.rows(), 1);
   solution.lambda = s.stiffness_scale * lambda.cwiseQuotient(s.row_scale);
   solution.u = s.value;
   groups[0]->add_displacements(lambda, taken.mu.head(groups[0]->motions), solution.u);
@@ -119,7 +119,7 @@ void finish(const SaddlePointSystem& s, const Interface& interface, const VecX& 
   measure_residuals(s, solution);
   if (solution.force_residual <= 1e-11) return;
   const VecX Ku = s.K.selfadjointView<Eigen::Lower>() * solution.u;
-  const VecX unbalanced = (s.f - Ku - load_rows(s).transpose() * solution.lambda) / s.stiffness_scale;
+  const VecX unbalanced = (s.f - Ku - s.B.transpose() * solution.lambda) / s.stiffness_scale;
   for (BodyGroup* group : groups) group->refine(unbalanced, solution.u);
   measure_residuals(s, solution);
 }
@@ -142,10 +142,6 @@ DdmSolution solve_by_ddm(const SaddlePointSystem& s, const std::vector<char>& di
       return d;
     }
 
-  if (s.loads && (neumann_group.motions > 0 || options.scheme != Scheme::neumann_dirichlet)) {
-    d.status = Status::unbalanced;
-    return d;
-  }
   Interface interface = make_interface(neumann_group, dirichlet_group, s);
   const InterfaceIteration closed = make_iteration(options.scheme, interface);
   solution.failed_at = closed.dependent_row;

@@ -16,19 +16,9 @@ struct DdmOptions {
 struct DdmSolution {
   /// dependent_row: a group that takes a displacement (the Dirichlet group; in Neumann-Neumann and
   /// Dirichlet-Dirichlet both) does not feel solution.failed_at, a row of B. cannot_open: the multipliers pull
-  /// somewhere, and the scheme is for bilateral contact. unbalanced: the transfer is not conservative, and a body that
-  /// takes the pressure floats, or the scheme wants both bodies to take it. unheld: contact opens until nothing holds a
-  /// body. From not_positive_definite on there is no solution.
-  enum class Status {
-    converged,
-    not_converged,
-    diverged,
-    not_positive_definite,
-    dependent_row,
-    cannot_open,
-    unbalanced,
-    unheld
-  };
+  /// somewhere, and the scheme is for bilateral contact. unheld: contact opens until nothing holds a body. From
+  /// not_positive_definite on there is no solution.
+  enum class Status { converged, not_converged, diverged, not_positive_definite, dependent_row, cannot_open, unheld };
   Status status = Status::not_converged;
   SaddlePointSolution solution;         ///< of the last iterate; its status is not used
   std::vector<RelaxationStep> history;  ///< of all iterations that were run, one after the other

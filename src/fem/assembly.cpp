@@ -8,11 +8,11 @@
 namespace mortise {
 namespace {
 
-// Nodes n and quadrature points `points` of a kind, known when the kernels are compiled.
+// Nodes and quadrature points of a kind, known when the kernels are compiled.
 template <CellKind kind>
 constexpr int n = node_count(kind);
 template <CellKind kind>
-constexpr int points = is_quadratic(kind) ? (kind == CellKind::tri6 ? 3 : 9) : (kind == CellKind::tri3 ? 1 : 4);
+constexpr int points = cell_rule_size(kind);
 
 template <CellKind kind>
 using Table = Eigen::Matrix<double, points<kind>, n<kind>, points<kind> == 1 ? Eigen::RowMajor : Eigen::ColMajor>;
@@ -30,11 +30,11 @@ CellTable<kind> cell_table() {
   CellTable<kind> table;
   table.weights = rule.weights;
   for (Eigen::Index q = 0; q < points<kind>; ++q) {
-    const CellShape s = cell_shape(kind, rule.points[std::size_t(q)]);
+    const CellShape s = cell_shape(kind, rule.points[q]);
     for (int a = 0; a < n<kind>; ++a) {
-      table.N(q, a) = s.N[std::size_t(a)];
-      table.dxi(q, a) = s.dN[std::size_t(a)].x();
-      table.deta(q, a) = s.dN[std::size_t(a)].y();
+      table.N(q, a) = s.N[a];
+      table.dxi(q, a) = s.dN[a].x();
+      table.deta(q, a) = s.dN[a].y();
     }
   }
   return table;
@@ -50,13 +50,13 @@ struct CellGradients {
 template <CellKind kind>
 void cell_gradients(const Points& nodes, const Cell& cell, const CellTable<kind>& table, CellGradients<kind>& g) {
   Eigen::Matrix<double, n<kind>, 2> x;
-  for (int a = 0; a < n<kind>; ++a) x.row(a) = nodes.row(cell.nodes[std::size_t(a)]);
+  for (int a = 0; a < n<kind>; ++a) x.row(a) = nodes.row(cell.nodes[a]);
   for (Eigen::Index q = 0; q < points<kind>; ++q) {
     const Eigen::Matrix<double, 1, 2> x_xi = table.dxi.row(q) * x, x_eta = table.deta.row(q) * x;
     const double J = x_xi(0) * x_eta(1) - x_xi(1) * x_eta(0);
     g.d1.row(q) = (x_eta(1) * table.dxi.row(q) - x_xi(1) * table.deta.row(q)) / J;
     g.d2.row(q) = (x_xi(0) * table.deta.row(q) - x_eta(0) * table.dxi.row(q)) / J;
-    g.dV(q) = table.weights[std::size_t(q)] * J;
+    g.dV(q) = table.weights[q] * J;
   }
 }
 
@@ -67,15 +67,14 @@ struct NodeGraph {
 };
 
 NodeGraph node_graph(const Mesh& mesh) {
-  const auto node_total = std::size_t(mesh.nodes.rows());
+  const std::size_t node_total = mesh.nodes.rows();
   std::vector<int> cell_first(node_total + 1, 0);
   for (const Cell& cell : mesh.cells)
-    for (int a = 0; a < node_count(cell.kind); ++a) ++cell_first[std::size_t(cell.nodes[std::size_t(a)]) + 1];
+    for (int a = 0; a < node_count(cell.kind); ++a) ++cell_first[cell.nodes[a] + 1];
   for (std::size_t i = 0; i < node_total; ++i) cell_first[i + 1] += cell_first[i];
-  std::vector<int> cells(std::size_t(cell_first.back())), next(cell_first.begin(), cell_first.end() - 1);
+  std::vector<int> cells(cell_first.back()), next(cell_first.begin(), cell_first.end() - 1);
   for (std::size_t e = 0; e < mesh.cells.size(); ++e)
-    for (int a = 0; a < node_count(mesh.cells[e].kind); ++a)
-      cells[std::size_t(next[std::size_t(mesh.cells[e].nodes[std::size_t(a)])]++)] = int(e);
+    for (int a = 0; a < node_count(mesh.cells[e].kind); ++a) cells[next[mesh.cells[e].nodes[a]]++] = int(e);
 
   NodeGraph graph;
   graph.first.reserve(node_total + 1);
@@ -84,12 +83,12 @@ NodeGraph node_graph(const Mesh& mesh) {
   std::vector<int> seen(node_total, -1);
   for (int j = 0; j < int(node_total); ++j) {
     const std::size_t begin = graph.row.size();
-    for (int k = cell_first[std::size_t(j)]; k < cell_first[std::size_t(j) + 1]; ++k) {
-      const Cell& cell = mesh.cells[std::size_t(cells[std::size_t(k)])];
+    for (int k = cell_first[j]; k < cell_first[j + 1]; ++k) {
+      const Cell& cell = mesh.cells[cells[k]];
       for (int a = 0; a < node_count(cell.kind); ++a) {
-        const int i = cell.nodes[std::size_t(a)];
-        if (i < j || seen[std::size_t(i)] == j) continue;
-        seen[std::size_t(i)] = j;
+        const int i = cell.nodes[a];
+        if (i < j || seen[i] == j) continue;
+        seen[i] = j;
         graph.row.push_back(i);
       }
     }
@@ -102,18 +101,18 @@ NodeGraph node_graph(const Mesh& mesh) {
 // The lower triangle of a symmetric matrix of 2 x 2 blocks on the graph, all zero.
 SparseMatrix block_matrix(const NodeGraph& graph) {
   const auto columns = graph.first.size() - 1;
-  const auto n = Eigen::Index(2 * columns);
+  const Eigen::Index n = 2 * columns;
   SparseMatrix K(n, n);
-  K.resizeNonZeros(Eigen::Index(4 * graph.row.size() - columns));
+  K.resizeNonZeros(4 * graph.row.size() - columns);
   int* outer = K.outerIndexPtr();
   int* inner = K.innerIndexPtr();
   int at = 0;
   for (std::size_t j = 0; j < columns; ++j)
     for (int c = 0; c < 2; ++c) {
-      outer[2 * j + std::size_t(c)] = at;
+      outer[2 * j + c] = at;
       for (int k = graph.first[j]; k < graph.first[j + 1]; ++k)
         for (int r = 0; r < 2; ++r)
-          if (2 * graph.row[std::size_t(k)] + r >= int(2 * j) + c) inner[at++] = 2 * graph.row[std::size_t(k)] + r;
+          if (2 * graph.row[k] + r >= int(2 * j) + c) inner[at++] = 2 * graph.row[k] + r;
     }
   outer[n] = at;
   std::fill(K.valuePtr(), K.valuePtr() + at, 0.0);
@@ -122,8 +121,8 @@ SparseMatrix block_matrix(const NodeGraph& graph) {
 
 // Adds the block of nodes (i, j), i >= j, in place.
 void add_block(const NodeGraph& graph, SparseMatrix& K, int i, int j, double k11, double k12, double k21, double k22) {
-  const int* begin = graph.row.data() + graph.first[std::size_t(j)];
-  const int* end = graph.row.data() + graph.first[std::size_t(j) + 1];
+  const int* begin = graph.row.data() + graph.first[j];
+  const int* end = graph.row.data() + graph.first[j + 1];
   const auto position = std::lower_bound(begin, end, i) - begin;
   double* column1 = K.valuePtr() + K.outerIndexPtr()[2 * j] + 2 * position;
   double* column2 = K.valuePtr() + K.outerIndexPtr()[2 * j + 1] + 2 * position - 1;
@@ -140,7 +139,7 @@ void add_cells(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const Node
   for (const Cell& cell : mesh.cells) {
     if (cell.kind != kind) continue;
     cell_gradients(mesh.nodes, cell, table, g);
-    const auto& C = laws[std::size_t(cell.body)].stiffness;
+    const auto& C = laws[cell.body].stiffness;
     const double a = C(0, 0), b = C(0, 1), c = C(3, 2);
     // G_ij = int dN/dx_i dN/dx_j, n x n.
     const Table<kind> w1 = g.dV.asDiagonal() * g.d1, w2 = g.dV.asDiagonal() * g.d2;
@@ -148,7 +147,7 @@ void add_cells(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const Node
     const Square G11 = g.d1.transpose() * w1, G12 = g.d1.transpose() * w2, G22 = g.d2.transpose() * w2;
     for (int p = 0; p < n<kind>; ++p)
       for (int q = 0; q < n<kind>; ++q) {
-        const int i = cell.nodes[std::size_t(p)], j = cell.nodes[std::size_t(q)];
+        const int i = cell.nodes[p], j = cell.nodes[q];
         if (i < j) continue;
         add_block(graph, K, i, j, a * G11(p, q) + c * G22(p, q), b * G12(p, q) + c * G12(q, p),
                   b * G12(q, p) + c * G12(p, q), a * G22(p, q) + c * G11(p, q));
@@ -163,12 +162,12 @@ void add_cell_loads(const Mesh& mesh, const std::vector<Vec4>& stress, const std
   CellGradients<kind> g;
   for (const Cell& cell : mesh.cells) {
     if (cell.kind != kind) continue;
-    const Vec4& s = stress[std::size_t(cell.body)];
-    const Vec2& b = force[std::size_t(cell.body)];
+    const Vec4& s = stress[cell.body];
+    const Vec2& b = force[cell.body];
     cell_gradients(mesh.nodes, cell, table, g);
     for (int a = 0; a < n<kind>; ++a) {
       const double d1 = g.dV.dot(g.d1.col(a)), d2 = g.dV.dot(g.d2.col(a)), v = g.dV.dot(table.N.col(a));
-      const int i = cell.nodes[std::size_t(a)];
+      const int i = cell.nodes[a];
       load(2 * i) += d1 * s(0) + d2 * s(3) + v * b(0);
       load(2 * i + 1) += d2 * s(1) + d1 * s(3) + v * b(1);
     }
@@ -176,11 +175,7 @@ void add_cell_loads(const Mesh& mesh, const std::vector<Vec4>& stress, const std
 }
 
 void add_body_loads(const Mesh& mesh, const std::vector<Vec4>& stress, const std::vector<Vec2>& force, VecX& load) {
-  add_cell_loads<CellKind::tri3>(mesh, stress, force, load);
-  add_cell_loads<CellKind::tri6>(mesh, stress, force, load);
-  add_cell_loads<CellKind::quad4>(mesh, stress, force, load);
-  add_cell_loads<CellKind::quad8>(mesh, stress, force, load);
-  add_cell_loads<CellKind::quad9>(mesh, stress, force, load);
+  for_each_kind([&]<CellKind kind>() { add_cell_loads<kind>(mesh, stress, force, load); });
 }
 
 }  // namespace
@@ -188,11 +183,7 @@ void add_body_loads(const Mesh& mesh, const std::vector<Vec4>& stress, const std
 SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticLaw>& laws) {
   const NodeGraph graph = node_graph(mesh);
   SparseMatrix K = block_matrix(graph);
-  add_cells<CellKind::tri3>(mesh, laws, graph, K);
-  add_cells<CellKind::tri6>(mesh, laws, graph, K);
-  add_cells<CellKind::quad4>(mesh, laws, graph, K);
-  add_cells<CellKind::quad8>(mesh, laws, graph, K);
-  add_cells<CellKind::quad9>(mesh, laws, graph, K);
+  for_each_kind([&]<CellKind kind>() { add_cells<kind>(mesh, laws, graph, K); });
   return K;
 }
 
@@ -205,20 +196,20 @@ void add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, V
 
 void add_body_force(const Mesh& mesh, int body, const Vec2& force, VecX& load) {
   std::vector<Vec2> forces(mesh.bodies.size(), Vec2::Zero());
-  forces[std::size_t(body)] = force;
+  forces[body] = force;
   add_body_loads(mesh, std::vector<Vec4>(mesh.bodies.size(), Vec4::Zero()), forces, load);
 }
 
 void add_traction(const Mesh& mesh, int boundary, const Traction& traction, VecX& load, int gauss_points) {
   const LineRule rule = gauss_legendre(gauss_points);
-  const Boundary& curve = mesh.boundaries[std::size_t(boundary)];
+  const Boundary& curve = mesh.boundaries[boundary];
   for (const CellSide& at : sides_of(mesh, curve)) {
-    const Edge edge = side_edge(mesh.cells[std::size_t(at.cell)], at.side);
+    const Edge edge = side_edge(mesh.cells[at.cell], at.side);
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
       const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);
       const Vec2 t = rule.weights[q] * p.jacobian() * traction(p.position, p.normal());
-      for (std::size_t a = 0; a < std::size_t(edge.node_count); ++a) load.segment<2>(2 * edge.nodes[a]) += s.N[a] * t;
+      for (int a = 0; a < edge.node_count; ++a) load.segment<2>(2 * edge.nodes[a]) += s.N[a] * t;
     }
   }
 }

@@ -102,7 +102,7 @@ Points reference_nodes(CellKind kind) {
     const double x[] = {0, 1, 0, 0.5, 0.5, 0}, y[] = {0, 0, 1, 0, 0.5, 0.5};
     for (int a = 0; a < node_count(kind); ++a) nodes.row(a) << x[a], y[a];
   } else {
-    for (int a = 0; a < node_count(kind); ++a) nodes.row(a) << quad_xi[std::size_t(a)], quad_eta[std::size_t(a)];
+    for (int a = 0; a < node_count(kind); ++a) nodes.row(a) << quad_xi[a], quad_eta[a];
   }
   return nodes;
 }
@@ -118,7 +118,7 @@ EdgeShape edge_shape(int node_count, double xi) {
 EdgePoint edge_point(const Points& nodes, const Edge& edge, double xi) {
   const EdgeShape s = edge_shape(edge.node_count, xi);
   EdgePoint p{Vec2::Zero(), Vec2::Zero()};
-  for (std::size_t a = 0; a < std::size_t(edge.node_count); ++a) {
+  for (int a = 0; a < edge.node_count; ++a) {
     p.position += s.N[a] * nodes.row(edge.nodes[a]).transpose();
     p.tangent += s.dN[a] * nodes.row(edge.nodes[a]).transpose();
   }
@@ -126,9 +126,9 @@ EdgePoint edge_point(const Points& nodes, const Edge& edge, double xi) {
 }
 
 void check_cells(const Mesh& mesh) {
-  std::array<std::vector<CellShape>, 5> shapes;  // per kind: at the nodes and the centre
-  for (const CellKind kind : {CellKind::tri3, CellKind::tri6, CellKind::quad4, CellKind::quad8, CellKind::quad9}) {
-    auto& list = shapes[std::size_t(kind)];
+  ForEachKind<std::vector<CellShape>> shapes;  // per kind: at the nodes and the centre
+  for (const CellKind kind : all_cell_kinds) {
+    auto& list = shapes[int(kind)];
     const Points at = reference_nodes(kind);
     for (int a = 0; a < at.rows(); ++a) list.push_back(cell_shape(kind, at.row(a)));
     list.push_back(cell_shape(kind, reference_centre(kind)));
@@ -136,10 +136,10 @@ void check_cells(const Mesh& mesh) {
   for (const Cell& cell : mesh.cells) {
     const int count = node_count(cell.kind);
     std::array<Vec2, 9> x;
-    for (std::size_t a = 0; a < std::size_t(count); ++a) x[a] = mesh.nodes.row(cell.nodes[a]).transpose();
-    for (const CellShape& s : shapes[std::size_t(cell.kind)]) {
+    for (int a = 0; a < count; ++a) x[a] = mesh.nodes.row(cell.nodes[a]).transpose();
+    for (const CellShape& s : shapes[int(cell.kind)]) {
       Vec2 x_xi = Vec2::Zero(), x_eta = Vec2::Zero();
-      for (std::size_t a = 0; a < std::size_t(count); ++a) {
+      for (int a = 0; a < count; ++a) {
         x_xi += s.dN[a].x() * x[a];
         x_eta += s.dN[a].y() * x[a];
       }
@@ -147,7 +147,7 @@ void check_cells(const Mesh& mesh) {
       // Round-off of the determinant is far below this; a cell flatter than 1e-10 is no cell.
       if (jacobian > 1e-10 * (x_xi.squaredNorm() + x_eta.squaredNorm())) continue;
       std::ostringstream text;
-      text << mesh.source << ": body '" << mesh.bodies[std::size_t(cell.body)] << "': the element " << near_point(x[0])
+      text << mesh.source << ": body '" << mesh.bodies[cell.body] << "': the element " << near_point(x[0])
            << " is inverted or degenerate (Jacobian " << jacobian << "); expected a positive Jacobian everywhere";
       throw InputError(text.str());
     }

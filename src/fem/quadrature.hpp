@@ -26,6 +26,22 @@ struct CellRule {
 /// Exact for straight-sided triangles and for parallelograms (quad9 and quad8 alike).
 CellRule cell_rule(CellKind kind);
 
+/// Its number of points.
+constexpr int cell_rule_size(CellKind kind) {
+  switch (kind) {
+    case CellKind::tri3:
+      return 1;
+    case CellKind::tri6:
+      return 3;
+    case CellKind::quad4:
+      return 4;
+    case CellKind::quad8:
+    case CellKind::quad9:
+      return 9;
+  }
+  return 0;  // no kind
+}
+
 /// The points where stresses of the kind are superconvergent (Barlow 1976): the centre of tri3 and quad4,
 /// three interior points on tri6, 2 x 2 Gauss points on quad8 and quad9.
 CellRule stress_points(CellKind kind);

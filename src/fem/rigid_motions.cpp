@@ -22,9 +22,9 @@ struct BodyFrames {
 BodyFrames body_frames(const Mesh& mesh, const BodyPoints& points) {
   BodyFrames frames;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
-    Vec2 low = mesh.nodes.row(points.node[std::size_t(points.first[b])]).transpose(), high = low;
+    Vec2 low = mesh.nodes.row(points.node[points.first[b]]).transpose(), high = low;
     for (int p = points.first[b]; p < points.first[b + 1]; ++p) {
-      const Vec2 x = mesh.nodes.row(points.node[std::size_t(p)]).transpose();
+      const Vec2 x = mesh.nodes.row(points.node[p]).transpose();
       low = low.cwiseMin(x);
       high = high.cwiseMax(x);
     }
@@ -44,12 +44,11 @@ double motion_at(int k, const Vec2& x, const Vec2& centre, double size, int c) {
 struct Bodies {
   explicit Bodies(const Mesh& of) : mesh(of), points(body_points(of)), frames(body_frames(of, points)) {}
 
-  Eigen::Index columns() const { return 3 * Eigen::Index(mesh.bodies.size()); }
+  Eigen::Index columns() const { return 3 * mesh.bodies.size(); }
   // Component c of the motions of body b at x.
   Eigen::RowVector3d at(int b, const Vec2& x, int c) const {
     Eigen::RowVector3d motion;
-    for (int k = 0; k < 3; ++k)
-      motion(k) = motion_at(k, x, frames.centre[std::size_t(b)], frames.size[std::size_t(b)], c);
+    for (int k = 0; k < 3; ++k) motion(k) = motion_at(k, x, frames.centre[b], frames.size[b], c);
     return motion;
   }
   // Calls visit(body, node, position) for each node of each body.
@@ -69,7 +68,7 @@ struct Bodies {
 // together.
 MatX supports(const Bodies& bodies, const Constraints& constraints) {
   MatX gram = MatX::Zero(bodies.columns(), bodies.columns());
-  std::vector<int> owner(std::size_t(bodies.mesh.nodes.rows()), -1);
+  std::vector<int> owner(bodies.mesh.nodes.rows(), -1);
   bodies.for_each_node([&](int b, int node, const Vec2& x) {
     const int other = owner[node];
     if (other < 0) owner[node] = b;
@@ -88,7 +87,7 @@ MatX supports(const Bodies& bodies, const Constraints& constraints) {
 // How the motions open the rows. Of a shared node only the first body counts.
 MatX openings(const Bodies& bodies, const SparseMatrix& rows) {
   MatX contact = MatX::Zero(rows.rows(), bodies.columns());
-  std::vector<char> counted(std::size_t(bodies.mesh.nodes.rows()), 0);
+  std::vector<char> counted(bodies.mesh.nodes.rows(), 0);
   bodies.for_each_node([&](int b, int node, const Vec2& x) {
     if (counted[node]) return;
     counted[node] = 1;
@@ -100,7 +99,7 @@ MatX openings(const Bodies& bodies, const SparseMatrix& rows) {
 }
 
 MatX openings(const Bodies& bodies, const std::vector<ContactNormal>& normals) {
-  MatX contact = MatX::Zero(Eigen::Index(normals.size()), bodies.columns());
+  MatX contact = MatX::Zero(normals.size(), bodies.columns());
   for (std::size_t k = 0; k < normals.size(); ++k)
     for (int c = 0; c < 2; ++c) {
       const ContactNormal& at = normals[k];
@@ -150,13 +149,13 @@ std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Const
 
 MatX motion_fields(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions) {
   const BodyPoints points = body_points(mesh);
-  MatX fields = MatX::Zero(2 * mesh.nodes.rows(), Eigen::Index(motions.size()));
+  MatX fields = MatX::Zero(2 * mesh.nodes.rows(), motions.size());
   for (std::size_t m = 0; m < motions.size(); ++m)
     for (const RigidMotion& motion : motions[m])
-      for (int p = points.first[std::size_t(motion.body)]; p < points.first[std::size_t(motion.body) + 1]; ++p) {
-        const int node = points.node[std::size_t(p)];
+      for (int p = points.first[motion.body]; p < points.first[motion.body + 1]; ++p) {
+        const int node = points.node[p];
         const Vec2 arm = mesh.nodes.row(node).transpose() - motion.centre;
-        fields.block<2, 1>(2 * node, Eigen::Index(m)) = motion.translation + motion.rotation * Vec2(-arm.y(), arm.x());
+        fields.block<2, 1>(2 * node, m) = motion.translation + motion.rotation * Vec2(-arm.y(), arm.x());
       }
   return fields;
 }
@@ -165,7 +164,7 @@ std::vector<int> grounding_unknowns(const Mesh& mesh, const Constraints& constra
                                     const std::vector<std::vector<RigidMotion>>& motions) {
   MatX fields = motion_fields(mesh, motions);
   for (Eigen::Index i = 0; i < fields.rows(); ++i)
-    if (constraints.fixed[std::size_t(i)]) fields.row(i).setZero();
+    if (constraints.fixed[i]) fields.row(i).setZero();
   std::vector<int> unknowns;
   for (Eigen::Index m = 0; m < fields.cols(); ++m) {  // Gaussian elimination with row pivots
     const VecX sizes = fields.col(m).cwiseAbs();
@@ -182,14 +181,14 @@ std::vector<RigidMotion> motion_through(const Mesh& mesh, const std::vector<std:
                                         const std::vector<int>& unknowns, const VecX& values) {
   const MatX fields = motion_fields(mesh, motions);
   MatX at(values.size(), fields.cols());
-  for (Eigen::Index k = 0; k < values.size(); ++k) at.row(k) = fields.row(unknowns[std::size_t(k)]);
+  for (Eigen::Index k = 0; k < values.size(); ++k) at.row(k) = fields.row(unknowns[k]);
   const VecX parts = at.partialPivLu().solve(values);
   std::map<int, RigidMotion> sum;  // by body
   for (std::size_t m = 0; m < motions.size(); ++m)
     for (const RigidMotion& motion : motions[m]) {
       RigidMotion& total = sum.try_emplace(motion.body, motion.body, Vec2::Zero(), 0.0, motion.centre).first->second;
-      total.translation += parts(Eigen::Index(m)) * motion.translation;
-      total.rotation += parts(Eigen::Index(m)) * motion.rotation;
+      total.translation += parts(m) * motion.translation;
+      total.rotation += parts(m) * motion.rotation;
     }
   const BodyFrames frames = body_frames(mesh, body_points(mesh));
   double size = 0, turning = 0;
@@ -222,8 +221,8 @@ std::string describe(const Mesh& mesh, const std::vector<RigidMotion>& motion) {
   const char* separator = "";
   for (const RigidMotion& m : motion) {
     if (m.translation.norm() < 1e-6 * size && std::abs(m.rotation) < 1e-6 * size) continue;
-    text << separator << "body '" << mesh.bodies[std::size_t(m.body)] << "': translation (" << shown(m.translation.x())
-         << ", " << shown(m.translation.y()) << "), rotation " << shown(m.rotation);
+    text << separator << "body '" << mesh.bodies[m.body] << "': translation (" << shown(m.translation.x()) << ", "
+         << shown(m.translation.y()) << "), rotation " << shown(m.rotation);
     separator = "; ";
   }
   return text.str();

@@ -26,22 +26,21 @@ MatX monomials(const Points& at, Eigen::Index count) {
 
 Recovery recovery_of(CellKind kind) {
   const CellRule rule = stress_points(kind);
-  const auto count = Eigen::Index(rule.points.size());
+  const Eigen::Index count = rule.points.size();
   Recovery r;
   Points at(count, 2);
   for (Eigen::Index q = 0; q < count; ++q) {
-    at.row(q) = rule.points[std::size_t(q)].transpose();
-    r.samples.push_back(cell_shape(kind, rule.points[std::size_t(q)]));
+    at.row(q) = rule.points[q].transpose();
+    r.samples.push_back(cell_shape(kind, rule.points[q]));
   }
   r.centre = cell_shape(kind, reference_centre(kind));
   r.to_nodes = monomials(reference_nodes(kind), count) * monomials(at, count).inverse();
   return r;
 }
 
-std::vector<Recovery> all_recoveries() {
-  std::vector<Recovery> all;
-  for (const CellKind kind : {CellKind::tri3, CellKind::tri6, CellKind::quad4, CellKind::quad8, CellKind::quad9})
-    all.push_back(recovery_of(kind));
+ForEachKind<Recovery> all_recoveries() {
+  ForEachKind<Recovery> all;
+  for (const CellKind kind : all_cell_kinds) all[int(kind)] = recovery_of(kind);
   return all;
 }
 
@@ -49,7 +48,7 @@ std::vector<Recovery> all_recoveries() {
 
 Vec4 stress_at(const Mesh& mesh, const Cell& cell, const ElasticLaw& law, const VecX& u, const CellShape& shape) {
   Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero(), u_xi = Eigen::Matrix2d::Zero();  // (i, j) = d value_j / d xi_i
-  for (std::size_t a = 0; a < std::size_t(node_count(cell.kind)); ++a) {
+  for (int a = 0; a < node_count(cell.kind); ++a) {
     x_xi += shape.dN[a] * mesh.nodes.row(cell.nodes[a]);
     u_xi += shape.dN[a] * u.segment<2>(2 * cell.nodes[a]).transpose();
   }
@@ -59,42 +58,41 @@ Vec4 stress_at(const Mesh& mesh, const Cell& cell, const ElasticLaw& law, const 
 
 StressField recover_stress(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
                            const VecX& u) {
-  const std::vector<Recovery> recoveries = all_recoveries();
-  StressField field{Stresses::Zero(Eigen::Index(points.node.size()), 4), Stresses(Eigen::Index(mesh.cells.size()), 4)};
+  const ForEachKind<Recovery> recoveries = all_recoveries();
+  StressField field{Stresses::Zero(points.node.size(), 4), Stresses(mesh.cells.size(), 4)};
   std::vector<int> cells_at(points.node.size(), 0);
-  std::vector<int> point_of_node(std::size_t(mesh.nodes.rows()));
+  std::vector<int> point_of_node(mesh.nodes.rows());
   int body = -1;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const Cell& cell = mesh.cells[e];
     if (cell.body != body) {  // cells are sorted by body
       body = cell.body;
-      for (int p = points.first[std::size_t(body)]; p < points.first[std::size_t(body) + 1]; ++p)
-        point_of_node[std::size_t(points.node[std::size_t(p)])] = p;
+      for (int p = points.first[body]; p < points.first[body + 1]; ++p) point_of_node[points.node[p]] = p;
     }
-    const Recovery& r = recoveries[std::size_t(cell.kind)];
-    const ElasticLaw& law = laws[std::size_t(body)];
-    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor, 4, 4> samples(Eigen::Index(r.samples.size()), 4);
+    const Recovery& r = recoveries[int(cell.kind)];
+    const ElasticLaw& law = laws[body];
+    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor, 4, 4> samples(r.samples.size(), 4);
     for (std::size_t q = 0; q < r.samples.size(); ++q)
-      samples.row(Eigen::Index(q)) = stress_at(mesh, cell, law, u, r.samples[q]).transpose();
-    field.centres.row(Eigen::Index(e)) = stress_at(mesh, cell, law, u, r.centre).transpose();
+      samples.row(q) = stress_at(mesh, cell, law, u, r.samples[q]).transpose();
+    field.centres.row(e) = stress_at(mesh, cell, law, u, r.centre).transpose();
     for (int a = 0; a < node_count(cell.kind); ++a) {
-      const int p = point_of_node[std::size_t(cell.nodes[std::size_t(a)])];
+      const int p = point_of_node[cell.nodes[a]];
       field.points.row(p) += r.to_nodes.row(a) * samples;
-      ++cells_at[std::size_t(p)];
+      ++cells_at[p];
     }
   }
-  for (std::size_t p = 0; p < cells_at.size(); ++p) field.points.row(Eigen::Index(p)) /= cells_at[p];
+  for (std::size_t p = 0; p < cells_at.size(); ++p) field.points.row(p) /= cells_at[p];
   return field;
 }
 
 Stresses gauss_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const VecX& u) {
-  const std::vector<Recovery> recoveries = all_recoveries();
+  const ForEachKind<Recovery> recoveries = all_recoveries();
   std::vector<Vec4> list;
   for (const Cell& cell : mesh.cells)
-    for (const CellShape& shape : recoveries[std::size_t(cell.kind)].samples)
-      list.push_back(stress_at(mesh, cell, laws[std::size_t(cell.body)], u, shape));
-  Stresses stresses(Eigen::Index(list.size()), 4);
-  for (std::size_t i = 0; i < list.size(); ++i) stresses.row(Eigen::Index(i)) = list[i].transpose();
+    for (const CellShape& shape : recoveries[int(cell.kind)].samples)
+      list.push_back(stress_at(mesh, cell, laws[cell.body], u, shape));
+  Stresses stresses(list.size(), 4);
+  for (std::size_t i = 0; i < list.size(); ++i) stresses.row(i) = list[i].transpose();
   return stresses;
 }
 

@@ -8,7 +8,7 @@ namespace mortise {
 NodeRows::NodeRows(const std::vector<std::int64_t>& tags) {
   const std::int64_t largest = tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end());
   if (largest <= 4 * static_cast<std::int64_t>(tags.size()) + 1000) {
-    dense_.assign(static_cast<std::size_t>(largest) + 1, -1);
+    dense_.assign(largest + 1, -1);
     for (std::size_t i = 0; i < tags.size(); ++i) dense_[tags[i]] = static_cast<int>(i);
     return;
   }

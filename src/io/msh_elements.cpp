@@ -11,8 +11,8 @@ namespace {
 class Elements {
  public:
   Elements(MshInput& input, MshParts& parts, std::int64_t count) : input_(input), parts_(parts) {
-    tags_.reserve(static_cast<std::size_t>(count));
-    records_.reserve(static_cast<std::size_t>(count));
+    tags_.reserve(count);
+    records_.reserve(count);
   }
 
   const ElementType& type(std::int64_t number) const {

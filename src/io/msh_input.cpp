@@ -30,7 +30,7 @@ bool read_whole(const std::string& file, std::string& text) {
     errno = EINVAL;
     good = false;
   }
-  if (good) text.resize(static_cast<std::size_t>(status.st_size));
+  if (good) text.resize(status.st_size);
   std::size_t done = 0;
   while (good && done < text.size()) {
     const ssize_t part = ::read(descriptor, text.data() + done, text.size() - done);

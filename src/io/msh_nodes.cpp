@@ -8,9 +8,9 @@ namespace {
 class Nodes {
  public:
   Nodes(MshInput& input, MshParts& parts, std::int64_t count) : input_(input), parts_(parts) {
-    tags_.reserve(static_cast<std::size_t>(count));
-    records_.reserve(static_cast<std::size_t>(count));
-    parts_.nodes.reserve(static_cast<std::size_t>(count));
+    tags_.reserve(count);
+    records_.reserve(count);
+    parts_.nodes.reserve(count);
   }
 
   void add_tag(std::int64_t tag) {

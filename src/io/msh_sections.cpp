@@ -13,7 +13,7 @@ bool take_integer(std::string_view& text, int& value) {
   text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc()) return false;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  text.remove_prefix(end - text.data());
   return true;
 }
 

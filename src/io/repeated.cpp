@@ -56,7 +56,7 @@ std::string middle_of(const Mesh& mesh, const Corners& corners) {
 }  // namespace
 
 void check_no_repetition(const Mesh& mesh) {
-  std::vector<int> last(static_cast<std::size_t>(mesh.nodes.rows()), -1);
+  std::vector<int> last(mesh.nodes.rows(), -1);
   if (const auto [first, second] = find_repeated(mesh.cells, last); first >= 0) {
     const std::string& body = mesh.bodies[mesh.cells[first].body];
     const std::string& other = mesh.bodies[mesh.cells[second].body];

@@ -25,7 +25,7 @@ std::string first_line(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string text(64 * 1024, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  text.resize(stream.gcount());
   return text.substr(0, text.find_first_of("\r\n"));
 }
 

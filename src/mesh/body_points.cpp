@@ -9,14 +9,14 @@ namespace mortise {
 BodyPoints body_points(const Mesh& mesh) {
   BodyPoints points;
   points.first.push_back(0);
-  std::vector<int> last_body(std::size_t(mesh.nodes.rows()), -1);
+  std::vector<int> last_body(mesh.nodes.rows(), -1);
   auto cell = mesh.cells.begin();
   for (int body = 0; body < int(mesh.bodies.size()); ++body) {
     for (; cell != mesh.cells.end() && cell->body == body; ++cell)
       for (int a = 0; a < node_count(cell->kind); ++a) {
-        const int node = cell->nodes[std::size_t(a)];
-        if (last_body[std::size_t(node)] == body) continue;
-        last_body[std::size_t(node)] = body;
+        const int node = cell->nodes[a];
+        if (last_body[node] == body) continue;
+        last_body[node] = body;
         points.node.push_back(node);
       }
     std::sort(points.node.begin() + points.first.back(), points.node.end());
@@ -39,8 +39,8 @@ std::vector<int> bonded_to(const Mesh& mesh, const BodyPoints& points) {
 }
 
 int point_of(const BodyPoints& points, int body, int node) {
-  const auto begin = points.node.begin() + points.first[std::size_t(body)];
-  const auto end = points.node.begin() + points.first[std::size_t(body) + 1];
+  const auto begin = points.node.begin() + points.first[body];
+  const auto end = points.node.begin() + points.first[body + 1];
   const auto found = std::lower_bound(begin, end, node);
   assert(found != end && *found == node);
   return int(found - points.node.begin());

@@ -26,7 +26,7 @@ std::uint64_t edge_key(int a, int b) {
 /// The edges of a boundary, to be looked up by their end nodes.
 class EdgeTable {
  public:
-  EdgeTable(const Mesh& mesh, const Boundary& boundary) : marked_(static_cast<std::size_t>(mesh.nodes.rows()), 0) {
+  EdgeTable(const Mesh& mesh, const Boundary& boundary) : marked_(mesh.nodes.rows(), 0) {
     rows_.reserve(boundary.edges.size());
     for (std::size_t i = 0; i < boundary.edges.size(); ++i) {
       const auto& nodes = boundary.edges[i].nodes;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/types.hpp"
@@ -10,6 +11,44 @@
 namespace mortise {
 
 enum class CellKind { tri3, tri6, quad4, quad8, quad9 };
+
+/// The one list of kinds, for all that goes through them.
+inline constexpr std::array all_cell_kinds{CellKind::tri3, CellKind::tri6, CellKind::quad4, CellKind::quad8,
+                                           CellKind::quad9};
+
+constexpr int node_count(CellKind kind) {
+  switch (kind) {
+    case CellKind::tri3:
+      return 3;
+    case CellKind::tri6:
+      return 6;
+    case CellKind::quad4:
+      return 4;
+    case CellKind::quad8:
+      return 8;
+    case CellKind::quad9:
+      return 9;
+  }
+  return 0;  // no kind
+}
+
+// A new kind does not compile until it stands in every switch over kinds, and here until it stands in the list.
+static_assert(node_count(CellKind(all_cell_kinds.size())) == 0);
+
+constexpr int corner_count(CellKind kind) { return kind == CellKind::tri3 || kind == CellKind::tri6 ? 3 : 4; }
+
+constexpr bool is_quadratic(CellKind kind) { return kind != CellKind::tri3 && kind != CellKind::quad4; }
+
+/// A value for each kind: value[int(kind)].
+template <typename T>
+using ForEachKind = std::array<T, all_cell_kinds.size()>;
+
+/// Calls visit.operator()<kind>() for each kind.
+template <typename Visit>
+void for_each_kind(Visit visit) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) { (visit.template operator()<all_cell_kinds[k]>(), ...); }
+  (std::make_index_sequence<all_cell_kinds.size()>());
+}
 
 /// Nodes of a cell: corners counter-clockwise, then the middles of the sides (side i joins corner i to i+1),
 /// then the centre of a quad9. The order of gmsh and of VTK.
@@ -38,15 +77,6 @@ struct Mesh {
   std::vector<std::string> bodies;   ///< physical surfaces, a name each
   std::vector<Boundary> boundaries;  ///< physical curves
 };
-
-constexpr int node_count(CellKind kind) {
-  constexpr std::array<int, 5> counts{3, 6, 4, 8, 9};
-  return counts[static_cast<std::size_t>(kind)];
-}
-
-constexpr int corner_count(CellKind kind) { return kind == CellKind::tri3 || kind == CellKind::tri6 ? 3 : 4; }
-
-constexpr bool is_quadratic(CellKind kind) { return kind != CellKind::tri3 && kind != CellKind::quad4; }
 
 /// Index of the body or boundary called `name`. Throws InputError with the known names.
 int body_index(const Mesh& mesh, const std::string& name);

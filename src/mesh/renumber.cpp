@@ -71,7 +71,7 @@ void sort_cells(Mesh& mesh) {
 
 /// New number of each node, -1 for the nodes of no cell; renumbers the cells on its way.
 std::vector<int> number_by_cells(Mesh& mesh) {
-  std::vector<int> number(static_cast<std::size_t>(mesh.nodes.rows()), -1);
+  std::vector<int> number(mesh.nodes.rows(), -1);
   int count = 0;
   for (Cell& cell : mesh.cells) {
     for (int i = 0; i < node_count(cell.kind); ++i) {

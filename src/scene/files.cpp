@@ -47,7 +47,7 @@ std::string read_text(const fs::path& path) {
   std::string text(largest_scene + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (!stream.is_open() || stream.bad()) fail(place, "", "cannot be read; expected a readable file");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  text.resize(stream.gcount());
   if (text.size() > largest_scene) fail(place, "", "is larger than 4 MB; expected a scene file, a page or two of text");
   return text;
 }

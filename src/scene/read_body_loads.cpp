@@ -44,7 +44,7 @@ Vec4 read_strain(const Node& node) {
   if (node.items.empty()) fail(node, "is empty; expected at least one of xx, yy, zz, xy");
   Vec4 strain = Vec4::Zero();
   for (int i = 0; i < 4; ++i) {
-    const Node* component = find(node, components[static_cast<std::size_t>(i)]);
+    const Node* component = find(node, components[i]);
     if (component == nullptr) continue;
     strain[i] = number(*component);
     if (std::abs(strain[i]) >= 1) fail(*component, "expected a strain below 1, found " + describe(*component));

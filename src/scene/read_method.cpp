@@ -32,7 +32,6 @@ void read_ddm(const Node& node, Scene& scene) {
         choice(acceleration, {Acceleration::none, Acceleration::aitken, Acceleration::anderson, Acceleration::krylov},
                Acceleration::none);
   ddm.beta = read_beta(find(node, "beta"));
-  ddm.transfer = choice(find(node, "transfer"), {Transfer::mortar, Transfer::nodal}, ddm.transfer);
   if (const Node* tolerance = find(node, "tolerance")) ddm.tolerance = positive_number(*tolerance);
   if (const Node* most = find(node, "max_iterations")) ddm.max_iterations = read_count(*most);
   const Node* dirichlet = find(node, "dirichlet");
@@ -66,7 +65,7 @@ void refuse_strangers(const Node& node, const std::vector<std::string>& keys, co
     if (const Node* extra = find(node, key)) fail(*extra, message);
 }
 
-const std::vector<std::string> of_ddm{"scheme", "beta", "dirichlet", "transfer"};
+const std::vector<std::string> of_ddm{"scheme", "beta", "dirichlet"};
 const std::vector<std::string> of_mssor{"omega", "tau"};
 const std::vector<std::string> of_both{"acceleration", "tolerance", "max_iterations"};
 

@@ -65,8 +65,7 @@ struct DdmSpec {
   std::optional<Acceleration> acceleration;  ///< default: krylov
   std::optional<double> beta;                ///< relaxation, > 0; default: estimated
   std::vector<std::string> dirichlet;        ///< bodies that take the displacement; default: the softer ones
-  Transfer transfer = Transfer::mortar;
-  double tolerance = 1e-8;  ///< of both residuals
+  double tolerance = 1e-8;                   ///< of both residuals
   int max_iterations = 100;
 };
 
@@ -114,7 +113,6 @@ std::string to_string(Solver value);
 std::string to_string(Multipliers value);
 std::string to_string(Scheme value);
 std::string to_string(Acceleration value);
-std::string to_string(Transfer value);
 
 /// One `--set KEY=VALUE`, e.g. {"contact.0.multipliers_on", "lower_contact"}.
 struct Override {

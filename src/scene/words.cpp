@@ -114,15 +114,4 @@ std::string to_string(Acceleration value) {
   return {};
 }
 
-std::string to_string(Transfer value) {
-  switch (value) {
-    case Transfer::mortar:
-      return "mortar";
-    case Transfer::nodal:
-      return "nodal";
-  }
-  assert(false && "no such Transfer");
-  return {};
-}
-
 }  // namespace mortise

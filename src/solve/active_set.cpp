@@ -48,10 +48,10 @@ std::vector<int> wrong_rows(const ComplementarityProblem& p, const ActiveSetOpti
   const double drift = 1e-8 * largest_entry(rows.opening);
   std::vector<int> wrong;
   for (Eigen::Index a = 0; a < p.scale.size(); ++a) {
-    if (!p.unilateral[std::size_t(a)]) continue;
+    if (!p.unilateral[a]) continue;
     const bool driven = rows.opening.size() > 0 && std::abs(rows.opening(a)) > drift;
     const bool penetrated = driven ? rows.opening(a) < 0 : rows.w(a) < -penetration;
-    if (active[std::size_t(a)] ? rows.stress(a) > pull : penetrated) wrong.push_back(int(a));
+    if (active[a] ? rows.stress(a) > pull : penetrated) wrong.push_back(int(a));
   }
   return wrong;
 }
@@ -59,9 +59,9 @@ std::vector<int> wrong_rows(const ComplementarityProblem& p, const ActiveSetOpti
 ActiveSetStep describe(const ComplementarityProblem& p, const Rows& rows, const std::vector<char>& active) {
   ActiveSetStep step;
   for (Eigen::Index a = 0; a < p.scale.size(); ++a) {
-    step.active += active[std::size_t(a)];
-    if (!p.unilateral[std::size_t(a)]) continue;
-    if (active[std::size_t(a)])
+    step.active += active[a];
+    if (!p.unilateral[a]) continue;
+    if (active[a])
       step.pull = std::max(step.pull, rows.stress(a));
     else
       step.penetration = std::max(step.penetration, -rows.w(a));
@@ -84,7 +84,7 @@ bool solve_closed(const ComplementarityProblem& p, ActiveSetResult& r) {
 void iterate(const ComplementarityProblem& p, std::vector<char> start, int max_steps, const ActiveSetOptions& options,
              ActiveSetResult& r) {
   using Status = ActiveSetResult::Status;
-  const auto m = std::size_t(p.scale.size());
+  const std::size_t m = p.scale.size();
   r.active = std::move(start);
   r.wrong.clear();
   for (std::size_t a = 0; a < m; ++a)
@@ -110,13 +110,13 @@ void iterate(const ComplementarityProblem& p, std::vector<char> start, int max_s
       r.wrong.erase(r.wrong.begin() + 1, r.wrong.end());
     }
     r.steps.back().changed = int(r.wrong.size());
-    for (const int a : r.wrong) r.active[std::size_t(a)] ^= 1;
+    for (const int a : r.wrong) r.active[a] ^= 1;
   }
 }
 
 // The active set of the problem with rows joined, level upon level, for the rows of `fine`.
 std::vector<char> guess(const ComplementarityProblem& fine, const ActiveSetOptions& options, int& steps) {
-  std::vector<char> active(std::size_t(fine.scale.size()), 1);
+  std::vector<char> active(fine.scale.size(), 1);
   if (fine.scale.size() < options.few_rows) return active;
   const CoarseRows coarse = join_rows(fine);
   if (4 * coarse.scale.size() > 3 * fine.scale.size()) return active;
@@ -124,7 +124,7 @@ std::vector<char> guess(const ComplementarityProblem& fine, const ActiveSetOptio
   iterate(coarse.problem(), guess(coarse.problem(), options, steps), options.max_steps, options, r);
   steps += int(r.steps.size());
   if (r.status == ActiveSetResult::Status::dependent_row) return active;
-  for (std::size_t a = 0; a < active.size(); ++a) active[a] = r.active[std::size_t(coarse.group[a])];
+  for (std::size_t a = 0; a < active.size(); ++a) active[a] = r.active[coarse.group[a]];
   return active;
 }
 
@@ -139,12 +139,12 @@ ActiveSetResult settle_active_set(const ComplementarityProblem& p, const std::ve
     r.status = ActiveSetResult::Status::settled;
     return r;
   }
-  const std::vector<char> all(std::size_t(p.scale.size()), 1);
+  const std::vector<char> all(p.scale.size(), 1);
   iterate(p, start.empty() ? all : start, options.start_steps, options, r);
   if (r.status != ActiveSetResult::Status::not_settled || r.wrong.empty()) return r;
   std::vector<char> next = guess(p, options, r.coarse_steps);
   if (next == r.active)  // nothing learned
-    for (const int a : r.wrong) next[std::size_t(a)] ^= 1;
+    for (const int a : r.wrong) next[a] ^= 1;
   for (std::size_t a = 0; a < next.size(); ++a) r.steps.back().changed += next[a] != r.active[a];
   iterate(p, std::move(next), options.max_steps, options, r);
   return r;

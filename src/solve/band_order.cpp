@@ -18,12 +18,12 @@ struct Graph {
 void search(const Graph& graph, int root, std::vector<char>& seen, std::vector<int>& order) {
   std::vector<int> fresh;
   order.push_back(root);
-  seen[std::size_t(root)] = 1;
+  seen[root] = 1;
   for (std::size_t at = order.size() - 1; at < order.size(); ++at) {
     fresh.clear();
     for (const int* j = graph.begin(order[at]); j != graph.end(order[at]); ++j)
-      if (!seen[std::size_t(*j)]) {
-        seen[std::size_t(*j)] = 1;
+      if (!seen[*j]) {
+        seen[*j] = 1;
         fresh.push_back(*j);
       }
     std::stable_sort(fresh.begin(), fresh.end(), [&](int a, int b) { return graph.degree(a) < graph.degree(b); });
@@ -37,16 +37,16 @@ std::vector<int> band_order(const SparseMatrix& lower) {
   const int n = int(lower.rows());
   const SparseMatrix both = lower.selfadjointView<Eigen::Lower>();
   const Graph graph{both};
-  std::vector<char> seen(std::size_t(n), 0);
+  std::vector<char> seen(n, 0);
   std::vector<int> order;
   for (int i = 0; i < n; ++i) {
-    if (seen[std::size_t(i)]) continue;
+    if (seen[i]) continue;
     const auto first = std::ptrdiff_t(order.size());
     search(graph, i, seen, order);
     for (int again = 0; again < 2; ++again) {  // from the end of the last search
       const int root = order.back();
-      for (auto k = order.begin() + first; k != order.end(); ++k) seen[std::size_t(*k)] = 0;
-      order.resize(std::size_t(first));
+      for (auto k = order.begin() + first; k != order.end(); ++k) seen[*k] = 0;
+      order.resize(first);
       search(graph, root, seen, order);
     }
   }

@@ -13,24 +13,24 @@ namespace {
 // Approximate minimum degree on the graph of blocks (nodes) of K, the border last.
 std::vector<int> ordering(const SparseMatrix& matrix, const std::vector<int>& blocks) {
   const int n = int(blocks.size()), block_count = blocks.empty() ? 0 : blocks.back() + 1;
-  std::vector<int> first_of(std::size_t(block_count) + 1, n), start{0}, row;
+  std::vector<int> first_of(block_count + 1, n), start{0}, row;
   row.reserve(1);  // AMD wants an address also where nothing is coupled
-  for (int i = n - 1; i >= 0; --i) first_of[std::size_t(blocks[std::size_t(i)])] = i;
+  for (int i = n - 1; i >= 0; --i) first_of[blocks[i]] = i;
   for (int b = 0; b < block_count; ++b) {
-    const int column = first_of[std::size_t(b)];
+    const int column = first_of[b];
     for (SparseMatrix::InnerIterator it(matrix, column); it; ++it) {
-      const int r = blocks[std::size_t(it.row())];
+      const int r = blocks[it.row()];
       if (r < b && (int(row.size()) == start.back() || row.back() != r)) row.push_back(r);
     }
     start.push_back(int(row.size()));
   }
-  std::vector<int> block_order(std::size_t(block_count) + 1);
+  std::vector<int> block_order(block_count + 1);
   if (amd_order(block_count, start.data(), row.data(), block_order.data(), nullptr, nullptr) < AMD_OK)
     throw std::runtime_error("AMD ordering failed");
   std::vector<int> order;
-  order.reserve(std::size_t(matrix.cols()));
+  order.reserve(matrix.cols());
   for (int k = 0; k < block_count; ++k) {
-    const auto b = std::size_t(block_order[std::size_t(k)]);
+    const int b = block_order[k];
     for (int i = first_of[b]; i < first_of[b + 1]; ++i) order.push_back(i);
   }
   for (int r = n; r < int(matrix.cols()); ++r) order.push_back(r);
@@ -39,9 +39,9 @@ std::vector<int> ordering(const SparseMatrix& matrix, const std::vector<int>& bl
 
 cholmod_sparse view(SparseMatrix& A) {
   cholmod_sparse s{};
-  s.nrow = std::size_t(A.rows());
-  s.ncol = std::size_t(A.cols());
-  s.nzmax = std::size_t(A.nonZeros());
+  s.nrow = A.rows();
+  s.ncol = A.cols();
+  s.nzmax = A.nonZeros();
   s.p = A.outerIndexPtr();
   s.i = A.innerIndexPtr();
   s.x = A.valuePtr();
@@ -98,7 +98,7 @@ struct BorderedCholesky::Factor {
 
   VecX solve(int system, const VecX& b) {
     cholmod_dense rhs{};
-    rhs.nrow = rhs.nzmax = rhs.d = std::size_t(b.size());
+    rhs.nrow = rhs.nzmax = rhs.d = b.size();
     rhs.ncol = 1;
     rhs.x = const_cast<double*>(b.data());
     rhs.xtype = CHOLMOD_REAL;

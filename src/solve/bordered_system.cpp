@@ -7,26 +7,26 @@ namespace mortise {
 BorderedSystem bordered_system(const ContactSystem& s) {
   BorderedSystem r;
   const int n = int(s.K.cols());
-  std::vector<int> to_reduced(std::size_t(n), -1);
+  std::vector<int> to_reduced(n, -1);
   int last_node = -1, block = -1;
   for (int i = 0; i < n; ++i) {
-    if (s.fixed[std::size_t(i)]) continue;
-    to_reduced[std::size_t(i)] = int(r.free.size());
+    if (s.fixed[i]) continue;
+    to_reduced[i] = int(r.free.size());
     if (i / 2 != last_node) ++block;
     last_node = i / 2;
     r.free.push_back(i);
     r.blocks.push_back(block);
   }
-  std::vector<int> spring(std::size_t(n), -1);
-  for (std::size_t k = 0; k < s.grounded.size(); ++k) spring[std::size_t(s.grounded[k])] = int(k);
+  std::vector<int> spring(n, -1);
+  for (std::size_t k = 0; k < s.grounded.size(); ++k) spring[s.grounded[k]] = int(k);
 
   const int count = int(r.free.size()), m = int(s.B.rows()), border = m + int(s.grounded.size());
   // The columns below the diagonal, read as rows above it: an entry (i, j) goes to column i, and comes in order.
   const auto for_each_entry = [&](auto visit) {
     for (int j = 0; j < count; ++j) {
-      const int column = r.free[std::size_t(j)], held = spring[std::size_t(column)];
+      const int column = r.free[j], held = spring[column];
       for (SparseMatrix::InnerIterator it(s.K, column); it; ++it) {
-        const int i = to_reduced[std::size_t(it.row())];
+        const int i = to_reduced[it.row()];
         if (i >= 0) visit(i, j, it.value() / s.stiffness_scale + (i == j && held >= 0 ? 1 : 0));
       }
       for (SparseMatrix::InnerIterator it(s.B, column); it; ++it)
@@ -42,7 +42,7 @@ BorderedSystem bordered_system(const ContactSystem& s) {
   r.matrix.resizeNonZeros(start[count + border]);
   std::vector<int> next(start, start + count + border);
   for_each_entry([&](int i, int j, double value) {
-    const int at = next[std::size_t(i)]++;
+    const int at = next[i]++;
     r.matrix.innerIndexPtr()[at] = j;
     r.matrix.valuePtr()[at] = value;
   });

@@ -9,10 +9,10 @@
 namespace mortise {
 
 InfSup inf_sup(const ContactSystem& s, const SparseMatrix& norm, const std::vector<char>& active) {
-  const Eigen::Index m = s.B.rows(), springs = Eigen::Index(s.grounded.size());
+  const Eigen::Index m = s.B.rows(), springs = s.grounded.size();
   std::vector<int> rows;
   for (int a = 0; a < int(m); ++a)
-    if (active[std::size_t(a)]) rows.push_back(a);
+    if (active[a]) rows.push_back(a);
   InfSup result;
   if (rows.empty()) return result;
 

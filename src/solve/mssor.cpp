@@ -142,9 +142,9 @@ void iterate(SweepPreconditioner& M, Watch& watch, VecX& x, VecX& r) {
 // u and lambda in the system's units.
 void take_over(const SaddlePointSystem& s, const SweepSystem& reduced, const VecX& x, SaddlePointSolution& solution) {
   solution.u = s.value;
-  for (Eigen::Index k = 0; k < reduced.n(); ++k) solution.u(reduced.unknown[std::size_t(k)]) = x(k);
+  for (Eigen::Index k = 0; k < reduced.n(); ++k) solution.u(reduced.unknown[k]) = x(k);
   solution.lambda = s.stiffness_scale * x.tail(reduced.m()).cwiseQuotient(s.row_scale);
-  solution.active.assign(std::size_t(reduced.m()), 1);
+  solution.active.assign(reduced.m(), 1);
   measure_residuals(s, solution);
 }
 
@@ -152,7 +152,7 @@ void take_over(const SaddlePointSystem& s, const SweepSystem& reduced, const Vec
 double pull(const SaddlePointSystem& s, const VecX& lambda) {
   double most = 0;
   for (std::size_t a = 0; a < s.unilateral.size(); ++a)
-    if (s.unilateral[a]) most = std::max(most, lambda(Eigen::Index(a)));
+    if (s.unilateral[a]) most = std::max(most, lambda(a));
   return most;
 }
 

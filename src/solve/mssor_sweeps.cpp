@@ -9,16 +9,16 @@ namespace {
 
 // The lower triangle of K on the free unknowns, which come in the order of `unknown`, over the stiffness scale.
 SparseMatrix free_stiffness(const SaddlePointSystem& s, const std::vector<int>& unknown) {
-  std::vector<int> place(std::size_t(s.K.cols()), -1);
-  for (std::size_t k = 0; k < unknown.size(); ++k) place[std::size_t(unknown[k])] = int(k);
+  std::vector<int> place(s.K.cols(), -1);
+  for (std::size_t k = 0; k < unknown.size(); ++k) place[unknown[k]] = int(k);
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(std::size_t(s.K.nonZeros()));
+  entries.reserve(s.K.nonZeros());
   for (int j = 0; j < s.K.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(s.K, j); it; ++it) {
-      const int a = place[std::size_t(it.row())], b = place[std::size_t(j)];
+      const int a = place[it.row()], b = place[j];
       if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), it.value() / s.stiffness_scale);
     }
-  SparseMatrix K(Eigen::Index(unknown.size()), Eigen::Index(unknown.size()));
+  SparseMatrix K(unknown.size(), unknown.size());
   K.setFromTriplets(entries.begin(), entries.end());
   return K;
 }
@@ -38,7 +38,7 @@ void split(const SparseMatrix& lower, SweepSystem& r) {
       r.value.push_back(it.value());
     }
     r.start.push_back(int(r.column.size()));
-    if (!(r.D(i) > 0) && r.not_positive < 0) r.not_positive = r.unknown[std::size_t(i)];
+    if (!(r.D(i) > 0) && r.not_positive < 0) r.not_positive = r.unknown[i];
   }
   r.D_inverse = r.D.cwiseInverse();
 }
@@ -56,15 +56,15 @@ void set_rows(const SaddlePointSystem& s, SweepSystem& r) {
 void set_loads(const SaddlePointSystem& s, SweepSystem& r) {
   const VecX load = (s.f - s.K.selfadjointView<Eigen::Lower>() * s.value) / s.stiffness_scale;
   r.rhs.resize(r.n() + r.m());
-  for (Eigen::Index k = 0; k < r.n(); ++k) r.rhs(k) = load(r.unknown[std::size_t(k)]);
+  for (Eigen::Index k = 0; k < r.n(); ++k) r.rhs(k) = load(r.unknown[k]);
   r.rhs.tail(r.m()) = (s.g - s.B * s.value).cwiseQuotient(s.row_scale);
   r.largest_value = largest_entry(s.value);
 }
 
 // Row i of L times x. Four sums: one would have every addition wait for the one before.
 double row_of_L(const SweepSystem& s, Eigen::Index i, const double* x) {
-  const int end = s.start[std::size_t(i) + 1];
-  int k = s.start[std::size_t(i)];
+  const int end = s.start[i + 1];
+  int k = s.start[i];
   const double* value = s.value.data();
   const int* column = s.column.data();
   double a = 0, b = 0, c = 0, d = 0;
@@ -82,7 +82,7 @@ double row_of_L(const SweepSystem& s, Eigen::Index i, const double* x) {
 void add_row_of_L(const SweepSystem& s, Eigen::Index i, double factor, double* y) {
   const double* value = s.value.data();
   const int* column = s.column.data();
-  for (int k = s.start[std::size_t(i)]; k < s.start[std::size_t(i) + 1]; ++k) y[column[k]] += value[k] * factor;
+  for (int k = s.start[i]; k < s.start[i + 1]; ++k) y[column[k]] += value[k] * factor;
 }
 
 constexpr double pivot_round_off = 1e-12;
@@ -102,8 +102,8 @@ SweepSystem sweep_system(const SaddlePointSystem& s) {
   SweepSystem r;
   std::vector<int> free;
   for (int i = 0; i < int(s.fixed.size()); ++i)
-    if (!s.fixed[std::size_t(i)]) free.push_back(i);
-  for (const int k : band_order(free_stiffness(s, free))) r.unknown.push_back(free[std::size_t(k)]);
+    if (!s.fixed[i]) free.push_back(i);
+  for (const int k : band_order(free_stiffness(s, free))) r.unknown.push_back(free[k]);
   split(free_stiffness(s, r.unknown), r);
   set_rows(s, r);
   set_loads(s, r);

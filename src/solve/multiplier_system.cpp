@@ -16,12 +16,12 @@ constexpr double loose_limit = 1e-10;
 
 MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs, std::vector<int> active)
     : m_(compliance.rows() - springs), springs_(springs), active_(std::move(active)) {
-  const auto count = Eigen::Index(active_.size());
+  const Eigen::Index count = active_.size();
   MatX C(count, count);
   H_.resize(count, springs_);
   for (Eigen::Index j = 0; j < count; ++j) {
-    const int column = active_[std::size_t(j)];
-    for (Eigen::Index i = j; i < count; ++i) C(i, j) = compliance(active_[std::size_t(i)], column);
+    const int column = active_[j];
+    for (Eigen::Index i = j; i < count; ++i) C(i, j) = compliance(active_[i], column);
     H_.row(j) = compliance.col(column).tail(springs_).transpose();
   }
   diagonal_ = C.diagonal();
@@ -50,15 +50,14 @@ int MultiplierSystem::dependent_row() const {
   const MatX& L = cholesky_.matrixLLT();
   for (Eigen::Index i = 0; i < diagonal_.size(); ++i) {
     const double pivot = L(i, i) * L(i, i), size = L.row(i).head(i + 1).squaredNorm();
-    if (!(pivot > 1e-13 * diagonal_(i)) || !(std::abs(size - diagonal_(i)) < 1e-8 * diagonal_(i)))
-      return active_[std::size_t(i)];
+    if (!(pivot > 1e-13 * diagonal_(i)) || !(std::abs(size - diagonal_(i)) < 1e-8 * diagonal_(i))) return active_[i];
   }
   return -1;
 }
 
 VecX MultiplierSystem::on_active(const VecX& rhs) const {
-  VecX r(Eigen::Index(active_.size()));
-  for (std::size_t i = 0; i < active_.size(); ++i) r(Eigen::Index(i)) = rhs(active_[i]);
+  VecX r(active_.size());
+  for (std::size_t i = 0; i < active_.size(); ++i) r(i) = rhs(active_[i]);
   return active_.empty() ? r : cholesky_.solve(r);
 }
 
@@ -70,7 +69,7 @@ VecX MultiplierSystem::solve(const VecX& rhs) const {
     x.tail(springs_) = -motion;
     if (!active_.empty()) lambda += reduced_ * motion;
   }
-  for (std::size_t i = 0; i < active_.size(); ++i) x(active_[i]) = lambda(Eigen::Index(i));
+  for (std::size_t i = 0; i < active_.size(); ++i) x(active_[i]) = lambda(i);
   return x;
 }
 

@@ -60,7 +60,7 @@ std::vector<int> held_unknowns(const std::vector<int>& grounded, const SaddlePoi
 
 void measure_residuals(const SaddlePointSystem& s, SaddlePointSolution& solution) {
   const Product Ku = multiply(s.K, solution.u);
-  const VecX pressure = load_rows(s).transpose() * solution.lambda;
+  const VecX pressure = s.B.transpose() * solution.lambda;
   const double forces = largest({largest_entry(s.f), largest_entry(Ku.sum), largest_entry(pressure)});
   solution.force_residual = fraction(0, forces);
   std::vector<char> held = s.fixed;
@@ -71,7 +71,7 @@ void measure_residuals(const SaddlePointSystem& s, SaddlePointSolution& solution
                                                                           largest(forces, rigid_part * Ku.size(i))));
   VecX open = (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
   for (Eigen::Index a = 0; a < open.size(); ++a)
-    if (!solution.active[std::size_t(a)]) open(a) = 0;
+    if (!solution.active[a]) open(a) = 0;
   solution.constraint_residual = fraction(largest_entry(open), largest_entry(solution.u));
 }
 
@@ -84,23 +84,23 @@ SaddlePointSolution solve_saddle_point(const SaddlePointSystem& s) {
   const std::vector<int>& free = reduced.free;
   if (factor.failed_at() >= 0) {
     solution.status = SaddlePointSolution::Status::not_positive_definite;
-    solution.failed_at = free[std::size_t(std::min<std::size_t>(std::size_t(factor.failed_at()), free.size() - 1))];
+    solution.failed_at = free[std::min(factor.failed_at(), int(free.size()) - 1)];
     return solution;
   }
   solution.factorise_seconds = watch.lap();
 
   solution.u = s.value;
   solution.lambda = VecX::Zero(m);
-  const std::vector<char> unilateral = s.unilateral.empty() ? std::vector<char>(std::size_t(m), 0) : s.unilateral;
+  const std::vector<char> unilateral = s.unilateral.empty() ? std::vector<char>(m, 0) : s.unilateral;
   const auto symmetric = s.K.selfadjointView<Eigen::Lower>();
   VecX Ku = symmetric * solution.u;
   std::optional<MultiplierSystem> multipliers;  // of the active set
   // The first pass solves, as a rule to round-off of the residual itself; a second one refines where it did not.
   for (int pass = 0; pass < 2; ++pass) {
     const VecX Bl = s.B.transpose() * solution.lambda;
-    VecX force(Eigen::Index(free.size()));
+    VecX force(free.size());
     for (std::size_t i = 0; i < free.size(); ++i)
-      force(Eigen::Index(i)) = (s.f(free[i]) - Ku(free[i]) - Bl(free[i])) / s.stiffness_scale;
+      force(i) = (s.f(free[i]) - Ku(free[i]) - Bl(free[i])) / s.stiffness_scale;
     VecX rhs = factor.forward(force);
     rhs.head(m) -= (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
     VecX lambda;
@@ -117,7 +117,7 @@ SaddlePointSolution solve_saddle_point(const SaddlePointSystem& s) {
       lambda = multipliers->solve(rhs);
     }
     const VecX u = factor.backward(lambda);
-    for (std::size_t i = 0; i < free.size(); ++i) solution.u(free[i]) += u(Eigen::Index(i));
+    for (std::size_t i = 0; i < free.size(); ++i) solution.u(free[i]) += u(i);
     solution.lambda += s.stiffness_scale * lambda.head(m).cwiseQuotient(s.row_scale);
     Ku = symmetric * solution.u;
     measure_residuals(s, solution);

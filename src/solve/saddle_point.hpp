@@ -20,9 +20,8 @@ struct SaddlePointSystem {
   /// Unknowns that springs must hold for K to be positive definite (one for each motion that only B resists). The
   /// springs are taken out again exactly: docs/theory.md eq. 18.
   std::vector<int> grounded = {};
-  std::vector<char> unilateral = {};    ///< m: rows that may open; empty: none
-  std::vector<char> start = {};         ///< m: rows that are closed at first; empty: all
-  const SparseMatrix* loads = nullptr;  ///< m x n: loads^T lambda are the forces; null: B. Not of solve_saddle_point
+  std::vector<char> unilateral = {};  ///< m: rows that may open; empty: none
+  std::vector<char> start = {};       ///< m: rows that are closed at first; empty: all
 };
 
 /// Forces are compared with this part of stiffness times displacement, |K| |u| in their own row, where they are
@@ -30,8 +29,6 @@ struct SaddlePointSystem {
 /// elements, whose stiffness is many times the material's (|K| |u| is what Oettli & Prager 1964 compare a residual
 /// with).
 inline constexpr double rigid_part = 1e-3;
-
-inline const SparseMatrix& load_rows(const SaddlePointSystem& s) { return s.loads ? *s.loads : s.B; }
 
 struct SaddlePointSolution {
   /// not_settled: u and lambda are those of the last active set, or are not finite. unheld: only `drift` is given.

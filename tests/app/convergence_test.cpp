@@ -33,8 +33,8 @@ std::array<Errors, 4> study(const Line& line, CellKind kind, Multipliers multipl
     c.plates.kind_upper = c.plates.kind_lower = kind;
     c.multipliers = multipliers;
     c.multipliers_on_lower = on_lower;
-    errors[std::size_t(level)] = manufactured_errors(c);
-    const Errors& e = errors[std::size_t(level)];
+    errors[level] = manufactured_errors(c);
+    const Errors& e = errors[level];
     std::printf("%-11s n %4d  u %.3e  energy %.3e  p %.3e\n", line.name, c.plates.n_upper, e.displacement, e.energy,
                 e.pressure);
   }

@@ -197,42 +197,6 @@ TEST(Decompose, UnilateralByTheProjectedPressure) {
   expect_mortar_solution("cosine", "lower_contact", sizes("20", "25"), 80, {{"method.acceleration", "anderson"}});
 }
 
-// ---- Nodal transfer ----
-
-TEST(Decompose, NodalTransferOnMatchingMeshesIsTheMortarMethods) {
-  const Overrides overrides = {{"contact.multipliers_on", "upper_contact"}};
-  for (const auto& [kind, order] : {std::pair{1, 1}, std::pair{0, 2}}) {
-    Overrides all = plates(10, 10, kind, order);
-    all.insert(all.end(), overrides.begin(), overrides.end());
-    all.push_back({"method.multipliers", "quadratic"});
-    const Results r = ddm("parabola_1", all,
-                          {{"method.dirichlet", "upper"}, {"method.transfer", "nodal"}, {"method.tolerance", "1e-11"}});
-    EXPECT_LT(pressure_difference(r, run("parabola_1", all)), 1e-8) << kind << order;
-  }
-}
-
-TEST(Decompose, NodalTransferOfAUniformPressureIsExactOnAStraightLine) {
-  const Results r =
-      ddm("patch_flat", {{"method.dirichlet", "upper"}, {"method.transfer", "nodal"}, {"method.tolerance", "1e-11"}});
-  EXPECT_LT(largest_entry(r.contacts[0].pressure - VecX::Constant(r.contacts[0].pressure.size(), 10e6)) / 10e6, 1e-9);
-}
-
-TEST(Decompose, NodalTransferThatLosesForceFailsItsCheck) {
-  const Results r =
-      ddm("parabola_1", plates(8, 10, 0, 2), {{"method.dirichlet", "upper"}, {"method.transfer", "nodal"}});
-  EXPECT_EQ(r.status, Status::check_failed);
-  for (const Check& c : r.checks)
-    if (c.name == "contact forces equal and opposite") EXPECT_GT(c.value, 1e-5);
-}
-
-TEST(Decompose, NodalTransferToAFloatingBodyIsAnError) {
-  expect_contains(
-      message_of([] {
-        ddm("parabola_1", plates(8, 10, 0, 2), {{"method.dirichlet", "lower"}, {"method.transfer", "nodal"}});
-      }),
-      "does not keep the forces in balance");
-}
-
 // ---- Errors ----
 
 TEST(Decompose, ALoadThatPullsABodyAwayIsAnError) {

@@ -104,8 +104,6 @@ void draw_ddm(Draw& draw, Scheme scheme, Method& method) {
                                                                        {"krylov", Acceleration::krylov}});
   method.ddm.dirichlet =
       draw.one_of<Bodies>("dirichlet", {{"default", {}}, {"upper", {"upper"}}, {"lower", {"lower"}}});
-  method.ddm.transfer = draw.one_of<Transfer>(
-      "transfer", {{"mortar", Transfer::mortar}, {"mortar", Transfer::mortar}, {"nodal", Transfer::nodal}});
 }
 
 void draw_mssor(Draw& draw, Method& method) {
@@ -177,7 +175,6 @@ TEST_P(Differential, EachMethodAgreesWithTheDirectOneOrSaysThatItDoesNot) {
     direct.contacts[0].multipliers_on = found->pairs[0].spec.multipliers_on;
     const std::optional<Results> reference = solved(direct, s.plates);
     ASSERT_TRUE(reference.has_value()) << "the direct method refuses the scene";
-    if (s.scene.method.ddm.transfer == Transfer::nodal) continue;  // meant to be another answer
     ++compared;
     EXPECT_EQ(to_string(found->status), to_string(reference->status));
     EXPECT_LE(pressure_difference(*found, *reference), 1e-6) << told(*found);

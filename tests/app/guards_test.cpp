@@ -72,7 +72,7 @@ TEST(Curves, WithACommonNodeAreAnError) {
   Mesh mesh = mesh_of({});
   // The first node of the upper contact curve becomes that of the lower one, which lies at the same place.
   const auto at = [&](const char* name) {
-    for (const Edge& edge : mesh.boundaries[std::size_t(boundary_index(mesh, name))].edges)
+    for (const Edge& edge : mesh.boundaries[boundary_index(mesh, name)].edges)
       for (const int node : {edge.nodes[0], edge.nodes[1]})
         if (std::abs(mesh.nodes(node, 0)) < 1e-12) return node;
     return -1;
@@ -132,12 +132,12 @@ Results narrow_upper_plate(double width) {
   TwoPlates plates;
   plates.n_lower = 8;
   Mesh mesh = mesh_of(plates);
-  std::vector<char> of_upper(std::size_t(mesh.nodes.rows()), 0);
+  std::vector<char> of_upper(mesh.nodes.rows(), 0);
   for (const Cell& cell : mesh.cells)
-    if (mesh.bodies[std::size_t(cell.body)] == "upper")
-      for (int a = 0; a < node_count(cell.kind); ++a) of_upper[std::size_t(cell.nodes[std::size_t(a)])] = 1;
+    if (mesh.bodies[cell.body] == "upper")
+      for (int a = 0; a < node_count(cell.kind); ++a) of_upper[cell.nodes[a]] = 1;
   for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i)
-    if (of_upper[std::size_t(i)]) mesh.nodes(i, 0) *= width / 0.8;
+    if (of_upper[i]) mesh.nodes(i, 0) *= width / 0.8;
   Scene s = contrast(1e-6);
   s.boundaries[0].on = {"upper_left", "lower_left"};
   s.contacts[0].multipliers_on = "lower_contact";

@@ -70,7 +70,7 @@ std::array<double, 4> lame_study(const std::string& scene, double exact, const s
                                      {"mesh.parameters.n_outer", std::to_string(16 << level)},
                                      {"contact.multipliers_on", side},
                                      {"method.multipliers", space}});
-    errors[std::size_t(level)] = pressure_error(r, exact);
+    errors[level] = pressure_error(r, exact);
     EXPECT_EQ(r.status, Status::solved);
   }
   std::printf("%s, %s on %s: p error %.2e %.2e %.2e %.2e\n", scene.c_str(), space.c_str(), side.c_str(), errors[0],
@@ -117,7 +117,7 @@ TEST(Lame, DisplacementsOfTheShrinkFit) {
   double worst = 0, largest = 0;
   for (std::size_t b = 0; b < 2; ++b)
     for (int i = r.points.first[b]; i < r.points.first[b + 1]; ++i) {
-      const int node = r.points.node[std::size_t(i)];
+      const int node = r.points.node[i];
       const Vec2 x = r.mesh.nodes.row(node).transpose();
       const double radius = x.norm();
       const double exact =

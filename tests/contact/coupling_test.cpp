@@ -86,7 +86,7 @@ TEST(Coupling, MeasuredGapOfPlatesApart) {
   for (const Cell& cell : p.mesh.cells)
     if (cell.body == 0)
       for (int a = 0; a < node_count(cell.kind); ++a) {
-        double& y = p.mesh.nodes(cell.nodes[std::size_t(a)], 1);
+        double& y = p.mesh.nodes(cell.nodes[a], 1);
         if (y < 0.31) y = 0.3 + 0.01 * 0.8;  // the contact nodes, once each
       }
   p.multiplier = contact_curve(p.mesh, boundary_index(p.mesh, "lower_contact"));
@@ -134,12 +134,11 @@ TEST(Dropped, EndsHeldOnBothSidesShareTheirNeighboursRow) {
 TEST(Dropped, MultipliersThatFaceNothingAreZeroAndNamed) {
   TwoPlates plates;
   Pair p{test::mesh_of(plates), {}, {}, {}, {}};
-  std::vector<char> moved(std::size_t(p.mesh.nodes.rows()), 0);
+  std::vector<char> moved(p.mesh.nodes.rows(), 0);
   for (const Cell& cell : p.mesh.cells)
-    for (int a = 0; a < node_count(cell.kind) && cell.body == 0; ++a)
-      moved[std::size_t(cell.nodes[std::size_t(a)])] = 1;
+    for (int a = 0; a < node_count(cell.kind) && cell.body == 0; ++a) moved[cell.nodes[a]] = 1;
   for (Eigen::Index i = 0; i < p.mesh.nodes.rows(); ++i)
-    if (moved[std::size_t(i)]) p.mesh.nodes(i, 0) += 0.3;
+    if (moved[i]) p.mesh.nodes(i, 0) += 0.3;
   p.multiplier = contact_curve(p.mesh, boundary_index(p.mesh, "lower_contact"));
   p.opposite = contact_curve(p.mesh, boundary_index(p.mesh, "upper_contact"));
   p.points = contact_points(p.mesh.nodes, p.multiplier, p.opposite, Integration::segments);
@@ -170,7 +169,7 @@ TEST(Coupling, EveryRowsWeightIsPositiveHoweverLittleOfAnEdgeFaces) {
       Pair p = pair_of(plates, {space, InitialGap::measured});
       for (const Cell& cell : p.mesh.cells)
         for (int a = 0; a < node_count(cell.kind); ++a)
-          if (double& x = p.mesh.nodes(cell.nodes[std::size_t(a)], 0); cell.body == 0 && x < 10) x += 10 - shift;
+          if (double& x = p.mesh.nodes(cell.nodes[a], 0); cell.body == 0 && x < 10) x += 10 - shift;
       for (Eigen::Index i = 0; i < p.mesh.nodes.rows(); ++i)
         if (p.mesh.nodes(i, 0) > 9) p.mesh.nodes(i, 0) -= 10;
       const auto points = contact_points(p.mesh.nodes, p.multiplier, p.opposite, Integration::segments);

@@ -99,8 +99,7 @@ Curves curves_of(const TwoPlates& plates) {
 double covered(const std::vector<Segment>& segments, const Curves& c, const Curve& side) {
   double length = 0;
   for (const Segment& s : segments)
-    length += length_to(c.mesh.nodes, side.edges[std::size_t(s.edge)], s.end) -
-              length_to(c.mesh.nodes, side.edges[std::size_t(s.edge)], s.begin);
+    length += length_to(c.mesh.nodes, side.edges[s.edge], s.end) - length_to(c.mesh.nodes, side.edges[s.edge], s.begin);
   return length;
 }
 
@@ -138,12 +137,12 @@ TEST(Segments, CoverOnlyWhereTheCurvesFaceEachOther) {
   Curves c = curves_of({});
   // The upper plate pushed to the right by a quarter of an edge and more: the lower one sticks out on the left.
   const auto body = std::find(c.mesh.bodies.begin(), c.mesh.bodies.end(), "upper") - c.mesh.bodies.begin();
-  std::vector<char> moved(std::size_t(c.mesh.nodes.rows()), 0);
+  std::vector<char> moved(c.mesh.nodes.rows(), 0);
   for (const Cell& cell : c.mesh.cells)
     if (cell.body == body)
-      for (int a = 0; a < node_count(cell.kind); ++a) moved[std::size_t(cell.nodes[std::size_t(a)])] = 1;
+      for (int a = 0; a < node_count(cell.kind); ++a) moved[cell.nodes[a]] = 1;
   for (Eigen::Index i = 0; i < c.mesh.nodes.rows(); ++i)
-    if (moved[std::size_t(i)]) c.mesh.nodes(i, 0) += 0.13;
+    if (moved[i]) c.mesh.nodes(i, 0) += 0.13;
   EXPECT_NEAR(covered(find_segments(c.mesh.nodes, c.lower, c.upper), c, c.lower), 0.67, 1e-12);
   EXPECT_NEAR(covered(find_segments(c.mesh.nodes, c.upper, c.lower), c, c.upper), 0.67, 1e-12);
 }

@@ -143,7 +143,7 @@ TEST(Stress, OfAQuadraticFieldIsExactAtTheNodesOfRectangles) {
     for (std::size_t p = 0; p < points.node.size(); ++p) {
       const Vec2 x = mesh.nodes.row(points.node[p]).transpose();
       const Vec4 exact = laws[0].stiffness * Eigen::Vector3d(2 * x.x() + x.y(), 2 * x.y(), x.x());
-      EXPECT_LE((s.points.row(Eigen::Index(p)).transpose() - exact).cwiseAbs().maxCoeff(), 1e-11);
+      EXPECT_LE((s.points.row(p).transpose() - exact).cwiseAbs().maxCoeff(), 1e-11);
     }
   }
 }

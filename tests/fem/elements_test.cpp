@@ -14,7 +14,7 @@ TEST(Elements, ShapeFunctionsAreOneAtTheirNodeAndZeroAtTheOthers) {
     const Points at = reference_nodes(kind);
     for (Eigen::Index b = 0; b < at.rows(); ++b) {
       const CellShape s = cell_shape(kind, at.row(b));
-      for (Eigen::Index a = 0; a < at.rows(); ++a) EXPECT_NEAR(s.N[std::size_t(a)], a == b, 1e-14);
+      for (Eigen::Index a = 0; a < at.rows(); ++a) EXPECT_NEAR(s.N[a], a == b, 1e-14);
     }
   }
 }
@@ -28,10 +28,10 @@ TEST(Elements, ShapeFunctionsSumToOneAndReproduceCoordinates) {
       Vec2 position = Vec2::Zero(), slope_sum = Vec2::Zero();
       Eigen::Matrix2d slope = Eigen::Matrix2d::Zero();
       for (Eigen::Index a = 0; a < at.rows(); ++a) {
-        sum += s.N[std::size_t(a)];
-        position += s.N[std::size_t(a)] * at.row(a).transpose();
-        slope_sum += s.dN[std::size_t(a)];
-        slope += s.dN[std::size_t(a)] * at.row(a);
+        sum += s.N[a];
+        position += s.N[a] * at.row(a).transpose();
+        slope_sum += s.dN[a];
+        slope += s.dN[a] * at.row(a);
       }
       EXPECT_NEAR(sum, 1, 1e-14);
       EXPECT_NEAR((position - xi).norm(), 0, 1e-14);
@@ -48,8 +48,7 @@ TEST(Elements, GradientsAreTheDerivativesOfTheValues) {
       for (int c = 0; c < 2; ++c) {
         const CellShape s = cell_shape(kind, xi), up = cell_shape(kind, xi + h * Vec2::Unit(c)),
                         down = cell_shape(kind, xi - h * Vec2::Unit(c));
-        for (std::size_t a = 0; a < std::size_t(node_count(kind)); ++a)
-          EXPECT_NEAR(s.dN[a](c), (up.N[a] - down.N[a]) / (2 * h), 1e-8);
+        for (int a = 0; a < node_count(kind); ++a) EXPECT_NEAR(s.dN[a](c), (up.N[a] - down.N[a]) / (2 * h), 1e-8);
       }
 }
 

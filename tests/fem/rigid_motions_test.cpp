@@ -38,8 +38,8 @@ TEST(FreeMotions, AreFoundFromWhatTheGroundedUnknownsDo) {
   // A turn by 0.1 about (0.4, 0.6): what the grounded unknowns do in it gives it back, over its largest translation.
   VecX values(2);
   for (Eigen::Index k = 0; k < 2; ++k) {
-    const Vec2 arm = mesh.nodes.row(grounded[std::size_t(k)] / 2).transpose() - Vec2(0.4, 0.6);
-    values(k) = 0.1 * (grounded[std::size_t(k)] % 2 ? arm.x() : -arm.y());
+    const Vec2 arm = mesh.nodes.row(grounded[k] / 2).transpose() - Vec2(0.4, 0.6);
+    values(k) = 0.1 * (grounded[k] % 2 ? arm.x() : -arm.y());
   }
   const auto motion = motion_through(mesh, motions, grounded, values);
   ASSERT_EQ(motion.size(), 1u);

@@ -140,7 +140,7 @@ TEST_P(GmshMesh, GeoIsMeshed) {
   EXPECT_TRUE(std::is_sorted(mesh.cells.begin(), mesh.cells.end(),
                              [](const Cell& a, const Cell& b) { return a.body < b.body; }));
 
-  std::vector<char> used(static_cast<std::size_t>(mesh.nodes.rows()), 0);
+  std::vector<char> used(mesh.nodes.rows(), 0);
   for (const Cell& cell : mesh.cells) {
     for (int i = 0; i < node_count(cell.kind); ++i) used[cell.nodes[i]] = 1;
   }

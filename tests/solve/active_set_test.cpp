@@ -33,7 +33,7 @@ Problem random_problem(std::mt19937& random, Eigen::Index m, Eigen::Index spring
   p.compliance.bottomRightCorner(springs, springs).setIdentity();
   p.rhs = VecX::NullaryExpr(m + springs, draw);
   p.scale = VecX::NullaryExpr(m, [&] { return 0.1 + std::abs(value(random)); });
-  p.unilateral.assign(std::size_t(m), 1);
+  p.unilateral.assign(m, 1);
   if (some_bilateral)
     for (std::size_t a = 0; a < std::size_t(m); a += 3) p.unilateral[a] = 0;
   return p;
@@ -49,7 +49,7 @@ std::optional<VecX> search(const Problem& p) {
     bool allowed = true;
     std::vector<Eigen::Index> rows;
     for (int a = 0; a < m; ++a) {
-      allowed = allowed && (p.unilateral[std::size_t(a)] || (set >> a & 1));
+      allowed = allowed && (p.unilateral[a] || (set >> a & 1));
       if (set >> a & 1) rows.push_back(a);
     }
     if (!allowed) continue;
@@ -67,7 +67,7 @@ std::optional<VecX> search(const Problem& p) {
     bool feasible = true;
     const double tolerance = 1e-10 * (1 + x.cwiseAbs().maxCoeff());
     for (Eigen::Index a = 0; a < m; ++a)
-      if (p.unilateral[std::size_t(a)]) feasible = feasible && x(a) <= tolerance && w(a) >= -tolerance;
+      if (p.unilateral[a]) feasible = feasible && x(a) <= tolerance && w(a) >= -tolerance;
     if (feasible && bars >= std::size_t(springs)) return x;
   }
   return {};
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Random, ActiveSets, testing::Combine(testing::Bool(), t
 
 Problem held_problem(const MatX& C, const VecX& rhs) {
   const Eigen::Index m = C.rows();
-  return {C, rhs, VecX::Ones(m), std::vector<char>(std::size_t(m), 1)};
+  return {C, rhs, VecX::Ones(m), std::vector<char>(m, 1)};
 }
 
 TEST(ActiveSet, BreaksTheCycleOfThePlainMethod) {
@@ -216,7 +216,7 @@ TEST(ActiveSet, TheNumberOfStepsDoesNotGrowWithTheRows) {
     EXPECT_LT(r.steps.back().active, m);
     ActiveSetOptions plain;
     plain.start_steps = 1000;
-    const ActiveSetResult slow = settle_active_set(p.view(), std::vector<char>(std::size_t(m), 1), plain);
+    const ActiveSetResult slow = settle_active_set(p.view(), std::vector<char>(m, 1), plain);
     EXPECT_EQ(slow.active, r.active);
     std::printf("%3d rows: %zu steps, plain %zu\n", int(m), r.steps.size(), slow.steps.size());
   }

@@ -70,7 +70,7 @@ Problem two_chains(int nodes = 12, int rows = 5) {
   p.g = VecX::NullaryExpr(rows, [&] { return number(random); });
   p.scale = VecX::Ones(rows);
   p.value = VecX::Zero(4 * nodes);
-  p.fixed.assign(std::size_t(4 * nodes), 0);
+  p.fixed.assign(4 * nodes, 0);
   p.fixed[0] = p.fixed[1] = 1;
   p.value(0) = 0.25;
   return p;

@@ -60,7 +60,7 @@ Problem two_chains(bool with_constraints) {
   p.f = VecX::NullaryExpr(4 * nodes, [&] { return value(random); });
   p.g = VecX::NullaryExpr(p.B.rows(), [&] { return value(random); });
   p.scale = VecX::Ones(p.B.rows());
-  p.fixed.assign(std::size_t(4 * nodes), 0);
+  p.fixed.assign(4 * nodes, 0);
   p.value = VecX::Zero(4 * nodes);
   p.fixed[0] = 1;
   p.value(0) = 0.25;
@@ -81,7 +81,7 @@ VecX dense_solution(const Problem& p) {
   VecX rhs(n + m);
   rhs << p.f, p.g;
   for (Eigen::Index i = 0; i < n; ++i)
-    if (p.fixed[std::size_t(i)]) {
+    if (p.fixed[i]) {
       A.row(i).setZero();
       A(i, i) = 1;
       rhs(i) = p.value(i);
@@ -218,7 +218,7 @@ Problem stiff_chain() {
   for (int j = 0; j < p.K.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(p.K, j); it; ++it)
       if (it.row() % 2 == 0 && j % 2 == 0) it.valueRef() *= 1e8;
-  for (const int i : {24, 47}) p.fixed[std::size_t(i)] = 1;
+  for (const int i : {24, 47}) p.fixed[i] = 1;
   p.value(24) = 0.25;
   return p;
 }
@@ -235,7 +235,7 @@ TEST(SaddlePoint, AWrongDisplacementIsAResidual) {
     const VecX u = s.u;
     const bool stiff = p.B.rows() == 0;  // across, its springs are nothing beside the forces along
     for (Eigen::Index i = 0; i < u.size(); i += stiff ? 2 : 1) {
-      if (p.fixed[std::size_t(i)]) continue;
+      if (p.fixed[i]) continue;
       s.u = u;
       s.u(i) += 1e-8 * largest_entry(u);
       measure_residuals(system, s);

@@ -29,7 +29,7 @@ FieldErrors field_errors(const Mesh& mesh, const std::vector<ElasticLaw>& laws, 
       const CellShape s = cell_shape(cell.kind, rule.points[q]);
       Vec2 x = Vec2::Zero(), value = Vec2::Zero();
       Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
-      for (std::size_t a = 0; a < std::size_t(node_count(cell.kind)); ++a) {
+      for (int a = 0; a < node_count(cell.kind); ++a) {
         x += s.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
         value += s.N[a] * u.segment<2>(2 * cell.nodes[a]);
         J += s.dN[a] * mesh.nodes.row(cell.nodes[a]);

@@ -26,7 +26,7 @@ double pressure_error(const Mesh& mesh, const ExactField& exact, const TwoPlates
   double sum = 0;
   for (int e = 0; e < int(curve.edges.size()); ++e)
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
-      const EdgePoint p = edge_point(mesh.nodes, curve.edges[std::size_t(e)], rule.points[q]);
+      const EdgePoint p = edge_point(mesh.nodes, curve.edges[e], rule.points[q]);
       const double h = 1e-6, slope = (plates.height(p.position.x() + h) - plates.height(p.position.x() - h)) / (2 * h);
       const Vec2 n = Vec2(-slope, 1).normalized();  // of the exact line; its sign does not matter
       const double sigma_n = traction_at(exact, p.position, n).dot(n);
@@ -58,10 +58,10 @@ Vec4 ExactField::stress(const Vec2& x) const {
 }
 
 void prescribe_exactly(const Mesh& mesh, const ExactField& exact, const std::string& name, Constraints& constraints) {
-  for (const Edge& edge : mesh.boundaries[std::size_t(boundary_index(mesh, name))].edges)
-    for (std::size_t a = 0; a < std::size_t(edge.node_count); ++a) {
+  for (const Edge& edge : mesh.boundaries[boundary_index(mesh, name)].edges)
+    for (int a = 0; a < edge.node_count; ++a) {
       const int node = edge.nodes[a];
-      constraints.fixed[std::size_t(2 * node)] = constraints.fixed[std::size_t(2 * node + 1)] = 1;
+      constraints.fixed[2 * node] = constraints.fixed[2 * node + 1] = 1;
       constraints.value.segment<2>(2 * node) = exact.displacement(mesh.nodes.row(node).transpose());
     }
 }

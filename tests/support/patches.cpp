@@ -72,7 +72,7 @@ Mesh mesh_of(const std::vector<Patch>& patches, CellKind kind) {
   std::vector<Vec2> nodes;
   for (const Patch& p : patches) add(p, kind, nodes, mesh);
   mesh.nodes.resize(Eigen::Index(nodes.size()), 2);
-  for (std::size_t i = 0; i < nodes.size(); ++i) mesh.nodes.row(Eigen::Index(i)) = nodes[i].transpose();
+  for (std::size_t i = 0; i < nodes.size(); ++i) mesh.nodes.row(i) = nodes[i].transpose();
   return mesh;
 }
 

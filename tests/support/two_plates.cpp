@@ -49,8 +49,7 @@ class Plate {
   using Grid = std::array<std::pair<int, int>, 9>;
   void add(const Grid& grid) {
     Cell cell{kind_, body_, {}};
-    for (std::size_t a = 0; a < std::size_t(node_count(kind_)); ++a)
-      cell.nodes[a] = number(grid[a].first, grid[a].second);
+    for (int a = 0; a < node_count(kind_); ++a) cell.nodes[a] = number(grid[a].first, grid[a].second);
     mesh_.cells.push_back(cell);
   }
   int number(int i, int j) {
@@ -92,7 +91,7 @@ Mesh mesh_of(const TwoPlates& p) {
                      upper.boundary("upper_contact", false, false),
                      lower.boundary("lower_contact", false, true)};
   mesh.nodes.resize(Eigen::Index(nodes.size()), 2);
-  for (std::size_t i = 0; i < nodes.size(); ++i) mesh.nodes.row(Eigen::Index(i)) = nodes[i].transpose();
+  for (std::size_t i = 0; i < nodes.size(); ++i) mesh.nodes.row(i) = nodes[i].transpose();
   return mesh;
 }
 

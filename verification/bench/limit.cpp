@@ -41,8 +41,8 @@ GroundedSystem grounded_system(const Mesh& mesh, const Discretisation& d) {
   const auto n = d.stiffness.cols();
   std::vector<int> reduced(std::size_t(n), -1), free;
   for (int i = 0; i < int(n); ++i) {
-    if (d.constraints.fixed[std::size_t(i)]) continue;
-    reduced[std::size_t(i)] = int(free.size());
+    if (d.constraints.fixed[i]) continue;
+    reduced[i] = int(free.size());
     free.push_back(i);
   }
   const auto motions = free_motions(mesh, d.constraints, SparseMatrix(0, n));
@@ -53,11 +53,11 @@ GroundedSystem grounded_system(const Mesh& mesh, const Discretisation& d) {
   GroundedSystem system{SparseMatrix(count, count), VecX(count)};
   system.K.reserve(d.stiffness.nonZeros());
   for (Eigen::Index j = 0; j < count; ++j) {
-    const int column = free[std::size_t(j)];
+    const int column = free[j];
     system.f(j) = d.load(column);
     system.K.startVec(j);
     for (SparseMatrix::InnerIterator it(d.stiffness, column); it; ++it)
-      if (const int i = reduced[std::size_t(it.row())]; i >= 0)
+      if (const int i = reduced[it.row()]; i >= 0)
         system.K.insertBack(i, j) = it.value() + (i == j ? spring(column) : 0);
   }
   system.K.finalize();

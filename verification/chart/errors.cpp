@@ -23,7 +23,7 @@ struct Place {
 
 Place place_at(const Results& r, int edge, double xi, double weight) {
   const ContactPair& pair = r.pairs.front();
-  const EdgePoint at = edge_point(r.mesh.nodes, pair.multiplier.edges[std::size_t(edge)], xi);
+  const EdgePoint at = edge_point(r.mesh.nodes, pair.multiplier.edges[edge], xi);
   return {at.position, interpolate(pair.coupling, pair.multiplier, r.contacts.front().pressure, edge, xi),
           weight * at.jacobian()};
 }
@@ -71,7 +71,7 @@ void write_pressure(const Results& r, const std::string& path) {
   std::vector<Place> places;
   const Curve& curve = r.pairs.front().multiplier;
   for (int edge = 0; edge < int(curve.edges.size()); ++edge) {
-    const int pieces = curve.edges[std::size_t(edge)].node_count == 3 ? 16 : 1;
+    const int pieces = curve.edges[edge].node_count == 3 ? 16 : 1;
     for (int i = edge == 0 ? 0 : 1; i <= pieces; ++i) places.push_back(place_at(r, edge, -1 + 2. * i / pieces, 0));
   }
   if (places.front().position.x() > places.back().position.x()) std::reverse(places.begin(), places.end());

@@ -42,9 +42,9 @@ Mesh graded_plates(const std::function<double(double)>& height, const std::map<s
   const auto away = [&](double t) { return std::pow(t, grading); };  // from the contact line
   std::vector<int> body(std::size_t(mesh.nodes.rows()), 0);
   for (const Cell& cell : mesh.cells)
-    for (int a = 0; a < node_count(cell.kind); ++a) body[std::size_t(cell.nodes[std::size_t(a)])] = cell.body;
+    for (int a = 0; a < node_count(cell.kind); ++a) body[cell.nodes[a]] = cell.body;
   for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i) {
-    const bool upper = body[std::size_t(i)] == 0;
+    const bool upper = body[i] == 0;
     const int columns = upper ? plates.n_upper : plates.n_lower, rows = std::max(1, int(0.375 * columns + 0.5));
     const double x = mesh.nodes(i, 0), far = upper ? plates.top : plates.bottom;
     const double b = (mesh.nodes(i, 1) - height(x)) / (far - height(x));

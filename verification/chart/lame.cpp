@@ -57,9 +57,7 @@ Lame lame_of(const Scene& scene, const Mesh& mesh) {
   return lame;
 }
 
-Vec2 Lame::displacement(const Vec2& x, int body) const {
-  return (A[std::size_t(body)] + B[std::size_t(body)] / x.squaredNorm()) * x;
-}
+Vec2 Lame::displacement(const Vec2& x, int body) const { return (A[body] + B[body] / x.squaredNorm()) * x; }
 
 Vec4 Lame::stress(const Vec2& x, int body) const {
   const auto i = std::size_t(body);

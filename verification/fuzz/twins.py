@@ -130,8 +130,6 @@ def solved_otherwise(random, setting):
         return None
     told = scene["method"]
     if iterates(told):
-        if told.get("transfer") == "nodal":
-            return None
         scene["method"] = {k: v for k, v in told.items() if k in ("multipliers", "integration")} | {"kind": "mortar"}
     elif random.random() < 0.5:
         scene["method"] = told | {"kind": "ddm", "acceleration": random.choice(("krylov", "anderson"))}

@@ -121,8 +121,6 @@ def iteration(random, chosen, bodies):
         chosen["acceleration"] = random.choice(("none", "aitken", "anderson", "krylov"))
     if random.random() < 0.3:
         chosen["beta"] = random.choice(("auto", 0.1, 0.5, 1))
-    if random.random() < 0.1:
-        chosen["transfer"] = random.choice(("mortar", "nodal"))
 
 
 def contacts(random, made, gap):
