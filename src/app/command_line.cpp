@@ -7,15 +7,15 @@
 #include <iostream>
 #include <new>
 
-#include "app/diagnose.hpp"
-#include "app/model_summary.hpp"
 #include "app/sweep.hpp"
 #include "app/terminal.hpp"
-#include "app/write_results.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "io/gmsh_mesh.hpp"
 #include "io/output_folder.hpp"
+#include "results/model_summary.hpp"
+#include "results/summary.hpp"
+#include "results/write_results.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -74,7 +74,7 @@ int solve(const Options& options) {
       diagnose(scene, results);
     }
     line("write");
-    write_results(scene, results, folder);
+    results.seconds.write = write_results(scene, results, folder);
   }
   if (!options.quiet) std::cout << terminal_summary(shown(scene), results, folder);
   if (results.status != Status::solved)
@@ -98,7 +98,7 @@ int check(const Options& options) {
   std::cout << "  left out  friction, large displacements, plasticity, time"
             << (scene.body_forces.empty() ? ", body forces" : "")
             << (scene.initial_strains.empty() ? ", initial strains" : "") << "\n";
-  for (const std::string& warning : checked.warnings) std::cout << "  note      " << warning << "\n";
+  for (const std::string& warning : checked.warnings) std::cout << "  warning   " << warning << "\n";
   return 0;
 }
 

@@ -1,34 +1,41 @@
 #include "app/solve_scene.hpp"
 
-#include "app/audit.hpp"
-#include "app/checks.hpp"
-#include "app/decompose.hpp"
-#include "app/notes.hpp"
-#include "app/refusals.hpp"
-#include "app/roles.hpp"
-#include "app/solve_mssor.hpp"
-#include "base/errors.hpp"
+#include "app/solve_system.hpp"
 #include "base/stopwatch.hpp"
 #include "io/gmsh_mesh.hpp"
+#include "problem/audit.hpp"
+#include "problem/dirichlet_neumann.hpp"
+#include "results/audit_solution.hpp"
+#include "results/checks.hpp"
+#include "results/diagnose.hpp"
+#include "results/warnings.hpp"
 
 namespace mortise {
 namespace {
 
 // The rows that are closed at first: those of a run on the same mesh, else (empty) all.
-std::vector<char> starting_rows(const ActiveSet* start, const Results& r) {
-  if (!start || start->nodes.rows() != r.mesh.nodes.rows() || start->nodes != r.mesh.nodes) return {};
-  return start->node == row_nodes(r.pairs) ? start->active : std::vector<char>{};
+std::vector<char> starting_rows(const ActiveSet* start, const Mesh& mesh, const std::vector<ContactPair>& pairs) {
+  if (!start || start->nodes.rows() != mesh.nodes.rows() || start->nodes != mesh.nodes) return {};
+  return start->node == row_nodes(pairs) ? start->active : std::vector<char>{};
 }
 
-// Bodies that take the displacement in domain decomposition; empty for the mortar method.
-std::vector<char> roles(const Scene& scene, const Mesh& mesh, const Discretisation& d) {
-  return scene.method.kind == MethodKind::ddm ? dirichlet_bodies(scene, mesh, d) : std::vector<char>{};
+// Bodies that take the displacement in domain decomposition; empty without.
+std::vector<char> dirichlet_roles(const Scene& scene, const Mesh& mesh, const Discretisation& d,
+                                  const std::vector<ContactCurves>& curves) {
+  return scene.method.solver == Solver::ddm ? dirichlet_bodies(scene, mesh, d, curves) : std::vector<char>{};
 }
 
-SaddlePointSolution solve_system(const Scene& scene, const SaddlePointSystem& system,
-                                 const std::vector<char>& dirichlet, Results& r) {
-  if (scene.method.kind == MethodKind::ddm) return decompose(scene, system, dirichlet, r);
-  return scene.method.solver == Solver::mssor ? solve_mssor(scene, system, r) : solve_saddle_point(system);
+// The contact pairs, their rows in the system, and what the audit says; refuses what cannot be meant.
+std::vector<ContactPair> add_contact(const Scene& scene, const Mesh& mesh, const std::vector<ContactCurves>& curves,
+                                     const std::vector<char>& dirichlet, Discretisation& d,
+                                     std::vector<std::string>& lines) {
+  std::vector<ContactPair> pairs = couple_pairs(scene.method, mesh, d, curves, dirichlet);
+  set_contact(pairs, d.system);
+  lines = audit_scene(scene, mesh, pairs);
+  require_closed(scene, mesh, pairs);
+  const std::vector<std::string> held = hold_free_motions(scene, mesh, pairs, lines, d.system);
+  lines.insert(lines.end(), held.begin(), held.end());
+  return pairs;
 }
 
 void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
@@ -36,18 +43,6 @@ void append(std::vector<std::string>& lines, const std::vector<std::string>& mor
 }
 
 }  // namespace
-
-std::string to_string(Status status) {
-  switch (status) {
-    case Status::solved:
-      return "solved";
-    case Status::not_converged:
-      return "not_converged";
-    case Status::check_failed:
-      return "check_failed";
-  }
-  return "";
-}
 
 Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSet* start) {
   Stopwatch watch;
@@ -62,16 +57,20 @@ Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSe
 CheckedScene check_scene(const Scene& scene) {
   CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters, scene.geo_limits), {}, {}, {}};
   checked.discretisation = discretise(scene, checked.mesh);
-  Discretisation& d = checked.discretisation;
-  checked.pairs = couple_pairs(scene, checked.mesh, d, roles(scene, checked.mesh, d));
-  checked.warnings = audit_scene(scene, checked.mesh, checked.pairs);
-  require_closed(scene, checked.mesh, checked.pairs);
-  append(checked.warnings, hold_free_motions(scene, checked.mesh, checked.pairs, stack(checked.pairs, d.load.size()),
-                                             checked.warnings, d));
+  const std::vector<ContactCurves> curves = contact_curves(scene, checked.mesh);
+  checked.pairs =
+      add_contact(scene, checked.mesh, curves, dirichlet_roles(scene, checked.mesh, checked.discretisation, curves),
+                  checked.discretisation, checked.warnings);
   return checked;
 }
 
-ActiveSet active_set(const Results& r) { return {r.mesh.nodes, row_nodes(r.pairs), r.active}; }
+ActiveSet active_set(const Results& r) { return {r.mesh.nodes, row_nodes(r.pairs), r.solution.active}; }
+
+void diagnose(const Scene& scene, Results& r) {
+  r.inf_sup = inf_sup_report(scene, r);
+  if (!r.inf_sup) return;
+  if (const auto line = inf_sup_warning(*r.inf_sup)) r.warnings.push_back(*line);
+}
 
 Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start,
                     const Adjust& adjust) {
@@ -86,58 +85,44 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
   r.points = body_points(r.mesh);
   r.discretisation = discretise(scene, r.mesh);
   if (adjust) adjust(r.mesh, r.discretisation);
-  const Discretisation& d = r.discretisation;
+  SaddlePointSystem& system = r.discretisation.system;
   r.seconds.assemble = watch.lap();
 
   stage("couple");
-  const std::vector<char> dirichlet = roles(scene, r.mesh, d);
-  r.pairs = couple_pairs(scene, r.mesh, d, dirichlet);
-  const StackedCoupling coupling = stack(r.pairs, d.load.size());
-  r.notes = audit_scene(scene, r.mesh, r.pairs);
-  require_closed(scene, r.mesh, r.pairs);
-  append(r.notes, hold_free_motions(scene, r.mesh, r.pairs, coupling, r.notes, r.discretisation));
-  const Floating floating = find_floating(r.mesh, d.constraints);
+  const std::vector<ContactCurves> curves = contact_curves(scene, r.mesh);
+  const std::vector<char> dirichlet = dirichlet_roles(scene, r.mesh, r.discretisation, curves);
+  for (std::size_t b = 0; b < dirichlet.size(); ++b)
+    if (dirichlet[b]) r.dirichlet.push_back(r.mesh.bodies[b]);
+  r.pairs = add_contact(scene, r.mesh, curves, dirichlet, r.discretisation, r.warnings);
+  const Floating floating = find_floating(r.mesh, system.constraints);
+  system.grounded = floating.grounded;
+  system.start = starting_rows(start, r.mesh, r.pairs);
   r.seconds.couple = watch.lap();
 
   stage("solve");
-  const VecX g = -coupling.gap0;
-  const SaddlePointSystem system{d.stiffness,
-                                 d.load,
-                                 coupling.B,
-                                 g,
-                                 d.constraints.fixed,
-                                 d.constraints.value,
-                                 largest_young(d),
-                                 coupling.scale,
-                                 floating.grounded,
-                                 unilateral_rows(r.pairs),
-                                 starting_rows(start, r)};
-  SaddlePointSolution solution = solve_system(scene, system, dirichlet, r);
-  require_solved(scene, r, floating, solution);
-  hold_loose_motions(floating, solution, r);
-  r.active = solution.active;
-  r.steps = solution.steps;
-  r.coarse_steps = solution.coarse_steps;
-  r.u = solution.u;
-  r.seconds.factorise = solution.factorise_seconds;
-  r.seconds.solve = solution.solve_seconds;
-  r.multipliers = int(coupling.B.rows());
-  for (const char fixed : d.constraints.fixed) r.unknowns += !fixed;
+  r.solution = solve_system(scene.method, system, unknowns_of(r.mesh, dirichlet));
+  require_solution(scene, r.mesh, r.pairs, floating, r.solution);
+  for (const auto& mode : r.solution.rigid_modes.colwise())
+    r.warnings.push_back(held_line(r.mesh, motion_through(r.mesh, floating.motions, floating.grounded, mode)));
+  for (const int unknown : held_unknowns(floating.grounded, r.solution)) system.constraints.fixed[unknown] = 1;
+  r.seconds.factorise = r.solution.factorise_seconds;
+  r.seconds.solve = r.solution.solve_seconds;
   watch.lap();
 
   stage("recover");
-  r.stress = recover_stress(r.mesh, r.points, d.laws, r.u);
-  r.energy = strain_energy(d, r.u);
-  for (std::size_t k = 0; k < r.pairs.size(); ++k)
-    r.contacts.push_back(contact_results(
-        r.mesh, r.pairs[k], d.constraints, r.points, r.stress, r.u,
-        solution.lambda.segment(coupling.first_row[k], coupling.first_row[k + 1] - coupling.first_row[k])));
+  const VecX& u = r.solution.u;
+  r.stress = recover_stress(r.mesh, r.points, r.discretisation.laws, u);
+  r.energy = strain_energy(r.discretisation, u);
+  for (const ContactPair& pair : r.pairs)
+    r.contacts.push_back(contact_results(r.mesh, pair, system.constraints, r.points, r.stress, u,
+                                         r.solution.lambda.segment(pair.first_row, pair.coupling.B.rows())));
   const double negligible = negligible_pressure(r);
   for (std::size_t k = 0; k < r.pairs.size(); ++k)
-    r.against_sigma_n.push_back(compare_with_stress(r.mesh, r.pairs[k], r.contacts[k], d.constraints, negligible));
-  add_checks(solution, coupling, scene, r);
-  add_notes(scene, solution.unsettled, r);
-  append(r.notes, audit_solution(scene, r));
+    r.against_sigma_n.push_back(compare_with_stress(r.mesh, r.pairs[k], r.contacts[k], system.constraints, negligible));
+  r.checks = checks(scene, r);
+  r.status = verdict(r);
+  append(r.warnings, warnings(scene, r));
+  append(r.warnings, audit_solution(r));
   r.seconds.recover = watch.lap();
   return r;
 }

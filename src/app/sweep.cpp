@@ -5,7 +5,6 @@
 #include <optional>
 #include <sstream>
 
-#include "app/diagnose.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "io/csv.hpp"
@@ -20,24 +19,19 @@ using Row = std::vector<std::pair<std::string, double>>;
 Row figures(const Results& r) {
   Row row{{"nodes", double(r.mesh.nodes.rows())},
           {"elements", double(r.mesh.cells.size())},
-          {"dofs", r.unknowns},
-          {"multipliers", r.multipliers},
-          {"iterations.contact", double(r.pairs.empty() ? 0 : r.steps.size())},
+          {"dofs", free_unknowns(r)},
+          {"multipliers", double(r.solution.lambda.size())},
+          {"iterations.contact", double(r.pairs.empty() ? 0 : r.solution.steps.size())},
           {"energy", r.energy},
           {"seconds.mesh", r.seconds.mesh},
           {"seconds.solve", r.seconds.total() - r.seconds.mesh}};
-  if (r.interface)
-    row.insert(row.end(), {{"iterations.interface", double(r.interface->history.size())},
-                           {"interface.factor", r.interface->factor},
-                           {"interface.beta", r.interface->beta},
-                           {"interface.eigenvalue.smallest", r.interface->spectrum.smallest},
-                           {"interface.eigenvalue.largest", r.interface->spectrum.largest}});
+  if (const auto& iteration = r.solution.iteration) {
+    row.insert(row.end(), {{"iteration.steps", double(iteration->steps)},
+                           {"iteration.convergence_rate", iteration->convergence_rate},
+                           {"iteration.seconds", r.seconds.solve}});
+    for (const auto& [name, value] : iteration->figures) row.emplace_back("iteration." + name, value);
+  }
   if (r.inf_sup) row.emplace_back("inf_sup", r.inf_sup->beta);
-  if (r.linear)
-    row.insert(row.end(), {{"iterations.linear", double(r.linear->steps)},
-                           {"linear.factor", r.linear->factor},
-                           {"linear.tau_border", r.linear->tau_border},
-                           {"seconds.linear", r.seconds.solve}});
   for (std::size_t k = 0; k < r.contacts.size(); ++k) {
     const ContactResults& c = r.contacts[k];
     const std::string at = "contact." + std::to_string(k) + ".";

@@ -31,10 +31,17 @@ Character character_at(const std::string& text, std::size_t i) {
   return code < least[bytes] || code > 0x10ffff || surrogate ? Character{0, 0} : Character{code, bytes};
 }
 
-// Controls, and what turns the direction of a line round or cannot be seen.
+// Controls, and what turns the direction of a line round or cannot be seen: categories Cc, Cf, Zl, Zp (Unicode 15), and
+// all that is private or unassigned at the end.
 bool is_unseen(std::uint32_t c) {
-  return c < 0x20 || (c >= 0x7f && c < 0xa0) || (c >= 0x200b && c < 0x2010) || (c >= 0x2028 && c < 0x202f) ||
-         (c >= 0x2060 && c < 0x2070) || c == 0xfeff || c >= 0xe0000;
+  constexpr std::array<std::array<std::uint32_t, 2>, 19> ranges{{
+      {0x0, 0x1f},        {0x7f, 0x9f},       {0xad, 0xad},       {0x600, 0x605},     {0x61c, 0x61c},
+      {0x6dd, 0x6dd},     {0x70f, 0x70f},     {0x890, 0x891},     {0x8e2, 0x8e2},     {0x180e, 0x180e},
+      {0x200b, 0x200f},   {0x2028, 0x202e},   {0x2060, 0x206f},   {0xfeff, 0xfeff},   {0xfff9, 0xfffb},
+      {0x110bd, 0x110cd}, {0x13430, 0x1343f}, {0x1bca0, 0x1bca3}, {0x1d173, 0x1d17a},
+  }};
+  return c >= 0xe0000 ||
+         std::any_of(ranges.begin(), ranges.end(), [&](const auto& r) { return r[0] <= c && c <= r[1]; });
 }
 
 std::string escaped(std::uint32_t c) {

@@ -4,6 +4,8 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "contact/segments.hpp"
+#include "fem/elements.hpp"
 #include "mesh/place.hpp"
 
 namespace mortise {

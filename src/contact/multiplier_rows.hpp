@@ -1,7 +1,10 @@
 // Which multipliers are unknowns of their own.
 #pragma once
 
-#include "contact/coupling.hpp"
+#include "base/choices.hpp"
+#include "contact/coupling_rows.hpp"
+#include "fem/constraints.hpp"
+#include "mesh/curve.hpp"
 
 namespace mortise {
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "base/model.hpp"
+#include "base/choices.hpp"
 #include "contact/segments.hpp"
 
 namespace mortise {

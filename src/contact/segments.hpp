@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/model.hpp"
+#include "base/choices.hpp"
 #include "contact/projection.hpp"
 
 namespace mortise {

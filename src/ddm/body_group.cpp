@@ -1,16 +1,15 @@
 #include "ddm/body_group.hpp"
 
-#include "solve/bordered_system.hpp"
-
 namespace mortise {
+
 BodyGroup::BodyGroup(const SaddlePointSystem& s, const std::vector<char>& member) {
-  std::vector<char> left_out = s.fixed;
+  std::vector<char> left_out = s.constraints.fixed;
   for (std::size_t i = 0; i < member.size(); ++i) left_out[i] = left_out[i] || !member[i];
   std::vector<int> grounded;
   for (const int i : s.grounded)
     if (member[i]) grounded.push_back(i);
 
-  BorderedSystem system = bordered_system({s.K, s.B, left_out, s.stiffness_scale, s.row_scale, grounded});
+  BorderedSystem system = bordered_system(s, left_out, grounded);
   free_ = std::move(system.free);
   factor_ = std::make_unique<BorderedCholesky>(std::move(system.matrix), system.blocks);
   if (factor_->failed_at() >= 0) {
@@ -19,12 +18,13 @@ BodyGroup::BodyGroup(const SaddlePointSystem& s, const std::vector<char>& member
   }
   motions = grounded.size();
   const Eigen::Index m = s.B.rows();
-  compliance = factor_->border_compliance();
+  compliance = factor_->take_border_compliance();
   C = compliance.topLeftCorner(m, m).selfadjointView<Eigen::Lower>();
   H = compliance.bottomLeftCorner(motions, m).transpose();
 
-  const VecX Ku = s.K.selfadjointView<Eigen::Lower>() * s.value;
-  const VecX all = factor_->forward(on_free(s.f - Ku) / s.stiffness_scale);
+  const VecX force = s.f - s.K.selfadjointView<Eigen::Lower>() * s.constraints.value;
+  load_ = factor_->forward(VecX(force(free_)) / s.stiffness_scale);
+  const VecX all = factor_->at_border(load_);
   response = all.head(m);
   work = all.tail(motions);
 }
@@ -32,22 +32,11 @@ BodyGroup::BodyGroup(const SaddlePointSystem& s, const std::vector<char>& member
 void BodyGroup::add_displacements(const VecX& lambda, const VecX& mu, VecX& u) const {
   VecX border(lambda.size() + mu.size());
   border << lambda, mu;
-  add_from_free(factor_->backward(border), u);
+  u(free_) += factor_->backward(load_, border);
 }
 
-void BodyGroup::refine(const VecX& unbalanced, VecX& u) {
-  const VecX border = factor_->forward(on_free(unbalanced));
-  add_from_free(factor_->backward(VecX::Zero(border.size())), u);
-}
-
-VecX BodyGroup::on_free(const VecX& v) const {
-  VecX part(free_.size());
-  for (std::size_t i = 0; i < free_.size(); ++i) part(i) = v(free_[i]);
-  return part;
-}
-
-void BodyGroup::add_from_free(const VecX& part, VecX& u) const {
-  for (std::size_t i = 0; i < free_.size(); ++i) u(free_[i]) += part(i);
+void BodyGroup::refine(const VecX& unbalanced, VecX& u) const {
+  u(free_) += factor_->backward(factor_->forward(unbalanced(free_)), VecX::Zero(C.rows() + motions));
 }
 
 }  // namespace mortise

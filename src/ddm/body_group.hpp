@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "solve/bordered_cholesky.hpp"
-#include "solve/saddle_point.hpp"
+#include "solve/bordered_system.hpp"
 
 namespace mortise {
 
@@ -12,10 +11,9 @@ namespace mortise {
 ///
 ///   u = K^-1 (f - B^T lambda) - R mu,   so that   B u = response - C lambda - H mu,   H = B R,
 ///
-/// where R are the group's rigid motions that
-/// nothing but contact holds (floating bodies), K^-1 is taken with one unknown a motion held, and the load must be in
-/// balance: H^T lambda = work (docs/theory.md eq. 29 and 30). Everything is dimensionless, as in the saddle-point
-/// system.
+/// where R are the group's rigid motions that nothing but contact holds (floating bodies), K^-1 is taken with one
+/// unknown a motion held, and the load must be in balance: H^T lambda = work (docs/theory.md eq. 29 and 30). Everything
+/// is dimensionless, as the bordered system.
 class BodyGroup {
  public:
   /// `member`: one entry an unknown of the system. The rows are the system's own.
@@ -35,15 +33,13 @@ class BodyGroup {
   void add_displacements(const VecX& lambda, const VecX& mu, VecX& u) const;
 
   /// Adds the displacements under the forces that u leaves unbalanced (n, over the stiffness scale): one step of
-  /// iterative refinement. add_displacements() may not be called any more.
-  void refine(const VecX& unbalanced, VecX& u);
+  /// iterative refinement.
+  void refine(const VecX& unbalanced, VecX& u) const;
 
  private:
-  VecX on_free(const VecX& v) const;
-  void add_from_free(const VecX& part, VecX& u) const;
-
   std::vector<int> free_;
   std::unique_ptr<BorderedCholesky> factor_;
+  VecX load_;  // y of the load, BorderedCholesky::forward
 };
 
 }  // namespace mortise

@@ -64,37 +64,43 @@ VecX solve_small(const MatX& A, const VecX& b) { return A.cols() > 0 ? VecX(A.pa
 
 }  // namespace
 
-Interface make_interface(const BodyGroup& neumann, const BodyGroup& dirichlet, const SaddlePointSystem& s) {
-  const VecX gap0 = (s.B * s.value - s.g).cwiseQuotient(s.row_scale);
+Interface make_interface(BodyGroup neumann, BodyGroup dirichlet, const SaddlePointSystem& s) {
+  const VecX gap0 = (s.B * s.constraints.value - s.g).cwiseQuotient(s.row_scale);
   MatX H(gap0.size(), neumann.motions + dirichlet.motions);
   H << neumann.H, dirichlet.H;
   MatX compliance = with_motions(dirichlet.C, H);
-  auto system = std::make_shared<MultiplierSystem>(compliance, H.cols(), all_rows(gap0.size()));
-  const VecX gap = gap0 + neumann.response + dirichlet.response;
-  return {neumann,
-          dirichlet,
-          gap,
-          gap0,
-          H,
-          stacked(neumann.work, dirichlet.work),
-          s.row_scale,
-          {},
-          std::move(compliance),
-          std::move(system)};
+  auto closed = std::make_shared<MultiplierSystem>(compliance, H.cols(), all_rows(gap0.size()));
+  const VecX gap = gap0 + neumann.response + dirichlet.response, work = stacked(neumann.work, dirichlet.work);
+  return {.neumann = std::move(neumann),
+          .dirichlet = std::move(dirichlet),
+          .gap = gap,
+          .gap0 = gap0,
+          .H = H,
+          .work = work,
+          .dirichlet_problem = {.compliance = std::move(compliance),
+                                .scale = s.row_scale,
+                                .unilateral = s.unilateral.empty() ? std::vector<char>(gap0.size(), 0) : s.unilateral},
+          .dirichlet_closed = std::move(closed)};
 }
 
-Taken dirichlet_takes(const Interface& s, const VecX& lambda, const std::vector<char>& start) {
+DirichletSolution solve_dirichlet(const Interface& s, Rows rows, const VecX& lambda, const std::vector<char>& start) {
   const Eigen::Index m = s.gap.size();
   const VecX rhs = stacked(s.gap - s.neumann.C * lambda, s.work);
-  if (s.unilateral.empty()) {
-    const VecX x = s.dirichlet_system->solve(rhs);
-    return {x.head(m), x.tail(s.H.cols()), {}, true, {}};
+  if (rows == Rows::closed) {
+    const VecX x = s.dirichlet_closed->solve(rhs);
+    return {.lambda = x.head(m), .mu = x.tail(s.H.cols()), .active = {}, .closed = {}};
   }
-  ActiveSetResult set = settle_active_set({s.dirichlet_compliance, rhs, s.scale, s.unilateral}, start);
-  using Status = ActiveSetResult::Status;
-  if (set.status == Status::unheld || set.status == Status::dependent_row)
-    return {VecX::Constant(m, std::nan("")), VecX::Zero(s.H.cols()), {}, false, {}};
-  return {set.solution.head(m), set.solution.tail(s.H.cols()), std::move(set.active), true, std::move(set.system)};
+  ActiveSetResult set = find_active_set(s.dirichlet_problem, rhs, start);
+  if (set.status == SolveStatus::unconstrained || set.status == SolveStatus::dependent_row)
+    return {.lambda = VecX::Constant(m, std::nan("")),
+            .mu = VecX::Zero(s.H.cols()),
+            .active = {},
+            .held = false,
+            .closed = {}};
+  return {.lambda = set.solution.head(m),
+          .mu = set.solution.tail(s.H.cols()),
+          .active = std::move(set.active),
+          .closed = std::move(set.system)};
 }
 
 Residuals residuals(const Interface& s, const VecX& lambda, const VecX& z) {
@@ -105,27 +111,28 @@ Residuals residuals(const Interface& s, const VecX& lambda, const VecX& z) {
     const double terms = largest(largest_entry(group->response), largest_entry(pressed));
     displacement = largest({displacement, largest_entry(group->response - pressed), rigid_part * terms});
   }
-  const double multiplier = largest_entry(taken.cwiseQuotient(s.scale));
+  const double multiplier = largest_entry(taken.cwiseQuotient(s.dirichlet_problem.scale));
   const double gap = largest(largest_entry(s.dirichlet.C * z), largest_entry(s.neumann.C * z));
-  const double force = largest_entry(z.cwiseQuotient(s.scale));
+  const double force = largest_entry(z.cwiseQuotient(s.dirichlet_problem.scale));
   return {fraction(gap, displacement), fraction(force, multiplier)};
 }
 
-InterfaceIteration neumann_dirichlet(const Interface& s) {
+InterfaceIteration neumann_dirichlet(const Interface& s, Rows rows) {
   const Eigen::Index m = s.gap.size();
   InterfaceIteration iteration;
-  iteration.dependent_row = s.dirichlet_system->dependent_row();
+  iteration.dependent_row = s.dirichlet_closed->dependent_row();
   if (iteration.dependent_row >= 0) return iteration;
   iteration.multipliers = [](const VecX& lambda) { return lambda; };
   // A floating Neumann group needs a load in balance from the start.
   iteration.start = VecX::Zero(m);
-  if (s.neumann.motions > 0) iteration.start = s.dirichlet_system->solve(stacked(iteration.start, s.work)).head(m);
+  if (s.neumann.motions > 0) iteration.start = s.dirichlet_closed->solve(stacked(iteration.start, s.work)).head(m);
   auto closed = std::make_shared<std::vector<char>>();  // of the last step, to start the next from
-  iteration.correction = [&s, closed](const VecX& x) -> VecX {
-    VecX lambda = x;  // without rows that an accelerated step has left pulling
-    for (std::size_t a = 0; a < s.unilateral.size(); ++a)
-      if (s.unilateral[a]) lambda(a) = std::min(lambda(a), 0.0);
-    Taken taken = dirichlet_takes(s, lambda, *closed);
+  iteration.correction = [&s, rows, closed](const VecX& x) -> VecX {
+    VecX lambda = x;  // without rows that an accelerated step has left in tension
+    if (rows == Rows::unilateral)
+      for (Eigen::Index a = 0; a < lambda.size(); ++a)
+        if (s.dirichlet_problem.unilateral[a]) lambda(a) = std::min(lambda(a), 0.0);
+    DirichletSolution taken = solve_dirichlet(s, rows, lambda, *closed);
     *closed = std::move(taken.active);
     return taken.lambda - x;
   };

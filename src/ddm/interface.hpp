@@ -11,25 +11,24 @@
 namespace mortise {
 
 /// What the multipliers lambda leave open, (C_N + C_D) lambda + H mu = gap with H^T lambda = work closing it
-/// (docs/theory.md eq. 31). Dimensionless, as BodyGroup. References stay with the caller.
+/// (docs/theory.md eq. 31). Dimensionless, as BodyGroup.
 struct Interface {
-  const BodyGroup& neumann;      ///< takes the pressure
-  const BodyGroup& dirichlet;    ///< takes the displacement
-  VecX gap;                      ///< m: open without pressure, initial gaps and prescribed displacements included
-  VecX gap0;                     ///< m: the part of it that is not the groups' response
-  MatX H;                        ///< m x s: rigid motions, the Neumann group's first
-  VecX work;                     ///< s
-  const VecX& scale;             ///< m: row scales, length
-  std::vector<char> unilateral;  ///< m: rows that may open; empty: none
-  /// [C_D H; H^T .], lower triangle, and its solution on all rows: what the Dirichlet group takes to close a gap.
-  MatX dirichlet_compliance;
-  std::shared_ptr<const MultiplierSystem> dirichlet_system;
+  BodyGroup neumann;    ///< takes the pressure
+  BodyGroup dirichlet;  ///< takes the displacement
+  VecX gap;             ///< m: open without pressure, initial gaps and prescribed displacements included
+  VecX gap0;            ///< m: the part of it that is not the groups' response
+  MatX H;               ///< m x s: rigid motions, the Neumann group's first
+  VecX work;            ///< s
+  /// What the Dirichlet group takes to close a gap: [C_D H; H^T .] and which rows may open; and its solution with all
+  /// rows closed.
+  ComplementarityProblem dirichlet_problem;
+  std::shared_ptr<const MultiplierSystem> dirichlet_closed;
 };
 
-/// All rows are closed. An iteration's `dependent_row` must be asked before anything else is.
-Interface make_interface(const BodyGroup& neumann, const BodyGroup& dirichlet, const SaddlePointSystem& system);
+/// An iteration's `dependent_row` must be asked before anything else is.
+Interface make_interface(BodyGroup neumann, BodyGroup dirichlet, const SaddlePointSystem& system);
 
-/// An iteration x := x + beta z(x) for the interface.
+/// An iteration x := x + beta z(x) for the interface, which its functions refer to.
 struct InterfaceIteration {
   /// -1, or a row of B that others imply in a group which takes a displacement (that group does not feel the row by
   /// itself): nothing below is given then.
@@ -39,10 +38,13 @@ struct InterfaceIteration {
   std::function<VecX(const VecX& x)> multipliers;  ///< lambda of an iterate
 };
 
+/// Which contact an iteration or a body solves: all rows closed, or those open that may be.
+enum class Rows { closed, unilateral };
+
 /// x = lambda; z = r - lambda, r the multipliers that the Dirichlet group takes where the Neumann group has moved under
 /// lambda (Aronov & Rodin 2019, section 5; Toselli & Widlund 2005, section 1.3.3). With unilateral rows the Dirichlet
 /// group is in unilateral contact with the moved Neumann group (Krause & Wohlmuth 2002).
-InterfaceIteration neumann_dirichlet(const Interface& interface);
+InterfaceIteration neumann_dirichlet(const Interface& interface, Rows rows);
 
 /// The same with the closed rows kept: those of `closed`, a system of [C_D H; H^T .]. x is zero on the other rows.
 InterfaceIteration neumann_dirichlet(const Interface& interface, MultiplierSystem closed, VecX start);
@@ -57,15 +59,16 @@ InterfaceIteration neumann_neumann(const Interface& interface);
 InterfaceIteration dirichlet_dirichlet(const Interface& interface);
 
 /// What the Dirichlet group takes where the Neumann group has moved under lambda.
-struct Taken {
+struct DirichletSolution {
   VecX lambda, mu;           ///< m, s: its multipliers, and the motions of the floating bodies
-  std::vector<char> active;  ///< m: its closed rows, where any may open
+  std::vector<char> active;  ///< m: its closed rows; empty: all
   bool held = true;          ///< false: contact opens until nothing holds a body; lambda is not a number then
-  std::optional<MultiplierSystem> closed;  ///< [C_D H; H^T .] on the closed rows, where any may open
+  std::optional<MultiplierSystem> closed;  ///< [C_D H; H^T .] on the closed rows, of Rows::unilateral
 };
 
-/// `start`: closed rows to start from, where any may open.
-Taken dirichlet_takes(const Interface& interface, const VecX& lambda, const std::vector<char>& start = {});
+/// `start`: closed rows to start from, of Rows::unilateral.
+DirichletSolution solve_dirichlet(const Interface& interface, Rows rows, const VecX& lambda,
+                                  const std::vector<char>& start = {});
 
 /// Of lambda, where the Dirichlet group takes lambda + z. Force: largest z over the largest multiplier (each over its
 /// row's scale); kinematic: the largest gap that lambda leaves, C_D z, or lambda + z does, C_N z, over the largest
@@ -79,7 +82,9 @@ struct Spectrum {
 
   double best_beta() const { return 2 / (smallest + largest); }
   double largest_beta() const { return 2 / largest; }  ///< beta must be below
-  double factor(double beta) const { return std::max(std::abs(1 - beta * smallest), std::abs(1 - beta * largest)); }
+  double convergence_rate(double beta) const {
+    return std::max(std::abs(1 - beta * smallest), std::abs(1 - beta * largest));
+  }
 };
 
 Spectrum spectrum(const InterfaceIteration& iteration);

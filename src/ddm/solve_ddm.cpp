@@ -1,16 +1,20 @@
 #include "ddm/solve_ddm.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include "base/stopwatch.hpp"
+#include "ddm/interface.hpp"
 
 namespace mortise {
 namespace {
 
+constexpr double far_off = 1e3;  // times the tolerance: what contact is left open is not what the iteration measured
+
 InterfaceIteration make_iteration(Scheme scheme, const Interface& interface) {
   switch (scheme) {
     case Scheme::neumann_dirichlet:
-      return neumann_dirichlet(interface);
+      return neumann_dirichlet(interface, Rows::closed);
     case Scheme::neumann_neumann:
       return neumann_neumann(interface);
     case Scheme::dirichlet_dirichlet:
@@ -19,29 +23,32 @@ InterfaceIteration make_iteration(Scheme scheme, const Interface& interface) {
   return {};
 }
 
-using Status = DdmSolution::Status;
+// One or more iterations, one after the other, and what is known of them.
+struct Run {
+  SolveStatus status = SolveStatus::not_converged;
+  VecX lambda;               // m: the last iterate's multipliers
+  Rows rows = Rows::closed;  // what it was solved with
+  std::vector<IterationStep> history;
+  double beta = 0, convergence_rate = 0;
+  Spectrum spectrum;
+};
 
-constexpr double far_off = 1e3;  // times the tolerance: what contact is left open is not what the iteration measured
-
-// Runs an iteration, adds it to d, and returns the last iterate.
-VecX run(const InterfaceIteration& iteration, const Measure& measure, const RelaxationOptions& options,
-         const StepReport& report, DdmSolution& d) {
-  RelaxationResult result = relax(iteration.correction, measure, iteration.start, options, report);
-  const double before = d.history.empty() ? 0 : d.history.back().seconds;
-  for (RelaxationStep& step : result.history) {
+// Adds an iteration to the run, and returns its last iterate.
+VecX add(const InterfaceIteration& iteration, const Measure& measure, const RelaxationOptions& options, Run& run) {
+  RelaxationResult result = relax(iteration.correction, measure, iteration.start, options);
+  const double before = run.history.empty() ? 0 : run.history.back().seconds;
+  for (IterationStep& step : result.history) {
     step.seconds += before;
-    d.history.push_back(step);
+    run.history.push_back(step);
   }
-  d.factor = result.factor;
-  d.status = result.status == RelaxationResult::Status::converged  ? Status::converged
-             : result.status == RelaxationResult::Status::diverged ? Status::diverged
-                                                                   : Status::not_converged;
+  run.convergence_rate = result.convergence_rate;
+  run.status = result.status;
   return std::move(result.x);
 }
 
-bool pulls(const SaddlePointSystem& s, const VecX& lambda) {
+bool in_tension(const SaddlePointSystem& s, const VecX& lambda) {
   const VecX size = lambda.cwiseQuotient(s.row_scale);
-  const double limit = ActiveSetOptions{}.pull_tolerance * largest_entry(size);
+  const double limit = ActiveSetOptions{}.tension_tolerance * largest_entry(size);
   for (std::size_t a = 0; a < s.unilateral.size(); ++a)
     if (s.unilateral[a] && size(a) > limit) return true;
   return false;
@@ -49,49 +56,51 @@ bool pulls(const SaddlePointSystem& s, const VecX& lambda) {
 
 // Unilateral contact by Newton's method: the Dirichlet group's contact under lambda says which rows are closed, and GCR
 // finds lambda with these closed. It starts from all rows closed, where a rough lambda will do.
-VecX settle_closed_rows(const SaddlePointSystem& s, Interface& interface, const InterfaceIteration& bilateral,
-                        const DdmOptions& options, const StepReport& report, DdmSolution& d) {
+Run by_newton(const Interface& interface, const InterfaceIteration& closed, const DdmOptions& options) {
   const Measure measure = [&](const VecX& x, const VecX& z) { return residuals(interface, x, z); };
-  VecX lambda = run(bilateral, measure, {Acceleration::krylov, 1, 0.1, options.max_iterations}, report, d);
-  interface.unilateral = s.unilateral;
-  Taken taken;
+  Run run;
+  run.lambda = add(closed, measure, {Acceleration::krylov, 1, 0.1, options.max_iterations}, run);
+  run.rows = Rows::unilateral;
+  DirichletSolution taken;
   while (true) {
-    taken = dirichlet_takes(interface, lambda, taken.active);
-    const bool converged = measure(lambda, taken.lambda - lambda).largest() <= options.tolerance;
-    d.status = converged ? Status::converged : Status::not_converged;
-    const int left = options.max_iterations - int(d.history.size());
-    if (converged || !taken.held || left <= 0) return lambda;
-    lambda = run(neumann_dirichlet(interface, *std::move(taken.closed), taken.lambda), measure,
-                 {Acceleration::krylov, 1, options.tolerance, left}, report, d);
+    taken = solve_dirichlet(interface, Rows::unilateral, run.lambda, taken.active);
+    const bool converged = measure(run.lambda, taken.lambda - run.lambda).largest() <= options.tolerance;
+    run.status = converged ? SolveStatus::converged : SolveStatus::not_converged;
+    const int left = options.max_iterations - int(run.history.size());
+    if (converged || !taken.held || left <= 0) return run;
+    run.lambda = add(neumann_dirichlet(interface, *std::move(taken.closed), taken.lambda), measure,
+                     {Acceleration::krylov, 1, options.tolerance, left}, run);
   }
 }
 
-// The scheme as it stands, with the chosen acceleration: first with all rows closed, then, where that pulls, with those
-// of `interface` open that may be.
-VecX iterate(const SaddlePointSystem& s, Interface& interface, const InterfaceIteration& closed,
-             const DdmOptions& options, const StepReport& report, DdmSolution& d) {
+// The scheme as it stands, with the chosen acceleration: first with all rows closed, then, where these are in tension,
+// with those open that may be.
+Run by_relaxation(const SaddlePointSystem& s, const Interface& interface, const InterfaceIteration& closed,
+                  const DdmOptions& options) {
+  Run run;
   RelaxationOptions relaxation{options.acceleration, 1, options.tolerance, options.max_iterations};
   if (options.acceleration != Acceleration::krylov) {
-    d.spectrum = spectrum(closed);
-    relaxation.beta = d.beta = options.beta.value_or(d.spectrum.best_beta());
+    run.spectrum = spectrum(closed);
+    relaxation.beta = run.beta = options.beta.value_or(run.spectrum.best_beta());
   }
   // z of the Neumann-Dirichlet iteration is at hand; the other schemes ask the Dirichlet group.
   const bool direct = options.scheme == Scheme::neumann_dirichlet;
   const Measure measure = [&](const VecX& x, const VecX& z) {
     if (direct) return residuals(interface, x, z);
     const VecX lambda = closed.multipliers(x);
-    return residuals(interface, lambda, dirichlet_takes(interface, lambda).lambda - lambda);
+    return residuals(interface, lambda, solve_dirichlet(interface, Rows::closed, lambda).lambda - lambda);
   };
-  const VecX lambda = closed.multipliers(run(closed, measure, relaxation, report, d));
-  if (d.status != Status::converged || !pulls(s, lambda)) return lambda;
+  run.lambda = closed.multipliers(add(closed, measure, relaxation, run));
+  if (run.status != SolveStatus::converged || !in_tension(s, run.lambda)) return run;
   if (!direct) {
-    d.status = Status::cannot_open;
-    return lambda;
+    run.status = SolveStatus::in_tension;
+    return run;
   }
-  interface.unilateral = s.unilateral;
-  InterfaceIteration opening = neumann_dirichlet(interface);
-  opening.start = lambda;
-  return run(opening, measure, relaxation, report, d);
+  run.rows = Rows::unilateral;
+  InterfaceIteration opening = neumann_dirichlet(interface, Rows::unilateral);
+  opening.start = run.lambda;
+  run.lambda = add(opening, measure, relaxation, run);
+  return run;
 }
 
 // Motions of the groups' springs, the Neumann group's first, in the order of the system's.
@@ -104,69 +113,108 @@ MatX as_grounded(const SaddlePointSystem& s, const BodyGroup& neumann, const Mat
 }
 
 // Displacements and multipliers from the last iterate. What the Dirichlet group takes is a step further than lambda, in
-// balance, and nowhere pulls where contact may open.
-void finish(const SaddlePointSystem& s, const Interface& interface, const VecX& iterate,
-            std::array<BodyGroup*, 2> groups, SaddlePointSolution& solution) {
-  const VecX lambda = dirichlet_takes(interface, iterate).lambda;
-  const Taken taken = dirichlet_takes(interface, lambda);
+// balance, and nowhere in tension where contact may open.
+void set_solution(const SaddlePointSystem& s, const Interface& interface, const Run& run, Solution& solution) {
+  const VecX lambda = solve_dirichlet(interface, run.rows, run.lambda).lambda;
+  const DirichletSolution taken = solve_dirichlet(interface, run.rows, lambda);
+  const BodyGroup &neumann = interface.neumann, &dirichlet = interface.dirichlet;
   solution.active = taken.active;
-  if (taken.closed) solution.loose = as_grounded(s, *groups[0], taken.closed->loose());
   if (solution.active.empty()) solution.active.assign(s.B.rows(), 1);
+  if (taken.closed) solution.rigid_modes = as_grounded(s, neumann, taken.closed->rigid_modes());
   solution.lambda = s.stiffness_scale * lambda.cwiseQuotient(s.row_scale);
-  solution.u = s.value;
-  groups[0]->add_displacements(lambda, taken.mu.head(groups[0]->motions), solution.u);
-  groups[1]->add_displacements(lambda, taken.mu.tail(groups[1]->motions), solution.u);
+  solution.u = s.constraints.value;
+  neumann.add_displacements(lambda, taken.mu.head(neumann.motions), solution.u);
+  dirichlet.add_displacements(lambda, taken.mu.tail(dirichlet.motions), solution.u);
   measure_residuals(s, solution);
   if (solution.force_residual <= 1e-11) return;
   const VecX Ku = s.K.selfadjointView<Eigen::Lower>() * solution.u;
   const VecX unbalanced = (s.f - Ku - s.B.transpose() * solution.lambda) / s.stiffness_scale;
-  for (BodyGroup* group : groups) group->refine(unbalanced, solution.u);
+  neumann.refine(unbalanced, solution.u);
+  dirichlet.refine(unbalanced, solution.u);
   measure_residuals(s, solution);
+}
+
+Iteration record(const DdmOptions& options, const Run& run) {
+  const Spectrum& e = run.spectrum;
+  std::ostringstream settings, advice;
+  if (run.beta > 0)
+    settings << "beta " << run.beta << " (closed contact: best " << e.best_beta() << ", converges below "
+             << e.largest_beta() << ")";
+  if (e.largest > 0)
+    advice << "the eigenvalues of the interface are " << e.smallest << " ... " << e.largest << ": beta converges below "
+           << e.largest_beta() << ", best at " << e.best_beta();
+  return {.method = to_string(options.scheme),
+          .acceleration = options.acceleration,
+          .settings = settings.str(),
+          .advice = advice.str(),
+          .tolerance = options.tolerance,
+          .steps = int(run.history.size()),
+          .convergence_rate = run.convergence_rate,
+          .history = run.history,
+          .figures = {{"beta", run.beta}, {"eigenvalue.smallest", e.smallest}, {"eigenvalue.largest", e.largest}}};
+}
+
+// What this method expects where it has no solution.
+std::string expectation(SolveStatus status, Scheme scheme) {
+  const bool one_side = scheme == Scheme::neumann_dirichlet;
+  if (status == SolveStatus::dependent_row)
+    return std::string("is not felt by the bodies that take the displacement") +
+           (one_side ? "" : " (all, with scheme = \"" + to_string(scheme) + "\")") +
+           ": expected contact.multipliers_on to name " +
+           (one_side ? "the curve of the body that takes the displacement (or the coarser curve)"
+                     : "the coarser curve, or scheme = \"neumann_dirichlet\"") +
+           ", or method.solver = \"direct\"";
+  if (status == SolveStatus::unconstrained) return "method.solver = \"direct\" names the motion";
+  if (status == SolveStatus::in_tension)
+    return "method.scheme = \"" + to_string(scheme) +
+           "\" is for bilateral contact, and contact is in tension here; expected \"neumann_dirichlet\", or "
+           "contact.condition = \"bilateral\"";
+  return {};
+}
+
+Solution without_solution(SolveStatus status, int failed_at, Scheme scheme) {
+  Solution solution;
+  solution.status = status;
+  solution.failed_at = failed_at;
+  solution.advice = expectation(status, scheme);
+  return solution;
 }
 
 }  // namespace
 
-DdmSolution solve_by_ddm(const SaddlePointSystem& s, const std::vector<char>& dirichlet, const DdmOptions& options,
-                         const StepReport& report) {
-  DdmSolution d;
-  SaddlePointSolution& solution = d.solution;
+Solution solve_by_ddm(const SaddlePointSystem& s, const std::vector<char>& dirichlet, const DdmOptions& options) {
+  Solution solution;
   Stopwatch watch;
   std::vector<char> others(dirichlet.size());
   for (std::size_t i = 0; i < dirichlet.size(); ++i) others[i] = !dirichlet[i];
   BodyGroup neumann_group(s, others), dirichlet_group(s, dirichlet);
   solution.factorise_seconds = watch.lap();
   for (const BodyGroup* group : {&neumann_group, &dirichlet_group})
-    if (group->failed_at >= 0) {
-      d.status = Status::not_positive_definite;
-      solution.failed_at = group->failed_at;
-      return d;
-    }
+    if (group->failed_at >= 0)
+      return without_solution(SolveStatus::not_positive_definite, group->failed_at, options.scheme);
 
-  Interface interface = make_interface(neumann_group, dirichlet_group, s);
+  const Interface interface = make_interface(std::move(neumann_group), std::move(dirichlet_group), s);
   const InterfaceIteration closed = make_iteration(options.scheme, interface);
-  solution.failed_at = closed.dependent_row;
-  if (solution.failed_at >= 0) {
-    d.status = Status::dependent_row;
-    return d;
-  }
+  if (closed.dependent_row >= 0)
+    return without_solution(SolveStatus::dependent_row, closed.dependent_row, options.scheme);
   const bool may_open = std::find(s.unilateral.begin(), s.unilateral.end(), 1) != s.unilateral.end();
-  VecX lambda;
-  if (may_open && options.scheme == Scheme::neumann_dirichlet && options.acceleration == Acceleration::krylov)
-    lambda = settle_closed_rows(s, interface, closed, options, report, d);
-  else
-    lambda = iterate(s, interface, closed, options, report, d);
-  if (d.status == Status::cannot_open) return d;
-  if (!dirichlet_takes(interface, lambda).held) {
-    d.status = Status::unheld;
-    return d;
-  }
-  finish(s, interface, lambda, {&neumann_group, &dirichlet_group}, solution);
-  if (!std::isfinite(largest(solution.force_residual, solution.constraint_residual))) d.status = Status::diverged;
+  const bool newton =
+      may_open && options.scheme == Scheme::neumann_dirichlet && options.acceleration == Acceleration::krylov;
+  const Run run = newton ? by_newton(interface, closed, options) : by_relaxation(s, interface, closed, options);
+  if (run.status == SolveStatus::in_tension) return without_solution(run.status, -1, options.scheme);
+  if (!solve_dirichlet(interface, run.rows, run.lambda).held)
+    return without_solution(SolveStatus::unconstrained, -1, options.scheme);
+  set_solution(s, interface, run, solution);
+  solution.status = run.status;
+  solution.iteration = record(options, run);
+  solution.constraint_tolerance = options.tolerance;
+  if (!std::isfinite(largest(solution.force_residual, solution.constraint_residual)))
+    solution.status = SolveStatus::diverged;
   // Where the groups hardly feel a multiplier, an iterate may look converged in their terms and leave contact open.
-  if (d.status == Status::converged && solution.constraint_residual > far_off * options.tolerance)
-    d.status = Status::not_converged;
+  if (solution.status == SolveStatus::converged && solution.constraint_residual > far_off * options.tolerance)
+    solution.status = SolveStatus::not_converged;
   solution.solve_seconds = watch.lap();
-  return d;
+  return solution;
 }
 
 }  // namespace mortise

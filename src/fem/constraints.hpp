@@ -1,17 +1,10 @@
-// Prescribed displacements.
+// Prescribed displacements on boundaries.
 #pragma once
 
-#include <vector>
-
+#include "base/constraints.hpp"
 #include "mesh/mesh.hpp"
 
 namespace mortise {
-
-/// Degrees of freedom whose displacement is given. Both have one entry a degree of freedom.
-struct Constraints {
-  std::vector<char> fixed;
-  VecX value;  ///< length; zero where not fixed
-};
 
 Constraints no_constraints(const Mesh& mesh);
 

@@ -1,7 +1,7 @@
 // Linear isotropic elasticity in the plane, with an initial strain.
 #pragma once
 
-#include "base/model.hpp"
+#include "base/choices.hpp"
 #include "base/types.hpp"
 
 namespace mortise {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/document.hpp"
+#include "scene/node.hpp"
 
 namespace mortise::scene_file {
 

@@ -21,16 +21,15 @@ int read_count(const Node& node) {
   return int(value);
 }
 
-void read_ddm(const Node& node, Scene& scene) {
+void read_ddm(const Node& node, const Node& chosen, Scene& scene) {
   if (scene.contacts.empty())
-    fail(*find(node, "kind"), "domain decomposition needs a [[contact]] to iterate on; expected one, or \"mortar\"");
-  DdmSpec& ddm = scene.method.ddm;
+    fail(chosen, "domain decomposition needs a [[contact]] to iterate on; expected one, or solver = \"direct\"");
+  DdmOptions& ddm = scene.method.ddm;
   ddm.scheme = choice(find(node, "scheme"),
                       {Scheme::neumann_dirichlet, Scheme::neumann_neumann, Scheme::dirichlet_dirichlet}, ddm.scheme);
-  if (const Node* acceleration = find(node, "acceleration"))
-    ddm.acceleration =
-        choice(acceleration, {Acceleration::none, Acceleration::aitken, Acceleration::anderson, Acceleration::krylov},
-               Acceleration::none);
+  ddm.acceleration = choice(find(node, "acceleration"),
+                            {Acceleration::none, Acceleration::aitken, Acceleration::anderson, Acceleration::krylov},
+                            ddm.acceleration);
   ddm.beta = read_beta(find(node, "beta"));
   if (const Node* tolerance = find(node, "tolerance")) ddm.tolerance = positive_number(*tolerance);
   if (const Node* most = find(node, "max_iterations")) ddm.max_iterations = read_count(*most);
@@ -41,12 +40,12 @@ void read_ddm(const Node& node, Scene& scene) {
   for (const Node* body : names(*dirichlet)) {
     if (std::find(known.begin(), known.end(), body->text) == known.end())
       fail(*body, unknown_name("body", body->text, known));
-    ddm.dirichlet.push_back(body->text);
+    scene.method.dirichlet.push_back(body->text);
   }
 }
 
 void read_mssor(const Node& node, Scene& scene) {
-  MssorSpec& mssor = scene.method.mssor;
+  MssorOptions& mssor = scene.method.mssor;
   if (const Node* omega = find(node, "omega")) {
     mssor.omega = number(*omega);
     if (!(mssor.omega > 0 && mssor.omega < 2))
@@ -57,6 +56,19 @@ void read_mssor(const Node& node, Scene& scene) {
                               {Acceleration::none, Acceleration::krylov, Acceleration::minres}, mssor.acceleration);
   if (const Node* tolerance = find(node, "tolerance")) mssor.tolerance = positive_number(*tolerance);
   if (const Node* most = find(node, "max_iterations")) mssor.max_iterations = read_count(*most);
+}
+
+// "solver"; scene files written before it could say "ddm" say kind = "ddm", and "mortar" for what is not.
+Solver read_solver(const Node& node) {
+  const Node *solver = find(node, "solver"), *kind = find(node, "kind");
+  const Solver chosen = choice(solver, {Solver::direct, Solver::mssor, Solver::ddm}, Solver::direct);
+  if (kind == nullptr) return chosen;
+  const bool ddm = text(*kind) == "ddm";
+  if (!ddm && text(*kind) != "mortar") fail(*kind, unknown_name("kind", kind->text, {"mortar", "ddm"}));
+  if (solver != nullptr && ddm != (chosen == Solver::ddm))
+    fail(blame(*kind, *solver), "kind = \"" + kind->text + "\" and solver = \"" + to_string(chosen) +
+                                    "\" contradict one another; expected solver alone");
+  return ddm ? Solver::ddm : chosen;
 }
 
 // Keys that stand without what they belong to.
@@ -78,22 +90,17 @@ void read_method(const Node& root, Scene& scene) {
   for (const auto& some : {of_ddm, of_mssor, of_both}) keys.insert(keys.end(), some.begin(), some.end());
   expect_keys(*node, keys);
   Method& method = scene.method;
-  method.kind = choice(find(*node, "kind"), {MethodKind::mortar, MethodKind::ddm}, method.kind);
   method.integration =
       choice(find(*node, "integration"), {Integration::segments, Integration::elements}, method.integration);
   method.multipliers = choice(find(*node, "multipliers"),
                               {Multipliers::quadratic, Multipliers::linear, Multipliers::dual}, method.multipliers);
-  method.solver = choice(find(*node, "solver"), {Solver::direct, Solver::mssor}, method.solver);
-  const bool ddm = method.kind == MethodKind::ddm, mssor = method.solver == Solver::mssor;
-  if (ddm && mssor)
-    fail(*find(*node, "solver"), "\"mssor\" solves the system of all bodies; expected kind = \"mortar\" with it");
-  if (!ddm) refuse_strangers(*node, of_ddm, "belongs to domain decomposition; expected kind = \"ddm\" with it");
+  method.solver = read_solver(*node);
+  const bool ddm = method.solver == Solver::ddm, mssor = method.solver == Solver::mssor;
+  if (!ddm) refuse_strangers(*node, of_ddm, "belongs to domain decomposition; expected solver = \"ddm\" with it");
   if (!mssor) refuse_strangers(*node, of_mssor, "belongs to the iterative solver; expected solver = \"mssor\" with it");
   if (!ddm && !mssor)
-    refuse_strangers(*node, of_both,
-                     "belongs to an iteration; expected kind = \"ddm\" (domain decomposition) or solver = \"mssor\" "
-                     "with it");
-  if (ddm) read_ddm(*node, scene);
+    refuse_strangers(*node, of_both, "belongs to an iteration; expected solver = \"ddm\" or \"mssor\" with it");
+  if (ddm) read_ddm(*node, *(find(*node, "solver") ? find(*node, "solver") : find(*node, "kind")), scene);
   if (mssor) read_mssor(*node, scene);
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/choices.hpp"
 #include "base/geo_limits.hpp"
-#include "base/model.hpp"
 #include "base/types.hpp"
 
 namespace mortise {
@@ -59,32 +59,14 @@ struct ContactSpec {
   std::string multipliers_on;  ///< one of `between`; empty: couple_pairs chooses
 };
 
-/// How domain decomposition iterates; only where Method::kind is ddm.
-struct DdmSpec {
-  Scheme scheme = Scheme::neumann_dirichlet;
-  std::optional<Acceleration> acceleration;  ///< default: krylov
-  std::optional<double> beta;                ///< relaxation, > 0; default: estimated
-  std::vector<std::string> dirichlet;        ///< bodies that take the displacement; default: the softer ones
-  double tolerance = 1e-8;                   ///< of both residuals
-  int max_iterations = 100;
-};
-
-/// How the iterative solver goes; only where Method::solver is mssor.
-struct MssorSpec {
-  double omega = 1.3;                                ///< 0 < omega < 2
-  double tau = 0.7;                                  ///< > 0
-  Acceleration acceleration = Acceleration::krylov;  ///< none, krylov, minres
-  double tolerance = 1e-10;                          ///< of both residuals
-  int max_iterations = 20000;
-};
-
+/// [method]. The options of a solver count only where it is chosen.
 struct Method {
-  MethodKind kind = MethodKind::mortar;
   Integration integration = Integration::segments;
   Multipliers multipliers = Multipliers::linear;  ///< on 2-node edges quadratic means linear
   Solver solver = Solver::direct;
-  MssorSpec mssor;
-  DdmSpec ddm;
+  MssorOptions mssor;
+  DdmOptions ddm;
+  std::vector<std::string> dirichlet;  ///< of ddm: bodies that take the displacement; default: the softer ones
 };
 
 struct Scene {
@@ -102,17 +84,6 @@ struct Scene {
   std::vector<ContactSpec> contacts;
   Method method;
 };
-
-/// The words of the scene file for the enums ("strain", "bilateral", ...).
-std::string to_string(Plane value);
-std::string to_string(Condition value);
-std::string to_string(InitialGap value);
-std::string to_string(MethodKind value);
-std::string to_string(Integration value);
-std::string to_string(Solver value);
-std::string to_string(Multipliers value);
-std::string to_string(Scheme value);
-std::string to_string(Acceleration value);
 
 /// One `--set KEY=VALUE`, e.g. {"contact.0.multipliers_on", "lower_contact"}.
 struct Override {

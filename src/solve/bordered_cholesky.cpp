@@ -153,25 +153,26 @@ BorderedCholesky::BorderedCholesky(BorderedCholesky&&) noexcept = default;
 
 int BorderedCholesky::failed_at() const { return factor_->failed_at; }
 
-const MatX& BorderedCholesky::border_compliance() const { return compliance_; }
-
-VecX BorderedCholesky::forward(const VecX& f) {
+VecX BorderedCholesky::forward(const VecX& f) const {
   const Factor& F = *factor_;
   VecX b = VecX::Zero(F.n + F.m);
   for (int k = 0; k < F.n + F.m; ++k)
     if (F.perm()[k] < F.n) b(k) = f(F.perm()[k]);
-  forward_ = factor_->solve(CHOLMOD_L, b);
+  return factor_->solve(CHOLMOD_L, b);
+}
+
+VecX BorderedCholesky::at_border(const VecX& y) const {
+  const Factor& F = *factor_;
   VecX response = VecX::Zero(F.m);
   F.for_each_border_block([&](const BorderBlock& block) {
-    const VecX part = block.V * forward_.segment(block.first_column, block.V.cols());
+    const VecX part = block.V * y.segment(block.first_column, block.V.cols());
     for (Eigen::Index i = 0; i < part.size(); ++i) response(F.perm()[block.rows[i]] - F.n) += part(i);
   });
   return response;
 }
 
-VecX BorderedCholesky::backward(const VecX& lambda) const {
+VecX BorderedCholesky::backward(VecX y, const VecX& lambda) const {
   const Factor& F = *factor_;
-  VecX y = forward_;
   for (int k = 0; k < F.n + F.m; ++k)
     if (F.perm()[k] >= F.n) y(k) = 0;  // so that the border adds nothing in the substitution
   VecX at_rows;

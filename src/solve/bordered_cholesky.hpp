@@ -9,20 +9,24 @@
 
 namespace mortise {
 
-/// The m of the bordered matrix: far above anything that a border of unit size leaves of it.
-inline constexpr double border_diagonal = 1e20;
+/// The beta of the bordered matrix: far above anything that a border of unit size leaves of it.
+inline constexpr double border_beta = 1e20;
 
 /// Cholesky factor L of a positive definite K, with C = B K^-1 B^T as a by-product (docs/theory.md eq. 15 to 17).
 ///
-/// CHOLMOD factorises the bordered matrix [K B^T; B m I], the border ordered last and m too large to matter, and the
-/// border's rows of the factor are V^T with V = L^-1 B^T, whatever m is. So C = V^T V costs one dense product, and a
-/// solve with any multipliers one forward and one backward substitution.
+///                  n       m                        n    m
+///            n [   K      B^T    ]            n [   L    .   ]
+///   CHOLMOD:                       =  F F^T,                    =  F        V = L^-1 B^T,   C = V^T V
+///            m [   B    beta I   ]            m [  V^T   R   ]
+///
+/// The border is ordered last, and beta is too large to matter: its rows of the factor are V^T whatever beta is. So C
+/// costs one dense product, and a solve with any multipliers one forward and one backward substitution.
 /// Deviation from the textbook range-space method (Benzi, Golub & Liesen 2005, section 5), which takes one
 /// back-substitution a multiplier to form C.
 class BorderedCholesky {
  public:
-  /// `matrix` is the upper triangle of [K B^T; B m I] (which spares CHOLMOD a transposition): n columns of K, then the
-  /// columns of B^T with border_diagonal below them. K and the rows of B are of about unit size. It is freed once
+  /// `matrix` is the upper triangle of [K B^T; B beta I] (which spares CHOLMOD a transposition): n columns of K, then
+  /// the columns of B^T with border_beta below them. K and the rows of B are of about unit size. It is freed once
   /// factorised.
   /// `blocks` groups the n unknowns that share a node (ascending, 0, 0, 1, 1, 2, ...): ordered together.
   BorderedCholesky(SparseMatrix matrix, const std::vector<int>& blocks);
@@ -32,19 +36,20 @@ class BorderedCholesky {
   /// -1, or the unknown at which K turned out not to be positive definite: nothing below may be called then.
   int failed_at() const;
 
-  /// C = B K^-1 B^T, m x m, lower triangle.
-  const MatX& border_compliance() const;
+  /// C = B K^-1 B^T, m x m, lower triangle. It is given away: the factor does not need it.
+  MatX take_border_compliance() { return std::move(compliance_); }
 
-  /// f: n. Keeps y = L^-1 f for the backward substitution; returns B K^-1 f, m.
-  VecX forward(const VecX& f);
-  /// K^-1 (f - B^T lambda) for the last f of forward().
-  VecX backward(const VecX& lambda) const;
+  /// y = L^-1 f for f, n; in an order of its own, for the next two.
+  VecX forward(const VecX& f) const;
+  /// V^T y = B K^-1 f, m.
+  VecX at_border(const VecX& y) const;
+  /// L^-T (y - V lambda) = K^-1 (f - B^T lambda), n.
+  VecX backward(VecX y, const VecX& lambda) const;
 
  private:
   struct Factor;
   std::unique_ptr<Factor> factor_;
   MatX compliance_;
-  VecX forward_;  // L^-1 f, in the factor's order
 };
 
 }  // namespace mortise

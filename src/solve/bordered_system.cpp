@@ -1,16 +1,19 @@
 #include "solve/bordered_system.hpp"
 
-#include "solve/bordered_cholesky.hpp"
-
 namespace mortise {
 
-BorderedSystem bordered_system(const ContactSystem& s) {
+BorderedSystem bordered_system(const SaddlePointSystem& s) {
+  return bordered_system(s, s.constraints.fixed, s.grounded);
+}
+
+BorderedSystem bordered_system(const SaddlePointSystem& s, const std::vector<char>& left_out,
+                               const std::vector<int>& grounded) {
   BorderedSystem r;
   const int n = int(s.K.cols());
   std::vector<int> to_reduced(n, -1);
   int last_node = -1, block = -1;
   for (int i = 0; i < n; ++i) {
-    if (s.fixed[i]) continue;
+    if (left_out[i]) continue;
     to_reduced[i] = int(r.free.size());
     if (i / 2 != last_node) ++block;
     last_node = i / 2;
@@ -18,9 +21,9 @@ BorderedSystem bordered_system(const ContactSystem& s) {
     r.blocks.push_back(block);
   }
   std::vector<int> spring(n, -1);
-  for (std::size_t k = 0; k < s.grounded.size(); ++k) spring[s.grounded[k]] = int(k);
+  for (std::size_t k = 0; k < grounded.size(); ++k) spring[grounded[k]] = int(k);
 
-  const int count = int(r.free.size()), m = int(s.B.rows()), border = m + int(s.grounded.size());
+  const int count = int(r.free.size()), m = int(s.B.rows()), border = m + int(grounded.size());
   // The columns below the diagonal, read as rows above it: an entry (i, j) goes to column i, and comes in order.
   const auto for_each_entry = [&](auto visit) {
     for (int j = 0; j < count; ++j) {
@@ -33,7 +36,7 @@ BorderedSystem bordered_system(const ContactSystem& s) {
         visit(count + int(it.row()), j, it.value() / s.row_scale(it.row()));
       if (held >= 0) visit(count + m + held, j, 1.0);
     }
-    for (int i = count; i < count + border; ++i) visit(i, i, border_diagonal);
+    for (int i = count; i < count + border; ++i) visit(i, i, border_beta);
   };
   r.matrix.resize(count + border, count + border);
   int* start = r.matrix.outerIndexPtr();

@@ -1,22 +1,10 @@
 // The bordered matrix of some unknowns: what BorderedCholesky factorises.
 #pragma once
 
-#include <vector>
-
-#include "base/types.hpp"
+#include "solve/bordered_cholesky.hpp"
+#include "solve/saddle_point_system.hpp"
 
 namespace mortise {
-
-/// Stiffness and contact rows as they come from the bodies. Unknowns come in pairs (2 i, 2 i + 1: one node).
-struct ContactSystem {
-  const SparseMatrix& K;           ///< n x n, lower triangle, positive semidefinite, stress units
-  const SparseMatrix& B;           ///< m x n, length
-  const std::vector<char>& fixed;  ///< n: unknowns that are left out
-  double stiffness_scale;          ///< a typical entry of K (Young's modulus)
-  const VecX& row_scale;           ///< m: size of each row of B, length
-  /// Unknowns that springs hold, so that K is positive definite (one for each motion that only B resists).
-  const std::vector<int>& grounded;
-};
 
 /// The system on the free unknowns, dimensionless, as BorderedCholesky wants it: the border is the rows of B and one
 /// unit row for each spring.
@@ -26,6 +14,10 @@ struct BorderedSystem {
   std::vector<int> blocks;  ///< reduced -> node, densely numbered
 };
 
-BorderedSystem bordered_system(const ContactSystem& system);
+BorderedSystem bordered_system(const SaddlePointSystem& system);
+
+/// The same of a part of the bodies: `left_out` unknowns, n, as if they were prescribed, and springs at `grounded`.
+BorderedSystem bordered_system(const SaddlePointSystem& system, const std::vector<char>& left_out,
+                               const std::vector<int>& grounded);
 
 }  // namespace mortise

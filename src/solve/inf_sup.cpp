@@ -4,11 +4,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 
-#include "solve/bordered_cholesky.hpp"
-
 namespace mortise {
 
-InfSup inf_sup(const ContactSystem& s, const SparseMatrix& norm, const std::vector<char>& active) {
+InfSup inf_sup(const SaddlePointSystem& s, const SparseMatrix& norm, const std::vector<char>& active) {
   const Eigen::Index m = s.B.rows(), springs = s.grounded.size();
   std::vector<int> rows;
   for (int a = 0; a < int(m); ++a)
@@ -17,8 +15,8 @@ InfSup inf_sup(const ContactSystem& s, const SparseMatrix& norm, const std::vect
   if (rows.empty()) return result;
 
   BorderedSystem reduced = bordered_system(s);
-  const BorderedCholesky factor(std::move(reduced.matrix), reduced.blocks);
-  const MatX all = factor.border_compliance().selfadjointView<Eigen::Lower>();
+  BorderedCholesky factor(std::move(reduced.matrix), reduced.blocks);
+  const MatX all = factor.take_border_compliance().selfadjointView<Eigen::Lower>();
   const VecX scale = s.row_scale(rows);
   MatX C = all(rows, rows), S = MatX(norm)(rows, rows);
   S = s.stiffness_scale * scale.cwiseInverse().asDiagonal() * S * scale.cwiseInverse().asDiagonal();

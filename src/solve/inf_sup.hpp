@@ -13,7 +13,7 @@ struct InfSup {
 };
 
 /// `norm`: S, m x m, length^2 / stress. `active`: m, rows that take part. The stiffness must have proved positive
-/// definite, and the active rows independent (solve_saddle_point).
-InfSup inf_sup(const ContactSystem& system, const SparseMatrix& norm, const std::vector<char>& active);
+/// definite, and the active rows independent (solve_directly).
+InfSup inf_sup(const SaddlePointSystem& system, const SparseMatrix& norm, const std::vector<char>& active);
 
 }  // namespace mortise

@@ -2,30 +2,26 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "base/stopwatch.hpp"
-#include "solve/mssor_border.hpp"
+#include "solve/iteration_monitor.hpp"
+#include "solve/mssor_sweeps.hpp"
+#include "solve/tau_limit.hpp"
 
 namespace mortise {
 namespace {
 
-using Status = MssorSolution::Status;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double divergence = 1e6;       // growth of a residual
-constexpr double pull_tolerance = 1e-9;  // of the largest multiplier, as the check of p >= 0
+constexpr double tension_tolerance = 1e-9;  // of the largest multiplier, as the check of p >= 0
 
-// Says when to stop, and keeps the history.
+// Measures iterates of the dimensionless system, and asks the monitor.
 struct Watch {
   const SweepSystem& system;
-  const MssorOptions& options;
-  MssorSolution& result;
-  double limit = options.tolerance;  ///< of the residuals as they are measured here
-  double smallest = infinity;        ///< residual
-  std::vector<double> sizes = {};    ///< of the residual, dimensionless
-  VecX forces = VecX(system.n());    ///< work space
+  IterationMonitor& monitor;
+  VecX forces = VecX(system.n());  // work space
 
-  // Of the iterate x with residual r, dimensionless; forces are compared with what is known of them without another
-  // product: never more than measure_residuals compares them with but where prescribed displacements make them large.
+  // Of the iterate x with residual r; forces are compared with what is known of them without another product: never
+  // more than measure_residuals compares them with but where prescribed displacements make them large.
   Residuals measure(const VecX& x, const VecX& r) {
     const Eigen::Index n = system.n(), m = system.m();
     forces.noalias() = system.B.transpose() * x.tail(m);
@@ -34,25 +30,7 @@ struct Watch {
                                  rigid_part * largest_entry(system.D.cwiseProduct(x.head(n)))});
     return {fraction(largest_entry(r.tail(m)), displacement), fraction(largest_entry(r.head(n)), size)};
   }
-
-  // True while there is something left to do.
-  bool go_on(const VecX& x, const VecX& r) {
-    const double size = r.norm();
-    sizes.push_back(size);
-    smallest = std::min(smallest, size);
-    result.history.push_back(measure(x, r));
-    if (result.history.back().largest() <= limit) result.status = Status::converged;
-    if (!std::isfinite(size) || size > divergence * smallest) result.status = Status::diverged;
-    if (result.status != Status::not_converged || result.steps >= options.max_iterations) return false;
-    ++result.steps;
-    return true;
-  }
-
-  // Geometric mean of what a step multiplied the residual by over the last half of the steps.
-  double factor() const {
-    const std::size_t last = sizes.size() - 1, middle = last / 2;
-    return last > middle ? std::pow(sizes[last] / sizes[middle], 1 / double(last - middle)) : 0;
-  }
+  bool go_on(const VecX& x, const VecX& r) { return monitor.go_on(measure(x, r), r.norm()); }
 };
 
 void residual(const SweepSystem& s, const VecX& x, VecX& r) {
@@ -133,15 +111,15 @@ void minres(SweepPreconditioner& M, Watch& watch, VecX& x, VecX& r) {
   }
 }
 
-void iterate(SweepPreconditioner& M, Watch& watch, VecX& x, VecX& r) {
-  if (watch.options.acceleration == Acceleration::none) return stationary(M, watch, x, r);
-  if (watch.options.acceleration == Acceleration::minres) return minres(M, watch, x, r);
+void iterate(Acceleration acceleration, SweepPreconditioner& M, Watch& watch, VecX& x, VecX& r) {
+  if (acceleration == Acceleration::none) return stationary(M, watch, x, r);
+  if (acceleration == Acceleration::minres) return minres(M, watch, x, r);
   symmetric_qmr(M, watch, x, r);
 }
 
 // u and lambda in the system's units.
-void take_over(const SaddlePointSystem& s, const SweepSystem& reduced, const VecX& x, SaddlePointSolution& solution) {
-  solution.u = s.value;
+void set_solution(const SaddlePointSystem& s, const SweepSystem& reduced, const VecX& x, Solution& solution) {
+  solution.u = s.constraints.value;
   for (Eigen::Index k = 0; k < reduced.n(); ++k) solution.u(reduced.unknown[k]) = x(k);
   solution.lambda = s.stiffness_scale * x.tail(reduced.m()).cwiseQuotient(s.row_scale);
   solution.active.assign(reduced.m(), 1);
@@ -149,53 +127,84 @@ void take_over(const SaddlePointSystem& s, const SweepSystem& reduced, const Vec
 }
 
 // Largest tension of a unilateral row.
-double pull(const SaddlePointSystem& s, const VecX& lambda) {
+double tension(const SaddlePointSystem& s, const VecX& lambda) {
   double most = 0;
   for (std::size_t a = 0; a < s.unilateral.size(); ++a)
     if (s.unilateral[a]) most = std::max(most, lambda(a));
   return most;
 }
 
+Iteration record(const SweepSystem& reduced, const MssorOptions& options, const IterationMonitor& monitor) {
+  Iteration r{.method = "mssor",
+              .acceleration = options.acceleration,
+              .settings = {},
+              .advice = {},
+              .tolerance = options.tolerance,
+              .steps = monitor.steps(),
+              .convergence_rate = monitor.convergence_rate(),
+              .history = monitor.history(),
+              .figures = {{"omega", options.omega}, {"tau", options.tau}}};
+  std::ostringstream settings, advice;
+  settings << "omega " << options.omega << ", tau " << options.tau;
+  if (options.acceleration == Acceleration::none) {
+    const double limit = tau_limit(reduced, options.omega);
+    r.figures.emplace_back("tau_limit", limit);
+    settings << " (converges for tau below " << limit << ")";
+    advice << "with this omega it converges for tau below " << limit
+           << "; acceleration = \"krylov\" converges for any tau, and faster";
+  }
+  r.settings = settings.str();
+  r.advice = advice.str();
+  return r;
+}
+
 }  // namespace
 
-MssorSolution solve_by_mssor(const SaddlePointSystem& s, const MssorOptions& options) {
-  MssorSolution result;
-  SaddlePointSolution& solution = result.solution;
+Solution solve_by_mssor(const SaddlePointSystem& s, const MssorOptions& options) {
+  Solution solution;
   Stopwatch watch;
   const SweepSystem reduced = sweep_system(s);
   solution.factorise_seconds = watch.lap();
   if (reduced.not_positive >= 0 || reduced.dependent_row >= 0) {
-    result.status = reduced.not_positive >= 0 ? Status::not_positive_definite : Status::dependent_row;
+    solution.status = reduced.not_positive >= 0 ? SolveStatus::not_positive_definite : SolveStatus::dependent_row;
     solution.failed_at = reduced.not_positive >= 0 ? reduced.not_positive : reduced.dependent_row;
-    return result;
+    return solution;
   }
+  solution.force_tolerance = solution.constraint_tolerance = options.tolerance;
   SweepPreconditioner M{reduced, options.omega, options.tau};
-  Watch steps{reduced, options, result};
+  IterationMonitor monitor(options.tolerance, options.max_iterations);
+  Watch steps{reduced, monitor};
   VecX x = VecX::Zero(reduced.rhs.size()), r = reduced.rhs;
   // Where round-off has parted the residual from that of x, or forces are larger than they are compared with here, the
   // iteration starts again from x.
-  for (double last = infinity;;) {
-    iterate(M, steps, x, r);
-    take_over(s, reduced, x, solution);
+  for (double last = std::numeric_limits<double>::infinity();;) {
+    iterate(options.acceleration, M, steps, x, r);
+    set_solution(s, reduced, x, solution);
+    solution.status = monitor.status();
     const double reached = largest(solution.force_residual, solution.constraint_residual);
-    if (result.status == Status::diverged || result.steps >= options.max_iterations) break;
-    if (result.status == Status::converged && reached <= options.tolerance) break;
-    if (result.status == Status::converged) steps.limit *= 0.5 * std::min(1.0, options.tolerance / reached);
-    result.status = Status::not_converged;
+    const bool converged = solution.status == SolveStatus::converged;
+    if (solution.status == SolveStatus::diverged || monitor.exhausted()) break;
+    if (converged && reached <= options.tolerance) break;
+    solution.status = SolveStatus::not_converged;
     if (!(reached < 0.5 * last)) break;  // all that this arithmetic gives
     last = reached;
-    steps.smallest = infinity;
+    monitor.restart(converged ? 0.5 * std::min(1.0, options.tolerance / reached) * monitor.tolerance()
+                              : monitor.tolerance());
     residual(reduced, x, r);
   }
   if (largest(solution.force_residual, solution.constraint_residual) <= options.tolerance)
-    result.status = Status::converged;
-  if (options.acceleration == Acceleration::none) result.tau_border = tau_border(reduced, options.omega);
-  result.factor = steps.factor();
-  solution.steps.push_back({int(reduced.m()), 0, 0, pull(s, solution.lambda)});
-  if (result.status == Status::converged && solution.steps[0].pull > pull_tolerance * largest_entry(solution.lambda))
-    result.status = Status::cannot_open;
+    solution.status = SolveStatus::converged;
+  solution.iteration = record(reduced, options, monitor);
+  const double pull = tension(s, solution.lambda);
+  solution.steps.push_back({.active = int(reduced.m()), .tension = pull});
+  if (solution.status == SolveStatus::converged && pull > tension_tolerance * largest_entry(solution.lambda)) {
+    solution.status = SolveStatus::in_tension;
+    solution.advice =
+        "method.solver = \"mssor\" is for contact that stays closed, and contact is in tension here; expected solver = "
+        "\"direct\", or contact.condition = \"bilateral\"";
+  }
   solution.solve_seconds = watch.lap();
-  return result;
+  return solution;
 }
 
 }  // namespace mortise

@@ -54,11 +54,11 @@ void set_rows(const SaddlePointSystem& s, SweepSystem& r) {
 
 // Prescribed displacements to the right-hand side.
 void set_loads(const SaddlePointSystem& s, SweepSystem& r) {
-  const VecX load = (s.f - s.K.selfadjointView<Eigen::Lower>() * s.value) / s.stiffness_scale;
+  const VecX load = (s.f - s.K.selfadjointView<Eigen::Lower>() * s.constraints.value) / s.stiffness_scale;
   r.rhs.resize(r.n() + r.m());
   for (Eigen::Index k = 0; k < r.n(); ++k) r.rhs(k) = load(r.unknown[k]);
-  r.rhs.tail(r.m()) = (s.g - s.B * s.value).cwiseQuotient(s.row_scale);
-  r.largest_value = largest_entry(s.value);
+  r.rhs.tail(r.m()) = (s.g - s.B * s.constraints.value).cwiseQuotient(s.row_scale);
+  r.largest_value = largest_entry(s.constraints.value);
 }
 
 // Row i of L times x. Four sums: one would have every addition wait for the one before.
@@ -101,8 +101,8 @@ void factorise_S(SweepSystem& r) {
 SweepSystem sweep_system(const SaddlePointSystem& s) {
   SweepSystem r;
   std::vector<int> free;
-  for (int i = 0; i < int(s.fixed.size()); ++i)
-    if (!s.fixed[i]) free.push_back(i);
+  for (int i = 0; i < int(s.constraints.fixed.size()); ++i)
+    if (!s.constraints.fixed[i]) free.push_back(i);
   for (const int k : band_order(free_stiffness(s, free))) r.unknown.push_back(free[k]);
   split(free_stiffness(s, r.unknown), r);
   set_rows(s, r);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solve/saddle_point.hpp"
+#include "solve/saddle_point_system.hpp"
 
 namespace mortise {
 

@@ -8,9 +8,9 @@
 namespace mortise {
 namespace {
 
-// Below this part of what one row alone could hold with, a motion is loose. It opens the rows by less than the root of
-// this part of its size.
-constexpr double loose_limit = 1e-10;
+// Below this part of what one row alone could hold with, a motion is a rigid mode. It opens the rows by less than the
+// root of this part of its size.
+constexpr double rigid_limit = 1e-10;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs,
     H_.row(j) = compliance.col(column).tail(springs_).transpose();
   }
   diagonal_ = C.diagonal();
-  if (count > 0) cholesky_.compute(C);
+  cholesky_.compute(C);
   if (springs_ == 0 || m_ == 0 || dependent_row() >= 0) return;
 
   MatX T = MatX::Zero(springs_, springs_);
@@ -36,11 +36,11 @@ MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs,
   const double one_row =
       compliance.bottomLeftCorner(springs_, m_).cwiseAbs2().maxCoeff() / compliance.diagonal().head(m_).maxCoeff();
   const Eigen::SelfAdjointEigenSolver<MatX> eigen(T);
-  Eigen::Index loose = 0;
-  while (loose < springs_ && !(eigen.eigenvalues()(loose) > loose_limit * one_row)) ++loose;
-  loose_ = told_apart(eigen.eigenvectors().leftCols(loose));
-  held_ = eigen.eigenvectors().rightCols(springs_ - loose);
-  stiffness_ = eigen.eigenvalues().tail(springs_ - loose);
+  Eigen::Index free = 0;
+  while (free < springs_ && !(eigen.eigenvalues()(free) > rigid_limit * one_row)) ++free;
+  rigid_modes_ = told_apart(eigen.eigenvectors().leftCols(free));
+  held_ = eigen.eigenvectors().rightCols(springs_ - free);
+  stiffness_ = eigen.eigenvalues().tail(springs_ - free);
 }
 
 int MultiplierSystem::dependent_row() const {
@@ -73,15 +73,15 @@ VecX MultiplierSystem::solve(const VecX& rhs) const {
   return x;
 }
 
-VecX MultiplierSystem::drift(const VecX& rhs) const {
-  VecX drift = VecX::Zero(springs_);
-  if (loose_.cols() == 0) return drift;
+VecX MultiplierSystem::driven_mode(const VecX& rhs) const {
+  VecX driven = VecX::Zero(springs_);
+  if (rigid_modes_.cols() == 0) return driven;
   const VecX y = on_active(rhs), work = unbalanced(rhs, y),
              terms = rhs.tail(springs_).cwiseAbs() + H_.cwiseAbs().transpose() * y.cwiseAbs();
-  for (const auto& motion : loose_.colwise())
-    if (std::abs(motion.dot(work)) > std::sqrt(loose_limit) * motion.cwiseAbs().dot(terms))
-      drift += motion.dot(work) * motion;
-  return drift;
+  for (const auto& motion : rigid_modes_.colwise())
+    if (std::abs(motion.dot(work)) > std::sqrt(rigid_limit) * motion.cwiseAbs().dot(terms))
+      driven += motion.dot(work) * motion;
+  return driven;
 }
 
 }  // namespace mortise

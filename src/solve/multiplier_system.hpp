@@ -14,7 +14,8 @@ namespace mortise {
 ///   [C_AA  H_A; H_A^T  0] (lambda_A, mu) = (r_A, h),   lambda = 0 on the other rows.
 ///
 /// Column k of H = B R says how each row opens under the free motion that moves spring k's unknown by 1, and h is the
-/// load's work on these motions. Motions that the active rows do not hold are loose: they do not take part in solve().
+/// load's work on these motions. Rigid modes are the motions that the active rows do not hold: they do not take part in
+/// solve().
 class MultiplierSystem {
  public:
   /// `compliance`: (m + s) x (m + s), lower triangle, [C; H^T, .] (BorderedCholesky). `active`: rows below m,
@@ -27,11 +28,11 @@ class MultiplierSystem {
   /// (lambda, mu), m + s, for the right-hand side (r, h), m + s.
   VecX solve(const VecX& rhs) const;
 
-  /// The motions that the active rows leave loose, s x count: the springs' unknowns in each, told_apart.
-  const MatX& loose() const { return loose_; }
-  /// The loose motion that the load drives, s, in its direction: H drift is how the rows open under it. Zero where the
-  /// work of the load and the rows is no more than rows do that a motion opens too little to be held by them.
-  VecX drift(const VecX& rhs) const;
+  /// s x count: the springs' unknowns in each rigid mode, told_apart.
+  const MatX& rigid_modes() const { return rigid_modes_; }
+  /// The rigid mode that the load drives, s, in its direction: H times it is how the rows open. Zero where the work of
+  /// the load and the rows is no more than rows do that a motion opens too little to be held by them.
+  VecX driven_mode(const VecX& rhs) const;
 
  private:
   // h - H_A^T y: the load's work that the rows' forces y leave.
@@ -43,7 +44,7 @@ class MultiplierSystem {
   Eigen::LLT<MatX> cholesky_;  // of C_AA
   VecX diagonal_;              // of C_AA
   MatX H_, reduced_;           // H_A, C_AA^-1 H_A
-  MatX held_, loose_;          // eigenvectors of H_A^T C_AA^-1 H_A
+  MatX held_, rigid_modes_;    // eigenvectors of H_A^T C_AA^-1 H_A
   VecX stiffness_;             // and the eigenvalues of those held
 };
 

@@ -1,10 +1,8 @@
 #include "solve/relaxation.hpp"
 
 #include <Eigen/QR>
-#include <cmath>
-#include <limits>
 
-#include "base/stopwatch.hpp"
+#include "solve/iteration_monitor.hpp"
 
 namespace mortise {
 namespace {
@@ -47,50 +45,11 @@ VecX anderson(double beta, const Past& past, const VecX& x, const VecX& z) {
   return best_x + beta * best_z;
 }
 
-constexpr double divergence = 1e6;  // growth of z
-
-// Says when to stop, and keeps the history.
-class Monitor {
- public:
-  Monitor(const RelaxationOptions& options, const StepReport& report, RelaxationResult& result)
-      : options_(options), report_(report), result_(result) {}
-
-  // True while there is something left to do.
-  bool go_on(const Residuals& residuals, const VecX& z) {
-    result_.history.push_back({residuals, 0, watch_.elapsed()});
-    sizes_.push_back(z.norm());
-    smallest_ = std::min(smallest_, sizes_.back());
-    if (residuals.largest() <= options_.tolerance) result_.status = RelaxationResult::Status::converged;
-    if (!std::isfinite(sizes_.back()) || sizes_.back() > divergence * smallest_)
-      result_.status = RelaxationResult::Status::diverged;
-    return result_.status == RelaxationResult::Status::not_converged &&
-           int(result_.history.size()) < options_.max_iterations;
-  }
-  void took(double beta) {
-    result_.history.back().beta = beta;
-    if (report_) report_(int(result_.history.size()), result_.history.back());
-  }
-  void finish(const VecX& x) {
-    if (report_) report_(int(result_.history.size()), result_.history.back());
-    result_.x = x;
-    const std::size_t last = sizes_.size() - 1, middle = last / 2;
-    if (last > middle) result_.factor = std::pow(sizes_[last] / sizes_[middle], 1 / double(last - middle));
-  }
-
- private:
-  const RelaxationOptions& options_;
-  const StepReport& report_;
-  RelaxationResult& result_;
-  Stopwatch watch_;
-  std::vector<double> sizes_;  // of z
-  double smallest_ = std::numeric_limits<double>::infinity();
-};
-
 // z(x) = z_0 - A (x - x_0): the directions p, orthogonal in A p, are those of the residuals.
-void krylov(const Correction& correction, const Measure& measure, VecX x, Monitor& monitor) {
+VecX krylov(const Correction& correction, const Measure& measure, VecX x, IterationMonitor& monitor) {
   VecX z = correction(x);
   std::vector<VecX> directions, images;
-  while (monitor.go_on(measure(x, z), z)) {
+  while (monitor.go_on(measure(x, z), z.norm())) {
     VecX p = z, Ap = z - correction(x + z);
     for (int twice = 0; twice < 2; ++twice)
       for (std::size_t i = 0; i < images.size(); ++i) {
@@ -107,23 +66,16 @@ void krylov(const Correction& correction, const Measure& measure, VecX x, Monito
     z -= length * images.back();
     monitor.took(1);
   }
-  monitor.finish(x);
+  return x;
 }
 
-}  // namespace
-
-RelaxationResult relax(const Correction& correction, const Measure& measure, VecX x, const RelaxationOptions& options,
-                       const StepReport& report) {
-  RelaxationResult result;
-  Monitor monitor(options, report, result);
-  if (options.acceleration == Acceleration::krylov) {
-    krylov(correction, measure, std::move(x), monitor);
-    return result;
-  }
+// By aitken or anderson, or with beta as it stands.
+VecX relaxed(const Correction& correction, const Measure& measure, VecX x, const RelaxationOptions& options,
+             IterationMonitor& monitor) {
   Past past;
   double beta = options.beta;
   VecX z = correction(x);
-  while (monitor.go_on(measure(x, z), z)) {
+  while (monitor.go_on(measure(x, z), z.norm())) {
     if (options.acceleration == Acceleration::aitken) beta = aitken(beta, past, z);
     VecX next = options.acceleration == Acceleration::anderson ? anderson(beta, past, x, z) : VecX(x + beta * z);
     past.x.push_back(std::move(x));
@@ -132,8 +84,16 @@ RelaxationResult relax(const Correction& correction, const Measure& measure, Vec
     z = correction(x);
     monitor.took(beta);
   }
-  monitor.finish(x);
-  return result;
+  return x;
+}
+
+}  // namespace
+
+RelaxationResult relax(const Correction& correction, const Measure& measure, VecX x, const RelaxationOptions& options) {
+  IterationMonitor monitor(options.tolerance, options.max_iterations - 1);  // z is evaluated before the first step too
+  x = options.acceleration == Acceleration::krylov ? krylov(correction, measure, std::move(x), monitor)
+                                                   : relaxed(correction, measure, std::move(x), options, monitor);
+  return {monitor.status(), std::move(x), monitor.history(), monitor.convergence_rate()};
 }
 
 }  // namespace mortise

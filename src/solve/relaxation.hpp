@@ -2,10 +2,8 @@
 #pragma once
 
 #include <functional>
-#include <vector>
 
-#include "base/model.hpp"
-#include "base/types.hpp"
+#include "solve/solution.hpp"
 
 namespace mortise {
 
@@ -13,35 +11,18 @@ struct RelaxationOptions {
   Acceleration acceleration = Acceleration::krylov;
   double beta = 1;  ///< relaxation; of accelerated iterations that of the first step. > 0
   double tolerance = 1e-8;
-  int max_iterations = 100;
-};
-
-/// How far an iterate is from the solution, both relative.
-struct Residuals {
-  double kinematic;  ///< of the displacements
-  double force;      ///< of the pressures
-  double largest() const { return mortise::largest(kinematic, force); }
-};
-
-/// One iterate, before the step that was taken from it.
-struct RelaxationStep {
-  Residuals residuals;
-  double beta;     ///< of the step
-  double seconds;  ///< since the start
+  int max_iterations = 100;  ///< evaluations of z
 };
 
 struct RelaxationResult {
-  enum class Status { converged, diverged, not_converged };
-  Status status = Status::not_converged;
-  VecX x;                               ///< the last iterate
-  std::vector<RelaxationStep> history;  ///< one an evaluation of z
-  /// Geometric mean of what a step multiplied z by over the last half of the steps; above 1 it grew.
-  double factor = 0;
+  SolveStatus status = SolveStatus::not_converged;  ///< or converged, diverged
+  VecX x;                                           ///< the last iterate
+  std::vector<IterationStep> history;               ///< one an evaluation of z
+  double convergence_rate = 0;                      ///< of z, as Iteration::convergence_rate
 };
 
-using Correction = std::function<VecX(const VecX& x)>;                          ///< z(x), zero at the solution
-using Measure = std::function<Residuals(const VecX& x, const VecX& z)>;         ///< of an iterate
-using StepReport = std::function<void(int step, const RelaxationStep& taken)>;  ///< progress
+using Correction = std::function<VecX(const VecX& x)>;                   ///< z(x), zero at the solution
+using Measure = std::function<Residuals(const VecX& x, const VecX& z)>;  ///< of an iterate
 
 /// Iterates from x until the largest residual is below the tolerance, or z is 1e6 times the smallest seen or not
 /// finite (diverged).
@@ -51,7 +32,6 @@ using StepReport = std::function<void(int step, const RelaxationStep& taken)>;  
 ///             Vierendeels 2009) for beta = 1
 ///   krylov    GCR (Eisenstat, Elman & Schultz 1983), the iterates of GMRES; z must be affine in x
 /// Deviation: Anderson leaves out columns that are combinations of newer ones to 1e-10.
-RelaxationResult relax(const Correction& correction, const Measure& measure, VecX x, const RelaxationOptions& options,
-                       const StepReport& report = {});
+RelaxationResult relax(const Correction& correction, const Measure& measure, VecX x, const RelaxationOptions& options);
 
 }  // namespace mortise

@@ -94,7 +94,7 @@ void draw_contact(Draw& draw, Scene& scene) {
 
 void draw_ddm(Draw& draw, Scheme scheme, Method& method) {
   using Bodies = std::vector<std::string>;
-  method.kind = MethodKind::ddm;
+  method.solver = Solver::ddm;
   method.ddm.scheme = scheme;
   method.ddm.tolerance = 1e-10;
   method.ddm.max_iterations = 200;
@@ -102,8 +102,7 @@ void draw_ddm(Draw& draw, Scheme scheme, Method& method) {
                                                                        {"aitken", Acceleration::aitken},
                                                                        {"anderson", Acceleration::anderson},
                                                                        {"krylov", Acceleration::krylov}});
-  method.ddm.dirichlet =
-      draw.one_of<Bodies>("dirichlet", {{"default", {}}, {"upper", {"upper"}}, {"lower", {"lower"}}});
+  method.dirichlet = draw.one_of<Bodies>("dirichlet", {{"default", {}}, {"upper", {"upper"}}, {"lower", {"lower"}}});
 }
 
 void draw_mssor(Draw& draw, Method& method) {
@@ -141,7 +140,7 @@ std::optional<Results> solved(const Scene& scene, const TwoPlates& plates) {
 }
 
 void expect_finite(const Results& r) {
-  EXPECT_TRUE(r.u.allFinite());
+  EXPECT_TRUE(r.solution.u.allFinite());
   EXPECT_TRUE(std::isfinite(r.energy));
   for (const ContactResults& c : r.contacts) EXPECT_TRUE(c.pressure.allFinite());
   for (const Check& c : r.checks) EXPECT_TRUE(std::isfinite(c.value)) << c.name;
@@ -149,9 +148,9 @@ void expect_finite(const Results& r) {
 
 std::string told(const Results& r) {
   std::ostringstream text;
-  text << to_string(r.status) << ", largest displacement " << largest_entry(r.u);
+  text << to_string(r.status) << ", largest displacement " << largest_entry(r.solution.u);
   for (const Check& c : r.checks) text << "\n  " << c.name << " " << c.value;
-  for (const std::string& note : r.notes) text << "\n  " << note;
+  for (const std::string& note : r.warnings) text << "\n  " << note;
   return text.str();
 }
 
@@ -170,7 +169,7 @@ TEST_P(Differential, EachMethodAgreesWithTheDirectOneOrSaysThatItDoesNot) {
     }
     expect_finite(*found);
     Scene direct = s.scene;
-    direct.method.kind = MethodKind::mortar;
+    direct.method.solver = Solver::direct;
     direct.method.solver = Solver::direct;
     direct.contacts[0].multipliers_on = found->pairs[0].spec.multipliers_on;
     const std::optional<Results> reference = solved(direct, s.plates);
@@ -178,7 +177,7 @@ TEST_P(Differential, EachMethodAgreesWithTheDirectOneOrSaysThatItDoesNot) {
     ++compared;
     EXPECT_EQ(to_string(found->status), to_string(reference->status));
     EXPECT_LE(pressure_difference(*found, *reference), 1e-6) << told(*found);
-    EXPECT_LE(largest_entry(found->u - reference->u), 1e-6 * largest_entry(reference->u));
+    EXPECT_LE(largest_entry(found->solution.u - reference->solution.u), 1e-6 * largest_entry(reference->solution.u));
   }
   std::printf("%s: %d compared, %d refused, %d not converged\n", GetParam(), compared, refused, unfinished);
   EXPECT_GE(compared, 25);

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/diagnose.hpp"
+#include "app/solve_scene.hpp"
+#include "results/diagnose.hpp"
 #include "support/messages.hpp"
 #include "support/plate_scenes.hpp"
 
@@ -12,13 +13,13 @@ namespace mortise::test {
 namespace {
 
 bool noted(const Results& r, const std::string& part) {
-  return std::any_of(r.notes.begin(), r.notes.end(),
+  return std::any_of(r.warnings.begin(), r.warnings.end(),
                      [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
 std::string all_notes(const Results& r) {
   std::string all;
-  for (const std::string& note : r.notes) all += note + "\n";
+  for (const std::string& note : r.warnings) all += note + "\n";
   return all.empty() ? "(no notes)" : all;
 }
 
@@ -30,8 +31,8 @@ BoundarySpec moved(const char* on, double y) {
   return b;
 }
 
-Scene solved_by(Scene scene, MethodKind kind) {
-  scene.method.kind = kind;
+Scene solved_by(Scene scene, Solver kind) {
+  scene.method.solver = kind;
   return scene;
 }
 
@@ -41,7 +42,7 @@ TEST(PrescribedContact, OnBothCurvesEverywhereIsAnError) {
   Scene s = uniaxial_scene();
   s.boundaries.push_back(moved("upper_contact", 0));
   s.boundaries.push_back(moved("lower_contact", 0));
-  for (const MethodKind kind : {MethodKind::mortar, MethodKind::ddm})
+  for (const Solver kind : {Solver::direct, Solver::ddm})
     expect_contains(message_of([&] { solve_scene(solved_by(s, kind), mesh_of({})); }), "contact has nothing to decide");
 }
 
@@ -58,9 +59,9 @@ TEST(PrescribedContact, OfOneBodyGivesTheOtherTheDisplacementInDomainDecompositi
   s.boundaries.push_back(moved("lower_contact", 0));
   TwoPlates plates;
   plates.n_upper = 5;  // the lower body is the finer one, which would take the displacement
-  const Results r = solve_scene(solved_by(s, MethodKind::ddm), mesh_of(plates));
-  ASSERT_TRUE(r.interface.has_value());
-  EXPECT_EQ(r.interface->dirichlet, std::vector<std::string>{"upper"});
+  const Results r = solve_scene(solved_by(s, Solver::ddm), mesh_of(plates));
+  ASSERT_TRUE(r.solution.iteration.has_value());
+  EXPECT_EQ(r.dirichlet, std::vector<std::string>{"upper"});
   EXPECT_NE(r.status, Status::not_converged);
   EXPECT_NEAR(r.contacts[0].p_min, 10e6, 1);
   EXPECT_NEAR(r.contacts[0].p_max, 10e6, 1);
@@ -255,7 +256,7 @@ TEST(Touching, IsSolvedWithoutPressure) {
     const Results r = solve_scene(s, mesh_of({}));
     EXPECT_EQ(r.status, Status::solved) << to_string(space);
     EXPECT_LT(r.contacts[0].p_max, 1e-3);
-    EXPECT_LE(r.steps.size(), 3U);
+    EXPECT_LE(r.solution.steps.size(), 3U);
   }
 }
 

@@ -119,7 +119,7 @@ struct Facing {
 Facing facing(const Mesh& mesh, const std::string& first, const std::string& second, const std::string& on) {
   Scene s = scene_of(first, second, on);
   for (const std::string& body : mesh.bodies) s.bodies.push_back({body, "steel"});
-  return {mesh, couple_pairs(s, mesh, discretise(s, mesh))};
+  return {mesh, couple_pairs(s.method, mesh, discretise(s, mesh), contact_curves(s, mesh))};
 }
 
 // Their whole outlines are the contact curves, and their edges are longer than both together are thick.

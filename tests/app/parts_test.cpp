@@ -19,8 +19,8 @@ Results solved(const std::string& name, const std::string& parameter = "", const
 void expect_few_words(const Results& r) {
   EXPECT_EQ(r.status, Status::solved);
   for (const Check& check : r.checks) EXPECT_TRUE(check.ok()) << check.name << ": " << check.value;
-  EXPECT_LE(r.notes.size(), r.pairs.size());
-  for (const std::string& note : r.notes)
+  EXPECT_LE(r.warnings.size(), r.pairs.size());
+  for (const std::string& note : r.warnings)
     EXPECT_TRUE(note.find("near (") != std::string::npos || note.find("(x = ") != std::string::npos ||
                 note.find("body '") != std::string::npos)
         << note;
@@ -87,13 +87,13 @@ TEST(AgainstSigmaN, ACoarseMeshIsNamedWithItsPlace) {
   const Results r = solved("v_block", "mesh.parameters.n", "6");
   ASSERT_TRUE(r.against_sigma_n[0].has_value());
   EXPECT_GT(r.against_sigma_n[0]->difference, 0.1);
-  ASSERT_FALSE(r.notes.empty());
+  ASSERT_FALSE(r.warnings.empty());
   EXPECT_EQ(r.status, Status::solved);
   bool named = false;
-  for (const std::string& note : r.notes)
+  for (const std::string& note : r.warnings)
     named = named || (note.find("p and the stress in the bodies differ") != std::string::npos &&
                       note.find("near (") != std::string::npos);
-  EXPECT_TRUE(named) << r.notes.front();
+  EXPECT_TRUE(named) << r.warnings.front();
 }
 
 TEST(AgainstSigmaN, DoesNotChangeWhereAllIsMovedAsAWhole) {

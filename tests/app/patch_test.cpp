@@ -76,7 +76,7 @@ TEST(Units, MetresAndPascalsAgreeWithMillimetresAndMegapascals) {
   megapascals.materials["steel"].young *= 1e-6;
   *megapascals.boundaries.back().pressure *= 1e-6;
   const Results a = solve_scene(pascals, metres), b = solve_scene(megapascals, millimetres);
-  EXPECT_LE((a.u - b.u / 1000).cwiseAbs().maxCoeff(), 1e-9 * a.u.cwiseAbs().maxCoeff());
+  EXPECT_LE((a.solution.u - b.solution.u / 1000).cwiseAbs().maxCoeff(), 1e-9 * a.solution.u.cwiseAbs().maxCoeff());
   EXPECT_LE((a.stress.points - 1e6 * b.stress.points).cwiseAbs().maxCoeff(),
             1e-9 * a.stress.points.cwiseAbs().maxCoeff());
   EXPECT_LE((a.contacts[0].pressure - 1e6 * b.contacts[0].pressure).cwiseAbs().maxCoeff(), 1e-9 * a.contacts[0].p_max);
@@ -85,7 +85,7 @@ TEST(Units, MetresAndPascalsAgreeWithMillimetresAndMegapascals) {
 
 TEST(Energy, EqualsHalfTheWorkOfTheLoadOnASupportedBody) {
   const Results r = solve_scene(uniaxial_scene(), mesh_of({}));
-  EXPECT_NEAR(r.energy, 0.5 * r.u.dot(r.discretisation.load), 1e-10 * r.energy);
+  EXPECT_NEAR(r.energy, 0.5 * r.solution.u.dot(r.discretisation.system.f), 1e-10 * r.energy);
   // Uniaxial plane strain: sigma^2 (1 - nu^2) / (2 E) times the area.
   EXPECT_NEAR(r.energy, 1e14 * 0.91 / (2 * 210e9) * 0.48, 1e-8 * r.energy);
 }

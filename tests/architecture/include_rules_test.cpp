@@ -29,7 +29,9 @@ const std::map<std::string, Names> may_enter{
     {"ddm", {"base", "solve"}},
     {"scene", {"base"}},
     {"io", {"base", "mesh", "fem"}},
-    {"app", {"base", "mesh", "fem", "contact", "solve", "ddm", "scene", "io"}},
+    {"problem", {"base", "mesh", "fem", "contact", "solve", "scene"}},
+    {"results", {"base", "mesh", "fem", "contact", "solve", "scene", "io", "problem"}},
+    {"app", {"base", "mesh", "fem", "contact", "solve", "ddm", "scene", "io", "problem", "results"}},
 };
 
 // Headers of others, and the one room that may use them; `sources_only`: not in its headers, so that nobody who
@@ -41,7 +43,7 @@ struct Foreign {
 const std::vector<Foreign> foreigners{
     {"Boost", R"(boost/.*)", "mesh", true},    {"gmsh", R"(gmsh\..*)", "io", true},
     {"VTK", R"(vtk\w+\.h)", "io", true},       {"CHOLMOD", R"((.*/)?cholmod.*)", "solve", true},
-    {"AMD", R"((.*/)?amd\.h)", "solve", true}, {"nlohmann-json", R"(nlohmann/.*)", "app", false},
+    {"AMD", R"((.*/)?amd\.h)", "solve", true}, {"nlohmann-json", R"(nlohmann/.*)", "results", false},
     {"CLI11", R"(CLI/.*)", "app", false},      {"toml++", R"(toml\+\+.*)", "scene", true},
 };
 
@@ -126,12 +128,72 @@ TEST(IncludeRules, NameFileAndLineOfAForbiddenInclude) {
 
 TEST(IncludeRules, AllowWhatTheTableAllows) {
   for (const auto& [file, text] : std::vector<std::pair<std::string, std::string>>{
-           {"app/a.cpp", "#include \"ddm/a.hpp\"\n#include <nlohmann/json.hpp>\n#include <CLI/CLI.hpp>"},
+           {"app/a.cpp", "#include \"ddm/a.hpp\"\n#include <CLI/CLI.hpp>"},
+           {"results/a.hpp", "#include \"problem/a.hpp\"\n#include <nlohmann/json.hpp>"},
            {"io/a.cpp", "#include <gmsh.h>\n#include <vtkPoints.h>\n#include \"fem/elements.hpp\""},
            {"solve/a.cpp", "#include <amd.h>\n#include <cholmod.h>\n#include <Eigen/LU>"},
            {"scene/a.cpp", "#include <toml++/toml.h>\n// #include \"app/a.hpp\""},
        })
     EXPECT_EQ(violations_of(file, text), std::vector<std::string>{}) << file << ": " << text;
+}
+
+// ---- Units: a .hpp and the .cpp of its name ----
+
+using Graph = std::map<std::string, Names>;
+
+// The units that each unit includes, by the texts of all files (paths below src/ without their extension).
+Graph units_of(const std::vector<std::pair<std::string, std::string>>& files) {
+  static const std::regex include(R"(\s*#\s*include\s*"([^"]+)\.hpp".*)");
+  Graph graph;
+  for (const auto& [unit, text] : files) {
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+      if (std::smatch match; std::regex_match(line, match, include) && match[1] != unit) graph[unit].insert(match[1]);
+  }
+  return graph;
+}
+
+// A way from a unit back to itself, "a -> b -> a"; empty if there is none.
+std::string loop_through(const Graph& graph, const std::string& start) {
+  std::map<std::string, std::string> from;  // how a unit was reached
+  std::vector<std::string> open{start};
+  while (!open.empty()) {
+    const std::string unit = open.back();
+    open.pop_back();
+    if (!graph.count(unit)) continue;
+    for (const std::string& next : graph.at(unit)) {
+      if (!from.emplace(next, unit).second) continue;
+      open.push_back(next);
+    }
+  }
+  if (!from.count(start)) return "";
+  std::string way = start;
+  for (std::string at = from.at(start); at != start; at = from.at(at)) way = at + " -> " + way;
+  return start + " -> " + way;
+}
+
+TEST(IncludeRules, NoLoopBetweenUnits) {
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const auto& entry : fs::recursive_directory_iterator(project / "src")) {
+    const fs::path extension = entry.path().extension();
+    if (!entry.is_regular_file() || (extension != ".hpp" && extension != ".cpp")) continue;
+    std::ifstream file(entry.path());
+    std::ostringstream text;
+    text << file.rdbuf();
+    files.emplace_back(entry.path().lexically_relative(project / "src").replace_extension().generic_string(),
+                       text.str());
+  }
+  const Graph graph = units_of(files);
+  EXPECT_GT(graph.size(), 50U);
+  for (const auto& [unit, included] : graph) EXPECT_EQ(loop_through(graph, unit), "");
+}
+
+TEST(IncludeRules, ALoopBetweenUnitsIsNamed) {
+  const Graph graph = units_of({{"a/one", "#include \"a/two.hpp\"\n#include \"a/one.hpp\""},
+                                {"a/two", "#include \"b/three.hpp\""},
+                                {"b/three", "#include <vector>\n#include \"a/one.hpp\""}});
+  EXPECT_EQ(loop_through(graph, "a/one"), "a/one -> a/two -> b/three -> a/one");
+  EXPECT_EQ(loop_through(units_of({{"a/one", "#include \"a/one.hpp\""}}), "a/one"), "");
 }
 
 TEST(TopLevel, HoldsTheListedEntriesOnly) {

@@ -33,6 +33,9 @@ class Guard : public testing::Test {
 using GuardDeathTest = Guard;
 
 TEST_F(GuardDeathTest, ManyMistakesCrashGmsh) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the address sanitizer ends the process itself at gmsh's double free";
+#endif
   std::string text;
   for (int i = 1; i <= 25; ++i) {
     const std::string n = std::to_string(i);

@@ -166,7 +166,11 @@ inline Rows solver_rows() {
   const std::string kind = "kind = \"ddm\"", mortar = "kind = \"mortar\"\n", mssor = mortar + "solver = \"mssor\"\n";
   return {
       {"NotASolver", kind, mortar + "solver = \"msor\"", {"method.solver: unknown solver 'msor'", "'mssor'"}, 1},
-      {"MssorInDdm", kind, kind + "\nsolver = \"mssor\"", {"method.solver: ", "expected kind = \"mortar\""}, 1},
+      {"MssorInDdm",
+       kind,
+       kind + "\nsolver = \"mssor\"",
+       {"method.solver: kind = \"ddm\" and solver = \"mssor\" contradict"},
+       1},
       {"OmegaOfNoSolver", kind, mortar + "omega = 1", {"method.omega: belongs", "expected solver = \"mssor\""}, 1},
       {"TauInDdm", kind, kind + "\ntau = 1", {"method.tau: belongs", "expected solver = \"mssor\""}, 1},
       {"OmegaIsTwo", kind, mssor + "omega = 2", {"method.omega", "0 and 2 (both excluded), found 2"}, 2},
@@ -174,8 +178,8 @@ inline Rows solver_rows() {
       {"TauIsZero", kind, mssor + "tau = 0", {"method.tau: expected a number > 0, found 0"}, 2},
       {"AndersonWithMssor", kind, mssor + "acceleration = \"anderson\"", {"'anderson'", "none, krylov, minres"}, 2},
       {"MinresInDdm", kind, kind + "\nacceleration = \"minres\"", {"unknown acceleration 'minres'", "krylov"}, 1},
-      {"SchemeWithMssor", kind, mssor + "scheme = \"neumann_neumann\"", {"method.scheme", "kind = \"ddm\""}, 2},
-      {"ToleranceOfNone", kind, mortar + "tolerance = 1e-8", {"belongs to an iteration", "solver = \"mssor\""}, 1},
+      {"SchemeWithMssor", kind, mssor + "scheme = \"neumann_neumann\"", {"method.scheme", "solver = \"ddm\""}, 2},
+      {"ToleranceOfNone", kind, mortar + "tolerance = 1e-8", {"belongs to an iteration", "\"ddm\" or \"mssor\""}, 1},
       {"StepsOfNone", kind, mortar + "max_iterations = 9", {"method.max_iterations: belongs to an iteration"}, 1},
   };
 }

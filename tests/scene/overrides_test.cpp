@@ -38,7 +38,7 @@ TEST(Overrides, NumbersWordsListsAndTables) {
   const Scene scene = read_with({"method.kind=mortar", "method.multipliers=\"linear\"", "mesh.parameters.n_upper=40",
                                  "materials.steel.young=70e9", "boundary.2.pressure=5e6", "boundary.3.traction=[3, 4]",
                                  "boundary.1.displacement={y=1}", "title=Two plates, bent"});
-  EXPECT_EQ(scene.method.kind, MethodKind::mortar);
+  EXPECT_EQ(scene.method.solver, Solver::direct);
   EXPECT_EQ(scene.method.multipliers, Multipliers::linear);
   EXPECT_EQ(scene.mesh_parameters.at("n_upper"), 40);
   EXPECT_EQ(scene.mesh_parameters.at("height"), 0.25);
@@ -57,7 +57,7 @@ TEST(Overrides, CreateWhatIsMissing) {
                                  "bodies.other=brass", "contact=[{between=['a', 'b']}]", "contact.condition=bilateral"},
                                 test::shortest_scene);
   EXPECT_EQ(scene.plane, Plane::stress);
-  EXPECT_EQ(scene.method.kind, MethodKind::ddm);
+  EXPECT_EQ(scene.method.solver, Solver::ddm);
   EXPECT_EQ(scene.mesh_parameters.at("new"), 3);
   EXPECT_EQ(scene.bodies.at(1).material, "brass");
   EXPECT_EQ(scene.contacts.at(0).condition, Condition::bilateral);

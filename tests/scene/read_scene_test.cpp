@@ -81,7 +81,7 @@ TEST_F(EveryKey, ContactsAndMethod) {
   EXPECT_EQ(scene_.contacts[1].condition, Condition::unilateral);
   EXPECT_EQ(scene_.contacts[1].initial_gap, InitialGap::measured);
   EXPECT_EQ(scene_.contacts[1].multipliers_on, "");
-  EXPECT_EQ(scene_.method.kind, MethodKind::ddm);
+  EXPECT_EQ(scene_.method.solver, Solver::ddm);
   EXPECT_EQ(scene_.method.integration, Integration::elements);
   EXPECT_EQ(scene_.method.multipliers, Multipliers::dual);
 }
@@ -95,7 +95,7 @@ TEST(ReadScene, WhatTheFileLeavesOutTakesItsDefault) {
   EXPECT_EQ(scene.plane, Plane::strain);
   EXPECT_TRUE(scene.boundaries.empty() && scene.body_forces.empty());
   EXPECT_TRUE(scene.initial_strains.empty() && scene.contacts.empty());
-  EXPECT_EQ(scene.method.kind, MethodKind::mortar);
+  EXPECT_EQ(scene.method.solver, Solver::direct);
   EXPECT_EQ(scene.method.integration, Method{}.integration);
   EXPECT_EQ(scene.method.multipliers, Method{}.multipliers);
 }
@@ -133,7 +133,7 @@ TEST(ReadScene, WordsOfTheEnums) {
   EXPECT_EQ(to_string(Plane::strain) + to_string(Plane::stress), "strainstress");
   EXPECT_EQ(to_string(Condition::unilateral) + to_string(Condition::bilateral), "unilateralbilateral");
   EXPECT_EQ(to_string(InitialGap::measured) + to_string(InitialGap::closed), "measuredclosed");
-  EXPECT_EQ(to_string(MethodKind::mortar) + to_string(MethodKind::ddm), "mortarddm");
+  EXPECT_EQ(to_string(Solver::direct) + to_string(Solver::mssor) + to_string(Solver::ddm), "directmssorddm");
   EXPECT_EQ(to_string(Integration::segments) + to_string(Integration::elements), "segmentselements");
   EXPECT_EQ(to_string(Multipliers::quadratic) + to_string(Multipliers::linear) + to_string(Multipliers::dual),
             "quadraticlineardual");

@@ -12,7 +12,19 @@ struct Problem {
   VecX scale;
   std::vector<int> grounded;
 
-  InfSup solve() const { return inf_sup({K, B, fixed, 2.0, scale, grounded}, S, active); }
+  InfSup solve() const {
+    SaddlePointSystem system{.K = K,
+                             .f = {},
+                             .constraints = {fixed, {}},
+                             .stiffness_scale = 2,
+                             .grounded = grounded,
+                             .B = B,
+                             .g = {},
+                             .row_scale = scale,
+                             .unilateral = {},
+                             .start = {}};
+    return inf_sup(system, S, active);
+  }
 };
 
 SparseMatrix sparse(const MatX& dense) { return dense.sparseView(); }

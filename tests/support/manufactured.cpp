@@ -6,7 +6,7 @@
 #include "contact/coupling.hpp"
 #include "fem/assembly.hpp"
 #include "fem/quadrature.hpp"
-#include "solve/saddle_point.hpp"
+#include "solve/direct.hpp"
 #include "support/field_errors.hpp"
 
 namespace mortise::test {
@@ -101,9 +101,17 @@ Errors manufactured_errors(const ManufacturedCase& which) {
       couple(mesh, multiplier, opposite, contact_points(mesh.nodes, multiplier, opposite, which.integration),
              constraints, {which.multipliers, InitialGap::closed});
   const VecX g = -coupling.gap0;
-  const SaddlePointSolution s = solve_saddle_point(
-      {K, load, coupling.B, g, constraints.fixed, constraints.value, exact.young, coupling.scale, {}});
-  if (s.status != SaddlePointSolution::Status::solved) throw std::runtime_error("manufactured case not solved");
+  const Solution s = solve_directly({.K = K,
+                                     .f = load,
+                                     .constraints = constraints,
+                                     .stiffness_scale = exact.young,
+                                     .grounded = {},
+                                     .B = coupling.B,
+                                     .g = g,
+                                     .row_scale = coupling.scale,
+                                     .unilateral = {},
+                                     .start = {}});
+  if (s.status != SolveStatus::converged) throw std::runtime_error("manufactured case not solved");
   const FieldErrors e = field_errors(
       mesh, laws, s.u,
       {[&](const Vec2& x, int) { return exact.displacement(x); }, [&](const Vec2& x, int) { return exact.stress(x); }});

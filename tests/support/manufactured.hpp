@@ -1,7 +1,7 @@
 // An exact plane-strain field, and two plates in contact that it solves.
 #pragma once
 
-#include "base/model.hpp"
+#include "base/choices.hpp"
 #include "fem/constraints.hpp"
 #include "support/two_plates.hpp"
 

@@ -13,22 +13,22 @@ END = 0.1  # of the length of a curve, left out at either end where a scene has 
 
 
 def summary(folder, run):
-    """Of summary.json: how it ended, steps, the checks that fail and the note on p against sigma_n, notes."""
+    """Of summary.json: how it ended, steps, the checks that fail and the warning of p against sigma_n, warnings."""
     table = json.loads((folder / "summary.json").read_text())
     checks = {check["name"]: check["value"] for check in table["checks"]}
     failed = [check["name"] for check in table["checks"] if not check["ok"]]
     compared = (table["contact"][0]["against_sigma_n"] or {}) if table["contact"] else {}
-    if compared.get("difference", 0) > 0.1:  # as in src/app/notes.cpp
+    if compared.get("difference", 0) > 0.1:  # as in src/results/warnings.cpp
         failed.append(AGAINST_SIGMA_N)
-    interface = table["interface"] or {}
+    iteration = table["iteration"] or {}
     return {
         "status": table["status"],
         "failed_checks": "; ".join(failed),
-        "notes": " | ".join(table["notes"])[:400],
-        "note_count": len(table["notes"]),
+        "notes": " | ".join(table["warnings"])[:400],
+        "note_count": len(table["warnings"]),
         "steps": table["iterations"]["contact"],
-        "interface_steps": table["iterations"]["interface"],
-        "factor": interface.get("factor"),
+        "interface_steps": table["iterations"]["solver"],
+        "factor": iteration.get("convergence_rate"),
         "force_residual": checks.get("residual of the forces"),
         "row_residual": checks.get("residual of the contact condition"),
         "against_stress": compared.get("difference"),

@@ -58,7 +58,7 @@ def decomposed(ratio, scheme, acceleration):
     settings = {
         **launch.sizes((20, 25)),
         **launch.stiffness(ratio),
-        "method.kind": "ddm",
+        "method.solver": "ddm",
         "method.scheme": kind,
         "method.acceleration": acceleration,
         "method.max_iterations": MOST,

@@ -51,8 +51,8 @@ CASES = {
     "every second node shared (8:4)": (SLIDING, "exact", {"meshes": (8, 4), "join": [("upper", "lower")]}),
     "end nodes shared (7:11)": (SLIDING, "exact", {"join": [("upper", "lower")]}),
     "one curve in two pairs": (SLIDING, "refusal", {"pairs": 2}),
-    "lower curve prescribed, ddm": (held(fixed("lower_top", 0)), "exact", {"settings": {"method.kind": "ddm"}}),
-    "end nodes shared, ddm": (SLIDING, "exact", {"join": [("upper", "lower")], "settings": {"method.kind": "ddm"}}),
+    "lower curve prescribed, ddm": (held(fixed("lower_top", 0)), "exact", {"settings": {"method.solver": "ddm"}}),
+    "end nodes shared, ddm": (SLIDING, "exact", {"join": [("upper", "lower")], "settings": {"method.solver": "ddm"}}),
 }
 THREE = "three bodies at a point"
 COVERED = [1.0, 0.5, 0.3, 0.2, 0.1, 0.05, 0.02, 0.01, 1e-3, 1e-4, 1e-6, 1e-8]

@@ -83,7 +83,7 @@ def decomposed(quick):
     for n, mesh in enumerate(MESHES[:2] if quick else MESHES):
         for acceleration in ("aitken", "krylov"):
             for kind in (0, 1):
-                settings = {**launch.sizes(mesh), "method.kind": "ddm", "method.acceleration": acceleration}
+                settings = {**launch.sizes(mesh), "method.solver": "ddm", "method.acceleration": acceleration}
                 settings |= {"mesh.parameters.order": 2 - kind, "mesh.parameters.kind": kind}
                 elements = ("8-node quadrilaterals", "3-node triangles")[kind]
                 yield geo("ddm", "cosine", settings, n, f"{acceleration}, {elements}")

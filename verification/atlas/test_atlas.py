@@ -134,7 +134,7 @@ def test_defaults_lie_inside_the_stable_regions(scene):
     nu = [material["poisson"] for material in tomllib.loads(launch.scene_file(scene).read_text())["materials"].values()]
     assert max(nu) < 0.45
     if scene != "stack":  # whose bodies are a chain of three
-        row = atlas_runs.execute({**run, "settings": {**run["settings"], "method.kind": "ddm"}})
+        row = atlas_runs.execute({**run, "settings": {**run["settings"], "method.solver": "ddm"}})
         assert row["outcome"] in ("solved", "check"), row
 
 

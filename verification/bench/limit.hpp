@@ -1,7 +1,7 @@
 // The limit that the whole solve is measured against: one sparse Cholesky solve of the same stiffness by CHOLMOD.
 #pragma once
 
-#include "app/discretisation.hpp"
+#include "problem/discretisation.hpp"
 
 namespace mortise::bench {
 

@@ -8,7 +8,7 @@ T3 = {"mesh.parameters.kind": 1, "mesh.parameters.order": 1}
 T6 = {"mesh.parameters.kind": 1}
 Q4 = {"mesh.parameters.order": 1}
 Q9 = {"mesh.parameters.nine_node": 1}
-DDM = {"method.kind": "ddm", "method.max_iterations": 1000}
+DDM = {"method.solver": "ddm", "method.max_iterations": 1000}
 FIXED = {**DDM, "method.acceleration": "none"}
 QUADRATIC, LINEAR, DUAL = ({"method.multipliers": name} for name in ("quadratic", "linear", "dual"))
 

@@ -73,9 +73,9 @@ void print_heading() {
 void print_refused(const std::string& name) { std::printf("%s,0,refused,,,,,,,,,,,,,,,,,\n", name.c_str()); }
 
 void print_row(const std::string& name, int turn, const Results& r, const RunErrors& e, double total, double wall) {
-  const std::size_t steps = r.interface ? r.interface->history.size() : 0;
+  const int steps = r.solution.iteration ? r.solution.iteration->steps : 0;
   std::printf("%s,%d,%s,%d,%d,%d,%d,%d", name.c_str(), turn, to_string(r.status).c_str(), int(r.mesh.nodes.rows()),
-              int(r.mesh.cells.size()), r.unknowns, r.multipliers, int(steps));
+              int(r.mesh.cells.size()), free_unknowns(r), int(r.solution.lambda.size()), steps);
   std::printf(",%.17g", r.energy);
   const Seconds& s = r.seconds;
   for (const double value : {e.energy, e.p_l2, e.p_l2_inner, e.p_max_inner, s.assemble, s.couple, s.factorise, s.solve,

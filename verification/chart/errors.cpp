@@ -12,8 +12,8 @@ namespace {
 
 double energy_error(const Results& r, const test::Field& exact) {
   const auto& laws = r.discretisation.laws;
-  const double norm = test::field_errors(r.mesh, laws, VecX::Zero(r.u.size()), exact).energy;
-  return test::field_errors(r.mesh, laws, r.u, exact).energy / norm;
+  const double norm = test::field_errors(r.mesh, laws, VecX::Zero(r.solution.u.size()), exact).energy;
+  return test::field_errors(r.mesh, laws, r.solution.u, exact).energy / norm;
 }
 
 struct Place {

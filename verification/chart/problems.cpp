@@ -31,8 +31,8 @@ void make_manufactured(Problem& p) {
   p.scene.boundaries.clear();
   for (auto& [name, material] : p.scene.materials) material = {exact.young, exact.poisson, 0};
   p.adjust = [exact](const Mesh& mesh, Discretisation& d) {
-    d.load += test::exact_loads(mesh, exact);
-    for (const char* side : {"top", "bottom"}) test::prescribe_exactly(mesh, exact, side, d.constraints);
+    d.system.f += test::exact_loads(mesh, exact);
+    for (const char* side : {"top", "bottom"}) test::prescribe_exactly(mesh, exact, side, d.system.constraints);
   };
   p.exact = test::Field{[exact](const Vec2& x, int) { return exact.displacement(x); },
                         [exact](const Vec2& x, int) { return exact.stress(x); }};

@@ -10,11 +10,11 @@ import launch
 
 def sweep(scene, settings, vary):
     """launch.sweep by domain decomposition."""
-    return launch.sweep(scene, {"method.kind": "ddm", **settings}, vary)
+    return launch.sweep(scene, {"method.solver": "ddm", **settings}, vary)
 
 
 def outcome(row, most_steps):
     """converged, diverged or unfinished; a check that fails on a coarse mesh is none of these matters."""
     if row["status"] != "not_converged":
         return "converged"
-    return "diverged" if row["iterations.interface"] < most_steps or row["interface.factor"] > 1 else "unfinished"
+    return "diverged" if row["iteration.steps"] < most_steps or row["iteration.convergence_rate"] > 1 else "unfinished"

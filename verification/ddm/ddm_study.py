@@ -33,7 +33,7 @@ def draw_histories(output, mesh):
     folders = []
     for acceleration in ACCELERATIONS:
         folder = output / "runs" / acceleration
-        settings = {"method.kind": "ddm", "method.acceleration": acceleration, **launch.sizes(mesh)}
+        settings = {"method.solver": "ddm", "method.acceleration": acceleration, **launch.sizes(mesh)}
         launch.solve("parabola_1", settings, folder)
         folders.append(str(folder))
     run_part(history.main, [*folders, str(output / "history.png")])

@@ -3,7 +3,7 @@
 
 Usage: history.py RESULTS [RESULTS ...] [PICTURE] [--dpi DPI]
 
-RESULTS are folders that `mortise solve` wrote with method.kind = "ddm"; read are interface.csv and summary.json.
+RESULTS are folders that `mortise solve` wrote with method.solver = "ddm"; read are iteration.csv and summary.json.
 PICTURE is a .png, .pdf or .svg, by default RESULTS-history.png beside the first folder.
 """
 
@@ -24,8 +24,8 @@ COLOURS = plt.get_cmap("tab10").colors
 
 
 def read_history(folder):
-    """Columns of interface.csv."""
-    with open(folder / "interface.csv", newline="") as file:
+    """Columns of iteration.csv."""
+    with open(folder / "iteration.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
 
@@ -33,11 +33,11 @@ def read_history(folder):
 def describe(folder):
     """Name of the folder and the method of its run."""
     summary = json.loads((folder / "summary.json").read_text())
-    run = summary["interface"]
-    beta = f", $\\beta$ {run['beta']:.3g}" if run["beta"] > 0 else ""
-    roles = f", displacement on {', '.join(run['dirichlet'])}" if run["scheme"] == "neumann_dirichlet" else ""
+    run = summary["iteration"]
+    beta = f", $\\beta$ {run['beta']:.3g}" if run.get("beta", 0) > 0 else ""
+    roles = f", displacement on {', '.join(summary['method']['dirichlet'])}" if run["method"] == "neumann_dirichlet" else ""
     ended = "" if summary["status"] != "not_converged" else ", not converged"
-    return f"{folder.resolve().name}: {run['scheme']}, {run['acceleration']}{beta}{roles}{ended}"
+    return f"{folder.resolve().name}: {run['method']}, {run['acceleration']}{beta}{roles}{ended}"
 
 
 def draw(folders, picture, dpi=130):
@@ -71,8 +71,8 @@ def main(arguments=None):
     if not folders:
         parser.error("no folder of results given")
     for folder in folders:
-        if not (folder / "interface.csv").is_file():
-            parser.error(f"{folder}: no interface.csv there; expected the folder of a run with method.kind = \"ddm\"")
+        if not (folder / "iteration.csv").is_file():
+            parser.error(f"{folder}: no iteration.csv there; expected the folder of a run with method.solver = \"ddm\"")
     picture = picture or folders[0].with_name(folders[0].resolve().name + "-history.png")
     draw(folders, picture, options.dpi)
     print(picture)

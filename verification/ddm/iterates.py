@@ -99,7 +99,7 @@ def mortise_iterates(case, mesh, folder, places, steps):
         "mesh.file": mesh,
         "mesh.parameters": "{}",
         "contact.multipliers_on": SIDE,
-        "method.kind": "ddm",
+        "method.solver": "ddm",
         "method.multipliers": method["multipliers"],
         "method.integration": method["integration"],
         "method.acceleration": "none",
@@ -113,7 +113,7 @@ def mortise_iterates(case, mesh, folder, places, steps):
         launch.solve(SCENE, {**settings, **stop}, results)
         rows = compare.read_contact(results / "contact.csv", SIDE)
         found.append(rows[compare.match(places, rows[:, 1:3], 1.0, f"multipliers on {SIDE}"), 3])
-    with open(results / "interface.csv", newline="") as file:
+    with open(results / "iteration.csv", newline="") as file:
         return np.array(found), np.array([float(row["force"]) for row in csv.DictReader(file)])
 
 

@@ -62,7 +62,7 @@ def setting(mesh, ratio, role):
 def eigenvalues(mesh, ratio, role):
     """Smallest and largest mu, from a run of one step."""
     (row,) = ddm_runs.sweep(SCENE, {**setting(mesh, ratio, role), "method.max_iterations": 1}, {"method.beta": [0.001]})
-    return row["interface.eigenvalue.smallest"], row["interface.eigenvalue.largest"]
+    return row["iteration.eigenvalue.smallest"], row["iteration.eigenvalue.largest"]
 
 
 def predicted_factor(beta, smallest, largest):
@@ -71,8 +71,8 @@ def predicted_factor(beta, smallest, largest):
 
 def judged(row, ratio, role, on_grid):
     """One run of a sweep as a row of region.csv."""
-    beta, steps, measured = row["method.beta"], int(row["iterations.interface"]), row["interface.factor"]
-    smallest, largest = row["interface.eigenvalue.smallest"], row["interface.eigenvalue.largest"]
+    beta, steps, measured = row["method.beta"], int(row["iteration.steps"]), row["iteration.convergence_rate"]
+    smallest, largest = row["iteration.eigenvalue.smallest"], row["iteration.eigenvalue.largest"]
     predicted, border = predicted_factor(beta, smallest, largest), 2 / largest
     outcome = ddm_runs.outcome(row, MOST_STEPS)
     compared = outcome != "diverged" and steps >= ENOUGH_STEPS

@@ -3,7 +3,7 @@
 
 The body that takes the displacement is the program's own choice. beta is the program's own too (none: fixed at the best
 for the estimated spectrum). Written are steps.csv, a row a run, and steps.md. Exit status 1 if the default method
-(method.kind = "ddm" and nothing else) needs more than 14 steps anywhere.
+(method.solver = "ddm" and nothing else) needs more than 14 steps anywhere.
 """
 
 import argparse
@@ -40,10 +40,10 @@ def shortened(row, scene, mesh, scheme):
         "scheme": scheme,
         "acceleration": row.get("method.acceleration", DEFAULT),
         "outcome": ddm_runs.outcome(row, MOST_STEPS),
-        "steps": int(row["iterations.interface"]),
-        "factor": row["interface.factor"],
-        "mu_smallest": row["interface.eigenvalue.smallest"],
-        "mu_largest": row["interface.eigenvalue.largest"],
+        "steps": int(row["iteration.steps"]),
+        "factor": row["iteration.convergence_rate"],
+        "mu_smallest": row["iteration.eigenvalue.smallest"],
+        "mu_largest": row["iteration.eigenvalue.largest"],
         "seconds": row["seconds.solve"],
     }
 

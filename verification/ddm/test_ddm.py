@@ -43,16 +43,16 @@ def test_a_wrong_factor_and_a_wrong_border_are_found():
     run_of_sweep = {
         "method.beta": 0.5,
         "status": "solved",
-        "iterations.interface": 50.0,
-        "interface.factor": 0.5,
-        "interface.eigenvalue.smallest": 1.0,
-        "interface.eigenvalue.largest": 2.0,
+        "iteration.steps": 50.0,
+        "iteration.convergence_rate": 0.5,
+        "iteration.eigenvalue.smallest": 1.0,
+        "iteration.eigenvalue.largest": 2.0,
     }
     judged = lambda **changes: region.judged({**run_of_sweep, **changes}, 1, "upper", on_grid=True)["ok"]
     assert judged()
-    assert not judged(**{"interface.factor": 0.53}) and not judged(**{"interface.factor": 0.47})
+    assert not judged(**{"iteration.convergence_rate": 0.53}) and not judged(**{"iteration.convergence_rate": 0.47})
     assert not judged(**{"status": "not_converged"})
-    assert not judged(**{"method.beta": 1.1, "interface.factor": 1.2})
+    assert not judged(**{"method.beta": 1.1, "iteration.convergence_rate": 1.2})
 
 
 def test_region_draws_and_writes(tmp_path):
@@ -87,7 +87,7 @@ def test_iterates_are_freefems(programs, space, beta):
 def test_history(tmp_path):
     folders = [tmp_path / name for name in ("none", "krylov")]
     for folder in folders:
-        settings = {**launch.sizes((8, 10)), "method.kind": "ddm", "method.acceleration": folder.name}
+        settings = {**launch.sizes((8, 10)), "method.solver": "ddm", "method.acceleration": folder.name}
         launch.solve("parabola_1", settings, folder)
     command = [sys.executable, history.__file__, *folders]
     subprocess.run(command, check=True)
@@ -95,7 +95,7 @@ def test_history(tmp_path):
     assert (tmp_path / "none-history.png").stat().st_size > 10000
     assert "<svg" in (tmp_path / "both.svg").read_text()[:1000]
     refused = subprocess.run([*command, tmp_path], capture_output=True, text=True, check=False)
-    assert refused.returncode == 2 and "interface.csv" in refused.stderr
+    assert refused.returncode == 2 and "iteration.csv" in refused.stderr
 
 
 def test_the_table_of_steps_has_a_cell_a_ratio_and_a_number_a_mesh(tmp_path):

@@ -29,7 +29,7 @@ def arguments(words=None):
     parser.add_argument("seed", nargs="?", default="1", metavar="SEED", help="SEED, or SEED:NUMBER to begin with (1)")
     parser.add_argument("--jobs", type=int, default=2, help="calls of mortise at once (2)")
     parser.add_argument("--kind", action="append", choices=list(SHARES), help="only this kind of case; may be repeated")
-    parser.add_argument("--time-limit", type=float, default=20, metavar="SECONDS", help="for one call (20)")
+    parser.add_argument("--time-limit", type=float, metavar="SECONDS", help="for one call (20; 100 with --sanitize)")
     parser.add_argument("--sanitize", action="store_true", help="the program is built with the address sanitizer")
     parser.add_argument("--out", type=Path, default=ROOT / "out/fuzz", help="folder of the findings (out/fuzz)")
     parser.add_argument("--mortise", default=os.environ.get("MORTISE", str(ROOT / "build/release/mortise")))
@@ -86,7 +86,8 @@ def fuzz(program, count, seed, first=0, jobs=2, kinds=tuple(SHARES), out=None, s
 def main():
     chosen = arguments()
     seed, _, first = chosen.seed.partition(":")
-    program = one_call.Program(str(Path(chosen.mortise).absolute()), chosen.time_limit, chosen.sanitize)
+    limit = chosen.time_limit or (100 if chosen.sanitize else 20)
+    program = one_call.Program(str(Path(chosen.mortise).absolute()), limit, chosen.sanitize)
     if not os.access(program.path, os.X_OK):
         sys.exit(f"fuzz: {program.path} cannot be run: ./dev build makes it, or MORTISE names another")
     shutil.rmtree(chosen.out, ignore_errors=True)

@@ -2,14 +2,16 @@
 
 import hashlib
 import os
+import re
 import resource
 import signal
 import stat
 import subprocess
 import sys
+import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 PATIENCE = 10  # time limits after which even a starved process is ended
@@ -31,6 +33,7 @@ class Outcome:
     before: dict  # what stood in the folder: path, what it is
     after: dict
     seconds: float = 0.0
+    in_gmsh: bool = False  # a sanitizer ended it at gmsh's own mistake, before mortise's guard could say so
 
 
 def snapshot(folder):
@@ -54,9 +57,11 @@ def describe(path):
     return f"device or pipe {stat.S_IFMT(mode):o}"
 
 
-def environment(program):
-    """One thread for each call, and reports of the sanitizers as an exit status of their own."""
-    chosen = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "ASAN_OPTIONS": "detect_leaks=0:exitcode=99",
+def environment(reports):
+    """One thread for each call; sanitizers end it with an exit status of their own and report to a file: while gmsh
+    works standard error is not the caller's."""
+    chosen = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1",
+              "ASAN_OPTIONS": f"detect_leaks=0:exitcode=99:log_path={reports}/report",
               "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1:exitcode=99"}
     return os.environ | chosen
 
@@ -100,12 +105,25 @@ def is_starved(process, limit):
     return fields[0] in "RD" and seconds < limit / 4
 
 
+def is_of_gmsh(report):
+    """Whether gmsh stands between mortise and the mistake: the first frame that is of either is gmsh's."""
+    frame = next((line for line in report.splitlines() if re.search(r"#\d+ 0x", line) and re.search("libgmsh|src/", line)), "")
+    return "libgmsh" in frame
+
+
 def call(program, case, folder):
     """Runs mortise on the case's files, which stand in `folder`."""
+    with tempfile.TemporaryDirectory() as reports:
+        run = run_once(program, case, folder, reports)
+        report = "".join(path.read_text(errors="replace") for path in sorted(Path(reports).iterdir()))
+    return replace(run, said=run.said + report, in_gmsh=run.status == 99 and is_of_gmsh(report))
+
+
+def run_once(program, case, folder, reports):
     before, start = snapshot(folder), time.monotonic()
     words = [program.path, *(word.encode("utf-8", "surrogateescape") for word in case.words)]
     process = subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, env=environment(program), start_new_session=True,
+                               stderr=subprocess.PIPE, env=environment(reports), start_new_session=True,
                                restore_signals=False, preexec_fn=limits(program, case))
     with ThreadPoolExecutor(2) as readers:
         texts = [readers.submit(beginning, stream) for stream in (process.stderr, process.stdout)]

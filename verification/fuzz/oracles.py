@@ -8,11 +8,11 @@ import results_files
 from fuzz_case import REFUSED, SOLVED
 
 LONGEST_LINE = 2000  # characters of a message that somebody will still read
-RESULT_FILES = {"result.vtu", "contact.vtu", "contact.csv", "contact_centres.csv", "interface.csv", "summary.json"}
+RESULT_FILES = {"result.vtu", "contact.vtu", "contact.csv", "contact_centres.csv", "iteration.csv", "summary.json"}
 
 
 def crash(case, run, folder):
-    if run.status is not None and (run.status < 0 or run.status >= 99):
+    if run.status is not None and (run.status < 0 or run.status >= 99) and not run.in_gmsh:
         sanitizer = next((line for line in run.said.splitlines() if "Sanitizer" in line or "runtime error" in line), "")
         return f"ended by signal {-run.status}" if run.status < 0 else f"exit status {run.status}: {sanitizer}"
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy
 import vtu_file
 
-NONE_ALLOWED = {"interface", "inf_sup", "linear", "against_sigma_n"}  # keys of summary.json that are null where they do not apply
+NONE_ALLOWED = {"iteration", "inf_sup", "against_sigma_n"}  # keys of summary.json that are null where they do not apply
 
 
 def summary(folder):

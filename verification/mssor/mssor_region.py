@@ -48,9 +48,9 @@ def judged(row, mesh, acceleration, border, on_grid):
         "tau": tau,
         "tau_border": border,
         "outcome": outcome,
-        "steps": int(row["iterations.linear"]),
-        "factor": row["linear.factor"],
-        "seconds": row["seconds.linear"],
+        "steps": int(row["iteration.steps"]),
+        "factor": row["iteration.convergence_rate"],
+        "seconds": row["iteration.seconds"],
         "on_grid": int(on_grid),
         "ok": int(right),
     }
@@ -60,7 +60,7 @@ def border_of(folder, mesh, omega):
     """The border of tau, from a run of one step."""
     settings = {**launch.sizes(mesh), "method.acceleration": "none", "method.max_iterations": 1}
     (row,) = mssor_runs.sweep(folder, settings, {"method.omega": [omega], "method.tau": [0.1]})
-    return row["linear.tau_border"]
+    return row["iteration.tau_limit"]
 
 
 def measure(folder, mesh, acceleration, omegas, taus, most_steps, report=print):

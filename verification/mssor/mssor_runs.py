@@ -49,4 +49,4 @@ def outcome(row):
     """converged, diverged or unfinished; a check that fails on a coarse mesh is none of these matters."""
     if row["status"] != "not_converged":
         return "converged"
-    return "diverged" if row["linear.factor"] > 1 else "unfinished"
+    return "diverged" if row["iteration.convergence_rate"] > 1 else "unfinished"

@@ -47,7 +47,7 @@ def one(mesh, settings):
     checks = {check["name"]: check["value"] for check in summary["checks"]}
     return {
         "seconds": seconds,
-        "steps": summary["iterations"]["linear"],
+        "steps": summary["iterations"]["solver"],
         "unknowns": summary["mesh"]["dofs"],
         "multipliers": summary["mesh"]["multipliers"],
         "converged": int(summary["status"] != "not_converged"),

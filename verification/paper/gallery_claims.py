@@ -130,7 +130,7 @@ def decomposed(scene, mesh):
     def claim(view):
         upper, lower = (view.ddm(scene, mesh, body) for body in ("G1", "G2"))
         apart, rough = measures.apart(scene, upper, lower, "p", share=0.9), measures.roughness(scene, upper, "p")
-        summary = json.loads((view.ddm_folder(scene, mesh) / "summary.json").read_text())["interface"]
+        summary = json.loads((view.ddm_folder(scene, mesh) / "summary.json").read_text())["iteration"]
         ours, theirs = (
             max(measures.roughness(scene, c) for c in view.both(scene, mesh, "G1", variant=v))
             for v in (cause.OURS, view.like)

@@ -9,7 +9,7 @@ import paper_runs
 import preprint
 
 DDM = {
-    "method.kind": "ddm",
+    "method.solver": "ddm",
     "method.dirichlet": "upper",
     "mesh.parameters.order": 1,
     "mesh.parameters.kind": 1,

@@ -1,0 +1,66 @@
+#include "app/solve_system.hpp"
+
+#include "base/errors.hpp"
+#include "ddm/solve_ddm.hpp"
+#include "mesh/place.hpp"
+#include "solve/direct.hpp"
+#include "solve/mssor.hpp"
+
+namespace mortise {
+namespace {
+
+std::string near_node(const Mesh& mesh, int node) { return near_point(mesh.nodes.row(node).transpose()); }
+
+std::string dependent_row(const Mesh& mesh, const std::vector<ContactPair>& pairs, const Solution& solution) {
+  std::size_t k = pairs.size() - 1;
+  while (pairs[k].first_row > solution.failed_at) --k;
+  return pairs[k].spec.key + ": the contact condition " + near_node(mesh, row_nodes(pairs)[solution.failed_at]) + " " +
+         (solution.advice.empty()
+              ? "already follows from the others: prescribed displacements or other contact pairs hold the "
+                "same nodes; put the multipliers on the other curve or release the prescribed displacement"
+              : solution.advice);
+}
+
+std::string unconstrained(const Mesh& mesh, const Floating& floating, const Solution& solution) {
+  const std::string expected = "; expected a load that presses it on, or prescribed displacements that hold it" +
+                               (solution.advice.empty() ? std::string() : " (" + solution.advice + ")");
+  if (solution.driven_mode.size() == 0) return "contact opens until nothing holds a body" + expected;
+  const auto motion = motion_through(mesh, floating.motions, floating.grounded, solution.driven_mode);
+  return "nothing holds " + describe(mesh, motion) + ": the load moves it away from the contact" + expected;
+}
+
+}  // namespace
+
+Solution solve_system(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet) {
+  switch (method.solver) {
+    case Solver::direct:
+      return solve_directly(system);
+    case Solver::mssor:
+      return solve_by_mssor(system, method.mssor);
+    case Solver::ddm:
+      return solve_by_ddm(system, dirichlet, method.ddm);
+  }
+  return {};
+}
+
+void require_solution(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                      const Floating& floating, const Solution& solution) {
+  switch (solution.status) {
+    case SolveStatus::converged:
+    case SolveStatus::not_converged:
+    case SolveStatus::diverged:
+      return;
+    case SolveStatus::not_positive_definite:
+      throw InputError(scene.path + ": the stiffness is not positive definite " +
+                       near_node(mesh, solution.failed_at / 2) +
+                       ": a part of a body that nothing holds, or elements far out of shape there");
+    case SolveStatus::dependent_row:
+      throw InputError(scene.path + ": " + dependent_row(mesh, pairs, solution));
+    case SolveStatus::unconstrained:
+      throw InputError(scene.path + ": " + unconstrained(mesh, floating, solution));
+    case SolveStatus::in_tension:
+      throw InputError(scene.path + ": " + solution.advice);
+  }
+}
+
+}  // namespace mortise

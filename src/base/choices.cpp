@@ -1,0 +1,107 @@
+#include "base/choices.hpp"
+
+#include <cassert>
+
+namespace mortise {
+
+std::string to_string(Plane value) {
+  switch (value) {
+    case Plane::strain:
+      return "strain";
+    case Plane::stress:
+      return "stress";
+  }
+  assert(false && "no such Plane");
+  return {};
+}
+
+std::string to_string(Condition value) {
+  switch (value) {
+    case Condition::unilateral:
+      return "unilateral";
+    case Condition::bilateral:
+      return "bilateral";
+  }
+  assert(false && "no such Condition");
+  return {};
+}
+
+std::string to_string(InitialGap value) {
+  switch (value) {
+    case InitialGap::measured:
+      return "measured";
+    case InitialGap::closed:
+      return "closed";
+  }
+  assert(false && "no such InitialGap");
+  return {};
+}
+
+std::string to_string(Integration value) {
+  switch (value) {
+    case Integration::segments:
+      return "segments";
+    case Integration::elements:
+      return "elements";
+  }
+  assert(false && "no such Integration");
+  return {};
+}
+
+std::string to_string(Solver value) {
+  switch (value) {
+    case Solver::direct:
+      return "direct";
+    case Solver::mssor:
+      return "mssor";
+    case Solver::ddm:
+      return "ddm";
+  }
+  assert(false && "no such Solver");
+  return {};
+}
+
+std::string to_string(Multipliers value) {
+  switch (value) {
+    case Multipliers::quadratic:
+      return "quadratic";
+    case Multipliers::linear:
+      return "linear";
+    case Multipliers::dual:
+      return "dual";
+  }
+  assert(false && "no such Multipliers");
+  return {};
+}
+
+std::string to_string(Scheme value) {
+  switch (value) {
+    case Scheme::neumann_dirichlet:
+      return "neumann_dirichlet";
+    case Scheme::neumann_neumann:
+      return "neumann_neumann";
+    case Scheme::dirichlet_dirichlet:
+      return "dirichlet_dirichlet";
+  }
+  assert(false && "no such Scheme");
+  return {};
+}
+
+std::string to_string(Acceleration value) {
+  switch (value) {
+    case Acceleration::none:
+      return "none";
+    case Acceleration::aitken:
+      return "aitken";
+    case Acceleration::anderson:
+      return "anderson";
+    case Acceleration::krylov:
+      return "krylov";
+    case Acceleration::minres:
+      return "minres";
+  }
+  assert(false && "no such Acceleration");
+  return {};
+}
+
+}  // namespace mortise

@@ -1,0 +1,47 @@
+// The choices a scene makes, as words that every room understands, and the options of the iterative solvers.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace mortise {
+
+enum class Plane { strain, stress };
+enum class Condition { unilateral, bilateral };
+enum class InitialGap { measured, closed };
+enum class Integration { segments, elements };
+enum class Multipliers { quadratic, linear, dual };
+
+/// direct: a factorisation of all bodies; mssor: block SSOR on all of them; ddm: domain decomposition.
+enum class Solver { direct, mssor, ddm };
+
+enum class Scheme { neumann_dirichlet, neumann_neumann, dirichlet_dirichlet };
+enum class Acceleration { none, aitken, anderson, krylov, minres };  // minres: of mssor only
+
+struct DdmOptions {
+  Scheme scheme = Scheme::neumann_dirichlet;
+  Acceleration acceleration = Acceleration::krylov;  ///< none, aitken, anderson or krylov
+  std::optional<double> beta;                        ///< relaxation, > 0; default: estimated
+  double tolerance = 1e-8;                           ///< of both residuals
+  int max_iterations = 100;
+};
+
+struct MssorOptions {
+  double omega = 1.3;                                ///< of the SSOR splitting of K, 0 < omega < 2
+  double tau = 0.7;                                  ///< of the step of the multipliers, > 0
+  Acceleration acceleration = Acceleration::krylov;  ///< none, krylov or minres
+  double tolerance = 1e-10;                          ///< of both residuals
+  int max_iterations = 20000;
+};
+
+/// The words of the scene file ("strain", "bilateral", ...).
+std::string to_string(Plane value);
+std::string to_string(Condition value);
+std::string to_string(InitialGap value);
+std::string to_string(Integration value);
+std::string to_string(Multipliers value);
+std::string to_string(Solver value);
+std::string to_string(Scheme value);
+std::string to_string(Acceleration value);
+
+}  // namespace mortise

@@ -1,0 +1,15 @@
+// What a scene probably does not mean: looked for before the solve, each finding one line with its place. What shows
+// after it: results/audit_solution.hpp.
+#pragma once
+
+#include "problem/contact_pair.hpp"
+
+namespace mortise {
+
+/// Boundaries of different bodies that meet, or lie over one another, where no contact pair stands
+/// between them; one line for two bodies.
+/// Throws InputError for what is surely a mistake: elements listed twice, an edge that two loads name, bodies drawn
+/// over one another (docs/files.md, notes).
+std::vector<std::string> audit_scene(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs);
+
+}  // namespace mortise

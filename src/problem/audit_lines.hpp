@@ -1,0 +1,25 @@
+// The audit's findings on the undeformed bodies.
+#pragma once
+
+#include <map>
+
+#include "problem/encounters.hpp"
+#include "scene/scene.hpp"
+
+namespace mortise {
+
+/// A line for two bodies, the one with the smaller index first.
+using LineOfBodies = std::map<std::pair<int, int>, std::string>;
+
+/// A line for each two bodies whose boundaries meet where no pair stands between them.
+LineOfBodies meeting_lines(const AuditedBodies& bodies, const std::vector<Encounter>& encounters);
+
+/// A line for each two bodies drawn into one another without a pair there.
+/// Throws InputError where one covers more than half of the other, or reaches deeper than a quarter of a thickness
+/// without a pair: no interference that contact could press apart.
+LineOfBodies overlap_lines(const Scene& scene, const AuditedBodies& bodies, const std::vector<Encounter>& encounters);
+
+/// Throws InputError where two names in the scene's loads have an edge in common.
+void refuse_double_loads(const Scene& scene, const Mesh& mesh);
+
+}  // namespace mortise

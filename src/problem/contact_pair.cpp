@@ -1,0 +1,137 @@
+#include "problem/contact_pair.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "base/errors.hpp"
+#include "mesh/body_points.hpp"
+#include "mesh/place.hpp"
+#include "mesh/thickness.hpp"
+
+namespace mortise {
+
+namespace {
+
+// The curve that faces the other on nearly all of its length, where the other does not: 0 or 1, or -1 if there is none.
+int covered_curve(const Points& nodes, const std::array<Curve, 2>& curves) {
+  const double first = covered_part(nodes, curves[0], curves[1]), second = covered_part(nodes, curves[1], curves[0]);
+  const double round_off = 1e-9;  // of a part that is exactly a limit
+  if (std::max(first, second) < covered_limit - round_off) return -1;
+  if (std::min(first, second) > uncovered_limit + round_off) return -1;
+  return second > first ? 1 : 0;
+}
+
+// True if the multipliers lie on the second curve of a pair, where the scene does not say.
+bool on_second(Scheme scheme, const Points& nodes, const ContactCurves& contact, const std::vector<ElasticLaw>& laws,
+               const std::vector<char>& dirichlet) {
+  const auto& [spec, curves, edge_size] = contact;
+  // Equal meshes differ by round-off in their lengths: the first is the multiplier side then. So do those at a limit.
+  constexpr double margin = 1e-6;
+  const bool second_finer = edge_size[1] < (1 - margin) * edge_size[0],
+             first_finer = edge_size[0] < (1 - margin) * edge_size[1];
+  if (dirichlet.empty()) {
+    const double first = contact_modulus(laws[curves[0].body]), second = contact_modulus(laws[curves[1].body]);
+    if (std::max(first, second) > (1 + margin) * stiffer_limit * std::min(first, second)) return second < first;
+    if (const int covered = covered_curve(nodes, curves); covered >= 0) return covered == 1;
+    const double ratio = std::max(edge_size[0] / edge_size[1], edge_size[1] / edge_size[0]);
+    const Curve& coarser = curves[second_finer ? 0 : 1];
+    return coarser.edges[0].node_count == 2 && ratio > (1 + margin) * facet_limit ? !second_finer : second_finer;
+  }
+  if (scheme == Scheme::neumann_dirichlet) return dirichlet[curves[1].body];
+  return first_finer;
+}
+
+void require_own_nodes(const Mesh& mesh, const ContactSpec& spec, const std::array<Curve, 2>& curves) {
+  const std::vector<int> first = curve_nodes(curves[0]);
+  for (const int node : curve_nodes(curves[1]))
+    if (std::find(first.begin(), first.end(), node) != first.end())
+      throw InputError(mesh.source + ": " + spec.key + ": '" + spec.between[0] + "' and '" + spec.between[1] +
+                       "' have a common node " + near_point(mesh.nodes.row(node).transpose()) +
+                       "; expected curves with points of their own (in a .geo: a point and a curve for each body)");
+}
+
+void append(const SparseMatrix& rows, int first, std::vector<Eigen::Triplet<double>>& entries) {
+  for (Eigen::Index j = 0; j < rows.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(rows, j); it; ++it)
+      entries.emplace_back(first + int(it.row()), int(j), it.value());
+}
+
+}  // namespace
+
+std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh) {
+  std::vector<ContactCurves> all;
+  for (const ContactSpec& spec : scene.contacts) {
+    ContactCurves contact{.spec = spec, .curves = {}};
+    for (int i = 0; i < 2; ++i) {
+      Curve& curve = contact.curves[i];
+      curve = contact_curve(mesh, scene_boundary(scene, mesh, spec.key + ".between", spec.between[i]));
+      contact.edge_size[i] = curve_length(mesh.nodes, curve) / double(curve.edges.size());
+    }
+    all.push_back(std::move(contact));
+  }
+  return all;
+}
+
+std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, const Discretisation& d,
+                                      std::vector<ContactCurves> contacts, const std::vector<char>& dirichlet) {
+  std::vector<ContactPair> pairs;
+  if (contacts.empty()) return pairs;
+  const BoundaryEdges boundary = boundary_edges(mesh);
+  const std::vector<int> bonded = bonded_to(mesh, body_points(mesh));
+  std::map<int, std::vector<Edge>> outlines;  // of each body that is in contact
+  int first_row = 0;
+  for (ContactCurves& contact : contacts) {
+    for (Curve& curve : contact.curves) {
+      const auto [body, is_new] = outlines.try_emplace(curve.body);
+      if (is_new) body->second = outline(boundary, bonded, curve.body);
+      curve.thickness = thickness_behind(mesh.nodes, curve, body->second);
+    }
+    const ContactSpec& spec = contact.spec;
+    require_own_nodes(mesh, spec, contact.curves);
+    const bool second = spec.multipliers_on.empty()
+                            ? on_second(method.ddm.scheme, mesh.nodes, contact, d.laws, dirichlet)
+                            : spec.multipliers_on == spec.between[1];
+    ContactPair pair{.spec = spec,
+                     .multiplier = std::move(contact.curves[second ? 1 : 0]),
+                     .opposite = std::move(contact.curves[second ? 0 : 1]),
+                     .points = {},
+                     .coupling = {},
+                     .first_row = first_row};
+    pair.spec.multipliers_on = spec.between[second ? 1 : 0];
+    pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, method.integration);
+    pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, d.system.constraints,
+                           {method.multipliers, spec.initial_gap});
+    first_row += int(pair.coupling.B.rows());
+    pairs.push_back(std::move(pair));
+  }
+  return pairs;
+}
+
+std::vector<int> row_nodes(const std::vector<ContactPair>& pairs) {
+  std::vector<int> nodes;
+  for (const ContactPair& pair : pairs) {
+    const std::vector<int> of_pair = row_nodes(pair.coupling);
+    nodes.insert(nodes.end(), of_pair.begin(), of_pair.end());
+  }
+  return nodes;
+}
+
+void set_contact(const std::vector<ContactPair>& pairs, SaddlePointSystem& system) {
+  int rows = 0;
+  for (const ContactPair& pair : pairs) rows += int(pair.coupling.B.rows());
+  std::vector<Eigen::Triplet<double>> entries;
+  system.g.resize(rows);
+  system.row_scale.resize(rows);
+  system.unilateral.clear();
+  for (const ContactPair& pair : pairs) {
+    const Coupling& c = pair.coupling;
+    append(c.B, pair.first_row, entries);
+    system.g.segment(pair.first_row, c.gap0.size()) = -c.gap0;
+    system.row_scale.segment(pair.first_row, c.scale.size()) = c.scale;
+    system.unilateral.insert(system.unilateral.end(), c.gap0.size(), pair.spec.condition == Condition::unilateral);
+  }
+  system.B.resize(rows, system.f.size());
+  system.B.setFromTriplets(entries.begin(), entries.end());
+}
+
+}  // namespace mortise

@@ -1,0 +1,31 @@
+// From a scene and its mesh to the equations of the bodies, contact apart.
+#pragma once
+
+#include "fem/assembly.hpp"
+#include "fem/constraints.hpp"
+#include "scene/scene.hpp"
+#include "solve/saddle_point_system.hpp"
+
+namespace mortise {
+
+struct Discretisation {
+  std::vector<ElasticLaw> laws;  ///< one a body
+  SaddlePointSystem system;      ///< of the bodies; contact adds its rows (contact_pair.hpp)
+  VecX initial_load;             ///< the part of system.f that initial strains make
+  double initial_energy = 0;     ///< of the initial strains held at zero strain, per thickness
+  /// Sums of the nodal forces of each of Scene::boundaries (zero of prescribed displacements) and of
+  /// Scene::body_forces, force per thickness.
+  std::vector<Vec2> boundary_sums, body_sums;
+};
+
+/// Throws InputError where the scene names a body or boundary that the mesh does not have, leaves a body without
+/// material, or prescribes two values at one node.
+Discretisation discretise(const Scene& scene, const Mesh& mesh);
+
+/// Index of the boundary that `key` of the scene names. Throws InputError with the known names.
+int scene_boundary(const Scene& scene, const Mesh& mesh, const std::string& key, const std::string& name);
+
+/// Strain energy 1/2 int (eps - eps0) : C : (eps - eps0), per thickness (J/m in SI).
+double strain_energy(const Discretisation& discretisation, const VecX& u);
+
+}  // namespace mortise

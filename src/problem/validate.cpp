@@ -1,0 +1,96 @@
+#include "problem/validate.hpp"
+
+#include <Eigen/LU>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "contact/mesh_gap.hpp"
+#include "contact/smooth_normals.hpp"
+#include "mesh/place.hpp"
+
+namespace mortise {
+namespace {
+
+// Rows of B over their size: what contact can hold.
+SparseMatrix unit_rows(const SaddlePointSystem& system) {
+  SparseMatrix rows = system.B;
+  for (Eigen::Index k = 0; k < rows.nonZeros(); ++k) rows.valuePtr()[k] /= system.row_scale(rows.innerIndexPtr()[k]);
+  return rows;
+}
+
+// One unknown a motion, away from the contact curves where there are enough: what is prescribed on these changes them.
+std::vector<int> unknowns_to_hold(const Mesh& mesh, const std::vector<ContactPair>& pairs, Constraints constraints,
+                                  const std::vector<std::vector<RigidMotion>>& motions) {
+  const std::vector<int> anywhere = grounding_unknowns(mesh, constraints, motions);
+  for (const ContactPair& pair : pairs)
+    for (const Curve* curve : {&pair.multiplier, &pair.opposite})
+      for (const int node : curve_nodes(*curve)) constraints.fixed[2 * node] = constraints.fixed[2 * node + 1] = 1;
+  const std::vector<int> away = grounding_unknowns(mesh, constraints, motions);
+  const MatX at = motion_fields(mesh, motions)(away, Eigen::all);
+  return at.fullPivLu().isInvertible() ? away : anywhere;
+}
+
+// The load drives a motion whose work is more than `round_off` of its terms, and than what rounding of the motion
+// makes.
+bool drives(const VecX& load, const VecX& motion, double round_off) {
+  const VecX work = load.cwiseProduct(motion);
+  const double least = 1e-12 * load.lpNorm<1>() * motion.lpNorm<Eigen::Infinity>();
+  return std::abs(work.sum()) > std::max(round_off * work.lpNorm<1>(), least);
+}
+
+}  // namespace
+
+Floating find_floating(const Mesh& mesh, const Constraints& constraints) {
+  Floating floating;
+  floating.motions = free_motions(mesh, constraints, SparseMatrix(0, 2 * mesh.nodes.rows()));
+  floating.grounded = grounding_unknowns(mesh, constraints, floating.motions);
+  return floating;
+}
+
+std::vector<std::string> hold_free_motions(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                                           const std::vector<std::string>& findings, SaddlePointSystem& system) {
+  std::vector<std::string> lines;
+  const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions, double round_off) {
+    const MatX fields = motion_fields(mesh, motions);
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      if (drives(system.f, fields.col(k), round_off))
+        throw InputError(scene.path + ": nothing holds " + describe(mesh, motions[k]) +
+                         "; expected prescribed displacements or contact that prevent it" +
+                         (findings.empty() ? "" : ": " + findings.front()));
+      lines.push_back(held_line(mesh, motions[k]));
+    }
+    for (const int unknown : unknowns_to_hold(mesh, pairs, system.constraints, motions))
+      system.constraints.fixed[unknown] = 1;
+  };
+  hold(free_motions(mesh, system.constraints, unit_rows(system)), 1e-9);
+  std::vector<ContactNormal> normals;
+  double edge_error = 0;
+  for (const ContactPair& pair : pairs) {
+    const SmoothNormals of_pair = smooth_normals(mesh.nodes, pair.multiplier, pair.opposite, pair.points);
+    normals.insert(normals.end(), of_pair.normals.begin(), of_pair.normals.end());
+    edge_error = std::max(edge_error, of_pair.edge_error);
+  }
+  hold(free_motions(mesh, system.constraints, normals), std::max(1e-9, edge_error));
+  return lines;
+}
+
+std::string held_line(const Mesh& mesh, const std::vector<RigidMotion>& motion) {
+  return "nothing holds " + describe(mesh, motion) +
+         ", but no load drives it either: held at zero, which changes no pressure";
+}
+
+void require_closed(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs) {
+  for (const ContactPair& pair : pairs) {
+    if (pair.spec.initial_gap != InitialGap::closed) continue;
+    const auto open = open_place(mesh.nodes, pair.multiplier, pair.opposite, pair.points);
+    if (!open) continue;
+    std::ostringstream text;
+    text << scene.path << ": " << pair.spec.key << ".initial_gap = \"closed\", but '" << pair.spec.between[0]
+         << "' and '" << pair.spec.between[1] << "' are " << open->gap << " apart " << near_point(open->position)
+         << ", where two meshes of one curve differ by at most " << open->limit
+         << "; expected initial_gap = \"measured\", or curves that are one curve";
+    throw InputError(text.str());
+  }
+}
+
+}  // namespace mortise

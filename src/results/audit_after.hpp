@@ -1,0 +1,16 @@
+// The audit's findings on the solution.
+#pragma once
+
+#include "problem/audited_bodies.hpp"
+#include "results/results.hpp"
+
+namespace mortise {
+
+/// A line for each unilateral pair whose contact reaches the end of a curve although the boundary goes on smoothly
+/// there and still faces the other body.
+std::vector<std::string> end_lines(const AuditedBodies& bodies, const Results& results);
+
+/// A line for each two bodies that pass through one another in the deformed state where no pair stands between them.
+std::vector<std::string> crossing_lines(const AuditedBodies& bodies, const Results& results);
+
+}  // namespace mortise

@@ -1,0 +1,17 @@
+#include "results/audit_solution.hpp"
+
+#include "results/audit_after.hpp"
+
+namespace mortise {
+
+std::vector<std::string> audit_solution(const Results& r) {
+  if (r.status == Status::not_converged) return {};  // where the bodies are is not known
+  if (r.mesh.bodies.size() < 2 && r.pairs.empty()) return {};
+  const AuditedBodies bodies = audited_bodies(r.mesh, r.pairs);
+  std::vector<std::string> lines = end_lines(bodies, r);
+  const std::vector<std::string> crossings = crossing_lines(bodies, r);
+  lines.insert(lines.end(), crossings.begin(), crossings.end());
+  return lines;
+}
+
+}  // namespace mortise

@@ -1,0 +1,182 @@
+#include "results/checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mortise {
+namespace {
+
+// Force and moment of nodal forces, and the sum of their sizes.
+struct Resultant {
+  Vec2 force = Vec2::Zero();
+  double moment = 0, size = 0;
+
+  void add(const Vec2& at, const Vec2& f) {
+    force += f;
+    moment += at.x() * f.y() - at.y() * f.x();
+    size += f.norm();
+  }
+};
+
+// Nodes of each body, those of bodies that hang together as one: their common nodes' forces belong to both.
+std::vector<std::vector<int>> nodes_of_bodies(const Results& r) {
+  const std::vector<int> first = bonded_to(r.mesh, r.points);
+  std::vector<std::vector<int>> nodes(first.size());
+  std::vector<char> counted(r.mesh.nodes.rows(), 0);
+  for (int b = 0; b < int(first.size()); ++b)
+    for (int p = r.points.first[b]; p < r.points.first[b + 1]; ++p) {
+      const int node = r.points.node[p];
+      if (!counted[node]) nodes[first[b]].push_back(node);
+      counted[node] = 1;
+    }
+  return nodes;
+}
+
+// Largest out-of-balance force and moment of any body, over the sum of the forces on it (times its size).
+void balance_of_bodies(const Results& r, double limit, std::vector<Check>& checks) {
+  const SaddlePointSystem& s = r.discretisation.system;
+  const VecX contact = -(s.B.transpose() * r.solution.lambda);
+  VecX forces = s.f + contact;
+  const VecX Ku = s.K.selfadjointView<Eigen::Lower>() * r.solution.u;
+  for (Eigen::Index i = 0; i < forces.size(); ++i)
+    if (s.constraints.fixed[i]) forces(i) = Ku(i);  // load + contact + reaction
+  double force = 0, moment = 0;
+  const double rigid = rigid_part * s.stiffness_scale * largest_entry(r.solution.u);
+  for (const std::vector<int>& nodes : nodes_of_bodies(r)) {
+    if (nodes.empty()) continue;  // counted with another body
+    Vec2 low(1e300, 1e300), high(-1e300, -1e300);
+    for (const int node : nodes) {
+      low = low.cwiseMin(r.mesh.nodes.row(node).transpose());
+      high = high.cwiseMax(r.mesh.nodes.row(node).transpose());
+    }
+    Resultant sum;
+    for (const int node : nodes)
+      sum.add(r.mesh.nodes.row(node).transpose() - (low + high) / 2, forces.segment<2>(2 * node));
+    const double size = largest(sum.size, rigid);
+    force = largest(force, fraction(sum.force.norm(), size));
+    moment = largest(moment, fraction(std::abs(sum.moment), size * (high - low).norm()));
+  }
+  checks.push_back({"force balance of each body", force, limit});
+  checks.push_back({"moment balance of each body", moment, limit});
+}
+
+// What the contact puts on both sides of a pair, together: it must vanish.
+void balance_of_contact(const Results& r, std::vector<Check>& checks) {
+  double force = 0, moment = 0;
+  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
+    const SparseMatrix& B = r.pairs[k].coupling.B;
+    const VecX contact = B.transpose() * r.solution.lambda.segment(r.pairs[k].first_row, B.rows());
+    const ContactResults& c = r.contacts[k];
+    const Vec2 centre = c.multiplier.nodes[c.multiplier.nodes.size() / 2].position;
+    Resultant sum;
+    double on_multiplier_side = 0;
+    for (Eigen::Index node = 0; node < r.mesh.nodes.rows(); ++node)
+      sum.add(r.mesh.nodes.row(node).transpose() - centre, contact.segment<2>(2 * node));
+    for (const ContactNode& n : c.multiplier.nodes) on_multiplier_side += contact.segment<2>(2 * n.node).norm();
+    force = largest(force, fraction(sum.force.norm(), on_multiplier_side));
+    moment = largest(moment, fraction(std::abs(sum.moment), on_multiplier_side * c.length));
+  }
+  checks.push_back({"contact forces equal and opposite", force, 1e-10});
+  checks.push_back({"contact moments equal and opposite", moment, 1e-10});
+}
+
+// p >= 0, gap >= 0 and p gap = 0 on unilateral rows, in the sense of the multipliers (docs/theory.md eq. 24).
+void unilateral_checks(const Results& r, double limit, std::vector<Check>& checks) {
+  const SaddlePointSystem& s = r.discretisation.system;
+  const Solution& solution = r.solution;
+  const std::vector<char>& unilateral = s.unilateral;
+  if (std::find(unilateral.begin(), unilateral.end(), 1) == unilateral.end()) return;
+  const VecX gap = (s.B * solution.u - s.g).cwiseQuotient(s.row_scale);
+  const double displacement = largest_entry(solution.u), least = negligible_pressure(r),
+               p_size = largest(10 * least, largest_entry(solution.lambda));
+  double tension = 0, penetration = 0, product = 0, dip = 0;
+  for (Eigen::Index a = 0; a < gap.size(); ++a) {
+    if (!unilateral[a]) continue;
+    tension = largest(tension, solution.lambda(a));
+    penetration = largest(penetration, -gap(a));
+    product = largest(product, std::abs(solution.lambda(a) * gap(a)));
+  }
+  for (std::size_t k = 0; k < r.pairs.size(); ++k)
+    if (r.pairs[k].spec.condition == Condition::unilateral)
+      dip = largest(dip, fraction(-r.contacts[k].p_least, largest(10 * least, largest_entry(r.contacts[k].pressure))));
+  checks.push_back({"p >= 0 at the multipliers", fraction(tension, p_size), limit});
+  checks.push_back({"weighted gap >= 0", fraction(penetration, displacement), limit});
+  checks.push_back({"p gap = 0", fraction(product, p_size * displacement), limit});
+  checks.push_back({"p >= 0 between the multipliers", dip, 0.125 + 1e-9});
+}
+
+void coverage_check(const Scene& scene, const Results& r, std::vector<Check>& checks) {
+  if (r.pairs.empty()) return;
+  double uncovered = 0;
+  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
+    const ContactPair& pair = r.pairs[k];
+    if (pair.spec.initial_gap != InitialGap::closed) continue;
+    const double facing = std::min(r.contacts[k].length, curve_length(r.mesh.nodes, pair.opposite));
+    uncovered = largest(uncovered, std::abs(1 - pair.coupling.covered_length / facing));
+  }
+  // A closed curve meshed twice: the chords' lengths differ by their geometric error.
+  checks.push_back({scene.method.integration == Integration::segments ? "segments cover the closed contact curve"
+                                                                      : "points cover the closed contact curve",
+                    uncovered, 1e-2});
+}
+
+}  // namespace
+
+std::string to_string(Status status) {
+  switch (status) {
+    case Status::solved:
+      return "solved";
+    case Status::check_failed:
+      return "check_failed";
+    case Status::not_converged:
+      return "not_converged";
+  }
+  return "";
+}
+
+int free_unknowns(const Results& r) {
+  const std::vector<char>& fixed = r.discretisation.system.constraints.fixed;
+  return int(std::count(fixed.begin(), fixed.end(), 0));
+}
+
+double negligible_pressure(const Results& r) {
+  double edge = std::numeric_limits<double>::infinity();
+  for (const ContactPair& pair : r.pairs)
+    for (const Edge& e : pair.multiplier.edges) edge = std::min(edge, edge_length(r.mesh.nodes, e));
+  const double round_off = 1e-12 * r.discretisation.system.stiffness_scale * largest_entry(r.solution.u) / edge;
+  const double stress = r.stress.points.size() > 0 ? r.stress.points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0;
+  return largest(1e-3 * stress, round_off);
+}
+
+std::vector<Check> checks(const Scene& scene, const Results& r) {
+  const Solution& s = r.solution;
+  std::vector<Check> list{{"residual of the forces", s.force_residual, s.force_tolerance},
+                          {"residual of the contact condition", s.constraint_residual, s.constraint_tolerance}};
+  balance_of_bodies(r, std::max(1e-9, 10 * s.force_tolerance), list);
+  balance_of_contact(r, list);
+  coverage_check(scene, r, list);
+  unilateral_checks(r, std::max(s.constraint_tolerance, 1e-9), list);
+  return list;
+}
+
+Status verdict(const Results& r) {
+  if (r.solution.status != SolveStatus::converged || !not_finite(r).empty()) return Status::not_converged;
+  const bool all = std::all_of(r.checks.begin(), r.checks.end(), [](const Check& c) { return c.ok(); });
+  return all ? Status::solved : Status::check_failed;
+}
+
+std::string not_finite(const Results& r) {
+  const Solution& s = r.solution;
+  if (!s.u.allFinite()) return "displacements";
+  if (!s.lambda.allFinite()) return "contact pressures";
+  if (!std::isfinite(s.force_residual) || !std::isfinite(s.constraint_residual)) return "residuals";
+  if (!r.stress.points.allFinite() || !r.stress.centres.allFinite()) return "stresses";
+  if (!std::isfinite(r.energy)) return "the energy";
+  for (const ContactResults& c : r.contacts)
+    for (const double figure : {c.length_in_contact, c.force.x(), c.force.y(), c.p_min, c.p_mean, c.p_max, c.p_least})
+      if (!std::isfinite(figure)) return "contact pressures or forces";
+  return "";
+}
+
+}  // namespace mortise

@@ -1,0 +1,17 @@
+// The figures that say whether a result holds.
+#pragma once
+
+#include "results/results.hpp"
+
+namespace mortise {
+
+/// Of a run that has all but checks and warnings.
+std::vector<Check> checks(const Scene& scene, const Results& results);
+
+/// solved where the solver converged, all checks hold and all is finite.
+Status verdict(const Results& results);
+
+/// What of the results is not finite, in words; empty if all is.
+std::string not_finite(const Results& results);
+
+}  // namespace mortise

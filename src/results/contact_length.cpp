@@ -1,0 +1,65 @@
+#include "results/contact_length.hpp"
+
+#include <algorithm>
+
+namespace mortise {
+namespace {
+
+// A vertex before the one at which p is last seen: how far before, and p^2 there.
+struct Sample {
+  double before, square;
+};
+
+// Where the least-squares line through the samples falls to zero, measured from the last loaded vertex on.
+double end_of_contact(const std::vector<Sample>& samples, double limit) {
+  double x = 0, y = 0, xx = 0, xy = 0;
+  const auto count = double(samples.size());
+  for (const Sample& s : samples) {
+    x -= s.before / count;
+    y += s.square / count;
+  }
+  for (const Sample& s : samples) {
+    xx += (-s.before - x) * (-s.before - x);
+    xy += (-s.before - x) * (s.square - y);
+  }
+  return xy < 0 ? std::clamp(x - y * xx / xy, 0.0, limit) : limit;
+}
+
+// Part of edge e that is in contact, where p ends on it: it carries p at vertex `last` (0: start, 1: end) only.
+double part_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure, int e, int last,
+                       double loaded) {
+  const int count = int(pair.multiplier.edges.size()), back = last == 0 ? -1 : 1;  // away from the end of contact
+  const double length = edge_length(nodes, pair.multiplier.edges[e]);
+  const double at_last = pressure(pair.coupling.on_edge[e][last]);
+  std::vector<Sample> samples{{0, at_last * at_last}};
+  double before = 0;
+  for (int k = e + back; samples.size() < 3; k += back) {
+    if (pair.multiplier.closed) k = (k + count) % count;
+    if (k < 0 || k >= count) break;
+    const double p = pressure(pair.coupling.on_edge[k][last]);
+    if (!(p > loaded)) break;
+    before += edge_length(nodes, pair.multiplier.edges[k]);
+    samples.push_back({before, p * p});
+  }
+  return samples.size() > 1 ? end_of_contact(samples, length) / length : 1;
+}
+
+}  // namespace
+
+double length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure) {
+  const double loaded = 1e-9 * (pressure.size() > 0 ? pressure.maxCoeff() : 0);
+  std::vector<double> part(pair.multiplier.edges.size(), 1);
+  if (pair.spec.condition == Condition::unilateral)
+    for (std::size_t e = 0; e < part.size(); ++e) {
+      const bool start = pressure(pair.coupling.on_edge[e][0]) > loaded,
+                 end = pressure(pair.coupling.on_edge[e][1]) > loaded;
+      const int middle = pair.coupling.on_edge[e][2];
+      if (!start && !end) part[e] = middle >= 0 && pressure(middle) > loaded ? 1 : 0;
+      if (start != end) part[e] = part_in_contact(nodes, pair, pressure, int(e), start ? 0 : 1, loaded);
+    }
+  double length = 0;
+  for (const ContactPoint& c : pair.points) length += c.ds * part[c.edge];
+  return length;
+}
+
+}  // namespace mortise

@@ -1,0 +1,222 @@
+#include "results/contact_results.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "results/contact_length.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// A place on a curve: an edge and its reference coordinate.
+struct Place {
+  int edge;
+  double xi;
+};
+
+struct CurveNode {
+  int node;
+  double s;
+  Place place;  // on one of the edges that meet at the node
+  Vec2 normal;  // mean of the edges' normals there
+};
+
+// An end on a symmetry plane continues as its mirror image: the prescribed component of the mean normal vanishes.
+Vec2 mirrored(const Vec2& n, const Constraints& constraints, int node) {
+  Vec2 m = n;
+  for (int c = 0; c < 2; ++c)
+    if (constraints.fixed[2 * node + c]) m(c) = 0;
+  return m.norm() > 1e-3 ? m.normalized() : n;
+}
+
+std::vector<CurveNode> nodes_along(const Mesh& mesh, const Curve& curve, const Constraints& constraints) {
+  std::vector<CurveNode> list;
+  double s = 0;
+  for (int e = 0; e < int(curve.edges.size()); ++e) {
+    const Edge& edge = curve.edges[e];
+    const Vec2 n = edge_point(mesh.nodes, edge, -1).normal();
+    if (e == 0) {
+      list.push_back({edge.nodes[0], s, {e, -1}, n});
+    } else {
+      list.back().normal = (list.back().normal + n).normalized();
+    }
+    const double length = edge_length(mesh.nodes, edge);
+    if (edge.node_count == 3)  // the part of the length before the middle node: the same rule on half the edge
+      list.push_back(
+          {edge.nodes[2], s + length_to(mesh.nodes, edge, 0), {e, 0}, edge_point(mesh.nodes, edge, 0).normal()});
+    s += length;
+    list.push_back({edge.nodes[1], s, {e, 1}, edge_point(mesh.nodes, edge, 1).normal()});
+  }
+  if (curve.closed) {
+    list.front().normal = (list.front().normal + list.back().normal).normalized();
+    list.pop_back();
+  } else {
+    for (CurveNode* end : {&list.front(), &list.back()}) end->normal = mirrored(end->normal, constraints, end->node);
+  }
+  return list;
+}
+
+// Where the multiplier side's normal passes through a node of the opposite side, near its nearest node there.
+std::optional<Place> foot_of(const Mesh& mesh, const Curve& multiplier, const std::vector<CurveNode>& along,
+                             const Vec2& x) {
+  const auto nearest = std::min_element(along.begin(), along.end(), [&](const CurveNode& a, const CurveNode& b) {
+    return (mesh.nodes.row(a.node).transpose() - x).squaredNorm() <
+           (mesh.nodes.row(b.node).transpose() - x).squaredNorm();
+  });
+  std::optional<Place> best;
+  double distance = std::numeric_limits<double>::infinity();
+  const int count = int(multiplier.edges.size());
+  for (int step = -1; step <= 1; ++step) {
+    int e = nearest->place.edge + step;
+    if (multiplier.closed) e = (e + count) % count;
+    if (e < 0 || e >= count) continue;
+    const auto xi = foot_on_edge(mesh.nodes, multiplier.edges[e], x);
+    if (!xi) continue;
+    const double d = (edge_point(mesh.nodes, multiplier.edges[e], *xi).position - x).norm();
+    if (d < distance) {
+      distance = d;
+      best = Place{e, *xi};
+    }
+  }
+  // Between two edges' normals, or at the very node: the node itself, unless it is an end that lies off to the side.
+  const Vec2 away = x - mesh.nodes.row(nearest->node).transpose();
+  const double sideways = std::abs(away.x() * nearest->normal.y() - away.y() * nearest->normal.x());
+  const double size = edge_length(mesh.nodes, multiplier.edges[nearest->place.edge]);
+  if (away.norm() < distance && sideways < 0.1 * size) best = nearest->place;
+  return best;
+}
+
+Vec2 value_at(const VecX& u, const Edge& edge, double xi) {
+  const EdgeShape s = edge_shape(edge.node_count, xi);
+  Vec2 value = Vec2::Zero();
+  for (int a = 0; a < edge.node_count; ++a) value += s.N[a] * u.segment<2>(2 * edge.nodes[a]);
+  return value;
+}
+
+double normal_stress(const Eigen::Ref<const Eigen::RowVector4d>& s, const Vec2& n) {
+  return s(0) * n.x() * n.x() + s(1) * n.y() * n.y() + 2 * s(3) * n.x() * n.y();
+}
+
+// A node's stresses, and u_n along `normal`.
+ContactNode node_results(const Mesh& mesh, const CurveNode& at, int body, const Vec2& normal, const BodyPoints& points,
+                         const StressField& stress, const VecX& u) {
+  const auto s = stress.points.row(point_of(points, body, at.node));
+  return {at.node, at.s, mesh.nodes.row(at.node).transpose(), normal, u.segment<2>(2 * at.node).dot(normal),
+          nan,     nan,  normal_stress(s, at.normal),         s(1)};
+}
+
+std::vector<ContactCentre> centre_results(const Mesh& mesh, const Curve& curve, const StressField& stress) {
+  std::vector<ContactCentre> list;
+  double s = 0;
+  for (std::size_t e = 0; e < curve.edges.size(); ++e) {
+    const EdgePoint p = edge_point(mesh.nodes, curve.edges[e], 0);
+    const auto row = stress.centres.row(curve.sides[e].cell);
+    list.push_back({s + length_to(mesh.nodes, curve.edges[e], 0), p.position, normal_stress(row, p.normal()), row(1)});
+    s += edge_length(mesh.nodes, curve.edges[e]);
+  }
+  return list;
+}
+
+// Turns s around.
+void reverse(ContactSide& side, double length) {
+  std::reverse(side.nodes.begin(), side.nodes.end());
+  std::reverse(side.centres.begin(), side.centres.end());
+  for (ContactNode& n : side.nodes) n.s = length - n.s;
+  for (ContactCentre& c : side.centres) c.s = length - c.s;
+}
+
+// The smallest p at the contact points, and between those of an edge where the parabola through its three is lowest.
+double least_pressure(const ContactPair& pair, const VecX& pressure) {
+  const auto& points = pair.points;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ContactPoint& c = points[i];
+    least = std::min(least, interpolate(pair.coupling, pair.multiplier, pressure, c.edge, c.xi));
+    const auto& on = pair.coupling.on_edge[c.edge];
+    if (on[2] < 0 || i + 1 == points.size() || points[i + 1].edge != c.edge) continue;
+    const double start = pressure(on[0]), end = pressure(on[1]), middle = pressure(on[2]);
+    const double slope = (end - start) / 2, bend = (start + end) / 2 - middle;  // p = middle + slope xi + bend xi^2
+    const double lowest = bend > 0 ? -slope / (2 * bend) : c.xi;
+    if (lowest > c.xi && lowest < points[i + 1].xi) least = std::min(least, middle - slope * slope / (4 * bend));
+  }
+  return least;
+}
+
+}  // namespace
+
+ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const Constraints& constraints,
+                               const BodyPoints& points, const StressField& stress, const VecX& u, const VecX& lambda) {
+  const bool measured = pair.spec.initial_gap == InitialGap::measured;
+  const std::vector<CurveNode> along = nodes_along(mesh, pair.multiplier, constraints);
+  ContactResults r;
+  r.pressure = 0 - multiplier_values(pair.coupling, lambda).array();  // 0 - 0 is 0, -0 is not
+  r.multiplier.curve = mesh.boundaries[pair.multiplier.boundary].name;
+  r.opposite.curve = mesh.boundaries[pair.opposite.boundary].name;
+
+  for (const CurveNode& at : along) {
+    ContactNode n = node_results(mesh, at, pair.multiplier.body, at.normal, points, stress, u);
+    n.p = interpolate(pair.coupling, pair.multiplier, r.pressure, at.place.edge, at.place.xi);
+    if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite,
+                                            {n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)})) {
+      const Vec2 other = value_at(u, pair.opposite.edges[hit->edge], hit->xi);
+      n.gap = (measured ? hit->distance : 0) + other.dot(at.normal) - n.u_n;
+    }
+    r.multiplier.nodes.push_back(n);
+  }
+  for (const CurveNode& at : nodes_along(mesh, pair.opposite, constraints)) {
+    const Vec2 x = mesh.nodes.row(at.node).transpose();
+    const auto foot = foot_of(mesh, pair.multiplier, along, x);
+    if (!foot) {
+      r.opposite.nodes.push_back(node_results(mesh, at, pair.opposite.body, -at.normal, points, stress, u));
+      r.opposite.nodes.back().p = 0;
+      continue;
+    }
+    const Edge& edge = pair.multiplier.edges[foot->edge];
+    const EdgePoint m = edge_point(mesh.nodes, edge, foot->xi);
+    // At a vertex of the multiplier side its mean normal, as in that side's own rows.
+    const auto vertex = std::find_if(along.begin(), along.end(), [&](const CurveNode& c) {
+      return (mesh.nodes.row(c.node).transpose() - m.position).norm() < 1e-9 * m.jacobian();
+    });
+    const Vec2 normal = vertex == along.end() ? m.normal() : vertex->normal;
+    ContactNode n = node_results(mesh, at, pair.opposite.body, normal, points, stress, u);
+    n.p = interpolate(pair.coupling, pair.multiplier, r.pressure, foot->edge, foot->xi);
+    n.gap = (measured ? (x - m.position).dot(normal) : 0) + n.u_n - value_at(u, edge, foot->xi).dot(normal);
+    r.opposite.nodes.push_back(n);
+  }
+  r.multiplier.centres = centre_results(mesh, pair.multiplier, stress);
+  r.opposite.centres = centre_results(mesh, pair.opposite, stress);
+
+  r.length = curve_length(mesh.nodes, pair.multiplier);
+  // Both curves keep their bodies on the left, so they run against each other.
+  const Vec2 front = r.multiplier.nodes.front().position, back = r.multiplier.nodes.back().position;
+  const bool backwards = front.x() > back.x() || (front.x() == back.x() && front.y() > back.y());
+  if (backwards)
+    reverse(r.multiplier, r.length);
+  else
+    reverse(r.opposite, curve_length(mesh.nodes, pair.opposite));
+
+  r.p_least = least_pressure(pair, r.pressure);
+  r.p_min = std::numeric_limits<double>::infinity();
+  r.p_max = -r.p_min;
+  for (const ContactNode& n : r.multiplier.nodes) {
+    if (std::isnan(n.gap) && n.p == 0) continue;
+    r.p_min = std::min(r.p_min, n.p);
+    r.p_max = largest(r.p_max, n.p);
+  }
+  if (r.p_min > r.p_max) {  // the opposite side faces parts of edges only
+    r.p_min = r.pressure.minCoeff();
+    r.p_max = r.pressure.maxCoeff();
+  }
+  for (const ContactPoint& c : pair.points)
+    r.p_mean += c.ds * interpolate(pair.coupling, pair.multiplier, r.pressure, c.edge, c.xi);
+  r.length_in_contact = length_in_contact(mesh.nodes, pair, r.pressure);
+  const VecX contact = -(pair.coupling.B.transpose() * lambda);
+  for (const CurveNode& at : along) r.force += contact.segment<2>(2 * at.node);
+  r.p_mean /= pair.coupling.covered_length;
+  return r;
+}
+
+}  // namespace mortise

@@ -1,0 +1,51 @@
+// What a contact pair says at its nodes and element centres.
+#pragma once
+
+#include "fem/stress.hpp"
+#include "problem/contact_pair.hpp"
+
+namespace mortise {
+
+/// One node of either curve. Lengths and stresses in the scene's units; NaN where a node faces nothing.
+struct ContactNode {
+  int node;
+  double s;        ///< arc length, undeformed
+  Vec2 position;   ///< undeformed
+  Vec2 normal;     ///< of the multiplier side there
+  double u_n;      ///< displacement along `normal`
+  double p;        ///< contact pressure; on the opposite side the projected one
+  double gap;      ///< deformed, along `normal`; the undeformed gap counts only where it is `measured`
+  double sigma_n;  ///< normal stress recovered in the node's own body (preprint eq. 26)
+  double sigma_2;  ///< stress 22 there
+};
+
+/// The centre of an element along the curve; s, position and normal at the middle of its edge.
+struct ContactCentre {
+  double s;
+  Vec2 position;
+  double sigma_n, sigma_2;
+};
+
+struct ContactSide {
+  std::string curve;                   ///< name
+  std::vector<ContactNode> nodes;      ///< by s
+  std::vector<ContactCentre> centres;  ///< by s
+};
+
+struct ContactResults {
+  ContactSide multiplier, opposite;
+  VecX pressure;                 ///< one a multiplier (Coupling::node)
+  double length = 0;             ///< of the multiplier side
+  double length_in_contact = 0;  ///< as length_in_contact() says
+  Vec2 force = Vec2::Zero();     ///< of the contact on the multiplier side's body, per thickness
+  double p_min = 0, p_max = 0;   ///< at the nodes of the multiplier side that face the other or carry pressure
+  double p_mean = 0;             ///< over the length that faces the other side
+  double p_least = 0;            ///< the smallest between the nodes too, where the sides face each other
+};
+
+/// s runs along both curves from the end of the multiplier side with the smaller x (then y).
+/// `lambda` holds the pair's row values (stress).
+ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const Constraints& constraints,
+                               const BodyPoints& points, const StressField& stress, const VecX& u, const VecX& lambda);
+
+}  // namespace mortise

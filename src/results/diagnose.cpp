@@ -1,0 +1,51 @@
+#include "results/diagnose.hpp"
+
+#include <sstream>
+
+#include "contact/pressure_norm.hpp"
+#include "mesh/place.hpp"
+#include "solve/inf_sup.hpp"
+
+namespace mortise {
+namespace {
+
+// S of all pairs, each over its contact modulus E* (1 / E* = sum of the bodies' 1 / E').
+SparseMatrix stacked_norm(const Scene& scene, const Results& r) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const ContactPair& pair : r.pairs) {
+    double compliance = 0;
+    for (const Curve* side : {&pair.multiplier, &pair.opposite})
+      compliance += 1 / contact_modulus(r.discretisation.laws[side->body]);
+    const SparseMatrix S =
+        pressure_norm(r.mesh.nodes, pair.multiplier, pair.points, scene.method.multipliers, pair.coupling);
+    for (Eigen::Index j = 0; j < S.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(S, j); it; ++it)
+        entries.emplace_back(pair.first_row + int(it.row()), pair.first_row + int(it.col()), compliance * it.value());
+  }
+  const Eigen::Index rows = r.discretisation.system.B.rows();
+  SparseMatrix all(rows, rows);
+  all.setFromTriplets(entries.begin(), entries.end());
+  return all;
+}
+
+}  // namespace
+
+std::optional<InfSupReport> inf_sup_report(const Scene& scene, const Results& r) {
+  if (r.pairs.empty()) return {};
+  const InfSup found = inf_sup(r.discretisation.system, stacked_norm(scene, r), r.solution.active);
+  if (found.mode.size() == 0) return {};
+  Eigen::Index worst = 0;
+  found.mode.maxCoeff(&worst);
+  return InfSupReport{found.beta, r.mesh.nodes.row(row_nodes(r.pairs)[worst]).transpose()};
+}
+
+std::optional<std::string> inf_sup_warning(const InfSupReport& report) {
+  if (report.beta >= inf_sup_limit) return {};
+  std::ostringstream text;
+  text << "the inf-sup constant is " << report.beta << " (below " << inf_sup_limit
+       << "): the meshes do not feel a pressure that swings " << near_point(report.position)
+       << ", so p may be noise there; expected multipliers_on the other curve, or a finer mesh on the opposite one";
+  return text.str();
+}
+
+}  // namespace mortise

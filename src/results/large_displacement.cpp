@@ -1,0 +1,108 @@
+#include "results/large_displacement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "mesh/place.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double kink = 20 * std::numbers::pi / 180;  // more is no curvature
+
+double angle(const Vec2& from, const Vec2& to) {
+  return std::abs(std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to)));
+}
+
+// Of each edge: by how much the curve turns a length there.
+std::vector<double> curvatures(const Points& nodes, const Curve& curve) {
+  const std::size_t count = curve.edges.size();
+  const auto tangent = [&](std::size_t e, double xi) { return edge_point(nodes, curve.edges[e], xi).tangent; };
+  std::vector<double> list;
+  for (std::size_t e = 0; e < count; ++e) {
+    double turn = angle(tangent(e, -1), tangent(e, 1));
+    const auto take = [&](std::size_t a, std::size_t b) {
+      if (const double found = angle(tangent(a, 0), tangent(b, 0)); found < kink) turn = std::max(turn, found);
+    };
+    if (e + 1 < count || curve.closed) take(e, (e + 1) % count);
+    if (e > 0 || curve.closed) take((e + count - 1) % count, e);
+    list.push_back(turn / edge_length(nodes, curve.edges[e]));
+  }
+  return list;
+}
+
+Vec2 value_at(const VecX& u, const Edge& edge, double xi) {
+  const EdgeShape s = edge_shape(edge.node_count, xi);
+  Vec2 value = Vec2::Zero();
+  for (int a = 0; a < edge.node_count; ++a) value += s.N[a] * u.segment<2>(2 * edge.nodes[a]);
+  return value;
+}
+
+// By how much an edge turns, radians.
+double rotation(const Points& nodes, const VecX& u, const Edge& edge) {
+  const Vec2 chord = (nodes.row(edge.nodes[1]) - nodes.row(edge.nodes[0])).transpose();
+  return angle(chord, chord + u.segment<2>(2 * edge.nodes[1]) - u.segment<2>(2 * edge.nodes[0]));
+}
+
+// What p is off by at most, and why.
+struct Largest {
+  double part = 0;
+  Vec2 position = Vec2::Zero();
+  std::string what;
+
+  void take(double other, const Vec2& at, double shown, const char* before, const char* after) {
+    if (!(other > part)) return;
+    std::ostringstream text;
+    text.precision(2);
+    text << before << shown << after;
+    *this = {other, at, text.str()};
+  }
+};
+
+Largest largest_in_contact(const Results& r) {
+  Largest worst;
+  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
+    const ContactPair& pair = r.pairs[k];
+    const ContactResults& contact = r.contacts[k];
+    const std::vector<double> curvature = curvatures(r.mesh.nodes, pair.multiplier),
+                              opposite_curvature = curvatures(r.mesh.nodes, pair.opposite);
+    for (const ContactPoint& c : pair.points) {
+      if (!(interpolate(pair.coupling, pair.multiplier, contact.pressure, c.edge, c.xi) > 1e-3 * contact.p_max))
+        continue;
+      const Edge &edge = pair.multiplier.edges[c.edge], &other = pair.opposite.edges[c.opposite_edge];
+      const Vec2 x = edge_point(r.mesh.nodes, edge, c.xi).position;
+      const Vec2 moved = value_at(r.solution.u, other, c.eta) - value_at(r.solution.u, edge, c.xi);
+      const double slip = std::abs(moved.x() * c.normal.y() - moved.y() * c.normal.x());
+      const double curved = moved.norm() * std::max(curvature[c.edge], opposite_curvature[c.opposite_edge]),
+                   along = slip / contact.length_in_contact,
+                   turned = std::max(rotation(r.mesh.nodes, r.solution.u, edge),
+                                     rotation(r.mesh.nodes, r.solution.u, other));
+      worst.take(curved, x, 100 * curved, "the sides move against one another by ", " % of the contact line's radius");
+      worst.take(along, x, 100 * along, "the sides slide along one another by ", " % of the length in contact");
+      worst.take(turned * turned, x, turned, "a side turns by ", " radians");
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::optional<std::string> large_displacement(const Results& r) {
+  std::ostringstream text;
+  text.precision(2);
+  const Vec2 size = (r.mesh.nodes.colwise().maxCoeff() - r.mesh.nodes.colwise().minCoeff()).transpose();
+  const double whole = largest_entry(r.solution.u) / size.norm();
+  if (const Largest worst = largest_in_contact(r); worst.part > 0.01)
+    text << "large displacements: " << worst.what << " " << near_point(worst.position)
+         << "; contact is written on the undeformed bodies, so p may be off by " << 100 * worst.part << " %";
+  else if (whole > 0.02)
+    text << "large displacements: up to " << 100 * whole
+         << " % of the size of the whole; the equations are those of small displacements";
+  else
+    return {};
+  return text.str();
+}
+
+}  // namespace mortise

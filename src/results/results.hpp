@@ -1,0 +1,59 @@
+// Everything a run knows at its end.
+#pragma once
+
+#include "results/contact_results.hpp"
+#include "results/stress_comparison.hpp"
+
+namespace mortise {
+
+/// In the order of severity.
+enum class Status { solved, check_failed, not_converged };
+std::string to_string(Status status);
+
+/// One figure that must stay below its limit.
+struct Check {
+  std::string name;
+  double value;
+  double limit;
+  bool ok() const { return value <= limit; }  // NaN fails
+};
+
+/// How well the displacements control the multipliers (diagnose).
+struct InfSupReport {
+  double beta;    ///< inf-sup constant, dimensionless
+  Vec2 position;  ///< where the worst pressure is largest
+};
+
+/// Seconds of the stages, summary.json "seconds".
+struct Seconds {
+  double mesh = 0, assemble = 0, couple = 0, factorise = 0, solve = 0, recover = 0, write = 0;
+  double total() const { return mesh + assemble + couple + factorise + solve + recover + write; }
+};
+
+struct Results {
+  Status status = Status::solved;
+  Mesh mesh;
+  BodyPoints points;
+  Discretisation discretisation;  ///< held motions (validate.hpp) count as prescribed
+  std::vector<ContactPair> pairs;
+  std::vector<std::string> dirichlet;  ///< of domain decomposition: bodies that took the displacement
+  Solution solution;
+  StressField stress;
+  std::vector<ContactResults> contacts;                          ///< one a pair
+  std::vector<std::optional<StressComparison>> against_sigma_n;  ///< one a pair; nothing where not compared
+  double energy = 0;                                             ///< strain energy per thickness
+  std::optional<InfSupReport> inf_sup;                           ///< where the run was asked to diagnose
+  Seconds seconds;
+  std::vector<Check> checks;
+  std::vector<std::string> warnings;  ///< what a user should know; nothing that fails
+};
+
+/// Displacement unknowns that are not prescribed.
+int free_unknowns(const Results& results);
+
+/// A pressure that matters to no body, stress: 1e-3 of the largest stress in any, or what round-off of the
+/// displacements makes of a contact that carries none. It does not change where bodies are moved as a whole.
+/// Of the mesh, the pairs, the solution and the stress.
+double negligible_pressure(const Results& results);
+
+}  // namespace mortise

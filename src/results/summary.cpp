@@ -1,0 +1,216 @@
+#include "results/summary.hpp"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+#include "mesh/place.hpp"
+#include "results/diagnose.hpp"
+#include "results/model_summary.hpp"
+
+namespace mortise {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The multiplier space that is really used: quadratic needs 3-node edges.
+std::string space_word(const Scene& scene, const Results& r) {
+  const bool quadratic_edges = std::any_of(r.pairs.begin(), r.pairs.end(),
+                                           [](const ContactPair& p) { return p.multiplier.edges[0].node_count == 3; });
+  if (scene.method.multipliers == Multipliers::quadratic && !quadratic_edges) return to_string(Multipliers::linear);
+  return to_string(scene.method.multipliers);
+}
+
+Json comparison_json(const std::optional<StressComparison>& found) {
+  if (!found) return nullptr;
+  return {{"difference", found->difference},
+          {"curve", found->curve},
+          {"position", {found->position.x(), found->position.y()}}};
+}
+
+Json contact_json(const ContactPair& pair, const ContactResults& c, const std::optional<StressComparison>& compared) {
+  return {{"between", pair.spec.between},
+          {"length", c.length},
+          {"length_in_contact", c.length_in_contact},
+          {"force", {c.force.x(), c.force.y()}},
+          {"pressure", {{"min", c.p_min}, {"mean", c.p_mean}, {"max", c.p_max}}},
+          {"against_sigma_n", comparison_json(compared)},
+          {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
+}
+
+Json steps_json(const Results& r) {
+  Json steps = Json::array();
+  for (const ActiveSetStep& s : r.solution.steps)
+    steps.push_back(
+        {{"active", s.active}, {"changed", s.changed}, {"penetration", s.penetration}, {"tension", s.tension}});
+  return steps;
+}
+
+Json iteration_json(const Solution& solution) {
+  if (!solution.iteration) return nullptr;
+  const Iteration& i = *solution.iteration;
+  const Residuals last = i.history.back().residuals;
+  Json json{{"method", i.method},
+            {"acceleration", to_string(i.acceleration)},
+            {"steps", i.steps},
+            {"convergence_rate", i.convergence_rate},
+            {"kinematic", last.kinematic},
+            {"force", last.force}};
+  for (const auto& [name, value] : i.figures) json[name] = value;
+  return json;
+}
+
+void print_iteration(const Results& r, std::ostream& out) {
+  if (!r.solution.iteration) return;
+  const Iteration& i = *r.solution.iteration;
+  const Residuals last = i.history.back().residuals;
+  out << "  iteration " << i.method << ", acceleration " << to_string(i.acceleration)
+      << (i.settings.empty() ? "" : ", ") << i.settings << "\n            ";
+  if (!r.dirichlet.empty()) out << "displacement taken by";
+  for (const std::string& body : r.dirichlet) out << " " << body;
+  out << (r.dirichlet.empty() ? "" : "; ") << i.steps << " steps to residuals " << last.kinematic << " (kinematic), "
+      << last.force << " (force); " << i.convergence_rate << " a step\n";
+}
+
+// One row a solve, where there was more than one.
+void print_steps(const Results& r, std::ostream& out) {
+  if (r.solution.steps.size() < 2) return;
+  out << "  steps     " << std::setw(6) << "closed" << std::setw(10) << "changing" << std::setw(16) << "penetration"
+      << std::setw(16) << "tension\n";
+  for (std::size_t k = 0; k < r.solution.steps.size(); ++k) {
+    if (r.solution.steps.size() > 14 && k == 7) {
+      out << "            ... summary.json has all\n";
+      k = r.solution.steps.size() - 7;
+    }
+    const ActiveSetStep& s = r.solution.steps[k];
+    out << std::setw(10) << k + 1 << "  " << std::setw(6) << s.active << std::setw(10) << s.changed << std::setw(16)
+        << s.penetration << std::setw(15) << s.tension << "\n";
+  }
+}
+
+void print_comparison(const std::optional<StressComparison>& found, std::ostream& out) {
+  if (found)
+    out << "            p and the bodies' sigma_n differ by " << std::setprecision(2) << 100 * found->difference
+        << std::setprecision(6) << " % of the mean on 90 % of the contact\n";
+  else
+    out << "            p not compared with the bodies' sigma_n: no p, or all of it beside singular corners\n";
+}
+
+// Those that fail; summary.json has all.
+void print_checks(const std::vector<Check>& checks, std::ostream& out) {
+  const auto hold = std::count_if(checks.begin(), checks.end(), [](const Check& c) { return c.ok(); });
+  out << "  checks    " << hold << " of " << checks.size() << " hold (equilibrium, contact condition)\n"
+      << std::setprecision(2);
+  for (const Check& c : checks)
+    if (!c.ok()) out << "  FAILED    " << c.name << ": " << c.value << " (limit " << c.limit << ")\n";
+}
+
+// How contact was found, in words.
+std::string contact_words(const Results& r) {
+  const int unilateral = int(std::count_if(
+      r.pairs.begin(), r.pairs.end(), [](const ContactPair& p) { return p.spec.condition == Condition::unilateral; }));
+  if (unilateral == 0 || r.solution.iteration) return "";
+  if (r.solution.steps.size() > 1)
+    return std::to_string(r.solution.steps.size()) + " solves until nothing is in tension or overlaps" +
+           (r.solution.coarse_steps > 0
+                ? ", and " + std::to_string(r.solution.coarse_steps) + " smaller ones for the second's start"
+                : "");
+  return std::all_of(r.solution.active.begin(), r.solution.active.end(), [](char a) { return a; })
+             ? "one solve: nothing is in tension, contact is closed everywhere"
+             : "one solve: the active set of the start holds";
+}
+
+}  // namespace
+
+Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
+  Json on = Json::array(), condition = Json::array(), gap = Json::array(), contact = Json::array();
+  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
+    const ContactSpec& spec = r.pairs[k].spec;
+    on.push_back(spec.multipliers_on);
+    condition.push_back(to_string(spec.condition));
+    gap.push_back(to_string(spec.initial_gap));
+    contact.push_back(contact_json(r.pairs[k], r.contacts[k], r.against_sigma_n[k]));
+  }
+  Json checks = Json::array();
+  for (const Check& c : r.checks)
+    checks.push_back({{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"ok", c.ok()}});
+  const Seconds& s = r.seconds;
+  return {{"title", scene.title},
+          {"scene", scene.path},
+          {"version", MORTISE_VERSION},
+          {"status", to_string(r.status)},
+          {"model", model_json(scene, r.discretisation)},
+          {"method",
+           {{"integration", to_string(scene.method.integration)},
+            {"multipliers", space_word(scene, r)},
+            {"multipliers_on", on},
+            {"solver", to_string(scene.method.solver)},
+            {"dirichlet", r.dirichlet},
+            {"condition", condition},
+            {"initial_gap", gap}}},
+          {"mesh",
+           {{"nodes", r.mesh.nodes.rows()},
+            {"elements", r.mesh.cells.size()},
+            {"dofs", free_unknowns(r)},
+            {"multipliers", r.solution.lambda.size()}}},
+          {"seconds",
+           {{"mesh", s.mesh},
+            {"assemble", s.assemble},
+            {"couple", s.couple},
+            {"factorise", s.factorise},
+            {"solve", s.solve},
+            {"recover", s.recover},
+            {"write", write_seconds},
+            {"total", s.total() + write_seconds}}},
+          {"iterations",
+           {{"contact", r.pairs.empty() ? 0 : r.solution.steps.size()},
+            {"contact_coarse", r.solution.coarse_steps},
+            {"solver", r.solution.iteration ? r.solution.iteration->steps : 0}}},
+          {"contact_steps", steps_json(r)},
+          {"iteration", iteration_json(r.solution)},
+          {"inf_sup", r.inf_sup ? Json(r.inf_sup->beta) : Json()},
+          {"energy", r.energy},
+          {"contact", contact},
+          {"checks", checks},
+          {"warnings", r.warnings}};
+}
+
+std::string terminal_summary(const Scene& scene, const Results& r, const std::filesystem::path& folder) {
+  std::ostringstream out;
+  out << scene.title << "\n";
+  out << "  mesh      " << r.mesh.nodes.rows() << " nodes, " << r.mesh.cells.size() << " elements; " << free_unknowns(r)
+      << " unknowns, " << r.solution.lambda.size() << " multipliers\n";
+  out << std::setprecision(6) << model_lines(scene, r.discretisation);
+  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
+    const ContactResults& c = r.contacts[k];
+    const ContactSpec& spec = r.pairs[k].spec;
+    out << "  contact   " << spec.between[0] << " - " << spec.between[1] << ": " << to_string(spec.condition)
+        << ", gap " << to_string(spec.initial_gap) << ", " << space_word(scene, r) << " multipliers on "
+        << spec.multipliers_on << "\n            pressure " << c.p_min << " ... " << c.p_max << " (mean " << c.p_mean
+        << "), force (" << c.force.x() << ", " << c.force.y() << ") on " << c.multiplier.curve
+        << "\n            length " << c.length << ", in contact " << c.length_in_contact << "; undeformed gap "
+        << r.pairs[k].coupling.gap_min << " ... " << r.pairs[k].coupling.gap_max << "\n";
+    print_comparison(r.against_sigma_n[k], out);
+  }
+  out << std::setprecision(3);
+  print_iteration(r, out);
+  print_steps(r, out);
+  if (const std::string words = contact_words(r); !words.empty()) out << "            " << words << "\n";
+  out << std::setprecision(6) << "  largest   displacement " << r.solution.u.cwiseAbs().maxCoeff() << "\n";
+  out << "  energy    " << r.energy << "\n";
+  if (r.inf_sup)
+    out << "  inf-sup   " << r.inf_sup->beta << ", worst " << near_point(r.inf_sup->position) << " (limit "
+        << inf_sup_limit << ")\n";
+  print_checks(r.checks, out);
+  for (std::size_t i = 0; i < std::min<std::size_t>(r.warnings.size(), 5); ++i)
+    out << "  warning   " << r.warnings[i] << "\n";
+  if (r.warnings.size() > 5) out << "  warning   " << r.warnings.size() - 5 << " more in summary.json\n";
+  const Seconds& s = r.seconds;
+  out << std::fixed << std::setprecision(3) << "  seconds   mesh " << s.mesh << ", assemble " << s.assemble
+      << ", couple " << s.couple << ", factorise " << s.factorise << ", solve " << s.solve << ", recover " << s.recover
+      << ", write " << s.write << "; total " << s.total() << "\n";
+  out << "  " << to_string(r.status) << "; results in " << folder.string() << "/ (result.vtu opens in ParaView)\n";
+  return out.str();
+}
+
+}  // namespace mortise

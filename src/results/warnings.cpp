@@ -1,0 +1,210 @@
+#include "results/warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <sstream>
+
+#include "contact/mesh_gap.hpp"
+#include "contact/turns.hpp"
+#include "mesh/place.hpp"
+#include "results/checks.hpp"
+#include "results/large_displacement.hpp"
+
+namespace mortise {
+namespace {
+
+std::string near_node(const Mesh& mesh, int node) { return near_point(mesh.nodes.row(node).transpose()); }
+
+using Lines = std::vector<std::string>;
+
+void warn_of_active_set(const Results& r, Lines& lines) {
+  const std::vector<int>& rows = r.solution.infeasible;
+  if (rows.empty()) return;
+  const std::vector<int> nodes = row_nodes(r.pairs);
+  std::string places;
+  for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 5); ++i)
+    places += (i > 0 ? ", " : "") + near_node(r.mesh, nodes[rows[i]]);
+  if (rows.size() > 5) places += " and " + std::to_string(rows.size() - 5) + " more";
+  lines.push_back("the active set did not converge in " + std::to_string(r.solution.steps.size()) + " steps: contact " +
+                  places + " still changes");
+}
+
+// What the iteration did not reach, and what would.
+void warn_of_iteration(const Solution& s, Lines& lines) {
+  if (!s.iteration || s.status == SolveStatus::converged) return;
+  const Iteration& i = *s.iteration;
+  const Residuals last = i.history.back().residuals;
+  std::ostringstream text;
+  text << i.method << " (acceleration " << to_string(i.acceleration) << (i.settings.empty() ? "" : ", ") << i.settings
+       << ") " << (s.status == SolveStatus::diverged ? "diverges" : "did not converge") << ": after " << i.steps
+       << " steps the residuals are " << largest(last.kinematic, s.constraint_residual) << " (kinematic) and "
+       << largest(last.force, s.force_residual) << " (force), where " << i.tolerance
+       << " was asked for; a step multiplies them by " << i.convergence_rate;
+  if (!i.advice.empty()) text << "; " << i.advice;
+  lines.push_back(text.str());
+}
+
+void warn_of_what_is_not_finite(const Results& r, Lines& lines) {
+  if (const std::string what = not_finite(r); !what.empty())
+    lines.push_back("not finite: " + what +
+                    "; nothing of these results can be used. Expected loads, prescribed displacements and settings in "
+                    "proportion, and an iteration that converges");
+}
+
+// "x = 0.1 ... 0.9, y = 0.2"
+std::string range(const std::vector<Vec2>& places) {
+  Vec2 low = places[0], high = places[0];
+  for (const Vec2& x : places) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  std::ostringstream text;
+  const auto write = [&](const char* name, double from, double to) {
+    text << name << from + 0.0;
+    if (to - from > 1e-6 * (high - low).norm()) text << " ... " << to + 0.0;
+  };
+  write("x = ", low.x(), high.x());
+  write(", y = ", low.y(), high.y());
+  return text.str();
+}
+
+// One line for each reason.
+void warn_of_dropped(const ContactPair& pair, const Results& r, Lines& lines) {
+  std::map<std::string, std::vector<Vec2>> places;
+  for (const DroppedMultiplier& d : pair.coupling.dropped)
+    places[d.reason].push_back(r.mesh.nodes.row(d.node).transpose());
+  for (const auto& [reason, at] : places)
+    lines.push_back(pair.spec.key + ": " + std::to_string(at.size()) +
+                    (at.size() == 1 ? " multiplier of '" : " multipliers of '") + pair.spec.multipliers_on + "' (" +
+                    range(at) + ") " + reason);
+}
+
+// A gap that two meshes of one curve may make: of both signs, and nowhere wider than they can.
+bool may_be_the_meshes_own(const ContactPair& pair, const Results& r) {
+  const double low = pair.coupling.gap_min, high = pair.coupling.gap_max;
+  return low < 0 && high > 0 && std::min(-low, high) > 1e-3 * std::max(-low, high) &&
+         !open_place(r.mesh.nodes, pair.multiplier, pair.opposite, pair.points, 1e-6);
+}
+
+// Enforced, a gap that only the meshes make causes pressures of about E gap / h; dropped, a true one is missing.
+void warn_of_gap(const ContactPair& pair, const Results& r, Lines& lines) {
+  const double low = pair.coupling.gap_min, high = pair.coupling.gap_max;
+  const double gap = std::max(std::abs(low), std::abs(high)), displacement = largest_entry(r.solution.u);
+  const bool meshes_own = may_be_the_meshes_own(pair, r);
+  std::ostringstream text;
+  text << pair.spec.key << ": ";
+  if (pair.spec.initial_gap == InitialGap::measured) {
+    if (!meshes_own || gap < 1e-3 * displacement) return;
+    text << "the undeformed gap (" << low << " ... " << high
+         << ") is of both signs and nowhere more than two meshes of one curve show, but not small against the "
+            "displacements (up to "
+         << displacement << "); if the curves are one curve, set initial_gap = \"closed\"";
+  } else {
+    if (gap <= (meshes_own ? 0.1 : 0.01) * displacement) return;
+    text << "initial_gap = \"closed\" leaves out gaps of " << low << " ... " << high
+         << ", which are not small against the displacements (up to " << displacement << "): "
+         << (meshes_own ? "right if the curves are one curve"
+                        : "a clearance or an interference that is meant needs initial_gap = \"measured\"");
+  }
+  lines.push_back(text.str());
+}
+
+// Two independent approximations of one stress: what they differ by, the discretisation leaves open.
+void warn_of_stress(const ContactPair& pair, const std::optional<StressComparison>& found, Lines& lines) {
+  if (!found || found->difference <= 0.1) return;
+  lines.push_back(pair.spec.key + ": p and the stress in the bodies differ by up to " +
+                  std::to_string(std::lround(100 * found->difference)) +
+                  " % of the mean p on 90 % of the contact, as on '" + found->curve + "' " +
+                  near_point(found->position) + ": the mesh is coarse there; expected a finer one");
+}
+
+int degrees(double angle) { return int(std::lround(angle * 180 / std::numbers::pi)); }
+
+// Both meshes must follow the contact line: its curvature, and its kinks (docs/stability.md, geometry).
+void warn_of_shape(const ContactPair& pair, const Results& r, Lines& lines) {
+  const auto name = [&](const Curve& curve) { return "'" + r.mesh.boundaries[curve.boundary].name + "'"; };
+  for (const auto& [curve, other] :
+       {std::pair{&pair.multiplier, &pair.opposite}, std::pair{&pair.opposite, &pair.multiplier}}) {
+    const Turn sharpest = sharpest_edge(r.mesh.nodes, *curve);
+    if (degrees(sharpest.angle) > 30)
+      lines.push_back(pair.spec.key + ": an edge of " + name(*curve) + " " + near_point(sharpest.position) +
+                      " turns by " + std::to_string(degrees(sharpest.angle)) +
+                      " degrees: the mesh is coarse for the curve; expected at most 30");
+    if (const auto straight = straight_sides(r.mesh.nodes, *curve);
+        straight && straight->sagitta > 0.01 * largest_entry(r.solution.u)) {
+      std::ostringstream text;
+      text << pair.spec.key << ": " << name(*curve) << " turns at " << straight->vertices
+           << " vertices between straight 3-node edges, whose chords miss the curve by up to " << straight->sagitta
+           << " " << near_point(straight->position) << ", not small against the displacements (up to "
+           << largest_entry(r.solution.u)
+           << "): gaps and peaks of p are the mesh's; expected middle nodes on the curve (Mesh.SecondOrderLinear = 0)";
+      lines.push_back(text.str());
+    }
+    // A gap that is measured is meant: a corner may stand on a flat side.
+    if (pair.spec.initial_gap != InitialGap::closed) continue;
+    if (const auto kink = missed_kink(r.mesh.nodes, *curve, *other))
+      lines.push_back(pair.spec.key + ": " + name(*curve) + " has a kink of " + std::to_string(degrees(kink->angle)) +
+                      " degrees " + near_point(kink->position) + ", where " + name(*other) +
+                      " has no vertex and cuts it short; expected a vertex of both meshes there");
+  }
+}
+
+// Positions are rounded to this part of themselves.
+constexpr double round_off = std::numeric_limits<double>::epsilon();
+
+// A measured gap is a difference of positions: far from the origin it is round-off.
+void warn_of_far_origin(const ContactPair& pair, const Results& r, Lines& lines) {
+  if (pair.spec.initial_gap != InitialGap::measured) return;
+  const double farthest = r.mesh.nodes.cwiseAbs().maxCoeff();
+  const double gap = std::max(std::abs(pair.coupling.gap_min), std::abs(pair.coupling.gap_max));
+  const double size = std::max(gap, r.solution.u.cwiseAbs().maxCoeff());
+  if (round_off * farthest <= 1e-8 * size) return;
+  std::ostringstream text;
+  text << pair.spec.key << ": coordinates up to " << farthest << " are rounded to about " << round_off * farthest
+       << ", where gaps and displacements are up to " << size << "; expected an origin near the bodies";
+  lines.push_back(text.str());
+}
+
+// Poisson's ratio from which elements lock in plane strain: docs/stability.md, near incompressibility.
+void warn_of_locking(const Scene& scene, const Results& r, Lines& lines) {
+  if (scene.plane != Plane::strain) return;
+  for (const BodySpec& body : scene.bodies) {
+    const double poisson = scene.materials.at(body.material).poisson;
+    const int b = body_index(r.mesh, body.name);
+    const bool linear = std::any_of(r.mesh.cells.begin(), r.mesh.cells.end(), [&](const Cell& cell) {
+      return cell.body == b && (cell.kind == CellKind::tri3 || cell.kind == CellKind::quad4);
+    });
+    if (poisson < (linear ? 0.4 : 0.49)) continue;
+    std::ostringstream text;
+    text << "body '" << body.name << "' is nearly incompressible (poisson = " << poisson << "): its "
+         << (linear ? "linear elements lock, displacements are too small"
+                    : "stresses inside swing from element to element")
+         << "; expected "
+         << (linear ? "quadratic elements, or poisson < 0.4" : "6-node triangles and a finer mesh, or poisson < 0.49");
+    lines.push_back(text.str());
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> warnings(const Scene& scene, const Results& r) {
+  Lines lines;
+  warn_of_active_set(r, lines);
+  warn_of_iteration(r.solution, lines);
+  warn_of_what_is_not_finite(r, lines);
+  if (auto line = large_displacement(r)) lines.push_back(*std::move(line));
+  warn_of_locking(scene, r, lines);
+  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
+    warn_of_dropped(r.pairs[k], r, lines);
+    warn_of_gap(r.pairs[k], r, lines);
+    warn_of_shape(r.pairs[k], r, lines);
+    warn_of_far_origin(r.pairs[k], r, lines);
+    warn_of_stress(r.pairs[k], r.against_sigma_n[k], lines);
+  }
+  return lines;
+}
+
+}  // namespace mortise

@@ -1,0 +1,11 @@
+// Where an answer is poor, and why: what a user should know that no check fails for.
+#pragma once
+
+#include "results/results.hpp"
+
+namespace mortise {
+
+/// One line each, with its place, of a run that has all but warnings.
+std::vector<std::string> warnings(const Scene& scene, const Results& results);
+
+}  // namespace mortise

@@ -1,0 +1,161 @@
+#include "results/write_results.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/errors.hpp"
+#include "base/stopwatch.hpp"
+#include "io/csv.hpp"
+#include "io/output_folder.hpp"
+#include "io/vtu.hpp"
+#include "results/summary.hpp"
+
+namespace mortise {
+namespace {
+
+// Bodies are written apart: a node that two bodies share is a point of each, with each body's stress.
+VtuGrid result_grid(const Results& r) {
+  VtuGrid grid;
+  const Eigen::Index count = r.points.node.size();
+  grid.points.resize(count, 2);
+  MatX u(count, 2), von_mises_stress(count, 1), body(r.mesh.cells.size(), 1);
+  for (Eigen::Index p = 0; p < count; ++p) {
+    const int node = r.points.node[p];
+    grid.points.row(p) = r.mesh.nodes.row(node);
+    u.row(p) = r.solution.u.segment<2>(2 * node).transpose();
+    von_mises_stress(p, 0) = von_mises(r.stress.points.row(p).transpose());
+  }
+  std::vector<int> point_of_node(r.mesh.nodes.rows());
+  int current = -1;
+  for (std::size_t e = 0; e < r.mesh.cells.size(); ++e) {
+    Cell cell = r.mesh.cells[e];
+    if (cell.body != current) {
+      current = cell.body;
+      for (int p = r.points.first[current]; p < r.points.first[current + 1]; ++p) point_of_node[r.points.node[p]] = p;
+    }
+    for (int a = 0; a < node_count(cell.kind); ++a) cell.nodes[a] = point_of_node[cell.nodes[a]];
+    body(e, 0) = cell.body;
+    grid.cells.push_back(cell);
+  }
+  const std::vector<std::string> stress_names{"11", "22", "33", "12"};
+  grid.point_fields = {
+      {"displacement", u, {}}, {"stress", r.stress.points, stress_names}, {"von_mises", von_mises_stress, {}}};
+  grid.cell_fields = {{"body", body, {}}, {"stress_centre", r.stress.centres, stress_names}};
+  return grid;
+}
+
+// Both curves of every pair, with what contact.csv says at their nodes.
+VtuGrid contact_grid(const Results& r) {
+  VtuGrid grid;
+  std::vector<std::pair<const ContactSide*, const Curve*>> sides;
+  Eigen::Index count = 0;
+  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
+    sides.emplace_back(&r.contacts[k].multiplier, &r.pairs[k].multiplier);
+    sides.emplace_back(&r.contacts[k].opposite, &r.pairs[k].opposite);
+    count += r.contacts[k].multiplier.nodes.size() + r.contacts[k].opposite.nodes.size();
+  }
+  grid.points.resize(count, 2);
+  MatX u(count, 2), normal(count, 2), p(count, 1), gap(count, 1), sigma_n(count, 1);
+  Eigen::Index i = 0;
+  std::vector<int> point_of_node(r.mesh.nodes.rows());
+  for (const auto& [side, curve] : sides) {
+    for (const ContactNode& n : side->nodes) {
+      point_of_node[n.node] = int(i);
+      grid.points.row(i) = n.position.transpose();
+      u.row(i) = r.solution.u.segment<2>(2 * n.node).transpose();
+      normal.row(i) = n.normal.transpose();
+      p(i, 0) = n.p;
+      gap(i, 0) = n.gap;
+      sigma_n(i++, 0) = n.sigma_n;
+    }
+    for (Edge edge : curve->edges) {
+      for (int a = 0; a < edge.node_count; ++a) edge.nodes[a] = point_of_node[edge.nodes[a]];
+      grid.edges.push_back(edge);
+    }
+  }
+  grid.point_fields = {
+      {"displacement", u, {}}, {"normal", normal, {}}, {"p", p, {}}, {"gap", gap, {}}, {"sigma_n", sigma_n, {}}};
+  return grid;
+}
+
+// Calls add(pair number, side) for both sides of every pair, multiplier side first.
+template <typename Add>
+void for_each_side(const Results& r, Add add) {
+  for (std::size_t k = 0; k < r.contacts.size(); ++k) {
+    add(double(k), r.contacts[k].multiplier);
+    add(double(k), r.contacts[k].opposite);
+  }
+}
+
+void write_contact_csv(const Results& r, const std::filesystem::path& path) {
+  std::vector<CsvColumn> columns;
+  for (const char* name : {"pair", "curve", "s", "x", "y", "u_n", "p", "gap", "sigma_n", "sigma_2"})
+    columns.push_back({name, {}, {}});
+  for_each_side(r, [&](double pair, const ContactSide& side) {
+    for (const ContactNode& n : side.nodes) {
+      columns[1].words.push_back(side.curve);
+      std::size_t c = 0;
+      for (const double value : {pair, n.s, n.position.x(), n.position.y(), n.u_n, n.p, n.gap, n.sigma_n, n.sigma_2}) {
+        columns[c].numbers.push_back(value);
+        c += c == 0 ? 2 : 1;
+      }
+    }
+  });
+  write_csv(path, columns);
+}
+
+void write_centres_csv(const Results& r, const std::filesystem::path& path) {
+  std::vector<CsvColumn> columns;
+  for (const char* name : {"pair", "curve", "s", "x", "y", "sigma_n", "sigma_2"}) columns.push_back({name, {}, {}});
+  for_each_side(r, [&](double pair, const ContactSide& side) {
+    for (const ContactCentre& n : side.centres) {
+      columns[1].words.push_back(side.curve);
+      std::size_t c = 0;
+      for (const double value : {pair, n.s, n.position.x(), n.position.y(), n.sigma_n, n.sigma_2}) {
+        columns[c].numbers.push_back(value);
+        c += c == 0 ? 2 : 1;
+      }
+    }
+  });
+  write_csv(path, columns);
+}
+
+void write_iteration_csv(const Iteration& iteration, const std::filesystem::path& path) {
+  std::vector<CsvColumn> columns;
+  for (const char* name : {"step", "kinematic", "force", "beta", "seconds"}) columns.push_back({name, {}, {}});
+  for (std::size_t k = 0; k < iteration.history.size(); ++k) {
+    const IterationStep& step = iteration.history[k];
+    std::size_t c = 0;
+    for (const double value : {double(k + 1), step.residuals.kinematic, step.residuals.force, step.beta, step.seconds})
+      columns[c++].numbers.push_back(value);
+  }
+  write_csv(path, columns);
+}
+
+}  // namespace
+
+double write_results(const Scene& scene, const Results& results, const std::filesystem::path& folder) {
+  Stopwatch watch;
+  OutputFolder output(folder);
+  try {
+    write_vtu(output.path("result.vtu"), result_grid(results));
+    if (!results.pairs.empty()) {
+      write_vtu(output.path("contact.vtu"), contact_grid(results));
+      write_contact_csv(results, output.path("contact.csv"));
+      write_centres_csv(results, output.path("contact_centres.csv"));
+    }
+    if (const auto& iteration = results.solution.iteration)
+      write_iteration_csv(*iteration, output.path("iteration.csv"));
+  } catch (const InputError& error) {
+    throw InputError(output.with_target(error.what()));
+  }
+  const double seconds = watch.lap();
+  std::ofstream file(output.path("summary.json"));
+  file << summary_json(scene, results, seconds).dump(2) << "\n";
+  file.close();
+  if (!file) throw InputError(folder.string() + ": cannot write summary.json");
+  output.commit();
+  return seconds;
+}
+
+}  // namespace mortise

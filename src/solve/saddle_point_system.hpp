@@ -1,0 +1,41 @@
+// The equations of bodies in contact: K u + B^T lambda = f, with B u = g or, on unilateral rows, B u >= g, lambda <= 0
+// and lambda (B u - g) = 0; some unknowns prescribed.
+#pragma once
+
+#include "base/constraints.hpp"
+#include "solve/solution.hpp"
+
+namespace mortise {
+
+/// Unknowns come in pairs (2 i, 2 i + 1: one node). Any units: the system is made dimensionless by the two scales.
+/// Without rows (m = 0) it is that of the bodies alone.
+struct SaddlePointSystem {
+  SparseMatrix K;              ///< n x n, lower triangle, positive semidefinite, stress units
+  VecX f;                      ///< n, force per thickness
+  Constraints constraints;     ///< n
+  double stiffness_scale = 1;  ///< a typical entry of K (Young's modulus)
+  /// Unknowns that springs must hold for K to be positive definite (one for each motion that only B resists). The
+  /// springs are taken out again exactly: docs/theory.md eq. 18.
+  std::vector<int> grounded;
+
+  SparseMatrix B;                ///< m x n, length
+  VecX g;                        ///< m, length^2
+  VecX row_scale;                ///< m: size of each row of B, length
+  std::vector<char> unilateral;  ///< m: rows that may open; empty: none
+  std::vector<char> start;       ///< m: rows that are closed at first; empty: all
+};
+
+/// Forces are compared with this part of stiffness times displacement, |K| |u| in their own row, where they are
+/// smaller: those of a body that moves without being deformed are round-off of that product, and so are those in thin
+/// elements, whose stiffness is many times the material's (|K| |u| is what Oettli & Prager 1964 compare a residual
+/// with).
+inline constexpr double rigid_part = 1e-3;
+
+/// The grounded unknowns that take part in the solution's rigid modes: springs hold them, with less than 1e-5 of the
+/// forces.
+std::vector<int> held_unknowns(const std::vector<int>& grounded, const Solution& solution);
+
+/// Fills the two residuals of u and lambda, where the `active` rows are closed. held_unknowns() have none.
+void measure_residuals(const SaddlePointSystem& system, Solution& solution);
+
+}  // namespace mortise

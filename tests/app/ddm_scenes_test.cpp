@@ -1,0 +1,264 @@
+// Domain decomposition from scene to results: the mortar method's answer, at the rates that the spectrum predicts.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "ddm/interface.hpp"
+#include "support/differences.hpp"
+#include "support/messages.hpp"
+
+namespace mortise::test {
+namespace {
+
+using Overrides = std::vector<Override>;
+
+Results run(const std::string& name, Overrides overrides, const Overrides& more = {}) {
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/" + name + ".toml", overrides));
+}
+
+Results ddm(const std::string& name, Overrides overrides, const Overrides& more = {}) {
+  overrides.push_back({"method.kind", "ddm"});
+  return run(name, overrides, more);
+}
+
+double displacement_difference(const Results& a, const Results& b) {
+  return largest_entry(a.solution.u - b.solution.u) / largest_entry(b.solution.u);
+}
+
+Overrides plates(int upper, int lower, int kind, int order) {
+  return {{"mesh.parameters.n_upper", std::to_string(upper)},
+          {"mesh.parameters.n_lower", std::to_string(lower)},
+          {"mesh.parameters.kind", std::to_string(kind)},
+          {"mesh.parameters.order", std::to_string(order)},
+          {"contact.condition", "bilateral"}};
+}
+
+// The upper plate's material of its own, E = ratio * 210 GPa.
+Overrides with_ratio(Overrides overrides, double ratio) {
+  overrides.push_back({"materials.other", "{ young = " + std::to_string(ratio * 210e9) + ", poisson = 0.3 }"});
+  overrides.push_back({"bodies.upper", "other"});
+  return overrides;
+}
+
+// ---- The same answer as the mortar method's, with the same multipliers ----
+
+class SameAnswer : public testing::TestWithParam<std::tuple<const char*, const char*, const char*>> {};
+
+TEST_P(SameAnswer, OnAllMeshes) {
+  const auto [scheme, acceleration, scene] = GetParam();
+  // Neumann-Neumann and Dirichlet-Dirichlet make each body take a displacement: multipliers on the coarser side.
+  const bool both = std::string(scheme) != "neumann_dirichlet";
+  for (const auto& [upper, lower, kind, order] :
+       {std::array{8, 10, 1, 1}, std::array{10, 8, 0, 2}, std::array{8, 8, 1, 2}, std::array{5, 12, 0, 2}})
+    for (const char* side : {"upper", "lower"}) {
+      const bool lower_side = std::string(side) == "lower";
+      if (both && (lower_side ? lower > upper : upper > lower)) continue;
+      Overrides overrides = plates(upper, lower, kind, order);
+      overrides.push_back({"contact.multipliers_on", std::string(side) + "_contact"});
+      const Results r = ddm(scene, overrides,
+                            {{"method.scheme", scheme},
+                             {"method.acceleration", acceleration},
+                             {"method.dirichlet", side},
+                             {"method.tolerance", "1e-10"},
+                             {"method.max_iterations", "2000"}});
+      const Results mortar = run(scene, overrides);
+      EXPECT_NE(r.status, Status::not_converged) << upper << ":" << lower << " " << side;
+      EXPECT_LT(pressure_difference(r, mortar), 1e-8) << upper << ":" << lower << " " << side;
+      EXPECT_LT(displacement_difference(r, mortar), 1e-8) << upper << ":" << lower << " " << side;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Schemes, SameAnswer,
+    testing::Combine(testing::Values("neumann_dirichlet", "neumann_neumann", "dirichlet_dirichlet"),
+                     testing::Values("none", "aitken", "anderson", "krylov"), testing::Values("parabola_1", "tent_b")),
+    [](const auto& test) {
+      return std::string(std::get<0>(test.param)) + "_" + std::get<1>(test.param) + "_" + std::get<2>(test.param);
+    });
+
+TEST(Decompose, MatchesMortarOnRingsAndShrinkFit) {
+  for (const char* scene : {"rings", "shrink_fit"})
+    for (const char* side : {"inner", "outer"}) {
+      const Overrides overrides{{"contact.multipliers_on", std::string(side) + "_contact"}};
+      const Results r = ddm(scene, overrides, {{"method.dirichlet", side}, {"method.tolerance", "1e-10"}});
+      EXPECT_EQ(r.status, Status::solved);
+      EXPECT_LT(pressure_difference(r, run(scene, overrides)), 1e-8) << scene << " " << side;
+    }
+}
+
+TEST(Decompose, StackOfThreeBodiesHasTwoInOneRole) {
+  for (const Overrides& roles :
+       {Overrides{{"method.dirichlet", "middle"}}, Overrides{{"method.dirichlet", "[\"lower\", \"upper\"]"}}}) {
+    const Results r = ddm("stack", roles, {{"method.tolerance", "1e-11"}});
+    EXPECT_EQ(r.status, Status::solved);
+    EXPECT_EQ(r.dirichlet.size(), roles[0].value == "middle" ? 1U : 2U);
+    for (const ContactResults& c : r.contacts)
+      EXPECT_LT(largest_entry(c.pressure - VecX::Constant(c.pressure.size(), 10e6)) / 10e6,
+                1e-10);  // exact: patch test
+  }
+}
+
+// ---- Roles ----
+
+TEST(Decompose, TheSofterBodyTakesTheDisplacement) {
+  for (const double ratio : {0.1, 10.0}) {
+    const Results r = ddm("parabola_1", with_ratio(plates(8, 10, 0, 2), ratio));
+    EXPECT_EQ(r.dirichlet, std::vector<std::string>{ratio < 1 ? "upper" : "lower"});
+    EXPECT_EQ(r.pairs[0].spec.multipliers_on, ratio < 1 ? "upper_contact" : "lower_contact");
+  }
+}
+
+TEST(Decompose, OfEquallyStiffBodiesTheFinerTakesTheDisplacement) {
+  EXPECT_EQ(ddm("parabola_1", plates(8, 10, 0, 2)).dirichlet, std::vector<std::string>{"lower"});
+  EXPECT_EQ(ddm("parabola_1", plates(10, 8, 0, 2)).dirichlet, std::vector<std::string>{"upper"});
+}
+
+TEST(Decompose, ContradictingRolesAreAnError) {
+  expect_contains(message_of([] {
+                    ddm("stack", {{"method.dirichlet", "[\"lower\", \"middle\"]"}});
+                  }),
+                  "'middle' is in contact with a body of the same role");
+}
+
+// ---- Rates ----
+
+Spectrum spectrum_of(const Results& r) {
+  const auto& figures = r.solution.iteration->figures;  // beta, eigenvalue.smallest, eigenvalue.largest
+  return {figures[1].second, figures[2].second};
+}
+
+// A fixed beta multiplies the error by max |1 - beta mu| over the eigenvalues mu of the interface.
+TEST(Decompose, FixedBetaConvergesAtThePredictedFactor) {
+  for (const double ratio : {0.01, 0.1, 1.0, 10.0, 100.0})
+    for (const double part : {0.2, 0.5, 0.9}) {  // of the interval in which beta converges
+      Overrides overrides = with_ratio(plates(16, 20, 0, 2), ratio);
+      overrides.insert(overrides.end(), {{"method.dirichlet", "upper"}, {"method.acceleration", "none"}});
+      const Spectrum spectrum = spectrum_of(ddm("parabola_1", overrides, {{"method.max_iterations", "1"}}));
+      const double beta = part * spectrum.largest_beta();
+      const Results r = ddm(
+          "parabola_1", overrides,
+          {{"method.beta", std::to_string(beta)}, {"method.tolerance", "1e-10"}, {"method.max_iterations", "1000"}});
+      EXPECT_NEAR(r.solution.iteration->convergence_rate / spectrum.convergence_rate(beta), 1, 0.05)
+          << ratio << " " << part;
+    }
+}
+
+TEST(Decompose, BeyondItsIntervalBetaDivergesAndTheRunSaysWhatWouldConverge) {
+  const Overrides overrides = {{"method.dirichlet", "upper"}, {"method.acceleration", "none"}, {"method.beta", "5"}};
+  const Results r = ddm("parabola_1", plates(8, 10, 0, 2), overrides);
+  EXPECT_EQ(r.status, Status::not_converged);
+  EXPECT_LT(r.solution.iteration->history.size(), 100U);
+  EXPECT_GT(r.solution.iteration->convergence_rate, 1);
+  ASSERT_FALSE(r.warnings.empty());
+  expect_contains(r.warnings[0], "diverges");
+  expect_contains(r.warnings[0], "beta converges below");
+}
+
+TEST(Decompose, AcceleratedItTakesAtMostFourteenEvaluations) {
+  for (const char* scene : {"parabola_1", "cosine"})
+    for (const double ratio : {0.01, 0.1, 1.0, 10.0, 100.0}) {
+      const Results r = ddm(scene, with_ratio(plates(20, 25, 0, 2), ratio));
+      EXPECT_LE(r.solution.iteration->history.size(), 14U) << scene << " " << ratio;
+      EXPECT_LE(r.solution.iteration->history.back().residuals.largest(), 1e-8);
+    }
+}
+
+// ---- Contact that opens ----
+
+// `more`: settings of the mesh; the multipliers lie on `side` of both.
+void expect_mortar_solution(const std::string& scene, const char* side, Overrides more, std::size_t most_steps,
+                            const Overrides& method = {}) {
+  more.push_back({"contact.multipliers_on", side});
+  Overrides settings = method;
+  settings.push_back({"method.tolerance", "1e-10"});
+  const Results r = ddm(scene, more, settings), mortar = run(scene, more);
+  EXPECT_NE(r.status, Status::not_converged) << scene;
+  EXPECT_EQ(r.solution.active, mortar.solution.active) << scene;
+  EXPECT_LT(pressure_difference(r, mortar), 1e-8) << scene;
+  EXPECT_LE(r.solution.iteration->history.size(), most_steps) << scene;
+}
+
+Overrides sizes(const char* upper, const char* lower, const char* order = "2", const char* kind = "0") {
+  return {{"mesh.parameters.n_upper", upper},
+          {"mesh.parameters.n_lower", lower},
+          {"mesh.parameters.order", order},
+          {"mesh.parameters.kind", kind}};
+}
+
+TEST(Decompose, UnilateralFindsTheActiveSetOfTheMortarMethod) {
+  for (const char* side : {"upper", "lower"})
+    expect_mortar_solution("cosine", (std::string(side) + "_contact").c_str(), sizes("32", "40"), 60,
+                           {{"method.dirichlet", side}});
+  // A fixed-point iteration on the contact of the Dirichlet body does not settle on these two.
+  expect_mortar_solution("cosine", "lower_contact", sizes("39", "51", "1", "1"), 40);
+  expect_mortar_solution("cosine", "lower_contact", sizes("80", "100", "1", "1"), 40);
+  expect_mortar_solution("hertz", "block_top", sizes("20", "25"), 40);
+  expect_mortar_solution("lift_off", "block_contact", {}, 90);
+}
+
+TEST(Decompose, UnilateralByTheProjectedPressure) {
+  expect_mortar_solution("cosine", "lower_contact", sizes("20", "25"), 80, {{"method.acceleration", "anderson"}});
+}
+
+// ---- Errors ----
+
+TEST(Decompose, ALoadThatPullsABodyAwayIsAnError) {
+  expect_contains(message_of([] { ddm("lift_off", {{"boundary.2.pressure", "-1e6"}}); }), "nothing holds a body");
+}
+
+TEST(Decompose, SchemesForBilateralContactSaySo) {
+  expect_contains(message_of([] {
+                    ddm("cosine", {{"method.scheme", "neumann_neumann"}});
+                  }),
+                  "is for bilateral contact");
+}
+
+TEST(Decompose, MultipliersThatTheDirichletBodyDoesNotFeelAreAnError) {
+  const Overrides overrides{{"mesh.parameters.n_upper", "5"},
+                            {"mesh.parameters.n_lower", "40"},
+                            {"method.dirichlet", "upper"},
+                            {"contact.multipliers_on", "lower_contact"}};
+  expect_contains(message_of([&] { ddm("parabola_1", overrides); }),
+                  "is not felt by the bodies that take the displacement");
+}
+
+// On the finer side one body or the other does not feel every multiplier, whichever is called the Dirichlet body.
+TEST(Decompose, SchemesThatMakeBothBodiesTakeADisplacementAskBoth) {
+  for (const char* scheme : {"neumann_neumann", "dirichlet_dirichlet"})
+    for (const char* dirichlet : {"upper", "lower"})
+      for (const char* load :
+           {"{ on = [\"top\"], pressure = 1e7 }", "{ on = [\"top\"], displacement = { y = -1e-5 } }"}) {
+        const Overrides overrides{{"mesh.parameters.n_upper", "4"},   {"mesh.parameters.n_lower", "11"},
+                                  {"mesh.parameters.order", "1"},     {"contact.multipliers_on", "lower_contact"},
+                                  {"contact.condition", "bilateral"}, {"boundary.2", load},
+                                  {"method.dirichlet", dirichlet},    {"method.scheme", scheme}};
+        expect_contains(message_of([&] { ddm("patch_flat", overrides); }),
+                        "is not felt by the bodies that take the displacement");
+      }
+}
+
+TEST(Decompose, WithoutAContactPairThereIsNothingToIterateOn) {
+  expect_contains(message_of([] { ddm("patch_flat", {{"contact", "[]"}}); }), "needs a [[contact]] to iterate on");
+}
+
+TEST(Decompose, WhatOverflowsIsNotSolved) {
+  for (const char* y : {"-1e300", "-1e308"})
+    for (const char* acceleration : {"none", "aitken", "anderson", "krylov"}) {
+      const Results r =
+          ddm("patch_flat", {{"boundary.2", std::string("{ on = [\"top\"], displacement = { y = ") + y + " } }"},
+                             {"method.acceleration", acceleration}});
+      EXPECT_EQ(r.status, Status::not_converged) << y << acceleration;
+    }
+}
+
+TEST(Decompose, KeysOfDomainDecompositionNeedIt) {
+  expect_contains(message_of([] { run("rings", {{"method.beta", "0.3"}}); }), "expected solver = \"ddm\"");
+  expect_contains(message_of([] { ddm("rings", {{"method.beta", "-1"}}); }), "method.beta");
+  expect_contains(message_of([] { ddm("rings", {{"method.dirichlet", "iner"}}); }), "inner");
+  expect_contains(message_of([] { ddm("rings", {{"method.max_iterations", "1.5"}}); }), "whole number");
+}
+
+}  // namespace
+}  // namespace mortise::test

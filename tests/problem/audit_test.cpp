@@ -1,0 +1,315 @@
+// What the audit finds before and after the solve, and that it is silent on scenes that are right.
+#include "problem/audit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/solve_scene.hpp"
+#include "results/audit_solution.hpp"
+#include "support/messages.hpp"
+#include "support/plate_scenes.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+// A scene made by gmsh's OpenCASCADE kernel: `bodies` are its physical surfaces, all of steel.
+Scene drawn(const TemporaryFolder& folder, const std::string& geo, const std::vector<std::string>& bodies,
+            const std::string& rest) {
+  folder.write("s.geo", "SetFactory(\"OpenCASCADE\"); Mesh.ElementOrder = 2; Mesh.MeshSizeMax = 0.2;\n" + geo);
+  std::string toml = "[mesh]\nfile = \"s.geo\"\n[materials.steel]\nyoung = 210e3\npoisson = 0.3\n[bodies]\n";
+  for (const std::string& body : bodies) toml += body + " = \"steel\"\n";
+  return read_scene(folder.write("s.toml", toml + rest));
+}
+
+std::string boundary(const std::string& on, const std::string& what) {
+  return "[[boundary]]\non = [\"" + on + "\"]\n" + what + "\n";
+}
+std::string held(const std::string& on) { return boundary(on, "displacement = { x = 0, y = 0 }"); }
+std::string pair(const std::string& a, const std::string& b) {
+  return "[[contact]]\nbetween = [\"" + a + "\", \"" + b + "\"]\n";
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string all;
+  for (const std::string& line : lines) all += line + "\n";
+  return all;
+}
+
+std::string before(const Scene& scene) { return joined(check_scene(scene).warnings); }
+std::string after(const Scene& scene) { return joined(audit_solution(solve_scene(scene))); }
+
+int lines_of(const std::string& text) { return int(std::count(text.begin(), text.end(), '\n')); }
+
+// Rectangles i = 1, 2, ...: x, y, width, height. Surfaces b1, ..; curves down1, right1, up1, left1, ..
+std::string rectangles(const std::vector<std::string>& boxes) {
+  std::string geo;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const std::string n = std::to_string(i + 1);
+    geo += "Rectangle(" + n + ") = {" + boxes[i] + "}; c" + n + "() = Boundary{ Surface{" + n + "}; };\n";
+    geo += "Physical Surface(\"b" + n + "\") = {" + n + "};\n";
+    const char* sides[] = {"down", "right", "up", "left"};
+    for (int k = 0; k < 4; ++k)
+      geo += std::string("Physical Curve(\"") + sides[k] + n + "\") = {c" + n + "(" + std::to_string(k) + ")};\n";
+  }
+  return geo;
+}
+
+// ---- Scenes that are right ----
+
+class RightScenes : public testing::TestWithParam<const char*> {};
+
+TEST_P(RightScenes, AreSilentBeforeAndAfter) {
+  const Scene scene = read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/" + GetParam() + ".toml");
+  EXPECT_EQ(before(scene), "");
+  EXPECT_EQ(after(scene), "");
+}
+
+TEST_P(RightScenes, AreSilentOnLinearTriangles) {
+  const Scene scene = read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/" + GetParam() + ".toml",
+                                 {{"mesh.parameters.order", "1"}, {"mesh.parameters.kind", "1"}});
+  EXPECT_EQ(before(scene), "");
+  EXPECT_EQ(after(scene), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RightScenes,
+                         testing::Values("patch_flat", "patch_inclined", "stack", "tent_a", "tent_b", "tent_c",
+                                         "circle", "parabola_1", "parabola_2", "cosine", "rings", "shrink_fit",
+                                         "gap_close", "lift_off", "punch", "hertz", "hertz_nafems"),
+                         [](const auto& name) { return std::string(name.param); });
+
+TEST(Audit, IsSilentOnBondedBodies) {
+  const TemporaryFolder folder;
+  const Scene scene = drawn(folder,
+                            "Rectangle(1) = {0, 0, 0, 4, 1}; Rectangle(2) = {0, 1, 0, 4, 1};"
+                            "BooleanFragments{ Surface{1}; Delete; }{ Surface{2}; Delete; }"
+                            "Physical Surface(\"a\") = {1}; Physical Surface(\"b\") = {2};"
+                            "l() = Curve In BoundingBox{-0.1, -0.1, -1, 0.1, 2.1, 1}; Physical Curve(\"left\") = {l()};"
+                            "t() = Curve In BoundingBox{-0.1, 1.9, -1, 4.1, 2.1, 1}; Physical Curve(\"top\") = {t()};",
+                            {"a", "b"}, held("left") + boundary("top", "traction = [0, -10]"));
+  EXPECT_EQ(before(scene), "");
+  EXPECT_EQ(after(scene), "");
+}
+
+TEST(Audit, IsSilentOnSidesAcrossASlitAndOnBodiesFarApart) {
+  for (const std::string gap : {"0.02", "0.5"}) {
+    const TemporaryFolder folder;
+    const Scene scene = drawn(folder, rectangles({"0, 0, 0, 2, 1", "2 + " + gap + ", 0, 0, 2, 1"}), {"b1", "b2"},
+                              held("down1") + held("down2") + boundary("up1", "pressure = 10"));
+    EXPECT_EQ(before(scene), "") << gap;
+    EXPECT_EQ(after(scene), "") << gap;
+  }
+}
+
+// An interference along a pair is a press fit, on straight sides that run on past one another too.
+TEST(Audit, IsSilentOnAnInterferenceAlongAPair) {
+  for (const std::string depth : {"0.001", "0.02", "0.1"})
+    for (const std::string x : {"0", "0.5"}) {
+      const TemporaryFolder folder;
+      const Scene scene = drawn(folder, rectangles({"0, 0, 0, 4, 1", x + ", 1 - " + depth + ", 0, 3, 1"}), {"b1", "b2"},
+                                held("down1") + held("up2") + pair("up1", "down2"));
+      EXPECT_EQ(before(scene), "") << depth << " " << x;
+    }
+}
+
+// ---- Boundaries that meet without a pair ----
+
+const char* const block_in_an_L =
+    "Point(1) = {0, 0, 0}; Point(2) = {5, 0, 0}; Point(3) = {5, 1, 0}; Point(4) = {1, 1, 0}; Point(5) = {1, 5, 0};"
+    "Point(6) = {0, 5, 0}; Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 6};"
+    "Line(6) = {6, 1}; Curve Loop(1) = {1:6}; Plane Surface(1) = {1}; Rectangle(2) = {1, 1, 0, 2, 2};"
+    "b() = Boundary{ Surface{2}; }; Physical Surface(\"L\") = {1}; Physical Surface(\"block\") = {2};"
+    "Physical Curve(\"ground\") = {1, 6}; Physical Curve(\"floor\") = {3}; Physical Curve(\"wall\") = {4};"
+    "Physical Curve(\"down\") = {b(0)}; Physical Curve(\"top\") = {b(2)}; Physical Curve(\"side\") = {b(3)};";
+
+TEST(Audit, NamesBoundariesThatMeetWithoutAPair) {
+  const TemporaryFolder folder;
+  const std::string load = held("ground") + boundary("top", "traction = [-1, -10]");
+  const Scene all = drawn(folder, block_in_an_L, {"L", "block"}, load + pair("down", "floor") + pair("side", "wall"));
+  EXPECT_EQ(before(all), "");
+  EXPECT_EQ(after(all), "");
+  const Scene one = drawn(folder, block_in_an_L, {"L", "block"},
+                          load + boundary("top", "displacement = { x = 0 }") + pair("down", "floor"));
+  const std::string lines = before(one);
+  EXPECT_EQ(lines_of(lines), 1) << lines;
+  expect_contains(lines, "bodies 'L' and 'block' meet near (1, 2");
+  expect_contains(lines, "over a length of 2");
+  expect_contains(lines, "[[contact]] between = [\"wall\", \"side\"]");
+}
+
+TEST(Audit, EndsTheErrorOfABodyThatNothingHolds) {
+  const TemporaryFolder folder;
+  const Scene scene = drawn(folder, rectangles({"0, 0, 0, 4, 1", "1, 1, 0, 2, 1"}), {"b1", "b2"},
+                            held("down1") + boundary("up2", "pressure = 10"));
+  const std::string message = message_of([&] { check_scene(scene); });
+  expect_contains(message, "nothing holds body 'b2'");
+  expect_contains(message, "[[contact]] between = [\"up1\", \"down2\"]");
+}
+
+TEST(Audit, SaysWhereNoCurveHasAName) {
+  const TemporaryFolder folder;
+  const Scene scene =
+      drawn(folder,
+            "Rectangle(1) = {0, 0, 0, 4, 1}; Rectangle(2) = {0, 1, 0, 4, 1}; a() = Boundary{ Surface{1}; };"
+            "b() = Boundary{ Surface{2}; }; Physical Surface(\"a\") = {1}; Physical Surface(\"b\") = {2};"
+            "Physical Curve(\"ground\") = {a(0)}; Physical Curve(\"top\") = {b(2)};",
+            {"a", "b"}, held("ground") + boundary("top", "displacement = { x = 0, y = -0.01 }"));
+  expect_contains(before(scene), "(an unnamed boundary of 'a', an unnamed boundary of 'b')");
+  const std::string crossing = after(scene);
+  EXPECT_EQ(lines_of(crossing), 1) << crossing;
+  expect_contains(crossing, "bodies 'a' and 'b' pass through one another by 0.01");
+}
+
+TEST(Audit, FindsTwoPiecesOfOneBodyThatAreNotJoined) {
+  const TemporaryFolder folder;
+  const Scene scene =
+      drawn(folder,
+            "Rectangle(1) = {0, 0, 0, 4, 1}; Rectangle(2) = {0, 1, 0, 4, 1}; a() = Boundary{ Surface{1}; };"
+            "b() = Boundary{ Surface{2}; }; Physical Surface(\"a\") = {1, 2};"
+            "Physical Curve(\"left\") = {a(3), b(3)};",
+            {"a"}, held("left"));
+  const std::string lines = before(scene);
+  EXPECT_EQ(lines_of(lines), 1) << lines;
+  expect_contains(lines, "two pieces of body 'a' meet");
+  expect_contains(lines, "over a length of 4");
+}
+
+// A roller in a V whose right flank is in a pair, and the left one is not.
+TEST(Audit, FindsACurvedBodyThatTouchesAtAPoint) {
+  const TemporaryFolder folder;
+  const Scene scene = drawn(
+      folder,
+      "Point(1) = {-2, -2, 0}; Point(2) = {2, -2, 0}; Point(3) = {2, 1, 0}; Point(4) = {1.5, 1, 0};"
+      "Point(5) = {0, -0.5, 0}; Point(6) = {-1.5, 1, 0}; Point(7) = {-2, 1, 0}; Line(1) = {1, 2}; Line(2) = {2, 3};"
+      "Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 1};"
+      "Curve Loop(1) = {1:7}; Plane Surface(1) = {1}; Disk(2) = {0, 0.70710678, 0, 0.85355339};"
+      "Physical Surface(\"block\") = {1}; Physical Surface(\"roller\") = {2}; Physical Curve(\"ground\") = {1};"
+      "Physical Curve(\"right_flank\") = {4}; Physical Curve(\"left_flank\") = {5};"
+      "r() = Boundary{ Surface{2}; }; Physical Curve(\"round\") = {r()};",
+      {"block", "roller"},
+      held("ground") + boundary("round", "displacement = { x = 0 }") + pair("round", "right_flank") +
+          "[[body_force]]\nbody = \"roller\"\nforce = [0, -10]\n");
+  const std::string lines = before(scene);
+  EXPECT_EQ(lines_of(lines), 1) << lines;
+  expect_contains(lines, "\"left_flank\"");
+  expect_contains(lines, "\"round\"");
+  expect_contains(after(scene), "bodies 'block' and 'roller' pass through one another");
+}
+
+// ---- Bodies drawn over one another ----
+
+TEST(Audit, RefusesBodiesDrawnOverOneAnother) {
+  for (const auto& [geo, what] : std::vector<std::pair<std::string, std::string>>{
+           {rectangles({"0, 0, 0, 4, 4", "1, 1, 0, 1, 1"}), "a hole that was not cut"},
+           {rectangles({"0, 0, 0, 4, 1", "0, 0, 0, 4, 1"}), "the same place twice"},
+           {rectangles({"0, 2, 0, 8, 1", "4, 0, 0, 1, 8"}), "a cross"}}) {
+    const TemporaryFolder folder;
+    const Scene scene = drawn(folder, geo, {"b1", "b2"}, held("left1") + held("down2"));
+    expect_contains(message_of([&] { check_scene(scene); }), "bodies 'b1' and 'b2' are drawn over one another near (");
+    expect_contains(message_of([&] { solve_scene(scene); }), "drawn over one another");
+  }
+}
+
+TEST(Audit, WarnsOfAThinInterferenceWithoutAPair) {
+  const TemporaryFolder folder;
+  const Scene scene =
+      drawn(folder, rectangles({"0, 0, 0, 4, 1", "0.5, 0.98, 0, 3, 1"}), {"b1", "b2"}, held("down1") + held("up2"));
+  const std::string lines = before(scene);
+  EXPECT_EQ(lines_of(lines), 1) << lines;
+  expect_contains(lines, "bodies 'b1' and 'b2' are drawn into one another by 0.02");
+  expect_contains(lines, "[\"up1\", \"down2\"]");
+}
+
+TEST(Audit, RefusesElementsListedTwice) {
+  Mesh mesh = mesh_of({});
+  const Cell inside = mesh.cells[10];  // of the middle row, no side of it is on a named boundary
+  mesh.cells.insert(mesh.cells.begin(), inside);
+  expect_contains(message_of([&] { solve_scene(uniaxial_scene(), mesh); }), "one over the other, near (");
+}
+
+// ---- Loads ----
+
+TEST(Audit, RefusesAnEdgeThatTwoNamesLoad) {
+  const TemporaryFolder folder;
+  const std::string geo =
+      "Rectangle(1) = {0, 0, 0, 2, 1}; b() = Boundary{ Surface{1}; }; Physical Surface(\"p\") = {1};"
+      "Physical Curve(\"down\") = {b(0)}; Physical Curve(\"left\") = {b(3)}; Physical Curve(\"sides\") = {b(1), b(3)};";
+  const std::string load = boundary("left", "pressure = 5");
+  const std::string message = message_of(
+      [&] { check_scene(drawn(folder, geo, {"p"}, held("down") + load + boundary("sides", "traction = [1, 0]"))); });
+  for (const char* part : {"boundary.1", "'left'", "boundary.2", "'sides'", "near (0, ", "over a length of 1 "})
+    expect_contains(message, part);
+  const Scene moved = drawn(folder, geo, {"p"}, held("down") + load + boundary("sides", "displacement = { x = 0 }"));
+  EXPECT_EQ(before(moved), "");
+}
+
+// ---- Contact at the end of a curve ----
+
+// Two half cylinders of radius 1 that touch at the origin, named up to the angle `a`.
+std::string cylinders(const std::string& a) {
+  return "a = " + a +
+         "; Point(1) = {0, 0, 0}; Point(2) = {Sin(a), 1 - Cos(a), 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};"
+         "Circle(1) = {1, 4, 2}; Circle(2) = {2, 4, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1:4};"
+         "Plane Surface(1) = {1}; Point(11) = {0, 0, 0}; Point(12) = {Sin(a), Cos(a) - 1, 0}; Point(13) = {1, -1, 0};"
+         "Point(14) = {0, -1, 0}; Circle(11) = {11, 14, 12}; Circle(12) = {12, 14, 13}; Line(13) = {13, 14};"
+         "Line(14) = {14, 11}; Curve Loop(2) = {11:14}; Plane Surface(2) = {2};"
+         "Transfinite Curve{1} = 11; Transfinite Curve{11} = 14;"
+         "Physical Surface(\"up\") = {1}; Physical Surface(\"low\") = {2}; Physical Curve(\"foot\") = {1};"
+         "Physical Curve(\"top\") = {11}; Physical Curve(\"axis\") = {4, 14}; Physical Curve(\"head\") = {3};"
+         "Physical Curve(\"ground\") = {13};";
+}
+
+TEST(Audit, FindsContactAtTheEndOfACurveThatGoesOn) {
+  const std::string rest = boundary("axis", "displacement = { x = 0 }") +
+                           boundary("ground", "displacement = { y = 0 }") + boundary("head", "pressure = 300") +
+                           pair("foot", "top");
+  const TemporaryFolder folder;
+  const Scene narrow = drawn(folder, cylinders("0.03"), {"up", "low"}, rest);
+  EXPECT_EQ(before(narrow), "");
+  const std::string lines = after(narrow);
+  expect_contains(lines, "contact.0 (line ");
+  expect_contains(lines, "contact reaches the end of ");
+  expect_contains(lines, "near (0.0299955, ");
+  const Scene wide = drawn(folder, cylinders("0.15"), {"up", "low"}, rest);  // contact ends at 0.046
+  EXPECT_EQ(before(wide), "");
+  EXPECT_EQ(after(wide), "");
+}
+
+// The block's top is named below the punch alone: it goes on, but the punch ends there.
+TEST(Audit, IsSilentWhereTheOtherBodyEndsToo) {
+  const TemporaryFolder folder;
+  const Scene scene = drawn(
+      folder,
+      "Point(1) = {0, 0, 0}; Point(2) = {5, 0, 0}; Point(3) = {5, 1, 0}; Point(4) = {3, 1, 0}; Point(5) = {2, 1, 0};"
+      "Point(6) = {0, 1, 0}; Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5};"
+      "Line(5) = {5, 6}; Line(6) = {6, 1}; Curve Loop(1) = {1:6}; Plane Surface(1) = {1};"
+      "Rectangle(2) = {2, 1, 0, 1, 1}; b() = Boundary{ Surface{2}; }; Physical Surface(\"block\") = {1};"
+      "Physical Surface(\"punch\") = {2}; Physical Curve(\"foot\") = {b(0)}; Physical Curve(\"head\") = {b(2)};"
+      "Physical Curve(\"ground\") = {1}; Physical Curve(\"seat\") = {4};",
+      {"block", "punch"},
+      held("ground") + boundary("head", "displacement = { x = 0 }") + boundary("head", "traction = [0, -10]") +
+          pair("foot", "seat"));
+  EXPECT_EQ(before(scene), "");
+  EXPECT_EQ(after(scene), "");
+}
+
+// ---- Crossing that only the load brings about ----
+
+TEST(Audit, FindsBodiesThatTheLoadDrivesThroughOneAnother) {
+  const std::string geo = rectangles({"0, 0, 0, 2, 1", "0, 1.05, 0, 2, 1"});
+  const auto pushed = [&](const std::string& y, const std::string& contact) {
+    const TemporaryFolder folder;
+    return after(drawn(folder, geo, {"b1", "b2"},
+                       held("down1") + boundary("up2", "displacement = { x = 0, y = " + y + " }") + contact));
+  };
+  EXPECT_EQ(pushed("-0.04", ""), "");
+  EXPECT_EQ(pushed("-0.06", pair("up1", "down2")), "");
+  const std::string lines = pushed("-0.06", "");
+  EXPECT_EQ(lines_of(lines), 1) << lines;
+  expect_contains(lines, "by 0.01 (17 % of the largest displacement)");
+  expect_contains(lines, "[\"up1\", \"down2\"]");
+}
+
+}  // namespace
+}  // namespace mortise::test
