@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "contact/multiplier_rows.hpp"
 #include "contact/multiplier_space.hpp"
+#include "fem/edges.hpp"
 
 namespace mortise {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/errors.hpp"
 #include "contact/segments.hpp"
-#include "fem/elements.hpp"
+#include "fem/edges.hpp"
 #include "mesh/place.hpp"
 
 namespace mortise {

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include "fem/edges.hpp"
+
 namespace mortise {
 
 Eigen::Vector3d EdgeMultipliers::shape(double xi) const {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/vectors.hpp"
 #include "contact/projection.hpp"
 #include "contact/segments.hpp"
+#include "fem/edges.hpp"
 
 namespace mortise {
 namespace {
-
-double angle(const Vec2& a, const Vec2& b) { return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b))); }
 
 // The edges of a piece by the node that they start from.
 void link(Outline& o, const PieceOutline& piece) {
@@ -36,7 +36,7 @@ void measure_vertices(Outline& o, int e) {
     const EdgePoint there = edge_point(o.nodes, o.edges[other].edge, end == 0 ? 1 : -1);
     const Vec2 sum = own[end].normal() + there.normal();
     if (sum.norm() > 1e-6) o.vertex_normal[e][end] = sum.normalized();
-    o.turn[e][end] = angle(own[end].tangent, there.tangent);
+    o.turn[e][end] = angle_between(own[end].tangent, there.tangent);
     if (o.turn[e][end] < smooth_turn) smooth = std::max(smooth, o.turn[e][end]);
   }
   // A chord of an arc turns by h / R at both ends and lies h^2 / 8R from it; of a quadratic edge the turn is of third

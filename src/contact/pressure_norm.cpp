@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/multiplier_space.hpp"
+#include "fem/edges.hpp"
 
 namespace mortise {
 

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/vectors.hpp"
+#include "fem/edges.hpp"
+
 namespace mortise {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Real roots of c0 + c1 x + c2 x^2, without cancellation. Returns how many.
 int quadratic_roots(double c0, double c1, double c2, std::array<double, 2>& roots) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
 
 namespace mortise {
@@ -90,18 +91,6 @@ std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multi
   return points;
 }
 
-double length_to(const Points& nodes, const Edge& edge, double xi) {
-  static const LineRule rule = gauss_legendre(8);
-  double length = 0;
-  for (std::size_t q = 0; q < rule.points.size(); ++q) {
-    const double half = (xi + 1) / 2;
-    length += rule.weights[q] * half * edge_point(nodes, edge, -1 + half * (1 + rule.points[q])).jacobian();
-  }
-  return length;
-}
-
-double edge_length(const Points& nodes, const Edge& edge) { return length_to(nodes, edge, 1); }
-
 double covered_part(const Points& nodes, const Curve& curve, const Curve& opposite) {
   static const LineRule rule = gauss_legendre(2);
   double length = 0, covered = 0;
@@ -112,12 +101,6 @@ double covered_part(const Points& nodes, const Curve& curve, const Curve& opposi
       if (hit_from(nodes, curve, e, rule.points[q], opposite)) covered += ds;
     }
   return covered / length;
-}
-
-double curve_length(const Points& nodes, const Curve& curve) {
-  double length = 0;
-  for (const Edge& edge : curve.edges) length += edge_length(nodes, edge);
-  return length;
 }
 
 }  // namespace mortise

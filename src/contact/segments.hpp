@@ -39,11 +39,4 @@ std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multi
 /// The part of a curve's length that faces the other curve, 0 ... 1, asked at two points an edge.
 double covered_part(const Points& nodes, const Curve& curve, const Curve& opposite);
 
-/// Length of a curve, or of one of its edges.
-double curve_length(const Points& nodes, const Curve& curve);
-double edge_length(const Points& nodes, const Edge& edge);
-
-/// Length of an edge from its start to xi.
-double length_to(const Points& nodes, const Edge& edge, double xi);
-
 }  // namespace mortise

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "contact/segments.hpp"
+#include "fem/edges.hpp"
 
 namespace mortise {
 namespace {

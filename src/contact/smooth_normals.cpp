@@ -4,16 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "fem/elements.hpp"
+#include "base/vectors.hpp"
+#include "fem/edges.hpp"
 
 namespace mortise {
 namespace {
 
 constexpr double kink = 20 * std::numbers::pi / 180;
-
-double angle_between(const Vec2& a, const Vec2& b) {
-  return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
-}
 
 Vec2 right_of(const Vec2& tangent) { return Vec2(tangent.y(), -tangent.x()).normalized(); }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fem/edges.hpp"
 #include "fem/elements.hpp"
 #include "fem/quadrature.hpp"
 

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "fem/edges.hpp"
 #include "mesh/place.hpp"
 
 namespace mortise {
@@ -64,10 +65,6 @@ CellShape quadrilateral_8(double x, double y) {
   return s;
 }
 
-// Quadratic Lagrange polynomial of the node at `at` in {-1, 0, 1}, and its derivative.
-double lagrange(double at, double x) { return at == 0 ? 1 - x * x : x * (x + at) / 2; }
-double lagrange_slope(double at, double x) { return at == 0 ? -2 * x : x + at / 2; }
-
 CellShape quadrilateral_9(double x, double y) {
   CellShape s;
   for (std::size_t a = 0; a < 9; ++a) {
@@ -108,22 +105,6 @@ Points reference_nodes(CellKind kind) {
 }
 
 Vec2 reference_centre(CellKind kind) { return corner_count(kind) == 3 ? Vec2(1. / 3, 1. / 3) : Vec2(0, 0); }
-
-EdgeShape edge_shape(int node_count, double xi) {
-  if (node_count == 2) return {{(1 - xi) / 2, (1 + xi) / 2, 0}, {-0.5, 0.5, 0}};
-  return {{lagrange(-1, xi), lagrange(1, xi), lagrange(0, xi)},
-          {lagrange_slope(-1, xi), lagrange_slope(1, xi), lagrange_slope(0, xi)}};
-}
-
-EdgePoint edge_point(const Points& nodes, const Edge& edge, double xi) {
-  const EdgeShape s = edge_shape(edge.node_count, xi);
-  EdgePoint p{Vec2::Zero(), Vec2::Zero()};
-  for (int a = 0; a < edge.node_count; ++a) {
-    p.position += s.N[a] * nodes.row(edge.nodes[a]).transpose();
-    p.tangent += s.dN[a] * nodes.row(edge.nodes[a]).transpose();
-  }
-  return p;
-}
 
 void check_cells(const Mesh& mesh) {
   ForEachKind<std::vector<CellShape>> shapes;  // per kind: at the nodes and the centre

@@ -8,8 +8,8 @@
 #include "base/errors.hpp"
 #include "io/element_types.hpp"
 #include "io/mesh_groups.hpp"
-#include "io/orientation.hpp"
 #include "io/repeated.hpp"
+#include "mesh/orientation.hpp"
 #include "mesh/place.hpp"
 #include "mesh/renumber.hpp"
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/vectors.hpp"
+
 namespace mortise {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 struct Straight {
   int start, end;

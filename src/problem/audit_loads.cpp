@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "contact/segments.hpp"
+#include "fem/edges.hpp"
 #include "mesh/place.hpp"
 #include "problem/audit_lines.hpp"
 

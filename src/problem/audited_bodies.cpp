@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "fem/elements.hpp"
+#include "fem/edges.hpp"
 
 namespace mortise {
 namespace {

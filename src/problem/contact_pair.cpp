@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/errors.hpp"
+#include "fem/edges.hpp"
 #include "mesh/body_points.hpp"
 #include "mesh/place.hpp"
 #include "mesh/thickness.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
+#include "fem/edges.hpp"
 
 namespace mortise {
 namespace {
@@ -19,7 +20,7 @@ struct Link {
 bool prescribed(const Mesh& mesh, const Curve& curve, const Constraints& constraints) {
   for (const Edge& edge : curve.edges)
     for (int a = 0; a < edge.node_count; ++a) {
-      const Vec2 n = edge_point(mesh.nodes, edge, a == 0 ? -1 : a == 1 ? 1 : 0).normal();
+      const Vec2 n = edge_point(mesh.nodes, edge, xi_of_node(a)).normal();
       if (!prescribed_along(constraints, edge.nodes[a], n)) return false;
     }
   return true;

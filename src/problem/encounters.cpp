@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/elements.hpp"
+#include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
 
 namespace mortise {

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "contact/mesh_gap.hpp"
+#include "contact/curve_resolution.hpp"
 #include "contact/smooth_normals.hpp"
 #include "mesh/place.hpp"
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <sstream>
 
-#include "fem/elements.hpp"
+#include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
 #include "mesh/place.hpp"
 #include "results/audit_after.hpp"

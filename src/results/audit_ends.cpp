@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "fem/elements.hpp"
+#include "fem/edges.hpp"
 #include "mesh/place.hpp"
 #include "results/audit_after.hpp"
 

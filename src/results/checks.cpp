@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fem/edges.hpp"
+
 namespace mortise {
 namespace {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fem/edges.hpp"
+
 namespace mortise {
 namespace {
 

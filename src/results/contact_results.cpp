@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fem/edges.hpp"
 #include "results/contact_length.hpp"
 
 namespace mortise {
@@ -89,13 +90,6 @@ std::optional<Place> foot_of(const Mesh& mesh, const Curve& multiplier, const st
   return best;
 }
 
-Vec2 value_at(const VecX& u, const Edge& edge, double xi) {
-  const EdgeShape s = edge_shape(edge.node_count, xi);
-  Vec2 value = Vec2::Zero();
-  for (int a = 0; a < edge.node_count; ++a) value += s.N[a] * u.segment<2>(2 * edge.nodes[a]);
-  return value;
-}
-
 double normal_stress(const Eigen::Ref<const Eigen::RowVector4d>& s, const Vec2& n) {
   return s(0) * n.x() * n.x() + s(1) * n.y() * n.y() + 2 * s(3) * n.x() * n.y();
 }
@@ -161,7 +155,7 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
     n.p = interpolate(pair.coupling, pair.multiplier, r.pressure, at.place.edge, at.place.xi);
     if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite,
                                             {n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)})) {
-      const Vec2 other = value_at(u, pair.opposite.edges[hit->edge], hit->xi);
+      const Vec2 other = edge_value(u, pair.opposite.edges[hit->edge], hit->xi);
       n.gap = (measured ? hit->distance : 0) + other.dot(at.normal) - n.u_n;
     }
     r.multiplier.nodes.push_back(n);
@@ -183,7 +177,7 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
     const Vec2 normal = vertex == along.end() ? m.normal() : vertex->normal;
     ContactNode n = node_results(mesh, at, pair.opposite.body, normal, points, stress, u);
     n.p = interpolate(pair.coupling, pair.multiplier, r.pressure, foot->edge, foot->xi);
-    n.gap = (measured ? (x - m.position).dot(normal) : 0) + n.u_n - value_at(u, edge, foot->xi).dot(normal);
+    n.gap = (measured ? (x - m.position).dot(normal) : 0) + n.u_n - edge_value(u, edge, foot->xi).dot(normal);
     r.opposite.nodes.push_back(n);
   }
   r.multiplier.centres = centre_results(mesh, pair.multiplier, stress);

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "base/vectors.hpp"
+#include "fem/edges.hpp"
 #include "mesh/place.hpp"
 
 namespace mortise {
@@ -12,19 +14,15 @@ namespace {
 
 constexpr double kink = 20 * std::numbers::pi / 180;  // more is no curvature
 
-double angle(const Vec2& from, const Vec2& to) {
-  return std::abs(std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to)));
-}
-
 // Of each edge: by how much the curve turns a length there.
 std::vector<double> curvatures(const Points& nodes, const Curve& curve) {
   const std::size_t count = curve.edges.size();
   const auto tangent = [&](std::size_t e, double xi) { return edge_point(nodes, curve.edges[e], xi).tangent; };
   std::vector<double> list;
   for (std::size_t e = 0; e < count; ++e) {
-    double turn = angle(tangent(e, -1), tangent(e, 1));
+    double turn = angle_between(tangent(e, -1), tangent(e, 1));
     const auto take = [&](std::size_t a, std::size_t b) {
-      if (const double found = angle(tangent(a, 0), tangent(b, 0)); found < kink) turn = std::max(turn, found);
+      if (const double found = angle_between(tangent(a, 0), tangent(b, 0)); found < kink) turn = std::max(turn, found);
     };
     if (e + 1 < count || curve.closed) take(e, (e + 1) % count);
     if (e > 0 || curve.closed) take((e + count - 1) % count, e);
@@ -33,17 +31,10 @@ std::vector<double> curvatures(const Points& nodes, const Curve& curve) {
   return list;
 }
 
-Vec2 value_at(const VecX& u, const Edge& edge, double xi) {
-  const EdgeShape s = edge_shape(edge.node_count, xi);
-  Vec2 value = Vec2::Zero();
-  for (int a = 0; a < edge.node_count; ++a) value += s.N[a] * u.segment<2>(2 * edge.nodes[a]);
-  return value;
-}
-
 // By how much an edge turns, radians.
 double rotation(const Points& nodes, const VecX& u, const Edge& edge) {
   const Vec2 chord = (nodes.row(edge.nodes[1]) - nodes.row(edge.nodes[0])).transpose();
-  return angle(chord, chord + u.segment<2>(2 * edge.nodes[1]) - u.segment<2>(2 * edge.nodes[0]));
+  return angle_between(chord, chord + u.segment<2>(2 * edge.nodes[1]) - u.segment<2>(2 * edge.nodes[0]));
 }
 
 // What p is off by at most, and why.
@@ -73,7 +64,7 @@ Largest largest_in_contact(const Results& r) {
         continue;
       const Edge &edge = pair.multiplier.edges[c.edge], &other = pair.opposite.edges[c.opposite_edge];
       const Vec2 x = edge_point(r.mesh.nodes, edge, c.xi).position;
-      const Vec2 moved = value_at(r.solution.u, other, c.eta) - value_at(r.solution.u, edge, c.xi);
+      const Vec2 moved = edge_value(r.solution.u, other, c.eta) - edge_value(r.solution.u, edge, c.xi);
       const double slip = std::abs(moved.x() * c.normal.y() - moved.y() * c.normal.x());
       const double curved = moved.norm() * std::max(curvature[c.edge], opposite_curvature[c.opposite_edge]),
                    along = slip / contact.length_in_contact,

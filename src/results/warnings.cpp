@@ -7,8 +7,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "contact/mesh_gap.hpp"
-#include "contact/turns.hpp"
+#include "contact/curve_resolution.hpp"
 #include "mesh/place.hpp"
 #include "results/checks.hpp"
 #include "results/large_displacement.hpp"

@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "contact/multiplier_space.hpp"
+#include "fem/edges.hpp"
 #include "mesh/body_points.hpp"
 #include "mesh/thickness.hpp"
 #include "support/two_plates.hpp"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/segments.hpp"
+#include "fem/edges.hpp"
 #include "support/two_plates.hpp"
 
 namespace mortise {

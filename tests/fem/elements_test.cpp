@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
 
 namespace mortise {

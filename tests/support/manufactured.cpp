@@ -5,6 +5,7 @@
 
 #include "contact/coupling.hpp"
 #include "fem/assembly.hpp"
+#include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
 #include "solve/direct.hpp"
 #include "support/field_errors.hpp"

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <limits>
 
+#include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
 
 namespace mortise::chart {

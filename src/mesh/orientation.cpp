@@ -1,9 +1,10 @@
-#include "io/orientation.hpp"
+#include "mesh/orientation.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "base/vectors.hpp"
 #include "mesh/place.hpp"
 
 namespace mortise {
@@ -16,8 +17,6 @@ namespace {
   throw InputError(mesh.source + ": body '" + mesh.bodies[cell.body] + "': the cell " + near_point(centre) + " " +
                    trouble);
 }
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Twice the area between the corners, positive counter-clockwise.
 /// Throws if it is nothing against the longest diagonal, or if the straight sides cross (two corners turn each way).

@@ -1,10 +1,11 @@
 // Gaps that two meshes of one curve make, against real ones.
-#include "contact/mesh_gap.hpp"
+#include "contact/curve_resolution.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "fem/edges.hpp"
 #include "support/two_plates.hpp"
 
 namespace mortise {
