@@ -30,7 +30,8 @@ void IterationMonitor::restart(double tolerance) {
 double IterationMonitor::convergence_rate() const {
   if (sizes_.empty()) return 0;
   const std::size_t last = sizes_.size() - 1, middle = last / 2;
-  return last > middle ? std::pow(sizes_[last] / sizes_[middle], 1 / double(last - middle)) : 0;
+  if (last == middle || sizes_[middle] == 0) return 0;  // nothing was left to reduce
+  return std::pow(sizes_[last] / sizes_[middle], 1 / double(last - middle));
 }
 
 }  // namespace mortise

@@ -9,8 +9,8 @@ def over(limit, key="p_error"):
 
 
 def silent(rows, limit):
-    """Runs that are off by more than the limit, and of which neither status, checks nor notes tell."""
-    return [row for row in rows if over(limit)(row) and row["outcome"] == "solved" and not row["note_count"]]
+    """Runs that are off by more than the limit, and of which neither status, checks nor warnings tell."""
+    return [row for row in rows if over(limit)(row) and row["outcome"] == "solved" and not row["warning_count"]]
 
 
 def kink_regions(rows, limit):
@@ -28,7 +28,7 @@ def kink_regions(rows, limit):
         "The geometries in geo/ put a vertex on every kink.",
     )
     bound, tells = first(without, "value", over(limit)), first(
-        without, "value", lambda row: row["outcome"] != "solved" or row["note_count"]
+        without, "value", lambda row: row["outcome"] != "solved" or row["warning_count"]
     )
     worst = max(silent(without, limit), key=lambda row: row["p_error"], default=None)
     says = f"; at worst {worst['p_error']:.0%} at {worst['value']:g} degrees and nothing tells" if worst else ""
@@ -67,7 +67,7 @@ def wall_region(rows):
     )
     failing = checks_of(line)
     mortise = (
-        f"The note on p against sigma_n leaves such corners out for this reason; failing checks: {failing}."
+        f"The warning of p against sigma_n leaves such corners out for this reason; failing checks: {failing}."
     )
     found = [bound for bound in bounds.values() if bound]
     return region(
@@ -111,7 +111,7 @@ def ring_regions(rows, limit):
         "The two polygons overlap and part by the sagitta, h^2 / (8 R), and a gap g costs a pressure of E g / h "
         "(theory, section 2): as h falls the error of linear and straight edges does so only as E h / R, which for "
         "stiff bodies is more than p.",
-        'Geometries of one curve are to be initial_gap = "closed"; a measured pair of this kind gets the note '
+        'Geometries of one curve are to be initial_gap = "closed"; a measured pair of this kind gets the warning '
         f"{quote(measured)}.",
     )
 
@@ -125,7 +125,7 @@ def cosine_region(rows, limit):
     default = [row for row in line if row["line"] == "linear"]
     unsaid = silent(line, limit)
     failing = last(line, "value", lambda row: row["outcome"] == "check")
-    notes = quote(line)
+    said = quote(line)
     why = (
         "The two meshes of a strongly curved line differ in position and normal by amounts of (h kappa)^2 and more "
         "(the consistency error of the mortar method on curved lines: Flemisch, Melenk & Wohlmuth 2005), and higher "
@@ -133,8 +133,8 @@ def cosine_region(rows, limit):
         "and nothing in the mesh says so."
     )
     mortise = (
-        f"Checks fail up to {say(failing)} elements a period: {checks_of(line)}; notes and refusals: {notes}. "
-        f"{len(unsaid)} runs are off by more than {limit:.0%} and end as solved without a note."
+        f"Checks fail up to {say(failing)} elements a period: {checks_of(line)}; warnings and refusals: {said}. "
+        f"{len(unsaid)} runs are off by more than {limit:.0%} and end as solved without a warning."
     )
     begins = (
         f"p off by more than {limit:.0%}, up to so many elements a period (multipliers on the worse side): "

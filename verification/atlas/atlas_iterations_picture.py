@@ -40,8 +40,8 @@ def draw_region(axes, rows):
             markersize=3,
             label=outcome,
         )
-    border = sorted({(row["ratio"], 2 / row["mu_largest"]) for row in found})
-    axes.plot(*zip(*border), "k-", linewidth=1.2, label=r"$2/\mu_{max}$")
+    limit = sorted({(row["ratio"], 2 / row["mu_largest"]) for row in found})
+    axes.plot(*zip(*limit), "k-", linewidth=1.2, label=r"$2/\mu_{max}$")
     axes.set(
         xscale="log",
         yscale="log",
@@ -71,7 +71,7 @@ def draw(rows, path, perturbations, meshes):
     powers = [f"{v:.0e}".replace("e-0", "e-") for v in perturbations]
     near_axes.set_xticks(ticks, [*("-" + text for text in reversed(powers)), "0", *powers], rotation=60, fontsize=8)
     near_axes.set(
-        xlabel="distance from the border of contact", title="at the border of contact", yscale="log", ylim=(0.8, 200)
+        xlabel="distance from the onset of opening", title="at the onset of opening", yscale="log", ylim=(0.8, 200)
     )
     draw_part(other_axes, rows, "others")
     other_axes.set(xlabel="mesh (hertz: load, a quarter each)", title="many places of contact", ylim=(0, 12))

@@ -8,8 +8,13 @@ import numpy as np
 import launch
 
 RINGS = {"radii": (1, 2, 3), "inside": 10e6, "outside": 4e6}  # geo/rings.toml
-AGAINST_SIGMA_N = "p against sigma_n (a note)"  # beside the checks that fail
+AGAINST_SIGMA_N = "p against sigma_n (a warning)"  # beside the checks that fail
 END = 0.1  # of the length of a curve, left out at either end where a scene has corners there
+
+
+def is_of_the_curves(warning):
+    """What these scenes mean: "closed" leaves out the gaps of coarse meshes of one curve. Other warnings come first."""
+    return "leaves out gaps" in warning
 
 
 def summary(folder, run):
@@ -24,8 +29,8 @@ def summary(folder, run):
     return {
         "status": table["status"],
         "failed_checks": "; ".join(failed),
-        "notes": " | ".join(table["warnings"])[:400],
-        "note_count": len(table["warnings"]),
+        "warnings": " | ".join(sorted(table["warnings"], key=is_of_the_curves))[:1000],
+        "warning_count": len(table["warnings"]),
         "steps": table["iterations"]["contact"],
         "interface_steps": table["iterations"]["solver"],
         "factor": iteration.get("convergence_rate"),

@@ -75,8 +75,8 @@ def case_region(rows, name, chosen, why, verdicts):
     group = of_case(rows, chosen)
     wrong = [row for row in group if row["verdict"].startswith("wrong")]
     refused = quote(group, lambda row: row["outcome"] == "refused")
-    note = quote(wrong)
-    said = f"{refused}. " if refused != "nothing" else f"The only word is the note {note}. " if note != "nothing" else ""
+    warning = quote(wrong)
+    said = f"{refused}. " if refused != "nothing" else f"The only word is the warning {warning}. " if warning != "nothing" else ""
     checks = checks_of(group)
     checks = f"Failing checks: {checks}. " if checks != "none" else ""
     worst = largest([row for row in wrong if row["right"] == "exact"], "p_error")
@@ -118,7 +118,7 @@ def covered_region(rows, limit):
         "Bischoff 2011)."
     )
     mortise = (
-        "Multipliers whose weighted gap has no sign, or without support, are tied or left out with a note (theory, "
+        "Multipliers whose weighted gap has no sign, or without support, are tied or left out with a warning (theory, "
         f"section 4). p where the sides face each other is off by {facing:.0e} at most. {len(untold)} runs with a "
         f"value off by more than {limit:.0%} end as solved."
     )

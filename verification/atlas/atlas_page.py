@@ -11,14 +11,14 @@ import page
 STATES = {
     "fixed": "does not happen: the runs do not find it",
     "default": "the defaults keep away from it",
-    "guarded": "mortise refuses the scene, or a note says so",
+    "guarded": "mortise refuses the scene, or a warning says so",
     "shown": "a check fails, or the status is not_converged",
-    "open": "some runs are off and end as solved, without a note that means it",
+    "open": "some runs are off and end as solved, without a warning that means it",
 }
 DOCS = launch.ROOT / "docs"
 HEAD = """# Where it fails
 
-Each method has a region where it works and a border where it stops. This page shows the borders, why they are there,
+Each method has a region where it works and a limit where it stops. This page shows the limits, why they are there,
 and what mortise does about them. It is written by `./dev atlas --docs` (verification/atlas) from runs of mortise
 itself, and the numbers and messages are those of that run. The states:
 
@@ -26,11 +26,11 @@ itself, and the numbers and messages are those of that run. The states:
 |---|---|
 | fixed | does not happen: the runs do not find it |
 | default | the defaults keep away from it |
-| guarded | mortise refuses the scene, or a note says so |
+| guarded | mortise refuses the scene, or a warning says so |
 | shown | a check fails, or the status of the run is not_converged |
-| open | some runs are off and end as solved, without a note that means it |
+| open | some runs are off and end as solved, without a warning that means it |
 
-Runs with the note on p against sigma_n are often right: the meshes are coarse on purpose.
+Runs with the warning of p against sigma_n are often right: the meshes are coarse on purpose.
 
 ## Before any method: the audit
 

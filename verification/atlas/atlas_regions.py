@@ -33,10 +33,10 @@ def ends(values, step):
 
 
 def told(bad):
-    """How mortise tells of runs that are off: not at all of some (open), by a refusal or a note, or by checks."""
-    if any(row["outcome"] == "solved" and not row["note_count"] for row in bad):
+    """How mortise tells of runs that are off: not at all of some (open), by a refusal or a warning, or by checks."""
+    if any(row["outcome"] == "solved" and not row["warning_count"] for row in bad):
         return "open"
-    return "guarded" if all(row["outcome"] == "refused" or row["note_count"] for row in bad) else "shown"
+    return "guarded" if all(row["outcome"] == "refused" or row["warning_count"] for row in bad) else "shown"
 
 
 def first(rows, key, holds):
@@ -54,9 +54,9 @@ def solved(row):
 
 
 def quote(rows, holds=lambda row: True, most=330):
-    """What mortise said in the first of the rows that fulfils the condition: an error, or a note."""
+    """What mortise said in the first of the rows that fulfils the condition: an error, or a warning."""
     for row in rows:
-        text = row["message"] if row["outcome"] == "refused" else row.get("notes", "").split(" | ")[0]
+        text = row["message"] if row["outcome"] == "refused" else row.get("warnings", "").split(" | ")[0]
         if text and holds(row):
             text = text.removeprefix("error: ")
             return f'"{text[:most]}{"..." if len(text) > most else ""}"'
@@ -64,7 +64,7 @@ def quote(rows, holds=lambda row: True, most=330):
 
 
 def checks_of(rows):
-    """Names of the checks that fail in any of the rows, and the note on p against sigma_n."""
+    """Names of the checks that fail in any of the rows, and the warning of p against sigma_n."""
     names = {name for row in rows for name in row.get("failed_checks", "").split("; ") if name}
     return ", ".join(sorted(names)) or "none"
 

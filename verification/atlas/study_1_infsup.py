@@ -134,7 +134,7 @@ def contrast_region(rows):
     bound = min((row["contrast"] for row in low), default=None)
     default = min(row["inf_sup"] for row in of(rows, part="contrasts", side="default"))
     worst = max(stiff, key=lambda row: row["p_max_summary"])
-    silent = [row for row in low if "inf-sup" not in row.get("notes", "")]
+    silent = [row for row in low if "inf-sup" not in row.get("warnings", "")]
     why = (
         "On the finer mesh of the stiffer body the finest pressures hardly move that body, and the coarser body "
         "cannot follow "
@@ -145,7 +145,7 @@ def contrast_region(rows):
     mortise = (
         f"The default puts the multipliers on the softer body beyond a ratio of 10 (smallest constant "
         f"{default:.2f}). Where the scene asks "
-        f"for the other side, --diagnose says {quote(low)}. The note on p against sigma_n comes there: the largest "
+        f"for the other side, --diagnose says {quote(low)}. The warning of p against sigma_n comes there: the largest "
         f"p is "
         f"{worst['p_max_summary']:.1e} Pa where its mean is 1e7 ({worst['element']}, ratio {worst['contrast']:g})."
     )

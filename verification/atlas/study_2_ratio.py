@@ -16,7 +16,7 @@ INTRODUCTION = (
 )
 CAPTION = (
     "Left of 1 the multipliers are on the coarser mesh, right of 1 on the finer one; the colours are the multiplier "
-    "spaces. The dashed lines are 1 % and 10 %. Open symbols: mortise notes that p and the bodies' stress differ "
+    "spaces. The dashed lines are 1 % and 10 %. Open symbols: mortise warns that p and the bodies' stress differ "
     "by more than 10 %. Whole edges instead of segments do no harm where the finer side has the multipliers and none of its "
     "edges crosses a vertex."
 )

@@ -110,14 +110,14 @@ def listed(rows, key, limit):
 def displacement_region(rows):
     words, bound = listed(rows, "u_error", LIMIT)
     bad = [row for row in rows if row["scene"] == "rings" and solved(row) and off(rows, row, "u_error", LIMIT)]
-    silent = [row for row in bad if row["outcome"] == "solved" and not row["note_count"]]
+    silent = [row for row in bad if row["outcome"] == "solved" and not row["warning_count"]]
     why = (
         "With nu near 0.5 each quadrature point demands a constant area; where these demands are more than the "
         "displacements can follow, the element stiffens (volumetric locking; Hughes, The Finite Element Method, "
         "chapter 4). 6-node triangles have the most freedom for each demand (3 points); 8- and 9-node "
         "quadrilaterals with 3 x 3 points and both linear elements do not have enough."
     )
-    warned = quote([row for row in rows if row.get("note_count")])
+    warned = quote([row for row in rows if row.get("warning_count")])
     mortise = (
         f"mortise integrates the stiffness fully and has no mixed elements. It says {warned}; {len(silent)} of these "
         f"runs end as solved with an error above {LIMIT:.0%}."
@@ -134,7 +134,7 @@ def pressure_region(rows):
         "mesh follows the line badly."
     )
     fails = [row for row in rows if row["scene"] == "rings" and "sigma_n" in row["failed_checks"]]
-    mortise = f"The note on p against sigma_n comes in {len(fails)} of the runs on rings."
+    mortise = f"The warning of p against sigma_n comes in {len(fails)} of the runs on rings."
     bad = [row for row in rows if row["scene"] == "rings" and solved(row) and off(rows, row, "p_error", 0.01)]
     begins = f"nu at which p is off by more than 1 % and twice what it is at 0.3 (12:16) - {words}"
     return region("Contact pressure", begins, bound, told(bad), why, mortise)
@@ -154,9 +154,9 @@ def stress_region(rows):
     )
     rings = [row for row in rows if row["scene"] == "rings" and solved(row)]
     bad = [row for row in rings if off(rows, row, "mean_stress_error", LIMIT)]
-    unsaid = [row for row in bad if row["outcome"] == "solved" and not row["note_count"]]
+    unsaid = [row for row in bad if row["outcome"] == "solved" and not row["warning_count"]]
     mortise = (
-        f"{len(unsaid)} of the {len(bad)} runs beyond that end as solved without a note: p and sigma_n at the "
+        f"{len(unsaid)} of the {len(bad)} runs beyond that end as solved without a warning: p and sigma_n at the "
         "contact agree to 10 % still."
     )
     at_centre, at_nodes = at_nodes_of(rows, "8-node quadrilaterals", COMPARED)

@@ -20,7 +20,7 @@ INTRODUCTION = (
 )
 CAPTION = (
     "Steps of the active set (solves), and of domain decomposition. Crosses: not converged; runs that are refused "
-    "are not drawn. In the last panel the border predicted from the eigenvalues against runs that converge (dots) "
+    "are not drawn. In the last panel the limit predicted from the eigenvalues against runs that converge (dots) "
     "and diverge (crosses)."
 )
 SPACES = ["linear", "quadratic", "dual"]
@@ -226,8 +226,8 @@ def ddm_region(rows):
 
 def relaxation_region(rows):
     found = [row for row in of_part(rows, "region") if row["dirichlet"] == "upper"]
-    border = {row["ratio"]: 2 / row["mu_largest"] for row in found}
-    words = ", ".join(f"{border[ratio]:.3g} at {ratio:g}" for ratio in sorted(border))
+    limit = {row["ratio"]: 2 / row["mu_largest"] for row in found}
+    words = ", ".join(f"{limit[ratio]:.3g} at {ratio:g}" for ratio in sorted(limit))
     agree = sum(int(row["ok"]) for row in found)
     why = (
         "A step multiplies the error by the eigenvalues of I - beta (I + C_D^-1 C_N), which are all below 1 in size "
@@ -240,7 +240,7 @@ def relaxation_region(rows):
     return region(
         "Fixed relaxation",
         f"beta, by E_upper/E_lower (displacement on the upper body): {words}",
-        min(border.values()),
+        min(limit.values()),
         "default",
         why,
         mortise,

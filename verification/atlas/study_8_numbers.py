@@ -158,7 +158,7 @@ def load_region(rows):
     line = line_of(rows, "closed", "load")
     bound = first(line, "value", lambda row: row["outcome"] == "refused")
     runs_at = last(line, "value", solved)
-    noted = first(line, "value", lambda row: row.get("note_count"))
+    noted = first(line, "value", lambda row: row.get("warning_count"))
     begins = (
         f"refused at {say(bound)} Pa; the largest load that runs, {runs_at:g} Pa, means strains of about "
         f"{runs_at / 210e9:.2g}"
@@ -167,7 +167,7 @@ def load_region(rows):
         "The equations are those of small strains, linear in the load: p scales with it however large it is. Beyond "
         "strains of a few per cent the answer is that of the equations, not of the bodies (Kikuchi & Oden 1988)."
     )
-    said = f"From {noted:g} Pa on a note says {quote(line, solved)}." if noted else "Below that nothing is said."
+    said = f"From {noted:g} Pa on a warning says {quote(line, solved)}." if noted else "Below that nothing is said."
     mortise = f"A load above every Young's modulus is refused: {quote(line, lambda row: not solved(row))}. {said}"
     return region("Loads beyond small strains", begins, runs_at / 210e9, "guarded" if noted else "open", why, mortise)
 
@@ -175,7 +175,7 @@ def load_region(rows):
 def shift_region(rows, scene, name, effect):
     line = line_of(rows, scene, "shift")
     bound = first(line, "value", lambda row: row.get("difference", 0) > LOST)
-    warned = first(line, "value", lambda row: row.get("note_count") or "equal and opposite" in row["failed_checks"])
+    warned = first(line, "value", lambda row: row.get("warning_count") or "equal and opposite" in row["failed_checks"])
     at_million = next((row["difference"] for row in line if row["value"] == 1e6), None)
     tail = f"; {at_million:.0e} at 1e6 m" if at_million else ""
     begins = f"{LOST:g} of p is lost from a shift of {bound:g} m{tail}" if bound else f"not found{tail}"
@@ -184,7 +184,7 @@ def shift_region(rows, scene, name, effect):
         f"coordinates. {effect}"
     )
     mortise = (
-        f"The run is told from by a check or note from {warned:g} m: {checks_of(line)}."
+        f"The run is told from by a check or warning from {warned:g} m: {checks_of(line)}."
         if warned
         else "Nothing is said."
     )

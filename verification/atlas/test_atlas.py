@@ -130,7 +130,7 @@ def test_defaults_lie_inside_the_stable_regions(scene):
     row = atlas_runs.execute(run)
     assert row["outcome"] in ("solved", "check") and row["steps"] <= study_7_iterations.BAR, row
     assert set(filter(None, row["failed_checks"].split("; "))) <= OF_COARSE_MESHES
-    assert "set initial_gap" not in row["notes"]
+    assert "set initial_gap" not in row["warnings"]
     nu = [material["poisson"] for material in tomllib.loads(launch.scene_file(scene).read_text())["materials"].values()]
     assert max(nu) < 0.45
     if scene != "stack":  # whose bodies are a chain of three

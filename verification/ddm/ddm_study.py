@@ -74,10 +74,10 @@ def main(arguments=None):
             "Each body solved alone, the interface brought to agreement by iteration. With a fixed relaxation the "
             "error is "
             "multiplied by at most max |1 - beta mu| in a step, mu the eigenvalues of the interface: predicted "
-            "border and "
+            "limit and "
             "measured factors."
         ),
-        page.picture("region.png", "Where a fixed beta converges: measured factors (colour), predicted border (line)."),
+        page.picture("region.png", "Where a fixed beta converges: measured factors (colour), predicted limit (line)."),
         page.picture("history.png", "parabola_1: residuals step by step, plain and accelerated."),
         page.heading("Steps to 1e-8"),
         page.paragraph(

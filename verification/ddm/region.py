@@ -16,7 +16,7 @@ load hardly excites: below the best beta the factor then is smaller than predict
 
 Written are region.csv and region.png. Exit status 1 if a factor differs by more than 5 % from the predicted one where
 the run has shown its asymptote (is larger by that, where the prediction is a bound), or if a run converges above the
-border, or grows below it.
+limit, or grows below it.
 """
 
 import argparse
@@ -38,8 +38,8 @@ MESHES = {"full": (40, 50), "quick": (20, 25)}
 RATIOS = {"full": [0.01, 0.1, 1, 10, 100], "quick": [0.1, 1, 10]}
 ROLES = ["upper", "lower"]  # the body that takes the displacement
 BETAS = {"full": np.geomspace(0.0008, 4, 38), "quick": np.geomspace(0.02, 4, 12)}
-OF_BORDER = [0.9, 0.97, 1.03, 1.1]  # beta as fractions of the predicted border, beside the grid
-NEAR_BORDER = 0.01  # relative: no claim about runs that are nearer
+OF_LIMIT = [0.9, 0.97, 1.03, 1.1]  # beta as fractions of the predicted limit, beside the grid
+NEAR_LIMIT = 0.01  # relative: no claim about runs that are nearer
 RATIOS_OF_LINES = np.geomspace(0.01, 100, 17)
 ACROSS = '[{ body = "upper", force = [1e7, 0] }]'
 RUN = {
@@ -73,19 +73,19 @@ def judged(row, ratio, role, on_grid):
     """One run of a sweep as a row of region.csv."""
     beta, steps, measured = row["method.beta"], int(row["iteration.steps"]), row["iteration.convergence_rate"]
     smallest, largest = row["iteration.eigenvalue.smallest"], row["iteration.eigenvalue.largest"]
-    predicted, border = predicted_factor(beta, smallest, largest), 2 / largest
+    predicted, limit = predicted_factor(beta, smallest, largest), 2 / largest
     outcome = ddm_runs.outcome(row, MOST_STEPS)
     compared = outcome != "diverged" and steps >= ENOUGH_STEPS
     # At the best beta both are equal, and the mode of max mu alone shows the factor.
     bound_only = role != FLOATING and 1 - beta * smallest > (1 + TIE) * (beta * largest - 1)
-    right_side = abs(beta / border - 1) < NEAR_BORDER or (outcome == "diverged") == (beta > border)
+    right_side = abs(beta / limit - 1) < NEAR_LIMIT or (outcome == "diverged") == (beta > limit)
     deviation = measured / predicted - 1
     within = abs(deviation) <= LIMIT or bound_only and deviation <= LIMIT
     return {
         "ratio": ratio,
         "dirichlet": role,
         "beta": beta,
-        "beta_over_border": beta / border,
+        "beta_over_limit": beta / limit,
         "mu_smallest": smallest,
         "mu_largest": largest,
         "outcome": outcome,
@@ -100,9 +100,9 @@ def judged(row, ratio, role, on_grid):
 
 
 def measure(mesh, ratio, role, betas):
-    """Runs over the grid of beta, at the best beta, and about the border."""
+    """Runs over the grid of beta, at the best beta, and about the limit."""
     smallest, largest = eigenvalues(mesh, ratio, role)
-    others = [2 / (smallest + largest), *(2 / largest * f for f in OF_BORDER)]
+    others = [2 / (smallest + largest), *(2 / largest * f for f in OF_LIMIT)]
     rows = ddm_runs.sweep(SCENE, setting(mesh, ratio, role), {"method.beta": [*map(float, betas), *others]})
     return [judged(row, ratio, role, on_grid=i < len(betas)) for i, row in enumerate(rows)]
 
@@ -131,10 +131,10 @@ def draw_runs(axes, rows, betas, colours):
             axes.plot(row["ratio"], row["beta"], ".", color="white", markersize=3, zorder=3)
 
 
-def draw_panel(axes, rows, betas, role, border_and_best, colours):
-    border, best = border_and_best
+def draw_panel(axes, rows, betas, role, limit_and_best, colours):
+    limit, best = limit_and_best
     draw_runs(axes, [row for row in rows if row["dirichlet"] == role], betas, colours)
-    axes.plot(RATIOS_OF_LINES, border, color="black", linewidth=1.4, label=r"border $\beta = 2/\mu_{max}$")
+    axes.plot(RATIOS_OF_LINES, limit, color="black", linewidth=1.4, label=r"limit $\beta = 2/\mu_{max}$")
     of_best = r"best $\beta = 2/(\mu_{min}+\mu_{max})$"
     axes.plot(RATIOS_OF_LINES, best, "--", color="black", linewidth=1.2, label=of_best)
     axes.plot([], [], "x", color="#c00000", markersize=4, label="diverged")
@@ -167,7 +167,7 @@ def summary(rows):
         diverged = sum(row["outcome"] == "diverged" for row in here)
         smallest, largest = here[0]["mu_smallest"], here[0]["mu_largest"]
         yield (
-            f"displacement on {role}, ratio {ratio:g}: mu {smallest:.6g} ... {largest:.6g}, border {2 / largest:.4g}; "
+            f"displacement on {role}, ratio {ratio:g}: mu {smallest:.6g} ... {largest:.6g}, limit {2 / largest:.4g}; "
             f"{diverged} of {len(here)} diverge; {len(compared)} factors compared, off by at most "
             f"{max(compared, default=0):.2%}"
         )

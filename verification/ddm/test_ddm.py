@@ -35,7 +35,7 @@ def test_convergence_ends_at_the_predicted_border_with_the_predicted_factor(role
     assert [row for row in rows if not row["ok"]] == []
     assert {row["outcome"] for row in rows} == {"converged", "diverged"}
     assert sum(row["compared"] for row in rows) >= 2
-    below = [row["outcome"] for row in rows if row["beta_over_border"] < 1]
+    below = [row["outcome"] for row in rows if row["beta_over_limit"] < 1]
     assert 3 <= len(below) < len(rows) and set(below) == {"converged"}
 
 

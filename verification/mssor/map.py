@@ -97,12 +97,12 @@ def growth(rows):
 ABOUT = (
     "Block SSOR for saddle points after Bychenkov and Chizhonkov: sweeps over u, multipliers, u with the SSOR splitting "
     "of K (parameter omega) and S = B diag(K)^-1 B^T (parameter tau). The stationary method converges for 0 < omega < 2 "
-    "and tau below a border that follows from an eigenvalue problem on the contact rows; as preconditioner it converges "
+    "and tau below a limit that follows from an eigenvalue problem on the contact rows; as preconditioner it converges "
     "for any tau > 0. The default is omega = 1.3, tau = 0.7 as preconditioner of symmetric QMR."
 )
 WHY = (
     "The direct solver is faster on all of these meshes. What holds the iteration up is not the stand-in S: the steps "
-    "hardly depend on tau below the border. It is the smooth deformations of the bodies, which SSOR sees last. So the "
+    "hardly depend on tau below the limit. It is the smooth deformations of the bodies, which SSOR sees last. So the "
     "steps of the stationary method grow about as the number of unknowns, those of the accelerated ones as its root."
 )
 MAP_CAPTION = (

@@ -1,8 +1,8 @@
 """The region of convergence of MSSOR over its two parameters, and the steps to 1e-8 in it.
 
-The stationary method (acceleration "none") should converge for every omega in (0, 2) and tau below the border that
+The stationary method (acceleration "none") should converge for every omega in (0, 2) and tau below the limit that
 mortise computes from an eigenvalue problem on the contact rows (docs/theory.md, eq. 38), and for no other tau. Measured
-is the outcome of runs over a grid, and at 3 % below and above the border. As preconditioner (acceleration "krylov") it
+is the outcome of runs over a grid, and at 3 % below and above the limit. As preconditioner (acceleration "krylov") it
 should converge for every tau > 0.
 """
 
@@ -27,18 +27,18 @@ TAUS = {
     "usual": [0.05, 0.3, 0.9, 1.5, 2.5, 5],
     "coarse": [0.3, 1.5, 5],
 }
-OF_BORDER = [0.97, 1.03]  # tau as fractions of the border, beside the grid
-NEAR_BORDER = 0.01  # relative: no claim about runs that are nearer
+OF_LIMIT = [0.97, 1.03]  # tau as fractions of the limit, beside the grid
+NEAR_LIMIT = 0.01  # relative: no claim about runs that are nearer
 ACCELERATIONS = {"none": "stationary", "krylov": "as preconditioner (symmetric QMR)"}
 TOLERANCE = 1e-8
 OTHERWISE = {"diverged": {"marker": "x", "color": "#c00000"}, "unfinished": {"marker": ".", "color": "0.5"}}
 
 
-def judged(row, mesh, acceleration, border, on_grid):
+def judged(row, mesh, acceleration, limit, on_grid):
     """One run of a sweep as a row of map.csv."""
     omega, tau, outcome = row["method.omega"], row["method.tau"], mssor_runs.outcome(row)
     if acceleration == "none":
-        right = abs(tau / border - 1) < NEAR_BORDER or (outcome == "diverged") == (tau > border)
+        right = abs(tau / limit - 1) < NEAR_LIMIT or (outcome == "diverged") == (tau > limit)
     else:
         right = outcome == "converged"
     return {
@@ -46,7 +46,7 @@ def judged(row, mesh, acceleration, border, on_grid):
         "acceleration": acceleration,
         "omega": omega,
         "tau": tau,
-        "tau_border": border,
+        "tau_limit": limit,
         "outcome": outcome,
         "steps": int(row["iteration.steps"]),
         "factor": row["iteration.convergence_rate"],
@@ -56,15 +56,15 @@ def judged(row, mesh, acceleration, border, on_grid):
     }
 
 
-def border_of(folder, mesh, omega):
-    """The border of tau, from a run of one step."""
+def limit_of(folder, mesh, omega):
+    """The limit of tau, from a run of one step."""
     settings = {**launch.sizes(mesh), "method.acceleration": "none", "method.max_iterations": 1}
     (row,) = mssor_runs.sweep(folder, settings, {"method.omega": [omega], "method.tau": [0.1]})
     return row["iteration.tau_limit"]
 
 
 def measure(folder, mesh, acceleration, omegas, taus, most_steps, report=print):
-    """Runs over the grid, and for the stationary method about the border."""
+    """Runs over the grid, and for the stationary method about the limit."""
     settings = {
         **launch.sizes(mesh),
         "method.acceleration": acceleration,
@@ -73,13 +73,13 @@ def measure(folder, mesh, acceleration, omegas, taus, most_steps, report=print):
     }
     rows = []
     for omega in omegas:
-        border = border_of(folder, mesh, omega)
-        others = [float(f"{border * f:.6g}") for f in OF_BORDER] if acceleration == "none" else []
+        limit = limit_of(folder, mesh, omega)
+        others = [float(f"{limit * f:.6g}") for f in OF_LIMIT] if acceleration == "none" else []
         found = mssor_runs.sweep(folder, settings, {"method.omega": [omega], "method.tau": [*taus, *others]})
-        rows += [judged(row, mesh, acceleration, border, i < len(taus)) for i, row in enumerate(found)]
+        rows += [judged(row, mesh, acceleration, limit, i < len(taus)) for i, row in enumerate(found)]
         steps = [row["steps"] for row in rows if row["omega"] == omega and row["outcome"] == "converged"]
         words = f"{min(steps)} steps at best" if steps else "none converges"
-        report(f"{mssor_runs.name_of(mesh)} {acceleration} omega {omega}: border of tau {border:.4g}, {words}")
+        report(f"{mssor_runs.name_of(mesh)} {acceleration} omega {omega}: limit of tau {limit:.4g}, {words}")
     return rows
 
 
@@ -130,9 +130,9 @@ def draw(path, rows):
             axes = panels[line, column]
             drawn = draw_panel(axes, rows, mesh, acceleration, colours)
             if acceleration == "none":
-                border = sorted({(r["omega"], r["tau_border"]) for r in rows if r["mesh"] == mesh})
-                of_border = {"color": "black", "linewidth": 1.8, "label": r"border $\tau_{border}(\omega)$, eq. (38)"}
-                axes.plot(*zip(*border), **of_border)
+                limit = sorted({(r["omega"], r["tau_limit"]) for r in rows if r["mesh"] == mesh})
+                of_limit = {"color": "black", "linewidth": 1.8, "label": r"limit $\tau_{limit}(\omega)$, eq. (38)"}
+                axes.plot(*zip(*limit), **of_limit)
             axes.set_xlabel(r"$\omega$")
         bar = figure.colorbar(drawn, ax=panels[:, column], pad=0.02, aspect=40, label=f"steps to {TOLERANCE:g}")
         for axis_ticks in (bar.ax.yaxis.set_major_formatter, bar.ax.yaxis.set_minor_formatter):

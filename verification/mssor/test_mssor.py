@@ -44,7 +44,7 @@ def test_as_preconditioner_it_converges_on_both_sides_of_the_border(tmp_path):
 def test_a_wrong_border_is_found():
     row = {"method.omega": 1.0, "method.tau": 1.0, "status": "solved", "iteration.steps": 9.0, "iteration.convergence_rate": 0.5,
            "iteration.seconds": 1.0}  # fmt: skip
-    judged = lambda border, **changes: mssor_region.judged({**row, **changes}, (6, 8), "none", border, True)["ok"]
+    judged = lambda limit, **changes: mssor_region.judged({**row, **changes}, (6, 8), "none", limit, True)["ok"]
     assert judged(1.5) and not judged(0.5)
     diverging = {"status": "not_converged", "iteration.convergence_rate": 1.2}
     assert judged(0.5, **diverging) and not judged(1.5, **diverging)
