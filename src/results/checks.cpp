@@ -90,12 +90,12 @@ void unilateral_checks(const Results& r, double limit, std::vector<Check>& check
   const std::vector<char>& unilateral = s.unilateral;
   if (std::find(unilateral.begin(), unilateral.end(), 1) == unilateral.end()) return;
   const VecX gap = (s.B * solution.u - s.g).cwiseQuotient(s.row_scale);
-  const double displacement = largest_entry(solution.u), least = negligible_pressure(r),
-               p_size = largest(10 * least, largest_entry(solution.lambda));
+  const double displacement = largest_entry(solution.u), round_off = round_off_pressure(r),
+               least = negligible_pressure(r), p_size = largest(10 * least, largest_entry(solution.lambda));
   double tension = 0, penetration = 0, product = 0, dip = 0;
   for (Eigen::Index a = 0; a < gap.size(); ++a) {
     if (!unilateral[a]) continue;
-    tension = largest(tension, solution.lambda(a));
+    tension = largest(tension, solution.lambda(a) - round_off);
     penetration = largest(penetration, -gap(a));
     product = largest(product, std::abs(solution.lambda(a) * gap(a)));
   }
@@ -142,13 +142,16 @@ int free_unknowns(const Results& r) {
   return int(std::count(fixed.begin(), fixed.end(), 0));
 }
 
-double negligible_pressure(const Results& r) {
+double round_off_pressure(const Results& r) {
   double edge = std::numeric_limits<double>::infinity();
   for (const ContactPair& pair : r.pairs)
     for (const Edge& e : pair.multiplier.edges) edge = std::min(edge, edge_length(r.mesh.nodes, e));
-  const double round_off = 1e-12 * r.discretisation.system.stiffness_scale * largest_entry(r.solution.u) / edge;
+  return 1e-12 * r.discretisation.system.stiffness_scale * largest_entry(r.solution.u) / edge;
+}
+
+double negligible_pressure(const Results& r) {
   const double stress = r.stress.points.size() > 0 ? r.stress.points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0;
-  return largest(1e-3 * stress, round_off);
+  return largest(1e-3 * stress, round_off_pressure(r));
 }
 
 std::vector<Check> checks(const Scene& scene, const Results& r) {

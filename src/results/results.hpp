@@ -51,9 +51,11 @@ struct Results {
 /// Displacement unknowns that are not prescribed.
 int free_unknowns(const Results& results);
 
-/// A pressure that matters to no body, stress: 1e-3 of the largest stress in any, or what round-off of the
-/// displacements makes of a contact that carries none. It does not change where bodies are moved as a whole.
-/// Of the mesh, the pairs, the solution and the stress.
+/// What round-off of the displacements makes of a contact that carries nothing, stress.
+double round_off_pressure(const Results& results);
+
+/// A pressure that matters to no body, stress: 1e-3 of the largest stress in any, or round_off_pressure. It does not
+/// change where bodies are moved as a whole. Of the mesh, the pairs, the solution and the stress.
 double negligible_pressure(const Results& results);
 
 }  // namespace mortise

@@ -39,6 +39,16 @@ const char* const spaces[] = {"linear", "quadratic", "dual"};
 
 // ---- gap_close: uniaxial strain, exact on both sides of touching ----
 
+TEST(GapCloseExactly, RoundOffOfNothingIsNoTension) {
+  for (const char* space : spaces)
+    for (const char* down : {"0.99999999999999e-4", "1e-4", "1.00000000000001e-4"}) {
+      const Results r = solved(
+          "gap_close", {{"boundary.2.displacement", std::string("{y=-") + down + "}"}, {"method.multipliers", space}});
+      EXPECT_EQ(r.status, Status::solved) << space << " " << down;
+      EXPECT_LE(largest_entry(r.contacts[0].pressure), 1e-3);  // Pa, where 1 % more makes 5e5
+    }
+}
+
 class GapClose : public testing::TestWithParam<std::tuple<double, const char*, const char*, int>> {};
 
 TEST_P(GapClose, IsExact) {
