@@ -65,7 +65,7 @@ struct BorderBlock {
 
 struct BorderedCholesky::Factor {
   cholmod_common common;
-  cholmod_factor* L = nullptr;
+  cholmod_factor* L = nullptr;  // stays so where there is nothing to factorise
   int n = 0, m = 0;
   int failed_at = -1;
 
@@ -79,6 +79,7 @@ struct BorderedCholesky::Factor {
   // Calls visit(BorderBlock) for each supernode that has border rows.
   template <typename Visit>
   void for_each_border_block(Visit visit) const {
+    if (!L) return;
     const auto* super = static_cast<const int*>(L->super);
     const auto* pi = static_cast<const int*>(L->pi);
     const auto* px = static_cast<const int*>(L->px);
@@ -97,6 +98,7 @@ struct BorderedCholesky::Factor {
   }
 
   VecX solve(int system, const VecX& b) {
+    if (!L) return b;
     cholmod_dense rhs{};
     rhs.nrow = rhs.nzmax = rhs.d = b.size();
     rhs.ncol = 1;
@@ -116,6 +118,8 @@ BorderedCholesky::BorderedCholesky(SparseMatrix matrix, const std::vector<int>& 
   Factor& f = *factor_;
   f.n = int(blocks.size());
   f.m = int(matrix.cols()) - f.n;
+  compliance_ = MatX::Zero(f.m, f.m);
+  if (matrix.cols() == 0) return;  // CHOLMOD refuses it
   cholmod_common& c = f.common;
   c.supernodal = CHOLMOD_SUPERNODAL;
   c.nmethods = 1;
@@ -134,7 +138,6 @@ BorderedCholesky::BorderedCholesky(SparseMatrix matrix, const std::vector<int>& 
   if (c.status < CHOLMOD_OK) throw std::runtime_error("CHOLMOD could not factorise the matrix: out of memory");
   matrix = SparseMatrix();
 
-  compliance_ = MatX::Zero(f.m, f.m);
   MatX product;
   f.for_each_border_block([&](const BorderBlock& block) {
     const Eigen::Index count = block.V.rows();

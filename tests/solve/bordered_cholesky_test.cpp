@@ -30,8 +30,9 @@ Dense random_dense(int nodes, int m, unsigned seed) {
 BorderedCholesky factor_of(const Dense& d) {
   const Eigen::Index n = d.K.rows(), m = d.B.rows();
   MatX bordered = MatX::Zero(n + m, n + m);
-  bordered << MatX(d.K.triangularView<Eigen::Upper>()), d.B.transpose(), MatX::Zero(m, n),
-      border_beta * MatX::Identity(m, m);
+  bordered.topLeftCorner(n, n) = d.K.triangularView<Eigen::Upper>();
+  bordered.topRightCorner(n, m) = d.B.transpose();
+  bordered.bottomRightCorner(m, m).diagonal().setConstant(border_beta);
   std::vector<int> blocks;
   for (int i = 0; i < int(n); ++i) blocks.push_back(i / 2);
   return BorderedCholesky(bordered.sparseView(), blocks);
@@ -66,6 +67,17 @@ TEST(BorderedCholesky, WithoutABorderItIsACholeskySolve) {
   const VecX f = VecX::LinSpaced(20, 1, 2), u = d.K.inverse() * f;
   EXPECT_LE(largest_entry(factor.backward(factor.forward(f), VecX()) - u), 1e-13 * largest_entry(u));
   EXPECT_EQ(factor.take_border_compliance().size(), 0);
+}
+
+TEST(BorderedCholesky, OfNothingIsNothing) {
+  for (const int m : {0, 2}) {  // all displacements prescribed, without contact and with it
+    BorderedCholesky factor = factor_of({MatX::Zero(0, 0), MatX::Zero(m, 0)});
+    EXPECT_EQ(factor.failed_at(), -1);
+    const VecX y = factor.forward(VecX());
+    EXPECT_EQ(factor.at_border(y), VecX::Zero(m));
+    EXPECT_EQ(factor.backward(y, VecX::Ones(m)).size(), 0);
+    EXPECT_EQ(factor.take_border_compliance().size(), m * m);
+  }
 }
 
 TEST(BorderedCholesky, NamesTheUnknownWhereKIsNotPositiveDefinite) {

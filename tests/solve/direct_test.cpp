@@ -29,31 +29,11 @@ SparseMatrix chain_stiffness(int nodes) {
   return K;
 }
 
-struct Problem {
-  SparseMatrix K, B;
-  VecX f, g, value, scale;
-  std::vector<char> fixed;
-  double stiffness = 1;
-
-  SaddlePointSystem system(std::vector<int> grounded = {}) const {
-    return {.K = K,
-            .f = f,
-            .constraints = {fixed, value},
-            .stiffness_scale = stiffness,
-            .grounded = std::move(grounded),
-            .B = B,
-            .g = g,
-            .row_scale = scale,
-            .unilateral = {},
-            .start = {}};
-  }
-};
-
 // Two chains; the second one floats (all of it may move by (1, 1)) until B holds it.
-Problem two_chains(bool with_constraints) {
+SaddlePointSystem two_chains(bool with_constraints) {
   const int nodes = 12;
   const SparseMatrix one = chain_stiffness(nodes);
-  Problem p;
+  SaddlePointSystem p;
   std::vector<Eigen::Triplet<double>> entries, rows;
   for (int block = 0; block < 2; ++block)
     for (int j = 0; j < one.outerSize(); ++j)
@@ -73,18 +53,21 @@ Problem two_chains(bool with_constraints) {
   p.B.setFromTriplets(rows.begin(), rows.end());
   p.f = VecX::NullaryExpr(4 * nodes, [&] { return value(random); });
   p.g = VecX::NullaryExpr(p.B.rows(), [&] { return value(random); });
-  p.scale = VecX::Ones(p.B.rows());
-  p.fixed.assign(4 * nodes, 0);
-  p.value = VecX::Zero(4 * nodes);
-  p.fixed[0] = 1;
-  p.value(0) = 0.25;
+  p.row_scale = VecX::Ones(p.B.rows());
+  p.constraints.fixed.assign(4 * nodes, 0);
+  p.constraints.value = VecX::Zero(4 * nodes);
+  p.constraints.fixed[0] = 1;
+  p.constraints.value(0) = 0.25;
   return p;
 }
 
-Solution solve(const Problem& p, std::vector<int> grounded) { return solve_directly(p.system(std::move(grounded))); }
+Solution solve(SaddlePointSystem p, std::vector<int> grounded) {
+  p.grounded = std::move(grounded);
+  return solve_directly(p);
+}
 
 // The same system, dense and by LU with full pivoting.
-VecX dense_solution(const Problem& p) {
+VecX dense_solution(const SaddlePointSystem& p) {
   const Eigen::Index n = p.K.rows(), m = p.B.rows();
   MatX A = MatX::Zero(n + m, n + m);
   A.topLeftCorner(n, n) = MatX(p.K).selfadjointView<Eigen::Lower>();
@@ -93,16 +76,16 @@ VecX dense_solution(const Problem& p) {
   VecX rhs(n + m);
   rhs << p.f, p.g;
   for (Eigen::Index i = 0; i < n; ++i)
-    if (p.fixed[i]) {
+    if (p.constraints.fixed[i]) {
       A.row(i).setZero();
       A(i, i) = 1;
-      rhs(i) = p.value(i);
+      rhs(i) = p.constraints.value(i);
     }
   return A.fullPivLu().solve(rhs);
 }
 
 TEST(Direct, AgreesWithADenseSolverWhereBHoldsAFloatingBody) {
-  const Problem p = two_chains(true);
+  const SaddlePointSystem p = two_chains(true);
   const Solution s = solve(p, {24});  // a spring at the second chain's first unknown
   ASSERT_EQ(s.status, SolveStatus::converged);
   VecX all(s.u.size() + s.lambda.size());
@@ -114,28 +97,28 @@ TEST(Direct, AgreesWithADenseSolverWhereBHoldsAFloatingBody) {
 }
 
 TEST(Direct, DoesNotDependOnWhichUnknownIsGrounded) {
-  const Problem p = two_chains(true);
+  const SaddlePointSystem p = two_chains(true);
   const VecX a = solve(p, {24}).u, b = solve(p, {41}).u;
   EXPECT_LE((a - b).cwiseAbs().maxCoeff(), 1e-10 * a.cwiseAbs().maxCoeff());
 }
 
 TEST(Direct, ScalesDoNotChangeTheAnswer) {
-  Problem p = two_chains(true);
+  SaddlePointSystem p = two_chains(true);
   const Solution a = solve(p, {24});
   p.K *= 2e11;
   p.f *= 2e11;
   p.B = SparseMatrix(1e-3 * p.B);
   p.g *= 1e-3;
-  p.scale *= 1e-3;
-  p.stiffness = 2e11;
+  p.row_scale *= 1e-3;
+  p.stiffness_scale = 2e11;
   const Solution b = solve(p, {24});
   EXPECT_LE((a.u - b.u).cwiseAbs().maxCoeff(), 1e-12 * a.u.cwiseAbs().maxCoeff());
   EXPECT_LE((a.lambda - b.lambda / 2e14).cwiseAbs().maxCoeff(), 1e-10 * a.lambda.cwiseAbs().maxCoeff());
 }
 
 TEST(Direct, WithoutConstraintsItIsACholeskySolve) {
-  Problem p = two_chains(false);
-  p.fixed[24] = 1;
+  SaddlePointSystem p = two_chains(false);
+  p.constraints.fixed[24] = 1;
   const Solution s = solve(p, {});
   ASSERT_EQ(s.status, SolveStatus::converged);
   EXPECT_LE((s.u - dense_solution(p)).cwiseAbs().maxCoeff(), 1e-11 * s.u.cwiseAbs().maxCoeff());
@@ -148,7 +131,7 @@ TEST(Direct, NamesTheUnknownThatNothingHolds) {
 }
 
 TEST(Direct, NamesTheRowThatFollowsFromOthers) {
-  Problem p = two_chains(true);
+  SaddlePointSystem p = two_chains(true);
   SparseMatrix twice(6, p.B.cols());
   std::vector<Eigen::Triplet<double>> rows;
   for (int j = 0; j < p.B.outerSize(); ++j)
@@ -159,17 +142,29 @@ TEST(Direct, NamesTheRowThatFollowsFromOthers) {
   twice.setFromTriplets(rows.begin(), rows.end());
   p.B = twice;
   p.g = VecX::Zero(6);
-  p.scale = VecX::Ones(6);
+  p.row_scale = VecX::Ones(6);
   const Solution s = solve(p, {24});
   EXPECT_EQ(s.status, SolveStatus::dependent_row);
   EXPECT_EQ(s.failed_at, 5);
 }
 
+TEST(Direct, WhereAllIsPrescribedTheDisplacementsAreGiven) {
+  SaddlePointSystem p = two_chains(false);
+  p.constraints = {std::vector<char>(p.f.size(), 1), VecX::LinSpaced(p.f.size(), -1, 2)};
+  const Solution s = solve(p, {});
+  ASSERT_EQ(s.status, SolveStatus::converged);
+  EXPECT_EQ(s.u, p.constraints.value);
+
+  p = two_chains(true);
+  p.constraints.fixed.assign(p.f.size(), 1);
+  EXPECT_EQ(solve(p, {}).status, SolveStatus::dependent_row);
+}
+
 // ---- Residuals: what they see, and what they must not lose ----
 
 TEST(Direct, AResidualOfWhatIsNotFiniteIsNotANumber) {
-  const Problem p = two_chains(true);
-  const SaddlePointSystem system = p.system({24});
+  SaddlePointSystem system = two_chains(true);
+  system.grounded = {24};
   const Solution good = solve_directly(system);
   for (const double bad : {std::nan(""), HUGE_VAL, 1e308}) {  // of the last the products overflow
     Solution s = good;
@@ -190,30 +185,30 @@ TEST(Direct, AResidualOfWhatIsNotFiniteIsNotANumber) {
 
 TEST(Direct, LoadsThatAreNotFiniteAreNotSolved) {
   for (const double bad : {std::nan(""), HUGE_VAL}) {
-    Problem p = two_chains(true);
+    SaddlePointSystem p = two_chains(true);
     p.f(7) = bad;
     EXPECT_EQ(solve(p, {24}).status, SolveStatus::not_converged);
     p = two_chains(true);
     p.g(1) = bad;
     EXPECT_EQ(solve(p, {24}).status, SolveStatus::not_converged);
     p = two_chains(true);
-    p.value(0) = bad;
+    p.constraints.value(0) = bad;
     EXPECT_EQ(solve(p, {24}).status, SolveStatus::not_converged);
     p = two_chains(false);
-    p.fixed[24] = 1;
+    p.constraints.fixed[24] = 1;
     p.f(30) = bad;
     EXPECT_EQ(solve(p, {}).status, SolveStatus::not_converged) << "without contact";
   }
 }
 
 // Springs of very different stiffness, as thin elements make them: node to node 1e8 along, 1 across.
-Problem stiff_chain() {
-  Problem p = two_chains(false);
+SaddlePointSystem stiff_chain() {
+  SaddlePointSystem p = two_chains(false);
   for (int j = 0; j < p.K.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(p.K, j); it; ++it)
       if (it.row() % 2 == 0 && j % 2 == 0) it.valueRef() *= 1e8;
-  for (const int i : {24, 47}) p.fixed[i] = 1;
-  p.value(24) = 0.25;
+  for (const int i : {24, 47}) p.constraints.fixed[i] = 1;
+  p.constraints.value(24) = 0.25;
   return p;
 }
 
@@ -223,16 +218,15 @@ TEST(Direct, RoundOffOfStiffElementsIsNoResidual) {
 }
 
 TEST(Direct, AWrongDisplacementIsAResidual) {
-  for (const Problem& p : {two_chains(true), stiff_chain()}) {
-    const SaddlePointSystem system = p.system();
+  for (const SaddlePointSystem& p : {two_chains(true), stiff_chain()}) {
     Solution s = p.B.rows() > 0 ? solve(p, {24}) : solve(p, {});
     const VecX u = s.u;
     const bool stiff = p.B.rows() == 0;  // across, its springs are nothing beside the forces along
     for (Eigen::Index i = 0; i < u.size(); i += stiff ? 2 : 1) {
-      if (p.fixed[i]) continue;
+      if (p.constraints.fixed[i]) continue;
       s.u = u;
       s.u(i) += 1e-8 * largest_entry(u);
-      measure_residuals(system, s);
+      measure_residuals(p, s);
       EXPECT_GT(s.force_residual, 1e-10) << i;
     }
   }

@@ -18,47 +18,27 @@ namespace {
 
 using Status = SolveStatus;
 
-struct Problem {
-  SparseMatrix K, B;
-  VecX f, g, value, scale;
-  std::vector<char> fixed, unilateral;
-  double stiffness = 1;
-
-  SaddlePointSystem system(std::vector<int> grounded = {}) const {
-    return {.K = K,
-            .f = f,
-            .constraints = {fixed, value},
-            .stiffness_scale = stiffness,
-            .grounded = std::move(grounded),
-            .B = B,
-            .g = g,
-            .row_scale = scale,
-            .unilateral = unilateral,
-            .start = {}};
-  }
-};
-
 SparseMatrix sparse(const MatX& dense) { return dense.sparseView(); }
 
 // K = [2 -1; -1 2], one row that says that both are equal but for a gap; f pushes the one that the sweeps begin with.
-Problem by_hand() {
-  Problem p;
+SaddlePointSystem by_hand() {
+  SaddlePointSystem p;
   p.K = sparse((MatX(2, 2) << 2, 0, -1, 2).finished());
   const int first = band_order(p.K)[0];
   const double sign = first == 0 ? 1 : -1;
   p.B = sparse((MatX(1, 2) << sign, -sign).finished());
   p.f = VecX::Unit(2, first);
   p.g = VecX::Constant(1, 0.5);
-  p.value = VecX::Zero(2);
-  p.scale = VecX::Ones(1);
-  p.fixed = {0, 0};
+  p.constraints.value = VecX::Zero(2);
+  p.row_scale = VecX::Ones(1);
+  p.constraints.fixed = {0, 0};
   return p;
 }
 
 // Two chains of nodes in two unknowns a node, each spring of its own stiffness; the first is held at one end, the
 // second (it may move by (1, 1)) by the rows of B alone.
-Problem two_chains(int nodes = 12, int rows = 5) {
-  Problem p;
+SaddlePointSystem two_chains(int nodes = 12, int rows = 5) {
+  SaddlePointSystem p;
   std::vector<Eigen::Triplet<double>> entries, of_rows;
   const auto spring = [&](int a, int b, double k) {
     entries.emplace_back(a, a, k);
@@ -80,16 +60,23 @@ Problem two_chains(int nodes = 12, int rows = 5) {
   p.B.setFromTriplets(of_rows.begin(), of_rows.end());
   p.f = VecX::NullaryExpr(4 * nodes, [&] { return number(random); });
   p.g = VecX::NullaryExpr(rows, [&] { return number(random); });
-  p.scale = VecX::Ones(rows);
-  p.value = VecX::Zero(4 * nodes);
-  p.fixed.assign(4 * nodes, 0);
-  p.fixed[0] = p.fixed[1] = 1;
-  p.value(0) = 0.25;
+  p.row_scale = VecX::Ones(rows);
+  p.constraints.value = VecX::Zero(4 * nodes);
+  p.constraints.fixed.assign(4 * nodes, 0);
+  p.constraints.fixed[0] = p.constraints.fixed[1] = 1;
+  p.constraints.value(0) = 0.25;
   return p;
 }
 
-Solution run(const Problem& p, Acceleration acceleration, double omega, double tau, double tolerance = 1e-11) {
-  return solve_by_mssor(p.system(), {omega, tau, acceleration, tolerance, 200000});
+// For the direct solver: a spring at the second chain's first unknown.
+SaddlePointSystem grounded(SaddlePointSystem p) {
+  p.grounded = {24};
+  return p;
+}
+
+Solution run(const SaddlePointSystem& p, Acceleration acceleration, double omega, double tau,
+             double tolerance = 1e-11) {
+  return solve_by_mssor(p, {omega, tau, acceleration, tolerance, 200000});
 }
 
 double difference(const VecX& a, const VecX& b) { return largest_entry(a - b) / largest_entry(b); }
@@ -135,15 +122,15 @@ TEST(Mssor, AStepByHand) {
   // omega = 1: Q = (D + L) D^-1 (D + L^T) = [2 -1; -1 5/2], Q^-1 = [5 2; 2 4] / 8; S = 1/2 + 1/2 = 1; tau = 1/2.
   // u' = Q^-1 f = (5/8, 1/4); lambda = (5/8 - 1/4 - 1/2) / 2 = -1/16;
   // u = u' - Q^-1 (1, -1) lambda = u' + (3/8, -1/4) / 16 = (83/128, 15/64).
-  const Problem p = by_hand();
-  const SweepSystem s = sweep_system(p.system());
+  const SaddlePointSystem p = by_hand();
+  const SweepSystem s = sweep_system(p);
   SweepPreconditioner M{s, 1, 0.5};
   VecX z(3);
   M.solve(s.rhs, z);
   EXPECT_NEAR(z(0), 83.0 / 128, 1e-15);
   EXPECT_NEAR(z(1), 15.0 / 64, 1e-15);
   EXPECT_NEAR(z(2), -1.0 / 16, 1e-15);
-  const Solution one = solve_by_mssor(p.system(), {1, 0.5, Acceleration::none, 1e-10, 1});
+  const Solution one = solve_by_mssor(p, {1, 0.5, Acceleration::none, 1e-10, 1});
   EXPECT_EQ(one.status, Status::not_converged);
   EXPECT_EQ(one.iteration->steps, 1);
   EXPECT_NEAR(one.u(s.unknown[0]), 83.0 / 128, 1e-15);
@@ -151,7 +138,7 @@ TEST(Mssor, AStepByHand) {
 }
 
 TEST(Mssor, QIsSymmetricAndAboveK) {
-  const SweepSystem s = sweep_system(two_chains().system());
+  const SweepSystem s = sweep_system(two_chains());
   const MatX K = dense_A(s).topLeftCorner(s.n(), s.n());
   for (const double omega : {0.2, 1.0, 1.3, 1.9}) {
     const MatX inverse = inverse_Q(s, omega), Q = inverse.inverse();
@@ -167,7 +154,7 @@ TEST(Mssor, QIsSymmetricAndAboveK) {
 }
 
 TEST(Mssor, MIsTheFactoredMatrix) {
-  const SweepSystem s = sweep_system(two_chains().system());
+  const SweepSystem s = sweep_system(two_chains());
   const double omega = 1.3, tau = 0.6;
   const Eigen::Index n = s.n(), m = s.m();
   MatX M(n + m, n + m);
@@ -182,8 +169,8 @@ TEST(Mssor, MIsTheFactoredMatrix) {
 }
 
 TEST(Mssor, AgreesWithTheDirectSolverWhereBHoldsAFloatingBody) {
-  const Problem p = two_chains();
-  const Solution direct = solve_directly(p.system({24}));
+  const SaddlePointSystem p = two_chains();
+  const Solution direct = solve_directly(grounded(p));
   for (const Acceleration acceleration : {Acceleration::none, Acceleration::krylov, Acceleration::minres})
     for (const double omega : {0.8, 1.3}) {
       const Solution s = run(p, acceleration, omega, 0.5);
@@ -197,14 +184,14 @@ TEST(Mssor, AgreesWithTheDirectSolverWhereBHoldsAFloatingBody) {
 }
 
 TEST(Mssor, ScalesDoNotChangeTheStepsOrTheAnswer) {
-  Problem p = two_chains();
+  SaddlePointSystem p = two_chains();
   const Solution a = run(p, Acceleration::krylov, 1.3, 0.7);
   p.K *= 0x1p37;  // powers of two: the same round-off
   p.f *= 0x1p37;
   p.B = SparseMatrix(0x1p-10 * p.B);
   p.g *= 0x1p-10;
-  p.scale *= 0x1p-10;
-  p.stiffness = 0x1p37;
+  p.row_scale *= 0x1p-10;
+  p.stiffness_scale = 0x1p37;
   const Solution b = run(p, Acceleration::krylov, 1.3, 0.7);
   EXPECT_EQ(a.iteration->steps, b.iteration->steps);
   EXPECT_LE(difference(a.u, b.u), 1e-14);
@@ -212,8 +199,8 @@ TEST(Mssor, ScalesDoNotChangeTheStepsOrTheAnswer) {
 }
 
 TEST(Mssor, TheStationaryMethodConvergesUpToTheLimitOfTau) {
-  const Problem p = two_chains();
-  const SweepSystem s = sweep_system(p.system());
+  const SaddlePointSystem p = two_chains();
+  const SweepSystem s = sweep_system(p);
   for (const double omega : {0.5, 1.0, 1.3, 1.7}) {
     const double limit = tau_limit(s, omega);
     EXPECT_LT(spectral_radius(s, omega, 0.05 * limit), 1) << omega;
@@ -229,8 +216,8 @@ TEST(Mssor, TheStationaryMethodConvergesUpToTheLimitOfTau) {
 }
 
 TEST(Mssor, DivergenceIsSaidWithTheLimit) {
-  const Problem p = two_chains();
-  const double limit = tau_limit(sweep_system(p.system()), 1.3);
+  const SaddlePointSystem p = two_chains();
+  const double limit = tau_limit(sweep_system(p), 1.3);
   const Solution s = run(p, Acceleration::none, 1.3, 1.2 * limit);
   EXPECT_EQ(s.status, Status::diverged);
   EXPECT_GT(s.iteration->convergence_rate, 1);
@@ -240,14 +227,14 @@ TEST(Mssor, DivergenceIsSaidWithTheLimit) {
 }
 
 TEST(Mssor, TheConvergenceRateIsTheSpectralRadius) {
-  const Problem p = two_chains();
+  const SaddlePointSystem p = two_chains();
   const Solution s = run(p, Acceleration::none, 1.3, 0.5);
-  EXPECT_NEAR(s.iteration->convergence_rate, spectral_radius(sweep_system(p.system()), 1.3, 0.5), 1e-4);
+  EXPECT_NEAR(s.iteration->convergence_rate, spectral_radius(sweep_system(p), 1.3, 0.5), 1e-4);
 }
 
 TEST(Mssor, SymmetricQmrNeedsAboutTheStepsOfGmres) {
-  const Problem p = two_chains(40, 15);
-  const SweepSystem s = sweep_system(p.system());
+  const SaddlePointSystem p = two_chains(40, 15);
+  const SweepSystem s = sweep_system(p);
   SweepPreconditioner M{s, 1.3, 0.7};
   const auto correction = [&](const VecX& x) -> VecX {
     VecX r(x.size()), z(x.size());
@@ -270,7 +257,7 @@ TEST(Mssor, SymmetricQmrNeedsAboutTheStepsOfGmres) {
 }
 
 TEST(Mssor, ToldWhereThereIsNoSolution) {
-  Problem p = two_chains();
+  SaddlePointSystem p = two_chains();
   SparseMatrix doubled(6, p.B.cols());
   std::vector<Eigen::Triplet<double>> entries;
   for (int j = 0; j < p.B.outerSize(); ++j)
@@ -281,7 +268,7 @@ TEST(Mssor, ToldWhereThereIsNoSolution) {
   doubled.setFromTriplets(entries.begin(), entries.end());
   p.B = doubled;
   p.g = VecX::Zero(6);
-  p.scale = VecX::Ones(6);
+  p.row_scale = VecX::Ones(6);
   const Solution dependent = run(p, Acceleration::krylov, 1.3, 0.7);
   EXPECT_EQ(dependent.status, Status::dependent_row);
   EXPECT_EQ(dependent.failed_at, 5);
@@ -294,16 +281,16 @@ TEST(Mssor, ToldWhereThereIsNoSolution) {
 }
 
 TEST(Mssor, AUnilateralRowInTensionIsRefused) {
-  Problem p = two_chains();
+  SaddlePointSystem p = two_chains();
   p.unilateral.assign(5, 1);  // random loads: some row is in tension
-  EXPECT_GT(solve_directly(two_chains().system({24})).lambda.maxCoeff(), 0);
+  EXPECT_GT(solve_directly(grounded(two_chains())).lambda.maxCoeff(), 0);
   EXPECT_EQ(run(p, Acceleration::krylov, 1.3, 0.7).status, Status::in_tension);
 }
 
 TEST(Mssor, StopsAtTheLimitOfSteps) {
-  const Problem p = two_chains();
+  const SaddlePointSystem p = two_chains();
   for (const Acceleration acceleration : {Acceleration::none, Acceleration::krylov, Acceleration::minres}) {
-    const Solution s = solve_by_mssor(p.system(), {1.3, 0.5, acceleration, 1e-11, 7});
+    const Solution s = solve_by_mssor(p, {1.3, 0.5, acceleration, 1e-11, 7});
     EXPECT_EQ(s.status, Status::not_converged);
     EXPECT_EQ(s.iteration->steps, 7);
     EXPECT_EQ(s.iteration->history.size(), 8U);
@@ -311,7 +298,7 @@ TEST(Mssor, StopsAtTheLimitOfSteps) {
 }
 
 TEST(Mssor, ATolerancePastRoundOffEnds) {
-  const Solution s = solve_by_mssor(two_chains().system(), {1.3, 0.5, Acceleration::krylov, 1e-20, 3000});
+  const Solution s = solve_by_mssor(two_chains(), {1.3, 0.5, Acceleration::krylov, 1e-20, 3000});
   EXPECT_EQ(s.status, Status::not_converged);
   EXPECT_LE(s.force_residual, 1e-13);
 }
@@ -332,14 +319,14 @@ TEST(BandOrder, NumbersAShuffledChainAlongItself) {
 TEST(Mssor, WhatIsNotFiniteDivergesAndNeverConverges) {
   for (const Acceleration acceleration : {Acceleration::none, Acceleration::krylov, Acceleration::minres}) {
     for (const double bad : {std::nan(""), HUGE_VAL, 1e300}) {  // of the last the squares overflow
-      Problem p = two_chains();
+      SaddlePointSystem p = two_chains();
       p.f(9) = bad;
-      const Solution s = solve_by_mssor(p.system(), {.acceleration = acceleration});
+      const Solution s = solve_by_mssor(p, {.acceleration = acceleration});
       EXPECT_EQ(s.status, Status::diverged) << bad;
       EXPECT_FALSE(s.iteration->history.empty());
     }
-    const Problem p = two_chains();
-    const Solution s = solve_by_mssor(p.system(), {.tau = 1e300, .acceleration = acceleration});
+    const SaddlePointSystem p = two_chains();
+    const Solution s = solve_by_mssor(p, {.tau = 1e300, .acceleration = acceleration});
     if (s.status == Status::converged) EXPECT_LE(s.force_residual, 1e-10);
     EXPECT_FALSE(s.iteration->history.empty());
   }
@@ -347,11 +334,11 @@ TEST(Mssor, WhatIsNotFiniteDivergesAndNeverConverges) {
 
 TEST(Mssor, NoLoadIsNoDisplacement) {
   for (const Acceleration acceleration : {Acceleration::none, Acceleration::krylov, Acceleration::minres}) {
-    Problem p = two_chains();
+    SaddlePointSystem p = two_chains();
     p.f.setZero();
     p.g.setZero();
-    p.value.setZero();
-    const Solution s = solve_by_mssor(p.system(), {.acceleration = acceleration});
+    p.constraints.value.setZero();
+    const Solution s = solve_by_mssor(p, {.acceleration = acceleration});
     EXPECT_EQ(s.status, Status::converged);
     EXPECT_EQ(largest_entry(s.u), 0);
   }
