@@ -1,6 +1,7 @@
 #include "app/solve_scene.hpp"
 
 #include "app/solve_system.hpp"
+#include "base/errors.hpp"
 #include "base/stopwatch.hpp"
 #include "io/gmsh_mesh.hpp"
 #include "problem/audit.hpp"
@@ -22,24 +23,38 @@ std::vector<char> starting_rows(const ActiveSet* start, const Mesh& mesh, const 
 // Bodies that take the displacement in domain decomposition; empty without.
 std::vector<char> dirichlet_roles(const Scene& scene, const Mesh& mesh, const Discretisation& d,
                                   const std::vector<ContactCurves>& curves) {
-  return scene.method.solver == Solver::ddm ? dirichlet_bodies(scene, mesh, d, curves) : std::vector<char>{};
-}
-
-// The contact pairs, their rows in the system, and what the audit says; refuses what cannot be meant.
-std::vector<ContactPair> add_contact(const Scene& scene, const Mesh& mesh, const std::vector<ContactCurves>& curves,
-                                     const std::vector<char>& dirichlet, Discretisation& d,
-                                     std::vector<std::string>& lines) {
-  std::vector<ContactPair> pairs = couple_pairs(scene.method, mesh, d, curves, dirichlet);
-  set_contact(pairs, d.system);
-  lines = audit_scene(scene, mesh, pairs);
-  require_closed(scene, mesh, pairs);
-  const std::vector<std::string> held = hold_free_motions(scene, mesh, pairs, lines, d.system);
-  lines.insert(lines.end(), held.begin(), held.end());
-  return pairs;
+  if (scene.method.solver != Solver::ddm) return {};
+  return dirichlet_bodies(scene.method.dirichlet, mesh, d, curves);
 }
 
 void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
   lines.insert(lines.end(), more.begin(), more.end());
+}
+
+struct Contact {
+  std::vector<ContactPair> pairs;
+  std::vector<std::string> warnings;  // of the audit, and of motions held
+};
+
+// Couples the pairs and puts their rows into the system; refuses what cannot be meant.
+Contact add_contact(const Scene& scene, const Mesh& mesh, const std::vector<ContactCurves>& curves,
+                    const std::vector<char>& dirichlet, Discretisation& d) {
+  Contact contact{couple_pairs(scene.method, mesh, d, curves, dirichlet), {}};
+  set_contact(contact.pairs, d.system);
+  contact.warnings = audit_scene(scene, mesh, contact.pairs);
+  require_closed(mesh, contact.pairs);
+  append(contact.warnings, hold_free_motions(mesh, contact.pairs, contact.warnings, d.system));
+  return contact;
+}
+
+// What `work` returns; what it refuses of the scene is told with the scene's path.
+template <typename Work>
+auto told_with_path(const Scene& scene, Work work) {
+  try {
+    return work();
+  } catch (const SceneError& error) {
+    throw InputError(scene.path + ": " + error.what());
+  }
 }
 
 }  // namespace
@@ -55,13 +70,17 @@ Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSe
 }
 
 CheckedScene check_scene(const Scene& scene) {
-  CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters, scene.geo_limits), {}, {}, {}};
-  checked.discretisation = discretise(scene, checked.mesh);
-  const std::vector<ContactCurves> curves = contact_curves(scene, checked.mesh);
-  checked.pairs =
-      add_contact(scene, checked.mesh, curves, dirichlet_roles(scene, checked.mesh, checked.discretisation, curves),
-                  checked.discretisation, checked.warnings);
-  return checked;
+  return told_with_path(scene, [&] {
+    CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters, scene.geo_limits), {}, {}, {}};
+    checked.discretisation = discretise(scene, checked.mesh);
+    const std::vector<ContactCurves> curves = contact_curves(scene, checked.mesh);
+    Contact contact =
+        add_contact(scene, checked.mesh, curves, dirichlet_roles(scene, checked.mesh, checked.discretisation, curves),
+                    checked.discretisation);
+    checked.pairs = std::move(contact.pairs);
+    checked.warnings = std::move(contact.warnings);
+    return checked;
+  });
 }
 
 ActiveSet active_set(const Results& r) { return {r.mesh.nodes, row_nodes(r.pairs), r.solution.active}; }
@@ -72,8 +91,10 @@ void diagnose(const Scene& scene, Results& r) {
   if (const auto line = inf_sup_warning(*r.inf_sup)) r.warnings.push_back(*line);
 }
 
-Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start,
-                    const Adjust& adjust) {
+namespace {
+
+Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start,
+                 const Adjust& adjust) {
   const auto stage = [&](const char* name) {
     if (progress) progress(name);
   };
@@ -93,7 +114,9 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
   const std::vector<char> dirichlet = dirichlet_roles(scene, r.mesh, r.discretisation, curves);
   for (std::size_t b = 0; b < dirichlet.size(); ++b)
     if (dirichlet[b]) r.dirichlet.push_back(r.mesh.bodies[b]);
-  r.pairs = add_contact(scene, r.mesh, curves, dirichlet, r.discretisation, r.warnings);
+  Contact contact = add_contact(scene, r.mesh, curves, dirichlet, r.discretisation);
+  r.pairs = std::move(contact.pairs);
+  r.warnings = std::move(contact.warnings);
   const Floating floating = find_floating(r.mesh, system.constraints);
   system.grounded = floating.grounded;
   system.start = starting_rows(start, r.mesh, r.pairs);
@@ -101,7 +124,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
 
   stage("solve");
   r.solution = solve_system(scene.method, system, unknowns_of(r.mesh, dirichlet));
-  require_solution(scene, r.mesh, r.pairs, floating, r.solution);
+  require_solution(r.mesh, r.pairs, floating, r.solution);
   for (const auto& mode : r.solution.rigid_modes.colwise())
     r.warnings.push_back(held_line(r.mesh, motion_through(r.mesh, floating.motions, floating.grounded, mode)));
   for (const int unknown : held_unknowns(floating.grounded, r.solution)) system.constraints.fixed[unknown] = 1;
@@ -125,6 +148,13 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
   append(r.warnings, audit_solution(r));
   r.seconds.recover = watch.lap();
   return r;
+}
+
+}  // namespace
+
+Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start,
+                    const Adjust& adjust) {
+  return told_with_path(scene, [&] { return solve_on(scene, std::move(mesh), progress, start, adjust); });
 }
 
 }  // namespace mortise

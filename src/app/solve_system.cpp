@@ -1,8 +1,8 @@
 #include "app/solve_system.hpp"
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "ddm/solve_ddm.hpp"
-#include "mesh/place.hpp"
 #include "solve/direct.hpp"
 #include "solve/mssor.hpp"
 
@@ -43,23 +43,22 @@ Solution solve_system(const Method& method, const SaddlePointSystem& system, con
   return {};
 }
 
-void require_solution(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                      const Floating& floating, const Solution& solution) {
+void require_solution(const Mesh& mesh, const std::vector<ContactPair>& pairs, const Floating& floating,
+                      const Solution& solution) {
   switch (solution.status) {
     case SolveStatus::converged:
     case SolveStatus::not_converged:
     case SolveStatus::diverged:
       return;
     case SolveStatus::not_positive_definite:
-      throw InputError(scene.path + ": the stiffness is not positive definite " +
-                       near_node(mesh, solution.failed_at / 2) +
+      throw SceneError("the stiffness is not positive definite " + near_node(mesh, solution.failed_at / 2) +
                        ": a part of a body that nothing holds, or elements far out of shape there");
     case SolveStatus::dependent_row:
-      throw InputError(scene.path + ": " + dependent_row(mesh, pairs, solution));
+      throw SceneError(dependent_row(mesh, pairs, solution));
     case SolveStatus::unconstrained:
-      throw InputError(scene.path + ": " + unconstrained(mesh, floating, solution));
+      throw SceneError(unconstrained(mesh, floating, solution));
     case SolveStatus::in_tension:
-      throw InputError(scene.path + ": " + solution.advice);
+      throw SceneError(solution.advice);
   }
 }
 

@@ -8,8 +8,8 @@ namespace mortise {
 /// `dirichlet`: of domain decomposition, n: the unknowns of the bodies that take the displacement.
 Solution solve_system(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet);
 
-/// Throws InputError, with the place, where the solver found none: what SolveStatus says of it.
-void require_solution(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                      const Floating& floating, const Solution& solution);
+/// Throws SceneError, with the place, where the solver found none: what SolveStatus says of it.
+void require_solution(const Mesh& mesh, const std::vector<ContactPair>& pairs, const Floating& floating,
+                      const Solution& solution);
 
 }  // namespace mortise

@@ -14,6 +14,13 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Bad input told without its file: solve_scene and check_scene put the scene's path before what() and throw that as an
+/// InputError.
+class SceneError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// The candidate nearest to `name` in edit distance; empty if none is near (more than half of its letters differ).
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
 

@@ -1,7 +1,9 @@
-// Text of others on its way to a terminal.
+// Text for messages.
 #pragma once
 
 #include <string>
+
+#include "base/types.hpp"
 
 namespace mortise {
 
@@ -12,5 +14,8 @@ std::string printable(const std::string& text);
 
 /// A line of more than 900 bytes without its middle.
 std::string in_short(const std::string& line);
+
+/// "near (0.4, 0.3)": where to look in the mesh, six digits.
+std::string near_point(const Vec2& point);
 
 }  // namespace mortise

@@ -4,9 +4,9 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "contact/segments.hpp"
 #include "fem/edges.hpp"
-#include "mesh/place.hpp"
 
 namespace mortise {
 namespace {

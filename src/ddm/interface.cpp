@@ -1,9 +1,10 @@
 #include "ddm/interface.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <memory>
 #include <numeric>
+
+#include "base/dense.hpp"
 
 namespace mortise {
 namespace {
@@ -59,8 +60,6 @@ int dependent_row(const std::array<Share, 2>& both) {
   const int first = both[0].stiffness->dependent_row();
   return first >= 0 ? first : both[1].stiffness->dependent_row();
 }
-
-VecX solve_small(const MatX& A, const VecX& b) { return A.cols() > 0 ? VecX(A.partialPivLu().solve(b)) : b; }
 
 }  // namespace
 
@@ -174,7 +173,7 @@ InterfaceIteration neumann_neumann(const Interface& s) {
   iteration.correction = [&s, both, taken, SH, HSH](const VecX& x) -> VecX {
     const auto lambda = taken(x);
     VecX jump = lambda[0] - lambda[1];
-    const VecX along = solve_small(HSH, s.H.transpose() * jump);
+    const VecX along = solve_square(HSH, s.H.transpose() * jump);
     jump -= SH * along;
     VecX z = s.H * along;
     for (const Share& share : both) z += share.weight * share.weight * (share.group->C * jump);
@@ -198,10 +197,10 @@ InterfaceIteration dirichlet_dirichlet(const Interface& s) {
   for (Eigen::Index k = 0; k < s.H.cols(); ++k) MH.col(k) = precondition(s.H.col(k));
   const MatX HMH = s.H.transpose() * MH;
   iteration.multipliers = [](const VecX& lambda) { return lambda; };
-  iteration.start = MH * solve_small(HMH, s.work);  // in balance
+  iteration.start = MH * solve_square(HMH, s.work);  // in balance
   iteration.correction = [&s, precondition, MH, HMH](const VecX& lambda) -> VecX {
     const VecX z = precondition(open(s, lambda));
-    return z + MH * solve_small(HMH, s.work - s.H.transpose() * (lambda + z));
+    return z + MH * solve_square(HMH, s.work - s.H.transpose() * (lambda + z));
   };
   return iteration;
 }

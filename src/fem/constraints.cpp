@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "mesh/place.hpp"
+#include "base/printable.hpp"
 
 namespace mortise {
 Constraints no_constraints(const Mesh& mesh) {

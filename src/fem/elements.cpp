@@ -3,8 +3,8 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "fem/edges.hpp"
-#include "mesh/place.hpp"
 
 namespace mortise {
 namespace {

@@ -1,13 +1,12 @@
 #include "fem/rigid_motions.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
 
 #include "base/columns.hpp"
+#include "base/dense.hpp"
 #include "mesh/body_points.hpp"
 
 namespace mortise {
@@ -113,11 +112,11 @@ MatX openings(const Bodies& bodies, const std::vector<ContactNormal>& normals) {
 std::vector<std::vector<RigidMotion>> unresisted(const Bodies& bodies, const Constraints& constraints,
                                                  const MatX& contact, double part) {
   const MatX gram = supports(bodies, constraints) + contact.transpose() * contact;
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(gram);
+  const SymmetricEigen eigen = symmetric_eigen(gram);
   Eigen::Index count = 0;  // relative to one fixed node
-  const double limit = part * part * std::max(1.0, eigen.eigenvalues()(gram.cols() - 1));
-  while (count < gram.cols() && eigen.eigenvalues()(count) <= limit) ++count;
-  const MatX apart = told_apart(eigen.eigenvectors().leftCols(count));
+  const double limit = part * part * std::max(1.0, eigen.values(gram.cols() - 1));
+  while (count < gram.cols() && eigen.values(count) <= limit) ++count;
+  const MatX apart = told_apart(eigen.vectors.leftCols(count));
   std::vector<std::vector<RigidMotion>> motions;
   for (Eigen::Index m = 0; m < count; ++m) {
     std::vector<RigidMotion> motion;
@@ -182,7 +181,7 @@ std::vector<RigidMotion> motion_through(const Mesh& mesh, const std::vector<std:
   const MatX fields = motion_fields(mesh, motions);
   MatX at(values.size(), fields.cols());
   for (Eigen::Index k = 0; k < values.size(); ++k) at.row(k) = fields.row(unknowns[k]);
-  const VecX parts = at.partialPivLu().solve(values);
+  const VecX parts = solve_square(at, values);
   std::map<int, RigidMotion> sum;  // by body
   for (std::size_t m = 0; m < motions.size(); ++m)
     for (const RigidMotion& motion : motions[m]) {

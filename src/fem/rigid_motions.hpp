@@ -22,7 +22,7 @@ struct ContactNormal {
 /// Motions of single bodies and of groups of bodies that neither the constraints nor `rows * u = 0` resist.
 /// `rows` (m x degrees of freedom) are the contact conditions that can hold a body; m may be zero.
 /// Each element is one free motion: the bodies that move in it (unit size: translations of about 1). No two motions
-/// are mixed that could be told apart: five loose bodies are five motions.
+/// are mixed that could be told apart: five floating bodies are five motions.
 std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Constraints& constraints,
                                                    const SparseMatrix& rows);
 

@@ -6,11 +6,11 @@
 #include <tuple>
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "io/element_types.hpp"
 #include "io/mesh_groups.hpp"
 #include "io/repeated.hpp"
 #include "mesh/orientation.hpp"
-#include "mesh/place.hpp"
 #include "mesh/renumber.hpp"
 
 namespace mortise {

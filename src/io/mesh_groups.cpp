@@ -6,7 +6,6 @@
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "base/types.hpp"
-#include "mesh/place.hpp"
 
 namespace mortise {
 namespace {

@@ -1,30 +1,33 @@
 #include "io/output_folder.hpp"
 
+#include <fcntl.h>
+#include <linux/fs.h>
 #include <signal.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cerrno>
 #include <charconv>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "base/errors.hpp"
-#include "io/exchange.hpp"
 
 namespace mortise {
-namespace {
 
 namespace fs = std::filesystem;
 
+namespace {
+
 /// All that mortise ever writes. Add a new output here: what is not listed is taken for the user's and carried over.
 constexpr std::array<std::string_view, 6> own_files{"result.vtu",          "contact.vtu",   "contact.csv",
-                                                    "contact_centres.csv", "interface.csv", "summary.json"};
+                                                    "contact_centres.csv", "iteration.csv", "summary.json"};
 constexpr std::string_view staging_suffix = ".mortise";
 
 bool is_listed(const std::string& name) {
@@ -125,6 +128,33 @@ void check_folder(const fs::path& shown, const fs::path& target) {
 
 }  // namespace
 
+fs::path aside_of(const fs::path& a) {
+  fs::path aside = a;
+  aside += "-old";
+  return aside;
+}
+
+void exchange_folders_in_steps(const fs::path& a, const fs::path& b, const fs::path& aside) {
+  fs::rename(b, aside);
+  try {
+    fs::rename(a, b);
+  } catch (const fs::filesystem_error&) {
+    fs::rename(aside, b);
+    throw;
+  }
+  fs::rename(aside, a);
+}
+
+void exchange_folders(const fs::path& a, const fs::path& b) {
+  if (syscall(SYS_renameat2, AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0) return;
+  // NFS and some FUSE file systems know no exchange.
+  if (errno == EINVAL || errno == ENOSYS || errno == ENOTSUP) {
+    exchange_folders_in_steps(a, b, aside_of(a));
+    return;
+  }
+  throw fs::filesystem_error("cannot exchange", a, b, std::error_code(errno, std::generic_category()));
+}
+
 void check_output_folder(const fs::path& target) try {
   check_folder(target, resolved(target));
 } catch (const fs::filesystem_error& error) {
@@ -154,7 +184,7 @@ OutputFolder::~OutputFolder() {
 }
 
 fs::path OutputFolder::path(const std::string& name) const {
-  assert(is_listed(name) && "a new output belongs into own_files");
+  if (!is_listed(name)) throw std::logic_error(name + ": a new output belongs into own_files");
   return staging_ / name;
 }
 

@@ -4,7 +4,7 @@
 #include <unordered_map>
 
 #include "base/errors.hpp"
-#include "mesh/place.hpp"
+#include "base/printable.hpp"
 
 namespace mortise {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "base/vectors.hpp"
-#include "mesh/place.hpp"
 
 namespace mortise {
 namespace {

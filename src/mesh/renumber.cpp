@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
-#include "mesh/place.hpp"
+#include "base/printable.hpp"
 
 namespace mortise {
 namespace {

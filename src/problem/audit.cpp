@@ -9,7 +9,7 @@ std::vector<std::string> audit_scene(const Scene& scene, const Mesh& mesh, const
   const AuditedBodies bodies = audited_bodies(mesh, pairs);
   if (bodies.outline.pieces.size() < 2) return {};
   const std::vector<Encounter> found = encounters(bodies);
-  LineOfBodies found_lines = overlap_lines(scene, bodies, found);
+  LineOfBodies found_lines = overlap_lines(bodies, found);
   found_lines.merge(meeting_lines(bodies, found));  // of two bodies the overlap speaks
   std::vector<std::string> lines;
   for (auto& [pair, line] : found_lines) lines.push_back(std::move(line));

@@ -15,9 +15,9 @@ using LineOfBodies = std::map<std::pair<int, int>, std::string>;
 LineOfBodies meeting_lines(const AuditedBodies& bodies, const std::vector<Encounter>& encounters);
 
 /// A line for each two bodies drawn into one another without a pair there.
-/// Throws InputError where one covers more than half of the other, or reaches deeper than a quarter of a thickness
+/// Throws SceneError where one covers more than half of the other, or reaches deeper than a quarter of a thickness
 /// without a pair: no interference that contact could press apart.
-LineOfBodies overlap_lines(const Scene& scene, const AuditedBodies& bodies, const std::vector<Encounter>& encounters);
+LineOfBodies overlap_lines(const AuditedBodies& bodies, const std::vector<Encounter>& encounters);
 
 /// Throws InputError where two names in the scene's loads have an edge in common.
 void refuse_double_loads(const Scene& scene, const Mesh& mesh);

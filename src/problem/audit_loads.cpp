@@ -3,9 +3,9 @@
 #include <tuple>
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "contact/segments.hpp"
 #include "fem/edges.hpp"
-#include "mesh/place.hpp"
 #include "problem/audit_lines.hpp"
 
 namespace mortise {

@@ -1,6 +1,6 @@
 #include <sstream>
 
-#include "mesh/place.hpp"
+#include "base/printable.hpp"
 #include "problem/audit_lines.hpp"
 
 namespace mortise {

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "mesh/place.hpp"
+#include "base/printable.hpp"
 #include "problem/audit_lines.hpp"
 
 namespace mortise {
@@ -91,10 +91,10 @@ double covered_part(const AuditedBodies& b, int first, int second, const Overlap
 // Of a strip its width.
 double thickness(const PieceOutline& piece) { return 2 * piece.area / piece.perimeter; }
 
-[[noreturn]] void refuse(const Scene& scene, const AuditedBodies& b, int first, int second, const Vec2& place) {
-  throw InputError(
-      scene.path + ": " + two_bodies(b.mesh, b.outline.pieces[first].body, b.outline.pieces[second].body) +
-      " are drawn over one another " + near_point(place) +
+[[noreturn]] void refuse(const AuditedBodies& b, int first, int second, const Vec2& place) {
+  throw SceneError(
+      two_bodies(b.mesh, b.outline.pieces[first].body, b.outline.pieces[second].body) + " are drawn over one another " +
+      near_point(place) +
       "; expected every place in one body at most (in a .geo: BooleanDifference cuts one out of the other)");
 }
 
@@ -110,7 +110,7 @@ std::string line(const AuditedBodies& b, const Overlap& overlap, int first, int 
 
 }  // namespace
 
-LineOfBodies overlap_lines(const Scene& scene, const AuditedBodies& b, const std::vector<Encounter>& encounters) {
+LineOfBodies overlap_lines(const AuditedBodies& b, const std::vector<Encounter>& encounters) {
   std::map<std::pair<int, int>, std::vector<const Encounter*>> directions;
   for (const Encounter& e : encounters)
     if (e.inside > 0) directions[{b.outline.edges[e.edge].piece, e.piece}].push_back(&e);
@@ -126,7 +126,7 @@ LineOfBodies overlap_lines(const Scene& scene, const AuditedBodies& b, const std
       const auto& inside = directions.count(pieces) ? directions[pieces] : directions[{pieces.second, pieces.first}];
       std::vector<int> edges;
       for (const Encounter* e : inside) edges.push_back(e->edge);
-      refuse(scene, b, pieces.first, pieces.second, middle_of(b, edges));
+      refuse(b, pieces.first, pieces.second, middle_of(b, edges));
     }
     if (overlap.edges[0].empty() || overlap.depth == 0) continue;
     Overlap& deepest = by_body[std::minmax(first.body, second.body)];

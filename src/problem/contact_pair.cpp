@@ -4,9 +4,9 @@
 #include <map>
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "fem/edges.hpp"
 #include "mesh/body_points.hpp"
-#include "mesh/place.hpp"
 #include "mesh/thickness.hpp"
 
 namespace mortise {
@@ -65,7 +65,7 @@ std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh) 
     ContactCurves contact{.spec = spec, .curves = {}};
     for (int i = 0; i < 2; ++i) {
       Curve& curve = contact.curves[i];
-      curve = contact_curve(mesh, scene_boundary(scene, mesh, spec.key + ".between", spec.between[i]));
+      curve = contact_curve(mesh, scene_boundary(mesh, spec.key + ".between", spec.between[i]));
       contact.edge_size[i] = curve_length(mesh.nodes, curve) / double(curve.edges.size());
     }
     all.push_back(std::move(contact));

@@ -51,7 +51,7 @@ void add_shared_nodes(const Mesh& mesh, std::vector<Link>& links) {
 }
 
 // One set of bodies that hang together, dealt out in two: sides[b] is 0 or 1, -1 for bodies of other sets.
-std::vector<int> deal_out(const Scene& scene, const Mesh& mesh, const std::vector<Link>& links, int first) {
+std::vector<int> deal_out(const Mesh& mesh, const std::vector<Link>& links, int first) {
   std::vector<int> side(mesh.bodies.size(), -1);
   side[first] = 0;
   for (bool changed = true; changed;) {
@@ -62,8 +62,8 @@ std::vector<int> deal_out(const Scene& scene, const Mesh& mesh, const std::vecto
       if (a < 0 && b < 0) continue;
       if (a >= 0 && b >= 0) {
         if ((a != b) != link.differ)
-          throw InputError(
-              scene.path + ": " + link.key + ": '" + mesh.bodies[link.body] + "' and '" + mesh.bodies[link.other] +
+          throw SceneError(
+              link.key + ": '" + mesh.bodies[link.body] + "' and '" + mesh.bodies[link.other] +
               "' cannot take the displacement in turns: domain decomposition needs bodies in a chain, "
               "each in contact with others of the opposite role only; expected method.solver = \"direct\"");
         continue;
@@ -75,13 +75,13 @@ std::vector<int> deal_out(const Scene& scene, const Mesh& mesh, const std::vecto
   return side;
 }
 
-// The side whose bodies take the displacement, as the scene says it; -1 if it says nothing.
-int named_side(const Scene& scene, const Mesh& mesh, const std::vector<int>& side) {
+// The side whose bodies take the displacement by their `names`; -1 if none does.
+int named_side(const std::vector<std::string>& names, const Mesh& mesh, const std::vector<int>& side) {
   int named = -1;
-  for (const std::string& name : scene.method.dirichlet) {
+  for (const std::string& name : names) {
     const int s = side[body_index(mesh, name)];
     if (s >= 0 && named >= 0 && s != named)
-      throw InputError(scene.path + ": method.dirichlet: '" + name + "' is in contact with a body of the same role");
+      throw SceneError("method.dirichlet: '" + name + "' is in contact with a body of the same role");
     named = std::max(named, s);
   }
   return named;
@@ -108,15 +108,15 @@ int softer_side(const std::vector<Link>& links, const std::vector<int>& side, co
 
 }  // namespace
 
-std::vector<char> dirichlet_bodies(const Scene& scene, const Mesh& mesh, const Discretisation& d,
+std::vector<char> dirichlet_bodies(const std::vector<std::string>& names, const Mesh& mesh, const Discretisation& d,
                                    const std::vector<ContactCurves>& contacts) {
   std::vector<Link> links = contact_links(mesh, contacts, d.system.constraints);
   add_shared_nodes(mesh, links);
   std::vector<char> dirichlet(mesh.bodies.size(), 0), dealt(mesh.bodies.size(), 0);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     if (dealt[links[k].body]) continue;
-    const std::vector<int> side = deal_out(scene, mesh, links, links[k].body);
-    const int named = named_side(scene, mesh, side);
+    const std::vector<int> side = deal_out(mesh, links, links[k].body);
+    const int named = named_side(names, mesh, side);
     const int chosen = named >= 0 ? named : softer_side(links, side, d.laws);
     for (std::size_t b = 0; b < side.size(); ++b) {
       if (side[b] < 0) continue;

@@ -8,13 +8,10 @@
 namespace mortise {
 namespace {
 
-[[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
-  throw InputError(scene.path + ": " + key + ": " + what);
-}
-
-int find_body(const Scene& scene, const Mesh& mesh, const std::string& key, const std::string& name) {
+int find_body(const Mesh& mesh, const std::string& key, const std::string& name) {
   const auto found = std::find(mesh.bodies.begin(), mesh.bodies.end(), name);
-  if (found == mesh.bodies.end()) fail(scene, key, unknown_name("body", name, mesh.bodies) + " (" + mesh.source + ")");
+  if (found == mesh.bodies.end())
+    throw SceneError(key + ": " + unknown_name("body", name, mesh.bodies) + " (" + mesh.source + ")");
   return int(found - mesh.bodies.begin());
 }
 
@@ -22,25 +19,25 @@ int find_body(const Scene& scene, const Mesh& mesh, const std::string& key, cons
 std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh) {
   std::vector<const Material*> materials(mesh.bodies.size(), nullptr);
   for (const BodySpec& body : scene.bodies)
-    materials[find_body(scene, mesh, "bodies." + body.name, body.name)] = &scene.materials.at(body.material);
+    materials[find_body(mesh, "bodies." + body.name, body.name)] = &scene.materials.at(body.material);
   std::vector<Vec4> strains(mesh.bodies.size(), Vec4::Zero());
   for (const InitialStrainSpec& spec : scene.initial_strains) {
-    const int b = find_body(scene, mesh, spec.key, spec.body);
+    const int b = find_body(mesh, spec.key, spec.body);
     strains[b] += spec.strain;
     if (spec.temperature_change && materials[b])
       strains[b].head<3>().array() += materials[b]->thermal_expansion * *spec.temperature_change;
   }
   std::vector<ElasticLaw> laws;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
-    if (!materials[b]) fail(scene, "bodies", "body '" + mesh.bodies[b] + "' of " + mesh.source + " has no material");
+    if (!materials[b]) throw SceneError("bodies: body '" + mesh.bodies[b] + "' of " + mesh.source + " has no material");
     laws.push_back(elastic_law(materials[b]->young, materials[b]->poisson, scene.plane, strains[b]));
   }
   return laws;
 }
 
-void apply(const Scene& scene, const Mesh& mesh, const BoundarySpec& spec, Discretisation& d) {
+void apply(const Mesh& mesh, const BoundarySpec& spec, Discretisation& d) {
   for (const std::string& name : spec.on) {
-    const int boundary = scene_boundary(scene, mesh, spec.key + ".on", name);
+    const int boundary = scene_boundary(mesh, spec.key + ".on", name);
     if (spec.displacement_x) prescribe(mesh, boundary, 0, *spec.displacement_x, d.system.constraints);
     if (spec.displacement_y) prescribe(mesh, boundary, 1, *spec.displacement_y, d.system.constraints);
     if (spec.pressure)
@@ -62,10 +59,11 @@ double area(const Mesh& mesh, int body) {
 
 }  // namespace
 
-int scene_boundary(const Scene& scene, const Mesh& mesh, const std::string& key, const std::string& name) {
+int scene_boundary(const Mesh& mesh, const std::string& key, const std::string& name) {
   const std::vector<std::string> names = boundary_names(mesh);
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) fail(scene, key, unknown_name("boundary", name, names) + " (" + mesh.source + ")");
+  if (found == names.end())
+    throw SceneError(key + ": " + unknown_name("boundary", name, names) + " (" + mesh.source + ")");
   return int(found - names.begin());
 }
 
@@ -82,12 +80,12 @@ Discretisation discretise(const Scene& scene, const Mesh& mesh) {
   d.system.f = d.initial_load;
   for (const BodyForceSpec& spec : scene.body_forces) {
     const Vec2 before = sum(d.system.f);
-    add_body_force(mesh, find_body(scene, mesh, spec.key, spec.body), spec.force, d.system.f);
+    add_body_force(mesh, find_body(mesh, spec.key, spec.body), spec.force, d.system.f);
     d.body_sums.push_back(sum(d.system.f) - before);
   }
   for (const BoundarySpec& spec : scene.boundaries) {
     const Vec2 before = sum(d.system.f);
-    apply(scene, mesh, spec, d);
+    apply(mesh, spec, d);
     d.boundary_sums.push_back(sum(d.system.f) - before);
   }
   d.system.K = assemble_stiffness(mesh, d.laws);

@@ -18,12 +18,12 @@ struct Discretisation {
   std::vector<Vec2> boundary_sums, body_sums;
 };
 
-/// Throws InputError where the scene names a body or boundary that the mesh does not have, leaves a body without
+/// Throws SceneError where the scene names a body or boundary that the mesh does not have, leaves a body without
 /// material, or prescribes two values at one node.
 Discretisation discretise(const Scene& scene, const Mesh& mesh);
 
-/// Index of the boundary that `key` of the scene names. Throws InputError with the known names.
-int scene_boundary(const Scene& scene, const Mesh& mesh, const std::string& key, const std::string& name);
+/// Index of the boundary that `key` of the scene names. Throws SceneError with the known names.
+int scene_boundary(const Mesh& mesh, const std::string& key, const std::string& name);
 
 /// Strain energy 1/2 int (eps - eps0) : C : (eps - eps0), per thickness (J/m in SI).
 double strain_energy(const Discretisation& discretisation, const VecX& u);

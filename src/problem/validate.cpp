@@ -4,9 +4,9 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "contact/curve_resolution.hpp"
 #include "contact/smooth_normals.hpp"
-#include "mesh/place.hpp"
 
 namespace mortise {
 namespace {
@@ -47,14 +47,14 @@ Floating find_floating(const Mesh& mesh, const Constraints& constraints) {
   return floating;
 }
 
-std::vector<std::string> hold_free_motions(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs,
+std::vector<std::string> hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
                                            const std::vector<std::string>& findings, SaddlePointSystem& system) {
   std::vector<std::string> lines;
   const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions, double round_off) {
     const MatX fields = motion_fields(mesh, motions);
     for (std::size_t k = 0; k < motions.size(); ++k) {
       if (drives(system.f, fields.col(k), round_off))
-        throw InputError(scene.path + ": nothing holds " + describe(mesh, motions[k]) +
+        throw SceneError("nothing holds " + describe(mesh, motions[k]) +
                          "; expected prescribed displacements or contact that prevent it" +
                          (findings.empty() ? "" : ": " + findings.front()));
       lines.push_back(held_line(mesh, motions[k]));
@@ -79,17 +79,17 @@ std::string held_line(const Mesh& mesh, const std::vector<RigidMotion>& motion) 
          ", but no load drives it either: held at zero, which changes no pressure";
 }
 
-void require_closed(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs) {
+void require_closed(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
   for (const ContactPair& pair : pairs) {
     if (pair.spec.initial_gap != InitialGap::closed) continue;
     const auto open = open_place(mesh.nodes, pair.multiplier, pair.opposite, pair.points);
     if (!open) continue;
     std::ostringstream text;
-    text << scene.path << ": " << pair.spec.key << ".initial_gap = \"closed\", but '" << pair.spec.between[0]
-         << "' and '" << pair.spec.between[1] << "' are " << open->gap << " apart " << near_point(open->position)
+    text << pair.spec.key << ".initial_gap = \"closed\", but '" << pair.spec.between[0] << "' and '"
+         << pair.spec.between[1] << "' are " << open->gap << " apart " << near_point(open->position)
          << ", where two meshes of one curve differ by at most " << open->limit
          << "; expected initial_gap = \"measured\", or curves that are one curve";
-    throw InputError(text.str());
+    throw SceneError(text.str());
   }
 }
 

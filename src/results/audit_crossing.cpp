@@ -3,10 +3,10 @@
 #include <map>
 #include <sstream>
 
+#include "base/printable.hpp"
 #include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
-#include "mesh/place.hpp"
-#include "results/audit_after.hpp"
+#include "results/audit_solution.hpp"
 
 namespace mortise {
 namespace {

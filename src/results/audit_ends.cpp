@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "base/printable.hpp"
 #include "fem/edges.hpp"
-#include "mesh/place.hpp"
-#include "results/audit_after.hpp"
+#include "results/audit_solution.hpp"
 
 namespace mortise {
 namespace {

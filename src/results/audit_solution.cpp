@@ -1,7 +1,5 @@
 #include "results/audit_solution.hpp"
 
-#include "results/audit_after.hpp"
-
 namespace mortise {
 
 std::vector<std::string> audit_solution(const Results& r) {

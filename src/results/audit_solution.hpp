@@ -1,12 +1,19 @@
 // What a solution shows that the scene probably does not mean.
 #pragma once
 
+#include "problem/audited_bodies.hpp"
 #include "results/results.hpp"
 
 namespace mortise {
 
-/// One line for each pair whose contact reaches the end of a curve although the boundary goes on smoothly; and for each
-/// two bodies that pass through one another where no pair stands between them. Nothing where the run did not converge.
+/// The lines below; nothing where the run did not converge.
 std::vector<std::string> audit_solution(const Results& results);
+
+/// A line for each unilateral pair whose contact reaches the end of a curve although the boundary goes on smoothly
+/// there and still faces the other body.
+std::vector<std::string> end_lines(const AuditedBodies& bodies, const Results& results);
+
+/// A line for each two bodies that pass through one another in the deformed state where no pair stands between them.
+std::vector<std::string> crossing_lines(const AuditedBodies& bodies, const Results& results);
 
 }  // namespace mortise

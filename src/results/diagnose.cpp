@@ -2,8 +2,8 @@
 
 #include <sstream>
 
+#include "base/printable.hpp"
 #include "contact/pressure_norm.hpp"
-#include "mesh/place.hpp"
 #include "solve/inf_sup.hpp"
 
 namespace mortise {

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <sstream>
 
+#include "base/printable.hpp"
 #include "base/vectors.hpp"
 #include "fem/edges.hpp"
-#include "mesh/place.hpp"
 
 namespace mortise {
 namespace {

@@ -4,7 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "mesh/place.hpp"
+#include "base/printable.hpp"
 #include "results/diagnose.hpp"
 #include "results/model_summary.hpp"
 

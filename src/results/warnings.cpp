@@ -7,8 +7,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "base/printable.hpp"
 #include "contact/curve_resolution.hpp"
-#include "mesh/place.hpp"
 #include "results/checks.hpp"
 #include "results/large_displacement.hpp"
 

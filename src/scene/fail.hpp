@@ -1,6 +1,7 @@
-// Refusing a scene: one line that says where, what and why.
+// Refusing a scene: one line that says where, what and why; and names that may be used once.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "scene/node.hpp"
@@ -20,5 +21,20 @@ std::string locate(const Node& node);
 
 /// Of two values that do not go together the one to blame: `second`, unless only `first` comes from an override.
 const Node& blame(const Node& first, const Node& second);
+
+/// Remembers who took a name first.
+class Once {
+ public:
+  /// Throws if `what` ("curve 'top' carries a load") was taken before. `node` is where that is written now,
+  /// `entry` the entry it belongs to, for the message. Both must outlive this object.
+  void take(const std::string& what, const Node& node, const Node& entry);
+
+ private:
+  struct Taker {
+    const Node* node;
+    const Node* entry;
+  };
+  std::map<std::string, Taker> takers_;
+};
 
 }  // namespace mortise::scene_file

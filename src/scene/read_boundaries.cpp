@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/fail.hpp"
 #include "scene/fields.hpp"
-#include "scene/once.hpp"
 #include "scene/sections.hpp"
 
 namespace mortise::scene_file {

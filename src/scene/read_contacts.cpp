@@ -1,6 +1,6 @@
 // [[contact]]
+#include "scene/fail.hpp"
 #include "scene/fields.hpp"
-#include "scene/once.hpp"
 #include "scene/sections.hpp"
 
 namespace mortise::scene_file {

@@ -113,7 +113,7 @@ void iterate(const ComplementarityProblem& p, const VecX& rhs, std::vector<char>
   }
 }
 
-// The active set of the problem with rows joined, level upon level, for the rows of `fine`.
+// The active set of the coarse problems, level upon level, for the rows of `fine`.
 std::vector<char> guess(const ComplementarityProblem& fine, const VecX& rhs, const ActiveSetOptions& options,
                         int& steps) {
   std::vector<char> active(fine.scale.size(), 1);

@@ -195,9 +195,10 @@ Solution solve_by_mssor(const SaddlePointSystem& s, const MssorOptions& options)
   if (largest(solution.force_residual, solution.constraint_residual) <= options.tolerance)
     solution.status = SolveStatus::converged;
   solution.iteration = record(reduced, options, monitor);
-  const double pull = tension(s, solution.lambda);
-  solution.steps.push_back({.active = int(reduced.m()), .tension = pull});
-  if (solution.status == SolveStatus::converged && pull > tension_tolerance * largest_entry(solution.lambda)) {
+  const double largest_tension = tension(s, solution.lambda);
+  solution.steps.push_back({.active = int(reduced.m()), .tension = largest_tension});
+  if (solution.status == SolveStatus::converged &&
+      largest_tension > tension_tolerance * largest_entry(solution.lambda)) {
     solution.status = SolveStatus::in_tension;
     solution.advice =
         "method.solver = \"mssor\" is for contact that stays closed, and contact is in tension here; expected solver = "

@@ -19,7 +19,7 @@ namespace mortise {
 ///           indefinite M and A; needs about as many steps as GMRES, which would keep every direction
 ///   minres  MINRES (Paige & Saunders 1975), whose preconditioner must be positive definite: diag(Q, S / tau)
 /// Converged is what measure_residuals says of u and lambda in the system's own units; diverged: a residual 1e6 times
-/// the smallest seen; in_tension: a unilateral row pulls.
+/// the smallest seen; in_tension: a unilateral row is in tension.
 /// Figures of the iteration: omega, tau and, of the stationary method, tau_limit (solve/tau_limit.hpp).
 Solution solve_by_mssor(const SaddlePointSystem& system, const MssorOptions& options);
 

@@ -1,9 +1,9 @@
 #include "solve/multiplier_system.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "base/columns.hpp"
+#include "base/dense.hpp"
 
 namespace mortise {
 namespace {
@@ -35,12 +35,12 @@ MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs,
   }
   const double one_row =
       compliance.bottomLeftCorner(springs_, m_).cwiseAbs2().maxCoeff() / compliance.diagonal().head(m_).maxCoeff();
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(T);
+  const SymmetricEigen eigen = symmetric_eigen(T);
   Eigen::Index free = 0;
-  while (free < springs_ && !(eigen.eigenvalues()(free) > rigid_limit * one_row)) ++free;
-  rigid_modes_ = told_apart(eigen.eigenvectors().leftCols(free));
-  held_ = eigen.eigenvectors().rightCols(springs_ - free);
-  stiffness_ = eigen.eigenvalues().tail(springs_ - free);
+  while (free < springs_ && !(eigen.values(free) > rigid_limit * one_row)) ++free;
+  rigid_modes_ = told_apart(eigen.vectors.leftCols(free));
+  held_ = eigen.vectors.rightCols(springs_ - free);
+  stiffness_ = eigen.values.tail(springs_ - free);
 }
 
 int MultiplierSystem::dependent_row() const {

@@ -1,7 +1,8 @@
 #include "solve/tau_limit.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <limits>
+
+#include "base/dense.hpp"
 
 namespace mortise {
 namespace {
@@ -58,8 +59,7 @@ double tau_limit(const SweepSystem& s, double omega) {
       for (std::size_t i = 0; i < basis.size(); ++i) v -= images[i].dot(v) * basis[i];
     Sv = S * v;
   }
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(T.topLeftCorner(k, k), Eigen::EigenvaluesOnly);
-  return 1 / eigen.eigenvalues()(k - 1);
+  return 1 / symmetric_eigen(T.topLeftCorner(k, k)).values(k - 1);
 }
 
 }  // namespace mortise

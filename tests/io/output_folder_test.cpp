@@ -11,7 +11,6 @@
 
 #include "../mesh/grid.hpp"
 #include "base/errors.hpp"
-#include "io/exchange.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -76,6 +75,14 @@ TEST(OutputFolder, ReplacesOurFilesAndKeepsTheUsers) {
   EXPECT_EQ(text_of(target / "notes.txt"), "mine");
   EXPECT_EQ(text_of(target / "pictures" / "a.png"), "mine too");
   EXPECT_EQ(names_in(scratch.path()), Names{"run1"});
+}
+
+TEST(OutputFolder, WritesOnlyWhatItWouldReplace) {
+  const TemporaryFolder scratch;
+  const OutputFolder folder(scratch.path() / "run1");
+  for (const char* name : {"result.vtu", "contact.vtu", "contact.csv", "contact_centres.csv", "iteration.csv"})
+    EXPECT_EQ(folder.path(name).filename(), name);
+  EXPECT_THROW(folder.path("notes.txt"), std::logic_error);
 }
 
 TEST(OutputFolder, KeepsThePermissionsOfTheFolder) {

@@ -155,7 +155,8 @@ void print_row(const Case& c, int repeats) {
 void print_table(const std::list<Case>& cases, const Options& options, double empty_megabytes) {
   std::printf(
       "\nlimit: CHOLMOD analyse (AMD) + factorise (supernodal) + solve of the grounded stiffness.\n"
-      "whole: solve_scene from the mesh to recovered stresses. Medians of %d runs, in turns; range: of the\n"
+      "whole: solve_scene from the mesh to recovered stresses. Medians of %d runs, one case after the other; range: of "
+      "the\n"
       "single pairs' ratios; threads: %s. MB: peak of a process that does nothing else, mesh and libraries\n"
       "(%.0f MB) included.\n\n",
       options.repeats, options.threads > 0 ? std::to_string(options.threads).c_str() : "as mortise chooses",
