@@ -68,9 +68,9 @@ TEST(MultiplierRows, WhatWeighsNothingSharesTheNearest) {
 
 TEST(MultiplierRows, WhatHardlyFacesSharesTheNearestUnlessTheSidesAreFarApart) {
   Rows r;
-  r.support.faced(0) = 0.05 * r.h;  // of an edge of h
-  r.support.faced(3) = 0.1 * r.h;   // of two
-  EXPECT_EQ(r.numbered(), (std::vector<int>{0, 0, 1, 1, 2, 3, 4}));
+  r.support.faced(0) = 0.05 * r.h;                                   // of an edge of h
+  r.support.faced(3) = 0.1 * r.h;                                    // of two
+  EXPECT_EQ(r.numbered(), (std::vector<int>{0, 0, 1, 2, 2, 3, 4}));  // of two as near the one after
   Rows apart;
   apart.support.faced(0) = 0.05 * r.h;
   apart.support.nearest(0) = 0.6 * r.h;
