@@ -30,10 +30,23 @@ std::string to_string(InitialGap value) {
   switch (value) {
     case InitialGap::measured:
       return "measured";
+    case InitialGap::curve:
+      return "curve";
     case InitialGap::closed:
       return "closed";
   }
   assert(false && "no such InitialGap");
+  return {};
+}
+
+std::string to_string(Normals value) {
+  switch (value) {
+    case Normals::edges:
+      return "edges";
+    case Normals::curve:
+      return "curve";
+  }
+  assert(false && "no such Normals");
   return {};
 }
 

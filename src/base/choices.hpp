@@ -8,7 +8,10 @@ namespace mortise {
 
 enum class Plane { strain, stress };
 enum class Condition { unilateral, bilateral };
-enum class InitialGap { measured, closed };
+enum class InitialGap { measured, curve, closed };
+
+/// Along which normals contact acts: those of the multiplier side's edges, or of the curve that they stand for.
+enum class Normals { edges, curve };
 enum class Integration { segments, elements };
 enum class Multipliers { quadratic, linear, dual };
 
@@ -38,6 +41,7 @@ struct MssorOptions {
 std::string to_string(Plane value);
 std::string to_string(Condition value);
 std::string to_string(InitialGap value);
+std::string to_string(Normals value);
 std::string to_string(Integration value);
 std::string to_string(Multipliers value);
 std::string to_string(Solver value);

@@ -58,7 +58,7 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
         sums.support.weight(a) += psi(i);
         sums.support.faced(a) += p.ds;
         sums.support.nearest(a) = std::min(sums.support.nearest(a), std::max(p.gap, 0.0));
-        if (options.initial_gap == InitialGap::measured) sums.gap(a) += psi(i) * p.gap;
+        if (options.initial_gap != InitialGap::closed) sums.gap(a) += psi(i) * p.gap;
         for (int c = 0; c < 2; ++c) {
           for (int b = 0; b < edge.node_count; ++b)
             sums.B.emplace_back(a, 2 * edge.nodes[b] + c, -psi(i) * N.N[b] * p.normal(c));

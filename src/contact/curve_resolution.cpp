@@ -94,24 +94,6 @@ Turn sharpest_edge(const Points& nodes, const Curve& curve) {
   return sharpest;
 }
 
-std::optional<StraightSides> straight_sides(const Points& nodes, const Curve& curve) {
-  StraightSides found{0, 0, Vec2::Zero()};
-  for_neighbours(curve, [&](const Edge& edge, const Edge& next) {
-    const EdgePoint before = edge_point(nodes, edge, 1), after = edge_point(nodes, next, -1);
-    const double turn = angle_between(before.normal(), after.normal());
-    const auto bend = [&](const Edge& e) {
-      return angle_between(edge_point(nodes, e, -1).normal(), edge_point(nodes, e, 1).normal());
-    };
-    if (edge.node_count == 2 || turn < kink / 20 || turn > kink) return;
-    if (std::max(bend(edge), bend(next)) > 0.1 * turn) return;
-    ++found.vertices;
-    const double sagitta = std::max(edge_length(nodes, edge), edge_length(nodes, next)) * turn / 8;
-    if (sagitta > found.sagitta) found = {found.vertices, sagitta, before.position};
-  });
-  if (found.vertices < 3) return {};
-  return found;
-}
-
 std::optional<Turn> missed_kink(const Points& nodes, const Curve& curve, const Curve& other) {
   std::optional<Turn> sharpest;
   for_neighbours(curve, [&](const Edge& edge, const Edge& next) {

@@ -40,14 +40,4 @@ Turn sharpest_edge(const Points& nodes, const Curve& curve);
 /// line.
 std::optional<Turn> missed_kink(const Points& nodes, const Curve& curve, const Curve& other);
 
-/// 3-node edges whose middle nodes lie on the chords although the curve turns at their vertices.
-struct StraightSides {
-  int vertices;    ///< at which the curve turns by 1 to 20 degrees between straight edges
-  double sagitta;  ///< how far the curve lies from the longest such chord, h theta / 8, length
-  Vec2 position;   ///< the vertex of that chord
-};
-
-/// Nothing below three such vertices: fewer may be kinks that are meant.
-std::optional<StraightSides> straight_sides(const Points& nodes, const Curve& curve);
-
 }  // namespace mortise

@@ -46,7 +46,7 @@ std::optional<double> prescribed_gap(const Mesh& mesh, const Curve& multiplier, 
   const auto hit = project_onto_curve(mesh.nodes, opposite, line);
   if (!hit) return {};
   const auto value = [&](int node) { return constraints.value.segment<2>(2 * node).dot(n); };
-  double gap = (initial_gap == InitialGap::measured ? hit->distance : 0) - value(edge.nodes[local]);
+  double gap = (initial_gap == InitialGap::closed ? 0 : hit->distance) - value(edge.nodes[local]);
   const Edge& other = opposite.edges[hit->edge];
   const EdgeShape s = edge_shape(other.node_count, hit->xi);
   for (int b = 0; b < other.node_count; ++b) {

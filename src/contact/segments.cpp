@@ -63,7 +63,7 @@ std::vector<Segment> find_segments(const Points& nodes, const Curve& multiplier,
 }
 
 std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multiplier, const Curve& opposite,
-                                         Integration integration) {
+                                         Integration integration, const ContactLines* lines) {
   std::vector<Segment> pieces;
   if (integration == Integration::segments) {
     pieces = find_segments(nodes, multiplier, opposite);
@@ -78,14 +78,29 @@ std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multi
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const double half = (piece.end - piece.begin) / 2, xi = piece.begin + half * (1 + rule.points[q]);
       const EdgePoint p = edge_point(nodes, edge, xi);
+      Vec2 n = p.normal();
+      if (lines && lines->normals)
+        if (const auto foot = lines->multiplier.foot(piece.edge, p.position, xi))
+          n = lines->multiplier.at(piece.edge, *foot).normal();
       // A segment knows its opposite edge; the whole curve is asked where a cut was merged away (or there are none).
       std::optional<Hit> hit;
-      const Line line{p.position, p.normal(), deepest_overlap(multiplier, piece.edge)};
+      const Line line{p.position, n, deepest_overlap(multiplier, piece.edge)};
       if (piece.opposite_edge >= 0) hit = project_onto_edge(nodes, opposite, piece.opposite_edge, line);
       if (!hit) hit = project_onto_curve(nodes, opposite, line);
       if (!hit) continue;
-      points.push_back(
-          {piece.edge, xi, rule.weights[q] * half * p.jacobian(), p.normal(), hit->edge, hit->xi, hit->distance});
+      double gap = hit->distance;
+      if (lines && lines->gap) {
+        const Vec2 y = p.position + hit->distance * n;
+        gap += offset(lines->opposite, hit->edge, hit->xi, y, n) -
+               offset(lines->multiplier, piece.edge, xi, p.position, n);
+      }
+      points.push_back({.edge = piece.edge,
+                        .xi = xi,
+                        .ds = rule.weights[q] * half * p.jacobian(),
+                        .normal = n,
+                        .opposite_edge = hit->edge,
+                        .eta = hit->xi,
+                        .gap = gap});
     }
   }
   return points;

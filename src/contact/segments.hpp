@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/choices.hpp"
+#include "contact/contact_line.hpp"
 #include "contact/projection.hpp"
 
 namespace mortise {
@@ -28,13 +29,15 @@ struct ContactPoint {
   Vec2 normal;  ///< unit, out of the multiplier side's body
   int opposite_edge;
   double eta;  ///< reference coordinate on the opposite edge
-  double gap;  ///< (x_opposite - x_multiplier) . normal, undeformed, length, positive when open
+  /// Undeformed, along the normal, length, positive when open: between the edges, or between the curves.
+  double gap;
 };
 
 /// Gauss points on each segment: exact on straight edges for the product of both sides' shape functions.
 /// Integration::elements takes the same rule on whole edges without cutting; points that face nothing are left out.
+/// `lines`: normals and gaps are those of the curves, at the foot of each point; none: of the edges.
 std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multiplier, const Curve& opposite,
-                                         Integration integration);
+                                         Integration integration, const ContactLines* lines = nullptr);
 
 /// The part of a curve's length that faces the other curve, 0 ... 1, asked at two points an edge.
 double covered_part(const Points& nodes, const Curve& curve, const Curve& opposite);

@@ -95,11 +95,16 @@ std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, co
     ContactPair pair{.spec = spec,
                      .multiplier = std::move(contact.curves[second ? 1 : 0]),
                      .opposite = std::move(contact.curves[second ? 0 : 1]),
+                     .lines = {},
                      .points = {},
                      .coupling = {},
                      .first_row = first_row};
     pair.spec.multipliers_on = spec.between[second ? 1 : 0];
-    pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, method.integration);
+    const bool normals = method.normals == Normals::curve, gap = spec.initial_gap == InitialGap::curve;
+    if (normals || gap)
+      pair.lines = ContactLines{{mesh.nodes, pair.multiplier}, {mesh.nodes, pair.opposite}, normals, gap};
+    pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, method.integration,
+                                 pair.lines ? &*pair.lines : nullptr);
     pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, d.system.constraints,
                            {method.multipliers, spec.initial_gap});
     first_row += int(pair.coupling.B.rows());

@@ -19,6 +19,7 @@ std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh);
 struct ContactPair {
   ContactSpec spec;
   Curve multiplier, opposite;
+  std::optional<ContactLines> lines;  ///< where normals or gaps are the curves'
   std::vector<ContactPoint> points;
   Coupling coupling;
   int first_row = 0;  ///< of its rows, in those of all pairs below one another

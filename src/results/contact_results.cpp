@@ -33,12 +33,17 @@ Vec2 mirrored(const Vec2& n, const Constraints& constraints, int node) {
   return m.norm() > 1e-3 ? m.normalized() : n;
 }
 
-std::vector<CurveNode> nodes_along(const Mesh& mesh, const Curve& curve, const Constraints& constraints) {
+// `line`: whose normals are taken instead of the edges'.
+std::vector<CurveNode> nodes_along(const Mesh& mesh, const Curve& curve, const Constraints& constraints,
+                                   const ContactLine* line) {
+  const auto normal_at = [&](int e, double xi) {
+    return line ? line->at(e, xi).normal() : edge_point(mesh.nodes, curve.edges[e], xi).normal();
+  };
   std::vector<CurveNode> list;
   double s = 0;
   for (int e = 0; e < int(curve.edges.size()); ++e) {
     const Edge& edge = curve.edges[e];
-    const Vec2 n = edge_point(mesh.nodes, edge, -1).normal();
+    const Vec2 n = normal_at(e, -1);
     if (e == 0) {
       list.push_back({edge.nodes[0], s, {e, -1}, n});
     } else {
@@ -46,10 +51,9 @@ std::vector<CurveNode> nodes_along(const Mesh& mesh, const Curve& curve, const C
     }
     const double length = edge_length(mesh.nodes, edge);
     if (edge.node_count == 3)  // the part of the length before the middle node: the same rule on half the edge
-      list.push_back(
-          {edge.nodes[2], s + length_to(mesh.nodes, edge, 0), {e, 0}, edge_point(mesh.nodes, edge, 0).normal()});
+      list.push_back({edge.nodes[2], s + length_to(mesh.nodes, edge, 0), {e, 0}, normal_at(e, 0)});
     s += length;
-    list.push_back({edge.nodes[1], s, {e, 1}, edge_point(mesh.nodes, edge, 1).normal()});
+    list.push_back({edge.nodes[1], s, {e, 1}, normal_at(e, 1)});
   }
   if (curve.closed) {
     list.front().normal = (list.front().normal + list.back().normal).normalized();
@@ -143,8 +147,17 @@ double least_pressure(const ContactPair& pair, const VecX& pressure) {
 
 ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const Constraints& constraints,
                                const BodyPoints& points, const StressField& stress, const VecX& u, const VecX& lambda) {
-  const bool measured = pair.spec.initial_gap == InitialGap::measured;
-  const std::vector<CurveNode> along = nodes_along(mesh, pair.multiplier, constraints);
+  const auto* normals = pair.lines && pair.lines->normals ? &*pair.lines : nullptr;
+  const std::vector<CurveNode> along =
+      nodes_along(mesh, pair.multiplier, constraints, normals ? &normals->multiplier : nullptr);
+  // Undeformed, at a distance between the edges along n from x on the multiplier side; `place` and `hit`: where on
+  // both.
+  const auto initial_gap = [&](const Vec2& x, const Vec2& n, const Place& place, const Place& hit, double distance) {
+    if (pair.spec.initial_gap == InitialGap::closed) return 0.0;
+    if (!pair.lines || !pair.lines->gap) return distance;
+    return distance + offset(pair.lines->opposite, hit.edge, hit.xi, x + distance * n, n) -
+           offset(pair.lines->multiplier, place.edge, place.xi, x, n);
+  };
   ContactResults r;
   r.pressure = 0 - multiplier_values(pair.coupling, lambda).array();  // 0 - 0 is 0, -0 is not
   r.multiplier.curve = mesh.boundaries[pair.multiplier.boundary].name;
@@ -156,11 +169,12 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
     if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite,
                                             {n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)})) {
       const Vec2 other = edge_value(u, pair.opposite.edges[hit->edge], hit->xi);
-      n.gap = (measured ? hit->distance : 0) + other.dot(at.normal) - n.u_n;
+      n.gap = initial_gap(n.position, at.normal, at.place, {hit->edge, hit->xi}, hit->distance) + other.dot(at.normal) -
+              n.u_n;
     }
     r.multiplier.nodes.push_back(n);
   }
-  for (const CurveNode& at : nodes_along(mesh, pair.opposite, constraints)) {
+  for (const CurveNode& at : nodes_along(mesh, pair.opposite, constraints, normals ? &normals->opposite : nullptr)) {
     const Vec2 x = mesh.nodes.row(at.node).transpose();
     const auto foot = foot_of(mesh, pair.multiplier, along, x);
     if (!foot) {
@@ -174,10 +188,13 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
     const auto vertex = std::find_if(along.begin(), along.end(), [&](const CurveNode& c) {
       return (mesh.nodes.row(c.node).transpose() - m.position).norm() < 1e-9 * m.jacobian();
     });
-    const Vec2 normal = vertex == along.end() ? m.normal() : vertex->normal;
+    const Vec2 normal = vertex != along.end() ? vertex->normal
+                        : normals             ? normals->multiplier.at(foot->edge, foot->xi).normal()
+                                              : m.normal();
     ContactNode n = node_results(mesh, at, pair.opposite.body, normal, points, stress, u);
     n.p = interpolate(pair.coupling, pair.multiplier, r.pressure, foot->edge, foot->xi);
-    n.gap = (measured ? (x - m.position).dot(normal) : 0) + n.u_n - edge_value(u, edge, foot->xi).dot(normal);
+    n.gap = initial_gap(m.position, normal, *foot, at.place, (x - m.position).dot(normal)) + n.u_n -
+            edge_value(u, edge, foot->xi).dot(normal);
     r.opposite.nodes.push_back(n);
   }
   r.multiplier.centres = centre_results(mesh, pair.multiplier, stress);

@@ -40,8 +40,8 @@ void read_contacts(const Node& root, Scene& scene) {
     contact.between = read_between(require(*entry, "between", "a list of two physical curves"), *entry, once);
     contact.condition =
         choice(find(*entry, "condition"), {Condition::unilateral, Condition::bilateral}, contact.condition);
-    contact.initial_gap =
-        choice(find(*entry, "initial_gap"), {InitialGap::measured, InitialGap::closed}, contact.initial_gap);
+    contact.initial_gap = choice(find(*entry, "initial_gap"),
+                                 {InitialGap::measured, InitialGap::curve, InitialGap::closed}, contact.initial_gap);
     contact.multipliers_on = read_multipliers_on(*entry, contact);
     scene.contacts.push_back(contact);
   }

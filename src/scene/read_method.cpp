@@ -86,12 +86,13 @@ const std::vector<std::string> of_both{"acceleration", "tolerance", "max_iterati
 void read_method(const Node& root, Scene& scene) {
   const Node* node = find(root, "method");
   if (node == nullptr) return;
-  std::vector<std::string> keys{"kind", "integration", "multipliers", "solver"};
+  std::vector<std::string> keys{"kind", "integration", "normals", "multipliers", "solver"};
   for (const auto& some : {of_ddm, of_mssor, of_both}) keys.insert(keys.end(), some.begin(), some.end());
   expect_keys(*node, keys);
   Method& method = scene.method;
   method.integration =
       choice(find(*node, "integration"), {Integration::segments, Integration::elements}, method.integration);
+  method.normals = choice(find(*node, "normals"), {Normals::edges, Normals::curve}, method.normals);
   method.multipliers = choice(find(*node, "multipliers"),
                               {Multipliers::quadratic, Multipliers::linear, Multipliers::dual}, method.multipliers);
   method.solver = read_solver(*node);

@@ -62,6 +62,7 @@ struct ContactSpec {
 /// [method]. The options of a solver count only where it is chosen.
 struct Method {
   Integration integration = Integration::segments;
+  Normals normals = Normals::edges;
   Multipliers multipliers = Multipliers::linear;  ///< on 2-node edges quadratic means linear
   Solver solver = Solver::direct;
   MssorOptions mssor;

@@ -1,11 +1,13 @@
 #include "support/manufactured.hpp"
 
+#include <Eigen/LU>
 #include <complex>
 #include <stdexcept>
 
 #include "contact/coupling.hpp"
 #include "fem/assembly.hpp"
 #include "fem/edges.hpp"
+#include "fem/elements.hpp"
 #include "fem/quadrature.hpp"
 #include "solve/direct.hpp"
 #include "support/field_errors.hpp"
@@ -16,9 +18,35 @@ namespace {
 using Complex = std::complex<double>;
 const Complex c2(0.3, -0.2), c3(-0.4, 0.3), c4(0.25, 0.35), d1(-0.5, 0.1), d2(0.3, 0.4), d3(-0.2, 0.3);
 
-Vec2 traction_at(const ExactField& exact, const Vec2& x, const Vec2& n) {
-  const Vec4 s = exact.stress(x);
-  return {s(0) * n.x() + s(3) * n.y(), s(3) * n.x() + s(1) * n.y()};
+Vec2 traction_of(const Vec4& s, const Vec2& n) { return {s(0) * n.x() + s(3) * n.y(), s(3) * n.x() + s(1) * n.y()}; }
+
+Vec2 traction_at(const ExactField& exact, const Vec2& x, const Vec2& n) { return traction_of(exact.stress(x), n); }
+
+// What the slip of the upper body adds to the loads: tractions on its sides and its contact curve, and a body force.
+void add_slip_loads(const Mesh& mesh, const ExactField& exact, const Slip& slip, VecX& load) {
+  for (const char* side : {"upper_left", "upper_right", "upper_contact"})
+    add_traction(
+        mesh, boundary_index(mesh, side),
+        [&](const Vec2& x, const Vec2& n) -> Vec2 {
+          return traction_of(slip.stress(x, exact.young, exact.poisson), n);
+        },
+        load);
+  const int upper = body_index(mesh, "upper");
+  for (const Cell& cell : mesh.cells) {
+    if (cell.body != upper) continue;
+    const CellRule rule = product_rule(cell.kind, 4);
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const CellShape shape = cell_shape(cell.kind, rule.points[q]);
+      Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();
+      Vec2 x = Vec2::Zero();
+      for (int a = 0; a < node_count(cell.kind); ++a) {
+        jacobian += shape.dN[a] * mesh.nodes.row(cell.nodes[a]);
+        x += shape.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
+      }
+      const Vec2 force = rule.weights[q] * jacobian.determinant() * slip.body_force(x, exact.young, exact.poisson);
+      for (int a = 0; a < node_count(cell.kind); ++a) load.segment<2>(2 * cell.nodes[a]) += shape.N[a] * force;
+    }
+  }
 }
 
 double pressure_error(const Mesh& mesh, const ExactField& exact, const TwoPlates& plates, const Curve& curve,
@@ -38,6 +66,20 @@ double pressure_error(const Mesh& mesh, const ExactField& exact, const TwoPlates
 }
 
 }  // namespace
+
+Vec2 Slip::displacement(const Vec2& x) const { return (s0 + s1 * x.x()) * Vec2(1, derivatives(x.x())[0]); }
+
+Vec4 Slip::stress(const Vec2& x, double young, double poisson) const {
+  const double mu = young / (2 * (1 + poisson)), lambda = 2 * mu * poisson / (1 - 2 * poisson);
+  const auto [h1, h2, h3] = derivatives(x.x());
+  return {(lambda + 2 * mu) * s1, lambda * s1, lambda * s1, mu * (s1 * h1 + (s0 + s1 * x.x()) * h2)};
+}
+
+Vec2 Slip::body_force(const Vec2& x, double young, double poisson) const {  // -div of the stress
+  const double mu = young / (2 * (1 + poisson));
+  const auto [h1, h2, h3] = derivatives(x.x());
+  return {0, -mu * (2 * s1 * h2 + (s0 + s1 * x.x()) * h3)};
+}
 
 Vec2 ExactField::displacement(const Vec2& x) const {
   const double mu = young / (2 * (1 + poisson)), kappa = 3 - 4 * poisson;
@@ -89,17 +131,31 @@ Errors manufactured_errors(const ManufacturedCase& which) {
   const Mesh mesh = mesh_of(which.plates);
   const std::vector<ElasticLaw> laws(2, elastic_law(exact.young, exact.poisson, Plane::strain));
   const SparseMatrix K = assemble_stiffness(mesh, laws);
-  const VecX load = exact_loads(mesh, exact);
+  VecX load = exact_loads(mesh, exact);
+  if (which.slip) add_slip_loads(mesh, exact, *which.slip, load);
   Constraints constraints = no_constraints(mesh);
   prescribe_exactly(mesh, exact, "top", constraints);
   prescribe_exactly(mesh, exact, "bottom", constraints);
+  const int upper_body = body_index(mesh, "upper");
+  const auto displacement = [&](const Vec2& x, int body) -> Vec2 {
+    return exact.displacement(x) + (which.slip && body == upper_body ? which.slip->displacement(x) : Vec2(0, 0));
+  };
+  const auto stress = [&](const Vec2& x, int body) -> Vec4 {
+    const Vec4 s = exact.stress(x);
+    return which.slip && body == upper_body ? Vec4(s + which.slip->stress(x, exact.young, exact.poisson)) : s;
+  };
+  if (which.slip)
+    for (const Edge& edge : mesh.boundaries[boundary_index(mesh, "top")].edges)
+      for (int a = 0; a < edge.node_count; ++a)
+        constraints.value.segment<2>(2 * edge.nodes[a]) = displacement(mesh.nodes.row(edge.nodes[a]), upper_body);
 
   const Curve upper = contact_curve(mesh, boundary_index(mesh, "upper_contact"));
   const Curve lower = contact_curve(mesh, boundary_index(mesh, "lower_contact"));
   const Curve& multiplier = which.multipliers_on_lower ? lower : upper;
   const Curve& opposite = which.multipliers_on_lower ? upper : lower;
+  const ContactLines lines{{mesh.nodes, multiplier}, {mesh.nodes, opposite}, which.normals == Normals::curve, false};
   const Coupling coupling =
-      couple(mesh, multiplier, opposite, contact_points(mesh.nodes, multiplier, opposite, which.integration),
+      couple(mesh, multiplier, opposite, contact_points(mesh.nodes, multiplier, opposite, which.integration, &lines),
              constraints, {which.multipliers, InitialGap::closed});
   const VecX g = -coupling.gap0;
   const Solution s = solve_directly({.K = K,
@@ -113,9 +169,7 @@ Errors manufactured_errors(const ManufacturedCase& which) {
                                      .unilateral = {},
                                      .start = {}});
   if (s.status != SolveStatus::converged) throw std::runtime_error("manufactured case not solved");
-  const FieldErrors e = field_errors(
-      mesh, laws, s.u,
-      {[&](const Vec2& x, int) { return exact.displacement(x); }, [&](const Vec2& x, int) { return exact.stress(x); }});
+  const FieldErrors e = field_errors(mesh, laws, s.u, {displacement, stress});
   return {e.displacement, e.energy,
           pressure_error(mesh, exact, which.plates, multiplier, coupling, -multiplier_values(coupling, s.lambda))};
 }

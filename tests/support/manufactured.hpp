@@ -21,11 +21,24 @@ void prescribe_exactly(const Mesh& mesh, const ExactField& exact, const std::str
 /// The exact tractions on the vertical sides of two plates, and the tangential ones on both contact curves.
 VecX exact_loads(const Mesh& mesh, const ExactField& exact);
 
+/// Slip along the contact line y = h(x): the upper body moves by s(x) (1, h'(x)) more than the lower one, with
+/// s = s0 + s1 x, so that normal displacements stay equal.
+struct Slip {
+  double s0, s1;
+  std::function<std::array<double, 3>(double)> derivatives;  ///< h', h'', h'''
+
+  Vec2 displacement(const Vec2& x) const;
+  Vec4 stress(const Vec2& x, double young, double poisson) const;
+  Vec2 body_force(const Vec2& x, double young, double poisson) const;
+};
+
 struct ManufacturedCase {
   TwoPlates plates;
   Multipliers multipliers = Multipliers::quadratic;
   Integration integration = Integration::segments;
   bool multipliers_on_lower = true;
+  Normals normals = Normals::edges;
+  std::optional<Slip> slip = {};
 };
 
 /// Errors against the exact field, absolute: ||u||_L2, energy norm, ||p||_L2 along the multiplier side.

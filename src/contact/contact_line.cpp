@@ -1,0 +1,207 @@
+#include "contact/contact_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/vectors.hpp"
+#include "fem/edges.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double degrees = std::numbers::pi / 180, kink = 20 * degrees;
+
+// The nodes that the line goes through, in their order; node k and node k + 1 bound an interval, on a closed curve also
+// the last and the first.
+struct Knots {
+  std::vector<Vec2> x;
+  std::vector<char> corner;  // of each
+  bool closed;
+  int per_edge;  // intervals: 2 with middle nodes, else 1
+
+  int size() const { return int(x.size()); }
+  int wrapped(int k) const { return closed ? (k % size() + size()) % size() : k; }
+  const Vec2& operator[](int k) const { return x[wrapped(k)]; }
+  bool exists(int k) const { return closed || (k >= 0 && k < size()); }
+  bool turns(int k) const { return corner[wrapped(k)]; }
+
+  // How many nodes, `most` or fewer, follow node k in a direction without a kink between.
+  int within_reach(int k, int direction, int most) const {
+    int count = 0;
+    while (count < most && count < size() - 1 && exists(k + direction * (count + 1)) &&
+           (count == 0 || !turns(k + direction * count)))
+      ++count;
+    return count;
+  }
+};
+
+// The derivative by the length along the chords at node k of the polynomial through it and its neighbours, five nodes
+// where there are so many. At a kink: of the side before it or after it.
+Vec2 tangent_at(const Knots& knots, int k, bool after) {
+  int back = knots.turns(k) && after ? 0 : knots.within_reach(k, -1, 4);
+  int ahead = knots.turns(k) && !after ? 0 : knots.within_reach(k, 1, 4);
+  const int before = std::min(back, std::max(2, 4 - ahead));
+  ahead = std::min(ahead, 4 - before);
+  back = before;
+  std::array<double, 5> s{};
+  for (int j = back - 1; j >= 0; --j) s[j] = s[j + 1] - (knots[k - back + j + 1] - knots[k - back + j]).norm();
+  for (int j = back + 1; j <= back + ahead; ++j)
+    s[j] = s[j - 1] + (knots[k - back + j] - knots[k - back + j - 1]).norm();
+  Vec2 tangent = Vec2::Zero();
+  for (int j = 0; j <= back + ahead; ++j) {
+    if (j == back) continue;  // its share is minus the sum of the others'
+    double weight = 1;        // l_j'(0)
+    for (int m = 0; m <= back + ahead; ++m) {
+      if (m == j) continue;
+      weight /= s[j] - s[m];
+      if (m != back) weight *= -s[m];
+    }
+    tangent += weight * (knots[k - back + j] - knots[k]);
+  }
+  return tangent;
+}
+
+// How much the edges turn at each vertex (vertex i begins edge i), 0 at the ends of an open curve.
+std::vector<double> turns_of(const Points& nodes, const Curve& curve, bool by_chords) {
+  const int edges = int(curve.edges.size());
+  const auto direction = [&](int e, double xi) -> Vec2 {
+    const Edge& edge = curve.edges[e];
+    if (by_chords) return (nodes.row(edge.nodes[1]) - nodes.row(edge.nodes[0])).transpose();
+    return edge_point(nodes, edge, xi).tangent;
+  };
+  std::vector<double> turns(edges + !curve.closed, 0.0);
+  for (int i = curve.closed ? 0 : 1; i < edges; ++i)
+    turns[i] = angle_between(direction((i + edges - 1) % edges, 1), direction(i, -1));
+  return turns;
+}
+
+// Where the boundary really turns: by more than 20 degrees, and, between chords, by more than 60 or by much more than
+// at the vertices beside (those of a mesh of a smooth curve turn alike).
+std::vector<char> kinks_of(const std::vector<double>& turns, bool closed, bool by_chords) {
+  const int count = int(turns.size());
+  std::vector<char> kinks(count, 0);
+  for (int i = 0; i < count; ++i) {
+    double beside = std::numeric_limits<double>::infinity();
+    for (const int k : {i - 1, i + 1})
+      if (closed || (k > 0 && k < count - 1)) beside = std::min(beside, turns[(k + count) % count]);
+    const bool alike = std::isfinite(beside) && turns[i] < 3 * beside && turns[i] < 60 * degrees;
+    kinks[i] = turns[i] > kink && !(by_chords && alike);
+  }
+  return kinks;
+}
+
+}  // namespace
+
+Vec2 LinePoint::normal() const { return Vec2(tangent.y(), -tangent.x()).normalized(); }
+
+std::optional<StraightSides> straight_sides(const Points& nodes, const Curve& curve) {
+  const auto bend = [&](const Edge& e) {
+    return angle_between(edge_point(nodes, e, -1).tangent, edge_point(nodes, e, 1).tangent);
+  };
+  const std::vector<double> turns = turns_of(nodes, curve, false);
+  const int edges = int(curve.edges.size());
+  StraightSides found{0, 0, Vec2::Zero()};
+  for (int i = curve.closed ? 0 : 1; i < edges; ++i) {
+    const Edge &before = curve.edges[(i + edges - 1) % edges], &after = curve.edges[i];
+    if (after.node_count == 2 || turns[i] < 1 * degrees || turns[i] > kink) continue;
+    if (std::max(bend(before), bend(after)) > 0.1 * turns[i]) continue;
+    ++found.vertices;
+    const double sagitta = std::max(edge_length(nodes, before), edge_length(nodes, after)) * turns[i] / 8;
+    if (sagitta > found.sagitta) {
+      found.sagitta = sagitta;
+      found.position = nodes.row(after.nodes[0]).transpose();
+    }
+  }
+  if (found.vertices < 3) return {};
+  return found;
+}
+
+ContactLine::ContactLine(const Points& nodes, const Curve& curve) {
+  const bool by_ends = curve.edges[0].node_count == 2 || straight_sides(nodes, curve);
+  kinks_ = kinks_of(turns_of(nodes, curve, by_ends), curve.closed, by_ends);
+  Knots knots{{}, {}, curve.closed, by_ends ? 1 : 2};
+  const int edges = int(curve.edges.size());
+  for (int e = 0; e < edges; ++e) {
+    const Edge& edge = curve.edges[e];
+    knots.x.push_back(nodes.row(edge.nodes[0]).transpose());
+    knots.corner.push_back(kinks_[e]);
+    if (by_ends) continue;
+    knots.x.push_back(nodes.row(edge.nodes[2]).transpose());
+    knots.corner.push_back(0);
+  }
+  if (!curve.closed) {
+    knots.x.push_back(nodes.row(curve.edges.back().nodes[1]).transpose());
+    knots.corner.push_back(0);
+  }
+  for (int e = 0; e < edges; ++e) {
+    const int first = knots.per_edge * e, count = knots.per_edge + 1;
+    std::array<double, 3> s{};  // of the edge's nodes, by chords
+    for (int j = 1; j < count; ++j) s[j] = s[j - 1] + (knots[first + j] - knots[first + j - 1]).norm();
+    Piece piece{.count = 2 * count, .z = {}, .c = {}};
+    std::array<Vec2, 3> slope;
+    for (int j = 0; j < count; ++j) {
+      piece.z[2 * j] = piece.z[2 * j + 1] = 2 * s[j] / s[count - 1] - 1;
+      piece.c[2 * j] = piece.c[2 * j + 1] = knots[first + j];
+      slope[j] = s[count - 1] / 2 * tangent_at(knots, first + j, j + 1 < count);
+    }
+    for (int order = 1; order < piece.count; ++order)  // divided differences
+      for (int i = piece.count - 1; i >= order; --i)
+        piece.c[i] = piece.z[i] == piece.z[i - order]
+                         ? slope[i / 2]
+                         : Vec2((piece.c[i] - piece.c[i - 1]) / (piece.z[i] - piece.z[i - order]));
+    pieces_.push_back(piece);
+  }
+}
+
+LinePoint ContactLine::at(int edge, double xi) const {
+  const Piece& p = pieces_[edge];
+  LinePoint point{p.c[p.count - 1], Vec2::Zero(), Vec2::Zero()};
+  for (int i = p.count - 2; i >= 0; --i) {
+    const double d = xi - p.z[i];
+    point.bend = d * point.bend + 2 * point.tangent;
+    point.tangent = d * point.tangent + point.position;
+    point.position = d * point.position + p.c[i];
+  }
+  return point;
+}
+
+namespace {
+
+// Newton's method for a function of xi and its derivative; nothing where it leaves the neighbourhood of the piece.
+template <typename Function>
+std::optional<double> root(double xi, const Function& function) {
+  for (int step = 0; step < 20; ++step) {
+    const auto [value, slope] = function(xi);
+    const double change = -value / slope;
+    xi += change;
+    if (!(std::abs(xi) < 1.5)) return {};
+    if (std::abs(change) < 1e-14) return xi;
+  }
+  return xi;  // goes on between neighbours in round-off
+}
+
+}  // namespace
+
+std::optional<double> ContactLine::foot(int edge, const Vec2& x, double start) const {
+  return root(start, [&](double xi) {
+    const LinePoint p = at(edge, xi);
+    const Vec2 away = x - p.position;
+    return std::pair(away.dot(p.tangent), away.dot(p.bend) - p.tangent.squaredNorm());
+  });
+}
+
+std::optional<double> ContactLine::crossing(int edge, const Vec2& x, const Vec2& n, double start) const {
+  return root(start, [&](double xi) {
+    const LinePoint p = at(edge, xi);
+    return std::pair(cross(p.position - x, n), cross(p.tangent, n));
+  });
+}
+
+double offset(const ContactLine& line, int edge, double xi, const Vec2& x, const Vec2& n) {
+  const auto at = line.crossing(edge, x, n, xi);
+  return at ? (line.at(edge, *at).position - x).dot(n) : 0;
+}
+
+}  // namespace mortise

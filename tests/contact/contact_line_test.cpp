@@ -1,0 +1,183 @@
+// The curve rebuilt from nodes against the curve that they were taken from.
+#include "contact/contact_line.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace mortise {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+using Shape = std::function<Vec2(double)>;
+
+Vec2 wave(double t) { return {t, 0.3 + 0.08 * std::sin(5 * t) + 0.03 * t * t}; }
+Vec2 polar(double t) {
+  const double r = 1 + 0.1 * std::cos(2 * t) + 0.05 * std::cos(4 * t);
+  return {r * std::cos(t), r * std::sin(t)};
+}
+
+// A chain of edges on a shape, 0 <= t <= end, unevenly spaced; middle nodes on the shape, or on the chords.
+struct Chain {
+  Points nodes;
+  Curve curve{.boundary = 0, .body = 0, .edges = {}, .sides = {}, .closed = false};
+
+  Chain(const Shape& shape, double end, int edges, int nodes_an_edge, bool closed = false, bool on_chords = false) {
+    curve.closed = closed;
+    const auto t_of = [&](double k) { return end * (k + 0.15 * std::sin(k)) / (edges + 0.15 * std::sin(edges)); };
+    const int vertices = edges + !closed;
+    nodes.resize(vertices + edges, 2);
+    for (int i = 0; i < vertices; ++i) nodes.row(i) = shape(t_of(i)).transpose();
+    for (int e = 0; e < edges; ++e) {
+      const int next = (e + 1) % vertices;
+      nodes.row(vertices + e) = on_chords ? ((nodes.row(e) + nodes.row(next)) / 2).eval()
+                                          : shape((t_of(e) + t_of(e + 1)) / 2).transpose().eval();
+      curve.edges.push_back({nodes_an_edge, {e, next, nodes_an_edge == 3 ? vertices + e : -1}});
+    }
+  }
+};
+
+// Largest distance of the rebuilt line from the shape, and largest difference of their normals.
+struct Errors {
+  double place = 0, normal = 0;
+};
+
+Errors errors_of(const Shape& shape, double end, const Chain& chain) {
+  const ContactLine line(chain.nodes, chain.curve);
+  Errors worst;
+  for (int e = 0; e < int(chain.curve.edges.size()); ++e)
+    for (double xi = -0.9; xi < 1; xi += 0.2) {
+      const LinePoint p = line.at(e, xi);
+      double t = end * (e + 0.5) / double(chain.curve.edges.size());  // nearest on the shape, by Newton's method
+      const double d = 1e-5;
+      for (int step = 0; step < 50; ++step) {
+        const Vec2 slope = (shape(t + d) - shape(t - d)) / (2 * d);
+        t += (p.position - shape(t)).dot(slope) / slope.squaredNorm();
+      }
+      const Vec2 slope = (shape(t + d) - shape(t - d)) / (2 * d);
+      worst.place = std::max(worst.place, (p.position - shape(t)).norm());
+      worst.normal = std::max(worst.normal, (p.normal() - Vec2(slope.y(), -slope.x()).normalized()).norm());
+    }
+  return worst;
+}
+
+TEST(ContactLine, FallsToTheCurveAsHToTheFourth) {
+  for (const bool closed : {false, true})
+    for (const int nodes_an_edge : {2, 3}) {
+      const Shape shape = closed ? Shape(polar) : Shape(wave);
+      const double end = closed ? 2 * pi : 2;
+      std::vector<Errors> on;
+      const int coarsest = nodes_an_edge == 2 ? 32 : 16;
+      for (int n = coarsest; n <= 8 * coarsest; n *= 2)
+        on.push_back(errors_of(shape, end, Chain(shape, end, n, nodes_an_edge, closed)));
+      for (std::size_t k = 1; k < on.size(); ++k) {
+        EXPECT_GE(std::log2(on[k - 1].place / on[k].place), 3.5) << closed << nodes_an_edge << k;
+        EXPECT_GE(std::log2(on[k - 1].normal / on[k].normal), nodes_an_edge == 2 ? 2.8 : 3.5)
+            << closed << nodes_an_edge << k;
+      }
+      std::printf("closed %d, %d nodes an edge: place %.1e ... %.1e, normal %.1e ... %.1e\n", closed, nodes_an_edge,
+                  on.front().place, on.back().place, on.front().normal, on.back().normal);
+    }
+}
+
+TEST(ContactLine, StraightLinesAreExact) {
+  const Shape straight = [](double t) { return Vec2(0.1 + 3 * t, 0.2 - 4 * t); };
+  for (const int nodes_an_edge : {2, 3}) {
+    const Chain chain(straight, 1, 7, nodes_an_edge);
+    const ContactLine line(chain.nodes, chain.curve);
+    for (int e = 0; e < 7; ++e)
+      for (const double xi : {-1.0, -0.3, 0.0, 0.8, 1.0})
+        EXPECT_LE((line.at(e, xi).normal() - Vec2(-0.8, -0.6)).norm(), 1e-14);
+  }
+}
+
+TEST(ContactLine, PassesThroughEveryNode) {
+  const Chain chain(wave, 2, 9, 3);
+  const ContactLine line(chain.nodes, chain.curve);
+  for (int e = 0; e < 9; ++e) {
+    const auto& nodes = chain.curve.edges[e].nodes;
+    EXPECT_LE((line.at(e, -1).position - chain.nodes.row(nodes[0]).transpose()).norm(), 1e-15);
+    EXPECT_LE((line.at(e, 1).position - chain.nodes.row(nodes[1]).transpose()).norm(), 1e-14);
+    const auto middle = line.foot(e, chain.nodes.row(nodes[2]).transpose(), 0);
+    ASSERT_TRUE(middle);
+    EXPECT_LE((line.at(e, *middle).position - chain.nodes.row(nodes[2]).transpose()).norm(), 1e-14);
+  }
+}
+
+TEST(ContactLine, StraightSidesOf3NodeEdgesSayNothingOfTheCurve) {
+  const Chain chain([](double t) { return Vec2(std::cos(t), std::sin(t)); }, 2, 16, 3, false, true);
+  const ContactLine line(chain.nodes, chain.curve);
+  for (int e = 0; e < 16; ++e) EXPECT_NEAR(line.at(e, 0).position.norm(), 1, 2e-6);  // the chords: 2e-3
+}
+
+// ---- Corners ----
+
+Vec2 corner(double t) { return t < 1 ? Vec2(t, 0.1 * t * t) : Vec2(1 + 0.1 * (t - 1), 0.1 + (t - 1)); }
+
+TEST(ContactLine, ACornerStaysAndIsExactOnBothSides) {
+  for (const int nodes_an_edge : {2, 3}) {
+    Chain chain(corner, 2, 12, nodes_an_edge);
+    double nearest = 1;
+    int at = 0;
+    for (int i = 0; i < 13; ++i)  // put a vertex on the corner
+      if (const double d = (chain.nodes.row(i) - Eigen::RowVector2d(1, 0.1)).norm(); d < nearest) nearest = d, at = i;
+    chain.nodes.row(at) << 1, 0.1;
+    for (const int e : {at - 1, at}) {
+      const Vec2 middle = (chain.nodes.row(e) + chain.nodes.row(e + 1)).transpose() / 2;
+      chain.nodes.row(13 + e) << middle.x(), e < at ? 0.1 * middle.x() * middle.x() : middle.y();
+    }
+    const ContactLine line(chain.nodes, chain.curve);
+    EXPECT_EQ(std::count(line.kinks().begin(), line.kinks().end(), 1), 1);
+    EXPECT_TRUE(line.kinks()[at]);
+    EXPECT_LE((line.at(at - 1, 1).normal() - Vec2(0.2, -1).normalized()).norm(), 1e-3);
+    EXPECT_LE((line.at(at, -1).normal() - Vec2(1, -0.1).normalized()).norm(), 1e-12);
+  }
+}
+
+TEST(ContactLine, ACoarseCircleHasNoCorners) {
+  const Shape circle = [](double t) { return Vec2(std::cos(t), std::sin(t)); };
+  for (const bool closed : {false, true}) {
+    const Chain chain(circle, closed ? 2 * pi : 3, closed ? 10 : 5, 2, closed);  // 36 degrees a vertex
+    const ContactLine line(chain.nodes, chain.curve);
+    EXPECT_EQ(std::count(line.kinks().begin(), line.kinks().end(), 1), 0) << closed;
+  }
+}
+
+TEST(ContactLine, ASquareOfSingleEdgesHasFour) {
+  const Shape square = [](double t) {
+    const int side = int(t + 0.5) % 4;
+    return std::array{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)}[side];
+  };
+  Chain chain(square, 4, 4, 2, true);
+  for (int i = 0; i < 4; ++i) chain.nodes.row(i) = square(i).transpose();
+  const ContactLine line(chain.nodes, chain.curve);
+  EXPECT_EQ(std::count(line.kinks().begin(), line.kinks().end(), 1), 4);
+  for (int e = 0; e < 4; ++e)
+    EXPECT_LE((line.at(e, 0.3).tangent.normalized() - line.at(e, 0).tangent.normalized()).norm(), 1e-14);
+}
+
+// ---- Feet and crossings ----
+
+TEST(ContactLine, TheFootsNormalPassesThroughThePoint) {
+  const Chain chain(wave, 2, 9, 3);
+  const ContactLine line(chain.nodes, chain.curve);
+  for (int e = 0; e < 9; ++e)
+    for (const double xi : {-0.95, -0.2, 0.7}) {
+      const LinePoint p = line.at(e, xi);
+      for (const double away : {-0.02, 0.0, 0.03}) {
+        const auto foot = line.foot(e, p.position + away * p.normal(), 0);
+        ASSERT_TRUE(foot) << e << " " << xi << " " << away;
+        EXPECT_NEAR(*foot, xi, 1e-13);
+        const auto crossing = line.crossing(e, p.position + away * p.normal(), p.normal(), 0);
+        ASSERT_TRUE(crossing);
+        EXPECT_NEAR(*crossing, xi, 1e-13);
+      }
+    }
+  EXPECT_FALSE(line.foot(0, Vec2(1.9, 0.3), 0));
+}
+
+}  // namespace
+}  // namespace mortise
