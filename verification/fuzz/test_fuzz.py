@@ -1,6 +1,7 @@
 """The fuzzer: that each oracle fails on a wrong program, that a case can be made again, and some hundred cases."""
 
 import os
+import shutil
 import stat
 import subprocess
 import sys
@@ -17,6 +18,8 @@ import geo_cases
 import msh_file
 import one_call
 import oracles
+import results_files
+import twin_oracle
 import twins
 from fuzz_case import REFUSED, SOLVED, Twin, solve_case
 from make_case import SHARES, make_case
@@ -134,6 +137,24 @@ for row in rows[1:]:
 (results / "contact.csv").write_text("\\n".join(",".join(row) for row in rows) + "\\n")
 """
     assert objections(wrong_program(by_place), case) == ["twin"]
+
+
+def test_a_difference_below_round_off_is_no_difference_of_pressure(mortise, tmp_path):
+    """A twin that may not differ at all: half of the least pressure more is right, twice that pressure more is not."""
+    case = right_case()
+    case.write(tmp_path)
+    outcome = one_call.call(mortise, case, tmp_path)
+    least = twin_oracle.least_pressure(tmp_path / "results", case.setting)
+    table = (tmp_path / "results/contact.csv").read_text()
+    p = results_files.rows(tmp_path / "results/contact.csv")[0]["p"]
+    for share, found in ((0.5, False), (2, True)):
+        shutil.copytree(tmp_path / "results", tmp_path / f"{share}/results")
+        changed = table.replace(p, repr(float(p) + share * least))
+        assert changed != table
+        (tmp_path / f"{share}/results/contact.csv").write_text(changed)
+        twin = Twin("the same", case, limit=0)
+        wrong = twin_oracle.compare(case.setting, twin, outcome, outcome, tmp_path, tmp_path / str(share))
+        assert (wrong is not None) == found
 
 
 @pytest.mark.parametrize("random_seed", range(4))

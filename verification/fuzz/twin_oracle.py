@@ -5,7 +5,7 @@ import os
 
 import results_files
 
-NO_PRESSURE = 1e-9  # of E u / size: a pressure below is round-off of what the bodies carry
+NO_PRESSURE = 1e-9  # of E u / size: a difference of pressures below is round-off of what the bodies carry
 
 
 def young_and_size(setting):
@@ -48,9 +48,9 @@ def compare(setting, twin, first, second, folder, other):
     found = difference(p, q, young_and_size(setting)[1])
     if found is None:
         return f"{twin.name}: multipliers on {told_other['method']['multipliers_on']} at other places"
-    largest = max([abs(row[3]) for row in p] + [least_pressure(os.path.join(folder, "results"), setting)])
-    if found[0] > twin.limit * largest:
-        return f"{twin.name}: p differs by {found[0] / largest:.2g} of the largest, at {found[1]}"
+    largest = max(abs(row[3]) for row in p)
+    if found[0] > max(twin.limit * largest, least_pressure(os.path.join(folder, "results"), setting)):
+        return f"{twin.name}: p differs by {found[0]:.2g} at {found[1]}, the largest is {largest:.2g}"
 
 
 def borderline(folder, first, other, second):
