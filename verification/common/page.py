@@ -6,6 +6,7 @@ several together.
 """
 
 import html
+import re
 
 STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; color: #1c1c1c; max-width: 1180px; margin: 2em auto; padding: 0 1em }
@@ -27,18 +28,18 @@ class Link:
         self.name, self.folder = name, folder
 
 
-def cell(value):
+def cell(value, show=html.escape):
     """A table's cell; numbers stand right, the words ok, failed and error in their colours."""
     if isinstance(value, Link):
         return f'<td><a href="{html.escape(value.folder)}/">{html.escape(value.name)}</a></td>'
     text = str(value)
     kind = text if text in ("ok", "failed", "error") else "number" if text[:1].isdigit() or text[:1] in "-–" else ""
-    return f'<td class="{kind}">{html.escape(text)}</td>'
+    return f'<td class="{kind}">{show(text)}</td>'
 
 
-def table(heading, rows):
+def table(heading, rows, show=html.escape):
     head = "".join(f"<th>{html.escape(text)}</th>" for text in heading)
-    body = "\n".join("<tr>" + "".join(map(cell, row)) + "</tr>" for row in rows)
+    body = "\n".join("<tr>" + "".join(cell(value, show) for value in row) + "</tr>" for row in rows)
     return f"<table>\n<tr>{head}</tr>\n{body}\n</table>\n"
 
 
@@ -54,6 +55,44 @@ def picture(path, caption):
     """A picture by its path below the study's folder."""
     text = html.escape(caption)
     return f'<figure><img src="{html.escape(str(path))}" alt="{text}"><figcaption>{text}</figcaption></figure>\n'
+
+
+INLINE = [
+    (r"`([^`]+)`", r"<code>\1</code>"),
+    (r"\*\*(.+?)\*\*", r"<b>\1</b>"),
+    (r"(?<![\w*])\*([^*\s][^*]*)\*(?![\w*])", r"<i>\1</i>"),
+    (r"\[([^\]]+)\]\(([^)]+)\)", r'<a href="\2">\1</a>'),
+]
+
+
+def inline(text):
+    text = html.escape(text, quote=False)
+    for pattern, replacement in INLINE:
+        text = re.sub(pattern, replacement, text)
+    return text
+
+
+def block_html(block):
+    """One block of Markdown, between empty lines."""
+    lines = block.splitlines()
+    if found := re.fullmatch(r"(#+) (.*)", block):
+        level = min(len(found[1]) + 1, 4)
+        return f"<h{level}>{inline(found[2])}</h{level}>\n"
+    if found := re.fullmatch(r"!\[(.*)\]\((.*)\)", block, re.DOTALL):
+        return picture(found[2], found[1].replace("\n", " "))
+    if lines[0].startswith("|"):
+        rows = [[part.strip().replace("\\|", "|") for part in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines]
+        return table(rows[0], rows[2:], inline)
+    if lines[0].startswith("- "):
+        items = re.split(r"^- ", block, flags=re.MULTILINE)[1:]
+        return "<ul>\n" + "".join(f"<li>{inline(item)}</li>\n" for item in items) + "</ul>\n"
+    return f"<p>{inline(block)}</p>\n"
+
+
+def from_markdown(text):
+    """HTML of the Markdown that the studies write: headings (# is h2), paragraphs, lists of one level, tables, pictures
+    with their captions in the brackets, and within a line code, bold, italics and links."""
+    return "".join(block_html(block) for block in re.split(r"\n\s*\n", text.strip()))
 
 
 def write_section(folder, name, title, parts):
