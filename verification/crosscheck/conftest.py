@@ -10,7 +10,7 @@ import pytest
 
 import run
 
-VERIFY = Path(__file__).with_name("verify.py")
+CROSSCHECK = Path(__file__).with_name("crosscheck.py")
 
 
 @pytest.fixture(scope="session")
@@ -22,13 +22,13 @@ def programs():
 
 
 @pytest.fixture
-def verify(tmp_path):
-    """Runs verify.py; returns the process and the table of report.json, None if there is none."""
+def crosscheck(tmp_path):
+    """Runs crosscheck.py; returns the process and the table of report.json, None if there is none."""
 
-    def run_verify(*arguments, **environment):
-        command = [sys.executable, VERIFY, "-o", tmp_path / "report", *arguments]
+    def run_crosscheck(*arguments, **environment):
+        command = [sys.executable, CROSSCHECK, "-o", tmp_path / "report", *arguments]
         done = subprocess.run(command, capture_output=True, text=True, check=False, env={**os.environ, **environment})
         report = tmp_path / "report/report.json"
         return done, json.loads(report.read_text()) if report.is_file() else None
 
-    return run_verify
+    return run_crosscheck

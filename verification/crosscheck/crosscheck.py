@@ -9,7 +9,6 @@ is not there. MORTISE names another executable than build/release/mortise.
 import argparse
 import sys
 import time
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
 import report
@@ -26,13 +25,9 @@ def read_options(arguments):
     parser.add_argument("--quick", action="store_true", help="only the cases marked quick")
     parser.add_argument("--case", action="append", default=[], metavar="GLOB", help="only the cases of this name")
     parser.add_argument("--list", action="store_true", help="print the names of the cases and end")
-    parser.add_argument("-o", "--output", type=Path, default=Path("out/verify"), help="default: out/verify")
-    parser.add_argument("--jobs", type=int, default=1, help="cases at a time (default 1; timings need 1)")
+    parser.add_argument("-o", "--output", type=Path, default=Path("out/crosscheck"), help="default: out/crosscheck")
     parser.add_argument("--skip-without-freefem", action="store_true", help="exit status 77 if it is missing")
-    options = parser.parse_args(arguments)
-    if options.jobs < 1:
-        parser.error(f"--jobs {options.jobs}; expected at least 1")
-    return options
+    return parser.parse_args(arguments)
 
 
 def figure_text(figure, with_limit):
@@ -48,37 +43,23 @@ def one_line(result):
     if result.status == "error":
         return result.message.splitlines()[0]
     if result.level == "timing":
-        times = result.timing
-        return "mortise {mortise:.2f} s, FreeFEM {freefem:.2f} s, ratio {ratio:.1f}".format(**times)
+        return "mortise {mortise:.2f} s, FreeFEM {freefem:.2f} s, ratio {ratio:.1f}".format(**result.timing)
     limits = {figure.limit for figure in result.figures}
     short = len(limits) == 1 and result.status == "ok"
     words = [figure_text(figure, with_limit=not short) for figure in result.figures]
     return ", ".join(words) + (f"; limit {min(limits):g}" if short else "")
 
 
-def in_turn(programs, cases, output, jobs):
-    """Results as they come; with more jobs the timings come last and alone."""
-    if jobs == 1:
-        yield from (judge(programs, case, output) for case in cases)
-        return
-    together = [case for case in cases if case.level != "timing"]
-    with ProcessPoolExecutor(jobs) as pool:
-        for done in as_completed([pool.submit(judge, programs, case, output) for case in together]):
-            yield done.result()
-    yield from (judge(programs, case, output) for case in cases if case.level == "timing")
-
-
-def run_cases(programs, cases, output, jobs):
-    """Runs all cases and shows each as it ends; results in the order of the cases."""
-    results = {}
-    for result in in_turn(programs, cases, output, jobs):
-        results[result.name] = result
+def run_cases(programs, cases, output):
+    """Runs all cases and shows each as it ends."""
+    for number, case in enumerate(cases, 1):
+        result = judge(programs, case, output)
         status = {"ok": "ok    ", "failed": "FAILED", "error": "ERROR "}[result.status]
-        counter = f"[{len(results):3}/{len(cases)}]"
+        counter = f"[{number:3}/{len(cases)}]"
         print(f"{counter} {status} {result.name}: {one_line(result)} ({result.seconds:.1f} s)", flush=True)
         for line in result.message.splitlines()[1:]:
             print(f"          {line}", flush=True)
-    return [results[case.name] for case in cases]
+        yield result
 
 
 def main(arguments=None):
@@ -93,17 +74,16 @@ def main(arguments=None):
             return SKIPPED
         programs = run.find_programs()
     except (CaseError, run.MissingProgram) as error:
-        print(f"verify: error: {error}", file=sys.stderr)
+        print(f"crosscheck: error: {error}", file=sys.stderr)
         return 1
     start, output = time.perf_counter(), options.output.absolute()
     output.mkdir(parents=True, exist_ok=True)
-    results = run_cases(programs, cases, output, options.jobs)
+    results = list(run_cases(programs, cases, output))
     seconds = time.perf_counter() - start
     report.write(results, output, seconds)
     bad = [result for result in results if result.status != "ok"]
     print(f"{len(results) - len(bad)} of {len(results)} cases hold, {seconds:.0f} s; {options.output}/report.html")
-    for result in bad:
-        print(f"{result.status}: {result.name}")
+    print(*(f"{result.status}: {result.name}" for result in bad), sep="\n")
     return 1 if bad else 0
 
 

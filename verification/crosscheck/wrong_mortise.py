@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Stands in for mortise and gives a wrong result. For test_check_of_the_check.py alone.
+"""Stands in for mortise and gives a wrong result. For test_runner.py alone.
 
 Everything goes to the real executable (environment variable RIGHT_MORTISE); of `solve` the variable WRONG changes
 
