@@ -9,11 +9,9 @@ rows are, and the median factor between meshes is 3 to 5 (printed: about 4).
 import numpy as np
 
 import oscillation
-import preprint
-from paper_runs import AT_THE_NODES, METHOD, STRESS
+import printed_tables as printed
+from preprint_runs import AT_THE_NODES, CLOSED, MEASURED, METHOD, STRESS
 
-CLOSED = {"contact.initial_gap": "closed"}
-MEASURED = {"contact.initial_gap": "measured"}
 ELEMENTS = {"method.integration": "elements"}
 EVEN_X1 = {"mesh.parameters.spacing": 1}
 STRAIGHT = {"mesh.parameters.straight": 1}
@@ -41,32 +39,27 @@ EQUAL = 1.05  # distances up to this ratio are not told apart
 
 def settings_of(variant, scene):
     changes = VARIANTS[variant]
-    straight = preprint.series_of(scene) == "straight"
+    straight = printed.series_of(scene) == "straight"
     return {key: value for key, value in changes.items() if not (straight and key in ONLY_CURVED)}
 
 
 def compute(store, variants, rows, say):
     """Rows with a column for each side of the multipliers, of all variants."""
     for variant in variants:
-        cache = {}
-        for row in rows:
-            key = tuple(row[name] for name in ("scene", "mesh", "at", "body"))
-            if key not in cache:
-                say(f"{variant}: {row['scene']} {row['mesh'][0]}x{row['mesh'][1]} {row['at']}, {row['body']}")
-                of = lambda side, r=row: oscillation.delta_of(
-                    store, r["scene"], r["mesh"], settings_of(variant, r["scene"]), side, r["body"], r["at"]
-                )
-                cache[key] = {side: of(side) for side in preprint.OTHER}
-            mapped = {name: cache[key][side(row["active"])] for name, side in preprint.MAPPINGS.items()}
+
+        def measure(row, variant=variant):
+            say(f"{variant}: {row['scene']} {row['mesh'][0]}x{row['mesh'][1]} {row['at']}, {row['body']}")
+            settings, place = settings_of(variant, row["scene"]), (row["body"], row["at"])
+            of = lambda side: oscillation.delta_of(store, row["scene"], row["mesh"], settings, side, *place)
+            return {side: of(side) for side in printed.OTHER}
+
+        for row, found in printed.once_a_place(rows, measure):
+            mapped = {name: found[side(row["active"])] for name, side in printed.MAPPINGS.items()}
             yield {"variant": variant, **row, **mapped}
 
 
 def targets(rows, variant, series):
-    return [
-        row
-        for row in rows
-        if row["variant"] == variant and row["target"] and preprint.series_of(row["scene"]) == series
-    ]
+    return [row for row in printed.of_series(rows, series) if row["variant"] == variant]
 
 
 def factors(rows, value):
@@ -94,8 +87,8 @@ def over_circle(parabolas, circle, value):
 
 def judge(rows, variant, reading):
     """A variant by one reading of "active" against the printed tables."""
-    of = {name: targets(rows, variant, name) for name in preprint.SERIES}
-    fits = {n: preprint.fit([r[reading] for r in part], [r["printed"] for r in part]) for n, part in of.items() if part}
+    of = {name: targets(rows, variant, name) for name in printed.SERIES}
+    fits = {n: printed.fit([r[reading] for r in part], [r["printed"] for r in part]) for n, part in of.items() if part}
     curve, between = fits["parabolas"], middle(factors(of["parabolas"], reading))
     close = abs(curve["median"]) <= np.log10(FACTOR) and curve["within_3"] >= 0.75
     return {
@@ -116,10 +109,10 @@ def judge(rows, variant, reading):
 
 def judge_all(rows):
     variants = dict.fromkeys(row["variant"] for row in rows)
-    return [judge(rows, variant, reading) for variant in variants for reading in preprint.MAPPINGS]
+    return [judge(rows, variant, reading) for variant in variants for reading in printed.MAPPINGS]
 
 
-def printed_figures(rows):
+def figures_printed(rows):
     """What the printed tables themselves show: parabolas over circle, and the factor between meshes."""
     variant = rows[0]["variant"]
     parabolas, circle, straight = (targets(rows, variant, name) for name in ("parabolas", "circle", "straight"))

@@ -6,16 +6,15 @@ circle kappa' = 0, and the gap is of order h^4. Enforced, a gap g_0 on edges of 
 about E g_0 / h: as h^2 on a parabola, four times less on half the mesh.
 """
 
-import json
+import itertools
 
 import numpy as np
 
 from gallery_measures import inner
 from oscillation import matching_curve
-from paper_runs import METHOD, on_side  # makes launch known
+from preprint_runs import CLOSED, MEASURED, METHOD, on_side
 import launch
 
-CLOSED = {"contact.initial_gap": "closed"}
 CURVATURE = {"parabola_1": (-1.25, 1.0), "parabola_2": (-1.875, 1.5)}  # a, b of x2 = a x1^2 + b x1 + c
 WIDTH = 0.8  # m
 RADIUS, CENTRE = 0.5, 0.4  # of the circle, m
@@ -47,23 +46,18 @@ def predicted(scene, mesh):
 
 def swing(store, scene, mesh, side):
     """Largest distance of sigma_n from matching meshes on the multiplier side, the gap enforced, corners left out."""
-    enforced = {**METHOD, "contact.initial_gap": "measured", **on_side(side)}
+    enforced = {**METHOD, **MEASURED, **on_side(side)}
     curve, reference = store.curve(scene, mesh, enforced, side), matching_curve(store, scene, mesh, enforced, side)
     return float(np.abs(curve["sigma_n"] - reference["sigma_n"])[inner(scene, curve["x"])].max())
 
 
 def rows(store, scenes, meshes, side="G2"):
-    for scene in scenes:
-        for mesh in meshes:
-            folder = store.run(scene, mesh, {**METHOD, **CLOSED, **on_side(side)})
-            summary = json.loads((folder / "summary.json").read_text())
-            gap = summary["contact"][0]["initial_gap"]
-            largest = max(abs(gap["min"]), abs(gap["max"]))
-            yield {
-                "scene": scene,
-                "mesh": f"{mesh[0]}x{mesh[1]}",
-                "largest gap, m": largest,
-                "predicted, m": predicted(scene, mesh),
-                "E g0 / h, MPa": launch.YOUNG * largest / (length(scene) / max(mesh)) / 1e6,
-                "swing of sigma_n, MPa": swing(store, scene, mesh, side) / 1e6,
-            }
+    for scene, mesh in itertools.product(scenes, meshes):
+        gap = store.summary(scene, mesh, {**METHOD, **CLOSED, **on_side(side)})["contact"][0]["initial_gap"]
+        largest = max(abs(gap["min"]), abs(gap["max"]))
+        yield {
+            **{"scene": scene, "mesh": f"{mesh[0]}x{mesh[1]}", "largest gap, m": largest},
+            "predicted, m": predicted(scene, mesh),
+            "E g0 / h, MPa": launch.YOUNG * largest / (length(scene) / max(mesh)) / 1e6,
+            "swing of sigma_n, MPa": swing(store, scene, mesh, side) / 1e6,
+        }

@@ -7,7 +7,7 @@ line (its ends, the tents' kink) are left out: the stress is singular there.
 import meshio
 import numpy as np
 
-import preprint
+import printed_tables as printed
 
 NEAR_A_CORNER = 0.04  # m along x1
 NEAR_THE_LINE = 0.02  # m, of the fields
@@ -16,7 +16,7 @@ QUADRILATERAL = [(0, 4, 7), (4, 1, 5), (5, 2, 6), (6, 3, 7), (4, 5, 7), (5, 6, 7
 
 
 def corners(scene):
-    return (0, 0.4, 0.8) if preprint.series_of(scene) == "straight" else (0, 0.8)
+    return (0, 0.4, 0.8) if printed.series_of(scene) == "straight" else (0, 0.8)
 
 
 def inner(scene, x):
@@ -57,13 +57,8 @@ def fields(folder):
     for k, data in blocks:
         body[data] = mesh.cell_data["body"][k].reshape(-1, 1)
     stress = mesh.point_data["stress"]
-    return {
-        "points": mesh.points[:, :2],
-        "triangles": triangles,
-        "body": body,
-        "sigma_11": stress[:, 0],
-        "sigma_22": stress[:, 1],
-    }
+    return {"points": mesh.points[:, :2], "triangles": triangles, "body": body, "sigma_11": stress[:, 0],
+            "sigma_22": stress[:, 1]}  # fmt: skip
 
 
 def fields_apart(field, matching, curve, name, body):

@@ -8,7 +8,7 @@ stress is singular. Beside them and beside kinks it is large still, or s near a 
 
 import numpy as np
 
-from paper_runs import STRESS, on_side
+from preprint_runs import STRESS, on_side
 
 LEFT_OUT = {"nodes": 3, "centres": 1}  # of a line of 3-node edges, at either end
 SAME_PLACE = 1e-9  # m
@@ -17,21 +17,21 @@ OF_THE_MESH = ("mesh.parameters.spacing", "mesh.parameters.straight", "method.mu
 
 
 def delta(curve, reference, at="nodes"):
-    """delta(x1) and s at the places that count. Both arguments are columns by x1, of the same places."""
+    """delta(x1) at the places that count. Both arguments are columns by x1, of the same places."""
     if len(curve["x"]) != len(reference["x"]) or np.abs(curve["x"] - reference["x"]).max() > SAME_PLACE:
         raise ValueError("delta: the contact line and its reference have different nodes")
     inner = slice(LEFT_OUT[at], -LEFT_OUT[at])
     s = reference["sigma_2"][inner]
-    return np.abs(curve["sigma_2"][inner] - s) / np.abs(s), s
+    return np.abs(curve["sigma_2"][inner] - s) / np.abs(s)
 
 
 def mean_delta(curve, reference, at="nodes"):
-    return float(np.mean(delta(curve, reference, at)[0]))
+    return float(np.mean(delta(curve, reference, at)))
 
 
 def share_of_worst(curve, reference, at="nodes"):
     """The part of the mean that the six largest values make."""
-    values = np.sort(delta(curve, reference, at)[0])
+    values = np.sort(delta(curve, reference, at))
     return float(values[-WORST:].sum() / values.sum())
 
 

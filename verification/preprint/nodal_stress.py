@@ -58,7 +58,7 @@ def averaged(folder):
 
 
 def at_contact(folder, table):
-    """Rows with s_11, s_22, s_12: the stresses at the rows of contact.csv (its columns), in each row's own body."""
+    """Columns s_11, s_22, s_12: the stresses at the rows of contact.csv (its columns), in each row's own body."""
     points, body, stresses = averaged(folder)
     places, found = np.stack([table["x"], table["y"]], axis=1), np.empty((len(table["x"]), 3))
     for curve, number in BODIES.items():
@@ -67,7 +67,7 @@ def at_contact(folder, table):
         if distance.max() > 1e-6:
             raise ValueError(f"{folder}: nodes of {curve} are not in result.vtu")
         found[here] = stresses[own[nearest]]
-    return [dict(zip(("s_11", "s_22", "s_12"), row)) for row in found.tolist()]
+    return dict(zip(("s_11", "s_22", "s_12"), found.T.tolist()))
 
 
 def replaced(curve):
