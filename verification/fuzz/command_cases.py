@@ -77,8 +77,9 @@ def options_case(random):
 
 def number_case(random):
     value = random.choice(NUMBERS)
-    words, expect = ["solve", "scene.toml", "-o", "results", f"--threads={value}"], REFUSED
-    return command(f"--threads {value!r}", plain(random), words, ANY if value in (" 1", "0x10") else expect, ("results",))
+    words = ["solve", "scene.toml", "-o", "results", f"--threads={value}"]
+    expect = ANY if value in (" 1", "0x10") else REFUSED
+    return command(f"--threads {value!r}", plain(random), words, expect, ("results",))
 
 
 def override_case(random):
@@ -110,9 +111,10 @@ def output_case(random):
     """Results onto what is there already, or where nothing can be."""
     verb = random.choice(("solve", "mesh", "sweep"))
     files = plain(random, geo=random.random() < 0.3)
-    mesh, end = "mesh.geo" if "mesh.geo" in files else "mesh.msh", {"solve": "", "mesh": ".msh", "sweep": ".csv"}[verb]
-    extra = {"loop" + end: Link("loop" + end), "linked" + end: Link(mesh), "folder" + end: FOLDER, "file" + end: b"mine",
-             "dangling" + end: Link("nowhere/at/all" + end), "full" + end: FULL_DEVICE,
+    mesh = "mesh.geo" if "mesh.geo" in files else "mesh.msh"
+    end = {"solve": "", "mesh": ".msh", "sweep": ".csv"}[verb]
+    extra = {"loop" + end: Link("loop" + end), "linked" + end: Link(mesh), "folder" + end: FOLDER,
+             "file" + end: b"mine", "dangling" + end: Link("nowhere/at/all" + end), "full" + end: FULL_DEVICE,
              "taken/result.vtu": FOLDER, "taken/summary.json": FOLDER, "taken/mine.txt": b"mine"}  # fmt: skip
     refused = ["scene.toml", "./scene.toml", "scene.toml/results", mesh, mesh + "/results" + end,
                "full" + end, f"full{end}/results{end}", "/proc/no_such" + end, "/sys/no_such/x" + end]  # fmt: skip

@@ -1,7 +1,7 @@
 """./dev fuzz [N] [SEED]: mortise on N random inputs, right and broken ones, and what must hold after each of them.
 
-A finding is stored in out/fuzz/SEED_NUMBER with the files and the line to repeat it; `./dev fuzz 1 SEED:NUMBER` makes the
-same case again. Exit status 1 if anything was found.
+A finding is stored in out/fuzz/SEED_NUMBER with the files and the line to repeat it; `./dev fuzz 1 SEED:NUMBER` makes
+the same case again. Exit status 1 if anything was found.
 """
 
 import argparse
