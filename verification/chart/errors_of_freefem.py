@@ -11,16 +11,16 @@ import subprocess
 
 import numpy as np
 
-import chart_runs  # makes the folders below known
+import chart_runs  # makes common/ and crosscheck/ known
 import compare
 import launch
 import run
+import runs
 from cases import CaseError, Step
 from chart_methods import PROBLEMS, mesh_name
 
 LEFT_OUT = 0.1  # as errors.hpp
 GAUSS_X, GAUSS_W = np.polynomial.legendre.leggauss(5)
-SCRIPTS = ("mortar.edp", "elasticity.idp", "contact.idp", "system.idp")
 GAUSS_POINTS = {1: 2, 2: 5}  # an edge piece, by the order
 
 
@@ -134,9 +134,7 @@ def measured(problem, mesh, name, order, turns, folder, exact):
     nodes, elements = (sum(len(body.nodes(order)[i]) for body in bodies) for i in (0, 1))
     shutil.rmtree(folder)
     return {
-        "method": name,
-        "status": "solved",
-        "turns": turns,
+        **{"method": name, "status": "solved", "turns": turns},
         **{"nodes": nodes, "elements": elements, "dofs": int(summary["unknowns"])},
         **{"multipliers": int(summary["multipliers"]), "interface_steps": 0},
         **{"energy": summary["energy"], "e_energy": energy, **errors},
@@ -146,12 +144,11 @@ def measured(problem, mesh, name, order, turns, folder, exact):
     }
 
 
-def runs(problem, mesh, ways, turns, folder, exact, reference=None):
-    """The rows on one mesh, and whether they were kept from before."""
-    scripts = [launch.ROOT / "freefem" / script for script in SCRIPTS]
-    key = chart_runs.digest(*scripts, version(), ways, turns, chart_runs.COLUMNS, *([reference] if reference else []))
-    make = lambda: [measured(problem, mesh, name, order, turns, folder, exact) for name, order in ways]
+def of_freefem(store, problem, mesh, ways, turns, exact, reference=None):
+    """The rows on one mesh."""
+    make = lambda _: [measured(problem, mesh, name, order, turns, store.folder, exact) for name, order in ways]
+    key = ["FreeFEM", version(), problem, mesh, ways, turns, reference and runs.digest(reference)]
     try:
-        return chart_runs.kept(folder / f"freefem_{problem}_{mesh_name(mesh)}.json", key, make)
+        return store.row(key, make, f"freefem_{problem}")
     except CaseError as error:
-        raise chart_runs.ToolError(f"FreeFEM on {problem} {mesh_name(mesh)}: {error}") from error
+        raise launch.MortiseError(f"FreeFEM on {problem} {mesh_name(mesh)}: {error}") from error
