@@ -87,12 +87,7 @@ def expect_files(paths, program, output):
 
 def make_mesh(programs, scene_file, sizes, parameters, path):
     overrides = {f"mesh.parameters.{key}": value for key, value in {**parameters, **sizes}.items()}
-    run_program([programs.mortise, "mesh", scene_file, *set_options(overrides), "-o", path])
-
-
-def set_options(values):
-    """--set KEY=VALUE for each entry."""
-    return [word for key, value in values.items() for word in ("--set", f"{key}={value}")]
+    run_program([programs.mortise, "mesh", scene_file, *launch.options(overrides), "-o", path])
 
 
 def solve_by_mortise(programs, scene_file, mesh_file, step, folder):
@@ -105,7 +100,7 @@ def solve_by_mortise(programs, scene_file, mesh_file, step, folder):
         "method.multipliers": step.mortise["multipliers"],
         "method.integration": step.mortise["integration"],
     }
-    command = [programs.mortise, "solve", scene_file, *set_options(overrides), "-o", folder, "--quiet"]
+    command = [programs.mortise, "solve", scene_file, *launch.options(overrides), "-o", folder, "--quiet"]
     seconds, output = run_program(command, launch.SOLVED)
     expect_files([folder / name for name in RESULTS], "mortise", output)
     return seconds

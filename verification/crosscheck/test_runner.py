@@ -2,7 +2,11 @@
 (wrong_mortise.py says how each is made) do not pass: the comparison sees them, the case fails, the runner ends with 1.
 """
 
+import json
+import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import meshio
@@ -11,11 +15,33 @@ import pytest
 
 import run
 
+HERE = Path(__file__).parent
 CASES = {
     "same_discretisation/shrink_fit/8x10/P2-P2/segments/outer_contact": "triangle6",
     "same_discretisation/patch_inclined/8x10/P1-P1/elements/lower_contact": "triangle",
     "same_problem/rings/12x15-24x30-48x60/inner_contact": "triangle",
 }
+
+
+@pytest.fixture(scope="session")
+def programs():
+    try:
+        return run.find_programs()
+    except run.MissingProgram as missing:
+        pytest.skip(str(missing))
+
+
+@pytest.fixture
+def crosscheck(tmp_path):
+    """Runs crosscheck.py; returns the process and the table of report.json, None if there is none."""
+
+    def run_crosscheck(*arguments, **environment):
+        command = [sys.executable, HERE / "crosscheck.py", "-o", tmp_path / "report", *arguments]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, env={**os.environ, **environment})
+        report = tmp_path / "report/report.json"
+        return done, json.loads(report.read_text()) if report.is_file() else None
+
+    return run_crosscheck
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -71,7 +97,7 @@ def test_a_program_that_fails_is_told_with_its_last_lines(crosscheck, tmp_path):
 
 CASE = "same_discretisation/parabola_1/8x10/P2-P1/segments/upper_contact"
 LIMIT = 1e-8
-WRONG = str(Path(__file__).with_name("wrong_mortise.py"))
+WRONG = str(HERE / "wrong_mortise.py")
 
 
 def values(report):
