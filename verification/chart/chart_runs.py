@@ -21,15 +21,17 @@ COLUMNS = (
     *("problem", "method", "mesh", "n", "status", "turns", *SIZES, "energy", *ERRORS, *STAGES),
     *("s_total_min", "s_total_max"),
 )
-SCRIPTS = ("mortar.edp", "elasticity.idp", "contact.idp", "system.idp")  # of FreeFEM
+# What measures, beside the programs and the scenes.
+MEASURES = ("chart_runs", "economy", "errors_of_freefem", "exact", "reference", "timing_check")
+FREEFEM = ("mortar.edp", "elasticity.idp", "contact.idp", "system.idp")
+CROSSCHECK = ("compare", "convert", "run", "scene")
 
 
 def make_store(output, quick):
-    """What the seconds and errors hang on: both programs, the scenes, FreeFEM's scripts, and what measures here."""
-    measures = ("chart_runs", "economy", "errors_of_freefem", "reference", "timing_check")
-    files = [*Path(__file__).parent.glob("*.py"), *(launch.ROOT / "freefem" / script for script in SCRIPTS)]
-    files = [path for path in files if path.suffix != ".py" or path.stem in measures]
-    return runs.Store(output / ("runs_quick" if quick else "runs"), sorted(files), [launch.CHART, launch.MORTISE])
+    here = Path(__file__).parent
+    files = [*(here / f"{name}.py" for name in MEASURES), *(launch.ROOT / "freefem" / name for name in FREEFEM)]
+    files += [here.with_name("crosscheck") / f"{name}.py" for name in CROSSCHECK]
+    return runs.Store(output / ("runs_quick" if quick else "runs"), files, [launch.CHART, launch.MORTISE])
 
 
 def tool(problem, named_ways, turns, *options):
