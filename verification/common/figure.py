@@ -16,8 +16,13 @@ def panels(rows, columns, size, **options):
     return plt.subplots(rows, columns, figsize=size, layout="constrained", **options)
 
 
+def mosaic(layout, size):
+    """As panels, of unequal sizes: {letter: axes} of rows like "AAB"."""
+    return plt.subplot_mosaic("\n".join(layout), figsize=size, layout="constrained")
+
+
 def label(axes, x=None, y=None, title=None, log="", limit=None, legend=False, **settings):
-    """Labels, grid and scales: `log` names the logarithmic axes ("xy"), `limit` draws a dashed level, others as set()."""
+    """Labels, grid and scales; `log` names logarithmic axes ("xy"), `limit` draws a dashed level, others: set()."""
     for name, text in (("xlabel", x), ("ylabel", y), ("title", title)):
         settings |= {name: text} if text is not None else {}
     axes.set(**{f"{axis}scale": "log" for axis in log}, **settings)

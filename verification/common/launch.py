@@ -14,19 +14,22 @@ CHART = Path(os.environ.get("MORTISE_CHART", ROOT / "build/release/verification/
 YOUNG = 210e9  # of the lower body, in the scenes' units
 SOLVED = (0, 2)  # exit status: 2 is a check that fails, or no convergence, with the results written
 TIME_LIMIT = 1800  # seconds for one call
-ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # in the environment: runs that are timed, or side by side
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # environment of runs that are timed
 
 
 class MortiseError(Exception):
     """A program cannot be run, or refuses, with what it said."""
 
 
-def options(description, name, arguments=None, **switches):
-    """The command line of a study: -o (default: out/NAME), --quick, --jobs, and `switches` with their help."""
+def command_line(description, name, arguments=None, names=None, **switches):
+    """The command line of a study: -o (default: out/NAME), --quick, --jobs, `switches` with their help; and --only, for
+    studies that have parts called `names`."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, default=Path("out") / name, help=f"folder (default: out/{name})")
     parser.add_argument("--quick", action="store_true", help="a part of it, in a minute or two")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at once, where none is timed (default: 1)")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at once (default: 1)")
+    if names:
+        parser.add_argument("--only", nargs="+", choices=names, default=[], metavar="NAME", help=", ".join(names))
     for switch, words in switches.items():
         parser.add_argument(f"--{switch}", action="store_true", help=words)
     return parser.parse_args(arguments)

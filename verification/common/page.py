@@ -1,4 +1,4 @@
-"""Sections of the report: HTML with tables and pictures, in one style.
+"""Pages of the studies: docs/NAME.md, and the sections of the report, HTML in one style.
 
 A study writes its results into a folder of its own, out/NAME, and beside them section.html: a fragment whose pictures
 are files below that folder. A fragment is a page by itself as it stands (every browser opens it); the report puts
@@ -7,6 +7,11 @@ several together.
 
 import html
 import re
+
+import figure
+import launch
+
+DOCS = launch.ROOT / "docs"
 
 STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; color: #1c1c1c; max-width: 1180px; margin: 2em auto; padding: 0 1em }
@@ -99,3 +104,15 @@ def write_section(folder, name, title, parts):
     """FOLDER/section.html: `parts` (HTML texts) under a title that links to #NAME."""
     body = f'<section id="{name}">\n<h2>{html.escape(title)}</h2>\n' + "".join(parts) + "</section>\n"
     (folder / "section.html").write_text(f'<meta charset="utf-8"><style>{STYLE}</style>\n' + body)
+
+
+def write(folder, name, text, docs=False):
+    """FOLDER/section.html of a page in Markdown, and docs/NAME.md if `docs`. The page's pictures are NAME/FILE.png
+    there (with few colours) and FOLDER/FILE.png here; links to other pages of docs/ are made for docs/report/."""
+    title, body = text.removeprefix("# ").split("\n", 1)
+    for_report = re.sub(r"\]\(([\w/]+\.md)\)", r"](../\1)", body.replace(f"]({name}/", "]("))
+    write_section(folder, name, title, [from_markdown(for_report)])
+    if docs:
+        (DOCS / f"{name}.md").write_text(text)
+        for path in re.findall(rf"\]\({name}/(.+?\.png)\)", text):
+            figure.copy_small(folder / path, DOCS / name / path)

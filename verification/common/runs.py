@@ -42,16 +42,16 @@ class Store:
         self.version = digest(*programs, *scenes, *map(Path, depends))
 
     def path(self, run, name=""):
-        """Where the result of a run lies (without .json); `name` may tell people what it is."""
+        """Where the folder of a run lies, or its file without .json; `name` may tell people what it is."""
         return self.folder / "-".join(filter(None, [name, digest(self.version, run)]))
 
     def row(self, run, make, name=""):
         """What make(run) gives, or gave: JSON, kept in a file."""
-        path = self.path(run, name).with_suffix(".json")
+        path = Path(f"{self.path(run, name)}.json")
         if not path.is_file():
             result = make(run)
             self.folder.mkdir(parents=True, exist_ok=True)
-            staged = path.with_suffix(".part")
+            staged = Path(f"{path}.part")
             staged.write_text(json.dumps(result) + "\n")
             staged.replace(path)
             self.fresh += 1
@@ -59,15 +59,14 @@ class Store:
 
     def rows(self, runs, make, label):
         """row() of each run, in order, `jobs` at once, with a line of progress now and then."""
-        start, found = time.monotonic(), []
-        before = self.fresh
+        start, before, found = time.monotonic(), self.fresh, []
         with ThreadPoolExecutor(self.jobs) as pool:
             try:
                 for row in pool.map(lambda run: self.row(run, make), runs):
                     found.append(row)
                     if len(found) % 50 == 0 or len(found) == len(runs):
-                        seconds = f"{time.monotonic() - start:.0f} s"
-                        print(f"  {label}: {len(found)}/{len(runs)} runs, {self.fresh - before} new, {seconds}", flush=True)
+                        done = f"{len(found)}/{len(runs)} runs, {self.fresh - before} new"
+                        print(f"  {label}: {done}, {time.monotonic() - start:.0f} s", flush=True)
             except BaseException:
                 pool.shutdown(cancel_futures=True)
                 raise
@@ -77,7 +76,7 @@ class Store:
         """A folder that make(run, folder) has filled, now or before."""
         path = self.path(run, name)
         if not path.is_dir():
-            staged = path.with_suffix(".part")
+            staged = Path(f"{path}.part")
             shutil.rmtree(staged, ignore_errors=True)
             staged.mkdir(parents=True)
             make(run, staged)
