@@ -26,17 +26,8 @@ figure { margin: 1.2em 0 } figcaption { font-size: 13.5px; max-width: 90ch }
 """
 
 
-class Link:
-    """A cell that leads to a folder."""
-
-    def __init__(self, name, folder):
-        self.name, self.folder = name, folder
-
-
 def cell(value, show=html.escape):
     """A table's cell; numbers stand right, the words ok, failed and error in their colours."""
-    if isinstance(value, Link):
-        return f'<td><a href="{html.escape(value.folder)}/">{html.escape(value.name)}</a></td>'
     text = str(value)
     kind = text if text in ("ok", "failed", "error") else "number" if text[:1].isdigit() or text[:1] in "-–" else ""
     return f'<td class="{kind}">{show(text)}</td>'
@@ -50,10 +41,6 @@ def table(heading, rows, show=html.escape):
 
 def paragraph(text):
     return f"<p>{html.escape(text)}</p>\n"
-
-
-def heading(text, level=3):
-    return f"<h{level}>{html.escape(text)}</h{level}>\n"
 
 
 def picture(path, caption):
