@@ -1,121 +1,100 @@
 """What the chart comes to in words: which method and mesh for 5 %, 1 % and 0.1 % in p, and one for everything."""
 
-import pareto
-from chart_methods import METHODS, PROBLEMS, label
-from chart_pictures import PANELS
+from pathlib import Path
 
+import chart_runs  # makes common/ known
+import pareto
+import template
+from chart_methods import METHODS, PANELS, PROBLEMS, label
+
+TEXTS = template.texts(Path(__file__).with_name("chart_texts.md"))
 TARGETS = (0.05, 0.01, 0.001)
 LEAST_SECONDS = 0.01  # less than the program takes to start
 HEADING = ("problem", "error in p at most", "method", "mesh", "error reached", "seconds", "unknowns", "its checks")
 CHECKS = {"solved": "hold", "check_failed": "one fails"}
 
 
-def by_mortise(rows):
-    return [row for row in rows if not row["method"].startswith("freefem")]
+def say(name, **values):
+    return template.fill(TEXTS[name], **values).replace("\n", " ")
 
 
-def of_problem(rows, problem):
-    return [row for row in rows if row["problem"] == problem]
+def of_problem(rows, problem, *methods):
+    return [row for row in rows if row["problem"] == problem and (not methods or row["method"] in methods)]
+
+
+def by_mortise(rows, problem):
+    return [row for row in of_problem(rows, problem) if not row["method"].startswith("freefem")]
 
 
 def percent(value):
     return f"{value * 100:.2g} %"
 
 
-def digits(seconds):
-    return f"{seconds:.2g}"
-
-
-def error_of(rows):
-    """The error that the advice for a problem goes by."""
-    return PANELS[rows[0]["problem"]][0]
-
-
 def table(rows):
     """A row of HEADING for each problem and target."""
-    for problem in PROBLEMS:
-        mine = by_mortise(of_problem(rows, problem))
-        for target, row in pareto.advice(mine, PANELS[problem][0], TARGETS, list(METHODS)).items():
-            if row is None:
-                yield [problem, percent(target), "no mesh of the chart reaches it", *[""] * 5]
-                continue
-            reached, seconds = row[PANELS[problem][0]], row["s_total"]
-            yield [
-                *(problem, percent(target), label(row["method"]), row["mesh"]),
-                *(percent(reached), digits(seconds), str(row["dofs"]), CHECKS[row["status"]]),
-            ]
+    for problem, (error, *_) in PANELS.items():
+        for target, row in pareto.advice(by_mortise(rows, problem), error, TARGETS, list(METHODS)).items():
+            cells = ["no mesh of the chart reaches it", *[""] * 5]
+            if row is not None:
+                cells = [label(row["method"]), row["mesh"], percent(row[error]), f"{row['s_total']:.2g}"]
+                cells += [str(row["dofs"]), CHECKS[row["status"]]]
+            yield [problem, percent(target), *cells]
 
 
 def ordered(costs):
     """Cheapest first; of those as good as equal to the cheapest the one that stands first in METHODS leads."""
-    if not costs:
-        return []
     places = list(METHODS)
     equal = [pair for pair in costs if pair[1] <= pareto.AS_GOOD * costs[0][1]]
-    first = min(equal, key=lambda pair: places.index(pair[0]))
-    return [first, *(pair for pair in costs if pair is not first)]
+    first = min(equal, key=lambda pair: places.index(pair[0]), default=None)
+    return [first, *(pair for pair in costs if pair is not first)] if costs else []
 
 
 def for_everything(problems, error, words):
-    """One sentence: the method that costs least over all problems and targets in an error, and the others."""
+    """The method that costs least over all problems and targets in an error, and the others."""
     order = ordered(pareto.general(problems, error, TARGETS, LEAST_SECONDS))
     if not order:
-        return f"{words}: no method reaches every error that another one reaches; take it by problem."
+        return say("no method", words=words)
     others = "; ".join(f"{label(method)} {value:.2g}" for method, value in order[1:])
-    best, cost = order[0]
-    return f"{words}: {label(best)}, {cost:.2g} times the least. The others: {others or 'none'}."
+    return say("for everything", words=words, best=label(order[0][0]), cost=order[0][1], others=others or None)
 
 
 def cut_or_not(rows):
     """What leaving out the cutting costs: where the errors of p end."""
     ends = []
-    for problem in PROBLEMS:
-        mine = [row for row in of_problem(rows, problem) if row["method"] == "q8_elements"]
-        if len(mine) > 1:
-            error = error_of(mine)
-            before, last = (percent(row[error]) for row in mine[-2:])
-            ends.append(f"{before}, then {last} on the two finest meshes of {problem}")
-    return "Without cutting (integration = elements) p does not converge: its error ends at " + "; ".join(ends) + "."
+    for problem, (error, *_) in PANELS.items():
+        last = [percent(row[error]) for row in of_problem(rows, problem, "q8_elements")[-2:]]
+        ends += [say("ends", before=last[0], last=last[1], problem=problem)] if len(last) > 1 else []
+    return say("cut or not", ends="; ".join(ends))
 
 
 def graded_or_even(rows):
     """What a mesh that shrinks towards the ends saves on parabola_1, for the smallest target."""
-    mine = by_mortise(of_problem(rows, "parabola_1"))
-    series = pareto.by_method(mine, PANELS["parabola_1"][0])
-    graded = pareto.seconds_at(series.pop("q8_graded", []), PANELS["parabola_1"][0], TARGETS[-1])
-    even = {m: pareto.seconds_at(s, PANELS["parabola_1"][0], TARGETS[-1]) for m, s in series.items()}
-    even = {method: seconds for method, seconds in even.items() if seconds}
+    error = PANELS["parabola_1"][0]
+    series = pareto.by_method(by_mortise(rows, "parabola_1"), error)
+    seconds = {method: pareto.seconds_at(mine, error, TARGETS[-1]) for method, mine in series.items()}
+    graded, even = seconds.pop("q8_graded", None), {method: value for method, value in seconds.items() if value}
     if not graded or not even:
-        return "Where the stress is singular (parabola_1), a mesh that shrinks towards the ends converges faster."
-    best, _ = ordered(sorted(even.items(), key=lambda pair: pair[1]))[0]
-    return (
-        f"Where the stress is singular (parabola_1), let the mesh shrink towards the ends: {percent(TARGETS[-1])} in p "
-        f"takes {digits(graded)} s so, and {digits(even[best])} s at best on even meshes ({label(best)}); finer meshes "
-        "gain more still."
-    )
+        return say("graded untold")
+    best, least = ordered(sorted(even.items(), key=lambda pair: pair[1]))[0]
+    texts = {"graded": f"{graded:.2g}", "even": f"{least:.2g}"}
+    return say("graded", error=percent(TARGETS[-1]), method=label(best), **texts)
 
 
 def recommendation(rows):
     """Sentences: the method that costs least over all problems and targets, and what else the chart says."""
-    problems = [by_mortise(of_problem(rows, problem)) for problem in PROBLEMS if of_problem(rows, problem)]
-    yield (
-        "One method for everything, by the geometric mean over the problems and errors above of the seconds over those "
-        f"of the quickest method (seconds below {LEAST_SECONDS} count as that, between two meshes they follow a power "
-        "law; a method that misses an error which another one reaches is left out)."
-    )
-    yield for_everything(problems, error_of, "For p")
+    problems = [by_mortise(rows, problem) for problem in PROBLEMS if of_problem(rows, problem)]
+    yield say("weights", least=LEAST_SECONDS)
+    yield for_everything(problems, lambda rows: PANELS[rows[0]["problem"]][0], "For p")
     stresses = "For the stresses in the bodies (the same errors in the energy norm)"
     yield for_everything(problems, lambda rows: "e_energy", stresses)
-    if any(row["method"] == "q8_elements" for row in rows):
-        yield cut_or_not(rows)
-    if any(row["method"] == "q8_graded" for row in rows):
-        yield graded_or_even(rows)
+    for method, sentence in (("q8_elements", cut_or_not), ("q8_graded", graded_or_even)):
+        if any(row["method"] == method for row in rows):
+            yield sentence(rows)
 
 
 def rates(rows):
     """Rates of the last halving of each method: problem, method, a rate for each error."""
-    for problem in PROBLEMS:
+    for problem, errors in PANELS.items():
         for method in dict.fromkeys(row["method"] for row in of_problem(rows, problem)):
-            mine = [row for row in of_problem(rows, problem) if row["method"] == method]
-            found = [pareto.rate(mine, error) for error in PANELS[problem]]
+            found = [pareto.rate(of_problem(rows, problem, method), error) for error in errors]
             yield [problem, label(method), *("" if value is None else f"{value:.2f}" for value in found)]

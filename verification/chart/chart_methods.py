@@ -70,6 +70,12 @@ PROBLEMS = {
         "freefem": ("parabola_1", "lower_contact"),
     },
 }
+# The errors that are drawn; the advice goes by the first.
+PANELS = {
+    "manufactured": ("e_p_l2", "e_energy", "e_p_max_inner"),
+    "rings": ("e_p_l2", "e_energy", "e_p_max_inner"),
+    "parabola_1": ("e_p_l2_inner", "e_energy", "e_p_max_inner"),
+}
 QUICK_METHODS = ("q8_linear", "q8_quadratic", "q4_linear", "t3_linear", "q8_ddm", "q8_mssor", "q8_graded", "freefem_p1")
 LEVELS = {"full": 7, "quick": 3}
 TURNS = {"full": 5, "quick": 2}

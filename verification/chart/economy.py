@@ -6,19 +6,21 @@ condition   Scenes where nothing opens, as unilateral and as bilateral contact: 
 elements    For an answer to 5 % and 1 % in p: the quickest mesh of linear and of quadratic elements (from chart.csv).
 
 Seconds are those of assembly to recovery in summary.json, one thread, medians of repeats in turns; `whole` has meshing
-and writing too. Written is economy.csv.
+and writing too.
 """
 
 import json
 import statistics
+import tempfile
 import time
+from pathlib import Path
 
 import numpy as np
 
-import chart_runs
+import chart_runs  # makes launch known
 import launch
 import pareto
-from chart_pictures import PANELS
+from chart_methods import PANELS
 
 SAME = 1e-9  # of the largest p
 HALVES = ("parabola_1", "circle", "tent_a", "tent_b", "tent_c")
@@ -74,14 +76,14 @@ def pressure(folder):
     return np.array([[table["x"][i], table["p"][i]] for i in mine])
 
 
-def compare(study, scene, named, output, repeats, same_p):
+def compare(study, scene, named, folder, repeats):
     """One row for each of two named ways (path, settings) to solve a scene, the seconds' medians taken in turns."""
     summaries = {name: [] for name in named}
     for _ in range(repeats):
         for name, (path, settings) in named.items():
-            summaries[name].append(solve(path, settings, output / f"economy/{scene}_{name}"))
-    tables = [pressure(output / f"economy/{scene}_{name}") for name in named]
-    difference = same_p(*tables) / np.abs(tables[0][:, 1]).max()
+            summaries[name].append(solve(path, settings, folder / f"{scene}_{name}"))
+    tables = [pressure(folder / f"{scene}_{name}") for name in named]
+    difference = largest_difference(*tables) / np.abs(tables[0][:, 1]).max()
     for name in named:
         first = summaries[name][0]
         yield {
@@ -101,26 +103,21 @@ def largest_difference(first, second):
     return np.abs(first[rows, 1] - second[:, 1]).max()
 
 
-def halves(mesh, output, repeats):
+def halves(mesh, folder, repeats):
     for scene in HALVES:
         even = {} if scene.startswith("tent") else {"mesh.parameters.spacing": 1}
-        half = tuple(n // 2 for n in mesh)
-        named = {
-            "whole": (launch.scene_file(scene), {**launch.sizes(mesh), **even}),
-            "half": (half_scene(scene, output / "economy/scenes"), {**launch.sizes(half), **even}),
-        }
-        yield from compare("half", scene, named, output, repeats, largest_difference)
+        whole, half = ({**launch.sizes(size), **even} for size in (mesh, [n // 2 for n in mesh]))
+        named = {"whole": (launch.scene_file(scene), whole), "half": (half_scene(scene, folder / "scenes"), half)}
+        yield from compare("half", scene, named, folder, repeats)
 
 
-def conditions(mesh, output, repeats):
+def conditions(mesh, folder, repeats):
     for scene in CONDITIONS:
         rings = {"mesh.parameters.n_inner": mesh[0], "mesh.parameters.n_outer": mesh[1]}
         sizes = rings if scene == "rings" else launch.sizes(mesh)
-        named = {
-            condition: (launch.scene_file(scene), {**sizes, "contact.condition": condition})
-            for condition in ("unilateral", "bilateral")
-        }
-        yield from compare("condition", scene, named, output, repeats, largest_difference)
+        named = {condition: (launch.scene_file(scene), {**sizes, "contact.condition": condition})
+                 for condition in ("unilateral", "bilateral")}
+        yield from compare("condition", scene, named, folder, repeats)
 
 
 def elements(rows):
@@ -134,14 +131,13 @@ def elements(rows):
                 yield {"problem": problem, "method": method, "target": target, **seconds}
 
 
-def measure(output, quick):
-    """The rows of `half` and `condition`, kept in a file while the executable is the same."""
+def measure(store, quick):
+    """The rows of `half` and `condition`."""
     size = "quick" if quick else "full"
-    key = chart_runs.digest(launch.MORTISE, __doc__, HALVES, CONDITIONS, MESH, REPEATS, size)
-    make = lambda: [
-        *halves(MESH[size], output, REPEATS[size]),
-        *conditions(MESH[size], output, REPEATS[size]),
-    ]
-    rows, old = chart_runs.kept(output / f"economy/rows_{size}.json", key, make)
-    launch.write_csv(output / "economy.csv", rows)
-    return rows, old
+
+    def make(run):
+        with tempfile.TemporaryDirectory() as folder:
+            arguments = MESH[size], Path(folder), REPEATS[size]
+            return [*halves(*arguments), *conditions(*arguments)]
+
+    return store.row(["economy", HALVES, CONDITIONS, MESH[size], REPEATS[size]], make, "economy")

@@ -17,11 +17,11 @@ tenth of the length at each end.
 
 import json
 import math
-from pathlib import Path
 
 import numpy as np
 
-import chart_runs
+import chart_runs  # makes launch known
+import launch
 
 COLUMNS = {"full": 384, "quick": 64}
 GRADINGS = (2, 3, 4)
@@ -40,7 +40,7 @@ def solve(columns, grading, path=None, reference=None):
     options = [*(["--pressure", path] if path else []), *(["--reference", reference] if reference else [])]
     rows, said = chart_runs.tool("parabola_1", [way(columns, grading)], 1, *options)
     if rows[0]["status"] == "refused":
-        raise chart_runs.ToolError(f"the reference was refused: {said}")
+        raise launch.MortiseError(f"the reference was refused: {said}")
     return rows[0]
 
 
@@ -52,9 +52,8 @@ def aitken(energies):
 
 
 def make(columns, folder):
-    """Solves everything; writes reference.csv (x, p) into the folder and returns the table of reference.json."""
+    """Solves everything into reference.csv (x, p) and reference.json of the folder."""
     path = folder / "reference.csv"
-    path.parent.mkdir(parents=True, exist_ok=True)
     chosen = solve(columns, CHOSEN, path)
     others = {g: solve(columns, g, reference=path) for g in GRADINGS if g != CHOSEN}
     limits = {}
@@ -65,10 +64,8 @@ def make(columns, folder):
     even = [float(solve(columns // part, 1)["energy"]) for part in (4, 2)]
     energy = limits[CHOSEN][0]
     trust = abs(limits[CHOSEN][0] - limits[2][0]) / energy
-    return {
-        "columns": columns,
-        "unknowns": int(chosen["dofs"]),
-        "energy": energy,
+    table = {
+        **{"columns": columns, "unknowns": int(chosen["dofs"]), "energy": energy},
         "energy_rates": {g: rate for g, (_, rate) in limits.items()},
         "energy_limits": {g: limit for g, (limit, _) in limits.items()},
         "energy_rate_even_meshes": math.log2((energy - even[0]) / (energy - even[1])),
@@ -79,16 +76,14 @@ def make(columns, folder):
             "e_energy": math.sqrt(SAFETY * trust),
         },
     }
+    (folder / "reference.json").write_text(json.dumps(table))
 
 
-def reference(folder, quick):
-    """The table, the path of x,p, and whether both were kept from before."""
-    columns, path = COLUMNS["quick" if quick else "full"], folder / "reference.csv"
-    key = chart_runs.digest(chart_runs.TOOL, Path(__file__), columns) if chart_runs.TOOL.is_file() else ""
-    if not path.is_file():
-        (folder / "reference.json").unlink(missing_ok=True)
-    table, old = chart_runs.kept(folder / "reference.json", key, lambda: make(columns, folder))
-    return json.loads(json.dumps(table)), path, old
+def reference(store, quick):
+    """The table, and the path of x,p."""
+    columns = COLUMNS["quick" if quick else "full"]
+    folder = store.results(["reference", columns], lambda _, folder: make(columns, folder), "reference")
+    return json.loads((folder / "reference.json").read_text()), folder / "reference.csv"
 
 
 def pressure_function(path):

@@ -12,9 +12,11 @@ import os
 import resource
 import statistics
 import subprocess
+import tempfile
 import time
+from pathlib import Path
 
-import chart_runs
+import chart_runs  # makes launch known
 import launch
 from chart_methods import mesh_name, mesh_of, ways
 
@@ -36,7 +38,7 @@ def seconds_of(*arguments):
     command = [str(word) for word in (launch.MORTISE, *arguments)]
     start, before = time.perf_counter(), processor_seconds()
     done = subprocess.run(
-        command, capture_output=True, text=True, check=False, env={**os.environ, **chart_runs.ONE_THREAD}
+        command, capture_output=True, text=True, check=False, env={**os.environ, **launch.ONE_THREAD}
     )
     seconds = time.perf_counter() - start, processor_seconds() - before
     if done.returncode not in launch.SOLVED:
@@ -53,7 +55,7 @@ def timed(problem, settings, folder):
     return whole - own["mesh"] - own["write"], own["total"] - own["mesh"] - own["write"], processor - meshing
 
 
-def check(rows, output, quick):
+def check(rows, quick):
     """A row for each picked figure that the chart has: its seconds there, those of the process, their ratio."""
     found = []
     start = statistics.median(seconds_of("--version")[0] for _ in range(REPEATS))
@@ -64,7 +66,8 @@ def check(rows, output, quick):
         if charted is None:
             continue
         settings = dict(ways(problem, level, quick))[method]
-        outside, inside, processor = zip(*(timed(problem, settings, output / "timing") for _ in range(REPEATS)))
+        with tempfile.TemporaryDirectory() as folder:
+            outside, inside, processor = zip(*(timed(problem, settings, Path(folder)) for _ in range(REPEATS)))
         process = statistics.median(outside) - start
         found.append(
             {

@@ -1,5 +1,6 @@
 """Runs of mortise: many of one scene at once, or one with its results."""
 
+import argparse
 import csv
 import json
 import os
@@ -9,20 +10,42 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 MORTISE = Path(os.environ.get("MORTISE", ROOT / "build/release/mortise")).absolute()
+CHART = Path(os.environ.get("MORTISE_CHART", ROOT / "build/release/verification/chart/mortise_chart")).absolute()
 YOUNG = 210e9  # of the lower body, in the scenes' units
 SOLVED = (0, 2)  # exit status: 2 is a check that fails, or no convergence, with the results written
 TIME_LIMIT = 1800  # seconds for one call
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # environment of runs that are timed
 
 
 class MortiseError(Exception):
-    """mortise cannot be run, or refuses, with what it said."""
+    """A program cannot be run, or refuses, with what it said."""
+
+
+def command_line(description, name, arguments=None, names=None, **switches):
+    """The command line of a study: -o (default: out/NAME), --quick, --jobs, `switches` with their help; and --only, for
+    studies that have parts called `names`."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-o", "--output", type=Path, default=Path("out") / name, help=f"folder (default: out/{name})")
+    parser.add_argument("--quick", action="store_true", help="a part of it, in a minute or two")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at once (default: 1)")
+    if names:
+        parser.add_argument("--only", nargs="+", choices=names, default=[], metavar="NAME", help=", ".join(names))
+    for switch, words in switches.items():
+        parser.add_argument(f"--{switch}", action="store_true", help=words)
+    return parser.parse_args(arguments)
+
+
+def need(program):
+    """The program, or MortiseError if it is not there."""
+    if not program.is_file():
+        variable = "MORTISE_CHART" if program == CHART else "MORTISE"
+        raise MortiseError(f"{program} is missing: ./dev build makes it, or {variable} names another")
+    return program
 
 
 def call(*arguments):
     """Runs mortise, or says why it did not run."""
-    if not MORTISE.is_file():
-        raise MortiseError(f"{MORTISE} is missing: ./dev build makes it, or MORTISE names another")
-    command = [str(word) for word in (MORTISE, *arguments)]
+    command = [str(word) for word in (need(MORTISE), *arguments)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT, check=False)
     if done.returncode not in SOLVED:
         raise MortiseError(f"{' '.join(command)}: exit status {done.returncode}\n{done.stderr.strip()}")

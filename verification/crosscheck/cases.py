@@ -29,7 +29,7 @@ class Step:
 
     @property
     def mesh_name(self):
-        return "x".join(str(n) for n in self.mesh)
+        return "x".join(map(str, self.mesh))
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ def mesh_size(text):
     numbers = text.split("x")
     if len(numbers) != 2 or not all(n.isdigit() and int(n) > 0 for n in numbers):
         raise CaseError(f"{TABLE.name}: mesh '{text}'; expected two numbers of elements such as 8x10")
-    return tuple(int(n) for n in numbers)
+    return tuple(map(int, numbers))
 
 
 def matches(name, globs):
@@ -71,56 +71,37 @@ def one_discretisation_step(table, scene, mesh, side, space, integration, condit
     spaces = table["same_discretisation"]
     chosen = spaces["spaces"][space]
     method = {"multipliers": chosen["multipliers"], "integration": integration}
-    return Step(
-        scene=scene,
-        mesh=mesh_size(mesh),
-        side=side,
-        mesh_parameters={**spaces["parameters"], "order": chosen["order"]},
-        mortise=method,
-        freefem={**method, "order": chosen["order"], "gauss": chosen["gauss"]},
-        condition=condition,
-        same_nodes=True,
-    )
+    parameters = {**spaces["parameters"], "order": chosen["order"]}
+    freefem = {**method, "order": chosen["order"], "gauss": chosen["gauss"]}
+    return Step(scene, mesh_size(mesh), side, parameters, method, freefem, condition, same_nodes=True)
 
 
 def same_discretisation(table):
     level = table["same_discretisation"]
     for group in level["scenes"]:
         condition = group.get("condition", "bilateral")
-        product = itertools.product(
-            group["names"], group["meshes"], level["spaces"], level["integrations"], group["sides"]
-        )
-        for scene, mesh, space, integration, side in product:
-            name = f"same_discretisation/{scene}/{mesh}/{space}/{integration}/{side}"
-            if condition == "unilateral":
-                name += "/unilateral"
-            if matches(name, level["exclude"]):
-                continue
-            step = one_discretisation_step(table, scene, mesh, side, space, integration, condition)
-            quick = matches(name, level["quick"])
-            limits = {**level["limits"], **({"active": 0} if condition == "unilateral" else {})}
-            yield Case("same_discretisation", name, (step,), limits=limits, quick=quick)
+        loaded = {"active": 0} if condition == "unilateral" else {}
+        choices = group["names"], group["meshes"], level["spaces"], level["integrations"], group["sides"]
+        for scene, mesh, space, integration, side in itertools.product(*choices):
+            parts = [scene, mesh, space, integration, side, *(["unilateral"] if loaded else [])]
+            name = "/".join(["same_discretisation", *parts])
+            if not matches(name, level["exclude"]):
+                step = one_discretisation_step(table, scene, mesh, side, space, integration, condition)
+                limits, quick = level["limits"] | loaded, matches(name, level["quick"])
+                yield Case("same_discretisation", name, (step,), limits=limits, quick=quick)
 
 
 def same_problem(table):
     level = table["same_problem"]
-    parameters = {key: level["mortise"][key] for key in ("kind", "order")}
-    method = {key: level["mortise"][key] for key in ("multipliers", "integration")}
+    parameters, method = ({key: level["mortise"][key] for key in keys}
+                          for keys in (("kind", "order"), ("multipliers", "integration")))
     for group in level["scenes"]:
+        rest = {"limits": group["limits"], "least_rates": group["least_rates"], "kinks": tuple(group.get("kinks", ()))}
         for scene, side in itertools.product(group["names"], group["sides"]):
-            steps = tuple(
-                Step(scene, mesh_size(mesh), side, parameters, method, level["freefem"], "bilateral", same_nodes=False)
-                for mesh in group["meshes"]
-            )
-            yield Case(
-                level="same_problem",
-                name=f"same_problem/{scene}/{'-'.join(group['meshes'])}/{side}",
-                steps=steps,
-                limits=group["limits"],
-                least_rates=group["least_rates"],
-                kinks=tuple(group.get("kinks", ())),
-                quick=group.get("quick", False),
-            )
+            how = side, parameters, method, level["freefem"], "bilateral"
+            steps = [Step(scene, mesh_size(mesh), *how, same_nodes=False) for mesh in group["meshes"]]
+            name = f"same_problem/{scene}/{'-'.join(group['meshes'])}/{side}"
+            yield Case("same_problem", name, tuple(steps), **rest, quick=group.get("quick", False))
 
 
 def timing(table):
@@ -132,19 +113,12 @@ def timing(table):
 
 def all_cases(path=TABLE):
     """Every case of the table, in its order."""
-    with open(path, "rb") as file:
-        table = tomllib.load(file)
+    table = tomllib.loads(path.read_text())
     cases = [*same_discretisation(table), *same_problem(table), *timing(table)]
-    twice = {case.name for case in cases if sum(other.name == case.name for other in cases) > 1}
-    if twice:
-        raise CaseError(f"{path}: two cases of the name {min(twice)}")
+    names = [case.name for case in cases]
+    if len(set(names)) < len(names):
+        raise CaseError(f"{path}: two cases of the name {min(name for name in names if names.count(name) > 1)}")
     return cases
-
-
-def nearest_names(glob, names):
-    """The names that look most like a glob that none of them matches."""
-    plain = glob.replace("*", "").replace("?", "")
-    return difflib.get_close_matches(plain, names, n=3, cutoff=0.3) or names[:3]
 
 
 def choose(cases, globs, quick):
@@ -152,7 +126,8 @@ def choose(cases, globs, quick):
     names = [case.name for case in cases]
     for glob in globs:
         if not any(fnmatchcase(name, glob) for name in names):
-            near = "\n  ".join(nearest_names(glob, names))
+            plain = glob.replace("*", "").replace("?", "")
+            near = "\n  ".join(difflib.get_close_matches(plain, names, n=3, cutoff=0.3) or names[:3])
             raise CaseError(f"no case matches '{glob}'; the nearest are\n  {near}")
     chosen = [case for case in cases if (not globs or matches(case.name, globs)) and (case.quick or not quick)]
     if not chosen:

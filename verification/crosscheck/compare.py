@@ -67,16 +67,12 @@ def read_numbers(path, columns):
 
 def mortise_bodies(folder):
     """Points and displacements of each body of result.vtu, by the body's number."""
-    mesh = meshio.read(folder / "result.vtu")
-    bodies = {}
+    mesh, bodies = meshio.read(folder / "result.vtu"), {}
     for block, number in zip(mesh.cells, mesh.cell_data["body"]):
         for body in np.unique(number):
-            bodies.setdefault(int(body), []).append(np.unique(block.data[number == body]))
-    found = {}
-    for body, nodes in bodies.items():
-        nodes = np.unique(np.concatenate(nodes))
-        found[body] = mesh.points[nodes, :2], mesh.point_data["displacement"][nodes, :2]
-    return found
+            bodies.setdefault(int(body), []).append(block.data[number == body].ravel())
+    nodes = {body: np.unique(np.concatenate(found)) for body, found in bodies.items()}
+    return {body: (mesh.points[n, :2], mesh.point_data["displacement"][n, :2]) for body, n in nodes.items()}
 
 
 def displacements(solved, order, same_nodes):
@@ -115,15 +111,12 @@ def pressures(solved, side):
 
 def compare(solved, step):
     """Reads both programs' results of a step."""
-    order = step.freefem["order"]
-    fields, curve = displacements(solved, order, step.same_nodes), pressures(solved, step.side)
-    if step.same_nodes:
-        rows = run.mortise_summary(solved.folder)["mesh"]["multipliers"]
-        theirs = int(run.freefem_summary(solved.folder)["multipliers"])
-        if rows != theirs:
-            raise CaseError(f"{rows} multipliers in mortise, {theirs} in FreeFEM")
-    energies = run.mortise_summary(solved.folder)["energy"], run.freefem_summary(solved.folder)["energy"]
-    return Comparison(fields, curve, energies)
+    fields, curve = displacements(solved, step.freefem["order"], step.same_nodes), pressures(solved, step.side)
+    ours, theirs = run.mortise_summary(solved.folder), run.freefem_summary(solved.folder)
+    rows = ours["mesh"]["multipliers"], int(theirs["multipliers"])
+    if step.same_nodes and rows[0] != rows[1]:
+        raise CaseError("{} multipliers in mortise, {} in FreeFEM".format(*rows))
+    return Comparison(fields, curve, (ours["energy"], theirs["energy"]))
 
 
 def ratio(difference, size):
@@ -141,7 +134,7 @@ def energy_difference(comparison):
 
 
 def largest_differences(comparison):
-    """Same discretisation: max |du| / max |u| and max |dp| / max |p|, the energy; multipliers that only one has closed."""
+    """Same discretisation: max |du| / max |u|, max |dp| / max |p|, the energy; multipliers that only one has closed."""
     difference = max(lengths(f.mortise - f.freefem).max() for f in comparison.fields)
     size = max(lengths(f.freefem).max() for f in comparison.fields)
     curve = comparison.curve
@@ -163,11 +156,9 @@ def nodal_areas(points, triangles):
 
 def displacement_l2(fields):
     """Relative, over both bodies."""
-    difference = size = 0.0
-    for field in fields:
-        weight = nodal_areas(field.points, field.cells)
-        difference += weight @ lengths(field.mortise - field.freefem) ** 2
-        size += weight @ lengths(field.mortise) ** 2
+    weights = [nodal_areas(field.points, field.cells) for field in fields]
+    difference = sum(w @ lengths(field.mortise - field.freefem) ** 2 for w, field in zip(weights, fields))
+    size = sum(w @ lengths(field.mortise) ** 2 for w, field in zip(weights, fields))
     return ratio(math.sqrt(difference), math.sqrt(size))
 
 
@@ -197,23 +188,17 @@ def mean_differences(comparison, kinks):
 
 def write_difference(comparison, path):
     """The mesh of both bodies with both displacements and their difference, for ParaView."""
-    fields, first = comparison.fields, 0
-    kind = {3: "triangle", 6: "triangle6"}[fields[0].cells.shape[1]]
-    points, cells, bodies = [], [], []
-    for number, field in enumerate(fields):
-        points.append(field.points)
-        cells.append(field.cells + first)
-        bodies.append(np.full(len(field.cells), number))
-        first += len(field.points)
-    in_space = lambda rows: np.pad(np.concatenate(rows), ((0, 0), (0, 1)))
+    a, b = comparison.fields
+    cells = np.concatenate([a.cells, b.cells + len(a.points)])
+    in_space = lambda first, second: np.pad(np.concatenate([first, second]), ((0, 0), (0, 1)))
     data = {
-        "u_mortise": in_space([f.mortise for f in fields]),
-        "u_freefem": in_space([f.freefem for f in fields]),
-        "difference": in_space([f.mortise - f.freefem for f in fields]),
+        "u_mortise": in_space(a.mortise, b.mortise),
+        "u_freefem": in_space(a.freefem, b.freefem),
+        "difference": in_space(a.mortise - a.freefem, b.mortise - b.freefem),
     }
-    mesh = meshio.Mesh(
-        in_space(points), [(kind, np.concatenate(cells))], point_data=data, cell_data={"body": [np.concatenate(bodies)]}
-    )
+    bodies = np.repeat([0, 1], [len(a.cells), len(b.cells)])
+    blocks = [({3: "triangle", 6: "triangle6"}[cells.shape[1]], cells)]
+    mesh = meshio.Mesh(in_space(a.points, b.points), blocks, point_data=data, cell_data={"body": [bodies]})
     meshio.write(path, mesh)
 
 

@@ -7,7 +7,6 @@ import numpy as np
 
 from cases import CaseError
 
-CORNERS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
 UNNAMED = 0  # reference of the boundary edges that no physical curve names
 
 
@@ -57,14 +56,18 @@ def counterclockwise(points, triangles):
     return np.where(clockwise[:, None], triangles[:, [0, 2, 1]], triangles)
 
 
+def corners_of(mesh, name, kinds):
+    """Corner nodes of the cells of a physical group, block by block. `kinds`: their types, and corners of each."""
+    for block, chosen in zip(mesh.cells, mesh.cell_sets[name]):
+        if block.type in kinds and chosen is not None and len(chosen) > 0:
+            yield block.data[np.asarray(chosen, dtype=int), : kinds[block.type]]
+
+
 def corner_triangles(mesh, name):
     """The triangles of a body on the nodes of the whole mesh."""
-    found = []
     points = mesh.points[:, :2]
-    for block, chosen in zip(mesh.cells, mesh.cell_sets[name]):
-        if block.type in CORNERS and chosen is not None and len(chosen) > 0:
-            cells = block.data[np.asarray(chosen, dtype=int), : CORNERS[block.type]]
-            found.append(split_quadrilaterals(points, cells) if CORNERS[block.type] == 4 else cells)
+    found = [split_quadrilaterals(points, cells) if cells.shape[1] == 4 else cells
+             for cells in corners_of(mesh, name, {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4})]
     if not found:
         raise CaseError(f"the mesh has no cells of the body '{name}'")
     return counterclockwise(points, np.concatenate(found).astype(int))
@@ -72,12 +75,7 @@ def corner_triangles(mesh, name):
 
 def curve_edges(mesh, name):
     """Corner nodes of the edges of a physical curve."""
-    pairs = zip(mesh.cells, mesh.cell_sets[name])
-    found = [
-        block.data[np.asarray(chosen, dtype=int), :2]
-        for block, chosen in pairs
-        if block.type in ("line", "line3") and chosen is not None and len(chosen) > 0
-    ]
+    found = list(corners_of(mesh, name, {"line": 2, "line3": 2}))
     return np.sort(np.concatenate(found), axis=1).astype(int) if found else np.empty((0, 2), dtype=int)
 
 
@@ -105,13 +103,9 @@ def read_body(mesh, name, labels):
     used, local = np.unique(triangles, return_inverse=True)
     sides, count = np.unique(sides_of(triangles), axis=0, return_counts=True)
     boundary = sides[count == 1]
-    return Body(
-        name=name,
-        points=np.ascontiguousarray(mesh.points[used, :2]),
-        triangles=local.reshape(triangles.shape),
-        edges=np.searchsorted(used, boundary),
-        labels=np.array([labels.get(tuple(edge), UNNAMED) for edge in boundary]),
-    )
+    of_edges = np.array([labels.get(tuple(edge), UNNAMED) for edge in boundary])
+    points, edges = np.ascontiguousarray(mesh.points[used, :2]), np.searchsorted(used, boundary)
+    return Body(name, points, local.reshape(triangles.shape), edges, of_edges)
 
 
 def read_bodies(mesh, names):
@@ -135,13 +129,7 @@ def body_of_curve(bodies, tag):
 
 def write_medit(body, path):
     """ASCII, 17 digits, vertices with reference 0, triangles with 1."""
-    meshio.write(
-        path,
-        meshio.Mesh(
-            body.points,
-            [("triangle", body.triangles), ("line", body.edges)],
-            point_data={"medit:ref": np.zeros(len(body.points), dtype=int)},
-            cell_data={"medit:ref": [np.ones(len(body.triangles), dtype=int), body.labels]},
-        ),
-        file_format="medit",
-    )
+    cells = [("triangle", body.triangles), ("line", body.edges)]
+    of_points, of_cells = np.zeros(len(body.points), dtype=int), [np.ones(len(body.triangles), dtype=int), body.labels]
+    mesh = meshio.Mesh(body.points, cells, point_data={"medit:ref": of_points}, cell_data={"medit:ref": of_cells})
+    meshio.write(path, mesh, file_format="medit")

@@ -58,17 +58,10 @@ def mean_rate(values):
 
 def figures_of(case, steps):
     """The last step's differences against the limits, and the rates of the series against the least rates."""
-    figures = [Figure(name, steps[-1]["differences"][name], limit) for name, limit in case.limits.items()]
-    for name, least in case.least_rates.items():
-        values = [step["differences"][name] for step in steps]
-        figures.append(Figure(f"rate of {name}", mean_rate(values), least, is_rate=True))
-    return figures
-
-
-def differences(case, comparison):
-    if case.level == "same_problem":
-        return compare.mean_differences(comparison, case.kinks)
-    return compare.largest_differences(comparison)
+    series = {name: [step["differences"][name] for step in steps] for name in case.limits | case.least_rates}
+    figures = [Figure(name, series[name][-1], limit) for name, limit in case.limits.items()]
+    rate = lambda name, least: Figure(f"rate of {name}", mean_rate(series[name]), least, is_rate=True)
+    return figures + [rate(name, least) for name, least in case.least_rates.items()]
 
 
 def run_step(programs, case, step, folder):
@@ -77,9 +70,10 @@ def run_step(programs, case, step, folder):
     comparison = compare.compare(solved, step)
     compare.write_difference(comparison, folder / "difference.vtu")
     compare.write_pressures(comparison.curve, folder / "pressure.csv")
+    mean, largest = compare.mean_differences, compare.largest_differences
     return {
         "mesh": step.mesh_name,
-        "differences": differences(case, comparison),
+        "differences": mean(comparison, case.kinks) if case.level == "same_problem" else largest(comparison),
         "mortise_status": solved.status,
         "mortise_seconds": solved.mortise_seconds,
         "freefem_seconds": solved.freefem_seconds,
@@ -88,24 +82,16 @@ def run_step(programs, case, step, folder):
 
 def measure(programs, case, folder):
     """Both programs in turns; medians of the whole processes and of the solutions alone, and their ratios."""
-    step, samples = case.steps[0], {"mortise": [], "freefem": [], "mortise_solve": [], "freefem_solve": []}
+    samples = []
     for _ in range(case.repeats):
-        solved = run.solve_step(programs, step, folder)
+        solved = run.solve_step(programs, case.steps[0], folder)
         seconds, theirs = run.mortise_summary(folder)["seconds"], run.freefem_summary(folder)
-        samples["mortise"].append(solved.mortise_seconds)
-        samples["freefem"].append(solved.freefem_seconds)
-        samples["mortise_solve"].append(seconds["factorise"] + seconds["solve"])
-        samples["freefem_solve"].append(theirs["seconds_solve"])
-    medians = {name: statistics.median(values) for name, values in samples.items()}
-    return {
-        "mesh": step.mesh_name,
-        "unknowns": theirs["unknowns"],
-        "multipliers": theirs["multipliers"],
-        "repeats": case.repeats,
-        **medians,
-        "ratio": medians["freefem"] / medians["mortise"],
-        "ratio_solve": medians["freefem_solve"] / medians["mortise_solve"],
-    }
+        alone = seconds["factorise"] + seconds["solve"], theirs["seconds_solve"]
+        samples.append((solved.mortise_seconds, solved.freefem_seconds, *alone))
+    mortise, freefem, mortise_solve, freefem_solve = map(statistics.median, zip(*samples))
+    sizes = {"mesh": case.steps[0].mesh_name, "unknowns": theirs["unknowns"], "multipliers": theirs["multipliers"]}
+    return {**sizes, "repeats": case.repeats, "mortise": mortise, "freefem": freefem, "mortise_solve": mortise_solve,
+            "freefem_solve": freefem_solve, "ratio": freefem / mortise, "ratio_solve": freefem_solve / mortise_solve}
 
 
 def folder_of(case, step):
@@ -127,7 +113,7 @@ def judge(programs, case, output):
             result.figures = figures_of(case, result.steps)
             result.status = "ok" if all(figure.ok for figure in result.figures) else "failed"
     except (CaseError, OSError, KeyError, ValueError) as error:
-        result.status = "error"
-        result.message = str(error) if isinstance(error, (CaseError, OSError)) else f"{type(error).__name__}: {error}"
+        told = isinstance(error, (CaseError, OSError))
+        result.status, result.message = "error", str(error) if told else f"{type(error).__name__}: {error}"
     result.seconds = time.perf_counter() - start
     return result

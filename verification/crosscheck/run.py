@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,12 +15,13 @@ import convert
 import scene as scenes
 from cases import CaseError
 
-ROOT = Path(__file__).resolve().parents[2]
-SCRIPTS = {"bilateral": ROOT / "freefem/mortar.edp", "unilateral": ROOT / "freefem/active_set.edp"}
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+
+import launch
+
+SCRIPTS = {"bilateral": launch.ROOT / "freefem/mortar.edp", "unilateral": launch.ROOT / "freefem/active_set.edp"}
 SCRIPT = SCRIPTS["bilateral"]
 RESULTS = ("result.vtu", "contact.csv", "summary.json")
-SOLVED = (0, 2)  # exit status of mortise: 2 is a check that fails, with the results written
-TIME_LIMIT = 1800  # seconds for one run of one program
 
 
 class MissingProgram(Exception):
@@ -50,10 +52,10 @@ def find_freefem():
 
 def find_programs():
     """mortise (the environment variable MORTISE, or the release build) and FreeFem++ (on the PATH)."""
-    mortise = Path(os.environ.get("MORTISE", ROOT / "build/release/mortise")).absolute()
-    if not mortise.is_file():
-        raise MissingProgram(f"{mortise} is missing: ./dev build makes it, or MORTISE names another")
-    freefem = find_freefem()
+    try:
+        mortise, freefem = launch.need(launch.MORTISE), find_freefem()
+    except launch.MortiseError as error:
+        raise MissingProgram(error) from error
     if freefem is None:
         raise MissingProgram("FreeFem++ is not on the PATH: ./dev setup installs it, or apt-get install freefem++")
     return Programs(mortise, freefem)
@@ -64,36 +66,28 @@ def last_lines(text, count=6):
 
 
 def run_program(command, expected=(0,), **options):
-    """Runs a program and returns its seconds; CaseError with its last lines if it fails."""
-    start = time.perf_counter()
+    """Runs a program; returns its seconds and its output, CaseError with its last lines if it fails."""
+    start, name = time.perf_counter(), Path(command[0]).name
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True, "errors": "replace"}
     try:
-        done = subprocess.run(
-            [str(word) for word in command],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            errors="replace",
-            timeout=TIME_LIMIT,
-            check=False,
-            **options,
-        )
+        done = subprocess.run(list(map(str, command)), timeout=launch.TIME_LIMIT, check=False, **pipes, **options)
     except subprocess.TimeoutExpired as late:
-        raise CaseError(f"{Path(command[0]).name} did not end within {TIME_LIMIT} s") from late
+        raise CaseError(f"{name} did not end within {launch.TIME_LIMIT} s") from late
     seconds = time.perf_counter() - start
     if done.returncode not in expected:
-        raise CaseError(f"{Path(command[0]).name}: exit status {done.returncode}\n{last_lines(done.stdout)}")
+        raise CaseError(f"{name}: exit status {done.returncode}\n{last_lines(done.stdout)}")
     return seconds, done.stdout
 
 
-def set_options(values):
-    """--set KEY=VALUE for each entry."""
-    return [word for key, value in values.items() for word in ("--set", f"{key}={value}")]
+def expect_files(paths, program, output):
+    for path in paths:
+        if not path.is_file():
+            raise CaseError(f"{program} wrote no {path.name}\n{last_lines(output)}")
 
 
 def make_mesh(programs, scene_file, sizes, parameters, path):
-    values = {**parameters, **sizes}
-    overrides = {f"mesh.parameters.{key}": value for key, value in values.items()}
-    run_program([programs.mortise, "mesh", scene_file, *set_options(overrides), "-o", path])
+    overrides = {f"mesh.parameters.{key}": value for key, value in {**parameters, **sizes}.items()}
+    run_program([programs.mortise, "mesh", scene_file, *launch.options(overrides), "-o", path])
 
 
 def solve_by_mortise(programs, scene_file, mesh_file, step, folder):
@@ -106,54 +100,47 @@ def solve_by_mortise(programs, scene_file, mesh_file, step, folder):
         "method.multipliers": step.mortise["multipliers"],
         "method.integration": step.mortise["integration"],
     }
-    command = [programs.mortise, "solve", scene_file, *set_options(overrides), "-o", folder, "--quiet"]
-    seconds, output = run_program(command, SOLVED)
-    for name in RESULTS:
-        if not (folder / name).is_file():
-            raise CaseError(f"mortise wrote no {name}\n{last_lines(output)}")
+    command = [programs.mortise, "solve", scene_file, *launch.options(overrides), "-o", folder, "--quiet"]
+    seconds, output = run_program(command, launch.SOLVED)
+    expect_files([folder / name for name in RESULTS], "mortise", output)
     return seconds
 
 
 def freefem_environment():
     """FreeFEM's own variables, where the user has not set them: its modules, and the scripts to include."""
-    defaults = {"FF_LOADPATH": "/usr/lib/freefem++", "FF_INCLUDEPATH": str(SCRIPT.parent)}
-    return {**defaults, **os.environ}
+    return {"FF_LOADPATH": "/usr/lib/freefem++", "FF_INCLUDEPATH": str(SCRIPT.parent), **os.environ}
 
 
 def solve_by_freefem(programs, case_file, script=SCRIPT):
     """FreeFEM's results lie beside the case file."""
-    for old in case_file.parent.glob("freefem_*.txt"):
+    folder = case_file.parent
+    for old in folder.glob("freefem_*.txt"):
         old.unlink()
     command = [programs.freefem, "-nw", "-v", "0", script, "-case", case_file]
-    seconds, output = run_program(command, cwd=case_file.parent, env=freefem_environment())
-    for name in ("multiplier", "opposite", "contact", "summary"):
-        if not (case_file.parent / f"freefem_{name}.txt").is_file():
-            raise CaseError(f"FreeFem++ wrote no freefem_{name}.txt\n{last_lines(output)}")
+    seconds, output = run_program(command, cwd=folder, env=freefem_environment())
+    names = ("multiplier", "opposite", "contact", "summary")
+    expect_files([folder / f"freefem_{name}.txt" for name in names], "FreeFem++", output)
     return seconds
 
 
 def convert_step(step, scene, mesh_file, folder):
     """The two medit files and case.txt; returns the bodies and their numbers in mortise's results."""
     mesh = meshio.read(mesh_file, file_format="gmsh")  # of itself it tries another reader first, and prints
-    bodies = convert.read_bodies(mesh, scene["bodies"])
-    tags = convert.curve_tags(mesh)
+    bodies, tags = convert.read_bodies(mesh, scene["bodies"]), convert.curve_tags(mesh)
     contact_tags = [tags[step.side], tags[scenes.opposite_side(scene, step.side)]]
-    names = [convert.body_of_curve(bodies, tag) for tag in contact_tags]
-    files = ["multiplier.mesh", "opposite.mesh"]
+    names, files = [convert.body_of_curve(bodies, tag) for tag in contact_tags], ["multiplier.mesh", "opposite.mesh"]
     for name, file in zip(names, files):
         convert.write_medit(bodies[name], folder / file)
-    text = scenes.case_text(scene, names, files, contact_tags, tags, step.freefem)
-    (folder / "case.txt").write_text(text)
-    numbers = [convert.body_order(mesh, scene["bodies"]).index(name) for name in names]
-    return [bodies[name] for name in names], numbers
+    (folder / "case.txt").write_text(scenes.case_text(scene, names, files, contact_tags, tags, step.freefem))
+    order = convert.body_order(mesh, scene["bodies"])
+    return [bodies[name] for name in names], [order.index(name) for name in names]
 
 
 def prepare(programs, step, folder):
     """Mesh and converted mesh of a step; returns the scene file, the mesh file, the bodies and their numbers."""
     folder.mkdir(parents=True, exist_ok=True)
-    scene_file = ROOT / f"geo/{step.scene}.toml"
+    scene_file, mesh_file = launch.scene_file(step.scene), folder / "mesh.msh"
     scene = scenes.read_scene(scene_file)
-    mesh_file = folder / "mesh.msh"
     make_mesh(programs, scene_file, scenes.size_parameters(scene, step.mesh), step.mesh_parameters, mesh_file)
     return scene_file, mesh_file, *convert_step(step, scene, mesh_file, folder)
 
@@ -163,8 +150,7 @@ def solve_step(programs, step, folder):
     scene_file, mesh_file, bodies, numbers = prepare(programs, step, folder)
     mortise_seconds = solve_by_mortise(programs, scene_file, mesh_file, step, folder / "mortise")
     freefem_seconds = solve_by_freefem(programs, (folder / "case.txt").absolute(), SCRIPTS[step.condition])
-    status = mortise_summary(folder)["status"]
-    return Solved(folder, bodies, numbers, status, mortise_seconds, freefem_seconds)
+    return Solved(folder, bodies, numbers, mortise_summary(folder)["status"], mortise_seconds, freefem_seconds)
 
 
 def mortise_summary(folder):

@@ -10,8 +10,7 @@ ORDER_OF_MULTIPLIERS = {"linear": 1, "quadratic": 2}
 
 def read_scene(path):
     """The scene's tables; scenes with other than one contact pair are refused."""
-    with open(path, "rb") as file:
-        scene = tomllib.load(file)
+    scene = tomllib.loads(path.read_text())
     if len(scene.get("contact", [])) != 1:
         raise CaseError(f"{path}: {len(scene.get('contact', []))} contact pairs; the FreeFEM scripts take exactly 1")
     return scene
@@ -65,18 +64,15 @@ def body_lines(scene, bodies):
 
 def case_text(scene, bodies, files, contact_tags, tags, freefem):
     """The case file; `bodies`, `files` and `contact_tags`: first of the multiplier side, then of the opposite side."""
-    contact = scene["contact"][0]
-    lines = [f"plane {scene.get('model', {}).get('plane', 'strain')}"]
-    for body, file in zip(bodies, files):
-        material = material_of(scene, body)
-        lines.append(f"body {file} {float(material['young'])!r} {float(material['poisson'])!r}")
-    lines += [
+    materials = [material_of(scene, body) for body in bodies]
+    lines = [
+        f"plane {scene.get('model', {}).get('plane', 'strain')}",
+        *(f"body {file} {float(m['young'])!r} {float(m['poisson'])!r}" for file, m in zip(files, materials)),
         "contact {} {}".format(*contact_tags),
         f"order {freefem['order']}",
         f"multipliers {ORDER_OF_MULTIPLIERS[freefem['multipliers']]}",
-        f"integration {freefem['integration']}",
-        f"gauss {freefem['gauss']}",
-        f"gap {contact.get('initial_gap', INITIAL_GAP)}",
+        *(f"{key} {freefem[key]}" for key in ("integration", "gauss")),
+        f"gap {scene['contact'][0].get('initial_gap', INITIAL_GAP)}",
         *boundary_lines(scene, tags),
         *body_lines(scene, bodies),
         "end",

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Stands in for mortise and gives a wrong result. For test_check_of_the_check.py alone.
+"""Stands in for mortise and gives a wrong result. For test_runner.py alone.
 
 Everything goes to the real executable (environment variable RIGHT_MORTISE); of `solve` the variable WRONG changes
 
@@ -26,10 +26,6 @@ from scipy.spatial import cKDTree
 import run
 
 FLIP = "{ int wrong = points / 3; nx[wrong] = -nx[wrong]; ny[wrong] = -ny[wrong]; }"
-
-
-def option(arguments, name):
-    return Path(arguments[arguments.index(name) + 1])
 
 
 def setting(arguments, key):
@@ -106,11 +102,11 @@ def main(arguments):
     if solving and wrong == "segment":
         arguments = without_last_edge(arguments)
     status = subprocess.run([os.environ["RIGHT_MORTISE"], *arguments], check=False).returncode
+    results = Path(arguments[arguments.index("-o") + 1])
     if solving and wrong == "normal":
-        case_folder = Path(setting(arguments, "mesh.file")).parent
-        replace_results(option(arguments, "-o"), solve_with_flipped_normal(case_folder))
+        replace_results(results, solve_with_flipped_normal(Path(setting(arguments, "mesh.file")).parent))
     if solving and wrong == "results":
-        shutil.copytree(os.environ["WRONG_RESULTS"], option(arguments, "-o"), dirs_exist_ok=True)
+        shutil.copytree(os.environ["WRONG_RESULTS"], results, dirs_exist_ok=True)
     return status
 
 

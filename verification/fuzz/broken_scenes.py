@@ -10,6 +10,7 @@ NOT_NUMBERS = (float("nan"), float("inf"), float("-inf"), Raw("1e999"), Raw("999
 WRONG = (True, Raw("1979-05-27T07:32:00Z"), Raw("07:32:00"), [[]], {"unknown": 1}, [{}], {"x": {"y": {"z": 1}}})
 WORDS = ("", " ", "no_such_name", "\x1b[31mred\x07", "two\nlines", "=1+1", "\u202eright to left", "ü" * 300,
          "a" * 20000, "../../etc/passwd", "%s%n%x", "mesh.msh\x00.toml", '";"', "\U0001f600")
+VALUES = {"huge": HUGE, "not a number": NOT_NUMBERS, "word": WORDS, "wrong type": WRONG}
 
 
 def paths(tree, before=()):
@@ -34,18 +35,11 @@ def change(random, scene):
     numeric = isinstance(value, (int, float)) and not isinstance(value, bool)
     choices = ["huge", "huge", "not a number"] if numeric else ["word"] * 3 if isinstance(value, str) else ["empty"] * 3
     choice = random.choice((*choices, "wrong type", "missing", "unknown key", "twice"))
-    if choice == "huge":
-        parent[key] = random.choice(HUGE)
-        return f"{place} = {parent[key]!r}", ANY
-    if choice == "not a number":
-        parent[key] = random.choice(NOT_NUMBERS)
-        return f"{place} = {parent[key]!r}", REFUSED
-    if choice == "word":
-        parent[key] = random.choice(WORDS)
-        return f"{place} = {parent[key][:20]!r}", ANY
-    if choice == "wrong type":
-        parent[key] = random.choice(WRONG)
-        return f"{place} = {parent[key]!r}", REFUSED if isinstance(parent[key], (bool, Raw)) else ANY
+    if choice in VALUES:
+        parent[key] = random.choice(VALUES[choice])
+        refused = choice == "not a number" or (choice == "wrong type" and isinstance(parent[key], (bool, Raw)))
+        shown = parent[key][:20] if choice == "word" else parent[key]
+        return f"{place} = {shown!r}", REFUSED if refused else ANY
     if choice == "missing":
         del parent[key]
         return f"{place} is missing", ANY
@@ -82,16 +76,12 @@ def change_text(random, text):
     }
     others = ("cut off", "Windows line ends", "a byte order mark", "empty", "one byte")
     choice = random.choice((*inserts, *inserts, *others))
-    if choice == "cut off":
-        return text[: random.randrange(len(text))], choice, ANY
-    if choice == "Windows line ends":
-        return text.replace(b"\n", b"\r\n"), choice, ANY
-    if choice == "a byte order mark":
-        return b"\xef\xbb\xbf" + text, choice, ANY
-    if choice == "empty":
-        return b"", choice, REFUSED
+    place = random.randrange(len(text)) if choice in ("cut off", "one byte") else None
     if choice == "one byte":
-        place = random.randrange(len(text))
         return text[:place] + bytes([random.randrange(256)]) + text[place + 1 :], choice, ANY
+    whole = {"cut off": text[:place], "Windows line ends": text.replace(b"\n", b"\r\n"),
+             "a byte order mark": b"\xef\xbb\xbf" + text, "empty": b""}  # fmt: skip
+    if choice in whole:
+        return whole[choice], choice, REFUSED if choice == "empty" else ANY
     expect = ANY if choice in ("random bytes", "a table twice") else REFUSED
     return text[:at_line] + inserts[choice] + text[at_line:], choice, expect

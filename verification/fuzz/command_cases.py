@@ -3,32 +3,42 @@
 import geo_cases
 import plates
 import twins
-from fuzz_case import ANY, REFUSED, Case, Folder, FullDevice, Link, Pipe
+from fuzz_case import ANY, FOLDER, FULL_DEVICE, PIPE, REFUSED, Case, Link
 from valid_scenes import Setting, flat, raised
 
 NUMBERS = ("0", "-1", "1e9", "1.5", "", "abc", "99999999999999999999", "nan", "0x10", " 1", "1025")
 STRANGE_NAMES = ("\x1b[31mred\x07", "two\nlines", "n" * 300, "d/" * 2100 + "x", "", " ", "ü", "\udcff\udcfe", "a\tb",
-                 "=1+1")
+                 "=1+1")  # fmt: skip
 DEEP = "a" + ".a" * 20000 + "=1"
+OPTIONS = (  # not there, twice, without their value; subcommands that are not there
+    ([], REFUSED), (["--help"], ANY), (["--version"], ANY), (["no_such_command"], REFUSED), (["solve"], REFUSED),
+    (["solve", "--help"], ANY), (["solve", "scene.toml", "scene.toml"], REFUSED), (["solve", ""], REFUSED),
+    (["solve", "--no-such-option", "scene.toml"], REFUSED), (["solve", "scene.toml", "-o"], REFUSED),
+    (["solve", "scene.toml", "--set"], REFUSED), (["sweep", "scene.toml"], REFUSED), (["-o", "results"], REFUSED),
+    (["solve", "scene.toml", "-o", "results", "-o", "results"], ANY), (["check", "check", "scene.toml"], ANY),
+    (["solve", "no_such.toml", "-o", "results"], REFUSED), (["solve", "mesh.msh", "-o", "results"], REFUSED),
+    (["solve", "--", "scene.toml"], ANY), (["solve", "scene\x07.toml"], REFUSED), (["solve", "a\nb.toml"], REFUSED),
+    (["solve", "-o", "results", "n" * 5000 + ".toml"], REFUSED), (["\x1b[31m"], REFUSED),
+    (["solve", "\udcff.toml"], REFUSED))  # fmt: skip
 WRONG_OVERRIDES = ("", "=", "title", "=x", "a.b.c=1", "boundary.x=1", "boundary..pressure=1", ".=1",
                    "mesh.file=/dev/zero", "mesh.file=no_such.msh", "mesh.file=/", "mesh.file=", "bodies=1",
                    "materials.steel.young=nan", "materials.steel.young=-inf", "materials.steel.young=1e999",
                    "contact.condition=\x1b[31mred", "method=1", "method.kind=two\nlines", "boundary.99.pressure=1",
                    "boundary.-1.pressure=1", "boundary.0={", DEEP, "method.tolerance=0",
-                   "contact.0.between=['a','b','c']")
+                   "contact.0.between=['a','b','c']")  # fmt: skip
 ODD_OVERRIDES = ("title=", "contact=[]", "title=" + "a" * 100000, "boundary=" + "[" * 5000, "contact.between=[]",
                  "boundary.0={on='lower_bottom'}", "materials.steel.young=1e300", "model.plane=strain",
-                 "title=\x1b[2Jx")
+                 "title=\x1b[2Jx")  # fmt: skip
 VARIATIONS = ("", "=", "title", "title=", "method.kind=mortar,ddm", "method.kind=,", "a.b=1,2", DEEP,
               "boundary.2.pressure=nan,1", "boundary.2.pressure=1e5,1e300,-1e300", "model.plane=strain,stress",
               "materials.steel.poisson=0.3,0.5,0.7", "mesh.file=mesh.msh,no_such.msh", "title==1+1,@SUM(A1),-2",
-              "title=a\nb,c", "method.kind=" + "mortar," * 30)
+              "title=a\nb,c", "method.kind=" + "mortar," * 30)  # fmt: skip
 SCENES = {
-    "a folder": Folder(), "a pipe": Pipe(), "a device without an end": Link("/dev/zero"),
+    "a folder": FOLDER, "a pipe": PIPE, "a device without an end": Link("/dev/zero"),
     "an empty device": Link("/dev/null"), "a link to itself": Link("scene.toml"),
     "a link to nothing": Link("nowhere"), "a full device": Link("/dev/full"),
     "an unreadable file": Link("/proc/self/mem"), "random numbers": Link("/dev/urandom"),
-}
+}  # fmt: skip
 
 
 def plain(random, geo=False):
@@ -43,8 +53,8 @@ def simple_setting(random):
     """Two plates, the pressure the same everywhere, on a small random mesh: solved, and all checks hold."""
     cell = random.choice(plates.CELL_TYPES)
     sizes = [(random.randint(1, 4), random.randint(1, 2)) for _ in range(2)]
-    made = [plates.Plate("lower", 0.0, 1.0, flat, raised(flat, 0.5), *sizes[0], cell),
-            plates.Plate("upper", 0.0, 1.0, raised(flat, 0.5), raised(flat, 1.0), *sizes[1], cell)]
+    made = [plates.Plate(name, 0.0, 1.0, raised(flat, low), raised(flat, low + 0.5), *size, cell)
+            for name, low, size in zip(("lower", "upper"), (0.0, 0.5), sizes)]
     scene = {
         "title": "two plates", "mesh": {"file": "mesh.msh"},
         "materials": {"steel": {"young": 2.1e11, "poisson": 0.3}}, "bodies": {"lower": "steel", "upper": "steel"},
@@ -52,7 +62,7 @@ def simple_setting(random):
                      {"on": ["lower_left", "upper_left"], "displacement": {"x": 0.0}},
                      {"on": "upper_top", "pressure": 1e7}],
         "contact": [{"between": ["upper_bottom", "lower_top"]}],
-    }
+    }  # fmt: skip
     return Setting(scene, plates.plates_mesh(made), 1e7)
 
 
@@ -61,30 +71,20 @@ def command(what, files, words, expect=ANY, output=(), results=None, **settings)
 
 
 def options_case(random):
-    """Options that are not there, twice, without their value; subcommands that are not there."""
-    words, expect = random.choice((
-        ([], REFUSED), (["--help"], ANY), (["--version"], ANY), (["no_such_command"], REFUSED), (["solve"], REFUSED),
-        (["solve", "--help"], ANY), (["solve", "scene.toml", "scene.toml"], REFUSED), (["solve", ""], REFUSED),
-        (["solve", "--no-such-option", "scene.toml"], REFUSED), (["solve", "scene.toml", "-o"], REFUSED),
-        (["solve", "scene.toml", "--set"], REFUSED), (["sweep", "scene.toml"], REFUSED), (["-o", "results"], REFUSED),
-        (["solve", "scene.toml", "-o", "results", "-o", "results"], ANY), (["check", "check", "scene.toml"], ANY),
-        (["solve", "no_such.toml", "-o", "results"], REFUSED), (["solve", "mesh.msh", "-o", "results"], REFUSED),
-        (["solve", "--", "scene.toml"], ANY), (["solve", "scene\x07.toml"], REFUSED), (["solve", "a\nb.toml"], REFUSED),
-        (["solve", "-o", "results", "n" * 5000 + ".toml"], REFUSED), (["\x1b[31m"], REFUSED),
-        (["solve", "\udcff.toml"], REFUSED)))
+    words, expect = random.choice(OPTIONS)
     return command(f"options {' '.join(words)[:40]!r}", plain(random), words, expect, ("results", "out"))
 
 
 def number_case(random):
     value = random.choice(NUMBERS)
     words = ["solve", "scene.toml", "-o", "results", f"--threads={value}"]
-    return command(f"--threads {value!r}", plain(random), words, ANY if value in (" 1", "0x10") else REFUSED, ("results",))
+    expect = ANY if value in (" 1", "0x10") else REFUSED
+    return command(f"--threads {value!r}", plain(random), words, expect, ("results",))
 
 
 def override_case(random):
     wrong = random.random() < 0.7
-    text = random.choice(WRONG_OVERRIDES if wrong else ODD_OVERRIDES)
-    verb = random.choice(("solve", "solve", "check"))
+    text, verb = random.choice(WRONG_OVERRIDES if wrong else ODD_OVERRIDES), random.choice(("solve", "solve", "check"))
     words = [verb, "scene.toml", "--set", text] + (["-o", "results"] if verb == "solve" else [])
     results = "results" if verb == "solve" else None
     return command(f"--set {text[:40]!r}", plain(random), words, REFUSED if wrong else ANY, ("results",), results)
@@ -112,37 +112,34 @@ def output_case(random):
     verb = random.choice(("solve", "mesh", "sweep"))
     files = plain(random, geo=random.random() < 0.3)
     mesh = "mesh.geo" if "mesh.geo" in files else "mesh.msh"
-    ending = {"solve": "", "mesh": ".msh", "sweep": ".csv"}[verb]
-    extra = {"loop" + ending: Link("loop" + ending), "linked" + ending: Link(mesh), "folder" + ending: Folder(),
-             "file" + ending: b"mine", "dangling" + ending: Link("nowhere/at/all" + ending),
-             "full" + ending: FullDevice(),
-             "taken/result.vtu": Folder(), "taken/summary.json": Folder(), "taken/mine.txt": b"mine"}
-    refused = ["scene.toml", "./scene.toml", "scene.toml/results", mesh, mesh + "/results" + ending,
-               "full" + ending, f"full{ending}/results{ending}", "/proc/no_such" + ending, "/sys/no_such/x" + ending]
+    end = {"solve": "", "mesh": ".msh", "sweep": ".csv"}[verb]
+    extra = {"loop" + end: Link("loop" + end), "linked" + end: Link(mesh), "folder" + end: FOLDER,
+             "file" + end: b"mine", "dangling" + end: Link("nowhere/at/all" + end), "full" + end: FULL_DEVICE,
+             "taken/result.vtu": FOLDER, "taken/summary.json": FOLDER, "taken/mine.txt": b"mine"}  # fmt: skip
+    refused = ["scene.toml", "./scene.toml", "scene.toml/results", mesh, mesh + "/results" + end,
+               "full" + end, f"full{end}/results{end}", "/proc/no_such" + end, "/sys/no_such/x" + end]  # fmt: skip
     refused += {"solve": ["file", "taken"], "mesh": ["folder.msh", "name.vtu"], "sweep": ["folder.csv"]}[verb]
-    allowed = ["folder", ".", "out/"] + [name + ending for name in ("new/deep", "file", "dangling", "linked", "loop")]
+    allowed = ["folder", ".", "out/"] + [name + end for name in ("new/deep", "file", "dangling", "linked", "loop")]
     target = random.choice(refused) if random.random() < 0.6 else random.choice(allowed + list(STRANGE_NAMES))
-    more = ["--vary", "title=a,b"] if verb == "sweep" else []
-    expect = REFUSED if target in refused else ANY
-    words = [verb, "scene.toml", *more, "-o", target, "--quiet"]
-    output = () if target in refused else (target.rstrip("/") or "out",)
+    words = [verb, "scene.toml", *(["--vary", "title=a,b"] if verb == "sweep" else []), "-o", target, "--quiet"]
+    expect, output = (REFUSED, ()) if target in refused else (ANY, (target.rstrip("/") or "out",))
     return command(f"{verb} -o {target[:40]!r}", files | extra, words, expect, output)
 
 
 def full_disk_case(random):
     """Files cannot grow beyond some size: as a full disk, old results must stand."""
     verb, size = random.choice(("solve", "mesh", "sweep")), random.choice((0, 10, 100, 1000, 2000))
-    old = {"solve": "results/summary.json", "mesh": "old.msh", "sweep": "old.csv"}[verb]
     target = {"solve": "results", "mesh": "old.msh", "sweep": "old.csv"}[verb]
-    more = ["--vary", "title=a,b"] if verb == "sweep" else []
+    old = "results/summary.json" if verb == "solve" else target
     files = plain(random) | {old: b"{}"}  # no geometry: it goes through files in memory, which know no full disk
-    expect = REFUSED if size <= 100 else ANY
-    words = [verb, "scene.toml", *more, "-o", target, "--quiet"]
+    words = [verb, "scene.toml", *(["--vary", "title=a,b"] if verb == "sweep" else []), "-o", target, "--quiet"]
     what = f"{verb} on a full disk, {size} bytes left"
-    return command(what, files, words, expect, (target,), largest_file=size)
+    return command(what, files, words, REFUSED if size <= 100 else ANY, (target,), largest_file=size)
 
 
-def make_command_case(random):
-    shares = {options_case: 15, number_case: 5, override_case: 20, variation_case: 15, scene_case: 10, output_case: 25,
-              full_disk_case: 10}
-    return random.choices(list(shares), shares.values())[0](random)
+SHARES = {options_case: 15, number_case: 5, override_case: 20, variation_case: 15, scene_case: 10, output_case: 25,
+          full_disk_case: 10}  # fmt: skip
+
+
+def make_command_case(random, _):
+    return random.choices(list(SHARES), SHARES.values())[0](random)

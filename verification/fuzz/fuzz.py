@@ -1,39 +1,41 @@
 """./dev fuzz [N] [SEED]: mortise on N random inputs, right and broken ones, and what must hold after each of them.
 
-A finding is stored in out/fuzz/SEED_NUMBER with the files and the line to repeat it; `fuzz.py 1 SEED:NUMBER` makes the
-same case again. Exit status 1 if anything was found.
+A finding is stored in out/fuzz/SEED_NUMBER with the files and the line to repeat it; `./dev fuzz 1 SEED:NUMBER` makes
+the same case again. Exit status 1 if anything was found.
 """
 
 import argparse
 import os
+import shlex
 import shutil
 import subprocess
 import sys
 import tempfile
 import time
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import findings
-import oracles
 import one_call
-import twin_oracle
-from make_case import SHARES, make_case
+import oracles
+from make_case import MAKERS, make_case
 
-ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+
+import launch
+
+COLUMNS = ("cases", "0", "1", "2", "other", "found")
 
 
-def arguments(words=None):
+def arguments():
     parser = argparse.ArgumentParser(prog="./dev fuzz", description=__doc__.split("\n\n")[0])
     parser.add_argument("count", nargs="?", type=int, default=300, metavar="N", help="number of cases (300)")
     parser.add_argument("seed", nargs="?", default="1", metavar="SEED", help="SEED, or SEED:NUMBER to begin with (1)")
     parser.add_argument("--jobs", type=int, default=2, help="calls of mortise at once (2)")
-    parser.add_argument("--kind", action="append", choices=list(SHARES), help="only this kind of case; may be repeated")
-    parser.add_argument("--time-limit", type=float, metavar="SECONDS", help="for one call (20; 100 with --sanitize)")
+    parser.add_argument("--kind", action="append", choices=list(MAKERS), help="only this kind of case; may be repeated")
     parser.add_argument("--sanitize", action="store_true", help="the program is built with the address sanitizer")
-    parser.add_argument("--out", type=Path, default=ROOT / "out/fuzz", help="folder of the findings (out/fuzz)")
-    parser.add_argument("--mortise", default=os.environ.get("MORTISE", str(ROOT / "build/release/mortise")))
-    return parser.parse_args(words)
+    parser.add_argument("--out", type=Path, default=launch.ROOT / "out/fuzz", help="folder of the findings (out/fuzz)")
+    return parser.parse_args()
 
 
 def options_of(program):
@@ -42,27 +44,28 @@ def options_of(program):
     return done.stdout
 
 
-def examine(program, case, keep=None):
+def examine(program, case):
     """Runs a case and its twins in folders of their own: the outcome, and [(oracle, what is wrong)]."""
     with tempfile.TemporaryDirectory(prefix="mortise_fuzz_") as base:
-        folder = os.path.join(base, "case")
-        os.mkdir(folder)
-        case.write(folder)
-        outcome = one_call.call(program, case, folder)
-        found = oracles.judge(case, outcome, folder)
+
+        def run(one, name):
+            folder = os.path.join(base, name)
+            os.mkdir(folder)
+            one.write(folder)
+            outcome = one_call.call(program, one, folder)
+            return folder, outcome, oracles.judge(one, outcome, folder)
+
+        folder, outcome, found = run(case, "case")
         for k, twin in enumerate(case.twins if not found else ()):
-            other = os.path.join(base, f"twin_{k}")
-            os.mkdir(other)
-            twin.case.write(other)
-            second = one_call.call(program, twin.case, other)
-            found += oracles.judge(twin.case, second, other)
+            other, second, wrong = run(twin.case, f"twin_{k}")
+            found += wrong
             if not found:
-                wrong = twin_oracle.compare(case.setting, twin, outcome, second, folder, other)
-                found += [("twin", wrong)] if wrong else []
+                differs = oracles.compare(case.setting, twin, outcome, second, folder, other)
+                found += [("twin", differs)] if differs else []
         return outcome, found
 
 
-def fuzz(program, count, seed, first=0, jobs=2, kinds=tuple(SHARES), out=None, show=print):
+def fuzz(program, count, seed, first=0, jobs=2, kinds=tuple(MAKERS), out=None, show=print):
     """Runs the cases; [(number, case, outcome, findings)] of all, in their order."""
     options, start, done = options_of(program.path), time.monotonic(), []
 
@@ -70,7 +73,7 @@ def fuzz(program, count, seed, first=0, jobs=2, kinds=tuple(SHARES), out=None, s
         case = make_case(seed, number, options, kinds)
         outcome, found = examine(program, case)
         if found and out is not None:
-            findings.store(out / f"{seed}_{number}", f"{seed}:{number}", program, case, outcome, found)
+            store(out / f"{seed}_{number}", f"{seed}:{number}", program, case, outcome, found)
         return number, case, outcome, found
 
     with ThreadPoolExecutor(jobs) as pool:
@@ -83,20 +86,71 @@ def fuzz(program, count, seed, first=0, jobs=2, kinds=tuple(SHARES), out=None, s
     return done
 
 
+# ---- Findings as folders that can be run again, and the table at the end ----
+
+
+def shell_word(word):
+    """A word for bash that survives line breaks, control characters and bytes that are no UTF-8."""
+    if word.isprintable() and "\udc80" not in word:
+        return shlex.quote(word)
+    data = word.encode("utf-8", "surrogateescape")
+    return "$'" + "".join(chr(b) if 32 <= b < 127 and chr(b) not in "'\\" else f"\\x{b:02x}" for b in data) + "'"
+
+
+def printable(text):
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+
+
+def script(program, case):
+    lines, limit = ["#!/usr/bin/env bash", f"# {case.kind}: {printable(case.what)}", 'cd "$(dirname "$0")/files"'], []
+    if case.largest_file is not None:
+        lines.append(f"trap '' XFSZ; # files of at most {case.largest_file} bytes: needs prlimit")
+        limit = ["prlimit", f"--fsize={case.largest_file}"]
+    words = " ".join([*limit, '"${MORTISE:-' + program.path + '}"', *map(shell_word, case.words)])
+    return "\n".join([*lines, words, 'echo "exit status $?"']) + "\n"
+
+
+def store(folder, name, program, case, outcome, found):
+    """Writes the files as they were, a script that repeats the call, and what was wrong."""
+    twins = {folder / f"twin_{k}": twin.case for k, twin in enumerate(case.twins)}
+    for where, one in ({folder: case} | twins).items():
+        (where / "files").mkdir(parents=True, exist_ok=True)
+        one.write(where / "files")
+        (where / "repeat.sh").write_text(script(program, one), errors="surrogateescape")
+        (where / "repeat.sh").chmod(0o755)
+    lines = [f"{name}  {case.kind}: {printable(case.what)}"]
+    lines += [f"exit status {outcome.status} after {outcome.seconds:.1f} s"]
+    lines += [f"{oracle}: {printable(wrong)}" for oracle, wrong in found]
+    (folder / "finding.txt").write_text("\n".join([*lines, "standard error:", outcome.said[:5000]]),
+                                        errors="surrogateescape")  # fmt: skip
+
+
+def table(done):
+    """A row a kind of case: how the calls ended, and what was found."""
+    counts = {}
+    for _, case, outcome, found in done:
+        row = counts.setdefault(case.kind, Counter())
+        row.update(["cases", str(outcome.status) if outcome.status in (0, 1, 2) else "other"])
+        row["found"] += bool(found)
+        row.update({f"oracle {oracle}" for oracle, _ in found})
+    lines = ["", f"{'kind of case':14}" + "".join(f"{c:>7}" for c in COLUMNS) + "  by oracle"]
+    for kind, row in sorted(counts.items()):
+        by = ", ".join(f"{key[7:]} {n}" for key, n in sorted(row.items()) if key.startswith("oracle "))
+        lines.append(f"{kind:14}" + "".join(f"{row[c]:7}" for c in COLUMNS) + "  " + by)
+    return "\n".join(lines)
+
+
 def main():
     chosen = arguments()
     seed, _, first = chosen.seed.partition(":")
-    limit = chosen.time_limit or (100 if chosen.sanitize else 20)
-    program = one_call.Program(str(Path(chosen.mortise).absolute()), limit, chosen.sanitize)
+    program = one_call.Program(str(launch.MORTISE), 100 if chosen.sanitize else 20, chosen.sanitize)
     if not os.access(program.path, os.X_OK):
         sys.exit(f"fuzz: {program.path} cannot be run: ./dev build makes it, or MORTISE names another")
     shutil.rmtree(chosen.out, ignore_errors=True)
-    kinds = tuple(chosen.kind or SHARES)
-    done = fuzz(program, chosen.count, seed, int(first or 0), chosen.jobs, kinds, chosen.out,
-                lambda line: print(line, flush=True))
-    print(findings.table(done))
+    kinds, show = tuple(chosen.kind or MAKERS), lambda line: print(line, flush=True)
+    done = fuzz(program, chosen.count, seed, int(first or 0), chosen.jobs, kinds, chosen.out, show)
     failed = sum(bool(result[3]) for result in done)
-    print(f"{failed} of {len(done)} cases failed" + (f": {chosen.out}" if failed else ""))
+    print(table(done), f"{failed} of {len(done)} cases failed" + (f": {chosen.out}" if failed else ""), sep="\n")
     sys.exit(1 if failed else 0)
 
 

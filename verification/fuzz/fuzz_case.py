@@ -12,16 +12,17 @@ class Link(str):
     """A symbolic link to this path."""
 
 
-class Pipe:
-    """A named pipe that nobody writes to."""
+def make_full_device(path):
+    """A node of the device that is always full, of the case's own: a program may replace what it writes to. Needs root;
+    without, a pipe is as unfit for results."""
+    try:
+        os.mknod(path, stat.S_IFCHR | 0o666, os.makedev(1, 7))
+    except OSError:
+        os.mkfifo(path)
 
 
-class Folder:
-    """An empty folder."""
-
-
-class FullDevice:
-    """A node of the device that is always full, of the case's own: a program may replace what it writes to."""
+PIPE, FOLDER, FULL_DEVICE = "a pipe that nobody writes to", "an empty folder", "a full device"
+MAKERS = {PIPE: os.mkfifo, FOLDER: lambda path: os.makedirs(path, exist_ok=True), FULL_DEVICE: make_full_device}
 
 
 class Twin(NamedTuple):
@@ -39,7 +40,7 @@ class Twin(NamedTuple):
 class Case:
     kind: str  # row of the summary table
     what: str  # what is strange in it
-    files: dict  # path in the case's folder: bytes, Link, Pipe or Folder
+    files: dict  # path in the case's folder: bytes, Link, or a key of MAKERS
     words: list  # arguments of mortise, which runs in that folder
     expect: str = ANY  # REFUSED: only exit status 1 is right; SOLVED: only 0 or 2
     output: tuple = ()  # paths that the call may make or change
@@ -55,29 +56,16 @@ class Case:
         for name, content in self.files.items():
             path = os.path.join(folder, name)
             os.makedirs(os.path.dirname(path), exist_ok=True)
-            if isinstance(content, Link):
-                os.symlink(content, path)
-            elif isinstance(content, FullDevice):
-                make_full_device(path)
-            elif isinstance(content, Pipe):
-                os.mkfifo(path)
-            elif isinstance(content, Folder):
-                os.makedirs(path, exist_ok=True)
-            else:
+            if isinstance(content, bytes):
                 with open(path, "wb") as file:
                     file.write(content)
+            elif isinstance(content, Link):
+                os.symlink(content, path)
+            else:
+                MAKERS[content](path)
 
 
-def make_full_device(path):
-    """Needs root; without, a pipe is as unfit for results."""
-    try:
-        os.mknod(path, stat.S_IFCHR | 0o666, os.makedev(1, 7))
-    except OSError:
-        os.mkfifo(path)
-
-
-def solve_case(kind, what, scene, mesh, *more, **settings):
+def solve_case(kind, what, scene, mesh, **settings):
     """`mortise solve scene.toml` of a scene and a mesh, both bytes."""
-    files = {"scene.toml": scene, "mesh.msh": mesh}
-    words = ["solve", "scene.toml", "-o", "results", *more]
+    files, words = {"scene.toml": scene, "mesh.msh": mesh}, ["solve", "scene.toml", "-o", "results"]
     return Case(kind, what, files, words, output=("results",), results="results", **settings)

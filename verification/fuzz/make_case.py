@@ -4,23 +4,22 @@ import random
 
 import broken_meshes
 import broken_scenes
-import fuzz_case
 import command_cases
 import geo_cases
 import msh_file
 import toml_text
 import twins
 import valid_scenes
+from fuzz_case import ANY, solve_case
 
-# How many of a hundred cases are of each kind.
-SHARES = {"valid scene": 30, "broken scene": 20, "mesh file": 20, "geometry": 12, "command line": 18}
+STRANGE_NAMES = ("=1+1", "@SUM(A1)", "-2+3", "\x1b[31mred", "bell\x07", "a,b;c", "ü" * 100, "n" * 3000, "tab\there",
+                 " ", "a'b")  # fmt: skip
 
 
 def make_valid(r, _):
     setting = valid_scenes.valid_setting(r)
     kind = r.choice(msh_file.KINDS)
-    words = [f"{k} = {v}" for k, v in setting.scene["method"].items()]
-    made = twins.case_of(setting, ", ".join(words), kind)
+    made = twins.case_of(setting, ", ".join(f"{k} = {v}" for k, v in setting.scene["method"].items()), kind)
     if r.random() < 0.6:
         twin = twins.said_otherwise(r, setting) if r.random() < 0.6 else twins.solved_otherwise(r, setting)
         made.twins = [twin] if twin else []
@@ -28,17 +27,16 @@ def make_valid(r, _):
 
 
 def make_broken_scene(r, _):
-    setting = valid_scenes.valid_setting(r)
-    choice = r.random()
+    setting, choice = valid_scenes.valid_setting(r), r.random()
     if choice < 0.1:
-        text, what, expect = renamed(r, setting), "a strange name throughout", fuzz_case.ANY
+        text, what, expect = renamed(r, setting), "a strange name throughout", ANY
     elif choice < 0.65:
         what, expect = broken_scenes.change(r, setting.scene)
         text = toml_text.document(setting.scene).encode("utf-8", "surrogateescape")
     else:
         text, what, expect = broken_scenes.change_text(r, toml_text.document(setting.scene).encode())
     mesh = msh_file.write(msh_file.sections(setting.mesh, "4.1 ascii"), "4.1 ascii")
-    made = fuzz_case.solve_case("broken scene", what, text, mesh, expect=expect)
+    made = solve_case("broken scene", what, text, mesh, expect=expect)
     if r.random() < 0.2:
         made.words, made.output, made.results = ["check", "scene.toml"], (), None
     return made
@@ -48,10 +46,8 @@ def renamed(r, setting):
     """Gives a curve or a body of the scene and of its mesh a strange name; returns the scene's text."""
     mesh = setting.mesh
     old, new = r.choice(mesh.curves + mesh.bodies), r.choice(STRANGE_NAMES)
-    mesh.curves = [new if name == old else name for name in mesh.curves]
-    mesh.bodies = [new if name == old else name for name in mesh.bodies]
-    text = toml_text.document(setting.scene)
-    text = text.replace(toml_text.text(old), toml_text.text(new))
+    mesh.curves, mesh.bodies = ([new if n == old else n for n in names] for names in (mesh.curves, mesh.bodies))
+    text = toml_text.document(setting.scene).replace(toml_text.text(old), toml_text.text(new))
     return text.replace(f"{old} =", f"{toml_text.key(new)} =").encode()  # a body is a key of [bodies]
 
 
@@ -59,26 +55,21 @@ def make_mesh_file(r, _):
     setting = command_cases.simple_setting(r)
     kind, data, what, expect, same = broken_meshes.broken_file(r, setting.mesh)
     scene = toml_text.document(setting.scene).encode()
-    return fuzz_case.solve_case("mesh file", f"{kind}: {what}", scene, data, expect=expect,
-                           thrust=setting.thrust if same else None)
+    thrust = setting.thrust if same else None
+    return solve_case("mesh file", f"{kind}: {what}", scene, data, expect=expect, thrust=thrust)
 
 
-def make_geometry(r, options):
-    return geo_cases.make_geo_case(r, options)
+MAKERS = {  # how many of a hundred cases are of each kind, and what makes one
+    "valid scene": (30, make_valid),
+    "broken scene": (20, make_broken_scene),
+    "mesh file": (20, make_mesh_file),
+    "geometry": (12, geo_cases.make_geo_case),
+    "command line": (18, command_cases.make_command_case),
+}
 
 
-def make_command_line(r, _):
-    return command_cases.make_command_case(r)
-
-
-STRANGE_NAMES = ("=1+1", "@SUM(A1)", "-2+3", "\x1b[31mred", "bell\x07", "a,b;c", "ü" * 100, "n" * 3000, "tab\there",
-                 " ", "a'b")
-MAKERS = {"valid scene": make_valid, "broken scene": make_broken_scene, "mesh file": make_mesh_file,
-          "geometry": make_geometry, "command line": make_command_line}
-
-
-def make_case(seed, number, options="", kinds=tuple(SHARES)):
+def make_case(seed, number, options="", kinds=tuple(MAKERS)):
     """Case `number` of the `seed`; `options` is the --help of the program, `kinds` those to choose from."""
     r = random.Random(f"{seed}:{number}")
-    kind = r.choices(kinds, [SHARES[kind] for kind in kinds])[0]
-    return MAKERS[kind](r, options)
+    kind = r.choices(kinds, [MAKERS[kind][0] for kind in kinds])[0]
+    return MAKERS[kind][1](r, options)

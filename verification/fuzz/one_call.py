@@ -1,4 +1,4 @@
-"""One call of mortise in a folder of its own: what it said, how it ended, and what it did to the files."""
+"""One call of mortise in a folder of its own: what it said, how it ended, and what it did to the files (Linux)."""
 
 import hashlib
 import os
@@ -7,7 +7,6 @@ import resource
 import signal
 import stat
 import subprocess
-import sys
 import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -38,23 +37,17 @@ class Outcome:
 
 def snapshot(folder):
     """Every path below the folder: kind, and digest of the content or target of the link."""
-    found = {}
-    for root, names, files in os.walk(folder):
-        for name in names + files:
-            path = os.path.join(root, name)
-            found[os.path.relpath(path, folder)] = describe(path)
-    return found
+    paths = [os.path.join(root, name) for root, names, files in os.walk(folder) for name in names + files]
+    return {os.path.relpath(path, folder): describe(path) for path in paths}
 
 
 def describe(path):
     mode = os.lstat(path).st_mode
     if stat.S_ISLNK(mode):
         return "link to " + os.readlink(path)
-    if stat.S_ISDIR(mode):
-        return "folder"
     if stat.S_ISREG(mode):
         return hashlib.sha1(Path(path).read_bytes()).hexdigest()
-    return f"device or pipe {stat.S_IFMT(mode):o}"
+    return "folder" if stat.S_ISDIR(mode) else f"device or pipe {stat.S_IFMT(mode):o}"
 
 
 def environment(reports):
@@ -62,7 +55,7 @@ def environment(reports):
     works standard error is not the caller's."""
     chosen = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1",
               "ASAN_OPTIONS": f"detect_leaks=0:exitcode=99:log_path={reports}/report",
-              "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1:exitcode=99"}
+              "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1:exitcode=99"}  # fmt: skip
     return os.environ | chosen
 
 
@@ -94,7 +87,7 @@ def status_within(process, limit):
             return process.wait(timeout=limit)
         except subprocess.TimeoutExpired:
             if not is_starved(process, limit):
-                return None
+                break
     return None
 
 
@@ -107,8 +100,8 @@ def is_starved(process, limit):
 
 def is_of_gmsh(report):
     """Whether gmsh stands between mortise and the mistake: the first frame that is of either is gmsh's."""
-    frame = next((line for line in report.splitlines() if re.search(r"#\d+ 0x", line) and re.search("libgmsh|src/", line)), "")
-    return "libgmsh" in frame
+    frames = (line for line in report.splitlines() if re.search(r"#\d+ 0x", line))
+    return "libgmsh" in next((line for line in frames if re.search("libgmsh|src/", line)), "")
 
 
 def call(program, case, folder):
@@ -124,7 +117,7 @@ def run_once(program, case, folder, reports):
     words = [program.path, *(word.encode("utf-8", "surrogateescape") for word in case.words)]
     process = subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, env=environment(reports), start_new_session=True,
-                               restore_signals=False, preexec_fn=limits(program, case))
+                               restore_signals=False, preexec_fn=limits(program, case))  # fmt: skip
     with ThreadPoolExecutor(2) as readers:
         texts = [readers.submit(beginning, stream) for stream in (process.stderr, process.stdout)]
         status = status_within(process, program.time_limit)
@@ -140,7 +133,3 @@ def beginning(stream):
         while stream.read(2**20):
             pass
     return first.decode("utf-8", "surrogateescape")
-
-
-if sys.platform != "linux":
-    raise SystemExit("the fuzzer needs Linux: sessions, limits and devices")

@@ -6,7 +6,17 @@ from dataclasses import dataclass, field, replace
 TRI3, TRI6, QUAD4, QUAD8, QUAD9 = 2, 9, 3, 16, 10
 LINE2, LINE3 = 1, 8
 CELL_TYPES = (TRI3, TRI6, QUAD4, QUAD8, QUAD9)
-NODES_OF = {LINE2: 2, LINE3: 3, TRI3: 3, TRI6: 6, QUAD4: 4, QUAD8: 8, QUAD9: 9, 15: 1}
+# Places of the nodes on the lattice, in gmsh's order, of the one quadrilateral or the two triangles at (0, 0): corners
+# A ... D, and with second-order nodes (lattice of half the width) also the middles of the sides and the centre.
+A, B, C, D = (0, 0), (1, 0), (1, 1), (0, 1)
+A2, B2, C2, D2, AB, BC, CD, DA, CENTRE = (0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)
+CELLS = {
+    QUAD4: [[A, B, C, D]],
+    TRI3: [[A, B, C], [A, C, D]],
+    TRI6: [[A2, B2, C2, AB, BC, CENTRE], [A2, C2, D2, CENTRE, CD, DA]],
+    QUAD8: [[A2, B2, C2, D2, AB, BC, CD, DA]],
+    QUAD9: [[A2, B2, C2, D2, AB, BC, CD, DA, CENTRE]],
+}
 
 
 @dataclass
@@ -35,24 +45,15 @@ class Plate:
     straight: bool = False  # second-order nodes at the middles of straight edges
 
 
-def is_quadratic(cell):
-    return cell in (TRI6, QUAD8, QUAD9)
-
-
 def add_plate(mesh, plate):
     """Adds the plate's nodes, its cells, and its four curves NAME_bottom, NAME_right, NAME_top, NAME_left."""
-    step = 2 if is_quadratic(plate.cell) else 1
-    width, height = step * plate.columns, step * plate.rows
+    step = 2 if plate.cell in (TRI6, QUAD8, QUAD9) else 1
+    width, height, numbers = step * plate.columns, step * plate.rows, {}
 
     def position(i, j):
         x = plate.left + (plate.right - plate.left) * i / width
         low, high = plate.below(x), plate.above(x)
         return x, low + (high - low) * j / height
-
-    def mean(*places):
-        return tuple(sum(values) / len(places) for values in zip(*places))
-
-    numbers = {}
 
     def node(i, j):
         if (i, j) not in numbers:
@@ -60,43 +61,28 @@ def add_plate(mesh, plate):
             if plate.straight and (i % step or j % step):
                 before = (i - i % step, j - j % step)
                 after = (before[0] + step * (i % step > 0), before[1] + step * (j % step > 0))
-                place = mean(position(*before), position(*after))
+                place = tuple(sum(pair) / 2 for pair in zip(position(*before), position(*after)))
             numbers[i, j] = len(mesh.nodes)
             mesh.nodes.append(place)
         return numbers[i, j]
 
-    body = len(mesh.bodies)
+    for column, row in ((column, row) for column in range(plate.columns) for row in range(plate.rows)):
+        for lattice in CELLS[plate.cell]:
+            nodes = [node(step * column + i, step * row + j) for i, j in lattice]
+            mesh.cells.append((len(mesh.bodies), plate.cell, nodes))
     mesh.bodies.append(plate.name)
-    for column in range(plate.columns):
-        for row in range(plate.rows):
-            for lattice in cells_at(plate.cell, step * column, step * row):
-                mesh.cells.append((body, plate.cell, [node(i, j) for i, j in lattice]))
 
     def edges(name, starts, along):
-        curve = len(mesh.curves)
-        mesh.curves.append(f"{plate.name}_{name}")
         for i, j in starts:
-            places = [(i, j), (i + step * along[0], j + step * along[1])]
-            if step == 2:
-                places.append((i + along[0], j + along[1]))
-            mesh.edges.append((curve, LINE3 if step == 2 else LINE2, [node(*place) for place in places]))
+            places = [(i, j), (i + step * along[0], j + step * along[1]), (i + along[0], j + along[1])][: step + 1]
+            nodes = [node(*place) for place in places]
+            mesh.edges.append((len(mesh.curves), LINE3 if step == 2 else LINE2, nodes))
+        mesh.curves.append(f"{plate.name}_{name}")
 
     edges("bottom", [(i, 0) for i in range(0, width, step)], (1, 0))
     edges("right", [(width, j) for j in range(0, height, step)], (0, 1))
     edges("top", [(i, height) for i in range(width, 0, -step)], (-1, 0))
     edges("left", [(0, j) for j in range(height, 0, -step)], (0, -1))
-
-
-def cells_at(cell, i, j):
-    """Places of the nodes, on the lattice, of the one quadrilateral or the two triangles at (i, j); gmsh's order."""
-    if cell in (QUAD4, TRI3):
-        a, b, c, d = (i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)
-        return [[a, b, c, d]] if cell == QUAD4 else [[a, b, c], [a, c, d]]
-    a, b, c, d = (i, j), (i + 2, j), (i + 2, j + 2), (i, j + 2)
-    ab, bc, cd, da, centre = (i + 1, j), (i + 2, j + 1), (i + 1, j + 2), (i, j + 1), (i + 1, j + 1)
-    if cell == TRI6:
-        return [[a, b, c, ab, bc, centre], [a, c, d, centre, cd, da]]
-    return [[a, b, c, d, ab, bc, cd, da] + ([centre] if cell == QUAD9 else [])]
 
 
 def plates_mesh(plates):
@@ -116,8 +102,8 @@ def shuffled(mesh, random):
     order = list(range(len(mesh.nodes)))
     random.shuffle(order)
     new = {old: number for number, old in enumerate(order)}
-    cells = [(body, kind, [new[n] for n in nodes]) for body, kind, nodes in mesh.cells]
-    edges = [(curve, kind, [new[n] for n in nodes]) for curve, kind, nodes in mesh.edges]
+    cells, edges = ([(owner, kind, [new[n] for n in nodes]) for owner, kind, nodes in listed]
+                    for listed in (mesh.cells, mesh.edges))
     random.shuffle(cells)
     random.shuffle(edges)
     return replace(mesh, nodes=[mesh.nodes[old] for old in order], cells=cells, edges=edges)

@@ -3,47 +3,48 @@
 import csv
 import json
 import math
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import numpy
-import vtu_file
 
 NONE_ALLOWED = {"iteration", "inf_sup", "against_sigma_n"}  # keys of summary.json that are null where they do not apply
+TYPES = {"Float64": "<f8", "Float32": "<f4", "Int32": "<i4", "Int64": "<i8", "UInt8": "u1"}  # of VTK
+LENGTH = 8  # bytes of the length before each array of a .vtu file (header_type UInt64)
+
+
+def vtu_arrays(path):
+    """{(section, name): array} of a .vtu file of one piece with appended raw data, one row a point or cell; sections as
+    in the file: PointData, ... ValueError if it is not what it should be. Not by meshio: it looks for the ends of the
+    arrays in the raw bytes, and loses its way in some of them."""
+    head, found, raw = Path(path).read_bytes().partition(b'<AppendedData encoding="raw">')
+    if not found:
+        raise ValueError("no raw data")
+    raw, root = raw[raw.index(b"_") + 1 :], ElementTree.fromstring(head + b"</VTKFile>")
+    if root.get("header_type") != "UInt64":
+        raise ValueError(f"header_type {root.get('header_type')}")
+    piece, arrays = root.find("UnstructuredGrid/Piece"), {}
+    counts = {"PointData": "NumberOfPoints", "Points": "NumberOfPoints", "CellData": "NumberOfCells"}
+    for section, entry in ((section, entry) for section in piece for entry in section):
+        name, start = entry.get("Name"), int(entry.get("offset"))
+        end = start + LENGTH + int.from_bytes(raw[start : start + LENGTH], "little")
+        if len(raw) < end:
+            raise ValueError(f"{name} ends early")
+        array = numpy.frombuffer(raw[start + LENGTH : end], TYPES[entry.get("type")])
+        array = array.reshape(-1, int(entry.get("NumberOfComponents", 1)))
+        if section.tag in counts and len(array) != int(piece.get(counts[section.tag])):
+            raise ValueError(f"{name} has {len(array)} rows")
+        arrays[section.tag, name] = array
+    return arrays
 
 
 def summary(folder):
-    return json.loads((Path(folder) / "summary.json").read_text(), parse_constant=lambda word: float(word))
-
-
-def not_finite_in(value, place=""):
-    """Keys of summary.json with a number that is not finite, which mortise writes as null."""
-    if isinstance(value, dict):
-        entries = value.items()
-    elif isinstance(value, list):
-        entries = enumerate(value)
-    else:
-        bad = value is None or (isinstance(value, float) and not math.isfinite(value))
-        return [place] if bad and place.split(".")[-1] not in NONE_ALLOWED else []
-    return [found for key, entry in entries for found in not_finite_in(entry, f"{place}.{key}" if place else str(key))]
+    return json.loads((Path(folder) / "summary.json").read_text(), parse_constant=float)
 
 
 def rows(path):
     with open(path, newline="", encoding="utf-8", errors="surrogateescape") as file:
         return list(csv.DictReader(file))
-
-
-def not_finite_in_csv(path, may_be_empty=()):
-    """Columns of a table with an empty or non-finite number."""
-    bad = set()
-    for row in rows(path):
-        for key, text in row.items():
-            if key is None or text is None:
-                bad.add("the number of columns")
-            elif text == "" and key not in may_be_empty:
-                bad.add(key)
-            elif is_number(text) and not math.isfinite(float(text)):
-                bad.add(key)
-    return [f"{Path(path).name}: {key}" for key in sorted(bad)]
 
 
 def is_number(text):
@@ -54,21 +55,38 @@ def is_number(text):
     return True
 
 
+def not_finite_in(value, place=""):
+    """Keys of summary.json with a number that is not finite, which mortise writes as null."""
+    if not isinstance(value, (dict, list)):
+        bad = value is None or (isinstance(value, float) and not math.isfinite(value))
+        return [place] if bad and place.split(".")[-1] not in NONE_ALLOWED else []
+    entries = value.items() if isinstance(value, dict) else enumerate(value)
+    return [found for key, entry in entries for found in not_finite_in(entry, f"{place}.{key}" if place else str(key))]
+
+
+def not_finite_in_csv(path, may_be_empty=()):
+    """Columns of a table with an empty or non-finite number."""
+    bad = set()
+    for key, text in (cell for row in rows(path) for cell in row.items()):
+        if key is None or text is None:
+            bad.add("the number of columns")
+        elif (text == "" and key not in may_be_empty) or (is_number(text) and not math.isfinite(float(text))):
+            bad.add(key)
+    return [f"{path.name}: {key}" for key in sorted(bad)]
+
+
 def not_finite_in_vtu(path, may_be_nan=()):
-    arrays = vtu_file.read(path)
-    return [f"{Path(path).name}: {name}" for (_, name), array in arrays.items()
+    return [f"{path.name}: {name}" for (_, name), array in vtu_arrays(path).items()
             if name not in may_be_nan and not numpy.isfinite(array).all()]
 
 
 def not_finite(folder, told):
     """All that is not finite in a results folder whose summary.json is `told`."""
     folder = Path(folder)
-    bad = ["summary.json: " + place for place in not_finite_in(told)]
-    bad += not_finite_in_vtu(folder / "result.vtu")
+    bad = ["summary.json: " + place for place in not_finite_in(told)] + not_finite_in_vtu(folder / "result.vtu")
     if told["contact"]:
         bad += not_finite_in_vtu(folder / "contact.vtu", {"gap"})
-        bad += not_finite_in_csv(folder / "contact.csv", {"gap"})
-        bad += not_finite_in_csv(folder / "contact_centres.csv")
+        bad += not_finite_in_csv(folder / "contact.csv", {"gap"}) + not_finite_in_csv(folder / "contact_centres.csv")
     return bad
 
 
@@ -80,4 +98,4 @@ def pressures(folder, told, back=lambda x, y: (x, y), factor=1.0):
 
 
 def largest_displacement(folder):
-    return float(numpy.abs(vtu_file.read(Path(folder) / "result.vtu")["PointData", "displacement"]).max())
+    return float(numpy.abs(vtu_arrays(Path(folder) / "result.vtu")["PointData", "displacement"]).max())

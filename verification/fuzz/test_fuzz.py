@@ -1,28 +1,28 @@
 """The fuzzer: that each oracle fails on a wrong program, that a case can be made again, and some hundred cases."""
 
+import itertools
 import os
+import shutil
 import stat
 import subprocess
 import sys
-from pathlib import Path
 from random import Random
 
 import meshio
 import pytest
 
 import command_cases
-import findings
 import fuzz
 import geo_cases
 import msh_file
 import one_call
 import oracles
+import results_files
 import twins
 from fuzz_case import REFUSED, SOLVED, Twin, solve_case
-from make_case import SHARES, make_case
+from make_case import MAKERS, make_case
+from launch import MORTISE  # fuzz has made common/ known
 
-ROOT = Path(__file__).resolve().parents[2]
-MORTISE = Path(os.environ.get("MORTISE", ROOT / "build/release/mortise")).absolute()
 SEED = "pytest"
 
 # A program that runs mortise and then does the lines of a test; `status` is how it ends, `said` its standard error.
@@ -136,8 +136,25 @@ for row in rows[1:]:
     assert objections(wrong_program(by_place), case) == ["twin"]
 
 
-@pytest.mark.parametrize("random_seed", range(4))
-@pytest.mark.parametrize("kind", msh_file.KINDS)
+def test_a_difference_below_round_off_is_no_difference_of_pressure(mortise, tmp_path):
+    """A twin that may not differ at all: half of the least pressure more is right, twice that pressure more is not."""
+    case = right_case()
+    twin = Twin("the same", case, limit=0)
+    case.write(tmp_path)
+    outcome = one_call.call(mortise, case, tmp_path)
+    least = oracles.least_pressure(tmp_path / "results", case.setting)
+    table = (tmp_path / "results/contact.csv").read_text()
+    p = results_files.rows(tmp_path / "results/contact.csv")[0]["p"]
+    for share, found in ((0.5, False), (2, True)):
+        shutil.copytree(tmp_path / "results", tmp_path / f"{share}/results")
+        changed = table.replace(p, repr(float(p) + share * least))
+        assert changed != table
+        (tmp_path / f"{share}/results/contact.csv").write_text(changed)
+        wrong = oracles.compare(case.setting, twin, outcome, outcome, tmp_path, tmp_path / str(share))
+        assert (wrong is not None) == found
+
+
+@pytest.mark.parametrize("kind,random_seed", itertools.product(msh_file.KINDS, range(4)))
 def test_all_kinds_of_mesh_files_are_right(mortise, kind, random_seed, tmp_path):
     """meshio reads the same nodes and cells from each, and mortise solves on it."""
     setting = command_cases.simple_setting(Random(random_seed))
@@ -158,18 +175,17 @@ def test_a_case_is_the_same_again():
     for number in range(300):
         first, second = make_case(SEED, number), make_case(SEED, number)
         assert (first.kind, first.what, first.words) == (second.kind, second.what, second.words)
-        assert {k: v for k, v in first.files.items() if isinstance(v, bytes)} == {
-            k: v for k, v in second.files.items() if isinstance(v, bytes)}
+        assert first.files == second.files
 
 
 def test_all_kinds_of_cases_are_made():
-    assert {make_case(SEED, number).kind for number in range(100)} == set(SHARES)
+    assert {make_case(SEED, number).kind for number in range(100)} == set(MAKERS)
 
 
 def test_a_finding_can_be_repeated(wrong_program, tmp_path):
     program, case = wrong_program("status = 3"), right_case()
     outcome, found = fuzz.examine(program, case)
-    findings.store(tmp_path / "finding", "1:1", program, case, outcome, found)
+    fuzz.store(tmp_path / "finding", "1:1", program, case, outcome, found)
     rest = {key: value for key, value in os.environ.items() if key != "MORTISE"}
     done = subprocess.run([tmp_path / "finding/repeat.sh"], capture_output=True, text=True, check=False, env=rest)
     assert done.stdout.endswith("exit status 3\n")
@@ -178,7 +194,7 @@ def test_a_finding_can_be_repeated(wrong_program, tmp_path):
 
 def test_words_survive_the_shell():
     for word in (*command_cases.STRANGE_NAMES[:3], *command_cases.STRANGE_NAMES[4:], "it's", '"', "$HOME", "a\\b"):
-        done = subprocess.run(["bash", "-c", f"printf %s {findings.shell_word(word)}"], capture_output=True, check=True)
+        done = subprocess.run(["bash", "-c", f"printf %s {fuzz.shell_word(word)}"], capture_output=True, check=True)
         assert done.stdout == word.encode("utf-8", "surrogateescape")
 
 

@@ -20,50 +20,38 @@ def key(name):
     return name if BARE_KEY.fullmatch(name) else text(name)
 
 
-def number(value):
-    if isinstance(value, int):
-        return str(value)
-    if math.isnan(value):
-        return "nan"
-    if math.isinf(value):
-        return "inf" if value > 0 else "-inf"
-    return repr(value)
-
-
 def inline(value):
     """A value on one line."""
-    if isinstance(value, Raw):
-        return str(value)
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, str):
-        return text(value)
-    if isinstance(value, (int, float)):
-        return number(value)
-    if isinstance(value, dict):
-        return "{ " + ", ".join(f"{key(k)} = {inline(v)}" for k, v in value.items()) + " }"
+    match value:
+        case Raw():
+            return str(value)
+        case bool():
+            return str(value).lower()
+        case str():
+            return text(value)
+        case float() if math.isinf(value):
+            return "inf" if value > 0 else "-inf"
+        case int() | float():
+            return repr(value)
+        case dict():
+            return "{ " + ", ".join(entries(value)) + " }"
     return "[" + ", ".join(inline(v) for v in value) + "]"
 
 
-def document(scene):
-    """The whole scene: values first, then tables and arrays of tables."""
-    plain = [f"{key(k)} = {inline(v)}" for k, v in scene.items() if not is_table(v) and not is_tables(v)]
-    parts = ["\n".join(plain)]
-    for name, value in scene.items():
-        if is_table(value):
-            parts.append(table(f"[{key(name)}]", value))
-        elif is_tables(value):
-            parts += [table(f"[[{key(name)}]]", entry) for entry in value]
-    return "\n\n".join(part for part in parts if part) + "\n"
-
-
-def table(head, entries):
-    return "\n".join([head, *(f"{key(k)} = {inline(v)}" for k, v in entries.items())])
-
-
-def is_table(value):
-    return isinstance(value, dict)
+def entries(table):
+    return [f"{key(k)} = {inline(v)}" for k, v in table.items()]
 
 
 def is_tables(value):
     return isinstance(value, list) and value != [] and all(isinstance(entry, dict) for entry in value)
+
+
+def document(scene):
+    """The whole scene: values first, then tables and arrays of tables."""
+    tables = {name: value for name, value in scene.items() if isinstance(value, dict) or is_tables(value)}
+    parts = ["\n".join(entries({name: value for name, value in scene.items() if name not in tables}))]
+    for name, value in tables.items():
+        head = "[{}]" if isinstance(value, dict) else "[[{}]]"
+        for table in [value] if isinstance(value, dict) else value:
+            parts.append("\n".join([head.format(key(name)), *entries(table)]))
+    return "\n\n".join(part for part in parts if part) + "\n"

@@ -11,7 +11,6 @@ import msh_file
 import plates
 import toml_text
 from fuzz_case import Twin, solve_case
-from valid_scenes import Setting
 
 # Signed permutations of the axes: x = (0, 1) and its sign, y likewise; exact in floating point.
 ISOMETRIES = {
@@ -22,68 +21,65 @@ ISOMETRIES = {
 }
 
 
-def files_of(setting, kind="4.1 ascii", tag_of=lambda node: node + 1):
+def same(value):
+    return value
+
+
+def next_tag(node):
+    return node + 1
+
+
+def files_of(setting, kind="4.1 ascii", tag_of=next_tag):
     """The scene file and the mesh file."""
     mesh = msh_file.write(msh_file.sections(setting.mesh, kind, tag_of), kind)
     return toml_text.document(setting.scene).encode(), mesh
 
 
+def case_of(setting, what, kind="4.1 ascii", tag_of=next_tag):
+    accuracy = limit_of(setting.scene.get("method", {}), 1e-6)
+    files = files_of(setting, kind, tag_of)
+    return solve_case("valid scene", what, *files, thrust=setting.thrust, accuracy=accuracy, setting=setting)
+
+
 def apply(matrix, vector):
-    return [matrix[0][0] * vector[0] + matrix[0][1] * vector[1], matrix[1][0] * vector[0] + matrix[1][1] * vector[1]]
-
-
-def transpose(matrix):
-    return tuple(zip(*matrix))
+    return [row[0] * vector[0] + row[1] * vector[1] for row in matrix]
 
 
 def turned_components(matrix, given):
     """Components {x, y} of a displacement, either of which may be missing, in the turned axes."""
-    turned = {}
-    for row, name in ((0, "x"), (1, "y")):
-        source = 0 if matrix[row][0] else 1
-        if "xy"[source] in given:
-            turned[name] = matrix[row][source] * given["xy"[source]]
-    return turned
+    sources = {name: 0 if row[0] else 1 for row, name in zip(matrix, "xy")}
+    return {name: row[source] * given["xy"[source]] for row, (name, source) in zip(matrix, sources.items())
+            if "xy"[source] in given}
+
+
+def changed(setting, place=None, displacement=same, traction=same, pressure=same, force=same, young=same):
+    """The scene with its loads, supports and stiffnesses changed by functions, and its nodes put to place(x, y)."""
+    scene = copy.deepcopy(setting.scene)
+    by = {"displacement": displacement, "traction": traction, "pressure": pressure, "force": force, "young": young}
+    for entry in (*scene["boundary"], *scene.get("body_force", []), *scene["materials"].values()):
+        entry |= {key: by[key](value) for key, value in entry.items() if key in by}
+    mesh = plates.moved(setting.mesh, place) if place else setting.mesh
+    return replace(setting, scene=scene, mesh=mesh, thrust=None)
 
 
 def turned(setting, matrix):
     """The scene in other axes."""
-    scene = copy.deepcopy(setting.scene)
-    for entry in scene["boundary"]:
-        if "displacement" in entry:
-            entry["displacement"] = turned_components(matrix, entry["displacement"])
-        if "traction" in entry:
-            entry["traction"] = apply(matrix, entry["traction"])
-    for entry in scene.get("body_force", []):
-        entry["force"] = apply(matrix, entry["force"])
-    return Setting(scene, plates.moved(setting.mesh, lambda x, y: tuple(apply(matrix, (x, y)))))
+    vector = lambda v: apply(matrix, v)
+    displacement = lambda u: turned_components(matrix, u)
+    return changed(setting, lambda x, y: tuple(apply(matrix, (x, y))), displacement, traction=vector, force=vector)
 
 
 def in_millimetres(setting):
     """The scene in mm, N and MPa if it was in m, N and Pa."""
-    scene = copy.deepcopy(setting.scene)
-    for material in scene["materials"].values():
-        material["young"] *= 1e-6
-    for entry in scene["boundary"]:
-        if "displacement" in entry:
-            entry["displacement"] = {k: 1e3 * v for k, v in entry["displacement"].items()}
-        if "traction" in entry:
-            entry["traction"] = [1e-6 * t for t in entry["traction"]]
-        if "pressure" in entry:
-            entry["pressure"] *= 1e-6
-    for entry in scene.get("body_force", []):
-        entry["force"] = [1e-9 * f for f in entry["force"]]
-    return Setting(scene, plates.moved(setting.mesh, lambda x, y: (1e3 * x, 1e3 * y)))
+    mega = lambda v: 1e-6 * v
+    return changed(setting, lambda x, y: (1e3 * x, 1e3 * y), lambda u: {k: 1e3 * v for k, v in u.items()},
+                   lambda t: [mega(v) for v in t], mega, lambda f: [1e-9 * v for v in f], mega)
 
 
 def carried(setting, by):
     """The same loads and supports, and everything carried along by a small displacement."""
-    scene = copy.deepcopy(setting.scene)
-    for entry in scene["boundary"]:
-        for axis, amount in zip("xy", by):
-            if axis in entry.get("displacement", {}):
-                entry["displacement"][axis] += amount
-    return Setting(scene, setting.mesh)
+    by = dict(zip("xy", by))
+    return changed(setting, displacement=lambda u: {axis: value + by[axis] for axis, value in u.items()})
 
 
 def iterates(method):
@@ -95,7 +91,7 @@ def limit_of(method, least):
     return max(least, 1e3 * method.get("tolerance", 1e-8)) if iterates(method) else least
 
 
-def twin_of(setting, name, other, factor=1.0, back=lambda x, y: (x, y), kind="4.1 ascii", tag_of=lambda node: node + 1):
+def twin_of(setting, name, other, factor=1.0, back=lambda x, y: (x, y), kind="4.1 ascii", tag_of=next_tag):
     """`other` is `setting` in other words. Whether an iteration ends within its steps may hang on the words."""
     told = setting.scene["method"]
     return Twin(name, case_of(other, name, kind, tag_of), factor, back, limit_of(told, 1e-6), not iterates(told))
@@ -109,15 +105,14 @@ def said_otherwise(random, setting):
         return twin_of(setting, "in other units", in_millimetres(setting), 1e-6, lambda x, y: (x / 1e3, y / 1e3))
     if choice == "isometry":
         name, matrix = random.choice(list(ISOMETRIES.items()))
-        inverse = transpose(matrix)
+        inverse = tuple(zip(*matrix))
         return twin_of(setting, name, turned(setting, matrix), back=lambda x, y: tuple(apply(inverse, (x, y))))
     if choice == "shift":
         a, b = size * random.uniform(-3, 3), size * random.uniform(-3, 3)
         other = replace(setting, mesh=plates.moved(setting.mesh, lambda x, y: (x + a, y + b)))
         return twin_of(setting, "elsewhere", other, back=lambda x, y: (x - a, y - b))
     if choice == "carried":
-        by = [1e-3 * size * random.uniform(-1, 1) for _ in "xy"]
-        return twin_of(setting, "carried along", carried(setting, by))
+        return twin_of(setting, "carried along", carried(setting, [1e-3 * size * random.uniform(-1, 1) for _ in "xy"]))
     other = replace(setting, mesh=plates.shuffled(setting.mesh, random))
     kind, stride = random.choice(msh_file.KINDS), random.choice((1, 3, 1000))
     return twin_of(setting, f"mesh file {kind}", other, kind=kind, tag_of=lambda node: stride * node + 7)
@@ -130,21 +125,15 @@ def solved_otherwise(random, setting):
         return None
     told = scene["method"]
     if iterates(told):
-        scene["method"] = {k: v for k, v in told.items() if k in ("multipliers", "integration")} | {"kind": "mortar"}
-    elif random.random() < 0.5:
-        scene["method"] = told | {"kind": "ddm", "acceleration": random.choice(("krylov", "anderson"))}
+        method = {k: v for k, v in told.items() if k in ("multipliers", "integration")} | {"kind": "mortar"}
     else:
-        scene["method"] = told | {"solver": "mssor", "acceleration": random.choice(("krylov", "minres"))}
+        by_ddm = random.random() < 0.5
+        method = told | {"kind": "ddm"} if by_ddm else told | {"solver": "mssor"}
+        method["acceleration"] = random.choice(("krylov", "anderson" if by_ddm else "minres"))
     # Which side carries the multipliers hangs on the method where the scene does not say it.
-    for pair in scene["contact"]:
-        if "multipliers_on" not in pair:
-            return None
-    other = "by " + (scene["method"].get("solver") or scene["method"]["kind"])
-    limit = max(limit_of(told, 1e-5), limit_of(scene["method"], 1e-5))
-    return Twin(other, case_of(replace(setting, scene=scene), other), limit=limit, same_verdict=False)
-
-
-def case_of(setting, what, kind="4.1 ascii", tag_of=lambda node: node + 1):
-    accuracy = limit_of(setting.scene.get("method", {}), 1e-6)
-    files = files_of(setting, kind, tag_of)
-    return solve_case("valid scene", what, *files, thrust=setting.thrust, accuracy=accuracy, setting=setting)
+    if any("multipliers_on" not in pair for pair in scene["contact"]):
+        return None
+    other = "by " + (method.get("solver") or method["kind"])
+    limit = max(limit_of(told, 1e-5), limit_of(method, 1e-5))
+    twin = case_of(replace(setting, scene=scene | {"method": method}), other)
+    return Twin(other, twin, limit=limit, same_verdict=False)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import plates
 
+
 @dataclass
 class Setting:
     """A scene as dictionaries, its mesh, and the contact force that equilibrium asks for (None where it does not)."""
@@ -18,13 +19,12 @@ def contact_line(random, length):
     """A line of one of four shapes, as a function of x; nearly flat, as parts in contact are."""
     shape = random.choice(("flat", "flat", "inclined", "parabola", "sine"))
     height = length * random.uniform(-0.15, 0.15)
-    if shape == "flat":
-        return lambda x: 0.0
-    if shape == "inclined":
-        return lambda x: height * x / length
-    if shape == "parabola":
-        return lambda x: 4 * height * x * (length - x) / length**2
-    return lambda x: height / 4 * math.sin(2 * math.pi * x / length)
+    return {
+        "flat": flat,
+        "inclined": lambda x: height * x / length,
+        "parabola": lambda x: 4 * height * x * (length - x) / length**2,
+        "sine": lambda x: height / 4 * math.sin(2 * math.pi * x / length),
+    }[shape]
 
 
 def raised(line, height):
@@ -84,14 +84,12 @@ def boundary(random, made, load):
 
 
 def top_load(random, young, length):
-    """A load on the uppermost edge: a pressure or a traction that presses, or a displacement downwards."""
+    """A load on the uppermost edge and how much it presses: a pressure, a traction, or a displacement downwards."""
     strain = 10 ** random.uniform(-6, -3)
     kind = random.choice(("pressure", "pressure", "traction", "displacement"))
-    if kind == "pressure":
-        return {"pressure": young * strain}, young * strain
-    if kind == "traction":
-        return {"traction": [0.0, -young * strain]}, young * strain
-    return {"displacement": {"y": -strain * length}}, None
+    if kind == "displacement":
+        return {"displacement": {"y": -strain * length}}, None
+    return {kind: young * strain if kind == "pressure" else [0.0, -young * strain]}, young * strain
 
 
 def method(random, pairs, bodies):
@@ -124,7 +122,6 @@ def iteration(random, chosen, bodies):
 
 
 def contacts(random, made, gap):
-    entries = []
     for below, above in zip(made, made[1:]):
         curves = [f"{above.name}_bottom", f"{below.name}_top"]
         random.shuffle(curves)
@@ -136,8 +133,7 @@ def contacts(random, made, gap):
             entry["initial_gap"] = random.choice(known)
         if random.random() < 0.5:
             entry["multipliers_on"] = random.choice(curves)
-        entries.append(entry)
-    return entries
+        yield entry
 
 
 def valid_setting(random):
@@ -156,7 +152,7 @@ def valid_setting(random):
         "materials": {name: known[name] for name in known if name in bodies.values()},
         "bodies": bodies,
         "boundary": boundary(random, made, load),
-        "contact": contacts(random, made, gap),
+        "contact": list(contacts(random, made, gap)),
         "method": method(random, len(made) - 1, names),
     }
     if heated:

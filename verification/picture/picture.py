@@ -12,16 +12,17 @@ import argparse
 import csv
 import json
 import math
+import sys
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import meshio
 import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.ticker import ScalarFormatter
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+
+import figure
 
 CORNERS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
 COLOURS = ["#e8452c", "#4aa3e8"]  # multiplier side, opposite side
@@ -42,7 +43,8 @@ def shape_functions(kind, x, y):
         quadratic = lambda a, t: 1 - t * t if a == 0 else t * (t + a) / 2
         return np.stack([quadratic(a, x) * quadratic(b, y) for a, b in zip(xa, ya)], axis=1)
     corners = [(1 + a * x) * (1 + b * y) * (a * x + b * y - 1) / 4 for a, b in zip(xa[:4], ya[:4])]
-    sides = [(1 - x * x) * (1 + b * y) / 2 if a == 0 else (1 + a * x) * (1 - y * y) / 2 for a, b in zip(xa[4:8], ya[4:8])]
+    side = lambda a, b: (1 - x * x) * (1 + b * y) / 2 if a == 0 else (1 + a * x) * (1 - y * y) / 2
+    sides = [side(a, b) for a, b in zip(xa[4:8], ya[4:8])]
     return np.stack(corners + sides, axis=1)
 
 
@@ -166,9 +168,7 @@ def read_csv(path):
     with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
     number = lambda text: float(text) if text else math.nan
-    return {
-        name: np.array([row[name] if name == "curve" else number(row[name]) for row in rows]) for name in rows[0]
-    }
+    return {key: np.array([row[key] if key == "curve" else number(row[key]) for row in rows]) for key in rows[0]}
 
 
 def arc_length_on(along, s, points):
@@ -205,7 +205,8 @@ def draw_pair(axes, table, multiplier_side, between):
     mine, theirs = -table["sigma_n"][on], -table["sigma_n"][other]
     axes.plot(s, p, color="0.15", linewidth=1.7, label="$p$ (multipliers)", zorder=2)
     axes.plot(s, mine, color=COLOURS[0], linewidth=0.9, label=f"$-\\sigma_n$ of {multiplier_side}", zorder=3)
-    axes.plot(s_other, theirs, color=COLOURS[1], linewidth=0.9, dashes=(5, 2), label=f"$-\\sigma_n$ of {opposite}", zorder=4)
+    label = f"$-\\sigma_n$ of {opposite}"
+    axes.plot(s_other, theirs, color=COLOURS[1], linewidth=0.9, dashes=(5, 2), label=label, zorder=4)
     low, high = pressure_range([p, mine, theirs])
     axes.set_ylim(low, high)
     axes.set_xlim(s.min(), s.max())
@@ -214,7 +215,8 @@ def draw_pair(axes, table, multiplier_side, between):
     label = f"arc length $s$ along {multiplier_side}"
     if len(off) > 0:
         farthest = off[np.argmax(np.abs(off - (low + high) / 2))]
-        label += f"    ({len(off)} of {np.isfinite(everything).sum()} values off the scale, the farthest {farthest:.3g})"
+        count = f"{len(off)} of {np.isfinite(everything).sum()}"
+        label += f"    ({count} values off the scale, the farthest {farthest:.3g})"
     axes.set_xlabel(label)
     axes.yaxis.set_major_formatter(scientific())
     axes.grid(color="0.9", linewidth=0.6)
@@ -229,11 +231,11 @@ def draw(results, picture, scale=None, dpi=130):
     extent = np.ptp(meshio.read(results / "result.vtu").points[:, :2], axis=0)
     above = float(np.clip(6.6 * extent[1] / extent[0], 2.5, 6.5))
     below = 2.5
-    figure = plt.figure(figsize=(8, above + below * len(pairs) + 0.6), layout="constrained")
-    panels = figure.subplots(1 + len(pairs), 1, gridspec_kw={"height_ratios": [above] + [below] * len(pairs)}, squeeze=False)
+    heights, size = [above] + [below] * len(pairs), (8, above + below * len(pairs) + 0.6)
+    drawing, panels = figure.panels(len(heights), 1, size, height_ratios=heights, squeeze=False)
     used = draw_bodies(panels[0, 0], results, scale)
     panels[0, 0].set_title(f"displacements \u00d7 {used:g}, undeformed outline dashed", fontsize=9)
-    figure.suptitle(summary["title"] or summary["scene"], fontsize=11)
+    drawing.suptitle(summary["title"] or summary["scene"], fontsize=11)
     if summary["status"] != "solved":
         panels[0, 0].set_title(summary["status"].replace("_", " "), loc="right", color="#c00000", fontsize=10)
     if pairs:
@@ -241,11 +243,7 @@ def draw(results, picture, scale=None, dpi=130):
         for k, (pair, side) in enumerate(zip(pairs, multiplier_sides)):
             rows = table["pair"] == k
             draw_pair(panels[1 + k, 0], {name: column[rows] for name, column in table.items()}, side, pair["between"])
-    if picture.suffix.lower() == ".png":
-        figure.savefig(picture, dpi=dpi, pil_kwargs={"optimize": True})
-    else:
-        figure.savefig(picture, dpi=dpi)
-    plt.close(figure)
+    figure.save(drawing, picture, dpi)
 
 
 def main():

@@ -1,31 +1,28 @@
 """The picture of a run, and that other programs can read what it is made from."""
 
-import os
 import subprocess
 import sys
-from pathlib import Path
 
 import meshio
 import numpy as np
 import pytest
 
+import launch
 import picture
-
-ROOT = Path(__file__).resolve().parents[2]
-MORTISE = Path(os.environ.get("MORTISE", ROOT / "build/release/mortise"))
 
 
 @pytest.fixture(scope="module")
 def solve(tmp_path_factory):
     """Runs a scene once and returns the folder of its results."""
-    if not MORTISE.is_file():
-        pytest.skip(f"{MORTISE} is missing: ./dev build makes it")
+    if not launch.MORTISE.is_file():
+        pytest.skip(f"{launch.MORTISE} is missing: ./dev build makes it")
     folders = {}
 
     def run(scene):
         if scene not in folders:
             folders[scene] = tmp_path_factory.mktemp(scene) / "results"
-            subprocess.run([MORTISE, "solve", ROOT / f"geo/{scene}.toml", "-o", folders[scene], "--quiet"], check=True)
+            command = [launch.MORTISE, "solve", launch.scene_file(scene), "-o", folders[scene], "--quiet"]
+            subprocess.run(command, check=True)
         return folders[scene]
 
     return run

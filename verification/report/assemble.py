@@ -14,16 +14,14 @@ import sys
 from datetime import date
 from pathlib import Path
 
-from PIL import Image
-
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "verification/common"))
 
+import figure
 import page
 
-STUDIES = ["verify", "paper", "chart", "ddm", "mssor", "atlas"]  # below out/, each made by ./dev NAME
+STUDIES = ["crosscheck", "preprint", "chart", "stability"]  # below out/, each made by ./dev NAME
 MOST_BYTES = 3_000_000
-COLOURS = 64
 PICTURE = re.compile(r'<img src="([^"]+)"')
 
 
@@ -40,16 +38,6 @@ def body_of(section):
     return text[start:]
 
 
-def copy_small(source, target):
-    """Copies a picture; a PNG with few colours, which suits drawings."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    if source.suffix != ".png":
-        shutil.copyfile(source, target)
-        return
-    with Image.open(source) as picture:
-        picture.convert("RGB").quantize(COLOURS).save(target, optimize=True)
-
-
 def take_section(folder, name, output):
     """The HTML of a study's section for the page in `output`, its pictures copied there."""
     section = folder / name / "section.html"
@@ -61,7 +49,7 @@ def take_section(folder, name, output):
         if not source.is_file():
             raise ReportError(f"{section}: the picture {match[1]} is missing")
         target = Path(name) / Path(html.unescape(match[1]))
-        copy_small(source, output / target)
+        figure.copy_small(source, output / target)
         return f'<img loading="lazy" src="{html.escape(str(target))}"'
 
     return PICTURE.sub(moved, body_of(section))

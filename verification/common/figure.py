@@ -1,0 +1,65 @@
+"""Figures in one style: panels, labelled axes, a legend below, and small PNG files."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+from PIL import Image
+
+RED = "#c00000"  # what fails
+COLOURS = 64  # of a drawing in docs/
+plt.rcParams.update({"axes.titlesize": 10, "legend.fontsize": 8, "lines.markersize": 4.5, "grid.alpha": 0.25})
+
+
+def panels(rows, columns, size, **options):
+    """A figure and its panels, as plt.subplots gives them; size in inches."""
+    return plt.subplots(rows, columns, figsize=size, layout="constrained", **options)
+
+
+def mosaic(layout, size):
+    """As panels, of unequal sizes: {letter: axes} of rows like "AAB"."""
+    return plt.subplot_mosaic("\n".join(layout), figsize=size, layout="constrained")
+
+
+def label(axes, x=None, y=None, title=None, log="", limit=None, legend=False, **settings):
+    """Labels, grid and scales; `log` names logarithmic axes ("xy"), `limit` draws a dashed level, others: set()."""
+    for name, text in (("xlabel", x), ("ylabel", y), ("title", title)):
+        settings |= {name: text} if text is not None else {}
+    axes.set(**{f"{axis}scale": "log" for axis in log}, **settings)
+    axes.grid(True)
+    axes.set_axisbelow(True)
+    if limit is not None:
+        axes.axhline(limit, color="0.4", linestyle="--", linewidth=0.9)
+    if legend:
+        axes.legend(**(legend if isinstance(legend, dict) else {}))
+
+
+def curve(axes, points, style="o-", hollow=None, **options):
+    """A line through points (x, y), in order of x; `hollow(x, y)` says which markers are open."""
+    points = sorted(points)
+    (line,) = axes.plot(*zip(*points) if points else ([], []), style, **options)
+    if hollow:
+        line.set_markevery([not hollow(*point) for point in points] or None)
+        some = [point for point in points if hollow(*point)]
+        axes.plot(*zip(*some) if some else ([], []), line.get_marker(), color=line.get_color(), fillstyle="none")
+    return line
+
+
+def legend_below(figure, axes, columns, height=0.08):
+    """One legend for all panels, with the lines of `axes`; height as a part of the figure."""
+    figure.legend(*axes.get_legend_handles_labels(), loc="lower center", ncol=columns, frameon=False)
+    figure.get_layout_engine().set(rect=(0, height, 1, 1 - height))
+
+
+def save(figure, path, dpi=85):
+    """Writes the figure (format by the name's ending) and closes it."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=dpi, **({"pil_kwargs": {"optimize": True}} if path.suffix == ".png" else {}))
+    plt.close(figure)
+
+
+def copy_small(source, target):
+    """Copies a PNG with few colours, which suits drawings."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with Image.open(source) as picture:
+        picture.convert("RGB").quantize(COLOURS).save(target, optimize=True)

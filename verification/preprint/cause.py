@@ -1,0 +1,143 @@
+"""Why the preprint's stresses oscillate: the tables again with other ways to treat gap, integrals and mesh.
+
+A variant is a change of the settings. Each is held against the printed tables by both readings of "active": size
+(median of ours/printed over the rows of a series), order (parabolas over circle), and the factor by which delta falls
+from one mesh to the next. A variant "fits" the parabolas if the median is within a factor of 3, at least three in four
+rows are, and the median factor between meshes is 3 to 5 (printed: about 4).
+"""
+
+import numpy as np
+
+import oscillation
+import printed_tables as printed
+from preprint_runs import AT_THE_NODES, CLOSED, MEASURED, METHOD, STRESS
+
+ELEMENTS = {"method.integration": "elements"}
+EVEN_X1 = {"mesh.parameters.spacing": 1}
+STRAIGHT = {"mesh.parameters.straight": 1}
+DIRECT = {STRESS: AT_THE_NODES}
+OURS = "segments, closed"
+VARIANTS = {
+    OURS: {**METHOD, **CLOSED},
+    "segments, closed, linear multipliers": CLOSED,
+    "segments, measured": {**METHOD, **MEASURED},
+    "segments, measured, linear multipliers": MEASURED,
+    "segments, measured, nodes even in x1": {**METHOD, **MEASURED, **EVEN_X1},
+    "segments, measured, straight edges": {**METHOD, **MEASURED, **STRAIGHT},
+    "elements, closed": {**METHOD, **CLOSED, **ELEMENTS},
+    "elements, measured": {**METHOD, **MEASURED, **ELEMENTS},
+    "elements, measured, nodes even in x1": {**METHOD, **MEASURED, **ELEMENTS, **EVEN_X1},
+    "segments, closed, stress at the nodes": {**METHOD, **CLOSED, **DIRECT},
+    "segments, measured, stress at the nodes": {**METHOD, **MEASURED, **DIRECT},
+    "elements, measured, stress at the nodes": {**METHOD, **MEASURED, **ELEMENTS, **DIRECT},
+}
+ONLY_CURVED = ("contact.initial_gap", *EVEN_X1, *STRAIGHT)  # no difference on straight lines: both meshes lie on them
+FACTOR = 3
+BETWEEN_MESHES = (3, 5)
+EQUAL = 1.05  # distances up to this ratio are not told apart
+
+
+def settings_of(variant, scene):
+    changes = VARIANTS[variant]
+    straight = printed.series_of(scene) == "straight"
+    return {key: value for key, value in changes.items() if not (straight and key in ONLY_CURVED)}
+
+
+def compute(store, variants, rows, say):
+    """Rows with a column for each side of the multipliers, of all variants."""
+    for variant in variants:
+
+        def measure(row, variant=variant):
+            say(f"{variant}: {row['scene']} {row['mesh'][0]}x{row['mesh'][1]} {row['at']}, {row['body']}")
+            settings, place = settings_of(variant, row["scene"]), (row["body"], row["at"])
+            of = lambda side: oscillation.delta_of(store, row["scene"], row["mesh"], settings, side, *place)
+            return {side: of(side) for side in printed.OTHER}
+
+        for row, found in printed.once_a_place(rows, measure):
+            mapped = {name: found[side(row["active"])] for name, side in printed.MAPPINGS.items()}
+            yield {"variant": variant, **row, **mapped}
+
+
+def targets(rows, variant, series):
+    return [row for row in printed.of_series(rows, series) if row["variant"] == variant]
+
+
+def factors(rows, value):
+    """By how much delta falls from a mesh of nodes to the next, for each scene, active body and body."""
+    meshes = sorted({row["mesh"] for row in rows})
+    by = {(row["scene"], row["active"], row["body"], row["mesh"]): row[value] for row in rows if row["at"] == "nodes"}
+    for (*line, mesh), coarse in by.items():
+        finer = meshes[meshes.index(mesh) + 1 :][:1]
+        fine = by.get((*line, *finer)) if finer else None
+        if fine:
+            yield coarse / fine
+
+
+def middle(values):
+    values = list(values)
+    return float(np.median(values)) if values else float("nan")
+
+
+def over_circle(parabolas, circle, value):
+    """Median of a parabola's delta over the circle's at the same place."""
+    place = lambda row: (row["mesh"], row["at"], row["active"], row["body"])
+    of_circle = {place(row): row[value] for row in circle}
+    return middle(row[value] / of_circle[place(row)] for row in parabolas if place(row) in of_circle)
+
+
+def judge(rows, variant, reading):
+    """A variant by one reading of "active" against the printed tables."""
+    of = {name: targets(rows, variant, name) for name in printed.SERIES}
+    fits = {n: printed.fit([r[reading] for r in part], [r["printed"] for r in part]) for n, part in of.items() if part}
+    curve, between = fits["parabolas"], middle(factors(of["parabolas"], reading))
+    close = abs(curve["median"]) <= np.log10(FACTOR) and curve["within_3"] >= 0.75
+    return {
+        "variant": variant,
+        "reading": reading,
+        **{f"ours/printed, {name}": 10 ** figures["median"] for name, figures in fits.items()},
+        "parabolas: spread of log10": curve["spread"],
+        "parabolas: rows within 3": curve["within_3"],
+        "parabolas: rank correlation": curve["rank"],
+        "circle: rank correlation": fits["circle"]["rank"],
+        "parabolas over circle": over_circle(of["parabolas"], of["circle"], reading),
+        "factor between meshes": between,
+        "factor, circle": middle(factors(of["circle"], reading)),
+        "factor, straight": middle(factors(of["straight"], reading)),
+        "fits": bool(close and BETWEEN_MESHES[0] <= between <= BETWEEN_MESHES[1]),
+    }
+
+
+def judge_all(rows):
+    variants = dict.fromkeys(row["variant"] for row in rows)
+    return [judge(rows, variant, reading) for variant in variants for reading in printed.MAPPINGS]
+
+
+def figures_printed(rows):
+    """What the printed tables themselves show: parabolas over circle, and the factor between meshes."""
+    variant = rows[0]["variant"]
+    parabolas, circle, straight = (targets(rows, variant, name) for name in ("parabolas", "circle", "straight"))
+    return {
+        "parabolas over circle": over_circle(parabolas, circle, "printed"),
+        "factor between meshes": middle(factors(parabolas, "printed")),
+        "factor, circle": middle(factors(circle, "printed")),
+        "factor, straight": middle(factors(straight, "printed")),
+    }
+
+
+def distance(verdict):
+    """From the printed parabola rows, to order the variants: size and spread together."""
+    return np.hypot(np.log10(verdict["ours/printed, parabolas"]), verdict["parabolas: spread of log10"])
+
+
+def nearest(verdicts, fitting=True):
+    """The verdict nearest to the printed parabola rows, of those that fit if any does; the first of equal ones."""
+    fit = [verdict for verdict in verdicts if verdict["fits"]] if fitting else []
+    least = min(map(distance, fit or verdicts))
+    return next(verdict for verdict in fit or verdicts if distance(verdict) <= EQUAL * least)
+
+
+def nearest_in_trend(verdicts, printed):
+    """The verdict nearest to the printed figures in size, order and factor between meshes together."""
+    names = ("parabolas over circle", "factor between meshes")
+    ratios = lambda v: [v["ours/printed, parabolas"], *(v[name] / printed[name] for name in names)]
+    return min(verdicts, key=lambda v: np.linalg.norm(np.log10(ratios(v))))

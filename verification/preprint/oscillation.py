@@ -1,0 +1,49 @@
+"""The preprint's measure of oscillation, eq. (28).
+
+delta(x1) = |sigma_2 - s| / |s| on one body's contact line, with s of matching meshes that have this body's elements on
+both sides; its mean over the nodes (or element centres) leaves out those of the first and the last element, where the
+stress is singular. Beside them and beside kinks it is large still, or s near a zero: then a few places make the mean.
+`share_of_worst` tells that.
+"""
+
+import numpy as np
+
+from preprint_runs import STRESS, on_side
+
+LEFT_OUT = {"nodes": 3, "centres": 1}  # of a line of 3-node edges, at either end
+SAME_PLACE = 1e-9  # m
+WORST = 6  # places
+OF_THE_MESH = ("mesh.parameters.spacing", "mesh.parameters.straight", "method.multipliers", STRESS)
+
+
+def delta(curve, reference, at="nodes"):
+    """delta(x1) at the places that count. Both arguments are columns by x1, of the same places."""
+    if len(curve["x"]) != len(reference["x"]) or np.abs(curve["x"] - reference["x"]).max() > SAME_PLACE:
+        raise ValueError("delta: the contact line and its reference have different nodes")
+    inner = slice(LEFT_OUT[at], -LEFT_OUT[at])
+    s = reference["sigma_2"][inner]
+    return np.abs(curve["sigma_2"][inner] - s) / np.abs(s)
+
+
+def mean_delta(curve, reference, at="nodes"):
+    return float(np.mean(delta(curve, reference, at)))
+
+
+def share_of_worst(curve, reference, at="nodes"):
+    """The part of the mean that the six largest values make."""
+    values = np.sort(delta(curve, reference, at))
+    return float(values[-WORST:].sum() / values.sum())
+
+
+def matching_curve(store, scene, mesh, settings, body, at="nodes"):
+    """The reference of a body's line: as many elements on both sides. Matching meshes have no gap and no segments to
+    cut, and either side's multipliers are the same; so these settings are left at their defaults."""
+    n = mesh[0] if body == "G1" else mesh[1]
+    kept = {key: value for key, value in settings.items() if key in OF_THE_MESH}
+    return store.curve(scene, (n, n), kept, body, at)
+
+
+def delta_of(store, scene, mesh, settings, side, body, at="nodes", measure=mean_delta):
+    """Mean delta on a body's line with the multipliers on `side`."""
+    curve = store.curve(scene, mesh, {**settings, **on_side(side)}, body, at)
+    return measure(curve, matching_curve(store, scene, mesh, settings, body, at), at)

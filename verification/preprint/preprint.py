@@ -1,0 +1,169 @@
+#!/usr/bin/python3
+"""The study of the preprint (Aronov & Rodin 2019, Keldysh Institute preprint 87), in one command.
+
+Tables 1-3 and 5-8 beside our figures, why the preprint's stresses oscillate, and its figures from our results. Written
+into OUTPUT are section.html, tables.csv, fits.csv, variants.csv, verdicts.csv, gaps.csv, gallery.csv and the pictures;
+the runs lie in OUTPUT/runs and are not repeated. Exit status: 0 if the study is complete, 1 if it could not run.
+MORTISE names another executable than build/release/mortise.
+"""
+
+import argparse
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import preprint_runs  # makes common/ known
+import cause
+import gallery
+import launch
+import mesh_gaps
+import page
+import preprint_charts as charts
+import printed_tables
+import tables
+import template
+
+SCENE, MESH = "parabola_2", (80, 100)  # of the curves that show the cause
+MEASURED = "segments, measured"
+TEXTS = template.texts(Path(__file__).with_name("preprint_texts.md"))
+
+
+@dataclass(frozen=True)
+class Size:
+    """What a study takes in; None is all."""
+
+    meshes: list | None
+    variants: list
+    figures: list | None
+    curves_mesh: tuple
+
+
+QUICK_VARIANTS = [cause.OURS, MEASURED, "elements, closed", "elements, measured"]
+QUICK = Size([(40, 50)], QUICK_VARIANTS, [3, 14, 16, 26, 31], (40, 50))
+FULL = Size(None, list(cause.VARIANTS), None, MESH)
+
+
+def study(store, output, size, say):
+    """Everything: a dictionary of tables."""
+    printed = printed_tables.printed_rows(size.meshes)
+    found = {"rows": tables.compute(store, printed, say)}
+    charts.printed_against_ours(output / "tables.png", found["rows"])
+    found["variants"] = list(cause.compute(store, size.variants, printed, say))
+    found["verdicts"] = cause.judge_all(found["variants"])
+    best = cause.nearest(found["verdicts"])
+    found["best"], found["printed"] = best, cause.figures_printed(found["variants"])
+    whole = len({row["mesh"] for row in printed if row["at"] == "nodes"}) > 1  # else there is no factor between meshes
+    found["trend"] = cause.nearest_in_trend(found["verdicts"], found["printed"]) if whole else None
+    charts.variants(output / "variants.png", found["variants"], found["verdicts"])
+    chosen = list(dict.fromkeys([cause.OURS, MEASURED, best["variant"], (found["trend"] or best)["variant"]]))
+    charts.by_mesh(output / "meshes.png", found["variants"], chosen, best["reading"])
+    side = printed_tables.MAPPINGS[best["reading"]]("G1")
+    charts.stress_curves(output / "curves.png", store, chosen, side, SCENE, size.curves_mesh)
+    meshes = sorted({row["mesh"] for row in printed})
+    found["gaps"] = list(mesh_gaps.rows(store, ("circle", "parabola_1", "parabola_2"), meshes))
+    view = gallery.View(store, best["reading"], best["variant"])
+    found["gallery"] = list(gallery.make(view, output, size.figures, say))
+    return found
+
+
+# ---- The page ----
+
+
+def is_number(value):
+    return value == value  # not NaN
+
+
+def required(rows):
+    """Is ours at most the printed figure?"""
+    for at in dict.fromkeys(row["at"] for row in rows):
+        targets = [row for row in rows if row["target"] and row["at"] == at]
+        better, best = (len(targets) - len(tables.exceptions(targets, name)) for name in ("better", "best"))
+        yield "required", {"at": at, "better": better, "best": best, "count": len(targets)}
+    for row in tables.exceptions(rows):
+        names = ("table", "scene", "mesh", "at", "active", "body", "printed", "better", "best")
+        yield "exception", {name: row[name] for name in names} | {"share": 100 * row["better_share_of_worst"]}
+
+
+def about_the_cause(found):
+    """The variant nearest to the printed parabola rows, with what it meets and misses, and that of the trend."""
+    best, printed, trend = found["best"], found["printed"], found["trend"]
+    pairs = [f"{name} {best[name]:.2g} (printed {printed[name]:.2g})" for name in printed if is_number(best[name])]
+    sizes = ", ".join(f"{series} {best[f'ours/printed, {series}']:.2g}" for series in printed_tables.SERIES)
+    words = {name: best[name] for name in ("variant", "reading", "fits")}
+    within = 100 * best["parabolas: rows within 3"]
+    yield "cause", {**words, "sizes": sizes, "within": within, "pairs": ", ".join(pairs)}
+    if not is_number(best["factor between meshes"]):
+        yield "one mesh", {}
+    others = [f"'{v['variant']}', '{v['reading']}'" for v in found["verdicts"] if v["fits"] and v is not best]
+    if others:
+        yield "others", {"others": "; ".join(others)}
+    if trend:
+        order, factor = "parabolas over circle", "factor between meshes"
+        yield "trend", {
+            **{"variant": trend["variant"], "reading": trend["reading"], "size": trend["ours/printed, parabolas"]},
+            **{"within": 100 * trend["parabolas: rows within 3"], "rank": trend["parabolas: rank correlation"]},
+            **{"order": trend[order], "printed_order": printed[order]},
+            **{"factor": trend[factor], "printed_factor": printed[factor]},
+        }
+
+
+def summary(found):
+    """Lines: the required results and the verdict on the cause."""
+    verdicts = [row["holds"].split("; ") for row in found["gallery"]]
+    theirs = [words[-1].endswith("it holds") for words in verdicts if len(words) == 2]
+    ours = sum(words[0] == "holds" for words in verdicts)
+    counts = {"ours": ours, "figures": len(verdicts), "variant": sum(theirs), "compared": len(theirs)}
+    lines = [*required(found["rows"]), *(("ratios", row) for row in tables.ratios(found["rows"]))]
+    lines += [*about_the_cause(found), ("gallery", counts)]
+    return [template.fill(TEXTS[name], **values).replace("\n", " ") for name, values in lines]
+
+
+def as_table(rows):
+    """Dictionaries as a table."""
+    return template.table(rows[0], [map(tables.short, row.values()) for row in rows])
+
+
+def markdown(found):
+    figures = ", ".join(f"{name} {value:.2g}" for name, value in found["printed"].items() if is_number(value))
+    numbers = ", ".join(dict.fromkeys(str(row["table"]) for row in found["rows"]))
+    low, high = cause.BETWEEN_MESHES
+    return template.fill(
+        TEXTS["page"], summary="\n\n".join(summary(found)), fits=as_table(list(tables.fits(found["rows"]))),
+        gaps=as_table(found["gaps"]), factor=cause.FACTOR, low=low, high=high, printed=figures,
+        verdicts=as_table(found["verdicts"]), numbers=numbers,
+        rows=template.table(tables.COLUMNS.values(), tables.lines(found["rows"])),
+        variant=found["best"]["variant"], reading=found["best"]["reading"],
+    )  # fmt: skip
+
+
+def write(output, found):
+    text = lambda mesh: mesh if isinstance(mesh, str) else "x".join(map(str, mesh))
+    csvs = {name: found[name] for name in ("variants", "verdicts", "gaps", "gallery")}
+    for name, rows in (csvs | {"tables": found["rows"], "fits": list(tables.fits(found["rows"]))}).items():
+        rows = [{key: text(value) if key == "mesh" else value for key, value in row.items()} for row in rows]
+        launch.write_csv(output / f"{name}.csv", rows)
+    body = [page.from_markdown(markdown(found)), *gallery.section(found["gallery"])]
+    page.write_section(output, "preprint", "The preprint's study", body)
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-o", "--output", type=Path, default=Path("out/preprint"), help="default: out/preprint")
+    parser.add_argument("--quick", action="store_true", help="one mesh, 4 variants, 5 figures: under 2 minutes")
+    options = parser.parse_args(arguments)
+    options.output.mkdir(parents=True, exist_ok=True)
+    start = time.time()
+    try:
+        store = preprint_runs.Store(options.output / "runs")
+        say = lambda text: print(f"[{time.time() - start:5.0f} s, {store.fresh:3} runs] {text}", flush=True)
+        found = study(store, options.output, QUICK if options.quick else FULL, say)
+        write(options.output, found)
+    except launch.MortiseError as error:
+        sys.exit(f"preprint.py: {error}")
+    print(*summary(found), f"{options.output}/section.html, tables.csv", sep="\n")
+    return store.fresh
+
+
+if __name__ == "__main__":
+    main()

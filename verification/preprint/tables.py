@@ -1,0 +1,82 @@
+"""Tables 1 to 3 and 5 to 8 of the preprint beside our figures.
+
+Ours is the preprint's discretisation (8-node quadrilaterals, quadratic multipliers) with segments and a closed gap, and
+the same with linear multipliers, the program's default; each with the multipliers on either body. "better" is the
+smaller of the two quadratic ones, "best" the smallest of all four, "default" what the program does unasked: linear
+multipliers on the finer side.
+"""
+
+import numpy as np
+
+import oscillation
+import printed_tables as printed
+from preprint_runs import CLOSED, METHOD
+
+SPACES = {"quadratic": METHOD, "linear": {}}
+COLUMNS = {
+    **{name: name for name in ("table", "scene", "mesh", "at", "active", "body", "printed")},
+    "quadratic, active carries the multipliers": "ours, active carries multipliers",
+    "quadratic, active is the opposite side": "ours, active is opposite",
+    "better": "ours, better side",
+    "best": "ours, best space too",
+    "default": "our default",
+    "printed_over_better": "printed / better",
+}
+
+
+def measure(store, row, say):
+    """Our figures for a row, by space and side of the multipliers: delta, and the share of its worst places."""
+    say(f"table {row['table']}: {row['scene']} {row['mesh'][0]}x{row['mesh'][1]} {row['at']}, {row['body']}")
+    place = row["body"], row["at"]
+    of = lambda space, side, measure: oscillation.delta_of(
+        store, row["scene"], row["mesh"], {**SPACES[space], **CLOSED}, side, *place, measure=measure)  # fmt: skip
+    measures = (oscillation.mean_delta, oscillation.share_of_worst)
+    return {(space, side): [of(space, side, m) for m in measures] for space in SPACES for side in printed.OTHER}
+
+
+def judged(row, found):
+    (better, share), best = min(found["quadratic", side] for side in printed.OTHER), min(found.values())[0]
+    finer = "G1" if row["mesh"][0] > row["mesh"][1] else "G2"
+    mapped = {name: found["quadratic", side(row["active"])][0] for name, side in printed.MAPPINGS.items()}
+    return {
+        **row,
+        **{"mesh": f"{row['mesh'][0]}x{row['mesh'][1]}"},
+        **{f"quadratic, {name}": value for name, value in mapped.items()},
+        **{"better": better, "best": best, "default": found["linear", finer][0], "better_share_of_worst": share},
+        **{"printed_over_better": row["printed"] / better, "printed_over_best": row["printed"] / best},
+        **{"better_ok": better <= row["printed"], "best_ok": best <= row["printed"]},
+    }
+
+
+def compute(store, rows, say):
+    return [judged(row, found) for row, found in printed.once_a_place(rows, lambda row: measure(store, row, say))]
+
+
+def fits(rows):
+    """Fit of each reading of "active", a row for each series and mapping."""
+    for series, name in ((series, name) for series in printed.SERIES for name in printed.MAPPINGS):
+        if here := printed.of_series(rows, series):
+            figures = printed.fit([row[f"quadratic, {name}"] for row in here], [row["printed"] for row in here])
+            yield {"series": series, "reading": name, **figures}
+
+
+def ratios(rows):
+    """Median of printed over ours, by series."""
+    for series in printed.SERIES:
+        if here := printed.of_series(rows, series):
+            middle = lambda name: float(np.median([row["printed"] / row[name] for row in here]))
+            yield {"series": series, "rows": len(here)} | {name: middle(name) for name in ("better", "best", "default")}
+
+
+def exceptions(rows, name="better"):
+    return [row for row in rows if row["target"] and row[name] > row["printed"]]
+
+
+def short(value):
+    return f"{value:.3g}" if isinstance(value, float) else str(value)
+
+
+def lines(rows):
+    """The table's cells as texts; a printed copy is in brackets."""
+    for row in rows:
+        yield [short(row[name]) + (" (copy)" if name == "printed" and not row["target"] else "") for name in COLUMNS]

@@ -1,0 +1,199 @@
+"""The study of the preprint: its measure by hand, the printed tables, the cause, and a quick study as a whole."""
+
+import csv
+
+import numpy as np
+import pytest
+
+import cause
+import gallery_measures
+import mesh_gaps
+import oscillation
+import preprint
+import preprint_runs  # makes launch known
+import nodal_stress
+import printed_tables
+import figure
+import launch
+
+
+@pytest.fixture(scope="module")
+def mortise():
+    if not launch.MORTISE.is_file():
+        pytest.skip(f"{launch.MORTISE} is missing: ./dev build makes it")
+
+
+@pytest.fixture(scope="module")
+def quick(mortise, tmp_path_factory):
+    """Folder of a quick study, and how many runs it took."""
+    folder = tmp_path_factory.mktemp("preprint")
+    return folder, preprint.main(["--quick", "-o", str(folder)])
+
+
+@pytest.fixture(scope="module")
+def store(mortise, tmp_path_factory):
+    return preprint_runs.Store(tmp_path_factory.mktemp("runs"))
+
+
+def read(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_delta_by_hand():
+    x = np.linspace(0, 1, 9)
+    s = np.array([1, 1, 1, -2, 4, -5, 1, 1, 1.0])
+    off = np.array([9, 9, 9, 0.2, 1, -1, 9, 9, 9.0])  # nodes of the first and last element do not count
+    curve, reference = {"x": x, "sigma_2": s + off}, {"x": x, "sigma_2": s}
+    assert oscillation.mean_delta(curve, reference) == pytest.approx((0.1 + 0.25 + 0.2) / 3)
+    with_centres = (0.1 + 0.25 + 0.2 + 4 * 9) / 7
+    assert oscillation.mean_delta(curve, reference, "centres") == pytest.approx(with_centres)
+    assert oscillation.share_of_worst(curve, reference, "centres") == pytest.approx((36.45) / 36.55)
+    with pytest.raises(ValueError, match="different nodes"):
+        oscillation.mean_delta({**curve, "x": x + 1e-3}, reference)
+
+
+def test_printed_tables():
+    rows = printed_tables.printed_rows()
+    assert [sum(row["at"] == at for row in rows) for at in ("nodes", "centres")] == [72, 12]
+    assert sum(not row["target"] for row in rows) == 6
+    places = {(r["table"], r["scene"], r["active"], r["body"]) for r in rows}
+    assert len(places) == len(rows) == 7 * 12
+    one = next(r for r in rows if (r["table"], r["scene"], r["active"], r["body"]) == (6, "parabola_2", "G1", "G2"))
+    assert one["printed"] == 0.190678 and one["mesh"] == (80, 100)
+
+
+def test_fit_and_factors():
+    printed = [1.0, 2.0, 5.0, 3.0]
+    figures = printed_tables.fit([10 * value for value in printed], printed)
+    assert figures["median"] == pytest.approx(1) and figures["spread"] == pytest.approx(0)
+    assert figures["within_3"] == 0 and figures["rank"] == pytest.approx(1)
+    line = {"scene": "circle", "active": "G1", "body": "G1", "at": "nodes"}
+    rows = [{**line, "mesh": (n, n), "v": v} for n, v in ((40, 16), (80, 4), (160, 2))]
+    assert list(cause.factors(rows, "v")) == [4, 2]
+
+
+def test_predicted_gap_is_that_of_quadratic_edges():
+    """Edges through points even in arc length, and how far parabola 2 lies from them, against the formula."""
+    a, b = mesh_gaps.CURVATURE["parabola_2"]
+    n, x = 80, np.linspace(0, mesh_gaps.WIDTH, 400001)
+    slope = np.hypot(1, 2 * a * x + b)
+    s = np.concatenate([[0], np.cumsum((slope[1:] + slope[:-1]) / 2 * np.diff(x))])
+    nodes = np.interp(np.linspace(0, s[-1], 2 * n + 1), s, x)
+    y = lambda x: a * x * x + b * x
+    xi, largest = np.linspace(-1, 1, 101), 0
+    shape = np.stack([xi * (xi - 1) / 2, 1 - xi * xi, xi * (xi + 1) / 2])
+    for e in range(n):
+        ends = nodes[2 * e : 2 * e + 3]
+        X, Y = ends @ shape, y(ends) @ shape
+        largest = max(largest, np.abs((Y - y(X)) / np.hypot(1, 2 * a * X + b)).max())
+    assert mesh_gaps.length("parabola_2") == pytest.approx(s[-1], rel=1e-6)
+    assert 2 * largest == pytest.approx(mesh_gaps.predicted("parabola_2", (n, n)), rel=0.05)
+
+
+def test_nodal_stresses_of_a_uniform_strain():
+    """Of a distorted 8-node element, against Hooke's law for plane strain written out."""
+    corners = np.array([(0, 0), (1, 0.1), (1.2, 0.9), (-0.1, 1)])
+    middles = (corners + np.roll(corners, -1, axis=0)) / 2 + [[0.02, 0.03]] * 4
+    points = np.concatenate([corners, middles])
+    a, b, c, d = 1e-3, 2e-4, -4e-4, -5e-4  # u = (a x + b y, c x + d y)
+    u = np.stack([a * points[:, 0] + b * points[:, 1], c * points[:, 0] + d * points[:, 1]], axis=1)
+    found = nodal_stress.element_stresses(points[None], u[None])[0]
+    E, nu = 210e9, 0.3
+    factor = E / (1 + nu) / (1 - 2 * nu)
+    expected = [factor * ((1 - nu) * a + nu * d), factor * ((1 - nu) * d + nu * a), E / (1 + nu) * (b + c) / 2]
+    assert found == pytest.approx(np.array([expected] * 8), rel=1e-10)
+
+
+def test_nodal_stresses_come_near_the_recovered_ones_and_are_kept(store):
+    settings = {**cause.VARIANTS[cause.OURS], **preprint_runs.on_side("G2")}
+    own = store.curve("circle", (16, 20), {**settings, **cause.DIRECT}, "G1")
+    recovered = store.curve("circle", (16, 20), settings, "G1")
+    for name in ("sigma_2", "sigma_n"):
+        inner = slice(5, -5)
+        assert own[name][inner] == pytest.approx(recovered[name][inner], rel=0.1)
+        assert np.abs(own[name] - recovered[name]).max() > 1  # Pa; they are not the same figures
+    solved = store.fresh
+    store.curve("circle", (16, 20), {**settings, **cause.DIRECT}, "G2")
+    assert store.fresh == solved
+    assert not list(store.folder.glob("*/result.vtu"))
+
+
+def test_roughness_of_a_line_and_of_a_zigzag():
+    x = np.linspace(0, 0.8, 81)
+    curve = {"x": x, "sigma_n": 2 + x}
+    assert gallery_measures.roughness("circle", curve) < 1e-12
+    curve["sigma_n"] = 10 + (-1.0) ** np.arange(81)
+    assert gallery_measures.roughness("circle", curve) == pytest.approx(0.2, rel=0.01)
+    other = {"x": x, "sigma_n": curve["sigma_n"] + 3}
+    assert gallery_measures.apart("circle", curve, other) == pytest.approx(0.3, rel=0.01)
+
+
+@pytest.mark.parametrize("scene", ["parabola_1", "tent_b"])
+def test_matching_meshes_give_no_delta_on_either_side(store, scene):
+    for side, body in (("G1", "G2"), ("G2", "G1"), ("G2", "G2")):
+        settings = cause.settings_of("segments, measured", scene)
+        assert oscillation.delta_of(store, scene, (16, 16), settings, side, body) < 1e-8
+
+
+def test_a_gap_that_is_enforced_oscillates_on_the_parabola_and_falls_with_the_mesh(store):
+    found = {
+        (variant, mesh): oscillation.delta_of(store, "parabola_2", mesh, cause.VARIANTS[variant], "G2", "G2")
+        for variant in (cause.OURS, "segments, measured")
+        for mesh in ((16, 20), (32, 40))
+    }
+    for mesh in ((16, 20), (32, 40)):
+        assert found[cause.OURS, mesh] < 0.1 * found["segments, measured", mesh]
+    assert 2.5 < found["segments, measured", (16, 20)] / found["segments, measured", (32, 40)] < 10
+
+
+def test_a_missing_executable_is_said(monkeypatch, tmp_path):
+    monkeypatch.setattr(launch, "MORTISE", tmp_path / "nothing")
+    with pytest.raises(SystemExit, match="is missing: ./dev build"):
+        preprint.main(["--quick", "-o", str(tmp_path)])
+
+
+def test_quick_study_is_whole(quick):
+    folder, solved = quick
+    assert solved > 50
+    rows = read(folder / "tables.csv")
+    printed = printed_tables.printed_rows(preprint.QUICK.meshes)
+    assert len(rows) == len(printed) == 24
+    assert [float(row["printed"]) for row in rows] == [row["printed"] for row in printed]
+    assert all(row["better_ok"] == "True" for row in rows)
+    assert len(read(folder / "variants.csv")) == 24 * len(preprint.QUICK.variants)
+    gallery = read(folder / "gallery.csv")
+    assert [int(row["figure"]) for row in gallery] == preprint.QUICK.figures
+    pictures = [row["picture"] for row in gallery] + ["tables.png", "variants.png", "meshes.png", "curves.png"]
+    section = (folder / "section.html").read_text()
+    for picture in pictures:
+        figure.copy_small(folder / picture, folder / "small.png")  # as the report does
+        assert 2000 < (folder / "small.png").stat().st_size < 100000 and f'src="{picture}"' in section
+    assert section.count("<tr>") >= 24
+    cells = [f'<td class="">{word}</td>' for word in ("parabola_2", "nodes", "G2", "G2")]
+    cells.insert(1, '<td class="number">40x50</td>')
+    assert "".join(['<td class="number">5</td>', *cells, '<td class="number">0.17</td>']) in section
+
+
+def test_quick_study_shows_the_cause(quick):
+    folder, _ = quick
+    reading = next(iter(printed_tables.MAPPINGS))
+    by = {(r["variant"], r["scene"], r["active"], r["body"]): float(r[reading]) for r in read(folder / "variants.csv")}
+    places = [key[1:] for key in by if key[0] == cause.OURS]
+    for place in (place for place in places if place[0].startswith("parabola")):
+        assert by[cause.OURS, *place] < 0.2 * by["segments, measured", *place]
+    for place in (place for place in places if place[0] == "circle"):
+        assert by["segments, measured", *place] < 1.5 * by[cause.OURS, *place]
+    gaps = {row["scene"]: row for row in read(folder / "gaps.csv")}
+    assert float(gaps["circle"]["largest gap, m"]) < 0.01 * float(gaps["parabola_2"]["largest gap, m"])
+    measured, predicted = (float(gaps["parabola_2"][name]) for name in ("largest gap, m", "predicted, m"))
+    assert measured == pytest.approx(predicted, rel=0.1)
+
+
+def test_second_study_solves_nothing(quick):
+    folder, _ = quick
+    kept = {path: path.stat().st_mtime_ns for path in (folder / "runs").glob("*/contact.csv")}
+    (folder / "tables.csv").unlink()
+    assert preprint.main(["--quick", "-o", str(folder)]) == 0
+    assert {path: path.stat().st_mtime_ns for path in (folder / "runs").glob("*/contact.csv")} == kept
+    assert (folder / "tables.csv").is_file()

@@ -1,0 +1,91 @@
+"""How the stability studies name the failures they find, and what they share to find them in the rows."""
+
+# Parameters of the geometries in geo/.
+ELEMENTS = {
+    "3-node triangles": {"order": 1, "kind": 1},
+    "4-node quadrilaterals": {"order": 1, "kind": 0},
+    "6-node triangles": {"order": 2, "kind": 1},
+    "8-node quadrilaterals": {"order": 2, "kind": 0},
+    "9-node quadrilaterals": {"order": 2, "kind": 0, "nine_node": 1},
+}
+SPACES = ["linear", "quadratic", "dual"]
+STATES = ("fixed", "default", "guarded", "shown", "open")  # stability.md says what they mean
+
+
+def failure(name, bound, state, **values):
+    """`bound`: where it begins, a number from the runs (None where the runs do not reach it). It and `values`
+    fill the study's text of that name: where it begins, why, what mortise does about it."""
+    assert state in STATES
+    return {"name": name, "bound": bound, "state": state, "values": values}
+
+
+def parameters(**values):
+    """Settings of a geometry's parameters."""
+    return {f"mesh.parameters.{key}": value for key, value in values.items()}
+
+
+def select(rows, **axes):
+    return [row for row in rows if all(row.get(key) == value for key, value in axes.items())]
+
+
+def solved(row):
+    """With results, whatever the checks say."""
+    return row["outcome"] in ("solved", "check", "not converged")
+
+
+def over(limit, key="p_error"):
+    """Whether a row's figure is above a limit."""
+    return lambda row: row.get(key) is not None and row[key] > limit
+
+
+def silent(rows, holds=lambda row: True):
+    """Runs that fulfil a condition, and of which neither status, checks nor warnings tell."""
+    return [row for row in rows if holds(row) and row["outcome"] == "solved" and not row["warning_count"]]
+
+
+def told(bad):
+    """How mortise tells of runs that are off: not at all of some (open), by a refusal or a warning, or by checks."""
+    if silent(bad):
+        return "open"
+    if not bad:
+        return "fixed"
+    return "guarded" if all(row["outcome"] == "refused" or row["warning_count"] for row in bad) else "shown"
+
+
+def first(rows, key, holds):
+    """The least value of `key` in rows that fulfil a condition; None if none does."""
+    return min((row[key] for row in rows if holds(row)), default=None)
+
+
+def last(rows, key, holds):
+    return max((row[key] for row in rows if holds(row)), default=None)
+
+
+def largest(rows, key):
+    return max((row[key] for row in rows if row.get(key) is not None), default=None)
+
+
+def away(row):
+    """How far the row's ratio is from 1, up or down."""
+    return max(row["ratio"], 1 / row["ratio"])
+
+
+def ends(values, step):
+    """Every `step`-th of a list, and its last: what the quick studies take."""
+    return [*values[:-1:step], values[-1]]
+
+
+def quote(rows, holds=lambda row: True, most=330):
+    """What mortise said in the first of the rows that fulfils the condition: an error, or a warning."""
+    for row in rows:
+        text = row["message"] if row["outcome"] == "refused" else row.get("warnings", "").split(" | ")[0]
+        if text and holds(row):
+            text = text.removeprefix("error: ")
+            return f'"{text[:most]}{"..." if len(text) > most else ""}"'
+    return "nothing"
+
+
+def checks_of(rows):
+    """Names of the checks that fail in any of the rows, and the warning of p against sigma_n."""
+    names = {name for row in rows for name in row.get("failed_checks", "").split("; ") if name}
+    return ", ".join(sorted(names)) or "none"

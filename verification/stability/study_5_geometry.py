@@ -1,0 +1,249 @@
+"""Geometry: kinks, walls, straight edges on curves, gaps, curvature, slivers."""
+
+import math
+
+import figure
+from failures import SPACES, checks_of, ends, failure, first, largest, last, over
+from failures import parameters, quote, select, silent, solved, told
+from small_meshes import PRESSED, SLIDING, WIDTH, even, plates, run, touching
+
+LIMIT = 0.01
+EXACT = 1e-8  # an error of p that is none
+HYDROSTATIC = [
+    *SLIDING[:2],
+    'on = ["upper_top", "upper_right", "lower_right"], pressure = 10e6',
+]
+KINKS = [15, 30, 45, 60, 70, 75, 80, 85]
+KINK_MESHES = {"vertex in both": (16, 24), "vertex in one": (17, 24), "vertex in none": (17, 23)}
+WALL_ANGLES = [0, 15, 30, 45, 60, 70, 75]
+WALL_COUNTS = [8, 16, 32]
+WALLS = {"sliding": PRESSED[0], "clamped": PRESSED[0].replace("x = 0", "x = 0, y = 0")}
+RING_COUNTS = [4, 8, 16, 32, 64]
+RING_EDGES = {"linear": {"order": 1}, "straight quadratic": {"straight": 1}, "curved quadratic": {}}
+PERIODS = [1, 1.5, 2, 3, 4, 6, 8, 16]
+SLIVERS = [10.0**-k for k in range(1, 15)]
+SIDES = ["upper_bottom", "lower_top"]
+
+
+def tent(angle):
+    """A rise between two kinks and a top at x = 0.3, 0.5 and 0.4."""
+    slope = math.tan(math.radians(angle))
+    return lambda x: 0.3 + slope * max(0.0, 0.1 - abs(x - 0.4))
+
+
+def kink(angle, name, side):
+    upper, lower = (even(count) for count in KINK_MESHES[name])
+    bodies = plates(tent(angle), upper, lower, top=0.6 + 0.1 * math.tan(math.radians(angle)))
+    axes = {"part": "kink", "value": angle, "line": name, "side": side}
+    return run(axes, bodies, HYDROSTATIC, touching(multipliers=side), measures=["uniform", "pressure"])
+
+
+def wall(angle, kind, count):
+    slope = math.tan(math.radians(angle))
+    bottom = 0.3 + WIDTH / 2 * slope
+    bodies = plates(lambda x: bottom + slope * (x - WIDTH / 2), even(count), even(count * 5 // 4), top=2 * bottom)
+    axes = {"part": "wall", "value": angle, "line": kind, "count": count}
+    return run(axes, bodies, [WALLS[kind], *PRESSED[1:]], touching(condition="bilateral"), measures=["pressure"])
+
+
+def rings(count, edges, gap):
+    axes = {"part": "rings", "value": count, "line": f"{edges}, {gap}"}
+    settings = parameters(**RING_EDGES[edges], n_inner=count, n_outer=count * 5 // 4)
+    return {"axes": axes, "scene": "rings", "settings": {**settings, "contact.initial_gap": gap}, "measures": ["rings"]}
+
+
+def cosine(count, space, side):
+    """`count` elements of the upper body a period, 5 / 4 of that of the lower one; two periods, amplitude 0.1 m."""
+    curve = lambda x: 0.3 + 0.1 * math.cos(math.pi * (x + 0.4) / 0.2)
+    bodies = plates(curve, even(round(2 * count)), even(round(2.5 * count)))
+    axes = {"part": "cosine", "value": count, "line": space, "side": side}
+    settings = {"method.multipliers": space}
+    return run(axes, bodies, HYDROSTATIC, touching(multipliers=side), settings, ["uniform", "pressure"])
+
+
+def sliver(eps, space):
+    """The inner vertices of the upper body miss those of the lower one by `eps` of an element."""
+    count = 8
+    columns = [i / count if i in (0, count) else (i + eps) / count for i in range(count + 1)]
+    bodies = plates(lambda x: 0.3, columns, even(count))
+    axes = {"part": "sliver", "value": eps, "line": f"vertices missed, {space}"}
+    return run(axes, bodies, HYDROSTATIC, touching(), {"method.multipliers": space}, ["uniform"])
+
+
+def sticking_out(eps, space):
+    """The upper body stands `eps` of an element to the right: it sticks out there, the lower one on the left."""
+    bodies = plates(lambda x: 0.3, even(8), even(8))
+    move = lambda name, x, y: (x + eps * WIDTH / 8, y) if name == "upper" else (x, y)
+    axes = {"part": "sliver", "value": eps, "line": f"sticking out, {space}"}
+    return run(axes, bodies, HYDROSTATIC, touching(), {"method.multipliers": space}, ["uniform"], move)
+
+
+def runs(quick):
+    some = (lambda values: ends(values, 4)) if quick else (lambda values: values)
+    walls, counts = (WALL_COUNTS[:2], RING_COUNTS[:2]) if quick else (WALL_COUNTS, RING_COUNTS)
+    return [
+        *(kink(angle, name, side) for name in KINK_MESHES for side in SIDES for angle in some(KINKS)),
+        *(wall(angle, kind, count) for kind in WALLS for count in walls for angle in some(WALL_ANGLES)),
+        *(rings(n, edges, gap) for edges in RING_EDGES for gap in ("closed", "measured") for n in counts),
+        *(cosine(count, space, side) for space in SPACES for side in SIDES for count in some(PERIODS)),
+        *(sliver(eps, space) for space in SPACES for eps in some(SLIVERS)),
+        *(sticking_out(eps, space) for space in SPACES for eps in some(SLIVERS)),
+    ]
+
+
+def complete(rows):
+    """growth: of the largest p from one mesh to the next finer one (part wall)."""
+    walls = [row for row in select(rows, part="wall") if solved(row)]
+    p_max = {(row["line"], row["value"], row["count"]): row["p_max"] for row in walls}
+    for row in walls:
+        if (coarser := (row["line"], row["value"], row["count"] // 2)) in p_max:
+            row["growth"] = row["p_max"] / p_max[coarser]
+    return rows
+
+
+def draw_line(axes, rows, label, key="p_error", **options):
+    """One curve over `value`; open where a check fails, crosses where the run is refused."""
+    good = [row for row in rows if solved(row) and row.get(key) is not None]
+    failed = {row["value"] for row in good if row["failed_checks"]}
+    points = [(row["value"], max(row[key], 1e-16)) for row in good]
+    line = figure.curve(axes, points, hollow=lambda x, y: x in failed, label=label, linewidth=1.2, **options)
+    refused = [row["value"] for row in rows if not solved(row)]
+    axes.plot(refused, [30.0] * len(refused), "x", color=line.get_color())
+
+
+def draw_sides(axes, rows, names):
+    """The lines of a part, a colour each: full with the multipliers above, dashed below."""
+    for number, name in enumerate(names):
+        for side, style, label in zip(SIDES, ("o-", "o--"), (name, None)):
+            draw_line(axes, select(rows, line=name, side=side), label, style=style, color=f"C{number}")
+
+
+def draw(rows, path):
+    drawing, panels = figure.panels(2, 3, (13, 7.4))
+    (kinks, walls, ring_axes), (cosines, slivers, out) = panels
+    part = lambda name: select(rows, part=name)
+    draw_sides(kinks, part("kink"), KINK_MESHES)
+    for number, kind in enumerate(WALLS):
+        counts = sorted({row["count"] for row in part("wall")})[1:]
+        for count, style in zip(counts, ("o--", "o-")):
+            label = f"{kind}, {count // 2} to {count} elements"
+            line = select(part("wall"), line=kind, count=count)
+            draw_line(walls, line, label, "growth", style=style, color=f"C{number}")
+    walls.axhline(1, color="0.6", linewidth=0.8)
+    for number, edges in enumerate(RING_EDGES):
+        for gap, style in (("closed", "o-"), ("measured", "o--")):
+            name = f"{edges}, {gap}"
+            draw_line(ring_axes, select(part("rings"), line=name), name, style=style, color=f"C{number}")
+    draw_sides(cosines, part("cosine"), SPACES)
+    for axes, name in ((slivers, "vertices missed"), (out, "sticking out")):
+        for space in SPACES:
+            draw_line(axes, select(part("sliver"), line=f"{name}, {space}"), space)
+    slope, fraction = "slope at the kinks, degrees (dashed: multipliers below)", "fraction of an element"
+    settings = [
+        (kinks, slope, "kinks", "y", {}),
+        (walls, "slope of the line at the walls, degrees", "fixed walls", "", {"ylim": (0.6, 3)}),
+        (ring_axes, "elements on the quarter circle", "rings: edges and gap", "xy", {"ylim": (1e-12, 10)}),
+        (cosines, "elements a period (dashed: multipliers below)", "curvature: cosine", "xy", {}),
+        (slivers, fraction, "vertices that miss each other", "xy", {"ylim": (1e-15, 2)}),
+        (out, fraction, "one line sticks out past the other", "xy", {"ylim": (1e-15, 2)}),
+    ]
+    for axes, x, title, log, more in settings:
+        y = "largest p, over that on the coarser mesh" if axes is walls else "largest relative error of p"
+        limit = None if axes is walls else LIMIT
+        figure.label(axes, x, y, title, log, limit, {"fontsize": 7.5}, **more)
+    for axes, ticks in ((ring_axes, RING_COUNTS), (cosines, [1, 2, 4, 8, 16])):
+        axes.set_xticks(ticks, map(str, ticks))
+        axes.minorticks_off()
+    figure.save(drawing, path)
+
+
+def kink_failures(rows):
+    line = select(rows, part="kink")
+    with_vertex = select(line, line="vertex in both")
+    without = [row for row in line if row["line"] != "vertex in both"]
+    yield failure(
+        "Kinks with a vertex in both meshes",
+        first(with_vertex, "value", over(EXACT)),
+        "fixed",
+        steepest=max(row["value"] for row in with_vertex),
+        worst=largest(with_vertex, "p_error"),
+    )
+    worst = max(silent(without, over(LIMIT)), key=lambda row: row["p_error"], default={})
+    yield failure(
+        "Kinks that a mesh cuts short",
+        first(without, "value", over(LIMIT)),
+        told([row for row in without if over(LIMIT)(row)]),
+        limit=LIMIT,
+        worst=worst.get("p_error"),
+        worst_at=worst.get("value"),
+        tells=first(without, "value", lambda row: row["outcome"] != "solved" or row["warning_count"]),
+        checks=checks_of(without),
+        said=quote(without),
+    )
+
+
+def wall_failure(rows):
+    line = select(rows, part="wall", count=max(row["count"] for row in select(rows, part="wall")))
+    line = [row for row in line if solved(row)]
+    bounds, values = [], {}
+    for kind in WALLS:
+        values[kind] = first(select(line, line=kind), "value", over(1.1, "growth"))
+        values[f"{kind}_most"] = last(select(line, line=kind), "growth", solved)
+        bounds += [values[kind]] if values[kind] else []
+    failing = checks_of(line)
+    state = "open" if failing == "none" else "shown"
+    return failure("Fixed walls at an angle", min(bounds, default=None), state, failing=failing, **values)
+
+
+def ring_failures(rows):
+    closed = {edges: select(rows, part="rings", line=f"{edges}, closed") for edges in RING_EDGES}
+    finest = max(row["value"] for row in closed["linear"])
+    values = {name: select(closed[f"{name} quadratic"], value=finest)[0]["p_error"] for name in ("straight", "curved")}
+    ratio = values["straight"] / values["curved"]
+    yield failure("Straight edges on a curve, closed gap", ratio, "default", finest=finest, **values)
+    measured = {edges: select(rows, part="rings", line=f"{edges}, measured") for edges in RING_EDGES}
+    measured = {edges: [row for row in line if solved(row)] for edges, line in measured.items()}
+    bounds = {edges: last(line, "value", over(LIMIT)) for edges, line in measured.items()}
+    words = [f"{edges} edges{f' up to {n:g} elements' if n else ': not found'}" for edges, n in bounds.items()]
+    rows = [row for line in measured.values() for row in line]
+    state = "open" if silent(rows, over(LIMIT)) else "guarded"
+    bound = last(rows, "value", over(LIMIT))
+    values = {"limit": LIMIT, "edges": "; ".join(words), "said": quote(rows)}
+    yield failure("Two meshes of one curve, measured gap", bound, state, **values)
+
+
+def cosine_failure(rows):
+    line = [row for row in select(rows, part="cosine") if row["value"] > 1]
+    bounds = {space: last(select(line, line=space), "value", over(LIMIT)) for space in SPACES}
+    return failure(
+        "Few elements on a curve",
+        bounds["linear"],
+        told([row for row in line if over(LIMIT)(row)]),
+        limit=LIMIT,
+        spaces=", ".join(f"{space} {f'{bound:g}' if bound else 'none'}" for space, bound in bounds.items()),
+        failing=last(line, "value", lambda row: row["outcome"] == "check"),
+        checks=checks_of(line),
+        said=quote(line),
+        silent=len(silent(line, over(LIMIT))),
+    )
+
+
+def sliver_failures(rows):
+    line = select(rows, part="sliver")
+    missed, out = ([row for row in line if row["line"].startswith(name)] for name in ("vertices", "sticking"))
+    worst = largest(missed, "p_error")
+    yield failure("Vertices that nearly coincide", first(missed, "value", over(EXACT)), "fixed", worst=worst)
+    yield failure(
+        "One line sticks out past the other",
+        first(out, "value", over(LIMIT)),
+        "fixed",
+        limit=LIMIT,
+        ratio=max(row["p_error"] / row["value"] for row in out if 1e-8 <= row["value"] <= 1e-3),
+        worst=largest([row for row in out if row["value"] <= 1e-6], "p_error"),
+        checks=checks_of(out),
+    )
+
+
+def failures(rows):
+    found = [*kink_failures(rows), wall_failure(rows), *ring_failures(rows)]
+    return [*found, cosine_failure(rows), *sliver_failures(rows)]

@@ -1,0 +1,148 @@
+"""The stability studies on a few runs: rows complete, nothing repeated, no crash, known answers, stable defaults."""
+
+import json
+import tomllib
+
+import pytest
+
+import failures
+import launch
+import small_meshes
+import stability
+import stability_runs
+import study_1_infsup
+import study_2_ratio
+import study_3_contrast
+import study_5_geometry
+import study_6_overconstraint
+import study_7_iterations
+import study_8_numbers
+import template
+from stability_runs import execute
+
+SCENES = sorted(path.stem for path in (launch.ROOT / "geo").glob("*.toml"))
+SMALL = {"n_upper": 16, "n_lower": 20, "n_plate": 24, "n_block": 30, "n_punch": 16, "n_inner": 12, "n_outer": 16}
+OF_COARSE_MESHES = {stability_runs.AGAINST_SIGMA_N, "p >= 0 between the multipliers"}
+EXACT_RINGS = 4830258.30258  # geo/rings.toml
+
+pytestmark = pytest.mark.usefixtures("mortise")
+
+
+def parameters(scene):
+    """Small meshes, for those of the scene's parameters that are counts."""
+    text = tomllib.loads(launch.scene_file(scene).read_text())
+    if scene == "punch":  # whose block is three times as wide
+        return failures.parameters(n_punch=16, n_block=36)
+    return failures.parameters(**{key: SMALL[key] for key in text["mesh"].get("parameters", {}) if key in SMALL})
+
+
+@pytest.mark.parametrize("name", stability.STUDIES)
+def test_every_study_has_what_the_driver_asks_for(name):
+    study = stability.importlib.import_module(stability.STUDIES[name])
+    assert hasattr(study, "draw") and hasattr(study, "failures") and hasattr(study, "runs") != hasattr(study, "measure")
+    head, *texts = template.texts(stability.HERE / f"{stability.STUDIES[name]}.md").values()
+    assert head.startswith("# ") and f"(stability/{name}.png)" in head
+    assert texts and all(len(stability.paragraphs(text)) == 3 for text in texts)
+    if hasattr(study, "runs"):
+        full, quick = ([json.dumps(run, sort_keys=True) for run in study.runs(quick)] for quick in (False, True))
+        assert len(set(full)) == len(full), "no run twice"
+        assert set(quick) <= set(full) and len(quick) < len(full), "quick is a part"
+
+
+def test_a_study_is_written_whole_and_is_not_repeated(tmp_path):
+    (first,) = stability.run_studies(tmp_path, quick=True, names=["numbers"])
+    rows = first["rows"]
+    assert len(list((tmp_path / "runs").iterdir())) == len(rows) == len(study_8_numbers.runs(quick=True))
+    assert all({"outcome", "seconds", "axis", "value"} <= row.keys() for row in rows) and first["wrong"] == []
+    assert (tmp_path / "numbers.png").stat().st_size > 10000
+    assert len(launch.columns(tmp_path / "numbers.csv")["outcome"]) == len(rows)
+    found = json.loads((tmp_path / "numbers.json").read_text())
+    assert found and all(failure["state"] in failures.STATES and failure["begins"] for failure in found)
+    units = next(failure for failure in found if failure["name"] == "Units")
+    assert units["bound"] is None and units["state"] == "fixed"
+    times = {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").iterdir()}
+    with pytest.raises(SystemExit) as done:
+        stability.main(["--quick", "--only", "numbers", "-o", str(tmp_path)])
+    assert done.value.code == 0 and times == {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").iterdir()}
+    text = (tmp_path / "section.html").read_text()
+    assert 'src="numbers.png"' in text and "Quick: a subset" in text and "8. Units" in text
+
+
+def test_crashes_hangs_and_internal_errors_are_reported(tmp_path, monkeypatch):
+    words = {0: "solved", 1: "refused", 2: "check", 3: "internal error", -11: "crash (-11)", None: "hang"}
+    assert {status: stability_runs.outcome(status) for status in words} == words
+    run = study_2_ratio.run_of("rings", 2, "linear", 1, True)
+    nothing = {"runs": lambda quick: [run], "failures": lambda rows: [], "draw": lambda rows, path: None}
+    for name, function in nothing.items():
+        monkeypatch.setattr(study_1_infsup, name, function)
+    monkeypatch.setattr(template, "texts", lambda path: {"": "# Nothing"})
+    for number, (word, count) in enumerate((("solved", 0), ("crash (-11)", 1), ("hang", 1), ("internal error", 1))):
+        monkeypatch.setattr(stability_runs, "execute", lambda run: {"outcome": word})
+        (result,) = stability.run_studies(tmp_path / str(number), True, ["infsup"])
+        assert len(result["wrong"]) == count
+
+
+def test_lame_of_the_measures_is_that_of_the_scene():
+    assert stability_runs.lame(stability_runs.RINGS["materials"])[0] == pytest.approx(EXACT_RINGS, rel=1e-11)
+
+
+def test_a_hang_and_a_refusal_are_rows(monkeypatch):
+    run = study_2_ratio.run_of("rings", 2, "linear", 1, True)
+    refused = execute({**run, "settings": {"materials.stiff.poisson": 0.5}})
+    assert refused["outcome"] == "refused" and "poisson" in refused["message"] and "/geo" not in refused["message"]
+    monkeypatch.setattr(stability_runs, "TIME_LIMIT", 1e-3)
+    assert execute(run)["outcome"] == "hang"
+
+
+def test_exact_lines_stay_exact():
+    """Kinks with vertices, vertices that nearly coincide, three bodies at a point, moduli 1e6 apart: p = 10 MPa."""
+    for run in (
+        study_5_geometry.kink(80, "vertex in both", "lower_top"),
+        study_5_geometry.sliver(1e-9, "dual"),
+        study_6_overconstraint.three_bodies("quadratic", "lower_top"),
+        study_3_contrast.patch(1e6, "upper_contact"),
+        study_3_contrast.patch(1e-6, "lower_contact"),
+    ):
+        row = execute(run)
+        assert row["outcome"] == "solved" and row["p_error"] < 1e-11, row
+
+
+@pytest.mark.parametrize("name", ["all nodes shared (8:8)", "one curve in two pairs"])
+def test_shared_edges_and_a_curve_in_two_pairs_are_refused(name):
+    assert execute(study_6_overconstraint.case(name, "linear", "lower_top"))["outcome"] == "refused"
+
+
+def test_a_load_that_pulls_away_is_refused_and_names_the_motion():
+    row = execute(study_7_iterations.sideways(-1e-3, "linear"))
+    assert row["outcome"] == "refused" and "nothing holds body 'upper'" in row["message"]
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_defaults_lie_inside_the_stable_regions(scene):
+    """The scenes as they stand: no run fails but by the coarse mesh's checks, and none is told to close its gap."""
+    run = {"axes": {}, "scene": scene, "settings": parameters(scene), "measures": []}
+    row = execute(run)
+    assert row["outcome"] in ("solved", "check") and row["steps"] <= study_7_iterations.BAR, row
+    assert set(filter(None, row["failed_checks"].split("; "))) <= OF_COARSE_MESHES
+    assert "set initial_gap" not in row["warnings"]
+    nu = [material["poisson"] for material in tomllib.loads(launch.scene_file(scene).read_text())["materials"].values()]
+    assert max(nu) < 0.45
+    if scene != "stack":  # whose bodies are a chain of three
+        row = execute({**run, "settings": {**run["settings"], "method.solver": "ddm"}})
+        assert row["outcome"] in ("solved", "check"), row
+
+
+def test_the_finer_side_is_the_default_and_is_cut_into_segments():
+    run = {"axes": {}, "scene": "patch_flat", "settings": {}, "measures": ["uniform"]}
+    row = execute(run)
+    assert row["multipliers"] == 12 and row["p_error"] < 1e-11
+    row = execute({**run, "settings": {"method.integration": "elements"}})
+    assert row["p_error"] > 1e-4, "whole edges fail the patch test"
+
+
+def test_nodes_of_a_small_mesh_are_shared_where_bodies_are_joined():
+    bodies = small_meshes.plates(lambda x: 0.3, small_meshes.even(3), small_meshes.even(3))
+    apart, joined = small_meshes.mesh_text(bodies), small_meshes.mesh_text(bodies, join=[("upper", "lower")])
+    assert apart.count('"upper_bottom"') == 1 and "$EndElements" in apart
+    count = lambda mesh: int(mesh.split("$Nodes\n")[1].split("\n")[0])
+    assert count(apart) - count(joined) == 7, "the nodes of three quadratic edges are one"
