@@ -30,7 +30,8 @@ std::optional<StraightSides> straight_sides(const Points& nodes, const Curve& cu
 /// edges are straight although the curve turns, their middle nodes say nothing of it and are left out.
 ///
 /// Two meshes of one curve show gaps that it does not have, kappa' h^3 / (72 sqrt 3) of 3-node edges and
-/// kappa h^2 / 8 of 2-node ones, and their normals are off by h^2 kappa' and h kappa / 2 (docs/theory.md section 9).
+/// kappa h^2 / 8 of 2-node ones, and their normals are off by h^2 kappa' / 12 and h kappa / 2 (docs/theory.md section
+/// 9).
 class ContactLine {
  public:
   ContactLine(const Points& nodes, const Curve& curve);

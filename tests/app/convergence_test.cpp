@@ -77,5 +77,72 @@ INSTANTIATE_TEST_SUITE_P(Linear, Convergence,
                          testing::Combine(testing::Values(CellKind::quad4, CellKind::tri3),
                                           testing::Values(Multipliers::linear, Multipliers::dual), testing::Bool()));
 
+// ---- Bodies that slide on a line of varying curvature: two fields, equal normal displacements ----
+
+struct SlidingLine {
+  const char* name;
+  std::function<double(double)> height;
+  std::function<std::array<double, 3>(double)> derivatives;
+};
+
+const SlidingLine sliding_lines[] = {
+    {"wave", [](double x) { return 0.3 + 0.08 * std::sin(5 * x) + 0.03 * x * x; },
+     [](double x) {
+       return std::array{0.4 * std::cos(5 * x) + 0.06 * x, -2 * std::sin(5 * x) + 0.06, -10 * std::cos(5 * x)};
+     }},
+    {"cubic", [](double x) { return 0.2 + x * (0.7 + x * (-1.6 + x)); },
+     [](double x) {
+       return std::array{0.7 + x * (-3.2 + 3 * x), -3.2 + 6 * x, 6.0};
+     }},
+};
+
+std::array<Errors, 4> sliding_study(const SlidingLine& line, CellKind kind, Multipliers multipliers, bool on_lower,
+                                    Normals normals) {
+  std::array<Errors, 4> errors{};
+  for (int level = 0; level < 4; ++level) {
+    ManufacturedCase c;
+    c.plates.height = line.height;
+    c.plates.n_upper = (is_quadratic(kind) ? 6 : 12) << level;
+    c.plates.n_lower = c.plates.n_upper * 4 / 3;
+    c.plates.kind_upper = c.plates.kind_lower = kind;
+    c.multipliers = multipliers;
+    c.multipliers_on_lower = on_lower;
+    c.normals = normals;
+    c.slip = Slip{0.2, 0.3, line.derivatives};
+    errors[level] = manufactured_errors(c);
+  }
+  std::printf("%-6s u %.1e (%.2f)  p %.1e (%.2f)\n", line.name, errors[3].displacement,
+              rate(errors[2].displacement, errors[3].displacement), errors[3].pressure,
+              rate(errors[2].pressure, errors[3].pressure));
+  return errors;
+}
+
+class Sliding : public testing::TestWithParam<std::tuple<CellKind, Multipliers, bool>> {};
+
+TEST_P(Sliding, KeepsTheRatesAlongTheNormalsOfTheCurve) {
+  const auto [kind, multipliers, on_lower] = GetParam();
+  for (const SlidingLine& line : sliding_lines) {
+    SCOPED_TRACE(line.name);
+    const auto e = sliding_study(line, kind, multipliers, on_lower, Normals::curve);
+    EXPECT_GE(rate(e[2].displacement, e[3].displacement), is_quadratic(kind) ? 2.85 : 1.95);
+    EXPECT_GE(rate(e[2].pressure, e[3].pressure), is_quadratic(kind) ? 1.9 : 1);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Quadratic, Sliding,
+    testing::Combine(testing::Values(CellKind::quad8, CellKind::quad9, CellKind::tri6),
+                     testing::Values(Multipliers::quadratic, Multipliers::linear, Multipliers::dual), testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(Linear, Sliding,
+                         testing::Combine(testing::Values(CellKind::quad4, CellKind::tri3),
+                                          testing::Values(Multipliers::linear, Multipliers::dual), testing::Bool()));
+
+TEST(Sliding, LosesAnOrderAlongTheNormalsOfTheEdges) {
+  for (const Multipliers multipliers : {Multipliers::quadratic, Multipliers::dual}) {
+    const auto e = sliding_study(sliding_lines[0], CellKind::quad8, multipliers, true, Normals::edges);
+    EXPECT_LE(rate(e[2].pressure, e[3].pressure), 1.2);
+  }
+}
+
 }  // namespace
 }  // namespace mortise::test

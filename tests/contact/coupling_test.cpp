@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.hpp"
+#include "base/vectors.hpp"
 #include "contact/multiplier_space.hpp"
 #include "fem/edges.hpp"
 #include "mesh/body_points.hpp"
@@ -98,6 +99,63 @@ TEST(Coupling, MeasuredGapOfPlatesApart) {
   EXPECT_NEAR(c.gap_min, 0.008, 1e-14);
   EXPECT_NEAR(c.gap_max, 0.008, 1e-14);
   for (Eigen::Index r = 0; r < c.gap0.size(); ++r) EXPECT_NEAR(c.gap0(r), 0.008 * c.scale(r), 1e-15);  // psi >= 0
+}
+
+// ---- The curves that the meshes stand for ----
+
+std::vector<ContactPoint> points_on_lines(const Mesh& mesh, const Curve& multiplier, const Curve& opposite) {
+  const ContactLines lines{{mesh.nodes, multiplier}, {mesh.nodes, opposite}, true, true};
+  return contact_points(mesh.nodes, multiplier, opposite, Integration::segments, &lines);
+}
+
+double largest_gap(const std::vector<ContactPoint>& points) {
+  double largest = 0;
+  for (const ContactPoint& c : points) largest = std::max(largest, std::abs(c.gap));
+  return largest;
+}
+
+TEST(ContactLines, OneCurveHasNoGapOnTwoMeshes) {
+  for (const CellKind kind : {CellKind::quad8, CellKind::quad4}) {
+    double before = 0;
+    for (const int n : {10, 20, 40, 80}) {
+      TwoPlates plates = parabola(n, n * 5 / 4);
+      plates.height = [](double x) { return 0.1 * (std::sqrt(9 + 80 * x - 100 * x * x) - 1); };
+      plates.kind_upper = plates.kind_lower = kind;
+      const Pair p = pair_of(plates, {Multipliers::linear, InitialGap::measured});
+      const double gap = largest_gap(points_on_lines(p.mesh, p.multiplier, p.opposite));
+      EXPECT_LE(gap, 0.3 * largest_gap(p.points)) << n;
+      if (n > 20) EXPECT_GE(std::log2(before / gap), 3.5) << n;  // of the edges: 2 or 3
+      before = gap;
+    }
+  }
+}
+
+TEST(ContactLines, AGapThatIsDrawnKeepsItsSize) {
+  TwoPlates plates = parabola(40, 50);
+  for (const double drawn : {1e-3, -1e-3}) {
+    Pair p{test::mesh_of(plates), {}, {}, {}, {}};
+    const int upper = body_index(p.mesh, "upper");
+    std::vector<char> moved(p.mesh.nodes.rows(), 0);
+    for (const Cell& cell : p.mesh.cells)
+      for (int a = 0; a < node_count(cell.kind); ++a)
+        if (cell.body == upper && !moved[cell.nodes[a]]++) p.mesh.nodes(cell.nodes[a], 1) += drawn;
+    p.multiplier = contact_curve(p.mesh, boundary_index(p.mesh, "lower_contact"));
+    p.opposite = contact_curve(p.mesh, boundary_index(p.mesh, "upper_contact"));
+    for (const ContactPoint& c : points_on_lines(p.mesh, p.multiplier, p.opposite)) {
+      const double x = edge_point(p.mesh.nodes, p.multiplier.edges[c.edge], c.xi).position.x();
+      const double slope = 1 - 2.5 * x, vertical = drawn / std::sqrt(1 + slope * slope);
+      EXPECT_NEAR(c.gap, vertical, 2e-3 * std::abs(drawn));  // of a parabola moved up by `drawn`, along its normal
+    }
+  }
+}
+
+TEST(ContactLines, ForcesAndMomentsStayEqualAndOpposite) {
+  const Pair p = pair_of(parabola(7, 12), {Multipliers::quadratic, InitialGap::measured});
+  for (const ContactPoint& c : points_on_lines(p.mesh, p.multiplier, p.opposite)) {
+    const Vec2 x = edge_point(p.mesh.nodes, p.multiplier.edges[c.edge], c.xi).position;
+    const Vec2 y = edge_point(p.mesh.nodes, p.opposite.edges[c.opposite_edge], c.eta).position;
+    EXPECT_LE(std::abs(cross(y - x, c.normal)), 1e-14);  // both points on one line along the normal
+  }
 }
 
 TEST(DualMultipliers, AreBiorthogonalAlsoOnPartOfAnEdge) {
