@@ -142,6 +142,7 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
           {"model", model_json(scene, r.discretisation)},
           {"method",
            {{"integration", to_string(scene.method.integration)},
+            {"normals", to_string(scene.method.normals)},
             {"multipliers", space_word(scene, r)},
             {"multipliers_on", on},
             {"solver", to_string(scene.method.solver)},

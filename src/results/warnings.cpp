@@ -90,6 +90,7 @@ bool may_be_the_meshes_own(const ContactPair& pair, const Results& r) {
 
 // Enforced, a gap that only the meshes make causes pressures of about E gap / h; dropped, a true one is missing.
 void warn_of_gap(const ContactPair& pair, const Results& r, Lines& lines) {
+  if (pair.spec.initial_gap == InitialGap::curve) return;
   const double low = pair.coupling.gap_min, high = pair.coupling.gap_max;
   const double gap = std::max(std::abs(low), std::abs(high)), displacement = largest_entry(r.solution.u);
   const bool meshes_own = may_be_the_meshes_own(pair, r);
@@ -156,7 +157,7 @@ constexpr double round_off = std::numeric_limits<double>::epsilon();
 
 // A measured gap is a difference of positions: far from the origin it is round-off.
 void warn_of_far_origin(const ContactPair& pair, const Results& r, Lines& lines) {
-  if (pair.spec.initial_gap != InitialGap::measured) return;
+  if (pair.spec.initial_gap == InitialGap::closed) return;
   const double farthest = r.mesh.nodes.cwiseAbs().maxCoeff();
   const double gap = std::max(std::abs(pair.coupling.gap_min), std::abs(pair.coupling.gap_max));
   const double size = std::max(gap, r.solution.u.cwiseAbs().maxCoeff());

@@ -52,7 +52,7 @@ TEST(CommandLine, SummaryHasTheKeysOtherProgramsRead) {
   const nlohmann::json s = summary(folder.path("run"));
   for (const char* key : {"title", "scene", "version", "status", "energy"}) EXPECT_TRUE(s.contains(key)) << key;
   for (const char* key :
-       {"integration", "multipliers", "multipliers_on", "solver", "condition", "initial_gap", "dirichlet"})
+       {"integration", "normals", "multipliers", "multipliers_on", "solver", "condition", "initial_gap", "dirichlet"})
     EXPECT_TRUE(s["method"].contains(key)) << key;
   for (const char* key : {"nodes", "elements", "dofs", "multipliers"}) EXPECT_GT(s["mesh"][key].get<int>(), 0) << key;
   for (const char* key : {"mesh", "assemble", "couple", "factorise", "solve", "recover", "write", "total"})

@@ -107,5 +107,27 @@ TEST(AgainstSigmaN, IsNotComparedWhereContactCarriesNothing) {
   EXPECT_FALSE(r.against_sigma_n[0].has_value());
 }
 
+// A clearance of 0.1 % of the radius. Where the sides are straight the meshes' own gap is as large as the clearance.
+double peak_of_pin(int n, int order, int straight, const std::string& gap, const std::string& normals) {
+  const std::string file = std::string(MORTISE_SOURCE_DIR) + "/tests/parts/pin_in_hole.toml";
+  const Results r = solve_scene(read_scene(file, {{"mesh.parameters.n", std::to_string(n)},
+                                                  {"mesh.parameters.order", std::to_string(order)},
+                                                  {"mesh.parameters.straight", std::to_string(straight)},
+                                                  {"contact.0.initial_gap", gap},
+                                                  {"method.normals", normals}}));
+  EXPECT_EQ(r.status, Status::solved);
+  return r.contacts[0].p_max;
+}
+
+TEST(PinInAHole, ItsPeakIsRightOnStraightSidesWithTheGapOfTheCurves) {
+  const double peak = peak_of_pin(60, 2, 0, "measured", "edges");
+  EXPECT_NEAR(peak_of_pin(60, 2, 0, "curve", "curve"), peak, 1e-4 * peak);
+  for (const int n : {30, 60}) {
+    EXPECT_NEAR(peak_of_pin(n, 2, 1, "curve", "curve"), peak, 0.01 * peak) << n;  // 6-node triangles
+    EXPECT_NEAR(peak_of_pin(n, 1, 0, "curve", "curve"), peak, 0.03 * peak) << n;  // 3-node triangles
+  }
+  EXPECT_GT(peak_of_pin(30, 1, 0, "measured", "edges"), 1.5 * peak);
+}
+
 }  // namespace
 }  // namespace mortise::test

@@ -1,6 +1,6 @@
 // A pin in a hole of a large plate: the right half.
 // n: elements on a quarter circle; clearance, size of the plate: in radii; drop 1: the pin touches the hole, 0: concentric
-DefineConstant[ n = 40, clearance = 0.001, size = 20, drop = 1, straight = 0 ];
+DefineConstant[ n = 40, clearance = 0.001, size = 20, drop = 1, order = 2, straight = 0 ];
 R = 1;
 S = R * (1 + clearance);
 h = Pi / 2 / n;
@@ -38,5 +38,5 @@ Physical Curve("axis") = {3, 4, 13, 17};
 Physical Curve("far") = {15, 16};
 Physical Curve("pin_foot") = {1};
 Physical Curve("hole") = {11};
-Mesh.ElementOrder = 2;
+Mesh.ElementOrder = order;
 Mesh.SecondOrderLinear = straight;

@@ -7,14 +7,14 @@
 
 namespace mortise::test {
 
-/// Largest difference of the pressures over the largest pressure of `b`.
+/// Largest difference of the pressures over the largest pressure of `b`; 0 where neither has any.
 inline double pressure_difference(const Results& a, const Results& b) {
-  double difference = 0, size = 0;
+  double found = 0, size = 0;
   for (std::size_t k = 0; k < a.contacts.size(); ++k) {
-    difference = std::max(difference, largest_entry(a.contacts[k].pressure - b.contacts[k].pressure));
-    size = std::max(size, largest_entry(b.contacts[k].pressure));
+    found = largest(found, largest_entry(a.contacts[k].pressure - b.contacts[k].pressure));
+    size = largest(size, largest_entry(b.contacts[k].pressure));
   }
-  return difference / size;
+  return fraction(found, size);
 }
 
 }  // namespace mortise::test
