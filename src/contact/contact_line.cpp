@@ -11,13 +11,13 @@
 namespace mortise {
 namespace {
 
-constexpr double degrees = std::numbers::pi / 180, kink = 20 * degrees;
+constexpr double degrees = std::numbers::pi / 180, kink_angle = 20 * degrees;
 
 // The nodes that the line goes through, in their order; node k and node k + 1 bound an interval, on a closed curve also
 // the last and the first.
 struct Knots {
   std::vector<Vec2> x;
-  std::vector<char> corner;  // of each
+  std::vector<char> kink;  // of each
   bool closed;
   int per_edge;  // intervals: 2 with middle nodes, else 1
 
@@ -25,7 +25,7 @@ struct Knots {
   int wrapped(int k) const { return closed ? (k % size() + size()) % size() : k; }
   const Vec2& operator[](int k) const { return x[wrapped(k)]; }
   bool exists(int k) const { return closed || (k >= 0 && k < size()); }
-  bool turns(int k) const { return corner[wrapped(k)]; }
+  bool turns(int k) const { return kink[wrapped(k)]; }
 
   // How many nodes, `most` or fewer, follow node k in a direction without a kink between.
   int within_reach(int k, int direction, int most) const {
@@ -87,7 +87,7 @@ std::vector<char> kinks_of(const std::vector<double>& turns, bool closed, bool b
     for (const int k : {i - 1, i + 1})
       if (closed || (k > 0 && k < count - 1)) beside = std::min(beside, turns[(k + count) % count]);
     const bool alike = std::isfinite(beside) && turns[i] < 3 * beside && turns[i] < 60 * degrees;
-    kinks[i] = turns[i] > kink && !(by_chords && alike);
+    kinks[i] = turns[i] > kink_angle && !(by_chords && alike);
   }
   return kinks;
 }
@@ -105,7 +105,7 @@ std::optional<StraightSides> straight_sides(const Points& nodes, const Curve& cu
   StraightSides found{0, 0, Vec2::Zero()};
   for (int i = curve.closed ? 0 : 1; i < edges; ++i) {
     const Edge &before = curve.edges[(i + edges - 1) % edges], &after = curve.edges[i];
-    if (after.node_count == 2 || turns[i] < 1 * degrees || turns[i] > kink) continue;
+    if (after.node_count == 2 || turns[i] < 1 * degrees || turns[i] > kink_angle) continue;
     if (std::max(bend(before), bend(after)) > 0.1 * turns[i]) continue;
     ++found.vertices;
     const double sagitta = std::max(edge_length(nodes, before), edge_length(nodes, after)) * turns[i] / 8;
@@ -126,14 +126,14 @@ ContactLine::ContactLine(const Points& nodes, const Curve& curve) {
   for (int e = 0; e < edges; ++e) {
     const Edge& edge = curve.edges[e];
     knots.x.push_back(nodes.row(edge.nodes[0]).transpose());
-    knots.corner.push_back(kinks_[e]);
+    knots.kink.push_back(kinks_[e]);
     if (by_ends) continue;
     knots.x.push_back(nodes.row(edge.nodes[2]).transpose());
-    knots.corner.push_back(0);
+    knots.kink.push_back(0);
   }
   if (!curve.closed) {
     knots.x.push_back(nodes.row(curve.edges.back().nodes[1]).transpose());
-    knots.corner.push_back(0);
+    knots.kink.push_back(0);
   }
   for (int e = 0; e < edges; ++e) {
     const int first = knots.per_edge * e, count = knots.per_edge + 1;

@@ -26,8 +26,8 @@ struct StraightSides {
 std::optional<StraightSides> straight_sides(const Points& nodes, const Curve& curve);
 
 /// A polynomial piece an edge, through all nodes of the edge. At each node the pieces on both sides have the tangent of
-/// the quartic through five nodes there, so that normals are off by h^4; corners stay (is_kink below). Where 3-node
-/// edges are straight although the curve turns, their middle nodes say nothing of it and are left out.
+/// the quartic through five nodes there, so that normals are off by h^4; kinks stay. Where 3-node edges are straight
+/// although the curve turns, their middle nodes say nothing of it and are left out.
 ///
 /// Two meshes of one curve show gaps that it does not have, kappa' h^3 / (72 sqrt 3) of 3-node edges and
 /// kappa h^2 / 8 of 2-node ones, and their normals are off by h^2 kappa' / 12 and h kappa / 2 (docs/theory.md section
@@ -36,7 +36,7 @@ class ContactLine {
  public:
   ContactLine(const Points& nodes, const Curve& curve);
 
-  /// xi: of the edge's piece, -1 ... 1, and a little beyond; 0 is the middle node.
+  /// xi: of the edge's piece, by the length along the chords between its nodes, -1 ... 1 and a little beyond.
   LinePoint at(int edge, double xi) const;
 
   /// Where the normal of the edge's piece passes through x. Nothing unless it does so near `start`.
@@ -45,7 +45,7 @@ class ContactLine {
   /// Where the straight line through x along n meets the edge's piece. Nothing unless it does so near `start`.
   std::optional<double> crossing(int edge, const Vec2& x, const Vec2& n, double start) const;
 
-  /// The vertices (vertex i begins edge i) at which the boundary really turns.
+  /// Of each vertex (vertex i begins edge i): whether the boundary really turns there.
   const std::vector<char>& kinks() const { return kinks_; }
 
  private:
