@@ -64,7 +64,7 @@ void check_includes(const GeoText& geo) {
     constexpr std::array geometry{".geo", ".step", ".stp", ".brep", ".iges", ".igs"};
     if (std::find(geometry.begin(), geometry.end(), ending) != geometry.end()) continue;
     if (ending == ".msh" && is_mesh(include.file)) continue;
-    refuse(geo, include.position, include.file.string().append(" is neither geometry nor a mesh"));
+    refuse(geo, include.position, "'" + include.file.string() + "' is neither geometry nor a mesh");
   }
 }
 

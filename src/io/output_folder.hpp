@@ -1,4 +1,4 @@
-// A folder of results that appears whole or not at all: two folders change places.
+// A folder of results that appears whole or not at all.
 #pragma once
 
 #include <filesystem>
