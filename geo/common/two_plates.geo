@@ -2,9 +2,10 @@
 // Each plate has its own contact curve with its own nodes; the two curves are the same line and share their end points'
 // coordinates. Both plates are structured meshes, n_upper and n_lower elements wide and 3/8 of that high.
 // A scene gives, before it calls TwoPlates:
-//   Macro LineAt   at x1 = x, the height of the contact line, and its slope where line_kind is "parabola"
-//   line_kind      what its pieces are: "straight", an "arc" about arc_x, arc_y, a "parabola" (all three exact), or a
-//                  "spline" through points of the line, spline_steps of them across the width
+//   Macro LineAt   at x1 = x, the height of the contact line, and its slope where line_kind is "parabola" or "cubics"
+//   line_kind      what its pieces are: "straight", an "arc" about arc_x, arc_y, a "parabola" (all three exact), or
+//                  "cubics" with the line's heights and slopes at their ends, cubic_steps of them across the width.
+//                  (gmsh's Spline has the slope of a chord at its ends: the two meshes would differ there.)
 //   knots[]        x1 at the ends of its pieces, 0 ... 0.8; a knot is a vertex of both meshes. A piece between x1 = a and b
 //                  takes Round(n b / 0.8) - Round(n a / 0.8) of the n elements
 //   spacing        0: the vertices of a piece are even in arc length; 1: they are even in x1, and each element is a piece
@@ -29,15 +30,24 @@ Macro Piece
     Point(p + 1) = {x_b - third, height - third * slope, 0};
     nodes[] += {p, p + 1};
   EndIf
-  If (StrCmp(line_kind, "spline") == 0)
-    steps = Max(4, Ceil(spline_steps * (x_b - x_a) / width));
-    For j In {1 : steps - 1}
+  If (StrCmp(line_kind, "cubics") == 0)
+    steps = Max(2, Ceil(cubic_steps * (x_b - x_a) / width));
+    third = (x_b - x_a) / steps / 3;
+    cubic_knots[] = {0};
+    For j In {1 : steps}
+      p = newp;
+      Point(p) = {x + third, height + third * slope, 0};
       x = x_a + (x_b - x_a) * j / steps;
       Call LineAt;
-      p = newp;
-      Point(p) = {x, height, 0};
-      nodes[] += p;
+      Point(p + 1) = {x - third, height - third * slope, 0};
+      nodes[] += {p, p + 1};
+      cubic_knots[] += {j - 1, j - 1, j - 1};
+      If (j < steps)
+        Point(p + 2) = {x, height, 0};
+        nodes[] += p + 2;
+      EndIf
     EndFor
+    cubic_knots[] += {steps, steps, steps, steps};
   EndIf
   x = x_b;
   Call LineAt;
@@ -53,7 +63,7 @@ Macro Piece
   ElseIf (StrCmp(line_kind, "parabola") == 0)
     Bezier(piece) = nodes[];
   Else
-    Spline(piece) = nodes[];
+    Nurbs(piece) = nodes[] Knots cubic_knots[] Order 3;
   EndIf
   Transfinite Curve{piece} = elements + 1;
 Return
@@ -69,7 +79,7 @@ Macro ContactCurve
     For i In {0 : n}
       ends[] += width * (i / n);
     EndFor
-    Mesh.LcIntegrationPrecision = 1e-9;  // no curve is divided; 1e-12 would take seconds on the splines
+    Mesh.LcIntegrationPrecision = 1e-9;  // no curve is divided; 1e-12 would take seconds on the cubics
   EndIf
   If (StrCmp(line_kind, "arc") == 0)
     centre = newp;

@@ -92,7 +92,7 @@ int check(const Options& options) {
             << model_lines(shown(scene), checked.discretisation);
   for (const ContactPair& pair : checked.pairs)
     std::cout << "  contact   " << pair.spec.between[0] << " - " << pair.spec.between[1] << ": "
-              << to_string(pair.spec.condition) << ", frictionless, gap " << to_string(pair.spec.initial_gap) << ", "
+              << to_string(pair.spec.condition) << ", frictionless, gap " << gap_words(pair) << ", "
               << pair.coupling.gap0.size() << " multipliers on " << pair.spec.multipliers_on << ", facing over "
               << pair.coupling.covered_length << "\n";
   std::cout << "  left out  friction, large displacements, plasticity, time"

@@ -8,7 +8,9 @@ namespace mortise {
 
 enum class Plane { strain, stress };
 enum class Condition { unilateral, bilateral };
-enum class InitialGap { measured, curve, closed };
+
+/// What the undeformed gap is: that between the curves that the meshes stand for, that between their edges, or none.
+enum class InitialGap { curve, measured, closed };
 
 /// Along which normals contact acts: those of the multiplier side's edges, or of the curve that they stand for.
 enum class Normals { edges, curve };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "base/vectors.hpp"
 #include "fem/edges.hpp"
@@ -118,15 +119,42 @@ std::optional<StraightSides> straight_sides(const Points& nodes, const Curve& cu
   return found;
 }
 
-ContactLine::ContactLine(const Points& nodes, const Curve& curve) {
+namespace {
+
+// From values c at z to the coefficients. At a z that stands twice, slopes[i / 2] is the derivative.
+void divide_differences(LinePiece& piece, std::span<const Vec2> slopes = {}) {
+  for (int order = 1; order < piece.count; ++order)
+    for (int i = piece.count - 1; i >= order; --i)
+      piece.c[i] = piece.z[i] == piece.z[i - order]
+                       ? slopes[i / 2]
+                       : Vec2((piece.c[i] - piece.c[i - 1]) / (piece.z[i] - piece.z[i - order]));
+}
+
+LinePiece through(const EdgeSamples& x) {
+  constexpr int last = std::tuple_size_v<EdgeSamples> - 1;
+  const Vec2 chord = x[last] - x[0];
+  LinePiece piece{.count = 2, .z = {-1, 1}, .c = {x[0], x[last]}};  // where the drawn curve is straight
+  if (std::ranges::any_of(
+          x, [&](const Vec2& place) { return std::abs(cross(chord, place - x[0])) > 1e-14 * chord.squaredNorm(); })) {
+    piece.count = last + 1;
+    for (int k = 0; k <= last; ++k) {
+      piece.z[k] = -std::cos(std::numbers::pi * k / last);
+      piece.c[k] = x[k];
+    }
+  }
+  divide_differences(piece);
+  return piece;
+}
+
+std::vector<LinePiece> through_nodes(const Points& nodes, const Curve& curve) {
   const bool by_ends = curve.edges[0].node_count == 2 || straight_sides(nodes, curve);
-  kinks_ = kinks_of(turns_of(nodes, curve, by_ends), curve.closed, by_ends);
+  const std::vector<char> kinks = kinks_of(turns_of(nodes, curve, by_ends), curve.closed, by_ends);
   Knots knots{{}, {}, curve.closed, by_ends ? 1 : 2};
   const int edges = int(curve.edges.size());
   for (int e = 0; e < edges; ++e) {
     const Edge& edge = curve.edges[e];
     knots.x.push_back(nodes.row(edge.nodes[0]).transpose());
-    knots.kink.push_back(kinks_[e]);
+    knots.kink.push_back(kinks[e]);
     if (by_ends) continue;
     knots.x.push_back(nodes.row(edge.nodes[2]).transpose());
     knots.kink.push_back(0);
@@ -135,28 +163,33 @@ ContactLine::ContactLine(const Points& nodes, const Curve& curve) {
     knots.x.push_back(nodes.row(curve.edges.back().nodes[1]).transpose());
     knots.kink.push_back(0);
   }
+  std::vector<LinePiece> pieces;
   for (int e = 0; e < edges; ++e) {
     const int first = knots.per_edge * e, count = knots.per_edge + 1;
     std::array<double, 3> s{};  // of the edge's nodes, by chords
     for (int j = 1; j < count; ++j) s[j] = s[j - 1] + (knots[first + j] - knots[first + j - 1]).norm();
-    Piece piece{.count = 2 * count, .z = {}, .c = {}};
-    std::array<Vec2, 3> slope;
+    LinePiece piece{.count = 2 * count, .z = {}, .c = {}};
+    std::array<Vec2, 3> slopes;
     for (int j = 0; j < count; ++j) {
       piece.z[2 * j] = piece.z[2 * j + 1] = 2 * s[j] / s[count - 1] - 1;
       piece.c[2 * j] = piece.c[2 * j + 1] = knots[first + j];
-      slope[j] = s[count - 1] / 2 * tangent_at(knots, first + j, j + 1 < count);
+      slopes[j] = s[count - 1] / 2 * tangent_at(knots, first + j, j + 1 < count);
     }
-    for (int order = 1; order < piece.count; ++order)  // divided differences
-      for (int i = piece.count - 1; i >= order; --i)
-        piece.c[i] = piece.z[i] == piece.z[i - order]
-                         ? slope[i / 2]
-                         : Vec2((piece.c[i] - piece.c[i - 1]) / (piece.z[i] - piece.z[i - order]));
-    pieces_.push_back(piece);
+    divide_differences(piece, slopes);
+    pieces.push_back(piece);
   }
+  return pieces;
+}
+
+}  // namespace
+
+ContactLine::ContactLine(const Points& nodes, const Curve& curve) {
+  if (curve.samples.empty()) pieces_ = through_nodes(nodes, curve);
+  for (const EdgeSamples& samples : curve.samples) pieces_.push_back(through(samples));
 }
 
 LinePoint ContactLine::at(int edge, double xi) const {
-  const Piece& p = pieces_[edge];
+  const LinePiece& p = pieces_[edge];
   LinePoint point{p.c[p.count - 1], Vec2::Zero(), Vec2::Zero()};
   for (int i = p.count - 2; i >= 0; --i) {
     const double d = xi - p.z[i];
@@ -197,11 +230,6 @@ std::optional<double> ContactLine::crossing(int edge, const Vec2& x, const Vec2&
     const LinePoint p = at(edge, xi);
     return std::pair(cross(p.position - x, n), cross(p.tangent, n));
   });
-}
-
-double offset(const ContactLine& line, int edge, double xi, const Vec2& x, const Vec2& n) {
-  const auto at = line.crossing(edge, x, n, xi);
-  return at ? (line.at(edge, *at).position - x).dot(n) : 0;
 }
 
 }  // namespace mortise

@@ -1,4 +1,4 @@
-// The smooth curve that the edges of a contact curve stand for: rebuilt through their nodes.
+// The smooth curve that the edges of a contact curve stand for: as drawn, or rebuilt through their nodes.
 #pragma once
 
 #include <array>
@@ -25,9 +25,17 @@ struct StraightSides {
 /// Nothing below three such vertices: fewer may be kinks that are meant.
 std::optional<StraightSides> straight_sides(const Points& nodes, const Curve& curve);
 
-/// A polynomial piece an edge, through all nodes of the edge. At each node the pieces on both sides have the tangent of
-/// the quartic through five nodes there, so that normals are off by h^4; kinks stay. Where 3-node edges are straight
-/// although the curve turns, their middle nodes say nothing of it and are left out.
+/// A polynomial in Newton's form: c_0 + c_1 (xi - z_0) + c_2 (xi - z_0) (xi - z_1) + ...
+struct LinePiece {
+  int count = 0;
+  std::array<double, std::tuple_size_v<EdgeSamples>> z{};
+  std::array<Vec2, std::tuple_size_v<EdgeSamples>> c{};
+};
+
+/// A polynomial piece an edge: through the samples of the drawn curve, or, where only the mesh is known, through all
+/// nodes of the edge. At each node the pieces on both sides then have the tangent of the quartic through five nodes
+/// there, so that normals are off by h^4; kinks stay. Where 3-node edges are straight although the curve turns, their
+/// middle nodes say nothing of it and are left out.
 ///
 /// Two meshes of one curve show gaps that it does not have, kappa' h^3 / (72 sqrt 3) of 3-node edges and
 /// kappa h^2 / 8 of 2-node ones, and their normals are off by h^2 kappa' / 12 and h kappa / 2 (docs/theory.md section
@@ -36,7 +44,8 @@ class ContactLine {
  public:
   ContactLine(const Points& nodes, const Curve& curve);
 
-  /// xi: of the edge's piece, by the length along the chords between its nodes, -1 ... 1 and a little beyond.
+  /// xi: of the edge's piece, by the drawn curve's parameter or the length along the chords between the edge's nodes;
+  /// -1 ... 1 and a little beyond.
   LinePoint at(int edge, double xi) const;
 
   /// Where the normal of the edge's piece passes through x. Nothing unless it does so near `start`.
@@ -45,27 +54,8 @@ class ContactLine {
   /// Where the straight line through x along n meets the edge's piece. Nothing unless it does so near `start`.
   std::optional<double> crossing(int edge, const Vec2& x, const Vec2& n, double start) const;
 
-  /// Of each vertex (vertex i begins edge i): whether the boundary really turns there.
-  const std::vector<char>& kinks() const { return kinks_; }
-
  private:
-  // Newton's form through up to three double nodes (Hermite): c_0 + c_1 (xi - z_0) + c_2 (xi - z_0) (xi - z_1) + ...
-  struct Piece {
-    int count = 0;
-    std::array<double, 6> z{};
-    std::array<Vec2, 6> c{};
-  };
-  std::vector<Piece> pieces_;
-  std::vector<char> kinks_;
+  std::vector<LinePiece> pieces_;
 };
-
-/// What contact takes from the curves that the meshes stand for; the rest is the edges' own.
-struct ContactLines {
-  ContactLine multiplier, opposite;
-  bool normals, gap;
-};
-
-/// How far a side's edge lies off its line, along n through a place near xi on the edge: (line - x) . n, length.
-double offset(const ContactLine& line, int edge, double xi, const Vec2& x, const Vec2& n);
 
 }  // namespace mortise

@@ -74,8 +74,8 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
 }  // namespace
 
 Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite,
-                const std::vector<ContactPoint>& points, const Constraints& constraints,
-                const CouplingOptions& options) {
+                const std::vector<ContactPoint>& points, const Constraints& constraints, const CouplingOptions& options,
+                const ContactGeometry& geometry) {
   if (points.empty())
     throw InputError(
         mesh.source + ": contact between '" + mesh.boundaries[multiplier.boundary].name + "' and '" +
@@ -84,7 +84,7 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
   Coupling coupling;
   number_multipliers(multiplier, options.multipliers, coupling);
   const Accumulated sums = accumulate(multiplier, opposite, points, options, coupling);
-  number_rows(mesh, multiplier, opposite, constraints, options.initial_gap, sums.support, coupling);
+  number_rows(mesh, multiplier, opposite, constraints, options.initial_gap, geometry, sums.support, coupling);
 
   coupling.gap_min = coupling.gap_max = points.front().gap;
   for (const ContactPoint& p : points) {

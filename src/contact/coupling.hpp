@@ -12,13 +12,13 @@ namespace mortise {
 
 struct CouplingOptions {
   Multipliers multipliers = Multipliers::linear;
-  InitialGap initial_gap = InitialGap::measured;
+  InitialGap initial_gap = InitialGap::curve;  ///< closed: the points' gaps are left out
 };
 
 /// Throws InputError if the curves do not face each other anywhere.
 Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite,
-                const std::vector<ContactPoint>& points, const Constraints& constraints,
-                const CouplingOptions& options);
+                const std::vector<ContactPoint>& points, const Constraints& constraints, const CouplingOptions& options,
+                const ContactGeometry& geometry = {});
 
 /// For each row the node of its first multiplier.
 std::vector<int> row_nodes(const Coupling& coupling);

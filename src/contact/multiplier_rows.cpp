@@ -38,15 +38,18 @@ std::string between(const Mesh& mesh, const Curve& multiplier, const Curve& oppo
 // The gap that prescribed displacements leave at a node of the multiplier side; nothing unless both sides' normal
 // displacements are prescribed there.
 std::optional<double> prescribed_gap(const Mesh& mesh, const Curve& multiplier, int e, std::size_t local,
-                                     const Curve& opposite, const Constraints& constraints, InitialGap initial_gap) {
+                                     const Curve& opposite, const Constraints& constraints, InitialGap initial_gap,
+                                     const ContactGeometry& geometry) {
   const Edge& edge = multiplier.edges[e];
-  const Line line = line_from(mesh.nodes, multiplier, e, local == 0 ? -1 : local == 1 ? 1 : 0);
+  const Place at{e, xi_of_node(int(local))};
+  const Line line = geometry.line_from(mesh.nodes, multiplier, at);
   const Vec2& n = line.n;
   if (!prescribed_along(constraints, edge.nodes[local], n)) return {};
   const auto hit = project_onto_curve(mesh.nodes, opposite, line);
   if (!hit) return {};
   const auto value = [&](int node) { return constraints.value.segment<2>(2 * node).dot(n); };
-  double gap = (initial_gap == InitialGap::closed ? 0 : hit->distance) - value(edge.nodes[local]);
+  double gap =
+      (initial_gap == InitialGap::closed ? 0 : geometry.initial_gap(line, at, *hit)) - value(edge.nodes[local]);
   const Edge& other = opposite.edges[hit->edge];
   const EdgeShape s = edge_shape(other.node_count, hit->xi);
   for (int b = 0; b < other.node_count; ++b) {
@@ -57,8 +60,8 @@ std::optional<double> prescribed_gap(const Mesh& mesh, const Curve& multiplier, 
 }
 
 std::vector<State> find_states(const Mesh& mesh, const Curve& multiplier, const Curve& opposite,
-                               const Constraints& constraints, InitialGap initial_gap, const Support& support,
-                               const Coupling& coupling) {
+                               const Constraints& constraints, InitialGap initial_gap, const ContactGeometry& geometry,
+                               const Support& support, const Coupling& coupling) {
   std::vector<State> state(coupling.node.size(), State::free);
   VecX length = VecX::Zero(state.size());  // of each multiplier's edges
   for (std::size_t e = 0; e < multiplier.edges.size(); ++e)
@@ -73,7 +76,7 @@ std::vector<State> find_states(const Mesh& mesh, const Curve& multiplier, const 
         found = State::unsupported;
         continue;
       }
-      const auto gap = prescribed_gap(mesh, multiplier, int(e), i, opposite, constraints, initial_gap);
+      const auto gap = prescribed_gap(mesh, multiplier, int(e), i, opposite, constraints, initial_gap, geometry);
       const double round_off = 1e-9 * length(a);
       if (gap && *gap < -round_off) {
         std::ostringstream text;
@@ -104,8 +107,9 @@ std::vector<int> along(const Coupling& coupling) {
 }  // namespace
 
 void number_rows(const Mesh& mesh, const Curve& multiplier, const Curve& opposite, const Constraints& constraints,
-                 InitialGap initial_gap, const Support& support, Coupling& coupling) {
-  std::vector<State> state = find_states(mesh, multiplier, opposite, constraints, initial_gap, support, coupling);
+                 InitialGap initial_gap, const ContactGeometry& geometry, const Support& support, Coupling& coupling) {
+  std::vector<State> state =
+      find_states(mesh, multiplier, opposite, constraints, initial_gap, geometry, support, coupling);
   const auto count = [&](State which) { return std::count(state.begin(), state.end(), which); };
   if (count(State::free) == 0)  // better extrapolated than none
     std::replace(state.begin(), state.end(), State::hardly_facing, State::free);

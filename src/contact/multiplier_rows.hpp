@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/choices.hpp"
+#include "contact/contact_geometry.hpp"
 #include "contact/coupling_rows.hpp"
 #include "fem/constraints.hpp"
 #include "mesh/curve.hpp"
@@ -26,6 +27,6 @@ inline constexpr double faced_limit = 0.1;
 /// that constants stay in the space: Wohlmuth 2000, the end edges of a mortar). Where the prescribed displacements
 /// leave the sides apart, the pressure is zero. Throws InputError where they overlap, and where no multiplier is free.
 void number_rows(const Mesh& mesh, const Curve& multiplier, const Curve& opposite, const Constraints& constraints,
-                 InitialGap initial_gap, const Support& support, Coupling& coupling);
+                 InitialGap initial_gap, const ContactGeometry& geometry, const Support& support, Coupling& coupling);
 
 }  // namespace mortise

@@ -1,6 +1,7 @@
 #include "contact/segments.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
@@ -8,8 +9,15 @@
 namespace mortise {
 namespace {
 
-std::optional<Hit> hit_from(const Points& nodes, const Curve& curve, int edge, double xi, const Curve& opposite) {
-  return project_onto_curve(nodes, opposite, line_from(nodes, curve, edge, xi));
+// Where on edge e of the multiplier side a normal passes through x.
+std::optional<double> foot_on(const Points& nodes, const Curve& curve, int e, const Vec2& x,
+                              const ContactGeometry& geometry) {
+  if (!geometry.normals) return foot_on_edge(nodes, curve.edges[e], x);
+  const auto foot = geometry.multiplier->foot(e, x, 0);
+  if (!foot) return {};
+  const Vec2 n = geometry.multiplier->at(e, *foot).normal();
+  const auto hit = project_onto_edge(nodes, curve, e, {x, -n, std::numeric_limits<double>::infinity()});
+  return hit ? std::optional(hit->xi) : std::nullopt;
 }
 
 // Start and end node of the opposite edges first .. last.
@@ -21,9 +29,10 @@ std::vector<int> vertices_between(const Curve& opposite, int first, int last) {
 }
 
 // Where to cut one edge, ascending, from -1 to 1. Cuts nearer than projection_tolerance to another are one cut.
-std::vector<double> cuts_of(const Points& nodes, const Curve& curve, int e, const Curve& opposite) {
-  const Edge& edge = curve.edges[e];
-  const auto from = hit_from(nodes, curve, e, -1, opposite), to = hit_from(nodes, curve, e, 1, opposite);
+std::vector<double> cuts_of(const Points& nodes, const Curve& curve, int e, const Curve& opposite,
+                            const ContactGeometry& geometry) {
+  const auto from = project_onto_curve(nodes, opposite, geometry.line_from(nodes, curve, {e, -1})),
+             to = project_onto_curve(nodes, opposite, geometry.line_from(nodes, curve, {e, 1}));
   int first = 0, last = int(opposite.edges.size()) - 1;  // an end that hits nothing: look through the whole curve
   if (from && to) {
     first = std::min(from->edge, to->edge);
@@ -35,7 +44,7 @@ std::vector<double> cuts_of(const Points& nodes, const Curve& curve, int e, cons
   }
   std::vector<double> feet;
   for (const int vertex : vertices_between(opposite, first, last))
-    if (const auto foot = foot_on_edge(nodes, edge, nodes.row(vertex).transpose())) feet.push_back(*foot);
+    if (const auto foot = foot_on(nodes, curve, e, nodes.row(vertex).transpose(), geometry)) feet.push_back(*foot);
   std::sort(feet.begin(), feet.end());
   std::vector<double> cuts{-1};
   for (const double foot : feet)
@@ -51,22 +60,24 @@ int gauss_count(const Edge& edge, const Edge& opposite) {
 
 }  // namespace
 
-std::vector<Segment> find_segments(const Points& nodes, const Curve& multiplier, const Curve& opposite) {
+std::vector<Segment> find_segments(const Points& nodes, const Curve& multiplier, const Curve& opposite,
+                                   const ContactGeometry& geometry) {
   std::vector<Segment> segments;
   for (int e = 0; e < int(multiplier.edges.size()); ++e) {
-    const std::vector<double> cuts = cuts_of(nodes, multiplier, e, opposite);
+    const std::vector<double> cuts = cuts_of(nodes, multiplier, e, opposite, geometry);
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-      if (const auto hit = hit_from(nodes, multiplier, e, (cuts[i] + cuts[i + 1]) / 2, opposite))
+      if (const auto hit = project_onto_curve(nodes, opposite,
+                                              geometry.line_from(nodes, multiplier, {e, (cuts[i] + cuts[i + 1]) / 2})))
         segments.push_back({e, cuts[i], cuts[i + 1], hit->edge});
   }
   return segments;
 }
 
 std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multiplier, const Curve& opposite,
-                                         Integration integration, const ContactLines* lines) {
+                                         Integration integration, const ContactGeometry& geometry) {
   std::vector<Segment> pieces;
   if (integration == Integration::segments) {
-    pieces = find_segments(nodes, multiplier, opposite);
+    pieces = find_segments(nodes, multiplier, opposite, geometry);
   } else {
     for (int e = 0; e < int(multiplier.edges.size()); ++e) pieces.push_back({e, -1, 1, -1});
   }
@@ -77,30 +88,19 @@ std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multi
     const LineRule rule = gauss_legendre(gauss_count(edge, other));
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const double half = (piece.end - piece.begin) / 2, xi = piece.begin + half * (1 + rule.points[q]);
-      const EdgePoint p = edge_point(nodes, edge, xi);
-      Vec2 n = p.normal();
-      if (lines && lines->normals)
-        if (const auto foot = lines->multiplier.foot(piece.edge, p.position, xi))
-          n = lines->multiplier.at(piece.edge, *foot).normal();
+      const Line line = geometry.line_from(nodes, multiplier, {piece.edge, xi});
       // A segment knows its opposite edge; the whole curve is asked where a cut was merged away (or there are none).
       std::optional<Hit> hit;
-      const Line line{p.position, n, deepest_overlap(multiplier, piece.edge)};
       if (piece.opposite_edge >= 0) hit = project_onto_edge(nodes, opposite, piece.opposite_edge, line);
       if (!hit) hit = project_onto_curve(nodes, opposite, line);
       if (!hit) continue;
-      double gap = hit->distance;
-      if (lines && lines->gap) {
-        const Vec2 y = p.position + hit->distance * n;
-        gap += offset(lines->opposite, hit->edge, hit->xi, y, n) -
-               offset(lines->multiplier, piece.edge, xi, p.position, n);
-      }
       points.push_back({.edge = piece.edge,
                         .xi = xi,
-                        .ds = rule.weights[q] * half * p.jacobian(),
-                        .normal = n,
+                        .ds = rule.weights[q] * half * edge_point(nodes, edge, xi).jacobian(),
+                        .normal = line.n,
                         .opposite_edge = hit->edge,
                         .eta = hit->xi,
-                        .gap = gap});
+                        .gap = geometry.initial_gap(line, {piece.edge, xi}, *hit)});
     }
   }
   return points;
@@ -113,7 +113,7 @@ double covered_part(const Points& nodes, const Curve& curve, const Curve& opposi
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const double ds = rule.weights[q] * edge_point(nodes, curve.edges[e], rule.points[q]).jacobian();
       length += ds;
-      if (hit_from(nodes, curve, e, rule.points[q], opposite)) covered += ds;
+      if (project_onto_curve(nodes, opposite, line_from(nodes, curve, e, rule.points[q]))) covered += ds;
     }
   return covered / length;
 }

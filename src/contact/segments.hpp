@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "base/choices.hpp"
-#include "contact/contact_line.hpp"
-#include "contact/projection.hpp"
+#include "contact/contact_geometry.hpp"
 
 namespace mortise {
 
@@ -19,7 +18,8 @@ struct Segment {
 
 /// Cuts the multiplier side at the opposite side's vertices, projected along the multiplier side's normals.
 /// Pieces that face nothing are left out (partial overlap).
-std::vector<Segment> find_segments(const Points& nodes, const Curve& multiplier, const Curve& opposite);
+std::vector<Segment> find_segments(const Points& nodes, const Curve& multiplier, const Curve& opposite,
+                                   const ContactGeometry& geometry = {});
 
 /// A quadrature point of a contact pair.
 struct ContactPoint {
@@ -29,15 +29,13 @@ struct ContactPoint {
   Vec2 normal;  ///< unit, out of the multiplier side's body
   int opposite_edge;
   double eta;  ///< reference coordinate on the opposite edge
-  /// Undeformed, along the normal, length, positive when open: between the edges, or between the curves.
-  double gap;
+  double gap;  ///< undeformed, along the normal, length, positive when open
 };
 
 /// Gauss points on each segment: exact on straight edges for the product of both sides' shape functions.
 /// Integration::elements takes the same rule on whole edges without cutting; points that face nothing are left out.
-/// `lines`: normals and gaps are those of the curves, at the foot of each point; none: of the edges.
 std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multiplier, const Curve& opposite,
-                                         Integration integration, const ContactLines* lines = nullptr);
+                                         Integration integration, const ContactGeometry& geometry = {});
 
 /// The part of a curve's length that faces the other curve, 0 ... 1, asked at two points an edge.
 double covered_part(const Points& nodes, const Curve& curve, const Curve& opposite);

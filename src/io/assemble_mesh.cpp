@@ -91,7 +91,10 @@ void add_boundary(Mesh& mesh, const MeshData& data, const PhysicalGroup& group) 
     for (auto node = block->nodes.begin(); node != block->nodes.end(); node += count) {
       boundary.edges.push_back({count, {node[0], node[1], count == 3 ? node[2] : -1}});
     }
+    boundary.samples.insert(boundary.samples.end(), block->samples.begin(), block->samples.end());
+    if (boundary.undrawn.empty()) boundary.undrawn = block->undrawn;
   }
+  if (boundary.samples.size() != boundary.edges.size()) boundary.samples.clear();  // all of them, or none
   if (boundary.edges.empty()) {
     throw InputError(data.file + ": physical curve '" + group.name + "' has no edges; does it name a curve?");
   }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/errors.hpp"
+#include "io/gmsh_curves.hpp"
 
 namespace mortise {
 namespace {
@@ -52,9 +53,10 @@ void get_elements(MeshData& data, const NodeRows& rows, int dimension, int entit
   std::vector<std::vector<std::size_t>> node_tags;
   gmsh::model::mesh::getElements(types, element_tags, node_tags, dimension, entity);
   for (std::size_t k = 0; k < types.size(); ++k) {
-    ElementBlock block{dimension, entity, types[k], groups, {}};
+    ElementBlock block{.dimension = dimension, .entity = entity, .type = types[k], .groups = groups, .nodes = {}};
     block.nodes.reserve(node_tags[k].size());
     for (const std::size_t tag : node_tags[k]) block.nodes.push_back(rows.find(static_cast<std::int64_t>(tag)));
+    if (!groups.empty() && (block.type == 1 || block.type == 8)) sample_curve(data.nodes, node_tags[k], block);
     data.blocks.push_back(std::move(block));
   }
 }

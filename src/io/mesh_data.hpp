@@ -7,15 +7,19 @@
 #include <string>
 #include <vector>
 
+#include "mesh/mesh.hpp"
+
 namespace mortise {
 
 /// Elements of one kind on one curve or surface.
 struct ElementBlock {
-  int dimension;            ///< 1 or 2
-  int entity;               ///< tag of the curve or surface
-  int type;                 ///< gmsh's number of the kind, in element_type
-  std::vector<int> groups;  ///< tags of the physical groups, > 0, each once
-  std::vector<int> nodes;   ///< rows of MeshData::nodes, as many an element as its kind has
+  int dimension;                          ///< 1 or 2
+  int entity;                             ///< tag of the curve or surface
+  int type;                               ///< gmsh's number of the kind, in element_type
+  std::vector<int> groups;                ///< tags of the physical groups, > 0, each once
+  std::vector<int> nodes;                 ///< rows of MeshData::nodes, as many an element as its kind has
+  std::vector<EdgeSamples> samples = {};  ///< of each element of a named curve whose geometry is known
+  std::string undrawn = {};               ///< as Boundary's
 };
 
 /// A physical curve or surface, with elements or without.

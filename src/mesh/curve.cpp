@@ -103,12 +103,16 @@ Curve contact_curve(const Mesh& mesh, int boundary) {
   directed.reserve(sides.size());
   for (const CellSide& side : sides) directed.push_back(side_edge(mesh.cells[side.cell], side.side));
 
-  Curve curve{boundary, mesh.cells[sides.front().cell].body, {}, {}, false};
+  Curve curve{
+      .boundary = boundary, .body = mesh.cells[sides.front().cell].body, .edges = {}, .sides = {}, .closed = false};
   curve.edges.reserve(sides.size());
   curve.sides.reserve(sides.size());
   for (const std::size_t i : chain_order(mesh, boundary, directed)) {
     curve.edges.push_back(directed[i]);
     curve.sides.push_back(sides[i]);
+    if (source.samples.empty()) continue;
+    curve.samples.push_back(source.samples[i]);
+    if (directed[i].nodes[0] != source.edges[i].nodes[0]) std::ranges::reverse(curve.samples.back());
   }
   curve.closed = curve.edges.back().nodes[1] == curve.edges.front().nodes[0];
   return curve;

@@ -13,8 +13,9 @@ struct Curve {
   int boundary;  ///< index into Mesh::boundaries
   int body;      ///< index into Mesh::bodies
   std::vector<Edge> edges;
-  std::vector<CellSide> sides;  ///< the cell side of each edge
-  bool closed;                  ///< the last edge ends where the first begins
+  std::vector<CellSide> sides;         ///< the cell side of each edge
+  bool closed;                         ///< the last edge ends where the first begins
+  std::vector<EdgeSamples> samples{};  ///< of each edge, from its start to its end; empty: only the mesh is known
   /// Of the body behind each edge, length (mesh/thickness.hpp); empty: not asked for, without limit.
   std::vector<double> thickness{};
 };

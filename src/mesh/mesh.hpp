@@ -64,10 +64,16 @@ struct Edge {
   std::array<int, 3> nodes;  ///< start, end, middle (middle = -1 when node_count is 2)
 };
 
+/// Places of the drawn curve along an edge, from its start to its end, where its parameter is -cos(pi k / 8) between
+/// those of the ends.
+using EdgeSamples = std::array<Vec2, 9>;
+
 /// A physical curve.
 struct Boundary {
   std::string name;
-  std::vector<Edge> edges;  ///< in no particular order or direction
+  std::vector<Edge> edges;                ///< in no particular order or direction
+  std::vector<EdgeSamples> samples = {};  ///< of each edge; empty where only the mesh is known
+  std::string undrawn = {};               ///< why there are none although the file draws a geometry
 };
 
 struct Mesh {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
@@ -95,22 +96,33 @@ std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, co
     ContactPair pair{.spec = spec,
                      .multiplier = std::move(contact.curves[second ? 1 : 0]),
                      .opposite = std::move(contact.curves[second ? 0 : 1]),
-                     .lines = {},
+                     .geometry = {},
                      .points = {},
                      .coupling = {},
                      .first_row = first_row};
     pair.spec.multipliers_on = spec.between[second ? 1 : 0];
-    const bool normals = method.normals == Normals::curve, gap = spec.initial_gap == InitialGap::curve;
-    if (normals || gap)
-      pair.lines = ContactLines{{mesh.nodes, pair.multiplier}, {mesh.nodes, pair.opposite}, normals, gap};
-    pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, method.integration,
-                                 pair.lines ? &*pair.lines : nullptr);
+    pair.geometry = {.multiplier = ContactLine(mesh.nodes, pair.multiplier),
+                     .opposite = ContactLine(mesh.nodes, pair.opposite),
+                     .normals = method.normals == Normals::curve,
+                     .gap = spec.initial_gap != InitialGap::measured,
+                     .clearance = spec.clearance};
+    pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, method.integration, pair.geometry);
     pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, d.system.constraints,
-                           {method.multipliers, spec.initial_gap});
+                           {method.multipliers, spec.initial_gap}, pair.geometry);
     first_row += int(pair.coupling.B.rows());
     pairs.push_back(std::move(pair));
   }
   return pairs;
+}
+
+std::string gap_words(const ContactPair& pair) {
+  if (pair.spec.initial_gap == InitialGap::closed) return "closed";
+  if (pair.spec.initial_gap == InitialGap::measured) return "of the meshes";
+  std::ostringstream words;
+  words << (pair.multiplier.samples.empty() || pair.opposite.samples.empty() ? "of curves through the nodes"
+                                                                             : "as drawn");
+  if (pair.spec.clearance != 0) words << " + " << pair.spec.clearance;
+  return words.str();
 }
 
 std::vector<int> row_nodes(const std::vector<ContactPair>& pairs) {

@@ -19,7 +19,7 @@ std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh);
 struct ContactPair {
   ContactSpec spec;
   Curve multiplier, opposite;
-  std::optional<ContactLines> lines;  ///< where normals or gaps are the curves'
+  ContactGeometry geometry;
   std::vector<ContactPoint> points;
   Coupling coupling;
   int first_row = 0;  ///< of its rows, in those of all pairs below one another
@@ -45,6 +45,9 @@ inline constexpr double facet_limit = 1.5;
 /// curve, or the one with the longer edges where both bodies take both.
 std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, const Discretisation& discretisation,
                                       std::vector<ContactCurves> curves, const std::vector<char>& dirichlet = {});
+
+/// What the pair's gap is, as words for the user: "closed", or whose gap and with what clearance.
+std::string gap_words(const ContactPair& pair);
 
 /// Of the rows of all pairs below one another: the node of each one's first multiplier.
 std::vector<int> row_nodes(const std::vector<ContactPair>& pairs);

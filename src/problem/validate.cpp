@@ -88,7 +88,7 @@ void require_closed(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
     text << pair.spec.key << ".initial_gap = \"closed\", but '" << pair.spec.between[0] << "' and '"
          << pair.spec.between[1] << "' are " << open->gap << " apart " << near_point(open->position)
          << ", where two meshes of one curve differ by at most " << open->limit
-         << "; expected initial_gap = \"measured\", or curves that are one curve";
+         << "; expected the default, initial_gap = \"curve\", or curves that are one curve";
     throw SceneError(text.str());
   }
 }

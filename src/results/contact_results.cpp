@@ -12,12 +12,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// A place on a curve: an edge and its reference coordinate.
-struct Place {
-  int edge;
-  double xi;
-};
-
 struct CurveNode {
   int node;
   double s;
@@ -147,16 +141,11 @@ double least_pressure(const ContactPair& pair, const VecX& pressure) {
 
 ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const Constraints& constraints,
                                const BodyPoints& points, const StressField& stress, const VecX& u, const VecX& lambda) {
-  const auto* normals = pair.lines && pair.lines->normals ? &*pair.lines : nullptr;
+  const ContactGeometry& geometry = pair.geometry;
   const std::vector<CurveNode> along =
-      nodes_along(mesh, pair.multiplier, constraints, normals ? &normals->multiplier : nullptr);
-  // Undeformed, at a distance between the edges along n from x on the multiplier side; `place` and `hit`: where on
-  // both.
-  const auto initial_gap = [&](const Vec2& x, const Vec2& n, const Place& place, const Place& hit, double distance) {
-    if (pair.spec.initial_gap == InitialGap::closed) return 0.0;
-    if (!pair.lines || !pair.lines->gap) return distance;
-    return distance + offset(pair.lines->opposite, hit.edge, hit.xi, x + distance * n, n) -
-           offset(pair.lines->multiplier, place.edge, place.xi, x, n);
+      nodes_along(mesh, pair.multiplier, constraints, geometry.normals ? &*geometry.multiplier : nullptr);
+  const auto initial_gap = [&](const Line& line, const Place& at, const Hit& hit) {
+    return pair.spec.initial_gap == InitialGap::closed ? 0 : geometry.initial_gap(line, at, hit);
   };
   ContactResults r;
   r.pressure = 0 - multiplier_values(pair.coupling, lambda).array();  // 0 - 0 is 0, -0 is not
@@ -166,15 +155,15 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
   for (const CurveNode& at : along) {
     ContactNode n = node_results(mesh, at, pair.multiplier.body, at.normal, points, stress, u);
     n.p = interpolate(pair.coupling, pair.multiplier, r.pressure, at.place.edge, at.place.xi);
-    if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite,
-                                            {n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)})) {
+    const Line line{n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)};
+    if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite, line)) {
       const Vec2 other = edge_value(u, pair.opposite.edges[hit->edge], hit->xi);
-      n.gap = initial_gap(n.position, at.normal, at.place, {hit->edge, hit->xi}, hit->distance) + other.dot(at.normal) -
-              n.u_n;
+      n.gap = initial_gap(line, at.place, *hit) + other.dot(at.normal) - n.u_n;
     }
     r.multiplier.nodes.push_back(n);
   }
-  for (const CurveNode& at : nodes_along(mesh, pair.opposite, constraints, normals ? &normals->opposite : nullptr)) {
+  for (const CurveNode& at :
+       nodes_along(mesh, pair.opposite, constraints, geometry.normals ? &*geometry.opposite : nullptr)) {
     const Vec2 x = mesh.nodes.row(at.node).transpose();
     const auto foot = foot_of(mesh, pair.multiplier, along, x);
     if (!foot) {
@@ -183,18 +172,16 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
       continue;
     }
     const Edge& edge = pair.multiplier.edges[foot->edge];
-    const EdgePoint m = edge_point(mesh.nodes, edge, foot->xi);
+    const Line line = geometry.line_from(mesh.nodes, pair.multiplier, *foot);
     // At a vertex of the multiplier side its mean normal, as in that side's own rows.
     const auto vertex = std::find_if(along.begin(), along.end(), [&](const CurveNode& c) {
-      return (mesh.nodes.row(c.node).transpose() - m.position).norm() < 1e-9 * m.jacobian();
+      return (mesh.nodes.row(c.node).transpose() - line.x).norm() < 1e-9 * edge_length(mesh.nodes, edge);
     });
-    const Vec2 normal = vertex != along.end() ? vertex->normal
-                        : normals             ? normals->multiplier.at(foot->edge, foot->xi).normal()
-                                              : m.normal();
+    const Vec2 normal = vertex != along.end() ? vertex->normal : line.n;
     ContactNode n = node_results(mesh, at, pair.opposite.body, normal, points, stress, u);
     n.p = interpolate(pair.coupling, pair.multiplier, r.pressure, foot->edge, foot->xi);
-    n.gap = initial_gap(m.position, normal, *foot, at.place, (x - m.position).dot(normal)) + n.u_n -
-            edge_value(u, edge, foot->xi).dot(normal);
+    n.gap = initial_gap({line.x, normal, line.depth}, *foot, {at.place.edge, at.place.xi, (x - line.x).dot(normal)}) +
+            n.u_n - edge_value(u, edge, foot->xi).dot(normal);
     r.opposite.nodes.push_back(n);
   }
   r.multiplier.centres = centre_results(mesh, pair.multiplier, stress);

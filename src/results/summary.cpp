@@ -35,6 +35,7 @@ Json contact_json(const ContactPair& pair, const ContactResults& c, const std::o
           {"force", {c.force.x(), c.force.y()}},
           {"pressure", {{"min", c.p_min}, {"mean", c.p_mean}, {"max", c.p_max}}},
           {"against_sigma_n", comparison_json(compared)},
+          {"drawn", !pair.multiplier.samples.empty() && !pair.opposite.samples.empty()},
           {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
 }
 
@@ -128,7 +129,10 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
     const ContactSpec& spec = r.pairs[k].spec;
     on.push_back(spec.multipliers_on);
     condition.push_back(to_string(spec.condition));
-    gap.push_back(to_string(spec.initial_gap));
+    if (spec.clearance != 0)
+      gap.push_back(spec.clearance);
+    else
+      gap.push_back(to_string(spec.initial_gap));
     contact.push_back(contact_json(r.pairs[k], r.contacts[k], r.against_sigma_n[k]));
   }
   Json checks = Json::array();
@@ -186,7 +190,7 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
     const ContactResults& c = r.contacts[k];
     const ContactSpec& spec = r.pairs[k].spec;
     out << "  contact   " << spec.between[0] << " - " << spec.between[1] << ": " << to_string(spec.condition)
-        << ", gap " << to_string(spec.initial_gap) << ", " << space_word(scene, r) << " multipliers on "
+        << ", gap " << gap_words(r.pairs[k]) << ", " << space_word(scene, r) << " multipliers on "
         << spec.multipliers_on << "\n            pressure " << c.p_min << " ... " << c.p_max << " (mean " << c.p_mean
         << "), force (" << c.force.x() << ", " << c.force.y() << ") on " << c.multiplier.curve
         << "\n            length " << c.length << ", in contact " << c.length_in_contact << "; undeformed gap "

@@ -81,35 +81,22 @@ void warn_of_dropped(const ContactPair& pair, const Results& r, Lines& lines) {
                     range(at) + ") " + reason);
 }
 
-// A gap that two meshes of one curve may make: of both signs, and nowhere wider than they can.
-bool may_be_the_meshes_own(const ContactPair& pair, const Results& r) {
-  const double low = pair.coupling.gap_min, high = pair.coupling.gap_max;
-  return low < 0 && high > 0 && std::min(-low, high) > 1e-3 * std::max(-low, high) &&
-         !open_place(r.mesh.nodes, pair.multiplier, pair.opposite, pair.points, 1e-6);
+void warn_of_gap(const ContactPair& pair, const Results& r, Lines& lines) {
+  const double low = pair.coupling.gap_min, high = pair.coupling.gap_max, displacement = largest_entry(r.solution.u);
+  if (pair.spec.initial_gap != InitialGap::closed || std::max(-low, high) <= 0.01 * displacement) return;
+  std::ostringstream text;
+  text << pair.spec.key << ": initial_gap = \"closed\" leaves out gaps of " << low << " ... " << high
+       << ", which are not small against the displacements (up to " << displacement
+       << "); a clearance or an interference that is meant needs the default, initial_gap = \"curve\"";
+  lines.push_back(text.str());
 }
 
-// Enforced, a gap that only the meshes make causes pressures of about E gap / h; dropped, a true one is missing.
-void warn_of_gap(const ContactPair& pair, const Results& r, Lines& lines) {
-  if (pair.spec.initial_gap == InitialGap::curve) return;
-  const double low = pair.coupling.gap_min, high = pair.coupling.gap_max;
-  const double gap = std::max(std::abs(low), std::abs(high)), displacement = largest_entry(r.solution.u);
-  const bool meshes_own = may_be_the_meshes_own(pair, r);
-  std::ostringstream text;
-  text << pair.spec.key << ": ";
-  if (pair.spec.initial_gap == InitialGap::measured) {
-    if (!meshes_own || gap < 1e-3 * displacement) return;
-    text << "the undeformed gap (" << low << " ... " << high
-         << ") is of both signs and nowhere more than two meshes of one curve show, but not small against the "
-            "displacements (up to "
-         << displacement << "); if the curves are one curve, set initial_gap = \"closed\"";
-  } else {
-    if (gap <= (meshes_own ? 0.1 : 0.01) * displacement) return;
-    text << "initial_gap = \"closed\" leaves out gaps of " << low << " ... " << high
-         << ", which are not small against the displacements (up to " << displacement << "): "
-         << (meshes_own ? "right if the curves are one curve"
-                        : "a clearance or an interference that is meant needs initial_gap = \"measured\"");
-  }
-  lines.push_back(text.str());
+// A geometry that the file draws and contact cannot use.
+void warn_of_geometry(const ContactPair& pair, const Results& r, Lines& lines) {
+  for (const Curve* curve : {&pair.multiplier, &pair.opposite})
+    if (const Boundary& boundary = r.mesh.boundaries[curve->boundary]; !boundary.undrawn.empty())
+      lines.push_back(pair.spec.key + ": the drawn curve '" + boundary.name + "' is not used, as " + boundary.undrawn +
+                      ": gaps and normals are those of a smooth curve through the nodes");
 }
 
 // Two independent approximations of one stress: what they differ by, the discretisation leaves open.
@@ -133,17 +120,7 @@ void warn_of_shape(const ContactPair& pair, const Results& r, Lines& lines) {
       lines.push_back(pair.spec.key + ": an edge of " + name(*curve) + " " + near_point(sharpest.position) +
                       " turns by " + std::to_string(degrees(sharpest.angle)) +
                       " degrees: the mesh is coarse for the curve; expected at most 30");
-    if (const auto straight = straight_sides(r.mesh.nodes, *curve);
-        straight && straight->sagitta > 0.01 * largest_entry(r.solution.u)) {
-      std::ostringstream text;
-      text << pair.spec.key << ": " << name(*curve) << " turns at " << straight->vertices
-           << " vertices between straight 3-node edges, whose chords miss the curve by up to " << straight->sagitta
-           << " " << near_point(straight->position) << ", not small against the displacements (up to "
-           << largest_entry(r.solution.u)
-           << "): gaps and peaks of p are the mesh's; expected middle nodes on the curve (Mesh.SecondOrderLinear = 0)";
-      lines.push_back(text.str());
-    }
-    // A gap that is measured is meant: a corner may stand on a flat side.
+    // A gap that is drawn is meant: a corner may stand on a flat side.
     if (pair.spec.initial_gap != InitialGap::closed) continue;
     if (const auto kink = missed_kink(r.mesh.nodes, *curve, *other))
       lines.push_back(pair.spec.key + ": " + name(*curve) + " has a kink of " + std::to_string(degrees(kink->angle)) +
@@ -155,7 +132,7 @@ void warn_of_shape(const ContactPair& pair, const Results& r, Lines& lines) {
 // Positions are rounded to this part of themselves.
 constexpr double round_off = std::numeric_limits<double>::epsilon();
 
-// A measured gap is a difference of positions: far from the origin it is round-off.
+// A gap is a difference of positions: far from the origin it is round-off.
 void warn_of_far_origin(const ContactPair& pair, const Results& r, Lines& lines) {
   if (pair.spec.initial_gap == InitialGap::closed) return;
   const double farthest = r.mesh.nodes.cwiseAbs().maxCoeff();
@@ -200,6 +177,7 @@ std::vector<std::string> warnings(const Scene& scene, const Results& r) {
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
     warn_of_dropped(r.pairs[k], r, lines);
     warn_of_gap(r.pairs[k], r, lines);
+    warn_of_geometry(r.pairs[k], r, lines);
     warn_of_shape(r.pairs[k], r, lines);
     warn_of_far_origin(r.pairs[k], r, lines);
     warn_of_stress(r.pairs[k], r.against_sigma_n[k], lines);

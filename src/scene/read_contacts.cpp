@@ -29,6 +29,18 @@ std::string read_multipliers_on(const Node& entry, const ContactSpec& contact) {
   return node->text;
 }
 
+// A word, or a length that is not drawn.
+void read_initial_gap(const Node* node, ContactSpec& contact) {
+  if (node == nullptr) return;
+  if (node->kind == Node::Kind::number) {
+    contact.clearance = number(*node);
+    return;
+  }
+  if (node->kind != Node::Kind::string) fail(*node, "expected a length or a word, found " + describe(*node));
+  contact.initial_gap =
+      choice(node, {InitialGap::curve, InitialGap::measured, InitialGap::closed}, contact.initial_gap);
+}
+
 }  // namespace
 
 void read_contacts(const Node& root, Scene& scene) {
@@ -40,8 +52,7 @@ void read_contacts(const Node& root, Scene& scene) {
     contact.between = read_between(require(*entry, "between", "a list of two physical curves"), *entry, once);
     contact.condition =
         choice(find(*entry, "condition"), {Condition::unilateral, Condition::bilateral}, contact.condition);
-    contact.initial_gap = choice(find(*entry, "initial_gap"),
-                                 {InitialGap::measured, InitialGap::curve, InitialGap::closed}, contact.initial_gap);
+    read_initial_gap(find(*entry, "initial_gap"), contact);
     contact.multipliers_on = read_multipliers_on(*entry, contact);
     scene.contacts.push_back(contact);
   }

@@ -55,14 +55,15 @@ struct ContactSpec {
   std::string key;
   std::array<std::string, 2> between;  ///< physical curves
   Condition condition = Condition::unilateral;
-  InitialGap initial_gap = InitialGap::measured;
+  InitialGap initial_gap = InitialGap::curve;
+  double clearance = 0;        ///< added to the drawn gap, length: + open, - overlap; only with InitialGap::curve
   std::string multipliers_on;  ///< one of `between`; empty: couple_pairs chooses
 };
 
 /// [method]. The options of a solver count only where it is chosen.
 struct Method {
   Integration integration = Integration::segments;
-  Normals normals = Normals::edges;
+  Normals normals = Normals::curve;
   Multipliers multipliers = Multipliers::linear;  ///< on 2-node edges quadratic means linear
   Solver solver = Solver::direct;
   MssorOptions mssor;

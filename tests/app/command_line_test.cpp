@@ -217,7 +217,7 @@ const BadInput bad_input[] = {
     {"TheLoadPullsTheBodyAway", {"--set", "boundary.2.pressure=-1e6"}, {"nothing holds", "'upper'", "(0, 1)"}},
     {"AClosedGapThatIsOpen",
      {"--set", "contact.initial_gap=closed", "--set", "mesh.parameters.gap=0.01"},
-     {"0.01 apart", "measured"},
+     {"0.01 apart", "curve"},
      "gap_close.toml"},
     {"NegativeNumberOfElements",
      {"--set", "mesh.parameters.n_upper=-3"},

@@ -81,8 +81,10 @@ void draw_contact(Draw& draw, Scene& scene) {
   ContactSpec& contact = scene.contacts[0];
   contact.condition =
       draw.one_of<Condition>("condition", {{"bilateral", Condition::bilateral}, {"unilateral", Condition::unilateral}});
-  contact.initial_gap =
-      draw.one_of<InitialGap>("initial_gap", {{"closed", InitialGap::closed}, {"measured", InitialGap::measured}});
+  contact.initial_gap = draw.one_of<InitialGap>(
+      "initial_gap",
+      {{"closed", InitialGap::closed}, {"measured", InitialGap::measured}, {"curve", InitialGap::curve}});
+  scene.method.normals = draw.one_of<Normals>("normals", {{"edges", Normals::edges}, {"curve", Normals::curve}});
   contact.multipliers_on = draw.one_of<std::string>(
       "multipliers_on", {{"default", ""}, {"upper", "upper_contact"}, {"lower", "lower_contact"}});
   scene.method.multipliers = draw.one_of<Multipliers>(

@@ -130,8 +130,6 @@ TEST(ContactLine, ACornerStaysAndIsExactOnBothSides) {
       chain.nodes.row(13 + e) << middle.x(), e < at ? 0.1 * middle.x() * middle.x() : middle.y();
     }
     const ContactLine line(chain.nodes, chain.curve);
-    EXPECT_EQ(std::count(line.kinks().begin(), line.kinks().end(), 1), 1);
-    EXPECT_TRUE(line.kinks()[at]);
     EXPECT_LE((line.at(at - 1, 1).normal() - Vec2(0.2, -1).normalized()).norm(), 1e-3);
     EXPECT_LE((line.at(at, -1).normal() - Vec2(1, -0.1).normalized()).norm(), 1e-12);
   }
@@ -142,7 +140,8 @@ TEST(ContactLine, ACoarseCircleHasNoCorners) {
   for (const bool closed : {false, true}) {
     const Chain chain(circle, closed ? 2 * pi : 3, closed ? 10 : 5, 2, closed);  // 36 degrees a vertex
     const ContactLine line(chain.nodes, chain.curve);
-    EXPECT_EQ(std::count(line.kinks().begin(), line.kinks().end(), 1), 0) << closed;
+    for (int e = 1; e < int(chain.curve.edges.size()); ++e)
+      EXPECT_LE((line.at(e - 1, 1).normal() - line.at(e, -1).normal()).norm(), 1e-12) << closed << e;
   }
 }
 
@@ -154,9 +153,32 @@ TEST(ContactLine, ASquareOfSingleEdgesHasFour) {
   Chain chain(square, 4, 4, 2, true);
   for (int i = 0; i < 4; ++i) chain.nodes.row(i) = square(i).transpose();
   const ContactLine line(chain.nodes, chain.curve);
-  EXPECT_EQ(std::count(line.kinks().begin(), line.kinks().end(), 1), 4);
   for (int e = 0; e < 4; ++e)
     EXPECT_LE((line.at(e, 0.3).tangent.normalized() - line.at(e, 0).tangent.normalized()).norm(), 1e-14);
+}
+
+// ---- Drawn curves ----
+
+TEST(ContactLine, GoesThroughTheSamplesOfADrawnCurve) {
+  for (const int nodes_an_edge : {2, 3}) {
+    Chain chain([](double t) { return Vec2(std::cos(t), std::sin(t)); }, 2, 8, nodes_an_edge, false, true);
+    for (int e = 0; e < 8; ++e) {
+      const auto angle = [&](int node) { return std::atan2(chain.nodes(node, 1), chain.nodes(node, 0)); };
+      const double start = angle(e), end = angle(e + 1);
+      EdgeSamples& samples = chain.curve.samples.emplace_back();
+      for (int k = 0; k < 9; ++k) {
+        const double t = (start + end) / 2 - (end - start) / 2 * std::cos(pi * k / 8);
+        samples[k] = {std::cos(t), std::sin(t)};
+      }
+    }
+    const ContactLine line(chain.nodes, chain.curve);
+    for (int e = 0; e < 8; ++e)
+      for (double xi = -1; xi <= 1; xi += 0.125) {
+        const LinePoint p = line.at(e, xi);
+        EXPECT_NEAR(p.position.norm(), 1, 1e-14);
+        EXPECT_LE((p.normal() - Vec2(p.position)).norm(), 1e-12);
+      }
+  }
 }
 
 // ---- Feet and crossings ----

@@ -104,8 +104,8 @@ TEST(Coupling, MeasuredGapOfPlatesApart) {
 // ---- The curves that the meshes stand for ----
 
 std::vector<ContactPoint> points_on_lines(const Mesh& mesh, const Curve& multiplier, const Curve& opposite) {
-  const ContactLines lines{{mesh.nodes, multiplier}, {mesh.nodes, opposite}, true, true};
-  return contact_points(mesh.nodes, multiplier, opposite, Integration::segments, &lines);
+  const ContactGeometry lines{ContactLine(mesh.nodes, multiplier), ContactLine(mesh.nodes, opposite), true, true};
+  return contact_points(mesh.nodes, multiplier, opposite, Integration::segments, lines);
 }
 
 double largest_gap(const std::vector<ContactPoint>& points) {
@@ -114,7 +114,7 @@ double largest_gap(const std::vector<ContactPoint>& points) {
   return largest;
 }
 
-TEST(ContactLines, OneCurveHasNoGapOnTwoMeshes) {
+TEST(ContactGeometry, OneCurveHasNoGapOnTwoMeshes) {
   for (const CellKind kind : {CellKind::quad8, CellKind::quad4}) {
     double before = 0;
     for (const int n : {10, 20, 40, 80}) {
@@ -130,7 +130,7 @@ TEST(ContactLines, OneCurveHasNoGapOnTwoMeshes) {
   }
 }
 
-TEST(ContactLines, AGapThatIsDrawnKeepsItsSize) {
+TEST(ContactGeometry, AGapThatIsDrawnKeepsItsSize) {
   TwoPlates plates = parabola(40, 50);
   for (const double drawn : {1e-3, -1e-3}) {
     Pair p{test::mesh_of(plates), {}, {}, {}, {}};
@@ -149,7 +149,7 @@ TEST(ContactLines, AGapThatIsDrawnKeepsItsSize) {
   }
 }
 
-TEST(ContactLines, ForcesAndMomentsStayEqualAndOpposite) {
+TEST(ContactGeometry, ForcesAndMomentsStayEqualAndOpposite) {
   const Pair p = pair_of(parabola(7, 12), {Multipliers::quadratic, InitialGap::measured});
   for (const ContactPoint& c : points_on_lines(p.mesh, p.multiplier, p.opposite)) {
     const Vec2 x = edge_point(p.mesh.nodes, p.multiplier.edges[c.edge], c.xi).position;

@@ -152,6 +152,8 @@ inline Rows contact_rows() {
       {"NotACondition", "\"bilateral\"", "\"bilaterl\"", {"unknown condition 'bilaterl'", "did you mean 'bilateral'"}},
       {"ConditionIsABool", "\"bilateral\"", "true", {"contact.0.condition: expected a string, found true"}},
       {"NotAnInitialGap", "\"closed\"", "\"close\"", {"unknown initial_gap 'close'", "'closed'"}},
+      {"InitialGapNotFinite", "\"closed\"", "nan", {"contact.0.initial_gap", "a finite number"}},
+      {"InitialGapIsAList", "\"closed\"", "[1e-3]", {"contact.0.initial_gap", "a length or a word"}},
       {"MultipliersOnNeither",
        "multipliers_on = \"lower_contact\"",
        "multipliers_on = \"lower_base\"",

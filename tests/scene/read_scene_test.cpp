@@ -79,7 +79,7 @@ TEST_F(EveryKey, ContactsAndMethod) {
   EXPECT_EQ(scene_.contacts[0].initial_gap, InitialGap::closed);
   EXPECT_EQ(scene_.contacts[0].multipliers_on, "lower_contact");
   EXPECT_EQ(scene_.contacts[1].condition, Condition::unilateral);
-  EXPECT_EQ(scene_.contacts[1].initial_gap, InitialGap::measured);
+  EXPECT_EQ(scene_.contacts[1].initial_gap, InitialGap::curve);
   EXPECT_EQ(scene_.contacts[1].multipliers_on, "");
   EXPECT_EQ(scene_.method.solver, Solver::ddm);
   EXPECT_EQ(scene_.method.integration, Integration::elements);

@@ -153,9 +153,10 @@ Errors manufactured_errors(const ManufacturedCase& which) {
   const Curve lower = contact_curve(mesh, boundary_index(mesh, "lower_contact"));
   const Curve& multiplier = which.multipliers_on_lower ? lower : upper;
   const Curve& opposite = which.multipliers_on_lower ? upper : lower;
-  const ContactLines lines{{mesh.nodes, multiplier}, {mesh.nodes, opposite}, which.normals == Normals::curve, false};
+  const ContactGeometry geometry{ContactLine(mesh.nodes, multiplier), ContactLine(mesh.nodes, opposite),
+                                 which.normals == Normals::curve};
   const Coupling coupling =
-      couple(mesh, multiplier, opposite, contact_points(mesh.nodes, multiplier, opposite, which.integration, &lines),
+      couple(mesh, multiplier, opposite, contact_points(mesh.nodes, multiplier, opposite, which.integration, geometry),
              constraints, {which.multipliers, InitialGap::closed});
   const VecX g = -coupling.gap0;
   const Solution s = solve_directly({.K = K,

@@ -1,0 +1,30 @@
+// Where a contact pair takes its normals and its undeformed gap from: the curves that its meshes stand for, or their
+// edges.
+#pragma once
+
+#include "contact/contact_line.hpp"
+#include "contact/projection.hpp"
+
+namespace mortise {
+
+/// A place on a curve: an edge and its reference coordinate.
+struct Place {
+  int edge;
+  double xi;
+};
+
+struct ContactGeometry {
+  /// Normals, and gaps, are those of these lines; without: of the edges.
+  std::optional<ContactLine> multiplier, opposite;
+  bool normals = false, gap = false;
+  double clearance = 0;  ///< added to every gap, length: a clearance (+) or an interference (-) that is not drawn
+
+  /// From a place on the multiplier side's edges along the normal there.
+  Line line_from(const Points& nodes, const Curve& curve, const Place& at) const;
+
+  /// Undeformed, along a line from a place of the multiplier side that hits the opposite side; length, positive when
+  /// open.
+  double initial_gap(const Line& line, const Place& at, const Hit& hit) const;
+};
+
+}  // namespace mortise
