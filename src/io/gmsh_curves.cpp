@@ -67,6 +67,9 @@ void sample_curve(const std::vector<std::array<double, 3>>& nodes, const std::ve
   constexpr int last = std::tuple_size_v<EdgeSamples> - 1;
   std::vector<EdgeSamples> samples;
   try {
+    std::string type;
+    gmsh::model::getType(1, block.entity, type);
+    if (type == "Discrete curve") return;  // merged from a mesh, not drawn
     std::vector<double> t;
     for (const auto& [start, end] : parameters_of(tags, block, node_count))
       for (int k = 0; k <= last; ++k)
@@ -81,7 +84,7 @@ void sample_curve(const std::vector<std::array<double, 3>>& nodes, const std::ve
         const double size = (samples[e][last] - samples[e][0]).norm();
         const double off = (samples[e][end * last] - node).norm();
         if (off <= on_curve * size && t[e * (last + 1)] < t[e * (last + 1) + last]) continue;
-        block.undrawn = "the mesh does not lie on it " + near_point(node);
+        block.undrawn = "the mesh does not follow it " + near_point(node);
         return;
       }
   } catch (...) {  // gmsh 4.8 throws strings and numbers
