@@ -52,12 +52,16 @@ def turned_components(matrix, given):
             if "xy"[source] in given}
 
 
-def changed(setting, place=None, displacement=same, traction=same, pressure=same, force=same, young=same):
-    """The scene with its loads, supports and stiffnesses changed by functions, and its nodes put to place(x, y)."""
+def changed(setting, place=None, displacement=same, traction=same, pressure=same, force=same, young=same,
+            gap=same):
+    """The scene with its loads, supports, stiffnesses and clearances changed by functions, its nodes put to place(x, y)."""
     scene = copy.deepcopy(setting.scene)
     by = {"displacement": displacement, "traction": traction, "pressure": pressure, "force": force, "young": young}
     for entry in (*scene["boundary"], *scene.get("body_force", []), *scene["materials"].values()):
         entry |= {key: by[key](value) for key, value in entry.items() if key in by}
+    for entry in scene.get("contact", []):
+        if not isinstance(entry.get("initial_gap", ""), str):
+            entry["initial_gap"] = gap(entry["initial_gap"])
     mesh = plates.moved(setting.mesh, place) if place else setting.mesh
     return replace(setting, scene=scene, mesh=mesh, thrust=None)
 
@@ -73,7 +77,7 @@ def in_millimetres(setting):
     """The scene in mm, N and MPa if it was in m, N and Pa."""
     mega = lambda v: 1e-6 * v
     return changed(setting, lambda x, y: (1e3 * x, 1e3 * y), lambda u: {k: 1e3 * v for k, v in u.items()},
-                   lambda t: [mega(v) for v in t], mega, lambda f: [1e-9 * v for v in f], mega)
+                   lambda t: [mega(v) for v in t], mega, lambda f: [1e-9 * v for v in f], mega, lambda g: 1e3 * g)
 
 
 def carried(setting, by):

@@ -129,7 +129,9 @@ def contacts(random, made, gap):
         if random.random() < 0.6:
             entry["condition"] = random.choice(("unilateral", "bilateral"))
         if random.random() < 0.5:
-            known = ("measured",) if gap and random.random() < 0.9 else ("measured", "closed")
+            known = ["measured", "curve", random.choice((-1e-5, 1e-5, 1e-3))]
+            if not gap or random.random() < 0.1:
+                known.append("closed")
             entry["initial_gap"] = random.choice(known)
         if random.random() < 0.5:
             entry["multipliers_on"] = random.choice(curves)
