@@ -100,13 +100,19 @@ ContactNode node_results(const Mesh& mesh, const CurveNode& at, int body, const 
           nan,     nan,  normal_stress(s, at.normal),         s(1)};
 }
 
-std::vector<ContactCentre> centre_results(const Mesh& mesh, const Curve& curve, const StressField& stress) {
+// `nodes`: of the same side, in the curve's order.
+std::vector<ContactCentre> centre_results(const Mesh& mesh, const Curve& curve, const std::vector<ContactNode>& nodes,
+                                          const StressField& stress) {
+  const auto p = [&](std::size_t k) { return nodes[k % nodes.size()].p; };
   std::vector<ContactCentre> list;
   double s = 0;
   for (std::size_t e = 0; e < curve.edges.size(); ++e) {
-    const EdgePoint p = edge_point(mesh.nodes, curve.edges[e], 0);
+    const EdgePoint middle = edge_point(mesh.nodes, curve.edges[e], 0);
     const auto row = stress.centres.row(curve.sides[e].cell);
-    list.push_back({s + length_to(mesh.nodes, curve.edges[e], 0), p.position, normal_stress(row, p.normal()), row(1)});
+    const double mean =
+        curve.edges[e].node_count == 2 ? (p(e) + p(e + 1)) / 2 : (p(2 * e) + 4 * p(2 * e + 1) + p(2 * e + 2)) / 6;
+    list.push_back({s + length_to(mesh.nodes, curve.edges[e], 0), middle.position, mean,
+                    normal_stress(row, middle.normal()), row(1)});
     s += edge_length(mesh.nodes, curve.edges[e]);
   }
   return list;
@@ -184,8 +190,8 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
             n.u_n - edge_value(u, edge, foot->xi).dot(normal);
     r.opposite.nodes.push_back(n);
   }
-  r.multiplier.centres = centre_results(mesh, pair.multiplier, stress);
-  r.opposite.centres = centre_results(mesh, pair.opposite, stress);
+  r.multiplier.centres = centre_results(mesh, pair.multiplier, r.multiplier.nodes, stress);
+  r.opposite.centres = centre_results(mesh, pair.opposite, r.opposite.nodes, stress);
 
   r.length = curve_length(mesh.nodes, pair.multiplier);
   // Both curves keep their bodies on the left, so they run against each other.

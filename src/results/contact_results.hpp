@@ -14,7 +14,7 @@ struct ContactNode {
   Vec2 normal;     ///< of the multiplier side there
   double u_n;      ///< displacement along `normal`
   double p;        ///< contact pressure; on the opposite side the projected one
-  double gap;      ///< deformed, along `normal`; the undeformed gap counts only where it is `measured`
+  double gap;      ///< deformed, along `normal`; the undeformed gap is zero in a `closed` pair
   double sigma_n;  ///< normal stress recovered in the node's own body (preprint eq. 26)
   double sigma_2;  ///< stress 22 there
 };
@@ -23,6 +23,7 @@ struct ContactNode {
 struct ContactCentre {
   double s;
   Vec2 position;
+  double p;  ///< mean over the edge: on 3-node triangles better than at the nodes, where it zigzags
   double sigma_n, sigma_2;
 };
 

@@ -106,12 +106,13 @@ void write_contact_csv(const Results& r, const std::filesystem::path& path) {
 
 void write_centres_csv(const Results& r, const std::filesystem::path& path) {
   std::vector<CsvColumn> columns;
-  for (const char* name : {"pair", "curve", "s", "x", "y", "sigma_n", "sigma_2"}) columns.push_back({name, {}, {}});
+  for (const char* name : {"pair", "curve", "s", "x", "y", "p", "sigma_n", "sigma_2"})
+    columns.push_back({name, {}, {}});
   for_each_side(r, [&](double pair, const ContactSide& side) {
     for (const ContactCentre& n : side.centres) {
       columns[1].words.push_back(side.curve);
       std::size_t c = 0;
-      for (const double value : {pair, n.s, n.position.x(), n.position.y(), n.sigma_n, n.sigma_2}) {
+      for (const double value : {pair, n.s, n.position.x(), n.position.y(), n.p, n.sigma_n, n.sigma_2}) {
         columns[c].numbers.push_back(value);
         c += c == 0 ? 2 : 1;
       }

@@ -3,8 +3,8 @@
 
 Usage: picture.py RESULTS [PICTURE] [--scale FACTOR] [--dpi DPI]
 
-RESULTS is the folder that `mortise solve` wrote; read are result.vtu, contact.vtu, contact.csv and summary.json
-(docs/files.md). PICTURE is a .png, .pdf or .svg, by default RESULTS.png beside the folder. --scale magnifies the
+RESULTS is the folder that `mortise solve` wrote; read are result.vtu, contact.vtu, summary.json
+(docs/files.md) and contact.csv, or with 3-node triangles contact_centres.csv: p zigzags at their nodes. PICTURE is a .png, .pdf or .svg, by default RESULTS.png beside the folder. --scale magnifies the
 displacements; by default the largest is drawn as about 4 % of the size of the bodies.
 """
 
@@ -194,16 +194,16 @@ def pressure_range(curves):
     return (low, high) if high > low else (low - 1, high + 1)
 
 
-def draw_pair(axes, table, multiplier_side, between):
+def draw_pair(axes, table, multiplier_side, between, label="$p$ (multipliers)"):
     """p along the contact line, and -sigma_n of both bodies, over the arc length of the multiplier side."""
     opposite = between[0] if between[1] == multiplier_side else between[1]
     xy = np.stack([table["x"], table["y"]], axis=1)
     on = table["curve"] == multiplier_side
-    other = (table["curve"] == opposite) & np.isfinite(table["gap"])
+    other = (table["curve"] == opposite) & np.isfinite(table.get("gap", table["s"]))
     s, p = table["s"][on], table["p"][on]
     s_other = arc_length_on(xy[on], s, xy[other])
     mine, theirs = -table["sigma_n"][on], -table["sigma_n"][other]
-    axes.plot(s, p, color="0.15", linewidth=1.7, label="$p$ (multipliers)", zorder=2)
+    axes.plot(s, p, color="0.15", linewidth=1.7, label=label, zorder=2)
     axes.plot(s, mine, color=COLOURS[0], linewidth=0.9, label=f"$-\\sigma_n$ of {multiplier_side}", zorder=3)
     label = f"$-\\sigma_n$ of {opposite}"
     axes.plot(s_other, theirs, color=COLOURS[1], linewidth=0.9, dashes=(5, 2), label=label, zorder=4)
@@ -239,10 +239,12 @@ def draw(results, picture, scale=None, dpi=130):
     if summary["status"] != "solved":
         panels[0, 0].set_title(summary["status"].replace("_", " "), loc="right", color="#c00000", fontsize=10)
     if pairs:
-        table = read_csv(results / "contact.csv")
+        zigzags = any(block.type == "triangle" for block in meshio.read(results / "result.vtu").cells)
+        table = read_csv(results / ("contact_centres.csv" if zigzags else "contact.csv"))
+        label = ("$p$ (means over edges)",) if zigzags else ()
         for k, (pair, side) in enumerate(zip(pairs, multiplier_sides)):
             rows = table["pair"] == k
-            draw_pair(panels[1 + k, 0], {name: column[rows] for name, column in table.items()}, side, pair["between"])
+            draw_pair(panels[1 + k, 0], {name: column[rows] for name, column in table.items()}, side, pair["between"], *label)
     figure.save(drawing, picture, dpi)
 
 
