@@ -37,7 +37,7 @@ def version():
 def step_of(problem, mesh, order):
     scene, side = PROBLEMS[problem]["freefem"]
     freefem = {"order": order, "multipliers": "linear", "integration": "segments", "gauss": GAUSS_POINTS[order]}
-    return Step(scene, mesh, side, {"kind": 1, "order": 1}, {}, freefem, "bilateral", same_nodes=False)
+    return Step(scene, mesh, side, {"kind": 1, "order": 1}, {}, freefem, "bilateral", "closed", same_nodes=False)
 
 
 def along_line(table):

@@ -25,6 +25,7 @@ class Step:
     mortise: dict  # multipliers, integration: as in the scene file
     freefem: dict  # order, multipliers, integration, gauss
     condition: str  # bilateral or unilateral
+    gap: str  # closed or measured, with the edges' normals; curve: gap and normals of the curves
     same_nodes: bool  # whether both programs have the same unknowns at the same places
 
     @property
@@ -66,27 +67,37 @@ def matches(name, globs):
     return any(fnmatchcase(name, glob) for glob in globs)
 
 
-def one_discretisation_step(table, scene, mesh, side, space, integration, condition="bilateral"):
-    """A step in which both programs have the same spaces and quadrature."""
+def gap_of(table, scene):
+    """What the gap of a scene's meshes is taken for where the edges' normals are."""
+    found = [gap for gap, scenes in table["gaps"].items() if scene in scenes]
+    if len(found) != 1:
+        raise CaseError(f"{TABLE.name}: [gaps] has '{scene}' {len(found)} times; expected once")
+    return found[0]
+
+
+def one_discretisation_step(table, scene, mesh, side, space, integration, condition="bilateral", gap=None):
+    """A step in which both programs have the same spaces and quadrature. `gap`: default as in [gaps]."""
     spaces = table["same_discretisation"]
     chosen = spaces["spaces"][space]
     method = {"multipliers": chosen["multipliers"], "integration": integration}
     parameters = {**spaces["parameters"], "order": chosen["order"]}
     freefem = {**method, "order": chosen["order"], "gauss": chosen["gauss"]}
-    return Step(scene, mesh_size(mesh), side, parameters, method, freefem, condition, same_nodes=True)
+    gap = gap or gap_of(table, scene)
+    return Step(scene, mesh_size(mesh), side, parameters, method, freefem, condition, gap, same_nodes=True)
 
 
 def same_discretisation(table):
     level = table["same_discretisation"]
     for group in level["scenes"]:
-        condition = group.get("condition", "bilateral")
+        condition, gap = group.get("condition", "bilateral"), group.get("gap")
         loaded = {"active": 0} if condition == "unilateral" else {}
-        choices = group["names"], group["meshes"], level["spaces"], level["integrations"], group["sides"]
+        integrations = group.get("integrations", level["integrations"])
+        choices = group["names"], group["meshes"], level["spaces"], integrations, group["sides"]
         for scene, mesh, space, integration, side in itertools.product(*choices):
-            parts = [scene, mesh, space, integration, side, *(["unilateral"] if loaded else [])]
-            name = "/".join(["same_discretisation", *parts])
+            parts = [scene, mesh, space, integration, side, "unilateral" if loaded else None, gap]
+            name = "/".join(["same_discretisation", *filter(None, parts)])
             if not matches(name, level["exclude"]):
-                step = one_discretisation_step(table, scene, mesh, side, space, integration, condition)
+                step = one_discretisation_step(table, scene, mesh, side, space, integration, condition, gap)
                 limits, quick = level["limits"] | loaded, matches(name, level["quick"])
                 yield Case("same_discretisation", name, (step,), limits=limits, quick=quick)
 
@@ -98,7 +109,7 @@ def same_problem(table):
     for group in level["scenes"]:
         rest = {"limits": group["limits"], "least_rates": group["least_rates"], "kinks": tuple(group.get("kinks", ()))}
         for scene, side in itertools.product(group["names"], group["sides"]):
-            how = side, parameters, method, level["freefem"], "bilateral"
+            how = side, parameters, method, level["freefem"], "bilateral", gap_of(table, scene)
             steps = [Step(scene, mesh_size(mesh), *how, same_nodes=False) for mesh in group["meshes"]]
             name = f"same_problem/{scene}/{'-'.join(group['meshes'])}/{side}"
             yield Case("same_problem", name, tuple(steps), **rest, quick=group.get("quick", False))

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import meshio
 
+import contact_points
 import convert
 import scene as scenes
 from cases import CaseError
@@ -90,6 +91,11 @@ def make_mesh(programs, scene_file, sizes, parameters, path):
     run_program([programs.mortise, "mesh", scene_file, *launch.options(overrides), "-o", path])
 
 
+def contact_settings(step):
+    """Gap and normals as a step says; its gap "curve" is mortise's default, with the normals of the curve."""
+    return {} if step.gap == "curve" else {"contact.initial_gap": step.gap, "method.normals": "edges"}
+
+
 def solve_by_mortise(programs, scene_file, mesh_file, step, folder):
     """mortise on the mesh as it lies in the file; its physics are the scene's own."""
     overrides = {
@@ -99,6 +105,7 @@ def solve_by_mortise(programs, scene_file, mesh_file, step, folder):
         "contact.condition": step.condition,
         "method.multipliers": step.mortise["multipliers"],
         "method.integration": step.mortise["integration"],
+        **contact_settings(step),
     }
     command = [programs.mortise, "solve", scene_file, *launch.options(overrides), "-o", folder, "--quiet"]
     seconds, output = run_program(command, launch.SOLVED)
@@ -124,14 +131,17 @@ def solve_by_freefem(programs, case_file, script=SCRIPT):
 
 
 def convert_step(step, scene, mesh_file, folder):
-    """The two medit files and case.txt; returns the bodies and their numbers in mortise's results."""
+    """The two medit files, case.txt and its points; returns the bodies and their numbers in mortise's results."""
     mesh = meshio.read(mesh_file, file_format="gmsh")  # of itself it tries another reader first, and prints
     bodies, tags = convert.read_bodies(mesh, scene["bodies"]), convert.curve_tags(mesh)
     contact_tags = [tags[step.side], tags[scenes.opposite_side(scene, step.side)]]
     names, files = [convert.body_of_curve(bodies, tag) for tag in contact_tags], ["multiplier.mesh", "opposite.mesh"]
     for name, file in zip(names, files):
         convert.write_medit(bodies[name], folder / file)
-    (folder / "case.txt").write_text(scenes.case_text(scene, names, files, contact_tags, tags, step.freefem))
+    (folder / "case.txt").write_text(scenes.case_text(scene, names, files, contact_tags, tags, step.freefem, step.gap))
+    if step.gap == "curve":
+        of_bodies = [bodies[name] for name in names]
+        contact_points.write(of_bodies, contact_tags, step.freefem["gauss"], folder / scenes.POINTS)
     order = convert.body_order(mesh, scene["bodies"])
     return [bodies[name] for name in names], [order.index(name) for name in names]
 

@@ -4,7 +4,7 @@ import tomllib
 
 from cases import CaseError
 
-INITIAL_GAP = "measured"  # where the scene says nothing (docs/files.md)
+POINTS = "contact_points.txt"  # beside the case file, where the gap is that of the curves
 ORDER_OF_MULTIPLIERS = {"linear": 1, "quadratic": 2}
 
 
@@ -62,7 +62,12 @@ def body_lines(scene, bodies):
         yield "body_force {} {!r} {!r}".format(bodies.index(entry["body"]), *map(float, entry["force"]))
 
 
-def case_text(scene, bodies, files, contact_tags, tags, freefem):
+def gap_lines(gap):
+    """FreeFEM has the gap and the normals of curves from a file of points."""
+    return ["gap given", f"points {POINTS}"] if gap == "curve" else [f"gap {gap}"]
+
+
+def case_text(scene, bodies, files, contact_tags, tags, freefem, gap):
     """The case file; `bodies`, `files` and `contact_tags`: first of the multiplier side, then of the opposite side."""
     materials = [material_of(scene, body) for body in bodies]
     lines = [
@@ -72,7 +77,7 @@ def case_text(scene, bodies, files, contact_tags, tags, freefem):
         f"order {freefem['order']}",
         f"multipliers {ORDER_OF_MULTIPLIERS[freefem['multipliers']]}",
         *(f"{key} {freefem[key]}" for key in ("integration", "gauss")),
-        f"gap {scene['contact'][0].get('initial_gap', INITIAL_GAP)}",
+        *gap_lines(gap),
         *boundary_lines(scene, tags),
         *body_lines(scene, bodies),
         "end",

@@ -15,6 +15,7 @@ import convert
 import judge
 import launch
 import report
+import run
 import scene as scenes
 from cases import CaseError
 from judge import Figure, Result
@@ -78,6 +79,30 @@ def test_both_programs_take_the_same_discretisation(table):
             assert step.mesh_parameters == {"kind": 1, "straight": 1, "order": step.freefem["order"]}
             assert step.freefem["gauss"] == step.freefem["order"] + 1
             assert all(step.freefem[key] == step.mortise[key] for key in ("multipliers", "integration"))
+
+
+def test_gap_and_normals_of_each_case(table):
+    """As [gaps] has them, or of the curves, which each kind of scene has on both sides, some of them quick."""
+    gaps = {}
+    for case in table:
+        for step in case.steps:
+            curve = case.name.endswith("/curve")
+            assert (step.gap == "curve") == curve and step.gap in ("closed", "measured", "curve")
+            settings = {"contact.initial_gap": step.gap, "method.normals": "edges"}
+            assert run.contact_settings(step) == ({} if curve else settings)
+            if not curve:
+                assert gaps.setdefault(case.scene, step.gap) == step.gap
+    assert {scene for scene, gap in gaps.items() if gap == "measured"} == {"gap_close", "hertz", "punch"}
+    curves = [case for case in table if case.name.endswith("/curve")]
+    scenes_of = lambda cases: {(case.scene, case.steps[0].condition) for case in cases}
+    assert scenes_of(curves) == scenes_of(case for case in curves if case.quick)
+    assert scenes_of(curves) >= {("parabola_1", "bilateral"), ("cosine", "bilateral"), ("cosine", "unilateral")}
+    assert all(case.steps[0].mortise["integration"] == "segments" for case in curves)
+
+
+def test_a_scene_without_a_gap_is_refused():
+    with pytest.raises(cases.CaseError, match="'new' 0 times"):
+        cases.gap_of({"gaps": {"closed": ["old"]}}, "new")
 
 
 def test_globs_choose_cases(table):
@@ -184,7 +209,7 @@ def test_case_file_holds_the_physics_of_the_scene():
     tags |= {"outer_cut_x": 7, "outer_cut_y": 9, "outer_contact": 10}
     freefem = {"order": 2, "multipliers": "quadratic", "integration": "elements", "gauss": 3}
     files = ["multiplier.mesh", "opposite.mesh"]
-    lines = scenes.case_text(scene, ["outer", "inner"], files, [10, 3], tags, freefem).splitlines()
+    lines = scenes.case_text(scene, ["outer", "inner"], files, [10, 3], tags, freefem, "closed").splitlines()
     strain = repr(12e-6 * -100)
     assert lines[0] == "plane strain"
     assert lines[1:3] == ["body multiplier.mesh 70000000000.0 0.3", "body opposite.mesh 210000000000.0 0.3"]
@@ -194,6 +219,8 @@ def test_case_file_holds_the_physics_of_the_scene():
         "displacement 2 y 0.0", "displacement 7 y 0.0", "displacement 4 x 0.0", "displacement 9 x 0.0",
         f"initial_strain 0 {strain} {strain} {strain} 0.0",
     }  # fmt: skip
+    of_curves = scenes.case_text(scene, ["outer", "inner"], files, [10, 3], tags, freefem, "curve").splitlines()
+    assert set(of_curves) ^ set(lines) == {"gap closed", "gap given", f"points {scenes.POINTS}"}
 
 
 def test_scenes_with_several_pairs_are_refused():

@@ -96,6 +96,7 @@ def test_a_program_that_fails_is_told_with_its_last_lines(crosscheck, tmp_path):
 
 
 CASE = "same_discretisation/parabola_1/8x10/P2-P1/segments/upper_contact"
+OF_CURVES = CASE + "/curve"
 LIMIT = 1e-8
 WRONG = str(HERE / "wrong_mortise.py")
 
@@ -105,16 +106,17 @@ def values(report):
     return result["status"], {figure["name"]: figure["value"] for figure in result["figures"]}
 
 
-def test_the_right_result_passes(programs, crosscheck):
-    done, report = crosscheck("--case", CASE)
+@pytest.mark.parametrize("case", [CASE, OF_CURVES])
+def test_the_right_result_passes(programs, crosscheck, case):
+    done, report = crosscheck("--case", case)
     status, figures = values(report)
     assert done.returncode == 0 and status == "ok", done.stdout
     assert max(figures.values()) <= LIMIT
 
 
-def assert_caught(done, report, least):
+def assert_caught(done, report, least, case=CASE):
     """The case failed, by differences above the limit and of the size that the wrong input makes."""
-    assert done.returncode == 1 and "failed: " + CASE in done.stdout, done.stdout + done.stderr
+    assert done.returncode == 1 and f"failed: {case}\n" in done.stdout, done.stdout + done.stderr
     status, figures = values(report)
     assert status == "failed"
     assert figures["displacement"] > LIMIT and figures["pressure"] > LIMIT
@@ -126,6 +128,12 @@ def assert_caught(done, report, least):
 def test_a_wrong_result_is_caught(programs, crosscheck, wrong, least):
     done, report = crosscheck("--case", CASE, MORTISE=WRONG, WRONG=wrong, RIGHT_MORTISE=str(programs.mortise))
     assert_caught(done, report, least)
+
+
+@pytest.mark.parametrize("wrong, least", [("handed_normal", 1e-3), ("handed_gap", 1e-3)])
+def test_a_wrong_file_of_points_is_caught(programs, crosscheck, wrong, least):
+    done, report = crosscheck("--case", OF_CURVES, MORTISE=WRONG, WRONG=wrong, RIGHT_MORTISE=str(programs.mortise))
+    assert_caught(done, report, least, OF_CURVES)
 
 
 def test_the_stand_in_itself_changes_nothing(programs, crosscheck):

@@ -10,6 +10,9 @@ Everything goes to the real executable (environment variable RIGHT_MORTISE); of 
             no way in for this, so the system is FreeFEM's (which has the same solution if nothing is flipped).
             summary.json stays, so the energy is the right one
   results   the results: replaced by the files in the folder WRONG_RESULTS
+  handed_normal, handed_gap
+            nothing of mortise: FreeFEM's file of contact points, before FreeFEM reads it. One normal flipped; all gaps
+            with the other sign
 """
 
 import csv
@@ -23,7 +26,9 @@ import meshio
 import numpy as np
 from scipy.spatial import cKDTree
 
+import contact_points
 import run
+import scene
 
 FLIP = "{ int wrong = points / 3; nx[wrong] = -nx[wrong]; ny[wrong] = -ny[wrong]; }"
 
@@ -95,6 +100,16 @@ def replace_results(results, wrong):
         writer.writerows(rows)
 
 
+def spoil_points(path, wrong):
+    """Flips one normal, or all gaps, in FreeFEM's file of contact points."""
+    points = np.loadtxt(path, skiprows=1)
+    if wrong == "handed_normal":
+        points[len(points) // 3, 3:5] *= -1
+    else:
+        points[:, 7] *= -1
+    contact_points.save(points, path)
+
+
 def main(arguments):
     wrong, solving = os.environ["WRONG"], arguments[0] == "solve"
     if solving and wrong == "poisson":
@@ -105,6 +120,8 @@ def main(arguments):
     results = Path(arguments[arguments.index("-o") + 1])
     if solving and wrong == "normal":
         replace_results(results, solve_with_flipped_normal(Path(setting(arguments, "mesh.file")).parent))
+    if solving and wrong.startswith("handed_"):
+        spoil_points(Path(setting(arguments, "mesh.file")).with_name(scene.POINTS), wrong)
     if solving and wrong == "results":
         shutil.copytree(os.environ["WRONG_RESULTS"], results, dirs_exist_ok=True)
     return status

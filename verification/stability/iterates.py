@@ -100,6 +100,7 @@ def mortise_iterates(case, mesh, folder, places, steps):
         "method.solver": "ddm",
         "method.multipliers": method["multipliers"],
         "method.integration": method["integration"],
+        **run.contact_settings(case.step()),
         "method.acceleration": "none",
         "method.dirichlet": BODY,
         "method.beta": case.beta,

@@ -1,0 +1,171 @@
+"""Contact points with the gap and the normals of the curves that two straight-sided meshes stand for.
+
+FreeFEM's scripts read them instead of their own. A contact point is a normal of the multiplier side's curve: it passes
+through the place on that side's edge, through the one on the opposite edge, and through both curves, whose distance
+along it is the gap (docs/theory.md, section 9). Written from that definition, not from mortise.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq
+
+from cases import CaseError
+
+KINK, SURE_KINK = np.radians(20), np.radians(60)  # a vertex between edges that turn by more
+NEAR_VERTEX = 5e-10  # of an edge's length
+BEYOND = 0.25  # of its length: how far the curve of an edge goes on beyond the edge's ends
+
+
+@dataclass
+class Chain:
+    """A contact curve of one mesh: its vertices, the body on the left, and the cubic of each edge."""
+
+    x: np.ndarray  # vertices x 2
+    cubics: np.ndarray  # edges x 4 x 2: coefficients of 1, t, t^2, t^3, t from 0 to 1
+
+    def place(self, edge, t):
+        return (1 - t) * self.x[edge] + t * self.x[edge + 1]
+
+    def curve(self, edge, t):
+        return np.array([1, t, t**2, t**3]) @ self.cubics[edge]
+
+    def tangent(self, edge, t):
+        return np.array([0, 1, 2 * t, 3 * t**2]) @ self.cubics[edge]
+
+    def normal(self, edge, t):
+        """Out of the body."""
+        x, y = self.tangent(edge, t) / np.linalg.norm(self.tangent(edge, t))
+        return np.array([y, -x])
+
+
+def cross(a, b):
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+# ---- The curve through the vertices ----
+
+
+def kinks(x):
+    """Inner vertices at which the curve turns: much more than the edges beside turn, or by more than 60 degrees."""
+    along = np.diff(x, axis=0)
+    turn = np.abs(np.arctan2(cross(along[:-1], along[1:]), np.sum(along[:-1] * along[1:], axis=1)))
+    beside = np.minimum(np.append(np.inf, turn[:-1]), np.append(turn[1:], np.inf))
+    alike = np.isfinite(beside) & (turn < 3 * beside) & (turn < SURE_KINK)
+    return 1 + np.flatnonzero((turn > KINK) & ~alike)
+
+
+def tangents(x):
+    """At vertices of a smooth curve, by the length along the chords: of the polynomials through five of them."""
+    s = np.append(0, np.cumsum(np.linalg.norm(np.diff(x, axis=0), axis=1)))
+    found = []
+    for k in range(len(x)):
+        first = max(0, min(k - 2, len(x) - 5))
+        near = slice(first, first + 5)
+        fits = [np.polynomial.Polynomial.fit(s[near], part, len(s[near]) - 1) for part in x[near].T]
+        found.append([fit.deriv()(s[k]) for fit in fits])
+    return np.array(found)
+
+
+def smooth_cubics(x):
+    """Of each edge: Hermite's, with these tangents at its ends."""
+    length, slope = np.linalg.norm(np.diff(x, axis=0), axis=1)[:, None], tangents(x)
+    a, b, ta, tb = x[:-1], x[1:], length * slope[:-1], length * slope[1:]
+    return np.stack([a, ta, 3 * (b - a) - 2 * ta - tb, 2 * (a - b) + ta + tb], axis=1)
+
+
+def chain_through(x):
+    """The curve through vertices, smooth between its kinks."""
+    ends = [0, *kinks(x), len(x) - 1]
+    return Chain(x, np.concatenate([smooth_cubics(x[a : b + 1]) for a, b in zip(ends, ends[1:])]))
+
+
+def chain_of(body, label):
+    """The contact curve of a body, in the order in which FreeFEM's scripts count its edges."""
+    named = set(map(tuple, np.sort(body.edges[body.labels == label], axis=1)))
+    sides = np.concatenate([body.triangles[:, [0, 1]], body.triangles[:, [1, 2]], body.triangles[:, [2, 0]]])
+    following = {a: b for a, b in sides if (min(a, b), max(a, b)) in named}
+    starts = set(following) - set(following.values())
+    if len(starts) != 1:
+        raise CaseError(f"the contact curve of '{body.name}' has {len(starts)} starts; expected 1")
+    order = list(starts)
+    while order[-1] in following:
+        order.append(following[order[-1]])
+    return chain_through(body.points[order])
+
+
+# ---- From one side to the other ----
+
+
+def zero(function):
+    """The coordinate near an edge at which it vanishes, None if it keeps its sign."""
+    ends = -BEYOND, 1 + BEYOND
+    if function(ends[0]) * function(ends[1]) > 0:
+        return None
+    return brentq(function, *ends, xtol=1e-15, rtol=1e-15)
+
+
+def foot(chain, edge, x):
+    """Where the normal of an edge's curve passes through x."""
+    return zero(lambda t: (x - chain.curve(edge, t)) @ chain.tangent(edge, t))
+
+
+def facing(opposite, x, n):
+    """The nearest edge that faces x along n, and the coordinate on it; None where there is none."""
+    along, to = np.diff(opposite.x, axis=0), opposite.x[:-1] - x
+    across = cross(along, n)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        t, distance = -cross(to, n) / across, cross(along, to) / across
+    faces = (across > 1e-12) & (t > -NEAR_VERTEX) & (t < 1 + NEAR_VERTEX)
+    faces &= distance > -np.linalg.norm(along, axis=1)
+    if not faces.any():
+        return None
+    edge = int(np.argmin(np.where(faces, np.abs(distance), np.inf)))
+    return edge, t[edge]
+
+
+def cuts(chain, edge, opposite):
+    """Coordinates on an edge at which its curve's normals pass through the opposite vertices that it faces."""
+    a, along = chain.x[edge], chain.x[edge + 1] - chain.x[edge]
+    found = {0.0, 1.0}
+    for number, vertex in enumerate(opposite.x):
+        t = foot(chain, edge, vertex)
+        if t is None:
+            continue
+        n = chain.normal(edge, t)
+        s = cross(vertex - a, n) / cross(along, n)
+        hit = facing(opposite, a + s * along, n)
+        if hit and hit[0] in (number - 1, number) and NEAR_VERTEX < s < 1 - NEAR_VERTEX:
+            found.add(float(s))
+    return sorted(found)
+
+
+def contact_points(chain, opposite, gauss):
+    """Rows: edge and place on it (0 to 1), weight times length, the normal, opposite edge and place, gap."""
+    at, weight = np.polynomial.legendre.leggauss(gauss)
+    rows = []
+    for edge, length in enumerate(np.linalg.norm(np.diff(chain.x, axis=0), axis=1)):
+        ends = cuts(chain, edge, opposite)
+        for a, b in zip(ends, ends[1:]):
+            for s, w in zip(a + (b - a) * (1 + at) / 2, (b - a) * length * weight / 2):
+                x = chain.place(edge, s)
+                here = foot(chain, edge, x)
+                n = chain.normal(edge, here)
+                hit = facing(opposite, x, n)
+                if hit is None:
+                    continue
+                there = zero(lambda t, edge=hit[0]: cross(opposite.curve(edge, t) - x, n))
+                gap = (opposite.curve(hit[0], there) - chain.curve(edge, here)) @ n
+                rows.append([edge, s, w, *n, *hit, gap])
+    return np.array(rows)
+
+
+def write(bodies, labels, gauss, path):
+    """Finds the points and saves them; bodies and labels: first of the multiplier side."""
+    save(contact_points(*map(chain_of, bodies, labels), gauss), path)
+
+
+def save(points, path):
+    """The file that freefem/contact.idp reads."""
+    formats = ["%d", *["%.17g"] * 4, "%d", *["%.17g"] * 2]
+    np.savetxt(path, points, fmt=formats, header=str(len(points)), comments="")
