@@ -97,29 +97,25 @@ std::vector<char> kinks_of(const std::vector<double>& turns, bool closed, bool b
 
 Vec2 LinePoint::normal() const { return Vec2(tangent.y(), -tangent.x()).normalized(); }
 
-std::optional<StraightSides> straight_sides(const Points& nodes, const Curve& curve) {
+namespace {
+
+// Whether the middle nodes of 3-node edges lie on the chords although the curve turns at its vertices. Nothing is said
+// by fewer than three such vertices: they may be kinks that are meant.
+bool straight_sides(const Points& nodes, const Curve& curve) {
   const auto bend = [&](const Edge& e) {
     return angle_between(edge_point(nodes, e, -1).tangent, edge_point(nodes, e, 1).tangent);
   };
   const std::vector<double> turns = turns_of(nodes, curve, false);
+  const std::vector<char> kinks = kinks_of(turns_of(nodes, curve, true), curve.closed, true);
   const int edges = int(curve.edges.size());
-  StraightSides found{0, 0, Vec2::Zero()};
+  int vertices = 0;
   for (int i = curve.closed ? 0 : 1; i < edges; ++i) {
     const Edge &before = curve.edges[(i + edges - 1) % edges], &after = curve.edges[i];
-    if (after.node_count == 2 || turns[i] < 1 * degrees || turns[i] > kink_angle) continue;
-    if (std::max(bend(before), bend(after)) > 0.1 * turns[i]) continue;
-    ++found.vertices;
-    const double sagitta = std::max(edge_length(nodes, before), edge_length(nodes, after)) * turns[i] / 8;
-    if (sagitta > found.sagitta) {
-      found.sagitta = sagitta;
-      found.position = nodes.row(after.nodes[0]).transpose();
-    }
+    if (after.node_count == 2 || turns[i] < 1 * degrees || kinks[i]) continue;
+    vertices += std::max(bend(before), bend(after)) <= 0.1 * turns[i];
   }
-  if (found.vertices < 3) return {};
-  return found;
+  return vertices >= 3;
 }
-
-namespace {
 
 // From values c at z to the coefficients. At a z that stands twice, slopes[i / 2] is the derivative.
 void divide_differences(LinePiece& piece, std::span<const Vec2> slopes = {}) {

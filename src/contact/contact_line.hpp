@@ -15,16 +15,6 @@ struct LinePoint {
   Vec2 normal() const;  ///< unit, out of the body
 };
 
-/// 3-node edges whose middle nodes lie on the chords although the curve turns at their vertices.
-struct StraightSides {
-  int vertices;    ///< at which the curve turns by 1 to 20 degrees between straight edges
-  double sagitta;  ///< how far the curve lies from the longest such chord, h theta / 8, length
-  Vec2 position;   ///< the vertex of that chord
-};
-
-/// Nothing below three such vertices: fewer may be kinks that are meant.
-std::optional<StraightSides> straight_sides(const Points& nodes, const Curve& curve);
-
 /// A polynomial in Newton's form: c_0 + c_1 (xi - z_0) + c_2 (xi - z_0) (xi - z_1) + ...
 struct LinePiece {
   int count = 0;

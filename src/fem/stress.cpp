@@ -61,22 +61,17 @@ StressField recover_stress(const Mesh& mesh, const BodyPoints& points, const std
   const ForEachKind<Recovery> recoveries = all_recoveries();
   StressField field{Stresses::Zero(points.node.size(), 4), Stresses(mesh.cells.size(), 4)};
   std::vector<int> cells_at(points.node.size(), 0);
-  std::vector<int> point_of_node(mesh.nodes.rows());
-  int body = -1;
+  const std::vector<Cell> on_points = cells_on_points(mesh, points);
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const Cell& cell = mesh.cells[e];
-    if (cell.body != body) {  // cells are sorted by body
-      body = cell.body;
-      for (int p = points.first[body]; p < points.first[body + 1]; ++p) point_of_node[points.node[p]] = p;
-    }
     const Recovery& r = recoveries[int(cell.kind)];
-    const ElasticLaw& law = laws[body];
+    const ElasticLaw& law = laws[cell.body];
     Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor, 4, 4> samples(r.samples.size(), 4);
     for (std::size_t q = 0; q < r.samples.size(); ++q)
       samples.row(q) = stress_at(mesh, cell, law, u, r.samples[q]).transpose();
     field.centres.row(e) = stress_at(mesh, cell, law, u, r.centre).transpose();
     for (int a = 0; a < node_count(cell.kind); ++a) {
-      const int p = point_of_node[cell.nodes[a]];
+      const int p = on_points[e].nodes[a];
       field.points.row(p) += r.to_nodes.row(a) * samples;
       ++cells_at[p];
     }

@@ -25,6 +25,20 @@ BodyPoints body_points(const Mesh& mesh) {
   return points;
 }
 
+std::vector<Cell> cells_on_points(const Mesh& mesh, const BodyPoints& points) {
+  std::vector<Cell> cells = mesh.cells;
+  std::vector<int> point_of_node(mesh.nodes.rows());
+  int body = -1;
+  for (Cell& cell : cells) {
+    if (cell.body != body) {  // cells are sorted by body
+      body = cell.body;
+      for (int p = points.first[body]; p < points.first[body + 1]; ++p) point_of_node[points.node[p]] = p;
+    }
+    for (int a = 0; a < node_count(cell.kind); ++a) cell.nodes[a] = point_of_node[cell.nodes[a]];
+  }
+  return cells;
+}
+
 std::vector<int> bonded_to(const Mesh& mesh, const BodyPoints& points) {
   std::vector<int> first(mesh.bodies.size()), owner(mesh.nodes.rows(), -1);
   std::iota(first.begin(), first.end(), 0);

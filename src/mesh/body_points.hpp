@@ -15,6 +15,9 @@ struct BodyPoints {
 
 BodyPoints body_points(const Mesh& mesh);
 
+/// The cells with body points for nodes.
+std::vector<Cell> cells_on_points(const Mesh& mesh, const BodyPoints& points);
+
 /// For each body the first of those that it hangs together with by common nodes: itself if there are none.
 std::vector<int> bonded_to(const Mesh& mesh, const BodyPoints& points);
 

@@ -25,18 +25,8 @@ VtuGrid result_grid(const Results& r) {
     u.row(p) = r.solution.u.segment<2>(2 * node).transpose();
     von_mises_stress(p, 0) = von_mises(r.stress.points.row(p).transpose());
   }
-  std::vector<int> point_of_node(r.mesh.nodes.rows());
-  int current = -1;
-  for (std::size_t e = 0; e < r.mesh.cells.size(); ++e) {
-    Cell cell = r.mesh.cells[e];
-    if (cell.body != current) {
-      current = cell.body;
-      for (int p = r.points.first[current]; p < r.points.first[current + 1]; ++p) point_of_node[r.points.node[p]] = p;
-    }
-    for (int a = 0; a < node_count(cell.kind); ++a) cell.nodes[a] = point_of_node[cell.nodes[a]];
-    body(e, 0) = cell.body;
-    grid.cells.push_back(cell);
-  }
+  grid.cells = cells_on_points(r.mesh, r.points);
+  for (std::size_t e = 0; e < grid.cells.size(); ++e) body(e, 0) = grid.cells[e].body;
   const std::vector<std::string> stress_names{"11", "22", "33", "12"};
   grid.point_fields = {
       {"displacement", u, {}}, {"stress", r.stress.points, stress_names}, {"von_mises", von_mises_stress, {}}};

@@ -113,6 +113,13 @@ TEST(ContactLine, StraightSidesOf3NodeEdgesSayNothingOfTheCurve) {
   for (int e = 0; e < 16; ++e) EXPECT_NEAR(line.at(e, 0).position.norm(), 1, 2e-6);  // the chords: 2e-3
 }
 
+TEST(ContactLine, CoarseStraightSidesAreNoPolygon) {
+  const Chain chain([](double t) { return Vec2(std::cos(t), std::sin(t)); }, pi / 2, 4, 3, false,
+                    true);  // 22.5 degrees
+  const ContactLine line(chain.nodes, chain.curve);
+  for (int e = 0; e < 4; ++e) EXPECT_NEAR(line.at(e, 0).position.norm(), 1, 2e-3);  // the chords: 2e-2
+}
+
 // ---- Corners ----
 
 Vec2 corner(double t) { return t < 1 ? Vec2(t, 0.1 * t * t) : Vec2(1 + 0.1 * (t - 1), 0.1 + (t - 1)); }

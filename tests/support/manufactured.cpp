@@ -8,6 +8,7 @@
 #include "fem/assembly.hpp"
 #include "fem/edges.hpp"
 #include "fem/elements.hpp"
+#include "fem/patch_recovery.hpp"
 #include "fem/quadrature.hpp"
 #include "solve/direct.hpp"
 #include "support/field_errors.hpp"
@@ -171,8 +172,11 @@ Errors manufactured_errors(const ManufacturedCase& which) {
                                      .start = {}});
   if (s.status != SolveStatus::converged) throw std::runtime_error("manufactured case not solved");
   const FieldErrors e = field_errors(mesh, laws, s.u, {displacement, stress});
+  const BodyPoints points = body_points(mesh);
+  const std::vector<StressPatch> patches = recover_patches(mesh, points, gauss_stresses(mesh, laws, s.u));
   return {e.displacement, e.energy,
-          pressure_error(mesh, exact, which.plates, multiplier, coupling, -multiplier_values(coupling, s.lambda))};
+          pressure_error(mesh, exact, which.plates, multiplier, coupling, -multiplier_values(coupling, s.lambda)),
+          std::sqrt(energy_errors(mesh, points, laws, s.u, patches).sum())};
 }
 
 }  // namespace mortise::test

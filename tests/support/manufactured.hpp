@@ -41,9 +41,11 @@ struct ManufacturedCase {
   std::optional<Slip> slip = {};
 };
 
-/// Errors against the exact field, absolute: ||u||_L2, energy norm, ||p||_L2 along the multiplier side.
+/// Errors against the exact field, absolute: ||u||_L2, energy norm, ||p||_L2 along the multiplier side; and what patch
+/// recovery estimates of the second.
 struct Errors {
   double displacement, energy, pressure;
+  double energy_estimate = 0;
 };
 
 /// Solves with exact displacements on top and bottom, exact tractions on the vertical sides, and the exact tangential
