@@ -25,7 +25,7 @@ struct Options {
   std::string scene;
   std::vector<std::string> set, vary;
   std::string output;
-  bool quiet = false, diagnose = false, no_programs = false;
+  bool quiet = false, diagnose = false, no_estimate = false, no_programs = false;
   int threads = 0;
 };
 
@@ -69,6 +69,10 @@ int solve(const Options& options) {
   {
     const StageLine line(options.quiet);
     results = solve_scene(scene, [&](const std::string& stage) { line(stage); });
+    if (!options.no_estimate) {
+      line("estimate");
+      estimate(results);
+    }
     if (options.diagnose) {
       line("diagnose");
       diagnose(scene, results);
@@ -157,6 +161,7 @@ int parse_and_run(int argc, const char* const* argv) {
                       "find the inf-sup constant too: do the meshes control the pressure?");
   };
   add_diagnose(solve_command);
+  solve_command->add_flag("--no-estimate", options.no_estimate, "do not estimate the discretisation error");
   CLI::App* check_command =
       add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
   CLI::App* mesh_command =

@@ -9,6 +9,7 @@
 #include "results/audit_solution.hpp"
 #include "results/checks.hpp"
 #include "results/diagnose.hpp"
+#include "results/energy_estimate.hpp"
 #include "results/warnings.hpp"
 
 namespace mortise {
@@ -84,6 +85,13 @@ CheckedScene check_scene(const Scene& scene) {
 }
 
 ActiveSet active_set(const Results& r) { return {r.mesh.nodes, row_nodes(r.pairs), r.solution.active}; }
+
+void estimate(Results& r) {
+  Stopwatch watch;
+  r.estimate = estimate_energy_error(r);
+  if (const auto line = energy_error_warning(r.mesh, *r.estimate)) r.warnings.push_back(*line);
+  r.seconds.estimate = watch.lap();
+}
 
 void diagnose(const Scene& scene, Results& r) {
   r.inf_sup = inf_sup_report(scene, r);

@@ -29,6 +29,9 @@ using Adjust = std::function<void(const Mesh& mesh, Discretisation& discretisati
 Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr,
                     const Adjust& adjust = {});
 
+/// The estimated error into the results, and a warning where it is large.
+void estimate(Results& results);
+
 /// The inf-sup constant into the results, and a warning where it is small.
 void diagnose(const Scene& scene, Results& results);
 

@@ -31,6 +31,7 @@ Row figures(const Results& r) {
                            {"iteration.seconds", r.seconds.solve}});
     for (const auto& [name, value] : iteration->figures) row.emplace_back("iteration." + name, value);
   }
+  if (r.estimate) row.emplace_back("estimate.error", r.estimate->error);
   if (r.inf_sup) row.emplace_back("inf_sup", r.inf_sup->beta);
   for (std::size_t k = 0; k < r.contacts.size(); ++k) {
     const ContactResults& c = r.contacts[k];
@@ -124,6 +125,7 @@ Status sweep(const std::string& scene_path, const std::vector<Override>& overrid
     try {
       const Scene scene = read_scene(scene_path, all);
       Results results = solve_scene(scene, {}, start ? &*start : nullptr);
+      estimate(results);
       if (diagnosed) diagnose(scene, results);
       start = active_set(results);
       words.push_back(to_string(results.status));

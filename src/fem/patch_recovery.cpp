@@ -55,20 +55,25 @@ struct SamplePlaces {
 StressPatch fit(const Vec2& centre, const std::vector<int>& cells, int terms, const SamplePlaces& places,
                 const Stresses& samples) {
   StressPatch patch{.centre = centre, .size = 0, .terms = terms};
+  Eigen::RowVector4d mean = Eigen::RowVector4d::Zero();
+  int count = 0;
   for (const int e : cells)
-    for (int q = places.first[e]; q < places.first[e + 1]; ++q)
+    for (int q = places.first[e]; q < places.first[e + 1]; ++q) {
       patch.size = std::max(patch.size, (places.x[q] - centre).norm());
+      mean += (samples.row(q) - mean) / ++count;
+    }
   Eigen::Matrix<double, 6, 6> M = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Matrix<double, 6, 4> right = Eigen::Matrix<double, 6, 4>::Zero();
   for (const int e : cells)
     for (int q = places.first[e]; q < places.first[e + 1]; ++q) {
       const Monomials m = monomials((places.x[q] - centre) / patch.size);
       M += m * m.transpose();
-      right += m * samples.row(q);
+      right += m * (samples.row(q) - mean);
     }
   // Samples on few lines leave a term open, as y^2 in a beam one element thick: it stays small.
-  M.diagonal().array() += 1e-12 * M(0, 0);
+  M.diagonal().array() += 1e-12 * count;
   patch.coefficients.topRows(terms) = M.topLeftCorner(terms, terms).llt().solve(right.topRows(terms));
+  patch.coefficients.row(0) += mean;
   return patch;
 }
 
@@ -114,8 +119,8 @@ std::vector<StressPatch> recover_patches(const Mesh& mesh, const BodyPoints& poi
   return patches;
 }
 
-VecX energy_errors(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws, const VecX& u,
-                   const std::vector<StressPatch>& patches) {
+EnergyErrors energy_errors(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                           const VecX& u, const std::vector<StressPatch>& patches) {
   struct Rule {
     std::vector<double> weights;
     std::vector<CellShape> shapes, linear;
@@ -130,7 +135,7 @@ VecX energy_errors(const Mesh& mesh, const BodyPoints& points, const std::vector
     }
   }
   const std::vector<Cell> on_points = cells_on_points(mesh, points);
-  VecX errors = VecX::Zero(mesh.cells.size());
+  EnergyErrors found{.errors = VecX::Zero(mesh.cells.size()), .areas = VecX::Zero(mesh.cells.size())};
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const Cell& cell = mesh.cells[e];
     const Rule& rule = rules[int(cell.kind)];
@@ -142,13 +147,17 @@ VecX energy_errors(const Mesh& mesh, const BodyPoints& points, const std::vector
         x += shape.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
         jacobian += shape.dN[a] * mesh.nodes.row(cell.nodes[a]);
       }
-      Vec4 difference = -stress_at(mesh, cell, laws[cell.body], u, shape);
+      Vec4 recovered = Vec4::Zero();
       for (int a = 0; a < corner_count(cell.kind); ++a)
-        difference += rule.linear[q].N[a] * patches[on_points[e].nodes[a]].at(x);
-      errors(e) += rule.weights[q] * jacobian.determinant() * compliance_energy(laws[cell.body], difference);
+        recovered += rule.linear[q].N[a] * patches[on_points[e].nodes[a]].at(x);
+      const ElasticLaw& law = laws[cell.body];
+      const double area = rule.weights[q] * jacobian.determinant();
+      found.areas(e) += area;
+      found.errors(e) += area * compliance_energy(law, recovered - stress_at(mesh, cell, law, u, shape));
+      found.norm += area * compliance_energy(law, recovered);
     }
   }
-  return errors;
+  return found;
 }
 
 }  // namespace mortise

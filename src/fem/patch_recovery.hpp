@@ -21,10 +21,15 @@ struct StressPatch {
 /// cell after cell, as gauss_stresses() gives them.
 std::vector<StressPatch> recover_patches(const Mesh& mesh, const BodyPoints& points, const Stresses& samples);
 
-/// Of each cell int (sigma* - sigma_h) : C^-1 : (sigma* - sigma_h), energy per thickness times two, where sigma* blends
-/// the patches of the cell's vertices by its linear shape functions: an estimate of its share of the squared energy
-/// norm of the error.
-VecX energy_errors(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws, const VecX& u,
-                   const std::vector<StressPatch>& patches);
+/// Energies per thickness times two, with d = sigma* - sigma_h.
+struct EnergyErrors {
+  VecX errors;      ///< of each cell int d : C^-1 : d, an estimate of its share of the squared energy norm of the error
+  VecX areas;       ///< of each cell
+  double norm = 0;  ///< int sigma* : C^-1 : sigma*, of all cells
+};
+
+/// sigma* blends the patches of a cell's vertices by the linear shape functions of its corners.
+EnergyErrors energy_errors(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                           const VecX& u, const std::vector<StressPatch>& patches);
 
 }  // namespace mortise

@@ -39,6 +39,14 @@ Json contact_json(const ContactPair& pair, const ContactResults& c, const std::o
           {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
 }
 
+Json estimate_json(const Results& r) {
+  if (!r.estimate) return nullptr;
+  const EnergyEstimate& e = *r.estimate;
+  return {
+      {"error", e.error},
+      {"largest", {{"body", r.mesh.bodies[e.body]}, {"part", e.part}, {"position", {e.position.x(), e.position.y()}}}}};
+}
+
 Json steps_json(const Results& r) {
   Json steps = Json::array();
   for (const ActiveSetStep& s : r.solution.steps)
@@ -165,6 +173,7 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
             {"factorise", s.factorise},
             {"solve", s.solve},
             {"recover", s.recover},
+            {"estimate", s.estimate},
             {"write", write_seconds},
             {"total", s.total() + write_seconds}}},
           {"iterations",
@@ -173,6 +182,7 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
             {"solver", r.solution.iteration ? r.solution.iteration->steps : 0}}},
           {"contact_steps", steps_json(r)},
           {"iteration", iteration_json(r.solution)},
+          {"estimate", estimate_json(r)},
           {"inf_sup", r.inf_sup ? Json(r.inf_sup->beta) : Json()},
           {"energy", r.energy},
           {"contact", contact},
@@ -203,6 +213,11 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
   if (const std::string words = contact_words(r); !words.empty()) out << "            " << words << "\n";
   out << std::setprecision(6) << "  largest   displacement " << r.solution.u.cwiseAbs().maxCoeff() << "\n";
   out << "  energy    " << r.energy << "\n";
+  if (r.estimate)
+    out << std::setprecision(2) << "  estimate  stresses off by " << 100 * r.estimate->error
+        << " % (energy norm), the most in " << r.mesh.bodies[r.estimate->body] << " "
+        << near_point(r.estimate->position) << "\n"
+        << std::setprecision(6);
   if (r.inf_sup)
     out << "  inf-sup   " << r.inf_sup->beta << ", worst " << near_point(r.inf_sup->position) << " (limit "
         << inf_sup_limit << ")\n";
@@ -213,7 +228,7 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
   const Seconds& s = r.seconds;
   out << std::fixed << std::setprecision(3) << "  seconds   mesh " << s.mesh << ", assemble " << s.assemble
       << ", couple " << s.couple << ", factorise " << s.factorise << ", solve " << s.solve << ", recover " << s.recover
-      << ", write " << s.write << "; total " << s.total() << "\n";
+      << ", estimate " << s.estimate << ", write " << s.write << "; total " << s.total() << "\n";
   out << "  " << to_string(r.status) << "; results in " << folder.string() << "/ (result.vtu opens in ParaView)\n";
   return out.str();
 }

@@ -31,6 +31,7 @@ VtuGrid result_grid(const Results& r) {
   grid.point_fields = {
       {"displacement", u, {}}, {"stress", r.stress.points, stress_names}, {"von_mises", von_mises_stress, {}}};
   grid.cell_fields = {{"body", body, {}}, {"stress_centre", r.stress.centres, stress_names}};
+  if (r.estimate) grid.cell_fields.push_back({"error_density", r.estimate->density, {}});
   return grid;
 }
 

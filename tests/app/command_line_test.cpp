@@ -46,6 +46,14 @@ TEST(CommandLine, SolveWritesTheFilesAndSaysSo) {
   EXPECT_LE(std::count(o.out.begin(), o.out.end(), '\n'), 24) << "one screen";
 }
 
+TEST(CommandLine, WithoutAnEstimateThereIsNone) {
+  const TemporaryFolder folder;
+  const Outcome o = mortise({"solve", geo("patch_flat.toml"), "-o", folder.path("run"), "--no-estimate"});
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_TRUE(summary(folder.path("run"))["estimate"].is_null());
+  EXPECT_EQ(o.out.find("estimate  "), std::string::npos) << o.out;
+}
+
 TEST(CommandLine, SummaryHasTheKeysOtherProgramsRead) {
   const TemporaryFolder folder;
   ASSERT_EQ(mortise({"solve", geo("stack.toml"), "-o", folder.path("run")}).status, 0);
@@ -55,7 +63,8 @@ TEST(CommandLine, SummaryHasTheKeysOtherProgramsRead) {
        {"integration", "normals", "multipliers", "multipliers_on", "solver", "condition", "initial_gap", "dirichlet"})
     EXPECT_TRUE(s["method"].contains(key)) << key;
   for (const char* key : {"nodes", "elements", "dofs", "multipliers"}) EXPECT_GT(s["mesh"][key].get<int>(), 0) << key;
-  for (const char* key : {"mesh", "assemble", "couple", "factorise", "solve", "recover", "write", "total"})
+  EXPECT_LT(s["estimate"]["error"].get<double>(), 1e-9);  // uniform stress
+  for (const char* key : {"mesh", "assemble", "couple", "factorise", "solve", "recover", "estimate", "write", "total"})
     EXPECT_GE(s["seconds"][key].get<double>(), 0) << key;
   for (const char* key : {"contact", "contact_coarse", "solver"}) EXPECT_TRUE(s["iterations"].contains(key)) << key;
   ASSERT_EQ(s["contact"].size(), 2u);

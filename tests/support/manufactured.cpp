@@ -176,7 +176,7 @@ Errors manufactured_errors(const ManufacturedCase& which) {
   const std::vector<StressPatch> patches = recover_patches(mesh, points, gauss_stresses(mesh, laws, s.u));
   return {e.displacement, e.energy,
           pressure_error(mesh, exact, which.plates, multiplier, coupling, -multiplier_values(coupling, s.lambda)),
-          std::sqrt(energy_errors(mesh, points, laws, s.u, patches).sum())};
+          std::sqrt(energy_errors(mesh, points, laws, s.u, patches).errors.sum())};
 }
 
 }  // namespace mortise::test
