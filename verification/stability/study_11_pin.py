@@ -8,7 +8,7 @@ import numpy as np
 import figure
 import persson
 import template
-from failures import failure, first, largest, last, over, parameters, select, solved, told
+from failures import OF_MESHES, failure, first, largest, last, over, parameters, select, solved, told
 
 HERE = Path(__file__).parent
 COUNTS, BAR = [30, 60, 120], 60
@@ -20,7 +20,6 @@ ELEMENTS = {
     "8-node quadrilaterals": {"kind": 0},
 }
 CLEARANCES = {0: None, 1e-4: 80, 1e-3: 70}  # of the radius: degrees at which contact ends
-MEASURED = {"contact.0.initial_gap": "measured", "method.normals": "edges"}
 NAMES = {"geo": ".geo", "msh": ".msh", "measured": ".geo, meshes' own gap"}
 INNER = 0.8  # of the contact: where p is compared from place to place; outside it ends in a corner
 E = 210e9 / (1 - 0.3**2)
@@ -37,12 +36,13 @@ def contact(clearance):
 def pin(clearance, elements, count, source):
     """source: "geo", "msh" (the mesh alone), "measured" (the mesh as it is, as in the preprint)."""
     force = contact(clearance)[1] / math.pi
-    settings = {**parameters(**ELEMENTS[elements], n=count, clearance=clearance), "body_force.0.force": f"[0, {-force!r}]"}
+    settings = parameters(**ELEMENTS[elements], n=count, clearance=clearance)
+    settings["body_force.0.force"] = f"[0, {-force!r}]"
     return {
         "axes": {"clearance": clearance, "elements": elements, "value": count, "source": source},
         "scene": (HERE / "pin.toml").read_text(),
         "files": {"pin.geo": (HERE / "pin.geo").read_text()},
-        "settings": settings | (MEASURED if source == "measured" else {}),
+        "settings": settings | (OF_MESHES if source == "measured" else {}),
         "measures": ["pressure"],
         "from_mesh": source == "msh",
     }
@@ -81,13 +81,10 @@ def complete(rows):
     return [row | errors(row) if solved(row) else row for row in rows]
 
 
-def profile(axes, row, label, key="p", **options):
+def profile(axes, row, label, **options):
     angle, force = contact(row["clearance"])
     s, p = (np.array(row["profile"][name]) for name in ("s", "p"))
-    if key == "smoothed":
-        s, p = s[1:-1], (p[:-2] + 2 * p[1:-1] + p[2:]) / 4
-    peak = persson.pressure(0, angle)
-    axes.plot(180 * s / row["profile"]["s"][-1], p / force / peak, label=label, **options)
+    axes.plot(180 * s / s[-1], p / force / persson.pressure(0, angle), label=label, **options)
 
 
 def draw(rows, path):
@@ -95,16 +92,15 @@ def draw(rows, path):
     angle, _ = contact(1e-3)
     phi = np.linspace(0, angle, 500)
     exact = persson.pressure(phi, angle) / persson.pressure(0, angle)
-    row = lambda elements, source: next(iter(select(rows, clearance=1e-3, value=30, elements=elements, source=source)), None)
+    coarse = select(rows, clearance=1e-3, value=COUNTS[0])
     for axes, source, title in ((left, "measured", "the meshes' own gap, as in the preprint"), (middle, "geo", "default")):
         for number, elements in enumerate(ELEMENTS):
-            if found := row(elements, source):
-                profile(axes, found, elements, color=f"C{number}", linewidth=1)
-        if source == "geo":
-            profile(axes, row("3-node triangles", "geo"), "3-node triangles, smoothed", "smoothed", color="C0", linestyle=":")
+            for row in select(coarse, source=source, elements=elements):
+                profile(axes, row, elements, color=f"C{number}", linewidth=1)
         axes.plot(np.degrees(phi), exact, "k--", linewidth=1, label="Persson")
         limits = {"xlim": (0, 80), "ylim": (0, 1.3)}
-        figure.label(axes, "degrees", "p over the largest exact p", f"n = 30: {title}", legend={"fontsize": 7}, **limits)
+        title, y = f"n = {COUNTS[0]}: {title}", "p over the largest exact p"
+        figure.label(axes, "degrees", y, title, legend={"fontsize": 7}, **limits)
     for number, elements in enumerate(ELEMENTS):
         for source, style in (("geo", "o-"), ("msh", "x--"), ("measured", "^:")):
             line = [(r["value"], r["nodes"]) for r in select(rows, clearance=1e-3, elements=elements, source=source)]
@@ -122,12 +118,12 @@ def values(rows):
     """The table: errors in % with n elements, by clearance, of those from .geo and from .msh."""
     count = BAR if select(rows, value=BAR) else COUNTS[0]
     clearances = sorted({row["clearance"] for row in rows})
-    lines = []
+    keys, lines = ("p_error", "edges", "nodes", "mean_square"), []
     for source in dict.fromkeys(row["source"] for row in rows):
         for elements in ELEMENTS:
             found = [select(rows, source=source, elements=elements, value=count, clearance=gap) for gap in clearances]
-            cell = lambda row: " / ".join(f"{100 * row[key]:.2f}" for key in ("p_error", "edges", "nodes", "mean_square"))
-            lines.append([elements, NAMES[source], *(cell(one[0]) if one else "" for one in found)])
+            cells = [" / ".join(f"{100 * row[key]:.2f}" for row in some for key in keys) for some in found]
+            lines.append([elements, NAMES[source], *cells])
     heading = ["elements", "from", *(f"clearance {gap:g} R" for gap in clearances)]
     return {"count": count, "table": template.table(heading, lines)}
 

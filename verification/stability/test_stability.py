@@ -108,7 +108,7 @@ def test_exact_lines_stay_exact():
         study_3_contrast.patch(1e-6, "lower_contact"),
     ):
         row = execute(run)
-        assert row["outcome"] == "solved" and row["p_error"] < 1e-11, row
+        assert row["outcome"] == "solved" and row["p_error"] < 1e-10, row
 
 
 @pytest.mark.parametrize("name", ["all nodes shared (8:8)", "one curve in two pairs"])
@@ -123,12 +123,12 @@ def test_a_load_that_pulls_away_is_refused_and_names_the_motion():
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_defaults_lie_inside_the_stable_regions(scene):
-    """The scenes as they stand: no run fails but by the coarse mesh's checks, and none is told to close its gap."""
+    """The scenes as they stand: no run fails but by the coarse mesh's checks, and none gets a word about its gap."""
     run = {"axes": {}, "scene": scene, "settings": parameters(scene), "measures": []}
     row = execute(run)
     assert row["outcome"] in ("solved", "check") and row["steps"] <= study_7_iterations.BAR, row
     assert set(filter(None, row["failed_checks"].split("; "))) <= OF_COARSE_MESHES
-    assert "set initial_gap" not in row["warnings"]
+    assert "initial_gap" not in row["warnings"]
     nu = [material["poisson"] for material in tomllib.loads(launch.scene_file(scene).read_text())["materials"].values()]
     assert max(nu) < 0.45
     if scene != "stack":  # whose bodies are a chain of three
@@ -157,7 +157,7 @@ def test_persson_is_in_equilibrium_and_hertz_for_small_angles():
 
 def test_a_pin_on_straight_edges_has_the_right_pressure_without_a_word_about_the_gap():
     run = study_11_pin.pin(1e-3, "6-node triangles, straight", 30, "msh")
-    read, measured = (execute(run | {"settings": {**run["settings"], **more}}) for more in ({}, study_11_pin.MEASURED))
+    read, measured = (execute(run | {"settings": {**run["settings"], **more}}) for more in ({}, failures.OF_MESHES))
     assert abs(study_11_pin.errors(read)["p_error"]) < 0.01 and study_11_pin.errors(read)["edges"] < 0.01
     assert study_11_pin.errors(measured)["p_error"] > 0.1
 
