@@ -93,7 +93,8 @@ def draw(rows, path):
     phi = np.linspace(0, angle, 500)
     exact = persson.pressure(phi, angle) / persson.pressure(0, angle)
     coarse = select(rows, clearance=1e-3, value=COUNTS[0])
-    for axes, source, title in ((left, "measured", "the meshes' own gap, as in the preprint"), (middle, "geo", "default")):
+    sides = (left, "measured", "the meshes' own gap, as in the preprint"), (middle, "geo", "default")
+    for axes, source, title in sides:
         for number, elements in enumerate(ELEMENTS):
             for row in select(coarse, source=source, elements=elements):
                 profile(axes, row, elements, color=f"C{number}", linewidth=1)
