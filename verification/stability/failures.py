@@ -8,6 +8,8 @@ ELEMENTS = {
     "8-node quadrilaterals": {"order": 2, "kind": 0},
     "9-node quadrilaterals": {"order": 2, "kind": 0, "nine_node": 1},
 }
+# Gap and normals as in the preprint: those of the meshes.
+OF_MESHES = {"contact.0.initial_gap": "measured", "method.normals": "edges"}
 SPACES = ["linear", "quadratic", "dual"]
 STATES = ("fixed", "default", "guarded", "shown", "open")  # stability.md says what they mean
 

@@ -5,7 +5,8 @@ Both start from no pressure, l_1 = 0, and go on by l := (1 - beta) l + beta r, w
 with the multipliers takes. FreeFEM's history has l of every step, so that r_k = (l_{k+1} - (1 - beta) l_k) / beta.
 mortise writes r_k as the pressure p of contact.csv if it is stopped after k steps. In a step compared are r_k (largest
 difference over largest pressure) and the force residual of the history, max |r_k - l_k| / max |r_k|. The upper body
-takes the displacement and has the multipliers. The meshes are converted as in verification/crosscheck.
+takes the displacement and has the multipliers. Both have the preprint's closed gap and edges' normals. The meshes are
+converted as in verification/crosscheck.
 
 Written is iterates.csv. Exit status 1 if a difference is above 1e-8.
 """
@@ -59,17 +60,18 @@ def cases(size):
     return [Case(*values) for values in itertools.product(MESHES[size], SPACES, RATIOS[size], BETAS[size])]
 
 
-def with_stiffness(scene, ratio):
-    """The scene with an upper body `ratio` times as stiff as the lower one."""
+def variant(scene, ratio):
+    """The scene with a closed gap and an upper body `ratio` times as stiff as the lower one."""
     other = {"young": launch.YOUNG * ratio, "poisson": 0.3}
     materials = {**scene["materials"], "other": other}
-    return {**scene, "materials": materials, "bodies": {**scene["bodies"], "upper": "other"}}
+    contact = [{**scene["contact"][0], "initial_gap": "closed"}]
+    return {**scene, "materials": materials, "bodies": {**scene["bodies"], "upper": "other"}, "contact": contact}
 
 
 def prepare(programs, case, folder):
     """Mesh and FreeFEM's case in the folder; returns mortise's mesh file."""
     step, file, mesh = case.step(), launch.scene_file(SCENE), folder / "mesh.msh"
-    scene = with_stiffness(scenes.read_scene(file), case.ratio)
+    scene = variant(scenes.read_scene(file), case.ratio)
     run.make_mesh(programs, file, scenes.size_parameters(scene, step.mesh), step.mesh_parameters, mesh)
     run.convert_step(step, scene, mesh, folder)
     return mesh
@@ -97,6 +99,8 @@ def mortise_iterates(case, mesh, folder, places, steps):
         "mesh.file": mesh,
         "mesh.parameters": "{}",
         "contact.multipliers_on": SIDE,
+        "contact.initial_gap": "closed",
+        "method.normals": "edges",
         "method.solver": "ddm",
         "method.multipliers": method["multipliers"],
         "method.integration": method["integration"],

@@ -119,10 +119,11 @@ LEFT = 'on = ["upper_left", "lower_left"], displacement = { x = 0 }'
 SLIDING = [LEFT, 'on = "lower_bottom", displacement = { y = 0 }', LOAD]
 
 
-def touching(gap="closed", condition="unilateral", multipliers=None):
-    """The pair of two plates."""
+def touching(condition="unilateral", multipliers=None, gap=None):
+    """The pair of two plates; `gap`: initial_gap, where it is not the default."""
     side = f', multipliers_on = "{multipliers}"' if multipliers else ""
-    return [f'between = ["upper_bottom", "lower_top"], initial_gap = "{gap}", condition = "{condition}"{side}']
+    side += f', initial_gap = "{gap}"' if gap else ""
+    return [f'between = ["upper_bottom", "lower_top"], condition = "{condition}"{side}']
 
 
 def plates(curve, upper, lower, order=2, top=0.6, rows=6):

@@ -2,7 +2,8 @@
 
 A run is a dictionary: `axes` (what the study varies, for people and pictures), `scene` (a name in geo/, or the text of
 a scene file), `settings` (--set), `files` (texts beside that scene file), `measures` (names of functions below, which
-take the results folder and the run and return named figures), `arguments` (more words for the command line).
+take the results folder and the run and return named figures), `arguments` (more words for the command line),
+`from_mesh` (the mesh is written first, and read without the geometry).
 """
 
 import hashlib
@@ -51,7 +52,12 @@ def execute(run):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         out = folder / "out"
-        words = ["solve", write_scene(run, folder), *launch.options(run.get("settings", {})), *run.get("arguments", [])]
+        scene, settings = write_scene(run, folder), run.get("settings", {})
+        if run.get("from_mesh"):
+            launch.call("mesh", scene, *launch.options(settings), "-o", folder / "mesh.msh", "--quiet")
+            settings = {key: value for key, value in settings.items() if not key.startswith("mesh.")}
+            settings |= {"mesh.file": folder / "mesh.msh", "mesh.parameters": "{}"}
+        words = ["solve", scene, *launch.options(settings), *run.get("arguments", [])]
         command = [str(word) for word in (launch.MORTISE, *words, "-o", out, "--quiet")]
         start, status, stderr = time.monotonic(), None, ""
         try:

@@ -86,7 +86,7 @@ def three_bodies(space, side):
         'on = ["one_top", "two_top", "two_right", "lower_right"], pressure = 10e6',
     ]
     pairs = [("one_bottom", "lower_top"), ("two_bottom", "lower_top2"), ("one_right", "two_left")]
-    text = 'between = ["{0}", "{1}"], initial_gap = "closed", multipliers_on = "{2}"'
+    text = 'between = ["{0}", "{1}"], multipliers_on = "{2}"'
     contact = [text.format(*pair, pair[SIDES.index(side)]) for pair in pairs]
     axes = {"part": "case", "case": "three bodies at a point", "space": space, "side": side, "right": "exact"}
     return run(axes, bodies, boundary, contact, {"method.multipliers": space}, ["uniform", "pressure"])
@@ -99,7 +99,7 @@ def covered(q, space):
         body("upper", even(6), 3, line(0, WIDTH * (5 + q) / 8, 0.3, 0.6)),
     ]
     axes = {"part": "covered", "case": "covered", "space": space, "value": q}
-    settings, contact = {"method.multipliers": space}, touching("closed", multipliers="lower_top")
+    settings, contact = {"method.multipliers": space}, touching(multipliers="lower_top")
     edges = {"edge": WIDTH / 8, "last": WIDTH * 6 / 8}
     return run(axes, bodies, SLIDING, contact, settings, ["uniform_facing"], young=[210e15, 210e9], **edges)
 

@@ -3,7 +3,7 @@
 import figure
 import launch
 import small_meshes
-from failures import SPACES, failure, first, parameters, quote, select, solved
+from failures import OF_MESHES, SPACES, failure, first, parameters, quote, select, solved
 
 PERTURBATIONS = [1e-14, 1e-12, 1e-9, 1e-6, 1e-3, 1e-1]
 FORCES = [0, 0.1, 0.2, 0.3, 0.5, 1, 1.5, 2, 3, 3.9, 4, 5]
@@ -44,8 +44,8 @@ def others(meshes):
         for space in SPACES:
             settings = {"method.multipliers": space}
             yield geo("others", "cosine", {**launch.sizes(mesh), **settings}, n, f"cosine, {space}")
-            rings = parameters(n_inner=mesh[0], n_outer=mesh[1], straight=1) | {"contact.initial_gap": "measured"}
-            yield geo("others", "rings", {**rings, **settings}, n, f"rings, measured, straight edges, {space}")
+            rings = parameters(n_inner=mesh[0], n_outer=mesh[1], straight=1) | OF_MESHES
+            yield geo("others", "rings", {**rings, **settings}, n, f"rings, straight edges, meshes' own gap, {space}")
         yield geo("others", "hertz", {"boundary.2.pressure": 4.6e6 * 4.0**-n}, n, "hertz, loads")
 
 

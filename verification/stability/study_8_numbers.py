@@ -11,8 +11,8 @@ LOADS = [*(10.0**k for k in range(0, 11, 2)), 1e11, 1e12]  # Pa
 SHIFTS = [0.0, *(10.0**k for k in range(0, 10))]  # m
 LOST = 1e-6  # a relative difference that is called a loss
 PUSH = -3e-4
-SCENES = {"closed": "parabola, closed gap", "measured": "blocks, measured gap"}
-EDGE, GAP = 0.053, 1e-4  # m: the shorter element, and the measured gap
+SCENES = {"closed": "parabola, closed gap", "drawn": "blocks, drawn gap"}
+EDGE, GAP = 0.053, 1e-4  # m: the shorter element, and the drawn gap
 EPSILON = 2.0**-52
 
 
@@ -25,7 +25,8 @@ def scaled(scene, axis, value, length=1.0, stiffness=1.0, load=10e6, shift=0.0):
     move = lambda name, x, y: (x * length + shift, (y + gap[name]) * length + shift)
     axes = {"scene": scene, "axis": axis, "value": value, "p_scale": stiffness * (load / 10e6 if closed else 1)}
     boundary, young = [*PRESSED[:2], f'on = "upper_top", {top}'], 210e9 * stiffness
-    return run(axes, bodies, boundary, touching(scene), measures=["pressure"], move=move, young=young)
+    pair = touching(gap="closed" if closed else None)
+    return run(axes, bodies, boundary, pair, measures=["pressure"], move=move, young=young)
 
 
 def repeated(threads, time):
