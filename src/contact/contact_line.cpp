@@ -12,7 +12,7 @@
 namespace mortise {
 namespace {
 
-constexpr double degrees = std::numbers::pi / 180, kink_angle = 20 * degrees;
+constexpr double degrees = std::numbers::pi / 180;
 
 // The nodes that the line goes through, in their order; node k and node k + 1 bound an interval, on a closed curve also
 // the last and the first.
@@ -38,15 +38,15 @@ struct Knots {
   }
 };
 
-// The derivative by the length along the chords at node k of the polynomial through it and its neighbours, five nodes
+// The derivative by the length along the chords at node k of the polynomial through it and its neighbours, seven nodes
 // where there are so many. At a kink: of the side before it or after it.
 Vec2 tangent_at(const Knots& knots, int k, bool after) {
-  int back = knots.turns(k) && after ? 0 : knots.within_reach(k, -1, 4);
-  int ahead = knots.turns(k) && !after ? 0 : knots.within_reach(k, 1, 4);
-  const int before = std::min(back, std::max(2, 4 - ahead));
-  ahead = std::min(ahead, 4 - before);
+  int back = knots.turns(k) && after ? 0 : knots.within_reach(k, -1, 6);
+  int ahead = knots.turns(k) && !after ? 0 : knots.within_reach(k, 1, 6);
+  const int before = std::min(back, std::max(3, 6 - ahead));
+  ahead = std::min(ahead, 6 - before);
   back = before;
-  std::array<double, 5> s{};
+  std::array<double, 7> s{};
   for (int j = back - 1; j >= 0; --j) s[j] = s[j + 1] - (knots[k - back + j + 1] - knots[k - back + j]).norm();
   for (int j = back + 1; j <= back + ahead; ++j)
     s[j] = s[j - 1] + (knots[k - back + j] - knots[k - back + j - 1]).norm();
@@ -64,6 +64,10 @@ Vec2 tangent_at(const Knots& knots, int k, bool after) {
   return tangent;
 }
 
+double bend(const Points& nodes, const Edge& e) {
+  return angle_between(edge_point(nodes, e, -1).tangent, edge_point(nodes, e, 1).tangent);
+}
+
 // How much the edges turn at each vertex (vertex i begins edge i), 0 at the ends of an open curve.
 std::vector<double> turns_of(const Points& nodes, const Curve& curve, bool by_chords) {
   const int edges = int(curve.edges.size());
@@ -78,17 +82,27 @@ std::vector<double> turns_of(const Points& nodes, const Curve& curve, bool by_ch
   return turns;
 }
 
-// Where the boundary really turns: by more than 20 degrees, and, between chords, by more than 60 or by much more than
-// at the vertices beside (those of a mesh of a smooth curve turn alike).
-std::vector<char> kinks_of(const std::vector<double>& turns, bool closed, bool by_chords) {
-  const int count = int(turns.size());
+// Where the boundary really turns. The vertices of a mesh of a smooth curve turn like those beside, and less than
+// curved edges do: a kink turns by more than 20 degrees (between chords only if that is 3 times as much as at a vertex
+// beside, or more than 60), or it turns 3 times as much as at both vertices beside and half as much as the edges there.
+std::vector<char> kinks_of(const Points& nodes, const Curve& curve, bool by_chords) {
+  const std::vector<double> turns = turns_of(nodes, curve, by_chords);
+  const int count = int(turns.size()), edges = int(curve.edges.size());
   std::vector<char> kinks(count, 0);
-  for (int i = 0; i < count; ++i) {
-    double beside = std::numeric_limits<double>::infinity();
+  for (int i = curve.closed ? 0 : 1; i < edges; ++i) {
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    int beside = 0;
     for (const int k : {i - 1, i + 1})
-      if (closed || (k > 0 && k < count - 1)) beside = std::min(beside, turns[(k + count) % count]);
-    const bool alike = std::isfinite(beside) && turns[i] < 3 * beside && turns[i] < 60 * degrees;
-    kinks[i] = turns[i] > kink_angle && !(by_chords && alike);
+      if (curve.closed || (k > 0 && k < edges)) {
+        least = std::min(least, turns[(k + count) % count]);
+        most = std::max(most, turns[(k + count) % count]);
+        ++beside;
+      }
+    const double bends =
+        by_chords ? 0 : std::max(bend(nodes, curve.edges[(i + edges - 1) % edges]), bend(nodes, curve.edges[i]));
+    const bool alike = by_chords && beside > 0 && turns[i] < 3 * least && turns[i] < 60 * degrees;
+    const bool alone = beside == 2 && turns[i] > 0.1 * degrees && turns[i] > 3 * most && turns[i] > bends / 2;
+    kinks[i] = (turns[i] > 20 * degrees && !alike) || alone;
   }
   return kinks;
 }
@@ -102,17 +116,14 @@ namespace {
 // Whether the middle nodes of 3-node edges lie on the chords although the curve turns at its vertices. Nothing is said
 // by fewer than three such vertices: they may be kinks that are meant.
 bool straight_sides(const Points& nodes, const Curve& curve) {
-  const auto bend = [&](const Edge& e) {
-    return angle_between(edge_point(nodes, e, -1).tangent, edge_point(nodes, e, 1).tangent);
-  };
   const std::vector<double> turns = turns_of(nodes, curve, false);
-  const std::vector<char> kinks = kinks_of(turns_of(nodes, curve, true), curve.closed, true);
+  const std::vector<char> kinks = kinks_of(nodes, curve, true);
   const int edges = int(curve.edges.size());
   int vertices = 0;
   for (int i = curve.closed ? 0 : 1; i < edges; ++i) {
     const Edge &before = curve.edges[(i + edges - 1) % edges], &after = curve.edges[i];
-    if (after.node_count == 2 || turns[i] < 1 * degrees || kinks[i]) continue;
-    vertices += std::max(bend(before), bend(after)) <= 0.1 * turns[i];
+    if (after.node_count == 2 || turns[i] < 1e-4 * degrees || kinks[i]) continue;
+    vertices += std::max(bend(nodes, before), bend(nodes, after)) <= 0.1 * turns[i];
   }
   return vertices >= 3;
 }
@@ -144,7 +155,7 @@ LinePiece through(const EdgeSamples& x) {
 
 std::vector<LinePiece> through_nodes(const Points& nodes, const Curve& curve) {
   const bool by_ends = curve.edges[0].node_count == 2 || straight_sides(nodes, curve);
-  const std::vector<char> kinks = kinks_of(turns_of(nodes, curve, by_ends), curve.closed, by_ends);
+  const std::vector<char> kinks = kinks_of(nodes, curve, by_ends);
   Knots knots{{}, {}, curve.closed, by_ends ? 1 : 2};
   const int edges = int(curve.edges.size());
   for (int e = 0; e < edges; ++e) {

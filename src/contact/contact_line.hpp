@@ -23,9 +23,9 @@ struct LinePiece {
 };
 
 /// A polynomial piece an edge: through the samples of the drawn curve, or, where only the mesh is known, through all
-/// nodes of the edge. At each node the pieces on both sides then have the tangent of the quartic through five nodes
-/// there, so that normals are off by h^4; kinks stay. Where 3-node edges are straight although the curve turns, their
-/// middle nodes say nothing of it and are left out.
+/// nodes of the edge. At each node the pieces on both sides then have the tangent of the polynomial through seven nodes
+/// there, so that places are off by h^4 or less and normals by h^3; kinks stay. Where
+/// 3-node edges are straight although the curve turns, their middle nodes say nothing of it and are left out.
 ///
 /// Two meshes of one curve show gaps that it does not have, kappa' h^3 / (72 sqrt 3) of 3-node edges and
 /// kappa h^2 / 8 of 2-node ones, and their normals are off by h^2 kappa' / 12 and h kappa / 2 (docs/theory.md section

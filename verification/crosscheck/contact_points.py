@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from cases import CaseError
 
-KINK, SURE_KINK = np.radians(20), np.radians(60)  # a vertex between edges that turn by more
+LEAST_KINK, KINK, SURE_KINK = np.radians([0.1, 20, 60])  # a vertex between edges that turn by more
 NEAR_VERTEX = 5e-10  # of an edge's length
 BEYOND = 0.25  # of its length: how far the curve of an edge goes on beyond the edge's ends
 
@@ -52,16 +52,19 @@ def kinks(x):
     turn = np.abs(np.arctan2(cross(along[:-1], along[1:]), np.sum(along[:-1] * along[1:], axis=1)))
     beside = np.minimum(np.append(np.inf, turn[:-1]), np.append(turn[1:], np.inf))
     alike = np.isfinite(beside) & (turn < 3 * beside) & (turn < SURE_KINK)
-    return 1 + np.flatnonzero((turn > KINK) & ~alike)
+    most = np.maximum(np.append(0, turn[:-1]), np.append(turn[1:], 0))
+    inner = (np.arange(len(turn)) > 0) & (np.arange(len(turn)) < len(turn) - 1)
+    alone = inner & (turn > LEAST_KINK) & (turn > 3 * most)
+    return 1 + np.flatnonzero((turn > KINK) & ~alike | alone)
 
 
 def tangents(x):
-    """At vertices of a smooth curve, by the length along the chords: of the polynomials through five of them."""
+    """At vertices of a smooth curve, by the length along the chords: of the polynomials through seven of them."""
     s = np.append(0, np.cumsum(np.linalg.norm(np.diff(x, axis=0), axis=1)))
     found = []
     for k in range(len(x)):
-        first = max(0, min(k - 2, len(x) - 5))
-        near = slice(first, first + 5)
+        first = max(0, min(k - 3, len(x) - 7))
+        near = slice(first, first + 7)
         fits = [np.polynomial.Polynomial.fit(s[near], part, len(s[near]) - 1) for part in x[near].T]
         found.append([fit.deriv()(s[k]) for fit in fits])
     return np.array(found)
