@@ -13,6 +13,7 @@ NEAR_A_CORNER = 0.04  # m along x1
 NEAR_THE_LINE = 0.02  # m, of the fields
 BODIES = ("G1", "G2")  # in the order of result.vtu: upper, lower
 QUADRILATERAL = [(0, 4, 7), (4, 1, 5), (5, 2, 6), (6, 3, 7), (4, 5, 7), (5, 6, 7)]  # an 8-node cell as triangles
+OUTLINE = [0, 4, 1, 5, 2, 6, 3, 7, 0]
 
 
 def corners(scene):
@@ -57,8 +58,9 @@ def fields(folder):
     for k, data in blocks:
         body[data] = mesh.cell_data["body"][k].reshape(-1, 1)
     stress = mesh.point_data["stress"]
-    return {"points": mesh.points[:, :2], "triangles": triangles, "body": body, "sigma_11": stress[:, 0],
-            "sigma_22": stress[:, 1]}  # fmt: skip
+    cells = np.concatenate([data for _, data in blocks])
+    return {"points": mesh.points[:, :2], "triangles": triangles, "outlines": cells[:, OUTLINE], "first": cells[:, 0],
+            "body": body, "sigma_11": stress[:, 0], "sigma_22": stress[:, 1]}  # fmt: skip
 
 
 def fields_apart(field, matching, curve, name, body):
