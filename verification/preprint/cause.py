@@ -161,9 +161,3 @@ def nearest(verdicts, fitting=True):
     least = min(map(distance, fit or verdicts))
     return next(verdict for verdict in fit or verdicts if distance(verdict) <= EQUAL * least)
 
-
-def nearest_in_trend(verdicts, printed):
-    """The verdict nearest to the printed figures in size, order and factor between meshes together."""
-    names = ("parabolas over circle", "factor between meshes")
-    ratios = lambda v: [v["ours/printed, parabolas"], *(v[name] / printed[name] for name in names)]
-    return min(verdicts, key=lambda v: np.linalg.norm(np.log10(ratios(v))))

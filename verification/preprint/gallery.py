@@ -110,7 +110,7 @@ def meshes(view, path, *scenes):
     drawing, panels = figure.panels(1, len(scenes), (4.6 if len(scenes) == 1 else 9.4, 2.9), squeeze=False)
     for axes, scene in zip(panels[0], scenes):
         shown = measures.fields(view.folder_with_fields(scene, claims.DRAWN, "G1"))
-        for outline, body in zip(shown["outlines"], shown["body"][shown["first"]]):
+        for outline, body in zip(shown["outlines"], shown["body"][shown["outlines"][:, 0]]):
             axes.plot(*shown["points"][outline].T, color=COLOURS[measures.BODIES[body]], linewidth=0.5)
         figure.label(axes, r"$x_1$, m", title=TABLE["names"][scene], aspect="equal")
     panels[0][0].set_ylabel(r"$x_2$, m")

@@ -38,7 +38,7 @@ def passes_through(view, *scenes):
     heights = {s: [np.interp((0, 0.4, 0.8), c["x"], c["y"]) for c in view.both(s, DRAWN, "G1")] for s in scenes}
     words = [f"{TABLE['names'][s]} " + ", ".join(f"{h:.6g}" for h in upper) for s, (upper, _) in heights.items()]
     missed = [np.abs(np.array(both) - TABLE["heights"][scene]).max() for scene, both in heights.items()]
-    return found("passes_through", heights="; ".join(words)), bool(max(missed) < 1e-9)
+    return found("passes_through", heights="; ".join(words)), bool(max(missed) < 1e-6)
 
 
 def matching_is_smooth(view, scene):

@@ -23,30 +23,26 @@ SAMPLES = np.array([(a, b) for a in (-1, 1) for b in (-1, 1)]) / np.sqrt(3)
 
 def derivatives(x, y):
     """d N_a / d (x, y) of the 8-node quadrilateral at a reference point: 8 x 2."""
-    found = []
-    for a, b in NODES:
-        if a and b:
-            found.append((a * (1 + b * y) * (2 * a * x + b * y) / 4, b * (1 + a * x) * (a * x + 2 * b * y) / 4))
-        elif b:
-            found.append((-x * (1 + b * y), b * (1 - x * x) / 2))
-        else:
-            found.append((a * (1 - y * y) / 2, -y * (1 + a * x)))
-    return np.array(found)
+    monomials = [(0, 0), (1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2)]
+    at_nodes = np.stack([NODES[:, 0] ** m * NODES[:, 1] ** n for m, n in monomials])
+    along_x = [m * x ** max(m - 1, 0) * y**n for m, n in monomials]
+    along_y = [n * x**m * y ** max(n - 1, 0) for m, n in monomials]
+    return np.linalg.solve(at_nodes, np.stack([along_x, along_y], axis=1))
 
 
-def gradients(points, x, y):
-    """d N_a / d x_i of elements (coordinates: elements x 8 x 2) at a reference point, and |d x / d xi|."""
+def strains(points, x, y):
+    """What makes strains 11, 22, 2 x 12 of the displacements (elements x 3 x 16) at a reference point of elements, and
+    |d x / d xi| there; coordinates are elements x 8 x 2."""
     J = points.transpose(0, 2, 1) @ derivatives(x, y)  # d x_i / d xi_j
-    return derivatives(x, y) @ np.linalg.inv(J), np.linalg.det(J)
+    G, B = derivatives(x, y) @ np.linalg.inv(J), np.zeros((len(points), 3, 16))
+    B[:, 0, ::2], B[:, 1, 1::2], B[:, 2, ::2], B[:, 2, 1::2] = G[..., 0], G[..., 1], G[..., 1], G[..., 0]
+    return B, np.linalg.det(J)
 
 
 def element_stresses(points, displacements, places=NODES):
     """Stresses 11, 22, 12 of elements: elements x places x 3, of coordinates and displacements, elements x 8 x 2."""
-    stresses = np.empty((len(points), len(places), 3))
-    for k, place in enumerate(places):
-        g = displacements.transpose(0, 2, 1) @ gradients(points, *place)[0]
-        stresses[:, k] = np.stack([g[:, 0, 0], g[:, 1, 1], g[:, 0, 1] + g[:, 1, 0]], axis=1) @ HOOKE
-    return stresses
+    u = displacements.reshape(-1, 16, 1)
+    return np.stack([(HOOKE @ strains(points, *place)[0] @ u)[..., 0] for place in places], axis=1)
 
 
 def recovered(points, displacements):
@@ -57,19 +53,21 @@ def recovered(points, displacements):
 
 
 class Run:
-    """result.vtu and contact.csv of a folder: points, cells, displacements u, the nodes of each curve by x1."""
+    """result.vtu and contact.csv of a folder: points and the body of each, cells, displacements u, and the nodes of
+    each curve by x1."""
 
     def __init__(self, folder):
         self.folder, self.mesh = folder, meshio.read(folder / "result.vtu")
         if wrong := {block.type for block in self.mesh.cells} - {"quad8"}:
             raise ValueError(f"{folder}: cells of type {wrong}; expected quad8")
         self.points, self.u = self.mesh.points[:, :2], self.mesh.point_data["displacement"][:, :2]
-        self.cells, body = np.concatenate([block.data for block in self.mesh.cells]), np.zeros(len(self.points))
-        body[self.cells] = np.concatenate(self.mesh.cell_data["body"]).reshape(-1, 1)
+        self.cells = np.concatenate([block.data for block in self.mesh.cells])
+        self.body = np.zeros(len(self.points), dtype=int)
+        self.body[self.cells] = np.concatenate(self.mesh.cell_data["body"]).reshape(-1, 1)
         table = {name: np.array(values) for name, values in launch.columns(folder / "contact.csv").items()}
         self.lines = {}
         for curve, number in BODIES.items():
-            here, own = table["curve"] == curve, np.flatnonzero(body == number)
+            here, own = table["curve"] == curve, np.flatnonzero(self.body == number)
             places = np.stack([table["x"][here], table["y"][here]], axis=1)
             distance, nearest = cKDTree(self.points[own]).query(places[np.argsort(places[:, 0])])
             if distance.max() > 1e-6:

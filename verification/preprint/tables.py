@@ -52,14 +52,6 @@ def compute(store, rows, say):
     return [judged(*pair) for pair in printed.once_a_place(rows, lambda row: measure(store, row, say), store.jobs)]
 
 
-def fits(rows):
-    """Fit of each reading of "active", a row for each series and mapping."""
-    for series, name in ((series, name) for series in printed.SERIES for name in printed.MAPPINGS):
-        if here := printed.of_series(rows, series):
-            figures = printed.fit([row[f"quadratic, {name}"] for row in here], [row["printed"] for row in here])
-            yield {"series": series, "reading": name, **figures}
-
-
 def ratios(rows):
     """Median of printed over ours, by series."""
     for series in printed.SERIES:

@@ -29,7 +29,7 @@ def mortise():
 def quick(mortise, tmp_path_factory):
     """Folder of a quick study, and how many runs it took."""
     folder = tmp_path_factory.mktemp("preprint")
-    return folder, preprint.main(["--quick", "-o", str(folder)])
+    return folder, preprint.main(["--quick", "--jobs", "2", "-o", str(folder)])
 
 
 @pytest.fixture(scope="module")
@@ -107,17 +107,13 @@ def test_nodal_stresses_of_a_uniform_strain():
     assert found == pytest.approx(np.array([expected] * 8), rel=1e-10)
 
 
-def test_nodal_stresses_come_near_the_recovered_ones_and_are_kept(store):
-    settings = {**cause.VARIANTS[cause.OURS], **preprint_runs.on_side("G2")}
+def test_nodal_stresses_come_near_the_recovered_ones(store):
+    settings = {**cause.METHOD, **preprint_runs.on_side("G2")}
     own = store.curve("circle", (16, 20), {**settings, **preprint_runs.AT_THE_NODES}, "G1")
     recovered = store.curve("circle", (16, 20), settings, "G1")
     for name in ("sigma_2", "sigma_n"):
-        inner = slice(5, -5)
-        assert own[name][inner] == pytest.approx(recovered[name][inner], rel=0.1)
+        assert own[name][5:-5] == pytest.approx(recovered[name][5:-5], rel=0.1)
         assert np.abs(own[name] - recovered[name]).max() > 1  # Pa; they are not the same figures
-    solved = store.fresh
-    store.curve("circle", (16, 20), {**settings, **preprint_runs.AT_THE_NODES}, "G2")
-    assert store.fresh == solved
     assert not list(store.folder.glob("*/result.vtu"))
 
 
