@@ -1,10 +1,10 @@
 """Why the preprint's stresses oscillate: the tables again with other ways to treat gap, normals, integrals and mesh.
 
 A variant is a change of the settings; its name says whose gap and whose normals: those of the curve, or of the meshes
-and their edges. Each is held against the printed tables by both readings of "active": size
-(median of ours/printed over the rows of a series), order (parabolas over circle), and the factor by which delta falls
-from one mesh to the next. A variant "fits" the parabolas if the median is within a factor of 3, at least three in four
-rows are, and the median factor between meshes is 3 to 5 (printed: about 4).
+and their edges. Each is held against the printed tables by both readings of "active": size (median of ours/printed over
+the rows of a series), order (parabolas over circle), and the factor by which delta falls from one mesh to the next. A
+variant "fits" the parabolas if the median is within a factor of 3, at least three in four rows are, and the median
+factor between meshes is 3 to 5 (printed: about 4).
 """
 
 import itertools
@@ -32,9 +32,8 @@ VARIANTS = {
     "curve/edges, projected edges": {**METHOD, **EDGES, **PROJECTED},
     RULE: {**ENFORCED, **PROJECTED},
 }
-ONLY_CURVED = (  # no difference on straight lines: both meshes lie on them
-    *("contact.initial_gap", "method.normals", "mesh.parameters.spacing", "mesh.parameters.straight"),
-)
+# No difference on straight lines: both meshes lie on them.
+ONLY_CURVED = ("contact.initial_gap", "method.normals", "mesh.parameters.spacing", "mesh.parameters.straight")
 FACTOR = 3
 BETWEEN_MESHES = (3, 5)
 EQUAL = 1.05  # distances up to this ratio are not told apart

@@ -65,7 +65,7 @@ def exceptions(rows, name="better"):
 
 
 def short(value):
-    return f"{value:.3g}" if isinstance(value, float) else str(value)
+    return ("none" if value != value else f"{value:.3g}") if isinstance(value, float) else str(value)
 
 
 def lines(rows):
