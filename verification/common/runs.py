@@ -9,9 +9,11 @@ import hashlib
 import json
 import shutil
 import time
+from collections import defaultdict
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
+from threading import Lock
 
 import launch
 
@@ -37,6 +39,7 @@ class Store:
 
     def __init__(self, folder, depends=(), programs=None, jobs=1):
         self.folder, self.jobs, self.fresh = Path(folder), jobs, 0
+        self.making = defaultdict(Lock)
         programs = [launch.need(path) for path in programs or [launch.MORTISE]]
         scenes = sorted(path for path in (launch.ROOT / "geo").rglob("*") if path.is_file())
         self.version = digest(*programs, *scenes, *map(Path, depends))
@@ -75,11 +78,12 @@ class Store:
     def results(self, run, make, name=""):
         """A folder that make(run, folder) has filled, now or before."""
         path = self.path(run, name)
-        if not path.is_dir():
-            staged = Path(f"{path}.part")
-            shutil.rmtree(staged, ignore_errors=True)
-            staged.mkdir(parents=True)
-            make(run, staged)
-            staged.replace(path)
-            self.fresh += 1
+        with self.making[path]:  # several may ask for it at once
+            if not path.is_dir():
+                staged = Path(f"{path}.part")
+                shutil.rmtree(staged, ignore_errors=True)
+                staged.mkdir(parents=True)
+                make(run, staged)
+                staged.replace(path)
+                self.fresh += 1
         return path

@@ -1,5 +1,8 @@
 """The store of runs, the templates and the pages, without any study."""
 
+import time
+from concurrent.futures import ThreadPoolExecutor
+
 import pytest
 
 import figure
@@ -35,6 +38,21 @@ def test_a_stopped_run_is_made_again(tmp_path):
     assert store.results(1, lambda run, folder: (folder / "file").touch()).is_dir() and store.fresh == 1
     with pytest.raises(launch.MortiseError, match="is missing: ./dev build makes it"):
         runs.Store(tmp_path, programs=[tmp_path / "other"])
+
+
+def test_a_folder_that_several_ask_for_is_made_once(tmp_path):
+    (tmp_path / "program").write_text("")
+    store, made = runs.Store(tmp_path / "out", programs=[tmp_path / "program"]), []
+
+    def make(run, folder):
+        made.append(run)
+        time.sleep(0.05)
+        (folder / "file").write_text("whole")
+
+    with ThreadPoolExecutor(4) as pool:
+        folders = list(pool.map(lambda run: store.results(run, make), ["a", "a", "b", "a"]))
+    assert sorted(made) == ["a", "b"] and store.fresh == 2
+    assert all((folder / "file").read_text() == "whole" for folder in folders)
 
 
 def test_templates_are_strict():

@@ -1,7 +1,7 @@
-"""The preprint's figures 3-9, 11-28, 30 and 31 (gallery.toml) from our results: same quantities, scenes, meshes, axes.
+"""The preprint's 31 figures (gallery.toml) from our results: same quantities, scenes, meshes, axes.
 
-Ours is the preprint's discretisation with segments and a closed gap; pale lines are the variant of cause.py that comes
-nearest to the printed tables.
+Ours is the preprint's discretisation with gap and normals of the curve; pale lines are the variant of cause.py that
+comes nearest to the printed tables.
 """
 
 import html
@@ -47,8 +47,7 @@ class View:
         return oscillation.matching_curve(self.store, scene, mesh, VARIANTS[variant], body, at)
 
     def folder_with_fields(self, scene, mesh, active, variant=OURS):
-        settings = {key: v for key, v in self.settings(active, variant).items() if key != preprint_runs.STRESS}
-        return self.store.run(scene, mesh, settings, fields=True)
+        return self.store.run(scene, mesh, self.settings(active, variant), fields=True)
 
     def cosine(self, mesh, active, body):
         return self.store.curve("cosine", mesh, self.settings(active), body)
@@ -58,10 +57,10 @@ class View:
         return self.store.summary("cosine", mesh, method)["status"]
 
     def ddm(self, scene, mesh, body):
-        return self.store.curve(scene, mesh, {**DDM, **preprint_runs.CLOSED}, body)
+        return self.store.curve(scene, mesh, DDM, body)
 
     def ddm_residual(self, scene, mesh):
-        return self.store.summary(scene, mesh, {**DDM, **preprint_runs.CLOSED})["iteration"]["force"]
+        return self.store.summary(scene, mesh, DDM)["iteration"]["force"]
 
 
 # ---- Curves: label: (style, columns) ----
@@ -104,6 +103,18 @@ def line(path, curves, name="sigma_n", piece=None, whole=False, y_limits=None):
 
 
 # ---- What the figures show: functions of the view, a path and the arguments of gallery.toml ----
+
+
+def meshes(view, path, *scenes):
+    """A panel for each scene: both bodies' elements."""
+    drawing, panels = figure.panels(1, len(scenes), (4.6 if len(scenes) == 1 else 9.4, 2.9), squeeze=False)
+    for axes, scene in zip(panels[0], scenes):
+        shown = measures.fields(view.folder_with_fields(scene, claims.DRAWN, "G1"))
+        for outline, body in zip(shown["outlines"], shown["body"][shown["outlines"][:, 0]]):
+            axes.plot(*shown["points"][outline].T, color=COLOURS[measures.BODIES[body]], linewidth=0.5)
+        figure.label(axes, r"$x_1$, m", title=TABLE["names"][scene], aspect="equal")
+    panels[0][0].set_ylabel(r"$x_2$, m")
+    figure.save(drawing, path)
 
 
 def matching_bodies(view, path, scene):
@@ -194,7 +205,7 @@ def section(rows):
     for row in rows:
         texts = {name: html.escape(str(text)) for name, text in row.items()}
         caption = "<b>Figure {figure}.</b> {caption}<br>The preprint: {says}<br>Here: {found} <b>Ours: {holds}.</b>"
-        wide = ' style="grid-column:1/-1"' if row["figure"] in (24, 25) else ""
+        wide = ' style="grid-column:1/-1"' if row["figure"] in (2, 10, 24, 25) else ""
         image = f'<img src="{row["picture"]}" alt="Figure {row["figure"]}">'
         yield f"<figure{wide}>{image}<figcaption>{caption.format(**texts)}</figcaption></figure>\n"
     yield "</div>\n"

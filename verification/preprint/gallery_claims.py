@@ -19,7 +19,7 @@ TABLE = tomllib.loads(Path(__file__).with_name("gallery.toml").read_text())
 VISIBLE, LARGER = 0.01, 2
 NEAR = measures.NEAR_A_CORNER
 PARABOLA = "parabola_2"
-MESH, MATCHING = (80, 100), (80, 80)
+MESH, MATCHING, DRAWN = (80, 100), (80, 80), (16, 20)
 TENTS = ("tent_a", "tent_b", "tent_c")
 
 
@@ -31,6 +31,14 @@ def found(claim, **values):
     """The claim's text; shares are written in percent."""
     share = lambda v: percent(v) if isinstance(v, float) else v
     return template.fill(TABLE["found"][claim], **{name: share(value) for name, value in values.items()})
+
+
+def passes_through(view, *scenes):
+    """Both bodies' contact lines pass through the points that the preprint's text gives."""
+    heights = {s: [np.interp((0, 0.4, 0.8), c["x"], c["y"]) for c in view.both(s, DRAWN, "G1")] for s in scenes}
+    words = [f"{TABLE['names'][s]} " + ", ".join(f"{h:.6g}" for h in upper) for s, (upper, _) in heights.items()]
+    missed = [np.abs(np.array(both) - TABLE["heights"][scene]).max() for scene, both in heights.items()]
+    return found("passes_through", heights="; ".join(words)), bool(max(missed) < 1e-6)
 
 
 def matching_is_smooth(view, scene):

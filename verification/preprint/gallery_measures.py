@@ -4,15 +4,16 @@ Stresses are taken relative to the mean of |sigma_n| along the line. Parts neare
 line (its ends, the tents' kink) are left out: the stress is singular there.
 """
 
-import meshio
 import numpy as np
 
+import nodal_stress
 import printed_tables as printed
 
 NEAR_A_CORNER = 0.04  # m along x1
 NEAR_THE_LINE = 0.02  # m, of the fields
 BODIES = ("G1", "G2")  # in the order of result.vtu: upper, lower
 QUADRILATERAL = [(0, 4, 7), (4, 1, 5), (5, 2, 6), (6, 3, 7), (4, 5, 7), (5, 6, 7)]  # an 8-node cell as triangles
+OUTLINE = [0, 4, 1, 5, 2, 6, 3, 7, 0]
 
 
 def corners(scene):
@@ -49,16 +50,11 @@ def away(scene, curve, reference, name="sigma_n"):
 
 
 def fields(folder):
-    """Points, triangles between the nodes, body of each point, sigma_11 and sigma_22 of result.vtu."""
-    mesh = meshio.read(folder / "result.vtu")
-    blocks = [(k, block.data) for k, block in enumerate(mesh.cells) if block.type == "quad8"]
-    triangles = np.concatenate([data[:, part] for _, data in blocks for part in QUADRILATERAL])
-    body = np.zeros(len(mesh.points), dtype=int)
-    for k, data in blocks:
-        body[data] = mesh.cell_data["body"][k].reshape(-1, 1)
-    stress = mesh.point_data["stress"]
-    return {"points": mesh.points[:, :2], "triangles": triangles, "body": body, "sigma_11": stress[:, 0],
-            "sigma_22": stress[:, 1]}  # fmt: skip
+    """Points, triangles between the nodes, outlines of the elements, body of each point, sigma_11, sigma_22."""
+    run = nodal_stress.Run(folder)
+    stresses = {f"sigma_{11 * k}": run.mesh.point_data["stress"][:, k - 1] for k in (1, 2)}
+    cells = {"triangles": run.cells[:, QUADRILATERAL].reshape(-1, 3), "outlines": run.cells[:, OUTLINE]}
+    return {"points": run.points, "body": run.body, **cells, **stresses}
 
 
 def fields_apart(field, matching, curve, name, body):

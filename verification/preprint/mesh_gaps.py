@@ -12,7 +12,8 @@ import numpy as np
 
 from gallery_measures import inner
 from oscillation import matching_curve
-from preprint_runs import CLOSED, MEASURED, METHOD, on_side
+from cause import ENFORCED
+from preprint_runs import on_side
 import launch
 
 CURVATURE = {"parabola_1": (-1.25, 1.0), "parabola_2": (-1.875, 1.5)}  # a, b of x2 = a x1^2 + b x1 + c
@@ -46,14 +47,14 @@ def predicted(scene, mesh):
 
 def swing(store, scene, mesh, side):
     """Largest distance of sigma_n from matching meshes on the multiplier side, the gap enforced, corners left out."""
-    enforced = {**METHOD, **MEASURED, **on_side(side)}
+    enforced = {**ENFORCED, **on_side(side)}
     curve, reference = store.curve(scene, mesh, enforced, side), matching_curve(store, scene, mesh, enforced, side)
     return float(np.abs(curve["sigma_n"] - reference["sigma_n"])[inner(scene, curve["x"])].max())
 
 
 def rows(store, scenes, meshes, side="G2"):
     for scene, mesh in itertools.product(scenes, meshes):
-        gap = store.summary(scene, mesh, {**METHOD, **CLOSED, **on_side(side)})["contact"][0]["initial_gap"]
+        gap = store.summary(scene, mesh, {**ENFORCED, **on_side(side)})["contact"][0]["initial_gap"]
         largest = max(abs(gap["min"]), abs(gap["max"]))
         yield {
             **{"scene": scene, "mesh": f"{mesh[0]}x{mesh[1]}", "largest gap, m": largest},

@@ -8,12 +8,12 @@ stress is singular. Beside them and beside kinks it is large still, or s near a 
 
 import numpy as np
 
-from preprint_runs import STRESS, on_side
+from preprint_runs import AT_THE_NODES, on_side
 
 LEFT_OUT = {"nodes": 3, "centres": 1}  # of a line of 3-node edges, at either end
 SAME_PLACE = 1e-9  # m
 WORST = 6  # places
-OF_THE_MESH = ("mesh.parameters.spacing", "mesh.parameters.straight", "method.multipliers", STRESS)
+KEPT = ("mesh.parameters.spacing", "mesh.parameters.straight", "method.multipliers", "method.normals", *AT_THE_NODES)
 
 
 def delta(curve, reference, at="nodes"):
@@ -39,7 +39,7 @@ def matching_curve(store, scene, mesh, settings, body, at="nodes"):
     """The reference of a body's line: as many elements on both sides. Matching meshes have no gap and no segments to
     cut, and either side's multipliers are the same; so these settings are left at their defaults."""
     n = mesh[0] if body == "G1" else mesh[1]
-    kept = {key: value for key, value in settings.items() if key in OF_THE_MESH}
+    kept = {key: value for key, value in settings.items() if key in KEPT}
     return store.curve(scene, (n, n), kept, body, at)
 
 

@@ -2,12 +2,12 @@
 """The study of the preprint (Aronov & Rodin 2019, Keldysh Institute preprint 87), in one command.
 
 Tables 1-3 and 5-8 beside our figures, why the preprint's stresses oscillate, and its figures from our results. Written
-into OUTPUT are section.html, tables.csv, fits.csv, variants.csv, verdicts.csv, gaps.csv, gallery.csv and the pictures;
-the runs lie in OUTPUT/runs and are not repeated. Exit status: 0 if the study is complete, 1 if it could not run.
-MORTISE names another executable than build/release/mortise.
+into OUTPUT are section.html, tables.csv, variants.csv, verdicts.csv, effects.csv, unprinted.csv, medians.csv,
+gaps.csv, gallery.csv and the pictures; the runs lie in OUTPUT/runs and are not repeated. Exit status: 0 if the study is
+complete, 1 if it could not run. MORTISE names another executable than build/release/mortise.
 """
 
-import argparse
+import os
 import sys
 import time
 from dataclasses import dataclass
@@ -25,7 +25,6 @@ import tables
 import template
 
 SCENE, MESH = "parabola_2", (80, 100)  # of the curves that show the cause
-MEASURED = "segments, measured"
 TEXTS = template.texts(Path(__file__).with_name("preprint_texts.md"))
 
 
@@ -37,29 +36,31 @@ class Size:
     variants: list
     figures: list | None
     curves_mesh: tuple
+    unprinted: tuple
 
 
-QUICK_VARIANTS = [cause.OURS, MEASURED, "elements, closed", "elements, measured"]
-QUICK = Size([(40, 50)], QUICK_VARIANTS, [3, 14, 16, 26, 31], (40, 50))
-FULL = Size(None, list(cause.VARIANTS), None, MESH)
+SHOWN = [cause.OURS, cause.NORMALS, cause.GAP, cause.RULE]  # in the pictures
+QUICK = Size([(40, 50)], [*SHOWN, cause.BOTH], [2, 3, 14, 16, 26, 31], (40, 50), (25, 20))
+FULL = Size(None, list(cause.VARIANTS), None, MESH, cause.UNPRINTED)
 
 
 def study(store, output, size, say):
     """Everything: a dictionary of tables."""
     printed = printed_tables.printed_rows(size.meshes)
-    found = {"rows": tables.compute(store, printed, say)}
-    charts.printed_against_ours(output / "tables.png", found["rows"])
+    found = {"tables": tables.compute(store, printed, say)}
+    charts.printed_against_ours(output / "tables.png", found["tables"])
     found["variants"] = list(cause.compute(store, size.variants, printed, say))
     found["verdicts"] = cause.judge_all(found["variants"])
     best = cause.nearest(found["verdicts"])
     found["best"], found["printed"] = best, cause.figures_printed(found["variants"])
-    whole = len({row["mesh"] for row in printed if row["at"] == "nodes"}) > 1  # else there is no factor between meshes
-    found["trend"] = cause.nearest_in_trend(found["verdicts"], found["printed"]) if whole else None
     charts.variants(output / "variants.png", found["variants"], found["verdicts"])
-    chosen = list(dict.fromkeys([cause.OURS, MEASURED, best["variant"], (found["trend"] or best)["variant"]]))
-    charts.by_mesh(output / "meshes.png", found["variants"], chosen, best["reading"])
+    charts.by_mesh(output / "meshes.png", found["variants"], SHOWN, best["reading"])
     side = printed_tables.MAPPINGS[best["reading"]]("G1")
-    charts.stress_curves(output / "curves.png", store, chosen, side, SCENE, size.curves_mesh)
+    charts.stress_curves(output / "curves.png", store, SHOWN, side, SCENE, size.curves_mesh)
+    found["effects"] = list(cause.effects(found["variants"], best["reading"]))
+    compared = [cause.OURS, cause.BOTH, cause.RULE]
+    found["unprinted"] = cause.unprinted(store, compared, size.unprinted, printed, say)
+    found["medians"] = list(cause.medians(found["variants"] + found["unprinted"], compared, best["reading"]))
     meshes = sorted({row["mesh"] for row in printed})
     found["gaps"] = list(mesh_gaps.rows(store, ("circle", "parabola_1", "parabola_2"), meshes))
     view = gallery.View(store, best["reading"], best["variant"])
@@ -86,8 +87,8 @@ def required(rows):
 
 
 def about_the_cause(found):
-    """The variant nearest to the printed parabola rows, with what it meets and misses, and that of the trend."""
-    best, printed, trend = found["best"], found["printed"], found["trend"]
+    """The variant nearest to the printed parabola rows, with what it meets and misses."""
+    best, printed = found["best"], found["printed"]
     pairs = [f"{name} {best[name]:.2g} (printed {printed[name]:.2g})" for name in printed if is_number(best[name])]
     sizes = ", ".join(f"{series} {best[f'ours/printed, {series}']:.2g}" for series in printed_tables.SERIES)
     words = {name: best[name] for name in ("variant", "reading", "fits")}
@@ -98,14 +99,6 @@ def about_the_cause(found):
     others = [f"'{v['variant']}', '{v['reading']}'" for v in found["verdicts"] if v["fits"] and v is not best]
     if others:
         yield "others", {"others": "; ".join(others)}
-    if trend:
-        order, factor = "parabolas over circle", "factor between meshes"
-        yield "trend", {
-            **{"variant": trend["variant"], "reading": trend["reading"], "size": trend["ours/printed, parabolas"]},
-            **{"within": 100 * trend["parabolas: rows within 3"], "rank": trend["parabolas: rank correlation"]},
-            **{"order": trend[order], "printed_order": printed[order]},
-            **{"factor": trend[factor], "printed_factor": printed[factor]},
-        }
 
 
 def summary(found):
@@ -114,7 +107,12 @@ def summary(found):
     theirs = [words[-1].endswith("it holds") for words in verdicts if len(words) == 2]
     ours = sum(words[0] == "holds" for words in verdicts)
     counts = {"ours": ours, "figures": len(verdicts), "variant": sum(theirs), "compared": len(theirs)}
-    lines = [*required(found["rows"]), *(("ratios", row) for row in tables.ratios(found["rows"]))]
+    lines = [*required(found["tables"]), *(("ratios", row) for row in tables.ratios(found["tables"]))]
+    by = {(row["variant"], row["series"]): row for row in found["effects"]}
+    names = {"normals": cause.NORMALS, "gap": cause.GAP, "both": cause.BOTH}
+    which = {name: by[variant, "parabolas"]["median"] for name, variant in names.items()}
+    which |= {f"circle_{name}": by[variant, "circle"]["median"] for name, variant in names.items()}
+    lines += [("which", which | {"largest": by[cause.GAP, "parabolas"]["largest"]})]
     lines += [*about_the_cause(found), ("gallery", counts)]
     return [template.fill(TEXTS[name], **values).replace("\n", " ") for name, values in lines]
 
@@ -126,36 +124,35 @@ def as_table(rows):
 
 def markdown(found):
     figures = ", ".join(f"{name} {value:.2g}" for name, value in found["printed"].items() if is_number(value))
-    numbers = ", ".join(dict.fromkeys(str(row["table"]) for row in found["rows"]))
+    numbers = ", ".join(dict.fromkeys(str(row["table"]) for row in found["tables"]))
     low, high = cause.BETWEEN_MESHES
+    tabulated = {name: as_table(meshes_as_text(found[name])) for name in ("gaps", "effects", "medians", "verdicts")}
     return template.fill(
-        TEXTS["page"], summary="\n\n".join(summary(found)), fits=as_table(list(tables.fits(found["rows"]))),
-        gaps=as_table(found["gaps"]), factor=cause.FACTOR, low=low, high=high, printed=figures,
-        verdicts=as_table(found["verdicts"]), numbers=numbers,
-        rows=template.table(tables.COLUMNS.values(), tables.lines(found["rows"])),
-        variant=found["best"]["variant"], reading=found["best"]["reading"],
+        TEXTS["page"], summary="\n\n".join(summary(found)), factor=cause.FACTOR, low=low, high=high, printed=figures,
+        rows=template.table(tables.COLUMNS.values(), tables.lines(found["tables"])),
+        variant=found["best"]["variant"], reading=found["best"]["reading"], numbers=numbers, **tabulated,
     )  # fmt: skip
 
 
-def write(output, found):
+def meshes_as_text(rows):
     text = lambda mesh: mesh if isinstance(mesh, str) else "x".join(map(str, mesh))
-    csvs = {name: found[name] for name in ("variants", "verdicts", "gaps", "gallery")}
-    for name, rows in (csvs | {"tables": found["rows"], "fits": list(tables.fits(found["rows"]))}).items():
-        rows = [{key: text(value) if key == "mesh" else value for key, value in row.items()} for row in rows]
-        launch.write_csv(output / f"{name}.csv", rows)
+    return [row | {"mesh": text(row["mesh"])} if "mesh" in row else row for row in rows]
+
+
+def write(output, found):
+    for name in ("tables", "variants", "verdicts", "effects", "unprinted", "medians", "gaps", "gallery"):
+        launch.write_csv(output / f"{name}.csv", meshes_as_text(found[name]))
     body = [page.from_markdown(markdown(found)), *gallery.section(found["gallery"])]
     page.write_section(output, "preprint", "The preprint's study", body)
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-o", "--output", type=Path, default=Path("out/preprint"), help="default: out/preprint")
-    parser.add_argument("--quick", action="store_true", help="one mesh, 4 variants, 5 figures: under 2 minutes")
-    options = parser.parse_args(arguments)
+    options = launch.command_line(__doc__, "preprint", arguments)
     options.output.mkdir(parents=True, exist_ok=True)
+    os.environ.update(launch.ONE_THREAD)
     start = time.time()
     try:
-        store = preprint_runs.Store(options.output / "runs")
+        store = preprint_runs.Store(options.output / "runs", options.jobs)
         say = lambda text: print(f"[{time.time() - start:5.0f} s, {store.fresh:3} runs] {text}", flush=True)
         found = study(store, options.output, QUICK if options.quick else FULL, say)
         write(options.output, found)

@@ -31,7 +31,7 @@ def printed_against_ours(path, rows):
     axes.plot(ends, ends, color="black", linewidth=0.9)
     axes.text(0.3, 0.42, "equal", rotation=45, fontsize=8, ha="center", va="center")
     legend = {"frameon": False, "loc": "upper left", "fontsize": 9}
-    words = r"$\delta$ printed", r"$\delta$ ours: segments, closed, better side"
+    words = r"$\delta$ printed", r"$\delta$ ours, better side"
     figure.label(axes, *words, log="xy", xlim=ends, ylim=ends, aspect="equal", legend=legend)
     figure.save(drawing, path)
 

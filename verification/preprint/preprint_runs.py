@@ -6,7 +6,6 @@ contact_centres.csv of one body, by x1.
 
 import json
 import sys
-import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -15,12 +14,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import launch
 import nodal_stress
+import projected_elements
 import runs
 
 SIDES = {"G1": "upper_contact", "G2": "lower_contact"}
-METHOD = {"method.multipliers": "quadratic"}  # of the preprint; the other defaults are the scenes' own
-CLOSED, MEASURED = ({"contact.initial_gap": name} for name in ("closed", "measured"))
-STRESS, AT_THE_NODES = "study.stress", "at the nodes"  # a setting of curves only, not of mortise: nodal_stress.py
+METHOD = {"method.multipliers": "quadratic"}  # of the preprint; else the defaults: gap and normals of the curve
+MEASURED, EDGES = {"contact.initial_gap": "measured"}, {"method.normals": "edges"}
+AT_THE_NODES, PROJECTED = {"study.stress": "at the nodes"}, {"study.integration": "projected edges"}  # not of mortise
 FILES = {"nodes": "contact.csv", "centres": "contact_centres.csv"}
 
 
@@ -32,15 +32,22 @@ def on_side(body):
 class Store(runs.Store):
     """The study's runs; the tables that were read are kept in memory."""
 
-    def __init__(self, folder):
-        super().__init__(folder, [nodal_stress.__file__])
+    def __init__(self, folder, jobs=1):
+        super().__init__(folder, [nodal_stress.__file__, projected_elements.__file__], jobs=jobs)
         self.tables = {}
 
     def run(self, scene, mesh, settings, fields=False):
         """Folder of the results. `fields`: result.vtu too, which is large and else thrown away."""
 
         def solve(run, folder):
-            launch.solve(scene, {**launch.sizes(mesh), **settings}, folder)
+            own = {key: value for key, value in settings.items() if key.startswith("study.")}
+            launch.solve(scene, {**launch.sizes(mesh), **dict(settings.items() - own.items())}, folder)
+            if own:
+                solved = nodal_stress.Run(folder)
+                if PROJECTED.items() <= own.items():
+                    side, enforced = settings["contact.multipliers_on"], MEASURED.items() <= settings.items()
+                    solved.u = projected_elements.solve(solved, side, enforced)
+                solved.write(at_the_nodes=AT_THE_NODES.items() <= own.items())
             for name in ["contact.vtu"] + ([] if fields else ["result.vtu"]):
                 (folder / name).unlink()
 
@@ -54,26 +61,9 @@ class Store(runs.Store):
             self.tables[path] = {name: np.array(values) for name, values in launch.columns(path).items()}
         return self.tables[path]
 
-    def nodal_stresses(self, scene, mesh, settings):
-        """The stresses taken at the nodes, by the rows of contact.csv."""
-
-        def measure(run):
-            with tempfile.TemporaryDirectory() as folder:
-                launch.solve(scene, {**launch.sizes(mesh), **settings}, folder)
-                columns = launch.columns(Path(folder, "contact.csv")).items()
-                return nodal_stress.at_contact(Path(folder), {name: np.array(values) for name, values in columns})
-
-        found = self.row([scene, mesh, settings, STRESS], measure, f"nodal_stress-{scene}-{mesh[0]}x{mesh[1]}")
-        return {name: np.array(values) for name, values in found.items()}
-
     def curve(self, scene, mesh, settings, body, at="nodes"):
         """Columns of one body's contact line by x1, at its nodes or its element centres."""
-        settings = dict(settings)
-        direct = settings.pop(STRESS, None) == AT_THE_NODES and at == "nodes"
         table = self.table(self.run(scene, mesh, settings) / FILES[at])
-        if direct:
-            table = {**table, **self.nodal_stresses(scene, mesh, settings)}
         here = np.flatnonzero(table["curve"] == SIDES[body])
         order = here[np.argsort(table["x"][here])]
-        curve = {name: values[order] for name, values in table.items()}
-        return nodal_stress.replaced(curve) if direct else curve
+        return {name: values[order] for name, values in table.items()}

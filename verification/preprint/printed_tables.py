@@ -5,6 +5,7 @@ whether it is a target (rows that the preprint prints twice are none).
 """
 
 import csv
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -39,14 +40,13 @@ def printed_rows(meshes=None):
     return [row for row in rows if meshes is None or row["mesh"] in meshes]
 
 
-def once_a_place(rows, measure):
+def once_a_place(rows, measure, jobs):
     """Each row with measure(row), which is asked once for the rows of the same scene, mesh, body and `at`."""
-    found = {}
-    for row in rows:
-        place = tuple(row[name] for name in ("scene", "mesh", "at", "body"))
-        if place not in found:
-            found[place] = measure(row)
-        yield row, found[place]
+    place = lambda row: tuple(row[name] for name in ("scene", "mesh", "at", "body"))
+    asked = {place(row): row for row in rows}
+    with ThreadPoolExecutor(jobs) as pool:
+        found = dict(zip(asked, pool.map(measure, asked.values())))
+    return [(row, found[place(row)]) for row in rows]
 
 
 def of_series(rows, series):

@@ -1,16 +1,16 @@
 """Tables 1 to 3 and 5 to 8 of the preprint beside our figures.
 
-Ours is the preprint's discretisation (8-node quadrilaterals, quadratic multipliers) with segments and a closed gap, and
-the same with linear multipliers, the program's default; each with the multipliers on either body. "better" is the
-smaller of the two quadratic ones, "best" the smallest of all four, "default" what the program does unasked: linear
-multipliers on the finer side.
+Ours is the preprint's discretisation (8-node quadrilaterals, quadratic multipliers), else the program's defaults:
+segments, gap and normals of the curve; and the same with linear multipliers, a default too; each with the multipliers
+on either body. "better" is the smaller of the two quadratic ones, "best" the smallest of all four, "default" what the
+program does unasked: linear multipliers on the finer side.
 """
 
 import numpy as np
 
 import oscillation
 import printed_tables as printed
-from preprint_runs import CLOSED, METHOD
+from preprint_runs import METHOD
 
 SPACES = {"quadratic": METHOD, "linear": {}}
 COLUMNS = {
@@ -29,7 +29,7 @@ def measure(store, row, say):
     say(f"table {row['table']}: {row['scene']} {row['mesh'][0]}x{row['mesh'][1]} {row['at']}, {row['body']}")
     place = row["body"], row["at"]
     of = lambda space, side, measure: oscillation.delta_of(
-        store, row["scene"], row["mesh"], {**SPACES[space], **CLOSED}, side, *place, measure=measure)  # fmt: skip
+        store, row["scene"], row["mesh"], SPACES[space], side, *place, measure=measure)  # fmt: skip
     measures = (oscillation.mean_delta, oscillation.share_of_worst)
     return {(space, side): [of(space, side, m) for m in measures] for space in SPACES for side in printed.OTHER}
 
@@ -49,15 +49,7 @@ def judged(row, found):
 
 
 def compute(store, rows, say):
-    return [judged(row, found) for row, found in printed.once_a_place(rows, lambda row: measure(store, row, say))]
-
-
-def fits(rows):
-    """Fit of each reading of "active", a row for each series and mapping."""
-    for series, name in ((series, name) for series in printed.SERIES for name in printed.MAPPINGS):
-        if here := printed.of_series(rows, series):
-            figures = printed.fit([row[f"quadratic, {name}"] for row in here], [row["printed"] for row in here])
-            yield {"series": series, "reading": name, **figures}
+    return [judged(*pair) for pair in printed.once_a_place(rows, lambda row: measure(store, row, say), store.jobs)]
 
 
 def ratios(rows):
@@ -73,7 +65,7 @@ def exceptions(rows, name="better"):
 
 
 def short(value):
-    return f"{value:.3g}" if isinstance(value, float) else str(value)
+    return ("none" if value != value else f"{value:.3g}") if isinstance(value, float) else str(value)
 
 
 def lines(rows):
