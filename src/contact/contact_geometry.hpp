@@ -14,9 +14,8 @@ struct Place {
 };
 
 struct ContactGeometry {
-  /// Normals, and gaps, are those of these lines; without: of the edges.
-  std::optional<ContactLine> multiplier, opposite;
-  bool normals = false, gap = false;
+  std::optional<ContactLine> multiplier, opposite;  ///< the lines of both sides; only a pair of edges has none
+  bool normals = false, gap = false;                ///< whether these are the lines', else the edges'
   double clearance = 0;  ///< added to every gap, length: a clearance (+) or an interference (-) that is not drawn
 
   /// From a place on the multiplier side's edges along the normal there.

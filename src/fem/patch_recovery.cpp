@@ -70,8 +70,10 @@ StressPatch fit(const Vec2& centre, const std::vector<int>& cells, int terms, co
       M += m * m.transpose();
       right += m * (samples.row(q) - mean);
     }
-  // Samples on few lines leave a term open, as y^2 in a beam one element thick: it stays small.
-  M.diagonal().array() += 1e-12 * count;
+  // Samples on few lines leave the terms of the highest degree open, as y^2 in a beam one element thick: they stay
+  // small.
+  const int highest = terms == 6 ? 3 : 1;
+  M.diagonal().segment(highest, terms - highest).array() += 1e-12 * count;
   patch.coefficients.topRows(terms) = M.topLeftCorner(terms, terms).llt().solve(right.topRows(terms));
   patch.coefficients.row(0) += mean;
   return patch;

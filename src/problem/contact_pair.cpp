@@ -115,12 +115,13 @@ std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, co
   return pairs;
 }
 
+bool is_drawn(const ContactPair& pair) { return !pair.multiplier.samples.empty() && !pair.opposite.samples.empty(); }
+
 std::string gap_words(const ContactPair& pair) {
   if (pair.spec.initial_gap == InitialGap::closed) return "closed";
   if (pair.spec.initial_gap == InitialGap::measured) return "of the meshes";
   std::ostringstream words;
-  words << (pair.multiplier.samples.empty() || pair.opposite.samples.empty() ? "of curves through the nodes"
-                                                                             : "as drawn");
+  words << (is_drawn(pair) ? "as drawn" : "of curves through the nodes");
   if (pair.spec.clearance != 0) words << " + " << pair.spec.clearance;
   return words.str();
 }

@@ -46,6 +46,9 @@ inline constexpr double facet_limit = 1.5;
 std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, const Discretisation& discretisation,
                                       std::vector<ContactCurves> curves, const std::vector<char>& dirichlet = {});
 
+/// Whether both curves are known as they are drawn, not by their meshes alone.
+bool is_drawn(const ContactPair& pair);
+
 /// What the pair's gap is, as words for the user: "closed", or whose gap and with what clearance.
 std::string gap_words(const ContactPair& pair);
 

@@ -35,7 +35,7 @@ Json contact_json(const ContactPair& pair, const ContactResults& c, const std::o
           {"force", {c.force.x(), c.force.y()}},
           {"pressure", {{"min", c.p_min}, {"mean", c.p_mean}, {"max", c.p_max}}},
           {"against_sigma_n", comparison_json(compared)},
-          {"drawn", !pair.multiplier.samples.empty() && !pair.opposite.samples.empty()},
+          {"drawn", is_drawn(pair)},
           {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
 }
 

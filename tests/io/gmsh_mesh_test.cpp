@@ -314,7 +314,7 @@ TEST(WriteMsh, SaysWhatCannotBeWritten) {
 
 // ---- Drawn curves ----
 
-// A disc of four arcs or of one closed curve, and a straight curve: its diameter.
+// A disc of two arcs, one of them named backwards, or of one closed curve.
 std::string disc(bool one_curve) {
   return std::string(one_curve ? "SetFactory(\"OpenCASCADE\"); Disk(1) = {3, 4, 0, 2};\n"
                                : "Point(1) = {3, 4, 0}; Point(2) = {5, 4, 0}; Point(3) = {1, 4, 0};\n"

@@ -228,7 +228,8 @@ def draw_pair(axes, table, multiplier_side, between, label="$p$ (multipliers)"):
 def draw(results, picture, scale=None, dpi=130):
     summary = json.loads((results / "summary.json").read_text())
     pairs, multiplier_sides = summary["contact"], summary["method"]["multipliers_on"]
-    extent = np.ptp(meshio.read(results / "result.vtu").points[:, :2], axis=0)
+    mesh = meshio.read(results / "result.vtu")
+    extent = np.ptp(mesh.points[:, :2], axis=0)
     above = float(np.clip(6.6 * extent[1] / extent[0], 2.5, 6.5))
     below = 2.5
     heights, size = [above] + [below] * len(pairs), (8, above + below * len(pairs) + 0.6)
@@ -239,7 +240,7 @@ def draw(results, picture, scale=None, dpi=130):
     if summary["status"] != "solved":
         panels[0, 0].set_title(summary["status"].replace("_", " "), loc="right", color="#c00000", fontsize=10)
     if pairs:
-        zigzags = any(block.type == "triangle" for block in meshio.read(results / "result.vtu").cells)
+        zigzags = any(block.type == "triangle" for block in mesh.cells)
         table = read_csv(results / ("contact_centres.csv" if zigzags else "contact.csv"))
         label = ("$p$ (means over edges)",) if zigzags else ()
         for k, (pair, side) in enumerate(zip(pairs, multiplier_sides)):

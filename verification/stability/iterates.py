@@ -60,18 +60,17 @@ def cases(size):
     return [Case(*values) for values in itertools.product(MESHES[size], SPACES, RATIOS[size], BETAS[size])]
 
 
-def variant(scene, ratio):
-    """The scene with a closed gap and an upper body `ratio` times as stiff as the lower one."""
+def with_stiffness(scene, ratio):
+    """The scene with an upper body `ratio` times as stiff as the lower one."""
     other = {"young": launch.YOUNG * ratio, "poisson": 0.3}
     materials = {**scene["materials"], "other": other}
-    contact = [{**scene["contact"][0], "initial_gap": "closed"}]
-    return {**scene, "materials": materials, "bodies": {**scene["bodies"], "upper": "other"}, "contact": contact}
+    return {**scene, "materials": materials, "bodies": {**scene["bodies"], "upper": "other"}}
 
 
 def prepare(programs, case, folder):
     """Mesh and FreeFEM's case in the folder; returns mortise's mesh file."""
     step, file, mesh = case.step(), launch.scene_file(SCENE), folder / "mesh.msh"
-    scene = variant(scenes.read_scene(file), case.ratio)
+    scene = with_stiffness(scenes.read_scene(file), case.ratio)
     run.make_mesh(programs, file, scenes.size_parameters(scene, step.mesh), step.mesh_parameters, mesh)
     run.convert_step(step, scene, mesh, folder)
     return mesh
@@ -99,8 +98,6 @@ def mortise_iterates(case, mesh, folder, places, steps):
         "mesh.file": mesh,
         "mesh.parameters": "{}",
         "contact.multipliers_on": SIDE,
-        "contact.initial_gap": "closed",
-        "method.normals": "edges",
         "method.solver": "ddm",
         "method.multipliers": method["multipliers"],
         "method.integration": method["integration"],
