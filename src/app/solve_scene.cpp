@@ -9,7 +9,7 @@
 #include "results/audit_solution.hpp"
 #include "results/checks.hpp"
 #include "results/diagnose.hpp"
-#include "results/energy_estimate.hpp"
+#include "results/error_report.hpp"
 #include "results/warnings.hpp"
 
 namespace mortise {
@@ -88,8 +88,9 @@ ActiveSet active_set(const Results& r) { return {r.mesh.nodes, row_nodes(r.pairs
 
 void estimate(Results& r) {
   Stopwatch watch;
-  r.estimate = estimate_energy_error(r);
-  if (const auto line = energy_error_warning(r.mesh, *r.estimate)) r.warnings.push_back(*line);
+  r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution);
+  for (std::size_t k = 0; k < r.contacts.size(); ++k) set_bars(r.estimate->pressures[k], r.contacts[k]);
+  append(r.warnings, error_warnings(r));
   r.seconds.estimate = watch.lap();
 }
 

@@ -31,7 +31,7 @@ Row figures(const Results& r) {
                            {"iteration.seconds", r.seconds.solve}});
     for (const auto& [name, value] : iteration->figures) row.emplace_back("iteration." + name, value);
   }
-  if (r.estimate) row.emplace_back("estimate.error", r.estimate->error);
+  if (r.estimate) row.emplace_back("estimate.error", r.estimate->energy.error);
   if (r.inf_sup) row.emplace_back("inf_sup", r.inf_sup->beta);
   for (std::size_t k = 0; k < r.contacts.size(); ++k) {
     const ContactResults& c = r.contacts[k];

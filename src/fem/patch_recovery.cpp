@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "fem/quadrature.hpp"
@@ -32,75 +33,147 @@ struct CellsAround {
   }
 };
 
-// Where the samples are: those of cell e are rows first[e] .. first[e + 1] - 1.
-struct SamplePlaces {
-  std::vector<int> first{0};
-  std::vector<Vec2> x;
+// A row a node, the displacements along x and y of all fields in it: 2 F columns, x of each first.
+using NodalFields = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  explicit SamplePlaces(const Mesh& mesh) {
-    ForEachKind<std::vector<CellShape>> shapes;
-    for (const CellKind kind : all_cell_kinds)
-      for (const Vec2& xi : stress_points(kind).points) shapes[int(kind)].push_back(cell_shape(kind, xi));
-    for (const Cell& cell : mesh.cells) {
-      for (const CellShape& shape : shapes[int(cell.kind)]) {
-        x.emplace_back(0, 0);
-        for (int a = 0; a < node_count(cell.kind); ++a)
-          x.back() += shape.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
-      }
-      first.push_back(int(x.size()));
+NodalFields by_node(const MatX& fields) {
+  const Eigen::Index nodes = fields.rows() / 2, count = fields.cols();
+  NodalFields u(nodes, 2 * count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    for (Eigen::Index i = 0; i < nodes; ++i) {
+      u(i, k) = fields(2 * i, k);
+      u(i, count + k) = fields(2 * i + 1, k);
+    }
+  return u;
+}
+
+// A cell's geometry at a reference point, and the stresses of all fields there.
+class CellSampler {
+ public:
+  Vec2 x;
+  double area = 0;              // Jacobian determinant
+  Eigen::RowVectorXd stresses;  // 4 F, initial strains left out
+
+  CellSampler(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const MatX& fields)
+      : stresses(4 * fields.cols()),
+        mesh_(mesh),
+        laws_(laws),
+        u_(by_node(fields)),
+        gradient_(4, fields.cols()),
+        count_(fields.cols()) {}
+
+  void sample(const Cell& cell, const CellShape& shape) {
+    const int nodes = node_count(cell.kind);
+    x.setZero();
+    Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero();  // (i, j) = d x_j / d xi_i
+    for (int a = 0; a < nodes; ++a) {
+      x += shape.N[a] * mesh_.nodes.row(cell.nodes[a]).transpose();
+      x_xi += shape.dN[a] * mesh_.nodes.row(cell.nodes[a]);
+    }
+    area = x_xi.determinant();
+    const Eigen::Matrix2d xi_x = x_xi.inverse();
+    gradient_.setZero();
+    for (int a = 0; a < nodes; ++a) {
+      const Vec2 d = xi_x * shape.dN[a];
+      const double* u = &u_(cell.nodes[a], 0);
+      for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) {  // d u_i / d x_j
+          double* row = &gradient_(2 * i + j, 0);
+          const double* component = u + i * count_;
+          for (Eigen::Index k = 0; k < count_; ++k) row[k] += d(j) * component[k];
+        }
+    }
+    const auto& C = laws_[cell.body].stiffness;
+    for (Eigen::Index k = 0; k < count_; ++k) {
+      const double e11 = gradient_(0, k), e22 = gradient_(3, k), g12 = gradient_(1, k) + gradient_(2, k);
+      for (int i = 0; i < 4; ++i) stresses(4 * k + i) = C(i, 0) * e11 + C(i, 1) * e22 + C(i, 2) * g12;
     }
   }
+
+ private:
+  const Mesh& mesh_;
+  const std::vector<ElasticLaw>& laws_;
+  NodalFields u_;
+  FieldStresses gradient_;  // 11, 12, 21, 22; F columns
+  Eigen::Index count_;
 };
 
-StressPatch fit(const Vec2& centre, const std::vector<int>& cells, int terms, const SamplePlaces& places,
-                const Stresses& samples) {
-  StressPatch patch{.centre = centre, .size = 0, .terms = terms};
-  Eigen::RowVector4d mean = Eigen::RowVector4d::Zero();
+// Fits patch p, whose terms are set, to the samples of the cells.
+void fit(const std::vector<int>& cells, const StressSamples& samples, int p, StressPatches& patches) {
+  const Eigen::Index columns = samples.stresses.cols();
+  const int terms = patches.terms[p];
+  double& size = patches.size[p];
+  Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(columns);
   int count = 0;
   for (const int e : cells)
-    for (int q = places.first[e]; q < places.first[e + 1]; ++q) {
-      patch.size = std::max(patch.size, (places.x[q] - centre).norm());
-      mean += (samples.row(q) - mean) / ++count;
+    for (int q = samples.first[e]; q < samples.first[e + 1]; ++q, ++count) {
+      size = std::max(size, (samples.x[q] - patches.centre[p]).norm());
+      mean += samples.stresses.row(q);
     }
+  mean /= count;
   Eigen::Matrix<double, 6, 6> M = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix<double, 6, 4> right = Eigen::Matrix<double, 6, 4>::Zero();
+  auto right = patches.coefficients.middleRows<6>(6 * p);
   for (const int e : cells)
-    for (int q = places.first[e]; q < places.first[e + 1]; ++q) {
-      const Monomials m = monomials((places.x[q] - centre) / patch.size);
+    for (int q = samples.first[e]; q < samples.first[e + 1]; ++q) {
+      const Monomials m = monomials((samples.x[q] - patches.centre[p]) / size);
       M += m * m.transpose();
-      right += m * (samples.row(q) - mean);
+      for (int t = 0; t < terms; ++t) right.row(t) += m(t) * (samples.stresses.row(q) - mean);
     }
   // Samples on few lines leave the terms of the highest degree open, as y^2 in a beam one element thick: they stay
   // small.
   const int highest = terms == 6 ? 3 : 1;
   M.diagonal().segment(highest, terms - highest).array() += 1e-12 * count;
-  patch.coefficients.topRows(terms) = M.topLeftCorner(terms, terms).llt().solve(right.topRows(terms));
-  patch.coefficients.row(0) += mean;
-  return patch;
+  const MatX solution = M.topLeftCorner(terms, terms).llt().solve(right.topRows(terms));
+  right.topRows(terms) = solution;
+  right.row(0) += mean;
 }
 
-double compliance_energy(const ElasticLaw& law, const Vec4& s) {
-  const double poisson = law.young / (2 * law.stiffness(3, 2)) - 1, trace = s(0) + s(1) + s(2);
-  return ((1 + poisson) * (s.head<3>().squaredNorm() + 2 * s(3) * s(3)) - poisson * trace * trace) / law.young;
+// a : C^-1 : b
+double compliance_product(const ElasticLaw& law, const Vec4& a, const Vec4& b) {
+  const double poisson = law.young / (2 * law.stiffness(3, 2)) - 1;
+  return ((1 + poisson) * (a.head<3>().dot(b.head<3>()) + 2 * a(3) * b(3)) -
+          poisson * a.head<3>().sum() * b.head<3>().sum()) /
+         law.young;
 }
 
 }  // namespace
 
-Vec4 StressPatch::at(const Vec2& x) const {
-  return coefficients.topRows(terms).transpose() * monomials((x - centre) / size).head(terms);
+void StressPatches::add_at(int p, const Vec2& x, double factor, Eigen::RowVectorXd& sum) const {
+  const Monomials m = monomials((x - centre[p]) / size[p]);
+  for (int t = 0; t < terms[p]; ++t) sum += factor * m(t) * coefficients.row(6 * p + t);
 }
 
-std::vector<StressPatch> recover_patches(const Mesh& mesh, const BodyPoints& points, const Stresses& samples) {
+StressSamples sample_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const MatX& fields) {
+  ForEachKind<std::vector<CellShape>> shapes;
+  for (const CellKind kind : all_cell_kinds)
+    for (const Vec2& xi : stress_points(kind).points) shapes[int(kind)].push_back(cell_shape(kind, xi));
+  StressSamples samples;
+  for (const Cell& cell : mesh.cells)
+    samples.first.push_back(samples.first.back() + int(shapes[int(cell.kind)].size()));
+  samples.stresses.resize(samples.first.back(), 4 * fields.cols());
+  CellSampler at(mesh, laws, fields);
+  for (const Cell& cell : mesh.cells)
+    for (const CellShape& shape : shapes[int(cell.kind)]) {
+      at.sample(cell, shape);
+      samples.stresses.row(Eigen::Index(samples.x.size())) = at.stresses;
+      samples.x.push_back(at.x);
+    }
+  return samples;
+}
+
+StressPatches recover_patches(const Mesh& mesh, const BodyPoints& points, const StressSamples& samples) {
   const std::vector<Cell> on_points = cells_on_points(mesh, points);
   const int count = int(points.node.size());
   const CellsAround around(on_points, count);
-  const SamplePlaces places(mesh);
   const auto samples_in = [&](const std::vector<int>& cells) {
     int sum = 0;
-    for (const int e : cells) sum += places.first[e + 1] - places.first[e];
+    for (const int e : cells) sum += samples.first[e + 1] - samples.first[e];
     return sum;
   };
-  std::vector<StressPatch> patches(count);
+  StressPatches patches{.centre = std::vector<Vec2>(count, Vec2::Zero()),
+                        .size = std::vector<double>(count, 0),
+                        .terms = std::vector<int>(count, 0),
+                        .coefficients = MatX::Zero(6 * Eigen::Index(count), samples.stresses.cols())};
   for (int p = 0; p < count; ++p) {
     std::vector<int> cells(around.cells.begin() + around.first[p], around.cells.begin() + around.first[p + 1]);
     if (cells.empty()) continue;  // no vertex
@@ -115,14 +188,16 @@ std::vector<StressPatch> recover_patches(const Mesh& mesh, const BodyPoints& poi
       std::ranges::sort(cells);
       cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     }
-    const int found = samples_in(cells), terms = quadratic && found >= 9 ? 6 : found >= 4 ? 3 : 1;
-    patches[p] = fit(mesh.nodes.row(points.node[p]).transpose(), cells, terms, places, samples);
+    const int found = samples_in(cells);
+    patches.terms[p] = quadratic && found >= 9 ? 6 : found >= 4 ? 3 : 1;
+    patches.centre[p] = mesh.nodes.row(points.node[p]);
+    fit(cells, samples, p, patches);
   }
   return patches;
 }
 
-EnergyErrors energy_errors(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                           const VecX& u, const std::vector<StressPatch>& patches) {
+ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                             const MatX& fields, const StressPatches& patches) {
   struct Rule {
     std::vector<double> weights;
     std::vector<CellShape> shapes, linear;
@@ -137,26 +212,26 @@ EnergyErrors energy_errors(const Mesh& mesh, const BodyPoints& points, const std
     }
   }
   const std::vector<Cell> on_points = cells_on_points(mesh, points);
-  EnergyErrors found{.errors = VecX::Zero(mesh.cells.size()), .areas = VecX::Zero(mesh.cells.size())};
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+  const Eigen::Index cells = Eigen::Index(mesh.cells.size()), count = fields.cols();
+  ErrorProducts found{.products = MatX::Zero(cells, count), .norms = VecX::Zero(cells), .areas = VecX::Zero(cells)};
+  CellSampler at(mesh, laws, fields);
+  Eigen::RowVectorXd recovered(4 * count);
+  for (Eigen::Index e = 0; e < cells; ++e) {
     const Cell& cell = mesh.cells[e];
+    const ElasticLaw& law = laws[cell.body];
     const Rule& rule = rules[int(cell.kind)];
     for (std::size_t q = 0; q < rule.weights.size(); ++q) {
-      const CellShape& shape = rule.shapes[q];
-      Vec2 x = Vec2::Zero();
-      Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();
-      for (int a = 0; a < node_count(cell.kind); ++a) {
-        x += shape.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
-        jacobian += shape.dN[a] * mesh.nodes.row(cell.nodes[a]);
-      }
-      Vec4 recovered = Vec4::Zero();
+      at.sample(cell, rule.shapes[q]);
+      recovered.setZero();
       for (int a = 0; a < corner_count(cell.kind); ++a)
-        recovered += rule.linear[q].N[a] * patches[on_points[e].nodes[a]].at(x);
-      const ElasticLaw& law = laws[cell.body];
-      const double area = rule.weights[q] * jacobian.determinant();
+        patches.add_at(on_points[e].nodes[a], at.x, rule.linear[q].N[a], recovered);
+      const double area = rule.weights[q] * at.area;
+      const Vec4 whole = recovered.head<4>().transpose() + law.stress0;
       found.areas(e) += area;
-      found.errors(e) += area * compliance_energy(law, recovered - stress_at(mesh, cell, law, u, shape));
-      found.norm += area * compliance_energy(law, recovered);
+      found.norms(e) += area * compliance_product(law, whole, whole);
+      recovered -= at.stresses;
+      for (Eigen::Index k = 0; k < count; ++k)
+        found.products(e, k) += area * compliance_product(law, recovered.head<4>(), recovered.segment<4>(4 * k));
     }
   }
   return found;

@@ -5,31 +5,47 @@
 
 namespace mortise {
 
-/// Stress (11, 22, 33, 12) as a polynomial about a vertex.
-struct StressPatch {
-  Vec2 centre = Vec2::Zero();
-  double size = 1;  ///< of the patch, length: the polynomial is in (x - centre) / size
-  int terms = 0;    ///< 1, x, y, x^2, xy, y^2: 1, 3 or 6 of them; 0: no vertex
-  Eigen::Matrix<double, 6, 4> coefficients = Eigen::Matrix<double, 6, 4>::Zero();
+/// Stresses C : eps(u) of F displacement fields, initial strains left out: 4 F columns, (11, 22, 33, 12) of each field.
+using FieldStresses = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  Vec4 at(const Vec2& x) const;
+/// Stresses at the superconvergent points of all cells (fem/quadrature.hpp stress_points): those of cell e are
+/// first[e] .. first[e + 1] - 1.
+struct StressSamples {
+  std::vector<int> first{0};
+  std::vector<Vec2> x;
+  FieldStresses stresses;  ///< a row a sample
+};
+
+/// `fields`: n x F, displacements.
+StressSamples sample_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const MatX& fields);
+
+/// Stresses as polynomials about vertices.
+struct StressPatches {
+  std::vector<Vec2> centre;  ///< of each body point
+  std::vector<double> size;  ///< of each patch, length: the polynomial is in (x - centre) / size
+  std::vector<int> terms;    ///< 1, x, y, x^2, xy, y^2: 1, 3 or 6 of them; 0: no vertex
+  /// Six rows a body point.
+  FieldStresses coefficients;
+
+  /// Adds factor times the stresses of patch p at x to `sum`, 4 F.
+  void add_at(int p, const Vec2& x, double factor, Eigen::RowVectorXd& sum) const;
 };
 
 /// Superconvergent patch recovery (Zienkiewicz & Zhu 1992): at each vertex of each body (by body point) the polynomial
-/// that fits the stresses at the superconvergent points of the cells around it in least squares, of degree 2 if these
-/// are quadratic, else 1; where they are few, as on the boundary, the cells around these too. `samples`: a row a point,
-/// cell after cell, as gauss_stresses() gives them.
-std::vector<StressPatch> recover_patches(const Mesh& mesh, const BodyPoints& points, const Stresses& samples);
+/// that fits the values at the superconvergent points of the cells around it in least squares, of degree 2 if these are
+/// quadratic, else 1; where they are few, as on the boundary, the cells around these too.
+StressPatches recover_patches(const Mesh& mesh, const BodyPoints& points, const StressSamples& samples);
 
-/// Energies per thickness times two, with d = sigma* - sigma_h.
-struct EnergyErrors {
-  VecX errors;      ///< of each cell int d : C^-1 : d, an estimate of its share of the squared energy norm of the error
-  VecX areas;       ///< of each cell
-  double norm = 0;  ///< int sigma* : C^-1 : sigma*, of all cells
+/// Products of recovered errors d_k = sigma*_k - sigma_h,k, per thickness.
+struct ErrorProducts {
+  MatX products;  ///< cells x F: int d_0 : C^-1 : d_k; column 0 estimates the cell's share of the squared energy norm
+                  ///< of the error of field 0 (twice its energy)
+  VecX norms;     ///< of each cell: int sigma*_0 : C^-1 : sigma*_0, initial strains included
+  VecX areas;     ///< of each cell
 };
 
 /// sigma* blends the patches of a cell's vertices by the linear shape functions of its corners.
-EnergyErrors energy_errors(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                           const VecX& u, const std::vector<StressPatch>& patches);
+ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                             const MatX& fields, const StressPatches& patches);
 
 }  // namespace mortise

@@ -80,15 +80,4 @@ StressField recover_stress(const Mesh& mesh, const BodyPoints& points, const std
   return field;
 }
 
-Stresses gauss_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const VecX& u) {
-  const ForEachKind<Recovery> recoveries = all_recoveries();
-  std::vector<Vec4> list;
-  for (const Cell& cell : mesh.cells)
-    for (const CellShape& shape : recoveries[int(cell.kind)].samples)
-      list.push_back(stress_at(mesh, cell, laws[cell.body], u, shape));
-  Stresses stresses(list.size(), 4);
-  for (std::size_t i = 0; i < list.size(); ++i) stresses.row(i) = list[i].transpose();
-  return stresses;
-}
-
 }  // namespace mortise

@@ -22,7 +22,4 @@ struct StressField {
 StressField recover_stress(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
                            const VecX& u);
 
-/// Stresses at the superconvergent points of every cell, cell after cell.
-Stresses gauss_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const VecX& u);
-
 }  // namespace mortise

@@ -161,6 +161,7 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
   for (const CurveNode& at : along) {
     ContactNode n = node_results(mesh, at, pair.multiplier.body, at.normal, points, stress, u);
     n.p = interpolate(pair.coupling, pair.multiplier, r.pressure, at.place.edge, at.place.xi);
+    n.on_multiplier = at.place;
     const Line line{n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)};
     if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite, line)) {
       const Vec2 other = edge_value(u, pair.opposite.edges[hit->edge], hit->xi);
@@ -186,6 +187,7 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
     const Vec2 normal = vertex != along.end() ? vertex->normal : line.n;
     ContactNode n = node_results(mesh, at, pair.opposite.body, normal, points, stress, u);
     n.p = interpolate(pair.coupling, pair.multiplier, r.pressure, foot->edge, foot->xi);
+    n.on_multiplier = *foot;
     n.gap = initial_gap({line.x, normal, line.depth}, *foot, {at.place.edge, at.place.xi, (x - line.x).dot(normal)}) +
             n.u_n - edge_value(u, edge, foot->xi).dot(normal);
     r.opposite.nodes.push_back(n);

@@ -1,6 +1,8 @@
 // What a contact pair says at its nodes and element centres.
 #pragma once
 
+#include <limits>
+
 #include "fem/stress.hpp"
 #include "problem/contact_pair.hpp"
 
@@ -9,14 +11,16 @@ namespace mortise {
 /// One node of either curve. Lengths and stresses in the scene's units; NaN where a node faces nothing.
 struct ContactNode {
   int node;
-  double s;        ///< arc length, undeformed
-  Vec2 position;   ///< undeformed
-  Vec2 normal;     ///< of the multiplier side there
-  double u_n;      ///< displacement along `normal`
-  double p;        ///< contact pressure; on the opposite side the projected one
-  double gap;      ///< deformed, along `normal`; the undeformed gap is zero in a `closed` pair
-  double sigma_n;  ///< normal stress recovered in the node's own body (preprint eq. 26)
-  double sigma_2;  ///< stress 22 there
+  double s;                    ///< arc length, undeformed
+  Vec2 position;               ///< undeformed
+  Vec2 normal;                 ///< of the multiplier side there
+  double u_n;                  ///< displacement along `normal`
+  double p;                    ///< contact pressure; on the opposite side the projected one
+  double gap;                  ///< deformed, along `normal`; the undeformed gap is zero in a `closed` pair
+  double sigma_n;              ///< normal stress recovered in the node's own body (preprint eq. 26)
+  double sigma_2;              ///< stress 22 there
+  Place on_multiplier{-1, 0};  ///< on the multiplier side, where p is taken; edge -1: it faces nothing
+  double p_error = std::numeric_limits<double>::quiet_NaN();  ///< bar of p, stress; NaN where there is none
 };
 
 /// The centre of an element along the curve; s, position and normal at the middle of its edge.

@@ -1,6 +1,7 @@
 // Everything a run knows at its end.
 #pragma once
 
+#include "error/error_estimate.hpp"
 #include "results/contact_results.hpp"
 #include "results/stress_comparison.hpp"
 
@@ -24,15 +25,6 @@ struct InfSupReport {
   Vec2 position;  ///< where the worst pressure is largest
 };
 
-/// What the stresses recovered by patches say of the discretisation error (estimate_energy_error).
-struct EnergyEstimate {
-  double error;   ///< energy norm of the error over that of the stresses
-  VecX density;   ///< squared, of each cell by its area: energy per volume times two, stress
-  int body;       ///< whose part of the squared error is the largest
-  double part;    ///< that part, 0 ... 1
-  Vec2 position;  ///< the cell in it with the largest share
-};
-
 /// Seconds of the stages, summary.json "seconds".
 struct Seconds {
   double mesh = 0, assemble = 0, couple = 0, factorise = 0, solve = 0, recover = 0, estimate = 0, write = 0;
@@ -51,7 +43,7 @@ struct Results {
   std::vector<ContactResults> contacts;                          ///< one a pair
   std::vector<std::optional<StressComparison>> against_sigma_n;  ///< one a pair; nothing where not compared
   double energy = 0;                                             ///< strain energy per thickness
-  std::optional<EnergyEstimate> estimate;                        ///< unless the run was asked for none
+  std::optional<ErrorEstimate> estimate;                         ///< unless the run was asked for none
   std::optional<InfSupReport> inf_sup;                           ///< where the run was asked to diagnose
   Seconds seconds;
   std::vector<Check> checks;

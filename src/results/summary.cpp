@@ -41,10 +41,12 @@ Json contact_json(const ContactPair& pair, const ContactResults& c, const std::o
 
 Json estimate_json(const Results& r) {
   if (!r.estimate) return nullptr;
-  const EnergyEstimate& e = *r.estimate;
+  const EnergyEstimate& e = r.estimate->energy;
   return {
       {"error", e.error},
-      {"largest", {{"body", r.mesh.bodies[e.body]}, {"part", e.part}, {"position", {e.position.x(), e.position.y()}}}}};
+      {"largest", {{"body", r.mesh.bodies[e.body]}, {"part", e.part}, {"position", {e.position.x(), e.position.y()}}}},
+      {"pressure",
+       {{"error", r.estimate->pressure()}, {"line", r.estimate->line()}, {"far_field", r.estimate->far_field()}}}};
 }
 
 Json steps_json(const Results& r) {
@@ -214,9 +216,9 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
   out << std::setprecision(6) << "  largest   displacement " << r.solution.u.cwiseAbs().maxCoeff() << "\n";
   out << "  energy    " << r.energy << "\n";
   if (r.estimate)
-    out << std::setprecision(2) << "  estimate  stresses off by " << 100 * r.estimate->error
-        << " % (energy norm), the most in " << r.mesh.bodies[r.estimate->body] << " "
-        << near_point(r.estimate->position) << "\n"
+    out << std::setprecision(2) << "  estimate  stresses off by " << 100 * r.estimate->energy.error
+        << " % (energy norm), the most in " << r.mesh.bodies[r.estimate->energy.body] << " "
+        << near_point(r.estimate->energy.position) << "\n"
         << std::setprecision(6);
   if (r.inf_sup)
     out << "  inf-sup   " << r.inf_sup->beta << ", worst " << near_point(r.inf_sup->position) << " (limit "

@@ -5,6 +5,7 @@
 #include "base/stopwatch.hpp"
 #include "solve/active_set.hpp"
 #include "solve/bordered_system.hpp"
+#include "solve/contact_factor.hpp"
 
 namespace mortise {
 namespace {
@@ -80,6 +81,8 @@ Solution solve_directly(const SaddlePointSystem& s) {
   }
   if (!std::isfinite(largest(solution.force_residual, solution.constraint_residual)))
     solution.status = SolveStatus::not_converged;
+  solution.factor =
+      std::make_shared<ContactFactor>(s, std::move(reduced.free), std::move(factor), *std::move(multipliers));
   solution.solve_seconds = watch.lap();
   return solution;
 }

@@ -1,6 +1,7 @@
 // What every solver returns: one status, one solution, one record of an iteration.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -71,6 +72,8 @@ struct ActiveSetStep {
   double tension = 0;      ///< largest lambda_a / scale_a on a unilateral row; of a Solution: stress
 };
 
+class ContactFactor;
+
 struct Solution {
   SolveStatus status = SolveStatus::not_converged;
   int failed_at = -1;
@@ -93,6 +96,7 @@ struct Solution {
   std::vector<int> infeasible;         ///< rows that the last step would still change
   std::optional<Iteration> iteration;  ///< where the method iterates
   double factorise_seconds = 0, solve_seconds = 0;
+  std::shared_ptr<const ContactFactor> factor;  ///< of the closed rows, where the method has one
 };
 
 }  // namespace mortise

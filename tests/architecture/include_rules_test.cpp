@@ -30,8 +30,9 @@ const std::map<std::string, Names> may_enter{
     {"scene", {"base"}},
     {"io", {"base", "mesh", "fem"}},
     {"problem", {"base", "mesh", "fem", "contact", "solve", "scene"}},
-    {"results", {"base", "mesh", "fem", "contact", "solve", "scene", "io", "problem"}},
-    {"app", {"base", "mesh", "fem", "contact", "solve", "ddm", "scene", "io", "problem", "results"}},
+    {"error", {"base", "mesh", "fem", "contact", "solve", "scene", "problem"}},
+    {"results", {"base", "mesh", "fem", "contact", "solve", "scene", "io", "problem", "error"}},
+    {"app", {"base", "mesh", "fem", "contact", "solve", "ddm", "scene", "io", "problem", "error", "results"}},
 };
 
 // Headers of others, and the one room that may use them; `sources_only`: not in its headers, so that nobody who

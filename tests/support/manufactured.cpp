@@ -173,10 +173,10 @@ Errors manufactured_errors(const ManufacturedCase& which) {
   if (s.status != SolveStatus::converged) throw std::runtime_error("manufactured case not solved");
   const FieldErrors e = field_errors(mesh, laws, s.u, {displacement, stress});
   const BodyPoints points = body_points(mesh);
-  const std::vector<StressPatch> patches = recover_patches(mesh, points, gauss_stresses(mesh, laws, s.u));
+  const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, s.u));
   return {e.displacement, e.energy,
           pressure_error(mesh, exact, which.plates, multiplier, coupling, -multiplier_values(coupling, s.lambda)),
-          std::sqrt(energy_errors(mesh, points, laws, s.u, patches).errors.sum())};
+          std::sqrt(error_products(mesh, points, laws, s.u, patches).products.sum())};
 }
 
 }  // namespace mortise::test

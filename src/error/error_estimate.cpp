@@ -1,0 +1,139 @@
+#include "error/error_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/patch_recovery.hpp"
+#include "solve/contact_factor.hpp"
+
+namespace mortise {
+namespace {
+
+EnergyEstimate energy_estimate(const Mesh& mesh, const ErrorProducts& found) {
+  const VecX errors = found.products.col(0);
+  EnergyEstimate estimate{.error = std::sqrt(errors.sum() / found.norms.sum()),
+                          .density = errors.cwiseQuotient(found.areas),
+                          .energies = found.norms.cwiseQuotient(found.areas),
+                          .areas = found.areas,
+                          .body = 0,
+                          .part = 0,
+                          .position = Vec2::Zero()};
+  if (found.norms.sum() == 0) estimate.error = 0;  // no stress
+  VecX of_body = VecX::Zero(Eigen::Index(mesh.bodies.size()));
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) of_body(mesh.cells[e].body) += errors(e);
+  of_body.maxCoeff(&estimate.body);
+  if (errors.sum() > 0) estimate.part = of_body(estimate.body) / errors.sum();
+  double largest = -1;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const Cell& cell = mesh.cells[e];
+    if (cell.body != estimate.body || !(errors(e) > largest)) continue;
+    largest = errors(e);
+    const int corners = corner_count(cell.kind);
+    estimate.position.setZero();
+    for (int a = 0; a < corners; ++a) estimate.position += mesh.nodes.row(cell.nodes[a]).transpose() / corners;
+  }
+  return estimate;
+}
+
+// Those that lie on the loaded line.
+std::vector<SingularPoint> singular_on(const Mesh& mesh, const ContactPair& pair, const PressureLine& line,
+                                       const Constraints& constraints) {
+  std::vector<SingularPoint> found = singular_points(mesh, pair.multiplier, pair.opposite, constraints);
+  std::erase_if(found, [&](const SingularPoint& point) {
+    for (Eigen::Index i = 0; i < line.p.size(); ++i)
+      if (line.loaded[i] && (line.position[i] - point.position).norm() <= point.edge) return false;
+    return true;
+  });
+  return found;
+}
+
+// Linear between the windows' centres, constant beyond them.
+double far_at(const PressureEstimate& e, double s) {
+  if (e.windows.empty()) return 0;
+  std::size_t k = 0;
+  while (k < e.windows.size() && e.windows[k].s < s) ++k;
+  if (k == 0 || k == e.windows.size()) return e.far(k == 0 ? 0 : Eigen::Index(k) - 1);
+  const double part = (s - e.windows[k - 1].s) / (e.windows[k].s - e.windows[k - 1].s);
+  return (1 - part) * e.far(Eigen::Index(k) - 1) + part * e.far(Eigen::Index(k));
+}
+
+void find_excluded(double part, PressureEstimate& e) {
+  const PressureLine& line = e.line;
+  double length = 0;
+  for (Eigen::Index i = 0; i + 1 < line.p.size(); ++i)
+    if (line.loaded[i] && line.loaded[i + 1]) length += line.s(i + 1) - line.s(i);
+  e.excluded.assign(line.p.size(), 0);
+  for (Eigen::Index i = 0; i < line.p.size(); ++i)
+    for (const SingularPoint& point : e.singular)
+      if ((line.position[i] - point.position).norm() < part * length) e.excluded[i] = 1;
+}
+
+void find_bars(PressureEstimate& e) {
+  const PressureLine& line = e.line;
+  const Eigen::Index count = line.p.size();
+  e.bar = e.local.largest(line);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double far = far_at(e, line.s(i));
+    e.bar(i) = line.loaded[i] ? error_safety * (e.bar(i) + far) : 0;
+    if (!line.loaded[i] || e.excluded[i] || (line.closed && i == count - 1)) continue;
+    e.local2 += e.local.l2(i) * e.local.l2(i);
+    e.far2 += far * far * line.h(i);
+    e.p2 += line.p(i) * line.p(i) * line.h(i);
+  }
+}
+
+double norm_ratio(const std::vector<PressureEstimate>& pressures, double local, double far) {
+  double error = 0, size = 0;
+  for (const PressureEstimate& e : pressures) {
+    error += local * e.local2 + far * e.far2;
+    size += e.p2;
+  }
+  return std::sqrt(error / size);
+}
+
+}  // namespace
+
+double ErrorEstimate::pressure() const { return error_safety * norm_ratio(pressures, 1, 1); }
+double ErrorEstimate::line() const { return norm_ratio(pressures, 1, 0); }
+double ErrorEstimate::far_field() const { return norm_ratio(pressures, 0, 1); }
+
+ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
+                             const std::vector<ContactPair>& pairs, const Solution& solution,
+                             const ErrorOptions& options) {
+  const SaddlePointSystem& system = discretisation.system;
+  ErrorEstimate estimate;
+  Eigen::Index windows = 0;
+  for (const ContactPair& pair : pairs) {
+    PressureEstimate e;
+    e.line = pressure_line(mesh, pair, solution.lambda);
+    e.local = line_error(e.line);
+    e.windows = pressure_windows(pair, e.line, solution.lambda);
+    e.singular = singular_on(mesh, pair, e.line, system.constraints);
+    find_excluded(options.excluded, e);
+    windows += Eigen::Index(e.windows.size());
+    estimate.pressures.push_back(std::move(e));
+  }
+  std::shared_ptr<const ContactFactor> factor = solution.factor;
+  if (windows > 0 && !factor) factor = factorise_contact(system, solution.active);
+
+  MatX fields(system.K.cols(), 1 + windows);
+  fields.col(0) = solution.u;
+  Eigen::Index k = 0;
+  for (const PressureEstimate& e : estimate.pressures)
+    for (const PressureWindow& window : e.windows) fields.col(++k) = factor->dual(window.weights);
+  const std::vector<ElasticLaw>& laws = discretisation.laws;
+  const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, fields));
+  const ErrorProducts found = error_products(mesh, points, laws, fields, patches);
+  estimate.energy = energy_estimate(mesh, found);
+  estimate.parts = found.products.rightCols(windows);
+  const VecX far = estimate.parts.cwiseAbs().colwise().sum();
+  k = 0;
+  for (PressureEstimate& e : estimate.pressures) {
+    e.far = far.segment(k, Eigen::Index(e.windows.size()));
+    k += Eigen::Index(e.windows.size());
+    find_bars(e);
+  }
+  return estimate;
+}
+
+}  // namespace mortise

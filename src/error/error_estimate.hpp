@@ -1,0 +1,63 @@
+// How far a solution is from that of the problem: the stresses in the energy norm, the contact pressure node by node.
+#pragma once
+
+#include "contact/singular_points.hpp"
+#include "error/pressure_windows.hpp"
+#include "mesh/body_points.hpp"
+
+namespace mortise {
+
+/// What stresses recovered by patches say of the discretisation error (fem/patch_recovery.hpp). Blind to where contact
+/// ends within an edge, and to what a load does within an element.
+struct EnergyEstimate {
+  double error;   ///< energy norm of the error over that of the stresses
+  VecX density;   ///< squared, of each cell by its area: energy per volume times two, stress
+  VecX energies;  ///< of the stresses themselves, likewise
+  VecX areas;     ///< of each cell, length^2
+  int body;       ///< whose part of the squared error is the largest
+  double part;    ///< that part, 0 ... 1
+  Vec2 position;  ///< the cell in it with the largest share
+};
+
+/// What the pressure of a pair is off by (docs/theory.md eq. 44 to 47): the local error of a piecewise linear function
+/// along the line, and what the bodies' far field makes of it, seen by dual solutions of windowed means.
+struct PressureEstimate {
+  PressureLine line;
+  LineError local;
+  std::vector<PressureWindow> windows;
+  VecX far;  ///< of each window's mean, stress: the sum of the cells' parts without their signs
+  VecX bar;  ///< of p at each vertex of `line`, stress
+  std::vector<SingularPoint> singular;  ///< p has no limit there
+  std::vector<char> excluded;           ///< of each vertex: near one of these, where p is left out of the norm
+  /// Squares of L2 norms along what is not excluded, stress^2 length: of the local error, the far field's and p.
+  double local2 = 0, far2 = 0, p2 = 0;
+};
+
+/// The part of a loaded length that is left out of the norm on either side of a singular point, unless asked otherwise.
+inline constexpr double excluded_part = 0.1;
+
+/// By which the estimate is multiplied.
+inline constexpr double error_safety = 1.5;
+
+struct ErrorEstimate {
+  EnergyEstimate energy;
+  std::vector<PressureEstimate> pressures;  ///< one a pair
+  MatX parts;  ///< cells x windows of all pairs: int d_0 : C^-1 : d_k, the cell's part of the far field, stress
+
+  /// L2 norms of the estimated error of p over that of p on all contact lines, singular points left out: of the whole,
+  /// and of its two parts before the safety factor. NaN where nothing is loaded or all is excluded.
+  double pressure() const;
+  double line() const;
+  double far_field() const;
+};
+
+struct ErrorOptions {
+  double excluded = excluded_part;
+};
+
+/// `solution`: converged or not; where it has no factor (iterative solvers) the whole system is factorised once.
+ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
+                             const std::vector<ContactPair>& pairs, const Solution& solution,
+                             const ErrorOptions& options = {});
+
+}  // namespace mortise

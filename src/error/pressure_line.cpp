@@ -1,0 +1,98 @@
+#include "error/pressure_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/edges.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double loaded_part = 1e-9;  // of the largest p; less is none
+constexpr double border_part = 0.2;   // of the last p: 0.6 of the true error without the term, 3 of it at 0.5
+
+}  // namespace
+
+PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX& lambda) {
+  const Curve& curve = pair.multiplier;
+  const Eigen::Index count = Eigen::Index(curve.edges.size()) + 1;
+  const VecX pressure = -multiplier_values(pair.coupling, lambda.segment(pair.first_row, pair.coupling.B.rows()));
+  PressureLine line{.closed = curve.closed,
+                    .position = {},
+                    .s = VecX::Zero(count),
+                    .p = VecX(count),
+                    .h = VecX::Zero(count),
+                    .loaded = std::vector<char>(count, 0)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index e = std::min(i, count - 2);
+    const int end = i < count - 1 ? 0 : 1;
+    line.position.emplace_back(mesh.nodes.row(curve.edges[e].nodes[end]));
+    line.p(i) = pressure(pair.coupling.on_edge[e][end]);
+    if (i == count - 1) break;
+    const double length = edge_length(mesh.nodes, curve.edges[e]);
+    line.s(i + 1) = line.s(i) + length;
+    line.h(i) += length / 2;
+    line.h(i + 1) += length / 2;
+  }
+  if (line.closed) {
+    line.h(0) = line.h(count - 1) = line.h(0) + line.h(count - 1);
+  } else {
+    line.h(0) *= 2;
+    line.h(count - 1) *= 2;
+  }
+  const double least = loaded_part * largest_entry(line.p);
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (std::abs(line.p(i)) > least)
+      for (Eigen::Index j = std::max<Eigen::Index>(i - 1, 0); j <= std::min(i + 1, count - 1); ++j) line.loaded[j] = 1;
+  if (line.closed && (line.loaded.front() || line.loaded.back())) line.loaded.front() = line.loaded.back() = 1;
+  return line;
+}
+
+LineError line_error(const PressureLine& line) {
+  const Eigen::Index last = line.p.size() - 1;
+  const auto slope = [&](Eigen::Index e) { return (line.p(e + 1) - line.p(e)) / (line.s(e + 1) - line.s(e)); };
+  VecX jump = VecX::Zero(last + 1);
+  for (Eigen::Index i = 1; i < last; ++i) jump(i) = std::abs(slope(i) - slope(i - 1));
+  if (line.closed) {
+    jump(0) = jump(last) = std::abs(slope(0) - slope(last - 1));
+  } else if (last > 1) {
+    jump(0) = jump(1);
+    jump(last) = jump(last - 1);
+  }
+  LineError error{.l2 = (line.h.array().cube() * jump.array().square() / 120).sqrt(),
+                  .border = std::vector<char>(last + 1, 0)};
+  const double least = loaded_part * largest_entry(line.p);
+  VecX last_p = VecX::Zero(last + 1);
+  for (Eigen::Index e = 0; e < last; ++e) {
+    const bool start = std::abs(line.p(e)) > least, end = std::abs(line.p(e + 1)) > least;
+    if (start == end) continue;
+    const double p = std::abs(line.p(start ? e : e + 1));
+    for (Eigen::Index i = std::max<Eigen::Index>(e - 1, 0); i <= std::min(e + 2, last); ++i)
+      last_p(i) = std::max(last_p(i), p);
+  }
+  for (Eigen::Index i = 0; i <= last; ++i) {
+    if (!line.loaded[i]) error.l2(i) = 0;
+    const double at_border = border_part * last_p(i) * std::sqrt(line.h(i));
+    if (!(at_border > error.l2(i))) continue;
+    error.l2(i) = at_border;
+    error.border[i] = 1;
+  }
+  return error;
+}
+
+VecX LineError::largest(const PressureLine& line) const {
+  constexpr Eigen::Index reach = 4;
+  // sqrt(120) / 8 makes J h / 8 of sqrt(h^3 J^2 / 120) / sqrt(h).
+  const VecX at = l2.array() / line.h.array().sqrt() * (std::sqrt(120.0) / 8);
+  const Eigen::Index count = at.size(), period = count - 1;
+  VecX found = at;
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (Eigen::Index step = -reach; step <= reach; ++step) {
+      Eigen::Index j = i + step;
+      if (line.closed) j = (j % period + period) % period;
+      if (j >= 0 && j < count) found(i) = mortise::largest(found(i), at(j));
+    }
+  return found;
+}
+
+}  // namespace mortise

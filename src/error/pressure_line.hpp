@@ -1,0 +1,34 @@
+// The pressure of a contact pair along its multiplier side, vertex by vertex, as its error estimates see it.
+#pragma once
+
+#include "problem/contact_pair.hpp"
+
+namespace mortise {
+
+/// Vertices in the order of the curve's edges, the first one again at the end of a closed curve: edge e joins vertices
+/// e and e + 1. Each of size edges + 1.
+struct PressureLine {
+  bool closed = false;
+  std::vector<Vec2> position;
+  VecX s;  ///< arc length from the first vertex
+  VecX p;  ///< pressure
+  VecX h;  ///< length that counts for the vertex: half of both edges, or the one edge of an end
+  /// Vertices that take part: loaded, or next to one that is.
+  std::vector<char> loaded;
+};
+
+/// `lambda`: row values of all pairs, stress.
+PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX& lambda);
+
+/// What the pressure along the line is off by, from itself: near a vertex where the slope of p jumps by J it is a
+/// piecewise linear function's h J / 8 at its worst and sqrt(h^3 J^2 / 120) in L2; at the border of contact, where p
+/// rises as a root, the last p times sqrt(h) / 5 (docs/theory.md eq. 46).
+struct LineError {
+  VecX l2;                                       ///< of each vertex, stress sqrt(length)
+  std::vector<char> border;                      ///< whether the border of contact makes it
+  VecX largest(const PressureLine& line) const;  ///< at each vertex, of those within four edges, stress
+};
+
+LineError line_error(const PressureLine& line);
+
+}  // namespace mortise

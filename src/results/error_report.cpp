@@ -1,0 +1,75 @@
+#include "results/error_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/printable.hpp"
+
+namespace mortise {
+namespace {
+
+std::string percent(double part) {
+  std::ostringstream text;
+  text.precision(2);
+  text << 100 * part << " %";
+  return text.str();
+}
+
+}  // namespace
+
+std::string largest_error(const Results& r) {
+  // Along the lines, vertex by vertex; of the far field the cell with the largest part.
+  const ErrorEstimate& estimate = *r.estimate;
+  double largest = -1;
+  std::string words;
+  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
+    const PressureEstimate& e = estimate.pressures[k];
+    if (e.far2 > std::max(largest, e.local2)) {
+      largest = e.far2;
+      Eigen::Index cell = 0;
+      estimate.parts.cwiseAbs().rowwise().sum().maxCoeff(&cell);
+      const Cell& at = r.mesh.cells[cell];
+      Vec2 centre = Vec2::Zero();
+      for (int a = 0; a < corner_count(at.kind); ++a) centre += r.mesh.nodes.row(at.nodes[a]) / corner_count(at.kind);
+      words = "the mesh of body '" + r.mesh.bodies[at.body] + "' " + near_point(centre);
+    }
+    if (!(e.local2 > largest)) continue;
+    largest = e.local2;
+    Eigen::Index worst = 0;
+    double size = -1;
+    for (Eigen::Index i = 0; i < e.local.l2.size(); ++i) {
+      if (e.excluded[i] || !(e.local.l2(i) > size)) continue;
+      size = e.local.l2(i);
+      worst = i;
+    }
+    words = (e.local.border[worst] ? "the border of contact " : "edges of '" + r.contacts[k].multiplier.curve + "' ") +
+            near_point(e.line.position[worst]);
+  }
+  return words;
+}
+
+std::vector<std::string> error_warnings(const Results& r) {
+  const ErrorEstimate& estimate = *r.estimate;
+  std::vector<std::string> lines;
+  if (estimate.energy.error > energy_error_limit)
+    lines.push_back("the mesh is coarse: stresses are off by about " + percent(estimate.energy.error) +
+                    " in the energy norm, the most in body '" + r.mesh.bodies[estimate.energy.body] + "' " +
+                    near_point(estimate.energy.position) + "; expected a finer mesh there, or quadratic elements");
+  if (const double error = estimate.pressure(); error > pressure_error_limit)
+    lines.push_back("the contact pressure may be off by " + percent(error) + ", the most from " + largest_error(r) +
+                    "; expected a finer mesh there");
+  return lines;
+}
+
+void set_bars(const PressureEstimate& estimate, ContactResults& contact) {
+  for (ContactSide* side : {&contact.multiplier, &contact.opposite})
+    for (ContactNode& node : side->nodes) {
+      if (node.on_multiplier.edge < 0) continue;
+      const double end = (1 + node.on_multiplier.xi) / 2;
+      node.p_error =
+          (1 - end) * estimate.bar(node.on_multiplier.edge) + end * estimate.bar(node.on_multiplier.edge + 1);
+    }
+}
+
+}  // namespace mortise

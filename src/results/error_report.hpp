@@ -1,0 +1,20 @@
+// What a user reads of the estimated errors.
+#pragma once
+
+#include "results/results.hpp"
+
+namespace mortise {
+
+/// Estimated errors above these parts are told with their place: of the stresses in the energy norm, and of p.
+inline constexpr double energy_error_limit = 0.2, pressure_error_limit = 0.1;
+
+/// Warnings where the estimate is above a limit.
+std::vector<std::string> error_warnings(const Results& results);
+
+/// The bars of p into the nodes of a pair.
+void set_bars(const PressureEstimate& estimate, ContactResults& contact);
+
+/// What makes most of the estimated error of p, in words with its place: "the border of contact near (0.01, 0)".
+std::string largest_error(const Results& results);
+
+}  // namespace mortise

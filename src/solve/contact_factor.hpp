@@ -1,0 +1,33 @@
+// The factor of a contact problem whose closed rows are known: what it answers to other weighted gaps.
+#pragma once
+
+#include "solve/bordered_cholesky.hpp"
+#include "solve/multiplier_system.hpp"
+#include "solve/saddle_point_system.hpp"
+
+namespace mortise {
+
+class ContactFactor {
+ public:
+  /// `free`: the unknowns of `factor`; `multipliers`: of the closed rows.
+  ContactFactor(const SaddlePointSystem& system, std::vector<int> free, BorderedCholesky factor,
+                MultiplierSystem multipliers);
+
+  /// z, n, with K z + B^T mu = 0, no prescribed unknown moved, and B z = w on the closed rows (m; mu = 0 on the
+  /// others): the dual solution of the functional w^T lambda (Becker & Rannacher 2001), one backward substitution.
+  /// Rigid modes of the closed rows are zero in it.
+  VecX dual(const VecX& w) const;
+
+ private:
+  VecX row_scale_;
+  Eigen::Index unknowns_, springs_;
+  std::vector<int> free_;
+  BorderedCholesky factor_;
+  MultiplierSystem multipliers_;
+};
+
+/// Of a system whose stiffness proved positive definite and whose closed rows are independent (a converged Solution).
+std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& system,
+                                                       const std::vector<char>& closed);
+
+}  // namespace mortise

@@ -1,0 +1,80 @@
+// The local error of a pressure along its line.
+#include "error/pressure_line.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace mortise {
+namespace {
+
+PressureLine line_of(const VecX& s, const std::function<double(double)>& p) {
+  const Eigen::Index count = s.size();
+  PressureLine line;
+  line.s = s;
+  line.p = s.unaryExpr(p);
+  line.h = VecX::Zero(count);
+  for (Eigen::Index i = 0; i + 1 < count; ++i) {
+    line.h(i) += (s(i + 1) - s(i)) / 2;
+    line.h(i + 1) += (s(i + 1) - s(i)) / 2;
+  }
+  line.h(0) *= 2;
+  line.h(count - 1) *= 2;
+  line.position.assign(count, Vec2::Zero());
+  line.loaded.assign(count, 1);
+  return line;
+}
+
+TEST(LineError, IsThatOfAPiecewiseLinearFunctionThroughASmoothOnesValues) {
+  for (const int n : {10, 20, 40, 80}) {
+    const auto p = [](double s) { return 2 + std::sin(3 * s); };
+    const PressureLine line = line_of(VecX::LinSpaced(n + 1, 0, 1), p);
+    const LineError found = line_error(line);
+    double square = 0, worst = 0;
+    for (int i = 0; i < n; ++i)
+      for (int q = 0; q < 50; ++q) {
+        const double t = (q + 0.5) / 50, s = (i + t) / n;
+        const double error = p(s) - (1 - t) * line.p(i) - t * line.p(i + 1);
+        square += error * error / (50.0 * n);
+        worst = std::max(worst, std::abs(error));
+      }
+    EXPECT_NEAR(found.l2.norm() / std::sqrt(square), 1, n == 10 ? 0.1 : 0.05) << n;
+    EXPECT_NEAR(found.largest(line).maxCoeff() / worst, 1, n == 10 ? 0.2 : 0.1) << n;
+    EXPECT_EQ(std::ranges::count(found.border, 1), 0);
+  }
+}
+
+TEST(LineError, OfALinearPressureIsZero) {
+  VecX s(6);
+  s << 0, 0.1, 0.3, 0.35, 0.7, 1;
+  EXPECT_LE(line_error(line_of(s, [](double x) { return 1 + x; })).l2.maxCoeff(), 1e-14);
+}
+
+TEST(LineError, KnowsTheBorderOfContact) {
+  const PressureLine line =
+      line_of(VecX::LinSpaced(41, 0, 1), [](double s) { return std::sqrt(std::max(0.0, 0.51 - s)); });
+  const LineError found = line_error(line);
+  // p is 0 from vertex 21 on: the edge 20 holds the border.
+  for (int i = 0; i <= 40; ++i) EXPECT_EQ(found.border[i] != 0, i >= 19 && i <= 22) << i;
+  EXPECT_NEAR(found.l2(20), 0.2 * line.p(20) * std::sqrt(line.h(20)), 1e-15);
+}
+
+TEST(LineError, GoesRoundAClosedCurve) {
+  PressureLine line = line_of(VecX::LinSpaced(17, 0, 1), [](double s) {
+    return 2 + std::cos(2 * std::numbers::pi * (s - 1.0 / 16));  // the largest jump at vertex 1
+  });
+  line.h.setConstant(1.0 / 16);
+  line.closed = true;
+  const LineError found = line_error(line);
+  EXPECT_NEAR(found.l2(0), found.l2(16), 1e-15);
+  EXPECT_NEAR(found.l2(0), found.l2(2), 1e-12);
+  EXPECT_NEAR(found.largest(line)(15), found.l2(1) / std::sqrt(1.0 / 16) * std::sqrt(120.0) / 8, 1e-12);
+  line.closed = false;
+  EXPECT_LT(line_error(line).largest(line)(15), 0.99 * found.largest(line)(15));
+}
+
+}  // namespace
+}  // namespace mortise

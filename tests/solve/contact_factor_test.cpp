@@ -1,0 +1,47 @@
+// Dual solutions: what a load does to a functional of the multipliers, told before the load is there.
+#include "solve/contact_factor.hpp"
+
+#include <gtest/gtest.h>
+
+#include "solve/direct.hpp"
+#include "support/two_groups.hpp"
+
+namespace mortise {
+namespace {
+
+TEST(ContactFactor, DualsTellWhatLoadsDoToTheMultipliers) {
+  for (const bool floats : {false, true}) {
+    SaddlePointSystem system = test::two_groups(floats).system;
+    system.constraints.fixed[3] = 1;
+    const Eigen::Index n = system.f.size(), m = system.g.size();
+    const Solution before = solve_directly(system);
+    ASSERT_EQ(before.status, SolveStatus::converged);
+    const VecX w = VecX::LinSpaced(m, -1, 2);
+    const VecX z = before.factor->dual(w);
+    EXPECT_EQ(z(3), 0);
+    EXPECT_LE((system.B * z - w).norm(), 1e-10);
+
+    const VecX load = VecX::LinSpaced(n, 1, -0.5);
+    system.f += load;
+    const Solution after = solve_directly(system);
+    EXPECT_NEAR(w.dot(after.lambda - before.lambda), z.dot(load), 1e-10 * z.norm() * load.norm()) << floats;
+    EXPECT_GT(std::abs(z.dot(load)), 1e-3);
+    EXPECT_LE((factorise_contact(system, after.active)->dual(w) - z).norm(), 1e-12 * z.norm());
+  }
+}
+
+TEST(ContactFactor, OpenRowsTakeNoPart) {
+  const SaddlePointSystem system = test::two_groups(false).system;
+  std::vector<char> closed(system.g.size(), 1);
+  closed[1] = 0;
+  VecX w = VecX::Ones(system.g.size());
+  const auto factor = factorise_contact(system, closed);
+  const VecX z = factor->dual(w), opening = system.B * z;
+  EXPECT_NEAR(opening(0), 1, 1e-10);
+  EXPECT_GT(std::abs(opening(1) - 1), 1e-6);
+  w(1) = 5;
+  EXPECT_EQ(factor->dual(w), z);
+}
+
+}  // namespace
+}  // namespace mortise
