@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <map>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 
 #include "base/printable.hpp"
@@ -25,13 +28,18 @@ std::vector<Vec2> places(int entity, const std::vector<double>& parameters) {
   return found;
 }
 
+std::array<double, 2> parameter_range(int curve) {
+  std::vector<double> low, high;
+  gmsh::model::getParametrizationBounds(1, curve, low, high);
+  if (low.size() != 1 || high.size() != 1) throw std::runtime_error("gmsh::model::getParametrizationBounds");
+  return {low[0], high[0]};
+}
+
 // The curve's parameter at the start and the end of each edge. gmsh meshes a curve in its own direction, from its
 // first end, which on a closed curve is its last one too.
 std::vector<std::array<double, 2>> parameters_of(const std::vector<std::size_t>& tags, const ElementBlock& block,
                                                  int node_count) {
-  std::vector<double> low, high;
-  gmsh::model::getParametrizationBounds(1, block.entity, low, high);
-  if (low.size() != 1 || high.size() != 1) throw std::runtime_error("gmsh::model::getParametrizationBounds");
+  const auto [low, high] = parameter_range(block.entity);
   const auto at = [](std::size_t tag, double at_end) {
     std::vector<double> xyz, parameter;
     gmsh::model::mesh::getNode(tag, xyz, parameter);
@@ -39,7 +47,7 @@ std::vector<std::array<double, 2>> parameters_of(const std::vector<std::size_t>&
   };
   std::vector<std::array<double, 2>> parameters;
   for (auto tag = tags.begin(); tag != tags.end(); tag += node_count)
-    parameters.push_back({at(tag[0], low[0]), at(tag[1], high[0])});
+    parameters.push_back({at(tag[0], low), at(tag[1], high)});
   return parameters;
 }
 
@@ -102,6 +110,50 @@ void sample_curve(const std::vector<std::array<double, 3>>& nodes, const std::ve
     return;
   }
   block.samples = std::move(samples);
+}
+
+std::vector<DrawnCurve> drawn_curves() {
+  constexpr int intervals = 128;
+  std::map<int, std::vector<std::string>> names;  // by tag of the curve
+  gmsh::vectorpair surfaces, found;
+  gmsh::model::getEntities(surfaces, 2);
+  gmsh::model::getBoundary(surfaces, found, false, false);
+  for (const auto& [dimension, curve] : found) names[curve];
+  gmsh::model::getPhysicalGroups(found, 1);
+  for (const auto& [dimension, group] : found) {
+    std::string name;
+    gmsh::model::getPhysicalName(dimension, group, name);
+    if (name.empty()) continue;
+    std::vector<int> curves;
+    gmsh::model::getEntitiesForPhysicalGroup(dimension, group, curves);
+    std::ranges::transform(curves, curves.begin(), [](int curve) { return std::abs(curve); });
+    for (const int curve : std::set<int>(curves.begin(), curves.end())) names[curve].push_back(name);
+  }
+  std::vector<DrawnCurve> drawn;
+  for (const auto& [curve, its_names] : names) {
+    const auto [low, high] = parameter_range(curve);
+    std::vector<double> t;
+    for (int i = 0; i <= intervals; ++i) t.push_back(low + (high - low) * i / intervals);
+    drawn.push_back({its_names, places(curve, t)});
+  }
+  return drawn;
+}
+
+double speed_factor(int curve) {
+  const auto [low, high] = parameter_range(curve);
+  const double step = 1e-5 * (high - low);
+  std::vector<double> factors;
+  for (const double part : {0.12, 0.31, 0.47, 0.68, 0.89}) {
+    const double t = low + part * (high - low);
+    const std::vector<Vec2> ends = places(curve, {t - step, t + step});
+    const double speed = (ends[1] - ends[0]).norm() / (2 * step);
+    std::vector<double> derivative;
+    gmsh::model::getDerivative(1, curve, {t}, derivative);
+    factors.push_back(std::hypot(derivative.at(0), derivative.at(1)) / speed);
+  }
+  std::ranges::sort(factors);
+  const double middle = factors[factors.size() / 2];
+  return std::isnormal(middle) ? middle : 1;
 }
 
 }  // namespace mortise

@@ -12,4 +12,17 @@ namespace mortise {
 void sample_curve(const std::vector<std::array<double, 3>>& nodes, const std::vector<std::size_t>& tags,
                   ElementBlock& block);
 
+/// A curve of a geometry.
+struct DrawnCurve {
+  std::vector<std::string> names;  ///< of the physical curves that it belongs to; there may be none
+  std::vector<Vec2> places;        ///< 129 along it, even in its parameter; the first and the last are its ends
+};
+
+/// The curves round the surfaces of the model that gmsh has open and those of its named physical curves, by tag.
+std::vector<DrawnCurve> drawn_curves();
+
+/// What gmsh takes for the speed of a curve over the true one, by which it errs in the length of its edges: 1 / p for a
+/// Bezier curve of degree p in gmsh 4.8, otherwise 1. By differences of places.
+double speed_factor(int curve);
+
 }  // namespace mortise

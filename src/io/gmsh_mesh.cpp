@@ -18,22 +18,6 @@ namespace fs = std::filesystem;
 
 bool is_msh(const std::string& file) { return fs::path(file).extension() == ".msh"; }
 
-/// What can be told before the file is read.
-void check_mesh_file(const std::string& file, const std::map<std::string, double>& parameters,
-                     const GeoLimits& limits) {
-  if (!is_msh(file) && fs::path(file).extension() != ".geo") {
-    throw InputError(file + ": a mesh file ends in .geo or .msh");
-  }
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) throw InputError(file + ": no such file");
-  if (!is_msh(file)) {
-    check_geo(file, parameters, limits.programs);
-  } else if (!parameters.empty()) {
-    throw InputError(file + ": parameter '" + parameters.begin()->first +
-                     "' given to a mesh; only a .geo has parameters");
-  }
-}
-
 void write_open_mesh(GmshSession& session, GmshGuard& guard, const Mesh& mesh, const std::string& output) {
   StagedFile staged(output);
   guard.remove_at_end(staged.path().string());
@@ -52,6 +36,21 @@ void write_open_mesh(GmshSession& session, GmshGuard& guard, const Mesh& mesh, c
 }
 
 }  // namespace
+
+void check_mesh_file(const std::string& file, const std::map<std::string, double>& parameters,
+                     const GeoLimits& limits) {
+  if (!is_msh(file) && fs::path(file).extension() != ".geo") {
+    throw InputError(file + ": a mesh file ends in .geo or .msh");
+  }
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) throw InputError(file + ": no such file");
+  if (!is_msh(file)) {
+    check_geo(file, parameters, limits.programs);
+  } else if (!parameters.empty()) {
+    throw InputError(file + ": parameter '" + parameters.begin()->first +
+                     "' given to a mesh; only a .geo has parameters");
+  }
+}
 
 Mesh load_mesh(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits) {
   check_mesh_file(file, parameters, limits);

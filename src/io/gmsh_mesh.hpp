@@ -10,6 +10,10 @@
 
 namespace mortise {
 
+/// What can be told before `file` is read. Throws InputError naming it: no .geo or .msh, no such file, parameters given
+/// to a .msh, what check_geo refuses.
+void check_mesh_file(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits);
+
 /// The mesh of `file`; `parameters` set DefineConstant names of a .geo, `limits` what it may do.
 /// Bodies are the named physical surfaces, boundaries the named physical curves; nodes of no body are left out.
 /// Throws InputError naming the file and the place: no such file, gmsh's own message, a parameter that the .geo does

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <gmsh.h>
 #include <omp.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <array>
@@ -13,6 +12,7 @@
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
+#include "io/memory_file.hpp"
 
 namespace mortise {
 namespace {
@@ -46,44 +46,6 @@ std::string first_error() {
   if (more > 0) first += " (and " + std::to_string(more) + " more)";
   return first;
 }
-
-/// Runs a step of gmsh; whatever it throws or only logs becomes an InputError. gmsh 4.8 throws strings and numbers.
-template <typename Step>
-void run(const std::string& file, const std::string& what, Step step) {
-  std::string thrown;
-  try {
-    step();
-  } catch (const std::exception& error) {
-    thrown = error.what();
-  } catch (const std::string& text) {
-    thrown = text;
-  } catch (...) {
-    thrown = "failed without a message";
-  }
-  const std::string logged = first_error();
-  const std::string& message = logged.empty() ? thrown : logged;
-  if (!message.empty()) throw InputError(file + ": gmsh, " + what + ": " + printable(message));
-}
-
-/// A file that lives in memory as long as this object, with a path that gmsh can open.
-class MemoryFile {
- public:
-  explicit MemoryFile(const std::string& text) : descriptor_(memfd_create("mortise", MFD_CLOEXEC)) {
-    if (descriptor_ < 0) throw std::runtime_error("memfd_create failed");
-    if (::write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
-      ::close(descriptor_);
-      throw std::runtime_error("writing to a memory file failed");
-    }
-  }
-  ~MemoryFile() { ::close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
- private:
-  int descriptor_;
-};
 
 /// Whether gmsh can be given this text between quotes: its strings know no escapes, and end at 1023 characters.
 bool can_be_quoted(const std::string& text) {
@@ -180,7 +142,23 @@ GmshSession::~GmshSession() {
   std::setlocale(LC_ALL, locale_.c_str());
 }
 
-void GmshSession::open(const std::string& file, const std::map<std::string, double>& parameters) {
+void GmshSession::run(const std::string& file, const std::string& what, const std::function<void()>& step) {
+  std::string thrown;
+  try {
+    step();
+  } catch (const std::exception& error) {
+    thrown = error.what();
+  } catch (const std::string& text) {
+    thrown = text;
+  } catch (...) {
+    thrown = "failed without a message";
+  }
+  const std::string logged = first_error();
+  const std::string& message = logged.empty() ? thrown : logged;
+  if (!message.empty()) throw InputError(file + ": gmsh, " + what + ": " + printable(message));
+}
+
+void GmshSession::read(const std::string& file, const std::map<std::string, double>& parameters) {
   if (fs::path(file).extension() == ".msh") {
     run(file, "reading", [&] { gmsh::open(file); });
     return;
@@ -191,10 +169,26 @@ void GmshSession::open(const std::string& file, const std::map<std::string, doub
     run(file, "reading", [&] { gmsh::open(script.path()); });
     set_options();
     require_order(file);
-    if (!has_cells()) run(file, "meshing", [] { gmsh::model::mesh::generate(2); });
   } catch (const InputError& error) {
     throw InputError(quoted.shown(error.what()));
   }
+}
+
+void GmshSession::read_text(const std::string& file, const std::string& text) {
+  const MemoryFile script(text);
+  run(file, "reading its geometry again", [&] { gmsh::open(script.path()); });
+}
+
+void GmshSession::reset_options() {
+  const MemoryFile script("Delete Options;\n");
+  gmsh::merge(script.path());
+  set_options();
+}
+
+void GmshSession::open(const std::string& file, const std::map<std::string, double>& parameters) {
+  read(file, parameters);
+  if (fs::path(file).extension() != ".msh" && !has_cells())
+    run(file, "meshing", [] { gmsh::model::mesh::generate(2); });
 }
 
 void GmshSession::write(const std::string& output) {

@@ -1,0 +1,129 @@
+#include "io/free_mesher.hpp"
+
+#include <gmsh.h>
+
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "base/printable.hpp"
+#include "fem/elements.hpp"
+#include "io/assemble_mesh.hpp"
+#include "io/gmsh_data.hpp"
+#include "io/gmsh_guard.hpp"
+#include "io/gmsh_mesh.hpp"
+
+namespace mortise {
+namespace {
+
+void set_mesh_options(bool recombine) {
+  const std::vector<std::pair<const char*, double>> options{
+      {"Mesh.Algorithm", 6},  // Frontal-Delaunay
+      {"Mesh.ElementOrder", 2},
+      {"Mesh.SecondOrderIncomplete", 1},
+      {"Mesh.SecondOrderLinear", 0},
+      {"Mesh.HighOrderOptimize", 0},
+      {"Mesh.MeshSizeFromPoints", 0},
+      {"Mesh.MeshSizeFromCurvature", 0},
+      {"Mesh.MeshSizeExtendFromBoundary", 0},
+      {"Mesh.MinimumCircleNodes", 0},
+      {"Mesh.MinimumCurveNodes", 0},
+      {"Mesh.LcIntegrationPrecision", 1e-6},
+      {"Mesh.RecombineAll", recombine ? 1 : 0},
+  };
+  for (const auto& [name, value] : options) gmsh::option::setNumber(name, value);
+}
+
+/// While it lives, gmsh's only sizes: it takes the least of all that it is given, and is given no others.
+class SizeCallback {
+ public:
+  /// `failure`: takes what the function throws, which must not go through gmsh.
+  SizeCallback(const SizeAt& size, std::exception_ptr& failure) : size_(size), failure_(failure) {
+    gmsh::vectorpair curves;
+    gmsh::model::getEntities(curves, 1);
+    for (const auto& [dimension, curve] : curves) factors_[curve] = speed_factor(curve);
+    gmsh::model::mesh::setSizeCallback(
+        [this](int dimension, int tag, double x, double y, double) { return answer(dimension, tag, Vec2(x, y)); });
+  }
+  ~SizeCallback() { gmsh::model::mesh::removeSizeCallback(); }
+  SizeCallback(const SizeCallback&) = delete;
+  SizeCallback& operator=(const SizeCallback&) = delete;
+
+ private:
+  double answer(int dimension, int tag, const Vec2& x) {
+    constexpr double coarse = 1e22;  // gmsh's largest; lets it come to an end soon
+    if (failure_) return coarse;
+    try {
+      const double size = size_(x);
+      if (!(size > 0)) throw std::domain_error("mesh size " + std::to_string(size) + " " + near_point(x));
+      return dimension == 1 ? size * factors_.at(tag) : size;
+    } catch (...) {
+      failure_ = std::current_exception();
+      return coarse;
+    }
+  }
+
+  const SizeAt& size_;
+  std::map<int, double> factors_;  // by curve
+  std::exception_ptr& failure_;
+};
+
+void generate(GmshSession& session, const std::string& file, const SizeAt& size) {
+  std::exception_ptr failure;
+  try {
+    session.run(file, "meshing", [&] {
+      const SizeCallback callback(size, failure);
+      gmsh::model::mesh::generate(2);
+    });
+  } catch (const InputError&) {
+    if (!failure) throw;
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
+FreeMesher::FreeMesher(const std::string& file, const std::map<std::string, double>& parameters,
+                       const GeoLimits& limits)
+    : limits_(limits) {
+  check_mesh_file(file, parameters, limits);
+  if (std::filesystem::path(file).extension() == ".msh")
+    throw InputError(file + ": a mesh has no geometry to refine; expected a .geo");
+  const GmshGuard guard(file, limits.seconds);
+  GmshSession session;
+  geometry_ = read_free_geometry(session, file, parameters);
+  session.run(file, "sampling its curves", [&] { curves_ = drawn_curves(); });
+}
+
+Mesh FreeMesher::mesh_once(const SizeAt& size, bool recombine) const {
+  MeshData data;
+  {
+    const GmshGuard guard(geometry_.file, limits_.seconds);
+    GmshSession session;
+    open_free_geometry(session, geometry_);
+    set_mesh_options(recombine);
+    generate(session, geometry_.file, size);
+    data = gmsh_data(geometry_.file);
+  }
+  Mesh mesh = assemble_mesh(std::move(data));
+  check_cells(mesh);
+  return mesh;
+}
+
+// gmsh 4.8 leaves flat triangles at kinks and corners where edges are below about 1e-5 of the whole, and inverted ones
+// where a curve turns within an edge; other sizes a little smaller avoid them.
+Mesh FreeMesher::mesh(const SizeAt& size, bool recombine) const {
+  constexpr int attempts = 6;
+  double part = 1;
+  for (int attempt = 1;; ++attempt, part *= 0.9) {
+    try {
+      return mesh_once([&](const Vec2& x) { return part * size(x); }, recombine);
+    } catch (const InputError&) {
+      if (attempt == attempts) throw;
+    }
+  }
+}
+
+}  // namespace mortise
