@@ -3,10 +3,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <new>
 
+#include "app/accuracy.hpp"
 #include "app/sweep.hpp"
 #include "app/terminal.hpp"
 #include "base/errors.hpp"
@@ -25,6 +28,7 @@ struct Options {
   std::string scene;
   std::vector<std::string> set, vary;
   std::string output;
+  std::string accuracy;
   bool quiet = false, diagnose = false, no_estimate = false, no_programs = false;
   int threads = 0;
 };
@@ -32,6 +36,7 @@ struct Options {
 std::vector<Override> overrides(const Options& options) {
   std::vector<Override> list;
   for (const std::string& text : options.set) list.push_back(parse_override(text));
+  if (!options.accuracy.empty()) list.push_back({"accuracy.value", options.accuracy});
   if (options.no_programs) list.push_back({"mesh.programs", "false"});  // last, so that nothing undoes it
   return list;
 }
@@ -61,6 +66,29 @@ Scene shown(Scene scene) {
 
 int exit_code(Status status) { return status == Status::solved ? 0 : 2; }
 
+std::atomic<bool> interrupted = false;
+
+// Results of the mesh that the file has, or of the one that is found for the accuracy asked for.
+Results solve(const Scene& scene, const Options& options, const StageLine& line) {
+  if (scene.accuracy) {
+    // The first Ctrl-C asks for the last complete answer, a second one ends the run.
+    const auto old = std::signal(SIGINT, [](int) {
+      interrupted = true;
+      std::signal(SIGINT, SIG_DFL);
+    });
+    auto found = solve_to_accuracy(scene, line, [] { return interrupted.load(); });
+    std::signal(SIGINT, old);
+    if (!found) throw InputError(scene.path + ": interrupted before the first solve was complete");
+    return *std::move(found);
+  }
+  Results results = solve_scene(scene, line);
+  if (!options.no_estimate) {
+    line("estimate");
+    estimate(results);
+  }
+  return results;
+}
+
 int solve(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const std::filesystem::path folder = options.output.empty() ? "out/" + stem(options) : options.output;
@@ -68,11 +96,7 @@ int solve(const Options& options) {
   Results results;
   {
     const StageLine line(options.quiet);
-    results = solve_scene(scene, [&](const std::string& stage) { line(stage); });
-    if (!options.no_estimate) {
-      line("estimate");
-      estimate(results);
-    }
+    results = solve(scene, options, line);
     if (options.diagnose) {
       line("diagnose");
       diagnose(scene, results);
@@ -161,6 +185,8 @@ int parse_and_run(int argc, const char* const* argv) {
                       "find the inf-sup constant too: do the meshes control the pressure?");
   };
   add_diagnose(solve_command);
+  solve_command->add_option("--accuracy", options.accuracy,
+                            "find a mesh on which the contact pressure is right to this part, such as 1%");
   solve_command->add_flag("--no-estimate", options.no_estimate, "do not estimate the discretisation error");
   CLI::App* check_command =
       add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");

@@ -15,10 +15,27 @@
 namespace mortise {
 namespace {
 
-// The rows that are closed at first: those of a run on the same mesh, else (empty) all.
+// The rows that are closed at first: each as the nearest one of `start`; empty: all.
 std::vector<char> starting_rows(const ActiveSet* start, const Mesh& mesh, const std::vector<ContactPair>& pairs) {
-  if (!start || start->nodes.rows() != mesh.nodes.rows() || start->nodes != mesh.nodes) return {};
-  return start->node == row_nodes(pairs) ? start->active : std::vector<char>{};
+  if (!start || start->pairs.size() != pairs.size()) return {};
+  std::vector<char> closed;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const std::vector<ActiveSet::Row>& rows = start->pairs[k];
+    if (rows.empty()) return {};
+    // Both run along the curve, though maybe against each other: on from the one before.
+    std::size_t at = 0;
+    for (const int node : row_nodes(pairs[k].coupling)) {
+      const Vec2 x = mesh.nodes.row(node).transpose();
+      const auto away = [&](std::size_t i) { return (rows[i].place - x).squaredNorm(); };
+      if (closed.size() == std::size_t(pairs[k].first_row))
+        for (std::size_t i = 1; i < rows.size(); ++i)
+          if (away(i) < away(at)) at = i;
+      while (at + 1 < rows.size() && away(at + 1) <= away(at)) ++at;
+      while (at > 0 && away(at - 1) < away(at)) --at;
+      closed.push_back(rows[at].active);
+    }
+  }
+  return closed;
 }
 
 // Bodies that take the displacement in domain decomposition; empty without.
@@ -84,11 +101,19 @@ CheckedScene check_scene(const Scene& scene) {
   });
 }
 
-ActiveSet active_set(const Results& r) { return {r.mesh.nodes, row_nodes(r.pairs), r.solution.active}; }
+ActiveSet active_set(const Results& r) {
+  ActiveSet set;
+  for (const ContactPair& pair : r.pairs) {
+    std::vector<ActiveSet::Row>& rows = set.pairs.emplace_back();
+    for (const int node : row_nodes(pair.coupling))
+      rows.push_back({r.mesh.nodes.row(node).transpose(), r.solution.active[pair.first_row + rows.size()]});
+  }
+  return set;
+}
 
-void estimate(Results& r) {
+void estimate(Results& r, const ErrorOptions& options) {
   Stopwatch watch;
-  r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution);
+  r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution, options);
   for (std::size_t k = 0; k < r.contacts.size(); ++k) set_bars(r.estimate->pressures[k], r.contacts[k]);
   append(r.warnings, error_warnings(r));
   r.seconds.estimate = watch.lap();

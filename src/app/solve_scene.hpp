@@ -7,18 +7,21 @@
 
 namespace mortise {
 
-/// Where contact was closed, for a later run on the same mesh to start from.
+/// Where contact was closed, for a later run to start from.
 struct ActiveSet {
-  Points nodes;              ///< of the mesh
-  std::vector<int> node;     ///< of each row: where its first multiplier sits
-  std::vector<char> active;  ///< of each row
+  struct Row {
+    Vec2 place;  ///< of its first multiplier
+    char active;
+  };
+  std::vector<std::vector<Row>> pairs;  ///< rows of each, along its curve
 };
 
 /// Called as each stage begins, with its name.
 using Progress = std::function<void(const std::string& stage)>;
 
 /// Reads or makes the mesh and solves. Throws InputError for bad input, and where nothing holds a body.
-/// `start`: the active set to start from; all rows closed where there is none, or it belongs to another mesh.
+/// `start`: the active set to start from, each row from the nearest one; all rows closed where there is none, or it
+/// is of other pairs.
 Results solve_scene(const Scene& scene, const Progress& progress = {}, const ActiveSet* start = nullptr);
 
 /// Changes the equations of the bodies before they are solved: loads and prescribed displacements that no scene file
@@ -30,7 +33,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress = {}
                     const Adjust& adjust = {});
 
 /// The estimated error into the results, and a warning where it is large.
-void estimate(Results& results);
+void estimate(Results& results, const ErrorOptions& options = {});
 
 /// The inf-sup constant into the results, and a warning where it is small.
 void diagnose(const Scene& scene, Results& results);

@@ -137,6 +137,18 @@ std::string to_string(Status status) {
   return "";
 }
 
+Seconds& Seconds::operator+=(const Seconds& other) {
+  mesh += other.mesh;
+  assemble += other.assemble;
+  couple += other.couple;
+  factorise += other.factorise;
+  solve += other.solve;
+  recover += other.recover;
+  estimate += other.estimate;
+  write += other.write;
+  return *this;
+}
+
 int free_unknowns(const Results& r) {
   const std::vector<char>& fixed = r.discretisation.system.constraints.fixed;
   return int(std::count(fixed.begin(), fixed.end(), 0));

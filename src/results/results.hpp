@@ -29,6 +29,20 @@ struct InfSupReport {
 struct Seconds {
   double mesh = 0, assemble = 0, couple = 0, factorise = 0, solve = 0, recover = 0, estimate = 0, write = 0;
   double total() const { return mesh + assemble + couple + factorise + solve + recover + estimate + write; }
+  Seconds& operator+=(const Seconds& other);
+};
+
+/// How an asked accuracy of the pressure was found.
+struct AccuracyReport {
+  struct Solve {
+    int unknowns;
+    double estimated;  ///< ErrorEstimate::pressure
+    double seconds;    ///< mesh to estimate
+  };
+  double asked, excluded;  ///< AccuracySpec
+  std::vector<Solve> solves;
+  std::string reason;  ///< why it ended where the accuracy was not reached
+  bool reached() const { return !solves.empty() && solves.back().estimated <= asked; }
 };
 
 struct Results {
@@ -44,6 +58,7 @@ struct Results {
   std::vector<std::optional<StressComparison>> against_sigma_n;  ///< one a pair; nothing where not compared
   double energy = 0;                                             ///< strain energy per thickness
   std::optional<ErrorEstimate> estimate;                         ///< unless the run was asked for none
+  std::optional<AccuracyReport> accuracy;                        ///< where one was asked for
   std::optional<InfSupReport> inf_sup;                           ///< where the run was asked to diagnose
   Seconds seconds;
   std::vector<Check> checks;

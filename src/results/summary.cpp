@@ -1,11 +1,13 @@
 #include "results/summary.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
 #include "base/printable.hpp"
 #include "results/diagnose.hpp"
+#include "results/error_report.hpp"
 #include "results/model_summary.hpp"
 
 namespace mortise {
@@ -47,6 +49,16 @@ Json estimate_json(const Results& r) {
       {"largest", {{"body", r.mesh.bodies[e.body]}, {"part", e.part}, {"position", {e.position.x(), e.position.y()}}}},
       {"pressure",
        {{"error", r.estimate->pressure()}, {"line", r.estimate->line()}, {"far_field", r.estimate->far_field()}}}};
+}
+
+Json accuracy_json(const Results& r) {
+  if (!r.accuracy) return nullptr;
+  const AccuracyReport& a = *r.accuracy;
+  Json solves = Json::array();
+  for (const AccuracyReport::Solve& s : a.solves)
+    solves.push_back({{"unknowns", s.unknowns}, {"estimated", s.estimated}, {"seconds", s.seconds}});
+  return {
+      {"asked", a.asked}, {"reached", a.reached()}, {"reason", a.reason}, {"excluded", a.excluded}, {"solves", solves}};
 }
 
 Json steps_json(const Results& r) {
@@ -105,6 +117,18 @@ void print_comparison(const std::optional<StressComparison>& found, std::ostream
         << std::setprecision(6) << " % of the mean on 90 % of the contact\n";
   else
     out << "            p not compared with the bodies' sigma_n: no p, or all of it beside singular corners\n";
+}
+
+// What p is within, and what was asked.
+void print_accuracy(const Results& r, std::ostream& out) {
+  if (!r.estimate || !std::isfinite(r.estimate->pressure())) return;
+  out << std::setprecision(2) << "  accuracy  p within " << 100 * r.estimate->pressure() << " %";
+  if (r.accuracy) {
+    const AccuracyReport& a = *r.accuracy;
+    out << " (asked " << 100 * a.asked << " %): " << a.solves.size() << (a.solves.size() == 1 ? " solve" : " solves");
+    if (!a.reached()) out << "; not reached: " << a.reason << "; largest part: " << largest_error(r);
+  }
+  out << "\n" << std::setprecision(6);
 }
 
 // Those that fail; summary.json has all.
@@ -185,6 +209,7 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
           {"contact_steps", steps_json(r)},
           {"iteration", iteration_json(r.solution)},
           {"estimate", estimate_json(r)},
+          {"accuracy", accuracy_json(r)},
           {"inf_sup", r.inf_sup ? Json(r.inf_sup->beta) : Json()},
           {"energy", r.energy},
           {"contact", contact},
@@ -220,6 +245,7 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
         << " % (energy norm), the most in " << r.mesh.bodies[r.estimate->energy.body] << " "
         << near_point(r.estimate->energy.position) << "\n"
         << std::setprecision(6);
+  print_accuracy(r, out);
   if (r.inf_sup)
     out << "  inf-sup   " << r.inf_sup->beta << ", worst " << near_point(r.inf_sup->position) << " (limit "
         << inf_sup_limit << ")\n";

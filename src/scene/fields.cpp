@@ -70,6 +70,11 @@ double positive_number(const Node& node) {
   return value;
 }
 
+bool boolean(const Node& node) {
+  if (node.kind != Node::Kind::boolean) fail(node, "expected true or false, found " + describe(node));
+  return node.text == "true";
+}
+
 Vec2 number_pair(const Node& node) {
   if (node.kind != Node::Kind::list || node.items.size() != 2) fail_expected(node, "a list of two numbers [x, y]");
   return {number(node.items[0]), number(node.items[1])};

@@ -34,6 +34,9 @@ double number(const Node& node);
 /// A finite number of a quantity that must be positive.
 double positive_number(const Node& node);
 
+/// true or false.
+bool boolean(const Node& node);
+
 /// Two finite numbers.
 Vec2 number_pair(const Node& node);
 

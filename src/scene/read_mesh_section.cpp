@@ -27,10 +27,7 @@ void check_mesh_file(const Node& file, const fs::path& path) {
 
 void read_limits(const Node& mesh, Scene& scene) {
   if (const Node* limit = find(mesh, "time_limit")) scene.geo_limits.seconds = positive_number(*limit);
-  if (const Node* programs = find(mesh, "programs")) {
-    if (programs->kind != Node::Kind::boolean) fail(*programs, "expected true or false, found " + describe(*programs));
-    scene.geo_limits.programs = programs->text == "true";
-  }
+  if (const Node* programs = find(mesh, "programs")) scene.geo_limits.programs = boolean(*programs);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ void read_model(const Node& root, Scene& scene) {
 
 Scene read_sections(const Node& root, const std::string& path) {
   expect_keys(root, {"title", "mesh", "model", "materials", "bodies", "boundary", "body_force", "initial_strain",
-                     "contact", "method"});
+                     "contact", "method", "accuracy"});
   Scene scene;
   scene.path = path;
   read_title(root, scene);
@@ -47,6 +47,7 @@ Scene read_sections(const Node& root, const std::string& path) {
   read_initial_strains(root, scene);
   read_contacts(root, scene);
   read_method(root, scene);
+  read_accuracy(root, scene);
   return scene;
 }
 

@@ -71,6 +71,16 @@ struct Method {
   std::vector<std::string> dirichlet;  ///< of ddm: bodies that take the displacement; default: the softer ones
 };
 
+/// [accuracy]: what the pressure is to be right to, on a mesh that is found for it.
+struct AccuracySpec {
+  std::string key = "accuracy";  ///< where it stands, for messages
+  double value = 0;              ///< asked, relative, > 0 and < 1
+  double exclude = 0.1;          ///< of the loaded length, on either side of a singular point: left out of the norm
+  int unknowns_max = 1000000;
+  int first_edges = 20;    ///< of the first mesh along each contact curve
+  bool recombine = false;  ///< quadrilaterals instead of triangles
+};
+
 struct Scene {
   std::string path;  ///< the .toml, for messages
   std::string title;
@@ -85,6 +95,7 @@ struct Scene {
   std::vector<InitialStrainSpec> initial_strains;
   std::vector<ContactSpec> contacts;
   Method method;
+  std::optional<AccuracySpec> accuracy;  ///< none: the mesh is the file's
 };
 
 /// One `--set KEY=VALUE`, e.g. {"contact.0.multipliers_on", "lower_contact"}.

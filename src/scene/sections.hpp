@@ -26,4 +26,7 @@ void read_contacts(const Node& root, Scene& scene);
 /// [method]. After read_bodies.
 void read_method(const Node& root, Scene& scene);
 
+/// [accuracy]. After read_mesh_section and read_contacts.
+void read_accuracy(const Node& root, Scene& scene);
+
 }  // namespace mortise::scene_file

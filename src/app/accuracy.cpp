@@ -1,0 +1,162 @@
+#include "app/accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "base/stopwatch.hpp"
+#include "base/vectors.hpp"
+#include "error/wanted_sizes.hpp"
+#include "io/free_mesher.hpp"
+#include "results/error_report.hpp"
+
+namespace mortise {
+namespace {
+
+struct Interrupted {};
+
+// A size at a place, growing away from it.
+struct SizedPlace {
+  Vec2 x;
+  double size;
+};
+
+// What the first mesh is made from: the contact curves in so many edges, and arcs in turns of 15 degrees.
+std::vector<SizedPlace> first_sizes(const std::vector<DrawnCurve>& curves, const Scene& scene) {
+  constexpr double turn = 15 * std::numbers::pi / 180;
+  const auto length = [](const DrawnCurve& curve) {
+    double sum = 0;
+    for (std::size_t i = 1; i < curve.places.size(); ++i) sum += (curve.places[i] - curve.places[i - 1]).norm();
+    return sum;
+  };
+  std::map<std::string, double> lengths;
+  for (const DrawnCurve& curve : curves)
+    for (const std::string& name : curve.names) lengths[name] += length(curve);
+  std::vector<SizedPlace> places;
+  for (const DrawnCurve& curve : curves) {
+    double largest = std::numeric_limits<double>::infinity();
+    for (const ContactSpec& contact : scene.contacts)
+      for (const std::string& side : contact.between)
+        if (std::ranges::count(curve.names, side) > 0)
+          largest = std::min(largest, lengths[side] / scene.accuracy->first_edges);
+    for (std::size_t i = 1; i + 1 < curve.places.size(); ++i) {
+      const Vec2 before = curve.places[i] - curve.places[i - 1], after = curve.places[i + 1] - curve.places[i];
+      const double angle = angle_between(before, after), step = (before.norm() + after.norm()) / 2;
+      const double size = std::min(largest, angle > 1e-9 ? turn * step / angle : largest);
+      if (std::isfinite(size)) places.push_back({curve.places[i], size});
+    }
+  }
+  return places;
+}
+
+double size_at(const std::vector<SizedPlace>& places, const Vec2& x) {
+  double size = std::numeric_limits<double>::infinity();
+  for (const SizedPlace& place : places) size = std::min(size, place.size + size_growth * (x - place.x).norm());
+  return size;
+}
+
+class Loop {
+ public:
+  Loop(const Scene& scene, const Progress& progress, const std::function<bool()>& interrupted)
+      : scene_(scene),
+        spec_(*scene.accuracy),
+        progress_(progress),
+        interrupted_(interrupted),
+        mesher_(scene.mesh_file, scene.mesh_parameters, scene.geo_limits),
+        first_(first_sizes(mesher_.curves(), scene)) {}
+
+  std::optional<Results> run() {
+    std::optional<Results> last;
+    AccuracyReport report{.asked = spec_.value, .excluded = spec_.exclude, .solves = {}, .reason = {}};
+    Seconds seconds;
+    SizeAt sizes = [&](const Vec2& x) { return size_at(first_, x); };
+    try {
+      for (;;) {
+        std::optional<ActiveSet> start;
+        if (last) start = active_set(*last);
+        Results r = solve_on(sizes, start ? &*start : nullptr, int(report.solves.size()) + 1);
+        seconds += r.seconds;
+        report.solves.push_back({free_unknowns(r), r.estimate->pressure(), r.seconds.total()});
+        last = std::move(r);
+        report.reason = why_to_stop(*last, report);
+        if (report.reached() || !report.reason.empty()) break;
+        sizes = next_sizes(*last);
+      }
+    } catch (const Interrupted&) {
+      if (!last) return std::nullopt;
+      report.reason = "interrupted";
+    }
+    last->seconds = seconds;
+    if (!report.reached()) last->status = std::max(last->status, Status::not_converged);
+    last->accuracy = std::move(report);
+    return last;
+  }
+
+ private:
+  Results solve_on(const SizeAt& sizes, const ActiveSet* start, int number) {
+    const std::string words = "solve " + std::to_string(number) + told_;
+    const auto stage = [&](const std::string& name) {
+      if (interrupted_ && interrupted_()) throw Interrupted();
+      if (progress_) progress_(words + ": " + name);
+    };
+    stage("mesh");
+    Stopwatch watch;
+    Mesh mesh = mesher_.mesh(sizes, spec_.recombine);
+    const double meshing = watch.lap();
+    Results r = solve_scene(scene_, std::move(mesh), stage, start);
+    r.seconds.mesh = meshing;
+    stage("estimate");
+    estimate(r, {.excluded = spec_.exclude});
+    std::ostringstream text;
+    text.precision(2);
+    text << " (p was within " << 100 * r.estimate->pressure() << " % with " << free_unknowns(r) << " unknowns)";
+    told_ = text.str();
+    return r;
+  }
+
+  std::string why_to_stop(const Results& r, const AccuracyReport& report) const {
+    const auto& solves = report.solves;
+    const std::size_t n = solves.size();
+    if (report.reached()) return "";
+    if (r.status == Status::not_converged) return "the solver did not converge";
+    if (!std::isfinite(solves.back().estimated)) return "nothing is in contact";
+    if (n >= most_solves) return std::to_string(n) + " solves";
+    if (solves.back().unknowns >= spec_.unknowns_max) return "unknowns_max";
+    if (n >= 4 && solves[n - 1].estimated > solves[n - 2].estimated &&
+        solves[n - 2].estimated > solves[n - 3].estimated)
+      return "the estimate rises";
+    return "";
+  }
+
+  // Each step asks for an eighth of the error at most: the estimate of a coarse mesh is not to be trusted further.
+  SizeAt next_sizes(const Results& r) const {
+    const ErrorEstimate& e = *r.estimate;
+    const double target = std::max(0.8 * spec_.value, e.pressure() / 8) / error_safety;
+    const double far = std::clamp(e.far_field() / (0.5 * target), 0.25, 40.0),
+                 line = std::clamp(e.line() / (0.8 * target), 0.4, 8.0);
+    VecX sizes = wanted_sizes(r.mesh, r.pairs, e, line, far);
+    for (Eigen::Index i = 0; i < sizes.size(); ++i)
+      sizes(i) = std::min(sizes(i), size_at(first_, r.mesh.nodes.row(i).transpose()));
+    return [field = std::make_shared<SizeField>(r.mesh, sizes, singular_layers(r.mesh, e, target))](const Vec2& x) {
+      return (*field)(x);
+    };
+  }
+
+  const Scene& scene_;
+  const AccuracySpec& spec_;
+  const Progress& progress_;
+  const std::function<bool()>& interrupted_;
+  FreeMesher mesher_;
+  std::vector<SizedPlace> first_;
+  std::string told_;
+};
+
+}  // namespace
+
+std::optional<Results> solve_to_accuracy(const Scene& scene, const Progress& progress,
+                                         const std::function<bool()>& interrupted) {
+  return Loop(scene, progress, interrupted).run();
+}
+
+}  // namespace mortise

@@ -1,0 +1,54 @@
+// [accuracy]
+#include <charconv>
+#include <cmath>
+
+#include "scene/fields.hpp"
+#include "scene/sections.hpp"
+
+namespace mortise::scene_file {
+namespace {
+
+// A part: 0.01, or "1%".
+double part(const Node& node) {
+  double value = std::nan("");
+  if (node.kind == Node::Kind::string) {
+    const std::string& text = node.text;
+    double percent = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), percent);
+    if (error == std::errc() && std::string(end, text.data() + text.size()) == "%") value = percent / 100;
+  } else {
+    value = number(node);
+  }
+  if (!(value > 0 && value < 1))
+    fail(node, "expected a part above 0 and below 1, such as 0.01 or \"1%\", found " + describe(node));
+  return value;
+}
+
+int whole(const Node& node, double least, double most) {
+  const double value = number(node);
+  if (value != std::floor(value) || value < least || value > most)
+    fail(node, "expected a whole number from " + std::to_string(int(least)) + " to " + std::to_string(int(most)) +
+                   ", found " + describe(node));
+  return int(value);
+}
+
+}  // namespace
+
+void read_accuracy(const Node& root, Scene& scene) {
+  const Node* node = find(root, "accuracy");
+  if (node == nullptr) return;
+  expect_keys(*node, {"value", "exclude", "unknowns_max", "first_edges", "recombine"});
+  AccuracySpec accuracy;
+  accuracy.value = part(require(*node, "value", "a part such as 0.01 or \"1%\""));
+  if (const Node* exclude = find(*node, "exclude")) accuracy.exclude = part(*exclude);
+  if (const Node* most = find(*node, "unknowns_max")) accuracy.unknowns_max = whole(*most, 100, 1e9);
+  if (const Node* edges = find(*node, "first_edges")) accuracy.first_edges = whole(*edges, 2, 1e5);
+  if (const Node* recombine = find(*node, "recombine")) accuracy.recombine = boolean(*recombine);
+  if (scene.contacts.empty())
+    fail(*node, "the accuracy of the contact pressure is asked for where there is no [[contact]]");
+  if (!scene.mesh_file.ends_with(".geo"))
+    fail(*node, "a mesh has no geometry to refine; expected mesh.file = a .geo (with a .msh every solve gives bars)");
+  scene.accuracy = accuracy;
+}
+
+}  // namespace mortise::scene_file
