@@ -12,7 +12,7 @@ constexpr double coarsen = 0.4, refine = 6;  // by what sizes may fall at once w
 constexpr double singular_share = 0.12;      // of a cell's energy norm; its error falls slowly then
 constexpr double singular_refine = 40, line_refine = 30, border_refine = 100;
 constexpr double border_share = 0.5;  // of the target of the local error, for all borders
-constexpr double least_size = 3e-5;   // of the scene's; gmsh makes flat triangles at corners below 1e-5
+constexpr double least_layer = 3e-5;  // of the scene's size; gmsh makes flat triangles at corners below 1e-5
 
 // By what the size of each cell is to fall, for the far field.
 VecX cell_refinement(const ErrorEstimate& estimate, const VecX& energies, double factor) {
@@ -101,7 +101,7 @@ VecX wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs, const
         for (Eigen::Index i = 0; i < line.p.size(); ++i) lower(edge.nodes[end], i);
   }
   limit_growth(mesh, size_growth, sizes);
-  return sizes.cwiseMax(least_size * scene_size(mesh));
+  return sizes;
 }
 
 std::vector<SizeLayers> singular_layers(const Mesh& mesh, const ErrorEstimate& estimate, double error) {
@@ -110,7 +110,7 @@ std::vector<SizeLayers> singular_layers(const Mesh& mesh, const ErrorEstimate& e
     const double scale = e.line.h.sum() / 2;
     for (const SingularPoint& point : e.singular) {
       const double least = scale * std::pow(0.3 * error, 1 / (2 * 0.42));
-      layers.push_back({point.position, std::max(least, least_size * scene_size(mesh)), size_growth});
+      layers.push_back({point.position, std::max(least, least_layer * scene_size(mesh)), size_growth});
     }
   }
   return layers;

@@ -56,11 +56,8 @@ std::vector<SizeField::Triangle> SizeField::triangles_of(const Mesh& mesh, const
 
 double SizeField::operator()(const Vec2& x) const {
   constexpr double inside = 1e-6;  // in the triangle's own coordinates
-  constexpr int most_near = 8;     // triangles that are looked at where x lies in none
   double size = std::numeric_limits<double>::infinity(), nearest = size, at_nearest = size;
-  int looked_at = 0;
-  boxes_.nearest_first(x, [&](int number, double distance) {
-    if (distance > 0 && (nearest <= inside || looked_at >= most_near)) return false;
+  const auto look_at = [&](int number) {
     const Triangle& t = triangles_[number];
     Eigen::Vector3d at;
     const double depth = outside(t.x, x, at);
@@ -70,10 +67,16 @@ double SizeField::operator()(const Vec2& x) const {
       nearest = depth;
       at_nearest = value;
     }
-    ++looked_at;
-    return true;
-  });
-  if (nearest > inside) size = at_nearest;
+  };
+  for (const int number : boxes_.meeting(Box(x))) look_at(number);
+  if (nearest > inside) {  // between a chord and its curve, as a rule
+    int left = 8;
+    boxes_.nearest_first(x, [&](int number, double) {
+      look_at(number);
+      return --left > 0;
+    });
+    if (nearest > inside) size = at_nearest;
+  }
   for (const SizeLayers& layer : layers_) size = std::min(size, layer.least + layer.growth * (x - layer.centre).norm());
   return size;
 }
