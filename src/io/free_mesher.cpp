@@ -30,7 +30,8 @@ void set_mesh_options(bool recombine) {
       {"Mesh.MeshSizeExtendFromBoundary", 0},
       {"Mesh.MinimumCircleNodes", 0},
       {"Mesh.MinimumCurveNodes", 0},
-      {"Mesh.LcIntegrationPrecision", 1e-6},
+      {"Mesh.LcIntegrationPrecision", 1e-5},  // of a count of edges; less gives the same meshes, later
+      {"Mesh.RandomFactor", 1e-13},  // of the whole; gmsh moves points by it, 1e-9 flattens triangles at tiny edges
       {"Mesh.RecombineAll", recombine ? 1 : 0},
   };
   for (const auto& [name, value] : options) gmsh::option::setNumber(name, value);
@@ -112,7 +113,7 @@ Mesh FreeMesher::mesh_once(const SizeAt& size, bool recombine) const {
   return mesh;
 }
 
-// gmsh 4.8 leaves flat triangles at kinks and corners where edges are below about 1e-5 of the whole, and inverted ones
+// gmsh 4.8 leaves flat triangles at kinks and corners where edges are below about 1e-7 of the whole, and inverted ones
 // where a curve turns within an edge; other sizes a little smaller avoid them.
 Mesh FreeMesher::mesh(const SizeAt& size, bool recombine) const {
   constexpr int attempts = 6;
