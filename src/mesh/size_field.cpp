@@ -21,13 +21,15 @@ double outside(const std::array<Vec2, 3>& t, const Vec2& x, Eigen::Vector3d& at)
   return deepest;
 }
 
+// With a margin for places between a chord and its curve.
 template <typename Triangle>
 std::vector<Box> boxes_of(const std::vector<Triangle>& triangles) {
   std::vector<Box> boxes;
   for (const Triangle& t : triangles) {
     Box box(t.x[0]);
     box.extend(t.x[1]).extend(t.x[2]);
-    boxes.push_back(box);
+    const Vec2 margin = Vec2::Constant(0.1 * box.sizes().norm());
+    boxes.emplace_back(box.min() - margin, box.max() + margin);
   }
   return boxes;
 }
@@ -69,14 +71,14 @@ double SizeField::operator()(const Vec2& x) const {
     }
   };
   for (const int number : boxes_.meeting(Box(x))) look_at(number);
-  if (nearest > inside) {  // between a chord and its curve, as a rule
+  if (!std::isfinite(nearest)) {  // far outside
     int left = 8;
     boxes_.nearest_first(x, [&](int number, double) {
       look_at(number);
       return --left > 0;
     });
-    if (nearest > inside) size = at_nearest;
   }
+  if (nearest > inside) size = at_nearest;
   for (const SizeLayers& layer : layers_) size = std::min(size, layer.least + layer.growth * (x - layer.centre).norm());
   return size;
 }

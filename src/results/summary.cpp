@@ -41,14 +41,28 @@ Json contact_json(const ContactPair& pair, const ContactResults& c, const std::o
           {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
 }
 
+Json pressure_json(const Results& r) {
+  const ErrorEstimate& e = *r.estimate;
+  Json singular = Json::array(), excluded = Json::array();
+  for (std::size_t k = 0; k < e.pressures.size(); ++k) {
+    for (const SingularPoint& point : e.pressures[k].singular)
+      singular.push_back({{"pair", k}, {"position", {point.position.x(), point.position.y()}}});
+    excluded.push_back(e.pressures[k].excluded_distance);
+  }
+  return {{"error", e.pressure()},
+          {"line", e.line()},
+          {"far_field", e.far_field()},
+          {"singular", singular},
+          {"excluded", excluded}};
+}
+
 Json estimate_json(const Results& r) {
   if (!r.estimate) return nullptr;
   const EnergyEstimate& e = r.estimate->energy;
   return {
       {"error", e.error},
       {"largest", {{"body", r.mesh.bodies[e.body]}, {"part", e.part}, {"position", {e.position.x(), e.position.y()}}}},
-      {"pressure",
-       {{"error", r.estimate->pressure()}, {"line", r.estimate->line()}, {"far_field", r.estimate->far_field()}}}};
+      {"pressure", pressure_json(r)}};
 }
 
 Json accuracy_json(const Results& r) {
