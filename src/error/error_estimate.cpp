@@ -62,10 +62,11 @@ void find_excluded(double part, PressureEstimate& e) {
   double length = 0;
   for (Eigen::Index i = 0; i + 1 < line.p.size(); ++i)
     if (line.loaded[i] && line.loaded[i + 1]) length += line.s(i + 1) - line.s(i);
+  e.excluded_distance = part * length;
   e.excluded.assign(line.p.size(), 0);
   for (Eigen::Index i = 0; i < line.p.size(); ++i)
     for (const SingularPoint& point : e.singular)
-      if ((line.position[i] - point.position).norm() < part * length) e.excluded[i] = 1;
+      if ((line.position[i] - point.position).norm() < e.excluded_distance) e.excluded[i] = 1;
 }
 
 void find_bars(PressureEstimate& e) {
