@@ -18,8 +18,9 @@ using Function = std::function<Complex(Complex)>;
 // and materials.
 constexpr double first_exponent = 1e-3, highest = 1;
 
-// Williams (1952): Airy's function r^(lambda + 1) F, F = A cos(lambda + 1) theta + B sin(lambda + 1) theta +
-// C cos(lambda - 1) theta + D sin(lambda - 1) theta. Of A, B, C, D, up to factors of r and lambda:
+// Williams (1952), docs/theory.md eq. (42): Airy's function r^(lambda + 1) F, F = A cos(lambda + 1) theta + B
+// sin(lambda + 1) theta + C cos(lambda - 1) theta + D sin(lambda - 1) theta. Of A, B, C, D, up to factors of r and
+// lambda:
 //   sigma_thetatheta = F, sigma_rtheta = F', 2 mu u_r = (kappa + 1) G_r - (lambda + 1) F,
 //   2 mu u_theta = (kappa + 1) G_theta - F'.
 // The two of them that a face holds at zero.
@@ -68,7 +69,7 @@ Response response(const Wedge& w, Complex lambda) {
 
 double compliance(const Wedge& w) { return (w.kolosov + 1) / w.shear; }
 
-// Equal sigma_thetatheta on both sides, opposite u_theta.
+// Eq. (44): equal sigma_thetatheta on both sides, opposite u_theta.
 Complex matching(const Wedge& a, const Wedge& b, Complex lambda) {
   const Response ra = response(a, lambda), rb = response(b, lambda);
   const double ca = compliance(a), cb = compliance(b);

@@ -1,8 +1,7 @@
-// Exponents of the stress at the tip of one wedge, and of two wedges that touch without friction (docs/theory.md
-// section 15): u ~ r^lambda, stress ~ r^(lambda - 1).
+// Exponents of the stress at the tip of one wedge, and of two wedges that touch without friction: u ~ r^lambda,
+// stress ~ r^(lambda - 1). docs/theory.md section 8, eq. (42) to (44).
 //
-// M. L. Williams (1952), one wedge; J. Dundurs, M. S. Lee (1972), a wedge on a half-plane; E. E. Gdoutos,
-// P. S. Theocaris (1975), two wedges.
+// M. L. Williams (1952), one wedge; J. Dundurs, M. S. Lee (1972), a wedge on a half-plane.
 #pragma once
 
 #include <complex>
