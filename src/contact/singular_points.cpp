@@ -3,20 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
 
-#include "contact/segments.hpp"
+#include "contact/projection.hpp"
 #include "fem/edges.hpp"
 
 namespace mortise {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180, straight = std::numbers::pi, tolerance = 20 * degree,
-                 clamped_limit = 60 * degree;
+// Curves turn less where they are smooth; what one mesh may miss of the other's kink.
+constexpr double degree = std::numbers::pi / 180, straight = std::numbers::pi, smooth = 2 * degree,
+                 missed = 20 * degree;
 
 // A vertex of a curve and the edges before and after it, -1 at an end.
 struct Vertex {
   int node, before, after;
+  bool is_end() const { return before < 0 || after < 0; }
 };
 
 std::vector<Vertex> vertices_of(const Curve& curve) {
@@ -28,95 +29,141 @@ std::vector<Vertex> vertices_of(const Curve& curve) {
   return list;
 }
 
-double turn(const Vec2& from, const Vec2& to) {
-  return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
-}
-
-// Interior angle of the material at each vertex of both curves: the sum of the cells' angles there.
-std::unordered_map<int, double> interior_angles(const Mesh& mesh, const Curve& first, const Curve& second) {
-  std::vector<char> wanted(mesh.nodes.rows(), 0);
-  for (const Curve* curve : {&first, &second})
-    for (const Edge& edge : curve->edges) wanted[edge.nodes[0]] = wanted[edge.nodes[1]] = 1;
-  std::unordered_map<int, double> angles;
+// The sides of cells that end at a node and have no cell behind them, the body on their left.
+std::vector<Edge> outline_at(const Mesh& mesh, int node) {
+  std::vector<Edge> sides, outline;
   for (const Cell& cell : mesh.cells) {
     const int corners = corner_count(cell.kind);
-    for (int i = 0; i < corners; ++i) {
-      if (!wanted[cell.nodes[i]]) continue;
-      const Vec2 out = edge_point(mesh.nodes, side_edge(cell, i), -1).tangent,
-                 in = edge_point(mesh.nodes, side_edge(cell, (i + corners - 1) % corners), 1).tangent;
-      angles[cell.nodes[i]] += straight - turn(in, out);
-    }
+    for (int i = 0; i < corners; ++i)
+      if (cell.nodes[i] == node || cell.nodes[(i + 1) % corners] == node) sides.push_back(side_edge(cell, i));
   }
-  return angles;
+  for (const Edge& side : sides)
+    if (std::ranges::none_of(sides, [&](const Edge& other) {
+          return other.nodes[0] == side.nodes[1] && other.nodes[1] == side.nodes[0];
+        }))
+      outline.push_back(side);
+  return outline;
+}
+
+// What holds a face, by what is prescribed at all nodes of its edge.
+Face face_of(const Points& nodes, const Edge& edge, const Constraints& constraints) {
+  std::array<bool, 2> fixed{true, true};
+  for (int k = 0; k < edge.node_count; ++k)
+    for (const int c : {0, 1}) fixed[c] = fixed[c] && constraints.fixed[2 * edge.nodes[k] + c];
+  if (fixed[0] == fixed[1]) return fixed[0] ? Face::clamped : Face::free;
+  const Vec2 along = (nodes.row(edge.nodes[1]) - nodes.row(edge.nodes[0])).transpose().cwiseAbs();
+  return along(fixed[0] ? 0 : 1) > along(fixed[0] ? 1 : 0) ? Face::antisymmetric : Face::symmetric;
+}
+
+double angle_between(const Vec2& before, const Vec2& after) {
+  return straight - std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
 }
 
 // What a body is at a point of its contact line.
 struct Corner {
-  double angle;          // interior; with its mirror image on a symmetry plane
-  bool clamped = false;  // beside a face that cannot move
-  bool is_straight() const { return std::abs(angle - straight) <= tolerance; }
+  Wedge wedge;
+  bool end;     // its curve does not go on
+  double edge;  // length of the longest one of its curve there
 };
 
-Corner corner_at(const Vertex& v, const std::unordered_map<int, double>& angles, const Constraints& constraints) {
-  const double angle = angles.at(v.node);
-  const bool end = v.before < 0 || v.after < 0;
-  const int fixed = end ? constraints.fixed[2 * v.node] + constraints.fixed[2 * v.node + 1] : 0;
-  if (fixed == 1 && 2 * angle <= 2 * straight + tolerance) return {2 * angle};
-  return {angle, fixed == 2};
-}
+// One of the two curves with the line that it stands for.
+struct Side {
+  const Mesh& mesh;
+  const Curve& curve;
+  const Constraints& constraints;
+  const ElasticLaw& law;
+  ContactLine line;
 
-double edges_at(const Points& nodes, const Curve& curve, const Vertex& v) {
-  double length = 0;
-  for (const int e : {v.before, v.after})
-    if (e >= 0) length = std::max(length, edge_length(nodes, curve.edges[e]));
-  return length;
-}
-
-Vec2 normal_at(const Points& nodes, const Curve& curve, const Vertex& v) {
-  Vec2 n = Vec2::Zero();
-  if (v.before >= 0) n += edge_point(nodes, curve.edges[v.before], 1).normal();
-  if (v.after >= 0) n += edge_point(nodes, curve.edges[v.after], -1).normal();
-  return n.normalized();
-}
-
-// The body on the other side of a vertex, and its edge there; nothing if it faces none.
-struct Facing {
-  Corner corner;
-  double edge;
+  Vec2 position(const Vertex& v) const { return mesh.nodes.row(v.node).transpose(); }
+  Vec2 before(const Vertex& v) const { return line.at(v.before, 1).tangent; }
+  Vec2 after(const Vertex& v) const { return line.at(v.after, -1).tangent; }
+  bool is_kink(const Vertex& v) const {
+    return !v.is_end() && std::abs(angle_between(before(v), after(v)) - straight) > smooth;
+  }
+  double edge_at(const Vertex& v) const {
+    double length = 0;
+    for (const int e : {v.before, v.after})
+      if (e >= 0) length = std::max(length, edge_length(mesh.nodes, curve.edges[e]));
+    return length;
+  }
+  Vec2 normal(const Vertex& v) const {
+    Vec2 n = Vec2::Zero();
+    if (v.before >= 0) n += line.at(v.before, 1).normal();
+    if (v.after >= 0) n += line.at(v.after, -1).normal();
+    return n.normalized();
+  }
+  Corner corner(const Vertex& v) const;
 };
 
-std::optional<Facing> facing(const Mesh& mesh, const Line& line, double edge, const Curve& other,
-                             const std::unordered_map<int, double>& angles, const Constraints& constraints) {
-  for (const Vertex& v : vertices_of(other))
-    if ((mesh.nodes.row(v.node).transpose() - line.x).norm() < 0.05 * edge)
-      return Facing{corner_at(v, angles, constraints), edges_at(mesh.nodes, other, v)};
-  const auto hit = project_onto_curve(mesh.nodes, other, line);
+Corner Side::corner(const Vertex& v) const {
+  if (!v.is_end()) return {wedge(angle_between(before(v), after(v)), law), false, edge_at(v)};
+  for (const Edge& beyond : outline_at(mesh, v.node)) {
+    const bool starts = beyond.nodes[0] == v.node;
+    if (starts != (v.after < 0)) continue;  // the curve's own
+    const Vec2 tangent = edge_point(mesh.nodes, beyond, starts ? -1 : 1).tangent;
+    const double angle = starts ? angle_between(before(v), tangent) : angle_between(tangent, after(v));
+    return {wedge(angle, law, face_of(mesh.nodes, beyond, constraints)), true, edge_at(v)};
+  }
+  return {wedge(straight, law), true, edge_at(v)};
+}
+
+// The body on the other side of a vertex; nothing if it is half an edge away or more.
+std::optional<Corner> facing(const Side& side, const Vertex& v, const Side& other) {
+  const Vec2 x = side.position(v);
+  const double edge = side.edge_at(v);
+  for (const Vertex& w : vertices_of(other.curve))
+    if ((other.position(w) - x).norm() < 0.05 * edge) return other.corner(w);
+  const Line line{x, side.normal(v), deepest_overlap(side.curve, std::max(v.before, v.after))};
+  const auto hit = project_onto_curve(side.mesh.nodes, other.curve, line);
   if (!hit) return {};
-  return Facing{{straight}, edge_length(mesh.nodes, other.edges[hit->edge])};
+  const double length = edge_length(other.mesh.nodes, other.curve.edges[hit->edge]);
+  if (std::abs(hit->distance) > std::max(edge, length) / 2) return {};
+  return Corner{wedge(straight, other.law), false, length};
 }
 
-bool is_singular(const Corner& a, const Corner& b) {
-  if (a.is_straight() && b.is_straight()) return false;
-  for (const Corner& c : {a, b})
-    if (c.clamped && c.angle > clamped_limit) return true;
-  return a.angle + b.angle > straight + tolerance;
+Meeting meeting_of(const Corner& a, const Corner& b) {
+  if (a.end && b.end) return Meeting::ends;
+  const double both = a.wedge.angle + b.wedge.angle;
+  return a.end || b.end || both < 2 * straight - missed ? Meeting::corner : Meeting::kink;
+}
+
+// One kink of both, that of the sharper one if the other's mesh misses it.
+void fit_kink(Wedge& a, Wedge& b) {
+  if (std::abs(a.angle - straight) > std::abs(b.angle - straight))
+    b.angle = 2 * straight - a.angle;
+  else
+    a.angle = 2 * straight - b.angle;
+}
+
+SingularPoint singular_point(const Vec2& x, const Corner& a, const Corner& b) {
+  SingularPoint point{x, std::max(a.edge, b.edge), 1, 1, meeting_of(a, b), {a.wedge, b.wedge}};
+  auto& [first, second] = point.wedges;
+  const bool kink = point.meeting == Meeting::kink;
+  if (kink) fit_kink(first, second);
+  const TipExponents found = kink ? kink_exponents(first, second) : end_exponents(first, second);
+  point.exponent = found.stress.real();
+  if (found.pressure.real() <= singular_limit) point.pressure_exponent = found.pressure.real();
+  return point;
 }
 
 }  // namespace
 
 std::vector<SingularPoint> singular_points(const Mesh& mesh, const Curve& first, const Curve& second,
-                                           const Constraints& constraints) {
-  const auto angles = interior_angles(mesh, first, second);
+                                           const Constraints& constraints, const std::vector<ElasticLaw>& laws) {
+  const Side sides[] = {{mesh, first, constraints, laws[first.body], ContactLine(mesh.nodes, first)},
+                        {mesh, second, constraints, laws[second.body], ContactLine(mesh.nodes, second)}};
   std::vector<SingularPoint> points;
-  for (const auto& [curve, other] : {std::pair{&first, &second}, std::pair{&second, &first}})
-    for (const Vertex& v : vertices_of(*curve)) {
-      const Corner corner = corner_at(v, angles, constraints);
-      if (corner.is_straight()) continue;
-      const Vec2 x = mesh.nodes.row(v.node).transpose();
-      const double edge = edges_at(mesh.nodes, *curve, v);
-      const Line line{x, normal_at(mesh.nodes, *curve, v), deepest_overlap(*curve, std::max(v.before, v.after))};
-      const auto opposite = facing(mesh, line, edge, *other, angles, constraints);
-      if (opposite && is_singular(corner, opposite->corner)) points.push_back({x, std::max(edge, opposite->edge)});
+  for (const int k : {0, 1})
+    for (const Vertex& v : vertices_of(sides[k].curve)) {
+      if (!v.is_end() && !sides[k].is_kink(v)) continue;
+      const Vec2 x = sides[k].position(v);
+      const Corner corner = sides[k].corner(v);
+      const bool known = std::ranges::any_of(
+          points, [&](const SingularPoint& p) { return (p.position - x).norm() < 0.05 * corner.edge; });
+      const auto opposite = known ? std::nullopt : facing(sides[k], v, sides[1 - k]);
+      if (!opposite) continue;
+      const SingularPoint point = k == 0 ? singular_point(x, corner, *opposite) : singular_point(x, *opposite, corner);
+      if (point.exponent <= singular_limit) points.push_back(point);
     }
   return points;
 }

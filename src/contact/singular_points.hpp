@@ -1,23 +1,37 @@
 // Where the stress on a contact line has no limit, so that no mesh shows it.
 #pragma once
 
-#include "contact/projection.hpp"
+#include <array>
+
+#include "contact/contact_line.hpp"
+#include "contact/williams.hpp"
 #include "fem/constraints.hpp"
 
 namespace mortise {
 
-/// A corner of either curve, or an end of it, at which the stress is singular.
+/// How two bodies meet at a point of their contact line: the ends of both curves; a corner, an end or a kink, on a
+/// curve that goes on; one kink of both curves.
+enum class Meeting { ends, corner, kink };
+
+/// A kink of either curve, or an end of it, at which the stress is singular: stress ~ r^(exponent - 1).
 struct SingularPoint {
   Vec2 position;
-  double edge;  ///< length of the longest edge of either curve that meets there
+  double edge;               ///< length of the longest edge of either curve that meets there
+  double exponent;           ///< real part, in (0, singular_limit)
+  double pressure_exponent;  ///< the same of the contact pressure; 1: bounded, only the bodies' stress is singular
+  Meeting meeting;
+  std::array<Wedge, 2> wedges;  ///< of the first and the second curve's body
 };
 
-/// Bodies of interior angles a and b that meet without friction at a corner (a or b is not straight) have singular
-/// stresses there where a + b is more than a half-plane, or one of them alone is (Dundurs & Lee 1972 for a wedge on a
-/// half-plane; Williams 1952). A corner on a symmetry plane counts with its mirror image; a clamped one from 60 degrees
-/// on, where a free face beside it would make it singular (Williams 1952, Poisson's ratio 0.3). Angles are within 20
-/// degrees, what a mesh of a curved line shows at its vertices.
+/// Exponents above this count as regular: r^-0.05 doubles within a million edges.
+inline constexpr double singular_limit = 0.95;
+
+/// Both bodies as wedges at each place (contact/williams.hpp): their angles from the curves that the edges stand for
+/// and, at an end, the edge of the body's boundary beyond it, whose prescribed displacements say what holds it. A body
+/// whose curve goes on there is a straight wedge, or one of its kink's angle, free beyond. Where both curves go on
+/// through a kink they share both faces: the exponent is the smallest of all modes, and a load that is symmetric about
+/// the bisector does not excite the antisymmetric ones. As if contact were closed; `laws` one a body.
 std::vector<SingularPoint> singular_points(const Mesh& mesh, const Curve& first, const Curve& second,
-                                           const Constraints& constraints);
+                                           const Constraints& constraints, const std::vector<ElasticLaw>& laws);
 
 }  // namespace mortise

@@ -42,9 +42,9 @@ std::optional<StressComparison> compare(const ContactSide& side, const std::vect
 
 std::optional<StressComparison> compare_with_stress(const Mesh& mesh, const ContactPair& pair,
                                                     const ContactResults& contact, const Constraints& constraints,
-                                                    double negligible) {
+                                                    const std::vector<ElasticLaw>& laws, double negligible) {
   if (!(largest_entry(contact.pressure) > negligible)) return {};
-  const auto singular = singular_points(mesh, pair.multiplier, pair.opposite, constraints);
+  const auto singular = singular_points(mesh, pair.multiplier, pair.opposite, constraints, laws);
   auto worst = compare(contact.multiplier, singular), other = compare(contact.opposite, singular);
   return worst && (!other || worst->difference >= other->difference) ? worst : other;
 }

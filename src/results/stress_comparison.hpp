@@ -19,6 +19,6 @@ struct StressComparison {
 /// (stress): p is round-off there.
 std::optional<StressComparison> compare_with_stress(const Mesh& mesh, const ContactPair& pair,
                                                     const ContactResults& contact, const Constraints& constraints,
-                                                    double negligible);
+                                                    const std::vector<ElasticLaw>& laws, double negligible);
 
 }  // namespace mortise

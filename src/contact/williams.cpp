@@ -1,0 +1,188 @@
+#include "contact/williams.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+
+namespace mortise {
+namespace {
+
+using Complex = std::complex<double>;
+using Rows = Eigen::Matrix<Complex, 2, 4>;
+using Function = std::function<Complex(Complex)>;
+
+// Where zeros are looked for: from a real part, up to an imaginary one. None is above 0.5i on a grid of angles, faces
+// and materials.
+constexpr double first_exponent = 1e-3, highest = 1;
+
+// Williams (1952), docs/theory.md eq. (42): Airy's function r^(lambda + 1) F, F = A cos(lambda + 1) theta + B
+// sin(lambda + 1) theta + C cos(lambda - 1) theta + D sin(lambda - 1) theta. Of A, B, C, D, up to factors of r and
+// lambda:
+//   sigma_thetatheta = F, sigma_rtheta = F', 2 mu u_r = (kappa + 1) G_r - (lambda + 1) F,
+//   2 mu u_theta = (kappa + 1) G_theta - F'.
+// The two of them that a face holds at zero.
+Rows rows_of(Face face, Complex lambda, double theta, double kappa) {
+  using Row = Eigen::Matrix<Complex, 1, 4>;
+  const Complex i(0, 1), p = lambda + 1.0, m = lambda - 1.0, e = std::exp(i * (lambda * theta)),
+                         e1 = std::polar(1.0, theta), ep = e * e1, em = e / e1, cp = (ep + 1.0 / ep) / 2.0,
+                         sp = (ep - 1.0 / ep) / (2.0 * i), c = (em + 1.0 / em) / 2.0, s = (em - 1.0 / em) / (2.0 * i);
+  const Row F(cp, sp, c, s), dF(-p * sp, p * cp, -m * s, m * c), Gr(0, 0, c, s), Gt(0, 0, s, -c);
+  Rows rows;
+  switch (face) {
+    case Face::free:
+      rows << F, dF;
+      break;
+    case Face::clamped:
+      rows << (kappa + 1) * Gr - p * F, (kappa + 1) * Gt - dF;
+      break;
+    case Face::symmetric:
+      rows << Gt, dF;
+      break;
+    case Face::antisymmetric:
+      rows << F, Gr;
+  }
+  return rows;
+}
+
+Complex determinant(const Rows& a, const Rows& b) {
+  Eigen::Matrix<Complex, 4, 4> all;
+  all << a, b;
+  return all.determinant();
+}
+
+// Of a wedge whose other face, in contact, slides along a rigid wall or is free: zero where it has a mode of its own.
+// On that face (sigma_rtheta = 0) sigma_thetatheta : 2 mu u_theta / (kappa + 1) = free : wall.
+struct Response {
+  Complex wall, free;
+  double size;  // bound of both (Hadamard)
+};
+
+Response response(const Wedge& w, Complex lambda) {
+  const Rows outer = rows_of(w.outer, lambda, w.angle, w.kolosov),
+             wall = rows_of(Face::symmetric, lambda, 0, w.kolosov), free = rows_of(Face::free, lambda, 0, w.kolosov);
+  return {determinant(outer, wall), determinant(outer, free),
+          outer.rowwise().norm().prod() * free.rowwise().norm().prod()};
+}
+
+double compliance(const Wedge& w) { return (w.kolosov + 1) / w.shear; }
+
+// Eq. (44): equal sigma_thetatheta on both sides, opposite u_theta.
+Complex matching(const Wedge& a, const Wedge& b, Complex lambda) {
+  const Response ra = response(a, lambda), rb = response(b, lambda);
+  const double ca = compliance(a), cb = compliance(b);
+  return (ca * ra.wall * rb.free + cb * rb.wall * ra.free) / (ca + cb);
+}
+
+// A mode in which either wedge has sigma_thetatheta = 0 on the face in contact has it on both sides.
+bool loads_contact(const Wedge& a, const Wedge& b, Complex lambda) {
+  const Response ra = response(a, lambda), rb = response(b, lambda);
+  return std::abs(ra.free) > 1e-7 * ra.size && std::abs(rb.free) > 1e-7 * rb.size;
+}
+
+// How far arg f turns on the way from one place to another. Steps are short beside the distance to the zeros at 0 and
+// 1, which are multiple.
+double turn(const Function& f, Complex from, Complex to) {
+  double total = 0, step = 1;
+  Complex z = from, value = f(from);
+  while (z != to) {
+    step = std::min({2 * step, 0.1, 0.3 * std::abs(z), 0.3 * std::abs(z - 1.0)});
+    for (;; step /= 2) {
+      const Complex next = std::abs(to - z) <= step ? to : z + step * (to - z) / std::abs(to - z), there = f(next);
+      const double angle = std::arg(there / value);
+      if (std::abs(angle) > 1 && step > 1e-9) continue;
+      total += angle;
+      z = next;
+      value = there;
+      break;
+    }
+  }
+  return total;
+}
+
+Complex newton(const Function& f, Complex z) {
+  constexpr double h = 1e-6;
+  for (int k = 0; k < 50; ++k) {
+    const Complex step = 2 * h * f(z) / (f(z + h) - f(z - h));
+    z -= step;
+    if (!(std::abs(step) > 1e-14)) break;
+  }
+  return z;
+}
+
+// The zero of the smallest real part above `begin`, its imaginary part not negative. By the argument principle: as
+// f(conj z) = conj f(z), half of the way around a box about the real axis is half of the turn.
+std::optional<Complex> next_zero(const Function& f, double begin) {
+  double end = regular_exponent, low = 0, high = highest;
+  if (begin >= end) return {};
+  const auto up = [&](double x, double y) { return turn(f, x, {x, y}); };
+  const auto is_between = [&](double up_begin, double up_end, double x, double y) {
+    return up_end + turn(f, {x, y}, {begin, y}) - up_begin > std::numbers::pi / 2;
+  };
+  // Small beside the distance to the zeros at 0 and 1, where Newton's method would go.
+  const auto width = [&] { return 0.1 * std::min({0.1, begin, 1 - end}); };
+  const double up_begin = up(begin, high);
+  if (!is_between(up_begin, up(end, high), end, high)) return {};
+  for (double left = up_begin; end - begin > width();) {
+    const double middle = begin + 0.483 * (end - begin), right = up(middle, high);  // not where exponents tend to be
+    if (is_between(left, right, middle, high)) {
+      end = middle;
+    } else {
+      begin = middle;
+      left = right;
+    }
+  }
+  while (high - low > width()) {
+    const double middle = low + 0.483 * (high - low);
+    (is_between(up(begin, middle), up(end, middle), end, middle) ? high : low) = middle;
+  }
+  const Complex z = newton(f, {(begin + end) / 2, (low + high) / 2});
+  return Complex(std::clamp(z.real(), begin, end), std::abs(z.imag()) < 1e-8 ? 0 : std::abs(z.imag()));
+}
+
+Wedge half_of(Wedge w, Face bisector) {
+  w.angle /= 2;
+  w.outer = bisector;
+  return w;
+}
+
+bool lower(Complex a, Complex b) { return a.real() < b.real(); }
+
+}  // namespace
+
+Wedge wedge(double angle, const ElasticLaw& law, Face outer) {
+  const double coupling = law.stiffness(0, 1), mu = law.stiffness(3, 2);
+  return {angle, mu, (coupling + 3 * mu) / (coupling + mu), outer};
+}
+
+Complex wedge_exponent(const Wedge& w, Face other) {
+  const Function f = [&](Complex lambda) {
+    return determinant(rows_of(w.outer, lambda, w.angle, w.kolosov), rows_of(other, lambda, 0, w.kolosov));
+  };
+  return next_zero(f, first_exponent).value_or(1);
+}
+
+TipExponents end_exponents(const Wedge& a, const Wedge& b) {
+  const Function f = [&](Complex lambda) { return matching(a, b, lambda); };
+  TipExponents found;
+  for (auto zero = next_zero(f, first_exponent); zero; zero = next_zero(f, zero->real() + 1e-6)) {
+    if (found.stress == 1.0) found.stress = *zero;
+    if (!loads_contact(a, b, *zero)) continue;
+    found.pressure = *zero;
+    break;
+  }
+  return found;
+}
+
+TipExponents kink_exponents(const Wedge& a, const Wedge& b, Face bisector) {
+  return end_exponents(half_of(a, bisector), half_of(b, bisector));
+}
+
+TipExponents kink_exponents(const Wedge& a, const Wedge& b) {
+  const TipExponents s = kink_exponents(a, b, Face::symmetric), t = kink_exponents(a, b, Face::antisymmetric);
+  return {std::min(s.stress, t.stress, lower), std::min(s.pressure, t.pressure, lower)};
+}
+
+}  // namespace mortise

@@ -1,0 +1,101 @@
+// Which points of two plates' contact line are singular, and how much.
+#include "contact/singular_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "support/two_plates.hpp"
+
+namespace mortise {
+namespace {
+
+using test::TwoPlates;
+
+constexpr double degree = std::numbers::pi / 180;
+
+struct Sides {
+  std::vector<std::string> names;  // of boundaries
+  std::vector<int> components;
+};
+
+std::vector<SingularPoint> points_of(const TwoPlates& plates, const Sides& held) {
+  const Mesh mesh = test::mesh_of(plates);
+  Constraints constraints = no_constraints(mesh);
+  for (const std::string& name : held.names)
+    for (const int c : held.components) prescribe(mesh, boundary_index(mesh, name), c, 0, constraints);
+  const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, Plane::strain));
+  return singular_points(mesh, contact_curve(mesh, boundary_index(mesh, "lower_contact")),
+                         contact_curve(mesh, boundary_index(mesh, "upper_contact")), constraints, laws);
+}
+
+const std::vector<std::string> all_sides{"upper_left", "upper_right", "lower_left", "lower_right"};
+
+Wedge steel(double angle, Face outer) { return wedge(angle, elastic_law(210e9, 0.3, Plane::strain), outer); }
+
+TEST(SingularPoints, OfAFlatLineBetweenFreeOrSlidingSidesThereAreNone) {
+  EXPECT_TRUE(points_of({}, {}).empty());
+  EXPECT_TRUE(points_of({}, {all_sides, {0}}).empty());
+}
+
+TEST(SingularPoints, BetweenClampedSidesOnlyTheBodiesStressIs) {
+  const auto points = points_of({}, {all_sides, {0, 1}});
+  ASSERT_EQ(points.size(), 2u);
+  for (const SingularPoint& p : points) {
+    EXPECT_EQ(p.meeting, Meeting::ends);
+    EXPECT_NEAR(p.exponent, wedge_exponent(steel(90 * degree, Face::free), Face::clamped).real(), 1e-9);
+    EXPECT_EQ(p.pressure_exponent, 1);
+  }
+}
+
+// Only the side beside the line says what holds the end, not the end node, which the bottom of a plate may share.
+TEST(SingularPoints, WhatHoldsAnEndIsTheSideBesideIt) {
+  const auto points = points_of({}, {{"lower_left"}, {0, 1}});
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_NEAR(points[0].position.x(), 0, 1e-15);
+  EXPECT_NEAR(points[0].exponent,
+              end_exponents(steel(90 * degree, Face::clamped), steel(90 * degree, Face::free)).stress.real(), 1e-9);
+}
+
+// The preprint's parabola has slopes 1 and -1 at its ends, with elements of any kind, and no corner between them.
+TEST(SingularPoints, AParabolaMeetsItsSlidingSidesAtTheAnglesOfTheCurve) {
+  TwoPlates plates;
+  plates.height = [](double x) { return 0.2 + x - 1.25 * x * x; };
+  for (const CellKind kind : {CellKind::quad4, CellKind::tri3, CellKind::quad8}) {
+    plates.kind_upper = plates.kind_lower = kind;
+    const auto points = points_of(plates, {all_sides, {0}});
+    ASSERT_EQ(points.size(), 2u);
+    const double exact =
+        end_exponents(steel(45 * degree, Face::symmetric), steel(135 * degree, Face::symmetric)).pressure.real();
+    for (const SingularPoint& p : points) {
+      EXPECT_NEAR(p.exponent, exact, 2e-3);  // rebuilt through 8 and 12 vertices; by the chords 0.05
+      EXPECT_EQ(p.exponent, p.pressure_exponent);
+    }
+  }
+}
+
+TEST(SingularPoints, AKinkOfBothPlatesIsOnePointWithBothFacesShared) {
+  TwoPlates plates;
+  plates.height = [](double x) { return 0.4 - std::abs(x - 0.4) / 2; };
+  plates.n_upper = 8;
+  plates.n_lower = 12;
+  const auto points = points_of(plates, {all_sides, {0}});
+  ASSERT_EQ(points.size(), 3u);
+  const auto kink = std::ranges::find(points, Meeting::kink, &SingularPoint::meeting);
+  ASSERT_NE(kink, points.end());
+  const double turn = 2 * std::atan(0.5), half_turn = turn / 2, straight = std::numbers::pi;
+  EXPECT_NEAR(kink->position.x(), 0.4, 1e-12);
+  EXPECT_NEAR(kink->wedges[0].angle, straight - turn, 1e-9);
+  EXPECT_NEAR(kink->wedges[1].angle, straight + turn, 1e-9);
+  // Its symmetric modes are those of an end beside a sliding side; the lowest mode is antisymmetric.
+  const double beside = points[kink == points.begin() ? 1 : 0].exponent;
+  EXPECT_NEAR(kink_exponents(kink->wedges[0], kink->wedges[1], Face::symmetric).stress.real(), beside, 1e-9);
+  EXPECT_NEAR(kink->exponent,
+              end_exponents(steel(straight / 2 - half_turn, Face::antisymmetric),
+                            steel(straight / 2 + half_turn, Face::antisymmetric))
+                  .stress.real(),
+              1e-9);
+}
+
+}  // namespace
+}  // namespace mortise

@@ -1,0 +1,205 @@
+// Exponents of wedges against closed forms, and against Kolosov's potentials instead of Airy's function.
+#include "contact/williams.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <numbers>
+#include <optional>
+#include <random>
+
+namespace mortise {
+namespace {
+
+using Complex = std::complex<double>;
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
+
+constexpr double pi = std::numbers::pi, degree = pi / 180;
+
+Wedge steel(double degrees, Face outer = Face::free, double young = 1, double poisson = 0.3) {
+  return wedge(degrees * degree, elastic_law(young, poisson, Plane::strain), outer);
+}
+
+// ---- One wedge: Williams (1952) ----
+
+TEST(Williams, KolosovsConstantIsTheOneOfThePlane) {
+  const Wedge strain = steel(90), stress = wedge(1, elastic_law(1, 0.3, Plane::stress));
+  EXPECT_NEAR(strain.kolosov, 3 - 4 * 0.3, 1e-14);
+  EXPECT_NEAR(stress.kolosov, (3 - 0.3) / 1.3, 1e-14);
+  EXPECT_NEAR(stress.shear, 1 / 2.6, 1e-14);
+}
+
+TEST(Williams, FreeFacesHaveTheRootsOfTheCharacteristicEquation) {
+  EXPECT_NEAR(wedge_exponent(steel(360), Face::free).real(), 0.5, 1e-10);  // a crack
+  EXPECT_NEAR(wedge_exponent(steel(270), Face::free).real(), 0.5444837367,
+              1e-10);  // an L: sin(lambda w) = -lambda sin w
+  for (const double degrees : {200.0, 240.0, 300.0, 350.0}) {
+    const Complex lambda = wedge_exponent(steel(degrees), Face::free);
+    EXPECT_EQ(lambda.imag(), 0);
+    EXPECT_NEAR(std::sin(lambda.real() * degrees * degree), -lambda.real() * std::sin(degrees * degree), 1e-10);
+  }
+  for (const double degrees : {20.0, 90.0, 179.0, 180.0})
+    EXPECT_EQ(wedge_exponent(steel(degrees), Face::free), 1.0) << degrees;
+}
+
+TEST(Williams, ClampedAndFree) {
+  EXPECT_NEAR(wedge_exponent(steel(90), Face::clamped).real(), 0.7111729, 1e-7);
+  const Complex flat = wedge_exponent(steel(180), Face::clamped);  // Muskhelishvili (1953): 1/2 + i ln(kappa) / 2 pi
+  EXPECT_NEAR(std::abs(flat - Complex(0.5, std::log(1.8) / (2 * pi))), 0, 1e-10);
+  for (const double degrees : {70.0, 120.0, 150.0, 250.0, 340.0}) {
+    const double w = degrees * degree, kappa = 1.8;
+    const Complex lambda = wedge_exponent(steel(degrees, Face::clamped), Face::free), s = std::sin(lambda * w);
+    EXPECT_LT(lambda.real(), 1);
+    EXPECT_NEAR(
+        std::abs(4 * kappa * s * s - (kappa + 1) * (kappa + 1) + 4.0 * lambda * lambda * std::pow(std::sin(w), 2)), 0,
+        1e-9)
+        << degrees;
+  }
+}
+
+TEST(Williams, HalfOfASymmetricWedgeHasItsModes) {
+  EXPECT_NEAR(std::abs(wedge_exponent(steel(135), Face::symmetric) - wedge_exponent(steel(270), Face::free)), 0, 1e-10);
+  // The antisymmetric modes of an L: sin(lambda w) = lambda sin w, 0.9085 (Williams 1952).
+  EXPECT_NEAR(wedge_exponent(steel(135), Face::antisymmetric).real(), 0.9085291898, 1e-9);
+}
+
+// ---- Two wedges: Dundurs & Lee (1972) ----
+
+TEST(Williams, AWedgeOnAHalfPlaneHasTheExponentOfDundursAndLee) {
+  for (const double stiffness : {1.0, 3.0, 0.2})
+    for (const double degrees : {90.0, 120.0, 160.0}) {
+      const TipExponents found = end_exponents(steel(degrees, Face::free, stiffness), steel(180));
+      const double s = found.stress.real(), w = degrees * degree, alpha = (stiffness - 1) / (stiffness + 1);
+      ASSERT_LT(s, 1) << degrees;
+      EXPECT_EQ(found.stress, found.pressure);
+      EXPECT_NEAR((1 + alpha) * std::cos(pi * s) * (std::pow(std::sin(s * w), 2) - std::pow(s * std::sin(w), 2)) +
+                      (1 - alpha) / 2 * std::sin(pi * s) * (std::sin(2 * s * w) + s * std::sin(2 * w)),
+                  0, 1e-10);
+    }
+  EXPECT_NEAR(end_exponents(steel(90), steel(180)).pressure.real(), 0.774013, 1e-6);
+  EXPECT_NEAR(end_exponents(steel(90, Face::free, 1e9), steel(180)).pressure.real(), 0.5, 1e-8);  // a rigid punch
+}
+
+TEST(Williams, QuarterPlanesThatMeetHaveNoneUnlessTheyAreClamped) {
+  EXPECT_EQ(end_exponents(steel(90), steel(90)).stress, 1.0);
+  EXPECT_EQ(end_exponents(steel(90, Face::symmetric), steel(90, Face::symmetric, 7)).stress, 1.0);
+  // Each on its own, clamped and free: the other one's mirror image, p = 0.
+  const TipExponents clamped = end_exponents(steel(90, Face::clamped), steel(90, Face::clamped));
+  EXPECT_NEAR(clamped.stress.real(), wedge_exponent(steel(90), Face::clamped).real(), 1e-10);
+  EXPECT_EQ(clamped.pressure, 1.0);
+}
+
+// ---- Kolosov's potentials phi = a z^lambda, psi = b z^lambda, real lambda ----
+
+// Of (Re a, Im a, Re b, Im b) at the angle theta, r = 1.
+struct Fields {
+  Eigen::RowVector4d normal, shear, ur, ut;  // sigma_thetatheta, sigma_rtheta, u
+};
+
+Fields fields(const Wedge& w, double lambda, double theta) {
+  Fields f;
+  const Complex z = std::polar(1.0, theta), power = std::polar(1.0, lambda * theta);
+  for (int k = 0; k < 4; ++k) {
+    const Complex unit = k % 2 ? Complex(0, 1) : 1, phi = k < 2 ? unit * power : 0, psi = k < 2 ? 0 : unit * power;
+    const Complex d_phi = lambda * phi / z, dd_phi = (lambda - 1) * d_phi / z, d_psi = lambda * psi / z;
+    const Complex traction = 2 * d_phi.real() + z * z * (std::conj(z) * dd_phi + d_psi),
+                  u = (w.kolosov * phi - z * std::conj(d_phi) - std::conj(psi)) / z / (2 * w.shear);
+    f.normal(k) = traction.real();
+    f.shear(k) = traction.imag();
+    f.ur(k) = u.real();
+    f.ut(k) = u.imag();
+  }
+  return f;
+}
+
+Eigen::Matrix<double, 2, 4> held(const Wedge& w, double lambda, double theta) {
+  const Fields f = fields(w, lambda, theta);
+  Eigen::Matrix<double, 2, 4> rows;
+  if (w.outer == Face::free) rows << f.normal, f.shear;
+  if (w.outer == Face::clamped) rows << f.ur, f.ut;
+  if (w.outer == Face::symmetric) rows << f.ut, f.shear;
+  if (w.outer == Face::antisymmetric) rows << f.ur, f.normal;
+  return rows;
+}
+
+Eigen::Matrix<double, 4, 8> contact(const Fields& a, const Fields& b) {
+  const Eigen::RowVector4d none = Eigen::RowVector4d::Zero();
+  Eigen::Matrix<double, 4, 8> rows;
+  rows << a.shear, none, none, b.shear, a.normal, -b.normal, a.ut, -b.ut;
+  return rows;
+}
+
+// Body a from theta = 0 up, body b from 0 down.
+Matrix8 end_conditions(const Wedge& a, const Wedge& b, double lambda) {
+  Matrix8 M = Matrix8::Zero();
+  M.topRows<4>() = contact(fields(a, lambda, 0), fields(b, lambda, 0));
+  M.block<2, 4>(4, 0) = held(a, lambda, a.angle);
+  M.block<2, 4>(6, 4) = held(b, lambda, -b.angle);
+  return M;
+}
+
+Matrix8 kink_conditions(const Wedge& a, const Wedge& b, double lambda) {
+  Matrix8 M;
+  M << contact(fields(a, lambda, 0), fields(b, lambda, 0)),
+      contact(fields(a, lambda, a.angle), fields(b, lambda, -b.angle));
+  return M;
+}
+
+double residual(const Matrix8& M) { return M.jacobiSvd().singularValues()(7) / M.norm(); }
+
+// The largest |sigma_thetatheta| on the contact face over the largest coefficient of the mode.
+double pressure_of_mode(const Wedge& a, const Wedge& b, double lambda) {
+  const Eigen::JacobiSVD<Matrix8> svd(end_conditions(a, b, lambda), Eigen::ComputeFullV);
+  const Eigen::Matrix<double, 8, 1> mode = svd.matrixV().col(7);
+  return std::abs(fields(a, lambda, 0).normal.dot(mode.head<4>())) / mode.cwiseAbs().maxCoeff();
+}
+
+Wedge random_wedge(std::mt19937& random, double largest) {
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  return steel(uniform(20, largest), Face(int(uniform(0, 4))), std::exp(uniform(-3, 3)), uniform(0, 0.45));
+}
+
+// The smallest lambda between 0.01 and 0.99 at which the determinant changes its sign.
+std::optional<double> first_change(const Wedge& a, const Wedge& b) {
+  const auto sign = [&](double lambda) { return end_conditions(a, b, lambda).determinant() > 0; };
+  for (double lambda = 0.012; lambda < 0.99; lambda += 0.002)
+    if (sign(lambda) != sign(lambda - 0.002)) return lambda;
+  return {};
+}
+
+TEST(Williams, ModesOfTwoWedgesSatisfyTheirConditionsInKolosovsPotentials) {
+  std::mt19937 random(1);
+  int singular = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Wedge a = random_wedge(random, 200), b = random_wedge(random, 160);
+    const TipExponents found = end_exponents(a, b);
+    const auto change = first_change(a, b);
+    EXPECT_LE(found.stress.real(), change.value_or(1)) << k;
+    if (found.stress.imag() != 0 || found.stress.real() == 1) continue;
+    ++singular;
+    const double lambda = found.stress.real();
+    EXPECT_LE(residual(end_conditions(a, b, lambda)), 1e-11) << k;
+    EXPECT_GE(residual(end_conditions(a, b, 0.99 * lambda)), 1e-9) << k;
+    EXPECT_EQ(found.pressure == found.stress, pressure_of_mode(a, b, lambda) > 1e-6) << k;
+    EXPECT_TRUE(!change || lambda < 0.012 || lambda > *change - 0.003) << k;
+  }
+  EXPECT_GE(singular, 60);
+}
+
+TEST(Williams, ModesOfAKinkSatisfyTheConditionsOnBothFaces) {
+  for (const double turn : {2.0, 28.07, 53.13, 90.0, 150.0})
+    for (const double stiffness : {1.0, 10.0})
+      for (const Face bisector : {Face::symmetric, Face::antisymmetric}) {
+        const Wedge a = steel(180 + turn, Face::free, stiffness, 0.2), b = steel(180 - turn);
+        const Complex lambda = kink_exponents(a, b, bisector).pressure;
+        ASSERT_LT(lambda.real(), 1);
+        EXPECT_EQ(lambda.imag(), 0);
+        EXPECT_LE(residual(kink_conditions(a, b, lambda.real())), 1e-11) << turn;
+        EXPECT_LE(kink_exponents(a, b).stress.real(), lambda.real());
+      }
+  EXPECT_EQ(kink_exponents(steel(180), steel(180)).stress, 1.0);
+}
+
+}  // namespace
+}  // namespace mortise
