@@ -37,8 +37,8 @@ EnergyEstimate energy_estimate(const Mesh& mesh, const ErrorProducts& found) {
 
 // Those that lie on the loaded line.
 std::vector<SingularPoint> singular_on(const Mesh& mesh, const ContactPair& pair, const PressureLine& line,
-                                       const Constraints& constraints) {
-  std::vector<SingularPoint> found = singular_points(mesh, pair.multiplier, pair.opposite, constraints);
+                                       const Constraints& constraints, const std::vector<ElasticLaw>& laws) {
+  std::vector<SingularPoint> found = singular_points(mesh, pair.multiplier, pair.opposite, constraints, laws);
   std::erase_if(found, [&](const SingularPoint& point) {
     for (Eigen::Index i = 0; i < line.p.size(); ++i)
       if (line.loaded[i] && (line.position[i] - point.position).norm() <= point.edge) return false;
@@ -66,7 +66,8 @@ void find_excluded(double part, PressureEstimate& e) {
   e.excluded.assign(line.p.size(), 0);
   for (Eigen::Index i = 0; i < line.p.size(); ++i)
     for (const SingularPoint& point : e.singular)
-      if ((line.position[i] - point.position).norm() < e.excluded_distance) e.excluded[i] = 1;
+      if (point.pressure_exponent < 1 && (line.position[i] - point.position).norm() < e.excluded_distance)
+        e.excluded[i] = 1;
 }
 
 void find_bars(PressureEstimate& e) {
@@ -109,7 +110,7 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
     e.line = pressure_line(mesh, pair, solution.lambda);
     e.local = line_error(e.line);
     e.windows = pressure_windows(pair, e.line, solution.lambda);
-    e.singular = singular_on(mesh, pair, e.line, system.constraints);
+    e.singular = singular_on(mesh, pair, e.line, system.constraints, discretisation.laws);
     find_excluded(options.excluded, e);
     windows += Eigen::Index(e.windows.size());
     estimate.pressures.push_back(std::move(e));

@@ -27,9 +27,9 @@ struct PressureEstimate {
   std::vector<PressureWindow> windows;
   VecX far;  ///< of each window's mean, stress: the sum of the cells' parts without their signs
   VecX bar;  ///< of p at each vertex of `line`, stress
-  std::vector<SingularPoint> singular;  ///< p has no limit there
-  double excluded_distance = 0;  ///< from one of these: p is left out of the norm
-  std::vector<char> excluded;    ///< of each vertex
+  std::vector<SingularPoint> singular;  ///< of its loaded part
+  double excluded_distance = 0;         ///< from a point where p has no limit: there p is left out of the norm
+  std::vector<char> excluded;           ///< of each vertex
   /// Squares of L2 norms along what is not excluded, stress^2 length: of the local error, the far field's and p.
   double local2 = 0, far2 = 0, p2 = 0;
 };

@@ -109,7 +109,7 @@ std::vector<SizeLayers> singular_layers(const Mesh& mesh, const ErrorEstimate& e
   for (const PressureEstimate& e : estimate.pressures) {
     const double scale = e.line.h.sum() / 2;
     for (const SingularPoint& point : e.singular) {
-      const double least = scale * std::pow(0.3 * error, 1 / (2 * 0.42));
+      const double least = scale * std::pow(0.3 * error, 1 / (2 * point.exponent));
       layers.push_back({point.position, std::max(least, least_layer * scene_size(mesh)), size_growth});
     }
   }

@@ -46,7 +46,10 @@ Json pressure_json(const Results& r) {
   Json singular = Json::array(), excluded = Json::array();
   for (std::size_t k = 0; k < e.pressures.size(); ++k) {
     for (const SingularPoint& point : e.pressures[k].singular)
-      singular.push_back({{"pair", k}, {"position", {point.position.x(), point.position.y()}}});
+      singular.push_back({{"pair", k},
+                          {"position", {point.position.x(), point.position.y()}},
+                          {"exponent", point.exponent},
+                          {"pressure_exponent", point.pressure_exponent}});
     excluded.push_back(e.pressures[k].excluded_distance);
   }
   return {{"error", e.pressure()},
