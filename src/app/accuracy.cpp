@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "base/errors.hpp"
 #include "base/stopwatch.hpp"
 #include "base/vectors.hpp"
 #include "error/wanted_sizes.hpp"
@@ -86,6 +87,9 @@ class Loop {
     } catch (const Interrupted&) {
       if (!last) return std::nullopt;
       report.reason = "interrupted";
+    } catch (const InputError& error) {  // a mesh that gmsh does not make
+      if (!last) throw;
+      report.reason = error.what();
     }
     last->seconds = seconds;
     if (!report.reached()) last->status = std::max(last->status, Status::not_converged);
@@ -133,12 +137,13 @@ class Loop {
   SizeAt next_sizes(const Results& r) const {
     const ErrorEstimate& e = *r.estimate;
     const double target = std::max(0.8 * spec_.value, e.pressure() / 8) / error_safety;
-    const double far = std::clamp(e.far_field() / (0.5 * target), 0.25, 40.0),
-                 line = std::clamp(e.line() / (0.8 * target), 0.4, 8.0);
-    VecX sizes = wanted_sizes(r.mesh, r.pairs, e, line, far);
-    for (Eigen::Index i = 0; i < sizes.size(); ++i)
-      sizes(i) = std::min(sizes(i), size_at(first_, r.mesh.nodes.row(i).transpose()));
-    return [field = std::make_shared<SizeField>(r.mesh, sizes, singular_layers(r.mesh, e, target))](const Vec2& x) {
+    WantedSizes wanted = wanted_sizes(r.mesh, r.pairs, e,
+                                      {.line = std::clamp(e.line() / (0.8 * target), 0.4, 8.0),
+                                       .far_field = std::clamp(e.far_field() / (0.5 * target), 0.25, 40.0),
+                                       .target = target});
+    for (Eigen::Index i = 0; i < wanted.sizes.size(); ++i)
+      wanted.sizes(i) = std::min(wanted.sizes(i), size_at(first_, r.mesh.nodes.row(i).transpose()));
+    return [field = std::make_shared<SizeField>(r.mesh, wanted.sizes, std::move(wanted.layers))](const Vec2& x) {
       return (*field)(x);
     };
   }

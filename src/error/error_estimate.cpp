@@ -73,10 +73,10 @@ void find_excluded(double part, PressureEstimate& e) {
 void find_bars(PressureEstimate& e) {
   const PressureLine& line = e.line;
   const Eigen::Index count = line.p.size();
-  e.bar = e.local.largest(line);
+  e.bar = e.local.pointwise(line);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double far = far_at(e, line.s(i));
-    e.bar(i) = line.loaded[i] ? error_safety * (e.bar(i) + far) : 0;
+    e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? far : 0));
     if (!line.loaded[i] || e.excluded[i] || (line.closed && i == count - 1)) continue;
     e.local2 += e.local.l2(i) * e.local.l2(i);
     e.far2 += far * far * line.h(i);

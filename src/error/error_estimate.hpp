@@ -19,7 +19,7 @@ struct EnergyEstimate {
   Vec2 position;  ///< the cell in it with the largest share
 };
 
-/// What the pressure of a pair is off by (docs/theory.md eq. 44 to 47): the local error of a piecewise linear function
+/// What the pressure of a pair is off by (docs/theory.md eq. 45 to 48): the local error of a piecewise linear function
 /// along the line, and what the bodies' far field makes of it, seen by dual solutions of windowed means.
 struct PressureEstimate {
   PressureLine line;

@@ -9,7 +9,7 @@ namespace mortise {
 namespace {
 
 constexpr double loaded_part = 1e-9;  // of the largest p; less is none
-constexpr double border_part = 0.2;   // of the last p: 0.6 of the true error without the term, 3 of it at 0.5
+constexpr double border_part = 0.3;   // of the last p: 0.6 of the true error without the term, 3 of it at 0.5
 
 }  // namespace
 
@@ -80,7 +80,7 @@ LineError line_error(const PressureLine& line) {
   return error;
 }
 
-VecX LineError::largest(const PressureLine& line) const {
+VecX LineError::pointwise(const PressureLine& line) const {
   constexpr Eigen::Index reach = 4;
   // sqrt(120) / 8 makes J h / 8 of sqrt(h^3 J^2 / 120) / sqrt(h).
   const VecX at = l2.array() / line.h.array().sqrt() * (std::sqrt(120.0) / 8);
@@ -90,8 +90,16 @@ VecX LineError::largest(const PressureLine& line) const {
     for (Eigen::Index step = -reach; step <= reach; ++step) {
       Eigen::Index j = i + step;
       if (line.closed) j = (j % period + period) % period;
-      if (j >= 0 && j < count) found(i) = mortise::largest(found(i), at(j));
+      if (j >= 0 && j < count) found(i) = largest(found(i), at(j));
     }
+  for (Eigen::Index b = 0; b < count; ++b) {
+    if (!border[b]) continue;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      double r = std::abs(line.s(i) - line.s(b));
+      if (line.closed) r = std::min(r, line.s(period) - r);
+      if (line.loaded[i]) found(i) = largest(found(i), at(b) * std::sqrt(line.h(b) / std::max(r, line.h(b))));
+    }
+  }
   return found;
 }
 

@@ -22,11 +22,13 @@ PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX
 
 /// What the pressure along the line is off by, from itself: near a vertex where the slope of p jumps by J it is a
 /// piecewise linear function's h J / 8 at its worst and sqrt(h^3 J^2 / 120) in L2; at the border of contact, where p
-/// rises as a root, the last p times sqrt(h) / 5 (docs/theory.md eq. 46).
+/// rises as a root, the last p times sqrt(h) / 5 (docs/theory.md eq. 47).
 struct LineError {
-  VecX l2;                                       ///< of each vertex, stress sqrt(length)
-  std::vector<char> border;                      ///< whether the border of contact makes it
-  VecX largest(const PressureLine& line) const;  ///< at each vertex, of those within four edges, stress
+  VecX l2;                   ///< of each vertex, stress sqrt(length)
+  std::vector<char> border;  ///< whether the border of contact makes it
+  /// At each vertex what p is off by, stress: the largest within four edges. What the border makes falls with the
+  /// distance r from it as sqrt(h / r): that is what moving it does to a root.
+  VecX pointwise(const PressureLine& line) const;
 };
 
 LineError line_error(const PressureLine& line);

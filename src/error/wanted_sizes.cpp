@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fem/edges.hpp"
+
 namespace mortise {
 namespace {
 
@@ -12,10 +14,11 @@ constexpr double coarsen = 0.4, refine = 6;  // by what sizes may fall at once w
 constexpr double singular_share = 0.12;      // of a cell's energy norm; its error falls slowly then
 constexpr double singular_refine = 40, line_refine = 30, border_refine = 100;
 constexpr double border_share = 0.5;  // of the target of the local error, for all borders
-constexpr double least_layer = 3e-5;  // of the scene's size; gmsh makes flat triangles at corners below 1e-5
+constexpr double least_size = 2e-7,
+                 least_layer = 3e-5;  // of the scene's size; gmsh makes flat triangles at corners below 1e-5
 
 // By what the size of each cell is to fall, for the far field.
-VecX cell_refinement(const ErrorEstimate& estimate, const VecX& energies, double factor) {
+VecX cell_refinement(const ErrorEstimate& estimate, double factor) {
   // The windows' parts as one number a cell, stress^2 length under the root, and what all may add up to.
   VecX part = VecX::Zero(estimate.parts.rows());
   Eigen::Index k = 0;
@@ -31,7 +34,8 @@ VecX cell_refinement(const ErrorEstimate& estimate, const VecX& energies, double
   r = (all * part.array().pow(1.0 / 6)).max(coarsen).min(refine);
   const double count = r.squaredNorm();
   for (Eigen::Index e = 0; e < r.size(); ++e) {
-    const double error = estimate.energy.density(e), share = energies(e) > 0 ? std::sqrt(error / energies(e)) : 0;
+    const double error = estimate.energy.density(e), all_energy = estimate.energy.energies(e),
+                 share = all_energy > 0 ? std::sqrt(error / all_energy) : 0;
     const double proportional = part(e) * count / target;
     if (share > singular_share && proportional > 1) r(e) = std::min(proportional, singular_refine);
   }
@@ -55,15 +59,11 @@ VecX line_refinement(const PressureEstimate& e, double target, double borders) {
   return r;
 }
 
-double scene_size(const Mesh& mesh) {
-  return (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
-}
-
 }  // namespace
 
-VecX wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs, const ErrorEstimate& estimate,
-                  double line_factor, double far_factor) {
-  const VecX r = cell_refinement(estimate, estimate.energy.energies, far_factor);
+WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs, const ErrorEstimate& estimate,
+                         const ErrorFactors& factors) {
+  const VecX r = cell_refinement(estimate, factors.far_field);
   VecX logs = VecX::Zero(mesh.nodes.rows()), cells_at = logs;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const double size = side_of_area * std::sqrt(estimate.energy.areas(e)) / r(e);
@@ -76,44 +76,47 @@ VecX wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs, const
   for (Eigen::Index i = 0; i < sizes.size(); ++i)
     if (cells_at(i) > 0) sizes(i) = std::exp(logs(i) / cells_at(i));
 
+  const double scene = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
+  WantedSizes wanted;
   double p2 = 0, borders = 0;
   for (const PressureEstimate& e : estimate.pressures) {
     p2 += e.p2;
     borders += double(std::ranges::count(e.local.border, 1));
   }
-  const double target = estimate.line() * std::sqrt(p2) / line_factor;
+  const double target = estimate.line() * std::sqrt(p2) / factors.line;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const PressureLine& line = estimate.pressures[k].line;
-    const VecX along = line_refinement(estimate.pressures[k], target, borders);
-    const VecX wanted = line.h.cwiseQuotient(along);
-    const auto lower = [&](int node, Eigen::Index i) {
-      if (!line.loaded[i]) return;
-      const double distance = (mesh.nodes.row(node).transpose() - line.position[i]).norm();
-      sizes(node) = std::min(sizes(node), wanted(i) + size_growth * distance);
+    const PressureEstimate& e = estimate.pressures[k];
+    const VecX along = e.line.h.cwiseQuotient(line_refinement(e, target, borders)).cwiseMax(least_size * scene);
+    const auto lower = [&](int node, const Vec2& from, double size) {
+      const double distance = (mesh.nodes.row(node).transpose() - from).norm();
+      sizes(node) = std::min(sizes(node), size + size_growth * distance);
     };
-    const std::vector<Edge>& edges = pairs[k].multiplier.edges;
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      lower(edges[e].nodes[0], Eigen::Index(e));
-      lower(edges[e].nodes[1], Eigen::Index(e) + 1);
-    }
-    for (const Edge& edge : pairs[k].opposite.edges)
+    const std::vector<Edge>&edges = pairs[k].multiplier.edges, &opposite = pairs[k].opposite.edges;
+    for (std::size_t i = 0; i < edges.size(); ++i)
       for (const int end : {0, 1})
-        for (Eigen::Index i = 0; i < line.p.size(); ++i) lower(edge.nodes[end], i);
-  }
-  limit_growth(mesh, size_growth, sizes);
-  return sizes;
-}
-
-std::vector<SizeLayers> singular_layers(const Mesh& mesh, const ErrorEstimate& estimate, double error) {
-  std::vector<SizeLayers> layers;
-  for (const PressureEstimate& e : estimate.pressures) {
+        if (e.line.loaded[i + end]) lower(edges[i].nodes[end], e.line.position[i + end], along(Eigen::Index(i) + end));
+    // The opposite side where it faces these: its vertices, and at the border, where its edges are too long for the
+    // sizes that are wanted, the places themselves.
+    int last_edge = -1;
+    for (const ContactPoint& point : pairs[k].points) {
+      if (!e.line.loaded[point.edge] || !e.line.loaded[point.edge + 1]) continue;
+      const Edge& other = opposite[point.opposite_edge];
+      const Vec2 place = edge_point(mesh.nodes, other, point.eta).position;
+      const double end = (1 + point.xi) / 2, size = (1 - end) * along(point.edge) + end * along(point.edge + 1);
+      for (const int a : {0, 1}) lower(other.nodes[a], place, size);
+      if (point.edge != last_edge && e.local.border[point.edge] && e.local.border[point.edge + 1])
+        wanted.layers.push_back({place, size, size_growth});
+      last_edge = point.edge;
+    }
     const double scale = e.line.h.sum() / 2;
     for (const SingularPoint& point : e.singular) {
-      const double least = scale * std::pow(0.3 * error, 1 / (2 * point.exponent));
-      layers.push_back({point.position, std::max(least, least_layer * scene_size(mesh)), size_growth});
+      const double least = scale * std::pow(0.3 * factors.target, 1 / (2 * point.exponent));
+      wanted.layers.push_back({point.position, std::max(least, least_layer * scene), size_growth});
     }
   }
-  return layers;
+  limit_growth(mesh, size_growth, sizes);
+  wanted.sizes = sizes.cwiseMax(least_size * scene);
+  return wanted;
 }
 
 }  // namespace mortise

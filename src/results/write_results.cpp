@@ -65,8 +65,9 @@ VtuGrid contact_grid(const Results& r) {
       grid.edges.push_back(edge);
     }
   }
-  grid.point_fields = {{"displacement", u, {}},  {"normal", normal, {}}, {"p", p, {}},
-                       {"p_error", p_error, {}}, {"gap", gap, {}},       {"sigma_n", sigma_n, {}}};
+  grid.point_fields = {
+      {"displacement", u, {}}, {"normal", normal, {}}, {"p", p, {}}, {"gap", gap, {}}, {"sigma_n", sigma_n, {}}};
+  if (r.estimate) grid.point_fields.push_back({"p_error", p_error, {}});
   return grid;
 }
 
@@ -81,17 +82,18 @@ void for_each_side(const Results& r, Add add) {
 
 void write_contact_csv(const Results& r, const std::filesystem::path& path) {
   std::vector<CsvColumn> columns;
-  for (const char* name : {"pair", "curve", "s", "x", "y", "u_n", "p", "p_error", "gap", "sigma_n", "sigma_2"})
+  for (const char* name : {"pair", "curve", "s", "x", "y", "u_n", "p", "gap", "sigma_n", "sigma_2"})
     columns.push_back({name, {}, {}});
+  if (r.estimate) columns.push_back({"p_error", {}, {}});
   for_each_side(r, [&](double pair, const ContactSide& side) {
     for (const ContactNode& n : side.nodes) {
       columns[1].words.push_back(side.curve);
       std::size_t c = 0;
-      for (const double value :
-           {pair, n.s, n.position.x(), n.position.y(), n.u_n, n.p, n.p_error, n.gap, n.sigma_n, n.sigma_2}) {
+      for (const double value : {pair, n.s, n.position.x(), n.position.y(), n.u_n, n.p, n.gap, n.sigma_n, n.sigma_2}) {
         columns[c].numbers.push_back(value);
         c += c == 0 ? 2 : 1;
       }
+      if (r.estimate) columns[c].numbers.push_back(n.p_error);
     }
   });
   write_csv(path, columns);

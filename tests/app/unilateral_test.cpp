@@ -265,8 +265,19 @@ TEST(Start, APreviousActiveSetSavesStepsAndChangesNoAnswer) {
   EXPECT_GT(solve_scene(twice).solution.steps.size(), 1u);
 }
 
-TEST(Start, AnActiveSetOfAnotherMeshIsIgnored) {
+TEST(Start, AnActiveSetOfAnotherMeshIsTakenByPlace) {
   const ActiveSet set = active_set(solved("lift_off", {{"mesh.parameters.n_block", "40"}}));
+  const Results cold = solved("lift_off"), warm = solve_scene(scene("lift_off"), {}, &set);
+  EXPECT_EQ(warm.solution.active, cold.solution.active);
+  EXPECT_GT(cold.solution.coarse_steps, 0);
+  EXPECT_LT(warm.solution.steps.size() + warm.solution.coarse_steps,
+            cold.solution.steps.size() + cold.solution.coarse_steps);
+  EXPECT_EQ(active_set(warm).pairs[0].size(), warm.solution.active.size());
+}
+
+TEST(Start, AnActiveSetOfOtherPairsIsIgnored) {
+  ActiveSet set = active_set(solved("lift_off"));
+  set.pairs.push_back(set.pairs[0]);
   const Results cold = solved("lift_off"), warm = solve_scene(scene("lift_off"), {}, &set);
   EXPECT_EQ(warm.solution.steps.size(), cold.solution.steps.size());
 }

@@ -1,0 +1,150 @@
+// An accuracy that is asked for, and got.
+#include "app/accuracy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "base/errors.hpp"
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+Scene scene(const std::string& name, const std::string& value, std::vector<Override> more = {}) {
+  more.push_back({"accuracy.value", value});
+  return read_scene(MORTISE_SOURCE_DIR "/geo/" + name + ".toml", more);
+}
+
+// The error of p against an exact pressure at the vertices that count, over the bar there: the largest; and in L2,
+// relative.
+struct Got {
+  double over_bar = 0, error = 0;
+};
+
+Got got(const Results& r, const std::function<double(const Vec2&)>& exact) {
+  Got g;
+  double square = 0, size = 0;
+  const PressureEstimate& e = r.estimate->pressures[0];
+  for (Eigen::Index i = 0; i < e.line.p.size(); ++i) {
+    if (!e.line.loaded[i] || e.excluded[i]) continue;
+    const double p = exact(e.line.position[i]), off = std::abs(e.line.p(i) - p);
+    g.over_bar = std::max(g.over_bar, off / e.bar(i));
+    square += off * off * e.line.h(i);
+    size += p * p * e.line.h(i);
+  }
+  g.error = std::sqrt(square / size);
+  return g;
+}
+
+TEST(Accuracy, OfHertzIsReachedWithItsBars) {
+  const double a = 0.0100757, p0 = 581.290e6;  // geo/hertz.toml; the finite bodies change them by 1e-4
+  const auto hertz = [&](const Vec2& x) { return p0 * std::sqrt(std::max(0.0, 1 - x.x() * x.x() / (a * a))); };
+  for (const auto& [asked, unknowns] : {std::pair{"5%", 6000}, {"1%", 10000}, {"0.2%", 13000}}) {
+    const auto r = solve_to_accuracy(scene("hertz", asked));
+    ASSERT_TRUE(r && r->accuracy->reached()) << asked;
+    EXPECT_EQ(r->status, Status::solved);
+    const Got g = got(*r, hertz);
+    EXPECT_LE(g.error, r->accuracy->asked) << asked;
+    EXPECT_LE(g.error, 1.2 * r->estimate->pressure()) << asked;  // the formula itself is off by 1e-4
+    EXPECT_LE(g.over_bar, 1) << asked;
+    EXPECT_LE(free_unknowns(*r), unknowns) << asked;
+    EXPECT_LE(r->accuracy->solves.size(), 5u) << asked;
+  }
+}
+
+TEST(Accuracy, OfRingsIsTheConstantPressure) {
+  const auto r = solve_to_accuracy(scene("rings", "0.1%"));
+  ASSERT_TRUE(r && r->accuracy->reached());
+  double mean = 0;
+  for (const ContactNode& n : r->contacts[0].multiplier.nodes)
+    mean += n.p / double(r->contacts[0].multiplier.nodes.size());
+  const Got g = got(*r, [&](const Vec2&) { return mean; });
+  EXPECT_LE(g.over_bar, 1);
+  EXPECT_LE(g.error, 1e-3);
+}
+
+TEST(Accuracy, LeavesOutSingularPointsAndSaysWhere) {
+  const auto r = solve_to_accuracy(scene("tent_b", "1%"));
+  ASSERT_TRUE(r && r->accuracy->reached());
+  const PressureEstimate& e = r->estimate->pressures[0];
+  ASSERT_EQ(e.singular.size(), 3u);  // both ends and the kink
+  for (Eigen::Index i = 0; i < e.line.p.size(); ++i)
+    EXPECT_EQ(e.excluded[i] != 0,
+              std::min({(e.line.position[i] - Vec2(0, 0.2)).norm(), (e.line.position[i] - Vec2(0.4, 0.4)).norm(),
+                        (e.line.position[i] - Vec2(0.8, 0.2)).norm()}) < e.excluded_distance);
+  const auto wider = solve_to_accuracy(scene("tent_b", "1%", {{"accuracy.exclude", "0.2"}}));
+  EXPECT_NEAR(wider->estimate->pressures[0].excluded_distance, 2 * e.excluded_distance, 1e-6);
+}
+
+TEST(Accuracy, NeedsASecondSolveToConfirmAFirstThatIsNotThreeTimesAsGood) {
+  AccuracyReport report{.asked = 0.01, .excluded = 0.1, .solves = {{100, 0.009, 0}}, .reason = {}};
+  EXPECT_FALSE(report.reached());
+  report.solves.push_back({200, 0.009, 0});
+  EXPECT_TRUE(report.reached());
+  report.solves = {{100, 0.003, 0}};
+  EXPECT_TRUE(report.reached());
+  report.solves = {{100, std::nan(""), 0}};
+  EXPECT_FALSE(report.reached());
+}
+
+TEST(Accuracy, ThatIsNotReachedIsNotConvergedAndSaysWhy) {
+  const auto r = solve_to_accuracy(scene("hertz", "0.1%", {{"accuracy.unknowns_max", "3000"}}));
+  ASSERT_TRUE(r);
+  EXPECT_FALSE(r->accuracy->reached());
+  EXPECT_EQ(r->status, Status::not_converged);
+  EXPECT_EQ(r->accuracy->reason, "unknowns_max");
+  EXPECT_EQ(r->accuracy->solves.size(), 2u);
+}
+
+TEST(Accuracy, KeepsTheLastCompleteAnswerWhenInterrupted) {
+  int meshes = 0;
+  bool stop = false;
+  const auto progress = [&](const std::string& stage) {
+    meshes += stage.ends_with(": mesh");
+    stop = meshes == 2;
+  };
+  const auto r = solve_to_accuracy(scene("hertz", "0.1%"), progress, [&] { return stop; });
+  ASSERT_TRUE(r);
+  EXPECT_EQ(r->accuracy->solves.size(), 1u);
+  EXPECT_EQ(r->accuracy->reason, "interrupted");
+  EXPECT_EQ(r->status, Status::not_converged);
+  EXPECT_FALSE(solve_to_accuracy(scene("hertz", "0.1%"), {}, [] { return true; }));
+}
+
+TEST(Accuracy, IsReachedByEverySolverAndSpace) {
+  for (const Override& change : {Override{"method.solver", "ddm"}, Override{"method.solver", "mssor"},
+                                 Override{"method.multipliers", "quadratic"}, Override{"method.multipliers", "dual"},
+                                 Override{"model.plane", "stress"}, Override{"accuracy.recombine", "true"},
+                                 Override{"contact.multipliers_on", "upper_contact"}}) {
+    const auto r = solve_to_accuracy(scene("parabola_1", "0.5%", {change}));
+    ASSERT_TRUE(r && r->accuracy->reached()) << change.value;
+    EXPECT_EQ(r->status, Status::solved) << change.value;
+    EXPECT_LE(free_unknowns(*r), 12000) << change.value;
+  }
+}
+
+TEST(Accuracy, IsRefusedWhereItCannotBeHad) {
+  for (const auto& [value, words] : {std::pair{"0", "expected a part above 0 and below 1"},
+                                     {"1%%", "expected a part above 0 and below 1"},
+                                     {"100%", "expected a part above 0 and below 1"},
+                                     {"-1%", "expected a part above 0 and below 1"}})
+    EXPECT_NE(message_of([&] { scene("hertz", value); }).find(words), std::string::npos) << value;
+  const TemporaryFolder folder;
+  folder.write("a.msh", "");
+  const std::string text = R"(
+mesh.file = "a.msh"
+materials.steel = { young = 210e9, poisson = 0.3 }
+bodies = { a = "steel" }
+accuracy.value = 0.01
+)";
+  EXPECT_NE(message_of([&] { read_scene(folder.write("a.toml", text)); }).find("no [[contact]]"), std::string::npos);
+  EXPECT_NE(message_of([&] {
+              read_scene(folder.write("b.toml", text + "contact = [{ between = [\"x\", \"y\"] }]\n"));
+            }).find("a mesh has no geometry to refine"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace mortise::test
