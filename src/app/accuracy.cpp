@@ -17,6 +17,8 @@ namespace {
 
 struct Interrupted {};
 
+constexpr double largest_step = 16;  // by which one mesh is to lower the error: a coarse one's estimate is not exact
+
 // A size at a place, growing away from it.
 struct SizedPlace {
   Vec2 x;
@@ -133,13 +135,12 @@ class Loop {
     return "";
   }
 
-  // Each step asks for an eighth of the error at most: the estimate of a coarse mesh is not to be trusted further.
   SizeAt next_sizes(const Results& r) const {
     const ErrorEstimate& e = *r.estimate;
-    const double target = std::max(0.8 * spec_.value, e.pressure() / 8) / error_safety;
+    const double target = std::max(0.8 * spec_.value, e.pressure() / largest_step) / error_safety;
     WantedSizes wanted = wanted_sizes(r.mesh, r.pairs, e,
-                                      {.line = std::clamp(e.line() / (0.8 * target), 0.4, 8.0),
-                                       .far_field = std::clamp(e.far_field() / (0.5 * target), 0.25, 40.0),
+                                      {.line = std::clamp(e.line() / (0.8 * target), 0.4, largest_step),
+                                       .far_field = std::clamp(e.far_field() / (0.5 * target), 0.25, 5 * largest_step),
                                        .target = target});
     for (Eigen::Index i = 0; i < wanted.sizes.size(); ++i)
       wanted.sizes(i) = std::min(wanted.sizes(i), size_at(first_, r.mesh.nodes.row(i).transpose()));

@@ -17,8 +17,17 @@ constexpr double border_share = 0.5;  // of the target of the local error, for a
 constexpr double least_size = 2e-7,
                  least_layer = 3e-5;  // of the scene's size; gmsh makes flat triangles at corners below 1e-5
 
+// Whether a corner of the cell is a singular point of a contact line, towards which there are layers.
+bool has_layers(const Mesh& mesh, const Cell& cell, const ErrorEstimate& estimate) {
+  for (int a = 0; a < corner_count(cell.kind); ++a)
+    for (const PressureEstimate& e : estimate.pressures)
+      for (const SingularPoint& point : e.singular)
+        if ((mesh.nodes.row(cell.nodes[a]).transpose() - point.position).norm() < 1e-6 * point.edge) return true;
+  return false;
+}
+
 // By what the size of each cell is to fall, for the far field.
-VecX cell_refinement(const ErrorEstimate& estimate, double factor) {
+VecX cell_refinement(const Mesh& mesh, const ErrorEstimate& estimate, double factor) {
   // The windows' parts as one number a cell, stress^2 length under the root, and what all may add up to.
   VecX part = VecX::Zero(estimate.parts.rows());
   Eigen::Index k = 0;
@@ -37,7 +46,8 @@ VecX cell_refinement(const ErrorEstimate& estimate, double factor) {
     const double error = estimate.energy.density(e), all_energy = estimate.energy.energies(e),
                  share = all_energy > 0 ? std::sqrt(error / all_energy) : 0;
     const double proportional = part(e) * count / target;
-    if (share > singular_share && proportional > 1) r(e) = std::min(proportional, singular_refine);
+    if (share > singular_share && proportional > 1 && !has_layers(mesh, mesh.cells[e], estimate))
+      r(e) = std::min(proportional, singular_refine);
   }
   return r;
 }
@@ -63,7 +73,7 @@ VecX line_refinement(const PressureEstimate& e, double target, double borders) {
 
 WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs, const ErrorEstimate& estimate,
                          const ErrorFactors& factors) {
-  const VecX r = cell_refinement(estimate, factors.far_field);
+  const VecX r = cell_refinement(mesh, estimate, factors.far_field);
   VecX logs = VecX::Zero(mesh.nodes.rows()), cells_at = logs;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const double size = side_of_area * std::sqrt(estimate.energy.areas(e)) / r(e);
