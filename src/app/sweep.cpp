@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "app/accuracy.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "io/csv.hpp"
@@ -31,7 +32,10 @@ Row figures(const Results& r) {
                            {"iteration.seconds", r.seconds.solve}});
     for (const auto& [name, value] : iteration->figures) row.emplace_back("iteration." + name, value);
   }
-  if (r.estimate) row.emplace_back("estimate.error", r.estimate->energy.error);
+  if (r.estimate) {
+    row.emplace_back("estimate.error", r.estimate->energy.error);
+    row.emplace_back("estimate.pressure.error", r.estimate->pressure());
+  }
   if (r.inf_sup) row.emplace_back("inf_sup", r.inf_sup->beta);
   for (std::size_t k = 0; k < r.contacts.size(); ++k) {
     const ContactResults& c = r.contacts[k];
@@ -124,8 +128,8 @@ Status sweep(const std::string& scene_path, const std::vector<Override>& overrid
     }
     try {
       const Scene scene = read_scene(scene_path, all);
-      Results results = solve_scene(scene, {}, start ? &*start : nullptr);
-      estimate(results);
+      Results results = scene.accuracy ? *solve_to_accuracy(scene) : solve_scene(scene, {}, start ? &*start : nullptr);
+      if (!scene.accuracy) estimate(results);
       if (diagnosed) diagnose(scene, results);
       start = active_set(results);
       words.push_back(to_string(results.status));

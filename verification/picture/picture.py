@@ -119,9 +119,27 @@ def choose_scale(points, displacements):
     return round_scale(0.04 * size_of(points) / largest) if largest > 0 else 1.0
 
 
-def stress_range(stress):
+def percentiles(values, weights, at):
+    """Values that these percents of the weight lie below: of a line or an area, however its nodes are spaced."""
+    order = np.argsort(values)
+    part = np.cumsum(weights[order]) - weights[order] / 2
+    return np.interp(np.array(at) / 100, part / weights.sum(), values[order])
+
+
+def areas_at_nodes(mesh):
+    """Of each node the area of the cells that meet there, by their corners."""
+    areas = np.zeros(len(mesh.points))
+    for block in mesh.cells:
+        if block.type in CORNERS:
+            x, y = np.moveaxis(mesh.points[block.data[:, : CORNERS[block.type]], :2], 2, 0)
+            area = (x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1) / 2
+            np.add.at(areas, block.data, np.abs(area)[:, None])
+    return areas
+
+
+def stress_range(stress, areas):
     """Without the singular corners. A uniform stress gets a range around it."""
-    low, high = np.percentile(stress, [0.5, 99.5])
+    low, high = percentiles(stress, areas, [0.5, 99.5])
     if high - low < 1e-3 * abs(high):
         return 0.0, 1.25 * high or 1.0
     return low, high
@@ -132,7 +150,7 @@ def draw_bodies(axes, results, scale):
     points, u = mesh.points[:, :2], mesh.point_data["displacement"][:, :2]
     scale = choose_scale(points, u) if scale is None else scale
     moved, stress = points + scale * u, mesh.point_data["von_mises"].ravel()
-    low, high = stress_range(stress)
+    low, high = stress_range(stress, areas_at_nodes(mesh))
     xy, values, triangles = shaded_triangles(mesh, moved, stress)
     shading = axes.tripcolor(*xy.T, triangles, values, shading="gouraud", cmap="viridis", vmin=low, vmax=high)
     edges = outlines(mesh)
@@ -181,11 +199,22 @@ def arc_length_on(along, s, points):
     return s[nearest] + t[row, nearest] * np.diff(s)[nearest]
 
 
+def loaded_part(s, p):
+    """Limits of x: all of the line, or where p acts and half as much again if that is less than a third of it."""
+    loaded = s[p > 1e-9 * np.abs(p).max()]
+    if len(loaded) == 0 or np.ptp(loaded) > np.ptp(s) / 3:
+        return s.min(), s.max()
+    margin = max(np.ptp(loaded), 1e-6 * np.ptp(s)) / 4
+    return max(s.min(), loaded.min() - margin), min(s.max(), loaded.max() + margin)
+
+
 def pressure_range(curves):
-    """Limits of y that show nearly all of the curves: the few values at singular corners may leave the panel."""
-    values = np.concatenate(curves)
-    values = values[np.isfinite(values)]
-    first, last = np.percentile(values, [2, 98])
+    """Limits of y that show nearly all of the curves (places, values): what is at singular corners may leave the panel."""
+    lengths = np.concatenate([np.abs(np.gradient(s)) if len(s) > 1 else np.ones(len(s)) for s, _ in curves])
+    values = np.concatenate([value for _, value in curves])
+    kept = np.isfinite(values)
+    values = values[kept]
+    first, last = percentiles(values, lengths[kept], [2, 98])
     middle, half = (first + last) / 2, max((last - first) / 2, 0.02 * abs(first + last) / 2)
     low = min(max(middle - 1.6 * half, values.min() - 0.25 * half), middle - 1.1 * half)
     high = max(min(middle + 1.6 * half, values.max() + 0.25 * half), middle + 1.1 * half)
@@ -195,7 +224,8 @@ def pressure_range(curves):
 
 
 def draw_pair(axes, table, multiplier_side, between, label="$p$ (multipliers)"):
-    """p along the contact line, and -sigma_n of both bodies, over the arc length of the multiplier side."""
+    """p along the contact line with its bar as a band, and -sigma_n of both bodies, over the arc length of the multiplier
+    side."""
     opposite = between[0] if between[1] == multiplier_side else between[1]
     xy = np.stack([table["x"], table["y"]], axis=1)
     on = table["curve"] == multiplier_side
@@ -203,13 +233,18 @@ def draw_pair(axes, table, multiplier_side, between, label="$p$ (multipliers)"):
     s, p = table["s"][on], table["p"][on]
     s_other = arc_length_on(xy[on], s, xy[other])
     mine, theirs = -table["sigma_n"][on], -table["sigma_n"][other]
+    if "p_error" in table:
+        bar = table["p_error"][on]
+        axes.fill_between(s, p - bar, p + bar, color="0.82", linewidth=0, label="bar of $p$", zorder=1)
     axes.plot(s, p, color="0.15", linewidth=1.7, label=label, zorder=2)
     axes.plot(s, mine, color=COLOURS[0], linewidth=0.9, label=f"$-\\sigma_n$ of {multiplier_side}", zorder=3)
     label = f"$-\\sigma_n$ of {opposite}"
     axes.plot(s_other, theirs, color=COLOURS[1], linewidth=0.9, dashes=(5, 2), label=label, zorder=4)
-    low, high = pressure_range([p, mine, theirs])
+    left, right = loaded_part(s, p)
+    shown, shown_other = (s >= left) & (s <= right), (s_other >= left) & (s_other <= right)
+    low, high = pressure_range([(s[shown], p[shown]), (s[shown], mine[shown]), (s_other[shown_other], theirs[shown_other])])
     axes.set_ylim(low, high)
-    axes.set_xlim(s.min(), s.max())
+    axes.set_xlim(left, right)
     everything = np.concatenate([p, mine, theirs])
     off = everything[(everything > high) | (everything < low)]
     label = f"arc length $s$ along {multiplier_side}"
@@ -222,7 +257,7 @@ def draw_pair(axes, table, multiplier_side, between, label="$p$ (multipliers)"):
     axes.grid(color="0.9", linewidth=0.6)
     axes.set_axisbelow(True)
     axes.set_ylabel("contact pressure")
-    axes.legend(loc="upper center", ncol=3, frameon=False, fontsize=8, bbox_to_anchor=(0.5, 1.17))
+    axes.legend(loc="upper center", ncol=4, frameon=False, fontsize=8, bbox_to_anchor=(0.5, 1.17))
 
 
 def draw(results, picture, scale=None, dpi=130):
