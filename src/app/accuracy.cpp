@@ -59,6 +59,24 @@ double size_at(const std::vector<SizedPlace>& places, const Vec2& x) {
   return size;
 }
 
+// Of a mesh with these sizes: about four unknowns a triangle.
+double expected_unknowns(const Mesh& mesh, const SizeField& sizes) {
+  double count = 0;
+  for (const Cell& cell : mesh.cells) {
+    const int corners = corner_count(cell.kind);
+    Vec2 centre = Vec2::Zero();
+    double twice_area = 0;
+    for (int a = 0; a < corners; ++a) {
+      const Vec2 x = mesh.nodes.row(cell.nodes[a]), next = mesh.nodes.row(cell.nodes[(a + 1) % corners]);
+      centre += x / corners;
+      twice_area += cross(x, next);
+    }
+    const double size = sizes(centre);
+    count += 4 * (twice_area / 2) / (std::sqrt(3.0) / 4 * size * size);
+  }
+  return count;
+}
+
 class Loop {
  public:
   Loop(const Scene& scene, const Progress& progress, const std::function<bool()>& interrupted)
@@ -109,6 +127,12 @@ class Loop {
     stage("mesh");
     Stopwatch watch;
     Mesh mesh = mesher_.mesh(sizes, spec_.recombine);
+    for (double factor = 1, again = 0; again < 3 && 2.0 * double(mesh.nodes.rows()) > 1.1 * spec_.unknowns_max;
+         ++again) {
+      factor *= std::sqrt(2.0 * double(mesh.nodes.rows()) / spec_.unknowns_max);
+      mesh = mesher_.mesh([&](const Vec2& x) { return factor * sizes(x); }, spec_.recombine);
+      at_limit_ = true;
+    }
     const double meshing = watch.lap();
     Results r = solve_scene(scene_, std::move(mesh), stage, start);
     r.seconds.mesh = meshing;
@@ -126,16 +150,16 @@ class Loop {
     const std::size_t n = solves.size();
     if (report.reached()) return "";
     if (r.status == Status::not_converged) return "the solver did not converge";
-    if (!std::isfinite(solves.back().estimated)) return "nothing is in contact";
+    if (!std::isfinite(solves.back().estimated)) return "nothing is loaded, apart from what is left out";
     if (n >= most_solves) return std::to_string(n) + " solves";
-    if (solves.back().unknowns >= spec_.unknowns_max) return "unknowns_max";
+    if (at_limit_ || solves.back().unknowns >= spec_.unknowns_max) return "unknowns_max";
     if (n >= 4 && solves[n - 1].estimated > solves[n - 2].estimated &&
         solves[n - 2].estimated > solves[n - 3].estimated)
       return "the estimate rises";
     return "";
   }
 
-  SizeAt next_sizes(const Results& r) const {
+  SizeAt next_sizes(const Results& r) {
     const ErrorEstimate& e = *r.estimate;
     const double target = std::max(0.8 * spec_.value, e.pressure() / largest_step) / error_safety;
     WantedSizes wanted = wanted_sizes(r.mesh, r.pairs, e,
@@ -144,9 +168,11 @@ class Loop {
                                        .target = target});
     for (Eigen::Index i = 0; i < wanted.sizes.size(); ++i)
       wanted.sizes(i) = std::min(wanted.sizes(i), size_at(first_, r.mesh.nodes.row(i).transpose()));
-    return [field = std::make_shared<SizeField>(r.mesh, wanted.sizes, std::move(wanted.layers))](const Vec2& x) {
-      return (*field)(x);
-    };
+    const auto field = std::make_shared<SizeField>(r.mesh, wanted.sizes, std::move(wanted.layers));
+    // More than may be, as far as the old mesh tells: all elements larger, and this is the last mesh.
+    const double excess = expected_unknowns(r.mesh, *field) / spec_.unknowns_max;
+    at_limit_ = excess > 1;
+    return [field, factor = std::sqrt(std::max(1.0, excess))](const Vec2& x) { return factor * (*field)(x); };
   }
 
   const Scene& scene_;
@@ -155,7 +181,8 @@ class Loop {
   const std::function<bool()>& interrupted_;
   FreeMesher mesher_;
   std::vector<SizedPlace> first_;
-  std::string told_;
+  std::string told_;       // of the solve before, in the progress line
+  bool at_limit_ = false;  // the mesh has been held to unknowns_max
 };
 
 }  // namespace

@@ -118,11 +118,12 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
   std::shared_ptr<const ContactFactor> factor = solution.factor;
   if (windows > 0 && !factor) factor = factorise_contact(system, solution.active);
 
-  MatX fields(system.K.cols(), 1 + windows);
-  fields.col(0) = solution.u;
+  MatX functionals(system.B.rows(), windows), fields(system.K.cols(), 1 + windows);
   Eigen::Index k = 0;
   for (const PressureEstimate& e : estimate.pressures)
-    for (const PressureWindow& window : e.windows) fields.col(++k) = factor->dual(window.weights);
+    for (const PressureWindow& window : e.windows) functionals.col(k++) = window.weights;
+  fields.col(0) = solution.u;
+  if (windows > 0) fields.rightCols(windows) = factor->duals(functionals);
   const std::vector<ElasticLaw>& laws = discretisation.laws;
   const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, fields));
   const ErrorProducts found = error_products(mesh, points, laws, fields, patches);

@@ -52,10 +52,10 @@ class CellSampler {
  public:
   Vec2 x;
   double area = 0;              // Jacobian determinant
-  Eigen::RowVectorXd stresses;  // 4 F, initial strains left out
+  Eigen::RowVectorXd stresses;  // 3 F, initial strains left out
 
   CellSampler(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const MatX& fields)
-      : stresses(4 * fields.cols()),
+      : stresses(3 * fields.cols()),
         mesh_(mesh),
         laws_(laws),
         u_(by_node(fields)),
@@ -86,7 +86,9 @@ class CellSampler {
     const auto& C = laws_[cell.body].stiffness;
     for (Eigen::Index k = 0; k < count_; ++k) {
       const double e11 = gradient_(0, k), e22 = gradient_(3, k), g12 = gradient_(1, k) + gradient_(2, k);
-      for (int i = 0; i < 4; ++i) stresses(4 * k + i) = C(i, 0) * e11 + C(i, 1) * e22 + C(i, 2) * g12;
+      stresses(3 * k) = C(0, 0) * e11 + C(0, 1) * e22;
+      stresses(3 * k + 1) = C(1, 0) * e11 + C(1, 1) * e22;
+      stresses(3 * k + 2) = C(3, 2) * g12;
     }
   }
 
@@ -128,6 +130,12 @@ void fit(const std::vector<int>& cells, const StressSamples& samples, int p, Str
   right.row(0) += mean;
 }
 
+// (11, 22, 33, 12) of (11, 22, 12) without initial strain.
+Vec4 with_33(const ElasticLaw& law, const Eigen::RowVector3d& s) {
+  const double part = law.stiffness(2, 0) / (law.stiffness(0, 0) + law.stiffness(1, 0));
+  return {s(0), s(1), part * (s(0) + s(1)), s(2)};
+}
+
 // a : C^-1 : b
 double compliance_product(const ElasticLaw& law, const Vec4& a, const Vec4& b) {
   const double poisson = law.young / (2 * law.stiffness(3, 2)) - 1;
@@ -150,7 +158,7 @@ StressSamples sample_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& l
   StressSamples samples;
   for (const Cell& cell : mesh.cells)
     samples.first.push_back(samples.first.back() + int(shapes[int(cell.kind)].size()));
-  samples.stresses.resize(samples.first.back(), 4 * fields.cols());
+  samples.stresses.resize(samples.first.back(), 3 * fields.cols());
   CellSampler at(mesh, laws, fields);
   for (const Cell& cell : mesh.cells)
     for (const CellShape& shape : shapes[int(cell.kind)]) {
@@ -215,7 +223,7 @@ ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const s
   const Eigen::Index cells = Eigen::Index(mesh.cells.size()), count = fields.cols();
   ErrorProducts found{.products = MatX::Zero(cells, count), .norms = VecX::Zero(cells), .areas = VecX::Zero(cells)};
   CellSampler at(mesh, laws, fields);
-  Eigen::RowVectorXd recovered(4 * count);
+  Eigen::RowVectorXd recovered(3 * count);
   for (Eigen::Index e = 0; e < cells; ++e) {
     const Cell& cell = mesh.cells[e];
     const ElasticLaw& law = laws[cell.body];
@@ -226,12 +234,13 @@ ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const s
       for (int a = 0; a < corner_count(cell.kind); ++a)
         patches.add_at(on_points[e].nodes[a], at.x, rule.linear[q].N[a], recovered);
       const double area = rule.weights[q] * at.area;
-      const Vec4 whole = recovered.head<4>().transpose() + law.stress0;
+      const Vec4 whole = with_33(law, recovered.head<3>()) + law.stress0;
       found.areas(e) += area;
       found.norms(e) += area * compliance_product(law, whole, whole);
       recovered -= at.stresses;
+      const Vec4 error = with_33(law, recovered.head<3>());
       for (Eigen::Index k = 0; k < count; ++k)
-        found.products(e, k) += area * compliance_product(law, recovered.head<4>(), recovered.segment<4>(4 * k));
+        found.products(e, k) += area * compliance_product(law, error, with_33(law, recovered.segment<3>(3 * k)));
     }
   }
   return found;

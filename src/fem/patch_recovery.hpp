@@ -5,7 +5,8 @@
 
 namespace mortise {
 
-/// Stresses C : eps(u) of F displacement fields, initial strains left out: 4 F columns, (11, 22, 33, 12) of each field.
+/// Stresses C : eps(u) of F displacement fields, initial strains left out: 3 F columns, (11, 22, 12) of each field; 33
+/// follows from 11 + 22.
 using FieldStresses = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Stresses at the superconvergent points of all cells (fem/quadrature.hpp stress_points): those of cell e are
@@ -27,7 +28,7 @@ struct StressPatches {
   /// Six rows a body point.
   FieldStresses coefficients;
 
-  /// Adds factor times the stresses of patch p at x to `sum`, 4 F.
+  /// Adds factor times the stresses of patch p at x to `sum`, 3 F.
   void add_at(int p, const Vec2& x, double factor, Eigen::RowVectorXd& sum) const;
 };
 

@@ -97,17 +97,18 @@ struct BorderedCholesky::Factor {
     }
   }
 
-  VecX solve(int system, const VecX& b) {
-    if (!L) return b;
+  MatX solve(int system, const MatX& b) {
+    if (!L || b.cols() == 0) return b;
     cholmod_dense rhs{};
-    rhs.nrow = rhs.nzmax = rhs.d = b.size();
-    rhs.ncol = 1;
+    rhs.nrow = rhs.d = b.rows();
+    rhs.ncol = b.cols();
+    rhs.nzmax = b.size();
     rhs.x = const_cast<double*>(b.data());
     rhs.xtype = CHOLMOD_REAL;
     rhs.dtype = CHOLMOD_DOUBLE;
     cholmod_dense* x = cholmod_solve(system, L, &rhs, &common);
     if (!x) throw std::runtime_error("CHOLMOD solve failed");
-    VecX result = Eigen::Map<const VecX>(static_cast<const double*>(x->x), b.size());
+    MatX result = Eigen::Map<const MatX>(static_cast<const double*>(x->x), b.rows(), b.cols());
     cholmod_free_dense(&x, &common);
     return result;
   }
@@ -174,20 +175,20 @@ VecX BorderedCholesky::at_border(const VecX& y) const {
   return response;
 }
 
-VecX BorderedCholesky::backward(VecX y, const VecX& lambda) const {
+MatX BorderedCholesky::backward(MatX y, const MatX& lambda) const {
   const Factor& F = *factor_;
   for (int k = 0; k < F.n + F.m; ++k)
-    if (F.perm()[k] >= F.n) y(k) = 0;  // so that the border adds nothing in the substitution
-  VecX at_rows;
+    if (F.perm()[k] >= F.n) y.row(k).setZero();  // so that the border adds nothing in the substitution
+  MatX at_rows;
   F.for_each_border_block([&](const BorderBlock& block) {
-    at_rows.resize(block.V.rows());
-    for (Eigen::Index i = 0; i < at_rows.size(); ++i) at_rows(i) = lambda(F.perm()[block.rows[i]] - F.n);
-    y.segment(block.first_column, block.V.cols()).noalias() -= block.V.transpose() * at_rows;
+    at_rows.resize(block.V.rows(), lambda.cols());
+    for (Eigen::Index i = 0; i < at_rows.rows(); ++i) at_rows.row(i) = lambda.row(F.perm()[block.rows[i]] - F.n);
+    y.middleRows(block.first_column, block.V.cols()).noalias() -= block.V.transpose() * at_rows;
   });
-  const VecX x = factor_->solve(CHOLMOD_Lt, y);
-  VecX u(F.n);
+  const MatX x = factor_->solve(CHOLMOD_Lt, y);
+  MatX u(F.n, y.cols());
   for (int k = 0; k < F.n + F.m; ++k)
-    if (F.perm()[k] < F.n) u(F.perm()[k]) = x(k);
+    if (F.perm()[k] < F.n) u.row(F.perm()[k]) = x.row(k);
   return u;
 }
 

@@ -43,8 +43,8 @@ class BorderedCholesky {
   VecX forward(const VecX& f) const;
   /// V^T y = B K^-1 f, m.
   VecX at_border(const VecX& y) const;
-  /// L^-T (y - V lambda) = K^-1 (f - B^T lambda), n.
-  VecX backward(VecX y, const VecX& lambda) const;
+  /// L^-T (y - V lambda) = K^-1 (f - B^T lambda), n; column by column.
+  MatX backward(MatX y, const MatX& lambda) const;
 
  private:
   struct Factor;

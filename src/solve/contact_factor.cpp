@@ -13,10 +13,17 @@ ContactFactor::ContactFactor(const SaddlePointSystem& system, std::vector<int> f
       factor_(std::move(factor)),
       multipliers_(std::move(multipliers)) {}
 
-VecX ContactFactor::dual(const VecX& w) const {
-  VecX rhs = VecX::Zero(w.size() + springs_), z = VecX::Zero(unknowns_);
-  rhs.head(w.size()) = -w.cwiseQuotient(row_scale_);
-  z(free_) = factor_.backward(VecX::Zero(Eigen::Index(free_.size()) + rhs.size()), multipliers_.solve(rhs));
+MatX ContactFactor::duals(const MatX& functionals) const {
+  const Eigen::Index rows = functionals.rows(), count = functionals.cols();
+  MatX multipliers(rows + springs_, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    VecX rhs = VecX::Zero(rows + springs_);
+    rhs.head(rows) = -functionals.col(k).cwiseQuotient(row_scale_);
+    multipliers.col(k) = multipliers_.solve(rhs);
+  }
+  MatX z = MatX::Zero(unknowns_, count);
+  z(free_, Eigen::all) =
+      factor_.backward(MatX::Zero(Eigen::Index(free_.size()) + multipliers.rows(), count), multipliers);
   return z;
 }
 

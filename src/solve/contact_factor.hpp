@@ -13,10 +13,10 @@ class ContactFactor {
   ContactFactor(const SaddlePointSystem& system, std::vector<int> free, BorderedCholesky factor,
                 MultiplierSystem multipliers);
 
-  /// z, n, with K z + B^T mu = 0, no prescribed unknown moved, and B z = w on the closed rows (m; mu = 0 on the
-  /// others): the dual solution of the functional w^T lambda (Becker & Rannacher 2001), one backward substitution.
-  /// Rigid modes of the closed rows are zero in it.
-  VecX dual(const VecX& w) const;
+  /// Columns z, n, of K z + B^T mu = 0, no prescribed unknown moved, and B z = w on the closed rows (w a column of
+  /// `functionals`, m; mu = 0 on the others): the dual solutions of the functionals w^T lambda (Becker & Rannacher
+  /// 2001), by one backward substitution. Rigid modes of the closed rows are zero in them.
+  MatX duals(const MatX& functionals) const;
 
  private:
   VecX row_scale_;

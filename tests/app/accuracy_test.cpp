@@ -96,6 +96,8 @@ TEST(Accuracy, ThatIsNotReachedIsNotConvergedAndSaysWhy) {
   EXPECT_EQ(r->status, Status::not_converged);
   EXPECT_EQ(r->accuracy->reason, "unknowns_max");
   EXPECT_EQ(r->accuracy->solves.size(), 2u);
+  EXPECT_LE(free_unknowns(*r), 3300);
+  EXPECT_GE(free_unknowns(*r), 2000);
 }
 
 TEST(Accuracy, KeepsTheLastCompleteAnswerWhenInterrupted) {

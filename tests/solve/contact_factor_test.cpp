@@ -17,7 +17,7 @@ TEST(ContactFactor, DualsTellWhatLoadsDoToTheMultipliers) {
     const Solution before = solve_directly(system);
     ASSERT_EQ(before.status, SolveStatus::converged);
     const VecX w = VecX::LinSpaced(m, -1, 2);
-    const VecX z = before.factor->dual(w);
+    const VecX z = before.factor->duals(w);
     EXPECT_EQ(z(3), 0);
     EXPECT_LE((system.B * z - w).norm(), 1e-10);
 
@@ -26,7 +26,7 @@ TEST(ContactFactor, DualsTellWhatLoadsDoToTheMultipliers) {
     const Solution after = solve_directly(system);
     EXPECT_NEAR(w.dot(after.lambda - before.lambda), z.dot(load), 1e-10 * z.norm() * load.norm()) << floats;
     EXPECT_GT(std::abs(z.dot(load)), 1e-3);
-    EXPECT_LE((factorise_contact(system, after.active)->dual(w) - z).norm(), 1e-12 * z.norm());
+    EXPECT_LE((factorise_contact(system, after.active)->duals(w) - z).norm(), 1e-12 * z.norm());
   }
 }
 
@@ -36,11 +36,21 @@ TEST(ContactFactor, OpenRowsTakeNoPart) {
   closed[1] = 0;
   VecX w = VecX::Ones(system.g.size());
   const auto factor = factorise_contact(system, closed);
-  const VecX z = factor->dual(w), opening = system.B * z;
+  const VecX z = factor->duals(w), opening = system.B * z;
   EXPECT_NEAR(opening(0), 1, 1e-10);
   EXPECT_GT(std::abs(opening(1) - 1), 1e-6);
   w(1) = 5;
-  EXPECT_EQ(factor->dual(w), z);
+  EXPECT_EQ(VecX(factor->duals(w)), z);
+}
+
+TEST(ContactFactor, ManyDualsAreEachOnesOwn) {
+  const SaddlePointSystem system = test::two_groups(true).system;
+  const auto factor = factorise_contact(system, std::vector<char>(system.g.size(), 1));
+  MatX w(system.g.size(), 3);
+  w << MatX::Identity(w.rows(), 2), VecX::Ones(w.rows());
+  const MatX z = factor->duals(w);
+  for (int k = 0; k < 3; ++k) EXPECT_LE((factor->duals(w.col(k)) - z.col(k)).norm(), 1e-13 * z.norm());
+  EXPECT_EQ(factor->duals(MatX(w.rows(), 0)).cols(), 0);
 }
 
 }  // namespace
