@@ -107,7 +107,7 @@ def main(arguments=None):
     failed = [f"{row['scene']} at {row['asked']}, {row['first_edges']}: {row['failed']}" for row in rows if row["failed"]]
     worse = [
         f"{row['scene']} asked {row['asked']:g}, first mesh {row['first_edges']}: got {row['got']:.2e}, estimated "
-        f"{row['estimated']:.2e}, worst at ({row['worst_x']:.5g}, {row['worst_y']:.5g}): {row['worst']:.1f} times its bar"
+        f"{row['estimated']:.2e}, worst at ({row['worst_x']:.5g}, {row['worst_y']:.5g}): {row['worst']:.3g} times its bar"
         for row in rows
         if not row["failed"] and (row["got"] > row["asked"] or row["inside"] < 0.95)
     ]

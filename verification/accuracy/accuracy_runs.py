@@ -36,7 +36,7 @@ ASKED = {
 BORDERS = ("hertz", "cosine", "pin", "arm")  # where contact ends is found
 PATHS = {"pin": STABILITY / "pin.toml", "arm": HERE / "arm.toml"}
 SETTINGS = {"pin": {"mesh.parameters.clearance": 1e-4, "body_force.0.force": f"[0, {-PIN / math.pi!r}]"}}
-REFERENCES = {"hertz": 5e-5}  # what is asked for the reference; else a tenth of the least
+REFERENCES = {"hertz": 5e-5}  # what is asked for the reference; else a twentieth of the least
 REFERENCE_EDGES, REFERENCE_UNKNOWNS = [24, 34], 300000
 KEPT = ("accuracy", "estimate", "energy", "seconds", "mesh", "status", "warnings")
 
@@ -54,7 +54,7 @@ def answers(scene, quick):
 
 def references(scene, quick):
     """Two, from different first meshes: how far they are apart says what the first can be trusted to."""
-    asked = 0.001 if quick else REFERENCES.get(scene, min(ASKED[scene]) / 10)
+    asked = 0.001 if quick else REFERENCES.get(scene, min(ASKED[scene]) / 20)
     return [answer(scene, asked, n, **{"accuracy.unknowns_max": REFERENCE_UNKNOWNS}) for n in REFERENCE_EDGES]
 
 

@@ -103,16 +103,16 @@ def judged(scene, run, row, references):
 def independent(scene, references):
     """Of the program's reference: the difference from what is known otherwise, the ends of contact (0.95) and the
     singular points left out."""
-    x = Line.of(references[0]["line"]).vertices().x
+    line = Line.of(references[0]["line"])
+    x, p, ds = samples(line)
+    kept = np.full(len(x), True)
     if scene in FORMS:
-        u = FORMS[scene][0]
-        x = x[u(x) < 0.9 * fitted(Line.of(references[0]["line"]), *FORMS[scene])[1]]
+        p, end = functions(scene, references)[0](x), fitted(line, *FORMS[scene])[1]
+        kept = FORMS[scene][0](x) < 0.9 * end
     if scene == "parabola_1":
-        x = x[(x[:, 0] >= 0.08) & (x[:, 0] <= 0.72)]
-    p = (pressure_of(Line.of(references[0]["line"])) if scene == "rings" else functions(scene, references)[0])(x)
+        kept = (x[:, 0] >= 0.08) & (x[:, 0] <= 0.72)
     q = FORMULAS[scene](x)
-    ds = np.gradient(np.r_[0, np.cumsum(np.linalg.norm(np.diff(x, axis=0), axis=1))])
-    return float(np.sqrt((ds * (p - q) ** 2).sum() / (ds * q**2).sum()))
+    return float(np.sqrt((ds * (p - q) ** 2)[kept].sum() / (ds * q**2)[kept].sum()))
 
 
 def verdicts(rows, seconds):

@@ -101,11 +101,12 @@ def rms_error(line, exact, points=(), excluded=0, places=at_vertices):
 def inside_bars(line, exact, points=(), excluded=0):
     """Of the vertices under load: the share with exact within the bar, outside the excluded zones and within them (None
     where there are none; the points themselves are not counted), and where the worst outside them is: place, times the
-    bar."""
+    bar (infinite where there is none)."""
     v = line.vertices()
     q, away = exact(v.x), distance(v.x, points)
     loaded = (v.p != 0) | (v.bar > 0) | (q > 1e-9 * q.max())
-    ratio = np.abs(v.p - q) / np.maximum(v.bar, 1e-12 * q.max())
+    off = np.abs(v.p - q)
+    ratio = np.divide(off, v.bar, out=np.where(off > 1e-12 * q.max(), np.inf, 0), where=v.bar > 0)
     outer, inner = loaded & (away >= excluded), loaded & (away < excluded) & (away > 1e-9 * excluded)
     share = lambda some: float((ratio[some] <= 1).mean()) if some.any() else None
     worst = int(np.argmax(np.where(outer, ratio, -1)))

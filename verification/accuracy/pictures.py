@@ -34,7 +34,7 @@ def draw_band(asked, even, path):
 
 
 def draw_answers(rows, path):
-    """Asked against got and against estimated; every point is an answer."""
+    """Asked against got and against estimated; every point is an answer, those of one accuracy side by side."""
     drawing, panels = figure.panels(1, 2, (11, 4.8), sharey=True)
     for axes, key, title in zip(panels, ("got", "estimated"), ("true error, at the nodes", "estimated error")):
         for number, scene in enumerate(name for name in ASKED if any(row["scene"] == name for row in rows)):
@@ -42,8 +42,8 @@ def draw_answers(rows, path):
             aside = 1.09 ** (number - 4.5)
             asked = [row["asked"] * aside for row in some]
             axes.plot(asked, [row[key] for row in some], ".", color=f"C{number}", markersize=6, label=scene)
-        line = np.array([5e-5, 0.1])
-        axes.plot(line, line, "k-", linewidth=1)
+        for asked in {row["asked"] for row in rows}:
+            axes.plot([asked / 1.6, asked * 1.6], [asked, asked], "k-", linewidth=1)
         figure.label(axes, "asked", "relative rms of p" if key == "got" else None, title, "xy")
     panels[0].plot([], [], "k-", linewidth=1, label="as asked")
     figure.legend_below(drawing, panels[0], 6, 0.13)

@@ -49,8 +49,8 @@ def test_a_fit_finds_the_end_of_contact():
     contact = straight(200, exact)
     contact.p[contact.x[:, 0] > 0.68] *= 1.2
     p, end = line.fitted(contact, lambda x: x[:, 0] ** 2, 1)
-    assert np.sqrt(end) == pytest.approx(0.7, rel=1e-5)
-    assert p(np.array([[0.3, 0], [0.69, 0], [0.8, 0]])) == pytest.approx(exact(np.array([0.3, 0.69, 0.8])), rel=1e-3)
+    assert np.sqrt(end) == pytest.approx(0.7, rel=2e-4)
+    assert p(np.array([[0.3, 0], [0.69, 0], [0.8, 0]])) == pytest.approx(exact(np.array([0.3, 0.69, 0.8])), rel=5e-3)
 
 
 def test_bars_are_counted_by_zone():
@@ -62,4 +62,5 @@ def test_bars_are_counted_by_zone():
     assert outer == 1 and inner == 0 and worst[2] == pytest.approx(0.5)
     unloaded = straight(20, lambda x: 0 * x)
     unloaded.bar[:] = 0
-    assert line.inside_bars(unloaded, lambda x: 1.0 * (x[:, 0] > 0.5))[0] == 0
+    outer, _, worst = line.inside_bars(unloaded, lambda x: 1.0 * (x[:, 0] > 0.5))
+    assert outer == 0 and worst[2] == np.inf
