@@ -127,7 +127,8 @@ def verdicts(rows, seconds):
         held = sum(row[key] <= row["asked"] for row in good)
         yield f"got <= asked, {where}", f"{held} of {len(good)}", held == len(good)
     inside = sum(share >= 0.95 for share in values("inside"))
-    yield "95 % of the nodes inside their bars, in 95 % of answers", f"{inside} of {len(good)}", inside >= 0.95 * len(good)
+    words = "95 % of the nodes inside their bars, in 95 % of answers"
+    yield words, f"{inside} of {len(good)}", inside >= 0.95 * len(good)
     for key, where in (("ratio", "at the nodes"), ("ratio_line", "along the edges")):
         fine = all(0.8 <= ratio <= 8 for ratio in values(key)) and median(values(key)) <= 4
         yield f"estimated over true 0.8 to 8, median at most 4, {where}", extremes(key), fine
@@ -144,4 +145,5 @@ def verdicts(rows, seconds):
         yield "energy estimate over true energy error 0.5 to 2", f"{min(energies):.2g} to {max(energies):.2g}", fine
     yield "parabola_1 at 1 %: the whole process at most 0.35 s", f"{seconds:.3f} s", seconds <= 0.35
     trusted = sum(values("trusted"))
-    yield "the reference's own error below a fifth of what is measured", f"{trusted} of {len(good)}", trusted == len(good)
+    words = "the reference's own error below a fifth of what is measured"
+    yield words, f"{trusted} of {len(good)}", trusted == len(good)

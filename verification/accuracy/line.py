@@ -56,8 +56,8 @@ def pressure_of(line):
 
 
 def fitted(line, u, degree, inner=0.95):
-    """p = sqrt(1 - t) times a polynomial of t = u(x) / u at the end of contact: what p is where contact ends smoothly, u
-    being an even, smooth function of the place. The end and the coefficients are those that fit the inner part of the
+    """p = sqrt(1 - t) times a polynomial of t = u(x) / u at the end of contact: what p is where contact ends smoothly,
+    u being an even, smooth function of the place. The end and the coefficients are those that fit the inner part of the
     line: p near the end, where meshes are worst, is not asked. Returns the function and u at the end."""
     x, p, ds = samples(line)
     at = u(x)
@@ -92,7 +92,8 @@ def at_vertices(line):
 
 
 def rms_error(line, exact, points=(), excluded=0, places=at_vertices):
-    """Root mean square of p - exact over that of exact, what is nearer than `excluded` to one of the points left out."""
+    """Root mean square of p - exact over that of exact; what is nearer than `excluded` to one of the points is left
+    out."""
     x, p, ds = places(line)
     kept, q = distance(x, points) >= excluded, exact(x)
     return float(np.sqrt((ds * (p - q) ** 2)[kept].sum() / (ds * q**2)[kept].sum()))

@@ -28,8 +28,9 @@ def draw_band(asked, even, path):
         for at in (0, length - excluded):
             axes.axvspan(at, at + excluded, color="0.5", alpha=0.15, linewidth=0)
         axes.set_xlim(*limits)
-    figure.label(whole, "along the contact line, m", "p, MPa", "p and its bars; grey: left out", ylim=(0, 25), legend=True)
-    figure.label(near, "along the contact line, m", "p, MPa", "the left part, enlarged", ylim=(7.5, 10.5))
+    place, unit = "along the contact line, m", "p, MPa"
+    figure.label(whole, place, unit, "p and its bars; grey: left out", ylim=(0, 25), legend=True)
+    figure.label(near, place, unit, "the left part, enlarged", ylim=(7.5, 10.5))
     figure.save(drawing, path)
 
 
