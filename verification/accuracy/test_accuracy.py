@@ -1,0 +1,38 @@
+"""The study on one scene, and its verdicts on answers that are known."""
+
+import pytest
+
+import accuracy
+import judge
+import launch
+
+GOOD = {
+    "scene": "hertz", "asked": 0.01, "first_edges": 20, "failed": "", "reached": True, "got": 0.004, "got_line": 0.003,
+    "ratio": 2, "ratio_line": 3, "inside": 1.0, "work": 2.5, "meshing": 0.9, "energy_ratio": 1.1, "trusted": True,
+    "unknowns": 8000,
+}  # fmt: skip
+
+
+def broken(row, seconds=0.1):
+    """How many verdicts a row makes false."""
+    return sum(not holds for _, _, holds in judge.verdicts([row], seconds))
+
+
+def test_verdicts_tell_good_from_bad():
+    assert broken(GOOD) == 0 and broken(GOOD, seconds=0.4) == 1
+    changes = [
+        {"got": 0.011}, {"got_line": 0.011}, {"reached": False}, {"inside": 0.94}, {"ratio": 0.7}, {"ratio": 5},
+        {"work": 3.1}, {"work": 2.5, "scene": "punch"}, {"meshing": 1.1}, {"energy_ratio": 3}, {"trusted": False},
+        {"asked": 0.002, "unknowns": 13001, "got": 0.001, "got_line": 0.001},
+    ]  # fmt: skip
+    for wrong in changes:
+        assert broken(GOOD | wrong) == 1, wrong
+
+
+def test_the_study_of_one_scene(mortise, tmp_path, capsys):
+    with pytest.raises(SystemExit) as ended:
+        accuracy.main(["--quick", "--only", "rings", "-o", str(tmp_path)])
+    assert ended.value.code == 0, capsys.readouterr().out
+    rows = launch.columns(tmp_path / "answers.csv")
+    assert rows["asked"] == [0.05, 0.05, 0.01, 0.01] and max(rows["got"]) < 1e-3 and min(rows["inside"]) > 0.95
+    assert "holds" in (tmp_path / "section.html").read_text()
