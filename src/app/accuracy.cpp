@@ -17,6 +17,7 @@ namespace {
 
 struct Interrupted {};
 
+constexpr int least_edges = 10;      // along a contact curve, of any mesh after the first
 constexpr double largest_step = 16;  // by which one mesh is to lower the error: a coarse one's estimate is not exact
 
 // A size at a place, growing away from it.
@@ -25,8 +26,8 @@ struct SizedPlace {
   double size;
 };
 
-// What the first mesh is made from: the contact curves in so many edges, and arcs in turns of 15 degrees.
-std::vector<SizedPlace> first_sizes(const std::vector<DrawnCurve>& curves, const Scene& scene) {
+// The contact curves in so many edges, and arcs in turns of 15 degrees.
+std::vector<SizedPlace> sizes_of(const std::vector<DrawnCurve>& curves, const Scene& scene, int edges) {
   constexpr double turn = 15 * std::numbers::pi / 180;
   const auto length = [](const DrawnCurve& curve) {
     double sum = 0;
@@ -41,8 +42,7 @@ std::vector<SizedPlace> first_sizes(const std::vector<DrawnCurve>& curves, const
     double largest = std::numeric_limits<double>::infinity();
     for (const ContactSpec& contact : scene.contacts)
       for (const std::string& side : contact.between)
-        if (std::ranges::count(curve.names, side) > 0)
-          largest = std::min(largest, lengths[side] / scene.accuracy->first_edges);
+        if (std::ranges::count(curve.names, side) > 0) largest = std::min(largest, lengths[side] / edges);
     for (std::size_t i = 1; i + 1 < curve.places.size(); ++i) {
       const Vec2 before = curve.places[i] - curve.places[i - 1], after = curve.places[i + 1] - curve.places[i];
       const double angle = angle_between(before, after), step = (before.norm() + after.norm()) / 2;
@@ -85,13 +85,15 @@ class Loop {
         progress_(progress),
         interrupted_(interrupted),
         mesher_(scene.mesh_file, scene.mesh_parameters, scene.geo_limits),
-        first_(first_sizes(mesher_.curves(), scene)) {}
+        largest_(sizes_of(mesher_.curves(), scene, std::min(spec_.first_edges, least_edges))) {}
 
   std::optional<Results> run() {
     std::optional<Results> last;
     AccuracyReport report{.asked = spec_.value, .excluded = spec_.exclude, .solves = {}, .reason = {}};
     Seconds seconds;
-    SizeAt sizes = [&](const Vec2& x) { return size_at(first_, x); };
+    SizeAt sizes = [first = sizes_of(mesher_.curves(), scene_, spec_.first_edges)](const Vec2& x) {
+      return size_at(first, x);
+    };
     try {
       for (;;) {
         std::optional<ActiveSet> start;
@@ -167,7 +169,7 @@ class Loop {
                                        .far_field = std::clamp(e.far_field() / (0.5 * target), 0.25, 5 * largest_step),
                                        .target = target});
     for (Eigen::Index i = 0; i < wanted.sizes.size(); ++i)
-      wanted.sizes(i) = std::min(wanted.sizes(i), size_at(first_, r.mesh.nodes.row(i).transpose()));
+      wanted.sizes(i) = std::min(wanted.sizes(i), size_at(largest_, r.mesh.nodes.row(i).transpose()));
     const auto field = std::make_shared<SizeField>(r.mesh, wanted.sizes, std::move(wanted.layers));
     // More than may be, as far as the old mesh tells: all elements larger, and this is the last mesh.
     const double excess = expected_unknowns(r.mesh, *field) / spec_.unknowns_max;
@@ -180,9 +182,9 @@ class Loop {
   const Progress& progress_;
   const std::function<bool()>& interrupted_;
   FreeMesher mesher_;
-  std::vector<SizedPlace> first_;
-  std::string told_;       // of the solve before, in the progress line
-  bool at_limit_ = false;  // the mesh has been held to unknowns_max
+  std::vector<SizedPlace> largest_;  // sizes that no mesh goes above
+  std::string told_;                 // of the solve before, in the progress line
+  bool at_limit_ = false;            // the mesh has been held to unknowns_max
 };
 
 }  // namespace
