@@ -163,7 +163,7 @@ class Loop {
 
   SizeAt next_sizes(const Results& r) {
     const ErrorEstimate& e = *r.estimate;
-    const double target = std::max(0.8 * spec_.value, e.pressure() / largest_step) / error_safety;
+    const double target = std::max(0.7 * spec_.value, e.pressure() / largest_step) / error_safety;
     WantedSizes wanted = wanted_sizes(r.mesh, r.pairs, e,
                                       {.line = std::clamp(e.line() / (0.8 * target), 0.4, largest_step),
                                        .far_field = std::clamp(e.far_field() / (0.5 * target), 0.25, 5 * largest_step),

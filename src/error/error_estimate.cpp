@@ -84,20 +84,25 @@ void find_bars(PressureEstimate& e) {
   }
 }
 
-double norm_ratio(const std::vector<PressureEstimate>& pressures, double local, double far) {
-  double error = 0, size = 0;
-  for (const PressureEstimate& e : pressures) {
-    error += local * e.local2 + far * e.far2;
-    size += e.p2;
-  }
-  return std::sqrt(error / size);
+double error_norm(const std::vector<PressureEstimate>& pressures, double local, double far) {
+  double error = 0;
+  for (const PressureEstimate& e : pressures) error += local * e.local2 + far * e.far2;
+  return std::sqrt(error);
 }
 
 }  // namespace
 
-double ErrorEstimate::pressure() const { return error_safety * norm_ratio(pressures, 1, 1); }
-double ErrorEstimate::line() const { return norm_ratio(pressures, 1, 0); }
-double ErrorEstimate::far_field() const { return norm_ratio(pressures, 0, 1); }
+double ErrorEstimate::pressure_square() const {
+  double square = 0;
+  for (const PressureEstimate& e : pressures) square += e.p2;
+  return square;
+}
+
+double ErrorEstimate::pressure() const {
+  return error_safety * error_norm(pressures, 1, 1) / std::sqrt(pressure_square());
+}
+double ErrorEstimate::line() const { return error_norm(pressures, 1, 0) / std::sqrt(pressure_square()); }
+double ErrorEstimate::far_field() const { return error_norm(pressures, 0, 1) / std::sqrt(pressure_square()); }
 
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
                              const std::vector<ContactPair>& pairs, const Solution& solution,

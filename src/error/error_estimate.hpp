@@ -50,6 +50,7 @@ struct ErrorEstimate {
   double pressure() const;
   double line() const;
   double far_field() const;
+  double pressure_square() const;  ///< of p on these, stress^2 length
 };
 
 struct ErrorOptions {

@@ -9,7 +9,7 @@ namespace mortise {
 namespace {
 
 constexpr double loaded_part = 1e-9;  // of the largest p; less is none
-constexpr double border_part = 0.3;   // of the last p: 0.6 of the true error without the term, 3 of it at 0.5
+constexpr double border_part = 0.25;  // of the p at one edge from the border
 
 }  // namespace
 
@@ -66,7 +66,10 @@ LineError line_error(const PressureLine& line) {
   for (Eigen::Index e = 0; e < last; ++e) {
     const bool start = std::abs(line.p(e)) > least, end = std::abs(line.p(e + 1)) > least;
     if (start == end) continue;
-    const double p = std::abs(line.p(start ? e : e + 1));
+    // A root rises to its value at one edge's length from the border: the last p, or the one before over sqrt(2).
+    const Eigen::Index before = start ? e - 1 : e + 2;
+    double p = std::abs(line.p(start ? e : e + 1));
+    if (before >= 0 && before <= last) p = std::max(p, std::abs(line.p(before)) / std::sqrt(2.0));
     for (Eigen::Index i = std::max<Eigen::Index>(e - 1, 0); i <= std::min(e + 2, last); ++i)
       last_p(i) = std::max(last_p(i), p);
   }

@@ -22,7 +22,7 @@ PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX
 
 /// What the pressure along the line is off by, from itself: near a vertex where the slope of p jumps by J it is a
 /// piecewise linear function's h J / 8 at its worst and sqrt(h^3 J^2 / 120) in L2; at the border of contact, where p
-/// rises as a root, the last p times sqrt(h) / 5 (docs/theory.md eq. 47).
+/// rises as a root, p an edge further on times sqrt(h) / 4 (docs/theory.md eq. 47).
 struct LineError {
   VecX l2;                   ///< of each vertex, stress sqrt(length)
   std::vector<char> border;  ///< whether the border of contact makes it

@@ -43,6 +43,7 @@ Json contact_json(const ContactPair& pair, const ContactResults& c, const std::o
 
 Json pressure_json(const Results& r) {
   const ErrorEstimate& e = *r.estimate;
+  if (e.pressures.empty() || e.pressure_square() == 0) return nullptr;
   Json singular = Json::array(), excluded = Json::array();
   for (std::size_t k = 0; k < e.pressures.size(); ++k) {
     for (const SingularPoint& point : e.pressures[k].singular)

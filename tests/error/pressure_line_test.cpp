@@ -59,7 +59,8 @@ TEST(LineError, KnowsTheBorderOfContact) {
   const LineError found = line_error(line);
   // p is 0 from vertex 21 on: the edge 20 holds the border.
   for (int i = 0; i <= 40; ++i) EXPECT_EQ(found.border[i] != 0, i >= 19 && i <= 22) << i;
-  EXPECT_NEAR(found.l2(20), 0.3 * line.p(20) * std::sqrt(line.h(20)), 1e-15);
+  EXPECT_NEAR(found.l2(20), 0.25 * line.p(19) / std::sqrt(2.0) * std::sqrt(line.h(20)), 1e-15);
+  EXPECT_GT(line.p(19), std::sqrt(2.0) * line.p(20));  // else by the last
 }
 
 TEST(LineError, GoesRoundAClosedCurve) {
