@@ -31,6 +31,9 @@ METHODS = {
 }
 # Only where the mesh may shrink towards the ends of the contact line: parabola_1.
 GRADED = {"q8_graded": ("Q8, linear, graded mesh", {**LINEAR, "chart.grading": 3}, 5)}
+# The whole loop of `mortise solve --accuracy`, meshes included, where the scene file says all loads; a point an accuracy.
+ASKED = {"asked": ("asked accuracy, with meshing", LINEAR, 6)}
+ACCURACIES = (0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005)
 # Order of the displacements; linear multipliers, segments, straight-sided triangles.
 FREEFEM = {"freefem_p1": ("FreeFEM P1", 1, 5), "freefem_p2": ("FreeFEM P2", 2, 4)}
 
@@ -76,7 +79,7 @@ PANELS = {
     "rings": ("e_p_l2", "e_energy", "e_p_max_inner"),
     "parabola_1": ("e_p_l2_inner", "e_energy", "e_p_max_inner"),
 }
-QUICK_METHODS = ("q8_linear", "q8_quadratic", "q4_linear", "t3_linear", "q8_ddm", "q8_mssor", "q8_graded", "freefem_p1")
+QUICK_METHODS = ("asked", "q8_linear", "q8_quadratic", "q4_linear", "t3_linear", "q8_ddm", "q8_mssor", "q8_graded", "freefem_p1")
 LEVELS = {"full": 7, "quick": 3}
 TURNS = {"full": 5, "quick": 2}
 
@@ -90,16 +93,23 @@ def mesh_name(mesh):
     return "x".join(map(str, mesh))
 
 
+def row_name(problem, method, mesh):
+    """What a row's mesh is called: of an asked accuracy, that."""
+    if method != "asked":
+        return mesh_name(mesh)
+    return f"{100 * ACCURACIES[(mesh[0] // PROBLEMS[problem]['coarsest'][0]).bit_length() - 1]:g} % asked"
+
+
 def size_settings(problem, mesh):
     return {f"mesh.parameters.{key}": n for key, n in zip(PROBLEMS[problem]["sizes"], mesh)}
 
 
 def ways(problem, level, quick):
     """Name and settings of the methods that are run by mortise at a level."""
-    table = {**METHODS, **(GRADED if problem == "parabola_1" else {})}
+    table = {**METHODS, **(GRADED if problem == "parabola_1" else {}), **(ASKED if problem != "manufactured" else {})}
     for name, (_, settings, deepest) in table.items():
         if level <= deepest and (not quick or name in QUICK_METHODS):
-            own = OWN.get(name, {}).get(problem, {})
+            own = OWN.get(name, {}).get(problem, {}) if name != "asked" else {"accuracy.value": ACCURACIES[level]}
             yield name, {**size_settings(problem, mesh_of(problem, level)), **settings, **own}
 
 
@@ -112,4 +122,4 @@ def freefem_ways(problem, level, quick):
 
 
 def label(name):
-    return {**METHODS, **GRADED, **FREEFEM}[name][0]
+    return {**METHODS, **GRADED, **ASKED, **FREEFEM}[name][0]

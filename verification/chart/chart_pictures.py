@@ -5,7 +5,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 import chart_runs  # makes common/ known
 import figure
 import pareto
-from chart_methods import FREEFEM, GRADED, METHODS, PANELS, PROBLEMS, label
+from chart_methods import ASKED, FREEFEM, GRADED, METHODS, PANELS, PROBLEMS, label
 
 # Okabe and Ito's colours, which colour-blind people tell apart: one for each kind of element or program.
 BLUE, SKY, GREEN, ORANGE, RED, PURPLE, BLACK, BROWN = (
@@ -27,6 +27,7 @@ STYLES = {  # colour, line, marker
     "t3_ddm_fixed": (RED, ":", "+"),
     "q8_mssor": (BROWN, "--", "P"),
     "q8_graded": (BROWN, "-", "*"),
+    "asked": (BLACK, "-", "X"),
     "freefem_p1": (BLACK, ":", "o"),
     "freefem_p2": (BLACK, "--", "s"),
 }
@@ -68,7 +69,7 @@ def draw_problem(path, rows, problem):
 
 def draw_all(folder, rows):
     """NAME.png for each problem that has rows."""
-    missing = {*METHODS, *GRADED, *FREEFEM} - set(STYLES)
+    missing = {*METHODS, *GRADED, *ASKED, *FREEFEM} - set(STYLES)
     assert not missing, f"no style for {missing}"
     for problem in PROBLEMS:
         if mine := [row for row in rows if row["problem"] == problem]:

@@ -13,7 +13,7 @@ import errors_of_freefem
 import exact
 import launch
 import reference
-from chart_methods import LEVELS, PROBLEMS, TURNS, freefem_ways, label, mesh_name, mesh_of, ways
+from chart_methods import LEVELS, PROBLEMS, TURNS, freefem_ways, label, mesh_name, mesh_of, row_name, ways
 
 
 def first_line(command):
@@ -39,7 +39,7 @@ def completed(rows, problem, mesh, table):
     """The rows with problem, mesh and, where only a reference is known, their energy error: sqrt(|E - E_ref| / E_ref),
     the energy norm but for what the contact conditions add. What is below the trust in the reference is left empty."""
     for row in rows:
-        row = {"problem": problem, "mesh": mesh_name(mesh), "n": mesh[0], **row}
+        row = {"problem": problem, "mesh": row_name(problem, row["method"], mesh), "n": mesh[0], **row}
         if problem == "parabola_1":
             row["e_energy"] = math.sqrt(abs(row["energy"] - table["energy"]) / table["energy"])
             row["e_p_l2"] = None
