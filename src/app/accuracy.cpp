@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "base/stopwatch.hpp"
 #include "base/vectors.hpp"
 #include "error/wanted_sizes.hpp"
@@ -89,7 +90,7 @@ class Loop {
 
   std::optional<Results> run() {
     std::optional<Results> last;
-    AccuracyReport report{.asked = spec_.value, .excluded = spec_.exclude, .solves = {}, .reason = {}};
+    AccuracyReport report{.of = spec_.of, .asked = spec_.value, .excluded = spec_.exclude, .solves = {}, .reason = {}};
     Seconds seconds;
     SizeAt sizes = [first = sizes_of(mesher_.curves(), scene_, spec_.first_edges)](const Vec2& x) {
       return size_at(first, x);
@@ -100,7 +101,8 @@ class Loop {
         if (last) start = active_set(*last);
         Results r = solve_on(sizes, start ? &*start : nullptr, int(report.solves.size()) + 1);
         seconds += r.seconds;
-        report.solves.push_back({free_unknowns(r), r.estimate->pressure(), r.seconds.total()});
+        report.solves.push_back({free_unknowns(r), estimated(r), r.seconds.total()});
+        if (spec_.of == Goal::peak) require_peak(r);
         last = std::move(r);
         report.reason = why_to_stop(*last, report);
         if (report.reached() || !report.reason.empty()) break;
@@ -142,9 +144,36 @@ class Loop {
     estimate(r, {.excluded = spec_.exclude});
     std::ostringstream text;
     text.precision(2);
-    text << " (p was within " << 100 * r.estimate->pressure() << " % with " << free_unknowns(r) << " unknowns)";
+    text << " (" << to_string(spec_.of) << " was within " << 100 * estimated(r) << " % with " << free_unknowns(r)
+         << " unknowns)";
     told_ = text.str();
     return r;
+  }
+
+  double estimated(const Results& r) const {
+    switch (spec_.of) {
+      case Goal::pressure:
+        return r.estimate->pressure();
+      case Goal::peak:
+        return r.estimate->peak();
+      case Goal::half_width:
+        return r.estimate->half_width();
+    }
+    return 0;
+  }
+
+  // Throws InputError where p has no largest value.
+  void require_peak(const Results& r) const {
+    for (const PressureEstimate& e : r.estimate->pressures)
+      for (const SingularPoint& point : e.singular) {
+        if (point.pressure_exponent >= 1) continue;
+        std::ostringstream text;
+        text.precision(2);
+        text << scene_.path << ": accuracy.of = \"peak\": p has no largest value " << near_point(point.position)
+             << ", where it grows as r^" << point.pressure_exponent - 1
+             << "; expected of = \"pressure\", which leaves out what is near, or a rounded corner";
+        throw InputError(text.str());
+      }
   }
 
   std::string why_to_stop(const Results& r, const AccuracyReport& report) const {
@@ -163,11 +192,14 @@ class Loop {
 
   SizeAt next_sizes(const Results& r) {
     const ErrorEstimate& e = *r.estimate;
-    const double target = std::max(0.7 * spec_.value, e.pressure() / largest_step) / error_safety;
-    WantedSizes wanted = wanted_sizes(r.mesh, r.pairs, e,
-                                      {.line = std::clamp(e.line() / (0.8 * target), 0.4, largest_step),
-                                       .far_field = std::clamp(e.far_field() / (0.5 * target), 0.25, 5 * largest_step),
-                                       .target = target});
+    // What was asked of another quantity, as an error of p that is as far above what it should be.
+    const double found = estimated(r), asked = spec_.value * (spec_.of == Goal::pressure ? 1 : e.pressure() / found);
+    const double target = std::max(0.7 * asked, e.pressure() / largest_step) / error_safety;
+    ErrorFactors factors{.line = std::clamp(e.line() / (0.8 * target), 0.4, largest_step),
+                         .far_field = std::clamp(e.far_field() / (0.5 * target), 0.25, 5 * largest_step),
+                         .target = target};
+    if (spec_.of == Goal::half_width) factors.border = found / (0.7 * spec_.value);
+    WantedSizes wanted = wanted_sizes(r.mesh, r.pairs, e, factors);
     for (Eigen::Index i = 0; i < wanted.sizes.size(); ++i)
       wanted.sizes(i) = std::min(wanted.sizes(i), size_at(largest_, r.mesh.nodes.row(i).transpose()));
     const auto field = std::make_shared<SizeField>(r.mesh, wanted.sizes, std::move(wanted.layers));

@@ -61,6 +61,19 @@ std::string to_string(Integration value) {
   return {};
 }
 
+std::string to_string(Goal value) {
+  switch (value) {
+    case Goal::pressure:
+      return "pressure";
+    case Goal::peak:
+      return "peak";
+    case Goal::half_width:
+      return "half_width";
+  }
+  assert(false && "no such Goal");
+  return {};
+}
+
 std::string to_string(Solver value) {
   switch (value) {
     case Solver::direct:

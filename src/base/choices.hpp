@@ -17,6 +17,9 @@ enum class Normals { edges, curve };
 enum class Integration { segments, elements };
 enum class Multipliers { quadratic, linear, dual };
 
+/// What an accuracy is asked of: the pressure along all contact lines, its largest value, half the width of a contact.
+enum class Goal { pressure, peak, half_width };
+
 /// direct: a factorisation of all bodies; mssor: block SSOR on all of them; ddm: domain decomposition.
 enum class Solver { direct, mssor, ddm };
 
@@ -46,6 +49,7 @@ std::string to_string(InitialGap value);
 std::string to_string(Normals value);
 std::string to_string(Integration value);
 std::string to_string(Multipliers value);
+std::string to_string(Goal value);
 std::string to_string(Solver value);
 std::string to_string(Scheme value);
 std::string to_string(Acceleration value);

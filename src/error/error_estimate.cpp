@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fem/patch_recovery.hpp"
 #include "solve/contact_factor.hpp"
@@ -91,6 +92,24 @@ double error_norm(const std::vector<PressureEstimate>& pressures, double local, 
 }
 
 }  // namespace
+
+double ErrorEstimate::peak() const {
+  double p = 0, bar = std::numeric_limits<double>::quiet_NaN();
+  for (const PressureEstimate& e : pressures)
+    for (Eigen::Index i = 0; i < e.line.p.size(); ++i)
+      if (e.line.p(i) > p) {
+        p = e.line.p(i);
+        bar = e.bar(i);
+      }
+  return bar / p;
+}
+
+double ErrorEstimate::half_width() const {
+  double part = 0;
+  for (const PressureEstimate& e : pressures)
+    for (const LineError::Border& border : e.local.borders) part = std::max(part, border.part);
+  return part;
+}
 
 double ErrorEstimate::pressure_square() const {
   double square = 0;

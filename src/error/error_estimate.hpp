@@ -50,6 +50,10 @@ struct ErrorEstimate {
   double pressure() const;
   double line() const;
   double far_field() const;
+  /// Of the largest pressure its bar, relative; of half the width of a contact the edges on which it ends, whose
+  /// relative length is the largest: 0 where contact ends nowhere within a line.
+  double peak() const;
+  double half_width() const;
   double pressure_square() const;  ///< of p on these, stress^2 length
 };
 

@@ -11,6 +11,20 @@ namespace {
 constexpr double loaded_part = 1e-9;  // of the largest p; less is none
 constexpr double border_part = 0.25;  // of the p at one edge from the border
 
+// Length of edge e over that of the loaded piece that ends on it, to the edge's loaded end.
+double border_part_of(const PressureLine& line, Eigen::Index e, bool loaded_before, double least) {
+  const Eigen::Index last = line.p.size() - 1, step = loaded_before ? -1 : 1;
+  Eigen::Index i = loaded_before ? e : e + 1;
+  double length = 0;
+  for (Eigen::Index left = last; left > 0; --left, i += step) {
+    if (line.closed && i == (step < 0 ? 0 : last)) i = last - i;  // one vertex
+    if (i + step < 0 || i + step > last || !(std::abs(line.p(i + step)) > least)) break;
+    length += std::abs(line.s(i + step) - line.s(i));
+  }
+  const double edge = line.s(e + 1) - line.s(e);
+  return edge / std::max(length, edge);
+}
+
 }  // namespace
 
 PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX& lambda) {
@@ -60,12 +74,14 @@ LineError line_error(const PressureLine& line) {
     jump(last) = jump(last - 1);
   }
   LineError error{.l2 = (line.h.array().cube() * jump.array().square() / 120).sqrt(),
-                  .border = std::vector<char>(last + 1, 0)};
+                  .border = std::vector<char>(last + 1, 0),
+                  .borders = {}};
   const double least = loaded_part * largest_entry(line.p);
   VecX last_p = VecX::Zero(last + 1);
   for (Eigen::Index e = 0; e < last; ++e) {
     const bool start = std::abs(line.p(e)) > least, end = std::abs(line.p(e + 1)) > least;
     if (start == end) continue;
+    error.borders.push_back({e, border_part_of(line, e, start, least)});
     // A root rises to its value at one edge's length from the border: the last p, or the one before over sqrt(2).
     const Eigen::Index before = start ? e - 1 : e + 2;
     double p = std::abs(line.p(start ? e : e + 1));

@@ -26,6 +26,11 @@ PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX
 struct LineError {
   VecX l2;                   ///< of each vertex, stress sqrt(length)
   std::vector<char> border;  ///< whether the border of contact makes it
+  struct Border {
+    Eigen::Index edge;  ///< on which contact ends
+    double part;        ///< of its length in that of the contact beside it
+  };
+  std::vector<Border> borders;
   /// At each vertex what p is off by, stress: the largest within four edges. What the border makes falls with the
   /// distance r from it as sqrt(h / r): that is what moving it does to a root.
   VecX pointwise(const PressureLine& line) const;

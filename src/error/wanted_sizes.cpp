@@ -53,7 +53,7 @@ VecX cell_refinement(const Mesh& mesh, const ErrorEstimate& estimate, double fac
 }
 
 // By what the edges at each vertex of a pair are to shorten.
-VecX line_refinement(const PressureEstimate& e, double target, double borders) {
+VecX line_refinement(const PressureEstimate& e, double target, double borders, double border) {
   const VecX& l2 = e.local.l2;
   VecX r = VecX::Constant(l2.size(), coarsen);
   if (!(target > 0)) return r;
@@ -63,8 +63,9 @@ VecX line_refinement(const PressureEstimate& e, double target, double borders) {
   const double all = std::pow(sum / (target * target), 0.25);
   for (Eigen::Index i = 0; i < l2.size(); ++i) {
     if (e.excluded[i] || !e.line.loaded[i]) continue;
-    r(i) = e.local.border[i] ? std::clamp(l2(i) / (border_share * target / std::sqrt(borders)), 0.7, border_refine)
-                             : std::clamp(all * std::pow(l2(i), 0.4), coarsen, line_refine);
+    r(i) = !e.local.border[i] ? std::clamp(all * std::pow(l2(i), 0.4), coarsen, line_refine)
+           : border > 0       ? std::min(border, border_refine)
+                              : std::clamp(l2(i) / (border_share * target / std::sqrt(borders)), 0.7, border_refine);
   }
   return r;
 }
@@ -96,7 +97,8 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
   const double target = estimate.line() * std::sqrt(p2) / factors.line;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];
-    const VecX along = e.line.h.cwiseQuotient(line_refinement(e, target, borders)).cwiseMax(least_size * scene);
+    const VecX along =
+        e.line.h.cwiseQuotient(line_refinement(e, target, borders, factors.border)).cwiseMax(least_size * scene);
     const auto lower = [&](int node, const Vec2& from, double size) {
       const double distance = (mesh.nodes.row(node).transpose() - from).norm();
       sizes(node) = std::min(sizes(node), size + size_growth * distance);

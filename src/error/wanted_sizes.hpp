@@ -13,6 +13,7 @@ inline constexpr double size_growth = 0.3;
 struct ErrorFactors {
   double line, far_field;
   double target;
+  double border = 0;  ///< by which the edges are to shorten on which contact ends; 0: as the line's error asks
 };
 
 struct WantedSizes {

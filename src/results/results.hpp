@@ -36,10 +36,11 @@ struct Seconds {
 struct AccuracyReport {
   struct Solve {
     int unknowns;
-    double estimated;  ///< ErrorEstimate::pressure
+    double estimated;  ///< of what was asked for
     double seconds;    ///< mesh to estimate
   };
-  double asked, excluded;  ///< AccuracySpec
+  Goal of = Goal::pressure;  ///< AccuracySpec
+  double asked, excluded;
   std::vector<Solve> solves;
   std::string reason;  ///< why it ended where the accuracy was not reached
   /// A first solve, which nothing confirms, must be three times as good.

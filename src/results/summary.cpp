@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <sstream>
 
 #include "base/printable.hpp"
@@ -140,10 +141,16 @@ void print_comparison(const std::optional<StressComparison>& found, std::ostream
 // What p is within, and what was asked.
 void print_accuracy(const Results& r, std::ostream& out) {
   if (!r.estimate || !std::isfinite(r.estimate->pressure())) return;
-  out << std::setprecision(2) << "  accuracy  p within " << 100 * r.estimate->pressure() << " %";
+  const double found = r.accuracy ? r.accuracy->solves.back().estimated : r.estimate->pressure();
+  const std::map<Goal, std::string> words{
+      {Goal::pressure, "p"}, {Goal::peak, "largest p"}, {Goal::half_width, "half-width of contact"}};
+  out << std::setprecision(2) << "  accuracy  " << words.at(r.accuracy ? r.accuracy->of : Goal::pressure) << " within "
+      << 100 * found << " %";
   if (r.accuracy) {
     const AccuracyReport& a = *r.accuracy;
-    out << " (asked " << 100 * a.asked << " %): " << a.solves.size() << (a.solves.size() == 1 ? " solve" : " solves");
+    out << " (asked " << 100 * a.asked << " %): "
+        << (a.solves.size() == 1 ? "1 solve, which no second confirms" : std::to_string(a.solves.size()) + " solves");
+    if (a.of == Goal::half_width && found == 0) out << "; contact ends nowhere within a line";
     if (!a.reached()) out << "; not reached: " << a.reason << "; largest part: " << largest_error(r);
   }
   out << "\n" << std::setprecision(6);

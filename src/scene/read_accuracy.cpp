@@ -37,8 +37,9 @@ int whole(const Node& node, double least, double most) {
 void read_accuracy(const Node& root, Scene& scene) {
   const Node* node = find(root, "accuracy");
   if (node == nullptr) return;
-  expect_keys(*node, {"value", "exclude", "unknowns_max", "first_edges", "recombine"});
+  expect_keys(*node, {"of", "value", "exclude", "unknowns_max", "first_edges", "recombine"});
   AccuracySpec accuracy;
+  accuracy.of = choice(find(*node, "of"), {Goal::pressure, Goal::peak, Goal::half_width}, accuracy.of);
   accuracy.value = part(require(*node, "value", "a part such as 0.01 or \"1%\""));
   if (const Node* exclude = find(*node, "exclude")) accuracy.exclude = part(*exclude);
   if (const Node* most = find(*node, "unknowns_max")) accuracy.unknowns_max = whole(*most, 100, 1e9);

@@ -54,6 +54,24 @@ TEST(Accuracy, OfHertzIsReachedWithItsBars) {
   }
 }
 
+TEST(Accuracy, OfTheLargestPressureAndTheHalfWidthOfHertz) {
+  for (const char* asked : {"5%", "1%", "0.2%"}) {
+    const auto peak = solve_to_accuracy(scene("hertz", asked, {{"accuracy.of", "peak"}}));
+    ASSERT_TRUE(peak && peak->accuracy->reached()) << asked;
+    EXPECT_LE(std::abs(peak->contacts[0].p_max / 581.290e6 - 1), peak->accuracy->asked) << asked;
+    const auto width = solve_to_accuracy(scene("hertz", asked, {{"accuracy.of", "half_width"}}));
+    ASSERT_TRUE(width && width->accuracy->reached()) << asked;
+    EXPECT_LE(std::abs(width->contacts[0].length_in_contact / 0.0100757 - 1), width->accuracy->asked) << asked;
+    EXPECT_LE(free_unknowns(*width), 15000) << asked;
+  }
+}
+
+TEST(Accuracy, OfALargestPressureThatThereIsNotIsRefused) {
+  const std::string text = message_of([] { solve_to_accuracy(scene("punch", "1%", {{"accuracy.of", "peak"}})); });
+  for (const char* part : {"punch.toml: accuracy.of", "p has no largest value near (0.2, 0.2)", "grows as r^-0.23"})
+    expect_contains(text, part);
+}
+
 TEST(Accuracy, OfRingsIsTheConstantPressure) {
   const auto r = solve_to_accuracy(scene("rings", "0.1%"));
   ASSERT_TRUE(r && r->accuracy->reached());

@@ -57,7 +57,10 @@ TEST(LineError, KnowsTheBorderOfContact) {
   const PressureLine line =
       line_of(VecX::LinSpaced(41, 0, 1), [](double s) { return std::sqrt(std::max(0.0, 0.51 - s)); });
   const LineError found = line_error(line);
-  // p is 0 from vertex 21 on: the edge 20 holds the border.
+  // p is 0 from vertex 21 on: the edge 20 holds the border, beside 20 edges in contact.
+  ASSERT_EQ(found.borders.size(), 1u);
+  EXPECT_EQ(found.borders[0].edge, 20);
+  EXPECT_NEAR(found.borders[0].part, 1.0 / 20, 1e-12);
   for (int i = 0; i <= 40; ++i) EXPECT_EQ(found.border[i] != 0, i >= 19 && i <= 22) << i;
   EXPECT_NEAR(found.l2(20), 0.25 * line.p(19) / std::sqrt(2.0) * std::sqrt(line.h(20)), 1e-15);
   EXPECT_GT(line.p(19), std::sqrt(2.0) * line.p(20));  // else by the last

@@ -1,6 +1,6 @@
 """Two seconds of the chart against the executable itself, timed from outside.
 
-The whole process `mortise solve --threads 1` by time.perf_counter, less the meshing and writing that its summary.json
+The whole process `mortise solve --no-estimate --threads 1` by time.perf_counter, less the meshing and writing that its summary.json
 reports, less the start of a process that does nothing (`mortise --version`: loading of the libraries). What remains
 should be the chart's seconds: the ratio of the two is near 1, a little above it for what nobody counts (reading the
 scene, freeing memory). Other work on the machine spoils it; therefore the same by processor time too, of `mortise
@@ -49,7 +49,7 @@ def seconds_of(*arguments):
 def timed(problem, settings, folder):
     """Seconds of one process less meshing and writing; of the stages that it reports; of the processor less meshing."""
     arguments = [launch.scene_file(problem), *launch.options(settings)]
-    whole, processor = seconds_of("solve", *arguments, "-o", folder, "--quiet", "--threads", 1)
+    whole, processor = seconds_of("solve", *arguments, "-o", folder, "--quiet", "--no-estimate", "--threads", 1)
     _, meshing = seconds_of("mesh", *arguments, "-o", folder / "mesh.msh")
     own = json.loads((folder / "summary.json").read_text())["seconds"]
     return whole - own["mesh"] - own["write"], own["total"] - own["mesh"] - own["write"], processor - meshing
