@@ -15,10 +15,10 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.with_name("common")))
 
 import accuracy_runs
-import judge
+import judge_answers
 import launch
 import page
-import pictures
+import answers_pictures
 import runs
 import template
 
@@ -64,14 +64,14 @@ def carry_out(options):
         found = store.rows(asked, accuracy_runs.execute, scene)
         if failed := [row["failed"] for row in references if row["failed"]]:
             found = [{"failed": f"its reference: {failed[0]}"} for _ in found]
-        elif scene in judge.FORMULAS:
-            known[scene] = judge.independent(scene, references)
-        rows += [judge.judged(scene, run, row, references) for run, row in zip(asked, found)]
+        elif scene in judge_answers.FORMULAS:
+            known[scene] = judge_answers.independent(scene, references)
+        rows += [judge_answers.judged(scene, run, row, references) for run, row in zip(asked, found)]
     one = lambda run: store.row(run, accuracy_runs.execute)
     drawn = one(accuracy_runs.answer("parabola_1", 0.01))
     coarse = one(accuracy_runs.even(1, 1))
     even = one(accuracy_runs.even(coarse["mesh"]["dofs"], drawn["accuracy"]["solves"][-1]["unknowns"]))
-    verdicts = list(judge.verdicts(rows, accuracy_runs.whole_process("1%")))
+    verdicts = list(judge_answers.verdicts(rows, accuracy_runs.whole_process("1%")))
     return rows, known, (drawn, even), verdicts
 
 
@@ -79,8 +79,8 @@ def write(folder, rows, known, drawn, verdicts, options):
     keys = list(dict.fromkeys(key for row in rows for key in row))
     launch.write_csv(folder / "answers.csv", [{key: row.get(key) for key in keys} for row in rows])
     launch.write_csv(folder / "verdicts.csv", [dict(zip(("bar", "found", "holds"), verdict)) for verdict in verdicts])
-    pictures.draw_band(*drawn, folder / "band.png")
-    pictures.draw_answers(rows, folder / "answers.png")
+    answers_pictures.draw_band(*drawn, folder / "band.png")
+    answers_pictures.draw_answers(rows, folder / "answers.png")
     text = template.fill(
         (HERE / "accuracy.md").read_text(),
         quick=options.quick,

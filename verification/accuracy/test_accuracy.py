@@ -3,7 +3,7 @@
 import pytest
 
 import accuracy
-import judge
+import judge_answers
 import launch
 
 GOOD = {
@@ -15,7 +15,7 @@ GOOD = {
 
 def broken(row, seconds=0.1):
     """How many verdicts a row makes false."""
-    return sum(not holds for _, _, holds in judge.verdicts([row], seconds))
+    return sum(not holds for _, _, holds in judge_answers.verdicts([row], seconds))
 
 
 def test_verdicts_tell_good_from_bad():

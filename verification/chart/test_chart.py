@@ -140,7 +140,7 @@ def test_quick_run_has_every_row(quick):
     assert refused <= {"q8_mssor"}
     assert all(any(chart_methods.label(name) in text for text in quick["said"]) for name in refused)
     expected = {
-        (problem, name, chart_methods.mesh_name(chart_methods.mesh_of(problem, level)))
+        (problem, name, chart_methods.row_name(problem, name, chart_methods.mesh_of(problem, level)))
         for problem in chart_methods.PROBLEMS
         for level in range(levels)
         for name, _ in [

@@ -4,7 +4,7 @@ import numpy as np
 
 import figure
 from accuracy_runs import ASKED
-from judge import zones
+from judge_answers import zones
 
 MEGA = 1e6
 
