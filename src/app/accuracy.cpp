@@ -141,7 +141,7 @@ class Loop {
     Results r = solve_scene(scene_, std::move(mesh), stage, start);
     r.seconds.mesh = meshing;
     stage("estimate");
-    estimate(r, {.excluded = spec_.exclude});
+    estimate(r, {.excluded = spec_.exclude, .goal = spec_});
     std::ostringstream text;
     text.precision(2);
     text << " (" << to_string(spec_.of) << " was within " << 100 * estimated(r) << " % with " << free_unknowns(r)
@@ -158,6 +158,9 @@ class Loop {
         return r.estimate->peak();
       case Goal::half_width:
         return r.estimate->half_width();
+      case Goal::mean:
+      case Goal::force:
+        return r.estimate->goal->error();
     }
     return 0;
   }
@@ -181,7 +184,8 @@ class Loop {
     const std::size_t n = solves.size();
     if (report.reached()) return "";
     if (r.status == Status::not_converged) return "the solver did not converge";
-    if (!std::isfinite(solves.back().estimated)) return "nothing is loaded, apart from what is left out";
+    if (!std::isfinite(solves.back().estimated))
+      return spec_.of == Goal::pressure ? "nothing is loaded, apart from what is left out" : "nothing is loaded there";
     if (n >= most_solves) return std::to_string(n) + " solves";
     if (at_limit_ || solves.back().unknowns >= spec_.unknowns_max) return "unknowns_max";
     if (n >= 4 && solves[n - 1].estimated > solves[n - 2].estimated &&
@@ -199,6 +203,11 @@ class Loop {
                          .far_field = std::clamp(e.far_field() / (0.5 * target), 0.25, 5 * largest_step),
                          .target = target};
     if (spec_.of == Goal::half_width) factors.border = found / (0.7 * spec_.value);
+    if (e.goal) {
+      const double each = 0.5 * 0.7 * spec_.value * e.goal->value.norm() / error_safety;
+      factors.line = std::clamp(e.goal->local / each, 0.4, largest_step);
+      factors.far_field = std::clamp(e.goal->far.norm() / each, 0.25, 5 * largest_step);
+    }
     WantedSizes wanted = wanted_sizes(r.mesh, r.pairs, e, factors);
     for (Eigen::Index i = 0; i < wanted.sizes.size(); ++i)
       wanted.sizes(i) = std::min(wanted.sizes(i), size_at(largest_, r.mesh.nodes.row(i).transpose()));

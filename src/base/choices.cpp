@@ -69,6 +69,10 @@ std::string to_string(Goal value) {
       return "peak";
     case Goal::half_width:
       return "half_width";
+    case Goal::mean:
+      return "mean";
+    case Goal::force:
+      return "force";
   }
   assert(false && "no such Goal");
   return {};

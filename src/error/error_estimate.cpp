@@ -91,7 +91,40 @@ double error_norm(const std::vector<PressureEstimate>& pressures, double local, 
   return std::sqrt(error);
 }
 
+// Mean of the errors at the vertices of the edges that have a part in the window.
+double mean_error(const PressureLine& line, const VecX& errors, const Vec2& window, bool backwards) {
+  const Eigen::Index last = line.s.size() - 1;
+  double sum = 0, length = 0;
+  for (Eigen::Index e = 0; e < last; ++e) {
+    const double start = backwards ? line.s(last) - line.s(e + 1) : line.s(e), h = line.s(e + 1) - line.s(e);
+    if (start > window(1) || start + h < window(0)) continue;
+    sum += h * (errors(e) + errors(e + 1)) / 2;
+    length += h;
+  }
+  return length > 0 ? sum / length : 0;
+}
+
+// Columns: the components of what the options ask for; none where that is no functional.
+MatX goal_functionals(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                      const std::vector<PressureEstimate>& pressures, const ErrorOptions& options, Eigen::Index rows) {
+  if (!options.goal) return MatX(rows, 0);
+  const int k = options.goal->pair;
+  switch (options.goal->of) {
+    case Goal::mean:
+      return mean_functional(mesh, pairs[k], pressures[k].line, options.goal->window, rows);
+    case Goal::force:
+      return force_functionals(pairs[k], rows);
+    case Goal::pressure:
+    case Goal::peak:
+    case Goal::half_width:
+      break;
+  }
+  return MatX(rows, 0);
+}
+
 }  // namespace
+
+double GoalEstimate::error() const { return error_safety * (far.norm() + local) / value.norm(); }
 
 double ErrorEstimate::peak() const {
   double p = 0, bar = std::numeric_limits<double>::quiet_NaN();
@@ -140,25 +173,40 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
     estimate.pressures.push_back(std::move(e));
   }
   std::shared_ptr<const ContactFactor> factor = solution.factor;
-  if (windows > 0 && !factor) factor = factorise_contact(system, solution.active);
 
-  MatX functionals(system.B.rows(), windows), fields(system.K.cols(), 1 + windows);
+  const MatX goal = goal_functionals(mesh, pairs, estimate.pressures, options, system.B.rows());
+  const Eigen::Index count = windows + goal.cols();
+  if (count > 0 && !factor) factor = factorise_contact(system, solution.active);
+  MatX functionals(system.B.rows(), count), fields(system.K.cols(), 1 + count);
+  functionals.rightCols(goal.cols()) = goal;
   Eigen::Index k = 0;
   for (const PressureEstimate& e : estimate.pressures)
     for (const PressureWindow& window : e.windows) functionals.col(k++) = window.weights;
   fields.col(0) = solution.u;
-  if (windows > 0) fields.rightCols(windows) = factor->duals(functionals);
+  if (count > 0) fields.rightCols(count) = factor->duals(functionals);
   const std::vector<ElasticLaw>& laws = discretisation.laws;
   const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, fields));
   const ErrorProducts found = error_products(mesh, points, laws, fields, patches);
   estimate.energy = energy_estimate(mesh, found);
-  estimate.parts = found.products.rightCols(windows);
+  estimate.parts = found.products.middleCols(1, windows);
+  if (goal.cols() > 0) {
+    const MatX parts = found.products.rightCols(goal.cols());
+    estimate.goal = GoalEstimate{.value = -goal.transpose() * solution.lambda,
+                                 .far = parts.cwiseAbs().colwise().sum(),
+                                 .local = 0,
+                                 .parts = parts};
+  }
   const VecX far = estimate.parts.cwiseAbs().colwise().sum();
   k = 0;
   for (PressureEstimate& e : estimate.pressures) {
     e.far = far.segment(k, Eigen::Index(e.windows.size()));
     k += Eigen::Index(e.windows.size());
     find_bars(e);
+  }
+  if (estimate.goal && options.goal->of == Goal::mean) {
+    const PressureEstimate& e = estimate.pressures[options.goal->pair];
+    const bool backwards = runs_backwards(mesh.nodes, pairs[options.goal->pair].multiplier);
+    estimate.goal->local = mean_error(e.line, e.local.pointwise(e.line), options.goal->window, backwards);
   }
   return estimate;
 }

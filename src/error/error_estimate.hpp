@@ -34,6 +34,15 @@ struct PressureEstimate {
   double local2 = 0, far2 = 0, p2 = 0;
 };
 
+/// A functional of p that an accuracy is asked of, by the same dual solutions.
+struct GoalEstimate {
+  VecX value;            ///< of each of its components
+  VecX far;              ///< what each may be off by: the sum of the cells' parts without their signs
+  double local = 0;      ///< and what p along the line is off by there, of a mean
+  MatX parts;            ///< cells x components
+  double error() const;  ///< relative, with the safety factor
+};
+
 /// The part of a loaded length that is left out of the norm on either side of a singular point, unless asked otherwise.
 inline constexpr double excluded_part = 0.1;
 
@@ -44,6 +53,7 @@ struct ErrorEstimate {
   EnergyEstimate energy;
   std::vector<PressureEstimate> pressures;  ///< one a pair
   MatX parts;  ///< cells x windows of all pairs: int d_0 : C^-1 : d_k, the cell's part of the far field, stress
+  std::optional<GoalEstimate> goal;  ///< where options ask for one
 
   /// L2 norms of the estimated error of p over that of p on all contact lines, singular points left out: of the whole,
   /// and of its two parts before the safety factor. NaN where nothing is loaded or all is excluded.
@@ -59,6 +69,7 @@ struct ErrorEstimate {
 
 struct ErrorOptions {
   double excluded = excluded_part;
+  std::optional<AccuracySpec> goal;  ///< of mean or force: its functional too
 };
 
 /// `solution`: converged or not; where it has no factor (iterative solvers) the whole system is factorised once.

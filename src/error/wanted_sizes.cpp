@@ -35,6 +35,7 @@ VecX cell_refinement(const Mesh& mesh, const ErrorEstimate& estimate, double fac
     const double length = e.line.h.sum() / std::max<double>(1, double(e.windows.size()));
     for (std::size_t i = 0; i < e.windows.size(); ++i) part += length * estimate.parts.col(k++).cwiseAbs2();
   }
+  if (estimate.goal) part = estimate.goal->parts.rowwise().squaredNorm();
   part = part.cwiseSqrt();
   const double target = part.sum() / factor;
   VecX r = VecX::Constant(part.size(), coarsen);

@@ -118,6 +118,12 @@ Curve contact_curve(const Mesh& mesh, int boundary) {
   return curve;
 }
 
+bool runs_backwards(const Points& nodes, const Curve& curve) {
+  const std::vector<int> along = curve_nodes(curve);
+  const Vec2 front = nodes.row(along.front()), back = nodes.row(along.back());
+  return front.x() > back.x() || (front.x() == back.x() && front.y() > back.y());
+}
+
 std::vector<int> curve_nodes(const Curve& curve) {
   std::vector<int> nodes;
   nodes.reserve(2 * curve.edges.size() + 1);

@@ -24,6 +24,9 @@ struct Curve {
 /// Throws InputError, with coordinates, where they branch, fall into pieces, or belong to more than one body.
 Curve contact_curve(const Mesh& mesh, int boundary);
 
+/// Whether the arc length s of the output runs against the edges: from the end with the smaller x, then y.
+bool runs_backwards(const Points& nodes, const Curve& curve);
+
 /// Nodes along the chain, ends and middles, each once.
 std::vector<int> curve_nodes(const Curve& curve);
 

@@ -197,9 +197,7 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
 
   r.length = curve_length(mesh.nodes, pair.multiplier);
   // Both curves keep their bodies on the left, so they run against each other.
-  const Vec2 front = r.multiplier.nodes.front().position, back = r.multiplier.nodes.back().position;
-  const bool backwards = front.x() > back.x() || (front.x() == back.x() && front.y() > back.y());
-  if (backwards)
+  if (runs_backwards(mesh.nodes, pair.multiplier))
     reverse(r.multiplier, r.length);
   else
     reverse(r.opposite, curve_length(mesh.nodes, pair.opposite));

@@ -142,8 +142,11 @@ void print_comparison(const std::optional<StressComparison>& found, std::ostream
 void print_accuracy(const Results& r, std::ostream& out) {
   if (!r.estimate || !std::isfinite(r.estimate->pressure())) return;
   const double found = r.accuracy ? r.accuracy->solves.back().estimated : r.estimate->pressure();
-  const std::map<Goal, std::string> words{
-      {Goal::pressure, "p"}, {Goal::peak, "largest p"}, {Goal::half_width, "half-width of contact"}};
+  const std::map<Goal, std::string> words{{Goal::pressure, "p"},
+                                          {Goal::peak, "largest p"},
+                                          {Goal::half_width, "half-width of contact"},
+                                          {Goal::mean, "mean p"},
+                                          {Goal::force, "force"}};
   out << std::setprecision(2) << "  accuracy  " << words.at(r.accuracy ? r.accuracy->of : Goal::pressure) << " within "
       << 100 * found << " %";
   if (r.accuracy) {

@@ -32,14 +32,29 @@ int whole(const Node& node, double least, double most) {
   return int(value);
 }
 
+// What only some goals have.
+void read_goal(const Node& node, int contacts, AccuracySpec& accuracy) {
+  const Node *pair = find(node, "pair"), *window = find(node, "window");
+  const bool one_pair = accuracy.of == Goal::mean || accuracy.of == Goal::force;
+  if (pair && !one_pair) fail(*pair, "goes with of = \"mean\" or \"force\"");
+  if (pair) accuracy.pair = whole(*pair, 0, contacts - 1);
+  if (window && accuracy.of != Goal::mean) fail(*window, "goes with of = \"mean\"");
+  if (accuracy.of != Goal::mean) return;
+  const Node& given = require(node, "window", "[from, to], arc lengths along the contact line");
+  accuracy.window = number_pair(given);
+  if (!(accuracy.window(0) < accuracy.window(1)))
+    fail(given, "expected [from, to] with from < to, arc lengths along the contact line, found " + describe(given));
+}
+
 }  // namespace
 
 void read_accuracy(const Node& root, Scene& scene) {
   const Node* node = find(root, "accuracy");
   if (node == nullptr) return;
-  expect_keys(*node, {"of", "value", "exclude", "unknowns_max", "first_edges", "recombine"});
+  expect_keys(*node, {"of", "pair", "window", "value", "exclude", "unknowns_max", "first_edges", "recombine"});
   AccuracySpec accuracy;
-  accuracy.of = choice(find(*node, "of"), {Goal::pressure, Goal::peak, Goal::half_width}, accuracy.of);
+  accuracy.of =
+      choice(find(*node, "of"), {Goal::pressure, Goal::peak, Goal::half_width, Goal::mean, Goal::force}, accuracy.of);
   accuracy.value = part(require(*node, "value", "a part such as 0.01 or \"1%\""));
   if (const Node* exclude = find(*node, "exclude")) accuracy.exclude = part(*exclude);
   if (const Node* most = find(*node, "unknowns_max")) accuracy.unknowns_max = whole(*most, 100, 1e9);
@@ -47,6 +62,7 @@ void read_accuracy(const Node& root, Scene& scene) {
   if (const Node* recombine = find(*node, "recombine")) accuracy.recombine = boolean(*recombine);
   if (scene.contacts.empty())
     fail(*node, "the accuracy of the contact pressure is asked for where there is no [[contact]]");
+  read_goal(*node, int(scene.contacts.size()), accuracy);
   if (!scene.mesh_file.ends_with(".geo"))
     fail(*node, "a mesh has no geometry to refine; expected mesh.file = a .geo (with a .msh every solve gives bars)");
   scene.accuracy = accuracy;

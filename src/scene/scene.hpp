@@ -74,8 +74,10 @@ struct Method {
 /// [accuracy]: what the pressure is to be right to, on a mesh that is found for it.
 struct AccuracySpec {
   Goal of = Goal::pressure;
-  double value = 0;      ///< asked, relative, > 0 and < 1
-  double exclude = 0.1;  ///< of the loaded length, on either side of a singular point: left out of the norm
+  int pair = 0;                ///< of mean and force: the [[contact]] entry
+  Vec2 window = Vec2::Zero();  ///< of mean: from, to, arc length s as in contact.csv
+  double value = 0;            ///< asked, relative, > 0 and < 1
+  double exclude = 0.1;        ///< of the loaded length, on either side of a singular point: left out of the norm
   int unknowns_max = 1000000;
   int first_edges = 20;    ///< of the first mesh along each contact curve
   bool recombine = false;  ///< quadrilaterals instead of triangles

@@ -72,6 +72,39 @@ TEST(Accuracy, OfALargestPressureThatThereIsNotIsRefused) {
     expect_contains(text, part);
 }
 
+TEST(Accuracy, OfAMeanPressureOfHertz) {
+  const double a = 0.0100757, p0 = 581.290e6, from = 0.004, to = 0.009;
+  const auto integral = [&](double x) { return p0 / 2 * (x * std::sqrt(1 - x * x / (a * a)) + a * std::asin(x / a)); };
+  for (const char* asked : {"5%", "1%", "0.2%"}) {
+    const auto r =
+        solve_to_accuracy(scene("hertz", asked, {{"accuracy.of", "mean"}, {"accuracy.window", "[0.004, 0.009]"}}));
+    ASSERT_TRUE(r && r->accuracy->reached()) << asked;
+    EXPECT_LE(std::abs(r->estimate->goal->value(0) / ((integral(to) - integral(from)) / (to - from)) - 1),
+              r->accuracy->asked)
+        << asked;
+    EXPECT_LE(free_unknowns(*r), 16000) << asked;
+  }
+}
+
+TEST(Accuracy, OfTheForceThatOnlyTheStiffnessGives) {
+  const auto force = [](const std::string& asked) {
+    const auto r = solve_to_accuracy(read_scene(MORTISE_SOURCE_DIR "/verification/accuracy/arm.toml",
+                                                {{"accuracy.value", asked}, {"accuracy.of", "force"}}));
+    EXPECT_TRUE(r->accuracy->reached());
+    EXPECT_LE((r->estimate->goal->value - r->contacts[0].force).norm(), 1e-9 * r->contacts[0].force.norm());
+    return r->contacts[0].force.norm();
+  };
+  const double reference = force("0.005%");
+  EXPECT_LE(std::abs(force("2%") / reference - 1), 2e-2);
+  EXPECT_LE(std::abs(force("0.1%") / reference - 1), 1e-3);
+}
+
+TEST(Accuracy, OfAForceThatEquilibriumGivesIsThereAtOnce) {
+  const auto r = solve_to_accuracy(scene("hertz", "0.01%", {{"accuracy.of", "force"}}));
+  EXPECT_EQ(r->accuracy->solves.size(), 1u);
+  EXPECT_LE(r->accuracy->solves[0].estimated, 1e-9);
+}
+
 TEST(Accuracy, OfRingsIsTheConstantPressure) {
   const auto r = solve_to_accuracy(scene("rings", "0.1%"));
   ASSERT_TRUE(r && r->accuracy->reached());
@@ -151,6 +184,14 @@ TEST(Accuracy, IsRefusedWhereItCannotBeHad) {
                                      {"100%", "expected a part above 0 and below 1"},
                                      {"-1%", "expected a part above 0 and below 1"}})
     EXPECT_NE(message_of([&] { scene("hertz", value); }).find(words), std::string::npos) << value;
+  for (const auto& [change, words] :
+       {std::pair{Override{"accuracy.window", "[0, 1]"}, "accuracy.window: goes with of = \"mean\""},
+        {Override{"accuracy.pair", "0"}, "accuracy.pair: goes with of = \"mean\" or \"force\""},
+        {Override{"accuracy.of", "mean"}, "'window' is missing; expected [from, to]"},
+        {Override{"accuracy.of", "peek"}, "did you mean 'peak'"},
+        {Override{"accuracy.recombine", "1"}, "expected true or false"},
+        {Override{"accuracy.first_edges", "1"}, "expected a whole number from 2 to 100000"}})
+    expect_contains(message_of([&] { scene("hertz", "1%", {change}); }), words);
   const TemporaryFolder folder;
   folder.write("a.msh", "");
   const std::string text = R"(
