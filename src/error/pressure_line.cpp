@@ -11,18 +11,21 @@ namespace {
 constexpr double loaded_part = 1e-9;  // of the largest p; less is none
 constexpr double border_part = 0.25;  // of the p at one edge from the border
 
-// Length of edge e over that of the loaded piece that ends on it, to the edge's loaded end.
+// Length of edge e over half that of the loaded piece that ends on it; over all of it where the piece's other end is
+// that of the line, on a symmetry axis as a rule.
 double border_part_of(const PressureLine& line, Eigen::Index e, bool loaded_before, double least) {
   const Eigen::Index last = line.p.size() - 1, step = loaded_before ? -1 : 1;
   Eigen::Index i = loaded_before ? e : e + 1;
   double length = 0;
-  for (Eigen::Index left = last; left > 0; --left, i += step) {
+  bool ends = false;
+  for (Eigen::Index left = last; left > 0 && !ends; --left, i += step) {
     if (line.closed && i == (step < 0 ? 0 : last)) i = last - i;  // one vertex
-    if (i + step < 0 || i + step > last || !(std::abs(line.p(i + step)) > least)) break;
-    length += std::abs(line.s(i + step) - line.s(i));
+    if (i + step < 0 || i + step > last) break;
+    ends = !(std::abs(line.p(i + step)) > least);
+    if (!ends) length += std::abs(line.s(i + step) - line.s(i));
   }
   const double edge = line.s(e + 1) - line.s(e);
-  return edge / std::max(length, edge);
+  return edge / std::max(ends ? length / 2 : length, edge);
 }
 
 }  // namespace

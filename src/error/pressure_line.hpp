@@ -28,7 +28,7 @@ struct LineError {
   std::vector<char> border;  ///< whether the border of contact makes it
   struct Border {
     Eigen::Index edge;  ///< on which contact ends
-    double part;        ///< of its length in that of the contact beside it
+    double part;        ///< its length over half the width of the contact beside it
   };
   std::vector<Border> borders;
   /// At each vertex what p is off by, stress: the largest within four edges. What the border makes falls with the

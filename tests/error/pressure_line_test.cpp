@@ -66,6 +66,18 @@ TEST(LineError, KnowsTheBorderOfContact) {
   EXPECT_GT(line.p(19), std::sqrt(2.0) * line.p(20));  // else by the last
 }
 
+TEST(LineError, MeasuresBordersByHalfTheWidthOfTheirContact) {
+  // Two contacts: of 10 edges inside the line, and of 6 up to its end.
+  PressureLine line = line_of(VecX::LinSpaced(41, 0, 4), [](double s) {
+    return s > 0.95 && s < 2.05 ? 1.0 : s > 3.35 ? 2.0 : 0.0;
+  });
+  const LineError found = line_error(line);
+  ASSERT_EQ(found.borders.size(), 3u);
+  EXPECT_NEAR(found.borders[0].part, 1.0 / 5, 1e-12);
+  EXPECT_NEAR(found.borders[1].part, 1.0 / 5, 1e-12);
+  EXPECT_NEAR(found.borders[2].part, 1.0 / 6, 1e-12);
+}
+
 TEST(LineError, GoesRoundAClosedCurve) {
   PressureLine line = line_of(VecX::LinSpaced(17, 0, 1), [](double s) {
     return 2 + std::cos(2 * std::numbers::pi * (s - 1.0 / 16));  // the largest jump at vertex 1

@@ -1,10 +1,10 @@
 """Two seconds of the chart against the executable itself, timed from outside.
 
-The whole process `mortise solve --no-estimate --threads 1` by time.perf_counter, less the meshing and writing that its summary.json
-reports, less the start of a process that does nothing (`mortise --version`: loading of the libraries). What remains
-should be the chart's seconds: the ratio of the two is near 1, a little above it for what nobody counts (reading the
-scene, freeing memory). Other work on the machine spoils it; therefore the same by processor time too, of `mortise
-solve` less `mortise mesh`, which starts, meshes and writes a file of about the same size.
+The whole process `mortise solve --no-estimate --threads 1` by time.perf_counter, less the meshing and writing that its
+summary.json reports, less the start of a process that does nothing (`mortise --version`: loading of the libraries).
+What remains should be the chart's seconds: the ratio of the two is near 1, a little above it for what nobody counts
+(reading the scene, freeing memory). Other work on the machine spoils it; therefore the same by processor time too, of
+`mortise solve` less `mortise mesh`, which starts, meshes and writes a file of about the same size.
 """
 
 import json
