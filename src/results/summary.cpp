@@ -138,6 +138,19 @@ void print_comparison(const std::optional<StressComparison>& found, std::ostream
     out << "            p not compared with the bodies' sigma_n: no p, or all of it beside singular corners\n";
 }
 
+// Where p has no limit, and is left out of its norm.
+void print_left_out(const ErrorEstimate& estimate, std::ostream& out) {
+  std::string places;
+  int count = 0;
+  for (const PressureEstimate& e : estimate.pressures)
+    for (const SingularPoint& point : e.singular)
+      if (point.pressure_exponent < 1 && ++count <= 3) places += (count > 1 ? ", " : "") + near_point(point.position);
+  if (count == 0) return;
+  out << "            left out where p has no limit, " << places;
+  if (count > 3) out << " and " << count - 3 << " more";
+  out << "\n";
+}
+
 // What p is within, and what was asked.
 void print_accuracy(const Results& r, std::ostream& out) {
   if (!r.estimate || !std::isfinite(r.estimate->pressure())) return;
@@ -156,7 +169,9 @@ void print_accuracy(const Results& r, std::ostream& out) {
     if (a.of == Goal::half_width && found == 0) out << "; contact ends nowhere within a line";
     if (!a.reached()) out << "; not reached: " << a.reason << "; largest part: " << largest_error(r);
   }
-  out << "\n" << std::setprecision(6);
+  out << "\n";
+  if (!r.accuracy || r.accuracy->of == Goal::pressure) print_left_out(*r.estimate, out);
+  out << std::setprecision(6);
 }
 
 // Those that fail; summary.json has all.

@@ -74,6 +74,25 @@ TEST(CommandLine, SummaryHasTheKeysOtherProgramsRead) {
   for (const auto& check : s["checks"]) EXPECT_TRUE(check["ok"].get<bool>()) << check["name"];
 }
 
+TEST(CommandLine, AnAccuracyIsAskedForAndToldWithWhatIsLeftOut) {
+  const TemporaryFolder folder;
+  const Outcome o = mortise({"solve", geo("punch.toml"), "--accuracy", "1%", "-o", folder.path("run")});
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.out.find("(asked 1 %): "), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("left out where p has no limit, near (0.2, 0.2), near (0.4, 0.2)\n"), std::string::npos)
+      << o.out;
+  const auto told = summary(folder.path("run"));
+  EXPECT_TRUE(told["accuracy"]["reached"].get<bool>());
+  EXPECT_LE(told["estimate"]["pressure"]["error"].get<double>(), 0.01);
+  EXPECT_EQ(told["estimate"]["pressure"]["singular"].size(), 2u);
+
+  const Outcome less = mortise({"solve", geo("punch.toml"), "--accuracy", "0.01%", "--set",
+                                "accuracy.unknowns_max=1000", "-o", folder.path("run")});
+  EXPECT_EQ(less.status, 2) << less.err;
+  EXPECT_NE(less.out.find("not reached: unknowns_max; largest part: "), std::string::npos) << less.out;
+  EXPECT_EQ(summary(folder.path("run"))["status"], "not_converged");
+}
+
 TEST(CommandLine, ContactCsvHasOneRowANodeOrderedByArcLength) {
   const TemporaryFolder folder;
   ASSERT_EQ(mortise({"solve", geo("patch_flat.toml"), "-o", folder.path("run")}).status, 0);
