@@ -70,18 +70,19 @@ std::atomic<bool> interrupted = false;
 
 // Results of the mesh that the file has, or of the one that is found for the accuracy asked for.
 Results solve(const Scene& scene, const Options& options, const StageLine& line) {
+  const auto stage = [&](const std::string& name) { line(name); };
   if (scene.accuracy) {
     // The first Ctrl-C asks for the last complete answer, a second one ends the run.
     const auto old = std::signal(SIGINT, [](int) {
       interrupted = true;
       std::signal(SIGINT, SIG_DFL);
     });
-    auto found = solve_to_accuracy(scene, line, [] { return interrupted.load(); });
+    auto found = solve_to_accuracy(scene, stage, [] { return interrupted.load(); });
     std::signal(SIGINT, old);
     if (!found) throw InputError(scene.path + ": interrupted before the first solve was complete");
     return *std::move(found);
   }
-  Results results = solve_scene(scene, line);
+  Results results = solve_scene(scene, stage);
   if (!options.no_estimate) {
     line("estimate");
     estimate(results);
@@ -185,9 +186,10 @@ int parse_and_run(int argc, const char* const* argv) {
                       "find the inf-sup constant too: do the meshes control the pressure?");
   };
   add_diagnose(solve_command);
-  solve_command->add_option("--accuracy", options.accuracy,
-                            "find a mesh on which the contact pressure is right to this part, such as 1%");
-  solve_command->add_flag("--no-estimate", options.no_estimate, "do not estimate the discretisation error");
+  CLI::Option* accuracy = solve_command->add_option(
+      "--accuracy", options.accuracy, "find a mesh on which the contact pressure is right to this part, such as 1%");
+  solve_command->add_flag("--no-estimate", options.no_estimate, "do not estimate the discretisation error")
+      ->excludes(accuracy);
   CLI::App* check_command =
       add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
   CLI::App* mesh_command =

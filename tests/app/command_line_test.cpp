@@ -52,6 +52,7 @@ TEST(CommandLine, WithoutAnEstimateThereIsNone) {
   ASSERT_EQ(o.status, 0) << o.err;
   EXPECT_TRUE(summary(folder.path("run"))["estimate"].is_null());
   EXPECT_EQ(o.out.find("estimate  "), std::string::npos) << o.out;
+  EXPECT_EQ(mortise({"solve", geo("patch_flat.toml"), "--accuracy", "1%", "--no-estimate"}).status, 1);
 }
 
 TEST(CommandLine, SummaryHasTheKeysOtherProgramsRead) {
