@@ -166,7 +166,7 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
     PressureEstimate e;
     e.line = pressure_line(mesh, pair, solution.lambda);
     e.local = line_error(e.line);
-    e.windows = pressure_windows(pair, e.line, solution.lambda);
+    e.windows = pressure_windows(pair, e.line, system.B.rows());
     e.singular = singular_on(mesh, pair, e.line, system.constraints, discretisation.laws);
     find_excluded(options.excluded, e);
     windows += Eigen::Index(e.windows.size());

@@ -23,7 +23,7 @@ void add_pressure_at(const ContactPair& pair, int edge, double xi, double weight
 
 }  // namespace
 
-std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line, const VecX& lambda) {
+std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line, Eigen::Index rows) {
   const Eigen::Index edges = line.p.size() - 1;
   // Loaded length up to each vertex: windows are laid out along it.
   VecX t = VecX::Zero(edges + 1);
@@ -43,7 +43,7 @@ std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const Pres
     const double centre = (k + 0.5) * distance;
     Eigen::Index e = 0;
     while (e + 1 < edges && t(e + 1) < centre) ++e;
-    windows.push_back({.s = line.s(e) + (centre - t(e)), .mean = 0, .weights = VecX::Zero(lambda.size())});
+    windows.push_back({.s = line.s(e) + (centre - t(e)), .weights = VecX::Zero(rows)});
   }
   VecX mass = VecX::Zero(count);
   for (const ContactPoint& point : pair.points) {
@@ -63,7 +63,6 @@ std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const Pres
       continue;
     }
     windows[k].weights /= mass(k);
-    windows[k].mean = -windows[k].weights.dot(lambda);
   }
   return windows;
 }

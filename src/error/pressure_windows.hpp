@@ -7,14 +7,13 @@ namespace mortise {
 
 /// The mean of p with the weight (1 - z^2)^3, z = -1 ... 1 across the window.
 struct PressureWindow {
-  double s;      ///< its centre, arc length along the multiplier side
-  double mean;   ///< stress
-  VecX weights;  ///< rows of all pairs: mean = -weights . lambda
+  double s;      ///< its centre, arc length along the line's edges
+  VecX weights;  ///< rows of all pairs: the mean is -weights . lambda
 };
 
-/// Evenly along the loaded part of the line, each a fifth of it long: three where it is one piece, three more for each
-/// further piece up to nine. None where nothing is loaded.
-std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line, const VecX& lambda);
+/// Evenly along the loaded part of the line, 0.6 of their distance wide: three where it is one piece, three more for
+/// each further piece up to nine. None where nothing is loaded. `rows`: of all pairs.
+std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line, Eigen::Index rows);
 
 /// One column: the mean of p between two arc lengths (as in contact.csv) of the multiplier side is minus it times
 /// lambda. Zero where the line does not face the other side there.
