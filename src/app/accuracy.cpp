@@ -20,6 +20,7 @@ struct Interrupted {};
 
 constexpr int least_edges = 10;      // along a contact curve, of any mesh after the first
 constexpr double largest_step = 16;  // by which one mesh is to lower the error: a coarse one's estimate is not exact
+constexpr double aimed = 0.7;        // of what was asked, lest a mesh that just misses it be solved in vain
 
 // A size at a place, growing away from it.
 struct SizedPlace {
@@ -60,20 +61,12 @@ double size_at(const std::vector<SizedPlace>& places, const Vec2& x) {
   return size;
 }
 
-// Of a mesh with these sizes: about four unknowns a triangle.
-double expected_unknowns(const Mesh& mesh, const SizeField& sizes) {
+// Of a mesh with these sizes: about four unknowns a triangle. `areas`: of the cells.
+double expected_unknowns(const Mesh& mesh, const VecX& areas, const SizeField& sizes) {
   double count = 0;
-  for (const Cell& cell : mesh.cells) {
-    const int corners = corner_count(cell.kind);
-    Vec2 centre = Vec2::Zero();
-    double twice_area = 0;
-    for (int a = 0; a < corners; ++a) {
-      const Vec2 x = mesh.nodes.row(cell.nodes[a]), next = mesh.nodes.row(cell.nodes[(a + 1) % corners]);
-      centre += x / corners;
-      twice_area += cross(x, next);
-    }
-    const double size = sizes(centre);
-    count += 4 * (twice_area / 2) / (std::sqrt(3.0) / 4 * size * size);
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const double size = sizes(centre_of(mesh.nodes, mesh.cells[e]));
+    count += 4 * areas(e) / (std::sqrt(3.0) / 4 * size * size);
   }
   return count;
 }
@@ -131,8 +124,8 @@ class Loop {
     stage("mesh");
     Stopwatch watch;
     Mesh mesh = mesher_.mesh(sizes, spec_.recombine);
-    for (double factor = 1, again = 0; again < 3 && 2.0 * double(mesh.nodes.rows()) > 1.1 * spec_.unknowns_max;
-         ++again) {
+    double factor = 1;
+    for (int again = 0; again < 3 && 2.0 * double(mesh.nodes.rows()) > 1.1 * spec_.unknowns_max; ++again) {
       factor *= std::sqrt(2.0 * double(mesh.nodes.rows()) / spec_.unknowns_max);
       mesh = mesher_.mesh([&](const Vec2& x) { return factor * sizes(x); }, spec_.recombine);
       at_limit_ = true;
@@ -141,7 +134,7 @@ class Loop {
     Results r = solve_scene(scene_, std::move(mesh), stage, start);
     r.seconds.mesh = meshing;
     stage("estimate");
-    estimate(r, {.excluded = spec_.exclude, .goal = spec_});
+    estimate(r, spec_);
     std::ostringstream text;
     text.precision(2);
     text << " (" << to_string(spec_.of) << " was within " << 100 * estimated(r) << " % with " << free_unknowns(r)
@@ -198,13 +191,13 @@ class Loop {
     const ErrorEstimate& e = *r.estimate;
     // What was asked of another quantity, as an error of p that is as far above what it should be.
     const double found = estimated(r), asked = spec_.value * (spec_.of == Goal::pressure ? 1 : e.pressure() / found);
-    const double target = std::max(0.7 * asked, e.pressure() / largest_step) / error_safety;
+    const double target = std::max(aimed * asked, e.pressure() / largest_step) / error_safety;
     ErrorFactors factors{.line = std::clamp(e.line() / (0.8 * target), 0.4, largest_step),
                          .far_field = std::clamp(e.far_field() / (0.5 * target), 0.25, 5 * largest_step),
                          .target = target};
-    if (spec_.of == Goal::half_width) factors.border = found / (0.7 * spec_.value);
+    if (spec_.of == Goal::half_width) factors.border = found / (aimed * spec_.value);
     if (e.goal) {
-      const double each = 0.5 * 0.7 * spec_.value * e.goal->value.norm() / error_safety;
+      const double each = 0.5 * aimed * spec_.value * e.goal->value.norm() / error_safety;
       factors.line = std::clamp(e.goal->local / each, 0.4, largest_step);
       factors.far_field = std::clamp(e.goal->far.norm() / each, 0.25, 5 * largest_step);
     }
@@ -213,7 +206,7 @@ class Loop {
       wanted.sizes(i) = std::min(wanted.sizes(i), size_at(largest_, r.mesh.nodes.row(i).transpose()));
     const auto field = std::make_shared<SizeField>(r.mesh, wanted.sizes, std::move(wanted.layers));
     // More than may be, as far as the old mesh tells: all elements larger, and this is the last mesh.
-    const double excess = expected_unknowns(r.mesh, *field) / spec_.unknowns_max;
+    const double excess = expected_unknowns(r.mesh, e.energy.areas, *field) / spec_.unknowns_max;
     at_limit_ = excess > 1;
     return [field, factor = std::sqrt(std::max(1.0, excess))](const Vec2& x) { return factor * (*field)(x); };
   }

@@ -111,9 +111,9 @@ ActiveSet active_set(const Results& r) {
   return set;
 }
 
-void estimate(Results& r, const ErrorOptions& options) {
+void estimate(Results& r, const AccuracySpec& spec) {
   Stopwatch watch;
-  r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution, options);
+  r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution, spec);
   for (std::size_t k = 0; k < r.contacts.size(); ++k) set_bars(r.estimate->pressures[k], r.contacts[k]);
   append(r.warnings, error_warnings(r));
   r.seconds.estimate = watch.lap();

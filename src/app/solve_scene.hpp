@@ -33,7 +33,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress = {}
                     const Adjust& adjust = {});
 
 /// The estimated error into the results, and a warning where it is large.
-void estimate(Results& results, const ErrorOptions& options = {});
+void estimate(Results& results, const AccuracySpec& spec = {});
 
 /// The inf-sup constant into the results, and a warning where it is small.
 void diagnose(const Scene& scene, Results& results);

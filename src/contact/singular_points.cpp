@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/vectors.hpp"
 #include "contact/projection.hpp"
 #include "fem/edges.hpp"
 
@@ -55,8 +56,9 @@ Face face_of(const Points& nodes, const Edge& edge, const Constraints& constrain
   return along(fixed[0] ? 0 : 1) > along(fixed[0] ? 1 : 0) ? Face::antisymmetric : Face::symmetric;
 }
 
-double angle_between(const Vec2& before, const Vec2& after) {
-  return straight - std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
+// Of the body on the left where a curve goes on from one tangent to the other.
+double interior_angle(const Vec2& before, const Vec2& after) {
+  return straight - std::atan2(cross(before, after), before.dot(after));
 }
 
 // What a body is at a point of its contact line.
@@ -78,7 +80,7 @@ struct Side {
   Vec2 before(const Vertex& v) const { return line.at(v.before, 1).tangent; }
   Vec2 after(const Vertex& v) const { return line.at(v.after, -1).tangent; }
   bool is_kink(const Vertex& v) const {
-    return !v.is_end() && std::abs(angle_between(before(v), after(v)) - straight) > smooth;
+    return !v.is_end() && std::abs(interior_angle(before(v), after(v)) - straight) > smooth;
   }
   double edge_at(const Vertex& v) const {
     double length = 0;
@@ -96,12 +98,12 @@ struct Side {
 };
 
 Corner Side::corner(const Vertex& v) const {
-  if (!v.is_end()) return {wedge(angle_between(before(v), after(v)), law), false, edge_at(v)};
+  if (!v.is_end()) return {wedge(interior_angle(before(v), after(v)), law), false, edge_at(v)};
   for (const Edge& beyond : outline_at(mesh, v.node)) {
     const bool starts = beyond.nodes[0] == v.node;
     if (starts != (v.after < 0)) continue;  // the curve's own
     const Vec2 tangent = edge_point(mesh.nodes, beyond, starts ? -1 : 1).tangent;
-    const double angle = starts ? angle_between(before(v), tangent) : angle_between(tangent, after(v));
+    const double angle = starts ? interior_angle(before(v), tangent) : interior_angle(tangent, after(v));
     return {wedge(angle, law, face_of(mesh.nodes, beyond, constraints)), true, edge_at(v)};
   }
   return {wedge(straight, law), true, edge_at(v)};

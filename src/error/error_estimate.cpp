@@ -29,9 +29,7 @@ EnergyEstimate energy_estimate(const Mesh& mesh, const ErrorProducts& found) {
     const Cell& cell = mesh.cells[e];
     if (cell.body != estimate.body || !(errors(e) > largest)) continue;
     largest = errors(e);
-    const int corners = corner_count(cell.kind);
-    estimate.position.setZero();
-    for (int a = 0; a < corners; ++a) estimate.position += mesh.nodes.row(cell.nodes[a]).transpose() / corners;
+    estimate.position = centre_of(mesh.nodes, cell);
   }
   return estimate;
 }
@@ -104,16 +102,14 @@ double mean_error(const PressureLine& line, const VecX& errors, const Vec2& wind
   return length > 0 ? sum / length : 0;
 }
 
-// Columns: the components of what the options ask for; none where that is no functional.
+// Columns: the components of what is asked for; none where that is no functional.
 MatX goal_functionals(const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                      const std::vector<PressureEstimate>& pressures, const ErrorOptions& options, Eigen::Index rows) {
-  if (!options.goal) return MatX(rows, 0);
-  const int k = options.goal->pair;
-  switch (options.goal->of) {
+                      const std::vector<PressureEstimate>& pressures, const AccuracySpec& spec, Eigen::Index rows) {
+  switch (spec.of) {
     case Goal::mean:
-      return mean_functional(mesh, pairs[k], pressures[k].line, options.goal->window, rows);
+      return mean_functional(mesh, pairs[spec.pair], pressures[spec.pair].line, spec.window, rows);
     case Goal::force:
-      return force_functionals(pairs[k], rows);
+      return force_functionals(pairs[spec.pair], rows);
     case Goal::pressure:
     case Goal::peak:
     case Goal::half_width:
@@ -158,7 +154,7 @@ double ErrorEstimate::far_field() const { return error_norm(pressures, 0, 1) / s
 
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
                              const std::vector<ContactPair>& pairs, const Solution& solution,
-                             const ErrorOptions& options) {
+                             const AccuracySpec& spec) {
   const SaddlePointSystem& system = discretisation.system;
   ErrorEstimate estimate;
   Eigen::Index windows = 0;
@@ -168,14 +164,13 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
     e.local = line_error(e.line);
     e.windows = pressure_windows(pair, e.line, system.B.rows());
     e.singular = singular_on(mesh, pair, e.line, system.constraints, discretisation.laws);
-    find_excluded(options.excluded, e);
+    find_excluded(spec.exclude, e);
     windows += Eigen::Index(e.windows.size());
     estimate.pressures.push_back(std::move(e));
   }
-  std::shared_ptr<const ContactFactor> factor = solution.factor;
-
-  const MatX goal = goal_functionals(mesh, pairs, estimate.pressures, options, system.B.rows());
+  const MatX goal = goal_functionals(mesh, pairs, estimate.pressures, spec, system.B.rows());
   const Eigen::Index count = windows + goal.cols();
+  std::shared_ptr<const ContactFactor> factor = solution.factor;
   if (count > 0 && !factor) factor = factorise_contact(system, solution.active);
   MatX functionals(system.B.rows(), count), fields(system.K.cols(), 1 + count);
   functionals.rightCols(goal.cols()) = goal;
@@ -203,10 +198,10 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
     k += Eigen::Index(e.windows.size());
     find_bars(e);
   }
-  if (estimate.goal && options.goal->of == Goal::mean) {
-    const PressureEstimate& e = estimate.pressures[options.goal->pair];
-    const bool backwards = runs_backwards(mesh.nodes, pairs[options.goal->pair].multiplier);
-    estimate.goal->local = mean_error(e.line, e.local.pointwise(e.line), options.goal->window, backwards);
+  if (spec.of == Goal::mean) {
+    const PressureEstimate& e = estimate.pressures[spec.pair];
+    const bool backwards = runs_backwards(mesh.nodes, pairs[spec.pair].multiplier);
+    estimate.goal->local = mean_error(e.line, e.local.pointwise(e.line), spec.window, backwards);
   }
   return estimate;
 }

@@ -43,9 +43,6 @@ struct GoalEstimate {
   double error() const;  ///< relative, with the safety factor
 };
 
-/// The part of a loaded length that is left out of the norm on either side of a singular point, unless asked otherwise.
-inline constexpr double excluded_part = 0.1;
-
 /// By which the estimate is multiplied.
 inline constexpr double error_safety = 1.5;
 
@@ -53,7 +50,7 @@ struct ErrorEstimate {
   EnergyEstimate energy;
   std::vector<PressureEstimate> pressures;  ///< one a pair
   MatX parts;  ///< cells x windows of all pairs: int d_0 : C^-1 : d_k, the cell's part of the far field, stress
-  std::optional<GoalEstimate> goal;  ///< where options ask for one
+  std::optional<GoalEstimate> goal;  ///< where one is asked for
 
   /// L2 norms of the estimated error of p over that of p on all contact lines, singular points left out: of the whole,
   /// and of its two parts before the safety factor. NaN where nothing is loaded or all is excluded.
@@ -67,14 +64,10 @@ struct ErrorEstimate {
   double pressure_square() const;  ///< of p on these, stress^2 length
 };
 
-struct ErrorOptions {
-  double excluded = excluded_part;
-  std::optional<AccuracySpec> goal;  ///< of mean or force: its functional too
-};
-
 /// `solution`: converged or not; where it has no factor (iterative solvers) the whole system is factorised once.
+/// `spec`: what is left out, and a mean or a force that is asked for.
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
                              const std::vector<ContactPair>& pairs, const Solution& solution,
-                             const ErrorOptions& options = {});
+                             const AccuracySpec& spec = {});
 
 }  // namespace mortise

@@ -100,6 +100,13 @@ std::vector<std::string> boundary_names(const Mesh& mesh) {
   return names;
 }
 
+Vec2 centre_of(const Points& nodes, const Cell& cell) {
+  const int corners = corner_count(cell.kind);
+  Vec2 centre = Vec2::Zero();
+  for (int a = 0; a < corners; ++a) centre += nodes.row(cell.nodes[a]).transpose() / corners;
+  return centre;
+}
+
 Edge side_edge(const Cell& cell, int side) {
   const int corners = corner_count(cell.kind);
   const int start = cell.nodes[side];

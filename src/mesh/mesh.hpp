@@ -97,6 +97,9 @@ struct CellSide {
   int side;  ///< joins corner `side` to the next one, counter-clockwise
 };
 
+/// Mean of a cell's corners.
+Vec2 centre_of(const Points& nodes, const Cell& cell);
+
 /// Nodes of a side, in the cell's counter-clockwise direction: the body lies on its left.
 Edge side_edge(const Cell& cell, int side);
 

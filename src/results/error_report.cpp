@@ -30,9 +30,7 @@ std::string largest_error(const Results& r) {
       Eigen::Index cell = 0;
       estimate.parts.cwiseAbs().rowwise().sum().maxCoeff(&cell);
       const Cell& at = r.mesh.cells[cell];
-      Vec2 centre = Vec2::Zero();
-      for (int a = 0; a < corner_count(at.kind); ++a) centre += r.mesh.nodes.row(at.nodes[a]) / corner_count(at.kind);
-      words = "the mesh of body '" + r.mesh.bodies[at.body] + "' " + near_point(centre);
+      words = "the mesh of body '" + r.mesh.bodies[at.body] + "' " + near_point(centre_of(r.mesh.nodes, at));
     }
     if (!(e.local2 > largest)) continue;
     largest = e.local2;

@@ -76,8 +76,14 @@ Json accuracy_json(const Results& r) {
   Json solves = Json::array();
   for (const AccuracyReport::Solve& s : a.solves)
     solves.push_back({{"unknowns", s.unknowns}, {"estimated", s.estimated}, {"seconds", s.seconds}});
-  return {
-      {"asked", a.asked}, {"reached", a.reached()}, {"reason", a.reason}, {"excluded", a.excluded}, {"solves", solves}};
+  return {{"of", to_string(a.of)},
+          {"value", r.estimate->goal ? Json(std::vector(r.estimate->goal->value.begin(), r.estimate->goal->value.end()))
+                                     : Json()},
+          {"asked", a.asked},
+          {"reached", a.reached()},
+          {"reason", a.reason},
+          {"excluded", a.excluded},
+          {"solves", solves}};
 }
 
 Json steps_json(const Results& r) {
@@ -160,8 +166,11 @@ void print_accuracy(const Results& r, std::ostream& out) {
                                           {Goal::half_width, "half-width of contact"},
                                           {Goal::mean, "mean p"},
                                           {Goal::force, "force"}};
-  out << std::setprecision(2) << "  accuracy  " << words.at(r.accuracy ? r.accuracy->of : Goal::pressure) << " within "
-      << 100 * found << " %";
+  out << std::setprecision(2) << "  accuracy  " << words.at(r.accuracy ? r.accuracy->of : Goal::pressure);
+  if (std::isfinite(found))
+    out << " within " << 100 * found << " %";
+  else
+    out << " not known";
   if (r.accuracy) {
     const AccuracyReport& a = *r.accuracy;
     out << " (asked " << 100 * a.asked << " %): "

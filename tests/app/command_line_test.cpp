@@ -92,6 +92,18 @@ TEST(CommandLine, AnAccuracyIsAskedForAndToldWithWhatIsLeftOut) {
   EXPECT_EQ(less.status, 2) << less.err;
   EXPECT_NE(less.out.find("not reached: unknowns_max; largest part: "), std::string::npos) << less.out;
   EXPECT_EQ(summary(folder.path("run"))["status"], "not_converged");
+
+  const auto mean = [&](const std::string& window) {
+    return mortise({"solve", geo("hertz.toml"), "--accuracy", "5%", "--set", "accuracy.of=mean", "--set",
+                    "accuracy.window=" + window, "-o", folder.path("run")});
+  };
+  EXPECT_EQ(mean("[0, 0.005]").status, 0);
+  const auto of_mean = summary(folder.path("run"))["accuracy"];
+  EXPECT_EQ(of_mean["of"], "mean");
+  EXPECT_NEAR(of_mean["value"][0].get<double>(), 556.46e6, 0.05 * 556.46e6);
+  const Outcome open = mean("[0.3, 0.5]");
+  EXPECT_EQ(open.status, 2);
+  EXPECT_NE(open.out.find("mean p not known (asked 5 %)"), std::string::npos) << open.out;
 }
 
 TEST(CommandLine, ContactCsvHasOneRowANodeOrderedByArcLength) {
