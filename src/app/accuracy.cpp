@@ -134,7 +134,11 @@ class Loop {
     Results r = solve_scene(scene_, std::move(mesh), stage, start);
     r.seconds.mesh = meshing;
     stage("estimate");
-    estimate(r, spec_);
+    try {
+      estimate(r, spec_);
+    } catch (const SceneError& error) {
+      throw InputError(scene_.path + ": " + error.what());
+    }
     std::ostringstream text;
     text.precision(2);
     text << " (" << to_string(spec_.of) << " was within " << 100 * estimated(r) << " % with " << free_unknowns(r)
@@ -153,6 +157,8 @@ class Loop {
         return r.estimate->half_width();
       case Goal::mean:
       case Goal::force:
+      case Goal::displacement:
+      case Goal::stress:
         return r.estimate->goal->error();
     }
     return 0;
@@ -199,7 +205,7 @@ class Loop {
     if (e.goal) {
       const double each = 0.5 * aimed * spec_.value * e.goal->value.norm() / error_safety;
       factors.line = std::clamp(e.goal->local / each, 0.4, largest_step);
-      factors.far_field = std::clamp(e.goal->far.norm() / each, 0.25, 5 * largest_step);
+      factors.far_field = std::clamp(e.goal->far() / each, 0.25, 5 * largest_step);
     }
     WantedSizes wanted = wanted_sizes(r.mesh, r.pairs, e, factors);
     for (Eigen::Index i = 0; i < wanted.sizes.size(); ++i)

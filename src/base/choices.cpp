@@ -73,6 +73,10 @@ std::string to_string(Goal value) {
       return "mean";
     case Goal::force:
       return "force";
+    case Goal::displacement:
+      return "displacement";
+    case Goal::stress:
+      return "stress";
   }
   assert(false && "no such Goal");
   return {};

@@ -19,7 +19,7 @@ enum class Multipliers { quadratic, linear, dual };
 
 /// What an accuracy is asked of: the pressure along all contact lines, its largest value, half the width of a contact,
 /// the mean pressure over a part of a line, the force of a pair.
-enum class Goal { pressure, peak, half_width, mean, force };
+enum class Goal { pressure, peak, half_width, mean, force, displacement, stress };
 
 /// direct: a factorisation of all bodies; mssor: block SSOR on all of them; ddm: domain decomposition.
 enum class Solver { direct, mssor, ddm };

@@ -170,4 +170,16 @@ std::vector<SingularPoint> singular_points(const Mesh& mesh, const Curve& first,
   return points;
 }
 
+double corner_exponent(const Mesh& mesh, int node, const Constraints& constraints, const ElasticLaw& law) {
+  const std::vector<Edge> outline = outline_at(mesh, node);
+  if (outline.size() != 2) return 1;
+  const bool ordered = outline[0].nodes[1] == node;
+  const Edge &before = outline[ordered ? 0 : 1], &after = outline[ordered ? 1 : 0];
+  const double angle =
+      interior_angle(edge_point(mesh.nodes, before, 1).tangent, edge_point(mesh.nodes, after, -1).tangent);
+  return wedge_exponent(wedge(angle, law, face_of(mesh.nodes, before, constraints)),
+                        face_of(mesh.nodes, after, constraints))
+      .real();
+}
+
 }  // namespace mortise

@@ -89,38 +89,7 @@ double error_norm(const std::vector<PressureEstimate>& pressures, double local, 
   return std::sqrt(error);
 }
 
-// Mean of the errors at the vertices of the edges that have a part in the window.
-double mean_error(const PressureLine& line, const VecX& errors, const Vec2& window, bool backwards) {
-  const Eigen::Index last = line.s.size() - 1;
-  double sum = 0, length = 0;
-  for (Eigen::Index e = 0; e < last; ++e) {
-    const double start = backwards ? line.s(last) - line.s(e + 1) : line.s(e), h = line.s(e + 1) - line.s(e);
-    if (start > window(1) || start + h < window(0)) continue;
-    sum += h * (errors(e) + errors(e + 1)) / 2;
-    length += h;
-  }
-  return length > 0 ? sum / length : 0;
-}
-
-// Columns: the components of what is asked for; none where that is no functional.
-MatX goal_functionals(const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                      const std::vector<PressureEstimate>& pressures, const AccuracySpec& spec, Eigen::Index rows) {
-  switch (spec.of) {
-    case Goal::mean:
-      return mean_functional(mesh, pairs[spec.pair], pressures[spec.pair].line, spec.window, rows);
-    case Goal::force:
-      return force_functionals(pairs[spec.pair], rows);
-    case Goal::pressure:
-    case Goal::peak:
-    case Goal::half_width:
-      break;
-  }
-  return MatX(rows, 0);
-}
-
 }  // namespace
-
-double GoalEstimate::error() const { return error_safety * (far.norm() + local) / value.norm(); }
 
 double ErrorEstimate::peak() const {
   double p = 0, bar = std::numeric_limits<double>::quiet_NaN();
@@ -168,29 +137,26 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
     windows += Eigen::Index(e.windows.size());
     estimate.pressures.push_back(std::move(e));
   }
-  const MatX goal = goal_functionals(mesh, pairs, estimate.pressures, spec, system.B.rows());
-  const Eigen::Index count = windows + goal.cols();
+  const GoalFunctionals goal =
+      goal_functionals(mesh, discretisation, pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
+  const Eigen::Index goals = goal.rows.cols(), count = windows + goals;
   std::shared_ptr<const ContactFactor> factor = solution.factor;
   if (count > 0 && !factor) factor = factorise_contact(system, solution.active);
   MatX functionals(system.B.rows(), count), fields(system.K.cols(), 1 + count);
-  functionals.rightCols(goal.cols()) = goal;
+  functionals.rightCols(goals) = goal.rows;
   Eigen::Index k = 0;
   for (const PressureEstimate& e : estimate.pressures)
     for (const PressureWindow& window : e.windows) functionals.col(k++) = window.weights;
   fields.col(0) = solution.u;
-  if (count > 0) fields.rightCols(count) = factor->duals(functionals);
+  if (count > 0) fields.rightCols(count) = factor->duals(functionals, goal.loads);
   const std::vector<ElasticLaw>& laws = discretisation.laws;
   const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, fields));
   const ErrorProducts found = error_products(mesh, points, laws, fields, patches);
   estimate.energy = energy_estimate(mesh, found);
   estimate.parts = found.products.middleCols(1, windows);
-  if (goal.cols() > 0) {
-    const MatX parts = found.products.rightCols(goal.cols());
-    estimate.goal = GoalEstimate{.value = -goal.transpose() * solution.lambda,
-                                 .far = parts.cwiseAbs().colwise().sum(),
-                                 .local = 0,
-                                 .parts = parts};
-  }
+  if (goals > 0) estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
+  if (spec.of == Goal::stress)
+    add_stress_error(mesh, points, discretisation, goal, solution.u, patches, *estimate.goal);
   const VecX far = estimate.parts.cwiseAbs().colwise().sum();
   k = 0;
   for (PressureEstimate& e : estimate.pressures) {
@@ -200,8 +166,7 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
   }
   if (spec.of == Goal::mean) {
     const PressureEstimate& e = estimate.pressures[spec.pair];
-    const bool backwards = runs_backwards(mesh.nodes, pairs[spec.pair].multiplier);
-    estimate.goal->local = mean_error(e.line, e.local.pointwise(e.line), spec.window, backwards);
+    estimate.goal->local = mean_error(mesh, pairs[spec.pair], e.line, e.local.pointwise(e.line), spec.window);
   }
   return estimate;
 }

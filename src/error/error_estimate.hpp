@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/singular_points.hpp"
+#include "error/goal_estimate.hpp"
 #include "error/pressure_windows.hpp"
 #include "mesh/body_points.hpp"
 
@@ -34,18 +35,6 @@ struct PressureEstimate {
   double local2 = 0, far2 = 0, p2 = 0;
 };
 
-/// A functional of p that an accuracy is asked of, by the same dual solutions.
-struct GoalEstimate {
-  VecX value;            ///< of each of its components
-  VecX far;              ///< what each may be off by: the sum of the cells' parts without their signs
-  double local = 0;      ///< and what p along the line is off by there, of a mean
-  MatX parts;            ///< cells x components
-  double error() const;  ///< relative, with the safety factor
-};
-
-/// By which the estimate is multiplied.
-inline constexpr double error_safety = 1.5;
-
 struct ErrorEstimate {
   EnergyEstimate energy;
   std::vector<PressureEstimate> pressures;  ///< one a pair
@@ -65,7 +54,7 @@ struct ErrorEstimate {
 };
 
 /// `solution`: converged or not; where it has no factor (iterative solvers) the whole system is factorised once.
-/// `spec`: what is left out, and a mean or a force that is asked for.
+/// `spec`: what is left out, and a functional that is asked for. Throws SceneError as goal_functionals does.
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
                              const std::vector<ContactPair>& pairs, const Solution& solution,
                              const AccuracySpec& spec = {});

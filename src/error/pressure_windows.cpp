@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "fem/edges.hpp"
-#include "fem/quadrature.hpp"
 
 namespace mortise {
 namespace {
@@ -12,7 +11,8 @@ namespace {
 constexpr int windows_a_piece = 3, most_windows = 9;
 constexpr double half_width = 0.3;  // of the distance between two centres
 
-// Adds what weight times -lambda at a place is of the rows' values.
+}  // namespace
+
 void add_pressure_at(const ContactPair& pair, int edge, double xi, double weight, VecX& weights) {
   const auto& on = pair.coupling.on_edge[edge];
   const int nodes = on[2] >= 0 ? 3 : 2;
@@ -20,8 +20,6 @@ void add_pressure_at(const ContactPair& pair, int edge, double xi, double weight
   for (int i = 0; i < nodes; ++i)
     if (const int row = pair.coupling.row[on[i]]; row >= 0) weights(pair.first_row + row) += weight * shape.N[i];
 }
-
-}  // namespace
 
 std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line, Eigen::Index rows) {
   const Eigen::Index edges = line.p.size() - 1;
@@ -65,38 +63,6 @@ std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const Pres
     windows[k].weights /= mass(k);
   }
   return windows;
-}
-
-VecX mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const Vec2& window,
-                     Eigen::Index rows) {
-  const double length = line.s(line.s.size() - 1);
-  const bool backwards = runs_backwards(mesh.nodes, pair.multiplier);
-  const double from = backwards ? length - window(1) : window(0), to = backwards ? length - window(0) : window(1);
-  const LineRule rule = gauss_legendre(3);
-  VecX weights = VecX::Zero(rows);
-  double mass = 0;
-  for (int e = 0; e < int(pair.multiplier.edges.size()); ++e) {
-    // The edge's part in the window, -1 ... 1 along it.
-    const double h = line.s(e + 1) - line.s(e), start = std::max(-1.0, 2 * (from - line.s(e)) / h - 1),
-                 end = std::min(1.0, 2 * (to - line.s(e)) / h - 1);
-    for (std::size_t q = 0; start < end && q < rule.points.size(); ++q) {
-      const double xi = (start + end) / 2 + (end - start) / 2 * rule.points[q];
-      const double ds =
-          rule.weights[q] * (end - start) / 2 * edge_point(mesh.nodes, pair.multiplier.edges[e], xi).jacobian();
-      mass += ds;
-      add_pressure_at(pair, e, xi, ds, weights);
-    }
-  }
-  if (mass > 0) weights /= mass;
-  return weights;
-}
-
-MatX force_functionals(const ContactPair& pair, Eigen::Index rows) {
-  MatX weights = MatX::Zero(rows, 2);
-  for (const int node : curve_nodes(pair.multiplier))
-    for (int c = 0; c < 2; ++c)
-      weights.col(c).segment(pair.first_row, pair.coupling.B.rows()) += pair.coupling.B.col(2 * node + c);
-  return weights;
 }
 
 }  // namespace mortise

@@ -15,12 +15,8 @@ struct PressureWindow {
 /// each further piece up to nine. None where nothing is loaded. `rows`: of all pairs.
 std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line, Eigen::Index rows);
 
-/// One column: the mean of p between two arc lengths (as in contact.csv) of the multiplier side is minus it times
-/// lambda. Zero where the line does not face the other side there.
-VecX mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const Vec2& window,
-                     Eigen::Index rows);
-
-/// Two columns: the components of the force on the multiplier side's body are minus them times lambda.
-MatX force_functionals(const ContactPair& pair, Eigen::Index rows);
+/// Adds weight times -lambda at a place of the multiplier side, as the rows' values make it, to `weights` (rows of all
+/// pairs).
+void add_pressure_at(const ContactPair& pair, int edge, double xi, double weight, VecX& weights);
 
 }  // namespace mortise

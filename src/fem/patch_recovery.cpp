@@ -204,6 +204,18 @@ StressPatches recover_patches(const Mesh& mesh, const BodyPoints& points, const 
   return patches;
 }
 
+Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, const StressPatches& patches,
+                                    const CellPlace& place) {
+  const Cell& cell = mesh.cells[place.cell];
+  const CellShape shape = cell_shape(cell.kind, place.xi), linear = cell_shape(linear_kind(cell.kind), place.xi);
+  Vec2 x = Vec2::Zero();
+  for (int a = 0; a < node_count(cell.kind); ++a) x += shape.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(patches.coefficients.cols());
+  for (int a = 0; a < corner_count(cell.kind); ++a)
+    patches.add_at(point_of(points, cell.body, cell.nodes[a]), x, linear.N[a], sum);
+  return sum;
+}
+
 ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
                              const MatX& fields, const StressPatches& patches) {
   struct Rule {

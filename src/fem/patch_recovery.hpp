@@ -1,6 +1,7 @@
 // Stresses that are better than the elements' own, and the energy error that they show.
 #pragma once
 
+#include "fem/locate.hpp"
 #include "fem/stress.hpp"
 
 namespace mortise {
@@ -37,6 +38,11 @@ struct StressPatches {
 /// quadratic, else 1; where they are few, as on the boundary, the cells around these too.
 StressPatches recover_patches(const Mesh& mesh, const BodyPoints& points, const StressSamples& samples);
 
+/// The stresses of all fields at a place of a cell, 3 F: the patches of its vertices, blended by the linear shape
+/// functions of its corners.
+Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, const StressPatches& patches,
+                                    const CellPlace& place);
+
 /// Products of recovered errors d_k = sigma*_k - sigma_h,k, per thickness.
 struct ErrorProducts {
   MatX products;  ///< cells x F: int d_0 : C^-1 : d_k; column 0 estimates the cell's share of the squared energy norm
@@ -45,7 +51,7 @@ struct ErrorProducts {
   VecX areas;     ///< of each cell
 };
 
-/// sigma* blends the patches of a cell's vertices by the linear shape functions of its corners.
+/// sigma* as recovered_stress.
 ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
                              const MatX& fields, const StressPatches& patches);
 

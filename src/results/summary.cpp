@@ -161,12 +161,17 @@ void print_left_out(const ErrorEstimate& estimate, std::ostream& out) {
 void print_accuracy(const Results& r, std::ostream& out) {
   if (!r.estimate || !std::isfinite(r.estimate->pressure())) return;
   const double found = r.accuracy ? r.accuracy->solves.back().estimated : r.estimate->pressure();
-  const std::map<Goal, std::string> words{{Goal::pressure, "p"},
-                                          {Goal::peak, "largest p"},
-                                          {Goal::half_width, "half-width of contact"},
-                                          {Goal::mean, "mean p"},
-                                          {Goal::force, "force"}};
+  const std::map<Goal, std::string> words{
+      {Goal::pressure, "p"},   {Goal::peak, "largest p"}, {Goal::half_width, "half-width of contact"},
+      {Goal::mean, "mean p"},  {Goal::force, "force"},    {Goal::displacement, "displacement"},
+      {Goal::stress, "stress"}};
   out << std::setprecision(2) << "  accuracy  " << words.at(r.accuracy ? r.accuracy->of : Goal::pressure);
+  if (r.estimate->goal && std::isfinite(found)) {
+    const VecX& value = r.estimate->goal->value;
+    out << std::setprecision(6);
+    for (Eigen::Index i = 0; i < value.size(); ++i) out << (i == 0 ? value.size() > 1 ? " (" : " " : ", ") << value(i);
+    out << (value.size() > 1 ? ")" : "") << std::setprecision(2);
+  }
   if (std::isfinite(found))
     out << " within " << 100 * found << " %";
   else

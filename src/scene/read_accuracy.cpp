@@ -34,11 +34,17 @@ int whole(const Node& node, double least, double most) {
 
 // What only some goals have.
 void read_goal(const Node& node, int contacts, AccuracySpec& accuracy) {
-  const Node *pair = find(node, "pair"), *window = find(node, "window");
+  const Node *pair = find(node, "pair"), *window = find(node, "window"), *at = find(node, "at"),
+             *body = find(node, "body");
   const bool one_pair = accuracy.of == Goal::mean || accuracy.of == Goal::force;
   if (pair && !one_pair) fail(*pair, "goes with of = \"mean\" or \"force\"");
   if (pair) accuracy.pair = whole(*pair, 0, contacts - 1);
   if (window && accuracy.of != Goal::mean) fail(*window, "goes with of = \"mean\"");
+  const bool place = accuracy.of == Goal::displacement || accuracy.of == Goal::stress;
+  for (const Node* key : {at, body})
+    if (key && !place) fail(*key, "goes with of = \"displacement\" or \"stress\"");
+  if (place) accuracy.at = number_pair(require(node, "at", "[x, y], a place in a body"));
+  if (body) accuracy.body = text(*body);
   if (accuracy.of != Goal::mean) return;
   const Node& given = require(node, "window", "[from, to], arc lengths along the contact line");
   accuracy.window = number_pair(given);
@@ -51,10 +57,13 @@ void read_goal(const Node& node, int contacts, AccuracySpec& accuracy) {
 void read_accuracy(const Node& root, Scene& scene) {
   const Node* node = find(root, "accuracy");
   if (node == nullptr) return;
-  expect_keys(*node, {"of", "pair", "window", "value", "exclude", "unknowns_max", "first_edges", "recombine"});
+  expect_keys(*node,
+              {"of", "pair", "window", "at", "body", "value", "exclude", "unknowns_max", "first_edges", "recombine"});
   AccuracySpec accuracy;
   accuracy.of =
-      choice(find(*node, "of"), {Goal::pressure, Goal::peak, Goal::half_width, Goal::mean, Goal::force}, accuracy.of);
+      choice(find(*node, "of"),
+             {Goal::pressure, Goal::peak, Goal::half_width, Goal::mean, Goal::force, Goal::displacement, Goal::stress},
+             accuracy.of);
   accuracy.value = part(require(*node, "value", "a part such as 0.01 or \"1%\""));
   if (const Node* exclude = find(*node, "exclude")) accuracy.exclude = part(*exclude);
   if (const Node* most = find(*node, "unknowns_max")) accuracy.unknowns_max = whole(*most, 100, 1e9);

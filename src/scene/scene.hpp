@@ -76,6 +76,8 @@ struct AccuracySpec {
   Goal of = Goal::pressure;
   int pair = 0;                ///< of mean and force: the [[contact]] entry
   Vec2 window = Vec2::Zero();  ///< of mean: from, to, arc length s as in contact.csv
+  Vec2 at = Vec2::Zero();      ///< of displacement and stress: the place,
+  std::string body;            ///< and the body that has it; empty: the only one
   double value = 0;            ///< asked, relative, > 0 and < 1
   double exclude = 0.1;        ///< of the loaded length, on either side of a singular point: left out of the norm
   int unknowns_max = 1000000;

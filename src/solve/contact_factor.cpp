@@ -7,23 +7,28 @@ namespace mortise {
 ContactFactor::ContactFactor(const SaddlePointSystem& system, std::vector<int> free, BorderedCholesky factor,
                              MultiplierSystem multipliers)
     : row_scale_(system.row_scale),
+      stiffness_scale_(system.stiffness_scale),
       unknowns_(system.K.cols()),
       springs_(system.grounded.size()),
       free_(std::move(free)),
       factor_(std::move(factor)),
       multipliers_(std::move(multipliers)) {}
 
-MatX ContactFactor::duals(const MatX& functionals) const {
-  const Eigen::Index rows = functionals.rows(), count = functionals.cols();
-  MatX multipliers(rows + springs_, count);
+MatX ContactFactor::duals(const MatX& functionals, const MatX& loads) const {
+  const Eigen::Index rows = functionals.rows(), count = functionals.cols(), without_load = count - loads.cols();
+  MatX multipliers(rows + springs_, count), y = MatX::Zero(Eigen::Index(free_.size()) + rows + springs_, count);
   for (Eigen::Index k = 0; k < count; ++k) {
     VecX rhs = VecX::Zero(rows + springs_);
-    rhs.head(rows) = -functionals.col(k).cwiseQuotient(row_scale_);
+    if (k >= without_load) {
+      const VecX load = loads.col(k - without_load);
+      y.col(k) = factor_.forward(load(free_) / stiffness_scale_);
+      rhs = factor_.at_border(y.col(k));
+    }
+    rhs.head(rows) -= functionals.col(k).cwiseQuotient(row_scale_);
     multipliers.col(k) = multipliers_.solve(rhs);
   }
   MatX z = MatX::Zero(unknowns_, count);
-  z(free_, Eigen::all) =
-      factor_.backward(MatX::Zero(Eigen::Index(free_.size()) + multipliers.rows(), count), multipliers);
+  z(free_, Eigen::all) = factor_.backward(std::move(y), multipliers);
   return z;
 }
 

@@ -13,13 +13,15 @@ class ContactFactor {
   ContactFactor(const SaddlePointSystem& system, std::vector<int> free, BorderedCholesky factor,
                 MultiplierSystem multipliers);
 
-  /// Columns z, n, of K z + B^T mu = 0, no prescribed unknown moved, and B z = w on the closed rows (w a column of
-  /// `functionals`, m; mu = 0 on the others): the dual solutions of the functionals w^T lambda (Becker & Rannacher
-  /// 2001), by one backward substitution. Rigid modes of the closed rows are zero in them.
-  MatX duals(const MatX& functionals) const;
+  /// Columns z, n, of K z + B^T mu = g, no prescribed unknown moved, and B z = w on the closed rows (w a column of
+  /// `functionals`, m; mu = 0 on the others): the dual solutions of the functionals g^T u - w^T lambda (Becker &
+  /// Rannacher 2001), by one backward substitution, and a forward one of each g. Rigid modes of the closed rows are
+  /// zero in them. `loads`: the last of the g, n each; those before are zero.
+  MatX duals(const MatX& functionals, const MatX& loads = {}) const;
 
  private:
   VecX row_scale_;
+  double stiffness_scale_;
   Eigen::Index unknowns_, springs_;
   std::vector<int> free_;
   BorderedCholesky factor_;

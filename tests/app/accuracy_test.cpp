@@ -107,6 +107,50 @@ TEST(Accuracy, OfAForceThatEquilibriumGivesIsThereAtOnce) {
   EXPECT_LE(r->accuracy->solves[0].estimated, 1e-9);
 }
 
+TEST(Accuracy, OfADisplacementAndAStressOfRingsIsThatOfLame) {
+  const double p = 4830258.30258, A = (10e6 - 4 * p) / 3, B = 4 * (10e6 - p) / 3, r = 1.5;  // inner ring, 1 to 2
+  const double u = 1.3 / 210e9 * (0.4 * A * r + B / r) / std::numbers::sqrt2;
+  const VecX exact[] = {Vec2(u, u), Eigen::Vector3d(A, A, -B / (r * r))};
+  for (const char* asked : {"5%", "1%", "0.1%"})
+    for (const bool stress : {false, true}) {
+      const auto found = solve_to_accuracy(scene("rings", asked,
+                                                 {{"accuracy.of", stress ? "stress" : "displacement"},
+                                                  {"accuracy.at", "[1.0606601717798212, 1.0606601717798212]"}}));
+      ASSERT_TRUE(found && found->accuracy->reached()) << asked;
+      const double off = (found->estimate->goal->value - exact[stress]).norm() / exact[stress].norm();
+      EXPECT_LE(off, found->accuracy->asked) << asked;
+      EXPECT_LE(off, 1.5 * found->estimate->goal->error()) << asked;
+      EXPECT_LE(free_unknowns(*found), 4000) << asked;
+    }
+}
+
+TEST(Accuracy, OfAPlaceThatIsNotOneIsRefused) {
+  const auto told = [](const char* at, std::vector<Override> more = {}) {
+    for (const Override& change : {Override{"accuracy.value", "1%"}, {"accuracy.of", "stress"}, {"accuracy.at", at}})
+      more.push_back(change);
+    return message_of(
+        [&] { solve_to_accuracy(read_scene(MORTISE_SOURCE_DIR "/verification/accuracy/arm.toml", more)); });
+  };
+  expect_contains(told("[0.3, 0.25]"), "arm.toml: accuracy.at: (0.3, 0.25) lies in no body");
+  expect_contains(told("[0.8, 0]"), "lies in bodies 'arm' and 'block'; expected accuracy.body");
+  expect_contains(told("[0.3, 0.1]", {{"accuracy.body", "block"}}), "lies in no part of body 'block'");
+  expect_contains(told("[0.3, 0.1]", {{"accuracy.body", "blok"}}), "unknown body 'blok'; did you mean 'block'");
+  expect_contains(told("[0, 0]"), "the stress has no limit near (0, 0), where it grows as r^-0.29");  // clamped corner
+}
+
+TEST(Accuracy, OfAStressGoesBesideALineWhereBodiesMeet) {
+  const auto at_line = [](const std::string& body, const std::string& asked) {
+    const auto r = solve_to_accuracy(scene(
+        "parabola_1", asked, {{"accuracy.of", "stress"}, {"accuracy.at", "[0.4, 0.4]"}, {"accuracy.body", body}}));
+    EXPECT_TRUE(r->accuracy->reached()) << body;
+    return r->estimate->goal->value;
+  };
+  for (const char* body : {"upper", "lower"}) {
+    const VecX reference = at_line(body, "0.05%");
+    EXPECT_LE((at_line(body, "1%") - reference).norm(), 1e-2 * reference.norm()) << body;
+  }
+}
+
 TEST(Accuracy, OfRingsIsTheConstantPressure) {
   const auto r = solve_to_accuracy(scene("rings", "0.1%"));
   ASSERT_TRUE(r && r->accuracy->reached());
@@ -190,6 +234,9 @@ TEST(Accuracy, IsRefusedWhereItCannotBeHad) {
        {std::pair{Override{"accuracy.window", "[0, 1]"}, "accuracy.window: goes with of = \"mean\""},
         {Override{"accuracy.pair", "0"}, "accuracy.pair: goes with of = \"mean\" or \"force\""},
         {Override{"accuracy.of", "mean"}, "'window' is missing; expected [from, to]"},
+        {Override{"accuracy.at", "[0, 1]"}, "accuracy.at: goes with of = \"displacement\" or \"stress\""},
+        {Override{"accuracy.body", "upper"}, "accuracy.body: goes with of = \"displacement\" or \"stress\""},
+        {Override{"accuracy.of", "stress"}, "'at' is missing; expected [x, y], a place in a body"},
         {Override{"accuracy.of", "peek"}, "did you mean 'peak'"},
         {Override{"accuracy.recombine", "1"}, "expected true or false"},
         {Override{"accuracy.first_edges", "1"}, "expected a whole number from 2 to 100000"}})

@@ -33,6 +33,20 @@ const std::vector<std::string> all_sides{"upper_left", "upper_right", "lower_lef
 
 Wedge steel(double angle, Face outer) { return wedge(angle, elastic_law(210e9, 0.3, Plane::strain), outer); }
 
+TEST(SingularPoints, OfABodyAloneAreItsCornersByWhatHoldsThem) {
+  const Mesh mesh = test::mesh_of(TwoPlates{});
+  const ElasticLaw law = elastic_law(210e9, 0.3, Plane::strain);
+  Constraints constraints = no_constraints(mesh);
+  const Curve side = contact_curve(mesh, boundary_index(mesh, "lower_left"));
+  const int corner = side.edges.front().nodes[0], middle = side.edges.front().nodes[1];
+  EXPECT_EQ(corner_exponent(mesh, corner, constraints, law), 1);
+  EXPECT_EQ(corner_exponent(mesh, middle, constraints, law), 1);
+  for (const int c : {0, 1}) prescribe(mesh, boundary_index(mesh, "lower_left"), c, 0, constraints);
+  EXPECT_NEAR(corner_exponent(mesh, corner, constraints, law),
+              wedge_exponent(steel(90 * degree, Face::free), Face::clamped).real(), 1e-9);
+  EXPECT_EQ(corner_exponent(mesh, middle, constraints, law), 1);
+}
+
 TEST(SingularPoints, OfAFlatLineBetweenFreeOrSlidingSidesThereAreNone) {
   EXPECT_TRUE(points_of({}, {}).empty());
   EXPECT_TRUE(points_of({}, {all_sides, {0}}).empty());

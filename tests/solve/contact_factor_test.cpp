@@ -30,6 +30,27 @@ TEST(ContactFactor, DualsTellWhatLoadsDoToTheMultipliers) {
   }
 }
 
+TEST(ContactFactor, DualsOfLoadsTellWhatLoadsDoToTheDisplacements) {
+  SaddlePointSystem system = test::two_groups(false).system;
+  system.constraints.fixed[3] = 1;
+  const Eigen::Index n = system.f.size(), m = system.g.size();
+  const Solution before = solve_directly(system);
+  const VecX g = VecX::LinSpaced(n, -1, 1.5), load = VecX::LinSpaced(n, 1, -0.5), w = VecX::LinSpaced(m, -1, 2);
+  MatX functionals = MatX::Zero(m, 3);
+  functionals.col(0) = functionals.col(2) = w;
+  MatX loads = MatX::Zero(n, 2);
+  loads.col(0) = loads.col(1) = g;
+  const MatX z = before.factor->duals(functionals, loads);
+  EXPECT_EQ(z.row(3).norm(), 0);
+  EXPECT_LE((system.B * z.col(1)).norm(), 1e-10);
+  EXPECT_LE((system.B * z.col(2) - w).norm(), 1e-10);
+  EXPECT_LE((z.col(0) + z.col(1) - z.col(2)).norm(), 1e-10 * z.norm());
+  system.f += load;
+  const Solution after = solve_directly(system);
+  EXPECT_NEAR(g.dot(after.u - before.u), z.col(1).dot(load), 1e-10 * z.norm() * load.norm());
+  EXPECT_GT(std::abs(z.col(1).dot(load)), 1e-3);
+}
+
 TEST(ContactFactor, OpenRowsTakeNoPart) {
   const SaddlePointSystem system = test::two_groups(false).system;
   std::vector<char> closed(system.g.size(), 1);

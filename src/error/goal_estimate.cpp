@@ -1,0 +1,207 @@
+#include "error/goal_estimate.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <span>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/printable.hpp"
+#include "contact/singular_points.hpp"
+#include "error/pressure_windows.hpp"
+#include "fem/edges.hpp"
+#include "fem/quadrature.hpp"
+
+namespace mortise {
+namespace {
+
+struct Window {
+  double from, to;
+};
+
+// Arc lengths of the curve's edges, of those as in contact.csv.
+Window along_edges(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const Vec2& window) {
+  const double length = line.s(line.s.size() - 1);
+  return runs_backwards(mesh.nodes, pair.multiplier) ? Window{length - window(1), length - window(0)}
+                                                     : Window{window(0), window(1)};
+}
+
+// The mean of p over the window; zero where the line does not face the other side there.
+VecX mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const Window& window,
+                     Eigen::Index rows) {
+  const LineRule rule = gauss_legendre(3);
+  VecX weights = VecX::Zero(rows);
+  double mass = 0;
+  for (int e = 0; e < int(pair.multiplier.edges.size()); ++e) {
+    // The edge's part in the window, -1 ... 1 along it.
+    const double h = line.s(e + 1) - line.s(e), start = std::max(-1.0, 2 * (window.from - line.s(e)) / h - 1),
+                 end = std::min(1.0, 2 * (window.to - line.s(e)) / h - 1);
+    for (std::size_t q = 0; start < end && q < rule.points.size(); ++q) {
+      const double xi = (start + end) / 2 + (end - start) / 2 * rule.points[q];
+      const double ds =
+          rule.weights[q] * (end - start) / 2 * edge_point(mesh.nodes, pair.multiplier.edges[e], xi).jacobian();
+      mass += ds;
+      add_pressure_at(pair, e, xi, ds, weights);
+    }
+  }
+  if (mass > 0) weights /= mass;
+  return weights;
+}
+
+MatX force_functionals(const ContactPair& pair, Eigen::Index rows) {
+  MatX weights = MatX::Zero(rows, 2);
+  for (const int node : curve_nodes(pair.multiplier))
+    for (int c = 0; c < 2; ++c)
+      weights.col(c).segment(pair.first_row, pair.coupling.B.rows()) += pair.coupling.B.col(2 * node + c);
+  return weights;
+}
+
+// The place in the body that is named, or in the only one that has it.
+CellPlace place_of(const Mesh& mesh, const AccuracySpec& spec) {
+  std::ostringstream where;
+  where << "accuracy.at: (" << spec.at.x() << ", " << spec.at.y() << ") ";
+  std::optional<CellPlace> place;
+  for (int b = 0; b < int(mesh.bodies.size()); ++b) {
+    if (!spec.body.empty() && mesh.bodies[b] != spec.body) continue;
+    const auto found = locate(mesh, b, spec.at);
+    if (found && place)
+      throw SceneError(where.str() + "lies in bodies '" + mesh.bodies[mesh.cells[place->cell].body] + "' and '" +
+                       mesh.bodies[b] + "'; expected accuracy.body = one of them");
+    if (found) place = found;
+  }
+  if (place) return *place;
+  if (!spec.body.empty() && std::ranges::count(mesh.bodies, spec.body) == 0)
+    throw SceneError("accuracy.body: " + unknown_name("body", spec.body, mesh.bodies));
+  throw SceneError(where.str() + "lies in " + (spec.body.empty() ? "no body" : "no part of body '" + spec.body + "'") +
+                   "; expected a place in one");
+}
+
+// Throws SceneError where the place is a corner at which stresses have no limit.
+void require_stress(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place, const Vec2& x) {
+  const Cell& cell = mesh.cells[place.cell];
+  const double size = (mesh.nodes.row(cell.nodes[1]) - mesh.nodes.row(cell.nodes[0])).norm();
+  for (int a = 0; a < corner_count(cell.kind); ++a) {
+    const int node = cell.nodes[a];
+    if ((mesh.nodes.row(node).transpose() - x).norm() > 1e-6 * size) continue;
+    const double exponent =
+        corner_exponent(mesh, node, discretisation.system.constraints, discretisation.laws[cell.body]);
+    if (exponent > singular_limit) continue;
+    std::ostringstream text;
+    text.precision(2);
+    text << "accuracy.at: the stress has no limit " << near_point(x) << ", where it grows as r^" << exponent - 1
+         << "; expected a place beside it, or a rounded corner";
+    throw SceneError(text.str());
+  }
+}
+
+MatX displacement_loads(const Mesh& mesh, const CellPlace& place) {
+  const Cell& cell = mesh.cells[place.cell];
+  const CellShape shape = cell_shape(cell.kind, place.xi);
+  MatX loads = MatX::Zero(2 * mesh.nodes.rows(), 2);
+  for (int a = 0; a < node_count(cell.kind); ++a)
+    for (int c = 0; c < 2; ++c) loads(2 * cell.nodes[a] + c, c) = shape.N[a];
+  return loads;
+}
+
+// Those of the body with a corner in common with a cell.
+std::vector<int> cells_around(const Mesh& mesh, int centre) {
+  const Cell& middle = mesh.cells[centre];
+  const auto corners = [](const Cell& cell) { return std::span(cell.nodes).first(corner_count(cell.kind)); };
+  std::vector<int> cells;
+  for (int e = 0; e < int(mesh.cells.size()); ++e)
+    if (mesh.cells[e].body == middle.body &&
+        std::ranges::find_first_of(corners(mesh.cells[e]), corners(middle)) != corners(mesh.cells[e]).end())
+      cells.push_back(e);
+  return cells;
+}
+
+// Of the mean stress in the cells, initial strains left out.
+MatX stress_loads(const Mesh& mesh, const ElasticLaw& law, const std::vector<int>& cells) {
+  MatX loads = MatX::Zero(2 * mesh.nodes.rows(), 3);
+  double area = 0;
+  for (const int e : cells) {
+    const Cell& cell = mesh.cells[e];
+    const CellRule rule = product_rule(cell.kind, 3);
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const CellShape shape = cell_shape(cell.kind, rule.points[q]);
+      Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero();  // (i, j) = d x_j / d xi_i
+      for (int a = 0; a < node_count(cell.kind); ++a) x_xi += shape.dN[a] * mesh.nodes.row(cell.nodes[a]);
+      const double weight = rule.weights[q] * x_xi.determinant();
+      area += weight;
+      for (int a = 0; a < node_count(cell.kind); ++a) {
+        const Vec2 d = weight * (x_xi.inverse() * shape.dN[a]);
+        const Eigen::Matrix<double, 3, 2> strain{{d.x(), 0}, {0, d.y()}, {d.y(), d.x()}};
+        loads.middleRows<2>(2 * cell.nodes[a]) += (law.stiffness({0, 1, 3}, Eigen::all) * strain).transpose();
+      }
+    }
+  }
+  return loads / area;
+}
+
+}  // namespace
+
+GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discretisation, const ContactPair& pair,
+                                 const PressureLine& line, const AccuracySpec& spec) {
+  const SaddlePointSystem& system = discretisation.system;
+  const Eigen::Index m = system.B.rows(), n = system.K.cols();
+  GoalFunctionals goal;
+  switch (spec.of) {
+    case Goal::pressure:
+    case Goal::peak:
+    case Goal::half_width:
+      break;
+    case Goal::mean:
+      goal.rows = mean_functional(mesh, pair, line, along_edges(mesh, pair, line, spec.window), m);
+      break;
+    case Goal::force:
+      goal.rows = force_functionals(pair, m);
+      break;
+    case Goal::displacement:
+      goal.place = place_of(mesh, spec);
+      goal.loads = displacement_loads(mesh, *goal.place);
+      break;
+    case Goal::stress:
+      goal.place = place_of(mesh, spec);
+      require_stress(mesh, discretisation, *goal.place, spec.at);
+      goal.loads = stress_loads(mesh, discretisation.laws[mesh.cells[goal.place->cell].body],
+                                cells_around(mesh, goal.place->cell));
+      break;
+  }
+  const Eigen::Index components = std::max(goal.rows.cols(), goal.loads.cols());
+  if (goal.rows.cols() < components || components == 0) goal.rows = MatX::Zero(m, components);
+  if (goal.loads.cols() < components || components == 0) goal.loads = MatX::Zero(n, components);
+  return goal;
+}
+
+GoalEstimate goal_estimate(const GoalFunctionals& functionals, const Solution& solution, MatX parts) {
+  return {.value = functionals.loads.transpose() * solution.u - functionals.rows.transpose() * solution.lambda,
+          .parts = std::move(parts)};
+}
+
+void add_stress_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
+                      const GoalFunctionals& functionals, const VecX& u, const StressPatches& patches,
+                      GoalEstimate& goal) {
+  const CellPlace& place = *functionals.place;
+  const Cell& cell = mesh.cells[place.cell];
+  const ElasticLaw& law = discretisation.laws[cell.body];
+  const Eigen::Vector3d recovered = recovered_stress(mesh, points, patches, place).head<3>().transpose();
+  const Vec4 own = stress_at(mesh, cell, law, u, cell_shape(cell.kind, place.xi)) - law.stress0;
+  goal.value = recovered + law.stress0({0, 1, 3});
+  goal.parts.row(place.cell) =
+      goal.parts.row(place.cell).cwiseAbs() + (recovered - own({0, 1, 3})).cwiseAbs().transpose();
+}
+
+double mean_error(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& errors,
+                  const Vec2& window) {
+  const Window along = along_edges(mesh, pair, line, window);
+  double sum = 0, length = 0;
+  for (Eigen::Index e = 0; e + 1 < line.s.size(); ++e) {
+    const double h = line.s(e + 1) - line.s(e);
+    if (line.s(e) > along.to || line.s(e) + h < along.from) continue;
+    sum += h * (errors(e) + errors(e + 1)) / 2;
+    length += h;
+  }
+  return length > 0 ? sum / length : 0;
+}
+
+}  // namespace mortise

@@ -1,0 +1,49 @@
+// What else than p along the lines an accuracy can be asked of, as functionals of the solution.
+#pragma once
+
+#include "error/pressure_line.hpp"
+#include "fem/locate.hpp"
+#include "fem/patch_recovery.hpp"
+#include "problem/discretisation.hpp"
+#include "solve/solution.hpp"
+
+namespace mortise {
+
+/// By which estimates are multiplied.
+inline constexpr double error_safety = 1.5;
+
+/// A column a component: loads^T u - rows^T lambda. No columns where no functional is asked for.
+struct GoalFunctionals {
+  MatX rows;   ///< m x components: of the mean (1), of the force on the multiplier side's body (2)
+  MatX loads;  ///< n x components: of a displacement (2), of a stress (11, 22, 12), its mean over the cells around
+  std::optional<CellPlace> place;  ///< of a displacement or a stress
+};
+
+/// `line`: of spec.pair. Throws SceneError where spec.at lies in no body or, none being named, in several; and for a
+/// stress where it is a corner at which that has no limit.
+GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discretisation, const ContactPair& pair,
+                                 const PressureLine& line, const AccuracySpec& spec);
+
+/// The values, and what they may be off by.
+struct GoalEstimate {
+  VecX value;        ///< of each component; of a stress the recovered one at the place
+  MatX parts;        ///< cells x components: of each cell in the error, its sign as it came
+  double local = 0;  ///< of a mean of p: mean of its local error
+  double far() const { return parts.cwiseAbs().colwise().sum().norm(); }
+  double error() const { return error_safety * (far() + local) / value.norm(); }  ///< relative
+};
+
+/// `parts`: cells x components, of the functionals' duals (ErrorProducts).
+GoalEstimate goal_estimate(const GoalFunctionals& functionals, const Solution& solution, MatX parts);
+
+/// The value of a stress becomes the recovered one; by what the elements' own differs from it there, the cell that has
+/// the place has a larger part. `patches`: u in its first field.
+void add_stress_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
+                      const GoalFunctionals& functionals, const VecX& u, const StressPatches& patches,
+                      GoalEstimate& goal);
+
+/// Mean of the errors at the vertices of the edges that have a part in the window of spec.
+double mean_error(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& errors,
+                  const Vec2& window);
+
+}  // namespace mortise

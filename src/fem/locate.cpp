@@ -1,0 +1,60 @@
+#include "fem/locate.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+namespace mortise {
+namespace {
+
+constexpr double reach = 0.1;  // of a cell's size
+
+Vec2 into_cell(CellKind kind, const Vec2& xi) {
+  if (corner_count(kind) == 4) return xi.cwiseMax(-1).cwiseMin(1);
+  const Vec2 inside = xi.cwiseMax(0);
+  const double sum = inside.sum();
+  if (sum <= 1) return inside;
+  const double first = std::clamp((1 + inside(0) - inside(1)) / 2, 0.0, 1.0);  // on the side from (1, 0) to (0, 1)
+  return {first, 1 - first};
+}
+
+// Newton's method, held to the cell at each step.
+CellPlace nearest_in(const Mesh& mesh, int e, const Vec2& x) {
+  const Cell& cell = mesh.cells[e];
+  CellPlace place{e, reference_centre(cell.kind), 0};
+  for (int step = 0;; ++step) {
+    const CellShape shape = cell_shape(cell.kind, place.xi);
+    Vec2 at = Vec2::Zero();
+    Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero();  // (i, j) = d x_i / d xi_j
+    for (int a = 0; a < node_count(cell.kind); ++a) {
+      const Vec2 node = mesh.nodes.row(cell.nodes[a]).transpose();
+      at += shape.N[a] * node;
+      x_xi += node * shape.dN[a].transpose();
+    }
+    place.distance = (x - at).norm();
+    const Vec2 next = into_cell(cell.kind, place.xi + x_xi.inverse() * (x - at));
+    if (step == 20 || (next - place.xi).norm() < 1e-14) return place;
+    place.xi = next;
+  }
+}
+
+}  // namespace
+
+std::optional<CellPlace> locate(const Mesh& mesh, int body, const Vec2& x) {
+  std::optional<CellPlace> nearest;
+  for (int e = 0; e < int(mesh.cells.size()); ++e) {
+    const Cell& cell = mesh.cells[e];
+    if (cell.body != body) continue;
+    Vec2 low = mesh.nodes.row(cell.nodes[0]).transpose(), high = low;
+    for (int a = 1; a < node_count(cell.kind); ++a) {
+      low = low.cwiseMin(mesh.nodes.row(cell.nodes[a]).transpose());
+      high = high.cwiseMax(mesh.nodes.row(cell.nodes[a]).transpose());
+    }
+    const double allowed = reach * (high - low).norm();
+    if (((x - low).array() < -allowed).any() || ((x - high).array() > allowed).any()) continue;
+    const CellPlace place = nearest_in(mesh, e, x);
+    if (place.distance <= allowed && (!nearest || place.distance < nearest->distance)) nearest = place;
+  }
+  return nearest;
+}
+
+}  // namespace mortise
