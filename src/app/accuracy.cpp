@@ -81,7 +81,7 @@ class Loop {
         mesher_(scene.mesh_file, scene.mesh_parameters, scene.geo_limits),
         largest_(sizes_of(mesher_.curves(), scene, std::min(spec_.first_edges, least_edges))) {}
 
-  std::optional<Results> run() {
+  std::optional<Results> run(const std::string& msh) {
     std::optional<Results> last;
     AccuracyReport report{.of = spec_.of, .asked = spec_.value, .excluded = spec_.exclude, .solves = {}, .reason = {}};
     Seconds seconds;
@@ -108,6 +108,7 @@ class Loop {
       if (!last) throw;
       report.reason = error.what();
     }
+    if (!msh.empty()) mesher_.mesh(solved_, spec_.recombine, msh);
     last->seconds = seconds;
     if (!report.reached()) last->status = std::max(last->status, Status::not_converged);
     last->accuracy = std::move(report);
@@ -123,16 +124,18 @@ class Loop {
     };
     stage("mesh");
     Stopwatch watch;
-    Mesh mesh = mesher_.mesh(sizes, spec_.recombine);
     double factor = 1;
+    const SizeAt held = [&](const Vec2& x) { return factor * sizes(x); };
+    Mesh mesh = mesher_.mesh(held, spec_.recombine);
     for (int again = 0; again < 3 && 2.0 * double(mesh.nodes.rows()) > 1.1 * spec_.unknowns_max; ++again) {
       factor *= std::sqrt(2.0 * double(mesh.nodes.rows()) / spec_.unknowns_max);
-      mesh = mesher_.mesh([&](const Vec2& x) { return factor * sizes(x); }, spec_.recombine);
+      mesh = mesher_.mesh(held, spec_.recombine);
       at_limit_ = true;
     }
     const double meshing = watch.lap();
     Results r = solve_scene(scene_, std::move(mesh), stage, start);
     r.seconds.mesh = meshing;
+    solved_ = [sizes, factor](const Vec2& x) { return factor * sizes(x); };
     stage("estimate");
     try {
       estimate(r, spec_);
@@ -223,6 +226,7 @@ class Loop {
   const std::function<bool()>& interrupted_;
   FreeMesher mesher_;
   std::vector<SizedPlace> largest_;  // sizes that no mesh goes above
+  SizeAt solved_;                    // of the last mesh that was solved on
   std::string told_;                 // of the solve before, in the progress line
   bool at_limit_ = false;            // the mesh has been held to unknowns_max
 };
@@ -230,8 +234,8 @@ class Loop {
 }  // namespace
 
 std::optional<Results> solve_to_accuracy(const Scene& scene, const Progress& progress,
-                                         const std::function<bool()>& interrupted) {
-  return Loop(scene, progress, interrupted).run();
+                                         const std::function<bool()>& interrupted, const std::string& msh) {
+  return Loop(scene, progress, interrupted).run(msh);
 }
 
 }  // namespace mortise

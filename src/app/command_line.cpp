@@ -68,21 +68,23 @@ int exit_code(Status status) { return status == Status::solved ? 0 : 2; }
 
 std::atomic<bool> interrupted = false;
 
-// Results of the mesh that the file has, or of the one that is found for the accuracy asked for.
+// On the mesh that is found for the accuracy asked for; `msh`: a file to write it to, "" for none.
+Results solve_to_accuracy(const Scene& scene, const StageLine& line, const std::string& msh) {
+  // The first Ctrl-C asks for the last complete answer, a second one ends the run.
+  const auto old = std::signal(SIGINT, [](int) {
+    interrupted = true;
+    std::signal(SIGINT, SIG_DFL);
+  });
+  auto found = solve_to_accuracy(
+      scene, [&](const std::string& name) { line(name); }, [] { return interrupted.load(); }, msh);
+  std::signal(SIGINT, old);
+  if (!found) throw InputError(scene.path + ": interrupted before the first solve was complete");
+  return *std::move(found);
+}
+
 Results solve(const Scene& scene, const Options& options, const StageLine& line) {
-  const auto stage = [&](const std::string& name) { line(name); };
-  if (scene.accuracy) {
-    // The first Ctrl-C asks for the last complete answer, a second one ends the run.
-    const auto old = std::signal(SIGINT, [](int) {
-      interrupted = true;
-      std::signal(SIGINT, SIG_DFL);
-    });
-    auto found = solve_to_accuracy(scene, stage, [] { return interrupted.load(); });
-    std::signal(SIGINT, old);
-    if (!found) throw InputError(scene.path + ": interrupted before the first solve was complete");
-    return *std::move(found);
-  }
-  Results results = solve_scene(scene, stage);
+  if (scene.accuracy) return solve_to_accuracy(scene, line, "");
+  Results results = solve_scene(scene, [&](const std::string& name) { line(name); });
   if (!options.no_estimate) {
     line("estimate");
     estimate(results);
@@ -136,9 +138,15 @@ int mesh(const Options& options) {
   const std::filesystem::path output = options.output.empty() ? "out/" + stem(options) + ".msh" : options.output;
   check_msh_target(output.string(), {scene.path, scene.mesh_file});
   if (output.has_parent_path()) std::filesystem::create_directories(output.parent_path());
-  write_msh(scene.mesh_file, scene.mesh_parameters, output.string(), scene.geo_limits);
+  Status status = Status::solved;
+  if (scene.accuracy)
+    status = solve_to_accuracy(scene, StageLine(options.quiet), output.string()).status;
+  else
+    write_msh(scene.mesh_file, scene.mesh_parameters, output.string(), scene.geo_limits);
   if (!options.quiet) std::cout << output.string() << "\n";
-  return 0;
+  if (status != Status::solved)
+    std::cerr << "mortise: " << scene.path << ": " << to_string(status) << " on this mesh (mortise solve says more)\n";
+  return exit_code(status);
 }
 
 int sweep(const Options& options) {
@@ -186,14 +194,18 @@ int parse_and_run(int argc, const char* const* argv) {
                       "find the inf-sup constant too: do the meshes control the pressure?");
   };
   add_diagnose(solve_command);
-  CLI::Option* accuracy = solve_command->add_option(
-      "--accuracy", options.accuracy, "find a mesh on which the contact pressure is right to this part, such as 1%");
+  const auto add_accuracy = [&](CLI::App* command) {
+    return command->add_option("--accuracy", options.accuracy,
+                               "find a mesh on which the contact pressure is right to this part, such as 1%");
+  };
+  CLI::Option* accuracy = add_accuracy(solve_command);
   solve_command->add_flag("--no-estimate", options.no_estimate, "do not estimate the discretisation error")
       ->excludes(accuracy);
   CLI::App* check_command =
       add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
   CLI::App* mesh_command =
       add_command(app, "mesh", "write the mesh of a scene", options, ".msh to write (default: out/SCENE.msh)");
+  add_accuracy(mesh_command);
   CLI::App* sweep_command = add_command(
       app, "sweep", "solve a scene many times, one CSV row a run; each starts from the contact of the one before",
       options, ".csv to write (default: out/SCENE_sweep.csv)");

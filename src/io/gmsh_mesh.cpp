@@ -18,23 +18,6 @@ namespace fs = std::filesystem;
 
 bool is_msh(const std::string& file) { return fs::path(file).extension() == ".msh"; }
 
-void write_open_mesh(GmshSession& session, GmshGuard& guard, const Mesh& mesh, const std::string& output) {
-  StagedFile staged(output);
-  guard.remove_at_end(staged.path().string());
-  session.write(staged.path().string());
-  // gmsh does not ask whether the disk took what it wrote.
-  const auto fail = [&](const std::string& why) { throw InputError(output + ": cannot be written: " + why); };
-  try {
-    const Mesh written = assemble_mesh(read_msh(staged.path().string()));
-    if (written.nodes.rows() == mesh.nodes.rows() && written.cells.size() == mesh.cells.size()) return staged.commit();
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    const std::size_t start = text.rfind(staged.path().string(), 0) == 0 ? staged.path().string().size() : 0;
-    fail("what was written cannot be read back (is the disk full?)" + text.substr(start));
-  }
-  fail("what was written is not the whole mesh (is the disk full?)");
-}
-
 }  // namespace
 
 void check_mesh_file(const std::string& file, const std::map<std::string, double>& parameters,
@@ -85,6 +68,23 @@ void write_msh(const std::string& file, const std::map<std::string, double>& par
   GmshSession session;
   session.open(file, parameters);
   write_open_mesh(session, guard, assemble_mesh(gmsh_data(file)), output);
+}
+
+void write_open_mesh(GmshSession& session, GmshGuard& guard, const Mesh& mesh, const std::string& output) {
+  StagedFile staged(output);
+  guard.remove_at_end(staged.path().string());
+  session.write(staged.path().string());
+  // gmsh does not ask whether the disk took what it wrote.
+  const auto fail = [&](const std::string& why) { throw InputError(output + ": cannot be written: " + why); };
+  try {
+    const Mesh written = assemble_mesh(read_msh(staged.path().string()));
+    if (written.nodes.rows() == mesh.nodes.rows() && written.cells.size() == mesh.cells.size()) return staged.commit();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    const std::size_t start = text.rfind(staged.path().string(), 0) == 0 ? staged.path().string().size() : 0;
+    fail("what was written cannot be read back (is the disk full?)" + text.substr(start));
+  }
+  fail("what was written is not the whole mesh (is the disk full?)");
 }
 
 }  // namespace mortise

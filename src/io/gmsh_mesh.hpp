@@ -30,4 +30,10 @@ void check_msh_target(const std::string& output, const std::vector<std::string>&
 void write_msh(const std::string& file, const std::map<std::string, double>& parameters, const std::string& output,
                const GeoLimits& limits = {});
 
+class GmshSession;
+class GmshGuard;
+
+/// Writes the mesh that gmsh has open, of which `mesh` is what it read as, likewise.
+void write_open_mesh(GmshSession& session, GmshGuard& guard, const Mesh& mesh, const std::string& output);
+
 }  // namespace mortise

@@ -212,6 +212,19 @@ TEST(Accuracy, KeepsTheLastCompleteAnswerWhenInterrupted) {
   EXPECT_FALSE(solve_to_accuracy(scene("hertz", "0.1%"), {}, [] { return true; }));
 }
 
+TEST(Accuracy, LeavesTheMeshThatItFoundToOthers) {
+  const TemporaryFolder folder;
+  for (const char* most : {"1000000", "2500"}) {  // as it is, and held to a number of unknowns
+    const auto found =
+        solve_to_accuracy(scene("punch", "1%", {{"accuracy.unknowns_max", most}}), {}, {}, folder.path("punch.msh"));
+    const Results again =
+        solve_scene(read_scene(MORTISE_SOURCE_DIR "/geo/punch.toml",
+                               {{"mesh.file", "\"" + folder.path("punch.msh") + "\""}, {"mesh.parameters", "{}"}}));
+    ASSERT_EQ(again.mesh.cells.size(), found->mesh.cells.size()) << most;
+    EXPECT_NEAR(again.contacts[0].p_max, found->contacts[0].p_max, 1e-9 * found->contacts[0].p_max) << most;
+  }
+}
+
 TEST(Accuracy, IsReachedByEverySolverAndSpace) {
   for (const Override& change : {Override{"method.solver", "ddm"}, Override{"method.solver", "mssor"},
                                  Override{"method.multipliers", "quadratic"}, Override{"method.multipliers", "dual"},
