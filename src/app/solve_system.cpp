@@ -3,6 +3,7 @@
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "ddm/solve_ddm.hpp"
+#include "ddm/solve_feti.hpp"
 #include "solve/direct.hpp"
 #include "solve/mssor.hpp"
 
@@ -39,6 +40,8 @@ Solution solve_system(const Method& method, const SaddlePointSystem& system, con
       return solve_by_mssor(system, method.mssor);
     case Solver::ddm:
       return solve_by_ddm(system, dirichlet, method.ddm);
+    case Solver::feti:
+      return solve_by_feti(system, method.feti);
   }
   return {};
 }

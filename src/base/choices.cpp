@@ -90,6 +90,8 @@ std::string to_string(Solver value) {
       return "mssor";
     case Solver::ddm:
       return "ddm";
+    case Solver::feti:
+      return "feti";
   }
   assert(false && "no such Solver");
   return {};

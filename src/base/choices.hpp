@@ -21,8 +21,9 @@ enum class Multipliers { quadratic, linear, dual };
 /// the mean pressure over a part of a line, the force of a pair.
 enum class Goal { pressure, peak, half_width, mean, force, displacement, stress };
 
-/// direct: a factorisation of all bodies; mssor: block SSOR on all of them; ddm: domain decomposition.
-enum class Solver { direct, mssor, ddm };
+/// direct: a factorisation of all bodies; mssor: block SSOR on all of them; ddm: domain decomposition by two groups of
+/// bodies; feti: by each body, any number of them.
+enum class Solver { direct, mssor, ddm, feti };
 
 enum class Scheme { neumann_dirichlet, neumann_neumann, dirichlet_dirichlet };
 enum class Acceleration { none, aitken, anderson, krylov, minres };  // minres: of mssor only
@@ -41,6 +42,11 @@ struct MssorOptions {
   Acceleration acceleration = Acceleration::krylov;  ///< none, krylov or minres
   double tolerance = 1e-10;                          ///< of both residuals
   int max_iterations = 20000;
+};
+
+struct FetiOptions {
+  double tolerance = 1e-10;  ///< of both residuals
+  int max_iterations = 1000;
 };
 
 /// The words of the scene file ("strain", "bilateral", ...).

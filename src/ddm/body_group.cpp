@@ -22,21 +22,21 @@ BodyGroup::BodyGroup(const SaddlePointSystem& s, const std::vector<char>& member
   C = compliance.topLeftCorner(m, m).selfadjointView<Eigen::Lower>();
   H = compliance.bottomLeftCorner(motions, m).transpose();
 
-  const VecX force = s.f - s.K.selfadjointView<Eigen::Lower>() * s.constraints.value;
-  load_ = factor_->forward(VecX(force(free_)) / s.stiffness_scale);
-  const VecX all = factor_->at_border(load_);
-  response = all.head(m);
-  work = all.tail(motions);
+  load = answer((s.f - s.K.selfadjointView<Eigen::Lower>() * s.constraints.value) / s.stiffness_scale);
 }
 
-void BodyGroup::add_displacements(const VecX& lambda, const VecX& mu, VecX& u) const {
+BodyGroup::Answer BodyGroup::answer(const VecX& force) const {
+  Answer to{.y = factor_->forward(force(free_)), .response = {}, .work = {}};
+  const VecX all = factor_->at_border(to.y);
+  to.response = all.head(all.size() - motions);
+  to.work = all.tail(motions);
+  return to;
+}
+
+void BodyGroup::add_displacements(const Answer& forces, const VecX& lambda, const VecX& mu, VecX& u) const {
   VecX border(lambda.size() + mu.size());
   border << lambda, mu;
-  u(free_) += factor_->backward(load_, border);
-}
-
-void BodyGroup::refine(const VecX& unbalanced, VecX& u) const {
-  u(free_) += factor_->backward(factor_->forward(unbalanced(free_)), VecX::Zero(C.rows() + motions));
+  u(free_) += factor_->backward(forces.y, border);
 }
 
 }  // namespace mortise

@@ -23,23 +23,25 @@ class BodyGroup {
   int failed_at = -1;
   Eigen::Index motions = 0;  ///< s
   MatX compliance;           ///< (m + s) x (m + s), lower triangle: [C; H^T, .]
-  VecX response, work;       ///< m, s
   MatX C, H;                 ///< m x m (full), m x s
+
+  /// What forces do to the free group: y = L^-1 f for the displacements, response (m), work (s).
+  struct Answer {
+    VecX y, response, work;
+  };
+  Answer load;  ///< to the system's own
 
   /// True of its free unknowns.
   bool has(int unknown) const { return std::binary_search(free_.begin(), free_.end(), unknown); }
 
-  /// Adds the group's displacements under the load and the multipliers to u (n, length).
-  void add_displacements(const VecX& lambda, const VecX& mu, VecX& u) const;
-
-  /// Adds the displacements under the forces that u leaves unbalanced (n, over the stiffness scale): one step of
-  /// iterative refinement.
-  void refine(const VecX& unbalanced, VecX& u) const;
+  /// To forces on its unknowns, n, over the stiffness scale.
+  Answer answer(const VecX& force) const;
+  /// Adds the group's displacements under forces and the multipliers to u (n, length).
+  void add_displacements(const Answer& forces, const VecX& lambda, const VecX& mu, VecX& u) const;
 
  private:
   std::vector<int> free_;
   std::unique_ptr<BorderedCholesky> factor_;
-  VecX load_;  // y of the load, BorderedCholesky::forward
 };
 
 }  // namespace mortise

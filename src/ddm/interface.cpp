@@ -69,7 +69,8 @@ Interface make_interface(BodyGroup neumann, BodyGroup dirichlet, const SaddlePoi
   H << neumann.H, dirichlet.H;
   MatX compliance = with_motions(dirichlet.C, H);
   auto closed = std::make_shared<MultiplierSystem>(compliance, H.cols(), all_rows(gap0.size()));
-  const VecX gap = gap0 + neumann.response + dirichlet.response, work = stacked(neumann.work, dirichlet.work);
+  const VecX gap = gap0 + neumann.load.response + dirichlet.load.response,
+             work = stacked(neumann.load.work, dirichlet.load.work);
   return {.neumann = std::move(neumann),
           .dirichlet = std::move(dirichlet),
           .gap = gap,
@@ -107,8 +108,8 @@ Residuals residuals(const Interface& s, const VecX& lambda, const VecX& z) {
   double displacement = 0;  // where it is zero, that of its terms: they leave round-off
   for (const BodyGroup* group : {&s.neumann, &s.dirichlet}) {
     const VecX pressed = group->C * taken;
-    const double terms = largest(largest_entry(group->response), largest_entry(pressed));
-    displacement = largest({displacement, largest_entry(group->response - pressed), rigid_part * terms});
+    const double terms = largest(largest_entry(group->load.response), largest_entry(pressed));
+    displacement = largest({displacement, largest_entry(group->load.response - pressed), rigid_part * terms});
   }
   const double multiplier = largest_entry(taken.cwiseQuotient(s.dirichlet_problem.scale));
   const double gap = largest(largest_entry(s.dirichlet.C * z), largest_entry(s.neumann.C * z));
@@ -156,9 +157,9 @@ InterfaceIteration neumann_neumann(const Interface& s) {
   if (iteration.dependent_row >= 0) return iteration;
   // The multipliers of each group where B u of the Neumann group is x and contact is closed.
   const auto taken = [&s, both, m](const VecX& x) -> std::array<VecX, 2> {
-    const VecX first = s.neumann.response - x, second = s.dirichlet.response + s.gap0 + x;
-    return {both[0].stiffness->solve(stacked(first, s.neumann.work)).head(m),
-            both[1].stiffness->solve(stacked(second, s.dirichlet.work)).head(m)};
+    const VecX first = s.neumann.load.response - x, second = s.dirichlet.load.response + s.gap0 + x;
+    return {both[0].stiffness->solve(stacked(first, s.neumann.load.work)).head(m),
+            both[1].stiffness->solve(stacked(second, s.dirichlet.load.work)).head(m)};
   };
   // x also moves along with the floating bodies, so that the jump does no work on their motions.
   MatX SH(m, s.H.cols());

@@ -121,14 +121,15 @@ void set_solution(const SaddlePointSystem& s, const Interface& interface, const 
   if (taken.closed) solution.rigid_modes = as_grounded(s, neumann, taken.closed->rigid_modes());
   solution.lambda = s.stiffness_scale * lambda.cwiseQuotient(s.row_scale);
   solution.u = s.constraints.value;
-  neumann.add_displacements(lambda, taken.mu.head(neumann.motions), solution.u);
-  dirichlet.add_displacements(lambda, taken.mu.tail(dirichlet.motions), solution.u);
+  neumann.add_displacements(neumann.load, lambda, taken.mu.head(neumann.motions), solution.u);
+  dirichlet.add_displacements(dirichlet.load, lambda, taken.mu.tail(dirichlet.motions), solution.u);
   measure_residuals(s, solution);
   if (solution.force_residual <= 1e-11) return;
   const VecX Ku = s.K.selfadjointView<Eigen::Lower>() * solution.u;
   const VecX unbalanced = (s.f - Ku - s.B.transpose() * solution.lambda) / s.stiffness_scale;
-  neumann.refine(unbalanced, solution.u);
-  dirichlet.refine(unbalanced, solution.u);
+  const VecX none = VecX::Zero(lambda.size());
+  for (const BodyGroup* group : {&neumann, &dirichlet})
+    group->add_displacements(group->answer(unbalanced), none, VecX::Zero(group->motions), solution.u);
   measure_residuals(s, solution);
 }
 

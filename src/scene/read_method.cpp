@@ -58,10 +58,15 @@ void read_mssor(const Node& node, Scene& scene) {
   if (const Node* most = find(node, "max_iterations")) mssor.max_iterations = read_count(*most);
 }
 
+void read_feti(const Node& node, FetiOptions& feti) {
+  if (const Node* tolerance = find(node, "tolerance")) feti.tolerance = positive_number(*tolerance);
+  if (const Node* most = find(node, "max_iterations")) feti.max_iterations = read_count(*most);
+}
+
 // "solver"; scene files written before it could say "ddm" say kind = "ddm", and "mortar" for what is not.
 Solver read_solver(const Node& node) {
   const Node *solver = find(node, "solver"), *kind = find(node, "kind");
-  const Solver chosen = choice(solver, {Solver::direct, Solver::mssor, Solver::ddm}, Solver::direct);
+  const Solver chosen = choice(solver, {Solver::direct, Solver::mssor, Solver::ddm, Solver::feti}, Solver::direct);
   if (kind == nullptr) return chosen;
   const bool ddm = text(*kind) == "ddm";
   if (!ddm && text(*kind) != "mortar") fail(*kind, unknown_name("kind", kind->text, {"mortar", "ddm"}));
@@ -79,15 +84,15 @@ void refuse_strangers(const Node& node, const std::vector<std::string>& keys, co
 
 const std::vector<std::string> of_ddm{"scheme", "beta", "dirichlet"};
 const std::vector<std::string> of_mssor{"omega", "tau"};
-const std::vector<std::string> of_both{"acceleration", "tolerance", "max_iterations"};
+const std::vector<std::string> of_iterations{"tolerance", "max_iterations"};
 
 }  // namespace
 
 void read_method(const Node& root, Scene& scene) {
   const Node* node = find(root, "method");
   if (node == nullptr) return;
-  std::vector<std::string> keys{"kind", "integration", "normals", "multipliers", "solver"};
-  for (const auto& some : {of_ddm, of_mssor, of_both}) keys.insert(keys.end(), some.begin(), some.end());
+  std::vector<std::string> keys{"kind", "integration", "normals", "multipliers", "solver", "acceleration"};
+  for (const auto& some : {of_ddm, of_mssor, of_iterations}) keys.insert(keys.end(), some.begin(), some.end());
   expect_keys(*node, keys);
   Method& method = scene.method;
   method.integration =
@@ -96,13 +101,19 @@ void read_method(const Node& root, Scene& scene) {
   method.multipliers = choice(find(*node, "multipliers"),
                               {Multipliers::quadratic, Multipliers::linear, Multipliers::dual}, method.multipliers);
   method.solver = read_solver(*node);
-  const bool ddm = method.solver == Solver::ddm, mssor = method.solver == Solver::mssor;
+  const bool ddm = method.solver == Solver::ddm, mssor = method.solver == Solver::mssor,
+             feti = method.solver == Solver::feti;
   if (!ddm) refuse_strangers(*node, of_ddm, "belongs to domain decomposition; expected solver = \"ddm\" with it");
   if (!mssor) refuse_strangers(*node, of_mssor, "belongs to the iterative solver; expected solver = \"mssor\" with it");
   if (!ddm && !mssor)
-    refuse_strangers(*node, of_both, "belongs to an iteration; expected solver = \"ddm\" or \"mssor\" with it");
+    refuse_strangers(*node, {"acceleration"},
+                     "belongs to an iteration that has some; expected solver = \"ddm\" or \"mssor\" with it");
+  if (!ddm && !mssor && !feti)
+    refuse_strangers(*node, of_iterations,
+                     "belongs to an iteration; expected solver = \"feti\", \"ddm\" or \"mssor\" with it");
   if (ddm) read_ddm(*node, *(find(*node, "solver") ? find(*node, "solver") : find(*node, "kind")), scene);
   if (mssor) read_mssor(*node, scene);
+  if (feti) read_feti(*node, method.feti);
 }
 
 }  // namespace mortise::scene_file

@@ -67,6 +67,7 @@ struct Method {
   Multipliers multipliers = Multipliers::linear;  ///< on 2-node edges quadratic means linear
   Solver solver = Solver::direct;
   MssorOptions mssor;
+  FetiOptions feti;
   DdmOptions ddm;
   std::vector<std::string> dirichlet;  ///< of ddm: bodies that take the displacement; default: the softer ones
 };

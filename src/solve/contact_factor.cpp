@@ -4,8 +4,8 @@
 
 namespace mortise {
 
-ContactFactor::ContactFactor(const SaddlePointSystem& system, std::vector<int> free, BorderedCholesky factor,
-                             MultiplierSystem multipliers)
+DirectFactor::DirectFactor(const SaddlePointSystem& system, std::vector<int> free, BorderedCholesky factor,
+                           MultiplierSystem multipliers)
     : row_scale_(system.row_scale),
       stiffness_scale_(system.stiffness_scale),
       unknowns_(system.K.cols()),
@@ -14,7 +14,7 @@ ContactFactor::ContactFactor(const SaddlePointSystem& system, std::vector<int> f
       factor_(std::move(factor)),
       multipliers_(std::move(multipliers)) {}
 
-MatX ContactFactor::duals(const MatX& functionals, const MatX& loads) const {
+MatX DirectFactor::duals(const MatX& functionals, const MatX& loads) const {
   const Eigen::Index rows = functionals.rows(), count = functionals.cols(), without_load = count - loads.cols();
   MatX multipliers(rows + springs_, count), y = MatX::Zero(Eigen::Index(free_.size()) + rows + springs_, count);
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -39,7 +39,7 @@ std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& 
   for (int a = 0; a < int(closed.size()); ++a)
     if (closed[a]) rows.push_back(a);
   MultiplierSystem multipliers(factor.take_border_compliance(), Eigen::Index(s.grounded.size()), std::move(rows));
-  return std::make_shared<ContactFactor>(s, std::move(reduced.free), std::move(factor), std::move(multipliers));
+  return std::make_shared<DirectFactor>(s, std::move(reduced.free), std::move(factor), std::move(multipliers));
 }
 
 }  // namespace mortise

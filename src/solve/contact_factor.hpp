@@ -9,15 +9,23 @@ namespace mortise {
 
 class ContactFactor {
  public:
-  /// `free`: the unknowns of `factor`; `multipliers`: of the closed rows.
-  ContactFactor(const SaddlePointSystem& system, std::vector<int> free, BorderedCholesky factor,
-                MultiplierSystem multipliers);
+  virtual ~ContactFactor() = default;
 
   /// Columns z, n, of K z + B^T mu = g, no prescribed unknown moved, and B z = w on the closed rows (w a column of
   /// `functionals`, m; mu = 0 on the others): the dual solutions of the functionals g^T u - w^T lambda (Becker &
-  /// Rannacher 2001), by one backward substitution, and a forward one of each g. Rigid modes of the closed rows are
-  /// zero in them. `loads`: the last of the g, n each; those before are zero.
-  MatX duals(const MatX& functionals, const MatX& loads = {}) const;
+  /// Rannacher 2001). Rigid modes of the closed rows are zero in them. `loads`: the last of the g, n each; those before
+  /// are zero.
+  virtual MatX duals(const MatX& functionals, const MatX& loads = {}) const = 0;
+};
+
+/// That of solve_directly: one backward substitution for all duals, and a forward one of each load.
+class DirectFactor : public ContactFactor {
+ public:
+  /// `free`: the unknowns of `factor`; `multipliers`: of the closed rows.
+  DirectFactor(const SaddlePointSystem& system, std::vector<int> free, BorderedCholesky factor,
+               MultiplierSystem multipliers);
+
+  MatX duals(const MatX& functionals, const MatX& loads = {}) const override;
 
  private:
   VecX row_scale_;

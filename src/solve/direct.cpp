@@ -82,7 +82,7 @@ Solution solve_directly(const SaddlePointSystem& s) {
   if (!std::isfinite(largest(solution.force_residual, solution.constraint_residual)))
     solution.status = SolveStatus::not_converged;
   solution.factor =
-      std::make_shared<ContactFactor>(s, std::move(reduced.free), std::move(factor), *std::move(multipliers));
+      std::make_shared<DirectFactor>(s, std::move(reduced.free), std::move(factor), *std::move(multipliers));
   solution.solve_seconds = watch.lap();
   return solution;
 }

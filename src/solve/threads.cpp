@@ -19,10 +19,11 @@ int requested = 0;
 
 void set_solver_threads(int threads) { requested = threads; }
 
+int solver_threads() { return requested > 0 ? requested : int(std::max(1u, std::thread::hardware_concurrency())); }
+
 void apply_solver_threads(double operations) {
   omp_set_max_active_levels(0);  // CHOLMOD's own OpenMP loops and OpenBLAS's threads fight for the cores
-  const int cores = int(std::max(1u, std::thread::hardware_concurrency()));
-  openblas_set_num_threads(requested > 0 ? requested : operations > worth_threads ? cores : 1);
+  openblas_set_num_threads(requested > 0 || operations > worth_threads ? solver_threads() : 1);
 }
 
 }  // namespace mortise

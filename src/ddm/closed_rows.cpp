@@ -1,0 +1,151 @@
+#include "ddm/closed_rows.hpp"
+
+#include <cmath>
+
+#include "base/columns.hpp"
+
+namespace mortise {
+namespace {
+
+// Of a motion's own diagonal of the coarse problem: a pivot below it is round-off.
+constexpr double rigid_limit = 1e-9;
+constexpr double dependent_limit = 1e-13;  // likewise of a row's
+constexpr double negligible_work = 1e-5;   // of its terms
+
+VecX ones_and_zeros(const std::vector<char>& flags) {
+  VecX v(flags.size());
+  for (std::size_t i = 0; i < flags.size(); ++i) v(i) = flags[i] ? 1 : 0;
+  return v;
+}
+
+SparseMatrix with_diagonal(const SparseMatrix& A, const VecX& added) {
+  SparseMatrix D(A.rows(), A.cols());
+  D.reserve(Eigen::VectorXi::Constant(A.cols(), 1));
+  for (Eigen::Index k = 0; k < A.cols(); ++k) D.insert(k, k) = added(k);
+  return A + D;
+}
+
+}  // namespace
+
+ClosedRows::ClosedRows(const DualSystem& system, const std::vector<char>& closed)
+    : system_(system), closed_(ones_and_zeros(closed)) {
+  share_jumps();
+  if (dependent_row < 0) hold_motions();
+}
+
+// Open rows keep their diagonal, which nothing reaches.
+void ClosedRows::share_jumps() {
+  SparseMatrix sharing = system_.sharing;
+  for (int j = 0; j < sharing.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(sharing, j); it; ++it)
+      if (it.row() != j) it.valueRef() *= closed_(it.row()) * closed_(j);
+  const VecX size = sharing.diagonal();
+  weights_ = closed_.cwiseQuotient(size);
+  sharing_.compute(sharing);
+  if (size.size() == 0) return;
+  const VecX pivots = sharing_.vectorD();
+  for (Eigen::Index k = 0; k < pivots.size() && dependent_row < 0; ++k) {
+    const int row = sharing_.permutationPinv().indices()(k);
+    if (closed_(row) > 0 && !(pivots(k) > dependent_limit * size(row))) dependent_row = row;
+  }
+}
+
+// H^T weights H, with a spring at each motion that it leaves free.
+void ClosedRows::hold_motions() {
+  const Eigen::Index springs = system_.H.cols();
+  free_motions.resize(springs, 0);
+  if (springs == 0) return;
+  const SparseMatrix E = SparseMatrix(system_.H.transpose()) * SparseMatrix(weights_.asDiagonal() * system_.H);
+  VecX size = E.diagonal();
+  const double most = size.maxCoeff();
+  for (double& of_motion : size)
+    if (!(of_motion > rigid_limit * most)) of_motion = most > 0 ? most : 1;
+  // A thousandth of the limit keeps pivots that should be zero from spoiling those after them.
+  coarse_.compute(with_diagonal(E, 1e-3 * rigid_limit * size));
+  const VecX pivots = coarse_.vectorD();
+  for (Eigen::Index k = 0; k < springs; ++k) {
+    const int spring = coarse_.permutationPinv().indices()(k);
+    if (!(pivots(k) > rigid_limit * size(spring))) free_.push_back(spring);
+  }
+  VecX held = VecX::Zero(springs);
+  held(free_) = size(free_);
+  coarse_.compute(with_diagonal(E, held));
+  MatX found(springs, Eigen::Index(free_.size()));
+  for (std::size_t k = 0; k < free_.size(); ++k)
+    found.col(k) = coarse_.solve(VecX(VecX::Unit(springs, free_[k]) * size(free_[k])));
+  free_motions = told_apart(std::move(found));
+}
+
+VecX ClosedRows::coarse(VecX b) const {
+  if (b.size() == 0) return b;
+  b(free_).setZero();
+  return coarse_.solve(b);
+}
+
+// lambda, changed on closed rows until the parts are in balance.
+VecX ClosedRows::balanced(VecX lambda, const VecX& h) const {
+  lambda = on_closed(lambda);
+  for (int pass = 0; pass < 2; ++pass)
+    lambda += weights_.cwiseProduct(system_.H * coarse(h - system_.H.transpose() * lambda));
+  return lambda;
+}
+
+// Those that leave least of a residual, in the norm of the weights.
+VecX ClosedRows::motions(const VecX& residual) const {
+  return coarse(system_.H.transpose() * weights_.cwiseProduct(residual));
+}
+
+// This projection, and its transpose below, twice: once leaves round-off of what the stiffest parts do in the way of
+// the softest ones.
+VecX ClosedRows::without_motions(VecX residual) const {
+  for (int pass = 0; pass < 2; ++pass) residual -= on_closed(system_.H * motions(residual));
+  return residual;
+}
+
+VecX ClosedRows::without_resultants(VecX lambda) const {
+  for (int pass = 0; pass < 2; ++pass)
+    lambda -= weights_.cwiseProduct(system_.H * coarse(system_.H.transpose() * lambda));
+  return lambda;
+}
+
+VecX ClosedRows::precondition(const VecX& residual) const {
+  const VecX jump = on_closed(sharing_.solve(residual));
+  return on_closed(sharing_.solve(on_closed(system_.multiply_stiffness(jump))));
+}
+
+void ClosedRows::solve(const DualSystem::Answer& forces, IterationMonitor& monitor, DualSolution& x) const {
+  x.lambda = balanced(x.lambda, forces.h);
+  VecX C_lambda = system_.multiply(x.lambda);
+  VecX r = without_motions(on_closed(forces.r - C_lambda)), z = without_resultants(precondition(r)), p = z;
+  double rz = r.dot(z);
+  const auto residuals = [&] {
+    const double opening = largest(largest_entry(C_lambda), largest_entry(forces.r)),
+                 energy = std::max(std::abs(x.lambda.dot(C_lambda)), std::abs(x.lambda.dot(forces.r)));
+    return Residuals{.kinematic = fraction(largest_entry(r), opening),
+                     .force = std::sqrt(fraction(std::abs(rz), energy))};
+  };
+  while (monitor.go_on(residuals(), std::sqrt(std::abs(rz)))) {
+    const VecX Cp = system_.multiply(p);
+    const double alpha = rz / p.dot(Cp), before = rz;
+    x.lambda += alpha * p;
+    C_lambda += alpha * Cp;
+    r -= alpha * without_motions(on_closed(Cp));
+    z = without_resultants(precondition(r));
+    rz = r.dot(z);
+    p = z + rz / before * p;
+  }
+  x.mu = motions(on_closed(forces.r - C_lambda));
+}
+
+VecX ClosedRows::driven_motion(const DualSystem::Answer& forces, const VecX& lambda) const {
+  VecX driven = VecX::Zero(system_.H.cols());
+  if (free_.empty()) return driven;
+  const SparseMatrix Ht = system_.H.transpose();
+  const VecX work = forces.h - Ht * lambda, terms = forces.h.cwiseAbs() + Ht.cwiseAbs() * lambda.cwiseAbs();
+  for (const auto& motion : free_motions.colwise())
+    if (std::abs(motion.dot(work)) > negligible_work * motion.cwiseAbs().dot(terms))
+      driven += motion.dot(work) * motion;
+  return driven;
+}
+
+}  // namespace mortise

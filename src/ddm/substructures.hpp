@@ -1,0 +1,19 @@
+// The parts that contact alone holds together, each as a system of its own.
+#pragma once
+
+#include "solve/saddle_point_system.hpp"
+
+namespace mortise {
+
+/// A connected part of K: a body, or bodies with common nodes.
+struct Substructure {
+  std::vector<int> unknowns;  ///< of the whole system, ascending, both of each node
+  std::vector<int> rows;      ///< of the whole system, ascending: those that see it
+  std::vector<int> springs;   ///< positions in grounded of the whole system
+  SaddlePointSystem system;   ///< on these unknowns and rows; without g and unilateral
+};
+
+/// In the order of their first unknowns. Time and memory as the entries of K and B.
+std::vector<Substructure> substructures(const SaddlePointSystem& system);
+
+}  // namespace mortise
