@@ -56,7 +56,7 @@ cholmod_sparse view(SparseMatrix& A) {
 
 }  // namespace
 
-// A supernode's part of the border: rows [row, row + count) of its block, for its columns that belong to K.
+// The border's rows of a run of columns of K in a supernode.
 struct BorderBlock {
   Eigen::Map<const MatX, 0, Eigen::OuterStride<>> V;  // count x columns
   const int* rows;                                    // permuted indices of the rows
@@ -76,7 +76,8 @@ struct BorderedCholesky::Factor {
   }
   const int* perm() const { return static_cast<const int*>(L->Perm); }
 
-  // Calls visit(BorderBlock) for each supernode that has border rows.
+  // Calls visit(BorderBlock) for each run of columns of K that has border rows. Parts of K that only the border joins
+  // may stand behind border rows that they do not touch, in one supernode with them.
   template <typename Visit>
   void for_each_border_block(Visit visit) const {
     if (!L) return;
@@ -84,16 +85,34 @@ struct BorderedCholesky::Factor {
     const auto* pi = static_cast<const int*>(L->pi);
     const auto* px = static_cast<const int*>(L->px);
     const auto* s = static_cast<const int*>(L->s);
+    const auto is_border = [&](int permuted) { return perm()[permuted] >= n; };
     for (std::size_t k = 0; k < L->nsuper; ++k) {
-      const int rows = pi[k + 1] - pi[k];
-      int columns = super[k + 1] - super[k];
-      while (columns > 0 && perm()[super[k] + columns - 1] >= n) --columns;  // relaxed supernodes may mix both
-      int first = rows;
-      while (first > 0 && perm()[s[pi[k] + first - 1]] >= n) --first;  // the border is last in every row list
-      if (columns == 0 || first == rows) continue;
+      const int rows = pi[k + 1] - pi[k], columns = super[k + 1] - super[k];
+      const int* row = s + pi[k];
       const double* block = static_cast<const double*>(L->x) + px[k];
-      visit(
-          BorderBlock{{block + first, rows - first, columns, Eigen::OuterStride<>(rows)}, s + pi[k] + first, super[k]});
+      for (int start = 0, end; start < columns; start = end) {
+        end = start + 1;
+        while (end < columns && is_border(super[k] + end) == is_border(super[k] + start)) ++end;
+        if (is_border(super[k] + start)) continue;
+        std::vector<int> border;
+        for (int r = end; r < rows; ++r)
+          if (is_border(row[r])) border.push_back(r);
+        if (border.empty()) continue;
+        const int first = border.front(), count = int(border.size());
+        const auto at = [&](const double* V, const int* of_V, int stride) {
+          visit(BorderBlock{{V, count, end - start, Eigen::OuterStride<>(stride)}, of_V, super[k] + start});
+        };
+        const double* columns_of_run = block + std::size_t(start) * rows;
+        if (border.back() - first == count - 1) {
+          at(columns_of_run + first, row + first, rows);
+          continue;
+        }
+        const Eigen::Map<const MatX> all(columns_of_run, rows, end - start);
+        const MatX gathered = all(border, Eigen::all);
+        std::vector<int> gathered_rows;
+        for (const int r : border) gathered_rows.push_back(row[r]);
+        at(gathered.data(), gathered_rows.data(), count);
+      }
     }
   }
 

@@ -117,7 +117,7 @@ void draw_mssor(Draw& draw, Method& method) {
   method.mssor.max_iterations = 5000;
 }
 
-// `method`: the scheme of domain decomposition, or mssor.
+// `method`: the scheme of domain decomposition, mssor or feti.
 Setting draw_setting(const std::string& method, unsigned seed) {
   Draw draw(seed);
   Setting s;
@@ -126,6 +126,7 @@ Setting draw_setting(const std::string& method, unsigned seed) {
   draw_bodies(draw, s.scene);
   draw_contact(draw, s.scene);
   if (method == "mssor") draw_mssor(draw, s.scene.method);
+  if (method == "feti") s.scene.method.solver = Solver::feti;
   for (const Scheme scheme : {Scheme::neumann_dirichlet, Scheme::neumann_neumann, Scheme::dirichlet_dirichlet})
     if (method == to_string(scheme)) draw_ddm(draw, scheme, s.scene.method);
   s.words = method + draw.words();
@@ -172,7 +173,6 @@ TEST_P(Differential, EachMethodAgreesWithTheDirectOneOrSaysThatItDoesNot) {
     expect_finite(*found);
     Scene direct = s.scene;
     direct.method.solver = Solver::direct;
-    direct.method.solver = Solver::direct;
     direct.contacts[0].multipliers_on = found->pairs[0].spec.multipliers_on;
     const std::optional<Results> reference = solved(direct, s.plates);
     ASSERT_TRUE(reference.has_value()) << "the direct method refuses the scene";
@@ -186,7 +186,8 @@ TEST_P(Differential, EachMethodAgreesWithTheDirectOneOrSaysThatItDoesNot) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Differential,
-                         testing::Values("neumann_dirichlet", "neumann_neumann", "dirichlet_dirichlet", "mssor"),
+                         testing::Values("neumann_dirichlet", "neumann_neumann", "dirichlet_dirichlet", "mssor",
+                                         "feti"),
                          [](const auto& method) { return std::string(method.param); });
 
 }  // namespace

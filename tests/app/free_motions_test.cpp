@@ -25,11 +25,10 @@ int held_notes(const Results& r) {
 }
 
 TEST(FreeMotions, APlateThatMaySlideIsHeldByEveryMethodAndThePressureIsExact) {
-  for (const char* method : {"direct", "ddm", "mssor"}) {
-    SCOPED_TRACE(method);
+  for (const Solver solver : {Solver::direct, Solver::ddm, Solver::mssor, Solver::feti}) {
+    SCOPED_TRACE(to_string(solver));
     Scene scene = pressed_on();
-    if (std::string(method) == "ddm") scene.method.solver = Solver::ddm;
-    if (std::string(method) == "mssor") scene.method.solver = Solver::mssor;
+    scene.method.solver = solver;
     const Results r = solve_scene(scene, mesh_of({}));
     EXPECT_EQ(r.status, Status::solved);
     EXPECT_EQ(held_notes(r), 1);

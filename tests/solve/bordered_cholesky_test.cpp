@@ -49,6 +49,39 @@ TEST(BorderedCholesky, ItsByProductIsTheBordersCompliance) {
   }
 }
 
+TEST(BorderedCholesky, TakesManyPartsThatOnlyTheBorderJoins) {
+  // Small parts in a row; in some the two directions are parts too.
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (const bool coupled : {false, true})
+    for (const int parts : {4, 10, 30}) {
+      const int nodes = 6, n = 2 * nodes * parts, m = 4 * (parts - 1);
+      Dense d{MatX::Zero(n, n), MatX::Zero(m, n)};
+      for (int p = 0; p < parts; ++p)
+        for (int i = 0; i < 2 * nodes; ++i) {
+          const int one = 2 * nodes * p + i;
+          for (int j = 0; j < i; ++j) {  // a ring of nodes
+            const int apart = i / 2 - j / 2;
+            if ((apart < 2 || apart == nodes - 1) && (coupled || i % 2 == j % 2))
+              d.K(one, one - i + j) = d.K(one - i + j, one) = value(random);
+          }
+        }
+      for (int i = 0; i < n; ++i) d.K(i, i) = 0.1 + d.K.row(i).cwiseAbs().sum();
+      for (int row = 0; row < m; ++row) {  // the first two nodes of a part, on the fourth and fifth of the one before
+        d.B(row, 2 * nodes * (row / 4 + 1) + row % 4) = 1;
+        d.B(row, 2 * nodes * (row / 4) + 6 + row % 4) = -1;
+      }
+      BorderedCholesky factor = factor_of(d);
+      const MatX inverse = d.K.inverse(), expected = d.B * inverse * d.B.transpose();
+      const MatX actual = factor.take_border_compliance().selfadjointView<Eigen::Lower>();
+      EXPECT_LE((actual - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff()) << parts;
+      const VecX f = VecX::LinSpaced(n, -1, 2), lambda = VecX::LinSpaced(m, 3, -1), y = factor.forward(f),
+                 u = inverse * (f - d.B.transpose() * lambda);
+      EXPECT_LE(largest_entry(factor.at_border(y) - d.B * inverse * f), 1e-13 * largest_entry(d.B * inverse * f));
+      EXPECT_LE(largest_entry(factor.backward(y, lambda) - u), 1e-13 * largest_entry(u));
+    }
+}
+
 TEST(BorderedCholesky, SolvesWithAnyMultipliers) {
   const Dense d = random_dense(40, 6, 5);
   const BorderedCholesky factor = factor_of(d);

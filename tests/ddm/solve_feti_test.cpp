@@ -1,0 +1,175 @@
+// The dual method against the direct one on systems of many small bodies.
+#include "ddm/solve_feti.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "ddm/substructures.hpp"
+#include "solve/contact_factor.hpp"
+#include "solve/direct.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr int nodes = 6;  // of a body: a closed ring of springs in both directions
+
+struct Towers {
+  double contrast = 1;      // of the bodies' stiffnesses
+  bool unilateral = false;  // rows may open
+  double lift = 0;          // on the uppermost body, against the load
+};
+
+// Bodies upon one another, each of which may move by (1, 0) and (0, 1) but the lowest, which is held; four rows between
+// each two bodies, two a direction.
+SaddlePointSystem tower(int bodies, const Towers& t = {}) {
+  SaddlePointSystem s;
+  std::vector<Eigen::Triplet<double>> K, B;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> exponent(0, 1);
+  const int n = 2 * nodes * bodies;
+  for (int b = 0; b < bodies; ++b) {
+    const double k = std::pow(t.contrast, exponent(random));
+    for (int i = 0; i < nodes; ++i)
+      for (int c = 0; c < 2; ++c) {
+        const int one = 2 * (nodes * b + i) + c, other = 2 * (nodes * b + (i + 1) % nodes) + c;
+        K.emplace_back(one, one, k * (1 + 0.1 * i));
+        K.emplace_back(other, other, k * (1 + 0.1 * i));
+        K.emplace_back(std::max(one, other), std::min(one, other), -k * (1 + 0.1 * i));
+      }
+    if (b == 0) continue;
+    s.grounded.push_back(2 * nodes * b);
+    s.grounded.push_back(2 * nodes * b + 1);
+    for (int c = 0; c < 2; ++c)
+      for (int i = 0; i < 2; ++i) {
+        const int row = 4 * (b - 1) + 2 * i + c;
+        B.emplace_back(row, 2 * (nodes * b + i) + c, 1);
+        B.emplace_back(row, 2 * (nodes * (b - 1) + 3 + i) + c, -1);
+      }
+  }
+  s.K.resize(n, n);
+  s.K.setFromTriplets(K.begin(), K.end());
+  s.B.resize(4 * (bodies - 1), n);
+  s.B.setFromTriplets(B.begin(), B.end());
+  s.f = VecX::LinSpaced(n, -1, -2);
+  for (int i = 1; i < n; i += 2) s.f(i) -= 1;
+  s.f(n - 1) += t.lift;
+  s.g = VecX::LinSpaced(s.B.rows(), 0.1, -0.1);
+  s.row_scale = VecX::LinSpaced(s.B.rows(), 1, 2);
+  s.constraints = {std::vector<char>(n, 0), VecX::Zero(n)};
+  s.constraints.fixed[0] = s.constraints.fixed[1] = s.constraints.fixed[7] = 1;
+  s.constraints.value(7) = 0.3;
+  s.stiffness_scale = 2;
+  if (t.unilateral) s.unilateral.assign(s.B.rows(), 1);
+  return s;
+}
+
+TEST(Substructures, AreTheSystemsOwnBlocks) {
+  const SaddlePointSystem s = tower(4);
+  const std::vector<Substructure> all = substructures(s);
+  ASSERT_EQ(all.size(), 4u);
+  MatX K = MatX::Zero(s.K.rows(), s.K.cols()), B = MatX::Zero(s.B.rows(), s.B.cols());
+  for (const Substructure& own : all) {
+    K(own.unknowns, own.unknowns) += MatX(own.system.K);
+    B(own.rows, own.unknowns) += MatX(own.system.B);
+    for (std::size_t k = 0; k < own.springs.size(); ++k)
+      EXPECT_EQ(own.unknowns[own.system.grounded[k]], s.grounded[own.springs[k]]);
+    EXPECT_EQ(own.system.f, VecX(s.f(own.unknowns)));
+    EXPECT_EQ(own.system.row_scale, VecX(s.row_scale(own.rows)));
+    for (std::size_t i = 0; i < own.unknowns.size(); ++i)
+      EXPECT_EQ(own.system.constraints.fixed[i], s.constraints.fixed[own.unknowns[i]]);
+  }
+  EXPECT_EQ(K, MatX(s.K));
+  EXPECT_EQ(B, MatX(s.B));
+}
+
+void expect_same(const Solution& found, const Solution& direct, double tolerance) {
+  ASSERT_EQ(found.status, SolveStatus::converged);
+  ASSERT_EQ(direct.status, SolveStatus::converged);
+  EXPECT_LE(largest_entry(found.lambda - direct.lambda), tolerance * largest_entry(direct.lambda));
+  EXPECT_LE(largest_entry(found.u - direct.u), tolerance * largest_entry(direct.u));
+  EXPECT_EQ(found.active, direct.active);
+  EXPECT_LE(found.constraint_residual, 1e-10);
+  EXPECT_LE(found.force_residual, 1e-10);
+}
+
+TEST(Feti, AgreesWithTheDirectMethodForAnyStiffnesses) {
+  for (const auto& [contrast, bodies] : {std::pair{1.0, 2}, {1.0, 30}, {1e3, 2}, {1e3, 8}, {1e6, 4}}) {
+    SCOPED_TRACE(std::to_string(contrast) + ", " + std::to_string(bodies));
+    const SaddlePointSystem s = tower(bodies, {.contrast = contrast});
+    expect_same(solve_by_feti(s, {}), solve_directly(s), 1e-8);
+  }
+}
+
+TEST(Feti, OpensTheRowsThatTheDirectMethodOpens) {
+  SaddlePointSystem s = tower(12, {.contrast = 10, .unilateral = true});
+  for (int b = 2; b < 12; b += 3) {  // pulled apart within themselves
+    s.f(2 * nodes * b + 1) += 20;
+    s.f(2 * (nodes * b + 1) + 1) -= 20;
+  }
+  const Solution direct = solve_directly(s);
+  const auto open = std::ranges::count(direct.active, 0);
+  EXPECT_GT(open, 0);
+  EXPECT_LT(open, s.B.rows());
+  expect_same(solve_by_feti(s, {}), direct, 1e-8);
+}
+
+TEST(Feti, NamesTheMotionThatTheLoadDrives) {
+  const SaddlePointSystem s = tower(4, {.unilateral = true, .lift = 1e3});
+  const Solution direct = solve_directly(s), found = solve_by_feti(s, {});
+  EXPECT_EQ(direct.status, SolveStatus::unconstrained);
+  EXPECT_EQ(found.status, SolveStatus::unconstrained);
+  EXPECT_GT(found.driven_mode(5), 0.9 * largest_entry(found.driven_mode));
+  EXPECT_GT(direct.driven_mode(5), 0.9 * largest_entry(direct.driven_mode));
+}
+
+TEST(Feti, HoldsAMotionThatNoRowHoldsAndNoLoadDrives) {
+  SaddlePointSystem s = tower(3);
+  s.B = MatX(MatX(s.B)(std::vector<int>{0, 1, 2, 3, 5, 7}, Eigen::all)).sparseView();  // the third may move along x
+  s.row_scale = VecX::Ones(6);
+  s.g = VecX::Zero(6);
+  for (int i = 2 * nodes * 2; i < s.f.size(); i += 2) s.f(i) = 0;
+  const Solution direct = solve_directly(s), found = solve_by_feti(s, {});
+  expect_same(found, direct, 1e-8);
+  ASSERT_EQ(found.rigid_modes.cols(), 1);
+  EXPECT_LE((found.rigid_modes - direct.rigid_modes).norm(), 1e-8);
+}
+
+TEST(Feti, NamesARowThatTheOthersImply) {
+  SaddlePointSystem s = tower(3);
+  MatX B(s.B);
+  B.row(7) = B.row(5);
+  s.B = B.sparseView();
+  const Solution found = solve_by_feti(s, {});
+  EXPECT_EQ(found.status, SolveStatus::dependent_row);
+  EXPECT_TRUE(found.failed_at == 5 || found.failed_at == 7) << found.failed_at;
+}
+
+TEST(Feti, NamesAnUnknownThatNothingHolds) {
+  SaddlePointSystem s = tower(3);
+  const int unknown = 2 * nodes * 2 + 5;
+  for (int j = 0; j < s.K.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(s.K, j); it; ++it)
+      if (it.row() == unknown || j == unknown) it.valueRef() = 0;
+  const Solution found = solve_by_feti(s, {});
+  EXPECT_EQ(found.status, SolveStatus::not_positive_definite);
+  EXPECT_EQ(found.failed_at, unknown);
+}
+
+TEST(Feti, SaysThatItDidNotConverge) {
+  EXPECT_EQ(solve_by_feti(tower(30, {.contrast = 1e3}), {.max_iterations = 2}).status, SolveStatus::not_converged);
+}
+
+TEST(Feti, ItsDualsAreThoseOfTheDirectFactor) {
+  const SaddlePointSystem s = tower(6, {.contrast = 10});
+  const Solution direct = solve_directly(s), found = solve_by_feti(s, {});
+  MatX rows = MatX::Zero(s.B.rows(), 3), loads = MatX::Zero(s.f.size(), 1);
+  rows(1, 0) = 1;
+  rows(4, 1) = -2;
+  loads.col(0).setLinSpaced(1, -1);
+  const MatX expected = direct.factor->duals(rows, loads), duals = found.factor->duals(rows, loads);
+  for (int k = 0; k < 3; ++k) EXPECT_LE((duals - expected).col(k).norm(), 1e-4 * expected.col(k).norm()) << k;
+}
+
+}  // namespace
+}  // namespace mortise
