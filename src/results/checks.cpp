@@ -83,6 +83,21 @@ void balance_of_contact(const Results& r, std::vector<Check>& checks) {
   checks.push_back({"contact moments equal and opposite", moment, 1e-10});
 }
 
+// What round-off of the displacements makes of a contact that carries nothing, stress.
+double round_off_pressure(const Results& r) {
+  double edge = std::numeric_limits<double>::infinity();
+  for (const ContactPair& pair : r.pairs)
+    for (const Edge& e : pair.multiplier.edges) edge = std::min(edge, edge_length(r.mesh.nodes, e));
+  return 1e-12 * r.discretisation.system.stiffness_scale * largest_entry(r.solution.u) / edge;
+}
+
+// A pressure that matters to no body, stress: 1e-3 of the largest stress in any, or round_off_pressure. It does not
+// change where bodies are moved as a whole.
+double negligible_pressure(const Results& r) {
+  const double stress = r.stress.points.size() > 0 ? r.stress.points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0;
+  return largest(1e-3 * stress, round_off_pressure(r));
+}
+
 // p >= 0, gap >= 0 and p gap = 0 on unilateral rows, in the sense of the multipliers (docs/theory.md eq. 24).
 void unilateral_checks(const Results& r, double limit, std::vector<Check>& checks) {
   const SaddlePointSystem& s = r.discretisation.system;
@@ -152,18 +167,6 @@ Seconds& Seconds::operator+=(const Seconds& other) {
 int free_unknowns(const Results& r) {
   const std::vector<char>& fixed = r.discretisation.system.constraints.fixed;
   return int(std::count(fixed.begin(), fixed.end(), 0));
-}
-
-double round_off_pressure(const Results& r) {
-  double edge = std::numeric_limits<double>::infinity();
-  for (const ContactPair& pair : r.pairs)
-    for (const Edge& e : pair.multiplier.edges) edge = std::min(edge, edge_length(r.mesh.nodes, e));
-  return 1e-12 * r.discretisation.system.stiffness_scale * largest_entry(r.solution.u) / edge;
-}
-
-double negligible_pressure(const Results& r) {
-  const double stress = r.stress.points.size() > 0 ? r.stress.points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0;
-  return largest(1e-3 * stress, round_off_pressure(r));
 }
 
 std::vector<Check> checks(const Scene& scene, const Results& r) {
