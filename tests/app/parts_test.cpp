@@ -106,6 +106,12 @@ TEST(EstimatedError, DoesNotChangeWhereAllIsMovedAsAWhole) {
   EXPECT_NEAR(moved.estimate->pressure(), still.estimate->pressure(), 1e-5);
 }
 
+TEST(EstimatedError, IsNoneWhereContactCarriesNothing) {
+  const Results r = solved("v_block", "body_force.0.force", "[0, 0]");
+  EXPECT_EQ(r.estimate->pressure_square(), 0);
+  EXPECT_FALSE(says_p_is_off(r));
+}
+
 // A clearance of 0.1 % of the radius. Where the sides are straight the meshes' own gap is as large as the clearance.
 Results pin(int n, int order, int straight, const std::vector<Override>& more = {}) {
   std::vector<Override> overrides{{"mesh.parameters.n", std::to_string(n)},
