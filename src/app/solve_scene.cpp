@@ -173,10 +173,6 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   for (const ContactPair& pair : r.pairs)
     r.contacts.push_back(contact_results(r.mesh, pair, system.constraints, r.points, r.stress, u,
                                          r.solution.lambda.segment(pair.first_row, pair.coupling.B.rows())));
-  const double negligible = negligible_pressure(r);
-  for (std::size_t k = 0; k < r.pairs.size(); ++k)
-    r.against_sigma_n.push_back(
-        compare_with_stress(r.mesh, r.pairs[k], r.contacts[k], system.constraints, r.discretisation.laws, negligible));
   r.checks = checks(scene, r);
   r.status = verdict(r);
   append(r.warnings, warnings(scene, r));

@@ -46,7 +46,6 @@ Row figures(const Results& r) {
                            {at + "force.x", c.force.x()},
                            {at + "force.y", c.force.y()},
                            {at + "length_in_contact", c.length_in_contact}});
-    if (r.against_sigma_n[k]) row.emplace_back(at + "against_sigma_n", r.against_sigma_n[k]->difference);
   }
   for (const Check& c : r.checks) row.emplace_back(c.name, c.value);
   return row;

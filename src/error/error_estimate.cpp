@@ -125,11 +125,12 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
                              const std::vector<ContactPair>& pairs, const Solution& solution,
                              const AccuracySpec& spec) {
   const SaddlePointSystem& system = discretisation.system;
+  const double round_off = round_off_pressure(mesh, pairs, system.stiffness_scale, solution.u);
   ErrorEstimate estimate;
   Eigen::Index windows = 0;
   for (const ContactPair& pair : pairs) {
     PressureEstimate e;
-    e.line = pressure_line(mesh, pair, solution.lambda);
+    e.line = pressure_line(mesh, pair, solution.lambda, round_off);
     e.local = line_error(e.line);
     e.windows = pressure_windows(pair, e.line, system.B.rows());
     e.singular = singular_on(mesh, pair, e.line, system.constraints, discretisation.laws);

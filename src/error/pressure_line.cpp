@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fem/edges.hpp"
 
@@ -30,7 +31,15 @@ double border_part_of(const PressureLine& line, Eigen::Index e, bool loaded_befo
 
 }  // namespace
 
-PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX& lambda) {
+double round_off_pressure(const Mesh& mesh, const std::vector<ContactPair>& pairs, double stiffness_scale,
+                          const VecX& u) {
+  double edge = std::numeric_limits<double>::infinity();
+  for (const ContactPair& pair : pairs)
+    for (const Edge& e : pair.multiplier.edges) edge = std::min(edge, edge_length(mesh.nodes, e));
+  return 1e-12 * stiffness_scale * largest_entry(u) / edge;
+}
+
+PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX& lambda, double round_off) {
   const Curve& curve = pair.multiplier;
   const Eigen::Index count = Eigen::Index(curve.edges.size()) + 1;
   const VecX pressure = -multiplier_values(pair.coupling, lambda.segment(pair.first_row, pair.coupling.B.rows()));
@@ -57,6 +66,7 @@ PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX
     line.h(0) *= 2;
     line.h(count - 1) *= 2;
   }
+  if (largest_entry(line.p) <= round_off) line.p.setZero();
   const double least = loaded_part * largest_entry(line.p);
   for (Eigen::Index i = 0; i < count; ++i)
     if (std::abs(line.p(i)) > least)

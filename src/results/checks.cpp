@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fem/edges.hpp"
 
@@ -83,6 +82,13 @@ void balance_of_contact(const Results& r, std::vector<Check>& checks) {
   checks.push_back({"contact moments equal and opposite", moment, 1e-10});
 }
 
+// A pressure that matters to no body, stress: 1e-3 of the largest stress in any, or round-off. It does not change
+// where bodies are moved as a whole.
+double negligible_pressure(const Results& r, double round_off) {
+  const double stress = r.stress.points.size() > 0 ? r.stress.points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0;
+  return largest(1e-3 * stress, round_off);
+}
+
 // p >= 0, gap >= 0 and p gap = 0 on unilateral rows, in the sense of the multipliers (docs/theory.md eq. 24).
 void unilateral_checks(const Results& r, double limit, std::vector<Check>& checks) {
   const SaddlePointSystem& s = r.discretisation.system;
@@ -90,8 +96,9 @@ void unilateral_checks(const Results& r, double limit, std::vector<Check>& check
   const std::vector<char>& unilateral = s.unilateral;
   if (std::find(unilateral.begin(), unilateral.end(), 1) == unilateral.end()) return;
   const VecX gap = (s.B * solution.u - s.g).cwiseQuotient(s.row_scale);
-  const double displacement = largest_entry(solution.u), round_off = round_off_pressure(r),
-               least = negligible_pressure(r), p_size = largest(10 * least, largest_entry(solution.lambda));
+  const double displacement = largest_entry(solution.u),
+               round_off = round_off_pressure(r.mesh, r.pairs, s.stiffness_scale, solution.u),
+               least = negligible_pressure(r, round_off), p_size = largest(10 * least, largest_entry(solution.lambda));
   double tension = 0, penetration = 0, product = 0, dip = 0;
   for (Eigen::Index a = 0; a < gap.size(); ++a) {
     if (!unilateral[a]) continue;
@@ -152,18 +159,6 @@ Seconds& Seconds::operator+=(const Seconds& other) {
 int free_unknowns(const Results& r) {
   const std::vector<char>& fixed = r.discretisation.system.constraints.fixed;
   return int(std::count(fixed.begin(), fixed.end(), 0));
-}
-
-double round_off_pressure(const Results& r) {
-  double edge = std::numeric_limits<double>::infinity();
-  for (const ContactPair& pair : r.pairs)
-    for (const Edge& e : pair.multiplier.edges) edge = std::min(edge, edge_length(r.mesh.nodes, e));
-  return 1e-12 * r.discretisation.system.stiffness_scale * largest_entry(r.solution.u) / edge;
-}
-
-double negligible_pressure(const Results& r) {
-  const double stress = r.stress.points.size() > 0 ? r.stress.points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0;
-  return largest(1e-3 * stress, round_off_pressure(r));
 }
 
 std::vector<Check> checks(const Scene& scene, const Results& r) {

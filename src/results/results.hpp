@@ -3,7 +3,6 @@
 
 #include "error/error_estimate.hpp"
 #include "results/contact_results.hpp"
-#include "results/stress_comparison.hpp"
 
 namespace mortise {
 
@@ -56,12 +55,11 @@ struct Results {
   std::vector<std::string> dirichlet;  ///< of domain decomposition: bodies that took the displacement
   Solution solution;
   StressField stress;
-  std::vector<ContactResults> contacts;                          ///< one a pair
-  std::vector<std::optional<StressComparison>> against_sigma_n;  ///< one a pair; nothing where not compared
-  double energy = 0;                                             ///< strain energy per thickness
-  std::optional<ErrorEstimate> estimate;                         ///< unless the run was asked for none
-  std::optional<AccuracyReport> accuracy;                        ///< where one was asked for
-  std::optional<InfSupReport> inf_sup;                           ///< where the run was asked to diagnose
+  std::vector<ContactResults> contacts;    ///< one a pair
+  double energy = 0;                       ///< strain energy per thickness
+  std::optional<ErrorEstimate> estimate;   ///< unless the run was asked for none
+  std::optional<AccuracyReport> accuracy;  ///< where one was asked for
+  std::optional<InfSupReport> inf_sup;     ///< where the run was asked to diagnose
   Seconds seconds;
   std::vector<Check> checks;
   std::vector<std::string> warnings;  ///< what a user should know; nothing that fails
@@ -69,12 +67,5 @@ struct Results {
 
 /// Displacement unknowns that are not prescribed.
 int free_unknowns(const Results& results);
-
-/// What round-off of the displacements makes of a contact that carries nothing, stress.
-double round_off_pressure(const Results& results);
-
-/// A pressure that matters to no body, stress: 1e-3 of the largest stress in any, or round_off_pressure. It does not
-/// change where bodies are moved as a whole. Of the mesh, the pairs, the solution and the stress.
-double negligible_pressure(const Results& results);
 
 }  // namespace mortise

@@ -24,20 +24,12 @@ std::string space_word(const Scene& scene, const Results& r) {
   return to_string(scene.method.multipliers);
 }
 
-Json comparison_json(const std::optional<StressComparison>& found) {
-  if (!found) return nullptr;
-  return {{"difference", found->difference},
-          {"curve", found->curve},
-          {"position", {found->position.x(), found->position.y()}}};
-}
-
-Json contact_json(const ContactPair& pair, const ContactResults& c, const std::optional<StressComparison>& compared) {
+Json contact_json(const ContactPair& pair, const ContactResults& c) {
   return {{"between", pair.spec.between},
           {"length", c.length},
           {"length_in_contact", c.length_in_contact},
           {"force", {c.force.x(), c.force.y()}},
           {"pressure", {{"min", c.p_min}, {"mean", c.p_mean}, {"max", c.p_max}}},
-          {"against_sigma_n", comparison_json(compared)},
           {"drawn", is_drawn(pair)},
           {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
 }
@@ -136,14 +128,6 @@ void print_steps(const Results& r, std::ostream& out) {
   }
 }
 
-void print_comparison(const std::optional<StressComparison>& found, std::ostream& out) {
-  if (found)
-    out << "            p and the bodies' sigma_n differ by " << std::setprecision(2) << 100 * found->difference
-        << std::setprecision(6) << " % of the mean on 90 % of the contact\n";
-  else
-    out << "            p not compared with the bodies' sigma_n: no p, or all of it beside singular corners\n";
-}
-
 // Where p has no limit, and is left out of its norm.
 void print_left_out(const ErrorEstimate& estimate, std::ostream& out) {
   std::string places;
@@ -224,7 +208,7 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
       gap.push_back(spec.clearance);
     else
       gap.push_back(to_string(spec.initial_gap));
-    contact.push_back(contact_json(r.pairs[k], r.contacts[k], r.against_sigma_n[k]));
+    contact.push_back(contact_json(r.pairs[k], r.contacts[k]));
   }
   Json checks = Json::array();
   for (const Check& c : r.checks)
@@ -289,7 +273,6 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
         << "), force (" << c.force.x() << ", " << c.force.y() << ") on " << c.multiplier.curve
         << "\n            length " << c.length << ", in contact " << c.length_in_contact << "; undeformed gap "
         << r.pairs[k].coupling.gap_min << " ... " << r.pairs[k].coupling.gap_max << "\n";
-    print_comparison(r.against_sigma_n[k], out);
   }
   out << std::setprecision(3);
   print_iteration(r, out);

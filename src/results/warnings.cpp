@@ -100,15 +100,6 @@ void warn_of_geometry(const ContactPair& pair, const Results& r, Lines& lines) {
                       ": gaps and normals are those of a smooth curve through the nodes");
 }
 
-// Two independent approximations of one stress: what they differ by, the discretisation leaves open.
-void warn_of_stress(const ContactPair& pair, const std::optional<StressComparison>& found, Lines& lines) {
-  if (!found || found->difference <= 0.1) return;
-  lines.push_back(pair.spec.key + ": p and the stress in the bodies differ by up to " +
-                  std::to_string(std::lround(100 * found->difference)) +
-                  " % of the mean p on 90 % of the contact, as on '" + found->curve + "' " +
-                  near_point(found->position) + ": the mesh is coarse there; expected a finer one");
-}
-
 int degrees(double angle) { return int(std::lround(angle * 180 / std::numbers::pi)); }
 
 // Both meshes must follow the contact line: its curvature, and its kinks (docs/stability.md, geometry).
@@ -181,7 +172,6 @@ std::vector<std::string> warnings(const Scene& scene, const Results& r) {
     warn_of_geometry(r.pairs[k], r, lines);
     warn_of_shape(r.pairs[k], r, lines);
     warn_of_far_origin(r.pairs[k], r, lines);
-    warn_of_stress(r.pairs[k], r.against_sigma_n[k], lines);
   }
   return lines;
 }

@@ -188,11 +188,11 @@ Results under_a_punch(const std::string& side) {
   return solved(s, mesh);
 }
 
-TEST(Default, TheCoveredSidesPressureIsNearerToTheStress) {
+TEST(Default, APunchCarriesTheMultipliers) {
   const Results r = under_a_punch(""), finer = under_a_punch("block_north");
   EXPECT_EQ(r.pairs[0].spec.multipliers_on, "punch_south");
-  EXPECT_LT(r.against_sigma_n[0]->difference, finer.against_sigma_n[0]->difference);
   EXPECT_TRUE(r.pairs[0].coupling.dropped.empty());
+  EXPECT_FALSE(finer.pairs[0].coupling.dropped.empty());
 }
 
 }  // namespace
