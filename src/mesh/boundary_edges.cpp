@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
+#include "base/union_find.hpp"
 
 namespace mortise {
 namespace {
@@ -46,20 +47,6 @@ SideTable side_table(const Mesh& mesh) {
   return table;
 }
 
-/// Cells that hang together, by union and find.
-class Pieces {
- public:
-  explicit Pieces(std::size_t cells) : parent_(cells) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int cell) {
-    while (parent_[cell] != cell) cell = parent_[cell] = parent_[parent_[cell]];
-    return cell;
-  }
-  void join(int a, int b) { parent_[find(b)] = find(a); }
-
- private:
-  std::vector<int> parent_;
-};
-
 [[noreturn]] void fail_twice(const Mesh& mesh, const Cell& a, const Cell& b) {
   Vec2 centre = Vec2::Zero();
   const int corners = corner_count(b.kind);
@@ -93,7 +80,7 @@ std::pair<int, int> ends(const Edge& edge) { return std::minmax(edge.nodes[0], e
 
 BoundaryEdges boundary_edges(const Mesh& mesh) {
   const SideTable table = side_table(mesh);
-  Pieces pieces(mesh.cells.size());
+  UnionFind pieces(mesh.cells.size());  // cells that hang together
   BoundaryEdges result;
   for (int node = 0; node < mesh.nodes.rows(); ++node)
     for (int k = table.first[node]; k < table.first[node + 1]; ++k) {
