@@ -195,24 +195,39 @@ void add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, V
   add_body_loads(mesh, stress, std::vector<Vec2>(laws.size(), Vec2::Zero()), load);
 }
 
-void add_body_force(const Mesh& mesh, int body, const Vec2& force, VecX& load) {
-  std::vector<Vec2> forces(mesh.bodies.size(), Vec2::Zero());
-  forces[body] = force;
+void add_body_forces(const Mesh& mesh, const std::vector<Vec2>& forces, VecX& load) {
   add_body_loads(mesh, std::vector<Vec4>(mesh.bodies.size(), Vec4::Zero()), forces, load);
 }
 
-void add_traction(const Mesh& mesh, int boundary, const Traction& traction, VecX& load, int gauss_points) {
+VecX body_areas(const Mesh& mesh) {
+  VecX areas = VecX::Zero(mesh.bodies.size());
+  for_each_kind([&]<CellKind kind>() {
+    const CellTable<kind> table = cell_table<kind>();
+    CellGradients<kind> g;
+    for (const Cell& cell : mesh.cells) {
+      if (cell.kind != kind) continue;
+      cell_gradients(mesh.nodes, cell, table, g);
+      areas(cell.body) += g.dV.sum();
+    }
+  });
+  return areas;
+}
+
+Vec2 add_traction(const Mesh& mesh, const std::vector<CellSide>& sides, const Traction& traction, VecX& load,
+                  int gauss_points) {
   const LineRule rule = gauss_legendre(gauss_points);
-  const Boundary& curve = mesh.boundaries[boundary];
-  for (const CellSide& at : sides_of(mesh, curve)) {
+  Vec2 sum = Vec2::Zero();
+  for (const CellSide& at : sides) {
     const Edge edge = side_edge(mesh.cells[at.cell], at.side);
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
       const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);
       const Vec2 t = rule.weights[q] * p.jacobian() * traction(p.position, p.normal());
       for (int a = 0; a < edge.node_count; ++a) load.segment<2>(2 * edge.nodes[a]) += s.N[a] * t;
+      sum += t;
     }
   }
+  return sum;
 }
 
 }  // namespace mortise

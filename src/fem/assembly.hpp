@@ -16,13 +16,18 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticLaw>&
 /// load += int B^T C : eps0, for the bodies whose law has an initial strain.
 void add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, VecX& load);
 
-/// load += int N b over a body; b is a force per volume.
-void add_body_force(const Mesh& mesh, int body, const Vec2& force, VecX& load);
+/// load += int N b over the bodies; b is a force per volume, one a body.
+void add_body_forces(const Mesh& mesh, const std::vector<Vec2>& forces, VecX& load);
+
+/// Of each body, length^2.
+VecX body_areas(const Mesh& mesh);
 
 /// Traction (force per area) on a boundary as a function of the place and the outward unit normal.
 using Traction = std::function<Vec2(const Vec2& position, const Vec2& normal)>;
 
-/// load += int N t ds over a boundary. `gauss_points` an edge.
-void add_traction(const Mesh& mesh, int boundary, const Traction& traction, VecX& load, int gauss_points = 4);
+/// load += int N t ds over the sides of a boundary (mesh/side_table.hpp). `gauss_points` an edge. Returns their sum,
+/// force per thickness.
+Vec2 add_traction(const Mesh& mesh, const std::vector<CellSide>& sides, const Traction& traction, VecX& load,
+                  int gauss_points = 4);
 
 }  // namespace mortise

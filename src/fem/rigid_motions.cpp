@@ -6,32 +6,11 @@
 #include <sstream>
 
 #include "base/columns.hpp"
-#include "base/dense.hpp"
-#include "mesh/body_points.hpp"
+#include "base/null_space.hpp"
+#include "base/union_find.hpp"
 
 namespace mortise {
 namespace {
-
-// Each body's centre and half-diagonal, so that the three motions of a body are of one size.
-struct BodyFrames {
-  std::vector<Vec2> centre;
-  std::vector<double> size;
-};
-
-BodyFrames body_frames(const Mesh& mesh, const BodyPoints& points) {
-  BodyFrames frames;
-  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
-    Vec2 low = mesh.nodes.row(points.node[points.first[b]]).transpose(), high = low;
-    for (int p = points.first[b]; p < points.first[b + 1]; ++p) {
-      const Vec2 x = mesh.nodes.row(points.node[p]).transpose();
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
-    frames.centre.push_back((low + high) / 2);
-    frames.size.push_back((high - low).norm() / 2);
-  }
-  return frames;
-}
 
 // Motion k of a body (0, 1: translations; 2: rotation by 1/size) at x, component c.
 double motion_at(int k, const Vec2& x, const Vec2& centre, double size, int c) {
@@ -63,152 +42,173 @@ struct Bodies {
   BodyFrames frames;
 };
 
-// Gram matrix of what the constraints see of the motions, and of the jumps between bodies that share nodes: they move
-// together.
-MatX supports(const Bodies& bodies, const Constraints& constraints) {
-  MatX gram = MatX::Zero(bodies.columns(), bodies.columns());
+// What a condition sees of the motions of bodies: three numbers a body, few bodies.
+using Seen = std::vector<std::pair<int, Eigen::RowVector3d>>;
+
+// Gram matrix of what conditions see: a block of 3 x 3 for each two bodies that one condition sees.
+class Gram {
+ public:
+  using Block = Eigen::Matrix3d;
+
+  explicit Gram(int bodies) : bodies_(bodies) {}
+
+  void add(const Seen& seen) {
+    for (const auto& [a, of_a] : seen)
+      for (const auto& [b, of_b] : seen)
+        blocks_.try_emplace({a, b}, Block::Zero()).first->second += of_a.transpose() * of_b;
+  }
+
+  // Not less than the largest eigenvalue: the largest sum of a row's entries without their signs.
+  double size() const {
+    VecX sums = VecX::Zero(3 * bodies_);
+    for (const auto& [at, block] : blocks_) sums.segment<3>(3 * at.first) += block.cwiseAbs().rowwise().sum();
+    return sums.size() > 0 ? sums.maxCoeff() : 0;
+  }
+
+  // Bodies that conditions see together.
+  std::vector<std::vector<int>> connected() const {
+    UnionFind bodies(bodies_);
+    for (const auto& [at, block] : blocks_) bodies.join(at.first, at.second);
+    return bodies.sets();
+  }
+
+  Block of_body(int body) const {
+    const auto found = blocks_.find({body, body});
+    return found == blocks_.end() ? Block::Zero() : found->second;
+  }
+
+  // Of a connected set, ascending, with `held` added to the blocks of its bodies.
+  SparseMatrix of_bodies(const std::vector<int>& set, const std::vector<Block>& held) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto append = [&](int i, int j, const Block& block) {
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) entries.emplace_back(3 * i + r, 3 * j + c, block(r, c));
+    };
+    for (int i = 0; i < int(set.size()); ++i) {
+      append(i, i, held[i]);
+      for (auto at = blocks_.lower_bound({set[i], 0}); at != blocks_.end() && at->first.first == set[i]; ++at)
+        append(i, int(std::ranges::lower_bound(set, at->first.second) - set.begin()), at->second);
+    }
+    SparseMatrix A(3 * set.size(), 3 * set.size());
+    A.setFromTriplets(entries.begin(), entries.end());
+    return A;
+  }
+
+ private:
+  int bodies_;
+  std::map<std::pair<int, int>, Block> blocks_;
+};
+
+// What the constraints see of the motions, and the jumps between bodies that share nodes: they move together.
+void add_supports(const Bodies& bodies, const Constraints& constraints, Gram& gram) {
   std::vector<int> owner(bodies.mesh.nodes.rows(), -1);
   bodies.for_each_node([&](int b, int node, const Vec2& x) {
     const int other = owner[node];
     if (other < 0) owner[node] = b;
     for (int c = 0; c < 2; ++c) {
-      Eigen::RowVectorXd seen = Eigen::RowVectorXd::Zero(bodies.columns());
-      seen.segment<3>(3 * b) = bodies.at(b, x, c);
-      if (constraints.fixed[2 * node + c]) gram += seen.transpose() * seen;
-      if (other < 0) continue;
-      seen.segment<3>(3 * other) -= bodies.at(other, x, c);
-      gram += seen.transpose() * seen;
+      if (constraints.fixed[2 * node + c]) gram.add({{b, bodies.at(b, x, c)}});
+      if (other >= 0) gram.add({{b, bodies.at(b, x, c)}, {other, -bodies.at(other, x, c)}});
     }
   });
-  return gram;
 }
 
 // How the motions open the rows. Of a shared node only the first body counts.
-MatX openings(const Bodies& bodies, const SparseMatrix& rows) {
-  MatX contact = MatX::Zero(rows.rows(), bodies.columns());
+void add_openings(const Bodies& bodies, const SparseMatrix& rows, Gram& gram) {
+  std::vector<std::map<int, Eigen::RowVector3d>> openings(rows.rows());
   std::vector<char> counted(bodies.mesh.nodes.rows(), 0);
   bodies.for_each_node([&](int b, int node, const Vec2& x) {
     if (counted[node]) return;
     counted[node] = 1;
     for (int c = 0; c < 2; ++c)
       for (SparseMatrix::InnerIterator it(rows, 2 * node + c); it; ++it)
-        contact.block<1, 3>(it.row(), 3 * b) += it.value() * bodies.at(b, x, c);
+        openings[it.row()].try_emplace(b, Eigen::RowVector3d::Zero()).first->second += it.value() * bodies.at(b, x, c);
   });
-  return contact;
+  for (const auto& opening : openings) gram.add({opening.begin(), opening.end()});
 }
 
-MatX openings(const Bodies& bodies, const std::vector<ContactNormal>& normals) {
-  MatX contact = MatX::Zero(normals.size(), bodies.columns());
-  for (std::size_t k = 0; k < normals.size(); ++k)
+void add_openings(const Bodies& bodies, const std::vector<ContactNormal>& normals, Gram& gram) {
+  for (const ContactNormal& at : normals) {
+    Eigen::RowVector3d of_body = Eigen::RowVector3d::Zero(), of_other = of_body;
     for (int c = 0; c < 2; ++c) {
-      const ContactNormal& at = normals[k];
-      contact.block<1, 3>(k, 3 * at.other) += at.normal(c) * bodies.at(at.other, at.position, c);
-      contact.block<1, 3>(k, 3 * at.body) -= at.normal(c) * bodies.at(at.body, at.position, c);
+      of_body -= at.normal(c) * bodies.at(at.body, at.position, c);
+      of_other += at.normal(c) * bodies.at(at.other, at.position, c);
     }
-  return contact;
+    gram.add({{at.body, of_body}, {at.other, of_other}});
+  }
 }
 
-// Motions that supports and contact resist by less than `part` of their size.
-std::vector<std::vector<RigidMotion>> unresisted(const Bodies& bodies, const Constraints& constraints,
-                                                 const MatX& contact, double part) {
-  const MatX gram = supports(bodies, constraints) + contact.transpose() * contact;
-  const SymmetricEigen eigen = symmetric_eigen(gram);
-  Eigen::Index count = 0;  // relative to one fixed node
-  const double limit = part * part * std::max(1.0, eigen.values(gram.cols() - 1));
-  while (count < gram.cols() && eigen.values(count) <= limit) ++count;
-  const MatX apart = told_apart(eigen.vectors.leftCols(count));
-  std::vector<std::vector<RigidMotion>> motions;
-  for (Eigen::Index m = 0; m < count; ++m) {
-    std::vector<RigidMotion> motion;
-    for (int b = 0; b < int(bodies.mesh.bodies.size()); ++b) {
-      const Eigen::Vector3d of_body = apart.block<3, 1>(3 * b, m);
-      if (of_body.norm() > 1e-6)
-        motion.push_back({b, of_body.head<2>(), of_body(2) / bodies.frames.size[b], bodies.frames.centre[b]});
-    }
-    motions.push_back(motion);
+using Motions = std::vector<std::vector<RigidMotion>>;
+
+// A column of three numbers a body as a motion.
+std::vector<RigidMotion> as_motion(const Bodies& bodies, const std::vector<int>& set, const VecX& column) {
+  std::vector<RigidMotion> motion;
+  for (int i = 0; i < int(set.size()); ++i) {
+    const Eigen::Vector3d of_body = column.segment<3>(3 * i);
+    if (of_body.norm() > 1e-6)
+      motion.push_back(
+          {set[i], of_body.head<2>(), of_body(2) / bodies.frames.size[set[i]], bodies.frames.centre[set[i]]});
   }
-  std::stable_sort(motions.begin(), motions.end(),
-                   [](const auto& a, const auto& b) { return a.front().body < b.front().body; });
+  return motion;
+}
+
+// Motions of a connected set with eigenvalues of at most `limit`: those of single bodies, then of several together.
+void add_unresisted(const Bodies& bodies, const Gram& gram, const std::vector<int>& set, double limit,
+                    Motions& motions) {
+  std::vector<Gram::Block> held;
+  const auto add = [&](const std::vector<int>& moved, const MatX& columns) {
+    const MatX apart = told_apart(columns);
+    for (const auto& column : apart.colwise()) motions.push_back(as_motion(bodies, moved, column));
+  };
+  for (const int body : set) {
+    const MatX alone = null_space(gram.of_body(body).sparseView(), limit);
+    add({body}, alone);
+    held.push_back(alone * alone.transpose());
+  }
+  if (set.size() > 1) add(set, null_space(gram.of_bodies(set, held), limit));
+}
+
+// Motions that the conditions resist by less than `part` of their size.
+Motions unresisted(const Bodies& bodies, const Gram& gram, double part) {
+  const double limit = part * part * std::max(1.0, gram.size());  // relative to one fixed node
+  Motions motions;
+  for (const std::vector<int>& set : gram.connected()) add_unresisted(bodies, gram, set, limit, motions);
+  std::ranges::stable_sort(motions, {}, [](const auto& motion) { return motion.front().body; });
   return motions;
 }
 
 }  // namespace
 
+BodyFrames body_frames(const Mesh& mesh, const BodyPoints& points) {
+  BodyFrames frames;
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+    Vec2 low = mesh.nodes.row(points.node[points.first[b]]).transpose(), high = low;
+    for (int p = points.first[b]; p < points.first[b + 1]; ++p) {
+      const Vec2 x = mesh.nodes.row(points.node[p]).transpose();
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    frames.centre.push_back((low + high) / 2);
+    frames.size.push_back((high - low).norm() / 2);
+  }
+  return frames;
+}
+
 std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Constraints& constraints,
                                                    const SparseMatrix& rows) {
   const Bodies bodies(mesh);
-  return unresisted(bodies, constraints, openings(bodies, rows), 1e-7);
+  Gram gram(int(mesh.bodies.size()));
+  add_supports(bodies, constraints, gram);
+  add_openings(bodies, rows, gram);
+  return unresisted(bodies, gram, 1e-7);
 }
 
 std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Constraints& constraints,
                                                    const std::vector<ContactNormal>& normals) {
   const Bodies bodies(mesh);
-  return unresisted(bodies, constraints, openings(bodies, normals), 1e-6);
-}
-
-MatX motion_fields(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions) {
-  const BodyPoints points = body_points(mesh);
-  MatX fields = MatX::Zero(2 * mesh.nodes.rows(), motions.size());
-  for (std::size_t m = 0; m < motions.size(); ++m)
-    for (const RigidMotion& motion : motions[m])
-      for (int p = points.first[motion.body]; p < points.first[motion.body + 1]; ++p) {
-        const int node = points.node[p];
-        const Vec2 arm = mesh.nodes.row(node).transpose() - motion.centre;
-        fields.block<2, 1>(2 * node, m) = motion.translation + motion.rotation * Vec2(-arm.y(), arm.x());
-      }
-  return fields;
-}
-
-std::vector<int> grounding_unknowns(const Mesh& mesh, const Constraints& constraints,
-                                    const std::vector<std::vector<RigidMotion>>& motions) {
-  MatX fields = motion_fields(mesh, motions);
-  for (Eigen::Index i = 0; i < fields.rows(); ++i)
-    if (constraints.fixed[i]) fields.row(i).setZero();
-  std::vector<int> unknowns;
-  for (Eigen::Index m = 0; m < fields.cols(); ++m) {  // Gaussian elimination with row pivots
-    const VecX sizes = fields.col(m).cwiseAbs();
-    Eigen::Index pivot = 0;  // the first of those that are as large but for round-off
-    while (sizes(pivot) < (1 - 1e-6) * sizes.maxCoeff()) ++pivot;
-    unknowns.push_back(int(pivot));
-    for (Eigen::Index other = m + 1; other < fields.cols(); ++other)
-      fields.col(other) -= fields(pivot, other) / fields(pivot, m) * fields.col(m);
-  }
-  return unknowns;
-}
-
-std::vector<RigidMotion> motion_through(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions,
-                                        const std::vector<int>& unknowns, const VecX& values) {
-  const MatX fields = motion_fields(mesh, motions);
-  MatX at(values.size(), fields.cols());
-  for (Eigen::Index k = 0; k < values.size(); ++k) at.row(k) = fields.row(unknowns[k]);
-  const VecX parts = solve_square(at, values);
-  std::map<int, RigidMotion> sum;  // by body
-  for (std::size_t m = 0; m < motions.size(); ++m)
-    for (const RigidMotion& motion : motions[m]) {
-      RigidMotion& total = sum.try_emplace(motion.body, motion.body, Vec2::Zero(), 0.0, motion.centre).first->second;
-      total.translation += parts(m) * motion.translation;
-      total.rotation += parts(m) * motion.rotation;
-    }
-  const BodyFrames frames = body_frames(mesh, body_points(mesh));
-  double size = 0, turning = 0;
-  for (const auto& [body, motion] : sum) {
-    size = std::max(size, motion.translation.norm());
-    turning = std::max(turning, std::abs(motion.rotation) * frames.size[body]);
-  }
-  if (size < 1e-6 * turning) {  // round-off
-    size = 0;
-    for (auto& [body, motion] : sum) {
-      motion.translation.setZero();
-      size = std::max(size, std::abs(motion.rotation));
-    }
-  }
-  std::vector<RigidMotion> result;
-  for (auto& [body, motion] : sum) {
-    motion.translation /= size;
-    motion.rotation /= size;
-    result.push_back(motion);
-  }
-  return result;
+  Gram gram(int(mesh.bodies.size()));
+  add_supports(bodies, constraints, gram);
+  add_openings(bodies, normals, gram);
+  return unresisted(bodies, gram, 1e-6);
 }
 
 std::string describe(const Mesh& mesh, const std::vector<RigidMotion>& motion) {

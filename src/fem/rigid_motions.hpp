@@ -1,7 +1,8 @@
-// Motions of whole bodies: which of them nothing resists, and unknowns that would hold them.
+// Motions of whole bodies: which of them nothing resists.
 #pragma once
 
 #include "fem/constraints.hpp"
+#include "mesh/body_points.hpp"
 
 namespace mortise {
 
@@ -19,6 +20,13 @@ struct ContactNormal {
   int body, other;
 };
 
+/// Each body's centre and half-diagonal, so that the three motions of a body are of one size.
+struct BodyFrames {
+  std::vector<Vec2> centre;
+  std::vector<double> size;
+};
+BodyFrames body_frames(const Mesh& mesh, const BodyPoints& points);
+
 /// Motions of single bodies and of groups of bodies that neither the constraints nor `rows * u = 0` resist.
 /// `rows` (m x degrees of freedom) are the contact conditions that can hold a body; m may be zero.
 /// Each element is one free motion: the bodies that move in it (unit size: translations of about 1). No two motions
@@ -29,18 +37,6 @@ std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Const
 /// The same with contact along `normals`, and motions that open or close it by less than 1e-6 of their size.
 std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Constraints& constraints,
                                                    const std::vector<ContactNormal>& normals);
-
-/// The displacements of all nodes (degrees of freedom x motions).
-MatX motion_fields(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions);
-
-/// One free unknown for each free motion of single bodies, spread as far apart as they go: springs there would hold
-/// the bodies. `motions` as found without contact rows.
-std::vector<int> grounding_unknowns(const Mesh& mesh, const Constraints& constraints,
-                                    const std::vector<std::vector<RigidMotion>>& motions);
-
-/// The combination of `motions` in which the grounded `unknowns` move by `values`, of unit size. One entry a body.
-std::vector<RigidMotion> motion_through(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions,
-                                        const std::vector<int>& unknowns, const VecX& values);
 
 /// "body 'upper': translation (0, 1), rotation 0; ..." for messages.
 std::string describe(const Mesh& mesh, const std::vector<RigidMotion>& motion);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
+
+#include "base/union_find.hpp"
 
 namespace mortise {
 
@@ -40,15 +41,16 @@ std::vector<Cell> cells_on_points(const Mesh& mesh, const BodyPoints& points) {
 }
 
 std::vector<int> bonded_to(const Mesh& mesh, const BodyPoints& points) {
-  std::vector<int> first(mesh.bodies.size()), owner(mesh.nodes.rows(), -1);
-  std::iota(first.begin(), first.end(), 0);
-  for (int body = 0; body < int(first.size()); ++body)
+  UnionFind bodies(mesh.bodies.size());
+  std::vector<int> owner(mesh.nodes.rows(), -1);
+  for (int body = 0; body < int(mesh.bodies.size()); ++body)
     for (int p = points.first[body]; p < points.first[body + 1]; ++p) {
       int& other = owner[points.node[p]];
       if (other < 0) other = body;
-      const int low = std::min(first[other], first[body]), high = std::max(first[other], first[body]);
-      if (low != high) std::replace(first.begin(), first.end(), high, low);
+      bodies.join(other, body);
     }
+  std::vector<int> first(mesh.bodies.size());
+  for (int body = 0; body < int(first.size()); ++body) first[body] = bodies.find(body);
   return first;
 }
 

@@ -1,64 +1,15 @@
 #include "mesh/boundary_edges.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
+#include "base/union_find.hpp"
+#include "mesh/side_table.hpp"
 
 namespace mortise {
 namespace {
-
-/// A cell's side, at the node of its two that has the smaller number.
-struct Half {
-  int other;     ///< the node with the larger number
-  bool forward;  ///< the side runs from the smaller number to the larger
-  CellSide side;
-};
-
-/// All sides by their smaller node: those of node i are halves[first[i]] .. halves[first[i + 1] - 1].
-struct SideTable {
-  std::vector<int> first;
-  std::vector<Half> halves;
-};
-
-template <class Visit>
-void for_each_side(const Mesh& mesh, const Visit& visit) {
-  for (int c = 0; c < int(mesh.cells.size()); ++c) {
-    const Cell& cell = mesh.cells[c];
-    const int corners = corner_count(cell.kind);
-    for (int side = 0; side < corners; ++side)
-      visit(cell.nodes[side], cell.nodes[(side + 1) % corners], CellSide{c, side});
-  }
-}
-
-SideTable side_table(const Mesh& mesh) {
-  SideTable table;
-  table.first.assign(mesh.nodes.rows() + 1, 0);
-  for_each_side(mesh, [&](int a, int b, const CellSide&) { ++table.first[std::min(a, b) + 1]; });
-  std::partial_sum(table.first.begin(), table.first.end(), table.first.begin());
-  table.halves.resize(table.first.back());
-  std::vector<int> next(table.first.begin(), table.first.end() - 1);
-  for_each_side(mesh, [&](int a, int b, const CellSide& side) {
-    table.halves[next[std::min(a, b)]++] = {std::max(a, b), a < b, side};
-  });
-  return table;
-}
-
-/// Cells that hang together, by union and find.
-class Pieces {
- public:
-  explicit Pieces(std::size_t cells) : parent_(cells) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int cell) {
-    while (parent_[cell] != cell) cell = parent_[cell] = parent_[parent_[cell]];
-    return cell;
-  }
-  void join(int a, int b) { parent_[find(b)] = find(a); }
-
- private:
-  std::vector<int> parent_;
-};
 
 [[noreturn]] void fail_twice(const Mesh& mesh, const Cell& a, const Cell& b) {
   Vec2 centre = Vec2::Zero();
@@ -74,14 +25,13 @@ struct Neighbours {
   int same_body = -1, other_body = -1;
 };
 
-Neighbours neighbours(const Mesh& mesh, const SideTable& table, int node, const Half& half) {
+Neighbours neighbours(const Mesh& mesh, const SideTable& table, int node, const SideAtNode& half) {
   Neighbours found;
   const Cell& cell = mesh.cells[half.side.cell];
-  for (int k = table.first[node]; k < table.first[node + 1]; ++k) {
-    const Half& other = table.halves[k];
+  for (const SideAtNode& other : table.at(node)) {
     if (other.other != half.other || other.side.cell == half.side.cell) continue;
     const Cell& neighbour = mesh.cells[other.side.cell];
-    if (other.forward == half.forward) fail_twice(mesh, neighbour, cell);
+    if (other.starts == half.starts) fail_twice(mesh, neighbour, cell);
     (neighbour.body == cell.body ? found.same_body : found.other_body) = other.side.cell;
   }
   return found;
@@ -92,12 +42,12 @@ std::pair<int, int> ends(const Edge& edge) { return std::minmax(edge.nodes[0], e
 }  // namespace
 
 BoundaryEdges boundary_edges(const Mesh& mesh) {
-  const SideTable table = side_table(mesh);
-  Pieces pieces(mesh.cells.size());
+  const SideTable table(mesh);
+  UnionFind pieces(mesh.cells.size());  // cells that hang together
   BoundaryEdges result;
   for (int node = 0; node < mesh.nodes.rows(); ++node)
-    for (int k = table.first[node]; k < table.first[node + 1]; ++k) {
-      const Half& half = table.halves[k];
+    for (const SideAtNode& half : table.at(node)) {
+      if (half.other < node) continue;  // each side at the smaller one of its nodes
       const Cell& cell = mesh.cells[half.side.cell];
       const auto [same_body, other_body] = neighbours(mesh, table, node, half);
       if (same_body >= 0)

@@ -93,10 +93,12 @@ std::vector<std::size_t> chain_order(const Mesh& mesh, int boundary, const std::
 
 }  // namespace
 
-Curve contact_curve(const Mesh& mesh, int boundary) {
+Curve contact_curve(const Mesh& mesh, int boundary) { return contact_curve(mesh, boundary, SideTable(mesh)); }
+
+Curve contact_curve(const Mesh& mesh, int boundary, const SideTable& table) {
   const Boundary& source = mesh.boundaries[boundary];
   if (source.edges.empty()) fail(mesh, boundary, "has no edges");
-  const std::vector<CellSide> sides = sides_of(mesh, source);
+  const std::vector<CellSide> sides = sides_of(mesh, source, table);
   check_one_body(mesh, boundary, sides);
 
   std::vector<Edge> directed;

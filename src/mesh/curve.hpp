@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mesh/mesh.hpp"
+#include "mesh/side_table.hpp"
 
 namespace mortise {
 
@@ -22,6 +22,9 @@ struct Curve {
 
 /// The boundary's edges as one chain.
 /// Throws InputError, with coordinates, where they branch, fall into pieces, or belong to more than one body.
+Curve contact_curve(const Mesh& mesh, int boundary, const SideTable& table);
+
+/// The same of a single boundary.
 Curve contact_curve(const Mesh& mesh, int boundary);
 
 /// Whether the arc length s of the output runs against the edges: from the end with the smaller x, then y.

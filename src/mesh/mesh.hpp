@@ -103,8 +103,4 @@ Vec2 centre_of(const Points& nodes, const Cell& cell);
 /// Nodes of a side, in the cell's counter-clockwise direction: the body lies on its left.
 Edge side_edge(const Cell& cell, int side);
 
-/// For each edge of a boundary, the one cell side it lies on.
-/// Throws InputError, with coordinates, where an edge belongs to no cell or to two (it is not on the boundary).
-std::vector<CellSide> sides_of(const Mesh& mesh, const Boundary& boundary);
-
 }  // namespace mortise

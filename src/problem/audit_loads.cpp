@@ -7,6 +7,7 @@
 #include "contact/segments.hpp"
 #include "fem/edges.hpp"
 #include "problem/audit_lines.hpp"
+#include "problem/scene_names.hpp"
 
 namespace mortise {
 namespace {
@@ -19,11 +20,12 @@ struct LoadedEdge {
 };
 
 std::vector<LoadedEdge> loaded_edges(const Scene& scene, const Mesh& mesh) {
+  const SceneNames names(mesh);
   std::vector<LoadedEdge> list;
   for (const BoundarySpec& spec : scene.boundaries) {
     if (!spec.pressure && !spec.traction) continue;
     for (const std::string& name : spec.on) {
-      const int b = boundary_index(mesh, name);
+      const int b = names.boundary(spec.key + ".on", name);
       for (int e = 0; e < int(mesh.boundaries[b].edges.size()); ++e) {
         const auto& nodes = mesh.boundaries[b].edges[e].nodes;
         list.push_back({std::minmax(nodes[0], nodes[1]), &spec, b, e});

@@ -9,6 +9,7 @@
 #include "fem/edges.hpp"
 #include "mesh/body_points.hpp"
 #include "mesh/thickness.hpp"
+#include "problem/scene_names.hpp"
 
 namespace mortise {
 
@@ -61,12 +62,14 @@ void append(const SparseMatrix& rows, int first, std::vector<Eigen::Triplet<doub
 }  // namespace
 
 std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh) {
+  const SideTable table(mesh);
+  const SceneNames names(mesh);
   std::vector<ContactCurves> all;
   for (const ContactSpec& spec : scene.contacts) {
     ContactCurves contact{.spec = spec, .curves = {}};
     for (int i = 0; i < 2; ++i) {
       Curve& curve = contact.curves[i];
-      curve = contact_curve(mesh, scene_boundary(mesh, spec.key + ".between", spec.between[i]));
+      curve = contact_curve(mesh, names.boundary(spec.key + ".between", spec.between[i]), table);
       contact.edge_size[i] = curve_length(mesh.nodes, curve) / double(curve.edges.size());
     }
     all.push_back(std::move(contact));

@@ -4,25 +4,20 @@
 
 #include "base/errors.hpp"
 #include "fem/elements.hpp"
+#include "mesh/side_table.hpp"
+#include "problem/scene_names.hpp"
 
 namespace mortise {
 namespace {
 
-int find_body(const Mesh& mesh, const std::string& key, const std::string& name) {
-  const auto found = std::find(mesh.bodies.begin(), mesh.bodies.end(), name);
-  if (found == mesh.bodies.end())
-    throw SceneError(key + ": " + unknown_name("body", name, mesh.bodies) + " (" + mesh.source + ")");
-  return int(found - mesh.bodies.begin());
-}
-
 // The material of each body of the mesh, and the initial strain upon it.
-std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh) {
+std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh, const SceneNames& names) {
   std::vector<const Material*> materials(mesh.bodies.size(), nullptr);
   for (const BodySpec& body : scene.bodies)
-    materials[find_body(mesh, "bodies." + body.name, body.name)] = &scene.materials.at(body.material);
+    materials[names.body("bodies." + body.name, body.name)] = &scene.materials.at(body.material);
   std::vector<Vec4> strains(mesh.bodies.size(), Vec4::Zero());
   for (const InitialStrainSpec& spec : scene.initial_strains) {
-    const int b = find_body(mesh, spec.key, spec.body);
+    const int b = names.body(spec.key, spec.body);
     strains[b] += spec.strain;
     if (spec.temperature_change && materials[b])
       strains[b].head<3>().array() += materials[b]->thermal_expansion * *spec.temperature_change;
@@ -35,59 +30,50 @@ std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh) {
   return laws;
 }
 
-void apply(const Mesh& mesh, const BoundarySpec& spec, Discretisation& d) {
+// The sum of the nodal forces that the entry makes.
+Vec2 apply(const Mesh& mesh, const SideTable& table, const SceneNames& names, const BoundarySpec& spec,
+           SaddlePointSystem& system) {
+  Vec2 sum = Vec2::Zero();
   for (const std::string& name : spec.on) {
-    const int boundary = scene_boundary(mesh, spec.key + ".on", name);
-    if (spec.displacement_x) prescribe(mesh, boundary, 0, *spec.displacement_x, d.system.constraints);
-    if (spec.displacement_y) prescribe(mesh, boundary, 1, *spec.displacement_y, d.system.constraints);
+    const int boundary = names.boundary(spec.key + ".on", name);
+    if (spec.displacement_x) prescribe(mesh, boundary, 0, *spec.displacement_x, system.constraints);
+    if (spec.displacement_y) prescribe(mesh, boundary, 1, *spec.displacement_y, system.constraints);
+    if (!spec.pressure && !spec.traction) continue;
+    const std::vector<CellSide> sides = sides_of(mesh, mesh.boundaries[boundary], table);
     if (spec.pressure)
-      add_traction(
-          mesh, boundary, [&](const Vec2&, const Vec2& n) -> Vec2 { return -*spec.pressure * n; }, d.system.f);
+      sum += add_traction(
+          mesh, sides, [&](const Vec2&, const Vec2& n) -> Vec2 { return -*spec.pressure * n; }, system.f);
     if (spec.traction)
-      add_traction(
-          mesh, boundary, [&](const Vec2&, const Vec2&) -> Vec2 { return *spec.traction; }, d.system.f);
+      sum += add_traction(
+          mesh, sides, [&](const Vec2&, const Vec2&) -> Vec2 { return *spec.traction; }, system.f);
   }
-}
-
-Vec2 sum(const VecX& forces) { return forces.reshaped(2, forces.size() / 2).rowwise().sum(); }
-
-double area(const Mesh& mesh, int body) {
-  VecX load = VecX::Zero(2 * mesh.nodes.rows());
-  add_body_force(mesh, body, Vec2(1, 0), load);  // int N, which sums to the area
-  return load.sum();
+  return sum;
 }
 
 }  // namespace
-
-int scene_boundary(const Mesh& mesh, const std::string& key, const std::string& name) {
-  const std::vector<std::string> names = boundary_names(mesh);
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    throw SceneError(key + ": " + unknown_name("boundary", name, names) + " (" + mesh.source + ")");
-  return int(found - names.begin());
-}
 
 Discretisation discretise(const Scene& scene, const Mesh& mesh) {
   check_cells(mesh);
   Discretisation d;
   d.system.stiffness_scale = 0;
-  d.laws = laws_of(scene, mesh);
+  const SceneNames names(mesh);
+  d.laws = laws_of(scene, mesh, names);
   d.system.constraints = no_constraints(mesh);
   d.initial_load = VecX::Zero(2 * mesh.nodes.rows());
   add_initial_strain(mesh, d.laws, d.initial_load);
-  for (std::size_t b = 0; b < d.laws.size(); ++b)
-    if (d.laws[b].energy0 != 0) d.initial_energy += d.laws[b].energy0 * area(mesh, int(b));
+  const VecX areas = body_areas(mesh);
+  for (std::size_t b = 0; b < d.laws.size(); ++b) d.initial_energy += d.laws[b].energy0 * areas(b);
   d.system.f = d.initial_load;
+  std::vector<Vec2> forces(mesh.bodies.size(), Vec2::Zero());
   for (const BodyForceSpec& spec : scene.body_forces) {
-    const Vec2 before = sum(d.system.f);
-    add_body_force(mesh, find_body(mesh, spec.key, spec.body), spec.force, d.system.f);
-    d.body_sums.push_back(sum(d.system.f) - before);
+    const int body = names.body(spec.key, spec.body);
+    forces[body] += spec.force;
+    d.body_sums.push_back(spec.force * areas(body));
   }
-  for (const BoundarySpec& spec : scene.boundaries) {
-    const Vec2 before = sum(d.system.f);
-    apply(mesh, spec, d);
-    d.boundary_sums.push_back(sum(d.system.f) - before);
-  }
+  if (!scene.body_forces.empty()) add_body_forces(mesh, forces, d.system.f);
+  const SideTable table(mesh);
+  for (const BoundarySpec& spec : scene.boundaries)
+    d.boundary_sums.push_back(apply(mesh, table, names, spec, d.system));
   d.system.K = assemble_stiffness(mesh, d.laws);
   for (const ElasticLaw& law : d.laws) d.system.stiffness_scale = std::max(d.system.stiffness_scale, law.young);
   return d;

@@ -22,9 +22,6 @@ struct Discretisation {
 /// material, or prescribes two values at one node.
 Discretisation discretise(const Scene& scene, const Mesh& mesh);
 
-/// Index of the boundary that `key` of the scene names. Throws SceneError with the known names.
-int scene_boundary(const Mesh& mesh, const std::string& key, const std::string& name);
-
 /// Strain energy 1/2 int (eps - eps0) : C : (eps - eps0), per thickness (J/m in SI).
 double strain_energy(const Discretisation& discretisation, const VecX& u);
 

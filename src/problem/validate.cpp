@@ -1,6 +1,7 @@
 #include "problem/validate.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -26,16 +27,25 @@ std::vector<int> unknowns_to_hold(const Mesh& mesh, const std::vector<ContactPai
     for (const Curve* curve : {&pair.multiplier, &pair.opposite})
       for (const int node : curve_nodes(*curve)) constraints.fixed[2 * node] = constraints.fixed[2 * node + 1] = 1;
   const std::vector<int> away = grounding_unknowns(mesh, constraints, motions);
-  const MatX at = motion_fields(mesh, motions)(away, Eigen::all);
-  return at.fullPivLu().isInvertible() ? away : anywhere;
+  const auto held = [&](const MotionSet& set) { return motions_at(set, away).fullPivLu().isInvertible(); };
+  return std::ranges::all_of(motion_sets(mesh, motions), held) ? away : anywhere;
 }
 
-// The load drives a motion whose work is more than `round_off` of its terms, and than what rounding of the motion
-// makes.
-bool drives(const VecX& load, const VecX& motion, double round_off) {
-  const VecX work = load.cwiseProduct(motion);
-  const double least = 1e-12 * load.lpNorm<1>() * motion.lpNorm<Eigen::Infinity>();
-  return std::abs(work.sum()) > std::max(round_off * work.lpNorm<1>(), least);
+// Of each motion, whether the load drives it: by work of more than `round_off` of its terms, and than what rounding of
+// the motion makes.
+std::vector<char> driven(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions, const VecX& load,
+                         double round_off) {
+  std::vector<char> driven(motions.size(), 0);
+  const double load_size = load.lpNorm<1>();
+  for (const MotionSet& set : motion_sets(mesh, motions))
+    for (std::size_t k = 0; k < set.motions.size(); ++k) {
+      const auto motion = set.fields.col(k);
+      VecX work(motion.size());
+      for (Eigen::Index i = 0; i < work.size(); ++i) work(i) = motion(i) * load(set.unknown(i));
+      const double least = 1e-12 * load_size * motion.lpNorm<Eigen::Infinity>();
+      driven[set.motions[k]] = std::abs(work.sum()) > std::max(round_off * work.lpNorm<1>(), least);
+    }
+  return driven;
 }
 
 }  // namespace
@@ -51,9 +61,9 @@ std::vector<std::string> hold_free_motions(const Mesh& mesh, const std::vector<C
                                            const std::vector<std::string>& findings, SaddlePointSystem& system) {
   std::vector<std::string> lines;
   const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions, double round_off) {
-    const MatX fields = motion_fields(mesh, motions);
+    const std::vector<char> moves = driven(mesh, motions, system.f, round_off);
     for (std::size_t k = 0; k < motions.size(); ++k) {
-      if (drives(system.f, fields.col(k), round_off))
+      if (moves[k])
         throw SceneError("nothing holds " + describe(mesh, motions[k]) +
                          "; expected prescribed displacements or contact that prevent it" +
                          (findings.empty() ? "" : ": " + findings.front()));

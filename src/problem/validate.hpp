@@ -1,7 +1,7 @@
 // Scenes that have no solution, or not the one that was meant: errors that name the place.
 #pragma once
 
-#include "fem/rigid_motions.hpp"
+#include "fem/motion_sets.hpp"
 #include "problem/contact_pair.hpp"
 
 namespace mortise {

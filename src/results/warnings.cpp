@@ -9,6 +9,7 @@
 
 #include "base/printable.hpp"
 #include "contact/curve_resolution.hpp"
+#include "problem/scene_names.hpp"
 #include "results/checks.hpp"
 #include "results/large_displacement.hpp"
 
@@ -140,12 +141,13 @@ void warn_of_far_origin(const ContactPair& pair, const Results& r, Lines& lines)
 // Poisson's ratio from which elements lock in plane strain: docs/stability.md, near incompressibility.
 void warn_of_locking(const Scene& scene, const Results& r, Lines& lines) {
   if (scene.plane != Plane::strain) return;
+  const SceneNames names(r.mesh);
+  std::vector<char> has_linear(r.mesh.bodies.size(), 0);
+  for (const Cell& cell : r.mesh.cells)
+    if (!is_quadratic(cell.kind)) has_linear[cell.body] = 1;
   for (const BodySpec& body : scene.bodies) {
     const double poisson = scene.materials.at(body.material).poisson;
-    const int b = body_index(r.mesh, body.name);
-    const bool linear = std::any_of(r.mesh.cells.begin(), r.mesh.cells.end(), [&](const Cell& cell) {
-      return cell.body == b && (cell.kind == CellKind::tri3 || cell.kind == CellKind::quad4);
-    });
+    const bool linear = has_linear[names.body("bodies." + body.name, body.name)];
     if (poisson < (linear ? 0.4 : 0.49)) continue;
     std::ostringstream text;
     text << "body '" << body.name << "' is nearly incompressible (poisson = " << poisson << "): its "

@@ -5,6 +5,7 @@
 #include "fem/constraints.hpp"
 #include "fem/patch_recovery.hpp"
 #include "fem/stress.hpp"
+#include "mesh/side_table.hpp"
 #include "support/two_plates.hpp"
 
 namespace mortise {
@@ -91,7 +92,8 @@ TEST(Loads, PressureOnAClosedOutlineIsInBalance) {
     VecX load = VecX::Zero(2 * mesh.nodes.rows());
     for (const char* name : {"top", "upper_left", "upper_right", "upper_contact"})
       add_traction(
-          mesh, boundary_index(mesh, name), [](const Vec2&, const Vec2& n) -> Vec2 { return -3 * n; }, load);
+          mesh, sides_of(mesh, mesh.boundaries[boundary_index(mesh, name)]),
+          [](const Vec2&, const Vec2& n) -> Vec2 { return -3 * n; }, load);
     Vec2 force = Vec2::Zero();
     double moment = 0;
     for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i) {
@@ -109,7 +111,7 @@ TEST(Loads, BodyForceSumsToForceTimesArea) {
     plates.kind_upper = plates.kind_lower = kind;
     const Mesh mesh = test::mesh_of(plates);
     VecX load = VecX::Zero(2 * mesh.nodes.rows());
-    add_body_force(mesh, 1, Vec2(2, -5), load);
+    add_body_forces(mesh, {Vec2::Zero(), Vec2(2, -5)}, load);
     Vec2 sum = Vec2::Zero();
     for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i) sum += load.segment<2>(2 * i);
     EXPECT_NEAR(sum.x(), 2 * 0.24, 1e-14);

@@ -1,9 +1,11 @@
 // Motions of whole bodies that nothing resists.
-#include "fem/rigid_motions.hpp"
-
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
+#include "fem/motion_sets.hpp"
 #include "support/two_plates.hpp"
+#include "support/wall.hpp"
 
 namespace mortise {
 namespace {
@@ -84,6 +86,51 @@ TEST(FreeMotions, ComeApartBodyByBody) {
         (std::abs(m.translation.x()) > 1e-10) + (std::abs(m.translation.y()) > 1e-10) + (std::abs(m.rotation) > 1e-10),
         1);
   }
+}
+
+// Nothing is kept of size bodies x unknowns: each block's motions are told at its own nodes.
+TEST(FreeMotions, OfManyBodiesAreHeldByTheirOwnNodes) {
+  const int n = 6;
+  const Mesh mesh = test::wall(n, 1).mesh;
+  const Constraints c = no_constraints(mesh);
+  const auto motions = free_motions(mesh, c, SparseMatrix(0, 2 * mesh.nodes.rows()));
+  ASSERT_EQ(motions.size(), std::size_t(3 * n * n));
+  Eigen::Index entries = 0;
+  for (const MotionSet& set : motion_sets(mesh, motions)) {
+    EXPECT_EQ(set.motions.size(), 3U);
+    entries += set.fields.size();
+    EXPECT_GT(std::abs(motions_at(set, grounding_unknowns(mesh, c, motions)).determinant()), 0.1);
+  }
+  EXPECT_EQ(entries, 3 * 2 * mesh.nodes.rows());
+}
+
+// Blocks in rows, held where they stand: what moves is each row along itself, with all its blocks, and its blocks alone
+// if the joints between them are left out. 40 bodies: more than are looked at all at once.
+TEST(FreeMotions, OfManyBodiesInContactAreFoundTogether) {
+  const int n = 40;
+  std::vector<test::Patch> blocks;
+  for (int i = 0; i < n; ++i) {
+    blocks.push_back(test::block(
+        std::string("b") + std::to_string(i), 2, 2, i, i + 1, [](double) { return 0; }, [](double) { return 1; }));
+  }
+  const Mesh mesh = test::mesh_of(blocks, CellKind::quad4);
+  Constraints c = no_constraints(mesh);
+  for (int i = 0; i < n; ++i)
+    prescribe(mesh, boundary_index(mesh, std::string("b") + std::to_string(i) + "_south"), 1, 0, c);
+  std::vector<ContactNormal> joints;
+  for (int i = 0; i + 1 < n; ++i)
+    for (const double y : {0., 0.5, 1.}) joints.push_back({{i + 1., y}, {1, 0}, i, i + 1});
+  const auto together = free_motions(mesh, c, joints);
+  ASSERT_EQ(together.size(), 1U);
+  ASSERT_EQ(together[0].size(), std::size_t(n));
+  for (const RigidMotion& m : together[0]) {
+    EXPECT_NEAR(std::abs(m.translation.x()), 1, 1e-6);
+    EXPECT_NEAR(m.translation.y(), 0, 1e-6);
+    EXPECT_NEAR(m.rotation, 0, 1e-6);
+  }
+  EXPECT_EQ(free_motions(mesh, c, std::vector<ContactNormal>{}).size(), std::size_t(n));
+  prescribe(mesh, boundary_index(mesh, "b7_south"), 0, 0, c);
+  EXPECT_TRUE(free_motions(mesh, c, joints).empty());
 }
 
 }  // namespace

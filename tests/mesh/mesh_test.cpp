@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "grid.hpp"
+#include "mesh/side_table.hpp"
 #include "support/messages.hpp"
 
 namespace mortise {

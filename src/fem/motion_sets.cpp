@@ -1,0 +1,108 @@
+#include "fem/motion_sets.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "base/dense.hpp"
+#include "base/union_find.hpp"
+
+namespace mortise {
+
+std::vector<MotionSet> motion_sets(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions) {
+  UnionFind bodies(mesh.bodies.size());
+  for (const auto& motion : motions)
+    for (const RigidMotion& of_body : motion) bodies.join(motion.front().body, of_body.body);
+  const BodyPoints points = body_points(mesh);
+  std::vector<int> set_of(mesh.bodies.size(), -1);
+  std::vector<MotionSet> sets;
+  for (int m = 0; m < int(motions.size()); ++m) {
+    int& set = set_of[bodies.find(motions[m].front().body)];
+    if (set < 0) {
+      set = int(sets.size());
+      sets.emplace_back();
+    }
+    sets[set].motions.push_back(m);
+    for (const RigidMotion& motion : motions[m])
+      sets[set].nodes.insert(sets[set].nodes.end(), points.node.begin() + points.first[motion.body],
+                             points.node.begin() + points.first[motion.body + 1]);
+  }
+  for (MotionSet& set : sets) {
+    std::ranges::sort(set.nodes);
+    set.nodes.erase(std::unique(set.nodes.begin(), set.nodes.end()), set.nodes.end());
+    set.fields = MatX::Zero(2 * set.nodes.size(), set.motions.size());
+    for (std::size_t k = 0; k < set.motions.size(); ++k)
+      for (const RigidMotion& motion : motions[set.motions[k]])
+        for (int p = points.first[motion.body]; p < points.first[motion.body + 1]; ++p) {
+          const auto row = std::ranges::lower_bound(set.nodes, points.node[p]) - set.nodes.begin();
+          const Vec2 arm = mesh.nodes.row(points.node[p]).transpose() - motion.centre;
+          set.fields.block<2, 1>(2 * row, k) = motion.translation + motion.rotation * Vec2(-arm.y(), arm.x());
+        }
+  }
+  return sets;
+}
+
+std::vector<int> grounding_unknowns(const Mesh& mesh, const Constraints& constraints,
+                                    const std::vector<std::vector<RigidMotion>>& motions) {
+  std::vector<int> unknowns(motions.size());
+  for (MotionSet& set : motion_sets(mesh, motions)) {
+    MatX& fields = set.fields;
+    for (Eigen::Index i = 0; i < fields.rows(); ++i)
+      if (constraints.fixed[set.unknown(i)]) fields.row(i).setZero();
+    for (Eigen::Index m = 0; m < fields.cols(); ++m) {  // Gaussian elimination with row pivots
+      const VecX sizes = fields.col(m).cwiseAbs();
+      const double least = (1 - 1e-6) * sizes.maxCoeff();
+      Eigen::Index pivot = 0;  // the first of those that are as large but for round-off
+      while (sizes(pivot) < least) ++pivot;
+      unknowns[set.motions[m]] = set.unknown(pivot);
+      for (Eigen::Index other = m + 1; other < fields.cols(); ++other)
+        fields.col(other) -= fields(pivot, other) / fields(pivot, m) * fields.col(m);
+    }
+  }
+  return unknowns;
+}
+
+MatX motions_at(const MotionSet& set, const std::vector<int>& unknowns) {
+  MatX at(set.motions.size(), set.motions.size());
+  for (std::size_t k = 0; k < set.motions.size(); ++k) {
+    const int unknown = unknowns[set.motions[k]];
+    const auto node = std::ranges::lower_bound(set.nodes, unknown / 2);
+    at.row(k) = set.fields.row(2 * (node - set.nodes.begin()) + unknown % 2);
+  }
+  return at;
+}
+
+std::vector<RigidMotion> motion_through(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions,
+                                        const std::vector<int>& unknowns, const VecX& values) {
+  VecX parts(values.size());
+  for (const MotionSet& set : motion_sets(mesh, motions))
+    parts(set.motions) = solve_square(motions_at(set, unknowns), values(set.motions));
+  std::map<int, RigidMotion> sum;  // by body
+  for (std::size_t m = 0; m < motions.size(); ++m)
+    for (const RigidMotion& motion : motions[m]) {
+      RigidMotion& total = sum.try_emplace(motion.body, motion.body, Vec2::Zero(), 0.0, motion.centre).first->second;
+      total.translation += parts(m) * motion.translation;
+      total.rotation += parts(m) * motion.rotation;
+    }
+  const BodyFrames frames = body_frames(mesh, body_points(mesh));
+  double size = 0, turning = 0;
+  for (const auto& [body, motion] : sum) {
+    size = std::max(size, motion.translation.norm());
+    turning = std::max(turning, std::abs(motion.rotation) * frames.size[body]);
+  }
+  if (size < 1e-6 * turning) {  // round-off
+    size = 0;
+    for (auto& [body, motion] : sum) {
+      motion.translation.setZero();
+      size = std::max(size, std::abs(motion.rotation));
+    }
+  }
+  std::vector<RigidMotion> result;
+  for (auto& [body, motion] : sum) {
+    motion.translation /= size;
+    motion.rotation /= size;
+    result.push_back(motion);
+  }
+  return result;
+}
+
+}  // namespace mortise
