@@ -72,7 +72,7 @@ def execute(run):
         start = time.monotonic()
         try:
             summary = launch.solve(path, run["settings"], Path(folder))
-        except (launch.MortiseError, subprocess.TimeoutExpired) as error:
+        except (launch.StudyError, subprocess.TimeoutExpired) as error:
             return {"failed": str(error)[-400:]}
         row = {"failed": "", "wall": time.monotonic() - start} | {key: summary.get(key) for key in KEPT}
         table = launch.columns(Path(folder) / "contact.csv")

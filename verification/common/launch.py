@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import tempfile
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -17,8 +18,8 @@ TIME_LIMIT = 1800  # seconds for one call
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # environment of runs that are timed
 
 
-class MortiseError(Exception):
-    """A program cannot be run, or refuses, with what it said."""
+class StudyError(Exception):
+    """What stops a study, or one case of it: a program that is not there or fails, with what it said; bad input."""
 
 
 def command_line(description, name, arguments=None, names=None, **switches):
@@ -36,19 +37,32 @@ def command_line(description, name, arguments=None, names=None, **switches):
 
 
 def need(program):
-    """The program, or MortiseError if it is not there."""
+    """The program, or StudyError if it is not there."""
     if not program.is_file():
         variable = "MORTISE_CHART" if program == CHART else "MORTISE"
-        raise MortiseError(f"{program} is missing: ./dev build makes it, or {variable} names another")
+        raise StudyError(f"{program} is missing: ./dev build makes it, or {variable} names another")
     return program
 
 
+def run(command, expected=SOLVED, **options):
+    """Runs a program: what subprocess.run gives of it, and its seconds. StudyError with its last lines where its exit
+    status is not expected."""
+    command, start = [str(word) for word in command], time.perf_counter()
+    pipes = {"capture_output": True, "text": True, "errors": "replace", "timeout": TIME_LIMIT, "check": False}
+    try:
+        done = subprocess.run(command, **pipes, **options)
+    except subprocess.TimeoutExpired as late:
+        raise StudyError(f"{' '.join(command)}: not ended within {TIME_LIMIT} s") from late
+    seconds = time.perf_counter() - start
+    if done.returncode not in expected:
+        said = "\n".join((done.stdout + done.stderr).strip().splitlines()[-6:])
+        raise StudyError(f"{' '.join(command)}: exit status {done.returncode}\n{said}")
+    return done, seconds
+
+
 def call(*arguments):
-    """Runs mortise, or says why it did not run."""
-    command = [str(word) for word in (need(MORTISE), *arguments)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT, check=False)
-    if done.returncode not in SOLVED:
-        raise MortiseError(f"{' '.join(command)}: exit status {done.returncode}\n{done.stderr.strip()}")
+    """Runs mortise, or says why it did not run; returns its seconds."""
+    return run([need(MORTISE), *arguments])[1]
 
 
 def scene_file(name):

@@ -17,7 +17,7 @@ import launch
 import report
 import run
 import scene as scenes
-from cases import CaseError
+from cases import StudyError
 from judge import Figure, Result
 
 
@@ -101,7 +101,7 @@ def test_gap_and_normals_of_each_case(table):
 
 
 def test_a_scene_without_a_gap_is_refused():
-    with pytest.raises(cases.CaseError, match="'new' 0 times"):
+    with pytest.raises(cases.StudyError, match="'new' 0 times"):
         cases.gap_of({"gaps": {"closed": ["old"]}}, "new")
 
 
@@ -114,15 +114,15 @@ def test_globs_choose_cases(table):
 
 
 def test_an_unknown_case_is_refused_with_the_nearest(table):
-    with pytest.raises(cases.CaseError, match="no case matches(.|\n)*same_problem/parabola_1/"):
+    with pytest.raises(cases.StudyError, match="no case matches(.|\n)*same_problem/parabola_1/"):
         cases.choose(table, ["same_problem/parabola_3/20x25-40x50-80x100/upper_contact"], quick=False)
-    with pytest.raises(cases.CaseError, match="quick"):
+    with pytest.raises(cases.StudyError, match="quick"):
         cases.choose(table, ["timing/*"], quick=True)
 
 
 @pytest.mark.parametrize("text", ["8", "8x", "8x10x12", "axb", "0x8"])
 def test_a_mesh_that_is_none_is_refused(text):
-    with pytest.raises(cases.CaseError, match="expected two numbers"):
+    with pytest.raises(cases.StudyError, match="expected two numbers"):
         cases.mesh_size(text)
 
 
@@ -163,9 +163,9 @@ def test_bodies_of_a_mesh(kind):
         assert sorted(body.labels) == [convert.UNNAMED] * 3 + [tag]
         assert convert.body_of_curve(bodies, tag) == name
     assert convert.body_order(mesh, ["lower", "upper"]) == ["upper", "lower"]
-    with pytest.raises(CaseError, match="bounds 0 bodies"):
+    with pytest.raises(StudyError, match="bounds 0 bodies"):
         convert.body_of_curve(bodies, 99)
-    with pytest.raises(CaseError, match="no physical surface 'middle'"):
+    with pytest.raises(StudyError, match="no physical surface 'middle'"):
         convert.read_bodies(mesh, ["middle"])
 
 
@@ -224,7 +224,7 @@ def test_case_file_holds_the_physics_of_the_scene():
 
 
 def test_scenes_with_several_pairs_are_refused():
-    with pytest.raises(CaseError, match="2 contact pairs"):
+    with pytest.raises(StudyError, match="2 contact pairs"):
         scenes.read_scene(launch.ROOT / "geo/stack.toml")
 
 
@@ -287,9 +287,9 @@ def test_nan_holds_no_limit():
 def test_match_finds_the_partner_of_every_node():
     shuffled = POINTS[[2, 0, 3, 1]] + 1e-12
     np.testing.assert_array_equal(compare.match(POINTS, shuffled, 2.0, "body"), [1, 3, 0, 2])
-    with pytest.raises(CaseError, match=r"body, mortise: nothing within 1e-10 .* \(2, 1\)"):
+    with pytest.raises(StudyError, match=r"body, mortise: nothing within 1e-10 .* \(2, 1\)"):
         compare.match(POINTS, POINTS + [[0, 0], [0, 0], [0, 1e-9], [0, 0]], 2.0, "body, mortise")
-    with pytest.raises(CaseError, match="same partner"):
+    with pytest.raises(StudyError, match="same partner"):
         compare.match(POINTS[[0, 0]], POINTS, 2.0, "body")
 
 

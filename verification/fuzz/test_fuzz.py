@@ -21,7 +21,6 @@ import results_files
 import twins
 from fuzz_case import REFUSED, SOLVED, Twin, solve_case
 from make_case import MAKERS, make_case
-from launch import MORTISE  # fuzz has made common/ known
 
 SEED = "pytest"
 
@@ -69,10 +68,8 @@ WRONGS = [
 
 
 @pytest.fixture(scope="module")
-def mortise():
-    if not MORTISE.is_file():
-        pytest.skip(f"{MORTISE} is missing: ./dev build makes it")
-    return one_call.Program(str(MORTISE))
+def mortise(mortise):
+    return one_call.Program(str(mortise))
 
 
 @pytest.fixture

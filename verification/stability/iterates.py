@@ -27,9 +27,9 @@ import compare
 import launch
 import run
 import scene as scenes
-from cases import TABLE, CaseError, one_discretisation_step
+from cases import TABLE, one_discretisation_step
 
-SCRIPT = run.SCRIPT.with_name("ddm.edp")
+SCRIPT = launch.ROOT / "freefem/ddm.edp"
 SCENE = "parabola_1"
 STEPS = 10
 LIMIT = 1e-8
@@ -67,25 +67,23 @@ def with_stiffness(scene, ratio):
     return {**scene, "materials": materials, "bodies": {**scene["bodies"], "upper": "other"}}
 
 
-def prepare(programs, case, folder):
+def prepare(case, folder):
     """Mesh and FreeFEM's case in the folder; returns mortise's mesh file."""
     step, file, mesh = case.step(), launch.scene_file(SCENE), folder / "mesh.msh"
     scene = with_stiffness(scenes.read_scene(file), case.ratio)
-    run.make_mesh(programs, file, scenes.size_parameters(scene, step.mesh), step.mesh_parameters, mesh)
+    run.make_mesh(file, scenes.size_parameters(scene, step.mesh), step.mesh_parameters, mesh)
     run.convert_step(step, scene, mesh, folder)
     return mesh
 
 
-def freefem_iterates(programs, case, folder):
+def freefem_iterates(case, folder):
     """Places of the multipliers, r_1 to r_STEPS at them (fewer if it has converged), and the force residuals."""
-    command = [programs.freefem, "-nw", "-v", "0", SCRIPT, "-case", folder / "case.txt"]
-    command += ["-beta", repr(case.beta), "-steps", STEPS + 1]
-    run.run_program(command, expected=(0, 2), cwd=folder, env=run.freefem_environment())
+    run.call_freefem(SCRIPT, "-beta", repr(case.beta), "-steps", STEPS + 1, folder=folder, expected=(0, 2))
     places = np.loadtxt(folder / "freefem_contact.txt", ndmin=2)[:, :2]
     history = np.loadtxt(folder / "freefem_history.txt", ndmin=2)
     l, converged = history[:, 3:], history[-1, 1:3].max() < 1e-8
     if l.shape[1] != len(places) or not (len(l) == STEPS + 1 or len(l) > 1 and converged):
-        raise CaseError(f"FreeFEM's history has the shape {l.shape}; expected {(STEPS + 1, len(places))}")
+        raise launch.StudyError(f"FreeFEM's history has the shape {l.shape}; expected {(STEPS + 1, len(places))}")
     r = (l[1:] - (1 - case.beta) * l[:-1]) / case.beta
     return places, r, np.abs(r - l[:-1]).max(axis=1) / np.abs(r).max(axis=1)
 
@@ -115,10 +113,10 @@ def mortise_iterates(case, mesh, folder, places, steps):
     return np.array(found), launch.columns(results / "iteration.csv")["force"]
 
 
-def compare_case(programs, case, folder):
+def compare_case(case, folder):
     """Rows of iterates.csv."""
-    mesh = prepare(programs, case, folder)
-    places, theirs, their_residuals = freefem_iterates(programs, case, folder)
+    mesh = prepare(case, folder)
+    places, theirs, their_residuals = freefem_iterates(case, folder)
     ours, our_residuals = mortise_iterates(case, mesh, folder, places, len(theirs))
     for k in range(len(theirs)):
         pressure = np.abs(ours[k] - theirs[k]).max() / np.abs(theirs[k]).max()
@@ -136,9 +134,9 @@ def compare_case(programs, case, folder):
         }
 
 
-def run_case(programs, case):
+def run_case(case):
     with tempfile.TemporaryDirectory() as folder:
-        return list(compare_case(programs, case, Path(folder)))
+        return list(compare_case(case, Path(folder)))
 
 
 def line(case, rows):
@@ -155,12 +153,12 @@ def main(arguments=None):
     options = launch.command_line(__doc__, "iterates", arguments)
     rows = []
     try:
-        programs = run.find_programs()
+        run.need_programs()
         for case in cases("quick" if options.quick else "usual"):
-            found = run_case(programs, case)
+            found = run_case(case)
             print(line(case, found), flush=True)
             rows += found
-    except (run.MissingProgram, launch.MortiseError, CaseError) as error:
+    except launch.StudyError as error:
         sys.exit(f"iterates.py: {error}")
     options.output.mkdir(parents=True, exist_ok=True)
     launch.write_csv(options.output / "iterates.csv", rows)

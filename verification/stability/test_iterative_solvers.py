@@ -8,7 +8,6 @@ import pytest
 
 import iterates  # makes crosscheck's modules known
 import launch
-import run
 import runs
 import study_9_ddm as ddm
 import study_10_mssor as mssor
@@ -22,14 +21,6 @@ pytestmark = pytest.mark.usefixtures("mortise")
 @pytest.fixture
 def store(tmp_path):
     return runs.Store(tmp_path / "runs")
-
-
-@pytest.fixture(scope="module")
-def programs():
-    try:
-        return run.find_programs()
-    except run.MissingProgram as missing:
-        pytest.skip(str(missing))
 
 
 @pytest.mark.parametrize("role", ddm.ROLES)
@@ -79,8 +70,8 @@ def test_the_table_of_steps_has_a_cell_a_ratio_and_a_number_a_mesh():
 
 
 @pytest.mark.parametrize("space, beta", [("P1-P1", 0.3), ("P2-P1", 0.9)])
-def test_iterates_are_freefems(programs, space, beta):
-    rows = iterates.run_case(programs, iterates.Case("8x10", space, 1, beta))
+def test_iterates_are_freefems(freefem, space, beta):
+    rows = iterates.run_case(iterates.Case("8x10", space, 1, beta))
     assert len(rows) == iterates.STEPS and all(row["ok"] for row in rows)
     assert rows[-1]["force_residual"] > 1e-3, "still on the way"
 
