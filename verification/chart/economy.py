@@ -68,9 +68,8 @@ def stages(summary):
 
 def pressure(folder):
     """x and p along the multiplier side."""
-    table = launch.columns(folder / "contact.csv")
-    mine = [i for i, curve in enumerate(table["curve"]) if curve == table["curve"][0]]
-    return np.array([[table["x"][i], table["p"][i]] for i in mine])
+    side = launch.contact(folder)
+    return np.stack([side["x"], side["p"]], axis=1)
 
 
 def compare(study, scene, named, folder, repeats):

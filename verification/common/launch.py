@@ -3,11 +3,14 @@
 import argparse
 import csv
 import json
+import math
 import os
 import subprocess
 import tempfile
 import time
 from pathlib import Path
+
+import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 MORTISE = Path(os.environ.get("MORTISE", ROOT / "build/release/mortise")).absolute()
@@ -98,11 +101,26 @@ def solve(scene, settings, folder):
     return json.loads((Path(folder) / "summary.json").read_text())
 
 
-def columns(path):
-    """The columns of a CSV file: lists of numbers, or of texts."""
+def read_csv(path):
+    """The rows of a CSV file: dictionaries of numbers and texts."""
     with open(path, newline="") as file:
-        rows = [{key: number_or_text(value) for key, value in row.items()} for row in csv.DictReader(file)]
-    return {key: [row[key] for row in rows] for key in rows[0]} if rows else {}
+        return [{key: number_or_text(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def columns(path):
+    """The columns of a CSV file: arrays of numbers, NaN where nothing stands, or of texts."""
+    table = read_csv(path)
+    lists = {key: [row[key] for row in table] for key in (table[0] if table else {})}
+    is_text = lambda values: any(isinstance(value, str) and value for value in values)
+    of = lambda values: np.array(values if is_text(values) else [math.nan if v == "" else v for v in values])
+    return {key: of(values) for key, values in lists.items()}
+
+
+def contact(folder, curve=None, table="contact.csv"):
+    """Columns of a table of the contact line, of one curve: by default of the first pair's multiplier side."""
+    found = columns(Path(folder) / table)
+    here = found["curve"] == (curve or found["curve"][0])
+    return {key: values[here] for key, values in found.items()}
 
 
 def sweep(scene, settings, vary):
@@ -111,8 +129,7 @@ def sweep(scene, settings, vary):
     with tempfile.TemporaryDirectory() as folder:
         table = Path(folder) / "sweep.csv"
         call("sweep", scene_file(scene), *options(settings), *words, "-o", table, "--quiet")
-        with open(table, newline="") as file:
-            return [{key: number_or_text(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return read_csv(table)
 
 
 def write_csv(path, rows):

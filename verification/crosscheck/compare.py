@@ -1,6 +1,5 @@
 """Both programs' results on the same nodes, and how far they are apart."""
 
-import csv
 import math
 from dataclasses import dataclass
 
@@ -8,8 +7,9 @@ import meshio
 import numpy as np
 from scipy.spatial import cKDTree
 
-import run
-from cases import StudyError
+import run  # makes common/ known
+import launch
+from launch import StudyError
 
 NEAR = 1e-10  # of the body's size: nodes nearer than this are one
 ENDS, KINKS = 0.10, 0.10  # fractions of the length left out of pressure_inside: at an end, on each side of a kink
@@ -91,22 +91,14 @@ def displacements(solved, order, same_nodes):
     return fields
 
 
-def read_contact(path, curve):
-    """s, x, y, p of a curve's rows in contact.csv."""
-    with open(path, newline="") as file:
-        rows = [row for row in csv.DictReader(file) if row["curve"] == curve]
-    if not rows:
-        raise StudyError(f"{path.name} has no rows of the curve '{curve}'")
-    return np.array([[float(row[key] or "nan") for key in ("s", "x", "y", "p")] for row in rows])
-
-
 def pressures(solved, side):
     """Both programs' pressures at FreeFEM's multipliers."""
-    ours = read_contact(solved.folder / "mortise/contact.csv", side)
+    ours = launch.contact(solved.folder / "mortise", side)
     theirs = read_numbers(solved.folder / "freefem_contact.txt", 4)
-    row = match(theirs[:, :2], ours[:, 1:3], solved.bodies[0].size(), f"multipliers on {side}")
-    order = np.argsort(ours[row, 0])
-    return Curve(side, ours[row, 0][order], ours[row, 3][order], theirs[order, 2])
+    places = np.stack([ours["x"], ours["y"]], axis=1)
+    row = match(theirs[:, :2], places, solved.bodies[0].size(), f"multipliers on {side}")
+    order = np.argsort(ours["s"][row])
+    return Curve(side, ours["s"][row][order], ours["p"][row][order], theirs[order, 2])
 
 
 def compare(solved, step):

@@ -108,8 +108,9 @@ def mortise_iterates(case, mesh, folder, places, steps):
     for k in range(1, steps + 1):
         results = folder / "mortise"
         launch.solve(SCENE, {**settings, "method.max_iterations": k}, results)
-        rows = compare.read_contact(results / "contact.csv", SIDE)
-        found.append(rows[compare.match(places, rows[:, 1:3], 1.0, f"multipliers on {SIDE}"), 3])
+        line = launch.contact(results, SIDE)
+        own = np.stack([line["x"], line["y"]], axis=1)
+        found.append(line["p"][compare.match(places, own, 1.0, f"multipliers on {SIDE}")])
     return np.array(found), launch.columns(results / "iteration.csv")["force"]
 
 
