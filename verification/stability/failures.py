@@ -77,10 +77,12 @@ def ends(values, step):
     return [*values[:-1:step], values[-1]]
 
 
-def quote(rows, holds=lambda row: True, most=330):
-    """What mortise said in the first of the rows that fulfils the condition: an error, or a warning."""
+def quote(rows, holds=lambda row: True, most=330, warning=""):
+    """What mortise said in the first of the rows that fulfils the condition: an error, or its first warning that
+    contains `warning`."""
     for row in rows:
-        text = row["message"] if row["outcome"] == "refused" else row.get("warnings", "").split(" | ")[0]
+        warnings = (text for text in row.get("warnings", "").split(" | ") if warning in text)
+        text = row["message"] if row["outcome"] == "refused" else next(warnings, "")
         if text and holds(row):
             text = text.removeprefix("error: ")
             return f'"{text[:most]}{"..." if len(text) > most else ""}"'
@@ -88,6 +90,6 @@ def quote(rows, holds=lambda row: True, most=330):
 
 
 def checks_of(rows):
-    """Names of the checks that fail in any of the rows, and the warning of p against sigma_n."""
+    """Names of the checks that fail in any of the rows, and the warning of p."""
     names = {name for row in rows for name in row.get("failed_checks", "").split("; ") if name}
     return ", ".join(sorted(names)) or "none"

@@ -3,7 +3,8 @@
 import numpy as np
 
 import figure
-from failures import away, checks_of, failure, parameters, select, solved, told
+from failures import away, checks_of, failure, parameters, select, silent, solved, told
+from stability_runs import ESTIMATED_ERROR
 
 RATIOS = [1, 1.5, 2, 3, 5, 10, 20]
 END = 0.1  # of the length of a curve, left out at either end where a scene has corners there
@@ -59,7 +60,7 @@ def complete(rows):
 def draw_panel(axes, rows, scene, order):
     for space in SPACES[order]:
         line = [row for row in select(rows, scene=scene, order=order, space=space) if solved(row)]
-        warned = {row["ratio"] for row in line if "sigma_n" in row["failed_checks"]}
+        warned = {row["ratio"] for row in line if ESTIMATED_ERROR in row["failed_checks"]}
         points = [(row["ratio"], row["p_error"]) for row in line]
         figure.curve(axes, points, hollow=lambda x, y: x in warned, color=COLOURS[space], label=space)
     axes.axvline(1, color="0.8", linewidth=0.8, zorder=0)
@@ -118,7 +119,8 @@ def side_failure(rows, fine):
 
 def segments_failure(rows):
     line = select(rows, space=NO_SEGMENTS, scene="rings")
-    nearest = min((row for row in line if row["p_error"] > LIMITS["rings"]), key=away, default=None)
+    bad = [row for row in line if row["p_error"] > LIMITS["rings"]]
+    nearest = min(bad, key=away, default=None)
     return failure(
         "Whole edges instead of segments",
         nearest and away(nearest),
@@ -126,6 +128,9 @@ def segments_failure(rows):
         ratio=nearest and as_ratio(nearest["ratio"]),
         error=nearest and nearest["p_error"],
         worst=max(row["p_error"] for row in line),
+        limit=LIMITS["rings"],
+        bad=len(bad),
+        silent=len(silent(bad)),
     )
 
 

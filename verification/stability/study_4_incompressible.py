@@ -83,8 +83,9 @@ def displacement_failure(rows):
 
 def pressure_failure(rows):
     bad, values, bound = locking(rows, "p_error")
-    warned = [row for row in select(rows, scene="rings") if "sigma_n" in row["failed_checks"]]
-    return failure("Contact pressure", bound, told(bad), warned=len(warned), **values)
+    estimated = [row["p_estimated"] / row["p_error_l2"] for row in bad]
+    values |= {"bad": len(bad), "held": sum(part >= 1 for part in estimated), "least": min(estimated, default=None)}
+    return failure("Contact pressure", bound, told(bad), **values)
 
 
 def stress_failure(rows):

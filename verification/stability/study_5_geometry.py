@@ -106,7 +106,7 @@ def complete(rows):
 
 
 def draw_line(axes, rows, label, key="p_error", **options):
-    """One curve over `value`; open where a check fails, crosses where the run is refused."""
+    """One curve over `value`; open where a check fails or p is warned of, crosses where the run is refused."""
     good = [row for row in rows if solved(row) and row.get(key) is not None]
     failed = {row["value"] for row in good if row["failed_checks"]}
     points = [(row["value"], max(row[key], 1e-16)) for row in good]
@@ -203,9 +203,11 @@ def wall_failure(rows):
         values[kind] = first(select(line, line=kind), "value", over(1.1, "growth"))
         values[f"{kind}_most"] = last(select(line, line=kind), "growth", solved)
         bounds += [values[kind]] if values[kind] else []
-    failing = checks_of(line)
-    state = "open" if failing == "none" else "shown"
-    return failure("Fixed walls at an angle", min(bounds, default=None), state, failing=failing, **values)
+    grown = [row for row in line if over(1.1, "growth")(row)]
+    named = [row for row in grown if (row["pressure_exponent"] or 1) < 1]
+    state = "shown" if len(named) == len(grown) else "open"
+    values |= {"grown": len(grown), "named": len(named)}
+    return failure("Fixed walls at an angle", min(bounds, default=None), state, **values)
 
 
 def ring_failures(rows):
