@@ -51,9 +51,9 @@ def contact_settings(step):
     return {} if step.gap == "curve" else {"contact.initial_gap": step.gap, "method.normals": "edges"}
 
 
-def solve_by_mortise(scene_file, mesh_file, step, folder):
-    """mortise on the mesh as it lies in the file; its physics are the scene's own. Returns its seconds."""
-    overrides = {
+def settings_of(step, mesh_file):
+    """mortise's, on the mesh as it lies in the file; its physics are the scene's own."""
+    return {
         "mesh.file": mesh_file.absolute(),
         "mesh.parameters": "{}",
         "contact.multipliers_on": step.side,
@@ -62,7 +62,12 @@ def solve_by_mortise(scene_file, mesh_file, step, folder):
         "method.integration": step.mortise["integration"],
         **contact_settings(step),
     }
-    return launch.call("solve", scene_file, *launch.options(overrides), "-o", folder, "--quiet")
+
+
+def solve_by_mortise(scene_file, mesh_file, step, folder):
+    """Returns its seconds."""
+    options = launch.options(settings_of(step, mesh_file))
+    return launch.call("solve", scene_file, *options, "-o", folder, "--quiet")
 
 
 def call_freefem(script, *arguments, folder, expected=(0,)):
@@ -90,11 +95,12 @@ def convert_step(step, scene, mesh_file, folder):
     return [bodies[name] for name in names], [order.index(name) for name in names]
 
 
-def prepare(step, folder):
-    """Mesh and converted mesh of a step; returns the scene file, the mesh file, the bodies and their numbers."""
+def prepare(step, folder, change=lambda scene: scene):
+    """Mesh and converted mesh of a step; returns the scene file, the mesh file, the bodies and their numbers. `change`: of
+    the scene for FreeFEM."""
     folder.mkdir(parents=True, exist_ok=True)
     scene_file, mesh_file = launch.scene_file(step.scene), folder / "mesh.msh"
-    scene = scenes.read_scene(scene_file)
+    scene = change(scenes.read_scene(scene_file))
     make_mesh(scene_file, scenes.size_parameters(scene, step.mesh), step.mesh_parameters, mesh_file)
     return scene_file, mesh_file, *convert_step(step, scene, mesh_file, folder)
 
