@@ -1,5 +1,6 @@
 """For the tests of all studies: the path to common/, and tests that need a program are skipped where it is missing."""
 
+import shutil
 import sys
 from pathlib import Path
 
@@ -10,9 +11,24 @@ sys.path.insert(0, str(Path(__file__).with_name("common")))
 import launch
 
 
-@pytest.fixture
+def need(path):
+    if not path.is_file():
+        pytest.skip(f"{path} is missing: ./dev build makes it")
+    return path
+
+
+@pytest.fixture(scope="session")
 def mortise():
     """The executable of mortise."""
-    if not launch.MORTISE.is_file():
-        pytest.skip(f"{launch.MORTISE} is missing: ./dev build makes it")
-    return launch.MORTISE
+    return need(launch.MORTISE)
+
+
+@pytest.fixture(scope="session")
+def chart_tool(mortise):
+    return need(launch.CHART)
+
+
+@pytest.fixture(scope="session")
+def freefem(mortise):
+    if shutil.which("FreeFem++") is None:
+        pytest.skip("FreeFem++ is not on the PATH: ./dev setup installs it")

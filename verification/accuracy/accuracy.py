@@ -115,7 +115,7 @@ def main(arguments=None):
     options.output.mkdir(parents=True, exist_ok=True)
     try:
         rows, known, drawn, verdicts = carry_out(options)
-    except launch.MortiseError as error:
+    except launch.StudyError as error:
         sys.exit(f"accuracy.py: {error}")
     write(options.output, rows, known, drawn, verdicts, options)
     for words, found, holds in verdicts:

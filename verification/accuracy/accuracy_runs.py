@@ -2,7 +2,6 @@
 
 import json
 import math
-import subprocess
 import sys
 import tempfile
 import time
@@ -72,12 +71,11 @@ def execute(run):
         start = time.monotonic()
         try:
             summary = launch.solve(path, run["settings"], Path(folder))
-        except (launch.MortiseError, subprocess.TimeoutExpired) as error:
+        except launch.StudyError as error:
             return {"failed": str(error)[-400:]}
         row = {"failed": "", "wall": time.monotonic() - start} | {key: summary.get(key) for key in KEPT}
-        table = launch.columns(Path(folder) / "contact.csv")
-    side = [i for i, curve in enumerate(table["curve"]) if curve == summary["method"]["multipliers_on"][0]]
-    return row | {"line": {key: [table[key][i] for i in side] for key in ("s", "x", "y", "p", "p_error")}}
+        side = launch.contact(folder)
+    return row | {"line": {key: side[key].tolist() for key in ("s", "x", "y", "p", "p_error")}}
 
 
 def whole_process(asked, repeats=5):

@@ -1,7 +1,5 @@
 // Speed and memory of the mortar solve: its stages, and the whole against its limit, one Cholesky solve of the same
 // stiffness by CHOLMOD. `mortise_benchmark --help` for the options.
-#include <benchmark/benchmark.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -10,44 +8,31 @@
 
 #include "app/solve_scene.hpp"
 #include "base/stopwatch.hpp"
-#include "fem/rigid_motions.hpp"
 #include "io/gmsh_mesh.hpp"
 #include "limit.hpp"
 #include "peak_memory.hpp"
-#include "solve/direct.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise::bench {
 namespace {
 
 struct Options {
-  int up_to = 320;
-  bool stages = true, table = true;
-  int threads = 0, repeats = 5;
-  std::vector<std::string> others;  // for Google Benchmark
+  int up_to = 320, threads = 0, repeats = 5;
 };
 
 Options read_options(int argc, char** argv) {
   Options options;
   CLI::App app("Speed and memory of the mortar solve on parabola 1: stages, and the whole against CHOLMOD alone.");
-  app.add_option("--up-to", options.up_to, "largest mesh: elements along the upper contact curve (default 320)");
-  app.add_flag_callback(
-      "--full", [&] { options.up_to = 640; }, "640x800 too");
-  app.add_flag("!--no-stages", options.stages, "leave the stages out");
-  app.add_flag("!--no-table", options.table, "leave the table out");
+  app.add_option("--up-to", options.up_to, "largest mesh: elements along the upper contact curve, 40 to 640 (320)");
   app.add_option("--threads", options.threads,
                  "threads of the factorisation (default: all cores for large meshes, else 1)");
   app.add_option("--repeats", options.repeats, "runs of each that the table takes medians of (default 5)")
       ->check(CLI::Range(3, 1000));
-  app.allow_extras();
-  app.footer(
-      "All other options go to Google Benchmark: --benchmark_filter=320x400/recover, --benchmark_format=json, ...");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     std::exit(app.exit(error));
   }
-  options.others = app.remaining();
   return options;
 }
 
@@ -74,81 +59,39 @@ void measure_memory(Case& c) {
   c.whole_megabytes = peak_megabytes([] {}, [&] { solve_scene(c.scene, std::move(c.mesh)); });
 }
 
-// The stage as a benchmark, from what a run knows at its end.
-template <typename Work>
-void add_stage(const Case& c, const std::string& stage, const Work& work) {
-  const auto run = [&c, work](benchmark::State& state) {
-    const Results solved = solve_scene(c.scene, c.mesh);
-    for (auto _ : state) benchmark::DoNotOptimize(work(solved));
-  };
-  benchmark::RegisterBenchmark((c.name + "/" + stage).c_str(), run)->Unit(benchmark::kMillisecond)->UseRealTime();
-}
-
-void add_stages(const Case& c) {
-  add_stage(c, "assemble_stiffness",
-            [&c](const Results& r) { return assemble_stiffness(c.mesh, r.discretisation.laws); });
-  add_stage(c, "segments_and_coupling", [&c](const Results& r) {
-    return couple_pairs(c.scene.method, c.mesh, r.discretisation, contact_curves(c.scene, c.mesh));
-  });
-  add_stage(c, "factorise_and_solve", [](const Results& r) { return solve_directly(r.discretisation.system); });
-  add_stage(c, "recover_stress",
-            [&c](const Results& r) { return recover_stress(c.mesh, r.points, r.discretisation.laws, r.solution.u); });
-  add_stage(c, "solve_scene", [&c](const Results&) { return solve_scene(c.scene, c.mesh); });
-}
-
-void run_stages(const std::list<Case>& cases, const Options& options) {
-  for (const Case& c : cases) add_stages(c);
-  std::string name = "mortise_benchmark";
-  std::vector<std::string> others = options.others;
-  std::vector<char*> arguments{name.data()};
-  for (std::string& other : others) arguments.push_back(other.data());
-  int count = int(arguments.size());
-  arguments.push_back(nullptr);
-  benchmark::Initialize(&count, arguments.data());
-  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) std::exit(1);
-  benchmark::RunSpecifiedBenchmarks();
-}
-
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   return (values[(n - 1) / 2] + values[n / 2]) / 2;
 }
 
-// Seconds of the runs of one piece of work.
-struct Runs {
-  std::vector<double> seconds;
-
-  template <typename Work>
-  void time(const Work& work) {
-    Stopwatch watch;
-    work();
-    seconds.push_back(watch.lap());
-  }
-};
+template <typename Work>
+double seconds_of(const Work& work) {
+  Stopwatch watch;
+  work();
+  return watch.lap();
+}
 
 void print_row(const Case& c, int repeats) {
   GroundedSystem system = grounded_system(c.mesh, discretise(c.scene, c.mesh));
-  Runs limit, whole;
+  std::vector<double> limit, whole, ratios;
   std::vector<Seconds> stages;
   for (int i = 0; i < repeats; ++i) {
-    limit.time([&] { cholmod_solution(system); });
+    limit.push_back(seconds_of([&] { cholmod_solution(system); }));
     Mesh mesh = c.mesh;
-    whole.time([&] { stages.push_back(solve_scene(c.scene, std::move(mesh)).seconds); });
+    whole.push_back(seconds_of([&] { stages.push_back(solve_scene(c.scene, std::move(mesh)).seconds); }));
+    ratios.push_back(whole.back() / limit.back());
   }
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < limit.seconds.size(); ++i) ratios.push_back(whole.seconds[i] / limit.seconds[i]);
   const auto stage = [&](double Seconds::*which) {
     std::vector<double> seconds;
     for (const Seconds& s : stages) seconds.push_back(s.*which);
     return median(seconds);
   };
   std::printf("%-9s %9d %9.4f %9.4f %6.2f %6.2f..%-6.2f %8.0f %8.0f %6.2f  %8.4f %8.4f %8.4f %8.4f %8.4f\n",
-              c.name.c_str(), int(system.f.size()), median(limit.seconds), median(whole.seconds),
-              median(whole.seconds) / median(limit.seconds), *std::min_element(ratios.begin(), ratios.end()),
-              *std::max_element(ratios.begin(), ratios.end()), c.limit_megabytes, c.whole_megabytes,
-              c.whole_megabytes / c.limit_megabytes, stage(&Seconds::assemble), stage(&Seconds::couple),
-              stage(&Seconds::factorise), stage(&Seconds::solve), stage(&Seconds::recover));
+              c.name.c_str(), int(system.f.size()), median(limit), median(whole), median(whole) / median(limit),
+              *std::min_element(ratios.begin(), ratios.end()), *std::max_element(ratios.begin(), ratios.end()),
+              c.limit_megabytes, c.whole_megabytes, c.whole_megabytes / c.limit_megabytes, stage(&Seconds::assemble),
+              stage(&Seconds::couple), stage(&Seconds::factorise), stage(&Seconds::solve), stage(&Seconds::recover));
   std::fflush(stdout);
 }
 
@@ -173,10 +116,8 @@ void run(const Options& options) {
   for (const int n_upper : {40, 80, 160, 320, 640})
     if (n_upper <= options.up_to) cases.push_back(make_case(n_upper));
   // Children start with what this process holds: before anything is solved here.
-  if (options.table)
-    for (Case& c : cases) measure_memory(c);
-  if (options.stages) run_stages(cases, options);
-  if (options.table) print_table(cases, options, empty_megabytes);
+  for (Case& c : cases) measure_memory(c);
+  print_table(cases, options, empty_megabytes);
 }
 
 }  // namespace

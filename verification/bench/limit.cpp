@@ -1,41 +1,12 @@
 #include "limit.hpp"
 
-#include <cholmod.h>
-
+#include <Eigen/CholmodSupport>
 #include <stdexcept>
 
 #include "fem/rigid_motions.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise::bench {
-namespace {
-
-cholmod_sparse view(SparseMatrix& K) {
-  cholmod_sparse s{};
-  s.nrow = s.ncol = std::size_t(K.cols());
-  s.nzmax = std::size_t(K.nonZeros());
-  s.p = K.outerIndexPtr();
-  s.i = K.innerIndexPtr();
-  s.x = K.valuePtr();
-  s.stype = -1;
-  s.itype = CHOLMOD_INT;
-  s.xtype = CHOLMOD_REAL;
-  s.dtype = CHOLMOD_DOUBLE;
-  s.sorted = s.packed = 1;
-  return s;
-}
-
-cholmod_dense view(VecX& f) {
-  cholmod_dense d{};
-  d.nrow = d.nzmax = d.d = std::size_t(f.size());
-  d.ncol = 1;
-  d.x = f.data();
-  d.xtype = CHOLMOD_REAL;
-  d.dtype = CHOLMOD_DOUBLE;
-  return d;
-}
-
-}  // namespace
 
 GroundedSystem grounded_system(const Mesh& mesh, const Discretisation& d) {
   const auto n = d.system.K.cols();
@@ -64,24 +35,15 @@ GroundedSystem grounded_system(const Mesh& mesh, const Discretisation& d) {
   return system;
 }
 
-VecX cholmod_solution(GroundedSystem& system) {
-  cholmod_common c;
-  cholmod_start(&c);
-  c.supernodal = CHOLMOD_SUPERNODAL;
-  c.nmethods = 1;
-  c.method[0].ordering = CHOLMOD_AMD;
-  cholmod_sparse K = view(system.K);
-  cholmod_dense f = view(system.f);
-  cholmod_factor* L = cholmod_analyze(&K, &c);
-  apply_solver_threads(c.fl);
-  if (L) cholmod_factorize(&K, L, &c);
-  cholmod_dense* x = L && c.status == CHOLMOD_OK ? cholmod_solve(CHOLMOD_A, L, &f, &c) : nullptr;
-  VecX u;
-  if (x) u = Eigen::Map<const VecX>(static_cast<const double*>(x->x), system.f.size());
-  cholmod_free_dense(&x, &c);
-  cholmod_free_factor(&L, &c);
-  cholmod_finish(&c);
-  if (u.size() != system.f.size()) throw std::runtime_error("CHOLMOD could not solve the grounded system");
+VecX cholmod_solution(const GroundedSystem& system) {
+  Eigen::CholmodSupernodalLLT<SparseMatrix> cholesky;
+  cholesky.cholmod().nmethods = 1;
+  cholesky.cholmod().method[0].ordering = CHOLMOD_AMD;
+  cholesky.analyzePattern(system.K);
+  apply_solver_threads(cholesky.cholmod().fl);
+  cholesky.factorize(system.K);
+  const VecX u = cholesky.solve(system.f);
+  if (cholesky.info() != Eigen::Success) throw std::runtime_error("CHOLMOD could not solve the grounded system");
   return u;
 }
 

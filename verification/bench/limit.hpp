@@ -15,6 +15,6 @@ GroundedSystem grounded_system(const Mesh& mesh, const Discretisation& discretis
 
 /// CHOLMOD's analysis, supernodal factorisation and solution: ordering AMD, 32-bit indices, everything else its
 /// default. Throws std::runtime_error if it fails.
-VecX cholmod_solution(GroundedSystem& system);
+VecX cholmod_solution(const GroundedSystem& system);
 
 }  // namespace mortise::bench

@@ -56,7 +56,7 @@ def main(arguments=None):
     options.output.mkdir(parents=True, exist_ok=True)
     try:
         same = run(options.output.absolute(), options.quick, options.docs)
-    except launch.MortiseError as error:
+    except launch.StudyError as error:
         sys.exit(f"chart.py: {error}")
     sys.exit(0 if same else 1)
 

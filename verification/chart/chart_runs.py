@@ -4,7 +4,6 @@ import csv
 import io
 import os
 import statistics
-import subprocess
 import sys
 from pathlib import Path
 
@@ -22,9 +21,9 @@ COLUMNS = (
     *("s_total_min", "s_total_max"),
 )
 # What measures, beside the programs and the scenes.
-MEASURES = ("chart_runs", "economy", "errors_of_freefem", "exact", "reference", "timing_check")
+MEASURES = ("chart_runs", "economy", "freefem_runs", "reference", "timing_check")
 FREEFEM = ("mortar.edp", "elasticity.idp", "contact.idp", "system.idp")
-CROSSCHECK = ("compare", "convert", "run", "scene")
+CROSSCHECK = ("convert", "run", "scene")
 
 
 def make_store(output, quick):
@@ -39,10 +38,7 @@ def tool(problem, named_ways, turns, *options):
     ways = [";".join([name, *(f"{key}={value}" for key, value in way.items())]) for name, way in named_ways]
     words = [word for way in ways for word in ("--run", way)]
     command = [launch.need(launch.CHART), problem, *words, "--turns", turns, "--threads", 1, *options]
-    environment = {**os.environ, **launch.ONE_THREAD}
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, env=environment, check=False)
-    if done.returncode != 0:
-        raise launch.MortiseError(f"mortise_chart {problem}: exit status {done.returncode}\n{done.stderr.strip()}")
+    done, _ = launch.run(command, expected=(0,), env={**os.environ, **launch.ONE_THREAD})
     return list(csv.DictReader(io.StringIO(done.stdout))), done.stderr.strip()
 
 

@@ -10,13 +10,14 @@
 #include "base/errors.hpp"
 #include "base/stopwatch.hpp"
 #include "errors.hpp"
+#include "freefem_fields.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise::chart {
 namespace {
 
 struct Options {
-  std::string problem, reference, pressure;
+  std::string problem, reference, pressure, freefem;
   std::vector<std::string> runs;  // NAME;KEY=VALUE;KEY=VALUE...
   int turns = 3, threads = 1;
 };
@@ -34,7 +35,8 @@ Options read_options(int argc, char** argv) {
   app.add_option("--turns", options.turns, "runs of each (default 3)")->check(CLI::Range(1, 1000));
   app.add_option("--threads", options.threads, "threads of the factorisation (default 1)")->check(CLI::Range(1, 1024));
   app.add_option("--reference", options.reference, "CSV of x,p: reference pressure of parabola_1");
-  app.add_option("--pressure", options.pressure, "CSV to write: x,p of the first way's multiplier side");
+  app.add_option("--pressure", options.pressure, "CSV to write: x,p of the (last) way's multiplier side");
+  app.add_option("--freefem", options.freefem, "folder of FreeFEM's results: the errors are theirs");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -95,18 +97,19 @@ double processor_seconds() {
 }
 
 // One run; `errors` are computed in the first turn and kept.
-void solve(Way& way, int turn, std::map<std::string, RunErrors>& errors, const std::string& pressure) {
+void solve(Way& way, int turn, std::map<std::string, RunErrors>& errors, const Options& options) {
   Mesh mesh = way.problem.mesh;
   Stopwatch watch;
   const double start = processor_seconds();
   try {
     const Scene& scene = way.problem.scene;
-    const Results r = scene.accuracy ? *solve_to_accuracy(scene)
-                                     : solve_scene(scene, std::move(mesh), {}, nullptr, way.problem.adjust);
+    Results r = scene.accuracy ? *solve_to_accuracy(scene)
+                               : solve_scene(scene, std::move(mesh), {}, nullptr, way.problem.adjust);
     const double total = processor_seconds() - start, wall = watch.lap();
+    if (!options.freefem.empty()) take_freefem(r, options.freefem);
     if (turn == 0) errors[way.name] = run_errors(r, way.problem);
     print_row(way.name, turn, r, errors.at(way.name), total, wall);
-    if (turn == 0 && !pressure.empty()) write_pressure(r, pressure);
+    if (turn == 0 && !options.pressure.empty()) write_pressure(r, options.pressure);
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s: %s\n", way.name.c_str(), error.what());
     way.refused = true;
@@ -123,8 +126,8 @@ void run(const Options& options) {
     if (way.refused) print_refused(way.name);
   std::map<std::string, RunErrors> errors;
   for (int turn = 0; turn < options.turns; ++turn)
-    for (std::size_t i = 0; i < ways.size(); ++i)
-      if (!ways[i].refused) solve(ways[i], turn, errors, i == 0 ? options.pressure : "");
+    for (Way& way : ways)
+      if (!way.refused) solve(way, turn, errors, options);
 }
 
 }  // namespace

@@ -12,7 +12,6 @@ and writing too.
 import json
 import statistics
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
@@ -31,7 +30,7 @@ REPEATS = {"full": 3, "quick": 2}
 
 def replaced(text, old, new, path):
     if old not in text:
-        raise launch.MortiseError(f"{path}: expected '{old}', of which the half model is made")
+        raise launch.StudyError(f"{path}: expected '{old}', of which the half model is made")
     return text.replace(old, new)
 
 
@@ -58,9 +57,7 @@ def half_scene(name, folder):
 
 def solve(scene, settings, folder):
     """summary.json of one run on one thread, with the seconds of the process as `process`."""
-    start = time.perf_counter()
-    launch.call("solve", scene, *launch.options(settings), "-o", folder, "--quiet", "--threads", 1)
-    process = time.perf_counter() - start
+    process = launch.call("solve", scene, *launch.options(settings), "-o", folder, "--quiet", "--threads", 1)
     return {**json.loads((folder / "summary.json").read_text()), "process": process}
 
 
@@ -71,9 +68,8 @@ def stages(summary):
 
 def pressure(folder):
     """x and p along the multiplier side."""
-    table = launch.columns(folder / "contact.csv")
-    mine = [i for i, curve in enumerate(table["curve"]) if curve == table["curve"][0]]
-    return np.array([[table["x"][i], table["p"][i]] for i in mine])
+    side = launch.contact(folder)
+    return np.stack([side["x"], side["p"]], axis=1)
 
 
 def compare(study, scene, named, folder, repeats):

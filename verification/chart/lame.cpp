@@ -1,6 +1,5 @@
 #include "lame.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <stdexcept>
 
@@ -24,8 +23,7 @@ const Material& material_of(const Scene& scene, const std::string& body) {
 
 }  // namespace
 
-// sigma_r = 2 (lambda + mu) A - 2 mu B / r^2: given at the bore and the rim, equal on both sides of the contact, where
-// u_r is equal too. Four equations, divided by the inner ring's mu.
+// Each ring by the pressures inside and outside; the pressure between them is that which closes the gap, linear in it.
 Lame lame_of(const Scene& scene, const Mesh& mesh) {
   if (scene.plane != Plane::strain || !scene.initial_strains.empty())
     throw std::runtime_error("Lame's solution here is of plane strain without initial strains");
@@ -35,25 +33,19 @@ Lame lame_of(const Scene& scene, const Mesh& mesh) {
     lame.mu.push_back(m.young / (2 * (1 + m.poisson)));
     lame.lambda.push_back(m.young * m.poisson / ((1 + m.poisson) * (1 - 2 * m.poisson)));
   }
-  const auto inner = std::size_t(body_index(mesh, "inner")), outer = std::size_t(body_index(mesh, "outer"));
-  const double scale = lame.mu[inner];
-  const auto a = [&](std::size_t b) { return 2 * (lame.lambda[b] + lame.mu[b]) / scale; };
-  const auto b = [&](std::size_t body, double r) { return -2 * lame.mu[body] / (r * r) / scale; };
-  Eigen::Matrix4d M;
-  M << a(inner), b(inner, r0), 0, 0,                     //
-      a(inner), b(inner, r1), -a(outer), -b(outer, r1),  //
-      r1, 1 / r1, -r1, -1 / r1,                          //
-      0, 0, a(outer), b(outer, r2);
-  const Eigen::Vector4d right(-pressure_on(scene, "inner_bore") / scale, 0, 0,
-                              -pressure_on(scene, "outer_rim") / scale);
-  const Eigen::Vector4d x = M.partialPivLu().solve(right);
   lame.A.resize(2);
   lame.B.resize(2);
-  lame.A[inner] = x(0);
-  lame.B[inner] = x(1);
-  lame.A[outer] = x(2);
-  lame.B[outer] = x(3);
-  lame.pressure = -scale * (a(inner) * x(0) + b(inner, r1) * x(1));
+  const auto inner = std::size_t(body_index(mesh, "inner")), outer = std::size_t(body_index(mesh, "outer"));
+  const double bore = pressure_on(scene, "inner_bore"), rim = pressure_on(scene, "outer_rim");
+  const auto load = [&](std::size_t i, double a, double b, double inside, double outside) {
+    lame.A[i] = (inside * a * a - outside * b * b) / (2 * (lame.lambda[i] + lame.mu[i]) * (b * b - a * a));
+    lame.B[i] = (inside - outside) * a * a * b * b / (2 * lame.mu[i] * (b * b - a * a));
+    return lame.A[i] * r1 + lame.B[i] / r1;  // u_r at the contact
+  };
+  const auto gap = [&](double p) { return load(outer, r1, r2, p, rim) - load(inner, r0, r1, bore, p); };
+  const double some = lame.mu[inner], open = gap(0);
+  lame.pressure = -open * some / (gap(some) - open);
+  gap(lame.pressure);
   return lame;
 }
 

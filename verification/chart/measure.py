@@ -5,23 +5,21 @@ import math
 import os
 import platform
 import statistics
-import subprocess
 import time
 
 import chart_runs
-import errors_of_freefem
-import exact
+import freefem_runs
 import launch
 import reference
 from chart_methods import LEVELS, PROBLEMS, TURNS, freefem_ways, label, mesh_name, mesh_of, row_name, ways
 
 
 def first_line(command):
+    """Of what a program says."""
     try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=launch.ROOT)
-    except OSError:
+        return launch.run(command, cwd=launch.ROOT)[0].stdout.split("\n")[0]
+    except (OSError, launch.StudyError):
         return "unknown"
-    return (done.stdout.strip().splitlines() or ["unknown"])[0]
 
 
 def machine(_):
@@ -29,7 +27,7 @@ def machine(_):
     models = [line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
     return {
         **{"date": datetime.date.today().isoformat(), "commit": first_line(["git", "describe", "--always", "--dirty"])},
-        **{"mortise": first_line([launch.MORTISE, "--version"]), "freefem": errors_of_freefem.version() or "missing"},
+        **{"mortise": first_line([launch.MORTISE, "--version"]), "freefem": freefem_runs.version() or "missing"},
         **{"processor": (models or ["unknown"])[0], "cores": os.cpu_count(), "load_average": os.getloadavg()[0]},
         **{"system": platform.platform(), "threads": 1},
     }
@@ -71,12 +69,11 @@ def measure_mesh(store, problem, level, quick, table, path, said, say):
         return rows
 
     def of_freefem():
-        knowledge = exact.knowledge(problem, path)
-        return errors_of_freefem.of_freefem(store, problem, mesh, by_freefem, min(turns, 3), knowledge, against)
+        return freefem_runs.of_freefem(store, problem, mesh, by_freefem, min(turns, 3), against)
 
     named, by_freefem = list(ways(problem, level, quick)), list(freefem_ways(problem, level, quick))
     rows = told(of_mortise) if named else []
-    if by_freefem and errors_of_freefem.version() is not None:
+    if by_freefem and freefem_runs.version() is not None:
         rows = rows + told(of_freefem, "FreeFEM, ")
     return list(completed(rows, problem, mesh, table))
 
@@ -84,7 +81,7 @@ def measure_mesh(store, problem, level, quick, table, path, said, say):
 def measure(store, output, quick, say=progress):
     """Writes chart.csv into the folder; returns the rows and what belongs to them."""
     start = time.perf_counter()
-    if errors_of_freefem.version() is None:
+    if freefem_runs.version() is None:
         say("FreeFem++ is not on the PATH: its curves are left out (./dev setup installs it)")
     table, path = reference.reference(store, quick)
     say("reference of parabola_1", start)

@@ -18,8 +18,6 @@ tenth of the length at each end.
 import json
 import math
 
-import numpy as np
-
 import chart_runs  # makes launch known
 import launch
 
@@ -40,7 +38,7 @@ def solve(columns, grading, path=None, reference=None):
     options = [*(["--pressure", path] if path else []), *(["--reference", reference] if reference else [])]
     rows, said = chart_runs.tool("parabola_1", [way(columns, grading)], 1, *options)
     if rows[0]["status"] == "refused":
-        raise launch.MortiseError(f"the reference was refused: {said}")
+        raise launch.StudyError(f"the reference was refused: {said}")
     return rows[0]
 
 
@@ -85,8 +83,3 @@ def reference(store, quick):
     folder = store.results(["reference", columns], lambda _, folder: make(columns, folder), "reference")
     return json.loads((folder / "reference.json").read_text()), folder / "reference.csv"
 
-
-def pressure_function(path):
-    """p at places x, y, linear between the points of the file."""
-    table = np.loadtxt(path, delimiter=",", skiprows=1)
-    return lambda x, y: np.interp(x, table[:, 0], table[:, 1])

@@ -11,9 +11,7 @@ import json
 import os
 import resource
 import statistics
-import subprocess
 import tempfile
-import time
 from pathlib import Path
 
 import chart_runs  # makes launch known
@@ -35,15 +33,9 @@ def processor_seconds():
 
 def seconds_of(*arguments):
     """Of a process of mortise: by the wall clock, and of the processor."""
-    command = [str(word) for word in (launch.MORTISE, *arguments)]
-    start, before = time.perf_counter(), processor_seconds()
-    done = subprocess.run(
-        command, capture_output=True, text=True, check=False, env={**os.environ, **launch.ONE_THREAD}
-    )
-    seconds = time.perf_counter() - start, processor_seconds() - before
-    if done.returncode not in launch.SOLVED:
-        raise launch.MortiseError(f"{' '.join(command)}: exit status {done.returncode}\n{done.stderr.strip()}")
-    return seconds
+    before = processor_seconds()
+    _, whole = launch.run([launch.MORTISE, *arguments], env={**os.environ, **launch.ONE_THREAD})
+    return whole, processor_seconds() - before
 
 
 def timed(problem, settings, folder):

@@ -4,6 +4,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.ticker import ScalarFormatter
 from PIL import Image
 
 RED = "#c00000"  # what fails
@@ -32,6 +33,13 @@ def label(axes, x=None, y=None, title=None, log="", limit=None, legend=False, **
         axes.axhline(limit, color="0.4", linestyle="--", linewidth=0.9)
     if legend:
         axes.legend(**(legend if isinstance(legend, dict) else {}))
+
+
+def scientific(axis):
+    """Ticks of large and small numbers with their power of ten beside the axis."""
+    formatter = ScalarFormatter(useMathText=True)
+    formatter.set_powerlimits((-3, 4))
+    axis.set_major_formatter(formatter)
 
 
 def curve(axes, points, style="o-", hollow=None, **options):

@@ -3,10 +3,14 @@
 import argparse
 import csv
 import json
+import math
 import os
 import subprocess
 import tempfile
+import time
 from pathlib import Path
+
+import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 MORTISE = Path(os.environ.get("MORTISE", ROOT / "build/release/mortise")).absolute()
@@ -17,8 +21,8 @@ TIME_LIMIT = 1800  # seconds for one call
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # environment of runs that are timed
 
 
-class MortiseError(Exception):
-    """A program cannot be run, or refuses, with what it said."""
+class StudyError(Exception):
+    """What stops a study, or one case of it: a program that is not there or fails, with what it said; bad input."""
 
 
 def command_line(description, name, arguments=None, names=None, **switches):
@@ -36,19 +40,32 @@ def command_line(description, name, arguments=None, names=None, **switches):
 
 
 def need(program):
-    """The program, or MortiseError if it is not there."""
+    """The program, or StudyError if it is not there."""
     if not program.is_file():
         variable = "MORTISE_CHART" if program == CHART else "MORTISE"
-        raise MortiseError(f"{program} is missing: ./dev build makes it, or {variable} names another")
+        raise StudyError(f"{program} is missing: ./dev build makes it, or {variable} names another")
     return program
 
 
+def run(command, expected=SOLVED, **options):
+    """Runs a program: what subprocess.run gives of it, and its seconds. StudyError with its last lines where its exit
+    status is not expected."""
+    command, start = [str(word) for word in command], time.perf_counter()
+    pipes = {"capture_output": True, "text": True, "errors": "replace", "timeout": TIME_LIMIT, "check": False}
+    try:
+        done = subprocess.run(command, **pipes, **options)
+    except subprocess.TimeoutExpired as late:
+        raise StudyError(f"{' '.join(command)}: not ended within {TIME_LIMIT} s") from late
+    seconds = time.perf_counter() - start
+    if done.returncode not in expected:
+        said = "\n".join((done.stdout + done.stderr).strip().splitlines()[-6:])
+        raise StudyError(f"{' '.join(command)}: exit status {done.returncode}\n{said}")
+    return done, seconds
+
+
 def call(*arguments):
-    """Runs mortise, or says why it did not run."""
-    command = [str(word) for word in (need(MORTISE), *arguments)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT, check=False)
-    if done.returncode not in SOLVED:
-        raise MortiseError(f"{' '.join(command)}: exit status {done.returncode}\n{done.stderr.strip()}")
+    """Runs mortise, or says why it did not run; returns its seconds."""
+    return run([need(MORTISE), *arguments])[1]
 
 
 def scene_file(name):
@@ -84,11 +101,26 @@ def solve(scene, settings, folder):
     return json.loads((Path(folder) / "summary.json").read_text())
 
 
-def columns(path):
-    """The columns of a CSV file: lists of numbers, or of texts."""
+def read_csv(path):
+    """The rows of a CSV file: dictionaries of numbers and texts."""
     with open(path, newline="") as file:
-        rows = [{key: number_or_text(value) for key, value in row.items()} for row in csv.DictReader(file)]
-    return {key: [row[key] for row in rows] for key in rows[0]} if rows else {}
+        return [{key: number_or_text(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def columns(path):
+    """The columns of a CSV file: arrays of numbers, NaN where nothing stands, or of texts."""
+    table = read_csv(path)
+    lists = {key: [row[key] for row in table] for key in (table[0] if table else {})}
+    is_text = lambda values: any(isinstance(value, str) and value for value in values)
+    of = lambda values: np.array(values if is_text(values) else [math.nan if v == "" else v for v in values])
+    return {key: of(values) for key, values in lists.items()}
+
+
+def contact(folder, curve=None, table="contact.csv"):
+    """Columns of a table of the contact line, of one curve: by default of the first pair's multiplier side."""
+    found = columns(Path(folder) / table)
+    here = found["curve"] == (curve or found["curve"][0])
+    return {key: values[here] for key, values in found.items()}
 
 
 def sweep(scene, settings, vary):
@@ -97,8 +129,7 @@ def sweep(scene, settings, vary):
     with tempfile.TemporaryDirectory() as folder:
         table = Path(folder) / "sweep.csv"
         call("sweep", scene_file(scene), *options(settings), *words, "-o", table, "--quiet")
-        with open(table, newline="") as file:
-            return [{key: number_or_text(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return read_csv(table)
 
 
 def write_csv(path, rows):

@@ -34,7 +34,7 @@ class Store:
     """Results below a folder. `depends`: files beside the programs and geo/ (mostly `Path(__file__)` of what measures).
 
     `programs` are those that the runs call; `jobs` how many runs at once (1 where seconds are measured); `fresh` counts
-    the results that were not there. MortiseError if a program is missing.
+    the results that were not there. StudyError if a program is missing.
     """
 
     def __init__(self, folder, depends=(), programs=None, jobs=1):

@@ -36,7 +36,7 @@ def test_a_stopped_run_is_made_again(tmp_path):
     with pytest.raises(ZeroDivisionError):
         store.results(1, lambda run, folder: 1 / 0)
     assert store.results(1, lambda run, folder: (folder / "file").touch()).is_dir() and store.fresh == 1
-    with pytest.raises(launch.MortiseError, match="is missing: ./dev build makes it"):
+    with pytest.raises(launch.StudyError, match="is missing: ./dev build makes it"):
         runs.Store(tmp_path, programs=[tmp_path / "other"])
 
 

@@ -2,16 +2,17 @@
 
 import difflib
 import itertools
+import sys
 import tomllib
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+
+from launch import StudyError
+
 TABLE = Path(__file__).with_name("cases.toml")
-
-
-class CaseError(Exception):
-    """Something that stops one case, or the run, with a message for people."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,7 @@ def mesh_size(text):
     """The numbers of elements in AxB."""
     numbers = text.split("x")
     if len(numbers) != 2 or not all(n.isdigit() and int(n) > 0 for n in numbers):
-        raise CaseError(f"{TABLE.name}: mesh '{text}'; expected two numbers of elements such as 8x10")
+        raise StudyError(f"{TABLE.name}: mesh '{text}'; expected two numbers of elements such as 8x10")
     return tuple(map(int, numbers))
 
 
@@ -71,7 +72,7 @@ def gap_of(table, scene):
     """What the gap of a scene's meshes is taken for where the edges' normals are."""
     found = [gap for gap, scenes in table["gaps"].items() if scene in scenes]
     if len(found) != 1:
-        raise CaseError(f"{TABLE.name}: [gaps] has '{scene}' {len(found)} times; expected once")
+        raise StudyError(f"{TABLE.name}: [gaps] has '{scene}' {len(found)} times; expected once")
     return found[0]
 
 
@@ -128,7 +129,7 @@ def all_cases(path=TABLE):
     cases = [*same_discretisation(table), *same_problem(table), *timing(table)]
     names = [case.name for case in cases]
     if len(set(names)) < len(names):
-        raise CaseError(f"{path}: two cases of the name {min(name for name in names if names.count(name) > 1)}")
+        raise StudyError(f"{path}: two cases of the name {min(name for name in names if names.count(name) > 1)}")
     return cases
 
 
@@ -139,8 +140,8 @@ def choose(cases, globs, quick):
         if not any(fnmatchcase(name, glob) for name in names):
             plain = glob.replace("*", "").replace("?", "")
             near = "\n  ".join(difflib.get_close_matches(plain, names, n=3, cutoff=0.3) or names[:3])
-            raise CaseError(f"no case matches '{glob}'; the nearest are\n  {near}")
+            raise StudyError(f"no case matches '{glob}'; the nearest are\n  {near}")
     chosen = [case for case in cases if (not globs or matches(case.name, globs)) and (case.quick or not quick)]
     if not chosen:
-        raise CaseError("none of these cases is a quick one; leave --quick out")
+        raise StudyError("none of these cases is a quick one; leave --quick out")
     return chosen

@@ -1,6 +1,5 @@
 """Both programs' results on the same nodes, and how far they are apart."""
 
-import csv
 import math
 from dataclasses import dataclass
 
@@ -8,8 +7,9 @@ import meshio
 import numpy as np
 from scipy.spatial import cKDTree
 
-import run
-from cases import CaseError
+import run  # makes common/ known
+import launch
+from launch import StudyError
 
 NEAR = 1e-10  # of the body's size: nodes nearer than this are one
 ENDS, KINKS = 0.10, 0.10  # fractions of the length left out of pressure_inside: at an end, on each side of a kink
@@ -44,24 +44,24 @@ class Comparison:
 
 
 def match(points, others, size, what):
-    """Row of `others` for each of `points`; CaseError where one has no partner within NEAR of the body's size."""
+    """Row of `others` for each of `points`; StudyError where one has no partner within NEAR of the body's size."""
     distance, row = cKDTree(others).query(points)
     worst = int(np.argmax(distance))
     if not distance[worst] <= NEAR * size:
         place = "({:.9g}, {:.9g})".format(*points[worst])
         nearest = f"the nearest is {distance[worst]:.3g} off"
-        raise CaseError(f"{what}: nothing within {NEAR:g} of the body's size of {place}; {nearest}")
+        raise StudyError(f"{what}: nothing within {NEAR:g} of the body's size of {place}; {nearest}")
     if len(np.unique(row)) != len(row):
-        raise CaseError(f"{what}: two nodes have the same partner")
+        raise StudyError(f"{what}: two nodes have the same partner")
     return row
 
 
 def read_numbers(path, columns):
     table = np.loadtxt(path, ndmin=2)
     if table.shape[1] != columns:
-        raise CaseError(f"{path.name}: {table.shape[1]} columns; expected {columns}")
+        raise StudyError(f"{path.name}: {table.shape[1]} columns; expected {columns}")
     if not np.isfinite(table).all():
-        raise CaseError(f"{path.name}: a number is not finite")
+        raise StudyError(f"{path.name}: a number is not finite")
     return table
 
 
@@ -84,29 +84,21 @@ def displacements(solved, order, same_nodes):
         theirs, ours = by_mortise[number]
         if same_nodes and not len(table) == len(theirs) == len(points):
             counts = f"{len(theirs)} nodes in mortise, {len(table)} in FreeFEM, {len(points)} in the mesh"
-            raise CaseError(f"{body.name}: {counts}")
+            raise StudyError(f"{body.name}: {counts}")
         of_mortise = match(points, theirs, body.size(), f"{body.name}, mortise")
         of_freefem = match(points, table[:, :2], body.size(), f"{body.name}, FreeFEM")
         fields.append(Field(body.name, points, cells, ours[of_mortise], table[of_freefem, 2:]))
     return fields
 
 
-def read_contact(path, curve):
-    """s, x, y, p of a curve's rows in contact.csv."""
-    with open(path, newline="") as file:
-        rows = [row for row in csv.DictReader(file) if row["curve"] == curve]
-    if not rows:
-        raise CaseError(f"{path.name} has no rows of the curve '{curve}'")
-    return np.array([[float(row[key] or "nan") for key in ("s", "x", "y", "p")] for row in rows])
-
-
 def pressures(solved, side):
     """Both programs' pressures at FreeFEM's multipliers."""
-    ours = read_contact(solved.folder / "mortise/contact.csv", side)
+    ours = launch.contact(solved.folder / "mortise", side)
     theirs = read_numbers(solved.folder / "freefem_contact.txt", 4)
-    row = match(theirs[:, :2], ours[:, 1:3], solved.bodies[0].size(), f"multipliers on {side}")
-    order = np.argsort(ours[row, 0])
-    return Curve(side, ours[row, 0][order], ours[row, 3][order], theirs[order, 2])
+    places = np.stack([ours["x"], ours["y"]], axis=1)
+    row = match(theirs[:, :2], places, solved.bodies[0].size(), f"multipliers on {side}")
+    order = np.argsort(ours["s"][row])
+    return Curve(side, ours["s"][row][order], ours["p"][row][order], theirs[order, 2])
 
 
 def compare(solved, step):
@@ -115,7 +107,7 @@ def compare(solved, step):
     ours, theirs = run.mortise_summary(solved.folder), run.freefem_summary(solved.folder)
     rows = ours["mesh"]["multipliers"], int(theirs["multipliers"])
     if step.same_nodes and rows[0] != rows[1]:
-        raise CaseError("{} multipliers in mortise, {} in FreeFEM".format(*rows))
+        raise StudyError("{} multipliers in mortise, {} in FreeFEM".format(*rows))
     return Comparison(fields, curve, (ours["energy"], theirs["energy"]))
 
 

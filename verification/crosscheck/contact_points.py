@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from cases import CaseError
+from cases import StudyError
 
 LEAST_KINK, KINK, SURE_KINK = np.radians([0.1, 20, 60])  # a vertex between edges that turn by more
 NEAR_VERTEX = 5e-10  # of an edge's length
@@ -90,7 +90,7 @@ def chain_of(body, label):
     following = {a: b for a, b in sides if (min(a, b), max(a, b)) in named}
     starts = set(following) - set(following.values())
     if len(starts) != 1:
-        raise CaseError(f"the contact curve of '{body.name}' has {len(starts)} starts; expected 1")
+        raise StudyError(f"the contact curve of '{body.name}' has {len(starts)} starts; expected 1")
     order = list(starts)
     while order[-1] in following:
         order.append(following[order[-1]])

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import meshio
 import numpy as np
 
-from cases import CaseError
+from cases import StudyError
 
 UNNAMED = 0  # reference of the boundary edges that no physical curve names
 
@@ -69,7 +69,7 @@ def corner_triangles(mesh, name):
     found = [split_quadrilaterals(points, cells) if cells.shape[1] == 4 else cells
              for cells in corners_of(mesh, name, {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4})]
     if not found:
-        raise CaseError(f"the mesh has no cells of the body '{name}'")
+        raise StudyError(f"the mesh has no cells of the body '{name}'")
     return counterclockwise(points, np.concatenate(found).astype(int))
 
 
@@ -90,7 +90,7 @@ def edge_labels(mesh):
     for name, tag in curve_tags(mesh).items():
         for edge in map(tuple, curve_edges(mesh, name)):
             if edge in labels:
-                raise CaseError(f"curves '{names[edge]}' and '{name}' share an edge; medit edges have one reference")
+                raise StudyError(f"curves '{names[edge]}' and '{name}' share an edge; medit edges have one reference")
             labels[edge], names[edge] = tag, name
     return labels
 
@@ -98,7 +98,7 @@ def edge_labels(mesh):
 def read_body(mesh, name, labels):
     """A body out of a mesh; `labels` as edge_labels finds them."""
     if name not in mesh.cell_sets or mesh.field_data[name][1] != 2:
-        raise CaseError(f"the mesh has no physical surface '{name}'")
+        raise StudyError(f"the mesh has no physical surface '{name}'")
     triangles = corner_triangles(mesh, name)
     used, local = np.unique(triangles, return_inverse=True)
     sides, count = np.unique(sides_of(triangles), axis=0, return_counts=True)
@@ -123,7 +123,7 @@ def body_of_curve(bodies, tag):
     """Name of the body on whose boundary a curve lies."""
     owners = [name for name, body in bodies.items() if tag in body.labels]
     if len(owners) != 1:
-        raise CaseError(f"the curve of tag {tag} bounds {len(owners)} bodies; expected 1")
+        raise StudyError(f"the curve of tag {tag} bounds {len(owners)} bodies; expected 1")
     return owners[0]
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import report
 import run
-from cases import CaseError, all_cases, choose
+from cases import StudyError, all_cases, choose
 from judge import judge
 
 SKIPPED = 77
@@ -50,10 +50,10 @@ def one_line(result):
     return ", ".join(words) + (f"; limit {min(limits):g}" if short else "")
 
 
-def run_cases(programs, cases, output):
+def run_cases(cases, output):
     """Runs all cases and shows each as it ends."""
     for number, case in enumerate(cases, 1):
-        result = judge(programs, case, output)
+        result = judge(case, output)
         status = {"ok": "ok    ", "failed": "FAILED", "error": "ERROR "}[result.status]
         counter = f"[{number:3}/{len(cases)}]"
         print(f"{counter} {status} {result.name}: {one_line(result)} ({result.seconds:.1f} s)", flush=True)
@@ -72,13 +72,13 @@ def main(arguments=None):
         if options.skip_without_freefem and run.find_freefem() is None:
             print("skipped: FreeFem++ is not on the PATH")
             return SKIPPED
-        programs = run.find_programs()
-    except (CaseError, run.MissingProgram) as error:
+        run.need_programs()
+    except StudyError as error:
         print(f"crosscheck: error: {error}", file=sys.stderr)
         return 1
     start, output = time.perf_counter(), options.output.absolute()
     output.mkdir(parents=True, exist_ok=True)
-    results = list(run_cases(programs, cases, output))
+    results = list(run_cases(cases, output))
     seconds = time.perf_counter() - start
     report.write(results, output, seconds)
     bad = [result for result in results if result.status != "ok"]

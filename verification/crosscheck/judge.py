@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, field
 
 import compare
 import run
-from cases import CaseError
+from cases import StudyError
 
 
 @dataclass
@@ -64,9 +64,9 @@ def figures_of(case, steps):
     return figures + [rate(name, least) for name, least in case.least_rates.items()]
 
 
-def run_step(programs, case, step, folder):
+def run_step(case, step, folder):
     """One mesh of a case; leaves difference.vtu and pressure.csv in its folder."""
-    solved = run.solve_step(programs, step, folder)
+    solved = run.solve_step(step, folder)
     comparison = compare.compare(solved, step)
     compare.write_difference(comparison, folder / "difference.vtu")
     compare.write_pressures(comparison.curve, folder / "pressure.csv")
@@ -80,11 +80,11 @@ def run_step(programs, case, step, folder):
     }
 
 
-def measure(programs, case, folder):
+def measure(case, folder):
     """Both programs in turns; medians of the whole processes and of the solutions alone, and their ratios."""
     samples = []
     for _ in range(case.repeats):
-        solved = run.solve_step(programs, case.steps[0], folder)
+        solved = run.solve_step(case.steps[0], folder)
         seconds, theirs = run.mortise_summary(folder)["seconds"], run.freefem_summary(folder)
         alone = seconds["factorise"] + seconds["solve"], theirs["seconds_solve"]
         samples.append((solved.mortise_seconds, solved.freefem_seconds, *alone))
@@ -99,21 +99,21 @@ def folder_of(case, step):
     return case.name if len(case.steps) == 1 else f"{case.name}/{step.mesh_name}"
 
 
-def judge(programs, case, output):
+def judge(case, output):
     """Runs a case into its folder below `output`. Never raises because of the case itself."""
     result = Result(case.name, case.level, case.scene, case.side, folder_of(case, case.steps[-1]))
     start = time.perf_counter()
     shutil.rmtree(output / case.name, ignore_errors=True)
     try:
         if case.level == "timing":
-            result.timing = measure(programs, case, output / result.folder)
+            result.timing = measure(case, output / result.folder)
         else:
             for step in case.steps:
-                result.steps.append(run_step(programs, case, step, output / folder_of(case, step)))
+                result.steps.append(run_step(case, step, output / folder_of(case, step)))
             result.figures = figures_of(case, result.steps)
             result.status = "ok" if all(figure.ok for figure in result.figures) else "failed"
-    except (CaseError, OSError, KeyError, ValueError) as error:
-        told = isinstance(error, (CaseError, OSError))
+    except (StudyError, OSError, KeyError, ValueError) as error:
+        told = isinstance(error, (StudyError, OSError))
         result.status, result.message = "error", str(error) if told else f"{type(error).__name__}: {error}"
     result.seconds = time.perf_counter() - start
     return result

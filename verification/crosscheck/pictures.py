@@ -3,7 +3,6 @@
 import meshio
 import numpy as np
 from matplotlib.colors import LogNorm
-from matplotlib.ticker import ScalarFormatter
 from matplotlib.tri import Triangulation
 
 import run  # makes common/ known
@@ -12,12 +11,6 @@ import launch
 
 COLOURS = {"mortise": "#f39b8a", "freefem": "#123c66"}
 NEXT_LEVEL = [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]]  # four triangles of a triangle6
-
-
-def scientific(axis):
-    formatter = ScalarFormatter(useMathText=True)
-    formatter.set_powerlimits((-3, 4))
-    axis.set_major_formatter(formatter)
 
 
 def pressure_limits(values):
@@ -31,7 +24,7 @@ def pressure_limits(values):
 
 def draw_pressures(above, below, table, side):
     """Both curves over each other, and the difference in units of the mean |p|."""
-    s, ours, theirs = (np.array(table[name]) for name in ("s", "p_mortise", "p_freefem"))
+    s, ours, theirs = (table[name] for name in ("s", "p_mortise", "p_freefem"))
     above.plot(s, ours, color=COLOURS["mortise"], linewidth=3.2, label="mortise")
     above.plot(s, theirs, color=COLOURS["freefem"], linewidth=1, dashes=(5, 3), label="FreeFEM")
     both = np.concatenate([ours, theirs])
@@ -45,7 +38,7 @@ def draw_pressures(above, below, table, side):
     below.axhline(0, color="0.7", linewidth=0.6)
     figure.label(below, f"arc length along {side}", "difference / mean $|p|$", xlim=(s.min(), s.max()))
     for axes in (above, below):
-        scientific(axes.yaxis)
+        figure.scientific(axes.yaxis)
 
 
 def draw_difference(axes, mesh):

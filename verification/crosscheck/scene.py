@@ -2,7 +2,7 @@
 
 import tomllib
 
-from cases import CaseError
+from cases import StudyError
 
 POINTS = "contact_points.txt"  # beside the case file, where the gap is that of the curves
 ORDER_OF_MULTIPLIERS = {"linear": 1, "quadratic": 2}
@@ -12,7 +12,7 @@ def read_scene(path):
     """The scene's tables; scenes with other than one contact pair are refused."""
     scene = tomllib.loads(path.read_text())
     if len(scene.get("contact", [])) != 1:
-        raise CaseError(f"{path}: {len(scene.get('contact', []))} contact pairs; the FreeFEM scripts take exactly 1")
+        raise StudyError(f"{path}: {len(scene.get('contact', []))} contact pairs; the FreeFEM scripts take exactly 1")
     return scene
 
 
@@ -24,7 +24,7 @@ def size_parameters(scene, sizes):
 def opposite_side(scene, side):
     between = scene["contact"][0]["between"]
     if side not in between:
-        raise CaseError(f"multipliers on '{side}'; the scene's contact is between {' and '.join(between)}")
+        raise StudyError(f"multipliers on '{side}'; the scene's contact is between {' and '.join(between)}")
     return between[1] if side == between[0] else between[0]
 
 

@@ -17,7 +17,7 @@ import launch
 import report
 import run
 import scene as scenes
-from cases import CaseError
+from cases import StudyError
 from judge import Figure, Result
 
 
@@ -52,19 +52,14 @@ def test_same_discretisation_covers_every_combination(table, quick):
         assert ways >= ({0, -1} if quick else {0, -1, 1})
 
 
-def test_same_problem_covers_every_scene_on_both_sides(table):
+def test_same_problem_covers_every_scene_on_both_sides_by_series_that_halve_h_twice(table):
     found = [case for case in table if case.level == "same_problem"]
     assert {case.scene for case in found} == SCENES
     assert all(len({case.side for case in found if case.scene == scene}) == 2 for scene in SCENES)
-
-
-def test_each_series_halves_h_twice(table):
-    for case in table:
-        if case.level == "same_problem":
-            first = case.steps[0].mesh
-            assert [step.mesh for step in case.steps] == [tuple(k * n for n in first) for k in (1, 2, 4)]
-            assert set(case.limits) == {"energy", "displacement", "pressure", "pressure_inside"}
-            assert set(case.least_rates) <= set(case.limits)
+    for case in found:
+        first = case.steps[0].mesh
+        assert [step.mesh for step in case.steps] == [tuple(k * n for n in first) for k in (1, 2, 4)]
+        assert set(case.least_rates) <= set(case.limits) == {"energy", "displacement", "pressure", "pressure_inside"}
 
 
 def test_no_limit_of_the_same_discretisation_is_above_1e_8(table):
@@ -101,7 +96,7 @@ def test_gap_and_normals_of_each_case(table):
 
 
 def test_a_scene_without_a_gap_is_refused():
-    with pytest.raises(cases.CaseError, match="'new' 0 times"):
+    with pytest.raises(cases.StudyError, match="'new' 0 times"):
         cases.gap_of({"gaps": {"closed": ["old"]}}, "new")
 
 
@@ -114,15 +109,15 @@ def test_globs_choose_cases(table):
 
 
 def test_an_unknown_case_is_refused_with_the_nearest(table):
-    with pytest.raises(cases.CaseError, match="no case matches(.|\n)*same_problem/parabola_1/"):
+    with pytest.raises(cases.StudyError, match="no case matches(.|\n)*same_problem/parabola_1/"):
         cases.choose(table, ["same_problem/parabola_3/20x25-40x50-80x100/upper_contact"], quick=False)
-    with pytest.raises(cases.CaseError, match="quick"):
+    with pytest.raises(cases.StudyError, match="quick"):
         cases.choose(table, ["timing/*"], quick=True)
 
 
 @pytest.mark.parametrize("text", ["8", "8x", "8x10x12", "axb", "0x8"])
 def test_a_mesh_that_is_none_is_refused(text):
-    with pytest.raises(cases.CaseError, match="expected two numbers"):
+    with pytest.raises(cases.StudyError, match="expected two numbers"):
         cases.mesh_size(text)
 
 
@@ -163,9 +158,9 @@ def test_bodies_of_a_mesh(kind):
         assert sorted(body.labels) == [convert.UNNAMED] * 3 + [tag]
         assert convert.body_of_curve(bodies, tag) == name
     assert convert.body_order(mesh, ["lower", "upper"]) == ["upper", "lower"]
-    with pytest.raises(CaseError, match="bounds 0 bodies"):
+    with pytest.raises(StudyError, match="bounds 0 bodies"):
         convert.body_of_curve(bodies, 99)
-    with pytest.raises(CaseError, match="no physical surface 'middle'"):
+    with pytest.raises(StudyError, match="no physical surface 'middle'"):
         convert.read_bodies(mesh, ["middle"])
 
 
@@ -224,7 +219,7 @@ def test_case_file_holds_the_physics_of_the_scene():
 
 
 def test_scenes_with_several_pairs_are_refused():
-    with pytest.raises(CaseError, match="2 contact pairs"):
+    with pytest.raises(StudyError, match="2 contact pairs"):
         scenes.read_scene(launch.ROOT / "geo/stack.toml")
 
 
@@ -287,9 +282,9 @@ def test_nan_holds_no_limit():
 def test_match_finds_the_partner_of_every_node():
     shuffled = POINTS[[2, 0, 3, 1]] + 1e-12
     np.testing.assert_array_equal(compare.match(POINTS, shuffled, 2.0, "body"), [1, 3, 0, 2])
-    with pytest.raises(CaseError, match=r"body, mortise: nothing within 1e-10 .* \(2, 1\)"):
+    with pytest.raises(StudyError, match=r"body, mortise: nothing within 1e-10 .* \(2, 1\)"):
         compare.match(POINTS, POINTS + [[0, 0], [0, 0], [0, 1e-9], [0, 0]], 2.0, "body, mortise")
-    with pytest.raises(CaseError, match="same partner"):
+    with pytest.raises(StudyError, match="same partner"):
         compare.match(POINTS[[0, 0]], POINTS, 2.0, "body")
 
 
@@ -297,21 +292,6 @@ def test_rates():
     assert judge.rates([8.0, 2.0, 0.5]) == [2.0, 2.0]
     assert judge.mean_rate([8.0, 4.0, 0.5]) == 2.0
     assert math.isnan(judge.mean_rate([1.0, 0.0, 1.0]))
-
-
-@pytest.mark.parametrize("order, kind", [(1, "triangle"), (2, "triangle6")])
-def test_difference_is_read_back_by_meshio(tmp_path, order, kind):
-    comparison = made_up(shift=0.25)
-    if order == 2:
-        for field in comparison.fields:
-            field.cells = np.array([[0, 1, 2, 3, 0, 1], [0, 2, 3, 1, 2, 3]])  # any six will do here
-    compare.write_difference(comparison, tmp_path / "difference.vtu")
-    mesh = meshio.read(tmp_path / "difference.vtu")
-    assert [block.type for block in mesh.cells] == [kind] and len(mesh.cells[0].data) == 4
-    assert mesh.points.shape == (8, 3) and mesh.cell_data["body"][0].tolist() == [0, 0, 1, 1]
-    data = mesh.point_data
-    np.testing.assert_array_equal(data["difference"], data["u_mortise"] - data["u_freefem"])
-    assert data["difference"][2].tolist() == [0, -0.25, 0] and np.count_nonzero(data["difference"]) == 1
 
 
 # ---- The report: complete, failed cases first, and every file that it names is there ----
@@ -363,18 +343,13 @@ def test_every_file_that_the_page_names_is_there(output):
     names = re.findall(r'(?:src|href)="([^"]+)"', page)
     pictures = [name for name in names if name.endswith(".png")]
     assert sorted(pictures) == sorted(str(path.relative_to(output)) for path in output.glob("pictures/*.png"))
+    assert all(path.stat().st_size > 5000 for path in output.glob("pictures/*.png"))
     wanted = {"same_discretisation_rings.png", "same_problem_circle.png", "rates.png"}
     assert {f"pictures/{name}" for name in wanted} <= set(pictures)
     assert all((output / name).exists() for name in names)
     assert not any(name.startswith(("/", "http", "file")) for name in names) and "<script" not in page
     for name in re.findall(r"\]\(([^)]+)\)", (output / "report.md").read_text()):
         assert (output / name).exists()
-
-
-def test_pictures_are_png(output):
-    for path in output.glob("pictures/*.png"):
-        data = path.read_bytes()
-        assert data[:8] == b"\x89PNG\r\n\x1a\n" and len(data) > 5000
 
 
 def test_failed_cases_come_first_and_errors_are_told(output):
@@ -393,8 +368,4 @@ def test_json_holds_every_figure(output):
     rings = next(result for result in table["results"] if result["scene"] == "rings")
     figures = [(f["name"], f["value"], f["limit"], f["ok"]) for f in rings["figures"]]
     assert figures == [(name, 1e-5, 1e-8, False) for name in LIMITS]
-
-
-def test_not_a_number_is_null():
     assert report.without_nan({"a": [math.nan, 1.0, math.inf]}) == {"a": [None, 1.0, None]}
-    assert report.number(math.nan) == "–"

@@ -141,5 +141,5 @@ SHARES = {options_case: 15, number_case: 5, override_case: 20, variation_case: 1
           full_disk_case: 10}  # fmt: skip
 
 
-def make_command_case(random, _):
+def make_command_case(random):
     return random.choices(list(SHARES), SHARES.values())[0](random)

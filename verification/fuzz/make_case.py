@@ -16,7 +16,7 @@ STRANGE_NAMES = ("=1+1", "@SUM(A1)", "-2+3", "\x1b[31mred", "bell\x07", "a,b;c",
                  " ", "a'b")  # fmt: skip
 
 
-def make_valid(r, _):
+def make_valid(r):
     setting = valid_scenes.valid_setting(r)
     kind = r.choice(msh_file.KINDS)
     made = twins.case_of(setting, ", ".join(f"{k} = {v}" for k, v in setting.scene["method"].items()), kind)
@@ -26,7 +26,7 @@ def make_valid(r, _):
     return made
 
 
-def make_broken_scene(r, _):
+def make_broken_scene(r):
     setting, choice = valid_scenes.valid_setting(r), r.random()
     if choice < 0.1:
         text, what, expect = renamed(r, setting), "a strange name throughout", ANY
@@ -51,7 +51,7 @@ def renamed(r, setting):
     return text.replace(f"{old} =", f"{toml_text.key(new)} =").encode()  # a body is a key of [bodies]
 
 
-def make_mesh_file(r, _):
+def make_mesh_file(r):
     setting = command_cases.simple_setting(r)
     kind, data, what, expect, same = broken_meshes.broken_file(r, setting.mesh)
     scene = toml_text.document(setting.scene).encode()
@@ -68,8 +68,8 @@ MAKERS = {  # how many of a hundred cases are of each kind, and what makes one
 }
 
 
-def make_case(seed, number, options="", kinds=tuple(MAKERS)):
-    """Case `number` of the `seed`; `options` is the --help of the program, `kinds` those to choose from."""
+def make_case(seed, number, kinds=tuple(MAKERS)):
+    """Case `number` of the `seed`; `kinds`: those to choose from."""
     r = random.Random(f"{seed}:{number}")
     kind = r.choices(kinds, [MAKERS[kind][0] for kind in kinds])[0]
-    return MAKERS[kind][1](r, options)
+    return MAKERS[kind][1](r)

@@ -13,14 +13,14 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-PATIENCE = 10  # time limits after which even a starved process is ended
+PATIENCE = 5  # time limits by the wall clock after which even a process that waits for a busy processor is ended
 MEMORY = 4 * 2**30  # bytes of address space: a scene without an end must not fill the machine
 
 
 @dataclass
 class Program:
     path: str
-    time_limit: float = 20  # seconds for one call
+    time_limit: int = 20  # seconds of the processor for one call
     sanitized: bool = False
 
 
@@ -62,6 +62,7 @@ def environment(reports):
 def limits(program, case):
     def set_limits():
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_CPU, (program.time_limit, program.time_limit + 1))
         if not program.sanitized:  # which reserves terabytes
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
         if case.largest_file is not None:
@@ -81,21 +82,12 @@ def end(process):
 
 
 def status_within(process, limit):
-    """The exit status, or None of a process that hangs; one that only waits for a busy processor is given more time."""
-    for _ in range(PATIENCE):
-        try:
-            return process.wait(timeout=limit)
-        except subprocess.TimeoutExpired:
-            if not is_starved(process, limit):
-                break
-    return None
-
-
-def is_starved(process, limit):
-    """Whether the process could run, and has been let to for less than a quarter of the time limit."""
-    fields = Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
-    seconds = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")  # of itself and for it in the kernel
-    return fields[0] in "RD" and seconds < limit / 4
+    """The exit status, or None of a process that hangs: that has used up the processor's seconds (RLIMIT_CPU), or sleeps."""
+    try:
+        status = process.wait(timeout=PATIENCE * limit)
+    except subprocess.TimeoutExpired:
+        return None
+    return None if status == -signal.SIGXCPU else status
 
 
 def is_of_gmsh(report):

@@ -9,7 +9,6 @@ displacements; by default the largest is drawn as about 4 % of the size of the b
 """
 
 import argparse
-import csv
 import json
 import math
 import sys
@@ -18,11 +17,11 @@ from pathlib import Path
 import meshio
 import numpy as np
 from matplotlib.collections import LineCollection
-from matplotlib.ticker import ScalarFormatter
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import figure
+import launch
 
 CORNERS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
 COLOURS = ["#e8452c", "#4aa3e8"]  # multiplier side, opposite side
@@ -168,25 +167,10 @@ def draw_bodies(axes, results, scale):
     clipped = (int(stress.min() < low * (1 - 1e-9)), int(stress.max() > high * (1 + 1e-9)))
     bar = axes.figure.colorbar(shading, ax=axes, extend=extend[clipped], pad=0.02, aspect=25)
     bar.set_label("von Mises stress (scene's units)")
-    bar.formatter = scientific()
-    bar.update_ticks()
+    figure.scientific(bar.ax.yaxis)
     axes.set_xlabel("$x_1$")
     axes.set_ylabel("$x_2$")
     return scale
-
-
-def scientific():
-    formatter = ScalarFormatter(useMathText=True)
-    formatter.set_powerlimits((-3, 4))
-    return formatter
-
-
-def read_csv(path):
-    """Columns of a contact table; empty fields become NaN."""
-    with open(path, newline="") as file:
-        rows = list(csv.DictReader(file))
-    number = lambda text: float(text) if text else math.nan
-    return {key: np.array([row[key] if key == "curve" else number(row[key]) for row in rows]) for key in rows[0]}
 
 
 def arc_length_on(along, s, points):
@@ -253,7 +237,7 @@ def draw_pair(axes, table, multiplier_side, between, label="$p$ (multipliers)"):
         count = f"{len(off)} of {np.isfinite(everything).sum()}"
         label += f"    ({count} values off the scale, the farthest {farthest:.3g})"
     axes.set_xlabel(label)
-    axes.yaxis.set_major_formatter(scientific())
+    figure.scientific(axes.yaxis)
     axes.grid(color="0.9", linewidth=0.6)
     axes.set_axisbelow(True)
     axes.set_ylabel("contact pressure")
@@ -276,7 +260,7 @@ def draw(results, picture, scale=None, dpi=130):
         panels[0, 0].set_title(summary["status"].replace("_", " "), loc="right", color="#c00000", fontsize=10)
     if pairs:
         zigzags = any(block.type == "triangle" for block in mesh.cells)
-        table = read_csv(results / ("contact_centres.csv" if zigzags else "contact.csv"))
+        table = launch.columns(results / ("contact_centres.csv" if zigzags else "contact.csv"))
         label = ("$p$ (means over edges)",) if zigzags else ()
         for k, (pair, side) in enumerate(zip(pairs, multiplier_sides)):
             rows = table["pair"] == k

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from functools import cache
 
 import meshio
 import numpy as np
@@ -12,18 +13,14 @@ import picture
 
 
 @pytest.fixture(scope="module")
-def solve(tmp_path_factory):
+def solve(mortise, tmp_path_factory):
     """Runs a scene once and returns the folder of its results."""
-    if not launch.MORTISE.is_file():
-        pytest.skip(f"{launch.MORTISE} is missing: ./dev build makes it")
-    folders = {}
 
+    @cache
     def run(scene):
-        if scene not in folders:
-            folders[scene] = tmp_path_factory.mktemp(scene) / "results"
-            command = [launch.MORTISE, "solve", launch.scene_file(scene), "-o", folders[scene], "--quiet"]
-            subprocess.run(command, check=True)
-        return folders[scene]
+        folder = tmp_path_factory.mktemp(scene) / "results"
+        launch.solve(scene, {}, folder)
+        return folder
 
     return run
 

@@ -64,11 +64,10 @@ class Run:
         self.cells = np.concatenate([block.data for block in self.mesh.cells])
         self.body = np.zeros(len(self.points), dtype=int)
         self.body[self.cells] = np.concatenate(self.mesh.cell_data["body"]).reshape(-1, 1)
-        table = {name: np.array(values) for name, values in launch.columns(folder / "contact.csv").items()}
         self.lines = {}
         for curve, number in BODIES.items():
-            here, own = table["curve"] == curve, np.flatnonzero(self.body == number)
-            places = np.stack([table["x"][here], table["y"][here]], axis=1)
+            line, own = launch.contact(folder, curve), np.flatnonzero(self.body == number)
+            places = np.stack([line["x"], line["y"]], axis=1)
             distance, nearest = cKDTree(self.points[own]).query(places[np.argsort(places[:, 0])])
             if distance.max() > 1e-6:
                 raise ValueError(f"{folder}: nodes of {curve} are not in result.vtu")

@@ -156,7 +156,7 @@ def main(arguments=None):
         say = lambda text: print(f"[{time.time() - start:5.0f} s, {store.fresh:3} runs] {text}", flush=True)
         found = study(store, options.output, QUICK if options.quick else FULL, say)
         write(options.output, found)
-    except launch.MortiseError as error:
+    except launch.StudyError as error:
         sys.exit(f"preprint.py: {error}")
     print(*summary(found), f"{options.output}/section.html, tables.csv", sep="\n")
     return store.fresh

@@ -58,7 +58,7 @@ class Store(runs.Store):
 
     def table(self, path):
         if path not in self.tables:
-            self.tables[path] = {name: np.array(values) for name, values in launch.columns(path).items()}
+            self.tables[path] = launch.columns(path)
         return self.tables[path]
 
     def curve(self, scene, mesh, settings, body, at="nodes"):

@@ -20,12 +20,6 @@ import launch
 
 
 @pytest.fixture(scope="module")
-def mortise():
-    if not launch.MORTISE.is_file():
-        pytest.skip(f"{launch.MORTISE} is missing: ./dev build makes it")
-
-
-@pytest.fixture(scope="module")
 def quick(mortise, tmp_path_factory):
     """Folder of a quick study, and how many runs it took."""
     folder = tmp_path_factory.mktemp("preprint")

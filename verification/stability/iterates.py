@@ -15,7 +15,6 @@ import itertools
 import sys
 import tempfile
 import tomllib
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -26,10 +25,9 @@ for folder in ("common", "crosscheck"):
 import compare
 import launch
 import run
-import scene as scenes
-from cases import TABLE, CaseError, one_discretisation_step
+from cases import TABLE, one_discretisation_step
 
-SCRIPT = run.SCRIPT.with_name("ddm.edp")
+SCRIPT = launch.ROOT / "freefem/ddm.edp"
 SCENE = "parabola_1"
 STEPS = 10
 LIMIT = 1e-8
@@ -40,24 +38,16 @@ RATIOS = {"quick": [1], "usual": [0.1, 1]}  # of Young's moduli, upper over lowe
 BETAS = {"quick": [0.3, 0.9], "usual": [0.1, 0.3, 0.5, 0.9]}  # with 0.9 and equal stiffness it diverges
 
 
-@dataclass(frozen=True)
-class Case:
-    """One iteration, run by both programs."""
-
-    mesh: str
-    space: str
-    ratio: float
-    beta: float
-
-    def step(self):
-        """As verification/crosscheck describes a mesh and a discretisation."""
-        with open(TABLE, "rb") as file:
-            table = tomllib.load(file)
-        return one_discretisation_step(table, SCENE, self.mesh, SIDE, self.space, "segments")
-
-
 def cases(size):
-    return [Case(*values) for values in itertools.product(MESHES[size], SPACES, RATIOS[size], BETAS[size])]
+    """One iteration each, run by both programs."""
+    every = itertools.product(MESHES[size], SPACES, RATIOS[size], BETAS[size])
+    return [dict(zip(("mesh", "space", "ratio", "beta"), values)) for values in every]
+
+
+def step_of(case):
+    """As verification/crosscheck describes a mesh and a discretisation."""
+    table = tomllib.loads(TABLE.read_text())
+    return one_discretisation_step(table, SCENE, case["mesh"], SIDE, case["space"], "segments")
 
 
 def with_stiffness(scene, ratio):
@@ -67,100 +57,63 @@ def with_stiffness(scene, ratio):
     return {**scene, "materials": materials, "bodies": {**scene["bodies"], "upper": "other"}}
 
 
-def prepare(programs, case, folder):
-    """Mesh and FreeFEM's case in the folder; returns mortise's mesh file."""
-    step, file, mesh = case.step(), launch.scene_file(SCENE), folder / "mesh.msh"
-    scene = with_stiffness(scenes.read_scene(file), case.ratio)
-    run.make_mesh(programs, file, scenes.size_parameters(scene, step.mesh), step.mesh_parameters, mesh)
-    run.convert_step(step, scene, mesh, folder)
-    return mesh
-
-
-def freefem_iterates(programs, case, folder):
+def freefem_iterates(case, folder):
     """Places of the multipliers, r_1 to r_STEPS at them (fewer if it has converged), and the force residuals."""
-    command = [programs.freefem, "-nw", "-v", "0", SCRIPT, "-case", folder / "case.txt"]
-    command += ["-beta", repr(case.beta), "-steps", STEPS + 1]
-    run.run_program(command, expected=(0, 2), cwd=folder, env=run.freefem_environment())
+    beta = case["beta"]
+    run.call_freefem(SCRIPT, "-beta", repr(beta), "-steps", STEPS + 1, folder=folder, expected=(0, 2))
     places = np.loadtxt(folder / "freefem_contact.txt", ndmin=2)[:, :2]
     history = np.loadtxt(folder / "freefem_history.txt", ndmin=2)
     l, converged = history[:, 3:], history[-1, 1:3].max() < 1e-8
     if l.shape[1] != len(places) or not (len(l) == STEPS + 1 or len(l) > 1 and converged):
-        raise CaseError(f"FreeFEM's history has the shape {l.shape}; expected {(STEPS + 1, len(places))}")
-    r = (l[1:] - (1 - case.beta) * l[:-1]) / case.beta
+        raise launch.StudyError(f"FreeFEM's history has the shape {l.shape}; expected {(STEPS + 1, len(places))}")
+    r = (l[1:] - (1 - beta) * l[:-1]) / beta
     return places, r, np.abs(r - l[:-1]).max(axis=1) / np.abs(r).max(axis=1)
 
 
 def mortise_iterates(case, mesh, folder, places, steps):
     """The same of mortise, one run for each step; the last one's history has all residuals."""
-    method, found = case.step().mortise, []
+    step, found = step_of(case), []
     settings = {
-        **launch.stiffness(case.ratio),
-        "mesh.file": mesh,
-        "mesh.parameters": "{}",
-        "contact.multipliers_on": SIDE,
-        "method.solver": "ddm",
-        "method.multipliers": method["multipliers"],
-        "method.integration": method["integration"],
-        **run.contact_settings(case.step()),
-        "method.acceleration": "none",
-        "method.dirichlet": BODY,
-        "method.beta": case.beta,
+        **launch.stiffness(case["ratio"]),
+        **run.settings_of(step, mesh),
+        **{"method.solver": "ddm", "method.acceleration": "none", "method.dirichlet": BODY, "method.beta": case["beta"]},
         "method.tolerance": 1e-14,
     }
     for k in range(1, steps + 1):
         results = folder / "mortise"
         launch.solve(SCENE, {**settings, "method.max_iterations": k}, results)
-        rows = compare.read_contact(results / "contact.csv", SIDE)
-        found.append(rows[compare.match(places, rows[:, 1:3], 1.0, f"multipliers on {SIDE}"), 3])
+        line = launch.contact(results, SIDE)
+        own = np.stack([line["x"], line["y"]], axis=1)
+        found.append(line["p"][compare.match(places, own, 1.0, f"multipliers on {SIDE}")])
     return np.array(found), launch.columns(results / "iteration.csv")["force"]
 
 
-def compare_case(programs, case, folder):
+def run_case(case):
     """Rows of iterates.csv."""
-    mesh = prepare(programs, case, folder)
-    places, theirs, their_residuals = freefem_iterates(programs, case, folder)
-    ours, our_residuals = mortise_iterates(case, mesh, folder, places, len(theirs))
-    for k in range(len(theirs)):
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        _, mesh, *_ = run.prepare(step_of(case), folder, lambda scene: with_stiffness(scene, case["ratio"]))
+        places, theirs, their_residuals = freefem_iterates(case, folder)
+        ours, our_residuals = mortise_iterates(case, mesh, folder, places, len(theirs))
+    rows = []
+    for k, residual in enumerate(our_residuals[: len(theirs)]):
         pressure = np.abs(ours[k] - theirs[k]).max() / np.abs(theirs[k]).max()
-        residual = abs(our_residuals[k] - their_residuals[k])
-        yield {
-            "mesh": case.mesh,
-            "space": case.space,
-            "ratio": case.ratio,
-            "beta": case.beta,
-            "step": k + 1,
-            "force_residual": our_residuals[k],
-            "pressure_difference": pressure,
-            "residual_difference": residual,
-            "ok": int(max(pressure, residual) <= LIMIT),
-        }
-
-
-def run_case(programs, case):
-    with tempfile.TemporaryDirectory() as folder:
-        return list(compare_case(programs, case, Path(folder)))
-
-
-def line(case, rows):
-    """A case in a line."""
-    pressure, residual = (max(row[f"{name}_difference"] for row in rows) for name in ("pressure", "residual"))
-    return (
-        f"{'ok    ' if all(row['ok'] for row in rows) else 'NOT ok'} {case.mesh} {case.space} "
-        f"ratio {case.ratio:g} beta {case.beta:g}: residual {rows[0]['force_residual']:.2g} ... "
-        f"{rows[-1]['force_residual']:.2g}, differences: pressure {pressure:.1e}, residual {residual:.1e}"
-    )
+        off = {"pressure_difference": pressure, "residual_difference": abs(residual - their_residuals[k])}
+        rows.append({**case, "step": k + 1, "force_residual": residual, **off, "ok": int(max(off.values()) <= LIMIT)})
+    return rows
 
 
 def main(arguments=None):
     options = launch.command_line(__doc__, "iterates", arguments)
     rows = []
     try:
-        programs = run.find_programs()
+        run.need_programs()
         for case in cases("quick" if options.quick else "usual"):
-            found = run_case(programs, case)
-            print(line(case, found), flush=True)
+            found = run_case(case)
+            worst = {key: max(row[key] for row in found) for key in ("pressure_difference", "residual_difference")}
+            print(case, *(f"{key} {value:.1e}" for key, value in worst.items()), flush=True)
             rows += found
-    except (run.MissingProgram, launch.MortiseError, CaseError) as error:
+    except launch.StudyError as error:
         sys.exit(f"iterates.py: {error}")
     options.output.mkdir(parents=True, exist_ok=True)
     launch.write_csv(options.output / "iterates.csv", rows)

@@ -122,7 +122,7 @@ def main(arguments=None):
         sys.exit("stability.py: --docs needs all studies in full")
     try:
         results = run_studies(options.output, options.quick, options.only, options.jobs)
-    except launch.MortiseError as error:
+    except launch.StudyError as error:
         sys.exit(f"stability.py: {error}")
     page.write(options.output, "stability", page_text(results, options.quick), options.docs)
     wrong = [line for result in results for line in result["wrong"]]

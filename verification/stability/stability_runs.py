@@ -23,7 +23,6 @@ TIME_LIMIT = 60  # seconds for one run; the longest takes about 3
 OUTCOMES = {None: "hang", 0: "solved", 1: "refused", 2: "check", 3: "internal error"}  # by exit status
 RINGS = {"radii": (1, 2, 3), "inside": 10e6, "outside": 4e6, "materials": [(210e9, 0.3), (70e9, 0.3)]}  # geo/rings.toml
 ESTIMATED_ERROR = "estimated error of p above 10 % (a warning)"  # beside the checks that fail
-END = 0.1  # of the length of a curve, left out at either end where a scene has corners there
 
 
 def outcome(status):
@@ -114,10 +113,8 @@ def inf_sup(folder, run):
 
 def multiplier_side(folder):
     """s, x, y, p along the multiplier side of the first pair."""
-    columns = launch.columns(folder / "contact.csv")
-    first = columns["curve"][0]
-    rows = [i for i, (pair, curve) in enumerate(zip(columns["pair"], columns["curve"])) if (pair, curve) == (0, first)]
-    return {name: np.array([columns[name][i] or 0.0 for i in rows], dtype=float) for name in ("s", "x", "y", "p")}
+    side = launch.contact(folder)
+    return {name: np.nan_to_num(side[name][side["pair"] == 0]) for name in ("s", "x", "y", "p")}
 
 
 def pressure(folder, run):
@@ -125,18 +122,6 @@ def pressure(folder, run):
     side = multiplier_side(folder)
     profile = {name: side[name].tolist() for name in ("s", "x", "p")}
     return {"p_min": float(side["p"].min()), "p_max": float(side["p"].max()), "profile": profile}
-
-
-def swing(folder, run):
-    """How p swings from node to node: |p[i-1] - 2 p[i] + p[i+1]| / 4, mean and largest, over the mean |p|; no END."""
-    side = multiplier_side(folder)
-    s, p = side["s"] / side["s"][-1], side["p"]
-    second = np.abs(np.diff(p, 2)) / 4
-    inside = (s[1:-1] > END) & (s[1:-1] < 1 - END)
-    size = np.abs(p).mean()
-    if not inside.any() or size == 0:
-        return {"swing_mean": None, "swing_max": None}
-    return {"swing_mean": float(second[inside].mean() / size), "swing_max": float(second[inside].max() / size)}
 
 
 def uniform(folder, run):
@@ -148,15 +133,12 @@ def uniform(folder, run):
 def uniform_facing(folder, run):
     """As uniform, of the multipliers up to run["last"], where the last edge ends that faces the other side: p_error;
     and of p at the nodes that face it themselves: p_error_facing. The edges are run["edge"] long."""
-    columns = launch.columns(folder / "contact.csv")
-    first, exact, edge = columns["curve"][0], run.get("exact", 10e6), run["edge"]
-    side = [i for i, curve in enumerate(columns["curve"]) if curve == first]
-    facing = [i for i in side if columns["gap"][i] != ""]
-    vertices_only = run["settings"].get("method.multipliers") == "linear"
-    near = [i for i in side if columns["x"][i] < run["last"] + 1e-9 and columns["p"][i] != 0]
-    near = [i for i in near if not vertices_only or abs(columns["x"][i] / edge - round(columns["x"][i] / edge)) < 1e-6]
-    error = lambda nodes: max(abs(columns["p"][i] / exact - 1) for i in nodes)
-    return {"p_error": error(near), "p_error_facing": error(facing)}
+    side, exact = launch.contact(folder), run.get("exact", 10e6)
+    error, at = np.abs(side["p"] / exact - 1), side["x"] / run["edge"]
+    near = (side["x"] < run["last"] + 1e-9) & (side["p"] != 0)
+    if run["settings"].get("method.multipliers") == "linear":
+        near &= np.abs(at - np.round(at)) < 1e-6  # the vertices
+    return {"p_error": float(error[near].max()), "p_error_facing": float(error[~np.isnan(side["gap"])].max())}
 
 
 def ring(young, poisson, inside, outside, a, b):
@@ -250,7 +232,7 @@ def timed(run):
         "outcome": "unfinished" if summary["status"] == "not_converged" else "converged",
         "force": checks["residual of the forces"],
         "kinematic": checks["residual of the contact condition"],
-        "p": contact["p"],
+        "p": contact["p"].tolist(),
     }
 
 

@@ -1,45 +1,53 @@
-"""Domain decomposition and MSSOR on small meshes: regions of convergence, steps, FreeFEM's iterates, the pictures."""
+"""Domain decomposition and MSSOR: small studies of both, that they find what is wrong, FreeFEM's iterates, the picture."""
 
-import json
 import subprocess
 import sys
 
 import pytest
 
-import iterates  # makes crosscheck's modules known
+import iterates
 import launch
-import run
-import runs
+import stability
 import study_9_ddm as ddm
 import study_10_mssor as mssor
+from failures import select
 
 sys.path.append(str(launch.ROOT / "verification/picture"))
 import history  # noqa: E402
 
-pytestmark = pytest.mark.usefixtures("mortise")
-
-
-@pytest.fixture
-def store(tmp_path):
-    return runs.Store(tmp_path / "runs")
-
 
 @pytest.fixture(scope="module")
-def programs():
-    try:
-        return run.find_programs()
-    except run.MissingProgram as missing:
-        pytest.skip(str(missing))
+def studies(mortise, tmp_path_factory):
+    """The rows of both studies, made small, by their names, and the folder."""
+    folder = tmp_path_factory.mktemp("studies")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(ddm.REGIONS, "quick", ((12, 15), [1], [0.04, 0.1, 0.2, 2]))
+        patch.setattr(ddm, "RATIOS_OF_LINES", [1, 10])
+        patch.setattr(ddm, "RATIOS", [0.1, 1])
+        patch.setattr(ddm, "ACCELERATIONS", ["anderson", "krylov"])
+        patch.setitem(ddm.MESHES, "quick", [(16, 20)])
+        patch.setitem(ddm.HISTORY_MESH, "quick", (8, 10))
+        patch.setitem(mssor.MAPS, "quick", [((6, 8), {"none": "coarse", "krylov": "coarse"}, 20000)])
+        patch.setitem(mssor.OMEGAS, "coarse", [0.6, 1.3, 1.8])
+        patch.setitem(mssor.TAUS, "coarse", [0.2, 4])
+        results = stability.run_studies(folder, True, ["ddm", "mssor"])
+    assert [line for result in results for line in result["wrong"]] == []
+    assert {failure["state"] for result in results for failure in result["failures"]} == {"default", "fixed", "shown"}
+    return {result["name"]: result["rows"] for result in results}, folder
+
+
+def test_pictures_are_drawn(studies):
+    for name in ("ddm.png", "ddm_history.png", "mssor.png", "mssor_steps.png"):
+        assert (studies[1] / name).stat().st_size > 10000
 
 
 @pytest.mark.parametrize("role", ddm.ROLES)
-def test_convergence_ends_at_the_predicted_border_with_the_predicted_factor(store, role):
-    rows = ddm.region(store, (12, 15), 1, role, [0.04, 0.1, 0.2, 2])
-    assert [row for row in rows if not row["ok"]] == []
-    assert {row["outcome"] for row in rows} == {"converged", "diverged"}
-    assert sum(row["compared"] for row in rows) >= 2
+def test_a_fixed_relaxation_converges_up_to_the_predicted_border(studies, role):
+    rows = select(studies[0]["ddm"], part="region", dirichlet=role, ratio=1)
     below = [row["outcome"] for row in rows if row["beta_over_limit"] < 1]
     assert 3 <= len(below) < len(rows) and set(below) == {"converged"}
+    assert sum(row["compared"] for row in rows) >= 2
+    assert {row["outcome"] for row in rows} == {"converged", "diverged"}
 
 
 def test_a_wrong_factor_and_a_wrong_border_are_found():
@@ -59,16 +67,12 @@ def test_a_wrong_factor_and_a_wrong_border_are_found():
 
 
 @pytest.mark.parametrize("scene", ddm.SCENES)
-def test_steps_of_domain_decomposition(store, scene):
-    ratios, accelerations = [0.1, 1], ["anderson", "krylov"]
-    rows = ddm.steps(store, scene, (16, 20), ratios, ddm.SCHEMES, accelerations)
-    assert len(rows) == len(ratios) * (1 + len(ddm.SCHEMES) * len(accelerations))
-    assert {row["outcome"] for row in rows} == {"converged"} and ddm.over_the_bar(rows) == []
+def test_steps_of_domain_decomposition(studies, scene):
+    rows = select(studies[0]["ddm"], part="steps", scene=scene)
+    assert len(rows) == 2 * (1 + len(ddm.SCHEMES) * 2) and {row["outcome"] for row in rows} == {"converged"}
     chosen = lambda *method: [r["steps"] for r in rows if (r["scheme"], r["acceleration"]) == method]
     assert chosen("default", "default") == chosen("neumann_dirichlet", "krylov")
-    assert ddm.steps_table(rows).count(f"\n| {scene} |") == 1 + len(ddm.SCHEMES) * len(accelerations)
-    rows[0]["steps"] = ddm.BAR + 1
-    assert ddm.over_the_bar(rows) == [rows[0]] and len(ddm.wrong(rows)) == 1
+    assert len(ddm.wrong([{**rows[0], "steps": ddm.BAR + 1}, *rows[1:]])) == 1
 
 
 def test_the_table_of_steps_has_a_cell_a_ratio_and_a_number_a_mesh():
@@ -79,38 +83,30 @@ def test_the_table_of_steps_has_a_cell_a_ratio_and_a_number_a_mesh():
 
 
 @pytest.mark.parametrize("space, beta", [("P1-P1", 0.3), ("P2-P1", 0.9)])
-def test_iterates_are_freefems(programs, space, beta):
-    rows = iterates.run_case(programs, iterates.Case("8x10", space, 1, beta))
+def test_iterates_are_freefems(freefem, space, beta):
+    rows = iterates.run_case({"mesh": "8x10", "space": space, "ratio": 1, "beta": beta})
     assert len(rows) == iterates.STEPS and all(row["ok"] for row in rows)
     assert rows[-1]["force_residual"] > 1e-3, "still on the way"
 
 
-def test_history(tmp_path):
-    folders = [tmp_path / name for name in ("none", "krylov")]
-    for folder in folders:
-        settings = {**launch.sizes((8, 10)), "method.solver": "ddm", "method.acceleration": folder.name}
-        launch.solve("parabola_1", settings, folder)
-    command = [sys.executable, history.__file__, *folders]
-    subprocess.run([*command, tmp_path / "both.png"], check=True)
-    subprocess.run([*command, tmp_path / "both.svg"], check=True)
-    assert (tmp_path / "both.png").stat().st_size > 10000
+def test_history(mortise, tmp_path):
+    settings = {**launch.sizes((8, 10)), "method.solver": "ddm"}
+    launch.solve("parabola_1", settings, tmp_path / "run")
+    command = [sys.executable, history.__file__, tmp_path / "run"]
+    subprocess.run([*command, tmp_path / "run", tmp_path / "both.svg"], check=True)
     assert "<svg" in (tmp_path / "both.svg").read_text()[:1000]
     refused = subprocess.run([*command, tmp_path, "a.png"], capture_output=True, text=True, check=False)
     assert refused.returncode == 2 and "iteration.csv" in refused.stderr
 
 
-def test_mssor_stationary_converges_below_the_border_and_not_above(store):
-    rows = mssor.region(store, (6, 8), "none", [0.6, 1.3, 1.8], [0.2, 4], 20000)
-    assert mssor.wrong(rows) == []
+def test_mssor_converges_below_the_border_alone_and_as_preconditioner_on_both_sides(studies):
+    rows = select(studies[0]["mssor"], part="map")
     for omega in (0.6, 1.3, 1.8):
-        here = {row["tau"]: row["outcome"] for row in rows if row["omega"] == omega}
+        here = {row["tau"]: row["outcome"] for row in select(rows, acceleration="none", omega=omega)}
         assert [here[tau] for tau in sorted(here)] == ["converged", "converged", "diverged", "diverged"]
-
-
-def test_mssor_as_preconditioner_converges_on_both_sides_of_the_border(store):
-    rows = mssor.region(store, (6, 8), "krylov", [0.6, 1.3, 1.8], [0.02, 0.6, 9], 1000)
-    assert {row["outcome"] for row in rows} == {"converged"} and all(row["ok"] for row in rows)
-    assert min(rows, key=lambda row: row["steps"])["omega"] == 1.3
+    krylov = select(rows, acceleration="krylov")
+    assert {row["outcome"] for row in krylov} == {"converged"}
+    assert min(krylov, key=lambda row: row["steps"])["omega"] == 1.3
 
 
 def test_a_wrong_border_of_mssor_is_found():
@@ -122,30 +118,9 @@ def test_a_wrong_border_of_mssor_is_found():
     assert judged(0.5, **diverging) and not judged(1.5, **diverging)
 
 
-def test_steps_of_mssor_against_the_direct_solver(store):
-    rows = mssor.steps(store, mssor.MESHES["quick"], mssor.FINEST["quick"], {})
-    assert len(rows) == 7 and mssor.wrong(rows) == []
+def test_steps_of_mssor_against_the_direct_solver(studies):
+    rows = select(studies[0]["mssor"], part="steps")
     steps = {(row["mesh"], row["method"]): row["steps"] for row in rows}
-    assert steps["8x10", "krylov"] < steps["8x10", "minres"] < steps["8x10", "none"]
+    assert len(rows) == 7 and steps["8x10", "krylov"] < steps["8x10", "minres"] < steps["8x10", "none"]
     assert steps["16x20", "krylov"] < 3 * steps["8x10", "krylov"]
     assert len(mssor.wrong([{**rows[0], "p_difference": 1e-6}, {**rows[1], "outcome": "unfinished"}])) == 2
-
-
-def test_both_are_written_as_studies(tmp_path, monkeypatch):
-    import stability
-
-    monkeypatch.setitem(ddm.REGIONS, "quick", ((8, 10), [1, 10], [0.1, 0.3, 0.9]))
-    monkeypatch.setattr(ddm, "RATIOS_OF_LINES", [1, 10])
-    monkeypatch.setattr(ddm, "SCENES", {"cosine": ddm.SCENES["cosine"]})
-    monkeypatch.setattr(ddm, "SCHEMES", ["neumann_dirichlet"])
-    monkeypatch.setitem(ddm.MESHES, "quick", [(8, 10)])
-    monkeypatch.setitem(ddm.HISTORY_MESH, "quick", (8, 10))
-    monkeypatch.setitem(mssor.OMEGAS, "coarse", [0.8, 1.3])
-    monkeypatch.setitem(mssor.TAUS, "coarse", [0.5, 4])
-    with pytest.raises(SystemExit) as done:
-        stability.main(["--quick", "--only", "ddm", "mssor", "-o", str(tmp_path)])
-    assert done.value.code == 0
-    text = (tmp_path / "section.html").read_text()
-    for name in ("ddm.png", "ddm_history.png", "mssor.png", "mssor_steps.png"):
-        assert f'src="{name}"' in text and (tmp_path / name).stat().st_size > 10000
-    assert {failure["state"] for failure in json.loads((tmp_path / "ddm.json").read_text())} == {"default", "fixed"}
