@@ -4,6 +4,7 @@
 #include "base/printable.hpp"
 #include "ddm/solve_ddm.hpp"
 #include "ddm/solve_feti.hpp"
+#include "ddm/substructures.hpp"
 #include "solve/direct.hpp"
 #include "solve/mssor.hpp"
 
@@ -32,18 +33,31 @@ std::string unconstrained(const Mesh& mesh, const Floating& floating, const Solu
 
 }  // namespace
 
+Solver solver_for(const Method& method, const SaddlePointSystem& system) {
+  constexpr int many_rows = 1000, many_parts = 3;
+  if (method.solver) return *method.solver;
+  return system.B.rows() >= many_rows && part_count(system.K) >= many_parts ? Solver::feti : Solver::direct;
+}
+
 Solution solve_system(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet) {
-  switch (method.solver) {
+  const Solver solver = solver_for(method, system);
+  Solution solution;
+  switch (solver) {
     case Solver::direct:
-      return solve_directly(system);
+      solution = solve_directly(system);
+      break;
     case Solver::mssor:
-      return solve_by_mssor(system, method.mssor);
+      solution = solve_by_mssor(system, method.mssor);
+      break;
     case Solver::ddm:
-      return solve_by_ddm(system, dirichlet, method.ddm);
+      solution = solve_by_ddm(system, dirichlet, method.ddm);
+      break;
     case Solver::feti:
-      return solve_by_feti(system, method.feti);
+      solution = solve_by_feti(system, method.feti);
+      break;
   }
-  return {};
+  solution.solver = solver;
+  return solution;
 }
 
 void require_solution(const Mesh& mesh, const std::vector<ContactPair>& pairs, const Floating& floating,

@@ -5,6 +5,10 @@
 
 namespace mortise {
 
+/// The one that is named; else feti from 1000 rows on, where three parts or more hang together by contact alone: from
+/// there on it is faster than the direct solver's dense compliance. Else direct.
+Solver solver_for(const Method& method, const SaddlePointSystem& system);
+
 /// `dirichlet`: of domain decomposition, n: the unknowns of the bodies that take the displacement.
 Solution solve_system(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet);
 

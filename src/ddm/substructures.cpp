@@ -45,6 +45,11 @@ SparseMatrix columns_of(const SparseMatrix& matrix, const std::vector<int>& unkn
 
 }  // namespace
 
+int part_count(const SparseMatrix& K) {
+  const std::vector<int> part = parts_of_nodes(K);
+  return part.empty() ? 0 : *std::ranges::max_element(part) + 1;
+}
+
 std::vector<Substructure> substructures(const SaddlePointSystem& s) {
   const int n = int(s.K.cols());
   const std::vector<int> part = parts_of_nodes(s.K);

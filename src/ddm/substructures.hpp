@@ -13,6 +13,9 @@ struct Substructure {
   SaddlePointSystem system;   ///< on these unknowns and rows; without g and unilateral
 };
 
+/// How many there are.
+int part_count(const SparseMatrix& K);
+
 /// In the order of their first unknowns. Time and memory as the entries of K and B.
 std::vector<Substructure> substructures(const SaddlePointSystem& system);
 

@@ -224,7 +224,7 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
             {"normals", to_string(scene.method.normals)},
             {"multipliers", space_word(scene, r)},
             {"multipliers_on", on},
-            {"solver", to_string(scene.method.solver)},
+            {"solver", to_string(r.solution.solver)},
             {"dirichlet", r.dirichlet},
             {"condition", condition},
             {"initial_gap", gap}}},

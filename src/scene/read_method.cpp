@@ -64,14 +64,16 @@ void read_feti(const Node& node, FetiOptions& feti) {
 }
 
 // "solver"; scene files written before it could say "ddm" say kind = "ddm", and "mortar" for what is not.
-Solver read_solver(const Node& node) {
+std::optional<Solver> read_solver(const Node& node) {
   const Node *solver = find(node, "solver"), *kind = find(node, "kind");
-  const Solver chosen = choice(solver, {Solver::direct, Solver::mssor, Solver::ddm, Solver::feti}, Solver::direct);
+  std::optional<Solver> chosen;
+  if (solver != nullptr)
+    chosen = choice(solver, {Solver::direct, Solver::mssor, Solver::ddm, Solver::feti}, Solver::direct);
   if (kind == nullptr) return chosen;
   const bool ddm = text(*kind) == "ddm";
   if (!ddm && text(*kind) != "mortar") fail(*kind, unknown_name("kind", kind->text, {"mortar", "ddm"}));
-  if (solver != nullptr && ddm != (chosen == Solver::ddm))
-    fail(blame(*kind, *solver), "kind = \"" + kind->text + "\" and solver = \"" + to_string(chosen) +
+  if (chosen && ddm != (chosen == Solver::ddm))
+    fail(blame(*kind, *solver), "kind = \"" + kind->text + "\" and solver = \"" + to_string(*chosen) +
                                     "\" contradict one another; expected solver alone");
   return ddm ? Solver::ddm : chosen;
 }

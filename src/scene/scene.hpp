@@ -65,7 +65,7 @@ struct Method {
   Integration integration = Integration::segments;
   Normals normals = Normals::curve;
   Multipliers multipliers = Multipliers::linear;  ///< on 2-node edges quadratic means linear
-  Solver solver = Solver::direct;
+  std::optional<Solver> solver;                   ///< none: direct, or feti where it is faster (app/solve_system.hpp)
   MssorOptions mssor;
   FetiOptions feti;
   DdmOptions ddm;

@@ -75,6 +75,7 @@ struct ActiveSetStep {
 class ContactFactor;
 
 struct Solution {
+  Solver solver = Solver::direct;  ///< that found it
   SolveStatus status = SolveStatus::not_converged;
   int failed_at = -1;
   VecX driven_mode;    ///< the grounded unknowns in the rigid motion that the load drives

@@ -38,7 +38,7 @@ TEST(Overrides, NumbersWordsListsAndTables) {
   const Scene scene = read_with({"method.kind=mortar", "method.multipliers=\"linear\"", "mesh.parameters.n_upper=40",
                                  "materials.steel.young=70e9", "boundary.2.pressure=5e6", "boundary.3.traction=[3, 4]",
                                  "boundary.1.displacement={y=1}", "title=Two plates, bent"});
-  EXPECT_EQ(scene.method.solver, Solver::direct);
+  EXPECT_EQ(scene.method.solver, std::nullopt);
   EXPECT_EQ(scene.method.multipliers, Multipliers::linear);
   EXPECT_EQ(scene.mesh_parameters.at("n_upper"), 40);
   EXPECT_EQ(scene.mesh_parameters.at("height"), 0.25);

@@ -95,7 +95,7 @@ TEST(ReadScene, WhatTheFileLeavesOutTakesItsDefault) {
   EXPECT_EQ(scene.plane, Plane::strain);
   EXPECT_TRUE(scene.boundaries.empty() && scene.body_forces.empty());
   EXPECT_TRUE(scene.initial_strains.empty() && scene.contacts.empty());
-  EXPECT_EQ(scene.method.solver, Solver::direct);
+  EXPECT_EQ(scene.method.solver, std::nullopt);
   EXPECT_EQ(scene.method.integration, Method{}.integration);
   EXPECT_EQ(scene.method.multipliers, Method{}.multipliers);
 }
