@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/patterns.hpp"
 #include "base/printable.hpp"
 #include "base/stopwatch.hpp"
 #include "base/vectors.hpp"
@@ -44,7 +45,8 @@ std::vector<SizedPlace> sizes_of(const std::vector<DrawnCurve>& curves, const Sc
     double largest = std::numeric_limits<double>::infinity();
     for (const ContactSpec& contact : scene.contacts)
       for (const std::string& side : contact.between)
-        if (std::ranges::count(curve.names, side) > 0) largest = std::min(largest, lengths[side] / edges);
+        for (const std::string& name : curve.names)
+          if (matches(side, name)) largest = std::min(largest, lengths[name] / edges);
     for (std::size_t i = 1; i + 1 < curve.places.size(); ++i) {
       const Vec2 before = curve.places[i] - curve.places[i - 1], after = curve.places[i + 1] - curve.places[i];
       const double angle = angle_between(before, after), step = (before.norm() + after.norm()) / 2;

@@ -126,7 +126,9 @@ void number_rows(const Mesh& mesh, const Curve& multiplier, const Curve& opposit
   for (int i = 0; i < int(order.size()); ++i) {
     const int a = order[i];
     if (coupling.row[a] >= 0) continue;
-    coupling.dropped.push_back({coupling.node[a], reason(state[a])});
+    coupling.dropped.push_back({.node = coupling.node[a],
+                                .reason = reason(state[a]),
+                                .faces = state[a] == State::prescribed || state[a] == State::apart});
     if (state[a] == State::unsupported || state[a] == State::apart) continue;
     for (int away = 1; away < int(order.size()) && coupling.row[a] < 0; ++away)
       for (const int k : {i - away, i + away})

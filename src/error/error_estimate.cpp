@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/errors.hpp"
 #include "fem/patch_recovery.hpp"
 #include "solve/contact_factor.hpp"
 
@@ -138,6 +139,9 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
     windows += Eigen::Index(e.windows.size());
     estimate.pressures.push_back(std::move(e));
   }
+  if (spec.pair >= int(pairs.size()) && spec.pair > 0)
+    throw SceneError("accuracy.pair: " + std::to_string(spec.pair) + "; expected a number below that of the pairs, " +
+                     std::to_string(pairs.size()));
   const GoalFunctionals goal =
       goal_functionals(mesh, discretisation, pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
   const Eigen::Index goals = goal.rows.cols(), count = windows + goals;

@@ -24,13 +24,12 @@ std::vector<LoadedEdge> loaded_edges(const Scene& scene, const Mesh& mesh) {
   std::vector<LoadedEdge> list;
   for (const BoundarySpec& spec : scene.boundaries) {
     if (!spec.pressure && !spec.traction) continue;
-    for (const std::string& name : spec.on) {
-      const int b = names.boundary(spec.key + ".on", name);
-      for (int e = 0; e < int(mesh.boundaries[b].edges.size()); ++e) {
-        const auto& nodes = mesh.boundaries[b].edges[e].nodes;
-        list.push_back({std::minmax(nodes[0], nodes[1]), &spec, b, e});
-      }
-    }
+    for (const std::string& name : spec.on)
+      for (const int b : names.boundaries(spec.key + ".on", name))
+        for (int e = 0; e < int(mesh.boundaries[b].edges.size()); ++e) {
+          const auto& nodes = mesh.boundaries[b].edges[e].nodes;
+          list.push_back({std::minmax(nodes[0], nodes[1]), &spec, b, e});
+        }
   }
   std::stable_sort(list.begin(), list.end(), [](const auto& x, const auto& y) { return x.ends < y.ends; });
   return list;

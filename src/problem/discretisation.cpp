@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
+#include "base/patterns.hpp"
 #include "fem/elements.hpp"
 #include "mesh/side_table.hpp"
 #include "problem/scene_names.hpp"
@@ -10,17 +11,32 @@
 namespace mortise {
 namespace {
 
+// Of each body; nullptr: none. A name of its own counts before a pattern.
+std::vector<const Material*> materials_of(const Scene& scene, const Mesh& mesh, const SceneNames& names) {
+  std::vector<const BodySpec*> given(mesh.bodies.size(), nullptr);
+  for (const BodySpec& spec : scene.bodies)
+    for (const int b : names.bodies("bodies." + spec.name, spec.name)) {
+      const BodySpec* other = given[b];
+      if (other && is_pattern(other->name) && is_pattern(spec.name) && other->material != spec.material)
+        throw SceneError("bodies: body '" + mesh.bodies[b] + "' is a '" + other->name + "' of '" + other->material +
+                         "' and a '" + spec.name + "' of '" + spec.material + "'; expected one material");
+      if (!other || is_pattern(other->name)) given[b] = &spec;
+    }
+  std::vector<const Material*> materials;
+  for (const BodySpec* spec : given) materials.push_back(spec ? &scene.materials.at(spec->material) : nullptr);
+  return materials;
+}
+
 // The material of each body of the mesh, and the initial strain upon it.
 std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh, const SceneNames& names) {
-  std::vector<const Material*> materials(mesh.bodies.size(), nullptr);
-  for (const BodySpec& body : scene.bodies)
-    materials[names.body("bodies." + body.name, body.name)] = &scene.materials.at(body.material);
+  const std::vector<const Material*> materials = materials_of(scene, mesh, names);
   std::vector<Vec4> strains(mesh.bodies.size(), Vec4::Zero());
   for (const InitialStrainSpec& spec : scene.initial_strains) {
-    const int b = names.body(spec.key, spec.body);
-    strains[b] += spec.strain;
-    if (spec.temperature_change && materials[b])
-      strains[b].head<3>().array() += materials[b]->thermal_expansion * *spec.temperature_change;
+    for (const int b : names.bodies(spec.key, spec.body)) {
+      strains[b] += spec.strain;
+      if (spec.temperature_change && materials[b])
+        strains[b].head<3>().array() += materials[b]->thermal_expansion * *spec.temperature_change;
+    }
   }
   std::vector<ElasticLaw> laws;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
@@ -34,19 +50,19 @@ std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh, const Scen
 Vec2 apply(const Mesh& mesh, const SideTable& table, const SceneNames& names, const BoundarySpec& spec,
            SaddlePointSystem& system) {
   Vec2 sum = Vec2::Zero();
-  for (const std::string& name : spec.on) {
-    const int boundary = names.boundary(spec.key + ".on", name);
-    if (spec.displacement_x) prescribe(mesh, boundary, 0, *spec.displacement_x, system.constraints);
-    if (spec.displacement_y) prescribe(mesh, boundary, 1, *spec.displacement_y, system.constraints);
-    if (!spec.pressure && !spec.traction) continue;
-    const std::vector<CellSide> sides = sides_of(mesh, mesh.boundaries[boundary], table);
-    if (spec.pressure)
-      sum += add_traction(
-          mesh, sides, [&](const Vec2&, const Vec2& n) -> Vec2 { return -*spec.pressure * n; }, system.f);
-    if (spec.traction)
-      sum += add_traction(
-          mesh, sides, [&](const Vec2&, const Vec2&) -> Vec2 { return *spec.traction; }, system.f);
-  }
+  for (const std::string& name : spec.on)
+    for (const int boundary : names.boundaries(spec.key + ".on", name)) {
+      if (spec.displacement_x) prescribe(mesh, boundary, 0, *spec.displacement_x, system.constraints);
+      if (spec.displacement_y) prescribe(mesh, boundary, 1, *spec.displacement_y, system.constraints);
+      if (!spec.pressure && !spec.traction) continue;
+      const std::vector<CellSide> sides = sides_of(mesh, mesh.boundaries[boundary], table);
+      if (spec.pressure)
+        sum += add_traction(
+            mesh, sides, [&](const Vec2&, const Vec2& n) -> Vec2 { return -*spec.pressure * n; }, system.f);
+      if (spec.traction)
+        sum += add_traction(
+            mesh, sides, [&](const Vec2&, const Vec2&) -> Vec2 { return *spec.traction; }, system.f);
+    }
   return sum;
 }
 
@@ -66,9 +82,11 @@ Discretisation discretise(const Scene& scene, const Mesh& mesh) {
   d.system.f = d.initial_load;
   std::vector<Vec2> forces(mesh.bodies.size(), Vec2::Zero());
   for (const BodyForceSpec& spec : scene.body_forces) {
-    const int body = names.body(spec.key, spec.body);
-    forces[body] += spec.force;
-    d.body_sums.push_back(spec.force * areas(body));
+    Vec2& sum = d.body_sums.emplace_back(Vec2::Zero());
+    for (const int body : names.bodies(spec.key, spec.body)) {
+      forces[body] += spec.force;
+      sum += spec.force * areas(body);
+    }
   }
   if (!scene.body_forces.empty()) add_body_forces(mesh, forces, d.system.f);
   const SideTable table(mesh);

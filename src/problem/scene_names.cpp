@@ -1,22 +1,45 @@
 #include "problem/scene_names.hpp"
 
+#include <algorithm>
+
 #include "base/errors.hpp"
+#include "base/patterns.hpp"
 
 namespace mortise {
+namespace {
+
+template <typename Numbers>
+std::vector<int> numbers_of(const std::string& name, const Numbers& numbers) {
+  std::vector<int> found;
+  if (!is_pattern(name)) {
+    if (const auto at = numbers.find(name); at != numbers.end()) found.push_back(at->second);
+    return found;
+  }
+  for (const auto& [known, number] : numbers)
+    if (matches(name, known)) found.push_back(number);
+  std::ranges::sort(found);
+  return found;
+}
+
+}  // namespace
 
 SceneNames::SceneNames(const Mesh& mesh) : mesh_(mesh) {
   for (const std::string& name : mesh.bodies) bodies_.emplace(name, int(bodies_.size()));
   for (const Boundary& boundary : mesh.boundaries) boundaries_.emplace(boundary.name, int(boundaries_.size()));
 }
 
-int SceneNames::body(const std::string& key, const std::string& name) const {
-  if (const auto found = bodies_.find(name); found != bodies_.end()) return found->second;
-  throw SceneError(key + ": " + unknown_name("body", name, mesh_.bodies) + " (" + mesh_.source + ")");
+std::vector<int> SceneNames::bodies(const std::string& key, const std::string& name) const {
+  std::vector<int> found = numbers_of(name, bodies_);
+  if (found.empty())
+    throw SceneError(key + ": " + unknown_name("body", name, mesh_.bodies) + " (" + mesh_.source + ")");
+  return found;
 }
 
-int SceneNames::boundary(const std::string& key, const std::string& name) const {
-  if (const auto found = boundaries_.find(name); found != boundaries_.end()) return found->second;
-  throw SceneError(key + ": " + unknown_name("boundary", name, boundary_names(mesh_)) + " (" + mesh_.source + ")");
+std::vector<int> SceneNames::boundaries(const std::string& key, const std::string& name) const {
+  std::vector<int> found = numbers_of(name, boundaries_);
+  if (found.empty())
+    throw SceneError(key + ": " + unknown_name("boundary", name, boundary_names(mesh_)) + " (" + mesh_.source + ")");
+  return found;
 }
 
 }  // namespace mortise

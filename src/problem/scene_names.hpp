@@ -11,9 +11,10 @@ class SceneNames {
  public:
   explicit SceneNames(const Mesh& mesh);
 
-  /// Index of the body or boundary that `key` of the scene names. Throws SceneError with the known names.
-  int body(const std::string& key, const std::string& name) const;
-  int boundary(const std::string& key, const std::string& name) const;
+  /// Indices of the bodies or boundaries that `key` of the scene names: one, or those that match a pattern
+  /// (base/patterns.hpp), ascending. Throws SceneError with the known names where there is none.
+  std::vector<int> bodies(const std::string& key, const std::string& name) const;
+  std::vector<int> boundaries(const std::string& key, const std::string& name) const;
 
  private:
   using Numbers = std::unordered_map<std::string, int>;

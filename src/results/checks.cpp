@@ -120,7 +120,7 @@ void coverage_check(const Scene& scene, const Results& r, std::vector<Check>& ch
   double uncovered = 0;
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
     const ContactPair& pair = r.pairs[k];
-    if (pair.spec.initial_gap != InitialGap::closed) continue;
+    if (pair.spec.initial_gap != InitialGap::closed || pair.spec.found) continue;
     const double facing = std::min(r.contacts[k].length, curve_length(r.mesh.nodes, pair.opposite));
     uncovered = largest(uncovered, std::abs(1 - pair.coupling.covered_length / facing));
   }

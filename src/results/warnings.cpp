@@ -75,7 +75,7 @@ std::string range(const std::vector<Vec2>& places) {
 void warn_of_dropped(const ContactPair& pair, const Results& r, Lines& lines) {
   std::map<std::string, std::vector<Vec2>> places;
   for (const DroppedMultiplier& d : pair.coupling.dropped)
-    places[d.reason].push_back(r.mesh.nodes.row(d.node).transpose());
+    if (d.faces || !pair.spec.found) places[d.reason].push_back(r.mesh.nodes.row(d.node).transpose());
   for (const auto& [reason, at] : places)
     lines.push_back(pair.spec.key + ": " + std::to_string(at.size()) +
                     (at.size() == 1 ? " multiplier of '" : " multipliers of '") + pair.spec.multipliers_on + "' (" +
@@ -147,7 +147,8 @@ void warn_of_locking(const Scene& scene, const Results& r, Lines& lines) {
     if (!is_quadratic(cell.kind)) has_linear[cell.body] = 1;
   for (const BodySpec& body : scene.bodies) {
     const double poisson = scene.materials.at(body.material).poisson;
-    const bool linear = has_linear[names.body("bodies." + body.name, body.name)];
+    const std::vector<int> bodies = names.bodies("bodies." + body.name, body.name);
+    const bool linear = std::ranges::any_of(bodies, [&](int b) { return has_linear[b] != 0; });
     if (poisson < (linear ? 0.4 : 0.49)) continue;
     std::ostringstream text;
     text << "body '" << body.name << "' is nearly incompressible (poisson = " << poisson << "): its "

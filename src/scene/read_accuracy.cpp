@@ -1,7 +1,10 @@
 // [accuracy]
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
+#include "base/patterns.hpp"
 #include "scene/fields.hpp"
 #include "scene/sections.hpp"
 
@@ -71,7 +74,9 @@ void read_accuracy(const Node& root, Scene& scene) {
   if (const Node* recombine = find(*node, "recombine")) accuracy.recombine = boolean(*recombine);
   if (scene.contacts.empty())
     fail(*node, "the accuracy of the contact pressure is asked for where there is no [[contact]]");
-  read_goal(*node, int(scene.contacts.size()), accuracy);
+  const bool found = std::ranges::any_of(
+      scene.contacts, [](const ContactSpec& c) { return is_pattern(c.between[0]) || is_pattern(c.between[1]); });
+  read_goal(*node, found ? std::numeric_limits<int>::max() : int(scene.contacts.size()), accuracy);
   if (!scene.mesh_file.ends_with(".geo"))
     fail(*node, "a mesh has no geometry to refine; expected mesh.file = a .geo (with a .msh every solve gives bars)");
   scene.accuracy = accuracy;

@@ -1,4 +1,7 @@
 // [[contact]]
+#include <algorithm>
+
+#include "base/patterns.hpp"
 #include "scene/fail.hpp"
 #include "scene/fields.hpp"
 #include "scene/sections.hpp"
@@ -11,11 +14,11 @@ std::array<std::string, 2> read_between(const Node& node, const Node& entry, Onc
     fail(node, "expected a list of two names, found " + describe(node));
   }
   const std::vector<const Node*> curves = names(node);
-  if (curves[0]->text == curves[1]->text) {
-    fail(node, "expected two different curves, found '" + curves[0]->text + "' twice");
-  }
-  for (const Node* curve : curves) once.take("curve '" + curve->text + "' is in a contact pair", *curve, entry);
-  return {curves[0]->text, curves[1]->text};
+  const std::string &first = curves[0]->text, &second = curves[1]->text;
+  if (first == second && !is_pattern(first)) fail(node, "expected two different curves, found '" + first + "' twice");
+  const auto [one, other] = std::minmax(first, second);
+  once.take("the pair of '" + one + "' and '" + other + "' stands", *curves[0], entry);
+  return {first, second};
 }
 
 std::string read_multipliers_on(const Node& entry, const ContactSpec& contact) {
@@ -46,10 +49,15 @@ void read_initial_gap(const Node* node, ContactSpec& contact) {
 void read_contacts(const Node& root, Scene& scene) {
   Once once;
   for (const Node* entry : entries(root, "contact")) {
-    expect_keys(*entry, {"between", "condition", "initial_gap", "multipliers_on"});
+    expect_keys(*entry, {"between", "within", "condition", "initial_gap", "multipliers_on"});
     ContactSpec contact;
     contact.key = locate(*entry);
     contact.between = read_between(require(*entry, "between", "a list of two physical curves"), *entry, once);
+    if (const Node* within = find(*entry, "within")) {
+      contact.within = positive_number(*within);
+      if (!is_pattern(contact.between[0]) && !is_pattern(contact.between[1]))
+        fail(*within, "goes with between = patterns, such as [\"block_*\", \"block_*\"], whose pairs are found");
+    }
     contact.condition =
         choice(find(*entry, "condition"), {Condition::unilateral, Condition::bilateral}, contact.condition);
     read_initial_gap(find(*entry, "initial_gap"), contact);

@@ -53,7 +53,10 @@ struct InitialStrainSpec {
 /// One [[contact]] entry.
 struct ContactSpec {
   std::string key;
-  std::array<std::string, 2> between;  ///< physical curves
+  /// Physical curves; or patterns (base/patterns.hpp), for all pairs of theirs that face each other.
+  std::array<std::string, 2> between;
+  std::optional<double> within;  ///< how far apart these may be, length; none: half an edge
+  bool found = false;            ///< a pair of a pattern's: its curves need not face each other all along
   Condition condition = Condition::unilateral;
   InitialGap initial_gap = InitialGap::curve;
   double clearance = 0;        ///< added to the drawn gap, length: + open, - overlap; only with InitialGap::curve

@@ -1,0 +1,13 @@
+// Names with stars for any letters: "block_*".
+#pragma once
+
+#include <string>
+
+namespace mortise {
+
+inline bool is_pattern(const std::string& name) { return name.find('*') != std::string::npos; }
+
+/// Whether the name is the pattern with something, or nothing, for each star.
+bool matches(const std::string& pattern, const std::string& name);
+
+}  // namespace mortise

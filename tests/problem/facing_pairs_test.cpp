@@ -1,0 +1,116 @@
+// Contact pairs that find themselves: the wall of bricks, and what a pattern may be mistaken for.
+#include "problem/facing_pairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "app/solve_scene.hpp"
+#include "support/differences.hpp"
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+Scene wall(std::vector<Override> more = {}) { return read_scene(MORTISE_SOURCE_DIR "/geo/wall.toml", more); }
+
+// Two squares upon a long one, 0.01 above it; `contact`: the entries.
+Scene squares(const TemporaryFolder& folder, const std::string& contact) {
+  folder.write("a.geo", R"(SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 4, 1}; Rectangle(2) = {0, 1.01, 0, 1, 1}; Rectangle(3) = {2.5, 1.01, 0, 1, 1};
+Transfinite Curve{1 : 12} = 5; Transfinite Surface{1 : 3}; Recombine Surface{1 : 3};
+Physical Surface("base") = {1}; Physical Surface("left") = {2}; Physical Surface("right") = {3};
+Physical Curve("ground") = {1}; Physical Curve("base_top") = {3};
+Physical Curve("left_foot") = {5}; Physical Curve("left_side") = {8}; Physical Curve("left_head") = {7};
+Physical Curve("right_foot") = {9}; Physical Curve("right_side") = {12}; Physical Curve("right_head") = {11};
+)");
+  return read_scene(folder.write("a.toml", R"(
+mesh.file = "a.geo"
+materials = { steel = { young = 210e9, poisson = 0.3 }, soft = { young = 1e9, poisson = 0.3 } }
+bodies = { "*" = "steel", left = "soft" }
+boundary = [
+  { on = "ground", displacement = { x = 0, y = 0 } }, { on = "*_side", displacement = { x = 0 } },
+  { on = "*_head", displacement = { y = -0.02 } },
+]
+)" + contact));
+}
+
+std::set<std::string> pairs_of(const CheckedScene& checked) {
+  std::set<std::string> names;
+  for (const ContactPair& pair : checked.pairs) names.insert(pair.spec.between[0] + " " + pair.spec.between[1]);
+  return names;
+}
+
+TEST(FacingPairs, OfAWallAreAllNeighboursAndNoCorners) {
+  const CheckedScene checked = check_scene(wall({{"mesh.parameters.bricks", "3"}, {"mesh.parameters.courses", "4"}}));
+  // In a course one pair less than bricks (3, 4, 3, 4), between two courses 2 x 3.
+  EXPECT_EQ(checked.pairs.size(), 2u + 3 + 2 + 3 + 3 * 6);
+  EXPECT_EQ(pairs_of(checked).size(), checked.pairs.size());
+  for (const ContactPair& pair : checked.pairs) EXPECT_NEAR(pair.coupling.covered_length, 1, 1e-9);
+}
+
+TEST(FacingPairs, GiveTheWallItsWeight) {
+  for (const Solver solver : {Solver::direct, Solver::feti}) {
+    Scene scene = wall();
+    scene.method.solver = solver;
+    const Results r = solve_scene(scene);
+    EXPECT_EQ(r.status, Status::solved);
+    double weight = 0;  // of the topmost course and the load on it
+    for (const ContactPair& pair : r.pairs)
+      if (pair.spec.between[0].starts_with("brick_4_") && pair.spec.between[1].starts_with("brick_5_"))
+        weight += std::abs(r.contacts[&pair - r.pairs.data()].force.y());
+    EXPECT_NEAR(weight, 8e6 + 8 * 20e3, 1e-6 * 8e6);
+  }
+}
+
+TEST(FacingPairs, AreThoseWithinADistance) {
+  const TemporaryFolder folder;
+  const std::string pattern = R"(contact = [{ between = ["base_*", "*_foot"])";
+  EXPECT_EQ(pairs_of(check_scene(squares(folder, pattern + " }]"))),
+            (std::set<std::string>{"base_top left_foot", "base_top right_foot"}));
+  expect_contains(message_of([&] { check_scene(squares(folder, pattern + ", within = 0.001 }]")); }),
+                  "between: no curves 'base_*' and '*_foot' of two bodies face each other within contact.within");
+  EXPECT_EQ(check_scene(squares(folder, R"(contact = [{ between = ["*", "*"], within = 0.02 }])")).pairs.size(), 2u);
+}
+
+TEST(FacingPairs, LeaveWhatIsNamedItsOwnSettings) {
+  const TemporaryFolder folder;
+  const CheckedScene checked = check_scene(squares(folder, R"(
+[[contact]]
+between = ["*", "*"]
+[[contact]]
+between = ["base_top", "left_foot"]
+condition = "bilateral"
+)"));
+  ASSERT_EQ(checked.pairs.size(), 2u);
+  for (const ContactPair& pair : checked.pairs)
+    EXPECT_EQ(pair.spec.condition, pair.spec.between[1] == "left_foot" ? Condition::bilateral : Condition::unilateral);
+}
+
+TEST(FacingPairs, ACurveInTwoPairsIsSolvedByEverySolver) {
+  const TemporaryFolder folder;
+  Scene scene = squares(folder, R"(contact = [{ between = ["*", "*"] }])");
+  const Results direct = solve_scene(scene);
+  scene.method.solver = Solver::feti;
+  const Results feti = solve_scene(scene);
+  ASSERT_EQ(direct.contacts.size(), 2u);
+  for (const Results* r : {&direct, &feti}) {
+    EXPECT_EQ(r->status, Status::solved);
+    const double left = std::abs(r->contacts[0].force.y()), right = std::abs(r->contacts[1].force.y());
+    EXPECT_GT(left / right, 1.0 / 210);  // the base gives way under the stiff one
+    EXPECT_LT(left / right, 2.0 / 210);
+  }
+  EXPECT_LE(pressure_difference(feti, direct), 1e-8);
+}
+
+TEST(FacingPairs, ABodyOfTwoMaterialsIsRefused) {
+  const TemporaryFolder folder;
+  Scene scene = squares(folder, R"(contact = [{ between = ["*", "*"] }])");
+  scene.bodies = {{"l*", "steel"}, {"*", "soft"}};
+  expect_contains(message_of([&] { check_scene(scene); }),
+                  "body 'left' is a 'l*' of 'steel' and a '*' of 'soft'; expected one material");
+}
+
+}  // namespace
+}  // namespace mortise::test
