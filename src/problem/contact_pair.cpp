@@ -64,6 +64,13 @@ std::array<std::vector<int>, 2> boundaries_of(const ContactSpec& spec, const Sce
   return {names.boundaries(key, spec.between[0]), names.boundaries(key, spec.between[1])};
 }
 
+// A pattern may match those of several bodies, as a support's, and means others.
+bool is_of_one_body(const Mesh& mesh, int boundary, const SideTable& table) {
+  const std::vector<CellSide> sides = sides_of(mesh, mesh.boundaries[boundary], table);
+  return std::ranges::all_of(
+      sides, [&](const CellSide& side) { return mesh.cells[side.cell].body == mesh.cells[sides[0].cell].body; });
+}
+
 // Those that an entry of their own has, with its settings.
 std::set<std::pair<int, int>> named_pairs(const Scene& scene, const SceneNames& names) {
   std::set<std::pair<int, int>> pairs;
@@ -96,12 +103,14 @@ std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh) 
   const std::set<std::pair<int, int>> named = named_pairs(scene, names);
   std::set<std::pair<int, int>> found_before;
   for (const ContactSpec& spec : scene.contacts) {
-    const auto sides = boundaries_of(spec, names);
+    auto sides = boundaries_of(spec, names);
     const bool found = is_found(spec);
     std::vector<std::array<int, 2>> pairs{{sides[0][0], sides[1][0]}};
     if (found) {
-      for (const std::vector<int>& side : sides)
+      for (std::vector<int>& side : sides) {
+        std::erase_if(side, [&](int boundary) { return !is_of_one_body(mesh, boundary, table); });
         for (const int boundary : side) curve_of(boundary);
+      }
       pairs = facing_pairs(mesh, curves, sides, spec.within);
       if (pairs.empty())
         throw SceneError(spec.key + ".between: no curves '" + spec.between[0] + "' and '" + spec.between[1] +
