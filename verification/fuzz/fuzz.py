@@ -15,13 +15,12 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import one_call
-import oracles
-from make_case import MAKERS, make_case
-
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import launch
+import one_call
+import oracles
+from make_case import MAKERS, make_case
 
 COLUMNS = ("cases", "0", "1", "2", "other", "found")
 

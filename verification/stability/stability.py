@@ -116,10 +116,7 @@ def run_studies(folder, quick, names=(), jobs=1):
 
 
 def main(arguments=None):
-    switches = {"names": list(STUDIES), "docs": "also write docs/stability.md and its pictures"}
-    options = launch.command_line(__doc__, "stability", arguments, **switches)
-    if options.docs and (options.quick or options.only):
-        sys.exit("stability.py: --docs needs all studies in full")
+    options = launch.command_line(__doc__, "stability", arguments, names=list(STUDIES), docs=True)
     try:
         results = run_studies(options.output, options.quick, options.only, options.jobs)
     except launch.StudyError as error:
