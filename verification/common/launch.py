@@ -86,6 +86,10 @@ def sizes(mesh):
     return {"mesh.parameters.n_upper": mesh[0], "mesh.parameters.n_lower": mesh[1]}
 
 
+def mesh_name(mesh):
+    return "x".join(map(str, mesh))
+
+
 def stiffness(ratio):
     """An upper body `ratio` times as stiff as the lower one."""
     return {"materials.other": f"{{ young = {YOUNG * ratio!r}, poisson = 0.3 }}", "bodies.upper": "other"}

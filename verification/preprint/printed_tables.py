@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from scipy import stats
 
+import launch
 import oscillation
 
 PRINTED = Path(__file__).with_name("printed")
@@ -49,7 +50,7 @@ def deltas(store, rows, settings_of, words, say):
 
     def measure(place):
         scene, mesh, at, body = place
-        say(f"{words}: {scene} {mesh[0]}x{mesh[1]} {at}, {body}")
+        say(f"{words}: {scene} {launch.mesh_name(mesh)} {at}, {body}")
         return {side: oscillation.delta_of(store, scene, mesh, settings_of(scene), side, body, at) for side in OTHER}
 
     asked = list(dict.fromkeys(map(place, rows)))

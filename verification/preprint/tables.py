@@ -8,6 +8,7 @@ program does unasked: linear multipliers on the finer side.
 
 import numpy as np
 
+import launch
 import printed_tables as printed
 from preprint_runs import METHOD
 
@@ -30,7 +31,7 @@ def judged(row, quadratic, linear):
     mapped = {name: quadratic[side(row["active"])][0] for name, side in printed.MAPPINGS.items()}
     return {
         **row,
-        **{"mesh": f"{row['mesh'][0]}x{row['mesh'][1]}"},
+        **{"mesh": launch.mesh_name(row["mesh"])},
         **{f"quadratic, {name}": value for name, value in mapped.items()},
         **{"better": better, "best": best, "default": linear[finer][0], "better_share_of_worst": share},
         **{"printed_over_better": row["printed"] / better, "printed_over_best": row["printed"] / best},
