@@ -28,7 +28,7 @@ def delta(curve, reference, at="nodes"):
 def mean_delta(curve, reference, at="nodes"):
     """The mean, and the part of it that the six largest values make."""
     values = delta(curve, reference, at)
-    return float(values.mean()), float(np.sort(values)[-WORST:].sum() / values.sum())
+    return float(values.mean()), float(np.sort(values)[-WORST:].sum() / (values.sum() or 1))
 
 
 def matching_curve(store, scene, mesh, settings, body, at="nodes"):
