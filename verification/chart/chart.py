@@ -8,10 +8,8 @@ scenes and measures are the same: a run that was stopped goes on. Other work on 
 Exit status: 0; 1 if a program is missing or fails, or the half models or the bilateral contact change p.
 """
 
-import argparse
 import sys
 import time
-from pathlib import Path
 
 import advice
 import chart_page
@@ -34,10 +32,7 @@ def run(output, quick, docs):
     saved = economy.measure(store, quick)
     launch.write_csv(output / "economy.csv", saved)
     chart_pictures.draw_all(output, rows)
-    text = chart_page.contents(rows, about, checks, saved)
-    chart_page.write_section(output, text, rows)
-    if docs:
-        chart_page.write_docs(output, text)
+    chart_page.write(output, rows, chart_page.contents(rows, about, checks, saved), docs)
     print(*("  ".join(row) for row in advice.table(rows)), *advice.recommendation(rows), sep="\n")
     worst = max(row["difference_of_p"] for row in saved)
     print(f"half models and bilateral contact: p differs by at most {worst:.1e} of its largest value")
@@ -46,13 +41,7 @@ def run(output, quick, docs):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-o", "--output", type=Path, default=Path("out/chart"), help="folder (default: out/chart)")
-    parser.add_argument("--quick", action="store_true", help="a few methods on coarse meshes, 1 minute")
-    parser.add_argument("--docs", action="store_true", help="write docs/chart.md and its pictures too")
-    options = parser.parse_args(arguments)
-    if options.quick and options.docs:
-        parser.error("--docs is for the figures of a whole run, not of --quick")
+    options = launch.command_line(__doc__, "chart", arguments, jobs=False, docs=True)
     options.output.mkdir(parents=True, exist_ok=True)
     try:
         same = run(options.output.absolute(), options.quick, options.docs)

@@ -4,6 +4,8 @@ A method is a dictionary of the scene's keys (docs/files.md), as `mortise solve 
 can be had again by hand. A row whose keys the executable refuses is skipped, and says so.
 """
 
+import launch
+
 T3 = {"mesh.parameters.kind": 1, "mesh.parameters.order": 1}
 T6 = {"mesh.parameters.kind": 1}
 Q4 = {"mesh.parameters.order": 1}
@@ -89,14 +91,10 @@ def mesh_of(problem, level):
     return tuple(n << level for n in PROBLEMS[problem]["coarsest"])
 
 
-def mesh_name(mesh):
-    return "x".join(map(str, mesh))
-
-
 def row_name(problem, method, mesh):
     """What a row's mesh is called: of an asked accuracy, that."""
     if method != "asked":
-        return mesh_name(mesh)
+        return launch.mesh_name(mesh)
     return f"{100 * ACCURACIES[(mesh[0] // PROBLEMS[problem]['coarsest'][0]).bit_length() - 1]:g} % asked"
 
 

@@ -2,8 +2,6 @@
 
 import advice
 import economy
-import figure
-import launch
 import page
 import template
 from advice import TEXTS, of_problem, percent
@@ -88,17 +86,9 @@ def contents(rows, about, checks, saved):
     )  # fmt: skip
 
 
-def write_section(output, text, rows):
-    """The page, and what only the report has: the tables of elements and of rates."""
+def write(output, rows, text, docs):
+    """The page, in the report with the tables of elements and of rates; in docs/ with how to have it again."""
     rates = "### Rates of the last halving\n\n" + template.table(RATES, advice.rates(rows))
-    whole = "\n\n".join([text, element_table(list(economy.elements(rows))), rates])
-    page.write_section(output, "chart", "Accuracy against speed", [page.from_markdown(whole)])
-
-
-def write_docs(output, text):
-    """docs/chart.md, and its pictures in docs/chart/."""
-    docs = launch.ROOT / "docs"
-    for problem in PROBLEMS:
-        figure.copy_small(output / f"{problem}.png", docs / f"chart/{problem}.png")
-        text = text.replace(f"]({problem}.png)", f"](chart/{problem}.png)")
-    (docs / "chart.md").write_text(f"# Accuracy against speed\n\n{text}\n\n{TEXTS['again']}\n")
+    page.write(output, "chart", "\n\n".join([text, element_table(list(economy.elements(rows))), rates]))
+    if docs:
+        page.write_docs(output, "chart", f"{text}\n\n{TEXTS['again']}\n")

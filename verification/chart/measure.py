@@ -11,7 +11,7 @@ import chart_runs
 import freefem_runs
 import launch
 import reference
-from chart_methods import LEVELS, PROBLEMS, TURNS, freefem_ways, label, mesh_name, mesh_of, row_name, ways
+from chart_methods import LEVELS, PROBLEMS, TURNS, freefem_ways, label, mesh_of, row_name, ways
 
 
 def first_line(command):
@@ -53,7 +53,7 @@ def progress(text, start=None):
 def measure_mesh(store, problem, level, quick, table, path, said, say):
     """The rows of one mesh; fewer turns on the finest, whose seconds vary less."""
     mesh, turns = mesh_of(problem, level), TURNS["quick"] if quick else TURNS["full"] - 2 * (level >= 4)
-    against, name = path if problem == "parabola_1" else None, f"{problem} {mesh_name(mesh)}"
+    against, name = path if problem == "parabola_1" else None, f"{problem} {launch.mesh_name(mesh)}"
 
     def told(measured, by=""):
         start, fresh = time.perf_counter(), store.fresh
@@ -62,7 +62,7 @@ def measure_mesh(store, problem, level, quick, table, path, said, say):
         return rows
 
     def of_mortise():
-        rows, refused = chart_runs.of_mortise(store, problem, mesh_name(mesh), named, turns, against)
+        rows, refused = chart_runs.of_mortise(store, problem, launch.mesh_name(mesh), named, turns, against)
         for way in refused.keys() - said.keys():  # each the first time
             said[way] = refused[way].removeprefix(f"{way}: ").replace(f"{launch.ROOT}/", "")
             say(f"  left out: {label(way)}: {said[way]}")

@@ -154,7 +154,7 @@ def test_freefem_on_the_same_triangles_has_the_same_errors(freefem, quick):
         for level, (_, theirs) in enumerate(pairs):
             mesh, against = chart_methods.mesh_of(problem, level), path if problem == "parabola_1" else None
             same = [("t3_edges", {**dict(chart_methods.ways(problem, level, True))["t3_linear"], **own})]
-            rows, _ = chart_runs.of_mortise(quick["store"], problem, chart_methods.mesh_name(mesh), same, 1, against)
+            rows, _ = chart_runs.of_mortise(quick["store"], problem, launch.mesh_name(mesh), same, 1, against)
             (edges,) = measure.completed(rows, problem, mesh, table)
             for error in ("e_energy", "e_p_l2_inner", "e_p_max_inner"):
                 assert theirs[error] == pytest.approx(edges[error], rel=1e-6), (problem, mesh, error)

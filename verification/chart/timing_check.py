@@ -16,7 +16,7 @@ from pathlib import Path
 
 import chart_runs  # makes launch known
 import launch
-from chart_methods import mesh_name, mesh_of, ways
+from chart_methods import mesh_of, ways
 
 PICKED = {
     "full": (("parabola_1", "q8_linear", 4), ("rings", "q4_linear", 5)),
@@ -52,7 +52,7 @@ def check(rows, quick):
     found = []
     start = statistics.median(seconds_of("--version")[0] for _ in range(REPEATS))
     for problem, method, level in PICKED["quick" if quick else "full"]:
-        mesh = mesh_name(mesh_of(problem, level))
+        mesh = launch.mesh_name(mesh_of(problem, level))
         key = (problem, method, mesh)
         charted = next((row for row in rows if (row["problem"], row["method"], row["mesh"]) == key), None)
         if charted is None:

@@ -25,18 +25,22 @@ class StudyError(Exception):
     """What stops a study, or one case of it: a program that is not there or fails, with what it said; bad input."""
 
 
-def command_line(description, name, arguments=None, names=None, **switches):
-    """The command line of a study: -o (default: out/NAME), --quick, --jobs, `switches` with their help; and --only, for
-    studies that have parts called `names`."""
+def command_line(description, name, arguments=None, names=None, jobs=True, docs=False):
+    """The command line of a study: -o (default: out/NAME), --quick; --jobs, unless seconds are measured; --only, for
+    studies that have parts called `names`; --docs, for those that write a page there."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, default=Path("out") / name, help=f"folder (default: out/{name})")
     parser.add_argument("--quick", action="store_true", help="a part of it, in a minute or two")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at once (default: 1)")
+    if jobs:
+        parser.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at once (default: 1)")
     if names:
         parser.add_argument("--only", nargs="+", choices=names, default=[], metavar="NAME", help=", ".join(names))
-    for switch, words in switches.items():
-        parser.add_argument(f"--{switch}", action="store_true", help=words)
-    return parser.parse_args(arguments)
+    if docs:
+        parser.add_argument("--docs", action="store_true", help=f"also write docs/{name}.md and its pictures")
+    options = parser.parse_args(arguments)
+    if docs and options.docs and (options.quick or names and options.only):
+        parser.error("--docs needs the study in full")
+    return options
 
 
 def need(program):
@@ -80,6 +84,10 @@ def options(settings):
 def sizes(mesh):
     """Elements along the contact line of the upper and of the lower body."""
     return {"mesh.parameters.n_upper": mesh[0], "mesh.parameters.n_lower": mesh[1]}
+
+
+def mesh_name(mesh):
+    return "x".join(map(str, mesh))
 
 
 def stiffness(ratio):

@@ -94,12 +94,17 @@ def write_section(folder, name, title, parts):
 
 
 def write(folder, name, text, docs=False):
-    """FOLDER/section.html of a page in Markdown, and docs/NAME.md if `docs`. The page's pictures are NAME/FILE.png
-    there (with few colours) and FOLDER/FILE.png here; links to other pages of docs/ are made for docs/report/."""
+    """FOLDER/section.html of a page in Markdown, and write_docs() if `docs`. The page's pictures are NAME/FILE.png in it
+    and FOLDER/FILE.png here; links to other pages of docs/ are made for docs/report/."""
     title, body = text.removeprefix("# ").split("\n", 1)
     for_report = re.sub(r"\]\(([\w/]+\.md)\)", r"](../\1)", body.replace(f"]({name}/", "]("))
     write_section(folder, name, title, [from_markdown(for_report)])
     if docs:
-        (DOCS / f"{name}.md").write_text(text)
-        for path in re.findall(rf"\]\({name}/(.+?\.png)\)", text):
-            figure.copy_small(folder / path, DOCS / name / path)
+        write_docs(folder, name, text)
+
+
+def write_docs(folder, name, text):
+    """docs/NAME.md, its pictures (with few colours) in docs/NAME/."""
+    (DOCS / f"{name}.md").write_text(text)
+    for path in re.findall(rf"\]\({name}/(.+?\.png)\)", text):
+        figure.copy_small(folder / path, DOCS / name / path)

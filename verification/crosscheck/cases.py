@@ -29,10 +29,6 @@ class Step:
     gap: str  # closed or measured, with the edges' normals; curve: gap and normals of the curves
     same_nodes: bool  # whether both programs have the same unknowns at the same places
 
-    @property
-    def mesh_name(self):
-        return "x".join(map(str, self.mesh))
-
 
 @dataclass(frozen=True)
 class Case:

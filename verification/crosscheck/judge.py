@@ -6,9 +6,10 @@ import statistics
 import time
 from dataclasses import asdict, dataclass, field
 
-import compare
+import compare  # makes common/ known
+import launch
 import run
-from cases import StudyError
+from launch import StudyError
 
 
 @dataclass
@@ -72,7 +73,7 @@ def run_step(case, step, folder):
     compare.write_pressures(comparison.curve, folder / "pressure.csv")
     mean, largest = compare.mean_differences, compare.largest_differences
     return {
-        "mesh": step.mesh_name,
+        "mesh": launch.mesh_name(step.mesh),
         "differences": mean(comparison, case.kinks) if case.level == "same_problem" else largest(comparison),
         "mortise_status": solved.status,
         "mortise_seconds": solved.mortise_seconds,
@@ -89,14 +90,14 @@ def measure(case, folder):
         alone = seconds["factorise"] + seconds["solve"], theirs["seconds_solve"]
         samples.append((solved.mortise_seconds, solved.freefem_seconds, *alone))
     mortise, freefem, mortise_solve, freefem_solve = map(statistics.median, zip(*samples))
-    sizes = {"mesh": case.steps[0].mesh_name, "unknowns": theirs["unknowns"], "multipliers": theirs["multipliers"]}
+    sizes = {"mesh": launch.mesh_name(case.steps[0].mesh), **{key: theirs[key] for key in ("unknowns", "multipliers")}}
     return {**sizes, "repeats": case.repeats, "mortise": mortise, "freefem": freefem, "mortise_solve": mortise_solve,
             "freefem_solve": freefem_solve, "ratio": freefem / mortise, "ratio_solve": freefem_solve / mortise_solve}
 
 
 def folder_of(case, step):
     """Below the report's folder. A series has a folder for each mesh."""
-    return case.name if len(case.steps) == 1 else f"{case.name}/{step.mesh_name}"
+    return case.name if len(case.steps) == 1 else f"{case.name}/{launch.mesh_name(step.mesh)}"
 
 
 def judge(case, output):

@@ -4,7 +4,7 @@ import geo_cases
 import plates
 import twins
 from fuzz_case import ANY, FOLDER, FULL_DEVICE, PIPE, REFUSED, Case, Link
-from valid_scenes import Setting, flat, raised
+from valid_scenes import Setting
 
 NUMBERS = ("0", "-1", "1e9", "1.5", "", "abc", "99999999999999999999", "nan", "0x10", " 1", "1025")
 STRANGE_NAMES = ("\x1b[31mred\x07", "two\nlines", "n" * 300, "d/" * 2100 + "x", "", " ", "ü", "\udcff\udcfe", "a\tb",
@@ -53,8 +53,8 @@ def simple_setting(random):
     """Two plates, the pressure the same everywhere, on a small random mesh: solved, and all checks hold."""
     cell = random.choice(plates.CELL_TYPES)
     sizes = [(random.randint(1, 4), random.randint(1, 2)) for _ in range(2)]
-    made = [plates.Plate(name, 0.0, 1.0, raised(flat, low), raised(flat, low + 0.5), *size, cell)
-            for name, low, size in zip(("lower", "upper"), (0.0, 0.5), sizes)]
+    made = [plates.Body(name, plates.even(columns), rows, plates.between(0.0, 1.0, low, low + 0.5), cell)
+            for name, low, (columns, rows) in zip(("lower", "upper"), (0.0, 0.5), sizes)]
     scene = {
         "title": "two plates", "mesh": {"file": "mesh.msh"},
         "materials": {"steel": {"young": 2.1e11, "poisson": 0.3}}, "bodies": {"lower": "steel", "upper": "steel"},
@@ -63,7 +63,7 @@ def simple_setting(random):
                      {"on": "upper_top", "pressure": 1e7}],
         "contact": [{"between": ["upper_bottom", "lower_top"]}],
     }  # fmt: skip
-    return Setting(scene, plates.plates_mesh(made), 1e7)
+    return Setting(scene, plates.mesh_of(made), 1e7)
 
 
 def command(what, files, words, expect=ANY, output=(), results=None, **settings):

@@ -15,15 +15,13 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import one_call
-import oracles
-from make_case import MAKERS, make_case
-
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import launch
-
-COLUMNS = ("cases", "0", "1", "2", "other", "found")
+import one_call
+import oracles
+import template
+from make_case import MAKERS, make_case
 
 
 def arguments():
@@ -119,18 +117,15 @@ def store(folder, name, program, case, outcome, found):
 
 
 def table(done):
-    """A row a kind of case: how the calls ended, and what was found."""
-    counts = {}
-    for _, case, outcome, found in done:
-        row = counts.setdefault(case.kind, Counter())
-        row.update(["cases", str(outcome.status) if outcome.status in (0, 1, 2) else "other"])
-        row["found"] += bool(found)
-        row.update({f"oracle {oracle}" for oracle, _ in found})
-    lines = ["", f"{'kind of case':14}" + "".join(f"{c:>7}" for c in COLUMNS) + "  by oracle"]
-    for kind, row in sorted(counts.items()):
-        by = ", ".join(f"{key[7:]} {n}" for key, n in sorted(row.items()) if key.startswith("oracle "))
-        lines.append(f"{kind:14}" + "".join(f"{row[c]:7}" for c in COLUMNS) + "  " + by)
-    return "\n".join(lines)
+    """A row a kind of case: how the calls ended, and which oracles objected."""
+    rows = []
+    for kind in sorted({case.kind for _, case, _, _ in done}):
+        mine = [(outcome, found) for _, case, outcome, found in done if case.kind == kind]
+        ended = Counter(outcome.status if outcome.status in (0, 1, 2) else "other" for outcome, _ in mine)
+        by = Counter(oracle for _, found in mine for oracle, _ in found)
+        words = ", ".join(f"{oracle} {count}" for oracle, count in sorted(by.items()))
+        rows.append([kind, len(mine), *(ended[status] for status in (0, 1, 2, "other")), words])
+    return template.table(["kind of case", "cases", "exit 0", "1", "2", "other", "objections"], rows)
 
 
 def main():

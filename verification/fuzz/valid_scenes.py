@@ -27,16 +27,13 @@ def contact_line(random, length):
     }[shape]
 
 
-def raised(line, height):
-    return lambda x: line(x) + height
-
-
 def flat(_):
     return 0.0
 
 
 def make_plates(random, length):
-    """One to three plates, from below; each line of contact is one line, or a gap or an overlap of 1e-3 apart."""
+    """One to three plates, from below; each line of contact is one line, or a gap or an overlap of 1e-3 apart. The gap
+    and the width of the uppermost too."""
     count = random.choice((1, 2, 2, 2, 2, 2, 2, 3))
     names = ("lower", "upper", "third")[:count]
     lines = [flat] + [contact_line(random, length) for _ in names[1:]] + [flat]
@@ -47,14 +44,14 @@ def make_plates(random, length):
     made, floor = [], 0.0
     for k, name in enumerate(names):
         thickness = length * random.uniform(0.3, 0.8)
-        below = raised(lines[k], floor + (gap if k else 0))
-        above = raised(lines[k + 1], floor + thickness)
+        below = lambda x, line=lines[k], height=floor + (gap if k else 0): line(x) + height
+        above = lambda x, line=lines[k + 1], height=floor + thickness: line(x) + height
         left, right = (0.2 * length, 0.8 * length) if narrow and k == count - 1 else (0.0, length)
         kind = random.choice(plates.CELL_TYPES) if mixed else cell
-        size = random.randint(1, 6), random.randint(1, 3)
-        made.append(plates.Plate(name, left, right, below, above, *size, kind, straight))
+        columns, rows = plates.even(random.randint(1, 6)), random.randint(1, 3)
+        made.append(plates.Body(name, columns, rows, plates.between(left, right, below, above), kind, straight))
         floor += thickness
-    return made, gap
+    return made, gap, right - left
 
 
 def materials(random, young, heated):
@@ -141,7 +138,7 @@ def contacts(random, made, gap):
 def valid_setting(random):
     """A random scene; whether contact opens, an iteration converges or a check fails is mortise's to say."""
     length, young = random.choice((1.0, 1.0, 1e-3, 1e3)), random.choice((1.0, 2.1e11, 7e4))
-    made, gap = make_plates(random, length)
+    made, gap, width = make_plates(random, length)
     names = [plate.name for plate in made]
     heated = random.random() < 0.15
     load, pressed = top_load(random, young, length)
@@ -161,7 +158,6 @@ def valid_setting(random):
         scene["initial_strain"] = [{"body": random.choice(names), "temperature_change": random.uniform(-100, 100)}]
     if random.random() < 0.1:
         scene["body_force"] = [{"body": names[0], "force": [0.0, -1e-4 * young / length]}]
-    width = made[-1].right - made[-1].left
     # Only where nothing but contact holds the bodies above the lowest up: then each pair carries the whole load.
     thrust = pressed * width if pressed and scene["contact"] else None
-    return Setting({k: v for k, v in scene.items() if v != []}, plates.plates_mesh(made), thrust)
+    return Setting({k: v for k, v in scene.items() if v != []}, plates.mesh_of(made), thrust)

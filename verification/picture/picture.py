@@ -25,26 +25,16 @@ import launch
 
 CORNERS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
 COLOURS = ["#e8452c", "#4aa3e8"]  # multiplier side, opposite side
+TRIANGLE = [(0, 0), (1, 0), (0, 1), (0.5, 0), (0.5, 0.5), (0, 0.5)]  # reference cells: nodes in VTK's order
+SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0), (0, 0)]
+POWERS = [(0, 0), (1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (2, 2)]  # of x and y
+NODES = {"triangle": TRIANGLE[:3], "triangle6": TRIANGLE, "quad": SQUARE[:4], "quad8": SQUARE[:8], "quad9": SQUARE}
 
 
 def shape_functions(kind, x, y):
-    """Shape functions of a VTK cell, points x nodes, as in src/fem/elements.cpp."""
-    if kind in ("triangle", "triangle6"):
-        z = 1 - x - y
-        if kind == "triangle":
-            return np.stack([z, x, y], axis=1)
-        corners = [z * (2 * z - 1), x * (2 * x - 1), y * (2 * y - 1)]
-        return np.stack(corners + [4 * z * x, 4 * x * y, 4 * y * z], axis=1)
-    xa, ya = [-1, 1, 1, -1, 0, 1, 0, -1, 0], [-1, -1, 1, 1, -1, 0, 1, 0, 0]
-    if kind == "quad":
-        return np.stack([(1 + a * x) * (1 + b * y) / 4 for a, b in zip(xa[:4], ya[:4])], axis=1)
-    if kind == "quad9":
-        quadratic = lambda a, t: 1 - t * t if a == 0 else t * (t + a) / 2
-        return np.stack([quadratic(a, x) * quadratic(b, y) for a, b in zip(xa, ya)], axis=1)
-    corners = [(1 + a * x) * (1 + b * y) * (a * x + b * y - 1) / 4 for a, b in zip(xa[:4], ya[:4])]
-    side = lambda a, b: (1 - x * x) * (1 + b * y) / 2 if a == 0 else (1 + a * x) * (1 - y * y) / 2
-    sides = [side(a, b) for a, b in zip(xa[4:8], ya[4:8])]
-    return np.stack(corners + sides, axis=1)
+    """Shape functions of a VTK cell, points x nodes: of the first powers, as many as nodes, each 1 at its own."""
+    powers = lambda x, y: np.stack([x**m * y**n for m, n in POWERS[: len(NODES[kind])]], axis=1)
+    return powers(x, y) @ np.linalg.inv(powers(*np.array(NODES[kind], dtype=float).T))
 
 
 def subdivision(kind, n):

@@ -11,7 +11,6 @@ import itertools
 
 import numpy as np
 
-import oscillation
 import printed_tables as printed
 from preprint_runs import AT_THE_NODES, EDGES, MEASURED, METHOD, PROJECTED
 
@@ -49,15 +48,9 @@ def settings_of(variant, scene):
 def compute(store, variants, rows, say):
     """Rows with a column for each side of the multipliers, of all variants."""
     for variant in variants:
-
-        def measure(row, variant=variant):
-            say(f"{variant}: {row['scene']} {row['mesh'][0]}x{row['mesh'][1]} {row['at']}, {row['body']}")
-            settings, place = settings_of(variant, row["scene"]), (row["body"], row["at"])
-            of = lambda side: oscillation.delta_of(store, row["scene"], row["mesh"], settings, side, *place)
-            return {side: of(side) for side in printed.OTHER}
-
-        for row, found in printed.once_a_place(rows, measure, store.jobs):
-            mapped = {name: found[side(row["active"])] for name, side in printed.MAPPINGS.items()}
+        settings = lambda scene, variant=variant: settings_of(variant, scene)
+        for row, found in printed.deltas(store, rows, settings, variant, say):
+            mapped = {name: found[side(row["active"])][0] for name, side in printed.MAPPINGS.items()}
             yield {"variant": variant, **row, **mapped}
 
 

@@ -57,7 +57,7 @@ def rows(store, scenes, meshes, side="G2"):
         gap = store.summary(scene, mesh, {**ENFORCED, **on_side(side)})["contact"][0]["initial_gap"]
         largest = max(abs(gap["min"]), abs(gap["max"]))
         yield {
-            **{"scene": scene, "mesh": f"{mesh[0]}x{mesh[1]}", "largest gap, m": largest},
+            **{"scene": scene, "mesh": launch.mesh_name(mesh), "largest gap, m": largest},
             "predicted, m": predicted(scene, mesh),
             "E g0 / h, MPa": launch.YOUNG * largest / (length(scene) / max(mesh)) / 1e6,
             "swing of sigma_n, MPa": swing(store, scene, mesh, side) / 1e6,

@@ -3,7 +3,7 @@
 delta(x1) = |sigma_2 - s| / |s| on one body's contact line, with s of matching meshes that have this body's elements on
 both sides; its mean over the nodes (or element centres) leaves out those of the first and the last element, where the
 stress is singular. Beside them and beside kinks it is large still, or s near a zero: then a few places make the mean.
-`share_of_worst` tells that.
+The share of the largest tells that.
 """
 
 import numpy as np
@@ -26,13 +26,9 @@ def delta(curve, reference, at="nodes"):
 
 
 def mean_delta(curve, reference, at="nodes"):
-    return float(np.mean(delta(curve, reference, at)))
-
-
-def share_of_worst(curve, reference, at="nodes"):
-    """The part of the mean that the six largest values make."""
-    values = np.sort(delta(curve, reference, at))
-    return float(values[-WORST:].sum() / values.sum())
+    """The mean, and the part of it that the six largest values make."""
+    values = delta(curve, reference, at)
+    return float(values.mean()), float(np.sort(values)[-WORST:].sum() / (values.sum() or 1))
 
 
 def matching_curve(store, scene, mesh, settings, body, at="nodes"):
@@ -43,7 +39,7 @@ def matching_curve(store, scene, mesh, settings, body, at="nodes"):
     return store.curve(scene, (n, n), kept, body, at)
 
 
-def delta_of(store, scene, mesh, settings, side, body, at="nodes", measure=mean_delta):
-    """Mean delta on a body's line with the multipliers on `side`."""
+def delta_of(store, scene, mesh, settings, side, body, at="nodes"):
+    """mean_delta on a body's line with the multipliers on `side`."""
     curve = store.curve(scene, mesh, {**settings, **on_side(side)}, body, at)
-    return measure(curve, matching_curve(store, scene, mesh, settings, body, at), at)
+    return mean_delta(curve, matching_curve(store, scene, mesh, settings, body, at), at)

@@ -135,7 +135,7 @@ def markdown(found):
 
 
 def meshes_as_text(rows):
-    text = lambda mesh: mesh if isinstance(mesh, str) else "x".join(map(str, mesh))
+    text = lambda mesh: mesh if isinstance(mesh, str) else launch.mesh_name(mesh)
     return [row | {"mesh": text(row["mesh"])} if "mesh" in row else row for row in rows]
 
 

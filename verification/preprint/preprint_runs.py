@@ -51,7 +51,7 @@ class Store(runs.Store):
             for name in ["contact.vtu"] + ([] if fields else ["result.vtu"]):
                 (folder / name).unlink()
 
-        return self.results([scene, mesh, settings, fields], solve, f"{scene}-{mesh[0]}x{mesh[1]}")
+        return self.results([scene, mesh, settings, fields], solve, f"{scene}-{launch.mesh_name(mesh)}")
 
     def summary(self, scene, mesh, settings):
         return json.loads((self.run(scene, mesh, settings) / "summary.json").read_text())

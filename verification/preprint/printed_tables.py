@@ -11,6 +11,9 @@ from pathlib import Path
 import numpy as np
 from scipy import stats
 
+import launch
+import oscillation
+
 PRINTED = Path(__file__).with_name("printed")
 SERIES = {"straight": ("tent_a", "tent_b", "tent_c"), "circle": ("circle",), "parabolas": ("parabola_1", "parabola_2")}
 OTHER = {"G1": "G2", "G2": "G1"}
@@ -40,12 +43,19 @@ def printed_rows(meshes=None):
     return [row for row in rows if meshes is None or row["mesh"] in meshes]
 
 
-def once_a_place(rows, measure, jobs):
-    """Each row with measure(row), which is asked once for the rows of the same scene, mesh, body and `at`."""
+def deltas(store, rows, settings_of, words, say):
+    """Each row with our figures for it, {side of the multipliers: (delta, share of its worst places)}; once for the rows
+    of the same scene, mesh, body and `at`. `settings_of`: a scene's."""
     place = lambda row: tuple(row[name] for name in ("scene", "mesh", "at", "body"))
-    asked = {place(row): row for row in rows}
-    with ThreadPoolExecutor(jobs) as pool:
-        found = dict(zip(asked, pool.map(measure, asked.values())))
+
+    def measure(place):
+        scene, mesh, at, body = place
+        say(f"{words}: {scene} {launch.mesh_name(mesh)} {at}, {body}")
+        return {side: oscillation.delta_of(store, scene, mesh, settings_of(scene), side, body, at) for side in OTHER}
+
+    asked = list(dict.fromkeys(map(place, rows)))
+    with ThreadPoolExecutor(store.jobs) as pool:
+        found = dict(zip(asked, pool.map(measure, asked)))
     return [(row, found[place(row)]) for row in rows]
 
 

@@ -8,7 +8,7 @@ program does unasked: linear multipliers on the finer side.
 
 import numpy as np
 
-import oscillation
+import launch
 import printed_tables as printed
 from preprint_runs import METHOD
 
@@ -24,32 +24,24 @@ COLUMNS = {
 }
 
 
-def measure(store, row, say):
-    """Our figures for a row, by space and side of the multipliers: delta, and the share of its worst places."""
-    say(f"table {row['table']}: {row['scene']} {row['mesh'][0]}x{row['mesh'][1]} {row['at']}, {row['body']}")
-    place = row["body"], row["at"]
-    of = lambda space, side, measure: oscillation.delta_of(
-        store, row["scene"], row["mesh"], SPACES[space], side, *place, measure=measure)  # fmt: skip
-    measures = (oscillation.mean_delta, oscillation.share_of_worst)
-    return {(space, side): [of(space, side, m) for m in measures] for space in SPACES for side in printed.OTHER}
-
-
-def judged(row, found):
-    (better, share), best = min(found["quadratic", side] for side in printed.OTHER), min(found.values())[0]
+def judged(row, quadratic, linear):
+    """A row with our figures."""
+    (better, share), (best, _) = min(quadratic.values()), min([*quadratic.values(), *linear.values()])
     finer = "G1" if row["mesh"][0] > row["mesh"][1] else "G2"
-    mapped = {name: found["quadratic", side(row["active"])][0] for name, side in printed.MAPPINGS.items()}
+    mapped = {name: quadratic[side(row["active"])][0] for name, side in printed.MAPPINGS.items()}
     return {
         **row,
-        **{"mesh": f"{row['mesh'][0]}x{row['mesh'][1]}"},
+        **{"mesh": launch.mesh_name(row["mesh"])},
         **{f"quadratic, {name}": value for name, value in mapped.items()},
-        **{"better": better, "best": best, "default": found["linear", finer][0], "better_share_of_worst": share},
+        **{"better": better, "best": best, "default": linear[finer][0], "better_share_of_worst": share},
         **{"printed_over_better": row["printed"] / better, "printed_over_best": row["printed"] / best},
         **{"better_ok": better <= row["printed"], "best_ok": best <= row["printed"]},
     }
 
 
 def compute(store, rows, say):
-    return [judged(*pair) for pair in printed.once_a_place(rows, lambda row: measure(store, row, say), store.jobs)]
+    spaces = [printed.deltas(store, rows, lambda _, own=own: own, f"tables, {name}", say) for name, own in SPACES.items()]
+    return [judged(row, quadratic, linear) for (row, quadratic), (_, linear) in zip(*spaces)]
 
 
 def ratios(rows):

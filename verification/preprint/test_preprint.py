@@ -41,10 +41,9 @@ def test_delta_by_hand():
     s = np.array([1, 1, 1, -2, 4, -5, 1, 1, 1.0])
     off = np.array([9, 9, 9, 0.2, 1, -1, 9, 9, 9.0])  # nodes of the first and last element do not count
     curve, reference = {"x": x, "sigma_2": s + off}, {"x": x, "sigma_2": s}
-    assert oscillation.mean_delta(curve, reference) == pytest.approx((0.1 + 0.25 + 0.2) / 3)
-    with_centres = (0.1 + 0.25 + 0.2 + 4 * 9) / 7
-    assert oscillation.mean_delta(curve, reference, "centres") == pytest.approx(with_centres)
-    assert oscillation.share_of_worst(curve, reference, "centres") == pytest.approx((36.45) / 36.55)
+    assert oscillation.mean_delta(curve, reference) == pytest.approx(((0.1 + 0.25 + 0.2) / 3, 1))
+    of_centres = (0.1 + 0.25 + 0.2 + 4 * 9) / 7, 36.45 / 36.55
+    assert oscillation.mean_delta(curve, reference, "centres") == pytest.approx(of_centres)
     with pytest.raises(ValueError, match="different nodes"):
         oscillation.mean_delta({**curve, "x": x + 1e-3}, reference)
 
@@ -159,12 +158,12 @@ def test_roughness_of_a_line_and_of_a_zigzag():
 def test_matching_meshes_give_no_delta_on_either_side(store, scene):
     for side, body in (("G1", "G2"), ("G2", "G1"), ("G2", "G2")):
         settings = cause.settings_of(cause.BOTH, scene)
-        assert oscillation.delta_of(store, scene, (16, 16), settings, side, body) < 1e-8
+        assert oscillation.delta_of(store, scene, (16, 16), settings, side, body)[0] < 1e-8
 
 
 def test_a_gap_that_is_enforced_oscillates_on_the_parabola_and_falls_with_the_mesh(store):
     found = {
-        (variant, mesh): oscillation.delta_of(store, "parabola_2", mesh, cause.VARIANTS[variant], "G2", "G2")
+        (variant, mesh): oscillation.delta_of(store, "parabola_2", mesh, cause.VARIANTS[variant], "G2", "G2")[0]
         for variant in (cause.OURS, cause.NORMALS, cause.GAP)
         for mesh in ((16, 20), (32, 40))
     }
@@ -177,7 +176,7 @@ def test_a_gap_that_is_enforced_oscillates_on_the_parabola_and_falls_with_the_me
 def test_the_curve_s_gap_is_closed(store):
     for scene in ("parabola_2", "circle", "tent_c"):
         closed = {**cause.METHOD, "contact.initial_gap": "closed"}
-        of = lambda settings: oscillation.delta_of(store, scene, (16, 20), settings, "G2", "G1")
+        of = lambda settings: oscillation.delta_of(store, scene, (16, 20), settings, "G2", "G1")[0]
         assert of(cause.METHOD) == pytest.approx(of(closed), rel=1e-6)
 
 
@@ -236,12 +235,11 @@ def test_quick_study_shows_the_cause(quick):
     folder, _ = quick
     reading = next(iter(printed_tables.MAPPINGS))
     by = {(r["variant"], r["scene"], r["active"], r["body"]): float(r[reading]) for r in read(folder / "variants.csv")}
-    places = [key[1:] for key in by if key[0] == cause.OURS]
-    for place in (place for place in places if place[0].startswith("parabola")):
-        assert by[cause.OURS, *place] < 0.2 * by[cause.GAP, *place]
-        assert by[cause.OURS, *place] == pytest.approx(by[cause.NORMALS, *place], rel=0.3)
-    for place in (place for place in places if place[0] == "circle"):
-        assert by[cause.BOTH, *place] < 1.5 * by[cause.OURS, *place]
+    for place in (key[1:] for key in by if key[0] == cause.OURS):
+        if place[0].startswith("parabola"):
+            assert by[cause.OURS, *place] < 0.2 * by[cause.GAP, *place]
+        if place[0] == "circle":
+            assert by[cause.BOTH, *place] < 1.5 * by[cause.OURS, *place]
     gaps = {row["scene"]: row for row in read(folder / "gaps.csv")}
     assert float(gaps["circle"]["largest gap, m"]) < 0.01 * float(gaps["parabola_2"]["largest gap, m"])
     measured, predicted = (float(gaps["parabola_2"][name]) for name in ("largest gap, m", "predicted, m"))

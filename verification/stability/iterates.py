@@ -104,7 +104,7 @@ def run_case(case):
 
 
 def main(arguments=None):
-    options = launch.command_line(__doc__, "iterates", arguments)
+    options = launch.command_line(__doc__, "iterates", arguments, jobs=False)
     rows = []
     try:
         run.need_programs()

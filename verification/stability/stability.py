@@ -7,11 +7,10 @@ A study is a module study_N_NAME.py with
   draw(rows, path)   its picture, OUT/NAME.png, and others beside it
   failures(rows)     the failures found (failures.failure)
   values(rows)       what fills the first text of study_N_NAME.md (optional)
-  wrong(rows)        lines about rows that must not be (optional): exit status 1
 and a template study_N_NAME.md: title, introduction and captions; then a text for each failure, of three paragraphs:
 where it begins, why, what mortise does. Written are OUT/NAME.csv, NAME.png, NAME.json and section.html; the runs are
 kept in OUT/runs. --docs writes docs/stability.md and its pictures from what the full studies have found. Exit status 1
-also if a run ends as it must not: an internal error, a crash, a hang.
+also if a run ends as it must not: an internal error, a crash, a hang, or a row that says 0 of `ok`.
 """
 
 import importlib
@@ -75,7 +74,7 @@ def carry_out(name, store, folder, quick):
         print(f"  [{failure['state']}] {failure['name']}: {failure['begins']}", flush=True)
     print(f"  {store.fresh - fresh} of {len(rows)} runs were new; {time.monotonic() - start:.0f} s", flush=True)
     wrong = [f"{name}: {row['outcome']}: {row}"[:600] for row in rows if row["outcome"].startswith(NEVER)]
-    wrong += study.wrong(rows) if hasattr(study, "wrong") else []
+    wrong += [f"{name}: not ok: {row}" for row in rows if row.get("ok") == 0]
     return {"name": name, "head": head, "rows": rows, "failures": failures, "wrong": wrong}
 
 
@@ -116,10 +115,7 @@ def run_studies(folder, quick, names=(), jobs=1):
 
 
 def main(arguments=None):
-    switches = {"names": list(STUDIES), "docs": "also write docs/stability.md and its pictures"}
-    options = launch.command_line(__doc__, "stability", arguments, **switches)
-    if options.docs and (options.quick or options.only):
-        sys.exit("stability.py: --docs needs all studies in full")
+    options = launch.command_line(__doc__, "stability", arguments, names=list(STUDIES), docs=True)
     try:
         results = run_studies(options.output, options.quick, options.only, options.jobs)
     except launch.StudyError as error:

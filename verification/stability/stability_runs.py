@@ -214,10 +214,6 @@ def ended(row, most_steps=0):
     return "diverged" if row["iteration.steps"] < most_steps or row["iteration.convergence_rate"] > 1 else "unfinished"
 
 
-def mesh_name(mesh):
-    return f"{mesh[0]}x{mesh[1]}"
-
-
 def timed(run):
     """Seconds, steps, residuals and pressures of a run."""
     with tempfile.TemporaryDirectory() as folder:

@@ -19,7 +19,7 @@ import figure
 import launch
 import template
 from failures import failure, select
-from stability_runs import ended, mesh_name, shortest, sweep
+from stability_runs import ended, shortest, sweep
 
 SCENE = "parabola_1"
 OMEGAS = {
@@ -80,7 +80,7 @@ def judged(row, mesh, acceleration, limit, on_grid):
         right = abs(tau / limit - 1) < NEAR_LIMIT or (outcome == "diverged") == (tau > limit)
     else:
         right = outcome == "converged"
-    own = {"part": "map", "mesh": mesh_name(mesh), "acceleration": acceleration, "omega": omega, "tau": tau}
+    own = {"part": "map", "mesh": launch.mesh_name(mesh), "acceleration": acceleration, "omega": omega, "tau": tau}
     own |= {"tau_limit": limit, "outcome": outcome, "on_grid": int(on_grid), "ok": int(right)}
     own |= {"steps": int(row["iteration.steps"]), "factor": row["iteration.convergence_rate"]}
     return own | {"seconds": row["iteration.seconds"]}
@@ -116,11 +116,11 @@ def steps(store, meshes, finest, parameters):
             found = store.row({"scene": SCENE, "settings": settings}, shortest, "timed")
             p = np.array(found.pop("p"))
             direct, p_direct = (found, p) if method == "direct" else (direct, p_direct)
-            row = {"part": "steps", "mesh": mesh_name(mesh), "method": method, **found}
+            row = {"part": "steps", "mesh": launch.mesh_name(mesh), "method": method, **found}
             row |= {"omega": chosen.get("method.omega", ""), "tau": chosen.get("method.tau", "")}
             row["over_direct"] = found["seconds"] / direct["seconds"]
             row["p_difference"] = float(np.abs(p - p_direct).max() / np.abs(p_direct).max())
-            rows.append(row)
+            rows.append(row | {"ok": int(row["outcome"] == "converged" and row["p_difference"] <= LIMIT)})
     return rows
 
 
@@ -207,12 +207,6 @@ def draw_steps(rows, path):
 def draw(rows, path):
     draw_map(select(rows, part="map"), path)
     draw_steps(select(rows, part="steps"), path.with_name(f"{path.stem}_steps.png"))
-
-
-def wrong(rows):
-    bad = [row for row in select(rows, part="map") if not row["ok"]]
-    bad += [r for r in select(rows, part="steps") if r["outcome"] != "converged" or r["p_difference"] > LIMIT]
-    return ["NOT ok: " + ", ".join(f"{key} {value}" for key, value in row.items()) for row in bad]
 
 
 def map_table(rows):

@@ -5,7 +5,8 @@ import math
 import figure
 from failures import OF_MESHES, SPACES, checks_of, ends, failure, first, largest, last, over
 from failures import parameters, quote, select, silent, solved, told
-from small_meshes import PRESSED, SLIDING, WIDTH, even, plates, run, touching
+from plates import even
+from small_meshes import PRESSED, SLIDING, WIDTH, plates, run, touching
 
 LIMIT = 0.01
 EXACT = 1e-8  # an error of p that is none
@@ -76,10 +77,10 @@ def sliver(eps, space):
 
 def sticking_out(eps, space):
     """The upper body stands `eps` of an element to the right: it sticks out there, the lower one on the left."""
-    bodies = plates(lambda x: 0.3, even(8), even(8))
-    move = lambda name, x, y: (x + eps * WIDTH / 8, y) if name == "upper" else (x, y)
+    lower, upper = plates(lambda x: 0.3, even(8), even(8))
+    bodies = [lower, upper.put(lambda x, y: (x + eps * WIDTH / 8, y))]
     axes = {"part": "sliver", "value": eps, "line": f"sticking out, {space}"}
-    return run(axes, bodies, HYDROSTATIC, touching(), {"method.multipliers": space}, ["uniform"], move)
+    return run(axes, bodies, HYDROSTATIC, touching(), {"method.multipliers": space}, ["uniform"])
 
 
 def runs(quick):

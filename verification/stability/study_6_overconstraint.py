@@ -6,7 +6,8 @@ from matplotlib.patches import Patch
 
 import figure
 from failures import SPACES, checks_of, ends, failure, largest, over, quote, select, solved
-from small_meshes import LEFT, PRESSED, SLIDING, WIDTH, body, even, line, plates, run, touching
+from plates import Body, between, even
+from small_meshes import LEFT, PRESSED, SLIDING, WIDTH, plates, run, touching
 
 EXACT = 10e6
 LIMIT = 0.01
@@ -76,9 +77,9 @@ def case(name, space, side):
 def three_bodies(space, side):
     """Two blocks side by side on a third, all touching, 10 MPa from all sides."""
     bodies = [
-        body("lower", even(12), 4, line(0, WIDTH, 0, 0.3), split=0.5),
-        body("one", even(5), 4, line(0, WIDTH / 2, 0.3, 0.6)),
-        body("two", even(7), 5, line(WIDTH / 2, WIDTH, 0.3, 0.6)),
+        Body("lower", even(12), 4, between(0, WIDTH, 0, 0.3), split=0.5),
+        Body("one", even(5), 4, between(0, WIDTH / 2, 0.3, 0.6)),
+        Body("two", even(7), 5, between(WIDTH / 2, WIDTH, 0.3, 0.6)),
     ]
     boundary = [
         'on = ["lower_left", "one_left"], displacement = { x = 0 }',
@@ -95,8 +96,8 @@ def three_bodies(space, side):
 def covered(q, space):
     """The upper block ends where it covers the fraction q of an edge of the base, which has the multipliers."""
     bodies = [
-        body("lower", even(8), 3, line(0, WIDTH, 0, 0.3)),
-        body("upper", even(6), 3, line(0, WIDTH * (5 + q) / 8, 0.3, 0.6)),
+        Body("lower", even(8), 3, between(0, WIDTH, 0, 0.3)),
+        Body("upper", even(6), 3, between(0, WIDTH * (5 + q) / 8, 0.3, 0.6)),
     ]
     axes = {"part": "covered", "case": "covered", "space": space, "value": q}
     settings, contact = {"method.multipliers": space}, touching(multipliers="lower_top")

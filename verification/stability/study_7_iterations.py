@@ -4,6 +4,7 @@ import figure
 import launch
 import small_meshes
 from failures import OF_MESHES, SPACES, failure, first, parameters, quote, select, solved
+from plates import even
 
 PERTURBATIONS = [1e-14, 1e-12, 1e-9, 1e-6, 1e-3, 1e-1]
 FORCES = [0, 0.1, 0.2, 0.3, 0.5, 1, 1.5, 2, 3, 3.9, 4, 5]
@@ -31,7 +32,7 @@ def near_gap(perturbation, space):
 
 def sideways(share, space):
     """Two plates with 10 MPa from the right, which leaves a flat line without pressure, and `share` of that on top."""
-    bodies = small_meshes.plates(lambda x: 0.3, small_meshes.even(7), small_meshes.even(11))
+    bodies = small_meshes.plates(lambda x: 0.3, even(7), even(11))
     boundary = [*small_meshes.SLIDING[:2], f'on = "upper_top", pressure = {10e6 * share!r}']
     boundary.append('on = ["upper_right", "lower_right"], pressure = 10e6')
     axes = {"part": "near", "value": share, "line": f"p = 0, {space}"}

@@ -4,7 +4,8 @@ import numpy as np
 
 import figure
 from failures import checks_of, ends, failure, first, largest, last, quote, select, solved
-from small_meshes import PRESSED, even, plates, run, touching
+from plates import even
+from small_meshes import PRESSED, plates, run, touching
 
 SCALES = [10.0**k for k in (-9, -6, -3, 0, 3, 6, 9)]
 LOADS = [*(10.0**k for k in range(0, 11, 2)), 1e11, 1e12]  # Pa
@@ -21,12 +22,12 @@ def scaled(scene, axis, value, length=1.0, stiffness=1.0, load=10e6, shift=0.0):
     closed = scene == "closed"
     bodies = plates((lambda x: 0.2 + x - 1.25 * x * x) if closed else (lambda x: 0.3), even(12), even(15))
     top = f"pressure = {load * stiffness!r}" if closed else f"displacement = {{ y = {PUSH * length!r} }}"
-    gap = {"lower": 0, "upper": 0 if closed else GAP}
-    move = lambda name, x, y: (x * length + shift, (y + gap[name]) * length + shift)
+    scale = lambda gap: lambda x, y: (x * length + shift, (y + gap) * length + shift)
+    bodies = [one.put(scale(gap)) for one, gap in zip(bodies, (0, 0 if closed else GAP))]
     axes = {"scene": scene, "axis": axis, "value": value, "p_scale": stiffness * (load / 10e6 if closed else 1)}
     boundary, young = [*PRESSED[:2], f'on = "upper_top", {top}'], 210e9 * stiffness
     pair = touching(gap="closed" if closed else None)
-    return run(axes, bodies, boundary, pair, measures=["pressure"], move=move, young=young)
+    return run(axes, bodies, boundary, pair, measures=["pressure"], young=young)
 
 
 def repeated(threads, time):

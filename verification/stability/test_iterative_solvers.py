@@ -72,7 +72,13 @@ def test_steps_of_domain_decomposition(studies, scene):
     assert len(rows) == 2 * (1 + len(ddm.SCHEMES) * 2) and {row["outcome"] for row in rows} == {"converged"}
     chosen = lambda *method: [r["steps"] for r in rows if (r["scheme"], r["acceleration"]) == method]
     assert chosen("default", "default") == chosen("neumann_dirichlet", "krylov")
-    assert len(ddm.wrong([{**rows[0], "steps": ddm.BAR + 1}, *rows[1:]])) == 1
+
+
+def test_too_many_steps_of_the_default_are_found():
+    row = {"status": "solved", "materials.other.young": launch.YOUNG, "seconds.solve": 0, "iteration.convergence_rate": 0.5}
+    row |= {"iteration.eigenvalue.smallest": 1, "iteration.eigenvalue.largest": 2}
+    judged = lambda steps, scheme: ddm.shortened({**row, "iteration.steps": steps}, "cosine", (8, 10), scheme)["ok"]
+    assert judged(ddm.BAR, ddm.DEFAULT) and not judged(ddm.BAR + 1, ddm.DEFAULT) and judged(99, "neumann_neumann")
 
 
 def test_the_table_of_steps_has_a_cell_a_ratio_and_a_number_a_mesh():
@@ -123,4 +129,4 @@ def test_steps_of_mssor_against_the_direct_solver(studies):
     steps = {(row["mesh"], row["method"]): row["steps"] for row in rows}
     assert len(rows) == 7 and steps["8x10", "krylov"] < steps["8x10", "minres"] < steps["8x10", "none"]
     assert steps["16x20", "krylov"] < 3 * steps["8x10", "krylov"]
-    assert len(mssor.wrong([{**rows[0], "p_difference": 1e-6}, {**rows[1], "outcome": "unfinished"}])) == 2
+    assert max(row["p_difference"] for row in rows) < mssor.LIMIT

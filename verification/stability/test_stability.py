@@ -22,6 +22,7 @@ import study_6_overconstraint
 import study_7_iterations
 import study_8_numbers
 import template
+from plates import even
 from stability_runs import execute
 
 SCENES = sorted(path.stem for path in (launch.ROOT / "geo").glob("*.toml"))
@@ -163,7 +164,7 @@ def test_a_pin_on_straight_edges_has_the_right_pressure_without_a_word_about_the
 
 
 def test_nodes_of_a_small_mesh_are_shared_where_bodies_are_joined():
-    bodies = small_meshes.plates(lambda x: 0.3, small_meshes.even(3), small_meshes.even(3))
+    bodies = small_meshes.plates(lambda x: 0.3, even(3), even(3))
     apart, joined = small_meshes.mesh_text(bodies), small_meshes.mesh_text(bodies, join=[("upper", "lower")])
     assert apart.count('"upper_bottom"') == 1 and "$EndElements" in apart
     count = lambda mesh: int(mesh.split("$Nodes\n")[1].split("\n")[0])
