@@ -23,6 +23,9 @@ using Stresses = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 /// Compressed columns, int indices. Symmetric matrices store their lower triangle only.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
+/// Compressed rows: few of them with many columns, at no cost for the columns that are empty.
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+
 /// Largest absolute value; 0 of an empty vector, NaN where there is one.
 inline double largest_entry(const VecX& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0; }
 

@@ -120,6 +120,14 @@ VecX multiplier_values(const Coupling& coupling, const VecX& row_values) {
   return values;
 }
 
+std::map<int, Vec2> contact_forces(const Coupling& coupling, const VecX& row_values) {
+  std::map<int, Vec2> forces;
+  for (Eigen::Index row = 0; row < coupling.B.rows(); ++row)
+    for (SparseRows::InnerIterator it(coupling.B, row); it; ++it)
+      forces.try_emplace(int(it.col() / 2), Vec2::Zero()).first->second(it.col() % 2) -= it.value() * row_values(row);
+  return forces;
+}
+
 double interpolate(const Coupling& coupling, const Curve& multiplier, const VecX& values, int edge, double xi) {
   const auto& on = coupling.on_edge[edge];
   const int count = on[2] >= 0 ? multiplier.edges[edge].node_count : 2;

@@ -1,6 +1,7 @@
 // The coupling of one contact pair: B u + gap0 = 0 closes the gap in the sense of the multiplier space.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ std::vector<int> row_nodes(const Coupling& coupling);
 
 /// Multipliers from the rows' values: value[row[a]], zero without support.
 VecX multiplier_values(const Coupling& coupling, const VecX& row_values);
+
+/// What the rows' values put on the nodes of both sides, -B^T row_values: forces per thickness, by node.
+std::map<int, Vec2> contact_forces(const Coupling& coupling, const VecX& row_values);
 
 /// The multipliers' values interpolated at a point of the multiplier side with the Lagrange functions of their nodes,
 /// also where psi is dual (its own functions jump between edges).

@@ -19,7 +19,7 @@ struct DroppedMultiplier {
 /// Multipliers sit at nodes of the multiplier side; lambda = sum_a psi_a lambda_a (docs/theory.md eq. 10 to 12). Row r
 /// of B belongs to all multipliers a with row[a] == r.
 struct Coupling {
-  SparseMatrix B;                           ///< rows x degrees of freedom: int psi (u_opposite - u_multiplier) . n ds
+  SparseRows B;                             ///< rows x degrees of freedom: int psi (u_opposite - u_multiplier) . n ds
   VecX gap0;                                ///< rows: int psi g0 ds, length^2; zero where the gap is closed
   VecX scale;                               ///< rows: int |psi| ds, length
   std::vector<int> node;                    ///< multiplier -> node of the mesh

@@ -49,10 +49,13 @@ VecX mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLi
 }
 
 MatX force_functionals(const ContactPair& pair, Eigen::Index rows) {
+  std::vector<int> nodes = curve_nodes(pair.multiplier);
+  std::ranges::sort(nodes);
   MatX weights = MatX::Zero(rows, 2);
-  for (const int node : curve_nodes(pair.multiplier))
-    for (int c = 0; c < 2; ++c)
-      weights.col(c).segment(pair.first_row, pair.coupling.B.rows()) += pair.coupling.B.col(2 * node + c);
+  for (Eigen::Index row = 0; row < pair.coupling.B.rows(); ++row)
+    for (SparseRows::InnerIterator it(pair.coupling.B, row); it; ++it)
+      if (std::ranges::binary_search(nodes, int(it.col() / 2)))
+        weights(pair.first_row + row, it.col() % 2) += it.value();
   return weights;
 }
 

@@ -4,6 +4,7 @@
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/segment.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <iterator>
 
@@ -30,6 +31,15 @@ std::vector<Entry> entries(const std::vector<Box>& boxes) {
 
 struct BoxIndex::Tree {
   geometry::index::rtree<Entry, geometry::index::linear<8>> boxes;
+
+  template <typename Shape>
+  std::vector<int> meeting(const Shape& shape) const {
+    std::vector<int> numbers;
+    for (auto it = boxes.qbegin(geometry::index::intersects(shape)); it != boxes.qend(); ++it)
+      numbers.push_back(it->second);
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+  }
 };
 
 BoxIndex::BoxIndex(const std::vector<Box>& boxes)
@@ -38,12 +48,10 @@ BoxIndex::~BoxIndex() = default;
 BoxIndex::BoxIndex(BoxIndex&&) noexcept = default;
 BoxIndex& BoxIndex::operator=(BoxIndex&&) noexcept = default;
 
-std::vector<int> BoxIndex::meeting(const Box& box) const {
-  std::vector<int> numbers;
-  for (auto it = tree_->boxes.qbegin(geometry::index::intersects(rectangle(box))); it != tree_->boxes.qend(); ++it)
-    numbers.push_back(it->second);
-  std::sort(numbers.begin(), numbers.end());
-  return numbers;
+std::vector<int> BoxIndex::meeting(const Box& box) const { return tree_->meeting(rectangle(box)); }
+
+std::vector<int> BoxIndex::meeting(const Vec2& from, const Vec2& to) const {
+  return tree_->meeting(geometry::model::segment<Point>(point(from), point(to)));
 }
 
 void BoxIndex::nearest_first(const Vec2& x, const std::function<bool(int, double)>& visit) const {

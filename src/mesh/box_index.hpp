@@ -22,6 +22,9 @@ class BoxIndex {
   /// Numbers of the boxes that have a point in common with `box`, ascending.
   std::vector<int> meeting(const Box& box) const;
 
+  /// Of those that have a point in common with the straight line between two places.
+  std::vector<int> meeting(const Vec2& from, const Vec2& to) const;
+
   /// Calls `visit` with the numbers of the boxes, nearest to x first, until it returns false.
   /// `visit(number, distance)`: distance of the box from x, 0 inside.
   void nearest_first(const Vec2& x, const std::function<bool(int, double)>& visit) const;

@@ -6,16 +6,22 @@
 #include "base/vectors.hpp"
 
 namespace mortise {
-namespace {
 
-struct Straight {
-  int start, end;
-};
+std::vector<std::vector<Edge>> outlines(const BoundaryEdges& boundary, const std::vector<int>& bonded) {
+  std::vector<std::vector<Edge>> edges(bonded.size());
+  for (const BoundaryEdge& edge : boundary.edges)
+    if (!edge.shared) edges[bonded[edge.body]].push_back(edge.edge);
+  return edges;
+}
 
-// The edges as straight pieces between neighbouring nodes.
-std::vector<Straight> pieces_of(const std::vector<Edge>& edges) {
+Thickness::Thickness(const Points& nodes, const BoundaryEdges& boundary, const std::vector<int>& bonded)
+    : nodes_(nodes), bonded_(bonded) {
+  for (const std::vector<Edge>& outline : outlines(boundary, bonded)) outlines_.push_back(pieces_of(nodes, outline));
+}
+
+Thickness::Pieces Thickness::pieces_of(const Points& nodes, const std::vector<Edge>& outline) {
   std::vector<Straight> pieces;
-  for (const Edge& e : edges) {
+  for (const Edge& e : outline) {
     if (e.node_count == 2) {
       pieces.push_back({e.nodes[0], e.nodes[1]});
     } else {
@@ -23,21 +29,20 @@ std::vector<Straight> pieces_of(const std::vector<Edge>& edges) {
       pieces.push_back({e.nodes[2], e.nodes[1]});
     }
   }
-  return pieces;
+  std::vector<Box> boxes;
+  Box all;
+  for (const Straight& piece : pieces) {
+    const Vec2 a = nodes.row(piece.start), b = nodes.row(piece.end);
+    const Vec2 margin = Vec2::Constant(1e-6 * (b - a).norm());  // a line that just touches it meets it
+    boxes.emplace_back(a.cwiseMin(b) - margin, a.cwiseMax(b) + margin);
+    all.extend(boxes.back());
+  }
+  return {std::move(pieces), BoxIndex(boxes), boxes.empty() ? 0 : all.diagonal().norm()};
 }
 
-}  // namespace
-
-std::vector<Edge> outline(const BoundaryEdges& boundary, const std::vector<int>& bonded, int body) {
-  std::vector<Edge> edges;
-  for (const BoundaryEdge& edge : boundary.edges)
-    if (!edge.shared && bonded[edge.body] == bonded[body]) edges.push_back(edge.edge);
-  return edges;
-}
-
-std::vector<double> thickness_behind(const Points& nodes, const Curve& curve, const std::vector<Edge>& outline) {
-  const auto point = [&](int node) { return Vec2(nodes.row(node).transpose()); };
-  const std::vector<Straight> pieces = pieces_of(outline);
+std::vector<double> Thickness::behind(const Curve& curve) const {
+  const auto point = [&](int node) { return Vec2(nodes_.row(node).transpose()); };
+  const Pieces& outline = outlines_[bonded_[curve.body]];
   std::vector<double> thickness;
   thickness.reserve(curve.edges.size());
   for (const Edge& e : curve.edges) {
@@ -45,7 +50,8 @@ std::vector<double> thickness_behind(const Points& nodes, const Curve& curve, co
     const Vec2 middle = e.node_count == 3 ? point(e.nodes[2]) : Vec2((start + end) / 2);
     const Vec2 along = (end - start).normalized(), inward(-along.y(), along.x());  // a 3-node edge's tangent too
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Straight& piece : pieces) {
+    for (const int k : outline.boxes.meeting(middle, middle + outline.diagonal * inward)) {
+      const Straight& piece = outline.pieces[k];
       const bool own = piece.start == e.nodes[0] || piece.end == e.nodes[1];
       const Vec2 a = point(piece.start) - middle, b = point(piece.end) - middle;
       const double left = cross(inward, a), right = cross(inward, b);

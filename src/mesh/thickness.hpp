@@ -2,16 +2,37 @@
 #pragma once
 
 #include "mesh/boundary_edges.hpp"
+#include "mesh/box_index.hpp"
 #include "mesh/curve.hpp"
 
 namespace mortise {
 
-/// The edges around a body. Bodies that share nodes (`bonded`: bonded_to) are one here: a layer on its ground is as
-/// thick as both.
-std::vector<Edge> outline(const BoundaryEdges& boundary, const std::vector<int>& bonded, int body);
+/// The edges around each body. Bodies that share nodes (`bonded`: bonded_to) are one, that of the first of them: a
+/// layer on its ground is as thick as both.
+std::vector<std::vector<Edge>> outlines(const BoundaryEdges& boundary, const std::vector<int>& bonded);
 
-/// For each edge of the curve, the length of the line from its middle along its inward normal to where that first
-/// leaves the body. `outline` is that of the curve's body; its 3-node edges count as two straight ones.
-std::vector<double> thickness_behind(const Points& nodes, const Curve& curve, const std::vector<Edge>& outline);
+class Thickness {
+ public:
+  Thickness(const Points& nodes, const BoundaryEdges& boundary, const std::vector<int>& bonded);
+
+  /// For each edge of the curve, the length of the line from its middle along its inward normal to where that first
+  /// leaves the body. The outline's 3-node edges count as two straight ones.
+  std::vector<double> behind(const Curve& curve) const;
+
+ private:
+  struct Straight {
+    int start, end;  // nodes
+  };
+  struct Pieces {
+    std::vector<Straight> pieces;
+    BoxIndex boxes;  // of the pieces
+    double diagonal;
+  };
+  static Pieces pieces_of(const Points& nodes, const std::vector<Edge>& outline);
+
+  Points nodes_;
+  std::vector<int> bonded_;
+  std::vector<Pieces> outlines_;
+};
 
 }  // namespace mortise

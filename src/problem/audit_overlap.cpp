@@ -62,8 +62,7 @@ void add_direction(const AuditedBodies& b, const std::vector<const Encounter*>& 
 // Area of the first piece's cells whose centre lies in the second.
 double covered_area(const AuditedBodies& b, int piece, int other) {
   double sum = 0;
-  for (std::size_t c = 0; c < b.mesh.cells.size(); ++c) {
-    if (b.boundary.piece_of_cell[c] != piece) continue;
+  for (const int c : b.cells[piece]) {
     const Cell& cell = b.mesh.cells[c];
     const int corners = corner_count(cell.kind);
     Vec2 centre = Vec2::Zero();

@@ -43,17 +43,25 @@ int main_name(const AuditedBodies& b, const std::vector<int>& edges) {
 }  // namespace
 
 AuditedBodies audited_bodies(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
+  std::vector<std::vector<AuditedBodies::Partner>> partners(mesh.boundaries.size());
+  for (const ContactPair& pair : pairs) {
+    const Curve &m = pair.multiplier, &o = pair.opposite;
+    partners[m.boundary].push_back({o.boundary, o.body});
+    partners[o.boundary].push_back({m.boundary, m.body});
+  }
   BoundaryEdges boundary = boundary_edges(mesh);
+  std::vector<std::vector<int>> cells(boundary.pieces);
+  for (int c = 0; c < int(mesh.cells.size()); ++c) cells[boundary.piece_of_cell[c]].push_back(c);
   Outline o = outline(boundary, mesh.nodes);
   std::vector<std::vector<int>> names = names_of(mesh, boundary.edges);
-  return {mesh, pairs, std::move(boundary), std::move(o), std::move(names)};
+  return {mesh, std::move(partners), std::move(cells), std::move(boundary), std::move(o), std::move(names)};
 }
 
 bool paired(const AuditedBodies& b, int edge, int other) {
-  return std::any_of(b.pairs.begin(), b.pairs.end(), [&](const ContactPair& pair) {
-    const int m = pair.multiplier.boundary, o = pair.opposite.boundary;
-    return (has(b.names[edge], m) && has(b.names[other], o)) || (has(b.names[edge], o) && has(b.names[other], m));
-  });
+  for (const int name : b.names[edge])
+    for (const AuditedBodies::Partner& partner : b.partners[name])
+      if (has(b.names[other], partner.boundary)) return true;
+  return false;
 }
 
 bool nearly_paired(const AuditedBodies& b, int edge, int other) {
@@ -64,10 +72,10 @@ bool nearly_paired(const AuditedBodies& b, int edge, int other) {
 }
 
 bool paired_with_body(const AuditedBodies& b, int edge, int body) {
-  return std::any_of(b.pairs.begin(), b.pairs.end(), [&](const ContactPair& pair) {
-    return (has(b.names[edge], pair.multiplier.boundary) && pair.opposite.body == body) ||
-           (has(b.names[edge], pair.opposite.boundary) && pair.multiplier.body == body);
-  });
+  for (const int name : b.names[edge])
+    for (const AuditedBodies::Partner& partner : b.partners[name])
+      if (partner.body == body) return true;
+  return false;
 }
 
 bool face_each_other(const Vec2& normal, const OutlinePlace& place) {

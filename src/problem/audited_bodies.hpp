@@ -7,8 +7,14 @@
 namespace mortise {
 
 struct AuditedBodies {
+  /// A curve that a contact pair sets against another, and that one's body.
+  struct Partner {
+    int boundary, body;
+  };
+
   const Mesh& mesh;
-  const std::vector<ContactPair>& pairs;
+  std::vector<std::vector<Partner>> partners;  ///< of each boundary
+  std::vector<std::vector<int>> cells;         ///< of each piece
   BoundaryEdges boundary;
   Outline outline;                      ///< undeformed
   std::vector<std::vector<int>> names;  ///< boundaries of each edge of the outline

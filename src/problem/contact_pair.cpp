@@ -48,9 +48,10 @@ bool on_second(Scheme scheme, const Points& nodes, const ContactCurves& contact,
 }
 
 void require_own_nodes(const Mesh& mesh, const ContactSpec& spec, const std::array<Curve, 2>& curves) {
-  const std::vector<int> first = curve_nodes(curves[0]);
+  std::vector<int> first = curve_nodes(curves[0]);
+  std::ranges::sort(first);
   for (const int node : curve_nodes(curves[1]))
-    if (std::find(first.begin(), first.end(), node) != first.end())
+    if (std::ranges::binary_search(first, node))
       throw InputError(mesh.source + ": " + spec.key + ": '" + spec.between[0] + "' and '" + spec.between[1] +
                        "' have a common node " + near_point(mesh.nodes.row(node).transpose()) +
                        "; expected curves with points of their own (in a .geo: a point and a curve for each body)");
@@ -82,10 +83,10 @@ std::set<std::pair<int, int>> named_pairs(const Scene& scene, const SceneNames& 
   return pairs;
 }
 
-void append(const SparseMatrix& rows, int first, std::vector<Eigen::Triplet<double>>& entries) {
-  for (Eigen::Index j = 0; j < rows.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator it(rows, j); it; ++it)
-      entries.emplace_back(first + int(it.row()), int(j), it.value());
+void append(const SparseRows& rows, int first, std::vector<Eigen::Triplet<double>>& entries) {
+  for (Eigen::Index row = 0; row < rows.rows(); ++row)
+    for (SparseRows::InnerIterator it(rows, row); it; ++it)
+      entries.emplace_back(first + int(row), int(it.col()), it.value());
 }
 
 }  // namespace
@@ -140,16 +141,10 @@ std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, co
                                       std::vector<ContactCurves> contacts, const std::vector<char>& dirichlet) {
   std::vector<ContactPair> pairs;
   if (contacts.empty()) return pairs;
-  const BoundaryEdges boundary = boundary_edges(mesh);
-  const std::vector<int> bonded = bonded_to(mesh, body_points(mesh));
-  std::map<int, std::vector<Edge>> outlines;  // of each body that is in contact
+  const Thickness thickness(mesh.nodes, boundary_edges(mesh), bonded_to(mesh, body_points(mesh)));
   int first_row = 0;
   for (ContactCurves& contact : contacts) {
-    for (Curve& curve : contact.curves) {
-      const auto [body, is_new] = outlines.try_emplace(curve.body);
-      if (is_new) body->second = outline(boundary, bonded, curve.body);
-      curve.thickness = thickness_behind(mesh.nodes, curve, body->second);
-    }
+    for (Curve& curve : contact.curves) curve.thickness = thickness.behind(curve);
     const ContactSpec& spec = contact.spec;
     require_own_nodes(mesh, spec, contact.curves);
     const bool second = spec.multipliers_on.empty()

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <map>
 
 #include "base/printable.hpp"
 #include "fem/edges.hpp"
@@ -10,24 +11,34 @@ namespace {
 // p is exactly zero where contact is open: more than round-off of the largest means that it is closed up to the end.
 constexpr double least_pressure = 1e-3;
 
-// The outline's edge next to the end of a curve, outside of it; -1 where a corner or another body ends the boundary.
-int edge_beyond(const AuditedBodies& b, const Curve& curve, bool at_back) {
-  const Edge& last = at_back ? curve.edges.back() : curve.edges.front();
-  for (int e = 0; e < int(b.outline.edges.size()); ++e) {
-    const BoundaryEdge& edge = b.outline.edges[e];
-    if (edge.body != curve.body || edge.edge.nodes != last.nodes) continue;
-    const int beyond = b.outline.neighbour[e][at_back];
-    const bool smooth = beyond >= 0 && b.outline.turn[e][at_back] < smooth_turn;
-    return smooth && !b.outline.edges[beyond].shared ? beyond : -1;
+// The edges of the outline by their ends: of two bodies that are bonded each has its own direction.
+using EdgeAt = std::map<std::pair<int, int>, int>;
+
+EdgeAt edges_by_ends(const Outline& outline) {
+  EdgeAt edges;
+  for (int e = 0; e < int(outline.edges.size()); ++e) {
+    const auto& nodes = outline.edges[e].edge.nodes;
+    edges.emplace(std::pair(nodes[0], nodes[1]), e);
   }
-  return -1;
+  return edges;
+}
+
+// The outline's edge next to the end of a curve, outside of it; -1 where a corner or another body ends the boundary.
+int edge_beyond(const AuditedBodies& b, const EdgeAt& edges, const Curve& curve, bool at_back) {
+  const Edge& last = at_back ? curve.edges.back() : curve.edges.front();
+  const auto found = edges.find({last.nodes[0], last.nodes[1]});
+  if (found == edges.end()) return -1;
+  const int beyond = b.outline.neighbour[found->second][at_back];
+  const bool smooth = beyond >= 0 && b.outline.turn[found->second][at_back] < smooth_turn;
+  return smooth && !b.outline.edges[beyond].shared ? beyond : -1;
 }
 
 // Whether contact could go on: the edge faces the other body no farther away than it is long.
 bool faces(const AuditedBodies& b, int edge, int body) {
   const Outline& o = b.outline;
   const EdgePoint middle = edge_point(o.nodes, o.edges[edge].edge, 0);
-  for (int p = 0; p < int(o.pieces.size()); ++p) {
+  const Vec2 reach = Vec2::Constant(o.length[edge]);
+  for (const int p : o.boxes.meeting({middle.position - reach, middle.position + reach})) {
     if (o.pieces[p].body != body || p == o.edges[edge].piece) continue;
     const OutlinePlace place = nearest(o, p, middle.position);
     const EdgePoint there = edge_point(o.nodes, o.edges[place.edge].edge, place.xi);
@@ -46,13 +57,13 @@ double pressure_at(const ContactSide& side, int node) {
 }
 
 // "'foot' near (0.1, 0)" for each end of a curve that contact reaches and should not.
-void add_ends(const AuditedBodies& b, const Curve& curve, int other_body, const ContactSide& side, double p_max,
-              std::string& places) {
+void add_ends(const AuditedBodies& b, const EdgeAt& edges, const Curve& curve, int other_body, const ContactSide& side,
+              double p_max, std::string& places) {
   if (curve.closed) return;
   for (const bool at_back : {false, true}) {
     const int node = at_back ? curve.edges.back().nodes[1] : curve.edges.front().nodes[0];
     if (!(pressure_at(side, node) > least_pressure * p_max)) continue;
-    const int beyond = edge_beyond(b, curve, at_back);
+    const int beyond = edge_beyond(b, edges, curve, at_back);
     if (beyond < 0 || paired_with_body(b, beyond, other_body) || !faces(b, beyond, other_body)) continue;
     places += (places.empty() ? "'" : " and of '") + side.curve + "' " + near_point(b.mesh.nodes.row(node).transpose());
   }
@@ -61,14 +72,15 @@ void add_ends(const AuditedBodies& b, const Curve& curve, int other_body, const 
 }  // namespace
 
 std::vector<std::string> end_lines(const AuditedBodies& b, const Results& r) {
+  const EdgeAt edges = edges_by_ends(b.outline);
   std::vector<std::string> lines;
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
     const ContactPair& pair = r.pairs[k];
     const ContactResults& c = r.contacts[k];
     if (pair.spec.condition != Condition::unilateral) continue;
     std::string places;
-    add_ends(b, pair.multiplier, pair.opposite.body, c.multiplier, c.p_max, places);
-    add_ends(b, pair.opposite, pair.multiplier.body, c.opposite, c.p_max, places);
+    add_ends(b, edges, pair.multiplier, pair.opposite.body, c.multiplier, c.p_max, places);
+    add_ends(b, edges, pair.opposite, pair.multiplier.body, c.opposite, c.p_max, places);
     if (!places.empty())
       lines.push_back(pair.spec.key + ": contact reaches the end of " + places +
                       ", where the boundary goes on smoothly and faces the other body: the pressure piles up at the "

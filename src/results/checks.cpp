@@ -66,15 +66,17 @@ void balance_of_bodies(const Results& r, double limit, std::vector<Check>& check
 void balance_of_contact(const Results& r, std::vector<Check>& checks) {
   double force = 0, moment = 0;
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
-    const SparseMatrix& B = r.pairs[k].coupling.B;
-    const VecX contact = B.transpose() * r.solution.lambda.segment(r.pairs[k].first_row, B.rows());
+    const Coupling& coupling = r.pairs[k].coupling;
+    const std::map<int, Vec2> forces =
+        contact_forces(coupling, r.solution.lambda.segment(r.pairs[k].first_row, coupling.B.rows()));
     const ContactResults& c = r.contacts[k];
     const Vec2 centre = c.multiplier.nodes[c.multiplier.nodes.size() / 2].position;
     Resultant sum;
     double on_multiplier_side = 0;
-    for (Eigen::Index node = 0; node < r.mesh.nodes.rows(); ++node)
-      sum.add(r.mesh.nodes.row(node).transpose() - centre, contact.segment<2>(2 * node));
-    for (const ContactNode& n : c.multiplier.nodes) on_multiplier_side += contact.segment<2>(2 * n.node).norm();
+    for (const auto& [node, contact] : forces) sum.add(r.mesh.nodes.row(node).transpose() - centre, contact);
+    for (const ContactNode& n : c.multiplier.nodes)
+      if (const auto contact = forces.find(n.node); contact != forces.end())
+        on_multiplier_side += contact->second.norm();
     force = largest(force, fraction(sum.force.norm(), on_multiplier_side));
     moment = largest(moment, fraction(std::abs(sum.moment), on_multiplier_side * c.length));
   }

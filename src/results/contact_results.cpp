@@ -217,8 +217,9 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
   for (const ContactPoint& c : pair.points)
     r.p_mean += c.ds * interpolate(pair.coupling, pair.multiplier, r.pressure, c.edge, c.xi);
   r.length_in_contact = length_in_contact(mesh.nodes, pair, r.pressure);
-  const VecX contact = -(pair.coupling.B.transpose() * lambda);
-  for (const CurveNode& at : along) r.force += contact.segment<2>(2 * at.node);
+  const std::map<int, Vec2> forces = contact_forces(pair.coupling, lambda);
+  for (const CurveNode& at : along)
+    if (const auto force = forces.find(at.node); force != forces.end()) r.force += force->second;
   r.p_mean /= pair.coupling.covered_length;
   return r;
 }

@@ -210,9 +210,8 @@ TEST(Coupling, CurvesThatDoNotFaceAreAnError) {
   const Mesh mesh = test::mesh_of({});
   Curve top = contact_curve(mesh, boundary_index(mesh, "top")),
         bottom = contact_curve(mesh, boundary_index(mesh, "bottom"));
-  const BoundaryEdges boundary = boundary_edges(mesh);
-  const std::vector<int> bonded = bonded_to(mesh, body_points(mesh));
-  for (Curve* c : {&top, &bottom}) c->thickness = thickness_behind(mesh.nodes, *c, outline(boundary, bonded, c->body));
+  const Thickness thickness(mesh.nodes, boundary_edges(mesh), bonded_to(mesh, body_points(mesh)));
+  for (Curve* c : {&top, &bottom}) c->thickness = thickness.behind(*c);
   const auto points = contact_points(mesh.nodes, top, bottom, Integration::segments);
   EXPECT_TRUE(points.empty());
   EXPECT_THROW(couple(mesh, top, bottom, points, no_constraints(mesh), {}), InputError);

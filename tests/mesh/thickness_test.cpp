@@ -10,12 +10,12 @@ namespace mortise {
 namespace {
 
 std::vector<Edge> outline_of(const Mesh& mesh, int body) {
-  return outline(boundary_edges(mesh), bonded_to(mesh, body_points(mesh)), body);
+  return outlines(boundary_edges(mesh), bonded_to(mesh, body_points(mesh)))[body];
 }
 
 std::vector<double> thickness(const Mesh& mesh, const std::string& boundary) {
   const Curve curve = contact_curve(mesh, boundary_index(mesh, boundary));
-  return thickness_behind(mesh.nodes, curve, outline_of(mesh, curve.body));
+  return Thickness(mesh.nodes, boundary_edges(mesh), bonded_to(mesh, body_points(mesh))).behind(curve);
 }
 
 TEST(Outline, OfAPlateIsItsFourSides) {
