@@ -71,6 +71,25 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
   return sums;
 }
 
+// As setFromTriplets, which takes time as the columns.
+SparseRows sum_of(std::vector<Eigen::Triplet<double>> entries, Eigen::Index rows, Eigen::Index columns) {
+  const auto place = [](const Eigen::Triplet<double>& t) { return std::pair(t.row(), t.col()); };
+  std::ranges::stable_sort(entries, {}, place);
+  SparseRows sum(rows, columns);
+  sum.reserve(Eigen::Index(entries.size()));
+  int row = -1;
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    while (row < entries[k].row()) sum.startVec(++row);
+    if (k > 0 && place(entries[k]) == place(entries[k - 1]))
+      sum.valuePtr()[sum.data().size() - 1] += entries[k].value();
+    else
+      sum.insertBack(row, entries[k].col()) = entries[k].value();
+  }
+  while (++row < rows) sum.startVec(row);
+  sum.finalize();
+  return sum;
+}
+
 }  // namespace
 
 Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite,
@@ -101,8 +120,7 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
   entries.reserve(sums.B.size());
   for (const auto& t : sums.B)
     if (coupling.row[t.row()] >= 0) entries.emplace_back(coupling.row[t.row()], t.col(), t.value());
-  coupling.B.resize(coupling.gap0.size(), 2 * mesh.nodes.rows());
-  coupling.B.setFromTriplets(entries.begin(), entries.end());
+  coupling.B = sum_of(std::move(entries), coupling.gap0.size(), 2 * mesh.nodes.rows());
   return coupling;
 }
 

@@ -82,8 +82,8 @@ void warn_of_dropped(const ContactPair& pair, const Results& r, Lines& lines) {
                     range(at) + ") " + reason);
 }
 
-void warn_of_gap(const ContactPair& pair, const Results& r, Lines& lines) {
-  const double low = pair.coupling.gap_min, high = pair.coupling.gap_max, displacement = largest_entry(r.solution.u);
+void warn_of_gap(const ContactPair& pair, const Results& r, double displacement, Lines& lines) {
+  const double low = pair.coupling.gap_min, high = pair.coupling.gap_max;
   if (pair.spec.initial_gap != InitialGap::closed || std::max(-low, high) <= 0.01 * displacement) return;
   if (!is_drawn(pair) && !open_place(r.mesh.nodes, pair.multiplier, pair.opposite, pair.points, 1e-6)) return;
   std::ostringstream text;
@@ -169,9 +169,10 @@ std::vector<std::string> warnings(const Scene& scene, const Results& r) {
   warn_of_what_is_not_finite(r, lines);
   if (auto line = large_displacement(r)) lines.push_back(*std::move(line));
   warn_of_locking(scene, r, lines);
+  const double displacement = largest_entry(r.solution.u);
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
     warn_of_dropped(r.pairs[k], r, lines);
-    warn_of_gap(r.pairs[k], r, lines);
+    warn_of_gap(r.pairs[k], r, displacement, lines);
     warn_of_geometry(r.pairs[k], r, lines);
     warn_of_shape(r.pairs[k], r, lines);
     warn_of_far_origin(r.pairs[k], r, lines);
