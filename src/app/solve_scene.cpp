@@ -113,7 +113,7 @@ ActiveSet active_set(const Results& r) {
 
 void estimate(Results& r, const AccuracySpec& spec) {
   Stopwatch watch;
-  r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution, spec);
+  r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.singular, r.solution, spec);
   for (std::size_t k = 0; k < r.contacts.size(); ++k) set_bars(r.estimate->pressures[k], r.contacts[k]);
   append(r.warnings, error_warnings(r));
   r.seconds.estimate = watch.lap();
@@ -174,9 +174,12 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
     r.contacts.push_back(contact_results(r.mesh, pair, system.constraints, r.points, r.stress, u,
                                          r.solution.lambda.segment(pair.first_row, pair.coupling.B.rows())));
   const double negligible = negligible_pressure(r);
-  for (std::size_t k = 0; k < r.pairs.size(); ++k)
-    r.against_sigma_n.push_back(
-        compare_with_stress(r.mesh, r.pairs[k], r.contacts[k], system.constraints, r.discretisation.laws, negligible));
+  const SideTable table(r.mesh);
+  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
+    r.singular.push_back(singular_points(r.mesh, table, r.pairs[k].multiplier, r.pairs[k].opposite, system.constraints,
+                                         r.discretisation.laws));
+    r.against_sigma_n.push_back(compare_with_stress(r.contacts[k], r.singular[k], negligible));
+  }
   r.checks = checks(scene, r);
   r.status = verdict(r);
   append(r.warnings, warnings(scene, r));

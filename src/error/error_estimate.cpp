@@ -35,15 +35,13 @@ EnergyEstimate energy_estimate(const Mesh& mesh, const ErrorProducts& found) {
 }
 
 // Those that lie on the loaded line.
-std::vector<SingularPoint> singular_on(const Mesh& mesh, const ContactPair& pair, const PressureLine& line,
-                                       const Constraints& constraints, const std::vector<ElasticLaw>& laws) {
-  std::vector<SingularPoint> found = singular_points(mesh, pair.multiplier, pair.opposite, constraints, laws);
-  std::erase_if(found, [&](const SingularPoint& point) {
+std::vector<SingularPoint> on_loaded(std::vector<SingularPoint> points, const PressureLine& line) {
+  std::erase_if(points, [&](const SingularPoint& point) {
     for (Eigen::Index i = 0; i < line.p.size(); ++i)
       if (line.loaded[i] && (line.position[i] - point.position).norm() <= point.edge) return false;
     return true;
   });
-  return found;
+  return points;
 }
 
 // Linear between the windows' centres, constant beyond them.
@@ -102,20 +100,84 @@ double mean_error(const PressureLine& line, const VecX& errors, const Vec2& wind
   return length > 0 ? sum / length : 0;
 }
 
+std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                                                 const std::vector<std::vector<SingularPoint>>& singular,
+                                                 const VecX& lambda, double excluded) {
+  std::vector<PressureEstimate> list;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    PressureEstimate e;
+    e.line = pressure_line(mesh, pairs[k], lambda);
+    e.local = line_error(e.line);
+    e.windows = pressure_windows(pairs[k], e.line);
+    e.singular = on_loaded(singular[k], e.line);
+    find_excluded(excluded, e);
+    list.push_back(std::move(e));
+  }
+  return list;
+}
+
+SharedDuals shared_duals(const Mesh& mesh, const std::vector<PressureEstimate>& pressures, int most) {
+  std::vector<Vec2> centres;
+  for (const PressureEstimate& e : pressures)
+    for (const PressureWindow& window : e.windows) centres.push_back(window.centre);
+  return share_duals(mesh, centres, most);
+}
+
+// Rows of all pairs; a column a dual, the sum of its windows.
+MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
+                        const SharedDuals& shared, Eigen::Index rows) {
+  MatX columns = MatX::Zero(rows, shared.count);
+  int window = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (const PressureWindow& w : pressures[k].windows)
+      columns.col(shared.dual[window++]).segment(pairs[k].first_row, w.weights.size()) += w.weights;
+  return columns;
+}
+
 // Columns: the components of what is asked for; none where that is no functional.
 MatX goal_functionals(const Mesh& mesh, const std::vector<ContactPair>& pairs,
                       const std::vector<PressureEstimate>& pressures, const AccuracySpec& spec, Eigen::Index rows) {
-  switch (spec.of) {
-    case Goal::mean:
-      return mean_functional(mesh, pairs[spec.pair], pressures[spec.pair].line, spec.window, rows);
-    case Goal::force:
-      return force_functionals(pairs[spec.pair], rows);
-    case Goal::pressure:
-    case Goal::peak:
-    case Goal::half_width:
-      break;
+  if (spec.of != Goal::mean && spec.of != Goal::force) return MatX(rows, 0);
+  const ContactPair& pair = pairs[spec.pair];
+  const MatX weights = spec.of == Goal::mean ? MatX(mean_functional(mesh, pair, pressures[spec.pair].line, spec.window))
+                                             : force_functionals(pair);
+  MatX columns = MatX::Zero(rows, weights.cols());
+  columns.middleRows(pair.first_row, weights.rows()) = weights;
+  return columns;
+}
+
+// Products with the dual of each functional, a few at a time: recovered stresses take far more room than displacements.
+ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                                  const VecX& u, const ContactFactor* factor, const MatX& functionals) {
+  constexpr Eigen::Index at_once = 12;
+  const Eigen::Index count = functionals.cols();
+  ErrorProducts all;
+  for (Eigen::Index first = 0; first == 0 || first < count; first += at_once) {
+    const Eigen::Index duals = std::min(at_once, count - first);
+    MatX fields(u.size(), 1 + duals);
+    fields.col(0) = u;
+    if (duals > 0) fields.rightCols(duals) = factor->duals(functionals.middleCols(first, duals));
+    const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, fields));
+    ErrorProducts some = error_products(mesh, points, laws, fields, patches);
+    if (first == 0) {
+      all = std::move(some);
+      all.products.conservativeResize(Eigen::NoChange, 1 + count);
+    } else {
+      all.products.middleCols(1 + first, duals) = some.products.rightCols(duals);
+    }
   }
-  return MatX(rows, 0);
+  return all;
+}
+
+// Of each window the sum of its cells' parts without their signs.
+VecX far_fields(const FarField& far) {
+  const VecX of_duals = far.parts.cwiseAbs().colwise().sum();
+  const int windows = int(far.windows.dual.size());
+  if (windows == far.windows.count) return of_duals;
+  VecX sums = VecX::Zero(windows);
+  for (Eigen::Index d = 0; d < far.parts.cols(); ++d)
+    for (Eigen::Index e = 0; e < far.parts.rows(); ++e) sums(far.windows.window(e, d)) += std::abs(far.parts(e, d));
+  return sums;
 }
 
 }  // namespace
@@ -153,37 +215,25 @@ double ErrorEstimate::line() const { return error_norm(pressures, 1, 0) / std::s
 double ErrorEstimate::far_field() const { return error_norm(pressures, 0, 1) / std::sqrt(pressure_square()); }
 
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
-                             const std::vector<ContactPair>& pairs, const Solution& solution,
-                             const AccuracySpec& spec) {
+                             const std::vector<ContactPair>& pairs,
+                             const std::vector<std::vector<SingularPoint>>& singular, const Solution& solution,
+                             const AccuracySpec& spec, int duals) {
   const SaddlePointSystem& system = discretisation.system;
+  const Eigen::Index rows = system.B.rows();
   ErrorEstimate estimate;
-  Eigen::Index windows = 0;
-  for (const ContactPair& pair : pairs) {
-    PressureEstimate e;
-    e.line = pressure_line(mesh, pair, solution.lambda);
-    e.local = line_error(e.line);
-    e.windows = pressure_windows(pair, e.line, system.B.rows());
-    e.singular = singular_on(mesh, pair, e.line, system.constraints, discretisation.laws);
-    find_excluded(spec.exclude, e);
-    windows += Eigen::Index(e.windows.size());
-    estimate.pressures.push_back(std::move(e));
-  }
-  const MatX goal = goal_functionals(mesh, pairs, estimate.pressures, spec, system.B.rows());
-  const Eigen::Index count = windows + goal.cols();
-  std::shared_ptr<const ContactFactor> factor = solution.factor;
-  if (count > 0 && !factor) factor = factorise_contact(system, solution.active);
-  MatX functionals(system.B.rows(), count), fields(system.K.cols(), 1 + count);
+  estimate.pressures = lines_with_windows(mesh, pairs, singular, solution.lambda, spec.exclude);
+  estimate.far.windows = shared_duals(mesh, estimate.pressures, duals);
+  const MatX goal = goal_functionals(mesh, pairs, estimate.pressures, spec, rows);
+  const Eigen::Index shared = estimate.far.windows.count;
+  MatX functionals(rows, shared + goal.cols());
+  functionals.leftCols(shared) = window_functionals(pairs, estimate.pressures, estimate.far.windows, rows);
   functionals.rightCols(goal.cols()) = goal;
-  Eigen::Index k = 0;
-  for (const PressureEstimate& e : estimate.pressures)
-    for (const PressureWindow& window : e.windows) functionals.col(k++) = window.weights;
-  fields.col(0) = solution.u;
-  if (count > 0) fields.rightCols(count) = factor->duals(functionals);
-  const std::vector<ElasticLaw>& laws = discretisation.laws;
-  const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, fields));
-  const ErrorProducts found = error_products(mesh, points, laws, fields, patches);
+  std::shared_ptr<const ContactFactor> factor = solution.factor;
+  if (functionals.cols() > 0 && !factor) factor = factorise_contact(system, solution.active);
+  const ErrorProducts found =
+      products_with_duals(mesh, points, discretisation.laws, solution.u, factor.get(), functionals);
   estimate.energy = energy_estimate(mesh, found);
-  estimate.parts = found.products.middleCols(1, windows);
+  estimate.far.parts = found.products.middleCols(1, shared);
   if (goal.cols() > 0) {
     const MatX parts = found.products.rightCols(goal.cols());
     estimate.goal = GoalEstimate{.value = -goal.transpose() * solution.lambda,
@@ -191,11 +241,11 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
                                  .local = 0,
                                  .parts = parts};
   }
-  const VecX far = estimate.parts.cwiseAbs().colwise().sum();
-  k = 0;
+  const VecX far = far_fields(estimate.far);
+  Eigen::Index window = 0;
   for (PressureEstimate& e : estimate.pressures) {
-    e.far = far.segment(k, Eigen::Index(e.windows.size()));
-    k += Eigen::Index(e.windows.size());
+    e.far = far.segment(window, Eigen::Index(e.windows.size()));
+    window += Eigen::Index(e.windows.size());
     find_bars(e);
   }
   if (spec.of == Goal::mean) {

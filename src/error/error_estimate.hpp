@@ -3,6 +3,7 @@
 
 #include "contact/singular_points.hpp"
 #include "error/pressure_windows.hpp"
+#include "error/shared_duals.hpp"
 #include "mesh/body_points.hpp"
 
 namespace mortise {
@@ -46,10 +47,19 @@ struct GoalEstimate {
 /// By which the estimate is multiplied.
 inline constexpr double error_safety = 1.5;
 
+/// What the bodies' error does to the windows' means, cell by cell.
+struct FarField {
+  MatX parts;           ///< cells x duals: int d_0 : C^-1 : d_k, stress
+  SharedDuals windows;  ///< whose parts these are; windows of all pairs, one after the other
+};
+
+/// Back substitutions that the windows take, however many pairs there are.
+inline constexpr int most_duals = 32;
+
 struct ErrorEstimate {
   EnergyEstimate energy;
   std::vector<PressureEstimate> pressures;  ///< one a pair
-  MatX parts;  ///< cells x windows of all pairs: int d_0 : C^-1 : d_k, the cell's part of the far field, stress
+  FarField far;
   std::optional<GoalEstimate> goal;  ///< where one is asked for
 
   /// L2 norms of the estimated error of p over that of p on all contact lines, singular points left out: of the whole,
@@ -64,10 +74,12 @@ struct ErrorEstimate {
   double pressure_square() const;  ///< of p on these, stress^2 length
 };
 
-/// `solution`: converged or not; where it has no factor (iterative solvers) the whole system is factorised once.
-/// `spec`: what is left out, and a mean or a force that is asked for.
+/// `singular`: of each pair (contact/singular_points.hpp). `solution`: converged or not; where it has no factor
+/// (iterative solvers) the whole system is factorised once. `spec`: what is left out, and a mean or a force that is
+/// asked for.
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
-                             const std::vector<ContactPair>& pairs, const Solution& solution,
-                             const AccuracySpec& spec = {});
+                             const std::vector<ContactPair>& pairs,
+                             const std::vector<std::vector<SingularPoint>>& singular, const Solution& solution,
+                             const AccuracySpec& spec = {}, int duals = most_duals);
 
 }  // namespace mortise

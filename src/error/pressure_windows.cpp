@@ -18,12 +18,12 @@ void add_pressure_at(const ContactPair& pair, int edge, double xi, double weight
   const int nodes = on[2] >= 0 ? 3 : 2;
   const EdgeShape shape = edge_shape(nodes, xi);
   for (int i = 0; i < nodes; ++i)
-    if (const int row = pair.coupling.row[on[i]]; row >= 0) weights(pair.first_row + row) += weight * shape.N[i];
+    if (const int row = pair.coupling.row[on[i]]; row >= 0) weights(row) += weight * shape.N[i];
 }
 
 }  // namespace
 
-std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line, Eigen::Index rows) {
+std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line) {
   const Eigen::Index edges = line.p.size() - 1;
   // Loaded length up to each vertex: windows are laid out along it.
   VecX t = VecX::Zero(edges + 1);
@@ -43,7 +43,10 @@ std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const Pres
     const double centre = (k + 0.5) * distance;
     Eigen::Index e = 0;
     while (e + 1 < edges && t(e + 1) < centre) ++e;
-    windows.push_back({.s = line.s(e) + (centre - t(e)), .weights = VecX::Zero(rows)});
+    const double s = line.s(e) + (centre - t(e)), part = (s - line.s(e)) / (line.s(e + 1) - line.s(e));
+    windows.push_back({.s = s,
+                       .centre = (1 - part) * line.position[e] + part * line.position[e + 1],
+                       .weights = VecX::Zero(pair.coupling.B.rows())});
   }
   VecX mass = VecX::Zero(count);
   for (const ContactPoint& point : pair.points) {
@@ -67,13 +70,12 @@ std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const Pres
   return windows;
 }
 
-VecX mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const Vec2& window,
-                     Eigen::Index rows) {
+VecX mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const Vec2& window) {
   const double length = line.s(line.s.size() - 1);
   const bool backwards = runs_backwards(mesh.nodes, pair.multiplier);
   const double from = backwards ? length - window(1) : window(0), to = backwards ? length - window(0) : window(1);
   const LineRule rule = gauss_legendre(3);
-  VecX weights = VecX::Zero(rows);
+  VecX weights = VecX::Zero(pair.coupling.B.rows());
   double mass = 0;
   for (int e = 0; e < int(pair.multiplier.edges.size()); ++e) {
     // The edge's part in the window, -1 ... 1 along it.
@@ -91,14 +93,13 @@ VecX mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLi
   return weights;
 }
 
-MatX force_functionals(const ContactPair& pair, Eigen::Index rows) {
+MatX force_functionals(const ContactPair& pair) {
   std::vector<int> nodes = curve_nodes(pair.multiplier);
   std::ranges::sort(nodes);
-  MatX weights = MatX::Zero(rows, 2);
+  MatX weights = MatX::Zero(pair.coupling.B.rows(), 2);
   for (Eigen::Index row = 0; row < pair.coupling.B.rows(); ++row)
     for (SparseRows::InnerIterator it(pair.coupling.B, row); it; ++it)
-      if (std::ranges::binary_search(nodes, int(it.col() / 2)))
-        weights(pair.first_row + row, it.col() % 2) += it.value();
+      if (std::ranges::binary_search(nodes, int(it.col() / 2))) weights(row, it.col() % 2) += it.value();
   return weights;
 }
 

@@ -57,6 +57,7 @@ struct Results {
   Solution solution;
   StressField stress;
   std::vector<ContactResults> contacts;                          ///< one a pair
+  std::vector<std::vector<SingularPoint>> singular;              ///< of each pair
   std::vector<std::optional<StressComparison>> against_sigma_n;  ///< one a pair; nothing where not compared
   double energy = 0;                                             ///< strain energy per thickness
   std::optional<ErrorEstimate> estimate;                         ///< unless the run was asked for none

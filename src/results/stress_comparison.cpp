@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/singular_points.hpp"
-
 namespace mortise {
 namespace {
 
@@ -40,11 +38,9 @@ std::optional<StressComparison> compare(const ContactSide& side, const std::vect
 
 }  // namespace
 
-std::optional<StressComparison> compare_with_stress(const Mesh& mesh, const ContactPair& pair,
-                                                    const ContactResults& contact, const Constraints& constraints,
-                                                    const std::vector<ElasticLaw>& laws, double negligible) {
+std::optional<StressComparison> compare_with_stress(const ContactResults& contact,
+                                                    const std::vector<SingularPoint>& singular, double negligible) {
   if (!(largest_entry(contact.pressure) > negligible)) return {};
-  const auto singular = singular_points(mesh, pair.multiplier, pair.opposite, constraints, laws);
   auto worst = compare(contact.multiplier, singular), other = compare(contact.opposite, singular);
   return worst && (!other || worst->difference >= other->difference) ? worst : other;
 }

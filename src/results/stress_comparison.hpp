@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "contact/singular_points.hpp"
 #include "results/contact_results.hpp"
 
 namespace mortise {
@@ -17,8 +18,7 @@ struct StressComparison {
 /// Left out are nodes that face nothing or have parted, and those within two edges of a singular point: the exact
 /// stress has no limit there, and no mesh shows it. Nothing where no node is left, or where no p is above `negligible`
 /// (stress): p is round-off there.
-std::optional<StressComparison> compare_with_stress(const Mesh& mesh, const ContactPair& pair,
-                                                    const ContactResults& contact, const Constraints& constraints,
-                                                    const std::vector<ElasticLaw>& laws, double negligible);
+std::optional<StressComparison> compare_with_stress(const ContactResults& contact,
+                                                    const std::vector<SingularPoint>& singular, double negligible);
 
 }  // namespace mortise
