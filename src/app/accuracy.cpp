@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -23,14 +24,8 @@ constexpr int least_edges = 10;      // along a contact curve, of any mesh after
 constexpr double largest_step = 16;  // by which one mesh is to lower the error: a coarse one's estimate is not exact
 constexpr double aimed = 0.7;        // of what was asked, lest a mesh that just misses it be solved in vain
 
-// A size at a place, growing away from it.
-struct SizedPlace {
-  Vec2 x;
-  double size;
-};
-
 // The contact curves in so many edges, and arcs in turns of 15 degrees.
-std::vector<SizedPlace> sizes_of(const std::vector<DrawnCurve>& curves, const Scene& scene, int edges) {
+LayeredSizes sizes_of(const std::vector<DrawnCurve>& curves, const Scene& scene, int edges) {
   constexpr double turn = 15 * std::numbers::pi / 180;
   const auto length = [](const DrawnCurve& curve) {
     double sum = 0;
@@ -40,27 +35,29 @@ std::vector<SizedPlace> sizes_of(const std::vector<DrawnCurve>& curves, const Sc
   std::map<std::string, double> lengths;
   for (const DrawnCurve& curve : curves)
     for (const std::string& name : curve.names) lengths[name] += length(curve);
-  std::vector<SizedPlace> places;
+  std::set<std::string> in_contact;
+  std::vector<std::string> patterns;
+  for (const ContactSpec& contact : scene.contacts)
+    for (const std::string& side : contact.between)
+      if (is_pattern(side))
+        patterns.push_back(side);
+      else
+        in_contact.insert(side);
+  std::vector<SizeLayers> places;
   for (const DrawnCurve& curve : curves) {
     double largest = std::numeric_limits<double>::infinity();
-    for (const ContactSpec& contact : scene.contacts)
-      for (const std::string& side : contact.between)
-        for (const std::string& name : curve.names)
-          if (matches(side, name)) largest = std::min(largest, lengths[name] / edges);
+    for (const std::string& name : curve.names)
+      if (in_contact.contains(name) ||
+          std::ranges::any_of(patterns, [&](const std::string& pattern) { return matches(pattern, name); }))
+        largest = std::min(largest, lengths[name] / edges);
     for (std::size_t i = 1; i + 1 < curve.places.size(); ++i) {
       const Vec2 before = curve.places[i] - curve.places[i - 1], after = curve.places[i + 1] - curve.places[i];
       const double angle = angle_between(before, after), step = (before.norm() + after.norm()) / 2;
       const double size = std::min(largest, angle > 1e-9 ? turn * step / angle : largest);
-      if (std::isfinite(size)) places.push_back({curve.places[i], size});
+      if (std::isfinite(size)) places.push_back({curve.places[i], size, size_growth});
     }
   }
-  return places;
-}
-
-double size_at(const std::vector<SizedPlace>& places, const Vec2& x) {
-  double size = std::numeric_limits<double>::infinity();
-  for (const SizedPlace& place : places) size = std::min(size, place.size + size_growth * (x - place.x).norm());
-  return size;
+  return LayeredSizes(std::move(places));
 }
 
 // Of a mesh with these sizes: about four unknowns a triangle. `areas`: of the cells.
@@ -87,9 +84,8 @@ class Loop {
     std::optional<Results> last;
     AccuracyReport report{.of = spec_.of, .asked = spec_.value, .excluded = spec_.exclude, .solves = {}, .reason = {}};
     Seconds seconds;
-    SizeAt sizes = [first = sizes_of(mesher_.curves(), scene_, spec_.first_edges)](const Vec2& x) {
-      return size_at(first, x);
-    };
+    const LayeredSizes first = sizes_of(mesher_.curves(), scene_, spec_.first_edges);
+    SizeAt sizes = [&first](const Vec2& x) { return first(x); };
     try {
       for (;;) {
         std::optional<ActiveSet> start;
@@ -214,7 +210,7 @@ class Loop {
     }
     WantedSizes wanted = wanted_sizes(r.mesh, r.pairs, e, factors);
     for (Eigen::Index i = 0; i < wanted.sizes.size(); ++i)
-      wanted.sizes(i) = std::min(wanted.sizes(i), size_at(largest_, r.mesh.nodes.row(i).transpose()));
+      wanted.sizes(i) = std::min(wanted.sizes(i), largest_(r.mesh.nodes.row(i).transpose()));
     const auto field = std::make_shared<SizeField>(r.mesh, wanted.sizes, std::move(wanted.layers));
     // More than may be, as far as the old mesh tells: all elements larger, and this is the last mesh.
     const double excess = expected_unknowns(r.mesh, e.energy.areas, *field) / spec_.unknowns_max;
@@ -227,10 +223,10 @@ class Loop {
   const Progress& progress_;
   const std::function<bool()>& interrupted_;
   FreeMesher mesher_;
-  std::vector<SizedPlace> largest_;  // sizes that no mesh goes above
-  SizeAt solved_;                    // of the last mesh that was solved on
-  std::string told_;                 // of the solve before, in the progress line
-  bool at_limit_ = false;            // the mesh has been held to unknowns_max
+  LayeredSizes largest_;   // sizes that no mesh goes above
+  SizeAt solved_;          // of the last mesh that was solved on
+  std::string told_;       // of the solve before, in the progress line
+  bool at_limit_ = false;  // the mesh has been held to unknowns_max
 };
 
 }  // namespace

@@ -121,11 +121,15 @@ int check(const Options& options) {
   std::cout << shown(scene).title << "\n  mesh      " << checked.mesh.source << ": " << checked.mesh.nodes.rows()
             << " nodes, " << checked.mesh.cells.size() << " elements\n"
             << model_lines(shown(scene), checked.discretisation);
-  for (const ContactPair& pair : checked.pairs)
+  const std::size_t count = checked.pairs.size(), told = count > told_in_full ? told_of_many : count;
+  for (std::size_t k = 0; k < told; ++k) {
+    const ContactPair& pair = checked.pairs[k];
     std::cout << "  contact   " << pair.spec.between[0] << " - " << pair.spec.between[1] << ": "
               << to_string(pair.spec.condition) << ", frictionless, gap " << gap_words(pair) << ", "
               << pair.coupling.gap0.size() << " multipliers on " << pair.spec.multipliers_on << ", facing over "
               << pair.coupling.covered_length << "\n";
+  }
+  if (told < count) std::cout << "            and " << count - told << " more pairs\n";
   std::cout << "  left out  friction, large displacements, plasticity, time"
             << (scene.body_forces.empty() ? ", body forces" : "")
             << (scene.initial_strains.empty() ? ", initial strains" : "") << "\n";

@@ -79,6 +79,14 @@ std::string in_short(const std::string& line) {
   return line.substr(0, to) + " [...] " + line.substr(from);
 }
 
+std::string listed(const std::vector<std::string>& names) {
+  const std::size_t told = names.size() > told_in_full ? told_of_many : names.size();
+  std::string text;
+  for (std::size_t i = 0; i < told; ++i) text += (i > 0 ? ", " : "") + names[i];
+  if (told < names.size()) text += " and " + std::to_string(names.size() - told) + " more";
+  return text;
+}
+
 std::string near_point(const Vec2& point) {
   std::array<char, 80> text{};
   // Adding zero turns -0 into 0.

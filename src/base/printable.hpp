@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/types.hpp"
 
@@ -14,6 +15,12 @@ std::string printable(const std::string& text);
 
 /// A line of more than 900 bytes without its middle.
 std::string in_short(const std::string& line);
+
+/// Of a list for the terminal: so many are told in full, of more the first three and how many more there are.
+inline constexpr std::size_t told_in_full = 6, told_of_many = 3;
+
+/// "a, b, c", or "a, b, c and 397 more".
+std::string listed(const std::vector<std::string>& names);
 
 /// "near (0.4, 0.3)": where to look in the mesh, six digits.
 std::string near_point(const Vec2& point);

@@ -31,18 +31,13 @@ std::vector<Vertex> vertices_of(const Curve& curve) {
 }
 
 // The sides of cells that end at a node and have no cell behind them, the body on their left.
-std::vector<Edge> outline_at(const Mesh& mesh, int node) {
-  std::vector<Edge> sides, outline;
-  for (const Cell& cell : mesh.cells) {
-    const int corners = corner_count(cell.kind);
-    for (int i = 0; i < corners; ++i)
-      if (cell.nodes[i] == node || cell.nodes[(i + 1) % corners] == node) sides.push_back(side_edge(cell, i));
-  }
-  for (const Edge& side : sides)
-    if (std::ranges::none_of(sides, [&](const Edge& other) {
-          return other.nodes[0] == side.nodes[1] && other.nodes[1] == side.nodes[0];
+std::vector<Edge> outline_at(const Mesh& mesh, const SideTable& table, int node) {
+  std::vector<Edge> outline;
+  for (const SideAtNode& at : table.at(node))
+    if (std::ranges::none_of(table.at(node), [&](const SideAtNode& behind) {
+          return behind.other == at.other && behind.starts != at.starts;
         }))
-      outline.push_back(side);
+      outline.push_back(side_edge(mesh.cells[at.side.cell], at.side.side));
   return outline;
 }
 
@@ -71,6 +66,7 @@ struct Corner {
 // One of the two curves with the line that it stands for.
 struct Side {
   const Mesh& mesh;
+  const SideTable& table;
   const Curve& curve;
   const Constraints& constraints;
   const ElasticLaw& law;
@@ -99,7 +95,7 @@ struct Side {
 
 Corner Side::corner(const Vertex& v) const {
   if (!v.is_end()) return {wedge(interior_angle(before(v), after(v)), law), false, edge_at(v)};
-  for (const Edge& beyond : outline_at(mesh, v.node)) {
+  for (const Edge& beyond : outline_at(mesh, table, v.node)) {
     const bool starts = beyond.nodes[0] == v.node;
     if (starts != (v.after < 0)) continue;  // the curve's own
     const Vec2 tangent = edge_point(mesh.nodes, beyond, starts ? -1 : 1).tangent;
@@ -150,10 +146,11 @@ SingularPoint singular_point(const Vec2& x, const Corner& a, const Corner& b) {
 
 }  // namespace
 
-std::vector<SingularPoint> singular_points(const Mesh& mesh, const Curve& first, const Curve& second,
-                                           const Constraints& constraints, const std::vector<ElasticLaw>& laws) {
-  const Side sides[] = {{mesh, first, constraints, laws[first.body], ContactLine(mesh.nodes, first)},
-                        {mesh, second, constraints, laws[second.body], ContactLine(mesh.nodes, second)}};
+std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& table, const Curve& first,
+                                           const Curve& second, const Constraints& constraints,
+                                           const std::vector<ElasticLaw>& laws) {
+  const Side sides[] = {{mesh, table, first, constraints, laws[first.body], ContactLine(mesh.nodes, first)},
+                        {mesh, table, second, constraints, laws[second.body], ContactLine(mesh.nodes, second)}};
   std::vector<SingularPoint> points;
   for (const int k : {0, 1})
     for (const Vertex& v : vertices_of(sides[k].curve)) {
@@ -171,7 +168,7 @@ std::vector<SingularPoint> singular_points(const Mesh& mesh, const Curve& first,
 }
 
 double corner_exponent(const Mesh& mesh, int node, const Constraints& constraints, const ElasticLaw& law) {
-  const std::vector<Edge> outline = outline_at(mesh, node);
+  const std::vector<Edge> outline = outline_at(mesh, SideTable(mesh), node);
   if (outline.size() != 2) return 1;
   const bool ordered = outline[0].nodes[1] == node;
   const Edge &before = outline[ordered ? 0 : 1], &after = outline[ordered ? 1 : 0];

@@ -31,8 +31,9 @@ inline constexpr double singular_limit = 0.95;
 /// whose curve goes on there is a straight wedge, or one of its kink's angle, free beyond. Where both curves go on
 /// through a kink they share both faces: the exponent is the smallest of all modes, and a load that is symmetric about
 /// the bisector does not excite the antisymmetric ones. As if contact were closed; `laws` one a body.
-std::vector<SingularPoint> singular_points(const Mesh& mesh, const Curve& first, const Curve& second,
-                                           const Constraints& constraints, const std::vector<ElasticLaw>& laws);
+std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& table, const Curve& first,
+                                           const Curve& second, const Constraints& constraints,
+                                           const std::vector<ElasticLaw>& laws);
 
 /// The exponent of a body's own corner at a node, its faces free of contact: 1 where it has none below, and inside.
 double corner_exponent(const Mesh& mesh, int node, const Constraints& constraints, const ElasticLaw& law);

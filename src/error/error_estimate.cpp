@@ -36,15 +36,13 @@ EnergyEstimate energy_estimate(const Mesh& mesh, const ErrorProducts& found) {
 }
 
 // Those that lie on the loaded line.
-std::vector<SingularPoint> singular_on(const Mesh& mesh, const ContactPair& pair, const PressureLine& line,
-                                       const Constraints& constraints, const std::vector<ElasticLaw>& laws) {
-  std::vector<SingularPoint> found = singular_points(mesh, pair.multiplier, pair.opposite, constraints, laws);
-  std::erase_if(found, [&](const SingularPoint& point) {
+std::vector<SingularPoint> on_loaded(std::vector<SingularPoint> points, const PressureLine& line) {
+  std::erase_if(points, [&](const SingularPoint& point) {
     for (Eigen::Index i = 0; i < line.p.size(); ++i)
       if (line.loaded[i] && (line.position[i] - point.position).norm() <= point.edge) return false;
     return true;
   });
-  return found;
+  return points;
 }
 
 // Linear between the windows' centres, constant beyond them.
@@ -90,6 +88,81 @@ double error_norm(const std::vector<PressureEstimate>& pressures, double local, 
   return std::sqrt(error);
 }
 
+std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const Discretisation& d,
+                                                 const std::vector<ContactPair>& pairs, const Solution& solution,
+                                                 double excluded) {
+  const double round_off = round_off_pressure(mesh, pairs, d.system.stiffness_scale, solution.u);
+  const SideTable table(mesh);
+  std::vector<PressureEstimate> list;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    PressureEstimate e;
+    e.line = pressure_line(mesh, pairs[k], solution.lambda, round_off);
+    e.local = line_error(e.line);
+    e.windows = pressure_windows(pairs[k], e.line);
+    e.singular = on_loaded(
+        singular_points(mesh, table, pairs[k].multiplier, pairs[k].opposite, d.system.constraints, d.laws), e.line);
+    find_excluded(excluded, e);
+    list.push_back(std::move(e));
+  }
+  return list;
+}
+
+SharedDuals shared_duals(const Mesh& mesh, const std::vector<PressureEstimate>& pressures, int most) {
+  std::vector<Vec2> centres;
+  for (const PressureEstimate& e : pressures)
+    for (const PressureWindow& window : e.windows) centres.push_back(window.centre);
+  return share_duals(mesh, centres, most);
+}
+
+// Rows of all pairs; a column a dual, the sum of its windows.
+MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
+                        const SharedDuals& shared, Eigen::Index rows) {
+  MatX columns = MatX::Zero(rows, shared.count);
+  int window = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (const PressureWindow& w : pressures[k].windows)
+      columns.col(shared.dual[window++]).segment(pairs[k].first_row, w.weights.size()) += w.weights;
+  return columns;
+}
+
+// Products with the dual of each functional, a few at a time: recovered stresses take far more room than displacements.
+// `loads`: of the last functionals.
+ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                                  const VecX& u, const ContactFactor* factor, const MatX& functionals,
+                                  const MatX& loads) {
+  constexpr Eigen::Index at_once = 12;
+  const Eigen::Index count = functionals.cols(), without_load = count - loads.cols();
+  ErrorProducts all;
+  for (Eigen::Index first = 0; first == 0 || first < count; first += at_once) {
+    const Eigen::Index duals = std::min(at_once, count - first);
+    MatX fields(u.size(), 1 + duals);
+    fields.col(0) = u;
+    const Eigen::Index loaded = std::clamp(first + duals - without_load, Eigen::Index(0), duals);
+    const MatX own = loads.middleCols(std::max(first - without_load, Eigen::Index(0)), loaded);
+    if (duals > 0) fields.rightCols(duals) = factor->duals(functionals.middleCols(first, duals), own);
+    const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, fields));
+    ErrorProducts some = error_products(mesh, points, laws, fields, patches);
+    if (first == 0) {
+      all = std::move(some);
+      all.products.conservativeResize(Eigen::NoChange, 1 + count);
+    } else {
+      all.products.middleCols(1 + first, duals) = some.products.rightCols(duals);
+    }
+  }
+  return all;
+}
+
+// Of each window the sum of its cells' parts without their signs.
+VecX far_fields(const FarField& far) {
+  const VecX of_duals = far.parts.cwiseAbs().colwise().sum();
+  const int windows = int(far.windows.dual.size());
+  if (windows == far.windows.count) return of_duals;
+  VecX sums = VecX::Zero(windows);
+  for (Eigen::Index d = 0; d < far.parts.cols(); ++d)
+    for (Eigen::Index e = 0; e < far.parts.rows(); ++e) sums(far.windows.window(e, d)) += std::abs(far.parts(e, d));
+  return sums;
+}
+
 }  // namespace
 
 double ErrorEstimate::peak() const {
@@ -123,50 +196,40 @@ double ErrorEstimate::line() const { return error_norm(pressures, 1, 0) / std::s
 double ErrorEstimate::far_field() const { return error_norm(pressures, 0, 1) / std::sqrt(pressure_square()); }
 
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
-                             const std::vector<ContactPair>& pairs, const Solution& solution,
-                             const AccuracySpec& spec) {
+                             const std::vector<ContactPair>& pairs, const Solution& solution, const AccuracySpec& spec,
+                             int duals) {
   const SaddlePointSystem& system = discretisation.system;
-  const double round_off = round_off_pressure(mesh, pairs, system.stiffness_scale, solution.u);
-  ErrorEstimate estimate;
-  Eigen::Index windows = 0;
-  for (const ContactPair& pair : pairs) {
-    PressureEstimate e;
-    e.line = pressure_line(mesh, pair, solution.lambda, round_off);
-    e.local = line_error(e.line);
-    e.windows = pressure_windows(pair, e.line, system.B.rows());
-    e.singular = singular_on(mesh, pair, e.line, system.constraints, discretisation.laws);
-    find_excluded(spec.exclude, e);
-    windows += Eigen::Index(e.windows.size());
-    estimate.pressures.push_back(std::move(e));
-  }
+  const Eigen::Index rows = system.B.rows();
+  const std::vector<ElasticLaw>& laws = discretisation.laws;
   if (spec.pair >= int(pairs.size()) && spec.pair > 0)
     throw SceneError("accuracy.pair: " + std::to_string(spec.pair) + "; expected a number below that of the pairs, " +
                      std::to_string(pairs.size()));
-  const GoalFunctionals goal =
-      goal_functionals(mesh, discretisation, pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
-  const Eigen::Index goals = goal.rows.cols(), count = windows + goals;
+  ErrorEstimate estimate;
+  estimate.pressures = lines_with_windows(mesh, discretisation, pairs, solution, spec.exclude);
+  estimate.far.windows = shared_duals(mesh, estimate.pressures, duals);
+  GoalFunctionals goal;
+  if (!pairs.empty())
+    goal = goal_functionals(mesh, discretisation, pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
+  const Eigen::Index shared = estimate.far.windows.count, goals = goal.rows.cols();
+  MatX functionals(rows, shared + goals);
+  functionals.leftCols(shared) = window_functionals(pairs, estimate.pressures, estimate.far.windows, rows);
+  if (goals > 0) functionals.rightCols(goals) = goal.rows;
   std::shared_ptr<const ContactFactor> factor = solution.factor;
-  if (count > 0 && !factor) factor = factorise_contact(system, solution.active);
-  MatX functionals(system.B.rows(), count), fields(system.K.cols(), 1 + count);
-  functionals.rightCols(goals) = goal.rows;
-  Eigen::Index k = 0;
-  for (const PressureEstimate& e : estimate.pressures)
-    for (const PressureWindow& window : e.windows) functionals.col(k++) = window.weights;
-  fields.col(0) = solution.u;
-  if (count > 0) fields.rightCols(count) = factor->duals(functionals, goal.loads);
-  const std::vector<ElasticLaw>& laws = discretisation.laws;
-  const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, fields));
-  const ErrorProducts found = error_products(mesh, points, laws, fields, patches);
+  if (functionals.cols() > 0 && !factor) factor = factorise_contact(system, solution.active);
+  const ErrorProducts found =
+      products_with_duals(mesh, points, laws, solution.u, factor.get(), functionals, goal.loads);
   estimate.energy = energy_estimate(mesh, found);
-  estimate.parts = found.products.middleCols(1, windows);
+  estimate.far.parts = found.products.middleCols(1, shared);
   if (goals > 0) estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
-  if (spec.of == Goal::stress)
+  if (spec.of == Goal::stress) {
+    const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, solution.u));
     add_stress_error(mesh, points, discretisation, goal, solution.u, patches, *estimate.goal);
-  const VecX far = estimate.parts.cwiseAbs().colwise().sum();
-  k = 0;
+  }
+  const VecX far = far_fields(estimate.far);
+  Eigen::Index window = 0;
   for (PressureEstimate& e : estimate.pressures) {
-    e.far = far.segment(k, Eigen::Index(e.windows.size()));
-    k += Eigen::Index(e.windows.size());
+    e.far = far.segment(window, Eigen::Index(e.windows.size()));
+    window += Eigen::Index(e.windows.size());
     find_bars(e);
   }
   if (spec.of == Goal::mean) {

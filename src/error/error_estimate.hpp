@@ -4,6 +4,7 @@
 #include "contact/singular_points.hpp"
 #include "error/goal_estimate.hpp"
 #include "error/pressure_windows.hpp"
+#include "error/shared_duals.hpp"
 #include "mesh/body_points.hpp"
 
 namespace mortise {
@@ -35,10 +36,19 @@ struct PressureEstimate {
   double local2 = 0, far2 = 0, p2 = 0;
 };
 
+/// What the bodies' error does to the windows' means, cell by cell.
+struct FarField {
+  MatX parts;           ///< cells x duals: int d_0 : C^-1 : d_k, stress
+  SharedDuals windows;  ///< whose parts these are; windows of all pairs, one after the other
+};
+
+/// Back substitutions that the windows take, however many pairs there are.
+inline constexpr int most_duals = 32;
+
 struct ErrorEstimate {
   EnergyEstimate energy;
   std::vector<PressureEstimate> pressures;  ///< one a pair
-  MatX parts;  ///< cells x windows of all pairs: int d_0 : C^-1 : d_k, the cell's part of the far field, stress
+  FarField far;
   std::optional<GoalEstimate> goal;  ///< where one is asked for
 
   /// L2 norms of the estimated error of p over that of p on all contact lines, singular points left out: of the whole,
@@ -57,6 +67,6 @@ struct ErrorEstimate {
 /// `spec`: what is left out, and a functional that is asked for. Throws SceneError as goal_functionals does.
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
                              const std::vector<ContactPair>& pairs, const Solution& solution,
-                             const AccuracySpec& spec = {});
+                             const AccuracySpec& spec = {}, int duals = most_duals);
 
 }  // namespace mortise

@@ -27,10 +27,9 @@ Window along_edges(const Mesh& mesh, const ContactPair& pair, const PressureLine
 }
 
 // The mean of p over the window; zero where the line does not face the other side there.
-VecX mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const Window& window,
-                     Eigen::Index rows) {
+VecX mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const Window& window) {
   const LineRule rule = gauss_legendre(3);
-  VecX weights = VecX::Zero(rows);
+  VecX weights = VecX::Zero(pair.coupling.B.rows());
   double mass = 0;
   for (int e = 0; e < int(pair.multiplier.edges.size()); ++e) {
     // The edge's part in the window, -1 ... 1 along it.
@@ -48,15 +47,21 @@ VecX mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLi
   return weights;
 }
 
-MatX force_functionals(const ContactPair& pair, Eigen::Index rows) {
+MatX force_functionals(const ContactPair& pair) {
   std::vector<int> nodes = curve_nodes(pair.multiplier);
   std::ranges::sort(nodes);
-  MatX weights = MatX::Zero(rows, 2);
+  MatX weights = MatX::Zero(pair.coupling.B.rows(), 2);
   for (Eigen::Index row = 0; row < pair.coupling.B.rows(); ++row)
     for (SparseRows::InnerIterator it(pair.coupling.B, row); it; ++it)
-      if (std::ranges::binary_search(nodes, int(it.col() / 2)))
-        weights(pair.first_row + row, it.col() % 2) += it.value();
+      if (std::ranges::binary_search(nodes, int(it.col() / 2))) weights(row, it.col() % 2) += it.value();
   return weights;
+}
+
+// Of the pair's rows as of those of all pairs.
+MatX in_all_rows(const ContactPair& pair, const MatX& weights, Eigen::Index rows) {
+  MatX all = MatX::Zero(rows, weights.cols());
+  all.middleRows(pair.first_row, weights.rows()) = weights;
+  return all;
 }
 
 // The place in the body that is named, or in the only one that has it.
@@ -154,10 +159,10 @@ GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discret
     case Goal::half_width:
       break;
     case Goal::mean:
-      goal.rows = mean_functional(mesh, pair, line, along_edges(mesh, pair, line, spec.window), m);
+      goal.rows = in_all_rows(pair, mean_functional(mesh, pair, line, along_edges(mesh, pair, line, spec.window)), m);
       break;
     case Goal::force:
-      goal.rows = force_functionals(pair, m);
+      goal.rows = in_all_rows(pair, force_functionals(pair), m);
       break;
     case Goal::displacement:
       goal.place = place_of(mesh, spec);

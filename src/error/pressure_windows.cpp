@@ -18,10 +18,10 @@ void add_pressure_at(const ContactPair& pair, int edge, double xi, double weight
   const int nodes = on[2] >= 0 ? 3 : 2;
   const EdgeShape shape = edge_shape(nodes, xi);
   for (int i = 0; i < nodes; ++i)
-    if (const int row = pair.coupling.row[on[i]]; row >= 0) weights(pair.first_row + row) += weight * shape.N[i];
+    if (const int row = pair.coupling.row[on[i]]; row >= 0) weights(row) += weight * shape.N[i];
 }
 
-std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line, Eigen::Index rows) {
+std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line) {
   const Eigen::Index edges = line.p.size() - 1;
   // Loaded length up to each vertex: windows are laid out along it.
   VecX t = VecX::Zero(edges + 1);
@@ -41,7 +41,10 @@ std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const Pres
     const double centre = (k + 0.5) * distance;
     Eigen::Index e = 0;
     while (e + 1 < edges && t(e + 1) < centre) ++e;
-    windows.push_back({.s = line.s(e) + (centre - t(e)), .weights = VecX::Zero(rows)});
+    const double s = line.s(e) + (centre - t(e)), part = (s - line.s(e)) / (line.s(e + 1) - line.s(e));
+    windows.push_back({.s = s,
+                       .centre = (1 - part) * line.position[e] + part * line.position[e + 1],
+                       .weights = VecX::Zero(pair.coupling.B.rows())});
   }
   VecX mass = VecX::Zero(count);
   for (const ContactPoint& point : pair.points) {

@@ -8,15 +8,16 @@ namespace mortise {
 /// The mean of p with the weight (1 - z^2)^3, z = -1 ... 1 across the window.
 struct PressureWindow {
   double s;      ///< its centre, arc length along the line's edges
-  VecX weights;  ///< rows of all pairs: the mean is -weights . lambda
+  Vec2 centre;   ///< on the chord of its edge
+  VecX weights;  ///< rows of the pair: the mean is -weights . lambda
 };
 
 /// Evenly along the loaded part of the line, 0.6 of their distance wide: three where it is one piece, three more for
-/// each further piece up to nine. None where nothing is loaded. `rows`: of all pairs.
-std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line, Eigen::Index rows);
+/// each further piece up to nine. None where nothing is loaded.
+std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line);
 
-/// Adds weight times -lambda at a place of the multiplier side, as the rows' values make it, to `weights` (rows of all
-/// pairs).
+/// Adds weight times -lambda at a place of the multiplier side, as the rows' values make it, to `weights` (the
+/// pair's rows).
 void add_pressure_at(const ContactPair& pair, int edge, double xi, double weight, VecX& weights);
 
 }  // namespace mortise

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fem/edges.hpp"
+#include "mesh/box_index.hpp"
 
 namespace mortise {
 namespace {
@@ -17,24 +18,37 @@ constexpr double border_share = 0.5;  // of the target of the local error, for a
 constexpr double least_size = 2e-7,
                  least_layer = 3e-5;  // of the scene's size; gmsh makes flat triangles at corners below 1e-5
 
-// Whether a corner of the cell is a singular point of a contact line, towards which there are layers.
-bool has_layers(const Mesh& mesh, const Cell& cell, const ErrorEstimate& estimate) {
-  for (int a = 0; a < corner_count(cell.kind); ++a)
-    for (const PressureEstimate& e : estimate.pressures)
-      for (const SingularPoint& point : e.singular)
-        if ((mesh.nodes.row(cell.nodes[a]).transpose() - point.position).norm() < 1e-6 * point.edge) return true;
-  return false;
+// Of each node, whether it is a singular point of a contact line, towards which there are layers.
+std::vector<char> layered_nodes(const Mesh& mesh, const ErrorEstimate& estimate) {
+  std::vector<Box> boxes;
+  for (const PressureEstimate& e : estimate.pressures)
+    for (const SingularPoint& point : e.singular) {
+      const Vec2 near = Vec2::Constant(1e-6 * point.edge);
+      boxes.emplace_back(point.position - near, point.position + near);
+    }
+  const BoxIndex points(boxes);
+  std::vector<char> layered(mesh.nodes.rows(), 0);
+  for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i)
+    layered[i] = !points.meeting(Box(Vec2(mesh.nodes.row(i).transpose()))).empty();
+  return layered;
+}
+
+bool has_layers(const Cell& cell, const std::vector<char>& layered) {
+  return std::any_of(cell.nodes.begin(), cell.nodes.begin() + corner_count(cell.kind),
+                     [&](int node) { return layered[node]; });
 }
 
 // By what the size of each cell is to fall, for the far field.
 VecX cell_refinement(const Mesh& mesh, const ErrorEstimate& estimate, double factor) {
   // The windows' parts as one number a cell, stress^2 length under the root, and what all may add up to.
-  VecX part = VecX::Zero(estimate.parts.rows());
-  Eigen::Index k = 0;
-  for (const PressureEstimate& e : estimate.pressures) {
-    const double length = e.line.h.sum() / std::max<double>(1, double(e.windows.size()));
-    for (std::size_t i = 0; i < e.windows.size(); ++i) part += length * estimate.parts.col(k++).cwiseAbs2();
-  }
+  std::vector<double> lengths;  // of the windows
+  for (const PressureEstimate& e : estimate.pressures)
+    lengths.insert(lengths.end(), e.windows.size(), e.line.h.sum() / double(e.windows.size()));
+  const MatX& parts = estimate.far.parts;
+  VecX part = VecX::Zero(parts.rows());
+  for (Eigen::Index d = 0; d < parts.cols(); ++d)
+    for (Eigen::Index e = 0; e < parts.rows(); ++e)
+      part(e) += lengths[estimate.far.windows.window(e, d)] * (parts(e, d) * parts(e, d));
   if (estimate.goal) part = estimate.goal->parts.rowwise().squaredNorm();
   part = part.cwiseSqrt();
   const double target = part.sum() / factor;
@@ -43,11 +57,12 @@ VecX cell_refinement(const Mesh& mesh, const ErrorEstimate& estimate, double fac
   const double all = std::pow(part.array().pow(1.0 / 3).sum() / target, 0.25);
   r = (all * part.array().pow(1.0 / 6)).max(coarsen).min(refine);
   const double count = r.squaredNorm();
+  const std::vector<char> layered = layered_nodes(mesh, estimate);
   for (Eigen::Index e = 0; e < r.size(); ++e) {
     const double error = estimate.energy.density(e), all_energy = estimate.energy.energies(e),
                  share = all_energy > 0 ? std::sqrt(error / all_energy) : 0;
     const double proportional = part(e) * count / target;
-    if (share > singular_share && proportional > 1 && !has_layers(mesh, mesh.cells[e], estimate))
+    if (share > singular_share && proportional > 1 && !has_layers(mesh.cells[e], layered))
       r(e) = std::min(proportional, singular_refine);
   }
   return r;

@@ -114,7 +114,7 @@ void fit(const std::vector<int>& cells, const StressSamples& samples, int p, Str
     }
   mean /= count;
   Eigen::Matrix<double, 6, 6> M = Eigen::Matrix<double, 6, 6>::Zero();
-  auto right = patches.coefficients.middleRows<6>(6 * p);
+  auto right = patches.coefficients.middleRows<6>(patches.row[p]);
   for (const int e : cells)
     for (int q = samples.first[e]; q < samples.first[e + 1]; ++q) {
       const Monomials m = monomials((samples.x[q] - patches.centre[p]) / size);
@@ -148,7 +148,7 @@ double compliance_product(const ElasticLaw& law, const Vec4& a, const Vec4& b) {
 
 void StressPatches::add_at(int p, const Vec2& x, double factor, Eigen::RowVectorXd& sum) const {
   const Monomials m = monomials((x - centre[p]) / size[p]);
-  for (int t = 0; t < terms[p]; ++t) sum += factor * m(t) * coefficients.row(6 * p + t);
+  for (int t = 0; t < terms[p]; ++t) sum += factor * m(t) * coefficients.row(row[p] + t);
 }
 
 StressSamples sample_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const MatX& fields) {
@@ -181,7 +181,15 @@ StressPatches recover_patches(const Mesh& mesh, const BodyPoints& points, const 
   StressPatches patches{.centre = std::vector<Vec2>(count, Vec2::Zero()),
                         .size = std::vector<double>(count, 0),
                         .terms = std::vector<int>(count, 0),
-                        .coefficients = MatX::Zero(6 * Eigen::Index(count), samples.stresses.cols())};
+                        .row = std::vector<int>(count, -1),
+                        .coefficients = {}};
+  int rows = 0;
+  for (int p = 0; p < count; ++p) {
+    if (around.first[p] == around.first[p + 1]) continue;
+    patches.row[p] = rows;
+    rows += 6;
+  }
+  patches.coefficients = MatX::Zero(rows, samples.stresses.cols());
   for (int p = 0; p < count; ++p) {
     std::vector<int> cells(around.cells.begin() + around.first[p], around.cells.begin() + around.first[p + 1]);
     if (cells.empty()) continue;  // no vertex

@@ -26,7 +26,7 @@ struct StressPatches {
   std::vector<Vec2> centre;  ///< of each body point
   std::vector<double> size;  ///< of each patch, length: the polynomial is in (x - centre) / size
   std::vector<int> terms;    ///< 1, x, y, x^2, xy, y^2: 1, 3 or 6 of them; 0: no vertex
-  /// Six rows a body point.
+  std::vector<int> row;      ///< of each body point: the first of its six rows; -1: no vertex
   FieldStresses coefficients;
 
   /// Adds factor times the stresses of patch p at x to `sum`, 3 F.

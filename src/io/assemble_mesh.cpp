@@ -56,22 +56,21 @@ void append_cells(Mesh& mesh, const ElementBlock& block, int body) {
 }
 
 /// The blocks of each physical group (dimension, tag), by entity.
-using BlocksOfGroups = std::map<std::pair<int, int>, std::vector<const ElementBlock*>>;
+using BlocksOf = std::map<std::pair<int, int>, std::vector<const ElementBlock*>>;
 
-BlocksOfGroups blocks_of_groups(const MeshData& data) {
-  BlocksOfGroups all;
-  for (const ElementBlock& block : data.blocks)
-    for (const int tag : block.groups) {
-      std::vector<const ElementBlock*>& of_group = all[{block.dimension, tag}];
-      if (!block.nodes.empty() && (of_group.empty() || of_group.back() != &block)) of_group.push_back(&block);
-    }
-  return all;
+BlocksOf blocks_by_group(const MeshData& data) {
+  BlocksOf blocks;
+  for (const ElementBlock& block : data.blocks) {
+    if (block.nodes.empty()) continue;
+    for (const int group : block.groups) blocks[{block.dimension, group}].push_back(&block);
+  }
+  return blocks;
 }
 
-void add_body(Mesh& mesh, const MeshData& data, BlocksOfGroups& groups, const PhysicalGroup& group) {
+void add_body(Mesh& mesh, const MeshData& data, const PhysicalGroup& group,
+              const std::vector<const ElementBlock*>& blocks) {
   const int body = static_cast<int>(mesh.bodies.size());
   mesh.bodies.push_back(group.name);
-  const std::vector<const ElementBlock*>& blocks = groups[{group.dimension, group.tag}];
   if (blocks.empty()) throw InputError(data.file + ": physical surface '" + group.name + "' has no cells");
   std::size_t first = mesh.cells.size();
   for (std::size_t k = 0; k < blocks.size(); ++k) {
@@ -82,9 +81,10 @@ void add_body(Mesh& mesh, const MeshData& data, BlocksOfGroups& groups, const Ph
   }
 }
 
-void add_boundary(Mesh& mesh, const MeshData& data, BlocksOfGroups& groups, const PhysicalGroup& group) {
+void add_boundary(Mesh& mesh, const MeshData& data, const PhysicalGroup& group,
+                  const std::vector<const ElementBlock*>& blocks) {
   Boundary boundary{group.name, {}};
-  for (const ElementBlock* block : groups[{group.dimension, group.tag}]) {
+  for (const ElementBlock* block : blocks) {
     if (block->type != 1 && block->type != 8) {
       fail_kind(mesh, "boundary '" + group.name + "'", *block, "lines of 2 or 3 nodes");
     }
@@ -132,13 +132,13 @@ Mesh assemble_mesh(MeshData data) {
   for (std::size_t i = 0; i < data.nodes.size(); ++i) {
     mesh.nodes.row(static_cast<Eigen::Index>(i)) << data.nodes[i][0], data.nodes[i][1];
   }
-  BlocksOfGroups groups = blocks_of_groups(data);
+  BlocksOf blocks = blocks_by_group(data);
   for (const PhysicalGroup& group : data.groups) {
-    if (group.dimension == 2) add_body(mesh, data, groups, group);
+    if (group.dimension == 2) add_body(mesh, data, group, blocks[{2, group.tag}]);
   }
   check_plane(mesh, data);
   for (const PhysicalGroup& group : data.groups) {
-    if (group.dimension == 1) add_boundary(mesh, data, groups, group);
+    if (group.dimension == 1) add_boundary(mesh, data, group, blocks[{1, group.tag}]);
   }
   check_no_repetition(mesh);
   renumber(mesh);

@@ -34,7 +34,35 @@ std::vector<Box> boxes_of(const std::vector<Triangle>& triangles) {
   return boxes;
 }
 
+std::vector<Box> boxes_of(const std::vector<SizeLayers>& layers) {
+  std::vector<Box> boxes;
+  for (const SizeLayers& layer : layers) boxes.emplace_back(layer.centre);
+  return boxes;
+}
+
+double infinite() { return std::numeric_limits<double>::infinity(); }
+
 }  // namespace
+
+LayeredSizes::LayeredSizes(std::vector<SizeLayers> layers)
+    : layers_(std::move(layers)), least_(infinite()), growth_(infinite()), centres_(boxes_of(layers_)) {
+  for (const SizeLayers& layer : layers_) {
+    least_ = std::min(least_, layer.least);
+    growth_ = std::min(growth_, layer.growth);
+  }
+}
+
+double LayeredSizes::operator()(const Vec2& x) const {
+  constexpr double round_off = 1e-12;
+  double size = infinite();
+  centres_.nearest_first(x, [&](int number, double distance) {
+    if (least_ + growth_ * distance > (1 + round_off) * size) return false;
+    const SizeLayers& layer = layers_[number];
+    size = std::min(size, layer.least + layer.growth * (x - layer.centre).norm());
+    return true;
+  });
+  return size;
+}
 
 SizeField::SizeField(const Mesh& mesh, const VecX& sizes, std::vector<SizeLayers> layers)
     : SizeField(triangles_of(mesh, sizes), std::move(layers)) {}
@@ -79,8 +107,7 @@ double SizeField::operator()(const Vec2& x) const {
     });
   }
   if (nearest > inside) size = at_nearest;
-  for (const SizeLayers& layer : layers_) size = std::min(size, layer.least + layer.growth * (x - layer.centre).norm());
-  return size;
+  return std::min(size, layers_(x));
 }
 
 void limit_growth(const Mesh& mesh, double growth, VecX& sizes) {

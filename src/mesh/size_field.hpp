@@ -12,6 +12,19 @@ struct SizeLayers {
   double least, growth;
 };
 
+/// The least of many layers, infinite of none. Looks at those nearby only, as far as their sizes differ little.
+class LayeredSizes {
+ public:
+  explicit LayeredSizes(std::vector<SizeLayers> layers);
+
+  double operator()(const Vec2& x) const;
+
+ private:
+  std::vector<SizeLayers> layers_;
+  double least_, growth_;  // of all
+  BoxIndex centres_;
+};
+
 /// Sizes at the vertices of a mesh, linear over its triangles (quadrilaterals are cut in two); outside the mesh those
 /// of the nearest one. Where triangles of two bodies meet, and under layers, the least. `sizes`: one a node, length;
 /// those of second-order nodes are not looked at.
@@ -30,7 +43,7 @@ class SizeField {
   static std::vector<Triangle> triangles_of(const Mesh& mesh, const VecX& sizes);
 
   std::vector<Triangle> triangles_;
-  std::vector<SizeLayers> layers_;
+  LayeredSizes layers_;
   BoxIndex boxes_;  // of the triangles
 };
 

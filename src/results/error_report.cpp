@@ -21,16 +21,18 @@ std::string percent(double part) {
 std::string largest_error(const Results& r) {
   // Along the lines, vertex by vertex; of the far field the cell with the largest part.
   const ErrorEstimate& estimate = *r.estimate;
+  Eigen::Index cell = 0;
+  if (estimate.far.parts.size() > 0) estimate.far.parts.cwiseAbs().rowwise().sum().maxCoeff(&cell);
+  const Cell& at = r.mesh.cells[cell];
+  const std::string farthest =
+      "the mesh of body '" + r.mesh.bodies[at.body] + "' " + near_point(centre_of(r.mesh.nodes, at));
   double largest = -1;
   std::string words;
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];
     if (e.far2 > std::max(largest, e.local2)) {
       largest = e.far2;
-      Eigen::Index cell = 0;
-      estimate.parts.cwiseAbs().rowwise().sum().maxCoeff(&cell);
-      const Cell& at = r.mesh.cells[cell];
-      words = "the mesh of body '" + r.mesh.bodies[at.body] + "' " + near_point(centre_of(r.mesh.nodes, at));
+      words = farthest;
     }
     if (!(e.local2 > largest)) continue;
     largest = e.local2;

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/printable.hpp"
+#include "results/contact_summary.hpp"
 #include "results/diagnose.hpp"
 #include "results/error_report.hpp"
 #include "results/model_summary.hpp"
@@ -15,14 +16,6 @@ namespace mortise {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// The multiplier space that is really used: quadratic needs 3-node edges.
-std::string space_word(const Scene& scene, const Results& r) {
-  const bool quadratic_edges = std::any_of(r.pairs.begin(), r.pairs.end(),
-                                           [](const ContactPair& p) { return p.multiplier.edges[0].node_count == 3; });
-  if (scene.method.multipliers == Multipliers::quadratic && !quadratic_edges) return to_string(Multipliers::linear);
-  return to_string(scene.method.multipliers);
-}
 
 Json contact_json(const ContactPair& pair, const ContactResults& c) {
   return {{"between", pair.spec.between},
@@ -106,8 +99,7 @@ void print_iteration(const Results& r, std::ostream& out) {
   const Residuals last = i.history.back().residuals;
   out << "  iteration " << i.method << ", acceleration " << to_string(i.acceleration)
       << (i.settings.empty() ? "" : ", ") << i.settings << "\n            ";
-  if (!r.dirichlet.empty()) out << "displacement taken by";
-  for (const std::string& body : r.dirichlet) out << " " << body;
+  if (!r.dirichlet.empty()) out << "displacement taken by " << listed(r.dirichlet);
   out << (r.dirichlet.empty() ? "" : "; ") << i.steps << " steps to residuals " << last.kinematic << " (kinematic), "
       << last.force << " (force); " << i.convergence_rate << " a step\n";
 }
@@ -181,21 +173,6 @@ void print_checks(const std::vector<Check>& checks, std::ostream& out) {
     if (!c.ok()) out << "  FAILED    " << c.name << ": " << c.value << " (limit " << c.limit << ")\n";
 }
 
-// How contact was found, in words.
-std::string contact_words(const Results& r) {
-  const int unilateral = int(std::count_if(
-      r.pairs.begin(), r.pairs.end(), [](const ContactPair& p) { return p.spec.condition == Condition::unilateral; }));
-  if (unilateral == 0 || r.solution.iteration) return "";
-  if (r.solution.steps.size() > 1)
-    return std::to_string(r.solution.steps.size()) + " solves until nothing is in tension or overlaps" +
-           (r.solution.coarse_steps > 0
-                ? ", and " + std::to_string(r.solution.coarse_steps) + " smaller ones for the second's start"
-                : "");
-  return std::all_of(r.solution.active.begin(), r.solution.active.end(), [](char a) { return a; })
-             ? "one solve: nothing is in tension, contact is closed everywhere"
-             : "one solve: the active set of the start holds";
-}
-
 }  // namespace
 
 Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
@@ -264,16 +241,7 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
   out << "  mesh      " << r.mesh.nodes.rows() << " nodes, " << r.mesh.cells.size() << " elements; " << free_unknowns(r)
       << " unknowns, " << r.solution.lambda.size() << " multipliers\n";
   out << std::setprecision(6) << model_lines(scene, r.discretisation);
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
-    const ContactResults& c = r.contacts[k];
-    const ContactSpec& spec = r.pairs[k].spec;
-    out << "  contact   " << spec.between[0] << " - " << spec.between[1] << ": " << to_string(spec.condition)
-        << ", gap " << gap_words(r.pairs[k]) << ", " << space_word(scene, r) << " multipliers on "
-        << spec.multipliers_on << "\n            pressure " << c.p_min << " ... " << c.p_max << " (mean " << c.p_mean
-        << "), force (" << c.force.x() << ", " << c.force.y() << ") on " << c.multiplier.curve
-        << "\n            length " << c.length << ", in contact " << c.length_in_contact << "; undeformed gap "
-        << r.pairs[k].coupling.gap_min << " ... " << r.pairs[k].coupling.gap_max << "\n";
-  }
+  out << contact_lines(scene, r);
   out << std::setprecision(3);
   print_iteration(r, out);
   print_steps(r, out);

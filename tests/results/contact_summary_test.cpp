@@ -1,0 +1,47 @@
+// What the terminal says of few pairs and of many.
+#include "results/contact_summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include "app/solve_scene.hpp"
+#include "base/printable.hpp"
+#include "results/summary.hpp"
+#include "support/wall.hpp"
+
+namespace mortise::test {
+namespace {
+
+long lines_of(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(ContactSummary, TellsFourPairsOneByOne) {
+  const Wall w = wall(2);
+  const Results r = solve_scene(w.scene, w.mesh);
+  const std::string text = contact_lines(w.scene, r);
+  EXPECT_EQ(lines_of(text), 12);
+  for (const ContactPair& pair : r.pairs) EXPECT_TRUE(contains(text, pair.spec.between[0] + " - ")) << text;
+}
+
+TEST(ContactSummary, OfAWallFitsOneScreenAndNamesItsExtremes) {
+  const Wall w = wall(7);
+  Results r = solve_scene(w.scene, w.mesh);
+  estimate(r);
+  const std::string text = terminal_summary(w.scene, r, "out");
+  EXPECT_LE(lines_of(text), 40) << text;
+  EXPECT_TRUE(contains(text, "84 pairs, linear multipliers: 84 unilateral, gap closed")) << text;
+  EXPECT_TRUE(contains(text, "b0_0, b1_0, b2_0 and 46 more")) << text;
+  const auto highest = std::ranges::max_element(r.contacts, {}, &ContactResults::p_max);
+  const ContactSpec& spec = r.pairs[std::size_t(highest - r.contacts.begin())].spec;
+  EXPECT_TRUE(contains(text, "(" + spec.between[0] + " - " + spec.between[1] + ")\n            largest force")) << text;
+}
+
+TEST(Listed, NamesAllOfFewAndTheFirstOfMany) {
+  EXPECT_EQ(listed({}), "");
+  EXPECT_EQ(listed({"a", "b"}), "a, b");
+  EXPECT_EQ(listed({"a", "b", "c", "d", "e", "f"}), "a, b, c, d, e, f");
+  EXPECT_EQ(listed({"a", "b", "c", "d", "e", "f", "g"}), "a, b, c and 4 more");
+}
+
+}  // namespace
+}  // namespace mortise::test
