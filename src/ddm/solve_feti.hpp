@@ -7,11 +7,11 @@ namespace mortise {
 
 /// Each connected part of the bodies is factorised alone; the multipliers are found by conjugate gradients, projected
 /// on those that hold every part in balance: the rigid motions of all parts are the coarse problem, so that the number
-/// of steps does not grow with that of the bodies (Farhat & Roux 1991; total FETI of Dostal, Horak & Kucera 2006 is not
-/// needed: parts are told apart by what holds them). Preconditioned by the stiffness of the parts' contact nodes, jumps
-/// shared by stiffness (Farhat, Mandel & Roux 1994; Rixen & Farhat 1999; for mortar rows Stefanica 2001). Unilateral
-/// rows by the primal-dual active set method around it (as solve/active_set.hpp; Avery & Farhat 2009), each started
-/// from the one before. docs/theory.md eq. 51 to 54.
+/// of steps does not grow with that of the bodies (Farhat & Roux 1991; deviation from total FETI, Dostal, Horak &
+/// Kucera 2006: prescribed displacements are eliminated, and springs hold what is left). Preconditioned by the
+/// stiffness of the parts' contact nodes, jumps shared by stiffness (Farhat, Mandel & Roux 1994; Rixen & Farhat 1999;
+/// for mortar rows Stefanica 2001). Unilateral rows by the primal-dual active set method around it (as
+/// solve/active_set.hpp; Avery & Farhat 2009), each started from the one before. docs/theory.md eq. 51 to 54.
 ///
 /// `system`: as for solve_directly; no dense matrix is larger than the rows of one part. Status as solve_directly's.
 Solution solve_by_feti(const SaddlePointSystem& system, const FetiOptions& options);
