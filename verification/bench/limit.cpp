@@ -3,7 +3,7 @@
 #include <Eigen/CholmodSupport>
 #include <stdexcept>
 
-#include "fem/rigid_motions.hpp"
+#include "fem/motion_sets.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise::bench {
