@@ -71,6 +71,17 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
   return sums;
 }
 
+// Row by row: Eigen's setFromTriplets would go through all columns.
+SparseRows rows_of(const std::vector<std::map<int, double>>& rows, Eigen::Index columns) {
+  SparseRows B(Eigen::Index(rows.size()), columns);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    B.startVec(Eigen::Index(r));
+    for (const auto& [column, value] : rows[r]) B.insertBack(Eigen::Index(r), column) = value;
+  }
+  B.finalize();
+  return B;
+}
+
 }  // namespace
 
 Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite,
@@ -97,12 +108,10 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
     coupling.gap0(coupling.row[a]) += sums.gap(a);
     coupling.scale(coupling.row[a]) += sums.support.scale(a);
   }
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(sums.B.size());
+  std::vector<std::map<int, double>> rows(coupling.gap0.size());
   for (const auto& t : sums.B)
-    if (coupling.row[t.row()] >= 0) entries.emplace_back(coupling.row[t.row()], t.col(), t.value());
-  coupling.B.resize(coupling.gap0.size(), 2 * mesh.nodes.rows());
-  coupling.B.setFromTriplets(entries.begin(), entries.end());
+    if (coupling.row[t.row()] >= 0) rows[coupling.row[t.row()]][t.col()] += t.value();
+  coupling.B = rows_of(rows, 2 * mesh.nodes.rows());
   return coupling;
 }
 
