@@ -10,12 +10,12 @@
 
 #include "app/solve_scene.hpp"
 #include "base/stopwatch.hpp"
-#include "fem/rigid_motions.hpp"
 #include "io/gmsh_mesh.hpp"
 #include "limit.hpp"
 #include "peak_memory.hpp"
 #include "solve/direct.hpp"
 #include "solve/threads.hpp"
+#include "walls.hpp"
 
 namespace mortise::bench {
 namespace {
@@ -23,7 +23,7 @@ namespace {
 struct Options {
   int up_to = 320;
   bool stages = true, table = true;
-  int threads = 0, repeats = 5;
+  int threads = 0, repeats = 5, walls = 10;
   std::vector<std::string> others;  // for Google Benchmark
 };
 
@@ -39,6 +39,7 @@ Options read_options(int argc, char** argv) {
                  "threads of the factorisation (default: all cores for large meshes, else 1)");
   app.add_option("--repeats", options.repeats, "runs of each that the table takes medians of (default 5)")
       ->check(CLI::Range(3, 1000));
+  app.add_option("--walls", options.walls, "largest wall of many bodies: blocks along each side (default 10, 0: none)");
   app.allow_extras();
   app.footer(
       "All other options go to Google Benchmark: --benchmark_filter=320x400/recover, --benchmark_format=json, ...");
@@ -177,6 +178,7 @@ void run(const Options& options) {
     for (Case& c : cases) measure_memory(c);
   if (options.stages) run_stages(cases, options);
   if (options.table) print_table(cases, options, empty_megabytes);
+  if (options.walls > 0) print_walls(options.walls);
 }
 
 }  // namespace

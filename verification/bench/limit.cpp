@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "fem/rigid_motions.hpp"
+#include "fem/motion_sets.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise::bench {
