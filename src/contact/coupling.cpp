@@ -71,23 +71,15 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
   return sums;
 }
 
-// As setFromTriplets, which takes time as the columns.
-SparseRows sum_of(std::vector<Eigen::Triplet<double>> entries, Eigen::Index rows, Eigen::Index columns) {
-  const auto place = [](const Eigen::Triplet<double>& t) { return std::pair(t.row(), t.col()); };
-  std::ranges::stable_sort(entries, {}, place);
-  SparseRows sum(rows, columns);
-  sum.reserve(Eigen::Index(entries.size()));
-  int row = -1;
-  for (std::size_t k = 0; k < entries.size(); ++k) {
-    while (row < entries[k].row()) sum.startVec(++row);
-    if (k > 0 && place(entries[k]) == place(entries[k - 1]))
-      sum.valuePtr()[sum.data().size() - 1] += entries[k].value();
-    else
-      sum.insertBack(row, entries[k].col()) = entries[k].value();
+// Row by row: Eigen's setFromTriplets would go through all columns.
+SparseRows rows_of(const std::vector<std::map<int, double>>& rows, Eigen::Index columns) {
+  SparseRows B(Eigen::Index(rows.size()), columns);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    B.startVec(Eigen::Index(r));
+    for (const auto& [column, value] : rows[r]) B.insertBack(Eigen::Index(r), column) = value;
   }
-  while (++row < rows) sum.startVec(row);
-  sum.finalize();
-  return sum;
+  B.finalize();
+  return B;
 }
 
 }  // namespace
@@ -116,11 +108,10 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
     coupling.gap0(coupling.row[a]) += sums.gap(a);
     coupling.scale(coupling.row[a]) += sums.support.scale(a);
   }
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(sums.B.size());
+  std::vector<std::map<int, double>> rows(coupling.gap0.size());
   for (const auto& t : sums.B)
-    if (coupling.row[t.row()] >= 0) entries.emplace_back(coupling.row[t.row()], t.col(), t.value());
-  coupling.B = sum_of(std::move(entries), coupling.gap0.size(), 2 * mesh.nodes.rows());
+    if (coupling.row[t.row()] >= 0) rows[coupling.row[t.row()]][t.col()] += t.value();
+  coupling.B = rows_of(rows, 2 * mesh.nodes.rows());
   return coupling;
 }
 

@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <map>
 #include <numbers>
-#include <set>
 #include <stdexcept>
 
 #include "base/printable.hpp"
 #include "base/vectors.hpp"
+#include "io/gmsh_groups.hpp"
 
 namespace mortise {
 namespace {
@@ -119,16 +119,10 @@ std::vector<DrawnCurve> drawn_curves() {
   gmsh::model::getEntities(surfaces, 2);
   gmsh::model::getBoundary(surfaces, found, false, false);
   for (const auto& [dimension, curve] : found) names[curve];
-  gmsh::model::getPhysicalGroups(found, 1);
-  for (const auto& [dimension, group] : found) {
-    std::string name;
-    gmsh::model::getPhysicalName(dimension, group, name);
-    if (name.empty()) continue;
-    std::vector<int> curves;
-    gmsh::model::getEntitiesForPhysicalGroup(dimension, group, curves);
-    std::ranges::transform(curves, curves.begin(), [](int curve) { return std::abs(curve); });
-    for (const int curve : std::set<int>(curves.begin(), curves.end())) names[curve].push_back(name);
-  }
+  gmsh::model::getEntities(found, 1);
+  for (const auto& [dimension, curve] : found)
+    for (const int group : groups_of_entity(dimension, curve))
+      if (const std::string name = group_name(dimension, group); !name.empty()) names[curve].push_back(name);
   std::vector<DrawnCurve> drawn;
   for (const auto& [curve, its_names] : names) {
     const auto [low, high] = parameter_range(curve);

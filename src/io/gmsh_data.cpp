@@ -3,10 +3,10 @@
 #include <gmsh.h>
 
 #include <cmath>
-#include <map>
 
 #include "base/errors.hpp"
 #include "io/gmsh_curves.hpp"
+#include "io/gmsh_groups.hpp"
 
 namespace mortise {
 namespace {
@@ -25,26 +25,6 @@ NodeRows get_nodes(MeshData& data) {
     data.nodes.push_back({xyz[0], xyz[1], xyz[2]});
   }
   return NodeRows(std::vector<std::int64_t>(tags.begin(), tags.end()));
-}
-
-/// Adds the physical groups of a dimension to `data`; returns those that each curve or surface is in.
-std::map<int, std::vector<int>> get_groups(MeshData& data, int dimension) {
-  std::map<int, std::vector<int>> groups_of;
-  gmsh::vectorpair groups;
-  gmsh::model::getPhysicalGroups(groups, dimension);
-  for (const auto& [dim, tag] : groups) {
-    std::string name;
-    gmsh::model::getPhysicalName(dim, tag, name);
-    data.groups.push_back({dim, tag, name});
-    std::vector<int> entities;
-    gmsh::model::getEntitiesForPhysicalGroup(dim, tag, entities);
-    for (const int entity : entities) {
-      // Reversed in a .geo, "Physical Curve("top") = {-3}", is the same curve; named twice counts once.
-      std::vector<int>& list = groups_of[std::abs(entity)];
-      if (list.empty() || list.back() != tag) list.push_back(tag);
-    }
-  }
-  return groups_of;
 }
 
 void get_elements(MeshData& data, const NodeRows& rows, int dimension, int entity, const std::vector<int>& groups) {
@@ -68,10 +48,11 @@ MeshData gmsh_data(const std::string& file) {
   data.file = file;
   const NodeRows rows = get_nodes(data);
   for (const int dimension : {1, 2}) {
-    std::map<int, std::vector<int>> groups_of = get_groups(data, dimension);
-    gmsh::vectorpair entities;
+    gmsh::vectorpair groups, entities;
+    gmsh::model::getPhysicalGroups(groups, dimension);
+    for (const auto& [dim, group] : groups) data.groups.push_back({dim, group, group_name(dim, group)});
     gmsh::model::getEntities(entities, dimension);
-    for (const auto& [dim, entity] : entities) get_elements(data, rows, dim, entity, groups_of[entity]);
+    for (const auto& [dim, entity] : entities) get_elements(data, rows, dim, entity, groups_of_entity(dim, entity));
   }
   return data;
 }

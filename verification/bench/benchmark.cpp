@@ -12,12 +12,13 @@
 #include "limit.hpp"
 #include "peak_memory.hpp"
 #include "solve/threads.hpp"
+#include "walls.hpp"
 
 namespace mortise::bench {
 namespace {
 
 struct Options {
-  int up_to = 320, threads = 0, repeats = 5;
+  int up_to = 320, threads = 0, repeats = 5, walls = 10;
 };
 
 Options read_options(int argc, char** argv) {
@@ -28,6 +29,7 @@ Options read_options(int argc, char** argv) {
                  "threads of the factorisation (default: all cores for large meshes, else 1)");
   app.add_option("--repeats", options.repeats, "runs of each that the table takes medians of (default 5)")
       ->check(CLI::Range(3, 1000));
+  app.add_option("--walls", options.walls, "largest wall of many bodies: blocks along each side (default 10, 0: none)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -118,6 +120,7 @@ void run(const Options& options) {
   // Children start with what this process holds: before anything is solved here.
   for (Case& c : cases) measure_memory(c);
   print_table(cases, options, empty_megabytes);
+  if (options.walls > 0) print_walls(options.walls);
 }
 
 }  // namespace
