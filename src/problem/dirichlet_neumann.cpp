@@ -50,60 +50,86 @@ void add_shared_nodes(const Mesh& mesh, std::vector<Link>& links) {
     }
 }
 
-// One set of bodies that hang together, dealt out in two: sides[b] is 0 or 1, -1 for bodies of other sets.
-std::vector<int> deal_out(const Mesh& mesh, const std::vector<Link>& links, int first) {
-  std::vector<int> side(mesh.bodies.size(), -1);
-  side[first] = 0;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const Link& link : links) {
-      int& a = side[link.body];
-      int& b = side[link.other];
-      if (a < 0 && b < 0) continue;
-      if (a >= 0 && b >= 0) {
-        if ((a != b) != link.differ)
-          throw SceneError(
-              link.key + ": '" + mesh.bodies[link.body] + "' and '" + mesh.bodies[link.other] +
-              "' cannot take the displacement in turns: domain decomposition needs bodies in a chain, "
-              "each in contact with others of the opposite role only; expected method.solver = \"direct\"");
-        continue;
-      }
-      (a < 0 ? a : b) = link.differ ? 1 - std::max(a, b) : std::max(a, b);
-      changed = true;
-    }
-  }
-  return side;
+// Bodies that hang together are a set, dealt out in two sides, 0 and 1; -1 for bodies that contact does not reach.
+struct Dealt {
+  std::vector<int> set, side;  // of each body
+  int sets = 0;
+};
+
+[[noreturn]] void fail_in_turns(const Mesh& mesh, const Link& link) {
+  throw SceneError(link.key + ": '" + mesh.bodies[link.body] + "' and '" + mesh.bodies[link.other] +
+                   "' cannot take the displacement in turns: domain decomposition needs bodies in a chain, "
+                   "each in contact with others of the opposite role only; expected method.solver = \"direct\"");
 }
 
-// The side whose bodies take the displacement by their `names`; -1 if none does.
-int named_side(const std::vector<std::string>& names, const Mesh& mesh, const std::vector<int>& side) {
-  int named = -1;
+// From the first body of each contact on along the links.
+Dealt deal_out(const Mesh& mesh, const std::vector<Link>& links, std::size_t contacts) {
+  const std::size_t bodies = mesh.bodies.size();
+  std::vector<std::vector<const Link*>> links_of(bodies);
+  for (const Link& link : links)
+    for (const int body : {link.body, link.other}) links_of[body].push_back(&link);
+  Dealt dealt{std::vector<int>(bodies, -1), std::vector<int>(bodies, -1)};
+  for (std::size_t k = 0; k < contacts; ++k) {
+    if (dealt.set[links[k].body] >= 0) continue;
+    std::vector<int> reached{links[k].body};
+    dealt.set[reached[0]] = dealt.sets;
+    dealt.side[reached[0]] = 0;
+    for (std::size_t i = 0; i < reached.size(); ++i)
+      for (const Link* link : links_of[reached[i]]) {
+        const int body = reached[i], other = link->body == body ? link->other : link->body;
+        const int side = link->differ ? 1 - dealt.side[body] : dealt.side[body];
+        if (dealt.set[other] < 0) {
+          dealt.set[other] = dealt.sets;
+          dealt.side[other] = side;
+          reached.push_back(other);
+        }
+        if (dealt.side[other] != side) fail_in_turns(mesh, *link);
+      }
+    ++dealt.sets;
+  }
+  return dealt;
+}
+
+// Of each set the side whose bodies take the displacement by their `names`; -1 if none does.
+std::vector<int> named_sides(const std::vector<std::string>& names, const Mesh& mesh, const Dealt& dealt) {
+  std::vector<int> named(dealt.sets, -1);
   for (const std::string& name : names) {
-    const int s = side[body_index(mesh, name)];
-    if (s >= 0 && named >= 0 && s != named)
+    const int body = body_index(mesh, name), set = dealt.set[body];
+    if (set < 0) continue;
+    if (named[set] >= 0 && dealt.side[body] != named[set])
       throw SceneError("method.dirichlet: '" + name + "' is in contact with a body of the same role");
-    named = std::max(named, s);
+    named[set] = dealt.side[body];
   }
   return named;
 }
 
-// The side with the softer bodies; of equally stiff ones that with the finer curves. A body whose whole curve is
-// prescribed cannot take the displacement.
-int softer_side(const std::vector<Link>& links, const std::vector<int>& side, const std::vector<ElasticLaw>& laws) {
-  std::array<double, 2> stiffest{};
-  std::array<int, 2> finer{}, given{};
-  for (std::size_t b = 0; b < side.size(); ++b)
-    if (side[b] >= 0) stiffest[side[b]] = std::max(stiffest[side[b]], laws[b].young);
-  for (const Link& link : links) {
-    if (!link.differ || side[link.body] < 0) continue;
-    const int body = side[link.body], other = 1 - body;
-    ++finer[link.body_finer ? body : other];
-    given[body] += link.body_prescribed;
-    given[other] += link.other_prescribed;
+// Of each set the side with the softer bodies; of equally stiff ones that with the finer curves. A body whose whole
+// curve is prescribed cannot take the displacement.
+std::vector<int> softer_sides(const std::vector<Link>& links, const Dealt& dealt, const std::vector<ElasticLaw>& laws) {
+  struct Sides {
+    std::array<double, 2> stiffest{};
+    std::array<int, 2> finer{}, given{};
+  };
+  std::vector<Sides> sets(dealt.sets);
+  for (std::size_t b = 0; b < laws.size(); ++b) {
+    if (dealt.set[b] < 0) continue;
+    double& stiffest = sets[dealt.set[b]].stiffest[dealt.side[b]];
+    stiffest = std::max(stiffest, laws[b].young);
   }
-  if (given[0] != given[1]) return given[1] < given[0];
-  if (stiffest[0] != stiffest[1]) return stiffest[1] < stiffest[0];
-  return finer[1] > finer[0];
+  for (const Link& link : links) {
+    if (!link.differ) continue;
+    Sides& set = sets[dealt.set[link.body]];
+    const int body = dealt.side[link.body], other = 1 - body;
+    ++set.finer[link.body_finer ? body : other];
+    set.given[body] += link.body_prescribed;
+    set.given[other] += link.other_prescribed;
+  }
+  std::vector<int> softer;
+  for (const auto& [stiffest, finer, given] : sets)
+    softer.push_back(given[0] != given[1]         ? given[1] < given[0]
+                     : stiffest[0] != stiffest[1] ? stiffest[1] < stiffest[0]
+                                                  : finer[1] > finer[0]);
+  return softer;
 }
 
 }  // namespace
@@ -112,17 +138,12 @@ std::vector<char> dirichlet_bodies(const std::vector<std::string>& names, const 
                                    const std::vector<ContactCurves>& contacts) {
   std::vector<Link> links = contact_links(mesh, contacts, d.system.constraints);
   add_shared_nodes(mesh, links);
-  std::vector<char> dirichlet(mesh.bodies.size(), 0), dealt(mesh.bodies.size(), 0);
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    if (dealt[links[k].body]) continue;
-    const std::vector<int> side = deal_out(mesh, links, links[k].body);
-    const int named = named_side(names, mesh, side);
-    const int chosen = named >= 0 ? named : softer_side(links, side, d.laws);
-    for (std::size_t b = 0; b < side.size(); ++b) {
-      if (side[b] < 0) continue;
-      dealt[b] = 1;
-      dirichlet[b] = side[b] == chosen;
-    }
+  const Dealt dealt = deal_out(mesh, links, contacts.size());
+  const std::vector<int> named = named_sides(names, mesh, dealt), softer = softer_sides(links, dealt, d.laws);
+  std::vector<char> dirichlet(mesh.bodies.size(), 0);
+  for (std::size_t b = 0; b < dirichlet.size(); ++b) {
+    const int set = dealt.set[b];
+    if (set >= 0) dirichlet[b] = dealt.side[b] == (named[set] >= 0 ? named[set] : softer[set]);
   }
   return dirichlet;
 }
