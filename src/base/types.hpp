@@ -29,6 +29,13 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 /// Largest absolute value; 0 of an empty vector, NaN where there is one.
 inline double largest_entry(const VecX& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0; }
 
+/// (a, b).
+inline VecX stacked(const VecX& a, const VecX& b) {
+  VecX both(a.size() + b.size());
+  both << a, b;
+  return both;
+}
+
 /// The larger one; NaN where either is. std::max keeps whichever came first.
 inline double largest(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 

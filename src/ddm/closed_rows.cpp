@@ -25,10 +25,22 @@ SparseMatrix with_diagonal(const SparseMatrix& A, const VecX& added) {
   return A + D;
 }
 
+SparseMatrix with_identity_below(const SparseMatrix& A) {
+  SparseRows below(A.rows() + A.cols(), A.cols());
+  below.topRows(A.rows()) = A;
+  SparseRows identity(A.cols(), A.cols());
+  identity.setIdentity();
+  below.bottomRows(A.cols()) = identity;
+  return below;
+}
+
 }  // namespace
 
-ClosedRows::ClosedRows(const DualSystem& system, const std::vector<char>& closed)
-    : system_(system), closed_(ones_and_zeros(closed)) {
+ClosedRows::ClosedRows(const DualSystem& system, const std::vector<char>& closed, const VecX& supports)
+    : system_(system),
+      supports_(supports),
+      H_(supports.size() > 0 ? with_identity_below(system.H) : system.H),
+      closed_(stacked(ones_and_zeros(closed), VecX::Ones(supports.size()))) {
   share_jumps();
   if (dependent_row < 0) hold_motions();
 }
@@ -40,7 +52,7 @@ void ClosedRows::share_jumps() {
     for (SparseMatrix::InnerIterator it(sharing, j); it; ++it)
       if (it.row() != j) it.valueRef() *= closed_(it.row()) * closed_(j);
   const VecX size = sharing.diagonal();
-  weights_ = closed_.cwiseQuotient(size);
+  weights_ = stacked(closed_.head(size.size()).cwiseQuotient(size), supports_);
   sharing_.compute(sharing);
   if (size.size() == 0) return;
   const VecX pivots = sharing_.vectorD();
@@ -52,10 +64,10 @@ void ClosedRows::share_jumps() {
 
 // H^T weights H, with a spring at each motion that it leaves free.
 void ClosedRows::hold_motions() {
-  const Eigen::Index springs = system_.H.cols();
+  const Eigen::Index springs = H_.cols();
   free_motions.resize(springs, 0);
   if (springs == 0) return;
-  const SparseMatrix E = SparseMatrix(system_.H.transpose()) * SparseMatrix(weights_.asDiagonal() * system_.H);
+  const SparseMatrix E = SparseMatrix(H_.transpose()) * SparseMatrix(weights_.asDiagonal() * H_);
   VecX size = E.diagonal();
   const double most = size.maxCoeff();
   for (double& of_motion : size)
@@ -85,63 +97,72 @@ VecX ClosedRows::coarse(VecX b) const {
 // lambda, changed on closed rows until the parts are in balance.
 VecX ClosedRows::balanced(VecX lambda, const VecX& h) const {
   lambda = on_closed(lambda);
-  for (int pass = 0; pass < 2; ++pass)
-    lambda += weights_.cwiseProduct(system_.H * coarse(h - system_.H.transpose() * lambda));
+  for (int pass = 0; pass < 2; ++pass) lambda += weights_.cwiseProduct(H_ * coarse(h - H_.transpose() * lambda));
   return lambda;
 }
 
 // Those that leave least of a residual, in the norm of the weights.
 VecX ClosedRows::motions(const VecX& residual) const {
-  return coarse(system_.H.transpose() * weights_.cwiseProduct(residual));
+  return coarse(H_.transpose() * weights_.cwiseProduct(residual));
 }
 
 // This projection, and its transpose below, twice: once leaves round-off of what the stiffest parts do in the way of
 // the softest ones.
 VecX ClosedRows::without_motions(VecX residual) const {
-  for (int pass = 0; pass < 2; ++pass) residual -= on_closed(system_.H * motions(residual));
+  for (int pass = 0; pass < 2; ++pass) residual -= on_closed(H_ * motions(residual));
   return residual;
 }
 
 VecX ClosedRows::without_resultants(VecX lambda) const {
-  for (int pass = 0; pass < 2; ++pass)
-    lambda -= weights_.cwiseProduct(system_.H * coarse(system_.H.transpose() * lambda));
+  for (int pass = 0; pass < 2; ++pass) lambda -= weights_.cwiseProduct(H_ * coarse(H_.transpose() * lambda));
   return lambda;
 }
 
-VecX ClosedRows::precondition(const VecX& residual) const {
-  const VecX jump = on_closed(sharing_.solve(residual));
-  return on_closed(sharing_.solve(on_closed(system_.multiply_stiffness(jump))));
+VecX ClosedRows::multiply(const VecX& lambda) const {
+  const Eigen::Index springs = supports_.size(), m = lambda.size() - springs;
+  return stacked(system_.multiply(lambda.head(m)), lambda.tail(springs).cwiseQuotient(supports_));
 }
 
-void ClosedRows::solve(const DualSystem::Answer& forces, IterationMonitor& monitor, DualSolution& x) const {
-  x.lambda = balanced(x.lambda, forces.h);
-  VecX C_lambda = system_.multiply(x.lambda);
-  VecX r = without_motions(on_closed(forces.r - C_lambda)), z = without_resultants(precondition(r)), p = z;
+VecX ClosedRows::precondition(const VecX& residual) const {
+  const Eigen::Index springs = supports_.size(), m = residual.size() - springs;
+  const VecX closed = closed_.head(m), jump = closed.cwiseProduct(sharing_.solve(VecX(residual.head(m))));
+  return stacked(closed.cwiseProduct(sharing_.solve(closed.cwiseProduct(system_.multiply_stiffness(jump)))),
+                 residual.tail(springs).cwiseProduct(supports_));
+}
+
+void ClosedRows::solve(const VecX& of_rows, const VecX& h, IterationMonitor& monitor, DualSolution& x) const {
+  const Eigen::Index springs = supports_.size(), m = of_rows.size();
+  if (x.support.size() != springs) x.support = VecX::Zero(springs);
+  const VecX gaps = stacked(of_rows, VecX::Zero(springs));
+  VecX lambda = balanced(stacked(x.lambda, x.support), h), C_lambda = multiply(lambda);
+  VecX r = without_motions(on_closed(gaps - C_lambda)), z = without_resultants(precondition(r)), p = z;
   double rz = r.dot(z);
   const auto residuals = [&] {
-    const double opening = largest(largest_entry(C_lambda), largest_entry(forces.r)),
-                 energy = std::max(std::abs(x.lambda.dot(C_lambda)), std::abs(x.lambda.dot(forces.r)));
+    const double opening = largest(largest_entry(C_lambda), largest_entry(gaps)),
+                 energy = std::max(std::abs(lambda.dot(C_lambda)), std::abs(lambda.dot(gaps)));
     return Residuals{.kinematic = fraction(largest_entry(r), opening),
                      .force = std::sqrt(fraction(std::abs(rz), energy))};
   };
   while (monitor.go_on(residuals(), std::sqrt(std::abs(rz)))) {
-    const VecX Cp = system_.multiply(p);
+    const VecX Cp = multiply(p);
     const double alpha = rz / p.dot(Cp), before = rz;
-    x.lambda += alpha * p;
+    lambda += alpha * p;
     C_lambda += alpha * Cp;
     r -= alpha * without_motions(on_closed(Cp));
     z = without_resultants(precondition(r));
     rz = r.dot(z);
     p = z + rz / before * p;
   }
-  x.mu = motions(on_closed(forces.r - C_lambda));
+  x.mu = motions(on_closed(gaps - C_lambda));
+  x.lambda = lambda.head(m);
+  x.support = lambda.tail(springs);
 }
 
-VecX ClosedRows::driven_motion(const DualSystem::Answer& forces, const VecX& lambda) const {
-  VecX driven = VecX::Zero(system_.H.cols());
+VecX ClosedRows::driven_motion(const VecX& h, const VecX& lambda) const {
+  VecX driven = VecX::Zero(H_.cols());
   if (free_.empty()) return driven;
-  const SparseMatrix Ht = system_.H.transpose();
-  const VecX work = forces.h - Ht * lambda, terms = forces.h.cwiseAbs() + Ht.cwiseAbs() * lambda.cwiseAbs();
+  const SparseMatrix Ht = H_.transpose();
+  const VecX work = h - Ht * lambda, terms = h.cwiseAbs() + Ht.cwiseAbs() * lambda.cwiseAbs();
   for (const auto& motion : free_motions.colwise())
     if (std::abs(motion.dot(work)) > negligible_work * motion.cwiseAbs().dot(terms))
       driven += motion.dot(work) * motion;

@@ -8,32 +8,34 @@
 
 namespace mortise {
 
-/// lambda, m, zero on open rows; mu, s.
+/// lambda, m, zero on open rows; mu, s; and the supports' forces, s or none.
 struct DualSolution {
-  VecX lambda, mu;
+  VecX lambda, mu, support;
 };
 
 class ClosedRows {
  public:
-  /// Keeps a reference to `system`.
-  ClosedRows(const DualSystem& system, const std::vector<char>& closed);
+  /// `supports`: s, the stiffness of springs at the free motions, each a closed row of its own: compliance 1 / k, and
+  /// it sees its motion alone; empty: none. Keeps a reference to `system`.
+  ClosedRows(const DualSystem& system, const std::vector<char>& closed, const VecX& supports = {});
 
   /// A closed row that the others imply, or -1. Nothing below may be called where there is one.
   int dependent_row = -1;
   /// s x count: the springs' unknowns in each motion that no closed row holds, told_apart.
   MatX free_motions;
 
-  /// Projected, preconditioned conjugate gradients from `x`, until the monitor ends them: lambda in balance with
-  /// forces.h, [C H] x = forces.r on closed rows. The residuals: what is left open over the largest that is closed; and
+  /// Projected, preconditioned conjugate gradients from `x`, until the monitor ends them: lambda in balance with h,
+  /// [C H] x = r on closed rows. The residuals: what is left open over the largest that is closed; and
   /// the error of lambda in the norm of C, estimated by the preconditioner, over its own. Free motions are zero in mu.
-  void solve(const DualSystem::Answer& forces, IterationMonitor& monitor, DualSolution& x) const;
+  void solve(const VecX& r, const VecX& h, IterationMonitor& monitor, DualSolution& x) const;
 
-  /// The free motions that forces drive, in their direction, s: the work that lambda leaves, where it is more than
-  /// round-off of its terms.
-  VecX driven_motion(const DualSystem::Answer& forces, const VecX& lambda) const;
+  /// The free motions that the work h of forces drives, in their direction, s: the work that lambda leaves, where it is
+  /// more than round-off of its terms.
+  VecX driven_motion(const VecX& h, const VecX& lambda) const;
 
  private:
   VecX on_closed(const VecX& v) const { return closed_.cwiseProduct(v); }
+  VecX multiply(const VecX& lambda) const;
   VecX coarse(VecX b) const;
   VecX balanced(VecX lambda, const VecX& h) const;
   VecX motions(const VecX& residual) const;
@@ -45,7 +47,10 @@ class ClosedRows {
 
   using SparseCholesky = Eigen::SimplicialLDLT<SparseMatrix>;
 
+  // Below, m is that of the rows and the supports.
   const DualSystem& system_;
+  VecX supports_;
+  SparseMatrix H_;
   VecX closed_;            // 1 or 0, m
   VecX weights_;           // of closed rows, m: about the inverse of C's diagonal
   std::vector<int> free_;  // springs whose motions no closed row holds

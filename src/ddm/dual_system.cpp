@@ -58,6 +58,7 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
   const Eigen::Index m = s.B.rows(), springs = s.grounded.size();
   load.r = -(s.g - s.B * s.constraints.value).cwiseQuotient(s.row_scale);
   load.h = VecX::Zero(springs);
+  diagonal = VecX::Zero(m);
   std::vector<Substructure> all = substructures(s);
   std::vector<std::optional<Part>> parts(all.size());
   std::vector<SparseMatrix> shared(all.size());
@@ -80,6 +81,7 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
       return;
     }
     load.r(part.rows) += part.group.load.response;
+    diagonal(part.rows) += part.group.C.diagonal();
     load.h(part.springs) = part.group.load.work;
     load.parts.push_back(std::move(part.group.load));
     for (std::size_t a = 0; a < part.rows.size(); ++a)

@@ -32,6 +32,8 @@ class DualSystem {
   /// & Farhat 1999); m x m, lower triangle.
   SparseMatrix sharing;
 
+  VecX diagonal;  ///< of C, m
+
   /// C lambda, m.
   VecX multiply(const VecX& lambda) const;
   /// B W^-1 S W^-1 B^T x, m, with S the stiffness of the parts' contact nodes, all other nodes free (the Schur

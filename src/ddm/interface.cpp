@@ -24,12 +24,6 @@ MatX with_motions(const MatX& C, const MatX& H) {
   return compliance;
 }
 
-VecX stacked(const VecX& a, const VecX& b) {
-  VecX all(a.size() + b.size());
-  all << a, b;
-  return all;
-}
-
 // What lambda leaves open, but for the motions.
 VecX open(const Interface& s, const VecX& lambda) { return s.gap - s.neumann.C * lambda - s.dirichlet.C * lambda; }
 
@@ -97,8 +91,8 @@ DirichletSolution solve_dirichlet(const Interface& s, Rows rows, const VecX& lam
             .active = {},
             .held = false,
             .closed = {}};
-  return {.lambda = set.solution.head(m),
-          .mu = set.solution.tail(s.H.cols()),
+  return {.lambda = std::move(set.lambda),
+          .mu = std::move(set.mu),
           .active = std::move(set.active),
           .closed = std::move(set.system)};
 }

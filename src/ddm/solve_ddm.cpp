@@ -46,7 +46,7 @@ VecX add(const InterfaceIteration& iteration, const Measure& measure, const Rela
 
 bool in_tension(const SaddlePointSystem& s, const VecX& lambda) {
   const VecX size = lambda.cwiseQuotient(s.row_scale);
-  const double limit = ActiveSetOptions{}.tension_tolerance * largest_entry(size);
+  const double limit = negligible_tension * largest_entry(size);
   for (std::size_t a = 0; a < s.unilateral.size(); ++a)
     if (s.unilateral[a] && size(a) > limit) return true;
   return false;

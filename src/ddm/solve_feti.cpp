@@ -4,6 +4,7 @@
 
 #include "base/stopwatch.hpp"
 #include "ddm/closed_rows.hpp"
+#include "solve/active_set.hpp"
 #include "solve/contact_factor.hpp"
 
 namespace mortise {
@@ -12,7 +13,8 @@ namespace {
 constexpr double first_tolerance = 1e-4;  // of the inner iterations, until they change no row
 constexpr double dual_tolerance = 1e-5;   // of duals: products of errors, which are no more exact than a percent
 constexpr double round_off = 10;          // tolerances: what is smaller opens and closes no row
-constexpr int max_active_sets = 100, max_stalled = 10, most_refinements = 2;
+constexpr double wide_gap = 0.3;          // of a row's part of the contact curve
+constexpr int most_refinements = 2;
 
 // Duals by the same iteration.
 class FetiFactor : public ContactFactor {
@@ -35,8 +37,8 @@ class FetiFactor : public ContactFactor {
           system_->answer(load < 0 ? VecX::Zero(unknowns_).eval() : VecX(loads.col(load) / stiffness_scale_));
       forces.r -= functionals.col(k).cwiseQuotient(row_scale_);
       IterationMonitor monitor(dual_tolerance, max_iterations_);
-      DualSolution x{.lambda = VecX::Zero(functionals.rows()), .mu = {}};
-      rows_->solve(forces, monitor, x);
+      DualSolution x{.lambda = VecX::Zero(functionals.rows()), .mu = {}, .support = {}};
+      rows_->solve(forces.r, forces.h, monitor, x);
       VecX dual = VecX::Zero(unknowns_);
       system_->add_displacements(forces, x.lambda, x.mu, dual);
       z.col(k) = dual;
@@ -53,139 +55,98 @@ class FetiFactor : public ContactFactor {
   int max_iterations_;
 };
 
-std::vector<char> closed_at_first(const SaddlePointSystem& s) {
-  std::vector<char> closed = s.start;
-  if (closed.empty()) closed.assign(s.B.rows(), 1);
-  for (Eigen::Index a = 0; a < s.B.rows(); ++a)
-    if (s.unilateral.empty() || !s.unilateral[a]) closed[a] = 1;
-  return closed;
-}
-
-// What is left open of the rows, and what a driven motion opens.
-struct Openings {
-  VecX w, driven;
-  double size;  // of the largest term of w
-};
-
-// Unilateral rows that are closed and in tension, or open and penetrated; `step` has the most of both.
-std::vector<int> infeasible_rows(const SaddlePointSystem& s, const VecX& lambda, const Openings& openings,
-                                 double tolerance, const std::vector<char>& closed, ActiveSetStep& step) {
-  const VecX stress = lambda.cwiseQuotient(s.row_scale);
-  const double tension = tolerance * largest_entry(stress), penetration = tolerance * openings.size,
-               least_opening = 1e-8 * largest_entry(openings.driven);
-  std::vector<int> infeasible;
-  for (std::size_t a = 0; a < closed.size(); ++a) {
-    step.active += closed[a];
-    if (s.unilateral.empty() || !s.unilateral[a]) continue;
-    if (closed[a]) {
-      step.tension = std::max(step.tension, s.stiffness_scale * stress(a));
-      if (stress(a) > tension) infeasible.push_back(int(a));
-      continue;
-    }
-    step.penetration = std::max(step.penetration, -openings.w(a));
-    const bool driven = std::abs(openings.driven(a)) > least_opening;
-    if (driven ? openings.driven(a) < 0 : openings.w(a) < -penetration) infeasible.push_back(int(a));
-  }
-  return infeasible;
-}
-
-// The active set method around the conjugate gradients.
-class Outer {
+// Solved by conjugate gradients, each time from the last multipliers; loosely until no row changes.
+class FetiRows : public ContactRows {
  public:
-  Outer(const SaddlePointSystem& s, const DualSystem& system, const FetiOptions& options)
+  FetiRows(const SaddlePointSystem& s, const DualSystem& system, const FetiOptions& options)
       : s_(s),
         system_(system),
-        tolerance_(options.tolerance),
-        max_iterations_(options.max_iterations),
-        monitor_(options.tolerance, options.max_iterations) {}
+        unilateral_(s.unilateral.empty() ? std::vector<char>(s.B.rows(), 0) : s.unilateral),
+        tolerance_(s.unilateral.empty() ? options.tolerance : std::max(first_tolerance, options.tolerance)),
+        final_tolerance_(options.tolerance),
+        monitor_(options.tolerance, options.max_iterations) {
+    x_.lambda = VecX::Zero(s.B.rows());
+  }
 
-  int refining_steps = 0;  ///< after the monitor's
+  Answer solve(const std::vector<char>& closed, const Supports& supports) override {
+    Answer answer;
+    closed_ = closed;
+    rows_ = std::make_shared<ClosedRows>(system_, closed, supports.stiffness);
+    answer.dependent_row = rows_->dependent_row;
+    answer.status = SolveStatus::dependent_row;
+    if (answer.dependent_row >= 0) return answer;
+    monitor_.restart(tolerance_);
+    VecX r = system_.load.r;
+    if (supports.at.size() > 0) r -= system_.H * supports.at;
+    rows_->solve(r, system_.load.h, monitor_, x_);
+    answer.status = monitor_.status();
+    answer.lambda = x_.lambda;
+    answer.mu = x_.mu;
+    if (supports.at.size() > 0) answer.mu += supports.at;
+    const VecX pressed = system_.multiply(answer.lambda) + system_.H * answer.mu;
+    answer.w = system_.load.r - pressed;
+    const double largest_gap = largest(largest_entry(system_.load.r), largest_entry(pressed));
+    answer.negligible_tension = round_off * tolerance_ * largest_entry(answer.lambda.cwiseQuotient(s_.row_scale));
+    answer.negligible_penetration = round_off * tolerance_ * largest_gap;
+    const SparseMatrix Ht = system_.H.transpose();
+    const VecX size = system_.load.h.cwiseAbs() + Ht.cwiseAbs() * answer.lambda.cwiseAbs();
+    answer.supported = fraction(largest_entry(system_.load.h - Ht * answer.lambda), largest_entry(size));
+    answer.driven_mode = rows_->driven_motion(system_.load.h, answer.lambda);
+    answer.opening = system_.H * answer.driven_mode;
+    return answer;
+  }
+
+  bool refine() override {
+    const bool better = tolerance_ > final_tolerance_;
+    tolerance_ = final_tolerance_;
+    return better;
+  }
+  MatX free_motions() const override { return ClosedRows(system_, closed_).free_motions; }
+
+  const VecX& scale() const override { return s_.row_scale; }
+  const std::vector<char>& unilateral() const override { return unilateral_; }
+  Eigen::Index motions() const override { return system_.H.cols(); }
+  VecX stiffness() const override {
+    return SparseMatrix(system_.H.transpose()).cwiseAbs2() * system_.diagonal.cwiseInverse();
+  }
 
   const IterationMonitor& monitor() const { return monitor_; }
   /// Of the last active set.
   const std::shared_ptr<const ClosedRows>& rows() const { return rows_; }
 
-  void run(Solution& solution) {
-    DualSolution x{.lambda = VecX::Zero(s_.B.rows()), .mu = {}};
-    find_active_set(x, solution);
-    if (solution.status == SolveStatus::dependent_row || solution.status == SolveStatus::unconstrained) return;
-    solution.lambda = s_.stiffness_scale * x.lambda.cwiseQuotient(s_.row_scale);
-    solution.u = s_.constraints.value;
-    system_.add_displacements(system_.load, x.lambda, x.mu, solution.u);
-    measure_residuals(s_, solution);
-    for (int pass = 0; pass < most_refinements && solution.status == SolveStatus::converged; ++pass) {
-      if (solution.force_residual <= 1e-11 && solution.constraint_residual <= tolerance_) break;
-      refine(solution);
-    }
-  }
-
  private:
-  void find_active_set(DualSolution& x, Solution& solution) {
-    double tolerance = s_.unilateral.empty() ? tolerance_ : std::max(first_tolerance, tolerance_);
-    std::size_t fewest = s_.B.rows() + 1;
-    solution.active = closed_at_first(s_);
-    for (int set = 1, left = max_stalled;; ++set) {
-      rows_ = std::make_shared<ClosedRows>(system_, solution.active);
-      solution.failed_at = rows_->dependent_row;
-      solution.status = SolveStatus::dependent_row;
-      if (solution.failed_at >= 0) return;
-      monitor_.restart(tolerance);
-      rows_->solve(system_.load, monitor_, x);
-      solution.status = monitor_.status();
-      if (solution.status != SolveStatus::converged) return;
-      solution.rigid_modes = rows_->free_motions;
-      examine(x, tolerance, solution);
-      const bool driven = solution.driven_mode.any();
-      if (solution.infeasible.empty()) {
-        if (driven) solution.status = SolveStatus::unconstrained;
-        if (driven || tolerance == tolerance_) return;
-        tolerance = tolerance_;
-        continue;
-      }
-      solution.status = SolveStatus::not_converged;
-      if (set == max_active_sets) return;
-      if (solution.infeasible.size() < fewest) {
-        fewest = solution.infeasible.size();
-        left = max_stalled;
-      } else if (--left < 0) {  // as solve/active_set.cpp
-        solution.infeasible.resize(1);
-      }
-      solution.steps.back().changed = int(solution.infeasible.size());
-      for (const int a : solution.infeasible) solution.active[a] ^= 1;
-    }
-  }
-
-  void examine(const DualSolution& x, double tolerance, Solution& solution) const {
-    const VecX closing = system_.multiply(x.lambda) + system_.H * x.mu;
-    solution.driven_mode = rows_->driven_motion(system_.load, x.lambda);
-    const Openings openings{.w = system_.load.r - closing,
-                            .driven = system_.H * solution.driven_mode,
-                            .size = largest(largest_entry(system_.load.r), largest_entry(closing))};
-    solution.infeasible =
-        infeasible_rows(s_, x.lambda, openings, round_off * tolerance, solution.active, solution.steps.emplace_back());
-  }
-
-  // By what the solution leaves of the forces and the gaps.
-  void refine(Solution& solution) {
-    const VecX Ku = s_.K.selfadjointView<Eigen::Lower>() * solution.u;
-    DualSystem::Answer left = system_.answer((s_.f - Ku - s_.B.transpose() * solution.lambda) / s_.stiffness_scale);
-    left.r -= (s_.g - s_.B * solution.u).cwiseQuotient(s_.row_scale);
-    DualSolution x{.lambda = VecX::Zero(s_.B.rows()), .mu = {}};
-    IterationMonitor monitor(first_tolerance, max_iterations_);
-    rows_->solve(left, monitor, x);
-    refining_steps += monitor.steps();
-    solution.lambda += s_.stiffness_scale * x.lambda.cwiseQuotient(s_.row_scale);
-    system_.add_displacements(left, x.lambda, x.mu, solution.u);
-    measure_residuals(s_, solution);
-  }
-
   const SaddlePointSystem& s_;
   const DualSystem& system_;
-  double tolerance_;
-  int max_iterations_;
+  const std::vector<char> unilateral_;
+  double tolerance_, final_tolerance_;
+  std::vector<char> closed_;
   IterationMonitor monitor_;
   std::shared_ptr<const ClosedRows> rows_;
+  DualSolution x_;
 };
+
+// But for wide gaps, which loads seldom close.
+std::vector<char> closed_at_first(const SaddlePointSystem& s) {
+  if (!s.start.empty()) return s.start;
+  std::vector<char> closed(s.B.rows());
+  for (Eigen::Index a = 0; a < s.B.rows(); ++a) closed[a] = -s.g(a) <= wide_gap * s.row_scale(a) * s.row_scale(a);
+  return closed;
+}
+
+// By what the solution leaves of the forces and the gaps. The iteration's steps.
+int refine(const SaddlePointSystem& s, const DualSystem& system, const ClosedRows& rows, int max_iterations,
+           Solution& solution) {
+  const VecX Ku = s.K.selfadjointView<Eigen::Lower>() * solution.u;
+  DualSystem::Answer left = system.answer((s.f - Ku - s.B.transpose() * solution.lambda) / s.stiffness_scale);
+  left.r -= (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
+  DualSolution x{.lambda = VecX::Zero(s.B.rows()), .mu = {}, .support = {}};
+  IterationMonitor monitor(first_tolerance, max_iterations);
+  rows.solve(left.r, left.h, monitor, x);
+  solution.lambda += s.stiffness_scale * x.lambda.cwiseQuotient(s.row_scale);
+  system.add_displacements(left, x.lambda, x.mu, solution.u);
+  measure_residuals(s, solution);
+  return monitor.steps();
+}
 
 }  // namespace
 
@@ -200,20 +161,30 @@ Solution solve_by_feti(const SaddlePointSystem& s, const FetiOptions& options) {
     return solution;
   }
   solution.factorise_seconds = watch.lap();
-  Outer outer(s, *system, options);
-  outer.run(solution);
+  FetiRows rows(s, *system, options);
+  const ActiveSetResult set = find_active_set(rows, closed_at_first(s));
+  take_active_set(s, set, solution);
   if (solution.status == SolveStatus::dependent_row || solution.status == SolveStatus::unconstrained) return solution;
-  const IterationMonitor& monitor = outer.monitor();
+  solution.lambda = s.stiffness_scale * set.lambda.cwiseQuotient(s.row_scale);
+  solution.u = s.constraints.value;
+  system->add_displacements(system->load, set.lambda, set.mu, solution.u);
+  measure_residuals(s, solution);
+  int refining_steps = 0;
+  for (int pass = 0; pass < most_refinements && solution.status == SolveStatus::converged; ++pass) {
+    if (solution.force_residual <= 1e-11 && solution.constraint_residual <= options.tolerance) break;
+    refining_steps += refine(s, *system, *rows.rows(), options.max_iterations, solution);
+  }
+  const IterationMonitor& monitor = rows.monitor();
   solution.iteration = Iteration{.method = "feti",
                                  .acceleration = Acceleration::krylov,
                                  .settings = {},
                                  .advice = {},
                                  .tolerance = options.tolerance,
-                                 .steps = monitor.steps() + outer.refining_steps,
+                                 .steps = monitor.steps() + refining_steps,
                                  .convergence_rate = monitor.convergence_rate(),
                                  .history = monitor.history(),
                                  .figures = {}};
-  solution.factor = std::make_shared<FetiFactor>(system, outer.rows(), s, options.max_iterations);
+  solution.factor = std::make_shared<FetiFactor>(system, rows.rows(), s, options.max_iterations);
   solution.solve_seconds = watch.lap();
   return solution;
 }

@@ -10,19 +10,6 @@
 namespace mortise {
 namespace {
 
-// Back to the system's units: rows over their size are lengths, multipliers over it stresses.
-void take_active_set(const SaddlePointSystem& s, ActiveSetResult& set, Solution& solution) {
-  solution.status = set.status;
-  solution.active = std::move(set.active);
-  solution.steps = std::move(set.steps);
-  for (ActiveSetStep& step : solution.steps) step.tension *= s.stiffness_scale;
-  solution.coarse_steps = set.coarse_steps;
-  solution.infeasible = std::move(set.infeasible);
-  solution.driven_mode = std::move(set.driven_mode);
-  solution.failed_at = set.dependent_row;
-  if (set.dependent_row < 0) solution.rigid_modes = set.system->rigid_modes();
-}
-
 VecX on(const std::vector<int>& free, const VecX& v) { return v(free); }
 
 }  // namespace
@@ -68,7 +55,7 @@ Solution solve_directly(const SaddlePointSystem& s) {
       take_active_set(s, set, solution);
       if (solution.status == SolveStatus::dependent_row || solution.status == SolveStatus::unconstrained)
         return solution;
-      lambda = std::move(set.solution);
+      lambda = stacked(set.lambda, set.mu);
       multipliers = std::move(set.system);
     } else {
       lambda = multipliers->solve(rhs);

@@ -14,7 +14,8 @@ constexpr double rigid_limit = 1e-10;
 
 }  // namespace
 
-MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs, std::vector<int> active)
+MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs, std::vector<int> active,
+                                   const VecX& supports)
     : m_(compliance.rows() - springs), springs_(springs), active_(std::move(active)) {
   const Eigen::Index count = active_.size();
   MatX C(count, count);
@@ -33,6 +34,7 @@ MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs,
     reduced_ = cholesky_.solve(H_);
     T = H_.transpose() * reduced_;
   }
+  if (supports.size() > 0) T.diagonal() += supports;
   const double one_row =
       compliance.bottomLeftCorner(springs_, m_).cwiseAbs2().maxCoeff() / compliance.diagonal().head(m_).maxCoeff();
   const SymmetricEigen eigen = symmetric_eigen(T);
