@@ -159,8 +159,10 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   stage("solve");
   r.solution = solve_system(scene.method, system, unknowns_of(r.mesh, dirichlet));
   require_solution(r.mesh, r.pairs, floating, r.solution);
+  std::vector<std::vector<RigidMotion>> free;
   for (const auto& mode : r.solution.rigid_modes.colwise())
-    r.warnings.push_back(held_line(r.mesh, motion_through(r.mesh, floating.motions, floating.grounded, mode)));
+    free.push_back(motion_through(r.mesh, floating.motions, floating.grounded, mode));
+  for (std::string& line : held_lines(r.mesh, free)) r.warnings.push_back(std::move(line));
   for (const int unknown : held_unknowns(floating.grounded, r.solution)) system.constraints.fixed[unknown] = 1;
   r.seconds.factorise = r.solution.factorise_seconds;
   r.seconds.solve = r.solution.solve_seconds;

@@ -57,6 +57,9 @@ Solution solve_system(const Method& method, const SaddlePointSystem& system, con
       break;
   }
   solution.solver = solver;
+  if (method.solver || solver != Solver::feti || solution.status != SolveStatus::not_converged) return solution;
+  solution = solve_directly(system);  // conjugate gradients do not get on with slender bodies
+  solution.solver = Solver::direct;
   return solution;
 }
 

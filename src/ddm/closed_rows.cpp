@@ -10,6 +10,7 @@ namespace {
 // Of a motion's own diagonal of the coarse problem: a pivot below it is round-off.
 constexpr double rigid_limit = 1e-9;
 constexpr double dependent_limit = 1e-13;  // likewise of a row's
+constexpr double of_one_row = 1e-2;        // a single multiplier's error that counts as much as one of all in energy
 constexpr double negligible_work = 1e-5;   // of its terms
 
 VecX ones_and_zeros(const std::vector<char>& flags) {
@@ -130,18 +131,20 @@ VecX ClosedRows::precondition(const VecX& residual) const {
                  residual.tail(springs).cwiseProduct(supports_));
 }
 
-void ClosedRows::solve(const VecX& of_rows, const VecX& h, IterationMonitor& monitor, DualSolution& x) const {
-  const Eigen::Index springs = supports_.size(), m = of_rows.size();
+void ClosedRows::solve(const DualSystem::Forces& forces, IterationMonitor& monitor, DualSolution& x) const {
+  const Eigen::Index springs = supports_.size(), m = forces.r.size();
   if (x.support.size() != springs) x.support = VecX::Zero(springs);
-  const VecX gaps = stacked(of_rows, VecX::Zero(springs));
-  VecX lambda = balanced(stacked(x.lambda, x.support), h), C_lambda = multiply(lambda);
+  const VecX gaps = stacked(forces.r, VecX::Zero(springs));
+  VecX lambda = balanced(stacked(x.lambda, x.support), forces.h), C_lambda = multiply(lambda);
   VecX r = without_motions(on_closed(gaps - C_lambda)), z = without_resultants(precondition(r)), p = z;
   double rz = r.dot(z);
   const auto residuals = [&] {
-    const double opening = largest(largest_entry(C_lambda), largest_entry(gaps)),
-                 energy = std::max(std::abs(lambda.dot(C_lambda)), std::abs(lambda.dot(gaps)));
-    return Residuals{.kinematic = fraction(largest_entry(r), opening),
-                     .force = std::sqrt(fraction(std::abs(rz), energy))};
+    const double terms = largest(largest_entry(C_lambda), largest_entry(gaps)),
+                 size = system_.size(largest_entry(on_closed(gaps - C_lambda)), terms),
+                 energy = forces.energy - 2 * forces.response.dot(lambda.head(m)) + lambda.dot(C_lambda);
+    return Residuals{.kinematic = fraction(largest_entry(r), size),
+                     .force = largest(std::sqrt(fraction(std::abs(rz), std::abs(energy))),
+                                      of_one_row * fraction(largest_entry(z), largest_entry(lambda)))};
   };
   while (monitor.go_on(residuals(), std::sqrt(std::abs(rz)))) {
     const VecX Cp = multiply(p);

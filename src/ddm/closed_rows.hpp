@@ -24,10 +24,11 @@ class ClosedRows {
   /// s x count: the springs' unknowns in each motion that no closed row holds, told_apart.
   MatX free_motions;
 
-  /// Projected, preconditioned conjugate gradients from `x`, until the monitor ends them: lambda in balance with h,
-  /// [C H] x = r on closed rows. The residuals: what is left open over the largest that is closed; and
-  /// the error of lambda in the norm of C, estimated by the preconditioner, over its own. Free motions are zero in mu.
-  void solve(const VecX& r, const VecX& h, IterationMonitor& monitor, DualSolution& x) const;
+  /// Projected, preconditioned conjugate gradients from `x`, until the monitor ends them: lambda in balance with
+  /// forces.h, [C H] x = forces.r on closed rows. The residuals: what is left open over the largest displacement; and
+  /// the error of lambda in the norm of C, estimated by the preconditioner, over that of the displacements. Free
+  /// motions are zero in mu.
+  void solve(const DualSystem::Forces& forces, IterationMonitor& monitor, DualSolution& x) const;
 
   /// The free motions that the work h of forces drives, in their direction, s: the work that lambda leaves, where it is
   /// more than round-off of its terms.

@@ -56,8 +56,6 @@ ContactStiffness contact_stiffness(const SaddlePointSystem& s) {
 
 DualSystem::DualSystem(const SaddlePointSystem& s) {
   const Eigen::Index m = s.B.rows(), springs = s.grounded.size();
-  load.r = -(s.g - s.B * s.constraints.value).cwiseQuotient(s.row_scale);
-  load.h = VecX::Zero(springs);
   diagonal = VecX::Zero(m);
   std::vector<Substructure> all = substructures(s);
   std::vector<std::optional<Part>> parts(all.size());
@@ -80,9 +78,7 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
       failed_at = part.unknowns[part.group.failed_at];
       return;
     }
-    load.r(part.rows) += part.group.load.response;
     diagonal(part.rows) += part.group.C.diagonal();
-    load.h(part.springs) = part.group.load.work;
     load.parts.push_back(std::move(part.group.load));
     for (std::size_t a = 0; a < part.rows.size(); ++a)
       for (std::size_t j = 0; j < part.springs.size(); ++j)
@@ -96,6 +92,20 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
   H.setFromTriplets(of_H.begin(), of_H.end());
   sharing.resize(m, m);
   sharing.setFromTriplets(of_sharing.begin(), of_sharing.end());
+  add_up(load);
+  load.r -= (s.g - s.B * s.constraints.value).cwiseQuotient(s.row_scale);
+}
+
+void DualSystem::add_up(Answer& answer) const {
+  answer.response = VecX::Zero(H.rows());
+  answer.h = VecX::Zero(H.cols());
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const BodyGroup::Answer& part = answer.parts[k];
+    answer.response(parts_[k].rows) += part.response;
+    answer.h(parts_[k].springs) = part.work;
+    answer.energy += part.y.squaredNorm();
+  }
+  answer.r = answer.response;
 }
 
 namespace {
@@ -124,14 +134,11 @@ VecX DualSystem::multiply_stiffness(const VecX& x) const {
 }
 
 DualSystem::Answer DualSystem::answer(const VecX& force) const {
-  Answer all{
-      .parts = std::vector<BodyGroup::Answer>(parts_.size()), .r = VecX::Zero(H.rows()), .h = VecX::Zero(H.cols())};
+  Answer all;
+  all.parts.resize(parts_.size());
   for_each_index(parts_.size(), solver_threads(),
                  [&](std::size_t k) { all.parts[k] = parts_[k].group.answer(force(parts_[k].unknowns)); });
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    all.r(parts_[k].rows) += all.parts[k].response;
-    all.h(parts_[k].springs) = all.parts[k].work;
-  }
+  add_up(all);
   return all;
 }
 

@@ -19,10 +19,14 @@ class DualSystem {
   int failed_at = -1;
   SparseMatrix H;  ///< m x s
 
-  /// What forces on the parts make of the right-hand side: r (m), h (s).
-  struct Answer {
+  /// What forces on the parts make of the right-hand side. The parts alone open the rows by `response`, with the energy
+  /// f^T K^-1 f: where springs hold a body against its load, both are far more than of its balance with lambda.
+  struct Forces {
+    VecX r, h, response;  ///< m, s, m
+    double energy = 0;
+  };
+  struct Answer : Forces {
     std::vector<BodyGroup::Answer> parts;
-    VecX r, h;
   };
   Answer load;  ///< to the system's own, and its gaps
   /// To forces, n, over the stiffness scale.
@@ -33,6 +37,12 @@ class DualSystem {
   SparseMatrix sharing;
 
   VecX diagonal;  ///< of C, m
+
+  /// What displacements of the rows are compared with: `moved`, the largest of all parts together, or the largest of
+  /// `terms`, which springs may make far larger, so that where bodies float only a part of it counts.
+  double size(double moved, double terms) const {
+    return H.cols() > 0 ? largest(moved, 1e-5 * terms) : largest(moved, terms);
+  }
 
   /// C lambda, m.
   VecX multiply(const VecX& lambda) const;
@@ -49,6 +59,8 @@ class DualSystem {
     BodyGroup group;
     MatX stiffness;  // of multiply_stiffness, full
   };
+
+  void add_up(Answer& answer) const;
 
   std::vector<Part> parts_;
 };

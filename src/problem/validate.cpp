@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -59,7 +60,7 @@ Floating find_floating(const Mesh& mesh, const Constraints& constraints) {
 
 std::vector<std::string> hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
                                            const std::vector<std::string>& findings, SaddlePointSystem& system) {
-  std::vector<std::string> lines;
+  std::vector<std::vector<RigidMotion>> held;
   const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions, double round_off) {
     const std::vector<char> moves = driven(mesh, motions, system.f, round_off);
     for (std::size_t k = 0; k < motions.size(); ++k) {
@@ -67,7 +68,7 @@ std::vector<std::string> hold_free_motions(const Mesh& mesh, const std::vector<C
         throw SceneError("nothing holds " + describe(mesh, motions[k]) +
                          "; expected prescribed displacements or contact that prevent it" +
                          (findings.empty() ? "" : ": " + findings.front()));
-      lines.push_back(held_line(mesh, motions[k]));
+      held.push_back(motions[k]);
     }
     for (const int unknown : unknowns_to_hold(mesh, pairs, system.constraints, motions))
       system.constraints.fixed[unknown] = 1;
@@ -81,12 +82,25 @@ std::vector<std::string> hold_free_motions(const Mesh& mesh, const std::vector<C
     edge_error = std::max(edge_error, of_pair.edge_error);
   }
   hold(free_motions(mesh, system.constraints, normals), std::max(1e-9, edge_error));
-  return lines;
+  return held_lines(mesh, held);
 }
 
-std::string held_line(const Mesh& mesh, const std::vector<RigidMotion>& motion) {
-  return "nothing holds " + describe(mesh, motion) +
-         ", but no load drives it either: held at zero, which changes no pressure";
+std::vector<std::string> held_lines(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions) {
+  const std::string held = " either: held, which changes no pressure";
+  std::vector<std::string> lines;
+  if (motions.size() <= told_in_full) {
+    for (const std::vector<RigidMotion>& motion : motions)
+      lines.push_back("nothing holds " + describe(mesh, motion) + ", but no load drives it" + held);
+    return lines;
+  }
+  std::set<int> bodies;
+  for (const std::vector<RigidMotion>& motion : motions)
+    for (const RigidMotion& part : motion) bodies.insert(part.body);
+  std::vector<std::string> names;
+  for (const int body : bodies) names.push_back("'" + mesh.bodies[body] + "'");
+  lines.push_back("nothing holds " + std::to_string(motions.size()) + " motions of " + listed(names) +
+                  ", but no load drives them" + held);
+  return lines;
 }
 
 void require_closed(const Mesh& mesh, const std::vector<ContactPair>& pairs) {

@@ -36,21 +36,36 @@ class DenseRows : public ContactRows {
       answer.status = SolveStatus::dependent_row;
       return answer;
     }
-    VecX rhs = rhs_;
-    if (supports.at.size() > 0) rhs.head(rows()) -= openings(supports.at);
-    VecX x = system_->solve(rhs);
-    if (supports.at.size() > 0) x.tail(springs()) += supports.at;
-    const VecX pressed = (p_.compliance.selfadjointView<Eigen::Lower>() * x).head(rows());
-    answer.w = rhs_.head(rows()) - pressed;
+    VecX rhs = rhs_, x = VecX::Zero(rhs_.size());  // x: what is known of it
+    const bool correction = p_.known.size() > 0;
+    if (correction) {
+      for (Eigen::Index a = 0; a < rows(); ++a)
+        if (!closed[a]) x(a) = -p_.known(a);
+      rhs -= p_.compliance.selfadjointView<Eigen::Lower>() * x;
+      rhs.tail(springs()) = rhs_.tail(springs()) - Ht() * x.head(rows());
+    }
+    if (supports.at.size() > 0) {
+      rhs.head(rows()) -= openings(supports.at);
+      x.tail(springs()) = supports.at;
+    }
+    x += system_->solve(rhs);
+    const VecX sum = (p_.compliance.selfadjointView<Eigen::Lower>() * x).head(rows()),
+               moved = openings(x.tail(springs()));
+    answer.w = rhs_.head(rows()) - sum;
     answer.lambda = x.head(rows());
+    if (correction) answer.lambda += p_.known;
     answer.mu = x.tail(springs());
-    const double largest_gap = largest(largest_entry(rhs_.head(rows())), largest_entry(pressed)),
+    // Springs against unbalanced loads make the terms of w larger than any displacement.
+    const double terms = largest(largest_entry(rhs_.head(rows())), largest_entry(sum)),
+                 moved_most = largest(largest_entry(answer.w), largest_entry(moved)),
+                 largest_gap = correction       ? p_.displacement
+                               : springs() == 0 ? terms
+                                                : largest(moved_most, 1e-2 * terms),
                  largest_stress = largest_entry(answer.lambda.cwiseQuotient(p_.scale));
     answer.negligible_tension = std::max(negligible_tension * largest_stress, negligible_stress_);
     answer.negligible_penetration = std::max(negligible_penetration * largest_gap, p_.round_off);
-    const auto Ht = p_.compliance.bottomLeftCorner(springs(), rows());
-    const VecX load = rhs_.tail(springs()), size = load.cwiseAbs() + Ht.cwiseAbs() * answer.lambda.cwiseAbs();
-    answer.supported = fraction(largest_entry(load - Ht * answer.lambda), largest_entry(size));
+    const VecX load = rhs_.tail(springs()), size = load.cwiseAbs() + Ht().cwiseAbs() * answer.lambda.cwiseAbs();
+    answer.supported = fraction(largest_entry(load - Ht() * x.head(rows())), largest_entry(size));
     answer.driven_mode = system_->driven_mode(rhs);
     answer.opening = openings(answer.driven_mode);
     return answer;
@@ -59,10 +74,7 @@ class DenseRows : public ContactRows {
   const VecX& scale() const override { return p_.scale; }
   const std::vector<char>& unilateral() const override { return p_.unilateral; }
   Eigen::Index motions() const override { return springs(); }
-  VecX stiffness() const override {
-    return p_.compliance.bottomLeftCorner(springs(), rows()).cwiseAbs2() *
-           p_.compliance.diagonal().head(rows()).cwiseInverse();
-  }
+  VecX stiffness() const override { return Ht().cwiseAbs2() * p_.compliance.diagonal().head(rows()).cwiseInverse(); }
 
   MatX free_motions() const override { return MultiplierSystem(p_.compliance, springs(), closed_).rigid_modes(); }
 
@@ -71,9 +83,8 @@ class DenseRows : public ContactRows {
  private:
   Eigen::Index rows() const { return p_.scale.size(); }
   Eigen::Index springs() const { return rhs_.size() - rows(); }
-  VecX openings(const VecX& motion) const {
-    return p_.compliance.bottomLeftCorner(springs(), rows()).transpose() * motion;
-  }
+  Eigen::Block<const MatX> Ht() const { return p_.compliance.bottomLeftCorner(springs(), rows()); }
+  VecX openings(const VecX& motion) const { return Ht().transpose() * motion; }
 
   const ComplementarityProblem& p_;
   const VecX& rhs_;
@@ -225,12 +236,23 @@ ActiveSetResult find_active_set(const ComplementarityProblem& p, const VecX& rhs
   return r;
 }
 
+bool penetrates(const SaddlePointSystem& s, const Solution& solution) {
+  if (s.unilateral.empty()) return false;
+  const VecX w = (s.B * solution.u - s.g).cwiseQuotient(s.row_scale);
+  const double penetration = negligible_penetration * largest_entry(solution.u);
+  for (Eigen::Index a = 0; a < w.size(); ++a)
+    if (s.unilateral[a] && !solution.active[a] && w(a) < -penetration) return true;
+  return false;
+}
+
 void take_active_set(const SaddlePointSystem& s, const ActiveSetResult& set, Solution& solution) {
   solution.status = set.status;
   solution.active = set.active;
-  solution.steps = set.steps;
-  for (ActiveSetStep& step : solution.steps) step.tension *= s.stiffness_scale;
-  solution.coarse_steps = set.coarse_steps;
+  for (ActiveSetStep step : set.steps) {
+    step.tension *= s.stiffness_scale;
+    solution.steps.push_back(step);
+  }
+  solution.coarse_steps += set.coarse_steps;
   solution.infeasible = set.infeasible;
   solution.driven_mode = set.driven_mode;
   solution.rigid_modes = set.free_motions;

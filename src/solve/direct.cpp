@@ -10,6 +10,8 @@
 namespace mortise {
 namespace {
 
+constexpr int max_passes = 6;
+
 VecX on(const std::vector<int>& free, const VecX& v) { return v(free); }
 
 }  // namespace
@@ -32,39 +34,46 @@ Solution solve_directly(const SaddlePointSystem& s) {
   solution.lambda = VecX::Zero(m);
   const auto symmetric = s.K.selfadjointView<Eigen::Lower>();
   VecX Ku = symmetric * solution.u;
+  ComplementarityProblem problem{.compliance = factor.take_border_compliance(),
+                                 .scale = s.row_scale,
+                                 .unilateral = s.unilateral.empty() ? std::vector<char>(m, 0) : s.unilateral};
   std::optional<MultiplierSystem> multipliers;  // of the active set
-  // The first pass solves, as a rule to round-off of the residual itself; a second one refines where it did not.
-  for (int pass = 0; pass < 2; ++pass) {
+  // The first pass solves, as a rule to round-off of the residual itself; others refine where it did not.
+  bool penetrated = false;
+  for (int pass = 0; pass < max_passes; ++pass) {
     const VecX unbalanced = s.f - Ku - s.B.transpose() * solution.lambda;
     const VecX y = factor.forward(on(free, unbalanced) / s.stiffness_scale);
     VecX rhs = factor.at_border(y);
     rhs.head(m) -= (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
     VecX lambda;
-    if (pass == 0) {
-      // The largest displacement without contact, floating bodies held by their springs: what gaps are differences of.
-      const auto free_displacement = [&] {
-        return largest(largest_entry(s.constraints.value), largest_entry(factor.backward(y, VecX::Zero(rhs.size()))));
-      };
-      const ComplementarityProblem problem{
-          .compliance = factor.take_border_compliance(),
-          .scale = s.row_scale,
-          .unilateral = s.unilateral.empty() ? std::vector<char>(m, 0) : s.unilateral,
-          .round_off = s.unilateral.empty() ? 0 : 1e-12 * free_displacement(),
-      };
-      ActiveSetResult set = find_active_set(problem, rhs, s.start);
+    if (pass > 0 && !penetrated) {
+      lambda = multipliers->solve(rhs);
+    } else {
+      if (pass > 0) {
+        problem.known = solution.lambda.cwiseProduct(s.row_scale) / s.stiffness_scale;
+        problem.displacement = largest_entry(solution.u);
+        problem.round_off = 0;
+      } else if (!s.unilateral.empty()) {
+        // Of the largest displacement without contact, floating bodies held by their springs: gaps are its differences.
+        problem.round_off = 1e-12 * largest(largest_entry(s.constraints.value),
+                                            largest_entry(factor.backward(y, VecX::Zero(rhs.size()))));
+      }
+      ActiveSetResult set = find_active_set(problem, rhs, pass > 0 ? solution.active : s.start);
       take_active_set(s, set, solution);
       if (solution.status == SolveStatus::dependent_row || solution.status == SolveStatus::unconstrained)
         return solution;
+      if (pass > 0) set.lambda -= problem.known;
       lambda = stacked(set.lambda, set.mu);
       multipliers = std::move(set.system);
-    } else {
-      lambda = multipliers->solve(rhs);
     }
     solution.u(free) += factor.backward(y, lambda);
     solution.lambda += s.stiffness_scale * lambda.head(m).cwiseQuotient(s.row_scale);
     Ku = symmetric * solution.u;
     measure_residuals(s, solution);
-    if (largest(solution.force_residual, solution.constraint_residual) < 1e-11) break;
+    const bool exact = largest(solution.force_residual, solution.constraint_residual) < 1e-11;
+    if (solution.status != SolveStatus::converged || (pass > 0 && !penetrated && !exact)) break;
+    penetrated = penetrates(s, solution);
+    if (exact && !penetrated) break;
   }
   if (!std::isfinite(largest(solution.force_residual, solution.constraint_residual)))
     solution.status = SolveStatus::not_converged;

@@ -126,7 +126,7 @@ TEST_P(EveryScene, IsMeshedFreely) {
   const FreeMesher mesher(file, {});
   const Vec2 centre = mesher.curves().front().places.front();
   const double whole = (own.nodes.colwise().maxCoeff() - own.nodes.colwise().minCoeff()).norm();
-  const auto size = [&](const Vec2& x) { return 0.002 * whole + 0.06 * (x - centre).norm(); };
+  const auto size = [&](const Vec2& x) { return 0.002 * whole + 0.04 * (x - centre).norm(); };
   const Mesh mesh = mesher.mesh(size);
   EXPECT_EQ(mesh.bodies, own.bodies);
   EXPECT_EQ(boundary_names(mesh), boundary_names(own));
@@ -137,7 +137,8 @@ TEST_P(EveryScene, IsMeshedFreely) {
     EXPECT_EQ(boundary.undrawn, own.boundaries[b].undrawn) << boundary.name;
     EXPECT_EQ(boundary.samples.size(), own.boundaries[b].samples.empty() ? 0 : boundary.edges.size()) << boundary.name;
     for (const Edge& edge : boundary.edges) {
-      EXPECT_GE(size_ratio(mesh, edge, size), 0.5) << boundary.name;
+      if (boundary.edges.size() > 1)
+        EXPECT_GE(size_ratio(mesh, edge, size), 0.5) << boundary.name;  // one: a short curve
       EXPECT_LE(size_ratio(mesh, edge, size), 1.2) << boundary.name;
     }
   }

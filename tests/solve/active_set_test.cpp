@@ -189,6 +189,52 @@ TEST(ActiveSet, ABodyThatNothingDrives) {
   EXPECT_LE(touching.lambda.cwiseAbs().maxCoeff(), 1e-10);
 }
 
+// Rollers of radius 1 between two plates, upon a row each side at angles of `spread`: the lowest plate stands, the
+// uppermost one may move up and down; each roller may move both ways. A load presses the plate on.
+Problem rollers(int count, int rows_a_side, double spread) {
+  const Eigen::Index m = 2 * count * rows_a_side, springs = 2 * count + 1;
+  Problem p;
+  p.compliance = MatX::Zero(m + springs, m + springs);
+  p.rhs = VecX::Zero(m + springs);
+  p.scale = VecX::Ones(m);
+  p.unilateral.assign(m, 1);
+  std::vector<Eigen::Vector3d> places;  // roller, side, angle
+  for (int k = 0; k < count; ++k)
+    for (const int side : {-1, 1})
+      for (int i = 0; i < rows_a_side; ++i) places.emplace_back(k, side, spread * (2 * (i + 0.3) / rows_a_side - 1));
+  for (Eigen::Index a = 0; a < m; ++a) {
+    const double roller = places[a](0), side = places[a](1), angle = places[a](2);
+    for (Eigen::Index b = 0; b < m; ++b)
+      if (places[b](0) == roller && places[b](1) == side)
+        p.compliance(a, b) = 1e-3 * std::exp(-10 * std::abs(places[b](2) - angle));
+    const Eigen::Index motion = m + 2 * Eigen::Index(roller);  // opens (below) or closes (above) the row
+    p.compliance(motion, a) = side * std::sin(angle);
+    p.compliance(motion + 1, a) = side * std::cos(angle);
+    if (side > 0) p.compliance(m + springs - 1, a) = -std::cos(angle);
+    p.rhs(a) = 1 - std::cos(angle) + 1e-4 * roller * (side > 0);
+  }
+  p.compliance.topRightCorner(m, springs) = p.compliance.bottomLeftCorner(springs, m).transpose();
+  p.rhs(m + springs - 1) = 1;
+  return p;
+}
+
+TEST(ActiveSet, RollersThatFewRowsHoldDoNotTravel) {
+  for (const int count : {1, 2, 4, 8})
+    for (const int rows : {5, 9, 17}) {
+      SCOPED_TRACE(std::to_string(count) + " rollers, " + std::to_string(rows) + " rows");
+      const Problem p = rollers(count, rows, 0.3);
+      const ActiveSetResult r = p.solve();
+      ASSERT_EQ(r.status, SolveStatus::converged);
+      const VecX x = stacked(r.lambda, r.mu), w = gaps(p, x);
+      EXPECT_LE(r.lambda.maxCoeff(), 1e-9);
+      EXPECT_GE(w.minCoeff(), -1e-9);
+      EXPECT_LE(r.lambda.cwiseProduct(w).cwiseAbs().maxCoeff(), 1e-9);
+      const VecX balance = p.compliance.bottomLeftCorner(r.mu.size(), p.m()) * r.lambda - p.rhs.tail(r.mu.size());
+      EXPECT_LE(largest_entry(balance), 1e-9);
+      std::printf("%d rollers, %d rows a side: %zu steps\n", count, rows, r.steps.size());
+    }
+}
+
 TEST(ActiveSet, NamesADependentRow) {
   MatX C = MatX::Identity(3, 3);
   C(2, 0) = C(0, 2) = 1;
