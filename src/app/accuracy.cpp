@@ -80,7 +80,7 @@ class Loop {
         mesher_(scene.mesh_file, scene.mesh_parameters, scene.geo_limits),
         largest_(sizes_of(mesher_.curves(), scene, std::min(spec_.first_edges, least_edges))) {}
 
-  std::optional<Results> run(const std::string& msh) {
+  std::optional<Results> run() {
     std::optional<Results> last;
     AccuracyReport report{.of = spec_.of, .asked = spec_.value, .excluded = spec_.exclude, .solves = {}, .reason = {}};
     Seconds seconds;
@@ -106,7 +106,6 @@ class Loop {
       if (!last) throw;
       report.reason = error.what();
     }
-    if (!msh.empty()) mesher_.mesh(solved_, spec_.recombine, msh);
     last->seconds = seconds;
     if (!report.reached()) last->status = std::max(last->status, Status::not_converged);
     last->accuracy = std::move(report);
@@ -133,7 +132,6 @@ class Loop {
     const double meshing = watch.lap();
     Results r = solve_scene(scene_, std::move(mesh), stage, start);
     r.seconds.mesh = meshing;
-    solved_ = [sizes, factor](const Vec2& x) { return factor * sizes(x); };
     stage("estimate");
     try {
       estimate(r, spec_);
@@ -224,7 +222,6 @@ class Loop {
   const std::function<bool()>& interrupted_;
   FreeMesher mesher_;
   LayeredSizes largest_;   // sizes that no mesh goes above
-  SizeAt solved_;          // of the last mesh that was solved on
   std::string told_;       // of the solve before, in the progress line
   bool at_limit_ = false;  // the mesh has been held to unknowns_max
 };
@@ -232,8 +229,8 @@ class Loop {
 }  // namespace
 
 std::optional<Results> solve_to_accuracy(const Scene& scene, const Progress& progress,
-                                         const std::function<bool()>& interrupted, const std::string& msh) {
-  return Loop(scene, progress, interrupted).run(msh);
+                                         const std::function<bool()>& interrupted) {
+  return Loop(scene, progress, interrupted).run();
 }
 
 }  // namespace mortise

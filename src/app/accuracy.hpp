@@ -8,10 +8,9 @@ namespace mortise {
 /// Solves on finer and finer free meshes until the estimated error of p is at most scene.accuracy->value
 /// (docs/accuracy.md); at most most_solves times and up to unknowns_max. Results of the last complete solve, with
 /// Results::accuracy; not_converged where the accuracy was not reached. `interrupted`: asked between the stages; where
-/// it says true the last complete answer is returned, or std::nullopt if there is none. `msh`: a file to write its mesh
-/// to (io/gmsh_mesh.hpp write_msh), "" for none.
+/// it says true the last complete answer is returned, or std::nullopt if there is none.
 std::optional<Results> solve_to_accuracy(const Scene& scene, const Progress& progress = {},
-                                         const std::function<bool()>& interrupted = {}, const std::string& msh = "");
+                                         const std::function<bool()>& interrupted = {});
 
 inline constexpr int most_solves = 8;
 

@@ -14,8 +14,8 @@
 #include "app/terminal.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
-#include "io/gmsh_mesh.hpp"
 #include "io/output_folder.hpp"
+#include "io/write_msh.hpp"
 #include "results/model_summary.hpp"
 #include "results/summary.hpp"
 #include "results/write_results.hpp"
@@ -68,22 +68,22 @@ int exit_code(Status status) { return status == Status::solved ? 0 : 2; }
 
 std::atomic<bool> interrupted = false;
 
-// On the mesh that is found for the accuracy asked for; `msh`: a file to write it to, "" for none.
-Results solve_to_accuracy(const Scene& scene, const StageLine& line, const std::string& msh) {
+// On the mesh that is found for the accuracy asked for.
+Results solve_to_accuracy(const Scene& scene, const StageLine& line) {
   // The first Ctrl-C asks for the last complete answer, a second one ends the run.
   const auto old = std::signal(SIGINT, [](int) {
     interrupted = true;
     std::signal(SIGINT, SIG_DFL);
   });
   auto found = solve_to_accuracy(
-      scene, [&](const std::string& name) { line(name); }, [] { return interrupted.load(); }, msh);
+      scene, [&](const std::string& name) { line(name); }, [] { return interrupted.load(); });
   std::signal(SIGINT, old);
   if (!found) throw InputError(scene.path + ": interrupted before the first solve was complete");
   return *std::move(found);
 }
 
 Results solve(const Scene& scene, const Options& options, const StageLine& line) {
-  if (scene.accuracy) return solve_to_accuracy(scene, line, "");
+  if (scene.accuracy) return solve_to_accuracy(scene, line);
   Results results = solve_scene(scene, [&](const std::string& name) { line(name); });
   if (!options.no_estimate) {
     line("estimate");
@@ -113,6 +113,15 @@ int solve(const Options& options) {
   return exit_code(results.status);
 }
 
+// "copies    100 of coarse, 50 of fine"
+std::string copies_line(const Scene& scene) {
+  std::map<std::string, int> counts;
+  for (const BodyCopy& copy : scene.copies) ++counts[copy.body];
+  std::vector<std::string> words;
+  for (const auto& [body, count] : counts) words.push_back(std::to_string(count) + " of " + body);
+  return words.empty() ? "" : "  copies    " + listed(words) + "\n";
+}
+
 // What the scene will model, and what it leaves out.
 int check(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
@@ -120,7 +129,7 @@ int check(const Options& options) {
   if (options.quiet) return 0;
   std::cout << shown(scene).title << "\n  mesh      " << checked.mesh.source << ": " << checked.mesh.nodes.rows()
             << " nodes, " << checked.mesh.cells.size() << " elements\n"
-            << model_lines(shown(scene), checked.discretisation);
+            << copies_line(shown(scene)) << model_lines(shown(scene), checked.discretisation);
   const std::size_t count = checked.pairs.size(), told = count > told_in_full ? told_of_many : count;
   for (std::size_t k = 0; k < told; ++k) {
     const ContactPair& pair = checked.pairs[k];
@@ -143,10 +152,13 @@ int mesh(const Options& options) {
   check_msh_target(output.string(), {scene.path, scene.mesh_file});
   if (output.has_parent_path()) std::filesystem::create_directories(output.parent_path());
   Status status = Status::solved;
-  if (scene.accuracy)
-    status = solve_to_accuracy(scene, StageLine(options.quiet), output.string()).status;
-  else
-    write_msh(scene.mesh_file, scene.mesh_parameters, output.string(), scene.geo_limits);
+  if (scene.accuracy) {
+    const Results results = solve_to_accuracy(scene, StageLine(options.quiet));
+    status = results.status;
+    write_msh(results.mesh, output.string());
+  } else {
+    write_msh(scene_mesh(scene), output.string());
+  }
   if (!options.quiet) std::cout << output.string() << "\n";
   if (status != Status::solved)
     std::cerr << "mortise: " << scene.path << ": " << to_string(status) << " on this mesh (mortise solve says more)\n";

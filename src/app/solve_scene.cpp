@@ -4,6 +4,7 @@
 #include "base/errors.hpp"
 #include "base/stopwatch.hpp"
 #include "io/gmsh_mesh.hpp"
+#include "mesh/copy_bodies.hpp"
 #include "problem/audit.hpp"
 #include "problem/dirichlet_neumann.hpp"
 #include "results/audit_solution.hpp"
@@ -77,10 +78,16 @@ auto told_with_path(const Scene& scene, Work work) {
 
 }  // namespace
 
+Mesh scene_mesh(const Scene& scene) {
+  return told_with_path(scene, [&] {
+    return copy_bodies(load_mesh(scene.mesh_file, scene.mesh_parameters, scene.geo_limits), scene.copies);
+  });
+}
+
 Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSet* start) {
   Stopwatch watch;
   if (progress) progress("mesh");
-  Mesh mesh = load_mesh(scene.mesh_file, scene.mesh_parameters, scene.geo_limits);
+  Mesh mesh = scene_mesh(scene);
   const double seconds = watch.lap();
   Results results = solve_scene(scene, std::move(mesh), progress, start);
   results.seconds.mesh = seconds;
@@ -89,7 +96,7 @@ Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSe
 
 CheckedScene check_scene(const Scene& scene) {
   return told_with_path(scene, [&] {
-    CheckedScene checked{load_mesh(scene.mesh_file, scene.mesh_parameters, scene.geo_limits), {}, {}, {}};
+    CheckedScene checked{scene_mesh(scene), {}, {}, {}};
     checked.discretisation = discretise(scene, checked.mesh);
     const std::vector<ContactCurves> curves = contact_curves(scene, checked.mesh);
     Contact contact =

@@ -16,6 +16,9 @@ struct ActiveSet {
   std::vector<std::vector<Row>> pairs;  ///< rows of each, along its curve
 };
 
+/// Reads or makes the mesh, with the copies in it. Throws InputError.
+Mesh scene_mesh(const Scene& scene);
+
 /// Called as each stage begins, with its name.
 using Progress = std::function<void(const std::string& stage)>;
 

@@ -2,6 +2,10 @@
 
 namespace mortise {
 
+VecX load_of(const SaddlePointSystem& s) {
+  return (s.f - s.K.selfadjointView<Eigen::Lower>() * s.constraints.value) / s.stiffness_scale;
+}
+
 BodyGroup::BodyGroup(const SaddlePointSystem& s, const std::vector<char>& member) {
   std::vector<char> left_out = s.constraints.fixed;
   for (std::size_t i = 0; i < member.size(); ++i) left_out[i] = left_out[i] || !member[i];
@@ -22,7 +26,7 @@ BodyGroup::BodyGroup(const SaddlePointSystem& s, const std::vector<char>& member
   C = compliance.topLeftCorner(m, m).selfadjointView<Eigen::Lower>();
   H = compliance.bottomLeftCorner(motions, m).transpose();
 
-  load = answer((s.f - s.K.selfadjointView<Eigen::Lower>() * s.constraints.value) / s.stiffness_scale);
+  load = answer(load_of(s));
 }
 
 BodyGroup::Answer BodyGroup::answer(const VecX& force) const {

@@ -7,6 +7,9 @@
 
 namespace mortise {
 
+/// The load on a system's unknowns, and of its prescribed displacements, over the stiffness scale.
+VecX load_of(const SaddlePointSystem& system);
+
 /// Factorised once. With B the group's columns of the coupling, its displacements under the multipliers lambda are
 ///
 ///   u = K^-1 (f - B^T lambda) - R mu,   so that   B u = response - C lambda - H mu,   H = B R,

@@ -8,34 +8,29 @@ namespace {
 
 constexpr double worth_threads = 2e6;  // multiplications of one product, for threads to be worth their start
 
-// Both over the contact nodes of a part, dimensionless.
-struct ContactStiffness {
-  SparseMatrix sharing;  // B W^-1 B^T, full
-  MatX stiffness;        // B W^-1 S W^-1 B^T, full
-};
-
-// S = K_cc - K_ci K_ii^-1 K_ic, applied to Y = W^-1 B^T: the second term is Z K_ii^-1 Z^T with Z = Y^T K_ci, which a
-// factorisation of K_ii with Z for its border gives.
-ContactStiffness contact_stiffness(const SaddlePointSystem& s) {
-  const Eigen::Index n = s.K.cols(), m = s.B.rows();
-  const SparseMatrix B = s.row_scale.cwiseInverse().asDiagonal() * s.B;
+// W^-1 of a part, n; zero but on contact unknowns.
+VecX shares(const SaddlePointSystem& s, const std::vector<int>& contact) {
   const double stiffness = s.K.diagonal().mean() / s.stiffness_scale;
-  VecX share = VecX::Zero(n);  // W^-1, on contact nodes
-  std::vector<char> left_out = s.constraints.fixed;
-  for (Eigen::Index i = 0; i < n; ++i) {
+  VecX share = VecX::Zero(s.K.cols());
+  for (const int i : contact) {
     double sum = 0, size = 0;
     for (SparseMatrix::InnerIterator it(s.B, i); it; ++it) {
       sum += it.value();
       size += std::abs(it.value());
     }
-    if (left_out[i] || size == 0) continue;
     share(i) = 1 / (stiffness * std::max(std::abs(sum), 0.1 * size));
-    left_out[i] = 1;
   }
-  const SparseMatrix Y = share.asDiagonal() * SparseMatrix(B.transpose());
-  SparseMatrix KY = (s.K.selfadjointView<Eigen::Lower>() * Y) / s.stiffness_scale;
-  ContactStiffness found{.sharing = B * Y, .stiffness = MatX(SparseMatrix(Y.transpose()) * KY)};
+  return share;
+}
 
+// Y^T S Y, full: S = K_cc - K_ci K_ii^-1 K_ic on contact unknowns, where alone Y has entries. The second term is Z
+// K_ii^-1 Z^T with Z = Y^T K_ci, which a factorisation of K_ii with Z for its border gives.
+MatX contact_stiffness(const SaddlePointSystem& s, const std::vector<int>& contact, const SparseMatrix& Y) {
+  const Eigen::Index m = Y.cols();
+  const SparseMatrix KY = (s.K.selfadjointView<Eigen::Lower>() * Y) / s.stiffness_scale;
+  MatX stiffness = MatX(SparseMatrix(Y.transpose()) * KY);
+  std::vector<char> left_out = s.constraints.fixed;
+  for (const int i : contact) left_out[i] = 1;
   SaddlePointSystem inner;
   inner.K = s.K;
   inner.stiffness_scale = s.stiffness_scale;
@@ -46,10 +41,49 @@ ContactStiffness contact_stiffness(const SaddlePointSystem& s) {
     BorderedCholesky factor(std::move(bordered.matrix), bordered.blocks);
     if (factor.failed_at() >= 0) continue;
     const MatX compliance = factor.take_border_compliance();
-    found.stiffness -= MatX(compliance.topLeftCorner(m, m).selfadjointView<Eigen::Lower>());
+    stiffness -= MatX(compliance.topLeftCorner(m, m).selfadjointView<Eigen::Lower>());
     break;
   }
-  return found;
+  return stiffness;
+}
+
+std::vector<char> all_unknowns(const SaddlePointSystem& s) { return std::vector<char>(s.K.cols(), 1); }
+
+// n x c, a unit column for each.
+SparseMatrix unit_columns(Eigen::Index n, const std::vector<int>& unknowns) {
+  SparseMatrix units(n, Eigen::Index(unknowns.size()));
+  for (std::size_t j = 0; j < unknowns.size(); ++j) units.insert(unknowns[j], Eigen::Index(j)) = 1;
+  units.makeCompressed();
+  return units;
+}
+
+}  // namespace
+
+struct DualSystem::Shared {
+  std::vector<int> contact;  // unknowns
+  SparseMatrix units;        // n x c
+  std::shared_ptr<const BodyGroup> body;
+  MatX stiffness;  // c x c
+
+  explicit Shared(SaddlePointSystem s) : contact(contact_unknowns(s)), units(unit_columns(s.K.cols(), contact)) {
+    stiffness = contact_stiffness(s, contact, units);
+    s.B = units.transpose();
+    s.row_scale = VecX::Ones(units.cols());
+    body = std::make_shared<BodyGroup>(s, all_unknowns(s));
+  }
+};
+
+BodyGroup::Answer DualSystem::Part::of_rows(BodyGroup::Answer of_body) const {
+  if (rows_of_body.cols() > 0) of_body.response = rows_of_body * of_body.response;
+  return of_body;
+}
+
+namespace {
+
+// Whether it takes less than the parts one by one: the borders' squares count, of all contact unknowns or of the rows.
+bool worth_sharing(const Substructure& part, std::size_t count) {
+  const double c = double(contact_unknowns(part.system).size()), m = double(part.rows.size());
+  return count > 1 && c * c <= double(count) * m * m;
 }
 
 }  // namespace
@@ -58,35 +92,62 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
   const Eigen::Index m = s.B.rows(), springs = s.grounded.size();
   diagonal = VecX::Zero(m);
   std::vector<Substructure> all = substructures(s);
-  std::vector<std::optional<Part>> parts(all.size());
-  std::vector<SparseMatrix> shared(all.size());
+  const std::vector<int> first = first_alike(all);
+  std::vector<std::size_t> counts(all.size(), 0);
+  for (const int k : first) ++counts[k];
+  std::vector<std::optional<Shared>> shared(all.size());
+  for_each_index(all.size(), solver_threads(), [&](std::size_t k) {
+    if (worth_sharing(all[k], counts[k])) shared[k].emplace(all[k].system);
+  });
+
+  parts_.resize(all.size());
+  load.parts.resize(all.size());
+  std::vector<SparseMatrix> sharings(all.size());
   for_each_index(all.size(), solver_threads(), [&](std::size_t k) {
     Substructure& own = all[k];
-    BodyGroup group(own.system, std::vector<char>(own.unknowns.size(), 1));
-    group.compliance.resize(0, 0);
-    ContactStiffness contact = contact_stiffness(own.system);
-    shared[k] = std::move(contact.sharing);
-    parts[k] = Part{std::move(own.unknowns), std::move(own.rows), std::move(own.springs), std::move(group),
-                    std::move(contact.stiffness)};
+    const SparseMatrix B = own.system.row_scale.cwiseInverse().asDiagonal() * own.system.B;
+    const std::vector<int> contact = contact_unknowns(own.system);
+    const SparseMatrix Y = shares(own.system, contact).asDiagonal() * SparseMatrix(B.transpose());
+    sharings[k] = B * Y;
+    Part& part = parts_[k];
+    part.unknowns = std::move(own.unknowns);
+    part.rows = std::move(own.rows);
+    part.springs = std::move(own.springs);
+    if (const std::optional<Shared>& alike = shared[first[k]]) {
+      part.body = alike->body;
+      part.rows_of_body = B * alike->units;
+      if (part.body->failed_at >= 0) return;
+      part.C = part.rows_of_body * MatX(alike->body->C * part.rows_of_body.transpose());
+      part.H = part.rows_of_body * alike->body->H;
+      const SparseMatrix y = SparseMatrix(alike->units.transpose()) * Y;
+      part.stiffness = y.transpose() * MatX(alike->stiffness * y);
+      load.parts[k] = part.of_rows(part.body->answer(load_of(own.system)));
+    } else {
+      auto body = std::make_shared<BodyGroup>(own.system, all_unknowns(own.system));
+      body->compliance.resize(0, 0);
+      part.C = std::move(body->C);
+      part.H = std::move(body->H);
+      part.stiffness = contact_stiffness(own.system, contact, Y);
+      load.parts[k] = std::move(body->load);
+      part.body = std::move(body);
+    }
     own.system = {};
   });
 
   std::vector<Eigen::Triplet<double>> of_H, of_sharing;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    Part& part = *parts[k];
-    if (part.group.failed_at >= 0) {
-      failed_at = part.unknowns[part.group.failed_at];
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const Part& part = parts_[k];
+    if (part.body->failed_at >= 0) {
+      failed_at = part.unknowns[part.body->failed_at];
       return;
     }
-    diagonal(part.rows) += part.group.C.diagonal();
-    load.parts.push_back(std::move(part.group.load));
+    diagonal(part.rows) += part.C.diagonal();
     for (std::size_t a = 0; a < part.rows.size(); ++a)
       for (std::size_t j = 0; j < part.springs.size(); ++j)
-        of_H.emplace_back(part.rows[a], part.springs[j], part.group.H(a, j));
-    for (int j = 0; j < shared[k].cols(); ++j)
-      for (SparseMatrix::InnerIterator it(shared[k], j); it; ++it)
+        of_H.emplace_back(part.rows[a], part.springs[j], part.H(a, j));
+    for (int j = 0; j < sharings[k].cols(); ++j)
+      for (SparseMatrix::InnerIterator it(sharings[k], j); it; ++it)
         if (it.row() >= j) of_sharing.emplace_back(part.rows[it.row()], part.rows[j], it.value());
-    parts_.push_back(std::move(part));
   }
   H.resize(m, springs);
   H.setFromTriplets(of_H.begin(), of_H.end());
@@ -126,7 +187,7 @@ VecX sum_of_products(const Parts& parts, const VecX& x, Matrix matrix) {
 }  // namespace
 
 VecX DualSystem::multiply(const VecX& lambda) const {
-  return sum_of_products(parts_, lambda, [](const Part& part) -> const MatX& { return part.group.C; });
+  return sum_of_products(parts_, lambda, [](const Part& part) -> const MatX& { return part.C; });
 }
 
 VecX DualSystem::multiply_stiffness(const VecX& x) const {
@@ -136,8 +197,9 @@ VecX DualSystem::multiply_stiffness(const VecX& x) const {
 DualSystem::Answer DualSystem::answer(const VecX& force) const {
   Answer all;
   all.parts.resize(parts_.size());
-  for_each_index(parts_.size(), solver_threads(),
-                 [&](std::size_t k) { all.parts[k] = parts_[k].group.answer(force(parts_[k].unknowns)); });
+  for_each_index(parts_.size(), solver_threads(), [&](std::size_t k) {
+    all.parts[k] = parts_[k].of_rows(parts_[k].body->answer(force(parts_[k].unknowns)));
+  });
   add_up(all);
   return all;
 }
@@ -146,7 +208,9 @@ void DualSystem::add_displacements(const Answer& forces, const VecX& lambda, con
   for_each_index(parts_.size(), solver_threads(), [&](std::size_t k) {
     const Part& part = parts_[k];
     VecX own = u(part.unknowns);
-    part.group.add_displacements(forces.parts[k], lambda(part.rows), mu(part.springs), own);
+    VecX border = lambda(part.rows);
+    if (part.rows_of_body.cols() > 0) border = part.rows_of_body.transpose() * border;
+    part.body->add_displacements(forces.parts[k], border, mu(part.springs), own);
     u(part.unknowns) = own;
   });
 }

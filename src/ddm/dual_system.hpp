@@ -1,12 +1,14 @@
 // The system of the multipliers, part by part: what the dual method iterates on.
 #pragma once
 
+#include <memory>
+
 #include "ddm/body_group.hpp"
 #include "ddm/substructures.hpp"
 
 namespace mortise {
 
-/// Each substructure factorised once, on its own. Where contact closes all rows,
+/// Each substructure factorised once, on its own, or once for all that are alike. Where contact closes all rows,
 ///
 ///   [C  H; H^T  0] (lambda, mu) = (r, h),   C = sum of the parts' B K^-1 B^T,   H = B R   (docs/theory.md eq. 51)
 ///
@@ -56,9 +58,14 @@ class DualSystem {
  private:
   struct Part {
     std::vector<int> unknowns, rows, springs;
-    BodyGroup group;
-    MatX stiffness;  // of multiply_stiffness, full
+    std::shared_ptr<const BodyGroup> body;  // its own; or that of all parts alike, with a unit row a contact unknown
+    SparseMatrix rows_of_body;              // then B on these, rows x contact unknowns; else empty
+    MatX C, H, stiffness;                   // of its rows; stiffness: of multiply_stiffness, full
+
+    BodyGroup::Answer of_rows(BodyGroup::Answer of_body) const;
   };
+  // Of parts that are alike.
+  struct Shared;
 
   void add_up(Answer& answer) const;
 

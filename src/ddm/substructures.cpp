@@ -1,6 +1,7 @@
 #include "ddm/substructures.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace mortise {
@@ -43,7 +44,54 @@ SparseMatrix columns_of(const SparseMatrix& matrix, const std::vector<int>& unkn
   return part;
 }
 
+constexpr double alike_stiffness = 1e-11;  // copies' nodes are off by the round-off of their coordinates
+
+bool same_stiffness(const SparseMatrix& one, const SparseMatrix& other) {
+  const Eigen::Index count = one.nonZeros();
+  if (one.cols() != other.cols() || count != other.nonZeros() ||
+      !std::equal(one.outerIndexPtr(), one.outerIndexPtr() + one.cols(), other.outerIndexPtr()) ||
+      !std::equal(one.innerIndexPtr(), one.innerIndexPtr() + count, other.innerIndexPtr()))
+    return false;
+  const Eigen::Map<const VecX> a(one.valuePtr(), count), b(other.valuePtr(), count);
+  return (a - b).cwiseAbs().maxCoeff() <= alike_stiffness * largest_entry(a);
+}
+
 }  // namespace
+
+std::vector<int> contact_unknowns(const SaddlePointSystem& part) {
+  std::vector<int> seen;
+  for (int i = 0; i < part.B.cols(); ++i) {
+    double size = 0;
+    for (SparseMatrix::InnerIterator it(part.B, i); it; ++it) size += std::abs(it.value());
+    if (size > 0 && !part.constraints.fixed[i]) seen.push_back(i);
+  }
+  return seen;
+}
+
+std::vector<int> first_alike(const std::vector<Substructure>& parts) {
+  // By what must be equal, then by the trace.
+  std::map<std::vector<int>, std::multimap<double, int>> known;
+  std::vector<int> first(parts.size());
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const SaddlePointSystem& s = parts[k].system;
+    std::vector<int> key = contact_unknowns(s);
+    key.push_back(-1);
+    for (std::size_t i = 0; i < s.constraints.fixed.size(); ++i)
+      if (s.constraints.fixed[i]) key.push_back(int(i));
+    key.push_back(-1);
+    key.insert(key.end(), s.grounded.begin(), s.grounded.end());
+    std::multimap<double, int>& by_trace = known[key];
+    const double trace = s.K.diagonal().sum(), margin = double(s.K.cols()) * alike_stiffness * trace;
+    first[k] = int(k);
+    for (auto it = by_trace.lower_bound(trace - margin); it != by_trace.end() && it->first <= trace + margin; ++it)
+      if (same_stiffness(s.K, parts[it->second].system.K)) {
+        first[k] = it->second;
+        break;
+      }
+    if (first[k] == int(k)) by_trace.emplace(trace, int(k));
+  }
+  return first;
+}
 
 int part_count(const SparseMatrix& K) {
   const std::vector<int> part = parts_of_nodes(K);

@@ -16,6 +16,13 @@ struct Substructure {
 /// How many there are.
 int part_count(const SparseMatrix& K);
 
+/// The free unknowns of a part that its rows see, ascending.
+std::vector<int> contact_unknowns(const SaddlePointSystem& part);
+
+/// For each part the first one that is alike, itself maybe: the same stiffness to 1e-11 of its largest entry, unknown
+/// by unknown, with the same of them fixed, held by springs and in contact. The rows may differ.
+std::vector<int> first_alike(const std::vector<Substructure>& parts);
+
 /// In the order of their first unknowns. Time and memory as the entries of K and B.
 std::vector<Substructure> substructures(const SaddlePointSystem& system);
 

@@ -98,26 +98,25 @@ FreeMesher::FreeMesher(const std::string& file, const std::map<std::string, doub
   session.run(file, "sampling its curves", [&] { curves_ = drawn_curves(); });
 }
 
-Mesh FreeMesher::mesh_once(const SizeAt& size, bool recombine, const std::string& output) const {
-  GmshGuard guard(geometry_.file, limits_.seconds);
+Mesh FreeMesher::mesh_once(const SizeAt& size, bool recombine) const {
+  const GmshGuard guard(geometry_.file, limits_.seconds);
   GmshSession session;
   open_free_geometry(session, geometry_);
   set_mesh_options(recombine);
   generate(session, geometry_.file, size);
   Mesh mesh = assemble_mesh(gmsh_data(geometry_.file));
   check_cells(mesh);
-  if (!output.empty()) write_open_mesh(session, guard, mesh, output);
   return mesh;
 }
 
 // gmsh 4.8 leaves flat triangles at kinks and corners where edges are below about 1e-7 of the whole, and inverted ones
 // where a curve turns within an edge; other sizes a little smaller avoid them.
-Mesh FreeMesher::mesh(const SizeAt& size, bool recombine, const std::string& output) const {
+Mesh FreeMesher::mesh(const SizeAt& size, bool recombine) const {
   constexpr int attempts = 6;
   double part = 1;
   for (int attempt = 1;; ++attempt, part *= 0.9) {
     try {
-      return mesh_once([&](const Vec2& x) { return part * size(x); }, recombine, output);
+      return mesh_once([&](const Vec2& x) { return part * size(x); }, recombine);
     } catch (const InputError&) {
       if (attempt == attempts) throw;
     }

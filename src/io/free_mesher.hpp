@@ -30,11 +30,10 @@ class FreeMesher {
   /// 6-node triangles, or 8-node quadrilaterals with a few triangles between them. The same sizes give the same mesh.
   /// Throws what `size` throws; std::domain_error where it is not > 0; InputError as load_mesh does, and where cells
   /// stay flat or inverted at 0.6 of the sizes too.
-  /// `output`: a .msh to write it to as write_msh does, "" for none.
-  Mesh mesh(const SizeAt& size, bool recombine = false, const std::string& output = "") const;
+  Mesh mesh(const SizeAt& size, bool recombine = false) const;
 
  private:
-  Mesh mesh_once(const SizeAt& size, bool recombine, const std::string& output) const;
+  Mesh mesh_once(const SizeAt& size, bool recombine) const;
 
   GeoLimits limits_;
   FreeGeometry geometry_;

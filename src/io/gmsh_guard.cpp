@@ -29,7 +29,6 @@ struct Armed {
   int error = -1;                  // the standard error of before
   std::array<char, 4096> start{};  // "mortise: error: FILE: gmsh "
   std::array<char, 80> late{};     // what is said of the time limit
-  std::array<char, 4096> remove{};
 };
 Armed armed;
 
@@ -87,7 +86,6 @@ void say_last_message() {
   say(what);
   say_last_message();
   say("\n");
-  if (armed.remove[0] != '\0') ::unlink(armed.remove.data());
   ::_exit(1);
 }
 
@@ -118,7 +116,6 @@ GmshGuard::GmshGuard(const std::string& file, double seconds) : stack_(64 * 1024
   std::array<char, 80> late{};
   std::snprintf(late.data(), late.size(), "took longer than mesh.time_limit = %g seconds", seconds);
   armed.late = late;
-  armed.remove[0] = '\0';
 
   std::cout.flush();
   std::fflush(stdout);
@@ -170,7 +167,5 @@ GmshGuard::~GmshGuard() {
   put_back(old_error_, STDERR_FILENO);
   ::close(armed.output);
 }
-
-void GmshGuard::remove_at_end(const std::string& path) { keep(armed.remove, path); }
 
 }  // namespace mortise

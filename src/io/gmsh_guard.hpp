@@ -21,9 +21,6 @@ class GmshGuard {
   GmshGuard(const GmshGuard&) = delete;
   GmshGuard& operator=(const GmshGuard&) = delete;
 
-  /// A file that is being written: removed if the process ends here.
-  void remove_at_end(const std::string& path);
-
  private:
   std::vector<char> stack_;  // on which the handlers run
   stack_t old_stack_{};

@@ -22,18 +22,4 @@ void check_mesh_file(const std::string& file, const std::map<std::string, double
 /// (GmshGuard).
 Mesh load_mesh(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits = {});
 
-/// Throws InputError where write_msh could not write `output`, or should not: it is one of `inputs` or no .msh.
-void check_msh_target(const std::string& output, const std::vector<std::string>& inputs);
-
-/// Meshes `file` and writes the mesh as `output` (.msh, format 4.1): whole, read back once, or not at all.
-/// Throws as load_mesh and check_msh_target do.
-void write_msh(const std::string& file, const std::map<std::string, double>& parameters, const std::string& output,
-               const GeoLimits& limits = {});
-
-class GmshSession;
-class GmshGuard;
-
-/// Writes the mesh that gmsh has open, of which `mesh` is what it read as, likewise.
-void write_open_mesh(GmshSession& session, GmshGuard& guard, const Mesh& mesh, const std::string& output);
-
 }  // namespace mortise

@@ -191,10 +191,4 @@ void GmshSession::open(const std::string& file, const std::map<std::string, doub
     run(file, "meshing", [] { gmsh::model::mesh::generate(2); });
 }
 
-void GmshSession::write(const std::string& output) {
-  gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
-  gmsh::option::setNumber("Mesh.SaveAll", 0);
-  run(output, "writing", [&] { gmsh::write(output); });
-}
-
 }  // namespace mortise

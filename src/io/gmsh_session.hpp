@@ -35,9 +35,6 @@ class GmshSession {
   /// `file` that says `what` it did.
   void run(const std::string& file, const std::string& what, const std::function<void()>& step);
 
-  /// Writes the open mesh as .msh, format 4.1. Throws InputError with gmsh's own message.
-  void write(const std::string& output);
-
  private:
   int omp_threads_;
   std::string locale_;

@@ -70,6 +70,13 @@ double positive_number(const Node& node) {
   return value;
 }
 
+int whole(const Node& node, int least, int most) {
+  const double value = number(node);
+  if (value != std::floor(value) || value < least || value > most)
+    fail_expected(node, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  return int(value);
+}
+
 bool boolean(const Node& node) {
   if (node.kind != Node::Kind::boolean) fail(node, "expected true or false, found " + describe(node));
   return node.text == "true";

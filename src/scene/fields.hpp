@@ -34,6 +34,9 @@ double number(const Node& node);
 /// A finite number of a quantity that must be positive.
 double positive_number(const Node& node);
 
+/// A whole number between these, both included.
+int whole(const Node& node, int least, int most);
+
 /// true or false.
 bool boolean(const Node& node);
 

@@ -27,14 +27,6 @@ double part(const Node& node) {
   return value;
 }
 
-int whole(const Node& node, double least, double most) {
-  const double value = number(node);
-  if (value != std::floor(value) || value < least || value > most)
-    fail(node, "expected a whole number from " + std::to_string(int(least)) + " to " + std::to_string(int(most)) +
-                   ", found " + describe(node));
-  return int(value);
-}
-
 // What only some goals have.
 void read_goal(const Node& node, int contacts, AccuracySpec& accuracy) {
   const Node *pair = find(node, "pair"), *window = find(node, "window"), *at = find(node, "at"),
@@ -79,6 +71,9 @@ void read_accuracy(const Node& root, Scene& scene) {
   read_goal(*node, found ? std::numeric_limits<int>::max() : int(scene.contacts.size()), accuracy);
   if (!scene.mesh_file.ends_with(".geo"))
     fail(*node, "a mesh has no geometry to refine; expected mesh.file = a .geo (with a .msh every solve gives bars)");
+  if (!scene.copies.empty())
+    fail(*node, "a mesh is found for drawn bodies, not for copies (" + scene.copies.front().key +
+                    "); expected one or the other (with copies every solve gives bars)");
   scene.accuracy = accuracy;
 }
 

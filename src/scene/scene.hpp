@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/body_copy.hpp"
 #include "base/choices.hpp"
 #include "base/geo_limits.hpp"
 #include "base/types.hpp"
@@ -95,6 +96,7 @@ struct Scene {
   std::string mesh_file;  ///< absolute or relative to the working directory
   std::map<std::string, double> mesh_parameters;
   GeoLimits geo_limits;
+  std::vector<BodyCopy> copies;  ///< of bodies of the mesh file, in their place
   Plane plane = Plane::strain;
   std::map<std::string, Material> materials;
   std::vector<BodySpec> bodies;

@@ -10,6 +10,9 @@ namespace mortise::scene_file {
 /// [mesh]: the file, which must exist, and the parameters of a .geo.
 void read_mesh_section(const Node& root, Scene& scene);
 
+/// [[copies]]: where each copy of a body stands, one by one.
+void read_copies(const Node& root, Scene& scene);
+
 /// [materials.NAME] and [bodies]: every body has a material, every material a body.
 void read_bodies(const Node& root, Scene& scene);
 
@@ -26,7 +29,7 @@ void read_contacts(const Node& root, Scene& scene);
 /// [method]. After read_bodies.
 void read_method(const Node& root, Scene& scene);
 
-/// [accuracy]. After read_mesh_section and read_contacts.
+/// [accuracy]. After read_mesh_section, read_copies and read_contacts.
 void read_accuracy(const Node& root, Scene& scene);
 
 }  // namespace mortise::scene_file

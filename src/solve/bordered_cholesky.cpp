@@ -116,7 +116,8 @@ struct BorderedCholesky::Factor {
     }
   }
 
-  MatX solve(int system, const MatX& b) {
+  // By several threads at once, each with a workspace of its own.
+  MatX solve(int system, const MatX& b) const {
     if (!L || b.cols() == 0) return b;
     cholmod_dense rhs{};
     rhs.nrow = rhs.d = b.rows();
@@ -125,10 +126,14 @@ struct BorderedCholesky::Factor {
     rhs.x = const_cast<double*>(b.data());
     rhs.xtype = CHOLMOD_REAL;
     rhs.dtype = CHOLMOD_DOUBLE;
-    cholmod_dense* x = cholmod_solve(system, L, &rhs, &common);
-    if (!x) throw std::runtime_error("CHOLMOD solve failed");
-    MatX result = Eigen::Map<const MatX>(static_cast<const double*>(x->x), b.rows(), b.cols());
-    cholmod_free_dense(&x, &common);
+    cholmod_common workspace;
+    cholmod_start(&workspace);
+    cholmod_dense* x = cholmod_solve(system, L, &rhs, &workspace);
+    MatX result;
+    if (x) result = Eigen::Map<const MatX>(static_cast<const double*>(x->x), b.rows(), b.cols());
+    cholmod_free_dense(&x, &workspace);
+    cholmod_finish(&workspace);
+    if (result.rows() != b.rows()) throw std::runtime_error("CHOLMOD solve failed");
     return result;
   }
 };

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/errors.hpp"
+#include "io/write_msh.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -215,8 +216,8 @@ TEST(Accuracy, KeepsTheLastCompleteAnswerWhenInterrupted) {
 TEST(Accuracy, LeavesTheMeshThatItFoundToOthers) {
   const TemporaryFolder folder;
   for (const char* most : {"1000000", "2500"}) {  // as it is, and held to a number of unknowns
-    const auto found =
-        solve_to_accuracy(scene("punch", "1%", {{"accuracy.unknowns_max", most}}), {}, {}, folder.path("punch.msh"));
+    const auto found = solve_to_accuracy(scene("punch", "1%", {{"accuracy.unknowns_max", most}}));
+    write_msh(found->mesh, folder.path("punch.msh"));
     const Results again =
         solve_scene(read_scene(MORTISE_SOURCE_DIR "/geo/punch.toml",
                                {{"mesh.file", "\"" + folder.path("punch.msh") + "\""}, {"mesh.parameters", "{}"}}));

@@ -83,6 +83,22 @@ TEST(Substructures, AreTheSystemsOwnBlocks) {
   EXPECT_EQ(B, MatX(s.B));
 }
 
+TEST(Substructures, AreAlikeByStiffnessSupportsAndContact) {
+  const auto first = [](const SaddlePointSystem& s) { return first_alike(substructures(s)); };
+  SaddlePointSystem s = tower(6);
+  EXPECT_EQ(first(s),
+            (std::vector<int>{0, 1, 1, 1, 1, 5}));  // the lowest is held, the uppermost has contact below only
+  s.constraints.fixed[2 * nodes * 2 + 3] = 1;
+  EXPECT_EQ(first(s), (std::vector<int>{0, 1, 2, 1, 1, 5}));
+  double& entry = s.K.coeffRef(2 * nodes * 3 + 4, 2 * nodes * 3 + 4);
+  const double value = entry;
+  entry = value * (1 + 1e-13);  // round-off
+  EXPECT_EQ(first(s), (std::vector<int>{0, 1, 2, 1, 1, 5}));
+  entry = value * (1 + 1e-8);
+  EXPECT_EQ(first(s), (std::vector<int>{0, 1, 2, 3, 1, 5}));
+  EXPECT_EQ(first(tower(3, {.contrast = 10})), (std::vector<int>{0, 1, 2}));
+}
+
 void expect_same(const Solution& found, const Solution& direct, double tolerance) {
   ASSERT_EQ(found.status, SolveStatus::converged);
   ASSERT_EQ(direct.status, SolveStatus::converged);
@@ -97,6 +113,15 @@ TEST(Feti, AgreesWithTheDirectMethodForAnyStiffnesses) {
   for (const auto& [contrast, bodies] : {std::pair{1.0, 2}, {1.0, 30}, {1e3, 2}, {1e3, 8}, {1e6, 4}}) {
     SCOPED_TRACE(std::to_string(contrast) + ", " + std::to_string(bodies));
     const SaddlePointSystem s = tower(bodies, {.contrast = contrast});
+    expect_same(solve_by_feti(s, {}), solve_directly(s), 1e-8);
+  }
+}
+
+// What is left of the parts' small differences is solved for in the end.
+TEST(Feti, SharesFactorsOfPartsThatAreAlikeToRoundOff) {
+  for (const double difference : {0.0, 1e-12, 1e-6}) {
+    SaddlePointSystem s = tower(20);
+    for (int i = 0; i < s.K.cols(); ++i) s.K.coeffRef(i, i) *= 1 + difference * std::sin(i);
     expect_same(solve_by_feti(s, {}), solve_directly(s), 1e-8);
   }
 }

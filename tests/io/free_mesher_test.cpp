@@ -12,6 +12,7 @@
 #include "base/errors.hpp"
 #include "base/vectors.hpp"
 #include "io/gmsh_mesh.hpp"
+#include "io/write_msh.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -236,7 +237,7 @@ TEST(FreeMesher, RefusesWhatHasNoGeometry) {
   const TemporaryFolder folder;
   const std::string rings = MORTISE_SOURCE_DIR "/geo/rings.geo";
   const std::string msh = folder.path("a.msh");
-  write_msh(rings, {}, msh);
+  write_msh(load_mesh(rings, {}), msh);
   const auto refusal = [](const std::string& file) { return message_of<InputError>([&] { FreeMesher(file, {}); }); };
   EXPECT_EQ(refusal(msh), msh + ": a mesh has no geometry to refine; expected a .geo");
   const std::string merged = folder.write("merged.geo", "Merge \"a.msh\";\n");

@@ -84,19 +84,6 @@ TEST_F(GuardDeathTest, AStackThatIsUsedUp) {
       ExitedWithCode(1), one_line("crashed"));
 }
 
-TEST_F(GuardDeathTest, WhatGmshWasWritingIsRemoved) {
-  GTEST_FLAG_SET(death_test_style, "fast");  // in the same folder
-  const std::string half = folder_.write("half.msh", "$MeshFormat");
-  EXPECT_EXIT(
-      {
-        GmshGuard guard("a.geo", 60);
-        guard.remove_at_end(half);
-        std::raise(SIGSEGV);
-      },
-      ExitedWithCode(1), one_line("crashed"));
-  EXPECT_FALSE(std::filesystem::exists(half));
-}
-
 TEST_F(Guard, LeavesHandlersTimerAndOutputAsTheyWere) {
   const auto mark = [](int) {};
   struct sigaction mine {};
