@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "ddm/closed_rows.hpp"
 #include "solve/active_set.hpp"
 #include "solve/contact_factor.hpp"
+#include "solve/threads.hpp"
 
 namespace mortise {
 namespace {
@@ -29,18 +31,26 @@ class FetiFactor : public ContactFactor {
         max_iterations_(max_iterations) {}
 
   MatX duals(const MatX& functionals, const MatX& loads) const override {
-    const Eigen::Index count = functionals.cols();
+    const Eigen::Index count = functionals.cols(), without_load = count - loads.cols();
+    std::vector<DualSystem::Answer> answers{system_->answer(VecX::Zero(unknowns_))};
+    for (const auto& load : loads.colwise()) answers.push_back(system_->answer(load / stiffness_scale_));
+    const auto answer_to = [&](Eigen::Index k) -> const DualSystem::Answer& {
+      return answers[std::max<Eigen::Index>(k - without_load + 1, 0)];
+    };
+    std::vector<DualSolution> found(count);
+    for_each_index(count, solver_threads(), [&](std::size_t k) {
+      const VecX gaps = functionals.col(Eigen::Index(k)).cwiseQuotient(row_scale_);
+      const DualSystem::Answer& answer = answer_to(Eigen::Index(k));
+      IterationMonitor monitor(dual_tolerance, max_iterations_);
+      found[k].lambda = VecX::Zero(functionals.rows());
+      DualSystem::Forces forces = answer;
+      forces.r -= gaps;
+      rows_->solve(forces, monitor, found[k]);
+    });
     MatX z = MatX::Zero(unknowns_, count);
     for (Eigen::Index k = 0; k < count; ++k) {
-      const Eigen::Index load = k - (count - loads.cols());
-      DualSystem::Answer forces =
-          system_->answer(load < 0 ? VecX::Zero(unknowns_).eval() : VecX(loads.col(load) / stiffness_scale_));
-      forces.r -= functionals.col(k).cwiseQuotient(row_scale_);
-      IterationMonitor monitor(dual_tolerance, max_iterations_);
-      DualSolution x{.lambda = VecX::Zero(functionals.rows()), .mu = {}, .support = {}};
-      rows_->solve(forces, monitor, x);
       VecX dual = VecX::Zero(unknowns_);
-      system_->add_displacements(forces, x.lambda, x.mu, dual);
+      system_->add_displacements(answer_to(k), found[k].lambda, found[k].mu, dual);
       z.col(k) = dual;
     }
     return z;

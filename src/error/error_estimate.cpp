@@ -5,13 +5,20 @@
 #include <limits>
 
 #include "base/errors.hpp"
-#include "fem/patch_recovery.hpp"
+#include "base/parallel.hpp"
+#include "error/body_products.hpp"
 #include "solve/contact_factor.hpp"
+#include "solve/threads.hpp"
 
 namespace mortise {
 namespace {
 
-EnergyEstimate energy_estimate(const Mesh& mesh, const ErrorProducts& found) {
+// Of the error of the whole's stiffness, the square of that in the energy norm, what one row of bodies may have. Where
+// displacements drive it, p everywhere is off by that, which the nearest windows of shared duals do not tell.
+constexpr double uneven = 3;
+
+// `round_off`: what round-off of the displacements makes of stresses squared, over their stiffness.
+EnergyEstimate energy_estimate(const Mesh& mesh, const ErrorProducts& found, double round_off) {
   const VecX errors = found.products.col(0);
   EnergyEstimate estimate{.error = std::sqrt(errors.sum() / found.norms.sum()),
                           .density = errors.cwiseQuotient(found.areas),
@@ -20,7 +27,7 @@ EnergyEstimate energy_estimate(const Mesh& mesh, const ErrorProducts& found) {
                           .body = 0,
                           .part = 0,
                           .position = Vec2::Zero()};
-  if (found.norms.sum() == 0) estimate.error = 0;  // no stress
+  if (found.norms.sum() <= round_off * found.areas.sum()) estimate.error = 0;  // no stress
   VecX of_body = VecX::Zero(Eigen::Index(mesh.bodies.size()));
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) of_body(mesh.cells[e].body) += errors(e);
   of_body.maxCoeff(&estimate.body);
@@ -88,30 +95,34 @@ double error_norm(const std::vector<PressureEstimate>& pressures, double local, 
   return std::sqrt(error);
 }
 
+double round_off_energy(const ErrorProducts& found, double stiffness_scale, const VecX& u) {
+  const double strain = 1e-12 * largest_entry(u) / std::sqrt(found.areas.minCoeff());
+  return stiffness_scale * strain * strain;
+}
+
 std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const Discretisation& d,
                                                  const std::vector<ContactPair>& pairs, const Solution& solution,
                                                  double excluded) {
   const double round_off = round_off_pressure(mesh, pairs, d.system.stiffness_scale, solution.u);
   const SideTable table(mesh);
-  std::vector<PressureEstimate> list;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    PressureEstimate e;
+  std::vector<PressureEstimate> list(pairs.size());
+  for_each_index(pairs.size(), solver_threads(), [&](std::size_t k) {
+    PressureEstimate& e = list[k];
     e.line = pressure_line(mesh, pairs[k], solution.lambda, round_off);
     e.local = line_error(e.line);
     e.windows = pressure_windows(pairs[k], e.line);
     e.singular = on_loaded(
         singular_points(mesh, table, pairs[k].multiplier, pairs[k].opposite, d.system.constraints, d.laws), e.line);
     find_excluded(excluded, e);
-    list.push_back(std::move(e));
-  }
+  });
   return list;
 }
 
-SharedDuals shared_duals(const Mesh& mesh, const std::vector<PressureEstimate>& pressures, int most) {
-  std::vector<Vec2> centres;
+std::vector<WindowPlace> window_places(const std::vector<PressureEstimate>& pressures) {
+  std::vector<WindowPlace> places;
   for (const PressureEstimate& e : pressures)
-    for (const PressureWindow& window : e.windows) centres.push_back(window.centre);
-  return share_duals(mesh, centres, most);
+    for (const PressureWindow& window : e.windows) places.push_back(window.place);
+  return places;
 }
 
 // Rows of all pairs; a column a dual, the sum of its windows.
@@ -140,8 +151,7 @@ ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, co
     const Eigen::Index loaded = std::clamp(first + duals - without_load, Eigen::Index(0), duals);
     const MatX own = loads.middleCols(std::max(first - without_load, Eigen::Index(0)), loaded);
     if (duals > 0) fields.rightCols(duals) = factor->duals(functionals.middleCols(first, duals), own);
-    const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, fields));
-    ErrorProducts some = error_products(mesh, points, laws, fields, patches);
+    ErrorProducts some = products_by_body(mesh, points, laws, fields);
     if (first == 0) {
       all = std::move(some);
       all.products.conservativeResize(Eigen::NoChange, 1 + count);
@@ -152,14 +162,17 @@ ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, co
   return all;
 }
 
-// Of each window the sum of its cells' parts without their signs.
-VecX far_fields(const FarField& far) {
-  const VecX of_duals = far.parts.cwiseAbs().colwise().sum();
-  const int windows = int(far.windows.dual.size());
-  if (windows == far.windows.count) return of_duals;
-  VecX sums = VecX::Zero(windows);
-  for (Eigen::Index d = 0; d < far.parts.cols(); ++d)
-    for (Eigen::Index e = 0; e < far.parts.rows(); ++e) sums(far.windows.window(e, d)) += std::abs(far.parts(e, d));
+// Of each window the sum of the cells' parts without their signs.
+VecX far_fields(const Mesh& mesh, const FarField& far) {
+  if (far.windows.own()) return far.parts.cwiseAbs().colwise().sum();
+  VecX sums = VecX::Zero(Eigen::Index(far.windows.dual.size()));
+  for (Eigen::Index e = 0; e < far.parts.rows(); ++e) {
+    const Cell& cell = mesh.cells[e];
+    const Vec2 x = centre_of(mesh.nodes, cell);
+    for (int d = 0; d < far.windows.count; ++d)
+      far.windows.for_each_window(cell.body, d, x,
+                                  [&](int window, double part) { sums(window) += part * std::abs(far.parts(e, d)); });
+  }
   return sums;
 }
 
@@ -197,7 +210,7 @@ double ErrorEstimate::far_field() const { return error_norm(pressures, 0, 1) / s
 
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
                              const std::vector<ContactPair>& pairs, const Solution& solution, const AccuracySpec& spec,
-                             int duals) {
+                             int own_duals) {
   const SaddlePointSystem& system = discretisation.system;
   const Eigen::Index rows = system.B.rows();
   const std::vector<ElasticLaw>& laws = discretisation.laws;
@@ -206,7 +219,7 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
                      std::to_string(pairs.size()));
   ErrorEstimate estimate;
   estimate.pressures = lines_with_windows(mesh, discretisation, pairs, solution, spec.exclude);
-  estimate.far.windows = shared_duals(mesh, estimate.pressures, duals);
+  estimate.far.windows = share_duals(mesh, window_places(estimate.pressures), own_duals);
   GoalFunctionals goal;
   if (!pairs.empty())
     goal = goal_functionals(mesh, discretisation, pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
@@ -218,17 +231,19 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
   if (functionals.cols() > 0 && !factor) factor = factorise_contact(system, solution.active);
   const ErrorProducts found =
       products_with_duals(mesh, points, laws, solution.u, factor.get(), functionals, goal.loads);
-  estimate.energy = energy_estimate(mesh, found);
+  estimate.energy = energy_estimate(mesh, found, round_off_energy(found, system.stiffness_scale, solution.u));
   estimate.far.parts = found.products.middleCols(1, shared);
   if (goals > 0) estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
   if (spec.of == Goal::stress) {
     const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, solution.u));
     add_stress_error(mesh, points, discretisation, goal, solution.u, patches, *estimate.goal);
   }
-  const VecX far = far_fields(estimate.far);
+  const VecX far = far_fields(mesh, estimate.far);
+  const double stiffness_part = uneven * estimate.energy.error * estimate.energy.error;
   Eigen::Index window = 0;
   for (PressureEstimate& e : estimate.pressures) {
     e.far = far.segment(window, Eigen::Index(e.windows.size()));
+    if (!estimate.far.windows.own()) e.far.array() += stiffness_part * largest_entry(e.line.p);
     window += Eigen::Index(e.windows.size());
     find_bars(e);
   }

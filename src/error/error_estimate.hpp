@@ -12,7 +12,7 @@ namespace mortise {
 /// What stresses recovered by patches say of the discretisation error (fem/patch_recovery.hpp). Blind to where contact
 /// ends within an edge, and to what a load does within an element.
 struct EnergyEstimate {
-  double error;   ///< energy norm of the error over that of the stresses
+  double error;   ///< energy norm of the error over that of the stresses; 0 where these are round-off of displacements
   VecX density;   ///< squared, of each cell by its area: energy per volume times two, stress
   VecX energies;  ///< of the stresses themselves, likewise
   VecX areas;     ///< of each cell, length^2
@@ -39,11 +39,8 @@ struct PressureEstimate {
 /// What the bodies' error does to the windows' means, cell by cell.
 struct FarField {
   MatX parts;           ///< cells x duals: int d_0 : C^-1 : d_k, stress
-  SharedDuals windows;  ///< whose parts these are; windows of all pairs, one after the other
+  SharedDuals windows;  ///< of all pairs, one after the other, and which of them the parts count for
 };
-
-/// Back substitutions that the windows take, however many pairs there are.
-inline constexpr int most_duals = 32;
 
 struct ErrorEstimate {
   EnergyEstimate energy;
@@ -64,9 +61,10 @@ struct ErrorEstimate {
 };
 
 /// `solution`: converged or not; where it has no factor (iterative solvers) the whole system is factorised once.
-/// `spec`: what is left out, and a functional that is asked for. Throws SceneError as goal_functionals does.
+/// `spec`: what is left out, and a functional that is asked for. `own_duals`: as most_own of share_duals. Throws
+/// SceneError as goal_functionals does.
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
                              const std::vector<ContactPair>& pairs, const Solution& solution,
-                             const AccuracySpec& spec = {}, int duals = most_duals);
+                             const AccuracySpec& spec = {}, int own_duals = most_own_duals);
 
 }  // namespace mortise

@@ -31,6 +31,12 @@ double border_part_of(const PressureLine& line, Eigen::Index e, bool loaded_befo
 
 }  // namespace
 
+std::array<bool, 2> PressureLine::faced_beside(Eigen::Index i) const {
+  const Eigen::Index last = p.size() - 1;
+  const auto at = [&](Eigen::Index e) { return faced[closed ? (e + last) % last : e] != 0; };
+  return {(closed || i > 0) && at(i - 1), (closed || i < last) && at(i)};
+}
+
 double round_off_pressure(const Mesh& mesh, const std::vector<ContactPair>& pairs, double stiffness_scale,
                           const VecX& u) {
   double edge = std::numeric_limits<double>::infinity();
@@ -48,6 +54,7 @@ PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX
                     .s = VecX::Zero(count),
                     .p = VecX(count),
                     .h = VecX::Zero(count),
+                    .faced = std::vector<char>(count - 1, 0),
                     .loaded = std::vector<char>(count, 0)};
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Index e = std::min(i, count - 2);
@@ -68,24 +75,41 @@ PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX
   }
   if (largest_entry(line.p) <= round_off) line.p.setZero();
   const double least = loaded_part * largest_entry(line.p);
+  for (const ContactPoint& point : pair.points) line.faced[point.edge] = 1;
   for (Eigen::Index i = 0; i < count; ++i)
     if (std::abs(line.p(i)) > least)
       for (Eigen::Index j = std::max<Eigen::Index>(i - 1, 0); j <= std::min(i + 1, count - 1); ++j) line.loaded[j] = 1;
   if (line.closed && (line.loaded.front() || line.loaded.back())) line.loaded.front() = line.loaded.back() = 1;
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (const auto [before, after] = line.faced_beside(i); !before && !after) line.loaded[i] = 0;
   return line;
 }
 
-LineError line_error(const PressureLine& line) {
+namespace {
+
+// By what the slope changes at each vertex; at an end of what is faced as at the vertex next to it.
+VecX slope_jumps(const PressureLine& line) {
   const Eigen::Index last = line.p.size() - 1;
   const auto slope = [&](Eigen::Index e) { return (line.p(e + 1) - line.p(e)) / (line.s(e + 1) - line.s(e)); };
   VecX jump = VecX::Zero(last + 1);
-  for (Eigen::Index i = 1; i < last; ++i) jump(i) = std::abs(slope(i) - slope(i - 1));
-  if (line.closed) {
-    jump(0) = jump(last) = std::abs(slope(0) - slope(last - 1));
-  } else if (last > 1) {
-    jump(0) = jump(1);
-    jump(last) = jump(last - 1);
+  for (Eigen::Index i = 0; i <= last; ++i)
+    if (const auto [before, after] = line.faced_beside(i); before && after)
+      jump(i) = std::abs(slope(i < last ? i : 0) - slope(i > 0 ? i - 1 : last - 1));
+  const VecX inside = jump;
+  for (Eigen::Index i = 0; i <= last; ++i) {
+    const auto [before, after] = line.faced_beside(i);
+    if (before == after) continue;
+    const Eigen::Index next = after ? (i < last ? i + 1 : 1) : (i > 0 ? i - 1 : last - 1);
+    jump(i) = inside(next);
   }
+  return jump;
+}
+
+}  // namespace
+
+LineError line_error(const PressureLine& line) {
+  const Eigen::Index last = line.p.size() - 1;
+  const VecX jump = slope_jumps(line);
   LineError error{.l2 = (line.h.array().cube() * jump.array().square() / 120).sqrt(),
                   .border = std::vector<char>(last + 1, 0),
                   .borders = {}};
@@ -93,7 +117,7 @@ LineError line_error(const PressureLine& line) {
   VecX last_p = VecX::Zero(last + 1);
   for (Eigen::Index e = 0; e < last; ++e) {
     const bool start = std::abs(line.p(e)) > least, end = std::abs(line.p(e + 1)) > least;
-    if (start == end) continue;
+    if (start == end || !line.faced[e]) continue;
     error.borders.push_back({e, border_part_of(line, e, start, least)});
     // A root rises to its value at one edge's length from the border: the last p, or the one before over sqrt(2).
     const Eigen::Index before = start ? e - 1 : e + 2;

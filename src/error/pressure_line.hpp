@@ -1,6 +1,8 @@
 // The pressure of a contact pair along its multiplier side, vertex by vertex, as its error estimates see it.
 #pragma once
 
+#include <array>
+
 #include "problem/contact_pair.hpp"
 
 namespace mortise {
@@ -10,11 +12,15 @@ namespace mortise {
 struct PressureLine {
   bool closed = false;
   std::vector<Vec2> position;
-  VecX s;  ///< arc length from the first vertex
-  VecX p;  ///< pressure
-  VecX h;  ///< length that counts for the vertex: half of both edges, or the one edge of an end
-  /// Vertices that take part: loaded, or next to one that is.
+  VecX s;                   ///< arc length from the first vertex
+  VecX p;                   ///< pressure
+  VecX h;                   ///< length that counts for the vertex: half of both edges, or the one edge of an end
+  std::vector<char> faced;  ///< of each edge, whether a part of it faces the other side
+  /// Vertices that take part: loaded, or next to one that is, on edges that are faced.
   std::vector<char> loaded;
+
+  /// Whether edges are faced before and after vertex i.
+  std::array<bool, 2> faced_beside(Eigen::Index i) const;
 };
 
 /// `lambda`: row values of all pairs, stress. Where p is nowhere above `round_off` (stress) nothing is loaded: p is 0.
@@ -27,7 +33,8 @@ double round_off_pressure(const Mesh& mesh, const std::vector<ContactPair>& pair
 
 /// What the pressure along the line is off by, from itself: near a vertex where the slope of p jumps by J it is a
 /// piecewise linear function's h J / 8 at its worst and sqrt(h^3 J^2 / 120) in L2; at the border of contact, where p
-/// rises as a root, p an edge further on times sqrt(h) / 4 (docs/theory.md eq. 47).
+/// rises as a root, p an edge further on times sqrt(h) / 4 (docs/theory.md eq. 47). Where the other side ends, within
+/// an edge or not, is known: that is an end of the line, no border.
 struct LineError {
   VecX l2;                   ///< of each vertex, stress sqrt(length)
   std::vector<char> border;  ///< whether the border of contact makes it

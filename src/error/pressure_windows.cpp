@@ -43,7 +43,7 @@ std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const Pres
     while (e + 1 < edges && t(e + 1) < centre) ++e;
     const double s = line.s(e) + (centre - t(e)), part = (s - line.s(e)) / (line.s(e + 1) - line.s(e));
     windows.push_back({.s = s,
-                       .centre = (1 - part) * line.position[e] + part * line.position[e + 1],
+                       .place = {(1 - part) * line.position[e] + part * line.position[e + 1], distance / 2},
                        .weights = VecX::Zero(pair.coupling.B.rows())});
   }
   VecX mass = VecX::Zero(count);

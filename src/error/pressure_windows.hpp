@@ -2,14 +2,15 @@
 #pragma once
 
 #include "error/pressure_line.hpp"
+#include "error/shared_duals.hpp"
 
 namespace mortise {
 
 /// The mean of p with the weight (1 - z^2)^3, z = -1 ... 1 across the window.
 struct PressureWindow {
-  double s;      ///< its centre, arc length along the line's edges
-  Vec2 centre;   ///< on the chord of its edge
-  VecX weights;  ///< rows of the pair: the mean is -weights . lambda
+  double s;           ///< its centre, arc length along the line's edges
+  WindowPlace place;  ///< the same on the chord of its edge
+  VecX weights;       ///< rows of the pair: the mean is -weights . lambda
 };
 
 /// Evenly along the loaded part of the line, 0.6 of their distance wide: three where it is one piece, three more for

@@ -46,9 +46,12 @@ VecX cell_refinement(const Mesh& mesh, const ErrorEstimate& estimate, double fac
     lengths.insert(lengths.end(), e.windows.size(), e.line.h.sum() / double(e.windows.size()));
   const MatX& parts = estimate.far.parts;
   VecX part = VecX::Zero(parts.rows());
-  for (Eigen::Index d = 0; d < parts.cols(); ++d)
+  for (int d = 0; d < estimate.far.windows.count; ++d)
     for (Eigen::Index e = 0; e < parts.rows(); ++e)
-      part(e) += lengths[estimate.far.windows.window(e, d)] * (parts(e, d) * parts(e, d));
+      estimate.far.windows.for_each_window(mesh.cells[e].body, d, centre_of(mesh.nodes, mesh.cells[e]),
+                                           [&](int window, double share) {
+                                             part(e) += lengths[window] * (share * parts(e, d) * (share * parts(e, d)));
+                                           });
   if (estimate.goal) part = estimate.goal->parts.rowwise().squaredNorm();
   part = part.cwiseSqrt();
   const double target = part.sum() / factor;

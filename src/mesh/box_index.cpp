@@ -60,4 +60,16 @@ void BoxIndex::nearest_first(const Vec2& x, const std::function<bool(int, double
     if (!visit(it->second, geometry::distance(point(x), it->first))) return;
 }
 
+std::vector<int> BoxIndex::nearest(const Vec2& x, int count) const {
+  std::vector<Entry> found;
+  tree_->boxes.query(geometry::index::nearest(point(x), unsigned(count)), std::back_inserter(found));
+  std::vector<std::pair<double, int>> by_distance;
+  for (const Entry& entry : found)
+    by_distance.emplace_back(geometry::comparable_distance(point(x), entry.first), entry.second);
+  std::ranges::sort(by_distance);
+  std::vector<int> numbers;
+  for (const auto& [distance, number] : by_distance) numbers.push_back(number);
+  return numbers;
+}
+
 }  // namespace mortise

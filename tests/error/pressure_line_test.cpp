@@ -24,6 +24,7 @@ PressureLine line_of(const VecX& s, const std::function<double(double)>& p) {
   line.h(0) *= 2;
   line.h(count - 1) *= 2;
   line.position.assign(count, Vec2::Zero());
+  line.faced.assign(count - 1, 1);
   line.loaded.assign(count, 1);
   return line;
 }
@@ -90,6 +91,22 @@ TEST(LineError, GoesRoundAClosedCurve) {
   EXPECT_NEAR(found.pointwise(line)(15), found.l2(1) / std::sqrt(1.0 / 16) * std::sqrt(120.0) / 8, 1e-12);
   line.closed = false;
   EXPECT_LT(line_error(line).pointwise(line)(15), 0.99 * found.pointwise(line)(15));
+}
+
+// A line that goes on beyond what it faces: as one that ends there.
+TEST(LineError, OfAnEndOfTheOtherSideIsThatOfAnEndOfTheLine) {
+  const auto p = [](double s) { return 2 + std::sin(3 * s); };
+  const LineError ends = line_error(line_of(VecX::LinSpaced(11, 0, 1), p));
+  PressureLine line = line_of(VecX::LinSpaced(21, 0, 2), [&](double s) { return s < 1.01 ? p(s) : 0.0; });
+  for (int e = 10; e < 20; ++e) line.faced[e] = 0;
+  for (int i = 11; i <= 20; ++i) line.loaded[i] = 0;
+  const LineError found = line_error(line);
+  EXPECT_TRUE(found.borders.empty());
+  EXPECT_EQ(std::ranges::count(found.border, 1), 0);
+  EXPECT_LE((found.l2.head(11) - ends.l2).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_EQ(found.l2.tail(10).maxCoeff(), 0);
+  line.faced.assign(20, 1);  // open, not without another side
+  EXPECT_EQ(line_error(line).borders.size(), 1U);
 }
 
 }  // namespace

@@ -1,0 +1,56 @@
+#include "error/body_products.hpp"
+
+#include <numeric>
+
+#include "base/parallel.hpp"
+#include "solve/threads.hpp"
+
+namespace mortise {
+namespace {
+
+// First cell of each body, and their number.
+std::vector<int> first_cells(const Mesh& mesh) {
+  std::vector<int> first(mesh.bodies.size() + 1, 0);
+  for (const Cell& cell : mesh.cells) ++first[cell.body + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  return first;
+}
+
+}  // namespace
+
+ErrorProducts products_by_body(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                               const MatX& fields) {
+  const std::vector<Cell> on_points = cells_on_points(mesh, points);
+  const std::vector<int> first_cell = first_cells(mesh);
+  const Eigen::Index cells = Eigen::Index(mesh.cells.size()), count = fields.cols();
+  ErrorProducts all{.products = MatX(cells, count), .norms = VecX(cells), .areas = VecX(cells)};
+  for_each_index(mesh.bodies.size(), solver_threads(), [&](std::size_t b) {
+    const int first = points.first[b], nodes = points.first[b + 1] - first;
+    Mesh body;
+    body.bodies = {mesh.bodies[b]};
+    body.nodes.resize(nodes, 2);
+    BodyPoints all_nodes{.first = {0, nodes}, .node = std::vector<int>(nodes)};
+    std::iota(all_nodes.node.begin(), all_nodes.node.end(), 0);
+    MatX of_body(2 * nodes, count);
+    for (int i = 0; i < nodes; ++i) {
+      const int node = points.node[first + i];
+      body.nodes.row(i) = mesh.nodes.row(node);
+      of_body.middleRows<2>(2 * i) = fields.middleRows<2>(2 * node);
+    }
+    body.cells.assign(on_points.begin() + first_cell[b], on_points.begin() + first_cell[b + 1]);
+    for (Cell& cell : body.cells) {
+      cell.body = 0;
+      for (int a = 0; a < node_count(cell.kind); ++a) cell.nodes[a] -= first;
+    }
+    const std::vector<ElasticLaw> law{laws[b]};
+    const ErrorProducts own = error_products(body, all_nodes, law, of_body,
+                                             recover_patches(body, all_nodes, sample_stresses(body, law, of_body)));
+    const Eigen::Index own_cells = own.areas.size();
+    all.products.middleRows(first_cell[b], own_cells) = own.products;
+    all.norms.segment(first_cell[b], own_cells) = own.norms;
+    all.areas.segment(first_cell[b], own_cells) = own.areas;
+  });
+  return all;
+}
+
+}  // namespace mortise
