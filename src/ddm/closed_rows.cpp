@@ -25,28 +25,40 @@ SparseMatrix with_diagonal(const SparseMatrix& A, const VecX& added) {
   return A + D;
 }
 
+SparseMatrix sum_of_ranks(SparseMatrix A) {
+  if (ranks().count() == 1) return A;
+  Triplets entries;
+  for (int j = 0; j < A.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(A, j); it; ++it) entries.emplace_back(int(it.row()), j, it.value());
+  entries = ranks().of_all(std::move(entries));
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
 }  // namespace
 
 ClosedRows::ClosedRows(const DualSystem& system, const std::vector<char>& closed)
-    : system_(system), closed_(ones_and_zeros(closed)) {
-  share_jumps();
+    : system_(system), rows_(system.rows()) {
+  share_jumps(closed);
   if (dependent_row < 0) hold_motions();
 }
 
 // Open rows keep their diagonal, which nothing reaches.
-void ClosedRows::share_jumps() {
+void ClosedRows::share_jumps(const std::vector<char>& flags) {
   SparseMatrix sharing = system_.sharing;
+  const VecX closed = ones_and_zeros(flags);
   for (int j = 0; j < sharing.cols(); ++j)
     for (SparseMatrix::InnerIterator it(sharing, j); it; ++it)
-      if (it.row() != j) it.valueRef() *= closed_(it.row()) * closed_(j);
+      if (it.row() != j) it.valueRef() *= closed(it.row()) * closed(j);
   const VecX size = sharing.diagonal();
-  weights_ = closed_.cwiseQuotient(size);
+  closed_ = rows_.own(closed);
+  weights_ = closed_.cwiseQuotient(rows_.own(size));
   sharing_.compute(sharing);
   if (size.size() == 0) return;
   const VecX pivots = sharing_.vectorD();
   for (Eigen::Index k = 0; k < pivots.size() && dependent_row < 0; ++k) {
     const int row = sharing_.permutationPinv().indices()(k);
-    if (closed_(row) > 0 && !(pivots(k) > dependent_limit * size(row))) dependent_row = row;
+    if (closed(row) > 0 && !(pivots(k) > dependent_limit * size(row))) dependent_row = row;
   }
 }
 
@@ -55,7 +67,7 @@ void ClosedRows::hold_motions() {
   const Eigen::Index springs = system_.H.cols();
   free_motions.resize(springs, 0);
   if (springs == 0) return;
-  const SparseMatrix E = SparseMatrix(system_.H.transpose()) * SparseMatrix(weights_.asDiagonal() * system_.H);
+  const SparseMatrix E = sum_of_ranks(SparseMatrix(system_.H.transpose()) * SparseMatrix(weights_.asDiagonal() * system_.H));
   VecX size = E.diagonal();
   const double most = size.maxCoeff();
   for (double& of_motion : size)
@@ -82,17 +94,24 @@ VecX ClosedRows::coarse(VecX b) const {
   return coarse_.solve(b);
 }
 
+// What lambda does to the motions, s.
+VecX ClosedRows::resultants(const VecX& lambda) const {
+  VecX found = system_.H.transpose() * lambda;
+  ranks().sum(found.data(), found.size());
+  return found;
+}
+
 // lambda, changed on closed rows until the parts are in balance.
 VecX ClosedRows::balanced(VecX lambda, const VecX& h) const {
   lambda = on_closed(lambda);
   for (int pass = 0; pass < 2; ++pass)
-    lambda += weights_.cwiseProduct(system_.H * coarse(h - system_.H.transpose() * lambda));
+    lambda += weights_.cwiseProduct(system_.H * coarse(h - resultants(lambda)));
   return lambda;
 }
 
 // Those that leave least of a residual, in the norm of the weights.
 VecX ClosedRows::motions(const VecX& residual) const {
-  return coarse(system_.H.transpose() * weights_.cwiseProduct(residual));
+  return coarse(resultants(weights_.cwiseProduct(residual)));
 }
 
 // This projection, and its transpose below, twice: once leaves round-off of what the stiffest parts do in the way of
@@ -103,45 +122,49 @@ VecX ClosedRows::without_motions(VecX residual) const {
 }
 
 VecX ClosedRows::without_resultants(VecX lambda) const {
-  for (int pass = 0; pass < 2; ++pass)
-    lambda -= weights_.cwiseProduct(system_.H * coarse(system_.H.transpose() * lambda));
+  for (int pass = 0; pass < 2; ++pass) lambda -= weights_.cwiseProduct(system_.H * coarse(resultants(lambda)));
   return lambda;
 }
 
+// A^-1 of a jump.
+VecX ClosedRows::unshared(const VecX& jump) const { return on_closed(rows_.own(sharing_.solve(rows_.whole(jump)))); }
+
 VecX ClosedRows::precondition(const VecX& residual) const {
-  const VecX jump = on_closed(sharing_.solve(residual));
-  return on_closed(sharing_.solve(on_closed(system_.multiply_stiffness(jump))));
+  return unshared(on_closed(system_.multiply_stiffness(unshared(residual))));
 }
 
 void ClosedRows::solve(const DualSystem::Answer& forces, IterationMonitor& monitor, DualSolution& x) const {
-  x.lambda = balanced(x.lambda, forces.h);
-  VecX C_lambda = system_.multiply(x.lambda);
-  VecX r = without_motions(on_closed(forces.r - C_lambda)), z = without_resultants(precondition(r)), p = z;
-  double rz = r.dot(z);
+  const VecX load = rows_.own(forces.r);
+  VecX lambda = balanced(rows_.own(x.lambda), forces.h), C_lambda = system_.multiply(lambda);
+  VecX r = without_motions(on_closed(load - C_lambda)), z = without_resultants(precondition(r)), p = z;
+  double rz = rows_.dot(r, z);
   const auto residuals = [&] {
-    const double opening = largest(largest_entry(C_lambda), largest_entry(forces.r)),
-                 energy = std::max(std::abs(x.lambda.dot(C_lambda)), std::abs(x.lambda.dot(forces.r)));
-    return Residuals{.kinematic = fraction(largest_entry(r), opening),
+    const double opening = largest(rows_.largest(C_lambda), rows_.largest(load)),
+                 energy = std::max(std::abs(rows_.dot(lambda, C_lambda)), std::abs(rows_.dot(lambda, load)));
+    return Residuals{.kinematic = fraction(rows_.largest(r), opening),
                      .force = std::sqrt(fraction(std::abs(rz), energy))};
   };
   while (monitor.go_on(residuals(), std::sqrt(std::abs(rz)))) {
     const VecX Cp = system_.multiply(p);
-    const double alpha = rz / p.dot(Cp), before = rz;
-    x.lambda += alpha * p;
+    const double alpha = rz / rows_.dot(p, Cp), before = rz;
+    lambda += alpha * p;
     C_lambda += alpha * Cp;
     r -= alpha * without_motions(on_closed(Cp));
     z = without_resultants(precondition(r));
-    rz = r.dot(z);
+    rz = rows_.dot(r, z);
     p = z + rz / before * p;
   }
-  x.mu = motions(on_closed(forces.r - C_lambda));
+  x.lambda = rows_.whole(lambda);
+  x.mu = motions(on_closed(load - C_lambda));
 }
 
 VecX ClosedRows::driven_motion(const DualSystem::Answer& forces, const VecX& lambda) const {
   VecX driven = VecX::Zero(system_.H.cols());
   if (free_.empty()) return driven;
-  const SparseMatrix Ht = system_.H.transpose();
-  const VecX work = forces.h - Ht * lambda, terms = forces.h.cwiseAbs() + Ht.cwiseAbs() * lambda.cwiseAbs();
+  const VecX own = rows_.own(lambda), work = forces.h - resultants(own);
+  VecX terms = system_.H.cwiseAbs().transpose() * own.cwiseAbs();
+  ranks().sum(terms.data(), terms.size());
+  terms += forces.h.cwiseAbs();
   for (const auto& motion : free_motions.colwise())
     if (std::abs(motion.dot(work)) > negligible_work * motion.cwiseAbs().dot(terms))
       driven += motion.dot(work) * motion;

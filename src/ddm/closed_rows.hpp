@@ -8,7 +8,7 @@
 
 namespace mortise {
 
-/// lambda, m, zero on open rows; mu, s.
+/// lambda, m, zero on open rows; mu, s. Both on all ranks.
 struct DualSolution {
   VecX lambda, mu;
 };
@@ -40,14 +40,17 @@ class ClosedRows {
   VecX without_motions(VecX residual) const;
   VecX without_resultants(VecX lambda) const;
   VecX precondition(const VecX& residual) const;
-  void share_jumps();
+  VecX resultants(const VecX& lambda) const;
+  VecX unshared(const VecX& jump) const;
+  void share_jumps(const std::vector<char>& closed);
   void hold_motions();
 
   using SparseCholesky = Eigen::SimplicialLDLT<SparseMatrix>;
 
   const DualSystem& system_;
-  VecX closed_;            // 1 or 0, m
-  VecX weights_;           // of closed rows, m: about the inverse of C's diagonal
+  const DealtRows& rows_;  // vectors of the iteration have the own ones
+  VecX closed_;            // 1 or 0, own
+  VecX weights_;           // of closed rows, own: about the inverse of C's diagonal
   std::vector<int> free_;  // springs whose motions no closed row holds
   SparseCholesky sharing_, coarse_;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ddm/body_group.hpp"
+#include "ddm/ranks.hpp"
 #include "ddm/substructures.hpp"
 
 namespace mortise {
@@ -10,18 +11,19 @@ namespace mortise {
 ///
 ///   [C  H; H^T  0] (lambda, mu) = (r, h),   C = sum of the parts' B K^-1 B^T,   H = B R   (docs/theory.md eq. 51)
 ///
-/// with s rigid motions R that only contact holds, as in BodyGroup; dimensionless, as the bordered system.
+/// with s rigid motions R that only contact holds, as in BodyGroup; dimensionless, as the bordered system. Each rank has
+/// the parts of its block; what has m or s entries is on all of them, unless it says "own" (DealtRows).
 class DualSystem {
  public:
   explicit DualSystem(const SaddlePointSystem& system);
 
   /// -1, or the unknown at which K is not positive definite: nothing below may be used then.
   int failed_at = -1;
-  SparseMatrix H;  ///< m x s
+  SparseMatrix H;  ///< own rows x s
 
   /// What forces on the parts make of the right-hand side: r (m), h (s).
   struct Answer {
-    std::vector<BodyGroup::Answer> parts;
+    std::vector<BodyGroup::Answer> parts;  // of this rank
     VecX r, h;
   };
   Answer load;  ///< to the system's own, and its gaps
@@ -32,9 +34,12 @@ class DualSystem {
   /// & Farhat 1999); m x m, lower triangle.
   SparseMatrix sharing;
 
-  /// C lambda, m.
+  const DealtRows& rows() const { return *rows_; }
+  /// C lambda; own of both.
   VecX multiply(const VecX& lambda) const;
-  /// B W^-1 S W^-1 B^T x, m, with S the stiffness of the parts' contact nodes, all other nodes free (the Schur
+  /// C lambda + H mu, m.
+  VecX closing(const VecX& lambda, const VecX& mu) const;
+  /// B W^-1 S W^-1 B^T x, likewise own, with S the stiffness of the parts' contact nodes, all other nodes free (the Schur
   /// complement).
   VecX multiply_stiffness(const VecX& x) const;
 
@@ -44,11 +49,16 @@ class DualSystem {
  private:
   struct Part {
     std::vector<int> unknowns, rows, springs;
+    std::vector<int> places;  // of the rows, in the vectors that this rank's parts see
     BodyGroup group;
     MatX stiffness;  // of multiply_stiffness, full
   };
 
+  void deal_rows(Eigen::Index m);
+  static void sum_over_ranks(Answer& answer);
+
   std::vector<Part> parts_;
+  std::unique_ptr<const DealtRows> rows_;
 };
 
 }  // namespace mortise

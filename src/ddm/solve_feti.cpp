@@ -156,10 +156,10 @@ class Outer {
   }
 
   void examine(const DualSolution& x, double tolerance, Solution& solution) const {
-    const VecX closing = system_.multiply(x.lambda) + system_.H * x.mu;
+    const VecX closing = system_.closing(x.lambda, x.mu);
     solution.driven_mode = rows_->driven_motion(system_.load, x.lambda);
     const Openings openings{.w = system_.load.r - closing,
-                            .driven = system_.H * solution.driven_mode,
+                            .driven = system_.rows().whole(system_.H * solution.driven_mode),
                             .size = largest(largest_entry(system_.load.r), largest_entry(closing))};
     solution.infeasible =
         infeasible_rows(s_, x.lambda, openings, round_off * tolerance, solution.active, solution.steps.emplace_back());

@@ -16,7 +16,8 @@ struct Substructure {
 /// How many there are.
 int part_count(const SparseMatrix& K);
 
-/// In the order of their first unknowns. Time and memory as the entries of K and B.
-std::vector<Substructure> substructures(const SaddlePointSystem& system);
+/// In the order of their first unknowns. Time and memory as the entries of K and B. Of several ranks: a block of them
+/// for each, with about as many unknowns.
+std::vector<Substructure> substructures(const SaddlePointSystem& system, int rank = 0, int ranks = 1);
 
 }  // namespace mortise
