@@ -67,7 +67,8 @@ void ClosedRows::hold_motions() {
   const Eigen::Index springs = system_.H.cols();
   free_motions.resize(springs, 0);
   if (springs == 0) return;
-  const SparseMatrix E = sum_of_ranks(SparseMatrix(system_.H.transpose()) * SparseMatrix(weights_.asDiagonal() * system_.H));
+  const SparseMatrix E =
+      sum_of_ranks(SparseMatrix(system_.H.transpose()) * SparseMatrix(weights_.asDiagonal() * system_.H));
   VecX size = E.diagonal();
   const double most = size.maxCoeff();
   for (double& of_motion : size)
@@ -104,15 +105,12 @@ VecX ClosedRows::resultants(const VecX& lambda) const {
 // lambda, changed on closed rows until the parts are in balance.
 VecX ClosedRows::balanced(VecX lambda, const VecX& h) const {
   lambda = on_closed(lambda);
-  for (int pass = 0; pass < 2; ++pass)
-    lambda += weights_.cwiseProduct(system_.H * coarse(h - resultants(lambda)));
+  for (int pass = 0; pass < 2; ++pass) lambda += weights_.cwiseProduct(system_.H * coarse(h - resultants(lambda)));
   return lambda;
 }
 
 // Those that leave least of a residual, in the norm of the weights.
-VecX ClosedRows::motions(const VecX& residual) const {
-  return coarse(resultants(weights_.cwiseProduct(residual)));
-}
+VecX ClosedRows::motions(const VecX& residual) const { return coarse(resultants(weights_.cwiseProduct(residual))); }
 
 // This projection, and its transpose below, twice: once leaves round-off of what the stiffest parts do in the way of
 // the softest ones.

@@ -68,8 +68,8 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
     group.compliance.resize(0, 0);
     ContactStiffness contact = contact_stiffness(own.system);
     shared[k] = std::move(contact.sharing);
-    parts[k] = Part{std::move(own.unknowns), std::move(own.rows), std::move(own.springs), {}, std::move(group),
-                    std::move(contact.stiffness)};
+    parts[k] = Part{std::move(own.unknowns), std::move(own.rows),         std::move(own.springs), {},
+                    std::move(group),        std::move(contact.stiffness)};
     own.system = {};
   });
 
@@ -150,8 +150,9 @@ VecX DualSystem::multiply_stiffness(const VecX& x) const {
 }
 
 DualSystem::Answer DualSystem::answer(const VecX& force) const {
-  Answer all{
-      .parts = std::vector<BodyGroup::Answer>(parts_.size()), .r = VecX::Zero(sharing.rows()), .h = VecX::Zero(H.cols())};
+  Answer all{.parts = std::vector<BodyGroup::Answer>(parts_.size()),
+             .r = VecX::Zero(sharing.rows()),
+             .h = VecX::Zero(H.cols())};
   for_each_index(parts_.size(), solver_threads(),
                  [&](std::size_t k) { all.parts[k] = parts_[k].group.answer(force(parts_[k].unknowns)); });
   for (std::size_t k = 0; k < parts_.size(); ++k) {

@@ -11,8 +11,8 @@ namespace mortise {
 ///
 ///   [C  H; H^T  0] (lambda, mu) = (r, h),   C = sum of the parts' B K^-1 B^T,   H = B R   (docs/theory.md eq. 51)
 ///
-/// with s rigid motions R that only contact holds, as in BodyGroup; dimensionless, as the bordered system. Each rank has
-/// the parts of its block; what has m or s entries is on all of them, unless it says "own" (DealtRows).
+/// with s rigid motions R that only contact holds, as in BodyGroup; dimensionless, as the bordered system. Each rank
+/// has the parts of its block; what has m or s entries is on all of them, unless it says "own" (DealtRows).
 class DualSystem {
  public:
   explicit DualSystem(const SaddlePointSystem& system);
@@ -39,8 +39,8 @@ class DualSystem {
   VecX multiply(const VecX& lambda) const;
   /// C lambda + H mu, m.
   VecX closing(const VecX& lambda, const VecX& mu) const;
-  /// B W^-1 S W^-1 B^T x, likewise own, with S the stiffness of the parts' contact nodes, all other nodes free (the Schur
-  /// complement).
+  /// B W^-1 S W^-1 B^T x, likewise own, with S the stiffness of the parts' contact nodes, all other nodes free (the
+  /// Schur complement).
   VecX multiply_stiffness(const VecX& x) const;
 
   /// Adds the displacements under forces and the multipliers to u (n, length).

@@ -91,7 +91,8 @@ class PetscRows : public DealtRows {
   SparseMatrix own(const SparseRows& whole) const override {
     Triplets entries;
     for (std::size_t k = 0; k < own_.size(); ++k)
-      for (SparseRows::InnerIterator it(whole, own_[k]); it; ++it) entries.emplace_back(int(k), int(it.col()), it.value());
+      for (SparseRows::InnerIterator it(whole, own_[k]); it; ++it)
+        entries.emplace_back(int(k), int(it.col()), it.value());
     SparseMatrix found(own_.size(), whole.cols());
     found.setFromTriplets(entries.begin(), entries.end());
     return found;
