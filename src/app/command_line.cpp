@@ -14,6 +14,7 @@
 #include "app/terminal.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
+#include "ddm/ranks.hpp"
 #include "io/output_folder.hpp"
 #include "io/write_msh.hpp"
 #include "results/model_summary.hpp"
@@ -105,7 +106,7 @@ int solve(const Options& options) {
       diagnose(scene, results);
     }
     line("write");
-    results.seconds.write = write_results(scene, results, folder);
+    if (ranks().rank() == 0) results.seconds.write = write_results(scene, results, folder);
   }
   if (!options.quiet) std::cout << terminal_summary(shown(scene), results, folder);
   if (results.status != Status::solved)
@@ -235,7 +236,11 @@ int parse_and_run(int argc, const char* const* argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     throw InputError(std::string("command line: ") + error.what() + " (mortise --help)");
   }
-  set_solver_threads(options.threads);
+  set_solver_threads(options.threads > 0 || ranks().count() == 1 ? options.threads : 1);
+  if (ranks().count() > 1) {
+    if (!*solve_command) throw InputError("command line: several processes solve; expected mortise solve after mpirun");
+    options.no_programs = true;  // each process reads the .geo
+  }
   if (*solve_command) return solve(options);
   if (*check_command) return check(options);
   if (*mesh_command) return mesh(options);

@@ -1,8 +1,12 @@
 #include "app/solve_scene.hpp"
 
+#include <stdexcept>
+#include <string_view>
+
 #include "app/solve_system.hpp"
 #include "base/errors.hpp"
 #include "base/stopwatch.hpp"
+#include "ddm/ranks.hpp"
 #include "io/gmsh_mesh.hpp"
 #include "mesh/copy_bodies.hpp"
 #include "problem/audit.hpp"
@@ -64,6 +68,19 @@ Contact add_contact(const Scene& scene, const Mesh& mesh, const std::vector<Cont
   require_closed(mesh, contact.pairs);
   append(contact.warnings, hold_free_motions(mesh, contact.pairs, contact.warnings, d.system));
   return contact;
+}
+
+// Each rank reads or meshes the file by itself.
+void require_same_mesh(const Mesh& mesh) {
+  if (ranks().count() == 1) return;
+  const std::string_view bytes(reinterpret_cast<const char*>(mesh.nodes.data()), mesh.nodes.size() * sizeof(double));
+  std::size_t hash = std::hash<std::string_view>{}(bytes);
+  for (const Cell& cell : mesh.cells)
+    for (int a = 0; a < node_count(cell.kind); ++a) hash = 31 * hash + std::size_t(cell.nodes[a]);
+  const double own = double(hash >> 24);  // sums of it are exact
+  double sum = own;
+  ranks().sum(&sum, 1);
+  if (sum != own * ranks().count()) throw std::runtime_error(mesh.source + ": the ranks have different meshes of it");
 }
 
 // What `work` returns; what it refuses of the scene is told with the scene's path.
@@ -142,6 +159,7 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   Results r;
   r.mesh = std::move(mesh);
   Stopwatch watch;
+  require_same_mesh(r.mesh);
 
   stage("assemble");
   r.points = body_points(r.mesh);

@@ -26,49 +26,52 @@ SparseMatrix with_diagonal(const SparseMatrix& A, const VecX& added) {
   return A + D;
 }
 
-SparseMatrix with_identity_below(const SparseMatrix& A) {
-  SparseRows below(A.rows() + A.cols(), A.cols());
-  below.topRows(A.rows()) = A;
-  SparseRows identity(A.cols(), A.cols());
-  identity.setIdentity();
-  below.bottomRows(A.cols()) = identity;
-  return below;
+SparseMatrix sum_of_ranks(SparseMatrix A) {
+  if (ranks().count() == 1) return A;
+  Triplets entries;
+  for (int j = 0; j < A.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(A, j); it; ++it) entries.emplace_back(int(it.row()), j, it.value());
+  entries = ranks().of_all(std::move(entries));
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
 }
 
 }  // namespace
 
 ClosedRows::ClosedRows(const DualSystem& system, const std::vector<char>& closed, const VecX& supports)
-    : system_(system),
-      supports_(supports),
-      H_(supports.size() > 0 ? with_identity_below(system.H) : system.H),
-      closed_(stacked(ones_and_zeros(closed), VecX::Ones(supports.size()))) {
-  share_jumps();
+    : system_(system), rows_(system.rows()), supports_(supports) {
+  share_jumps(closed);
   if (dependent_row < 0) hold_motions();
 }
 
 // Open rows keep their diagonal, which nothing reaches.
-void ClosedRows::share_jumps() {
+void ClosedRows::share_jumps(const std::vector<char>& flags) {
   SparseMatrix sharing = system_.sharing;
+  const VecX closed = ones_and_zeros(flags);
   for (int j = 0; j < sharing.cols(); ++j)
     for (SparseMatrix::InnerIterator it(sharing, j); it; ++it)
-      if (it.row() != j) it.valueRef() *= closed_(it.row()) * closed_(j);
-  const VecX size = sharing.diagonal();
-  weights_ = stacked(closed_.head(size.size()).cwiseQuotient(size), supports_);
+      if (it.row() != j) it.valueRef() *= closed(it.row()) * closed(j);
+  const VecX size = sharing.diagonal(), own = rows_.own(closed);
+  closed_ = stacked(own, VecX::Ones(supports_.size()));
+  weights_ = stacked(own.cwiseQuotient(rows_.own(size)), supports_);
   sharing_.compute(sharing);
   if (size.size() == 0) return;
   const VecX pivots = sharing_.vectorD();
   for (Eigen::Index k = 0; k < pivots.size() && dependent_row < 0; ++k) {
     const int row = sharing_.permutationPinv().indices()(k);
-    if (closed_(row) > 0 && !(pivots(k) > dependent_limit * size(row))) dependent_row = row;
+    if (closed(row) > 0 && !(pivots(k) > dependent_limit * size(row))) dependent_row = row;
   }
 }
 
 // H^T weights H, with a spring at each motion that it leaves free.
 void ClosedRows::hold_motions() {
-  const Eigen::Index springs = H_.cols();
+  const SparseMatrix& H = system_.H;
+  const Eigen::Index springs = H.cols();
   free_motions.resize(springs, 0);
   if (springs == 0) return;
-  const SparseMatrix E = SparseMatrix(H_.transpose()) * SparseMatrix(weights_.asDiagonal() * H_);
+  const VecX weights = weights_.head(H.rows());
+  SparseMatrix E = sum_of_ranks(SparseMatrix(H.transpose()) * SparseMatrix(weights.asDiagonal() * H));
+  if (supports_.size() > 0) E = with_diagonal(E, supports_);
   VecX size = E.diagonal();
   const double most = size.maxCoeff();
   for (double& of_motion : size)
@@ -95,77 +98,100 @@ VecX ClosedRows::coarse(VecX b) const {
   return coarse_.solve(b);
 }
 
+// How the rows and supports open in a motion, own.
+VecX ClosedRows::openings(const VecX& motion) const {
+  return supports_.size() > 0 ? stacked(system_.H * motion, motion) : VecX(system_.H * motion);
+}
+
+// What lambda does to the motions, s.
+VecX ClosedRows::resultants(const VecX& lambda) const {
+  VecX found = system_.H.transpose() * lambda.head(system_.H.rows());
+  ranks().sum(found.data(), found.size());
+  return supports_.size() > 0 ? VecX(found + lambda.tail(supports_.size())) : found;
+}
+
+double ClosedRows::dot(const VecX& a, const VecX& b) const {
+  const Eigen::Index springs = supports_.size(), m = system_.H.rows();
+  return rows_.dot(a.head(m), b.head(m)) + a.tail(springs).dot(b.tail(springs));
+}
+
+double ClosedRows::largest_of(const VecX& v) const {
+  return largest(rows_.largest(v.head(system_.H.rows())), largest_entry(v.tail(supports_.size())));
+}
+
 // lambda, changed on closed rows until the parts are in balance.
 VecX ClosedRows::balanced(VecX lambda, const VecX& h) const {
   lambda = on_closed(lambda);
-  for (int pass = 0; pass < 2; ++pass) lambda += weights_.cwiseProduct(H_ * coarse(h - H_.transpose() * lambda));
+  for (int pass = 0; pass < 2; ++pass) lambda += weights_.cwiseProduct(openings(coarse(h - resultants(lambda))));
   return lambda;
 }
 
 // Those that leave least of a residual, in the norm of the weights.
-VecX ClosedRows::motions(const VecX& residual) const {
-  return coarse(H_.transpose() * weights_.cwiseProduct(residual));
-}
+VecX ClosedRows::motions(const VecX& residual) const { return coarse(resultants(weights_.cwiseProduct(residual))); }
 
 // This projection, and its transpose below, twice: once leaves round-off of what the stiffest parts do in the way of
 // the softest ones.
 VecX ClosedRows::without_motions(VecX residual) const {
-  for (int pass = 0; pass < 2; ++pass) residual -= on_closed(H_ * motions(residual));
+  for (int pass = 0; pass < 2; ++pass) residual -= on_closed(openings(motions(residual)));
   return residual;
 }
 
 VecX ClosedRows::without_resultants(VecX lambda) const {
-  for (int pass = 0; pass < 2; ++pass) lambda -= weights_.cwiseProduct(H_ * coarse(H_.transpose() * lambda));
+  for (int pass = 0; pass < 2; ++pass) lambda -= weights_.cwiseProduct(openings(coarse(resultants(lambda))));
   return lambda;
 }
 
 VecX ClosedRows::multiply(const VecX& lambda) const {
-  const Eigen::Index springs = supports_.size(), m = lambda.size() - springs;
-  return stacked(system_.multiply(lambda.head(m)), lambda.tail(springs).cwiseQuotient(supports_));
+  return stacked(system_.multiply(lambda.head(system_.H.rows())),
+                 lambda.tail(supports_.size()).cwiseQuotient(supports_));
+}
+
+// A^-1 of a jump of the rows.
+VecX ClosedRows::unshared(const VecX& jump) const {
+  return closed_.head(jump.size()).cwiseProduct(rows_.own(sharing_.solve(rows_.whole(jump))));
 }
 
 VecX ClosedRows::precondition(const VecX& residual) const {
-  const Eigen::Index springs = supports_.size(), m = residual.size() - springs;
-  const VecX closed = closed_.head(m), jump = closed.cwiseProduct(sharing_.solve(VecX(residual.head(m))));
-  return stacked(closed.cwiseProduct(sharing_.solve(closed.cwiseProduct(system_.multiply_stiffness(jump)))),
-                 residual.tail(springs).cwiseProduct(supports_));
+  const Eigen::Index m = system_.H.rows();
+  const VecX stiff = system_.multiply_stiffness(unshared(residual.head(m)));
+  return stacked(unshared(closed_.head(m).cwiseProduct(stiff)),
+                 residual.tail(supports_.size()).cwiseProduct(supports_));
 }
 
 void ClosedRows::solve(const DualSystem::Forces& forces, IterationMonitor& monitor, DualSolution& x) const {
-  const Eigen::Index springs = supports_.size(), m = forces.r.size();
+  const Eigen::Index springs = supports_.size(), m = system_.H.rows();
   if (x.support.size() != springs) x.support = VecX::Zero(springs);
-  const VecX gaps = stacked(forces.r, VecX::Zero(springs));
-  VecX lambda = balanced(stacked(x.lambda, x.support), forces.h), C_lambda = multiply(lambda);
+  const VecX gaps = stacked(rows_.own(forces.r), VecX::Zero(springs)), response = rows_.own(forces.response);
+  VecX lambda = balanced(stacked(rows_.own(x.lambda), x.support), forces.h), C_lambda = multiply(lambda);
   VecX r = without_motions(on_closed(gaps - C_lambda)), z = without_resultants(precondition(r)), p = z;
-  double rz = r.dot(z);
+  double rz = dot(r, z);
   const auto residuals = [&] {
-    const double terms = largest(largest_entry(C_lambda), largest_entry(gaps)),
-                 size = system_.size(largest_entry(on_closed(gaps - C_lambda)), terms),
-                 energy = forces.energy - 2 * forces.response.dot(lambda.head(m)) + lambda.dot(C_lambda);
-    return Residuals{.kinematic = fraction(largest_entry(r), size),
+    const double terms = largest(largest_of(C_lambda), largest_of(gaps)),
+                 size = system_.size(largest_of(on_closed(gaps - C_lambda)), terms),
+                 energy = forces.energy - 2 * rows_.dot(response, lambda.head(m)) + dot(lambda, C_lambda);
+    return Residuals{.kinematic = fraction(largest_of(r), size),
                      .force = largest(std::sqrt(fraction(std::abs(rz), std::abs(energy))),
-                                      of_one_row * fraction(largest_entry(z), largest_entry(lambda)))};
+                                      of_one_row * fraction(largest_of(z), largest_of(lambda)))};
   };
   while (monitor.go_on(residuals(), std::sqrt(std::abs(rz)))) {
     const VecX Cp = multiply(p);
-    const double alpha = rz / p.dot(Cp), before = rz;
+    const double alpha = rz / dot(p, Cp), before = rz;
     lambda += alpha * p;
     C_lambda += alpha * Cp;
     r -= alpha * without_motions(on_closed(Cp));
     z = without_resultants(precondition(r));
-    rz = r.dot(z);
+    rz = dot(r, z);
     p = z + rz / before * p;
   }
   x.mu = motions(on_closed(gaps - C_lambda));
-  x.lambda = lambda.head(m);
+  x.lambda = rows_.whole(lambda.head(m));
   x.support = lambda.tail(springs);
 }
 
 VecX ClosedRows::driven_motion(const VecX& h, const VecX& lambda) const {
-  VecX driven = VecX::Zero(H_.cols());
+  VecX driven = VecX::Zero(h.size());
   if (free_.empty()) return driven;
-  const SparseMatrix Ht = H_.transpose();
-  const VecX work = h - Ht * lambda, terms = h.cwiseAbs() + Ht.cwiseAbs() * lambda.cwiseAbs();
+  const VecX work = h - system_.resultants(lambda), terms = system_.work_terms(h, lambda);
   for (const auto& motion : free_motions.colwise())
     if (std::abs(motion.dot(work)) > negligible_work * motion.cwiseAbs().dot(terms))
       driven += motion.dot(work) * motion;

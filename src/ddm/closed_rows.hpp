@@ -8,7 +8,7 @@
 
 namespace mortise {
 
-/// lambda, m, zero on open rows; mu, s; and the supports' forces, s or none.
+/// lambda, m, zero on open rows; mu, s; and the supports' forces, s or none. All on all ranks.
 struct DualSolution {
   VecX lambda, mu, support;
 };
@@ -43,17 +43,22 @@ class ClosedRows {
   VecX without_motions(VecX residual) const;
   VecX without_resultants(VecX lambda) const;
   VecX precondition(const VecX& residual) const;
-  void share_jumps();
+  VecX openings(const VecX& motion) const;
+  VecX resultants(const VecX& lambda) const;
+  double dot(const VecX& a, const VecX& b) const;
+  double largest_of(const VecX& v) const;
+  VecX unshared(const VecX& jump) const;
+  void share_jumps(const std::vector<char>& closed);
   void hold_motions();
 
   using SparseCholesky = Eigen::SimplicialLDLT<SparseMatrix>;
 
-  // Below, m is that of the rows and the supports.
+  // Vectors of the iteration have the own rows, and then the supports, on all ranks.
   const DualSystem& system_;
+  const DealtRows& rows_;
   VecX supports_;
-  SparseMatrix H_;
-  VecX closed_;            // 1 or 0, m
-  VecX weights_;           // of closed rows, m: about the inverse of C's diagonal
+  VecX closed_;            // 1 or 0
+  VecX weights_;           // of closed rows: about the inverse of C's diagonal
   std::vector<int> free_;  // springs whose motions no closed row holds
   SparseCholesky sharing_, coarse_;
 };

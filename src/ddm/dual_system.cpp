@@ -91,7 +91,7 @@ bool worth_sharing(const Substructure& part, std::size_t count) {
 DualSystem::DualSystem(const SaddlePointSystem& s) {
   const Eigen::Index m = s.B.rows(), springs = s.grounded.size();
   diagonal = VecX::Zero(m);
-  std::vector<Substructure> all = substructures(s);
+  std::vector<Substructure> all = substructures(s, ranks().rank(), ranks().count());
   const std::vector<int> first = first_alike(all);
   std::vector<std::size_t> counts(all.size(), 0);
   for (const int k : first) ++counts[k];
@@ -134,12 +134,12 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
     own.system = {};
   });
 
-  std::vector<Eigen::Triplet<double>> of_H, of_sharing;
+  Triplets of_H, of_sharing;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const Part& part = parts_[k];
     if (part.body->failed_at >= 0) {
       failed_at = part.unknowns[part.body->failed_at];
-      return;
+      break;
     }
     diagonal(part.rows) += part.C.diagonal();
     for (std::size_t a = 0; a < part.rows.size(); ++a)
@@ -149,8 +149,15 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
       for (SparseMatrix::InnerIterator it(sharings[k], j); it; ++it)
         if (it.row() >= j) of_sharing.emplace_back(part.rows[it.row()], part.rows[j], it.value());
   }
-  H.resize(m, springs);
-  H.setFromTriplets(of_H.begin(), of_H.end());
+  failed_at = ranks().largest(failed_at);
+  if (failed_at >= 0) return;
+  diagonal = sum_over_ranks(std::move(diagonal));
+  deal_rows(m);
+  of_H = ranks().of_all(std::move(of_H));
+  SparseRows all_H(m, springs);
+  all_H.setFromTriplets(of_H.begin(), of_H.end());
+  H = rows_->own(all_H);
+  of_sharing = ranks().of_all(std::move(of_sharing));
   sharing.resize(m, m);
   sharing.setFromTriplets(of_sharing.begin(), of_sharing.end());
   add_up(load);
@@ -158,40 +165,68 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
 }
 
 void DualSystem::add_up(Answer& answer) const {
-  answer.response = VecX::Zero(H.rows());
+  answer.response = VecX::Zero(sharing.rows());
   answer.h = VecX::Zero(H.cols());
+  VecX energy = VecX::Zero(1);
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const BodyGroup::Answer& part = answer.parts[k];
     answer.response(parts_[k].rows) += part.response;
     answer.h(parts_[k].springs) = part.work;
-    answer.energy += part.y.squaredNorm();
+    energy(0) += part.y.squaredNorm();
   }
+  answer.response = sum_over_ranks(std::move(answer.response));
+  answer.h = sum_over_ranks(std::move(answer.h));
+  answer.energy = sum_over_ranks(std::move(energy))(0);
   answer.r = answer.response;
+}
+
+void DualSystem::deal_rows(Eigen::Index m) {
+  std::vector<int> seen;
+  for (const Part& part : parts_) seen.insert(seen.end(), part.rows.begin(), part.rows.end());
+  std::ranges::sort(seen);
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+  rows_ = ranks().deal(m, seen);
+  for (Part& part : parts_) part.places = rows_->places(part.rows);
+}
+
+VecX DualSystem::sum_over_ranks(VecX sum) {
+  ranks().sum(sum.data(), sum.size());
+  return sum;
+}
+
+VecX DualSystem::work_terms(const VecX& h, const VecX& lambda) const {
+  return h.cwiseAbs() + sum_over_ranks(H.cwiseAbs().transpose() * rows_->own(lambda).cwiseAbs());
+}
+
+VecX DualSystem::stiffness() const {
+  return sum_over_ranks(H.cwiseAbs2().transpose() * rows_->own(diagonal).cwiseInverse());
 }
 
 namespace {
 
-// The sum over the parts of a matrix times the entries of x on their rows.
+// The sum over the parts of a matrix times the entries of x in their places.
 template <typename Parts, typename Matrix>
 VecX sum_of_products(const Parts& parts, const VecX& x, Matrix matrix) {
   std::vector<VecX> products(parts.size());
   double work = 0;
   for (const auto& part : parts) work += double(part.rows.size()) * double(part.rows.size());
   for_each_index(parts.size(), work > worth_threads ? solver_threads() : 1,
-                 [&](std::size_t k) { products[k].noalias() = matrix(parts[k]) * VecX(x(parts[k].rows)); });
+                 [&](std::size_t k) { products[k].noalias() = matrix(parts[k]) * VecX(x(parts[k].places)); });
   VecX sum = VecX::Zero(x.size());
-  for (std::size_t k = 0; k < parts.size(); ++k) sum(parts[k].rows) += products[k];
+  for (std::size_t k = 0; k < parts.size(); ++k) sum(parts[k].places) += products[k];
   return sum;
 }
 
 }  // namespace
 
 VecX DualSystem::multiply(const VecX& lambda) const {
-  return sum_of_products(parts_, lambda, [](const Part& part) -> const MatX& { return part.C; });
+  return rows_->sum_of_seen(
+      sum_of_products(parts_, rows_->seen(lambda), [](const Part& part) -> const MatX& { return part.C; }));
 }
 
 VecX DualSystem::multiply_stiffness(const VecX& x) const {
-  return sum_of_products(parts_, x, [](const Part& part) -> const MatX& { return part.stiffness; });
+  return rows_->sum_of_seen(
+      sum_of_products(parts_, rows_->seen(x), [](const Part& part) -> const MatX& { return part.stiffness; }));
 }
 
 DualSystem::Answer DualSystem::answer(const VecX& force) const {
@@ -205,14 +240,17 @@ DualSystem::Answer DualSystem::answer(const VecX& force) const {
 }
 
 void DualSystem::add_displacements(const Answer& forces, const VecX& lambda, const VecX& mu, VecX& u) const {
+  VecX added = VecX::Zero(u.size());
   for_each_index(parts_.size(), solver_threads(), [&](std::size_t k) {
     const Part& part = parts_[k];
-    VecX own = u(part.unknowns);
+    VecX own = VecX::Zero(part.unknowns.size());
     VecX border = lambda(part.rows);
     if (part.rows_of_body.cols() > 0) border = part.rows_of_body.transpose() * border;
     part.body->add_displacements(forces.parts[k], border, mu(part.springs), own);
-    u(part.unknowns) = own;
+    added(part.unknowns) = own;
   });
+  ranks().sum(added.data(), added.size());
+  u += added;
 }
 
 }  // namespace mortise

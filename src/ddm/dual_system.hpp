@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "ddm/body_group.hpp"
+#include "ddm/ranks.hpp"
 #include "ddm/substructures.hpp"
 
 namespace mortise {
@@ -12,14 +13,15 @@ namespace mortise {
 ///
 ///   [C  H; H^T  0] (lambda, mu) = (r, h),   C = sum of the parts' B K^-1 B^T,   H = B R   (docs/theory.md eq. 51)
 ///
-/// with s rigid motions R that only contact holds, as in BodyGroup; dimensionless, as the bordered system.
+/// with s rigid motions R that only contact holds, as in BodyGroup; dimensionless, as the bordered system. Each rank
+/// has the parts of its block; what has m or s entries is on all of them, unless it says "own" (DealtRows).
 class DualSystem {
  public:
   explicit DualSystem(const SaddlePointSystem& system);
 
   /// -1, or the unknown at which K is not positive definite: nothing below may be used then.
   int failed_at = -1;
-  SparseMatrix H;  ///< m x s
+  SparseMatrix H;  ///< own rows x s
 
   /// What forces on the parts make of the right-hand side. The parts alone open the rows by `response`, with the energy
   /// f^T K^-1 f: where springs hold a body against its load, both are far more than of its balance with lambda.
@@ -28,7 +30,7 @@ class DualSystem {
     double energy = 0;
   };
   struct Answer : Forces {
-    std::vector<BodyGroup::Answer> parts;
+    std::vector<BodyGroup::Answer> parts;  // of this rank
   };
   Answer load;  ///< to the system's own, and its gaps
   /// To forces, n, over the stiffness scale.
@@ -46,10 +48,19 @@ class DualSystem {
     return H.cols() > 0 ? largest(moved, 1e-5 * terms) : largest(moved, terms);
   }
 
-  /// C lambda, m.
+  const DealtRows& rows() const { return *rows_; }
+  /// C lambda; own of both.
   VecX multiply(const VecX& lambda) const;
-  /// B W^-1 S W^-1 B^T x, m, with S the stiffness of the parts' contact nodes, all other nodes free (the Schur
-  /// complement).
+  /// On all ranks, of vectors on all ranks: C lambda, H motion, H^T lambda.
+  VecX pressed(const VecX& lambda) const { return rows_->whole(multiply(rows_->own(lambda))); }
+  VecX opening(const VecX& motion) const { return rows_->whole(H * motion); }
+  VecX resultants(const VecX& lambda) const { return sum_over_ranks(H.transpose() * rows_->own(lambda)); }
+  /// |h| + |H|^T |lambda|: what the work that lambda leaves of h is a difference of.
+  VecX work_terms(const VecX& h, const VecX& lambda) const;
+  /// s: diagonal of H^T D^-1 H, with D that of C.
+  VecX stiffness() const;
+  /// B W^-1 S W^-1 B^T x, likewise own, with S the stiffness of the parts' contact nodes, all other nodes free (the
+  /// Schur complement).
   VecX multiply_stiffness(const VecX& x) const;
 
   /// Adds the displacements under forces and the multipliers to u (n, length).
@@ -58,6 +69,7 @@ class DualSystem {
  private:
   struct Part {
     std::vector<int> unknowns, rows, springs;
+    std::vector<int> places;  // of the rows, in the vectors that this rank's parts see
     std::shared_ptr<const BodyGroup> body;  // its own; or that of all parts alike, with a unit row a contact unknown
     SparseMatrix rows_of_body;              // then B on these, rows x contact unknowns; else empty
     MatX C, H, stiffness;                   // of its rows; stiffness: of multiply_stiffness, full
@@ -69,7 +81,11 @@ class DualSystem {
 
   void add_up(Answer& answer) const;
 
+  void deal_rows(Eigen::Index m);
+  static VecX sum_over_ranks(VecX sum);
+
   std::vector<Part> parts_;
+  std::unique_ptr<const DealtRows> rows_;
 };
 
 }  // namespace mortise

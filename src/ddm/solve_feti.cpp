@@ -38,7 +38,8 @@ class FetiFactor : public ContactFactor {
       return answers[std::max<Eigen::Index>(k - without_load + 1, 0)];
     };
     std::vector<DualSolution> found(count);
-    for_each_index(count, solver_threads(), [&](std::size_t k) {
+    const int threads = ranks().count() > 1 ? 1 : solver_threads();  // ranks meet in the same order
+    for_each_index(count, threads, [&](std::size_t k) {
       const VecX gaps = functionals.col(Eigen::Index(k)).cwiseQuotient(row_scale_);
       const DualSystem::Answer& answer = answer_to(Eigen::Index(k));
       IterationMonitor monitor(dual_tolerance, max_iterations_);
@@ -87,23 +88,23 @@ class FetiRows : public ContactRows {
     if (answer.dependent_row >= 0) return answer;
     monitor_.restart(tolerance_);
     DualSystem::Forces forces = system_.load;
-    if (supports.at.size() > 0) forces.r -= system_.H * supports.at;
+    if (supports.at.size() > 0) forces.r -= system_.opening(supports.at);
     rows_->solve(forces, monitor_, x_);
     answer.status = monitor_.status();
     answer.lambda = x_.lambda;
     answer.mu = x_.mu;
     if (supports.at.size() > 0) answer.mu += supports.at;
-    const VecX pressed = system_.multiply(answer.lambda), moved = system_.H * answer.mu;
+    const VecX pressed = system_.pressed(answer.lambda), moved = system_.opening(answer.mu);
     answer.w = system_.load.r - pressed - moved;
     const double terms = largest(largest_entry(system_.load.r), largest_entry(pressed)),
                  size = system_.size(largest(largest_entry(answer.w), largest_entry(moved)), terms);
     answer.negligible_tension = round_off * tolerance_ * largest_entry(answer.lambda.cwiseQuotient(s_.row_scale));
     answer.negligible_penetration = round_off * tolerance_ * size;
-    const SparseMatrix Ht = system_.H.transpose();
-    const VecX loads = system_.load.h.cwiseAbs() + Ht.cwiseAbs() * answer.lambda.cwiseAbs();
-    answer.supported = fraction(largest_entry(system_.load.h - Ht * answer.lambda), largest_entry(loads));
+    const VecX left = system_.load.h - system_.resultants(answer.lambda);
+    answer.supported =
+        fraction(largest_entry(left), largest_entry(system_.work_terms(system_.load.h, answer.lambda)));
     answer.driven_mode = rows_->driven_motion(system_.load.h, answer.lambda);
-    answer.opening = system_.H * answer.driven_mode;
+    answer.opening = system_.opening(answer.driven_mode);
     return answer;
   }
 
@@ -117,9 +118,7 @@ class FetiRows : public ContactRows {
   const VecX& scale() const override { return s_.row_scale; }
   const std::vector<char>& unilateral() const override { return unilateral_; }
   Eigen::Index motions() const override { return system_.H.cols(); }
-  VecX stiffness() const override {
-    return SparseMatrix(system_.H.transpose()).cwiseAbs2() * system_.diagonal.cwiseInverse();
-  }
+  VecX stiffness() const override { return system_.stiffness(); }
 
   const IterationMonitor& monitor() const { return monitor_; }
   /// Of the last active set.

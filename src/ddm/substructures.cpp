@@ -56,6 +56,16 @@ bool same_stiffness(const SparseMatrix& one, const SparseMatrix& other) {
   return (a - b).cwiseAbs().maxCoeff() <= alike_stiffness * largest_entry(a);
 }
 
+// Leaves the parts whose middle unknown, with all counted through, is in the block of this rank.
+void keep_block(std::vector<Substructure>& parts, Eigen::Index unknowns, int rank, int ranks) {
+  Eigen::Index before = 0;
+  std::erase_if(parts, [&](const Substructure& part) {
+    const Eigen::Index size = part.unknowns.size(), middle = before + size / 2;
+    before += size;
+    return middle * ranks / unknowns != rank;
+  });
+}
+
 }  // namespace
 
 std::vector<int> contact_unknowns(const SaddlePointSystem& part) {
@@ -98,7 +108,7 @@ int part_count(const SparseMatrix& K) {
   return part.empty() ? 0 : *std::ranges::max_element(part) + 1;
 }
 
-std::vector<Substructure> substructures(const SaddlePointSystem& s) {
+std::vector<Substructure> substructures(const SaddlePointSystem& s, int rank, int ranks) {
   const int n = int(s.K.cols());
   const std::vector<int> part = parts_of_nodes(s.K);
   std::vector<Substructure> all(part.empty() ? 0 : *std::ranges::max_element(part) + 1);
@@ -112,6 +122,7 @@ std::vector<Substructure> substructures(const SaddlePointSystem& s) {
     own.springs.push_back(int(k));
     own.system.grounded.push_back(local[s.grounded[k]]);
   }
+  keep_block(all, n, rank, ranks);
   for (Substructure& own : all) {
     for (const int unknown : own.unknowns)
       for (SparseMatrix::InnerIterator it(s.B, unknown); it; ++it) own.rows.push_back(int(it.row()));

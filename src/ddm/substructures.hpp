@@ -23,7 +23,8 @@ std::vector<int> contact_unknowns(const SaddlePointSystem& part);
 /// by unknown, with the same of them fixed, held by springs and in contact. The rows may differ.
 std::vector<int> first_alike(const std::vector<Substructure>& parts);
 
-/// In the order of their first unknowns. Time and memory as the entries of K and B.
-std::vector<Substructure> substructures(const SaddlePointSystem& system);
+/// In the order of their first unknowns. Time and memory as the entries of K and B. Of several ranks: a block of them
+/// for each, with about as many unknowns.
+std::vector<Substructure> substructures(const SaddlePointSystem& system, int rank = 0, int ranks = 1);
 
 }  // namespace mortise

@@ -45,6 +45,7 @@ const std::vector<Foreign> foreigners{
     {"Boost", R"(boost/.*)", "mesh", true},    {"gmsh", R"(gmsh\..*)", "io", true},
     {"VTK", R"(vtk\w+\.h)", "io", true},       {"CHOLMOD", R"((.*/)?cholmod.*)", "solve", true},
     {"AMD", R"((.*/)?amd\.h)", "solve", true}, {"nlohmann-json", R"(nlohmann/.*)", "results", false},
+    {"PETSc", R"(petsc.*)", "ddm", true},      {"MPI", R"(mpi\.h)", "ddm", true},
     {"CLI11", R"(CLI/.*)", "app", false},      {"toml++", R"(toml\+\+.*)", "scene", true},
 };
 
