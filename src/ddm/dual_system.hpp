@@ -69,7 +69,7 @@ class DualSystem {
  private:
   struct Part {
     std::vector<int> unknowns, rows, springs;
-    std::vector<int> places;  // of the rows, in the vectors that this rank's parts see
+    std::vector<int> places;                // of the rows, in the vectors that this rank's parts see
     std::shared_ptr<const BodyGroup> body;  // its own; or that of all parts alike, with a unit row a contact unknown
     SparseMatrix rows_of_body;              // then B on these, rows x contact unknowns; else empty
     MatX C, H, stiffness;                   // of its rows; stiffness: of multiply_stiffness, full

@@ -101,8 +101,7 @@ class FetiRows : public ContactRows {
     answer.negligible_tension = round_off * tolerance_ * largest_entry(answer.lambda.cwiseQuotient(s_.row_scale));
     answer.negligible_penetration = round_off * tolerance_ * size;
     const VecX left = system_.load.h - system_.resultants(answer.lambda);
-    answer.supported =
-        fraction(largest_entry(left), largest_entry(system_.work_terms(system_.load.h, answer.lambda)));
+    answer.supported = fraction(largest_entry(left), largest_entry(system_.work_terms(system_.load.h, answer.lambda)));
     answer.driven_mode = rows_->driven_motion(system_.load.h, answer.lambda);
     answer.opening = system_.opening(answer.driven_mode);
     return answer;

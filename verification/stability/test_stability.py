@@ -127,17 +127,19 @@ def test_defaults_lie_inside_the_stable_regions(scene):
     """The scenes as they stand: no run fails but by the coarse mesh's checks, and none gets a word about its gap."""
     run = {"axes": {}, "scene": scene, "settings": parameters(scene), "measures": []}
     row = execute(run)
-    assert row["outcome"] in ("solved", "check") and row["steps"] <= study_7_iterations.BAR, row
+    steps = 3 * study_7_iterations.BAR if scene == "rollers" else study_7_iterations.BAR  # its bodies must not travel
+    assert row["outcome"] in ("solved", "check") and row["steps"] <= steps, row
     assert set(filter(None, row["failed_checks"].split("; "))) <= OF_COARSE_MESHES
     assert "initial_gap" not in row["warnings"]
     nu = [material["poisson"] for material in tomllib.loads(launch.scene_file(scene).read_text())["materials"].values()]
     assert max(nu) < 0.45
-    if scene == "wall":  # whose bodies touch in cycles: no two groups
+    if scene in ("wall", "pellets"):  # whose bodies touch in cycles: no two groups
         row = execute({**run, "settings": {**run["settings"], "method.solver": "ddm"}})
         assert row["outcome"] == "refused" and "opposite role" in row["message"], row
     elif scene != "stack":  # whose bodies are a chain of three
         row = execute({**run, "settings": {**run["settings"], "method.solver": "ddm"}})
-        assert row["outcome"] in ("solved", "check"), row
+        outcomes = ("not converged",) if scene == "rollers" else ("solved", "check")  # which iterates let travel
+        assert row["outcome"] in outcomes, row
 
 
 def test_the_finer_side_is_the_default_and_is_cut_into_segments():
