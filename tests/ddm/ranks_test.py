@@ -75,7 +75,7 @@ def dies_whole(mortise, work):
     folder = work / "killed"
     folder.mkdir()
     (folder / "summary.json").write_text("before")
-    slow = ["--set", "mesh.parameters.n=30", "--quiet", "-o", folder]
+    slow = ["--set", "mesh.parameters.n=60", "--quiet", "-o", folder]
     for number, to_rank in ((signal.SIGKILL, True), (signal.SIGINT, False)):
         mpirun = subprocess.Popen(
             command(mortise, 2, GEO / "wall.toml", *slow), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
@@ -87,7 +87,8 @@ def dies_whole(mortise, work):
         errors = mpirun.communicate(timeout=60)[1]
         assert mpirun.returncode != 0, "killed, with exit status 0"
         assert not to_rank or "signal 9" in errors, errors
-        assert sorted(path.name for path in folder.iterdir()) == ["summary.json"]
+        names = sorted(path.name for path in folder.iterdir())
+        assert names == ["summary.json"], names
         assert (folder / "summary.json").read_text() == "before"
 
 
