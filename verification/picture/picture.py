@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""One picture of a run: the deformed bodies with von Mises stress, and the pressure along each contact line.
+"""One picture of a run: the deformed bodies with von Mises stress, and the pressure along each contact line; of many
+contact pairs the forces between the bodies instead.
 
 Usage: picture.py RESULTS [PICTURE] [--scale FACTOR] [--dpi DPI]
 
@@ -24,6 +25,7 @@ import figure
 import launch
 
 CORNERS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
+MANY_PAIRS = 6  # more are not drawn one by one
 COLOURS = ["#e8452c", "#4aa3e8"]  # multiplier side, opposite side
 TRIANGLE = [(0, 0), (1, 0), (0, 1), (0.5, 0), (0.5, 0.5), (0, 0.5)]  # reference cells: nodes in VTK's order
 SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0), (0, 0)]
@@ -115,15 +117,25 @@ def percentiles(values, weights, at):
     return np.interp(np.array(at) / 100, part / weights.sum(), values[order])
 
 
-def areas_at_nodes(mesh):
-    """Of each node the area of the cells that meet there, by their corners."""
-    areas = np.zeros(len(mesh.points))
+def cell_areas(mesh):
+    """Blocks of cells with the areas of their cells, by their corners."""
     for block in mesh.cells:
         if block.type in CORNERS:
             x, y = np.moveaxis(mesh.points[block.data[:, : CORNERS[block.type]], :2], 2, 0)
-            area = (x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1) / 2
-            np.add.at(areas, block.data, np.abs(area)[:, None])
+            yield block, np.abs((x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1) / 2)
+
+
+def areas_at_nodes(mesh):
+    """Of each node the area of the cells that meet there."""
+    areas = np.zeros(len(mesh.points))
+    for block, of_cells in cell_areas(mesh):
+        np.add.at(areas, block.data, of_cells[:, None])
     return areas
+
+
+def body_areas(mesh):
+    numbers = [number for block, number in zip(mesh.cells, mesh.cell_data["body"]) if block.type in CORNERS]
+    return np.bincount(np.concatenate(numbers).astype(int).ravel(), np.concatenate([areas for _, areas in cell_areas(mesh)]))
 
 
 def stress_range(stress, areas):
@@ -234,6 +246,46 @@ def draw_pair(axes, table, multiplier_side, between, label="$p$ (multipliers)"):
     axes.legend(loc="upper center", ncol=4, frameon=False, fontsize=8, bbox_to_anchor=(0.5, 1.17))
 
 
+def place_of_force(table, rows):
+    """Where a pair's pressure acts on the whole: rows of one side, in the order of their arc length."""
+    s, p = table["s"][rows], table["p"][rows]
+    weights = np.maximum(p, 0) * np.abs(np.gradient(s)) if len(s) > 1 else np.ones(1)
+    weights = weights if weights.sum() > 0 else np.ones(len(s))
+    return np.average(np.stack([table["x"][rows], table["y"][rows]], axis=1), axis=0, weights=weights)
+
+
+def draw_forces(axes, mesh, table, pairs, sides):
+    """A stroke a contact pair, where its force acts and along it, as wide and dark as it is large."""
+    axes.add_collection(LineCollection(polylines(mesh.points[:, :2], outlines(mesh)), colors="0.75", linewidths=0.6))
+    forces = np.array([pair["force"] for pair in pairs])
+    sizes = np.linalg.norm(forces, axis=1)
+    largest = sizes.max()
+    acting = np.flatnonzero(sizes > 1e-3 * largest) if largest > 0 else []
+    rows = {k: (table["pair"] == k) & (table["curve"] == sides[k]) for k in acting}
+    places = np.array([place_of_force(table, rows[k]) for k in acting]).reshape(-1, 2)
+    reach = 0.35 * math.sqrt(np.median(body_areas(mesh)))
+    along = reach * forces[acting] / sizes[acting, None] if len(acting) else places
+    part = sizes[acting] / largest if len(acting) else sizes
+    strokes = LineCollection(
+        np.stack([places - along, places + along], axis=1),
+        linewidths=0.5 + 4.5 * part,
+        array=sizes[acting],
+        cmap="magma_r",
+        clim=(0, largest),
+        capstyle="round",
+    )
+    axes.add_collection(strokes)
+    axes.set_aspect("equal")
+    axes.autoscale_view()
+    axes.margins(0.03)
+    bar = axes.figure.colorbar(strokes, ax=axes, pad=0.02, aspect=25)
+    bar.set_label("contact force of a pair (scene's units)")
+    figure.scientific(bar.ax.yaxis)
+    axes.set_title(f"forces between bodies: {len(acting)} of {len(pairs)} pairs carry some", fontsize=9)
+    axes.set_xlabel("$x_1$")
+    axes.set_ylabel("$x_2$")
+
+
 def draw(results, picture, scale=None, dpi=130):
     summary = json.loads((results / "summary.json").read_text())
     pairs, multiplier_sides = summary["contact"], summary["method"]["multipliers_on"]
@@ -241,8 +293,13 @@ def draw(results, picture, scale=None, dpi=130):
     extent = np.ptp(mesh.points[:, :2], axis=0)
     above = float(np.clip(6.6 * extent[1] / extent[0], 2.5, 6.5))
     below = 2.5
-    heights, size = [above] + [below] * len(pairs), (8, above + below * len(pairs) + 0.6)
-    drawing, panels = figure.panels(len(heights), 1, size, height_ratios=heights, squeeze=False)
+    many = len(pairs) > MANY_PAIRS
+    if many and extent[1] > 3 * extent[0]:  # a tall scene
+        drawing, panels = figure.panels(1, 2, (8, above + 0.6), squeeze=False)
+        panels = panels.T
+    else:
+        heights = [above] + ([above] if many else [below] * len(pairs))
+        drawing, panels = figure.panels(len(heights), 1, (8, sum(heights) + 0.6), height_ratios=heights, squeeze=False)
     used = draw_bodies(panels[0, 0], results, scale)
     panels[0, 0].set_title(f"displacements \u00d7 {used:g}, undeformed outline dashed", fontsize=9)
     drawing.suptitle(summary["title"] or summary["scene"], fontsize=11)
@@ -252,6 +309,9 @@ def draw(results, picture, scale=None, dpi=130):
         zigzags = any(block.type == "triangle" for block in mesh.cells)
         table = launch.columns(results / ("contact_centres.csv" if zigzags else "contact.csv"))
         label = ("$p$ (means over edges)",) if zigzags else ()
+        if many:
+            draw_forces(panels[1, 0], mesh, table, pairs, multiplier_sides)
+            pairs = []
         for k, (pair, side) in enumerate(zip(pairs, multiplier_sides)):
             rows = table["pair"] == k
             draw_pair(panels[1 + k, 0], {name: column[rows] for name, column in table.items()}, side, pair["between"], *label)

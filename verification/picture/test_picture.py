@@ -32,7 +32,7 @@ def png_size(path):
     return int.from_bytes(data[16:20], "big"), int.from_bytes(data[20:24], "big")
 
 
-@pytest.mark.parametrize("scene", ["patch_flat", "rings", "stack"])
+@pytest.mark.parametrize("scene", ["patch_flat", "rings", "stack", "wall", "pellets"])
 def test_picture_is_drawn_beside_the_results(solve, scene):
     results = solve(scene)
     before = sorted(results.iterdir())
@@ -40,6 +40,13 @@ def test_picture_is_drawn_beside_the_results(solve, scene):
     width, height = png_size(results.with_name("results.png"))
     assert width == 8 * 60 and height > 200
     assert sorted(results.iterdir()) == before
+
+
+def test_forces_act_where_the_pressure_does():
+    table = {"s": np.array([0.0, 1, 2, 3]), "x": np.array([0.0, 1, 2, 3]), "y": np.zeros(4), "p": np.array([0.0, 0, 3, 3])}
+    np.testing.assert_allclose(picture.place_of_force(table, np.full(4, True)), (2.5, 0))
+    table["p"][:] = 0  # no force: in the middle
+    np.testing.assert_allclose(picture.place_of_force(table, np.full(4, True)), (1.5, 0))
 
 
 @pytest.mark.parametrize("scene", ["patch_flat", "rings"])
