@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "base/parallel.hpp"
+
 extern "C" void openblas_set_num_threads(int threads);
 
 namespace mortise {
@@ -23,7 +25,8 @@ int solver_threads() { return requested > 0 ? requested : int(std::max(1u, std::
 
 void apply_solver_threads(double operations) {
   omp_set_max_active_levels(0);  // CHOLMOD's own OpenMP loops and OpenBLAS's threads fight for the cores
-  openblas_set_num_threads(requested > 0 || operations > worth_threads ? solver_threads() : 1);
+  const bool worth = !in_parallel && (requested > 0 || operations > worth_threads);
+  openblas_set_num_threads(worth ? solver_threads() : 1);
 }
 
 }  // namespace mortise
