@@ -9,7 +9,8 @@ namespace mortise {
 /// there on it is faster than the direct solver's dense compliance. Else direct.
 Solver solver_for(const Method& method, const SaddlePointSystem& system);
 
-/// `dirichlet`: of domain decomposition, n: the unknowns of the bodies that take the displacement.
+/// By the direct solver after all where nobody named feti and it does not converge. `dirichlet`: of domain
+/// decomposition, n: the unknowns of the bodies that take the displacement.
 Solution solve_system(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet);
 
 /// Throws SceneError, with the place, where the solver found none: what SolveStatus says of it.

@@ -178,7 +178,8 @@ Solution solve_by_feti(const SaddlePointSystem& s, const FetiOptions& options) {
   solution.u = s.constraints.value;
   system->add_displacements(system->load, set.lambda, set.mu, solution.u);
   measure_residuals(s, solution);
-  // What springs against unbalanced loads leave of the gaps: their terms are that much larger than displacements.
+  // A few hundred round-offs of the terms of the gaps, which springs against unbalanced loads make larger than any
+  // displacement.
   const double lost = 1e-13 * fraction(largest_entry(system->load.r), largest_entry(solution.u));
   int refining_steps = 0;
   for (int pass = 0; pass < most_refinements && solution.status == SolveStatus::converged; ++pass) {

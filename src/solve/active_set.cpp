@@ -42,7 +42,6 @@ class DenseRows : public ContactRows {
       for (Eigen::Index a = 0; a < rows(); ++a)
         if (!closed[a]) x(a) = -p_.known(a);
       rhs -= p_.compliance.selfadjointView<Eigen::Lower>() * x;
-      rhs.tail(springs()) = rhs_.tail(springs()) - Ht() * x.head(rows());
     }
     if (supports.at.size() > 0) {
       rhs.head(rows()) -= openings(supports.at);
@@ -55,7 +54,8 @@ class DenseRows : public ContactRows {
     answer.lambda = x.head(rows());
     if (correction) answer.lambda += p_.known;
     answer.mu = x.tail(springs());
-    // Springs against unbalanced loads make the terms of w larger than any displacement.
+    // Springs against unbalanced loads make the terms of w larger than any displacement; 1e-13 of them, a few hundred
+    // round-offs, stays negligible.
     const double terms = largest(largest_entry(rhs_.head(rows())), largest_entry(sum)),
                  moved_most = largest(largest_entry(answer.w), largest_entry(moved)),
                  largest_gap = correction       ? p_.displacement

@@ -10,7 +10,7 @@ namespace mortise {
 
 struct ActiveSetOptions {
   int max_steps = 100;
-  /// Steps that may pass without fewer infeasible rows than ever before.
+  /// Steps that may pass without fewer infeasible rows than ever before; then rows change one at a time.
   int max_stalled_steps = 10;
   /// Steps from the start before a guess from coarse rows takes over (on loads that change by 1 to 10 % from run to
   /// run, more than 1 save nothing); and rows that are too few to coarsen.
@@ -42,8 +42,9 @@ struct ActiveSetResult {
 ///
 /// Bodies that few closed rows hold badly may move so far that the plain method never ends (a roller between two
 /// rings). Where it stalls, springs hold all free motions, as stiff as the contact itself, and all rows start open;
-/// then each motion's spring is attached where it went and the plain method goes on from there, or, where it stalls
-/// again, softer springs: the proximal point method in the free motions (Rockafellar 1976, docs/theory.md section 10).
+/// then each spring is attached where its motion went, and softened, until they carry nothing: the proximal point
+/// method in the free motions (Rockafellar 1976, docs/theory.md eq. 27a). Where they go on carrying something, the
+/// plain method says what the load drives.
 ///
 /// `start`: m, rows that are active at first, which may be wrong.
 ActiveSetResult find_active_set(ContactRows& rows, std::vector<char> start, const ActiveSetOptions& options = {});

@@ -16,8 +16,8 @@ struct ComplementarityProblem {
   std::vector<char> unilateral;  ///< m: rows that may open
   /// A w that is smaller is round-off of what it was computed from, and so are lambda that make no larger w.
   double round_off = 0;
-  /// Multipliers that r and h are already left by, m, and the largest displacement: lambda is added to them, and w is
-  /// round-off only where it is of displacements. Empty and 0: none.
+  /// Of a correction: the multipliers, m, whose work r and h are without, so that lambda is they and what is added; and
+  /// the largest displacement, of which w may be round-off. Else empty and 0.
   VecX known = {};
   double displacement = 0;
 };

@@ -84,7 +84,8 @@ struct Solution {
   VecX u;                    ///< n, length
   VecX lambda;               ///< m, stress
   std::vector<char> active;  ///< m: the rows that are closed
-  /// A column a rigid motion that no closed row holds and no load drives: the grounded unknowns in it; it is 0 in u.
+  /// A column a rigid motion that no closed row holds and no load drives: the grounded unknowns in it; it is 0 in u, or
+  /// what springs left there (solve/active_set.hpp).
   MatX rigid_modes;
   /// Largest entry of f - K u - B^T lambda, on free unknowns, over the largest entry of its terms or, if that is more,
   /// over rigid_part of |K| |u| in the same row; and of B u - g (each closed row over its scale) over the largest

@@ -127,7 +127,8 @@ def test_defaults_lie_inside_the_stable_regions(scene):
     """The scenes as they stand: no run fails but by the coarse mesh's checks, and none gets a word about its gap."""
     run = {"axes": {}, "scene": scene, "settings": parameters(scene), "measures": []}
     row = execute(run)
-    steps = 3 * study_7_iterations.BAR if scene == "rollers" else study_7_iterations.BAR  # its bodies must not travel
+    # The rollers' path to 21 to 29 steps hangs on round-off; where they travel it has no end (100).
+    steps = 50 if scene == "rollers" else study_7_iterations.BAR
     assert row["outcome"] in ("solved", "check") and row["steps"] <= steps, row
     assert set(filter(None, row["failed_checks"].split("; "))) <= OF_COARSE_MESHES
     assert "initial_gap" not in row["warnings"]
