@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "fem/constraints.hpp"
 #include "fem/patch_recovery.hpp"
 #include "fem/stress.hpp"
@@ -10,6 +12,8 @@
 
 namespace mortise {
 namespace {
+
+constexpr double pi = std::numbers::pi;
 
 using test::TwoPlates;
 
@@ -66,6 +70,57 @@ TEST(Law, PlaneStressHasNoStressAcrossAndPlaneStrainNoStrain) {
   const Vec4 bar = elastic_law(200, 0.3, {Plane::stress}).stiffness * Vec4(1e-3, -0.3e-3, 0, 0);
   EXPECT_NEAR(bar(0), 0.2, 1e-15);
   EXPECT_NEAR(bar(1), 0, 1e-16);
+}
+
+TEST(Law, OrthotropicIsIsotropicWhereTheModuliAre) {
+  for (const Plane plane : {Plane::stress, Plane::strain, Plane::axisymmetric}) {
+    const Mat4 any = *orthotropic_stiffness(
+        {.e1 = 200, .e2 = 200, .e3 = 200, .nu12 = 0.3, .nu13 = 0.3, .nu23 = 0.3, .g12 = 200 / 2.6, .angle = 0.4});
+    const ElasticLaw law = elastic_law(plane == Plane::stress ? without_33(any) : any, {plane}, 200),
+                     isotropic = elastic_law(200, 0.3, {plane});
+    EXPECT_LE((law.stiffness - isotropic.stiffness).cwiseAbs().maxCoeff(), 1e-12 * 200);
+    EXPECT_LE((law.compliance - isotropic.compliance).cwiseAbs().maxCoeff(), 1e-15);
+    EXPECT_NEAR(contact_modulus(law), contact_modulus(isotropic), 1e-12 * 200);
+  }
+}
+
+// A bar along x1, its fibres at 30 degrees to it: 1 / E = c^4 / E1 + (1 / G12 - 2 nu12 / E1) c^2 s^2 + s^4 / E2
+// (Jones 1999, eq. 2.97).
+TEST(Law, OrthotropicOffItsAxesHasTheModulusOfJones) {
+  const OrthotropicModuli m{
+      .e1 = 140, .e2 = 10, .e3 = 9, .nu12 = 0.3, .nu13 = 0.25, .nu23 = 0.4, .g12 = 5, .angle = pi / 6};
+  const ElasticLaw law = elastic_law(without_33(*orthotropic_stiffness(m)), {Plane::stress}, m.e1);
+  EXPECT_NEAR(law.compliance(0, 0), 9.0 / 16 / 140 + (1.0 / 5 - 0.6 / 140) * 3 / 16 + 1.0 / 16 / 10, 1e-15);
+}
+
+TEST(Law, ModuliWithoutPositiveEnergyAreNone) {
+  OrthotropicModuli m{.e1 = 1, .e2 = 1, .e3 = 1, .nu12 = 0.3, .nu13 = 0.3, .nu23 = 0.3, .g12 = 1};
+  EXPECT_TRUE(orthotropic_stiffness(m));
+  m.nu12 = 1.01;
+  EXPECT_FALSE(orthotropic_stiffness(m));
+  m.nu12 = std::nan("");
+  EXPECT_FALSE(orthotropic_stiffness(m));
+}
+
+// Stiffness and stress of any law: 1/2 u K u is the energy of a uniform strain, and the stress is C : eps.
+TEST(Stiffness, OfAnOrthotropicLawIsItsEnergy) {
+  const Mat4 C = *orthotropic_stiffness(
+      {.e1 = 140, .e2 = 10, .e3 = 9, .nu12 = 0.3, .nu13 = 0.25, .nu23 = 0.4, .g12 = 5, .angle = 0.7});
+  for (const CellKind kind : kinds) {
+    TwoPlates plates;
+    plates.kind_upper = plates.kind_lower = kind;
+    const Mesh mesh = test::mesh_of(plates);
+    const ElasticLaw law = elastic_law(C, {Plane::strain}, 140);
+    const SparseMatrix K = assemble_stiffness(mesh, {law, law});
+    const VecX u = field(mesh, [](const Vec2& x) { return Vec2(0.1 * x.x() + 0.2 * x.y(), -0.3 * x.y()); });
+    const Vec4 strain(0.1, -0.3, 0, 0.2);
+    EXPECT_NEAR(0.5 * u.dot(K.selfadjointView<Eigen::Lower>() * u), 0.5 * strain.dot(C * strain) * 0.8 * 0.6, 1e-13);
+    const StressSamples samples = sample_stresses(mesh, {law, law}, u);
+    const Vec4 stress = C * strain;
+    EXPECT_LE((samples.stresses.rowwise() - Eigen::RowVector3d(stress(0), stress(1), stress(3))).cwiseAbs().maxCoeff(),
+              1e-11);
+    EXPECT_NEAR(law.out_of_plane.dot(Eigen::RowVector3d(stress(0), stress(1), stress(3))), stress(2), 1e-12);
+  }
 }
 
 TEST(Law, FreeThermalExpansionIsWithoutStressInThePlane) {
