@@ -1,6 +1,8 @@
 // Elastic constants of materials that are not isotropic.
 #pragma once
 
+#include <optional>
+
 #include "base/types.hpp"
 
 namespace mortise {
@@ -12,5 +14,12 @@ struct OrthotropicModuli {
   double g12 = 0;                       ///< stress, > 0
   double angle = 0;                     ///< from x1 to direction 1, radians
 };
+
+/// Stiffness (11, 22, 33, gamma_12) in the axes of the plane; nothing where the moduli belong to no material, as not
+/// every strain has a positive energy (Lempriere 1968).
+std::optional<Mat4> orthotropic_stiffness(const OrthotropicModuli& moduli);
+
+/// Whether every strain has a positive energy.
+bool is_stiffness(const Mat4& stiffness);
 
 }  // namespace mortise

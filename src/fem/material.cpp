@@ -1,6 +1,5 @@
 #include "fem/material.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cassert>
 #include <cmath>
@@ -62,23 +61,6 @@ ElasticLaw elastic_law(const Mat4& stiffness, const Model& model, double young, 
     law.compliance = stiffness.inverse();
   }
   return law;
-}
-
-std::optional<Mat4> orthotropic_stiffness(const OrthotropicModuli& m) {
-  Mat4 compliance;
-  compliance << 1 / m.e1, -m.nu12 / m.e1, -m.nu13 / m.e1, 0,  //
-      -m.nu12 / m.e1, 1 / m.e2, -m.nu23 / m.e2, 0,            //
-      -m.nu13 / m.e1, -m.nu23 / m.e2, 1 / m.e3, 0,            //
-      0, 0, 0, 1 / m.g12;
-  if (!compliance.allFinite() || compliance.llt().info() != Eigen::Success) return {};
-  // Strains along the material's directions of those along the axes.
-  const double c = std::cos(m.angle), s = std::sin(m.angle);
-  Mat4 turned;
-  turned << c * c, s * s, 0, c * s,  //
-      s * s, c * c, 0, -c * s,       //
-      0, 0, 1, 0,                    //
-      -2 * c * s, 2 * c * s, 0, c * c - s * s;
-  return turned.transpose() * compliance.inverse() * turned;
 }
 
 Mat4 without_33(Mat4 stiffness) {

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 
 #include "base/model.hpp"
-#include "base/moduli.hpp"
 #include "base/types.hpp"
 
 namespace mortise {
@@ -38,10 +36,6 @@ ElasticLaw elastic_law(double young, double poisson, const Model& model, StrainF
 
 /// Of any stiffness, (11, 22, 33, gamma_12), positive definite; for plane stress without_33. `young`: of its size.
 ElasticLaw elastic_law(const Mat4& stiffness, const Model& model, double young, StrainField initial_strain = {});
-
-/// Stiffness (11, 22, 33, gamma_12) in the axes of the plane; nothing where the moduli belong to no material, as their
-/// energy is not positive (Lempriere 1968).
-std::optional<Mat4> orthotropic_stiffness(const OrthotropicModuli& moduli);
 
 /// The stiffness with sigma_33 = 0 eliminated; row and column 33 are zero.
 Mat4 without_33(Mat4 stiffness);

@@ -27,6 +27,12 @@ std::vector<const Material*> materials_of(const Scene& scene, const Mesh& mesh, 
   return materials;
 }
 
+ElasticLaw law_of(const Material& m, const Model& model, StrainField strain) {
+  if (!m.stiffness) return elastic_law(m.young, m.poisson, model, std::move(strain));
+  const Mat4 stiffness = model.plane == Plane::stress ? without_33(*m.stiffness) : *m.stiffness;
+  return elastic_law(stiffness, model, m.young, std::move(strain));
+}
+
 // The material of each body of the mesh, and the initial strain upon it.
 std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh, const SceneNames& names) {
   const std::vector<const Material*> materials = materials_of(scene, mesh, names);
@@ -43,7 +49,7 @@ std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh, const Scen
     if (!materials[b]) throw SceneError("bodies: body '" + mesh.bodies[b] + "' of " + mesh.source + " has no material");
     StrainField strain;
     if (!strains[b].isZero(0)) strain = [of_body = strains[b]](const Vec2&) { return of_body; };
-    laws.push_back(elastic_law(materials[b]->young, materials[b]->poisson, scene.model, std::move(strain)));
+    laws.push_back(law_of(*materials[b], scene.model, std::move(strain)));
   }
   return laws;
 }

@@ -1,6 +1,7 @@
 #include "results/model_summary.hpp"
 
 #include <map>
+#include <numbers>
 #include <sstream>
 #include <tuple>
 
@@ -21,12 +22,40 @@ std::string pair_of(const Vec2& v) {
 
 Json json_of(const Vec2& v) { return {v.x(), v.y()}; }
 
+void print_moduli(const Material& m, std::ostream& out) {
+  if (const auto& o = m.moduli)
+    out << "E " << o->e1 << ", " << o->e2 << ", " << o->e3 << ", nu " << o->nu12 << ", " << o->nu13 << ", " << o->nu23
+        << ", G " << o->g12 << ", at " << o->angle * 180 / std::numbers::pi << " degrees";
+  else if (m.stiffness)
+    out << "a stiffness matrix";
+  else
+    out << "E " << m.young << ", nu " << m.poisson;
+}
+
+// "young" and "poisson" as in the scene file, or the stiffness.
+Json json_of(const Material& m) {
+  Json json;
+  if (const auto& o = m.moduli) {
+    json = {{"young", {o->e1, o->e2, o->e3}},
+            {"poisson", {o->nu12, o->nu13, o->nu23}},
+            {"shear", o->g12},
+            {"angle", o->angle * 180 / std::numbers::pi}};
+  } else if (m.stiffness) {
+    for (const auto& row : m.stiffness->rowwise()) json["stiffness"].push_back({row(0), row(1), row(2), row(3)});
+  } else {
+    json = {{"young", m.young}, {"poisson", m.poisson}};
+  }
+  json["thermal_expansion"] = m.thermal_expansion;
+  return json;
+}
+
 void print_materials(const Scene& scene, std::ostream& out) {
   std::map<std::string, std::vector<std::string>> bodies;
   for (const BodySpec& body : scene.bodies) bodies[body.material].push_back(body.name);
   const char* separator = "; ";
   for (const auto& [name, m] : scene.materials) {
-    out << separator << name << " (E " << m.young << ", nu " << m.poisson;
+    out << separator << name << " (";
+    print_moduli(m, out);
     if (m.thermal_expansion != 0) out << ", alpha " << m.thermal_expansion;
     out << "): " << listed(bodies[name]);
   }
@@ -116,8 +145,7 @@ std::string model_lines(const Scene& scene, const Discretisation& d) {
 
 Json model_json(const Scene& scene, const Discretisation& d) {
   Json materials = Json::object(), bodies = Json::object(), supports = Json::array(), loads = Json::array();
-  for (const auto& [name, m] : scene.materials)
-    materials[name] = {{"young", m.young}, {"poisson", m.poisson}, {"thermal_expansion", m.thermal_expansion}};
+  for (const auto& [name, m] : scene.materials) materials[name] = json_of(m);
   for (const BodySpec& body : scene.bodies) bodies[body.name] = body.material;
   for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
     const BoundarySpec& spec = scene.boundaries[i];

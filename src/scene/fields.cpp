@@ -6,10 +6,6 @@
 namespace mortise::scene_file {
 namespace {
 
-[[noreturn]] void fail_expected(const Node& node, const std::string& expected) {
-  fail(node, "expected " + expected + ", found " + describe(node));
-}
-
 std::string quoted_list(const std::vector<std::string>& words) {
   std::string list;
   for (const std::string& word : words) list += (list.empty() ? "'" : ", '") + word + "'";
@@ -17,6 +13,10 @@ std::string quoted_list(const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+void fail_expected(const Node& node, const std::string& expected) {
+  fail(node, "expected " + expected + ", found " + describe(node));
+}
 
 void expect_table(const Node& node) {
   if (node.kind != Node::Kind::table) fail_expected(node, "a table");
@@ -85,6 +85,11 @@ bool boolean(const Node& node) {
 Vec2 number_pair(const Node& node) {
   if (node.kind != Node::Kind::list || node.items.size() != 2) fail_expected(node, "a list of two numbers [x, y]");
   return {number(node.items[0]), number(node.items[1])};
+}
+
+std::array<double, 3> number_triple(const Node& node, const std::string& expected) {
+  if (node.kind != Node::Kind::list || node.items.size() != 3) fail_expected(node, expected);
+  return {number(node.items[0]), number(node.items[1]), number(node.items[2])};
 }
 
 const std::string& text(const Node& node) {

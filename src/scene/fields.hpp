@@ -1,6 +1,7 @@
 // Typed access to the values of a document. What is not as expected throws InputError with its place.
 #pragma once
 
+#include <array>
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -12,6 +13,9 @@
 #include "scene/scene.hpp"
 
 namespace mortise::scene_file {
+
+/// Throws InputError: expected ..., found the node's value.
+[[noreturn]] void fail_expected(const Node& node, const std::string& expected);
 
 /// Throws unless `node` is a table.
 void expect_table(const Node& node);
@@ -42,6 +46,9 @@ bool boolean(const Node& node);
 
 /// Two finite numbers.
 Vec2 number_pair(const Node& node);
+
+/// Three finite numbers of directions 1, 2, 3, or of pairs of these.
+std::array<double, 3> number_triple(const Node& node, const std::string& expected);
 
 /// A string; one that may be empty.
 const std::string& text(const Node& node);

@@ -8,20 +8,6 @@
 namespace mortise::scene_file {
 namespace {
 
-Material read_material(const Node& node) {
-  expect_keys(node, {"young", "poisson", "thermal_expansion"});
-  Material material;
-  material.young = positive_number(require(node, "young", "Young's modulus, a number > 0"));
-  const Node& poisson = require(node, "poisson", "Poisson's ratio, a number between -1 and 0.5");
-  material.poisson = number(poisson);
-  if (material.poisson <= -1 || material.poisson >= 0.5) {
-    fail(poisson, "expected a number between -1 and 0.5 (both excluded), found " + describe(poisson));
-  }
-  const Node* expansion = find(node, "thermal_expansion");
-  if (expansion != nullptr) material.thermal_expansion = number(*expansion);
-  return material;
-}
-
 std::vector<std::string> material_names(const Scene& scene) {
   std::vector<std::string> list;
   for (const auto& [name, material] : scene.materials) list.push_back(name);

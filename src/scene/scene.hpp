@@ -11,15 +11,18 @@
 #include "base/choices.hpp"
 #include "base/geo_limits.hpp"
 #include "base/model.hpp"
+#include "base/moduli.hpp"
 #include "base/types.hpp"
 
 namespace mortise {
 
 /// Units are the scene's own, used throughout (SI if E is in Pa and lengths in m).
 struct Material {
-  double young = 0;              ///< E, stress, > 0
-  double poisson = 0;            ///< nu, -1 < nu < 0.5
-  double thermal_expansion = 0;  ///< alpha, 1/K
+  double young = 0;                         ///< E, stress, > 0; of a material that is not isotropic the largest
+  double poisson = 0;                       ///< nu, -1 < nu < 0.5
+  double thermal_expansion = 0;             ///< alpha, 1/K
+  std::optional<OrthotropicModuli> moduli;  ///< of an orthotropic material
+  std::optional<Mat4> stiffness;            ///< (11, 22, 33, gamma_12), of one that is not isotropic
 };
 
 struct BodySpec {

@@ -13,6 +13,9 @@ void read_mesh_section(const Node& root, Scene& scene);
 /// [[copies]]: where each copy of a body stands, one by one.
 void read_copies(const Node& root, Scene& scene);
 
+/// A table [materials.NAME].
+Material read_material(const Node& node);
+
 /// [materials.NAME] and [bodies]: every body has a material, every material a body.
 void read_bodies(const Node& root, Scene& scene);
 

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "base/moduli.hpp"
 #include "fem/constraints.hpp"
 #include "fem/patch_recovery.hpp"
 #include "fem/stress.hpp"

@@ -86,6 +86,23 @@ TEST_F(EveryKey, ContactsAndMethod) {
   EXPECT_EQ(scene_.method.multipliers, Multipliers::dual);
 }
 
+TEST(Materials, OrthotropicOnesAndAnyStiffness) {
+  const auto steel = [](const std::string& material) {
+    const TemporaryFolder folder;
+    folder.write("block.msh", "");
+    return read_scene(folder.write("a.toml",
+                                   "mesh.file = 'block.msh'\nbodies.block = 'steel'\n[materials.steel]\n" + material))
+        .materials.at("steel");
+  };
+  const Material wood = steel("young = [12e9, 1e9, 0.8e9]\npoisson = [0.4, 0.35, 0.5]\nshear = 0.7e9\nangle = 30\n");
+  EXPECT_EQ(wood.young, 12e9);
+  EXPECT_NEAR(wood.moduli->angle, 0.5235987755982988, 1e-15);
+  EXPECT_EQ(*wood.stiffness, *orthotropic_stiffness(*wood.moduli));
+  const Material any = steel("stiffness = [[4, 1, 1, 0.5], [1, 3, 1, 0], [1, 1, 2, 0], [0.5, 0, 0, 1]]\n");
+  EXPECT_EQ((*any.stiffness)(0, 3), 0.5);
+  EXPECT_EQ(any.young, 4);
+}
+
 TEST(ReadScene, WhatTheFileLeavesOutTakesItsDefault) {
   const TemporaryFolder folder;
   folder.write("block.msh", "");
