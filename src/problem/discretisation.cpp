@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "base/patterns.hpp"
+#include "fem/arc_length.hpp"
 #include "fem/elements.hpp"
 #include "mesh/side_table.hpp"
 #include "problem/scene_names.hpp"
@@ -46,23 +47,84 @@ std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh, const Scen
   return laws;
 }
 
+// A boundary that an entry names: its sides, and along it s, where the entry's fields ask for it.
+struct NamedBoundary {
+  int boundary;
+  std::vector<CellSide> sides;  // in the order of s, where it is asked for
+  std::optional<ArcLength> s;
+};
+
+bool uses_arc_length(const BoundarySpec& spec) {
+  const auto uses = [](const auto& field) { return field && field->uses_arc_length(); };
+  return uses(spec.displacement_x) || uses(spec.displacement_y) || uses(spec.pressure) || uses(spec.traction);
+}
+
+std::vector<NamedBoundary> boundaries_of(const Mesh& mesh, const SideTable& table, const SceneNames& names,
+                                         const BoundarySpec& spec) {
+  std::vector<NamedBoundary> list;
+  for (const std::string& name : spec.on)
+    for (const int boundary : names.boundaries(spec.key + ".on", name)) {
+      if (uses_arc_length(spec)) {
+        Curve curve = contact_curve(mesh, boundary, table);
+        const ArcLength s(mesh.nodes, curve);
+        list.push_back({boundary, std::move(curve.sides), s});
+      } else {
+        list.push_back({boundary,
+                        spec.is_load() ? sides_of(mesh, mesh.boundaries[boundary], table) : std::vector<CellSide>{},
+                        {}});
+      }
+    }
+  return list;
+}
+
+void prescribe(const Mesh& mesh, const NamedBoundary& on, int component, const std::optional<Field>& field,
+               Constraints& constraints) {
+  if (!field) return;
+  const auto value = [&](int node) {
+    return (*field)(mesh.nodes.row(node).transpose(), on.s ? on.s->at_node(node) : 0);
+  };
+  prescribe(mesh, on.boundary, component, value, constraints);
+}
+
+// The sum of the nodal forces that a load (x, n, s) makes on a boundary.
+template <typename Load>
+Vec2 apply_load(const Mesh& mesh, const NamedBoundary& on, const Load& load, VecX& f) {
+  if (!on.s)
+    return add_traction(
+        mesh, on.sides, [&](const Vec2& x, const Vec2& n) { return load(x, n, 0.0); }, f);
+  Vec2 sum = Vec2::Zero();
+  for (int e = 0; e < int(on.sides.size()); ++e)
+    sum += add_traction(
+        mesh, {on.sides[e]}, [&](const Vec2& x, const Vec2& n) { return load(x, n, on.s->at(e, x)); }, f);
+  return sum;
+}
+
+// The constant traction whose sum is the entry's force.
+Vec2 traction_of_force(const Mesh& mesh, const BoundarySpec& spec, const std::vector<NamedBoundary>& boundaries) {
+  VecX unused = VecX::Zero(2 * mesh.nodes.rows());
+  double area = 0;
+  for (const NamedBoundary& on : boundaries)
+    area += add_traction(
+                mesh, on.sides, [](const Vec2&, const Vec2&) { return Vec2(Vec2::UnitX()); }, unused)
+                .x();
+  if (!(area > 0)) throw SceneError(spec.key + ".force: its curves have no length; expected some to put the force on");
+  return *spec.force / area;
+}
+
 // The sum of the nodal forces that the entry makes.
 Vec2 apply(const Mesh& mesh, const SideTable& table, const SceneNames& names, const BoundarySpec& spec,
            SaddlePointSystem& system) {
+  const std::vector<NamedBoundary> boundaries = boundaries_of(mesh, table, names, spec);
+  const Vec2 of_force = spec.force ? traction_of_force(mesh, spec, boundaries) : Vec2::Zero();
+  const auto load = [&](const Vec2& x, const Vec2& n, double s) -> Vec2 {
+    return spec.pressure ? Vec2(-(*spec.pressure)(x, s) * n) : spec.traction ? (*spec.traction)(x, s) : of_force;
+  };
   Vec2 sum = Vec2::Zero();
-  for (const std::string& name : spec.on)
-    for (const int boundary : names.boundaries(spec.key + ".on", name)) {
-      if (spec.displacement_x) prescribe(mesh, boundary, 0, *spec.displacement_x, system.constraints);
-      if (spec.displacement_y) prescribe(mesh, boundary, 1, *spec.displacement_y, system.constraints);
-      if (!spec.pressure && !spec.traction) continue;
-      const std::vector<CellSide> sides = sides_of(mesh, mesh.boundaries[boundary], table);
-      if (spec.pressure)
-        sum += add_traction(
-            mesh, sides, [&](const Vec2&, const Vec2& n) -> Vec2 { return -*spec.pressure * n; }, system.f);
-      if (spec.traction)
-        sum += add_traction(
-            mesh, sides, [&](const Vec2&, const Vec2&) -> Vec2 { return *spec.traction; }, system.f);
-    }
+  for (const NamedBoundary& on : boundaries) {
+    prescribe(mesh, on, 0, spec.displacement_x, system.constraints);
+    prescribe(mesh, on, 1, spec.displacement_y, system.constraints);
+    if (spec.is_load()) sum += apply_load(mesh, on, load, system.f);
+  }
   return sum;
 }
 

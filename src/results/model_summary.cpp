@@ -2,7 +2,6 @@
 
 #include <map>
 #include <sstream>
-#include <tuple>
 
 #include "base/printable.hpp"
 
@@ -32,27 +31,38 @@ void print_materials(const Scene& scene, std::ostream& out) {
   }
 }
 
+std::string words(const VectorField& v) {
+  if (v.is_constant()) return pair_of({v.x.constant(), v.y.constant()});
+  return "(" + v.x.words() + ", " + v.y.words() + ")";
+}
+
+Json json_of(const Field& f) { return f.is_constant() ? Json(f.constant()) : Json(f.words()); }
+Json json_of(const VectorField& v) { return {json_of(v.x), json_of(v.y)}; }
+
+// What an entry prescribes, wherever.
+std::string words(const BoundarySpec& spec) {
+  std::string text;
+  if (spec.displacement_x) text += " u_x = " + spec.displacement_x->words();
+  if (spec.displacement_y) text += (spec.displacement_x ? ", u_y = " : " u_y = ") + spec.displacement_y->words();
+  if (spec.pressure) text += " pressure " + spec.pressure->words();
+  if (spec.traction) text += " traction " + words(*spec.traction);
+  if (spec.force) text += " force " + pair_of(*spec.force);
+  return text;
+}
+
 void print_boundary(const BoundarySpec& spec, const Vec2& force, std::ostream& out) {
-  out << (spec.pressure || spec.traction ? "  load      " : "  support   ") << listed(spec.on) << ":";
-  if (spec.displacement_x) out << " u_x = " << *spec.displacement_x;
-  if (spec.displacement_y) out << (spec.displacement_x ? "," : "") << " u_y = " << *spec.displacement_y;
-  if (spec.pressure) out << " pressure " << *spec.pressure;
-  if (spec.traction) out << " traction " << pair_of(*spec.traction);
-  if (spec.pressure || spec.traction) out << ", in sum " << pair_of(force);
+  out << (spec.is_load() ? "  load      " : "  support   ") << listed(spec.on) << ":" << words(spec);
+  if (spec.is_load()) out << ", in sum " << pair_of(force);
   out << "\n";
 }
 
 // Entries that prescribe the same as one, in the order of the first, with the sum of their forces.
 std::vector<std::pair<BoundarySpec, Vec2>> alike_as_one(const Scene& scene, const Discretisation& d) {
-  const auto what = [](const BoundarySpec& s) {
-    const Vec2 t = s.traction.value_or(Vec2::Zero());
-    return std::tuple(s.displacement_x, s.displacement_y, s.pressure, s.traction.has_value(), t.x(), t.y());
-  };
   std::vector<std::pair<BoundarySpec, Vec2>> entries;
-  std::map<decltype(what(BoundarySpec())), std::size_t> number;
+  std::map<std::string, std::size_t> number;
   for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
     const BoundarySpec& spec = scene.boundaries[i];
-    const auto [found, is_new] = number.try_emplace(what(spec), entries.size());
+    const auto [found, is_new] = number.try_emplace(words(spec), entries.size());
     if (is_new) {
       entries.emplace_back(spec, d.boundary_sums[i]);
       continue;
@@ -75,11 +85,12 @@ void print_some(const Entries& entries, const std::string& what, std::ostream& o
 
 Json boundary_json(const BoundarySpec& spec, const Vec2& force) {
   Json entry{{"on", spec.on}};
-  if (spec.displacement_x) entry["displacement"]["x"] = *spec.displacement_x;
-  if (spec.displacement_y) entry["displacement"]["y"] = *spec.displacement_y;
-  if (spec.pressure) entry["pressure"] = *spec.pressure;
+  if (spec.displacement_x) entry["displacement"]["x"] = json_of(*spec.displacement_x);
+  if (spec.displacement_y) entry["displacement"]["y"] = json_of(*spec.displacement_y);
+  if (spec.pressure) entry["pressure"] = json_of(*spec.pressure);
   if (spec.traction) entry["traction"] = json_of(*spec.traction);
-  if (spec.pressure || spec.traction) entry["sum"] = json_of(force);
+  if (spec.force) entry["force"] = json_of(*spec.force);
+  if (spec.is_load()) entry["sum"] = json_of(force);
   return entry;
 }
 
@@ -121,7 +132,7 @@ Json model_json(const Scene& scene, const Discretisation& d) {
   for (const BodySpec& body : scene.bodies) bodies[body.name] = body.material;
   for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
     const BoundarySpec& spec = scene.boundaries[i];
-    (spec.pressure || spec.traction ? loads : supports).push_back(boundary_json(spec, d.boundary_sums[i]));
+    (spec.is_load() ? loads : supports).push_back(boundary_json(spec, d.boundary_sums[i]));
   }
   for (std::size_t i = 0; i < scene.body_forces.size(); ++i) {
     const BodyForceSpec& spec = scene.body_forces[i];

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "base/field.hpp"
 #include "base/types.hpp"
 #include "scene/document.hpp"
 #include "scene/fail.hpp"
@@ -42,6 +43,12 @@ bool boolean(const Node& node);
 
 /// Two finite numbers.
 Vec2 number_pair(const Node& node);
+
+/// A finite number, or an expression. Of `use` the key is filled in.
+Field field(const Node& node, FieldUse use);
+
+/// Two of them.
+VectorField field_pair(const Node& node, const FieldUse& use);
 
 /// A string; one that may be empty.
 const std::string& text(const Node& node);

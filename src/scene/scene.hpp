@@ -9,6 +9,7 @@
 
 #include "base/body_copy.hpp"
 #include "base/choices.hpp"
+#include "base/field.hpp"
 #include "base/geo_limits.hpp"
 #include "base/types.hpp"
 
@@ -26,14 +27,17 @@ struct BodySpec {
   std::string material;  ///< key of Scene::materials
 };
 
-/// One [[boundary]] entry: exactly one of displacement, pressure, traction.
+/// One [[boundary]] entry: exactly one of displacement, pressure, traction, force.
 struct BoundarySpec {
-  std::string key;                       ///< where it stands, for messages: "boundary.2 (line 31)", counted from 0
-  std::vector<std::string> on;           ///< physical curves
-  std::optional<double> displacement_x;  ///< prescribed u1, length
-  std::optional<double> displacement_y;  ///< prescribed u2, length
-  std::optional<double> pressure;        ///< positive pushes onto the body, stress
-  std::optional<Vec2> traction;          ///< stress
+  std::string key;                      ///< where it stands, for messages: "boundary.2 (line 31)", counted from 0
+  std::vector<std::string> on;          ///< physical curves
+  std::optional<Field> displacement_x;  ///< prescribed u1, length
+  std::optional<Field> displacement_y;  ///< prescribed u2, length
+  std::optional<Field> pressure;        ///< positive pushes onto the body, stress
+  std::optional<VectorField> traction;  ///< stress
+  std::optional<Vec2> force;            ///< sum of a constant traction on all its curves, force per thickness
+
+  bool is_load() const { return pressure || traction || force; }
 };
 
 /// One [[body_force]] entry: force per volume.
