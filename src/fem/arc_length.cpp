@@ -22,10 +22,21 @@ double xi_of(const Points& nodes, const Edge& edge, const Vec2& place) {
 }  // namespace
 
 ArcLength::ArcLength(const Points& nodes, const Curve& curve)
-    : nodes_(nodes), edges_(curve.edges), before_{0}, backwards_(runs_backwards(nodes, curve)) {
-  for (const Edge& edge : edges_) before_.push_back(before_.back() + edge_length(nodes, edge));
+    : edges_(curve.edges), before_{0}, backwards_(runs_backwards(nodes, curve)) {
+  const std::vector<int> along = curve_nodes(curve);
+  std::unordered_map<int, int> own;
+  nodes_.resize(Eigen::Index(along.size()), 2);
+  for (int i = 0; i < int(along.size()); ++i) {
+    own[along[i]] = i;
+    nodes_.row(i) = nodes.row(along[i]);
+  }
+  for (Edge& edge : edges_) {
+    for (int a = 0; a < edge.node_count; ++a) edge.nodes[a] = own.at(edge.nodes[a]);
+    before_.push_back(before_.back() + edge_length(nodes_, edge));
+  }
   for (std::size_t e = 0; e < edges_.size(); ++e)
-    for (int a = 0; a < edges_[e].node_count; ++a) at_node_.try_emplace(edges_[e].nodes[a], at(int(e), xi_of_node(a)));
+    for (int a = 0; a < edges_[e].node_count; ++a)
+      at_node_.try_emplace(curve.edges[e].nodes[a], at(int(e), xi_of_node(a)));
 }
 
 double ArcLength::at(int edge, double xi) const {

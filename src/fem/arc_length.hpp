@@ -22,8 +22,8 @@ class ArcLength {
   double at_node(int node) const { return at_node_.at(node); }
 
  private:
-  const Points& nodes_;
-  std::vector<Edge> edges_;
+  Points nodes_;                // of the curve
+  std::vector<Edge> edges_;     // by these
   std::vector<double> before_;  // length of the curve before each edge, and all of it
   bool backwards_;
   std::unordered_map<int, double> at_node_;

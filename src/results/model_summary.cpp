@@ -36,7 +36,6 @@ std::string words(const VectorField& v) {
   return "(" + v.x.words() + ", " + v.y.words() + ")";
 }
 
-Json json_of(const Field& f) { return f.is_constant() ? Json(f.constant()) : Json(f.words()); }
 Json json_of(const VectorField& v) { return {json_of(v.x), json_of(v.y)}; }
 
 // What an entry prescribes, wherever.
@@ -95,6 +94,8 @@ Json boundary_json(const BoundarySpec& spec, const Vec2& force) {
 }
 
 }  // namespace
+
+Json json_of(const Field& f) { return f.is_constant() ? Json(f.constant()) : Json(f.words()); }
 
 std::string model_lines(const Scene& scene, const Discretisation& d) {
   std::ostringstream out;

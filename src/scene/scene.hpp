@@ -64,7 +64,8 @@ struct ContactSpec {
   bool found = false;            ///< a pair of a pattern's: its curves need not face each other all along
   Condition condition = Condition::unilateral;
   InitialGap initial_gap = InitialGap::curve;
-  double clearance = 0;        ///< added to the drawn gap, length: + open, - overlap; only with InitialGap::curve
+  Field gap;                   ///< of InitialGap::given: the gap, length: + open, - overlap
+  Field clearance;             ///< added to the drawn or measured gap, length
   std::string multipliers_on;  ///< one of `between`; empty: couple_pairs chooses
 };
 

@@ -166,7 +166,11 @@ inline Rows contact_rows() {
       {"ConditionIsABool", "\"bilateral\"", "true", {"contact.0.condition: expected a string, found true"}},
       {"NotAnInitialGap", "\"closed\"", "\"close\"", {"unknown initial_gap 'close'", "'closed'"}},
       {"InitialGapNotFinite", "\"closed\"", "nan", {"contact.0.initial_gap", "a finite number"}},
-      {"InitialGapIsAList", "\"closed\"", "[1e-3]", {"contact.0.initial_gap", "a length or a word"}},
+      {"InitialGapIsAList", "\"closed\"", "[1e-3]", {"contact.0.initial_gap", "a length, an expression or a word"}},
+      {"InitialGapOfZ", "\"closed\"", "\"1e-3 * z\"", {"contact.0.initial_gap: '1e-3 * z', character 8", "'z'"}},
+      {"ClearanceOfClosed", "\"closed\"", "\"closed\"\nclearance = 1e-3", {"contact.0.clearance: is added"}, 1},
+      {"ClearanceOfAGap", "\"closed\"", "1e-3\nclearance = 1e-3", {"initial_gap = 0.001; expected one of them"}, 1},
+
       {"MultipliersOnNeither",
        "multipliers_on = \"lower_contact\"",
        "multipliers_on = \"lower_base\"",
