@@ -27,6 +27,7 @@ void print_materials(const Scene& scene, std::ostream& out) {
   for (const auto& [name, m] : scene.materials) {
     out << separator << name << " (E " << m.young << ", nu " << m.poisson;
     if (m.thermal_expansion != 0) out << ", alpha " << m.thermal_expansion;
+    if (scene.gravity) out << ", density " << m.density;
     out << "): " << listed(bodies[name]);
   }
 }
@@ -46,6 +47,8 @@ std::string words(const BoundarySpec& spec) {
   if (spec.pressure) text += " pressure " + spec.pressure->words();
   if (spec.traction) text += " traction " + words(*spec.traction);
   if (spec.force) text += " force " + pair_of(*spec.force);
+  if (spec.normal_foundation) text += " foundation " + spec.normal_foundation->words() + " along the normal";
+  if (spec.foundation) text += " foundation " + words(*spec.foundation);
   return text;
 }
 
@@ -89,6 +92,8 @@ Json boundary_json(const BoundarySpec& spec, const Vec2& force) {
   if (spec.pressure) entry["pressure"] = json_of(*spec.pressure);
   if (spec.traction) entry["traction"] = json_of(*spec.traction);
   if (spec.force) entry["force"] = json_of(*spec.force);
+  if (spec.normal_foundation) entry["foundation"] = json_of(*spec.normal_foundation);
+  if (spec.foundation) entry["foundation"] = json_of(*spec.foundation);
   if (spec.is_load()) entry["sum"] = json_of(force);
   return entry;
 }
@@ -110,6 +115,8 @@ std::string model_lines(const Scene& scene, const Discretisation& d) {
     for (std::size_t i = 0; i < scene.boundaries.size(); ++i)
       print_boundary(scene.boundaries[i], d.boundary_sums[i], out);
   }
+  if (scene.gravity)
+    out << "  load      gravity " << pair_of(*scene.gravity) << ", in sum " << pair_of(d.weight) << "\n";
   print_some(scene.body_forces, "forces per volume", out, [&](std::size_t i) {
     out << "  load      body " << scene.body_forces[i].body << ": force per volume "
         << pair_of(scene.body_forces[i].force) << ", in sum " << pair_of(d.body_sums[i]) << "\n";
@@ -130,11 +137,14 @@ Json model_json(const Scene& scene, const Discretisation& d) {
   Json materials = Json::object(), bodies = Json::object(), supports = Json::array(), loads = Json::array();
   for (const auto& [name, m] : scene.materials)
     materials[name] = {{"young", m.young}, {"poisson", m.poisson}, {"thermal_expansion", m.thermal_expansion}};
+  if (scene.gravity)
+    for (const auto& [name, m] : scene.materials) materials[name]["density"] = m.density;
   for (const BodySpec& body : scene.bodies) bodies[body.name] = body.material;
   for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
     const BoundarySpec& spec = scene.boundaries[i];
     (spec.is_load() ? loads : supports).push_back(boundary_json(spec, d.boundary_sums[i]));
   }
+  if (scene.gravity) loads.push_back({{"gravity", json_of(*scene.gravity)}, {"sum", json_of(d.weight)}});
   for (std::size_t i = 0; i < scene.body_forces.size(); ++i) {
     const BodyForceSpec& spec = scene.body_forces[i];
     loads.push_back({{"body", spec.body}, {"force", json_of(spec.force)}, {"sum", json_of(d.body_sums[i])}});

@@ -9,7 +9,7 @@ namespace mortise::scene_file {
 namespace {
 
 Material read_material(const Node& node) {
-  expect_keys(node, {"young", "poisson", "thermal_expansion"});
+  expect_keys(node, {"young", "poisson", "thermal_expansion", "density"});
   Material material;
   material.young = positive_number(require(node, "young", "Young's modulus, a number > 0"));
   const Node& poisson = require(node, "poisson", "Poisson's ratio, a number between -1 and 0.5");
@@ -19,6 +19,7 @@ Material read_material(const Node& node) {
   }
   const Node* expansion = find(node, "thermal_expansion");
   if (expansion != nullptr) material.thermal_expansion = number(*expansion);
+  if (const Node* density = find(node, "density")) material.density = positive_number(*density);
   return material;
 }
 
@@ -54,7 +55,13 @@ void check_materials_are_used(const Node& materials, const Node& bodies, const S
 void read_bodies(const Node& root, Scene& scene) {
   const Node& materials = require(root, "materials", "at least one table [materials.NAME]");
   expect_table(materials);
-  for (const Node& node : materials.items) scene.materials[node.name] = read_material(node);
+  for (const Node& node : materials.items) {
+    scene.materials[node.name] = read_material(node);
+    if (!scene.gravity || find(node, "density") != nullptr) continue;
+    const Node& gravity = *find(*find(root, "model"), "gravity");
+    fail(blame(node, gravity), "'density' of the material '" + node.name +
+                                   "' is missing; expected one, as there is gravity (" + locate(gravity) + ")");
+  }
   const Node& bodies = require(root, "bodies", "a table [bodies] with entries surface = \"material\"");
   expect_table(bodies);
   for (const Node& node : bodies.items) scene.bodies.push_back(read_body(node, materials, scene));

@@ -56,8 +56,12 @@ void read_what(const Node& what, const Node& root, BoundarySpec& boundary) {
     boundary.traction = field_pair(what, load_use(root));
     for (const Field& t : {boundary.traction->x, boundary.traction->y})
       if (t.is_constant()) check_load(what, std::abs(t.constant()), root);
-  } else {
+  } else if (what.name == "force") {
     boundary.force = number_pair(what);
+  } else if (what.kind == Node::Kind::list) {
+    boundary.foundation = field_pair(what, {.key = {}, .on_curve = true});
+  } else {
+    boundary.normal_foundation = field(what, {.key = {}, .on_curve = true});
   }
 }
 
@@ -68,7 +72,8 @@ void check_once(const Node& entry, const Node& what, const std::vector<const Nod
     const std::string subject = "curve '" + curve->text + "' ";
     in_this_entry.take(subject + "is named", *curve, entry);
     if (what.kind != Node::Kind::table) {
-      once.take(subject + "carries a load", blame(what, *curve), entry);
+      once.take(subject + (what.name == "foundation" ? "has a foundation" : "carries a load"), blame(what, *curve),
+                entry);
       continue;
     }
     for (const Node& component : what.items) {
@@ -82,12 +87,12 @@ void check_once(const Node& entry, const Node& what, const std::vector<const Nod
 void read_boundaries(const Node& root, Scene& scene) {
   Once once;
   for (const Node* entry : entries(root, "boundary")) {
-    expect_keys(*entry, {"on", "displacement", "pressure", "traction", "force"});
+    expect_keys(*entry, {"on", "displacement", "pressure", "traction", "force", "foundation"});
     BoundarySpec boundary;
     boundary.key = locate(*entry);
     const std::vector<const Node*> curves = names(require(*entry, "on", "the names of physical curves"));
     for (const Node* curve : curves) boundary.on.push_back(curve->text);
-    const Node& what = exactly_one(*entry, {"displacement", "pressure", "traction", "force"});
+    const Node& what = exactly_one(*entry, {"displacement", "pressure", "traction", "force", "foundation"});
     read_what(what, root, boundary);
     check_once(*entry, what, curves, once);
     scene.boundaries.push_back(boundary);

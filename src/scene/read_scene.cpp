@@ -29,7 +29,8 @@ void read_title(const Node& root, Scene& scene) {
 void read_model(const Node& root, Scene& scene) {
   const Node* model = find(root, "model");
   if (model == nullptr) return;
-  expect_keys(*model, {"plane"});
+  expect_keys(*model, {"plane", "gravity"});
+  if (const Node* gravity = find(*model, "gravity")) scene.gravity = number_pair(*gravity);
   scene.plane = choice(find(*model, "plane"), {Plane::strain, Plane::stress}, scene.plane);
 }
 

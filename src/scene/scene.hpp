@@ -20,6 +20,7 @@ struct Material {
   double young = 0;              ///< E, stress, > 0
   double poisson = 0;            ///< nu, -1 < nu < 0.5
   double thermal_expansion = 0;  ///< alpha, 1/K
+  double density = 0;            ///< mass per volume
 };
 
 struct BodySpec {
@@ -27,7 +28,7 @@ struct BodySpec {
   std::string material;  ///< key of Scene::materials
 };
 
-/// One [[boundary]] entry: exactly one of displacement, pressure, traction, force.
+/// One [[boundary]] entry: exactly one of displacement, pressure, traction, force, foundation.
 struct BoundarySpec {
   std::string key;                      ///< where it stands, for messages: "boundary.2 (line 31)", counted from 0
   std::vector<std::string> on;          ///< physical curves
@@ -36,7 +37,11 @@ struct BoundarySpec {
   std::optional<Field> pressure;        ///< positive pushes onto the body, stress
   std::optional<VectorField> traction;  ///< stress
   std::optional<Vec2> force;            ///< sum of a constant traction on all its curves, force per thickness
+  /// Springs to the ground, stress per length, >= 0: along the normal, or along x and y.
+  std::optional<Field> normal_foundation;
+  std::optional<VectorField> foundation;
 
+  bool is_foundation() const { return normal_foundation || foundation; }
   bool is_load() const { return pressure || traction || force; }
 };
 
@@ -103,6 +108,7 @@ struct Scene {
   GeoLimits geo_limits;
   std::vector<BodyCopy> copies;  ///< of bodies of the mesh file, in their place
   Plane plane = Plane::strain;
+  std::optional<Vec2> gravity;  ///< acceleration: the force per volume is density times it
   std::map<std::string, Material> materials;
   std::vector<BodySpec> bodies;
   std::vector<BoundarySpec> boundaries;
