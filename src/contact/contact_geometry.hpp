@@ -1,8 +1,9 @@
 // Where a contact pair takes its normals and its undeformed gap from: the curves that its meshes stand for, or their
-// edges.
+// edges; and the model whose depth its lengths have.
 #pragma once
 
 #include "base/field.hpp"
+#include "base/model.hpp"
 #include "contact/contact_line.hpp"
 #include "contact/projection.hpp"
 #include "fem/arc_length.hpp"
@@ -21,6 +22,7 @@ struct ContactGeometry {
   std::optional<Field> given;                       ///< the gap itself, length: whatever the lines and edges
   Field clearance;             ///< added to theirs, length: a clearance (+) or an interference (-) that is not drawn
   std::optional<ArcLength> s;  ///< along the multiplier side, where these two ask for it
+  Model model = {};
 
   /// From a place on the multiplier side's edges along the normal there.
   Line line_from(const Points& nodes, const Curve& curve, const Place& at) const;

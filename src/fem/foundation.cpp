@@ -8,15 +8,16 @@
 
 namespace mortise {
 
-void add_foundation(const Mesh& mesh, const std::vector<CellSide>& sides, const Foundation& foundation,
-                    std::vector<Eigen::Triplet<double>>& entries, int gauss_points) {
+void add_foundation(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
+                    const Foundation& foundation, std::vector<Eigen::Triplet<double>>& entries, int gauss_points) {
   const LineRule rule = gauss_legendre(gauss_points);
   for (const CellSide& at : sides) {
     const Edge edge = side_edge(mesh.cells[at.cell], at.side);
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
       const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);
-      const Eigen::Matrix2d k = rule.weights[q] * p.jacobian() * foundation(p.position, p.normal());
+      const double dA = rule.weights[q] * p.jacobian() * model.depth(p.position.x());
+      const Eigen::Matrix2d k = dA * foundation(p.position, p.normal());
       for (int i = 0; i < 2 * edge.node_count; ++i)
         for (int j = 0; j < 2 * edge.node_count; ++j) {
           const int row = 2 * edge.nodes[i / 2] + i % 2, column = 2 * edge.nodes[j / 2] + j % 2;

@@ -58,17 +58,19 @@ void for_each_piece(const NamedBoundary& on, Visit visit) {
 }
 
 // The constant traction whose sum is the entry's force.
-Vec2 traction_of_force(const Mesh& mesh, const BoundarySpec& spec, const std::vector<NamedBoundary>& boundaries) {
+Vec2 traction_of_force(const Mesh& mesh, const Model& model, const BoundarySpec& spec,
+                       const std::vector<NamedBoundary>& boundaries) {
   VecX unused = VecX::Zero(2 * mesh.nodes.rows());
   const auto unit = [](const Vec2&, const Vec2&) -> Vec2 { return Vec2::UnitX(); };
   double area = 0;
-  for (const NamedBoundary& on : boundaries) area += add_traction(mesh, on.sides, unit, unused).x();
+  for (const NamedBoundary& on : boundaries) area += add_traction(mesh, model, on.sides, unit, unused).x();
   if (!(area > 0)) throw SceneError(spec.key + ".force: its curves have no length; expected some to put the force on");
   return *spec.force / area;
 }
 
-Vec2 add_loads(const Mesh& mesh, const BoundarySpec& spec, const std::vector<NamedBoundary>& boundaries, VecX& f) {
-  const Vec2 of_force = spec.force ? traction_of_force(mesh, spec, boundaries) : Vec2::Zero();
+Vec2 add_loads(const Mesh& mesh, const Model& model, const BoundarySpec& spec,
+               const std::vector<NamedBoundary>& boundaries, VecX& f) {
+  const Vec2 of_force = spec.force ? traction_of_force(mesh, model, spec, boundaries) : Vec2::Zero();
   Vec2 sum = Vec2::Zero();
   for (const NamedBoundary& on : boundaries)
     for_each_piece(on, [&](const std::vector<CellSide>& sides, const auto& s) {
@@ -76,7 +78,7 @@ Vec2 add_loads(const Mesh& mesh, const BoundarySpec& spec, const std::vector<Nam
         if (spec.pressure) return -(*spec.pressure)(x, s(x)) * n;
         return spec.traction ? (*spec.traction)(x, s(x)) : of_force;
       };
-      sum += add_traction(mesh, sides, traction, f);
+      sum += add_traction(mesh, model, sides, traction, f);
     });
   return sum;
 }
@@ -91,7 +93,7 @@ double modulus(const BoundarySpec& spec, const Field& field, const Vec2& x, doub
   throw SceneError(text.str());
 }
 
-void add_springs(const Mesh& mesh, const BoundarySpec& spec, const NamedBoundary& on,
+void add_springs(const Mesh& mesh, const Model& model, const BoundarySpec& spec, const NamedBoundary& on,
                  std::vector<Eigen::Triplet<double>>& springs) {
   for_each_piece(on, [&](const std::vector<CellSide>& sides, const auto& s) {
     const Foundation foundation = [&](const Vec2& x, const Vec2& n) -> Eigen::Matrix2d {
@@ -99,21 +101,21 @@ void add_springs(const Mesh& mesh, const BoundarySpec& spec, const NamedBoundary
       const Field &along_x = spec.foundation->x, &along_y = spec.foundation->y;
       return Vec2(modulus(spec, along_x, x, s(x)), modulus(spec, along_y, x, s(x))).asDiagonal();
     };
-    add_foundation(mesh, sides, foundation, springs);
+    add_foundation(mesh, model, sides, foundation, springs);
   });
 }
 
 }  // namespace
 
-Vec2 apply(const Mesh& mesh, const SideTable& table, const SceneNames& names, const BoundarySpec& spec,
-           SaddlePointSystem& system, std::vector<Eigen::Triplet<double>>& springs) {
+Vec2 apply(const Mesh& mesh, const Model& model, const SideTable& table, const SceneNames& names,
+           const BoundarySpec& spec, SaddlePointSystem& system, std::vector<Eigen::Triplet<double>>& springs) {
   const std::vector<NamedBoundary> boundaries = boundaries_of(mesh, table, names, spec);
   for (const NamedBoundary& on : boundaries) {
     prescribe(mesh, on, 0, spec.displacement_x, system.constraints);
     prescribe(mesh, on, 1, spec.displacement_y, system.constraints);
-    if (spec.is_foundation()) add_springs(mesh, spec, on, springs);
+    if (spec.is_foundation()) add_springs(mesh, model, spec, on, springs);
   }
-  return spec.is_load() ? add_loads(mesh, spec, boundaries, system.f) : Vec2::Zero();
+  return spec.is_load() ? add_loads(mesh, model, spec, boundaries, system.f) : Vec2::Zero();
 }
 
 }  // namespace mortise

@@ -10,9 +10,9 @@
 namespace mortise {
 
 /// Adds the entry's prescribed displacements and loads to the system, and the stiffness of its foundation to `springs`.
-/// Returns the sum of the nodal forces that it makes, per thickness. Throws InputError where the mesh does not have its
+/// Returns the sum of the forces that it makes. Throws InputError where the mesh does not have its
 /// curves, two values are prescribed at one node, or a field has no value.
-Vec2 apply(const Mesh& mesh, const SideTable& table, const SceneNames& names, const BoundarySpec& spec,
-           SaddlePointSystem& system, std::vector<Eigen::Triplet<double>>& springs);
+Vec2 apply(const Mesh& mesh, const Model& model, const SideTable& table, const SceneNames& names,
+           const BoundarySpec& spec, SaddlePointSystem& system, std::vector<Eigen::Triplet<double>>& springs);
 
 }  // namespace mortise

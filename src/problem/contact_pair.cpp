@@ -164,7 +164,8 @@ std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, co
                      .gap = spec.initial_gap != InitialGap::measured,
                      .given = spec.initial_gap == InitialGap::given ? std::optional(spec.gap) : std::nullopt,
                      .clearance = spec.clearance,
-                     .s = {}};
+                     .s = {},
+                     .model = d.model};
     if (spec.gap.uses_arc_length() || spec.clearance.uses_arc_length())
       pair.geometry.s.emplace(mesh.nodes, pair.multiplier);
     pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, method.integration, pair.geometry);

@@ -27,21 +27,44 @@ std::vector<const Material*> materials_of(const Scene& scene, const Mesh& mesh, 
   return materials;
 }
 
+// Whether an entry's strain is zero everywhere.
+bool is_zero(const InitialStrainSpec& spec) {
+  const auto zero = [](const Field& field) { return field == Field(); };
+  return spec.temperature_change ? zero(*spec.temperature_change) : std::ranges::all_of(spec.strain, zero);
+}
+
+StrainField strain_of(const InitialStrainSpec& spec, double expansion) {
+  if (spec.temperature_change)
+    return [change = *spec.temperature_change, expansion](const Vec2& x) -> Vec4 {
+      return expansion * change(x) * Vec4(1, 1, 1, 0);
+    };
+  return [e = spec.strain](const Vec2& x) { return Vec4(e[0](x), e[1](x), e[2](x), e[3](x)); };
+}
+
+// Of each body, empty where there is none.
+std::vector<StrainField> strains_of(const Scene& scene, const Mesh& mesh, const SceneNames& names,
+                                    const std::vector<const Material*>& materials) {
+  std::vector<StrainField> strains(mesh.bodies.size());
+  for (const InitialStrainSpec& spec : scene.initial_strains)
+    for (const int b : names.bodies(spec.key, spec.body)) {
+      if (is_zero(spec) || !materials[b]) continue;
+      const StrainField strain = strain_of(spec, materials[b]->thermal_expansion), before = strains[b];
+      if (before)
+        strains[b] = [=](const Vec2& x) -> Vec4 { return before(x) + strain(x); };
+      else
+        strains[b] = strain;
+    }
+  return strains;
+}
+
 // The material of each body of the mesh, and the initial strain upon it.
 std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh, const SceneNames& names,
                                 const std::vector<const Material*>& materials) {
-  std::vector<Vec4> strains(mesh.bodies.size(), Vec4::Zero());
-  for (const InitialStrainSpec& spec : scene.initial_strains) {
-    for (const int b : names.bodies(spec.key, spec.body)) {
-      strains[b] += spec.strain;
-      if (spec.temperature_change && materials[b])
-        strains[b].head<3>().array() += materials[b]->thermal_expansion * *spec.temperature_change;
-    }
-  }
+  std::vector<StrainField> strains = strains_of(scene, mesh, names, materials);
   std::vector<ElasticLaw> laws;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     if (!materials[b]) throw SceneError("bodies: body '" + mesh.bodies[b] + "' of " + mesh.source + " has no material");
-    laws.push_back(elastic_law(materials[b]->young, materials[b]->poisson, scene.plane, strains[b]));
+    laws.push_back(elastic_law(materials[b]->young, materials[b]->poisson, scene.model, std::move(strains[b])));
   }
   return laws;
 }
@@ -51,35 +74,33 @@ std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh, const Scen
 Discretisation discretise(const Scene& scene, const Mesh& mesh) {
   check_cells(mesh);
   Discretisation d;
+  d.model = scene.model;
   d.system.stiffness_scale = 0;
   const SceneNames names(mesh);
   const std::vector<const Material*> materials = materials_of(scene, mesh, names);
   d.laws = laws_of(scene, mesh, names, materials);
   d.system.constraints = no_constraints(mesh);
+  if (d.model.axisymmetric()) hold_axis(mesh, d.system.constraints);
   d.initial_load = VecX::Zero(2 * mesh.nodes.rows());
-  add_initial_strain(mesh, d.laws, d.initial_load);
-  const VecX areas = body_areas(mesh);
-  for (std::size_t b = 0; b < d.laws.size(); ++b) d.initial_energy += d.laws[b].energy0 * areas(b);
+  d.initial_energy = add_initial_strain(mesh, d.laws, d.initial_load);
   d.system.f = d.initial_load;
-  std::vector<Vec2> forces(mesh.bodies.size(), Vec2::Zero());
   for (const BodyForceSpec& spec : scene.body_forces) {
-    Vec2& sum = d.body_sums.emplace_back(Vec2::Zero());
-    for (const int body : names.bodies(spec.key, spec.body)) {
-      forces[body] += spec.force;
-      sum += spec.force * areas(body);
-    }
+    std::vector<BodyForce> forces(mesh.bodies.size());
+    for (const int body : names.bodies(spec.key, spec.body))
+      forces[body] = [&](const Vec2& x) { return spec.force(x); };
+    d.body_sums.push_back(add_body_forces(mesh, d.model, forces, d.system.f));
   }
-  for (std::size_t b = 0; scene.gravity && b < forces.size(); ++b) {
-    const Vec2 weight = materials[b]->density * *scene.gravity;
-    forces[b] += weight;
-    d.weight += weight * areas(b);
+  if (scene.gravity) {
+    std::vector<BodyForce> weights;
+    for (const Material* material : materials)
+      weights.emplace_back([force = Vec2(material->density * *scene.gravity)](const Vec2&) { return force; });
+    d.weight = add_body_forces(mesh, d.model, weights, d.system.f);
   }
-  if (!scene.body_forces.empty() || scene.gravity) add_body_forces(mesh, forces, d.system.f);
   d.system.K = assemble_stiffness(mesh, d.laws);
   const SideTable table(mesh);
   std::vector<Eigen::Triplet<double>> springs;
   for (const BoundarySpec& spec : scene.boundaries)
-    d.boundary_sums.push_back(apply(mesh, table, names, spec, d.system, springs));
+    d.boundary_sums.push_back(apply(mesh, d.model, table, names, spec, d.system, springs));
   if (!springs.empty()) {
     d.springs.resize(d.system.K.rows(), d.system.K.cols());
     d.springs.setFromTriplets(springs.begin(), springs.end());

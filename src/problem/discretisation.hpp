@@ -9,12 +9,13 @@
 namespace mortise {
 
 struct Discretisation {
+  Model model;
   std::vector<ElasticLaw> laws;  ///< one a body
   SaddlePointSystem system;      ///< of the bodies; contact adds its rows (contact_pair.hpp)
   VecX initial_load;             ///< the part of system.f that initial strains make
-  double initial_energy = 0;     ///< of the initial strains held at zero strain, per thickness
+  double initial_energy = 0;     ///< of the initial strains held at zero strain
   /// Sums of the nodal forces of each of Scene::boundaries (zero of prescribed displacements) and of
-  /// Scene::body_forces, force per thickness.
+  /// Scene::body_forces.
   std::vector<Vec2> boundary_sums, body_sums;
   Vec2 weight = Vec2::Zero();  ///< of all bodies, by Scene::gravity
   SparseMatrix springs;        ///< the part of system.K that foundations make; without any it has no columns
@@ -24,11 +25,11 @@ struct Discretisation {
 /// material, or prescribes two values at one node.
 Discretisation discretise(const Scene& scene, const Mesh& mesh);
 
-/// What foundations do to the nodes, force per thickness.
+/// What foundations do to the nodes, force.
 VecX spring_forces(const Discretisation& discretisation, const VecX& u);
 
-/// Strain energy of the bodies, without foundations', 1/2 int (eps - eps0) : C : (eps - eps0), per thickness (J/m in
-/// SI).
+/// Strain energy of the bodies, without foundations', 1/2 int (eps - eps0) : C : (eps - eps0), times depth
+/// (base/model.hpp): J/m of a plane model in SI, J of rings.
 double strain_energy(const Discretisation& discretisation, const VecX& u);
 
 }  // namespace mortise

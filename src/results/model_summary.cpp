@@ -104,7 +104,7 @@ Json json_of(const Field& f) { return f.is_constant() ? Json(f.constant()) : Jso
 
 std::string model_lines(const Scene& scene, const Discretisation& d) {
   std::ostringstream out;
-  out << "  model     plane " << to_string(scene.plane);
+  out << "  model     plane " << to_string(scene.model.plane);
   print_materials(scene, out);
   out << "\n";
   if (scene.boundaries.size() > told_in_full) {
@@ -119,16 +119,16 @@ std::string model_lines(const Scene& scene, const Discretisation& d) {
     out << "  load      gravity " << pair_of(*scene.gravity) << ", in sum " << pair_of(d.weight) << "\n";
   print_some(scene.body_forces, "forces per volume", out, [&](std::size_t i) {
     out << "  load      body " << scene.body_forces[i].body << ": force per volume "
-        << pair_of(scene.body_forces[i].force) << ", in sum " << pair_of(d.body_sums[i]) << "\n";
+        << words(scene.body_forces[i].force) << ", in sum " << pair_of(d.body_sums[i]) << "\n";
   });
   print_some(scene.initial_strains, "initial strains", out, [&](std::size_t i) {
     const InitialStrainSpec& s = scene.initial_strains[i];
     out << "  load      body " << s.body << ": ";
     if (s.temperature_change)
-      out << "temperature change " << *s.temperature_change << "\n";
+      out << "temperature change " << s.temperature_change->words() << "\n";
     else
-      out << "initial strain xx " << s.strain(0) << ", yy " << s.strain(1) << ", zz " << s.strain(2) << ", xy "
-          << s.strain(3) << "\n";
+      out << "initial strain xx " << s.strain[0].words() << ", yy " << s.strain[1].words() << ", zz "
+          << s.strain[2].words() << ", xy " << s.strain[3].words() << "\n";
   });
   return out.str();
 }
@@ -152,12 +152,15 @@ Json model_json(const Scene& scene, const Discretisation& d) {
   for (const InitialStrainSpec& s : scene.initial_strains) {
     Json entry{{"body", s.body}};
     if (s.temperature_change)
-      entry["temperature_change"] = *s.temperature_change;
+      entry["temperature_change"] = json_of(*s.temperature_change);
     else
-      entry["strain"] = {{"xx", s.strain(0)}, {"yy", s.strain(1)}, {"zz", s.strain(2)}, {"xy", s.strain(3)}};
+      entry["strain"] = {{"xx", json_of(s.strain[0])},
+                         {"yy", json_of(s.strain[1])},
+                         {"zz", json_of(s.strain[2])},
+                         {"xy", json_of(s.strain[3])}};
     loads.push_back(entry);
   }
-  return {{"plane", to_string(scene.plane)},
+  return {{"plane", to_string(scene.model.plane)},
           {"materials", materials},
           {"bodies", bodies},
           {"supports", supports},

@@ -11,6 +11,7 @@
 #include "base/choices.hpp"
 #include "base/field.hpp"
 #include "base/geo_limits.hpp"
+#include "base/model.hpp"
 #include "base/types.hpp"
 
 namespace mortise {
@@ -49,15 +50,15 @@ struct BoundarySpec {
 struct BodyForceSpec {
   std::string key;
   std::string body;
-  Vec2 force = Vec2::Zero();
+  VectorField force;
 };
 
 /// One [[initial_strain]] entry: a strain, or a temperature change (strain alpha dT in all three directions).
 struct InitialStrainSpec {
   std::string key;
   std::string body;
-  std::optional<double> temperature_change;  ///< K
-  Vec4 strain = Vec4::Zero();                ///< (11, 22, 33, 12), tensor shear strain
+  std::optional<Field> temperature_change;  ///< K
+  std::array<Field, 4> strain;              ///< (11, 22, 33, 12), tensor shear strain
 };
 
 /// One [[contact]] entry.
@@ -107,7 +108,7 @@ struct Scene {
   std::map<std::string, double> mesh_parameters;
   GeoLimits geo_limits;
   std::vector<BodyCopy> copies;  ///< of bodies of the mesh file, in their place
-  Plane plane = Plane::strain;
+  Model model;
   std::optional<Vec2> gravity;  ///< acceleration: the force per volume is density times it
   std::map<std::string, Material> materials;
   std::vector<BodySpec> bodies;

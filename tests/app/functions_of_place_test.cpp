@@ -94,6 +94,107 @@ contact = [{ between = ["upper_contact", "lower_contact"] }]
   }
 }
 
+// A strain that is linear in place is compatible: alpha T = e x makes u = e ((x^2 - y^2) / 2, x y) and no stress.
+TEST(FunctionsOfPlace, ALinearTemperatureStrainsWithoutStress) {
+  const TemporaryFolder folder;
+  const auto exact = [](const Vec2& x) -> Vec2 {
+    return 1e-3 * Vec2((x.x() * x.x() - x.y() * x.y()) / 2, x.x() * x.y());
+  };
+  const std::string held = R"toml(
+boundary = [
+  { on = "bottom", displacement = { y = 0 } },
+  { on = ["lower_left", "upper_left"], displacement = { x = "-1e-3 * y^2 / 2" } },
+]
+contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilateral" }]
+initial_strain = [
+)toml";
+  const std::string strain = R"toml(strain = { xx = "1e-3 * x", yy = "1e-3 * x", zz = 0.5 } },)toml";
+  for (const std::string& entries :
+       {"{ body = \"upper\", temperature_change = \"50 * x\" }, { body = \"lower\", " + strain,
+        "{ body = \"lower\", temperature_change = \"50 * r*cos(theta)\" }, { body = \"upper\", " + strain}) {
+    Scene scene = scene_of(folder, "0.3, thermal_expansion = 2e-5", held + entries + "\n]\n");
+    const Results r = solve_scene(scene);
+    EXPECT_LT(displacement_error(r, exact), 1e-10);
+    EXPECT_LT(r.stress.points.cwiseAbs().maxCoeff(), 1e-10);  // of E times 2e-3
+    EXPECT_NEAR(r.energy, 0, 1e-14);
+  }
+}
+
+TEST(FunctionsOfPlace, ABodyForceHasTheForceAndMomentOfItsField) {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of(folder, "0.3", R"toml(
+body_force = [{ body = "lower", force = ["3 * y", "-x * y"] }]
+)toml");
+  const Mesh mesh = scene_mesh(scene);
+  const Discretisation d = discretise(scene, mesh);
+  EXPECT_LT((d.body_sums[0] - Vec2(3, -1)).norm(), 1e-13);  // int of 3 y and -x y over 2 x 1
+  double moment = 0;
+  for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i)
+    moment += mesh.nodes(i, 0) * d.system.f(2 * i + 1) - mesh.nodes(i, 1) * d.system.f(2 * i);
+  EXPECT_NEAR(moment, -4.0 / 3 - 2, 1e-13);  // int of -x^2 y - 3 y^2
+}
+
+TEST(FunctionsOfPlace, GravityIsABodyForceByDensity) {
+  const TemporaryFolder folder;
+  const std::string rest =
+      "boundary = [{ on = \"bottom\", displacement = { x = 0, y = 0 } }]\n"
+      "contact = [{ between = [\"upper_contact\", \"lower_contact\"] }]\n";
+  const Scene gravity = scene_of(folder, "0.3, density = 0.5", "model.gravity = [0, -10]\n" + rest);
+  const Scene force = scene_of(folder, "0.3",
+                               "body_force = [{ body = \"lower\", force = [0, -5] }, "
+                               "{ body = \"upper\", force = [0, \"-5 + 0*x\"] }]\n" +
+                                   rest);
+  const Mesh mesh = scene_mesh(gravity);
+  const Discretisation a = discretise(gravity, mesh), b = discretise(force, mesh);
+  EXPECT_LT((a.weight - Vec2(0, -16)).norm(), 1e-13);  // 0.5 * 10 * 2 * 1.6
+  EXPECT_LT((a.system.f - b.system.f).cwiseAbs().maxCoeff(), 1e-14);
+  expect_contains(model_lines(gravity, a), "  load      gravity (0, -10), in sum (0, -16)\n");
+  expect_contains(
+      message_of([&] { scene_of(folder, "0.3", "model.gravity = [0, -10]\n"); }),
+      "materials.m: 'density' of the material 'm' is missing; expected one, as there is gravity (model.gravity");
+}
+
+// Modulus k (1 + x) under a pressure q (1 + x), nu = 0: the bottom sinks by q/k all along, and the bodies are strained
+// as on rigid ground (ALinearPressure...). Springs alone hold the bodies along y.
+TEST(FunctionsOfPlace, AFoundationSinksByPressureOverModulus) {
+  const TemporaryFolder folder;
+  const auto exact = [](const Vec2& x) { return Vec2(0.003 * x.y() * x.y() / 2, -0.03 - 0.003 * (1 + x.x()) * x.y()); };
+  for (const std::string modulus : {"\"100 * (1 + x)\"", "\"100 + 100*s\"", "[0, \"100 * (1 + x)\"]"}) {
+    const Results r = solve_scene(scene_of(folder, "0", R"toml(
+boundary = [
+  { on = "bottom", foundation = )toml" + modulus + R"toml( },
+  { on = "top", displacement = { x = "0.003 * y^2 / 2" } },
+  { on = "lower_left", displacement = { x = "0.003 * y^2 / 2" } },
+  { on = "top", pressure = "3 * (1 + x)" },
+]
+contact = [{ between = ["upper_contact", "lower_contact"] }]
+)toml"));
+    EXPECT_LT(displacement_error(r, exact), 1e-10) << modulus;
+    EXPECT_EQ(r.status, Status::solved);
+    // 1/2 int sigma^2 / E: 9 / 2000 times int (1 + x)^2 over 2 x 1.6.
+    EXPECT_NEAR(r.energy, 9.0 / 2000 * 26 / 3 * 1.6, 1e-10);
+  }
+  expect_contains(message_of([&] {
+                    check_scene(scene_of(folder, "0", "boundary = [{ on = \"bottom\", foundation = \"x - 1\" }]\n"));
+                  }),
+                  "boundary.0 (line 5).foundation: 'x - 1' is -0.9");
+}
+
+TEST(FunctionsOfPlace, ASpringAlongXHoldsNothingAlongY) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      "boundary = [{ on = [\"bottom\", \"upper_left\"], foundation = [100, K] }, "
+      "{ on = \"top\", pressure = 1 }]\n"
+      "contact = [{ between = [\"upper_contact\", \"lower_contact\"] }]\n";
+  const auto with = [&](const std::string& k) {
+    std::string text = scene;
+    return scene_of(folder, "0", text.replace(text.find('K'), 1, k));
+  };
+  expect_contains(message_of([&] { check_scene(with("0")); }), "nothing holds");
+  const Results weak = solve_scene(with("1e-6"));  // of E = 1000
+  EXPECT_EQ(weak.status, Status::solved);
+}
+
 TEST(FunctionsOfPlace, AForceIsSpreadEvenlyOverAllItsCurves) {
   const TemporaryFolder folder;
   const std::string rest = R"toml(

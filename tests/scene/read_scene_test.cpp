@@ -25,7 +25,7 @@ TEST_F(EveryKey, MeshAndModel) {
   EXPECT_EQ(scene_.title, "Every key");
   EXPECT_EQ(scene_.mesh_file, folder_.path("plates.geo"));
   EXPECT_EQ(scene_.mesh_parameters, (std::map<std::string, double>{{"height", 0.25}, {"n_upper", 80}}));
-  EXPECT_EQ(scene_.plane, Plane::stress);
+  EXPECT_EQ(scene_.model.plane, Plane::stress);
 }
 
 TEST_F(EveryKey, MaterialsAndBodiesInTheOrderOfTheFile) {
@@ -65,10 +65,10 @@ TEST_F(EveryKey, BodyForcesAndInitialStrains) {
   ASSERT_EQ(scene_.initial_strains.size(), 2u);
   EXPECT_EQ(scene_.initial_strains[0].body, "lower");
   EXPECT_EQ(scene_.initial_strains[0].temperature_change, 50);
-  EXPECT_EQ(scene_.initial_strains[0].strain, Vec4::Zero());
+  EXPECT_EQ(scene_.initial_strains[0].strain, (std::array<Field, 4>{}));
   EXPECT_EQ(scene_.initial_strains[1].body, "upper");
   EXPECT_FALSE(scene_.initial_strains[1].temperature_change);
-  EXPECT_EQ(scene_.initial_strains[1].strain, Vec4(1e-3, 2e-3, 4e-3, 3e-3));  // 11, 22, 33, 12
+  EXPECT_EQ(scene_.initial_strains[1].strain, (std::array<Field, 4>{1e-3, 2e-3, 4e-3, 3e-3}));  // 11, 22, 33, 12
 }
 
 TEST_F(EveryKey, ContactsAndMethod) {
@@ -92,7 +92,7 @@ TEST(ReadScene, WhatTheFileLeavesOutTakesItsDefault) {
   const Scene scene = read_scene(folder.write("scene.toml", test::shortest_scene));
   EXPECT_EQ(scene.title, "");
   EXPECT_TRUE(scene.mesh_parameters.empty());
-  EXPECT_EQ(scene.plane, Plane::strain);
+  EXPECT_EQ(scene.model.plane, Plane::strain);
   EXPECT_TRUE(scene.boundaries.empty() && scene.body_forces.empty());
   EXPECT_TRUE(scene.initial_strains.empty() && scene.contacts.empty());
   EXPECT_EQ(scene.method.solver, std::nullopt);
