@@ -141,7 +141,7 @@ int check(const Options& options) {
   }
   if (told < count) std::cout << "            and " << count - told << " more pairs\n";
   std::cout << "  left out  friction, large displacements, plasticity, time"
-            << (scene.body_forces.empty() ? ", body forces" : "")
+            << (scene.body_forces.empty() && !scene.gravity ? ", body forces" : "")
             << (scene.initial_strains.empty() ? ", initial strains" : "") << "\n";
   for (const std::string& warning : checked.warnings) std::cout << "  warning   " << warning << "\n";
   return 0;

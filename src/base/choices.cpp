@@ -34,6 +34,8 @@ std::string to_string(InitialGap value) {
       return "measured";
     case InitialGap::curve:
       return "curve";
+    case InitialGap::given:
+      return "given";
     case InitialGap::closed:
       return "closed";
   }

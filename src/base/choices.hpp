@@ -10,8 +10,9 @@ namespace mortise {
 enum class Plane { strain, stress, axisymmetric };
 enum class Condition { unilateral, bilateral };
 
-/// What the undeformed gap is: that between the curves that the meshes stand for, that between their edges, or none.
-enum class InitialGap { curve, measured, closed };
+/// What the undeformed gap is: that between the curves that the meshes stand for, that between their edges, none, or
+/// one that the scene gives.
+enum class InitialGap { curve, measured, closed, given };
 
 /// Along which normals contact acts: those of the multiplier side's edges, or of the curve that they stand for.
 enum class Normals { edges, curve };

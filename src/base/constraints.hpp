@@ -1,4 +1,4 @@
-// Prescribed displacements.
+// Prescribed displacements, and springs to the ground.
 #pragma once
 
 #include <vector>
@@ -12,6 +12,9 @@ struct Constraints {
   std::vector<char> fixed;
   VecX value;          ///< length; zero where not fixed
   bool rings = false;  ///< rigid motions are along x2 only
+  /// What springs in the stiffness resist: a motion u with springs * u = 0 they do not. A column a degree of freedom;
+  /// empty: there are none.
+  SparseMatrix springs = {};
 };
 
 }  // namespace mortise

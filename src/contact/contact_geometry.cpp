@@ -19,7 +19,9 @@ Line ContactGeometry::line_from(const Points& nodes, const Curve& curve, const P
 }
 
 double ContactGeometry::initial_gap(const Line& line, const Place& at, const Hit& hit) const {
-  double distance = hit.distance + clearance;
+  const double along = s ? s->at(at.edge, at.xi) : 0;
+  if (given) return (*given)(line.x, along);
+  double distance = hit.distance + clearance(line.x, along);
   if (gap)
     distance += offset(*opposite, {hit.edge, hit.xi}, line.x + hit.distance * line.n, line.n) -
                 offset(*multiplier, at, line.x, line.n);

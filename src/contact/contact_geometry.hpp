@@ -2,9 +2,11 @@
 // edges; and the model whose depth its lengths have.
 #pragma once
 
+#include "base/field.hpp"
 #include "base/model.hpp"
 #include "contact/contact_line.hpp"
 #include "contact/projection.hpp"
+#include "fem/arc_length.hpp"
 
 namespace mortise {
 
@@ -17,14 +19,16 @@ struct Place {
 struct ContactGeometry {
   std::optional<ContactLine> multiplier, opposite;  ///< the lines of both sides; only a pair of edges has none
   bool normals = false, gap = false;                ///< whether these are the lines', else the edges'
-  double clearance = 0;  ///< added to every gap, length: a clearance (+) or an interference (-) that is not drawn
+  std::optional<Field> given;                       ///< the gap itself, length: whatever the lines and edges
+  Field clearance;             ///< added to theirs, length: a clearance (+) or an interference (-) that is not drawn
+  std::optional<ArcLength> s;  ///< along the multiplier side, where these two ask for it
   Model model = {};
 
   /// From a place on the multiplier side's edges along the normal there.
   Line line_from(const Points& nodes, const Curve& curve, const Place& at) const;
 
   /// Undeformed, along a line from a place of the multiplier side that hits the opposite side; length, positive when
-  /// open.
+  /// open. Throws SceneError where a field of the scene has no finite value.
   double initial_gap(const Line& line, const Place& at, const Hit& hit) const;
 };
 

@@ -1,5 +1,6 @@
 #include "fem/constraints.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -11,21 +12,29 @@ Constraints no_constraints(const Mesh& mesh) {
   return {std::vector<char>(2 * mesh.nodes.rows(), 0), VecX::Zero(2 * mesh.nodes.rows())};
 }
 
-void prescribe(const Mesh& mesh, int boundary, int component, double value, Constraints& constraints) {
+void prescribe(const Mesh& mesh, int boundary, int component, const std::function<double(int node)>& value,
+               Constraints& constraints) {
   const Boundary& curve = mesh.boundaries[boundary];
   for (const Edge& edge : curve.edges)
     for (int a = 0; a < edge.node_count; ++a) {
       const int dof = 2 * edge.nodes[a] + component;
-      if (constraints.fixed[dof] && constraints.value(dof) != value) {
+      const double given = value(edge.nodes[a]), other = constraints.value(dof);
+      const double round_off = 1e-12 * std::max(std::abs(given), std::abs(other));
+      if (constraints.fixed[dof] && std::abs(given - other) > round_off) {
         std::ostringstream text;
         text << mesh.source << ": boundary '" << curve.name << "': displacement " << (component ? "y" : "x") << " = "
-             << value << " " << near_point(mesh.nodes.row(edge.nodes[a]).transpose())
-             << ", where another boundary prescribes " << constraints.value(dof) << "; expected one value a node";
+             << given << " " << near_point(mesh.nodes.row(edge.nodes[a]).transpose())
+             << ", where another boundary prescribes " << other << "; expected one value a node";
         throw InputError(text.str());
       }
       constraints.fixed[dof] = 1;
-      constraints.value(dof) = value;
+      constraints.value(dof) = given;
     }
+}
+
+void prescribe(const Mesh& mesh, int boundary, int component, double value, Constraints& constraints) {
+  prescribe(
+      mesh, boundary, component, [value](int) { return value; }, constraints);
 }
 
 void hold_axis(const Mesh& mesh, Constraints& constraints) {

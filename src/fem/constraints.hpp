@@ -1,6 +1,8 @@
 // Prescribed displacements on boundaries.
 #pragma once
 
+#include <functional>
+
 #include "base/constraints.hpp"
 #include "mesh/mesh.hpp"
 
@@ -8,8 +10,10 @@ namespace mortise {
 
 Constraints no_constraints(const Mesh& mesh);
 
-/// Prescribes component 0 or 1 on a boundary. Throws InputError, with coordinates, where another value already
-/// stands at a node (boundaries may share nodes, but must agree there).
+/// Prescribes component 0 or 1 on a boundary, by the value at each node. Throws InputError, with coordinates, where
+/// another value already stands at a node (boundaries may share nodes, but must agree there up to round-off).
+void prescribe(const Mesh& mesh, int boundary, int component, const std::function<double(int node)>& value,
+               Constraints& constraints);
 void prescribe(const Mesh& mesh, int boundary, int component, double value, Constraints& constraints);
 
 /// Of rings, whose axis is x1 = 0: holds u1 of the nodes there; no rigid motion but along x2 is left. Throws

@@ -99,22 +99,6 @@ class Gram {
   std::map<std::pair<int, int>, Block> blocks_;
 };
 
-// What the constraints see of the motions, and the jumps between bodies that share nodes: they move together.
-void add_supports(const Bodies& bodies, const Constraints& constraints, Gram& gram) {
-  if (constraints.rings)  // all but translations along x2 strain them
-    for (int b = 0; b < int(bodies.mesh.bodies.size()); ++b)
-      for (const int k : {0, 2}) gram.add({{b, Eigen::RowVector3d::Unit(k)}});
-  std::vector<int> owner(bodies.mesh.nodes.rows(), -1);
-  bodies.for_each_node([&](int b, int node, const Vec2& x) {
-    const int other = owner[node];
-    if (other < 0) owner[node] = b;
-    for (int c = 0; c < 2; ++c) {
-      if (constraints.fixed[2 * node + c]) gram.add({{b, bodies.at(b, x, c)}});
-      if (other >= 0) gram.add({{b, bodies.at(b, x, c)}, {other, -bodies.at(other, x, c)}});
-    }
-  });
-}
-
 // How the motions open the rows. Of a shared node only the first body counts.
 void add_openings(const Bodies& bodies, const SparseMatrix& rows, Gram& gram) {
   std::vector<std::map<int, Eigen::RowVector3d>> openings(rows.rows());
@@ -127,6 +111,24 @@ void add_openings(const Bodies& bodies, const SparseMatrix& rows, Gram& gram) {
         openings[it.row()].try_emplace(b, Eigen::RowVector3d::Zero()).first->second += it.value() * bodies.at(b, x, c);
   });
   for (const auto& opening : openings) gram.add({opening.begin(), opening.end()});
+}
+
+// What the constraints and springs see of the motions, and the jumps between bodies that share nodes: they move
+// together.
+void add_supports(const Bodies& bodies, const Constraints& constraints, Gram& gram) {
+  if (constraints.rings)  // all but translations along x2 strain them
+    for (int b = 0; b < int(bodies.mesh.bodies.size()); ++b)
+      for (const int k : {0, 2}) gram.add({{b, Eigen::RowVector3d::Unit(k)}});
+  if (constraints.springs.cols() > 0) add_openings(bodies, constraints.springs, gram);
+  std::vector<int> owner(bodies.mesh.nodes.rows(), -1);
+  bodies.for_each_node([&](int b, int node, const Vec2& x) {
+    const int other = owner[node];
+    if (other < 0) owner[node] = b;
+    for (int c = 0; c < 2; ++c) {
+      if (constraints.fixed[2 * node + c]) gram.add({{b, bodies.at(b, x, c)}});
+      if (other >= 0) gram.add({{b, bodies.at(b, x, c)}, {other, -bodies.at(other, x, c)}});
+    }
+  });
 }
 
 void add_openings(const Bodies& bodies, const std::vector<ContactNormal>& normals, Gram& gram) {

@@ -27,7 +27,7 @@ struct BodyFrames {
 };
 BodyFrames body_frames(const Mesh& mesh, const BodyPoints& points);
 
-/// Motions of single bodies and of groups of bodies that neither the constraints nor `rows * u = 0` resist.
+/// Motions of single bodies and of groups of bodies that neither constraints, springs nor `rows * u = 0` resist.
 /// `rows` (m x degrees of freedom) are the contact conditions that can hold a body; m may be zero.
 /// Each element is one free motion: the bodies that move in it (unit size: translations of about 1). No two motions
 /// are mixed that could be told apart: five floating bodies are five motions.

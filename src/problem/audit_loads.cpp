@@ -23,7 +23,7 @@ std::vector<LoadedEdge> loaded_edges(const Scene& scene, const Mesh& mesh) {
   const SceneNames names(mesh);
   std::vector<LoadedEdge> list;
   for (const BoundarySpec& spec : scene.boundaries) {
-    if (!spec.pressure && !spec.traction) continue;
+    if (!spec.is_load()) continue;
     for (const std::string& name : spec.on)
       for (const int b : names.boundaries(spec.key + ".on", name))
         for (int e = 0; e < int(mesh.boundaries[b].edges.size()); ++e) {

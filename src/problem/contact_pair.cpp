@@ -162,8 +162,12 @@ std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, co
                      .opposite = ContactLine(mesh.nodes, pair.opposite),
                      .normals = method.normals == Normals::curve,
                      .gap = spec.initial_gap != InitialGap::measured,
+                     .given = spec.initial_gap == InitialGap::given ? std::optional(spec.gap) : std::nullopt,
                      .clearance = spec.clearance,
+                     .s = {},
                      .model = d.model};
+    if (spec.gap.uses_arc_length() || spec.clearance.uses_arc_length())
+      pair.geometry.s.emplace(mesh.nodes, pair.multiplier);
     pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, method.integration, pair.geometry);
     pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, d.system.constraints,
                            {method.multipliers, spec.initial_gap}, pair.geometry);
@@ -177,11 +181,11 @@ bool is_drawn(const ContactPair& pair) { return !pair.multiplier.samples.empty()
 
 std::string gap_words(const ContactPair& pair) {
   if (pair.spec.initial_gap == InitialGap::closed) return "closed";
-  if (pair.spec.initial_gap == InitialGap::measured) return "of the meshes";
-  std::ostringstream words;
-  words << (is_drawn(pair) ? "as drawn" : "of curves through the nodes");
-  if (pair.spec.clearance != 0) words << " + " << pair.spec.clearance;
-  return words.str();
+  if (pair.spec.initial_gap == InitialGap::given) return pair.spec.gap.words();
+  const std::string of = pair.spec.initial_gap == InitialGap::measured ? "of the meshes"
+                         : is_drawn(pair)                              ? "as drawn"
+                                                                       : "of curves through the nodes";
+  return pair.spec.clearance == Field() ? of : of + " + " + pair.spec.clearance.words();
 }
 
 std::vector<int> row_nodes(const std::vector<ContactPair>& pairs) {

@@ -49,7 +49,7 @@ std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, co
 /// Whether both curves are known as they are drawn, not by their meshes alone.
 bool is_drawn(const ContactPair& pair);
 
-/// What the pair's gap is, as words for the user: "closed", or whose gap and with what clearance.
+/// What the pair's gap is, as words for the user: "closed", the one given, or whose gap and with what clearance.
 std::string gap_words(const ContactPair& pair);
 
 /// Of the rows of all pairs below one another: the node of each one's first multiplier.

@@ -6,7 +6,7 @@
 #include "base/patterns.hpp"
 #include "fem/elements.hpp"
 #include "mesh/side_table.hpp"
-#include "problem/scene_names.hpp"
+#include "problem/boundary_conditions.hpp"
 
 namespace mortise {
 namespace {
@@ -33,45 +33,46 @@ ElasticLaw law_of(const Material& m, const Model& model, StrainField strain) {
   return elastic_law(stiffness, model, m.young, std::move(strain));
 }
 
-// The material of each body of the mesh, and the initial strain upon it.
-std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh, const SceneNames& names) {
-  const std::vector<const Material*> materials = materials_of(scene, mesh, names);
-  std::vector<Vec4> strains(mesh.bodies.size(), Vec4::Zero());
-  for (const InitialStrainSpec& spec : scene.initial_strains) {
+// Whether an entry's strain is zero everywhere.
+bool is_zero(const InitialStrainSpec& spec) {
+  const auto zero = [](const Field& field) { return field == Field(); };
+  return spec.temperature_change ? zero(*spec.temperature_change) : std::ranges::all_of(spec.strain, zero);
+}
+
+StrainField strain_of(const InitialStrainSpec& spec, double expansion) {
+  if (spec.temperature_change)
+    return [change = *spec.temperature_change, expansion](const Vec2& x) -> Vec4 {
+      return expansion * change(x) * Vec4(1, 1, 1, 0);
+    };
+  return [e = spec.strain](const Vec2& x) { return Vec4(e[0](x), e[1](x), e[2](x), e[3](x)); };
+}
+
+// Of each body, empty where there is none.
+std::vector<StrainField> strains_of(const Scene& scene, const Mesh& mesh, const SceneNames& names,
+                                    const std::vector<const Material*>& materials) {
+  std::vector<StrainField> strains(mesh.bodies.size());
+  for (const InitialStrainSpec& spec : scene.initial_strains)
     for (const int b : names.bodies(spec.key, spec.body)) {
-      strains[b] += spec.strain;
-      if (spec.temperature_change && materials[b])
-        strains[b].head<3>().array() += materials[b]->thermal_expansion * *spec.temperature_change;
+      if (is_zero(spec) || !materials[b]) continue;
+      const StrainField strain = strain_of(spec, materials[b]->thermal_expansion), before = strains[b];
+      if (before)
+        strains[b] = [=](const Vec2& x) -> Vec4 { return before(x) + strain(x); };
+      else
+        strains[b] = strain;
     }
-  }
+  return strains;
+}
+
+// The material of each body of the mesh, and the initial strain upon it.
+std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh, const SceneNames& names,
+                                const std::vector<const Material*>& materials) {
+  std::vector<StrainField> strains = strains_of(scene, mesh, names, materials);
   std::vector<ElasticLaw> laws;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     if (!materials[b]) throw SceneError("bodies: body '" + mesh.bodies[b] + "' of " + mesh.source + " has no material");
-    StrainField strain;
-    if (!strains[b].isZero(0)) strain = [of_body = strains[b]](const Vec2&) { return of_body; };
-    laws.push_back(law_of(*materials[b], scene.model, std::move(strain)));
+    laws.push_back(law_of(*materials[b], scene.model, std::move(strains[b])));
   }
   return laws;
-}
-
-// The sum of the nodal forces that the entry makes.
-Vec2 apply(const Mesh& mesh, const Model& model, const SideTable& table, const SceneNames& names,
-           const BoundarySpec& spec, SaddlePointSystem& system) {
-  Vec2 sum = Vec2::Zero();
-  for (const std::string& name : spec.on)
-    for (const int boundary : names.boundaries(spec.key + ".on", name)) {
-      if (spec.displacement_x) prescribe(mesh, boundary, 0, *spec.displacement_x, system.constraints);
-      if (spec.displacement_y) prescribe(mesh, boundary, 1, *spec.displacement_y, system.constraints);
-      if (!spec.pressure && !spec.traction) continue;
-      const std::vector<CellSide> sides = sides_of(mesh, mesh.boundaries[boundary], table);
-      if (spec.pressure)
-        sum += add_traction(
-            mesh, model, sides, [&](const Vec2&, const Vec2& n) -> Vec2 { return -*spec.pressure * n; }, system.f);
-      if (spec.traction)
-        sum += add_traction(
-            mesh, model, sides, [&](const Vec2&, const Vec2&) -> Vec2 { return *spec.traction; }, system.f);
-    }
-  return sum;
 }
 
 }  // namespace
@@ -82,7 +83,8 @@ Discretisation discretise(const Scene& scene, const Mesh& mesh) {
   d.model = scene.model;
   d.system.stiffness_scale = 0;
   const SceneNames names(mesh);
-  d.laws = laws_of(scene, mesh, names);
+  const std::vector<const Material*> materials = materials_of(scene, mesh, names);
+  d.laws = laws_of(scene, mesh, names, materials);
   d.system.constraints = no_constraints(mesh);
   if (d.model.axisymmetric()) hold_axis(mesh, d.system.constraints);
   d.initial_load = VecX::Zero(2 * mesh.nodes.rows());
@@ -90,20 +92,39 @@ Discretisation discretise(const Scene& scene, const Mesh& mesh) {
   d.system.f = d.initial_load;
   for (const BodyForceSpec& spec : scene.body_forces) {
     std::vector<BodyForce> forces(mesh.bodies.size());
-    for (const int body : names.bodies(spec.key, spec.body)) forces[body] = [&](const Vec2&) { return spec.force; };
+    for (const int body : names.bodies(spec.key, spec.body))
+      forces[body] = [&](const Vec2& x) { return spec.force(x); };
     d.body_sums.push_back(add_body_forces(mesh, d.model, forces, d.system.f));
   }
-  const SideTable table(mesh);
-  for (const BoundarySpec& spec : scene.boundaries)
-    d.boundary_sums.push_back(apply(mesh, d.model, table, names, spec, d.system));
+  if (scene.gravity) {
+    std::vector<BodyForce> weights;
+    for (const Material* material : materials)
+      weights.emplace_back([force = Vec2(material->density * *scene.gravity)](const Vec2&) { return force; });
+    d.weight = add_body_forces(mesh, d.model, weights, d.system.f);
+  }
   d.system.K = assemble_stiffness(mesh, d.laws);
+  const SideTable table(mesh);
+  std::vector<Eigen::Triplet<double>> springs;
+  for (const BoundarySpec& spec : scene.boundaries)
+    d.boundary_sums.push_back(apply(mesh, d.model, table, names, spec, d.system, springs));
+  if (!springs.empty()) {
+    d.springs.resize(d.system.K.rows(), d.system.K.cols());
+    d.springs.setFromTriplets(springs.begin(), springs.end());
+    d.system.K += d.springs;
+    d.system.constraints.springs = spring_rows(d.springs);
+  }
   for (const ElasticLaw& law : d.laws) d.system.stiffness_scale = std::max(d.system.stiffness_scale, law.young);
   return d;
 }
 
+VecX spring_forces(const Discretisation& d, const VecX& u) {
+  if (d.springs.cols() == 0) return VecX::Zero(u.size());
+  return -(d.springs.selfadjointView<Eigen::Lower>() * u);
+}
+
 double strain_energy(const Discretisation& d, const VecX& u) {
-  const VecX Ku = d.system.K.selfadjointView<Eigen::Lower>() * u;
-  return 0.5 * u.dot(Ku) - u.dot(d.initial_load) + d.initial_energy;
+  const VecX forces = d.system.K.selfadjointView<Eigen::Lower>() * u + spring_forces(d, u);
+  return 0.5 * u.dot(forces) - u.dot(d.initial_load) + d.initial_energy;
 }
 
 }  // namespace mortise

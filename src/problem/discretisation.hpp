@@ -17,14 +17,19 @@ struct Discretisation {
   /// Sums of the nodal forces of each of Scene::boundaries (zero of prescribed displacements) and of
   /// Scene::body_forces.
   std::vector<Vec2> boundary_sums, body_sums;
+  Vec2 weight = Vec2::Zero();  ///< of all bodies, by Scene::gravity
+  SparseMatrix springs;        ///< the part of system.K that foundations make; without any it has no columns
 };
 
 /// Throws SceneError where the scene names a body or boundary that the mesh does not have, leaves a body without
 /// material, or prescribes two values at one node.
 Discretisation discretise(const Scene& scene, const Mesh& mesh);
 
-/// Strain energy 1/2 int (eps - eps0) : C : (eps - eps0), times depth (base/model.hpp): J/m of a plane model in SI, J
-/// of rings.
+/// What foundations do to the nodes, force.
+VecX spring_forces(const Discretisation& discretisation, const VecX& u);
+
+/// Strain energy of the bodies, without foundations', 1/2 int (eps - eps0) : C : (eps - eps0), times depth
+/// (base/model.hpp): J/m of a plane model in SI, J of rings.
 double strain_energy(const Discretisation& discretisation, const VecX& u);
 
 }  // namespace mortise

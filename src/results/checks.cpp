@@ -39,8 +39,9 @@ std::vector<std::vector<int>> nodes_of_bodies(const Results& r) {
 void balance_of_bodies(const Results& r, double limit, std::vector<Check>& checks) {
   const SaddlePointSystem& s = r.discretisation.system;
   const VecX contact = -(s.B.transpose() * r.solution.lambda);
-  VecX forces = s.f + contact;
-  const VecX Ku = s.K.selfadjointView<Eigen::Lower>() * r.solution.u;
+  const VecX springs = spring_forces(r.discretisation, r.solution.u);
+  VecX forces = s.f + contact + springs;
+  const VecX Ku = s.K.selfadjointView<Eigen::Lower>() * r.solution.u + springs;
   for (Eigen::Index i = 0; i < forces.size(); ++i)
     if (s.constraints.fixed[i]) forces(i) = Ku(i);  // load + contact + reaction
   const bool rings = r.discretisation.model.axisymmetric();

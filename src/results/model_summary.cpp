@@ -3,7 +3,6 @@
 #include <map>
 #include <numbers>
 #include <sstream>
-#include <tuple>
 
 #include "base/printable.hpp"
 
@@ -57,31 +56,44 @@ void print_materials(const Scene& scene, std::ostream& out) {
     out << separator << name << " (";
     print_moduli(m, out);
     if (m.thermal_expansion != 0) out << ", alpha " << m.thermal_expansion;
+    if (scene.gravity) out << ", density " << m.density;
     out << "): " << listed(bodies[name]);
   }
 }
 
+std::string words(const VectorField& v) {
+  if (v.is_constant()) return pair_of({v.x.constant(), v.y.constant()});
+  return "(" + v.x.words() + ", " + v.y.words() + ")";
+}
+
+Json json_of(const VectorField& v) { return {json_of(v.x), json_of(v.y)}; }
+
+// What an entry prescribes, wherever.
+std::string words(const BoundarySpec& spec) {
+  std::string text;
+  if (spec.displacement_x) text += " u_x = " + spec.displacement_x->words();
+  if (spec.displacement_y) text += (spec.displacement_x ? ", u_y = " : " u_y = ") + spec.displacement_y->words();
+  if (spec.pressure) text += " pressure " + spec.pressure->words();
+  if (spec.traction) text += " traction " + words(*spec.traction);
+  if (spec.force) text += " force " + pair_of(*spec.force);
+  if (spec.normal_foundation) text += " foundation " + spec.normal_foundation->words() + " along the normal";
+  if (spec.foundation) text += " foundation " + words(*spec.foundation);
+  return text;
+}
+
 void print_boundary(const BoundarySpec& spec, const Vec2& force, std::ostream& out) {
-  out << (spec.pressure || spec.traction ? "  load      " : "  support   ") << listed(spec.on) << ":";
-  if (spec.displacement_x) out << " u_x = " << *spec.displacement_x;
-  if (spec.displacement_y) out << (spec.displacement_x ? "," : "") << " u_y = " << *spec.displacement_y;
-  if (spec.pressure) out << " pressure " << *spec.pressure;
-  if (spec.traction) out << " traction " << pair_of(*spec.traction);
-  if (spec.pressure || spec.traction) out << ", in sum " << pair_of(force);
+  out << (spec.is_load() ? "  load      " : "  support   ") << listed(spec.on) << ":" << words(spec);
+  if (spec.is_load()) out << ", in sum " << pair_of(force);
   out << "\n";
 }
 
 // Entries that prescribe the same as one, in the order of the first, with the sum of their forces.
 std::vector<std::pair<BoundarySpec, Vec2>> alike_as_one(const Scene& scene, const Discretisation& d) {
-  const auto what = [](const BoundarySpec& s) {
-    const Vec2 t = s.traction.value_or(Vec2::Zero());
-    return std::tuple(s.displacement_x, s.displacement_y, s.pressure, s.traction.has_value(), t.x(), t.y());
-  };
   std::vector<std::pair<BoundarySpec, Vec2>> entries;
-  std::map<decltype(what(BoundarySpec())), std::size_t> number;
+  std::map<std::string, std::size_t> number;
   for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
     const BoundarySpec& spec = scene.boundaries[i];
-    const auto [found, is_new] = number.try_emplace(what(spec), entries.size());
+    const auto [found, is_new] = number.try_emplace(words(spec), entries.size());
     if (is_new) {
       entries.emplace_back(spec, d.boundary_sums[i]);
       continue;
@@ -104,15 +116,20 @@ void print_some(const Entries& entries, const std::string& what, std::ostream& o
 
 Json boundary_json(const BoundarySpec& spec, const Vec2& force) {
   Json entry{{"on", spec.on}};
-  if (spec.displacement_x) entry["displacement"]["x"] = *spec.displacement_x;
-  if (spec.displacement_y) entry["displacement"]["y"] = *spec.displacement_y;
-  if (spec.pressure) entry["pressure"] = *spec.pressure;
+  if (spec.displacement_x) entry["displacement"]["x"] = json_of(*spec.displacement_x);
+  if (spec.displacement_y) entry["displacement"]["y"] = json_of(*spec.displacement_y);
+  if (spec.pressure) entry["pressure"] = json_of(*spec.pressure);
   if (spec.traction) entry["traction"] = json_of(*spec.traction);
-  if (spec.pressure || spec.traction) entry["sum"] = json_of(force);
+  if (spec.force) entry["force"] = json_of(*spec.force);
+  if (spec.normal_foundation) entry["foundation"] = json_of(*spec.normal_foundation);
+  if (spec.foundation) entry["foundation"] = json_of(*spec.foundation);
+  if (spec.is_load()) entry["sum"] = json_of(force);
   return entry;
 }
 
 }  // namespace
+
+Json json_of(const Field& f) { return f.is_constant() ? Json(f.constant()) : Json(f.words()); }
 
 std::string model_lines(const Scene& scene, const Discretisation& d) {
   std::ostringstream out;
@@ -127,18 +144,20 @@ std::string model_lines(const Scene& scene, const Discretisation& d) {
     for (std::size_t i = 0; i < scene.boundaries.size(); ++i)
       print_boundary(scene.boundaries[i], d.boundary_sums[i], out);
   }
+  if (scene.gravity)
+    out << "  load      gravity " << pair_of(*scene.gravity) << ", in sum " << pair_of(d.weight) << "\n";
   print_some(scene.body_forces, "forces per volume", out, [&](std::size_t i) {
     out << "  load      body " << scene.body_forces[i].body << ": force per volume "
-        << pair_of(scene.body_forces[i].force) << ", in sum " << pair_of(d.body_sums[i]) << "\n";
+        << words(scene.body_forces[i].force) << ", in sum " << pair_of(d.body_sums[i]) << "\n";
   });
   print_some(scene.initial_strains, "initial strains", out, [&](std::size_t i) {
     const InitialStrainSpec& s = scene.initial_strains[i];
     out << "  load      body " << s.body << ": ";
     if (s.temperature_change)
-      out << "temperature change " << *s.temperature_change << "\n";
+      out << "temperature change " << s.temperature_change->words() << "\n";
     else
-      out << "initial strain xx " << s.strain(0) << ", yy " << s.strain(1) << ", zz " << s.strain(2) << ", xy "
-          << s.strain(3) << "\n";
+      out << "initial strain xx " << s.strain[0].words() << ", yy " << s.strain[1].words() << ", zz "
+          << s.strain[2].words() << ", xy " << s.strain[3].words() << "\n";
   });
   return out.str();
 }
@@ -146,11 +165,14 @@ std::string model_lines(const Scene& scene, const Discretisation& d) {
 Json model_json(const Scene& scene, const Discretisation& d) {
   Json materials = Json::object(), bodies = Json::object(), supports = Json::array(), loads = Json::array();
   for (const auto& [name, m] : scene.materials) materials[name] = json_of(m);
+  if (scene.gravity)
+    for (const auto& [name, m] : scene.materials) materials[name]["density"] = m.density;
   for (const BodySpec& body : scene.bodies) bodies[body.name] = body.material;
   for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
     const BoundarySpec& spec = scene.boundaries[i];
-    (spec.pressure || spec.traction ? loads : supports).push_back(boundary_json(spec, d.boundary_sums[i]));
+    (spec.is_load() ? loads : supports).push_back(boundary_json(spec, d.boundary_sums[i]));
   }
+  if (scene.gravity) loads.push_back({{"gravity", json_of(*scene.gravity)}, {"sum", json_of(d.weight)}});
   for (std::size_t i = 0; i < scene.body_forces.size(); ++i) {
     const BodyForceSpec& spec = scene.body_forces[i];
     loads.push_back({{"body", spec.body}, {"force", json_of(spec.force)}, {"sum", json_of(d.body_sums[i])}});
@@ -158,9 +180,12 @@ Json model_json(const Scene& scene, const Discretisation& d) {
   for (const InitialStrainSpec& s : scene.initial_strains) {
     Json entry{{"body", s.body}};
     if (s.temperature_change)
-      entry["temperature_change"] = *s.temperature_change;
+      entry["temperature_change"] = json_of(*s.temperature_change);
     else
-      entry["strain"] = {{"xx", s.strain(0)}, {"yy", s.strain(1)}, {"zz", s.strain(2)}, {"xy", s.strain(3)}};
+      entry["strain"] = {{"xx", json_of(s.strain[0])},
+                         {"yy", json_of(s.strain[1])},
+                         {"zz", json_of(s.strain[2])},
+                         {"xy", json_of(s.strain[3])}};
     loads.push_back(entry);
   }
   return {{"plane", to_string(scene.model.plane)},

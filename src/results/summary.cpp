@@ -173,6 +173,12 @@ void print_checks(const std::vector<Check>& checks, std::ostream& out) {
     if (!c.ok()) out << "  FAILED    " << c.name << ": " << c.value << " (limit " << c.limit << ")\n";
 }
 
+Json gap_json(const ContactSpec& spec) {
+  if (spec.initial_gap == InitialGap::given) return json_of(spec.gap);
+  const std::string word = to_string(spec.initial_gap);
+  return spec.clearance == Field() ? word : word + " + " + spec.clearance.words();
+}
+
 }  // namespace
 
 Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
@@ -181,10 +187,7 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
     const ContactSpec& spec = r.pairs[k].spec;
     on.push_back(spec.multipliers_on);
     condition.push_back(to_string(spec.condition));
-    if (spec.clearance != 0)
-      gap.push_back(spec.clearance);
-    else
-      gap.push_back(to_string(spec.initial_gap));
+    gap.push_back(gap_json(spec));
     contact.push_back(contact_json(r.pairs[k], r.contacts[k]));
   }
   Json checks = Json::array();

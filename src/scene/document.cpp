@@ -62,6 +62,10 @@ void convert_scalar(const toml::node& source, Node& node) {
   if (const auto* text = source.as_string()) {
     node.kind = Node::Kind::string;
     node.text = text->get();
+    // Of one in single quotation marks, with nothing escaped.
+    const toml::source_region& at = source.source();
+    if (at.begin.line == at.end.line && at.end.column - at.begin.column == node.text.size() + 2)
+      node.column = int(at.begin.column) + 1;
   } else if (const auto* integer = source.as_integer()) {
     node.kind = Node::Kind::number;
     node.number = static_cast<double>(integer->get());

@@ -39,6 +39,7 @@ void fail(const Place& place, const std::string& path, const std::string& troubl
   } else if (place.line > 0) {
     text += ':';
     text += std::to_string(place.line);
+    if (place.column > 0) text += ":" + std::to_string(place.column);
   }
   if (!path.empty()) text += ": " + clipped(path, longest_setting);
   throw InputError(printable(text + ": " + trouble));

@@ -8,8 +8,9 @@
 
 namespace mortise::scene_file {
 
-/// Throws InputError "FILE:LINE: PATH: TROUBLE", or "FILE: --set KEY=VALUE: PATH: TROUBLE" for an override.
-/// Control characters in the parts are escaped, so that it stays one line; long settings and paths are clipped.
+/// Throws InputError "FILE:LINE: PATH: TROUBLE", with ":COLUMN" behind the line where one is told, or "FILE: --set
+/// KEY=VALUE: PATH: TROUBLE" for an override. Control characters in the parts are escaped, so that it stays one line;
+/// long settings and paths are clipped.
 [[noreturn]] void fail(const Place& place, const std::string& path, const std::string& trouble);
 [[noreturn]] void fail(const Node& node, const std::string& trouble);
 

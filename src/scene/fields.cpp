@@ -92,6 +92,26 @@ std::array<double, 3> number_triple(const Node& node, const std::string& expecte
   return {number(node.items[0]), number(node.items[1]), number(node.items[2])};
 }
 
+Field field(const Node& node, FieldUse use) {
+  if (node.kind == Node::Kind::number) return number(node);
+  if (node.kind != Node::Kind::string) fail_expected(node, "a number or an expression");
+  use.key = locate(node);
+  try {
+    return {node.text, use};
+  } catch (const ExpressionError& error) {
+    Place place = node.place;
+    const int at = int(error.position) + 1;
+    if (node.column > 0 && place.setting.empty()) place.column = node.column + int(error.position);
+    fail(place, node.path, describe(node) + ", character " + std::to_string(at) + ": " + error.what());
+  }
+}
+
+VectorField field_pair(const Node& node, const FieldUse& use) {
+  if (node.kind != Node::Kind::list || node.items.size() != 2)
+    fail_expected(node, "a list of two numbers or expressions [x, y]");
+  return {field(node.items[0], use), field(node.items[1], use)};
+}
+
 const std::string& text(const Node& node) {
   if (node.kind != Node::Kind::string) fail_expected(node, "a string");
   return node.text;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "base/field.hpp"
 #include "base/types.hpp"
 #include "scene/document.hpp"
 #include "scene/fail.hpp"
@@ -49,6 +50,12 @@ Vec2 number_pair(const Node& node);
 
 /// Three finite numbers of directions 1, 2, 3, or of pairs of these.
 std::array<double, 3> number_triple(const Node& node, const std::string& expected);
+
+/// A finite number, or an expression. Of `use` the key is filled in.
+Field field(const Node& node, FieldUse use);
+
+/// Two of them.
+VectorField field_pair(const Node& node, const FieldUse& use);
 
 /// A string; one that may be empty.
 const std::string& text(const Node& node);

@@ -11,6 +11,7 @@ namespace mortise::scene_file {
 struct Place {
   std::string file;     ///< the scene file
   int line = 0;         ///< from 1; 0 for the document itself and for overrides
+  int column = 0;       ///< from 1; 0: not told
   std::string setting;  ///< "--set KEY=VALUE"; empty for what the file says
 };
 
@@ -23,6 +24,7 @@ struct Node {
   std::string path;         ///< the dotted keys that lead to it, e.g. "contact.0.condition"; empty for the document
   Place place;              ///< where it was written
   double number = 0;        ///< of a number; integers are numbers
+  int column = 0;           ///< from 1, where a string's first character stands in the line; 0: not known
   std::string text;         ///< of a string; of the other scalars the value in words, for messages
   std::vector<Node> items;  ///< of a table or a list
 };

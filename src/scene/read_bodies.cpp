@@ -40,7 +40,13 @@ void check_materials_are_used(const Node& materials, const Node& bodies, const S
 void read_bodies(const Node& root, Scene& scene) {
   const Node& materials = require(root, "materials", "at least one table [materials.NAME]");
   expect_table(materials);
-  for (const Node& node : materials.items) scene.materials[node.name] = read_material(node);
+  for (const Node& node : materials.items) {
+    scene.materials[node.name] = read_material(node);
+    if (!scene.gravity || find(node, "density") != nullptr) continue;
+    const Node& gravity = *find(*find(root, "model"), "gravity");
+    fail(blame(node, gravity), "'density' of the material '" + node.name +
+                                   "' is missing; expected one, as there is gravity (" + locate(gravity) + ")");
+  }
   const Node& bodies = require(root, "bodies", "a table [bodies] with entries surface = \"material\"");
   expect_table(bodies);
   for (const Node& node : bodies.items) scene.bodies.push_back(read_body(node, materials, scene));

@@ -20,7 +20,7 @@ const BodySpec& read_body_name(const Node& entry, const Node& root, const Scene&
 }
 
 /// The strain alpha dT must be small, and alpha known. `entry` names the body.
-void check_temperature(const Node& entry, const BodySpec& body, const Node& root, const Scene& scene) {
+Field read_temperature(const Node& entry, const BodySpec& body, const Node& root, const Scene& scene) {
   const Node& change = *find(entry, "temperature_change");
   // An override may have brought together a body and a material that do not go with the change.
   const Node& pairing = blame(*find(*find(root, "bodies"), body.name), *find(entry, "body"));
@@ -31,23 +31,28 @@ void check_temperature(const Node& entry, const BodySpec& body, const Node& root
          "body '" + body.name + "' has the material '" + body.material + "' without thermal_expansion (" +
              locate(material) + "); expected one");
   }
-  const double strain = scene.materials.at(body.material).thermal_expansion * number(change);
-  if (std::abs(strain) < 1) return;
+  const std::string factor = " times the thermal_expansion " + describe(*expansion) + " (" + locate(*expansion) +
+                             "); probably a unit mismatch";
+  const double largest = 1 / std::abs(scene.materials.at(body.material).thermal_expansion);  // 1 / 0: any
+  FieldUse use{.key = {}, .limit = "a thermal strain below 1, which is this" + factor};
+  if (std::isfinite(largest)) use.largest = largest;
+  const Field field = scene_file::field(change, use);
+  if (!field.is_constant() || std::abs(field.constant()) < largest) return field;
   fail(blame(pairing, blame(*expansion, change)).place, change.path,
-       "expected a thermal strain below 1, found " + describe(change) + " times the thermal_expansion " +
-           describe(*expansion) + " (" + locate(*expansion) + "); probably a unit mismatch");
+       "expected a thermal strain below 1, found " + describe(change) + factor);
 }
 
-Vec4 read_strain(const Node& node) {
+std::array<Field, 4> read_strain(const Node& node) {
   const std::array<const char*, 4> components{"xx", "yy", "zz", "xy"};
   expect_keys(node, {components.begin(), components.end()});
   if (node.items.empty()) fail(node, "is empty; expected at least one of xx, yy, zz, xy");
-  Vec4 strain = Vec4::Zero();
+  std::array<Field, 4> strain;
   for (int i = 0; i < 4; ++i) {
     const Node* component = find(node, components[i]);
     if (component == nullptr) continue;
-    strain[i] = number(*component);
-    if (std::abs(strain[i]) >= 1) fail(*component, "expected a strain below 1, found " + describe(*component));
+    strain[i] = field(*component, {.key = {}, .largest = 1, .limit = "a strain below 1"});
+    if (strain[i].is_constant() && std::abs(strain[i].constant()) >= 1)
+      fail(*component, "expected a strain below 1, found " + describe(*component));
   }
   return strain;
 }
@@ -60,8 +65,8 @@ void read_body_forces(const Node& root, Scene& scene) {
     expect_keys(*entry, {"body", "force"});
     const std::string& body = read_body_name(*entry, root, scene).name;
     once.take("body '" + body + "' is given a body force", *find(*entry, "body"), *entry);
-    const Vec2 force = number_pair(require(*entry, "force", "a force per volume [fx, fy]"));
-    scene.body_forces.push_back({locate(*entry), body, force});
+    const Node& force = require(*entry, "force", "a force per volume [fx, fy]");
+    scene.body_forces.push_back({locate(*entry), body, field_pair(force, {})});
   }
 }
 
@@ -71,13 +76,12 @@ void read_initial_strains(const Node& root, Scene& scene) {
     expect_keys(*entry, {"body", "temperature_change", "strain"});
     const BodySpec& body = read_body_name(*entry, root, scene);
     once.take("body '" + body.name + "' is given an initial strain", *find(*entry, "body"), *entry);
-    InitialStrainSpec spec{locate(*entry), body.name, {}, Vec4::Zero()};
+    InitialStrainSpec spec{locate(*entry), body.name, {}, {}};
     const Node& what = exactly_one(*entry, {"temperature_change", "strain"});
     if (what.name == "strain") {
       spec.strain = read_strain(what);
     } else {
-      spec.temperature_change = number(what);
-      check_temperature(*entry, body, root, scene);
+      spec.temperature_change = read_temperature(*entry, body, root, scene);
     }
     scene.initial_strains.push_back(spec);
   }

@@ -19,7 +19,17 @@ const Node& largest_young(const Node& root) {
   return *largest;
 }
 
-/// Small strains cannot hold under a load larger than every Young's modulus: rather 1e6 is missing somewhere.
+/// Small strains cannot hold under a load larger than every Young's modulus: rather 1e6 is missing somewhere. The same
+/// of an expression is told where its value is.
+FieldUse load_use(const Node& root) {
+  const Node& young = largest_young(root);
+  return {.key = {},
+          .on_curve = true,
+          .largest = young.number,
+          .limit = "a load below every Young's modulus (the largest is " + describe(young) + ", " + locate(young) +
+                   "); probably a unit mismatch"};
+}
+
 void check_load(const Node& load, double size, const Node& root) {
   const Node& young = largest_young(root);
   if (size <= young.number) return;
@@ -31,19 +41,27 @@ void check_load(const Node& load, double size, const Node& root) {
 void read_displacement(const Node& node, BoundarySpec& boundary) {
   expect_keys(node, {"x", "y"});
   if (node.items.empty()) fail(node, "is empty; expected x, y or both");
-  if (const Node* x = find(node, "x")) boundary.displacement_x = number(*x);
-  if (const Node* y = find(node, "y")) boundary.displacement_y = number(*y);
+  const FieldUse use{.key = {}, .on_curve = true};
+  if (const Node* x = find(node, "x")) boundary.displacement_x = field(*x, use);
+  if (const Node* y = find(node, "y")) boundary.displacement_y = field(*y, use);
 }
 
 void read_what(const Node& what, const Node& root, BoundarySpec& boundary) {
   if (what.name == "displacement") {
     read_displacement(what, boundary);
   } else if (what.name == "pressure") {
-    boundary.pressure = number(what);
-    check_load(what, std::abs(*boundary.pressure), root);
+    boundary.pressure = field(what, load_use(root));
+    if (boundary.pressure->is_constant()) check_load(what, std::abs(boundary.pressure->constant()), root);
+  } else if (what.name == "traction") {
+    boundary.traction = field_pair(what, load_use(root));
+    for (const Field& t : {boundary.traction->x, boundary.traction->y})
+      if (t.is_constant()) check_load(what, std::abs(t.constant()), root);
+  } else if (what.name == "force") {
+    boundary.force = number_pair(what);
+  } else if (what.kind == Node::Kind::list) {
+    boundary.foundation = field_pair(what, {.key = {}, .on_curve = true});
   } else {
-    boundary.traction = number_pair(what);
-    check_load(what, boundary.traction->norm(), root);
+    boundary.normal_foundation = field(what, {.key = {}, .on_curve = true});
   }
 }
 
@@ -54,7 +72,8 @@ void check_once(const Node& entry, const Node& what, const std::vector<const Nod
     const std::string subject = "curve '" + curve->text + "' ";
     in_this_entry.take(subject + "is named", *curve, entry);
     if (what.kind != Node::Kind::table) {
-      once.take(subject + "carries a load", blame(what, *curve), entry);
+      once.take(subject + (what.name == "foundation" ? "has a foundation" : "carries a load"), blame(what, *curve),
+                entry);
       continue;
     }
     for (const Node& component : what.items) {
@@ -68,12 +87,12 @@ void check_once(const Node& entry, const Node& what, const std::vector<const Nod
 void read_boundaries(const Node& root, Scene& scene) {
   Once once;
   for (const Node* entry : entries(root, "boundary")) {
-    expect_keys(*entry, {"on", "displacement", "pressure", "traction"});
+    expect_keys(*entry, {"on", "displacement", "pressure", "traction", "force", "foundation"});
     BoundarySpec boundary;
     boundary.key = locate(*entry);
     const std::vector<const Node*> curves = names(require(*entry, "on", "the names of physical curves"));
     for (const Node* curve : curves) boundary.on.push_back(curve->text);
-    const Node& what = exactly_one(*entry, {"displacement", "pressure", "traction"});
+    const Node& what = exactly_one(*entry, {"displacement", "pressure", "traction", "force", "foundation"});
     read_what(what, root, boundary);
     check_once(*entry, what, curves, once);
     scene.boundaries.push_back(boundary);

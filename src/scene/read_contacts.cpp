@@ -1,5 +1,6 @@
 // [[contact]]
 #include <algorithm>
+#include <cctype>
 
 #include "base/patterns.hpp"
 #include "scene/fail.hpp"
@@ -32,16 +33,37 @@ std::string read_multipliers_on(const Node& entry, const ContactSpec& contact) {
   return node->text;
 }
 
-// A word, or a length that is not drawn.
+const std::initializer_list<InitialGap> gap_words{InitialGap::curve, InitialGap::measured, InitialGap::closed};
+
+// All names of an expression's are single letters but theta and pi.
+bool is_word(const std::string& text) {
+  return text.size() > 1 && text != "theta" && text != "pi" &&
+         std::ranges::all_of(text, [](unsigned char c) { return std::isalpha(c); });
+}
+
+// A word, or the gap: a length that may be an expression.
 void read_initial_gap(const Node* node, ContactSpec& contact) {
   if (node == nullptr) return;
-  if (node->kind == Node::Kind::number) {
-    contact.clearance = number(*node);
+  if (node->kind == Node::Kind::string && is_word(node->text)) {
+    contact.initial_gap = choice(node, gap_words, contact.initial_gap);
     return;
   }
-  if (node->kind != Node::Kind::string) fail(*node, "expected a length or a word, found " + describe(*node));
-  contact.initial_gap =
-      choice(node, {InitialGap::curve, InitialGap::measured, InitialGap::closed}, contact.initial_gap);
+  if (node->kind != Node::Kind::number && node->kind != Node::Kind::string)
+    fail(*node, "expected a length, an expression or a word, found " + describe(*node));
+  contact.initial_gap = InitialGap::given;
+  contact.gap = field(*node, {.key = {}, .on_curve = true});
+}
+
+// What is added to the gap between the drawn curves, or between the edges.
+void read_clearance(const Node& entry, ContactSpec& contact) {
+  const Node* node = find(entry, "clearance");
+  if (node == nullptr) return;
+  if (contact.initial_gap == InitialGap::closed || contact.initial_gap == InitialGap::given) {
+    const Node& gap = *find(entry, "initial_gap");
+    fail(blame(gap, *node).place, node->path,
+         "is added to the gap that is drawn, but initial_gap = " + describe(gap) + "; expected one of them");
+  }
+  contact.clearance = field(*node, {.key = {}, .on_curve = true});
 }
 
 }  // namespace
@@ -49,7 +71,7 @@ void read_initial_gap(const Node* node, ContactSpec& contact) {
 void read_contacts(const Node& root, Scene& scene) {
   Once once;
   for (const Node* entry : entries(root, "contact")) {
-    expect_keys(*entry, {"between", "within", "condition", "initial_gap", "multipliers_on"});
+    expect_keys(*entry, {"between", "within", "condition", "initial_gap", "clearance", "multipliers_on"});
     ContactSpec contact;
     contact.key = locate(*entry);
     contact.between = read_between(require(*entry, "between", "a list of two physical curves"), *entry, once);
@@ -61,6 +83,7 @@ void read_contacts(const Node& root, Scene& scene) {
     contact.condition =
         choice(find(*entry, "condition"), {Condition::unilateral, Condition::bilateral}, contact.condition);
     read_initial_gap(find(*entry, "initial_gap"), contact);
+    read_clearance(*entry, contact);
     contact.multipliers_on = read_multipliers_on(*entry, contact);
     scene.contacts.push_back(contact);
   }

@@ -56,16 +56,17 @@ Material read_material(const Node& node) {
   Material material;
   const Node *young = find(node, "young"), *stiffness = find(node, "stiffness");
   if (stiffness != nullptr) {
-    expect_keys(node, {"stiffness", "thermal_expansion"});
+    expect_keys(node, {"stiffness", "thermal_expansion", "density"});
     read_stiffness(*stiffness, material);
   } else if (young != nullptr && young->kind == Node::Kind::list) {
-    expect_keys(node, {"young", "poisson", "shear", "angle", "thermal_expansion"});
+    expect_keys(node, {"young", "poisson", "shear", "angle", "thermal_expansion", "density"});
     read_orthotropic(node, material);
   } else {
-    expect_keys(node, {"young", "poisson", "stiffness", "thermal_expansion"});
+    expect_keys(node, {"young", "poisson", "stiffness", "thermal_expansion", "density"});
     read_isotropic(node, material);
   }
   if (const Node* expansion = find(node, "thermal_expansion")) material.thermal_expansion = number(*expansion);
+  if (const Node* density = find(node, "density")) material.density = positive_number(*density);
   return material;
 }
 

@@ -29,9 +29,10 @@ void read_title(const Node& root, Scene& scene) {
 void read_model(const Node& root, Scene& scene) {
   const Node* model = find(root, "model");
   if (model == nullptr) return;
-  expect_keys(*model, {"plane"});
+  expect_keys(*model, {"plane", "gravity"});
   scene.model.plane =
       choice(find(*model, "plane"), {Plane::strain, Plane::stress, Plane::axisymmetric}, scene.model.plane);
+  if (const Node* gravity = find(*model, "gravity")) scene.gravity = number_pair(*gravity);
 }
 
 Scene read_sections(const Node& root, const std::string& path) {

@@ -9,6 +9,7 @@
 
 #include "base/body_copy.hpp"
 #include "base/choices.hpp"
+#include "base/field.hpp"
 #include "base/geo_limits.hpp"
 #include "base/model.hpp"
 #include "base/moduli.hpp"
@@ -21,6 +22,7 @@ struct Material {
   double young = 0;                         ///< E, stress, > 0; of a material that is not isotropic the largest
   double poisson = 0;                       ///< nu, -1 < nu < 0.5
   double thermal_expansion = 0;             ///< alpha, 1/K
+  double density = 0;                       ///< mass per volume
   std::optional<OrthotropicModuli> moduli;  ///< of an orthotropic material
   std::optional<Mat4> stiffness;            ///< (11, 22, 33, gamma_12), of one that is not isotropic
 };
@@ -30,29 +32,36 @@ struct BodySpec {
   std::string material;  ///< key of Scene::materials
 };
 
-/// One [[boundary]] entry: exactly one of displacement, pressure, traction.
+/// One [[boundary]] entry: exactly one of displacement, pressure, traction, force, foundation.
 struct BoundarySpec {
-  std::string key;                       ///< where it stands, for messages: "boundary.2 (line 31)", counted from 0
-  std::vector<std::string> on;           ///< physical curves
-  std::optional<double> displacement_x;  ///< prescribed u1, length
-  std::optional<double> displacement_y;  ///< prescribed u2, length
-  std::optional<double> pressure;        ///< positive pushes onto the body, stress
-  std::optional<Vec2> traction;          ///< stress
+  std::string key;                      ///< where it stands, for messages: "boundary.2 (line 31)", counted from 0
+  std::vector<std::string> on;          ///< physical curves
+  std::optional<Field> displacement_x;  ///< prescribed u1, length
+  std::optional<Field> displacement_y;  ///< prescribed u2, length
+  std::optional<Field> pressure;        ///< positive pushes onto the body, stress
+  std::optional<VectorField> traction;  ///< stress
+  std::optional<Vec2> force;            ///< sum of a constant traction on all its curves, force per thickness
+  /// Springs to the ground, stress per length, >= 0: along the normal, or along x and y.
+  std::optional<Field> normal_foundation;
+  std::optional<VectorField> foundation;
+
+  bool is_foundation() const { return normal_foundation || foundation; }
+  bool is_load() const { return pressure || traction || force; }
 };
 
 /// One [[body_force]] entry: force per volume.
 struct BodyForceSpec {
   std::string key;
   std::string body;
-  Vec2 force = Vec2::Zero();
+  VectorField force;
 };
 
 /// One [[initial_strain]] entry: a strain, or a temperature change (strain alpha dT in all three directions).
 struct InitialStrainSpec {
   std::string key;
   std::string body;
-  std::optional<double> temperature_change;  ///< K
-  Vec4 strain = Vec4::Zero();                ///< (11, 22, 33, 12), tensor shear strain
+  std::optional<Field> temperature_change;  ///< K
+  std::array<Field, 4> strain;              ///< (11, 22, 33, 12), tensor shear strain
 };
 
 /// One [[contact]] entry.
@@ -64,7 +73,8 @@ struct ContactSpec {
   bool found = false;            ///< a pair of a pattern's: its curves need not face each other all along
   Condition condition = Condition::unilateral;
   InitialGap initial_gap = InitialGap::curve;
-  double clearance = 0;        ///< added to the drawn gap, length: + open, - overlap; only with InitialGap::curve
+  Field gap;                   ///< of InitialGap::given: the gap, length: + open, - overlap
+  Field clearance;             ///< added to the drawn or measured gap, length
   std::string multipliers_on;  ///< one of `between`; empty: couple_pairs chooses
 };
 
@@ -102,6 +112,7 @@ struct Scene {
   GeoLimits geo_limits;
   std::vector<BodyCopy> copies;  ///< of bodies of the mesh file, in their place
   Model model;
+  std::optional<Vec2> gravity;  ///< acceleration: the force per volume is density times it
   std::map<std::string, Material> materials;
   std::vector<BodySpec> bodies;
   std::vector<BoundarySpec> boundaries;

@@ -6,6 +6,7 @@
 
 #include "app/solve_scene.hpp"
 #include "base/errors.hpp"
+#include "fem/edges.hpp"
 #include "results/warnings.hpp"
 #include "support/messages.hpp"
 #include "support/plate_scenes.hpp"
@@ -237,17 +238,54 @@ TEST(InitialGaps, ADrawnGapKeepsItsValueOnAnyMesh) {
   }
 }
 
-TEST(InitialGaps, ANumberIsAddedToWhatIsDrawn) {
+TEST(InitialGaps, AClearanceIsAddedToWhatIsDrawn) {
   // 1e-4 drawn, top moved down by 3e-4: as if drawn so.
-  for (const double added : {-1e-4, 5e-5}) {
-    const std::string number = std::to_string(added);
-    const Results r = solved("gap_close", {{"contact.initial_gap", number}, {"boundary.2.displacement", "{y=-3e-4}"}}),
-                  drawn = solved("gap_close", {{"mesh.parameters.gap", std::to_string(1e-4 + added)},
-                                               {"boundary.2.displacement", "{y=-3e-4}"}});
-    EXPECT_NEAR(r.pairs[0].coupling.gap_min, 1e-4 + added, 1e-15);  // a difference of 0.3 and 0.3001
-    EXPECT_NEAR(r.contacts[0].p_max, drawn.contacts[0].p_max, 1e-3 * drawn.contacts[0].p_max);  // the height differs
-    EXPECT_GT(r.contacts[0].p_max, 0);
+  for (const double added : {-1e-4, 5e-5})
+    for (const char* gap : {"curve", "measured"}) {
+      const Results r = solved("gap_close", {{"contact.clearance", std::to_string(added)},
+                                             {"contact.initial_gap", gap},
+                                             {"boundary.2.displacement", "{y=-3e-4}"}}),
+                    drawn = solved("gap_close", {{"mesh.parameters.gap", std::to_string(1e-4 + added)},
+                                                 {"boundary.2.displacement", "{y=-3e-4}"}});
+      EXPECT_NEAR(r.pairs[0].coupling.gap_min, 1e-4 + added, 1e-15);  // a difference of 0.3 and 0.3001
+      EXPECT_NEAR(r.contacts[0].p_max, drawn.contacts[0].p_max, 1e-3 * drawn.contacts[0].p_max);  // the height differs
+      EXPECT_GT(r.contacts[0].p_max, 0);
+    }
+}
+
+TEST(InitialGaps, ANumberIsTheGapWhateverIsDrawn) {
+  // Uniaxial strain of two blocks 0.3 high, geo/gap_close.toml: p = (d - g) / (0.3 / M_upper + 0.3 / M_lower).
+  const double modulus = 0.7 / (1.3 * 0.4), compliance = 0.3 / (210e9 * modulus) + 0.3 / (70e9 * modulus);
+  for (const char* distance : {"0", "1e-3"})
+    for (const double gap : {1e-4, 0.0, -1e-4}) {
+      const Results r = solved("gap_close", {{"mesh.parameters.gap", distance},
+                                             {"contact.initial_gap", std::to_string(gap)},
+                                             {"boundary.2.displacement", "{y=-3e-4}"}});
+      EXPECT_EQ(r.pairs[0].coupling.gap_min, gap);
+      EXPECT_EQ(r.pairs[0].coupling.gap_max, gap);
+      EXPECT_NEAR(r.contacts[0].p_max, (3e-4 - gap) / compliance, 1);  // Pa, of 5e7 to 1e8
+      EXPECT_NEAR(r.contacts[0].p_min, (3e-4 - gap) / compliance, 1);
+      EXPECT_EQ(r.status, Status::solved);
+      EXPECT_TRUE(r.warnings.empty()) << r.warnings.front();
+    }
+}
+
+TEST(InitialGaps, AFunctionOfPlaceOrArcLength) {
+  const Override down{"boundary.2.displacement", "{y=-3e-4}"};
+  const Results by_x = solved("gap_close", {{"contact.initial_gap", "1e-4 * (1 + x)"}, down}),
+                by_s = solved("gap_close", {{"contact.initial_gap", "1e-4 * (1 + s)"}, down}),
+                added = solved("gap_close", {{"contact.clearance", "1e-4 * s"}, down});  // to 1e-4
+  ASSERT_EQ(by_x.contacts[0].multiplier.nodes.front().position.x(), 0);                  // so s = x
+  for (const Results* r : {&by_s, &added})
+    EXPECT_LT(largest_entry(r->contacts[0].pressure - by_x.contacts[0].pressure), 1e-9 * by_x.contacts[0].p_max);
+  for (const ContactPoint& p : by_x.pairs[0].points) {
+    const double x = edge_point(by_x.mesh.nodes, by_x.pairs[0].multiplier.edges[p.edge], p.xi).position.x();
+    EXPECT_NEAR(p.gap, 1e-4 * (1 + x), 1e-18);
   }
+  expect_contains(message_of([] {
+                    solved("gap_close", {{"contact.initial_gap", "1 / (x - x)"}});
+                  }),
+                  "contact.0.initial_gap (--set contact.initial_gap=1 / (x - x)): '1 / (x - x)' is inf near (");
 }
 
 // ---- Starts, units ----
@@ -294,7 +332,7 @@ TEST(Units, UnilateralMetresAndPascalsAgreeWithMillimetresAndMegapascals) {
   pascals.contacts[0].condition = Condition::unilateral;
   megapascals = pascals;
   megapascals.materials["steel"].young *= 1e-6;
-  *megapascals.boundaries.back().pressure *= 1e-6;
+  megapascals.boundaries.back().pressure = 10;
   const Results a = solve_scene(pascals, metres), b = solve_scene(megapascals, millimetres);
   EXPECT_GT(a.solution.steps.size(), 1u);
   EXPECT_EQ(a.solution.active, b.solution.active);

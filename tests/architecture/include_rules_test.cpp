@@ -42,11 +42,12 @@ struct Foreign {
   bool sources_only;
 };
 const std::vector<Foreign> foreigners{
-    {"Boost", R"(boost/.*)", "mesh", true},    {"gmsh", R"(gmsh\..*)", "io", true},
-    {"VTK", R"(vtk\w+\.h)", "io", true},       {"CHOLMOD", R"((.*/)?cholmod.*)", "solve", true},
-    {"AMD", R"((.*/)?amd\.h)", "solve", true}, {"nlohmann-json", R"(nlohmann/.*)", "results", false},
-    {"PETSc", R"(petsc.*)", "ddm", true},      {"MPI", R"(mpi\.h)", "ddm", true},
-    {"CLI11", R"(CLI/.*)", "app", false},      {"toml++", R"(toml\+\+.*)", "scene", true},
+    {"Boost", R"(boost/.*)", "mesh", true},      {"gmsh", R"(gmsh\..*)", "io", true},
+    {"VTK", R"(vtk\w+\.h)", "io", true},         {"CHOLMOD", R"((.*/)?cholmod.*)", "solve", true},
+    {"AMD", R"((.*/)?amd\.h)", "solve", true},   {"nlohmann-json", R"(nlohmann/.*)", "results", false},
+    {"PETSc", R"(petsc.*)", "ddm", true},        {"MPI", R"(mpi\.h)", "ddm", true},
+    {"CLI11", R"(CLI/.*)", "app", false},        {"toml++", R"(toml\+\+.*)", "scene", true},
+    {"muParser", R"(muParser.*)", "base", true},
 };
 
 const Names top_level{
@@ -121,6 +122,8 @@ TEST(IncludeRules, NameFileAndLineOfAForbiddenInclude) {
            {"scene/a.cpp", "#include <nlohmann/json.hpp>"},
            {"app/a.cpp", "#include <toml++/toml.h>"},
            {"scene/a.hpp", "#include <toml++/toml.h>"},
+           {"base/a.hpp", "#include <muParser.h>"},
+           {"scene/a.cpp", "#include <muParser.h>"},
            {"scene/a.cpp", "#include <app/solve_scene.hpp>"},
            {"fem/a.cpp", "#include \"assembly.hpp\""},
            {"attic/a.cpp", "#include <vector>"},

@@ -65,10 +65,10 @@ TEST_F(EveryKey, BodyForcesAndInitialStrains) {
   ASSERT_EQ(scene_.initial_strains.size(), 2u);
   EXPECT_EQ(scene_.initial_strains[0].body, "lower");
   EXPECT_EQ(scene_.initial_strains[0].temperature_change, 50);
-  EXPECT_EQ(scene_.initial_strains[0].strain, Vec4::Zero());
+  EXPECT_EQ(scene_.initial_strains[0].strain, (std::array<Field, 4>{}));
   EXPECT_EQ(scene_.initial_strains[1].body, "upper");
   EXPECT_FALSE(scene_.initial_strains[1].temperature_change);
-  EXPECT_EQ(scene_.initial_strains[1].strain, Vec4(1e-3, 2e-3, 4e-3, 3e-3));  // 11, 22, 33, 12
+  EXPECT_EQ(scene_.initial_strains[1].strain, (std::array<Field, 4>{1e-3, 2e-3, 4e-3, 3e-3}));  // 11, 22, 33, 12
 }
 
 TEST_F(EveryKey, ContactsAndMethod) {

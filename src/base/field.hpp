@@ -1,0 +1,72 @@
+// A constant of the scene that may vary with the place: a number, or an expression.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "base/errors.hpp"
+#include "base/types.hpp"
+
+namespace mortise {
+
+/// An expression that is none.
+class ExpressionError : public std::runtime_error {
+ public:
+  ExpressionError(const std::string& trouble, std::size_t at) : std::runtime_error(trouble), position(at) {}
+  std::size_t position;  ///< where in the text, in bytes from 0
+};
+
+/// Where an expression stands, and what it may be.
+struct FieldUse {
+  std::string key;                                      ///< "boundary.2.pressure (line 31)", for messages
+  bool on_curve = false;                                ///< whether it may name s
+  double largest = std::numeric_limits<double>::max();  ///< of its size
+  std::string limit = {};  ///< "a load below every Young's modulus": what `largest` is, for messages
+};
+
+/// A number, or a function of x and y (undeformed), r and theta (polar, about the origin), and on a curve s (its arc
+/// length, docs/notation.md). A number costs what a number does. Copies share the expression, which several threads may
+/// ask at the same time.
+class Field {
+ public:
+  Field(double constant = 0) : constant_(constant) {}
+  /// Throws ExpressionError.
+  Field(const std::string& expression, const FieldUse& use);
+
+  /// Throws SceneError, with key and place, where the value is not finite or larger than `largest`.
+  double operator()(const Vec2& x, double s = 0) const { return function_ ? value_at(x, s) : constant_; }
+
+  bool is_constant() const { return !function_; }
+  /// Only of one that is constant.
+  double constant() const;
+  bool uses_arc_length() const;
+  /// The number by six digits, or the expression as the user wrote it.
+  std::string words() const;
+
+  friend bool operator==(const Field& a, const Field& b) { return a.constant_ == b.constant_ && a.same_function(b); }
+
+ private:
+  struct Function;
+  double value_at(const Vec2& x, double s) const;
+  bool same_function(const Field& other) const;
+
+  double constant_ = 0;
+  std::shared_ptr<Function> function_;  // none: constant_
+};
+
+/// Two of them.
+struct VectorField {
+  Field x, y;
+
+  VectorField() = default;
+  VectorField(const Vec2& constant) : x(constant.x()), y(constant.y()) {}
+  VectorField(Field first, Field second) : x(std::move(first)), y(std::move(second)) {}
+
+  Vec2 operator()(const Vec2& at, double s = 0) const { return {x(at, s), y(at, s)}; }
+  bool is_constant() const { return x.is_constant() && y.is_constant(); }
+  bool uses_arc_length() const { return x.uses_arc_length() || y.uses_arc_length(); }
+  bool operator==(const VectorField&) const = default;
+};
+
+}  // namespace mortise

@@ -1,0 +1,41 @@
+#include "fem/foundation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/edges.hpp"
+#include "fem/quadrature.hpp"
+
+namespace mortise {
+
+void add_foundation(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
+                    const Foundation& foundation, std::vector<Eigen::Triplet<double>>& entries, int gauss_points) {
+  const LineRule rule = gauss_legendre(gauss_points);
+  for (const CellSide& at : sides) {
+    const Edge edge = side_edge(mesh.cells[at.cell], at.side);
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
+      const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);
+      const double dA = rule.weights[q] * p.jacobian() * model.depth(p.position.x());
+      const Eigen::Matrix2d k = dA * foundation(p.position, p.normal());
+      for (int i = 0; i < 2 * edge.node_count; ++i)
+        for (int j = 0; j < 2 * edge.node_count; ++j) {
+          const int row = 2 * edge.nodes[i / 2] + i % 2, column = 2 * edge.nodes[j / 2] + j % 2;
+          if (row >= column) entries.emplace_back(row, column, s.N[i / 2] * k(i % 2, j % 2) * s.N[j / 2]);
+        }
+    }
+  }
+}
+
+SparseMatrix spring_rows(const SparseMatrix& stiffness) {
+  SparseMatrix rows = stiffness.selfadjointView<Eigen::Lower>();
+  VecX largest = VecX::Zero(rows.rows());
+  const auto for_each_entry = [&](const auto& visit) {
+    for (Eigen::Index k = 0; k < rows.nonZeros(); ++k) visit(rows.valuePtr()[k], largest(rows.innerIndexPtr()[k]));
+  };
+  for_each_entry([](double value, double& most) { most = std::max(most, std::abs(value)); });
+  for_each_entry([](double& value, double most) { value = most > 0 ? value / most : 0; });
+  return rows;
+}
+
+}  // namespace mortise

@@ -1,0 +1,25 @@
+// Elastic foundations: springs along a boundary that hold it to the ground.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "base/model.hpp"
+#include "mesh/mesh.hpp"
+
+namespace mortise {
+
+/// The springs' stiffness at a place with its outward unit normal: 2 x 2, symmetric, positive semidefinite, stress per
+/// length. Of a normal foundation of modulus k (Winkler's) k n n^T.
+using Foundation = std::function<Eigen::Matrix2d(const Vec2& position, const Vec2& normal)>;
+
+/// Appends int N_a k N_b ds, times depth (base/model.hpp), over the sides of a boundary: entries of the lower triangle
+/// of a matrix like the stiffness. `gauss_points` an edge.
+void add_foundation(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
+                    const Foundation& foundation, std::vector<Eigen::Triplet<double>>& entries, int gauss_points = 4);
+
+/// The springs' stiffness (lower triangle given) as conditions: motions with rows * u = 0 they do not resist. Each row
+/// over its largest entry, so that weak springs count as strong ones do.
+SparseMatrix spring_rows(const SparseMatrix& stiffness);
+
+}  // namespace mortise
