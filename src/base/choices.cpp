@@ -10,6 +10,8 @@ std::string to_string(Plane value) {
       return "strain";
     case Plane::stress:
       return "stress";
+    case Plane::axisymmetric:
+      return "axisymmetric";
   }
   assert(false && "no such Plane");
   return {};

@@ -6,7 +6,8 @@
 
 namespace mortise {
 
-enum class Plane { strain, stress };
+/// axisymmetric: the meridian plane of rings, the first coordinate is the radius.
+enum class Plane { strain, stress, axisymmetric };
 enum class Condition { unilateral, bilateral };
 
 /// What the undeformed gap is: that between the curves that the meshes stand for, that between their edges, or none.

@@ -11,6 +11,7 @@ namespace mortise {
 
 using Vec2 = Eigen::Vector2d;
 using Vec4 = Eigen::Vector4d;
+using Mat4 = Eigen::Matrix4d;
 using VecX = Eigen::VectorXd;
 using MatX = Eigen::MatrixXd;
 

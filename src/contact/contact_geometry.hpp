@@ -1,7 +1,8 @@
 // Where a contact pair takes its normals and its undeformed gap from: the curves that its meshes stand for, or their
-// edges.
+// edges; and the model whose depth its lengths have.
 #pragma once
 
+#include "base/model.hpp"
 #include "contact/contact_line.hpp"
 #include "contact/projection.hpp"
 
@@ -17,6 +18,7 @@ struct ContactGeometry {
   std::optional<ContactLine> multiplier, opposite;  ///< the lines of both sides; only a pair of edges has none
   bool normals = false, gap = false;                ///< whether these are the lines', else the edges'
   double clearance = 0;  ///< added to every gap, length: a clearance (+) or an interference (-) that is not drawn
+  Model model = {};
 
   /// From a place on the multiplier side's edges along the normal there.
   Line line_from(const Points& nodes, const Curve& curve, const Place& at) const;

@@ -39,7 +39,7 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
   const Eigen::Index count = coupling.node.size();
   Accumulated sums{{},
                    VecX::Zero(count),
-                   {VecX::Zero(count), VecX::Zero(count), VecX::Zero(count),
+                   {VecX::Zero(count), VecX::Zero(count), VecX::Zero(count), VecX::Zero(count),
                     VecX::Constant(count, std::numeric_limits<double>::infinity())}};
   sums.B.reserve(points.size() * 36);
   for (auto first = points.begin(); first != points.end();) {
@@ -51,9 +51,10 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
       const ContactPoint& p = *first;
       const Edge& other = opposite.edges[p.opposite_edge];
       const EdgeShape N = edge_shape(edge.node_count, p.xi), M = edge_shape(other.node_count, p.eta);
-      const Eigen::Vector3d psi = p.ds * space.shape(p.xi);
+      const Eigen::Vector3d shape = space.shape(p.xi), psi = p.dA * shape;
       for (int i = 0; i < space.count; ++i) {
         const int a = multipliers[i];
+        sums.support.extent(a) += p.ds * std::abs(shape(i));
         sums.support.scale(a) += std::abs(psi(i));
         sums.support.weight(a) += psi(i);
         sums.support.faced(a) += p.ds;

@@ -19,9 +19,9 @@ struct DroppedMultiplier {
 /// Multipliers sit at nodes of the multiplier side; lambda = sum_a psi_a lambda_a (docs/theory.md eq. 10 to 12). Row r
 /// of B belongs to all multipliers a with row[a] == r.
 struct Coupling {
-  SparseRows B;                             ///< rows x degrees of freedom: int psi (u_opposite - u_multiplier) . n ds
-  VecX gap0;                                ///< rows: int psi g0 ds, length^2; zero where the gap is closed
-  VecX scale;                               ///< rows: int |psi| ds, length
+  SparseRows B;                             ///< rows x degrees of freedom: int psi (u_opposite - u_multiplier) . n dA
+  VecX gap0;                                ///< rows: int psi g0 dA, length dA; zero where the gap is closed
+  VecX scale;                               ///< rows: int |psi| dA, dA = ds times depth (base/model.hpp)
   std::vector<int> node;                    ///< multiplier -> node of the mesh
   std::vector<int> row;                     ///< multiplier -> row of B, or -1: no support, lambda = 0
   std::vector<std::array<int, 3>> on_edge;  ///< edge of the multiplier side -> its multipliers, -1 where none

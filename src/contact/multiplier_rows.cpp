@@ -72,7 +72,7 @@ std::vector<State> find_states(const Mesh& mesh, const Curve& multiplier, const 
       const int a = coupling.on_edge[e][i];
       if (a < 0) continue;
       State& found = state[a];
-      if (support.scale(a) < 1e-10 * length(a)) {
+      if (support.extent(a) < 1e-10 * length(a)) {
         found = State::unsupported;
         continue;
       }

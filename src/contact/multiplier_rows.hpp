@@ -11,7 +11,8 @@ namespace mortise {
 
 /// What the contact points say of each multiplier.
 struct Support {
-  VecX scale, weight;  ///< int |psi|, int psi, length
+  VecX extent;         ///< int |psi| ds, length
+  VecX scale, weight;  ///< int |psi| dA, int psi dA
   VecX faced;          ///< how much of its edges faces the other side, length
   VecX nearest;        ///< the smallest gap there, undeformed, length; 0 where the sides overlap
 };

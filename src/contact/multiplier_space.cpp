@@ -20,8 +20,8 @@ EdgeMultipliers edge_multipliers(const Edge& edge, Multipliers space, std::span<
   for (const ContactPoint& p : points) {
     const EdgeShape s = edge_shape(m.count, p.xi);
     const Eigen::Map<const VecX> N(s.N.data(), m.count);
-    mass += p.ds * N * N.transpose();
-    weight += p.ds * N;
+    mass += p.dA * N * N.transpose();
+    weight += p.dA * N;
   }
   const Eigen::FullPivLU<MatX> lu(mass);
   // A sliver of the edge cannot tell the functions apart: keep the standard ones there.

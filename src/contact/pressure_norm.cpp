@@ -21,7 +21,7 @@ SparseMatrix pressure_norm(const Points& nodes, const Curve& multiplier, const s
       for (int i = 0; i < shapes.count; ++i)
         for (int j = 0; j < shapes.count; ++j) {
           const int a = coupling.row[on[i]], b = coupling.row[on[j]];
-          if (a >= 0 && b >= 0) entries.emplace_back(a, b, h * first->ds * psi(i) * psi(j));
+          if (a >= 0 && b >= 0) entries.emplace_back(a, b, h * first->dA * psi(i) * psi(j));
         }
     }
   }

@@ -94,9 +94,12 @@ std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multi
       if (piece.opposite_edge >= 0) hit = project_onto_edge(nodes, opposite, piece.opposite_edge, line);
       if (!hit) hit = project_onto_curve(nodes, opposite, line);
       if (!hit) continue;
+      const EdgePoint at = edge_point(nodes, edge, xi);
+      const double ds = rule.weights[q] * half * at.jacobian();
       points.push_back({.edge = piece.edge,
                         .xi = xi,
-                        .ds = rule.weights[q] * half * edge_point(nodes, edge, xi).jacobian(),
+                        .ds = ds,
+                        .dA = ds * geometry.model.depth(at.position.x()),
                         .normal = line.n,
                         .opposite_edge = hit->edge,
                         .eta = hit->xi,

@@ -153,7 +153,7 @@ bool lower(Complex a, Complex b) { return a.real() < b.real(); }
 }  // namespace
 
 Wedge wedge(double angle, const ElasticLaw& law, Face outer) {
-  const double coupling = law.stiffness(0, 1), mu = law.stiffness(3, 2);
+  const double coupling = law.stiffness(0, 1), mu = law.stiffness(3, 3);
   return {angle, mu, (coupling + 3 * mu) / (coupling + mu), outer};
 }
 

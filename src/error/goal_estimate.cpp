@@ -133,12 +133,17 @@ MatX stress_loads(const Mesh& mesh, const ElasticLaw& law, const std::vector<int
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const CellShape shape = cell_shape(cell.kind, rule.points[q]);
       Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero();  // (i, j) = d x_j / d xi_i
-      for (int a = 0; a < node_count(cell.kind); ++a) x_xi += shape.dN[a] * mesh.nodes.row(cell.nodes[a]);
+      double x1 = 0;
+      for (int a = 0; a < node_count(cell.kind); ++a) {
+        x_xi += shape.dN[a] * mesh.nodes.row(cell.nodes[a]);
+        x1 += shape.N[a] * mesh.nodes(cell.nodes[a], 0);
+      }
       const double weight = rule.weights[q] * x_xi.determinant();
       area += weight;
       for (int a = 0; a < node_count(cell.kind); ++a) {
         const Vec2 d = weight * (x_xi.inverse() * shape.dN[a]);
-        const Eigen::Matrix<double, 3, 2> strain{{d.x(), 0}, {0, d.y()}, {d.y(), d.x()}};
+        const double hoop = law.model.axisymmetric() ? weight * shape.N[a] / x1 : 0;
+        const Eigen::Matrix<double, 4, 2> strain{{d.x(), 0}, {0, d.y()}, {hoop, 0}, {d.y(), d.x()}};
         loads.middleRows<2>(2 * cell.nodes[a]) += (law.stiffness({0, 1, 3}, Eigen::all) * strain).transpose();
       }
     }
@@ -193,8 +198,11 @@ void add_stress_error(const Mesh& mesh, const BodyPoints& points, const Discreti
   const Cell& cell = mesh.cells[place.cell];
   const ElasticLaw& law = discretisation.laws[cell.body];
   const Eigen::Vector3d recovered = recovered_stress(mesh, points, patches, place).head<3>().transpose();
-  const Vec4 own = stress_at(mesh, cell, law, u, cell_shape(cell.kind, place.xi)) - law.stress0;
-  goal.value = recovered + law.stress0({0, 1, 3});
+  const CellShape shape = cell_shape(cell.kind, place.xi);
+  Vec2 x = Vec2::Zero();
+  for (int a = 0; a < node_count(cell.kind); ++a) x += shape.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
+  const Vec4 stress0 = law.stress0(x), own = stress_at(mesh, cell, law, u, shape) - stress0;
+  goal.value = recovered + stress0({0, 1, 3});
   goal.parts.row(place.cell) =
       goal.parts.row(place.cell).cwiseAbs() + (recovered - own({0, 1, 3})).cwiseAbs().transpose();
 }

@@ -53,7 +53,7 @@ std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const Pres
     for (int k = 0; k < count; ++k) {
       const double z = (at - (k + 0.5) * distance) / (half_width * distance);
       if (std::abs(z) >= 1) continue;
-      const double weight = std::pow(1 - z * z, 3) * point.ds;
+      const double weight = std::pow(1 - z * z, 3) * point.dA;
       mass(k) += weight;
       add_pressure_at(pair, point.edge, point.xi, weight, windows[k].weights);
     }

@@ -41,23 +41,32 @@ CellTable<kind> cell_table() {
   return table;
 }
 
-// Gradients of the shape functions in space, d/dx1 and d/dx2 (a row a quadrature point), and weight x Jacobian.
+// Gradients of the shape functions in space, d/dx1 and d/dx2 (a row a quadrature point), and the area that each point
+// stands for.
 template <CellKind kind>
 struct CellGradients {
   Table<kind> d1, d2;
-  Eigen::Matrix<double, points<kind>, 1> dV;
+  Eigen::Matrix<double, points<kind>, 1> dA;
 };
 
 template <CellKind kind>
-void cell_gradients(const Points& nodes, const Cell& cell, const CellTable<kind>& table, CellGradients<kind>& g) {
-  Eigen::Matrix<double, n<kind>, 2> x;
+using CellPoints = Eigen::Matrix<double, n<kind>, 2>;
+
+template <CellKind kind>
+CellPoints<kind> nodes_of(const Points& nodes, const Cell& cell) {
+  CellPoints<kind> x;
   for (int a = 0; a < n<kind>; ++a) x.row(a) = nodes.row(cell.nodes[a]);
+  return x;
+}
+
+template <CellKind kind>
+void cell_gradients(const CellPoints<kind>& x, const CellTable<kind>& table, CellGradients<kind>& g) {
   for (Eigen::Index q = 0; q < points<kind>; ++q) {
     const Eigen::Matrix<double, 1, 2> x_xi = table.dxi.row(q) * x, x_eta = table.deta.row(q) * x;
     const double J = x_xi(0) * x_eta(1) - x_xi(1) * x_eta(0);
     g.d1.row(q) = (x_eta(1) * table.dxi.row(q) - x_xi(1) * table.deta.row(q)) / J;
     g.d2.row(q) = (x_xi(0) * table.deta.row(q) - x_eta(0) * table.dxi.row(q)) / J;
-    g.dV(q) = table.weights[q] * J;
+    g.dA(q) = table.weights[q] * J;
   }
 }
 
@@ -133,50 +142,112 @@ void add_block(const NodeGraph& graph, SparseMatrix& K, int i, int j, double k11
   column2[1] += k22;
 }
 
+// Whether normal strains make no shear stress and both directions are alike: fewer products.
+bool is_isotropic_in_plane(const Mat4& C) { return C(0, 0) == C(1, 1) && C(0, 3) == 0 && C(1, 3) == 0; }
+
+template <CellKind kind>
+void add_isotropic_plane(const Cell& cell, const ElasticLaw& law, const CellGradients<kind>& g, const NodeGraph& graph,
+                         SparseMatrix& K) {
+  const double t = law.model.thickness, a = t * law.stiffness(0, 0), b = t * law.stiffness(0, 1),
+               c = t * law.stiffness(3, 3);
+  // G_ij = int dN/dx_i dN/dx_j, n x n.
+  const Table<kind> w1 = g.dA.asDiagonal() * g.d1, w2 = g.dA.asDiagonal() * g.d2;
+  using Square = Eigen::Matrix<double, n<kind>, n<kind>>;
+  const Square G11 = g.d1.transpose() * w1, G12 = g.d1.transpose() * w2, G22 = g.d2.transpose() * w2;
+  for (int p = 0; p < n<kind>; ++p)
+    for (int q = 0; q < n<kind>; ++q) {
+      const int i = cell.nodes[p], j = cell.nodes[q];
+      if (i < j) continue;
+      add_block(graph, K, i, j, a * G11(p, q) + c * G22(p, q), b * G12(p, q) + c * G12(q, p),
+                b * G12(q, p) + c * G12(p, q), a * G22(p, q) + c * G11(p, q));
+    }
+}
+
+// Of each node's displacement the strain (11, 22, 33, gamma_12) at a quadrature point: 4 x 2 n, components alternate.
+template <CellKind kind>
+Eigen::Matrix<double, 4, 2 * n<kind>> strains_at(Eigen::Index q, const CellGradients<kind>& g,
+                                                 const CellTable<kind>& table, const Model& model, double x1) {
+  Eigen::Matrix<double, 4, 2 * n<kind>> B = Eigen::Matrix<double, 4, 2 * n<kind>>::Zero();
+  for (int a = 0; a < n<kind>; ++a) {
+    B(0, 2 * a) = B(3, 2 * a + 1) = g.d1(q, a);
+    B(1, 2 * a + 1) = B(3, 2 * a) = g.d2(q, a);
+    if (model.axisymmetric()) B(2, 2 * a) = table.N(q, a) / x1;
+  }
+  return B;
+}
+
+template <CellKind kind>
+void add_any(const Cell& cell, const ElasticLaw& law, const CellPoints<kind>& x, const CellTable<kind>& table,
+             const CellGradients<kind>& g, const NodeGraph& graph, SparseMatrix& K) {
+  Eigen::Matrix<double, 2 * n<kind>, 2 * n<kind>> k = Eigen::Matrix<double, 2 * n<kind>, 2 * n<kind>>::Zero();
+  for (Eigen::Index q = 0; q < points<kind>; ++q) {
+    const double x1 = table.N.row(q).dot(x.col(0));
+    const auto B = strains_at<kind>(q, g, table, law.model, x1);
+    const Eigen::Matrix<double, 4, 2 * n<kind>> stress = g.dA(q) * law.model.depth(x1) * law.stiffness * B;
+    k.noalias() += B.transpose() * stress;
+  }
+  for (int p = 0; p < n<kind>; ++p)
+    for (int q = 0; q < n<kind>; ++q)
+      if (const int i = cell.nodes[p], j = cell.nodes[q]; i >= j)
+        add_block(graph, K, i, j, k(2 * p, 2 * q), k(2 * p, 2 * q + 1), k(2 * p + 1, 2 * q), k(2 * p + 1, 2 * q + 1));
+}
+
 template <CellKind kind>
 void add_cells(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const NodeGraph& graph, SparseMatrix& K) {
   const CellTable<kind> table = cell_table<kind>();
   CellGradients<kind> g;
   for (const Cell& cell : mesh.cells) {
     if (cell.kind != kind) continue;
-    cell_gradients(mesh.nodes, cell, table, g);
-    const auto& C = laws[cell.body].stiffness;
-    const double a = C(0, 0), b = C(0, 1), c = C(3, 2);
-    // G_ij = int dN/dx_i dN/dx_j, n x n.
-    const Table<kind> w1 = g.dV.asDiagonal() * g.d1, w2 = g.dV.asDiagonal() * g.d2;
-    using Square = Eigen::Matrix<double, n<kind>, n<kind>>;
-    const Square G11 = g.d1.transpose() * w1, G12 = g.d1.transpose() * w2, G22 = g.d2.transpose() * w2;
-    for (int p = 0; p < n<kind>; ++p)
-      for (int q = 0; q < n<kind>; ++q) {
-        const int i = cell.nodes[p], j = cell.nodes[q];
-        if (i < j) continue;
-        add_block(graph, K, i, j, a * G11(p, q) + c * G22(p, q), b * G12(p, q) + c * G12(q, p),
-                  b * G12(q, p) + c * G12(p, q), a * G22(p, q) + c * G11(p, q));
-      }
+    const CellPoints<kind> x = nodes_of<kind>(mesh.nodes, cell);
+    cell_gradients(x, table, g);
+    const ElasticLaw& law = laws[cell.body];
+    if (!law.model.axisymmetric() && is_isotropic_in_plane(law.stiffness))
+      add_isotropic_plane<kind>(cell, law, g, graph, K);
+    else
+      add_any<kind>(cell, law, x, table, g, graph, K);
   }
 }
 
-// load += int (B^T stress + N force) over the cells of one kind, with constants of each body.
+// load += int B^T C : eps0 over the cells of one kind; the energy of eps0.
 template <CellKind kind>
-void add_cell_loads(const Mesh& mesh, const std::vector<Vec4>& stress, const std::vector<Vec2>& force, VecX& load) {
+double add_cell_strains(const Mesh& mesh, const std::vector<ElasticLaw>& laws, VecX& load) {
   const CellTable<kind> table = cell_table<kind>();
   CellGradients<kind> g;
+  double energy = 0;
   for (const Cell& cell : mesh.cells) {
-    if (cell.kind != kind) continue;
-    const Vec4& s = stress[cell.body];
-    const Vec2& b = force[cell.body];
-    cell_gradients(mesh.nodes, cell, table, g);
-    for (int a = 0; a < n<kind>; ++a) {
-      const double d1 = g.dV.dot(g.d1.col(a)), d2 = g.dV.dot(g.d2.col(a)), v = g.dV.dot(table.N.col(a));
-      const int i = cell.nodes[a];
-      load(2 * i) += d1 * s(0) + d2 * s(3) + v * b(0);
-      load(2 * i + 1) += d2 * s(1) + d1 * s(3) + v * b(1);
+    const ElasticLaw& law = laws[cell.body];
+    if (cell.kind != kind || !law.initial_strain) continue;
+    const CellPoints<kind> nodes = nodes_of<kind>(mesh.nodes, cell);
+    cell_gradients(nodes, table, g);
+    for (Eigen::Index q = 0; q < points<kind>; ++q) {
+      const Vec2 x = (table.N.row(q) * nodes).transpose();
+      const double dV = g.dA(q) * law.model.depth(x.x());
+      const Eigen::Matrix<double, 2 * n<kind>, 1> forces =
+          strains_at<kind>(q, g, table, law.model, x.x()).transpose() * (-dV * law.stress0(x));
+      for (int a = 0; a < n<kind>; ++a) load.segment<2>(2 * cell.nodes[a]) += forces.template segment<2>(2 * a);
+      energy += dV * law.energy0(x);
     }
   }
+  return energy;
 }
 
-void add_body_loads(const Mesh& mesh, const std::vector<Vec4>& stress, const std::vector<Vec2>& force, VecX& load) {
-  for_each_kind([&]<CellKind kind>() { add_cell_loads<kind>(mesh, stress, force, load); });
+template <CellKind kind>
+Vec2 add_cell_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, VecX& load) {
+  const CellTable<kind> table = cell_table<kind>();
+  CellGradients<kind> g;
+  Vec2 sum = Vec2::Zero();
+  for (const Cell& cell : mesh.cells) {
+    if (cell.kind != kind || !forces[cell.body]) continue;
+    const CellPoints<kind> nodes = nodes_of<kind>(mesh.nodes, cell);
+    cell_gradients(nodes, table, g);
+    for (Eigen::Index q = 0; q < points<kind>; ++q) {
+      const Vec2 x = (table.N.row(q) * nodes).transpose();
+      const Vec2 force = g.dA(q) * model.depth(x.x()) * forces[cell.body](x);
+      for (int a = 0; a < n<kind>; ++a) load.segment<2>(2 * cell.nodes[a]) += table.N(q, a) * force;
+      sum += force;
+    }
+  }
+  return sum;
 }
 
 }  // namespace
@@ -188,15 +259,17 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticLaw>&
   return K;
 }
 
-void add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, VecX& load) {
-  std::vector<Vec4> stress;
-  for (const ElasticLaw& law : laws) stress.push_back(-law.stress0);
-  if (std::all_of(stress.begin(), stress.end(), [](const Vec4& s) { return s.isZero(0); })) return;
-  add_body_loads(mesh, stress, std::vector<Vec2>(laws.size(), Vec2::Zero()), load);
+double add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, VecX& load) {
+  double energy = 0;
+  if (std::ranges::any_of(laws, [](const ElasticLaw& law) { return bool(law.initial_strain); }))
+    for_each_kind([&]<CellKind kind>() { energy += add_cell_strains<kind>(mesh, laws, load); });
+  return energy;
 }
 
-void add_body_forces(const Mesh& mesh, const std::vector<Vec2>& forces, VecX& load) {
-  add_body_loads(mesh, std::vector<Vec4>(mesh.bodies.size(), Vec4::Zero()), forces, load);
+Vec2 add_body_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, VecX& load) {
+  Vec2 sum = Vec2::Zero();
+  for_each_kind([&]<CellKind kind>() { sum += add_cell_forces<kind>(mesh, model, forces, load); });
+  return sum;
 }
 
 VecX body_areas(const Mesh& mesh) {
@@ -206,15 +279,15 @@ VecX body_areas(const Mesh& mesh) {
     CellGradients<kind> g;
     for (const Cell& cell : mesh.cells) {
       if (cell.kind != kind) continue;
-      cell_gradients(mesh.nodes, cell, table, g);
-      areas(cell.body) += g.dV.sum();
+      cell_gradients(nodes_of<kind>(mesh.nodes, cell), table, g);
+      areas(cell.body) += g.dA.sum();
     }
   });
   return areas;
 }
 
-Vec2 add_traction(const Mesh& mesh, const std::vector<CellSide>& sides, const Traction& traction, VecX& load,
-                  int gauss_points) {
+Vec2 add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides, const Traction& traction,
+                  VecX& load, int gauss_points) {
   const LineRule rule = gauss_legendre(gauss_points);
   Vec2 sum = Vec2::Zero();
   for (const CellSide& at : sides) {
@@ -222,7 +295,7 @@ Vec2 add_traction(const Mesh& mesh, const std::vector<CellSide>& sides, const Tr
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
       const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);
-      const Vec2 t = rule.weights[q] * p.jacobian() * traction(p.position, p.normal());
+      const Vec2 t = rule.weights[q] * p.jacobian() * model.depth(p.position.x()) * traction(p.position, p.normal());
       for (int a = 0; a < edge.node_count; ++a) load.segment<2>(2 * edge.nodes[a]) += s.N[a] * t;
       sum += t;
     }

@@ -9,15 +9,19 @@
 
 namespace mortise {
 
-/// K_ab = int B_a^T C B_b (docs/theory.md eq. 4), lower triangle, 2 nodes x 2 nodes, stress units (thickness 1).
-/// `laws` holds one law a body.
+/// K_ab = int B_a^T C B_b (docs/theory.md eq. 4), lower triangle, 2 nodes x 2 nodes, stress times depth
+/// (base/model.hpp). `laws` holds one law a body.
 SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticLaw>& laws);
 
-/// load += int B^T C : eps0, for the bodies whose law has an initial strain.
-void add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, VecX& load);
+/// load += int B^T C : eps0, for the bodies whose law has an initial strain. Returns int 1/2 eps0 : C : eps0, the
+/// energy of these held at zero strain.
+double add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, VecX& load);
 
-/// load += int N b over the bodies; b is a force per volume, one a body.
-void add_body_forces(const Mesh& mesh, const std::vector<Vec2>& forces, VecX& load);
+/// A force per volume as a function of the place; empty: none.
+using BodyForce = std::function<Vec2(const Vec2& position)>;
+
+/// load += int N b over the bodies, one b a body. Returns their sum, force.
+Vec2 add_body_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, VecX& load);
 
 /// Of each body, length^2.
 VecX body_areas(const Mesh& mesh);
@@ -25,9 +29,9 @@ VecX body_areas(const Mesh& mesh);
 /// Traction (force per area) on a boundary as a function of the place and the outward unit normal.
 using Traction = std::function<Vec2(const Vec2& position, const Vec2& normal)>;
 
-/// load += int N t ds over the sides of a boundary (mesh/side_table.hpp). `gauss_points` an edge. Returns their sum,
-/// force per thickness.
-Vec2 add_traction(const Mesh& mesh, const std::vector<CellSide>& sides, const Traction& traction, VecX& load,
-                  int gauss_points = 4);
+/// load += int N t over the sides of a boundary (mesh/side_table.hpp). `gauss_points` an edge. Returns their sum,
+/// force.
+Vec2 add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides, const Traction& traction,
+                  VecX& load, int gauss_points = 4);
 
 }  // namespace mortise

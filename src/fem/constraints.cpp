@@ -28,6 +28,17 @@ void prescribe(const Mesh& mesh, int boundary, int component, double value, Cons
     }
 }
 
+void hold_axis(const Mesh& mesh, Constraints& constraints) {
+  constraints.rings = true;
+  const double round_off = 1e-10 * mesh.nodes.cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i) {
+    if (mesh.nodes(i, 0) < -round_off)
+      throw InputError(mesh.source + ": a node lies " + near_point(mesh.nodes.row(i).transpose()) +
+                       ", beyond the axis x = 0 of an axisymmetric model; expected x >= 0, the radius");
+    if (mesh.nodes(i, 0) <= round_off) constraints.fixed[2 * i] = 1;
+  }
+}
+
 bool prescribed_along(const Constraints& constraints, int node, const Vec2& n) {
   for (int c = 0; c < 2; ++c)
     if (std::abs(n(c)) > 1e-8 && !constraints.fixed[2 * node + c]) return false;

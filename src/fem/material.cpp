@@ -1,33 +1,96 @@
 #include "fem/material.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace mortise {
+namespace {
 
-ElasticLaw elastic_law(double young, double poisson, Plane plane, const Vec4& initial_strain) {
+// Tensor shear strain to gamma_12.
+Vec4 engineering(Vec4 strain) {
+  strain(3) *= 2;
+  return strain;
+}
+
+const std::array in_plane{0, 1, 3};
+
+}  // namespace
+
+Vec4 ElasticLaw::stress0(const Vec2& x) const {
+  return initial_strain ? Vec4(-(stiffness * engineering(initial_strain(x)))) : Vec4(Vec4::Zero());
+}
+
+double ElasticLaw::energy0(const Vec2& x) const {
+  if (!initial_strain) return 0;
+  const Vec4 strain = engineering(initial_strain(x));
+  return 0.5 * strain.dot(stiffness * strain);
+}
+
+ElasticLaw elastic_law(double young, double poisson, const Model& model, StrainField initial_strain) {
   assert(young > 0 && poisson > -1 && poisson < 0.5);
   const double mu = young / (2 * (1 + poisson));
-  const double lame = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
   // sigma_33 = 0 turns lambda into 2 mu lambda / (lambda + 2 mu).
-  const double coupling = plane == Plane::strain ? lame : young * poisson / (1 - poisson * poisson);
+  const double lame = model.plane == Plane::stress ? young * poisson / (1 - poisson * poisson)
+                                                   : young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+  Mat4 stiffness;
+  stiffness << lame + 2 * mu, lame, lame, 0,  //
+      lame, lame + 2 * mu, lame, 0,           //
+      lame, lame, lame + 2 * mu, 0,           //
+      0, 0, 0, mu;
+  if (model.plane == Plane::stress) {
+    stiffness.row(2).setZero();
+    stiffness.col(2).setZero();
+  }
+  return elastic_law(stiffness, model, young, std::move(initial_strain));
+}
 
-  ElasticLaw law;
-  law.young = young;
-  law.stiffness << coupling + 2 * mu, coupling, 0,                              //
-      coupling, coupling + 2 * mu, 0,                                           //
-      plane == Plane::strain ? lame : 0, plane == Plane::strain ? lame : 0, 0,  //
-      0, 0, mu;
-  const Vec4& e = initial_strain;
-  law.stress0 = -law.stiffness * Eigen::Vector3d(e(0), e(1), 2 * e(3));
-  if (plane == Plane::strain) law.stress0 -= e(2) * Vec4(lame, lame, lame + 2 * mu, 0);
-  law.energy0 = -0.5 * (law.stress0.head<3>().dot(e.head<3>()) + 2 * law.stress0(3) * e(3));
+ElasticLaw elastic_law(const Mat4& stiffness, const Model& model, double young, StrainField initial_strain) {
+  ElasticLaw law{.model = model,
+                 .stiffness = stiffness,
+                 .compliance = Mat4::Zero(),
+                 .out_of_plane = Eigen::RowVector3d::Zero(),
+                 .young = young,
+                 .initial_strain = std::move(initial_strain)};
+  const Eigen::Matrix3d of_plane = stiffness(in_plane, in_plane).inverse();
+  law.out_of_plane = stiffness(2, in_plane) * of_plane;
+  if (model.plane == Plane::stress) {
+    law.compliance(in_plane, in_plane) = of_plane;
+  } else {
+    law.compliance = stiffness.inverse();
+  }
   return law;
 }
 
+std::optional<Mat4> orthotropic_stiffness(const OrthotropicModuli& m) {
+  Mat4 compliance;
+  compliance << 1 / m.e1, -m.nu12 / m.e1, -m.nu13 / m.e1, 0,  //
+      -m.nu12 / m.e1, 1 / m.e2, -m.nu23 / m.e2, 0,            //
+      -m.nu13 / m.e1, -m.nu23 / m.e2, 1 / m.e3, 0,            //
+      0, 0, 0, 1 / m.g12;
+  if (!compliance.allFinite() || compliance.llt().info() != Eigen::Success) return {};
+  // Strains along the material's directions of those along the axes.
+  const double c = std::cos(m.angle), s = std::sin(m.angle);
+  Mat4 turned;
+  turned << c * c, s * s, 0, c * s,  //
+      s * s, c * c, 0, -c * s,       //
+      0, 0, 1, 0,                    //
+      -2 * c * s, 2 * c * s, 0, c * c - s * s;
+  return turned.transpose() * compliance.inverse() * turned;
+}
+
+Mat4 without_33(Mat4 stiffness) {
+  stiffness -= Mat4(stiffness.col(2) * stiffness.row(2) / stiffness(2, 2));
+  stiffness.row(2).setZero();
+  stiffness.col(2).setZero();
+  return stiffness;
+}
+
 double contact_modulus(const ElasticLaw& law) {
-  const double c11 = law.stiffness(0, 0), c12 = law.stiffness(0, 1);
-  return (c11 * c11 - c12 * c12) / c11;
+  const Mat4& C = law.stiffness;
+  return (C(0, 0) * C(1, 1) - C(0, 1) * C(0, 1)) / std::max(C(0, 0), C(1, 1));
 }
 
 double von_mises(const Vec4& s) {

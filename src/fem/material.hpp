@@ -1,25 +1,50 @@
-// Linear isotropic elasticity in the plane, with an initial strain.
+// Linear elasticity in a plane or in the meridian plane of rings, with an initial strain.
 #pragma once
 
-#include "base/choices.hpp"
+#include <functional>
+#include <optional>
+
+#include "base/model.hpp"
+#include "base/moduli.hpp"
 #include "base/types.hpp"
 
 namespace mortise {
 
+/// A strain (11, 22, 33, 12), with the tensor shear strain 12, of the place; empty: none.
+using StrainField = std::function<Vec4(const Vec2&)>;
+
 /// Hooke's law of one body, docs/theory.md eq. (2): stress (11, 22, 33, 12) =
-/// stiffness * (eps_11, eps_22, gamma_12) + stress0, with stress0 = -C : initial strain (preprint eq. 5).
+/// stiffness * (eps_11, eps_22, eps_33, gamma_12) + stress0, with stress0 = -C : initial strain (preprint eq. 5).
+/// 33 is the direction out of the plane: eps_33 = 0 in plane strain, sigma_33 = 0 in plane stress (the stiffness has
+/// it eliminated), eps_33 = u_1 / x_1 in rings.
 struct ElasticLaw {
-  Eigen::Matrix<double, 4, 3> stiffness;
-  Vec4 stress0 = Vec4::Zero();
+  Model model;
+  Mat4 stiffness;
+  /// Its inverse, (11, 22, 33, gamma_12); in plane stress of the rest, with zeros for 33.
+  Mat4 compliance;
+  /// sigma_33 of (sigma_11, sigma_22, sigma_12) without initial strain; of rings that is no function of these.
+  Eigen::RowVector3d out_of_plane;
+  double young = 0;  ///< the largest modulus
+  StrainField initial_strain;
+
+  /// -C : initial strain at a place.
+  Vec4 stress0(const Vec2& x) const;
   /// Energy density 1/2 eps0 : C : eps0 of the initial strain held at zero strain, stress.
-  double energy0 = 0;
-  double young = 0;
+  double energy0(const Vec2& x) const;
 };
 
-/// `initial_strain` is (11, 22, 33, 12) with the tensor shear strain 12; in plane stress its 33 has no effect.
-/// Plane strain holds eps_33 = 0, plane stress sigma_33 = 0.
-/// Expects young > 0 and -1 < poisson < 1/2.
-ElasticLaw elastic_law(double young, double poisson, Plane plane, const Vec4& initial_strain = Vec4::Zero());
+/// Isotropic. Expects young > 0 and -1 < poisson < 1/2.
+ElasticLaw elastic_law(double young, double poisson, const Model& model, StrainField initial_strain = {});
+
+/// Of any stiffness, (11, 22, 33, gamma_12), positive definite; for plane stress without_33. `young`: of its size.
+ElasticLaw elastic_law(const Mat4& stiffness, const Model& model, double young, StrainField initial_strain = {});
+
+/// Stiffness (11, 22, 33, gamma_12) in the axes of the plane; nothing where the moduli belong to no material, as their
+/// energy is not positive (Lempriere 1968).
+std::optional<Mat4> orthotropic_stiffness(const OrthotropicModuli& moduli);
+
+/// The stiffness with sigma_33 = 0 eliminated; row and column 33 are zero.
+Mat4 without_33(Mat4 stiffness);
 
 /// Stiffness of a body's edge against a pressure on it: E / (1 - nu^2) in plane strain, E in plane stress.
 double contact_modulus(const ElasticLaw& law);

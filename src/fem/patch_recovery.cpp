@@ -47,19 +47,23 @@ NodalFields by_node(const MatX& fields) {
   return u;
 }
 
+// Stresses of a field: (11, 22, 12), and 33 of rings.
+Eigen::Index components(const std::vector<ElasticLaw>& laws) { return laws.front().model.axisymmetric() ? 4 : 3; }
+
 // A cell's geometry at a reference point, and the stresses of all fields there.
 class CellSampler {
  public:
   Vec2 x;
   double area = 0;              // Jacobian determinant
-  Eigen::RowVectorXd stresses;  // 3 F, initial strains left out
+  Eigen::RowVectorXd stresses;  // initial strains left out
 
   CellSampler(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const MatX& fields)
-      : stresses(3 * fields.cols()),
+      : stresses(components(laws) * fields.cols()),
         mesh_(mesh),
         laws_(laws),
         u_(by_node(fields)),
         gradient_(4, fields.cols()),
+        radial_(fields.cols()),
         count_(fields.cols()) {}
 
   void sample(const Cell& cell, const CellShape& shape) {
@@ -83,20 +87,36 @@ class CellSampler {
           for (Eigen::Index k = 0; k < count_; ++k) row[k] += d(j) * component[k];
         }
     }
-    const auto& C = laws_[cell.body].stiffness;
-    for (Eigen::Index k = 0; k < count_; ++k) {
-      const double e11 = gradient_(0, k), e22 = gradient_(3, k), g12 = gradient_(1, k) + gradient_(2, k);
-      stresses(3 * k) = C(0, 0) * e11 + C(0, 1) * e22;
-      stresses(3 * k + 1) = C(1, 0) * e11 + C(1, 1) * e22;
-      stresses(3 * k + 2) = C(3, 2) * g12;
+    const ElasticLaw& law = laws_[cell.body];
+    if (law.model.axisymmetric()) {
+      add_rings(cell, shape, law);
+    } else {
+      for (Eigen::Index k = 0; k < count_; ++k)
+        stresses.segment<3>(3 * k) = (law.stiffness({0, 1, 3}, {0, 1, 3}) * strain(k)).transpose();
     }
   }
 
  private:
+  // (eps_11, eps_22, gamma_12)
+  Eigen::Vector3d strain(Eigen::Index k) const {
+    return {gradient_(0, k), gradient_(3, k), gradient_(1, k) + gradient_(2, k)};
+  }
+
+  void add_rings(const Cell& cell, const CellShape& shape, const ElasticLaw& law) {
+    radial_.setZero();
+    for (int a = 0; a < node_count(cell.kind); ++a) radial_ += shape.N[a] * u_.row(cell.nodes[a]).head(count_);
+    for (Eigen::Index k = 0; k < count_; ++k) {
+      const Eigen::Vector3d e = strain(k);
+      const Vec4 stress = law.stiffness * Vec4(e(0), e(1), radial_(k) / x.x(), e(2));
+      stresses.segment<4>(4 * k) << stress(0), stress(1), stress(3), stress(2);
+    }
+  }
+
   const Mesh& mesh_;
   const std::vector<ElasticLaw>& laws_;
   NodalFields u_;
   FieldStresses gradient_;  // 11, 12, 21, 22; F columns
+  Eigen::RowVectorXd radial_;
   Eigen::Index count_;
 };
 
@@ -130,18 +150,10 @@ void fit(const std::vector<int>& cells, const StressSamples& samples, int p, Str
   right.row(0) += mean;
 }
 
-// (11, 22, 33, 12) of (11, 22, 12) without initial strain.
-Vec4 with_33(const ElasticLaw& law, const Eigen::RowVector3d& s) {
-  const double part = law.stiffness(2, 0) / (law.stiffness(0, 0) + law.stiffness(1, 0));
-  return {s(0), s(1), part * (s(0) + s(1)), s(2)};
-}
-
-// a : C^-1 : b
-double compliance_product(const ElasticLaw& law, const Vec4& a, const Vec4& b) {
-  const double poisson = law.young / (2 * law.stiffness(3, 2)) - 1;
-  return ((1 + poisson) * (a.head<3>().dot(b.head<3>()) + 2 * a(3) * b(3)) -
-          poisson * a.head<3>().sum() * b.head<3>().sum()) /
-         law.young;
+// (11, 22, 33, 12) of the stresses of one field.
+Vec4 all_components(const ElasticLaw& law, const Eigen::RowVectorXd& s, Eigen::Index first, Eigen::Index count) {
+  const double s33 = count == 4 ? s(first + 3) : law.out_of_plane.dot(s.segment<3>(first));
+  return {s(first), s(first + 1), s33, s(first + 2)};
 }
 
 }  // namespace
@@ -158,7 +170,7 @@ StressSamples sample_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& l
   StressSamples samples;
   for (const Cell& cell : mesh.cells)
     samples.first.push_back(samples.first.back() + int(shapes[int(cell.kind)].size()));
-  samples.stresses.resize(samples.first.back(), 3 * fields.cols());
+  samples.stresses.resize(samples.first.back(), components(laws) * fields.cols());
   CellSampler at(mesh, laws, fields);
   for (const Cell& cell : mesh.cells)
     for (const CellShape& shape : shapes[int(cell.kind)]) {
@@ -240,10 +252,10 @@ ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const s
     }
   }
   const std::vector<Cell> on_points = cells_on_points(mesh, points);
-  const Eigen::Index cells = Eigen::Index(mesh.cells.size()), count = fields.cols();
+  const Eigen::Index cells = Eigen::Index(mesh.cells.size()), count = fields.cols(), of_field = components(laws);
   ErrorProducts found{.products = MatX::Zero(cells, count), .norms = VecX::Zero(cells), .areas = VecX::Zero(cells)};
   CellSampler at(mesh, laws, fields);
-  Eigen::RowVectorXd recovered(3 * count);
+  Eigen::RowVectorXd recovered(of_field * count);
   for (Eigen::Index e = 0; e < cells; ++e) {
     const Cell& cell = mesh.cells[e];
     const ElasticLaw& law = laws[cell.body];
@@ -253,14 +265,14 @@ ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const s
       recovered.setZero();
       for (int a = 0; a < corner_count(cell.kind); ++a)
         patches.add_at(on_points[e].nodes[a], at.x, rule.linear[q].N[a], recovered);
-      const double area = rule.weights[q] * at.area;
-      const Vec4 whole = with_33(law, recovered.head<3>()) + law.stress0;
+      const double area = rule.weights[q] * at.area, volume = area * law.model.depth(at.x.x());
+      const Vec4 whole = all_components(law, recovered, 0, of_field) + law.stress0(at.x);
       found.areas(e) += area;
-      found.norms(e) += area * compliance_product(law, whole, whole);
+      found.norms(e) += volume * whole.dot(law.compliance * whole);
       recovered -= at.stresses;
-      const Vec4 error = with_33(law, recovered.head<3>());
+      const Vec4 error = volume * law.compliance * all_components(law, recovered, 0, of_field);
       for (Eigen::Index k = 0; k < count; ++k)
-        found.products(e, k) += area * compliance_product(law, error, with_33(law, recovered.segment<3>(3 * k)));
+        found.products(e, k) += error.dot(all_components(law, recovered, of_field * k, of_field));
     }
   }
   return found;

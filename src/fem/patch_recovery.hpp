@@ -6,8 +6,8 @@
 
 namespace mortise {
 
-/// Stresses C : eps(u) of F displacement fields, initial strains left out: 3 F columns, (11, 22, 12) of each field; 33
-/// follows from 11 + 22.
+/// Stresses C : eps(u) of F displacement fields, initial strains left out: 3 F columns, (11, 22, 12) of each field,
+/// from which 33 follows; of rings 4 F, (11, 22, 12, 33).
 using FieldStresses = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Stresses at the superconvergent points of all cells (fem/quadrature.hpp stress_points): those of cell e are
@@ -18,7 +18,7 @@ struct StressSamples {
   FieldStresses stresses;  ///< a row a sample
 };
 
-/// `fields`: n x F, displacements.
+/// `fields`: n x F, displacements. `laws`: of one model.
 StressSamples sample_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const MatX& fields);
 
 /// Stresses as polynomials about vertices.
@@ -29,7 +29,7 @@ struct StressPatches {
   std::vector<int> row;      ///< of each body point: the first of its six rows; -1: no vertex
   FieldStresses coefficients;
 
-  /// Adds factor times the stresses of patch p at x to `sum`, 3 F.
+  /// Adds factor times the stresses of patch p at x to `sum`, a row of stresses.
   void add_at(int p, const Vec2& x, double factor, Eigen::RowVectorXd& sum) const;
 };
 
@@ -38,12 +38,12 @@ struct StressPatches {
 /// quadratic, else 1; where they are few, as on the boundary, the cells around these too.
 StressPatches recover_patches(const Mesh& mesh, const BodyPoints& points, const StressSamples& samples);
 
-/// The stresses of all fields at a place of a cell, 3 F: the patches of its vertices, blended by the linear shape
+/// The stresses of all fields at a place of a cell, a row: the patches of its vertices, blended by the linear shape
 /// functions of its corners.
 Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, const StressPatches& patches,
                                     const CellPlace& place);
 
-/// Products of recovered errors d_k = sigma*_k - sigma_h,k, per thickness.
+/// Products of recovered errors d_k = sigma*_k - sigma_h,k, times depth (base/model.hpp).
 struct ErrorProducts {
   MatX products;  ///< cells x F: int d_0 : C^-1 : d_k; column 0 estimates the cell's share of the squared energy norm
                   ///< of the error of field 0 (twice its energy)

@@ -101,6 +101,9 @@ class Gram {
 
 // What the constraints see of the motions, and the jumps between bodies that share nodes: they move together.
 void add_supports(const Bodies& bodies, const Constraints& constraints, Gram& gram) {
+  if (constraints.rings)  // all but translations along x2 strain them
+    for (int b = 0; b < int(bodies.mesh.bodies.size()); ++b)
+      for (const int k : {0, 2}) gram.add({{b, Eigen::RowVector3d::Unit(k)}});
   std::vector<int> owner(bodies.mesh.nodes.rows(), -1);
   bodies.for_each_node([&](int b, int node, const Vec2& x) {
     const int other = owner[node];

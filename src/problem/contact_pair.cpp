@@ -162,7 +162,8 @@ std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, co
                      .opposite = ContactLine(mesh.nodes, pair.opposite),
                      .normals = method.normals == Normals::curve,
                      .gap = spec.initial_gap != InitialGap::measured,
-                     .clearance = spec.clearance};
+                     .clearance = spec.clearance,
+                     .model = d.model};
     pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, method.integration, pair.geometry);
     pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, d.system.constraints,
                            {method.multipliers, spec.initial_gap}, pair.geometry);

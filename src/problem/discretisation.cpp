@@ -41,14 +41,16 @@ std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh, const Scen
   std::vector<ElasticLaw> laws;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     if (!materials[b]) throw SceneError("bodies: body '" + mesh.bodies[b] + "' of " + mesh.source + " has no material");
-    laws.push_back(elastic_law(materials[b]->young, materials[b]->poisson, scene.plane, strains[b]));
+    StrainField strain;
+    if (!strains[b].isZero(0)) strain = [of_body = strains[b]](const Vec2&) { return of_body; };
+    laws.push_back(elastic_law(materials[b]->young, materials[b]->poisson, scene.model, std::move(strain)));
   }
   return laws;
 }
 
 // The sum of the nodal forces that the entry makes.
-Vec2 apply(const Mesh& mesh, const SideTable& table, const SceneNames& names, const BoundarySpec& spec,
-           SaddlePointSystem& system) {
+Vec2 apply(const Mesh& mesh, const Model& model, const SideTable& table, const SceneNames& names,
+           const BoundarySpec& spec, SaddlePointSystem& system) {
   Vec2 sum = Vec2::Zero();
   for (const std::string& name : spec.on)
     for (const int boundary : names.boundaries(spec.key + ".on", name)) {
@@ -58,10 +60,10 @@ Vec2 apply(const Mesh& mesh, const SideTable& table, const SceneNames& names, co
       const std::vector<CellSide> sides = sides_of(mesh, mesh.boundaries[boundary], table);
       if (spec.pressure)
         sum += add_traction(
-            mesh, sides, [&](const Vec2&, const Vec2& n) -> Vec2 { return -*spec.pressure * n; }, system.f);
+            mesh, model, sides, [&](const Vec2&, const Vec2& n) -> Vec2 { return -*spec.pressure * n; }, system.f);
       if (spec.traction)
         sum += add_traction(
-            mesh, sides, [&](const Vec2&, const Vec2&) -> Vec2 { return *spec.traction; }, system.f);
+            mesh, model, sides, [&](const Vec2&, const Vec2&) -> Vec2 { return *spec.traction; }, system.f);
     }
   return sum;
 }
@@ -71,27 +73,23 @@ Vec2 apply(const Mesh& mesh, const SideTable& table, const SceneNames& names, co
 Discretisation discretise(const Scene& scene, const Mesh& mesh) {
   check_cells(mesh);
   Discretisation d;
+  d.model = scene.model;
   d.system.stiffness_scale = 0;
   const SceneNames names(mesh);
   d.laws = laws_of(scene, mesh, names);
   d.system.constraints = no_constraints(mesh);
+  if (d.model.axisymmetric()) hold_axis(mesh, d.system.constraints);
   d.initial_load = VecX::Zero(2 * mesh.nodes.rows());
-  add_initial_strain(mesh, d.laws, d.initial_load);
-  const VecX areas = body_areas(mesh);
-  for (std::size_t b = 0; b < d.laws.size(); ++b) d.initial_energy += d.laws[b].energy0 * areas(b);
+  d.initial_energy = add_initial_strain(mesh, d.laws, d.initial_load);
   d.system.f = d.initial_load;
-  std::vector<Vec2> forces(mesh.bodies.size(), Vec2::Zero());
   for (const BodyForceSpec& spec : scene.body_forces) {
-    Vec2& sum = d.body_sums.emplace_back(Vec2::Zero());
-    for (const int body : names.bodies(spec.key, spec.body)) {
-      forces[body] += spec.force;
-      sum += spec.force * areas(body);
-    }
+    std::vector<BodyForce> forces(mesh.bodies.size());
+    for (const int body : names.bodies(spec.key, spec.body)) forces[body] = [&](const Vec2&) { return spec.force; };
+    d.body_sums.push_back(add_body_forces(mesh, d.model, forces, d.system.f));
   }
-  if (!scene.body_forces.empty()) add_body_forces(mesh, forces, d.system.f);
   const SideTable table(mesh);
   for (const BoundarySpec& spec : scene.boundaries)
-    d.boundary_sums.push_back(apply(mesh, table, names, spec, d.system));
+    d.boundary_sums.push_back(apply(mesh, d.model, table, names, spec, d.system));
   d.system.K = assemble_stiffness(mesh, d.laws);
   for (const ElasticLaw& law : d.laws) d.system.stiffness_scale = std::max(d.system.stiffness_scale, law.young);
   return d;

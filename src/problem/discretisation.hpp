@@ -9,12 +9,13 @@
 namespace mortise {
 
 struct Discretisation {
+  Model model;
   std::vector<ElasticLaw> laws;  ///< one a body
   SaddlePointSystem system;      ///< of the bodies; contact adds its rows (contact_pair.hpp)
   VecX initial_load;             ///< the part of system.f that initial strains make
-  double initial_energy = 0;     ///< of the initial strains held at zero strain, per thickness
+  double initial_energy = 0;     ///< of the initial strains held at zero strain
   /// Sums of the nodal forces of each of Scene::boundaries (zero of prescribed displacements) and of
-  /// Scene::body_forces, force per thickness.
+  /// Scene::body_forces.
   std::vector<Vec2> boundary_sums, body_sums;
 };
 
@@ -22,7 +23,8 @@ struct Discretisation {
 /// material, or prescribes two values at one node.
 Discretisation discretise(const Scene& scene, const Mesh& mesh);
 
-/// Strain energy 1/2 int (eps - eps0) : C : (eps - eps0), per thickness (J/m in SI).
+/// Strain energy 1/2 int (eps - eps0) : C : (eps - eps0), times depth (base/model.hpp): J/m of a plane model in SI, J
+/// of rings.
 double strain_energy(const Discretisation& discretisation, const VecX& u);
 
 }  // namespace mortise

@@ -214,13 +214,16 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
     r.p_min = r.pressure.minCoeff();
     r.p_max = r.pressure.maxCoeff();
   }
-  for (const ContactPoint& c : pair.points)
-    r.p_mean += c.ds * interpolate(pair.coupling, pair.multiplier, r.pressure, c.edge, c.xi);
+  double area = 0;
+  for (const ContactPoint& c : pair.points) {
+    area += c.dA;
+    r.p_mean += c.dA * interpolate(pair.coupling, pair.multiplier, r.pressure, c.edge, c.xi);
+  }
   r.length_in_contact = length_in_contact(mesh.nodes, pair, r.pressure);
   const std::map<int, Vec2> forces = contact_forces(pair.coupling, lambda);
   for (const CurveNode& at : along)
     if (const auto force = forces.find(at.node); force != forces.end()) r.force += force->second;
-  r.p_mean /= pair.coupling.covered_length;
+  r.p_mean /= area;
   return r;
 }
 

@@ -44,7 +44,7 @@ struct ContactResults {
   double length_in_contact = 0;  ///< as length_in_contact() says
   Vec2 force = Vec2::Zero();     ///< of the contact on the multiplier side's body, per thickness
   double p_min = 0, p_max = 0;   ///< at the nodes of the multiplier side that face the other or carry pressure
-  double p_mean = 0;             ///< over the length that faces the other side
+  double p_mean = 0;             ///< over what faces the other side
   double p_least = 0;            ///< the smallest between the nodes too, where the sides face each other
 };
 

@@ -87,7 +87,7 @@ Json boundary_json(const BoundarySpec& spec, const Vec2& force) {
 
 std::string model_lines(const Scene& scene, const Discretisation& d) {
   std::ostringstream out;
-  out << "  model     plane " << to_string(scene.plane);
+  out << "  model     plane " << to_string(scene.model.plane);
   print_materials(scene, out);
   out << "\n";
   if (scene.boundaries.size() > told_in_full) {
@@ -135,7 +135,7 @@ Json model_json(const Scene& scene, const Discretisation& d) {
       entry["strain"] = {{"xx", s.strain(0)}, {"yy", s.strain(1)}, {"zz", s.strain(2)}, {"xy", s.strain(3)}};
     loads.push_back(entry);
   }
-  return {{"plane", to_string(scene.plane)},
+  return {{"plane", to_string(scene.model.plane)},
           {"materials", materials},
           {"bodies", bodies},
           {"supports", supports},

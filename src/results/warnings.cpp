@@ -138,9 +138,9 @@ void warn_of_far_origin(const ContactPair& pair, const Results& r, Lines& lines)
   lines.push_back(text.str());
 }
 
-// Poisson's ratio from which elements lock in plane strain: docs/stability.md, near incompressibility.
+// Poisson's ratio from which elements lock in plane strain and in rings: docs/stability.md, near incompressibility.
 void warn_of_locking(const Scene& scene, const Results& r, Lines& lines) {
-  if (scene.plane != Plane::strain) return;
+  if (scene.model.plane == Plane::stress) return;
   const SceneNames names(r.mesh);
   std::vector<char> has_linear(r.mesh.bodies.size(), 0);
   for (const Cell& cell : r.mesh.cells)

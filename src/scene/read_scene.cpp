@@ -30,7 +30,8 @@ void read_model(const Node& root, Scene& scene) {
   const Node* model = find(root, "model");
   if (model == nullptr) return;
   expect_keys(*model, {"plane"});
-  scene.plane = choice(find(*model, "plane"), {Plane::strain, Plane::stress}, scene.plane);
+  scene.model.plane =
+      choice(find(*model, "plane"), {Plane::strain, Plane::stress, Plane::axisymmetric}, scene.model.plane);
 }
 
 Scene read_sections(const Node& root, const std::string& path) {

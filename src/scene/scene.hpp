@@ -10,6 +10,7 @@
 #include "base/body_copy.hpp"
 #include "base/choices.hpp"
 #include "base/geo_limits.hpp"
+#include "base/model.hpp"
 #include "base/types.hpp"
 
 namespace mortise {
@@ -97,7 +98,7 @@ struct Scene {
   std::map<std::string, double> mesh_parameters;
   GeoLimits geo_limits;
   std::vector<BodyCopy> copies;  ///< of bodies of the mesh file, in their place
-  Plane plane = Plane::strain;
+  Model model;
   std::map<std::string, Material> materials;
   std::vector<BodySpec> bodies;
   std::vector<BoundarySpec> boundaries;

@@ -65,7 +65,7 @@ TwoPlates draw_plates(Draw& draw) {
 }
 
 void draw_bodies(Draw& draw, Scene& scene) {
-  scene.plane = draw.one_of<Plane>("plane", {{"strain", Plane::strain}, {"stress", Plane::stress}});
+  scene.model.plane = draw.one_of<Plane>("plane", {{"strain", Plane::strain}, {"stress", Plane::stress}});
   const double nu = draw.one_of("nu", {0, 0.3, 0.45});
   scene.materials["steel"] = {210e9, nu, 0};
   scene.materials["other"] = {210e9 * draw.one_of("ratio", {0.01, 0.2, 1, 1, 5, 100}), nu, 0};

@@ -273,7 +273,7 @@ TEST(Limits, NearlyIncompressibleBodiesAreNoted) {
   EXPECT_FALSE(noted(r, "body 'lower'"));
   s.materials["steel"].poisson = 0.49;
   EXPECT_TRUE(noted(solve_scene(s, mesh_of({})), "6-node triangles"));
-  s.plane = Plane::stress;
+  s.model.plane = Plane::stress;
   EXPECT_FALSE(noted(solve_scene(s, mesh_of({})), "nearly incompressible"));
 }
 

@@ -17,7 +17,11 @@ struct Rows {
   Constraints constraints = no_constraints(mesh);
   std::vector<int> nodes = curve_nodes(multiplier);
   double h = 0.8 / 6;
-  Support support{VecX::Constant(7, h), VecX::Constant(7, h), VecX::Constant(7, 2 * h), VecX::Zero(7)};
+  Support support{.extent = VecX::Constant(7, h),
+                  .scale = VecX::Constant(7, h),
+                  .weight = VecX::Constant(7, h),
+                  .faced = VecX::Constant(7, 2 * h),
+                  .nearest = VecX::Zero(7)};
   Coupling coupling;
 
   Rows() {
@@ -52,7 +56,7 @@ TEST(MultiplierRows, OneEachAlongTheCurve) {
 
 TEST(MultiplierRows, WhatFacesNothingHasNone) {
   Rows r;
-  r.support.scale(0) = r.support.scale(4) = 0;
+  r.support.extent(0) = r.support.extent(4) = 0;
   EXPECT_EQ(r.numbered(), (std::vector<int>{-1, 0, 1, 2, -1, 3, 4}));
   ASSERT_EQ(r.coupling.dropped.size(), 2u);
   EXPECT_EQ(r.coupling.dropped[1].node, r.nodes[4]);

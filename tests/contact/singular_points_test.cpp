@@ -24,18 +24,18 @@ std::vector<SingularPoint> points_of(const TwoPlates& plates, const Sides& held)
   Constraints constraints = no_constraints(mesh);
   for (const std::string& name : held.names)
     for (const int c : held.components) prescribe(mesh, boundary_index(mesh, name), c, 0, constraints);
-  const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, Plane::strain));
+  const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
   return singular_points(mesh, SideTable(mesh), contact_curve(mesh, boundary_index(mesh, "lower_contact")),
                          contact_curve(mesh, boundary_index(mesh, "upper_contact")), constraints, laws);
 }
 
 const std::vector<std::string> all_sides{"upper_left", "upper_right", "lower_left", "lower_right"};
 
-Wedge steel(double angle, Face outer) { return wedge(angle, elastic_law(210e9, 0.3, Plane::strain), outer); }
+Wedge steel(double angle, Face outer) { return wedge(angle, elastic_law(210e9, 0.3, {Plane::strain}), outer); }
 
 TEST(SingularPoints, OfABodyAloneAreItsCornersByWhatHoldsThem) {
   const Mesh mesh = test::mesh_of(TwoPlates{});
-  const ElasticLaw law = elastic_law(210e9, 0.3, Plane::strain);
+  const ElasticLaw law = elastic_law(210e9, 0.3, {Plane::strain});
   Constraints constraints = no_constraints(mesh);
   const Curve side = contact_curve(mesh, boundary_index(mesh, "lower_left"));
   const int corner = side.edges.front().nodes[0], middle = side.edges.front().nodes[1];

@@ -18,7 +18,7 @@ struct Chain {
     for (std::size_t i = 0; i < vertices.size(); ++i) nodes.row(i) = vertices[i].transpose();
     for (int e = 0; e + 1 < int(vertices.size()); ++e) {
       curve.edges.push_back({2, {e, e + 1, -1}});
-      points.push_back({e, 0, 1, Vec2(0, 1), 0, 0, 0});
+      points.push_back({e, 0, 1, 1, Vec2(0, 1), 0, 0, 0});
     }
   }
   SmoothNormals normals() const { return smooth_normals(nodes, curve, Curve{1, 1, {}, {}, false}, points); }

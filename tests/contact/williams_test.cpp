@@ -18,13 +18,13 @@ using Matrix8 = Eigen::Matrix<double, 8, 8>;
 constexpr double pi = std::numbers::pi, degree = pi / 180;
 
 Wedge steel(double degrees, Face outer = Face::free, double young = 1, double poisson = 0.3) {
-  return wedge(degrees * degree, elastic_law(young, poisson, Plane::strain), outer);
+  return wedge(degrees * degree, elastic_law(young, poisson, {Plane::strain}), outer);
 }
 
 // ---- One wedge: Williams (1952) ----
 
 TEST(Williams, KolosovsConstantIsTheOneOfThePlane) {
-  const Wedge strain = steel(90), stress = wedge(1, elastic_law(1, 0.3, Plane::stress));
+  const Wedge strain = steel(90), stress = wedge(1, elastic_law(1, 0.3, {Plane::stress}));
   EXPECT_NEAR(strain.kolosov, 3 - 4 * 0.3, 1e-14);
   EXPECT_NEAR(stress.kolosov, (3 - 0.3) / 1.3, 1e-14);
   EXPECT_NEAR(stress.shear, 1 / 2.6, 1e-14);

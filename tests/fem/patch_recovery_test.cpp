@@ -36,7 +36,7 @@ Eigen::Vector3d polynomial(const Vec2& x, int degree, int body) {
 
 // Two fields: the second is three times the first.
 StressSamples polynomial_samples(const Mesh& mesh, int degree) {
-  StressSamples samples = sample_stresses(mesh, std::vector<ElasticLaw>(2, elastic_law(3, 0.25, Plane::strain)),
+  StressSamples samples = sample_stresses(mesh, std::vector<ElasticLaw>(2, elastic_law(3, 0.25, {Plane::strain})),
                                           MatX::Zero(2 * mesh.nodes.rows(), 2));
   for (std::size_t e = 0; e < mesh.cells.size(); ++e)
     for (int q = samples.first[e]; q < samples.first[e + 1]; ++q) {

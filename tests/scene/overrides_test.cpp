@@ -56,7 +56,7 @@ TEST(Overrides, CreateWhatIsMissing) {
                                  "mesh.parameters.new=3", "materials.brass.young=1e11", "materials.brass.poisson=0.35",
                                  "bodies.other=brass", "contact=[{between=['a', 'b']}]", "contact.condition=bilateral"},
                                 test::shortest_scene);
-  EXPECT_EQ(scene.plane, Plane::stress);
+  EXPECT_EQ(scene.model.plane, Plane::stress);
   EXPECT_EQ(scene.method.solver, Solver::ddm);
   EXPECT_EQ(scene.mesh_parameters.at("new"), 3);
   EXPECT_EQ(scene.bodies.at(1).material, "brass");

@@ -25,7 +25,7 @@ TEST_F(EveryKey, MeshAndModel) {
   EXPECT_EQ(scene_.title, "Every key");
   EXPECT_EQ(scene_.mesh_file, folder_.path("plates.geo"));
   EXPECT_EQ(scene_.mesh_parameters, (std::map<std::string, double>{{"height", 0.25}, {"n_upper", 80}}));
-  EXPECT_EQ(scene_.plane, Plane::stress);
+  EXPECT_EQ(scene_.model.plane, Plane::stress);
 }
 
 TEST_F(EveryKey, MaterialsAndBodiesInTheOrderOfTheFile) {
@@ -92,7 +92,7 @@ TEST(ReadScene, WhatTheFileLeavesOutTakesItsDefault) {
   const Scene scene = read_scene(folder.write("scene.toml", test::shortest_scene));
   EXPECT_EQ(scene.title, "");
   EXPECT_TRUE(scene.mesh_parameters.empty());
-  EXPECT_EQ(scene.plane, Plane::strain);
+  EXPECT_EQ(scene.model.plane, Plane::strain);
   EXPECT_TRUE(scene.boundaries.empty() && scene.body_forces.empty());
   EXPECT_TRUE(scene.initial_strains.empty() && scene.contacts.empty());
   EXPECT_EQ(scene.method.solver, std::nullopt);

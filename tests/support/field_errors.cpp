@@ -10,11 +10,7 @@ namespace mortise::test {
 namespace {
 
 // Strains (11, 22, twice 12) from stresses (11, 22, 12).
-Eigen::Matrix3d compliance(const ElasticLaw& law) {
-  Eigen::Matrix3d C;
-  C << law.stiffness.row(0), law.stiffness.row(1), law.stiffness.row(3);
-  return C.inverse();
-}
+Eigen::Matrix3d compliance(const ElasticLaw& law) { return law.stiffness({0, 1, 3}, {0, 1, 3}).inverse(); }
 
 }  // namespace
 

@@ -27,7 +27,7 @@ Vec2 traction_at(const ExactField& exact, const Vec2& x, const Vec2& n) { return
 void add_slip_loads(const Mesh& mesh, const ExactField& exact, const Slip& slip, VecX& load) {
   for (const char* side : {"upper_left", "upper_right", "upper_contact"})
     add_traction(
-        mesh, sides_of(mesh, mesh.boundaries[boundary_index(mesh, side)]),
+        mesh, {}, sides_of(mesh, mesh.boundaries[boundary_index(mesh, side)]),
         [&](const Vec2& x, const Vec2& n) -> Vec2 {
           return traction_of(slip.stress(x, exact.young, exact.poisson), n);
         },
@@ -114,11 +114,11 @@ VecX exact_loads(const Mesh& mesh, const ExactField& exact) {
   VecX load = VecX::Zero(2 * mesh.nodes.rows());
   for (const char* side : {"upper_left", "upper_right", "lower_left", "lower_right"})
     add_traction(
-        mesh, sides_of(mesh, mesh.boundaries[boundary_index(mesh, side)]),
+        mesh, {}, sides_of(mesh, mesh.boundaries[boundary_index(mesh, side)]),
         [&](const Vec2& x, const Vec2& n) -> Vec2 { return traction_at(exact, x, n); }, load);
   for (const char* curve : {"upper_contact", "lower_contact"})
     add_traction(
-        mesh, sides_of(mesh, mesh.boundaries[boundary_index(mesh, curve)]),
+        mesh, {}, sides_of(mesh, mesh.boundaries[boundary_index(mesh, curve)]),
         [&](const Vec2& x, const Vec2& n) -> Vec2 {
           const Vec2 t = traction_at(exact, x, n);
           return t - t.dot(n) * n;
@@ -130,7 +130,7 @@ VecX exact_loads(const Mesh& mesh, const ExactField& exact) {
 Errors manufactured_errors(const ManufacturedCase& which) {
   const ExactField exact;
   const Mesh mesh = mesh_of(which.plates);
-  const std::vector<ElasticLaw> laws(2, elastic_law(exact.young, exact.poisson, Plane::strain));
+  const std::vector<ElasticLaw> laws(2, elastic_law(exact.young, exact.poisson, {Plane::strain}));
   const SparseMatrix K = assemble_stiffness(mesh, laws);
   VecX load = exact_loads(mesh, exact);
   if (which.slip) add_slip_loads(mesh, exact, *which.slip, load);

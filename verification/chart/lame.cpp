@@ -25,7 +25,7 @@ const Material& material_of(const Scene& scene, const std::string& body) {
 
 // Each ring by the pressures inside and outside; the pressure between them is that which closes the gap, linear in it.
 Lame lame_of(const Scene& scene, const Mesh& mesh) {
-  if (scene.plane != Plane::strain || !scene.initial_strains.empty())
+  if (scene.model.plane != Plane::strain || !scene.initial_strains.empty())
     throw std::runtime_error("Lame's solution here is of plane strain without initial strains");
   Lame lame;
   for (const std::string& body : mesh.bodies) {
