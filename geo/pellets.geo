@@ -5,7 +5,8 @@
 DefineConstant[
   pellets = {10, Name "pellets"},
   n = {6, Name "elements along a pellet's radius"},
-  order = {2, Name "order of the elements"}
+  order = {2, Name "order of the elements"},
+  kind = {0, Name "cladding of 0: quadrilaterals, 1: triangles"}
 ];
 radius = 4; height = 8; gap = 0.02; thickness = 0.6; dish = 0.02; chamfer = 0.3;
 axis[] = {};
@@ -52,7 +53,9 @@ Plane Surface(s) = {s};
 Transfinite Curve{c, c + 2} = 3;
 Transfinite Curve{c + 1, c + 3} = 7 * n * pellets / 2 + 1;
 Transfinite Surface{s};
-Recombine Surface{s};
+If (kind == 0)
+  Recombine Surface{s};
+EndIf
 Physical Surface("cladding") = {s};
 Physical Curve("foot") = {c};
 Physical Curve("outside") = {c + 1};

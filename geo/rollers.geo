@@ -5,7 +5,8 @@ DefineConstant[
   rollers = {12, Name "rollers"},
   fine = {0.2, Name "edges at the contacts"},
   coarse = {3, Name "edges elsewhere"},
-  order = {2, Name "order of the elements"}
+  order = {2, Name "order of the elements"},
+  straight = {0, Name "second-order nodes on 0: the circles, 1: straight edges"}
 ];
 
 o = newp;
@@ -76,4 +77,5 @@ For k In {0 : rollers - 1}
 EndFor
 Mesh.ElementOrder = order;
 Mesh.SecondOrderIncomplete = 1;
+Mesh.SecondOrderLinear = straight;
 Mesh.MeshSizeExtendFromBoundary = 1;

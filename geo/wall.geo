@@ -5,7 +5,8 @@ DefineConstant[
   bricks = {4, Name "bricks a course"},
   courses = {6, Name "courses"},
   n = {6, Name "elements along a brick"},
-  order = {2, Name "order of the elements"}
+  order = {2, Name "order of the elements"},
+  kind = {0, Name "0: quadrilaterals, 1: triangles"}
 ];
 
 k = 0;  // curves and surfaces so far
@@ -32,7 +33,9 @@ For j In {0 : courses - 1}
     Transfinite Curve{c, c + 2} = Ceil(m * (to - from) / 2) + 1;
     Transfinite Curve{c + 1, c + 3} = Ceil(m / 2) + 1;
     Transfinite Surface{s};
-    Recombine Surface{s};
+    If (kind == 0)
+      Recombine Surface{s};
+    EndIf
     Physical Surface(Sprintf("brick_%g_%g", j, i)) = {s};
     If (j > 0)
       Physical Curve(Sprintf("brick_%g_%g_bed", j, i)) = {c};

@@ -24,10 +24,11 @@ class Step:
     side: str  # the contact curve that carries the multipliers
     mesh_parameters: dict  # beside the sizes: kind, order, straight
     mortise: dict  # multipliers, integration: as in the scene file
-    freefem: dict  # order, multipliers, integration, gauss
+    freefem: dict  # order, multipliers, integration, gauss, and springs where bodies may move freely
     condition: str  # bilateral or unilateral
     gap: str  # closed or measured, with the edges' normals; curve: gap and normals of the curves
     same_nodes: bool  # whether both programs have the same unknowns at the same places
+    settings: dict = field(default_factory=dict)  # values that stand in the place of the scene's
 
 
 @dataclass(frozen=True)
@@ -72,29 +73,32 @@ def gap_of(table, scene):
     return found[0]
 
 
-def one_discretisation_step(table, scene, mesh, side, space, integration, condition="bilateral", gap=None):
-    """A step in which both programs have the same spaces and quadrature. `gap`: default as in [gaps]."""
+def one_discretisation_step(table, scene, mesh, side, space, integration, group=None):
+    """A step in which both programs have the same spaces and quadrature. `group`: what it says beside these."""
+    group = group or {}
     spaces = table["same_discretisation"]
     chosen = spaces["spaces"][space]
     method = {"multipliers": chosen["multipliers"], "integration": integration}
-    parameters = {**spaces["parameters"], "order": chosen["order"]}
-    freefem = {**method, "order": chosen["order"], "gauss": chosen["gauss"]}
-    gap = gap or gap_of(table, scene)
-    return Step(scene, mesh_size(mesh), side, parameters, method, freefem, condition, gap, same_nodes=True)
+    parameters = {**group.get("parameters", spaces["parameters"]), "order": chosen["order"]}
+    springs = {"springs": group["springs"]} if "springs" in group else {}
+    freefem = {**method, "order": chosen["order"], "gauss": chosen["gauss"], **springs}
+    condition, gap = group.get("condition", "bilateral"), group.get("gap") or gap_of(table, scene)
+    how = parameters, method, freefem, condition, gap
+    return Step(scene, mesh_size(mesh), side, *how, same_nodes=True, settings=group.get("settings", {}))
 
 
 def same_discretisation(table):
     level = table["same_discretisation"]
     for group in level["scenes"]:
-        condition, gap = group.get("condition", "bilateral"), group.get("gap")
-        loaded = {"active": 0} if condition == "unilateral" else {}
+        loaded = {"active": 0} if group.get("condition") == "unilateral" else {}
         integrations = group.get("integrations", level["integrations"])
         choices = group["names"], group["meshes"], level["spaces"], integrations, group["sides"]
-        for scene, mesh, space, integration, side in itertools.product(*choices):
-            parts = [scene, mesh, space, integration, side, "unilateral" if loaded else None, gap]
+        for scene, mesh, space, integration, side, solver in itertools.product(*choices, group.get("solvers", [None])):
+            settings = group.get("settings", {}) | ({"method.solver": solver} if solver else {})
+            parts = [scene, mesh, space, integration, side, group.get("condition"), group.get("gap"), solver]
             name = "/".join(["same_discretisation", *filter(None, parts)])
             if not matches(name, level["exclude"]):
-                step = one_discretisation_step(table, scene, mesh, side, space, integration, condition, gap)
+                step = one_discretisation_step(table, scene, mesh, side, space, integration, group | {"settings": settings})
                 limits, quick = level["limits"] | loaded, matches(name, level["quick"])
                 yield Case("same_discretisation", name, (step,), limits=limits, quick=quick)
 

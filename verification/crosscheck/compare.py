@@ -1,7 +1,7 @@
 """Both programs' results on the same nodes, and how far they are apart."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import meshio
 import numpy as np
@@ -12,6 +12,7 @@ import launch
 from launch import StudyError
 
 NEAR = 1e-10  # of the body's size: nodes nearer than this are one
+NOTHING = 1e-12  # of the largest pressure: no more than round-off
 ENDS, KINKS = 0.10, 0.10  # fractions of the length left out of pressure_inside: at an end, on each side of a kink
 
 
@@ -28,7 +29,7 @@ class Field:
 
 @dataclass
 class Curve:
-    """Contact pressures at the same places of the multiplier side, by arc length."""
+    """Contact pressures at the same places of the multiplier sides, by arc length, pair behind pair."""
 
     name: str
     s: np.ndarray
@@ -77,33 +78,59 @@ def mortise_bodies(folder):
 
 def displacements(solved, order, same_nodes):
     """Both programs' displacements on the nodes of FreeFEM's mesh, or on its vertices if those are all they share."""
-    by_mortise, fields = mortise_bodies(solved.folder / "mortise"), []
-    for body, number, side in zip(solved.bodies, solved.body_numbers, ("multiplier", "opposite")):
+    by_mortise, table = mortise_bodies(solved.folder / "mortise"), read_numbers(solved.folder / "freefem_bodies.txt", 5)
+    fields = []
+    for number, body in enumerate(solved.bodies):
         points, cells = body.nodes(order if same_nodes else 1)
-        table = read_numbers(solved.folder / f"freefem_{side}.txt", 4)
-        theirs, ours = by_mortise[number]
-        if same_nodes and not len(table) == len(theirs) == len(points):
-            counts = f"{len(theirs)} nodes in mortise, {len(table)} in FreeFEM, {len(points)} in the mesh"
+        (places, ours), theirs = by_mortise[number], table[table[:, 0] == number, 1:]
+        if same_nodes and not len(theirs) == len(places) == len(points):
+            counts = f"{len(places)} nodes in mortise, {len(theirs)} in FreeFEM, {len(points)} in the mesh"
             raise StudyError(f"{body.name}: {counts}")
-        of_mortise = match(points, theirs, body.size(), f"{body.name}, mortise")
-        of_freefem = match(points, table[:, :2], body.size(), f"{body.name}, FreeFEM")
-        fields.append(Field(body.name, points, cells, ours[of_mortise], table[of_freefem, 2:]))
+        of_mortise = match(points, places, body.size(), f"{body.name}, mortise")
+        of_freefem = match(points, theirs[:, :2], body.size(), f"{body.name}, FreeFEM")
+        fields.append(Field(body.name, points, cells, ours[of_mortise], theirs[of_freefem, 2:]))
     return fields
 
 
+def without_rigid_difference(field):
+    """FreeFEM's displacements of a body, moved rigidly to where they are nearest to mortise's."""
+    x, y = (field.points - field.points.mean(axis=0)).T
+    motions = np.stack([np.tile([1, 0], len(x)), np.tile([0, 1], len(x)), np.stack([-y, x], axis=1).ravel()], axis=1)
+    part = np.linalg.lstsq(motions, (field.mortise - field.freefem).ravel(), rcond=None)[0]
+    return replace(field, freefem=field.freefem + (motions @ part).reshape(-1, 2))
+
+
+def pairs_of_mortise(folder):
+    """Numbers of the pairs by the names of their curves, first the multiplier side's."""
+    summary = run.mortise_summary(folder)
+    both = zip(summary["method"]["multipliers_on"], (set(contact["between"]) for contact in summary["contact"]))
+    return {(on, *(between - {on})): number for number, (on, between) in enumerate(both)}
+
+
 def pressures(solved, side):
-    """Both programs' pressures at FreeFEM's multipliers."""
-    ours = launch.contact(solved.folder / "mortise", side)
-    theirs = read_numbers(solved.folder / "freefem_contact.txt", 4)
-    places = np.stack([ours["x"], ours["y"]], axis=1)
-    row = match(theirs[:, :2], places, solved.bodies[0].size(), f"multipliers on {side}")
-    order = np.argsort(ours["s"][row])
-    return Curve(side, ours["s"][row][order], ours["p"][row][order], theirs[order, 2])
+    """Both programs' pressures at FreeFEM's multipliers, pair behind pair."""
+    found, numbers = launch.columns(solved.folder / "mortise/contact.csv"), pairs_of_mortise(solved.folder)
+    names = [tuple(curve.name for curve in pair) for pair in solved.pairs]
+    if set(names) != set(numbers):
+        raise StudyError(f"contact of {sorted(set(names) ^ set(numbers))} is known to one program only")
+    table, parts, length = read_numbers(solved.folder / "freefem_contact.txt", 5), [], 0.0
+    for number, name in enumerate(names):
+        ours = (found["pair"] == numbers[name]) & (found["curve"] == name[0])
+        theirs = table[table[:, 0] == number, 1:]
+        places, size = np.stack([found["x"][ours], found["y"][ours]], axis=1), max(b.size() for b in solved.bodies)
+        row = match(theirs[:, :2], places, size, f"multipliers on {name[0]}")
+        s, p = found["s"][ours][row], found["p"][ours][row]
+        order = np.argsort(s)
+        parts.append([length + s[order], p[order], theirs[order, 2]])
+        length += s.max()
+    return Curve(side, *np.concatenate(parts, axis=1))
 
 
 def compare(solved, step):
     """Reads both programs' results of a step."""
     fields, curve = displacements(solved, step.freefem["order"], step.same_nodes), pressures(solved, step.side)
+    if "springs" in step.freefem:
+        fields = [without_rigid_difference(field) for field in fields]
     ours, theirs = run.mortise_summary(solved.folder), run.freefem_summary(solved.folder)
     rows = ours["mesh"]["multipliers"], int(theirs["multipliers"])
     if step.same_nodes and rows[0] != rows[1]:
@@ -126,15 +153,17 @@ def energy_difference(comparison):
 
 
 def largest_differences(comparison):
-    """Same discretisation: max |du| / max |u|, max |dp| / max |p|, the energy; multipliers that only one has closed."""
+    """Same discretisation: max |du| / max |u|, max |dp| / max |p|, the energy; multipliers that only one has under
+    pressure, above round-off."""
     difference = max(lengths(f.mortise - f.freefem).max() for f in comparison.fields)
     size = max(lengths(f.freefem).max() for f in comparison.fields)
     curve = comparison.curve
+    none = NOTHING * np.abs(curve.freefem).max()
     return {
         "displacement": ratio(difference, size),
         "pressure": ratio(np.abs(curve.mortise - curve.freefem).max(), np.abs(curve.freefem).max()),
         "energy": energy_difference(comparison),
-        "active": int(np.sum((curve.mortise > 0) != (curve.freefem > 0))),
+        "active": int(np.sum((curve.mortise > none) != (curve.freefem > none))),
     }
 
 
@@ -147,7 +176,7 @@ def nodal_areas(points, triangles):
 
 
 def displacement_l2(fields):
-    """Relative, over both bodies."""
+    """Relative, over all bodies."""
     weights = [nodal_areas(field.points, field.cells) for field in fields]
     difference = sum(w @ lengths(field.mortise - field.freefem) ** 2 for w, field in zip(weights, fields))
     size = sum(w @ lengths(field.mortise) ** 2 for w, field in zip(weights, fields))
@@ -179,22 +208,24 @@ def mean_differences(comparison, kinks):
 
 
 def write_difference(comparison, path):
-    """The mesh of both bodies with both displacements and their difference, for ParaView."""
-    a, b = comparison.fields
-    cells = np.concatenate([a.cells, b.cells + len(a.points)])
-    in_space = lambda first, second: np.pad(np.concatenate([first, second]), ((0, 0), (0, 1)))
+    """The mesh of all bodies with both displacements and their difference, for ParaView."""
+    fields = comparison.fields
+    first = np.cumsum([0, *(len(field.points) for field in fields)])
+    cells = np.concatenate([field.cells + start for field, start in zip(fields, first)])
+    in_space = lambda values: np.pad(np.concatenate(values), ((0, 0), (0, 1)))
     data = {
-        "u_mortise": in_space(a.mortise, b.mortise),
-        "u_freefem": in_space(a.freefem, b.freefem),
-        "difference": in_space(a.mortise - a.freefem, b.mortise - b.freefem),
+        "u_mortise": in_space([field.mortise for field in fields]),
+        "u_freefem": in_space([field.freefem for field in fields]),
+        "difference": in_space([field.mortise - field.freefem for field in fields]),
     }
-    bodies = np.repeat([0, 1], [len(a.cells), len(b.cells)])
+    bodies = np.repeat(np.arange(len(fields)), [len(field.cells) for field in fields])
     blocks = [({3: "triangle", 6: "triangle6"}[cells.shape[1]], cells)]
-    mesh = meshio.Mesh(in_space(a.points, b.points), blocks, point_data=data, cell_data={"body": [bodies]})
+    points = in_space([field.points for field in fields])
+    mesh = meshio.Mesh(points, blocks, point_data=data, cell_data={"body": [bodies]})
     meshio.write(path, mesh)
 
 
 def write_pressures(curve, path):
-    """Both pressures along the multiplier side, 17 digits."""
+    """Both pressures along the multiplier sides, 17 digits."""
     table = np.stack([curve.s, curve.mortise, curve.freefem], axis=1)
     np.savetxt(path, table, fmt="%.17g", delimiter=",", header="s,p_mortise,p_freefem", comments="")

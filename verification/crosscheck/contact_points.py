@@ -83,18 +83,18 @@ def chain_through(x):
     return Chain(x, np.concatenate([smooth_cubics(x[a : b + 1]) for a, b in zip(ends, ends[1:])]))
 
 
-def chain_of(body, label):
-    """The contact curve of a body, in the order in which FreeFEM's scripts count its edges."""
+def vertices_of(body, label):
+    """Those of a curve of a body, which is on its left, in the order of FreeFEM's scripts; of a closed one the first again."""
     named = set(map(tuple, np.sort(body.edges[body.labels == label], axis=1)))
     sides = np.concatenate([body.triangles[:, [0, 1]], body.triangles[:, [1, 2]], body.triangles[:, [2, 0]]])
     following = {a: b for a, b in sides if (min(a, b), max(a, b)) in named}
     starts = set(following) - set(following.values())
-    if len(starts) != 1:
+    if len(starts) > 1:
         raise StudyError(f"the contact curve of '{body.name}' has {len(starts)} starts; expected 1")
-    order = list(starts)
-    while order[-1] in following:
+    order = [min(starts or following)]
+    for _ in following:
         order.append(following[order[-1]])
-    return chain_through(body.points[order])
+    return body.points[order]
 
 
 # ---- From one side to the other ----
@@ -114,8 +114,9 @@ def foot(chain, edge, x):
 
 
 def facing(opposite, x, n):
-    """The nearest edge that faces x along n, and the coordinate on it; None where there is none."""
-    along, to = np.diff(opposite.x, axis=0), opposite.x[:-1] - x
+    """The nearest edge of a chain of vertices that faces x along n, the coordinate on it and the distance along n; None
+    where there is none."""
+    along, to = np.diff(opposite, axis=0), opposite[:-1] - x
     across = cross(along, n)
     with np.errstate(divide="ignore", invalid="ignore"):
         t, distance = -cross(to, n) / across, cross(along, to) / across
@@ -124,7 +125,7 @@ def facing(opposite, x, n):
     if not faces.any():
         return None
     edge = int(np.argmin(np.where(faces, np.abs(distance), np.inf)))
-    return edge, t[edge]
+    return edge, t[edge], distance[edge]
 
 
 def cuts(chain, edge, opposite):
@@ -137,7 +138,7 @@ def cuts(chain, edge, opposite):
             continue
         n = chain.normal(edge, t)
         s = cross(vertex - a, n) / cross(along, n)
-        hit = facing(opposite, a + s * along, n)
+        hit = facing(opposite.x, a + s * along, n)
         if hit and hit[0] in (number - 1, number) and NEAR_VERTEX < s < 1 - NEAR_VERTEX:
             found.add(float(s))
     return sorted(found)
@@ -154,18 +155,25 @@ def contact_points(chain, opposite, gauss):
                 x = chain.place(edge, s)
                 here = foot(chain, edge, x)
                 n = chain.normal(edge, here)
-                hit = facing(opposite, x, n)
+                hit = facing(opposite.x, x, n)
                 if hit is None:
                     continue
                 there = zero(lambda t, edge=hit[0]: cross(opposite.curve(edge, t) - x, n))
                 gap = (opposite.curve(hit[0], there) - chain.curve(edge, here)) @ n
-                rows.append([edge, s, w, *n, *hit, gap])
+                rows.append([edge, s, w, *n, *hit[:2], gap])
     return np.array(rows)
 
 
-def write(bodies, labels, gauss, path):
-    """Finds the points and saves them; bodies and labels: first of the multiplier side."""
-    save(contact_points(*map(chain_of, bodies, labels), gauss), path)
+def points_of_pairs(pairs, gauss):
+    """The points of all pairs (vertices of the multiplier side, of the opposite side); edges are counted over all."""
+    rows, edges = [], 0
+    for sides in pairs:
+        found = contact_points(*map(chain_through, sides), gauss)
+        found[:, 0] += edges
+        found[:, 5] += edges + len(sides[0]) - 1
+        edges += sum(len(x) - 1 for x in sides)
+        rows.append(found)
+    return np.concatenate(rows)
 
 
 def save(points, path):

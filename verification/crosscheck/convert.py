@@ -1,8 +1,8 @@
-"""A gmsh mesh as FreeFEM reads it: one medit file a body, triangles of the corner nodes, curves as edge references."""
+"""A gmsh mesh as FreeFEM reads it: triangles of the corner nodes with a vertex for each body, curves as edge references."""
 
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 
-import meshio
 import numpy as np
 
 from cases import StudyError
@@ -90,15 +90,13 @@ def edge_labels(mesh):
     for name, tag in curve_tags(mesh).items():
         for edge in map(tuple, curve_edges(mesh, name)):
             if edge in labels:
-                raise StudyError(f"curves '{names[edge]}' and '{name}' share an edge; medit edges have one reference")
+                raise StudyError(f"curves '{names[edge]}' and '{name}' share an edge; FreeFEM's edges have one reference")
             labels[edge], names[edge] = tag, name
     return labels
 
 
 def read_body(mesh, name, labels):
     """A body out of a mesh; `labels` as edge_labels finds them."""
-    if name not in mesh.cell_sets or mesh.field_data[name][1] != 2:
-        raise StudyError(f"the mesh has no physical surface '{name}'")
     triangles = corner_triangles(mesh, name)
     used, local = np.unique(triangles, return_inverse=True)
     sides, count = np.unique(sides_of(triangles), axis=0, return_counts=True)
@@ -108,28 +106,29 @@ def read_body(mesh, name, labels):
     return Body(name, points, local.reshape(triangles.shape), edges, of_edges)
 
 
-def read_bodies(mesh, names):
-    """The bodies of a mesh by name."""
-    labels = edge_labels(mesh)
-    return {name: read_body(mesh, name, labels) for name in names}
+def read_bodies(mesh, patterns):
+    """The bodies of a mesh that the patterns name, by name; in mortise's order, that of the physical surfaces' tags."""
+    labels, tags = edge_labels(mesh), {name: tag for name, (tag, dimension) in mesh.field_data.items() if dimension == 2}
+    found = [name for name in sorted(tags, key=tags.get) if any(fnmatchcase(name, pattern) for pattern in patterns)]
+    for pattern in patterns:
+        if not any(fnmatchcase(name, pattern) for name in found):
+            raise StudyError(f"the mesh has no physical surface '{pattern}'")
+    return {name: read_body(mesh, name, labels) for name in found}
 
 
-def body_order(mesh, names):
-    """The names in the order in which mortise numbers the bodies: by the tags of the physical surfaces."""
-    return sorted(names, key=lambda name: mesh.field_data[name][0])
+def bodies_of_curve(bodies, tag):
+    """Names of the bodies on whose boundary a curve lies."""
+    return [name for name, body in bodies.items() if tag in body.labels]
 
 
-def body_of_curve(bodies, tag):
-    """Name of the body on whose boundary a curve lies."""
-    owners = [name for name, body in bodies.items() if tag in body.labels]
-    if len(owners) != 1:
-        raise StudyError(f"the curve of tag {tag} bounds {len(owners)} bodies; expected 1")
-    return owners[0]
-
-
-def write_medit(body, path):
-    """ASCII, 17 digits, vertices with reference 0, triangles with 1."""
-    cells = [("triangle", body.triangles), ("line", body.edges)]
-    of_points, of_cells = np.zeros(len(body.points), dtype=int), [np.ones(len(body.triangles), dtype=int), body.labels]
-    mesh = meshio.Mesh(body.points, cells, point_data={"medit:ref": of_points}, cell_data={"medit:ref": of_cells})
-    meshio.write(path, mesh, file_format="medit")
+def write_mesh(bodies, path):
+    """FreeFEM's own format, 17 digits, with the bodies' numbers as references of the triangles; of the vertices 0."""
+    first = np.cumsum([0, *(len(body.points) for body in bodies)])
+    of_body = lambda cells, labels, k: np.column_stack([cells + first[k] + 1, np.broadcast_to(labels, len(cells))])
+    blocks = [np.pad(np.concatenate([body.points for body in bodies]), ((0, 0), (0, 1))),
+              np.concatenate([of_body(body.triangles, k, k) for k, body in enumerate(bodies)]),
+              np.concatenate([of_body(body.edges, body.labels, k) for k, body in enumerate(bodies)])]  # fmt: skip
+    with open(path, "w") as file:
+        print(*map(len, blocks), file=file)
+        for block, form in zip(blocks, (["%.17g", "%.17g", "%d"], "%d", "%d")):
+            np.savetxt(file, block, fmt=form)

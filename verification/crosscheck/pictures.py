@@ -8,6 +8,7 @@ from matplotlib.tri import Triangulation
 import run  # makes common/ known
 import figure
 import launch
+from scene import SIDES
 
 COLOURS = {"mortise": "#f39b8a", "freefem": "#123c66"}
 NEXT_LEVEL = [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]]  # four triangles of a triangle6
@@ -16,7 +17,7 @@ NEXT_LEVEL = [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]]  # four triangles of a
 def pressure_limits(values):
     """Limits of y that show the curves; the few values at singular corners may leave the panel."""
     first, last = np.percentile(values, [3, 97])
-    half = max((last - first) / 2, 0.02 * abs(first + last) / 2)
+    half = max((last - first) / 2, 0.02 * abs(first + last) / 2) or np.inf
     low, high = max(values.min(), first - 1.5 * half), min(values.max(), last + 1.5 * half)
     margin = max(0.06 * (high - low), 0.02 * abs(high))
     return low - margin, high + margin
@@ -36,7 +37,7 @@ def draw_pressures(above, below, table, side):
     mean = np.trapz(np.abs(ours), s) / np.ptp(s)
     below.plot(s, (ours - theirs) / mean, color="0.2", linewidth=1, marker=".", markersize=3)
     below.axhline(0, color="0.7", linewidth=0.6)
-    figure.label(below, f"arc length along {side}", "difference / mean $|p|$", xlim=(s.min(), s.max()))
+    figure.label(below, "arc length" if side in SIDES else f"arc length along {side}", "difference / mean $|p|$", xlim=(s.min(), s.max()))
     for axes in (above, below):
         figure.scientific(axes.yaxis)
 

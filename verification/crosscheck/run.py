@@ -23,8 +23,8 @@ class Solved:
     """What one step left in its folder."""
 
     folder: Path
-    bodies: list  # convert.Body, first the multiplier side's
-    body_numbers: list  # of these bodies in mortise's results
+    bodies: list  # convert.Body, in mortise's order
+    pairs: list  # scene.Side of the multiplier side and of the opposite side of each
     status: str  # of mortise, as in summary.json
     mortise_seconds: float  # whole process
     freefem_seconds: float
@@ -51,12 +51,21 @@ def contact_settings(step):
     return {} if step.gap == "curve" else {"contact.initial_gap": step.gap, "method.normals": "edges"}
 
 
+def inline(value):
+    """A value as TOML, in a line."""
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {inline(entry)}" for key, entry in value.items()) + " }"
+    return value
+
+
 def settings_of(step, mesh_file):
-    """mortise's, on the mesh as it lies in the file; its physics are the scene's own."""
+    """mortise's, on the mesh as it lies in the file; its physics are the scene's and the step's."""
+    pairs = enumerate(scenes.read_scene(launch.scene_file(step.scene), {})["contact"])
     return {
+        **{key: inline(value) for key, value in step.settings.items()},
         "mesh.file": mesh_file.absolute(),
         "mesh.parameters": "{}",
-        "contact.multipliers_on": step.side,
+        **{f"contact.{k}.multipliers_on": scenes.multipliers_on(entry, step.side) for k, entry in pairs},
         "contact.condition": step.condition,
         "method.multipliers": step.mortise["multipliers"],
         "method.integration": step.mortise["integration"],
@@ -80,37 +89,35 @@ def call_freefem(script, *arguments, folder, expected=(0,)):
 
 
 def convert_step(step, scene, mesh_file, folder):
-    """The two medit files, case.txt and its points; returns the bodies and their numbers in mortise's results."""
+    """The mesh, case.txt and its points; returns the bodies in mortise's order, and the contact pairs."""
     mesh = meshio.read(mesh_file, file_format="gmsh")  # of itself it tries another reader first, and prints
     bodies, tags = convert.read_bodies(mesh, scene["bodies"]), convert.curve_tags(mesh)
-    contact_tags = [tags[step.side], tags[scenes.opposite_side(scene, step.side)]]
-    names, files = [convert.body_of_curve(bodies, tag) for tag in contact_tags], ["multiplier.mesh", "opposite.mesh"]
-    for name, file in zip(names, files):
-        convert.write_medit(bodies[name], folder / file)
-    (folder / "case.txt").write_text(scenes.case_text(scene, names, files, contact_tags, tags, step.freefem, step.gap))
+    pairs = list(scenes.contact_pairs(scene, step.side, bodies, tags))
+    convert.write_mesh(list(bodies.values()), folder / scenes.MESH)
+    of_pairs = [[side.tag for side in pair] for pair in pairs]
+    (folder / "case.txt").write_text(scenes.case_text(scene, list(bodies), of_pairs, tags, step.freefem, step.gap))
     if step.gap == "curve":
-        of_bodies = [bodies[name] for name in names]
-        contact_points.write(of_bodies, contact_tags, step.freefem["gauss"], folder / scenes.POINTS)
-    order = convert.body_order(mesh, scene["bodies"])
-    return [bodies[name] for name in names], [order.index(name) for name in names]
+        vertices = [[side.x for side in pair] for pair in pairs]
+        contact_points.save(contact_points.points_of_pairs(vertices, step.freefem["gauss"]), folder / scenes.POINTS)
+    return list(bodies.values()), pairs
 
 
 def prepare(step, folder, change=lambda scene: scene):
-    """Mesh and converted mesh of a step; returns the scene file, the mesh file, the bodies and their numbers. `change`: of
-    the scene for FreeFEM."""
+    """Mesh and converted mesh of a step; returns the scene file, the mesh file, the bodies and the contact pairs.
+    `change`: of the scene for FreeFEM."""
     folder.mkdir(parents=True, exist_ok=True)
     scene_file, mesh_file = launch.scene_file(step.scene), folder / "mesh.msh"
-    scene = change(scenes.read_scene(scene_file))
+    scene = change(scenes.read_scene(scene_file, step.settings))
     make_mesh(scene_file, scenes.size_parameters(scene, step.mesh), step.mesh_parameters, mesh_file)
     return scene_file, mesh_file, *convert_step(step, scene, mesh_file, folder)
 
 
 def solve_step(step, folder):
     """Everything of one step: mesh, conversion, both solutions."""
-    scene_file, mesh_file, bodies, numbers = prepare(step, folder)
+    scene_file, mesh_file, bodies, pairs = prepare(step, folder)
     mortise_seconds = solve_by_mortise(scene_file, mesh_file, step, folder / "mortise")
     freefem_seconds = call_freefem(SCRIPTS[step.condition], folder=folder)
-    return Solved(folder, bodies, numbers, mortise_summary(folder)["status"], mortise_seconds, freefem_seconds)
+    return Solved(folder, bodies, pairs, mortise_summary(folder)["status"], mortise_seconds, freefem_seconds)
 
 
 def mortise_summary(folder):

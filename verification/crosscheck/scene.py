@@ -1,18 +1,35 @@
 """The physics of a scene, read from its file and not from mortise, and the case file that FreeFEM reads."""
 
+import itertools
 import tomllib
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
 
+import numpy as np
+
+import contact_points
+import convert
 from cases import StudyError
 
 POINTS = "contact_points.txt"  # beside the case file, where the gap is that of the curves
+MESH = "bodies.msh"  # beside it
 ORDER_OF_MULTIPLIERS = {"linear": 1, "quadratic": 2}
+SIDES = ("first", "second")  # of `between`
 
 
-def read_scene(path):
-    """The scene's tables; scenes with other than one contact pair are refused."""
+def set_entry(table, key, value):
+    """KEY=VALUE as mortise's --set takes it."""
+    *path, last = key.split(".")
+    for part in path:
+        table = table[int(part)] if isinstance(table, list) else table.setdefault(part, {})
+    table[last] = value
+
+
+def read_scene(path, settings):
+    """The scene's tables, with some values replaced."""
     scene = tomllib.loads(path.read_text())
-    if len(scene.get("contact", [])) != 1:
-        raise StudyError(f"{path}: {len(scene.get('contact', []))} contact pairs; the FreeFEM scripts take exactly 1")
+    for key, value in settings.items():
+        set_entry(scene, key, value)
     return scene
 
 
@@ -21,11 +38,76 @@ def size_parameters(scene, sizes):
     return dict(zip(scene["mesh"]["parameters"], sizes))
 
 
-def opposite_side(scene, side):
-    between = scene["contact"][0]["between"]
-    if side not in between:
+def named(patterns, names):
+    """The names that a pattern or a list of patterns takes."""
+    patterns = [patterns] if isinstance(patterns, str) else patterns
+    return [name for name in names if any(fnmatchcase(name, pattern) for pattern in patterns)]
+
+
+# ---- Contact ----
+
+
+@dataclass
+class Side:
+    """One curve of a contact pair."""
+
+    name: str
+    body: str
+    tag: int
+    x: np.ndarray  # vertices x 2, with the body on the left
+
+
+def multipliers_on(entry, side):
+    """The curve, or the pattern of the curves, that carries the multipliers in a [[contact]] entry. `side`: a curve, or
+    which of `between`."""
+    between = entry["between"]
+    if side not in (*between, *SIDES):
         raise StudyError(f"multipliers on '{side}'; the scene's contact is between {' and '.join(between)}")
-    return between[1] if side == between[0] else between[0]
+    return between[SIDES.index(side)] if side in SIDES else side
+
+
+def mean_edge(x):
+    return np.linalg.norm(np.diff(x, axis=0), axis=1).mean()
+
+
+def meets(x, others, within):
+    """Whether a normal in the middle of an edge meets an edge of the others within a distance."""
+    for a, b in itertools.pairwise(x):
+        n = np.array([b[1] - a[1], a[0] - b[0]]) / np.linalg.norm(b - a)
+        hit = contact_points.facing(others, (a + b) / 2, n)
+        if hit and abs(hit[2]) <= within:
+            return True
+    return False
+
+
+def face(a, b):
+    """Whether two curves face each other: half an edge apart at most."""
+    within = min(mean_edge(a.x), mean_edge(b.x)) / 2
+    return meets(a.x, b.x, within) or meets(b.x, a.x, within)
+
+
+def contact_pairs(scene, side, bodies, tags):
+    """The pairs: their multiplier sides and their opposite sides. Of patterns, those that face each other; if both sides
+    have the same pattern, the multipliers are on the later curve."""
+
+    def of_one_body(pattern):
+        for name in named(pattern, sorted(tags, key=tags.get)):
+            owners = convert.bodies_of_curve(bodies, tags[name])
+            if len(owners) == 1:
+                vertices = contact_points.vertices_of(bodies[owners[0]], tags[name])
+                yield Side(name, owners[0], tags[name], vertices)
+
+    for entry in scene["contact"]:
+        on = multipliers_on(entry, side)
+        other = entry["between"][on == entry["between"][0]]
+        ours, theirs = list(of_one_body(on)), list(of_one_body(other))
+        for a, b in itertools.product(ours, theirs):
+            is_pair = (a.name, b.name) == (on, other) or a.body != b.body and face(a, b)
+            if is_pair and (on != other or a.tag > b.tag):
+                yield a, b
+
+
+# ---- The case file ----
 
 
 def strain_of(entry, material):
@@ -37,14 +119,15 @@ def strain_of(entry, material):
 
 
 def material_of(scene, body):
-    return scene["materials"][scene["bodies"][body]]
+    """A body's own name counts before a pattern."""
+    (pattern, *_) = [body] if body in scene["bodies"] else [p for p in scene["bodies"] if fnmatchcase(body, p)]
+    return scene["materials"][scene["bodies"][pattern]]
 
 
 def boundary_lines(scene, tags):
     """Prescribed displacements and loads, one line of the case file each."""
     for entry in scene.get("boundary", []):
-        curves = [entry["on"]] if isinstance(entry["on"], str) else entry["on"]
-        for label in (tags[curve] for curve in curves):
+        for label in (tags[curve] for curve in named(entry["on"], tags)):
             for component, value in entry.get("displacement", {}).items():
                 yield f"displacement {label} {component} {float(value)!r}"
             if "pressure" in entry:
@@ -54,12 +137,17 @@ def boundary_lines(scene, tags):
 
 
 def body_lines(scene, bodies):
-    """Initial strains and body forces; a body's index is its place in `bodies`."""
+    """Materials, initial strains and body forces; a body's number is its place in `bodies`."""
+    for body in bodies:
+        material = material_of(scene, body)
+        yield f"body {float(material['young'])!r} {float(material['poisson'])!r}"
     for entry in scene.get("initial_strain", []):
-        strain = " ".join(repr(float(e)) for e in strain_of(entry, material_of(scene, entry["body"])))
-        yield f"initial_strain {bodies.index(entry['body'])} {strain}"
+        for body in named(entry["body"], bodies):
+            strain = " ".join(repr(float(e)) for e in strain_of(entry, material_of(scene, body)))
+            yield f"initial_strain {bodies.index(body)} {strain}"
     for entry in scene.get("body_force", []):
-        yield "body_force {} {!r} {!r}".format(bodies.index(entry["body"]), *map(float, entry["force"]))
+        for body in named(entry["body"], bodies):
+            yield "body_force {} {!r} {!r}".format(bodies.index(body), *map(float, entry["force"]))
 
 
 def gap_lines(gap):
@@ -67,19 +155,18 @@ def gap_lines(gap):
     return ["gap given", f"points {POINTS}"] if gap == "curve" else [f"gap {gap}"]
 
 
-def case_text(scene, bodies, files, contact_tags, tags, freefem, gap):
-    """The case file; `bodies`, `files` and `contact_tags`: first of the multiplier side, then of the opposite side."""
-    materials = [material_of(scene, body) for body in bodies]
+def case_text(scene, bodies, pairs, tags, freefem, gap):
+    """The case file; `bodies`: their names, `pairs`: the tags of the multiplier and the opposite side of each."""
     lines = [
         f"plane {scene.get('model', {}).get('plane', 'strain')}",
-        *(f"body {file} {float(m['young'])!r} {float(m['poisson'])!r}" for file, m in zip(files, materials)),
-        "contact {} {}".format(*contact_tags),
+        f"mesh {MESH}",
+        *body_lines(scene, bodies),
+        *("contact {} {}".format(*pair) for pair in pairs),
         f"order {freefem['order']}",
         f"multipliers {ORDER_OF_MULTIPLIERS[freefem['multipliers']]}",
-        *(f"{key} {freefem[key]}" for key in ("integration", "gauss")),
+        *(f"{key} {freefem[key]}" for key in ("integration", "gauss", "springs") if key in freefem),
         *gap_lines(gap),
         *boundary_lines(scene, tags),
-        *body_lines(scene, bodies),
         "end",
     ]
     return "\n".join(lines) + "\n"

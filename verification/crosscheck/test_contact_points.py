@@ -79,10 +79,18 @@ def test_chain_of_a_body_and_its_file(tmp_path):
     triangles, edges = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[0, 1], [1, 2], [2, 3], [0, 3]])
     lower = convert.Body("lower", square, triangles, edges, np.array([1, 2, 3, 4]))
     upper = convert.Body("upper", square + [0, 1.25], triangles, edges, np.array([5, 6, 7, 8]))
-    assert cp.chain_of(lower, 3).x.tolist() == [[1, 1], [0, 1]]
-    assert cp.chain_of(upper, 5).x.tolist() == [[0, 1.25], [1, 1.25]]
-    cp.write([upper, lower], [5, 3], 2, tmp_path / "points.txt")
+    sides = cp.vertices_of(upper, 5), cp.vertices_of(lower, 3)
+    assert [x.tolist() for x in sides] == [[[0, 1.25], [1, 1.25]], [[1, 1], [0, 1]]]
+    cp.save(cp.points_of_pairs([sides, sides], 2), tmp_path / "points.txt")
     count, *lines = (tmp_path / "points.txt").read_text().splitlines()
-    assert count == "2" and len(lines) == 2
+    assert count == "4" and len(lines) == 4
     s = (1 - 1 / np.sqrt(3)) / 2
-    assert list(map(float, lines[0].split())) == pytest.approx([0, s, 0.5, 0, -1, 0, 1 - s, 0.25])
+    for edge, line in ((0, lines[0]), (2, lines[2])):  # edges are counted over all sides
+        assert list(map(float, line.split())) == pytest.approx([edge, s, 0.5, 0, -1, edge + 1, 1 - s, 0.25])
+
+
+def test_a_closed_curve_comes_back_to_its_start():
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+    triangles, edges = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[0, 1], [1, 2], [2, 3], [0, 3]])
+    body = convert.Body("body", square, triangles, edges, np.array([1, 1, 1, 1]))
+    assert cp.vertices_of(body, 1).tolist() == square[[0, 1, 2, 3, 0]].tolist()

@@ -4,6 +4,7 @@ import itertools
 import json
 import math
 import re
+from dataclasses import replace
 
 import meshio
 import numpy as np
@@ -39,7 +40,7 @@ def test_same_discretisation_covers_every_combination(table, quick):
     """Every scene with both sides, every space and both integrations; matching and not, the latter in both ways."""
     found = [case for case in table if case.level == "same_discretisation" and (case.quick or not quick)]
     found = [case for case in found if case.steps[0].condition == "bilateral"]
-    assert {case.scene for case in found} == SCENES
+    assert {case.scene for case in found} - SCENES == {"stack", "wall"}
     for scene in SCENES:
         mine = [case.steps[0] for case in found if case.scene == scene]
         sides = {step.side for step in mine}
@@ -50,6 +51,16 @@ def test_same_discretisation_covers_every_combination(table, quick):
         assert {(step.side, space(step), step.mortise["integration"]) for step in mine} == wanted
         ways = {(a > b) - (a < b) for a, b in (step.mesh for step in mine)}
         assert ways >= ({0, -1} if quick else {0, -1, 1})
+
+
+def test_scenes_of_many_bodies(table):
+    """Bearing and rod open; all are among the quick ones."""
+    of = lambda scene: [case for case in table if case.scene == scene]
+    assert all(any(case.quick for case in of(scene)) for scene in ("stack", "wall", "pellets", "rollers"))
+    assert {case.scene for case in table if case.name.endswith("/feti")} == {"wall", "pellets"}
+    opened = {case.scene for case in table if case.steps[0].condition == "unilateral" and case.side in scenes.SIDES}
+    assert opened == {"pellets", "rollers"}
+    assert {case.scene for case in table if "springs" in case.steps[0].freefem} == {"rollers"}
 
 
 def test_same_problem_covers_every_scene_on_both_sides_by_series_that_halve_h_twice(table):
@@ -71,7 +82,8 @@ def test_both_programs_take_the_same_discretisation(table):
     for case in table:
         step = case.steps[0]
         if step.same_nodes:
-            assert step.mesh_parameters == {"kind": 1, "straight": 1, "order": step.freefem["order"]}
+            if case.scene not in ("wall", "pellets", "rollers"):  # straight, of triangles
+                assert step.mesh_parameters == {"kind": 1, "straight": 1, "order": step.freefem["order"]}
             assert step.freefem["gauss"] == step.freefem["order"] + 1
             assert all(step.freefem[key] == step.mortise[key] for key in ("multipliers", "integration"))
 
@@ -87,7 +99,7 @@ def test_gap_and_normals_of_each_case(table):
             assert run.contact_settings(step) == ({} if curve else settings)
             if not curve:
                 assert gaps.setdefault(case.scene, step.gap) == step.gap
-    assert {scene for scene, gap in gaps.items() if gap == "measured"} == {"gap_close", "hertz", "punch"}
+    assert {scene for scene, gap in gaps.items() if gap == "measured"} == {"gap_close", "hertz", "pellets", "punch", "rollers"}
     curves = [case for case in table if case.name.endswith("/curve")]
     scenes_of = lambda cases: {(case.scene, case.steps[0].condition) for case in cases}
     assert scenes_of(curves) == scenes_of(case for case in curves if case.quick)
@@ -156,22 +168,24 @@ def test_bodies_of_a_mesh(kind):
         (named,) = body.edges[body.labels == tag]
         np.testing.assert_array_equal(body.points[named, 1], y)
         assert sorted(body.labels) == [convert.UNNAMED] * 3 + [tag]
-        assert convert.body_of_curve(bodies, tag) == name
-    assert convert.body_order(mesh, ["lower", "upper"]) == ["upper", "lower"]
-    with pytest.raises(StudyError, match="bounds 0 bodies"):
-        convert.body_of_curve(bodies, 99)
+        assert convert.bodies_of_curve(bodies, tag) == [name]
+    assert list(bodies) == list(convert.read_bodies(mesh, ["*er"])) == ["upper", "lower"]  # by their tags
     with pytest.raises(StudyError, match="no physical surface 'middle'"):
         convert.read_bodies(mesh, ["middle"])
 
 
-def test_medit_keeps_every_digit(tmp_path):
-    body = convert.read_bodies(two_squares("triangle6"), ["upper"])["upper"]
-    convert.write_medit(body, tmp_path / "body.mesh")
-    again = meshio.read(tmp_path / "body.mesh")
-    np.testing.assert_array_equal(again.points, body.points)
-    np.testing.assert_array_equal(again.cells_dict["triangle"], body.triangles)
-    np.testing.assert_array_equal(again.cells_dict["line"], body.edges)
-    np.testing.assert_array_equal(again.cell_data_dict["medit:ref"]["line"], body.labels)
+def test_the_mesh_keeps_every_digit(tmp_path):
+    """Of two bodies: vertices, triangles and edges, numbered from 1, each with its reference."""
+    upper, lower = bodies = list(convert.read_bodies(two_squares("triangle6"), ["*"]).values())
+    convert.write_mesh(bodies, tmp_path / "bodies.msh")
+    counts, *lines = (tmp_path / "bodies.msh").read_text().splitlines()
+    assert counts == "8 4 8" and len(lines) == 20
+    rows = lambda first, last: np.array([list(map(float, line.split())) for line in lines[first:last]])
+    np.testing.assert_array_equal(rows(0, 8)[:, :2], np.concatenate([upper.points, lower.points]))
+    np.testing.assert_array_equal(rows(8, 12)[:, :3] - 1, np.concatenate([upper.triangles, lower.triangles + 4]))
+    np.testing.assert_array_equal(rows(8, 12)[:, 3], [0, 0, 1, 1])
+    np.testing.assert_array_equal(rows(12, 20)[:, :2] - 1, np.concatenate([upper.edges, lower.edges + 4]))
+    np.testing.assert_array_equal(rows(12, 20)[:, 2], np.concatenate([upper.labels, lower.labels]))
 
 
 def test_quadrilaterals_are_split_by_the_shorter_diagonal():
@@ -199,28 +213,52 @@ def test_middles_of_the_sides_as_vtk_numbers_them():
 
 def test_case_file_holds_the_physics_of_the_scene():
     """shrink_fit: two materials, a temperature change, symmetry planes."""
-    scene = scenes.read_scene(launch.ROOT / "geo/shrink_fit.toml")
+    scene = scenes.read_scene(launch.ROOT / "geo/shrink_fit.toml", {})
     tags = {"inner_cut_x": 2, "inner_contact": 3, "inner_cut_y": 4}
     tags |= {"outer_cut_x": 7, "outer_cut_y": 9, "outer_contact": 10}
     freefem = {"order": 2, "multipliers": "quadratic", "integration": "elements", "gauss": 3}
-    files = ["multiplier.mesh", "opposite.mesh"]
-    lines = scenes.case_text(scene, ["outer", "inner"], files, [10, 3], tags, freefem, "closed").splitlines()
+    lines = scenes.case_text(scene, ["outer", "inner"], [[10, 3]], tags, freefem, "closed").splitlines()
     strain = repr(12e-6 * -100)
-    assert lines[0] == "plane strain"
-    assert lines[1:3] == ["body multiplier.mesh 70000000000.0 0.3", "body opposite.mesh 210000000000.0 0.3"]
+    assert lines[:2] == ["plane strain", f"mesh {scenes.MESH}"]
+    assert lines[2:4] == ["body 70000000000.0 0.3", "body 210000000000.0 0.3"]
     assert lines[-1] == "end"
-    assert set(lines[3:-1]) == {
+    assert set(lines[4:-1]) == {
         "contact 10 3", "order 2", "multipliers 2", "integration elements", "gauss 3", "gap closed",
         "displacement 2 y 0.0", "displacement 7 y 0.0", "displacement 4 x 0.0", "displacement 9 x 0.0",
         f"initial_strain 0 {strain} {strain} {strain} 0.0",
     }  # fmt: skip
-    of_curves = scenes.case_text(scene, ["outer", "inner"], files, [10, 3], tags, freefem, "curve").splitlines()
+    of_curves = scenes.case_text(scene, ["outer", "inner"], [[10, 3]], tags, freefem, "curve").splitlines()
     assert set(of_curves) ^ set(lines) == {"gap closed", "gap given", f"points {scenes.POINTS}"}
 
 
-def test_scenes_with_several_pairs_are_refused():
-    with pytest.raises(StudyError, match="2 contact pairs"):
-        scenes.read_scene(launch.ROOT / "geo/stack.toml")
+def test_patterns_and_values_of_a_case():
+    """A body's own name counts before a pattern, and a case's value before the scene's."""
+    settings = {"materials.stone.young": 5, "bodies.brick_1_1": "stone", "boundary.0.displacement": {"y": 0}}
+    scene = scenes.read_scene(launch.ROOT / "geo/wall.toml", settings)
+    assert scenes.material_of(scene, "brick_1_1") == {"young": 5}
+    assert scenes.material_of(scene, "brick_1_2") == scene["materials"]["brick"]
+    assert scene["boundary"][0] == {"on": ["bottom"], "displacement": {"y": 0}}
+    assert run.inline(settings["boundary.0.displacement"]) == "{ y = 0 }"
+    bodies = ["brick_0_0", "brick_1_1"]
+    scene["materials"] = {name: {"young": young, "poisson": 0} for name, young in (("brick", 1), ("stone", 5))}
+    lines = list(scenes.body_lines(scene, bodies))
+    assert lines == ["body 1.0 0.0", "body 5.0 0.0", "body_force 0 0.0 -20000.0", "body_force 1 0.0 -20000.0"]
+
+
+def test_pairs_that_find_themselves():
+    """Of the upper square, above the lower one and shifted by a third: its lower edge, and none of the others."""
+    mesh = two_squares("triangle6")
+    mesh.points[9:, 1] -= 0.6  # which leaves a gap of 0.1
+    bodies, tags = convert.read_bodies(mesh, ["*"]), convert.curve_tags(mesh)
+    names = lambda scene, side: [(a.name, b.name) for a, b in scenes.contact_pairs(scene, side, bodies, tags)]
+    of = lambda first, second: {"contact": [{"between": [first, second]}]}
+    assert names(of("low", "high"), "high") == names(of("l*", "h*"), "second") == [("high", "low")]
+    assert names(of("*", "*"), "first") == [("high", "low")]  # the later one has the multipliers
+    mesh.points[9:, 1] += 0.5
+    bodies = convert.read_bodies(mesh, ["*"])
+    assert names(of("*", "*"), "first") == [] and names(of("low", "high"), "low") == [("low", "high")]
+    with pytest.raises(StudyError, match="between low and high"):
+        names(of("low", "high"), "other")
 
 
 # ---- The comparison: what each figure means, and that NaN and strange nodes do not pass ----
@@ -249,6 +287,23 @@ def test_largest_differences():
     assert found["pressure"] == pytest.approx(1e-2)
     assert found["energy"] == pytest.approx(1e-2)
     assert compare.largest_differences(made_up())["displacement"] == 0
+
+
+def test_free_bodies_are_compared_up_to_a_rigid_motion():
+    """A translation and a rotation go, a strain stays."""
+    moved, strained = (replace(made_up().fields[0]) for _ in range(2))
+    moved.freefem = moved.mortise + [0.1, -0.2] + 0.3 * np.stack([-POINTS[:, 1], POINTS[:, 0]], axis=1)
+    strained.freefem = moved.freefem + [0.01, 0] * POINTS
+    assert np.abs(compare.without_rigid_difference(moved).freefem - moved.mortise).max() < 1e-15
+    assert np.abs(compare.without_rigid_difference(strained).freefem - moved.mortise).max() > 5e-3
+
+
+def test_round_off_is_no_pressure():
+    found = made_up()
+    found.curve.mortise[3], found.curve.freefem[3] = 0, 2e-12
+    assert compare.largest_differences(found)["active"] == 0
+    found.curve.freefem[3] = 4e-12
+    assert compare.largest_differences(found)["active"] == 1
 
 
 def test_mean_differences():

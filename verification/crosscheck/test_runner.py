@@ -12,6 +12,7 @@ import contact_points
 import crosscheck
 import launch
 import run
+import scene as scenes
 from judge import judge
 
 CASES = {
@@ -149,6 +150,12 @@ def test_what_is_wrong_is_caught(replace, tmp_path, name, wrong, least):
     assert result.status == "failed", result.message
     assert min(figures["displacement"], figures["pressure"]) > LIMIT
     assert max(figures["displacement"], figures["pressure"]) > least
+
+
+def test_a_pair_that_one_program_does_not_know_is_told(replace, tmp_path):
+    replace(scenes, "contact_pairs", lambda old, *arguments: list(old(*arguments))[1:])
+    result = judged("same_discretisation/wall/3x3/P1-P1/segments/first/feti", tmp_path)
+    assert result.status == "error" and "[('brick_0_1_left', 'brick_0_0_right')] is known to one program only" in result.message
 
 
 def test_results_of_another_mesh_are_refused(replace, tmp_path):

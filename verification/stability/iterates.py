@@ -61,7 +61,7 @@ def freefem_iterates(case, folder):
     """Places of the multipliers, r_1 to r_STEPS at them (fewer if it has converged), and the force residuals."""
     beta = case["beta"]
     run.call_freefem(SCRIPT, "-beta", repr(beta), "-steps", STEPS + 1, folder=folder, expected=(0, 2))
-    places = np.loadtxt(folder / "freefem_contact.txt", ndmin=2)[:, :2]
+    places = np.loadtxt(folder / "freefem_contact.txt", ndmin=2)[:, 1:3]
     history = np.loadtxt(folder / "freefem_history.txt", ndmin=2)
     l, converged = history[:, 3:], history[-1, 1:3].max() < 1e-8
     if l.shape[1] != len(places) or not (len(l) == STEPS + 1 or len(l) > 1 and converged):
