@@ -9,33 +9,37 @@
 namespace mortise::scene_file {
 namespace {
 
-/// The material that is stiffest, as the node of its Young's modulus.
-const Node& largest_young(const Node& root) {
-  const Node* largest = nullptr;
-  for (const Node& material : find(root, "materials")->items) {
-    const Node* young = find(material, "young");
-    if (largest == nullptr || young->number > largest->number) largest = young;
-  }
-  return *largest;
+/// The largest Young's modulus, and where it is written.
+struct Stiffest {
+  double young = 0;
+  const Node* node = nullptr;
+};
+
+Stiffest stiffest(const Node& root, const Scene& scene) {
+  Stiffest found;
+  for (const Node& material : find(root, "materials")->items)
+    if (const double young = scene.materials.at(material.name).young; young > found.young) {
+      const Node* node = find(material, "young");
+      found = {young, node != nullptr ? node : find(material, "stiffness")};
+    }
+  return found;
 }
 
 /// Small strains cannot hold under a load larger than every Young's modulus: rather 1e6 is missing somewhere. The same
 /// of an expression is told where its value is.
-FieldUse load_use(const Node& root) {
-  const Node& young = largest_young(root);
+FieldUse load_use(const Stiffest& most) {
   return {.key = {},
           .on_curve = true,
-          .largest = young.number,
-          .limit = "a load below every Young's modulus (the largest is " + describe(young) + ", " + locate(young) +
-                   "); probably a unit mismatch"};
+          .largest = most.young,
+          .limit = "a load below every Young's modulus (the largest is " + describe(*most.node) + ", " +
+                   locate(*most.node) + "); probably a unit mismatch"};
 }
 
-void check_load(const Node& load, double size, const Node& root) {
-  const Node& young = largest_young(root);
-  if (size <= young.number) return;
-  fail(blame(young, load).place, load.path,
-       "expected a load below every Young's modulus (the largest is " + describe(young) + ", " + locate(young) +
-           "), found " + describe(load) + "; probably a unit mismatch");
+void check_load(const Node& load, double size, const Stiffest& most) {
+  if (size <= most.young) return;
+  fail(blame(*most.node, load).place, load.path,
+       "expected a load below every Young's modulus (the largest is " + describe(*most.node) + ", " +
+           locate(*most.node) + "), found " + describe(load) + "; probably a unit mismatch");
 }
 
 void read_displacement(const Node& node, BoundarySpec& boundary) {
@@ -46,16 +50,16 @@ void read_displacement(const Node& node, BoundarySpec& boundary) {
   if (const Node* y = find(node, "y")) boundary.displacement_y = field(*y, use);
 }
 
-void read_what(const Node& what, const Node& root, BoundarySpec& boundary) {
+void read_what(const Node& what, const Stiffest& most, BoundarySpec& boundary) {
   if (what.name == "displacement") {
     read_displacement(what, boundary);
   } else if (what.name == "pressure") {
-    boundary.pressure = field(what, load_use(root));
-    if (boundary.pressure->is_constant()) check_load(what, std::abs(boundary.pressure->constant()), root);
+    boundary.pressure = field(what, load_use(most));
+    if (boundary.pressure->is_constant()) check_load(what, std::abs(boundary.pressure->constant()), most);
   } else if (what.name == "traction") {
-    boundary.traction = field_pair(what, load_use(root));
+    boundary.traction = field_pair(what, load_use(most));
     for (const Field& t : {boundary.traction->x, boundary.traction->y})
-      if (t.is_constant()) check_load(what, std::abs(t.constant()), root);
+      if (t.is_constant()) check_load(what, std::abs(t.constant()), most);
   } else if (what.name == "force") {
     boundary.force = number_pair(what);
   } else if (what.kind == Node::Kind::list) {
@@ -86,6 +90,7 @@ void check_once(const Node& entry, const Node& what, const std::vector<const Nod
 
 void read_boundaries(const Node& root, Scene& scene) {
   Once once;
+  const Stiffest most = stiffest(root, scene);
   for (const Node* entry : entries(root, "boundary")) {
     expect_keys(*entry, {"on", "displacement", "pressure", "traction", "force", "foundation"});
     BoundarySpec boundary;
@@ -93,7 +98,7 @@ void read_boundaries(const Node& root, Scene& scene) {
     const std::vector<const Node*> curves = names(require(*entry, "on", "the names of physical curves"));
     for (const Node* curve : curves) boundary.on.push_back(curve->text);
     const Node& what = exactly_one(*entry, {"displacement", "pressure", "traction", "force", "foundation"});
-    read_what(what, root, boundary);
+    read_what(what, most, boundary);
     check_once(*entry, what, curves, once);
     scene.boundaries.push_back(boundary);
   }

@@ -91,7 +91,9 @@ TEST(Materials, OrthotropicOnesAndAnyStiffness) {
     const TemporaryFolder folder;
     folder.write("block.msh", "");
     return read_scene(folder.write("a.toml",
-                                   "mesh.file = 'block.msh'\nbodies.block = 'steel'\n[materials.steel]\n" + material))
+                                   "mesh.file = 'block.msh'\nbodies.block = 'steel'\nboundary = [{ on = 'top', "
+                                   "pressure = 2 }]\n[materials.steel]\n" +
+                                       material))
         .materials.at("steel");
   };
   const Material wood = steel("young = [12e9, 1e9, 0.8e9]\npoisson = [0.4, 0.35, 0.5]\nshear = 0.7e9\nangle = 30\n");

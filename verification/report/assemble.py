@@ -20,7 +20,7 @@ sys.path.insert(0, str(ROOT / "verification/common"))
 import figure
 import page
 
-STUDIES = ["crosscheck", "preprint", "chart", "stability", "accuracy"]  # below out/, each made by ./dev NAME
+STUDIES = ["exact", "crosscheck", "preprint", "chart", "stability", "accuracy"]  # below out/, each made by ./dev NAME
 MOST_BYTES = 3_000_000
 PICTURE = re.compile(r'<img src="([^"]+)"')
 
