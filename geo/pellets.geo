@@ -6,6 +6,7 @@ DefineConstant[
   pellets = {10, Name "pellets"},
   n = {6, Name "elements along a pellet's radius"},
   order = {2, Name "order of the elements"},
+  whole_faces = {0, Name "faces of 0: what touches at first, 1: with the dish"},
   kind = {0, Name "cladding of 0: quadrilaterals, 1: triangles"}
 ];
 radius = 4; height = 8; gap = 0.02; thickness = 0.6; dish = 0.02; chamfer = 0.3;
@@ -29,15 +30,19 @@ For k In {0 : pellets - 1}
   Physical Surface(Sprintf("pellet_%g", k)) = {s};
   Physical Curve(Sprintf("pellet_%g_side", k)) = {c + 3};
   axis[] += c + 7;
+  low[] = {c + 1}; high[] = {c + 5};
+  If (whole_faces)
+    low[] += c; high[] += c + 6;
+  EndIf
   If (k == 0)
-    Physical Curve("bottom") = {c + 1};
+    Physical Curve("bottom") = {low[]};
   Else
-    Physical Curve(Sprintf("pellet_%g_bottom", k)) = {c + 1};
+    Physical Curve(Sprintf("pellet_%g_bottom", k)) = {low[]};
   EndIf
   If (k == pellets - 1)
-    Physical Curve("top") = {c + 5};
+    Physical Curve("top") = {high[]};
   Else
-    Physical Curve(Sprintf("pellet_%g_top", k)) = {c + 5};
+    Physical Curve(Sprintf("pellet_%g_top", k)) = {high[]};
   EndIf
 EndFor
 Physical Curve("axis") = {axis[]};
