@@ -44,7 +44,7 @@ void read_bodies(const Node& root, Scene& scene) {
     scene.materials[node.name] = read_material(node);
     if (!scene.gravity || find(node, "density") != nullptr) continue;
     const Node& gravity = *find(*find(root, "model"), "gravity");
-    fail(blame(node, gravity), "'density' of the material '" + node.name +
+    fail(blame(gravity, node), "'density' of the material '" + node.name +
                                    "' is missing; expected one, as there is gravity (" + locate(gravity) + ")");
   }
   const Node& bodies = require(root, "bodies", "a table [bodies] with entries surface = \"material\"");

@@ -131,7 +131,7 @@ body_force = [{ body = "lower", force = ["3 * y", "-x"] }]
   double moment = 0;
   for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i)
     moment += mesh.nodes(i, 0) * d.system.f(2 * i + 1) - mesh.nodes(i, 1) * d.system.f(2 * i);
-  EXPECT_NEAR(moment, -8.0 / 3 - 2, 1e-13);  // int of -x^2 - 3 y^2
+  EXPECT_NEAR(moment, -8.0 / 3 - 2, 1e-13);  // int of -x^2 - 3 y^2, which the rule of the cells integrates
 }
 
 TEST(FunctionsOfPlace, GravityIsABodyForceByDensity) {
@@ -151,7 +151,7 @@ TEST(FunctionsOfPlace, GravityIsABodyForceByDensity) {
   expect_contains(model_lines(gravity, a), "  load      gravity (0, -10), in sum (0, -16)\n");
   expect_contains(
       message_of([&] { scene_of(folder, "0.3", "model.gravity = [0, -10]\n"); }),
-      "model.gravity: 'density' of the material 'm' is missing; expected one, as there is gravity (model.gravity");
+      "materials.m: 'density' of the material 'm' is missing; expected one, as there is gravity (model.gravity");
 }
 
 // Modulus k (1 + x) under a pressure q (1 + x), nu = 0: the bottom sinks by q/k all along, and the bodies are strained
