@@ -115,6 +115,7 @@ CheckedScene check_scene(const Scene& scene) {
   return told_with_path(scene, [&] {
     CheckedScene checked{scene_mesh(scene), {}, {}, {}};
     checked.discretisation = discretise(scene, checked.mesh);
+    locate_probes(scene, checked.mesh);
     const std::vector<ContactCurves> curves = contact_curves(scene, checked.mesh);
     Contact contact =
         add_contact(scene, checked.mesh, curves, dirichlet_roles(scene, checked.mesh, checked.discretisation, curves),
@@ -164,6 +165,7 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   stage("assemble");
   r.points = body_points(r.mesh);
   r.discretisation = discretise(scene, r.mesh);
+  const std::vector<ProbePlace> probes = locate_probes(scene, r.mesh);
   if (adjust) adjust(r.mesh, r.discretisation);
   SaddlePointSystem& system = r.discretisation.system;
   r.seconds.assemble = watch.lap();
@@ -200,6 +202,9 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   for (const ContactPair& pair : r.pairs)
     r.contacts.push_back(contact_results(r.mesh, pair, system.constraints, r.points, r.stress, u,
                                          r.solution.lambda.segment(pair.first_row, pair.coupling.B.rows())));
+  r.probes = probe_values(scene, r.mesh, r.points, r.discretisation.laws, u, r.stress, probes);
+  r.extremes = find_extremes(r.mesh, r.points, r.stress, r.contacts);
+  r.reactions = find_reactions(scene, r.mesh, r.discretisation, r.solution);
   r.checks = checks(scene, r);
   r.status = verdict(r);
   append(r.warnings, warnings(scene, r));

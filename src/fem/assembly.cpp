@@ -232,10 +232,10 @@ double add_cell_strains(const Mesh& mesh, const std::vector<ElasticLaw>& laws, V
 }
 
 template <CellKind kind>
-Vec2 add_cell_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, VecX& load) {
+void add_cell_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, VecX& load,
+                     Resultant& sum) {
   const CellTable<kind> table = cell_table<kind>();
   CellGradients<kind> g;
-  Vec2 sum = Vec2::Zero();
   for (const Cell& cell : mesh.cells) {
     if (cell.kind != kind || !forces[cell.body]) continue;
     const CellPoints<kind> nodes = nodes_of<kind>(mesh.nodes, cell);
@@ -244,10 +244,9 @@ Vec2 add_cell_forces(const Mesh& mesh, const Model& model, const std::vector<Bod
       const Vec2 x = (table.N.row(q) * nodes).transpose();
       const Vec2 force = g.dA(q) * model.depth(x.x()) * forces[cell.body](x);
       for (int a = 0; a < n<kind>; ++a) load.segment<2>(2 * cell.nodes[a]) += table.N(q, a) * force;
-      sum += force;
+      sum.add(x, force);
     }
   }
-  return sum;
 }
 
 }  // namespace
@@ -266,30 +265,16 @@ double add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws,
   return energy;
 }
 
-Vec2 add_body_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, VecX& load) {
-  Vec2 sum = Vec2::Zero();
-  for_each_kind([&]<CellKind kind>() { sum += add_cell_forces<kind>(mesh, model, forces, load); });
+Resultant add_body_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, VecX& load) {
+  Resultant sum;
+  for_each_kind([&]<CellKind kind>() { add_cell_forces<kind>(mesh, model, forces, load, sum); });
   return sum;
 }
 
-VecX body_areas(const Mesh& mesh) {
-  VecX areas = VecX::Zero(mesh.bodies.size());
-  for_each_kind([&]<CellKind kind>() {
-    const CellTable<kind> table = cell_table<kind>();
-    CellGradients<kind> g;
-    for (const Cell& cell : mesh.cells) {
-      if (cell.kind != kind) continue;
-      cell_gradients(nodes_of<kind>(mesh.nodes, cell), table, g);
-      areas(cell.body) += g.dA.sum();
-    }
-  });
-  return areas;
-}
-
-Vec2 add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides, const Traction& traction,
-                  VecX& load, int gauss_points) {
+Resultant add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
+                       const Traction& traction, VecX& load, int gauss_points) {
   const LineRule rule = gauss_legendre(gauss_points);
-  Vec2 sum = Vec2::Zero();
+  Resultant sum;
   for (const CellSide& at : sides) {
     const Edge edge = side_edge(mesh.cells[at.cell], at.side);
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
@@ -297,7 +282,7 @@ Vec2 add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSi
       const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);
       const Vec2 t = rule.weights[q] * p.jacobian() * model.depth(p.position.x()) * traction(p.position, p.normal());
       for (int a = 0; a < edge.node_count; ++a) load.segment<2>(2 * edge.nodes[a]) += s.N[a] * t;
-      sum += t;
+      sum.add(p.position, t);
     }
   }
   return sum;

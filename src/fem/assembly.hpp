@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/resultant.hpp"
 #include "fem/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -20,18 +21,14 @@ double add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws,
 /// A force per volume as a function of the place; empty: none.
 using BodyForce = std::function<Vec2(const Vec2& position)>;
 
-/// load += int N b over the bodies, one b a body. Returns their sum, force.
-Vec2 add_body_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, VecX& load);
-
-/// Of each body, length^2.
-VecX body_areas(const Mesh& mesh);
+/// load += int N b over the bodies, one b a body. Returns their sum.
+Resultant add_body_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, VecX& load);
 
 /// Traction (force per area) on a boundary as a function of the place and the outward unit normal.
 using Traction = std::function<Vec2(const Vec2& position, const Vec2& normal)>;
 
-/// load += int N t over the sides of a boundary (mesh/side_table.hpp). `gauss_points` an edge. Returns their sum,
-/// force.
-Vec2 add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides, const Traction& traction,
-                  VecX& load, int gauss_points = 4);
+/// load += int N t over the sides of a boundary (mesh/side_table.hpp). `gauss_points` an edge. Returns their sum.
+Resultant add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
+                       const Traction& traction, VecX& load, int gauss_points = 4);
 
 }  // namespace mortise

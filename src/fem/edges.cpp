@@ -44,4 +44,17 @@ double curve_length(const Points& nodes, const Curve& curve) {
   return length;
 }
 
+Vec2 centre_of(const Points& nodes, const std::vector<Edge>& edges) {
+  Vec2 sum = Vec2::Zero();
+  double length = 0;
+  const LineRule rule = gauss_legendre(2);
+  for (const Edge& edge : edges)
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const EdgePoint p = edge_point(nodes, edge, rule.points[q]);
+      sum += rule.weights[q] * p.jacobian() * p.position;
+      length += rule.weights[q] * p.jacobian();
+    }
+  return sum / length;
+}
+
 }  // namespace mortise

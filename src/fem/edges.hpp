@@ -42,4 +42,7 @@ double length_to(const Points& nodes, const Edge& edge, double xi);
 double edge_length(const Points& nodes, const Edge& edge);
 double curve_length(const Points& nodes, const Curve& curve);
 
+/// Mean place of edges along their length.
+Vec2 centre_of(const Points& nodes, const std::vector<Edge>& edges);
+
 }  // namespace mortise

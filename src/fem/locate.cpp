@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <map>
 
 namespace mortise {
 namespace {
@@ -15,6 +16,19 @@ Vec2 into_cell(CellKind kind, const Vec2& xi) {
   if (sum <= 1) return inside;
   const double first = std::clamp((1 + inside(0) - inside(1)) / 2, 0.0, 1.0);  // on the side from (1, 0) to (0, 1)
   return {first, 1 - first};
+}
+
+Box box_of(const Mesh& mesh, const Cell& cell) {
+  Box box;
+  for (int a = 0; a < node_count(cell.kind); ++a) box.extend(mesh.nodes.row(cell.nodes[a]).transpose());
+  return box;
+}
+
+// The box of a cell and of all that may lie beside it.
+Box reach_of(const Mesh& mesh, const Cell& cell) {
+  const Box box = box_of(mesh, cell);
+  const Vec2 margin = Vec2::Constant(reach * box.diagonal().norm());
+  return {box.min() - margin, box.max() + margin};
 }
 
 // Newton's method, held to the cell at each step.
@@ -44,17 +58,35 @@ std::optional<CellPlace> locate(const Mesh& mesh, int body, const Vec2& x) {
   for (int e = 0; e < int(mesh.cells.size()); ++e) {
     const Cell& cell = mesh.cells[e];
     if (cell.body != body) continue;
-    Vec2 low = mesh.nodes.row(cell.nodes[0]).transpose(), high = low;
-    for (int a = 1; a < node_count(cell.kind); ++a) {
-      low = low.cwiseMin(mesh.nodes.row(cell.nodes[a]).transpose());
-      high = high.cwiseMax(mesh.nodes.row(cell.nodes[a]).transpose());
-    }
-    const double allowed = reach * (high - low).norm();
-    if (((x - low).array() < -allowed).any() || ((x - high).array() > allowed).any()) continue;
+    if (!reach_of(mesh, cell).contains(x)) continue;
     const CellPlace place = nearest_in(mesh, e, x);
-    if (place.distance <= allowed && (!nearest || place.distance < nearest->distance)) nearest = place;
+    if (place.distance <= reach * cell_size(mesh, e) && (!nearest || place.distance < nearest->distance))
+      nearest = place;
   }
   return nearest;
+}
+
+double cell_size(const Mesh& mesh, int cell) { return box_of(mesh, mesh.cells[cell]).diagonal().norm(); }
+
+CellFinder::CellFinder(const Mesh& mesh)
+    : mesh_(mesh), cells_([&] {
+        std::vector<Box> boxes;
+        for (const Cell& cell : mesh.cells) boxes.push_back(reach_of(mesh, cell));
+        return boxes;
+      }()) {}
+
+std::vector<CellPlace> CellFinder::around(const Vec2& x) const {
+  std::map<int, CellPlace> nearest;  // of each body
+  for (const int e : cells_.meeting(Box(x))) {
+    const CellPlace place = nearest_in(mesh_, e, x);
+    if (place.distance > reach * cell_size(mesh_, e)) continue;
+    const auto [found, is_new] = nearest.try_emplace(mesh_.cells[e].body, place);
+    if (!is_new && place.distance < found->second.distance) found->second = place;
+  }
+  std::vector<CellPlace> places;
+  for (const auto& [body, place] : nearest) places.push_back(place);
+  std::ranges::stable_sort(places, {}, &CellPlace::distance);
+  return places;
 }
 
 }  // namespace mortise

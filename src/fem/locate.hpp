@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "fem/elements.hpp"
+#include "mesh/box_index.hpp"
 
 namespace mortise {
 
@@ -16,5 +17,21 @@ struct CellPlace {
 /// The cell of a body that has x, or, where the boundary's edges miss it, the one that comes nearest; nothing where x
 /// is further from all than a tenth of their size.
 std::optional<CellPlace> locate(const Mesh& mesh, int body, const Vec2& x);
+
+/// The same of many places, in all bodies.
+class CellFinder {
+ public:
+  explicit CellFinder(const Mesh& mesh);
+
+  /// Of each body that has x, or comes nearest, its cell, by the distance of it.
+  std::vector<CellPlace> around(const Vec2& x) const;
+
+ private:
+  const Mesh& mesh_;
+  BoxIndex cells_;
+};
+
+/// Diagonal of the box round a cell.
+double cell_size(const Mesh& mesh, int cell);
 
 }  // namespace mortise

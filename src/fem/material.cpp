@@ -80,4 +80,15 @@ double von_mises(const Vec4& s) {
   return std::sqrt((a * a + b * b + c * c) / 2 + 3 * s(3) * s(3));
 }
 
+Vec4 in_turned_axes(const Vec4& s, double angle) {
+  const double mean = (s(0) + s(1)) / 2, half = (s(0) - s(1)) / 2, c = std::cos(2 * angle), d = std::sin(2 * angle);
+  const double turned = c * half + d * s(3);
+  return {mean + turned, mean - turned, s(2), c * s(3) - d * half};
+}
+
+PrincipalStresses principal_stresses(const Vec4& s) {
+  const double mean = (s(0) + s(1)) / 2, radius = std::hypot((s(0) - s(1)) / 2, s(3));
+  return {std::min(mean - radius, s(2)), std::max(mean + radius, s(2))};
+}
+
 }  // namespace mortise

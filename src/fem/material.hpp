@@ -46,4 +46,13 @@ double contact_modulus(const ElasticLaw& law);
 /// sqrt(3/2 s:s), s the deviator of (11, 22, 33, 12).
 double von_mises(const Vec4& stress);
 
+/// The stress (11, 22, 33, 12) in axes that are turned counter-clockwise by an angle, radians.
+Vec4 in_turned_axes(const Vec4& stress, double angle);
+
+/// The smallest and the largest of the three principal stresses of (11, 22, 33, 12), tension positive.
+struct PrincipalStresses {
+  double smallest, largest;
+};
+PrincipalStresses principal_stresses(const Vec4& stress);
+
 }  // namespace mortise

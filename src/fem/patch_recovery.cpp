@@ -236,6 +236,10 @@ Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, 
   return sum;
 }
 
+Vec4 whole_stress(const std::vector<ElasticLaw>& laws, int body, const Eigen::RowVectorXd& recovered, const Vec2& x) {
+  return all_components(laws[body], recovered, 0, components(laws)) + laws[body].stress0(x);
+}
+
 ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
                              const MatX& fields, const StressPatches& patches) {
   struct Rule {

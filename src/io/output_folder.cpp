@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 namespace {
 
 /// All that mortise ever writes. Add a new output here: what is not listed is taken for the user's and carried over.
-constexpr std::array<std::string_view, 6> own_files{"result.vtu",          "contact.vtu",   "contact.csv",
-                                                    "contact_centres.csv", "iteration.csv", "summary.json"};
+constexpr std::array<std::string_view, 7> own_files{
+    "result.vtu", "contact.vtu", "contact.csv", "contact_centres.csv", "iteration.csv", "probes.csv", "summary.json"};
 constexpr std::string_view staging_suffix = ".mortise";
 
 bool is_listed(const std::string& name) {

@@ -63,15 +63,15 @@ Vec2 traction_of_force(const Mesh& mesh, const Model& model, const BoundarySpec&
   VecX unused = VecX::Zero(2 * mesh.nodes.rows());
   const auto unit = [](const Vec2&, const Vec2&) -> Vec2 { return Vec2::UnitX(); };
   double area = 0;
-  for (const NamedBoundary& on : boundaries) area += add_traction(mesh, model, on.sides, unit, unused).x();
+  for (const NamedBoundary& on : boundaries) area += add_traction(mesh, model, on.sides, unit, unused).force.x();
   if (!(area > 0)) throw SceneError(spec.key + ".force: its curves have no length; expected some to put the force on");
   return *spec.force / area;
 }
 
-Vec2 add_loads(const Mesh& mesh, const Model& model, const BoundarySpec& spec,
-               const std::vector<NamedBoundary>& boundaries, VecX& f) {
+Resultant add_loads(const Mesh& mesh, const Model& model, const BoundarySpec& spec,
+                    const std::vector<NamedBoundary>& boundaries, VecX& f) {
   const Vec2 of_force = spec.force ? traction_of_force(mesh, model, spec, boundaries) : Vec2::Zero();
-  Vec2 sum = Vec2::Zero();
+  Resultant sum;
   for (const NamedBoundary& on : boundaries)
     for_each_piece(on, [&](const std::vector<CellSide>& sides, const auto& s) {
       const Traction traction = [&](const Vec2& x, const Vec2& n) -> Vec2 {
@@ -107,15 +107,15 @@ void add_springs(const Mesh& mesh, const Model& model, const BoundarySpec& spec,
 
 }  // namespace
 
-Vec2 apply(const Mesh& mesh, const Model& model, const SideTable& table, const SceneNames& names,
-           const BoundarySpec& spec, SaddlePointSystem& system, std::vector<Eigen::Triplet<double>>& springs) {
+Resultant apply(const Mesh& mesh, const Model& model, const SideTable& table, const SceneNames& names,
+                const BoundarySpec& spec, SaddlePointSystem& system, std::vector<Eigen::Triplet<double>>& springs) {
   const std::vector<NamedBoundary> boundaries = boundaries_of(mesh, table, names, spec);
   for (const NamedBoundary& on : boundaries) {
     prescribe(mesh, on, 0, spec.displacement_x, system.constraints);
     prescribe(mesh, on, 1, spec.displacement_y, system.constraints);
     if (spec.is_foundation()) add_springs(mesh, model, spec, on, springs);
   }
-  return spec.is_load() ? add_loads(mesh, model, spec, boundaries, system.f) : Vec2::Zero();
+  return spec.is_load() ? add_loads(mesh, model, spec, boundaries, system.f) : Resultant();
 }
 
 }  // namespace mortise

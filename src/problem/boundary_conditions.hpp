@@ -1,6 +1,7 @@
 // What a [[boundary]] entry does to the equations: prescribed displacements, loads, foundations.
 #pragma once
 
+#include "base/resultant.hpp"
 #include "fem/foundation.hpp"
 #include "mesh/side_table.hpp"
 #include "problem/scene_names.hpp"
@@ -12,7 +13,7 @@ namespace mortise {
 /// Adds the entry's prescribed displacements and loads to the system, and the stiffness of its foundation to `springs`.
 /// Returns the sum of the forces that it makes. Throws InputError where the mesh does not have its
 /// curves, two values are prescribed at one node, or a field has no value.
-Vec2 apply(const Mesh& mesh, const Model& model, const SideTable& table, const SceneNames& names,
-           const BoundarySpec& spec, SaddlePointSystem& system, std::vector<Eigen::Triplet<double>>& springs);
+Resultant apply(const Mesh& mesh, const Model& model, const SideTable& table, const SceneNames& names,
+                const BoundarySpec& spec, SaddlePointSystem& system, std::vector<Eigen::Triplet<double>>& springs);
 
 }  // namespace mortise

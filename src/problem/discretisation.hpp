@@ -14,11 +14,10 @@ struct Discretisation {
   SaddlePointSystem system;      ///< of the bodies; contact adds its rows (contact_pair.hpp)
   VecX initial_load;             ///< the part of system.f that initial strains make
   double initial_energy = 0;     ///< of the initial strains held at zero strain
-  /// Sums of the nodal forces of each of Scene::boundaries (zero of prescribed displacements) and of
-  /// Scene::body_forces.
-  std::vector<Vec2> boundary_sums, body_sums;
-  Vec2 weight = Vec2::Zero();  ///< of all bodies, by Scene::gravity
-  SparseMatrix springs;        ///< the part of system.K that foundations make; without any it has no columns
+  /// Sums of the forces of each of Scene::boundaries (zero of prescribed displacements) and of Scene::body_forces.
+  std::vector<Resultant> boundary_sums, body_sums;
+  Resultant weight;      ///< of all bodies, by Scene::gravity
+  SparseMatrix springs;  ///< the part of system.K that foundations make; without any it has no columns
 };
 
 /// Throws SceneError where the scene names a body or boundary that the mesh does not have, leaves a body without

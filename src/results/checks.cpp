@@ -8,17 +8,22 @@
 namespace mortise {
 namespace {
 
-// Force and moment of nodal forces, and the sum of their sizes.
-struct Resultant {
-  Vec2 force = Vec2::Zero();
-  double moment = 0, size = 0;
-
-  void add(const Vec2& at, const Vec2& f) {
-    force += f;
-    moment += at.x() * f.y() - at.y() * f.x();
-    size += f.norm();
-  }
+// What is left of a sum of forces, relative.
+struct LeftOver {
+  double force, moment;
 };
+
+// Of a sum about the middle of what the forces act on, `diagonal` in size; `size`: sum of their sizes. Of rings only
+// what acts along the axis is in balance: radial forces and moments strain them.
+LeftOver left_over(const Results& r, const Resultant& sum, double size, double diagonal) {
+  if (r.discretisation.model.axisymmetric()) return {fraction(std::abs(sum.force.y()), size), 0};
+  return {fraction(sum.force.norm(), size), fraction(std::abs(sum.moment), size * diagonal)};
+}
+
+// Forces smaller than this are round-off of stiffness times displacement.
+double rigid_force(const Results& r) {
+  return rigid_part * r.discretisation.system.stiffness_scale * largest_entry(r.solution.u);
+}
 
 // Nodes of each body, those of bodies that hang together as one: their common nodes' forces belong to both.
 std::vector<std::vector<int>> nodes_of_bodies(const Results& r) {
@@ -34,19 +39,11 @@ std::vector<std::vector<int>> nodes_of_bodies(const Results& r) {
   return nodes;
 }
 
-// Largest out-of-balance force and moment of any body, over the sum of the forces on it (times its size). Of rings the
-// force along the axis: radial ones and moments strain them.
+// Largest out-of-balance force and moment of any body, over the sum of the forces on it (times its size).
 void balance_of_bodies(const Results& r, double limit, std::vector<Check>& checks) {
   const SaddlePointSystem& s = r.discretisation.system;
-  const VecX contact = -(s.B.transpose() * r.solution.lambda);
-  const VecX springs = spring_forces(r.discretisation, r.solution.u);
-  VecX forces = s.f + contact + springs;
-  const VecX Ku = s.K.selfadjointView<Eigen::Lower>() * r.solution.u + springs;
-  for (Eigen::Index i = 0; i < forces.size(); ++i)
-    if (s.constraints.fixed[i]) forces(i) = Ku(i);  // load + contact + reaction
-  const bool rings = r.discretisation.model.axisymmetric();
-  double force = 0, moment = 0;
-  const double rigid = rigid_part * s.stiffness_scale * largest_entry(r.solution.u);
+  const VecX forces = s.f - s.B.transpose() * r.solution.lambda + r.reactions.nodal;
+  LeftOver worst{0, 0};
   for (const std::vector<int>& nodes : nodes_of_bodies(r)) {
     if (nodes.empty()) continue;  // counted with another body
     Vec2 low(1e300, 1e300), high(-1e300, -1e300);
@@ -55,16 +52,30 @@ void balance_of_bodies(const Results& r, double limit, std::vector<Check>& check
       high = high.cwiseMax(r.mesh.nodes.row(node).transpose());
     }
     Resultant sum;
-    for (const int node : nodes) {
-      const Vec2 on_node = forces.segment<2>(2 * node);
-      sum.add(r.mesh.nodes.row(node).transpose() - (low + high) / 2, rings ? Vec2(0, on_node.y()) : on_node);
-    }
-    const double size = largest(sum.size, rigid);
-    force = largest(force, fraction(sum.force.norm(), size));
-    moment = largest(moment, fraction(std::abs(sum.moment), size * (high - low).norm()));
+    for (const int node : nodes)
+      sum.add(r.mesh.nodes.row(node).transpose() - (low + high) / 2, forces.segment<2>(2 * node));
+    const LeftOver left = left_over(r, sum, largest(sum.size, rigid_force(r)), (high - low).norm());
+    worst = {largest(worst.force, left.force), largest(worst.moment, left.moment)};
   }
-  checks.push_back({"force balance of each body", force, limit});
-  if (!rings) checks.push_back({"moment balance of each body", moment, limit});
+  checks.push_back({"force balance of each body", worst.force, limit});
+  if (!r.discretisation.model.axisymmetric()) checks.push_back({"moment balance of each body", worst.moment, limit});
+}
+
+// Loads and reactions of all bodies, over the sizes of all forces, those of contact too.
+void balance_of_all(const Results& r, double limit, std::vector<Check>& checks) {
+  const SaddlePointSystem& s = r.discretisation.system;
+  const VecX contact = s.B.transpose() * r.solution.lambda;
+  const Vec2 low = r.mesh.nodes.colwise().minCoeff(), high = r.mesh.nodes.colwise().maxCoeff();
+  Resultant sum;
+  double contact_size = 0;
+  for (Eigen::Index i = 0; i < r.mesh.nodes.rows(); ++i) {
+    const Vec2 arm = r.mesh.nodes.row(i).transpose() - (low + high) / 2;
+    sum.add(arm, s.f.segment<2>(2 * i));
+    sum.add(arm, r.reactions.nodal.segment<2>(2 * i));
+    contact_size += contact.segment<2>(2 * i).norm();
+  }
+  const LeftOver left = left_over(r, sum, largest(sum.size + contact_size, rigid_force(r)), (high - low).norm());
+  checks.push_back({balance_check, largest(left.force, left.moment), limit});
 }
 
 // What the contact puts on both sides of a pair, together: it must vanish.
@@ -173,6 +184,7 @@ std::vector<Check> checks(const Scene& scene, const Results& r) {
   std::vector<Check> list{{"residual of the forces", s.force_residual, s.force_tolerance},
                           {"residual of the contact condition", s.constraint_residual, s.constraint_tolerance}};
   balance_of_bodies(r, std::max(1e-9, 10 * s.force_tolerance), list);
+  balance_of_all(r, s.iteration ? std::max(1e-10, 10 * s.force_tolerance) : 1e-10, list);
   balance_of_contact(r, list);
   coverage_check(scene, r, list);
   unilateral_checks(r, std::max(s.constraint_tolerance, 1e-9), list);

@@ -5,6 +5,9 @@
 
 namespace mortise {
 
+/// The sum of reactions and loads, which the terminal tells of every scene.
+inline constexpr const char* balance_check = "reactions and loads sum to zero";
+
 /// Of a run that has all but checks and warnings.
 std::vector<Check> checks(const Scene& scene, const Results& results);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/resultant.hpp"
 #include "fem/edges.hpp"
 #include "results/contact_length.hpp"
 
@@ -221,8 +222,13 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
   }
   r.length_in_contact = length_in_contact(mesh.nodes, pair, r.pressure);
   const std::map<int, Vec2> forces = contact_forces(pair.coupling, lambda);
+  Resultant sum;
   for (const CurveNode& at : along)
-    if (const auto force = forces.find(at.node); force != forces.end()) r.force += force->second;
+    if (const auto force = forces.find(at.node); force != forces.end())
+      sum.add(mesh.nodes.row(at.node).transpose(), force->second);
+  r.force = sum.force;
+  r.moment = sum.moment;
+  r.centre = centre_of(mesh.nodes, pair.multiplier.edges);
   r.p_mean /= area;
   return r;
 }

@@ -43,6 +43,8 @@ struct ContactResults {
   double length = 0;             ///< of the multiplier side
   double length_in_contact = 0;  ///< as length_in_contact() says
   Vec2 force = Vec2::Zero();     ///< of the contact on the multiplier side's body, per thickness
+  double moment = 0;             ///< of the same about the origin
+  Vec2 centre = Vec2::Zero();    ///< of the multiplier side, mean place along its length
   double p_min = 0, p_max = 0;   ///< at the nodes of the multiplier side that face the other or carry pressure
   double p_mean = 0;             ///< over what faces the other side
   double p_least = 0;            ///< the smallest between the nodes too, where the sides face each other

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/printable.hpp"
+#include "contact/singular_points.hpp"
 
 namespace mortise {
 namespace {
@@ -60,6 +61,18 @@ std::vector<std::string> error_warnings(const Results& r) {
     lines.push_back("the contact pressure may be off by " + percent(error) + ", the most from " + largest_error(r) +
                     "; expected a finer mesh there");
   return lines;
+}
+
+bool grows_without_limit(const Results& r, const Extreme& stress) {
+  if (corner_exponent(r.mesh, stress.node, r.discretisation.system.constraints, r.discretisation.laws[stress.of]) <=
+      singular_limit)
+    return true;
+  if (!r.estimate) return false;
+  return std::ranges::any_of(r.estimate->pressures, [&](const PressureEstimate& e) {
+    return std::ranges::any_of(e.singular, [&](const SingularPoint& point) {
+      return (point.position - stress.place).norm() < 0.05 * point.edge;
+    });
+  });
 }
 
 void set_bars(const PressureEstimate& estimate, ContactResults& contact) {

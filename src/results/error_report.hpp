@@ -11,6 +11,10 @@ inline constexpr double energy_error_limit = 0.2, pressure_error_limit = 0.1;
 /// Warnings where the estimate is above a limit.
 std::vector<std::string> error_warnings(const Results& results);
 
+/// Whether the stress is known to have no limit at a place of a body: a corner of it (contact/singular_points.hpp), or,
+/// where the errors are estimated, a point of a contact line.
+bool grows_without_limit(const Results& results, const Extreme& stress);
+
 /// The bars of p into the nodes of a pair.
 void set_bars(const PressureEstimate& estimate, ContactResults& contact);
 

@@ -11,11 +11,24 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Round-off of loads that are in balance is shown as 0.
 std::string pair_of(const Vec2& v) {
-  const double least = 1e-12 * v.cwiseAbs().maxCoeff();
   std::ostringstream text;
-  text << "(" << (std::abs(v.x()) > least ? v.x() : 0) << ", " << (std::abs(v.y()) > least ? v.y() : 0) << ")";
+  text << "(" << v.x() << ", " << v.y() << ")";
+  return text.str();
+}
+
+// Round-off of forces that are in balance is shown as 0.
+double shown(double value, double size) { return std::abs(value) > 1e-12 * size ? value : 0; }
+
+std::string force_of(const Resultant& sum) {
+  return pair_of({shown(sum.force.x(), sum.size), shown(sum.force.y(), sum.size)});
+}
+
+// Of rings the force alone: round the ring moments are in balance.
+std::string in_sum(const Resultant& sum, const Model& model) {
+  std::ostringstream text;
+  text << force_of(sum);
+  if (!model.axisymmetric()) text << ", moment " << shown(sum.moment, sum.arms) << " about (0, 0)";
   return text.str();
 }
 
@@ -81,26 +94,36 @@ std::string words(const BoundarySpec& spec) {
   return text;
 }
 
-void print_boundary(const BoundarySpec& spec, const Vec2& force, std::ostream& out) {
-  out << (spec.is_load() ? "  load      " : "  support   ") << listed(spec.on) << ":" << words(spec);
-  if (spec.is_load()) out << ", in sum " << pair_of(force);
-  out << "\n";
+// `forces`: the sum of a load, or the reactions.
+void print_boundary(const BoundarySpec& spec, const std::string& forces, std::ostream& out) {
+  out << (spec.is_load() ? "  load      " : "  support   ") << listed(spec.on) << ":" << words(spec) << forces << "\n";
+}
+
+// Of the curves that the entry names, one by one if they are few.
+std::string reaction_words(const Scene& scene, const Reactions& reactions, std::size_t entry) {
+  const std::size_t named = scene.boundaries[entry].on.size();
+  std::vector<std::string> forces;
+  for (const Reaction& r : reactions.curves)
+    if (r.entry == int(entry)) forces.push_back(force_of(r.sum));
+  if (forces.size() == 1 || forces.size() != named || named > told_in_full)
+    return "; reaction " + in_sum(reactions.entries[entry], scene.model);
+  return "; reactions " + listed(forces);
 }
 
 // Entries that prescribe the same as one, in the order of the first, with the sum of their forces.
-std::vector<std::pair<BoundarySpec, Vec2>> alike_as_one(const Scene& scene, const Discretisation& d) {
-  std::vector<std::pair<BoundarySpec, Vec2>> entries;
+std::vector<std::pair<BoundarySpec, Resultant>> alike_as_one(const Scene& scene, const std::vector<Resultant>& sums) {
+  std::vector<std::pair<BoundarySpec, Resultant>> entries;
   std::map<std::string, std::size_t> number;
   for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
     const BoundarySpec& spec = scene.boundaries[i];
     const auto [found, is_new] = number.try_emplace(words(spec), entries.size());
     if (is_new) {
-      entries.emplace_back(spec, d.boundary_sums[i]);
+      entries.emplace_back(spec, sums[i]);
       continue;
     }
     auto& [one, sum] = entries[found->second];
     one.on.insert(one.on.end(), spec.on.begin(), spec.on.end());
-    sum += d.boundary_sums[i];
+    sum += sums[i];
   }
   return entries;
 }
@@ -114,7 +137,22 @@ void print_some(const Entries& entries, const std::string& what, std::ostream& o
     out << "  load      " << entries.size() - told << " more " << what << ": summary.json has all\n";
 }
 
-Json boundary_json(const BoundarySpec& spec, const Vec2& force) {
+Json with_sum(Json entry, const Resultant& load) {
+  entry["sum"] = json_of(load.force);
+  entry["moment"] = load.moment;
+  entry["centre"] = json_of(load.centre());
+  return entry;
+}
+
+Json reaction_json(const Mesh& mesh, const Reaction& r) {
+  return {{"on", mesh.boundaries[r.boundary].name},
+          {"reaction", json_of(r.sum.force)},
+          {"moment", r.sum.moment},
+          {"centre", json_of(r.centre)},
+          {"moment_about_centre", r.sum.moment_about(r.centre)}};
+}
+
+Json boundary_json(const BoundarySpec& spec) {
   Json entry{{"on", spec.on}};
   if (spec.displacement_x) entry["displacement"]["x"] = json_of(*spec.displacement_x);
   if (spec.displacement_y) entry["displacement"]["y"] = json_of(*spec.displacement_y);
@@ -123,7 +161,17 @@ Json boundary_json(const BoundarySpec& spec, const Vec2& force) {
   if (spec.force) entry["force"] = json_of(*spec.force);
   if (spec.normal_foundation) entry["foundation"] = json_of(*spec.normal_foundation);
   if (spec.foundation) entry["foundation"] = json_of(*spec.foundation);
-  if (spec.is_load()) entry["sum"] = json_of(force);
+  return entry;
+}
+
+// With the reaction of the entry, and of each curve.
+Json support_json(const Scene& scene, const Mesh& mesh, const Reactions& reactions, std::size_t i) {
+  Json entry = boundary_json(scene.boundaries[i]);
+  entry["reaction"] = json_of(reactions.entries[i].force);
+  entry["moment"] = reactions.entries[i].moment;
+  entry["curves"] = Json::array();
+  for (const Reaction& r : reactions.curves)
+    if (r.entry == int(i)) entry["curves"].push_back(reaction_json(mesh, r));
   return entry;
 }
 
@@ -131,24 +179,38 @@ Json boundary_json(const BoundarySpec& spec, const Vec2& force) {
 
 Json json_of(const Field& f) { return f.is_constant() ? Json(f.constant()) : Json(f.words()); }
 
-std::string model_lines(const Scene& scene, const Discretisation& d) {
+std::string model_lines(const Scene& scene, const Discretisation& d, const Reactions* reactions) {
   std::ostringstream out;
   out << "  model     plane " << to_string(scene.model.plane);
   print_materials(scene, out);
   out << "\n";
   if (scene.boundaries.size() > told_in_full) {
-    const auto entries = alike_as_one(scene, d);
-    print_some(entries, "supports and loads on boundaries", out,
-               [&](std::size_t i) { print_boundary(entries[i].first, entries[i].second, out); });
+    std::vector<Resultant> sums = d.boundary_sums;
+    for (std::size_t i = 0; reactions && i < sums.size(); ++i) sums[i] += reactions->entries[i];
+    const auto entries = alike_as_one(scene, sums);
+    print_some(entries, "supports and loads on boundaries", out, [&](std::size_t i) {
+      const auto& [spec, sum] = entries[i];
+      print_boundary(spec,
+                     spec.is_load() ? ", in sum " + in_sum(sum, scene.model)
+                     : reactions    ? "; reaction " + in_sum(sum, scene.model)
+                                    : "",
+                     out);
+    });
   } else {
-    for (std::size_t i = 0; i < scene.boundaries.size(); ++i)
-      print_boundary(scene.boundaries[i], d.boundary_sums[i], out);
+    for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
+      const BoundarySpec& spec = scene.boundaries[i];
+      print_boundary(spec,
+                     spec.is_load() ? ", in sum " + in_sum(d.boundary_sums[i], scene.model)
+                     : reactions    ? reaction_words(scene, *reactions, i)
+                                    : "",
+                     out);
+    }
   }
   if (scene.gravity)
-    out << "  load      gravity " << pair_of(*scene.gravity) << ", in sum " << pair_of(d.weight) << "\n";
+    out << "  load      gravity " << pair_of(*scene.gravity) << ", in sum " << in_sum(d.weight, scene.model) << "\n";
   print_some(scene.body_forces, "forces per volume", out, [&](std::size_t i) {
     out << "  load      body " << scene.body_forces[i].body << ": force per volume "
-        << words(scene.body_forces[i].force) << ", in sum " << pair_of(d.body_sums[i]) << "\n";
+        << words(scene.body_forces[i].force) << ", in sum " << in_sum(d.body_sums[i], scene.model) << "\n";
   });
   print_some(scene.initial_strains, "initial strains", out, [&](std::size_t i) {
     const InitialStrainSpec& s = scene.initial_strains[i];
@@ -162,7 +224,7 @@ std::string model_lines(const Scene& scene, const Discretisation& d) {
   return out.str();
 }
 
-Json model_json(const Scene& scene, const Discretisation& d) {
+Json model_json(const Scene& scene, const Mesh& mesh, const Discretisation& d, const Reactions& reactions) {
   Json materials = Json::object(), bodies = Json::object(), supports = Json::array(), loads = Json::array();
   for (const auto& [name, m] : scene.materials) materials[name] = json_of(m);
   if (scene.gravity)
@@ -170,12 +232,15 @@ Json model_json(const Scene& scene, const Discretisation& d) {
   for (const BodySpec& body : scene.bodies) bodies[body.name] = body.material;
   for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
     const BoundarySpec& spec = scene.boundaries[i];
-    (spec.is_load() ? loads : supports).push_back(boundary_json(spec, d.boundary_sums[i]));
+    if (spec.is_load())
+      loads.push_back(with_sum(boundary_json(spec), d.boundary_sums[i]));
+    else
+      supports.push_back(support_json(scene, mesh, reactions, i));
   }
-  if (scene.gravity) loads.push_back({{"gravity", json_of(*scene.gravity)}, {"sum", json_of(d.weight)}});
+  if (scene.gravity) loads.push_back(with_sum({{"gravity", json_of(*scene.gravity)}}, d.weight));
   for (std::size_t i = 0; i < scene.body_forces.size(); ++i) {
     const BodyForceSpec& spec = scene.body_forces[i];
-    loads.push_back({{"body", spec.body}, {"force", json_of(spec.force)}, {"sum", json_of(d.body_sums[i])}});
+    loads.push_back(with_sum({{"body", spec.body}, {"force", json_of(spec.force)}}, d.body_sums[i]));
   }
   for (const InitialStrainSpec& s : scene.initial_strains) {
     Json entry{{"body", s.body}};

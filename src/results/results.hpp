@@ -2,7 +2,9 @@
 #pragma once
 
 #include "error/error_estimate.hpp"
-#include "results/contact_results.hpp"
+#include "results/extremes.hpp"
+#include "results/probes.hpp"
+#include "results/reactions.hpp"
 
 namespace mortise {
 
@@ -55,7 +57,10 @@ struct Results {
   std::vector<std::string> dirichlet;  ///< of domain decomposition: bodies that took the displacement
   Solution solution;
   StressField stress;
-  std::vector<ContactResults> contacts;    ///< one a pair
+  std::vector<ContactResults> contacts;  ///< one a pair
+  Extremes extremes;
+  Reactions reactions;
+  std::vector<ProbeValue> probes;
   double energy = 0;                       ///< strain energy per thickness
   std::optional<ErrorEstimate> estimate;   ///< unless the run was asked for none
   std::optional<AccuracyReport> accuracy;  ///< where one was asked for

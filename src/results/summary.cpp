@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/printable.hpp"
+#include "results/checks.hpp"
 #include "results/contact_summary.hpp"
 #include "results/diagnose.hpp"
 #include "results/error_report.hpp"
@@ -17,11 +18,39 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json balance_json(const Reactions& r) {
+  Json balance;
+  const auto add = [&](const char* name, const Resultant& sum) {
+    balance[name] = {{"force", {sum.force.x(), sum.force.y()}}, {"moment", sum.moment}};
+  };
+  add("loads", r.loads);
+  add("reactions", r.all);
+  add("held", r.held);
+  return balance;
+}
+
+Json extremes_json(const Results& r) {
+  const auto in_body = [&](const Extreme& e) -> Json {
+    return {{"value", e.value}, {"body", r.mesh.bodies[e.of]}, {"position", {e.place.x(), e.place.y()}}};
+  };
+  const Extremes& found = r.extremes;
+  Json json{{"von_mises", in_body(found.von_mises)},
+            {"principal", {{"max", in_body(found.principal_max)}, {"min", in_body(found.principal_min)}}},
+            {"pressure", nullptr}};
+  json["von_mises"]["limit"] = !grows_without_limit(r, found.von_mises);
+  if (const auto& p = found.pressure)
+    json["pressure"] = {{"value", p->value}, {"pair", p->of}, {"position", {p->place.x(), p->place.y()}}};
+  return json;
+}
+
 Json contact_json(const ContactPair& pair, const ContactResults& c) {
   return {{"between", pair.spec.between},
           {"length", c.length},
           {"length_in_contact", c.length_in_contact},
           {"force", {c.force.x(), c.force.y()}},
+          {"moment", c.moment},
+          {"centre", {c.centre.x(), c.centre.y()}},
+          {"moment_about_centre", c.moment - (c.centre.x() * c.force.y() - c.centre.y() * c.force.x())},
           {"pressure", {{"min", c.p_min}, {"mean", c.p_mean}, {"max", c.p_max}}},
           {"drawn", is_drawn(pair)},
           {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
@@ -164,11 +193,21 @@ void print_accuracy(const Results& r, std::ostream& out) {
   out << std::setprecision(6);
 }
 
+void print_extremes(const Results& r, std::ostream& out) {
+  const Extremes& found = r.extremes;
+  const Extreme& v = found.von_mises;
+  out << std::setprecision(6) << "  largest   displacement " << r.solution.u.cwiseAbs().maxCoeff() << "; von Mises "
+      << v.value << " in " << r.mesh.bodies[v.of] << " " << near_point(v.place)
+      << (grows_without_limit(r, v) ? ", where it has no limit" : "") << "; principal stresses "
+      << found.principal_min.value << " ... " << found.principal_max.value << "\n";
+}
+
 // Those that fail; summary.json has all.
 void print_checks(const std::vector<Check>& checks, std::ostream& out) {
   const auto hold = std::count_if(checks.begin(), checks.end(), [](const Check& c) { return c.ok(); });
-  out << "  checks    " << hold << " of " << checks.size() << " hold (equilibrium, contact condition)\n"
-      << std::setprecision(2);
+  const auto balance = std::ranges::find(checks, balance_check, &Check::name);
+  out << std::setprecision(2) << "  checks    " << hold << " of " << checks.size()
+      << " hold; reactions and loads sum to " << balance->value << " (relative)\n";
   for (const Check& c : checks)
     if (!c.ok()) out << "  FAILED    " << c.name << ": " << c.value << " (limit " << c.limit << ")\n";
 }
@@ -198,7 +237,7 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
           {"scene", scene.path},
           {"version", MORTISE_VERSION},
           {"status", to_string(r.status)},
-          {"model", model_json(scene, r.discretisation)},
+          {"model", model_json(scene, r.mesh, r.discretisation, r.reactions)},
           {"method",
            {{"integration", to_string(scene.method.integration)},
             {"normals", to_string(scene.method.normals)},
@@ -234,6 +273,8 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
           {"inf_sup", r.inf_sup ? Json(r.inf_sup->beta) : Json()},
           {"energy", r.energy},
           {"contact", contact},
+          {"balance", balance_json(r.reactions)},
+          {"extremes", extremes_json(r)},
           {"checks", checks},
           {"warnings", r.warnings}};
 }
@@ -243,13 +284,13 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
   out << scene.title << "\n";
   out << "  mesh      " << r.mesh.nodes.rows() << " nodes, " << r.mesh.cells.size() << " elements; " << free_unknowns(r)
       << " unknowns, " << r.solution.lambda.size() << " multipliers\n";
-  out << std::setprecision(6) << model_lines(scene, r.discretisation);
+  out << std::setprecision(6) << model_lines(scene, r.discretisation, &r.reactions);
   out << contact_lines(scene, r);
   out << std::setprecision(3);
   print_iteration(r, out);
   print_steps(r, out);
   if (const std::string words = contact_words(r); !words.empty()) out << "            " << words << "\n";
-  out << std::setprecision(6) << "  largest   displacement " << r.solution.u.cwiseAbs().maxCoeff() << "\n";
+  print_extremes(r, out);
   out << "  energy    " << r.energy << "\n";
   if (r.estimate)
     out << std::setprecision(2) << "  estimate  stresses off by " << 100 * r.estimate->energy.error
@@ -257,6 +298,7 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
         << near_point(r.estimate->energy.position) << "\n"
         << std::setprecision(6);
   print_accuracy(r, out);
+  if (!r.probes.empty()) out << "  probes    " << r.probes.size() << " places in probes.csv\n";
   if (r.inf_sup)
     out << "  inf-sup   " << r.inf_sup->beta << ", worst " << near_point(r.inf_sup->position) << " (limit "
         << inf_sup_limit << ")\n";

@@ -128,6 +128,23 @@ void write_iteration_csv(const Iteration& iteration, const std::filesystem::path
   write_csv(path, columns);
 }
 
+void write_probes_csv(const Results& r, const std::filesystem::path& path) {
+  std::vector<CsvColumn> columns;
+  for (const char* name : {"probe", "body", "s", "x", "y", "u_x", "u_y", "sigma_11", "sigma_22", "sigma_33", "sigma_12",
+                           "von_mises", "spread"})
+    columns.push_back({name, {}, {}});
+  for (const ProbeValue& v : r.probes) {
+    columns[1].words.push_back(r.mesh.bodies[r.mesh.cells[v.place.in.cell].body]);
+    std::size_t c = 0;
+    for (const double value : {double(v.place.probe), v.place.s, v.place.x.x(), v.place.x.y(), v.u.x(), v.u.y(),
+                               v.stress(0), v.stress(1), v.stress(2), v.stress(3), v.von_mises, v.spread}) {
+      columns[c].numbers.push_back(value);
+      c += c == 0 ? 2 : 1;
+    }
+  }
+  write_csv(path, columns);
+}
+
 }  // namespace
 
 double write_results(const Scene& scene, const Results& results, const std::filesystem::path& folder) {
@@ -142,6 +159,7 @@ double write_results(const Scene& scene, const Results& results, const std::file
     }
     if (const auto& iteration = results.solution.iteration)
       write_iteration_csv(*iteration, output.path("iteration.csv"));
+    if (!results.probes.empty()) write_probes_csv(results, output.path("probes.csv"));
   } catch (const InputError& error) {
     throw InputError(output.with_target(error.what()));
   }

@@ -37,7 +37,7 @@ void read_model(const Node& root, Scene& scene) {
 
 Scene read_sections(const Node& root, const std::string& path) {
   expect_keys(root, {"title", "mesh", "copies", "model", "materials", "bodies", "boundary", "body_force",
-                     "initial_strain", "contact", "method", "accuracy"});
+                     "initial_strain", "contact", "probe", "method", "accuracy"});
   Scene scene;
   scene.path = path;
   read_title(root, scene);
@@ -49,6 +49,7 @@ Scene read_sections(const Node& root, const std::string& path) {
   read_body_forces(root, scene);
   read_initial_strains(root, scene);
   read_contacts(root, scene);
+  read_probes(root, scene);
   read_method(root, scene);
   read_accuracy(root, scene);
   return scene;

@@ -104,6 +104,15 @@ struct AccuracySpec {
   bool recombine = false;  ///< quadrilaterals instead of triangles
 };
 
+/// One [[probe]] entry: places at which the solution is told.
+struct ProbeSpec {
+  std::string key;
+  std::vector<Vec2> at;
+  bool line = false;  ///< the places are along a straight line, from its start
+  std::string body;   ///< that has them; empty: of each the only one
+  double angle = 0;   ///< of the axes of the stresses, degrees counter-clockwise from x
+};
+
 struct Scene {
   std::string path;  ///< the .toml, for messages
   std::string title;
@@ -119,6 +128,7 @@ struct Scene {
   std::vector<BodyForceSpec> body_forces;
   std::vector<InitialStrainSpec> initial_strains;
   std::vector<ContactSpec> contacts;
+  std::vector<ProbeSpec> probes;
   Method method;
   std::optional<AccuracySpec> accuracy;  ///< none: the mesh is the file's
 };

@@ -29,6 +29,9 @@ void read_initial_strains(const Node& root, Scene& scene);
 /// [[contact]]: pairs of two curves, each curve in one pair only.
 void read_contacts(const Node& root, Scene& scene);
 
+/// [[probe]]: points, or equal steps along a line.
+void read_probes(const Node& root, Scene& scene);
+
 /// [method]. After read_bodies.
 void read_method(const Node& root, Scene& scene);
 

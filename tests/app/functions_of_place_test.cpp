@@ -89,7 +89,7 @@ contact = [{ between = ["upper_contact", "lower_contact"] }]
         << load;
     for (const ContactNode& n : r.contacts[0].multiplier.nodes)
       EXPECT_NEAR(n.p, 3 * (1 + n.position.x()), 1e-8) << load;
-    EXPECT_NEAR(r.discretisation.boundary_sums[2].y(), -12, 1e-12);
+    EXPECT_NEAR(r.discretisation.boundary_sums[2].force.y(), -12, 1e-12);
     EXPECT_EQ(r.status, Status::solved);
   }
 }
@@ -127,7 +127,7 @@ body_force = [{ body = "lower", force = ["3 * y", "-x"] }]
 )toml");
   const Mesh mesh = scene_mesh(scene);
   const Discretisation d = discretise(scene, mesh);
-  EXPECT_LT((d.body_sums[0] - Vec2(3, -2)).norm(), 1e-13);  // int of 3 y and -x over 2 x 1
+  EXPECT_LT((d.body_sums[0].force - Vec2(3, -2)).norm(), 1e-13);  // int of 3 y and -x over 2 x 1
   double moment = 0;
   for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i)
     moment += mesh.nodes(i, 0) * d.system.f(2 * i + 1) - mesh.nodes(i, 1) * d.system.f(2 * i);
@@ -146,9 +146,9 @@ TEST(FunctionsOfPlace, GravityIsABodyForceByDensity) {
                                    rest);
   const Mesh mesh = scene_mesh(gravity);
   const Discretisation a = discretise(gravity, mesh), b = discretise(force, mesh);
-  EXPECT_LT((a.weight - Vec2(0, -16)).norm(), 1e-13);  // 0.5 * 10 * 2 * 1.6
+  EXPECT_LT((a.weight.force - Vec2(0, -16)).norm(), 1e-13);  // 0.5 * 10 * 2 * 1.6
   EXPECT_LT((a.system.f - b.system.f).cwiseAbs().maxCoeff(), 1e-14);
-  expect_contains(model_lines(gravity, a), "  load      gravity (0, -10), in sum (0, -16)\n");
+  expect_contains(model_lines(gravity, a), "  load      gravity (0, -10), in sum (0, -16), moment");
   expect_contains(
       message_of([&] { scene_of(folder, "0.3", "model.gravity = [0, -10]\n"); }),
       "materials.m: 'density' of the material 'm' is missing; expected one, as there is gravity (model.gravity");
@@ -211,7 +211,7 @@ contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilatera
     return solve_scene(scene_of(folder, "0.3", text));
   };
   const Results r = solved("force = [2.6, -5.2]"), traction = solved("traction = [1, -2]");  // 2 + 0.6 long
-  EXPECT_LT((r.discretisation.boundary_sums[2] - Vec2(2.6, -5.2)).norm(), 1e-13);
+  EXPECT_LT((r.discretisation.boundary_sums[2].force - Vec2(2.6, -5.2)).norm(), 1e-13);
   EXPECT_LT((r.solution.u - traction.solution.u).cwiseAbs().maxCoeff(), 1e-12 * r.solution.u.cwiseAbs().maxCoeff());
 }
 
@@ -230,11 +230,11 @@ contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilatera
   const Discretisation d = discretise(scene, mesh);
   const std::string lines = model_lines(scene, d);
   for (const char* line :
-       {"  support   bottom: u_x = 0, u_y = 1e-3 * x\n", "  load      top: pressure 3 + 3*s, in sum (0, -12)\n",
-        "  load      upper_right: traction (0.001, -y), in sum (0.0006, -0.78)\n",
-        "  load      upper_left: force (0, -2), in sum (0, -2)\n"})
+       {"  support   bottom: u_x = 0, u_y = 1e-3 * x\n", "  load      top: pressure 3 + 3*s, in sum (0, -12), moment",
+        "  load      upper_right: traction (0.001, -y), in sum (0.0006, -0.78), moment",
+        "  load      upper_left: force (0, -2), in sum (0, -2), moment"})
     expect_contains(lines, line);
-  const auto json = model_json(scene, d);
+  const auto json = model_json(scene, mesh, d, {.entries = std::vector<Resultant>(scene.boundaries.size())});
   EXPECT_EQ(json["supports"][0]["displacement"].dump(), "{\"x\":0.0,\"y\":\"1e-3 * x\"}");
   EXPECT_EQ(json["loads"][0]["pressure"], "3 + 3*s");
   EXPECT_EQ(json["loads"][1]["traction"].dump(), "[0.001,\"-y\"]");

@@ -61,7 +61,7 @@ TEST(Parts, ADovetail) {
 TEST(Parts, AShaftInAVBlock) {
   const Results r = solved("v_block");
   expect_few_words(r);
-  const Vec2 weight = r.discretisation.body_sums[0];
+  const Vec2 weight = r.discretisation.body_sums[0].force;
   EXPECT_NEAR(weight.y(), -2e8 * std::numbers::pi / 2 * 0.02 * 0.02, 1);
   expect_force(force_on(r, 0, "shaft_foot"), {weight.y(), -weight.y()});
 }

@@ -167,7 +167,7 @@ TEST(Loads, BodyForceSumsToForceTimesArea) {
     plates.kind_upper = plates.kind_lower = kind;
     const Mesh mesh = test::mesh_of(plates);
     VecX load = VecX::Zero(2 * mesh.nodes.rows());
-    const Vec2 summed = add_body_forces(mesh, {}, {BodyForce(), [](const Vec2&) { return Vec2(2, -5); }}, load);
+    const Vec2 summed = add_body_forces(mesh, {}, {BodyForce(), [](const Vec2&) { return Vec2(2, -5); }}, load).force;
     Vec2 sum = Vec2::Zero();
     for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i) sum += load.segment<2>(2 * i);
     EXPECT_NEAR(sum.x(), 2 * 0.24, 1e-14);

@@ -29,6 +29,7 @@ Results judged(const Scene& scene, Spoil spoil) {
   Results r = solve_scene(scene, mesh_of({}));
   EXPECT_EQ(r.status, Status::solved);
   spoil(r.solution, r);
+  r.reactions = find_reactions(scene, r.mesh, r.discretisation, r.solution);
   r.checks = checks(scene, r);
   r.status = verdict(r);
   r.warnings = warnings(scene, r);

@@ -1,12 +1,14 @@
 #!/usr/bin/python3
-"""One picture of a run: the deformed bodies with von Mises stress, and the pressure along each contact line; of many
-contact pairs the forces between the bodies instead.
+"""One picture of a run: the deformed bodies with von Mises stress, loads and reactions, and the pressure along each
+contact line; of many contact pairs the forces between the bodies instead.
 
-Usage: picture.py RESULTS [PICTURE] [--scale FACTOR] [--dpi DPI]
+Usage: picture.py RESULTS [PICTURE] [--zoom] [--scale FACTOR] [--dpi DPI]
 
 RESULTS is the folder that `mortise solve` wrote; read are result.vtu, contact.vtu, summary.json
 (docs/files.md) and contact.csv, or with 3-node triangles contact_centres.csv: p zigzags at their nodes. PICTURE is a .png, .pdf or .svg, by default RESULTS.png beside the folder. --scale magnifies the
-displacements; by default the largest is drawn as about 4 % of the size of the bodies.
+displacements; by default the largest is drawn as about 4 % of the size of what is shown. --zoom shows the bodies where
+contact carries pressure, without loads and reactions. An arrow is the sum of a load, or the reaction of a curve of a
+support, at the middle of what it acts on; of a clamp its moment about that is told too.
 """
 
 import argparse
@@ -18,6 +20,7 @@ from pathlib import Path
 import meshio
 import numpy as np
 from matplotlib.collections import LineCollection
+from matplotlib.patheffects import withStroke
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
@@ -27,6 +30,8 @@ import launch
 CORNERS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
 MANY_PAIRS = 6  # more are not drawn one by one
 COLOURS = ["#e8452c", "#4aa3e8"]  # multiplier side, opposite side
+PAIR_COLOURS = ["#111111", "#c2188b", "#1a7f37", "#7a4fd0", "#a65d00", "#00798c"]
+LOAD, REACTION = "#b00020", "#0b4f9c"
 TRIANGLE = [(0, 0), (1, 0), (0, 1), (0.5, 0), (0.5, 0.5), (0, 0.5)]  # reference cells: nodes in VTK's order
 SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0), (0, 0)]
 POWERS = [(0, 0), (1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (2, 2)]  # of x and y
@@ -138,6 +143,69 @@ def body_areas(mesh):
     return np.bincount(np.concatenate(numbers).astype(int).ravel(), np.concatenate([areas for _, areas in cell_areas(mesh)]))
 
 
+def inside(points, box):
+    return ((points >= box[0]) & (points <= box[1])).all(axis=1)
+
+
+def loaded_box(mesh, table):
+    """Lower and upper corner of a box round where contact carries pressure, with half as much again."""
+    on = table["p"] > 1e-6 * np.nanmax(np.abs(table["p"]))
+    if not on.any():
+        raise SystemExit("picture.py: --zoom: no contact carries pressure")
+    at = np.stack([table["x"], table["y"]], axis=1)[on]
+    half = max(0.75 * np.ptp(at, axis=0).max(), 1e-3 * size_of(mesh.points[:, :2]))
+    middle = (at.min(axis=0) + at.max(axis=0)) / 2
+    return np.array([middle - half, middle + half])
+
+
+def acting_forces(model):
+    """(colour, force, place, moment about it) of every load and of every curve of every support; the moment of a clamp
+    only, 0 of others."""
+    for load in model["loads"]:
+        if "sum" in load:
+            yield LOAD, np.array(load["sum"]), np.array(load["centre"]), 0
+    for support in model["supports"]:
+        for curve in support["curves"]:
+            moment = curve["moment_about_centre"] if len(support["displacement"]) == 2 else 0
+            yield REACTION, np.array(curve["reaction"]), np.array(curve["centre"]), moment
+
+
+def draw_arrows(axes, points, model):
+    """Forces as arrows whose length goes with them, the shortest still to be seen: onto what they push, away from what
+    they pull."""
+    forces = list(acting_forces(model))
+    largest = max((np.linalg.norm(force) for _, force, _, _ in forces), default=0)
+    shown = [f for f in forces if np.linalg.norm(f[1]) > 1e-6 * largest > 0]
+    size, middle = size_of(points), (points.min(axis=0) + points.max(axis=0)) / 2
+    for colour, force, place, moment in shown:
+        norm = np.linalg.norm(force)
+        step = size * (0.05 + 0.09 * norm / largest) * force / norm
+        pushes = np.dot(middle - place, force) > 1e-3 * size * norm
+        start, end = (place - step, place) if pushes else (place, place + step)
+        style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.8, "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", xy=end, xytext=start, arrowprops=style, zorder=6)
+        axes.update_datalim([start, end])
+        if len(shown) <= 12:
+            label = f"{norm:.3g}" + (f"\nmoment {moment:.3g}" if abs(moment) > 1e-3 * largest * size else "")
+            free = start if pushes else end
+            left = (free - place)[0] < -0.3 * np.linalg.norm(free - place)
+            options = {"textcoords": "offset points", "ha": "right" if left else "left", "va": "bottom", "fontsize": 7}
+            text = axes.annotate(label, free, (0 if left else 3, 2), color=colour, zorder=7, **options)
+            text.set_path_effects([withStroke(linewidth=2, foreground="white")])
+
+
+def draw_contact_lines(axes, results, table, scale, pairs):
+    """Both curves of each pair, in its colour."""
+    curve = meshio.read(results / "contact.vtu")
+    at = curve.points[:, :2] + scale * curve.point_data["displacement"][:, :2]
+    lines = [(*row[:2], row[2] if len(row) > 2 else -1) for block in curve.cells for row in block.data]
+    colours = ["black"] * len(lines)
+    if 1 < pairs <= MANY_PAIRS:  # points stand in the order of contact.csv
+        colours = [PAIR_COLOURS[int(table["pair"][line[0]])] for line in lines]
+    axes.add_collection(LineCollection(polylines(at, lines), colors="white", linewidths=2.6))
+    axes.add_collection(LineCollection(polylines(at, lines), colors=colours, linewidths=1.3))
+
+
 def stress_range(stress, areas):
     """Without the singular corners. A uniform stress gets a range around it."""
     low, high = percentiles(stress, areas, [0.5, 99.5])
@@ -146,25 +214,32 @@ def stress_range(stress, areas):
     return low, high
 
 
-def draw_bodies(axes, results, scale):
-    mesh, contact = meshio.read(results / "result.vtu"), results / "contact.vtu"
+def draw_bodies(axes, results, summary, table, scale, zoom):
+    mesh = meshio.read(results / "result.vtu")
     points, u = mesh.points[:, :2], mesh.point_data["displacement"][:, :2]
-    scale = choose_scale(points, u) if scale is None else scale
+    box = loaded_box(mesh, table) if zoom else np.array([points.min(axis=0), points.max(axis=0)])
+    seen = inside(points, box)
+    scale = choose_scale(box, u[seen] if seen.any() else u) if scale is None else scale
     moved, stress = points + scale * u, mesh.point_data["von_mises"].ravel()
-    low, high = stress_range(stress, areas_at_nodes(mesh))
+    low, high = stress_range(stress[seen], areas_at_nodes(mesh)[seen]) if seen.any() else stress_range(stress, areas_at_nodes(mesh))
     xy, values, triangles = shaded_triangles(mesh, moved, stress)
     shading = axes.tripcolor(*xy.T, triangles, values, shading="gouraud", cmap="viridis", vmin=low, vmax=high)
     edges = outlines(mesh)
     axes.add_collection(LineCollection(polylines(points, edges), colors="0.6", linewidths=0.6, linestyles=(0, (5, 4))))
     axes.add_collection(LineCollection(polylines(moved, edges), colors="black", linewidths=0.8))
-    if contact.exists():
-        curve = meshio.read(contact)
-        at = curve.points[:, :2] + scale * curve.point_data["displacement"][:, :2]
-        lines = [(*row[:2], row[2] if len(row) > 2 else -1) for block in curve.cells for row in block.data]
-        axes.add_collection(LineCollection(polylines(at, lines), colors="white", linewidths=2.6))
-        axes.add_collection(LineCollection(polylines(at, lines), colors="black", linewidths=1.1))
+    if summary["contact"]:
+        draw_contact_lines(axes, results, table, scale, len(summary["contact"]))
+    if zoom:
+        shift = scale * u[seen].mean(axis=0) if seen.any() else np.zeros(2)
+        axes.set_xlim(*(box[:, 0] + shift[0]))
+        axes.set_ylim(*(box[:, 1] + shift[1]))
+        stress = stress[seen] if seen.any() else stress
+    else:
+        draw_arrows(axes, points, summary["model"])
+        axes.autoscale_view()
     axes.set_aspect("equal")
-    axes.margins(0.03)
+    if not zoom:
+        axes.margins(0.03)
     extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}
     clipped = (int(stress.min() < low * (1 - 1e-9)), int(stress.max() > high * (1 + 1e-9)))
     bar = axes.figure.colorbar(shading, ax=axes, extend=extend[clipped], pad=0.02, aspect=25)
@@ -186,11 +261,11 @@ def arc_length_on(along, s, points):
 
 
 def loaded_part(s, p):
-    """Limits of x: all of the line, or where p acts and half as much again if that is less than a third of it."""
+    """Limits of x: where p acts and a fifth as much again, or all of the line where it acts on most of it."""
     loaded = s[p > 1e-9 * np.abs(p).max()]
-    if len(loaded) == 0 or np.ptp(loaded) > np.ptp(s) / 3:
+    if len(loaded) == 0 or np.ptp(loaded) > 0.8 * np.ptp(s):
         return s.min(), s.max()
-    margin = max(np.ptp(loaded), 1e-6 * np.ptp(s)) / 4
+    margin = max(np.ptp(loaded), 1e-6 * np.ptp(s)) / 10
     return max(s.min(), loaded.min() - margin), min(s.max(), loaded.max() + margin)
 
 
@@ -209,7 +284,7 @@ def pressure_range(curves):
     return (low, high) if high > low else (low - 1, high + 1)
 
 
-def draw_pair(axes, table, multiplier_side, between, label="$p$ (multipliers)"):
+def draw_pair(axes, table, multiplier_side, between, label="$p$ (multipliers)", colour=PAIR_COLOURS[0]):
     """p along the contact line with its bar as a band, and -sigma_n of both bodies, over the arc length of the multiplier
     side."""
     opposite = between[0] if between[1] == multiplier_side else between[1]
@@ -222,7 +297,7 @@ def draw_pair(axes, table, multiplier_side, between, label="$p$ (multipliers)"):
     if "p_error" in table:
         bar = table["p_error"][on]
         axes.fill_between(s, p - bar, p + bar, color="0.82", linewidth=0, label="bar of $p$", zorder=1)
-    axes.plot(s, p, color="0.15", linewidth=1.7, label=label, zorder=2)
+    axes.plot(s, p, color=colour, linewidth=1.7, label=label, zorder=2)
     axes.plot(s, mine, color=COLOURS[0], linewidth=0.9, label=f"$-\\sigma_n$ of {multiplier_side}", zorder=3)
     label = f"$-\\sigma_n$ of {opposite}"
     axes.plot(s_other, theirs, color=COLOURS[1], linewidth=0.9, dashes=(5, 2), label=label, zorder=4)
@@ -286,11 +361,14 @@ def draw_forces(axes, mesh, table, pairs, sides):
     axes.set_ylabel("$x_2$")
 
 
-def draw(results, picture, scale=None, dpi=130):
+def draw(results, picture, scale=None, dpi=130, zoom=False):
     summary = json.loads((results / "summary.json").read_text())
     pairs, multiplier_sides = summary["contact"], summary["method"]["multipliers_on"]
     mesh = meshio.read(results / "result.vtu")
-    extent = np.ptp(mesh.points[:, :2], axis=0)
+    table = launch.columns(results / "contact.csv") if pairs else {}
+    if zoom and not pairs:
+        raise SystemExit("picture.py: --zoom: the scene has no contact pair")
+    extent = np.ones(2) if zoom else np.ptp(mesh.points[:, :2], axis=0)
     above = float(np.clip(6.6 * extent[1] / extent[0], 2.5, 6.5))
     below = 2.5
     many = len(pairs) > MANY_PAIRS
@@ -300,21 +378,23 @@ def draw(results, picture, scale=None, dpi=130):
     else:
         heights = [above] + ([above] if many else [below] * len(pairs))
         drawing, panels = figure.panels(len(heights), 1, (8, sum(heights) + 0.6), height_ratios=heights, squeeze=False)
-    used = draw_bodies(panels[0, 0], results, scale)
+    used = draw_bodies(panels[0, 0], results, summary, table, scale, zoom)
     panels[0, 0].set_title(f"displacements \u00d7 {used:g}, undeformed outline dashed", fontsize=9)
     drawing.suptitle(summary["title"] or summary["scene"], fontsize=11)
     if summary["status"] != "solved":
         panels[0, 0].set_title(summary["status"].replace("_", " "), loc="right", color="#c00000", fontsize=10)
     if pairs:
         zigzags = any(block.type == "triangle" for block in mesh.cells)
-        table = launch.columns(results / ("contact_centres.csv" if zigzags else "contact.csv"))
+        if zigzags:
+            table = launch.columns(results / "contact_centres.csv")
         label = ("$p$ (means over edges)",) if zigzags else ()
         if many:
             draw_forces(panels[1, 0], mesh, table, pairs, multiplier_sides)
             pairs = []
         for k, (pair, side) in enumerate(zip(pairs, multiplier_sides)):
             rows = table["pair"] == k
-            draw_pair(panels[1 + k, 0], {name: column[rows] for name, column in table.items()}, side, pair["between"], *label)
+            of_pair = {name: column[rows] for name, column in table.items()}
+            draw_pair(panels[1 + k, 0], of_pair, side, pair["between"], *label, colour=PAIR_COLOURS[k])
     figure.save(drawing, picture, dpi)
 
 
@@ -322,13 +402,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("results", type=Path, help="folder that mortise solve wrote")
     parser.add_argument("picture", type=Path, nargs="?", help=".png, .pdf or .svg (default: RESULTS.png)")
+    parser.add_argument("--zoom", action="store_true", help="only where contact carries pressure")
     parser.add_argument("--scale", type=float, help="magnification of the displacements")
     parser.add_argument("--dpi", type=int, default=130)
     options = parser.parse_args()
     if not (options.results / "summary.json").is_file():
         parser.error(f"{options.results}: no summary.json there; expected the folder of a run of mortise solve")
     picture = options.picture or options.results.with_name(options.results.resolve().name + ".png")
-    draw(options.results, picture, options.scale, options.dpi)
+    draw(options.results, picture, options.scale, options.dpi, options.zoom)
     print(picture)
 
 

@@ -1,5 +1,6 @@
 """The picture of a run, and that other programs can read what it is made from."""
 
+import json
 import subprocess
 import sys
 from functools import cache
@@ -40,6 +41,40 @@ def test_picture_is_drawn_beside_the_results(solve, scene):
     width, height = png_size(results.with_name("results.png"))
     assert width == 8 * 60 and height > 200
     assert sorted(results.iterdir()) == before
+
+
+@pytest.mark.parametrize("scene", ["parabola_1", "stack", "wall"])
+def test_arrows_are_in_balance(solve, scene):
+    """Loads and reactions, each at its place with its moment about it: their sums vanish."""
+    model = json.loads((solve(scene) / "summary.json").read_text())["model"]
+    forces = list(picture.acting_forces(model))
+    size = sum(np.linalg.norm(force) for _, force, _, _ in forces)
+    assert np.linalg.norm(sum(force for _, force, _, _ in forces)) < 1e-10 * size
+    assert {colour for colour, _, _, _ in forces} == {picture.LOAD, picture.REACTION}
+    everything = picture.acting_forces(model | {"supports": [s | {"displacement": {"x": 0, "y": 0}} for s in model["supports"]]})
+    moments = [at[0] * force[1] - at[1] * force[0] + moment for colour, force, at, moment in everything if colour == picture.REACTION]
+    assert sum(moments) == pytest.approx(-sum(load["moment"] for load in model["loads"]), abs=1e-9 * size)
+
+
+@pytest.mark.parametrize("scene", ["hertz", "stack", "pellets"])
+def test_zoom_shows_the_contact(solve, scene, tmp_path):
+    subprocess.run([sys.executable, picture.__file__, solve(scene), tmp_path / "zoom.png", "--zoom", "--dpi", "60"], check=True)
+    assert png_size(tmp_path / "zoom.png")[0] == 8 * 60
+
+
+def test_zoom_on_hertz_is_a_little_more_than_the_contact(solve):
+    results = solve("hertz")
+    low, high = picture.loaded_box(meshio.read(results / "result.vtu"), picture.launch.columns(results / "contact.csv"))
+    half_width = 0.0100757  # Hertz, geo/hertz.toml
+    assert low[0] < 0 and half_width < high[0] < 1.5 * half_width
+    assert high[1] - low[1] == pytest.approx(high[0] - low[0])
+
+
+def test_the_axis_of_the_pressure_is_cut_to_the_contact():
+    s = np.linspace(0, 10, 101)
+    part = np.where((s > 3.95) & (s < 6.05), 1.0, 0.0)
+    assert picture.loaded_part(s, part) == pytest.approx((3.8, 6.2), abs=0.02)
+    assert picture.loaded_part(s, np.ones(101)) == (0, 10)
 
 
 def test_forces_act_where_the_pressure_does():

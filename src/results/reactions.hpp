@@ -1,0 +1,30 @@
+// What supports put on the bodies.
+#pragma once
+
+#include "base/resultant.hpp"
+#include "problem/discretisation.hpp"
+
+namespace mortise {
+
+/// Of one curve of a support. A node that several hold along one direction counts for the first that names it.
+struct Reaction {
+  int entry;     ///< of Scene::boundaries
+  int boundary;  ///< of Mesh::boundaries
+  Vec2 centre;   ///< of the curve, its mean place along its length
+  Resultant sum;
+};
+
+/// Forces per thickness, on the bodies.
+struct Reactions {
+  VecX nodal;                      ///< n: K u - f + B^T lambda at prescribed unknowns, and the springs' forces
+  std::vector<Reaction> curves;    ///< in the scene's order
+  std::vector<Resultant> entries;  ///< sums of each of Scene::boundaries, zero of loads
+  Resultant held;                  ///< of the motions that nothing holds (validate.hpp): round-off
+  Resultant loads;                 ///< of all nodes; initial strains, which are in balance, left out
+  Resultant all;                   ///< of supports and held motions
+};
+
+Reactions find_reactions(const Scene& scene, const Mesh& mesh, const Discretisation& discretisation,
+                         const Solution& solution);
+
+}  // namespace mortise

@@ -1,0 +1,128 @@
+// Displacements and stresses at places, against exact fields.
+#include "results/probes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "app/solve_scene.hpp"
+#include "support/messages.hpp"
+#include "support/patches.hpp"
+#include "support/plate_scenes.hpp"
+
+namespace mortise::test {
+namespace {
+
+ProbeSpec probe(std::vector<Vec2> at, const std::string& body = "", double angle = 0) {
+  return {.key = "probe.0", .at = std::move(at), .body = body, .angle = angle};
+}
+
+double difference(const Vec4& a, const Vec4& b) { return (a - b).cwiseAbs().maxCoeff(); }
+
+TEST(Probes, AreExactWhereTheStressIsUniform) {
+  // sigma_22 = -10 MPa, sigma_33 = nu sigma_22, u_y = -(1 - nu^2)/E 10 MPa y.
+  Scene s = uniaxial_scene();
+  s.probes = {probe({{0.13, 0.05}, {0.61, 0.37}}), probe({{0.4, 0.3}}, "lower", 45), probe({{0.4, 0.3}}, "lower", 30)};
+  const Results r = solve_scene(s, mesh_of({}));
+  ASSERT_EQ(r.probes.size(), 4u);
+  for (const int k : {0, 1}) {
+    const ProbeValue& v = r.probes[k];
+    EXPECT_LE(difference(v.stress, {0, -10e6, -3e6, 0}), 1);
+    EXPECT_NEAR(v.u.y(), -(1 - 0.09) / 210e9 * 10e6 * v.place.x.y(), 1e-15);
+    EXPECT_NEAR(v.von_mises, 10e6 * std::sqrt(1 - 0.3 + 0.09), 1);
+    EXPECT_TRUE(std::isnan(v.place.s));
+  }
+  EXPECT_LE(difference(r.probes[2].stress, {-5e6, -5e6, -3e6, -5e6}), 1);
+  const double half = std::sqrt(3) / 2;  // cos 30
+  EXPECT_LE(difference(r.probes[3].stress, {-10e6 / 4, -10e6 * 3 / 4, -3e6, -10e6 * half / 2}), 1);
+}
+
+TEST(Probes, LeaveOutTheStrainOfAnExpansionThatNothingHinders) {
+  Scene s = uniaxial_scene();
+  s.boundaries.pop_back();
+  for (const char* body : {"upper", "lower"})
+    s.initial_strains.push_back({"initial_strain", body, {}, {Field(1e-3), Field(1e-3), Field(), Field()}});
+  s.probes = {probe({{0.2, 0.1}})};
+  const Results r = solve_scene(s, mesh_of({}));
+  EXPECT_LE(difference(r.probes[0].stress, Vec4::Zero()), 1e-8 * 210e9 * 1e-3);
+  EXPECT_NEAR(r.probes[0].u.x(), 2e-4, 1e-12);
+}
+
+// A quarter ring, 1 < r < 2, under pressure in its bore.
+Results ring(int n, const std::vector<ProbeSpec>& probes) {
+  Scene s;
+  s.path = "test scene";
+  s.materials["steel"] = {210e9, 0.3, 0};
+  s.bodies = {{"ring", "steel"}};
+  s.boundaries = {{.key = "cut", .on = {"ring_east"}, .displacement_y = 0},
+                  {.key = "cut", .on = {"ring_west"}, .displacement_x = 0},
+                  {.key = "bore", .on = {"ring_south"}, .pressure = 10e6}};
+  s.probes = probes;
+  return solve_scene(s, mesh_of({{"ring", 2 * n, n,
+                                  [](double a, double t) {
+                                    const double angle = std::numbers::pi / 2 * (1 - a);
+                                    return Vec2((1 + t) * Vec2(std::cos(angle), std::sin(angle)));
+                                  }}},
+                                CellKind::quad8));
+}
+
+TEST(Probes, AlongARadiusOfLamesRingConvergeFasterThanTheElementsOwnStress) {
+  // sigma_r, sigma_theta = p / 3 (1 -+ 4 / r^2), in axes along the radius at 35 degrees.
+  constexpr double pressure = 10e6;
+  ProbeSpec line = probe({}, "", 35);
+  line.line = true;
+  const double angle = 35 * std::numbers::pi / 180;
+  const Vec2 radius(std::cos(angle), std::sin(angle));
+  for (int i = 0; i <= 40; ++i) line.at.push_back((1 + i / 40.0) * radius);
+  double before = 0;
+  for (const int n : {4, 8, 16}) {
+    const Results r = ring(n, {line});
+    ASSERT_EQ(r.probes.size(), line.at.size());
+    EXPECT_NEAR(r.probes.back().place.s, 1, 1e-12);
+    double inside = 0, own_inside = 0, all = 0, spread = 0;
+    for (const ProbeValue& v : r.probes) {
+      const double at = v.place.x.norm(), q = 4 / (at * at);
+      const Vec4 exact = pressure / 3 * Vec4(1 - q, 1 + q, 2 * 0.3, 0);
+      const double error = difference(v.stress, exact);
+      all = std::max(all, error);
+      spread = std::max(spread, v.spread);
+      if (at < 1 + 1.0 / n || at > 2 - 1.0 / n) continue;  // cells along the boundary
+      const Vec4 own = stress_at(r.mesh, r.mesh.cells[v.place.in.cell], r.discretisation.laws[0], r.solution.u,
+                                 cell_shape(CellKind::quad8, v.place.in.xi));
+      inside = std::max(inside, error);
+      own_inside = std::max(own_inside, difference(in_turned_axes(own, angle), exact));
+    }
+    EXPECT_LT(inside, own_inside / 4) << n;
+    if (n > 4) EXPECT_LT(all, before / 6) << n;  // third order; the elements' own is second
+    EXPECT_LT(all, 2 * spread) << n;
+    before = all;
+  }
+  EXPECT_LE(before, 4e-3 * pressure);
+}
+
+TEST(Probes, OutsideOrInTwoBodiesAreRefused) {
+  const auto refusal = [](const ProbeSpec& which) {
+    Scene s = uniaxial_scene();
+    s.probes = {which};
+    return message_of([&] { solve_scene(s, mesh_of({})); });
+  };
+  EXPECT_EQ(refusal(probe({{0.1, 0.1}, {3, 0.1}})),
+            "test scene: probe.0: (3, 0.1) lies in no body; expected a place in one");
+  EXPECT_EQ(refusal(probe({{0.1, 0.1}}, "upper")),
+            "test scene: probe.0: (0.1, 0.1) lies in no part of 'upper'; expected a place in one");
+  expect_contains(refusal(probe({{0.4, 0.3}})), "lies in bodies 'upper' and 'lower'; expected body = one of them");
+  expect_contains(refusal(probe({{0.4, 0.3}}, "uper")), "probe.0.body: ");
+  expect_contains(refusal(probe({{0.4, 0.3}}, "uper")), "'upper'");
+}
+
+TEST(Probes, BesideAContactLineBelongToTheBodyThatHasThem) {
+  Scene s = uniaxial_scene();
+  s.probes = {probe({{0.4, 0.302}, {0.4, 0.298}})};
+  const Results r = solve_scene(s, mesh_of({}));
+  const auto body = [&](int k) { return r.mesh.bodies[r.mesh.cells[r.probes[k].place.in.cell].body]; };
+  EXPECT_EQ(body(0), "upper");
+  EXPECT_EQ(body(1), "lower");
+}
+
+}  // namespace
+}  // namespace mortise::test
