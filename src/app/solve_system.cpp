@@ -58,7 +58,7 @@ Solution solve_system(const Method& method, const SaddlePointSystem& system, con
   }
   solution.solver = solver;
   if (method.solver || solver != Solver::feti || solution.status != SolveStatus::not_converged) return solution;
-  solution = solve_directly(system);  // conjugate gradients do not get on with slender bodies
+  solution = solve_directly(system);  // conjugate gradients may not end
   solution.solver = Solver::direct;
   return solution;
 }

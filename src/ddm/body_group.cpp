@@ -37,6 +37,15 @@ BodyGroup::Answer BodyGroup::answer(const VecX& force) const {
   return to;
 }
 
+MatX BodyGroup::motion_shapes(Eigen::Index unknowns) const {
+  const Eigen::Index rows = C.rows();
+  MatX border = MatX::Zero(rows + motions, motions), R = MatX::Zero(unknowns, motions);
+  border.bottomRows(motions) = -MatX::Identity(motions, motions);
+  const MatX shapes = factor_->backward(factor_->forward(VecX::Zero(free_.size())).replicate(1, motions), border);
+  for (std::size_t i = 0; i < free_.size(); ++i) R.row(free_[i]) = shapes.row(i);
+  return R;
+}
+
 void BodyGroup::add_displacements(const Answer& forces, const VecX& lambda, const VecX& mu, VecX& u) const {
   VecX border(lambda.size() + mu.size());
   border << lambda, mu;

@@ -39,6 +39,8 @@ class BodyGroup {
 
   /// To forces on its unknowns, n, over the stiffness scale.
   Answer answer(const VecX& force) const;
+  /// R on a system's n unknowns, n x s.
+  MatX motion_shapes(Eigen::Index unknowns) const;
   /// Adds the group's displacements under forces and the multipliers to u (n, length).
   void add_displacements(const Answer& forces, const VecX& lambda, const VecX& mu, VecX& u) const;
 

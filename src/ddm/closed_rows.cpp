@@ -41,7 +41,13 @@ SparseMatrix sum_of_ranks(SparseMatrix A) {
 ClosedRows::ClosedRows(const DualSystem& system, const std::vector<char>& closed, const VecX& supports)
     : system_(system), rows_(system.rows()), supports_(supports) {
   share_jumps(closed);
-  if (dependent_row < 0) hold_motions();
+  if (dependent_row >= 0) return;
+  hold_motions();
+  if (system.slender.empty()) return;
+  slender_.emplace(system.slender, closed);
+  VecX compact = VecX::Ones(Eigen::Index(closed.size()));
+  compact(system.slender.rows).setZero();
+  compact_ = rows_.own(compact);
 }
 
 // Open rows keep their diagonal, which nothing reaches.
@@ -151,11 +157,18 @@ VecX ClosedRows::unshared(const VecX& jump) const {
   return closed_.head(jump.size()).cwiseProduct(rows_.own(sharing_.solve(rows_.whole(jump))));
 }
 
+// Of a jump, the pressures by the parts' stiffness.
+VecX ClosedRows::stiffened(const VecX& jump) const {
+  return unshared(closed_.head(jump.size()).cwiseProduct(system_.multiply_stiffness(unshared(jump))));
+}
+
 VecX ClosedRows::precondition(const VecX& residual) const {
-  const Eigen::Index m = system_.H.rows();
-  const VecX stiff = system_.multiply_stiffness(unshared(residual.head(m)));
-  return stacked(unshared(closed_.head(m).cwiseProduct(stiff)),
-                 residual.tail(supports_.size()).cwiseProduct(supports_));
+  const VecX jump = residual.head(system_.H.rows()),
+             supported = residual.tail(supports_.size()).cwiseProduct(supports_);
+  if (!slender_) return stacked(stiffened(jump), supported);
+  return stacked(
+      compact_.cwiseProduct(stiffened(compact_.cwiseProduct(jump))) + rows_.own(slender_->multiply(rows_.whole(jump))),
+      supported);
 }
 
 void ClosedRows::solve(const DualSystem::Forces& forces, IterationMonitor& monitor, DualSolution& x) const {

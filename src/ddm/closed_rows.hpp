@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
+#include <optional>
 
 #include "ddm/dual_system.hpp"
 #include "solve/iteration_monitor.hpp"
@@ -42,6 +43,7 @@ class ClosedRows {
   VecX motions(const VecX& residual) const;
   VecX without_motions(VecX residual) const;
   VecX without_resultants(VecX lambda) const;
+  VecX stiffened(const VecX& jump) const;
   VecX precondition(const VecX& residual) const;
   VecX openings(const VecX& motion) const;
   VecX resultants(const VecX& lambda) const;
@@ -61,6 +63,8 @@ class ClosedRows {
   VecX weights_;           // of closed rows: about the inverse of C's diagonal
   std::vector<int> free_;  // springs whose motions no closed row holds
   SparseCholesky sharing_, coarse_;
+  std::optional<SlenderInverse> slender_;
+  VecX compact_;  // 1 or 0: own rows that slender parts do not see; empty where there are none of these
 };
 
 }  // namespace mortise

@@ -73,9 +73,32 @@ struct DualSystem::Shared {
   }
 };
 
-BodyGroup::Answer DualSystem::Part::of_rows(BodyGroup::Answer of_body) const {
+BodyGroup::Answer DualSystem::Part::answer(const VecX& force) const {
+  BodyGroup::Answer of_body = body->answer(force);
   if (rows_of_body.cols() > 0) of_body.response = rows_of_body * of_body.response;
+  if (slender()) {
+    VecX u = VecX::Zero(B.cols());
+    body->add_displacements(of_body, VecX(), VecX::Zero(body->motions), u);
+    of_body.response = B * u;
+  }
   return of_body;
+}
+
+VecX DualSystem::Part::pressed(const VecX& lambda) const {
+  if (slender()) return answer(B.transpose() * lambda).response;
+  return C * lambda;
+}
+
+VecX DualSystem::Part::displacements(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const {
+  VecX u = VecX::Zero(unknowns.size());
+  if (slender()) {
+    BodyGroup::Answer left = forces;
+    left.y -= body->answer(B.transpose() * lambda).y;
+    body->add_displacements(left, VecX(), mu, u);
+  } else {
+    body->add_displacements(forces, rows_of_body.cols() > 0 ? VecX(rows_of_body.transpose() * lambda) : lambda, mu, u);
+  }
+  return u;
 }
 
 namespace {
@@ -96,9 +119,15 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
   std::vector<std::size_t> counts(all.size(), 0);
   for (const int k : first) ++counts[k];
   std::vector<std::optional<Shared>> shared(all.size());
+  std::vector<char> bends(all.size());
   for_each_index(all.size(), solver_threads(), [&](std::size_t k) {
-    if (worth_sharing(all[k], counts[k])) shared[k].emplace(all[k].system);
+    bends[k] = is_slender(all[k]);
+    if (!bends[k] && worth_sharing(all[k], counts[k])) shared[k].emplace(all[k].system);
   });
+  Triplets slender_stiffness;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (bends[k]) add_stiffness(all[k], slender_stiffness);
+  slender = slender_parts(std::move(slender_stiffness), s);
 
   parts_.resize(all.size());
   load.parts.resize(all.size());
@@ -113,7 +142,16 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
     part.unknowns = std::move(own.unknowns);
     part.rows = std::move(own.rows);
     part.springs = std::move(own.springs);
-    if (const std::optional<Shared>& alike = shared[first[k]]) {
+    const std::optional<Shared>& alike = shared[first[k]];
+    if (bends[k]) {
+      own.system.B.resize(0, own.system.B.cols());
+      own.system.row_scale.resize(0);
+      part.body = std::make_shared<const BodyGroup>(own.system, all_unknowns(own.system));
+      if (part.body->failed_at >= 0) return;
+      part.B = B;
+      part.H = part.B * part.body->motion_shapes(part.unknowns.size());
+      load.parts[k] = part.answer(load_of(own.system));
+    } else if (alike) {
       part.body = alike->body;
       part.rows_of_body = B * alike->units;
       if (part.body->failed_at >= 0) return;
@@ -121,7 +159,7 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
       part.H = part.rows_of_body * alike->body->H;
       const SparseMatrix y = SparseMatrix(alike->units.transpose()) * Y;
       part.stiffness = y.transpose() * MatX(alike->stiffness * y);
-      load.parts[k] = part.of_rows(part.body->answer(load_of(own.system)));
+      load.parts[k] = part.answer(load_of(own.system));
     } else {
       auto body = std::make_shared<BodyGroup>(own.system, all_unknowns(own.system));
       body->compliance.resize(0, 0);
@@ -141,7 +179,7 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
       failed_at = part.unknowns[part.body->failed_at];
       break;
     }
-    diagonal(part.rows) += part.C.diagonal();
+    diagonal(part.rows) += part.slender() ? VecX(sharings[k].diagonal()) : VecX(part.C.diagonal());
     for (std::size_t a = 0; a < part.rows.size(); ++a)
       for (std::size_t j = 0; j < part.springs.size(); ++j)
         of_H.emplace_back(part.rows[a], part.springs[j], part.H(a, j));
@@ -160,6 +198,12 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
   of_sharing = ranks().of_all(std::move(of_sharing));
   sharing.resize(m, m);
   sharing.setFromTriplets(of_sharing.begin(), of_sharing.end());
+  if (!slender.empty()) {
+    Triplets compliance;
+    for (const Part& part : parts_)
+      if (!part.slender()) add_compliance(slender, part.rows, part.C, part.H, compliance);
+    set_compliance(slender, std::move(compliance), sharing.diagonal());
+  }
   add_up(load);
   load.r -= (s.g - s.B * s.constraints.value).cwiseQuotient(s.row_scale);
 }
@@ -204,14 +248,14 @@ VecX DualSystem::stiffness() const {
 
 namespace {
 
-// The sum over the parts of a matrix times the entries of x in their places.
-template <typename Parts, typename Matrix>
-VecX sum_of_products(const Parts& parts, const VecX& x, Matrix matrix) {
+// The sum over the parts of what each makes of the entries of x in the places of its rows.
+template <typename Parts, typename Product>
+VecX sum_of_products(const Parts& parts, const VecX& x, Product product) {
   std::vector<VecX> products(parts.size());
   double work = 0;
   for (const auto& part : parts) work += double(part.rows.size()) * double(part.rows.size());
   for_each_index(parts.size(), work > worth_threads ? solver_threads() : 1,
-                 [&](std::size_t k) { products[k].noalias() = matrix(parts[k]) * VecX(x(parts[k].places)); });
+                 [&](std::size_t k) { products[k] = product(parts[k], VecX(x(parts[k].places))); });
   VecX sum = VecX::Zero(x.size());
   for (std::size_t k = 0; k < parts.size(); ++k) sum(parts[k].places) += products[k];
   return sum;
@@ -220,21 +264,21 @@ VecX sum_of_products(const Parts& parts, const VecX& x, Matrix matrix) {
 }  // namespace
 
 VecX DualSystem::multiply(const VecX& lambda) const {
-  return rows_->sum_of_seen(
-      sum_of_products(parts_, rows_->seen(lambda), [](const Part& part) -> const MatX& { return part.C; }));
+  return rows_->sum_of_seen(sum_of_products(
+      parts_, rows_->seen(lambda), [](const Part& part, const VecX& own) -> VecX { return part.pressed(own); }));
 }
 
 VecX DualSystem::multiply_stiffness(const VecX& x) const {
-  return rows_->sum_of_seen(
-      sum_of_products(parts_, rows_->seen(x), [](const Part& part) -> const MatX& { return part.stiffness; }));
+  return rows_->sum_of_seen(sum_of_products(parts_, rows_->seen(x), [](const Part& part, const VecX& own) -> VecX {
+    return part.slender() ? VecX(VecX::Zero(own.size())) : VecX(part.stiffness * own);
+  }));
 }
 
 DualSystem::Answer DualSystem::answer(const VecX& force) const {
   Answer all;
   all.parts.resize(parts_.size());
-  for_each_index(parts_.size(), solver_threads(), [&](std::size_t k) {
-    all.parts[k] = parts_[k].of_rows(parts_[k].body->answer(force(parts_[k].unknowns)));
-  });
+  for_each_index(parts_.size(), solver_threads(),
+                 [&](std::size_t k) { all.parts[k] = parts_[k].answer(force(parts_[k].unknowns)); });
   add_up(all);
   return all;
 }
@@ -243,11 +287,7 @@ void DualSystem::add_displacements(const Answer& forces, const VecX& lambda, con
   VecX added = VecX::Zero(u.size());
   for_each_index(parts_.size(), solver_threads(), [&](std::size_t k) {
     const Part& part = parts_[k];
-    VecX own = VecX::Zero(part.unknowns.size());
-    VecX border = lambda(part.rows);
-    if (part.rows_of_body.cols() > 0) border = part.rows_of_body.transpose() * border;
-    part.body->add_displacements(forces.parts[k], border, mu(part.springs), own);
-    added(part.unknowns) = own;
+    added(part.unknowns) = part.displacements(forces.parts[k], lambda(part.rows), mu(part.springs));
   });
   ranks().sum(added.data(), added.size());
   u += added;

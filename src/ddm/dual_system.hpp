@@ -5,6 +5,7 @@
 
 #include "ddm/body_group.hpp"
 #include "ddm/ranks.hpp"
+#include "ddm/slender_parts.hpp"
 #include "ddm/substructures.hpp"
 
 namespace mortise {
@@ -40,7 +41,8 @@ class DualSystem {
   /// & Farhat 1999); m x m, lower triangle.
   SparseMatrix sharing;
 
-  VecX diagonal;  ///< of C, m
+  VecX diagonal;         ///< of C, m; of slender parts only what the row's own pressure does near it
+  SlenderParts slender;  ///< where there are any
 
   /// What displacements of the rows are compared with: `moved`, the largest of all parts together, or the largest of
   /// `terms`, which springs may make far larger, so that where bodies float only a part of it counts.
@@ -60,25 +62,30 @@ class DualSystem {
   /// s: diagonal of H^T D^-1 H, with D that of C.
   VecX stiffness() const;
   /// B W^-1 S W^-1 B^T x, likewise own, with S the stiffness of the parts' contact nodes, all other nodes free (the
-  /// Schur complement).
+  /// Schur complement); of all parts but the slender ones.
   VecX multiply_stiffness(const VecX& x) const;
 
   /// Adds the displacements under forces and the multipliers to u (n, length).
   void add_displacements(const Answer& forces, const VecX& lambda, const VecX& mu, VecX& u) const;
 
  private:
+  // Of parts that are alike.
+  struct Shared;
+
   struct Part {
     std::vector<int> unknowns, rows, springs;
     std::vector<int> places;                // of the rows, in the vectors that this rank's parts see
     std::shared_ptr<const BodyGroup> body;  // its own; or that of all parts alike, with a unit row a contact unknown
     SparseMatrix rows_of_body;              // then B on these, rows x contact unknowns; else empty
     MatX C, H, stiffness;                   // of its rows; stiffness: of multiply_stiffness, full
+    SparseMatrix B;  // of a slender part, whose body has no rows: then C and stiffness are empty; else empty
 
-    BodyGroup::Answer of_rows(BodyGroup::Answer of_body) const;
+    bool slender() const { return B.cols() > 0; }
+    BodyGroup::Answer answer(const VecX& force) const;
+    VecX pressed(const VecX& lambda) const;  // C lambda
+    // Under forces, lambda and mu, of all rows and springs of the part.
+    VecX displacements(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const;
   };
-  // Of parts that are alike.
-  struct Shared;
-
   void add_up(Answer& answer) const;
 
   void deal_rows(Eigen::Index m);

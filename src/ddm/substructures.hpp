@@ -23,6 +23,10 @@ std::vector<int> contact_unknowns(const SaddlePointSystem& part);
 /// by unknown, with the same of them fixed, held by springs and in contact. The rows may differ.
 std::vector<int> first_alike(const std::vector<Substructure>& parts);
 
+/// Levels of nodes from end to end, squared, over all nodes: about a third of length over thickness where elements have
+/// 8 nodes and are as long as wide, below 1 of compact bodies; half of it of rings. K: lower triangle, connected.
+double slenderness(const SparseMatrix& K);
+
 /// In the order of their first unknowns. Time and memory as the entries of K and B. Of several ranks: a block of them
 /// for each, with about as many unknowns.
 std::vector<Substructure> substructures(const SaddlePointSystem& system, int rank = 0, int ranks = 1);
