@@ -5,12 +5,15 @@
 
 #include <random>
 
+#include "ddm/ranks.hpp"
 #include "ddm/substructures.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/direct.hpp"
 
 namespace mortise {
 namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
 
 constexpr int nodes = 6;  // of a body: a closed ring of springs in both directions
 
@@ -24,7 +27,7 @@ struct Towers {
 // each two bodies, two a direction.
 SaddlePointSystem tower(int bodies, const Towers& t = {}) {
   SaddlePointSystem s;
-  std::vector<Eigen::Triplet<double>> K, B;
+  Triplets K, B;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> exponent(0, 1);
   const int n = 2 * nodes * bodies;
