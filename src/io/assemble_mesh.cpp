@@ -102,6 +102,14 @@ void add_boundary(Mesh& mesh, const MeshData& data, const PhysicalGroup& group,
   mesh.boundaries.push_back(std::move(boundary));
 }
 
+void add_point(Mesh& mesh, const PhysicalGroup& group, const std::vector<const ElementBlock*>& blocks) {
+  std::vector<int> nodes;
+  for (const ElementBlock* block : blocks) nodes.insert(nodes.end(), block->nodes.begin(), block->nodes.end());
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  mesh.points.push_back({group.name, std::move(nodes)});
+}
+
 /// Only nodes of cells count: a .geo may keep points of construction anywhere.
 void check_plane(const Mesh& mesh, const MeshData& data) {
   const double size = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
@@ -139,6 +147,7 @@ Mesh assemble_mesh(MeshData data) {
   check_plane(mesh, data);
   for (const PhysicalGroup& group : data.groups) {
     if (group.dimension == 1) add_boundary(mesh, data, group, blocks[{1, group.tag}]);
+    if (group.dimension == 0) add_point(mesh, group, blocks[{0, group.tag}]);
   }
   check_no_repetition(mesh);
   renumber(mesh);

@@ -1,6 +1,7 @@
 #include "io/mesh_groups.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "base/errors.hpp"
@@ -9,6 +10,9 @@
 
 namespace mortise {
 namespace {
+
+constexpr std::array kinds{"point", "curve", "surface"};  // by dimension
+constexpr std::array upper_case_kinds{"Point", "Curve", "Surface"};
 
 /// The node of these elements that is nearest to the middle of them all, for messages.
 std::string near_block(const MeshData& data, const ElementBlock& block) {
@@ -37,8 +41,8 @@ std::string near_group(const MeshData& data, const PhysicalGroup& group) {
 
 void check_name(const MeshData& data, const PhysicalGroup& group, const std::string& what) {
   if (group.name.empty()) {
-    throw InputError(data.file + ": " + what + " " + near_group(data, group) + " has no name; write " +
-                     (group.dimension == 2 ? "Physical Surface" : "Physical Curve") + "(\"name\") = {...}");
+    throw InputError(data.file + ": " + what + " " + near_group(data, group) + " has no name; write Physical " +
+                     upper_case_kinds[group.dimension] + "(\"name\") = {...}");
   }
   if (printable(group.name) != group.name) {
     throw InputError(data.file + ": " + what + ": the name '" + printable(group.name) +
@@ -50,7 +54,7 @@ void check_names(const MeshData& data, int dimension) {
   std::map<std::string, int> tag_of;
   for (const PhysicalGroup& group : data.groups) {
     if (group.dimension != dimension) continue;
-    const std::string what = (dimension == 2 ? "physical surface " : "physical curve ") + std::to_string(group.tag);
+    const std::string what = std::string("physical ") + kinds[dimension] + " " + std::to_string(group.tag);
     check_name(data, group, what);
     const auto [found, inserted] = tag_of.emplace(group.name, group.tag);
     if (!inserted) {
@@ -87,6 +91,7 @@ void check_surfaces(const MeshData& data) {
 void check_groups(const MeshData& data) {
   check_names(data, 2);
   check_names(data, 1);
+  check_names(data, 0);
   check_surfaces(data);
 }
 
