@@ -35,6 +35,8 @@ struct MeshData {
   std::vector<std::array<double, 3>> nodes;
   std::vector<PhysicalGroup> groups;
   std::vector<ElementBlock> blocks;
+  std::vector<std::string> notes = {};  ///< as Mesh's
+  bool named_by_tag = false;            ///< as Mesh's
 };
 
 /// Rows of nodes by the tags that a file gives them, which may be any numbers > 0.
