@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "base/errors.hpp"
@@ -82,14 +83,34 @@ Bodies connected_parts(const SetMesh& mesh) {
   return bodies;
 }
 
+/// Sets of parts that have no nodes in common become a body for each part.
+Bodies divided(const SetMesh& mesh, const std::vector<int>& sets, const Bodies& whole) {
+  const Bodies parts = connected_parts(mesh);
+  std::vector<std::set<int>> parts_of(sets.size());
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    if (whole.of_element[e] >= 0) parts_of[whole.of_element[e]].insert(parts.of_element[e]);
+  Bodies bodies{.names = {}, .of_element = whole.of_element};
+  std::map<std::pair<int, int>, int> numbers;  // by set and part
+  for (int s = 0; s < int(sets.size()); ++s) {
+    const std::string& name = mesh.element_sets[sets[s]].name;
+    int count = 0;
+    for (const int part : parts_of[s]) {
+      numbers[{s, part}] = int(bodies.names.size());
+      bodies.names.push_back(parts_of[s].size() == 1 ? name : name + "_" + std::to_string(++count));
+    }
+    bodies.named_by_tag = bodies.named_by_tag || count > 0;
+  }
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    if (int& body = bodies.of_element[e]; body >= 0) body = numbers.at({body, parts.of_element[e]});
+  return bodies;
+}
+
 Bodies bodies_of(const SetMesh& mesh) {
   std::vector<std::vector<int>> candidates = mesh.candidates;
   if (!mesh.bodies.empty()) candidates = {mesh.bodies};
   for (const std::vector<int>& sets : candidates) {
-    Bodies bodies;
-    if (!parts_the_cells(mesh, sets, bodies.of_element)) continue;
-    for (const int set : sets) bodies.names.push_back(mesh.element_sets[set].name);
-    return bodies;
+    Bodies whole;
+    if (parts_the_cells(mesh, sets, whole.of_element)) return divided(mesh, sets, whole);
   }
   if (!mesh.bodies.empty()) fail_bodies(mesh);
   return connected_parts(mesh);

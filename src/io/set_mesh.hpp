@@ -43,10 +43,11 @@ struct SetMesh {
   std::vector<std::string> notes;
 };
 
-/// Bodies: the sets that the file says, else of the candidates, else the parts that have no nodes in common, called
-/// surface_1, surface_2 ... Curves: the sides in `sides`; the lines of element sets that are sides of cells; the sides
-/// on a body's boundary that have all their nodes in a node set. Points: node sets without such sides.
-/// Throws InputError: no cells, a cell in no body or in two.
+/// Bodies: the sets that the file says, else of the candidates, each part that has no nodes in common with the others
+/// for itself as SET_1, SET_2 ...; else the parts that have no nodes in common, called surface_1, surface_2 ... Curves:
+/// the sides in `sides`; the lines of element sets that are sides of cells; the sides on a body's boundary that have
+/// all their nodes in a node set. Points: node sets without such sides. Throws InputError: no cells, a cell in no body
+/// or in two.
 MeshData data_of_sets(const SetMesh& mesh);
 
 }  // namespace mortise

@@ -94,6 +94,15 @@ TEST(InpFile, WithoutSetsConnectedPartsAreTheBodies) {
   EXPECT_TRUE(mesh.named_by_tag);
 }
 
+TEST(InpFile, ASetOfPartsThatHangApartIsABodyForEach) {
+  const Mesh mesh =
+      mesh_of(nodes + "7, 5, 0\n8, 6, 0\n9, 5, 1\n" + cells + "*ELEMENT, TYPE=CPS3, ELSET=Eall\n3, 7, 8, 9\n");
+  EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"Eall_1", "Eall_2"}));
+  EXPECT_TRUE(mesh.named_by_tag);
+  EXPECT_EQ(mesh.cells.back().body, 1);
+  EXPECT_EQ(mesh.cells.back().kind, CellKind::tri3);
+}
+
 TEST(InpFile, EveryKindOfPlaneElement) {
   const std::string eight =
       "*NODE\n1,0,0\n2,2,0\n3,2,2\n4,0,2\n5,1,0\n6,2,1\n7,1,2\n8,0,1\n9,1,1\n*NSET,NSET=low\n1,2,5\n";
