@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <iostream>
 #include <new>
+#include <sstream>
 
 #include "app/accuracy.hpp"
 #include "app/sweep.hpp"
@@ -17,6 +18,7 @@
 #include "ddm/ranks.hpp"
 #include "io/output_folder.hpp"
 #include "io/write_msh.hpp"
+#include "mesh/measures.hpp"
 #include "results/model_summary.hpp"
 #include "results/summary.hpp"
 #include "results/write_results.hpp"
@@ -123,6 +125,20 @@ std::string copies_line(const Scene& scene) {
   return words.empty() ? "" : "  copies    " + listed(words) + "\n";
 }
 
+// Where those bodies and curves are whose names are only tags.
+std::string measures_lines(const Mesh& mesh) {
+  if (!mesh.named_by_tag) return "";
+  std::ostringstream text;
+  const auto tell = [&](const std::string& name, const char* size, const Measure& measure) {
+    text << "            " << name << ": " << size << " " << measure.size << ", centre "
+         << near_point(measure.centre).substr(5) << "\n";
+  };
+  const std::vector<Measure> bodies = body_measures(mesh), boundaries = boundary_measures(mesh);
+  for (std::size_t b = 0; b < bodies.size(); ++b) tell(mesh.bodies[b], "area", bodies[b]);
+  for (std::size_t b = 0; b < boundaries.size(); ++b) tell(mesh.boundaries[b].name, "length", boundaries[b]);
+  return text.str();
+}
+
 // What the scene will model, and what it leaves out.
 int check(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
@@ -130,7 +146,8 @@ int check(const Options& options) {
   if (options.quiet) return 0;
   std::cout << shown(scene).title << "\n  mesh      " << checked.mesh.source << ": " << checked.mesh.nodes.rows()
             << " nodes, " << checked.mesh.cells.size() << " elements\n"
-            << copies_line(shown(scene)) << model_lines(shown(scene), checked.discretisation);
+            << measures_lines(checked.mesh) << copies_line(shown(scene))
+            << model_lines(shown(scene), checked.discretisation);
   const std::size_t count = checked.pairs.size(), told = count > told_in_full ? told_of_many : count;
   for (std::size_t k = 0; k < told; ++k) {
     const ContactPair& pair = checked.pairs[k];

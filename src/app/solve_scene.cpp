@@ -64,7 +64,8 @@ Contact add_contact(const Scene& scene, const Mesh& mesh, const std::vector<Cont
                     const std::vector<char>& dirichlet, Discretisation& d) {
   Contact contact{couple_pairs(scene.method, mesh, d, curves, dirichlet), {}};
   set_contact(contact.pairs, d.system);
-  contact.warnings = audit_scene(scene, mesh, contact.pairs);
+  contact.warnings = mesh.notes;
+  append(contact.warnings, audit_scene(scene, mesh, contact.pairs));
   require_closed(mesh, contact.pairs);
   append(contact.warnings, hold_free_motions(mesh, contact.pairs, contact.warnings, d.system));
   return contact;

@@ -1,6 +1,8 @@
 #include "io/assemble_mesh.hpp"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -67,7 +69,13 @@ BlocksOf blocks_by_group(const MeshData& data) {
   return blocks;
 }
 
-void add_body(Mesh& mesh, const MeshData& data, const PhysicalGroup& group,
+/// Cells that ran the other way round than the rest of their surface.
+struct Turned {
+  std::size_t count = 0;
+  std::string body;  // the first one with such cells
+};
+
+void add_body(Mesh& mesh, Turned& turned, const MeshData& data, const PhysicalGroup& group,
               const std::vector<const ElementBlock*>& blocks) {
   const int body = static_cast<int>(mesh.bodies.size());
   mesh.bodies.push_back(group.name);
@@ -76,7 +84,9 @@ void add_body(Mesh& mesh, const MeshData& data, const PhysicalGroup& group,
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     append_cells(mesh, *blocks[k], body);
     if (k + 1 < blocks.size() && blocks[k + 1]->entity == blocks[k]->entity) continue;
-    orient_cells(mesh, first);
+    const std::size_t count = orient_cells(mesh, first);
+    if (turned.count == 0 && count > 0) turned.body = group.name;
+    turned.count += count;
     first = mesh.cells.size();
   }
 }
@@ -102,6 +112,36 @@ void add_boundary(Mesh& mesh, const MeshData& data, const PhysicalGroup& group,
   mesh.boundaries.push_back(std::move(boundary));
 }
 
+void add_point(Mesh& mesh, const PhysicalGroup& group, const std::vector<const ElementBlock*>& blocks) {
+  std::vector<int> nodes;
+  for (const ElementBlock* block : blocks) nodes.insert(nodes.end(), block->nodes.begin(), block->nodes.end());
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  mesh.points.push_back({group.name, std::move(nodes)});
+}
+
+/// A mesh in the plane x-z or y-z.
+void check_not_upright(const MeshData& data) {
+  std::array<double, 3> low, high;
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-low[0]);
+  for (const ElementBlock& block : data.blocks) {
+    if (block.dimension != 2) continue;
+    for (const int node : block.nodes)
+      for (int k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], data.nodes[node][k]);
+        high[k] = std::max(high[k], data.nodes[node][k]);
+      }
+  }
+  const auto extent = [&](int k) { return high[k] - low[k]; };
+  const double size = std::max({extent(0), extent(1), extent(2)});
+  for (const int k : {0, 1}) {
+    if (!(extent(2) > 1e-9 * size) || !(extent(k) <= 1e-9 * size)) continue;
+    throw InputError(data.file + ": the bodies lie in the plane " + (k == 0 ? "y-z" : "x-z") + ", " + "xy"[k] + " = " +
+                     std::to_string(low[k]) + "; expected them in x-y: exchange z and " + "xy"[k]);
+  }
+}
+
 /// Only nodes of cells count: a .geo may keep points of construction anywhere.
 void check_plane(const Mesh& mesh, const MeshData& data) {
   const double size = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
@@ -124,21 +164,30 @@ Mesh assemble_mesh(MeshData data) {
   });
   std::stable_sort(data.groups.begin(), data.groups.end(),
                    [](const PhysicalGroup& a, const PhysicalGroup& b) { return a.tag < b.tag; });
+  name_groups(data);
   check_groups(data);
 
   Mesh mesh;
   mesh.source = data.file;
+  mesh.notes = data.notes;
+  mesh.named_by_tag = data.named_by_tag;
   mesh.nodes.resize(static_cast<Eigen::Index>(data.nodes.size()), 2);
   for (std::size_t i = 0; i < data.nodes.size(); ++i) {
     mesh.nodes.row(static_cast<Eigen::Index>(i)) << data.nodes[i][0], data.nodes[i][1];
   }
+  check_not_upright(data);
+  Turned turned;
   BlocksOf blocks = blocks_by_group(data);
   for (const PhysicalGroup& group : data.groups) {
-    if (group.dimension == 2) add_body(mesh, data, group, blocks[{2, group.tag}]);
+    if (group.dimension == 2) add_body(mesh, turned, data, group, blocks[{2, group.tag}]);
   }
+  if (turned.count > 0)
+    mesh.notes.push_back(std::to_string(turned.count) + " cells, the first of body '" + turned.body +
+                         "', ran the other way round than the rest of their surface and were turned");
   check_plane(mesh, data);
   for (const PhysicalGroup& group : data.groups) {
     if (group.dimension == 1) add_boundary(mesh, data, group, blocks[{1, group.tag}]);
+    if (group.dimension == 0) add_point(mesh, group, blocks[{0, group.tag}]);
   }
   check_no_repetition(mesh);
   renumber(mesh);

@@ -90,7 +90,7 @@ FreeMesher::FreeMesher(const std::string& file, const std::map<std::string, doub
                        const GeoLimits& limits)
     : limits_(limits) {
   check_mesh_file(file, parameters, limits);
-  if (std::filesystem::path(file).extension() == ".msh")
+  if (std::filesystem::path(file).extension() != ".geo")
     throw InputError(file + ": a mesh has no geometry to refine; expected a .geo");
   const GmshGuard guard(file, limits.seconds);
   GmshSession session;

@@ -47,7 +47,7 @@ MeshData gmsh_data(const std::string& file) {
   MeshData data;
   data.file = file;
   const NodeRows rows = get_nodes(data);
-  for (const int dimension : {1, 2}) {
+  for (const int dimension : {0, 1, 2}) {
     gmsh::vectorpair groups, entities;
     gmsh::model::getPhysicalGroups(groups, dimension);
     for (const auto& [dim, group] : groups) data.groups.push_back({dim, group, group_name(dim, group)});

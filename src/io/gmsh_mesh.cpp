@@ -3,30 +3,43 @@
 #include <filesystem>
 
 #include "base/errors.hpp"
+#include "base/mesh_endings.hpp"
 #include "io/assemble_mesh.hpp"
 #include "io/geo_file.hpp"
 #include "io/gmsh_data.hpp"
 #include "io/gmsh_guard.hpp"
 #include "io/gmsh_session.hpp"
+#include "io/inp_file.hpp"
+#include "io/mesh_groups.hpp"
 #include "io/msh_file.hpp"
+#include "io/set_mesh.hpp"
 
 namespace mortise {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool is_msh(const std::string& file) { return fs::path(file).extension() == ".msh"; }
+bool is_geo(const std::string& file) { return fs::path(file).extension() == ".geo"; }
+
+/// The files that are meshes already.
+MeshData read_mesh_file(const std::string& file) {
+  const fs::path ending = fs::path(file).extension();
+  if (ending == ".inp") return data_of_sets(read_inp(file));
+  MeshData data = read_msh(file);
+  group_by_entity(data);
+  return data;
+}
 
 }  // namespace
 
 void check_mesh_file(const std::string& file, const std::map<std::string, double>& parameters,
                      const GeoLimits& limits) {
-  if (!is_msh(file) && fs::path(file).extension() != ".geo") {
-    throw InputError(file + ": a mesh file ends in .geo or .msh");
+  if (!is_mesh_ending(fs::path(file).extension().string())) {
+    throw InputError(file + ": a mesh file ends in " + mesh_endings_in_words);
   }
   std::error_code error;
   if (!fs::is_regular_file(file, error)) throw InputError(file + ": no such file");
-  if (!is_msh(file)) {
+  if (is_geo(file)) {
     check_geo(file, parameters, limits.programs);
   } else if (!parameters.empty()) {
     throw InputError(file + ": parameter '" + parameters.begin()->first +
@@ -36,7 +49,7 @@ void check_mesh_file(const std::string& file, const std::map<std::string, double
 
 Mesh load_mesh(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits) {
   check_mesh_file(file, parameters, limits);
-  if (is_msh(file)) return assemble_mesh(read_msh(file));
+  if (!is_geo(file)) return assemble_mesh(read_mesh_file(file));
   MeshData data;
   {
     const GmshGuard guard(file, limits.seconds);

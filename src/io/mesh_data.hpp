@@ -11,10 +11,10 @@
 
 namespace mortise {
 
-/// Elements of one kind on one curve or surface.
+/// Elements of one kind on one point, curve or surface.
 struct ElementBlock {
-  int dimension;                          ///< 1 or 2
-  int entity;                             ///< tag of the curve or surface
+  int dimension;                          ///< 0, 1 or 2
+  int entity;                             ///< tag of the point, curve or surface
   int type;                               ///< gmsh's number of the kind, in element_type
   std::vector<int> groups;                ///< tags of the physical groups, > 0, each once
   std::vector<int> nodes;                 ///< rows of MeshData::nodes, as many an element as its kind has
@@ -22,19 +22,21 @@ struct ElementBlock {
   std::string undrawn = {};               ///< as Boundary's
 };
 
-/// A physical curve or surface, with elements or without.
+/// A physical point, curve or surface, with elements or without.
 struct PhysicalGroup {
   int dimension;
   int tag;
   std::string name;  ///< may be empty
 };
 
-/// Blocks and groups of dimension 1 and 2 only, in any order.
+/// Blocks and groups of dimension 0, 1 and 2 only, in any order.
 struct MeshData {
   std::string file;  ///< for messages
   std::vector<std::array<double, 3>> nodes;
   std::vector<PhysicalGroup> groups;
   std::vector<ElementBlock> blocks;
+  std::vector<std::string> notes = {};  ///< as Mesh's
+  bool named_by_tag = false;            ///< as Mesh's
 };
 
 /// Rows of nodes by the tags that a file gives them, which may be any numbers > 0.

@@ -1,7 +1,10 @@
 #include "io/mesh_groups.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
@@ -9,6 +12,8 @@
 
 namespace mortise {
 namespace {
+
+constexpr std::array kinds{"point", "curve", "surface"};  // by dimension
 
 /// The node of these elements that is nearest to the middle of them all, for messages.
 std::string near_block(const MeshData& data, const ElementBlock& block) {
@@ -26,20 +31,7 @@ std::string near_block(const MeshData& data, const ElementBlock& block) {
   return near_point(point(*std::min_element(block.nodes.begin(), block.nodes.end(), nearer)));
 }
 
-std::string near_group(const MeshData& data, const PhysicalGroup& group) {
-  for (const ElementBlock& block : data.blocks) {
-    if (block.dimension != group.dimension || block.nodes.empty()) continue;
-    if (std::find(block.groups.begin(), block.groups.end(), group.tag) == block.groups.end()) continue;
-    return near_block(data, block);
-  }
-  return "with no nodes";
-}
-
 void check_name(const MeshData& data, const PhysicalGroup& group, const std::string& what) {
-  if (group.name.empty()) {
-    throw InputError(data.file + ": " + what + " " + near_group(data, group) + " has no name; write " +
-                     (group.dimension == 2 ? "Physical Surface" : "Physical Curve") + "(\"name\") = {...}");
-  }
   if (printable(group.name) != group.name) {
     throw InputError(data.file + ": " + what + ": the name '" + printable(group.name) +
                      "' has characters that cannot be shown; expected one line of text");
@@ -50,7 +42,7 @@ void check_names(const MeshData& data, int dimension) {
   std::map<std::string, int> tag_of;
   for (const PhysicalGroup& group : data.groups) {
     if (group.dimension != dimension) continue;
-    const std::string what = (dimension == 2 ? "physical surface " : "physical curve ") + std::to_string(group.tag);
+    const std::string what = std::string("physical ") + kinds[dimension] + " " + std::to_string(group.tag);
     check_name(data, group, what);
     const auto [found, inserted] = tag_of.emplace(group.name, group.tag);
     if (!inserted) {
@@ -84,9 +76,29 @@ void check_surfaces(const MeshData& data) {
 
 }  // namespace
 
+void name_groups(MeshData& data) {
+  for (PhysicalGroup& group : data.groups) {
+    if (!group.name.empty()) continue;
+    group.name = kinds[group.dimension] + ("_" + std::to_string(group.tag));
+    if (group.dimension > 0) data.named_by_tag = true;
+  }
+}
+
+void group_by_entity(MeshData& data) {
+  if (std::ranges::any_of(data.groups, [](const PhysicalGroup& group) { return group.dimension > 0; })) return;
+  std::set<std::pair<int, int>> entities;
+  for (ElementBlock& block : data.blocks) {
+    if (block.dimension == 0 || block.nodes.empty()) continue;
+    block.groups = {block.entity};
+    entities.emplace(block.dimension, block.entity);
+  }
+  for (const auto& [dimension, entity] : entities) data.groups.push_back({dimension, entity, ""});
+}
+
 void check_groups(const MeshData& data) {
   check_names(data, 2);
   check_names(data, 1);
+  check_names(data, 0);
   check_surfaces(data);
 }
 

@@ -31,9 +31,9 @@ class Elements {
     records_.push_back(input_.record());
   }
 
-  /// The block of such elements; null for elements that are neither lines nor surfaces. `group` 0 is none.
+  /// The block of such elements; null for elements that are neither points nor lines nor surfaces. `group` 0 is none.
   ElementBlock* block(const ElementType& type, std::int64_t entity, std::int64_t group) {
-    if (type.dimension < 1 || type.dimension > 2) return nullptr;
+    if (type.dimension > 2) return nullptr;
     const Key key{type.number, entity, group};
     if (last_ != nullptr && key == last_key_) return last_;
     const auto [found, inserted] = index_.try_emplace(key, parts_.blocks.size());

@@ -83,7 +83,7 @@ void read_sections(MshInput& input, Format format, MshParts& parts) {
   }
 }
 
-/// Groups of dimension 1 and 2 that entities or elements belong to.
+/// Groups of dimension 0, 1 and 2 that entities or elements belong to.
 void add_groups(MshParts& parts, MeshData& data) {
   std::set<std::pair<int, int>> used;
   for (const auto& [entity, groups] : parts.groups_of) {
@@ -95,7 +95,7 @@ void add_groups(MshParts& parts, MeshData& data) {
     for (const int group : block.groups) used.emplace(block.dimension, group);
   }
   for (const auto& [dimension, tag] : used) {
-    if (dimension == 1 || dimension == 2) data.groups.push_back({dimension, tag, parts.names[{dimension, tag}]});
+    if (dimension >= 0 && dimension <= 2) data.groups.push_back({dimension, tag, parts.names[{dimension, tag}]});
   }
 }
 

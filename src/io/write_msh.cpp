@@ -35,7 +35,7 @@ int type_of(CellKind kind) {
   return 0;  // no kind
 }
 
-// Elements of one kind on one curve or surface.
+// Elements of one kind on one point, curve or surface.
 struct Block {
   int dimension, entity, type, nodes_each;
   std::vector<const int*> elements;  // nodes of each
@@ -75,6 +75,21 @@ Curves curves_of(const Mesh& mesh) {
   return curves;
 }
 
+// A named node and its points.
+struct PointEntity {
+  int node;
+  std::vector<int> groups;  // ascending
+};
+
+std::vector<PointEntity> points_of(const Mesh& mesh) {
+  std::map<int, std::vector<int>> groups;
+  for (std::size_t k = 0; k < mesh.points.size(); ++k)
+    for (const int node : mesh.points[k].nodes) groups[node].push_back(int(k));
+  std::vector<PointEntity> points;
+  for (auto& [node, of] : groups) points.push_back({node, std::move(of)});
+  return points;
+}
+
 std::vector<Block> blocks_of_cells(const Mesh& mesh) {
   std::vector<Block> blocks;
   std::map<std::pair<int, CellKind>, std::size_t> known;
@@ -97,6 +112,20 @@ std::vector<std::vector<int>> nodes_of_bodies(const Mesh& mesh) {
   return nodes;
 }
 
+void write_groups(std::FILE* f, const std::vector<int>& groups) {
+  std::fprintf(f, " %zu", groups.size());
+  for (const int group : groups) std::fprintf(f, " %d", group + 1);
+}
+
+void write_points(std::FILE* f, const Mesh& mesh, const std::vector<PointEntity>& points) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const int node = points[k].node;
+    std::fprintf(f, "%zu %.17g %.17g 0", k + 1, mesh.nodes(node, 0), mesh.nodes(node, 1));
+    write_groups(f, points[k].groups);
+    std::fputc('\n', f);
+  }
+}
+
 // With the physical groups of each, by dimension and tag.
 void write_entities(std::FILE* f, const Mesh& mesh, const std::vector<std::vector<int>>& groups,
                     const std::vector<Block>& blocks) {
@@ -107,9 +136,8 @@ void write_entities(std::FILE* f, const Mesh& mesh, const std::vector<std::vecto
         boxes[block.entity - 1].extend(Vec2(mesh.nodes.row(element[i]).transpose()));
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const Vec2 low = boxes[k].min(), high = boxes[k].max();
-    std::fprintf(f, "%zu %.17g %.17g 0 %.17g %.17g 0 %zu", k + 1, low.x(), low.y(), high.x(), high.y(),
-                 groups[k].size());
-    for (const int group : groups[k]) std::fprintf(f, " %d", group + 1);
+    std::fprintf(f, "%zu %.17g %.17g 0 %.17g %.17g 0", k + 1, low.x(), low.y(), high.x(), high.y());
+    write_groups(f, groups[k]);
     std::fprintf(f, " 0\n");
   }
 }
@@ -144,20 +172,27 @@ void write_elements(std::FILE* f, const std::vector<Block>& blocks) {
 void write_sections(std::FILE* f, const Mesh& mesh) {
   const Curves curves = curves_of(mesh);
   const std::vector<Block> cells = blocks_of_cells(mesh);
+  const std::vector<PointEntity> points = points_of(mesh);
   std::vector<std::vector<int>> surfaces;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) surfaces.push_back({int(b)});
 
   std::fprintf(f, "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n%zu\n",
-               mesh.bodies.size() + mesh.boundaries.size());
+               mesh.bodies.size() + mesh.boundaries.size() + mesh.points.size());
+  for (std::size_t k = 0; k < mesh.points.size(); ++k)
+    std::fprintf(f, "0 %zu \"%s\"\n", k + 1, mesh.points[k].name.c_str());
   for (std::size_t k = 0; k < mesh.boundaries.size(); ++k)
     std::fprintf(f, "1 %zu \"%s\"\n", k + 1, mesh.boundaries[k].name.c_str());
   for (std::size_t k = 0; k < mesh.bodies.size(); ++k) std::fprintf(f, "2 %zu \"%s\"\n", k + 1, mesh.bodies[k].c_str());
-  std::fprintf(f, "$EndPhysicalNames\n$Entities\n0 %zu %zu 0\n", curves.boundaries.size(), surfaces.size());
+  std::fprintf(f, "$EndPhysicalNames\n$Entities\n%zu %zu %zu 0\n", points.size(), curves.boundaries.size(),
+               surfaces.size());
+  write_points(f, mesh, points);
   write_entities(f, mesh, curves.boundaries, curves.blocks);
   write_entities(f, mesh, surfaces, cells);
   std::fprintf(f, "$EndEntities\n");
   write_nodes(f, mesh);
-  std::vector<Block> blocks = curves.blocks;
+  std::vector<Block> blocks;
+  for (std::size_t k = 0; k < points.size(); ++k) blocks.push_back({0, int(k) + 1, 15, 1, {&points[k].node}});
+  blocks.insert(blocks.end(), curves.blocks.begin(), curves.blocks.end());
   blocks.insert(blocks.end(), cells.begin(), cells.end());
   write_elements(f, blocks);
 }

@@ -74,6 +74,15 @@ void add_edges(const Boundary& boundary, const std::vector<int>& piece_of_node, 
   }
 }
 
+void add_nodes(const NamedPoint& point, const std::vector<int>& piece_of_node, const std::vector<int>& number,
+               std::vector<Mesh>& pieces) {
+  for (const int node : point.nodes) {
+    std::vector<NamedPoint>& own = pieces[piece_of_node[node]].points;
+    if (own.empty() || own.back().name != point.name) own.push_back({point.name, {}});
+    own.back().nodes.push_back(number[node]);
+  }
+}
+
 // The pieces as meshes of their own.
 std::vector<Mesh> split(const Mesh& mesh, const std::vector<int>& piece, const std::vector<BodyCopy>& copies) {
   std::vector<Mesh> pieces(*std::ranges::max_element(piece) + 1);
@@ -97,15 +106,16 @@ std::vector<Mesh> split(const Mesh& mesh, const std::vector<int>& piece, const s
     to.cells.push_back(cell);
   }
   for (const Boundary& boundary : mesh.boundaries) add_edges(boundary, piece_of_node, number, pieces);
+  for (const NamedPoint& point : mesh.points) add_nodes(point, piece_of_node, number, pieces);
   return pieces;
 }
 
-std::string curve_name(const BodyCopy& copy, const std::string& curve) {
-  if (curve.starts_with(copy.body)) {
-    const std::string rest = curve.substr(copy.body.size());
+std::string name_in_copy(const BodyCopy& copy, const std::string& name) {
+  if (name.starts_with(copy.body)) {
+    const std::string rest = name.substr(copy.body.size());
     if (rest.empty() || std::string("_-.: ").find(rest.front()) != std::string::npos) return copy.name + rest;
   }
-  return copy.name + "_" + curve;
+  return copy.name + "_" + name;
 }
 
 // Nodes from row `first` on, which is the next.
@@ -120,12 +130,17 @@ void append(const Mesh& original, const BodyCopy& copy, int first, Mesh& mesh) {
   }
   mesh.bodies.push_back(copy.name);
   for (Boundary boundary : original.boundaries) {
-    boundary.name = curve_name(copy, boundary.name);
+    boundary.name = name_in_copy(copy, boundary.name);
     for (Edge& edge : boundary.edges)
       for (int i = 0; i < edge.node_count; ++i) edge.nodes[i] += first;
     for (EdgeSamples& samples : boundary.samples)
       for (Vec2& x : samples) x = motion(x);
     mesh.boundaries.push_back(std::move(boundary));
+  }
+  for (NamedPoint point : original.points) {
+    point.name = name_in_copy(copy, point.name);
+    for (int& node : point.nodes) node += first;
+    mesh.points.push_back(std::move(point));
   }
 }
 
@@ -147,13 +162,15 @@ class Names {
 
 void check_names(const std::vector<Mesh>& pieces, const std::vector<const Mesh*>& originals,
                  const std::vector<BodyCopy>& copies) {
-  Names bodies("body"), curves("curve");
+  Names bodies("body"), curves("curve"), points("point");
   for (const std::string& body : pieces[0].bodies) bodies.take(body);
   for (const Boundary& boundary : pieces[0].boundaries) curves.take(boundary.name);
+  for (const NamedPoint& point : pieces[0].points) points.take(point.name);
   for (std::size_t k = 0; k < copies.size(); ++k) {
     bodies.take(copies[k].name, copies[k]);
     for (const Boundary& boundary : originals[k]->boundaries)
-      curves.take(curve_name(copies[k], boundary.name), copies[k]);
+      curves.take(name_in_copy(copies[k], boundary.name), copies[k]);
+    for (const NamedPoint& point : originals[k]->points) points.take(name_in_copy(copies[k], point.name), copies[k]);
   }
 }
 
@@ -178,6 +195,8 @@ Mesh copy_bodies(Mesh mesh, const std::vector<BodyCopy>& copies) {
 
   Mesh all = pieces[0];
   all.source = mesh.source;
+  all.notes = mesh.notes;
+  all.named_by_tag = mesh.named_by_tag;
   int first = int(all.nodes.rows());
   all.nodes.conservativeResize(nodes, 2);
   all.cells.reserve(cells);

@@ -76,12 +76,21 @@ struct Boundary {
   std::string undrawn = {};               ///< why there are none although the file draws a geometry
 };
 
+/// A physical point.
+struct NamedPoint {
+  std::string name;
+  std::vector<int> nodes;  ///< rows of Mesh::nodes, rising: one or more
+};
+
 struct Mesh {
   std::string source;                ///< the file it came from, for messages
   Points nodes;                      ///< every node belongs to at least one cell
   std::vector<Cell> cells;           ///< sorted by body
-  std::vector<std::string> bodies;   ///< physical surfaces, a name each
-  std::vector<Boundary> boundaries;  ///< physical curves
+  std::vector<std::string> bodies;   ///< physical surfaces, a name each, all different
+  std::vector<Boundary> boundaries;  ///< physical curves, by names that are all different
+  std::vector<NamedPoint> points;    ///< physical points that are nodes of cells
+  std::vector<std::string> notes;    ///< what was mended when it was read, a sentence each
+  bool named_by_tag = false;         ///< whether a body or a boundary had no name in the file
 };
 
 /// Index of the body or boundary called `name`. Throws InputError with the known names.

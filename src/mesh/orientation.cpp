@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
@@ -45,24 +48,39 @@ void reverse(Cell& cell) {
   if (is_quadratic(cell.kind)) std::reverse(cell.nodes.begin() + corners, cell.nodes.begin() + 2 * corners);
 }
 
+/// Two cells on the same side of an edge: one was not listed the other way round, it lies over the other.
+void check_not_folded(const Mesh& mesh, std::size_t first, const std::vector<char>& was_clockwise,
+                      bool clockwise_is_odd) {
+  std::map<std::pair<int, int>, std::size_t> sides;
+  for (std::size_t c = first; c < mesh.cells.size(); ++c)
+    for (int i = 0; i < corner_count(mesh.cells[c].kind); ++i) {
+      const Edge side = side_edge(mesh.cells[c], i);
+      const auto [other, is_new] = sides.emplace(std::pair(side.nodes[0], side.nodes[1]), c);
+      if (is_new) continue;
+      const bool this_one = bool(was_clockwise[c - first]) == clockwise_is_odd;
+      fail(mesh, mesh.cells[this_one ? c : other->second],
+           "is inverted: it runs the other way round than the rest of its surface");
+    }
+}
+
 }  // namespace
 
-void orient_cells(Mesh& mesh, std::size_t first) {
+std::size_t orient_cells(Mesh& mesh, std::size_t first) {
   std::size_t clockwise = 0;
-  std::size_t last_of[2] = {first, first};  // the last cell of each orientation
+  std::vector<char> is_clockwise(mesh.cells.size() - first);
   for (std::size_t c = first; c < mesh.cells.size(); ++c) {
     const bool negative = signed_area(mesh, mesh.cells[c]) < 0;
     clockwise += negative ? 1 : 0;
-    last_of[negative ? 1 : 0] = c;
+    is_clockwise[c - first] = negative;
   }
-  if (clockwise == 0) return;
+  if (clockwise == 0) return 0;
 
+  for (std::size_t c = first; c < mesh.cells.size(); ++c)
+    if (is_clockwise[c - first]) reverse(mesh.cells[c]);
   const std::size_t count = mesh.cells.size() - first;
-  if (clockwise != count) {
-    const Cell& odd_one = mesh.cells[last_of[2 * clockwise <= count ? 1 : 0]];
-    fail(mesh, odd_one, "is inverted: it runs the other way round than the rest of its surface");
-  }
-  for (std::size_t c = first; c < mesh.cells.size(); ++c) reverse(mesh.cells[c]);
+  if (clockwise == count) return 0;
+  check_not_folded(mesh, first, is_clockwise, 2 * clockwise <= count);
+  return 2 * clockwise <= count ? clockwise : count - clockwise;
 }
 
 }  // namespace mortise

@@ -96,6 +96,15 @@ void renumber_boundary(const Mesh& mesh, const std::vector<int>& number, Boundar
   }
 }
 
+void renumber_points(const std::vector<int>& number, std::vector<NamedPoint>& points) {
+  for (NamedPoint& point : points) {
+    for (int& node : point.nodes) node = number[node];
+    std::erase(point.nodes, -1);
+    std::ranges::sort(point.nodes);
+  }
+  std::erase_if(points, [](const NamedPoint& point) { return point.nodes.empty(); });
+}
+
 }  // namespace
 
 void renumber(Mesh& mesh) {
@@ -103,6 +112,7 @@ void renumber(Mesh& mesh) {
   sort_cells(mesh);
   const std::vector<int> number = number_by_cells(mesh);
   for (Boundary& boundary : mesh.boundaries) renumber_boundary(mesh, number, boundary);
+  renumber_points(number, mesh.points);
 
   Points nodes(*std::max_element(number.begin(), number.end()) + 1, 2);
   for (std::size_t i = 0; i < number.size(); ++i) {

@@ -1,6 +1,7 @@
 // [mesh]
 #include <filesystem>
 
+#include "base/mesh_endings.hpp"
 #include "scene/fields.hpp"
 #include "scene/files.hpp"
 #include "scene/sections.hpp"
@@ -18,8 +19,8 @@ fs::path resolve(const Node& file, const std::string& scene_path) {
 }
 
 void check_mesh_file(const Node& file, const fs::path& path) {
-  if (path.extension() != ".geo" && path.extension() != ".msh") {
-    fail(file, "expected a .geo or a .msh file, found '" + file.text + "'");
+  if (!is_mesh_ending(path.extension().string())) {
+    fail(file, std::string("expected a file that ends in ") + mesh_endings_in_words + ", found '" + file.text + "'");
   }
   const std::string trouble = file_trouble(path);
   if (!trouble.empty()) fail(file, "'" + path.string() + "': " + trouble);
@@ -36,7 +37,7 @@ void read_mesh_section(const Node& root, Scene& scene) {
   const Node& mesh = require(root, "mesh", "a table [mesh] with file = \"NAME.geo\" or \"NAME.msh\"");
   expect_keys(mesh, {"file", "parameters", "time_limit", "programs"});
   read_limits(mesh, scene);
-  const Node& file = require(mesh, "file", "the name of a .geo or a .msh file");
+  const Node& file = require(mesh, "file", "the name of a .geo, a .msh or another mesh file");
   const fs::path path = resolve(file, scene.path);
   check_mesh_file(file, path);
   scene.mesh_file = path.string();
@@ -46,7 +47,7 @@ void read_mesh_section(const Node& root, Scene& scene) {
   for (const Node& parameter : parameters->items) {
     if (path.extension() != ".geo") {
       fail(blame(file, parameter).place, parameter.path,
-           "a .msh is meshed already and takes no parameters; expected a .geo, found '" + file.text + "'");
+           "a mesh file is meshed already and takes no parameters; expected a .geo, found '" + file.text + "'");
     }
     scene.mesh_parameters[parameter.name] = number(parameter);
   }

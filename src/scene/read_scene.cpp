@@ -1,6 +1,7 @@
 // A scene file from text to checked data.
 #include <filesystem>
 
+#include "base/mesh_endings.hpp"
 #include "scene/fields.hpp"
 #include "scene/files.hpp"
 #include "scene/overrides.hpp"
@@ -13,7 +14,7 @@ Node load_document(const std::string& path) {
   Place place;
   place.file = path;
   const std::string ending = std::filesystem::path{path}.extension().string();
-  if (ending == ".geo" || ending == ".msh") {
+  if (is_mesh_ending(ending)) {
     fail(place, "", "this is a geometry or a mesh; expected a scene file (.toml) that names it under [mesh]");
   }
   if (path.empty()) throw InputError("command line: the name of the scene is empty; expected a scene file (.toml)");

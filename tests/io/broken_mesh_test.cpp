@@ -95,16 +95,6 @@ std::vector<Broken> broken_meshes() {
        kBody + square(2, "3"),
        {},
        {"surface 2 near (3.5, 3.5)", "in no physical surface"}},
-      {"body without name",
-       "a.geo",
-       kBody + square(2, "3") + "Physical Surface(7) = {2};",
-       {},
-       {"physical surface 7 near (3.5, 3.5) has no name"}},
-      {"boundary without name",
-       "a.geo",
-       kBody + "Physical Curve(8) = {12};",
-       {},
-       {"physical curve 8 near (1, 0.5) has no name"}},
       {"surface of two bodies",
        "a.geo",
        kBody + "Physical Surface(\"other\") = {1};",
@@ -159,9 +149,19 @@ std::vector<Broken> broken_meshes() {
        {"the cell near (0.5, 0.5) is inverted: its sides cross"}},
       {"folded",
        "a.msh",
-       msh(kUnitNodes, "1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n3 2 2 1 1 2 3 5\n"),
+       msh("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.4 0.5 0\n", "1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n3 2 2 1 1 3 2 5\n"),
        {},
-       {"is inverted: it runs the other way round", "near (1.33333, 0.333333)"}},
+       {"is inverted: it runs the other way round", "near (0.8, 0.5)"}},
+      {"in the plane x-z",
+       "a.msh",
+       msh("1 0 3 0\n2 1 3 0\n3 1 3 1\n4 0 3 1\n", "1 3 2 1 1 1 2 3 4\n"),
+       {},
+       {"the bodies lie in the plane x-z, y = 3.000000; expected them in x-y: exchange z and y"}},
+      {"in the plane y-z",
+       "a.msh",
+       msh("1 0 0 0\n2 0 1 0\n3 0 1 1\n4 0 0 1\n", "1 3 2 1 1 1 2 3 4\n"),
+       {},
+       {"the bodies lie in the plane y-z, x = 0.000000; expected them in x-y: exchange z and x"}},
   };
 }
 
@@ -189,6 +189,40 @@ TEST(BrokenMesh, UpsideDownAsAWholeIsNotBroken) {
   const Mesh mesh = load_mesh(file, {});
   ASSERT_EQ(mesh.cells.size(), 2U);
   EXPECT_EQ(mesh.nodes.rows(), 5);
+}
+
+TEST(BrokenMesh, CellsThatRunTheOtherWayRoundAreTurnedWithANote) {
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("a.msh", msh(kUnitNodes, "1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n3 2 2 1 1 2 3 5\n"));
+  const Mesh mesh = load_mesh(file, {});
+  ASSERT_EQ(mesh.notes.size(), 1u);
+  EXPECT_EQ(mesh.notes[0].rfind("1 cells, the first of body 'body', ran the other way round", 0), 0u) << mesh.notes[0];
+  for (const Cell& cell : mesh.cells) {
+    const Vec2 a = mesh.nodes.row(cell.nodes[0]), b = mesh.nodes.row(cell.nodes[1]), c = mesh.nodes.row(cell.nodes[2]);
+    EXPECT_GT((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x(), 0);
+  }
+}
+
+TEST(MeshNames, GroupsWithOnlyATagAreNamedByIt) {
+  const TemporaryFolder folder;
+  const std::string geo = folder.write("a.geo", kBody + square(2, "3") +
+                                                    "Physical Surface(7) = {2}; Physical Curve(8) = {12};\n"
+                                                    "Physical Curve(\"top\", 9) = {13};");
+  const Mesh mesh = load_mesh(geo, {});
+  EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"body", "surface_7"}));
+  EXPECT_EQ(boundary_names(mesh), (std::vector<std::string>{"curve_8", "top"}));
+  EXPECT_TRUE(mesh.named_by_tag);
+  EXPECT_FALSE(load_mesh(folder.write("b.geo", kBody), {}).named_by_tag);
+}
+
+TEST(MeshNames, AMeshWithoutGroupsIsNamedByItsEntities) {
+  const TemporaryFolder folder;
+  const std::string text = msh(kUnitNodes, "1 3 2 0 4 1 2 3 4\n2 2 2 0 6 2 5 3\n3 1 2 0 5 1 2\n");
+  const Mesh mesh = load_mesh(folder.write("a.msh", text), {});
+  EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"surface_4", "surface_6"}));
+  EXPECT_EQ(boundary_names(mesh), (std::vector<std::string>{"curve_5"}));
+  EXPECT_TRUE(mesh.named_by_tag);
 }
 
 }  // namespace

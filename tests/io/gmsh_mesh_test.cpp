@@ -24,7 +24,8 @@ using test::message_of;
 using test::TemporaryFolder;
 
 /// Two bodies along y = 1; the lower one of two surfaces, the right of which may be recombined, and the upper one
-/// upside down (its curve loop runs clockwise). A physical point and a point far out of the plane are to be ignored.
+/// upside down (its curve loop runs clockwise). Of the physical point one is far out of the plane, in no body, and to
+/// be ignored.
 const char* const kTwoPlates = R"(
 DefineConstant[ n_upper = 4 ];
 DefineConstant[ n_lower = {3, Min 1, Name "Mesh/n_lower"}, quads = 0, order = 1, quad9 = 0 ];
@@ -154,6 +155,14 @@ TEST_P(GmshMesh, GeoIsMeshed) {
   EXPECT_NEAR(mesh.nodes(contact_curve(mesh, 1).edges.front().nodes[0], 0), 0.0, 1e-12);
 }
 
+/// Names and coordinates of all points.
+std::vector<std::tuple<std::string, double, double>> places(const Mesh& mesh) {
+  std::vector<std::tuple<std::string, double, double>> places;
+  for (const NamedPoint& point : mesh.points)
+    for (const int node : point.nodes) places.emplace_back(point.name, mesh.nodes(node, 0), mesh.nodes(node, 1));
+  return places;
+}
+
 TEST_P(GmshMesh, MshOfEveryFormatIsTheSame) {
   const Variety& variety = GetParam();
   const TemporaryFolder folder;
@@ -168,6 +177,7 @@ TEST_P(GmshMesh, MshOfEveryFormatIsTheSame) {
       write_by_gmsh(geo, msh, version, binary);
       const Mesh mesh = load_mesh(msh, {});
       EXPECT_TRUE(shape(mesh) == expected) << "version " << version << " binary " << binary;
+      EXPECT_EQ(places(mesh), (decltype(places(mesh)){{"corner", 0, 0}}));  // as drawn
     }
   }
 }
@@ -227,6 +237,22 @@ TEST(GmshMeshFile, AGeoMayMeshItself) {
   const TemporaryFolder folder;
   const std::string geo = folder.write("two.geo", std::string(kTwoPlates) + "Mesh 2;\nMesh.ElementOrder = 2;\n");
   EXPECT_EQ(kinds_of(load_mesh(geo, {})), std::vector<CellKind>{CellKind::tri3});
+}
+
+TEST(GmshMeshFile, PointsKeepTheirNames) {
+  const TemporaryFolder folder;
+  const std::string geo = folder.write("two.geo", std::string(kTwoPlates) +
+                                                      "Physical Point(\"tips\") = {3, 14, 1};\n"
+                                                      "Physical Point(\"nowhere\") = {99};\n");
+  const Mesh mesh = load_mesh(geo, {});
+  ASSERT_EQ(mesh.points.size(), 2u);  // a point of no body is none
+  EXPECT_EQ(mesh.points[1].nodes.size(), 3u);
+  auto found = places(mesh);
+  std::ranges::sort(found);
+  const decltype(found) drawn{{"corner", 0, 0}, {"tips", 0, 0}, {"tips", 0, 2}, {"tips", 2, 0}};
+  EXPECT_EQ(found, drawn);
+  write_msh(mesh, folder.path("a.msh"));
+  EXPECT_EQ(places(load_mesh(folder.path("a.msh"), {})), places(mesh));
 }
 
 TEST(GmshMeshFile, LastStatementCountsWithoutANewlineToo) {

@@ -65,6 +65,18 @@ TEST(CopyBodies, TurnAboutTheCentreThenMove) {
   }
 }
 
+TEST(CopyBodies, PointsAreNamedAsCurvesAre) {
+  Mesh plate = testing_meshes::plate(CellKind::tri3, 2, 1);
+  plate.points = {{"plate_tip", {1}}, {"eye", {0, 3}}};
+  const Mesh mesh = copy_bodies(plate, {copy_of("plate", "a"), copy_of("plate", "b", {1, 0})});
+  const int n = int(plate.nodes.rows());
+  ASSERT_EQ(mesh.points.size(), 4u);
+  EXPECT_EQ(mesh.points[0].name, "a_tip");
+  EXPECT_EQ(mesh.points[1].name, "a_eye");
+  EXPECT_EQ(mesh.points[2].name, "b_tip");
+  EXPECT_EQ(mesh.points[3].nodes, (std::vector<int>{n, n + 3}));
+}
+
 TEST(CopyBodies, QuarterTurnsAreExact) {
   const Mesh plate = testing_meshes::plate(CellKind::tri6, 3, 2);
   for (const auto& [degrees, x, y] : std::vector<std::tuple<double, Vec2, Vec2>>{{90, {0, 1}, {-1, 0}},

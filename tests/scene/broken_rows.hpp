@@ -54,7 +54,7 @@ inline Rows mesh_rows() {
       {"MeshFileEmpty", "\"plates.geo\"", "\"\"", {"mesh.file: expected a name, found ''"}},
       {"MeshFileNotThere", "\"plates.geo\"", "\"plate.geo\"", {"plate.geo': no such file", "'plates.geo'"}},
       {"MeshFileIsAFolder", "\"plates.geo\"", "\"folder.geo\"", {"folder.geo': is a folder"}},
-      {"MeshFileOfAnotherKind", "\"plates.geo\"", "\"plates.stl\"", {"expected a .geo or a .msh", "'plates.stl'"}},
+      {"MeshFileOfAnotherKind", "\"plates.geo\"", "\"plates.stl\"", {"expected a file that ends in .geo or .msh", "'plates.stl'"}},
       {"ParametersOfAMsh", "\"plates.geo\"", "\"plates.msh\"", {"mesh.parameters.n_upper", "no parameters"}, 1},
       {"ParameterIsAString", "n_upper = 80", "n_upper = \"80\"", {"n_upper: expected a number, found '80'"}},
       {"TimeLimitIsZero", "parameters =", "time_limit = 0\nparameters =", {"mesh.time_limit: expected"}},
