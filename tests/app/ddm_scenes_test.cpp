@@ -253,6 +253,16 @@ TEST(Decompose, WhatOverflowsIsNotSolved) {
     }
 }
 
+// A cladding 80 long and 0.6 thick among ten pellets, in a plane where it bends freely: contact nodes' stiffness alone
+// as preconditioner takes 767 steps (docs/theory.md, section 15).
+TEST(Feti, TakesFewStepsWithASlenderBody) {
+  const Results feti = run("pellets", {{"method.solver", "feti"}}),
+                direct = run("pellets", {{"method.solver", "direct"}});
+  EXPECT_EQ(feti.status, Status::solved);
+  EXPECT_LE(feti.solution.iteration->steps, 100);
+  EXPECT_LE(largest_entry(feti.solution.lambda - direct.solution.lambda), 1e-8 * largest_entry(direct.solution.lambda));
+}
+
 TEST(Decompose, KeysOfDomainDecompositionNeedIt) {
   expect_contains(message_of([] { run("rings", {{"method.beta", "0.3"}}); }), "expected solver = \"ddm\"");
   expect_contains(message_of([] { ddm("rings", {{"method.beta", "-1"}}); }), "method.beta");

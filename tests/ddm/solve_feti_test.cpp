@@ -13,8 +13,6 @@
 namespace mortise {
 namespace {
 
-using Triplets = std::vector<Eigen::Triplet<double>>;
-
 constexpr int nodes = 6;  // of a body: a closed ring of springs in both directions
 
 struct Towers {
@@ -142,48 +140,6 @@ TEST(Feti, OpensTheRowsThatTheDirectMethodOpens) {
   expect_same(solve_by_feti(s, {}), direct, 1e-8);
 }
 
-// A chain of springs, soft from end to end, that rings of springs hold: nodes 0 to 239 are its own. Every other node of
-// it touches a ring, three a ring; rings stand on rows to one another.
-SaddlePointSystem chain_and_rings() {
-  constexpr int links = 240, rings = 40;
-  SaddlePointSystem s;
-  Triplets K, B;
-  const auto spring = [&](int a, int b, double k) {
-    for (int c = 0; c < 2; ++c) {
-      const int one = 2 * a + c, other = 2 * b + c;
-      K.emplace_back(one, one, k);
-      K.emplace_back(other, other, k);
-      K.emplace_back(std::max(one, other), std::min(one, other), -k);
-    }
-  };
-  for (int i = 0; i + 1 < links; ++i) spring(i, i + 1, 1);
-  int row = 0;
-  const auto touch = [&](int a, int b, int c) {
-    B.emplace_back(row, 2 * a + c, 1);
-    B.emplace_back(row++, 2 * b + c, -1);
-  };
-  for (int r = 0; r < rings; ++r) {
-    const int first = links + nodes * r;
-    for (int i = 0; i < nodes; ++i) spring(first + i, first + (i + 1) % nodes, 1 + 0.1 * i);
-    for (int i = 0; i < 3; ++i) touch(first + i, 6 * r + 2 * i, 1);
-    for (int c = 0; c < 2; ++c) touch(first + 4, r == 0 ? 0 : first - nodes + 5, c);
-    s.grounded.push_back(2 * first);
-    s.grounded.push_back(2 * first + 1);
-  }
-  const int n = 2 * (links + nodes * rings);
-  s.K.resize(n, n);
-  s.K.setFromTriplets(K.begin(), K.end());
-  s.B.resize(row, n);
-  s.B.setFromTriplets(B.begin(), B.end());
-  s.f = VecX::LinSpaced(n, -1, -2);
-  s.g = VecX::LinSpaced(row, 0.1, -0.1);
-  s.row_scale = VecX::LinSpaced(row, 1, 2);
-  s.constraints = {std::vector<char>(n, 0), VecX::Zero(n)};
-  s.constraints.fixed[0] = s.constraints.fixed[1] = 1;
-  s.stiffness_scale = 2;
-  return s;
-}
-
 TEST(Substructures, KnowSlenderParts) {
   const auto of = [](int columns, int rows, bool closed) {  // a grid of springs
     Triplets K;
@@ -207,19 +163,6 @@ TEST(Substructures, KnowSlenderParts) {
   EXPECT_EQ(of(100, 1, true), 51.0 * 51 / 100);
   EXPECT_EQ(of(10, 10, false), 19.0 * 19 / 100);
   EXPECT_EQ(of(1, 1, false), 1);
-}
-
-TEST(Feti, TakesFewStepsWithASlenderPart) {
-  for (const bool unilateral : {false, true}) {
-    SCOPED_TRACE(unilateral);
-    SaddlePointSystem s = chain_and_rings();
-    if (unilateral) s.unilateral.assign(s.B.rows(), 1);
-    if (unilateral) s.f(Eigen::seqN(2 * 100 + 1, 10, 2)).setConstant(9);  // lifts a part of the chain
-    const Solution direct = solve_directly(s), found = solve_by_feti(s, {});
-    EXPECT_EQ(std::ranges::count(direct.active, 0) > 0, unilateral);
-    expect_same(found, direct, 1e-8);
-    EXPECT_LE(found.iteration->steps, 60);
-  }
 }
 
 TEST(Feti, NamesTheMotionThatTheLoadDrives) {
