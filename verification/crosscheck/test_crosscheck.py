@@ -99,7 +99,9 @@ def test_gap_and_normals_of_each_case(table):
             assert run.contact_settings(step) == ({} if curve else settings)
             if not curve:
                 assert gaps.setdefault(case.scene, step.gap) == step.gap
-    assert {scene for scene, gap in gaps.items() if gap == "measured"} == {"gap_close", "hertz", "pellets", "punch", "rollers"}
+    assert {scene for scene, gap in gaps.items() if gap == "measured"} == {
+        "gap_close", "hertz", "hertz_sphere", "pellets", "punch", "rollers",
+    }
     curves = [case for case in table if case.name.endswith("/curve")]
     scenes_of = lambda cases: {(case.scene, case.steps[0].condition) for case in cases}
     assert scenes_of(curves) == scenes_of(case for case in curves if case.quick)
