@@ -35,8 +35,7 @@ Json extremes_json(const Results& r) {
   };
   const Extremes& found = r.extremes;
   Json json{{"von_mises", in_body(found.von_mises)},
-            {"principal", {{"max", in_body(found.principal_max)}, {"min", in_body(found.principal_min)}}},
-            {"pressure", nullptr}};
+            {"principal", {{"max", in_body(found.principal_max)}, {"min", in_body(found.principal_min)}}}};
   json["von_mises"]["limit"] = !grows_without_limit(r, found.von_mises);
   if (const auto& p = found.pressure)
     json["pressure"] = {{"value", p->value}, {"pair", p->of}, {"position", {p->place.x(), p->place.y()}}};
