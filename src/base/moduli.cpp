@@ -1,7 +1,5 @@
 #include "base/moduli.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
 
 namespace mortise {
@@ -20,7 +18,7 @@ std::optional<Mat4> orthotropic_stiffness(const OrthotropicModuli& m) {
       s * s, c * c, 0, -c * s,       //
       0, 0, 1, 0,                    //
       -2 * c * s, 2 * c * s, 0, c * c - s * s;
-  return turned.transpose() * compliance.inverse() * turned;
+  return turned.transpose() * inverse(compliance) * turned;
 }
 
 bool is_stiffness(const Mat4& stiffness) { return stiffness.allFinite() && stiffness.llt().info() == Eigen::Success; }

@@ -1,6 +1,7 @@
 // Elastic constants of materials that are not isotropic.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <optional>
 
 #include "base/types.hpp"
@@ -21,5 +22,11 @@ std::optional<Mat4> orthotropic_stiffness(const OrthotropicModuli& moduli);
 
 /// Whether every strain has a positive energy.
 bool is_stiffness(const Mat4& stiffness);
+
+/// Of a positive definite matrix, without its determinant: that of moduli of 1e300 is beyond double precision.
+template <class Matrix>
+Matrix inverse(const Matrix& positive) {
+  return positive.llt().solve(Matrix::Identity());
+}
 
 }  // namespace mortise

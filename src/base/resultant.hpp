@@ -5,7 +5,7 @@
 
 namespace mortise {
 
-/// Force and moment of forces at places, per thickness. The moment is about the origin, positive counter-clockwise.
+/// Force and moment of forces at places, times depth (base/model.hpp). The moment is about the origin, positive counter-clockwise.
 struct Resultant {
   Vec2 force = Vec2::Zero();
   double moment = 0;

@@ -27,7 +27,7 @@ std::vector<int> row_nodes(const Coupling& coupling);
 /// Multipliers from the rows' values: value[row[a]], zero without support.
 VecX multiplier_values(const Coupling& coupling, const VecX& row_values);
 
-/// What the rows' values put on the nodes of both sides, -B^T row_values: forces per thickness, by node.
+/// What the rows' values put on the nodes of both sides, -B^T row_values: forces times depth, by node.
 std::map<int, Vec2> contact_forces(const Coupling& coupling, const VecX& row_values);
 
 /// The multipliers' values interpolated at a point of the multiplier side with the Lagrange functions of their nodes,

@@ -1,9 +1,10 @@
 #include "fem/material.hpp"
 
-#include <Eigen/LU>
 #include <cassert>
 #include <cmath>
 #include <utility>
+
+#include "base/moduli.hpp"
 
 namespace mortise {
 namespace {
@@ -53,12 +54,12 @@ ElasticLaw elastic_law(const Mat4& stiffness, const Model& model, double young, 
                  .out_of_plane = Eigen::RowVector3d::Zero(),
                  .young = young,
                  .initial_strain = std::move(initial_strain)};
-  const Eigen::Matrix3d of_plane = stiffness(in_plane, in_plane).inverse();
+  const Eigen::Matrix3d of_plane = inverse(Eigen::Matrix3d(stiffness(in_plane, in_plane)));
   law.out_of_plane = stiffness(2, in_plane) * of_plane;
   if (model.plane == Plane::stress) {
     law.compliance(in_plane, in_plane) = of_plane;
   } else {
-    law.compliance = stiffness.inverse();
+    law.compliance = inverse(stiffness);
   }
   return law;
 }
@@ -72,7 +73,7 @@ Mat4 without_33(Mat4 stiffness) {
 
 double contact_modulus(const ElasticLaw& law) {
   const Mat4& C = law.stiffness;
-  return (C(0, 0) * C(1, 1) - C(0, 1) * C(0, 1)) / std::max(C(0, 0), C(1, 1));
+  return std::min(C(0, 0), C(1, 1)) - C(0, 1) * (C(0, 1) / std::max(C(0, 0), C(1, 1)));
 }
 
 double von_mises(const Vec4& s) {

@@ -91,8 +91,8 @@ class CellSampler {
     if (law.model.axisymmetric()) {
       add_rings(cell, shape, law);
     } else {
-      for (Eigen::Index k = 0; k < count_; ++k)
-        stresses.segment<3>(3 * k) = (law.stiffness({0, 1, 3}, {0, 1, 3}) * strain(k)).transpose();
+      const Eigen::Matrix3d C = law.stiffness({0, 1, 3}, {0, 1, 3});
+      for (Eigen::Index k = 0; k < count_; ++k) stresses.segment<3>(3 * k) = (C * strain(k)).transpose();
     }
   }
 

@@ -42,7 +42,7 @@ struct ContactResults {
   VecX pressure;                 ///< one a multiplier (Coupling::node)
   double length = 0;             ///< of the multiplier side
   double length_in_contact = 0;  ///< as length_in_contact() says
-  Vec2 force = Vec2::Zero();     ///< of the contact on the multiplier side's body, per thickness
+  Vec2 force = Vec2::Zero();     ///< of the contact on the multiplier side's body, times depth
   double moment = 0;             ///< of the same about the origin
   Vec2 centre = Vec2::Zero();    ///< of the multiplier side, mean place along its length
   double p_min = 0, p_max = 0;   ///< at the nodes of the multiplier side that face the other or carry pressure

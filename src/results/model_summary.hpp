@@ -9,7 +9,7 @@
 namespace mortise {
 
 /// Lines for the terminal, a support or load each, with the sums of the loads and, where they are known, the reactions
-/// (per thickness).
+/// (times depth, base/model.hpp).
 std::string model_lines(const Scene& scene, const Discretisation& discretisation, const Reactions* reactions = nullptr);
 
 /// The number, or the expression as it is written.

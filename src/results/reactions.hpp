@@ -14,7 +14,7 @@ struct Reaction {
   Resultant sum;
 };
 
-/// Forces per thickness, on the bodies.
+/// Forces on the bodies, times depth (base/model.hpp).
 struct Reactions {
   VecX nodal;                      ///< n: K u - f + B^T lambda at prescribed unknowns, and the springs' forces
   std::vector<Reaction> curves;    ///< in the scene's order

@@ -40,7 +40,7 @@ struct BoundarySpec {
   std::optional<Field> displacement_y;  ///< prescribed u2, length
   std::optional<Field> pressure;        ///< positive pushes onto the body, stress
   std::optional<VectorField> traction;  ///< stress
-  std::optional<Vec2> force;            ///< sum of a constant traction on all its curves, force per thickness
+  std::optional<Vec2> force;            ///< sum of a constant traction on all its curves, times depth (base/model.hpp)
   /// Springs to the ground, stress per length, >= 0: along the normal, or along x and y.
   std::optional<Field> normal_foundation;
   std::optional<VectorField> foundation;

@@ -11,7 +11,7 @@ namespace mortise {
 /// Without rows (m = 0) it is that of the bodies alone.
 struct SaddlePointSystem {
   SparseMatrix K;              ///< n x n, lower triangle, positive semidefinite, stress units
-  VecX f;                      ///< n, force per thickness
+  VecX f;                      ///< n, force times depth (base/model.hpp)
   Constraints constraints;     ///< n
   double stiffness_scale = 1;  ///< a typical entry of K (Young's modulus)
   /// Unknowns that springs must hold for K to be positive definite (one for each motion that only B resists). The
@@ -20,7 +20,7 @@ struct SaddlePointSystem {
 
   SparseMatrix B;                ///< m x n, length
   VecX g;                        ///< m, length^2
-  VecX row_scale;                ///< m: size of each row of B, length
+  VecX row_scale;                ///< m: size of each row of B, length times depth
   std::vector<char> unilateral;  ///< m: rows that may open; empty: none
   std::vector<char> start;       ///< m: rows that are closed at first; empty: all
 };
