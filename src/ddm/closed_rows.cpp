@@ -44,7 +44,7 @@ ClosedRows::ClosedRows(const DualSystem& system, const std::vector<char>& closed
   if (dependent_row >= 0) return;
   hold_motions();
   if (system.slender.empty()) return;
-  slender_.emplace(system.slender, closed);
+  slender_.emplace(system.slender, closed, supports);
   VecX compact = VecX::Ones(Eigen::Index(closed.size()));
   compact(system.slender.rows).setZero();
   compact_ = rows_.own(compact);
@@ -163,12 +163,15 @@ VecX ClosedRows::stiffened(const VecX& jump) const {
 }
 
 VecX ClosedRows::precondition(const VecX& residual) const {
-  const VecX jump = residual.head(system_.H.rows()),
-             supported = residual.tail(supports_.size()).cwiseProduct(supports_);
-  if (!slender_) return stacked(stiffened(jump), supported);
-  return stacked(
-      compact_.cwiseProduct(stiffened(compact_.cwiseProduct(jump))) + rows_.own(slender_->multiply(rows_.whole(jump))),
-      supported);
+  const VecX jump = residual.head(system_.H.rows()), supports = residual.tail(supports_.size());
+  if (!slender_) return stacked(stiffened(jump), supports.cwiseProduct(supports_));
+  // The supports give way to what is left of the rows' balance, here as in the inverse.
+  const VecX left = supports_.size() > 0 ? VecX(jump - closed_.head(jump.size()).cwiseProduct(system_.H * supports))
+                                         : jump,
+             lambda = compact_.cwiseProduct(stiffened(compact_.cwiseProduct(left))) +
+                      rows_.own(slender_->multiply(rows_.whole(left)));
+  if (supports_.size() == 0) return lambda;
+  return stacked(lambda, -resultants(stacked(lambda, VecX::Zero(supports_.size()))));
 }
 
 void ClosedRows::solve(const DualSystem::Forces& forces, IterationMonitor& monitor, DualSolution& x) const {

@@ -199,10 +199,10 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
   sharing.resize(m, m);
   sharing.setFromTriplets(of_sharing.begin(), of_sharing.end());
   if (!slender.empty()) {
-    Triplets compliance;
+    TouchingParts touching;
     for (const Part& part : parts_)
-      if (!part.slender()) add_compliance(slender, part.rows, part.C, part.H, compliance);
-    set_compliance(slender, std::move(compliance), sharing.diagonal());
+      if (!part.slender()) touching.add(slender, part.rows, part.C, part.H, part.springs);
+    set_touching(slender, std::move(touching), sharing.diagonal());
   }
   add_up(load);
   load.r -= (s.g - s.B * s.constraints.value).cwiseQuotient(s.row_scale);

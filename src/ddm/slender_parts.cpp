@@ -1,13 +1,14 @@
 #include "ddm/slender_parts.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace mortise {
 namespace {
 
 constexpr double slender = 6;              // slenderness
 constexpr int few_rows = 100;              // conjugate gradients find so many by themselves
-constexpr double soft_spring = 1e-3;       // of the springs that are taken out exactly
+constexpr double soft_spring = 1e-8;       // at free motions, for their pivots
 constexpr double least_compliance = 1e-3;  // of a row's own, where nothing but slender parts touch
 
 // Numbers the entries that are not negative; how many.
@@ -32,7 +33,6 @@ void add_stiffness(const Substructure& part, Triplets& entries) {
       if (!s.constraints.fixed[it.row()])
         entries.emplace_back(part.unknowns[it.row()], part.unknowns[j], it.value() / s.stiffness_scale);
   }
-  for (const int i : s.grounded) entries.emplace_back(part.unknowns[i], part.unknowns[i], soft_spring);
 }
 
 SlenderParts slender_parts(Triplets stiffness, const SaddlePointSystem& s) {
@@ -42,6 +42,8 @@ SlenderParts slender_parts(Triplets stiffness, const SaddlePointSystem& s) {
   std::vector<int> unknown(s.K.cols(), -1);
   for (const auto& entry : stiffness) unknown[entry.row()] = 0;
   const int unknowns = number(unknown);
+  for (std::size_t k = 0; k < s.grounded.size(); ++k)
+    if (unknown[s.grounded[k]] >= 0) parts.springs.emplace_back(unknown[s.grounded[k]], int(k));
   parts.place.assign(s.B.rows(), -1);
   for (int i = 0; i < s.B.cols(); ++i)
     if (unknown[i] >= 0)
@@ -63,27 +65,38 @@ SlenderParts slender_parts(Triplets stiffness, const SaddlePointSystem& s) {
   return parts;
 }
 
-void add_compliance(const SlenderParts& parts, const std::vector<int>& rows, const MatX& C, const MatX& H,
-                    Triplets& entries) {
-  for (std::size_t b = 0; b < rows.size(); ++b) {
-    if (parts.place[rows[b]] < 0) continue;
-    for (std::size_t a = b; a < rows.size(); ++a)
-      if (parts.place[rows[a]] >= 0)
-        entries.emplace_back(parts.place[rows[a]], parts.place[rows[b]],
-                             C(a, b) + H.row(a).dot(H.row(b)) / soft_spring);
+void TouchingParts::add(const SlenderParts& parts, const std::vector<int>& of_rows, const MatX& C,
+                        const MatX& of_motions, const std::vector<int>& springs) {
+  const auto place = [&](std::size_t a) { return parts.place[of_rows[a]]; };
+  bool all = true;
+  for (std::size_t a = 0; a < of_rows.size(); ++a) all = all && place(a) >= 0;
+  for (std::size_t b = 0; b < of_rows.size(); ++b) {
+    if (place(b) < 0) continue;
+    for (std::size_t a = b; a < of_rows.size(); ++a)
+      if (place(a) >= 0) D.emplace_back(place(a), place(b), C(a, b));
+    for (std::size_t j = 0; all && j < springs.size(); ++j) H.emplace_back(place(b), springs[j], of_motions(b, j));
   }
 }
 
-void set_compliance(SlenderParts& parts, Triplets entries, const VecX& local) {
-  entries = ranks().of_all(std::move(entries));
-  for (std::size_t a = 0; a < parts.rows.size(); ++a)
-    entries.emplace_back(int(a), int(a), least_compliance * local(parts.rows[a]));
-  parts.D.resize(Eigen::Index(parts.rows.size()), Eigen::Index(parts.rows.size()));
-  parts.D.setFromTriplets(entries.begin(), entries.end());
+void set_touching(SlenderParts& parts, TouchingParts touching, const VecX& local) {
+  const auto rows = Eigen::Index(parts.rows.size());
+  touching.D = ranks().of_all(std::move(touching.D));
+  for (int a = 0; a < rows; ++a) touching.D.emplace_back(a, a, least_compliance * local(parts.rows[a]));
+  parts.D.resize(rows, rows);
+  parts.D.setFromTriplets(touching.D.begin(), touching.D.end());
+
+  touching.H = ranks().of_all(std::move(touching.H));
+  std::map<int, int> column;  // of a spring
+  for (auto& entry : touching.H)
+    entry = {entry.row(), column.try_emplace(entry.col(), int(column.size())).first->second, entry.value()};
+  parts.springs_of_H.resize(column.size());
+  for (const auto& [spring, of] : column) parts.springs_of_H[of] = spring;
+  parts.H.resize(rows, Eigen::Index(column.size()));
+  parts.H.setFromTriplets(touching.H.begin(), touching.H.end());
 }
 
-SlenderInverse::SlenderInverse(const SlenderParts& parts, const std::vector<char>& closed)
-    : rows_(parts.rows), closed_(parts.rows.size()), unknowns_(parts.K.cols()) {
+SlenderInverse::SlenderInverse(const SlenderParts& parts, const std::vector<char>& closed, const VecX& supports)
+    : rows_(parts.rows), closed_(parts.rows.size()), unknowns_(parts.K.cols() + parts.H.cols()) {
   for (std::size_t a = 0; a < rows_.size(); ++a) closed_(a) = closed[rows_[a]] ? 1 : 0;
   Triplets all;
   const auto add = [&](const SparseMatrix& A, Eigen::Index row, Eigen::Index column, auto value) {
@@ -93,6 +106,14 @@ SlenderInverse::SlenderInverse(const SlenderParts& parts, const std::vector<char
   };
   add(parts.K, 0, 0, [](Eigen::Index, Eigen::Index, double entry) { return entry; });
   add(parts.B, unknowns_, 0, [&](Eigen::Index a, Eigen::Index, double entry) { return closed_(a) * entry; });
+  const auto hold = [&](Eigen::Index unknown, int spring) {
+    all.emplace_back(int(unknown), int(unknown), supports.size() > 0 ? supports(spring) : soft_spring);
+  };
+  for (const auto& [unknown, spring] : parts.springs) hold(unknown, spring);
+  for (std::size_t k = 0; k < parts.springs_of_H.size(); ++k)
+    hold(parts.K.cols() + Eigen::Index(k), parts.springs_of_H[k]);
+  add(parts.H, unknowns_, parts.K.cols(),
+      [&](Eigen::Index a, Eigen::Index, double entry) { return -closed_(a) * entry; });
   add(parts.D, unknowns_, unknowns_,
       [&](Eigen::Index a, Eigen::Index b, double entry) { return a == b ? -entry : -closed_(a) * closed_(b) * entry; });
   SparseMatrix matrix(unknowns_ + closed_.size(), unknowns_ + closed_.size());

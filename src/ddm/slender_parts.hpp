@@ -15,9 +15,13 @@ bool is_slender(const Substructure& part);
 struct SlenderParts {
   std::vector<int> rows;   ///< that they see, ascending
   std::vector<int> place;  ///< m: of each row in these, or -1
-  SparseMatrix K;          ///< of their free unknowns, lower triangle, held by soft springs
+  SparseMatrix K;          ///< of their free unknowns, lower triangle; not held where they float
   SparseMatrix B;          ///< rows x these unknowns
   SparseMatrix D;          ///< rows x rows, lower triangle: compliance of all other parts
+  SparseMatrix H;          ///< rows x motions of other parts that these rows alone hold
+  /// Unknown and spring of the whole system; the springs of the columns of H.
+  std::vector<std::pair<int, int>> springs;
+  std::vector<int> springs_of_H;
 
   bool empty() const { return rows.empty(); }
 };
@@ -28,22 +32,30 @@ void add_stiffness(const Substructure& part, Triplets& entries);
 /// `stiffness`: of this rank's; D is left empty.
 SlenderParts slender_parts(Triplets stiffness, const SaddlePointSystem& s);
 
-/// Adds the compliance C of a part's rows, and that of its motions H (the work of which the multipliers have none),
-/// many times over, so that the parts' balance is no concern of the inverse; in places of rows.
-void add_compliance(const SlenderParts& parts, const std::vector<int>& rows, const MatX& C, const MatX& H,
-                    Triplets& entries);
+/// What another part adds: the compliance C of its rows, and its motions H where slender parts see all of its rows.
+/// (Others hold the rest as well as its springs do.)
+struct TouchingParts {
+  Triplets D;  ///< rows, lower triangle
+  Triplets H;  ///< row, spring of the whole system
 
-/// D of this rank's entries. `local`: m, a small compliance of each row.
-void set_compliance(SlenderParts& parts, Triplets entries, const VecX& local);
+  void add(const SlenderParts& parts, const std::vector<int>& rows, const MatX& C, const MatX& of_motions,
+           const std::vector<int>& springs);
+};
 
-/// (B K^-1 B^T + D)^-1 on closed rows, 0 on the others: what pressures on these rows close given gaps. With C the
+/// D and H, of this rank's. `local`: m, a small compliance of each row.
+void set_touching(SlenderParts& parts, TouchingParts touching, const VecX& local);
+
+/// (B K^-1 B^T + D)^-1 on closed rows, 0 on the others: what pressures without work on H close given gaps. With C the
 /// compliance of all parts it is exact but for rows that slender parts do not see. As one sparse quasidefinite
 /// factorisation (Vanderbei 1995),
 ///
-///   [K  B^T; B  -D] (u, lambda) = (0, -gap).
+///   [K  .  B^T; .  0  -H^T; B  -H  -D] (u, mu, lambda) = (0, 0, -gap),
+///
+/// with the supports' stiffness, or next to none, at the motions.
 class SlenderInverse {
  public:
-  SlenderInverse(const SlenderParts& parts, const std::vector<char>& closed);
+  /// `supports`: of ClosedRows, at the motions; empty: none.
+  SlenderInverse(const SlenderParts& parts, const std::vector<char>& closed, const VecX& supports);
   /// Both of all rows.
   VecX multiply(const VecX& gap) const;
 

@@ -78,8 +78,7 @@ VecX stresses(const SaddlePointSystem& s, const VecX& lambda) {
 // What a state leaves open of the rows, m.
 VecX opening(const SaddlePointSystem& s, const VecX& u) { return (s.B * u - s.g).cwiseQuotient(s.row_scale); }
 
-// Adds what the state leaves of the forces and the gaps; the multipliers of open rows are taken off. What was added of
-// the displacements, over them.
+// Adds what the state leaves of the forces and the gaps. What was added of the displacements, over them.
 double correct(const SaddlePointSystem& s, const DualSystem& system, const ClosedRows& rows, IterationMonitor& monitor,
                State& state) {
   const VecX Ku = s.K.selfadjointView<Eigen::Lower>() * state.u;

@@ -182,6 +182,7 @@ Json json_of(const Field& f) { return f.is_constant() ? Json(f.constant()) : Jso
 std::string model_lines(const Scene& scene, const Discretisation& d, const Reactions* reactions) {
   std::ostringstream out;
   out << "  model     plane " << to_string(scene.model.plane);
+  if (scene.model.thickness != 1) out << ", thickness " << scene.model.thickness;
   print_materials(scene, out);
   out << "\n";
   if (scene.boundaries.size() > told_in_full) {
@@ -253,11 +254,13 @@ Json model_json(const Scene& scene, const Mesh& mesh, const Discretisation& d, c
                          {"xy", json_of(s.strain[3])}};
     loads.push_back(entry);
   }
-  return {{"plane", to_string(scene.model.plane)},
-          {"materials", materials},
-          {"bodies", bodies},
-          {"supports", supports},
-          {"loads", loads}};
+  Json model{{"plane", to_string(scene.model.plane)},
+             {"materials", materials},
+             {"bodies", bodies},
+             {"supports", supports},
+             {"loads", loads}};
+  if (!scene.model.axisymmetric()) model["thickness"] = scene.model.thickness;
+  return model;
 }
 
 }  // namespace mortise

@@ -30,9 +30,14 @@ void read_title(const Node& root, Scene& scene) {
 void read_model(const Node& root, Scene& scene) {
   const Node* model = find(root, "model");
   if (model == nullptr) return;
-  expect_keys(*model, {"plane", "gravity"});
+  expect_keys(*model, {"plane", "thickness", "gravity"});
   scene.model.plane =
       choice(find(*model, "plane"), {Plane::strain, Plane::stress, Plane::axisymmetric}, scene.model.plane);
+  if (const Node* thickness = find(*model, "thickness")) {
+    if (scene.model.axisymmetric())
+      fail(*thickness, "an axisymmetric model has none; expected plane = \"strain\" or \"stress\" with it");
+    scene.model.thickness = positive_number(*thickness);
+  }
   if (const Node* gravity = find(*model, "gravity")) scene.gravity = number_pair(*gravity);
 }
 

@@ -47,5 +47,19 @@ TEST(Orthotropic, BlocksUnderPressureShortenByTheirCompliance) {
   }
 }
 
+// Twice the forces in a plane twice as thick, at the same pressures.
+TEST(Thickness, ScalesForcesAlone) {
+  const auto solved = [](const char* thickness) {
+    return solve_scene(
+        read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/shrink_fit.toml", {{"model.thickness", thickness}}));
+  };
+  const Results thick = solved("2"), thin = solved("1");
+  EXPECT_EQ(thick.status, Status::solved);
+  const VecX &p = thick.contacts[0].pressure, &q = thin.contacts[0].pressure;
+  EXPECT_LE(largest_entry(p - q), 1e-9 * largest_entry(q));
+  EXPECT_LE((thick.contacts[0].force - 2 * thin.contacts[0].force).norm(), 1e-9 * thick.contacts[0].force.norm());
+  EXPECT_NEAR(thick.energy, 2 * thin.energy, 1e-9 * thick.energy);
+}
+
 }  // namespace
 }  // namespace mortise::test

@@ -140,6 +140,54 @@ TEST(Feti, OpensTheRowsThatTheDirectMethodOpens) {
   expect_same(solve_by_feti(s, {}), direct, 1e-8);
 }
 
+// A beam of 240 nodes, held by one end, whose every other node touches a ring of springs, three a ring. Every other
+// ring is held by one node, the others lie on the beam.
+SaddlePointSystem beam_and_rings() {
+  constexpr int length = 240, rings = 40;
+  SaddlePointSystem s;
+  Triplets K, B;
+  const auto spring = [&](int a, int b, double k) {
+    for (int c = 0; c < 2; ++c) {
+      const int one = 2 * a + c, other = 2 * b + c;
+      K.emplace_back(one, one, k);
+      K.emplace_back(other, other, k);
+      K.emplace_back(std::max(one, other), std::min(one, other), -k);
+    }
+  };
+  const double bend[] = {1, -2, 1};
+  for (int i = 0; i + 1 < length; ++i) K.emplace_back(2 * i + 2, 2 * i, -1);
+  for (int i = 0; i < length; ++i) K.emplace_back(2 * i, 2 * i, 2);
+  for (int i = 0; i + 2 < length; ++i)
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b <= a; ++b) K.emplace_back(2 * (i + a) + 1, 2 * (i + b) + 1, bend[a] * bend[b]);
+  std::vector<int> held = {0, 1, 3};
+  int row = 0;
+  for (int r = 0; r < rings; ++r) {
+    const int first = length + nodes * r;
+    for (int i = 0; i < nodes; ++i) spring(first + i, first + (i + 1) % nodes, 1 + 0.1 * i);
+    for (int i = 0; i < 3; ++i, ++row) {
+      B.emplace_back(row, 2 * (first + i) + 1, 1);
+      B.emplace_back(row, 2 * (6 * r + 2 * i) + 1, -1);
+    }
+    held.push_back(2 * (first + 4));
+    if (r % 2 == 0) held.push_back(2 * (first + 4) + 1);
+    if (r % 2 == 1) s.grounded.push_back(2 * first + 1);
+  }
+  const int n = 2 * (length + nodes * rings);
+  s.K.resize(n, n);
+  s.K.setFromTriplets(K.begin(), K.end());
+  s.B.resize(row, n);
+  s.B.setFromTriplets(B.begin(), B.end());
+  s.f = VecX::LinSpaced(n, -1, -2);
+  s.f(Eigen::seqN(1, length, 2)).setConstant(2);  // against the rings
+  s.g = VecX::LinSpaced(row, 0.1, -0.1);
+  s.row_scale = VecX::LinSpaced(row, 1, 2);
+  s.constraints = {std::vector<char>(n, 0), VecX::Zero(n)};
+  for (const int unknown : held) s.constraints.fixed[unknown] = 1;
+  s.stiffness_scale = 2;
+  return s;
+}
+
 TEST(Substructures, KnowSlenderParts) {
   const auto of = [](int columns, int rows, bool closed) {  // a grid of springs
     Triplets K;
@@ -163,6 +211,19 @@ TEST(Substructures, KnowSlenderParts) {
   EXPECT_EQ(of(100, 1, true), 51.0 * 51 / 100);
   EXPECT_EQ(of(10, 10, false), 19.0 * 19 / 100);
   EXPECT_EQ(of(1, 1, false), 1);
+}
+
+TEST(Feti, TakesFewStepsWithASlenderPart) {
+  for (const bool unilateral : {false, true}) {
+    SCOPED_TRACE(unilateral);
+    SaddlePointSystem s = beam_and_rings();
+    if (unilateral) s.unilateral.assign(s.B.rows(), 1);
+    if (unilateral) s.f(Eigen::seqN(2 * 100 + 1, 10, 2)).setConstant(-9);  // away from them
+    const Solution direct = solve_directly(s), found = solve_by_feti(s, {});
+    EXPECT_EQ(std::ranges::count(direct.active, 0) > 0, unilateral);
+    expect_same(found, direct, 1e-8);
+    EXPECT_LE(found.iteration->steps, 30 + 4 * int(found.steps.size()));  // 574 closed, by the nodes' stiffness
+  }
 }
 
 TEST(Feti, NamesTheMotionThatTheLoadDrives) {
