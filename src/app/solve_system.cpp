@@ -5,8 +5,10 @@
 #include "ddm/solve_ddm.hpp"
 #include "ddm/solve_feti.hpp"
 #include "ddm/substructures.hpp"
+#include "solve/contact_factor.hpp"
 #include "solve/direct.hpp"
 #include "solve/mssor.hpp"
+#include "solve/multipoint_system.hpp"
 
 namespace mortise {
 namespace {
@@ -40,6 +42,12 @@ Solver solver_for(const Method& method, const SaddlePointSystem& system) {
 }
 
 Solution solve_system(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet) {
+  if (const auto& multipoint = system.constraints.multipoint) {
+    Solution solution = solve_system(method, independent_system(system), dirichlet);
+    if (solution.u.size() > 0) solution.u = multipoint->T * solution.u;
+    if (solution.factor) solution.factor = std::make_shared<MultipointFactor>(multipoint->T, solution.factor);
+    return solution;
+  }
   const Solver solver = solver_for(method, system);
   Solution solution;
   switch (solver) {

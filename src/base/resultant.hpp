@@ -5,7 +5,8 @@
 
 namespace mortise {
 
-/// Force and moment of forces at places, times depth (base/model.hpp). The moment is about the origin, positive counter-clockwise.
+/// Force and moment of forces at places, times depth (base/model.hpp). The moment is about the origin, positive
+/// counter-clockwise.
 struct Resultant {
   Vec2 force = Vec2::Zero();
   double moment = 0;
@@ -18,6 +19,13 @@ struct Resultant {
     size += f.norm();
     arms += x.norm() * f.norm();
     places += f.norm() * x;
+  }
+
+  /// A moment by itself; `length`: of its arms.
+  void add_moment(double value, double length) {
+    moment += value;
+    arms += std::abs(value);
+    if (length > 0) size += std::abs(value) / length;
   }
 
   Resultant& operator+=(const Resultant& other) {

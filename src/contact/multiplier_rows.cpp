@@ -47,7 +47,7 @@ std::optional<double> prescribed_gap(const Mesh& mesh, const Curve& multiplier, 
   if (!prescribed_along(constraints, edge.nodes[local], n)) return {};
   const auto hit = project_onto_curve(mesh.nodes, opposite, line);
   if (!hit) return {};
-  const auto value = [&](int node) { return constraints.value.segment<2>(2 * node).dot(n); };
+  const auto value = [&](int node) { return prescribed_displacement(constraints, node).dot(n); };
   double gap =
       (initial_gap == InitialGap::closed ? 0 : geometry.initial_gap(line, at, *hit)) - value(edge.nodes[local]);
   const Edge& other = opposite.edges[hit->edge];

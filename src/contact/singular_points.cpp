@@ -43,12 +43,17 @@ std::vector<Edge> outline_at(const Mesh& mesh, const SideTable& table, int node)
 
 // What holds a face, by what is prescribed at all nodes of its edge.
 Face face_of(const Points& nodes, const Edge& edge, const Constraints& constraints) {
-  std::array<bool, 2> fixed{true, true};
-  for (int k = 0; k < edge.node_count; ++k)
-    for (const int c : {0, 1}) fixed[c] = fixed[c] && constraints.fixed[2 * edge.nodes[k] + c];
-  if (fixed[0] == fixed[1]) return fixed[0] ? Face::clamped : Face::free;
-  const Vec2 along = (nodes.row(edge.nodes[1]) - nodes.row(edge.nodes[0])).transpose().cwiseAbs();
-  return along(fixed[0] ? 0 : 1) > along(fixed[0] ? 1 : 0) ? Face::antisymmetric : Face::symmetric;
+  std::optional<Vec2> held;  // the direction in which all nodes are, where none is held in both
+  for (int k = 0; k < edge.node_count; ++k) {
+    const std::vector<Vec2> directions = prescribed_directions(constraints, edge.nodes[k]);
+    if (directions.empty()) return Face::free;
+    if (directions.size() == 2) continue;
+    if (held && std::abs(cross(*held, directions[0])) > 0.1) return Face::free;
+    held = directions[0];
+  }
+  if (!held) return Face::clamped;
+  const Vec2 along = (nodes.row(edge.nodes[1]) - nodes.row(edge.nodes[0])).transpose();
+  return std::abs(along.dot(*held)) > std::abs(cross(along, *held)) ? Face::antisymmetric : Face::symmetric;
 }
 
 // Of the body on the left where a curve goes on from one tangent to the other.

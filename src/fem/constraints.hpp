@@ -10,7 +10,11 @@ namespace mortise {
 
 Constraints no_constraints(const Mesh& mesh);
 
-/// Prescribes component 0 or 1 on a boundary, by the value at each node. Throws InputError, with coordinates, where
+/// Prescribes component 0 or 1 at a node that is called `name`, for messages.
+void prescribe(const Mesh& mesh, const std::string& name, int node, int component, double value,
+               Constraints& constraints);
+
+/// The same on a boundary, by the value at each node. Throws InputError, with coordinates, where
 /// another value already stands at a node (boundaries may share nodes, but must agree there up to round-off).
 void prescribe(const Mesh& mesh, int boundary, int component, const std::function<double(int node)>& value,
                Constraints& constraints);
@@ -22,5 +26,15 @@ void hold_axis(const Mesh& mesh, Constraints& constraints);
 
 /// True if the displacement of a node along the unit vector n is prescribed.
 bool prescribed_along(const Constraints& constraints, int node, const Vec2& n);
+
+/// Prescribed displacement of a node, length; zero along directions in which it is free.
+Vec2 prescribed_displacement(const Constraints& constraints, int node);
+
+/// Directions, none to two, in which a node is held: unit vectors at right angles. A node of a rigid curve is held by
+/// the others.
+std::vector<Vec2> prescribed_directions(const Constraints& constraints, int node);
+
+/// Forces that the constraints make, of the residual K u - f + B^T lambda in all unknowns: those of the prescribed q.
+VecX constraint_forces(const Constraints& constraints, const VecX& residual);
 
 }  // namespace mortise

@@ -47,7 +47,9 @@ std::vector<int> grounding_unknowns(const Mesh& mesh, const Constraints& constra
   for (MotionSet& set : motion_sets(mesh, motions)) {
     MatX& fields = set.fields;
     for (Eigen::Index i = 0; i < fields.rows(); ++i)
-      if (constraints.fixed[set.unknown(i)]) fields.row(i).setZero();
+      if (const int unknown = set.unknown(i);
+          constraints.fixed[unknown] || (constraints.multipoint && constraints.multipoint->coupled[unknown]))
+        fields.row(i).setZero();
     for (Eigen::Index m = 0; m < fields.cols(); ++m) {  // Gaussian elimination with row pivots
       const VecX sizes = fields.col(m).cwiseAbs();
       const double least = (1 - 1e-6) * sizes.maxCoeff();

@@ -113,6 +113,14 @@ void add_openings(const Bodies& bodies, const SparseMatrix& rows, Gram& gram) {
   for (const auto& opening : openings) gram.add({opening.begin(), opening.end()});
 }
 
+// The prescribed q that are not unknowns of u, by u.
+SparseMatrix prescribed_couplings(const Constraints& constraints) {
+  SparseRows rows = constraints.multipoint->inverse;
+  rows.prune(
+      [&](Eigen::Index q, Eigen::Index, double) { return constraints.fixed[q] && constraints.multipoint->coupled[q]; });
+  return rows;
+}
+
 // What the constraints and springs see of the motions, and the jumps between bodies that share nodes: they move
 // together.
 void add_supports(const Bodies& bodies, const Constraints& constraints, Gram& gram) {
@@ -120,12 +128,16 @@ void add_supports(const Bodies& bodies, const Constraints& constraints, Gram& gr
     for (int b = 0; b < int(bodies.mesh.bodies.size()); ++b)
       for (const int k : {0, 2}) gram.add({{b, Eigen::RowVector3d::Unit(k)}});
   if (constraints.springs.cols() > 0) add_openings(bodies, constraints.springs, gram);
+  if (constraints.multipoint) add_openings(bodies, prescribed_couplings(constraints), gram);
+  const auto is_own = [&](int unknown) {
+    return constraints.fixed[unknown] && !(constraints.multipoint && constraints.multipoint->coupled[unknown]);
+  };
   std::vector<int> owner(bodies.mesh.nodes.rows(), -1);
   bodies.for_each_node([&](int b, int node, const Vec2& x) {
     const int other = owner[node];
     if (other < 0) owner[node] = b;
     for (int c = 0; c < 2; ++c) {
-      if (constraints.fixed[2 * node + c]) gram.add({{b, bodies.at(b, x, c)}});
+      if (is_own(2 * node + c)) gram.add({{b, bodies.at(b, x, c)}});
       if (other >= 0) gram.add({{b, bodies.at(b, x, c)}, {other, -bodies.at(other, x, c)}});
     }
   });

@@ -25,7 +25,7 @@ std::vector<LoadedEdge> loaded_edges(const Scene& scene, const Mesh& mesh) {
   for (const BoundarySpec& spec : scene.boundaries) {
     if (!spec.is_load()) continue;
     for (const std::string& name : spec.on)
-      for (const int b : names.boundaries(spec.key + ".on", name))
+      for (const int b : names.places(spec.key + ".on", name).boundaries)
         for (int e = 0; e < int(mesh.boundaries[b].edges.size()); ++e) {
           const auto& nodes = mesh.boundaries[b].edges[e].nodes;
           list.push_back({std::minmax(nodes[0], nodes[1]), &spec, b, e});

@@ -3,49 +3,17 @@
 #include <sstream>
 
 #include "base/printable.hpp"
-#include "fem/arc_length.hpp"
 #include "fem/assembly.hpp"
 #include "fem/constraints.hpp"
+#include "problem/boundary_places.hpp"
 
 namespace mortise {
 namespace {
 
-// A boundary that an entry names: its sides, and along it s, where the entry's fields ask for it.
-struct NamedBoundary {
-  int boundary;
-  std::vector<CellSide> sides;  // in the order of the curve, where s is asked for
-  std::optional<ArcLength> s;
-};
-
-bool uses_arc_length(const BoundarySpec& spec) {
-  const auto uses = [](const auto& field) { return field && field->uses_arc_length(); };
-  return uses(spec.displacement_x) || uses(spec.displacement_y) || uses(spec.pressure) || uses(spec.traction) ||
-         uses(spec.normal_foundation) || uses(spec.foundation);
-}
-
-std::vector<NamedBoundary> boundaries_of(const Mesh& mesh, const SideTable& table, const SceneNames& names,
-                                         const BoundarySpec& spec) {
-  std::vector<NamedBoundary> list;
-  for (const std::string& name : spec.on)
-    for (const int boundary : names.boundaries(spec.key + ".on", name)) {
-      NamedBoundary& on = list.emplace_back(NamedBoundary{boundary, {}, {}});
-      if (uses_arc_length(spec)) {
-        const Curve curve = contact_curve(mesh, boundary, table);
-        on.sides = curve.sides;
-        on.s.emplace(mesh.nodes, curve);
-      } else if (spec.is_load() || spec.is_foundation()) {
-        on.sides = sides_of(mesh, mesh.boundaries[boundary], table);
-      }
-    }
-  return list;
-}
-
 void prescribe(const Mesh& mesh, const NamedBoundary& on, int component, const std::optional<Field>& field,
                Constraints& constraints) {
   if (!field) return;
-  const auto value = [&](int node) {
-    return (*field)(mesh.nodes.row(node).transpose(), on.s ? on.s->at_node(node) : 0);
-  };
+  const auto value = [&](int node) { return (*field)(mesh.nodes.row(node).transpose(), on.s_at(node)); };
   prescribe(mesh, on.boundary, component, value, constraints);
 }
 
@@ -66,6 +34,19 @@ Vec2 traction_of_force(const Mesh& mesh, const Model& model, const BoundarySpec&
   for (const NamedBoundary& on : boundaries) area += add_traction(mesh, model, on.sides, unit, unused).force.x();
   if (!(area > 0)) throw SceneError(spec.key + ".force: its curves have no length; expected some to put the force on");
   return *spec.force / area;
+}
+
+// An equal part of the force at each node.
+Resultant add_force(const Mesh& mesh, const Vec2& force, const std::vector<const NamedPoint*>& points, VecX& f) {
+  std::size_t count = 0;
+  for (const NamedPoint* point : points) count += point->nodes.size();
+  Resultant sum;
+  for (const NamedPoint* point : points)
+    for (const int node : point->nodes) {
+      f.segment<2>(2 * node) += force / double(count);
+      sum.add(mesh.nodes.row(node).transpose(), force / double(count));
+    }
+  return sum;
 }
 
 Resultant add_loads(const Mesh& mesh, const Model& model, const BoundarySpec& spec,
@@ -109,13 +90,22 @@ void add_springs(const Mesh& mesh, const Model& model, const BoundarySpec& spec,
 
 Resultant apply(const Mesh& mesh, const Model& model, const SideTable& table, const SceneNames& names,
                 const BoundarySpec& spec, SaddlePointSystem& system, std::vector<Eigen::Triplet<double>>& springs) {
-  const std::vector<NamedBoundary> boundaries = boundaries_of(mesh, table, names, spec);
-  for (const NamedBoundary& on : boundaries) {
+  const Places on_all = places_of(mesh, table, names, spec);
+  for (const NamedPoint* point : on_all.points)
+    for (const int node : point->nodes) {
+      const Vec2 x = mesh.nodes.row(node).transpose();
+      if (const auto& u = spec.displacement_x) prescribe(mesh, point->name, node, 0, (*u)(x), system.constraints);
+      if (const auto& u = spec.displacement_y) prescribe(mesh, point->name, node, 1, (*u)(x), system.constraints);
+      for (int c = 0; c < 2 && spec.spring; ++c)
+        if ((*spec.spring)(c) > 0) springs.emplace_back(2 * node + c, 2 * node + c, (*spec.spring)(c));
+    }
+  for (const NamedBoundary& on : on_all.boundaries) {
     prescribe(mesh, on, 0, spec.displacement_x, system.constraints);
     prescribe(mesh, on, 1, spec.displacement_y, system.constraints);
     if (spec.is_foundation()) add_springs(mesh, model, spec, on, springs);
   }
-  return spec.is_load() ? add_loads(mesh, model, spec, boundaries, system.f) : Resultant();
+  if (spec.force && !on_all.points.empty()) return add_force(mesh, *spec.force, on_all.points, system.f);
+  return spec.is_load() ? add_loads(mesh, model, spec, on_all.boundaries, system.f) : Resultant();
 }
 
 }  // namespace mortise

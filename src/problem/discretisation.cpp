@@ -113,6 +113,12 @@ Discretisation discretise(const Scene& scene, const Mesh& mesh) {
     d.system.K += d.springs;
     d.system.constraints.springs = spring_rows(d.springs);
   }
+  d.multipoint = add_multipoint_supports(scene, mesh, table, names, d.system);
+  for (const RigidSupport& rigid : d.multipoint.rigid_curves) {
+    const RigidSpec& spec = *scene.boundaries[rigid.entry].rigid;
+    d.boundary_sums[rigid.entry].add(rigid.curve.about, spec.force);
+    d.boundary_sums[rigid.entry].add_moment(spec.moment, std::abs(rigid.curve.arm));
+  }
   for (const ElasticLaw& law : d.laws) d.system.stiffness_scale = std::max(d.system.stiffness_scale, law.young);
   return d;
 }

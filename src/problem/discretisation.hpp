@@ -3,8 +3,8 @@
 
 #include "fem/assembly.hpp"
 #include "fem/constraints.hpp"
+#include "problem/multipoint_supports.hpp"
 #include "scene/scene.hpp"
-#include "solve/saddle_point_system.hpp"
 
 namespace mortise {
 
@@ -16,7 +16,8 @@ struct Discretisation {
   double initial_energy = 0;     ///< of the initial strains held at zero strain
   /// Sums of the forces of each of Scene::boundaries (zero of prescribed displacements) and of Scene::body_forces.
   std::vector<Resultant> boundary_sums, body_sums;
-  Resultant weight;      ///< of all bodies, by Scene::gravity
+  Resultant weight;  ///< of all bodies, by Scene::gravity
+  MultipointSupports multipoint;
   SparseMatrix springs;  ///< the part of system.K that foundations make; without any it has no columns
 };
 

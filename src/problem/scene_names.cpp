@@ -26,6 +26,7 @@ std::vector<int> numbers_of(const std::string& name, const Numbers& numbers) {
 SceneNames::SceneNames(const Mesh& mesh) : mesh_(mesh) {
   for (const std::string& name : mesh.bodies) bodies_.emplace(name, int(bodies_.size()));
   for (const Boundary& boundary : mesh.boundaries) boundaries_.emplace(boundary.name, int(boundaries_.size()));
+  for (const NamedPoint& point : mesh.points) points_.emplace(point.name, int(points_.size()));
 }
 
 std::vector<int> SceneNames::bodies(const std::string& key, const std::string& name) const {
@@ -39,6 +40,17 @@ std::vector<int> SceneNames::boundaries(const std::string& key, const std::strin
   std::vector<int> found = numbers_of(name, boundaries_);
   if (found.empty())
     throw SceneError(key + ": " + unknown_name("boundary", name, boundary_names(mesh_)) + " (" + mesh_.source + ")");
+  return found;
+}
+
+SceneNames::Places SceneNames::places(const std::string& key, const std::string& name) const {
+  Places found{numbers_of(name, boundaries_), {}};
+  if (found.boundaries.empty()) found.points = numbers_of(name, points_);
+  if (found.points.empty() && found.boundaries.empty()) {
+    std::vector<std::string> known = boundary_names(mesh_);
+    for (const NamedPoint& point : mesh_.points) known.push_back(point.name);
+    throw SceneError(key + ": " + unknown_name("boundary", name, known) + " (" + mesh_.source + ")");
+  }
   return found;
 }
 

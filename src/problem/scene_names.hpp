@@ -16,10 +16,16 @@ class SceneNames {
   std::vector<int> bodies(const std::string& key, const std::string& name) const;
   std::vector<int> boundaries(const std::string& key, const std::string& name) const;
 
+  /// Boundaries or, where there are none of that name, physical points.
+  struct Places {
+    std::vector<int> boundaries, points;
+  };
+  Places places(const std::string& key, const std::string& name) const;
+
  private:
   using Numbers = std::unordered_map<std::string, int>;
   const Mesh& mesh_;
-  Numbers bodies_, boundaries_;
+  Numbers bodies_, boundaries_, points_;
 };
 
 }  // namespace mortise

@@ -20,11 +20,10 @@ struct CurveNode {
   Vec2 normal;  // mean of the edges' normals there
 };
 
-// An end on a symmetry plane continues as its mirror image: the prescribed component of the mean normal vanishes.
+// An end on a symmetry plane continues as its mirror image: the mean normal vanishes along what is prescribed.
 Vec2 mirrored(const Vec2& n, const Constraints& constraints, int node) {
   Vec2 m = n;
-  for (int c = 0; c < 2; ++c)
-    if (constraints.fixed[2 * node + c]) m(c) = 0;
+  for (const Vec2& d : prescribed_directions(constraints, node)) m -= m.dot(d) * d;
   return m.norm() > 1e-3 ? m.normalized() : n;
 }
 

@@ -5,6 +5,7 @@
 #include "base/printable.hpp"
 #include "contact/pressure_norm.hpp"
 #include "solve/inf_sup.hpp"
+#include "solve/multipoint_system.hpp"
 
 namespace mortise {
 namespace {
@@ -32,7 +33,9 @@ SparseMatrix stacked_norm(const Scene& scene, const Results& r) {
 
 std::optional<InfSupReport> inf_sup_report(const Scene& scene, const Results& r) {
   if (r.pairs.empty()) return {};
-  const InfSup found = inf_sup(r.discretisation.system, stacked_norm(scene, r), r.solution.active);
+  const SaddlePointSystem& system = r.discretisation.system;
+  const InfSup found = inf_sup(system.constraints.multipoint ? independent_system(system) : system,
+                               stacked_norm(scene, r), r.solution.active);
   if (found.mode.size() == 0) return {};
   Eigen::Index worst = 0;
   found.mode.maxCoeff(&worst);

@@ -81,11 +81,28 @@ std::string words(const VectorField& v) {
 
 Json json_of(const VectorField& v) { return {json_of(v.x), json_of(v.y)}; }
 
+std::string words(const RigidSpec& rigid) {
+  std::ostringstream text;
+  text << " rigid";
+  if (rigid.x) text << ", u_x = " << *rigid.x;
+  if (rigid.y) text << ", u_y = " << *rigid.y;
+  if (rigid.rotation) text << ", rotation " << *rigid.rotation;
+  if (!rigid.force.isZero(0)) text << ", force " << pair_of(rigid.force);
+  if (rigid.moment != 0) text << ", moment " << rigid.moment;
+  if (rigid.about) text << " about " << pair_of(*rigid.about);
+  return text.str();
+}
+
 // What an entry prescribes, wherever.
 std::string words(const BoundarySpec& spec) {
   std::string text;
   if (spec.displacement_x) text += " u_x = " + spec.displacement_x->words();
   if (spec.displacement_y) text += (spec.displacement_x ? ", u_y = " : " u_y = ") + spec.displacement_y->words();
+  if (spec.displacement_normal) text += " u_n = " + spec.displacement_normal->words();
+  if (spec.displacement_along)
+    text += " u = " + spec.displacement_along->words() + " along " + pair_of(*spec.direction);
+  if (spec.rigid) text += words(*spec.rigid);
+  if (spec.spring) text += " springs " + pair_of(*spec.spring);
   if (spec.pressure) text += " pressure " + spec.pressure->words();
   if (spec.traction) text += " traction " + words(*spec.traction);
   if (spec.force) text += " force " + pair_of(*spec.force);
@@ -100,11 +117,19 @@ void print_boundary(const BoundarySpec& spec, const std::string& forces, std::os
 }
 
 // Of the curves that the entry names, one by one if they are few.
-std::string reaction_words(const Scene& scene, const Reactions& reactions, std::size_t entry) {
+std::string reaction_words(const Scene& scene, const Discretisation& d, const Reactions& reactions, std::size_t entry) {
   const std::size_t named = scene.boundaries[entry].on.size();
   std::vector<std::string> forces;
   for (const Reaction& r : reactions.curves)
     if (r.entry == int(entry)) forces.push_back(force_of(r.sum));
+  for (std::size_t k = 0; k < d.multipoint.rigid_curves.size(); ++k)
+    if (d.multipoint.rigid_curves[k].entry == int(entry)) {
+      const Eigen::Vector3d& motion = reactions.rigid_motions[k];
+      std::ostringstream text;
+      text << "; moves by " << pair_of(motion.head<2>());
+      if (!scene.model.axisymmetric()) text << ", turns by " << motion(2);
+      return text.str() + "; reaction " + in_sum(reactions.entries[entry], scene.model);
+    }
   if (forces.size() == 1 || forces.size() != named || named > told_in_full)
     return "; reaction " + in_sum(reactions.entries[entry], scene.model);
   return "; reactions " + listed(forces);
@@ -144,18 +169,31 @@ Json with_sum(Json entry, const Resultant& load) {
   return entry;
 }
 
-Json reaction_json(const Mesh& mesh, const Reaction& r) {
-  return {{"on", mesh.boundaries[r.boundary].name},
+Json reaction_json(const Reaction& r) {
+  return {{"on", r.on},
           {"reaction", json_of(r.sum.force)},
           {"moment", r.sum.moment},
           {"centre", json_of(r.centre)},
           {"moment_about_centre", r.sum.moment_about(r.centre)}};
 }
 
+Json json_of(const RigidSpec& rigid) {
+  Json json{{"force", json_of(rigid.force)}, {"moment", rigid.moment}};
+  if (rigid.x) json["x"] = *rigid.x;
+  if (rigid.y) json["y"] = *rigid.y;
+  if (rigid.rotation) json["rotation"] = *rigid.rotation;
+  return json;
+}
+
 Json boundary_json(const BoundarySpec& spec) {
   Json entry{{"on", spec.on}};
   if (spec.displacement_x) entry["displacement"]["x"] = json_of(*spec.displacement_x);
   if (spec.displacement_y) entry["displacement"]["y"] = json_of(*spec.displacement_y);
+  if (spec.displacement_normal) entry["displacement"]["normal"] = json_of(*spec.displacement_normal);
+  if (spec.displacement_along)
+    entry["displacement"] = {{"direction", json_of(*spec.direction)}, {"value", json_of(*spec.displacement_along)}};
+  if (spec.spring) entry["spring"] = json_of(*spec.spring);
+  if (spec.rigid) entry["rigid"] = json_of(*spec.rigid);
   if (spec.pressure) entry["pressure"] = json_of(*spec.pressure);
   if (spec.traction) entry["traction"] = json_of(*spec.traction);
   if (spec.force) entry["force"] = json_of(*spec.force);
@@ -165,13 +203,19 @@ Json boundary_json(const BoundarySpec& spec) {
 }
 
 // With the reaction of the entry, and of each curve.
-Json support_json(const Scene& scene, const Mesh& mesh, const Reactions& reactions, std::size_t i) {
+Json support_json(const Scene& scene, const Discretisation& d, const Reactions& reactions, std::size_t i) {
   Json entry = boundary_json(scene.boundaries[i]);
   entry["reaction"] = json_of(reactions.entries[i].force);
   entry["moment"] = reactions.entries[i].moment;
+  for (std::size_t k = 0; k < d.multipoint.rigid_curves.size(); ++k)
+    if (d.multipoint.rigid_curves[k].entry == int(i)) {
+      entry["rigid"]["about"] = json_of(d.multipoint.rigid_curves[k].curve.about);
+      entry["rigid"]["displacement"] = json_of(Vec2(reactions.rigid_motions[k].head<2>()));
+      entry["rigid"]["turned"] = reactions.rigid_motions[k](2);
+    }
   entry["curves"] = Json::array();
   for (const Reaction& r : reactions.curves)
-    if (r.entry == int(i)) entry["curves"].push_back(reaction_json(mesh, r));
+    if (r.entry == int(i)) entry["curves"].push_back(reaction_json(r));
   return entry;
 }
 
@@ -202,7 +246,7 @@ std::string model_lines(const Scene& scene, const Discretisation& d, const React
       const BoundarySpec& spec = scene.boundaries[i];
       print_boundary(spec,
                      spec.is_load() ? ", in sum " + in_sum(d.boundary_sums[i], scene.model)
-                     : reactions    ? reaction_words(scene, *reactions, i)
+                     : reactions    ? reaction_words(scene, d, *reactions, i)
                                     : "",
                      out);
     }
@@ -225,7 +269,7 @@ std::string model_lines(const Scene& scene, const Discretisation& d, const React
   return out.str();
 }
 
-Json model_json(const Scene& scene, const Mesh& mesh, const Discretisation& d, const Reactions& reactions) {
+Json model_json(const Scene& scene, const Discretisation& d, const Reactions& reactions) {
   Json materials = Json::object(), bodies = Json::object(), supports = Json::array(), loads = Json::array();
   for (const auto& [name, m] : scene.materials) materials[name] = json_of(m);
   if (scene.gravity)
@@ -236,7 +280,7 @@ Json model_json(const Scene& scene, const Mesh& mesh, const Discretisation& d, c
     if (spec.is_load())
       loads.push_back(with_sum(boundary_json(spec), d.boundary_sums[i]));
     else
-      supports.push_back(support_json(scene, mesh, reactions, i));
+      supports.push_back(support_json(scene, d, reactions, i));
   }
   if (scene.gravity) loads.push_back(with_sum({{"gravity", json_of(*scene.gravity)}}, d.weight));
   for (std::size_t i = 0; i < scene.body_forces.size(); ++i) {

@@ -16,7 +16,6 @@ std::string model_lines(const Scene& scene, const Discretisation& discretisation
 nlohmann::ordered_json json_of(const Field& field);
 
 /// summary.json "model": docs/files.md.
-nlohmann::ordered_json model_json(const Scene& scene, const Mesh& mesh, const Discretisation& discretisation,
-                                  const Reactions& reactions);
+nlohmann::ordered_json model_json(const Scene& scene, const Discretisation& discretisation, const Reactions& reactions);
 
 }  // namespace mortise

@@ -1,5 +1,8 @@
 #include "results/reactions.hpp"
 
+#include <Eigen/LU>
+#include <map>
+
 #include "fem/edges.hpp"
 #include "problem/scene_names.hpp"
 
@@ -7,21 +10,44 @@ namespace mortise {
 namespace {
 
 VecX nodal_reactions(const SaddlePointSystem& s, const Solution& solution) {
-  VecX nodal = s.K.selfadjointView<Eigen::Lower>() * solution.u + s.B.transpose() * solution.lambda - s.f;
-  for (Eigen::Index i = 0; i < nodal.size(); ++i)
-    if (!s.constraints.fixed[i]) nodal(i) = 0;
-  return nodal;
+  return constraint_forces(s.constraints,
+                           s.K.selfadjointView<Eigen::Lower>() * solution.u + s.B.transpose() * solution.lambda - s.f);
 }
 
 // Adds up the reactions, each once: what has been added is 0 in `left`.
 class Collector {
  public:
-  Collector(const Mesh& mesh, const VecX& nodal) : mesh_(mesh), left_(nodal) {}
+  Collector(const Mesh& mesh, const VecX& nodal, const std::map<int, HeldTwice>& held_twice)
+      : mesh_(mesh), left_(nodal) {
+    for (const auto& [node, held] : held_twice) {
+      Eigen::Matrix2d directions;
+      directions << held.direction[0], held.direction[1];
+      const Vec2 parts = directions.inverse() * left_.segment<2>(2 * node);
+      for (int k = 0; k < 2; ++k) {
+        if (held.support[k] < 0) continue;
+        apart_[{held.support[k], node}] = parts(k) * held.direction[k];
+        left_.segment<2>(2 * node) -= parts(k) * held.direction[k];
+      }
+    }
+  }
 
-  Resultant take(const Boundary& curve, bool x, bool y) {
+  // Of a support along directions that are neither x nor y.
+  Resultant take_skew(int support, const std::vector<int>& nodes) {
     Resultant sum;
-    for (const Edge& edge : curve.edges)
-      for (int a = 0; a < edge.node_count; ++a) take_node(edge.nodes[a], x, y, sum);
+    for (const int node : nodes) {
+      if (const auto part = apart_.find({support, node}); part != apart_.end()) {
+        sum.add(mesh_.nodes.row(node).transpose(), part->second);
+        part->second.setZero();
+      } else {
+        take_node(node, true, true, sum);
+      }
+    }
+    return sum;
+  }
+
+  Resultant take(const std::vector<int>& nodes, bool x, bool y) {
+    Resultant sum;
+    for (const int node : nodes) take_node(node, x, y, sum);
     return sum;
   }
 
@@ -41,7 +67,15 @@ class Collector {
 
   const Mesh& mesh_;
   VecX left_;
+  std::map<std::pair<int, int>, Vec2> apart_;  // of a support and a node that is held twice
 };
+
+std::vector<int> nodes_of(const Boundary& curve) {
+  std::vector<int> nodes;
+  for (const Edge& edge : curve.edges)
+    nodes.insert(nodes.end(), edge.nodes.begin(), edge.nodes.begin() + edge.node_count);
+  return nodes;
+}
 
 Resultant sum_of_loads(const Mesh& mesh, const Discretisation& d) {
   Resultant sum;
@@ -56,23 +90,35 @@ Reactions find_reactions(const Scene& scene, const Mesh& mesh, const Discretisat
   Reactions r;
   r.nodal = nodal_reactions(d.system, solution);
   const VecX of_springs = spring_forces(d, solution.u);
-  Collector collector(mesh, r.nodal), springs(mesh, of_springs);
+  Collector collector(mesh, r.nodal, d.multipoint.held_twice), springs(mesh, of_springs, {});
   r.nodal += of_springs;
   const SceneNames names(mesh);
   for (const BoundarySpec& spec : scene.boundaries) {
     Resultant& entry = r.entries.emplace_back();
     if (spec.is_load()) continue;
-    for (const std::string& name : spec.on)
-      for (const int b : names.boundaries(spec.key + ".on", name)) {
-        const Boundary& curve = mesh.boundaries[b];
-        const Resultant sum = spec.is_foundation() ? springs.take(curve, true, true)
-                                                   : collector.take(curve, spec.displacement_x.has_value(),
-                                                                    spec.displacement_y.has_value());
-        r.curves.push_back({int(r.entries.size()) - 1, b, centre_of(mesh.nodes, curve.edges), sum});
-        entry += sum;
+    const auto take = [&](const std::string& name, const std::vector<int>& nodes, const Vec2& centre) {
+      const int number = int(r.entries.size()) - 1;
+      const Resultant sum =
+          spec.is_foundation() || spec.spring ? springs.take(nodes, true, true)
+          : spec.is_skew()                    ? collector.take_skew(number, nodes)
+          : spec.rigid                        ? collector.take(nodes, true, true)
+                       : collector.take(nodes, spec.displacement_x.has_value(), spec.displacement_y.has_value());
+      r.curves.push_back({number, name, centre, sum});
+      entry += sum;
+    };
+    for (const std::string& name : spec.on) {
+      const SceneNames::Places places = names.places(spec.key + ".on", name);
+      for (const int b : places.boundaries)
+        take(mesh.boundaries[b].name, nodes_of(mesh.boundaries[b]), centre_of(mesh.nodes, mesh.boundaries[b].edges));
+      for (const int p : places.points) {
+        const NamedPoint& point = mesh.points[p];
+        take(point.name, point.nodes, mesh.nodes(point.nodes, Eigen::all).colwise().mean().transpose());
       }
+    }
     r.all += entry;
   }
+  for (const RigidSupport& rigid : d.multipoint.rigid_curves)
+    r.rigid_motions.push_back(rigid_motion(rigid.curve, *d.system.constraints.multipoint, solution.u));
   r.held = collector.take_rest();
   r.all += r.held;
   r.loads = sum_of_loads(mesh, d);

@@ -6,11 +6,12 @@
 
 namespace mortise {
 
-/// Of one curve of a support. A node that several hold along one direction counts for the first that names it.
+/// Of one curve or point of a support. A node that several hold along one direction counts for the
+/// first that names it.
 struct Reaction {
-  int entry;     ///< of Scene::boundaries
-  int boundary;  ///< of Mesh::boundaries
-  Vec2 centre;   ///< of the curve, its mean place along its length
+  int entry;       ///< of Scene::boundaries
+  std::string on;  ///< name of the curve or point
+  Vec2 centre;     ///< of the curve, its mean place along its length; of a point its nodes' mean place
   Resultant sum;
 };
 
@@ -19,9 +20,11 @@ struct Reactions {
   VecX nodal;                      ///< n: K u - f + B^T lambda at prescribed unknowns, and the springs' forces
   std::vector<Reaction> curves;    ///< in the scene's order
   std::vector<Resultant> entries;  ///< sums of each of Scene::boundaries, zero of loads
-  Resultant held;                  ///< of the motions that nothing holds (validate.hpp): round-off
-  Resultant loads;                 ///< of all nodes; initial strains, which are in balance, left out
-  Resultant all;                   ///< of supports and held motions
+  /// Of Discretisation::multipoint: displacement of `about`, and the turn in radians.
+  std::vector<Eigen::Vector3d> rigid_motions;
+  Resultant held;   ///< of the motions that nothing holds (validate.hpp): round-off
+  Resultant loads;  ///< of all nodes; initial strains, which are in balance, left out
+  Resultant all;    ///< of supports and held motions
 };
 
 Reactions find_reactions(const Scene& scene, const Mesh& mesh, const Discretisation& discretisation,

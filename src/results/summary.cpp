@@ -236,7 +236,7 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
           {"scene", scene.path},
           {"version", MORTISE_VERSION},
           {"status", to_string(r.status)},
-          {"model", model_json(scene, r.mesh, r.discretisation, r.reactions)},
+          {"model", model_json(scene, r.discretisation, r.reactions)},
           {"method",
            {{"integration", to_string(scene.method.integration)},
             {"normals", to_string(scene.method.normals)},

@@ -160,6 +160,31 @@ void warn_of_locking(const Scene& scene, const Results& r, Lines& lines) {
   }
 }
 
+// Forces at points, of loads and of supports.
+void warn_of_points(const Scene& scene, const Results& r, Lines& lines) {
+  const SceneNames names(r.mesh);
+  const auto warn = [&](const BoundarySpec& spec, const std::string& name, double force) {
+    std::ostringstream text;
+    text << spec.key << ": a force of " << force << " at the point '" << name
+         << "': stresses there have no bound, they grow as the mesh is refined, and the displacement of the point with "
+            "them; what is more than a few elements away is right";
+    lines.push_back(text.str());
+  };
+  double most = r.reactions.loads.size;
+  for (const Resultant& entry : r.reactions.entries) most = std::max(most, entry.size);
+  for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
+    const BoundarySpec& spec = scene.boundaries[i];
+    for (const std::string& name : spec.on) {
+      if (names.places(spec.key + ".on", name).points.empty()) continue;
+      if (spec.force) warn(spec, name, spec.force->norm());
+      double reaction = 0;
+      for (const Reaction& of : r.reactions.curves)
+        if (of.entry == int(i) && of.on == name) reaction += of.sum.force.norm();
+      if (reaction > 1e-6 * most) warn(spec, name, reaction);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> warnings(const Scene& scene, const Results& r) {
@@ -169,6 +194,7 @@ std::vector<std::string> warnings(const Scene& scene, const Results& r) {
   warn_of_what_is_not_finite(r, lines);
   if (auto line = large_displacement(r)) lines.push_back(*std::move(line));
   warn_of_locking(scene, r, lines);
+  if (!r.mesh.points.empty()) warn_of_points(scene, r, lines);
   const double displacement = largest_entry(r.solution.u);
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
     warn_of_dropped(r.pairs[k], r, lines);

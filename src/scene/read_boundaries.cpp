@@ -43,16 +43,53 @@ void check_load(const Node& load, double size, const Stiffest& most) {
 }
 
 void read_displacement(const Node& node, BoundarySpec& boundary) {
-  expect_keys(node, {"x", "y"});
-  if (node.items.empty()) fail(node, "is empty; expected x, y or both");
+  expect_keys(node, {"x", "y", "normal", "direction", "value"});
+  const std::string expected = "expected x, y or both; or normal; or direction and value";
+  if (node.items.empty()) fail(node, "is empty; " + expected);
   const FieldUse use{.key = {}, .on_curve = true};
-  if (const Node* x = find(node, "x")) boundary.displacement_x = field(*x, use);
-  if (const Node* y = find(node, "y")) boundary.displacement_y = field(*y, use);
+  const Node *x = find(node, "x"), *y = find(node, "y"), *normal = find(node, "normal");
+  const Node *direction = find(node, "direction"), *value = find(node, "value");
+  if (int(x != nullptr || y != nullptr) + int(normal != nullptr) + int(direction != nullptr || value != nullptr) > 1)
+    fail(node, "names several directions; " + expected);
+  if (x != nullptr) boundary.displacement_x = field(*x, use);
+  if (y != nullptr) boundary.displacement_y = field(*y, use);
+  if (normal != nullptr) boundary.displacement_normal = field(*normal, use);
+  if (direction == nullptr && value == nullptr) return;
+  const Vec2 along = number_pair(require(node, "direction", "[dx, dy], along which 'value' is prescribed"));
+  if (!(along.stableNorm() > 0)) fail(*direction, "has no length; expected a direction, [dx, dy]");
+  boundary.direction = along.stableNormalized();
+  boundary.displacement_along = field(require(node, "value", "the displacement along 'direction'"), use);
 }
 
-void read_what(const Node& what, const Stiffest& most, BoundarySpec& boundary) {
+void read_rigid(const Node& node, const Model& model, BoundarySpec& boundary) {
+  expect_keys(node, {"x", "y", "rotation", "force", "moment", "about"});
+  RigidSpec& rigid = boundary.rigid.emplace();
+  if (const Node* x = find(node, "x")) rigid.x = number(*x);
+  if (const Node* y = find(node, "y")) rigid.y = number(*y);
+  if (const Node* rotation = find(node, "rotation")) rigid.rotation = number(*rotation);
+  if (const Node* force = find(node, "force")) rigid.force = number_pair(*force);
+  if (const Node* moment = find(node, "moment")) rigid.moment = number(*moment);
+  if (const Node* about = find(node, "about")) rigid.about = number_pair(*about);
+  if (!model.axisymmetric()) return;
+  for (const char* key : {"x", "rotation", "moment", "about"})
+    if (const Node* given = find(node, key))
+      fail(*given, "rings that are rigid move along the axis alone; expected y or force");
+}
+
+/// One number for both, or [kx, ky].
+Vec2 read_spring(const Node& node) {
+  const Vec2 k = node.kind == Node::Kind::list ? number_pair(node) : Vec2::Constant(number(node));
+  if (!(k.minCoeff() >= 0 && k.maxCoeff() > 0)) fail_expected(node, "a stiffness > 0, or two >= 0, [kx, ky]");
+  return k;
+}
+
+void read_what(const Node& what, const Model& model, const Stiffest& most, BoundarySpec& boundary) {
   if (what.name == "displacement") {
     read_displacement(what, boundary);
+  } else if (what.name == "rigid") {
+    read_rigid(what, model, boundary);
+  } else if (what.name == "spring") {
+    boundary.spring = read_spring(what);
   } else if (what.name == "pressure") {
     boundary.pressure = field(what, load_use(most));
     if (boundary.pressure->is_constant()) check_load(what, std::abs(boundary.pressure->constant()), most);
@@ -75,9 +112,11 @@ void check_once(const Node& entry, const Node& what, const std::vector<const Nod
   for (const Node* curve : curves) {
     const std::string subject = "curve '" + curve->text + "' ";
     in_this_entry.take(subject + "is named", *curve, entry);
-    if (what.kind != Node::Kind::table) {
-      once.take(subject + (what.name == "foundation" ? "has a foundation" : "carries a load"), blame(what, *curve),
-                entry);
+    if (what.name != "displacement") {
+      const std::string has = what.name == "foundation" || what.name == "spring" ? "has a " + what.name
+                              : what.name == "rigid"                             ? "is rigid"
+                                                                                 : "carries a load";
+      once.take(subject + has, blame(what, *curve), entry);
       continue;
     }
     for (const Node& component : what.items) {
@@ -92,13 +131,16 @@ void read_boundaries(const Node& root, Scene& scene) {
   Once once;
   const Stiffest most = stiffest(root, scene);
   for (const Node* entry : entries(root, "boundary")) {
-    expect_keys(*entry, {"on", "displacement", "pressure", "traction", "force", "foundation"});
+    std::vector<std::string> keys{"displacement", "pressure", "traction", "force", "foundation", "spring", "rigid"};
+    keys.push_back("on");
+    expect_keys(*entry, keys);
+    keys.pop_back();
+    const Node& what = exactly_one(*entry, keys);
     BoundarySpec boundary;
     boundary.key = locate(*entry);
     const std::vector<const Node*> curves = names(require(*entry, "on", "the names of physical curves"));
     for (const Node* curve : curves) boundary.on.push_back(curve->text);
-    const Node& what = exactly_one(*entry, {"displacement", "pressure", "traction", "force", "foundation"});
-    read_what(what, most, boundary);
+    read_what(what, scene.model, most, boundary);
     check_once(*entry, what, curves, once);
     scene.boundaries.push_back(boundary);
   }

@@ -32,20 +32,35 @@ struct BodySpec {
   std::string material;  ///< key of Scene::materials
 };
 
-/// One [[boundary]] entry: exactly one of displacement, pressure, traction, force, foundation.
+/// Curves that move as a rigid body.
+struct RigidSpec {
+  std::optional<double> x, y;      ///< prescribed displacement of `about`, length
+  std::optional<double> rotation;  ///< prescribed, radians counter-clockwise
+  Vec2 force = Vec2::Zero();       ///< at `about`, times depth (base/model.hpp)
+  double moment = 0;               ///< the same times length, positive counter-clockwise
+  std::optional<Vec2> about;       ///< none: the curves' centre
+};
+
+/// One [[boundary]] entry: exactly one of displacement, pressure, traction, force, foundation, spring, rigid.
 struct BoundarySpec {
-  std::string key;                      ///< where it stands, for messages: "boundary.2 (line 31)", counted from 0
-  std::vector<std::string> on;          ///< physical curves
-  std::optional<Field> displacement_x;  ///< prescribed u1, length
-  std::optional<Field> displacement_y;  ///< prescribed u2, length
+  std::string key;                           ///< where it stands, for messages: "boundary.2 (line 31)", counted from 0
+  std::vector<std::string> on;               ///< physical curves; of displacement, force and spring also points
+  std::optional<Field> displacement_x;       ///< prescribed u1, length
+  std::optional<Field> displacement_y;       ///< prescribed u2, length
+  std::optional<Field> displacement_normal;  ///< prescribed u . n, length, n outward
+  std::optional<Vec2> direction;             ///< a unit vector, along which
+  std::optional<Field> displacement_along;   ///< is prescribed, length
+  std::optional<RigidSpec> rigid;
   std::optional<Field> pressure;        ///< positive pushes onto the body, stress
   std::optional<VectorField> traction;  ///< stress
   std::optional<Vec2> force;            ///< sum of a constant traction on all its curves, times depth (base/model.hpp)
   /// Springs to the ground, stress per length, >= 0: along the normal, or along x and y.
   std::optional<Field> normal_foundation;
   std::optional<VectorField> foundation;
+  std::optional<Vec2> spring;  ///< to the ground at points, along x and y, force times depth per length, >= 0
 
   bool is_foundation() const { return normal_foundation || foundation; }
+  bool is_skew() const { return displacement_normal || displacement_along; }
   bool is_load() const { return pressure || traction || force; }
 };
 

@@ -1,6 +1,7 @@
 #include "solve/contact_factor.hpp"
 
 #include "solve/bordered_system.hpp"
+#include "solve/multipoint_system.hpp"
 
 namespace mortise {
 
@@ -32,7 +33,13 @@ MatX DirectFactor::duals(const MatX& functionals, const MatX& loads) const {
   return z;
 }
 
+MatX MultipointFactor::duals(const MatX& functionals, const MatX& loads) const {
+  return T_ * of_q_->duals(functionals, loads.size() > 0 ? MatX(T_.transpose() * loads) : loads);
+}
+
 std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& s, const std::vector<char>& closed) {
+  if (const auto& multipoint = s.constraints.multipoint)
+    return std::make_shared<MultipointFactor>(multipoint->T, factorise_contact(independent_system(s), closed));
   BorderedSystem reduced = bordered_system(s);
   BorderedCholesky factor(std::move(reduced.matrix), reduced.blocks);
   std::vector<int> rows;

@@ -36,6 +36,18 @@ class DirectFactor : public ContactFactor {
   MultiplierSystem multipliers_;
 };
 
+/// A factor of the equations of q (multipoint_system.hpp), asked in u = T q.
+class MultipointFactor : public ContactFactor {
+ public:
+  MultipointFactor(const SparseRows& T, std::shared_ptr<const ContactFactor> of_q) : T_(T), of_q_(std::move(of_q)) {}
+
+  MatX duals(const MatX& functionals, const MatX& loads = {}) const override;
+
+ private:
+  SparseRows T_;
+  std::shared_ptr<const ContactFactor> of_q_;
+};
+
 /// Of a system whose stiffness proved positive definite and whose closed rows are independent (a converged Solution).
 std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& system,
                                                        const std::vector<char>& closed);

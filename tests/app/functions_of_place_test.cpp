@@ -234,7 +234,7 @@ contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilatera
         "  load      upper_right: traction (0.001, -y), in sum (0.0006, -0.78), moment",
         "  load      upper_left: force (0, -2), in sum (0, -2), moment"})
     expect_contains(lines, line);
-  const auto json = model_json(scene, mesh, d, {.entries = std::vector<Resultant>(scene.boundaries.size())});
+  const auto json = model_json(scene, d, {.entries = std::vector<Resultant>(scene.boundaries.size())});
   EXPECT_EQ(json["supports"][0]["displacement"].dump(), "{\"x\":0.0,\"y\":\"1e-3 * x\"}");
   EXPECT_EQ(json["loads"][0]["pressure"], "3 + 3*s");
   EXPECT_EQ(json["loads"][1]["traction"].dump(), "[0.001,\"-y\"]");

@@ -1,0 +1,178 @@
+#include "fem/multipoint.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/printable.hpp"
+#include "base/vectors.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double parallel = 1e-6;  // sine between directions that are one
+
+// Displacement of a place when it turns about another by 1.
+Vec2 turned(const Vec2& place, const Vec2& about) { return {about.y() - place.y(), place.x() - about.x()}; }
+
+}  // namespace
+
+void add_rigid_load(const Mesh& mesh, const RigidCurve& curve, const Vec2& force, double moment, VecX& f) {
+  // On the first node, and on the unknown that tells the turn with its opposite on the first node.
+  const int first = curve.q[0], turn = curve.q[2];
+  const Vec2 lever = turned(mesh.nodes.row(first / 2).transpose(), curve.about);
+  const double couple = (moment - lever.dot(force)) / curve.arm;
+  f.segment<2>(first) += force;
+  f(first + turn % 2) -= couple;
+  f(turn) += couple;
+}
+
+Eigen::Vector3d rigid_motion(const RigidCurve& curve, const MultipointConstraints& multipoint, const VecX& u) {
+  Eigen::Vector3d motion;
+  for (int k = 0; k < 3; ++k) motion(k) = multipoint.inverse.row(curve.q[k]).dot(u);
+  motion(2) /= curve.arm;
+  return motion;
+}
+
+MultipointBuilder::MultipointBuilder(const Mesh& mesh, Constraints& constraints)
+    : mesh_(mesh), constraints_(constraints) {}
+
+void MultipointBuilder::refuse(const std::string& key, int node, const std::string& why) const {
+  throw SceneError(key + ": " + why + " " + near_point(place(node)));
+}
+
+void MultipointBuilder::prescribe(int support, const std::string& key, int node, const Vec2& direction, double value) {
+  const int x = 2 * node;
+  if (rigid_.contains(node)) refuse(key, node, "holds a node of a rigid curve; expected no other support there");
+  std::vector<std::pair<Vec2, double>> given{{direction, value}};
+  const auto skew = skew_.find(node);
+  const bool is_skew = skew != skew_.end();
+  if (is_skew)
+    given.emplace_back(skew->second.direction, constraints_.value(x));
+  else
+    for (int c = 0; c < 2; ++c)
+      if (constraints_.fixed[x + c]) given.emplace_back(Vec2::Unit(c), constraints_.value(x + c));
+
+  const auto agree = [&](const std::pair<Vec2, double>& other, double sign) {
+    const double wanted = sign * value;
+    return std::abs(other.second - wanted) <= 1e-9 * std::max(std::abs(other.second), std::abs(wanted));
+  };
+  const auto conflict = [&](double other) {
+    std::ostringstream text;
+    text << "prescribes a displacement of " << value << " along (" << direction.x() << ", " << direction.y()
+         << "), where another entry makes it " << other << "; expected one value a node,";
+    refuse(key, node, text.str());
+  };
+  if (given.size() == 3) {  // already held in both directions
+    const double there = direction.dot(constraints_.value.segment<2>(x));
+    const double size = constraints_.value.segment<2>(x).norm();
+    if (std::abs(there - value) > 1e-9 * std::max(size, std::abs(value))) conflict(there);
+    return;
+  }
+  if (given.size() == 1) {
+    if (std::abs(direction.x()) < parallel || std::abs(direction.y()) < parallel) {
+      const int c = std::abs(direction.y()) > std::abs(direction.x()) ? 1 : 0;
+      constraints_.fixed[x + c] = 1;
+      constraints_.value(x + c) = value * direction(c);
+      return;
+    }
+    skew_[node] = {support, direction};
+    constraints_.fixed[x] = 1;
+    constraints_.value(x) = value;
+    return;
+  }
+  const double sine = cross(given[0].first, given[1].first);
+  if (std::abs(sine) < parallel) {
+    const double sign = given[0].first.dot(given[1].first) > 0 ? 1 : -1;
+    if (!agree(given[1], sign)) conflict(sign * given[1].second);
+    return;
+  }
+  // Two directions hold the node altogether: n1 . u = v1, n2 . u = v2.
+  const Vec2 n1 = given[0].first, n2 = given[1].first;
+  const double v1 = given[0].second, v2 = given[1].second;
+  held_twice_[node] = {{support, is_skew ? skew->second.support : -1}, {n1, n2}};
+  if (is_skew) skew_.erase(skew);
+  constraints_.fixed[x] = constraints_.fixed[x + 1] = 1;
+  constraints_.value.segment<2>(x) = Vec2(v1 * n2.y() - v2 * n1.y(), v2 * n1.x() - v1 * n2.x()) / sine;
+}
+
+RigidCurve MultipointBuilder::make_rigid(const std::string& key, std::vector<int> nodes, const Vec2& about) {
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  for (const int node : nodes) {
+    const bool held_x = constraints_.fixed[2 * node] && !constraints_.rings, held_y = constraints_.fixed[2 * node + 1];
+    if (held_x || held_y || skew_.contains(node) || !rigid_.insert(node).second)
+      refuse(key, node, "makes a node rigid that another entry holds; expected no other support there");
+  }
+  // The pair of nodes that is farthest apart from the first one, along x or y, tells the turn.
+  const int first = nodes.front();
+  int last = first, along = 0;
+  for (const int node : nodes)
+    for (int c = 0; c < 2; ++c)
+      if (const double d = std::abs(place(node)(c) - place(first)(c));
+          d > std::abs(place(last)(along) - place(first)(along))) {
+        last = node;
+        along = c;
+      }
+  if (last == first) refuse(key, first, "makes a single node rigid; expected a curve");
+  const auto lever_of = [&](int node) { return turned(place(node), about); };
+  const int c = 1 - along;  // the displacement that tells the turn is at right angles
+  const double arm = lever_of(last)(c) - lever_of(first)(c);
+  const RigidCurve curve{std::move(nodes), about, {2 * first, 2 * first + 1, 2 * last + c}, arm};
+  const auto [qx, qy, turn] = curve.q;
+  const std::array<int, 2> of{qx, qy};
+  // q_turn = u_last,c - u_first,c; the displacement of `about` is that of the first node less what its turn makes.
+  for (const int node : curve.nodes)
+    for (int k = 0; k < 2; ++k) {
+      const int u = 2 * node + k;
+      const double lever = lever_of(node)(k) / arm;
+      if (u == turn) {
+        inverse_.emplace_back(turn, turn, 1);
+        inverse_.emplace_back(turn, of[c], -1);
+      } else {
+        const double of_turn = u == of[k] ? lever : lever - lever_of(first)(k) / arm;
+        inverse_.emplace_back(u, u, 1);
+        if (u != of[k]) inverse_.emplace_back(u, of[k], -1);
+        inverse_.emplace_back(u, turn, -of_turn);
+        inverse_.emplace_back(u, of[c], of_turn);
+        if (u != of[k]) {
+          T_.emplace_back(u, u, 1);
+          constraints_.fixed[u] = 1;
+        }
+      }
+      T_.emplace_back(u, of[k], 1);
+      T_.emplace_back(u, turn, lever);
+    }
+  return curve;
+}
+
+std::map<int, HeldTwice> MultipointBuilder::finish() {
+  if (skew_.empty() && rigid_.empty()) return std::move(held_twice_);
+  const Eigen::Index n = constraints_.value.size();
+  MultipointConstraints multipoint{SparseRows(n, n), SparseRows(n, n), std::vector<char>(n, 0)};
+  for (const auto& [node, skew] : skew_) {
+    const Vec2& d = skew.direction;
+    const int x = 2 * node, y = x + 1;
+    for (auto* entries : {&T_, &inverse_}) {
+      entries->emplace_back(x, x, d.x());
+      entries->emplace_back(y, y, d.x());
+    }
+    T_.emplace_back(x, y, -d.y());
+    T_.emplace_back(y, x, d.y());
+    inverse_.emplace_back(x, y, d.y());
+    inverse_.emplace_back(y, x, -d.y());
+  }
+  for (const auto& entry : T_) multipoint.coupled[entry.row()] = multipoint.coupled[entry.col()] = 1;
+  for (int i = 0; i < int(n); ++i)
+    if (!multipoint.coupled[i]) {
+      T_.emplace_back(i, i, 1);
+      inverse_.emplace_back(i, i, 1);
+    }
+  multipoint.T.setFromTriplets(T_.begin(), T_.end());
+  multipoint.inverse.setFromTriplets(inverse_.begin(), inverse_.end());
+  constraints_.multipoint = std::move(multipoint);
+  return std::move(held_twice_);
+}
+
+}  // namespace mortise

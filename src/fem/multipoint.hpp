@@ -1,0 +1,66 @@
+// Displacements prescribed along any direction, and curves that stay rigid.
+#pragma once
+
+#include <map>
+#include <set>
+
+#include "base/constraints.hpp"
+#include "mesh/mesh.hpp"
+
+namespace mortise {
+
+/// Nodes that move as a rigid body: u = q_x e1 + q_y e2 + q_turn / arm * (-(x2 - about2), x1 - about1).
+struct RigidCurve {
+  std::vector<int> nodes;
+  Vec2 about;
+  std::array<int, 3> q;  ///< displacement of `about`, and the turn; three of the Constraints' unknowns
+  double arm;            ///< length: the turn in radians is q[2] / arm
+};
+
+/// A node that supports hold along two directions, of which one is neither x nor y at least: a reaction there is a sum
+/// of forces along both.
+struct HeldTwice {
+  std::array<int, 2> support;  ///< as the caller counts them; -1: one along x or y
+  std::array<Vec2, 2> direction;
+};
+
+/// Adds a force at `about` and a moment to the nodes of a rigid curve: of all forces with this sum the curve feels the
+/// same.
+void add_rigid_load(const Mesh& mesh, const RigidCurve& curve, const Vec2& force, double moment, VecX& f);
+
+/// Displacement of `about` and the turn in radians, of the nodes' displacements.
+Eigen::Vector3d rigid_motion(const RigidCurve& curve, const MultipointConstraints& multipoint, const VecX& u);
+
+/// Collects, after all displacements along x and y, what the others prescribe.
+class MultipointBuilder {
+ public:
+  MultipointBuilder(const Mesh& mesh, Constraints& constraints);
+
+  /// Prescribes u . direction = value at a node; `direction` is a unit vector, `support` the caller's number. Throws
+  /// SceneError that begins with `key` where the node already has another value.
+  void prescribe(int support, const std::string& key, int node, const Vec2& direction, double value);
+
+  /// Two nodes or more, none of which anything else prescribes (of rings but the axis). Throws SceneError that begins
+  /// with `key`. What is prescribed of the motion is up to the caller, by `q`.
+  RigidCurve make_rigid(const std::string& key, std::vector<int> nodes, const Vec2& about);
+
+  /// Puts the multi-point constraints, if there are any, into the Constraints. Returns the nodes that are held twice.
+  std::map<int, HeldTwice> finish();
+
+ private:
+  Vec2 place(int node) const { return mesh_.nodes.row(node).transpose(); }
+  [[noreturn]] void refuse(const std::string& key, int node, const std::string& why) const;
+
+  const Mesh& mesh_;
+  Constraints& constraints_;
+  struct Skew {
+    int support;
+    Vec2 direction;
+  };
+  std::map<int, Skew> skew_;  // of nodes that are held in one direction, neither x nor y
+  std::map<int, HeldTwice> held_twice_;
+  std::set<int> rigid_;  // nodes
+  std::vector<Eigen::Triplet<double>> T_, inverse_;
+};
+
+}  // namespace mortise

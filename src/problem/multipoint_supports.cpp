@@ -1,0 +1,108 @@
+#include "problem/multipoint_supports.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/vectors.hpp"
+#include "fem/edges.hpp"
+#include "problem/boundary_places.hpp"
+
+namespace mortise {
+namespace {
+
+const double corner = std::numbers::pi / 12;  // between the normals of one smooth curve at a node
+
+// Outward normals of the edges at a node, of unit length: one, or two at a corner.
+struct NodeNormals {
+  std::vector<Vec2> sums;
+  double value;
+
+  void add(const Vec2& normal) {
+    for (Vec2& sum : sums)
+      if (angle_between(sum, normal) < corner) {
+        sum += normal;
+        return;
+      }
+    sums.push_back(normal);
+  }
+};
+
+void prescribe_normals(const Mesh& mesh, int entry, const BoundarySpec& spec, const Places& on_all,
+                       MultipointBuilder& builder) {
+  std::map<int, NodeNormals> normals;
+  for (const NamedBoundary& on : on_all.boundaries)
+    for (const CellSide& side : on.sides) {
+      const Edge edge = side_edge(mesh.cells[side.cell], side.side);
+      for (int a = 0; a < edge.node_count; ++a) {
+        const int node = edge.nodes[a];
+        NodeNormals& at = normals[node];
+        at.add(edge_point(mesh.nodes, edge, xi_of_node(a)).normal());
+        at.value = (*spec.displacement_normal)(mesh.nodes.row(node).transpose(), on.s_at(node));
+      }
+    }
+  for (const auto& [node, at] : normals)
+    for (const Vec2& sum : at.sums) builder.prescribe(entry, spec.key, node, sum.normalized(), at.value);
+}
+
+void prescribe_direction(const Mesh& mesh, int entry, const BoundarySpec& spec, const Places& on_all,
+                         MultipointBuilder& builder) {
+  std::map<int, double> values;
+  const auto take = [&](int node, double s) {
+    values[node] = (*spec.displacement_along)(mesh.nodes.row(node).transpose(), s);
+  };
+  for (const NamedBoundary& on : on_all.boundaries)
+    for (const Edge& edge : mesh.boundaries[on.boundary].edges)
+      for (int a = 0; a < edge.node_count; ++a) take(edge.nodes[a], on.s_at(edge.nodes[a]));
+  for (const NamedPoint* point : on_all.points)
+    for (const int node : point->nodes) take(node, 0);
+  for (const auto& [node, value] : values) builder.prescribe(entry, spec.key, node, *spec.direction, value);
+}
+
+RigidCurve make_rigid(const Mesh& mesh, const BoundarySpec& spec, const Places& on_all, MultipointBuilder& builder,
+                      SaddlePointSystem& system) {
+  const RigidSpec& rigid = *spec.rigid;
+  std::vector<Edge> edges;
+  for (const NamedBoundary& on : on_all.boundaries) {
+    const std::vector<Edge>& more = mesh.boundaries[on.boundary].edges;
+    edges.insert(edges.end(), more.begin(), more.end());
+  }
+  std::vector<int> nodes;
+  for (const Edge& edge : edges) nodes.insert(nodes.end(), edge.nodes.begin(), edge.nodes.begin() + edge.node_count);
+  RigidCurve curve =
+      builder.make_rigid(spec.key, std::move(nodes), rigid.about ? *rigid.about : centre_of(mesh.nodes, edges));
+  Constraints& constraints = system.constraints;
+  const auto hold = [&](int k, const std::optional<double>& value, double unit) {
+    if (!value) return;
+    constraints.fixed[curve.q[k]] = 1;
+    constraints.value(curve.q[k]) = *value * unit;
+  };
+  const std::optional<double> of_rings = constraints.rings ? std::optional(0.0) : std::nullopt;
+  hold(0, constraints.rings ? of_rings : rigid.x, 1);
+  hold(1, rigid.y, 1);
+  hold(2, constraints.rings ? of_rings : rigid.rotation, curve.arm);
+  add_rigid_load(mesh, curve, rigid.force, constraints.rings ? 0 : rigid.moment, system.f);
+  return curve;
+}
+
+}  // namespace
+
+MultipointSupports add_multipoint_supports(const Scene& scene, const Mesh& mesh, const SideTable& table,
+                                           const SceneNames& names, SaddlePointSystem& system) {
+  MultipointSupports supports;
+  MultipointBuilder builder(mesh, system.constraints);
+  for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
+    const BoundarySpec& spec = scene.boundaries[i];
+    if (!spec.is_skew() && !spec.rigid) continue;
+    const Places on_all = places_of(mesh, table, names, spec);
+    if (spec.rigid)
+      supports.rigid_curves.push_back({int(i), make_rigid(mesh, spec, on_all, builder, system)});
+    else if (spec.displacement_normal)
+      prescribe_normals(mesh, int(i), spec, on_all, builder);
+    else
+      prescribe_direction(mesh, int(i), spec, on_all, builder);
+  }
+  supports.held_twice = builder.finish();
+  return supports;
+}
+
+}  // namespace mortise

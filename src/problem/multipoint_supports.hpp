@@ -1,0 +1,29 @@
+// Supports that tie unknowns together: displacements along any direction, and rigid curves.
+#pragma once
+
+#include "fem/multipoint.hpp"
+#include "mesh/side_table.hpp"
+#include "problem/scene_names.hpp"
+#include "scene/scene.hpp"
+#include "solve/saddle_point_system.hpp"
+
+namespace mortise {
+
+/// A rigid curve and the entry of Scene::boundaries that makes it.
+struct RigidSupport {
+  int entry;
+  RigidCurve curve;
+};
+
+struct MultipointSupports {
+  std::vector<RigidSupport> rigid_curves;
+  std::map<int, HeldTwice> held_twice;  ///< by node; supports are entries of Scene::boundaries
+};
+
+/// Adds those of all entries, after all that is prescribed along x and y, and the forces on rigid curves to the load.
+/// A normal is the mean of the edges' at a node; where they differ by more than 15 degrees, both are held. Throws
+/// SceneError where two entries contradict each other.
+MultipointSupports add_multipoint_supports(const Scene& scene, const Mesh& mesh, const SideTable& table,
+                                           const SceneNames& names, SaddlePointSystem& system);
+
+}  // namespace mortise

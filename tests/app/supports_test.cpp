@@ -1,0 +1,181 @@
+// Supports along any direction, rigid curves, and points, against the same problem in other axes and exact solutions.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+#include <sstream>
+
+#include "app/solve_scene.hpp"
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+// Two blocks 0 <= x <= 2, the lower one from y = 0 to 1, the upper one to 1.6, turned about the origin, on meshes that
+// do not match.
+std::string blocks(double degrees) {
+  std::ostringstream geo;
+  const Eigen::Rotation2Dd turn(degrees * std::numbers::pi / 180);
+  const Vec2 corners[] = {{0, 0}, {2, 0}, {2, 1}, {0, 1}, {0, 1}, {2, 1}, {2, 1.6}, {0, 1.6}};
+  geo.precision(17);
+  for (int i = 0; i < 8; ++i) {
+    const Vec2 x = turn * corners[i];
+    geo << "Point(" << i + 1 << ") = {" << x.x() << ", " << x.y() << ", 0};\n";
+  }
+  for (int i = 0; i < 8; ++i)
+    geo << "Line(" << i + 1 << ") = {" << i + 1 << ", " << (i % 4 == 3 ? i - 2 : i + 2) << "};\n";
+  geo << R"(
+Mesh.ElementOrder = 2;
+Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1};
+Curve Loop(2) = {5 : 8}; Plane Surface(2) = {2};
+Transfinite Curve{1, 3} = 6; Transfinite Curve{2, 4} = 4;
+Transfinite Curve{5, 7} = 9; Transfinite Curve{6, 8} = 3;
+Transfinite Surface{1, 2};
+Physical Point("corner") = {1};
+Physical Point("feet") = {1, 2};
+Physical Point("top_right") = {7};
+Physical Surface("lower") = {1};
+Physical Surface("upper") = {2};
+Physical Curve("bottom") = {1};
+Physical Curve("lower_right") = {2};
+Physical Curve("lower_contact") = {3};
+Physical Curve("lower_left") = {4};
+Physical Curve("upper_contact") = {5};
+Physical Curve("upper_right") = {6};
+Physical Curve("top") = {7};
+Physical Curve("upper_left") = {8};
+)";
+  return geo.str();
+}
+
+Scene scene_of(const TemporaryFolder& folder, const std::string& rest, double degrees = 0, double poisson = 0.3) {
+  folder.write("blocks.geo", blocks(degrees));
+  return read_scene(folder.write(
+      "scene.toml", "mesh.file = \"blocks.geo\"\nmodel.plane = \"stress\"\nmaterials.m = { young = 1000, poisson = " +
+                        std::to_string(poisson) + " }\nbodies = { lower = \"m\", upper = \"m\" }\n" + rest));
+}
+
+const std::string contact = "contact = [{ between = [\"upper_contact\", \"lower_contact\"] }]\n";
+
+// A punch pressed down in a part of the top, beside a symmetry line.
+TEST(Supports, TurnedAxesChangeNothing) {
+  const TemporaryFolder straight_folder, turned_folder;
+  const Results straight = solve_scene(scene_of(straight_folder, contact + R"toml(
+boundary = [
+  { on = ["lower_left", "upper_left"], displacement = { x = 0 } },
+  { on = "bottom", displacement = { y = 2e-3 } },
+  { on = "top", pressure = "1 + x^3" },
+])toml"));
+  ASSERT_EQ(straight.status, Status::solved);
+  for (const std::string method : {"direct", "mssor", "ddm", "feti"}) {
+    SCOPED_TRACE(method);
+    const Results turned = solve_scene(scene_of(turned_folder, contact + "method.solver = \"" + method + R"toml("
+boundary = [
+  { on = ["lower_left", "upper_left"], displacement = { normal = 0 } },
+  { on = "bottom", displacement = { direction = [-1, 1.7320508075688772], value = 2e-3 } },
+  { on = "top", pressure = "1 + (x * cos(30 * pi / 180) + y * sin(30 * pi / 180))^3" },
+])toml",
+                                                30));
+    EXPECT_EQ(turned.status, Status::solved);
+    const VecX &p = turned.contacts[0].pressure, &q = straight.contacts[0].pressure;
+    ASSERT_EQ(p.size(), q.size());
+    EXPECT_LE(largest_entry(p - q), 1e-7 * largest_entry(q));
+    EXPECT_NEAR(turned.energy, straight.energy, 1e-7 * straight.energy);
+    const Eigen::Rotation2Dd turn(std::numbers::pi / 6);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vec2 force = turn * straight.reactions.entries[i].force;
+      EXPECT_LE((turned.reactions.entries[i].force - force).norm(), 1e-7) << i;
+    }
+  }
+}
+
+TEST(Supports, TheEstimateOfTurnedAxesIsTheSame) {
+  const TemporaryFolder straight_folder, turned_folder;
+  const auto estimated = [](const Scene& scene) {
+    Results r = solve_scene(scene);
+    estimate(r, {});
+    return r;
+  };
+  const Results straight = estimated(scene_of(straight_folder, contact + R"toml(
+boundary = [{ on = "bottom", displacement = { x = 0, y = 0 } }, { on = "upper_left", displacement = { x = 0 } },
+            { on = "top", pressure = "1 + s" }])toml")),
+                turned = estimated(scene_of(turned_folder, contact + R"toml(
+boundary = [{ on = "bottom", displacement = { x = 0, y = 0 } }, { on = "upper_left", displacement = { normal = 0 } },
+            { on = "top", pressure = "1 + s" }])toml",
+                                            50));
+  EXPECT_NEAR(turned.estimate->pressure(), straight.estimate->pressure(), 1e-6 * straight.estimate->pressure());
+}
+
+// sigma_22 = a + b (x - 1) without lateral contraction: u_y = (a + b (x - 1)) y / E, u_x = (c - b y^2 / 2) / E.
+TEST(Supports, ARigidTopTakesForceAndMoment) {
+  const TemporaryFolder folder;
+  const std::string held = "boundary = [{ on = \"bottom\", displacement = { x = 0, y = 0 } }, { on = \"top\", rigid = ";
+  const double force = -6, moment = 0.4, height = 1.6, E = 1000, a = force / 2, b = moment / (2.0 / 3);
+  const Results loaded =
+      solve_scene(scene_of(folder, contact + held + "{ x = 0, force = [0, -6], moment = 0.4 } }]", 0, 0));
+  EXPECT_EQ(loaded.status, Status::solved);
+  ASSERT_EQ(loaded.reactions.rigid_motions.size(), 1u);
+  const Eigen::Vector3d motion = loaded.reactions.rigid_motions[0];
+  EXPECT_NEAR(motion(0), 0, 1e-15);
+  EXPECT_NEAR(motion(1), a * height / E, 1e-12);
+  EXPECT_NEAR(motion(2), b * height / E, 1e-12);
+  EXPECT_LE(loaded.reactions.entries[1].force.norm(), 1e-9);
+
+  // What was found is prescribed, about another point: the same reactions.
+  const Vec2 at_corner = motion.head<2>() + motion(2) * Vec2(0, 1);
+  std::ostringstream given;
+  given.precision(17);
+  given << "{ x = " << at_corner.x() << ", y = " << at_corner.y() << ", rotation = " << motion(2)
+        << ", about = [2, 1.6] } }]";
+  const Results moved = solve_scene(scene_of(folder, contact + held + given.str(), 0, 0));
+  EXPECT_EQ(moved.status, Status::solved);
+  EXPECT_NEAR(moved.reactions.entries[1].force.x(), 0, 1e-9);
+  EXPECT_NEAR(moved.reactions.entries[1].force.y(), force, 1e-9);
+  EXPECT_NEAR(moved.reactions.entries[1].moment_about({1, height}), moment, 1e-9);
+}
+
+TEST(Supports, PointsHoldLoadAndSpring) {
+  const TemporaryFolder folder;
+  const Results r = solve_scene(scene_of(folder, contact + R"toml(
+boundary = [
+  { on = "corner", displacement = { x = 0 } },
+  { on = "upper_left", displacement = { x = 0 } },
+  { on = "feet", spring = [0, 50] },
+  { on = "top", force = [0, -1] },
+  { on = "top_right", force = [0, -0.5] },
+])toml"));
+  EXPECT_EQ(r.status, Status::solved);
+  double pushed = 0;
+  for (const NamedPoint& point : r.mesh.points)
+    if (point.name == "feet")
+      for (const int node : point.nodes) pushed -= 50 * r.solution.u(2 * node + 1);
+  EXPECT_NEAR(pushed, 1.5, 1e-9);
+  EXPECT_NEAR(r.reactions.entries[2].force.y(), 1.5, 1e-9);
+  int told = 0;
+  for (const std::string& line : r.warnings)
+    if (line.find("point") != std::string::npos) ++told;
+  EXPECT_GE(told, 2);
+}
+
+TEST(Supports, RefusesWhatCannotBeMeant) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& entry) {
+    const Scene scene =
+        scene_of(folder, contact + "boundary = [{ on = \"bottom\", displacement = { x = 0, y = 0 } }, " + entry + "]");
+    return message_of([&] { solve_scene(scene); });
+  };
+  const auto expect = [&](const std::string& entry, const std::string& words) {
+    EXPECT_NE(refused(entry).find(words), std::string::npos) << entry << "\n" << refused(entry);
+  };
+  expect(R"({ on = "corner", pressure = 1 })", "'corner' is a point");
+  expect(R"({ on = "corner", foundation = 1 })", "expected a curve, or 'spring' at a point");
+  expect(R"({ on = "top", spring = 1 })", "'top' is a curve");
+  expect(R"({ on = ["top", "top_right"], force = [0, 1] })", "acts on curves and on points");
+  expect(R"({ on = "bottom", rigid = { } })", "makes a node rigid that another entry holds");
+  expect(R"({ on = "corner", displacement = { direction = [1, 1], value = 1 } })", "expected one value a node");
+  expect(R"({ on = "nowhere", displacement = { normal = 0 } })", "unknown boundary 'nowhere'");
+}
+
+}  // namespace
+}  // namespace mortise::test
