@@ -5,7 +5,8 @@ contact line; of many contact pairs the forces between the bodies instead.
 Usage: picture.py RESULTS [PICTURE] [--zoom] [--scale FACTOR] [--dpi DPI]
 
 RESULTS is the folder that `mortise solve` wrote; read are result.vtu, contact.vtu, summary.json
-(docs/files.md) and contact.csv, or with 3-node triangles contact_centres.csv: p zigzags at their nodes. PICTURE is a .png, .pdf or .svg, by default RESULTS.png beside the folder. --scale magnifies the
+(docs/files.md) and contact.csv, or with 3-node triangles contact_centres.csv: p zigzags at their nodes. PICTURE is a
+.png, .pdf or .svg, by default RESULTS.png beside the folder. --scale magnifies the
 displacements; by default the largest is drawn as about 4 % of the size of what is shown. --zoom shows the bodies where
 contact carries pressure, without loads and reactions. An arrow is the sum of a load, or the reaction of a curve of a
 support, at the middle of what it acts on; of a clamp its moment about that is told too.
@@ -26,36 +27,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import figure
 import launch
+from shapes import CORNERS, shape_functions, subdivision
 
-CORNERS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
 MANY_PAIRS = 6  # more are not drawn one by one
 COLOURS = ["#e8452c", "#4aa3e8"]  # multiplier side, opposite side
 PAIR_COLOURS = ["#111111", "#c2188b", "#1a7f37", "#7a4fd0", "#a65d00", "#00798c"]
 LOAD, REACTION = "#b00020", "#0b4f9c"
-TRIANGLE = [(0, 0), (1, 0), (0, 1), (0.5, 0), (0.5, 0.5), (0, 0.5)]  # reference cells: nodes in VTK's order
-SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0), (0, 0)]
-POWERS = [(0, 0), (1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (2, 2)]  # of x and y
-NODES = {"triangle": TRIANGLE[:3], "triangle6": TRIANGLE, "quad": SQUARE[:4], "quad8": SQUARE[:8], "quad9": SQUARE}
-
-
-def shape_functions(kind, x, y):
-    """Shape functions of a VTK cell, points x nodes: of the first powers, as many as nodes, each 1 at its own."""
-    powers = lambda x, y: np.stack([x**m * y**n for m, n in POWERS[: len(NODES[kind])]], axis=1)
-    return powers(x, y) @ np.linalg.inv(powers(*np.array(NODES[kind], dtype=float).T))
-
-
-def subdivision(kind, n):
-    """Reference points that cut a cell n times along each side, and the triangles between them."""
-    i, j = np.meshgrid(np.arange(n + 1), np.arange(n + 1), indexing="ij")
-    number = np.arange((n + 1) ** 2).reshape(n + 1, n + 1)
-    a, b, c, d = (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:])
-    lower, upper = np.stack([a, b, d], axis=-1), np.stack([b, c, d], axis=-1)
-    if CORNERS[kind] == 4:
-        triangles = np.concatenate([lower.reshape(-1, 3), upper.reshape(-1, 3)])
-        return 2 * i.ravel() / n - 1, 2 * j.ravel() / n - 1, triangles
-    inside = i[:-1, :-1] + j[:-1, :-1]
-    triangles = np.concatenate([lower[inside < n], upper[inside < n - 1]])
-    return i.ravel() / n, j.ravel() / n, triangles
 
 
 def shaded_triangles(mesh, points, values):
@@ -158,6 +135,14 @@ def loaded_box(mesh, table):
     return np.array([middle - half, middle + half])
 
 
+def refuse_older(results, model):
+    """Ends the program where summary.json does not say where forces act."""
+    acting = [load for load in model.get("loads", []) if "sum" in load]
+    acting += [curve for support in model.get("supports", []) for curve in support.get("curves", [{}])]
+    if not all("centre" in entry for entry in acting):
+        raise SystemExit(f"picture.py: {results}: of an older mortise, without the places of forces; solve it again")
+
+
 def acting_forces(model):
     """(colour, force, place, moment about it) of every load and of every curve of every support; the moment of a clamp
     only, 0 of others."""
@@ -245,8 +230,7 @@ def draw_bodies(axes, results, summary, table, scale, zoom):
     bar = axes.figure.colorbar(shading, ax=axes, extend=extend[clipped], pad=0.02, aspect=25)
     bar.set_label("von Mises stress (scene's units)")
     figure.scientific(bar.ax.yaxis)
-    axes.set_xlabel("$x_1$")
-    axes.set_ylabel("$x_2$")
+    axes.set(xlabel="$x_1$", ylabel="$x_2$")
     return scale
 
 
@@ -350,19 +334,18 @@ def draw_forces(axes, mesh, table, pairs, sides):
         capstyle="round",
     )
     axes.add_collection(strokes)
-    axes.set_aspect("equal")
+    axes.set(aspect="equal", xlabel="$x_1$", ylabel="$x_2$")
     axes.autoscale_view()
     axes.margins(0.03)
     bar = axes.figure.colorbar(strokes, ax=axes, pad=0.02, aspect=25)
     bar.set_label("contact force of a pair (scene's units)")
     figure.scientific(bar.ax.yaxis)
-    axes.set_title(f"forces between bodies: {len(acting)} of {len(pairs)} pairs carry some", fontsize=9)
-    axes.set_xlabel("$x_1$")
-    axes.set_ylabel("$x_2$")
+    axes.set_title(f"forces between bodies:\n{len(acting)} of {len(pairs)} pairs carry some", fontsize=9)
 
 
 def draw(results, picture, scale=None, dpi=130, zoom=False):
     summary = json.loads((results / "summary.json").read_text())
+    refuse_older(results, summary["model"])
     pairs, multiplier_sides = summary["contact"], summary["method"]["multipliers_on"]
     mesh = meshio.read(results / "result.vtu")
     table = launch.columns(results / "contact.csv") if pairs else {}
@@ -379,7 +362,7 @@ def draw(results, picture, scale=None, dpi=130, zoom=False):
         heights = [above] + ([above] if many else [below] * len(pairs))
         drawing, panels = figure.panels(len(heights), 1, (8, sum(heights) + 0.6), height_ratios=heights, squeeze=False)
     used = draw_bodies(panels[0, 0], results, summary, table, scale, zoom)
-    panels[0, 0].set_title(f"displacements \u00d7 {used:g}, undeformed outline dashed", fontsize=9)
+    panels[0, 0].set_title(f"displacements \u00d7 {used:g},\nundeformed outline dashed", fontsize=9)
     drawing.suptitle(summary["title"] or summary["scene"], fontsize=11)
     if summary["status"] != "solved":
         panels[0, 0].set_title(summary["status"].replace("_", " "), loc="right", color="#c00000", fontsize=10)

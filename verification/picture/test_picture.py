@@ -117,3 +117,10 @@ def test_shape_functions_and_subdivision(kind, n):
 def test_a_folder_without_results_is_refused(tmp_path):
     run = subprocess.run([sys.executable, picture.__file__, tmp_path], capture_output=True, text=True, check=False)
     assert run.returncode == 2 and "summary.json" in run.stderr
+
+
+def test_a_folder_of_an_older_mortise_is_refused(tmp_path):
+    model = {"loads": [{"on": ["top"], "pressure": 1.0}, {"sum": [0, -1]}], "supports": []}
+    (tmp_path / "summary.json").write_text(json.dumps({"model": model}))
+    run = subprocess.run([sys.executable, picture.__file__, tmp_path], capture_output=True, text=True, check=False)
+    assert run.returncode == 1 and "older mortise" in run.stderr and "Traceback" not in run.stderr
