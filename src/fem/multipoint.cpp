@@ -147,8 +147,48 @@ RigidCurve MultipointBuilder::make_rigid(const std::string& key, std::vector<int
   return curve;
 }
 
+void MultipointBuilder::tie(const Tie& tie) {
+  std::map<int, double> area;  // of the tied unknowns
+  for (const TiedNode& one : tie.nodes) {
+    if (rigid_.contains(one.node) || skew_.contains(one.node))
+      refuse(tie.key, one.node,
+             "ties a node that is held along another direction or rigid; expected multipliers_on the other curve");
+    for (int c = 0; c < 2; ++c)
+      if (const int unknown = 2 * one.node + c; !constraints_.fixed[unknown]) {
+        for (const auto& [other, weight] : one.weights) ties_[unknown].emplace_back(2 * other + c, weight);
+        area[unknown] = one.area;
+      }
+  }
+  for (const TiedNode& one : tie.nodes)
+    for (int c = 0; c < 2; ++c) {
+      const int unknown = 2 * one.node + c, beside = 2 * one.beside + c;
+      if (area.contains(unknown) || !area.contains(beside)) continue;
+      const double part = one.area / area[beside];
+      for (const auto& [other, weight] : one.weights) ties_[beside].emplace_back(2 * other + c, part * weight);
+      ties_[beside].emplace_back(unknown, -part);
+    }
+}
+
+// Adds weight * u(unknown) by the q.
+void MultipointBuilder::add_row(int unknown, double weight, int depth, std::map<int, double>& row) const {
+  if (const auto tie = ties_.find(unknown); tie != ties_.end()) {
+    constexpr int deepest = 10;  // ties that follow one another
+    if (depth == deepest)
+      throw SceneError("ties follow one another in a circle " + near_point(place(unknown / 2)) +
+                       "; expected multipliers_on the other curve of one of them");
+    for (const auto& [other, part] : tie->second) add_row(other, weight * part, depth + 1, row);
+    row[unknown] += weight;
+    return;
+  }
+  const auto own = rows_.find(unknown);
+  if (own == rows_.end())
+    row[unknown] += weight;
+  else
+    for (const auto& [q, part] : own->second) row[q] += weight * part;
+}
+
 std::map<int, HeldTwice> MultipointBuilder::finish() {
-  if (skew_.empty() && rigid_.empty()) return std::move(held_twice_);
+  if (skew_.empty() && rigid_.empty() && ties_.empty()) return std::move(held_twice_);
   const Eigen::Index n = constraints_.value.size();
   MultipointConstraints multipoint{SparseRows(n, n), SparseRows(n, n), std::vector<char>(n, 0)};
   for (const auto& [node, skew] : skew_) {
@@ -163,7 +203,18 @@ std::map<int, HeldTwice> MultipointBuilder::finish() {
     inverse_.emplace_back(x, y, d.y());
     inverse_.emplace_back(y, x, -d.y());
   }
-  for (const auto& entry : T_) multipoint.coupled[entry.row()] = multipoint.coupled[entry.col()] = 1;
+  if (!ties_.empty()) {
+    for (const auto& entry : T_) rows_[entry.row()].emplace_back(entry.col(), entry.value());
+    for (const auto& [unknown, weights] : ties_) {
+      constraints_.fixed[unknown] = 1;
+      std::map<int, double> row;
+      add_row(unknown, 1, 0, row);
+      for (const auto& [q, part] : row) T_.emplace_back(unknown, q, part);
+      inverse_.emplace_back(unknown, unknown, 1);
+      for (const auto& [other, weight] : weights) inverse_.emplace_back(unknown, other, -weight);
+    }
+  }
+  for (const auto& entry : T_) multipoint.coupled[entry.row()] = 1;
   for (int i = 0; i < int(n); ++i)
     if (!multipoint.coupled[i]) {
       T_.emplace_back(i, i, 1);

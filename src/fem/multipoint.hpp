@@ -44,10 +44,17 @@ class MultipointBuilder {
   /// with `key`. What is prescribed of the motion is up to the caller, by `q`.
   RigidCurve make_rigid(const std::string& key, std::vector<int> nodes, const Vec2& about);
 
+  /// Ties nodes to others in the components that nothing else prescribes; after all else. Where one is prescribed, its
+  /// multiplier is added to that beside it, so that they still add up to 1 (the end edges of a mortar: Wohlmuth 2000).
+  /// Throws SceneError that begins with the tie's key where a node is held along another direction, or its curve is
+  /// rigid.
+  void tie(const Tie& tie);
+
   /// Puts the multi-point constraints, if there are any, into the Constraints. Returns the nodes that are held twice.
   std::map<int, HeldTwice> finish();
 
  private:
+  void add_row(int unknown, double weight, int depth, std::map<int, double>& row) const;
   Vec2 place(int node) const { return mesh_.nodes.row(node).transpose(); }
   [[noreturn]] void refuse(const std::string& key, int node, const std::string& why) const;
 
@@ -59,8 +66,10 @@ class MultipointBuilder {
   };
   std::map<int, Skew> skew_;  // of nodes that are held in one direction, neither x nor y
   std::map<int, HeldTwice> held_twice_;
-  std::set<int> rigid_;  // nodes
+  std::set<int> rigid_;                                      // nodes
+  std::map<int, std::vector<std::pair<int, double>>> ties_;  // unknowns by others
   std::vector<Eigen::Triplet<double>> T_, inverse_;
+  std::map<int, std::vector<std::pair<int, double>>> rows_;  // of T_, while ties are added
 };
 
 }  // namespace mortise

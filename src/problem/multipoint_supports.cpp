@@ -6,6 +6,7 @@
 #include "base/vectors.hpp"
 #include "fem/edges.hpp"
 #include "problem/boundary_places.hpp"
+#include "problem/ties.hpp"
 
 namespace mortise {
 namespace {
@@ -101,6 +102,7 @@ MultipointSupports add_multipoint_supports(const Scene& scene, const Mesh& mesh,
     else
       prescribe_direction(mesh, int(i), spec, on_all, builder);
   }
+  add_ties(mesh, builder);
   supports.held_twice = builder.finish();
   return supports;
 }
