@@ -73,7 +73,9 @@ def call(*arguments):
 
 
 def scene_file(name):
-    return ROOT / f"geo/{name}.toml"
+    """Of a scene of geo/, or of the cross-check's own."""
+    own = ROOT / f"verification/crosscheck/scenes/{name}.toml"
+    return own if own.exists() else ROOT / f"geo/{name}.toml"
 
 
 def options(settings):

@@ -26,7 +26,7 @@ class Step:
     mortise: dict  # multipliers, integration: as in the scene file
     freefem: dict  # order, multipliers, integration, gauss, and springs where bodies may move freely
     condition: str  # bilateral or unilateral
-    gap: str  # closed or measured, with the edges' normals; curve: gap and normals of the curves
+    gap: str  # closed, measured or scene (its own), with the edges' normals; curve: gap and normals of the curves
     same_nodes: bool  # whether both programs have the same unknowns at the same places
     settings: dict = field(default_factory=dict)  # values that stand in the place of the scene's
 

@@ -13,6 +13,7 @@ import contact_points
 import convert
 import launch
 import scene as scenes
+from expressions import Quantities
 from launch import StudyError
 
 SCRIPTS = {"bilateral": launch.ROOT / "freefem/mortar.edp", "unilateral": launch.ROOT / "freefem/active_set.edp"}
@@ -48,7 +49,8 @@ def make_mesh(scene_file, sizes, parameters, path):
 
 def contact_settings(step):
     """Gap and normals as a step says; its gap "curve" is mortise's default, with the normals of the curve."""
-    return {} if step.gap == "curve" else {"contact.initial_gap": step.gap, "method.normals": "edges"}
+    gap = {} if step.gap in ("curve", "scene") else {"contact.initial_gap": step.gap}
+    return gap if step.gap == "curve" else {**gap, "method.normals": "edges"}
 
 
 def inline(value):
@@ -83,6 +85,10 @@ def call_freefem(script, *arguments, folder, expected=(0,)):
     """A script of freefem/ on the case in a folder, where its results will lie; returns its seconds."""
     for old in folder.glob("freefem_*.txt"):
         old.unlink()
+    if (folder / scenes.EXPRESSIONS).exists():
+        own_script = folder.absolute() / "case.edp"
+        own_script.write_text(f'include "{scenes.EXPRESSIONS}"\ninclude "{script}"\n')
+        script = own_script
     own = {"FF_LOADPATH": "/usr/lib/freefem++", "FF_INCLUDEPATH": launch.ROOT / "freefem"}  # unless the user says else
     words = ["-nw", "-v", "0", script, "-case", folder.absolute() / "case.txt", *arguments]
     return launch.run([find_freefem(), *words], expected, cwd=folder, env={**own, **os.environ})[1]
@@ -95,7 +101,12 @@ def convert_step(step, scene, mesh_file, folder):
     pairs = list(scenes.contact_pairs(scene, step.side, bodies, tags))
     convert.write_mesh(list(bodies.values()), folder / scenes.MESH)
     of_pairs = [[side.tag for side in pair] for pair in pairs]
-    (folder / "case.txt").write_text(scenes.case_text(scene, list(bodies), of_pairs, tags, step.freefem, step.gap))
+    values = Quantities()
+    text = scenes.case_text(scene, list(bodies), of_pairs, tags, step.freefem, step.gap, values)
+    (folder / "case.txt").write_text(text)
+    (folder / scenes.EXPRESSIONS).unlink(missing_ok=True)
+    if values.code:
+        (folder / scenes.EXPRESSIONS).write_text(values.script())
     if step.gap == "curve":
         vertices = [[side.x for side in pair] for pair in pairs]
         contact_points.save(contact_points.points_of_pairs(vertices, step.freefem["gauss"]), folder / scenes.POINTS)

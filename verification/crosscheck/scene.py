@@ -13,6 +13,7 @@ from cases import StudyError
 
 POINTS = "contact_points.txt"  # beside the case file, where the gap is that of the curves
 MESH = "bodies.msh"  # beside it
+EXPRESSIONS = "expressions.idp"  # beside it, where the scene has functions of place
 ORDER_OF_MULTIPLIERS = {"linear": 1, "quadratic": 2}
 SIDES = ("first", "second")  # of `between`
 
@@ -110,12 +111,18 @@ def contact_pairs(scene, side, bodies, tags):
 # ---- The case file ----
 
 
-def strain_of(entry, material):
-    """Initial strain 11, 22, 33, 12."""
+def refuse_others(entry, known):
+    """StudyError for keys of an entry that FreeFEM is not told."""
+    for key in entry.keys() - known:
+        raise StudyError(f"FreeFEM is not told '{key}' of {entry}; known: {', '.join(sorted(known))}")
+
+
+def strain_of(entry, material, values):
+    """Initial strain 11, 22, 33, 12, as words of the case file."""
     if "temperature_change" in entry:
-        strain = material["thermal_expansion"] * entry["temperature_change"]
-        return [strain, strain, strain, 0.0]
-    return [entry["strain"].get(key, 0.0) for key in ("xx", "yy", "zz", "xy")]
+        strain = values.word(entry["temperature_change"], material["thermal_expansion"])
+        return [strain, strain, strain, "0.0"]
+    return [values.word(entry["strain"].get(key, 0)) for key in ("xx", "yy", "zz", "xy")]
 
 
 def material_of(scene, body):
@@ -124,49 +131,64 @@ def material_of(scene, body):
     return scene["materials"][scene["bodies"][pattern]]
 
 
-def boundary_lines(scene, tags):
-    """Prescribed displacements and loads, one line of the case file each."""
+def boundary_lines(scene, tags, values):
+    """Prescribed displacements, loads and foundations, one line of the case file each."""
     for entry in scene.get("boundary", []):
+        refuse_others(entry, {"on", "displacement", "pressure", "traction", "foundation"})
         for label in (tags[curve] for curve in named(entry["on"], tags)):
+            refuse_others(entry.get("displacement", {}), {"x", "y"})
             for component, value in entry.get("displacement", {}).items():
-                yield f"displacement {label} {component} {float(value)!r}"
+                yield f"displacement {label} {component} {values.word(value)}"
             if "pressure" in entry:
-                yield f"pressure {label} {float(entry['pressure'])!r}"
+                yield f"pressure {label} {values.word(entry['pressure'])}"
             if "traction" in entry:
-                yield "traction {} {!r} {!r}".format(label, *map(float, entry["traction"]))
+                yield f"traction {label} {' '.join(map(values.word, entry['traction']))}"
+            if isinstance(modulus := entry.get("foundation"), list):
+                yield f"foundation {label} axes {' '.join(map(values.word, modulus))}"
+            elif modulus is not None:
+                yield f"foundation {label} normal {values.word(modulus)}"
 
 
-def body_lines(scene, bodies):
+def body_lines(scene, bodies, values):
     """Materials, initial strains and body forces; a body's number is its place in `bodies`."""
+    gravity = scene.get("model", {}).get("gravity")
     for body in bodies:
         material = material_of(scene, body)
+        refuse_others(material, {"young", "poisson", "thermal_expansion", "density"})
         yield f"body {float(material['young'])!r} {float(material['poisson'])!r}"
     for entry in scene.get("initial_strain", []):
         for body in named(entry["body"], bodies):
-            strain = " ".join(repr(float(e)) for e in strain_of(entry, material_of(scene, body)))
+            strain = " ".join(strain_of(entry, material_of(scene, body), values))
             yield f"initial_strain {bodies.index(body)} {strain}"
     for entry in scene.get("body_force", []):
         for body in named(entry["body"], bodies):
-            yield "body_force {} {!r} {!r}".format(bodies.index(body), *map(float, entry["force"]))
+            yield f"body_force {bodies.index(body)} {' '.join(map(values.word, entry['force']))}"
+    for k, body in enumerate(bodies if gravity else []):
+        yield "body_force {} {!r} {!r}".format(k, *(material_of(scene, body)["density"] * float(g) for g in gravity))
 
 
-def gap_lines(gap):
-    """FreeFEM has the gap and the normals of curves from a file of points."""
+def gap_lines(scene, gap, values):
+    """FreeFEM has the gap and the normals of curves from a file of points; the scene's own gap is a value."""
+    if gap == "scene":
+        (own,) = {entry["initial_gap"] for entry in scene["contact"]}
+        return [f"gap {values.word(own)}"]
     return ["gap given", f"points {POINTS}"] if gap == "curve" else [f"gap {gap}"]
 
 
-def case_text(scene, bodies, pairs, tags, freefem, gap):
-    """The case file; `bodies`: their names, `pairs`: the tags of the multiplier and the opposite side of each."""
+def case_text(scene, bodies, pairs, tags, freefem, gap, values):
+    """The case file; `bodies`: their names, `pairs`: the tags of the multiplier and the opposite side of each. `values`:
+    Quantities, to which the scene's expressions are added."""
+    refuse_others(scene.get("model", {}), {"plane", "gravity"})
     lines = [
         f"plane {scene.get('model', {}).get('plane', 'strain')}",
         f"mesh {MESH}",
-        *body_lines(scene, bodies),
+        *body_lines(scene, bodies, values),
         *("contact {} {}".format(*pair) for pair in pairs),
         f"order {freefem['order']}",
         f"multipliers {ORDER_OF_MULTIPLIERS[freefem['multipliers']]}",
         *(f"{key} {freefem[key]}" for key in ("integration", "gauss", "springs") if key in freefem),
-        *gap_lines(gap),
-        *boundary_lines(scene, tags),
+        *gap_lines(scene, gap, values),
+        *boundary_lines(scene, tags, values),
         "end",
     ]
     return "\n".join(lines) + "\n"

@@ -29,6 +29,8 @@ SCENES = {
     "rings", "shrink_fit",
 }  # fmt: skip
 
+FUNCTIONS = {"manufactured", "heated", "founded"}  # of place
+
 
 @pytest.fixture(scope="module")
 def table():
@@ -40,7 +42,7 @@ def test_same_discretisation_covers_every_combination(table, quick):
     """Every scene with both sides, every space and both integrations; matching and not, the latter in both ways."""
     found = [case for case in table if case.level == "same_discretisation" and (case.quick or not quick)]
     found = [case for case in found if case.steps[0].condition == "bilateral"]
-    assert {case.scene for case in found} - SCENES == {"stack", "wall"}
+    assert {case.scene for case in found} - SCENES == {"stack", "wall", *FUNCTIONS}
     for scene in SCENES:
         mine = [case.steps[0] for case in found if case.scene == scene]
         sides = {step.side for step in mine}
@@ -93,10 +95,11 @@ def test_gap_and_normals_of_each_case(table):
     gaps = {}
     for case in table:
         for step in case.steps:
-            curve = case.name.endswith("/curve")
-            assert (step.gap == "curve") == curve and step.gap in ("closed", "measured", "curve")
-            settings = {"contact.initial_gap": step.gap, "method.normals": "edges"}
-            assert run.contact_settings(step) == ({} if curve else settings)
+            curve, scene = case.name.endswith("/curve"), case.name.endswith("/scene")
+            assert (step.gap == "curve", step.gap == "scene") == (curve, scene)
+            assert curve or scene or step.gap in ("closed", "measured")
+            settings = {} if scene else {"contact.initial_gap": step.gap}
+            assert run.contact_settings(step) == ({} if curve else {**settings, "method.normals": "edges"})
             if not curve:
                 assert gaps.setdefault(case.scene, step.gap) == step.gap
     assert {scene for scene, gap in gaps.items() if gap == "measured"} == {
@@ -211,40 +214,6 @@ def test_middles_of_the_sides_as_vtk_numbers_them():
     for cell in cells:
         for middle, (start, end) in zip(cell[3:], [(0, 1), (1, 2), (2, 0)]):
             np.testing.assert_array_equal(points[middle], (points[cell[start]] + points[cell[end]]) / 2)
-
-
-def test_case_file_holds_the_physics_of_the_scene():
-    """shrink_fit: two materials, a temperature change, symmetry planes."""
-    scene = scenes.read_scene(launch.ROOT / "geo/shrink_fit.toml", {})
-    tags = {"inner_cut_x": 2, "inner_contact": 3, "inner_cut_y": 4}
-    tags |= {"outer_cut_x": 7, "outer_cut_y": 9, "outer_contact": 10}
-    freefem = {"order": 2, "multipliers": "quadratic", "integration": "elements", "gauss": 3}
-    lines = scenes.case_text(scene, ["outer", "inner"], [[10, 3]], tags, freefem, "closed").splitlines()
-    strain = repr(12e-6 * -100)
-    assert lines[:2] == ["plane strain", f"mesh {scenes.MESH}"]
-    assert lines[2:4] == ["body 70000000000.0 0.3", "body 210000000000.0 0.3"]
-    assert lines[-1] == "end"
-    assert set(lines[4:-1]) == {
-        "contact 10 3", "order 2", "multipliers 2", "integration elements", "gauss 3", "gap closed",
-        "displacement 2 y 0.0", "displacement 7 y 0.0", "displacement 4 x 0.0", "displacement 9 x 0.0",
-        f"initial_strain 0 {strain} {strain} {strain} 0.0",
-    }  # fmt: skip
-    of_curves = scenes.case_text(scene, ["outer", "inner"], [[10, 3]], tags, freefem, "curve").splitlines()
-    assert set(of_curves) ^ set(lines) == {"gap closed", "gap given", f"points {scenes.POINTS}"}
-
-
-def test_patterns_and_values_of_a_case():
-    """A body's own name counts before a pattern, and a case's value before the scene's."""
-    settings = {"materials.stone.young": 5, "bodies.brick_1_1": "stone", "boundary.0.displacement": {"y": 0}}
-    scene = scenes.read_scene(launch.ROOT / "geo/wall.toml", settings)
-    assert scenes.material_of(scene, "brick_1_1") == {"young": 5}
-    assert scenes.material_of(scene, "brick_1_2") == scene["materials"]["brick"]
-    assert scene["boundary"][0] == {"on": ["bottom"], "displacement": {"y": 0}}
-    assert run.inline(settings["boundary.0.displacement"]) == "{ y = 0 }"
-    bodies = ["brick_0_0", "brick_1_1"]
-    scene["materials"] = {name: {"young": young, "poisson": 0} for name, young in (("brick", 1), ("stone", 5))}
-    lines = list(scenes.body_lines(scene, bodies))
-    assert lines == ["body 1.0 0.0", "body 5.0 0.0", "body_force 0 0.0 -20000.0", "body_force 1 0.0 -20000.0"]
 
 
 def test_pairs_that_find_themselves():
