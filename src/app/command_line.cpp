@@ -147,7 +147,7 @@ int check(const Options& options) {
   std::cout << shown(scene).title << "\n  mesh      " << checked.mesh.source << ": " << checked.mesh.nodes.rows()
             << " nodes, " << checked.mesh.cells.size() << " elements\n"
             << measures_lines(checked.mesh) << copies_line(shown(scene))
-            << model_lines(shown(scene), checked.discretisation);
+            << model_lines(shown(scene), checked.mesh, checked.discretisation);
   const std::size_t count = checked.pairs.size(), told = count > told_in_full ? told_of_many : count;
   for (std::size_t k = 0; k < told; ++k) {
     const ContactPair& pair = checked.pairs[k];

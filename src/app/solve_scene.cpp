@@ -11,6 +11,7 @@
 #include "mesh/copy_bodies.hpp"
 #include "problem/audit.hpp"
 #include "problem/dirichlet_neumann.hpp"
+#include "problem/ties.hpp"
 #include "results/audit_solution.hpp"
 #include "results/checks.hpp"
 #include "results/diagnose.hpp"
@@ -115,6 +116,7 @@ Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSe
 CheckedScene check_scene(const Scene& scene) {
   return told_with_path(scene, [&] {
     CheckedScene checked{scene_mesh(scene), {}, {}, {}};
+    tie_curves(scene, checked.mesh);
     checked.discretisation = discretise(scene, checked.mesh);
     locate_probes(scene, checked.mesh);
     const std::vector<ContactCurves> curves = contact_curves(scene, checked.mesh);
@@ -162,6 +164,7 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   r.mesh = std::move(mesh);
   Stopwatch watch;
   require_same_mesh(r.mesh);
+  tie_curves(scene, r.mesh);
 
   stage("assemble");
   r.points = body_points(r.mesh);

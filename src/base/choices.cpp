@@ -23,6 +23,8 @@ std::string to_string(Condition value) {
       return "unilateral";
     case Condition::bilateral:
       return "bilateral";
+    case Condition::tied:
+      return "tied";
   }
   assert(false && "no such Condition");
   return {};

@@ -8,7 +8,8 @@ namespace mortise {
 
 /// axisymmetric: the meridian plane of rings, the first coordinate is the radius.
 enum class Plane { strain, stress, axisymmetric };
-enum class Condition { unilateral, bilateral };
+/// tied: what is drawn as two bodies is one.
+enum class Condition { unilateral, bilateral, tied };
 
 /// What the undeformed gap is: that between the curves that the meshes stand for, that between their edges, none, or
 /// one that the scene gives.

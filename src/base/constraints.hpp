@@ -11,9 +11,8 @@ namespace mortise {
 /// Multi-point constraints u = T q by transformation (Cook, Malkus, Plesha & Witt 2002, section 13.2), T square and
 /// invertible: of the q some are prescribed, the others are independent.
 struct MultipointConstraints {
-  SparseRows T, inverse;  ///< n x n
-  std::vector<char>
-      coupled;  ///< n: unknowns of u that are not the q of their own number, and the q that they depend on
+  SparseRows T, inverse;      ///< n x n
+  std::vector<char> coupled;  ///< n: unknowns of u that are not the q of their own number
 };
 
 /// Degrees of freedom whose displacement is given. Both have one entry a degree of freedom; with multi-point

@@ -86,11 +86,11 @@ std::vector<Vec2> prescribed_directions(const Constraints& constraints, int node
   return directions;
 }
 
-VecX constraint_forces(const Constraints& constraints, const VecX& residual) {
+VecX constraint_forces(const Constraints& constraints, const std::vector<char>& chosen, const VecX& residual) {
   const auto& multipoint = constraints.multipoint;
   VecX forces = multipoint ? VecX(multipoint->T.transpose() * residual) : residual;
   for (Eigen::Index i = 0; i < forces.size(); ++i)
-    if (!constraints.fixed[i]) forces(i) = 0;
+    if (!chosen[i]) forces(i) = 0;
   return multipoint ? VecX(multipoint->inverse.transpose() * forces) : forces;
 }
 

@@ -34,7 +34,7 @@ Vec2 prescribed_displacement(const Constraints& constraints, int node);
 /// the others.
 std::vector<Vec2> prescribed_directions(const Constraints& constraints, int node);
 
-/// Forces that the constraints make, of the residual K u - f + B^T lambda in all unknowns: those of the prescribed q.
-VecX constraint_forces(const Constraints& constraints, const VecX& residual);
+/// Forces in all unknowns that the constraints of the `chosen` q make, of the residual K u - f + B^T lambda.
+VecX constraint_forces(const Constraints& constraints, const std::vector<char>& chosen, const VecX& residual);
 
 }  // namespace mortise

@@ -97,13 +97,40 @@ void MultipointBuilder::prescribe(int support, const std::string& key, int node,
   constraints_.value.segment<2>(x) = Vec2(v1 * n2.y() - v2 * n1.y(), v2 * n1.x() - v1 * n2.x()) / sine;
 }
 
-RigidCurve MultipointBuilder::make_rigid(const std::string& key, std::vector<int> nodes, const Vec2& about) {
+// What holds the node already must be what the rigid motion makes of it. `lever`: its displacement by a turn of 1.
+void MultipointBuilder::require_same_motion(const std::string& key, int node, const Vec2& lever,
+                                            const PrescribedMotion& motion) const {
+  if (rigid_.contains(node) || skew_.contains(node))
+    refuse(key, node,
+           "makes a node rigid that is held along another direction or rigid already; expected no such support");
+  for (int k = 0; k < 2; ++k) {
+    const int unknown = 2 * node + k;
+    if (!constraints_.fixed[unknown] || (constraints_.rings && k == 0)) continue;
+    const double there = constraints_.value(unknown), turn = motion[2].value_or(0);
+    const bool known = motion[k] && (motion[2] || lever(k) == 0);
+    const double made = motion[k].value_or(0) + lever(k) * turn,
+                 size = std::max({std::abs(there), std::abs(made), std::abs(lever(k) * turn)});
+    if (known && std::abs(made - there) <= 1e-9 * size) continue;
+    std::ostringstream text;
+    text << "makes a node rigid whose displacement " << (k == 0 ? "x" : "y") << " another entry prescribes as " << there
+         << "; expected rigid = { " << (k == 0 ? "x" : "y")
+         << ", rotation } that prescribe the same there, or no such support";
+    refuse(key, node, text.str());
+  }
+}
+
+RigidCurve MultipointBuilder::make_rigid(const std::string& key, std::vector<int> nodes, const Vec2& about,
+                                         const PrescribedMotion& motion) {
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const auto lever_of = [&](int node) { return turned(place(node), about); };
   for (const int node : nodes) {
-    const bool held_x = constraints_.fixed[2 * node] && !constraints_.rings, held_y = constraints_.fixed[2 * node + 1];
-    if (held_x || held_y || skew_.contains(node) || !rigid_.insert(node).second)
-      refuse(key, node, "makes a node rigid that another entry holds; expected no other support there");
+    require_same_motion(key, node, lever_of(node), motion);
+    rigid_.insert(node);
+    for (const int unknown : {2 * node, 2 * node + 1}) {
+      constraints_.fixed[unknown] = 0;
+      constraints_.value(unknown) = 0;
+    }
   }
   // The pair of nodes that is farthest apart from the first one, along x or y, tells the turn.
   const int first = nodes.front();
@@ -116,7 +143,6 @@ RigidCurve MultipointBuilder::make_rigid(const std::string& key, std::vector<int
         along = c;
       }
   if (last == first) refuse(key, first, "makes a single node rigid; expected a curve");
-  const auto lever_of = [&](int node) { return turned(place(node), about); };
   const int c = 1 - along;  // the displacement that tells the turn is at right angles
   const double arm = lever_of(last)(c) - lever_of(first)(c);
   const RigidCurve curve{std::move(nodes), about, {2 * first, 2 * first + 1, 2 * last + c}, arm};
@@ -144,11 +170,56 @@ RigidCurve MultipointBuilder::make_rigid(const std::string& key, std::vector<int
       T_.emplace_back(u, of[k], 1);
       T_.emplace_back(u, turn, lever);
     }
+  for (int k = 0; k < 3; ++k)
+    if (motion[k]) {
+      constraints_.fixed[curve.q[k]] = 1;
+      constraints_.value(curve.q[k]) = *motion[k] * (k == 2 ? arm : 1);
+    }
   return curve;
 }
 
+void MultipointBuilder::tie(const Tie& tie) {
+  std::map<int, double> area;  // of the tied unknowns
+  for (const TiedNode& one : tie.nodes) {
+    if (rigid_.contains(one.node) || skew_.contains(one.node))
+      refuse(tie.key, one.node,
+             "ties a node that is held along another direction or rigid; expected multipliers_on the other curve");
+    for (int c = 0; c < 2; ++c)
+      if (const int unknown = 2 * one.node + c; !constraints_.fixed[unknown]) {
+        for (const auto& [other, weight] : one.weights) ties_[unknown].emplace_back(2 * other + c, weight);
+        area[unknown] = one.area;
+      }
+  }
+  for (const TiedNode& one : tie.nodes)
+    for (int c = 0; c < 2; ++c) {
+      const int unknown = 2 * one.node + c, beside = 2 * one.beside + c;
+      if (area.contains(unknown) || !area.contains(beside)) continue;
+      const double part = one.area / area[beside];
+      for (const auto& [other, weight] : one.weights) ties_[beside].emplace_back(2 * other + c, part * weight);
+      ties_[beside].emplace_back(unknown, -part);
+    }
+}
+
+// Adds weight * u(unknown) by the q.
+void MultipointBuilder::add_row(int unknown, double weight, int depth, std::map<int, double>& row) const {
+  if (const auto tie = ties_.find(unknown); tie != ties_.end()) {
+    constexpr int deepest = 10;  // ties that follow one another
+    if (depth == deepest)
+      throw SceneError("ties follow one another in a circle " + near_point(place(unknown / 2)) +
+                       "; expected multipliers_on the other curve of one of them");
+    for (const auto& [other, part] : tie->second) add_row(other, weight * part, depth + 1, row);
+    row[unknown] += weight;
+    return;
+  }
+  const auto own = rows_.find(unknown);
+  if (own == rows_.end())
+    row[unknown] += weight;
+  else
+    for (const auto& [q, part] : own->second) row[q] += weight * part;
+}
+
 std::map<int, HeldTwice> MultipointBuilder::finish() {
-  if (skew_.empty() && rigid_.empty()) return std::move(held_twice_);
+  if (skew_.empty() && rigid_.empty() && ties_.empty()) return std::move(held_twice_);
   const Eigen::Index n = constraints_.value.size();
   MultipointConstraints multipoint{SparseRows(n, n), SparseRows(n, n), std::vector<char>(n, 0)};
   for (const auto& [node, skew] : skew_) {
@@ -163,7 +234,18 @@ std::map<int, HeldTwice> MultipointBuilder::finish() {
     inverse_.emplace_back(x, y, d.y());
     inverse_.emplace_back(y, x, -d.y());
   }
-  for (const auto& entry : T_) multipoint.coupled[entry.row()] = multipoint.coupled[entry.col()] = 1;
+  if (!ties_.empty()) {
+    for (const auto& entry : T_) rows_[entry.row()].emplace_back(entry.col(), entry.value());
+    for (const auto& [unknown, weights] : ties_) {
+      constraints_.fixed[unknown] = 1;
+      std::map<int, double> row;
+      add_row(unknown, 1, 0, row);
+      for (const auto& [q, part] : row) T_.emplace_back(unknown, q, part);
+      inverse_.emplace_back(unknown, unknown, 1);
+      for (const auto& [other, weight] : weights) inverse_.emplace_back(unknown, other, -weight);
+    }
+  }
+  for (const auto& entry : T_) multipoint.coupled[entry.row()] = 1;
   for (int i = 0; i < int(n); ++i)
     if (!multipoint.coupled[i]) {
       T_.emplace_back(i, i, 1);

@@ -17,6 +17,9 @@ struct RigidCurve {
   double arm;            ///< length: the turn in radians is q[2] / arm
 };
 
+/// Displacement of a point, and the turn about it; none: free.
+using PrescribedMotion = std::array<std::optional<double>, 3>;
+
 /// A node that supports hold along two directions, of which one is neither x nor y at least: a reaction there is a sum
 /// of forces along both.
 struct HeldTwice {
@@ -40,15 +43,25 @@ class MultipointBuilder {
   /// SceneError that begins with `key` where the node already has another value.
   void prescribe(int support, const std::string& key, int node, const Vec2& direction, double value);
 
-  /// Two nodes or more, none of which anything else prescribes (of rings but the axis). Throws SceneError that begins
-  /// with `key`. What is prescribed of the motion is up to the caller, by `q`.
-  RigidCurve make_rigid(const std::string& key, std::vector<int> nodes, const Vec2& about);
+  /// Two nodes or more, and what is prescribed of the displacement of `about` and of the turn, radians. Throws
+  /// SceneError that begins with `key` where a node is held in another way than by that motion too (of rings but on the
+  /// axis).
+  RigidCurve make_rigid(const std::string& key, std::vector<int> nodes, const Vec2& about,
+                        const PrescribedMotion& motion);
+
+  /// Ties nodes to others in the components that nothing else prescribes; after all else. Where one is prescribed, its
+  /// multiplier is added to that beside it, so that they still add up to 1 (the end edges of a mortar: Wohlmuth 2000).
+  /// Throws SceneError that begins with the tie's key where a node is held along another direction, or its curve is
+  /// rigid.
+  void tie(const Tie& tie);
 
   /// Puts the multi-point constraints, if there are any, into the Constraints. Returns the nodes that are held twice.
   std::map<int, HeldTwice> finish();
 
  private:
+  void add_row(int unknown, double weight, int depth, std::map<int, double>& row) const;
   Vec2 place(int node) const { return mesh_.nodes.row(node).transpose(); }
+  void require_same_motion(const std::string& key, int node, const Vec2& lever, const PrescribedMotion& motion) const;
   [[noreturn]] void refuse(const std::string& key, int node, const std::string& why) const;
 
   const Mesh& mesh_;
@@ -59,8 +72,10 @@ class MultipointBuilder {
   };
   std::map<int, Skew> skew_;  // of nodes that are held in one direction, neither x nor y
   std::map<int, HeldTwice> held_twice_;
-  std::set<int> rigid_;  // nodes
+  std::set<int> rigid_;                                      // nodes
+  std::map<int, std::vector<std::pair<int, double>>> ties_;  // unknowns by others
   std::vector<Eigen::Triplet<double>> T_, inverse_;
+  std::map<int, std::vector<std::pair<int, double>>> rows_;  // of T_, while ties are added
 };
 
 }  // namespace mortise

@@ -82,6 +82,22 @@ struct NamedPoint {
   std::vector<int> nodes;  ///< rows of Mesh::nodes, rising: one or more
 };
 
+/// A node whose place and displacement follow those of others: the sum of weight * that of the other.
+struct TiedNode {
+  int node;
+  std::vector<std::pair<int, double>> weights;  ///< they add up to 1
+  double area;                                  ///< int psi dA of its multiplier, length times depth
+  int beside;  ///< the next node of an edge that it ends: the middle one, or the other end
+};
+
+/// Two curves that are one: the nodes of the first follow the second.
+struct Tie {
+  std::string key;  ///< of the scene, for messages
+  std::array<std::string, 2> curves;
+  std::array<int, 2> boundary, body;
+  std::vector<TiedNode> nodes;
+};
+
 struct Mesh {
   std::string source;                ///< the file it came from, for messages
   Points nodes;                      ///< every node belongs to at least one cell
@@ -89,6 +105,7 @@ struct Mesh {
   std::vector<std::string> bodies;   ///< physical surfaces, a name each, all different
   std::vector<Boundary> boundaries;  ///< physical curves, by names that are all different
   std::vector<NamedPoint> points;    ///< physical points that are nodes of cells
+  std::vector<Tie> ties;             ///< as the scene has them (problem/ties.hpp)
   std::vector<std::string> notes;    ///< what was mended when it was read, a sentence each
   bool named_by_tag = false;         ///< whether a body or a boundary had no name in the file
 };

@@ -49,6 +49,8 @@ AuditedBodies audited_bodies(const Mesh& mesh, const std::vector<ContactPair>& p
     partners[m.boundary].push_back({o.boundary, o.body});
     partners[o.boundary].push_back({m.boundary, m.body});
   }
+  for (const Tie& tie : mesh.ties)
+    for (const int k : {0, 1}) partners[tie.boundary[k]].push_back({tie.boundary[1 - k], tie.body[1 - k]});
   BoundaryEdges boundary = boundary_edges(mesh);
   std::vector<std::vector<int>> cells(boundary.pieces);
   for (int c = 0; c < int(mesh.cells.size()); ++c) cells[boundary.piece_of_cell[c]].push_back(c);

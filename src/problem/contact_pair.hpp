@@ -2,19 +2,10 @@
 #pragma once
 
 #include "contact/coupling.hpp"
+#include "problem/contact_curves.hpp"
 #include "problem/discretisation.hpp"
 
 namespace mortise {
-
-/// The two curves of a [[contact]] entry, in its order.
-struct ContactCurves {
-  ContactSpec spec;
-  std::array<Curve, 2> curves;
-  std::array<double, 2> edge_size{};  ///< mean, length
-};
-
-/// Throws InputError for unknown curves and curves that are no chains.
-std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh);
 
 struct ContactPair {
   ContactSpec spec;
@@ -40,7 +31,7 @@ inline constexpr double facet_limit = 1.5;
 
 /// One a [[contact]] entry. Multipliers lie on the side the scene names, else on the much softer body (stiffer_limit),
 /// else on the one that is covered (covered_limit), else on much longer straight edges (facet_limit), else on the side
-/// with the shorter edges (the first if equal). Throws InputError for curves with common nodes. In domain
+/// with the shorter edges (the first if equal). In domain
 /// decomposition, where `dirichlet` says of each body whether it takes the displacement, the default is that body's
 /// curve, or the one with the longer edges where both bodies take both.
 std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, const Discretisation& discretisation,

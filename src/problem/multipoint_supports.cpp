@@ -6,6 +6,7 @@
 #include "base/vectors.hpp"
 #include "fem/edges.hpp"
 #include "problem/boundary_places.hpp"
+#include "problem/ties.hpp"
 
 namespace mortise {
 namespace {
@@ -68,19 +69,11 @@ RigidCurve make_rigid(const Mesh& mesh, const BoundarySpec& spec, const Places& 
   }
   std::vector<int> nodes;
   for (const Edge& edge : edges) nodes.insert(nodes.end(), edge.nodes.begin(), edge.nodes.begin() + edge.node_count);
-  RigidCurve curve =
-      builder.make_rigid(spec.key, std::move(nodes), rigid.about ? *rigid.about : centre_of(mesh.nodes, edges));
-  Constraints& constraints = system.constraints;
-  const auto hold = [&](int k, const std::optional<double>& value, double unit) {
-    if (!value) return;
-    constraints.fixed[curve.q[k]] = 1;
-    constraints.value(curve.q[k]) = *value * unit;
-  };
-  const std::optional<double> of_rings = constraints.rings ? std::optional(0.0) : std::nullopt;
-  hold(0, constraints.rings ? of_rings : rigid.x, 1);
-  hold(1, rigid.y, 1);
-  hold(2, constraints.rings ? of_rings : rigid.rotation, curve.arm);
-  add_rigid_load(mesh, curve, rigid.force, constraints.rings ? 0 : rigid.moment, system.f);
+  const bool rings = system.constraints.rings;  // they move along the axis alone
+  const auto in_plane = [&](const std::optional<double>& value) { return rings ? std::optional(0.0) : value; };
+  RigidCurve curve = builder.make_rigid(spec.key, std::move(nodes), rigid.about.value_or(centre_of(mesh.nodes, edges)),
+                                        {in_plane(rigid.x), rigid.y, in_plane(rigid.rotation)});
+  add_rigid_load(mesh, curve, rigid.force, rigid.moment, system.f);
   return curve;
 }
 
@@ -101,6 +94,7 @@ MultipointSupports add_multipoint_supports(const Scene& scene, const Mesh& mesh,
     else
       prescribe_direction(mesh, int(i), spec, on_all, builder);
   }
+  add_ties(mesh, builder);
   supports.held_twice = builder.finish();
   return supports;
 }

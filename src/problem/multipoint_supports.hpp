@@ -1,4 +1,4 @@
-// Supports that tie unknowns together: displacements along any direction, and rigid curves.
+// Supports that tie unknowns together: displacements along any direction, rigid curves, tied meshes.
 #pragma once
 
 #include "fem/multipoint.hpp"

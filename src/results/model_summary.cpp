@@ -223,7 +223,7 @@ Json support_json(const Scene& scene, const Discretisation& d, const Reactions& 
 
 Json json_of(const Field& f) { return f.is_constant() ? Json(f.constant()) : Json(f.words()); }
 
-std::string model_lines(const Scene& scene, const Discretisation& d, const Reactions* reactions) {
+std::string model_lines(const Scene& scene, const Mesh& mesh, const Discretisation& d, const Reactions* reactions) {
   std::ostringstream out;
   out << "  model     plane " << to_string(scene.model.plane);
   if (scene.model.thickness != 1) out << ", thickness " << scene.model.thickness;
@@ -251,6 +251,12 @@ std::string model_lines(const Scene& scene, const Discretisation& d, const React
                      out);
     }
   }
+  for (std::size_t k = 0; k < mesh.ties.size() && k < told_in_full; ++k) {
+    const Tie& tie = mesh.ties[k];
+    out << "  tied      " << tie.curves[0] << " follows " << tie.curves[1] << " at " << tie.nodes.size() << " nodes";
+    if (reactions) out << "; force " << force_of(reactions->ties[k]) << " on " << tie.curves[0];
+    out << "\n";
+  }
   if (scene.gravity)
     out << "  load      gravity " << pair_of(*scene.gravity) << ", in sum " << in_sum(d.weight, scene.model) << "\n";
   print_some(scene.body_forces, "forces per volume", out, [&](std::size_t i) {
@@ -269,7 +275,7 @@ std::string model_lines(const Scene& scene, const Discretisation& d, const React
   return out.str();
 }
 
-Json model_json(const Scene& scene, const Discretisation& d, const Reactions& reactions) {
+Json model_json(const Scene& scene, const Mesh& mesh, const Discretisation& d, const Reactions& reactions) {
   Json materials = Json::object(), bodies = Json::object(), supports = Json::array(), loads = Json::array();
   for (const auto& [name, m] : scene.materials) materials[name] = json_of(m);
   if (scene.gravity)
@@ -303,6 +309,14 @@ Json model_json(const Scene& scene, const Discretisation& d, const Reactions& re
              {"bodies", bodies},
              {"supports", supports},
              {"loads", loads}};
+  for (std::size_t k = 0; k < mesh.ties.size(); ++k) {
+    const Tie& tie = mesh.ties[k];
+    model["ties"].push_back({{"follows", tie.curves[0]},
+                             {"leads", tie.curves[1]},
+                             {"nodes", tie.nodes.size()},
+                             {"force", json_of(reactions.ties[k].force)},
+                             {"moment", reactions.ties[k].moment}});
+  }
   if (!scene.model.axisymmetric()) model["thickness"] = scene.model.thickness;
   return model;
 }

@@ -10,12 +10,14 @@ namespace mortise {
 
 /// Lines for the terminal, a support or load each, with the sums of the loads and, where they are known, the reactions
 /// (times depth, base/model.hpp).
-std::string model_lines(const Scene& scene, const Discretisation& discretisation, const Reactions* reactions = nullptr);
+std::string model_lines(const Scene& scene, const Mesh& mesh, const Discretisation& discretisation,
+                        const Reactions* reactions = nullptr);
 
 /// The number, or the expression as it is written.
 nlohmann::ordered_json json_of(const Field& field);
 
 /// summary.json "model": docs/files.md.
-nlohmann::ordered_json model_json(const Scene& scene, const Discretisation& discretisation, const Reactions& reactions);
+nlohmann::ordered_json model_json(const Scene& scene, const Mesh& mesh, const Discretisation& discretisation,
+                                  const Reactions& reactions);
 
 }  // namespace mortise

@@ -9,9 +9,20 @@
 namespace mortise {
 namespace {
 
-VecX nodal_reactions(const SaddlePointSystem& s, const Solution& solution) {
-  return constraint_forces(s.constraints,
-                           s.K.selfadjointView<Eigen::Lower>() * solution.u + s.B.transpose() * solution.lambda - s.f);
+// What supports put on the nodes, and what ties do.
+struct NodalForces {
+  VecX supports, ties;
+};
+
+NodalForces nodal_forces(const SaddlePointSystem& s, const std::vector<Tie>& ties, const Solution& solution) {
+  const VecX residual = s.K.selfadjointView<Eigen::Lower>() * solution.u + s.B.transpose() * solution.lambda - s.f;
+  std::vector<char> held = s.constraints.fixed, tied(held.size(), 0);
+  for (const Tie& tie : ties)
+    for (const TiedNode& one : tie.nodes)
+      for (const int unknown : {2 * one.node, 2 * one.node + 1})
+        if (s.constraints.multipoint->coupled[unknown]) std::swap(held[unknown], tied[unknown]);
+  return {constraint_forces(s.constraints, held, residual),
+          ties.empty() ? VecX::Zero(residual.size()) : constraint_forces(s.constraints, tied, residual)};
 }
 
 // Adds up the reactions, each once: what has been added is 0 in `left`.
@@ -88,10 +99,16 @@ Resultant sum_of_loads(const Mesh& mesh, const Discretisation& d) {
 
 Reactions find_reactions(const Scene& scene, const Mesh& mesh, const Discretisation& d, const Solution& solution) {
   Reactions r;
-  r.nodal = nodal_reactions(d.system, solution);
+  const NodalForces forces = nodal_forces(d.system, mesh.ties, solution);
+  r.nodal = forces.supports;
   const VecX of_springs = spring_forces(d, solution.u);
   Collector collector(mesh, r.nodal, d.multipoint.held_twice), springs(mesh, of_springs, {});
-  r.nodal += of_springs;
+  r.nodal += of_springs + forces.ties;
+  for (const Tie& tie : mesh.ties) {
+    Resultant& sum = r.ties.emplace_back();
+    for (const TiedNode& one : tie.nodes)
+      sum.add(mesh.nodes.row(one.node).transpose(), forces.ties.segment<2>(2 * one.node));
+  }
   const SceneNames names(mesh);
   for (const BoundarySpec& spec : scene.boundaries) {
     Resultant& entry = r.entries.emplace_back();

@@ -17,9 +17,10 @@ struct Reaction {
 
 /// Forces on the bodies, times depth (base/model.hpp).
 struct Reactions {
-  VecX nodal;                      ///< n: K u - f + B^T lambda at prescribed unknowns, and the springs' forces
+  VecX nodal;                      ///< n: K u - f + B^T lambda at prescribed and tied unknowns, and the springs' forces
   std::vector<Reaction> curves;    ///< in the scene's order
   std::vector<Resultant> entries;  ///< sums of each of Scene::boundaries, zero of loads
+  std::vector<Resultant> ties;     ///< on the nodes that follow, of Mesh::ties
   /// Of Discretisation::multipoint: displacement of `about`, and the turn in radians.
   std::vector<Eigen::Vector3d> rigid_motions;
   Resultant held;   ///< of the motions that nothing holds (validate.hpp): round-off

@@ -236,7 +236,7 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
           {"scene", scene.path},
           {"version", MORTISE_VERSION},
           {"status", to_string(r.status)},
-          {"model", model_json(scene, r.discretisation, r.reactions)},
+          {"model", model_json(scene, r.mesh, r.discretisation, r.reactions)},
           {"method",
            {{"integration", to_string(scene.method.integration)},
             {"normals", to_string(scene.method.normals)},
@@ -283,7 +283,7 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
   out << scene.title << "\n";
   out << "  mesh      " << r.mesh.nodes.rows() << " nodes, " << r.mesh.cells.size() << " elements; " << free_unknowns(r)
       << " unknowns, " << r.solution.lambda.size() << " multipliers\n";
-  out << std::setprecision(6) << model_lines(scene, r.discretisation, &r.reactions);
+  out << std::setprecision(6) << model_lines(scene, r.mesh, r.discretisation, &r.reactions);
   out << contact_lines(scene, r);
   out << std::setprecision(3);
   print_iteration(r, out);

@@ -80,12 +80,16 @@ void read_contacts(const Node& root, Scene& scene) {
       if (!is_pattern(contact.between[0]) && !is_pattern(contact.between[1]))
         fail(*within, "goes with between = patterns, such as [\"block_*\", \"block_*\"], whose pairs are found");
     }
-    contact.condition =
-        choice(find(*entry, "condition"), {Condition::unilateral, Condition::bilateral}, contact.condition);
+    contact.condition = choice(find(*entry, "condition"),
+                               {Condition::unilateral, Condition::bilateral, Condition::tied}, contact.condition);
+    const bool tied = contact.condition == Condition::tied;
+    for (const char* key : {"initial_gap", "clearance"})
+      if (const Node* node = find(*entry, key); tied && node != nullptr)
+        fail(*node, "has no meaning with condition = \"tied\", which makes one body of both; expected one of them");
     read_initial_gap(find(*entry, "initial_gap"), contact);
     read_clearance(*entry, contact);
     contact.multipliers_on = read_multipliers_on(*entry, contact);
-    scene.contacts.push_back(contact);
+    (tied ? scene.ties : scene.contacts).push_back(contact);
   }
 }
 

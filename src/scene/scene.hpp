@@ -90,7 +90,7 @@ struct ContactSpec {
   InitialGap initial_gap = InitialGap::curve;
   Field gap;                   ///< of InitialGap::given: the gap, length: + open, - overlap
   Field clearance;             ///< added to the drawn or measured gap, length
-  std::string multipliers_on;  ///< one of `between`; empty: couple_pairs chooses
+  std::string multipliers_on;  ///< one of `between`; empty: couple_pairs chooses; of a tie the curve that follows
 };
 
 /// [method]. The options of a solver count only where it is chosen.
@@ -108,7 +108,7 @@ struct Method {
 /// [accuracy]: what the pressure is to be right to, on a mesh that is found for it.
 struct AccuracySpec {
   Goal of = Goal::pressure;
-  int pair = 0;                ///< of mean and force: the [[contact]] entry
+  int pair = 0;                ///< of mean and force: the [[contact]] entry, ties not counted
   Vec2 window = Vec2::Zero();  ///< of mean: from, to, arc length s as in contact.csv
   Vec2 at = Vec2::Zero();      ///< of displacement and stress: the place,
   std::string body;            ///< and the body that has it; empty: the only one
@@ -143,6 +143,7 @@ struct Scene {
   std::vector<BodyForceSpec> body_forces;
   std::vector<InitialStrainSpec> initial_strains;
   std::vector<ContactSpec> contacts;
+  std::vector<ContactSpec> ties;  ///< the [[contact]] entries of Condition::tied
   std::vector<ProbeSpec> probes;
   Method method;
   std::optional<AccuracySpec> accuracy;  ///< none: the mesh is the file's

@@ -148,7 +148,7 @@ TEST(FunctionsOfPlace, GravityIsABodyForceByDensity) {
   const Discretisation a = discretise(gravity, mesh), b = discretise(force, mesh);
   EXPECT_LT((a.weight.force - Vec2(0, -16)).norm(), 1e-13);  // 0.5 * 10 * 2 * 1.6
   EXPECT_LT((a.system.f - b.system.f).cwiseAbs().maxCoeff(), 1e-14);
-  expect_contains(model_lines(gravity, a), "  load      gravity (0, -10), in sum (0, -16), moment");
+  expect_contains(model_lines(gravity, mesh, a), "  load      gravity (0, -10), in sum (0, -16), moment");
   expect_contains(
       message_of([&] { scene_of(folder, "0.3", "model.gravity = [0, -10]\n"); }),
       "materials.m: 'density' of the material 'm' is missing; expected one, as there is gravity (model.gravity");
@@ -228,13 +228,13 @@ contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilatera
 )toml");
   const Mesh mesh = scene_mesh(scene);
   const Discretisation d = discretise(scene, mesh);
-  const std::string lines = model_lines(scene, d);
+  const std::string lines = model_lines(scene, mesh, d);
   for (const char* line :
        {"  support   bottom: u_x = 0, u_y = 1e-3 * x\n", "  load      top: pressure 3 + 3*s, in sum (0, -12), moment",
         "  load      upper_right: traction (0.001, -y), in sum (0.0006, -0.78), moment",
         "  load      upper_left: force (0, -2), in sum (0, -2), moment"})
     expect_contains(lines, line);
-  const auto json = model_json(scene, d, {.entries = std::vector<Resultant>(scene.boundaries.size())});
+  const auto json = model_json(scene, mesh, d, {.entries = std::vector<Resultant>(scene.boundaries.size())});
   EXPECT_EQ(json["supports"][0]["displacement"].dump(), "{\"x\":0.0,\"y\":\"1e-3 * x\"}");
   EXPECT_EQ(json["loads"][0]["pressure"], "3 + 3*s");
   EXPECT_EQ(json["loads"][1]["traction"].dump(), "[0.001,\"-y\"]");

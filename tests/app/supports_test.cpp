@@ -135,6 +135,21 @@ TEST(Supports, ARigidTopTakesForceAndMoment) {
   EXPECT_NEAR(moved.reactions.entries[1].moment_about({1, height}), moment, 1e-9);
 }
 
+// The line of symmetry holds a node of the rigid top, which moves along it.
+TEST(Supports, ARigidTopMayEndOnALineOfSymmetry) {
+  const TemporaryFolder folder;
+  const Results r = solve_scene(scene_of(folder, contact + R"toml(
+boundary = [
+  { on = "bottom", displacement = { y = 0 } },
+  { on = ["lower_left", "upper_left"], displacement = { x = 0 } },
+  { on = "top", rigid = { x = 0, y = -1.6e-3, rotation = 0 } },
+])toml",
+                                         0, 0));
+  EXPECT_EQ(r.status, Status::solved);
+  EXPECT_NEAR(r.reactions.entries[2].force.y(), -2, 1e-9);
+  for (const double p : r.contacts[0].pressure) EXPECT_NEAR(p, 1, 1e-9);
+}
+
 TEST(Supports, PointsHoldLoadAndSpring) {
   const TemporaryFolder folder;
   const Results r = solve_scene(scene_of(folder, contact + R"toml(
@@ -172,7 +187,8 @@ TEST(Supports, RefusesWhatCannotBeMeant) {
   expect(R"({ on = "corner", foundation = 1 })", "expected a curve, or 'spring' at a point");
   expect(R"({ on = "top", spring = 1 })", "'top' is a curve");
   expect(R"({ on = ["top", "top_right"], force = [0, 1] })", "acts on curves and on points");
-  expect(R"({ on = "bottom", rigid = { } })", "makes a node rigid that another entry holds");
+  expect(R"({ on = "bottom", rigid = { } })", "whose displacement x another entry prescribes as 0");
+  expect(R"({ on = "bottom", rigid = { x = 0, y = 0, rotation = 0.1 } })", "expected rigid = { y, rotation }");
   expect(R"({ on = "corner", displacement = { direction = [1, 1], value = 1 } })", "expected one value a node");
   expect(R"({ on = "nowhere", displacement = { normal = 0 } })", "unknown boundary 'nowhere'");
 }

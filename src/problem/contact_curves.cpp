@@ -1,0 +1,111 @@
+#include "problem/contact_curves.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/errors.hpp"
+#include "base/patterns.hpp"
+#include "base/printable.hpp"
+#include "fem/edges.hpp"
+#include "problem/facing_pairs.hpp"
+#include "problem/scene_names.hpp"
+
+namespace mortise {
+namespace {
+
+void require_own_nodes(const Mesh& mesh, const ContactSpec& spec, const std::array<Curve, 2>& curves) {
+  std::vector<int> first = curve_nodes(curves[0]);
+  std::ranges::sort(first);
+  for (const int node : curve_nodes(curves[1]))
+    if (std::ranges::binary_search(first, node))
+      throw InputError(mesh.source + ": " + spec.key + ": '" + spec.between[0] + "' and '" + spec.between[1] +
+                       "' have a common node " + near_point(mesh.nodes.row(node).transpose()) +
+                       "; expected curves with points of their own (in a .geo: a point and a curve for each body)");
+}
+
+// Whether the pairs of the entry find themselves.
+bool is_found(const ContactSpec& spec) { return is_pattern(spec.between[0]) || is_pattern(spec.between[1]); }
+
+std::array<std::vector<int>, 2> boundaries_of(const ContactSpec& spec, const SceneNames& names) {
+  const std::string key = spec.key + ".between";
+  return {names.boundaries(key, spec.between[0]), names.boundaries(key, spec.between[1])};
+}
+
+// A pattern may match those of several bodies, as a support's, and means others.
+bool is_of_one_body(const Mesh& mesh, int boundary, const SideTable& table) {
+  const std::vector<CellSide> sides = sides_of(mesh, mesh.boundaries[boundary], table);
+  return std::ranges::all_of(
+      sides, [&](const CellSide& side) { return mesh.cells[side.cell].body == mesh.cells[sides[0].cell].body; });
+}
+
+// Those that an entry of their own has, with its settings.
+std::set<std::pair<int, int>> named_pairs(const Scene& scene, const SceneNames& names) {
+  std::set<std::pair<int, int>> pairs;
+  for (const auto* specs : {&scene.contacts, &scene.ties})
+    for (const ContactSpec& spec : *specs) {
+      if (is_found(spec)) continue;
+      const auto sides = boundaries_of(spec, names);
+      pairs.insert(std::minmax(sides[0][0], sides[1][0]));
+    }
+  return pairs;
+}
+
+std::vector<ContactCurves> curves_of(const Scene& scene, const std::vector<ContactSpec>& specs, const Mesh& mesh) {
+  const SideTable table(mesh);
+  const SceneNames names(mesh);
+  std::map<int, Curve> curves;  // by boundary
+  const auto curve_of = [&](int boundary) -> const Curve& {
+    const auto at = curves.find(boundary);
+    return at != curves.end() ? at->second
+                              : curves.emplace(boundary, contact_curve(mesh, boundary, table)).first->second;
+  };
+  std::vector<ContactCurves> all;
+  const std::set<std::pair<int, int>> named = named_pairs(scene, names);
+  std::set<std::pair<int, int>> found_before;
+  for (const ContactSpec& spec : specs) {
+    auto sides = boundaries_of(spec, names);
+    const bool found = is_found(spec);
+    std::vector<std::array<int, 2>> pairs{{sides[0][0], sides[1][0]}};
+    if (found) {
+      for (std::vector<int>& side : sides) {
+        std::erase_if(side, [&](int boundary) { return !is_of_one_body(mesh, boundary, table); });
+        for (const int boundary : side) curve_of(boundary);
+      }
+      pairs = facing_pairs(mesh, curves, sides, spec.within);
+      if (pairs.empty())
+        throw SceneError(spec.key + ".between: no curves '" + spec.between[0] + "' and '" + spec.between[1] +
+                         "' of two bodies face each other " +
+                         (spec.within ? "within contact.within" : "within half an edge") +
+                         "; expected others, or contact.within = a larger distance");
+    }
+    for (const std::array<int, 2>& pair : pairs) {
+      const auto both = std::minmax(pair[0], pair[1]);
+      if (found && (named.contains(both) || !found_before.insert(both).second)) continue;
+      ContactCurves contact{.spec = spec, .curves = {}};
+      contact.spec.found = found;
+      for (const int i : {0, 1}) {
+        const Curve& curve = contact.curves[i] = curve_of(pair[i]);
+        contact.spec.between[i] = mesh.boundaries[pair[i]].name;
+        if (!spec.multipliers_on.empty() && spec.multipliers_on == spec.between[i])
+          contact.spec.multipliers_on = contact.spec.between[i];
+        contact.edge_size[i] = curve_length(mesh.nodes, curve) / double(curve.edges.size());
+      }
+      require_own_nodes(mesh, contact.spec, contact.curves);
+      all.push_back(std::move(contact));
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh) {
+  return curves_of(scene, scene.contacts, mesh);
+}
+
+std::vector<ContactCurves> tied_curves(const Scene& scene, const Mesh& mesh) {
+  return curves_of(scene, scene.ties, mesh);
+}
+
+}  // namespace mortise

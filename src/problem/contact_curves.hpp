@@ -1,0 +1,21 @@
+// The curves of the [[contact]] entries, named or found.
+#pragma once
+
+#include "mesh/curve.hpp"
+#include "scene/scene.hpp"
+
+namespace mortise {
+
+/// The two curves of a [[contact]] entry, in its order.
+struct ContactCurves {
+  ContactSpec spec;
+  std::array<Curve, 2> curves;
+  std::array<double, 2> edge_size{};  ///< mean, length
+};
+
+/// Those in contact, and those that are tied. Throws InputError for unknown curves, curves that are no chains, and
+/// curves with common nodes.
+std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh);
+std::vector<ContactCurves> tied_curves(const Scene& scene, const Mesh& mesh);
+
+}  // namespace mortise

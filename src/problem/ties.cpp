@@ -1,0 +1,83 @@
+#include "problem/ties.hpp"
+
+#include <set>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/printable.hpp"
+#include "contact/mortar_projection.hpp"
+#include "problem/contact_curves.hpp"
+
+namespace mortise {
+namespace {
+
+// The curve that follows: the one that the scene names, else that with the shorter edges.
+int following(const ContactCurves& pair) {
+  if (!pair.spec.multipliers_on.empty()) return pair.spec.multipliers_on == pair.spec.between[1] ? 1 : 0;
+  return pair.edge_size[1] < (1 - 1e-6) * pair.edge_size[0] ? 1 : 0;
+}
+
+// A node that follows another curve already is left out.
+Tie tie_of(const Scene& scene, const Mesh& mesh, const ContactCurves& pair, std::set<int>& tied) {
+  const int first = following(pair);
+  Tie tie{.key = pair.spec.key,
+          .curves = {},
+          .boundary = {},
+          .body = {},
+          .nodes = mortar_projection(mesh.nodes, pair.curves[first], pair.curves[1 - first], scene.model)};
+  for (const int k : {0, 1}) {
+    const int of = k == 0 ? first : 1 - first;
+    tie.curves[k] = pair.spec.between[of];
+    tie.boundary[k] = pair.curves[of].boundary;
+    tie.body[k] = pair.curves[of].body;
+  }
+  if (tie.nodes.empty())
+    throw SceneError(tie.key + ": '" + tie.curves[0] + "' and '" + tie.curves[1] +
+                     "' do not face each other anywhere; expected curves that coincide");
+  std::erase_if(tie.nodes, [&](const TiedNode& one) { return !tied.insert(one.node).second; });
+  return tie;
+}
+
+Vec2 place_of(const Points& nodes, const TiedNode& one) {
+  Vec2 place = Vec2::Zero();
+  for (const auto& [node, weight] : one.weights) place += weight * nodes.row(node).transpose();
+  return place;
+}
+
+void require_near(const Mesh& mesh, const Tie& tie, double edge) {
+  for (const TiedNode& one : tie.nodes) {
+    const Vec2 drawn = mesh.nodes.row(one.node).transpose();
+    const double apart = (place_of(mesh.nodes, one) - drawn).norm();
+    if (apart <= 0.1 * edge) continue;
+    std::ostringstream text;
+    text << tie.key << ": '" << tie.curves[0] << "' and '" << tie.curves[1] << "' are " << apart << " apart "
+         << near_point(drawn) << "; expected tied curves that coincide, to a tenth of an edge";
+    throw SceneError(text.str());
+  }
+}
+
+}  // namespace
+
+void tie_curves(const Scene& scene, Mesh& mesh) {
+  mesh.ties.clear();
+  if (scene.ties.empty()) return;
+  std::set<int> tied;
+  for (const ContactCurves& pair : tied_curves(scene, mesh)) {
+    mesh.ties.push_back(tie_of(scene, mesh, pair, tied));
+    require_near(mesh, mesh.ties.back(), std::min(pair.edge_size[0], pair.edge_size[1]));
+  }
+  // Those that follow others that follow come after them, whatever the order of the entries.
+  for (std::size_t round = 0; round < mesh.ties.size(); ++round)
+    for (const Tie& tie : mesh.ties)
+      for (const TiedNode& one : tie.nodes) {
+        Vec2 to = place_of(mesh.nodes, one);
+        if (scene.model.axisymmetric() && mesh.nodes(one.node, 0) <= 0) to.x() = 0;  // stays on the axis
+        mesh.nodes.row(one.node) = to.transpose();
+      }
+}
+
+void add_ties(const Mesh& mesh, MultipointBuilder& builder) {
+  for (const Tie& tie : mesh.ties) builder.tie(tie);
+}
+
+}  // namespace mortise

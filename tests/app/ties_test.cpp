@@ -1,0 +1,152 @@
+// Bodies that are one where their meshes do not match: patch tests, turns without strain, and every solver.
+#include <gtest/gtest.h>
+
+#include "app/solve_scene.hpp"
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+// A plate of two tied halves and a block below it, whose meshes match nowhere.
+const std::string plates = R"(
+SetFactory("OpenCASCADE");
+Mesh.ElementOrder = 2;
+Rectangle(1) = {0, 0, 0, 2, 1};
+Rectangle(2) = {0, 1, 0, 2, 0.6};
+Rectangle(3) = {0, 1.6 + gap, 0, 2, 0.4};
+Transfinite Curve{1, 3} = 6; Transfinite Curve{2, 4} = 4;
+Transfinite Curve{5, 7} = 9; Transfinite Curve{6, 8} = 3;
+Transfinite Curve{9, 11} = 5; Transfinite Curve{10, 12} = 4;
+Physical Surface("block") = {1};
+Physical Surface("lower") = {2};
+Physical Surface("upper") = {3};
+Physical Curve("block_bottom") = {1};
+Physical Curve("block_top") = {3};
+Physical Curve("sides") = {6, 8, 10, 12};
+Physical Curve("left") = {4, 8, 12};
+Physical Curve("lower_bottom") = {5};
+Physical Curve("lower_top") = {7};
+Physical Curve("upper_bottom") = {9};
+Physical Curve("top") = {11};
+)";
+
+Scene scene_of(const TemporaryFolder& folder, const std::string& rest, double gap = 0) {
+  folder.write("plates.geo", "gap = " + std::to_string(gap) + ";\n" + plates);
+  return read_scene(folder.write("scene.toml",
+                                 "mesh.file = \"plates.geo\"\nmaterials.m = { young = 1000, poisson = 0.3 }\n"
+                                 "bodies = { block = \"m\", lower = \"m\", upper = \"m\" }\n" +
+                                     rest));
+}
+
+const std::string tie = R"({ between = ["lower_top", "upper_bottom"], condition = "tied" })";
+
+// Any linear field, shear and tension across the tie among it.
+TEST(Ties, PassThePatchTest) {
+  const TemporaryFolder folder;
+  for (const std::string leads : {"", ", multipliers_on = \"upper_bottom\""}) {
+    const std::string with = tie.substr(0, tie.size() - 2) + leads + " }";
+    const Results r = solve_scene(scene_of(folder, "contact = [" + with + R"toml(]
+boundary = [
+  { on = ["sides", "lower_bottom", "top"], displacement = { x = "1e-3 * (x + 2 * y)", y = "1e-3 * (3 * y - x)" } },
+  { on = "block_bottom", displacement = { x = 0, y = 0 } },
+])toml"));
+    EXPECT_EQ(r.status, Status::solved);
+    for (Eigen::Index i = 0; i < r.mesh.nodes.rows(); ++i) {
+      const Vec2 x = r.mesh.nodes.row(i).transpose();
+      if (x.y() < 1 || (x.y() == 1 && r.solution.u(2 * i) == 0)) continue;  // of the block, which nothing loads
+      EXPECT_LE((r.solution.u.segment<2>(2 * i) - 1e-3 * Vec2(x.x() + 2 * x.y(), 3 * x.y() - x.x())).norm(), 1e-13);
+    }
+    ASSERT_EQ(r.reactions.ties.size(), 1u);
+  }
+}
+
+TEST(Ties, CarryWhatPressesOnThemByEverySolver) {
+  const TemporaryFolder folder;
+  const std::string rest = "contact = [" + tie + R"toml(, { between = ["lower_bottom", "block_top"] }]
+boundary = [
+  { on = "block_bottom", displacement = { x = 0, y = 0 } },
+  { on = "left", displacement = { x = 0 } },
+  { on = "top", traction = [0.3, "-1 - x"] },
+]
+method.solver = )toml";
+  const Results direct = solve_scene(scene_of(folder, rest + "\"direct\""));
+  EXPECT_EQ(direct.status, Status::solved);
+  EXPECT_NEAR(direct.reactions.ties[0].force.y() * (direct.mesh.ties[0].curves[0] == "lower_top" ? -1 : 1), 4, 1e-9);
+  EXPECT_EQ(direct.warnings.size(), 0u) << direct.warnings[0];
+  for (const std::string solver : {"mssor", "ddm", "feti"}) {
+    SCOPED_TRACE(solver);
+    const Results other = solve_scene(scene_of(folder, rest + "\"" + solver + "\""));
+    EXPECT_EQ(other.status, Status::solved);
+    EXPECT_LE(largest_entry(other.contacts[0].pressure - direct.contacts[0].pressure),
+              1e-7 * largest_entry(direct.contacts[0].pressure));
+  }
+}
+
+// Two rings whose common circle has different polygons: a turn strains nothing, and forces have no moment left.
+TEST(Ties, OnACircleTurnWithoutStrain) {
+  const TemporaryFolder folder;
+  folder.write("rings.geo", R"(
+Mesh.ElementOrder = 2;
+Point(1) = {0, 0, 0};
+For k In {0 : 3}
+  r[0] = 1; r[1] = 1.5; r[2] = 1.5; r[3] = 2;
+  n[0] = 7; n[1] = 9; n[2] = 6; n[3] = 8;
+  For q In {0 : 3}
+    Point(10 + 10 * k + q) = {r[k] * Cos(q * Pi / 2), r[k] * Sin(q * Pi / 2), 0};
+  EndFor
+  For q In {0 : 3}
+    Circle(10 + 10 * k + q) = {10 + 10 * k + q, 1, 10 + 10 * k + (q + 1) % 4};
+    Transfinite Curve{10 + 10 * k + q} = n[k];
+  EndFor
+  Curve Loop(1 + k) = {10 + 10 * k : 13 + 10 * k};
+EndFor
+Plane Surface(1) = {2, 1};
+Plane Surface(2) = {4, 3};
+Physical Surface("inner") = {1};
+Physical Surface("outer") = {2};
+Physical Curve("bore") = {10 : 13};
+Physical Curve("inner_tie") = {20 : 23};
+Physical Curve("outer_tie") = {30 : 33};
+Physical Curve("rim") = {40 : 43};
+)");
+  const auto solved = [&](const std::string& boundary) {
+    return solve_scene(
+        read_scene(folder.write("scene.toml",
+                                "mesh.file = \"rings.geo\"\nmaterials.m = { young = 1000, poisson = 0.3 }\n"
+                                "bodies = { inner = \"m\", outer = \"m\" }\n"
+                                "contact = [{ between = [\"inner_tie\", \"outer_tie\"], condition = \"tied\" }]\n"
+                                "boundary = [" +
+                                    boundary + "]\n")));
+  };
+  const Results turned = solved(R"({ on = "bore", displacement = { x = "-1e-3 * y", y = "1e-3 * x" } })");
+  EXPECT_LE(turned.energy, 1e-15);  // of a strain as large as the turn: 1e-3
+  for (Eigen::Index i = 0; i < turned.mesh.nodes.rows(); ++i) {
+    const Vec2 x = turned.mesh.nodes.row(i).transpose();
+    EXPECT_LE((turned.solution.u.segment<2>(2 * i) - 1e-3 * Vec2(-x.y(), x.x())).norm(), 1e-13);
+  }
+  // Twisted and squeezed: every check holds, and the squeeze is Lame's.
+  const Results squeezed =
+      solved(R"({ on = "bore", displacement = { x = "-1e-3 * y", y = "1e-3 * x" } }, { on = "rim", pressure = 1 })");
+  EXPECT_EQ(squeezed.status, Status::solved) << squeezed.warnings.size();
+}
+
+TEST(Ties, RefuseWhatCannotBeTied) {
+  const TemporaryFolder folder;
+  const std::string held =
+      "boundary = [{ on = [\"left\", \"block_bottom\", \"top\"], displacement = { x = 0, y = 0 } }]\n";
+  expect_contains(message_of([&] { solve_scene(scene_of(folder, "contact = [" + tie + "]\n" + held, 0.1)); }),
+                  "expected tied curves that coincide");
+  expect_contains(message_of([&] {
+                    scene_of(folder, "contact = [" + tie.substr(0, tie.size() - 2) + ", clearance = 1 }]\n" + held);
+                  }),
+                  "has no meaning with condition = \"tied\"");
+  expect_contains(message_of([&] {
+                    solve_scene(scene_of(
+                        folder, "contact = [" + tie + ", { between = [\"upper_bottom\", \"lower_top\"] }]\n" + held));
+                  }),
+                  "twice");
+}
+
+}  // namespace
+}  // namespace mortise::test
