@@ -1,152 +1,139 @@
 #include "io/vtu.hpp"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkCommand.h>
-#include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
-#include <vtkExecutive.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkTypeInt32Array.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridWriter.h>
-
+#include <algorithm>
+#include <bit>
 #include <cassert>
+#include <cerrno>
+#include <cstdint>
 #include <fstream>
+#include <sstream>
 
 #include "base/errors.hpp"
 
 namespace mortise {
 namespace {
 
-unsigned char vtk_type(const Cell& cell) {
+static_assert(std::endian::native == std::endian::little, "the files say LittleEndian");
+
+// VTK's numbers of the kinds (vtkCellType.h).
+std::uint8_t vtk_type(const Cell& cell) {
   switch (cell.kind) {
     case CellKind::tri3:
-      return VTK_TRIANGLE;
+      return 5;
     case CellKind::tri6:
-      return VTK_QUADRATIC_TRIANGLE;
+      return 22;
     case CellKind::quad4:
-      return VTK_QUAD;
+      return 9;
     case CellKind::quad8:
-      return VTK_QUADRATIC_QUAD;
+      return 23;
     case CellKind::quad9:
-      return VTK_BIQUADRATIC_QUAD;
+      return 28;
   }
-  return VTK_EMPTY_CELL;
+  return 0;
 }
 
-unsigned char vtk_type(const Edge& edge) { return edge.node_count == 3 ? VTK_QUADRATIC_EDGE : VTK_LINE; }
+std::uint8_t vtk_type(const Edge& edge) { return edge.node_count == 3 ? 21 : 3; }
 
 int size_of(const Cell& cell) { return node_count(cell.kind); }
 int size_of(const Edge& edge) { return edge.node_count; }
 
-/// Our node order is VTK's, for cells and edges alike.
-template <typename Element>
-void set_cells(vtkUnstructuredGrid* grid, const std::vector<Element>& elements) {
-  const auto count = static_cast<vtkIdType>(elements.size());
-  vtkIdType size = 0;
-  for (const Element& element : elements) size += size_of(element);
-
-  vtkNew<vtkUnsignedCharArray> types;
-  vtkNew<vtkTypeInt32Array> offsets;
-  vtkNew<vtkTypeInt32Array> connectivity;
-  unsigned char* type = types->WritePointer(0, count);
-  vtkTypeInt32* offset = offsets->WritePointer(0, count + 1);
-  vtkTypeInt32* node = connectivity->WritePointer(0, size);
-  vtkTypeInt32 end = 0;
-  *offset++ = end;
-  for (const Element& element : elements) {
-    const int nodes = size_of(element);
-    *type++ = vtk_type(element);
-    *offset++ = end += nodes;
-    for (int i = 0; i < nodes; ++i) *node++ = element.nodes[i];
-  }
-  vtkNew<vtkCellArray> cells;
-  cells->SetData(offsets, connectivity);
-  grid->SetCells(types, cells);
-}
-
-void set_points(vtkUnstructuredGrid* grid, const Points& points) {
-  vtkNew<vtkDoubleArray> coordinates;
-  coordinates->SetNumberOfComponents(3);
-  double* xyz = coordinates->WritePointer(0, 3 * points.rows());
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    *xyz++ = points(i, 0);
-    *xyz++ = points(i, 1);
-    *xyz++ = 0.0;
-  }
-  vtkNew<vtkPoints> vtk_points;
-  vtk_points->SetData(coordinates);
-  grid->SetPoints(vtk_points);
-}
-
-void add_field(vtkDataSetAttributes* attributes, const VtuField& field) {
-  const Eigen::Index columns = field.values.cols();
-  const Eigen::Index written = columns == 2 ? 3 : columns;
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(field.name.c_str());
-  array->SetNumberOfComponents(static_cast<int>(written));
-  for (std::size_t i = 0; i < field.components.size(); ++i) {
-    array->SetComponentName(static_cast<vtkIdType>(i), field.components[i].c_str());
-  }
-  double* value = array->WritePointer(0, written * field.values.rows());
-  for (Eigen::Index i = 0; i < field.values.rows(); ++i) {
-    for (Eigen::Index j = 0; j < columns; ++j) *value++ = field.values(i, j);
-    if (columns == 2) *value++ = 0.0;
-  }
-  attributes->AddArray(array);
-}
-
-/// Keeps VTK's own words off the terminal; its error code says enough.
-class Silence : public vtkCommand {
+// The XML head with an entry an array, and after it the bytes of the arrays, each behind its length.
+class VtuFile {
  public:
-  static Silence* New() { return new Silence; }
-  void Execute(vtkObject* /*caller*/, unsigned long /*event*/, void* /*data*/) override {}
+  VtuFile(std::size_t points, std::size_t cells) {
+    head_ << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+          << "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" << points << "\" NumberOfCells=\"" << cells
+          << "\">\n";
+  }
+
+  void open(const char* section) { head_ << "      <" << section << ">\n"; }
+  void close(const char* section) { head_ << "      </" << section << ">\n"; }
+
+  template <typename Number>
+  void add(const std::string& name, const std::vector<Number>& values, Eigen::Index columns = 1,
+           const std::vector<std::string>& components = {}) {
+    head_ << "        <DataArray type=\"" << type_of(Number()) << "\" Name=\"" << name << "\"";
+    if (columns != 1) head_ << " NumberOfComponents=\"" << columns << "\"";
+    for (std::size_t i = 0; i < components.size(); ++i)
+      head_ << " ComponentName" << i << "=\"" << components[i] << "\"";
+    head_ << " format=\"appended\" offset=\"" << data_.size() << "\"/>\n";
+    const std::uint64_t bytes = values.size() * sizeof(Number);
+    data_.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+    data_.append(reinterpret_cast<const char*>(values.data()), bytes);
+  }
+
+  void write(const std::filesystem::path& path) {
+    head_ << "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n   _";
+    errno = 0;
+    std::ofstream file(path, std::ios::binary);
+    file << head_.view() << data_ << "\n  </AppendedData>\n</VTKFile>\n";
+    file.close();
+    if (file) return;
+    throw InputError(path.string() + (errno == ENOSPC ? ": no space left on the device" : ": cannot be written"));
+  }
+
+ private:
+  static const char* type_of(double) { return "Float64"; }
+  static const char* type_of(std::int32_t) { return "Int32"; }
+  static const char* type_of(std::uint8_t) { return "UInt8"; }
+
+  std::ostringstream head_;
+  std::string data_;
 };
 
-void write_grid(const std::filesystem::path& path, vtkUnstructuredGrid* grid) {
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  vtkNew<Silence> silence;
-  writer->AddObserver(vtkCommand::ErrorEvent, silence);
-  writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, silence);
-  writer->SetFileName(path.c_str());
-  writer->SetInputData(grid);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToNone();  // zlib takes twenty times as long as the disk
-  writer->SetHeaderTypeToUInt64();
-  const bool written = writer->Write() == 1;
-  const unsigned long error = writer->GetErrorCode();
-  if (error == vtkErrorCode::OutOfDiskSpaceError) throw InputError(path.string() + ": no space left on the device");
-  if (!written || error != vtkErrorCode::NoError) throw InputError(path.string() + ": cannot be written");
+// A plane vector gets its zero.
+void add_rows(VtuFile& file, const std::string& name, const MatX& rows, const std::vector<std::string>& components) {
+  const Eigen::Index columns = rows.cols() == 2 ? 3 : rows.cols();
+  std::vector<double> values(columns * rows.rows());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+    for (Eigen::Index j = 0; j < rows.cols(); ++j) values[columns * i + j] = rows(i, j);
+  file.add(name, values, columns, components);
+}
+
+void add_fields(VtuFile& file, const char* section, const std::vector<VtuField>& fields,
+                [[maybe_unused]] std::size_t rows) {
+  file.open(section);
+  for (const VtuField& field : fields) {
+    assert(static_cast<std::size_t>(field.values.rows()) == rows && "a row a point or cell");
+    add_rows(file, field.name, field.values, field.components);
+  }
+  file.close(section);
+}
+
+// Our node order is VTK's, for cells and edges alike.
+template <typename Element>
+void add_cells(VtuFile& file, const std::vector<Element>& elements) {
+  std::vector<std::int32_t> connectivity, offsets;
+  std::vector<std::uint8_t> types;
+  for (const Element& element : elements) {
+    connectivity.insert(connectivity.end(), element.nodes.begin(), element.nodes.begin() + size_of(element));
+    offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+    types.push_back(vtk_type(element));
+  }
+  file.open("Cells");
+  file.add("connectivity", connectivity);
+  file.add("offsets", offsets);
+  file.add("types", types);
+  file.close("Cells");
 }
 
 }  // namespace
 
 void write_vtu(const std::filesystem::path& path, const VtuGrid& grid) {
   assert((grid.cells.empty() || grid.edges.empty()) && "cells or edges, not both");
-  if (!std::ofstream(path, std::ios::binary)) throw InputError(path.string() + ": cannot be written");
-
-  vtkNew<vtkUnstructuredGrid> vtk_grid;
-  set_points(vtk_grid, grid.points);
+  const std::size_t points = grid.points.rows(), cells = grid.cells.size() + grid.edges.size();
+  VtuFile file(points, cells);
+  add_fields(file, "PointData", grid.point_fields, points);
+  add_fields(file, "CellData", grid.cell_fields, cells);
+  file.open("Points");
+  add_rows(file, "Points", grid.points, {});
+  file.close("Points");
   if (grid.edges.empty()) {
-    set_cells(vtk_grid.Get(), grid.cells);
+    add_cells(file, grid.cells);
   } else {
-    set_cells(vtk_grid.Get(), grid.edges);
+    add_cells(file, grid.edges);
   }
-  for (const VtuField& field : grid.point_fields) {
-    assert(field.values.rows() == grid.points.rows() && "a row a point");
-    add_field(vtk_grid->GetPointData(), field);
-  }
-  for (const VtuField& field : grid.cell_fields) {
-    assert(field.values.rows() == static_cast<Eigen::Index>(grid.cells.size() + grid.edges.size()) && "a row a cell");
-    add_field(vtk_grid->GetCellData(), field);
-  }
-  write_grid(path, vtk_grid);
+  file.write(path);
 }
 
 }  // namespace mortise
