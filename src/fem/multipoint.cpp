@@ -107,7 +107,7 @@ void MultipointBuilder::require_same_motion(const std::string& key, int node, co
     const int unknown = 2 * node + k;
     if (!constraints_.fixed[unknown] || (constraints_.rings && k == 0)) continue;
     const double there = constraints_.value(unknown), turn = motion[2].value_or(0);
-    const bool known = motion[k] && (motion[2] || lever(k) == 0);
+    const bool known = motion[k] && (motion[2] || std::abs(lever(k)) <= 1e-9 * lever.norm());
     const double made = motion[k].value_or(0) + lever(k) * turn,
                  size = std::max({std::abs(there), std::abs(made), std::abs(lever(k) * turn)});
     if (known && std::abs(made - there) <= 1e-9 * size) continue;

@@ -1,90 +1,14 @@
 #include "io/free_mesher.hpp"
 
-#include <gmsh.h>
-
-#include <exception>
 #include <filesystem>
-#include <stdexcept>
-#include <utility>
 
 #include "base/errors.hpp"
-#include "base/printable.hpp"
 #include "fem/elements.hpp"
 #include "io/assemble_mesh.hpp"
-#include "io/gmsh_data.hpp"
 #include "io/gmsh_guard.hpp"
 #include "io/gmsh_mesh.hpp"
 
 namespace mortise {
-namespace {
-
-void set_mesh_options(bool recombine) {
-  const std::vector<std::pair<const char*, double>> options{
-      {"Mesh.Algorithm", 6},  // Frontal-Delaunay
-      {"Mesh.ElementOrder", 2},
-      {"Mesh.SecondOrderIncomplete", 1},
-      {"Mesh.SecondOrderLinear", 0},
-      {"Mesh.HighOrderOptimize", 0},
-      {"Mesh.MeshSizeFromPoints", 0},
-      {"Mesh.MeshSizeFromCurvature", 0},
-      {"Mesh.MeshSizeExtendFromBoundary", 0},
-      {"Mesh.MinimumCircleNodes", 0},
-      {"Mesh.MinimumCurveNodes", 0},
-      {"Mesh.LcIntegrationPrecision", 1e-5},  // of a count of edges; less gives the same meshes, later
-      {"Mesh.RandomFactor", 1e-13},  // of the whole; gmsh moves points by it, 1e-9 flattens triangles at tiny edges
-      {"Mesh.RecombineAll", recombine ? 1 : 0},
-  };
-  for (const auto& [name, value] : options) gmsh::option::setNumber(name, value);
-}
-
-/// While it lives, gmsh's only sizes: it takes the least of all that it is given, and is given no others.
-class SizeCallback {
- public:
-  /// `failure`: takes what the function throws, which must not go through gmsh.
-  SizeCallback(const SizeAt& size, std::exception_ptr& failure) : size_(size), failure_(failure) {
-    gmsh::vectorpair curves;
-    gmsh::model::getEntities(curves, 1);
-    for (const auto& [dimension, curve] : curves) factors_[curve] = speed_factor(curve);
-    gmsh::model::mesh::setSizeCallback(
-        [this](int dimension, int tag, double x, double y, double) { return answer(dimension, tag, Vec2(x, y)); });
-  }
-  ~SizeCallback() { gmsh::model::mesh::removeSizeCallback(); }
-  SizeCallback(const SizeCallback&) = delete;
-  SizeCallback& operator=(const SizeCallback&) = delete;
-
- private:
-  double answer(int dimension, int tag, const Vec2& x) {
-    constexpr double coarse = 1e22;  // gmsh's largest; lets it come to an end soon
-    if (failure_) return coarse;
-    try {
-      const double size = size_(x);
-      if (!(size > 0)) throw std::domain_error("mesh size " + std::to_string(size) + " " + near_point(x));
-      return dimension == 1 ? size * factors_.at(tag) : size;
-    } catch (...) {
-      failure_ = std::current_exception();
-      return coarse;
-    }
-  }
-
-  const SizeAt& size_;
-  std::map<int, double> factors_;  // by curve
-  std::exception_ptr& failure_;
-};
-
-void generate(GmshSession& session, const std::string& file, const SizeAt& size) {
-  std::exception_ptr failure;
-  try {
-    session.run(file, "meshing", [&] {
-      const SizeCallback callback(size, failure);
-      gmsh::model::mesh::generate(2);
-    });
-  } catch (const InputError&) {
-    if (!failure) throw;
-  }
-  if (failure) std::rethrow_exception(failure);
-}
-
-}  // namespace
 
 FreeMesher::FreeMesher(const std::string& file, const std::map<std::string, double>& parameters,
                        const GeoLimits& limits)
@@ -92,19 +16,14 @@ FreeMesher::FreeMesher(const std::string& file, const std::map<std::string, doub
   check_mesh_file(file, parameters, limits);
   if (std::filesystem::path(file).extension() != ".geo")
     throw InputError(file + ": a mesh has no geometry to refine; expected a .geo");
+  const GmshModule& gmsh = gmsh_module();
   const GmshGuard guard(file, limits.seconds);
-  GmshSession session;
-  geometry_ = read_free_geometry(session, file, parameters);
-  session.run(file, "sampling its curves", [&] { curves_ = drawn_curves(); });
+  drawing_ = gmsh.read_drawing(file, parameters);
 }
 
 Mesh FreeMesher::mesh_once(const SizeAt& size, bool recombine) const {
-  const GmshGuard guard(geometry_.file, limits_.seconds);
-  GmshSession session;
-  open_free_geometry(session, geometry_);
-  set_mesh_options(recombine);
-  generate(session, geometry_.file, size);
-  Mesh mesh = assemble_mesh(gmsh_data(geometry_.file));
+  const GmshGuard guard(drawing_.geometry.file, limits_.seconds);
+  Mesh mesh = assemble_mesh(gmsh_module().mesh_freely(drawing_.geometry, size, recombine));
   check_cells(mesh);
   return mesh;
 }

@@ -1,20 +1,15 @@
 // Free meshes of a drawn geometry with sizes by a function: the mesher of an accuracy loop. No gmsh header here.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "base/geo_limits.hpp"
-#include "io/free_geometry.hpp"
-#include "io/gmsh_curves.hpp"
+#include "io/gmsh_module.hpp"
 #include "mesh/mesh.hpp"
 
 namespace mortise {
-
-/// Wanted length of the edges at a place, > 0.
-using SizeAt = std::function<double(const Vec2& x)>;
 
 /// Meshes one .geo again and again: its geometry, its physical groups, its parameters, and nothing that it says of the
 /// mesh. gmsh runs in the constructor and in mesh() only.
@@ -25,7 +20,7 @@ class FreeMesher {
   FreeMesher(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits = {});
 
   /// For the first sizes, before there is a mesh.
-  const std::vector<DrawnCurve>& curves() const { return curves_; }
+  const std::vector<DrawnCurve>& curves() const { return drawing_.curves; }
 
   /// 6-node triangles, or 8-node quadrilaterals with a few triangles between them. The same sizes give the same mesh.
   /// Throws what `size` throws; std::domain_error where it is not > 0; InputError as load_mesh does, and where cells
@@ -36,8 +31,7 @@ class FreeMesher {
   Mesh mesh_once(const SizeAt& size, bool recombine) const;
 
   GeoLimits limits_;
-  FreeGeometry geometry_;
-  std::vector<DrawnCurve> curves_;
+  FreeDrawing drawing_;
 };
 
 }  // namespace mortise

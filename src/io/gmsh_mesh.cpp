@@ -6,9 +6,8 @@
 #include "base/mesh_endings.hpp"
 #include "io/assemble_mesh.hpp"
 #include "io/geo_file.hpp"
-#include "io/gmsh_data.hpp"
 #include "io/gmsh_guard.hpp"
-#include "io/gmsh_session.hpp"
+#include "io/gmsh_module.hpp"
 #include "io/inp_file.hpp"
 #include "io/mesh_groups.hpp"
 #include "io/msh_file.hpp"
@@ -28,6 +27,12 @@ MeshData read_mesh_file(const std::string& file) {
   MeshData data = read_msh(file);
   group_by_entity(data);
   return data;
+}
+
+MeshData mesh_geo(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits) {
+  const GmshModule& gmsh = gmsh_module();
+  const GmshGuard guard(file, limits.seconds);
+  return gmsh.mesh_geo(file, parameters);
 }
 
 }  // namespace
@@ -50,14 +55,7 @@ void check_mesh_file(const std::string& file, const std::map<std::string, double
 Mesh load_mesh(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits) {
   check_mesh_file(file, parameters, limits);
   if (!is_geo(file)) return assemble_mesh(read_mesh_file(file));
-  MeshData data;
-  {
-    const GmshGuard guard(file, limits.seconds);
-    GmshSession session;
-    session.open(file, parameters);
-    data = gmsh_data(file);
-  }
-  return assemble_mesh(std::move(data));
+  return assemble_mesh(mesh_geo(file, parameters, limits));
 }
 
 }  // namespace mortise

@@ -15,10 +15,11 @@ endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 file(GLOB_RECURSE config ${prefix}/*/mortiseConfig.cmake)
+file(GLOB_RECURSE module ${prefix}/mortise_gmsh.so)
 file(GLOB_RECURSE license ${prefix}/LICENSE)
-foreach(file "${config}" "${license}" ${prefix}/bin/mortise ${prefix}/include/mortise/app/solve_scene.hpp)
+foreach(file "${config}" "${module}" "${license}" ${prefix}/bin/mortise ${prefix}/include/mortise/app/solve_scene.hpp)
   if(NOT EXISTS "${file}")
-    message(FATAL_ERROR "not installed: '${file}' (configuration, licence, executable or headers)")
+    message(FATAL_ERROR "not installed: '${file}' (configuration, gmsh's module, licence, executable or headers)")
   endif()
 endforeach()
 run(${prefix}/bin/mortise --version)
@@ -34,6 +35,17 @@ foreach(file ${package})
     endif()
   endforeach()
 endforeach()
+
+# The moved program finds gmsh's module, and says what is missing without it.
+run(${WORK}/moved/bin/mortise mesh ${SOURCE}/geo/patch_flat.toml -o ${WORK}/a.msh)
+file(GLOB_RECURSE module ${WORK}/moved/mortise_gmsh.so)
+file(RENAME ${module} ${module}.away)
+execute_process(COMMAND ${WORK}/moved/bin/mortise mesh ${SOURCE}/geo/patch_flat.toml -o ${WORK}/b.msh
+                RESULT_VARIABLE status ERROR_VARIABLE output)
+file(RENAME ${module}.away ${module})
+if(NOT status EQUAL 1 OR NOT output MATCHES "which cannot be loaded: mortise_gmsh[.]so: ")
+  message(FATAL_ERROR "without gmsh's module: ended with ${status}:\n${output}")
+endif()
 
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/example -G ${GENERATOR}
     -D CMAKE_PREFIX_PATH=${WORK}/moved -D CMAKE_BUILD_TYPE=${CONFIG} -D CMAKE_CXX_COMPILER=${COMPILER}

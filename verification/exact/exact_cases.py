@@ -142,6 +142,17 @@ CASES = [
          STEEL + both("lower", "upper") + '[[boundary]]\non = ["ground"]\nfoundation = 1e9\n'
          '[[boundary]]\non = ["left"]\ndisplacement = { x = 0 }\n[[boundary]]\non = ["head"]\npressure = 1e6\n'
          '[[contact]]\nbetween = ["lower_contact", "upper_contact"]\n', sinking_error, exact=True),
+    Case("sector", "displacement along the normal, tied curves", "p", "Lamé: sectors of two tubes, the outer one tied of two",
+         "sector", STEEL + '[bodies]\ninner = "steel"\nouter = "steel"\nrim = "steel"\n'
+         '[[boundary]]\non = "ends"\ndisplacement = { normal = 0 }\n[[boundary]]\non = "bore"\npressure = 100e6\n'
+         '[[contact]]\nbetween = ["inner_seat", "outer_hole"]\n'
+         '[[contact]]\nbetween = ["outer_seat", "rim_hole"]\ncondition = "tied"\n',
+         pressure_error(lambda x, y: lame(2, 2))),
+    Case("rigid_head", "a rigid curve with force and moment", "p", "linear stress: sigma_yy = -(1 + x) MPa, nu = 0", "blocks",
+         blocks(STEEL.replace("0.3", "0") + both("lower", "upper"),
+                f'[[boundary]]\non = ["head"]\nrigid = {{ x = {1e6 / E * 1.5**2 / 2}, force = [0, -4e6], moment = {-2e6 / 3} }}\n',
+                f'"1e6 / {E} * y^2 / 2"'),
+         pressure_error(lambda x, y: 1e6 * (1 + x)), exact=True),
     Case("total_force", "force on a curve", "p", "force over the area", "blocks",
          blocks(STEEL + both("lower", "upper"), '[[boundary]]\non = ["head"]\nforce = [0, -3e6]\n'),
          pressure_error(lambda x, y: 1.5e6), exact=True),

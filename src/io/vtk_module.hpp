@@ -1,0 +1,12 @@
+// What is done by VTK, in a shared object of its own that is loaded when the first file is written. No VTK header here.
+#pragma once
+
+#include "io/vtu.hpp"
+
+namespace mortise {
+
+struct VtkModule {
+  void (*write)(const std::filesystem::path& path, const VtuGrid& grid);  ///< write_vtu
+};
+
+}  // namespace mortise
