@@ -1,7 +1,9 @@
 """For the tests of all studies: the path to common/, and tests that need a program are skipped where it is missing."""
 
+import os
 import shutil
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -9,6 +11,9 @@ import pytest
 sys.path.insert(0, str(Path(__file__).with_name("common")))
 
 import launch
+
+_cache = tempfile.TemporaryDirectory(prefix="mortise_cache_")
+os.environ["XDG_CACHE_HOME"] = _cache.name  # of meshes: never the user's
 
 
 def need(path):

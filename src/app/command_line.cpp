@@ -12,10 +12,12 @@
 
 #include "app/accuracy.hpp"
 #include "app/sweep.hpp"
+#include "app/sweep_join.hpp"
 #include "app/terminal.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "ddm/ranks.hpp"
+#include "io/mesh_cache.hpp"
 #include "io/output_folder.hpp"
 #include "io/write_msh.hpp"
 #include "mesh/measures.hpp"
@@ -32,8 +34,10 @@ struct Options {
   std::vector<std::string> set, vary;
   std::string output;
   std::string accuracy;
-  bool quiet = false, diagnose = false, no_estimate = false, no_programs = false;
-  int threads = 0;
+  bool quiet = false, diagnose = false, no_estimate = false, no_programs = false, no_cache = false;
+  int threads = 0, jobs = 1;
+  std::string part;
+  std::size_t join = 0;
 };
 
 std::vector<Override> overrides(const Options& options) {
@@ -186,11 +190,15 @@ int mesh(const Options& options) {
 int sweep(const Options& options) {
   std::vector<Variation> variations;
   for (const std::string& text : options.vary) variations.push_back(parse_variation(text));
-  const std::string csv = options.output.empty() ? "out/" + stem(options) + "_sweep.csv" : options.output;
+  const std::filesystem::path whole = options.output.empty() ? "out/" + stem(options) + "_sweep.csv" : options.output;
+  const SweepPlan plan = plan_sweep(options.scene, overrides(options), variations, options.diagnose);
+  const SweepPart part = options.part.empty() ? SweepPart{} : parse_part(options.part);
+  const std::string csv = table_of(whole, part).string();
+  const auto report = [&](const std::string& line) {
+    if (!options.quiet) std::cerr << line << "\n";
+  };
   const Status worst =
-      sweep(options.scene, overrides(options), variations, csv, options.diagnose, [&](const std::string& line) {
-        if (!options.quiet) std::cerr << line << "\n";
-      });
+      options.join > 0 ? join_sweep(plan, whole, options.join) : sweep(plan, whole, part, options.jobs, report);
   if (!options.quiet) std::cout << csv << "\n";
   if (worst != Status::solved)
     std::cerr << "mortise: " << options.scene << ": not every run is solved (see the status in " << csv << ")\n";
@@ -207,6 +215,7 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
   command->add_flag("--quiet", options.quiet, "print errors only");
   command->add_flag("--no-programs", options.no_programs,
                     "refuse a .geo that runs programs or writes files: it is a program itself");
+  command->add_flag("--no-cache", options.no_cache, "mesh a .geo anew, and do not keep its mesh for later runs");
   command
       ->add_option("--threads", options.threads,
                    "threads of the factorisation (default: all cores for large meshes, else 1)")
@@ -246,6 +255,13 @@ int parse_and_run(int argc, const char* const* argv) {
   sweep_command->add_option("--vary", options.vary, "KEY=V1,V2,...: values to run through; repeat for combinations")
       ->required()
       ->allow_extra_args(false);
+  sweep_command->add_option("--jobs", options.jobs, "runs at the same time, each on one thread (default: 1)")
+      ->check(CLI::Range(1, 1024));
+  CLI::Option* const part = sweep_command->add_option(
+      "--part", options.part, "K/N: run the Kth of N parts and write FILE.K_of_N.csv, as one of a batch system's jobs");
+  sweep_command->add_option("--join", options.join, "N: put the tables of N parts together")
+      ->check(CLI::Range(1, 10000))
+      ->excludes(part);
   add_diagnose(sweep_command);
   try {
     app.parse(argc, argv);
@@ -253,7 +269,9 @@ int parse_and_run(int argc, const char* const* argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     throw InputError(std::string("command line: ") + error.what() + " (mortise --help)");
   }
-  set_solver_threads(options.threads > 0 || ranks().count() == 1 ? options.threads : 1);
+  const bool alone = ranks().count() == 1 && options.jobs == 1;
+  set_solver_threads(options.threads > 0 || alone ? options.threads : 1);
+  set_mesh_cache(!options.no_cache);
   if (ranks().count() > 1) {
     if (!*solve_command) throw InputError("command line: several processes solve; expected mortise solve after mpirun");
     options.no_programs = true;  // each process reads the .geo

@@ -97,19 +97,21 @@ auto told_with_path(const Scene& scene, Work work) {
 
 }  // namespace
 
-Mesh scene_mesh(const Scene& scene) {
+Mesh scene_mesh(const Scene& scene, bool* cached) {
   return told_with_path(scene, [&] {
-    return copy_bodies(load_mesh(scene.mesh_file, scene.mesh_parameters, scene.geo_limits), scene.copies);
+    return copy_bodies(load_mesh(scene.mesh_file, scene.mesh_parameters, scene.geo_limits, cached), scene.copies);
   });
 }
 
 Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSet* start) {
   Stopwatch watch;
   if (progress) progress("mesh");
-  Mesh mesh = scene_mesh(scene);
+  bool cached = false;
+  Mesh mesh = scene_mesh(scene, &cached);
   const double seconds = watch.lap();
   Results results = solve_scene(scene, std::move(mesh), progress, start);
   results.seconds.mesh = seconds;
+  results.mesh_cached = cached;
   return results;
 }
 

@@ -16,8 +16,8 @@ struct ActiveSet {
   std::vector<std::vector<Row>> pairs;  ///< rows of each, along its curve
 };
 
-/// Reads or makes the mesh, with the copies in it. Throws InputError.
-Mesh scene_mesh(const Scene& scene);
+/// Reads or makes the mesh, with the copies in it. `cached`: as of load_mesh. Throws InputError.
+Mesh scene_mesh(const Scene& scene, bool* cached = nullptr);
 
 /// Called as each stage begins, with its name.
 using Progress = std::function<void(const std::string& stage)>;

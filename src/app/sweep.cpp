@@ -1,148 +1,147 @@
 #include "app/sweep.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <fstream>
 #include <optional>
 #include <sstream>
 
 #include "app/accuracy.hpp"
+#include "app/solve_scene.hpp"
+#include "app/sweep_row.hpp"
+#include "app/workers.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
-#include "io/csv.hpp"
+#include "io/geo_file.hpp"
 #include "io/staged_file.hpp"
 
 namespace mortise {
 namespace {
 
-// One run's figures under their column names.
-using Row = std::vector<std::pair<std::string, double>>;
+namespace fs = std::filesystem;
 
-Row figures(const Results& r) {
-  Row row{{"nodes", double(r.mesh.nodes.rows())},
-          {"elements", double(r.mesh.cells.size())},
-          {"dofs", free_unknowns(r)},
-          {"multipliers", double(r.solution.lambda.size())},
-          {"iterations.contact", double(r.pairs.empty() ? 0 : r.solution.steps.size())},
-          {"energy", r.energy},
-          {"seconds.mesh", r.seconds.mesh},
-          {"seconds.solve", r.seconds.total() - r.seconds.mesh}};
-  if (const auto& iteration = r.solution.iteration) {
-    row.insert(row.end(), {{"iteration.steps", double(iteration->steps)},
-                           {"iteration.convergence_rate", iteration->convergence_rate},
-                           {"iteration.seconds", r.seconds.solve}});
-    for (const auto& [name, value] : iteration->figures) row.emplace_back("iteration." + name, value);
-  }
-  if (r.estimate) {
-    row.emplace_back("estimate.error", r.estimate->energy.error);
-    row.emplace_back("estimate.pressure.error", r.estimate->pressure());
-  }
-  if (r.inf_sup) row.emplace_back("inf_sup", r.inf_sup->beta);
-  for (std::size_t k = 0; k < r.contacts.size(); ++k) {
-    const ContactResults& c = r.contacts[k];
-    const std::string at = "contact." + std::to_string(k) + ".";
-    row.insert(row.end(), {{at + "pressure.min", c.p_min},
-                           {at + "pressure.mean", c.p_mean},
-                           {at + "pressure.max", c.p_max},
-                           {at + "force.x", c.force.x()},
-                           {at + "force.y", c.force.y()},
-                           {at + "length_in_contact", c.length_in_contact}});
-  }
-  for (const Check& c : r.checks) row.emplace_back(c.name, c.value);
-  return row;
+// Runs one, and leaves its active set in `start`, from which the next one may go on.
+RunRow run_one(const SweepPlan& plan, std::size_t run, std::optional<ActiveSet>& start) try {
+  const Scene scene = read_scene(plan.scene, plan.overrides_of(run));
+  Results results = scene.accuracy ? *solve_to_accuracy(scene) : solve_scene(scene, {}, start ? &*start : nullptr);
+  if (!scene.accuracy) estimate(results);
+  if (plan.diagnosed) diagnose(scene, results);
+  start = active_set(results);
+  return row_of(results);
+} catch (const InputError& error) {
+  return {printable(std::string("bad input: ") + error.what()), {}};
 }
 
-// Columns in the order in which they first appear; what a run does not have stays empty.
-class Table {
- public:
-  explicit Table(const std::vector<Variation>& variations) {
-    for (const Variation& v : variations) columns_.push_back({v.key, {}, {}});
-    columns_.push_back({"status", {}, {}});
-  }
-  void add(const std::vector<std::string>& words, const Row& row) {
-    for (std::size_t i = 0; i < words.size(); ++i) columns_[i].words.push_back(words[i]);
-    for (const auto& [name, value] : row) column(name, words.size()).numbers.push_back(value);
-    ++rows_;
-    for (std::size_t i = words.size(); i < columns_.size(); ++i)
-      columns_[i].numbers.resize(rows_, std::numeric_limits<double>::quiet_NaN());
-  }
-  void write(const std::filesystem::path& path) const {
-    StagedFile staged(path);
-    write_csv(staged.path(), columns_);
-    staged.commit();
-  }
+// ---- The journal: complete groups, kept until the table is complete ----
 
- private:
-  CsvColumn& column(const std::string& name, std::size_t from) {
-    const auto found = std::find_if(columns_.begin() + std::ptrdiff_t(from), columns_.end(),
-                                    [&](const CsvColumn& c) { return c.name == name; });
-    if (found != columns_.end()) return *found;
-    columns_.push_back({name, {}, std::vector<double>(rows_, std::numeric_limits<double>::quiet_NaN())});
-    return columns_.back();
-  }
-  std::vector<CsvColumn> columns_;
-  std::size_t rows_ = 0;
-};
+constexpr const char* journal_title = "mortise sweep: runs that are complete";
 
-// Whether a file with that header is a table of ours: its columns end with "status", or go on with the figures. No
-// scene, geometry or mesh begins so.
-bool is_table(const std::string& header) {
-  return header.ends_with(",status") || header.find(",status,nodes,elements,dofs,") != std::string::npos;
+fs::path journal_of(const fs::path& csv) { return csv.parent_path() / ("." + csv.filename().string() + ".runs"); }
+
+// Tells a group of runs from others: what is varied and set, and how the files stand that it reads.
+std::string key_of(const SweepPlan& plan, std::size_t group) {
+  std::ostringstream text;
+  const auto stamp = [&](const fs::path& file) {
+    std::error_code ignored;
+    text << file << fs::file_size(file, ignored) << " " << fs::last_write_time(file, ignored).time_since_epoch().count()
+         << "\n";
+  };
+  text << MORTISE_VERSION << plan.diagnosed << "\n";
+  stamp(plan.scene);
+  const auto [first, last] = runs_of_group(plan, group);
+  for (std::size_t run = first; run < last; ++run) {
+    const std::vector<Override> all = plan.overrides_of(run);
+    for (const Override& o : all) text << o.key.size() << o.key << o.value.size() << o.value << "\n";
+    try {
+      for (const fs::path& file : geo_inputs(read_scene(plan.scene, all).mesh_file)) stamp(file);
+    } catch (const InputError&) {  // its row will say so
+    }
+  }
+  std::ostringstream key;
+  key << std::hex << std::hash<std::string>{}(text.str());
+  return key.str();
+}
+
+// The lines of the journal by their keys; only the first title says that it is one.
+std::map<std::string, std::vector<RunRow>> read_journal(const fs::path& path) {
+  std::map<std::string, std::vector<RunRow>> found;
+  std::ifstream file(path);
+  std::string line;
+  if (!std::getline(file, line) || line != journal_title) return found;
+  while (std::getline(file, line)) {
+    const std::size_t end = line.find('\t');
+    const auto row = end == std::string::npos ? std::nullopt : row_in(line.substr(end + 1));
+    if (row) found[line.substr(0, end)].push_back(*row);
+  }
+  return found;
+}
+
+// "3/8 KEY=VALUE: solved"
+std::string told(const SweepPlan& plan, std::size_t run, const RunRow& row) {
+  std::string line = std::to_string(run + 1) + "/" + std::to_string(plan.values.size());
+  for (std::size_t k = 0; k < plan.keys.size(); ++k) line += " " + plan.keys[k] + "=" + plan.values[run][k];
+  return line + ": " + row.status;
+}
+
+Status worst_of(const std::map<std::size_t, RunRow>& rows) {
+  Status worst = Status::solved;
+  for (const auto& [run, row] : rows) worst = std::max(worst, status_of(row));
+  return worst;
 }
 
 }  // namespace
 
-Variation parse_variation(const std::string& text) {
-  if (text.find('=') == std::string::npos || text.front() == '=')
-    throw InputError("--vary '" + text + "': expected KEY=VALUE1,VALUE2,... such as mesh.parameters.n_upper=20,40,80");
-  const Override split = parse_override(text);
-  Variation variation{split.key, {}};
-  std::stringstream values(split.value);
-  for (std::string value; std::getline(values, value, ',');) variation.values.push_back(value);
-  if (variation.values.empty())
-    throw InputError("--vary " + text +
-                     ": no value; expected KEY=VALUE1,VALUE2,... such as "
-                     "mesh.parameters.n_upper=20,40,80");
-  return variation;
-}
+Status sweep(const SweepPlan& plan, const fs::path& whole, const SweepPart& part, int jobs, const SweepReport& report) {
+  const fs::path csv = table_of(whole, part), journal = journal_of(csv);
+  if (csv.has_parent_path()) fs::create_directories(csv.parent_path());
+  check_target(csv, {plan.scene}, is_sweep_table);
+  check_target(journal, {plan.scene}, [](const std::string& title) { return title == journal_title; });
 
-Status sweep(const std::string& scene_path, const std::vector<Override>& overrides,
-             const std::vector<Variation>& variations, const std::filesystem::path& csv, bool diagnosed,
-             const std::function<void(const std::string& line)>& report) {
-  if (csv.has_parent_path()) std::filesystem::create_directories(csv.parent_path());
-  check_target(csv, {scene_path}, is_table);
-  std::size_t total = 1;
-  for (const Variation& v : variations) total *= v.values.size();
-  Table table(variations);
-  Status worst = Status::solved;
-  std::optional<ActiveSet> start;  // of the run before: solve_scene ignores it on another mesh
-  for (std::size_t run = 0; run < total; ++run) {
-    std::vector<Override> all = overrides;
-    std::vector<std::string> words;
-    std::string line = std::to_string(run + 1) + "/" + std::to_string(total);
-    for (std::size_t v = 0, stride = total; v < variations.size(); ++v) {
-      stride /= variations[v].values.size();
-      words.push_back(variations[v].values[run / stride % variations[v].values.size()]);
-      all.push_back({variations[v].key, words.back()});
-      line += " " + variations[v].key + "=" + words.back();
+  std::map<std::size_t, RunRow> rows;  // by number of the run
+  const std::map<std::string, std::vector<RunRow>> kept = read_journal(journal);
+  std::vector<std::size_t> groups;  // to be run
+  std::map<std::size_t, std::string> keys;
+  const auto [first, last] = groups_of(plan, part);
+  for (std::size_t group = first; group < last; ++group) {
+    const auto [from, to] = runs_of_group(plan, group);
+    const auto found = kept.find(keys[group] = key_of(plan, group));
+    if (found == kept.end() || found->second.size() != to - from) {
+      groups.push_back(group);
+      continue;
     }
-    try {
-      const Scene scene = read_scene(scene_path, all);
-      Results results = scene.accuracy ? *solve_to_accuracy(scene) : solve_scene(scene, {}, start ? &*start : nullptr);
-      if (!scene.accuracy) estimate(results);
-      if (diagnosed) diagnose(scene, results);
-      start = active_set(results);
-      words.push_back(to_string(results.status));
-      table.add(words, figures(results));
-      worst = std::max(worst, results.status);
-    } catch (const InputError& error) {
-      words.push_back(printable(std::string("bad input: ") + error.what()));
-      table.add(words, {});
-      worst = std::max(worst, Status::check_failed);
+    for (std::size_t run = from; run < to; ++run) {
+      rows[run] = found->second[run - from];
+      report(told(plan, run, rows[run]) + " (kept)");
     }
-    table.write(csv);
-    report(line + ": " + words.back());
   }
-  return worst;
+  if (groups.empty()) write_table(csv, plan.keys, plan.values, rows);
+
+  std::ofstream lines(journal, kept.empty() ? std::ios::trunc : std::ios::app);
+  if (kept.empty()) lines << journal_title << "\n" << std::flush;
+  const auto work = [&](std::size_t index, const Answer& answer) {
+    std::optional<ActiveSet> start;
+    const auto [from, to] = runs_of_group(plan, groups[index]);
+    for (std::size_t run = from; run < to; ++run)
+      answer(std::to_string(run) + " " + line_of(run_one(plan, run, start)));
+  };
+  const auto take = [&](const std::string& line) {
+    const std::size_t run = std::stoul(line), group = group_of(run);
+    const RunRow row = row_in(line.substr(line.find(' ') + 1)).value();
+    rows[run] = row;
+    write_table(csv, plan.keys, plan.values, rows);
+    report(told(plan, run, row));
+    const auto [from, to] = runs_of_group(plan, group);
+    if (run + 1 < to) return;
+    std::string complete;
+    for (std::size_t k = from; k < to; ++k) complete += keys[group] + "\t" + line_of(rows.at(k)) + "\n";
+    lines << complete << std::flush;
+  };
+  if (!share_work(groups.size(), jobs, work, take))
+    throw InputError(csv.string() +
+                     ": a process of the sweep has ended before its runs were complete; the same command goes on "
+                     "with those that are missing");
+  lines.close();
+  fs::remove(journal);
+  return worst_of(rows);
 }
 
 }  // namespace mortise

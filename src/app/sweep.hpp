@@ -3,27 +3,23 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 
-#include "app/solve_scene.hpp"
+#include "app/sweep_plan.hpp"
+#include "results/results.hpp"
 
 namespace mortise {
 
-/// `--vary KEY=V1,V2,...`
-struct Variation {
-  std::string key;
-  std::vector<std::string> values;
-};
+/// Called after each run.
+using SweepReport = std::function<void(const std::string& line)>;
 
-/// Throws InputError if there is no '=' or no value.
-Variation parse_variation(const std::string& text);
-
-/// Runs every combination (the last variation fastest) and writes one CSV row a run after each, atomically. Throws
-/// InputError if `csv` is a file of the scene's, or one that is there and no such table.
-/// A run on the same mesh as the one before starts from its active set.
-/// `diagnosed`: with the inf-sup constant (diagnose). A run that is bad input gets a row that says so; `report` is
-/// called after each run. Returns the worst status of all runs (bad input counts as check_failed).
-Status sweep(const std::string& scene_path, const std::vector<Override>& overrides,
-             const std::vector<Variation>& variations, const std::filesystem::path& csv, bool diagnosed,
-             const std::function<void(const std::string& line)>& report);
+/// Runs a part in `jobs` processes and writes its table, one row a run in the order of the runs, after each; with more
+/// than one job, before anything else has started threads. Runs go in fours: within one, a run on the same mesh as the
+/// one before starts from its active set; so a row does not hang on jobs and parts. Complete fours are kept beside the
+/// table until it is complete: the same sweep, killed and started again, takes them from there. A run that is bad input
+/// gets a row that says so. Returns the worst status of the part's runs (bad input counts as check_failed). Throws
+/// InputError if the table is a file of the scene's, or one that is there and no such table; if a process ends.
+Status sweep(const SweepPlan& plan, const std::filesystem::path& csv, const SweepPart& part, int jobs,
+             const SweepReport& report);
 
 }  // namespace mortise

@@ -163,12 +163,12 @@ RigidCurve MultipointBuilder::make_rigid(const std::string& key, std::vector<int
         inverse_.emplace_back(u, turn, -of_turn);
         inverse_.emplace_back(u, of[c], of_turn);
         if (u != of[k]) {
-          T_.emplace_back(u, u, 1);
+          rows_[u].emplace_back(u, 1);
           constraints_.fixed[u] = 1;
         }
       }
-      T_.emplace_back(u, of[k], 1);
-      T_.emplace_back(u, turn, lever);
+      rows_[u].emplace_back(of[k], 1);
+      rows_[u].emplace_back(turn, lever);
     }
   for (int k = 0; k < 3; ++k)
     if (motion[k]) {
@@ -178,80 +178,86 @@ RigidCurve MultipointBuilder::make_rigid(const std::string& key, std::vector<int
   return curve;
 }
 
+std::array<MultipointBuilder::Axis, 2> MultipointBuilder::axes(int node) const {
+  const int x = 2 * node;
+  if (const auto skew = skew_.find(node); skew != skew_.end()) {
+    const Vec2& d = skew->second.direction;
+    return {Axis{x, d, true}, Axis{x + 1, {-d.y(), d.x()}, false}};
+  }
+  return {Axis{x, Vec2::UnitX(), constraints_.fixed[x] != 0},
+          Axis{x + 1, Vec2::UnitY(), constraints_.fixed[x + 1] != 0}};
+}
+
 void MultipointBuilder::tie(const Tie& tie) {
-  std::map<int, double> area;  // of the tied unknowns
+  std::map<int, double> area;  // of the tied q
+  const auto add = [&](int q, const TiedNode& one, const Vec2& along) {
+    for (const auto& [other, weight] : one.weights)
+      for (int c = 0; c < 2; ++c)
+        if (along(c) != 0) ties_[q].emplace_back(2 * other + c, weight * along(c));
+  };
   for (const TiedNode& one : tie.nodes) {
-    if (rigid_.contains(one.node) || skew_.contains(one.node))
-      refuse(tie.key, one.node,
-             "ties a node that is held along another direction or rigid; expected multipliers_on the other curve");
-    for (int c = 0; c < 2; ++c)
-      if (const int unknown = 2 * one.node + c; !constraints_.fixed[unknown]) {
-        for (const auto& [other, weight] : one.weights) ties_[unknown].emplace_back(2 * other + c, weight);
-        area[unknown] = one.area;
+    if (rigid_.contains(one.node))
+      refuse(tie.key, one.node, "ties a node of a rigid curve; expected multipliers_on the other curve");
+    for (const Axis& axis : axes(one.node))
+      if (!axis.held) {
+        area[axis.q] = one.area;
+        add(axis.q, one, axis.direction);
       }
   }
   for (const TiedNode& one : tie.nodes)
-    for (int c = 0; c < 2; ++c) {
-      const int unknown = 2 * one.node + c, beside = 2 * one.beside + c;
-      if (area.contains(unknown) || !area.contains(beside)) continue;
-      const double part = one.area / area[beside];
-      for (const auto& [other, weight] : one.weights) ties_[beside].emplace_back(2 * other + c, part * weight);
-      ties_[beside].emplace_back(unknown, -part);
-    }
+    for (const Axis& held : axes(one.node))
+      for (const Axis& beside : axes(one.beside)) {
+        const double part =
+            held.held && area.contains(beside.q) ? one.area / area[beside.q] * held.direction.dot(beside.direction) : 0;
+        if (part == 0) continue;
+        add(beside.q, one, part * held.direction);
+        for (int c = 0; c < 2; ++c) ties_[beside.q].emplace_back(2 * one.node + c, -part * held.direction(c));
+      }
 }
 
-// Adds weight * u(unknown) by the q.
-void MultipointBuilder::add_row(int unknown, double weight, int depth, std::map<int, double>& row) const {
-  if (const auto tie = ties_.find(unknown); tie != ties_.end()) {
-    constexpr int deepest = 10;  // ties that follow one another
-    if (depth == deepest)
-      throw SceneError("ties follow one another in a circle " + near_point(place(unknown / 2)) +
-                       "; expected multipliers_on the other curve of one of them");
-    for (const auto& [other, part] : tie->second) add_row(other, weight * part, depth + 1, row);
-    row[unknown] += weight;
-    return;
-  }
-  const auto own = rows_.find(unknown);
-  if (own == rows_.end())
-    row[unknown] += weight;
-  else
-    for (const auto& [q, part] : own->second) row[q] += weight * part;
+void MultipointBuilder::add_row(int u, double weight, int depth, std::map<int, double>& row) const {
+  constexpr int deepest = 10;  // ties that follow one another
+  if (depth > deepest)
+    throw SceneError("ties follow one another in a circle " + near_point(place(u / 2)) +
+                     "; expected multipliers_on the other curve of one of them");
+  const auto take = [&](int q, double part) {
+    row[q] += part;
+    if (const auto tie = ties_.find(q); tie != ties_.end())
+      for (const auto& [other, of_other] : tie->second) add_row(other, part * of_other, depth + 1, row);
+  };
+  const auto own = rows_.find(u);
+  if (own == rows_.end()) return take(u, weight);
+  for (const auto& [q, part] : own->second) take(q, weight * part);
 }
 
 std::map<int, HeldTwice> MultipointBuilder::finish() {
   if (skew_.empty() && rigid_.empty() && ties_.empty()) return std::move(held_twice_);
   const Eigen::Index n = constraints_.value.size();
-  MultipointConstraints multipoint{SparseRows(n, n), SparseRows(n, n), std::vector<char>(n, 0)};
-  for (const auto& [node, skew] : skew_) {
-    const Vec2& d = skew.direction;
-    const int x = 2 * node, y = x + 1;
-    for (auto* entries : {&T_, &inverse_}) {
-      entries->emplace_back(x, x, d.x());
-      entries->emplace_back(y, y, d.x());
-    }
-    T_.emplace_back(x, y, -d.y());
-    T_.emplace_back(y, x, d.y());
-    inverse_.emplace_back(x, y, d.y());
-    inverse_.emplace_back(y, x, -d.y());
+  for (const auto& [node, skew] : skew_)
+    for (const Axis& axis : axes(node))
+      for (int c = 0; c < 2; ++c) {
+        rows_[2 * node + c].emplace_back(axis.q, axis.direction(c));
+        inverse_.emplace_back(axis.q, 2 * node + c, axis.direction(c));
+      }
+  MultipointConstraints multipoint{SparseRows(n, n), SparseRows(n, n), std::vector<char>(n, 0),
+                                   std::vector<char>(n, 0)};
+  for (const auto& [u, row] : rows_) multipoint.coupled[u] = 1;
+  for (const auto& [q, weights] : ties_) {
+    constraints_.fixed[q] = multipoint.tied[q] = 1;
+    if (!rows_.contains(q)) inverse_.emplace_back(q, q, 1);
+    if (!rows_.contains(q)) multipoint.coupled[q] = 1;
+    for (const auto& [other, weight] : weights) inverse_.emplace_back(q, other, -weight);
   }
-  if (!ties_.empty()) {
-    for (const auto& entry : T_) rows_[entry.row()].emplace_back(entry.col(), entry.value());
-    for (const auto& [unknown, weights] : ties_) {
-      constraints_.fixed[unknown] = 1;
-      std::map<int, double> row;
-      add_row(unknown, 1, 0, row);
-      for (const auto& [q, part] : row) T_.emplace_back(unknown, q, part);
-      inverse_.emplace_back(unknown, unknown, 1);
-      for (const auto& [other, weight] : weights) inverse_.emplace_back(unknown, other, -weight);
-    }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int u = 0; u < int(n); ++u) {
+    std::map<int, double> row{{u, 0}};
+    if (multipoint.coupled[u])
+      add_row(u, 1, 0, row);
+    else
+      inverse_.emplace_back(u, u, row[u] = 1);
+    for (const auto& [q, part] : row) entries.emplace_back(u, q, part);
   }
-  for (const auto& entry : T_) multipoint.coupled[entry.row()] = 1;
-  for (int i = 0; i < int(n); ++i)
-    if (!multipoint.coupled[i]) {
-      T_.emplace_back(i, i, 1);
-      inverse_.emplace_back(i, i, 1);
-    }
-  multipoint.T.setFromTriplets(T_.begin(), T_.end());
+  multipoint.T.setFromTriplets(entries.begin(), entries.end());
   multipoint.inverse.setFromTriplets(inverse_.begin(), inverse_.end());
   constraints_.multipoint = std::move(multipoint);
   return std::move(held_twice_);

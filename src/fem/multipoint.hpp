@@ -51,15 +51,22 @@ class MultipointBuilder {
 
   /// Ties nodes to others in the components that nothing else prescribes; after all else. Where one is prescribed, its
   /// multiplier is added to that beside it, so that they still add up to 1 (the end edges of a mortar: Wohlmuth 2000).
-  /// Throws SceneError that begins with the tie's key where a node is held along another direction, or its curve is
-  /// rigid.
+  /// Throws SceneError that begins with the tie's key where the curve is rigid.
   void tie(const Tie& tie);
 
   /// Puts the multi-point constraints, if there are any, into the Constraints. Returns the nodes that are held twice.
   std::map<int, HeldTwice> finish();
 
  private:
-  void add_row(int unknown, double weight, int depth, std::map<int, double>& row) const;
+  // The q of a node's own number.
+  struct Axis {
+    int q;
+    Vec2 direction;
+    bool held;
+  };
+  std::array<Axis, 2> axes(int node) const;
+  // Adds weight * u by the q.
+  void add_row(int u, double weight, int depth, std::map<int, double>& row) const;
   Vec2 place(int node) const { return mesh_.nodes.row(node).transpose(); }
   void require_same_motion(const std::string& key, int node, const Vec2& lever, const PrescribedMotion& motion) const;
   [[noreturn]] void refuse(const std::string& key, int node, const std::string& why) const;
@@ -72,10 +79,11 @@ class MultipointBuilder {
   };
   std::map<int, Skew> skew_;  // of nodes that are held in one direction, neither x nor y
   std::map<int, HeldTwice> held_twice_;
-  std::set<int> rigid_;                                      // nodes
-  std::map<int, std::vector<std::pair<int, double>>> ties_;  // unknowns by others
-  std::vector<Eigen::Triplet<double>> T_, inverse_;
-  std::map<int, std::vector<std::pair<int, double>>> rows_;  // of T_, while ties are added
+  std::set<int> rigid_;  // nodes
+  using Weights = std::vector<std::pair<int, double>>;
+  std::map<int, Weights> rows_;  // of T without the ties, by u: those that are not q of their own number
+  std::map<int, Weights> ties_;  // of q, by u
+  std::vector<Eigen::Triplet<double>> inverse_;
 };
 
 }  // namespace mortise

@@ -19,24 +19,6 @@ bool is_number(const std::string& word) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-/// Quoted where a plain field would be read as something else (RFC 4180; the semicolon parts fields in some countries).
-/// A spreadsheet takes what starts with = + - @ for a formula: an apostrophe before it says that it is text (OWASP,
-/// "CSV injection").
-void append_word(std::string& text, const std::string& word) {
-  const bool formula = !word.empty() && std::string_view("=+-@\t\r").find(word[0]) != std::string_view::npos;
-  const std::string field = formula && !is_number(word) ? "'" + word : word;
-  if (field.find_first_of(",;\"\t\r\n") == std::string::npos && field == word) {
-    text += word;
-    return;
-  }
-  text += '"';
-  for (const char c : field) {
-    if (c == '"') text += '"';
-    text += c;
-  }
-  text += '"';
-}
-
 void append_number(std::string& text, double number) {
   if (std::isnan(number)) return;
   std::array<char, 32> digits{};
@@ -50,7 +32,7 @@ std::string table_text(const std::vector<CsvColumn>& columns) {
   std::string text;
   for (std::size_t j = 0; j < columns.size(); ++j) {
     if (j > 0) text += ',';
-    append_word(text, columns[j].name);
+    text += csv_field(columns[j].name);
   }
   text += '\n';
   const std::size_t rows = columns.empty() ? 0 : row_count(columns.front());
@@ -61,7 +43,7 @@ std::string table_text(const std::vector<CsvColumn>& columns) {
       if (column.words.empty()) {
         append_number(text, column.numbers[i]);
       } else {
-        append_word(text, column.words[i]);
+        text += csv_field(column.words[i]);
       }
     }
     text += '\n';
@@ -70,6 +52,21 @@ std::string table_text(const std::vector<CsvColumn>& columns) {
 }
 
 }  // namespace
+
+// Quoted where a plain field would be read as something else (RFC 4180; the semicolon parts fields in some countries).
+// A spreadsheet takes what starts with = + - @ for a formula: an apostrophe before it says that it is text (OWASP,
+// "CSV injection").
+std::string csv_field(const std::string& word) {
+  const bool formula = !word.empty() && std::string_view("=+-@\t\r").find(word[0]) != std::string_view::npos;
+  const std::string field = formula && !is_number(word) ? "'" + word : word;
+  if (field.find_first_of(",;\"\t\r\n") == std::string::npos && field == word) return word;
+  std::string quoted = "\"";
+  for (const char c : field) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
 
 void write_csv(const std::filesystem::path& path, const std::vector<CsvColumn>& columns) {
   for ([[maybe_unused]] const CsvColumn& column : columns) {

@@ -14,6 +14,9 @@ struct CsvColumn {
   std::vector<double> numbers;
 };
 
+/// A word as it stands in a table.
+std::string csv_field(const std::string& word);
+
 /// All columns have the same length. A word that a spreadsheet would take for a formula gets an apostrophe before it.
 /// Throws InputError if the file cannot be written.
 void write_csv(const std::filesystem::path& path, const std::vector<CsvColumn>& columns);

@@ -142,6 +142,24 @@ std::vector<fs::path> geo_inputs(const fs::path& file) {
   return files;
 }
 
+std::optional<std::vector<fs::path>> geo_sources(const fs::path& file) {
+  constexpr std::array outward{
+      "GetEnv",       "GetValue",   "GetStringValue", "GetNumber",       "GetString", "Today",      "Rand",
+      "Cpu",          "Memory",     "TotalMemory",    "CurrentFileName", "DirName",   "CurrentDir", "CurrentDirectory",
+      "AbsolutePath", "FileExists", "FileName",       "ListFromFile"};
+  bool closed = true;
+  std::set<fs::path> seen;
+  try {
+    for_each_text(file, seen, [&](const GeoText& geo) {
+      check_no_programs(geo);
+      for (const char* word : outward) closed = closed && ends_of_word(geo.code, word).empty();
+    });
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  return closed ? std::optional(geo_inputs(file)) : std::nullopt;
+}
+
 void check_geo(const fs::path& file, const std::map<std::string, double>& values, bool programs) {
   const std::vector<GeoParameter> known = geo_parameters(file);
   std::vector<std::string> names;

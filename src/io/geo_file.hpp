@@ -25,6 +25,10 @@ std::vector<GeoParameter> geo_parameters(const std::filesystem::path& file);
 /// `file` and all files that it reads by Include or Merge with plain names, themselves or through one another.
 std::vector<std::filesystem::path> geo_inputs(const std::filesystem::path& file);
 
+/// geo_inputs, if the mesh of `file` depends on nothing but them: empty where it runs programs or writes files, reads
+/// files by names that are not plain or by other commands, or asks for the date, the environment or random numbers.
+std::optional<std::vector<std::filesystem::path>> geo_sources(const std::filesystem::path& file);
+
 /// Throws InputError unless all `values` are finite, of parameters that the .geo has, and in the ranges it gives.
 /// Without `programs` also, with the line, at the first command that runs a program or writes a file
 /// (geo_programs.hpp).

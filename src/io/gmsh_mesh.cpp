@@ -9,6 +9,7 @@
 #include "io/gmsh_guard.hpp"
 #include "io/gmsh_module.hpp"
 #include "io/inp_file.hpp"
+#include "io/mesh_cache.hpp"
 #include "io/mesh_groups.hpp"
 #include "io/msh_file.hpp"
 #include "io/set_mesh.hpp"
@@ -52,10 +53,18 @@ void check_mesh_file(const std::string& file, const std::map<std::string, double
   }
 }
 
-Mesh load_mesh(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits) {
+Mesh load_mesh(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits,
+               bool* cached) {
   check_mesh_file(file, parameters, limits);
   if (!is_geo(file)) return assemble_mesh(read_mesh_file(file));
-  return assemble_mesh(mesh_geo(file, parameters, limits));
+  const auto key = [&] { return mesh_cache_on() ? mesh_key(file, parameters) : std::nullopt; };
+  const std::optional<std::string> before = key();
+  std::optional<MeshData> kept = before ? cached_mesh(*before) : std::nullopt;
+  MeshData data = kept ? *std::move(kept) : mesh_geo(file, parameters, limits);
+  if (before && !kept && key() == before) keep_mesh(*before, gmsh_module().files(), data);
+  data.file = file;
+  if (cached) *cached = kept.has_value();
+  return assemble_mesh(std::move(data));
 }
 
 }  // namespace mortise

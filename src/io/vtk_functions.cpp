@@ -20,6 +20,7 @@
 
 #include "base/errors.hpp"
 #include "io/vtk_module.hpp"
+#include "io/vtu.hpp"
 
 namespace mortise {
 namespace {

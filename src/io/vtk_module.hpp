@@ -1,9 +1,11 @@
 // What is done by VTK, in a shared object of its own that is loaded when the first file is written. No VTK header here.
 #pragma once
 
-#include "io/vtu.hpp"
+#include <filesystem>
 
 namespace mortise {
+
+struct VtuGrid;
 
 struct VtkModule {
   void (*write)(const std::filesystem::path& path, const VtuGrid& grid);  ///< write_vtu

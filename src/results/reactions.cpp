@@ -14,15 +14,15 @@ struct NodalForces {
   VecX supports, ties;
 };
 
-NodalForces nodal_forces(const SaddlePointSystem& s, const std::vector<Tie>& ties, const Solution& solution) {
+NodalForces nodal_forces(const SaddlePointSystem& s, const Solution& solution) {
   const VecX residual = s.K.selfadjointView<Eigen::Lower>() * solution.u + s.B.transpose() * solution.lambda - s.f;
-  std::vector<char> held = s.constraints.fixed, tied(held.size(), 0);
-  for (const Tie& tie : ties)
-    for (const TiedNode& one : tie.nodes)
-      for (const int unknown : {2 * one.node, 2 * one.node + 1})
-        if (s.constraints.multipoint->coupled[unknown]) std::swap(held[unknown], tied[unknown]);
+  const auto& multipoint = s.constraints.multipoint;
+  if (!multipoint)
+    return {constraint_forces(s.constraints, s.constraints.fixed, residual), VecX::Zero(residual.size())};
+  std::vector<char> held = s.constraints.fixed;
+  for (std::size_t q = 0; q < held.size(); ++q) held[q] = held[q] && !multipoint->tied[q];
   return {constraint_forces(s.constraints, held, residual),
-          ties.empty() ? VecX::Zero(residual.size()) : constraint_forces(s.constraints, tied, residual)};
+          constraint_forces(s.constraints, multipoint->tied, residual)};
 }
 
 // Adds up the reactions, each once: what has been added is 0 in `left`.
@@ -99,7 +99,7 @@ Resultant sum_of_loads(const Mesh& mesh, const Discretisation& d) {
 
 Reactions find_reactions(const Scene& scene, const Mesh& mesh, const Discretisation& d, const Solution& solution) {
   Reactions r;
-  const NodalForces forces = nodal_forces(d.system, mesh.ties, solution);
+  const NodalForces forces = nodal_forces(d.system, solution);
   r.nodal = forces.supports;
   const VecX of_springs = spring_forces(d, solution.u);
   Collector collector(mesh, r.nodal, d.multipoint.held_twice), springs(mesh, of_springs, {});

@@ -51,6 +51,7 @@ struct AccuracyReport {
 struct Results {
   Status status = Status::solved;
   Mesh mesh;
+  bool mesh_cached = false;  ///< whether it was not made now, but kept from an earlier run
   BodyPoints points;
   Discretisation discretisation;  ///< held motions (validate.hpp) count as prescribed
   std::vector<ContactPair> pairs;

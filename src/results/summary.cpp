@@ -250,7 +250,8 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
            {{"nodes", r.mesh.nodes.rows()},
             {"elements", r.mesh.cells.size()},
             {"dofs", free_unknowns(r)},
-            {"multipliers", r.solution.lambda.size()}}},
+            {"multipliers", r.solution.lambda.size()},
+            {"cached", r.mesh_cached}}},
           {"seconds",
            {{"mesh", s.mesh},
             {"assemble", s.assemble},
@@ -306,9 +307,10 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
     out << "  warning   " << r.warnings[i] << "\n";
   if (r.warnings.size() > 5) out << "  warning   " << r.warnings.size() - 5 << " more in summary.json\n";
   const Seconds& s = r.seconds;
-  out << std::fixed << std::setprecision(3) << "  seconds   mesh " << s.mesh << ", assemble " << s.assemble
-      << ", couple " << s.couple << ", factorise " << s.factorise << ", solve " << s.solve << ", recover " << s.recover
-      << ", estimate " << s.estimate << ", write " << s.write << "; total " << s.total() << "\n";
+  out << std::fixed << std::setprecision(3) << "  seconds   mesh " << s.mesh << (r.mesh_cached ? " (cached)" : "")
+      << ", assemble " << s.assemble << ", couple " << s.couple << ", factorise " << s.factorise << ", solve "
+      << s.solve << ", recover " << s.recover << ", estimate " << s.estimate << ", write " << s.write << "; total "
+      << s.total() << "\n";
   out << "  " << to_string(r.status) << "; results in " << folder.string() << "/ (result.vtu opens in ParaView)\n";
   return out.str();
 }

@@ -128,8 +128,9 @@ TEST(SolveMssor, TheSummarySaysHow) {
 TEST(SolveMssor, ASweepVariesItsParameters) {
   const TemporaryFolder folder;
   const std::string csv = folder.path("sweep.csv");
-  sweep(scene_file("patch_flat"), mssor({}), {{"method.omega", {"0.8", "1.3"}}, {"method.tau", {"0.5", "1"}}}, csv,
-        false, [](const std::string&) {});
+  sweep(plan_sweep(scene_file("patch_flat"), mssor({}),
+                   {{"method.omega", {"0.8", "1.3"}}, {"method.tau", {"0.5", "1"}}}, false),
+        csv, {}, 1, [](const std::string&) {});
   std::ifstream file(csv);
   std::string line;
   std::getline(file, line);

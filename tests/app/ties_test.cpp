@@ -1,6 +1,10 @@
 // Bodies that are one where their meshes do not match: patch tests, turns without strain, and every solver.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <numbers>
+#include <sstream>
+
 #include "app/solve_scene.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
@@ -84,6 +88,55 @@ method.solver = )toml";
 }
 
 // Two rings whose common circle has different polygons: a turn strains nothing, and forces have no moment left.
+// The same plate turned, on an inclined line of symmetry that ends the tie.
+TEST(Ties, EndOnSupportsAlongAnyDirection) {
+  const auto plate = [](double degrees, const std::string& held) {
+    const TemporaryFolder folder;
+    const Eigen::Rotation2Dd turn(degrees * std::numbers::pi / 180);
+    const Vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 0}, {2, 0}, {2, 1}, {1, 1}};
+    std::ostringstream geo;
+    geo.precision(17);
+    for (int i = 0; i < 8; ++i) {
+      const Vec2 x = turn * corners[i];
+      geo << "Point(" << i + 1 << ") = {" << x.x() << ", " << x.y() << ", 0};\n";
+    }
+    for (int i = 0; i < 8; ++i)
+      geo << "Line(" << i + 1 << ") = {" << i + 1 << ", " << (i % 4 == 3 ? i - 2 : i + 2) << "};\n";
+    geo << R"(
+Mesh.ElementOrder = 2;
+Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1};
+Curve Loop(2) = {5 : 8}; Plane Surface(2) = {2};
+Transfinite Curve{1, 3} = 4; Transfinite Curve{2, 4} = 5; Transfinite Curve{5, 7} = 4; Transfinite Curve{6, 8} = 7;
+Transfinite Surface{1, 2};
+Physical Surface("a") = {1}; Physical Surface("b") = {2};
+Physical Curve("bottom") = {1, 5}; Physical Curve("left") = {4}; Physical Curve("right") = {6};
+Physical Curve("a_tie") = {2}; Physical Curve("b_tie") = {8};
+)";
+    folder.write("plate.geo", geo.str());
+    const Vec2 n = turn * Vec2::UnitY();
+    std::ostringstream across;
+    across.precision(17);
+    across << n.x() << " * x + " << n.y() << " * y";
+    return solve_scene(
+        read_scene(folder.write("scene.toml",
+                                "mesh.file = \"plate.geo\"\nmaterials.m = { young = 1000, poisson = 0.3 }\n"
+                                "bodies = { a = \"m\", b = \"m\" }\n"
+                                "contact = [{ between = [\"a_tie\", \"b_tie\"], condition = \"tied\" }]\n"
+                                "boundary = [" +
+                                    held + ", { on = \"right\", pressure = \"-1 - (" + across.str() + ")^2\" }]\n")));
+  };
+  const Results straight =
+      plate(0, R"({ on = "bottom", displacement = { y = 0 } }, { on = "left", displacement = { x = 0 } })");
+  const Results turned =
+      plate(40, R"({ on = "bottom", displacement = { normal = 0 } }, { on = "left", displacement = { normal = 0 } })");
+  EXPECT_EQ(turned.status, Status::solved);
+  EXPECT_NEAR(turned.energy, straight.energy, 1e-9 * straight.energy);
+  const Eigen::Rotation2Dd turn(40 * std::numbers::pi / 180);
+  for (int i = 0; i < 2; ++i)
+    EXPECT_LE((turned.reactions.entries[i].force - turn * straight.reactions.entries[i].force).norm(), 1e-9) << i;
+  EXPECT_LE((turned.reactions.ties[0].force - turn * straight.reactions.ties[0].force).norm(), 1e-9);
+}
+
 TEST(Ties, OnACircleTurnWithoutStrain) {
   const TemporaryFolder folder;
   folder.write("rings.geo", R"(

@@ -51,9 +51,9 @@ def describe(path):
 
 
 def environment(reports):
-    """One thread for each call; sanitizers end it with an exit status of their own and report to a file: while gmsh
-    works standard error is not the caller's."""
-    chosen = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1",
+    """One thread for each call, no meshes in the user's cache; sanitizers end a call with an exit status of their own and
+    report to a file: while gmsh works standard error is not the caller's."""
+    chosen = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "XDG_CACHE_HOME": "/proc/none",
               "ASAN_OPTIONS": f"detect_leaks=0:exitcode=99:log_path={reports}/report",
               "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1:exitcode=99"}  # fmt: skip
     return os.environ | chosen

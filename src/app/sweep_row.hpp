@@ -1,0 +1,34 @@
+// One run of a sweep: its status and figures, as a row of a table and as a line of text.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "results/results.hpp"
+
+namespace mortise {
+
+struct RunRow {
+  std::string status;                                   ///< a word, or "bad input: " and a message
+  std::vector<std::pair<std::string, double>> figures;  ///< by column
+};
+
+RunRow row_of(const Results& results);
+
+/// solved, not_converged or check_failed, as bad input counts.
+Status status_of(const RunRow& row);
+
+/// One line without its end, that row_in reads again bit for bit; nothing if it is not whole.
+std::string line_of(const RunRow& row);
+std::optional<RunRow> row_in(const std::string& line);
+
+/// Writes rows by number, each behind its values of the varied keys, atomically. Columns stand in the order in which
+/// they first appear; what a run does not have stays empty.
+void write_table(const std::filesystem::path& path, const std::vector<std::string>& keys,
+                 const std::vector<std::vector<std::string>>& values, const std::map<std::size_t, RunRow>& rows);
+
+}  // namespace mortise

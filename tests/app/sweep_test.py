@@ -1,0 +1,130 @@
+"""mortise sweep by several processes and in parts: the rows of one process; killed, it goes on.
+
+Usage: sweep_test.py MORTISE
+"""
+
+import csv
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+SCENE = Path(__file__).resolve().parents[2] / "geo/lift_off.toml"
+PRESSURES = "1e6,1.01e6,1.02e6,1.03e6,1.04e6,-1e6x,1.06e6,1.07e6,1.08e6,1.09e6"  # the sixth is bad input
+
+
+def command(mortise, *arguments):
+    return [mortise, "sweep", SCENE, "--vary", f"boundary.2.pressure={PRESSURES}", *map(str, arguments)]
+
+
+def sweep(mortise, *arguments, status=2):
+    done = subprocess.run(command(mortise, *arguments), capture_output=True, text=True, timeout=120)
+    assert done.returncode == status, (arguments, done.returncode, done.stderr)
+    return done.stderr
+
+
+def rows(path):
+    """All but the seconds, which no two runs share."""
+    with open(path, newline="") as file:
+        table = list(csv.DictReader(file))
+    return [{key: value for key, value in row.items() if not key.startswith("seconds.")} for row in table]
+
+
+def test_jobs(mortise, folder, whole):
+    sweep(mortise, "--jobs", 2, "-o", folder / "jobs.csv")
+    assert rows(folder / "jobs.csv") == whole
+    sweep(mortise, "--jobs", 64, "-o", folder / "many.csv")
+    assert rows(folder / "many.csv") == whole
+
+
+def test_parts(mortise, folder, whole):
+    table = folder / "parts.csv"
+    for part in (1, 2, 3):
+        sweep(mortise, "--part", f"{part}/3", "-o", table, status=2 if part == 2 else 0)
+    said = sweep(mortise, "--join", 4, "-o", table, status=1)
+    assert "parts.1_of_4.csv, part 1 of 4: no such file" in said, said
+    sweep(mortise, "--join", 3, "-o", table)
+    assert rows(table) == whole
+    # The text of the whole: its rows one after the other, with the header of the first part that has figures.
+    texts = [(folder / f"parts.{part}_of_3.csv").read_text().splitlines() for part in (1, 2, 3)]
+    assert table.read_text().splitlines() == texts[0] + texts[1][1:] + texts[2][1:]
+    # A part that is not complete, and one of another sweep.
+    second = folder / "parts.2_of_3.csv"
+    lines = second.read_text().splitlines(keepends=True)
+    second.write_text("".join(lines[:-1]))
+    said = sweep(mortise, "--join", 3, "-o", table, status=1)
+    assert "part 2 of 3: 3 of its 4 runs are complete" in said, said
+    second.write_text("".join(lines).replace("1.04e6", "1.5e6"))
+    said = sweep(mortise, "--join", 3, "-o", table, status=1)
+    assert "is of another sweep" in said, said
+    assert rows(table) == whole, "an error leaves the table standing"
+
+
+def test_more_parts_than_runs(mortise, folder, whole):
+    for part in range(1, 8):
+        subprocess.run(command(mortise, "--part", f"{part}/7", "-o", folder / "few.csv", "--quiet"), check=False)
+    sweep(mortise, "--join", 7, "-o", folder / "few.csv")
+    assert rows(folder / "few.csv") == whole
+
+
+def test_killed(mortise, folder, whole, jobs):
+    table = folder / f"killed_{jobs}.csv"
+    journal = folder / f".killed_{jobs}.csv.runs"
+    running = subprocess.Popen(command(mortise, "--jobs", jobs, "-o", table), stderr=subprocess.DEVNULL)
+    limit = time.monotonic() + 60
+    while running.poll() is None and time.monotonic() < limit:
+        if journal.exists() and len(journal.read_text().splitlines()) > 4:
+            break
+        time.sleep(0.002)
+    running.send_signal(signal.SIGKILL)
+    killed = running.wait() == -signal.SIGKILL
+    said = sweep(mortise, "--jobs", jobs, "-o", table)
+    assert not killed or said.count("(kept)") >= 4, said
+    assert rows(table) == whole
+    assert not journal.exists()
+    said = sweep(mortise, "-o", table)
+    assert "(kept)" not in said, "what is complete is run anew"
+
+
+def test_a_process_that_ends(mortise, folder):
+    """Its own line, then one that says how to go on; no worker is left."""
+    running = subprocess.Popen(command(mortise, "--jobs", 2, "-o", folder / "ended.csv"), stderr=subprocess.PIPE, text=True)
+    workers = []
+    while running.poll() is None and not workers:
+        children = Path(f"/proc/{running.pid}/task/{running.pid}/children").read_text().split()
+        workers = [int(child) for child in children]
+    os.kill(workers[0], signal.SIGKILL)
+    said = running.communicate(timeout=60)[1]
+    assert running.returncode == 1 and "the same command goes on" in said, said
+    assert not any(Path(f"/proc/{worker}").exists() for worker in workers)
+
+
+def test_words(mortise, folder):
+    for part in ("0/2", "3/2", "1", "1/x", "1/2/3", "/"):
+        said = sweep(mortise, "--part", part, "-o", folder / "no.csv", status=1)
+        assert f"--part '{part}': expected K/N" in said, said
+    sweep(mortise, "--part", "1/2", "--join", 2, status=1)
+    sweep(mortise, "--jobs", 0, status=1)
+
+
+def main(mortise):
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        os.environ["XDG_CACHE_HOME"] = name
+        sweep(mortise, "-o", folder / "whole.csv")
+        whole = rows(folder / "whole.csv")
+        assert [row["status"][:9] for row in whole] == ["solved"] * 5 + ["bad input"] + ["solved"] * 4, whole
+        test_jobs(mortise, folder, whole)
+        test_parts(mortise, folder, whole)
+        test_more_parts_than_runs(mortise, folder, whole)
+        for jobs in (1, 2):
+            test_killed(mortise, folder, whole, jobs)
+        test_a_process_that_ends(mortise, folder)
+        test_words(mortise, folder)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
