@@ -285,6 +285,9 @@ int parse_and_run(int argc, const char* const* argv) {
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv) {
+  struct CacheOff {  // as a library has it
+    ~CacheOff() { set_mesh_cache(false); }
+  } const cache_off;
   const PrintableStream out(std::cout);
   const PrintableStream err(std::cerr);
   const auto refuse = [](const std::string& line) {
