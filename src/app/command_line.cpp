@@ -24,6 +24,7 @@
 #include "results/model_summary.hpp"
 #include "results/summary.hpp"
 #include "results/write_results.hpp"
+#include "solve/dense_kernel.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -218,14 +219,14 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
   command->add_flag("--no-cache", options.no_cache, "mesh a .geo anew, and do not keep its mesh for later runs");
   command
       ->add_option("--threads", options.threads,
-                   "threads of the factorisation (default: all cores for large meshes, else 1)")
+                   "threads: of bodies beside each other, and of a factorisation alone (default: all cores; 1)")
       ->check(CLI::Range(1, 1024));
   return command;
 }
 
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App app("Two-dimensional frictionless contact of linear-elastic bodies on meshes that do not match.");
-  app.set_version_flag("--version", std::string("mortise ") + MORTISE_VERSION);
+  app.set_version_flag("--version", std::string("mortise ") + MORTISE_VERSION + "\n" + dense_kernel());
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 solved and all checks hold; 1 bad input; 2 a check fails or no convergence; 3 internal error.");

@@ -12,6 +12,7 @@
 #include "results/diagnose.hpp"
 #include "results/error_report.hpp"
 #include "results/model_summary.hpp"
+#include "solve/dense_kernel.hpp"
 
 namespace mortise {
 namespace {
@@ -235,6 +236,7 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
   return {{"title", scene.title},
           {"scene", scene.path},
           {"version", MORTISE_VERSION},
+          {"dense_kernel", dense_kernel()},
           {"status", to_string(r.status)},
           {"model", model_json(scene, r.mesh, r.discretisation, r.reactions)},
           {"method",

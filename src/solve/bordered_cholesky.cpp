@@ -1,41 +1,16 @@
 #include "solve/bordered_cholesky.hpp"
 
-#include <amd.h>
 #include <cholmod.h>
 
+#include <new>
 #include <stdexcept>
 
+#include "base/errors.hpp"
+#include "solve/block_order.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
 namespace {
-
-// Approximate minimum degree on the graph of blocks (nodes) of K, the border last.
-std::vector<int> ordering(const SparseMatrix& matrix, const std::vector<int>& blocks) {
-  const int n = int(blocks.size()), block_count = blocks.empty() ? 0 : blocks.back() + 1;
-  std::vector<int> first_of(block_count + 1, n), start{0}, row;
-  row.reserve(1);  // AMD wants an address also where nothing is coupled
-  for (int i = n - 1; i >= 0; --i) first_of[blocks[i]] = i;
-  for (int b = 0; b < block_count; ++b) {
-    const int column = first_of[b];
-    for (SparseMatrix::InnerIterator it(matrix, column); it; ++it) {
-      const int r = blocks[it.row()];
-      if (r < b && (int(row.size()) == start.back() || row.back() != r)) row.push_back(r);
-    }
-    start.push_back(int(row.size()));
-  }
-  std::vector<int> block_order(block_count + 1);
-  if (amd_order(block_count, start.data(), row.data(), block_order.data(), nullptr, nullptr) < AMD_OK)
-    throw std::runtime_error("AMD ordering failed");
-  std::vector<int> order;
-  order.reserve(matrix.cols());
-  for (int k = 0; k < block_count; ++k) {
-    const int b = block_order[k];
-    for (int i = first_of[b]; i < first_of[b + 1]; ++i) order.push_back(i);
-  }
-  for (int r = n; r < int(matrix.cols()); ++r) order.push_back(r);
-  return order;
-}
 
 cholmod_sparse view(SparseMatrix& A) {
   cholmod_sparse s{};
@@ -138,8 +113,10 @@ struct BorderedCholesky::Factor {
   }
 };
 
-BorderedCholesky::BorderedCholesky(SparseMatrix matrix, const std::vector<int>& blocks)
+BorderedCholesky::BorderedCholesky(SparseMatrix&& given, const std::vector<int>& blocks)
     : factor_(std::make_unique<Factor>()) {
+  SparseMatrix matrix;
+  matrix.swap(given);  // Eigen 3.4 has no move: it would copy
   Factor& f = *factor_;
   f.n = int(blocks.size());
   f.m = int(matrix.cols()) - f.n;
@@ -150,18 +127,23 @@ BorderedCholesky::BorderedCholesky(SparseMatrix matrix, const std::vector<int>& 
   c.nmethods = 1;
   c.method[0].ordering = CHOLMOD_GIVEN;
   c.print = 0;
-  std::vector<int> order = ordering(matrix, blocks);
+  std::vector<int> order = block_order(matrix, blocks);
+  for (int r = f.n; r < int(matrix.cols()); ++r) order.push_back(r);  // the border last
   cholmod_sparse A = view(matrix);
   f.L = cholmod_analyze_p(&A, order.data(), nullptr, 0, &c);
-  if (!f.L) throw std::runtime_error("CHOLMOD could not analyse the matrix: out of memory or too large");
-  apply_solver_threads(c.fl);
+  if (c.status == CHOLMOD_TOO_LARGE)
+    throw InputError(
+        "the factor of a body has more than 2^31 entries, as from about ten million unknowns on: the mesh is "
+        "too large");
+  if (!f.L) throw std::bad_alloc();
+  apply_solver_threads();
   cholmod_factorize(&A, f.L, &c);
   if (c.status == CHOLMOD_NOT_POSDEF) {
     f.failed_at = f.perm()[f.L->minor];
     return;
   }
-  if (c.status < CHOLMOD_OK) throw std::runtime_error("CHOLMOD could not factorise the matrix: out of memory");
-  matrix = SparseMatrix();
+  if (c.status < CHOLMOD_OK) throw std::bad_alloc();
+  SparseMatrix().swap(matrix);
 
   MatX product;
   f.for_each_border_block([&](const BorderBlock& block) {

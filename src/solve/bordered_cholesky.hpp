@@ -26,10 +26,10 @@ inline constexpr double border_beta = 1e20;
 class BorderedCholesky {
  public:
   /// `matrix` is the upper triangle of [K B^T; B beta I] (which spares CHOLMOD a transposition): n columns of K, then
-  /// the columns of B^T with border_beta below them. K and the rows of B are of about unit size. It is freed once
-  /// factorised.
+  /// the columns of B^T with border_beta below them. K and the rows of B are of about unit size. It is taken, and
+  /// freed once factorised.
   /// `blocks` groups the n unknowns that share a node (ascending, 0, 0, 1, 1, 2, ...): ordered together.
-  BorderedCholesky(SparseMatrix matrix, const std::vector<int>& blocks);
+  BorderedCholesky(SparseMatrix&& matrix, const std::vector<int>& blocks);
   ~BorderedCholesky();
   BorderedCholesky(BorderedCholesky&&) noexcept;
 

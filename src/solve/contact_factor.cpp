@@ -5,7 +5,7 @@
 
 namespace mortise {
 
-DirectFactor::DirectFactor(const SaddlePointSystem& system, std::vector<int> free, BorderedCholesky factor,
+DirectFactor::DirectFactor(const SaddlePointSystem& system, std::vector<int> free, SplitCholesky factor,
                            MultiplierSystem multipliers)
     : row_scale_(system.row_scale),
       stiffness_scale_(system.stiffness_scale),
@@ -17,7 +17,7 @@ DirectFactor::DirectFactor(const SaddlePointSystem& system, std::vector<int> fre
 
 MatX DirectFactor::duals(const MatX& functionals, const MatX& loads) const {
   const Eigen::Index rows = functionals.rows(), count = functionals.cols(), without_load = count - loads.cols();
-  MatX multipliers(rows + springs_, count), y = MatX::Zero(Eigen::Index(free_.size()) + rows + springs_, count);
+  MatX multipliers(rows + springs_, count), y = MatX::Zero(factor_.size(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     VecX rhs = VecX::Zero(rows + springs_);
     if (k >= without_load) {
@@ -41,7 +41,7 @@ std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& 
   if (const auto& multipoint = s.constraints.multipoint)
     return std::make_shared<MultipointFactor>(multipoint->T, factorise_contact(independent_system(s), closed));
   BorderedSystem reduced = bordered_system(s);
-  BorderedCholesky factor(std::move(reduced.matrix), reduced.blocks);
+  SplitCholesky factor(std::move(reduced.matrix), reduced.blocks);
   std::vector<int> rows;
   for (int a = 0; a < int(closed.size()); ++a)
     if (closed[a]) rows.push_back(a);

@@ -1,9 +1,9 @@
 // The factor of a contact problem whose closed rows are known: what it answers to other weighted gaps.
 #pragma once
 
-#include "solve/bordered_cholesky.hpp"
 #include "solve/multiplier_system.hpp"
 #include "solve/saddle_point_system.hpp"
+#include "solve/split_cholesky.hpp"
 
 namespace mortise {
 
@@ -22,7 +22,7 @@ class ContactFactor {
 class DirectFactor : public ContactFactor {
  public:
   /// `free`: the unknowns of `factor`; `multipliers`: of the closed rows.
-  DirectFactor(const SaddlePointSystem& system, std::vector<int> free, BorderedCholesky factor,
+  DirectFactor(const SaddlePointSystem& system, std::vector<int> free, SplitCholesky factor,
                MultiplierSystem multipliers);
 
   MatX duals(const MatX& functionals, const MatX& loads = {}) const override;
@@ -32,7 +32,7 @@ class DirectFactor : public ContactFactor {
   double stiffness_scale_;
   Eigen::Index unknowns_, springs_;
   std::vector<int> free_;
-  BorderedCholesky factor_;
+  SplitCholesky factor_;
   MultiplierSystem multipliers_;
 };
 

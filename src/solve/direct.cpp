@@ -21,7 +21,7 @@ Solution solve_directly(const SaddlePointSystem& s) {
   Stopwatch watch;
   const Eigen::Index m = s.B.rows();
   BorderedSystem reduced = bordered_system(s);
-  BorderedCholesky factor(std::move(reduced.matrix), reduced.blocks);
+  SplitCholesky factor(std::move(reduced.matrix), reduced.blocks);
   const std::vector<int>& free = reduced.free;
   if (factor.failed_at() >= 0) {
     solution.status = SolveStatus::not_positive_definite;

@@ -47,7 +47,7 @@ const std::vector<Foreign> foreigners{
     {"AMD", R"((.*/)?amd\.h)", "solve", true},   {"nlohmann-json", R"(nlohmann/.*)", "results", false},
     {"PETSc", R"(petsc.*)", "ddm", true},        {"MPI", R"(mpi\.h)", "ddm", true},
     {"CLI11", R"(CLI/.*)", "app", false},        {"toml++", R"(toml\+\+.*)", "scene", true},
-    {"muParser", R"(muParser.*)", "base", true},
+    {"muParser", R"(muParser.*)", "base", true}, {"METIS", R"((.*/)?metis\.h)", "solve", true},
 };
 
 const Names top_level{

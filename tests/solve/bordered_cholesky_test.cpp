@@ -7,6 +7,7 @@
 #include <random>
 
 #include "solve/bordered_system.hpp"
+#include "solve/split_cholesky.hpp"
 
 namespace mortise {
 namespace {
@@ -27,7 +28,18 @@ Dense random_dense(int nodes, int m, unsigned seed) {
   return d;
 }
 
-BorderedCholesky factor_of(const Dense& d) {
+// A factor for each part of K, however small.
+struct SplitAlways : SplitCholesky {
+  SplitAlways(SparseMatrix matrix, const std::vector<int>& blocks) : SplitCholesky(std::move(matrix), blocks, 0) {}
+};
+
+template <typename Cholesky>
+class BorderedFactor : public testing::Test {};
+using Factors = testing::Types<BorderedCholesky, SplitCholesky, SplitAlways>;
+TYPED_TEST_SUITE(BorderedFactor, Factors);
+
+template <typename Cholesky>
+Cholesky factor_of(const Dense& d) {
   const Eigen::Index n = d.K.rows(), m = d.B.rows();
   MatX bordered = MatX::Zero(n + m, n + m);
   bordered.topLeftCorner(n, n) = d.K.triangularView<Eigen::Upper>();
@@ -35,21 +47,21 @@ BorderedCholesky factor_of(const Dense& d) {
   bordered.bottomRightCorner(m, m).diagonal().setConstant(border_beta);
   std::vector<int> blocks;
   for (int i = 0; i < int(n); ++i) blocks.push_back(i / 2);
-  return BorderedCholesky(bordered.sparseView(), blocks);
+  return Cholesky(bordered.sparseView(), blocks);
 }
 
-TEST(BorderedCholesky, ItsByProductIsTheBordersCompliance) {
+TYPED_TEST(BorderedFactor, ItsByProductIsTheBordersCompliance) {
   for (const int m : {1, 5, 30}) {
     const Dense d = random_dense(40, m, 3);
-    BorderedCholesky factor = factor_of(d);
+    TypeParam factor = factor_of<TypeParam>(d);
     ASSERT_EQ(factor.failed_at(), -1);
     const MatX expected = d.B * d.K.inverse() * d.B.transpose();
-    const MatX actual = factor.take_border_compliance().selfadjointView<Eigen::Lower>();
+    const MatX actual = factor.take_border_compliance().template selfadjointView<Eigen::Lower>();
     EXPECT_LE((actual - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff()) << m;
   }
 }
 
-TEST(BorderedCholesky, TakesManyPartsThatOnlyTheBorderJoins) {
+TYPED_TEST(BorderedFactor, TakesManyPartsThatOnlyTheBorderJoins) {
   // Small parts in a row; in some the two directions are parts too.
   std::mt19937 random(11);
   std::uniform_real_distribution<double> value(-1, 1);
@@ -71,9 +83,9 @@ TEST(BorderedCholesky, TakesManyPartsThatOnlyTheBorderJoins) {
         d.B(row, 2 * nodes * (row / 4 + 1) + row % 4) = 1;
         d.B(row, 2 * nodes * (row / 4) + 6 + row % 4) = -1;
       }
-      BorderedCholesky factor = factor_of(d);
+      TypeParam factor = factor_of<TypeParam>(d);
       const MatX inverse = d.K.inverse(), expected = d.B * inverse * d.B.transpose();
-      const MatX actual = factor.take_border_compliance().selfadjointView<Eigen::Lower>();
+      const MatX actual = factor.take_border_compliance().template selfadjointView<Eigen::Lower>();
       EXPECT_LE((actual - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff()) << parts;
       const VecX f = VecX::LinSpaced(n, -1, 2), lambda = VecX::LinSpaced(m, 3, -1), y = factor.forward(f),
                  u = inverse * (f - d.B.transpose() * lambda);
@@ -82,9 +94,9 @@ TEST(BorderedCholesky, TakesManyPartsThatOnlyTheBorderJoins) {
     }
 }
 
-TEST(BorderedCholesky, SolvesWithAnyMultipliers) {
+TYPED_TEST(BorderedFactor, SolvesWithAnyMultipliers) {
   const Dense d = random_dense(40, 6, 5);
-  const BorderedCholesky factor = factor_of(d);
+  const TypeParam factor = factor_of<TypeParam>(d);
   const MatX inverse = d.K.inverse();
   const VecX f = VecX::LinSpaced(80, -1, 2), lambda = VecX::LinSpaced(6, 3, -1);
   const VecX y = factor.forward(f);
@@ -94,17 +106,17 @@ TEST(BorderedCholesky, SolvesWithAnyMultipliers) {
   EXPECT_LE(largest_entry(factor.backward(y, VecX::Zero(6)) - inverse * f), 1e-13 * largest_entry(inverse * f));
 }
 
-TEST(BorderedCholesky, WithoutABorderItIsACholeskySolve) {
+TYPED_TEST(BorderedFactor, WithoutABorderItIsACholeskySolve) {
   const Dense d = random_dense(10, 0, 7);
-  BorderedCholesky factor = factor_of(d);
+  TypeParam factor = factor_of<TypeParam>(d);
   const VecX f = VecX::LinSpaced(20, 1, 2), u = d.K.inverse() * f;
   EXPECT_LE(largest_entry(factor.backward(factor.forward(f), VecX()) - u), 1e-13 * largest_entry(u));
   EXPECT_EQ(factor.take_border_compliance().size(), 0);
 }
 
-TEST(BorderedCholesky, OfNothingIsNothing) {
+TYPED_TEST(BorderedFactor, OfNothingIsNothing) {
   for (const int m : {0, 2}) {  // all displacements prescribed, without contact and with it
-    BorderedCholesky factor = factor_of({MatX::Zero(0, 0), MatX::Zero(m, 0)});
+    TypeParam factor = factor_of<TypeParam>({MatX::Zero(0, 0), MatX::Zero(m, 0)});
     EXPECT_EQ(factor.failed_at(), -1);
     const VecX y = factor.forward(VecX());
     EXPECT_EQ(factor.at_border(y), VecX::Zero(m));
@@ -113,10 +125,10 @@ TEST(BorderedCholesky, OfNothingIsNothing) {
   }
 }
 
-TEST(BorderedCholesky, NamesTheUnknownWhereKIsNotPositiveDefinite) {
+TYPED_TEST(BorderedFactor, NamesTheUnknownWhereKIsNotPositiveDefinite) {
   Dense d = random_dense(10, 2, 9);
   d.K(7, 7) = -1;
-  const int at = factor_of(d).failed_at();
+  const int at = factor_of<TypeParam>(d).failed_at();
   EXPECT_GE(at, 0);
   EXPECT_LT(at, 20);
 }

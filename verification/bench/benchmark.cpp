@@ -11,6 +11,7 @@
 #include "io/gmsh_mesh.hpp"
 #include "limit.hpp"
 #include "peak_memory.hpp"
+#include "solve/dense_kernel.hpp"
 #include "solve/threads.hpp"
 #include "walls.hpp"
 
@@ -112,6 +113,7 @@ void print_table(const std::list<Case>& cases, const Options& options, double em
 }
 
 void run(const Options& options) {
+  choose_dense_kernel();
   set_solver_threads(options.threads);
   const double empty_megabytes = peak_megabytes([] {}, [] {});
   std::list<Case> cases;

@@ -40,7 +40,7 @@ VecX cholmod_solution(const GroundedSystem& system) {
   cholesky.cholmod().nmethods = 1;
   cholesky.cholmod().method[0].ordering = CHOLMOD_AMD;
   cholesky.analyzePattern(system.K);
-  apply_solver_threads(cholesky.cholmod().fl);
+  apply_solver_threads();
   cholesky.factorize(system.K);
   const VecX u = cholesky.solve(system.f);
   if (cholesky.info() != Eigen::Success) throw std::runtime_error("CHOLMOD could not solve the grounded system");

@@ -11,6 +11,7 @@
 #include "base/stopwatch.hpp"
 #include "errors.hpp"
 #include "freefem_fields.hpp"
+#include "solve/dense_kernel.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise::chart {
@@ -118,6 +119,7 @@ void solve(Way& way, int turn, std::map<std::string, RunErrors>& errors, const O
 }
 
 void run(const Options& options) {
+  choose_dense_kernel();
   set_solver_threads(options.threads);
   std::vector<Way> ways;
   for (const std::string& text : options.runs) ways.push_back(parse_way(text, options));
