@@ -7,7 +7,10 @@
 
 #include "base/parallel.hpp"
 
-extern "C" void openblas_set_num_threads(int threads);
+extern "C" {
+void openblas_set_num_threads(int threads);
+int openblas_get_num_threads();
+}
 
 namespace mortise {
 namespace {
@@ -22,7 +25,9 @@ int solver_threads() { return requested > 0 ? requested : int(std::max(1u, std::
 
 void apply_solver_threads() {
   omp_set_max_active_levels(0);  // CHOLMOD's own OpenMP loops and OpenBLAS's threads fight for the cores
-  openblas_set_num_threads(in_parallel ? 1 : std::max(1, requested));
+  const int threads = in_parallel ? 1 : std::max(1, requested);
+  if (openblas_get_num_threads() != threads)
+    openblas_set_num_threads(threads);  // even of the same number wakes workers
 }
 
 }  // namespace mortise
