@@ -70,14 +70,12 @@ def in_a_folder(work):
 def solve_asked(run, folder):
     """One run of mortise by --accuracy from the .geo, the loop over meshes and all."""
     scene, found = launch.scene_file("parabola_1"), []
-    words = [launch.need(launch.MORTISE), "solve", scene, "--accuracy", run["asked"], "-o", folder, "--quiet"]
-    same = {"contact.multipliers_on": "upper_contact", "contact.initial_gap": "closed"}
+    words = [launch.need(launch.MORTISE), "solve", scene, "--accuracy", run["asked"], "-o", folder / "out", "--quiet"]
     for _ in range(5):
-        found.append(programs.measured([*words, *launch.options(same), "--threads", 1]))
-    unknowns = launch.json.loads((folder / "summary.json").read_text())["mesh"]["dofs"]
-    table = launch.contact(folder, "upper_contact")
+        found.append(programs.measured([*words, "--threads", 1]))
+    unknowns = launch.json.loads((folder / "out/summary.json").read_text())["mesh"]["dofs"]
     return {key: statistics.median(turn[key] for turn in found) for key in found[0]} | {
-        "unknowns": unknowns, "pressure": of_inner(table["x"], table["p"])}  # fmt: skip
+        "unknowns": unknowns, "pressure": of_inner(*programs.pressure("mortise", folder))}  # fmt: skip
 
 
 def solve_by_threads(run, folder):

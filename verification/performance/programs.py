@@ -21,15 +21,14 @@ boundary = [
   { on = "bottom", displacement = { x = 0, y = 0 } },
   { on = "top", pressure = 10e6 },
 ]
-contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilateral", initial_gap = "closed", \
-multipliers_on = "upper_contact" }]
+contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilateral", initial_gap = "closed" }]
 """
-# The labels of parabola_mesh.write_freefem: upper left, right, contact (3), top; lower left, right, bottom (7), contact.
+# The labels of parabola_mesh.write_freefem: upper left, right, contact (3), top; lower left, right, bottom, contact (8).
 CASE = """plane strain
 mesh mesh_freefem.msh
 body 210e9 0.3
 body 210e9 0.3
-contact 3 8
+contact 8 3
 order 2
 multipliers 1
 integration segments
@@ -110,15 +109,16 @@ def measured(words):
 
 
 def pressure(name, folder):
-    """x and p along the upper plate's contact line."""
+    """x and p along the side of the multipliers, from left to right."""
     if name == "mortise":
-        table = launch.contact(folder / "out", "upper_contact")
-        return table["x"], table["p"]
-    if name == "FreeFEM":
-        rows = np.loadtxt(folder / "freefem_contact.txt", skiprows=1)
-        rows = rows[np.argsort(rows[:, 1])]
-        return rows[:, 1], rows[:, 3]
-    return np.loadtxt(folder / "getfem.csv", delimiter=",", skiprows=1).T
+        table = launch.contact(folder / "out")
+        x, p = table["x"], table["p"]
+    elif name == "FreeFEM":
+        _, x, _, p, *_ = np.loadtxt(folder / "freefem_contact.txt", skiprows=1).T
+    else:
+        x, p = np.loadtxt(folder / "getfem.csv", delimiter=",", skiprows=1).T
+    order = np.argsort(x)
+    return x[order], p[order]
 
 
 def unknowns(name, sizes):

@@ -11,7 +11,7 @@ import programs
 def solved(name, folder, grading=1):
     if not programs.version(name):
         pytest.skip(f"{name} is not installed")
-    sizes = (16, 20)
+    sizes = (32, 40)
     programs.prepare(folder, sizes, grading, [name])
     of = programs.measured(programs.command(name, folder, sizes))
     assert of["seconds"] > 0 and of["wall"] > 0 and of["megabytes"] > 1
