@@ -11,6 +11,7 @@ int solver_threads();
 
 /// Called before a factorisation: its dense products on one thread. CHOLMOD's own OpenMP loops and the threads of
 /// OpenBLAS wait for each other by running idle: on a busy machine that takes many times longer than one thread.
+/// Throws std::bad_alloc where there is no memory for them.
 void apply_solver_threads();
 
 }  // namespace mortise
