@@ -7,6 +7,7 @@ its own; programs that are missing are left out, aloud. Written are OUT/performa
 section.html; the runs are kept in OUT/runs. --docs writes docs/performance.md.
 """
 
+import json
 import math
 import os
 import statistics
@@ -50,9 +51,13 @@ def solve_in_turns(run, folder):
     for _ in range(run["turns"]):
         for name in names:
             rows[name].append(programs.measured(programs.command(name, folder, sizes)))
-    return {name: {key: statistics.median(turn[key] for turn in found) for key in found[0]} | {
-        "unknowns": programs.unknowns(name, sizes), "pressure": of_inner(*programs.pressure(name, folder))}
-        for name, found in rows.items()}  # fmt: skip
+    return {name: row_of(found, programs.unknowns(name, sizes), name, folder) for name, found in rows.items()}
+
+
+def row_of(found, unknowns, name, folder):
+    """Medians of what the meter has found in some turns, and what they solved."""
+    medians = {key: statistics.median(turn[key] for turn in found) for key in found[0]}
+    return {**medians, "unknowns": unknowns, "pressure": of_inner(*programs.pressure(name, folder))}
 
 
 def of_inner(x, p):
@@ -69,13 +74,10 @@ def in_a_folder(work):
 
 def solve_asked(run, folder):
     """One run of mortise by --accuracy from the .geo, the loop over meshes and all."""
-    scene, found = launch.scene_file("parabola_1"), []
-    words = [launch.need(launch.MORTISE), "solve", scene, "--accuracy", run["asked"], "-o", folder / "out", "--quiet"]
-    for _ in range(5):
-        found.append(programs.measured([*words, "--threads", 1]))
-    unknowns = launch.json.loads((folder / "out/summary.json").read_text())["mesh"]["dofs"]
-    return {key: statistics.median(turn[key] for turn in found) for key in found[0]} | {
-        "unknowns": unknowns, "pressure": of_inner(*programs.pressure("mortise", folder))}  # fmt: skip
+    words = [launch.need(launch.MORTISE), "solve", launch.scene_file("parabola_1"), "--accuracy", run["asked"]]
+    found = [programs.measured([*words, "-o", folder / "out", "--quiet", "--threads", 1]) for _ in range(5)]
+    unknowns = json.loads((folder / "out/summary.json").read_text())["mesh"]["dofs"]
+    return row_of(found, unknowns, "mortise", folder)
 
 
 def solve_by_threads(run, folder):
