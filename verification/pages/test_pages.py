@@ -114,6 +114,12 @@ def test_commands_for_several_processes(desk):
     run(desk, re.sub(r"^mpirun -n \d build/mpi/mortise", "mortise", command))
 
 
+def test_links_between_pages():
+    for page in PAGES:
+        for link in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", markdown.FENCE.sub("", page.read_text())):
+            assert "://" in link or (page.parent / link).exists(), f"{page.name}: {link}"
+
+
 @cache
 def help_of(*command):
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=True)
