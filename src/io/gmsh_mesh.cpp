@@ -6,9 +6,9 @@
 #include "base/mesh_endings.hpp"
 #include "io/assemble_mesh.hpp"
 #include "io/geo_file.hpp"
-#include "io/gmsh_guard.hpp"
 #include "io/gmsh_module.hpp"
 #include "io/inp_file.hpp"
+#include "io/library_guard.hpp"
 #include "io/mesh_cache.hpp"
 #include "io/mesh_groups.hpp"
 #include "io/msh_file.hpp"
@@ -32,7 +32,7 @@ MeshData read_mesh_file(const std::string& file) {
 
 MeshData mesh_geo(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits) {
   const GmshModule& gmsh = gmsh_module();
-  const GmshGuard guard(file, limits.seconds);
+  const LibraryGuard guard(file, limits.seconds);
   return gmsh.mesh_geo(file, parameters);
 }
 
