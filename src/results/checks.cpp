@@ -22,7 +22,7 @@ LeftOver left_over(const Results& r, const Resultant& sum, double size, double d
 
 // Forces smaller than this are round-off of stiffness times displacement.
 double rigid_force(const Results& r) {
-  return rigid_part * r.discretisation.system.stiffness_scale * largest_entry(r.solution.u);
+  return rigid_part * largest_entry(VecX(r.discretisation.system.K.diagonal())) * largest_entry(r.solution.u);
 }
 
 // Nodes of each body, those of bodies that hang together as one: their common nodes' forces belong to both.
