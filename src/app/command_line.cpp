@@ -100,10 +100,19 @@ Results solve(const Scene& scene, const Options& options, const StageLine& line)
   return results;
 }
 
+// The results would take the place of what they were made from.
+void check_fields_stay(const Scene& scene, const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const FieldSpec& field : scene.fields)
+    if (std::filesystem::equivalent(std::filesystem::path(field.file).parent_path(), folder, ignored))
+      throw InputError(field.key + ": " + field.file + " lies in the results folder; expected -o another folder");
+}
+
 int solve(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const std::filesystem::path folder = options.output.empty() ? "out/" + stem(options) : options.output;
   check_output_folder(folder);
+  check_fields_stay(scene, folder);
   Results results;
   {
     const StageLine line(options.quiet);
