@@ -5,6 +5,8 @@ import re
 import subprocess
 from functools import cache
 
+import meshio
+import numpy as np
 import pytest
 
 import launch
@@ -14,20 +16,21 @@ PAGES = [launch.ROOT / "README.md", *sorted((launch.ROOT / "docs").glob("*.md"))
 TEXTS = {page.name: page.read_text() for page in PAGES}
 RECIPES = markdown.sections(TEXTS["recipes.md"])
 WITH_COMMANDS = [name for name, text in RECIPES.items() if markdown.commands(text)]
+SNIPPETS = [body for language, body in markdown.FENCE.findall(TEXTS["files.md"]) if language == "toml"]
 STUDY_OPTIONS = ("--docs", "--quick", "--only", "--jobs", "--output", "-o", "--help")  # launch.command_line
 
 # For snippets of a scene: bodies and curves of the names that they use.
 BASE_GEO = """
 SetFactory("OpenCASCADE");
 Rectangle(1) = {0, 0, 0, 1, 1}; Rectangle(2) = {0, 1, 0, 1, 1};
-Physical Surface("lower") = {1}; Physical Surface("upper") = {2};
+Physical Surface("tube") = {1}; Physical Surface("upper") = {2};
 Physical Curve("ground") = {1}; Physical Curve("low") = {3}; Physical Curve("high") = {5};
 Physical Curve("rim") = {6}; Physical Curve("top") = {7};
 """
 BASE_TOML = """
 mesh.file = "base.geo"
-materials.steel = { young = 210e9, poisson = 0.3 }
-bodies = { lower = "steel", upper = "steel" }
+materials.steel = { young = 210e9, poisson = 0.3, thermal_expansion = 1e-5 }
+bodies = { tube = "steel", upper = "steel" }
 [[contact]]
 between = ["low", "high"]
 [[boundary]]
@@ -98,13 +101,20 @@ def test_the_readme_s_scene(desk):
     assert list((desk / "out").rglob("punch*.png"))
 
 
-@pytest.mark.parametrize("number", [0, 1, 2])
+def write_values(desk):
+    """Of the snippet with values from files, over the bodies of BASE_GEO."""
+    places = np.array([[0.0, 0, 0], [1, 0, 0], [1, 2, 0], [0, 2, 0]])
+    cells = [("triangle", np.array([[0, 1, 2], [0, 2, 3]]))]
+    meshio.Mesh(places, cells, {"temperature": np.full(4, 300.0)}).write(desk / "thermal.vtu")
+    (desk / "measured.csv").write_text("x,y,q\n0,2,1\n1,2,2\n0,0,1\n1,0,1\n")
+
+
+@pytest.mark.parametrize("number", range(len(SNIPPETS)))
 def test_snippets_of_a_scene(desk, number):
-    snippets = [body for language, body in markdown.FENCE.findall(TEXTS["files.md"]) if language == "toml"]
-    assert len(snippets) == 3
-    whole = "mesh.file" in snippets[number]
+    snippet = SNIPPETS[number]
     write(desk, {"base.geo": BASE_GEO, "blocks.geo": BLOCKS_GEO})
-    write(desk, {"scene.toml": snippets[number] if whole else BASE_TOML + snippets[number]})
+    write_values(desk)
+    write(desk, {"scene.toml": snippet if "mesh.file" in snippet else BASE_TOML + snippet})
     assert "unknown" not in run(desk, "mortise check scene.toml")
 
 
