@@ -146,7 +146,7 @@ Iteration record(const SweepSystem& reduced, const MssorOptions& options, const 
               .figures = {{"omega", options.omega}, {"tau", options.tau}}};
   std::ostringstream settings, advice;
   settings << "omega " << options.omega << ", tau " << options.tau;
-  if (options.acceleration == Acceleration::none) {
+  if (options.acceleration == Acceleration::none && reduced.m() > 0) {
     const double limit = tau_limit(reduced, options.omega);
     r.figures.emplace_back("tau_limit", limit);
     settings << " (converges for tau below " << limit << ")";

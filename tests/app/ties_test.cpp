@@ -87,6 +87,21 @@ method.solver = )toml";
   }
 }
 
+// Without a pair in contact there is no limit to tau, and none is told: it was infinite, which no file can say.
+TEST(Ties, AloneGiveAStationaryIterationNoLimit) {
+  const TemporaryFolder folder;
+  const Results r = solve_scene(scene_of(folder, "contact = [" + tie + R"toml(]
+boundary = [
+  { on = ["block_bottom", "lower_bottom"], displacement = { x = 0, y = 0 } },
+  { on = "top", pressure = 1 },
+]
+method = { solver = "mssor", acceleration = "none" })toml"));
+  EXPECT_EQ(r.status, Status::solved);
+  std::vector<std::string> names;
+  for (const auto& [name, value] : r.solution.iteration->figures) names.push_back(name);
+  EXPECT_EQ(names, (std::vector<std::string>{"omega", "tau"}));
+}
+
 // Two rings whose common circle has different polygons: a turn strains nothing, and forces have no moment left.
 // The same plate turned, on an inclined line of symmetry that ends the tie.
 TEST(Ties, EndOnSupportsAlongAnyDirection) {

@@ -65,7 +65,7 @@ class Case:
                 MAKERS[content](path)
 
 
-def solve_case(kind, what, scene, mesh, **settings):
+def solve_case(kind, what, scene, mesh, mesh_file="mesh.msh", **settings):
     """`mortise solve scene.toml` of a scene and a mesh, both bytes."""
-    files, words = {"scene.toml": scene, "mesh.msh": mesh}, ["solve", "scene.toml", "-o", "results"]
+    files, words = {"scene.toml": scene, mesh_file: mesh}, ["solve", "scene.toml", "-o", "results"]
     return Case(kind, what, files, words, output=("results",), results="results", **settings)

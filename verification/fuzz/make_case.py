@@ -5,6 +5,7 @@ import random
 import broken_meshes
 import broken_scenes
 import command_cases
+import deck_files
 import geo_cases
 import msh_file
 import toml_text
@@ -51,8 +52,27 @@ def renamed(r, setting):
     return text.replace(f"{old} =", f"{toml_text.key(new)} =").encode()  # a body is a key of [bodies]
 
 
+def make_deck(r, setting):
+    """A deck of another program with some characters, a piece or a line that are not as they were."""
+    ending, what = r.choice(list(deck_files.WRITERS)), r.choice(("characters", "piece", "end", "line"))
+    setting.scene["mesh"]["file"] = "mesh" + ending
+    scene, data = twins.files_of(setting, ending)
+    at, data = r.randrange(len(data)), bytearray(data)
+    if what == "characters":
+        for _ in range(r.choice((1, 3, 20))):
+            data[r.randrange(len(data))] = r.choice(b" 0123456789-+.,*\nDEax\xff\x00\x1b")
+    elif what == "line":
+        lines = data.splitlines(keepends=True)
+        data = b"".join(lines[:at // 20] + [r.choice(lines)] + lines[at // 20:])
+    else:
+        del data[at : at + r.randint(1, 60) if what == "piece" else len(data)]
+    return solve_case("mesh file", f"{ending}: {what}", scene, bytes(data), mesh_file="mesh" + ending)
+
+
 def make_mesh_file(r):
     setting = command_cases.simple_setting(r)
+    if r.random() < 0.25 and twins.fits_decks(setting):
+        return make_deck(r, setting)
     kind, data, what, expect, same = broken_meshes.broken_file(r, setting.mesh)
     scene = toml_text.document(setting.scene).encode()
     thrust = setting.thrust if same else None

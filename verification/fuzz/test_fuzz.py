@@ -12,6 +12,7 @@ import meshio
 import pytest
 
 import command_cases
+import deck_files
 import fuzz
 import geo_cases
 import msh_file
@@ -161,6 +162,17 @@ def test_all_kinds_of_mesh_files_are_right(mortise, kind, random_seed, tmp_path)
     assert [tuple(point) for point in read.points[:, :2]] == setting.mesh.nodes
     assert sum(len(block.data) for block in read.cells) == len(setting.mesh.cells) + len(setting.mesh.edges)
     assert objections(mortise, solve_case("mesh file", kind, scene, mesh, expect=SOLVED, thrust=setting.thrust)) == []
+
+
+@pytest.mark.parametrize("kind,random_seed", itertools.product(deck_files.WRITERS, range(8)))
+def test_decks_of_other_programs_are_right(mortise, kind, random_seed):
+    setting = command_cases.simple_setting(Random(random_seed))
+    if not twins.fits_decks(setting):
+        pytest.skip("cells of nine nodes, which decks do not have")
+    setting.scene["mesh"]["file"] = "mesh" + kind
+    files = twins.files_of(setting, kind)
+    assert objections(mortise, solve_case("mesh file", kind, *files, mesh_file="mesh" + kind, expect=SOLVED,
+                                          thrust=setting.thrust)) == []  # fmt: skip
 
 
 def test_the_geometry_is_right(mortise):

@@ -69,21 +69,26 @@ def boundary(random, made, load):
     """Supports of every plate against moving sideways, of the lowest also down; the load on top."""
     entries = [{"on": "lower_bottom", "displacement": {"y": 0}}]
     sides = random.choice(("left", "right", "both", "tops"))
+    along = random.choice(("x", "x", "x", "normal")) if sides != "tops" else "x"
     for plate in made:
         curves = [f"{plate.name}_{side}" for side in (("left", "right") if sides == "both" else (sides,))]
         if sides == "tops":
             curves = ["lower_bottom" if plate is made[0] else f"{plate.name}_top"]
             if plate is not made[0] and plate is not made[-1]:
                 curves = [f"{plate.name}_left"]
-        entries.append({"on": curves if len(curves) > 1 else curves[0], "displacement": {"x": 0}})
+        entries.append({"on": curves if len(curves) > 1 else curves[0], "displacement": {along: 0}})
     entries.append({"on": f"{made[-1].name}_top", **load})
     return entries
 
 
-def top_load(random, young, length):
-    """A load on the uppermost edge and how much it presses: a pressure, a traction, or a displacement downwards."""
+def top_load(random, young, length, width):
+    """A load on the uppermost edge and how much it presses: a pressure, a traction, a force on a rigid edge, or a
+    displacement downwards."""
     strain = 10 ** random.uniform(-6, -3)
-    kind = random.choice(("pressure", "pressure", "traction", "displacement"))
+    kind = random.choice(("pressure", "pressure", "pressure", "traction", "traction", "displacement", "displacement",
+                          "rigid"))  # fmt: skip
+    if kind == "rigid":
+        return {"rigid": {"x": 0, "rotation": 0, "force": [0.0, -young * strain * width]}}, young * strain
     if kind == "displacement":
         return {"displacement": {"y": -strain * length}}, None
     return {kind: young * strain if kind == "pressure" else [0.0, -young * strain]}, young * strain
@@ -124,8 +129,8 @@ def contacts(random, made, gap):
         random.shuffle(curves)
         entry = {"between": curves}
         if random.random() < 0.6:
-            entry["condition"] = random.choice(("unilateral", "bilateral"))
-        if random.random() < 0.5:
+            entry["condition"] = random.choice(("unilateral", "bilateral") * 4 + ("tied",))
+        if random.random() < 0.5 and entry.get("condition") != "tied":
             known = ["measured", "curve", random.choice((-1e-5, 1e-5, 1e-3))]
             if not gap or random.random() < 0.1:
                 known.append("closed")
@@ -141,7 +146,7 @@ def valid_setting(random):
     made, gap, width = make_plates(random, length)
     names = [plate.name for plate in made]
     heated = random.random() < 0.15
-    load, pressed = top_load(random, young, length)
+    load, pressed = top_load(random, young, length, width)
     known = materials(random, young, heated)
     bodies = {name: random.choice(list(known)) for name in names}
     scene = {
@@ -158,6 +163,13 @@ def valid_setting(random):
         scene["initial_strain"] = [{"body": random.choice(names), "temperature_change": random.uniform(-100, 100)}]
     if random.random() < 0.1:
         scene["body_force"] = [{"body": names[0], "force": [0.0, -1e-4 * young / length]}]
+    if random.random() < 0.1:
+        scene["boundary"][0] = {"on": "lower_bottom", "foundation": young / length * 10 ** random.uniform(-1, 2)}
+    if random.random() < 0.1:
+        scene["model"]["gravity"] = [0.0, -9.81]
+        for material in scene["materials"].values():
+            material["density"] = 1e-6 * young / length
+        pressed = None
     # Only where nothing but contact holds the bodies above the lowest up: then each pair carries the whole load.
     thrust = pressed * width if pressed and scene["contact"] else None
     return Setting({k: v for k, v in scene.items() if v != []}, plates.mesh_of(made), thrust)
