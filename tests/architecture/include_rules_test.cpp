@@ -43,18 +43,12 @@ struct Foreign {
   bool sources_only;
 };
 const std::vector<Foreign> foreigners{
-    {"Boost", R"(boost/.*)", "mesh", true},
-    {"gmsh", R"(gmsh\..*)", "io", true},
-    {"VTK", R"(vtk\w+\.h)", "io", true},
-    {"CHOLMOD", R"((.*/)?cholmod.*)", "solve", true},
-    {"AMD", R"((.*/)?amd\.h)", "solve", true},
-    {"nlohmann-json", R"(nlohmann/.*)", "results", false},
-    {"PETSc", R"(petsc.*)", "ddm", true},
-    {"MPI", R"(mpi\.h)", "ddm", true},
-    {"CLI11", R"(CLI/.*)", "app", false},
-    {"toml++", R"(toml\+\+.*)", "scene", true},
-    {"muParser", R"(muParser.*)", "base", true},
-    {"METIS", R"((.*/)?metis\.h)", "solve", true},
+    {"Boost", R"(boost/.*)", "mesh", true},      {"gmsh", R"(gmsh\..*)", "io", true},
+    {"VTK", R"(vtk\w+\.h)", "io", true},         {"CHOLMOD", R"((.*/)?cholmod.*)", "solve", true},
+    {"AMD", R"((.*/)?amd\.h)", "solve", true},   {"nlohmann-json", R"(nlohmann/.*)", "results", false},
+    {"PETSc", R"(petsc.*)", "ddm", true},        {"MPI", R"(mpi\.h)", "ddm", true},
+    {"CLI11", R"(CLI/.*)", "app", false},        {"toml++", R"(toml\+\+.*)", "scene", true},
+    {"muParser", R"(muParser.*)", "base", true}, {"METIS", R"((.*/)?metis\.h)", "solve", true},
 };
 
 const Names top_level{
