@@ -1,19 +1,18 @@
 #include "app/command_line.hpp"
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>
-#include <cstdio>
 #include <iostream>
 #include <new>
 #include <sstream>
 
 #include "app/accuracy.hpp"
+#include "app/picture.hpp"
 #include "app/sweep.hpp"
 #include "app/sweep_join.hpp"
 #include "app/terminal.hpp"
+#include "app/version.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "ddm/ranks.hpp"
@@ -24,7 +23,6 @@
 #include "results/model_summary.hpp"
 #include "results/summary.hpp"
 #include "results/write_results.hpp"
-#include "solve/dense_kernel.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -34,7 +32,7 @@ struct Options {
   std::string scene;
   std::vector<std::string> set, vary;
   std::string output;
-  std::string accuracy;
+  std::string accuracy, picture;
   bool quiet = false, diagnose = false, no_estimate = false, no_programs = false, no_cache = false;
   int threads = 0, jobs = 1;
   std::string part;
@@ -50,21 +48,6 @@ std::vector<Override> overrides(const Options& options) {
 }
 
 std::string stem(const Options& options) { return std::filesystem::path(options.scene).stem().string(); }
-
-// The stages on one line of the terminal as they begin, wiped at the end; nothing into files and pipes.
-class StageLine {
- public:
-  explicit StageLine(bool quiet) : active_(!quiet && isatty(STDERR_FILENO)) {}
-  ~StageLine() { write("\r\033[K"); }
-  void operator()(const std::string& stage) const { write("\r\033[K" + stage + " ..."); }
-
- private:
-  // Past PrintableStream: these control characters are our own.
-  void write(const std::string& text) const {
-    if (active_) std::fputs(text.c_str(), stderr);
-  }
-  bool active_;
-};
 
 // Its title on one line.
 Scene shown(Scene scene) {
@@ -124,7 +107,7 @@ int solve(const Options& options) {
     line("write");
     if (ranks().rank() == 0) results.seconds.write = write_results(scene, results, folder);
   }
-  if (!options.quiet) std::cout << terminal_summary(shown(scene), results, folder);
+  if (!options.quiet) say(terminal_summary(shown(scene), results, folder));
   if (results.status != Status::solved)
     std::cerr << "mortise: " << scene.path << ": " << to_string(results.status) << " (see the summary's checks)\n";
   return exit_code(results.status);
@@ -157,25 +140,28 @@ std::string measures_lines(const Mesh& mesh) {
 int check(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const CheckedScene checked = check_scene(scene);
-  if (options.quiet) return 0;
-  std::cout << shown(scene).title << "\n  mesh      " << checked.mesh.source << ": " << checked.mesh.nodes.rows()
-            << " nodes, " << checked.mesh.cells.size() << " elements\n"
-            << measures_lines(checked.mesh) << copies_line(shown(scene))
-            << model_lines(shown(scene), checked.mesh, checked.discretisation);
+  const int drawn = options.picture.empty() ? 0 : draw_setup(scene, checked, options.picture);
+  if (options.quiet) return drawn;
+  std::ostringstream text;
+  text << shown(scene).title << "\n  mesh      " << checked.mesh.source << ": " << checked.mesh.nodes.rows()
+       << " nodes, " << checked.mesh.cells.size() << " elements\n"
+       << measures_lines(checked.mesh) << copies_line(shown(scene))
+       << model_lines(shown(scene), checked.mesh, checked.discretisation);
   const std::size_t count = checked.pairs.size(), told = count > told_in_full ? told_of_many : count;
   for (std::size_t k = 0; k < told; ++k) {
     const ContactPair& pair = checked.pairs[k];
-    std::cout << "  contact   " << pair.spec.between[0] << " - " << pair.spec.between[1] << ": "
-              << to_string(pair.spec.condition) << ", frictionless, gap " << gap_words(pair) << ", "
-              << pair.coupling.gap0.size() << " multipliers on " << pair.spec.multipliers_on << ", facing over "
-              << pair.coupling.covered_length << "\n";
+    text << "  contact   " << pair.spec.between[0] << " - " << pair.spec.between[1] << ": "
+         << to_string(pair.spec.condition) << ", frictionless, gap " << gap_words(pair) << ", "
+         << pair.coupling.gap0.size() << " multipliers on " << pair.spec.multipliers_on << ", facing over "
+         << pair.coupling.covered_length << "\n";
   }
-  if (told < count) std::cout << "            and " << count - told << " more pairs\n";
-  std::cout << "  left out  friction, large displacements, plasticity, time"
-            << (scene.body_forces.empty() && !scene.gravity ? ", body forces" : "")
-            << (scene.initial_strains.empty() ? ", initial strains" : "") << "\n";
-  for (const std::string& warning : checked.warnings) std::cout << "  warning   " << warning << "\n";
-  return 0;
+  if (told < count) text << "            and " << count - told << " more pairs\n";
+  text << "  left out  friction, large displacements, plasticity, time"
+       << (scene.body_forces.empty() && !scene.gravity ? ", body forces" : "")
+       << (scene.initial_strains.empty() ? ", initial strains" : "") << "\n";
+  for (const std::string& warning : checked.warnings) text << "  warning   " << warning << "\n";
+  say(text.str());
+  return drawn;
 }
 
 int mesh(const Options& options) {
@@ -233,7 +219,7 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
 
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App app("Two-dimensional frictionless contact of linear-elastic bodies on meshes that do not match.");
-  app.set_version_flag("--version", std::string("mortise ") + MORTISE_VERSION + "\n" + dense_kernel());
+  app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 solved and all checks hold; 1 bad input; 2 a check fails or no convergence; 3 internal error.");
@@ -254,6 +240,7 @@ int parse_and_run(int argc, const char* const* argv) {
       ->excludes(accuracy);
   CLI::App* check_command =
       add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
+  check_command->add_option("--picture", options.picture, "FILE.png: draw bodies, supports, loads and contact pairs");
   CLI::App* mesh_command =
       add_command(app, "mesh", "write the mesh of a scene", options, ".msh to write (default: out/SCENE.msh)");
   add_accuracy(mesh_command);
@@ -271,12 +258,22 @@ int parse_and_run(int argc, const char* const* argv) {
       ->check(CLI::Range(1, 10000))
       ->excludes(part);
   add_diagnose(sweep_command);
+  CLI::App* picture_command =
+      app.add_subcommand("picture", "draw the results in a folder (mortise picture --help has the options)");
+  picture_command->set_help_flag();
+  picture_command->prefix_command();  // the script reads them
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    if (error.get_exit_code() == 0) {  // --help, --version
+      std::ostringstream text;
+      const int status = app.exit(error, text, text);
+      say(text.str());
+      return status;
+    }
     throw InputError(std::string("command line: ") + error.what() + " (mortise --help)");
   }
+  if (*picture_command) return draw_picture(picture_command->remaining());
   const bool alone = ranks().count() == 1 && options.jobs == 1;
   set_solver_threads(options.threads > 0 || alone ? options.threads : 1);
   set_mesh_cache(!options.no_cache);

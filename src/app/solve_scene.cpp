@@ -161,7 +161,7 @@ namespace {
 
 Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start,
                  const Adjust& adjust) {
-  const auto stage = [&](const char* name) {
+  const auto stage = [&](const std::string& name) {
     if (progress) progress(name);
   };
   Results r;
@@ -192,7 +192,7 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   system.start = starting_rows(start, r.mesh, r.pairs);
   r.seconds.couple = watch.lap();
 
-  stage("solve");
+  stage("solve for " + std::to_string(free_unknowns(r)) + " unknowns");
   r.solution = solve_system(scene.method, system, unknowns_of(r.mesh, dirichlet));
   require_solution(r.mesh, r.pairs, floating, r.solution);
   std::vector<std::vector<RigidMotion>> free;

@@ -221,6 +221,8 @@ Json support_json(const Scene& scene, const Discretisation& d, const Reactions& 
 
 }  // namespace
 
+std::string boundary_words(const BoundarySpec& spec) { return words(spec).substr(1); }
+
 Json json_of(const Field& f) { return f.is_constant() ? Json(f.constant()) : Json(f.words()); }
 
 std::string model_lines(const Scene& scene, const Mesh& mesh, const Discretisation& d, const Reactions* reactions) {

@@ -13,6 +13,9 @@ namespace mortise {
 std::string model_lines(const Scene& scene, const Mesh& mesh, const Discretisation& discretisation,
                         const Reactions* reactions = nullptr);
 
+/// What an entry prescribes, wherever: "u_x = 0, u_y = 0".
+std::string boundary_words(const BoundarySpec& spec);
+
 /// The number, or the expression as it is written.
 nlohmann::ordered_json json_of(const Field& field);
 

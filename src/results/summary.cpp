@@ -284,6 +284,7 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
 std::string terminal_summary(const Scene& scene, const Results& r, const std::filesystem::path& folder) {
   std::ostringstream out;
   out << scene.title << "\n";
+  out << "  " << to_string(r.status) << "; results in " << folder.string() << "/ (result.vtu opens in ParaView)\n";
   out << "  mesh      " << r.mesh.nodes.rows() << " nodes, " << r.mesh.cells.size() << " elements; " << free_unknowns(r)
       << " unknowns, " << r.solution.lambda.size() << " multipliers\n";
   out << std::setprecision(6) << model_lines(scene, r.mesh, r.discretisation, &r.reactions);
@@ -313,7 +314,6 @@ std::string terminal_summary(const Scene& scene, const Results& r, const std::fi
       << ", assemble " << s.assemble << ", couple " << s.couple << ", factorise " << s.factorise << ", solve "
       << s.solve << ", recover " << s.recover << ", estimate " << s.estimate << ", write " << s.write << "; total "
       << s.total() << "\n";
-  out << "  " << to_string(r.status) << "; results in " << folder.string() << "/ (result.vtu opens in ParaView)\n";
   return out.str();
 }
 

@@ -12,7 +12,7 @@ namespace mortise {
 /// other files took.
 nlohmann::ordered_json summary_json(const Scene& scene, const Results& results, double write_seconds);
 
-/// The summary of a run for the terminal: at most one screen.
+/// The summary of a run for the terminal: at most one screen, the verdict below the title.
 std::string terminal_summary(const Scene& scene, const Results& results, const std::filesystem::path& folder);
 
 }  // namespace mortise

@@ -2,13 +2,16 @@
 """One picture of a run: the deformed bodies with von Mises stress, loads and reactions, and the pressure along each
 contact line; of many contact pairs the forces between the bodies instead.
 
-Usage: picture.py RESULTS [PICTURE] [--zoom] [--scale FACTOR] [--dpi DPI]
+Usage: picture.py RESULTS [PICTURE] [--zoom [X0,X1,Y0,Y1]] [--field FIELD] [--pair K] [--scale FACTOR] [--dpi DPI]
+(mortise picture does the same)
 
 RESULTS is the folder that `mortise solve` wrote; read are result.vtu, contact.vtu, summary.json
 (docs/files.md) and contact.csv, or with 3-node triangles contact_centres.csv: p zigzags at their nodes. PICTURE is a
 .png, .pdf or .svg, by default RESULTS.png beside the folder. --scale magnifies the
-displacements; by default the largest is drawn as about 4 % of the size of what is shown. --zoom shows the bodies where
-contact carries pressure, without loads and reactions. An arrow is the sum of a load, or the reaction of a curve of a
+displacements; by default the largest is drawn as about 4 % of the size of what is shown, less where bodies whose gap
+closes would be drawn over each other. --zoom shows the bodies where contact carries pressure, or in a box, without loads
+and reactions; --pair K takes the Kth contact pair alone, from 0. --field: von_mises; sigma_n, the normal stress across
+the direction of the nearest place of the contact line; error, where the energy of the estimated error lies. An arrow is the sum of a load, or the reaction of a curve of a
 support, at the middle of what it acts on; of a clamp its moment about that is told too.
 """
 
@@ -18,16 +21,27 @@ import math
 import sys
 from pathlib import Path
 
-import meshio
-import numpy as np
-from matplotlib.collections import LineCollection
-from matplotlib.patheffects import withStroke
+try:
+    import meshio
+    import numpy as np
+    from matplotlib.collections import LineCollection
+    from matplotlib.patheffects import withStroke
+except ImportError as missing:
+    raise SystemExit(f"picture.py: {missing}: apt-get install python3-matplotlib python3-meshio") from missing
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import figure
 import launch
 from shapes import CORNERS, shape_functions, subdivision
+
+FIELDS = {
+    "von_mises": "von Mises stress (scene's units)",
+    "sigma_n": "stress across the contact line",
+    "error": "energy of the estimated error by area, $\\log_{10}$",
+}
+CONTACT = "contact"  # --zoom without a box
+OVERLAP = 0.002  # of the diagonal of what is shown: as wide as a line
 
 MANY_PAIRS = 6  # more are not drawn one by one
 COLOURS = ["#e8452c", "#4aa3e8"]  # multiplier side, opposite side
@@ -135,6 +149,14 @@ def loaded_box(mesh, table):
     return np.array([middle - half, middle + half])
 
 
+def shown_box(mesh, table, zoom):
+    """Lower and upper corner of what is shown: of all bodies, of the loaded contact or as told."""
+    points = mesh.points[:, :2]
+    if not zoom:
+        return np.array([points.min(axis=0), points.max(axis=0)])
+    return loaded_box(mesh, table) if zoom == CONTACT else np.array(zoom).reshape(2, 2).T
+
+
 def refuse_older(results, model):
     """Ends the program where summary.json does not say where forces act."""
     acting = [load for load in model.get("loads", []) if "sum" in load]
@@ -179,9 +201,8 @@ def draw_arrows(axes, points, model):
             text.set_path_effects([withStroke(linewidth=2, foreground="white")])
 
 
-def draw_contact_lines(axes, results, table, scale, pairs):
+def draw_contact_lines(axes, curve, table, scale, pairs):
     """Both curves of each pair, in its colour."""
-    curve = meshio.read(results / "contact.vtu")
     at = curve.points[:, :2] + scale * curve.point_data["displacement"][:, :2]
     lines = [(*row[:2], row[2] if len(row) > 2 else -1) for block in curve.cells for row in block.data]
     colours = ["black"] * len(lines)
@@ -189,6 +210,61 @@ def draw_contact_lines(axes, results, table, scale, pairs):
         colours = [PAIR_COLOURS[int(table["pair"][line[0]])] for line in lines]
     axes.add_collection(LineCollection(polylines(at, lines), colors="white", linewidths=2.6))
     axes.add_collection(LineCollection(polylines(at, lines), colors=colours, linewidths=1.3))
+
+
+def nearest(points, places):
+    """Index of the place nearest to each point."""
+    parts = np.array_split(points, 1 + len(points) * len(places) // 10**7)
+    square = (places**2).sum(axis=1)
+    return np.concatenate([(square - 2 * part @ places.T).argmin(axis=1) for part in parts])
+
+
+def at_points(mesh, values):
+    """Of values of the cells, the mean at each point, by area."""
+    total = np.zeros(len(mesh.points))
+    for (block, areas), value in zip(cell_areas(mesh), values):
+        np.add.at(total, block.data, (areas * np.ravel(value))[:, None])
+    return total / areas_at_nodes(mesh)
+
+
+def field_of(mesh, curve, field):
+    """The values of a field of FIELDS at the points of the mesh; `curve` is contact.vtu."""
+    if field == "von_mises":
+        return mesh.point_data["von_mises"].ravel()
+    if field == "error":
+        if "error_density" not in mesh.cell_data:
+            raise SystemExit("picture.py: --field error: the run estimated none; solve without --no-estimate")
+        blocks = [value for block, value in zip(mesh.cells, mesh.cell_data["error_density"]) if block.type in CORNERS]
+        density = at_points(mesh, blocks)
+        if not (density > 0).any():
+            raise SystemExit("picture.py: --field error: the estimated error is nought")
+        return np.log10(np.maximum(density, 1e-6 * density.max()))
+    if curve is None:
+        raise SystemExit("picture.py: --field sigma_n: the scene has no contact pair")
+    known = np.isfinite(curve.point_data["normal"][:, :2]).all(axis=1)
+    normal = curve.point_data["normal"][known][nearest(mesh.points[:, :2], curve.points[known, :2]), :2]
+    s = mesh.point_data["stress"]
+    return normal[:, 0] ** 2 * s[:, 0] + normal[:, 1] ** 2 * s[:, 1] + 2 * normal[:, 0] * normal[:, 1] * s[:, 3]
+
+
+def scale_without_overlap(table, size):
+    """The largest magnification at which no gap is drawn as an overlap of more than OVERLAP of the size: a gap is the
+    undeformed one and, so many times, what the displacements add to it."""
+    largest = math.inf
+    for k in np.unique(table["pair"]):
+        on = table["pair"] == k
+        first = on & (table["curve"] == table["curve"][on][0])
+        known = first & np.isfinite(table["gap"])
+        other = on & ~first
+        if known.sum() < 2 or other.sum() < 2:
+            continue
+        along, across = (np.stack([table["x"][rows], table["y"][rows]], axis=1) for rows in (other, known))
+        s = np.arange(other.sum(), dtype=float)
+        added = np.interp(arc_length_on(along, s, across), s, table["u_n"][other]) - table["u_n"][known]
+        undeformed, closing = np.maximum(table["gap"][known] - added, 0), added < 0
+        if closing.any():
+            largest = min(largest, ((undeformed + OVERLAP * size)[closing] / -added[closing]).min())
+    return max(largest, 1.0)
 
 
 def stress_range(stress, areas):
@@ -199,39 +275,46 @@ def stress_range(stress, areas):
     return low, high
 
 
-def draw_bodies(axes, results, summary, table, scale, zoom):
+def draw_bodies(axes, results, summary, table, options):
+    """The deformed bodies; returns the magnification and, in words, why it is no larger."""
     mesh = meshio.read(results / "result.vtu")
+    curve = meshio.read(results / "contact.vtu") if summary["contact"] else None
     points, u = mesh.points[:, :2], mesh.point_data["displacement"][:, :2]
-    box = loaded_box(mesh, table) if zoom else np.array([points.min(axis=0), points.max(axis=0)])
+    box = shown_box(mesh, table, options.zoom)
     seen = inside(points, box)
-    scale = choose_scale(box, u[seen] if seen.any() else u) if scale is None else scale
-    moved, stress = points + scale * u, mesh.point_data["von_mises"].ravel()
-    low, high = stress_range(stress[seen], areas_at_nodes(mesh)[seen]) if seen.any() else stress_range(stress, areas_at_nodes(mesh))
-    xy, values, triangles = shaded_triangles(mesh, moved, stress)
-    shading = axes.tripcolor(*xy.T, triangles, values, shading="gouraud", cmap="viridis", vmin=low, vmax=high)
+    seen = seen if seen.any() else np.full(len(points), True)
+    scale, why = options.scale, ""
+    if scale is None:
+        wanted = scale = choose_scale(box, u[seen])
+        if summary["contact"]:
+            scale = min(scale, round_scale(scale_without_overlap(table, size_of(box))))
+        why = " (more would draw bodies over each other)" if scale < wanted else ""
+    moved, values = points + scale * u, field_of(mesh, curve, options.field)
+    low, high = stress_range(values[seen], areas_at_nodes(mesh)[seen])
+    xy, colours, triangles = shaded_triangles(mesh, moved, values)
+    shading = axes.tripcolor(*xy.T, triangles, colours, shading="gouraud", cmap="viridis", vmin=low, vmax=high)
     edges = outlines(mesh)
     axes.add_collection(LineCollection(polylines(points, edges), colors="0.6", linewidths=0.6, linestyles=(0, (5, 4))))
     axes.add_collection(LineCollection(polylines(moved, edges), colors="black", linewidths=0.8))
     if summary["contact"]:
-        draw_contact_lines(axes, results, table, scale, len(summary["contact"]))
-    if zoom:
-        shift = scale * u[seen].mean(axis=0) if seen.any() else np.zeros(2)
+        draw_contact_lines(axes, curve, table, scale, len(summary["contact"]))
+    if options.zoom:
+        shift = scale * u[seen].mean(axis=0) if options.zoom == CONTACT else np.zeros(2)
         axes.set_xlim(*(box[:, 0] + shift[0]))
         axes.set_ylim(*(box[:, 1] + shift[1]))
-        stress = stress[seen] if seen.any() else stress
     else:
         draw_arrows(axes, points, summary["model"])
         axes.autoscale_view()
-    axes.set_aspect("equal")
-    if not zoom:
         axes.margins(0.03)
+    axes.set_aspect("equal")
     extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}
-    clipped = (int(stress.min() < low * (1 - 1e-9)), int(stress.max() > high * (1 + 1e-9)))
+    far = 1e-9 * max(abs(low), abs(high))
+    clipped = (int(values[seen].min() < low - far), int(values[seen].max() > high + far))
     bar = axes.figure.colorbar(shading, ax=axes, extend=extend[clipped], pad=0.02, aspect=25)
-    bar.set_label("von Mises stress (scene's units)")
+    bar.set_label(FIELDS[options.field])
     figure.scientific(bar.ax.yaxis)
     axes.set(xlabel="$x_1$", ylabel="$x_2$")
-    return scale
+    return scale, why
 
 
 def arc_length_on(along, s, points):
@@ -343,26 +426,33 @@ def draw_forces(axes, mesh, table, pairs, sides):
     axes.set_title(f"forces between bodies:\n{len(acting)} of {len(pairs)} pairs carry some", fontsize=9)
 
 
-def draw(results, picture, scale=None, dpi=130, zoom=False):
+def draw(results, picture, options):
+    """One picture of the results: `options` as of the command line."""
     summary = json.loads((results / "summary.json").read_text())
     refuse_older(results, summary["model"])
     pairs, multiplier_sides = summary["contact"], summary["method"]["multipliers_on"]
+    shown = list(range(len(pairs)))
+    if options.pair is not None:
+        if not 0 <= options.pair < len(pairs):
+            raise SystemExit(f"picture.py: --pair {options.pair}: the scene's pairs have the numbers 0 to {len(pairs) - 1}")
+        shown = [options.pair]
     mesh = meshio.read(results / "result.vtu")
     table = launch.columns(results / "contact.csv") if pairs else {}
-    if zoom and not pairs:
+    if options.zoom == CONTACT and not pairs:
         raise SystemExit("picture.py: --zoom: the scene has no contact pair")
-    extent = np.ones(2) if zoom else np.ptp(mesh.points[:, :2], axis=0)
+    of_shown = {name: column[np.isin(table["pair"], shown)] for name, column in table.items()}
+    extent = np.ptp(shown_box(mesh, of_shown, options.zoom), axis=0)
     above = float(np.clip(6.6 * extent[1] / extent[0], 2.5, 6.5))
     below = 2.5
-    many = len(pairs) > MANY_PAIRS
+    many = len(shown) > MANY_PAIRS
     if many and extent[1] > 3 * extent[0]:  # a tall scene
         drawing, panels = figure.panels(1, 2, (8, above + 0.6), squeeze=False)
         panels = panels.T
     else:
-        heights = [above] + ([above] if many else [below] * len(pairs))
+        heights = [above] + ([above] if many else [below] * len(shown))
         drawing, panels = figure.panels(len(heights), 1, (8, sum(heights) + 0.6), height_ratios=heights, squeeze=False)
-    used = draw_bodies(panels[0, 0], results, summary, table, scale, zoom)
-    panels[0, 0].set_title(f"displacements \u00d7 {used:g},\nundeformed outline dashed", fontsize=9)
+    used, why = draw_bodies(panels[0, 0], results, summary, table if options.pair is None else of_shown, options)
+    panels[0, 0].set_title(f"displacements \u00d7 {used:g}{why},\nundeformed outline dashed", fontsize=9)
     drawing.suptitle(summary["title"] or summary["scene"], fontsize=11)
     if summary["status"] != "solved":
         panels[0, 0].set_title(summary["status"].replace("_", " "), loc="right", color="#c00000", fontsize=10)
@@ -373,26 +463,53 @@ def draw(results, picture, scale=None, dpi=130, zoom=False):
         label = ("$p$ (means over edges)",) if zigzags else ()
         if many:
             draw_forces(panels[1, 0], mesh, table, pairs, multiplier_sides)
-            pairs = []
-        for k, (pair, side) in enumerate(zip(pairs, multiplier_sides)):
-            rows = table["pair"] == k
-            of_pair = {name: column[rows] for name, column in table.items()}
-            draw_pair(panels[1 + k, 0], of_pair, side, pair["between"], *label, colour=PAIR_COLOURS[k])
-    figure.save(drawing, picture, dpi)
+            shown = []
+        for panel, k in zip(panels[1:, 0], shown):
+            of_pair = {name: column[table["pair"] == k] for name, column in table.items()}
+            colour = PAIR_COLOURS[k] if len(pairs) <= MANY_PAIRS else PAIR_COLOURS[0]
+            draw_pair(panel, of_pair, multiplier_sides[k], pairs[k]["between"], *label, colour=colour)
+    figure.save(drawing, picture, options.dpi)
+
+
+def box_of(text):
+    """X0,X1,Y0,Y1 as numbers, or CONTACT."""
+    if text == CONTACT:
+        return text
+    try:
+        x0, x1, y0, y1 = (float(number) for number in text.split(","))
+        if x0 < x1 and y0 < y1:
+            return [x0, x1, y0, y1]
+    except ValueError:
+        pass
+    raise argparse.ArgumentTypeError(f"'{text}' is no box; expected X0,X1,Y0,Y1 with X0 < X1 and Y0 < Y1")
+
+
+def with_box(arguments):
+    """The arguments with "--zoom=X0,..." for "--zoom X0,...", as a box may begin with a minus, and "--zoom=contact" where
+    none follows."""
+    words = list(arguments)
+    if "--zoom" in words:
+        k = words.index("--zoom")
+        box = [word for word in words[k + 1 : k + 2] if "," in word]
+        words[k : k + 1 + len(box)] = [f"--zoom={box[0] if box else CONTACT}"]
+    return words
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("results", type=Path, help="folder that mortise solve wrote")
     parser.add_argument("picture", type=Path, nargs="?", help=".png, .pdf or .svg (default: RESULTS.png)")
-    parser.add_argument("--zoom", action="store_true", help="only where contact carries pressure")
+    zoom_help = "this box only; without numbers, where contact carries pressure"
+    parser.add_argument("--zoom", type=box_of, metavar="[X0,X1,Y0,Y1]", help=zoom_help)
+    parser.add_argument("--field", choices=FIELDS, default="von_mises", help="what colours the bodies (default: von_mises)")
+    parser.add_argument("--pair", type=int, metavar="K", help="the Kth contact pair only, from 0")
     parser.add_argument("--scale", type=float, help="magnification of the displacements")
     parser.add_argument("--dpi", type=int, default=130)
-    options = parser.parse_args()
+    options = parser.parse_args(with_box(sys.argv[1:]))
     if not (options.results / "summary.json").is_file():
         parser.error(f"{options.results}: no summary.json there; expected the folder of a run of mortise solve")
     picture = options.picture or options.results.with_name(options.results.resolve().name + ".png")
-    draw(options.results, picture, options.scale, options.dpi, options.zoom)
+    draw(options.results, picture, options)
     print(picture)
 
 

@@ -70,6 +70,76 @@ def test_zoom_on_hertz_is_a_little_more_than_the_contact(solve):
     assert high[1] - low[1] == pytest.approx(high[0] - low[0])
 
 
+def test_a_box_may_begin_with_a_minus_and_a_picture_is_no_box():
+    assert picture.with_box(["out", "--zoom", "-1,1,0,2", "--dpi", "60"]) == ["out", "--zoom=-1,1,0,2", "--dpi", "60"]
+    assert picture.with_box(["out", "--zoom", "a.png"]) == ["out", "--zoom=contact", "a.png"]
+    assert picture.with_box(["out", "a.png", "--zoom"]) == ["out", "a.png", "--zoom=contact"]
+    assert picture.box_of("-1,1,0,2") == [-1, 1, 0, 2]
+    for wrong in ("1,1,0,2", "0,1,2", "a,b,c,d", "0,1,3,2"):
+        with pytest.raises(picture.argparse.ArgumentTypeError, match="no box"):
+            picture.box_of(wrong)
+
+
+def test_no_gap_is_drawn_as_an_overlap():
+    """A flat gap of 1e-3 that closes to 0: magnified so many times it is (1 - scale) * 1e-3."""
+    both = np.array([0.0, 1.0, 0.0, 1.0])
+    table = {
+        "pair": np.zeros(4),
+        "curve": np.array(["low", "low", "high", "high"]),
+        "x": both,
+        "y": np.array([0, 0, 1e-3, 1e-3]),
+        "u_n": np.array([0, 0, -1e-3, -1e-3]),
+        "gap": np.array([0, 0, np.nan, np.nan]),
+    }
+    assert picture.scale_without_overlap(table, size=1) == pytest.approx((1e-3 + picture.OVERLAP) / 1e-3)
+    assert picture.scale_without_overlap(table | {"gap": np.full(4, 1e-3)}, 1) == pytest.approx((2e-3 + picture.OVERLAP) / 1e-3)
+    assert picture.scale_without_overlap(table | {"u_n": np.zeros(4)}, 1) == np.inf
+
+
+@pytest.mark.parametrize("scene", ["hertz", "gap_close"])
+def test_bodies_are_not_magnified_into_each_other(solve, scene):
+    table = picture.launch.columns(solve(scene) / "contact.csv")
+    points = meshio.read(solve(scene) / "result.vtu").points[:, :2]
+    assert picture.scale_without_overlap(table, picture.size_of(points)) < 100  # thousands without
+
+
+def test_the_stress_across_the_contact_is_the_pressure_there(solve):
+    results = solve("punch")
+    mesh, curve = (meshio.read(results / name) for name in ("result.vtu", "contact.vtu"))
+    of_bodies = picture.field_of(mesh, curve, "sigma_n")
+    known = np.isfinite(curve.point_data["sigma_n"].ravel())
+    places, expected = curve.points[known, :2], curve.point_data["sigma_n"].ravel()[known]
+    numbers = [(block.data, np.ravel(body)) for block, body in zip(mesh.cells, mesh.cell_data["body"])]
+    bodies = [np.unique(np.concatenate([cells[body == k].ravel() for cells, body in numbers])) for k in (0, 1)]
+    found = [of_bodies[of[picture.nearest(places, mesh.points[of, :2])]] for of in bodies]
+    error = np.min([np.abs(values - expected) for values in found], axis=0)
+    assert error.max() < 1e-9 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("field", ["sigma_n", "error"])
+def test_fields_are_drawn_by_the_program(mortise, solve, field, tmp_path):
+    drawn = tmp_path / "a.png"
+    command = [mortise, "picture", solve("punch"), drawn, "--field", field, "--pair", "0", "--zoom", "0.1,0.5,0.1,0.3", "--dpi", "60"]
+    run = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert png_size(drawn)[0] == 8 * 60 and run.stdout == f"{drawn}\n"
+
+
+def test_the_program_refuses_what_the_script_refuses(mortise, solve, tmp_path):
+    wrong = (["--pair", "7"], "numbers 0 to 0"), (["--field", "heat"], "invalid choice"), (["--zoom", "1,0,0,1"], "no box")
+    for words, said in wrong:
+        run = subprocess.run([mortise, "picture", solve("punch"), tmp_path / "a.png", *words], capture_output=True, text=True, check=False)
+        assert run.returncode == 1 and said in run.stderr and not (tmp_path / "a.png").exists()
+
+
+@pytest.mark.parametrize("scene", ["punch", "wall", "stack", "rollers"])
+def test_the_set_up_is_drawn_before_it_is_solved(mortise, scene, tmp_path):
+    drawn = tmp_path / "setup.png"
+    command = [mortise, "check", launch.scene_file(scene), "--picture", drawn]
+    run = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert png_size(drawn)[0] == 8 * 130 and "contact" in run.stdout
+    assert list(tmp_path.iterdir()) == [drawn]
+
+
 def test_the_axis_of_the_pressure_is_cut_to_the_contact():
     s = np.linspace(0, 10, 101)
     part = np.where((s > 3.95) & (s < 6.05), 1.0, 0.0)

@@ -1,0 +1,194 @@
+#!/usr/bin/python3
+"""The set-up of a scene before it is solved: bodies with their materials, supports, loads and contact pairs by name.
+
+Usage: setup.py SETUP.json PICTURE
+(mortise check SCENE.toml --picture PICTURE does both)
+
+SETUP.json is what mortise writes for it (src/results/setup_json.hpp).
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+
+import figure
+from picture import LOAD, MANY_PAIRS, PAIR_COLOURS, REACTION, polylines, size_of
+
+FILLS = ["#dbe7f3", "#f4e6d4", "#dff0dc", "#eee0f0", "#f3f0cf", "#e4e4e4"]  # a material each
+MANY_NAMES = 24  # more are not written on the picture
+MANY_CELLS = 20000  # more are not drawn one by one
+
+
+def draw_bodies(axes, setup, nodes):
+    materials = list(dict.fromkeys(body["material"] for body in setup["bodies"]))
+    cells = sum(len(body["cells"]) for body in setup["bodies"])
+    for body in setup["bodies"]:
+        fill = FILLS[materials.index(body["material"]) % len(FILLS)]
+        lines = {"edgecolors": "0.75", "linewidths": 0.3} if cells <= MANY_CELLS else {"edgecolors": fill, "linewidths": 0.3}
+        axes.add_collection(PolyCollection([nodes[cell] for cell in body["cells"]], facecolors=fill, **lines))
+        if len(setup["bodies"]) <= MANY_NAMES:
+            middles = np.array([nodes[cell].mean(axis=0) for cell in body["cells"]])
+            at = middles[np.linalg.norm(middles - middles.mean(axis=0), axis=1).argmin()]
+            name(axes, at, f"{body['name']}\n({body['material']})", "0.25", ha="center", va="center")
+    return [Line2D([], [], marker="s", linestyle="", markersize=8, color=FILLS[k % len(FILLS)], label=f"material {m}")
+            for k, m in enumerate(materials)]
+
+
+def name(axes, place, text, colour, **options):
+    written = axes.annotate(text, place, color=colour, fontsize=7.5, zorder=8, **options)
+    written.set_path_effects([withStroke(linewidth=2, foreground="white")])
+
+
+def draw_curve(axes, lines, colour, width=2.0, style="-"):
+    axes.add_collection(LineCollection(lines, colors=colour, linewidths=width, linestyles=style, zorder=4, capstyle="round"))
+
+
+def places_along(lines, spacing):
+    """Places and outward normals at about this spacing along polylines with the body on their left, one at least."""
+    starts, ends = (np.concatenate([line[part] for line in lines]) for part in (slice(None, -1), slice(1, None)))
+    lengths = np.linalg.norm(ends - starts, axis=1)
+    total = lengths.sum()
+    wanted = (np.arange(max(1, round(total / spacing))) + 0.5) * total / max(1, round(total / spacing))
+    k = np.minimum(np.searchsorted(np.cumsum(lengths), wanted), len(lengths) - 1)
+    along = (ends - starts)[k] / lengths[k, None]
+    return (starts + ends)[k] / 2, np.stack([along[:, 1], -along[:, 0]], axis=1)
+
+
+def chained(edges):
+    """Edges (start, end, middle) in the order in which one begins where another ends."""
+    following = {edge[0]: edge for edge in edges}
+    ends = {edge[1] for edge in edges}
+    chain = []
+    for first in [edge for edge in edges if edge[0] not in ends] + edges:
+        edge = following.pop(first[0], None)
+        while edge is not None:
+            chain.append(edge)
+            edge = following.pop(edge[1], None)
+    return chain
+
+
+def draw_support(axes, lines, size):
+    """Hatches on the outside."""
+    at, normal = places_along(lines, 0.025 * size)
+    slanted = normal + 0.8 * np.stack([-normal[:, 1], normal[:, 0]], axis=1)
+    draw_curve(axes, lines, REACTION)
+    draw_curve(axes, np.stack([at, at + 0.018 * size * slanted], axis=1), REACTION, 0.9)
+
+
+def draw_load(axes, lines, load, size):
+    """Arrows along the sum of the load, of a pressure along the normal: onto what they push, away from what they pull."""
+    at, normal = places_along(lines, 0.06 * size)
+    force = np.array(load["sum"])
+    pressure = load["words"].startswith("pressure")
+    if not np.linalg.norm(force) > 0 and not pressure:
+        return
+    along = force / np.linalg.norm(force) if np.linalg.norm(force) > 0 else np.zeros(2)
+    inwards = not load["words"].startswith("pressure -")
+    draw_curve(axes, lines, LOAD)
+    for place, n in zip(at, normal):
+        step = 0.055 * size * ((-n if inwards else n) if pressure else along)
+        arrow(axes, *((place - step, place) if step @ n < 0 else (place, place + step)))
+
+
+def draw_arrows_at(axes, places, force, size):
+    """Arrows along a force that end at these places."""
+    step = 0.07 * size * force / (np.linalg.norm(force) or 1)
+    for place in places:
+        arrow(axes, place - step, place)
+
+
+def arrow(axes, start, end):
+    style = {"arrowstyle": "-|>", "color": LOAD, "linewidth": 1.0, "mutation_scale": 8, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", xy=end, xytext=start, arrowprops=style, zorder=6)
+    axes.update_datalim([start, end])
+
+
+def draw(setup, picture):
+    nodes = np.array(setup["nodes"])
+    curves = {key: polylines(nodes, chained(edges)) for key, edges in setup["curves"].items()}
+    size = size_of(nodes)
+    named = len(curves) <= MANY_NAMES
+    extent = np.ptp(nodes, axis=0)
+    height = float(np.clip(7 * extent[1] / extent[0], 2.5, 9))
+    entries = sum(len(setup[key]) for key in ("supports", "loads", "contact", "ties", "rest")) + 1
+    drawing, axes = figure.panels(1, 1, (8, height + 0.8 + 0.16 * min(20, entries)))
+    legend = draw_bodies(axes, setup, nodes)
+    written = set()
+
+    def tell(colour, label, on, side=1):
+        """A line of the legend, and the names of its curves outside (1) or inside (-1) of their bodies."""
+        legend.append(Line2D([], [], color=colour, linewidth=2, label=label))
+        for curve in on:
+            if named and curve in curves and curve not in written:
+                written.add(curve)
+                at, n = (row[0] for row in places_along(curves[curve], np.inf))
+                n = side * n
+                words = {"ha": "left" if n[0] > 0.5 else "right" if n[0] < -0.5 else "center",
+                         "va": "bottom" if n[1] > 0.5 else "top" if n[1] < -0.5 else "center"}
+                words["rotation"] = 90 if abs(n[0]) > 0.9 else 0
+                name(axes, at, curve, colour, textcoords="offset points", xytext=tuple((14 if side > 0 else 6) * n), **words)
+
+    for support in setup["supports"]:
+        for curve in support["on"]:
+            if curve in curves:
+                draw_support(axes, curves[curve], size)
+            else:
+                axes.plot(*nodes[setup["points"].get(curve, [])].T, "^", color=REACTION, zorder=6)
+        tell(REACTION, f"{listed(support['on'])}: {support['words']}", support["on"])
+    for load in setup["loads"]:
+        force = np.array(load["sum"])
+        force[np.abs(force) < 1e-9 * np.abs(force).max()] = 0
+        for curve in load["on"]:
+            if curve in curves:
+                draw_load(axes, curves[curve], load, size)
+            else:
+                draw_arrows_at(axes, nodes[setup["points"].get(curve, [])], force, size)
+        tell(LOAD, f"{listed(load['on'])}: {load['words']}, in sum ({force[0]:.4g}, {force[1]:.4g})", load["on"])
+    for k, pair in enumerate(setup["contact"]):
+        colour = PAIR_COLOURS[k % len(PAIR_COLOURS)]
+        for curve, style in zip(pair["between"], ["-", (0, (3, 2))]):
+            draw_curve(axes, curves[curve], colour, 2.4, style)
+        if len(setup["contact"]) <= MANY_PAIRS:
+            tell(colour, f"contact {pair['between'][0]} - {pair['between'][1]}: {pair['words']}", pair["between"], -1)
+    if len(setup["contact"]) > MANY_PAIRS:
+        tell(PAIR_COLOURS[0], f"{len(setup['contact'])} contact pairs", [])
+    for tie in setup["ties"]:
+        for curve in tie:
+            draw_curve(axes, curves[curve], "0.45", 2.0)
+        tell("0.45", f"tied: {tie[0]} - {tie[1]}", tie, -1)
+    legend += [Line2D([], [], linestyle="", label=f"besides: {what}") for what in setup["rest"]]
+    axes.autoscale_view()
+    axes.margins(0.1)
+    axes.set(aspect="equal", xlabel="$x_1$", ylabel="$x_2$")
+    drawing.suptitle(f"{setup['title'] or 'set-up'} (before it is solved)", fontsize=11)
+    below = {"loc": "upper left", "bbox_to_anchor": (0, -0.5 / height), "borderaxespad": 0}
+    axes.legend(handles=legend[:20], frameon=False, fontsize=7.5, **below)
+    figure.save(drawing, picture, 130)
+
+
+def listed(names):
+    """The names, of many the first ones."""
+    return ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("setup", type=Path, help=".json")
+    parser.add_argument("picture", type=Path, help=".png, .pdf or .svg")
+    options = parser.parse_args()
+    if options.picture.suffix not in (".png", ".pdf", ".svg"):
+        parser.error(f"{options.picture}: expected a .png, .pdf or .svg to write")
+    draw(json.loads(options.setup.read_text()), options.picture)
+    print(options.picture)
+
+
+if __name__ == "__main__":
+    main()
