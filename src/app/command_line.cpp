@@ -83,10 +83,19 @@ Results solve(const Scene& scene, const Options& options, const StageLine& line)
   return results;
 }
 
+// The results would take the place of what they were made from.
+void check_fields_stay(const Scene& scene, const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const FieldSpec& field : scene.fields)
+    if (std::filesystem::equivalent(std::filesystem::path(field.file).parent_path(), folder, ignored))
+      throw InputError(field.key + ": " + field.file + " lies in the results folder; expected -o another folder");
+}
+
 int solve(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
   const std::filesystem::path folder = options.output.empty() ? "out/" + stem(options) : options.output;
   check_output_folder(folder);
+  check_fields_stay(scene, folder);
   Results results;
   {
     const StageLine line(options.quiet);
@@ -203,9 +212,7 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
   command->add_flag("--no-programs", options.no_programs,
                     "refuse a .geo that runs programs or writes files: it is a program itself");
   command->add_flag("--no-cache", options.no_cache, "mesh a .geo anew, and do not keep its mesh for later runs");
-  command
-      ->add_option("--threads", options.threads,
-                   "threads: of bodies beside each other, and of a factorisation alone (default: all cores; 1)")
+  command->add_option("--threads", options.threads, "threads, for bodies beside each other (default: all cores)")
       ->check(CLI::Range(1, 1024));
   return command;
 }

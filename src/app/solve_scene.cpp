@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "app/load_fields.hpp"
 #include "app/solve_system.hpp"
 #include "base/errors.hpp"
 #include "base/stopwatch.hpp"
@@ -117,6 +118,7 @@ Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSe
 
 CheckedScene check_scene(const Scene& scene) {
   return told_with_path(scene, [&] {
+    load_fields(scene);
     CheckedScene checked{scene_mesh(scene), {}, {}, {}};
     tie_curves(scene, checked.mesh);
     checked.discretisation = discretise(scene, checked.mesh);
@@ -169,6 +171,7 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   tie_curves(scene, r.mesh);
 
   stage("assemble");
+  load_fields(scene);
   r.points = body_points(r.mesh);
   r.discretisation = discretise(scene, r.mesh);
   const std::vector<ProbePlace> probes = locate_probes(scene, r.mesh);

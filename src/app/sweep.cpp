@@ -52,7 +52,9 @@ std::string key_of(const SweepPlan& plan, std::size_t group) {
     const std::vector<Override> all = plan.overrides_of(run);
     for (const Override& o : all) text << o.key.size() << o.key << o.value.size() << o.value << "\n";
     try {
-      for (const fs::path& file : geo_inputs(read_scene(plan.scene, all).mesh_file)) stamp(file);
+      const Scene scene = read_scene(plan.scene, all);
+      for (const fs::path& file : geo_inputs(scene.mesh_file)) stamp(file);
+      for (const FieldSpec& field : scene.fields) stamp(field.file);
     } catch (const InputError&) {  // its row will say so
     }
   }

@@ -3,6 +3,7 @@
 
 #include <muParser.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cctype>
@@ -27,13 +28,14 @@ std::string name_at(const std::string& text, std::size_t at) {
   return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) ? "" : text.substr(at, end - at);
 }
 
-[[noreturn]] void fail_parsing(const std::string& text, const mu::ParserError& error, bool on_curve) {
+[[noreturn]] void fail_parsing(const std::string& text, const mu::ParserError& error, const FieldUse& use) {
   const std::size_t at = error.GetPos() < 0 ? 0 : std::min(std::size_t(error.GetPos()), text.size());
   if (const std::string name = name_at(text, at); error.GetCode() == mu::ecUNASSIGNABLE_TOKEN && !name.empty()) {
-    std::vector<std::string> known(names.begin(), names.end() - (on_curve ? 0 : 1));
+    std::vector<std::string> known(names.begin(), names.end() - (use.on_curve ? 0 : 1));
     known.push_back("pi");
+    for (const auto& function : use.functions) known.push_back(function->name);
     std::string trouble = unknown_name("name", name, known) + ", and functions such as sin, sqrt, exp";
-    if (name == "s" && !on_curve) trouble = "s, the arc length, is known on curves only; known: x, y, r, theta, pi";
+    if (name == "s" && !use.on_curve) trouble = "s, the arc length, is known on curves only; known: x, y, r, theta, pi";
     throw ExpressionError(trouble, at);
   }
   // Its position is told by ours.
@@ -59,11 +61,19 @@ void refuse_assignments(const std::string& text) {
 
 }  // namespace
 
+bool is_free_name(const std::string& name) {
+  if (name.empty() || name_at(name, 0) != name || name == "pi" || std::ranges::find(names, name) != names.end())
+    return false;
+  const mu::Parser parser;
+  return !parser.GetFunDef().contains(name) && !parser.GetConst().contains(name);
+}
+
 struct Field::Function {
   std::string text;
   FieldUse use;
   std::array<double, names.size()> values{};
   std::array<bool, names.size()> used{};
+  std::vector<double> named;  // of use.functions, where those that it does not name are null
   mu::Parser parser;
   std::mutex mutex;  // of values and parser
 };
@@ -78,11 +88,16 @@ Field::Field(const std::string& text, const FieldUse& use) : function_(std::make
     for (std::size_t i = 0; i < names.size(); ++i)
       if (i != s_ || use.on_curve) f.parser.DefineVar(names[i], &f.values[i]);
     f.parser.DefineConst("pi", std::numbers::pi);
+    f.named.resize(use.functions.size());
+    for (std::size_t i = 0; i < f.named.size(); ++i) f.parser.DefineVar(use.functions[i]->name, &f.named[i]);
     f.parser.SetExpr(text);
     f.parser.Eval();
-    for (const auto& [name, place] : f.parser.GetUsedVar()) f.used[place - f.values.data()] = true;
+    const auto& used = f.parser.GetUsedVar();
+    for (std::size_t i = 0; i < names.size(); ++i) f.used[i] = used.contains(names[i]);
+    for (std::size_t i = 0; i < f.named.size(); ++i)
+      if (!used.contains(use.functions[i]->name)) f.use.functions[i] = nullptr;
   } catch (const mu::ParserError& error) {
-    fail_parsing(text, error, use.on_curve);
+    fail_parsing(text, error, use);
   }
   if (f.parser.GetNumResults() != 1) throw ExpressionError("has a comma; expected one value", text.find(','));
 }
@@ -100,6 +115,8 @@ double Field::value_at(const Vec2& x, double s) const {
   {
     const std::lock_guard lock(f.mutex);
     f.values = {x.x(), x.y(), f.used[r_] ? x.norm() : 0, f.used[theta_] ? std::atan2(x.y(), x.x()) : 0, s};
+    for (std::size_t i = 0; i < f.named.size(); ++i)
+      if (f.use.functions[i]) f.named[i] = f.use.functions[i]->at(x);
     value = f.parser.Eval();
   }
   if (std::abs(value) <= f.use.largest) return value;

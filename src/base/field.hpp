@@ -1,9 +1,11 @@
 // A constant of the scene that may vary with the place: a number, or an expression.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "base/types.hpp"
@@ -17,17 +19,27 @@ class ExpressionError : public std::runtime_error {
   std::size_t position;  ///< where in the text, in bytes from 0
 };
 
+/// A function of place that expressions may name. They hold on to it, so `at` may be set after they are read.
+struct NamedFunction {
+  std::string name;
+  std::function<double(const Vec2&)> at;
+};
+
+/// Whether expressions may have it for a name: letters, digits and _, not one of their own names or functions.
+bool is_free_name(const std::string& name);
+
 /// Where an expression stands, and what it may be.
 struct FieldUse {
   std::string key;                                      ///< "boundary.2.pressure (line 31)", for messages
   bool on_curve = false;                                ///< whether it may name s
   double largest = std::numeric_limits<double>::max();  ///< of its size
   std::string limit = {};  ///< "a load below every Young's modulus": what `largest` is, for messages
+  std::vector<std::shared_ptr<const NamedFunction>> functions = {};  ///< that it may name
 };
 
 /// A number, or a function of x and y (undeformed), r and theta (polar, about the origin), and on a curve s (its arc
-/// length, docs/notation.md). A number costs what a number does. Copies share the expression, which several threads may
-/// ask at the same time.
+/// length, docs/notation.md), and of the functions of its use. A number costs what a number does. Copies share the
+/// expression, which several threads may ask at the same time.
 class Field {
  public:
   Field(double constant = 0) : constant_(constant) {}

@@ -5,13 +5,9 @@
 #include <exception>
 #include <mutex>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace mortise {
-
-/// True in the work of for_each_index on several threads: nothing below should start threads of its own.
-inline thread_local bool in_parallel = false;
 
 /// Calls work(i) once for each i below count, on so many threads; in order on one. Throws the first exception of any.
 template <typename Work>
@@ -19,9 +15,7 @@ void for_each_index(std::size_t count, int threads, const Work& work) {
   std::atomic<std::size_t> next = 0;
   std::exception_ptr failure;
   std::mutex mutex;
-  const bool several = threads > 1 && count > 1;
   const auto run = [&] {
-    const bool before = std::exchange(in_parallel, in_parallel || several);
     try {
       for (std::size_t i = next++; i < count; i = next++) work(i);
     } catch (...) {
@@ -29,11 +23,10 @@ void for_each_index(std::size_t count, int threads, const Work& work) {
       if (!failure) failure = std::current_exception();
       next = count;
     }
-    in_parallel = before;
   };
   {
     std::vector<std::jthread> others;
-    for (int k = 1; several && k < threads && k < int(count); ++k) others.emplace_back(run);
+    for (int k = 1; k < threads && k < int(count); ++k) others.emplace_back(run);
     run();
   }
   if (failure) std::rethrow_exception(failure);

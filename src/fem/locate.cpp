@@ -75,6 +75,17 @@ CellFinder::CellFinder(const Mesh& mesh)
         return boxes;
       }()) {}
 
+std::optional<CellPlace> CellFinder::nearest(const Vec2& x) const {
+  std::optional<CellPlace> nearest;
+  for (const int e : cells_.meeting(Box(x))) {
+    const CellPlace place = nearest_in(mesh_, e, x);
+    const double size = cell_size(mesh_, e);
+    if (place.distance <= 1e-12 * size) return place;
+    if (place.distance <= reach * size && (!nearest || place.distance < nearest->distance)) nearest = place;
+  }
+  return nearest;
+}
+
 std::vector<CellPlace> CellFinder::around(const Vec2& x) const {
   std::map<int, CellPlace> nearest;  // of each body
   for (const int e : cells_.meeting(Box(x))) {

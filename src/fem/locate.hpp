@@ -26,6 +26,9 @@ class CellFinder {
   /// Of each body that has x, or comes nearest, its cell, by the distance of it.
   std::vector<CellPlace> around(const Vec2& x) const;
 
+  /// The first cell of any body that has x, to round-off, or the one that comes nearest.
+  std::optional<CellPlace> nearest(const Vec2& x) const;
+
  private:
   const Mesh& mesh_;
   BoxIndex cells_;

@@ -5,8 +5,8 @@
 #include "base/errors.hpp"
 #include "fem/elements.hpp"
 #include "io/assemble_mesh.hpp"
-#include "io/gmsh_guard.hpp"
 #include "io/gmsh_mesh.hpp"
+#include "io/library_guard.hpp"
 
 namespace mortise {
 
@@ -17,12 +17,12 @@ FreeMesher::FreeMesher(const std::string& file, const std::map<std::string, doub
   if (std::filesystem::path(file).extension() != ".geo")
     throw InputError(file + ": a mesh has no geometry to refine; expected a .geo");
   const GmshModule& gmsh = gmsh_module();
-  const GmshGuard guard(file, limits.seconds);
+  const LibraryGuard guard(file, limits.seconds);
   drawing_ = gmsh.read_drawing(file, parameters);
 }
 
 Mesh FreeMesher::mesh_once(const SizeAt& size, bool recombine) const {
-  const GmshGuard guard(drawing_.geometry.file, limits_.seconds);
+  const LibraryGuard guard(drawing_.geometry.file, limits_.seconds);
   Mesh mesh = assemble_mesh(gmsh_module().mesh_freely(drawing_.geometry, size, recombine));
   check_cells(mesh);
   return mesh;

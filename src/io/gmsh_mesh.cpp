@@ -5,14 +5,16 @@
 #include "base/errors.hpp"
 #include "base/mesh_endings.hpp"
 #include "io/assemble_mesh.hpp"
+#include "io/bdf_file.hpp"
 #include "io/geo_file.hpp"
-#include "io/gmsh_guard.hpp"
 #include "io/gmsh_module.hpp"
 #include "io/inp_file.hpp"
+#include "io/library_guard.hpp"
 #include "io/mesh_cache.hpp"
 #include "io/mesh_groups.hpp"
 #include "io/msh_file.hpp"
 #include "io/set_mesh.hpp"
+#include "io/unv_file.hpp"
 
 namespace mortise {
 namespace {
@@ -25,6 +27,8 @@ bool is_geo(const std::string& file) { return fs::path(file).extension() == ".ge
 MeshData read_mesh_file(const std::string& file) {
   const fs::path ending = fs::path(file).extension();
   if (ending == ".inp") return data_of_sets(read_inp(file));
+  if (ending == ".unv") return data_of_sets(read_unv(file));
+  if (ending == ".bdf" || ending == ".nas") return data_of_sets(read_bdf(file));
   MeshData data = read_msh(file);
   group_by_entity(data);
   return data;
@@ -32,7 +36,7 @@ MeshData read_mesh_file(const std::string& file) {
 
 MeshData mesh_geo(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits) {
   const GmshModule& gmsh = gmsh_module();
-  const GmshGuard guard(file, limits.seconds);
+  const LibraryGuard guard(file, limits.seconds);
   return gmsh.mesh_geo(file, parameters);
 }
 
@@ -41,7 +45,7 @@ MeshData mesh_geo(const std::string& file, const std::map<std::string, double>& 
 void check_mesh_file(const std::string& file, const std::map<std::string, double>& parameters,
                      const GeoLimits& limits) {
   if (!is_mesh_ending(fs::path(file).extension().string())) {
-    throw InputError(file + ": a mesh file ends in " + mesh_endings_in_words);
+    throw InputError(file + ": a mesh file ends in " + mesh_endings_in_words + mesh_ending_advice(file));
   }
   std::error_code error;
   if (!fs::is_regular_file(file, error)) throw InputError(file + ": no such file");

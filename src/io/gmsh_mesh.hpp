@@ -19,7 +19,7 @@ void check_mesh_file(const std::string& file, const std::map<std::string, double
 /// Throws InputError naming the file and the place: no such file, gmsh's own message, a parameter that the .geo does
 /// not define or that is outside the range it gives, parameters given to a mesh, what read_msh, read_inp and
 /// assemble_mesh refuse. Where gmsh crashes, ends the process or takes too long, the process ends with one line and
-/// exit status 1 (GmshGuard).
+/// exit status 1 (LibraryGuard).
 /// `cached`: set to whether the mesh of a .geo was kept from an earlier run (mesh_cache.hpp).
 Mesh load_mesh(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits = {},
                bool* cached = nullptr);

@@ -22,8 +22,8 @@ struct FreeDrawing {
   std::vector<DrawnCurve> curves;
 };
 
-/// The module's functions. A GmshGuard should be there while one of them runs. All throw InputError that names the file
-/// and gmsh's own message.
+/// The module's functions. A LibraryGuard should be there while one of them runs. All throw InputError that names the
+/// file and gmsh's own message.
 struct GmshModule {
   /// Meshes a .geo with these values of its DefineConstant names.
   MeshData (*mesh_geo)(const std::string& file, const std::map<std::string, double>& parameters);

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 /// Also after a .geo has been read, which may set any option. AbortOnError stays off: with it on, gmsh 4.8 throws a
 /// string out of an OpenMP region, which ends the process. Errors are found in the log instead.
 void set_options() {
-  gmsh::option::setNumber("General.Terminal", 1);  // GmshGuard keeps it from the terminal, and quotes the last line
+  gmsh::option::setNumber("General.Terminal", 1);  // LibraryGuard keeps it from the terminal, and quotes the last line
   gmsh::option::setNumber("General.Verbosity", 2);
   gmsh::option::setNumber("General.AbortOnError", 0);
   gmsh::option::setNumber("General.NumThreads", 1);

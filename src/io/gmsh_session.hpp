@@ -19,7 +19,7 @@ class GmshSession {
   GmshSession& operator=(const GmshSession&) = delete;
 
   /// Opens a .msh, or a .geo with these values for its DefineConstant names, unmeshed unless the .geo meshes itself.
-  /// Throws InputError with gmsh's own message. A GmshGuard should be there, here and below.
+  /// Throws InputError with gmsh's own message. A LibraryGuard should be there, here and below.
   void read(const std::string& file, const std::map<std::string, double>& parameters);
 
   /// Opens the text of a .geo, which messages tell as `file`. Throws as read does.

@@ -15,6 +15,29 @@ bool is_cell(const SetElement& element) { return element.type != 0 && element_ty
 
 int corners_of(const SetElement& cell) { return cell.type == 2 || cell.type == 9 ? 3 : 4; }
 
+void add_property_sets(const std::vector<int>& properties, SetMesh& mesh) {
+  const auto is_line = [&](int e) { return mesh.elements[e].type == 1 || mesh.elements[e].type == 8; };
+  std::vector<int> with_cells;
+  bool curves = !mesh.node_sets.empty();
+  for (int s = 0; s < int(mesh.element_sets.size()); ++s) {
+    const std::vector<int>& members = mesh.element_sets[s].members;
+    if (std::ranges::any_of(members, [&](int e) { return is_cell(mesh.elements[e]); })) with_cells.push_back(s);
+    curves = curves || std::ranges::any_of(members, is_line);
+  }
+  std::map<std::pair<bool, int>, std::vector<int>> sets;
+  for (int e = 0; e < int(properties.size()); ++e)
+    if (is_cell(mesh.elements[e]) || (is_line(e) && !curves)) sets[{is_line(e), properties[e]}].push_back(e);
+  if (!with_cells.empty()) mesh.candidates.push_back(with_cells);
+  std::vector<int> by_property;
+  for (auto& [key, members] : sets) {
+    const auto& [line, property] = key;
+    if (!line) by_property.push_back(int(mesh.element_sets.size()));
+    mesh.element_sets.push_back({(line ? "curve_" : "surface_") + std::to_string(property), std::move(members)});
+  }
+  mesh.candidates.push_back(by_property);
+  mesh.named_by_tag = !curves || with_cells.empty();
+}
+
 namespace {
 
 /// A side of a cell, by its ends in rising order.
@@ -242,7 +265,7 @@ MeshData data_of_sets(const SetMesh& mesh) {
   data.nodes = mesh.nodes;
   data.notes = mesh.notes;
   const Bodies bodies = bodies_of(mesh);
-  data.named_by_tag = bodies.named_by_tag;
+  data.named_by_tag = bodies.named_by_tag || mesh.named_by_tag;
   add_bodies(mesh, bodies, data);
   const std::vector<Side> sides = sides_of(mesh, bodies);
   Curves curves(mesh, sides, data);

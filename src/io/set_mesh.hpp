@@ -41,7 +41,12 @@ struct SetMesh {
   std::vector<int> bodies;                   ///< the element sets that the file says are bodies
   std::vector<SideSet> sides;
   std::vector<std::string> notes;
+  bool named_by_tag = false;  ///< whether sets were named by numbers of the file
 };
+
+/// Of files that number the properties of elements: cells of one property are a candidate for a body, surface_7, after
+/// the sets that have cells; its lines are a curve, curve_7, if no set makes curves.
+void add_property_sets(const std::vector<int>& properties, SetMesh& mesh);
 
 /// Bodies: the sets that the file says, else of the candidates, each part that has no nodes in common with the others
 /// for itself as SET_1, SET_2 ...; else the parts that have no nodes in common, called surface_1, surface_2 ... Curves:

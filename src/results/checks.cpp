@@ -43,6 +43,7 @@ std::vector<std::vector<int>> nodes_of_bodies(const Results& r) {
 void balance_of_bodies(const Results& r, double limit, std::vector<Check>& checks) {
   const SaddlePointSystem& s = r.discretisation.system;
   const VecX forces = s.f - s.B.transpose() * r.solution.lambda + r.reactions.nodal;
+  const double rigid = rigid_force(r);
   LeftOver worst{0, 0};
   for (const std::vector<int>& nodes : nodes_of_bodies(r)) {
     if (nodes.empty()) continue;  // counted with another body
@@ -54,7 +55,7 @@ void balance_of_bodies(const Results& r, double limit, std::vector<Check>& check
     Resultant sum;
     for (const int node : nodes)
       sum.add(r.mesh.nodes.row(node).transpose() - (low + high) / 2, forces.segment<2>(2 * node));
-    const LeftOver left = left_over(r, sum, largest(sum.size, rigid_force(r)), (high - low).norm());
+    const LeftOver left = left_over(r, sum, largest(sum.size, rigid), (high - low).norm());
     worst = {largest(worst.force, left.force), largest(worst.moment, left.moment)};
   }
   checks.push_back({"force balance of each body", worst.force, limit});

@@ -259,6 +259,12 @@ std::string model_lines(const Scene& scene, const Mesh& mesh, const Discretisati
     if (reactions) out << "; force " << force_of(reactions->ties[k]) << " on " << tie.curves[0];
     out << "\n";
   }
+  print_some(scene.fields, "fields", out, [&](std::size_t i) {
+    const FieldSpec& field = scene.fields[i];
+    out << "  field     " << field.function->name << ": " << printable(field.values);
+    if (field.component) out << "[" << *field.component << "]";
+    out << " of " << printable(field.file) << "\n";
+  });
   if (scene.gravity)
     out << "  load      gravity " << pair_of(*scene.gravity) << ", in sum " << in_sum(d.weight, scene.model) << "\n";
   print_some(scene.body_forces, "forces per volume", out, [&](std::size_t i) {
@@ -318,6 +324,10 @@ Json model_json(const Scene& scene, const Mesh& mesh, const Discretisation& d, c
                              {"nodes", tie.nodes.size()},
                              {"force", json_of(reactions.ties[k].force)},
                              {"moment", reactions.ties[k].moment}});
+  }
+  for (const FieldSpec& field : scene.fields) {
+    Json& entry = model["fields"][field.function->name] = {{"file", field.file}, {"values", field.values}};
+    if (field.component) entry["component"] = *field.component;
   }
   if (!scene.model.axisymmetric()) model["thickness"] = scene.model.thickness;
   return model;

@@ -92,6 +92,12 @@ std::array<double, 3> number_triple(const Node& node, const std::string& expecte
   return {number(node.items[0]), number(node.items[1]), number(node.items[2])};
 }
 
+FieldUse expression_use(const Scene& scene, bool on_curve) {
+  FieldUse use{.key = {}, .on_curve = on_curve};
+  for (const FieldSpec& spec : scene.fields) use.functions.push_back(spec.function);
+  return use;
+}
+
 Field field(const Node& node, FieldUse use) {
   if (node.kind == Node::Kind::number) return number(node);
   if (node.kind != Node::Kind::string) fail_expected(node, "a number or an expression");

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "scene/fail.hpp"
+#include "scene/fields.hpp"
 
 namespace mortise::scene_file {
 namespace {
@@ -28,6 +29,12 @@ std::string nearest_file(const fs::path& path) {
 }
 
 }  // namespace
+
+fs::path resolve(const Node& file, const std::string& scene_path) {
+  const fs::path path{name(file)};
+  if (!file.place.setting.empty()) return path;
+  return (fs::path{scene_path}.parent_path() / path).lexically_normal();
+}
 
 std::string file_trouble(const fs::path& path) {
   std::error_code error;

@@ -4,7 +4,13 @@
 #include <filesystem>
 #include <string>
 
+#include "scene/node.hpp"
+
 namespace mortise::scene_file {
+
+/// A file that the scene names: in the scene file relative to that file, on the command line relative to the working
+/// directory.
+std::filesystem::path resolve(const Node& file, const std::string& scene_path);
 
 /// What is wrong with `path` as a file to read, with the nearest file of the same ending beside it; empty if nothing.
 std::string file_trouble(const std::filesystem::path& path);

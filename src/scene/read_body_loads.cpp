@@ -34,7 +34,8 @@ Field read_temperature(const Node& entry, const BodySpec& body, const Node& root
   const std::string factor = " times the thermal_expansion " + describe(*expansion) + " (" + locate(*expansion) +
                              "); probably a unit mismatch";
   const double largest = 1 / std::abs(scene.materials.at(body.material).thermal_expansion);  // 1 / 0: any
-  FieldUse use{.key = {}, .limit = "a thermal strain below 1, which is this" + factor};
+  FieldUse use = expression_use(scene, false);
+  use.limit = "a thermal strain below 1, which is this" + factor;
   if (std::isfinite(largest)) use.largest = largest;
   const Field field = scene_file::field(change, use);
   if (!field.is_constant() || std::abs(field.constant()) < largest) return field;
@@ -42,15 +43,18 @@ Field read_temperature(const Node& entry, const BodySpec& body, const Node& root
        "expected a thermal strain below 1, found " + describe(change) + factor);
 }
 
-std::array<Field, 4> read_strain(const Node& node) {
+std::array<Field, 4> read_strain(const Node& node, const Scene& scene) {
   const std::array<const char*, 4> components{"xx", "yy", "zz", "xy"};
   expect_keys(node, {components.begin(), components.end()});
   if (node.items.empty()) fail(node, "is empty; expected at least one of xx, yy, zz, xy");
   std::array<Field, 4> strain;
+  FieldUse use = expression_use(scene, false);
+  use.largest = 1;
+  use.limit = "a strain below 1";
   for (int i = 0; i < 4; ++i) {
     const Node* component = find(node, components[i]);
     if (component == nullptr) continue;
-    strain[i] = field(*component, {.key = {}, .largest = 1, .limit = "a strain below 1"});
+    strain[i] = field(*component, use);
     if (strain[i].is_constant() && std::abs(strain[i].constant()) >= 1)
       fail(*component, "expected a strain below 1, found " + describe(*component));
   }
@@ -66,7 +70,7 @@ void read_body_forces(const Node& root, Scene& scene) {
     const std::string& body = read_body_name(*entry, root, scene).name;
     once.take("body '" + body + "' is given a body force", *find(*entry, "body"), *entry);
     const Node& force = require(*entry, "force", "a force per volume [fx, fy]");
-    scene.body_forces.push_back({locate(*entry), body, field_pair(force, {})});
+    scene.body_forces.push_back({locate(*entry), body, field_pair(force, expression_use(scene, false))});
   }
 }
 
@@ -79,7 +83,7 @@ void read_initial_strains(const Node& root, Scene& scene) {
     InitialStrainSpec spec{locate(*entry), body.name, {}, {}};
     const Node& what = exactly_one(*entry, {"temperature_change", "strain"});
     if (what.name == "strain") {
-      spec.strain = read_strain(what);
+      spec.strain = read_strain(what, scene);
     } else {
       spec.temperature_change = read_temperature(*entry, body, root, scene);
     }

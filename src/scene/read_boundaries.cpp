@@ -27,12 +27,12 @@ Stiffest stiffest(const Node& root, const Scene& scene) {
 
 /// Small strains cannot hold under a load larger than every Young's modulus: rather 1e6 is missing somewhere. The same
 /// of an expression is told where its value is.
-FieldUse load_use(const Stiffest& most) {
-  return {.key = {},
-          .on_curve = true,
-          .largest = most.young,
-          .limit = "a load below every Young's modulus (the largest is " + describe(*most.node) + ", " +
-                   locate(*most.node) + "); probably a unit mismatch"};
+FieldUse load_use(const Scene& scene, const Stiffest& most) {
+  FieldUse use = expression_use(scene, true);
+  use.largest = most.young;
+  use.limit = "a load below every Young's modulus (the largest is " + describe(*most.node) + ", " + locate(*most.node) +
+              "); probably a unit mismatch";
+  return use;
 }
 
 void check_load(const Node& load, double size, const Stiffest& most) {
@@ -42,11 +42,10 @@ void check_load(const Node& load, double size, const Stiffest& most) {
            locate(*most.node) + "), found " + describe(load) + "; probably a unit mismatch");
 }
 
-void read_displacement(const Node& node, BoundarySpec& boundary) {
+void read_displacement(const Node& node, const FieldUse& use, BoundarySpec& boundary) {
   expect_keys(node, {"x", "y", "normal", "direction", "value"});
   const std::string expected = "expected x, y or both; or normal; or direction and value";
   if (node.items.empty()) fail(node, "is empty; " + expected);
-  const FieldUse use{.key = {}, .on_curve = true};
   const Node *x = find(node, "x"), *y = find(node, "y"), *normal = find(node, "normal");
   const Node *direction = find(node, "direction"), *value = find(node, "value");
   if (int(x != nullptr || y != nullptr) + int(normal != nullptr) + int(direction != nullptr || value != nullptr) > 1)
@@ -83,26 +82,26 @@ Vec2 read_spring(const Node& node) {
   return k;
 }
 
-void read_what(const Node& what, const Model& model, const Stiffest& most, BoundarySpec& boundary) {
+void read_what(const Node& what, const Scene& scene, const Stiffest& most, BoundarySpec& boundary) {
   if (what.name == "displacement") {
-    read_displacement(what, boundary);
+    read_displacement(what, expression_use(scene, true), boundary);
   } else if (what.name == "rigid") {
-    read_rigid(what, model, boundary);
+    read_rigid(what, scene.model, boundary);
   } else if (what.name == "spring") {
     boundary.spring = read_spring(what);
   } else if (what.name == "pressure") {
-    boundary.pressure = field(what, load_use(most));
+    boundary.pressure = field(what, load_use(scene, most));
     if (boundary.pressure->is_constant()) check_load(what, std::abs(boundary.pressure->constant()), most);
   } else if (what.name == "traction") {
-    boundary.traction = field_pair(what, load_use(most));
+    boundary.traction = field_pair(what, load_use(scene, most));
     for (const Field& t : {boundary.traction->x, boundary.traction->y})
       if (t.is_constant()) check_load(what, std::abs(t.constant()), most);
   } else if (what.name == "force") {
     boundary.force = number_pair(what);
   } else if (what.kind == Node::Kind::list) {
-    boundary.foundation = field_pair(what, {.key = {}, .on_curve = true});
+    boundary.foundation = field_pair(what, expression_use(scene, true));
   } else {
-    boundary.normal_foundation = field(what, {.key = {}, .on_curve = true});
+    boundary.normal_foundation = field(what, expression_use(scene, true));
   }
 }
 
@@ -140,7 +139,7 @@ void read_boundaries(const Node& root, Scene& scene) {
     boundary.key = locate(*entry);
     const std::vector<const Node*> curves = names(require(*entry, "on", "the names of physical curves"));
     for (const Node* curve : curves) boundary.on.push_back(curve->text);
-    read_what(what, scene.model, most, boundary);
+    read_what(what, scene, most, boundary);
     check_once(*entry, what, curves, once);
     scene.boundaries.push_back(boundary);
   }

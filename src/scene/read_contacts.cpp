@@ -42,20 +42,21 @@ bool is_word(const std::string& text) {
 }
 
 // A word, or the gap: a length that may be an expression.
-void read_initial_gap(const Node* node, ContactSpec& contact) {
+void read_initial_gap(const Node* node, const Scene& scene, ContactSpec& contact) {
   if (node == nullptr) return;
-  if (node->kind == Node::Kind::string && is_word(node->text)) {
+  if (node->kind == Node::Kind::string && is_word(node->text) &&
+      std::ranges::none_of(scene.fields, [&](const FieldSpec& f) { return f.function->name == node->text; })) {
     contact.initial_gap = choice(node, gap_words, contact.initial_gap);
     return;
   }
   if (node->kind != Node::Kind::number && node->kind != Node::Kind::string)
     fail(*node, "expected a length, an expression or a word, found " + describe(*node));
   contact.initial_gap = InitialGap::given;
-  contact.gap = field(*node, {.key = {}, .on_curve = true});
+  contact.gap = field(*node, expression_use(scene, true));
 }
 
 // What is added to the gap between the drawn curves, or between the edges.
-void read_clearance(const Node& entry, ContactSpec& contact) {
+void read_clearance(const Node& entry, const Scene& scene, ContactSpec& contact) {
   const Node* node = find(entry, "clearance");
   if (node == nullptr) return;
   if (contact.initial_gap == InitialGap::closed || contact.initial_gap == InitialGap::given) {
@@ -63,7 +64,7 @@ void read_clearance(const Node& entry, ContactSpec& contact) {
     fail(blame(gap, *node).place, node->path,
          "is added to the gap that is drawn, but initial_gap = " + describe(gap) + "; expected one of them");
   }
-  contact.clearance = field(*node, {.key = {}, .on_curve = true});
+  contact.clearance = field(*node, expression_use(scene, true));
 }
 
 }  // namespace
@@ -86,8 +87,8 @@ void read_contacts(const Node& root, Scene& scene) {
     for (const char* key : {"initial_gap", "clearance"})
       if (const Node* node = find(*entry, key); tied && node != nullptr)
         fail(*node, "has no meaning with condition = \"tied\", which makes one body of both; expected one of them");
-    read_initial_gap(find(*entry, "initial_gap"), contact);
-    read_clearance(*entry, contact);
+    read_initial_gap(find(*entry, "initial_gap"), scene, contact);
+    read_clearance(*entry, scene, contact);
     contact.multipliers_on = read_multipliers_on(*entry, contact);
     (tied ? scene.ties : scene.contacts).push_back(contact);
   }

@@ -11,16 +11,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In the scene file relative to that file; on the command line relative to the working directory.
-fs::path resolve(const Node& file, const std::string& scene_path) {
-  const fs::path path{name(file)};
-  if (!file.place.setting.empty()) return path;
-  return (fs::path{scene_path}.parent_path() / path).lexically_normal();
-}
-
 void check_mesh_file(const Node& file, const fs::path& path) {
   if (!is_mesh_ending(path.extension().string())) {
-    fail(file, std::string("expected a file that ends in ") + mesh_endings_in_words + ", found '" + file.text + "'");
+    fail(file, std::string("expected a file that ends in ") + mesh_endings_in_words + ", found '" + file.text + "'" +
+                   mesh_ending_advice(file.text));
   }
   const std::string trouble = file_trouble(path);
   if (!trouble.empty()) fail(file, "'" + path.string() + "': " + trouble);

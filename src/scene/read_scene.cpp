@@ -42,13 +42,14 @@ void read_model(const Node& root, Scene& scene) {
 }
 
 Scene read_sections(const Node& root, const std::string& path) {
-  expect_keys(root, {"title", "mesh", "copies", "model", "materials", "bodies", "boundary", "body_force",
+  expect_keys(root, {"title", "mesh", "copies", "fields", "model", "materials", "bodies", "boundary", "body_force",
                      "initial_strain", "contact", "probe", "method", "accuracy"});
   Scene scene;
   scene.path = path;
   read_title(root, scene);
   read_mesh_section(root, scene);
   read_copies(root, scene);
+  read_fields(root, scene);
   read_model(root, scene);
   read_bodies(root, scene);
   read_boundaries(root, scene);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -128,6 +129,15 @@ struct ProbeSpec {
   double angle = 0;   ///< of the axes of the stresses, degrees counter-clockwise from x
 };
 
+/// One entry of [fields]: a function of place by its values at the points of a file.
+struct FieldSpec {
+  std::string key;
+  std::string file;                         ///< as Scene::mesh_file
+  std::string values;                       ///< the array of a .vtu, the column of a .csv
+  std::optional<int> component;             ///< of an array with several, from 0
+  std::shared_ptr<NamedFunction> function;  ///< that expressions name; load_fields says what it is
+};
+
 struct Scene {
   std::string path;  ///< the .toml, for messages
   std::string title;
@@ -135,6 +145,7 @@ struct Scene {
   std::map<std::string, double> mesh_parameters;
   GeoLimits geo_limits;
   std::vector<BodyCopy> copies;  ///< of bodies of the mesh file, in their place
+  std::vector<FieldSpec> fields;
   Model model;
   std::optional<Vec2> gravity;  ///< acceleration: the force per volume is density times it
   std::map<std::string, Material> materials;

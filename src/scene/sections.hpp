@@ -13,6 +13,9 @@ void read_mesh_section(const Node& root, Scene& scene);
 /// [[copies]]: where each copy of a body stands, one by one.
 void read_copies(const Node& root, Scene& scene);
 
+/// [fields]: names that expressions may use, and the files that their values are in. Before whatever may be one.
+void read_fields(const Node& root, Scene& scene);
+
 /// A table [materials.NAME].
 Material read_material(const Node& node);
 

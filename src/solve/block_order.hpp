@@ -8,7 +8,7 @@
 namespace mortise {
 
 /// From so many unknowns on, nested dissection: below, it takes longer than it saves.
-inline constexpr int dissect_from = 100000;
+inline constexpr int dissect_from = 40000;
 
 /// The first n columns of `upper` (the upper triangle of a symmetric matrix), in the order that fills the factor
 /// little: entry k is the column that comes k-th. `blocks`, n, groups unknowns that share a node (ascending, 0, 0, 1,

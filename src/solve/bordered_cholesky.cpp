@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "base/errors.hpp"
-#include "solve/block_order.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -113,7 +112,7 @@ struct BorderedCholesky::Factor {
   }
 };
 
-BorderedCholesky::BorderedCholesky(SparseMatrix&& given, const std::vector<int>& blocks)
+BorderedCholesky::BorderedCholesky(SparseMatrix&& given, const std::vector<int>& blocks, int dissect)
     : factor_(std::make_unique<Factor>()) {
   SparseMatrix matrix;
   matrix.swap(given);  // Eigen 3.4 has no move: it would copy
@@ -127,7 +126,7 @@ BorderedCholesky::BorderedCholesky(SparseMatrix&& given, const std::vector<int>&
   c.nmethods = 1;
   c.method[0].ordering = CHOLMOD_GIVEN;
   c.print = 0;
-  std::vector<int> order = block_order(matrix, blocks);
+  std::vector<int> order = block_order(matrix, blocks, dissect);
   for (int r = f.n; r < int(matrix.cols()); ++r) order.push_back(r);  // the border last
   cholmod_sparse A = view(matrix);
   f.L = cholmod_analyze_p(&A, order.data(), nullptr, 0, &c);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "solve/block_order.hpp"
 
 namespace mortise {
 
@@ -28,8 +29,9 @@ class BorderedCholesky {
   /// `matrix` is the upper triangle of [K B^T; B beta I] (which spares CHOLMOD a transposition): n columns of K, then
   /// the columns of B^T with border_beta below them. K and the rows of B are of about unit size. It is taken, and
   /// freed once factorised.
-  /// `blocks` groups the n unknowns that share a node (ascending, 0, 0, 1, 1, 2, ...): ordered together.
-  BorderedCholesky(SparseMatrix&& matrix, const std::vector<int>& blocks);
+  /// `blocks` groups the n unknowns that share a node (ascending, 0, 0, 1, 1, 2, ...): ordered together, by nested
+  /// dissection from `dissect` unknowns on.
+  BorderedCholesky(SparseMatrix&& matrix, const std::vector<int>& blocks, int dissect = dissect_from);
   ~BorderedCholesky();
   BorderedCholesky(BorderedCholesky&&) noexcept;
 

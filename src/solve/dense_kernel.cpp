@@ -6,11 +6,14 @@
 #include <string_view>
 
 extern "C" {
+void openblas_set_num_threads(int threads);
 char* openblas_get_config();
 char* openblas_get_corename();
 // What OpenBLAS's own constructor and destructor call; a build for one processor only has neither.
 [[gnu::weak]] void gotoblas_dynamic_init();
 [[gnu::weak]] void gotoblas_dynamic_quit();
+// What it calls before a fork; absent where its threads are OpenMP's.
+[[gnu::weak]] int blas_thread_shutdown_();
 }
 
 namespace mortise {
@@ -42,6 +45,8 @@ const char* processor_kernel() {
 }  // namespace
 
 void choose_dense_kernel() {
+  openblas_set_num_threads(1);
+  if (blas_thread_shutdown_) blas_thread_shutdown_();
   const char* kernel = processor_kernel();
   if (!kernel || std::getenv(variable) || !is_old(openblas_get_corename())) return;
   if (!gotoblas_dynamic_init || !gotoblas_dynamic_quit) return;

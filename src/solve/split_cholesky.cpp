@@ -1,6 +1,7 @@
 #include "solve/split_cholesky.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "base/parallel.hpp"
@@ -79,11 +80,12 @@ void SplitCholesky::for_each_part(Work work) const {
   for_each_index(parts_.size(), solver_threads(), [&](std::size_t k) { work(parts_[k]); });
 }
 
-SplitCholesky::SplitCholesky(SparseMatrix&& matrix, const std::vector<int>& blocks, int split_from)
+SplitCholesky::SplitCholesky(SparseMatrix&& matrix, const std::vector<int>& blocks, int from)
     : unknowns_(Eigen::Index(blocks.size())), rows_(matrix.cols() - unknowns_) {
   std::vector<SparseMatrix> matrices;
   std::vector<std::vector<int>> sets, rows(1);
-  if (unknowns_ >= split_from) sets = coupled_unknowns(matrix, blocks);
+  if (unknowns_ >= from) sets = coupled_unknowns(matrix, blocks);
+  std::ranges::stable_sort(sets, std::greater(), &std::vector<int>::size);  // the longest work first
   if (sets.size() < 2) {
     sets.assign(1, std::vector<int>(unknowns_));
     rows[0].resize(rows_);

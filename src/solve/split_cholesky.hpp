@@ -1,17 +1,19 @@
 // The bordered factor of bodies that only the border joins: a factor each, on a thread each.
 #pragma once
 
-#include "solve/block_order.hpp"
 #include "solve/bordered_cholesky.hpp"
 
 namespace mortise {
 
+/// From so many unknowns on, a factor a part: below, one for all takes less.
+inline constexpr int split_from = 100000;
+
 /// As BorderedCholesky, whose words it shares. K falls into parts that nothing couples (bodies), K = diag(K_p), so that
-/// C = sum of B_p K_p^-1 B_p^T: from `dissect_from` unknowns on each part is ordered, factorised and solved by itself,
+/// C = sum of B_p K_p^-1 B_p^T: from `split_from` unknowns on each part is ordered, factorised and solved by itself,
 /// several at once; below, all are one. What comes out does not depend on the number of threads.
 class SplitCholesky {
  public:
-  SplitCholesky(SparseMatrix&& matrix, const std::vector<int>& blocks, int split_from = dissect_from);
+  SplitCholesky(SparseMatrix&& matrix, const std::vector<int>& blocks, int from = split_from);
 
   int failed_at() const;
   MatX take_border_compliance() { return std::move(compliance_); }

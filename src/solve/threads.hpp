@@ -1,17 +1,17 @@
-// Threads of the dense kernels inside the factorisation.
+// Threads of independent pieces of work.
 #pragma once
 
 namespace mortise {
 
-/// 0 (the default): as many as there are cores for independent pieces of work, one for each factorisation.
+/// 0 (the default): as many as there are cores.
 void set_solver_threads(int threads);
 
-/// For independent pieces of work.
+/// For bodies, parts of a system, estimates beside each other.
 int solver_threads();
 
-/// Called before a factorisation: its dense products on one thread, or on as many as were asked for where nothing else
-/// runs beside it. The threads of OpenBLAS wait for each other by running idle: on a busy machine that takes many times
-/// longer than one thread.
+/// Called before a factorisation: its dense products on one thread. CHOLMOD's own OpenMP loops and the threads of
+/// OpenBLAS wait for each other by running idle: on a busy machine that takes many times longer than one thread.
+/// Throws std::bad_alloc where there is no memory for them.
 void apply_solver_threads();
 
 }  // namespace mortise

@@ -14,15 +14,28 @@ import launch
 DOCS = launch.ROOT / "docs"
 
 STYLE = """
-body { font: 15px/1.45 system-ui, sans-serif; color: #1c1c1c; max-width: 1180px; margin: 2em auto; padding: 0 1em }
-h1 { font-size: 1.6em } h2 { font-size: 1.3em; margin-top: 2.2em; border-bottom: 1px solid #ccc }
+:root { color-scheme: light dark; --page: #ffffff; --ink: #1c1c1c; --line: #d8d8d8; --head: #f2f2f2; --link: #1a56b0;
+  --good: #17702a; --bad: #b80000 }
+@media (prefers-color-scheme: dark) {
+  :root { --page: #16181b; --ink: #dcdcdc; --line: #3a3e44; --head: #23272c; --link: #8ab4f8; --good: #6fcf84; --bad: #ff8a80 }
+  img { filter: brightness(0.9) }
+}
+body { font: 15px/1.45 system-ui, sans-serif; color: var(--ink); background: var(--page); max-width: 1180px; margin: 2em auto;
+  padding: 0 1em; overflow-wrap: anywhere }
+a { color: var(--link) }
+h1 { font-size: 1.6em } h2 { font-size: 1.3em; margin-top: 2.2em; border-bottom: 1px solid var(--line) }
 h3 { font-size: 1.05em }
-table { border-collapse: collapse; font-size: 13px; margin: 1em 0; display: block; overflow-x: auto }
-th, td { padding: 2px 9px; text-align: left; border-bottom: 1px solid #e4e4e4; white-space: nowrap }
-th { background: #f4f4f4 } td.number { text-align: right; font-variant-numeric: tabular-nums }
-td.ok { color: #17702a } td.failed, td.error, .bad { color: #b80000; font-weight: 600 }
-img { max-width: 100%; border: 1px solid #e4e4e4 } p { max-width: 80ch }
+table { border-collapse: collapse; font-size: 13px; margin: 1em 0; max-width: 100% }
+th, td { padding: 2px 6px; text-align: left; border-bottom: 1px solid var(--line); overflow-wrap: break-word }
+th { background: var(--head); vertical-align: bottom; hyphens: auto }
+td.number { text-align: right; font-variant-numeric: tabular-nums }
+td.ok { color: var(--good) } td.failed, td.error, .bad { color: var(--bad); font-weight: 600 }
+img { max-width: 100%; background: white; border: 1px solid var(--line) } p, ul { max-width: 80ch }
 figure { margin: 1.2em 0 } figcaption { font-size: 13.5px; max-width: 90ch }
+@media (max-width: 1100px) { table { font-size: 12px } th, td { padding: 2px 4px } }
+table:has(th:nth-child(11)) { font-size: 11px } table:has(th:nth-child(11)) :is(th, td) { padding: 2px 3px }
+table:has(th:nth-child(11)) th { overflow-wrap: anywhere; min-width: 4.6em }
+@media (max-width: 800px) { table { display: block; overflow-x: auto } }
 """
 
 

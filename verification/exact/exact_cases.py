@@ -102,6 +102,29 @@ def sinking_error(folder):
     return max(np.abs(contact_displacement(folder) / exact - 1).max(), pressure_error(lambda x, y: 1e6)(folder))
 
 
+def flat_punch(mean):
+    """Of a smooth rigid cylinder of radius 1 pressed on a half space: displacements in it as expressions, y upwards, how
+    deep it sinks, and p of the radius. Green & Zerna's potential of a disc, phi = 2 C / pi atan2(1 + I, z + R) with
+    R + i I = sqrt(x^2 + (z + i)^2): 2 G u_z = 2 (1 - nu) phi - z phi_z, 2 G u_x = -z phi_x - (1 - 2 nu) F_x, F_z = phi.
+    """
+    a = "(x^2 + y^2 - 1)"
+    m = f"sqrt({a}^2 + 4 * y^2)"
+    real, imaginary = f"sqrt(({m} + {a}) / 2)", f"sqrt(({m} - {a}) / 2)"
+    k = mean / 4 * 2 * (1 + NU) / E  # C / (pi G)
+    u_x = f"x < 1e-9 ? 0 : {k} / x * ({2 * NU - 1} * (1 - {imaginary}) - y * ({real} + y * {imaginary}) / {m})"
+    u_y = f"-{k} * ({2 * (1 - NU)} * atan2(1 + {imaginary}, {real} - y) - y * {imaginary} / {m})"
+    return u_x, u_y, pi * (1 - NU) * k, lambda x: mean / 2 / np.sqrt(1 - x**2)
+
+
+def flat_punch_error(folder):
+    """Of p at the nodes within 0.8 of the radius, to its value there, and of how deep the punch sinks."""
+    *_, sinking, pressure = flat_punch(100e6)
+    line = launch.contact(folder)
+    inner = line["x"] < 0.8
+    moved = next(s["rigid"]["displacement"][1] for s in summary(folder)["model"]["supports"] if "rigid" in s)
+    return max(np.abs(line["p"][inner] / pressure(line["x"][inner]) - 1).max(), abs(moved / -sinking - 1))
+
+
 CASES = [
     Case("tubes", "axisymmetric", "p", "Lamé: two tubes, one in the other, pressed from within", "tubes",
          RINGS + STEEL + both("inner", "outer") + HELD + '[[boundary]]\non = ["bore"]\npressure = 100e6\n' + BETWEEN,
@@ -112,6 +135,12 @@ CASES = [
          pressure_error(lambda x, y: lame(2, 3))),
     Case("hertz_sphere", "axisymmetric, unilateral", "half width and largest p", "Hertz: a sphere on a block",
          "../../geo/hertz", "", sphere_errors, sizes=(5, 10, 20, 40)),
+    Case("flat_punch", "a rigid curve, displacements of the place", "p at r < 0.8 a, sinking",
+         "Sneddon: a flat-ended cylinder on a half space", "flat_punch",
+         RINGS + STEEL + both("punch", "ground") + '[[boundary]]\non = ["far"]\n'
+         'displacement = {{ x = "{}", y = "{}" }}\n'.format(*flat_punch(100e6)[:2])
+         + f'[[boundary]]\non = ["punch_contact"]\nrigid = {{ force = [0, {-100e6 * pi}] }}\n'
+         '[[contact]]\nbetween = ["punch_contact", "ground_contact"]\n', flat_punch_error, sizes=(8, 16, 32, 64)),
     Case("interference", "initial_gap = number", "p", "Lamé: a shrink fit of two tubes", "tubes",
          RINGS + STEEL + both("inner", "outer") + HELD + BETWEEN + "initial_gap = -1e-3\n",
          pressure_error(lambda x, y: shrink_fit(1e-3))),

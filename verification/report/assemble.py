@@ -1,28 +1,49 @@
 #!/usr/bin/python3
-"""The report: the sections of all studies on one page, with their pictures made small.
+"""The report: what mortise is, then the sections of all studies on one page, with their pictures made small.
 
 Every study leaves out/NAME/section.html (verification/common/page.py). This puts those that are there on one page,
-index.html in the folder OUTPUT, with a list of contents, and copies their pictures beside it with 64 colours. Exit
-status 1 if a study has no section yet, a section names a picture that is missing, or the pictures exceed 3 MB.
+index.html in the folder OUTPUT, after opening.md and beside a table of contents, and copies their pictures beside it with
+64 colours. A study that has not left a section is taken from the report that is there. Exit status 1 if it is in neither, a
+section names a picture that is missing, or the pictures exceed 3 MB.
 """
 
 import argparse
 import html
+import itertools
 import re
 import shutil
 import sys
 from datetime import date
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
 sys.path.insert(0, str(ROOT / "verification/common"))
 
 import figure
 import page
 
-STUDIES = ["exact", "crosscheck", "preprint", "chart", "stability", "accuracy"]  # below out/, each made by ./dev NAME
+STUDIES = ["chart", "accuracy", "benchmarks", "exact", "crosscheck", "preprint", "stability"]  # below out/, each made by ./dev NAME
 MOST_BYTES = 3_000_000
-PICTURE = re.compile(r'<img src="([^"]+)"')
+PICTURE = re.compile(r'<img (?:loading="lazy" )?src="([^"]+)"')
+LINK = re.compile(r'<a href="([^"]*)">(.*?)</a>')
+# Beside page.STYLE: the contents stay, at the left of a wide window, in short above a narrow one's text.
+STYLE = """
+html { scroll-padding-top: 5em }
+body { max-width: none; margin: 0; padding: 0 }
+main { padding: 1em; max-width: 1000px; margin: 0 auto }
+nav { position: sticky; top: 0; z-index: 1; background: var(--page); border-bottom: 1px solid var(--line); padding: 0.4em 1em;
+  font-size: 13px }
+nav ul { list-style: none; padding: 0; margin: 0; max-width: none } nav > ul { display: flex; flex-wrap: wrap; gap: 0 1.2em }
+nav ul ul { display: none }
+@media (min-width: 1250px) {
+  html { scroll-padding-top: 0 }
+  body { display: grid; grid-template-columns: 250px minmax(0, 1fr) }
+  nav { height: 100vh; overflow-y: auto; box-sizing: border-box; border: 0; border-right: 1px solid var(--line) }
+  nav > ul, nav ul ul { display: block } nav ul ul { padding: 0.1em 0 0.5em 0.8em }
+  main { margin: 0; padding-left: 2em }
+}
+"""
 
 
 class ReportError(Exception):
@@ -38,42 +59,84 @@ def body_of(section):
     return text[start:]
 
 
-def take_section(folder, name, output):
-    """The HTML of a study's section for the page in `output`, its pictures copied there."""
+def kept(name, report):
+    """The section of a study in the report that is there, or none."""
+    index = report / "index.html"
+    text = index.read_text() if index.is_file() else ""
+    found = re.search(rf'<section id="{name}">.*?</section>\n', text, re.DOTALL)
+    return found[0] if found else None
+
+
+def source(folder, name, report):
+    """The HTML of a study's section, and the folder in which its pictures are."""
     section = folder / name / "section.html"
-    if not section.is_file():
+    if section.is_file():
+        return body_of(section), section.parent
+    text = kept(name, report)
+    if text is None:
         raise ReportError(f"{section} is missing: ./dev {name} writes it")
+    print(f"{name}: as it was in {report / 'index.html'}")
+    return text, report
+
+
+def take_section(text, pictures, name, output):
+    """The section for the page in `output`, its pictures copied there. Links to what is not there are texts."""
 
     def moved(match):
-        source = section.parent / html.unescape(match[1])
-        if not source.is_file():
-            raise ReportError(f"{section}: the picture {match[1]} is missing")
-        target = Path(name) / Path(html.unescape(match[1]))
-        figure.copy_small(source, output / target)
+        path = Path(html.unescape(match[1]))
+        if not (pictures / path).is_file():
+            raise ReportError(f"{name}: the picture {pictures / path} is missing")
+        target = path if path.parts[0] == name else Path(name) / path
+        if (pictures / "index.html").is_file():  # of a report: small as it is
+            (output / target).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(pictures / path, output / target)
+        else:
+            figure.copy_small(pictures / path, output / target)
         return f'<img loading="lazy" src="{html.escape(str(target))}"'
 
-    return PICTURE.sub(moved, body_of(section))
+    def checked(match):
+        path = match[1].split("#")[0]
+        there = not path or "://" in path or (page.DOCS / "report" / html.unescape(path)).exists()
+        return match[0] if there else match[2]
+
+    return LINK.sub(checked, PICTURE.sub(moved, text))
+
+
+def identified(text):
+    """The section with an id for each of its parts (h3), "SECTION-1" and on."""
+    name, number = re.search(r'<section id="([^"]+)">', text)[1], itertools.count(1)
+    return re.sub(r"<h3(?: id=\S+)?>", lambda _: f'<h3 id="{name}-{next(number)}">', text)
 
 
 def contents(sections):
-    """Links to the sections by their ids and titles."""
+    """The list of the sections and their parts, which stays beside the page."""
     lines = []
     for text in sections:
         identity, title = re.search(r'<section id="([^"]+)">', text), re.search(r"<h2>(.*?)</h2>", text)
-        lines.append(f'<li><a href="#{identity[1]}">{title[1]}</a></li>')
-    return "<ul>\n" + "\n".join(lines) + "\n</ul>\n"
+        parts = re.findall(r'<h3 id="([^"]+)">(.*?)</h3>', text)
+        inner = "".join(f'<li><a href="#{part}">{words}</a></li>' for part, words in parts)
+        lines.append(f'<li><a href="#{identity[1]}">{title[1]}</a>{f"<ul>{inner}</ul>" if inner else ""}</li>')
+    return "<nav>\n<ul>\n" + "\n".join(lines) + "\n</ul>\n</nav>\n"
 
 
 def assemble(folder, studies, output):
     """Writes output/index.html; returns the bytes of everything in it."""
-    if output.exists():
-        shutil.rmtree(output)
-    output.mkdir(parents=True)
-    sections = [take_section(folder, name, output) for name in studies]
-    head = f'<meta charset="utf-8"><title>mortise: report</title><style>{page.STYLE}</style>'
-    intro = f"<h1>mortise: what it is held against</h1>\n{page.paragraph(f'Made on {date.today().isoformat()}.')}"
-    text = f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n{intro}{contents(sections)}'
-    (output / "index.html").write_text(text + "".join(sections) + "</body></html>\n")
+    staged = output.with_name(f".{output.name}.part")
+    shutil.rmtree(staged, ignore_errors=True)
+    staged.mkdir(parents=True)
+    sections = [identified(take_section(*source(folder, name, output), name, staged)) for name in studies]
+    opening = page.from_markdown((HERE / "opening.md").read_text())
+    if "accuracy" not in studies:
+        opening = re.sub(r"<figure>.*?</figure>\n", "", opening, flags=re.DOTALL)
+    made = page.paragraph(f"Put together on {date.today().isoformat()} by ./dev report.")
+    head = (
+        '<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
+        f"<title>mortise: report</title><style>{page.STYLE}{STYLE}</style>"
+    )
+    body = f"{contents(sections)}<main>\n<h1>mortise</h1>\n{opening}{''.join(sections)}{made}</main>\n"
+    (staged / "index.html").write_text(f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n{body}</body></html>\n')
+    shutil.rmtree(output, ignore_errors=True)
+    staged.rename(output)
     return sum(path.stat().st_size for path in output.rglob("*") if path.is_file())
 
 

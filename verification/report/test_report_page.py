@@ -1,6 +1,7 @@
 """The report from made-up sections, and that the pictures of the committed pages are there."""
 
 import re
+import shutil
 import sys
 
 import pytest
@@ -49,12 +50,37 @@ def test_sections_are_put_together(monkeypatch, studies, tmp_path):
     assert small.stat().st_size < large.stat().st_size
 
 
+def test_a_study_that_is_not_there_is_kept(monkeypatch, studies, tmp_path):
+    """Its pictures as they were, and the contents name each of its parts once."""
+    section = studies / "two/section.html"
+    section.write_text(section.read_text().replace("<table>", '<h3>A part</h3><a href="runs/1">a run</a><table>', 1))
+    assert run(monkeypatch, studies, tmp_path / "report", "one", "two") == 0
+    before = (tmp_path / "report/two/pictures/line.png").read_bytes()
+    shutil.rmtree(studies / "two")
+    assert run(monkeypatch, studies, tmp_path / "report", "two", "one") == 0
+    text = (tmp_path / "report/index.html").read_text()
+    assert (tmp_path / "report/two/pictures/line.png").read_bytes() == before and "runs/1" not in text
+    assert text.count('href="#two-1"') == text.count('id="two-1"') == 1 and text.index('id="two"') < text.index('id="one"')
+
+
 def test_a_missing_study_or_picture_is_an_error(monkeypatch, capsys, studies, tmp_path):
     assert run(monkeypatch, studies, tmp_path / "report", "one", "three") == 1
     assert "./dev three writes it" in capsys.readouterr().err
     (studies / "one/pictures/line.png").unlink()
     assert run(monkeypatch, studies, tmp_path / "report", "one") == 1
     assert "pictures/line.png is missing" in capsys.readouterr().err
+
+
+def test_the_committed_report():
+    """Every study is on it, every link within it and to other pages of the docs leads somewhere."""
+    index = ROOT / "docs/report/index.html"
+    text = index.read_text()
+    assert re.findall(r'<section id="([^"]+)"', text) == assemble.STUDIES
+    assert text.index("What to use") < text.index("What accuracy to expect") < text.index("<section")
+    for link in re.findall(r'href="([^"]+)"', text):
+        path, _, anchor = link.partition("#")
+        assert "://" in link or not path or (index.parent / path).exists(), link
+        assert path or f'id="{anchor}"' in text, link
 
 
 @pytest.mark.parametrize("path", PAGES, ids=[path.parent.name for path in PAGES])

@@ -1,5 +1,5 @@
 // gmsh crashes, ends the process and runs for ever on these; mortise says so in one line, with exit status 1.
-#include "io/gmsh_guard.hpp"
+#include "io/library_guard.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/time.h>
@@ -74,7 +74,7 @@ TEST_F(GuardDeathTest, ALoopWithoutEndMeetsTheTimeLimit) {
 TEST_F(GuardDeathTest, AStackThatIsUsedUp) {
   EXPECT_EXIT(
       {
-        const GmshGuard guard("a.geo", 60);
+        const LibraryGuard guard("a.geo", 60);
         volatile char* deep = nullptr;
         for (;;) {
           deep = static_cast<char*>(alloca(1 << 16));

@@ -1,4 +1,4 @@
-#include "io/gmsh_guard.hpp"
+#include "io/library_guard.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -25,9 +25,9 @@ constexpr std::array signals{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGALRM};
 /// What the handlers need, ready made: in a process that has crashed nothing may be allocated.
 struct Armed {
   std::atomic<bool> on = false;
-  int output = -1;                 // what gmsh writes
+  int output = -1;                 // what the library writes
   int error = -1;                  // the standard error of before
-  std::array<char, 4096> start{};  // "mortise: error: FILE: gmsh "
+  std::array<char, 4096> start{};  // "mortise: error: FILE: LIBRARY "
   std::array<char, 80> late{};     // what is said of the time limit
 };
 Armed armed;
@@ -53,7 +53,7 @@ void say(const char* text, std::size_t count) {
 
 void say(const char* text) { say(text, std::strlen(text)); }
 
-/// The last line that gmsh wrote, without colours and its own "Error   : ".
+/// The last line that it wrote, without colours and its own "Error   : ".
 void say_last_message() {
   std::array<char, 600> tail;
   const off_t end = ::lseek(armed.output, 0, SEEK_END);
@@ -109,12 +109,14 @@ void at_exit() {
 
 }  // namespace
 
-GmshGuard::GmshGuard(const std::string& file, double seconds) : stack_(64 * 1024) {
+LibraryGuard::LibraryGuard(const std::string& file, double seconds, const std::string& library,
+                           const std::string& limit)
+    : stack_(64 * 1024) {
   static const int registered = std::atexit(at_exit);
   if (registered != 0) throw std::runtime_error("atexit failed");
-  keep(armed.start, "mortise: error: " + printable(file) + ": gmsh ");
+  keep(armed.start, "mortise: error: " + printable(file) + ": " + library + " ");
   std::array<char, 80> late{};
-  std::snprintf(late.data(), late.size(), "took longer than mesh.time_limit = %g seconds", seconds);
+  std::snprintf(late.data(), late.size(), "took longer than %s%g seconds", limit.c_str(), seconds);
   armed.late = late;
 
   std::cout.flush();
@@ -140,13 +142,13 @@ GmshGuard::GmshGuard(const std::string& file, double seconds) : stack_(64 * 1024
   for (std::size_t i = 0; i < signals.size(); ++i) ::sigaction(signals[i], &action, &old_actions_[i]);
 
   itimerval timer{};
-  const double limit = std::clamp(seconds, 1e-3, 1e8);
-  timer.it_value.tv_sec = static_cast<time_t>(limit);
-  timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (limit - std::floor(limit)));
+  const double most = std::clamp(seconds, 1e-3, 1e8);
+  timer.it_value.tv_sec = static_cast<time_t>(most);
+  timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (most - std::floor(most)));
   ::setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
-GmshGuard::~GmshGuard() {
+LibraryGuard::~LibraryGuard() {
   const itimerval none{};
   ::setitimer(ITIMER_REAL, &none, nullptr);
   armed.on = false;

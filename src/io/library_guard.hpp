@@ -1,4 +1,5 @@
-// gmsh may crash, run for ever or end the process: no run of ours ends without a word for that.
+// gmsh may crash, run for ever or end the process, VTK on a damaged file too: no run of ours ends without a word for
+// that.
 #pragma once
 
 #include <csignal>
@@ -13,13 +14,14 @@ namespace mortise {
 /// file, what happened, and the last message if there is one. What is written to the standard output and error
 /// meanwhile is kept from the terminal, as the place where that message is found. The destructor puts back handlers,
 /// timer, output and error.
-class GmshGuard {
+class LibraryGuard {
  public:
-  /// `file` is named in the line; `seconds` > 0 is the time limit.
-  GmshGuard(const std::string& file, double seconds);
-  ~GmshGuard();
-  GmshGuard(const GmshGuard&) = delete;
-  GmshGuard& operator=(const GmshGuard&) = delete;
+  /// `file` is named in the line, and the `library`; `seconds` > 0 is the time limit, `limit` what it is called.
+  LibraryGuard(const std::string& file, double seconds, const std::string& library = "gmsh",
+               const std::string& limit = "mesh.time_limit = ");
+  ~LibraryGuard();
+  LibraryGuard(const LibraryGuard&) = delete;
+  LibraryGuard& operator=(const LibraryGuard&) = delete;
 
  private:
   std::vector<char> stack_;  // on which the handlers run

@@ -1,0 +1,12 @@
+#include "io/grid_module.hpp"
+
+#include "io/module.hpp"
+
+namespace mortise {
+
+const GridModule& grid_module() {
+  static const auto& module = load_module<GridModule>("mortise_grid", "values at points are read by VTK");
+  return module;
+}
+
+}  // namespace mortise

@@ -1,0 +1,28 @@
+// What is read and triangulated by VTK, in a shared object of its own that is loaded for the first field that comes
+// from a file. No VTK header here.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace mortise {
+
+struct VtuGrid;
+
+struct GridModule {
+  /// Points, plane cells (`body` 0; lines and points are left out) and the array of that name at the points of a .vtu.
+  /// Throws InputError where it cannot be read or has no such array, leaves the plane z = 0 or has cells that Mesh does
+  /// not know. A LibraryGuard should be there.
+  VtuGrid (*read)(const std::filesystem::path& path, const std::string& array);
+  /// Delaunay's triangles of points that all differ; none of points on one line.
+  std::vector<std::array<int, 3>> (*triangulate)(const Points& points);
+};
+
+/// Loads it at the first call. Throws InputError with the loader's words.
+const GridModule& grid_module();
+
+}  // namespace mortise

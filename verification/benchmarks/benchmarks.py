@@ -1,0 +1,178 @@
+#!/usr/bin/python3
+"""Benchmarks of frictionless contact with known pressures, on four meshes each and with --accuracy 1%.
+
+Written are OUT/benchmarks.csv (a row a run), a picture a benchmark and section.html; the runs are kept in OUT/runs.
+--docs writes docs/benchmarks.md. Exit status 1 where a run fails or an error is above its limit.
+"""
+
+import re
+import resource
+import sys
+import tempfile
+from math import log2
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.with_name("common")))
+
+import numpy as np
+
+import benchmark_cases
+import closed_forms
+import figure
+import launch
+import layer
+import page
+import patches
+import runs
+import template
+
+ASKED = 0.01  # of --accuracy
+WIDTH_LIMIT = 5e-3  # of the half width of contact on the finest mesh
+SIZES = (25, 50, 100, 200)  # of the blocks that stand for half planes
+
+
+def processor_seconds():
+    """Of all programs that were called."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def execute(run):
+    """One run: `error` of p, `width`: relative error of the half width, unknowns, seconds, and the line for pictures."""
+    if "patch" in run:
+        return patches.execute(run)
+    case = benchmark_cases.by_name(run["case"])
+    parameters = case.parameters | run.get("parameters", {}) | {"n": run["size"] or case.sizes[1]}
+    scene = case.scene
+    if "size" in run.get("parameters", {}):  # the load stays
+        scale = benchmark_cases.SIZE / parameters["size"]
+        scene = re.sub(r"(?<=pressure = )[\d.e-]+", lambda found: repr(scale * float(found[0])), scene)
+    table = ", ".join(f"{key} = {value!r}" for key, value in parameters.items())
+    with tempfile.TemporaryDirectory() as folder:
+        path, out = Path(folder) / "scene.toml", Path(folder) / "out"
+        path.write_text(f'mesh.file = "{case.geometry}"\nmesh.parameters = {{ {table} }}\n{scene}')
+        settings = {} if run["size"] else {"accuracy.value": ASKED}
+        before = processor_seconds()
+        try:
+            summary = launch.solve(path, settings, out)
+        except launch.StudyError as failure:
+            return {"failed": str(failure)}
+        seconds = processor_seconds() - before
+        line = launch.contact(out)
+    at = benchmark_cases.places(case, line)
+    near = np.flatnonzero(at <= 1.3 * case.half_width)
+    length = summary["contact"][0]["length_in_contact"]
+    return {
+        "failed": "" if summary["status"] == "solved" else summary["status"],
+        "error": benchmark_cases.error(case, at, line["p"]),
+        "width": length / case.half_width - 1,
+        "unknowns": summary["mesh"]["dofs"],
+        "seconds": seconds,
+        "line": [list(map(float, values[near])) for values in (at, line["p"], line["p_error"])],
+    }
+
+
+def verdict(case, meshes, asked):
+    """What does not hold: texts. All four meshes, or fewer of which only the runs are judged."""
+    wrong = [row["failed"] for row in [*meshes, asked] if row["failed"]]
+    if wrong:
+        return wrong
+    measured = [(asked["error"], ASKED, "p where that was asked")]
+    if len(meshes) == len(case.sizes):
+        measured += [(meshes[-1]["error"], case.limit, "p on mesh 4")]
+        measured += [(abs(meshes[-1]["width"]), WIDTH_LIMIT, "half width on mesh 4")]
+    return [f"{name} off by {value:.2%}, expected {limit:.2%}" for value, limit, name in measured if not value < limit]
+
+
+def draw(case, meshes, asked, path):
+    drawing, (left, right) = figure.panels(1, 2, (9, 3.3))
+    scale = 180 / np.pi if case.place == "angle" else 1
+    fine = (np.arange(2000) + 0.5) / 2000 * min(case.compared, 1) * case.half_width
+    left.plot(scale * fine, case.exact(fine), "k-", linewidth=1, label="exact")
+    for row, style, name in ((meshes[0], "C1o", "mesh 1"), (asked, "C0.", "1 % asked, with its bars")):
+        at, p, bar = (np.array(values) for values in row["line"])
+        order = np.argsort(at)
+        left.plot(scale * at[order], p[order], style, markersize=3, linestyle="", label=name)
+    left.fill_between(scale * at[order], (p - bar)[order], (p + bar)[order], color="C0", alpha=0.25, linewidth=0)
+    word = "degrees" if case.place == "angle" else "r / a" if case.ring else "x / a" if case.half_width == 1 else "x / h"
+    inner = fine[(fine > 0.05 * case.half_width) & (fine < 0.95 * case.half_width)]
+    top = 1.25 * case.exact(inner).max()
+    figure.label(left, word, "p, MPa", case.title, legend=True, ylim=(0, top), xlim=(0, 1.2 * scale * case.half_width))
+    figure.curve(right, [(row["unknowns"], row["error"]) for row in meshes], "o-C1", label="meshes 1 to 4")
+    figure.curve(right, [(asked["unknowns"], asked["error"])], "sC0", label="1 % asked")
+    widths = [(row["unknowns"], max(abs(row["width"]), 1e-6)) for row in meshes]
+    if case.compared > 1:
+        figure.curve(right, widths, "^:C2", label="half width")
+    figure.label(right, "unknowns", "relative error of p", log="xy", limit=case.limit, legend=True)
+    figure.save(drawing, path)
+
+
+def truncation(store, quick):
+    """The cylinder on blocks of 25 to 200 half widths."""
+    wanted = [{"case": "cylinder", "size": 20 if quick else 160, "parameters": {"size": size}} for size in SIZES]
+    return store.rows(wanted, execute, "size of the blocks")
+
+
+def percent(value):
+    return f"{100 * value:.2g} %"
+
+
+def half_widths(case, *rows):
+    return ", ".join(percent(abs(row["width"])) for row in rows) if case.compared > 1 else "given"
+
+
+def main(arguments=None):
+    names = [case.name for case in benchmark_cases.CASES]
+    options = launch.command_line(__doc__, "benchmarks", arguments, names=names, jobs=False, docs=True)
+    chosen = [case for case in benchmark_cases.CASES if not options.only or case.name in options.only]
+    depends = [*sorted(HERE.glob("*.py")), *sorted(HERE.glob("*.geo")), HERE.with_name("stability") / "persson.py",
+               HERE.with_name("stability") / "pin.geo"]  # fmt: skip
+    store = runs.Store(options.output / "runs", depends)
+    rows, lines, pictures, wrong = [], [], [], []
+    for case in chosen:
+        sizes = case.sizes[:2] if options.quick else case.sizes
+        *meshes, asked = store.rows([{"case": case.name, "size": n} for n in (*sizes, 0)], execute, case.name)
+        wrong += [f"{case.name}: {text}" for text in verdict(case, meshes, asked)]
+        rows += [{"case": case.name, "n": n, **{k: v for k, v in row.items() if k != "line"}}
+                 for n, row in zip((*sizes, "1%"), (*meshes, asked))]  # fmt: skip
+        if any(row["failed"] for row in (*meshes, asked)):
+            continue
+        draw(case, meshes, asked, options.output / f"{case.name}.png")
+        rate = log2(meshes[0]["error"] / meshes[-1]["error"]) / (len(meshes) - 1)
+        lines.append([case.title, *(percent(row["error"]) for row in meshes), f"{rate:.1f}", percent(case.limit),
+                      half_widths(case, meshes[-1], asked), percent(asked["error"]), str(asked["unknowns"]),
+                      f"{asked['seconds']:.2g}"])  # fmt: skip
+        pictures.append(f"![{case.title}. {case.source}.](benchmarks/{case.name}.png)")
+    patch = patches.rows(store)
+    wrong += patches.wrong(patch)
+    large = truncation(store, options.quick)
+    wrong += [row["failed"] for row in large if row["failed"]]
+    launch.write_csv(options.output / "benchmarks.csv", rows)
+    meshes = [f"mesh {k + 1}" for k in range(len(lines[0]) - 7)] if lines else []
+    heading = ["", *meshes, "rate", "limit", "half width: mesh 4, 1 % asked", "p: 1 % asked", "unknowns", "seconds"]
+    text = template.fill(
+        (HERE / "benchmarks.md").read_text(),
+        table=template.table(heading, lines),
+        pictures="\n\n".join(pictures),
+        patch=max(row["error"] for row in patch),
+        sizes=template.table(["size of the blocks, a", *map(str, SIZES)],
+                             [["error of the largest p", *(f"{100 * peak(row):.3f} %" for row in large)]]),  # fmt: skip
+        layer_width=layer.solve(1)[0],
+        radius=closed_forms.RADIUS,
+    )
+    page.write(options.output, "benchmarks", text, options.docs)
+    print(template.table(heading, lines))
+    print("\n".join(wrong) or "all hold")
+    sys.exit(1 if wrong else 0)
+
+
+def peak(row):
+    """Relative error of p at the middle, of the cylinder."""
+    exact = benchmark_cases.by_name("cylinder").exact(np.array([0.0]))[0]
+    at, p, _ = row["line"]
+    return abs(p[int(np.argmin(at))] / exact - 1)
+
+
+if __name__ == "__main__":
+    main()
