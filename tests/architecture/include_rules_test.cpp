@@ -34,6 +34,7 @@ const std::map<std::string, Names> may_enter{
     {"results", {"base", "mesh", "fem", "contact", "solve", "scene", "io", "problem", "error"}},
     {"app", {"base", "mesh", "fem", "contact", "solve", "ddm", "scene", "io", "problem", "error", "results"}},
     {"mortise", {"base", "scene", "io", "results", "app"}},
+    {"python", {"mortise", "results"}},
 };
 
 // Headers of others, and the one room that may use them; `sources_only`: not in its headers, so that nobody who
@@ -43,12 +44,19 @@ struct Foreign {
   bool sources_only;
 };
 const std::vector<Foreign> foreigners{
-    {"Boost", R"(boost/.*)", "mesh", true},      {"gmsh", R"(gmsh\..*)", "io", true},
-    {"VTK", R"(vtk\w+\.h)", "io", true},         {"CHOLMOD", R"((.*/)?cholmod.*)", "solve", true},
-    {"AMD", R"((.*/)?amd\.h)", "solve", true},   {"nlohmann-json", R"(nlohmann/.*)", "results", false},
-    {"PETSc", R"(petsc.*)", "ddm", true},        {"MPI", R"(mpi\.h)", "ddm", true},
-    {"CLI11", R"(CLI/.*)", "app", false},        {"toml++", R"(toml\+\+.*)", "scene", true},
-    {"muParser", R"(muParser.*)", "base", true}, {"METIS", R"((.*/)?metis\.h)", "solve", true},
+    {"Boost", R"(boost/.*)", "mesh", true},
+    {"gmsh", R"(gmsh\..*)", "io", true},
+    {"VTK", R"(vtk\w+\.h)", "io", true},
+    {"CHOLMOD", R"((.*/)?cholmod.*)", "solve", true},
+    {"AMD", R"((.*/)?amd\.h)", "solve", true},
+    {"nlohmann-json", R"(nlohmann/.*)", "results", false},
+    {"PETSc", R"(petsc.*)", "ddm", true},
+    {"MPI", R"(mpi\.h)", "ddm", true},
+    {"CLI11", R"(CLI/.*)", "app", false},
+    {"toml++", R"(toml\+\+.*)", "scene", true},
+    {"pybind11", R"(pybind11/.*)", "python", true},
+    {"muParser", R"(muParser.*)", "base", true},
+    {"METIS", R"((.*/)?metis\.h)", "solve", true},
 };
 
 const Names top_level{

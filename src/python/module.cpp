@@ -1,0 +1,93 @@
+// The part of Python's module `mortise` that solves: plain arrays out, by the names that the files have
+// (src/python/mortise/__init__.py makes the results of them).
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "mortise/scene.hpp"
+#include "mortise/solve.hpp"
+#include "results/summary.hpp"
+
+namespace mortise {
+namespace {
+
+namespace py = pybind11;
+
+// Columns of contact.csv.
+py::dict contact_columns(const Results& r) {
+  std::vector<int> pair;
+  std::vector<std::string> curve;
+  std::vector<const ContactNode*> nodes;
+  for (std::size_t k = 0; k < r.contacts.size(); ++k)
+    for (const ContactSide* side : {&r.contacts[k].multiplier, &r.contacts[k].opposite})
+      for (const ContactNode& node : side->nodes) {
+        pair.push_back(int(k));
+        curve.push_back(side->curve);
+        nodes.push_back(&node);
+      }
+  const auto column = [&](auto value) {
+    VecX values(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) values(Eigen::Index(i)) = value(*nodes[i]);
+    return values;
+  };
+  py::dict columns;
+  columns["pair"] = pair;
+  columns["curve"] = curve;
+  columns["s"] = column([](const ContactNode& n) { return n.s; });
+  columns["x"] = column([](const ContactNode& n) { return n.position.x(); });
+  columns["y"] = column([](const ContactNode& n) { return n.position.y(); });
+  columns["u_n"] = column([](const ContactNode& n) { return n.u_n; });
+  columns["p"] = column([](const ContactNode& n) { return n.p; });
+  columns["gap"] = column([](const ContactNode& n) { return n.gap; });
+  columns["sigma_n"] = column([](const ContactNode& n) { return n.sigma_n; });
+  columns["sigma_2"] = column([](const ContactNode& n) { return n.sigma_2; });
+  if (r.estimate) columns["p_error"] = column([](const ContactNode& n) { return n.p_error; });
+  return columns;
+}
+
+// Points of the bodies, as in result.vtu.
+py::dict body_fields(const Results& r) {
+  const Eigen::Index count = Eigen::Index(r.points.node.size());
+  MatX x(count, 2), u(count, 2);
+  for (Eigen::Index p = 0; p < count; ++p) {
+    const int node = r.points.node[std::size_t(p)];
+    x.row(p) = r.mesh.nodes.row(node);
+    u.row(p) = r.solution.u.segment<2>(2 * node).transpose();
+  }
+  py::dict fields;
+  fields["x"] = x;
+  fields["u"] = u;
+  fields["stress"] = MatX(r.stress.points);
+  return fields;
+}
+
+Results solved(const Scene& scene, bool with_estimate) {
+  if (scene.accuracy) return *solve_to_accuracy(scene);
+  Results results = solve_scene(scene);
+  if (with_estimate) estimate(results);
+  return results;
+}
+
+py::tuple solve(const std::string& path, const std::vector<std::pair<std::string, std::string>>& changes,
+                bool with_estimate) {
+  Scene scene;
+  Results results;
+  std::string summary;
+  {
+    const py::gil_scoped_release others_run;
+    std::vector<Override> overrides;
+    for (const auto& [key, value] : changes) overrides.push_back({key, value});
+    scene = read_scene(path, overrides);
+    results = solved(scene, with_estimate);
+    summary = summary_json(scene, results, 0).dump();
+  }
+  return py::make_tuple(contact_columns(results), body_fields(results), summary);
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_mortise, m) {
+  py::register_exception<InputError>(m, "InputError", PyExc_ValueError);
+  m.def("solve", &solve);
+}
+
+}  // namespace mortise

@@ -1,0 +1,94 @@
+"""Python's module: results that the program wrote are read back; with ./dev python, scenes are solved without files."""
+
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import launch
+
+BUILT = launch.ROOT / "build/python/python"
+sys.path.insert(0, str(BUILT if BUILT.exists() else launch.ROOT / "src/python"))
+
+import mortise
+
+solves = pytest.mark.skipif(not list(BUILT.glob("mortise/_mortise*.so")), reason="./dev python builds the module")
+
+
+@pytest.fixture(scope="module", name="punch")
+def solved_by_the_program(tmp_path_factory):
+    if not launch.MORTISE.is_file():
+        pytest.skip(f"{launch.MORTISE} is missing: ./dev build makes it")
+    folder = tmp_path_factory.mktemp("punch") / "results"
+    launch.solve("punch", {}, folder)
+    return folder
+
+
+def test_results_are_read_as_the_files_have_them(punch):
+    run, table = mortise.read(punch), launch.contact(punch)
+    for name in ("s", "p", "p_error", "gap"):
+        np.testing.assert_array_equal(getattr(run, name), table[name])
+    assert run.status == "solved" and all(check["ok"] for check in run.checks.values())
+    assert run.x.shape == run.u.shape == (len(run.stress), 2) and run.stress.shape[1] == 4
+    assert np.abs(run.u).max() == pytest.approx(1.07e-5, rel=0.01)  # the punch goes down by so much
+    with pytest.raises(KeyError, match="known: foot, block_top"):
+        run.side("nothing")
+
+
+def test_a_field_of_a_file_is_what_other_readers_find(punch):
+    mesh = pytest.importorskip("meshio").read(punch / "result.vtu")
+    run = mortise.read(punch)
+    np.testing.assert_array_equal(run.x, mesh.points[:, :2])
+    np.testing.assert_array_equal(run.stress, mesh.point_data["stress"])
+
+
+@solves
+def test_solved_here_is_as_solved_by_the_program(punch):
+    run, read = mortise.solve(launch.scene_file("punch")), mortise.read(punch)
+    for name in ("s", "p", "p_error", "x", "u", "stress"):
+        ours, theirs = getattr(run, name), getattr(read, name)
+        np.testing.assert_allclose(ours, theirs, atol=1e-9 * np.abs(theirs).max())
+    assert list(run.contact) == list(read.contact) and run.checks.keys() == read.checks.keys()
+
+
+@solves
+def test_a_dict_is_a_scene():
+    scene = {
+        "mesh": {"file": launch.ROOT / "geo/punch.geo"},
+        "materials": {"steel": {"young": 210e9, "poisson": 0.3}},
+        "bodies": {"block": "steel", "punch": "steel"},
+        "boundary": [
+            {"on": ["ground"], "displacement": {"x": 0, "y": 0}},
+            {"on": ["head"], "displacement": {"x": 0.0}},
+            {"on": ["head"], "pressure": np.float64(10e6)},
+        ],
+        "contact": [{"between": ["foot", "block_top"]}],
+    }
+    a, b = mortise.solve(scene), mortise.solve(scene, {"boundary.2.pressure": 20e6}, estimate=False)
+    np.testing.assert_allclose(b.u, 2 * a.u, atol=1e-9 * np.abs(b.u).max())
+    with pytest.raises(KeyError, match="estimated no error"):
+        b.p_error
+
+
+@solves
+def test_errors_are_exceptions_with_the_words_of_the_program():
+    scene = launch.scene_file("punch")
+    said = subprocess.run([launch.MORTISE, "solve", scene, "--set", "materials.steel.young=-1"], capture_output=True, text=True, check=False)
+    with pytest.raises(mortise.InputError) as error:
+        mortise.solve(scene, {"materials.steel.young": -1})
+    assert said.stderr == f"mortise: error: {error.value}\n" and isinstance(error.value, ValueError)
+
+
+@solves
+def test_the_page_draws_its_picture(tmp_path):
+    blocks = re.compile(r"```\w*\n(.*?)```", re.DOTALL)
+    readme = blocks.findall((launch.ROOT / "README.md").read_text())
+    (tmp_path / "punch.geo").write_text(next(text for text in readme if text.startswith("SetFactory")))
+    (tmp_path / "punch.toml").write_text(next(text for text in readme if text.startswith('title = "A punch')))
+    (script,) = blocks.findall((launch.ROOT / "docs/python.md").read_text())
+    environment = os.environ | {"PYTHONPATH": str(BUILT), "MPLBACKEND": "Agg"}
+    subprocess.run([sys.executable, "-c", script], cwd=tmp_path, env=environment, check=True)
+    assert (tmp_path / "punch.png").read_bytes().startswith(b"\x89PNG")
