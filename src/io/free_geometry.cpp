@@ -14,7 +14,7 @@ namespace {
 
 std::vector<PhysicalGroup> open_groups() {
   std::vector<PhysicalGroup> groups;
-  for (const int dimension : {1, 2}) {
+  for (const int dimension : {0, 1, 2}) {
     gmsh::vectorpair found;
     gmsh::model::getPhysicalGroups(found, dimension);
     for (const auto& [dim, tag] : found) {

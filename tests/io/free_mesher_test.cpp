@@ -44,6 +44,7 @@ Field[1] = MathEval; Field[1].F = "0.001"; Background Field = 1; Mesh.MeshSizeMa
 Physical Surface("first", 9) = {1}; Physical Surface("others", 4) = {11, 21, 31};
 Physical Curve("a \ b") = {-1, 2, 3, 4}; Physical Curve("ellipse") = {11:13};
 Physical Curve("splines") = {21:24}; Physical Curve("Bezier") = {31:34};
+Physical Point("tip", 7) = {13};
 )";
 
 double graded(const Vec2& x) { return 0.02 + 0.03 * std::abs(x.y() - 0.1); }
@@ -81,6 +82,9 @@ TEST(FreeMesher, SizesAreThoseAskedForOnEveryKindOfCurve) {
   const Mesh mesh = FreeMesher(folder.write("a.geo", kAllCurves), {}).mesh(graded);
   EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"others", "first"}));  // by tag
   EXPECT_EQ(boundary_names(mesh), (std::vector<std::string>{"a \\ b", "ellipse", "splines", "Bezier"}));
+  ASSERT_EQ(mesh.points.size(), 1u);
+  EXPECT_EQ(mesh.points[0].name, "tip");
+  EXPECT_EQ(place(mesh, mesh.points[0].nodes.at(0)), Vec2(3, 1));
   for (const Boundary& boundary : mesh.boundaries)
     for (const Edge& edge : boundary.edges) {
       EXPECT_EQ(edge.node_count, 3);
