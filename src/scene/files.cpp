@@ -1,6 +1,7 @@
 #include "scene/files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <system_error>
 #include <vector>
@@ -51,10 +52,12 @@ std::string read_text(const fs::path& path) {
   Place place;
   place.file = path.string();
   std::ifstream stream(path, std::ios::binary);
-  std::string text(largest_scene + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  std::string text;
+  for (std::array<char, 16384> piece{}; stream && text.size() <= largest_scene;) {
+    stream.read(piece.data(), piece.size());
+    text.append(piece.data(), stream.gcount());
+  }
   if (!stream.is_open() || stream.bad()) fail(place, "", "cannot be read; expected a readable file");
-  text.resize(stream.gcount());
   if (text.size() > largest_scene) fail(place, "", "is larger than 4 MB; expected a scene file, a page or two of text");
   return text;
 }
