@@ -95,6 +95,10 @@ def main():
     expect((work / "out/punch/result.vtu").is_file(), "no result.vtu")
     run(program, "picture", "out/punch", cwd=work, env=environment)
     run(program, "check", "punch.toml", "--picture", "setup.png", "--quiet", cwd=work, env=environment)
+    if any((build / "python/mortise").glob("*.so")):
+        modules = {"PYTHONPATH": str(root / "usr/lib/python3/dist-packages")}
+        of_python = "import mortise; assert mortise.solve('punch.toml').status == 'solved'"
+        run("/usr/bin/python3", "-c", of_python, cwd=work, env=environment | modules)
     for picture in ("out/punch.png", "setup.png"):
         expect((work / picture).read_bytes().startswith(b"\x89PNG"), f"no {picture}")
     print(f"{package.name}: {package.stat().st_size // 1024} KiB; depends on {depends.strip()}")

@@ -1,4 +1,4 @@
-"""Python's module: results that the program wrote are read back; with ./dev python, scenes are solved without files."""
+"""Python's module: results that the program wrote are read back, scenes are solved without files."""
 
 import os
 import re
@@ -10,12 +10,12 @@ import pytest
 
 import launch
 
-BUILT = launch.ROOT / "build/python/python"
+BUILT = launch.MORTISE.with_name("python")
 sys.path.insert(0, str(BUILT if BUILT.exists() else launch.ROOT / "src/python"))
 
 import mortise
 
-solves = pytest.mark.skipif(not list(BUILT.glob("mortise/_mortise*.so")), reason="./dev python builds the module")
+solves = pytest.mark.skipif(not list(BUILT.glob("mortise/_mortise*.so")), reason=f"{BUILT} has no module: ./dev build makes it")
 
 
 @pytest.fixture(scope="module", name="punch")

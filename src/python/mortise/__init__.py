@@ -4,7 +4,7 @@
     run = mortise.solve("punch.toml", {"accuracy.value": "1%"})
     run.s, run.p, run.p_error                    # along the contact line
 
-`solve` needs the compiled part (./dev python); `read` needs numpy only. docs/python.md.
+`solve` needs the compiled part (./dev build); `read` needs numpy only. docs/python.md.
 """
 
 import csv
