@@ -23,7 +23,7 @@ sys.path.insert(0, str(ROOT / "verification/common"))
 import figure
 import page
 
-STUDIES = ["chart", "accuracy", "benchmarks", "exact", "crosscheck", "preprint", "stability"]  # below out/, each made by ./dev NAME
+STUDIES = ["chart", "performance", "accuracy", "benchmarks", "exact", "crosscheck", "preprint", "stability"]  # below out/, each made by ./dev NAME
 MOST_BYTES = 3_000_000
 PICTURE = re.compile(r'<img (?:loading="lazy" )?src="([^"]+)"')
 LINK = re.compile(r'<a href="([^"]*)">(.*?)</a>')
