@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import subprocess
 import sys
 
 import pytest
@@ -81,6 +82,29 @@ def test_the_committed_report():
         path, _, anchor = link.partition("#")
         assert "://" in link or not path or (index.parent / path).exists(), link
         assert path or f'id="{anchor}"' in text, link
+
+
+# What a browser puts into the title: the page's width, the width that it takes, and each table, picture or listing that is
+# wider than its place.
+MEASURE = """<script>addEventListener("load", () => {
+  const wide = [...document.querySelectorAll("main table, main img, main pre")].filter(
+    (one) => one.scrollWidth > one.clientWidth + 1 || one.getBoundingClientRect().right > innerWidth + 1);
+  const names = wide.map((one) => one.closest("section")?.id + ": " + one.outerHTML.slice(0, 80).replace(/[<>\\n]/g, " "));
+  document.title = [innerWidth, document.documentElement.scrollWidth, ...names].join("|");
+})</script>"""
+
+
+@pytest.mark.parametrize("width", [600, 1000, 1400])
+def test_the_report_in_a_browser(tmp_path, width):
+    browser = shutil.which("chromium") or pytest.skip("chromium is not installed: no browser to look at the report with")
+    shutil.copytree(ROOT / "docs/report", tmp_path / "report")
+    index = tmp_path / "report/index.html"
+    index.write_text(index.read_text().replace("</body>", MEASURE + "</body>"))
+    command = [browser, "--headless", "--no-sandbox", f"--user-data-dir={tmp_path}", f"--window-size={width},900", "--dump-dom"]
+    said = subprocess.run([*command, index.as_uri()], capture_output=True, text=True, timeout=120, check=True).stdout
+    inner, taken, *wide = re.search(r"<title>(.*?)</title>", said)[1].split("|")
+    assert int(inner) == width and int(taken) <= width
+    assert width < 1000 or not wide  # a narrow page's tables scroll
 
 
 @pytest.mark.parametrize("path", PAGES, ids=[path.parent.name for path in PAGES])
