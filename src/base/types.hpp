@@ -21,11 +21,28 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 /// n x 4, a row a place: stresses (11, 22, 33, 12), tension positive.
 using Stresses = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 
+/// Eigen 3.4's own sparse matrices are copied where they should be moved.
+template <int Order>
+class MovableSparse : public Eigen::SparseMatrix<double, Order, int> {
+ public:
+  using Base = Eigen::SparseMatrix<double, Order, int>;
+  using Base::Base;
+  using Base::operator=;
+  MovableSparse() = default;
+  MovableSparse(const MovableSparse&) = default;
+  MovableSparse(MovableSparse&& other) noexcept { this->swap(other); }
+  MovableSparse& operator=(const MovableSparse&) = default;
+  MovableSparse& operator=(MovableSparse&& other) noexcept {
+    this->swap(other);
+    return *this;
+  }
+};
+
 /// Compressed columns, int indices. Symmetric matrices store their lower triangle only.
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+using SparseMatrix = MovableSparse<Eigen::ColMajor>;
 
 /// Compressed rows: few of them with many columns, at no cost for the columns that are empty.
-using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+using SparseRows = MovableSparse<Eigen::RowMajor>;
 
 /// Largest absolute value; 0 of an empty vector, NaN where there is one.
 inline double largest_entry(const VecX& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0; }
