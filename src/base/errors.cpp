@@ -38,6 +38,7 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 
 std::string unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& candidates) {
   std::string text = "unknown " + what + " '" + name + "'";
+  if (candidates.empty()) return text + "; there is none";
   const std::string nearest = nearest_name(name, candidates);
   text += nearest.empty() ? "; known: " : "; did you mean '" + nearest + "'? known: ";
   for (std::size_t i = 0; i < candidates.size(); ++i) text += (i ? ", " : "") + candidates[i];

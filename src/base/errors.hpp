@@ -24,7 +24,7 @@ class SceneError : public InputError {
 /// The candidate nearest to `name` in edit distance; empty if none is near (more than half of its letters differ).
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
 
-/// "unknown WHAT 'NAME'; did you mean 'NEAREST'? known: a, b, c"
+/// "unknown WHAT 'NAME'; did you mean 'NEAREST'? known: a, b, c"; without any candidates "... there is none"
 std::string unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& candidates);
 
 }  // namespace mortise

@@ -351,9 +351,15 @@ def pressure_range(curves):
     return (low, high) if high > low else (low - 1, high + 1)
 
 
-def draw_pair(axes, table, multiplier_side, between, label="$p$ (multipliers)", colour=PAIR_COLOURS[0]):
+def has_limit(summary, pair):
+    """Whether p is known to be bounded on the whole line: where the errors were estimated."""
+    told = (summary.get("estimate") or {}).get("pressure")
+    return told is not None and all(at["pair"] != pair or at["pressure_exponent"] >= 1 for at in told["singular"])
+
+
+def draw_pair(axes, table, multiplier_side, between, bounded, label="$p$ (multipliers)", colour=PAIR_COLOURS[0]):
     """p along the contact line with its bar as a band, and -sigma_n of both bodies, over the arc length of the multiplier
-    side."""
+    side. All of a bounded p is shown."""
     opposite = between[0] if between[1] == multiplier_side else between[1]
     xy = np.stack([table["x"], table["y"]], axis=1)
     on = table["curve"] == multiplier_side
@@ -371,6 +377,8 @@ def draw_pair(axes, table, multiplier_side, between, label="$p$ (multipliers)", 
     left, right = loaded_part(s, p)
     shown, shown_other = (s >= left) & (s <= right), (s_other >= left) & (s_other <= right)
     low, high = pressure_range([(s[shown], p[shown]), (s[shown], mine[shown]), (s_other[shown_other], theirs[shown_other])])
+    if bounded:
+        low, high = min(low, 1.05 * p.min()), max(high, 1.05 * p.max())
     axes.set_ylim(low, high)
     axes.set_xlim(left, right)
     everything = np.concatenate([p, mine, theirs])
@@ -467,7 +475,7 @@ def draw(results, picture, options):
         for panel, k in zip(panels[1:, 0], shown):
             of_pair = {name: column[table["pair"] == k] for name, column in table.items()}
             colour = PAIR_COLOURS[k] if len(pairs) <= MANY_PAIRS else PAIR_COLOURS[0]
-            draw_pair(panel, of_pair, multiplier_sides[k], pairs[k]["between"], *label, colour=colour)
+            draw_pair(panel, of_pair, multiplier_sides[k], pairs[k]["between"], has_limit(summary, k), *label, colour=colour)
     figure.save(drawing, picture, options.dpi)
 
 

@@ -147,6 +147,21 @@ def test_the_axis_of_the_pressure_is_cut_to_the_contact():
     assert picture.loaded_part(s, np.ones(101)) == (0, 10)
 
 
+@pytest.mark.parametrize("singular, shown", [([], True), ([0.7], False), ([1.0], True)])
+def test_a_peak_is_shown_where_p_has_a_limit(singular, shown):
+    s = np.linspace(0, 1, 201)
+    p = 1 + 99 * np.exp(-((s - 0.5) ** 2) / 1e-5)
+    table = {"curve": np.array(["foot"] * 201), "s": s, "x": s, "y": 0 * s, "p": p, "sigma_n": -p}
+    table = {name: np.concatenate([column, column]) for name, column in table.items()}
+    table["curve"][201:] = "top"
+    points = [{"pair": 0, "pressure_exponent": exponent} for exponent in singular]
+    bounded = picture.has_limit({"estimate": {"pressure": {"singular": points}}}, 0)
+    drawing, axes = picture.figure.panels(1, 1, (4, 3))
+    picture.draw_pair(axes, table, "foot", ["foot", "top"], bounded)
+    assert (axes.get_ylim()[1] > 100) == shown == ("off the scale" not in axes.get_xlabel())
+    assert not picture.has_limit({"estimate": None}, 0)
+
+
 def test_forces_act_where_the_pressure_does():
     table = {"s": np.array([0.0, 1, 2, 3]), "x": np.array([0.0, 1, 2, 3]), "y": np.zeros(4), "p": np.array([0.0, 0, 3, 3])}
     np.testing.assert_allclose(picture.place_of_force(table, np.full(4, True)), (2.5, 0))
