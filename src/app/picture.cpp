@@ -36,7 +36,8 @@ int run_script(const std::string& name, const std::vector<std::string>& argument
   argv.push_back(nullptr);
   pid_t process = 0;
   if (::posix_spawnp(&process, argv[0], nullptr, nullptr, argv.data(), environ) != 0)
-    throw InputError("a picture is drawn by Python, which is not there: " + words[0]);
+    throw InputError("a picture is drawn by Python, which is not there (" + words[0] +
+                     "): apt-get install python3-matplotlib python3-meshio");
   int status = 0;
   ::waitpid(process, &status, 0);
   return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? 0 : 1;
