@@ -147,6 +147,9 @@ void estimate(Results& r, const AccuracySpec& spec) {
   Stopwatch watch;
   r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution, spec);
   for (std::size_t k = 0; k < r.contacts.size(); ++k) set_bars(r.estimate->pressures[k], r.contacts[k]);
+  const std::vector<PlaceError> of_probes =
+      place_errors(r.mesh, r.points, r.discretisation, r.solution, probed_places(r.probes));
+  for (std::size_t i = 0; i < of_probes.size(); ++i) r.probes[i].error = of_probes[i];
   append(r.warnings, error_warnings(r));
   r.seconds.estimate = watch.lap();
 }
@@ -211,7 +214,7 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   for (const ContactPair& pair : r.pairs)
     r.contacts.push_back(contact_results(r.mesh, pair, system.constraints, r.points, r.stress, u,
                                          r.solution.lambda.segment(pair.first_row, pair.coupling.B.rows())));
-  r.probes = probe_values(scene, r.mesh, r.points, r.discretisation.laws, u, r.stress, probes);
+  r.probes = probe_values(r.mesh, r.points, r.discretisation.laws, u, r.stress, probes);
   r.extremes = find_extremes(r.mesh, r.points, r.stress, r.contacts);
   r.reactions = find_reactions(scene, r.mesh, r.discretisation, r.solution);
   r.checks = checks(scene, r);

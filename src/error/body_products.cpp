@@ -1,5 +1,6 @@
 #include "error/body_products.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "base/parallel.hpp"
@@ -50,6 +51,30 @@ ErrorProducts products_by_body(const Mesh& mesh, const BodyPoints& points, const
     all.norms.segment(first_cell[b], own_cells) = own.norms;
     all.areas.segment(first_cell[b], own_cells) = own.areas;
   });
+  return all;
+}
+
+ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                                  const VecX& u, const ContactFactor& factor, const MatX& functionals,
+                                  const MatX& loads) {
+  constexpr Eigen::Index at_once = 12;  // recovered stresses take far more room than displacements
+  const Eigen::Index count = functionals.cols(), without_load = count - loads.cols();
+  ErrorProducts all;
+  for (Eigen::Index first = 0; first < count; first += at_once) {
+    const Eigen::Index duals = std::min(at_once, count - first);
+    MatX fields(u.size(), 1 + duals);
+    fields.col(0) = u;
+    const Eigen::Index loaded = std::clamp(first + duals - without_load, Eigen::Index(0), duals);
+    const MatX own = loads.middleCols(std::max(first - without_load, Eigen::Index(0)), loaded);
+    fields.rightCols(duals) = factor.duals(functionals.middleCols(first, duals), own);
+    ErrorProducts some = products_by_body(mesh, points, laws, fields);
+    if (first == 0) {
+      all = std::move(some);
+      all.products.conservativeResize(Eigen::NoChange, 1 + count);
+    } else {
+      all.products.middleCols(1 + first, duals) = some.products.rightCols(duals);
+    }
+  }
   return all;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fem/patch_recovery.hpp"
+#include "solve/contact_factor.hpp"
 
 namespace mortise {
 
@@ -9,5 +10,11 @@ namespace mortise {
 /// for each body alone, on all cores.
 ErrorProducts products_by_body(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
                                const MatX& fields);
+
+/// Of u and the duals of functionals (rows x F, at least one), in the order of both; `loads` (n x L): of the last L of
+/// them.
+ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                                  const VecX& u, const ContactFactor& factor, const MatX& functionals,
+                                  const MatX& loads);
 
 }  // namespace mortise

@@ -136,32 +136,6 @@ MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector
   return columns;
 }
 
-// Products with the dual of each functional, a few at a time: recovered stresses take far more room than displacements.
-// `loads`: of the last functionals.
-ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                                  const VecX& u, const ContactFactor* factor, const MatX& functionals,
-                                  const MatX& loads) {
-  constexpr Eigen::Index at_once = 12;
-  const Eigen::Index count = functionals.cols(), without_load = count - loads.cols();
-  ErrorProducts all;
-  for (Eigen::Index first = 0; first == 0 || first < count; first += at_once) {
-    const Eigen::Index duals = std::min(at_once, count - first);
-    MatX fields(u.size(), 1 + duals);
-    fields.col(0) = u;
-    const Eigen::Index loaded = std::clamp(first + duals - without_load, Eigen::Index(0), duals);
-    const MatX own = loads.middleCols(std::max(first - without_load, Eigen::Index(0)), loaded);
-    if (duals > 0) fields.rightCols(duals) = factor->duals(functionals.middleCols(first, duals), own);
-    ErrorProducts some = products_by_body(mesh, points, laws, fields);
-    if (first == 0) {
-      all = std::move(some);
-      all.products.conservativeResize(Eigen::NoChange, 1 + count);
-    } else {
-      all.products.middleCols(1 + first, duals) = some.products.rightCols(duals);
-    }
-  }
-  return all;
-}
-
 // Of each window the sum of the cells' parts without their signs.
 VecX far_fields(const Mesh& mesh, const FarField& far) {
   if (far.windows.own()) return far.parts.cwiseAbs().colwise().sum();
@@ -230,7 +204,8 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
   std::shared_ptr<const ContactFactor> factor = solution.factor;
   if (functionals.cols() > 0 && !factor) factor = factorise_contact(system, solution.active);
   const ErrorProducts found =
-      products_with_duals(mesh, points, laws, solution.u, factor.get(), functionals, goal.loads);
+      functionals.cols() > 0 ? products_with_duals(mesh, points, laws, solution.u, *factor, functionals, goal.loads)
+                             : products_by_body(mesh, points, laws, solution.u);
   estimate.energy = energy_estimate(mesh, found, round_off_energy(found, system.stiffness_scale, solution.u));
   estimate.far.parts = found.products.middleCols(1, shared);
   if (goals > 0) estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));

@@ -86,29 +86,13 @@ CellPlace place_of(const Mesh& mesh, const AccuracySpec& spec) {
 
 // Throws SceneError where the place is a corner at which stresses have no limit.
 void require_stress(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place, const Vec2& x) {
-  const Cell& cell = mesh.cells[place.cell];
-  const double size = (mesh.nodes.row(cell.nodes[1]) - mesh.nodes.row(cell.nodes[0])).norm();
-  for (int a = 0; a < corner_count(cell.kind); ++a) {
-    const int node = cell.nodes[a];
-    if ((mesh.nodes.row(node).transpose() - x).norm() > 1e-6 * size) continue;
-    const double exponent =
-        corner_exponent(mesh, node, discretisation.system.constraints, discretisation.laws[cell.body]);
-    if (exponent > singular_limit) continue;
-    std::ostringstream text;
-    text.precision(2);
-    text << "accuracy.at: the stress has no limit " << near_point(x) << ", where it grows as r^" << exponent - 1
-         << "; expected a place beside it, or a rounded corner";
-    throw SceneError(text.str());
-  }
-}
-
-MatX displacement_loads(const Mesh& mesh, const CellPlace& place) {
-  const Cell& cell = mesh.cells[place.cell];
-  const CellShape shape = cell_shape(cell.kind, place.xi);
-  MatX loads = MatX::Zero(2 * mesh.nodes.rows(), 2);
-  for (int a = 0; a < node_count(cell.kind); ++a)
-    for (int c = 0; c < 2; ++c) loads(2 * cell.nodes[a] + c, c) = shape.N[a];
-  return loads;
+  const double exponent = exponent_at(mesh, discretisation, place, x);
+  if (exponent > singular_limit) return;
+  std::ostringstream text;
+  text.precision(2);
+  text << "accuracy.at: the stress has no limit " << near_point(x) << ", where it grows as r^" << exponent - 1
+       << "; expected a place beside it, or a rounded corner";
+  throw SceneError(text.str());
 }
 
 // Those of the body with a corner in common with a cell.
@@ -123,11 +107,30 @@ std::vector<int> cells_around(const Mesh& mesh, int centre) {
   return cells;
 }
 
-// Of the mean stress in the cells, initial strains left out.
-MatX stress_loads(const Mesh& mesh, const ElasticLaw& law, const std::vector<int>& cells) {
+Vec2 place_in(const Mesh& mesh, const CellPlace& place) {
+  const Cell& cell = mesh.cells[place.cell];
+  const CellShape shape = cell_shape(cell.kind, place.xi);
+  Vec2 x = Vec2::Zero();
+  for (int a = 0; a < node_count(cell.kind); ++a) x += shape.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
+  return x;
+}
+
+}  // namespace
+
+MatX displacement_loads(const Mesh& mesh, const CellPlace& place) {
+  const Cell& cell = mesh.cells[place.cell];
+  const CellShape shape = cell_shape(cell.kind, place.xi);
+  MatX loads = MatX::Zero(2 * mesh.nodes.rows(), 2);
+  for (int a = 0; a < node_count(cell.kind); ++a)
+    for (int c = 0; c < 2; ++c) loads(2 * cell.nodes[a] + c, c) = shape.N[a];
+  return loads;
+}
+
+MatX stress_loads(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place) {
+  const ElasticLaw& law = discretisation.laws[mesh.cells[place.cell].body];
   MatX loads = MatX::Zero(2 * mesh.nodes.rows(), 3);
   double area = 0;
-  for (const int e : cells) {
+  for (const int e : cells_around(mesh, place.cell)) {
     const Cell& cell = mesh.cells[e];
     const CellRule rule = product_rule(cell.kind, 3);
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
@@ -151,7 +154,14 @@ MatX stress_loads(const Mesh& mesh, const ElasticLaw& law, const std::vector<int
   return loads / area;
 }
 
-}  // namespace
+double exponent_at(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place, const Vec2& x) {
+  const Cell& cell = mesh.cells[place.cell];
+  const double size = (mesh.nodes.row(cell.nodes[1]) - mesh.nodes.row(cell.nodes[0])).norm();
+  for (int a = 0; a < corner_count(cell.kind); ++a)
+    if ((mesh.nodes.row(cell.nodes[a]).transpose() - x).norm() <= 1e-6 * size)
+      return corner_exponent(mesh, cell.nodes[a], discretisation.system.constraints, discretisation.laws[cell.body]);
+  return 1;
+}
 
 GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discretisation, const ContactPair& pair,
                                  const PressureLine& line, const AccuracySpec& spec) {
@@ -176,8 +186,7 @@ GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discret
     case Goal::stress:
       goal.place = place_of(mesh, spec);
       require_stress(mesh, discretisation, *goal.place, spec.at);
-      goal.loads = stress_loads(mesh, discretisation.laws[mesh.cells[goal.place->cell].body],
-                                cells_around(mesh, goal.place->cell));
+      goal.loads = stress_loads(mesh, discretisation, *goal.place);
       break;
   }
   const Eigen::Index components = std::max(goal.rows.cols(), goal.loads.cols());
@@ -191,20 +200,25 @@ GoalEstimate goal_estimate(const GoalFunctionals& functionals, const Solution& s
           .parts = std::move(parts)};
 }
 
+Eigen::Vector3d stress_difference(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
+                                  const VecX& u, const StressPatches& patches, const CellPlace& place) {
+  const Cell& cell = mesh.cells[place.cell];
+  const ElasticLaw& law = discretisation.laws[cell.body];
+  const CellShape shape = cell_shape(cell.kind, place.xi);
+  const Vec4 own = stress_at(mesh, cell, law, u, shape) - law.stress0(place_in(mesh, place));
+  return recovered_stress(mesh, points, patches, place).head<3>().transpose() - own({0, 1, 3});
+}
+
 void add_stress_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
                       const GoalFunctionals& functionals, const VecX& u, const StressPatches& patches,
                       GoalEstimate& goal) {
   const CellPlace& place = *functionals.place;
-  const Cell& cell = mesh.cells[place.cell];
-  const ElasticLaw& law = discretisation.laws[cell.body];
-  const Eigen::Vector3d recovered = recovered_stress(mesh, points, patches, place).head<3>().transpose();
-  const CellShape shape = cell_shape(cell.kind, place.xi);
-  Vec2 x = Vec2::Zero();
-  for (int a = 0; a < node_count(cell.kind); ++a) x += shape.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
-  const Vec4 stress0 = law.stress0(x), own = stress_at(mesh, cell, law, u, shape) - stress0;
-  goal.value = recovered + stress0({0, 1, 3});
+  const ElasticLaw& law = discretisation.laws[mesh.cells[place.cell].body];
+  goal.value = recovered_stress(mesh, points, patches, place).head<3>().transpose() +
+               law.stress0(place_in(mesh, place))({0, 1, 3});
   goal.parts.row(place.cell) =
-      goal.parts.row(place.cell).cwiseAbs() + (recovered - own({0, 1, 3})).cwiseAbs().transpose();
+      goal.parts.row(place.cell).cwiseAbs() +
+      stress_difference(mesh, points, discretisation, u, patches, place).cwiseAbs().transpose();
 }
 
 double mean_error(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& errors,

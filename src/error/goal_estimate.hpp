@@ -24,6 +24,20 @@ struct GoalFunctionals {
 GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discretisation, const ContactPair& pair,
                                  const PressureLine& line, const AccuracySpec& spec);
 
+/// n x 2: of u at a place.
+MatX displacement_loads(const Mesh& mesh, const CellPlace& place);
+
+/// n x 3: of the stress (11, 22, 12) there, its mean over the cells around, initial strains left out.
+MatX stress_loads(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place);
+
+/// By which the displacements grow with the distance from the place, if it is a corner (contact/singular_points.hpp);
+/// at most singular_limit where stresses have no limit. 1 elsewhere.
+double exponent_at(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place, const Vec2& x);
+
+/// 11, 22, 12: the stress recovered at the place less the elements' own. `patches`: u in its first field.
+Eigen::Vector3d stress_difference(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
+                                  const VecX& u, const StressPatches& patches, const CellPlace& place);
+
 /// The values, and what they may be off by.
 struct GoalEstimate {
   VecX value;        ///< of each component; of a stress the recovered one at the place

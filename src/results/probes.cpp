@@ -55,14 +55,17 @@ std::vector<ProbePlace> locate_probes(const Scene& scene, const Mesh& mesh) {
     std::vector<int> bodies;
     if (!probe.body.empty()) bodies = names.bodies(probe.key + ".body", probe.body);
     for (const Vec2& x : probe.at)
-      places.push_back(
-          {k, x, probe.line ? (x - probe.at[0]).norm() : std::nan(""), place_of(mesh, finder, probe, bodies, x)});
+      places.push_back({.probe = k,
+                        .x = x,
+                        .s = probe.line ? (x - probe.at[0]).norm() : std::nan(""),
+                        .angle = probe.angle * std::numbers::pi / 180,
+                        .in = place_of(mesh, finder, probe, bodies, x)});
   }
   return places;
 }
 
-std::vector<ProbeValue> probe_values(const Scene& scene, const Mesh& mesh, const BodyPoints& points,
-                                     const std::vector<ElasticLaw>& laws, const VecX& u, const StressField& averages,
+std::vector<ProbeValue> probe_values(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                                     const VecX& u, const StressField& averages,
                                      const std::vector<ProbePlace>& places) {
   std::vector<ProbeValue> values;
   if (places.empty()) return values;
@@ -73,14 +76,28 @@ std::vector<ProbeValue> probe_values(const Scene& scene, const Mesh& mesh, const
     const Vec4 average = interpolated(mesh, place.in, [&](int node) -> Vec4 {
       return averages.points.row(point_of(points, body, node)).transpose();
     });
-    const double angle = scene.probes[place.probe].angle * std::numbers::pi / 180;
     values.push_back({.place = place,
                       .u = interpolated(mesh, place.in, [&](int node) -> Vec2 { return u.segment<2>(2 * node); }),
-                      .stress = in_turned_axes(stress, angle),
+                      .stress = in_turned_axes(stress, place.angle),
                       .von_mises = von_mises(stress),
-                      .spread = in_turned_axes(stress - average, angle).cwiseAbs().maxCoeff()});
+                      .spread = in_turned_axes(stress - average, place.angle).cwiseAbs().maxCoeff(),
+                      .error = {}});
   }
   return values;
+}
+
+std::vector<ProbedPlaces> probed_places(const std::vector<ProbeValue>& values) {
+  std::vector<ProbedPlaces> probes;
+  int last = -1;
+  for (const ProbeValue& value : values) {
+    const ProbePlace& place = value.place;
+    if (place.probe != last) probes.push_back({{}, {}, {}, place.angle});
+    last = place.probe;
+    probes.back().in.push_back(place.in);
+    probes.back().x.push_back(place.x);
+    probes.back().spread.push_back(value.spread);
+  }
+  return probes;
 }
 
 }  // namespace mortise

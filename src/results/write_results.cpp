@@ -133,6 +133,9 @@ void write_probes_csv(const Results& r, const std::filesystem::path& path) {
   for (const char* name : {"probe", "body", "s", "x", "y", "u_x", "u_y", "sigma_11", "sigma_22", "sigma_33", "sigma_12",
                            "von_mises", "spread"})
     columns.push_back({name, {}, {}});
+  if (r.probes[0].error)
+    for (const char* name : {"u_x_error", "u_y_error", "sigma_11_error", "sigma_22_error", "sigma_12_error"})
+      columns.push_back({name, {}, {}});
   for (const ProbeValue& v : r.probes) {
     columns[1].words.push_back(r.mesh.bodies[r.mesh.cells[v.place.in.cell].body]);
     std::size_t c = 0;
@@ -141,6 +144,9 @@ void write_probes_csv(const Results& r, const std::filesystem::path& path) {
       columns[c].numbers.push_back(value);
       c += c == 0 ? 2 : 1;
     }
+    if (!v.error) continue;
+    const auto& [u, stress] = *v.error;
+    for (const double value : {u.x(), u.y(), stress(0), stress(1), stress(2)}) columns[c++].numbers.push_back(value);
   }
   write_csv(path, columns);
 }

@@ -100,6 +100,73 @@ TEST(Probes, AlongARadiusOfLamesRingConvergeFasterThanTheElementsOwnStress) {
   EXPECT_LE(before, 4e-3 * pressure);
 }
 
+TEST(Probes, HaveBarsWhereErrorsAreEstimated) {
+  // Along radii at 35 degrees and along the cut, on which patches lie on one side; u_r = (1 + nu) / E (0.4 A r + B /
+  // r).
+  constexpr double pressure = 10e6, A = pressure / 3, B = 4 * A;
+  std::vector<ProbeSpec> lines{probe({}, "", 35), probe({}, "", 0)};
+  for (ProbeSpec& line : lines) {
+    line.line = true;
+    const double angle = line.angle * std::numbers::pi / 180;
+    for (int i = 0; i <= 30; ++i) line.at.push_back((1 + i / 30.0) * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  for (const int n : {4, 8, 16, 32}) {
+    Results r = ring(n, lines);
+    EXPECT_FALSE(r.probes[0].error);
+    estimate(r);
+    int held = 0, counted = 0;
+    std::vector<double> ratios;
+    for (const ProbeValue& v : r.probes) {
+      const double at = v.place.x.norm(), q = 4 / (at * at);
+      const Vec2 u = 1.3 / 210e9 * (0.4 * A + B / (at * at)) * v.place.x;
+      const Vec4 off = v.stress - A * Vec4(1 - q, 1 + q, 2 * 0.3, 0);
+      const auto count = [&](double error, double bar, double round_off) {
+        if (std::abs(error) < round_off) return;
+        ++counted;
+        held += std::abs(error) <= bar;
+        ratios.push_back(bar / std::abs(error));
+      };
+      for (int k = 0; k < 2; ++k) count(v.u(k) - u(k), v.error->u(k), 1e-13 * u.norm());
+      for (int k = 0; k < 3; ++k) count(off(k < 2 ? k : 3), v.error->stress(k), 1e-10 * pressure);
+    }
+    EXPECT_EQ(counted, 279) << n;  // all but u_y along the cut
+    EXPECT_GE(held, 0.95 * counted) << n;
+    std::ranges::nth_element(ratios, ratios.begin() + ratios.size() / 2);
+    EXPECT_LT(ratios[ratios.size() / 2], 40) << n;
+  }
+}
+
+TEST(Probes, HaveNoBarOfAStressWithoutLimit) {
+  // The punch's corner on the line of contact, and a place beside it.
+  Scene s = uniaxial_scene();
+  s.boundaries[0] = {.key = "boundary.0", .on = {"bottom"}, .displacement_x = 0, .displacement_y = 0};
+  s.probes = {probe({{0, 0}, {0.1, 0.1}})};
+  Results r = solve_scene(s, mesh_of({}));
+  estimate(r);
+  EXPECT_TRUE(r.probes[0].error->stress.hasNaN());
+  EXPECT_FALSE(r.probes[0].error->u.hasNaN());
+  EXPECT_FALSE(r.probes[1].error->stress.hasNaN());
+}
+
+TEST(Probes, HaveBarsInTurnedAxes) {
+  // Turned by a right angle 11 and 22 change places; of more than eight places the bars are not smaller.
+  ProbeSpec straight = probe({}, "", 0), turned = probe({}, "", 90), points = probe({}, "", 0);
+  straight.line = turned.line = true;
+  for (int i = 0; i <= 20; ++i) straight.at.emplace_back(1.05 + i / 25.0, 0.2);
+  turned.at = straight.at;
+  for (int i = 0; i <= 20; i += 4) points.at.push_back(straight.at[i]);
+  Results r = ring(6, {straight, turned, points});
+  estimate(r);
+  for (int i = 0; i <= 20; ++i) {
+    const Eigen::Vector3d a = r.probes[i].error->stress, b = r.probes[21 + i].error->stress;
+    EXPECT_LE((a - Eigen::Vector3d(b(1), b(0), b(2))).norm(), 1e-6 * a.norm());
+    if (i % 4 > 0) continue;
+    const Eigen::Vector3d own = r.probes[42 + i / 4].error->stress;
+    EXPECT_GE((a - 0.5 * own).minCoeff(), 0) << i;
+    EXPECT_GE((2 * own - 0.5 * a).minCoeff(), 0) << i;
+  }
+}
+
 TEST(Probes, OutsideOrInTwoBodiesAreRefused) {
   const auto refusal = [](const ProbeSpec& which) {
     Scene s = uniaxial_scene();

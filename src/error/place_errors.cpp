@@ -1,0 +1,97 @@
+#include "error/place_errors.hpp"
+
+#include "contact/singular_points.hpp"
+#include "error/body_products.hpp"
+#include "error/goal_estimate.hpp"
+#include "fem/quadrature.hpp"
+#include "mesh/boundary_edges.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr int most_duals = 8;  // places of a line that have their own
+
+// Which of `count` places have duals: all, or so many even steps along them.
+std::vector<int> sampled(int count) {
+  std::vector<int> places;
+  const int taken = std::min(count, most_duals);
+  for (int k = 0; k < taken; ++k) places.push_back(taken == 1 ? 0 : k * (count - 1) / (taken - 1));
+  return places;
+}
+
+// Of (11, 22, 12), in axes turned by an angle.
+Eigen::Matrix3d turning(double angle) {
+  Eigen::Matrix3d turn;
+  for (int k = 0; k < 3; ++k) {
+    Vec4 unit = Vec4::Zero();
+    unit(k < 2 ? k : 3) = 1;
+    turn.col(k) = in_turned_axes(unit, angle)({0, 1, 3});
+  }
+  return turn;
+}
+
+// Of each component the larger of the difference at the place and its root mean square over the cell: where the
+// elements' own stresses cross the recovered ones both err.
+Eigen::Vector3d local_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& d, const VecX& u,
+                            const StressPatches& patches, const CellPlace& place, const Eigen::Matrix3d& turn) {
+  const CellRule rule = product_rule(mesh.cells[place.cell].kind, 2);
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  double weight = 0;
+  for (std::size_t q = 0; q < rule.points.size(); ++q) {
+    const CellPlace at{place.cell, rule.points[q], 0};
+    squares += rule.weights[q] * (turn * stress_difference(mesh, points, d, u, patches, at)).cwiseAbs2();
+    weight += rule.weights[q];
+  }
+  const Eigen::Vector3d here = (turn * stress_difference(mesh, points, d, u, patches, place)).cwiseAbs();
+  return here.cwiseMax((squares / weight).cwiseSqrt());
+}
+
+std::vector<char> boundary_nodes(const Mesh& mesh) {
+  std::vector<char> on(mesh.nodes.rows(), 0);
+  for (const BoundaryEdge& side : boundary_edges(mesh).edges)
+    for (int a = 0; a < side.edge.node_count; ++a) on[side.edge.nodes[a]] = 1;
+  return on;
+}
+
+bool touches(const Cell& cell, const std::vector<char>& nodes) {
+  return std::any_of(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind), [&](int a) { return nodes[a]; });
+}
+
+}  // namespace
+
+std::vector<PlaceError> place_errors(const Mesh& mesh, const BodyPoints& points, const Discretisation& d,
+                                     const Solution& solution, const std::vector<ProbedPlaces>& probes) {
+  std::vector<PlaceError> errors;
+  if (probes.empty()) return errors;
+  std::shared_ptr<const ContactFactor> factor = solution.factor;
+  if (!factor) factor = factorise_contact(d.system, solution.active);
+  const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, d.laws, solution.u));
+  const std::vector<char> boundary = boundary_nodes(mesh);
+  for (const ProbedPlaces& probe : probes) {
+    const Eigen::Matrix3d turn = turning(probe.angle);
+    const std::vector<int> with_duals = sampled(int(probe.in.size()));
+    MatX loads(d.system.K.cols(), 5 * with_duals.size());
+    for (std::size_t k = 0; k < with_duals.size(); ++k) {
+      const CellPlace& place = probe.in[with_duals[k]];
+      loads.middleCols<2>(5 * k) = displacement_loads(mesh, place);
+      loads.middleCols<3>(5 * k + 2) = stress_loads(mesh, d, place) * turn.transpose();
+    }
+    const ErrorProducts found = products_with_duals(mesh, points, d.laws, solution.u, *factor,
+                                                    MatX::Zero(d.system.B.rows(), loads.cols()), loads);
+    const VecX far = found.products.rightCols(loads.cols()).cwiseAbs().colwise().sum().transpose();
+    std::size_t next = 0;
+    for (int i = 0; i < int(probe.in.size()); ++i) {
+      if (with_duals[next] < i) ++next;
+      Eigen::Matrix<double, 5, 1> error = far.segment<5>(5 * next);
+      if (with_duals[next] > i) error = error.cwiseMax(far.segment<5>(5 * (next - 1)));
+      error.tail<3>() += local_error(mesh, points, d, solution.u, patches, probe.in[i], turn);
+      if (touches(mesh.cells[probe.in[i].cell], boundary)) error.tail<3>().array() += probe.spread[i];
+      if (exponent_at(mesh, d, probe.in[i], probe.x[i]) <= singular_limit)
+        error.tail<3>().setConstant(std::numeric_limits<double>::quiet_NaN());
+      errors.push_back({error_safety * error.head<2>(), error_safety * error.tail<3>()});
+    }
+  }
+  return errors;
+}
+
+}  // namespace mortise
