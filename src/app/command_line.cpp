@@ -5,6 +5,7 @@
 #include <csignal>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <sstream>
 
 #include "app/accuracy.hpp"
@@ -73,16 +74,6 @@ Results solve_to_accuracy(const Scene& scene, const StageLine& line) {
   return *std::move(found);
 }
 
-Results solve(const Scene& scene, const Options& options, const StageLine& line) {
-  if (scene.accuracy) return solve_to_accuracy(scene, line);
-  Results results = solve_scene(scene, [&](const std::string& name) { line(name); });
-  if (!options.no_estimate) {
-    line("estimate");
-    estimate(results);
-  }
-  return results;
-}
-
 // The results would take the place of what they were made from.
 void check_fields_stay(const Scene& scene, const std::filesystem::path& folder) {
   std::error_code ignored;
@@ -96,17 +87,20 @@ int solve(const Options& options) {
   const std::filesystem::path folder = options.output.empty() ? "out/" + stem(options) : options.output;
   check_output_folder(folder);
   check_fields_stay(scene, folder);
-  Results results;
-  {
-    const StageLine line(options.quiet);
-    results = solve(scene, options, line);
-    if (options.diagnose) {
-      line("diagnose");
-      diagnose(scene, results);
-    }
-    line("write");
-    if (ranks().rank() == 0) results.seconds.write = write_results(scene, results, folder);
+  std::optional<StageLine> line(options.quiet);
+  const auto stage = [&](const std::string& name) { (*line)(name); };
+  Results results = scene.accuracy ? solve_to_accuracy(scene, *line) : solve_scene(scene, stage);
+  if (!scene.accuracy && !options.no_estimate) {
+    stage("estimate");
+    estimate(results);
   }
+  if (options.diagnose) {
+    stage("diagnose");
+    diagnose(scene, results);
+  }
+  stage("write");
+  if (ranks().rank() == 0) results.seconds.write = write_results(scene, results, folder);
+  line.reset();
   if (!options.quiet) say(terminal_summary(shown(scene), results, folder));
   if (results.status != Status::solved)
     std::cerr << "mortise: " << scene.path << ": " << to_string(results.status) << " (see the summary's checks)\n";

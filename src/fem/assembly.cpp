@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/parallel.hpp"
 #include "fem/edges.hpp"
 #include "fem/elements.hpp"
 #include "fem/quadrature.hpp"
@@ -108,25 +109,38 @@ NodeGraph node_graph(const Mesh& mesh) {
   return graph;
 }
 
-// The lower triangle of a symmetric matrix of 2 x 2 blocks on the graph, all zero.
+// A run of nodes: first <= j < last.
+struct NodeRange {
+  int first, last;
+
+  bool has(int j) const { return first <= j && j < last; }
+  bool touches(const Cell& cell) const {
+    return std::any_of(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind), [&](int j) { return has(j); });
+  }
+};
+
+// Room for the lower triangle of a symmetric matrix of 2 x 2 blocks on the graph.
 SparseMatrix block_matrix(const NodeGraph& graph) {
   const auto columns = graph.first.size() - 1;
-  const Eigen::Index n = 2 * columns;
-  SparseMatrix K(n, n);
+  SparseMatrix K(2 * columns, 2 * columns);
   K.resizeNonZeros(4 * graph.row.size() - columns);
-  int* outer = K.outerIndexPtr();
+  K.outerIndexPtr()[2 * columns] = int(4 * graph.row.size() - columns);
+  return K;
+}
+
+// The columns of some nodes, all zero.
+void lay_out(const NodeGraph& graph, NodeRange nodes, SparseMatrix& K) {
   int* inner = K.innerIndexPtr();
-  int at = 0;
-  for (std::size_t j = 0; j < columns; ++j)
+  const int begin = 4 * graph.first[nodes.first] - nodes.first;
+  int at = begin;
+  for (int j = nodes.first; j < nodes.last; ++j)
     for (int c = 0; c < 2; ++c) {
-      outer[2 * j + c] = at;
+      K.outerIndexPtr()[2 * j + c] = at;
       for (int k = graph.first[j]; k < graph.first[j + 1]; ++k)
         for (int r = 0; r < 2; ++r)
-          if (2 * graph.row[k] + r >= int(2 * j) + c) inner[at++] = 2 * graph.row[k] + r;
+          if (2 * graph.row[k] + r >= 2 * j + c) inner[at++] = 2 * graph.row[k] + r;
     }
-  outer[n] = at;
-  std::fill(K.valuePtr(), K.valuePtr() + at, 0.0);
-  return K;
+  std::fill(K.valuePtr() + begin, K.valuePtr() + at, 0.0);
 }
 
 // Adds the block of nodes (i, j), i >= j, in place.
@@ -147,7 +161,7 @@ bool is_isotropic_in_plane(const Mat4& C) { return C(0, 0) == C(1, 1) && C(0, 3)
 
 template <CellKind kind>
 void add_isotropic_plane(const Cell& cell, const ElasticLaw& law, const CellGradients<kind>& g, const NodeGraph& graph,
-                         SparseMatrix& K) {
+                         NodeRange columns, SparseMatrix& K) {
   const double t = law.model.thickness, a = t * law.stiffness(0, 0), b = t * law.stiffness(0, 1),
                c = t * law.stiffness(3, 3);
   // G_ij = int dN/dx_i dN/dx_j, n x n.
@@ -157,7 +171,7 @@ void add_isotropic_plane(const Cell& cell, const ElasticLaw& law, const CellGrad
   for (int p = 0; p < n<kind>; ++p)
     for (int q = 0; q < n<kind>; ++q) {
       const int i = cell.nodes[p], j = cell.nodes[q];
-      if (i < j) continue;
+      if (i < j || !columns.has(j)) continue;
       add_block(graph, K, i, j, a * G11(p, q) + c * G22(p, q), b * G12(p, q) + c * G12(q, p),
                 b * G12(q, p) + c * G12(p, q), a * G22(p, q) + c * G11(p, q));
     }
@@ -178,7 +192,7 @@ Eigen::Matrix<double, 4, 2 * n<kind>> strains_at(Eigen::Index q, const CellGradi
 
 template <CellKind kind>
 void add_any(const Cell& cell, const ElasticLaw& law, const CellPoints<kind>& x, const CellTable<kind>& table,
-             const CellGradients<kind>& g, const NodeGraph& graph, SparseMatrix& K) {
+             const CellGradients<kind>& g, const NodeGraph& graph, NodeRange columns, SparseMatrix& K) {
   Eigen::Matrix<double, 2 * n<kind>, 2 * n<kind>> k = Eigen::Matrix<double, 2 * n<kind>, 2 * n<kind>>::Zero();
   for (Eigen::Index q = 0; q < points<kind>; ++q) {
     const double x1 = table.N.row(q).dot(x.col(0));
@@ -188,23 +202,25 @@ void add_any(const Cell& cell, const ElasticLaw& law, const CellPoints<kind>& x,
   }
   for (int p = 0; p < n<kind>; ++p)
     for (int q = 0; q < n<kind>; ++q)
-      if (const int i = cell.nodes[p], j = cell.nodes[q]; i >= j)
+      if (const int i = cell.nodes[p], j = cell.nodes[q]; i >= j && columns.has(j))
         add_block(graph, K, i, j, k(2 * p, 2 * q), k(2 * p, 2 * q + 1), k(2 * p + 1, 2 * q), k(2 * p + 1, 2 * q + 1));
 }
 
+// Into the columns of some nodes.
 template <CellKind kind>
-void add_cells(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const NodeGraph& graph, SparseMatrix& K) {
+void add_cells(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const NodeGraph& graph, NodeRange columns,
+               SparseMatrix& K) {
   const CellTable<kind> table = cell_table<kind>();
   CellGradients<kind> g;
   for (const Cell& cell : mesh.cells) {
-    if (cell.kind != kind) continue;
+    if (cell.kind != kind || !columns.touches(cell)) continue;
     const CellPoints<kind> x = nodes_of<kind>(mesh.nodes, cell);
     cell_gradients(x, table, g);
     const ElasticLaw& law = laws[cell.body];
     if (!law.model.axisymmetric() && is_isotropic_in_plane(law.stiffness))
-      add_isotropic_plane<kind>(cell, law, g, graph, K);
+      add_isotropic_plane<kind>(cell, law, g, graph, columns, K);
     else
-      add_any<kind>(cell, law, x, table, g, graph, K);
+      add_any<kind>(cell, law, x, table, g, graph, columns, K);
   }
 }
 
@@ -251,10 +267,17 @@ void add_cell_forces(const Mesh& mesh, const Model& model, const std::vector<Bod
 
 }  // namespace
 
-SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticLaw>& laws) {
+SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticLaw>& laws, int threads) {
+  constexpr int nodes_a_thread = 20000;  // below, a thread takes longer to start than it saves
   const NodeGraph graph = node_graph(mesh);
   SparseMatrix K = block_matrix(graph);
-  for_each_kind([&]<CellKind kind>() { add_cells<kind>(mesh, laws, graph, K); });
+  const int count = int(mesh.nodes.rows()), ranges = std::clamp(count / nodes_a_thread, 1, threads);
+  for_each_index(ranges, threads, [&](std::size_t k) {
+    const auto start = [&](std::size_t range) { return int(std::size_t(count) * range / ranges); };
+    const NodeRange columns{start(k), start(k + 1)};
+    lay_out(graph, columns, K);
+    for_each_kind([&]<CellKind kind>() { add_cells<kind>(mesh, laws, graph, columns, K); });
+  });
   return K;
 }
 

@@ -7,6 +7,7 @@
 #include "fem/elements.hpp"
 #include "mesh/side_table.hpp"
 #include "problem/boundary_conditions.hpp"
+#include "solve/threads.hpp"
 
 namespace mortise {
 namespace {
@@ -102,7 +103,7 @@ Discretisation discretise(const Scene& scene, const Mesh& mesh) {
       weights.emplace_back([force = Vec2(material->density * *scene.gravity)](const Vec2&) { return force; });
     d.weight = add_body_forces(mesh, d.model, weights, d.system.f);
   }
-  d.system.K = assemble_stiffness(mesh, d.laws);
+  assemble_stiffness(mesh, d.laws, solver_threads()).swap(d.system.K);
   const SideTable table(mesh);
   std::vector<Eigen::Triplet<double>> springs;
   for (const BoundarySpec& spec : scene.boundaries)

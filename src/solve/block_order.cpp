@@ -4,7 +4,9 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <array>
 #include <mutex>
+#include <numeric>
 #include <stdexcept>
 
 namespace mortise {
@@ -22,14 +24,31 @@ struct Graph {
   const int* end(int i) const { return row.data() + start[i + 1]; }
 };
 
-// Of each block the ones before it.
-Graph blocks_before(const SparseMatrix& upper, const std::vector<int>& blocks, const std::vector<int>& first_of) {
+// Unknowns by the nodes that they belong to: those of node b are unknowns[first[b]] ... unknowns[first[b + 1] - 1].
+struct Nodes {
+  const std::vector<int>& unknowns;  // ascending
+  std::vector<int> first, number;    // of each node; of each block the node, -1: none of these unknowns has it
+
+  Nodes(const std::vector<int>& of, const std::vector<int>& blocks) : unknowns(of), number(blocks.back() + 1, -1) {
+    for (int i = 0; i < int(unknowns.size()); ++i)
+      if (int& node = number[blocks[unknowns[i]]]; node < 0) {
+        node = int(first.size());
+        first.push_back(i);
+      }
+    first.push_back(int(unknowns.size()));
+  }
+  int size() const { return int(first.size()) - 1; }
+};
+
+// Of each node the ones before it.
+Graph nodes_before(const SparseMatrix& upper, const std::vector<int>& blocks, const Nodes& nodes) {
   Graph graph;
   graph.row.reserve(1);  // AMD wants an address also where nothing is coupled
-  for (int b = 0; b + 1 < int(first_of.size()); ++b) {
-    for (SparseMatrix::InnerIterator it(upper, first_of[b]); it; ++it) {
-      const int r = blocks[it.row()];
-      if (r < b && (int(graph.row.size()) == graph.start.back() || graph.row.back() != r)) graph.row.push_back(r);
+  for (int b = 0; b < nodes.size(); ++b) {
+    for (SparseMatrix::InnerIterator it(upper, nodes.unknowns[nodes.first[b]]); it; ++it) {
+      const int r = nodes.number[blocks[it.row()]];
+      if (r >= 0 && r < b && (int(graph.row.size()) == graph.start.back() || graph.row.back() != r))
+        graph.row.push_back(r);
     }
     graph.start.push_back(int(graph.row.size()));
   }
@@ -79,31 +98,37 @@ void for_each_cover(const Graph& graph, int b, Visit visit) {
   }
 }
 
-std::vector<int> minimum_degree(const Graph& before) {
-  std::vector<int> order(before.size());
-  if (amd_order(before.size(), before.start.data(), before.row.data(), order.data(), nullptr, nullptr) < AMD_OK)
-    throw std::runtime_error("AMD ordering failed");
-  return order;
-}
+struct Order {
+  std::vector<int> nodes;     // in the order of elimination
+  int first = 0, second = 0;  // as of Dissection
+};
 
-// The place of each node in METIS's order.
-std::vector<int> dissected(Graph graph) {
+// The place of each node in METIS's order, and how many come before its first separator on either side.
+struct Places {
+  std::vector<int> of;
+  std::array<idx_t, 3> sizes;
+};
+
+Places dissected(Graph graph) {
   static std::mutex one;  // it draws from the process's random numbers, from a seed of its own
   const std::lock_guard lock(one);
-  idx_t options[METIS_NOPTIONS], size = graph.size();
+  idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_COMPRESS] = 0;
-  std::vector<int> order(graph.size()), place(graph.size());
-  if (METIS_NodeND(&size, graph.start.data(), graph.row.data(), nullptr, options, order.data(), place.data()) !=
-      METIS_OK)
+  Places places{std::vector<int>(graph.size()), {}};
+  std::vector<int> order(graph.size());
+  // The order of METIS_NodeND, which does not say where its first separator begins.
+  if (METIS_NodeNDP(graph.size(), graph.start.data(), graph.row.data(), nullptr, 2, options, order.data(),
+                    places.of.data(), places.sizes.data()) != METIS_OK)
     throw std::runtime_error("METIS ordering failed");
-  return place;
+  return places;
 }
 
 // A node in the middle of a side is coupled to nothing that each end of the side is not coupled to. So the graph of the
 // nodes that nothing covers has all there is to dissect, a third of the nodes of quadratic elements; a covered node is
-// eliminated just before the first of those that cover it.
-std::vector<int> nested_dissection(const Graph& before) {
+// eliminated just before the first of those that cover it. It is on that one's side of the separator: all its
+// neighbours are neighbours of that one.
+Order nested_dissection(const Graph& before) {
   const int count = before.size();
   std::vector<int> number(count);
   for (int b = 0; b < count; ++b) number[b] = b;
@@ -114,33 +139,53 @@ std::vector<int> nested_dissection(const Graph& before) {
     number[b] = int(covers_of.size()) == cover_start.back() ? kept++ : -1;
     cover_start.push_back(int(covers_of.size()));
   }
-  const std::vector<int> place = dissected(both_ways(before, number));
+  const Places places = dissected(both_ways(before, number));
   // Sorted by place: first those that go with a kept node, then itself.
   std::vector<int> key(count);
   for (int b = 0; b < count; ++b) {
-    key[b] = number[b] >= 0 ? 2 * place[number[b]] + 1 : 2 * count;
+    key[b] = number[b] >= 0 ? 2 * places.of[number[b]] + 1 : 2 * count;
     for (int k = cover_start[b]; k < cover_start[b + 1]; ++k)
-      if (const int a = covers_of[k]; number[a] >= 0) key[b] = std::min(key[b], 2 * place[number[a]]);
+      if (const int a = covers_of[k]; number[a] >= 0) key[b] = std::min(key[b], 2 * places.of[number[a]]);
   }
-  std::vector<int> order(count);
-  for (int b = 0; b < count; ++b) order[b] = b;
-  std::ranges::stable_sort(order, {}, [&](int b) { return key[b]; });
+  Order order{std::vector<int>(count)};
+  for (int b = 0; b < count; ++b) order.nodes[b] = b;
+  std::ranges::stable_sort(order.nodes, {}, [&](int b) { return key[b]; });
+  const int left = 2 * places.sizes[0], both = left + 2 * places.sizes[1];
+  order.first = int(std::ranges::count_if(key, [&](int k) { return k < left; }));
+  order.second = int(std::ranges::count_if(key, [&](int k) { return k < both; })) - order.first;
+  return order;
+}
+
+Order minimum_degree(const Graph& before) {
+  Order order{std::vector<int>(before.size()), before.size()};
+  if (amd_order(before.size(), before.start.data(), before.row.data(), order.nodes.data(), nullptr, nullptr) < AMD_OK)
+    throw std::runtime_error("AMD ordering failed");
   return order;
 }
 
 }  // namespace
 
+Dissection dissection(const SparseMatrix& upper, const std::vector<int>& blocks, const std::vector<int>& unknowns,
+                      int dissect) {
+  if (unknowns.empty()) return {};
+  const Nodes nodes(unknowns, blocks);
+  const Graph before = nodes_before(upper, blocks, nodes);
+  const Order order = int(unknowns.size()) < dissect ? minimum_degree(before) : nested_dissection(before);
+  Dissection result;
+  result.order.reserve(unknowns.size());
+  for (int k = 0; k < nodes.size(); ++k) {
+    const int b = order.nodes[k];
+    result.order.insert(result.order.end(), &unknowns[nodes.first[b]], &unknowns[0] + nodes.first[b + 1]);
+    if (k + 1 == order.first) result.first = int(result.order.size());
+    if (k + 1 == order.first + order.second) result.second = int(result.order.size()) - result.first;
+  }
+  return result;
+}
+
 std::vector<int> block_order(const SparseMatrix& upper, const std::vector<int>& blocks, int dissect) {
-  if (blocks.empty()) return {};
-  const int n = int(blocks.size());
-  std::vector<int> first_of(blocks.back() + 2, n);
-  for (int i = n - 1; i >= 0; --i) first_of[blocks[i]] = i;
-  const Graph before = blocks_before(upper, blocks, first_of);
-  std::vector<int> order;
-  order.reserve(n);
-  for (const int b : n < dissect ? minimum_degree(before) : nested_dissection(before))
-    for (int i = first_of[b]; i < first_of[b + 1]; ++i) order.push_back(i);
-  return order;
+  std::vector<int> all(blocks.size());
+  std::iota(all.begin(), all.end(), 0);
+  return dissection(upper, blocks, all, dissect).order;
 }
 
 }  // namespace mortise

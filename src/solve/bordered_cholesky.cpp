@@ -8,6 +8,9 @@
 #include "base/errors.hpp"
 #include "solve/threads.hpp"
 
+extern "C" void dsyrk_(const char* triangle, const char* transposed, const int* n, const int* k, const double* alpha,
+                       const double* A, const int* lda, const double* beta, double* C, const int* ldc);
+
 namespace mortise {
 namespace {
 
@@ -26,6 +29,22 @@ cholmod_sparse view(SparseMatrix& A) {
   s.sorted = 1;
   s.packed = 1;
   return s;
+}
+
+// The lower triangle of V V^T. Eigen's kernels are compiled for the plain processor, BLAS knows this one: several times
+// faster where there is work, slower to call where there is none.
+constexpr int blas_from = 100000;  // unknowns
+
+void square(const Eigen::Map<const MatX, 0, Eigen::OuterStride<>>& V, bool by_blas, MatX& product) {
+  const int rows = int(V.rows()), columns = int(V.cols()), stride = int(V.outerStride());
+  if (!by_blas) {
+    product.setZero(rows, rows);
+    product.selfadjointView<Eigen::Lower>().rankUpdate(V);
+    return;
+  }
+  const double one = 1, zero = 0;
+  product.resize(rows, rows);
+  dsyrk_("L", "N", &rows, &columns, &one, V.data(), &stride, &zero, product.data(), &rows);
 }
 
 }  // namespace
@@ -112,12 +131,14 @@ struct BorderedCholesky::Factor {
   }
 };
 
-BorderedCholesky::BorderedCholesky(SparseMatrix&& given, const std::vector<int>& blocks, int dissect)
-    : factor_(std::make_unique<Factor>()) {
+BorderedCholesky::BorderedCholesky(SparseMatrix&& matrix, const std::vector<int>& blocks)
+    : BorderedCholesky(std::move(matrix), EliminationOrder{block_order(matrix, blocks)}) {}
+
+BorderedCholesky::BorderedCholesky(SparseMatrix&& given, EliminationOrder order) : factor_(std::make_unique<Factor>()) {
   SparseMatrix matrix;
   matrix.swap(given);  // Eigen 3.4 has no move: it would copy
   Factor& f = *factor_;
-  f.n = int(blocks.size());
+  f.n = int(order.unknowns.size());
   f.m = int(matrix.cols()) - f.n;
   compliance_ = MatX::Zero(f.m, f.m);
   if (matrix.cols() == 0) return;  // CHOLMOD refuses it
@@ -126,10 +147,9 @@ BorderedCholesky::BorderedCholesky(SparseMatrix&& given, const std::vector<int>&
   c.nmethods = 1;
   c.method[0].ordering = CHOLMOD_GIVEN;
   c.print = 0;
-  std::vector<int> order = block_order(matrix, blocks, dissect);
-  for (int r = f.n; r < int(matrix.cols()); ++r) order.push_back(r);  // the border last
+  for (int r = f.n; r < int(matrix.cols()); ++r) order.unknowns.push_back(r);  // the border last
   cholmod_sparse A = view(matrix);
-  f.L = cholmod_analyze_p(&A, order.data(), nullptr, 0, &c);
+  f.L = cholmod_analyze_p(&A, order.unknowns.data(), nullptr, 0, &c);
   if (c.status == CHOLMOD_TOO_LARGE)
     throw InputError(
         "the factor of a body has more than 2^31 entries, as from about ten million unknowns on: the mesh is "
@@ -147,8 +167,7 @@ BorderedCholesky::BorderedCholesky(SparseMatrix&& given, const std::vector<int>&
   MatX product;
   f.for_each_border_block([&](const BorderBlock& block) {
     const Eigen::Index count = block.V.rows();
-    product.setZero(count, count);
-    product.selfadjointView<Eigen::Lower>().rankUpdate(block.V);
+    square(block.V, f.n >= blas_from, product);
     for (Eigen::Index j = 0; j < count; ++j)
       for (Eigen::Index i = j; i < count; ++i) {
         const int r = f.perm()[block.rows[i]] - f.n, s = f.perm()[block.rows[j]] - f.n;

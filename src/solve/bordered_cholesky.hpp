@@ -13,6 +13,11 @@ namespace mortise {
 /// The beta of the bordered matrix: far above anything that a border of unit size leaves of it.
 inline constexpr double border_beta = 1e20;
 
+/// The n unknowns of K, in the order in which they are eliminated.
+struct EliminationOrder {
+  std::vector<int> unknowns;
+};
+
 /// Cholesky factor L of a positive definite K, with C = B K^-1 B^T as a by-product (docs/theory.md eq. 15 to 17).
 ///
 ///                  n       m                        n    m
@@ -29,9 +34,9 @@ class BorderedCholesky {
   /// `matrix` is the upper triangle of [K B^T; B beta I] (which spares CHOLMOD a transposition): n columns of K, then
   /// the columns of B^T with border_beta below them. K and the rows of B are of about unit size. It is taken, and
   /// freed once factorised.
-  /// `blocks` groups the n unknowns that share a node (ascending, 0, 0, 1, 1, 2, ...): ordered together, by nested
-  /// dissection from `dissect` unknowns on.
-  BorderedCholesky(SparseMatrix&& matrix, const std::vector<int>& blocks, int dissect = dissect_from);
+  /// `blocks` groups the n unknowns that share a node (ascending, 0, 0, 1, 1, 2, ...), for block_order.
+  BorderedCholesky(SparseMatrix&& matrix, const std::vector<int>& blocks);
+  BorderedCholesky(SparseMatrix&& matrix, EliminationOrder order);
   ~BorderedCholesky();
   BorderedCholesky(BorderedCholesky&&) noexcept;
 

@@ -1,19 +1,27 @@
-// The bordered factor of bodies that only the border joins: a factor each, on a thread each.
+// The bordered factor of a structure that falls into parts: bodies that only the border joins, halves of large bodies.
 #pragma once
 
 #include "solve/bordered_cholesky.hpp"
 
 namespace mortise {
 
-/// From so many unknowns on, a factor a part: below, one for all takes less.
+/// From so many unknowns on, a factor a body, and two of a body that has so many itself: below, one for all takes less.
 inline constexpr int split_from = 100000;
 
-/// As BorderedCholesky, whose words it shares. K falls into parts that nothing couples (bodies), K = diag(K_p), so that
-/// C = sum of B_p K_p^-1 B_p^T: from `split_from` unknowns on each part is ordered, factorised and solved by itself,
-/// several at once; below, all are one. What comes out does not depend on the number of threads.
+/// As BorderedCholesky, whose words it shares, by substructures (Przemieniecki 1963). From `split_from` unknowns on, K
+/// falls into bodies that nothing couples, and a large body into two halves that only the unknowns s of a separator
+/// couple. Each part p is ordered, factorised and solved by itself, several at once, with a border E_p of those rows of
+/// K_s and B that reach it. What they leave of the separators and the border is
+///
+///            s [ K_ss   B_s^T ]
+///            m [ B_s      0   ]  -  sum over p of E_p K_p^-1 E_p^T  =  [ S  F^T ; F  -D ],   C = D + F S^-1 F^T,
+///
+/// of which one more BorderedCholesky has the factor of S with the border F, and F S^-1 F^T. Without a separator C is
+/// D. Which parts there are, and what comes out, does not depend on the number of threads.
 class SplitCholesky {
  public:
-  SplitCholesky(SparseMatrix&& matrix, const std::vector<int>& blocks, int from = split_from);
+  SplitCholesky(SparseMatrix&& matrix, const std::vector<int>& blocks, int from = split_from,
+                int dissect = dissect_from);
 
   int failed_at() const;
   MatX take_border_compliance() { return std::move(compliance_); }
@@ -24,18 +32,28 @@ class SplitCholesky {
   VecX at_border(const VecX& y) const;
   MatX backward(const MatX& y, const MatX& lambda) const;
 
+  /// Unknowns of separators.
+  Eigen::Index separators() const { return Eigen::Index(separator_.size()); }
+
  private:
   struct Part {
-    std::vector<int> unknowns, rows;  // of K and of the border, ascending
-    Eigen::Index first = 0;           // in y
+    std::vector<int> unknowns;
+    std::vector<int> border;  // that reaches it: places among the separators' unknowns and then the rows of B
+    Eigen::Index first = 0;   // in y
     std::unique_ptr<BorderedCholesky> factor;
-    Eigen::Index size() const { return Eigen::Index(unknowns.size() + rows.size()); }
+    Eigen::Index size() const { return Eigen::Index(unknowns.size() + border.size()); }
   };
+  /// From the lower triangle of [-S . ; -F D] to C.
+  void eliminate_separators(const std::vector<int>& blocks);
   /// Calls work(part) for each, several at once.
   template <typename Work>
   void for_each_part(Work work) const;
+  /// Sum over p of E_p K_p^-1 f.
+  VecX at_borders(const VecX& y) const;
 
   std::vector<Part> parts_;
+  std::vector<int> separator_;                          // unknowns
+  std::unique_ptr<BorderedCholesky> separator_factor_;  // of S; none without
   Eigen::Index unknowns_, rows_;
   MatX compliance_;
 };

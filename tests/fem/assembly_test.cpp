@@ -46,6 +46,23 @@ TEST(Stiffness, ResistsNoRigidMotion) {
   }
 }
 
+TEST(Stiffness, IsTheSameOnAnyNumberOfThreads) {
+  TwoPlates plates;  // enough nodes for three
+  plates.n_upper = 90;
+  plates.n_lower = 240;
+  const Mesh mesh = test::mesh_of(plates);
+  ASSERT_GT(mesh.nodes.rows(), 60000);
+  const std::vector<ElasticLaw> laws{elastic_law(3, 0.25, {Plane::stress}), elastic_law(1, 0.3, {Plane::strain})};
+  const SparseMatrix one = assemble_stiffness(mesh, laws);
+  for (const int threads : {2, 3, 7}) {
+    const SparseMatrix K = assemble_stiffness(mesh, laws, threads);
+    ASSERT_EQ(K.nonZeros(), one.nonZeros());
+    EXPECT_TRUE(std::equal(one.outerIndexPtr(), one.outerIndexPtr() + one.cols() + 1, K.outerIndexPtr()));
+    EXPECT_TRUE(std::equal(one.innerIndexPtr(), one.innerIndexPtr() + one.nonZeros(), K.innerIndexPtr()));
+    EXPECT_TRUE(std::equal(one.valuePtr(), one.valuePtr() + one.nonZeros(), K.valuePtr()));
+  }
+}
+
 TEST(Stiffness, EnergyOfUniformStrainIsExactOnStraightElements) {
   for (const CellKind kind : kinds) {
     TwoPlates plates;

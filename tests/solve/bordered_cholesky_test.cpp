@@ -133,6 +133,120 @@ TYPED_TEST(BorderedFactor, NamesTheUnknownWhereKIsNotPositiveDefinite) {
   EXPECT_LT(at, 20);
 }
 
+// ---- Halves of large bodies ----
+
+// A random positive definite matrix on a grid of nodes, two unknowns each, coupled as by quadrilaterals of four nodes.
+MatX random_mesh_matrix(int columns, int rows, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> value(-1, 1);
+  const int nodes = columns * rows;
+  MatX K = MatX::Zero(2 * nodes, 2 * nodes);
+  for (int i = 0; i < 2 * nodes; ++i)
+    for (int j = 0; j < i; ++j)
+      if (std::abs(i / 2 % columns - j / 2 % columns) < 2 && i / 2 / columns - j / 2 / columns < 2)
+        K(i, j) = K(j, i) = value(random);
+  for (int i = 0; i < 2 * nodes; ++i) K(i, i) = 0.1 + K.row(i).cwiseAbs().sum();
+  return K;
+}
+
+double largest_of(const MatX& values) { return largest_entry(values.reshaped()); }
+
+// Compliance and a solution with multipliers, to 1e-10 of one factor for all.
+void expect_as_one(const Dense& d, SplitCholesky split) {
+  BorderedCholesky one = factor_of<BorderedCholesky>(d);
+  ASSERT_EQ(split.failed_at(), -1);
+  const Eigen::Index n = d.K.rows(), m = d.B.rows();
+  const MatX f = MatX::Random(n, 2), lambda = MatX::Random(m, 2);
+  MatX y(split.size(), 2), u(n, 2);
+  for (int k = 0; k < 2; ++k) {
+    const VecX y_one = one.forward(f.col(k)), load = f.col(k);
+    y.col(k) = split.forward(load);
+    EXPECT_LE(largest_entry(split.at_border(y.col(k)) - one.at_border(y_one)), 1e-10 * largest_of(f));
+    u.col(k) = one.backward(y_one, lambda.col(k));
+  }
+  EXPECT_LE(largest_of(split.backward(y, lambda) - u), 1e-10 * largest_of(u));
+  const MatX duals = one.backward(MatX::Zero(n + m, 2), lambda);  // of the multipliers alone
+  EXPECT_LE(largest_of(split.backward(MatX::Zero(split.size(), 2), lambda) - duals), 1e-10 * largest_of(duals));
+  const MatX expected = one.take_border_compliance().selfadjointView<Eigen::Lower>(),
+             actual = split.take_border_compliance().selfadjointView<Eigen::Lower>();
+  EXPECT_LE(largest_of(actual - expected), 1e-10 * largest_of(expected));
+}
+
+MatX beside_each_other(const MatX& A, const MatX& B) {
+  MatX K = MatX::Zero(A.rows() + B.rows(), A.rows() + B.rows());
+  K.topLeftCorner(A.rows(), A.rows()) = A;
+  K.bottomRightCorner(B.rows(), B.rows()) = B;
+  return K;
+}
+
+constexpr int halve_from = 400;
+
+SplitCholesky halved(const Dense& d, int dissect = 0) {
+  std::vector<int> blocks;
+  const Eigen::Index n = d.K.rows(), m = d.B.rows();
+  for (int i = 0; i < int(n); ++i) blocks.push_back(i / 2);
+  MatX bordered = MatX::Zero(n + m, n + m);
+  bordered.topLeftCorner(n, n) = d.K.triangularView<Eigen::Upper>();
+  bordered.topRightCorner(n, m) = d.B.transpose();
+  bordered.bottomRightCorner(m, m).diagonal().setConstant(border_beta);
+  return SplitCholesky(bordered.sparseView(), blocks, halve_from, dissect);
+}
+
+TEST(SplitFactor, HalvesALargeBody) {
+  const MatX K = random_mesh_matrix(20, 13, 17);
+  for (const int m : {0, 7}) {
+    const Dense d{K, MatX::Random(m, K.rows())};
+    const SplitCholesky factor = halved(d);
+    EXPECT_GT(factor.separators(), 0);
+    EXPECT_LT(factor.separators(), K.rows() / 5);
+    expect_as_one(d, halved(d));
+  }
+}
+
+TEST(SplitFactor, HalvesTheLargeOneOfTwoBodiesThatABorderJoins) {
+  // Rows that reach the large body alone, the small one alone, both, and one node.
+  const MatX K = beside_each_other(random_mesh_matrix(20, 13, 19), random_mesh_matrix(9, 8, 23));
+  MatX B = MatX::Random(12, K.rows());
+  B.topRows(3).rightCols(2 * 9 * 8).setZero();
+  B.middleRows(3, 3).leftCols(2 * 20 * 13).setZero();
+  B.row(11).setZero();
+  B(11, 4) = 1;
+  const Dense d{K, B};
+  EXPECT_GT(halved(d).separators(), 0);
+  expect_as_one(d, halved(d));
+}
+
+TEST(SplitFactor, LeavesABodyWholeThatIsTooSmall) {
+  const Dense d{beside_each_other(random_mesh_matrix(13, 12, 29), random_mesh_matrix(13, 12, 31)),
+                MatX::Random(5, 4 * 13 * 12)};
+  EXPECT_EQ(halved(d).separators(), 0);
+  expect_as_one(d, halved(d));
+}
+
+TEST(SplitFactor, TakesAnEmptySeparatorAndAnEmptyHalf) {
+  const Dense d{random_mesh_matrix(20, 13, 43), MatX::Random(5, 2 * 20 * 13)};
+  constexpr int never = 1 << 30;  // by minimum degree there is nothing to separate
+  EXPECT_EQ(halved(d, never).separators(), 0);
+  expect_as_one(d, halved(d, never));
+}
+
+TEST(SplitFactor, SeparatesWhatTheSecondUnknownOfANodeIsCoupledTo) {
+  // The order knows couplings of a node's first unknown alone: here the second ones reach across the whole body.
+  Dense d{random_mesh_matrix(20, 13, 37), MatX::Random(3, 2 * 20 * 13)};
+  for (int i = 1; i < 60; i += 2) d.K(i, 2 * 20 * 13 - i) = d.K(2 * 20 * 13 - i, i) = 0.05;
+  expect_as_one(d, halved(d));
+}
+
+TEST(SplitFactor, NamesTheUnknownWhereKIsNotPositiveDefinite) {
+  Dense d{random_mesh_matrix(20, 13, 41), MatX::Random(3, 2 * 20 * 13)};
+  for (int at = 0; at < 520; at += 13) {  // in either half and in the separator
+    const double pivot = d.K(at, at);
+    d.K(at, at) = -1;
+    EXPECT_EQ(halved(d).failed_at(), at);
+    d.K(at, at) = pivot;
+  }
+}
+
 // ---- The bordered system of bodies: prescribed unknowns left out, springs as more border ----
 
 SaddlePointSystem system_of(const Dense& d) {
