@@ -176,11 +176,7 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   stage("assemble");
   load_fields(scene);
   r.points = body_points(r.mesh);
-  Discretisation made = discretise(scene, r.mesh);
-  SparseMatrix K;
-  K.swap(made.system.K);  // Eigen 3.4 would copy it
-  r.discretisation = std::move(made);
-  r.discretisation.system.K.swap(K);
+  r.discretisation = discretise(scene, r.mesh);
   const std::vector<ProbePlace> probes = locate_probes(scene, r.mesh);
   if (adjust) adjust(r.mesh, r.discretisation);
   SaddlePointSystem& system = r.discretisation.system;

@@ -103,7 +103,7 @@ Discretisation discretise(const Scene& scene, const Mesh& mesh) {
       weights.emplace_back([force = Vec2(material->density * *scene.gravity)](const Vec2&) { return force; });
     d.weight = add_body_forces(mesh, d.model, weights, d.system.f);
   }
-  assemble_stiffness(mesh, d.laws, solver_threads()).swap(d.system.K);
+  d.system.K = assemble_stiffness(mesh, d.laws, solver_threads());
   const SideTable table(mesh);
   std::vector<Eigen::Triplet<double>> springs;
   for (const BoundarySpec& spec : scene.boundaries)

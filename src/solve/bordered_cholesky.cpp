@@ -135,8 +135,7 @@ BorderedCholesky::BorderedCholesky(SparseMatrix&& matrix, const std::vector<int>
     : BorderedCholesky(std::move(matrix), EliminationOrder{block_order(matrix, blocks)}) {}
 
 BorderedCholesky::BorderedCholesky(SparseMatrix&& given, EliminationOrder order) : factor_(std::make_unique<Factor>()) {
-  SparseMatrix matrix;
-  matrix.swap(given);  // Eigen 3.4 has no move: it would copy
+  SparseMatrix matrix = std::move(given);  // freed as soon as it is factorised
   Factor& f = *factor_;
   f.n = int(order.unknowns.size());
   f.m = int(matrix.cols()) - f.n;
@@ -162,7 +161,7 @@ BorderedCholesky::BorderedCholesky(SparseMatrix&& given, EliminationOrder order)
     return;
   }
   if (c.status < CHOLMOD_OK) throw std::bad_alloc();
-  SparseMatrix().swap(matrix);
+  matrix = SparseMatrix();
 
   MatX product;
   f.for_each_border_block([&](const BorderBlock& block) {

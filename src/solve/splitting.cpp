@@ -23,8 +23,7 @@ std::vector<std::vector<int>> coupled_unknowns(const SparseMatrix& upper, const 
 }  // namespace
 
 Splitting::Splitting(SparseMatrix&& matrix, const std::vector<int>& blocks, int from)
-    : blocks_(blocks), n_(int(blocks.size())), body_of_(n_), place_(n_), side_(n_) {
-  matrix_.swap(matrix);
+    : matrix_(std::move(matrix)), blocks_(blocks), n_(int(blocks.size())), body_of_(n_), place_(n_), side_(n_) {
   // Halves are to keep cores busy: where no body is much of the whole, the bodies do.
   constexpr int enough_bodies = 8;
   for (std::vector<int>& unknowns : coupled_unknowns(matrix_, blocks)) {
@@ -104,7 +103,7 @@ SparseMatrix Splitting::take(const SplitBody& body, char side, std::vector<int>&
     part.innerIndexPtr()[at] = i;
     part.valuePtr()[at] = value;
   });
-  if (--halves_left_ == 0) SparseMatrix().swap(matrix_);
+  if (--halves_left_ == 0) matrix_ = SparseMatrix();
   return part;
 }
 
