@@ -122,6 +122,13 @@ CASES = [
 ]  # fmt: skip
 
 
+def scene_text(case, n, changed=None):
+    """The scene file, its geometry with n elements on half the contact and some parameters changed."""
+    parameters = case.parameters | (changed or {}) | {"n": n}
+    table = ", ".join(f"{key} = {value!r}" for key, value in parameters.items())
+    return f'mesh.file = "{case.geometry}"\nmesh.parameters = {{ {table} }}\n{case.scene}'
+
+
 def by_name(name):
     return next(case for case in CASES if case.name == name)
 

@@ -5,8 +5,8 @@ Written are OUT/benchmarks.csv (a row a run), a picture a benchmark and section.
 --docs writes docs/benchmarks.md. Exit status 1 where a run fails or an error is above its limit.
 """
 
+import os
 import re
-import resource
 import sys
 import tempfile
 from math import log2
@@ -24,6 +24,7 @@ import launch
 import layer
 import page
 import patches
+import peers
 import runs
 import template
 
@@ -32,33 +33,26 @@ WIDTH_LIMIT = 5e-3  # of the half width of contact on the finest mesh
 SIZES = (25, 50, 100, 200)  # of the blocks that stand for half planes
 
 
-def processor_seconds():
-    """Of all programs that were called."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
-
-
 def execute(run):
     """One run: `error` of p, `width`: relative error of the half width, unknowns, seconds, and the line for pictures."""
     if "patch" in run:
         return patches.execute(run)
     case = benchmark_cases.by_name(run["case"])
-    parameters = case.parameters | run.get("parameters", {}) | {"n": run["size"] or case.sizes[1]}
-    scene = case.scene
-    if "size" in run.get("parameters", {}):  # the load stays
+    parameters = run.get("parameters", {})
+    scene = benchmark_cases.scene_text(case, run["size"] or case.sizes[1], parameters)
+    if "size" in parameters:  # the load stays
         scale = benchmark_cases.SIZE / parameters["size"]
         scene = re.sub(r"(?<=pressure = )[\d.e-]+", lambda found: repr(scale * float(found[0])), scene)
-    table = ", ".join(f"{key} = {value!r}" for key, value in parameters.items())
     with tempfile.TemporaryDirectory() as folder:
         path, out = Path(folder) / "scene.toml", Path(folder) / "out"
-        path.write_text(f'mesh.file = "{case.geometry}"\nmesh.parameters = {{ {table} }}\n{scene}')
+        path.write_text(scene)
         settings = {} if run["size"] else {"accuracy.value": ASKED}
-        before = processor_seconds()
+        before = launch.processor_seconds()
         try:
             summary = launch.solve(path, settings, out)
         except launch.StudyError as failure:
             return {"failed": str(failure)} | dict.fromkeys(("error", "width", "unknowns", "seconds", "line"))
-        seconds = processor_seconds() - before
+        seconds = launch.processor_seconds() - before
         line = launch.contact(out)
     at = benchmark_cases.places(case, line)
     near = np.flatnonzero(at <= 1.3 * case.half_width)
@@ -136,7 +130,18 @@ def table_line(case, meshes, asked):
     return [case.title, *errors, *at_last, percent(asked["error"]), asked["unknowns"], f"{asked['seconds']:.2g}"]
 
 
-def page_text(lines, asked, pictures, patch, large):
+def by_freefem(store, meshes):
+    """The table of FreeFEM's figures; `meshes`: (case, mortise's row on mesh 2)."""
+    rows = peers.rows(store, [(case.name, case.sizes[1]) for case, _ in meshes])
+    heading = ["mesh 2", "unknowns", "p by mortise", "by FreeFEM", "mortise, s", "FreeFEM, s"]
+    lines = []
+    for (case, ours), theirs in zip(meshes, rows):
+        found = [theirs["failed"], "–"] if theirs["failed"] else [percent(theirs["error"]), f"{theirs['seconds']:.2g}"]
+        lines.append([case.title, ours["unknowns"], percent(ours["error"]), found[0], f"{ours['seconds']:.2g}", found[1]])
+    return template.table(heading, lines) if lines else "FreeFEM was not there."
+
+
+def page_text(lines, asked, pictures, patch, large, freefem):
     heading = ["", *(f"mesh {k + 1}" for k in range(4)), "rate", "limit", "half width: finest mesh, 1 % asked",
                "p: 1 % asked", "unknowns", "seconds"]  # fmt: skip
     peaks = ["failed" if row["failed"] else f"{100 * peak(row):.3f} %" for row in large]
@@ -149,6 +154,7 @@ def page_text(lines, asked, pictures, patch, large):
         most=max(row["unknowns"] for row in asked),
         best=percent(min(row["error"] for row in asked)),
         worst=percent(max(row["error"] for row in asked)),
+        freefem=freefem,
         sizes=template.table(["size of the blocks, a", *SIZES], [["error of the largest p", *peaks]]),
         layer_width=layer.solve(1)[0],
         radius=closed_forms.RADIUS,
@@ -161,7 +167,8 @@ def main(arguments=None):
     stability = HERE.with_name("stability")
     depends = [*HERE.glob("*.py"), *HERE.glob("*.geo"), stability / "persson.py", stability / "pin.geo"]
     store = runs.Store(options.output / "runs", sorted(depends))
-    rows, lines, answers, pictures, wrong = [], [], [], [], []
+    os.environ.update(launch.ONE_THREAD)
+    rows, lines, answers, pictures, second, wrong = [], [], [], [], [], []
     for case in benchmark_cases.CASES:
         if options.only and case.name not in options.only:
             continue
@@ -175,11 +182,12 @@ def main(arguments=None):
             draw(case, meshes, asked, options.output / f"{case.name}.png")
             lines.append(table_line(case, meshes, asked))
             answers.append(asked)
+            second.append((case, meshes[1]))
             pictures.append(f"![{case.title}. {case.source}.](benchmarks/{case.name}.png)")
     patch, large = patches.rows(store), truncation(store, options.quick)
     wrong += patches.wrong(patch) + [row["failed"] for row in large if row["failed"]]
     launch.write_csv(options.output / "benchmarks.csv", rows)
-    page.write(options.output, "benchmarks", page_text(lines, answers, pictures, patch, large), options.docs)
+    page.write(options.output, "benchmarks", page_text(lines, answers, pictures, patch, large, by_freefem(store, second)), options.docs)
     print("\n".join(" | ".join(map(str, line)) for line in lines))
     print("\n".join(wrong) or "all hold")
     sys.exit(1 if wrong else 0)

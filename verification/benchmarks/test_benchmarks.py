@@ -10,6 +10,7 @@ import closed_forms
 import computed_again
 import launch
 import layer
+import peers
 import persson
 
 PLACES = np.linspace(0.03, 0.97, 48)
@@ -75,3 +76,10 @@ def test_every_benchmark_runs(mortise, tmp_path, capsys):
     rows = launch.columns(tmp_path / "benchmarks.csv")
     assert set(rows["case"]) == {case.name for case in benchmark_cases.CASES}
     assert (tmp_path / "section.html").read_text().count("<img") == len(benchmark_cases.CASES)
+
+
+def test_freefem_finds_the_same_on_the_same_mesh(freefem):
+    """A flat punch, p without a limit: 26 multipliers, the first one in the middle among them."""
+    ours = benchmarks.execute({"case": "flat_punch", "size": 20})
+    theirs = peers.execute({"case": "flat_punch", "size": 20})
+    assert not theirs["failed"] and theirs["error"] == pytest.approx(ours["error"], rel=1e-4) and theirs["seconds"] > 0

@@ -9,7 +9,6 @@ What remains should be the chart's seconds: the ratio of the two is near 1, a li
 
 import json
 import os
-import resource
 import statistics
 import tempfile
 from pathlib import Path
@@ -25,17 +24,11 @@ PICKED = {
 REPEATS = 5
 
 
-def processor_seconds():
-    """Of all processes that this one has waited for."""
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
-
-
 def seconds_of(*arguments):
     """Of a process of mortise: by the wall clock, and of the processor."""
-    before = processor_seconds()
+    before = launch.processor_seconds()
     _, whole = launch.run([launch.MORTISE, *arguments], env={**os.environ, **launch.ONE_THREAD})
-    return whole, processor_seconds() - before
+    return whole, launch.processor_seconds() - before
 
 
 def timed(problem, settings, folder):

@@ -5,6 +5,7 @@ import csv
 import json
 import math
 import os
+import resource
 import subprocess
 import tempfile
 import time
@@ -65,6 +66,12 @@ def run(command, expected=SOLVED, **options):
         said = "\n".join((done.stdout + done.stderr).strip().splitlines()[-6:])
         raise StudyError(f"{' '.join(command)}: exit status {done.returncode}\n{said}")
     return done, seconds
+
+
+def processor_seconds():
+    """Of all programs that were called so far."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def call(*arguments):

@@ -114,7 +114,7 @@ def pressure(name, folder):
         table = launch.contact(folder / "out")
         x, p = table["x"], table["p"]
     elif name == "FreeFEM":
-        _, x, _, p, *_ = np.loadtxt(folder / "freefem_contact.txt", skiprows=1).T
+        _, x, _, p, *_ = np.loadtxt(folder / "freefem_contact.txt").T
     else:
         x, p = np.loadtxt(folder / "getfem.csv", delimiter=",", skiprows=1).T
     order = np.argsort(x)
