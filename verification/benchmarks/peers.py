@@ -1,5 +1,8 @@
-"""The benchmarks by FreeFEM (freefem/active_set.edp), on mortise's meshes: P2 on 6-node triangles or on two triangles of each
-quadrilateral, with straight sides, and the same multipliers, gaps and segments, which the cross-check writes out for it."""
+"""The benchmarks by other programs on mortise's meshes, with multipliers on the same side.
+
+FreeFEM (freefem/active_set.edp): P2 on 6-node triangles or on two triangles of each quadrilateral, with straight sides, and
+the gaps and segments that the cross-check writes out for it. GetFEM (getfem/getfem_contact.py): the mesh's own elements.
+"""
 
 import sys
 import tempfile
@@ -8,19 +11,32 @@ from pathlib import Path
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.with_name("crosscheck")))
+sys.path[:0] = [str(HERE.with_name("crosscheck")), str(HERE.with_name("getfem"))]
 
 import benchmark_cases
+import by_getfem
 import cases
 import launch
 import run as crosscheck
 import scene as scenes
 
+# FreeFEM's active set starts closed, without springs.
+FAILURES = {"contact is lost everywhere": "loses all contact", "no convergence": "does not converge"}
 METHOD = {"order": 2, "multipliers": "linear", "integration": "segments", "gauss": 5}
 
 
+def by_freefem(case, path, mesh, side, folder):
+    """Of its scene on a mesh: lines of multipliers."""
+    scene = scenes.read_scene(path, {})
+    gap = "scene" if scene["contact"][0].get("initial_gap", "curve") != "curve" else "curve"
+    step = cases.Step(case.name, (), side, {}, {}, METHOD, "unilateral", gap, same_nodes=False)
+    crosscheck.convert_step(step, scene, mesh, folder)
+    crosscheck.call_freefem(crosscheck.SCRIPTS["unilateral"], folder=folder)
+    return np.loadtxt(folder / "freefem_contact.txt")
+
+
 def execute(run):
-    """`error` of p as of mortise's runs, processor `seconds` of FreeFEM without its mesh; or why it `failed`."""
+    """`error` of p as of mortise's runs, processor `seconds` of the program, its start included; or why it `failed`."""
     case = benchmark_cases.by_name(run["case"])
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
@@ -28,25 +44,29 @@ def execute(run):
         path.write_text(benchmark_cases.scene_text(case, run["size"]))
         launch.call("mesh", path, "-o", mesh)
         side = launch.solve(path, {}, folder / "out")["method"]["multipliers_on"][0]
-        scene = scenes.read_scene(path, {})
-        gap = "scene" if "initial_gap" in scene["contact"][0] and scene["contact"][0]["initial_gap"] != "curve" else "curve"
-        step = cases.Step(case.name, (), side, {}, {}, METHOD, "unilateral", gap, same_nodes=False)
-        crosscheck.convert_step(step, scene, mesh, folder)
         before = launch.processor_seconds()
         try:
-            crosscheck.call_freefem(crosscheck.SCRIPTS["unilateral"], folder=folder)
+            if run["by"] == "FreeFEM":
+                lines = by_freefem(case, path, mesh, side, folder)
+            else:
+                lines = by_getfem.contact(path, mesh, side, folder)
         except launch.StudyError as failure:
-            lost = "contact is lost everywhere" in str(failure)  # its active set starts closed, without springs
-            return {"failed": "loses all contact" if lost else str(failure), "error": None, "seconds": None}
+            said = next((short for long, short in FAILURES.items() if long in str(failure)), str(failure))
+            return {"failed": said, "error": None, "seconds": None}
         seconds = launch.processor_seconds() - before
-        _, x, y, p, _ = np.loadtxt(folder / "freefem_contact.txt").T
+    _, x, y, p, _ = lines.T
     at = benchmark_cases.places(case, {"x": x, "y": y})
     return {"failed": "", "error": benchmark_cases.error(case, at, p), "seconds": seconds}
 
 
-def rows(store, wanted):
-    """Of each (case, size) a row, or none without FreeFEM."""
-    if crosscheck.find_freefem() is None:
-        print("SKIPPED: FreeFem++ is not on the PATH: ./dev setup installs it")
+def found(by):
+    """Of GetFEM, or where FreeFEM lies; None where the program is missing."""
+    return crosscheck.find_freefem() if by == "FreeFEM" else by_getfem.version()
+
+
+def rows(store, wanted, by):
+    """Of each (case, size) a row, or none without the program."""
+    if found(by) is None:
+        print(f"SKIPPED: {by} is not there")
         return []
-    return store.rows([{"case": case, "size": size, "by": "FreeFEM"} for case, size in wanted], execute, "FreeFEM")
+    return store.rows([{"case": case, "size": size, "by": by} for case, size in wanted], execute, by)
