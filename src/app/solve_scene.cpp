@@ -162,8 +162,7 @@ void diagnose(const Scene& scene, Results& r) {
 
 namespace {
 
-Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start,
-                 const Adjust& adjust) {
+Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
   const auto stage = [&](const std::string& name) {
     if (progress) progress(name);
   };
@@ -178,7 +177,6 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   r.points = body_points(r.mesh);
   r.discretisation = discretise(scene, r.mesh);
   const std::vector<ProbePlace> probes = locate_probes(scene, r.mesh);
-  if (adjust) adjust(r.mesh, r.discretisation);
   SaddlePointSystem& system = r.discretisation.system;
   r.seconds.assemble = watch.lap();
 
@@ -227,9 +225,8 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
 
 }  // namespace
 
-Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start,
-                    const Adjust& adjust) {
-  return told_with_path(scene, [&] { return solve_on(scene, std::move(mesh), progress, start, adjust); });
+Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
+  return told_with_path(scene, [&] { return solve_on(scene, std::move(mesh), progress, start); });
 }
 
 }  // namespace mortise

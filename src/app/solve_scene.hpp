@@ -27,13 +27,8 @@ using Progress = std::function<void(const std::string& stage)>;
 /// is of other pairs.
 Results solve_scene(const Scene& scene, const Progress& progress = {}, const ActiveSet* start = nullptr);
 
-/// Changes the equations of the bodies before they are solved: loads and prescribed displacements that no scene file
-/// can say, such as functions of the place.
-using Adjust = std::function<void(const Mesh& mesh, Discretisation& discretisation)>;
-
-/// The same on a mesh that is already there. `adjust` is called when the scene has been discretised.
-Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr,
-                    const Adjust& adjust = {});
+/// The same on a mesh that is already there.
+Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr);
 
 /// The estimated error into the results, and a warning where it is large.
 void estimate(Results& results, const AccuracySpec& spec = {});

@@ -112,17 +112,12 @@ TEST(Notes, AClearanceOfThreePercentOfTheRadiusIsALargeDisplacement) {
 TEST(Notes, ATurnOfTheWholeIsALargeDisplacement) {
   Scene s = uniaxial_scene();
   EXPECT_EQ(notes_with(solve_scene(s, mesh_of({})), "large displacements"), 0);
-  // Every node moved as a turn by 9 degrees moves it.
-  s.boundaries.clear();
-  const Results r = solve_scene(s, mesh_of({}), {}, nullptr, [](const Mesh& mesh, Discretisation& d) {
-    for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i) {
-      if (mesh.nodes(i, 1) > 0 && mesh.nodes(i, 1) < 0.6) continue;  // the bottom and the top
-      d.system.constraints.fixed[2 * i] = d.system.constraints.fixed[2 * i + 1] = 1;
-      d.system.constraints.value.segment<2>(2 * i) = 0.15 * Vec2(-mesh.nodes(i, 1), mesh.nodes(i, 0));
-    }
-    for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i)  // and pressed
-      if (mesh.nodes(i, 1) >= 0.6) d.system.constraints.value(2 * i + 1) -= 1e-4;
-  });
+  // Bottom and top move as a turn of the whole by 9 degrees moves them, and are pressed together.
+  const auto turned = [](const std::string& curve, const std::string& y) -> BoundarySpec {
+    return {.on = {curve}, .displacement_x = Field("-0.15 * y", {}), .displacement_y = Field(y, {})};
+  };
+  s.boundaries = {turned("bottom", "0.15 * x"), turned("top", "0.15 * x - 1e-4")};
+  const Results r = solve_scene(s, mesh_of({}));
   EXPECT_EQ(notes_with(r, "a side turns by"), 1) << all(r);
 }
 

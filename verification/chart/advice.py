@@ -5,7 +5,7 @@ from pathlib import Path
 import chart_runs  # makes common/ known
 import pareto
 import template
-from chart_methods import METHODS, PANELS, PROBLEMS, label
+from chart_methods import METHODS, PANELS, PEERS, PROBLEMS, label
 
 TEXTS = template.texts(Path(__file__).with_name("chart_texts.md"))
 TARGETS = (0.05, 0.01, 0.001)
@@ -24,7 +24,7 @@ def of_problem(rows, problem, *methods):
 
 def by_mortise(rows, problem):
     """On meshes that are given: what is compared by the seconds without meshing."""
-    given = lambda row: row["method"] != "asked" and not row["method"].startswith("freefem")
+    given = lambda row: row["method"] != "asked" and row["method"] not in PEERS
     return [row for row in of_problem(rows, problem) if given(row)]
 
 

@@ -4,6 +4,8 @@ A method is a dictionary of the scene's keys (docs/files.md), as `mortise solve 
 can be had again by hand. A row whose keys the executable refuses is skipped, and says so.
 """
 
+from pathlib import Path
+
 import launch
 
 T3 = {"mesh.parameters.kind": 1, "mesh.parameters.order": 1}
@@ -33,11 +35,15 @@ METHODS = {
 }
 # Only where the mesh may shrink towards the ends of the contact line: parabola_1.
 GRADED = {"q8_graded": ("Q8, linear, graded mesh", {**LINEAR, "chart.grading": 3}, 5)}
-# The whole loop of `mortise solve --accuracy`, meshes included, where the scene file says all loads; a point an accuracy.
+# The whole loop of `mortise solve --accuracy`, meshes included; a point an accuracy.
 ASKED = {"asked": ("asked accuracy, with meshing", LINEAR, 6)}
 ACCURACIES = (0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005)
-# Order of the displacements; linear multipliers, segments, straight-sided triangles.
-FREEFEM = {"freefem_p1": ("FreeFEM P1", 1, 5), "freefem_p2": ("FreeFEM P2", 2, 4)}
+# Program, order of the displacements; linear multipliers; FreeFEM: segments, straight-sided triangles.
+PEERS = {
+    "freefem_p1": ("FreeFEM P1", "FreeFEM", 1, 5),
+    "freefem_p2": ("FreeFEM P2", "FreeFEM", 2, 4),
+    "getfem_q8": ("GetFEM Q8", "GetFEM", 2, 4),
+}
 
 # Settings of a method that have other names in each problem. beta = 0.3 and the roles with it are the preprint's: the
 # upper body takes the displacement; on the rings the program's choice, the soft outer one.
@@ -54,25 +60,28 @@ OWN = {
     },
 }
 
-# The coarsest mesh, its size parameters, and what FreeFEM's script solves it (none: it takes constant loads only).
+# The scene, its size parameters, the coarsest mesh, and the curve with more elements, of the others' multipliers.
 PROBLEMS = {
     "manufactured": {
         "title": "Manufactured field on two plates along a parabola (exact)",
         "sizes": ("n_upper", "n_lower"),
         "coarsest": (8, 10),
-        "freefem": None,
+        "scene": Path(__file__).with_name("manufactured.toml"),
+        "finer": "lower_contact",
     },
     "rings": {
         "title": "Two rings under pressure (Lamé, exact)",
         "sizes": ("n_inner", "n_outer"),
         "coarsest": (6, 8),
-        "freefem": ("rings", "outer_contact"),
+        "scene": "rings",
+        "finer": "outer_contact",
     },
     "parabola_1": {
         "title": "Two plates along parabola 1 (against a reference)",
         "sizes": ("n_upper", "n_lower"),
         "coarsest": (8, 10),
-        "freefem": ("parabola_1", "lower_contact"),
+        "scene": "parabola_1",
+        "finer": "lower_contact",
     },
 }
 # The errors that are drawn; the advice goes by the first.
@@ -81,7 +90,8 @@ PANELS = {
     "rings": ("e_p_l2", "e_energy", "e_p_max_inner"),
     "parabola_1": ("e_p_l2_inner", "e_energy", "e_p_max_inner"),
 }
-QUICK_METHODS = ("asked", "q8_linear", "q8_quadratic", "q4_linear", "t3_linear", "q8_ddm", "q8_mssor", "q8_graded", "freefem_p1")
+QUICK_METHODS = ("asked", "q8_linear", "q8_quadratic", "q4_linear", "t3_linear", "q8_ddm", "q8_mssor", "q8_graded", "freefem_p1",
+                 "getfem_q8")  # fmt: skip
 LEVELS = {"full": 7, "quick": 3}
 TURNS = {"full": 5, "quick": 2}
 
@@ -104,20 +114,19 @@ def size_settings(problem, mesh):
 
 def ways(problem, level, quick):
     """Name and settings of the methods that are run by mortise at a level."""
-    table = {**METHODS, **(GRADED if problem == "parabola_1" else {}), **(ASKED if problem != "manufactured" else {})}
+    table = {**METHODS, **(GRADED if problem == "parabola_1" else {}), **ASKED}
     for name, (_, settings, deepest) in table.items():
         if level <= deepest and (not quick or name in QUICK_METHODS):
             own = OWN.get(name, {}).get(problem, {}) if name != "asked" else {"accuracy.value": ACCURACIES[level]}
             yield name, {**size_settings(problem, mesh_of(problem, level)), **settings, **own}
 
 
-def freefem_ways(problem, level, quick):
-    """Name and order of the displacements of the methods that FreeFEM runs at a level."""
-    if PROBLEMS[problem]["freefem"]:
-        for name, (_, order, deepest) in FREEFEM.items():
-            if level <= deepest and (not quick or name in QUICK_METHODS):
-                yield name, order
+def peer_ways(level, quick):
+    """Name, program and order of the displacements of what others run at a level."""
+    for name, (_, program, order, deepest) in PEERS.items():
+        if level <= deepest and (not quick or name in QUICK_METHODS):
+            yield name, program, order
 
 
 def label(name):
-    return {**METHODS, **GRADED, **ASKED, **FREEFEM}[name][0]
+    return {**METHODS, **GRADED, **ASKED, **PEERS}[name][0]

@@ -5,7 +5,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 import chart_runs  # makes common/ known
 import figure
 import pareto
-from chart_methods import ASKED, FREEFEM, GRADED, METHODS, PANELS, PROBLEMS, label
+from chart_methods import ASKED, GRADED, METHODS, PANELS, PEERS, PROBLEMS, label
 
 # Okabe and Ito's colours, which colour-blind people tell apart: one for each kind of element or program.
 BLUE, SKY, GREEN, ORANGE, RED, PURPLE, BLACK, BROWN = (
@@ -30,6 +30,7 @@ STYLES = {  # colour, line, marker
     "asked": (BLACK, "-", "X"),
     "freefem_p1": (BLACK, ":", "o"),
     "freefem_p2": (BLACK, "--", "s"),
+    "getfem_q8": (BLACK, "-.", "D"),
 }
 ERROR_NAMES = {
     "e_p_l2": "contact pressure p, relative $L_2$",
@@ -69,7 +70,7 @@ def draw_problem(path, rows, problem):
 
 def draw_all(folder, rows):
     """NAME.png for each problem that has rows."""
-    missing = {*METHODS, *GRADED, *ASKED, *FREEFEM} - set(STYLES)
+    missing = {*METHODS, *GRADED, *ASKED, *PEERS} - set(STYLES)
     assert not missing, f"no style for {missing}"
     for problem in PROBLEMS:
         if mine := [row for row in rows if row["problem"] == problem]:

@@ -7,7 +7,7 @@ import statistics
 import sys
 from pathlib import Path
 
-for folder in ("common", "crosscheck"):
+for folder in ("common", "crosscheck", "getfem"):
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / folder))
 
 import launch
@@ -21,7 +21,7 @@ COLUMNS = (
     *("s_total_min", "s_total_max"),
 )
 # What measures, beside the programs and the scenes.
-MEASURES = ("chart_runs", "economy", "freefem_runs", "reference", "timing_check")
+MEASURES = ("chart_runs", "economy", "peer_runs", "reference", "timing_check")
 FREEFEM = ("mortar.edp", "elasticity.idp", "contact.idp", "system.idp")
 CROSSCHECK = ("convert", "run", "scene")
 
@@ -30,6 +30,7 @@ def make_store(output, quick):
     here = Path(__file__).parent
     files = [*(here / f"{name}.py" for name in MEASURES), *(launch.ROOT / "freefem" / name for name in FREEFEM)]
     files += [here.with_name("crosscheck") / f"{name}.py" for name in CROSSCHECK]
+    files += [*sorted(here.with_name("getfem").glob("*.py")), here / "manufactured.toml"]
     return runs.Store(output / ("runs_quick" if quick else "runs"), files, [launch.CHART, launch.MORTISE])
 
 

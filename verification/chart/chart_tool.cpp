@@ -10,7 +10,7 @@
 #include "base/errors.hpp"
 #include "base/stopwatch.hpp"
 #include "errors.hpp"
-#include "freefem_fields.hpp"
+#include "given_fields.hpp"
 #include "solve/dense_kernel.hpp"
 #include "solve/threads.hpp"
 
@@ -18,7 +18,7 @@ namespace mortise::chart {
 namespace {
 
 struct Options {
-  std::string problem, reference, pressure, freefem;
+  std::string problem, reference, pressure, fields;
   std::vector<std::string> runs;  // NAME;KEY=VALUE;KEY=VALUE...
   int turns = 3, threads = 1;
 };
@@ -37,7 +37,8 @@ Options read_options(int argc, char** argv) {
   app.add_option("--threads", options.threads, "threads of the factorisation (default 1)")->check(CLI::Range(1, 1024));
   app.add_option("--reference", options.reference, "CSV of x,p: reference pressure of parabola_1");
   app.add_option("--pressure", options.pressure, "CSV to write: x,p of the (last) way's multiplier side");
-  app.add_option("--freefem", options.freefem, "folder of FreeFEM's results: the errors are theirs");
+  app.add_option("--fields", options.fields,
+                 "FILES_bodies.txt and FILES_contact.txt of another program: the errors are theirs");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -104,10 +105,9 @@ void solve(Way& way, int turn, std::map<std::string, RunErrors>& errors, const O
   const double start = processor_seconds();
   try {
     const Scene& scene = way.problem.scene;
-    Results r = scene.accuracy ? *solve_to_accuracy(scene)
-                               : solve_scene(scene, std::move(mesh), {}, nullptr, way.problem.adjust);
+    Results r = scene.accuracy ? *solve_to_accuracy(scene) : solve_scene(scene, std::move(mesh));
     const double total = processor_seconds() - start, wall = watch.lap();
-    if (!options.freefem.empty()) take_freefem(r, options.freefem);
+    if (!options.fields.empty()) take_fields(r, options.fields);
     if (turn == 0) errors[way.name] = run_errors(r, way.problem);
     print_row(way.name, turn, r, errors.at(way.name), total, wall);
     if (turn == 0 && !options.pressure.empty()) write_pressure(r, options.pressure);

@@ -1,4 +1,4 @@
-"""All runs of the chart: chart.csv from mortise_chart and FreeFEM, resumed where runs are there already."""
+"""All runs of the chart: chart.csv from mortise_chart, FreeFEM and GetFEM, resumed where runs are there already."""
 
 import datetime
 import math
@@ -8,10 +8,10 @@ import statistics
 import time
 
 import chart_runs
-import freefem_runs
 import launch
+import peer_runs
 import reference
-from chart_methods import LEVELS, PROBLEMS, TURNS, freefem_ways, label, mesh_of, row_name, ways
+from chart_methods import LEVELS, PROBLEMS, TURNS, label, mesh_of, peer_ways, row_name, ways
 
 
 def first_line(command):
@@ -27,7 +27,7 @@ def machine(_):
     models = [line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
     return {
         **{"date": datetime.date.today().isoformat(), "commit": first_line(["git", "describe", "--always", "--dirty"])},
-        **{"mortise": first_line([launch.MORTISE, "--version"]), "freefem": freefem_runs.version() or "missing"},
+        **{"mortise": first_line([launch.MORTISE, "--version"]), **{by.lower(): peer_runs.version(by) or "missing" for by in peer_runs.PROGRAMS}},
         **{"processor": (models or ["unknown"])[0], "cores": os.cpu_count(), "load_average": os.getloadavg()[0]},
         **{"system": platform.platform(), "threads": 1},
     }
@@ -68,21 +68,22 @@ def measure_mesh(store, problem, level, quick, table, path, said, say):
             say(f"  left out: {label(way)}: {said[way]}")
         return rows
 
-    def of_freefem():
-        return freefem_runs.of_freefem(store, problem, mesh, by_freefem, min(turns, 3), against)
-
-    named, by_freefem = list(ways(problem, level, quick)), list(freefem_ways(problem, level, quick))
+    named = list(ways(problem, level, quick))
     rows = told(of_mortise) if named else []
-    if by_freefem and freefem_runs.version() is not None:
-        rows = rows + told(of_freefem, "FreeFEM, ")
+    for program in peer_runs.PROGRAMS:
+        theirs = [way for way in peer_ways(level, quick) if way[1] == program]
+        if theirs and peer_runs.version(program) is not None:
+            of_peer = lambda: peer_runs.of_peer(store, problem, mesh, theirs, min(turns, 3), against)
+            rows = rows + told(of_peer, f"{program}, ")
     return list(completed(rows, problem, mesh, table))
 
 
 def measure(store, output, quick, say=progress):
     """Writes chart.csv into the folder; returns the rows and what belongs to them."""
     start = time.perf_counter()
-    if freefem_runs.version() is None:
-        say("FreeFem++ is not on the PATH: its curves are left out (./dev setup installs it)")
+    for program, package in peer_runs.PROGRAMS.items():
+        if peer_runs.version(program) is None:
+            say(f"{program} is missing: its curves are left out (Debian: {package})")
     table, path = reference.reference(store, quick)
     say("reference of parabola_1", start)
     rows, said = [], {}

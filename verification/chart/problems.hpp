@@ -14,12 +14,11 @@ using Pressure = std::function<double(const Vec2& x)>;
 struct Problem {
   Scene scene;
   Mesh mesh;
-  Adjust adjust;                     ///< loads that the scene file cannot say
   std::optional<test::Field> exact;  ///< nothing where only a reference is known
   Pressure pressure;                 ///< empty where nothing is known
 };
 
-/// `name`: "manufactured" (plates of parabola_1 with the exact field of tests/support), "rings" (Lame), "parabola_1".
+/// `name`: "manufactured" (manufactured.toml: the exact field of tests/support), "rings" (Lame), "parabola_1".
 /// `settings`: the scene's keys, and of the two plates `chart.grading`, with which graded_plates makes the mesh.
 /// `reference`: a CSV of x,p along the contact line of parabola_1; may be empty.
 /// Throws InputError for bad settings, std::runtime_error for an unknown name.

@@ -3,6 +3,7 @@
 import csv
 import math
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,10 +13,11 @@ import chart
 import chart_methods
 import chart_runs  # makes launch known
 import economy
-import freefem_runs
 import launch
+import manufactured
 import measure
 import pareto
+import peer_runs
 import reference
 
 
@@ -111,9 +113,9 @@ def test_quick_run_has_every_row(quick):
         (problem, name, chart_methods.row_name(problem, name, chart_methods.mesh_of(problem, level)))
         for problem in chart_methods.PROBLEMS
         for level in range(levels)
-        for name, _ in [
+        for name, *_ in [
             *chart_methods.ways(problem, level, True),
-            *(chart_methods.freefem_ways(problem, level, True) if freefem_runs.version() else []),
+            *(way for way in chart_methods.peer_ways(level, True) if peer_runs.version(way[1])),
         ]
         if name not in refused
     }
@@ -144,11 +146,24 @@ def test_domain_decomposition_has_the_mortar_methods_errors(quick):
             assert theirs["e_energy"] == pytest.approx(ours["e_energy"], rel=1e-5)
 
 
+def test_the_manufactured_scene_is_as_its_script_writes_it():
+    assert manufactured.scene_text() == Path(manufactured.__file__).with_suffix(".toml").read_text()
+
+
+def test_getfem_on_the_same_elements_has_nearly_the_same_errors(quick):
+    """It integrates without segments."""
+    if not peer_runs.version("GetFEM"):
+        pytest.skip("GetFEM is not installed (Debian: python3-getfem)")
+    for problem in chart_methods.PROBLEMS:
+        for ours, theirs in zip(*(series(quick["rows"], problem, m) for m in ("q8_linear", "getfem_q8"))):
+            assert theirs["e_energy"] == pytest.approx(ours["e_energy"], rel=0.2), problem
+
+
 def test_freefem_on_the_same_triangles_has_the_same_errors(freefem, quick):
     """With the normals of the edges, as FreeFEM's script takes them."""
     table, path = reference.reference(quick["store"], True)
     own = {"method.normals": "edges", "contact.initial_gap": "closed"}
-    for problem in ("rings", "parabola_1"):
+    for problem in chart_methods.PROBLEMS:
         pairs = list(zip(*(series(quick["rows"], problem, m) for m in ("t3_linear", "freefem_p1"))))
         assert len(pairs) == chart_methods.LEVELS["quick"]
         for level, (_, theirs) in enumerate(pairs):
@@ -160,15 +175,16 @@ def test_freefem_on_the_same_triangles_has_the_same_errors(freefem, quick):
                 assert theirs[error] == pytest.approx(edges[error], rel=1e-6), (problem, mesh, error)
 
 
-def test_without_freefem_its_curves_are_missing_and_that_is_said(quick, tmp_path, monkeypatch):
+def test_without_other_programs_their_curves_are_missing_and_that_is_said(quick, tmp_path, monkeypatch):
     shutil.copytree(quick["output"], tmp_path / "chart")
-    monkeypatch.setattr(freefem_runs, "version", lambda: None)
+    monkeypatch.setattr(peer_runs, "version", lambda program: None)
     said = []
     store = chart_runs.make_store(tmp_path / "chart", True)
     rows, _ = measure.measure(store, tmp_path / "chart", True, lambda text, start=None: said.append(text))
-    assert any("FreeFem++ is not on the PATH" in text for text in said)
-    assert measure.machine(None)["freefem"] == "missing"
-    ours = [r for r in quick["rows"] if not r["method"].startswith("freefem")]
+    for program in peer_runs.PROGRAMS:
+        assert any(text.startswith(f"{program} is missing") for text in said)
+        assert measure.machine(None)[program.lower()] == "missing"
+    ours = [r for r in quick["rows"] if r["method"] not in chart_methods.PEERS]
     assert rows == ours
 
 

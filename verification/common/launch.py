@@ -80,7 +80,9 @@ def call(*arguments):
 
 
 def scene_file(name):
-    """Of a scene of geo/, or of the cross-check's own."""
+    """Of a scene of geo/, or of the cross-check's own; a path is one already."""
+    if isinstance(name, Path):
+        return name
     own = ROOT / f"verification/crosscheck/scenes/{name}.toml"
     return own if own.exists() else ROOT / f"geo/{name}.toml"
 
@@ -113,8 +115,7 @@ def number_or_text(text):
 
 def solve(scene, settings, folder):
     """Solves geo/SCENE.toml, or the scene file at a path, into a folder; returns the table of summary.json."""
-    path = scene if isinstance(scene, Path) else scene_file(scene)
-    call("solve", path, *options(settings), "-o", folder, "--quiet")
+    call("solve", scene_file(scene), *options(settings), "-o", folder, "--quiet")
     return json.loads((Path(folder) / "summary.json").read_text())
 
 

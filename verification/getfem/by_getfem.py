@@ -17,9 +17,11 @@ def version():
     return asked.stdout.strip() if asked.returncode == 0 else None
 
 
-def contact(scene, mesh, side, folder):
-    """Solves with multipliers on the curve `side`; returns a row a multiplier: 0, x, y, p, 0. StudyError if it fails."""
-    launch.run([sys.executable, SCRIPT, scene, mesh, side, folder], expected=(0,))
+def contact(scene, mesh, side, folder, settings=None):
+    """Solves with multipliers on the curve `side` and some of the scene's values replaced; returns a row a multiplier:
+    0, x, y, p, 0. StudyError if it fails."""
+    words = [f"{key}={value}" for key, value in (settings or {}).items()]
+    launch.run([sys.executable, SCRIPT, scene, mesh, side, folder, *words], expected=(0,))
     return np.loadtxt(folder / "getfem_contact.txt")
 
 

@@ -1,5 +1,6 @@
-"""A scene of two bodies by GetFEM: /usr/bin/python3 getfem_contact.py SCENE.toml MESH.msh MULTIPLIER_CURVE FOLDER
-(Debian: python3-getfem).
+"""A scene of two bodies by GetFEM (Debian: python3-getfem):
+
+  /usr/bin/python3 getfem_contact.py SCENE.toml MESH.msh MULTIPLIER_CURVE FOLDER [KEY=VALUE...]
 
 The mesh's own elements, of 6 or 8 nodes, with their curved sides; multipliers of order 1 on the side of
 MULTIPLIER_CURVE. All terms are in GetFEM's weak form language. GetFEM's raytracing finds the place opposite a Gauss
@@ -224,10 +225,10 @@ class Problem:
         (folder / "getfem_summary.txt").write_text("".join(f"{key} {value!r}\n" for key, value in summary.items()))
 
 
-def run(scene_file, mesh_file, curve, folder):
+def run(scene_file, mesh_file, curve, folder, settings):
     gf.util_trace_level(0)
     gf.util_warning_level(0)
-    scene, mesh = scenes.read_scene(scene_file, {}), meshio.read(mesh_file, file_format="gmsh")
+    scene, mesh = scenes.read_scene(scene_file, settings), meshio.read(mesh_file, file_format="gmsh")
     start = time.process_time()
     problem = Problem(scene, mesh, curve)
     built = time.process_time()
@@ -237,4 +238,5 @@ def run(scene_file, mesh_file, curve, folder):
 
 
 if __name__ == "__main__":
-    run(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], Path(sys.argv[4]))
+    scene_file, mesh_file, curve, folder, *words = sys.argv[1:]
+    run(Path(scene_file), Path(mesh_file), curve, Path(folder), dict(word.split("=", 1) for word in words))

@@ -1,4 +1,4 @@
-#include "freefem_fields.hpp"
+#include "given_fields.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -33,9 +33,9 @@ class Table {
 
 }  // namespace
 
-void take_freefem(Results& r, const std::string& folder) {
+void take_fields(Results& r, const std::string& files) {
   const ContactPair& pair = r.pairs.front();
-  const Table bodies(folder + "/freefem_bodies.txt"), contact(folder + "/freefem_contact.txt");
+  const Table bodies(files + "_bodies.txt"), contact(files + "_contact.txt");
   const auto place = [&](int node) { return Vec2(r.mesh.nodes.row(node)); };
   for (const Cell& cell : r.mesh.cells)
     for (int a = 0; a < node_count(cell.kind); ++a) {
