@@ -27,7 +27,8 @@ def machine(_):
     models = [line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
     return {
         **{"date": datetime.date.today().isoformat(), "commit": first_line(["git", "describe", "--always", "--dirty"])},
-        **{"mortise": first_line([launch.MORTISE, "--version"]), **{by.lower(): peer_runs.version(by) or "missing" for by in peer_runs.PROGRAMS}},
+        "mortise": first_line([launch.MORTISE, "--version"]),
+        **{by.lower(): peer_runs.version(by) or "missing" for by in peer_runs.PROGRAMS},
         **{"processor": (models or ["unknown"])[0], "cores": os.cpu_count(), "load_average": os.getloadavg()[0]},
         **{"system": platform.platform(), "threads": 1},
     }
