@@ -6,6 +6,7 @@
 #include "app/load_fields.hpp"
 #include "app/solve_system.hpp"
 #include "base/errors.hpp"
+#include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "ddm/ranks.hpp"
 #include "io/gmsh_mesh.hpp"
@@ -18,6 +19,7 @@
 #include "results/diagnose.hpp"
 #include "results/error_report.hpp"
 #include "results/warnings.hpp"
+#include "solve/threads.hpp"
 
 namespace mortise {
 namespace {
@@ -209,9 +211,12 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   const VecX& u = r.solution.u;
   r.stress = recover_stress(r.mesh, r.points, r.discretisation.laws, u);
   r.energy = strain_energy(r.discretisation, u);
-  for (const ContactPair& pair : r.pairs)
-    r.contacts.push_back(contact_results(r.mesh, pair, system.constraints, r.points, r.stress, u,
-                                         r.solution.lambda.segment(pair.first_row, pair.coupling.B.rows())));
+  r.contacts.resize(r.pairs.size());
+  for_each_index(r.pairs.size(), solver_threads(), [&](std::size_t k) {
+    const ContactPair& pair = r.pairs[k];
+    r.contacts[k] = contact_results(r.mesh, pair, system.constraints, r.points, r.stress, u,
+                                    r.solution.lambda.segment(pair.first_row, pair.coupling.B.rows()));
+  });
   r.probes = probe_values(r.mesh, r.points, r.discretisation.laws, u, r.stress, probes);
   r.extremes = find_extremes(r.mesh, r.points, r.stress, r.contacts);
   r.reactions = find_reactions(scene, r.mesh, r.discretisation, r.solution);

@@ -9,18 +9,24 @@
 
 namespace mortise {
 
-/// Calls work(i) once for each i below count, on so many threads; in order on one. Throws the first exception of any.
+/// Calls work(i) once for each i below count, on so many threads; in order on one. Throws what one thread would: of all
+/// that failed the exception of the least i.
 template <typename Work>
 void for_each_index(std::size_t count, int threads, const Work& work) {
   std::atomic<std::size_t> next = 0;
   std::exception_ptr failure;
+  std::size_t failed = count;
   std::mutex mutex;
   const auto run = [&] {
+    std::size_t i = next++;
     try {
-      for (std::size_t i = next++; i < count; i = next++) work(i);
+      for (; i < count; i = next++) work(i);
     } catch (...) {
       const std::lock_guard lock(mutex);
-      if (!failure) failure = std::current_exception();
+      if (i < failed) {
+        failed = i;
+        failure = std::current_exception();
+      }
       next = count;
     }
   };

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/parallel.hpp"
 #include "base/patterns.hpp"
 #include "base/printable.hpp"
 #include "fem/edges.hpp"
@@ -13,6 +14,7 @@
 #include "mesh/thickness.hpp"
 #include "problem/facing_pairs.hpp"
 #include "problem/scene_names.hpp"
+#include "solve/threads.hpp"
 
 namespace mortise {
 
@@ -53,43 +55,49 @@ void append(const SparseRows& rows, int first, std::vector<Eigen::Triplet<double
       entries.emplace_back(first + int(row), int(it.col()), it.value());
 }
 
+// `contact` is moved from.
+ContactPair coupled(const Method& method, const Mesh& mesh, const Discretisation& d, ContactCurves& contact,
+                    const Thickness& thickness, const std::vector<char>& dirichlet) {
+  for (Curve& curve : contact.curves) curve.thickness = thickness.behind(curve);
+  const ContactSpec& spec = contact.spec;
+  const bool second = spec.multipliers_on.empty() ? on_second(method.ddm.scheme, mesh.nodes, contact, d.laws, dirichlet)
+                                                  : spec.multipliers_on == spec.between[1];
+  ContactPair pair{.spec = spec,
+                   .multiplier = std::move(contact.curves[second ? 1 : 0]),
+                   .opposite = std::move(contact.curves[second ? 0 : 1]),
+                   .geometry = {},
+                   .points = {},
+                   .coupling = {}};
+  pair.spec.multipliers_on = spec.between[second ? 1 : 0];
+  pair.geometry = {.multiplier = ContactLine(mesh.nodes, pair.multiplier),
+                   .opposite = ContactLine(mesh.nodes, pair.opposite),
+                   .normals = method.normals == Normals::curve,
+                   .gap = spec.initial_gap != InitialGap::measured,
+                   .given = spec.initial_gap == InitialGap::given ? std::optional(spec.gap) : std::nullopt,
+                   .clearance = spec.clearance,
+                   .s = {},
+                   .model = d.model};
+  if (spec.gap.uses_arc_length() || spec.clearance.uses_arc_length())
+    pair.geometry.s.emplace(mesh.nodes, pair.multiplier);
+  pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, method.integration, pair.geometry);
+  pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, d.system.constraints,
+                         {method.multipliers, spec.initial_gap}, pair.geometry);
+  return pair;
+}
+
 }  // namespace
 
 std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, const Discretisation& d,
                                       std::vector<ContactCurves> contacts, const std::vector<char>& dirichlet) {
-  std::vector<ContactPair> pairs;
-  if (contacts.empty()) return pairs;
+  if (contacts.empty()) return {};
   const Thickness thickness(mesh.nodes, boundary_edges(mesh), bonded_to(mesh, body_points(mesh)));
+  std::vector<ContactPair> pairs(contacts.size());
+  for_each_index(pairs.size(), solver_threads(),
+                 [&](std::size_t k) { pairs[k] = coupled(method, mesh, d, contacts[k], thickness, dirichlet); });
   int first_row = 0;
-  for (ContactCurves& contact : contacts) {
-    for (Curve& curve : contact.curves) curve.thickness = thickness.behind(curve);
-    const ContactSpec& spec = contact.spec;
-    const bool second = spec.multipliers_on.empty()
-                            ? on_second(method.ddm.scheme, mesh.nodes, contact, d.laws, dirichlet)
-                            : spec.multipliers_on == spec.between[1];
-    ContactPair pair{.spec = spec,
-                     .multiplier = std::move(contact.curves[second ? 1 : 0]),
-                     .opposite = std::move(contact.curves[second ? 0 : 1]),
-                     .geometry = {},
-                     .points = {},
-                     .coupling = {},
-                     .first_row = first_row};
-    pair.spec.multipliers_on = spec.between[second ? 1 : 0];
-    pair.geometry = {.multiplier = ContactLine(mesh.nodes, pair.multiplier),
-                     .opposite = ContactLine(mesh.nodes, pair.opposite),
-                     .normals = method.normals == Normals::curve,
-                     .gap = spec.initial_gap != InitialGap::measured,
-                     .given = spec.initial_gap == InitialGap::given ? std::optional(spec.gap) : std::nullopt,
-                     .clearance = spec.clearance,
-                     .s = {},
-                     .model = d.model};
-    if (spec.gap.uses_arc_length() || spec.clearance.uses_arc_length())
-      pair.geometry.s.emplace(mesh.nodes, pair.multiplier);
-    pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, method.integration, pair.geometry);
-    pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, d.system.constraints,
-                           {method.multipliers, spec.initial_gap}, pair.geometry);
+  for (ContactPair& pair : pairs) {
+    pair.first_row = first_row;
     first_row += int(pair.coupling.B.rows());
-    pairs.push_back(std::move(pair));
   }
   return pairs;
 }

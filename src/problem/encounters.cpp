@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "base/parallel.hpp"
 #include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
+#include "solve/threads.hpp"
 
 namespace mortise {
 namespace {
@@ -59,13 +62,17 @@ Encounter encounter(const AuditedBodies& b, int edge, int piece) {
 std::vector<Encounter> encounters(const AuditedBodies& b) {
   const Outline& o = b.outline;
   const double sagitta = o.sagitta.empty() ? 0 : *std::max_element(o.sagitta.begin(), o.sagitta.end());
-  std::vector<Encounter> list;
-  for (int e = 0; e < int(o.edges.size()); ++e)
+  std::vector<std::vector<Encounter>> of_edges(o.edges.size());
+  for_each_index(o.edges.size(), solver_threads(), [&](std::size_t k) {
+    const int e = int(k);
     for (const int piece : o.boxes.meeting(edge_box(o, e, 4 * sagitta + slack * o.length[e]))) {
       if (piece == o.edges[e].piece) continue;
       Encounter found = encounter(b, e, piece);
-      if (found.meets > 0 || found.inside > 0) list.push_back(std::move(found));
+      if (found.meets > 0 || found.inside > 0) of_edges[e].push_back(std::move(found));
     }
+  });
+  std::vector<Encounter> list;
+  for (std::vector<Encounter>& of_edge : of_edges) std::ranges::move(of_edge, std::back_inserter(list));
   std::stable_sort(list.begin(), list.end(), [&](const Encounter& x, const Encounter& y) {
     return std::pair(o.edges[x.edge].piece, x.piece) < std::pair(o.edges[y.edge].piece, y.piece);
   });

@@ -11,20 +11,35 @@
 namespace mortise {
 namespace {
 
+// Holds the whole curve: a 3-node edge lies in the triangle of its ends and where the tangents there meet.
 Box box_of(const Points& nodes, const Curve& curve) {
   Box box;
-  for (const int node : curve_nodes(curve)) box.extend(Vec2(nodes.row(node).transpose()));
+  const auto at = [&](int node) -> Vec2 { return nodes.row(node).transpose(); };
+  for (const Edge& edge : curve.edges) {
+    const Vec2 start = at(edge.nodes[0]), end = at(edge.nodes[1]);
+    box.extend(start).extend(end);
+    if (edge.node_count == 3) box.extend(Vec2(2 * at(edge.nodes[2]) - (start + end) / 2));
+  }
   return box;
 }
 
-double mean_edge(const Points& nodes, const Curve& curve) {
-  return curve_length(nodes, curve) / double(curve.edges.size());
+struct Candidate {
+  const Curve& curve;
+  double edge;  // mean length
+  Box box;
+};
+
+Candidate candidate(const Points& nodes, const Curve& curve) {
+  return {curve, curve_length(nodes, curve) / double(curve.edges.size()), box_of(nodes, curve)};
 }
 
-bool faces(const Points& nodes, const Curve& from, const Curve& to, double within) {
-  for (int e = 0; e < int(from.edges.size()); ++e)
+bool faces(const Points& nodes, const Candidate& from, const Candidate& to, double within) {
+  const double reach = within + 1e-6 * to.edge;  // and round-off
+  for (int e = 0; e < int(from.curve.edges.size()); ++e)
     for (const double xi : {-0.5, 0.0, 0.5}) {
-      const auto hit = project_onto_curve(nodes, to, line_from(nodes, from, e, xi));
+      const Line line = line_from(nodes, from.curve, e, xi);
+      if (to.box.squaredExteriorDistance(line.x) > reach * reach) continue;
+      const auto hit = project_onto_curve(nodes, to.curve, line);
       if (hit && std::abs(hit->distance) <= within) return true;
     }
   return false;
@@ -37,23 +52,26 @@ std::vector<std::array<int, 2>> facing_pairs(const Mesh& mesh, const std::map<in
                                              const std::optional<double>& within) {
   const Points& nodes = mesh.nodes;
   const std::vector<int> bonded = bonded_to(mesh, body_points(mesh));
+  std::vector<Candidate> others;
   std::vector<Box> boxes;
-  for (const int boundary : sides[1]) boxes.push_back(box_of(nodes, curves.at(boundary)));
+  for (const int boundary : sides[1]) {
+    others.push_back(candidate(nodes, curves.at(boundary)));
+    boxes.push_back(others.back().box);
+  }
   const BoxIndex index(boxes);
   std::vector<std::array<int, 2>> pairs;
-  std::set<std::pair<int, int>> known;
+  std::set<std::pair<int, int>> tried;
   for (const int first : sides[0]) {
-    const Curve& curve = curves.at(first);
-    const double edge = mean_edge(nodes, curve), reach = within.value_or(edge / 2);
-    const Box box = box_of(nodes, curve), wide(box.min() - Vec2(reach, reach), box.max() + Vec2(reach, reach));
+    const Candidate own = candidate(nodes, curves.at(first));
+    const double reach = within.value_or(own.edge / 2);
+    const Box wide(own.box.min() - Vec2(reach, reach), own.box.max() + Vec2(reach, reach));
     for (const int k : index.meeting(wide)) {
       const int second = sides[1][k];
-      const Curve& other = curves.at(second);
-      if (bonded[curve.body] == bonded[other.body] || known.contains(std::minmax(first, second))) continue;
-      const double limit = within.value_or(std::min(edge, mean_edge(nodes, other)) / 2);
-      if (!faces(nodes, curve, other, limit) && !faces(nodes, other, curve, limit)) continue;
-      known.insert(std::minmax(first, second));
-      pairs.push_back({first, second});
+      const Candidate& other = others[k];
+      if (bonded[own.curve.body] == bonded[other.curve.body] || !tried.insert(std::minmax(first, second)).second)
+        continue;
+      const double limit = within.value_or(std::min(own.edge, other.edge) / 2);
+      if (faces(nodes, own, other, limit) || faces(nodes, other, own, limit)) pairs.push_back({first, second});
     }
   }
   return pairs;

@@ -74,9 +74,16 @@ void print_materials(const Scene& scene, std::ostream& out) {
   }
 }
 
+// A long expression without its end: summary.json has all of it.
+std::string words(const Field& f) {
+  constexpr std::size_t longest = 50;
+  const std::string all = f.words();
+  return all.size() <= longest ? all : all.substr(0, longest - 4) + " ...";
+}
+
 std::string words(const VectorField& v) {
   if (v.is_constant()) return pair_of({v.x.constant(), v.y.constant()});
-  return "(" + v.x.words() + ", " + v.y.words() + ")";
+  return "(" + words(v.x) + ", " + words(v.y) + ")";
 }
 
 Json json_of(const VectorField& v) { return {json_of(v.x), json_of(v.y)}; }
@@ -96,17 +103,16 @@ std::string words(const RigidSpec& rigid) {
 // What an entry prescribes, wherever.
 std::string words(const BoundarySpec& spec) {
   std::string text;
-  if (spec.displacement_x) text += " u_x = " + spec.displacement_x->words();
-  if (spec.displacement_y) text += (spec.displacement_x ? ", u_y = " : " u_y = ") + spec.displacement_y->words();
-  if (spec.displacement_normal) text += " u_n = " + spec.displacement_normal->words();
-  if (spec.displacement_along)
-    text += " u = " + spec.displacement_along->words() + " along " + pair_of(*spec.direction);
+  if (spec.displacement_x) text += " u_x = " + words(*spec.displacement_x);
+  if (spec.displacement_y) text += (spec.displacement_x ? ", u_y = " : " u_y = ") + words(*spec.displacement_y);
+  if (spec.displacement_normal) text += " u_n = " + words(*spec.displacement_normal);
+  if (spec.displacement_along) text += " u = " + words(*spec.displacement_along) + " along " + pair_of(*spec.direction);
   if (spec.rigid) text += words(*spec.rigid);
   if (spec.spring) text += " springs " + pair_of(*spec.spring);
-  if (spec.pressure) text += " pressure " + spec.pressure->words();
+  if (spec.pressure) text += " pressure " + words(*spec.pressure);
   if (spec.traction) text += " traction " + words(*spec.traction);
   if (spec.force) text += " force " + pair_of(*spec.force);
-  if (spec.normal_foundation) text += " foundation " + spec.normal_foundation->words() + " along the normal";
+  if (spec.normal_foundation) text += " foundation " + words(*spec.normal_foundation) + " along the normal";
   if (spec.foundation) text += " foundation " + words(*spec.foundation);
   return text;
 }
@@ -277,8 +283,8 @@ std::string model_lines(const Scene& scene, const Mesh& mesh, const Discretisati
     if (s.temperature_change)
       out << "temperature change " << s.temperature_change->words() << "\n";
     else
-      out << "initial strain xx " << s.strain[0].words() << ", yy " << s.strain[1].words() << ", zz "
-          << s.strain[2].words() << ", xy " << s.strain[3].words() << "\n";
+      out << "initial strain xx " << words(s.strain[0]) << ", yy " << words(s.strain[1]) << ", zz "
+          << words(s.strain[2]) << ", xy " << words(s.strain[3]) << "\n";
   });
   return out.str();
 }

@@ -222,6 +222,7 @@ boundary = [
   { on = "bottom", displacement = { x = 0, y = "1e-3 * x" } },
   { on = "top", pressure = "3 + 3*s" },
   { on = "upper_right", traction = [1e-3, "-y"] },
+  { on = "lower_right", traction = [0, "1e-3 + 1e-3 * x + 1e-3 * x^2 + 1e-3 * x^3 + 1e-3 * x^4"] },
   { on = "upper_left", force = [0, -2] },
 ]
 contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilateral" }]
@@ -232,13 +233,15 @@ contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilatera
   for (const char* line :
        {"  support   bottom: u_x = 0, u_y = 1e-3 * x\n", "  load      top: pressure 3 + 3*s, in sum (0, -12), moment",
         "  load      upper_right: traction (0.001, -y), in sum (0.0006, -0.78), moment",
+        "  load      lower_right: traction (0, 1e-3 + 1e-3 * x + 1e-3 * x^2 + 1e-3 * x^3 + ...), in sum",
         "  load      upper_left: force (0, -2), in sum (0, -2), moment"})
     expect_contains(lines, line);
   const auto json = model_json(scene, mesh, d, {.entries = std::vector<Resultant>(scene.boundaries.size())});
   EXPECT_EQ(json["supports"][0]["displacement"].dump(), "{\"x\":0.0,\"y\":\"1e-3 * x\"}");
   EXPECT_EQ(json["loads"][0]["pressure"], "3 + 3*s");
   EXPECT_EQ(json["loads"][1]["traction"].dump(), "[0.001,\"-y\"]");
-  EXPECT_EQ(json["loads"][2]["force"].dump(), "[0.0,-2.0]");
+  EXPECT_EQ(json["loads"][2]["traction"][1], "1e-3 + 1e-3 * x + 1e-3 * x^2 + 1e-3 * x^3 + 1e-3 * x^4");
+  EXPECT_EQ(json["loads"][3]["force"].dump(), "[0.0,-2.0]");
 }
 
 TEST(FunctionsOfPlace, WhatCannotBeIsNamedWithItsPlace) {
