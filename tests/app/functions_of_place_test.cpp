@@ -233,7 +233,7 @@ contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilatera
   for (const char* line :
        {"  support   bottom: u_x = 0, u_y = 1e-3 * x\n", "  load      top: pressure 3 + 3*s, in sum (0, -12), moment",
         "  load      upper_right: traction (0.001, -y), in sum (0.0006, -0.78), moment",
-        "  load      lower_right: traction (0, 1e-3 + 1e-3 * x + 1e-3 * x^2 + 1e-3 * x^3 + ...), in sum",
+        "  load      lower_right: traction (0, 1e-3 + 1e-3 * x + 1e-3 * x^2 + 1e-3 * x^3 + 1e ...), in sum",
         "  load      upper_left: force (0, -2), in sum (0, -2), moment"})
     expect_contains(lines, line);
   const auto json = model_json(scene, mesh, d, {.entries = std::vector<Resultant>(scene.boundaries.size())});
