@@ -1,6 +1,8 @@
 // Independent pieces of work on all cores.
 #pragma once
 
+#include <omp.h>
+
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -10,7 +12,8 @@
 namespace mortise {
 
 /// Calls work(i) once for each i below count, on so many threads; in order on one. Throws what one thread would: of all
-/// that failed the exception of the least i.
+/// that failed the exception of the least i. Within the work OpenMP has one thread: it would be asked by Eigen and
+/// CHOLMOD.
 template <typename Work>
 void for_each_index(std::size_t count, int threads, const Work& work) {
   std::atomic<std::size_t> next = 0;
@@ -18,6 +21,7 @@ void for_each_index(std::size_t count, int threads, const Work& work) {
   std::size_t failed = count;
   std::mutex mutex;
   const auto run = [&] {
+    omp_set_max_active_levels(0);  // a setting of each thread
     std::size_t i = next++;
     try {
       for (; i < count; i = next++) work(i);

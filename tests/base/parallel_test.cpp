@@ -19,6 +19,11 @@ TEST(ForEachIndex, DoesEachOnce) {
   }
 }
 
+TEST(ForEachIndex, KeepsOpenMPToOneThread) {
+  for (const int threads : {1, 3})
+    for_each_index(20, threads, [](std::size_t) { EXPECT_EQ(omp_get_max_active_levels(), 0); });
+}
+
 TEST(ForEachIndex, ThrowsWhatOneThreadWouldThrow) {
   const auto work = [](std::size_t i) {
     if (i == 7) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // 8 and 9 fail before it
