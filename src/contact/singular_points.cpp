@@ -138,12 +138,12 @@ void fit_kink(Wedge& a, Wedge& b) {
     a.angle = 2 * straight - b.angle;
 }
 
-SingularPoint singular_point(const Vec2& x, const Corner& a, const Corner& b) {
+SingularPoint singular_point(const Vec2& x, const Corner& a, const Corner& b, TipTable& tips) {
   SingularPoint point{x, std::max(a.edge, b.edge), 1, 1, meeting_of(a, b), {a.wedge, b.wedge}};
   auto& [first, second] = point.wedges;
   const bool kink = point.meeting == Meeting::kink;
   if (kink) fit_kink(first, second);
-  const TipExponents found = kink ? kink_exponents(first, second) : end_exponents(first, second);
+  const TipExponents found = kink ? tips.kinks(first, second) : tips.ends(first, second);
   point.exponent = found.stress.real();
   if (found.pressure.real() <= singular_limit) point.pressure_exponent = found.pressure.real();
   return point;
@@ -153,7 +153,7 @@ SingularPoint singular_point(const Vec2& x, const Corner& a, const Corner& b) {
 
 std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& table, const Curve& first,
                                            const Curve& second, const Constraints& constraints,
-                                           const std::vector<ElasticLaw>& laws) {
+                                           const std::vector<ElasticLaw>& laws, TipTable& tips) {
   const Side sides[] = {{mesh, table, first, constraints, laws[first.body], ContactLine(mesh.nodes, first)},
                         {mesh, table, second, constraints, laws[second.body], ContactLine(mesh.nodes, second)}};
   std::vector<SingularPoint> points;
@@ -166,7 +166,8 @@ std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& ta
           points, [&](const SingularPoint& p) { return (p.position - x).norm() < 0.05 * corner.edge; });
       const auto opposite = known ? std::nullopt : facing(sides[k], v, sides[1 - k]);
       if (!opposite) continue;
-      const SingularPoint point = k == 0 ? singular_point(x, corner, *opposite) : singular_point(x, *opposite, corner);
+      const SingularPoint point =
+          k == 0 ? singular_point(x, corner, *opposite, tips) : singular_point(x, *opposite, corner, tips);
       if (point.exponent <= singular_limit) points.push_back(point);
     }
   return points;

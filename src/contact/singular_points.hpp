@@ -33,7 +33,7 @@ inline constexpr double singular_limit = 0.95;
 /// the bisector does not excite the antisymmetric ones. As if contact were closed; `laws` one a body.
 std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& table, const Curve& first,
                                            const Curve& second, const Constraints& constraints,
-                                           const std::vector<ElasticLaw>& laws);
+                                           const std::vector<ElasticLaw>& laws, TipTable& tips);
 
 /// The exponent of a body's own corner at a node, its faces free of contact: 1 where it has none below, and inside.
 double corner_exponent(const Mesh& mesh, int node, const Constraints& constraints, const ElasticLaw& law);

@@ -185,4 +185,20 @@ TipExponents kink_exponents(const Wedge& a, const Wedge& b) {
   return {std::min(s.stress, t.stress, lower), std::min(s.pressure, t.pressure, lower)};
 }
 
+TipExponents TipTable::find(bool kink, Wedge a, Wedge b) {
+  for (Wedge* w : {&a, &b}) w->angle = 1e-10 * std::round(1e10 * w->angle);  // whoever comes first
+  const Key key{kink, a.angle, a.shear, a.kolosov, a.outer, b.angle, b.shear, b.kolosov, b.outer};
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto at = known_.find(key); at != known_.end()) return at->second;
+  }
+  const TipExponents found = kink ? kink_exponents(a, b) : end_exponents(a, b);
+  const std::lock_guard lock(mutex_);
+  return known_.emplace(key, found).first->second;
+}
+
+TipExponents TipTable::ends(const Wedge& a, const Wedge& b) { return find(false, a, b); }
+
+TipExponents TipTable::kinks(const Wedge& a, const Wedge& b) { return find(true, a, b); }
+
 }  // namespace mortise

@@ -5,6 +5,9 @@
 #pragma once
 
 #include <complex>
+#include <map>
+#include <mutex>
+#include <tuple>
 
 #include "fem/material.hpp"
 
@@ -44,5 +47,19 @@ TipExponents end_exponents(const Wedge& a, const Wedge& b);
 /// both.
 TipExponents kink_exponents(const Wedge& a, const Wedge& b, Face bisector);
 TipExponents kink_exponents(const Wedge& a, const Wedge& b);
+
+/// The same for many tips, most of them alike: computed once for all whose angles are one to 1e-10. Any thread may ask.
+class TipTable {
+ public:
+  TipExponents ends(const Wedge& a, const Wedge& b);
+  TipExponents kinks(const Wedge& a, const Wedge& b);
+
+ private:
+  using Key = std::tuple<bool, double, double, double, Face, double, double, double, Face>;
+  TipExponents find(bool kink, Wedge a, Wedge b);
+
+  std::map<Key, TipExponents> known_;
+  std::mutex mutex_;
+};
 
 }  // namespace mortise

@@ -105,6 +105,7 @@ std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const Discret
                                                  double excluded) {
   const double round_off = round_off_pressure(mesh, pairs, d.system.stiffness_scale, solution.u);
   const SideTable table(mesh);
+  TipTable tips;
   std::vector<PressureEstimate> list(pairs.size());
   for_each_index(pairs.size(), solver_threads(), [&](std::size_t k) {
     PressureEstimate& e = list[k];
@@ -112,7 +113,8 @@ std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const Discret
     e.local = line_error(e.line);
     e.windows = pressure_windows(pairs[k], e.line);
     e.singular = on_loaded(
-        singular_points(mesh, table, pairs[k].multiplier, pairs[k].opposite, d.system.constraints, d.laws), e.line);
+        singular_points(mesh, table, pairs[k].multiplier, pairs[k].opposite, d.system.constraints, d.laws, tips),
+        e.line);
     find_excluded(excluded, e);
   });
   return list;

@@ -25,8 +25,9 @@ std::vector<SingularPoint> points_of(const TwoPlates& plates, const Sides& held)
   for (const std::string& name : held.names)
     for (const int c : held.components) prescribe(mesh, boundary_index(mesh, name), c, 0, constraints);
   const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
+  TipTable tips;
   return singular_points(mesh, SideTable(mesh), contact_curve(mesh, boundary_index(mesh, "lower_contact")),
-                         contact_curve(mesh, boundary_index(mesh, "upper_contact")), constraints, laws);
+                         contact_curve(mesh, boundary_index(mesh, "upper_contact")), constraints, laws, tips);
 }
 
 const std::vector<std::string> all_sides{"upper_left", "upper_right", "lower_left", "lower_right"};

@@ -81,6 +81,20 @@ TEST(Williams, AWedgeOnAHalfPlaneHasTheExponentOfDundursAndLee) {
   EXPECT_NEAR(end_exponents(steel(90, Face::free, 1e9), steel(180)).pressure.real(), 0.5, 1e-8);  // a rigid punch
 }
 
+TEST(Williams, ATableKeepsTipsApart) {
+  TipTable tips;
+  const std::pair<Wedge, Wedge> asked[] = {
+      {steel(90), steel(180)}, {steel(90 + 1e-10), steel(180)},  // the same
+      {steel(91), steel(180)}, {steel(90, Face::clamped), steel(180)}, {steel(90, Face::free, 3), steel(180)},
+      {steel(180), steel(90)}};
+  for (int again = 0; again < 2; ++again)
+    for (const auto& [a, b] : asked)
+      EXPECT_NEAR(std::abs(tips.ends(a, b).stress - end_exponents(a, b).stress), 0, 1e-9);
+  EXPECT_EQ(tips.ends(asked[0].first, asked[0].second).stress, tips.ends(asked[1].first, asked[1].second).stress);
+  const Wedge a = steel(100), b = steel(260);
+  EXPECT_NEAR(std::abs(tips.kinks(a, b).stress - kink_exponents(a, b).stress), 0, 1e-9);
+}
+
 TEST(Williams, QuarterPlanesThatMeetHaveNoneUnlessTheyAreClamped) {
   EXPECT_EQ(end_exponents(steel(90), steel(90)).stress, 1.0);
   EXPECT_EQ(end_exponents(steel(90, Face::symmetric), steel(90, Face::symmetric, 7)).stress, 1.0);
