@@ -9,6 +9,7 @@ import numpy as np
 TRI3, TRI6, QUAD4, QUAD8, QUAD9 = 2, 9, 3, 16, 10
 LINE2, LINE3 = 1, 8
 CELL_TYPES = (TRI3, TRI6, QUAD4, QUAD8, QUAD9)
+CELL_NAMES = dict(zip(CELL_TYPES, ("T3", "T6", "Q4", "Q8", "Q9")))
 # Places of the nodes on the lattice, in gmsh's order, of the one quadrilateral or the two triangles at (0, 0): corners
 # A ... D, and with second-order nodes (lattice of half the width) also the middles of the sides and the centre.
 A, B, C, D = (0, 0), (1, 0), (1, 1), (0, 1)

@@ -20,8 +20,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 import launch
 import one_call
 import oracles
+import references
 import template
-from make_case import MAKERS, make_case
+from make_case import HELD, MAKERS, make_case
 
 
 def arguments():
@@ -29,14 +30,15 @@ def arguments():
     parser.add_argument("count", nargs="?", type=int, default=300, metavar="N", help="number of cases (300)")
     parser.add_argument("seed", nargs="?", default="1", metavar="SEED", help="SEED, or SEED:NUMBER to begin with (1)")
     parser.add_argument("--jobs", type=int, default=2, help="calls of mortise at once (2)")
-    parser.add_argument("--kind", action="append", choices=list(MAKERS), help="only this kind of case; may be repeated")
+    parser.add_argument("--kind", action="append", choices=[*MAKERS, *HELD], help="only this kind of case; may be repeated")
     parser.add_argument("--sanitize", action="store_true", help="the program is built with the address sanitizer")
     parser.add_argument("--out", type=Path, default=launch.ROOT / "out/fuzz", help="folder of the findings (out/fuzz)")
     return parser.parse_args()
 
 
-def examine(program, case):
-    """Runs a case and its twins in folders of their own: the outcome, and [(oracle, what is wrong)]."""
+def examine(program, case, known=None):
+    """Runs a case and its twins in folders of their own, and holds it against its reference, of those that are `known`:
+    the outcome, and [(oracle, what is wrong)]."""
     with tempfile.TemporaryDirectory(prefix="mortise_fuzz_") as base:
 
         def run(one, name):
@@ -53,16 +55,19 @@ def examine(program, case):
             if not found:
                 differs = oracles.compare(case.setting, twin, outcome, second, folder, other)
                 found += [("twin", differs)] if differs else []
+        if case.reference and not found:
+            outcome.worth, wrong = references.judge(case, outcome, folder, known)
+            found += [(outcome.worth, wrong)] if wrong else []
         return outcome, found
 
 
 def fuzz(program, count, seed, first=0, jobs=2, kinds=tuple(MAKERS), out=None, show=print):
     """Runs the cases; [(number, case, outcome, findings)] of all, in their order."""
-    start, done = time.monotonic(), []
+    start, done, known = time.monotonic(), [], references.References(program)
 
     def one(number):
         case = make_case(seed, number, kinds)
-        outcome, found = examine(program, case)
+        outcome, found = examine(program, case, known)
         if found and out is not None:
             store(out / f"{seed}_{number}", f"{seed}:{number}", program, case, outcome, found)
         return number, case, outcome, found
@@ -109,7 +114,7 @@ def store(folder, name, program, case, outcome, found):
         one.write(where / "files")
         (where / "repeat.sh").write_text(script(program, one), errors="surrogateescape")
         (where / "repeat.sh").chmod(0o755)
-    lines = [f"{name}  {case.kind}: {printable(case.what)}"]
+    lines = [f"{name}  {case.kind}: {printable(case.what)}", f"./dev fuzz 1 {name} --kind '{case.kind}'"]
     lines += [f"exit status {outcome.status} after {outcome.seconds:.1f} s"]
     lines += [f"{oracle}: {printable(wrong)}" for oracle, wrong in found]
     (folder / "finding.txt").write_text("\n".join([*lines, "standard error:", outcome.said[:5000]]),
@@ -128,6 +133,24 @@ def table(done):
     return template.table(["kind of case", "cases", "exit 0", "1", "2", "other", "objections"], rows)
 
 
+def worth_table(done):
+    """A row a group of the cases that were held against a reference: how many were worth what, and seconds."""
+    rows = []
+    for group in sorted({case.group for _, case, outcome, _ in done if outcome.worth}):
+        mine = [outcome for _, case, outcome, _ in done if case.group == group and outcome.worth]
+        count = Counter(outcome.worth for outcome in mine)
+        seconds = sum(outcome.seconds for outcome in mine) / len(mine)
+        rows.append([group, len(mine), *(count[label] or "" for label in references.LABELS), f"{seconds:.1f}"])
+    return "\n" + template.table(["held against references", "cases", *references.LABELS, "seconds"], rows) if rows else ""
+
+
+def failures(done):
+    """Cases with a finding; of a hundred answers one may be worse than asked, by no more than SHORT."""
+    short = sum(outcome.worth == "short" for _, _, outcome, _ in done)
+    answers = sum(bool(outcome.worth) for _, _, outcome, _ in done)
+    return sum(bool(found) for *_, found in done) - (short if short <= 0.01 * answers else 0)
+
+
 def main():
     chosen = arguments()
     seed, _, first = chosen.seed.partition(":")
@@ -137,8 +160,8 @@ def main():
     shutil.rmtree(chosen.out, ignore_errors=True)
     kinds, show = tuple(chosen.kind or MAKERS), lambda line: print(line, flush=True)
     done = fuzz(program, chosen.count, seed, int(first or 0), chosen.jobs, kinds, chosen.out, show)
-    failed = sum(bool(result[3]) for result in done)
-    print(table(done), f"{failed} of {len(done)} cases failed" + (f": {chosen.out}" if failed else ""), sep="\n")
+    failed = failures(done)
+    print(table(done) + worth_table(done), f"{failed} of {len(done)} cases failed" + (f": {chosen.out}" if failed else ""), sep="\n")
     sys.exit(1 if failed else 0)
 
 

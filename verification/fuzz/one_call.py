@@ -32,6 +32,7 @@ class Outcome:
     before: dict  # what stood in the folder: path, what it is
     after: dict
     seconds: float = 0.0
+    worth: str = ""  # one of references.LABELS, of a case with a reference
     in_gmsh: bool = False  # a sanitizer ended it at gmsh's own mistake, before mortise's guard could say so
 
 

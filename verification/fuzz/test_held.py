@@ -1,0 +1,124 @@
+"""The cases that are held against references: made again by their seed, references against closed forms, wrong answers."""
+
+import sys
+from pathlib import Path
+from random import Random
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "benchmarks"))
+
+import data_cases
+import layer
+import one_call
+import outline_cases
+import place_functions
+import references
+from drawings import scene_of, scene_text
+from make_case import HELD, make_case
+
+
+@pytest.fixture(scope="module")
+def program(mortise):
+    return one_call.Program(str(mortise))
+
+
+def flat_blocks():
+    """Two blocks of one material, 0.4 and 0.3 high, under p = 1e-3."""
+    blocks = data_cases.Blocks(0.0, 0.7, 0.4, 0.0, "flat")
+    return blocks, scene_of(Random(1), blocks.drawing(1.0, ("strain",)))
+
+
+def pressure_of(program, blocks, scene, feature, key):
+    mesh = data_cases.reference_mesh(blocks, "strain", feature, key, 1, ())
+    line = references.References(program).line({"scene.toml": scene_text(scene, "mesh.msh"), "mesh.msh": mesh})
+    return line.x[:, 0], line.p
+
+
+def strips(count):
+    """Between the rollers lies a half wave, `count` of which make the feature's: faces of the strips as of layer.py. From
+    the upper one's faces the pressure of the line per pressure on top, and per gap / (2 / (E' k))."""
+    k = np.pi * count
+    alike, one_way = (faces for faces in layer.faces(0.3 * k))
+    lower = layer.faces(0.8 * k)[0]  # the ground is a plane of symmetry
+    soft = (alike + one_way) / 2 + lower
+    return (one_way - alike) / 2 / soft, 1 / soft, k
+
+
+def test_a_wave_of_load_arrives_as_in_strips(program):
+    blocks, scene = flat_blocks()
+    scene["boundary"][1]["pressure"] = f"1e-3 * (1 + 0.5 * cos({2 * np.pi!r} * x))"
+    x, p = pressure_of(program, blocks, scene, place_functions.wave(Random(1), 0.25, 0.1), "pressure")
+    exact = 1e-3 * (1 + 0.5 * strips(2)[0] * np.cos(2 * np.pi * x))
+    assert np.abs(p - exact).max() < 1e-5 * 1e-3
+
+
+def test_a_wave_of_the_gap_presses_as_in_strips(program):
+    blocks, scene = flat_blocks()
+    scene["contact"][0]["initial_gap"] = f"1e-5 * cos({8 * np.pi!r} * x)"
+    x, p = pressure_of(program, blocks, scene, place_functions.wave(Random(1), 0.25, 0.1), "initial_gap")
+    _, per_gap, k = strips(8)
+    stiff = 1 / (1 - scene["materials"]["one"]["poisson"] ** 2)
+    exact = 1e-3 - 1e-5 * stiff * k / 2 * per_gap * np.cos(8 * np.pi * x)
+    assert np.abs(p - exact).max() < 1e-4 * 1e-3
+
+
+def test_the_tip_of_a_cone_has_a_logarithm(program):
+    """p = E' / 2 slope / 2 arccosh(a / r) of a flat cone, both bodies elastic (Sneddon 1965): the part in log r is that of
+    the tip, whatever is far away."""
+    drawing = outline_cases.cone_of(0.01, 1.0, 0.2, "axisymmetric")
+    scene = scene_of(Random(1), drawing)
+    files = {"scene.toml": scene_text(scene, "mesh.geo"), "mesh.geo": outline_cases.reference_geo(drawing, 1, ())}
+    line = references.References(program).line(files)
+    x = line.x[:, 0]
+    inner = (x > 1e-3) & (x < 2e-2)
+    slope = np.polyfit(np.log(x[inner]), line.p[inner], 1)[0]
+    stiff = 1 / (1 - scene["materials"]["one"]["poisson"] ** 2)
+    assert slope == pytest.approx(-stiff * 0.01 / 4, rel=0.01)
+
+
+@pytest.mark.parametrize("kind", HELD)
+def test_a_case_is_the_same_again(kind):
+    first, second = ([make_case("pytest", number, (kind,)) for number in range(12)] for _ in range(2))
+    assert [case.files for case in first] == [case.files for case in second]
+    assert first[0].reference(4, ()) == first[1].reference(4, ()) != first[4].reference(4, ())
+
+
+def test_a_graded_mesh_has_its_vertices():
+    marks = [place_functions.jump(0.3), place_functions.Mark(0.7, 1e-3, 0.05)]
+    x = data_cases.graded_grid.lines(0, 1, marks, 0.1)
+    assert 0.3 in x and x[0] == 0 and x[-1] == 1 and np.diff(x).max() < 0.1001
+    assert np.diff(x)[np.abs(x[1:] - 0.7) < 0.05].max() < 1.1e-3 and np.diff(x).min() > place_functions.JUMP / 2
+
+
+def answer(case, program, tmp_path, change):
+    """What an answer is worth whose p is changed."""
+    case.write(tmp_path)
+    run = one_call.call(program, case, tmp_path)
+    table = tmp_path / "results/contact.csv"
+    rows = [row.split(",") for row in table.read_text().splitlines()]
+    at = rows[0].index("p")
+    for row in rows[1:]:
+        row[at] = repr(change(float(row[at])))
+    table.write_text("\n".join(",".join(row) for row in rows) + "\n")
+    return references.judge(case, run, tmp_path, references.References(program))
+
+
+@pytest.mark.parametrize("factor,label", [(1, "kept"), (1.07, "short"), (1.2, "worse")])
+def test_an_answer_is_worth_what_it_is_off_by(program, tmp_path, factor, label):
+    """5 % are asked for of blocks under an even load but for a wave that fades."""
+    blocks, scene = flat_blocks()
+    case = data_cases.held_case("data", "", "", scene, blocks.drawing(1.0, ("strain",)), 1, 1, None)
+    feature, case.asked, text = place_functions.wave(Random(1), 0.25, 0.1), 0.05, scene_text(scene, "mesh.msh")
+    mesh = lambda *how: data_cases.reference_mesh(blocks, "strain", feature, "pressure", *how)
+    case.reference = lambda *how: {"scene.toml": text, "mesh.msh": mesh(*how)}
+    assert answer(case, program, tmp_path, lambda p: factor * p)[0] == label
+
+
+def test_words_with_the_place_are_told_from_others():
+    case = make_case("pytest", 0, ("data",))
+    case.named, case.places = ["boundary.1", "pressure"], [(0.4, None)]
+    says = lambda text: references.names_place([text], case)
+    assert says("boundary.1 (line 3): the pressure varies") and says("something near (0.41, 0.9)")
+    assert not says("the contact pressure is off") and not says("something near (0.9, 0.4)")
