@@ -55,8 +55,8 @@ def examine(program, case, known=None):
             if not found:
                 differs = oracles.compare(case.setting, twin, outcome, second, folder, other)
                 found += [("twin", differs)] if differs else []
-        if case.reference and not found:
-            outcome.worth, wrong = references.judge(case, outcome, folder, known)
+        if case.judge and not found:
+            outcome.worth, wrong = case.judge(case, outcome, folder, known)
             found += [(outcome.worth, wrong)] if wrong else []
         return outcome, found
 

@@ -50,13 +50,16 @@ class Case:
     largest_file: int | None = None  # bytes after which the disk is full
     setting: object = None  # the Setting of a valid scene
     twins: list = field(default_factory=list)
-    # Of a case with a reference (references.py):
+    # Of a case whose answer is held against what is known otherwise:
+    judge: Callable | None = None  # (case, outcome, folder, References): one of references.LABELS, what is wrong or None
     group: str = ""  # row of the table of what the answers are worth
     reference: Callable | None = None  # files of it: on edges so many times as long (1, 2), where contact ends at places
     asked: float | None = None  # the accuracy of p; None: on a mesh of its own, where the bars are held
     middles: bool = True  # whether edges have middle nodes
     named: list = field(default_factory=list)  # words that a warning of the feature has, or else a place near one of
     places: list = field(default_factory=list)  # these (x, y); None: any
+    variant: str = ""  # of an assembly: how it is solved again, and its files
+    other: dict = field(default_factory=dict)
 
     def write(self, folder):
         """Puts the files into `folder`."""

@@ -2,6 +2,8 @@
 
 import random
 
+import assemblies
+import assembly_oracles
 import broken_meshes
 import broken_scenes
 import command_cases
@@ -10,6 +12,7 @@ import deck_files
 import geo_cases
 import msh_file
 import outline_cases
+import references
 import toml_text
 import twins
 import valid_scenes
@@ -90,12 +93,22 @@ MAKERS = {  # how many of a hundred cases are of each kind, and what makes one
 }
 
 
-# Held against a reference, a second or more each: only where asked for. What makes the case of a seed and a number.
-HELD = {"data": data_cases.make_data, "outline": outline_cases.make_outline}
+# Held against what is known otherwise, a second or more each: only where asked for. What makes the case of a seed and a
+# number, and what judges its answer.
+HELD = {
+    "data": (data_cases.make_data, references.judge),
+    "outline": (outline_cases.make_outline, references.judge),
+    "assembly": (assemblies.make_assembly, assembly_oracles.judge),
+}
 
 
 def make_case(seed, number, kinds=tuple(MAKERS)):
     """Case `number` of the `seed`; `kinds`: those to choose from."""
     r = random.Random(f"{seed}:{number}")
     kind = r.choices(kinds, [MAKERS[kind][0] if kind in MAKERS else 20 for kind in kinds])[0]
-    return MAKERS[kind][1](r) if kind in MAKERS else HELD[kind](seed, number)
+    if kind in MAKERS:
+        return MAKERS[kind][1](r)
+    make, judge = HELD[kind]
+    made = make(seed, number)
+    made.judge = judge
+    return made

@@ -1,0 +1,286 @@
+"""Assemblies of many bodies that only contact holds: heaps, chains, bearings, arches, pins, wedges, bricks, nested rings.
+
+Whether anything carries the load is a matter of the rigid motions alone: a linear programme decides it apart from mortise.
+"""
+
+import math
+import random
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import linprog
+
+from drawings import draw_body, rim, scene_text
+from fuzz_case import solve_case
+
+
+class Part(NamedTuple):
+    """A body: its loops as in drawings.py; `held`: which of x, y its first curve of that name prescribes."""
+
+    name: str
+    loops: list
+    held: dict = {}  # curve: the components that are zero
+    force: tuple = (0.0, 0.0)  # per volume
+
+
+@dataclass
+class Assembly:
+    what: str
+    parts: list
+    pairs: list  # of curves "body_curve"
+    size: float  # edges, over which contact is rough
+    more: dict = field(default_factory=dict)  # keys of every pair
+
+
+def disc(name, x, y, r, force, held=None):
+    return Part(name, [circle("rim", x, y, r)], held or {}, force)
+
+
+def circle(curve, x, y, r):
+    at = lambda k: (x + r * round(math.cos(k * math.pi / 2)), y + r * round(math.sin(k * math.pi / 2)))
+    return [(curve, "Circle", [at(k), (x, y), at((k + 1) % 4)]) for k in range(4)]
+
+
+def block(name, x0, y0, x1, y1, force=(0.0, 0.0), held=None):
+    sides = ("bottom", (x1, y0)), ("right", (x1, y1)), ("top", (x0, y1)), ("left", (x0, y0))
+    return Part(name, [rim((x0, y0), *sides)], held or {}, force)
+
+
+GROUND = {"bottom": "xy"}
+
+
+def heap(r, weight):
+    """Logs in rows on a floor between two walls; with a play, or none."""
+    rows, base, play = r.randint(1, 4), r.randint(2, 5), r.choice((0.0, 0.0, 1e-4, 1e-2))
+    rows = min(rows, base)
+    walls = r.random() < 0.8
+    wide = base * (2 + play)
+    parts, pairs = [block("floor", -1.0, -1.0, wide + 1.0, 0.0, held=GROUND)], []
+    if walls:
+        parts += [block("west", -1.0, 0.2, 0.0, 2.5, held={"left": "xy"}),
+                  block("east", wide, 0.2, wide + 1, 2.5, held={"right": "xy"})]  # fmt: skip
+    rise = math.sqrt(4 - (1 + play / 2) ** 2)
+    for k in range(rows):
+        for j in range(base - k):
+            x, y = 1 + play / 2 + (2 + play) * (j + k / 2), 1 + k * rise
+            parts.append(disc(f"log{k}{j}", x, y, 1.0, (0.0, -weight)))
+            pairs += [(f"log{k}{j}_rim", f"log{k - 1}{i}_rim") for i in (j, j + 1)] if k else [(f"log{k}{j}_rim", "floor_top")]
+            pairs += [(f"log{k}{j}_rim", f"log{k}{j - 1}_rim")] if j else []
+    if walls:
+        pairs += [("log00_rim", "west_right"), (f"log0{base - 1}_rim", "east_left")]
+    return Assembly("heap", parts, pairs, r.uniform(0.2, 0.4))
+
+
+def chain(r, weight):
+    """Discs in a row, or bent, pushed against a wall from one side."""
+    count, bend = r.randint(2, 8), r.choice((0.0, 0.0, 0.05))
+    places = [(2.0 * k * math.cos(bend), (k % 2) * 2.0 * math.sin(bend)) for k in range(count)]
+    wall = block("wall", -2.0, -1.5, -1.0, 1.5, held={"left": "xy"})
+    x, y = places[-1]
+    pusher = block("pusher", x + 1.0, y - 1.5, x + 2.0, y + 1.5, (-weight, 0.0), {"top": "y"})
+    discs = [disc(f"d{k}", *at, 1.0, (-weight, 0.0)) for k, at in enumerate(places)]
+    names = ["wall_right", *(f"d{k}_rim" for k in range(count)), "pusher_left"]
+    return Assembly("chain", [wall, *discs, pusher], list(zip(names, names[1:])), r.uniform(0.2, 0.4))
+
+
+def bearing(r, weight):
+    """Free rollers between a loaded shaft and a held race, with a clearance, none, or pressed."""
+    count, clearance = r.choice((6, 8, 12, 16)), r.choice((0.0, 0.0, 1e-4, -1e-5))
+    radius, inner = 1.0, 1.15 / math.sin(math.pi / count) - 1.0
+    outer = inner + 2 * radius + clearance
+    shaft, race = circle("rim", 0.0, 0.0, inner), [circle("out", 0.0, 0.0, outer + 1), circle("in", 0.0, 0.0, outer)]
+    parts, pairs = [Part("shaft", [shaft], {}, (0.0, -weight)), Part("race", race, {"out": "xy"})], []
+    for k in range(count):
+        angle, far = 2 * math.pi * (k + 0.25) / count, inner + radius + clearance / 2
+        parts.append(disc(f"r{k}", far * math.cos(angle), far * math.sin(angle), radius, (0.0, 0.0)))
+        pairs += [("shaft_rim", f"r{k}_rim"), (f"r{k}_rim", "race_in")]
+    return Assembly("bearing", parts, pairs, r.uniform(0.25, 0.5))
+
+
+def arch(r, weight):
+    """Voussoirs between held springers; without friction few of them stand."""
+    count, thick, half = r.randint(2, 7), r.uniform(0.1, 0.4), r.uniform(0.3, 0.5) * math.pi
+    at = lambda k, far: (far * math.sin(half * (2 * k / count - 1)), far * math.cos(half * (2 * k / count - 1)))
+    parts, pairs = [], []
+    for k in range(count):
+        corners = at(k, 1.0), at(k + 1, 1.0), at(k + 1, 1 + thick), at(k, 1 + thick)
+        names = zip(("in", "next", "out", "last"), (*corners[1:], corners[0]))
+        held = {"last": "xy"} if k == 0 else {"next": "xy"} if k == count - 1 else {}
+        parts.append(Part(f"v{k}", [rim(corners[0], *names)], held, (0.0, -weight)))
+    pairs = [(f"v{k}_next", f"v{k + 1}_last") for k in range(count - 1)]
+    return Assembly("arch", parts, pairs, thick / r.uniform(1.5, 4))
+
+
+def pin(r, weight):
+    """A pin in a slot with play, pulled down, up or aside."""
+    play, angle = r.choice((0.0, 1e-4, 1e-2)), r.choice((0, 90, 180, 270, 225, 315, r.uniform(0, 360)))
+    force = (weight * math.cos(math.radians(angle)), weight * math.sin(math.radians(angle)))
+    sides = block("floor", -3.0, -2.0, 3.0, -1.0, held=GROUND), block("west", -3.0, -0.9, -1.0 - play, 2.0, held={"left": "xy"})
+    east = block("east", 1.0 + play, -0.9, 3.0, 2.0, held={"right": "xy"})
+    pairs = [("pin_rim", "floor_top"), ("pin_rim", "west_right"), ("pin_rim", "east_left")]
+    return Assembly("pin", [*sides, east, disc("pin", 0.0, 0.0, 1.0, force)], pairs, r.uniform(0.2, 0.4))
+
+
+def wedge(r, weight):
+    """Driven between two held cheeks, or between a held one and one that only slides towards nothing."""
+    lean, loose = r.uniform(0.1, 0.6), r.random() < 0.3
+    points = (-0.5, 0.0), (0.5, 0.0), (0.5 + lean, 1.0), (-0.5 - lean, 1.0)
+    middle = Part("wedge", [rim(points[0], *zip(("bottom", "right", "top", "left"), (*points[1:], points[0])))], {}, (0.0, -weight))
+    parts = [middle]
+    for name, sign in (("west", -1), ("east", 1)):
+        corners = [(sign * x, y) for x, y in ((0.5, 0.0), (2.0, 0.0), (2.0, 1.0), (0.5 + lean, 1.0))]
+        held = {"bottom": "y"} if loose and sign > 0 else {"out": "xy"}
+        parts.append(Part(name, [rim(corners[0], *zip(("bottom", "out", "top", "in"), (*corners[1:], corners[0])))], held))
+    return Assembly("wedge", parts, [("wedge_left", "west_in"), ("wedge_right", "east_in")], r.uniform(0.15, 0.35))
+
+
+def bricks(r, weight):
+    """A wall in bond, with play between the bricks of a row."""
+    rows, count, play = r.randint(1, 4), r.randint(1, 4), r.choice((0.0, 1e-5, 1e-3, 5e-2))
+    wide, parts, pairs = 2 + play, [], []
+    for k in range(rows):
+        for j in range(count):
+            x = wide * (j + (k % 2) / 2)
+            parts.append(block(f"b{k}{j}", x, float(k), x + 2, k + 1.0, (0.0, -weight)))
+            under = [f"b{k - 1}{i}_top" for i in ((j,) if not k % 2 else (j, j + 1)) if i < count]
+            under += [f"b{k - 1}{j - 1}_top"] if k and not k % 2 and j else []
+            pairs += [(f"b{k}{j}_bottom", top) for top in (under if k else ["floor_top"])]
+            pairs += [(f"b{k}{j - 1}_right", f"b{k}{j}_left")] if j else []
+    parts.append(block("floor", -1.0, -1.0, wide * (count + 0.5) + 1, 0.0, held=GROUND))
+    return Assembly("bricks", parts, pairs, r.uniform(0.25, 0.5))
+
+
+def rings(r, weight):
+    """One in the other, shrunk on or with play, a disc in the middle that is pulled."""
+    count, fit = r.randint(1, 3), r.choice((0.0, 1e-5, 1e-3, -1e-4))
+    parts, pairs, far, inside = [disc("core", 0.0, 0.0, 1.0, (weight, 0.0))], [], 1.0, "core_rim"
+    for k in range(count):
+        loops = [circle("out", 0.0, 0.0, far + fit + 0.6), circle("in", 0.0, 0.0, far + fit)]
+        parts.append(Part(f"ring{k}", loops, {"out": "xy"} if k == count - 1 else {}))
+        pairs.append((inside, f"ring{k}_in"))
+        far, inside = far + fit + 0.6, f"ring{k}_out"
+    return Assembly("rings", parts, pairs, r.uniform(0.15, 0.35))
+
+
+FAMILIES = (heap, chain, bearing, arch, pin, wedge, bricks, rings)
+
+
+# ---- Whether anything carries the load ----
+
+
+def polyline(piece, count=24):
+    """Places along a straight curve or an arc of less than half a turn."""
+    _, word, points = piece
+    a, b, t = np.array(points[0]), np.array(points[-1]), np.linspace(0, 1, count + 1)[:, None]
+    if word == "Line":
+        return a + t * (b - a)
+    centre = np.array(points[1])
+    start, end = (math.atan2(*(place - centre)[::-1]) for place in (a, b))
+    angle = start + t[:, 0] * ((end - start + math.pi) % (2 * math.pi) - math.pi)
+    return centre + np.linalg.norm(a - centre) * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+def area_and_centre(loop):
+    """Of a loop; the area is positive counter-clockwise."""
+    x, y = np.concatenate([polyline(piece)[:-1] for piece in loop]).T
+    cross = x * np.roll(y, -1) - np.roll(x, -1) * y
+    area = cross.sum() / 2
+    return area, np.array([((v + np.roll(v, -1)) * cross).sum() / (6 * area) for v in (x, y)])
+
+
+def segments(part, curve):
+    """Starts and ends of short pieces of a curve, the body on their left."""
+    found = []
+    for k, loop in enumerate(part.loops):
+        left = (area_and_centre(loop)[0] > 0) == (k == 0)  # further loops are holes
+        for piece in (piece for piece in loop if piece[0] == curve):
+            line = polyline(piece)
+            found.append(np.stack([line[:-1], line[1:]], 1) if left else np.stack([line[1:], line[:-1]], 1))
+    return np.concatenate(found)
+
+
+def openings(assembly, pair):
+    """Of each place of the first curve from which a normal meets the second: the place, the normal, the gap."""
+    parts = {part.name: part for part in assembly.parts}
+    mine, other = (segments(parts[name], curve) for name, curve in (end.split("_") for end in pair))
+    middle, along, beyond = mine.mean(1), mine[:, 1] - mine[:, 0], other[:, 1] - other[:, 0]
+    normal = np.column_stack([along[:, 1], -along[:, 0]]) / np.linalg.norm(along, axis=1)[:, None]
+    cross = lambda a, b: a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    away, across = other[None, :, 0] - middle[:, None], cross(normal[:, None], beyond[None])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        gap, t = cross(away, beyond[None]) / across, cross(away, normal[:, None]) / across
+    # The second curve faces the first, and lies before it: an overlap is a small part of an edge.
+    met = (t >= 0) & (t <= 1) & (gap > -0.1 * assembly.size) & (across < 0)
+    gap = np.where(met, gap, np.inf).min(1)
+    return middle[np.isfinite(gap)], normal[np.isfinite(gap)], gap[np.isfinite(gap)]
+
+
+def drift(assembly, near_only):
+    """The most work that the loads can do on rigid motions of at most 1, over the sum of the loads' sizes: 0 where contact
+    carries them. Such a motion opens no contact further: all that face each other, or only the nearest places."""
+    column = {part.name: 3 * k for k, part in enumerate(assembly.parts)}
+    reach = max(np.abs(polyline(piece)).max() for part in assembly.parts for loop in part.loops for piece in loop)
+    at = lambda place, way: np.array([way[0], way[1], (place[0] * way[1] - place[1] * way[0]) / reach])
+    closes, fixed, work, total = [], [], np.zeros(3 * len(column)), 0.0
+    for pair in assembly.pairs:
+        first, second = (column[end.split("_")[0]] for end in pair)
+        for place, normal, gap in zip(*(found := openings(assembly, pair))):
+            if not near_only or gap <= found[2].min() + 1e-2 * assembly.size:
+                row = np.zeros(len(work))
+                row[first : first + 3], row[second : second + 3] = at(place, normal), -at(place + gap * normal, normal)
+                closes.append(row)
+    for part in assembly.parts:
+        for curve, axes in part.held.items():
+            for place in segments(part, curve)[:: 6, 0]:
+                for axis in axes:
+                    fixed.append(np.zeros(len(work)))
+                    fixed[-1][column[part.name] :][:3] = at(place, (axis == "x", axis == "y"))
+        for k, loop in enumerate(part.loops):
+            area, centre = area_and_centre(loop)
+            force = np.array(part.force) * abs(area) * (1 if k == 0 else -1)
+            work[column[part.name] :][:3] += at(centre, force)
+            total += np.abs(force).sum()
+    found = linprog(-work / total, closes or None, np.zeros(len(closes)) if closes else None, fixed or None,
+                    np.zeros(len(fixed)) if fixed else None, bounds=(-1, 1), method="highs")  # fmt: skip
+    return -found.fun
+
+
+# ---- Cases ----
+
+
+def geo(assembly, order, quads):
+    lines = [f"Mesh.ElementOrder = {order}; Mesh.SecondOrderIncomplete = 1; Mesh.RecombineAll = {quads};"]
+    for k, part in enumerate(assembly.parts):
+        draw_body(part.name, part.loops, 1000 * (k + 1), lines)
+    return "\n".join([*lines, f"MeshSize{{:}} = {assembly.size!r};", ""]).encode()
+
+
+def scene_of(assembly):
+    boundary = [{"on": f"{part.name}_{curve}", "displacement": {axis: 0 for axis in axes}}
+                for part in assembly.parts for curve, axes in part.held.items()]  # fmt: skip
+    return {"materials": {"one": {"young": 1.0, "poisson": 0.3}}, "bodies": {part.name: "one" for part in assembly.parts},
+            "boundary": boundary, "contact": [{"between": list(pair)} for pair in assembly.pairs],
+            "body_force": [{"body": part.name, "force": list(part.force)} for part in assembly.parts if any(part.force)],
+            }  # fmt: skip
+
+
+def make_assembly(seed, number):
+    r = random.Random(f"{seed}:assembly:{number}")
+    assembly = r.choice(FAMILIES)(r, 10 ** r.uniform(-6, -4))
+    scene, order, quads = scene_of(assembly), r.choice((1, 2, 2)), r.choice((0, 1))
+    variant = r.choice(("feti", "other side", "again"))
+    other, solver = scene | {"method": {"solver": "direct"}}, {"method": {"solver": "feti"}}
+    if variant == "feti":
+        scene, other = other, scene | solver
+    elif variant == "again":
+        other = scene
+    else:
+        sides = [[{**pair, "multipliers_on": pair["between"][k]} for pair in scene["contact"]] for k in (0, 1)]
+        scene, other = scene | {"contact": sides[0]}, scene | {"contact": sides[1]}
+    mesh = geo(assembly, order, quads)
+    case = solve_case("assembly", f"{assembly.what} of {len(assembly.parts)} bodies, {'TQ'[quads]}{order}, {variant}",
+                      scene_text(scene, "mesh.geo"), mesh, mesh_file="mesh.geo")  # fmt: skip
+    case.setting, case.group, case.variant = assembly, f"assembly: {assembly.what}", variant
+    case.other = {"scene.toml": scene_text(other, "mesh.geo"), "mesh.geo": mesh}
+    return case

@@ -1,0 +1,99 @@
+"""What must hold of an assembly: it is refused if nothing carries its load, and only then; its contact forces are those of
+a convex problem's answer, and the same however it is solved.
+"""
+
+import json
+import os
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+import launch
+import one_call
+from assemblies import drift
+from fuzz_case import solve_case
+
+DRIVEN = 1e-6  # work of the loads on a motion of 1, over their sizes: above the linear programme's round-off
+EXACT = 1e-9
+ALIKE = {"feti": 1e-6, "other side": 0.1}  # forces of the pairs, over the largest; of the sides: what their bars allow
+
+
+def feasible(assembly):
+    """Whether anything carries the load; None where that hangs on how far the sides are taken to face each other."""
+    if drift(assembly, near_only=True) <= DRIVEN:
+        return True
+    return False if drift(assembly, near_only=False) > DRIVEN else None
+
+
+def forces(told):
+    """(curve with the multipliers, the other, force and moment on the first's body) of every pair."""
+    for pair, side in zip(told["contact"], told["method"]["multipliers_on"]):
+        other = next(curve for curve in pair["between"] if curve != side)
+        yield side, other, np.array([*pair["force"], pair["moment"]])
+
+
+def unbalanced(told, assembly):
+    """The largest sum of forces and moments on a body, over the largest load or contact force."""
+    sums, largest = {part.name: np.zeros(3) for part in assembly.parts}, 0.0
+
+    def add(curve, force):
+        nonlocal largest
+        sums[curve.split("_")[0]] += force
+        largest = max(largest, np.abs(force).max())
+
+    for side, other, force in forces(told):
+        add(side, force)
+        add(other, -force)
+    for load in told["model"]["loads"]:
+        add(load["body"], np.array([*load["sum"], load["moment"]]))
+    for curve in (curve for support in told["model"]["supports"] for curve in support["curves"]):
+        add(curve["on"], np.array([*curve["reaction"], curve["moment"]]))
+    held = [*told["balance"]["held"]["force"], told["balance"]["held"]["moment"]]  # said of motions that nothing holds
+    return (max(np.abs(total).max() for total in sums.values()) - np.abs(held).max()) / largest
+
+
+def violated(told, folder):
+    """What of p >= 0, gap >= 0, p gap = 0 and the balance of every body does not hold, by how much."""
+    checks = [f"{check['name']} {check['value']}" for check in told["checks"] if not check["ok"]]
+    p = launch.columns(Path(folder, "results/contact.csv"))["p"]
+    if np.nanmin(p) < -EXACT * max(np.nanmax(p), 1e-300):
+        checks.append(f"p down to {np.nanmin(p):.2g}")
+    return checks
+
+
+def differs(case, told, folder, program):
+    """What the same assembly gives in another way that it must not."""
+    other = solve_case("assembly", "", case.other["scene.toml"], case.other["mesh.geo"], mesh_file="mesh.geo")
+    with tempfile.TemporaryDirectory(prefix="mortise_assembly_") as second:
+        other.write(second)
+        run = one_call.call(program, other, second)
+        if run.status != 0:
+            return f"{case.variant}: exit status {run.status}: {run.said.strip()[:200]}"
+        again = json.loads(Path(second, "results/summary.json").read_text())
+        if case.variant == "again":
+            files = [os.path.join(where, "results/contact.csv") for where in (folder, second)]
+            same = Path(files[0]).read_bytes() == Path(files[1]).read_bytes()
+            return None if same else "again: contact.csv is another one"
+    mine, others = ({frozenset(ends): sign * force[:2] for *ends, force in forces(which)
+                     for sign in (1 if ends[0] < ends[1] else -1,)} for which in (told, again))  # fmt: skip
+    largest = max(np.abs(force).max() for force in mine.values())
+    off = max(np.abs(force - others[pair]).max() for pair, force in mine.items()) / max(largest, 1e-300)
+    return f"{case.variant}: forces of pairs differ by {off:.2g} of the largest" if off > ALIKE[case.variant] else None
+
+
+def judge(case, run, folder, known):
+    """(one of references.LABELS, what is wrong or None)."""
+    carried = feasible(case.setting)
+    if run.status not in (0, 2):
+        return "refused", f"refused, though contact carries the load: {run.said.strip()[:300]}" if carried else None
+    told = json.loads(Path(folder, "results/summary.json").read_text())
+    if carried is False:
+        return "worse", f"{told['status']}, though nothing carries the load"
+    if run.status == 2:
+        return "worse", f"{told['status']}: {(told['warnings'] or [''])[-1][:300]}"
+    wrong = violated(told, folder)
+    if (off := unbalanced(told, case.setting)) > EXACT:
+        wrong.append(f"a body is out of balance by {off:.2g}")
+    wrong += [words] if (words := differs(case, told, folder, known.program)) else []
+    return ("worse", "; ".join(wrong)) if wrong else ("kept", None)
