@@ -77,18 +77,16 @@ class Vertices {
 
 }  // namespace
 
-SmoothNormals smooth_normals(const Points& nodes, const Curve& multiplier, const Curve& opposite,
-                             const std::vector<ContactPoint>& points) {
-  const Vertices vertices(nodes, multiplier);
-  std::vector<char> faces(vertices.count(), 0);
-  for (const ContactPoint& point : points) faces[point.edge] = faces[vertices.ahead(point.edge)] = 1;
+SmoothNormals smooth_normals(const Points& nodes, const Curve& curve, int other, const std::vector<char>& faces) {
+  const Vertices vertices(nodes, curve);
+  std::vector<char> taken(vertices.count(), 0);
+  for (int i = 0; i < int(faces.size()); ++i)
+    if (faces[i]) taken[i] = taken[vertices.ahead(i)] = 1;
   SmoothNormals result;
   for (int i = 0; i < vertices.count(); ++i) {
-    if (!faces[i]) continue;
+    if (!taken[i]) continue;
     const Vec2 at = vertices.position(i);
-    const auto add = [&](const Vec2& normal) {
-      result.normals.push_back({at, normal, multiplier.body, opposite.body});
-    };
+    const auto add = [&](const Vec2& normal) { result.normals.push_back({at, normal, curve.body, other}); };
     if (vertices.is_end(i) || vertices.smooth(i))
       add(vertices.of_circle(i));
     else

@@ -1,13 +1,12 @@
 // The normals of the curve that a mesh stands for, where its own edges have those of their chords.
 #pragma once
 
-#include "contact/segments.hpp"
 #include "fem/rigid_motions.hpp"
+#include "mesh/curve.hpp"
 
 namespace mortise {
 
-/// At each vertex of the multiplier side's edges that face the opposite side: the normal of the circle through the
-/// vertex and its neighbours, exact on straight lines and circles however the vertices are spaced; where edges meet at
+/// At each vertex of the edges that face another curve: the normal of the circle through the vertex and its neighbours, exact on straight lines and circles however the vertices are spaced; where edges meet at
 /// more than 20 degrees, the normals of both. A turn of a disc about its centre moves nothing along these, while the
 /// chords' own normals resist it by as much as the spacing is uneven.
 struct SmoothNormals {
@@ -18,7 +17,7 @@ struct SmoothNormals {
   double edge_error = 0;
 };
 
-SmoothNormals smooth_normals(const Points& nodes, const Curve& multiplier, const Curve& opposite,
-                             const std::vector<ContactPoint>& points);
+/// `faces`: of each edge; `other`: the body that it faces.
+SmoothNormals smooth_normals(const Points& nodes, const Curve& curve, int other, const std::vector<char>& faces);
 
 }  // namespace mortise

@@ -12,6 +12,7 @@ constexpr double rigid_limit = 1e-9;
 constexpr double dependent_limit = 1e-13;  // likewise of a row's
 constexpr double of_one_row = 1e-2;        // a single multiplier's error that counts as much as one of all in energy
 constexpr double negligible_work = 1e-5;   // of its terms
+constexpr double work_round_off = 1e-12;   // of the largest terms of any motion
 
 VecX ones_and_zeros(const std::vector<char>& flags) {
   VecX v(flags.size());
@@ -38,28 +39,30 @@ SparseMatrix sum_of_ranks(SparseMatrix A) {
 
 }  // namespace
 
-ClosedRows::ClosedRows(const DualSystem& system, const std::vector<char>& closed, const VecX& supports)
-    : system_(system), rows_(system.rows()), supports_(supports) {
-  share_jumps(closed);
+ClosedRows::ClosedRows(const DualSystem& system, const std::vector<char>& closed, const VecX& compliance)
+    : system_(system), rows_(system.rows()) {
+  if (compliance.size() > 0) compliance_ = rows_.own(compliance);
+  share_jumps(closed, compliance);
   if (dependent_row >= 0) return;
   hold_motions();
   if (system.slender.empty()) return;
-  slender_.emplace(system.slender, closed, supports);
+  slender_.emplace(system.slender, closed, compliance);
   VecX compact = VecX::Ones(Eigen::Index(closed.size()));
   compact(system.slender.rows).setZero();
   compact_ = rows_.own(compact);
 }
 
 // Open rows keep their diagonal, which nothing reaches.
-void ClosedRows::share_jumps(const std::vector<char>& flags) {
+void ClosedRows::share_jumps(const std::vector<char>& flags, const VecX& compliance) {
   SparseMatrix sharing = system_.sharing;
+  for (Eigen::Index a = 0; a < compliance.size(); ++a) sharing.coeffRef(a, a) += compliance(a);
   const VecX closed = ones_and_zeros(flags);
   for (int j = 0; j < sharing.cols(); ++j)
     for (SparseMatrix::InnerIterator it(sharing, j); it; ++it)
       if (it.row() != j) it.valueRef() *= closed(it.row()) * closed(j);
-  const VecX size = sharing.diagonal(), own = rows_.own(closed);
-  closed_ = stacked(own, VecX::Ones(supports_.size()));
-  weights_ = stacked(own.cwiseQuotient(rows_.own(size)), supports_);
+  const VecX size = sharing.diagonal();
+  closed_ = rows_.own(closed);
+  weights_ = closed_.cwiseQuotient(rows_.own(size));
   sharing_.compute(sharing);
   if (size.size() == 0) return;
   const VecX pivots = sharing_.vectorD();
@@ -75,9 +78,7 @@ void ClosedRows::hold_motions() {
   const Eigen::Index springs = H.cols();
   free_motions.resize(springs, 0);
   if (springs == 0) return;
-  const VecX weights = weights_.head(H.rows());
-  SparseMatrix E = sum_of_ranks(SparseMatrix(H.transpose()) * SparseMatrix(weights.asDiagonal() * H));
-  if (supports_.size() > 0) E = with_diagonal(E, supports_);
+  const SparseMatrix E = sum_of_ranks(SparseMatrix(H.transpose()) * SparseMatrix(weights_.asDiagonal() * H));
   VecX size = E.diagonal();
   const double most = size.maxCoeff();
   for (double& of_motion : size)
@@ -104,31 +105,10 @@ VecX ClosedRows::coarse(VecX b) const {
   return coarse_.solve(b);
 }
 
-// How the rows and supports open in a motion, own.
-VecX ClosedRows::openings(const VecX& motion) const {
-  return supports_.size() > 0 ? stacked(system_.H * motion, motion) : VecX(system_.H * motion);
-}
-
-// What lambda does to the motions, s.
-VecX ClosedRows::resultants(const VecX& lambda) const {
-  VecX found = system_.H.transpose() * lambda.head(system_.H.rows());
-  ranks().sum(found.data(), found.size());
-  return supports_.size() > 0 ? VecX(found + lambda.tail(supports_.size())) : found;
-}
-
-double ClosedRows::dot(const VecX& a, const VecX& b) const {
-  const Eigen::Index springs = supports_.size(), m = system_.H.rows();
-  return rows_.dot(a.head(m), b.head(m)) + a.tail(springs).dot(b.tail(springs));
-}
-
-double ClosedRows::largest_of(const VecX& v) const {
-  return largest(rows_.largest(v.head(system_.H.rows())), largest_entry(v.tail(supports_.size())));
-}
-
 // lambda, changed on closed rows until the parts are in balance.
 VecX ClosedRows::balanced(VecX lambda, const VecX& h) const {
   lambda = on_closed(lambda);
-  for (int pass = 0; pass < 2; ++pass) lambda += weights_.cwiseProduct(openings(coarse(h - resultants(lambda))));
+  for (int pass = 0; pass < 2; ++pass) lambda += weights_.cwiseProduct(system_.H * coarse(h - resultants(lambda)));
   return lambda;
 }
 
@@ -138,78 +118,83 @@ VecX ClosedRows::motions(const VecX& residual) const { return coarse(resultants(
 // This projection, and its transpose below, twice: once leaves round-off of what the stiffest parts do in the way of
 // the softest ones.
 VecX ClosedRows::without_motions(VecX residual) const {
-  for (int pass = 0; pass < 2; ++pass) residual -= on_closed(openings(motions(residual)));
+  for (int pass = 0; pass < 2; ++pass) residual -= on_closed(system_.H * motions(residual));
   return residual;
 }
 
 VecX ClosedRows::without_resultants(VecX lambda) const {
-  for (int pass = 0; pass < 2; ++pass) lambda -= weights_.cwiseProduct(openings(coarse(resultants(lambda))));
+  for (int pass = 0; pass < 2; ++pass) lambda -= weights_.cwiseProduct(system_.H * coarse(resultants(lambda)));
   return lambda;
 }
 
 VecX ClosedRows::multiply(const VecX& lambda) const {
-  return stacked(system_.multiply(lambda.head(system_.H.rows())),
-                 lambda.tail(supports_.size()).cwiseQuotient(supports_));
+  VecX opened = system_.multiply(lambda);
+  if (compliance_.size() > 0) opened += compliance_.cwiseProduct(lambda);
+  return opened;
+}
+
+// What lambda does to the motions, s.
+VecX ClosedRows::resultants(const VecX& lambda) const {
+  VecX found = system_.H.transpose() * lambda;
+  ranks().sum(found.data(), found.size());
+  return found;
 }
 
 // A^-1 of a jump of the rows.
 VecX ClosedRows::unshared(const VecX& jump) const {
-  return closed_.head(jump.size()).cwiseProduct(rows_.own(sharing_.solve(rows_.whole(jump))));
+  return on_closed(rows_.own(sharing_.solve(rows_.whole(jump))));
 }
 
-// Of a jump, the pressures by the parts' stiffness.
+// Of a jump, the pressures by the parts' stiffness. What gives way in a row shares the jump as one more body, whose
+// stiffness is the inverse of its compliance.
 VecX ClosedRows::stiffened(const VecX& jump) const {
-  return unshared(closed_.head(jump.size()).cwiseProduct(system_.multiply_stiffness(unshared(jump))));
+  const VecX shared = unshared(jump);
+  VecX pressures = system_.multiply_stiffness(shared);
+  if (compliance_.size() > 0) pressures += compliance_.cwiseProduct(shared);
+  return unshared(on_closed(pressures));
 }
 
 VecX ClosedRows::precondition(const VecX& residual) const {
-  const VecX jump = residual.head(system_.H.rows()), supports = residual.tail(supports_.size());
-  if (!slender_) return stacked(stiffened(jump), supports.cwiseProduct(supports_));
-  // The supports give way to what is left of the rows' balance, here as in the inverse.
-  const VecX left = supports_.size() > 0 ? VecX(jump - closed_.head(jump.size()).cwiseProduct(system_.H * supports))
-                                         : jump,
-             lambda = compact_.cwiseProduct(stiffened(compact_.cwiseProduct(left))) +
-                      rows_.own(slender_->multiply(rows_.whole(left)));
-  if (supports_.size() == 0) return lambda;
-  return stacked(lambda, -resultants(stacked(lambda, VecX::Zero(supports_.size()))));
+  if (!slender_) return stiffened(residual);
+  return compact_.cwiseProduct(stiffened(compact_.cwiseProduct(residual))) +
+         rows_.own(slender_->multiply(rows_.whole(residual)));
 }
 
 void ClosedRows::solve(const DualSystem::Forces& forces, IterationMonitor& monitor, DualSolution& x) const {
-  const Eigen::Index springs = supports_.size(), m = system_.H.rows();
-  if (x.support.size() != springs) x.support = VecX::Zero(springs);
-  const VecX gaps = stacked(rows_.own(forces.r), VecX::Zero(springs)), response = rows_.own(forces.response);
-  VecX lambda = balanced(stacked(rows_.own(x.lambda), x.support), forces.h), C_lambda = multiply(lambda);
+  const VecX gaps = rows_.own(forces.r), response = rows_.own(forces.response);
+  VecX lambda = balanced(rows_.own(x.lambda), forces.h), C_lambda = multiply(lambda);
   VecX r = without_motions(on_closed(gaps - C_lambda)), z = without_resultants(precondition(r)), p = z;
-  double rz = dot(r, z);
+  double rz = rows_.dot(r, z);
   const auto residuals = [&] {
-    const double terms = largest(largest_of(C_lambda), largest_of(gaps)),
-                 size = system_.size(largest_of(on_closed(gaps - C_lambda)), terms),
-                 energy = forces.energy - 2 * rows_.dot(response, lambda.head(m)) + dot(lambda, C_lambda);
-    return Residuals{.kinematic = fraction(largest_of(r), size),
+    const double terms = largest(rows_.largest(C_lambda), rows_.largest(gaps)),
+                 size = system_.size(rows_.largest(on_closed(gaps - C_lambda)), terms),
+                 energy = forces.energy - 2 * rows_.dot(response, lambda) + rows_.dot(lambda, C_lambda);
+    return Residuals{.kinematic = fraction(rows_.largest(r), size),
                      .force = largest(std::sqrt(fraction(std::abs(rz), std::abs(energy))),
-                                      of_one_row * fraction(largest_of(z), largest_of(lambda)))};
+                                      of_one_row * fraction(rows_.largest(z), rows_.largest(lambda)))};
   };
   while (monitor.go_on(residuals(), std::sqrt(std::abs(rz)))) {
     const VecX Cp = multiply(p);
-    const double alpha = rz / dot(p, Cp), before = rz;
+    const double alpha = rz / rows_.dot(p, Cp), before = rz;
     lambda += alpha * p;
     C_lambda += alpha * Cp;
     r -= alpha * without_motions(on_closed(Cp));
     z = without_resultants(precondition(r));
-    rz = dot(r, z);
+    rz = rows_.dot(r, z);
     p = z + rz / before * p;
   }
   x.mu = motions(on_closed(gaps - C_lambda));
-  x.lambda = rows_.whole(lambda.head(m));
-  x.support = lambda.tail(springs);
+  x.lambda = rows_.whole(lambda);
 }
 
 VecX ClosedRows::driven_motion(const VecX& h, const VecX& lambda) const {
   VecX driven = VecX::Zero(h.size());
   if (free_.empty()) return driven;
   const VecX work = h - system_.resultants(lambda), terms = system_.work_terms(h, lambda);
+  const double round_off = work_round_off * largest_entry(terms);
   for (const auto& motion : free_motions.colwise())
-    if (std::abs(motion.dot(work)) > negligible_work * motion.cwiseAbs().dot(terms))
+    if (std::abs(motion.dot(work)) >
+        std::max(negligible_work * motion.cwiseAbs().dot(terms), round_off * largest_entry(motion)))
       driven += motion.dot(work) * motion;
   return driven;
 }

@@ -9,16 +9,16 @@
 
 namespace mortise {
 
-/// lambda, m, zero on open rows; mu, s; and the supports' forces, s or none. All on all ranks.
+/// lambda, m, zero on open rows; mu, s. Both on all ranks.
 struct DualSolution {
-  VecX lambda, mu, support;
+  VecX lambda, mu;
 };
 
 class ClosedRows {
  public:
-  /// `supports`: s, the stiffness of springs at the free motions, each a closed row of its own: compliance 1 / k, and
-  /// it sees its motion alone; empty: none. Keeps a reference to `system`.
-  ClosedRows(const DualSystem& system, const std::vector<char>& closed, const VecX& supports = {});
+  /// `compliance`: m, by which each row gives way besides C, as one more body between its two sides; empty: none. Keeps
+  /// a reference to `system`.
+  ClosedRows(const DualSystem& system, const std::vector<char>& closed, const VecX& compliance = {});
 
   /// A closed row that the others imply, or -1. Nothing below may be called where there is one.
   int dependent_row = -1;
@@ -47,18 +47,16 @@ class ClosedRows {
   VecX precondition(const VecX& residual) const;
   VecX openings(const VecX& motion) const;
   VecX resultants(const VecX& lambda) const;
-  double dot(const VecX& a, const VecX& b) const;
-  double largest_of(const VecX& v) const;
   VecX unshared(const VecX& jump) const;
-  void share_jumps(const std::vector<char>& closed);
+  void share_jumps(const std::vector<char>& closed, const VecX& compliance);
   void hold_motions();
 
   using SparseCholesky = Eigen::SimplicialLDLT<SparseMatrix>;
 
-  // Vectors of the iteration have the own rows, and then the supports, on all ranks.
+  // Vectors of the iteration have the own rows.
   const DualSystem& system_;
   const DealtRows& rows_;
-  VecX supports_;
+  VecX compliance_;        // own, or empty
   VecX closed_;            // 1 or 0
   VecX weights_;           // of closed rows: about the inverse of C's diagonal
   std::vector<int> free_;  // springs whose motions no closed row holds

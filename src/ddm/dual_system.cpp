@@ -242,6 +242,12 @@ VecX DualSystem::work_terms(const VecX& h, const VecX& lambda) const {
   return h.cwiseAbs() + sum_over_ranks(H.cwiseAbs().transpose() * rows_->own(lambda).cwiseAbs());
 }
 
+MatX DualSystem::all_openings() const {
+  MatX all(sharing.rows(), H.cols());
+  for (Eigen::Index k = 0; k < H.cols(); ++k) all.col(k) = rows_->whole(VecX(H.col(k)));
+  return all;
+}
+
 VecX DualSystem::stiffness() const {
   return sum_over_ranks(H.cwiseAbs2().transpose() * rows_->own(diagonal).cwiseInverse());
 }

@@ -57,6 +57,7 @@ class DualSystem {
   VecX pressed(const VecX& lambda) const { return rows_->whole(multiply(rows_->own(lambda))); }
   VecX opening(const VecX& motion) const { return rows_->whole(H * motion); }
   VecX resultants(const VecX& lambda) const { return sum_over_ranks(H.transpose() * rows_->own(lambda)); }
+  MatX all_openings() const;  ///< m x s: H on all ranks
   /// |h| + |H|^T |lambda|: what the work that lambda leaves of h is a difference of.
   VecX work_terms(const VecX& h, const VecX& lambda) const;
   /// s: diagonal of H^T D^-1 H, with D that of C.

@@ -51,11 +51,11 @@ void set_touching(SlenderParts& parts, TouchingParts touching, const VecX& local
 ///
 ///   [K  .  B^T; .  0  -H^T; B  -H  -D] (u, mu, lambda) = (0, 0, -gap),
 ///
-/// with the supports' stiffness, or next to none, at the motions.
+/// with springs that are next to none at the motions.
 class SlenderInverse {
  public:
-  /// `supports`: of ClosedRows, at the motions; empty: none.
-  SlenderInverse(const SlenderParts& parts, const std::vector<char>& closed, const VecX& supports);
+  /// `compliance`: of ClosedRows, m, more of D; empty: none.
+  SlenderInverse(const SlenderParts& parts, const std::vector<char>& closed, const VecX& compliance);
   /// Both of all rows.
   VecX multiply(const VecX& gap) const;
 

@@ -17,6 +17,9 @@ constexpr double dual_tolerance = 1e-5;   // of duals: products of errors, which
 constexpr double round_off = 10;          // tolerances: what is smaller opens and closes no row
 constexpr double wide_gap = 0.3;          // of a row's part of the contact curve
 constexpr int most_refinements = 2, most_corrections = 8;
+constexpr double inner_tolerance = 1e-3;     // of the interior point's steps: Newton's method needs no more
+constexpr int most_inner_steps = 400;
+constexpr double interior_tolerance = 1e-8;  // of the interior point, which is asked which rows are closed
 
 // Duals by the same iteration.
 class FetiFactor : public ContactFactor {
@@ -84,7 +87,7 @@ double correct(const SaddlePointSystem& s, const DualSystem& system, const Close
   const VecX Ku = s.K.selfadjointView<Eigen::Lower>() * state.u;
   DualSystem::Answer left = system.answer((s.f - Ku - s.B.transpose() * state.lambda) / s.stiffness_scale);
   left.r += opening(s, state.u);
-  DualSolution x{.lambda = VecX::Zero(s.B.rows()), .mu = {}, .support = {}};
+  DualSolution x{.lambda = VecX::Zero(s.B.rows()), .mu = {}};
   rows.solve(left, monitor, x);
   const VecX before = state.u;
   state.lambda += stresses(s, x.lambda);
@@ -113,32 +116,29 @@ class FetiRows : public ContactRows {
     return u;
   }
 
-  Answer solve(const std::vector<char>& closed, const Supports& supports) override {
+  Answer solve(const std::vector<char>& closed, const VecX& at) override {
     Answer answer;
-    closed_ = closed;
-    rows_ = std::make_shared<ClosedRows>(system_, closed, supports.stiffness);
+    rows_ = std::make_shared<ClosedRows>(system_, closed);
     answer.dependent_row = rows_->dependent_row;
     answer.status = SolveStatus::dependent_row;
     if (answer.dependent_row >= 0) return answer;
-    const bool corrects = !system_.slender.empty() && supports.at.size() == 0;
+    const bool corrects = !system_.slender.empty();
     monitor_.restart(corrects ? std::max(first_tolerance, tolerance_) : tolerance_);
     DualSystem::Forces forces = system_.load;
-    if (supports.at.size() > 0) forces.r -= system_.opening(supports.at);
+    if (at.size() > 0) forces.r -= system_.opening(at);
     rows_->solve(forces, monitor_, x_);
+    if (at.size() > 0) x_.mu += at;
     state_ = {};
     if (corrects) correct_round_off();
     answer.status = monitor_.status();
     answer.lambda = x_.lambda;
     answer.mu = x_.mu;
-    if (supports.at.size() > 0) answer.mu += supports.at;
     const VecX pressed = system_.pressed(answer.lambda), moved = system_.opening(answer.mu);
     answer.w = state_.u.size() > 0 ? opening(s_, state_.u) : VecX(system_.load.r - pressed - moved);
     const double terms = largest(largest_entry(system_.load.r), largest_entry(pressed)),
                  size = system_.size(largest(largest_entry(answer.w), largest_entry(moved)), terms);
     answer.negligible_tension = round_off * tolerance_ * largest_entry(answer.lambda.cwiseQuotient(s_.row_scale));
     answer.negligible_penetration = round_off * tolerance_ * size;
-    const VecX left = system_.load.h - system_.resultants(answer.lambda);
-    answer.supported = fraction(largest_entry(left), largest_entry(system_.work_terms(system_.load.h, answer.lambda)));
     answer.driven_mode = rows_->driven_motion(system_.load.h, answer.lambda);
     answer.opening = system_.opening(answer.driven_mode);
     return answer;
@@ -149,12 +149,34 @@ class FetiRows : public ContactRows {
     tolerance_ = final_tolerance_;
     return better;
   }
-  MatX free_motions() const override { return ClosedRows(system_, closed_).free_motions; }
+  MatX free_motions() const override { return rows_->free_motions; }
 
   const VecX& scale() const override { return s_.row_scale; }
   const std::vector<char>& unilateral() const override { return unilateral_; }
   Eigen::Index motions() const override { return system_.H.cols(); }
+  VecX diagonal() const override { return system_.diagonal; }
   VecX stiffness() const override { return system_.stiffness(); }
+  MatX openings() const override { return system_.all_openings(); }
+  VecX gaps(const Forces& forces) const override {
+    return system_.load.r - system_.pressed(forces.lambda) - system_.opening(forces.mu);
+  }
+  VecX unbalanced(const VecX& lambda) const override { return system_.load.h - system_.resultants(lambda); }
+
+  bool soften(const VecX& compliance) override {
+    softened_.emplace(system_, std::vector<char>(s_.B.rows(), 1), compliance);
+    return softened_->dependent_row < 0;
+  }
+
+  Forces solve_softened(const VecX& gap, const VecX& work) override {
+    DualSystem::Forces forces{.r = gap, .h = work, .response = VecX::Zero(gap.size())};
+    DualSolution x{.lambda = VecX::Zero(gap.size()), .mu = {}};
+    IterationMonitor monitor(inner_tolerance, most_inner_steps);
+    softened_->solve(forces, monitor, x);
+    inner_steps_ += monitor.steps();
+    return {.lambda = x.lambda, .mu = x.mu};
+  }
+
+  double softened_tolerance() const override { return interior_tolerance; }
 
   const IterationMonitor& monitor() const { return monitor_; }
   /// Of the last active set.
@@ -179,7 +201,8 @@ class FetiRows : public ContactRows {
   const DualSystem& system_;
   const std::vector<char> unilateral_;
   double tolerance_, final_tolerance_;
-  std::vector<char> closed_;
+  int inner_steps_ = 0;  // of the interior point
+  std::optional<ClosedRows> softened_;
   IterationMonitor monitor_;
   std::shared_ptr<const ClosedRows> rows_;
   DualSolution x_;

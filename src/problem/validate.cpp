@@ -8,7 +8,7 @@
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "contact/curve_resolution.hpp"
-#include "contact/smooth_normals.hpp"
+#include "contact/seen_motions.hpp"
 
 namespace mortise {
 namespace {
@@ -77,7 +77,7 @@ std::vector<std::string> hold_free_motions(const Mesh& mesh, const std::vector<C
   std::vector<ContactNormal> normals;
   double edge_error = 0;
   for (const ContactPair& pair : pairs) {
-    const SmoothNormals of_pair = smooth_normals(mesh.nodes, pair.multiplier, pair.opposite, pair.points);
+    const SmoothNormals of_pair = seen_motions(mesh.nodes, pair.multiplier, pair.opposite, pair.points);
     normals.insert(normals.end(), of_pair.normals.begin(), of_pair.normals.end());
     edge_error = std::max(edge_error, of_pair.edge_error);
   }

@@ -9,42 +9,37 @@
 namespace mortise {
 
 struct ActiveSetOptions {
-  int max_steps = 100;
-  /// Steps that may pass without fewer infeasible rows than ever before; then rows change one at a time.
-  int max_stalled_steps = 10;
+  /// Steps of the plain method, and those that may pass without fewer infeasible rows than ever before, until the
+  /// interior point takes over; and after that.
+  int max_steps = 20, max_stalled_steps = 3, settling_steps = 20;
   /// Steps from the start before a guess from coarse rows takes over (on loads that change by 1 to 10 % from run to
   /// run, more than 1 save nothing); and rows that are too few to coarsen.
   int start_steps = 1, few_rows = 4;
 };
 
 struct ActiveSetResult {
-  /// converged, not_converged (also where the solution is not finite: `infeasible` is empty then), dependent_row, or
-  /// unconstrained: the load drives a rigid mode of the closed rows.
+  /// converged, dependent_row, unconstrained: no pressures carry the load, and driven_mode proves it; or not_converged,
+  /// where the solution is not finite or an iteration inside ended early.
   SolveStatus status = SolveStatus::not_converged;
   VecX lambda, mu;                   ///< m, s
   std::vector<char> active;          ///< m
   std::vector<int> infeasible;       ///< rows that the last step would still change
   std::vector<ActiveSetStep> steps;  ///< on all rows
   int coarse_steps = 0;              ///< on coarse rows
+  int interior_steps = 0;            ///< of the interior point
   int dependent_row = -1;
-  VecX driven_mode;      ///< s: the rigid mode that the load drives, or zero
-  MatX free_motions;     ///< s x count: that the final active set does not hold, told_apart
-  double supported = 0;  ///< as ContactRows::Answer's
+  /// s: motions that open no closed row and on which the load works (Farkas' lemma), or zero.
+  VecX driven_mode;
+  MatX free_motions;  ///< s x count: that the final active set does not hold, told_apart
   /// Where the multipliers' system is dense: that of the final active set.
   std::optional<MultiplierSystem> system;
 };
 
 /// The primal-dual active set method, which is a semismooth Newton method (Hintermueller, Ito & Kunisch 2003; for
 /// contact Hueeber & Wohlmuth 2005): solve with the active rows closed, then close the rows that are penetrated and
-/// open those in tension. w and lambda are linked by a positive definite matrix, but the plain method may still cycle:
-/// without free motions rows change one at a time then, the first infeasible one each time, until fewer are infeasible
-/// than ever before (Judice & Pires 1994). Where the load drives a rigid mode, the rows that it closes become active.
-///
-/// Bodies that few closed rows hold badly may move so far that the plain method never ends (a roller between two
-/// rings). Where it stalls, springs hold all free motions, as stiff as the contact itself, and all rows start open;
-/// then each spring is attached where its motion went, and softened, until they carry nothing: the proximal point
-/// method in the free motions (Rockafellar 1976, docs/theory.md eq. 27a). Where they go on carrying something, the
-/// plain method says what the load drives.
+/// open those in tension. Where the load drives a rigid mode, the rows that it closes become active. The method is fast
+/// and may go round in circles; where it does, find_interior_point says which rows are closed, and the active set of
+/// these is a few steps from the solution. Where there is none, motions are found that prove it (nonnegative_fit.hpp).
 ///
 /// `start`: m, rows that are active at first, which may be wrong.
 ActiveSetResult find_active_set(ContactRows& rows, std::vector<char> start, const ActiveSetOptions& options = {});

@@ -11,11 +11,11 @@ namespace {
 // Below this part of what one row alone could hold with, a motion is a rigid mode. It opens the rows by less than the
 // root of this part of its size.
 constexpr double rigid_limit = 1e-10;
+constexpr double work_round_off = 1e-12;
 
 }  // namespace
 
-MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs, std::vector<int> active,
-                                   const VecX& supports)
+MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs, std::vector<int> active)
     : m_(compliance.rows() - springs), springs_(springs), active_(std::move(active)) {
   const Eigen::Index count = active_.size();
   MatX C(count, count);
@@ -34,7 +34,6 @@ MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs,
     reduced_ = cholesky_.solve(H_);
     T = H_.transpose() * reduced_;
   }
-  if (supports.size() > 0) T.diagonal() += supports;
   const double one_row =
       compliance.bottomLeftCorner(springs_, m_).cwiseAbs2().maxCoeff() / compliance.diagonal().head(m_).maxCoeff();
   const SymmetricEigen eigen = symmetric_eigen(T);
@@ -80,8 +79,10 @@ VecX MultiplierSystem::driven_mode(const VecX& rhs) const {
   if (rigid_modes_.cols() == 0) return driven;
   const VecX y = on_active(rhs), work = unbalanced(rhs, y),
              terms = rhs.tail(springs_).cwiseAbs() + H_.cwiseAbs().transpose() * y.cwiseAbs();
+  const double round_off = work_round_off * largest_entry(terms);  // of bodies at which a mode is zero but for round-off
   for (const auto& motion : rigid_modes_.colwise())
-    if (std::abs(motion.dot(work)) > std::sqrt(rigid_limit) * motion.cwiseAbs().dot(terms))
+    if (std::abs(motion.dot(work)) >
+        std::max(std::sqrt(rigid_limit) * motion.cwiseAbs().dot(terms), round_off * largest_entry(motion)))
       driven += motion.dot(work) * motion;
   return driven;
 }

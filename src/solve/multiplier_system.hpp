@@ -19,9 +19,8 @@ namespace mortise {
 class MultiplierSystem {
  public:
   /// `compliance`: (m + s) x (m + s), lower triangle, [C; H^T, .] (BorderedCholesky). `active`: rows below m,
-  /// ascending. `supports`: s, the stiffness k of springs at the free motions, -diag(k) in the lower right block;
-  /// empty: none.
-  MultiplierSystem(const MatX& compliance, Eigen::Index springs, std::vector<int> active, const VecX& supports = {});
+  /// ascending.
+  MultiplierSystem(const MatX& compliance, Eigen::Index springs, std::vector<int> active);
 
   /// A row that the active rows before it already imply, or -1. Nothing below may be called where there is one.
   int dependent_row() const;
@@ -45,7 +44,7 @@ class MultiplierSystem {
   Eigen::LLT<MatX> cholesky_;  // of C_AA
   VecX diagonal_;              // of C_AA
   MatX H_, reduced_;           // H_A, C_AA^-1 H_A
-  MatX held_, rigid_modes_;    // eigenvectors of H_A^T C_AA^-1 H_A + diag(k)
+  MatX held_, rigid_modes_;    // eigenvectors of H_A^T C_AA^-1 H_A
   VecX stiffness_;             // and the eigenvalues of those held
 };
 

@@ -8,20 +8,20 @@
 namespace mortise {
 namespace {
 
-// An open curve through `vertices`, and contact points on all its edges.
+// An open curve through `vertices`, all of whose edges face another.
 struct Chain {
   Points nodes;
   Curve curve{0, 0, {}, {}, false};
-  std::vector<ContactPoint> points;
+  std::vector<char> faces;
 
   explicit Chain(const std::vector<Vec2>& vertices) : nodes(Eigen::Index(vertices.size()), 2) {
     for (std::size_t i = 0; i < vertices.size(); ++i) nodes.row(i) = vertices[i].transpose();
     for (int e = 0; e + 1 < int(vertices.size()); ++e) {
       curve.edges.push_back({2, {e, e + 1, -1}});
-      points.push_back({e, 0, 1, 1, Vec2(0, 1), 0, 0, 0});
+      faces.push_back(1);
     }
   }
-  SmoothNormals normals() const { return smooth_normals(nodes, curve, Curve{1, 1, {}, {}, false}, points); }
+  SmoothNormals normals() const { return smooth_normals(nodes, curve, 1, faces); }
 };
 
 TEST(SmoothNormals, AreExactOnAnArcOfUnevenEdges) {
@@ -44,7 +44,7 @@ TEST(SmoothNormals, AtACornerAreThoseOfBothEdges) {
 
 TEST(SmoothNormals, StandOnlyWhereTheCurveFacesTheOther) {
   Chain chain({{0, 0}, {1, 0}, {2, 0}, {3, 0}});
-  chain.points = {chain.points[1]};
+  chain.faces = {0, 1, 0};
   EXPECT_EQ(chain.normals().normals.size(), 2U);
 }
 

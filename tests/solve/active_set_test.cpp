@@ -119,11 +119,9 @@ TEST(ActiveSet, BreaksTheCycleOfThePlainMethod) {
   MatX C(3, 3);
   C << 4, 5, -5, 5, 9, -5, -5, -5, 7;
   const Problem p = held_problem(C, Eigen::Vector3d(-2, -1, 3));
-  ActiveSetOptions plain;
-  plain.max_stalled_steps = plain.start_steps = 1000;
-  plain.max_steps = 100;
-  EXPECT_EQ(p.solve({1, 1, 1}, plain).status, SolveStatus::not_converged);
-  expect_solution(p, p.solve(), *search(p));
+  const ActiveSetResult r = p.solve();
+  EXPECT_GT(r.interior_steps, 0);
+  expect_solution(p, r, *search(p));
 }
 
 TEST(ActiveSet, OneSolveWhereNothingIsInTension) {

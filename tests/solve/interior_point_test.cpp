@@ -1,0 +1,177 @@
+// Contact solves always end: random problems end as a solution that satisfies its conditions, or as motions that prove
+// that there is none.
+#include "solve/interior_point.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "solve/active_set.hpp"
+#include "solve/dense_rows.hpp"
+#include "solve/nonnegative_fit.hpp"
+
+namespace mortise {
+namespace {
+
+struct Problem {
+  ComplementarityProblem rows;
+  VecX rhs;
+  Eigen::Index m() const { return rows.scale.size(); }
+  Eigen::Index motions() const { return rhs.size() - m(); }
+  MatX C() const { return rows.compliance.topLeftCorner(m(), m()); }
+  MatX H() const { return rows.compliance.bottomLeftCorner(motions(), m()).transpose(); }
+};
+
+Problem problem(const MatX& C, const MatX& H, const VecX& r, const VecX& h) {
+  const Eigen::Index m = C.rows(), s = H.cols();
+  Problem p{{.compliance = MatX::Zero(m + s, m + s), .scale = VecX::Ones(m), .unilateral = std::vector<char>(m, 1)},
+            stacked(r, h)};
+  p.rows.compliance.topLeftCorner(m, m) = C;
+  p.rows.compliance.topRightCorner(m, s) = H;
+  p.rows.compliance.bottomLeftCorner(s, m) = H.transpose();
+  return p;
+}
+
+enum class Kind { any, carried, degenerate, weak, pulled };
+
+// `carried`: the load is what some pressures do. `degenerate`: and rows in threes are nearly one, some of them just
+// touch. `weak`: and motions open rows by 1 to 1e-4. `pulled`: the load on one motion goes away from all rows.
+Problem random_problem(std::mt19937& random, Kind kind, Eigen::Index m, Eigen::Index s) {
+  std::normal_distribution<double> value;
+  const auto draw = [&] { return value(random); };
+  const MatX V = MatX::NullaryExpr(m, m, draw);
+  MatX C = V * V.transpose() / double(m) + 1e-3 * MatX::Identity(m, m), H = MatX::NullaryExpr(m, s, draw);
+  VecX r = VecX::NullaryExpr(m, draw), h = VecX::NullaryExpr(s, draw);
+  if (kind == Kind::degenerate)
+    for (Eigen::Index a = 0; a + 2 < m; a += 3)
+      for (const Eigen::Index b : {a + 1, a + 2}) H.row(b) = H.row(a) + 1e-9 * H.row(b);
+  if (kind == Kind::weak)
+    for (Eigen::Index k = 0; k < s; ++k) H.col(k) *= std::pow(10.0, -4.0 * double(k) / double(std::max<Eigen::Index>(s - 1, 1)));
+  if (kind == Kind::pulled) H.col(0) = H.col(0).cwiseAbs();
+  VecX lambda = VecX::NullaryExpr(m, [&] { return std::min(draw(), 0.0); }), mu = VecX::NullaryExpr(s, draw);
+  if (kind == Kind::degenerate) {
+    for (Eigen::Index a = 0; a < m; a += 4) lambda(a) = 0;
+    r = C * lambda + H * mu;  // all rows touch
+    for (Eigen::Index a = 0; a < m; ++a)
+      if (lambda(a) == 0 && a % 3 == 0) r(a) += 1;
+  }
+  if (kind != Kind::any) h = H.transpose() * lambda;
+  if (kind == Kind::pulled) h(0) = 1;
+  return problem(C, H, r, h);
+}
+
+void expect_solution(const Problem& p, const ActiveSetResult& r) {
+  const VecX w = p.rhs.head(p.m()) - p.C() * r.lambda - p.H() * r.mu;
+  const double pressure = largest_entry(r.lambda),
+               gap = std::max(largest_entry(p.rhs.head(p.m())), largest_entry(p.C() * r.lambda.cwiseAbs()));
+  for (Eigen::Index a = 0; a < p.m(); ++a) {
+    EXPECT_LE(r.lambda(a), 1e-9 * pressure);
+    EXPECT_GE(w(a), -1e-9 * gap);
+    EXPECT_LE(std::abs(w(a) * r.lambda(a)), 1e-9 * gap * pressure);
+  }
+  if (p.motions() == 0) return;
+  const VecX left = p.rhs.tail(p.motions()) - p.H().transpose() * r.lambda;
+  const VecX terms = p.rhs.tail(p.motions()).cwiseAbs() + p.H().cwiseAbs().transpose() * r.lambda.cwiseAbs();
+  EXPECT_LE(largest_entry(left), 1e-9 * largest_entry(terms) + 1e-15);
+}
+
+// Farkas: opens no row to below zero, and the load works on it.
+void expect_proof(const Problem& p, const VecX& motion) {
+  const VecX opening = p.H() * motion;
+  EXPECT_GE(opening.minCoeff(), -1e-8 * largest_entry(opening));
+  EXPECT_GT(motion.dot(p.rhs.tail(p.motions())), 1e-8 * motion.cwiseAbs().dot(p.rhs.tail(p.motions()).cwiseAbs()));
+}
+
+class RandomContact : public testing::TestWithParam<Kind> {};
+
+TEST_P(RandomContact, EndsAsASolutionOrAsAProofThatThereIsNone) {
+  std::mt19937 random(17);
+  int runs = 0, none = 0, interior = 0, most = 0;
+  for (int run = 0; run < 300; ++run) {
+    SCOPED_TRACE(run);
+    const Eigen::Index m = 4 + run % 50, s = run % 7 * m / 10;
+    if (GetParam() == Kind::pulled && s == 0) continue;
+    ++runs;
+    const Problem p = random_problem(random, GetParam(), m, s);
+    const ActiveSetResult r = find_active_set(p.rows, p.rhs);
+    interior += r.interior_steps > 0;
+    most = std::max(most, r.interior_steps + int(r.steps.size()));
+    if (r.status == SolveStatus::converged) {
+      expect_solution(p, r);
+    } else {
+      ASSERT_EQ(r.status, SolveStatus::unconstrained) << r.interior_steps << " interior steps, " << r.steps.size() << " of the set, " << r.infeasible.size() << " infeasible rows";
+      expect_proof(p, r.driven_mode);
+      ++none;
+    }
+  }
+  std::printf("%d of %d without a solution, %d by interior points, %d factorisations at most\n", none, runs, interior,
+              most);
+  switch (GetParam()) {
+    case Kind::any:
+      EXPECT_GT(none, 0);
+      break;
+    case Kind::pulled:
+      EXPECT_EQ(none, runs);
+      break;
+    default:
+      EXPECT_EQ(none, 0);
+  }
+  EXPECT_LE(most, 60);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, RandomContact,
+                         testing::Values(Kind::any, Kind::carried, Kind::degenerate, Kind::weak, Kind::pulled));
+
+TEST(InteriorPoint, AloneFindsTheRowsOfRandomProblems) {
+  std::mt19937 random(5);
+  for (int run = 0; run < 100; ++run) {
+    SCOPED_TRACE(run);
+    const Eigen::Index m = 4 + run, s = run % 5 * m / 20;
+    const Problem p = random_problem(random, Kind::carried, m, s);
+    DenseRows rows(p.rows, p.rhs);
+    const InteriorPoint point = find_interior_point(rows);
+    ASSERT_TRUE(point.converged);
+    EXPECT_LE(point.steps, 25);
+    EXPECT_LE(point.at.lambda.maxCoeff(), 0);
+    const VecX w = rows.gaps(point.at);
+    EXPECT_GE(w.minCoeff(), -1e-9);
+    EXPECT_LE(w.cwiseProduct(point.at.lambda).cwiseAbs().maxCoeff(), 1e-8);
+    EXPECT_EQ(find_active_set(p.rows, p.rhs).active, point.closed);
+  }
+}
+
+TEST(NonnegativeFit, LeavesNothingOrAProof) {
+  std::mt19937 random(8);
+  std::normal_distribution<double> value;
+  const auto draw = [&] { return value(random); };
+  int proofs = 0;
+  for (int run = 0; run < 200; ++run) {
+    SCOPED_TRACE(run);
+    const Eigen::Index n = 1 + run % 8, m = 1 + run % 13;
+    const MatX A = MatX::NullaryExpr(n, m, draw);
+    const VecX b = VecX::NullaryExpr(n, draw);
+    std::vector<char> free(m, 0);
+    free[0] = run % 3 == 0;
+    const NonnegativeFit fit = fit_nonnegative(A, b, free);
+    EXPECT_LE(largest_entry(A * fit.x + fit.residual - b), 1e-12 * (1 + largest_entry(fit.x)));
+    for (Eigen::Index a = 0; a < m; ++a) {
+      if (!free[a]) {
+        EXPECT_GE(fit.x(a), 0);
+      }
+    }
+    const VecX along = A.transpose() * fit.residual;
+    EXPECT_LE(along.maxCoeff(), 1e-10);
+    if (free[0]) {
+      EXPECT_NEAR(along(0), 0, 1e-10);
+    }
+    if (fit.residual.norm() > 1e-9) {
+      EXPECT_GT(b.dot(fit.residual), 0);
+      ++proofs;
+    }
+  }
+  EXPECT_GT(proofs, 20);
+  EXPECT_LT(proofs, 180);
+}
+
+}  // namespace
+}  // namespace mortise
