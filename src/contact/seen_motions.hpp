@@ -6,8 +6,8 @@
 
 namespace mortise {
 
-/// The motion that leaves the part of a curve that faces another as it is: a turn, of arcs about one centre; a slide, of
-/// parallel straight lines; of other curves there is none.
+/// The motion that leaves the part of a curve that faces another as it is: a turn, of arcs about one centre; a slide,
+/// of parallel straight lines; of other curves there is none.
 struct Symmetry {
   enum class Kind { none, turn, slide } kind = Kind::none;
   Vec2 centre = Vec2::Zero();     ///< of a turn

@@ -6,9 +6,10 @@
 
 namespace mortise {
 
-/// At each vertex of the edges that face another curve: the normal of the circle through the vertex and its neighbours, exact on straight lines and circles however the vertices are spaced; where edges meet at
-/// more than 20 degrees, the normals of both. A turn of a disc about its centre moves nothing along these, while the
-/// chords' own normals resist it by as much as the spacing is uneven.
+/// At each vertex of the edges that face another curve: the normal of the circle through the vertex and its neighbours,
+/// exact on straight lines and circles however the vertices are spaced; where edges meet at more than 20 degrees, the
+/// normals of both. A turn of a disc about its centre moves nothing along these, while the chords' own normals resist
+/// it by as much as the spacing is uneven.
 struct SmoothNormals {
   std::vector<ContactNormal> normals;
   /// How far the edges leave such a curve, as part of its radius: angle^2 / 8 of a chord, angle^4 / 128 of a 3-node

@@ -141,9 +141,7 @@ VecX ClosedRows::resultants(const VecX& lambda) const {
 }
 
 // A^-1 of a jump of the rows.
-VecX ClosedRows::unshared(const VecX& jump) const {
-  return on_closed(rows_.own(sharing_.solve(rows_.whole(jump))));
-}
+VecX ClosedRows::unshared(const VecX& jump) const { return on_closed(rows_.own(sharing_.solve(rows_.whole(jump)))); }
 
 // Of a jump, the pressures by the parts' stiffness. What gives way in a row shares the jump as one more body, whose
 // stiffness is the inverse of its compliance.

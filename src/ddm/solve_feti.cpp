@@ -17,7 +17,7 @@ constexpr double dual_tolerance = 1e-5;   // of duals: products of errors, which
 constexpr double round_off = 10;          // tolerances: what is smaller opens and closes no row
 constexpr double wide_gap = 0.3;          // of a row's part of the contact curve
 constexpr int most_refinements = 2, most_corrections = 8;
-constexpr double inner_tolerance = 1e-3;     // of the interior point's steps: Newton's method needs no more
+constexpr double inner_tolerance = 1e-3;  // of the interior point's steps: Newton's method needs no more
 constexpr int most_inner_steps = 400;
 constexpr double interior_tolerance = 1e-8;  // of the interior point, which is asked which rows are closed
 

@@ -83,8 +83,7 @@ void move_least(ContactRows& rows, const ActiveSetOptions& options, ActiveSetRes
   std::vector<char> pressed = r.active;
   for (std::size_t a = 0; a < pressed.size(); ++a)
     if (rows.unilateral()[a] && stress(Eigen::Index(a)) > -without_pressure * largest_entry(stress)) pressed[a] = 0;
-  if (pressed != r.active)
-    iterate(rows, pressed, touching.mu, options.settling_steps, options.settling_steps, r);
+  if (pressed != r.active) iterate(rows, pressed, touching.mu, options.settling_steps, options.settling_steps, r);
   if (r.status == SolveStatus::converged) {
     const MatX free = rows.free_motions();
     if (free.cols() == 0) return;

@@ -79,7 +79,8 @@ VecX MultiplierSystem::driven_mode(const VecX& rhs) const {
   if (rigid_modes_.cols() == 0) return driven;
   const VecX y = on_active(rhs), work = unbalanced(rhs, y),
              terms = rhs.tail(springs_).cwiseAbs() + H_.cwiseAbs().transpose() * y.cwiseAbs();
-  const double round_off = work_round_off * largest_entry(terms);  // of bodies at which a mode is zero but for round-off
+  const double round_off =
+      work_round_off * largest_entry(terms);  // of bodies at which a mode is zero but for round-off
   for (const auto& motion : rigid_modes_.colwise())
     if (std::abs(motion.dot(work)) >
         std::max(std::sqrt(rigid_limit) * motion.cwiseAbs().dot(terms), round_off * largest_entry(motion)))

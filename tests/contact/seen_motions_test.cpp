@@ -87,8 +87,8 @@ TEST(SeenMotions, ArcsTurnLinesSlideAndOtherCurvesDoNeither) {
 }
 
 TEST(SeenMotions, AreThoseOfBothCurvesWhicheverCarriesTheMultipliers) {
-  const auto disc = arc({0, 1}, 1, -2, -1), other_disc = arc({0.6, -1}, 1, 1, 2), same_centre = arc({0, 1}, 1.1, -2, -1),
-             plate = line({-1, 0}, {1, 0}), wedge = line({-1, 0.5}, {1, 0});
+  const auto disc = arc({0, 1}, 1, -2, -1), other_disc = arc({0.6, -1}, 1, 1, 2),
+             same_centre = arc({0, 1}, 1.1, -2, -1), plate = line({-1, 0}, {1, 0}), wedge = line({-1, 0.5}, {1, 0});
   const std::vector<std::tuple<std::vector<Vec2>, std::vector<Vec2>, Eigen::Index>> pairs{
       {disc, plate, 2},        // turns and slides
       {disc, other_disc, 2},   // turns, and rolls about the other

@@ -46,7 +46,8 @@ Problem random_problem(std::mt19937& random, Kind kind, Eigen::Index m, Eigen::I
     for (Eigen::Index a = 0; a + 2 < m; a += 3)
       for (const Eigen::Index b : {a + 1, a + 2}) H.row(b) = H.row(a) + 1e-9 * H.row(b);
   if (kind == Kind::weak)
-    for (Eigen::Index k = 0; k < s; ++k) H.col(k) *= std::pow(10.0, -4.0 * double(k) / double(std::max<Eigen::Index>(s - 1, 1)));
+    for (Eigen::Index k = 0; k < s; ++k)
+      H.col(k) *= std::pow(10.0, -4.0 * double(k) / double(std::max<Eigen::Index>(s - 1, 1)));
   if (kind == Kind::pulled) H.col(0) = H.col(0).cwiseAbs();
   VecX lambda = VecX::NullaryExpr(m, [&] { return std::min(draw(), 0.0); }), mu = VecX::NullaryExpr(s, draw);
   if (kind == Kind::degenerate) {
@@ -99,7 +100,8 @@ TEST_P(RandomContact, EndsAsASolutionOrAsAProofThatThereIsNone) {
     if (r.status == SolveStatus::converged) {
       expect_solution(p, r);
     } else {
-      ASSERT_EQ(r.status, SolveStatus::unconstrained) << r.interior_steps << " interior steps, " << r.steps.size() << " of the set, " << r.infeasible.size() << " infeasible rows";
+      ASSERT_EQ(r.status, SolveStatus::unconstrained) << r.interior_steps << " interior steps, " << r.steps.size()
+                                                      << " of the set, " << r.infeasible.size() << " infeasible rows";
       expect_proof(p, r.driven_mode);
       ++none;
     }
