@@ -23,6 +23,8 @@ struct Interrupted {};
 constexpr int least_edges = 10;      // along a contact curve, of any mesh after the first
 constexpr double largest_step = 16;  // by which one mesh is to lower the error: a coarse one's estimate is not exact
 constexpr double aimed = 0.7;        // of what was asked, lest a mesh that just misses it be solved in vain
+constexpr double another = 1.5;      // by which all sizes change where a mesh tells nothing of the next, or is not made
+constexpr int most_others = 2;       // such meshes in succession
 
 // The contact curves in so many edges, and arcs in turns of 15 degrees.
 LayeredSizes sizes_of(const std::vector<DrawnCurve>& curves, const Scene& scene, int edges) {
@@ -92,12 +94,17 @@ class Loop {
         if (last) start = active_set(*last);
         Results r = solve_on(sizes, start ? &*start : nullptr, int(report.solves.size()) + 1);
         seconds += r.seconds;
-        report.solves.push_back({free_unknowns(r), estimated(r), r.seconds.total()});
+        const bool confirmed = last && !is_pressed(*last) && !is_pressed(r);  // p = 0 on two meshes is an answer
+        report.solves.push_back({free_unknowns(r), confirmed ? 0 : estimated(r), r.seconds.total()});
         if (spec_.of == Goal::peak) require_peak(r);
         last = std::move(r);
         report.reason = why_to_stop(*last, report);
         if (report.reached() || !report.reason.empty()) break;
-        sizes = next_sizes(*last);
+        others_ = tells_sizes(*last) ? 0 : others_ + 1;
+        if (others_ == 0)
+          sizes = next_sizes(*last);
+        else
+          sizes = [sizes](const Vec2& x) { return sizes(x) / another; };
       }
     } catch (const Interrupted&) {
       if (!last) return std::nullopt;
@@ -123,10 +130,10 @@ class Loop {
     Stopwatch watch;
     double factor = 1;
     const SizeAt held = [&](const Vec2& x) { return factor * sizes(x); };
-    Mesh mesh = mesher_.mesh(held, spec_.recombine);
+    Mesh mesh = mesh_of(held, factor);
     for (int again = 0; again < 3 && 2.0 * double(mesh.nodes.rows()) > 1.1 * spec_.unknowns_max; ++again) {
       factor *= std::sqrt(2.0 * double(mesh.nodes.rows()) / spec_.unknowns_max);
-      mesh = mesher_.mesh(held, spec_.recombine);
+      mesh = mesh_of(held, factor);
       at_limit_ = true;
     }
     const double meshing = watch.lap();
@@ -144,6 +151,24 @@ class Loop {
          << " unknowns)";
     told_ = text.str();
     return r;
+  }
+
+  // Where gmsh refuses these sizes, of larger ones.
+  Mesh mesh_of(const SizeAt& sizes, double& factor) {
+    for (int refused = 0;; ++refused) try {
+        return mesher_.mesh(sizes, spec_.recombine);
+      } catch (const InputError&) {
+        if (refused == most_others) throw;
+        factor *= another;
+      }
+  }
+
+  static bool is_pressed(const Results& r) {
+    return r.status == Status::not_converged || largest_entry(r.solution.lambda) > 0;
+  }
+
+  bool tells_sizes(const Results& r) const {
+    return r.status != Status::not_converged && std::isfinite(estimated(r));
   }
 
   double estimated(const Results& r) const {
@@ -181,9 +206,10 @@ class Loop {
     const auto& solves = report.solves;
     const std::size_t n = solves.size();
     if (report.reached()) return "";
-    if (r.status == Status::not_converged) return "the solver did not converge";
-    if (!std::isfinite(solves.back().estimated))
-      return spec_.of == Goal::pressure ? "nothing is loaded, apart from what is left out" : "nothing is loaded there";
+    if (others_ == most_others && !tells_sizes(r))
+      return r.status == Status::not_converged ? "the solver did not converge"
+             : spec_.of == Goal::pressure      ? "nothing is loaded, apart from what is left out"
+                                               : "nothing is loaded there";
     if (n >= most_solves) return std::to_string(n) + " solves";
     if (at_limit_ || solves.back().unknowns >= spec_.unknowns_max) return "unknowns_max";
     if (n >= 4 && solves[n - 1].estimated > solves[n - 2].estimated &&
@@ -223,6 +249,7 @@ class Loop {
   FreeMesher mesher_;
   LayeredSizes largest_;   // sizes that no mesh goes above
   std::string told_;       // of the solve before, in the progress line
+  int others_ = 0;         // meshes since the last that told the sizes of the next
   bool at_limit_ = false;  // the mesh has been held to unknowns_max
 };
 

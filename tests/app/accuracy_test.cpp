@@ -198,6 +198,14 @@ TEST(Accuracy, ThatIsNotReachedIsNotConvergedAndSaysWhy) {
   EXPECT_GE(free_unknowns(*r), 2000);
 }
 
+TEST(Accuracy, OfContactThatOpensEverywhereIsReachedOnTheSecondMesh) {
+  const auto r = solve_to_accuracy(scene("hertz", "1%", {{"boundary.2", "{ on = [\"head\"], displacement = { y = 1e-4 } }"}}));
+  ASSERT_TRUE(r);
+  EXPECT_EQ(r->status, Status::solved);
+  EXPECT_EQ(r->accuracy->solves.size(), 2u);
+  EXPECT_EQ(largest_entry(r->solution.lambda), 0);
+}
+
 TEST(Accuracy, KeepsTheLastCompleteAnswerWhenInterrupted) {
   int meshes = 0;
   bool stop = false;
