@@ -167,9 +167,7 @@ class Loop {
     return r.status == Status::not_converged || largest_entry(r.solution.lambda) > 0;
   }
 
-  bool tells_sizes(const Results& r) const {
-    return r.status != Status::not_converged && std::isfinite(estimated(r));
-  }
+  bool tells_sizes(const Results& r) const { return r.status != Status::not_converged && std::isfinite(estimated(r)); }
 
   double estimated(const Results& r) const {
     switch (spec_.of) {

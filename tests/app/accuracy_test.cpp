@@ -199,7 +199,8 @@ TEST(Accuracy, ThatIsNotReachedIsNotConvergedAndSaysWhy) {
 }
 
 TEST(Accuracy, OfContactThatOpensEverywhereIsReachedOnTheSecondMesh) {
-  const auto r = solve_to_accuracy(scene("hertz", "1%", {{"boundary.2", "{ on = [\"head\"], displacement = { y = 1e-4 } }"}}));
+  const auto r =
+      solve_to_accuracy(scene("hertz", "1%", {{"boundary.2", "{ on = [\"head\"], displacement = { y = 1e-4 } }"}}));
   ASSERT_TRUE(r);
   EXPECT_EQ(r->status, Status::solved);
   EXPECT_EQ(r->accuracy->solves.size(), 2u);
