@@ -1,15 +1,12 @@
 """Assemblies of many bodies that only contact holds: heaps, chains, bearings, arches, pins, wedges, bricks, nested rings.
 
-Whether anything carries the load is a matter of the rigid motions alone: a linear programme decides it apart from mortise.
+Whether anything carries the load is a matter of the rigid motions alone (rigid_motions.py).
 """
 
 import math
 import random
 from dataclasses import dataclass, field
 from typing import NamedTuple
-
-import numpy as np
-from scipy.optimize import linprog
 
 from drawings import draw_body, rim, scene_text
 from fuzz_case import solve_case
@@ -65,8 +62,8 @@ def heap(r, weight):
         for j in range(base - k):
             x, y = 1 + play / 2 + (2 + play) * (j + k / 2), 1 + k * rise
             parts.append(disc(f"log{k}{j}", x, y, 1.0, (0.0, -weight)))
-            pairs += [(f"log{k}{j}_rim", f"log{k - 1}{i}_rim") for i in (j, j + 1)] if k else [(f"log{k}{j}_rim", "floor_top")]
-            pairs += [(f"log{k}{j}_rim", f"log{k}{j - 1}_rim")] if j else []
+            under = [f"log{k - 1}{i}_rim" for i in (j, j + 1)] if k else ["floor_top"]
+            pairs += [(f"log{k}{j}_rim", other) for other in under + ([f"log{k}{j - 1}_rim"] if j else [])]
     if walls:
         pairs += [("log00_rim", "west_right"), (f"log0{base - 1}_rim", "east_left")]
     return Assembly("heap", parts, pairs, r.uniform(0.2, 0.4))
@@ -116,18 +113,19 @@ def pin(r, weight):
     """A pin in a slot with play, pulled down, up or aside."""
     play, angle = r.choice((0.0, 1e-4, 1e-2)), r.choice((0, 90, 180, 270, 225, 315, r.uniform(0, 360)))
     force = (weight * math.cos(math.radians(angle)), weight * math.sin(math.radians(angle)))
-    sides = block("floor", -3.0, -2.0, 3.0, -1.0, held=GROUND), block("west", -3.0, -0.9, -1.0 - play, 2.0, held={"left": "xy"})
+    floor = block("floor", -3.0, -2.0, 3.0, -1.0, held=GROUND)
+    west = block("west", -3.0, -0.9, -1.0 - play, 2.0, held={"left": "xy"})
     east = block("east", 1.0 + play, -0.9, 3.0, 2.0, held={"right": "xy"})
     pairs = [("pin_rim", "floor_top"), ("pin_rim", "west_right"), ("pin_rim", "east_left")]
-    return Assembly("pin", [*sides, east, disc("pin", 0.0, 0.0, 1.0, force)], pairs, r.uniform(0.2, 0.4))
+    return Assembly("pin", [floor, west, east, disc("pin", 0.0, 0.0, 1.0, force)], pairs, r.uniform(0.2, 0.4))
 
 
 def wedge(r, weight):
     """Driven between two held cheeks, or between a held one and one that only slides towards nothing."""
     lean, loose = r.uniform(0.1, 0.6), r.random() < 0.3
     points = (-0.5, 0.0), (0.5, 0.0), (0.5 + lean, 1.0), (-0.5 - lean, 1.0)
-    middle = Part("wedge", [rim(points[0], *zip(("bottom", "right", "top", "left"), (*points[1:], points[0])))], {}, (0.0, -weight))
-    parts = [middle]
+    sides = zip(("bottom", "right", "top", "left"), (*points[1:], points[0]))
+    parts = [Part("wedge", [rim(points[0], *sides)], {}, (0.0, -weight))]
     for name, sign in (("west", -1), ("east", 1)):
         corners = [(sign * x, y) for x, y in ((0.5, 0.0), (2.0, 0.0), (2.0, 1.0), (0.5 + lean, 1.0))]
         held = {"bottom": "y"} if loose and sign > 0 else {"out": "xy"}
@@ -164,86 +162,6 @@ def rings(r, weight):
 
 
 FAMILIES = (heap, chain, bearing, arch, pin, wedge, bricks, rings)
-
-
-# ---- Whether anything carries the load ----
-
-
-def polyline(piece, count=24):
-    """Places along a straight curve or an arc of less than half a turn."""
-    _, word, points = piece
-    a, b, t = np.array(points[0]), np.array(points[-1]), np.linspace(0, 1, count + 1)[:, None]
-    if word == "Line":
-        return a + t * (b - a)
-    centre = np.array(points[1])
-    start, end = (math.atan2(*(place - centre)[::-1]) for place in (a, b))
-    angle = start + t[:, 0] * ((end - start + math.pi) % (2 * math.pi) - math.pi)
-    return centre + np.linalg.norm(a - centre) * np.column_stack([np.cos(angle), np.sin(angle)])
-
-
-def area_and_centre(loop):
-    """Of a loop; the area is positive counter-clockwise."""
-    x, y = np.concatenate([polyline(piece)[:-1] for piece in loop]).T
-    cross = x * np.roll(y, -1) - np.roll(x, -1) * y
-    area = cross.sum() / 2
-    return area, np.array([((v + np.roll(v, -1)) * cross).sum() / (6 * area) for v in (x, y)])
-
-
-def segments(part, curve):
-    """Starts and ends of short pieces of a curve, the body on their left."""
-    found = []
-    for k, loop in enumerate(part.loops):
-        left = (area_and_centre(loop)[0] > 0) == (k == 0)  # further loops are holes
-        for piece in (piece for piece in loop if piece[0] == curve):
-            line = polyline(piece)
-            found.append(np.stack([line[:-1], line[1:]], 1) if left else np.stack([line[1:], line[:-1]], 1))
-    return np.concatenate(found)
-
-
-def openings(assembly, pair):
-    """Of each place of the first curve from which a normal meets the second: the place, the normal, the gap."""
-    parts = {part.name: part for part in assembly.parts}
-    mine, other = (segments(parts[name], curve) for name, curve in (end.split("_") for end in pair))
-    middle, along, beyond = mine.mean(1), mine[:, 1] - mine[:, 0], other[:, 1] - other[:, 0]
-    normal = np.column_stack([along[:, 1], -along[:, 0]]) / np.linalg.norm(along, axis=1)[:, None]
-    cross = lambda a, b: a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-    away, across = other[None, :, 0] - middle[:, None], cross(normal[:, None], beyond[None])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        gap, t = cross(away, beyond[None]) / across, cross(away, normal[:, None]) / across
-    # The second curve faces the first, and lies before it: an overlap is a small part of an edge.
-    met = (t >= 0) & (t <= 1) & (gap > -0.1 * assembly.size) & (across < 0)
-    gap = np.where(met, gap, np.inf).min(1)
-    return middle[np.isfinite(gap)], normal[np.isfinite(gap)], gap[np.isfinite(gap)]
-
-
-def drift(assembly, near_only):
-    """The most work that the loads can do on rigid motions of at most 1, over the sum of the loads' sizes: 0 where contact
-    carries them. Such a motion opens no contact further: all that face each other, or only the nearest places."""
-    column = {part.name: 3 * k for k, part in enumerate(assembly.parts)}
-    reach = max(np.abs(polyline(piece)).max() for part in assembly.parts for loop in part.loops for piece in loop)
-    at = lambda place, way: np.array([way[0], way[1], (place[0] * way[1] - place[1] * way[0]) / reach])
-    closes, fixed, work, total = [], [], np.zeros(3 * len(column)), 0.0
-    for pair in assembly.pairs:
-        first, second = (column[end.split("_")[0]] for end in pair)
-        for place, normal, gap in zip(*(found := openings(assembly, pair))):
-            if not near_only or gap <= found[2].min() + 1e-2 * assembly.size:
-                row = np.zeros(len(work))
-                row[first : first + 3], row[second : second + 3] = at(place, normal), -at(place + gap * normal, normal)
-                closes.append(row)
-    for part in assembly.parts:
-        for curve, axes in part.held.items():
-            for place in segments(part, curve)[:: 6, 0]:
-                for axis in axes:
-                    fixed.append(np.zeros(len(work)))
-                    fixed[-1][column[part.name] :][:3] = at(place, (axis == "x", axis == "y"))
-        for k, loop in enumerate(part.loops):
-            area, centre = area_and_centre(loop)
-            force = np.array(part.force) * abs(area) * (1 if k == 0 else -1)
-            work[column[part.name] :][:3] += at(centre, force)
-            total += np.abs(force).sum()
-    found = linprog(-work / total, closes or None, np.zeros(len(closes)) if closes else None, fixed or None,
-                    np.zeros(len(fixed)) if fixed else None, bounds=(-1, 1), method="highs")  # fmt: skip
-    return -found.fun
 
 
 # ---- Cases ----

@@ -11,8 +11,8 @@ import numpy as np
 
 import launch
 import one_call
-from assemblies import drift
 from fuzz_case import solve_case
+from rigid_motions import drift
 
 DRIVEN = 1e-6  # work of the loads on a motion of 1, over their sizes: above the linear programme's round-off
 EXACT = 1e-9

@@ -137,7 +137,7 @@ def make_data(seed, number):
     (blocks, plane), young = draw_blocks(r), r.choice((1.0, 7e4, 2.1e11))
     drawing = blocks.drawing(young, (plane,))
     scene = scene_of(r, drawing, young)
-    key, body = r.choice(("pressure", *FAR, *ENTRIES)), r.choice(("lower", "upper"))
+    key, body = r.choice(sorted(FAR | ENTRIES)), r.choice(("lower", "upper"))
     feature, files = draw_feature(r, blocks, key, body), {}
     if r.random() < 0.3 and feature.name in ("spike", "hat"):
         feature, files["f.csv"] = place_functions.sampled(feature, blocks.start, blocks.top)

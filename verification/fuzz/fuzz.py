@@ -161,7 +161,8 @@ def main():
     kinds, show = tuple(chosen.kind or MAKERS), lambda line: print(line, flush=True)
     done = fuzz(program, chosen.count, seed, int(first or 0), chosen.jobs, kinds, chosen.out, show)
     failed = failures(done)
-    print(table(done) + worth_table(done), f"{failed} of {len(done)} cases failed" + (f": {chosen.out}" if failed else ""), sep="\n")
+    print(table(done) + worth_table(done))
+    print(f"{failed} of {len(done)} cases failed" + (f": {chosen.out}" if failed else ""))
     sys.exit(1 if failed else 0)
 
 

@@ -59,7 +59,8 @@ def notch(r, x, y, sign, loops):
 def flaw(r):
     """A flat line with a slit, a hole or a notch beside it, in either body."""
     contact = [("Line", [(0.0, 0.5), (1.0, 0.5)])]
-    bodies, make, into = [below(0.0, 1.0, contact), above(1.0, contact)], r.choice((slit, slit, hole, notch)), r.randint(0, 1)
+    bodies, into = [below(0.0, 1.0, contact), above(1.0, contact)], r.randint(0, 1)
+    make = r.choice((slit, slit, hole, notch))
     sign, x, far = 2 * into - 1, r.uniform(0.25, 0.75), 10 ** r.uniform(-1.8, -0.8)
     bodies[into], tips, round_hole = make(r, x, 0.5 + sign * far, sign, bodies[into])
     return Drawing(make.__name__, *bodies, tips, True, round_hole, ("lower_right", "upper_right"))

@@ -84,6 +84,14 @@ def borders(line):
     return [tuple(place) for place in ((v.x[ends] + v.x[ends + 1]) / 2).tolist()]
 
 
+def within(line):
+    """p of the line as a function of places; beyond its ends, along it, there is none: the other side may be longer."""
+    pressure = pressure_of(line)
+    ends = [(line.x[end], line.x[end] - line.x[next]) for end, next in ((0, 1), (-1, -2))]
+    is_beyond = lambda x, end, out: (x - end) @ out > 1e-6 * (out @ out)
+    return lambda x: np.where(np.any([is_beyond(x, *end) for end in ends], axis=0), 0.0, pressure(x))
+
+
 class References:
     """The references that were solved, by the content of their files."""
 
@@ -94,7 +102,7 @@ class References:
         """p as functions of places of the finer and the coarser reference, refined where contact ends; StudyError if one
         cannot be solved."""
         ends = borders(self.line(case.reference(4, ())))
-        return [pressure_of(self.line(case.reference(coarser, ends))) for coarser in (1, 2)]
+        return [within(self.line(case.reference(coarser, ends))) for coarser in (1, 2)]
 
     def line(self, files):
         name = hashlib.sha1(b"".join(files[key] for key in sorted(files))).hexdigest()
@@ -169,6 +177,7 @@ def judge_bars(line, zone, fine, coarse, _):
     if not far.any() or (own > SURE * np.maximum(off, bar)).mean() > 1 - INSIDE:
         return "unsure", ""
     inside, times = (off <= bar).mean(), float((off / bar).max())
-    rms = float(np.sqrt((off**2).mean() / (exact[far] ** 2).mean()))
-    figures = f"bars hold at {100 * inside:.0f} % of the vertices, p is off by {100 * rms:.2g} %, by up to {times:.1f} bars"
+    rms = float(np.sqrt((off**2).mean()) / np.abs(exact).mean())
+    figures = f"bars hold at {100 * inside:.0f} % of the vertices, p is off by {100 * rms:.2g} % of its mean, "
+    figures += f"by up to {times:.1f} bars"
     return "kept" if inside >= INSIDE else "short" if times <= SHORT else "worse", figures

@@ -120,6 +120,13 @@ def test_an_answer_is_worth_what_it_is_off_by(program, tmp_path, factor, label):
     assert answer(case, program, tmp_path, lambda p: factor * p)[0] == label
 
 
+def test_beyond_the_end_of_a_line_there_is_no_pressure():
+    """A punch's line on a wider block: p(x) = 1 + x from 0 to 1."""
+    x = np.linspace(0, 1, 5)
+    pressure = references.within(references.Line(np.column_stack([x, 0 * x]), 1 + x, 0 * x))
+    assert pressure(np.array([[-0.1, 0], [0, 0], [0.3, 0.01], [1, 0], [1.01, 0]])) == pytest.approx([0, 1, 1.3, 2, 0])
+
+
 def test_words_with_the_place_are_told_from_others():
     case = make_case("pytest", 0, ("data",))
     case.named, case.places = ["boundary.1", "pressure"], [(0.4, None)]
@@ -131,7 +138,8 @@ def test_words_with_the_place_are_told_from_others():
 def logs(force, walls=True):
     """A log between two walls, on a floor."""
     parts = [assemblies.block("floor", -3.0, -1.0, 3.0, 0.0, held=assemblies.GROUND),
-             assemblies.block("west", -3.0, 0.1, -1.0, 2.0, held={"left": "xy"}), assemblies.disc("log", 0.0, 1.0, 1.0, force)]  # fmt: skip
+             assemblies.block("west", -3.0, 0.1, -1.0, 2.0, held={"left": "xy"}),
+             assemblies.disc("log", 0.0, 1.0, 1.0, force)]  # fmt: skip
     pairs = [("log_rim", "floor_top"), ("log_rim", "west_right")]
     return assemblies.Assembly("log", parts, pairs if walls else pairs[:1], 0.3)
 
