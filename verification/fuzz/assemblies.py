@@ -134,18 +134,19 @@ def wedge(r, weight):
 
 
 def bricks(r, weight):
-    """A wall in bond, with play between the bricks of a row."""
+    """A wall in bond with half bricks at the ends of every other row, and play between the bricks of a row."""
     rows, count, play = r.randint(1, 4), r.randint(1, 4), r.choice((0.0, 1e-5, 1e-3, 5e-2))
-    wide, parts, pairs = 2 + play, [], []
+    wide = (2 + play) * count
+    parts, pairs, under = [block("floor", -1.0, -1.0, wide + 1, 0.0, held=GROUND)], [], [("floor_top", -1.0, wide + 1)]
     for k in range(rows):
-        for j in range(count):
-            x = wide * (j + (k % 2) / 2)
-            parts.append(block(f"b{k}{j}", x, float(k), x + 2, k + 1.0, (0.0, -weight)))
-            under = [f"b{k - 1}{i}_top" for i in ((j,) if not k % 2 else (j, j + 1)) if i < count]
-            under += [f"b{k - 1}{j - 1}_top"] if k and not k % 2 and j else []
-            pairs += [(f"b{k}{j}_bottom", top) for top in (under if k else ["floor_top"])]
-            pairs += [(f"b{k}{j - 1}_right", f"b{k}{j}_left")] if j else []
-    parts.append(block("floor", -1.0, -1.0, wide * (count + 0.5) + 1, 0.0, held=GROUND))
+        joints = [wide * j / count for j in range(count + 1)]
+        joints = [0.0, *(x + 1 + play / 2 for x in joints[:-1]), wide] if k % 2 else joints
+        row = [(f"b{k}{j}", x, y - play) for j, (x, y) in enumerate(zip(joints, joints[1:]))]
+        parts += [block(name, x, float(k), y, k + 1.0, (0.0, -weight)) for name, x, y in row]
+        pairs += [(f"{name}_bottom", top) for name, x, y in row for top, start, end in under
+                  if min(y, end) - max(x, start) > play]  # fmt: skip
+        pairs += [(f"{one}_right", f"{other}_left") for (one, *_), (other, *_) in zip(row, row[1:])]
+        under = [(f"{name}_top", x, y) for name, x, y in row]
     return Assembly("bricks", parts, pairs, r.uniform(0.25, 0.5))
 
 

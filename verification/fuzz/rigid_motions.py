@@ -56,6 +56,17 @@ def openings(assembly, pair):
     return middle[np.isfinite(gap)], normal[np.isfinite(gap)], gap[np.isfinite(gap)]
 
 
+def nearest(place, normal, gap, size):
+    """Of these openings those where the sides are nearest; where curves touch, one in their middle: to first order no other
+    is felt."""
+    near = gap <= gap.min(initial=np.inf) + 1e-2 * size
+    place, normal, gap = place[near], normal[near], gap[near]
+    turn = np.abs(normal - normal[:1]).max(initial=0.0)
+    if turn < 1e-9 or turn > 0.5:  # flat, or all along one another
+        return place, normal, gap
+    return place.mean(0)[None], (normal.mean(0) / np.linalg.norm(normal.mean(0)))[None], gap[:1]
+
+
 def drift(assembly, near_only):
     """The most work that the loads can do on rigid motions of at most 1, over the sum of the loads' sizes: 0 where contact
     carries them. Such a motion opens no contact further: all that face each other, or only the nearest places."""
@@ -65,11 +76,11 @@ def drift(assembly, near_only):
     closes, fixed, work, total = [], [], np.zeros(3 * len(column)), 0.0
     for pair in assembly.pairs:
         first, second = (column[end.split("_")[0]] for end in pair)
-        for place, normal, gap in zip(*(found := openings(assembly, pair))):
-            if not near_only or gap <= found[2].min() + 1e-2 * assembly.size:
-                row = np.zeros(len(work))
-                row[first : first + 3], row[second : second + 3] = at(place, normal), -at(place + gap * normal, normal)
-                closes.append(row)
+        found = openings(assembly, pair)
+        for place, normal, gap in zip(*(nearest(*found, assembly.size) if near_only else found)):
+            row = np.zeros(len(work))
+            row[first : first + 3], row[second : second + 3] = at(place, normal), -at(place + gap * normal, normal)
+            closes.append(row)
     for part in assembly.parts:
         for curve, axes in part.held.items():
             for place in segments(part, curve)[:: 6, 0]:
