@@ -7,6 +7,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -86,6 +87,17 @@ void set_points(vtkUnstructuredGrid* grid, const Points& points) {
   grid->SetPoints(vtk_points);
 }
 
+/// One byte in front of all other arrays. meshio (5.0 at least) finds an array by its place in the file and gives it a
+/// new one, a multiple of 4, as it goes: where the place of a later array is the new one of an earlier, it reads that
+/// in its stead. Ours are multiples of 4 bytes long, so behind this byte and its length of 8 no place is a multiple
+/// of 4.
+void add_byte_in_front(vtkUnstructuredGrid* grid) {
+  vtkNew<vtkUnsignedCharArray> byte;
+  byte->SetName("mortise");
+  byte->InsertNextValue(1);
+  grid->GetFieldData()->AddArray(byte);
+}
+
 void add_field(vtkDataSetAttributes* attributes, const VtuField& field) {
   const Eigen::Index columns = field.values.cols();
   const Eigen::Index written = columns == 2 ? 3 : columns;
@@ -132,6 +144,7 @@ void write(const std::filesystem::path& path, const VtuGrid& grid) {
   if (!std::ofstream(path, std::ios::binary)) throw InputError(path.string() + ": cannot be written");
 
   vtkNew<vtkUnstructuredGrid> vtk_grid;
+  add_byte_in_front(vtk_grid.Get());
   set_points(vtk_grid, grid.points);
   if (grid.edges.empty()) {
     set_cells(vtk_grid.Get(), grid.cells);

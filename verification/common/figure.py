@@ -1,5 +1,9 @@
 """Figures in one style: panels, labelled axes, a legend below, and small PNG files."""
 
+import logging
+import textwrap
+import warnings
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -9,6 +13,10 @@ from PIL import Image
 
 RED = "#c00000"  # what fails
 COLOURS = 64  # of a drawing in docs/
+LONGEST = 24  # letters of a name on a picture: two of them in a legend of four entries fill its width
+# A letter that the font lacks is drawn as a box, and needs no words.
+warnings.filterwarnings("ignore", message="Glyph .* missing")
+logging.getLogger("matplotlib.mathtext").setLevel(logging.ERROR)
 plt.rcParams.update({"axes.titlesize": 10, "legend.fontsize": 8, "lines.markersize": 4.5, "grid.alpha": 0.25})
 
 
@@ -33,6 +41,24 @@ def label(axes, x=None, y=None, title=None, log="", limit=None, legend=False, **
         axes.axhline(limit, color="0.4", linestyle="--", linewidth=0.9)
     if legend:
         axes.legend(**(legend if isinstance(legend, dict) else {}))
+
+
+def plain(text):
+    """A user's text as it is written: matplotlib would set what stands between dollars as a formula, and stops at one
+    that it cannot read. A letter that cannot be printed becomes a question mark."""
+    return "".join(c if c.isprintable() else "?" for c in text).replace("$", "\\$")
+
+
+def short(name):
+    """A user's name as it is written, of a long one its beginning and its end."""
+    half = (LONGEST - 3) // 2
+    return plain(name if len(name) <= LONGEST else f"{name[:half]}...{name[-half:]}")
+
+
+def wrapped(text, width=95, lines=3):
+    """A user's text in so many lines of so many letters at most."""
+    cut = textwrap.wrap(" ".join(text.split()), width, max_lines=lines, placeholder=" ...")
+    return "\n".join(plain(line) for line in cut)
 
 
 def scientific(axis):

@@ -5,6 +5,7 @@ import csv
 import json
 import math
 import os
+import re
 import resource
 import subprocess
 import tempfile
@@ -18,6 +19,7 @@ MORTISE = Path(os.environ.get("MORTISE", ROOT / "build/release/mortise")).absolu
 CHART = Path(os.environ.get("MORTISE_CHART", ROOT / "build/release/verification/chart/mortise_chart")).absolute()
 YOUNG = 210e9  # of the lower body, in the scenes' units
 SOLVED = (0, 2)  # exit status: 2 is a check that fails, or no convergence, with the results written
+NAMES = ("curve", "body")  # columns of names, in the tables of mortise
 TIME_LIMIT = 1800  # seconds for one call
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # environment of runs that are timed
 
@@ -119,10 +121,16 @@ def solve(scene, settings, folder):
     return json.loads((Path(folder) / "summary.json").read_text())
 
 
+def name_in_table(text):
+    """A name as it is: mortise puts an apostrophe before one that a spreadsheet would take for a formula."""
+    return text[1:] if re.match(r"'[=+\-@\t\r]", text) else text
+
+
 def read_csv(path):
-    """The rows of a CSV file: dictionaries of numbers and texts."""
+    """The rows of a CSV file: dictionaries of numbers and texts. A name is a text, whatever it looks like."""
+    of = lambda key, text: name_in_table(text) if key in NAMES else number_or_text(text)
     with open(path, newline="") as file:
-        return [{key: number_or_text(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return [{key: of(key, value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
 def columns(path):

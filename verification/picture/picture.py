@@ -12,7 +12,8 @@ displacements; by default the largest is drawn as about 4 % of the size of what 
 closes would be drawn over each other. --zoom shows the bodies where contact carries pressure, or in a box, without loads
 and reactions; --pair K takes the Kth contact pair alone, from 0. --field: von_mises; sigma_n, the normal stress across
 the direction of the nearest place of the contact line; error, where the energy of the estimated error lies. An arrow is the sum of a load, or the reaction of a curve of a
-support, at the middle of what it acts on; of a clamp its moment about that is told too.
+support, at the middle of what it acts on; of a clamp its moment about that is told too, and a rigid curve's force,
+reaction and their moments at the point that they are about.
 """
 
 import argparse
@@ -42,6 +43,7 @@ FIELDS = {
 }
 CONTACT = "contact"  # --zoom without a box
 OVERLAP = 0.002  # of the diagonal of what is shown: as wide as a line
+ROUND_OFF = 1e-9  # of a force: the program's checks of balance have 1e-10
 
 MANY_PAIRS = 6  # more are not drawn one by one
 COLOURS = ["#e8452c", "#4aa3e8"]  # multiplier side, opposite side
@@ -165,23 +167,41 @@ def refuse_older(results, model):
         raise SystemExit(f"picture.py: {results}: of an older mortise, without the places of forces; solve it again")
 
 
+def is_clamp(support):
+    """Whether both displacements are prescribed along the whole curve: it bears a moment."""
+    return {"x", "y"} <= support.get("displacement", {}).keys()
+
+
+def rigid_forces(support):
+    """As acting_forces, of rigid curves: one body, whose forces and moments are about one point."""
+    rigid, reaction = support["rigid"], np.array(support["reaction"])
+    about = np.array(rigid["about"])
+    yield LOAD, np.array(rigid["force"]), about, rigid["moment"]
+    yield REACTION, reaction, about, support["moment"] - (about[0] * reaction[1] - about[1] * reaction[0])
+
+
 def acting_forces(model):
-    """(colour, force, place, moment about it) of every load and of every curve of every support; the moment of a clamp
-    only, 0 of others."""
+    """(colour, force, place, moment about it) of every load and of every curve of every support; moments of clamps and
+    rigid curves only, 0 of others."""
     for load in model["loads"]:
         if "sum" in load:
             yield LOAD, np.array(load["sum"]), np.array(load["centre"]), 0
     for support in model["supports"]:
+        if "rigid" in support:
+            yield from rigid_forces(support)
+            continue
         for curve in support["curves"]:
-            moment = curve["moment_about_centre"] if len(support["displacement"]) == 2 else 0
+            moment = curve["moment_about_centre"] if is_clamp(support) else 0
             yield REACTION, np.array(curve["reaction"]), np.array(curve["centre"]), moment
 
 
-def draw_arrows(axes, points, model):
+def draw_arrows(axes, points, model, at_work):
     """Forces as arrows whose length goes with them, the shortest still to be seen: onto what they push, away from what
-    they pull."""
+    they pull. None where all are round-off of the forces `at_work` in contact."""
     forces = list(acting_forces(model))
     largest = max((np.linalg.norm(force) for _, force, _, _ in forces), default=0)
+    if largest <= ROUND_OFF * at_work:
+        return
     shown = [f for f in forces if np.linalg.norm(f[1]) > 1e-6 * largest > 0]
     size, middle = size_of(points), (points.min(axis=0) + points.max(axis=0)) / 2
     for colour, force, place, moment in shown:
@@ -210,6 +230,13 @@ def draw_contact_lines(axes, curve, table, scale, pairs):
         colours = [PAIR_COLOURS[int(table["pair"][line[0]])] for line in lines]
     axes.add_collection(LineCollection(polylines(at, lines), colors="white", linewidths=2.6))
     axes.add_collection(LineCollection(polylines(at, lines), colors=colours, linewidths=1.3))
+
+
+def sides_of(table, pair):
+    """Which rows of contact.csv are the multiplier side of a pair, which stands first there, and which its opposite."""
+    on = table["pair"] == pair
+    first = on & (table["curve"] == table["curve"][on][0])
+    return first, on & ~first
 
 
 def nearest(points, places):
@@ -252,10 +279,8 @@ def scale_without_overlap(table, size):
     undeformed one and, so many times, what the displacements add to it."""
     largest = math.inf
     for k in np.unique(table["pair"]):
-        on = table["pair"] == k
-        first = on & (table["curve"] == table["curve"][on][0])
+        first, other = sides_of(table, k)
         known = first & np.isfinite(table["gap"])
-        other = on & ~first
         if known.sum() < 2 or other.sum() < 2:
             continue
         along, across = (np.stack([table["x"][rows], table["y"][rows]], axis=1) for rows in (other, known))
@@ -275,19 +300,26 @@ def stress_range(stress, areas):
     return low, high
 
 
+def forces_at_work(pairs):
+    """The size of what contact carries, also where its sum vanishes, as round a shaft."""
+    return max((pair["pressure"]["max"] * pair["length_in_contact"] for pair in pairs), default=0)
+
+
 def draw_bodies(axes, results, summary, table, options):
     """The deformed bodies; returns the magnification and, in words, why it is no larger."""
     mesh = meshio.read(results / "result.vtu")
     curve = meshio.read(results / "contact.vtu") if summary["contact"] else None
     points, u = mesh.points[:, :2], mesh.point_data["displacement"][:, :2]
+    if not np.isfinite(u).all():
+        raise SystemExit("picture.py: the displacements are not finite (see the summary's warnings): nothing to draw")
     box = shown_box(mesh, table, options.zoom)
     seen = inside(points, box)
     seen = seen if seen.any() else np.full(len(points), True)
     scale, why = options.scale, ""
     if scale is None:
         wanted = scale = choose_scale(box, u[seen])
-        if summary["contact"]:
-            scale = min(scale, round_scale(scale_without_overlap(table, size_of(box))))
+        if summary["contact"] and scale_without_overlap(table, size_of(box)) < scale:
+            scale = round_scale(scale_without_overlap(table, size_of(box)))
         why = " (more would draw bodies over each other)" if scale < wanted else ""
     moved, values = points + scale * u, field_of(mesh, curve, options.field)
     low, high = stress_range(values[seen], areas_at_nodes(mesh)[seen])
@@ -303,7 +335,7 @@ def draw_bodies(axes, results, summary, table, options):
         axes.set_xlim(*(box[:, 0] + shift[0]))
         axes.set_ylim(*(box[:, 1] + shift[1]))
     else:
-        draw_arrows(axes, points, summary["model"])
+        draw_arrows(axes, points, summary["model"], forces_at_work(summary["contact"]))
         axes.autoscale_view()
         axes.margins(0.03)
     axes.set_aspect("equal")
@@ -357,13 +389,13 @@ def has_limit(summary, pair):
     return told is not None and all(at["pair"] != pair or at["pressure_exponent"] >= 1 for at in told["singular"])
 
 
-def draw_pair(axes, table, multiplier_side, between, bounded, label="$p$ (multipliers)", colour=PAIR_COLOURS[0]):
-    """p along the contact line with its bar as a band, and -sigma_n of both bodies, over the arc length of the multiplier
-    side. All of a bounded p is shown."""
-    opposite = between[0] if between[1] == multiplier_side else between[1]
+def draw_pair(axes, table, pair, bounded, label="$p$ (multipliers)", colour=PAIR_COLOURS[0]):
+    """p along the contact line of a pair with its bar as a band, and -sigma_n of both bodies, over the arc length of the
+    multiplier side. All of a bounded p is shown."""
     xy = np.stack([table["x"], table["y"]], axis=1)
-    on = table["curve"] == multiplier_side
-    other = (table["curve"] == opposite) & np.isfinite(table.get("gap", table["s"]))
+    on, other = sides_of(table, pair)
+    multiplier_side, opposite = (figure.short(table["curve"][rows][0]) for rows in (on, other))
+    other &= np.isfinite(table.get("gap", table["s"]))
     s, p = table["s"][on], table["p"][on]
     s_other = arc_length_on(xy[on], s, xy[other])
     mine, theirs = -table["sigma_n"][on], -table["sigma_n"][other]
@@ -404,14 +436,14 @@ def place_of_force(table, rows):
     return np.average(np.stack([table["x"][rows], table["y"][rows]], axis=1), axis=0, weights=weights)
 
 
-def draw_forces(axes, mesh, table, pairs, sides):
+def draw_forces(axes, mesh, table, pairs):
     """A stroke a contact pair, where its force acts and along it, as wide and dark as it is large."""
     axes.add_collection(LineCollection(polylines(mesh.points[:, :2], outlines(mesh)), colors="0.75", linewidths=0.6))
     forces = np.array([pair["force"] for pair in pairs])
     sizes = np.linalg.norm(forces, axis=1)
     largest = sizes.max()
     acting = np.flatnonzero(sizes > 1e-3 * largest) if largest > 0 else []
-    rows = {k: (table["pair"] == k) & (table["curve"] == sides[k]) for k in acting}
+    rows = {k: sides_of(table, k)[0] for k in acting}
     places = np.array([place_of_force(table, rows[k]) for k in acting]).reshape(-1, 2)
     reach = 0.35 * math.sqrt(np.median(body_areas(mesh)))
     along = reach * forces[acting] / sizes[acting, None] if len(acting) else places
@@ -434,11 +466,16 @@ def draw_forces(axes, mesh, table, pairs, sides):
     axes.set_title(f"forces between bodies:\n{len(acting)} of {len(pairs)} pairs carry some", fontsize=9)
 
 
+def is_given(gaps):
+    """Whether a pair's gap is a length or an expression, or has a clearance, rather than what is drawn."""
+    return any(gap not in ("curve", "measured", "closed") for gap in gaps)
+
+
 def draw(results, picture, options):
     """One picture of the results: `options` as of the command line."""
     summary = json.loads((results / "summary.json").read_text())
     refuse_older(results, summary["model"])
-    pairs, multiplier_sides = summary["contact"], summary["method"]["multipliers_on"]
+    pairs = summary["contact"]
     shown = list(range(len(pairs)))
     if options.pair is not None:
         if not 0 <= options.pair < len(pairs):
@@ -460,22 +497,24 @@ def draw(results, picture, options):
         heights = [above] + ([above] if many else [below] * len(shown))
         drawing, panels = figure.panels(len(heights), 1, (8, sum(heights) + 0.6), height_ratios=heights, squeeze=False)
     used, why = draw_bodies(panels[0, 0], results, summary, table if options.pair is None else of_shown, options)
-    panels[0, 0].set_title(f"displacements \u00d7 {used:g}{why},\nundeformed outline dashed", fontsize=9)
-    drawing.suptitle(summary["title"] or summary["scene"], fontsize=11)
-    if summary["status"] != "solved":
-        panels[0, 0].set_title(summary["status"].replace("_", " "), loc="right", color="#c00000", fontsize=10)
+    given = " (a gap that is given, not drawn, is not to be seen)" if is_given(summary["method"]["initial_gap"]) else ""
+    panels[0, 0].set_title(f"displacements \u00d7 {used:g}{why},\nundeformed outline dashed{given}", fontsize=9)
+    title = figure.wrapped(summary["title"] or summary["scene"])
+    if summary["status"] == "solved":
+        drawing.suptitle(title, fontsize=11)
+    else:
+        drawing.suptitle(f"{title}\n{summary['status'].replace('_', ' ')}", fontsize=11, color=figure.RED)
     if pairs:
         zigzags = any(block.type == "triangle" for block in mesh.cells)
         if zigzags:
             table = launch.columns(results / "contact_centres.csv")
         label = ("$p$ (means over edges)",) if zigzags else ()
         if many:
-            draw_forces(panels[1, 0], mesh, table, pairs, multiplier_sides)
+            draw_forces(panels[1, 0], mesh, table, pairs)
             shown = []
         for panel, k in zip(panels[1:, 0], shown):
-            of_pair = {name: column[table["pair"] == k] for name, column in table.items()}
             colour = PAIR_COLOURS[k] if len(pairs) <= MANY_PAIRS else PAIR_COLOURS[0]
-            draw_pair(panel, of_pair, multiplier_sides[k], pairs[k]["between"], has_limit(summary, k), *label, colour=colour)
+            draw_pair(panel, table, k, has_limit(summary, k), *label, colour=colour)
     figure.save(drawing, picture, options.dpi)
 
 

@@ -37,8 +37,8 @@ def draw_bodies(axes, setup, nodes):
         if len(setup["bodies"]) <= MANY_NAMES:
             middles = np.array([nodes[cell].mean(axis=0) for cell in body["cells"]])
             at = middles[np.linalg.norm(middles - middles.mean(axis=0), axis=1).argmin()]
-            name(axes, at, f"{body['name']}\n({body['material']})", "0.25", ha="center", va="center")
-    return [Line2D([], [], marker="s", linestyle="", markersize=8, color=FILLS[k % len(FILLS)], label=f"material {m}")
+            name(axes, at, f"{figure.short(body['name'])}\n({figure.short(body['material'])})", "0.25", ha="center", va="center")
+    return [Line2D([], [], marker="s", linestyle="", markersize=8, color=FILLS[k % len(FILLS)], label=f"material {figure.short(m)}")
             for k, m in enumerate(materials)]
 
 
@@ -134,7 +134,7 @@ def draw(setup, picture):
                 words = {"ha": "left" if n[0] > 0.5 else "right" if n[0] < -0.5 else "center",
                          "va": "bottom" if n[1] > 0.5 else "top" if n[1] < -0.5 else "center"}
                 words["rotation"] = 90 if abs(n[0]) > 0.9 else 0
-                name(axes, at, curve, colour, textcoords="offset points", xytext=tuple((14 if side > 0 else 6) * n), **words)
+                name(axes, at, figure.short(curve), colour, textcoords="offset points", xytext=tuple((14 if side > 0 else 6) * n), **words)
 
     for support in setup["supports"]:
         for curve in support["on"]:
@@ -142,7 +142,7 @@ def draw(setup, picture):
                 draw_support(axes, curves[curve], size)
             else:
                 axes.plot(*nodes[setup["points"].get(curve, [])].T, "^", color=REACTION, zorder=6)
-        tell(REACTION, f"{listed(support['on'])}: {support['words']}", support["on"])
+        tell(REACTION, f"support {listed(support['on'])}: {figure.plain(support['words'])}", support["on"])
     for load in setup["loads"]:
         force = np.array(load["sum"])
         force[np.abs(force) < 1e-9 * np.abs(force).max()] = 0
@@ -151,32 +151,33 @@ def draw(setup, picture):
                 draw_load(axes, curves[curve], load, size)
             else:
                 draw_arrows_at(axes, nodes[setup["points"].get(curve, [])], force, size)
-        tell(LOAD, f"{listed(load['on'])}: {load['words']}, in sum ({force[0]:.4g}, {force[1]:.4g})", load["on"])
+        tell(LOAD, f"load {listed(load['on'])}: {figure.plain(load['words'])}, in sum ({force[0]:.4g}, {force[1]:.4g})", load["on"])
     for k, pair in enumerate(setup["contact"]):
         colour = PAIR_COLOURS[k % len(PAIR_COLOURS)]
         for curve, style in zip(pair["between"], ["-", (0, (3, 2))]):
             draw_curve(axes, curves[curve], colour, 2.4, style)
         if len(setup["contact"]) <= MANY_PAIRS:
-            tell(colour, f"contact {pair['between'][0]} - {pair['between'][1]}: {pair['words']}", pair["between"], -1)
+            tell(colour, f"contact {listed(pair['between'], ' - ')}: {figure.plain(pair['words'])}", pair["between"], -1)
     if len(setup["contact"]) > MANY_PAIRS:
         tell(PAIR_COLOURS[0], f"{len(setup['contact'])} contact pairs", [])
     for tie in setup["ties"]:
         for curve in tie:
             draw_curve(axes, curves[curve], "0.45", 2.0)
-        tell("0.45", f"tied: {tie[0]} - {tie[1]}", tie, -1)
+        tell("0.45", f"tied: {listed(tie, ' - ')}", tie, -1)
     legend += [Line2D([], [], linestyle="", label=f"besides: {what}") for what in setup["rest"]]
     axes.autoscale_view()
     axes.margins(0.1)
     axes.set(aspect="equal", xlabel="$x_1$", ylabel="$x_2$")
-    drawing.suptitle(f"{setup['title'] or 'set-up'} (before it is solved)", fontsize=11)
+    drawing.suptitle(figure.wrapped(f"{setup['title'] or 'set-up'} (before it is solved)"), fontsize=11)
     below = {"loc": "upper left", "bbox_to_anchor": (0, -0.5 / height), "borderaxespad": 0}
     axes.legend(handles=legend[:20], frameon=False, fontsize=7.5, **below)
     figure.save(drawing, picture, 130)
 
 
-def listed(names):
+def listed(names, between=", "):
     """The names, of many the first ones."""
-    return ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+    shown = between.join(figure.short(name) for name in names[:4])
+    return shown + (f" and {len(names) - 4} more" if len(names) > 4 else "")
 
 
 def main():

@@ -1,16 +1,24 @@
 """The picture of a run, and that other programs can read what it is made from."""
 
+import argparse
 import json
+import re
 import subprocess
 import sys
 from functools import cache
+from pathlib import Path
 
 import meshio
 import numpy as np
 import pytest
 
 import launch
+import odd_scenes
 import picture
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "pages"))
+
+import markdown
 
 
 @pytest.fixture(scope="module")
@@ -19,7 +27,7 @@ def solve(mortise, tmp_path_factory):
 
     @cache
     def run(scene):
-        folder = tmp_path_factory.mktemp(scene) / "results"
+        folder = tmp_path_factory.mktemp(getattr(scene, "stem", scene)) / "results"
         launch.solve(scene, {}, folder)
         return folder
 
@@ -197,6 +205,113 @@ def test_shape_functions_and_subdivision(kind, n):
     assert len(triangles) == (n * n if corners == 3 else 2 * n * n)
     area = lambda t: np.linalg.det(np.stack([[x[j] - x[t[0]], y[j] - y[t[0]]] for j in t[1:]])) / 2
     assert sum(area(t) for t in triangles) == pytest.approx(0.5 if corners == 3 else 4)
+
+
+OPTIONS = {"zoom": None, "field": "von_mises", "pair": None, "scale": None, "dpi": 40}
+
+
+def draw(results, drawn):
+    """As `mortise picture` does, in this process."""
+    picture.draw(results, drawn, argparse.Namespace(**OPTIONS))
+    assert png_size(drawn)[0] == 8 * 40
+
+
+RECIPES = markdown.files((launch.ROOT / "docs/recipes.md").read_text())
+RECIPE_SCENES = sorted(name for name in RECIPES if name.endswith(".toml"))
+SCENES = sorted([*(launch.ROOT / "geo").glob("*.toml"), *(launch.ROOT / "tests/parts").glob("*.toml")])
+
+
+@pytest.mark.parametrize("name", RECIPE_SCENES)
+def test_every_recipe_is_drawn(mortise, name, tmp_path):
+    for file, text in RECIPES.items():
+        (tmp_path / file).write_text(text)
+    launch.solve(tmp_path / name, {}, tmp_path / "out")
+    draw(tmp_path / "out", tmp_path / "a.png")
+
+
+@pytest.mark.parametrize("scene", SCENES, ids=lambda path: path.stem)
+def test_every_scene_is_drawn(solve, scene, tmp_path):
+    draw(solve(scene), tmp_path / "a.png")
+
+
+ODD = [
+    *({"support": name} for name in odd_scenes.SUPPORTS),
+    *({"load": name} for name in odd_scenes.LOADS),
+    *({"gap": gap} for gap in odd_scenes.GAPS),
+    *({"plane": "axisymmetric", "gap": gap} for gap in odd_scenes.GAPS[:3]),
+    *({"plane": plane, "support": "foundation"} for plane in odd_scenes.PLANES),
+    *({"foot": name, "track": f"t{name}", "low": f"l{name}", "up": name} for name in odd_scenes.NAMES),
+    *({"title": title} for title in odd_scenes.TITLES),
+]
+
+
+def write_odd(folder, case):
+    """The scene of a case of ODD."""
+    names = {key: case[key] for key in case.keys() & {"foot", "track", "low", "up"}}
+    (folder / "blocks.geo").write_text(odd_scenes.geometry(**names))
+    (folder / "blocks.toml").write_text(odd_scenes.scene(**case))
+    return folder / "blocks.toml"
+
+
+@pytest.mark.parametrize("case", ODD, ids=range(len(ODD)))
+def test_supports_loads_gaps_names_and_titles_of_all_kinds(mortise, case, tmp_path):
+    launch.solve(write_odd(tmp_path, case), {}, tmp_path / "out")
+    draw(tmp_path / "out", tmp_path / "a.png")
+
+
+@pytest.mark.parametrize("case", ODD[::6], ids=range(len(ODD[::6])))
+def test_set_ups_of_all_kinds(mortise, case, tmp_path):
+    drawn = tmp_path / "a.png"
+    run = subprocess.run([mortise, "check", write_odd(tmp_path, case), "--picture", drawn], capture_output=True, text=True, check=False)
+    assert run.returncode == 0 and png_size(drawn)[0] == 8 * 130, run.stderr
+
+
+def test_both_sides_are_found_whatever_their_names(mortise, tmp_path):
+    """contact.csv has an apostrophe before a name that a spreadsheet would take for a formula."""
+    launch.solve(write_odd(tmp_path, {"foot": "=a", "track": "12"}), {}, tmp_path / "out")
+    table = launch.columns(tmp_path / "out/contact.csv")
+    first, other = picture.sides_of(table, 0)
+    assert set(table["curve"]) == {"=a", "12"} and first.sum() > 1 and other.sum() > 1
+    assert not (first & other).any() and (first | other).all()
+
+
+def test_a_rigid_curve_s_forces_are_in_balance():
+    """Held along x, pushed along y and turned: its own force and moment, and the reaction about the same point."""
+    rigid = {"x": 0, "force": [0, -3], "moment": 0.5, "about": [2, 1], "displacement": [0, -1], "turned": 0.1}
+    support = {"rigid": rigid, "reaction": [4, 0], "moment": -4.0, "curves": [{"reaction": [4, 0], "centre": [2, 0]}]}
+    load, reaction = picture.acting_forces({"loads": [], "supports": [support]})
+    assert load[0] == picture.LOAD and list(load[1]) == [0, -3] and list(load[2]) == [2, 1] and load[3] == 0.5
+    assert reaction[0] == picture.REACTION and list(reaction[1]) == [4, 0] and reaction[3] == 0  # 4 at an arm of 1 about 0
+
+
+def test_reactions_that_are_round_off_are_not_drawn():
+    drawing, axes = picture.figure.panels(1, 1, (4, 3))
+    model = {"loads": [], "supports": [{"curves": [{"reaction": [1e-11, 0], "centre": [0, 0]}]}]}
+    points = np.array([[0.0, 0], [1, 1]])
+    picture.draw_arrows(axes, points, model, at_work=1.0)
+    assert not axes.texts
+    picture.draw_arrows(axes, points, model, at_work=0.0)
+    assert axes.texts
+
+
+def test_users_texts_are_drawn_as_they_are_written():
+    assert picture.figure.plain("5 $ or $x$") == "5 \\$ or \\$x\\$"
+    assert picture.figure.plain("a\x07b\u202e") == "a?b?"
+    assert len(picture.figure.short("long" * 40)) <= picture.figure.LONGEST
+    assert picture.figure.wrapped("word " * 200).count("\n") == 2
+
+
+def test_meshio_finds_the_arrays_of_the_smallest_meshes(mortise, tmp_path):
+    """It renumbers their places by multiples of 4 as it reads: where ours were such, it took one array for another."""
+    for n in range(1, 9):
+        results = tmp_path / str(n)
+        launch.solve("patch_flat", launch.sizes((n, n + 1)) | {"mesh.parameters.order": 1}, results)
+        for name in ("result.vtu", "contact.vtu"):
+            header = (results / name).read_bytes().split(b"<AppendedData")[0].decode()
+            places = [int(place) for place in re.findall(r'offset="(\d+)"', header)]
+            assert places[0] == 0 and all(place % 4 for place in places[1:])
+            mesh = meshio.read(results / name)
+            assert max(block.data.max() for block in mesh.cells) == len(mesh.points) - 1
 
 
 def test_a_folder_without_results_is_refused(tmp_path):
