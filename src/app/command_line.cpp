@@ -195,13 +195,21 @@ int sweep(const Options& options) {
   return exit_code(worst);
 }
 
+// An option that is given says something: an empty variable of a shell script is no default.
+CLI::Validator filled(const std::string& expected) {
+  return {[expected](const std::string& text) {
+            return text.empty() ? "expected " + expected + ", found an empty text" : std::string();
+          },
+          ""};
+}
+
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, Options& options,
                       const std::string& output) {
   CLI::App* command = app.add_subcommand(name, what);
   command->add_option("scene", options.scene, "scene file (.toml)")->required();
   command->add_option("--set", options.set, "KEY=VALUE: override a value of the scene, e.g. mesh.parameters.n_upper=40")
       ->allow_extra_args(false);
-  if (!output.empty()) command->add_option("-o,--output", options.output, output);
+  if (!output.empty()) command->add_option("-o,--output", options.output, output)->check(filled("a path"));
   command->add_flag("--quiet", options.quiet, "print errors only");
   command->add_flag("--no-programs", options.no_programs,
                     "refuse a .geo that runs programs or writes files: it is a program itself");
@@ -226,15 +234,18 @@ int parse_and_run(int argc, const char* const* argv) {
   };
   add_diagnose(solve_command);
   const auto add_accuracy = [&](CLI::App* command) {
-    return command->add_option("--accuracy", options.accuracy,
-                               "find a mesh on which the contact pressure is right to this part, such as 1%");
+    return command
+        ->add_option("--accuracy", options.accuracy,
+                     "find a mesh on which the contact pressure is right to this part, such as 1%")
+        ->check(filled("a part such as 1% or 0.01"));
   };
   CLI::Option* accuracy = add_accuracy(solve_command);
   solve_command->add_flag("--no-estimate", options.no_estimate, "do not estimate the discretisation error")
       ->excludes(accuracy);
   CLI::App* check_command =
       add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
-  check_command->add_option("--picture", options.picture, "FILE.png: draw bodies, supports, loads and contact pairs");
+  check_command->add_option("--picture", options.picture, "FILE.png: draw bodies, supports, loads and contact pairs")
+      ->check(filled("a .png, .pdf or .svg to write"));
   CLI::App* mesh_command =
       add_command(app, "mesh", "write the mesh of a scene", options, ".msh to write (default: out/SCENE.msh)");
   add_accuracy(mesh_command);
@@ -248,6 +259,7 @@ int parse_and_run(int argc, const char* const* argv) {
       ->check(CLI::Range(1, 1024));
   CLI::Option* const part = sweep_command->add_option(
       "--part", options.part, "K/N: run the Kth of N parts and write FILE.K_of_N.csv, as one of a batch system's jobs");
+  part->check(filled("K/N"));
   sweep_command->add_option("--join", options.join, "N: put the tables of N parts together")
       ->check(CLI::Range(1, 10000))
       ->excludes(part);

@@ -3,29 +3,37 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
-#include "base/patterns.hpp"
 #include "fem/elements.hpp"
 #include "mesh/side_table.hpp"
+#include "problem/body_entries.hpp"
 #include "problem/boundary_conditions.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
 namespace {
 
-// Of each body; nullptr: none. A name of its own counts before a pattern.
+// Of each body; nullptr: none.
 std::vector<const Material*> materials_of(const Scene& scene, const Mesh& mesh, const SceneNames& names) {
-  std::vector<const BodySpec*> given(mesh.bodies.size(), nullptr);
-  for (const BodySpec& spec : scene.bodies)
-    for (const int b : names.bodies("bodies." + spec.name, spec.name)) {
-      const BodySpec* other = given[b];
-      if (other && is_pattern(other->name) && is_pattern(spec.name) && other->material != spec.material)
-        throw SceneError("bodies: body '" + mesh.bodies[b] + "' is a '" + other->name + "' of '" + other->material +
-                         "' and a '" + spec.name + "' of '" + spec.material + "'; expected one material");
-      if (!other || is_pattern(other->name)) given[b] = &spec;
-    }
+  std::vector<BodyEntry> entries;
+  for (const BodySpec& spec : scene.bodies) entries.push_back({"bodies." + spec.name, spec.name});
+  const auto twice = [&](const std::string& body, std::size_t i, std::size_t j) {
+    const BodySpec &first = scene.bodies[i], &second = scene.bodies[j];
+    if (first.material == second.material) return;
+    throw SceneError("bodies: body '" + body + "' is a '" + first.name + "' of '" + first.material + "' and a '" +
+                     second.name + "' of '" + second.material + "'; expected one material");
+  };
   std::vector<const Material*> materials;
-  for (const BodySpec* spec : given) materials.push_back(spec ? &scene.materials.at(spec->material) : nullptr);
+  for (const int i : entries_of_bodies(mesh, names, entries, twice))
+    materials.push_back(i >= 0 ? &scene.materials.at(scene.bodies[i].material) : nullptr);
   return materials;
+}
+
+// Of each body the entry of [[body_force]] or [[initial_strain]] that acts on it; -1: none.
+template <typename Spec>
+std::vector<int> loads_of(const std::vector<Spec>& specs, const Mesh& mesh, const SceneNames& names) {
+  std::vector<BodyEntry> entries;
+  for (const Spec& spec : specs) entries.push_back({spec.key, spec.body});
+  return entries_of_bodies(mesh, names, entries);
 }
 
 ElasticLaw law_of(const Material& m, const Model& model, StrainField strain) {
@@ -52,15 +60,12 @@ StrainField strain_of(const InitialStrainSpec& spec, double expansion) {
 std::vector<StrainField> strains_of(const Scene& scene, const Mesh& mesh, const SceneNames& names,
                                     const std::vector<const Material*>& materials) {
   std::vector<StrainField> strains(mesh.bodies.size());
-  for (const InitialStrainSpec& spec : scene.initial_strains)
-    for (const int b : names.bodies(spec.key, spec.body)) {
-      if (is_zero(spec) || !materials[b]) continue;
-      const StrainField strain = strain_of(spec, materials[b]->thermal_expansion), before = strains[b];
-      if (before)
-        strains[b] = [=](const Vec2& x) -> Vec4 { return before(x) + strain(x); };
-      else
-        strains[b] = strain;
-    }
+  const std::vector<int> entries = loads_of(scene.initial_strains, mesh, names);
+  for (std::size_t b = 0; b < entries.size(); ++b) {
+    if (entries[b] < 0 || !materials[b]) continue;
+    const InitialStrainSpec& spec = scene.initial_strains[entries[b]];
+    if (!is_zero(spec)) strains[b] = strain_of(spec, materials[b]->thermal_expansion);
+  }
   return strains;
 }
 
@@ -91,10 +96,12 @@ Discretisation discretise(const Scene& scene, const Mesh& mesh) {
   d.initial_load = VecX::Zero(2 * mesh.nodes.rows());
   d.initial_energy = add_initial_strain(mesh, d.laws, d.initial_load);
   d.system.f = d.initial_load;
-  for (const BodyForceSpec& spec : scene.body_forces) {
+  const std::vector<int> body_forces = loads_of(scene.body_forces, mesh, names);
+  for (std::size_t i = 0; i < scene.body_forces.size(); ++i) {
     std::vector<BodyForce> forces(mesh.bodies.size());
-    for (const int body : names.bodies(spec.key, spec.body))
-      forces[body] = [&](const Vec2& x) { return spec.force(x); };
+    for (std::size_t b = 0; b < forces.size(); ++b)
+      if (body_forces[b] == int(i))
+        forces[b] = [&force = scene.body_forces[i].force](const Vec2& x) { return force(x); };
     d.body_sums.push_back(add_body_forces(mesh, d.model, forces, d.system.f));
   }
   if (scene.gravity) {

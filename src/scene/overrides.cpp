@@ -47,7 +47,7 @@ Node& item_at(Node& list, const std::string& part, const Setting& setting) {
 
 /// The sections that are lists of entries: an override changes entries, it cannot add one by its index.
 bool is_list_of_entries(const std::string& path) {
-  static const std::set<std::string> sections{"boundary", "body_force", "initial_strain", "contact", "copies"};
+  static const std::set<std::string> sections{"boundary", "body_force", "initial_strain", "contact", "copies", "probe"};
   return sections.contains(path);
 }
 

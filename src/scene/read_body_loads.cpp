@@ -1,7 +1,9 @@
 // [[body_force]] and [[initial_strain]]
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "base/patterns.hpp"
 #include "scene/fail.hpp"
 #include "scene/fields.hpp"
 #include "scene/sections.hpp"
@@ -9,38 +11,58 @@
 namespace mortise::scene_file {
 namespace {
 
-const BodySpec& read_body_name(const Node& entry, const Node& root, const Scene& scene) {
-  const Node& body = require(entry, "body", "the name of a body");
+/// The name, or the pattern, of what an entry acts on.
+const std::string& read_body_name(const Node& entry) { return name(require(entry, "body", "the name of a body")); }
+
+/// The entries of [bodies] that may hold a body that an entry of a section names: its own alone, if there is one; of a
+/// pattern none that has an entry of its own there. Throws if there can be none.
+std::vector<const BodySpec*> bodies_named(const Node& entry, const std::vector<const Node*>& section, const Node& root,
+                                          const Scene& scene) {
+  const std::string& body = read_body_name(entry);
+  const auto has_its_own = [&](const BodySpec& spec) {
+    return is_pattern(body) && std::ranges::any_of(section, [&](const Node* other) {
+             const Node* named = find(*other, "body");
+             return named != nullptr && named->text == spec.name && spec.name != body;
+           });
+  };
+  std::vector<const BodySpec*> found;
   std::vector<std::string> known;
   for (const BodySpec& spec : scene.bodies) {
-    if (spec.name == name(body)) return spec;
+    if (spec.name == body && !is_pattern(body)) return {&spec};
+    if (share_a_name(spec.name, body) && !has_its_own(spec)) found.push_back(&spec);
     known.push_back(spec.name);
   }
-  fail(blame(*find(root, "bodies"), body).place, body.path, unknown_name("body", body.text, known));
+  const Node& node = *find(entry, "body");
+  if (found.empty()) fail(blame(*find(root, "bodies"), node).place, node.path, unknown_name("body", body, known));
+  return found;
 }
 
-/// The strain alpha dT must be small, and alpha known. `entry` names the body.
-Field read_temperature(const Node& entry, const BodySpec& body, const Node& root, const Scene& scene) {
+/// The strain alpha dT must be small, and alpha known, in each body that the entry may name.
+Field read_temperature(const Node& entry, const std::vector<const BodySpec*>& bodies, const Node& root,
+                       const Scene& scene) {
   const Node& change = *find(entry, "temperature_change");
-  // An override may have brought together a body and a material that do not go with the change.
-  const Node& pairing = blame(*find(*find(root, "bodies"), body.name), *find(entry, "body"));
-  const Node& material = *find(*find(root, "materials"), body.material);
-  const Node* expansion = find(material, "thermal_expansion");
-  if (expansion == nullptr) {
-    fail(blame(pairing, change).place, change.path,
-         "body '" + body.name + "' has the material '" + body.material + "' without thermal_expansion (" +
-             locate(material) + "); expected one");
-  }
-  const std::string factor = " times the thermal_expansion " + describe(*expansion) + " (" + locate(*expansion) +
-                             "); probably a unit mismatch";
-  const double largest = 1 / std::abs(scene.materials.at(body.material).thermal_expansion);  // 1 / 0: any
   FieldUse use = expression_use(scene, false);
-  use.limit = "a thermal strain below 1, which is this" + factor;
-  if (std::isfinite(largest)) use.largest = largest;
-  const Field field = scene_file::field(change, use);
-  if (!field.is_constant() || std::abs(field.constant()) < largest) return field;
-  fail(blame(pairing, blame(*expansion, change)).place, change.path,
-       "expected a thermal strain below 1, found " + describe(change) + factor);
+  for (const BodySpec* body : bodies) {
+    // An override may have brought together a body and a material that do not go with the change.
+    const Node& pairing = blame(*find(*find(root, "bodies"), body->name), *find(entry, "body"));
+    const Node& material = *find(*find(root, "materials"), body->material);
+    const Node* expansion = find(material, "thermal_expansion");
+    if (expansion == nullptr) {
+      fail(blame(pairing, change).place, change.path,
+           "body '" + body->name + "' has the material '" + body->material + "' without thermal_expansion (" +
+               locate(material) + "); expected one");
+    }
+    const double largest = 1 / std::abs(scene.materials.at(body->material).thermal_expansion);  // 1 / 0: any
+    const std::string factor = " times the thermal_expansion " + describe(*expansion) + " (" + locate(*expansion) +
+                               "); probably a unit mismatch";
+    if (change.kind == Node::Kind::number && std::isfinite(change.number) && std::abs(change.number) >= largest)
+      fail(blame(pairing, blame(*expansion, change)).place, change.path,
+           "expected a thermal strain below 1, found " + describe(change) + factor);
+    if (largest >= use.largest) continue;
+    use.largest = largest;
+    use.limit = "a thermal strain below 1, which is this" + factor;
+  }
+  return field(change, use);
 }
 
 std::array<Field, 4> read_strain(const Node& node, const Scene& scene) {
@@ -65,9 +87,11 @@ std::array<Field, 4> read_strain(const Node& node, const Scene& scene) {
 
 void read_body_forces(const Node& root, Scene& scene) {
   Once once;
-  for (const Node* entry : entries(root, "body_force")) {
+  const std::vector<const Node*> section = entries(root, "body_force");
+  for (const Node* entry : section) {
     expect_keys(*entry, {"body", "force"});
-    const std::string& body = read_body_name(*entry, root, scene).name;
+    const std::string& body = read_body_name(*entry);
+    bodies_named(*entry, section, root, scene);
     once.take("body '" + body + "' is given a body force", *find(*entry, "body"), *entry);
     const Node& force = require(*entry, "force", "a force per volume [fx, fy]");
     scene.body_forces.push_back({locate(*entry), body, field_pair(force, expression_use(scene, false))});
@@ -76,16 +100,18 @@ void read_body_forces(const Node& root, Scene& scene) {
 
 void read_initial_strains(const Node& root, Scene& scene) {
   Once once;
-  for (const Node* entry : entries(root, "initial_strain")) {
+  const std::vector<const Node*> section = entries(root, "initial_strain");
+  for (const Node* entry : section) {
     expect_keys(*entry, {"body", "temperature_change", "strain"});
-    const BodySpec& body = read_body_name(*entry, root, scene);
-    once.take("body '" + body.name + "' is given an initial strain", *find(*entry, "body"), *entry);
-    InitialStrainSpec spec{locate(*entry), body.name, {}, {}};
+    const std::string& body = read_body_name(*entry);
+    const std::vector<const BodySpec*> bodies = bodies_named(*entry, section, root, scene);
+    once.take("body '" + body + "' is given an initial strain", *find(*entry, "body"), *entry);
+    InitialStrainSpec spec{locate(*entry), body, {}, {}};
     const Node& what = exactly_one(*entry, {"temperature_change", "strain"});
     if (what.name == "strain") {
       spec.strain = read_strain(what, scene);
     } else {
-      spec.temperature_change = read_temperature(*entry, body, root, scene);
+      spec.temperature_change = read_temperature(*entry, bodies, root, scene);
     }
     scene.initial_strains.push_back(spec);
   }

@@ -165,6 +165,41 @@ TEST_F(CopiedWall, IsRefusedWithTheScenesPath) {
   test::expect_contains(refusal, "a mesh is found for drawn bodies, not for copies (copies.0 (line 3))");
 }
 
+// Entries for all bodies are those of each: a name of its own counts before a pattern.
+TEST_F(CopiedWall, TakesBodyForcesAndStrainsByPatterns) {
+  const auto solved = [&](const std::string& forces, const std::string& strains) {
+    return solve_scene(read_scene(folder_.path("drawn.toml"), {{"body_force", forces}, {"initial_strain", strains}}));
+  };
+  std::string forces, strains;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const std::string body = "body='b_" + std::to_string(i) + "_" + std::to_string(j) + "', ";
+      const bool own = i == 1 && j == 1;
+      forces += "{" + body + "force=[0, " + (own ? "-9e5" : "'-2e5*(1+x)'") + "]},";
+      strains += "{" + body + "strain={xx=" + (own ? "3e-6" : "1e-6") + "}},";
+    }
+  const Results each = solved("[" + forces + "]", "[" + strains + "]");
+  for (const std::string all : {"*", "b_*", "b_*_*"}) {
+    const Results patterns = solved("[{body='b_1_1', force=[0, -9e5]}, {body='" + all + "', force=[0, '-2e5*(1+x)']}]",
+                                    "[{body='" + all + "', strain={xx=1e-6}}, {body='b_1_1', strain={xx=3e-6}}]");
+    EXPECT_NEAR(patterns.energy, each.energy, 1e-10 * each.energy) << all;
+    expect_same_pressures(patterns, each, 1e-9);
+  }
+  EXPECT_GT(std::abs(each.energy - solve_scene(drawn_).energy), 0.01 * each.energy);
+}
+
+TEST_F(CopiedWall, RefusesABodyThatTwoPatternsLoad) {
+  const auto refusal = [&](const std::string& key, const std::string& entries) {
+    return test::message_of([&] { check_scene(read_scene(folder_.path("copied.toml"), {{key, entries}})); });
+  };
+  const std::string twice = refusal("body_force", "[{body='b_0_*', force=[0, 1]}, {body='*_0', force=[0, 2]}]");
+  test::expect_contains(twice, "body_force.1");
+  test::expect_contains(twice, "body 'b_0_0' is a '*_0', and a 'b_0_*' of body_force.0");
+  test::expect_contains(refusal("body_force", "[{body='stone_*', force=[0, 1]}]"), "unknown body 'stone_*'");
+  test::expect_contains(refusal("initial_strain", "[{body='b_9_*', strain={xx=1e-6}}]"), "unknown body 'b_9_*'");
+  test::expect_contains(refusal("initial_strain", "[{body='*', temperature_change=1}]"), "without thermal_expansion");
+}
+
 // Two blocks on one another, turned as a whole: nothing that the pressure could tell.
 TEST(TurnedCopies, HaveTheSamePressures) {
   const TemporaryFolder folder;

@@ -15,5 +15,26 @@ TEST(Patterns, MatchWithAnyLettersForEachStar) {
   EXPECT_TRUE(is_pattern("a*") && !is_pattern("a"));
 }
 
+TEST(Patterns, ShareANameWhereSomeNameMatchesBoth) {
+  for (const auto& [first, second] : {std::pair{"a", "a"},
+                                      {"a*", "abc"},
+                                      {"a*", "*c"},
+                                      {"*", "*"},
+                                      {"*b*", "a*c"},
+                                      {"brick_*", "*_3"},
+                                      {"*a", "a*"},
+                                      {"", "*"},
+                                      {"a**b", "ab"}})
+    EXPECT_TRUE(share_a_name(first, second) && share_a_name(second, first)) << first << " " << second;
+  for (const auto& [first, second] : {std::pair{"a", "b"},
+                                      {"a*", "b*"},
+                                      {"*a", "*b"},
+                                      {"a*b", "a"},
+                                      {"a*c", "abd"},
+                                      {"", "a"},
+                                      {"brick_*", "stone_3"}})
+    EXPECT_FALSE(share_a_name(first, second) || share_a_name(second, first)) << first << " " << second;
+}
+
 }  // namespace
 }  // namespace mortise
