@@ -92,7 +92,8 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
     throw InputError(
         mesh.source + ": contact between '" + mesh.boundaries[multiplier.boundary].name + "' and '" +
         mesh.boundaries[opposite.boundary].name +
-        "': the curves do not face each other anywhere, or overlap by more than half of a body's thickness");
+        "': the curves do not face each other anywhere, or overlap by more than half of a body's thickness" +
+        (multiplier.body == opposite.body ? "; both are curves of body '" + mesh.bodies[multiplier.body] + "'" : ""));
   Coupling coupling;
   number_multipliers(multiplier, options.multipliers, coupling);
   const Accumulated sums = accumulate(multiplier, opposite, points, options, coupling);

@@ -24,8 +24,8 @@ std::string reason(State state) {
     case State::weightless:
     case State::hardly_facing:
       return "whose edges hardly face the other side: pressure of the nearest free node";
-    case State::unsupported:
-      return "facing nothing: pressure zero";
+    case State::unsupported:  // beyond the end of the other side, which is as it should be
+      break;
   }
   return "";
 }

@@ -71,15 +71,15 @@ std::string range(const std::vector<Vec2>& places) {
   return text.str();
 }
 
-// One line for each reason.
+// One line for each reason; those that face nothing have none.
 void warn_of_dropped(const ContactPair& pair, const Results& r, Lines& lines) {
   std::map<std::string, std::vector<Vec2>> places;
   for (const DroppedMultiplier& d : pair.coupling.dropped)
-    if (d.faces || !pair.spec.found) places[d.reason].push_back(r.mesh.nodes.row(d.node).transpose());
+    if (!d.reason.empty() && (d.faces || !pair.spec.found))
+      places[d.reason].push_back(r.mesh.nodes.row(d.node).transpose());
   for (const auto& [reason, at] : places)
-    lines.push_back(pair.spec.key + ": " + std::to_string(at.size()) +
-                    (at.size() == 1 ? " multiplier of '" : " multipliers of '") + pair.spec.multipliers_on + "' (" +
-                    range(at) + ") " + reason);
+    lines.push_back(pair.spec.key + ": " + std::to_string(at.size()) + (at.size() == 1 ? " node of '" : " nodes of '") +
+                    pair.spec.multipliers_on + "' (" + range(at) + ") " + reason);
 }
 
 void warn_of_gap(const ContactPair& pair, const Results& r, double displacement, Lines& lines) {
@@ -138,24 +138,37 @@ void warn_of_far_origin(const ContactPair& pair, const Results& r, Lines& lines)
   lines.push_back(text.str());
 }
 
-// Poisson's ratio from which elements lock in plane strain and in rings: docs/stability.md, near incompressibility.
+// What Poisson's ratio does to a body's elements, and what would not: docs/stability.md, near incompressibility.
+std::string locking(bool linear, bool quadrilaterals) {
+  if (linear)
+    return "its linear elements lock, displacements are too small; expected quadratic elements, or poisson < 0.4";
+  const std::string swings = "stresses inside swing from element to element";
+  if (quadrilaterals) return swings + "; expected 6-node triangles and a finer mesh, or poisson < 0.49";
+  return swings +
+         ", which displacements and contact pressures of 6-node triangles do not; expected a finer mesh where "
+         "stresses inside are read";
+}
+
+// Poisson's ratio from which elements lock in plane strain and in rings.
 void warn_of_locking(const Scene& scene, const Results& r, Lines& lines) {
   if (scene.model.plane == Plane::stress) return;
   const SceneNames names(r.mesh);
-  std::vector<char> has_linear(r.mesh.bodies.size(), 0);
-  for (const Cell& cell : r.mesh.cells)
+  std::vector<char> has_linear(r.mesh.bodies.size(), 0), has_quadrilaterals = has_linear;
+  for (const Cell& cell : r.mesh.cells) {
     if (!is_quadratic(cell.kind)) has_linear[cell.body] = 1;
+    if (corner_count(cell.kind) == 4) has_quadrilaterals[cell.body] = 1;
+  }
   for (const BodySpec& body : scene.bodies) {
     const double poisson = scene.materials.at(body.material).poisson;
     const std::vector<int> bodies = names.bodies("bodies." + body.name, body.name);
-    const bool linear = std::ranges::any_of(bodies, [&](int b) { return has_linear[b] != 0; });
+    const auto any = [&](const std::vector<char>& has) {
+      return std::ranges::any_of(bodies, [&](int b) { return has[b] != 0; });
+    };
+    const bool linear = any(has_linear);
     if (poisson < (linear ? 0.4 : 0.49)) continue;
     std::ostringstream text;
-    text << "body '" << body.name << "' is nearly incompressible (poisson = " << poisson << "): its "
-         << (linear ? "linear elements lock, displacements are too small"
-                    : "stresses inside swing from element to element")
-         << "; expected "
-         << (linear ? "quadratic elements, or poisson < 0.4" : "6-node triangles and a finer mesh, or poisson < 0.49");
+    text << "body '" << body.name << "' is nearly incompressible (poisson = " << poisson
+         << "): " << locking(linear, any(has_quadrilaterals));
     lines.push_back(text.str());
   }
 }

@@ -60,7 +60,7 @@ TEST(MultiplierRows, WhatFacesNothingHasNone) {
   EXPECT_EQ(r.numbered(), (std::vector<int>{-1, 0, 1, 2, -1, 3, 4}));
   ASSERT_EQ(r.coupling.dropped.size(), 2u);
   EXPECT_EQ(r.coupling.dropped[1].node, r.nodes[4]);
-  EXPECT_EQ(r.coupling.dropped[1].reason, "facing nothing: pressure zero");
+  EXPECT_EQ(r.coupling.dropped[1].reason, "");
 }
 
 TEST(MultiplierRows, WhatWeighsNothingSharesTheNearest) {
