@@ -18,6 +18,7 @@
 #include "results/checks.hpp"
 #include "results/diagnose.hpp"
 #include "results/error_report.hpp"
+#include "results/line_checks.hpp"
 #include "results/warnings.hpp"
 #include "solve/threads.hpp"
 
@@ -63,10 +64,21 @@ struct Contact {
   std::vector<std::string> warnings;  // of the audit, and of motions held
 };
 
+// Bodies drawn over one another may have no places that face each other: that is said first.
+std::vector<ContactPair> coupled_pairs(const Scene& scene, const Mesh& mesh, const std::vector<ContactCurves>& curves,
+                                       const std::vector<char>& dirichlet, const Discretisation& d) {
+  try {
+    return couple_pairs(scene.method, mesh, d, curves, dirichlet);
+  } catch (const InputError&) {
+    audit_scene(scene, mesh, {});
+    throw;
+  }
+}
+
 // Couples the pairs and puts their rows into the system; refuses what cannot be meant.
 Contact add_contact(const Scene& scene, const Mesh& mesh, const std::vector<ContactCurves>& curves,
                     const std::vector<char>& dirichlet, Discretisation& d) {
-  Contact contact{couple_pairs(scene.method, mesh, d, curves, dirichlet), {}};
+  Contact contact{coupled_pairs(scene, mesh, curves, dirichlet, d), {}};
   set_contact(contact.pairs, d.system);
   contact.warnings = mesh.notes;
   append(contact.warnings, audit_scene(scene, mesh, contact.pairs));
@@ -153,6 +165,8 @@ void estimate(Results& r, const AccuracySpec& spec) {
       place_errors(r.mesh, r.points, r.discretisation, r.solution, probed_places(r.probes));
   for (std::size_t i = 0; i < of_probes.size(); ++i) r.probes[i].error = of_probes[i];
   append(r.warnings, error_warnings(r));
+  if (auto check = estimate_check(r)) r.checks.push_back(*std::move(check));
+  r.status = std::max(r.status, verdict(r));
   r.seconds.estimate = watch.lap();
 }
 

@@ -16,7 +16,8 @@ LineOfBodies meeting_lines(const AuditedBodies& bodies, const std::vector<Encoun
 
 /// A line for each two bodies drawn into one another without a pair there.
 /// Throws SceneError where one covers more than half of the other, or reaches deeper than a quarter of a thickness
-/// without a pair: no interference that contact could press apart.
+/// without a pair, or in a pair than half of it, from where contact takes the far side (deepest_overlap): no
+/// interference that contact could press apart.
 LineOfBodies overlap_lines(const AuditedBodies& bodies, const std::vector<Encounter>& encounters);
 
 /// Throws InputError where two names in the scene's loads have an edge in common.

@@ -15,6 +15,7 @@ struct Overlap {
   std::array<std::vector<int>, 2>
       edges;                    // of either piece: unpaired ones inside the other, and what is nearest to them
   double depth = 0;             // of those
+  double deepest = 0;           // of all, in a pair or not
   double length = 0, area = 0;  // of all, the larger of both directions; the area if it is thin
 };
 
@@ -49,6 +50,7 @@ void add_direction(const AuditedBodies& b, const std::vector<const Encounter*>& 
   for (const Encounter* e : inside) {
     length += e->inside;
     area += e->overlap;
+    overlap.deepest = std::max(overlap.deepest, e->depth);
   }
   overlap.length = std::max(overlap.length, length);
   overlap.area = std::max(overlap.area, area);
@@ -90,11 +92,15 @@ double covered_part(const AuditedBodies& b, int first, int second, const Overlap
 // Of a strip its width.
 double thickness(const PieceOutline& piece) { return 2 * piece.area / piece.perimeter; }
 
-[[noreturn]] void refuse(const AuditedBodies& b, int first, int second, const Vec2& place) {
-  throw SceneError(
-      two_bodies(b.mesh, b.outline.pieces[first].body, b.outline.pieces[second].body) + " are drawn over one another " +
-      near_point(place) +
-      "; expected every place in one body at most (in a .geo: BooleanDifference cuts one out of the other)");
+[[noreturn]] void refuse(const AuditedBodies& b, int first, int second, double depth, const Vec2& place) {
+  std::ostringstream text;
+  text << two_bodies(b.mesh, b.outline.pieces[first].body, b.outline.pieces[second].body)
+       << " are drawn over one another";
+  if (depth > 0) text << " by " << depth;
+  text << " " << near_point(place)
+       << ", which is no interference that contact could press apart; expected every place in one body at most (in a "
+          ".geo: Translate moves one off the other, BooleanDifference cuts one out of the other)";
+  throw SceneError(text.str());
 }
 
 std::string line(const AuditedBodies& b, const Overlap& overlap, int first, int second) {
@@ -120,12 +126,13 @@ LineOfBodies overlap_lines(const AuditedBodies& b, const std::vector<Encounter>&
   std::map<std::pair<int, int>, Overlap> by_body;  // the deepest
   for (const auto& [pieces, overlap] : overlaps) {
     const PieceOutline &first = b.outline.pieces[pieces.first], &second = b.outline.pieces[pieces.second];
-    const bool deep = !overlap.edges[0].empty() && overlap.depth > std::min(thickness(first), thickness(second)) / 4;
+    const double thin = std::min(thickness(first), thickness(second));
+    const bool deep = (!overlap.edges[0].empty() && overlap.depth > thin / 4) || overlap.deepest > thin / 2;
     if (deep || covered_part(b, pieces.first, pieces.second, overlap) > 0.5) {
       const auto& inside = directions.count(pieces) ? directions[pieces] : directions[{pieces.second, pieces.first}];
       std::vector<int> edges;
       for (const Encounter* e : inside) edges.push_back(e->edge);
-      refuse(b, pieces.first, pieces.second, middle_of(b, edges));
+      refuse(b, pieces.first, pieces.second, overlap.deepest, middle_of(b, edges));
     }
     if (overlap.edges[0].empty() || overlap.depth == 0) continue;
     Overlap& deepest = by_body[std::minmax(first.body, second.body)];

@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "base/patterns.hpp"
 #include "base/printable.hpp"
+#include "base/union_find.hpp"
 #include "fem/edges.hpp"
 #include "problem/facing_pairs.hpp"
 #include "problem/scene_names.hpp"
@@ -22,6 +23,23 @@ void require_own_nodes(const Mesh& mesh, const ContactSpec& spec, const std::arr
       throw InputError(mesh.source + ": " + spec.key + ": '" + spec.between[0] + "' and '" + spec.between[1] +
                        "' have a common node " + near_point(mesh.nodes.row(node).transpose()) +
                        "; expected curves with points of their own (in a .geo: a point and a curve for each body)");
+}
+
+// Nodes that cells hang together, whatever their bodies, by the smallest of them.
+bool hang_together(const Mesh& mesh, int node, int other) {
+  UnionFind nodes(std::size_t(mesh.nodes.rows()));
+  for (const Cell& cell : mesh.cells)
+    for (int a = 1; a < node_count(cell.kind); ++a) nodes.join(cell.nodes[0], cell.nodes[a]);
+  return nodes.find(node) == nodes.find(other);
+}
+
+// A body is one whole: pieces of it that only contact holds together would be held as one.
+void require_two_bodies(const Mesh& mesh, const ContactSpec& spec, const std::array<Curve, 2>& curves) {
+  if (curves[0].body != curves[1].body) return;
+  if (hang_together(mesh, curves[0].edges[0].nodes[0], curves[1].edges[0].nodes[0])) return;
+  throw InputError(mesh.source + ": " + spec.key + ": '" + spec.between[0] + "' and '" + spec.between[1] +
+                   "' are curves of two pieces of one body, '" + mesh.bodies[curves[0].body] +
+                   "'; expected two bodies (in a .geo: a Physical Surface for each piece)");
 }
 
 // Whether the pairs of the entry find themselves.
@@ -92,6 +110,7 @@ std::vector<ContactCurves> curves_of(const Scene& scene, const std::vector<Conta
         contact.edge_size[i] = curve_length(mesh.nodes, curve) / double(curve.edges.size());
       }
       require_own_nodes(mesh, contact.spec, contact.curves);
+      require_two_bodies(mesh, contact.spec, contact.curves);
       all.push_back(std::move(contact));
     }
   }

@@ -8,7 +8,9 @@ std::vector<std::string> audit_solution(const Results& r) {
   const AuditedBodies bodies = audited_bodies(r.mesh, r.pairs);
   std::vector<std::string> lines = end_lines(bodies, r);
   const std::vector<std::string> crossings = crossing_lines(bodies, r);
+  const std::vector<std::string> overlaps = drawn_overlap_lines(r);
   lines.insert(lines.end(), crossings.begin(), crossings.end());
+  lines.insert(lines.end(), overlaps.begin(), overlaps.end());
   return lines;
 }
 

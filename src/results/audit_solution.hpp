@@ -16,4 +16,8 @@ std::vector<std::string> end_lines(const AuditedBodies& bodies, const Results& r
 /// A line for each two bodies that pass through one another in the deformed state where no pair stands between them.
 std::vector<std::string> crossing_lines(const AuditedBodies& bodies, const Results& results);
 
+/// A line for each pair whose drawn overlap is undone by moving bodies as a whole: it is many times what they deform
+/// by.
+std::vector<std::string> drawn_overlap_lines(const Results& results);
+
 }  // namespace mortise

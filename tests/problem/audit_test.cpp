@@ -206,9 +206,87 @@ TEST(Audit, RefusesBodiesDrawnOverOneAnother) {
            {rectangles({"0, 2, 0, 8, 1", "4, 0, 0, 1, 8"}), "a cross"}}) {
     const TemporaryFolder folder;
     const Scene scene = drawn(folder, geo, {"b1", "b2"}, held("left1") + held("down2"));
-    expect_contains(message_of([&] { check_scene(scene); }), "bodies 'b1' and 'b2' are drawn over one another near (");
+    const std::string message = message_of([&] { check_scene(scene); });
+    expect_contains(message, "bodies 'b1' and 'b2' are drawn over one another");
+    expect_contains(message, " near (");
     expect_contains(message_of([&] { solve_scene(scene); }), "drawn over one another");
   }
+}
+
+// A pair presses an interference apart, but no far sides: then nothing would hold the body above.
+TEST(Audit, RefusesBodiesDrawnFarIntoOneAnotherInAPairToo) {
+  struct Case {
+    std::string geo, depth;
+  };
+  for (const auto& [geo, depth] : {Case{rectangles({"-2, -2, 0, 4, 2", "-0.5, -0.5, 0, 1, 1"}), "0.5"},  // half a punch
+                                   Case{rectangles({"-2, -2, 0, 4, 2", "-0.5, -0.3, 0, 1, 1"}), "0.3"},
+                                   Case{rectangles({"0, 0, 0, 1, 1", "0, 0.6, 0, 1, 1"}), "0.4"},  // two halves
+                                   Case{rectangles({"0, 0, 0, 1, 1", "0.25, 0.5, 0, 1, 1"}), "0.5"}}) {
+    const TemporaryFolder folder;
+    const Scene scene = drawn(folder, geo, {"b1", "b2"},
+                              held("down1") + boundary("left2", "displacement = { x = 0 }") +
+                                  boundary("up2", "pressure = 10") + pair("up1", "down2"));
+    const std::string message = message_of([&] { check_scene(scene); });
+    expect_contains(message, "bodies 'b1' and 'b2' are drawn over one another by " + depth.substr(0, 2));
+    expect_contains(message, " near (");
+  }
+}
+
+// A wall of 0.05 on a ring of radius 1 takes an interference of half of it: 2 % round the ring.
+TEST(Audit, IsSilentOnAThinLinerPressedIn) {
+  const TemporaryFolder folder;
+  const Scene scene = drawn(folder,
+                            "Disk(1) = {0, 0, 0, 1.02}; Disk(2) = {0, 0, 0, 0.97}; BooleanDifference(3) = { "
+                            "Surface{1}; Delete; }{ Surface{2}; Delete; };"
+                            "Disk(4) = {0, 0, 0, 2}; Disk(5) = {0, 0, 0, 1}; BooleanDifference(6) = { Surface{4}; "
+                            "Delete; }{ Surface{5}; Delete; };"
+                            "l() = Boundary{ Surface{3}; }; h() = Boundary{ Surface{6}; };"
+                            "Physical Surface(\"liner\") = {3}; Physical Surface(\"housing\") = {6};"
+                            "Physical Curve(\"out\") = {l(0)}; Physical Curve(\"in\") = {l(1)};"
+                            "Physical Curve(\"rim\") = {h(0)}; Physical Curve(\"bore\") = {h(1)};",
+                            {"liner", "housing"}, held("rim") + pair("out", "bore"));
+  EXPECT_EQ(before(scene).find("drawn"), std::string::npos) << before(scene);
+}
+
+// Blocks that sink into one another as drawn and are moved out as a whole; what is pressed apart is an interference.
+TEST(Audit, NamesADrawnOverlapThatNoBodyDeformsBy) {
+  const auto lines = [](const std::string& above) {
+    const TemporaryFolder folder;
+    return after(drawn(
+        folder, rectangles({"0, 0, 0, 4, 1", "1, 0.99, 0, 2, 1"}), {"b1", "b2"},
+        held("down1") + boundary("left2", "displacement = { x = 0 }") + boundary("up2", above) + pair("up1", "down2")));
+  };
+  const std::string free = lines("pressure = 1");
+  expect_contains(free, "'up1' and 'down2' are drawn into one another by 0.01 near (");
+  expect_contains(free, " times what the bodies deform by");
+  EXPECT_EQ(lines("displacement = { y = 0 }"), "");
+  EXPECT_EQ(lines("pressure = 1e3"), "");  // deforms them by 0.007
+}
+
+TEST(Audit, SaysWhereBothCurvesAreOfOneBody) {
+  const TemporaryFolder folder;
+  const std::string held_up =
+      held("down1") + boundary("left2", "displacement = { x = 0 }") + boundary("up2", "pressure = 1");
+  std::string geo = rectangles({"0, 0, 0, 4, 1", "1, 1, 0, 2, 1"});
+  const std::string twice = "Physical Surface(\"b1\") = {1};\n";
+  geo.replace(geo.find(twice), twice.size(), "Physical Surface(\"all\") = {1, 2};\n");
+  const std::string second = "Physical Surface(\"b2\") = {2};\n";
+  geo.replace(geo.find(second), second.size(), "");
+  const Scene pieces = drawn(folder, geo, {"all"}, held_up + pair("up1", "down2"));
+  expect_contains(message_of([&] { check_scene(pieces); }),
+                  "'up1' and 'down2' are curves of two pieces of one body, 'all'; expected two bodies");
+  const Scene apart = drawn(folder, rectangles({"0, 0, 0, 4, 1"}), {"b1"}, held("down1") + pair("left1", "right1"));
+  expect_contains(message_of([&] { check_scene(apart); }), "both are curves of body 'b1'");
+  const Scene ring =
+      drawn(folder,
+            "Rectangle(1) = {0, 0, 0, 4, 2}; Rectangle(2) = {1, 0.99, 0, 3, 0.02};"
+            "BooleanDifference(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };"
+            "Physical Surface(\"clamp\") = {3};"
+            "d() = Curve In BoundingBox{0.9, 0.98, -1, 4.1, 0.995, 1}; Physical Curve(\"under\") = {d()};"
+            "u() = Curve In BoundingBox{0.9, 1.005, -1, 4.1, 1.02, 1}; Physical Curve(\"over\") = {u()};"
+            "l() = Curve In BoundingBox{-0.1, -0.1, -1, 0.1, 2.1, 1}; Physical Curve(\"left\") = {l()};",
+            {"clamp"}, held("left") + pair("under", "over"));
+  expect_contains(before(ring), "are both curves of body 'clamp', which is in contact with itself there");
 }
 
 TEST(Audit, WarnsOfAThinInterferenceWithoutAPair) {
