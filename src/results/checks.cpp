@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/edges.hpp"
+#include "results/line_checks.hpp"
 
 namespace mortise {
 namespace {
@@ -134,21 +134,6 @@ void unilateral_checks(const Results& r, double limit, std::vector<Check>& check
   checks.push_back({"p >= 0 between the multipliers", dip, 0.125 + 1e-9});
 }
 
-void coverage_check(const Scene& scene, const Results& r, std::vector<Check>& checks) {
-  if (r.pairs.empty()) return;
-  double uncovered = 0;
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
-    const ContactPair& pair = r.pairs[k];
-    if (pair.spec.initial_gap != InitialGap::closed || pair.spec.found) continue;
-    const double facing = std::min(r.contacts[k].length, curve_length(r.mesh.nodes, pair.opposite));
-    uncovered = largest(uncovered, std::abs(1 - pair.coupling.covered_length / facing));
-  }
-  // A closed curve meshed twice: the chords' lengths differ by their geometric error.
-  checks.push_back({scene.method.integration == Integration::segments ? "segments cover the closed contact curve"
-                                                                      : "points cover the closed contact curve",
-                    uncovered, 1e-2});
-}
-
 }  // namespace
 
 std::string to_string(Status status) {
@@ -187,8 +172,9 @@ std::vector<Check> checks(const Scene& scene, const Results& r) {
   balance_of_bodies(r, std::max(1e-9, 10 * s.force_tolerance), list);
   balance_of_all(r, s.iteration ? std::max(1e-10, 10 * s.force_tolerance) : 1e-10, list);
   balance_of_contact(r, list);
-  coverage_check(scene, r, list);
+  if (!r.pairs.empty()) list.push_back(coverage_check(scene, r));
   unilateral_checks(r, std::max(s.constraint_tolerance, 1e-9), list);
+  if (!r.pairs.empty()) list.push_back(motion_check(r));
   return list;
 }
 

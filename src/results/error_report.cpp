@@ -57,7 +57,11 @@ std::vector<std::string> error_warnings(const Results& r) {
     lines.push_back("the mesh is coarse: stresses are off by about " + percent(estimate.energy.error) +
                     " in the energy norm, the most in body '" + r.mesh.bodies[estimate.energy.body] + "' " +
                     near_point(estimate.energy.position) + "; expected a finer mesh there, or quadratic elements");
-  if (const double error = estimate.pressure(); error > pressure_error_limit)
+  const double error = estimate.pressure();
+  if (std::isinf(error))  // all that is loaded is left out
+    lines.push_back("the contact pressure has no estimate: contact carries it on too few edges, at " +
+                    largest_error(r) + "; expected a finer mesh there");
+  else if (error > pressure_error_limit)
     lines.push_back("the contact pressure may be off by " + percent(error) + ", the most from " + largest_error(r) +
                     "; expected a finer mesh there");
   return lines;

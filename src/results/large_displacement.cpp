@@ -2,34 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
 #include "base/printable.hpp"
 #include "base/vectors.hpp"
 #include "fem/edges.hpp"
+#include "results/line_motion.hpp"
 
 namespace mortise {
 namespace {
-
-constexpr double kink = 20 * std::numbers::pi / 180;  // more is no curvature
-
-// Of each edge: by how much the curve turns a length there.
-std::vector<double> curvatures(const Points& nodes, const Curve& curve) {
-  const std::size_t count = curve.edges.size();
-  const auto tangent = [&](std::size_t e, double xi) { return edge_point(nodes, curve.edges[e], xi).tangent; };
-  std::vector<double> list;
-  for (std::size_t e = 0; e < count; ++e) {
-    double turn = angle_between(tangent(e, -1), tangent(e, 1));
-    const auto take = [&](std::size_t a, std::size_t b) {
-      if (const double found = angle_between(tangent(a, 0), tangent(b, 0)); found < kink) turn = std::max(turn, found);
-    };
-    if (e + 1 < count || curve.closed) take(e, (e + 1) % count);
-    if (e > 0 || curve.closed) take((e + count - 1) % count, e);
-    list.push_back(turn / edge_length(nodes, curve.edges[e]));
-  }
-  return list;
-}
 
 // By how much an edge turns, radians.
 double rotation(const Points& nodes, const VecX& u, const Edge& edge) {
@@ -57,8 +38,8 @@ Largest largest_in_contact(const Results& r) {
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
     const ContactPair& pair = r.pairs[k];
     const ContactResults& contact = r.contacts[k];
-    const std::vector<double> curvature = curvatures(r.mesh.nodes, pair.multiplier),
-                              opposite_curvature = curvatures(r.mesh.nodes, pair.opposite);
+    const std::vector<double> curvature = edge_curvatures(r.mesh.nodes, pair.multiplier),
+                              opposite_curvature = edge_curvatures(r.mesh.nodes, pair.opposite);
     for (const ContactPoint& c : pair.points) {
       if (!(interpolate(pair.coupling, pair.multiplier, contact.pressure, c.edge, c.xi) > 1e-3 * contact.p_max))
         continue;

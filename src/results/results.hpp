@@ -17,6 +17,7 @@ struct Check {
   std::string name;
   double value;
   double limit;
+  std::string where = {};  ///< of one that fails: the place that a user would look at, and what is there
   bool ok() const { return value <= limit; }  // NaN fails
 };
 

@@ -209,7 +209,9 @@ void print_checks(const std::vector<Check>& checks, std::ostream& out) {
   out << std::setprecision(2) << "  checks    " << hold << " of " << checks.size()
       << " hold; reactions and loads sum to " << balance->value << " (relative)\n";
   for (const Check& c : checks)
-    if (!c.ok()) out << "  FAILED    " << c.name << ": " << c.value << " (limit " << c.limit << ")\n";
+    if (!c.ok())
+      out << "  FAILED    " << c.name << ": " << c.value << " (limit " << c.limit << ")"
+          << (c.where.empty() ? "" : "; " + c.where) << "\n";
 }
 
 Json gap_json(const ContactSpec& spec) {
@@ -230,8 +232,10 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
     contact.push_back(contact_json(r.pairs[k], r.contacts[k]));
   }
   Json checks = Json::array();
-  for (const Check& c : r.checks)
+  for (const Check& c : r.checks) {
     checks.push_back({{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"ok", c.ok()}});
+    if (!c.ok() && !c.where.empty()) checks.back()["where"] = c.where;
+  }
   const Seconds& s = r.seconds;
   return {{"title", scene.title},
           {"scene", scene.path},

@@ -1,0 +1,113 @@
+// A contact line that moves farther than small displacements bear, p that no mesh bears out, and curves that are not
+// one.
+#include "results/line_checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/solve_scene.hpp"
+#include "results/line_motion.hpp"
+#include "support/messages.hpp"
+#include "support/plate_scenes.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+// Bottom and top move as a turn by atan(slope) and a slide of the upper plate would move them, and are pressed
+// together.
+Results moved(double slope, double slide) {
+  const auto prescribed = [&](const std::string& curve, double along, double down) -> BoundarySpec {
+    const std::string s = std::to_string(slope);
+    return {.on = {curve},
+            .displacement_x = Field(std::to_string(along) + " - " + s + " * y", {}),
+            .displacement_y = Field(s + " * x - " + std::to_string(down), {})};
+  };
+  Scene s = bare_scene();
+  s.boundaries = {prescribed("bottom", 0, 0), prescribed("top", slide, 1e-4)};
+  return solve_scene(s, mesh_of({}));
+}
+
+const Check& motion_of(const Results& r) {
+  return *std::ranges::find(r.checks, std::string("turn and slide of contact lines"), &Check::name);
+}
+
+TEST(LineMotion, IsTheTurnAndTheSlideOfTheWhole) {
+  for (const double slope : {0.0, 0.01, 0.3, 2.5}) {
+    const Results r = moved(slope, 0);
+    const auto motion = line_motion(r.mesh.nodes, r.pairs[0], r.contacts[0], r.solution.u);
+    ASSERT_TRUE(motion);
+    EXPECT_NEAR(motion->turned, std::atan(slope), 1e-3);
+    EXPECT_NEAR(motion->slid, 0, 1e-3);
+    EXPECT_NEAR((motion->position - Vec2(0.4, 0.3)).norm(), 0, 1e-3);
+  }
+  const Results r = moved(0, 0.2);
+  EXPECT_NEAR(line_motion(r.mesh.nodes, r.pairs[0], r.contacts[0], r.solution.u)->slid, 0.2 / 0.8, 1e-3);
+}
+
+TEST(LineChecks, FailWhereALineTurnsOrSlidesByHalf) {
+  EXPECT_EQ(moved(0.1, 0.1).status, Status::solved);
+  const Results turned = moved(2.5, 0);  // 1.19 radians
+  EXPECT_EQ(turned.status, Status::check_failed);
+  EXPECT_NEAR(motion_of(turned).value, std::atan(2.5), 1e-3);
+  expect_contains(motion_of(turned).where,
+                  "contact.0: the contact line near (0.4, 0.3) turns by 1.2 radians as a whole");
+  const Results slid = moved(0, 0.5);
+  EXPECT_EQ(slid.status, Status::check_failed);
+  expect_contains(motion_of(slid).where, "slides by 62 % of the loaded length");
+}
+
+// Pressed by a fifth of E, the surface at the corner of the punch turns by more than a third, and the line not at all.
+TEST(LineChecks, HoldWhereASingularCornerTurnsByItself) {
+  const Results r =
+      solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/punch.toml", {{"boundary.2.pressure", "4e10"}}));
+  EXPECT_TRUE(motion_of(r).ok()) << motion_of(r).where;
+  EXPECT_TRUE(std::ranges::any_of(
+      r.warnings, [](const std::string& line) { return line.find("a side turns by 0.3") != std::string::npos; }));
+}
+
+TEST(LineChecks, APinThatFallsByHalfItsRadiusFails) {
+  const Results r = solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/pin_in_hole.toml",
+                                           {{"mesh.parameters.clearance", "0.6"}, {"mesh.parameters.drop", "0"}}));
+  EXPECT_EQ(r.status, Status::check_failed);
+  expect_contains(motion_of(r).where, "of its radius of curvature");
+}
+
+TEST(LineChecks, APressureThatIsOffByMoreThanHalfFails) {
+  Results coarse = solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/v_block.toml"));
+  EXPECT_EQ(coarse.status, Status::solved);
+  estimate(coarse);
+  EXPECT_EQ(coarse.status, Status::check_failed);
+  EXPECT_EQ(coarse.checks.back().name, "estimated error of p");
+  expect_contains(coarse.checks.back().where, "border of contact near (");
+  Results fine = solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/hertz.toml"));
+  estimate(fine);
+  EXPECT_EQ(fine.status, Status::solved);
+}
+
+// A block that stands half beside the other, in one curve from end to end.
+TEST(LineChecks, CurvesThatAreNotOneAreNamedWithThePlace) {
+  const TemporaryFolder folder;
+  folder.write("beside.geo", R"(
+SetFactory("OpenCASCADE"); Mesh.ElementOrder = 2; Mesh.MeshSizeMax = 0.2;
+Rectangle(1) = {0, 0, 0, 4, 1}; Rectangle(2) = {3, 1, 0, 2, 1};
+Physical Surface("low") = {1}; Physical Surface("up") = {2};
+Physical Curve("ground") = {1}; Physical Curve("track") = {3}; Physical Curve("foot") = {5}; Physical Curve("top") = {7};
+)");
+  const Results r = solve_scene(read_scene(folder.write("beside.toml", R"(
+mesh.file = "beside.geo"
+materials.steel = { young = 210e3, poisson = 0.3 }
+bodies = { low = "steel", up = "steel" }
+boundary = [{ on = "ground", displacement = { x = 0, y = 0 } }, { on = "top", displacement = { x = 0, y = -1e-3 } }]
+contact = [{ between = ["foot", "track"], initial_gap = "closed", multipliers_on = "foot" }]
+)")));
+  EXPECT_EQ(r.status, Status::check_failed);
+  const auto check = std::ranges::find(r.checks, std::string("segments cover the closed contact curve"), &Check::name);
+  ASSERT_NE(check, r.checks.end());
+  EXPECT_NEAR(check->value, 0.5, 0.01);
+  expect_contains(check->where, "'foot' faces no part of 'track' on a length of 1 near (4.5, 1)");
+}
+
+}  // namespace
+}  // namespace mortise::test
