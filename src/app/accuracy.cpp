@@ -141,10 +141,11 @@ class Loop {
     r.seconds.mesh = meshing;
     stage("estimate");
     try {
-      estimate(r, spec_);
+      estimate(r, spec_, found_);
     } catch (const SceneError& error) {
       throw InputError(scene_.path + ": " + error.what());
     }
+    keep_found(r);
     std::ostringstream text;
     text.precision(2);
     text << " (" << to_string(spec_.of) << " was within " << 100 * estimated(r) << " % with " << free_unknowns(r)
@@ -169,6 +170,17 @@ class Loop {
 
   bool tells_sizes(const Results& r) const { return r.status != Status::not_converged && std::isfinite(estimated(r)); }
 
+  // A point once found stays on all meshes that follow.
+  void keep_found(const Results& r) {
+    std::vector<FoundPoint> found;
+    for (std::size_t k = 0; k < r.pairs.size(); ++k)
+      for (const SingularPoint& point : r.estimate->pressures[k].singular)
+        found.push_back({curve_names(r.mesh, r.pairs[k]), point.position});
+    for (const FoundPoint& old : found_)
+      if (std::ranges::none_of(found, [&](const FoundPoint& point) { return point.is(old); })) found.push_back(old);
+    found_ = std::move(found);
+  }
+
   double estimated(const Results& r) const {
     switch (spec_.of) {
       case Goal::pressure:
@@ -190,12 +202,16 @@ class Loop {
   void require_peak(const Results& r) const {
     for (const PressureEstimate& e : r.estimate->pressures)
       for (const SingularPoint& point : e.singular) {
-        if (point.pressure_exponent >= 1) continue;
+        if (!point.is_unbounded()) continue;
         std::ostringstream text;
         text.precision(2);
         text << scene_.path << ": accuracy.of = \"peak\": p has no largest value " << near_point(point.position)
-             << ", where it grows as r^" << point.pressure_exponent - 1
-             << "; expected of = \"pressure\", which leaves out what is near, or a rounded corner";
+             << ", where it grows as ";
+        if (point.pressure_exponent < 1)
+          text << "r^" << point.pressure_exponent - 1;
+        else
+          text << "the logarithm of 1/r";
+        text << "; expected of = \"pressure\", which leaves out what is near, or a rounded corner";
         throw InputError(text.str());
       }
   }
@@ -245,10 +261,11 @@ class Loop {
   const Progress& progress_;
   const std::function<bool()>& interrupted_;
   FreeMesher mesher_;
-  LayeredSizes largest_;   // sizes that no mesh goes above
-  std::string told_;       // of the solve before, in the progress line
-  int others_ = 0;         // meshes since the last that told the sizes of the next
-  bool at_limit_ = false;  // the mesh has been held to unknowns_max
+  LayeredSizes largest_;           // sizes that no mesh goes above
+  std::vector<FoundPoint> found_;  // singular points, of all solves so far
+  std::string told_;               // of the solve before, in the progress line
+  int others_ = 0;                 // meshes since the last that told the sizes of the next
+  bool at_limit_ = false;          // the mesh has been held to unknowns_max
 };
 
 }  // namespace

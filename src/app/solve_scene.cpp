@@ -157,9 +157,9 @@ ActiveSet active_set(const Results& r) {
   return set;
 }
 
-void estimate(Results& r, const AccuracySpec& spec) {
+void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint>& found) {
   Stopwatch watch;
-  r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution, spec);
+  r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution, spec, most_own_duals, found);
   for (std::size_t k = 0; k < r.contacts.size(); ++k) set_bars(r.estimate->pressures[k], r.contacts[k]);
   const std::vector<PlaceError> of_probes =
       place_errors(r.mesh, r.points, r.discretisation, r.solution, probed_places(r.probes));

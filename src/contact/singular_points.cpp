@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/vectors.hpp"
 #include "contact/projection.hpp"
@@ -11,9 +12,21 @@
 namespace mortise {
 namespace {
 
-// Curves turn less where they are smooth; what one mesh may miss of the other's kink.
-constexpr double degree = std::numbers::pi / 180, straight = std::numbers::pi, smooth = 2 * degree,
-                 missed = 20 * degree;
+constexpr double straight = std::numbers::pi;
+
+// One kink of two bodies that slide across it is singular however little it turns (exponents near 0), but turns of
+// meshes and splines that are meant to be smooth are no kinks.
+constexpr double least_shared_kink = 2 * straight / 180;
+
+// What directions of a drawn straight line differ by, and of a line rebuilt through the nodes (contact_line.hpp).
+constexpr double round_off = 1e-9;
+
+// Kinks of both bodies are one where their angles add up to 2 pi to this part of their turn: a rebuilt line's, of three
+// nodes or more a side, are off by less.
+constexpr double one_kink = 0.1;
+
+// A vertex lies at a place of the other curve where an edge does not tell them apart.
+constexpr double at_one_place = 0.05;
 
 // A vertex of a curve and the edges before and after it, -1 at an end.
 struct Vertex {
@@ -30,42 +43,13 @@ std::vector<Vertex> vertices_of(const Curve& curve) {
   return list;
 }
 
-// The sides of cells that end at a node and have no cell behind them, the body on their left.
-std::vector<Edge> outline_at(const Mesh& mesh, const SideTable& table, int node) {
-  std::vector<Edge> outline;
-  for (const SideAtNode& at : table.at(node))
-    if (std::ranges::none_of(table.at(node), [&](const SideAtNode& behind) {
-          return behind.other == at.other && behind.starts != at.starts;
-        }))
-      outline.push_back(side_edge(mesh.cells[at.side.cell], at.side.side));
-  return outline;
-}
-
-// What holds a face, by what is prescribed at all nodes of its edge.
-Face face_of(const Points& nodes, const Edge& edge, const Constraints& constraints) {
-  std::optional<Vec2> held;  // the direction in which all nodes are, where none is held in both
-  for (int k = 0; k < edge.node_count; ++k) {
-    const std::vector<Vec2> directions = prescribed_directions(constraints, edge.nodes[k]);
-    if (directions.empty()) return Face::free;
-    if (directions.size() == 2) continue;
-    if (held && std::abs(cross(*held, directions[0])) > 0.1) return Face::free;
-    held = directions[0];
-  }
-  if (!held) return Face::clamped;
-  const Vec2 along = (nodes.row(edge.nodes[1]) - nodes.row(edge.nodes[0])).transpose();
-  return std::abs(along.dot(*held)) > std::abs(cross(along, *held)) ? Face::antisymmetric : Face::symmetric;
-}
-
-// Of the body on the left where a curve goes on from one tangent to the other.
-double interior_angle(const Vec2& before, const Vec2& after) {
-  return straight - std::atan2(cross(before, after), before.dot(after));
-}
-
 // What a body is at a point of its contact line.
 struct Corner {
   Wedge wedge;
-  bool end;     // its curve does not go on
-  double edge;  // length of the longest one of its curve there
+  bool end;          // its curve does not go on
+  double edge;       // length of the longest one of its curve there
+  double error = 0;  // of the angle
+  int node = -1;     // of its vertex; -1 where it has none there
 };
 
 // One of the two curves with the line that it stands for.
@@ -80,9 +64,11 @@ struct Side {
   Vec2 position(const Vertex& v) const { return mesh.nodes.row(v.node).transpose(); }
   Vec2 before(const Vertex& v) const { return line.at(v.before, 1).tangent; }
   Vec2 after(const Vertex& v) const { return line.at(v.after, -1).tangent; }
-  bool is_kink(const Vertex& v) const {
-    return !v.is_end() && std::abs(interior_angle(before(v), after(v)) - straight) > smooth;
+  double turn(const Vertex& v) const { return v.is_end() ? 0 : straight - interior_angle(before(v), after(v)); }
+  double turn_error(const Vertex& v) const {
+    return round_off + (v.before < 0 ? 0 : end_error(v.before, 1)) + (v.after < 0 ? 0 : end_error(v.after, -1));
   }
+  bool is_kink(const Vertex& v) const { return std::abs(turn(v)) > turn_error(v); }
   double edge_at(const Vertex& v) const {
     double length = 0;
     for (const int e : {v.before, v.after})
@@ -96,38 +82,63 @@ struct Side {
     return n.normalized();
   }
   Corner corner(const Vertex& v) const;
+
+ private:
+  double end_error(int e, int end) const;
 };
 
+// What the tangent at an end of a drawn edge may be off by, radians: as much as that of every second of its samples is.
+double Side::end_error(int e, int end) const {
+  if (curve.samples.empty()) return 0;
+  const EdgeSamples& x = curve.samples[e];
+  constexpr int last = std::tuple_size_v<EdgeSamples> - 1;
+  const auto z = [](int k) { return -std::cos(straight * k / last); };
+  Vec2 slope = Vec2::Zero();  // of the polynomial through places 0, 2, ...
+  const int at = end < 0 ? 0 : last;
+  for (int k = 0; k <= last; k += 2) {
+    if (k == at) continue;
+    double weight = 1;
+    for (int m = 0; m <= last; m += 2) {
+      if (m == k) continue;
+      weight /= z(k) - z(m);
+      if (m != at) weight *= z(at) - z(m);
+    }
+    slope += weight * (x[k] - x[at]);
+  }
+  return angle_between(slope, line.at(e, end).tangent);
+}
+
 Corner Side::corner(const Vertex& v) const {
-  if (!v.is_end()) return {wedge(interior_angle(before(v), after(v)), law), false, edge_at(v)};
+  if (!v.is_end()) return {wedge(straight - turn(v), law), false, edge_at(v), turn_error(v), v.node};
   for (const Edge& beyond : outline_at(mesh, table, v.node)) {
     const bool starts = beyond.nodes[0] == v.node;
     if (starts != (v.after < 0)) continue;  // the curve's own
     const Vec2 tangent = edge_point(mesh.nodes, beyond, starts ? -1 : 1).tangent;
     const double angle = starts ? interior_angle(before(v), tangent) : interior_angle(tangent, after(v));
-    return {wedge(angle, law, face_of(mesh.nodes, beyond, constraints)), true, edge_at(v)};
+    return {wedge(angle, law, face_of(mesh.nodes, beyond, constraints)), true, edge_at(v), turn_error(v), v.node};
   }
-  return {wedge(straight, law), true, edge_at(v)};
+  return {wedge(straight, law), true, edge_at(v), turn_error(v), v.node};
 }
 
-// The body on the other side of a vertex; nothing if it is half an edge away or more.
+// The body on the other side of a vertex, near it or far: where the normal there meets it.
 std::optional<Corner> facing(const Side& side, const Vertex& v, const Side& other) {
   const Vec2 x = side.position(v);
   const double edge = side.edge_at(v);
-  for (const Vertex& w : vertices_of(other.curve))
-    if ((other.position(w) - x).norm() < 0.05 * edge) return other.corner(w);
   const Line line{x, side.normal(v), deepest_overlap(side.curve, std::max(v.before, v.after))};
   const auto hit = project_onto_curve(side.mesh.nodes, other.curve, line);
+  const Vec2 place = hit ? Vec2(x + hit->distance * line.n) : x;
+  for (const Vertex& w : vertices_of(other.curve))
+    if ((other.position(w) - place).norm() < at_one_place * edge) return other.corner(w);
   if (!hit) return {};
-  const double length = edge_length(other.mesh.nodes, other.curve.edges[hit->edge]);
-  if (std::abs(hit->distance) > std::max(edge, length) / 2) return {};
-  return Corner{wedge(straight, other.law), false, length};
+  return Corner{wedge(straight, other.law), false, edge_length(other.mesh.nodes, other.curve.edges[hit->edge])};
 }
 
-Meeting meeting_of(const Corner& a, const Corner& b) {
+Meeting meeting_of(const Corner& a, const Corner& b, bool one_curve) {
   if (a.end && b.end) return Meeting::ends;
-  const double both = a.wedge.angle + b.wedge.angle;
-  return a.end || b.end || both < 2 * straight - missed ? Meeting::corner : Meeting::kink;
+  if (a.end || b.end) return Meeting::corner;
+  const double turn = std::max(std::abs(a.wedge.angle - straight), std::abs(b.wedge.angle - straight));
+  const double jump = std::abs(2 * straight - a.wedge.angle - b.wedge.angle);
+  return one_curve || jump <= one_kink * turn ? Meeting::kink : Meeting::corner;
 }
 
 // One kink of both, that of the sharper one if the other's mesh misses it.
@@ -138,51 +149,76 @@ void fit_kink(Wedge& a, Wedge& b) {
     a.angle = 2 * straight - b.angle;
 }
 
-SingularPoint singular_point(const Vec2& x, const Corner& a, const Corner& b, TipTable& tips) {
-  SingularPoint point{x, std::max(a.edge, b.edge), 1, 1, meeting_of(a, b), {a.wedge, b.wedge}};
+Wedge half_of(Wedge w) {
+  w.angle /= 2;
+  w.outer = Face::symmetric;
+  return w;
+}
+
+// Amplitude of the logarithm that a jump of the gap's slope makes, with the compliances 8 / E' of both bodies: E* jump
+// / 2 pi under a wedge, E* jump / 4 under a cone (Johnson 1985, sections 5.2 and 5.3); the larger.
+double log_amplitude(const Wedge& a, const Wedge& b, double jump) {
+  return 2 * std::abs(jump) / (a.compliance() + b.compliance());
+}
+
+SingularPoint singular_point(const Vec2& x, const Corner& a, const Corner& b, bool on_both_sides, bool one_curve,
+                             TipTable& tips) {
+  SingularPoint point{x, std::max(a.edge, b.edge), 1, 1, meeting_of(a, b, one_curve), {a.wedge, b.wedge}};
   auto& [first, second] = point.wedges;
-  const bool kink = point.meeting == Meeting::kink;
-  if (kink) fit_kink(first, second);
-  const TipExponents found = kink ? tips.kinks(first, second) : tips.ends(first, second);
-  point.exponent = found.stress.real();
+  TipExponents found;
+  double jump = 0;
+  if (point.meeting == Meeting::kink) {
+    fit_kink(first, second);
+    if (std::abs(first.angle - straight) > least_shared_kink) found = tips.kinks(first, second);
+  } else if (!a.end && !b.end && on_both_sides) {
+    found = tips.ends(half_of(first), half_of(second));
+    jump = 2 * straight - first.angle - second.angle;
+  } else {
+    found = tips.ends(first, second);
+    if (a.end && b.end && first.outer == Face::symmetric && second.outer == Face::symmetric)
+      jump = 2 * (straight - first.angle - second.angle);
+  }
+  if (found.stress.real() <= singular_limit) point.exponent = found.stress.real();
   if (found.pressure.real() <= singular_limit) point.pressure_exponent = found.pressure.real();
+  if (point.pressure_exponent == 1 && !one_curve && std::abs(jump) > 2 * (a.error + b.error))
+    point.log_pressure = log_amplitude(first, second, jump);
   return point;
 }
 
 }  // namespace
 
+ContactReach reached_everywhere(const Curve& first, const Curve& second) {
+  return {std::vector<Reach>(first.edges.size() + 1, {true, true}),
+          std::vector<Reach>(second.edges.size() + 1, {true, true})};
+}
+
 std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& table, const Curve& first,
                                            const Curve& second, const Constraints& constraints,
-                                           const std::vector<ElasticLaw>& laws, TipTable& tips) {
+                                           const std::vector<ElasticLaw>& laws, TipTable& tips,
+                                           const ContactReach& reach, bool one_curve) {
   const Side sides[] = {{mesh, table, first, constraints, laws[first.body], ContactLine(mesh.nodes, first)},
                         {mesh, table, second, constraints, laws[second.body], ContactLine(mesh.nodes, second)}};
   std::vector<SingularPoint> points;
-  for (const int k : {0, 1})
-    for (const Vertex& v : vertices_of(sides[k].curve)) {
-      if (!v.is_end() && !sides[k].is_kink(v)) continue;
+  std::vector<int> seen;  // vertices of the second curve that face one of the first
+  for (const int k : {0, 1}) {
+    const std::vector<Vertex> vertices = vertices_of(sides[k].curve);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Vertex& v = vertices[i];
+      const Reach& at = reach[k][i];
+      if (!at.any() || (!v.is_end() && !sides[k].is_kink(v))) continue;
+      if (k == 1 && std::ranges::count(seen, v.node) > 0) continue;
       const Vec2 x = sides[k].position(v);
       const Corner corner = sides[k].corner(v);
-      const bool known = std::ranges::any_of(
-          points, [&](const SingularPoint& p) { return (p.position - x).norm() < 0.05 * corner.edge; });
-      const auto opposite = known ? std::nullopt : facing(sides[k], v, sides[1 - k]);
+      const auto opposite = facing(sides[k], v, sides[1 - k]);
       if (!opposite) continue;
-      const SingularPoint point =
-          k == 0 ? singular_point(x, corner, *opposite, tips) : singular_point(x, *opposite, corner, tips);
-      if (point.exponent <= singular_limit) points.push_back(point);
+      if (k == 0) seen.push_back(opposite->node);
+      const bool both = at.before && at.after;
+      const SingularPoint point = k == 0 ? singular_point(x, corner, *opposite, both, one_curve, tips)
+                                         : singular_point(x, *opposite, corner, both, one_curve, tips);
+      if (point.exponent <= singular_limit || point.log_pressure > 0) points.push_back(point);
     }
+  }
   return points;
-}
-
-double corner_exponent(const Mesh& mesh, int node, const Constraints& constraints, const ElasticLaw& law) {
-  const std::vector<Edge> outline = outline_at(mesh, SideTable(mesh), node);
-  if (outline.size() != 2) return 1;
-  const bool ordered = outline[0].nodes[1] == node;
-  const Edge &before = outline[ordered ? 0 : 1], &after = outline[ordered ? 1 : 0];
-  const double angle =
-      interior_angle(edge_point(mesh.nodes, before, 1).tangent, edge_point(mesh.nodes, after, -1).tangent);
-  return wedge_exponent(wedge(angle, law, face_of(mesh.nodes, before, constraints)),
-                        face_of(mesh.nodes, after, constraints))
-      .real();
 }
 
 }  // namespace mortise

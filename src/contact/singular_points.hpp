@@ -3,39 +3,57 @@
 
 #include <array>
 
+#include "contact/body_corners.hpp"
 #include "contact/contact_line.hpp"
-#include "contact/williams.hpp"
-#include "fem/constraints.hpp"
 
 namespace mortise {
 
 /// How two bodies meet at a point of their contact line: the ends of both curves; a corner, an end or a kink, on a
-/// curve that goes on; one kink of both curves.
+/// curve that goes on, or one of two kinks that are not one; one kink of both curves.
 enum class Meeting { ends, corner, kink };
 
-/// A kink of either curve, or an end of it, at which the stress is singular: stress ~ r^(exponent - 1).
+/// A kink of either curve, or an end of it, at which the stress is singular: stress ~ r^(exponent - 1), or the
+/// logarithm of it.
 struct SingularPoint {
   Vec2 position;
   double edge;               ///< length of the longest edge of either curve that meets there
-  double exponent;           ///< real part, in (0, singular_limit)
+  double exponent;           ///< real part, in (0, singular_limit]; 1: only the logarithm
   double pressure_exponent;  ///< the same of the contact pressure; 1: bounded, only the bodies' stress is singular
   Meeting meeting;
   std::array<Wedge, 2> wedges;  ///< of the first and the second curve's body
+  /// Where the slope of the gap jumps and contact is closed on both sides, p = -log_pressure ln r + ...; stress, 0
+  /// where it does not.
+  double log_pressure = 0;
+
+  /// Whether p has no limit there.
+  bool is_unbounded() const { return pressure_exponent < 1 || log_pressure > 0; }
 };
 
-/// Exponents above this count as regular: r^-0.05 doubles within a million edges.
-inline constexpr double singular_limit = 0.95;
+/// Of a vertex of a contact curve, whether contact is closed on its edges before and after it, up to it.
+struct Reach {
+  bool before, after;
+  bool any() const { return before || after; }
+};
 
-/// Both bodies as wedges at each place (contact/williams.hpp): their angles from the curves that the edges stand for
-/// and, at an end, the edge of the body's boundary beyond it, whose prescribed displacements say what holds it. A body
-/// whose curve goes on there is a straight wedge, or one of its kink's angle, free beyond. Where both curves go on
-/// through a kink they share both faces: the exponent is the smallest of all modes, and a load that is symmetric about
-/// the bisector does not excite the antisymmetric ones. As if contact were closed; `laws` one a body.
+/// Of the vertices of both curves, each in the order of its edges, the last one too (so once more the first of a closed
+/// curve).
+using ContactReach = std::array<std::vector<Reach>, 2>;
+
+/// All of them reached.
+ContactReach reached_everywhere(const Curve& first, const Curve& second);
+
+/// Both bodies as wedges at each place that contact reaches, however far from each other they are drawn
+/// (contact/williams.hpp): their angles from the curves that the edges stand for and, at an end, the edge of the body's
+/// boundary beyond it, whose prescribed displacements say what holds it. A body whose curve goes on there is a straight
+/// wedge, or one of its kink's angle, free beyond. Kinks of both curves are one where their angles add up to 2 pi, as
+/// they do where the drawn curves coincide, or where `one_curve` says that both are meant to: the bodies then share
+/// both faces, the exponent is the smallest of all modes, and a load that is symmetric about the bisector does not
+/// excite the antisymmetric ones. Else the slope of the gap jumps there: where contact is closed on both sides the
+/// bodies share both faces as those of a symmetric load do, elsewhere one. As if contact were closed; `laws` one a
+/// body.
 std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& table, const Curve& first,
                                            const Curve& second, const Constraints& constraints,
-                                           const std::vector<ElasticLaw>& laws, TipTable& tips);
-
-/// The exponent of a body's own corner at a node, its faces free of contact: 1 where it has none below, and inside.
-double corner_exponent(const Mesh& mesh, int node, const Constraints& constraints, const ElasticLaw& law);
+                                           const std::vector<ElasticLaw>& laws, TipTable& tips,
+                                           const ContactReach& reach, bool one_curve = false);
 
 }  // namespace mortise

@@ -67,12 +67,10 @@ Response response(const Wedge& w, Complex lambda) {
           outer.rowwise().norm().prod() * free.rowwise().norm().prod()};
 }
 
-double compliance(const Wedge& w) { return (w.kolosov + 1) / w.shear; }
-
 // Eq. (44): equal sigma_thetatheta on both sides, opposite u_theta.
 Complex matching(const Wedge& a, const Wedge& b, Complex lambda) {
   const Response ra = response(a, lambda), rb = response(b, lambda);
-  const double ca = compliance(a), cb = compliance(b);
+  const double ca = a.compliance(), cb = b.compliance();
   return (ca * ra.wall * rb.free + cb * rb.wall * ra.free) / (ca + cb);
 }
 
@@ -148,6 +146,30 @@ Wedge half_of(Wedge w, Face bisector) {
   return w;
 }
 
+using Matrix4 = Eigen::Matrix<Complex, 4, 4>;
+
+// What neighbours have in common along a ray: u_r, u_theta, sigma_thetatheta, sigma_rtheta, of A, B, C, D.
+Matrix4 state(const Wedge& w, Complex lambda, double theta) {
+  Matrix4 rows;
+  rows << rows_of(Face::clamped, lambda, theta, w.kolosov) / w.shear, rows_of(Face::free, lambda, theta, w.kolosov);
+  return rows;
+}
+
+// From A, B, C, D of the first wedge to those of the last. The state at theta = 0 can be inverted but for lambda = -1.
+Matrix4 transfer(std::span<const Wedge> wedges, Complex lambda) {
+  Matrix4 all = Matrix4::Identity();
+  for (std::size_t i = 0; i + 1 < wedges.size(); ++i)
+    all = state(wedges[i + 1], lambda, 0).inverse() * state(wedges[i], lambda, wedges[i].angle) * all;
+  return all;
+}
+
+// Stiffnesses over that of the first: only their ratios count.
+std::vector<Wedge> relative(std::span<const Wedge> wedges) {
+  std::vector<Wedge> list(wedges.begin(), wedges.end());
+  for (Wedge& w : list) w.shear /= wedges[0].shear;
+  return list;
+}
+
 bool lower(Complex a, Complex b) { return a.real() < b.real(); }
 
 }  // namespace
@@ -160,6 +182,25 @@ Wedge wedge(double angle, const ElasticLaw& law, Face outer) {
 Complex wedge_exponent(const Wedge& w, Face other) {
   const Function f = [&](Complex lambda) {
     return determinant(rows_of(w.outer, lambda, w.angle, w.kolosov), rows_of(other, lambda, 0, w.kolosov));
+  };
+  return next_zero(f, first_exponent).value_or(1);
+}
+
+std::complex<double> bonded_exponent(std::span<const Wedge> bonded, Face first, Face last) {
+  const std::vector<Wedge> wedges = relative(bonded);
+  const Wedge& end = wedges.back();
+  const Function f = [&](Complex lambda) {
+    const Rows at_last = rows_of(last, lambda, end.angle, end.kolosov) * transfer(wedges, lambda);
+    return determinant(at_last, rows_of(first, lambda, 0, wedges[0].kolosov));
+  };
+  return next_zero(f, first_exponent).value_or(1);
+}
+
+std::complex<double> bonded_exponent_inside(std::span<const Wedge> bonded) {
+  const std::vector<Wedge> wedges = relative(bonded);
+  const Function f = [&](Complex lambda) {
+    const Matrix4 around = state(wedges.back(), lambda, wedges.back().angle) * transfer(wedges, lambda);
+    return (around - state(wedges[0], lambda, 0)).determinant();
   };
   return next_zero(f, first_exponent).value_or(1);
 }
@@ -195,6 +236,32 @@ TipExponents TipTable::find(bool kink, Wedge a, Wedge b) {
   const TipExponents found = kink ? kink_exponents(a, b) : end_exponents(a, b);
   const std::lock_guard lock(mutex_);
   return known_.emplace(key, found).first->second;
+}
+
+template <typename Find>
+double TipTable::find_corner(const std::vector<Wedge>& wedges, double first, double last, const Find& find) {
+  std::vector<double> key{first, last};
+  for (const Wedge& w : wedges) key.insert(key.end(), {w.angle, w.shear / wedges[0].shear, w.kolosov});
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto at = known_corners_.find(key); at != known_corners_.end()) return at->second;
+  }
+  const double found = find().real();
+  const std::lock_guard lock(mutex_);
+  return known_corners_.emplace(key, found).first->second;
+}
+
+double TipTable::corner(const std::vector<Wedge>& wedges, Face first, Face last) {
+  return find_corner(wedges, double(first), double(last), [&]() -> Complex {
+    if (wedges.size() > 1) return bonded_exponent(wedges, first, last);
+    Wedge one = wedges[0];
+    one.outer = last;
+    return wedge_exponent(one, first);
+  });
+}
+
+double TipTable::inside(const std::vector<Wedge>& wedges) {
+  return find_corner(wedges, -1, -1, [&] { return bonded_exponent_inside(wedges); });
 }
 
 TipExponents TipTable::ends(const Wedge& a, const Wedge& b) { return find(false, a, b); }

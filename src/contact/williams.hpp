@@ -7,7 +7,9 @@
 #include <complex>
 #include <map>
 #include <mutex>
+#include <span>
 #include <tuple>
+#include <vector>
 
 #include "fem/material.hpp"
 
@@ -22,6 +24,8 @@ struct Wedge {
   double shear;    ///< shear modulus mu, stress
   double kolosov;  ///< 3 - 4 nu in plane strain, (3 - nu) / (1 + nu) in plane stress
   Face outer = Face::free;
+
+  double compliance() const { return (kolosov + 1) / shear; }  ///< 8 / E'
 };
 
 Wedge wedge(double angle, const ElasticLaw& law, Face outer = Face::free);
@@ -39,6 +43,11 @@ struct TipExponents {
 /// One wedge, by its outer face and its other one. Accurate to 1e-10, or to 1e-7 where two exponents coincide.
 std::complex<double> wedge_exponent(const Wedge& wedge, Face other);
 
+/// Wedges that are bonded one to the next, counter-clockwise, by the first face of the first and the last face of the
+/// last; their own `outer` is not used. And such that go all around a point, the last one bonded to the first.
+std::complex<double> bonded_exponent(std::span<const Wedge> wedges, Face first, Face last);
+std::complex<double> bonded_exponent_inside(std::span<const Wedge> wedges);
+
 /// Two wedges that share one face: the end of a contact line, or a corner on another body.
 TipExponents end_exponents(const Wedge& a, const Wedge& b);
 
@@ -53,12 +62,18 @@ class TipTable {
  public:
   TipExponents ends(const Wedge& a, const Wedge& b);
   TipExponents kinks(const Wedge& a, const Wedge& b);
+  /// Real parts of bonded_exponent, of one wedge wedge_exponent.
+  double corner(const std::vector<Wedge>& wedges, Face first, Face last);
+  double inside(const std::vector<Wedge>& wedges);
 
  private:
   using Key = std::tuple<bool, double, double, double, Face, double, double, double, Face>;
   TipExponents find(bool kink, Wedge a, Wedge b);
 
   std::map<Key, TipExponents> known_;
+  std::map<std::vector<double>, double> known_corners_;
+  template <typename Find>
+  double find_corner(const std::vector<Wedge>& wedges, double first, double last, const Find& find);
   std::mutex mutex_;
 };
 

@@ -1,6 +1,8 @@
 // Products of recovered errors, body by body.
 #pragma once
 
+#include <functional>
+
 #include "fem/patch_recovery.hpp"
 #include "solve/contact_factor.hpp"
 
@@ -12,9 +14,9 @@ ErrorProducts products_by_body(const Mesh& mesh, const BodyPoints& points, const
                                const MatX& fields);
 
 /// Of u and the duals of functionals (rows x F, at least one), in the order of both; `loads` (n x L): of the last L of
-/// them.
+/// them. `look_at`: called with u and some of the duals after another.
 ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
                                   const VecX& u, const ContactFactor& factor, const MatX& functionals,
-                                  const MatX& loads);
+                                  const MatX& loads, const std::function<void(const MatX& fields)>& look_at = {});
 
 }  // namespace mortise

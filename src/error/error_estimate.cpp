@@ -42,24 +42,34 @@ EnergyEstimate energy_estimate(const Mesh& mesh, const ErrorProducts& found, dou
   return estimate;
 }
 
-// Those that lie on the loaded line.
-std::vector<SingularPoint> on_loaded(std::vector<SingularPoint> points, const PressureLine& line) {
-  std::erase_if(points, [&](const SingularPoint& point) {
-    for (Eigen::Index i = 0; i < line.p.size(); ++i)
-      if (line.loaded[i] && (line.position[i] - point.position).norm() <= point.edge) return false;
-    return true;
+// Those whose logarithm counts: from the scene's size down to the least edges that are made (wanted_sizes.cpp), 15
+// times e-fold, it adds more to p than this part of p's mean, or than what is asked.
+std::vector<SingularPoint> that_count(std::vector<SingularPoint> points, const PressureLine& line, double asked) {
+  constexpr double folds = 15, least = 0.01;
+  const double loaded = line.h.dot((line.p.array() != 0).cast<double>().matrix());
+  const double mean = std::sqrt(line.h.dot(line.p.cwiseAbs2()) / loaded);
+  std::erase_if(points, [&](SingularPoint& point) {
+    if (folds * point.log_pressure <= std::max(least, asked) * mean) point.log_pressure = 0;
+    return point.exponent > singular_limit && point.log_pressure == 0;
   });
   return points;
 }
 
-// Linear between the windows' centres, constant beyond them.
-double far_at(const PressureEstimate& e, double s) {
+// At a vertex: linear between the windows' centres, constant beyond them; of what corners nearby do each by its shape.
+double far_at(const PressureEstimate& e, Eigen::Index i) {
   if (e.windows.empty()) return 0;
-  std::size_t k = 0;
-  while (k < e.windows.size() && e.windows[k].s < s) ++k;
-  if (k == 0 || k == e.windows.size()) return e.far(k == 0 ? 0 : Eigen::Index(k) - 1);
-  const double part = (s - e.windows[k - 1].s) / (e.windows[k].s - e.windows[k - 1].s);
-  return (1 - part) * e.far(Eigen::Index(k) - 1) + part * e.far(Eigen::Index(k));
+  const double s = e.line.s(i);
+  const int count = int(e.windows.size());
+  int k = 0;
+  while (k < count && e.windows[k].s < s) ++k;
+  const int before = std::max(k - 1, 0), after = std::min(k, count - 1);
+  const double part = before == after ? 0 : (s - e.windows[before].s) / (e.windows[after].s - e.windows[before].s);
+  double far = (1 - part) * e.far(before) + part * e.far(after);
+  for (const LocalTail& tail : e.tails.local) {
+    if (tail.window == before) far += (1 - part) * tail.at(e.line.position[i]);
+    if (tail.window == after && after != before) far += part * tail.at(e.line.position[i]);
+  }
+  return far;
 }
 
 void find_excluded(double part, PressureEstimate& e) {
@@ -71,8 +81,11 @@ void find_excluded(double part, PressureEstimate& e) {
   e.excluded.assign(line.p.size(), 0);
   for (Eigen::Index i = 0; i < line.p.size(); ++i)
     for (const SingularPoint& point : e.singular)
-      if (point.pressure_exponent < 1 && (line.position[i] - point.position).norm() < e.excluded_distance)
-        e.excluded[i] = 1;
+      if (point.is_unbounded() && (line.position[i] - point.position).norm() < e.excluded_distance) e.excluded[i] = 1;
+  // A mesh too coarse to tell what is near such a point from the rest of the contact: all of it counts.
+  bool left = false;
+  for (Eigen::Index i = 0; i < line.p.size(); ++i) left = left || (line.p(i) != 0 && !e.excluded[i]);
+  if (!left) e.excluded.assign(line.p.size(), 0);
 }
 
 void find_bars(PressureEstimate& e) {
@@ -80,7 +93,7 @@ void find_bars(PressureEstimate& e) {
   const Eigen::Index count = line.p.size();
   e.bar = e.local.pointwise(line);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const double far = far_at(e, line.s(i));
+    const double far = far_at(e, i);
     e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? far : 0));
     if (!line.loaded[i] || e.excluded[i] || (line.closed && i == count - 1)) continue;
     e.local2 += e.local.l2(i) * e.local.l2(i);
@@ -100,24 +113,49 @@ double round_off_energy(const ErrorProducts& found, double stiffness_scale, cons
   return stiffness_scale * strain * strain;
 }
 
-std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const Discretisation& d,
+// What is asked, and what is known of the points that no mesh shows.
+struct Asked {
+  const AccuracySpec& spec;
+  const std::vector<FoundPoint>& found;
+};
+
+// `reached`: of each node whether contact reaches it as a vertex of its curve.
+std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const SideTable& table, const Discretisation& d,
                                                  const std::vector<ContactPair>& pairs, const Solution& solution,
-                                                 double excluded) {
+                                                 const Asked& asked, TipTable& tips,
+                                                 std::vector<ContactReach>& reached) {
   const double round_off = round_off_pressure(mesh, pairs, d.system.stiffness_scale, solution.u);
-  const SideTable table(mesh);
-  TipTable tips;
   std::vector<PressureEstimate> list(pairs.size());
+  reached.resize(pairs.size());
   for_each_index(pairs.size(), solver_threads(), [&](std::size_t k) {
     PressureEstimate& e = list[k];
-    e.line = pressure_line(mesh, pairs[k], solution.lambda, round_off);
+    const ContactPair& pair = pairs[k];
+    e.line = pressure_line(mesh, pair, solution.lambda, round_off);
     e.local = line_error(e.line);
-    e.windows = pressure_windows(pairs[k], e.line);
-    e.singular = on_loaded(
-        singular_points(mesh, table, pairs[k].multiplier, pairs[k].opposite, d.system.constraints, d.laws, tips),
-        e.line);
-    find_excluded(excluded, e);
+    e.windows = pressure_windows(pair, e.line);
+    reached[k] = contact_reach(mesh, pair, e.line, asked.found);
+    const bool one_curve = pair.spec.initial_gap == InitialGap::closed || pair.spec.initial_gap == InitialGap::given;
+    e.singular = that_count(singular_points(mesh, table, pair.multiplier, pair.opposite, d.system.constraints, d.laws,
+                                            tips, reached[k], one_curve),
+                            e.line, asked.spec.value);
+    find_excluded(asked.spec.exclude, e);
   });
   return list;
+}
+
+// The corners of the bodies whose faces are free of contact.
+std::vector<BodyCorner> free_corners(std::vector<BodyCorner> corners, Eigen::Index nodes,
+                                     const std::vector<ContactPair>& pairs, const std::vector<ContactReach>& reached) {
+  std::vector<char> in_contact(nodes, 0);
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (const int side : {0, 1}) {
+      const Curve& curve = side == 0 ? pairs[k].multiplier : pairs[k].opposite;
+      for (std::size_t e = 0; e < curve.edges.size(); ++e)
+        for (const int end : {0, 1})
+          if (reached[k][side][e + end].any()) in_contact[curve.edges[e].nodes[end]] = 1;
+    }
+  std::erase_if(corners, [&](const BodyCorner& corner) { return in_contact[corner.node] != 0; });
+  return corners;
 }
 
 std::vector<WindowPlace> window_places(const std::vector<PressureEstimate>& pressures) {
@@ -136,6 +174,17 @@ MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector
     for (const PressureWindow& w : pressures[k].windows)
       columns.col(shared.dual[window++]).segment(pairs[k].first_row, w.weights.size()) += w.weights;
   return columns;
+}
+
+std::vector<TailShares> tails_along(const Mesh& mesh, const std::vector<PressureEstimate>& pressures,
+                                    const SharedDuals& duals, CornerTails& tails) {
+  std::vector<const PressureLine*> lines;
+  std::vector<const std::vector<PressureWindow>*> windows;
+  for (const PressureEstimate& e : pressures) {
+    lines.push_back(&e.line);
+    windows.push_back(&e.windows);
+  }
+  return tail_shares(mesh, lines, windows, duals, tails);
 }
 
 // Of each window the sum of the cells' parts without their signs.
@@ -186,7 +235,7 @@ double ErrorEstimate::far_field() const { return error_norm(pressures, 0, 1) / s
 
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
                              const std::vector<ContactPair>& pairs, const Solution& solution, const AccuracySpec& spec,
-                             int own_duals) {
+                             int own_duals, const std::vector<FoundPoint>& found_points) {
   const SaddlePointSystem& system = discretisation.system;
   const Eigen::Index rows = system.B.rows();
   const std::vector<ElasticLaw>& laws = discretisation.laws;
@@ -194,7 +243,11 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
     throw SceneError("accuracy.pair: " + std::to_string(spec.pair) + "; expected a number below that of the pairs, " +
                      std::to_string(pairs.size()));
   ErrorEstimate estimate;
-  estimate.pressures = lines_with_windows(mesh, discretisation, pairs, solution, spec.exclude);
+  const SideTable table(mesh);
+  TipTable tips;
+  std::vector<ContactReach> reached;
+  estimate.pressures =
+      lines_with_windows(mesh, table, discretisation, pairs, solution, {spec, found_points}, tips, reached);
   estimate.far.windows = share_duals(mesh, window_places(estimate.pressures), own_duals);
   GoalFunctionals goal;
   if (!pairs.empty())
@@ -205,9 +258,15 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
   if (goals > 0) functionals.rightCols(goals) = goal.rows;
   std::shared_ptr<const ContactFactor> factor = solution.factor;
   if (functionals.cols() > 0 && !factor) factor = factorise_contact(system, solution.active);
-  const ErrorProducts found =
-      functionals.cols() > 0 ? products_with_duals(mesh, points, laws, solution.u, *factor, functionals, goal.loads)
-                             : products_by_body(mesh, points, laws, solution.u);
+  if (functionals.cols() > 0)
+    estimate.tails.corners = corner_rings(
+        mesh, table,
+        free_corners(body_corners(mesh, table, system.constraints, laws, tips), mesh.nodes.rows(), pairs, reached));
+  CornerProducts at_corners(mesh, laws, estimate.tails.corners);
+  const ErrorProducts found = functionals.cols() > 0
+                                  ? products_with_duals(mesh, points, laws, solution.u, *factor, functionals,
+                                                        goal.loads, [&](const MatX& f) { at_corners.add(f); })
+                                  : products_by_body(mesh, points, laws, solution.u);
   estimate.energy = energy_estimate(mesh, found, round_off_energy(found, system.stiffness_scale, solution.u));
   estimate.far.parts = found.products.middleCols(1, shared);
   if (goals > 0) estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
@@ -215,11 +274,20 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
     const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, solution.u));
     add_stress_error(mesh, points, discretisation, goal, solution.u, patches, *estimate.goal);
   }
+  if (functionals.cols() > 0) {
+    const MatX tails = at_corners.tails();
+    estimate.tails.parts = tails.middleCols(1, shared);
+    estimate.tails.goal = tails.rightCols(goals);
+    if (goals > 0) estimate.goal->corners = estimate.tails.goal.colwise().sum().transpose();
+  }
+  std::vector<TailShares> tails = tails_along(mesh, estimate.pressures, estimate.far.windows, estimate.tails);
   const VecX far = far_fields(mesh, estimate.far);
   const double stiffness_part = uneven * estimate.energy.error * estimate.energy.error;
   Eigen::Index window = 0;
-  for (PressureEstimate& e : estimate.pressures) {
-    e.far = far.segment(window, Eigen::Index(e.windows.size()));
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    PressureEstimate& e = estimate.pressures[k];
+    e.tails = std::move(tails[k]);
+    e.far = far.segment(window, Eigen::Index(e.windows.size())) + e.tails.means;
     if (!estimate.far.windows.own()) e.far.array() += stiffness_part * largest_entry(e.line.p);
     window += Eigen::Index(e.windows.size());
     find_bars(e);

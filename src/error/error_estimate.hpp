@@ -1,10 +1,11 @@
 // How far a solution is from that of the problem: the stresses in the energy norm, the contact pressure node by node.
 #pragma once
 
-#include "contact/singular_points.hpp"
+#include "error/contact_reach.hpp"
 #include "error/goal_estimate.hpp"
 #include "error/pressure_windows.hpp"
 #include "error/shared_duals.hpp"
+#include "error/tail_shares.hpp"
 #include "mesh/body_points.hpp"
 
 namespace mortise {
@@ -27,8 +28,9 @@ struct PressureEstimate {
   PressureLine line;
   LineError local;
   std::vector<PressureWindow> windows;
-  VecX far;  ///< of each window's mean, stress: the sum of the cells' parts without their signs
-  VecX bar;  ///< of p at each vertex of `line`, stress
+  VecX far;  ///< of each window's mean, stress: the sum of the cells' parts without their signs, and of tails.means
+  TailShares tails;                     ///< what the mesh misses at the bodies' corners
+  VecX bar;                             ///< of p at each vertex of `line`, stress
   std::vector<SingularPoint> singular;  ///< of its loaded part
   double excluded_distance = 0;         ///< from a point where p has no limit: there p is left out of the norm
   std::vector<char> excluded;           ///< of each vertex
@@ -46,6 +48,7 @@ struct ErrorEstimate {
   EnergyEstimate energy;
   std::vector<PressureEstimate> pressures;  ///< one a pair
   FarField far;
+  CornerTails tails;
   std::optional<GoalEstimate> goal;  ///< where one is asked for
 
   /// L2 norms of the estimated error of p over that of p on all contact lines, singular points left out: of the whole,
@@ -62,9 +65,10 @@ struct ErrorEstimate {
 
 /// `solution`: converged or not; where it has no factor (iterative solvers) the whole system is factorised once.
 /// `spec`: what is left out, and a functional that is asked for. `own_duals`: as most_own of share_duals. Throws
-/// SceneError as goal_functionals does.
+/// SceneError as goal_functionals does. `found`: singular points of earlier meshes, which stay.
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
                              const std::vector<ContactPair>& pairs, const Solution& solution,
-                             const AccuracySpec& spec = {}, int own_duals = most_own_duals);
+                             const AccuracySpec& spec = {}, int own_duals = most_own_duals,
+                             const std::vector<FoundPoint>& found = {});
 
 }  // namespace mortise

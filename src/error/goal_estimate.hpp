@@ -40,10 +40,14 @@ Eigen::Vector3d stress_difference(const Mesh& mesh, const BodyPoints& points, co
 
 /// The values, and what they may be off by.
 struct GoalEstimate {
-  VecX value;        ///< of each component; of a stress the recovered one at the place
-  MatX parts;        ///< cells x components: of each cell in the error, its sign as it came
-  double local = 0;  ///< of a mean of p: mean of its local error
-  double far() const { return parts.cwiseAbs().colwise().sum().norm(); }
+  VecX value;         ///< of each component; of a stress the recovered one at the place
+  MatX parts;         ///< cells x components: of each cell in the error, its sign as it came
+  double local = 0;   ///< of a mean of p: mean of its local error
+  VecX corners = {};  ///< of each component what the mesh misses at the bodies' corners (error/corner_tails.hpp)
+  double far() const {
+    const VecX cells = parts.cwiseAbs().colwise().sum();
+    return (corners.size() > 0 ? VecX(cells + corners) : cells).norm();
+  }
   double error() const { return error_safety * (far() + local) / value.norm(); }  ///< relative
 };
 

@@ -9,7 +9,7 @@ namespace mortise {
 namespace {
 
 constexpr int windows_a_piece = 3, most_windows = 9;
-constexpr double half_width = 0.3;  // of the distance between two centres
+constexpr double half_width = window_width / 2;  // of the distance between two centres
 
 }  // namespace
 

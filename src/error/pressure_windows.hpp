@@ -6,6 +6,9 @@
 
 namespace mortise {
 
+/// Half of a window's width, of half the distance between two centres (WindowPlace::reach).
+inline constexpr double window_width = 0.6;
+
 /// The mean of p with the weight (1 - z^2)^3, z = -1 ... 1 across the window.
 struct PressureWindow {
   double s;           ///< its centre, arc length along the line's edges

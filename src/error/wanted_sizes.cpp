@@ -14,11 +14,12 @@ constexpr double side_of_area = 1.5;         // side of a triangle over the root
 constexpr double coarsen = 0.4, refine = 6;  // by what sizes may fall at once where the error is smooth
 constexpr double singular_share = 0.12;      // of a cell's energy norm; its error falls slowly then
 constexpr double singular_refine = 40, line_refine = 30, border_refine = 100;
+constexpr double corner_share = 0.2;  // of the target of the far field, for all corners of the bodies
 constexpr double border_share = 0.5;  // of the target of the local error, for all borders
 constexpr double least_size = 2e-7,
                  least_layer = 3e-5;  // of the scene's size; gmsh makes flat triangles at corners below 1e-5
 
-// Of each node, whether it is a singular point of a contact line, towards which there are layers.
+// Of each node, whether it is a singular point of a contact line or a corner of a body: what it needs are layers.
 std::vector<char> layered_nodes(const Mesh& mesh, const ErrorEstimate& estimate) {
   std::vector<Box> boxes;
   for (const PressureEstimate& e : estimate.pressures)
@@ -30,6 +31,7 @@ std::vector<char> layered_nodes(const Mesh& mesh, const ErrorEstimate& estimate)
   std::vector<char> layered(mesh.nodes.rows(), 0);
   for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i)
     layered[i] = !points.meeting(Box(Vec2(mesh.nodes.row(i).transpose()))).empty();
+  for (const CornerRings& rings : estimate.tails.corners) layered[rings.corner.node] = 1;
   return layered;
 }
 
@@ -38,23 +40,50 @@ bool has_layers(const Cell& cell, const std::vector<char>& layered) {
                      [&](int node) { return layered[node]; });
 }
 
+// Window by window the squares of what duals say of a place, as one number: stress length^(1/2).
+class WindowNorm {
+ public:
+  explicit WindowNorm(const ErrorEstimate& estimate) : windows_(estimate.far.windows) {
+    for (const PressureEstimate& e : estimate.pressures)
+      lengths_.insert(lengths_.end(), e.windows.size(), e.line.h.sum() / double(e.windows.size()));
+  }
+  double operator()(int body, const Vec2& x, const Eigen::Ref<const Eigen::RowVectorXd>& parts) const {
+    double sum = 0;
+    for (int d = 0; d < windows_.count; ++d)
+      windows_.for_each_window(body, d, x, [&](int window, double share) {
+        sum += lengths_[window] * (share * parts(d) * (share * parts(d)));
+      });
+    return std::sqrt(sum);
+  }
+
+ private:
+  const SharedDuals& windows_;
+  std::vector<double> lengths_;
+};
+
+// Of each cell what it does to what is asked for, and of each corner.
+VecX cell_parts(const Mesh& mesh, const ErrorEstimate& estimate) {
+  if (estimate.goal) return estimate.goal->parts.rowwise().norm();
+  const WindowNorm norm(estimate);
+  VecX part(Eigen::Index(mesh.cells.size()));
+  for (Eigen::Index e = 0; e < part.size(); ++e)
+    part(e) = norm(mesh.cells[e].body, centre_of(mesh.nodes, mesh.cells[e]), estimate.far.parts.row(e));
+  return part;
+}
+
+VecX corner_parts(const ErrorEstimate& estimate) {
+  return estimate.goal ? VecX(estimate.tails.goal.rowwise().norm()) : estimate.tails.norms;
+}
+
+double side_of(const ErrorEstimate& estimate, int cell) {
+  return side_of_area * std::sqrt(estimate.energy.areas(cell));
+}
+
 // By what the size of each cell is to fall, for the far field.
 VecX cell_refinement(const Mesh& mesh, const ErrorEstimate& estimate, double factor) {
-  // The windows' parts as one number a cell, stress^2 length under the root, and what all may add up to.
-  std::vector<double> lengths;  // of the windows
-  for (const PressureEstimate& e : estimate.pressures)
-    lengths.insert(lengths.end(), e.windows.size(), e.line.h.sum() / double(e.windows.size()));
-  const MatX& parts = estimate.far.parts;
-  VecX part = VecX::Zero(parts.rows());
-  for (int d = 0; d < estimate.far.windows.count; ++d)
-    for (Eigen::Index e = 0; e < parts.rows(); ++e)
-      estimate.far.windows.for_each_window(mesh.cells[e].body, d, centre_of(mesh.nodes, mesh.cells[e]),
-                                           [&](int window, double share) {
-                                             part(e) += lengths[window] * (share * parts(e, d) * (share * parts(e, d)));
-                                           });
-  if (estimate.goal) part = estimate.goal->parts.rowwise().squaredNorm();
-  part = part.cwiseSqrt();
-  const double target = part.sum() / factor;
+  const VecX part = cell_parts(mesh, estimate);
+  const double corners = corner_parts(estimate).sum();
+  const double target = (part.sum() + corners) / factor;
   VecX r = VecX::Constant(part.size(), coarsen);
   if (!(target > 0)) return r;
   const double all = std::pow(part.array().pow(1.0 / 3).sum() / target, 0.25);
@@ -69,6 +98,36 @@ VecX cell_refinement(const Mesh& mesh, const ErrorEstimate& estimate, double fac
       r(e) = std::min(proportional, singular_refine);
   }
   return r;
+}
+
+// Layers towards the bodies' corners where these would do more than they may, all together: what the sizes without
+// layers leave of them, h^(2 lambda), and the same largest part of all that have layers, as rings of cells cost the
+// same at all of them. `allowed`: the sum, as of corner_parts.
+void add_corner_layers(const ErrorEstimate& estimate, const VecX& sizes, double allowed, double least,
+                       std::vector<SizeLayers>& layers) {
+  const VecX parts = corner_parts(estimate);
+  VecX size = parts, without = parts;  // of the first ring's cells; the part without layers
+  for (Eigen::Index c = 0; c < parts.size(); ++c) {
+    const CornerRings& rings = estimate.tails.corners[c];
+    double logs = 0;
+    for (const int e : rings.cells[0]) logs += std::log(side_of(estimate, e));
+    size(c) = std::exp(logs / double(rings.cells[0].size()));
+    without(c) *= std::pow(sizes(rings.corner.node) / size(c), 2 * rings.corner.exponent);
+  }
+  std::vector<double> rising(without.begin(), without.end());
+  std::ranges::sort(rising);
+  double level = std::numeric_limits<double>::infinity(), left = allowed;
+  for (std::size_t i = 0; i < rising.size(); left -= rising[i++])
+    if (rising[i] * double(rising.size() - i) > left) {
+      level = left / double(rising.size() - i);
+      break;
+    }
+  for (Eigen::Index c = 0; c < parts.size(); ++c) {
+    const BodyCorner& corner = estimate.tails.corners[c].corner;
+    if (!(without(c) > level)) continue;
+    const double h = size(c) * std::pow(level / parts(c), 1 / (2 * corner.exponent));
+    layers.push_back({corner.position, std::max(h, least), size_growth});
+  }
 }
 
 // By what the edges at each vertex of a pair are to shorten.
@@ -96,7 +155,7 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
   const VecX r = cell_refinement(mesh, estimate, factors.far_field);
   VecX logs = VecX::Zero(mesh.nodes.rows()), cells_at = logs;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const double size = side_of_area * std::sqrt(estimate.energy.areas(e)) / r(e);
+    const double size = side_of(estimate, int(e)) / r(e);
     for (int a = 0; a < corner_count(mesh.cells[e].kind); ++a) {
       logs(mesh.cells[e].nodes[a]) += std::log(size);
       cells_at(mesh.cells[e].nodes[a]) += 1;
@@ -106,8 +165,10 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
   for (Eigen::Index i = 0; i < sizes.size(); ++i)
     if (cells_at(i) > 0) sizes(i) = std::exp(logs(i) / cells_at(i));
 
+  const double far_parts = cell_parts(mesh, estimate).sum() + corner_parts(estimate).sum();
   const double scene = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
   WantedSizes wanted;
+  add_corner_layers(estimate, sizes, corner_share * far_parts / factors.far_field, least_layer * scene, wanted.layers);
   double p2 = 0, borders = 0;
   for (const PressureEstimate& e : estimate.pressures) {
     p2 += e.p2;

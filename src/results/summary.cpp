@@ -65,7 +65,8 @@ Json pressure_json(const Results& r) {
       singular.push_back({{"pair", k},
                           {"position", {point.position.x(), point.position.y()}},
                           {"exponent", point.exponent},
-                          {"pressure_exponent", point.pressure_exponent}});
+                          {"pressure_exponent", point.pressure_exponent},
+                          {"logarithmic", point.log_pressure > 0}});
     excluded.push_back(e.pressures[k].excluded_distance);
   }
   return {{"error", e.pressure()},
@@ -155,7 +156,7 @@ void print_left_out(const ErrorEstimate& estimate, std::ostream& out) {
   int count = 0;
   for (const PressureEstimate& e : estimate.pressures)
     for (const SingularPoint& point : e.singular)
-      if (point.pressure_exponent < 1 && ++count <= 3) places += (count > 1 ? ", " : "") + near_point(point.position);
+      if (point.is_unbounded() && ++count <= 3) places += (count > 1 ? ", " : "") + near_point(point.position);
   if (count == 0) return;
   out << "            left out where p has no limit, " << places;
   if (count > 3) out << " and " << count - 3 << " more";

@@ -26,8 +26,10 @@ std::vector<SingularPoint> points_of(const TwoPlates& plates, const Sides& held)
     for (const int c : held.components) prescribe(mesh, boundary_index(mesh, name), c, 0, constraints);
   const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
   TipTable tips;
-  return singular_points(mesh, SideTable(mesh), contact_curve(mesh, boundary_index(mesh, "lower_contact")),
-                         contact_curve(mesh, boundary_index(mesh, "upper_contact")), constraints, laws, tips);
+  const Curve lower = contact_curve(mesh, boundary_index(mesh, "lower_contact")),
+              upper = contact_curve(mesh, boundary_index(mesh, "upper_contact"));
+  return singular_points(mesh, SideTable(mesh), lower, upper, constraints, laws, tips,
+                         reached_everywhere(lower, upper));
 }
 
 const std::vector<std::string> all_sides{"upper_left", "upper_right", "lower_left", "lower_right"};
@@ -110,6 +112,70 @@ TEST(SingularPoints, AKinkOfBothPlatesIsOnePointWithBothFacesShared) {
                             steel(straight / 2 + half_turn, Face::antisymmetric))
                   .stress.real(),
               1e-9);
+}
+
+// The lower plate's top stays flat, the upper plate's foot is a wedge about x = middle, of slope `slope` on both sides.
+struct WedgeOnFlat {
+  double slope, middle;
+  double gap = 0;
+};
+
+std::vector<SingularPoint> points_of(const WedgeOnFlat& wedge, const std::vector<Reach>& upper_reach,
+                                     const Sides& held) {
+  TwoPlates plates;
+  plates.height = [](double) { return 0.3; };
+  plates.n_upper = plates.n_lower = 8;
+  Mesh mesh = test::mesh_of(plates);
+  const Curve upper = contact_curve(mesh, boundary_index(mesh, "upper_contact"));
+  for (const int node : curve_nodes(upper))
+    mesh.nodes(node, 1) += wedge.gap + wedge.slope * std::abs(mesh.nodes(node, 0) - wedge.middle);
+  Constraints constraints = no_constraints(mesh);
+  for (const std::string& name : held.names)
+    for (const int c : held.components) prescribe(mesh, boundary_index(mesh, name), c, 0, constraints);
+  const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
+  TipTable tips;
+  const Curve lower = contact_curve(mesh, boundary_index(mesh, "lower_contact"));
+  ContactReach reach = reached_everywhere(lower, upper);
+  for (Reach& at : reach[0]) at = {false, false};
+  if (!upper_reach.empty()) reach[1] = upper_reach;
+  return singular_points(mesh, SideTable(mesh), lower, upper, constraints, laws, tips, reach);
+}
+
+// Johnson (1985), section 5.2: p = E* slope / pi arccosh(a / x), whose logarithm has half of what a cone's has.
+TEST(SingularPoints, UnderAWedgeOnAFlatPressureGrowsAsTheLogarithm) {
+  const double stiffness = 210e9 / (1 - 0.09) / 2;
+  for (const double slope : {0.05, 2e-3})
+    for (const double gap : {0.0, 0.2}) {  // however far it is drawn
+      const auto points = points_of({slope, 0.4, gap}, std::vector<Reach>(9, {true, true}), {});
+      const auto tip = std::ranges::find_if(points, [](const SingularPoint& p) { return p.log_pressure > 0; });
+      ASSERT_NE(tip, points.end());
+      EXPECT_EQ(tip->pressure_exponent, 1);
+      EXPECT_NEAR(tip->position.x(), 0.4, 1e-12);
+      EXPECT_NEAR(tip->log_pressure, stiffness * 2 * std::atan(slope) / 4, 1e-3 * tip->log_pressure);
+    }
+}
+
+TEST(SingularPoints, UnderACornerPressedOnOneFaceItIsThatOfAWedge) {
+  std::vector<Reach> reach(9, {false, false});
+  reach[4] = {true, false};
+  const auto points = points_of({0.5, 0.4}, reach, {});
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].log_pressure, 0);
+  const double angle = 180 - 2 * std::atan(0.5) / degree;
+  EXPECT_NEAR(points[0].pressure_exponent,
+              end_exponents(steel(angle * degree, Face::free), steel(180 * degree, Face::free)).pressure.real(), 1e-3);
+}
+
+TEST(SingularPoints, WhatContactDoesNotReachIsNone) {
+  EXPECT_TRUE(points_of({0.5, 0.4}, std::vector<Reach>(9, {false, false}), {}).empty());
+}
+
+// Half a wedge beside its line of symmetry.
+TEST(SingularPoints, AWedgesTipOnASymmetryLineIsOne) {
+  const auto points = points_of({0.05, 0}, std::vector<Reach>(9, {true, true}), {all_sides, {0}});
+  ASSERT_FALSE(points.empty());
+  EXPECT_NEAR(points[0].position.x(), 0, 1e-12);
+  EXPECT_NEAR(points[0].log_pressure, 210e9 / (1 - 0.09) / 2 * 2 * std::atan(0.05) / 4, 1e-3 * points[0].log_pressure);
 }
 
 }  // namespace

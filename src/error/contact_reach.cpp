@@ -1,0 +1,106 @@
+#include "error/contact_reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/edges.hpp"
+
+namespace mortise {
+namespace {
+
+// Where a single vertex is closed, the edges on both sides of it are not known to be open.
+Reach reach_of(bool closed, bool before, bool after, bool faced_before, bool faced_after) {
+  if (!closed) return {false, false};
+  return before || after ? Reach{before, after} : Reach{faced_before, faced_after};
+}
+
+std::vector<Reach> by_vertices(const PressureLine& line) {
+  const Eigen::Index last = line.p.size() - 1;
+  const auto closed = [&](Eigen::Index i) { return line.p(i) != 0; };
+  std::vector<Reach> reach;
+  for (Eigen::Index i = 0; i <= last; ++i) {
+    const auto [before, after] = line.faced_beside(i);
+    reach.push_back(reach_of(closed(i), before && closed(i > 0 ? i - 1 : last - 1),
+                             after && closed(i < last ? i + 1 : 1), before, after));
+  }
+  return reach;
+}
+
+// Of an opposite edge, whether contact is closed at the contact point nearest to each end, and in the half beyond its
+// middle: where p is at both ends of the multiplier side's edge.
+struct FacingEdge {
+  std::array<double, 2> away{3, 3};  // of that point from the end, in the edge's coordinate
+  std::array<bool, 2> closed{false, false}, closed_beyond{false, false};
+};
+
+std::vector<FacingEdge> facing_edges(const ContactPair& pair, const PressureLine& line) {
+  std::vector<FacingEdge> edges(pair.opposite.edges.size());
+  for (const ContactPoint& point : pair.points) {
+    const bool closed = line.p(point.edge) != 0 && line.p(point.edge + 1) != 0;
+    FacingEdge& edge = edges[point.opposite_edge];
+    for (const int end : {0, 1}) {
+      const double away = std::abs(point.eta - (2 * end - 1));
+      if (away < edge.away[end]) {
+        edge.away[end] = away;
+        edge.closed[end] = closed;
+      }
+      edge.closed_beyond[end] = edge.closed_beyond[end] || (away >= 1 && closed);
+    }
+  }
+  return edges;
+}
+
+std::vector<Reach> by_points(const ContactPair& pair, const PressureLine& line) {
+  const std::vector<FacingEdge> edges = facing_edges(pair, line);
+  const std::size_t count = edges.size();
+  const bool closed = pair.opposite.closed;
+  std::vector<Reach> reach;
+  for (std::size_t i = 0; i <= count; ++i) {
+    FacingEdge before, after;
+    if (i > 0 || closed) before = edges[i > 0 ? i - 1 : count - 1];
+    if (i < count || closed) after = edges[i < count ? i : 0];
+    reach.push_back(reach_of(before.closed[1] || after.closed[0], before.closed[1] && before.closed_beyond[1],
+                             after.closed[0] && after.closed_beyond[0], before.away[1] < 2, after.away[0] < 2));
+  }
+  return reach;
+}
+
+// Vertices of drawn corners are in one place on all meshes, to gmsh's round-off.
+void add_found(const Mesh& mesh, const Curve& curve, const std::vector<Vec2>& places, std::vector<Reach>& reach) {
+  constexpr double one_place = 1e-6;  // of the edge
+  for (std::size_t i = 0; i < reach.size() && !places.empty(); ++i) {
+    const std::size_t e = std::min(i, curve.edges.size() - 1);
+    const Vec2 x = mesh.nodes.row(curve.edges[e].nodes[i == e ? 0 : 1]).transpose();
+    const double near = one_place * edge_length(mesh.nodes, curve.edges[e]);
+    if (std::ranges::any_of(places, [&](const Vec2& place) { return (place - x).norm() < near; }))
+      reach[i] = {true, true};
+  }
+}
+
+}  // namespace
+
+bool FoundPoint::is(const FoundPoint& other) const {
+  const auto& [first, second] = other.between;
+  return position == other.position && (between == other.between || between == std::array{second, first});
+}
+
+std::array<std::string, 2> curve_names(const Mesh& mesh, const ContactPair& pair) {
+  return {mesh.boundaries[pair.multiplier.boundary].name, mesh.boundaries[pair.opposite.boundary].name};
+}
+
+ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const PressureLine& line,
+                           const std::vector<FoundPoint>& found) {
+  std::vector<Vec2> places;
+  const auto [multiplier, opposite] = curve_names(mesh, pair);
+  for (const FoundPoint& point : found) {
+    const auto& [first, second] = point.between;
+    if ((first == multiplier && second == opposite) || (first == opposite && second == multiplier))
+      places.push_back(point.position);
+  }
+  ContactReach reach{by_vertices(line), by_points(pair, line)};
+  add_found(mesh, pair.multiplier, places, reach[0]);
+  add_found(mesh, pair.opposite, places, reach[1]);
+  return reach;
+}
+
+}  // namespace mortise

@@ -1,0 +1,147 @@
+#include "error/corner_tails.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fem/elements.hpp"
+#include "fem/quadrature.hpp"
+
+namespace mortise {
+namespace {
+
+double area_of(const Mesh& mesh, int cell) {
+  const Cell& c = mesh.cells[cell];
+  const int corners = corner_count(c.kind);
+  double twice = 0;
+  for (int a = 0; a < corners; ++a) {
+    const auto x = mesh.nodes.row(c.nodes[a]), y = mesh.nodes.row(c.nodes[(a + 1) % corners]);
+    twice += x(0) * y(1) - x(1) * y(0);
+  }
+  return twice / 2;
+}
+
+void sort_out(std::vector<int>& cells) {
+  std::ranges::sort(cells);
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
+std::vector<int> cells_at(const SideTable& table, int node) {
+  std::vector<int> cells;
+  for (const SideAtNode& side : table.at(node)) cells.push_back(side.side.cell);
+  sort_out(cells);
+  return cells;
+}
+
+std::vector<int> cells_beside(const Mesh& mesh, const SideTable& table, const std::vector<int>& ring) {
+  std::vector<int> near, beside;
+  for (const int e : ring)
+    for (int a = 0; a < corner_count(mesh.cells[e].kind); ++a)
+      for (const int cell : cells_at(table, mesh.cells[e].nodes[a])) near.push_back(cell);
+  sort_out(near);
+  std::ranges::set_difference(near, ring, std::back_inserter(beside));
+  return beside;
+}
+
+// Angle of a ring's cells at the node, by their corners.
+double angle_at(const Mesh& mesh, int node, const std::vector<int>& ring) {
+  double angle = 0;
+  for (const int e : ring) {
+    const Cell& cell = mesh.cells[e];
+    const int corners = corner_count(cell.kind), a = int(std::ranges::find(cell.nodes, node) - cell.nodes.begin());
+    const Vec2 x = mesh.nodes.row(node), next = mesh.nodes.row(cell.nodes[(a + 1) % corners]).transpose() - x,
+               last = mesh.nodes.row(cell.nodes[(a + corners - 1) % corners]).transpose() - x;
+    angle += std::acos(std::clamp(next.dot(last) / (next.norm() * last.norm()), -1.0, 1.0));
+  }
+  return angle;
+}
+
+}  // namespace
+
+std::vector<CornerRings> corner_rings(const Mesh& mesh, const SideTable& table,
+                                      const std::vector<BodyCorner>& corners) {
+  std::vector<CornerRings> all;
+  for (const BodyCorner& corner : corners) {
+    CornerRings rings{.corner = corner, .cells = {}};
+    rings.cells[0] = cells_at(table, corner.node);
+    rings.cells[1] = cells_beside(mesh, table, rings.cells[0]);
+    const double angle = angle_at(mesh, corner.node, rings.cells[0]);
+    double area = 0;
+    for (const int ring : {0, 1}) {
+      for (const int e : rings.cells[ring]) area += area_of(mesh, e);
+      rings.radius[ring] = std::sqrt(2 * area / angle);
+    }
+    rings.degree = std::ranges::all_of(rings.cells[0], [&](int e) { return is_quadratic(mesh.cells[e].kind); });
+    all.push_back(std::move(rings));
+  }
+  return all;
+}
+
+double missed_energy(double exponent, int degree) {
+  double part = 1;
+  for (int n = 0; n <= degree; ++n) {
+    const double root = (1 - exponent + n) / (1 + exponent + n);
+    part *= root * root;
+  }
+  return part;
+}
+
+void CornerProducts::add_cell(int number, const MatX& fields, Eigen::Ref<Eigen::RowVectorXd> sums) const {
+  const Cell& cell = mesh_.cells[number];
+  const ElasticLaw& law = laws_[cell.body];
+  const int nodes = node_count(cell.kind);
+  MatX own(2 * nodes, fields.cols());
+  for (int a = 0; a < nodes; ++a) own.middleRows<2>(2 * a) = fields.middleRows<2>(2 * cell.nodes[a]);
+  const CellRule rule = product_rule(cell.kind, is_quadratic(cell.kind) ? 2 : 1);
+  for (std::size_t q = 0; q < rule.points.size(); ++q) {
+    const CellShape shape = cell_shape(cell.kind, rule.points[q]);
+    Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero();  // (i, j) = d x_j / d xi_i
+    double x1 = 0;
+    for (int a = 0; a < nodes; ++a) {
+      x_xi += shape.dN[a] * mesh_.nodes.row(cell.nodes[a]);
+      x1 += shape.N[a] * mesh_.nodes(cell.nodes[a], 0);
+    }
+    const Eigen::Matrix2d xi_x = x_xi.inverse();
+    MatX B = MatX::Zero(4, 2 * nodes);
+    for (int a = 0; a < nodes; ++a) {
+      const Vec2 d = xi_x * shape.dN[a];
+      const double hoop = law.model.axisymmetric() ? shape.N[a] / x1 : 0;
+      B.middleCols<2>(2 * a) << d.x(), 0, 0, d.y(), hoop, 0, d.y(), d.x();
+    }
+    const MatX strains = B * own;
+    const Vec4 stress = law.stiffness * Vec4(strains.col(0));
+    sums += rule.weights[q] * x_xi.determinant() * law.model.depth(x1) * (stress.transpose() * strains);
+  }
+}
+
+void CornerProducts::add(const MatX& fields) {
+  const Eigen::Index count = Eigen::Index(corners_.size());
+  const Eigen::Index before = products_[0].cols(), more = fields.cols() - (before > 0 ? 1 : 0);
+  for (const int ring : {0, 1}) {
+    MatX& products = products_[ring];
+    products.conservativeResize(count, before + more);
+    for (Eigen::Index c = 0; c < count; ++c) {
+      Eigen::RowVectorXd sums = Eigen::RowVectorXd::Zero(fields.cols());
+      for (const int cell : corners_[c].cells[ring]) add_cell(cell, fields, sums);
+      products.row(c).tail(more) = sums.tail(more);
+    }
+  }
+}
+
+MatX CornerProducts::tails() const {
+  MatX tails = MatX::Zero(products_[0].rows(), products_[0].cols());
+  for (Eigen::Index c = 0; c < tails.rows(); ++c) {
+    const CornerRings& rings = corners_[c];
+    const double lambda = rings.corner.exponent, near = rings.radius[0] * rings.radius[0],
+                 far = rings.radius[1] * rings.radius[1], power = std::pow(rings.radius[0], 2 * lambda);
+    // P / r^2 = a r^(2 lambda - 2) + b at both radii.
+    const double difference = power / near - std::pow(rings.radius[1], 2 * lambda) / far;
+    const Eigen::RowVectorXd inner = products_[0].row(c), both = inner + products_[1].row(c);
+    const Eigen::RowVectorXd a = (inner / near - both / far) / difference;
+    tails.row(c) = missed_more * missed_energy(lambda, rings.degree) * power * a.cwiseAbs();
+  }
+  return tails;
+}
+
+}  // namespace mortise

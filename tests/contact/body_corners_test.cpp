@@ -1,0 +1,103 @@
+// Which places of bodies are singular by themselves.
+#include "contact/body_corners.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "support/two_plates.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+const ElasticLaw steel = elastic_law(210e9, 0.3, {Plane::strain});
+
+Wedge wedge_of(double degrees, double stiffness = 1) {
+  return wedge(degrees * degree, elastic_law(stiffness, 0.3, {Plane::strain}));
+}
+
+// Squares of side 1 around the origin, so many quarters, each a body of its own.
+Mesh quarters(int count) {
+  const int x[] = {1, 1, 0, -1, -1, -1, 0, 1}, y[] = {0, 1, 1, 1, 0, -1, -1, -1};
+  Mesh mesh;
+  mesh.nodes.resize(count == 4 ? 9 : 2 * count + 2, 2);
+  mesh.nodes.row(0).setZero();
+  for (Eigen::Index i = 1; i < mesh.nodes.rows(); ++i) mesh.nodes.row(i) << x[i - 1], y[i - 1];
+  for (int q = 0; q < count; ++q) {
+    const int first = 2 * q + 1;
+    mesh.cells.push_back({CellKind::quad4, q, {0, first, first + 1, q == 3 ? 1 : first + 2}});
+    mesh.bodies.emplace_back(1, char(97 + q));
+  }
+  return mesh;
+}
+
+std::vector<BodyCorner> corners_of(const Mesh& mesh, const Constraints& constraints,
+                                   const std::vector<ElasticLaw>& laws) {
+  TipTable tips;
+  return body_corners(mesh, SideTable(mesh), constraints, laws, tips);
+}
+
+std::vector<BodyCorner> corners_of(const Mesh& mesh, const std::vector<ElasticLaw>& laws) {
+  return corners_of(mesh, no_constraints(mesh), laws);
+}
+
+TEST(BodyCorners, AreThoseThatTurnInwards) {
+  EXPECT_TRUE(corners_of(quarters(1), {steel}).empty());
+  EXPECT_TRUE(corners_of(quarters(2), {steel, steel}).empty());
+  EXPECT_TRUE(corners_of(quarters(4), std::vector(4, steel)).empty());
+  const auto found = corners_of(quarters(3), std::vector(3, steel));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].node, 0);
+  EXPECT_NEAR(found[0].exponent, 0.5444837367, 1e-4);  // Williams (1952)
+}
+
+TEST(BodyCorners, AreWhereASupportEnds) {
+  const Mesh mesh = quarters(2);
+  Constraints constraints = no_constraints(mesh);
+  for (const int node : {0, 1})
+    for (const int c : {0, 1}) prescribe(mesh, "end", node, c, 0, constraints);
+  const auto found = corners_of(mesh, constraints, {steel, steel});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].node, 0);
+  EXPECT_NEAR(found[0].exponent, 0.5, 1e-4);  // Muskhelishvili (1953)
+  EXPECT_EQ(found[1].node, 1);
+  EXPECT_NEAR(found[1].exponent, 0.7111729, 1e-4);  // clamped and free at a right angle
+}
+
+TEST(BodyCorners, AreWhereMaterialsMeet) {
+  const ElasticLaw soft = elastic_law(1, 0.3, {Plane::strain}), stiff = elastic_law(100, 0.3, {Plane::strain});
+  const auto ends = corners_of(quarters(2), {soft, stiff});  // a joint of two blocks ends at free sides
+  ASSERT_EQ(ends.size(), 2u);
+  EXPECT_EQ(ends[0].node, 0);
+  EXPECT_EQ(ends[1].node, 3);
+  EXPECT_NEAR(ends[0].exponent, ends[1].exponent, 1e-12);
+  const auto inside = corners_of(quarters(4), {stiff, soft, soft, soft});
+  ASSERT_FALSE(inside.empty());
+  EXPECT_EQ(inside[0].node, 0);
+}
+
+TEST(Williams, BondedWedgesOfOneMaterialAreOneWedge) {
+  for (const double degrees : {200.0, 270.0, 350.0}) {
+    const std::vector<Wedge> parts{wedge_of(70), wedge_of(degrees - 130), wedge_of(60)};
+    for (const Face first : {Face::free, Face::clamped, Face::symmetric}) {
+      Wedge whole = wedge_of(degrees);
+      EXPECT_NEAR(std::abs(bonded_exponent(parts, first, Face::free) - wedge_exponent(whole, first)), 0, 1e-8);
+    }
+  }
+}
+
+TEST(Williams, ASoftBondedWedgeIsNoneAndAStiffOneASupport) {
+  const std::vector<Wedge> soft{wedge_of(270), wedge_of(90, 1e-9)}, stiff{wedge_of(180), wedge_of(180, 1e9)};
+  EXPECT_NEAR(bonded_exponent_inside(soft).real(), 0.5444837367, 1e-6);
+  Wedge half = wedge_of(180);
+  half.outer = Face::clamped;
+  const std::vector<Wedge> joint{wedge_of(90), wedge_of(90, 1e9)};
+  Wedge quarter = wedge_of(90);
+  quarter.outer = Face::clamped;
+  EXPECT_NEAR(std::abs(bonded_exponent(joint, Face::free, Face::free) - wedge_exponent(quarter, Face::free)), 0, 1e-6);
+  EXPECT_NEAR(bonded_exponent_inside(stiff).real(), 1, 1e-3);  // a straight joint goes on
+}
+
+}  // namespace
+}  // namespace mortise
