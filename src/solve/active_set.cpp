@@ -58,6 +58,7 @@ void iterate(ContactRows& rows, std::vector<char> start, const VecX& at, int max
     if (r.infeasible.empty()) {
       if (r.status == SolveStatus::unconstrained || !rows.refine()) return;
       fewest = r.active.size() + 1;
+      step = 0;
       continue;
     }
     r.status = SolveStatus::not_converged;

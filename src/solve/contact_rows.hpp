@@ -51,8 +51,6 @@ class ContactRows {
   virtual bool soften(const VecX& compliance) = 0;
   /// [C + compliance, H; H^T 0] (lambda, mu) = (gap, work).
   virtual Forces solve_softened(const VecX& gap, const VecX& work) = 0;
-  /// The part by which solve_softened is exact.
-  virtual double softened_tolerance() const { return 0; }
   /// Where solve() iterates: to less from now on. False where there is nothing to gain.
   virtual bool refine() { return false; }
   /// s x count: the motions that none of the closed rows of the last solve holds, told_apart.

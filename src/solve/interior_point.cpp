@@ -6,8 +6,10 @@ namespace mortise {
 namespace {
 
 constexpr int most_steps = 35;         // half as many again as the hardest problems of the tests take
-constexpr int least_progress = 3;      // good enough, and so many steps without any: round-off
+constexpr int least_progress = 5;      // good enough, and so many steps without any: round-off
 constexpr double exact = 1e-12;        // of the largest terms: some thousand round-offs
+constexpr double round_off = 1e-15;    // likewise
+constexpr double apart = 1e5;          // pressure over gap, or gap over pressure, of a row that is told
 constexpr double good_enough = 1e-5;   // the same, for the rows to be told apart
 constexpr double runaway = 1e8;        // pressures over those of the start, where nothing carries the load
 constexpr double to_the_edge = 0.995;  // of the way to where a pressure or a gap is zero (Mehrotra 1992)
@@ -39,6 +41,17 @@ class Path {
   /// How far from the solution: what is left of the equations, and of lambda w, over the largest terms.
   double error() const { return error_; }
   const ContactRows::Forces& at() const { return at_; }
+
+  // A row that carries a millionth of the others' pressures may be what holds a body along the contact: the path is
+  // followed until each row is told, or, where some just touch, to its end.
+  bool told() const {
+    bool all = true;
+    for_each_unilateral([&](Eigen::Index a) {
+      const double pressure = -at_.lambda(a) * root_(a), gap = z_(a) / root_(a);
+      all = all && (pressure > apart * gap || gap > apart * pressure);
+    });
+    return all;
+  }
 
   std::vector<char> closed() const {
     std::vector<char> closed(unilateral_.size(), 1);
@@ -141,12 +154,12 @@ InteriorPoint find_interior_point(ContactRows& rows) {
   while (!best.converged && path.finite() && best.steps < most_steps && left > 0 && !path.runs_away() && path.step()) {
     ++best.steps;
     left = least > good_enough || path.error() < 0.5 * least ? least_progress : left - 1;
-    if (path.error() < least) {
+    if (path.error() <= least) {
       least = path.error();
       best.at = path.at();
       best.closed = path.closed();
     }
-    best.converged = least <= std::max(exact, rows.softened_tolerance());
+    best.converged = least <= round_off || (path.error() <= exact && path.told());
   }
   best.converged = least <= good_enough;
   return best;
