@@ -8,7 +8,7 @@ namespace {
 constexpr int most_steps = 35;         // half as many again as the hardest problems of the tests take
 constexpr int least_progress = 5;      // good enough, and so many steps without any: round-off
 constexpr double exact = 1e-12;        // of the largest terms: some thousand round-offs
-constexpr double round_off = 1e-15;    // likewise
+constexpr double round_off = 1e-15;    // of the largest terms, its square of their product
 constexpr double apart = 1e5;          // pressure over gap, or gap over pressure, of a row that is told
 constexpr double good_enough = 1e-5;   // the same, for the rows to be told apart
 constexpr double runaway = 1e8;        // pressures over those of the start, where nothing carries the load
@@ -40,6 +40,8 @@ class Path {
   bool runs_away() const { return largest_pressure() > runaway * unit_; }
   /// How far from the solution: what is left of the equations, and of lambda w, over the largest terms.
   double error() const { return error_; }
+  /// Of lambda w, over the square of the largest terms of the start: it goes on to fall where `error` is round-off.
+  double product() const { return mean_ / (unit_ * unit_); }
   const ContactRows::Forces& at() const { return at_; }
 
   // A row that carries a millionth of the others' pressures may be what holds a body along the contact: the path is
@@ -149,17 +151,19 @@ class Path {
 InteriorPoint find_interior_point(ContactRows& rows) {
   Path path(rows);
   InteriorPoint best{.converged = path.trivial(), .steps = 0, .at = path.at(), .closed = path.closed()};
-  double least = path.error();
+  double least = path.error(), smallest = path.product();
   int left = least_progress;
   while (!best.converged && path.finite() && best.steps < most_steps && left > 0 && !path.runs_away() && path.step()) {
     ++best.steps;
-    left = least > good_enough || path.error() < 0.5 * least ? least_progress : left - 1;
-    if (path.error() <= least) {
-      least = path.error();
+    const bool nearer = path.error() <= std::max(least, exact);
+    left = least > good_enough || (nearer && path.product() < 0.5 * smallest) ? least_progress : left - 1;
+    if (nearer) {
+      least = std::min(least, path.error());
+      smallest = path.product();
       best.at = path.at();
       best.closed = path.closed();
     }
-    best.converged = least <= round_off || (path.error() <= exact && path.told());
+    best.converged = path.error() <= exact && (path.told() || path.product() <= round_off * round_off);
   }
   best.converged = least <= good_enough;
   return best;
