@@ -19,10 +19,11 @@ Results solved(const std::string& name, const std::string& parameter = "", const
   return r;
 }
 
-// Solved, with one note a pair at most, which names a place or a body.
-void expect_few_words(const Results& r) {
-  EXPECT_EQ(r.status, Status::solved);
-  for (const Check& check : r.checks) EXPECT_TRUE(check.ok()) << check.name << ": " << check.value;
+// Solved, with one note a pair at most, which names a place or a body. A mesh that is `coarse` does not resolve p.
+void expect_few_words(const Results& r, bool coarse = false) {
+  EXPECT_EQ(r.status, coarse ? Status::check_failed : Status::solved);
+  for (const Check& check : r.checks)
+    EXPECT_EQ(check.ok(), !(coarse && check.name == "estimated error of p")) << check.name << ": " << check.value;
   EXPECT_LE(r.warnings.size(), r.pairs.size());
   for (const std::string& note : r.warnings)
     EXPECT_TRUE(note.find("near (") != std::string::npos || note.find("(x = ") != std::string::npos ||
@@ -60,7 +61,7 @@ TEST(Parts, ADovetail) {
 
 TEST(Parts, AShaftInAVBlock) {
   const Results r = solved("v_block");
-  expect_few_words(r);
+  expect_few_words(r, true);
   const Vec2 weight = r.discretisation.body_sums[0].force;
   EXPECT_NEAR(weight.y(), -2e8 * std::numbers::pi / 2 * 0.02 * 0.02, 1);
   expect_force(force_on(r, 0, "shaft_foot"), {weight.y(), -weight.y()});
@@ -95,7 +96,7 @@ bool says_p_is_off(const Results& r) {
 
 TEST(EstimatedError, ACoarseMeshIsNamedWithItsPlace) {
   const Results coarse = solved("v_block", "mesh.parameters.n", "6");
-  EXPECT_EQ(coarse.status, Status::solved);
+  EXPECT_EQ(coarse.status, Status::check_failed);  // by more than half
   EXPECT_GT(coarse.estimate->pressure(), pressure_error_limit);
   EXPECT_TRUE(says_p_is_off(coarse));
 }

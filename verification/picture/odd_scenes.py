@@ -14,8 +14,7 @@ SUPPORTS = {
     "foundation": "{ on = 'ground', foundation = 1e3 }",
     "foundation by place": "{ on = 'ground', foundation = ['1e3 * (1 + x)', 2e3] }",
     "rigid": "{ on = 'ground', rigid = { x = 0, y = 0, rotation = 0 } }",
-    "rigid with forces": "{ on = 'ground', rigid = { x = 0, rotation = 0, force = [0, 3], about = [1.5, 0.1] } },"
-                         "{ on = 'corner', displacement = { y = 0 } }",
+    "rigid with a force": "{ on = 'ground', rigid = { x = 0, y = 0, rotation = 0, force = [0, 3], about = [1.5, 0.1] } }",
     "springs": "{ on = 'corner', spring = [1e3, 2e3] }, { on = 'corner_2', spring = 1e4 }",
     "points": "{ on = ['corner', 'corner_2'], displacement = { x = 0, y = 0 } }",
 }
