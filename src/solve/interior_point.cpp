@@ -45,9 +45,9 @@ class Path {
   const ContactRows::Forces& at() const { return at_; }
 
   // A row that carries a millionth of the others' pressures may be what holds a body along the contact: the path is
-  // followed until each row is told, or, where some just touch, to its end.
+  // followed until lambda w is small of their square and each row is told, or, where some just touch, to its end.
   bool told() const {
-    bool all = true;
+    bool all = mean_ <= exact * largest_pressure() * largest_pressure();
     for_each_unilateral([&](Eigen::Index a) {
       const double pressure = -at_.lambda(a) * root_(a), gap = z_(a) / root_(a);
       all = all && (pressure > apart * gap || gap > apart * pressure);
