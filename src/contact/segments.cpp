@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "contact/gap_cuts.hpp"
 #include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
 
@@ -53,6 +54,23 @@ std::vector<double> cuts_of(const Points& nodes, const Curve& curve, int e, cons
   return cuts;
 }
 
+// The pieces of each segment between cuts of its edge.
+std::vector<Segment> cut(const std::vector<Segment>& segments, const std::vector<std::vector<double>>& cuts) {
+  std::vector<Segment> pieces;
+  for (Segment piece : segments) {
+    const double end = piece.end;
+    for (const double at : cuts[piece.edge]) {
+      if (at <= piece.begin || at >= end) continue;
+      piece.end = at;
+      pieces.push_back(piece);
+      piece.begin = at;
+    }
+    piece.end = end;
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
 int gauss_count(const Edge& edge, const Edge& opposite) {
   const int degree = edge.node_count - 1;
   return (degree + std::max(degree, opposite.node_count - 1) + 2) / 2;
@@ -81,6 +99,7 @@ std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multi
   } else {
     for (int e = 0; e < int(multiplier.edges.size()); ++e) pieces.push_back({e, -1, 1, -1});
   }
+  if (const auto cuts = gap_cuts(nodes, multiplier, geometry); !cuts.empty()) pieces = cut(pieces, cuts);
   std::vector<ContactPoint> points;
   for (const Segment& piece : pieces) {
     const Edge& edge = multiplier.edges[piece.edge];

@@ -6,6 +6,7 @@
 #include "fem/edges.hpp"
 #include "fem/elements.hpp"
 #include "fem/quadrature.hpp"
+#include "fem/resolved_loads.hpp"
 
 namespace mortise {
 namespace {
@@ -27,12 +28,12 @@ struct CellTable {
 };
 
 template <CellKind kind>
-CellTable<kind> cell_table() {
-  const CellRule rule = cell_rule(kind);
+CellTable<kind> cell_table(const CellRule& rule, std::size_t first = 0) {
   CellTable<kind> table;
-  table.weights = rule.weights;
+  table.weights.assign(rule.weights.begin() + std::ptrdiff_t(first),
+                       rule.weights.begin() + std::ptrdiff_t(first) + points<kind>);
   for (Eigen::Index q = 0; q < points<kind>; ++q) {
-    const CellShape s = cell_shape(kind, rule.points[q]);
+    const CellShape s = cell_shape(kind, rule.points[first + q]);
     for (int a = 0; a < n<kind>; ++a) {
       table.N(q, a) = s.N[a];
       table.dxi(q, a) = s.dN[a].x();
@@ -210,7 +211,7 @@ void add_any(const Cell& cell, const ElasticLaw& law, const CellPoints<kind>& x,
 template <CellKind kind>
 void add_cells(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const NodeGraph& graph, NodeRange columns,
                SparseMatrix& K) {
-  const CellTable<kind> table = cell_table<kind>();
+  const CellTable<kind> table = cell_table<kind>(cell_rule(kind));
   CellGradients<kind> g;
   for (const Cell& cell : mesh.cells) {
     if (cell.kind != kind || !columns.touches(cell)) continue;
@@ -224,45 +225,76 @@ void add_cells(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const Node
   }
 }
 
+// Calls visit with the table of the cell's own rule, or, as many points at a time, with those of the rule that `rules`
+// has for it.
+template <CellKind kind, typename Visit>
+void for_each_table(const CellTable<kind>& own, const CellRules& rules, const Cell& cell, const Visit& visit) {
+  CellRule rule = rules ? rules(cell) : CellRule();
+  if (rule.points.empty()) return visit(own);
+  for (; rule.points.size() % points<kind> != 0; rule.weights.push_back(0)) rule.points.push_back(rule.points.back());
+  for (std::size_t first = 0; first < rule.points.size(); first += points<kind>) visit(cell_table<kind>(rule, first));
+}
+
 // load += int B^T C : eps0 over the cells of one kind; the energy of eps0.
 template <CellKind kind>
-double add_cell_strains(const Mesh& mesh, const std::vector<ElasticLaw>& laws, VecX& load) {
-  const CellTable<kind> table = cell_table<kind>();
+double add_cell_strains(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const CellRules& rules, VecX& load) {
+  const CellTable<kind> own = cell_table<kind>(cell_rule(kind));
   CellGradients<kind> g;
   double energy = 0;
   for (const Cell& cell : mesh.cells) {
     const ElasticLaw& law = laws[cell.body];
     if (cell.kind != kind || !law.initial_strain) continue;
     const CellPoints<kind> nodes = nodes_of<kind>(mesh.nodes, cell);
-    cell_gradients(nodes, table, g);
-    for (Eigen::Index q = 0; q < points<kind>; ++q) {
-      const Vec2 x = (table.N.row(q) * nodes).transpose();
-      const double dV = g.dA(q) * law.model.depth(x.x());
-      const Eigen::Matrix<double, 2 * n<kind>, 1> forces =
-          strains_at<kind>(q, g, table, law.model, x.x()).transpose() * (-dV * law.stress0(x));
-      for (int a = 0; a < n<kind>; ++a) load.segment<2>(2 * cell.nodes[a]) += forces.template segment<2>(2 * a);
-      energy += dV * law.energy0(x);
-    }
+    for_each_table<kind>(own, rules, cell, [&](const CellTable<kind>& table) {
+      cell_gradients(nodes, table, g);
+      for (Eigen::Index q = 0; q < points<kind>; ++q) {
+        const Vec2 x = (table.N.row(q) * nodes).transpose();
+        const double dV = g.dA(q) * law.model.depth(x.x());
+        const Eigen::Matrix<double, 2 * n<kind>, 1> forces =
+            strains_at<kind>(q, g, table, law.model, x.x()).transpose() * (-dV * law.stress0(x));
+        for (int a = 0; a < n<kind>; ++a) load.segment<2>(2 * cell.nodes[a]) += forces.template segment<2>(2 * a);
+        energy += dV * law.energy0(x);
+      }
+    });
   }
   return energy;
 }
 
 template <CellKind kind>
-void add_cell_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, VecX& load,
-                     Resultant& sum) {
-  const CellTable<kind> table = cell_table<kind>();
+void add_cell_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, const CellRules& rules,
+                     VecX& load, Resultant& sum) {
+  const CellTable<kind> own = cell_table<kind>(cell_rule(kind));
   CellGradients<kind> g;
   for (const Cell& cell : mesh.cells) {
     if (cell.kind != kind || !forces[cell.body]) continue;
     const CellPoints<kind> nodes = nodes_of<kind>(mesh.nodes, cell);
-    cell_gradients(nodes, table, g);
-    for (Eigen::Index q = 0; q < points<kind>; ++q) {
-      const Vec2 x = (table.N.row(q) * nodes).transpose();
-      const Vec2 force = g.dA(q) * model.depth(x.x()) * forces[cell.body](x);
-      for (int a = 0; a < n<kind>; ++a) load.segment<2>(2 * cell.nodes[a]) += table.N(q, a) * force;
-      sum.add(x, force);
+    for_each_table<kind>(own, rules, cell, [&](const CellTable<kind>& table) {
+      cell_gradients(nodes, table, g);
+      for (Eigen::Index q = 0; q < points<kind>; ++q) {
+        const Vec2 x = (table.N.row(q) * nodes).transpose();
+        const Vec2 force = g.dA(q) * model.depth(x.x()) * forces[cell.body](x);
+        for (int a = 0; a < n<kind>; ++a) load.segment<2>(2 * cell.nodes[a]) += table.N(q, a) * force;
+        sum.add(x, force);
+      }
+    });
+  }
+}
+
+Resultant add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
+                       const Traction& traction, const LineRule& whole, const EdgeCuts& cuts, VecX& load) {
+  Resultant sum;
+  for (const CellSide& at : sides) {
+    const Edge edge = side_edge(mesh.cells[at.cell], at.side);
+    const LineRule rule = cuts ? cut_rule(cuts(edge), int(whole.points.size())) : whole;
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
+      const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);
+      const Vec2 t = rule.weights[q] * p.jacobian() * model.depth(p.position.x()) * traction(p.position, p.normal());
+      for (int a = 0; a < edge.node_count; ++a) load.segment<2>(2 * edge.nodes[a]) += s.N[a] * t;
+      sum.add(p.position, t);
     }
   }
+  return sum;
 }
 
 }  // namespace
@@ -281,34 +313,36 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticLaw>&
   return K;
 }
 
-double add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, VecX& load) {
+double add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const CellRules& rules, VecX& load) {
   double energy = 0;
   if (std::ranges::any_of(laws, [](const ElasticLaw& law) { return bool(law.initial_strain); }))
-    for_each_kind([&]<CellKind kind>() { energy += add_cell_strains<kind>(mesh, laws, load); });
+    for_each_kind([&]<CellKind kind>() { energy += add_cell_strains<kind>(mesh, laws, rules, load); });
   return energy;
 }
 
-Resultant add_body_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, VecX& load) {
+double add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, VecX& load) {
+  return add_initial_strain(mesh, laws, {}, load);
+}
+
+Resultant add_body_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces,
+                          const CellRules& rules, VecX& load) {
   Resultant sum;
-  for_each_kind([&]<CellKind kind>() { add_cell_forces<kind>(mesh, model, forces, load, sum); });
+  for_each_kind([&]<CellKind kind>() { add_cell_forces<kind>(mesh, model, forces, rules, load, sum); });
   return sum;
+}
+
+Resultant add_body_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, VecX& load) {
+  return add_body_forces(mesh, model, forces, {}, load);
 }
 
 Resultant add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
                        const Traction& traction, VecX& load, int gauss_points) {
-  const LineRule rule = gauss_legendre(gauss_points);
-  Resultant sum;
-  for (const CellSide& at : sides) {
-    const Edge edge = side_edge(mesh.cells[at.cell], at.side);
-    for (std::size_t q = 0; q < rule.points.size(); ++q) {
-      const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
-      const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);
-      const Vec2 t = rule.weights[q] * p.jacobian() * model.depth(p.position.x()) * traction(p.position, p.normal());
-      for (int a = 0; a < edge.node_count; ++a) load.segment<2>(2 * edge.nodes[a]) += s.N[a] * t;
-      sum.add(p.position, t);
-    }
-  }
-  return sum;
+  return add_traction(mesh, model, sides, traction, gauss_legendre(gauss_points), {}, load);
+}
+
+Resultant add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
+                       const Traction& traction, const EdgeCuts& cuts, VecX& load) {
+  return add_traction(mesh, model, sides, traction, gauss_legendre(4), cuts, load);
 }
 
 }  // namespace mortise

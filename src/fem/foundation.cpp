@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/edges.hpp"
-#include "fem/quadrature.hpp"
-
 namespace mortise {
 
 void add_foundation(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
-                    const Foundation& foundation, std::vector<Eigen::Triplet<double>>& entries, int gauss_points) {
-  const LineRule rule = gauss_legendre(gauss_points);
+                    const Foundation& foundation, std::vector<Eigen::Triplet<double>>& entries, const EdgeCuts& cuts) {
+  const LineRule whole = gauss_legendre(4);
   for (const CellSide& at : sides) {
     const Edge edge = side_edge(mesh.cells[at.cell], at.side);
+    const LineRule rule = cuts ? cut_rule(cuts(edge), 4) : whole;
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
       const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);

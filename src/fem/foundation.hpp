@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/model.hpp"
+#include "fem/line_cuts.hpp"
 #include "mesh/mesh.hpp"
 
 namespace mortise {
@@ -14,9 +15,10 @@ namespace mortise {
 using Foundation = std::function<Eigen::Matrix2d(const Vec2& position, const Vec2& normal)>;
 
 /// Appends int N_a k N_b ds, times depth (base/model.hpp), over the sides of a boundary: entries of the lower triangle
-/// of a matrix like the stiffness. `gauss_points` an edge.
+/// of a matrix like the stiffness. Four Gauss points on each piece of an edge.
 void add_foundation(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
-                    const Foundation& foundation, std::vector<Eigen::Triplet<double>>& entries, int gauss_points = 4);
+                    const Foundation& foundation, std::vector<Eigen::Triplet<double>>& entries,
+                    const EdgeCuts& cuts = {});
 
 /// The springs' stiffness (lower triangle given) as conditions: motions with rows * u = 0 they do not resist. Each row
 /// over its largest entry, so that weak springs count as strong ones do.

@@ -22,4 +22,12 @@ std::vector<int> entries_of_bodies(
 /// The same of entries that exclude each other: throws SceneError where two patterns name a body.
 std::vector<int> entries_of_bodies(const Mesh& mesh, const SceneNames& names, const std::vector<BodyEntry>& entries);
 
+/// Of each body the entry of [[body_force]] or [[initial_strain]] that acts on it; -1: none.
+template <typename Spec>
+std::vector<int> loads_of(const std::vector<Spec>& specs, const Mesh& mesh, const SceneNames& names) {
+  std::vector<BodyEntry> entries;
+  for (const Spec& spec : specs) entries.push_back({spec.key, spec.body});
+  return entries_of_bodies(mesh, names, entries);
+}
+
 }  // namespace mortise

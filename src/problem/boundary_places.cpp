@@ -1,13 +1,12 @@
 #include "problem/boundary_places.hpp"
 
+#include <algorithm>
+
 namespace mortise {
 namespace {
 
 bool uses_arc_length(const BoundarySpec& spec) {
-  const auto uses = [](const auto& field) { return field && field->uses_arc_length(); };
-  return uses(spec.displacement_x) || uses(spec.displacement_y) || uses(spec.displacement_normal) ||
-         uses(spec.displacement_along) || uses(spec.pressure) || uses(spec.traction) || uses(spec.normal_foundation) ||
-         uses(spec.foundation);
+  return std::ranges::any_of(fields_of(spec), [](const Field* field) { return field->uses_arc_length(); });
 }
 
 // Throws SceneError where an entry names a point that acts along curves, or the other way round.
@@ -23,6 +22,16 @@ void require_kind(const BoundarySpec& spec, const std::string& name, const Scene
 }
 
 }  // namespace
+
+std::vector<const Field*> fields_of(const BoundarySpec& spec) {
+  std::vector<const Field*> fields;
+  for (const auto* field : {&spec.displacement_x, &spec.displacement_y, &spec.displacement_normal,
+                            &spec.displacement_along, &spec.pressure, &spec.normal_foundation})
+    if (*field) fields.push_back(&**field);
+  for (const auto* vector : {&spec.traction, &spec.foundation})
+    if (*vector) fields.insert(fields.end(), {&(*vector)->x, &(*vector)->y});
+  return fields;
+}
 
 Places places_of(const Mesh& mesh, const SideTable& table, const SceneNames& names, const BoundarySpec& spec) {
   Places list;

@@ -16,6 +16,9 @@ struct NamedBoundary {
   double s_at(int node) const { return s ? s->at_node(node) : 0; }
 };
 
+/// The fields of an entry: of loads, foundations and displacements.
+std::vector<const Field*> fields_of(const BoundarySpec& spec);
+
 struct Places {
   std::vector<NamedBoundary> boundaries;
   std::vector<const NamedPoint*> points;

@@ -4,8 +4,10 @@
 
 #include "base/errors.hpp"
 #include "fem/elements.hpp"
+#include "fem/resolved_loads.hpp"
 #include "mesh/side_table.hpp"
 #include "problem/body_entries.hpp"
+#include "problem/body_fields.hpp"
 #include "problem/boundary_conditions.hpp"
 #include "solve/threads.hpp"
 
@@ -26,14 +28,6 @@ std::vector<const Material*> materials_of(const Scene& scene, const Mesh& mesh, 
   for (const int i : entries_of_bodies(mesh, names, entries, twice))
     materials.push_back(i >= 0 ? &scene.materials.at(scene.bodies[i].material) : nullptr);
   return materials;
-}
-
-// Of each body the entry of [[body_force]] or [[initial_strain]] that acts on it; -1: none.
-template <typename Spec>
-std::vector<int> loads_of(const std::vector<Spec>& specs, const Mesh& mesh, const SceneNames& names) {
-  std::vector<BodyEntry> entries;
-  for (const Spec& spec : specs) entries.push_back({spec.key, spec.body});
-  return entries_of_bodies(mesh, names, entries);
 }
 
 ElasticLaw law_of(const Material& m, const Model& model, StrainField strain) {
@@ -81,6 +75,21 @@ std::vector<ElasticLaw> laws_of(const Scene& scene, const Mesh& mesh, const Scen
   return laws;
 }
 
+// Empty where no field varies.
+CellRules rules_of(const BodyFields& fields) {
+  if (!fields.any()) return {};
+  return [&fields](const Cell& cell) { return fields.rule(cell); };
+}
+
+BodyFields strain_fields(const Scene& scene, const Mesh& mesh, const SceneNames& names) {
+  BodyFields fields(mesh);
+  const std::vector<int> entries = loads_of(scene.initial_strains, mesh, names);
+  for (int b = 0; b < int(entries.size()); ++b)
+    if (entries[b] >= 0) add_strain(scene.initial_strains[entries[b]], b, fields);
+  fields.find_scales();
+  return fields;
+}
+
 }  // namespace
 
 Discretisation discretise(const Scene& scene, const Mesh& mesh) {
@@ -94,15 +103,22 @@ Discretisation discretise(const Scene& scene, const Mesh& mesh) {
   d.system.constraints = no_constraints(mesh);
   if (d.model.axisymmetric()) hold_axis(mesh, d.system.constraints);
   d.initial_load = VecX::Zero(2 * mesh.nodes.rows());
-  d.initial_energy = add_initial_strain(mesh, d.laws, d.initial_load);
+  const BodyFields strains = strain_fields(scene, mesh, names);
+  d.initial_energy = add_initial_strain(mesh, d.laws, rules_of(strains), d.initial_load);
   d.system.f = d.initial_load;
   const std::vector<int> body_forces = loads_of(scene.body_forces, mesh, names);
   for (std::size_t i = 0; i < scene.body_forces.size(); ++i) {
     std::vector<BodyForce> forces(mesh.bodies.size());
-    for (std::size_t b = 0; b < forces.size(); ++b)
-      if (body_forces[b] == int(i))
-        forces[b] = [&force = scene.body_forces[i].force](const Vec2& x) { return force(x); };
-    d.body_sums.push_back(add_body_forces(mesh, d.model, forces, d.system.f));
+    const VectorField& force = scene.body_forces[i].force;
+    BodyFields fields(mesh);
+    for (int b = 0; b < int(forces.size()); ++b) {
+      if (body_forces[b] != int(i)) continue;
+      forces[b] = [&force](const Vec2& x) { return force(x); };
+      fields.add(b, force.x);
+      fields.add(b, force.y);
+    }
+    fields.find_scales();
+    d.body_sums.push_back(add_body_forces(mesh, d.model, forces, rules_of(fields), d.system.f));
   }
   if (scene.gravity) {
     std::vector<BodyForce> weights;

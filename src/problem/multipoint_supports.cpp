@@ -5,7 +5,7 @@
 
 #include "base/vectors.hpp"
 #include "fem/edges.hpp"
-#include "problem/boundary_places.hpp"
+#include "problem/boundary_fields.hpp"
 #include "problem/ties.hpp"
 
 namespace mortise {
@@ -31,6 +31,8 @@ struct NodeNormals {
 void prescribe_normals(const Mesh& mesh, int entry, const BoundarySpec& spec, const Places& on_all,
                        MultipointBuilder& builder) {
   std::map<int, NodeNormals> normals;
+  const Field& along_normal = *spec.displacement_normal;
+  const std::map<int, double> values = prescribed_values(mesh, on_all.boundaries, along_normal);
   for (const NamedBoundary& on : on_all.boundaries)
     for (const CellSide& side : on.sides) {
       const Edge edge = side_edge(mesh.cells[side.cell], side.side);
@@ -38,7 +40,7 @@ void prescribe_normals(const Mesh& mesh, int entry, const BoundarySpec& spec, co
         const int node = edge.nodes[a];
         NodeNormals& at = normals[node];
         at.add(edge_point(mesh.nodes, edge, xi_of_node(a)).normal());
-        at.value = (*spec.displacement_normal)(mesh.nodes.row(node).transpose(), on.s_at(node));
+        at.value = along_normal.is_constant() ? along_normal.constant() : values.at(node);
       }
     }
   for (const auto& [node, at] : normals)
@@ -47,15 +49,13 @@ void prescribe_normals(const Mesh& mesh, int entry, const BoundarySpec& spec, co
 
 void prescribe_direction(const Mesh& mesh, int entry, const BoundarySpec& spec, const Places& on_all,
                          MultipointBuilder& builder) {
-  std::map<int, double> values;
-  const auto take = [&](int node, double s) {
-    values[node] = (*spec.displacement_along)(mesh.nodes.row(node).transpose(), s);
-  };
+  const Field& along = *spec.displacement_along;
+  std::map<int, double> values = prescribed_values(mesh, on_all.boundaries, along);
   for (const NamedBoundary& on : on_all.boundaries)
     for (const Edge& edge : mesh.boundaries[on.boundary].edges)
-      for (int a = 0; a < edge.node_count; ++a) take(edge.nodes[a], on.s_at(edge.nodes[a]));
+      for (int a = 0; a < edge.node_count && along.is_constant(); ++a) values[edge.nodes[a]] = along.constant();
   for (const NamedPoint* point : on_all.points)
-    for (const int node : point->nodes) take(node, 0);
+    for (const int node : point->nodes) values[node] = along(mesh.nodes.row(node).transpose());
   for (const auto& [node, value] : values) builder.prescribe(entry, spec.key, node, *spec.direction, value);
 }
 

@@ -1,0 +1,64 @@
+// Where to cut an edge so that a function upon it is integrated as it is: spikes, waves and jumps within the edge too.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "base/field_range.hpp"
+#include "fem/edges.hpp"
+#include "fem/quadrature.hpp"
+
+namespace mortise {
+
+/// A function on an edge, -1 <= xi <= 1.
+struct LineFunction {
+  std::function<double(double xi)> at;
+  /// An interval that contains all its values from one xi to another; nothing where that is not known.
+  std::function<std::optional<Interval>(double from, double to)> range;
+  double scale = 1;  ///< by how much it varies, > 0: tolerances are parts of it
+};
+
+/// By how much a field varies along curves (scale_of), from looking at each of their edges in four places.
+class LineScale {
+ public:
+  void look_at(const LineFunction& f);
+  double value() const;
+
+ private:
+  std::optional<Interval> values_, range_;
+};
+
+/// A field along an edge. `range`: its own. `s`: the arc length at xi; asked where the field uses it. What is given
+/// must outlive the function, but for the edge.
+LineFunction along_edge(const Points& nodes, const Edge& edge, const Field& field, const FieldRange& range,
+                        const std::function<double(double xi)>& s, double scale = 1);
+
+/// Cuts, ascending, from -1 to 1: between two of them four Gauss points integrate f, f xi and f xi^2 to 1e-9 of the
+/// scale. {-1, 1} where they do so on the whole edge. Pieces are halved, the worst first (Piessens et al., QUADPACK,
+/// 1983), while both halves integrate to something else, or while the range says that f goes beyond its samples by more
+/// than they differ and a 256th of the scale: so what lies between the samples is found however narrow it is. Without a
+/// range f is looked at in 64 points first. A jump ends up in a piece of 2^-30 of the edge; no edge has more than 4096.
+std::vector<double> resolving_cuts(const LineFunction& f);
+
+/// Where to cut an edge, as resolving_cuts does; empty: nowhere.
+using EdgeCuts = std::function<std::vector<double>(const Edge&)>;
+
+/// The union of both, each ascending from -1 to 1.
+std::vector<double> merged(const std::vector<double>& a, const std::vector<double>& b);
+
+/// The points of a rule on each of the pieces between cuts, as one rule on [-1, 1].
+LineRule cut_rule(const std::vector<double>& cuts, int gauss_points);
+
+/// What is left of f without the polynomial that stands for it in the mean.
+struct LineMisfit {
+  double mean = 0;       ///< of |f - polynomial| over the edge
+  double mean_of_f = 0;  ///< of |f|
+  double at = 0;         ///< xi of the largest difference
+  double finest = 2;  ///< length in xi of the shortest piece that has a thousandth of the misfit; 2: of the whole edge
+};
+
+/// Of a function cut by resolving_cuts: the polynomial is the projection of f on those of degree 2 in L2.
+LineMisfit misfit(const LineFunction& f, const std::vector<double>& cuts);
+
+}  // namespace mortise

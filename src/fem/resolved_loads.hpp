@@ -1,0 +1,24 @@
+// The loads of fem/assembly.hpp with quadrature as fine as the functions that they are made of. Code: fem/assembly.cpp.
+#pragma once
+
+#include "base/resultant.hpp"
+#include "fem/line_cuts.hpp"
+#include "fem/material.hpp"
+#include "mesh/mesh.hpp"
+
+namespace mortise {
+
+/// The rule for functions of place on a cell where its own does not do (fem/cell_cuts.hpp); no points: it does.
+using CellRules = std::function<CellRule(const Cell&)>;
+
+/// As the functions of these names in assembly.hpp; empty `rules` and `cuts`: the same as they.
+double add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const CellRules& rules, VecX& load);
+Resultant add_body_forces(const Mesh& mesh, const Model& model,
+                          const std::vector<std::function<Vec2(const Vec2& position)>>& forces, const CellRules& rules,
+                          VecX& load);
+/// Four Gauss points on each piece of an edge.
+Resultant add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
+                       const std::function<Vec2(const Vec2& position, const Vec2& normal)>& traction,
+                       const EdgeCuts& cuts, VecX& load);
+
+}  // namespace mortise
