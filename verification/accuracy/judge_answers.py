@@ -57,7 +57,8 @@ def functions(scene, references):
 def zones(row):
     """Points where p has no limit, and the distance within which it is left out."""
     pressure = row["estimate"]["pressure"]
-    points = [point["position"] for point in pressure["singular"] if point["pressure_exponent"] < 1]
+    endless = lambda point: point["pressure_exponent"] < 1 or point["logarithmic"]
+    points = [point["position"] for point in pressure["singular"] if endless(point)]
     return points, pressure["excluded"][0]
 
 
