@@ -39,8 +39,12 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
   const Eigen::Index count = coupling.node.size();
   Accumulated sums{{},
                    VecX::Zero(count),
-                   {VecX::Zero(count), VecX::Zero(count), VecX::Zero(count), VecX::Zero(count),
-                    VecX::Constant(count, std::numeric_limits<double>::infinity())}};
+                   {.extent = VecX::Zero(count),
+                    .scale = VecX::Zero(count),
+                    .weight = VecX::Zero(count),
+                    .lagrange = VecX::Zero(count),
+                    .faced = VecX::Zero(count),
+                    .nearest = VecX::Constant(count, std::numeric_limits<double>::infinity())}};
   sums.B.reserve(points.size() * 36);
   for (auto first = points.begin(); first != points.end();) {
     const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
@@ -52,9 +56,11 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
       const Edge& other = opposite.edges[p.opposite_edge];
       const EdgeShape N = edge_shape(edge.node_count, p.xi), M = edge_shape(other.node_count, p.eta);
       const Eigen::Vector3d shape = space.shape(p.xi), psi = p.dA * shape;
+      const EdgeShape lagrange = edge_shape(space.count, p.xi);
       for (int i = 0; i < space.count; ++i) {
         const int a = multipliers[i];
-        sums.support.extent(a) += p.ds * std::abs(shape(i));
+        sums.support.extent(a) += p.ds * std::abs(lagrange.N[i]);
+        sums.support.lagrange(a) += p.dA * std::abs(lagrange.N[i]);
         sums.support.scale(a) += std::abs(psi(i));
         sums.support.weight(a) += psi(i);
         sums.support.faced(a) += p.ds;

@@ -87,7 +87,7 @@ std::vector<State> find_states(const Mesh& mesh, const Curve& multiplier, const 
       }
       if (gap)
         found = *gap > round_off ? State::apart : State::prescribed;
-      else if (support.weight(a) < 0.05 * support.scale(a))
+      else if (support.weight(a) < 0.05 * std::max(support.scale(a), support.lagrange(a)))
         found = State::weightless;
       else if (support.faced(a) < faced_limit * length(a) && support.nearest(a) < length(a) / 2)
         found = State::hardly_facing;

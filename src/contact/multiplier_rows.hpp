@@ -11,8 +11,10 @@ namespace mortise {
 
 /// What the contact points say of each multiplier.
 struct Support {
-  VecX extent;         ///< int |psi| ds, length
-  VecX scale, weight;  ///< int |psi| dA, int psi dA
+  /// int |N| ds, length, with N the Lagrange function of the multiplier's node: dual psi may vanish where N does not.
+  VecX extent;
+  VecX scale, weight;  ///< int |psi| dA, int psi dA, which for dual psi is int N dA
+  VecX lagrange;       ///< int |N| dA
   VecX faced;          ///< how much of its edges faces the other side, length
   VecX nearest;        ///< the smallest gap there, undeformed, length; 0 where the sides overlap
 };

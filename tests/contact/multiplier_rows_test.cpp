@@ -20,6 +20,7 @@ struct Rows {
   Support support{.extent = VecX::Constant(7, h),
                   .scale = VecX::Constant(7, h),
                   .weight = VecX::Constant(7, h),
+                  .lagrange = VecX::Constant(7, h),
                   .faced = VecX::Constant(7, 2 * h),
                   .nearest = VecX::Zero(7)};
   Coupling coupling;
@@ -52,6 +53,13 @@ TEST(MultiplierRows, OneEachAlongTheCurve) {
   EXPECT_EQ(r.coupling.gap0.size(), 7);
   EXPECT_EQ(r.coupling.scale.size(), 7);
   EXPECT_TRUE(r.coupling.dropped.empty());
+}
+
+// Dual functions of a quadratic edge on the axis of rings: psi is zero, as int N r ds is.
+TEST(MultiplierRows, OneWhosePsiVanishesSharesTheNextOnes) {
+  Rows r;
+  r.support.scale(0) = r.support.weight(0) = 0;
+  EXPECT_EQ(r.numbered(), (std::vector<int>{0, 0, 1, 2, 3, 4, 5}));
 }
 
 TEST(MultiplierRows, WhatFacesNothingHasNone) {
