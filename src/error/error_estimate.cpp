@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "error/body_products.hpp"
+#include "error/recovered_pressure.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/threads.hpp"
 
@@ -248,6 +249,7 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
   std::vector<ContactReach> reached;
   estimate.pressures =
       lines_with_windows(mesh, table, discretisation, pairs, solution, {spec, found_points}, tips, reached);
+  add_swings(mesh, points, laws, pairs, solution.u, estimate.pressures);
   estimate.far.windows = share_duals(mesh, window_places(estimate.pressures), own_duals);
   GoalFunctionals goal;
   if (!pairs.empty())

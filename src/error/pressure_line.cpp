@@ -53,6 +53,7 @@ PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX
                     .position = {},
                     .s = VecX::Zero(count),
                     .p = VecX(count),
+                    .middle = {},
                     .h = VecX::Zero(count),
                     .faced = std::vector<char>(count - 1, 0),
                     .loaded = std::vector<char>(count, 0)};
@@ -72,6 +73,10 @@ PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX
   } else {
     line.h(0) *= 2;
     line.h(count - 1) *= 2;
+  }
+  if (curve.edges[0].node_count == 3 && pair.coupling.on_edge[0][2] >= 0) {
+    line.middle.resize(count - 1);
+    for (Eigen::Index e = 0; e < count - 1; ++e) line.middle(e) = pressure(pair.coupling.on_edge[e][2]);
   }
   if (largest_entry(line.p) <= round_off) line.p.setZero();
   const double least = loaded_part * largest_entry(line.p);

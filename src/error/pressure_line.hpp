@@ -14,6 +14,7 @@ struct PressureLine {
   std::vector<Vec2> position;
   VecX s;                   ///< arc length from the first vertex
   VecX p;                   ///< pressure
+  VecX middle;              ///< the pressure at the middle of each edge, where multipliers stand there; else empty
   VecX h;                   ///< length that counts for the vertex: half of both edges, or the one edge of an end
   std::vector<char> faced;  ///< of each edge, whether a part of it faces the other side
   /// Vertices that take part: loaded, or next to one that is, on edges that are faced.

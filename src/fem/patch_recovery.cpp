@@ -31,6 +31,20 @@ struct CellsAround {
     for (int e = 0; e < int(on_points.size()); ++e)
       for (int a = 0; a < corner_count(on_points[e].kind); ++a) cells[next[on_points[e].nodes[a]]++] = e;
   }
+
+  std::vector<int> at(int p) const { return {cells.begin() + first[p], cells.begin() + first[p + 1]}; }
+
+  // Some cells and those around their corners, each once.
+  std::vector<int> beside(std::vector<int> some, const std::vector<Cell>& on_points) const {
+    for (const int e : std::vector(some))
+      for (int a = 0; a < corner_count(on_points[e].kind); ++a) {
+        const int q = on_points[e].nodes[a];
+        some.insert(some.end(), cells.begin() + first[q], cells.begin() + first[q + 1]);
+      }
+    std::ranges::sort(some);
+    some.erase(std::unique(some.begin(), some.end()), some.end());
+    return some;
+  }
 };
 
 // A row a node, the displacements along x and y of all fields in it: 2 F columns, x of each first.
@@ -150,6 +164,63 @@ void fit(const std::vector<int>& cells, const StressSamples& samples, int p, Str
   right.row(0) += mean;
 }
 
+// `take`: flags of cells; the others have no samples. Empty: all have.
+StressSamples sample_some(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const MatX& fields,
+                          const std::vector<char>& take) {
+  ForEachKind<std::vector<CellShape>> shapes;
+  for (const CellKind kind : all_cell_kinds)
+    for (const Vec2& xi : stress_points(kind).points) shapes[int(kind)].push_back(cell_shape(kind, xi));
+  const auto taken = [&](std::size_t e) { return take.empty() || take[e]; };
+  StressSamples samples;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e)
+    samples.first.push_back(samples.first.back() + (taken(e) ? int(shapes[int(mesh.cells[e].kind)].size()) : 0));
+  samples.stresses.resize(samples.first.back(), components(laws) * fields.cols());
+  CellSampler at(mesh, laws, fields);
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    if (!taken(e)) continue;
+    for (const CellShape& shape : shapes[int(mesh.cells[e].kind)]) {
+      at.sample(mesh.cells[e], shape);
+      samples.stresses.row(Eigen::Index(samples.x.size())) = at.stresses;
+      samples.x.push_back(at.x);
+    }
+  }
+  return samples;
+}
+
+// Patches of all vertices among the body points that `wanted` flags; of all where it is empty.
+StressPatches recover_some(const Mesh& mesh, const std::vector<Cell>& on_points, const CellsAround& around,
+                           const BodyPoints& points, const StressSamples& samples, const std::vector<char>& wanted) {
+  const int count = int(points.node.size());
+  const auto samples_in = [&](const std::vector<int>& cells) {
+    int sum = 0;
+    for (const int e : cells) sum += samples.first[e + 1] - samples.first[e];
+    return sum;
+  };
+  StressPatches patches{.centre = std::vector<Vec2>(count, Vec2::Zero()),
+                        .size = std::vector<double>(count, 0),
+                        .terms = std::vector<int>(count, 0),
+                        .row = std::vector<int>(count, -1),
+                        .coefficients = {}};
+  int rows = 0;
+  for (int p = 0; p < count; ++p) {
+    if (around.first[p] == around.first[p + 1] || !(wanted.empty() || wanted[p])) continue;
+    patches.row[p] = rows;
+    rows += 6;
+  }
+  patches.coefficients = MatX::Zero(rows, samples.stresses.cols());
+  for (int p = 0; p < count; ++p) {
+    if (patches.row[p] < 0) continue;
+    std::vector<int> cells = around.at(p);
+    const bool quadratic = std::ranges::all_of(cells, [&](int e) { return is_quadratic(mesh.cells[e].kind); });
+    if (samples_in(cells) < (quadratic ? 9 : 4)) cells = around.beside(cells, on_points);
+    const int found = samples_in(cells);
+    patches.terms[p] = quadratic && found >= 9 ? 6 : found >= 4 ? 3 : 1;
+    patches.centre[p] = mesh.nodes.row(points.node[p]);
+    fit(cells, samples, p, patches);
+  }
+  return patches;
+}
+
 // (11, 22, 33, 12) of the stresses of one field.
 Vec4 all_components(const ElasticLaw& law, const Eigen::RowVectorXd& s, Eigen::Index first, Eigen::Index count) {
   const double s33 = count == 4 ? s(first + 3) : law.out_of_plane.dot(s.segment<3>(first));
@@ -164,64 +235,24 @@ void StressPatches::add_at(int p, const Vec2& x, double factor, Eigen::RowVector
 }
 
 StressSamples sample_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const MatX& fields) {
-  ForEachKind<std::vector<CellShape>> shapes;
-  for (const CellKind kind : all_cell_kinds)
-    for (const Vec2& xi : stress_points(kind).points) shapes[int(kind)].push_back(cell_shape(kind, xi));
-  StressSamples samples;
-  for (const Cell& cell : mesh.cells)
-    samples.first.push_back(samples.first.back() + int(shapes[int(cell.kind)].size()));
-  samples.stresses.resize(samples.first.back(), components(laws) * fields.cols());
-  CellSampler at(mesh, laws, fields);
-  for (const Cell& cell : mesh.cells)
-    for (const CellShape& shape : shapes[int(cell.kind)]) {
-      at.sample(cell, shape);
-      samples.stresses.row(Eigen::Index(samples.x.size())) = at.stresses;
-      samples.x.push_back(at.x);
-    }
-  return samples;
+  return sample_some(mesh, laws, fields, {});
 }
 
 StressPatches recover_patches(const Mesh& mesh, const BodyPoints& points, const StressSamples& samples) {
   const std::vector<Cell> on_points = cells_on_points(mesh, points);
-  const int count = int(points.node.size());
-  const CellsAround around(on_points, count);
-  const auto samples_in = [&](const std::vector<int>& cells) {
-    int sum = 0;
-    for (const int e : cells) sum += samples.first[e + 1] - samples.first[e];
-    return sum;
-  };
-  StressPatches patches{.centre = std::vector<Vec2>(count, Vec2::Zero()),
-                        .size = std::vector<double>(count, 0),
-                        .terms = std::vector<int>(count, 0),
-                        .row = std::vector<int>(count, -1),
-                        .coefficients = {}};
-  int rows = 0;
-  for (int p = 0; p < count; ++p) {
-    if (around.first[p] == around.first[p + 1]) continue;
-    patches.row[p] = rows;
-    rows += 6;
+  return recover_some(mesh, on_points, CellsAround(on_points, int(points.node.size())), points, samples, {});
+}
+
+StressPatches recover_patches_at(const std::vector<int>& some, const Mesh& mesh, const BodyPoints& points,
+                                 const std::vector<ElasticLaw>& laws, const MatX& fields) {
+  const std::vector<Cell> on_points = cells_on_points(mesh, points);
+  const CellsAround around(on_points, int(points.node.size()));
+  std::vector<char> wanted(points.node.size(), 0), take(mesh.cells.size(), 0);
+  for (const int p : some) {
+    wanted[p] = 1;
+    for (const int e : around.beside(around.at(p), on_points)) take[e] = 1;
   }
-  patches.coefficients = MatX::Zero(rows, samples.stresses.cols());
-  for (int p = 0; p < count; ++p) {
-    std::vector<int> cells(around.cells.begin() + around.first[p], around.cells.begin() + around.first[p + 1]);
-    if (cells.empty()) continue;  // no vertex
-    const bool quadratic = std::ranges::all_of(cells, [&](int e) { return is_quadratic(mesh.cells[e].kind); });
-    const int wanted = quadratic ? 9 : 4;
-    if (samples_in(cells) < wanted) {
-      for (const int e : std::vector(cells))
-        for (int a = 0; a < corner_count(on_points[e].kind); ++a) {
-          const int q = on_points[e].nodes[a];
-          cells.insert(cells.end(), around.cells.begin() + around.first[q], around.cells.begin() + around.first[q + 1]);
-        }
-      std::ranges::sort(cells);
-      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    }
-    const int found = samples_in(cells);
-    patches.terms[p] = quadratic && found >= 9 ? 6 : found >= 4 ? 3 : 1;
-    patches.centre[p] = mesh.nodes.row(points.node[p]);
-    fit(cells, samples, p, patches);
-  }
-  return patches;
+  return recover_some(mesh, on_points, around, points, sample_some(mesh, laws, fields, take), wanted);
 }
 
 Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, const StressPatches& patches,

@@ -38,6 +38,10 @@ struct StressPatches {
 /// quadratic, else 1; where they are few, as on the boundary, the cells around these too.
 StressPatches recover_patches(const Mesh& mesh, const BodyPoints& points, const StressSamples& samples);
 
+/// The same at some body points only, in the time that the cells around these take, and a look at all cells.
+StressPatches recover_patches_at(const std::vector<int>& some, const Mesh& mesh, const BodyPoints& points,
+                                 const std::vector<ElasticLaw>& laws, const MatX& fields);
+
 /// The stresses of all fields at a place of a cell, a row: the patches of its vertices, blended by the linear shape
 /// functions of its corners.
 Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, const StressPatches& patches,

@@ -101,5 +101,24 @@ TEST(PatchRecovery, ABeamOneElementThickHasAPatchEverywhere) {
     }
 }
 
+TEST(RecoverPatches, AtSomePointsAreThoseOfAllPoints) {
+  for (const CellKind kind : {CellKind::tri3, CellKind::tri6, CellKind::quad8}) {
+    const Mesh mesh = test::mesh_of(plates_of(kind));
+    const BodyPoints points = body_points(mesh);
+    const std::vector<ElasticLaw> laws(2, elastic_law(3, 0.25, {Plane::strain}));
+    VecX u(2 * mesh.nodes.rows());
+    for (Eigen::Index i = 0; i < u.size(); ++i) u(i) = std::sin(double(i));
+    const StressPatches all = recover_patches(mesh, points, sample_stresses(mesh, laws, u));
+    const int corner = point_of(points, 0, mesh.cells[0].nodes[0]), other = point_of(points, 0, mesh.cells[9].nodes[1]);
+    const StressPatches some = recover_patches_at({corner, other}, mesh, points, laws, u);
+    EXPECT_EQ(some.coefficients.rows(), 12);
+    for (const int p : {corner, other}) {
+      EXPECT_EQ(some.terms[p], all.terms[p]);
+      EXPECT_LE((some.coefficients.middleRows<6>(some.row[p]) - all.coefficients.middleRows<6>(all.row[p])).norm(),
+                1e-12 * all.coefficients.norm());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mortise

@@ -1,0 +1,89 @@
+#include "error/pressure_swing.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mortise {
+namespace {
+
+constexpr Eigen::Index beside = 4;  // nodes on either side
+constexpr Eigen::Index cubic = 4;   // coefficients
+
+// p(i) less the cubic that fits nodes first ... first + count - 1, over the root of 1 - q, with q the part of p(i) itself
+// in the cubic there: by that root a fit comes nearer to what it was made with, at the end of a line more than within.
+double swing(const PressureNodes& nodes, Eigen::Index i, Eigen::Index first, Eigen::Index count) {
+  const VecX t = nodes.s.segment(first, count).array() - nodes.s(i);
+  const double scale = largest_entry(t);
+  MatX powers(count, cubic);
+  for (Eigen::Index k = 0; k < cubic; ++k) powers.col(k) = (t / scale).array().pow(double(k));
+  const Eigen::HouseholderQR<MatX> qr(powers);
+  const MatX Q = qr.householderQ() * MatX::Identity(count, cubic);
+  const Eigen::RowVectorXd own = Q.row(i - first);
+  const VecX at = nodes.p.segment(first, count).array() - nodes.p(i);
+  return -own.dot(Q.transpose() * at) / std::sqrt(1 - own.squaredNorm());
+}
+
+}  // namespace
+
+PressureNodes pressure_nodes(const PressureLine& line, const std::vector<char>& excluded) {
+  const Eigen::Index edges = line.p.size() - 1;
+  PressureNodes nodes{.step = line.middle.size() > 0 ? 2 : 1, .s = {}, .p = {}, .smooth = {}};
+  const Eigen::Index count = nodes.step * edges + 1;
+  nodes.s.resize(count);
+  nodes.p.resize(count);
+  nodes.smooth.assign(count, 0);
+  for (Eigen::Index i = 0; i <= edges; ++i) {
+    const Eigen::Index at = nodes.step * i;
+    nodes.s(at) = line.s(i);
+    nodes.p(at) = line.p(i);
+    nodes.smooth[at] = line.loaded[i] && line.p(i) != 0 && !excluded[i];
+    if (i == edges || nodes.step == 1) continue;
+    nodes.s(at + 1) = (line.s(i) + line.s(i + 1)) / 2;
+    nodes.p(at + 1) = line.middle(i);
+    nodes.smooth[at + 1] = line.faced[i] && line.middle(i) != 0 && line.loaded[i] && line.loaded[i + 1] &&
+                           !excluded[i] && !excluded[i + 1];
+  }
+  return nodes;
+}
+
+VecX swings(const PressureNodes& nodes) {
+  const Eigen::Index count = nodes.s.size();
+  VecX found = VecX::Zero(count);
+  for (Eigen::Index start = 0; start < count; ++start) {
+    if (!nodes.smooth[start]) continue;
+    Eigen::Index end = start;
+    while (end < count && nodes.smooth[end]) ++end;
+    const Eigen::Index fitted = std::min(2 * beside + 1, end - start);
+    for (Eigen::Index i = start; fitted > cubic && i < end; ++i)
+      found(i) = swing(nodes, i, std::clamp(i - beside, start, end - fitted), fitted);
+    start = end;
+  }
+  return found;
+}
+
+VecX means_at_vertices(const PressureNodes& nodes, const VecX& figures) {
+  const Eigen::Index count = nodes.s.size();
+  VecX means = VecX::Constant((count - 1) / nodes.step + 1, std::numeric_limits<double>::infinity());
+  for (Eigen::Index v = 0; v < means.size(); ++v) {
+    double squares = 0;
+    int taken = 0;
+    for (Eigen::Index i = std::max<Eigen::Index>(nodes.step * v - beside, 0);
+         i <= std::min(nodes.step * v + beside, count - 1); ++i) {
+      if (!nodes.smooth[i] || std::isnan(figures(i))) continue;
+      squares += figures(i) * figures(i);
+      ++taken;
+    }
+    if (taken > 0) means(v) = std::sqrt(squares / taken);
+  }
+  return means;
+}
+
+void raise_to(const VecX& errors, const PressureLine& line, LineError& local) {
+  for (Eigen::Index i = 0; i < errors.size(); ++i)
+    if (line.loaded[i] && std::isfinite(errors(i)))
+      local.l2(i) = std::max(local.l2(i), errors(i) * std::sqrt(line.h(i)));
+}
+
+}  // namespace mortise
