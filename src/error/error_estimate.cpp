@@ -249,7 +249,9 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
   std::vector<ContactReach> reached;
   estimate.pressures =
       lines_with_windows(mesh, table, discretisation, pairs, solution, {spec, found_points}, tips, reached);
-  add_swings(mesh, points, laws, pairs, solution.u, estimate.pressures);
+  std::vector<JudgedLine> lines;
+  for (PressureEstimate& e : estimate.pressures) lines.push_back({e.line, e.excluded, e.local});
+  add_swings(mesh, points, laws, pairs, solution.u, lines);
   estimate.far.windows = share_duals(mesh, window_places(estimate.pressures), own_duals);
   GoalFunctionals goal;
   if (!pairs.empty())

@@ -11,8 +11,9 @@ namespace {
 constexpr Eigen::Index beside = 4;  // nodes on either side
 constexpr Eigen::Index cubic = 4;   // coefficients
 
-// p(i) less the cubic that fits nodes first ... first + count - 1, over the root of 1 - q, with q the part of p(i) itself
-// in the cubic there: by that root a fit comes nearer to what it was made with, at the end of a line more than within.
+// p(i) less the cubic that fits nodes first ... first + count - 1, over the root of 1 - q, with q the part of p(i)
+// itself in the cubic there: by that root a fit comes nearer to what it was made with, at the end of a line more than
+// within.
 double swing(const PressureNodes& nodes, Eigen::Index i, Eigen::Index first, Eigen::Index count) {
   const VecX t = nodes.s.segment(first, count).array() - nodes.s(i);
   const double scale = largest_entry(t);

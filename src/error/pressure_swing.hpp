@@ -18,8 +18,8 @@ struct PressureNodes {
 PressureNodes pressure_nodes(const PressureLine& line, const std::vector<char>& excluded);
 
 /// Of each node p less the cubic polynomial in s that fits it and the nodes around it best, nine together, in least
-/// squares; 0 where not so many as a cubic needs lie between places where p is not smooth. Nine nodes smooth what swings
-/// within four edges, and a cubic over them follows a p that the mesh resolves.
+/// squares; 0 where not so many as a cubic needs lie between places where p is not smooth. Nine nodes smooth what
+/// swings within four edges, and a cubic over them follows a p that the mesh resolves.
 VecX swings(const PressureNodes& nodes);
 
 /// Root mean square over the nine nodes about each vertex of a figure of the nodes, those that are NaN or not smooth

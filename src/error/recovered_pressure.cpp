@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "contact/projection.hpp"
-#include "error/error_estimate.hpp"
 #include "fem/edges.hpp"
 
 namespace mortise {
@@ -22,7 +21,7 @@ double pressure_at(const Mesh& mesh, const BodyPoints& points, const std::vector
   return -(s(0) * n.x() * n.x() + s(1) * n.y() * n.y() + 2 * s(3) * n.x() * n.y());
 }
 
-bool swings_more(const PressureEstimate& e, const VecX& swing) {
+bool swings_more(const JudgedLine& e, const VecX& swing) {
   for (Eigen::Index i = 0; i < swing.size(); ++i)
     if (e.line.loaded[i] && std::isfinite(swing(i)) && swing(i) * std::sqrt(e.line.h(i)) > e.local.l2(i)) return true;
   return false;
@@ -57,14 +56,14 @@ std::array<VecX, 2> recovered_pressures(const Mesh& mesh, const BodyPoints& poin
 }
 
 void add_swings(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                const std::vector<ContactPair>& pairs, const VecX& u, std::vector<PressureEstimate>& pressures) {
+                const std::vector<ContactPair>& pairs, const VecX& u, const std::vector<JudgedLine>& lines) {
   std::vector<PressureNodes> nodes(pairs.size());
   std::vector<VecX> errors(pairs.size());  // of pairs that need stresses; else empty
   std::vector<int> beside;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    nodes[k] = pressure_nodes(pressures[k].line, pressures[k].excluded);
+    nodes[k] = pressure_nodes(lines[k].line, lines[k].excluded);
     const VecX swing = means_at_vertices(nodes[k], swings(nodes[k]));
-    if (!swings_more(pressures[k], swing)) continue;
+    if (!swings_more(lines[k], swing)) continue;
     errors[k] = swing;
     const std::vector<int> of_pair = points_of_pair(points, pairs[k]);
     beside.insert(beside.end(), of_pair.begin(), of_pair.end());
@@ -75,7 +74,7 @@ void add_swings(const Mesh& mesh, const BodyPoints& points, const std::vector<El
     if (errors[k].size() == 0) continue;
     for (const VecX& p : recovered_pressures(mesh, points, laws, patches, pairs[k], nodes[k]))
       errors[k] = errors[k].cwiseMin(means_at_vertices(nodes[k], nodes[k].p - p));
-    raise_to(errors[k], pressures[k].line, pressures[k].local);
+    raise_to(errors[k], lines[k].line, lines[k].local);
   }
 }
 

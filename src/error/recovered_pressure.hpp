@@ -8,21 +8,27 @@
 
 namespace mortise {
 
-struct PressureEstimate;
-
 /// The body points of both curves' vertices: where patches are needed.
 std::vector<int> points_of_pair(const BodyPoints& points, const ContactPair& pair);
 
-/// -n . sigma* . n at each node of the multiplier side, in its own body and where its normal meets the other one, stress;
-/// NaN where it meets nothing.
+/// -n . sigma* . n at each node of the multiplier side, in its own body and where its normal meets the other one,
+/// stress; NaN where it meets nothing.
 std::array<VecX, 2> recovered_pressures(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
                                         const StressPatches& patches, const ContactPair& pair,
                                         const PressureNodes& nodes);
 
+/// The line of a pair, flags of its vertices that are left out, and the local error.
+struct JudgedLine {
+  const PressureLine& line;
+  const std::vector<char>& excluded;
+  LineError& local;
+};
+
 /// What p swings by at each vertex and the bodies do not: the least of the swing and of what p differs by from the
-/// recovered stresses of either body, each a mean over nine nodes (docs/theory.md eq. 47a). Only where the swing is more
-/// than the local error of some vertex are stresses recovered, beside the pairs' curves. Raises `pressures[k].local`.
+/// recovered stresses of either body, each a mean over nine nodes (docs/theory.md eq. 47a). Only where the swing is
+/// more than the local error of some vertex are stresses recovered, beside the pairs' curves. Raises `lines[k].local`,
+/// k the number of the pair.
 void add_swings(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                const std::vector<ContactPair>& pairs, const VecX& u, std::vector<PressureEstimate>& pressures);
+                const std::vector<ContactPair>& pairs, const VecX& u, const std::vector<JudgedLine>& lines);
 
 }  // namespace mortise
