@@ -242,11 +242,13 @@ class Loop {
                          .target = target};
     if (spec_.of == Goal::half_width) factors.border = found / (aimed * spec_.value);
     if (e.goal) {
-      const double each = 0.5 * aimed * spec_.value * e.goal->value.norm() / error_safety;
+      const double parts = e.goal->local > 0 ? 3 : 2,
+                   each = aimed * spec_.value * e.goal->value.norm() / (parts * error_safety);
       factors.line = std::clamp(e.goal->local / each, 0.4, largest_step);
       factors.far_field = std::clamp(e.goal->far() / each, 0.25, 5 * largest_step);
     }
     WantedSizes wanted = wanted_sizes(r.mesh, r.pairs, e, factors);
+      factors.goal_line = std::clamp(e.goal->line() / each, 0.4, largest_step);
     for (Eigen::Index i = 0; i < wanted.sizes.size(); ++i)
       wanted.sizes(i) = std::min(wanted.sizes(i), largest_(r.mesh.nodes.row(i).transpose()));
     const auto field = std::make_shared<SizeField>(r.mesh, wanted.sizes, std::move(wanted.layers));

@@ -161,8 +161,8 @@ void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint
   Stopwatch watch;
   r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution, spec, most_own_duals, found);
   for (std::size_t k = 0; k < r.contacts.size(); ++k) set_bars(r.estimate->pressures[k], r.contacts[k]);
-  const std::vector<PlaceError> of_probes =
-      place_errors(r.mesh, r.points, r.discretisation, r.solution, probed_places(r.probes));
+  const std::vector<PlaceError> of_probes = place_errors(r.mesh, r.points, r.discretisation, r.pairs, r.solution,
+                                                         r.estimate->pressures, probed_places(r.probes));
   for (std::size_t i = 0; i < of_probes.size(); ++i) r.probes[i].error = of_probes[i];
   append(r.warnings, error_warnings(r));
   if (auto check = estimate_check(r)) r.checks.push_back(*std::move(check));

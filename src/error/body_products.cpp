@@ -56,7 +56,7 @@ ErrorProducts products_by_body(const Mesh& mesh, const BodyPoints& points, const
 
 ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
                                   const VecX& u, const ContactFactor& factor, const MatX& functionals,
-                                  const MatX& loads, const std::function<void(const MatX& fields)>& look_at) {
+                                  const MatX& loads, const SeeDuals& see) {
   constexpr Eigen::Index at_once = 12;  // recovered stresses take far more room than displacements
   const Eigen::Index count = functionals.cols(), without_load = count - loads.cols();
   ErrorProducts all;
@@ -67,7 +67,7 @@ ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, co
     const Eigen::Index loaded = std::clamp(first + duals - without_load, Eigen::Index(0), duals);
     const MatX own = loads.middleCols(std::max(first - without_load, Eigen::Index(0)), loaded);
     fields.rightCols(duals) = factor.duals(functionals.middleCols(first, duals), own);
-    if (look_at) look_at(fields);
+    if (see) see(first, fields);
     ErrorProducts some = products_by_body(mesh, points, laws, fields);
     if (first == 0) {
       all = std::move(some);

@@ -13,10 +13,14 @@ namespace mortise {
 ErrorProducts products_by_body(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
                                const MatX& fields);
 
+/// Called with u and, after it, the duals (n x some) of the functionals from the first on, before their products are
+/// taken: to be looked at, or to be added to.
+using SeeDuals = std::function<void(Eigen::Index first, MatX& fields)>;
+
 /// Of u and the duals of functionals (rows x F, at least one), in the order of both; `loads` (n x L): of the last L of
-/// them. `look_at`: called with u and some of the duals after another.
+/// them. `see`: called with u and some of the duals after another.
 ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
                                   const VecX& u, const ContactFactor& factor, const MatX& functionals,
-                                  const MatX& loads, const std::function<void(const MatX& fields)>& look_at = {});
+                                  const MatX& loads, const SeeDuals& see = {});
 
 }  // namespace mortise

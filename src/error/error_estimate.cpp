@@ -188,6 +188,18 @@ std::vector<TailShares> tails_along(const Mesh& mesh, const std::vector<Pressure
   return tail_shares(mesh, lines, windows, duals, tails);
 }
 
+// Of all pairs; `opening`: what of that of pair `of` is asked for, none where it is empty.
+std::vector<LinePart> line_parts(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
+                                 const MatX& duals, int of, const MatX& opening) {
+  std::vector<LinePart> parts;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    MatX opened = openings(pairs[k], duals);
+    if (int(k) == of && opening.size() > 0) opened -= opening;
+    parts.push_back(line_part(pairs[k], pressures[k].line, pressures[k].local, opened));
+  }
+  return parts;
+}
+
 // Of each window the sum of the cells' parts without their signs.
 VecX far_fields(const Mesh& mesh, const FarField& far) {
   if (far.windows.own()) return far.parts.cwiseAbs().colwise().sum();
@@ -267,13 +279,21 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
         mesh, table,
         free_corners(body_corners(mesh, table, system.constraints, laws, tips), mesh.nodes.rows(), pairs, reached));
   CornerProducts at_corners(mesh, laws, estimate.tails.corners);
-  const ErrorProducts found = functionals.cols() > 0
-                                  ? products_with_duals(mesh, points, laws, solution.u, *factor, functionals,
-                                                        goal.loads, [&](const MatX& f) { at_corners.add(f); })
-                                  : products_by_body(mesh, points, laws, solution.u);
+  MatX goal_duals(goals > 0 ? solution.u.size() : 0, goals);
+  const auto see = [&](Eigen::Index first, const MatX& fields) {
+    at_corners.add(fields);
+    for (Eigen::Index k = std::max(first, shared); k < first + fields.cols() - 1; ++k)
+      goal_duals.col(k - shared) = fields.col(1 + k - first);
+  };
+  const ErrorProducts found = functionals.cols() > 0 ? products_with_duals(mesh, points, laws, solution.u, *factor,
+                                                                           functionals, goal.loads, see)
+                                                     : products_by_body(mesh, points, laws, solution.u);
   estimate.energy = energy_estimate(mesh, found, round_off_energy(found, system.stiffness_scale, solution.u));
   estimate.far.parts = found.products.middleCols(1, shared);
-  if (goals > 0) estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
+  if (goals > 0) {
+    estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
+    estimate.goal->lines = line_parts(pairs, estimate.pressures, goal_duals, spec.pair, goal.opening);
+  }
   if (spec.of == Goal::stress) {
     const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, solution.u));
     add_stress_error(mesh, points, discretisation, goal, solution.u, patches, *estimate.goal);

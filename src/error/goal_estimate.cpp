@@ -26,8 +26,12 @@ Window along_edges(const Mesh& mesh, const ContactPair& pair, const PressureLine
                                                      : Window{window(0), window(1)};
 }
 
+struct Functional {
+  MatX rows, opening;  // GoalFunctionals
+};
+
 // The mean of p over the window; zero where the line does not face the other side there.
-VecX mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const Window& window) {
+Functional mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const Window& window) {
   const LineRule rule = gauss_legendre(3);
   VecX weights = VecX::Zero(pair.coupling.B.rows());
   double mass = 0;
@@ -44,17 +48,27 @@ VecX mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLi
     }
   }
   if (mass > 0) weights /= mass;
-  return weights;
+  MatX opening = MatX::Zero(Eigen::Index(pair.points.size()), 1);
+  for (std::size_t i = 0; i < pair.points.size(); ++i) {
+    const ContactPoint& point = pair.points[i];
+    const double s = line.s(point.edge) + (line.s(point.edge + 1) - line.s(point.edge)) * (1 + point.xi) / 2;
+    if (mass > 0 && s >= window.from && s <= window.to) opening(Eigen::Index(i), 0) = point.ds / point.dA / mass;
+  }
+  return {weights, opening};
 }
 
-MatX force_functionals(const ContactPair& pair) {
+// The multiplier side's nodes moved by 1 along x and y.
+Functional force_functionals(const ContactPair& pair) {
   std::vector<int> nodes = curve_nodes(pair.multiplier);
   std::ranges::sort(nodes);
   MatX weights = MatX::Zero(pair.coupling.B.rows(), 2);
   for (Eigen::Index row = 0; row < pair.coupling.B.rows(); ++row)
     for (SparseRows::InnerIterator it(pair.coupling.B, row); it; ++it)
       if (std::ranges::binary_search(nodes, int(it.col() / 2))) weights(row, it.col() % 2) += it.value();
-  return weights;
+  MatX opening(Eigen::Index(pair.points.size()), 2);
+  for (std::size_t i = 0; i < pair.points.size(); ++i)
+    opening.row(Eigen::Index(i)) = -pair.points[i].normal.transpose();
+  return {weights, opening};
 }
 
 // Of the pair's rows as of those of all pairs.
@@ -168,16 +182,20 @@ GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discret
   const SaddlePointSystem& system = discretisation.system;
   const Eigen::Index m = system.B.rows(), n = system.K.cols();
   GoalFunctionals goal;
+  const auto set = [&](Functional functional) {
+    goal.rows = in_all_rows(pair, functional.rows, m);
+    goal.opening = std::move(functional.opening);
+  };
   switch (spec.of) {
     case Goal::pressure:
     case Goal::peak:
     case Goal::half_width:
       break;
     case Goal::mean:
-      goal.rows = in_all_rows(pair, mean_functional(mesh, pair, line, along_edges(mesh, pair, line, spec.window)), m);
+      set(mean_functional(mesh, pair, line, along_edges(mesh, pair, line, spec.window)));
       break;
     case Goal::force:
-      goal.rows = in_all_rows(pair, force_functionals(pair), m);
+      set(force_functionals(pair));
       break;
     case Goal::displacement:
       goal.place = place_of(mesh, spec);
@@ -195,9 +213,16 @@ GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discret
   return goal;
 }
 
+double GoalEstimate::line() const {
+  VecX sums = VecX::Zero(value.size());
+  for (const LinePart& part : lines) sums += part.sum();
+  return sums.norm();
+}
+
 GoalEstimate goal_estimate(const GoalFunctionals& functionals, const Solution& solution, MatX parts) {
   return {.value = functionals.loads.transpose() * solution.u - functionals.rows.transpose() * solution.lambda,
-          .parts = std::move(parts)};
+          .parts = std::move(parts),
+          .lines = {}};
 }
 
 Eigen::Vector3d stress_difference(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,

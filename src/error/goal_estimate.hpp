@@ -1,7 +1,7 @@
 // What else than p along the lines an accuracy can be asked of, as functionals of the solution.
 #pragma once
 
-#include "error/pressure_line.hpp"
+#include "error/line_part.hpp"
 #include "fem/locate.hpp"
 #include "fem/patch_recovery.hpp"
 #include "problem/discretisation.hpp"
@@ -17,6 +17,8 @@ struct GoalFunctionals {
   MatX rows;   ///< m x components: of the mean (1), of the force on the multiplier side's body (2)
   MatX loads;  ///< n x components: of a displacement (2), of a stress (11, 22, 12), its mean over the cells around
   std::optional<CellPlace> place;  ///< of a displacement or a stress
+  /// At each contact point of the pair by how much the dual solutions are to open it: points x components.
+  MatX opening;
 };
 
 /// `line`: of spec.pair. Throws SceneError where spec.at lies in no body or, none being named, in several; and for a
@@ -40,15 +42,17 @@ Eigen::Vector3d stress_difference(const Mesh& mesh, const BodyPoints& points, co
 
 /// The values, and what they may be off by.
 struct GoalEstimate {
-  VecX value;         ///< of each component; of a stress the recovered one at the place
-  MatX parts;         ///< cells x components: of each cell in the error, its sign as it came
-  double local = 0;   ///< of a mean of p: mean of its local error
-  VecX corners = {};  ///< of each component what the mesh misses at the bodies' corners (error/corner_tails.hpp)
+  VecX value;                   ///< of each component; of a stress the recovered one at the place
+  MatX parts;                   ///< cells x components: of each cell in the error, its sign as it came
+  double local = 0;             ///< of a mean of p: mean of its local error
+  VecX corners = {};            ///< of each component what the mesh misses at the bodies' corners (error/corner_tails.hpp)
+  std::vector<LinePart> lines;  ///< of each pair: what the error of p does to each component
   double far() const {
     const VecX cells = parts.cwiseAbs().colwise().sum();
     return (corners.size() > 0 ? VecX(cells + corners) : cells).norm();
   }
-  double error() const { return error_safety * (far() + local) / value.norm(); }  ///< relative
+  double line() const;                                                                     ///< of all pairs
+  double error() const { return error_safety * (far() + line() + local) / value.norm(); }  ///< relative
 };
 
 /// `parts`: cells x components, of the functionals' duals (ErrorProducts).

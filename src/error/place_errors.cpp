@@ -57,16 +57,38 @@ bool touches(const Cell& cell, const std::vector<char>& nodes) {
   return std::any_of(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind), [&](int a) { return nodes[a]; });
 }
 
+// Of each node the largest bar of p on the edges of contact lines that have it, or face it; zero of others.
+VecX bars_at_nodes(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                   const std::vector<PressureEstimate>& pressures) {
+  VecX bars = VecX::Zero(mesh.nodes.rows());
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (const ContactPoint& point : pairs[k].points) {
+      const double bar = std::max(pressures[k].bar(point.edge), pressures[k].bar(point.edge + 1));
+      for (const Edge& edge : {pairs[k].multiplier.edges[point.edge], pairs[k].opposite.edges[point.opposite_edge]})
+        for (int a = 0; a < edge.node_count; ++a) bars(edge.nodes[a]) = std::max(bars(edge.nodes[a]), bar);
+    }
+  return bars;
+}
+
+double largest_at(const Cell& cell, const VecX& at_nodes) {
+  double most = 0;
+  for (int a = 0; a < node_count(cell.kind); ++a) most = std::max(most, at_nodes(cell.nodes[a]));
+  return most;
+}
+
 }  // namespace
 
 std::vector<PlaceError> place_errors(const Mesh& mesh, const BodyPoints& points, const Discretisation& d,
-                                     const Solution& solution, const std::vector<ProbedPlaces>& probes) {
+                                     const std::vector<ContactPair>& pairs, const Solution& solution,
+                                     const std::vector<PressureEstimate>& pressures,
+                                     const std::vector<ProbedPlaces>& probes) {
   std::vector<PlaceError> errors;
   if (probes.empty()) return errors;
   std::shared_ptr<const ContactFactor> factor = solution.factor;
   if (!factor) factor = factorise_contact(d.system, solution.active);
   const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, d.laws, solution.u));
   const std::vector<char> boundary = boundary_nodes(mesh);
+  const VecX bars_of_p = bars_at_nodes(mesh, pairs, pressures);
   for (const ProbedPlaces& probe : probes) {
     const Eigen::Matrix3d turn = turning(probe.angle);
     const std::vector<int> with_duals = sampled(int(probe.in.size()));
@@ -76,9 +98,16 @@ std::vector<PlaceError> place_errors(const Mesh& mesh, const BodyPoints& points,
       loads.middleCols<2>(5 * k) = displacement_loads(mesh, place);
       loads.middleCols<3>(5 * k + 2) = stress_loads(mesh, d, place) * turn.transpose();
     }
+    VecX far = VecX::Zero(loads.cols());
+    const auto add_lines = [&](Eigen::Index first, const MatX& fields) {
+      const auto z = fields.rightCols(fields.cols() - 1);
+      for (std::size_t k = 0; k < pairs.size(); ++k)
+        far.segment(first, z.cols()) +=
+            line_part(pairs[k], pressures[k].line, pressures[k].local, openings(pairs[k], z)).sum();
+    };
     const ErrorProducts found = products_with_duals(mesh, points, d.laws, solution.u, *factor,
-                                                    MatX::Zero(d.system.B.rows(), loads.cols()), loads);
-    const VecX far = found.products.rightCols(loads.cols()).cwiseAbs().colwise().sum().transpose();
+                                                    MatX::Zero(d.system.B.rows(), loads.cols()), loads, add_lines);
+    far += found.products.rightCols(loads.cols()).cwiseAbs().colwise().sum().transpose();
     std::size_t next = 0;
     for (int i = 0; i < int(probe.in.size()); ++i) {
       if (with_duals[next] < i) ++next;
@@ -86,6 +115,7 @@ std::vector<PlaceError> place_errors(const Mesh& mesh, const BodyPoints& points,
       if (with_duals[next] > i) error = error.cwiseMax(far.segment<5>(5 * (next - 1)));
       error.tail<3>() += local_error(mesh, points, d, solution.u, patches, probe.in[i], turn);
       if (touches(mesh.cells[probe.in[i].cell], boundary)) error.tail<3>().array() += probe.spread[i];
+      error.tail<3>().array() += largest_at(mesh.cells[probe.in[i].cell], bars_of_p) / error_safety;
       if (exponent_at(mesh, d, probe.in[i], probe.x[i]) <= singular_limit)
         error.tail<3>().setConstant(std::numeric_limits<double>::quiet_NaN());
       errors.push_back({error_safety * error.head<2>(), error_safety * error.tail<3>()});

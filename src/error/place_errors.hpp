@@ -3,10 +3,8 @@
 
 #include <span>
 
+#include "error/error_estimate.hpp"
 #include "fem/locate.hpp"
-#include "mesh/body_points.hpp"
-#include "problem/discretisation.hpp"
-#include "solve/solution.hpp"
 
 namespace mortise {
 
@@ -26,8 +24,12 @@ struct PlaceError {
 /// As the errors of one displacement or stress that an accuracy is asked of (docs/theory.md, section 14): what the
 /// cells' errors do to it by a dual of each component, and for a stress by what the elements' own differs from the
 /// recovered one. Of more than 8 places duals are solved for 8 of them; between two of these the larger error counts,
-/// and the difference of each place's own stresses. `solution`: as of estimate_error.
+/// and the difference of each place's own stresses. What the error of p on the pairs' lines does is a part of each
+/// (error/line_part.hpp), and of stresses in a cell on a line the bar of p there. `solution`: as of estimate_error;
+/// `pressures`: estimated, one a pair.
 std::vector<PlaceError> place_errors(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
-                                     const Solution& solution, const std::vector<ProbedPlaces>& probes);
+                                     const std::vector<ContactPair>& pairs, const Solution& solution,
+                                     const std::vector<PressureEstimate>& pressures,
+                                     const std::vector<ProbedPlaces>& probes);
 
 }  // namespace mortise

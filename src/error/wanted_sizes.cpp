@@ -148,6 +148,41 @@ VecX line_refinement(const PressureEstimate& e, double target, double borders, d
   return r;
 }
 
+// What the parts of the goal's lines that fall as h^power may add up to, and the sum of their roots with which the
+// fewest edges bring them there.
+struct GoalLines {
+  double target = 0, roots = 0;
+};
+
+VecX goal_parts(const MatX& part) { return part.rowwise().norm(); }
+
+GoalLines goal_lines(const GoalEstimate& goal, double factor) {
+  GoalLines lines;
+  for (const LinePart& part : goal.lines) {
+    lines.target += (goal_parts(part.vertices).sum() + goal_parts(part.borders).sum()) / (2 * factor);
+    lines.roots +=
+        goal_parts(part.vertices).array().pow(1.0 / 6).sum() + goal_parts(part.borders).array().pow(1.0 / 3).sum();
+  }
+  return lines;
+}
+
+// As line_refinement, by what the vertices and borders of a pair do to the goal.
+VecX goal_line_refinement(const PressureEstimate& e, const LinePart& part, const GoalLines& lines) {
+  VecX r = VecX::Constant(e.line.p.size(), coarsen);
+  if (!(lines.target > 0)) return r;
+  const double between = lines.roots / lines.target;
+  const VecX vertices = goal_parts(part.vertices), borders = goal_parts(part.borders);
+  for (Eigen::Index i = 0; i < r.size(); ++i)
+    r(i) = std::clamp(std::pow(between, 0.2) * std::pow(vertices(i), 1.0 / 6), coarsen, line_refine);
+  for (std::size_t b = 0; b < e.local.borders.size(); ++b) {
+    const double shorter = std::clamp(std::sqrt(between) * std::cbrt(borders(Eigen::Index(b))), 0.7, border_refine);
+    const Eigen::Index edge = e.local.borders[b].edge;
+    for (Eigen::Index i = std::max<Eigen::Index>(edge - 1, 0); i <= std::min(edge + 2, r.size() - 1); ++i)
+      r(i) = std::max(r(i), shorter);
+  }
+  return r;
+}
+
 }  // namespace
 
 WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs, const ErrorEstimate& estimate,
@@ -175,10 +210,13 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
     borders += double(std::ranges::count(e.local.border, 1));
   }
   const double target = estimate.line() * std::sqrt(p2) / factors.line;
+  const GoalLines lines = estimate.goal ? goal_lines(*estimate.goal, factors.goal_line) : GoalLines{};
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];
-    const VecX along =
-        e.line.h.cwiseQuotient(line_refinement(e, target, borders, factors.border)).cwiseMax(least_size * scene);
+    VecX shorter = VecX::Constant(e.line.p.size(), coarsen);
+    if (!estimate.goal || estimate.goal->local > 0) shorter = line_refinement(e, target, borders, factors.border);
+    if (estimate.goal) shorter = shorter.cwiseMax(goal_line_refinement(e, estimate.goal->lines[k], lines));
+    const VecX along = e.line.h.cwiseQuotient(shorter).cwiseMax(least_size * scene);
     const auto lower = [&](int node, const Vec2& from, double size) {
       const double distance = (mesh.nodes.row(node).transpose() - from).norm();
       sizes(node) = std::min(sizes(node), size + size_growth * distance);

@@ -13,7 +13,8 @@ inline constexpr double size_growth = 0.3;
 struct ErrorFactors {
   double line, far_field;
   double target;
-  double border = 0;  ///< by which the edges are to shorten on which contact ends; 0: as the line's error asks
+  double border = 0;     ///< by which the edges are to shorten on which contact ends; 0: as the line's error asks
+  double goal_line = 1;  ///< of another functional than p by which what the lines do to it is to fall
 };
 
 struct WantedSizes {
@@ -22,7 +23,8 @@ struct WantedSizes {
 };
 
 /// The sizes with the fewest elements (docs/theory.md eq. 49, 50): the far field by each cell's part, which falls as
-/// h^6; the local error by each vertex's, h^2.5; the border of contact in proportion; layers towards singular points so
+/// h^6; the local error by each vertex's, h^2.5; the border of contact in proportion; of another functional what each
+/// vertex does to it, h^5, and each border, h^2; layers towards singular points so
 /// small that what they do to p elsewhere is a part of the target. Elements may also grow.
 WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs, const ErrorEstimate& estimate,
                          const ErrorFactors& factors);
