@@ -19,6 +19,7 @@
 #include "results/diagnose.hpp"
 #include "results/error_report.hpp"
 #include "results/line_checks.hpp"
+#include "results/unheld.hpp"
 #include "results/warnings.hpp"
 #include "solve/threads.hpp"
 
@@ -62,6 +63,7 @@ void append(std::vector<std::string>& lines, const std::vector<std::string>& mor
 struct Contact {
   std::vector<ContactPair> pairs;
   std::vector<std::string> warnings;  // of the audit, and of motions held
+  std::vector<std::vector<RigidMotion>> held;
 };
 
 // Bodies drawn over one another may have no places that face each other: that is said first.
@@ -78,12 +80,13 @@ std::vector<ContactPair> coupled_pairs(const Scene& scene, const Mesh& mesh, con
 // Couples the pairs and puts their rows into the system; refuses what cannot be meant.
 Contact add_contact(const Scene& scene, const Mesh& mesh, const std::vector<ContactCurves>& curves,
                     const std::vector<char>& dirichlet, Discretisation& d) {
-  Contact contact{coupled_pairs(scene, mesh, curves, dirichlet, d), {}};
+  Contact contact{coupled_pairs(scene, mesh, curves, dirichlet, d), {}, {}};
   set_contact(contact.pairs, d.system);
   contact.warnings = mesh.notes;
   append(contact.warnings, audit_scene(scene, mesh, contact.pairs));
   require_closed(mesh, contact.pairs);
-  append(contact.warnings, hold_free_motions(mesh, contact.pairs, contact.warnings, d.system));
+  contact.held = hold_free_motions(mesh, contact.pairs, contact.warnings, d.system);
+  append(contact.warnings, held_lines(mesh, contact.held));
   return contact;
 }
 
@@ -159,11 +162,13 @@ ActiveSet active_set(const Results& r) {
 
 void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint>& found) {
   Stopwatch watch;
+  require_held(r, spec);
   r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution, spec, most_own_duals, found);
   for (std::size_t k = 0; k < r.contacts.size(); ++k) set_bars(r.estimate->pressures[k], r.contacts[k]);
   const std::vector<PlaceError> of_probes = place_errors(r.mesh, r.points, r.discretisation, r.pairs, r.solution,
                                                          r.estimate->pressures, probed_places(r.probes));
   for (std::size_t i = 0; i < of_probes.size(); ++i) r.probes[i].error = of_probes[i];
+  leave_out_unheld(r);
   append(r.warnings, error_warnings(r));
   if (auto check = estimate_check(r)) r.checks.push_back(*std::move(check));
   r.status = std::max(r.status, verdict(r));
@@ -204,6 +209,7 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   Contact contact = add_contact(scene, r.mesh, curves, dirichlet, r.discretisation);
   r.pairs = std::move(contact.pairs);
   r.warnings = std::move(contact.warnings);
+  r.unheld = std::move(contact.held);
   const Floating floating = find_floating(r.mesh, system.constraints);
   system.grounded = floating.grounded;
   system.start = starting_rows(start, r.mesh, r.pairs);
@@ -215,7 +221,8 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   std::vector<std::vector<RigidMotion>> free;
   for (const auto& mode : r.solution.rigid_modes.colwise())
     free.push_back(motion_through(r.mesh, floating.motions, floating.grounded, mode));
-  for (std::string& line : held_lines(r.mesh, free)) r.warnings.push_back(std::move(line));
+  append(r.warnings, held_lines(r.mesh, free));
+  r.unheld.insert(r.unheld.end(), free.begin(), free.end());
   for (const int unknown : held_unknowns(floating.grounded, r.solution)) system.constraints.fixed[unknown] = 1;
   r.seconds.factorise = r.solution.factorise_seconds;
   r.seconds.solve = r.solution.solve_seconds;
@@ -238,6 +245,7 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   r.status = verdict(r);
   append(r.warnings, warnings(scene, r));
   append(r.warnings, audit_solution(r));
+  append(r.warnings, unheld_probes(scene, r));
   r.seconds.recover = watch.lap();
   return r;
 }

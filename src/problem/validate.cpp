@@ -58,8 +58,9 @@ Floating find_floating(const Mesh& mesh, const Constraints& constraints) {
   return floating;
 }
 
-std::vector<std::string> hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                                           const std::vector<std::string>& findings, SaddlePointSystem& system) {
+std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                                                        const std::vector<std::string>& findings,
+                                                        SaddlePointSystem& system) {
   std::vector<std::vector<RigidMotion>> held;
   const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions, double round_off) {
     const std::vector<char> moves = driven(mesh, motions, system.f, round_off);
@@ -82,7 +83,7 @@ std::vector<std::string> hold_free_motions(const Mesh& mesh, const std::vector<C
     edge_error = std::max(edge_error, of_pair.edge_error);
   }
   hold(free_motions(mesh, system.constraints, normals), std::max(1e-9, edge_error));
-  return held_lines(mesh, held);
+  return held;
 }
 
 std::vector<std::string> held_lines(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions) {

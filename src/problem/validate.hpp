@@ -15,11 +15,12 @@ struct Floating {
 Floating find_floating(const Mesh& mesh, const Constraints& constraints);
 
 /// Motions that neither prescribed displacements nor closed contact resist: the one that a load drives is an
-/// SceneError, the others are held at one unknown of the system each, which changes no pressure, and told by
+/// SceneError, the others are held at one unknown of the system each, which changes no pressure, and returned, for
 /// held_lines. Contact resists them by its rows, and as the drawn curves do (seen_motions): a disc turns freely
 /// whatever its chords say. The first of the audit's `findings` ends an error: probably a pair is missing.
-std::vector<std::string> hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                                           const std::vector<std::string>& findings, SaddlePointSystem& system);
+std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                                                        const std::vector<std::string>& findings,
+                                                        SaddlePointSystem& system);
 
 /// "nothing holds MOTION, but no load drives it either ..."; one line for many.
 std::vector<std::string> held_lines(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions);

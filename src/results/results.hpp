@@ -2,6 +2,7 @@
 #pragma once
 
 #include "error/error_estimate.hpp"
+#include "fem/rigid_motions.hpp"
 #include "results/extremes.hpp"
 #include "results/probes.hpp"
 #include "results/reactions.hpp"
@@ -58,6 +59,7 @@ struct Results {
   std::vector<ContactPair> pairs;
   std::vector<std::string> dirichlet;  ///< of domain decomposition: bodies that took the displacement
   Solution solution;
+  std::vector<std::vector<RigidMotion>> unheld;  ///< that nothing holds and no load drives: held, or zero
   StressField stress;
   std::vector<ContactResults> contacts;  ///< one a pair
   Extremes extremes;

@@ -1,0 +1,80 @@
+#include "results/unheld.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/printable.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double moves = 1e-6;  // of a motion of unit size; less is its round-off
+
+// The first such motion of the body, in words.
+std::string motion_words(const Results& r, int body) {
+  for (const std::vector<RigidMotion>& motion : r.unheld)
+    if (std::ranges::any_of(motion, [&](const RigidMotion& part) { return part.body == body; }))
+      return describe(r.mesh, motion);
+  return "";
+}
+
+std::string direction(const std::array<bool, 2>& unheld) {
+  return unheld[0] && unheld[1] ? "along x and y" : unheld[0] ? "along x" : "along y";
+}
+
+int body_of(const Results& r, const ProbeValue& value) { return r.mesh.cells[value.place.in.cell].body; }
+
+}  // namespace
+
+std::array<bool, 2> unheld_at(const Results& r, int body, const Vec2& x) {
+  std::array<bool, 2> unheld{};
+  for (const std::vector<RigidMotion>& motion : r.unheld)
+    for (const RigidMotion& part : motion) {
+      if (part.body != body) continue;
+      const Vec2 arm = x - part.centre, moved = part.translation + part.rotation * Vec2(-arm.y(), arm.x());
+      for (const int c : {0, 1}) unheld[c] = unheld[c] || std::abs(moved(c)) > moves;
+    }
+  return unheld;
+}
+
+std::vector<std::string> unheld_probes(const Scene& scene, const Results& r) {
+  std::vector<std::string> lines;
+  std::set<int> told;
+  for (const ProbeValue& value : r.probes) {
+    const std::array<bool, 2> unheld = unheld_at(r, body_of(r, value), value.place.x);
+    if (!(unheld[0] || unheld[1]) || !told.insert(value.place.probe).second) continue;
+    lines.push_back(scene.probes[value.place.probe].key + ": the displacement " + direction(unheld) + " " +
+                    near_point(value.place.x) + " is one of many and has no bar: nothing holds " +
+                    motion_words(r, body_of(r, value)));
+  }
+  return lines;
+}
+
+void require_held(const Results& r, const AccuracySpec& spec) {
+  if (spec.of != Goal::displacement) return;
+  for (int b = 0; b < int(r.mesh.bodies.size()); ++b) {
+    if (!spec.body.empty() && r.mesh.bodies[b] != spec.body) continue;
+    const std::array<bool, 2> unheld = unheld_at(r, b, spec.at);
+    if (!(unheld[0] || unheld[1]) || !locate(r.mesh, b, spec.at)) continue;
+    std::ostringstream where;
+    where << "accuracy.at: (" << spec.at.x() << ", " << spec.at.y() << "): the displacement " << direction(unheld)
+          << " is any, as nothing holds " << motion_words(r, b)
+          << "; expected a support that does, or another quantity in accuracy.of";
+    throw SceneError(where.str());
+  }
+}
+
+void leave_out_unheld(Results& r) {
+  if (r.unheld.empty()) return;
+  for (ProbeValue& value : r.probes) {
+    if (!value.error) continue;
+    const std::array<bool, 2> unheld = unheld_at(r, body_of(r, value), value.place.x);
+    for (const int c : {0, 1})
+      if (unheld[c]) value.error->u(c) = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+}  // namespace mortise

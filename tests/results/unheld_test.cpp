@@ -1,0 +1,65 @@
+// Displacements of bodies that nothing holds are no answers.
+#include "results/unheld.hpp"
+
+#include <gtest/gtest.h>
+
+#include "app/accuracy.hpp"
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+// The upper block may slide along x; the lower one is held.
+Scene sliding(const TemporaryFolder& folder, const std::string& more) {
+  folder.write("s.geo", R"(SetFactory("OpenCASCADE"); Mesh.ElementOrder = 2; Mesh.CharacteristicLengthMax = 0.3;
+Rectangle(1) = {0, 0, 0, 3, 1};
+Rectangle(2) = {1, 1, 0, 1, 1};
+Physical Surface("lower") = {1};
+Physical Surface("upper") = {2};
+Physical Curve("ground") = {1};
+Physical Curve("top") = {3};
+Physical Curve("foot") = {5};
+Physical Curve("head") = {7};
+)");
+  return read_scene(folder.write("s.toml", R"(mesh.file = "s.geo"
+materials.steel = { young = 210e9, poisson = 0.3 }
+bodies = { lower = "steel", upper = "steel" }
+boundary = [{ on = "ground", displacement = { x = 0, y = 0 } }, { on = "head", pressure = 1e6 }]
+contact = [{ between = ["foot", "top"] }]
+)" + more));
+}
+
+TEST(Unheld, ADisplacementAlongAMotionThatNothingHoldsIsNoGoal) {
+  const TemporaryFolder folder;
+  const auto told = [&](const std::string& at, const std::string& body) {
+    return message_of([&] {
+      solve_to_accuracy(sliding(
+          folder, "accuracy = { of = \"displacement\", value = 0.05, at = " + at + ", body = \"" + body + "\" }\n"));
+    });
+  };
+  const std::string refused = told("[1.4, 1.6]", "upper");
+  expect_contains(refused, "accuracy.at: (1.4, 1.6): the displacement along x is any, as nothing holds body 'upper'");
+  expect_contains(refused, "expected a support that does");
+  EXPECT_EQ(told("[1.4, 0.6]", "lower"), "(nothing was thrown)");
+}
+
+TEST(Unheld, AProbeSaysSoAndHasNoBarOfThatComponent) {
+  const TemporaryFolder folder;
+  const Scene scene = sliding(folder, R"(probe = [{ at = [1.4, 1.6] }, { at = [1.4, 0.6] }]
+)");
+  Results r = solve_scene(scene);
+  estimate(r);
+  ASSERT_EQ(r.probes.size(), 2u);
+  EXPECT_TRUE(std::isnan(r.probes[0].error->u.x()));
+  EXPECT_GT(r.probes[0].error->u.y(), 0);
+  EXPECT_GT(r.probes[1].error->u.x(), 0);
+  int said = 0;
+  for (const std::string& line : r.warnings)
+    said += line.find("probe.0") == 0 && line.find("displacement along x near (1.4, 1.6) is one of many") != line.npos;
+  EXPECT_EQ(said, 1);
+  for (const std::string& line : r.warnings) EXPECT_EQ(line.find("probe.1"), line.npos) << line;
+}
+
+}  // namespace
+}  // namespace mortise::test
