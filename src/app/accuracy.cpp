@@ -113,6 +113,9 @@ class Loop {
       if (!last) throw;
       report.reason = error.what();
     }
+    Stopwatch watch;
+    set_force_bars(*last);
+    seconds.estimate += watch.lap();
     last->seconds = seconds;
     if (!report.reached()) last->status = std::max(last->status, Status::not_converged);
     last->accuracy = std::move(report);
@@ -141,7 +144,7 @@ class Loop {
     r.seconds.mesh = meshing;
     stage("estimate");
     try {
-      estimate(r, spec_, found_);
+      estimate(r, spec_, found_, false);
     } catch (const SceneError& error) {
       throw InputError(scene_.path + ": " + error.what());
     }
@@ -245,10 +248,10 @@ class Loop {
       const double parts = e.goal->local > 0 ? 3 : 2,
                    each = aimed * spec_.value * e.goal->value.norm() / (parts * error_safety);
       factors.line = std::clamp(e.goal->local / each, 0.4, largest_step);
+      factors.goal_line = std::clamp(e.goal->line() / each, 0.4, largest_step);
       factors.far_field = std::clamp(e.goal->far() / each, 0.25, 5 * largest_step);
     }
     WantedSizes wanted = wanted_sizes(r.mesh, r.pairs, e, factors);
-      factors.goal_line = std::clamp(e.goal->line() / each, 0.4, largest_step);
     for (Eigen::Index i = 0; i < wanted.sizes.size(); ++i)
       wanted.sizes(i) = std::min(wanted.sizes(i), largest_(r.mesh.nodes.row(i).transpose()));
     const auto field = std::make_shared<SizeField>(r.mesh, wanted.sizes, std::move(wanted.layers));

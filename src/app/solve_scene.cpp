@@ -160,7 +160,7 @@ ActiveSet active_set(const Results& r) {
   return set;
 }
 
-void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint>& found) {
+void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint>& found, bool forces) {
   Stopwatch watch;
   require_held(r, spec);
   r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution, spec, most_own_duals, found);
@@ -169,6 +169,7 @@ void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint
                                                          r.estimate->pressures, probed_places(r.probes));
   for (std::size_t i = 0; i < of_probes.size(); ++i) r.probes[i].error = of_probes[i];
   leave_out_unheld(r);
+  if (forces) set_force_bars(r);
   append(r.warnings, error_warnings(r));
   if (auto check = estimate_check(r)) r.checks.push_back(*std::move(check));
   r.status = std::max(r.status, verdict(r));

@@ -30,8 +30,11 @@ Results solve_scene(const Scene& scene, const Progress& progress = {}, const Act
 /// The same on a mesh that is already there.
 Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr);
 
-/// The estimated error into the results, and a warning where it is large. `found`: as of estimate_error.
-void estimate(Results& results, const AccuracySpec& spec = {}, const std::vector<FoundPoint>& found = {});
+/// The estimated error into the results, and a warning where it is large. `found`: as of estimate_error; `forces`:
+/// whether forces and lengths in contact get bars too. Throws SceneError as estimate_error does, and where spec asks for
+/// a displacement that nothing holds.
+void estimate(Results& results, const AccuracySpec& spec = {}, const std::vector<FoundPoint>& found = {},
+              bool forces = true);
 
 /// The inf-sup constant into the results, and a warning where it is small.
 void diagnose(const Scene& scene, Results& results);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "fem/stress.hpp"
 #include "problem/contact_pair.hpp"
@@ -45,9 +46,12 @@ struct ContactResults {
   Vec2 force = Vec2::Zero();     ///< of the contact on the multiplier side's body, times depth
   double moment = 0;             ///< of the same about the origin
   Vec2 centre = Vec2::Zero();    ///< of the multiplier side, mean place along its length
-  double p_min = 0, p_max = 0;   ///< at the nodes of the multiplier side that face the other or carry pressure
-  double p_mean = 0;             ///< over what faces the other side
-  double p_least = 0;            ///< the smallest between the nodes too, where the sides face each other
+  /// Where errors are estimated: what the force and its moment about `centre`, and the length in contact may be off by.
+  std::optional<Eigen::Vector3d> force_error;
+  std::optional<double> length_error;
+  double p_min = 0, p_max = 0;  ///< at the nodes of the multiplier side that face the other or carry pressure
+  double p_mean = 0;            ///< over what faces the other side
+  double p_least = 0;           ///< the smallest between the nodes too, where the sides face each other
 };
 
 /// s runs along both curves from the end of the multiplier side with the smaller x (then y).

@@ -12,12 +12,32 @@ namespace {
 
 std::string name_of(const ContactPair& pair) { return pair.spec.between[0] + " - " + pair.spec.between[1]; }
 
+// " within 1.2 %", of a force that equilibrium does not give.
+std::string within(const ContactResults& c) {
+  if (!c.force_error) return "";
+  const double part = c.force_error->head<2>().norm() / c.force.norm();
+  if (!(part > 1e-6)) return "";
+  std::ostringstream text;
+  text.precision(2);
+  text << " within " << 100 * part << " %";
+  return text.str();
+}
+
+std::string length_within(const ContactResults& c) {
+  if (!c.length_error || !(*c.length_error > 0)) return "";
+  std::ostringstream text;
+  text.precision(2);
+  text << " within " << *c.length_error;
+  return text.str();
+}
+
 void print_pair(const ContactPair& pair, const ContactResults& c, const std::string& space, std::ostream& out) {
   out << "  contact   " << name_of(pair) << ": " << to_string(pair.spec.condition) << ", gap " << gap_words(pair)
       << ", " << space << " multipliers on " << pair.spec.multipliers_on << "\n            pressure " << c.p_min
       << " ... " << c.p_max << " (mean " << c.p_mean << "), force (" << c.force.x() << ", " << c.force.y() << ") on "
-      << c.multiplier.curve << "\n            length " << c.length << ", in contact " << c.length_in_contact
-      << "; undeformed gap " << pair.coupling.gap_min << " ... " << pair.coupling.gap_max << "\n";
+      << c.multiplier.curve << within(c) << "\n            length " << c.length << ", in contact "
+      << c.length_in_contact << length_within(c) << "; undeformed gap " << pair.coupling.gap_min << " ... "
+      << pair.coupling.gap_max << "\n";
 }
 
 // "480 unilateral, gap closed; 20 bilateral, gap as drawn"
