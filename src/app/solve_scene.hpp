@@ -31,8 +31,8 @@ Results solve_scene(const Scene& scene, const Progress& progress = {}, const Act
 Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr);
 
 /// The estimated error into the results, and a warning where it is large. `found`: as of estimate_error; `forces`:
-/// whether forces and lengths in contact get bars too. Throws SceneError as estimate_error does, and where spec asks for
-/// a displacement that nothing holds.
+/// whether forces and lengths in contact get bars too. Throws SceneError as estimate_error does, and where spec asks
+/// for a displacement that nothing holds.
 void estimate(Results& results, const AccuracySpec& spec = {}, const std::vector<FoundPoint>& found = {},
               bool forces = true);
 

@@ -42,10 +42,10 @@ Eigen::Vector3d stress_difference(const Mesh& mesh, const BodyPoints& points, co
 
 /// The values, and what they may be off by.
 struct GoalEstimate {
-  VecX value;                   ///< of each component; of a stress the recovered one at the place
-  MatX parts;                   ///< cells x components: of each cell in the error, its sign as it came
-  double local = 0;             ///< of a mean of p: mean of its local error
-  VecX corners = {};            ///< of each component what the mesh misses at the bodies' corners (error/corner_tails.hpp)
+  VecX value;         ///< of each component; of a stress the recovered one at the place
+  MatX parts;         ///< cells x components: of each cell in the error, its sign as it came
+  double local = 0;   ///< of a mean of p: mean of its local error
+  VecX corners = {};  ///< of each component what the mesh misses at the bodies' corners (error/corner_tails.hpp)
   std::vector<LinePart> lines;  ///< of each pair: what the error of p does to each component
   double far() const {
     const VecX cells = parts.cwiseAbs().colwise().sum();
