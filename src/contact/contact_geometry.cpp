@@ -18,10 +18,14 @@ Line ContactGeometry::line_from(const Points& nodes, const Curve& curve, const P
   return line;
 }
 
+double ContactGeometry::clearance_at(const Vec2& x, const Place& at) const {
+  return clearance(x, s ? s->at(at.edge, at.xi) : 0);
+}
+
 double ContactGeometry::initial_gap(const Line& line, const Place& at, const Hit& hit) const {
-  const double along = s ? s->at(at.edge, at.xi) : 0;
-  if (given) return (*given)(line.x, along);
-  double distance = hit.distance + clearance(line.x, along);
+  if (given) return (*given)(line.x, s ? s->at(at.edge, at.xi) : 0);
+  if (!one_line.empty() && one_line[at.edge]) return clearance_at(line.x, at);
+  double distance = hit.distance + clearance_at(line.x, at);
   if (gap)
     distance += offset(*opposite, {hit.edge, hit.xi}, line.x + hit.distance * line.n, line.n) -
                 offset(*multiplier, at, line.x, line.n);

@@ -20,8 +20,10 @@ struct ContactGeometry {
   std::optional<ContactLine> multiplier, opposite;  ///< the lines of both sides; only a pair of edges has none
   bool normals = false, gap = false;                ///< whether these are the lines', else the edges'
   std::optional<Field> given;                       ///< the gap itself, length: whatever the lines and edges
-  Field clearance;             ///< added to theirs, length: a clearance (+) or an interference (-) that is not drawn
-  std::optional<ArcLength> s;  ///< along the multiplier side, where these two ask for it
+  Field clearance;  ///< added to theirs, length: a clearance (+) or an interference (-) that is not drawn
+  std::vector<char>
+      one_line{};  ///< of each edge of the multiplier side, whether both lines are one there; empty: of none
+  std::optional<ArcLength> s{};  ///< along the multiplier side, where these two ask for it
   Model model = {};
 
   /// From a place on the multiplier side's edges along the normal there.
@@ -30,6 +32,9 @@ struct ContactGeometry {
   /// Undeformed, along a line from a place of the multiplier side that hits the opposite side; length, positive when
   /// open. Throws SceneError where a field of the scene has no finite value.
   double initial_gap(const Line& line, const Place& at, const Hit& hit) const;
+
+  /// What the scene adds to the gap of the lines at a place of the multiplier side's edges, length.
+  double clearance_at(const Vec2& x, const Place& at) const;
 };
 
 }  // namespace mortise

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <span>
 
 #include "base/vectors.hpp"
@@ -38,13 +39,13 @@ struct Knots {
   }
 };
 
-// The derivative by the length along the chords at node k of the polynomial through it and its neighbours, seven nodes
-// where there are so many. At a kink: of the side before it or after it.
-Vec2 tangent_at(const Knots& knots, int k, bool after) {
-  int back = knots.turns(k) && after ? 0 : knots.within_reach(k, -1, 6);
-  int ahead = knots.turns(k) && !after ? 0 : knots.within_reach(k, 1, 6);
-  const int before = std::min(back, std::max(3, 6 - ahead));
-  ahead = std::min(ahead, 6 - before);
+// The derivative by the length along the chords at node k of the polynomial through it and `others`, 6 or less, of its
+// neighbours where there are so many. At a kink: of the side before it or after it.
+Vec2 tangent_at(const Knots& knots, int k, bool after, int others) {
+  int back = knots.turns(k) && after ? 0 : knots.within_reach(k, -1, others);
+  int ahead = knots.turns(k) && !after ? 0 : knots.within_reach(k, 1, others);
+  const int before = std::min(back, std::max(others / 2, others - ahead));
+  ahead = std::min(ahead, others - before);
   back = before;
   std::array<double, 7> s{};
   for (int j = back - 1; j >= 0; --j) s[j] = s[j + 1] - (knots[k - back + j + 1] - knots[k - back + j]).norm();
@@ -137,10 +138,11 @@ void divide_differences(LinePiece& piece, std::span<const Vec2> slopes = {}) {
                        : Vec2((piece.c[i] - piece.c[i - 1]) / (piece.z[i] - piece.z[i - order]));
 }
 
-LinePiece through(const EdgeSamples& x) {
-  constexpr int last = std::tuple_size_v<EdgeSamples> - 1;
+LinePiece through(double begin, const SamplePiece& samples) {
+  constexpr int last = LinePiece::most - 1;
+  const auto& x = samples.places;
   const Vec2 chord = x[last] - x[0];
-  LinePiece piece{.count = 2, .z = {-1, 1}, .c = {x[0], x[last]}};  // where the drawn curve is straight
+  LinePiece piece{begin, samples.end, 2, {-1, 1}, {x[0], x[last]}};  // where the drawn curve is straight
   if (std::ranges::any_of(
           x, [&](const Vec2& place) { return std::abs(cross(chord, place - x[0])) > 1e-14 * chord.squaredNorm(); })) {
     piece.count = last + 1;
@@ -153,7 +155,8 @@ LinePiece through(const EdgeSamples& x) {
   return piece;
 }
 
-std::vector<LinePiece> through_nodes(const Points& nodes, const Curve& curve) {
+// All nodes that the line goes through.
+Knots knots_of(const Points& nodes, const Curve& curve) {
   const bool by_ends = curve.edges[0].node_count == 2 || straight_sides(nodes, curve);
   const std::vector<char> kinks = kinks_of(nodes, curve, by_ends);
   Knots knots{{}, {}, curve.closed, by_ends ? 1 : 2};
@@ -170,6 +173,11 @@ std::vector<LinePiece> through_nodes(const Points& nodes, const Curve& curve) {
     knots.x.push_back(nodes.row(curve.edges.back().nodes[1]).transpose());
     knots.kink.push_back(0);
   }
+  return knots;
+}
+
+// `others`: of tangent_at.
+std::vector<LinePiece> through_nodes(const Knots& knots, int edges, int others) {
   std::vector<LinePiece> pieces;
   for (int e = 0; e < edges; ++e) {
     const int first = knots.per_edge * e, count = knots.per_edge + 1;
@@ -180,7 +188,7 @@ std::vector<LinePiece> through_nodes(const Points& nodes, const Curve& curve) {
     for (int j = 0; j < count; ++j) {
       piece.z[2 * j] = piece.z[2 * j + 1] = 2 * s[j] / s[count - 1] - 1;
       piece.c[2 * j] = piece.c[2 * j + 1] = knots[first + j];
-      slopes[j] = s[count - 1] / 2 * tangent_at(knots, first + j, j + 1 < count);
+      slopes[j] = s[count - 1] / 2 * tangent_at(knots, first + j, j + 1 < count, others);
     }
     divide_differences(piece, slopes);
     pieces.push_back(piece);
@@ -188,30 +196,96 @@ std::vector<LinePiece> through_nodes(const Points& nodes, const Curve& curve) {
   return pieces;
 }
 
-}  // namespace
-
-ContactLine::ContactLine(const Points& nodes, const Curve& curve) {
-  if (curve.samples.empty()) pieces_ = through_nodes(nodes, curve);
-  for (const EdgeSamples& samples : curve.samples) pieces_.push_back(through(samples));
-}
-
-LinePoint ContactLine::at(int edge, double xi) const {
-  const LinePiece& p = pieces_[edge];
+// By the edge's coordinate.
+LinePoint point_of(const LinePiece& p, double xi) {
+  const double scale = 2 / (p.end - p.begin), zeta = scale * (xi - p.begin) - 1;
   LinePoint point{p.c[p.count - 1], Vec2::Zero(), Vec2::Zero()};
   for (int i = p.count - 2; i >= 0; --i) {
-    const double d = xi - p.z[i];
+    const double d = zeta - p.z[i];
     point.bend = d * point.bend + 2 * point.tangent;
     point.tangent = d * point.tangent + point.position;
     point.position = d * point.position + p.c[i];
   }
+  point.tangent *= scale;
+  point.bend *= scale * scale;
+  return point;
+}
+
+// Of each edge how far the line through the nodes may be from the curve, length, by what it shows itself. Its tangents
+// through five nodes instead of seven put the middle of an interval elsewhere; and where its curvature jumps by J at a
+// node, as it does where the curve's changes faster than the nodes show, it is off by J h^2 / 32 in the interval beside
+// of length h, as cubics are of a third derivative that jumps. Both reach as far as seven nodes do.
+std::vector<double> uncertainty_of(const Knots& knots, const std::vector<LinePiece>& pieces) {
+  const int edges = int(pieces.size()), count = knots.per_edge;
+  const std::vector<LinePiece> other = through_nodes(knots, edges, 4);
+  std::vector<double> off(edges, 0.0);
+  const auto curvature = [](const LinePoint& p) { return cross(p.tangent, p.bend) / std::pow(p.tangent.norm(), 3); };
+  for (int e = 0; e < edges; ++e) {
+    for (int j = 0; j < count; ++j) {
+      const double xi = (pieces[e].z[2 * j] + pieces[e].z[2 * j + 2]) / 2;
+      off[e] = std::max(off[e], (point_of(pieces[e], xi).position - point_of(other[e], xi).position).norm());
+    }
+  }
+  for (int e = knots.closed ? 0 : 1; e < edges; ++e) {
+    const int before = (e + edges - 1) % edges, vertex = count * e;
+    if (knots.turns(vertex)) continue;
+    const double jump = std::abs(curvature(point_of(pieces[before], 1)) - curvature(point_of(pieces[e], -1)));
+    const double h = std::max((knots[vertex] - knots[vertex - 1]).norm(), (knots[vertex + 1] - knots[vertex]).norm());
+    for (const int beside : {before, e}) off[beside] = std::max(off[beside], jump * h * h / 32);
+  }
+  std::vector<double> widest(edges, 0.0);
+  const int reach = knots.per_edge == 1 ? 3 : 2;
+  for (int e = 0; e < edges; ++e)
+    for (int k = e - reach; k <= e + reach; ++k)
+      if (knots.closed || (k >= 0 && k < edges)) widest[e] = std::max(widest[e], 2 * off[(k % edges + edges) % edges]);
+  return widest;
+}
+
+}  // namespace
+
+ContactLine::ContactLine(const Points& nodes, const Curve& curve) {
+  if (curve.samples.empty()) {
+    const Knots knots = knots_of(nodes, curve);
+    pieces_ = through_nodes(knots, int(curve.edges.size()), 6);
+    first_.resize(pieces_.size() + 1);
+    std::iota(first_.begin(), first_.end(), 0);
+    uncertainty_ = uncertainty_of(knots, pieces_);
+    return;
+  }
+  for (const EdgeSamples& samples : curve.samples) {
+    first_.push_back(int(pieces_.size()));
+    double begin = -1;
+    for (const SamplePiece& piece : samples.pieces) {
+      pieces_.push_back(through(begin, piece));
+      begin = piece.end;
+    }
+    uncertainty_.push_back(samples.misfit);
+  }
+  first_.push_back(int(pieces_.size()));
+}
+
+std::span<const LinePiece> ContactLine::pieces(int edge) const {
+  return {&pieces_[first_[edge]], std::size_t(first_[edge + 1] - first_[edge])};
+}
+
+LinePoint ContactLine::at(int edge, double xi) const {
+  const std::span<const LinePiece> of = pieces(edge);
+  if (of.size() == 1) return point_of(of[0], xi);
+  // A short piece says nothing far beyond itself: the line goes on with the curvature that it has at the edge's end.
+  const double inside = std::clamp(xi, -1.0, 1.0), beyond = xi - inside;
+  std::size_t k = 0;
+  while (k + 1 < of.size() && of[k].end < inside) ++k;
+  LinePoint point = point_of(of[k], inside);
+  point.position += beyond * (point.tangent + beyond / 2 * point.bend);
+  point.tangent += beyond * point.bend;
   return point;
 }
 
 namespace {
 
-// Newton's method for a function of xi and its derivative; nothing where it leaves the neighbourhood of the piece.
+// Newton's method for a function of xi and its derivative; nothing where it leaves the neighbourhood of the edge.
 template <typename Function>
-std::optional<double> root(double xi, const Function& function) {
+std::optional<double> newton(double xi, const Function& function) {
   for (int step = 0; step < 20; ++step) {
     const auto [value, slope] = function(xi);
     const double change = -value / slope;
@@ -222,10 +296,44 @@ std::optional<double> root(double xi, const Function& function) {
   return xi;  // goes on between neighbours in round-off
 }
 
+// The same between two places at which the function has different signs: what leaves them is halved.
+template <typename Function>
+double bracketed(double low, double high, bool rises, const Function& function) {
+  double xi = (low + high) / 2;
+  for (int step = 0; step < 60 && high - low > 1e-15; ++step) {
+    const auto [value, slope] = function(xi);
+    if (value == 0) return xi;
+    ((value < 0) == rises ? low : high) = xi;
+    const double next = xi - value / slope;
+    if (next > low && next < high && std::abs(next - xi) < 1e-14) return next;
+    xi = next > low && next < high ? next : (low + high) / 2;
+  }
+  return xi;
+}
+
+// Where the pieces of an edge meet the function's derivative jumps, and a step across may lead back and forth: so the
+// piece on which the function changes its sign is found first, of several the one nearest to `start`.
+template <typename Function>
+std::optional<double> root(std::span<const LinePiece> pieces, double start, const Function& function) {
+  if (pieces.size() == 1) return newton(start, function);
+  std::optional<double> best;
+  const double first = function(-1).first;
+  double begin = first;
+  for (const LinePiece& piece : pieces) {
+    const double end = function(piece.end).first;
+    if ((begin < 0) != (end < 0)) {
+      const double xi = bracketed(piece.begin, piece.end, begin < 0, function);
+      if (!best || std::abs(xi - start) < std::abs(*best - start)) best = xi;
+    }
+    begin = end;
+  }
+  return best ? best : newton(std::abs(first) < std::abs(begin) ? -1 : 1, function);
+}
+
 }  // namespace
 
 std::optional<double> ContactLine::foot(int edge, const Vec2& x, double start) const {
-  return root(start, [&](double xi) {
+  return root(pieces(edge), start, [&](double xi) {
     const LinePoint p = at(edge, xi);
     const Vec2 away = x - p.position;
     return std::pair(away.dot(p.tangent), away.dot(p.bend) - p.tangent.squaredNorm());
@@ -233,7 +341,7 @@ std::optional<double> ContactLine::foot(int edge, const Vec2& x, double start) c
 }
 
 std::optional<double> ContactLine::crossing(int edge, const Vec2& x, const Vec2& n, double start) const {
-  return root(start, [&](double xi) {
+  return root(pieces(edge), start, [&](double xi) {
     const LinePoint p = at(edge, xi);
     return std::pair(cross(p.position - x, n), cross(p.tangent, n));
   });

@@ -29,6 +29,20 @@ std::vector<int> vertices_between(const Curve& opposite, int first, int last) {
   return vertices;
 }
 
+// Where the pieces of both lines meet within their edges: edge e of the multiplier side, first .. last of the other.
+// The normal and the gap are smooth between these places only.
+std::vector<Vec2> knots_between(const ContactGeometry& geometry, int e, int first, int last) {
+  std::vector<Vec2> knots;
+  const auto add = [&](const ContactLine& line, int edge) {
+    const std::span<const LinePiece> pieces = line.pieces(edge);
+    for (std::size_t k = 1; k < pieces.size(); ++k) knots.push_back(line.at(edge, pieces[k].begin).position);
+  };
+  if (geometry.normals) add(*geometry.multiplier, e);
+  if (geometry.gap)
+    for (int edge = first; edge <= last; ++edge) add(*geometry.opposite, edge);
+  return knots;
+}
+
 // Where to cut one edge, ascending, from -1 to 1. Cuts nearer than projection_tolerance to another are one cut.
 std::vector<double> cuts_of(const Points& nodes, const Curve& curve, int e, const Curve& opposite,
                             const ContactGeometry& geometry) {
@@ -46,6 +60,8 @@ std::vector<double> cuts_of(const Points& nodes, const Curve& curve, int e, cons
   std::vector<double> feet;
   for (const int vertex : vertices_between(opposite, first, last))
     if (const auto foot = foot_on(nodes, curve, e, nodes.row(vertex).transpose(), geometry)) feet.push_back(*foot);
+  for (const Vec2& knot : knots_between(geometry, e, first, last))
+    if (const auto foot = foot_on(nodes, curve, e, knot, geometry)) feet.push_back(*foot);
   std::sort(feet.begin(), feet.end());
   std::vector<double> cuts{-1};
   for (const double foot : feet)

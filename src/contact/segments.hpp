@@ -29,8 +29,9 @@ struct ContactPoint {
   double dA;    ///< ds times depth (base/model.hpp)
   Vec2 normal;  ///< unit, out of the multiplier side's body
   int opposite_edge;
-  double eta;  ///< reference coordinate on the opposite edge
-  double gap;  ///< undeformed, along the normal, length, positive when open
+  double eta;          ///< reference coordinate on the opposite edge
+  double gap;          ///< undeformed, along the normal, length, positive when open
+  double unknown = 0;  ///< what the gap may be off by, as the lines are not known any better, length
 };
 
 /// Gauss points on each segment: exact on straight edges for the product of both sides' shape functions.

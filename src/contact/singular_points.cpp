@@ -87,11 +87,13 @@ struct Side {
   double end_error(int e, int end) const;
 };
 
-// What the tangent at an end of a drawn edge may be off by, radians: as much as that of every second of its samples is.
+// What the tangent at an end of a drawn edge may be off by, radians: as much as that of every second place of the piece
+// there is.
 double Side::end_error(int e, int end) const {
   if (curve.samples.empty()) return 0;
-  const EdgeSamples& x = curve.samples[e];
-  constexpr int last = std::tuple_size_v<EdgeSamples> - 1;
+  const std::vector<SamplePiece>& pieces = curve.samples[e].pieces;
+  const auto& x = (end < 0 ? pieces.front() : pieces.back()).places;
+  constexpr int last = std::tuple_size_v<decltype(SamplePiece::places)> - 1;
   const auto z = [](int k) { return -std::cos(straight * k / last); };
   Vec2 slope = Vec2::Zero();  // of the polynomial through places 0, 2, ...
   const int at = end < 0 ? 0 : last;

@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "error/body_products.hpp"
+#include "error/gap_error.hpp"
 #include "error/recovered_pressure.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/threads.hpp"
@@ -133,6 +134,7 @@ std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const SideTab
     const ContactPair& pair = pairs[k];
     e.line = pressure_line(mesh, pair, solution.lambda, round_off);
     e.local = line_error(e.line);
+    add_gap_error(e.line, gap_error(pair, d.laws, e.line), e.local);
     e.windows = pressure_windows(pair, e.line);
     reached[k] = contact_reach(mesh, pair, e.line, asked.found);
     const bool one_curve = pair.spec.initial_gap == InitialGap::closed || pair.spec.initial_gap == InitialGap::given;

@@ -143,8 +143,7 @@ LineError line_error(const PressureLine& line) {
 
 VecX LineError::pointwise(const PressureLine& line) const {
   constexpr Eigen::Index reach = 4;
-  // sqrt(120) / 8 makes J h / 8 of sqrt(h^3 J^2 / 120) / sqrt(h).
-  const VecX at = l2.array() / line.h.array().sqrt() * (std::sqrt(120.0) / 8);
+  const VecX at = l2.array() / line.h.array().sqrt() * pointwise_factor;
   const Eigen::Index count = at.size(), period = count - 1;
   VecX found = at;
   for (Eigen::Index i = 0; i < count; ++i)

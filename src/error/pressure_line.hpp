@@ -37,8 +37,10 @@ double round_off_pressure(const Mesh& mesh, const std::vector<ContactPair>& pair
 /// rises as a root, p an edge further on times sqrt(h) / 4 (docs/theory.md eq. 47). Where the other side ends, within
 /// an edge or not, is known: that is an end of the line, no border.
 struct LineError {
-  VecX l2;                   ///< of each vertex, stress sqrt(length)
-  std::vector<char> border;  ///< whether the border of contact makes it
+  VecX l2;  ///< of each vertex, stress sqrt(length)
+  /// Of the worst of a piecewise linear function's error, J h / 8, over l2 / sqrt(h), which is sqrt(h^2 J^2 / 120).
+  static constexpr double pointwise_factor = 1.3693063937629153;  // sqrt(120) / 8
+  std::vector<char> border;                                       ///< whether the border of contact makes it
   struct Border {
     Eigen::Index edge;  ///< on which contact ends
     double part;        ///< its length over half the width of the contact beside it

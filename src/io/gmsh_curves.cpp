@@ -6,18 +6,15 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 
 #include "base/printable.hpp"
-#include "base/vectors.hpp"
 #include "io/gmsh_groups.hpp"
 
 namespace mortise {
 namespace {
 
-constexpr double on_curve = 1e-5;     // a node that is off by more of its edge's length does not lie on the curve
-constexpr double abrupt_turn = 1e-4;  // radians within one edge, where most of the curve's edges turn smoothly
+constexpr double on_curve = 1e-5;  // a node that is off by more of its edge's length does not lie on the curve
 
 std::vector<Vec2> places(int entity, const std::vector<double>& parameters) {
   std::vector<double> xyz;
@@ -51,63 +48,33 @@ std::vector<std::array<double, 2>> parameters_of(const std::vector<std::size_t>&
   return parameters;
 }
 
-// By how much a drawn curve turns within an edge in ways that the polynomial through its samples cannot follow,
-// radians: the last three Chebyshev coefficients of its distance from the chord.
-double unresolved_turn(const EdgeSamples& x) {
-  constexpr int last = std::tuple_size_v<EdgeSamples> - 1;
-  const Vec2 chord = x[last] - x[0];
-  double turn = 0;
-  for (int k = last - 2; k <= last; ++k) {
-    double coefficient = 0;
-    for (int j = 0; j <= last; ++j)
-      coefficient +=
-          (j == 0 || j == last ? 0.5 : 1) * cross(chord, x[j] - x[0]) * std::cos(std::numbers::pi * j * k / last);
-    turn += k * k * std::abs(coefficient) * (k == last ? 1 : 2) / last;
-  }
-  return 2 * turn / chord.squaredNorm();
-}
-
 }  // namespace
 
 void sample_curve(const std::vector<std::array<double, 3>>& nodes, const std::vector<std::size_t>& tags,
                   ElementBlock& block) {
   const int node_count = block.type == 1 ? 2 : 3;
-  constexpr int last = std::tuple_size_v<EdgeSamples> - 1;
   std::vector<EdgeSamples> samples;
+  std::vector<std::array<double, 2>> ends;
   try {
     std::string type;
     gmsh::model::getType(1, block.entity, type);
     if (type == "Discrete curve") return;  // merged from a mesh, not drawn
-    std::vector<double> t;
-    for (const auto& [start, end] : parameters_of(tags, block, node_count))
-      for (int k = 0; k <= last; ++k)
-        t.push_back((start + end) / 2 - (end - start) / 2 * std::cos(std::numbers::pi * k / last));
-    const std::vector<Vec2> found = places(block.entity, t);
-    for (std::size_t i = 0; i < found.size(); i += last + 1)
-      std::copy_n(&found[i], last + 1, samples.emplace_back().begin());
-    for (std::size_t e = 0; e < samples.size(); ++e)
-      for (const int end : {0, 1}) {
-        const auto& x = nodes[block.nodes[node_count * e + end]];
-        const Vec2 node(x[0], x[1]);
-        const double size = (samples[e][last] - samples[e][0]).norm();
-        const double off = (samples[e][end * last] - node).norm();
-        if (off <= on_curve * size && t[e * (last + 1)] < t[e * (last + 1) + last]) continue;
-        block.undrawn = "the mesh does not follow it " + near_point(node);
-        return;
-      }
+    ends = parameters_of(tags, block, node_count);
+    const CurvePlaces curve = [&](const std::vector<double>& t) { return places(block.entity, t); };
+    samples = type == "Line" ? sample_straight_edges(curve, ends) : sample_edges(curve, ends);
   } catch (...) {  // gmsh 4.8 throws strings and numbers
     block.undrawn = "gmsh knows no formula for it";
     return;
   }
-  std::vector<double> turns;
-  for (const EdgeSamples& edge : samples) turns.push_back(unresolved_turn(edge));
-  std::vector<double> sorted = turns;
-  std::ranges::nth_element(sorted, sorted.begin() + std::ssize(sorted) / 2);
-  const auto worst = std::ranges::max_element(turns);
-  if (*worst > abrupt_turn && *worst > 20 * sorted[sorted.size() / 2]) {
-    block.undrawn = "it turns abruptly within an edge " + near_point(samples[worst - turns.begin()][0]) +
-                    " (a Spline does at its ends, a Nurbs need not)";
-    return;
+  for (std::size_t e = 0; e < samples.size(); ++e) {
+    const std::array<Vec2, 2> found{samples[e].pieces.front().places.front(), samples[e].pieces.back().places.back()};
+    for (const int end : {0, 1}) {
+      const auto& x = nodes[block.nodes[node_count * e + end]];
+      const Vec2 node(x[0], x[1]);
+      if ((found[end] - node).norm() <= on_curve * (found[1] - found[0]).norm() && ends[e][0] < ends[e][1]) continue;
+      block.undrawn = "the mesh does not follow it " + near_point(node);
+      return;
+    }
   }
   block.samples = std::move(samples);
 }

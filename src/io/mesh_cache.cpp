@@ -66,14 +66,42 @@ class Unpacked {
   std::string_view bytes_;
 };
 
+// Of each edge: how many pieces it has, its misfit; of each piece: its end, its places.
+void pack(Packed& to, const std::vector<EdgeSamples>& edges) {
+  std::vector<double> numbers;
+  for (const EdgeSamples& edge : edges) {
+    numbers.insert(numbers.end(), {double(edge.pieces.size()), edge.misfit});
+    for (const SamplePiece& piece : edge.pieces) {
+      numbers.push_back(piece.end);
+      for (const Vec2& place : piece.places) numbers.insert(numbers.end(), {place.x(), place.y()});
+    }
+  }
+  to.put(numbers.data(), numbers.size());
+}
+
+std::vector<EdgeSamples> unpack_samples(Unpacked& from) {
+  const std::vector<double> numbers = from.list<double>();
+  std::vector<EdgeSamples> edges;
+  for (auto x = numbers.begin(); x != numbers.end();) {
+    EdgeSamples& edge = edges.emplace_back();
+    edge.pieces.resize(std::size_t(*x++));
+    edge.misfit = *x++;
+    for (SamplePiece& piece : edge.pieces) {
+      piece.end = *x++;
+      for (Vec2& place : piece.places) {
+        place = Vec2(x[0], x[1]);
+        x += 2;
+      }
+    }
+  }
+  return edges;
+}
+
 void pack(Packed& to, const ElementBlock& block) {
   for (const int number : {block.dimension, block.entity, block.type}) to.put(number);
   to.put(block.groups.data(), block.groups.size());
   to.put(block.nodes.data(), block.nodes.size());
-  std::vector<double> samples;
-  for (const EdgeSamples& edge : block.samples)
-    for (const Vec2& place : edge) samples.insert(samples.end(), {place.x(), place.y()});
-  to.put(samples.data(), samples.size());
+  pack(to, block.samples);
   to.put(block.undrawn);
 }
 
@@ -82,14 +110,7 @@ ElementBlock unpack_block(Unpacked& from) {
   for (int* number : {&block.dimension, &block.entity, &block.type}) *number = static_cast<int>(from.number());
   block.groups = from.list<int>();
   block.nodes = from.list<int>();
-  const std::vector<double> samples = from.list<double>();
-  block.samples.resize(samples.size() / (2 * std::tuple_size_v<EdgeSamples>));
-  auto x = samples.begin();
-  for (EdgeSamples& edge : block.samples)
-    for (Vec2& place : edge) {
-      place = Vec2(x[0], x[1]);
-      x += 2;
-    }
+  block.samples = unpack_samples(from);
   block.undrawn = from.text();
   return block;
 }

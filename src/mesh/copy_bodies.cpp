@@ -134,7 +134,8 @@ void append(const Mesh& original, const BodyCopy& copy, int first, Mesh& mesh) {
     for (Edge& edge : boundary.edges)
       for (int i = 0; i < edge.node_count; ++i) edge.nodes[i] += first;
     for (EdgeSamples& samples : boundary.samples)
-      for (Vec2& x : samples) x = motion(x);
+      for (SamplePiece& piece : samples.pieces)
+        for (Vec2& x : piece.places) x = motion(x);
     mesh.boundaries.push_back(std::move(boundary));
   }
   for (NamedPoint point : original.points) {

@@ -113,8 +113,8 @@ Curve contact_curve(const Mesh& mesh, int boundary, const SideTable& table) {
     curve.edges.push_back(directed[i]);
     curve.sides.push_back(sides[i]);
     if (source.samples.empty()) continue;
-    curve.samples.push_back(source.samples[i]);
-    if (directed[i].nodes[0] != source.edges[i].nodes[0]) std::ranges::reverse(curve.samples.back());
+    const bool backwards = directed[i].nodes[0] != source.edges[i].nodes[0];
+    curve.samples.push_back(backwards ? reversed(source.samples[i]) : source.samples[i]);
   }
   curve.closed = curve.edges.back().nodes[1] == curve.edges.front().nodes[0];
   return curve;

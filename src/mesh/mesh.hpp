@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "mesh/edge_samples.hpp"
 
 namespace mortise {
 
@@ -63,10 +64,6 @@ struct Edge {
   int node_count;            ///< 2 or 3
   std::array<int, 3> nodes;  ///< start, end, middle (middle = -1 when node_count is 2)
 };
-
-/// Places of the drawn curve along an edge, from its start to its end, where its parameter is -cos(pi k / 8) between
-/// those of the ends.
-using EdgeSamples = std::array<Vec2, 9>;
 
 /// A physical curve.
 struct Boundary {

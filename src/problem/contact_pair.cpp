@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "base/patterns.hpp"
 #include "base/printable.hpp"
+#include "contact/gap_resolution.hpp"
 #include "fem/edges.hpp"
 #include "mesh/body_points.hpp"
 #include "mesh/thickness.hpp"
@@ -80,6 +81,7 @@ ContactPair coupled(const Method& method, const Mesh& mesh, const Discretisation
   if (spec.gap.uses_arc_length() || spec.clearance.uses_arc_length())
     pair.geometry.s.emplace(mesh.nodes, pair.multiplier);
   pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, method.integration, pair.geometry);
+  find_one_line(mesh.nodes, pair.multiplier, pair.opposite, pair.geometry, pair.points);
   pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, d.system.constraints,
                          {method.multipliers, spec.initial_gap}, pair.geometry);
   return pair;

@@ -194,10 +194,10 @@ TEST(ContactLine, GoesThroughTheSamplesOfADrawnCurve) {
     for (int e = 0; e < 8; ++e) {
       const auto angle = [&](int node) { return std::atan2(chain.nodes(node, 1), chain.nodes(node, 0)); };
       const double start = angle(e), end = angle(e + 1);
-      EdgeSamples& samples = chain.curve.samples.emplace_back();
+      SamplePiece& piece = chain.curve.samples.emplace_back().pieces.emplace_back(SamplePiece{.end = 1, .places = {}});
       for (int k = 0; k < 9; ++k) {
         const double t = (start + end) / 2 - (end - start) / 2 * std::cos(pi * k / 8);
-        samples[k] = {std::cos(t), std::sin(t)};
+        piece.places[k] = {std::cos(t), std::sin(t)};
       }
     }
     const ContactLine line(chain.nodes, chain.curve);

@@ -364,7 +364,8 @@ TEST(DrawnCurves, SamplesLieOnTheCurveFromNodeToNode) {
       const Curve curve = contact_curve(mesh, 0);
       ASSERT_EQ(curve.samples.size(), curve.edges.size());
       for (std::size_t e = 0; e < curve.edges.size(); ++e) {
-        const EdgeSamples& x = curve.samples[e];
+        ASSERT_EQ(curve.samples[e].pieces.size(), 1u);
+        const auto& x = curve.samples[e].pieces[0].places;
         EXPECT_LE((x.front() - mesh.nodes.row(curve.edges[e].nodes[0]).transpose()).norm(), 1e-9);
         EXPECT_LE((x.back() - mesh.nodes.row(curve.edges[e].nodes[1]).transpose()).norm(), 1e-9);
         for (const Vec2& place : x) EXPECT_NEAR((place - Vec2(3, 4)).norm(), 2, 1e-14);

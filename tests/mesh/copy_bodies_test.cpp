@@ -92,13 +92,17 @@ TEST(CopyBodies, QuarterTurnsAreExact) {
 
 TEST(CopyBodies, DrawnCurvesGoWithThem) {
   Mesh plate = testing_meshes::plate(CellKind::quad8, 1, 1);
-  EdgeSamples samples;
-  for (int k = 0; k < 9; ++k) samples[k] = Vec2(k / 8.0, 0.01 * k);
+  EdgeSamples samples{.pieces = {{.end = 0.25, .places = {}}, {.end = 1, .places = {}}}, .misfit = 1e-14};
+  for (int k = 0; k < 9; ++k) samples.pieces[1].places[k] = Vec2(k / 8.0, 0.01 * k);
   plate.boundaries[0].samples = {samples};
   plate.boundaries[1].undrawn = "it is not";
   const Mesh mesh = copy_bodies(plate, {copy_of("plate", "p_0"), copy_of("plate", "p_1", {0, 3}, 180)});
   ASSERT_EQ(mesh.boundaries[5].samples.size(), 1u);
-  for (int k = 0; k < 9; ++k) EXPECT_EQ(mesh.boundaries[5].samples[0][k], Vec2(-k / 8.0, 3 - 0.01 * k));
+  const EdgeSamples& moved = mesh.boundaries[5].samples[0];
+  ASSERT_EQ(moved.pieces.size(), 2u);
+  EXPECT_EQ(moved.pieces[0].end, 0.25);
+  EXPECT_EQ(moved.misfit, 1e-14);
+  for (int k = 0; k < 9; ++k) EXPECT_EQ(moved.pieces[1].places[k], Vec2(-k / 8.0, 3 - 0.01 * k));
   EXPECT_EQ(mesh.boundaries[6].undrawn, "it is not");
 }
 
