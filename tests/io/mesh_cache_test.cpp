@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "io/gmsh_mesh.hpp"
@@ -18,7 +19,7 @@ const std::string disc = R"(
 DefineConstant[ r = 1 ];
 Include "size.geo";
 Point(1) = {0, 0, 0}; Point(2) = {r, 0, 0, h}; Point(3) = {-r, 0, 0, h};
-Circle(1) = {2, 1, 3}; Circle(2) = {3, 1, 2};
+Point(4) = {0.2 * r, -0.8 * r, 0, h}; Circle(1) = {2, 1, 3}; Spline(2) = {3, 4, 2};  // one has a knot
 Curve Loop(1) = {1, 2}; Plane Surface(1) = {1};
 Mesh.ElementOrder = 2;
 Physical Surface("disc", 5) = {1}; Physical Curve("upper", 6) = {1}; Physical Curve("lower", 7) = {2};
@@ -56,6 +57,13 @@ class MeshCache : public testing::Test {
   Mesh mesh_;
 };
 
+bool same(const EdgeSamples& a, const EdgeSamples& b) {
+  const auto same_piece = [](const SamplePiece& p, const SamplePiece& q) {
+    return p.end == q.end && p.places == q.places;
+  };
+  return a.misfit == b.misfit && std::ranges::equal(a.pieces, b.pieces, same_piece);
+}
+
 void expect_same(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.nodes, b.nodes);
   ASSERT_EQ(a.cells.size(), b.cells.size());
@@ -64,7 +72,7 @@ void expect_same(const Mesh& a, const Mesh& b) {
   ASSERT_EQ(a.boundaries.size(), b.boundaries.size());
   for (std::size_t k = 0; k < a.boundaries.size(); ++k) {
     EXPECT_EQ(a.boundaries[k].name, b.boundaries[k].name);
-    EXPECT_TRUE(a.boundaries[k].samples == b.boundaries[k].samples);
+    EXPECT_TRUE(std::ranges::equal(a.boundaries[k].samples, b.boundaries[k].samples, same));
     EXPECT_FALSE(a.boundaries[k].samples.empty()) << "an arc is drawn";
   }
   EXPECT_EQ(a.source, b.source);
