@@ -38,12 +38,15 @@ Symmetry unseen_by(const std::vector<ContactNormal>& normals, const Vec2& about,
 }
 
 // Whether the drawn curve between the ends of each edge stays what it is.
-bool leaves(const Symmetry& s, const EdgeSamples& places, double size) {
-  return std::ranges::all_of(places, [&](const Vec2& place) {
-    const double moved = s.kind == Kind::turn ? (place - s.centre).norm() - (places.front() - s.centre).norm()
-                                              : cross(s.direction, Vec2(place - places.front()));
+bool leaves(const Symmetry& s, const EdgeSamples& edge, double size) {
+  const Vec2& start = edge.pieces.front().places.front();
+  const auto stays = [&](const Vec2& place) {
+    const double moved = s.kind == Kind::turn ? (place - s.centre).norm() - (start - s.centre).norm()
+                                              : cross(s.direction, Vec2(place - start));
     return std::abs(moved) <= exact * size;
-  });
+  };
+  return std::ranges::all_of(edge.pieces,
+                             [&](const SamplePiece& piece) { return std::ranges::all_of(piece.places, stays); });
 }
 
 bool same(const Symmetry& a, const Symmetry& b, double size) {

@@ -111,14 +111,15 @@ TEST(SeenMotions, ADrawnCurveIsNoArcBecauseItsVerticesAre) {
   const auto samples = [&](double bump) {
     std::vector<EdgeSamples> of_edges;
     for (const Edge& edge : facing.first.edges) {
-      EdgeSamples places;
+      SamplePiece piece{.end = 1, .places = {}};
+      auto& places = piece.places;
       const Vec2 from = facing.nodes.row(edge.nodes[0]).transpose(), to = facing.nodes.row(edge.nodes[1]).transpose();
       for (std::size_t k = 0; k < places.size(); ++k) {
         const double t = double(k) / double(places.size() - 1);
         const Vec2 place = from + t * (to - from) - Vec2(0, 1);
         places[k] = Vec2(0, 1) + place.normalized() * (1 + bump * t * (1 - t));
       }
-      of_edges.push_back(places);
+      of_edges.push_back({.pieces = {piece}});
     }
     return of_edges;
   };
