@@ -20,8 +20,9 @@ struct ContactGeometry {
   std::optional<ContactLine> multiplier, opposite;  ///< the lines of both sides; only a pair of edges has none
   bool normals = false, gap = false;                ///< whether these are the lines', else the edges'
   std::optional<Field> given;                       ///< the gap itself, length: whatever the lines and edges
-  Field clearance;             ///< added to theirs, length: a clearance (+) or an interference (-) that is not drawn
-  std::vector<char> one_line{};  ///< of each edge of the multiplier side, whether both lines are one there; empty: of none
+  Field clearance;  ///< added to theirs, length: a clearance (+) or an interference (-) that is not drawn
+  std::vector<char>
+      one_line{};  ///< of each edge of the multiplier side, whether both lines are one there; empty: of none
   std::optional<ArcLength> s{};  ///< along the multiplier side, where these two ask for it
   Model model = {};
 

@@ -27,10 +27,10 @@ EdgeSamples reversed(const EdgeSamples& samples);
 using CurvePlaces = std::function<std::vector<Vec2>(const std::vector<double>&)>;
 
 /// The edges whose ends have these parameters. Pieces are bisected until the polynomial of degree 8 through each misses
-/// the curve between its places by round-off, and those that are one polynomial are put together again. So a knot, where
-/// a derivative of the curve jumps, ends a piece, and a curve that is piecewise smooth is known to round-off whatever
-/// the mesh. Where bisection does not help the curve has no derivatives: `misfit` says what is missed. Throws what
-/// `curve` throws.
+/// the curve between its places by round-off, and those that are one polynomial are put together again. So a knot,
+/// where a derivative of the curve jumps, ends a piece, and a curve that is piecewise smooth is known to round-off
+/// whatever the mesh. Where bisection does not help the curve has no derivatives: `misfit` says what is missed. Throws
+/// what `curve` throws.
 std::vector<EdgeSamples> sample_edges(const CurvePlaces& curve, const std::vector<std::array<double, 2>>& ends);
 
 /// The straight edges between the places of these parameters.
