@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "app/data_errors.hpp"
 #include "base/errors.hpp"
 #include "base/patterns.hpp"
 #include "base/printable.hpp"
@@ -145,6 +146,7 @@ class Loop {
     stage("estimate");
     try {
       estimate(r, spec_, found_, false);
+      add_data_errors(scene_, r, spec_);
     } catch (const SceneError& error) {
       throw InputError(scene_.path + ": " + error.what());
     }

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "app/accuracy.hpp"
+#include "app/data_errors.hpp"
 #include "app/picture.hpp"
 #include "app/sweep.hpp"
 #include "app/sweep_join.hpp"
@@ -93,6 +94,7 @@ int solve(const Options& options) {
   if (!scene.accuracy && !options.no_estimate) {
     stage("estimate");
     estimate(results);
+    add_data_errors(scene, results);
   }
   if (options.diagnose) {
     stage("diagnose");

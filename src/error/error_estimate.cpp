@@ -74,36 +74,6 @@ double far_at(const PressureEstimate& e, Eigen::Index i) {
   return far;
 }
 
-void find_excluded(double part, PressureEstimate& e) {
-  const PressureLine& line = e.line;
-  double length = 0;
-  for (Eigen::Index i = 0; i + 1 < line.p.size(); ++i)
-    if (line.loaded[i] && line.loaded[i + 1]) length += line.s(i + 1) - line.s(i);
-  e.excluded_distance = part * length;
-  e.excluded.assign(line.p.size(), 0);
-  for (Eigen::Index i = 0; i < line.p.size(); ++i)
-    for (const SingularPoint& point : e.singular)
-      if (point.is_unbounded() && (line.position[i] - point.position).norm() < e.excluded_distance) e.excluded[i] = 1;
-  // A mesh too coarse to tell what is near such a point from the rest of the contact: all of it counts.
-  bool left = false;
-  for (Eigen::Index i = 0; i < line.p.size(); ++i) left = left || (line.p(i) != 0 && !e.excluded[i]);
-  if (!left) e.excluded.assign(line.p.size(), 0);
-}
-
-void find_bars(PressureEstimate& e) {
-  const PressureLine& line = e.line;
-  const Eigen::Index count = line.p.size();
-  e.bar = e.local.pointwise(line);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const double far = far_at(e, i);
-    e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? far : 0));
-    if (!line.loaded[i] || e.excluded[i] || (line.closed && i == count - 1)) continue;
-    e.local2 += e.local.l2(i) * e.local.l2(i);
-    e.far2 += far * far * line.h(i);
-    e.p2 += line.p(i) * line.p(i) * line.h(i);
-  }
-}
-
 double error_norm(const std::vector<PressureEstimate>& pressures, double local, double far) {
   double error = 0;
   for (const PressureEstimate& e : pressures) error += local * e.local2 + far * e.far2;
@@ -168,17 +138,6 @@ std::vector<WindowPlace> window_places(const std::vector<PressureEstimate>& pres
   return places;
 }
 
-// Rows of all pairs; a column a dual, the sum of its windows.
-MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
-                        const SharedDuals& shared, Eigen::Index rows) {
-  MatX columns = MatX::Zero(rows, shared.count);
-  int window = 0;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    for (const PressureWindow& w : pressures[k].windows)
-      columns.col(shared.dual[window++]).segment(pairs[k].first_row, w.weights.size()) += w.weights;
-  return columns;
-}
-
 std::vector<TailShares> tails_along(const Mesh& mesh, const std::vector<PressureEstimate>& pressures,
                                     const SharedDuals& duals, CornerTails& tails) {
   std::vector<const PressureLine*> lines;
@@ -217,6 +176,47 @@ VecX far_fields(const Mesh& mesh, const FarField& far) {
 }
 
 }  // namespace
+
+void find_excluded(double part, PressureEstimate& e) {
+  const PressureLine& line = e.line;
+  double length = 0;
+  for (Eigen::Index i = 0; i + 1 < line.p.size(); ++i)
+    if (line.loaded[i] && line.loaded[i + 1]) length += line.s(i + 1) - line.s(i);
+  e.excluded_distance = part * length;
+  e.excluded.assign(line.p.size(), 0);
+  for (Eigen::Index i = 0; i < line.p.size(); ++i)
+    for (const SingularPoint& point : e.singular)
+      if (point.is_unbounded() && (line.position[i] - point.position).norm() < e.excluded_distance) e.excluded[i] = 1;
+  // A mesh too coarse to tell what is near such a point from the rest of the contact: all of it counts.
+  bool left = false;
+  for (Eigen::Index i = 0; i < line.p.size(); ++i) left = left || (line.p(i) != 0 && !e.excluded[i]);
+  if (!left) e.excluded.assign(line.p.size(), 0);
+}
+
+void find_bars(PressureEstimate& e) {
+  const PressureLine& line = e.line;
+  const Eigen::Index count = line.p.size();
+  e.local2 = e.far2 = e.p2 = 0;
+  e.bar = e.local.pointwise(line);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double far = far_at(e, i);
+    e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? far : 0));
+    if (!line.loaded[i] || e.excluded[i] || (line.closed && i == count - 1)) continue;
+    e.local2 += e.local.l2(i) * e.local.l2(i);
+    e.far2 += far * far * line.h(i);
+    e.p2 += line.p(i) * line.p(i) * line.h(i);
+  }
+}
+
+MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
+                        const SharedDuals& shared, Eigen::Index rows) {
+  MatX columns = MatX::Zero(rows, shared.count);
+  int window = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (const PressureWindow& w : pressures[k].windows)
+      columns.col(shared.dual[window++]).segment(pairs[k].first_row, w.weights.size()) += w.weights;
+  return columns;
+}
 
 double ErrorEstimate::peak() const {
   double p = 0, bar = std::numeric_limits<double>::quiet_NaN();

@@ -71,4 +71,16 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
                              const AccuracySpec& spec = {}, int own_duals = most_own_duals,
                              const std::vector<FoundPoint>& found = {});
 
+// Its parts, for what adds to an estimate (error/data_estimate.hpp).
+
+/// A column a dual, the sum of its windows, in the rows of all pairs.
+MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
+                        const SharedDuals& shared, Eigen::Index rows);
+
+/// Leaves out of the norm what lies nearer than this part of the loaded length to a singular point.
+void find_excluded(double part, PressureEstimate& estimate);
+
+/// Sets the bars and the squares of an estimate whose line, local errors and far field are there.
+void find_bars(PressureEstimate& estimate);
+
 }  // namespace mortise

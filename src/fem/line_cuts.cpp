@@ -172,20 +172,21 @@ LineMisfit misfit(const LineFunction& f, const std::vector<double>& cuts) {
   }
   const Moments coefficients = legendre.cwiseProduct(Moments(0.5, 1.5, 2.5));
   LineMisfit found;
-  double largest = -1;
-  std::vector<double> of_piece(cuts.size() - 1, 0);
   for (std::size_t q = 0; q < count; ++q) {
     const double difference = std::abs(values[q] - coefficients.dot(polynomials(all.points[q])));
-    of_piece[q / points] += all.weights[q] / 2 * difference;
     found.mean += all.weights[q] / 2 * difference;
     found.mean_of_f += all.weights[q] / 2 * std::abs(values[q]);
-    if (difference > largest) {
-      largest = difference;
+    if (difference > found.largest) {
+      found.largest = difference;
       found.at = all.points[q];
     }
   }
-  for (std::size_t i = 0; i < of_piece.size(); ++i)
-    if (of_piece[i] > 1e-3 * found.mean) found.finest = std::min(found.finest, cuts[i + 1] - cuts[i]);
+  const auto [low, high] = std::ranges::minmax(values);
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    const auto first = values.begin() + std::ptrdiff_t(points * i);
+    const auto [least, most] = std::minmax_element(first, first + points);
+    if (*most - *least >= 0.1 * (high - low)) found.finest = std::min(found.finest, cuts[i + 1] - cuts[i]);
+  }
   return found;
 }
 

@@ -53,9 +53,10 @@ LineRule cut_rule(const std::vector<double>& cuts, int gauss_points);
 /// What is left of f without the polynomial that stands for it in the mean.
 struct LineMisfit {
   double mean = 0;       ///< of |f - polynomial| over the edge
+  double largest = 0;    ///< of the same
   double mean_of_f = 0;  ///< of |f|
   double at = 0;         ///< xi of the largest difference
-  double finest = 2;  ///< length in xi of the shortest piece that has a thousandth of the misfit; 2: of the whole edge
+  double finest = 2;     ///< length in xi of the shortest piece on which f changes by a tenth of what it does
 };
 
 /// Of a function cut by resolving_cuts: the polynomial is the projection of f on those of degree 2 in L2.

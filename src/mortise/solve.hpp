@@ -2,4 +2,5 @@
 #pragma once
 
 #include "app/accuracy.hpp"
+#include "app/data_errors.hpp"
 #include "app/solve_scene.hpp"

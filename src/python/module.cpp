@@ -63,7 +63,10 @@ py::dict body_fields(const Results& r) {
 Results solved(const Scene& scene, bool with_estimate) {
   if (scene.accuracy) return *solve_to_accuracy(scene);
   Results results = solve_scene(scene);
-  if (with_estimate) estimate(results);
+  if (with_estimate) {
+    estimate(results);
+    add_data_errors(scene, results);
+  }
   return results;
 }
 

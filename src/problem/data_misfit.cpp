@@ -1,0 +1,242 @@
+#include "problem/data_misfit.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "base/vectors.hpp"
+#include "problem/body_entries.hpp"
+#include "problem/body_fields.hpp"
+#include "problem/boundary_fields.hpp"
+
+namespace mortise {
+namespace {
+
+// Sums of an entry's function, and its worst edge or cell.
+class Collector {
+ public:
+  Collector(std::string key, DataMisfits& found) : found_(found) { entry_.key = std::move(key); }
+  ~Collector() {
+    if (!(entry_.part > 0)) return;
+    entry_.part /= all_;
+    found_.entries.push_back(entry_);
+  }
+  Collector(const Collector&) = delete;
+  Collector& operator=(const Collector&) = delete;
+
+  void add_all(double size) { all_ += size; }
+  // `difference`: as the sums are. `length`: of the edge or cell.
+  void add(const DataMisfit& part, double difference, double length) {
+    found_.parts.push_back(part);
+    entry_.part += difference;
+    if (difference <= worst_) return;
+    worst_ = difference;
+    entry_.at = part.at;
+    entry_.finest = part.finest;
+    entry_.size = length;
+  }
+
+ private:
+  DataMisfits& found_;
+  EntryMisfit entry_{};
+  double all_ = 0, worst_ = 0;
+};
+
+double mean_size(const LineFunction& f) {
+  static const LineRule rule = gauss_legendre(4);
+  double sum = 0;
+  for (std::size_t q = 0; q < rule.points.size(); ++q) sum += rule.weights[q] / 2 * std::abs(f.at(rule.points[q]));
+  return sum;
+}
+
+// Pressure, traction or foundation.
+void add_along(const Mesh& mesh, const Model& model, const std::string& key, DataMisfit::Kind kind,
+               const std::vector<NamedBoundary>& boundaries, const std::vector<const Field*>& of, DataMisfits& found) {
+  const BoundaryFields fields(mesh, boundaries, of);
+  for (std::size_t k = 0; k < fields.count(); ++k) {
+    Collector collector(key, found);
+    for (const NamedBoundary& on : boundaries) {
+      const std::vector<Edge> edges = edges_of(mesh, on);
+      for (int e = 0; e < int(edges.size()); ++e) {
+        const LineFunction f = fields.along(k, on, e, edges[e]);
+        const std::vector<double> cuts = resolving_cuts(f);
+        const double length = edge_length(mesh.nodes, edges[e]);
+        if (cuts.size() == 2) {
+          collector.add_all(length * mean_size(f));
+          continue;
+        }
+        const LineMisfit m = misfit(f, cuts);
+        collector.add_all(length * m.mean_of_f);
+        const Vec2 at = edge_point(mesh.nodes, edges[e], m.at).position;
+        collector.add({.kind = kind,
+                       .cell = on.sides[e].cell,
+                       .side = on.sides[e].side,
+                       .size = m.mean * length * model.depth(at.x()),
+                       .at = at,
+                       .finest = m.finest / 2 * length},
+                      length * m.mean, length);
+      }
+    }
+  }
+}
+
+// The cell side that an edge lies on; of a curve within a body one of the two.
+std::optional<CellSide> side_of(const SideTable& table, const Edge& edge) {
+  for (const SideAtNode& side : table.at(edge.nodes[0]))
+    if (side.other == edge.nodes[1]) return side.side;
+  return {};
+}
+
+// `direction`: of the displacement, by the outward normal of an edge.
+void add_displacement(const Mesh& mesh, const Model& model, const std::string& key, const SideTable& table,
+                      const std::vector<NamedBoundary>& boundaries, const Field& field,
+                      const std::function<Vec2(const Vec2&)>& direction, DataMisfits& found) {
+  const BoundaryFields fields(mesh, boundaries, {&field});
+  if (!fields.any()) return;
+  const std::map<int, double> values = prescribed_values(mesh, boundaries, field);
+  Collector collector(key, found);
+  for (const NamedBoundary& on : boundaries) {
+    const std::vector<Edge> edges = edges_of(mesh, on);
+    for (int e = 0; e < int(edges.size()); ++e) {
+      const Edge& edge = edges[e];
+      const LineFunction g = fields.along(0, on, e, edge);
+      const double length = edge_length(mesh.nodes, edge);
+      const std::vector<double> cuts = resolving_cuts(g);
+      collector.add_all(length * g.scale);
+      if (cuts.size() == 2) continue;
+      const auto side = side_of(table, edge);
+      if (!side) continue;
+      const LineRule rule = cut_rule(cuts, 4);
+      DataMisfit part{.kind = DataMisfit::Kind::displacement,
+                      .cell = side->cell,
+                      .side = side->side,
+                      .size = 0,
+                      .at = Vec2::Zero(),
+                      .finest = misfit(g, cuts).finest / 2 * length};
+      double sum = 0, worst = -1;
+      for (std::size_t q = 0; q < rule.points.size(); ++q) {
+        const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
+        const EdgeShape shape = edge_shape(edge.node_count, rule.points[q]);
+        double difference = g.at(rule.points[q]);
+        for (int a = 0; a < edge.node_count; ++a) difference -= shape.N[a] * values.at(edge.nodes[a]);
+        const double ds = rule.weights[q] * p.jacobian(), dA = ds * model.depth(p.position.x());
+        sum += ds * std::abs(difference);
+        part.size += dA * std::abs(difference);
+        part.mean += dA * difference * direction(p.normal());
+        if (std::abs(difference) <= worst) continue;
+        worst = std::abs(difference);
+        part.at = p.position;
+      }
+      collector.add(part, sum, length);
+    }
+  }
+}
+
+void add_boundary(const Mesh& mesh, const Model& model, const SideTable& table, const SceneNames& names,
+                  const BoundarySpec& spec, DataMisfits& found) {
+  const std::vector<const Field*> all = fields_of(spec);
+  if (std::ranges::all_of(all, [](const Field* field) { return field->is_constant(); })) return;
+  const std::vector<NamedBoundary> on = places_of(mesh, table, names, spec).boundaries;
+  using enum DataMisfit::Kind;
+  const auto displaced = [&](const std::optional<Field>& field, const std::function<Vec2(const Vec2&)>& direction) {
+    if (field) add_displacement(mesh, model, spec.key + ".displacement", table, on, *field, direction, found);
+  };
+  displaced(spec.displacement_x, [](const Vec2&) -> Vec2 { return Vec2::UnitX(); });
+  displaced(spec.displacement_y, [](const Vec2&) -> Vec2 { return Vec2::UnitY(); });
+  displaced(spec.displacement_normal, [](const Vec2& n) { return n; });
+  displaced(spec.displacement_along, [&](const Vec2&) { return *spec.direction; });
+  if (spec.pressure || spec.traction)
+    add_along(mesh, model, spec.key + (spec.pressure ? ".pressure" : ".traction"), force, on, all, found);
+  if (spec.is_foundation()) add_along(mesh, model, spec.key + ".foundation", foundation, on, all, found);
+}
+
+double corner_area(const Mesh& mesh, const Cell& cell) {
+  const auto at = [&](int a) -> Vec2 { return mesh.nodes.row(cell.nodes[a]).transpose(); };
+  double twice = 0;
+  for (int a = 2; a < corner_count(cell.kind); ++a) twice += cross(Vec2(at(a - 1) - at(0)), Vec2(at(a) - at(0)));
+  return twice / 2;
+}
+
+// Over bodies, by root mean squares; `values` of a strain such that their square is its energy density.
+void add_over(const Mesh& mesh, const Model& model, const std::string& key, DataMisfit::Kind kind, BodyFields& fields,
+              const std::function<VecX(int body, const Vec2&)>& values, DataMisfits& found) {
+  fields.find_scales();
+  if (!fields.any()) return;
+  Collector collector(key, found);
+  for (int e = 0; e < int(mesh.cells.size()); ++e) {
+    const Cell& cell = mesh.cells[e];
+    const double area = corner_area(mesh, cell);
+    const Vec2 centre = centre_of(mesh.nodes, cell);
+    const std::vector<CellPiece> pieces = fields.pieces(cell);
+    if (fields.any(cell.body)) collector.add_all(area * values(cell.body, centre).norm());
+    if (pieces.empty()) continue;
+    const CellMisfit m = misfit(mesh.nodes, cell, pieces, [&](const Vec2& x) { return values(cell.body, x); });
+    const double volume = area * model.depth(centre.x());
+    collector.add({.kind = kind,
+                   .cell = e,
+                   .size = m.root_mean_square * (kind == DataMisfit::Kind::strain ? std::sqrt(volume) : volume),
+                   .at = m.at,
+                   .finest = m.finest},
+                  area * m.root_mean_square, std::sqrt(area));
+  }
+}
+
+// Of a stiffness, (11, 22, 33, gamma_12), which plane stress leaves semidefinite.
+Mat4 root_of(const Mat4& stiffness) {
+  const Eigen::SelfAdjointEigenSolver<Mat4> eigen(stiffness);
+  return eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+bool has_functions(const Scene& scene) {
+  const auto varies = [](const Field& field) { return !field.is_constant(); };
+  return std::ranges::any_of(scene.boundaries,
+                             [&](const BoundarySpec& spec) {
+                               return std::ranges::any_of(fields_of(spec), [&](const Field* f) { return varies(*f); });
+                             }) ||
+         std::ranges::any_of(scene.body_forces, [](const BodyForceSpec& spec) { return !spec.force.is_constant(); }) ||
+         std::ranges::any_of(scene.initial_strains, [&](const InitialStrainSpec& spec) {
+           return spec.temperature_change ? varies(*spec.temperature_change) : std::ranges::any_of(spec.strain, varies);
+         });
+}
+
+}  // namespace
+
+DataMisfits data_misfits(const Scene& scene, const Mesh& mesh, const std::vector<ElasticLaw>& laws) {
+  DataMisfits found;
+  if (!has_functions(scene)) return found;
+  const SideTable table(mesh);
+  const SceneNames names(mesh);
+  for (const BoundarySpec& spec : scene.boundaries) add_boundary(mesh, scene.model, table, names, spec, found);
+  const std::vector<int> body_forces = loads_of(scene.body_forces, mesh, names);
+  for (int i = 0; i < int(scene.body_forces.size()); ++i) {
+    const BodyForceSpec& spec = scene.body_forces[i];
+    BodyFields fields(mesh);
+    for (int b = 0; b < int(body_forces.size()); ++b)
+      if (body_forces[b] == i) {
+        fields.add(b, spec.force.x);
+        fields.add(b, spec.force.y);
+      }
+    add_over(
+        mesh, scene.model, spec.key + ".force", DataMisfit::Kind::force, fields,
+        [&](int, const Vec2& x) -> VecX { return spec.force(x); }, found);
+  }
+  const std::vector<int> strains = loads_of(scene.initial_strains, mesh, names);
+  for (int i = 0; i < int(scene.initial_strains.size()); ++i) {
+    const InitialStrainSpec& spec = scene.initial_strains[i];
+    BodyFields fields(mesh);
+    for (int b = 0; b < int(strains.size()); ++b)
+      if (strains[b] == i) add_strain(spec, b, fields);
+    if (!fields.any()) continue;
+    std::vector<Mat4> roots;
+    for (const ElasticLaw& law : laws) roots.push_back(root_of(law.stiffness));
+    add_over(
+        mesh, scene.model, spec.key, DataMisfit::Kind::strain, fields,
+        [&](int body, const Vec2& x) -> VecX {
+          const Vec4 e = laws[body].initial_strain(x);
+          return roots[body] * Vec4(e(0), e(1), e(2), 2 * e(3));
+        },
+        found);
+  }
+  return found;
+}
+
+}  // namespace mortise
