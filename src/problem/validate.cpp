@@ -8,7 +8,7 @@
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "contact/curve_resolution.hpp"
-#include "contact/seen_motions.hpp"
+#include "contact/smooth_normals.hpp"
 
 namespace mortise {
 namespace {
@@ -78,7 +78,9 @@ std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const 
   std::vector<ContactNormal> normals;
   double edge_error = 0;
   for (const ContactPair& pair : pairs) {
-    const SmoothNormals of_pair = seen_motions(mesh.nodes, pair.multiplier, pair.opposite, pair.points);
+    std::vector<char> faces(pair.multiplier.edges.size(), 0);
+    for (const ContactPoint& point : pair.points) faces[point.edge] = 1;
+    const SmoothNormals of_pair = smooth_normals(mesh.nodes, pair.multiplier, pair.opposite.body, faces);
     normals.insert(normals.end(), of_pair.normals.begin(), of_pair.normals.end());
     edge_error = std::max(edge_error, of_pair.edge_error);
   }
