@@ -15,6 +15,12 @@ constexpr int fine = 2 * degree;  // a piece is looked at halfway between its pl
 constexpr double resolved_part = 1e-13;
 // A place is a sum of products of coordinates, in each of which round-off is at most a few times this.
 constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
+// Noise above this part of an edge is no round-off of the curve's, so it says nothing of its other edges. A gap of it
+// is a strain of 1e-9.
+constexpr double largest_noise = 1e-9;
+// Between places of a polynomial of degree 8 at Chebyshev's points their noise grows by at most 2.4 (Lebesgue's
+// constant), and it is in the place that is compared, too.
+constexpr double noise_between = 3.4;
 // Halving the parameter so many times meets its own round-off.
 constexpr int deepest = 44;
 
@@ -49,7 +55,10 @@ struct Part {
 // One edge of a curve.
 class EdgeSampler {
  public:
-  EdgeSampler(const CurvePlaces& curve, const std::array<double, 2>& ends) : curve_(curve), ends_(ends) {}
+  // `noise`: of the curve's places, as its edges before have shown it, length. A circle of a large radius has more of
+  // it than its places' coordinates tell.
+  EdgeSampler(const CurvePlaces& curve, const std::array<double, 2>& ends, double& noise)
+      : curve_(curve), ends_(ends), noise_(noise) {}
 
   // `whole`: the edge's places at the finer points.
   EdgeSamples sample(const Vec2* whole) {
@@ -59,10 +68,11 @@ class EdgeSampler {
       size += k > 0 ? (whole[k] - whole[k - 1]).norm() : 0;
       farthest = std::max(farthest, whole[k].cwiseAbs().maxCoeff());
     }
-    resolved_ = std::max(resolved_part * size, round_off * farthest);
+    resolved_ = std::max({resolved_part * size, round_off * farthest, noise_});
     if (part.misfit > resolved_) {
       bisect(part);
       merge();
+      if (resolved_ <= largest_noise * size) noise_ = std::max(noise_, resolved_);
     } else {
       parts_.push_back(part);
     }
@@ -107,7 +117,11 @@ class EdgeSampler {
     while (!open.empty()) {
       worst.push_back(std::ranges::max_element(open, {}, &Part::misfit)->misfit);
       const std::size_t depth = worst.size() - 1;
-      if (depth == deepest || (open.size() > many && worst[depth] > worst[depth - 4] / 2)) break;
+      if (depth == deepest) break;
+      if (open.size() > many && worst[depth] > worst[depth - 4] / 2) {
+        resolved_ = std::max(resolved_, noise_between * worst[depth]);
+        break;
+      }
       std::vector<Part> next;
       for (const Part& part : open) {
         const double middle = (part.begin + part.end) / 2;
@@ -145,6 +159,7 @@ class EdgeSampler {
 
   const CurvePlaces& curve_;
   const std::array<double, 2>& ends_;
+  double& noise_;
   double resolved_ = 0;
   std::vector<Part> parts_;
 };
@@ -166,8 +181,9 @@ std::vector<EdgeSamples> sample_edges(const CurvePlaces& curve, const std::vecto
     for (int k = 0; k <= fine; ++k) t.push_back((start + end) / 2 + (end - start) / 2 * chebyshev(k, fine));
   const std::vector<Vec2> places = curve(t);
   std::vector<EdgeSamples> samples;
+  double noise = 0;
   for (std::size_t e = 0; e < ends.size(); ++e)
-    samples.push_back(EdgeSampler(curve, ends[e]).sample(&places[e * (fine + 1)]));
+    samples.push_back(EdgeSampler(curve, ends[e], noise).sample(&places[e * (fine + 1)]));
   return samples;
 }
 
