@@ -2,7 +2,8 @@
 
 FreeFEM's scripts read them instead of their own. A contact point is a normal of the multiplier side's curve: it passes
 through the place on that side's edge, through the one on the opposite edge, and through both curves, whose distance
-along it is the gap (docs/theory.md, section 9). Written from that definition, not from mortise.
+along it is the gap (docs/theory.md, section 9). Two curves that their vertices cannot tell from one are one: they have
+no gap. Written from these definitions, not from mortise.
 """
 
 from dataclasses import dataclass
@@ -164,11 +165,28 @@ def contact_points(chain, opposite, gauss):
     return np.array(rows)
 
 
+def sagittas(x):
+    """Of each edge, how far a curve that turns as its vertices say may lie from it: h turn / 8 (theory, eq. 28)."""
+    along = np.diff(x, axis=0)
+    angle = np.unwrap(np.arctan2(along[:, 1], along[:, 0]))
+    turns = np.abs(np.diff(angle))
+    turn = np.maximum(np.append(turns, 0), np.append(0, turns))
+    return np.linalg.norm(along, axis=1) * turn / 8
+
+
+def close_one_line(rows, first, second):
+    """No gaps (rows as of contact_points) if none is larger than what two meshes of one curve show."""
+    shown = sagittas(first)[rows[:, 0].astype(int)] + sagittas(second)[rows[:, 5].astype(int)]
+    if (np.abs(rows[:, 7]) <= shown).all():
+        rows[:, 7] = 0
+
+
 def points_of_pairs(pairs, gauss):
     """The points of all pairs (vertices of the multiplier side, of the opposite side); edges are counted over all."""
     rows, edges = [], 0
     for sides in pairs:
         found = contact_points(*map(chain_through, sides), gauss)
+        close_one_line(found, *sides)
         found[:, 0] += edges
         found[:, 5] += edges + len(sides[0]) - 1
         edges += sum(len(x) - 1 for x in sides)

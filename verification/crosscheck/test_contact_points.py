@@ -94,3 +94,14 @@ def test_a_closed_curve_comes_back_to_its_start():
     triangles, edges = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[0, 1], [1, 2], [2, 3], [0, 3]])
     body = convert.Body("body", square, triangles, edges, np.array([1, 1, 1, 1]))
     assert cp.vertices_of(body, 1).tolist() == square[[0, 1, 2, 3, 0]].tolist()
+
+
+def quarter(radius, edges):
+    angle = np.linspace(0, np.pi / 2, edges + 1)
+    return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+@pytest.mark.parametrize("gap, closed", [(0.0, True), (0.1, False)])
+def test_two_meshes_of_one_line_have_no_gap(gap, closed):
+    rows = cp.points_of_pairs([(quarter(2, 8), quarter(2 + gap, 10)[::-1])], 3)
+    assert len(rows) > 20 and (rows[:, 7] == 0).all() == closed
