@@ -176,13 +176,16 @@ Json with_sum(Json entry, const Resultant& load) {
 }
 
 Json reaction_json(const Reaction& r) {
-  return {{"on", r.on},
-          {"reaction", json_of(r.sum.force)},
-          {"reaction_error", r.error ? json_of(Vec2(r.error->head<2>())) : Json()},
-          {"moment", r.sum.moment},
-          {"centre", json_of(r.centre)},
-          {"moment_about_centre", r.sum.moment_about(r.centre)},
-          {"moment_about_centre_error", r.error ? Json((*r.error)(2)) : Json()}};
+  Json json{{"on", r.on},
+            {"reaction", json_of(r.sum.force)},
+            {"moment", r.sum.moment},
+            {"centre", json_of(r.centre)},
+            {"moment_about_centre", r.sum.moment_about(r.centre)}};
+  if (r.error && r.error->allFinite()) {
+    json["reaction_error"] = json_of(Vec2(r.error->head<2>()));
+    json["moment_about_centre_error"] = (*r.error)(2);
+  }
+  return json;
 }
 
 Json json_of(const RigidSpec& rigid) {

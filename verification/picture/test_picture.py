@@ -162,10 +162,11 @@ def test_a_peak_is_shown_where_p_has_a_limit(singular, shown):
     table = {"curve": np.array(["foot"] * 201), "s": s, "x": s, "y": 0 * s, "p": p, "sigma_n": -p}
     table = {name: np.concatenate([column, column]) for name, column in table.items()}
     table["curve"][201:] = "top"
+    table["pair"] = np.zeros(402, dtype=int)
     points = [{"pair": 0, "pressure_exponent": exponent} for exponent in singular]
     bounded = picture.has_limit({"estimate": {"pressure": {"singular": points}}}, 0)
     drawing, axes = picture.figure.panels(1, 1, (4, 3))
-    picture.draw_pair(axes, table, "foot", ["foot", "top"], bounded)
+    picture.draw_pair(axes, table, 0, bounded)
     assert (axes.get_ylim()[1] > 100) == shown == ("off the scale" not in axes.get_xlabel())
     assert not picture.has_limit({"estimate": None}, 0)
 
