@@ -138,7 +138,8 @@ MatX CornerProducts::tails() const {
     // P / r^2 = a r^(2 lambda - 2) + b at both radii.
     const double difference = power / near - std::pow(rings.radius[1], 2 * lambda) / far;
     const Eigen::RowVectorXd inner = products_[0].row(c), both = inner + products_[1].row(c);
-    const Eigen::RowVectorXd a = (inner / near - both / far) / difference;
+    Eigen::RowVectorXd a = inner / power;  // of a body that has no cell beyond the first ring, all of it
+    if (!rings.cells[1].empty()) a = (inner / near - both / far) / difference;
     tails.row(c) = missed_more * missed_energy(lambda, rings.degree) * power * a.cwiseAbs();
   }
   return tails;

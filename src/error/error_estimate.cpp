@@ -189,7 +189,7 @@ void find_excluded(double part, PressureEstimate& e) {
       if (point.is_unbounded() && (line.position[i] - point.position).norm() < e.excluded_distance) e.excluded[i] = 1;
   // A mesh too coarse to tell what is near such a point from the rest of the contact: all of it counts.
   bool left = false;
-  for (Eigen::Index i = 0; i < line.p.size(); ++i) left = left || (line.p(i) != 0 && !e.excluded[i]);
+  for (Eigen::Index i = 0; i < line.p.size(); ++i) left = left || (line.loaded[i] && line.p(i) != 0 && !e.excluded[i]);
   if (!left) e.excluded.assign(line.p.size(), 0);
 }
 

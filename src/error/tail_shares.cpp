@@ -39,7 +39,9 @@ Shape shape_of(const PressureLine& line, const PressureWindow& window, const Loc
 
 }  // namespace
 
-double LocalTail::at(const Vec2& x) const { return amplitude * std::pow((x - position).norm(), -1 - exponent); }
+double LocalTail::at(const Vec2& x) const {
+  return amplitude * std::pow(std::max((x - position).norm(), radius), -1 - exponent);
+}
 
 std::vector<TailShares> tail_shares(const Mesh& mesh, const std::vector<const PressureLine*>& lines,
                                     const std::vector<const std::vector<PressureWindow>*>& windows,
@@ -64,7 +66,7 @@ std::vector<TailShares> tail_shares(const Mesh& mesh, const std::vector<const Pr
         square += length * tail * tail;
         return;
       }
-      LocalTail local{x, rings.corner.exponent, w, 1};
+      LocalTail local{x, rings.corner.exponent, rings.radius[0], w, 1};
       const Shape shape = shape_of(*lines[pair], window, local);
       local.amplitude = tail / shape.mean;
       square += length * local.amplitude * local.amplitude * shape.square;

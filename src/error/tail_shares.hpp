@@ -7,12 +7,14 @@
 
 namespace mortise {
 
-/// What a corner near a window does to p there: amplitude r^(-1 - exponent), r the distance from the corner. Its mean
-/// over the window is the corner's tail.
+/// What a corner near a window does to p there: amplitude r^(-1 - exponent), r the distance from the corner; within the
+/// cells at the corner, which show no such shape, what it is at their radius. Its mean over the window is the corner's
+/// tail.
 struct LocalTail {
   Vec2 position;
   double exponent;
-  int window;  ///< of the pair
+  double radius;  ///< of the cells at the corner, length
+  int window;     ///< of the pair
   double amplitude;
 
   double at(const Vec2& x) const;
