@@ -9,8 +9,7 @@ namespace mortise {
 VecX gap_error(const ContactPair& pair, const std::vector<ElasticLaw>& laws, const PressureLine& line) {
   const Eigen::Index last = line.p.size() - 1;
   VecX stress = VecX::Zero(last + 1);
-  const double modulus =
-      1 / (1 / contact_modulus(laws[pair.multiplier.body]) + 1 / contact_modulus(laws[pair.opposite.body]));
+  const double modulus = contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
   for (const ContactPoint& point : pair.points) {
     if (!(point.unknown > 0)) continue;
     for (const Eigen::Index i : {Eigen::Index(point.edge), Eigen::Index(point.edge) + 1}) {

@@ -12,8 +12,7 @@ GapErrors gap_errors(const Mesh& mesh, const ContactPair& pair, const std::vecto
   if (pair.spec.initial_gap == InitialGap::closed || gap_field(pair.geometry).is_constant()) return found;
   const auto cuts = gap_cuts(mesh.nodes, pair.multiplier, pair.geometry);
   const FieldRange range(gap_field(pair.geometry));
-  const double modulus =
-      1 / (1 / contact_modulus(laws[pair.multiplier.body]) + 1 / contact_modulus(laws[pair.opposite.body]));
+  const double modulus = contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
   found.l2 = VecX::Zero(Eigen::Index(cuts.size()));
   for (std::size_t e = 0; e < cuts.size(); ++e) {
     if (cuts[e].size() == 2) continue;

@@ -76,6 +76,10 @@ double contact_modulus(const ElasticLaw& law) {
   return std::min(C(0, 0), C(1, 1)) - C(0, 1) * (C(0, 1) / std::max(C(0, 0), C(1, 1)));
 }
 
+double contact_modulus(const ElasticLaw& first, const ElasticLaw& second) {
+  return 1 / (1 / contact_modulus(first) + 1 / contact_modulus(second));
+}
+
 double von_mises(const Vec4& s) {
   const double a = s(0) - s(1), b = s(1) - s(2), c = s(2) - s(0);
   return std::sqrt((a * a + b * b + c * c) / 2 + 3 * s(3) * s(3));

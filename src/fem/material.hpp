@@ -43,6 +43,9 @@ Mat4 without_33(Mat4 stiffness);
 /// Stiffness of a body's edge against a pressure on it: E / (1 - nu^2) in plane strain, E in plane stress.
 double contact_modulus(const ElasticLaw& law);
 
+/// E* of two bodies pressed together, 1 / E* = sum of 1 / contact_modulus (Johnson 1985, section 4.2).
+double contact_modulus(const ElasticLaw& first, const ElasticLaw& second);
+
 /// sqrt(3/2 s:s), s the deviator of (11, 22, 33, 12).
 double von_mises(const Vec4& stress);
 

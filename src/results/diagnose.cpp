@@ -14,9 +14,8 @@ namespace {
 SparseMatrix stacked_norm(const Scene& scene, const Results& r) {
   std::vector<Eigen::Triplet<double>> entries;
   for (const ContactPair& pair : r.pairs) {
-    double compliance = 0;
-    for (const Curve* side : {&pair.multiplier, &pair.opposite})
-      compliance += 1 / contact_modulus(r.discretisation.laws[side->body]);
+    const std::vector<ElasticLaw>& laws = r.discretisation.laws;
+    const double compliance = 1 / contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
     const SparseMatrix S =
         pressure_norm(r.mesh.nodes, pair.multiplier, pair.points, scene.method.multipliers, pair.coupling);
     for (Eigen::Index j = 0; j < S.outerSize(); ++j)
