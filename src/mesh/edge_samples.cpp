@@ -15,11 +15,13 @@ constexpr int fine = 2 * degree;  // a piece is looked at halfway between its pl
 constexpr double resolved_part = 1e-13;
 // A place is a sum of products of coordinates, in each of which round-off is at most a few times this.
 constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
-// Noise above this part of an edge is no round-off of the curve's, so it says nothing of its other edges. A gap of it
-// is a strain of 1e-9.
-constexpr double largest_noise = 1e-9;
-// Between places of a polynomial of degree 8 at Chebyshev's points their noise grows by at most 2.4 (Lebesgue's
-// constant), and it is in the place that is compared, too.
+// A part so short that a smooth curve is straight in it, to round-off: what is left of its misfit is noise of the
+// places.
+constexpr double short_part = 0x1p-20;
+// Parts of which the middle one tells the noise, as a knot may lie in one of them; at no places that are likely knots.
+constexpr std::array<double, 3> short_parts{-0.6180339887, 0.1415926535, 0.7182818284};
+// The noise of a polynomial of degree 8 between Chebyshev's points is at most 2.4 times theirs (Lebesgue's constant);
+// it is in the place that is compared, too.
 constexpr double noise_between = 3.4;
 // Halving the parameter so many times meets its own round-off.
 constexpr int deepest = 44;
@@ -55,10 +57,7 @@ struct Part {
 // One edge of a curve.
 class EdgeSampler {
  public:
-  // `noise`: of the curve's places, as its edges before have shown it, length. A circle of a large radius has more of
-  // it than its places' coordinates tell.
-  EdgeSampler(const CurvePlaces& curve, const std::array<double, 2>& ends, double& noise)
-      : curve_(curve), ends_(ends), noise_(noise) {}
+  EdgeSampler(const CurvePlaces& curve, const std::array<double, 2>& ends) : curve_(curve), ends_(ends) {}
 
   // `whole`: the edge's places at the finer points.
   EdgeSamples sample(const Vec2* whole) {
@@ -68,11 +67,11 @@ class EdgeSampler {
       size += k > 0 ? (whole[k] - whole[k - 1]).norm() : 0;
       farthest = std::max(farthest, whole[k].cwiseAbs().maxCoeff());
     }
-    resolved_ = std::max({resolved_part * size, round_off * farthest, noise_});
+    resolved_ = std::max(resolved_part * size, round_off * farthest);
+    if (part.misfit > resolved_) resolved_ = std::max(resolved_, noise_between * noise());
     if (part.misfit > resolved_) {
       bisect(part);
       merge();
-      if (resolved_ <= largest_noise * size) noise_ = std::max(noise_, resolved_);
     } else {
       parts_.push_back(part);
     }
@@ -107,6 +106,14 @@ class EdgeSampler {
     return part_of(begin, end, curve_(t).data());
   }
 
+  // Of the places, length. A circle of a large radius has more of it than their coordinates tell.
+  double noise() const {
+    std::array<double, short_parts.size()> found;
+    std::ranges::transform(short_parts, found.begin(), [&](double at) { return part_of(at, at + short_part).misfit; });
+    std::ranges::sort(found);
+    return found[found.size() / 2];
+  }
+
   // Level by level, so that noise is known by what it does: it is in all parts and does not fall, where knots are in a
   // few parts, and four halvings take a kink to 1/16, a jump of curvature to 1/256. (One knot says nothing: near an end
   // of its part it is seen no better in a part of that.)
@@ -117,11 +124,7 @@ class EdgeSampler {
     while (!open.empty()) {
       worst.push_back(std::ranges::max_element(open, {}, &Part::misfit)->misfit);
       const std::size_t depth = worst.size() - 1;
-      if (depth == deepest) break;
-      if (open.size() > many && worst[depth] > worst[depth - 4] / 2) {
-        resolved_ = std::max(resolved_, noise_between * worst[depth]);
-        break;
-      }
+      if (depth == deepest || (open.size() > many && worst[depth] > worst[depth - 4] / 2)) break;
       std::vector<Part> next;
       for (const Part& part : open) {
         const double middle = (part.begin + part.end) / 2;
@@ -159,7 +162,6 @@ class EdgeSampler {
 
   const CurvePlaces& curve_;
   const std::array<double, 2>& ends_;
-  double& noise_;
   double resolved_ = 0;
   std::vector<Part> parts_;
 };
@@ -181,9 +183,8 @@ std::vector<EdgeSamples> sample_edges(const CurvePlaces& curve, const std::vecto
     for (int k = 0; k <= fine; ++k) t.push_back((start + end) / 2 + (end - start) / 2 * chebyshev(k, fine));
   const std::vector<Vec2> places = curve(t);
   std::vector<EdgeSamples> samples;
-  double noise = 0;
   for (std::size_t e = 0; e < ends.size(); ++e)
-    samples.push_back(EdgeSampler(curve, ends[e], noise).sample(&places[e * (fine + 1)]));
+    samples.push_back(EdgeSampler(curve, ends[e]).sample(&places[e * (fine + 1)]));
   return samples;
 }
 

@@ -84,6 +84,7 @@ SmoothNormals normals_of(const Mesh& mesh, const ContactPair& pair, const std::v
 std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
                                                         const std::vector<std::string>& findings,
                                                         SaddlePointSystem& system) {
+  const std::vector<char> supported = supported_bodies(mesh, system.constraints);
   std::vector<std::vector<RigidMotion>> held;
   const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions, double round_off) {
     const std::vector<char> moves = driven(mesh, motions, system.f, round_off);
@@ -98,7 +99,6 @@ std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const 
       system.constraints.fixed[unknown] = 1;
   };
   hold(free_motions(mesh, system.constraints, unit_rows(system)), 1e-9);
-  const std::vector<char> supported = supported_bodies(mesh, system.constraints);
   std::vector<ContactNormal> normals;
   double edge_error = 0;
   for (const ContactPair& pair : pairs) {

@@ -1,9 +1,9 @@
 // What a mesh misses at a corner, from the fields that are there.
-#include "error/corner_tails.hpp"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
+
+#include "error/tail_shares.hpp"
 
 namespace mortise {
 namespace {
@@ -110,6 +110,23 @@ TEST(CornerTails, AreNoneOfAStressThatIsBounded) {
   const double own = tails_of(mesh, fields)(0, 1);
   fields << singular, singular;
   EXPECT_LT(own, 1e-10 * tails_of(mesh, fields)(0, 1));
+}
+
+// All cells of the body have the corner: there is no second ring to tell the stress that is bounded.
+TEST(CornerTails, OfABodyOfOneRingAreFinite) {
+  const Mesh mesh = l_shape(1, CellKind::quad4);
+  const VecX u = nodal(mesh, mode);
+  MatX fields(u.size(), 2);
+  fields << u, u;
+  const MatX tails = tails_of(mesh, fields);
+  EXPECT_TRUE(tails.allFinite());
+  EXPECT_GT(tails(0, 1), 0);
+}
+
+TEST(CornerTails, AtTheCornerItselfAreThoseOfItsCells) {
+  const LocalTail tail{.position = {1, 2}, .exponent = 0.5, .radius = 0.1, .window = 0, .amplitude = 3};
+  EXPECT_NEAR(tail.at({1, 2}), tail.at({1.1, 2}), 1e-9);
+  EXPECT_NEAR(tail.at({1, 2.4}), 3 * std::pow(0.4, -1.5), 1e-12);
 }
 
 }  // namespace

@@ -112,6 +112,22 @@ TEST(EdgeSamples, FarFromTheOriginRoundOffIsNoMisfit) {
   EXPECT_EQ(sample_edges(places_of(arc), {{0, 0.3}})[0].pieces.size(), 1u);
 }
 
+// Its places near the origin are small differences of its radius: noisier than their coordinates tell.
+TEST(EdgeSamples, ALargeCircleIsOnePieceAnEdge) {
+  for (const double radius : {6e2, 6e4, 6e6}) {
+    const Shape arc = [&](double t) {
+      return Vec2(radius * std::cos(t / radius - std::numbers::pi / 2),
+                  radius + radius * std::sin(t / radius - std::numbers::pi / 2));
+    };
+    int count = 0;
+    std::vector<std::array<double, 2>> ends;
+    for (int e = -50; e < 50; ++e) ends.push_back({e / 5.0, (e + 1) / 5.0});
+    const auto edges = sample_edges(places_of(arc, &count), ends);
+    for (const EdgeSamples& edge : edges) EXPECT_EQ(edge.pieces.size(), 1u) << radius;
+    EXPECT_LE(count, 100 * (17 + 3 * 17)) << radius;  // places to see with, and of the short parts
+  }
+}
+
 TEST(EdgeSamples, ReversedRunsTheOtherWay) {
   const Shape shape = [](double t) { return Vec2(t, std::pow(std::max(t - 0.3, 0.0), 2)); };
   const EdgeSamples edge = sample_edges(places_of(shape), {{0, 1}})[0];
