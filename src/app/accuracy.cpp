@@ -6,7 +6,6 @@
 #include <set>
 #include <sstream>
 
-#include "app/data_errors.hpp"
 #include "base/errors.hpp"
 #include "base/patterns.hpp"
 #include "base/printable.hpp"
@@ -146,7 +145,6 @@ class Loop {
     stage("estimate");
     try {
       estimate(r, spec_, found_, false);
-      add_data_errors(scene_, r, spec_);
     } catch (const SceneError& error) {
       throw InputError(scene_.path + ": " + error.what());
     }

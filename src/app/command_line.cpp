@@ -9,7 +9,6 @@
 #include <sstream>
 
 #include "app/accuracy.hpp"
-#include "app/data_errors.hpp"
 #include "app/picture.hpp"
 #include "app/sweep.hpp"
 #include "app/sweep_join.hpp"
@@ -94,7 +93,6 @@ int solve(const Options& options) {
   if (!scene.accuracy && !options.no_estimate) {
     stage("estimate");
     estimate(results);
-    add_data_errors(scene, results);
   }
   if (options.diagnose) {
     stage("diagnose");

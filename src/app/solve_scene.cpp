@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "ddm/ranks.hpp"
+#include "error/data_estimate.hpp"
 #include "io/gmsh_mesh.hpp"
 #include "mesh/copy_bodies.hpp"
 #include "problem/audit.hpp"
@@ -16,6 +17,7 @@
 #include "problem/ties.hpp"
 #include "results/audit_solution.hpp"
 #include "results/checks.hpp"
+#include "results/data_warnings.hpp"
 #include "results/diagnose.hpp"
 #include "results/error_report.hpp"
 #include "results/line_checks.hpp"
@@ -164,6 +166,7 @@ void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint
   Stopwatch watch;
   require_held(r, spec);
   r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution, spec, most_own_duals, found);
+  add_data_errors(r.mesh, r.points, r.discretisation, r.pairs, r.solution, r.misfits, spec, *r.estimate);
   for (std::size_t k = 0; k < r.contacts.size(); ++k) set_bars(r.estimate->pressures[k], r.contacts[k]);
   const std::vector<PlaceError> of_probes = place_errors(r.mesh, r.points, r.discretisation, r.pairs, r.solution,
                                                          r.estimate->pressures, probed_places(r.probes));
@@ -198,6 +201,7 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   load_fields(scene);
   r.points = body_points(r.mesh);
   r.discretisation = discretise(scene, r.mesh);
+  r.misfits = data_misfits(scene, r.mesh, r.discretisation.laws);
   const std::vector<ProbePlace> probes = locate_probes(scene, r.mesh);
   SaddlePointSystem& system = r.discretisation.system;
   r.seconds.assemble = watch.lap();
@@ -245,6 +249,7 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   r.checks = checks(scene, r);
   r.status = verdict(r);
   append(r.warnings, warnings(scene, r));
+  if (!scene.accuracy) append(r.warnings, data_warnings(r.misfits));
   append(r.warnings, audit_solution(r));
   append(r.warnings, unheld_probes(scene, r));
   r.seconds.recover = watch.lap();

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "app/accuracy.hpp"
-#include "app/data_errors.hpp"
 #include "app/solve_scene.hpp"
 #include "app/sweep_row.hpp"
 #include "app/workers.hpp"
@@ -24,10 +23,7 @@ namespace fs = std::filesystem;
 RunRow run_one(const SweepPlan& plan, std::size_t run, std::optional<ActiveSet>& start) try {
   const Scene scene = read_scene(plan.scene, plan.overrides_of(run));
   Results results = scene.accuracy ? *solve_to_accuracy(scene) : solve_scene(scene, {}, start ? &*start : nullptr);
-  if (!scene.accuracy) {
-    estimate(results);
-    add_data_errors(scene, results);
-  }
+  if (!scene.accuracy) estimate(results);
   if (plan.diagnosed) diagnose(scene, results);
   start = active_set(results);
   return row_of(results);

@@ -2,5 +2,4 @@
 #pragma once
 
 #include "app/accuracy.hpp"
-#include "app/data_errors.hpp"
 #include "app/solve_scene.hpp"

@@ -63,10 +63,7 @@ py::dict body_fields(const Results& r) {
 Results solved(const Scene& scene, bool with_estimate) {
   if (scene.accuracy) return *solve_to_accuracy(scene);
   Results results = solve_scene(scene);
-  if (with_estimate) {
-    estimate(results);
-    add_data_errors(scene, results);
-  }
+  if (with_estimate) estimate(results);
   return results;
 }
 

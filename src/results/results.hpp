@@ -3,6 +3,7 @@
 
 #include "error/error_estimate.hpp"
 #include "fem/rigid_motions.hpp"
+#include "problem/data_misfit.hpp"
 #include "results/extremes.hpp"
 #include "results/probes.hpp"
 #include "results/reactions.hpp"
@@ -56,6 +57,7 @@ struct Results {
   bool mesh_cached = false;  ///< whether it was not made now, but kept from an earlier run
   BodyPoints points;
   Discretisation discretisation;  ///< held motions (validate.hpp) count as prescribed
+  DataMisfits misfits;            ///< of the scene's functions of place
   std::vector<ContactPair> pairs;
   std::vector<std::string> dirichlet;  ///< of domain decomposition: bodies that took the displacement
   Solution solution;
