@@ -81,11 +81,10 @@ bool grows_without_limit(const Results& r, const Extreme& stress) {
 }
 
 void set_force_bars(Results& r) {
-  std::vector<ForcePlace> places;
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) places.push_back({int(k), {}, r.contacts[k].centre});
-  for (const Reaction& reaction : r.reactions.curves) places.push_back({-1, reaction.unknowns, reaction.centre});
+  std::vector<Vec2> centres;
+  for (const ContactResults& contact : r.contacts) centres.push_back(contact.centre);
   const std::vector<Eigen::Vector3d> errors =
-      force_errors(r.mesh, r.points, r.discretisation, r.pairs, r.solution, r.estimate->pressures, places);
+      force_errors(r.mesh, r.points, r.discretisation, r.pairs, r.solution, r.estimate->pressures, centres);
   for (std::size_t k = 0; k < r.pairs.size(); ++k) {
     r.contacts[k].force_error = errors[k];
     const PressureEstimate& e = r.estimate->pressures[k];
@@ -93,8 +92,6 @@ void set_force_bars(Results& r) {
     for (const LineError::Border& border : e.local.borders) length += e.line.s(border.edge + 1) - e.line.s(border.edge);
     r.contacts[k].length_error = length;
   }
-  for (std::size_t k = 0; k < r.reactions.curves.size(); ++k)
-    if (!r.reactions.curves[k].unknowns.empty()) r.reactions.curves[k].error = errors[r.pairs.size() + k];
 }
 
 void set_bars(const PressureEstimate& estimate, ContactResults& contact) {

@@ -18,7 +18,7 @@ bool grows_without_limit(const Results& results, const Extreme& stress);
 /// The bars of p into the nodes of a pair.
 void set_bars(const PressureEstimate& estimate, ContactResults& contact);
 
-/// The bars of forces, moments and lengths in contact into the pairs and the reactions.
+/// The bars of forces, moments and lengths in contact into the pairs.
 void set_force_bars(Results& results);
 
 /// What makes most of the estimated error of p, in words with its place: "the border of contact near (0.01, 0)".

@@ -176,16 +176,11 @@ Json with_sum(Json entry, const Resultant& load) {
 }
 
 Json reaction_json(const Reaction& r) {
-  Json json{{"on", r.on},
-            {"reaction", json_of(r.sum.force)},
-            {"moment", r.sum.moment},
-            {"centre", json_of(r.centre)},
-            {"moment_about_centre", r.sum.moment_about(r.centre)}};
-  if (r.error && r.error->allFinite()) {
-    json["reaction_error"] = json_of(Vec2(r.error->head<2>()));
-    json["moment_about_centre_error"] = (*r.error)(2);
-  }
-  return json;
+  return {{"on", r.on},
+          {"reaction", json_of(r.sum.force)},
+          {"moment", r.sum.moment},
+          {"centre", json_of(r.centre)},
+          {"moment_about_centre", r.sum.moment_about(r.centre)}};
 }
 
 Json json_of(const RigidSpec& rigid) {

@@ -88,18 +88,6 @@ std::vector<int> nodes_of(const Boundary& curve) {
   return nodes;
 }
 
-// The unknowns along x and y that an entry holds, each of the first that names it.
-std::vector<int> claim(const BoundarySpec& spec, const std::vector<int>& nodes, std::vector<char>& claimed) {
-  std::vector<int> unknowns;
-  for (const int node : nodes)
-    for (const int c : {0, 1}) {
-      if (!(c == 0 ? spec.displacement_x : spec.displacement_y) || claimed[2 * node + c]) continue;
-      claimed[2 * node + c] = 1;
-      unknowns.push_back(2 * node + c);
-    }
-  return unknowns;
-}
-
 Resultant sum_of_loads(const Mesh& mesh, const Discretisation& d) {
   Resultant sum;
   const VecX loads = d.system.f - d.initial_load;
@@ -122,7 +110,6 @@ Reactions find_reactions(const Scene& scene, const Mesh& mesh, const Discretisat
       sum.add(mesh.nodes.row(one.node).transpose(), forces.ties.segment<2>(2 * one.node));
   }
   const SceneNames names(mesh);
-  std::vector<char> claimed(r.nodal.size(), 0);
   for (const BoundarySpec& spec : scene.boundaries) {
     Resultant& entry = r.entries.emplace_back();
     if (spec.is_load()) continue;
@@ -133,7 +120,7 @@ Reactions find_reactions(const Scene& scene, const Mesh& mesh, const Discretisat
           : spec.is_skew()                    ? collector.take_skew(number, nodes)
           : spec.rigid                        ? collector.take(nodes, true, true)
                        : collector.take(nodes, spec.displacement_x.has_value(), spec.displacement_y.has_value());
-      r.curves.push_back({number, name, centre, sum, claim(spec, nodes, claimed)});
+      r.curves.push_back({number, name, centre, sum});
       entry += sum;
     };
     for (const std::string& name : spec.on) {

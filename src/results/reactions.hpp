@@ -13,9 +13,6 @@ struct Reaction {
   std::string on;  ///< name of the curve or point
   Vec2 centre;     ///< of the curve, its mean place along its length; of a point its nodes' mean place
   Resultant sum;
-  std::vector<int> unknowns;  ///< whose forces these are; none of directions other than x and y, springs, rigid curves
-  /// Where errors are estimated: what the force and its moment about `centre` may be off by (error/force_errors.hpp).
-  std::optional<Eigen::Vector3d> error = {};
 };
 
 /// Forces on the bodies, times depth (base/model.hpp).
