@@ -106,12 +106,14 @@ Outline outline(const BoundaryEdges& boundary, const Points& nodes) {
 OutlinePlace nearest(const Outline& o, int piece, const Vec2& x) {
   const PieceOutline& p = o.pieces[piece];
   OutlinePlace best{-1, 0, std::numeric_limits<double>::infinity(), Vec2::Zero(), true};
-  p.edges.nearest_first(x, [&](int number, double distance) {
-    if (distance > std::abs(best.distance)) return false;
+  const auto look_at = [&](int number) {
     const OutlinePlace place = nearest_on_edge(o, p.first + number, x);
     if (std::abs(place.distance) < std::abs(best.distance)) best = place;
-    return true;
-  });
+  };
+  // No edge is nearer than one of the nearest box unless its box comes as near.
+  for (const int number : p.edges.nearest(x, 1)) look_at(number);
+  const Vec2 around = Vec2::Constant(std::abs(best.distance));
+  for (const int number : p.edges.meeting(Box(x - around, x + around))) look_at(number);
   return best;
 }
 

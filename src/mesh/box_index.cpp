@@ -54,12 +54,6 @@ std::vector<int> BoxIndex::meeting(const Vec2& from, const Vec2& to) const {
   return tree_->meeting(geometry::model::segment<Point>(point(from), point(to)));
 }
 
-void BoxIndex::nearest_first(const Vec2& x, const std::function<bool(int, double)>& visit) const {
-  const auto all = static_cast<unsigned>(tree_->boxes.size());
-  for (auto it = tree_->boxes.qbegin(geometry::index::nearest(point(x), all)); it != tree_->boxes.qend(); ++it)
-    if (!visit(it->second, geometry::distance(point(x), it->first))) return;
-}
-
 std::vector<int> BoxIndex::nearest(const Vec2& x, int count) const {
   std::vector<Entry> found;
   tree_->boxes.query(geometry::index::nearest(point(x), unsigned(count)), std::back_inserter(found));

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -25,12 +24,7 @@ class BoxIndex {
   /// Of those that have a point in common with the straight line between two places.
   std::vector<int> meeting(const Vec2& from, const Vec2& to) const;
 
-  /// Calls `visit` with the numbers of the boxes, nearest to x first, until it returns false.
-  /// `visit(number, distance)`: distance of the box from x, 0 inside.
-  void nearest_first(const Vec2& x, const std::function<bool(int, double)>& visit) const;
-
-  /// Numbers of the `count` boxes nearest to x, nearest first; all where there are fewer. Far less work for many of
-  /// them than nearest_first.
+  /// Numbers of the `count` boxes nearest to x, nearest first; all where there are fewer.
   std::vector<int> nearest(const Vec2& x, int count) const;
 
  private:

@@ -34,35 +34,7 @@ std::vector<Box> boxes_of(const std::vector<Triangle>& triangles) {
   return boxes;
 }
 
-std::vector<Box> boxes_of(const std::vector<SizeLayers>& layers) {
-  std::vector<Box> boxes;
-  for (const SizeLayers& layer : layers) boxes.emplace_back(layer.centre);
-  return boxes;
-}
-
-double infinite() { return std::numeric_limits<double>::infinity(); }
-
 }  // namespace
-
-LayeredSizes::LayeredSizes(std::vector<SizeLayers> layers)
-    : layers_(std::move(layers)), least_(infinite()), growth_(infinite()), centres_(boxes_of(layers_)) {
-  for (const SizeLayers& layer : layers_) {
-    least_ = std::min(least_, layer.least);
-    growth_ = std::min(growth_, layer.growth);
-  }
-}
-
-double LayeredSizes::operator()(const Vec2& x) const {
-  constexpr double round_off = 1e-12;
-  double size = infinite();
-  centres_.nearest_first(x, [&](int number, double distance) {
-    if (least_ + growth_ * distance > (1 + round_off) * size) return false;
-    const SizeLayers& layer = layers_[number];
-    size = std::min(size, layer.least + layer.growth * (x - layer.centre).norm());
-    return true;
-  });
-  return size;
-}
 
 SizeField::SizeField(const Mesh& mesh, const VecX& sizes, std::vector<SizeLayers> layers)
     : SizeField(triangles_of(mesh, sizes), std::move(layers)) {}
@@ -99,13 +71,9 @@ double SizeField::operator()(const Vec2& x) const {
     }
   };
   for (const int number : boxes_.meeting(Box(x))) look_at(number);
-  if (!std::isfinite(nearest)) {  // far outside
-    int left = 8;
-    boxes_.nearest_first(x, [&](int number, double) {
-      look_at(number);
-      return --left > 0;
-    });
-  }
+  constexpr int looked_at = 8;
+  if (!std::isfinite(nearest))  // far outside
+    for (const int number : boxes_.nearest(x, looked_at)) look_at(number);
   if (nearest > inside) size = at_nearest;
   return std::min(size, layers_(x));
 }

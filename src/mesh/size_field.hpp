@@ -2,28 +2,10 @@
 #pragma once
 
 #include "mesh/box_index.hpp"
+#include "mesh/layered_sizes.hpp"
 #include "mesh/mesh.hpp"
 
 namespace mortise {
-
-/// Towards a point elements shrink to `least`: least + growth * distance.
-struct SizeLayers {
-  Vec2 centre;
-  double least, growth;
-};
-
-/// The least of many layers, infinite of none. Looks at those nearby only, as far as their sizes differ little.
-class LayeredSizes {
- public:
-  explicit LayeredSizes(std::vector<SizeLayers> layers);
-
-  double operator()(const Vec2& x) const;
-
- private:
-  std::vector<SizeLayers> layers_;
-  double least_, growth_;  // of all
-  BoxIndex centres_;
-};
 
 /// Sizes at the vertices of a mesh, linear over its triangles (quadrilaterals are cut in two); outside the mesh those
 /// of the nearest one. Where triangles of two bodies meet, and under layers, the least. `sizes`: one a node, length;

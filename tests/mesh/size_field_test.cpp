@@ -55,21 +55,5 @@ TEST(SizeField, GrowsNoFasterThanItMay) {
   EXPECT_EQ(sizes(mesh.cells.back().nodes[0]), 10);  // the other body
 }
 
-TEST(LayeredSizes, AreTheLeastOfAllLayers) {
-  std::vector<SizeLayers> layers;
-  for (int k = 0; k < 200; ++k) {
-    const double angle = 2.4 * k;
-    layers.push_back({std::sqrt(k) * Vec2(std::cos(angle), std::sin(angle)), 0.01 * (1 + k % 7), 0.2 + 0.1 * (k % 3)});
-  }
-  const LayeredSizes sizes(layers);
-  for (int k = 0; k < 100; ++k) {
-    const Vec2 x(0.3 * k - 15, 20 * std::sin(k));
-    double least = 1e300;
-    for (const SizeLayers& l : layers) least = std::min(least, l.least + l.growth * (x - l.centre).norm());
-    EXPECT_EQ(sizes(x), least);
-  }
-  EXPECT_TRUE(std::isinf(LayeredSizes({})(Vec2::Zero())));
-}
-
 }  // namespace
 }  // namespace mortise
