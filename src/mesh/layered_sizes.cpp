@@ -6,7 +6,7 @@
 namespace mortise {
 namespace {
 
-constexpr int leaf = 8;                // layers; a few are looked at sooner than their boxes
+constexpr int leaf = 8;                  // layers; a few are looked at sooner than their boxes
 constexpr double round_off = 1 - 1e-12;  // of a bound, which must not be above what it bounds
 
 }  // namespace
@@ -28,9 +28,8 @@ void LayeredSizes::grow(int first, int last) {
   branches_.push_back(branch);
   if (last - first <= leaf) return;
   const int middle = (first + last) / 2, axis = branch.centres.sizes().x() < branch.centres.sizes().y();
-  std::nth_element(from, layers_.begin() + middle, to, [axis](const SizeLayers& a, const SizeLayers& b) {
-    return a.centre(axis) < b.centre(axis);
-  });
+  std::nth_element(from, layers_.begin() + middle, to,
+                   [axis](const SizeLayers& a, const SizeLayers& b) { return a.centre(axis) < b.centre(axis); });
   grow(first, middle);
   branches_[number].second = int(branches_.size());
   grow(middle, last);

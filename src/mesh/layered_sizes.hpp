@@ -22,7 +22,8 @@ class LayeredSizes {
   double operator()(const Vec2& x) const;
 
  private:
-  /// Layers first ... last - 1; the first half of them is the next branch, the second half number `second`, 0 in leaves.
+  /// Layers first ... last - 1; the first half of them is the next branch, the second half number `second`, 0 in
+  /// leaves.
   struct Branch {
     Box centres;
     double least, growth;

@@ -30,8 +30,7 @@ TEST(Outline, FindsTheNearestOfSlantedEdges) {
   for (const double angle : {0.3, 0.8, 2.0}) {
     Mesh mesh = testing_meshes::plate(CellKind::quad8, 3, 2);
     const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
-    for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i)
-      mesh.nodes.row(i) = turn * Vec2(mesh.nodes.row(i).transpose());
+    for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i) mesh.nodes.row(i) = turn * Vec2(mesh.nodes.row(i).transpose());
     const Outline o = outline(boundary_edges(mesh), mesh.nodes);
     for (double x = -1.05; x < 4; x += 0.3)
       for (double y = -1.05; y < 3; y += 0.3) {
