@@ -10,8 +10,7 @@
 namespace mortise {
 namespace {
 
-constexpr double straight = std::numbers::pi;
-constexpr double alike = 1e-4;                         // radians; exponents differ by less than that
+constexpr double alike_angle = 1e-4;                   // radians; exponents differ by less than that
 constexpr double smooth = 2 * std::numbers::pi / 180;  // an edge's end is off by less on a curve
 
 // Free faces: sin(lambda w) + lambda sin w = 0 (Williams 1952) has its zero at singular_limit there, at 185 degrees; a
@@ -94,7 +93,7 @@ bool is_regular(const Fan& fan) {
 }
 
 double exponent_of(Fan fan, TipTable& tips) {
-  for (Wedge& w : fan.wedges) w.angle = alike * std::round(w.angle / alike);
+  for (Wedge& w : fan.wedges) w.angle = alike_angle * std::round(w.angle / alike_angle);
   return fan.closed ? tips.inside(fan.wedges) : tips.corner(fan.wedges, fan.first, fan.last);
 }
 

@@ -12,8 +12,6 @@
 namespace mortise {
 namespace {
 
-constexpr double straight = std::numbers::pi;
-
 // One kink of two bodies that slide across it is singular however little it turns (exponents near 0), but turns of
 // meshes and splines that are meant to be smooth are no kinks.
 constexpr double least_shared_kink = 2 * straight / 180;
@@ -53,7 +51,7 @@ struct Corner {
 };
 
 // One of the two curves with the line that it stands for.
-struct Side {
+struct LineSide {
   const Mesh& mesh;
   const SideTable& table;
   const Curve& curve;
@@ -89,7 +87,7 @@ struct Side {
 
 // What the tangent at an end of a drawn edge may be off by, radians: as much as that of every second place of the piece
 // there is.
-double Side::end_error(int e, int end) const {
+double LineSide::end_error(int e, int end) const {
   if (curve.samples.empty()) return 0;
   const std::vector<SamplePiece>& pieces = curve.samples[e].pieces;
   const auto& x = (end < 0 ? pieces.front() : pieces.back()).places;
@@ -110,7 +108,7 @@ double Side::end_error(int e, int end) const {
   return angle_between(slope, line.at(e, end).tangent);
 }
 
-Corner Side::corner(const Vertex& v) const {
+Corner LineSide::corner(const Vertex& v) const {
   if (!v.is_end()) return {wedge(straight - turn(v), law), false, edge_at(v), turn_error(v), v.node};
   for (const Edge& beyond : outline_at(mesh, table, v.node)) {
     const bool starts = beyond.nodes[0] == v.node;
@@ -123,7 +121,7 @@ Corner Side::corner(const Vertex& v) const {
 }
 
 // The body on the other side of a vertex, near it or far: where the normal there meets it.
-std::optional<Corner> facing(const Side& side, const Vertex& v, const Side& other) {
+std::optional<Corner> facing(const LineSide& side, const Vertex& v, const LineSide& other) {
   const Vec2 x = side.position(v);
   const double edge = side.edge_at(v);
   const Line line{x, side.normal(v), deepest_overlap(side.curve, std::max(v.before, v.after))};
@@ -198,8 +196,8 @@ std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& ta
                                            const Curve& second, const Constraints& constraints,
                                            const std::vector<ElasticLaw>& laws, TipTable& tips,
                                            const ContactReach& reach, bool one_curve) {
-  const Side sides[] = {{mesh, table, first, constraints, laws[first.body], ContactLine(mesh.nodes, first)},
-                        {mesh, table, second, constraints, laws[second.body], ContactLine(mesh.nodes, second)}};
+  const LineSide sides[] = {{mesh, table, first, constraints, laws[first.body], ContactLine(mesh.nodes, first)},
+                            {mesh, table, second, constraints, laws[second.body], ContactLine(mesh.nodes, second)}};
   std::vector<SingularPoint> points;
   std::vector<int> seen;  // vertices of the second curve that face one of the first
   for (const int k : {0, 1}) {

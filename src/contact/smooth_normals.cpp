@@ -10,7 +10,7 @@
 namespace mortise {
 namespace {
 
-constexpr double kink = 20 * std::numbers::pi / 180;
+constexpr double least_kink = 20 * std::numbers::pi / 180;
 
 Vec2 right_of(const Vec2& tangent) { return Vec2(tangent.y(), -tangent.x()).normalized(); }
 
@@ -33,7 +33,7 @@ class Vertices {
   }
   bool smooth(int i) const {
     const auto [before, after] = of_edges(i);
-    return angle_between(before, after) < kink;
+    return angle_between(before, after) < least_kink;
   }
 
   // 3-node edges turn within, those of 2 nodes at their vertices.

@@ -7,6 +7,7 @@
 #include <complex>
 #include <map>
 #include <mutex>
+#include <numbers>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "fem/material.hpp"
 
 namespace mortise {
+
+constexpr double straight = std::numbers::pi;  // the angle of a boundary without a corner
 
 /// What holds a straight face of a wedge: nothing, u = 0, the face as a line of symmetry (u_theta = sigma_rtheta = 0),
 /// or of antisymmetry (u_r = sigma_thetatheta = 0).

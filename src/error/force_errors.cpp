@@ -21,14 +21,14 @@ double unit_motion(const Mesh& mesh, int i, int c, const Vec2& centre) {
   return i % 2 == 0 ? -arm.y() : arm.x();
 }
 
-struct Asked {
+struct AskedForce {
   std::size_t pair;
   int component;  // x, y, the moment
 };
 
 // m: by how much the rows are to open where the multiplier side of a pair moves by 1.
 VecX opened_rows(const Mesh& mesh, const SaddlePointSystem& system, const std::vector<ContactPair>& pairs,
-                 const std::vector<Vec2>& centres, const Asked& asked) {
+                 const std::vector<Vec2>& centres, const AskedForce& asked) {
   const ContactPair& pair = pairs[asked.pair];
   VecX motion = VecX::Zero(system.K.cols()), rows = VecX::Zero(system.B.rows());
   for (const int node : curve_nodes(pair.multiplier))
@@ -115,7 +115,7 @@ VecX along_normals(const Mesh& mesh, const ContactPair& pair, int component, con
 VecX errors_by_duals(const Mesh& mesh, const BodyPoints& points, const Discretisation& d,
                      const std::vector<ContactPair>& pairs, const Solution& solution,
                      const std::vector<PressureEstimate>& pressures, const std::vector<Vec2>& centres,
-                     const std::vector<Asked>& asked) {
+                     const std::vector<AskedForce>& asked) {
   const SaddlePointSystem& s = d.system;
   const auto count = Eigen::Index(asked.size());
   MatX rows(s.B.rows(), count);
@@ -126,7 +126,7 @@ VecX errors_by_duals(const Mesh& mesh, const BodyPoints& points, const Discretis
     for (std::size_t p = 0; p < pairs.size(); ++p) {
       MatX opened = openings(pairs[p], z);
       for (Eigen::Index k = 0; k < z.cols(); ++k) {
-        const Asked& one = asked[first + k];
+        const AskedForce& one = asked[first + k];
         if (one.pair == p) opened.col(k) += along_normals(mesh, pairs[p], one.component, centres[p]);
       }
       errors.segment(first, z.cols()) += line_part(pairs[p], pressures[p].line, pressures[p].local, opened).sum();
@@ -166,10 +166,10 @@ std::vector<Eigen::Vector3d> force_errors(const Mesh& mesh, const BodyPoints& po
   if (pairs.size() > std::size_t(most_own_duals) || mesh.bodies.size() > std::size_t(most_own_duals)) return errors;
   const Statics statics(mesh, points, d.system);
   const VecX left = what_is_left(d.system, solution);
-  std::vector<Asked> asked;
+  std::vector<AskedForce> asked;
   for (std::size_t k = 0; k < pairs.size(); ++k)
     for (int c = 0; c < 3; ++c) {
-      const Asked one{k, c};
+      const AskedForce one{k, c};
       if (const auto motion = statics.motion(opened_rows(mesh, d.system, pairs, centres, one)))
         errors[k](c) = left.dot(motion->cwiseAbs());
       else

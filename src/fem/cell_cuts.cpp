@@ -10,8 +10,8 @@
 namespace mortise {
 namespace {
 
-constexpr double linear_cell = 0.01, linear_piece = 0.05, small_piece = 1e-7, hidden_part = 1. / 256;
-constexpr std::size_t most_pieces = 400;
+constexpr double linear_cell = 0.01, linear_piece = 0.05, small_piece = 1e-7, hidden_in_cell = 1. / 256;
+constexpr std::size_t most_cell_pieces = 400;
 constexpr int blind_splits = 6;  // 64 pieces where no range is known
 constexpr int piece_points = 9;
 
@@ -104,7 +104,8 @@ class Looking {
       if (!range_of.known()) continue;
       const Interval range = range_of({{low.x(), high.x()}, {low.y(), high.y()}, {}});
       const auto [least, most] = std::minmax_element(f.begin(), f.begin() + 2 * n + 1);
-      const double beyond = std::max(range.high - *most, *least - range.low) - (*most - *least) - hidden_part * scale;
+      const double beyond =
+          std::max(range.high - *most, *least - range.low) - (*most - *least) - hidden_in_cell * scale;
       if (!(beyond > 0)) continue;
       looked.hidden = true;
       looked.error = std::max(looked.error, std::min(beyond / scale, 1e6));
@@ -158,7 +159,7 @@ std::vector<CellPiece> resolving_pieces(const Points& nodes, const Cell& cell, c
   }
   for (const CellPiece& piece : start) add(piece);
   if (blind && linear) return {};
-  while (!open.empty() && open.size() + settled.size() < most_pieces) {
+  while (!open.empty() && open.size() + settled.size() < most_cell_pieces) {
     const Looked worst = open.top();
     if (std::min(worst.error, 1.0) * worst.piece.part < small_piece) break;
     open.pop();

@@ -7,7 +7,7 @@
 namespace mortise {
 namespace {
 
-constexpr int points = 4;           // of the rule that loads are integrated by
+constexpr int rule_points = 4;      // of the rule that loads are integrated by
 constexpr double tolerance = 1e-9;  // of the scale: what is left is round-off beside any accuracy that is asked for
 // Of the scale: ranges are wider than values by a part of the piece, and the tails of a spike below it hold 0.4 %.
 constexpr double hidden_part = 1. / 256;
@@ -16,7 +16,7 @@ constexpr std::size_t most_pieces = 4096;
 constexpr int blind_pieces = 16;  // where no range is known
 
 const LineRule& rule() {
-  static const LineRule four = gauss_legendre(points);
+  static const LineRule four = gauss_legendre(rule_points);
   return four;
 }
 
@@ -25,13 +25,13 @@ using Moments = Eigen::Vector3d;  // of 1, t, t^2
 // What four points see of a piece.
 struct Sampled {
   double from, to;
-  std::array<double, points> at, value;
+  std::array<double, rule_points> at, value;
 
   double length() const { return to - from; }
   // About a centre: t = (xi - centre) / size.
   Moments moments(double centre, double size) const {
     Moments sum = Moments::Zero();
-    for (int q = 0; q < points; ++q) {
+    for (int q = 0; q < rule_points; ++q) {
       const double t = (at[q] - centre) / size;
       sum += length() / 2 * rule().weights[q] * value[q] * Moments(1, t, t * t);
     }
@@ -52,7 +52,7 @@ struct Piece {
 
 Sampled sample(const LineFunction& f, double from, double to) {
   Sampled s{from, to, {}, {}};
-  for (int q = 0; q < points; ++q) {
+  for (int q = 0; q < rule_points; ++q) {
     s.at[q] = from + s.length() / 2 * (1 + rule().points[q]);
     s.value[q] = f.at(s.at[q]);
   }
@@ -161,7 +161,7 @@ LineRule cut_rule(const std::vector<double>& cuts, int gauss_points) {
 
 LineMisfit misfit(const LineFunction& f, const std::vector<double>& cuts) {
   if (cuts.size() == 2) return {};
-  const LineRule all = cut_rule(cuts, points);
+  const LineRule all = cut_rule(cuts, rule_points);
   const std::size_t count = all.points.size();
   std::vector<double> values(count);
   Moments legendre = Moments::Zero();  // int f P_k
@@ -183,8 +183,8 @@ LineMisfit misfit(const LineFunction& f, const std::vector<double>& cuts) {
   }
   const auto [low, high] = std::ranges::minmax(values);
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-    const auto first = values.begin() + std::ptrdiff_t(points * i);
-    const auto [least, most] = std::minmax_element(first, first + points);
+    const auto first = values.begin() + std::ptrdiff_t(rule_points * i);
+    const auto [least, most] = std::minmax_element(first, first + rule_points);
     if (*most - *least >= 0.1 * (high - low)) found.finest = std::min(found.finest, cuts[i + 1] - cuts[i]);
   }
   return found;

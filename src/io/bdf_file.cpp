@@ -52,7 +52,7 @@ bool is_left_out(const std::string& name) {
   return false;
 }
 
-std::string trimmed(const std::string& text) {
+std::string without_blanks(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t");
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
@@ -63,7 +63,7 @@ std::vector<std::string> fields_of(const std::string& line) {
   if (line.find(',') != std::string::npos) {
     for (std::size_t from = 0; from <= line.size();) {
       const std::size_t end = std::min(line.find(',', from), line.size());
-      fields.push_back(trimmed(line.substr(from, end - from)));
+      fields.push_back(without_blanks(line.substr(from, end - from)));
       from = end + 1;
     }
     if (fields.size() > 9) fields.resize(9);
@@ -71,10 +71,10 @@ std::vector<std::string> fields_of(const std::string& line) {
   }
   const std::string head = line.substr(0, 8);
   const bool wide = head.find('*') != std::string::npos;
-  fields.push_back(trimmed(head));
+  fields.push_back(without_blanks(head));
   const std::size_t width = wide ? 16 : 8;
   for (std::size_t from = 8; from < std::min<std::size_t>(line.size(), 72); from += width)
-    fields.push_back(trimmed(line.substr(from, width)));
+    fields.push_back(without_blanks(line.substr(from, width)));
   return fields;
 }
 
@@ -90,9 +90,9 @@ std::string without_tabs(const std::string& line) {
   return text;
 }
 
-class Reader {
+class BdfReader {
  public:
-  explicit Reader(const std::string& file) { mesh_.file = file; }
+  explicit BdfReader(const std::string& file) { mesh_.file = file; }
 
   SetMesh read() {
     std::vector<Entry> nodes, elements;
@@ -138,7 +138,7 @@ class Reader {
     std::string text;
     for (int line = 1; std::getline(stream, text); ++line) {
       text = without_tabs(text.substr(0, text.find_first_of("$\r")));
-      if (trimmed(text).empty()) continue;
+      if (without_blanks(text).empty()) continue;
       std::vector<std::string> fields = fields_of(text);
       std::string name = fields[0];
       if (name.empty() || name[0] == '+' || name[0] == '*') {
@@ -152,7 +152,7 @@ class Reader {
       std::ranges::transform(name, name.begin(),
                              [](char c) { return char(std::toupper(static_cast<unsigned char>(c))); });
       if (name == "ENDDATA") break;
-      found.push_back({trimmed(name.substr(0, name.find(' '))), line, {fields.begin() + 1, fields.end()}});
+      found.push_back({without_blanks(name.substr(0, name.find(' '))), line, {fields.begin() + 1, fields.end()}});
     }
     return found;
   }
@@ -212,6 +212,6 @@ class Reader {
 
 }  // namespace
 
-SetMesh read_bdf(const std::string& file) { return Reader(file).read(); }
+SetMesh read_bdf(const std::string& file) { return BdfReader(file).read(); }
 
 }  // namespace mortise

@@ -15,7 +15,7 @@ namespace mortise {
 namespace {
 
 // Without blanks around it, and the quotes round those.
-std::string_view trimmed(std::string_view field) {
+std::string_view bare(std::string_view field) {
   for (const std::string_view around : {" \t\r", "\"", " \t"}) {
     const std::size_t first = field.find_first_not_of(around);
     if (first == std::string_view::npos) return {};
@@ -32,15 +32,15 @@ std::vector<std::string_view> fields_of(std::string_view line, char separator) {
   for (std::size_t i = 0; i <= line.size(); ++i) {
     if (i < line.size() && line[i] == '"') quoted = !quoted;
     if (i < line.size() && (quoted || line[i] != separator)) continue;
-    fields.push_back(trimmed(line.substr(from, i - from)));
+    fields.push_back(bare(line.substr(from, i - from)));
     from = i + 1;
   }
   return fields;
 }
 
-class Reader {
+class CsvReader {
  public:
-  Reader(const std::string& file, const std::string& column) : file_(file), stream_(file, std::ios::binary) {
+  CsvReader(const std::string& file, const std::string& column) : file_(file), stream_(file, std::ios::binary) {
     std::string line;
     if (!next(line)) throw InputError(file + ": cannot be read, or is empty");
     if (line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
@@ -57,7 +57,7 @@ class Reader {
   CsvPoints read() {
     std::string line;
     while (next(line)) {
-      if (trimmed(line).empty()) continue;
+      if (bare(line).empty()) continue;
       const std::vector<std::string_view> fields = fields_of(line, separator_);
       std::array<double, 3> row{};
       for (int k = 0; k < 3; ++k) row[k] = number(fields, columns_[k]);
@@ -128,6 +128,6 @@ class Reader {
 
 }  // namespace
 
-CsvPoints read_csv_points(const std::string& file, const std::string& column) { return Reader(file, column).read(); }
+CsvPoints read_csv_points(const std::string& file, const std::string& column) { return CsvReader(file, column).read(); }
 
 }  // namespace mortise

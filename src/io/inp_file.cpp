@@ -34,9 +34,9 @@ void order_as_gmsh(SetElement& element) {
   if (element.type == 8) std::swap(element.nodes[1], element.nodes[2]);
 }
 
-class Reader {
+class InpReader {
  public:
-  explicit Reader(const std::string& file) : input_(file), cards_(read_inp_cards(input_)) { mesh_.file = file; }
+  explicit InpReader(const std::string& file) : input_(file), cards_(read_inp_cards(input_)) { mesh_.file = file; }
 
   SetMesh read() {
     for (const InpCard& card : cards_) check(card);
@@ -161,6 +161,6 @@ class Reader {
 
 }  // namespace
 
-SetMesh read_inp(const std::string& file) { return Reader(file).read(); }
+SetMesh read_inp(const std::string& file) { return InpReader(file).read(); }
 
 }  // namespace mortise

@@ -10,7 +10,7 @@ void sort_members(std::vector<int>& members) {
   members.erase(std::unique(members.begin(), members.end()), members.end());
 }
 
-bool is_number(const std::string& field) {
+bool is_entity_number(const std::string& field) {
   return !field.empty() && std::ranges::all_of(field, [](char c) { return c >= '0' && c <= '9'; });
 }
 
@@ -90,7 +90,7 @@ void InpSets::read_members(const InpLine& line, const Sets& sets, std::vector<in
   for (const std::string& field : line.fields) {
     if (field.empty()) continue;
     const std::string tag = field.substr(field.rfind('.') + 1);  // behind the name of an instance
-    if (!is_number(tag)) {
+    if (!is_entity_number(tag)) {
       const std::vector<int> others = known_set(sets, line.record, field).members;
       members.insert(members.end(), others.begin(), others.end());
       sort_members(members);

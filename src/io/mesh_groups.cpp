@@ -13,7 +13,7 @@
 namespace mortise {
 namespace {
 
-constexpr std::array kinds{"point", "curve", "surface"};  // by dimension
+constexpr std::array section_kinds{"point", "curve", "surface"};  // by dimension
 
 /// The node of these elements that is nearest to the middle of them all, for messages.
 std::string near_block(const MeshData& data, const ElementBlock& block) {
@@ -42,7 +42,7 @@ void check_names(const MeshData& data, int dimension) {
   std::map<std::string, int> tag_of;
   for (const PhysicalGroup& group : data.groups) {
     if (group.dimension != dimension) continue;
-    const std::string what = std::string("physical ") + kinds[dimension] + " " + std::to_string(group.tag);
+    const std::string what = std::string("physical ") + section_kinds[dimension] + " " + std::to_string(group.tag);
     check_name(data, group, what);
     const auto [found, inserted] = tag_of.emplace(group.name, group.tag);
     if (!inserted) {
@@ -79,7 +79,7 @@ void check_surfaces(const MeshData& data) {
 void name_groups(MeshData& data) {
   for (PhysicalGroup& group : data.groups) {
     if (!group.name.empty()) continue;
-    group.name = kinds[group.dimension] + ("_" + std::to_string(group.tag));
+    group.name = section_kinds[group.dimension] + ("_" + std::to_string(group.tag));
     if (group.dimension > 0) data.named_by_tag = true;
   }
 }

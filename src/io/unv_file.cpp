@@ -46,9 +46,9 @@ std::size_t entity_length(int dataset) {
   return 0;
 }
 
-class Reader {
+class UnvReader {
  public:
-  explicit Reader(const std::string& file) : input_(file) { mesh_.file = file; }
+  explicit UnvReader(const std::string& file) : input_(file) { mesh_.file = file; }
 
   SetMesh read() {
     std::map<int, std::vector<std::vector<InpLine>>> datasets;
@@ -200,6 +200,6 @@ class Reader {
 
 }  // namespace
 
-SetMesh read_unv(const std::string& file) { return Reader(file).read(); }
+SetMesh read_unv(const std::string& file) { return UnvReader(file).read(); }
 
 }  // namespace mortise

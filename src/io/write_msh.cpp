@@ -42,12 +42,12 @@ struct Block {
 };
 
 // Edges that belong to the same boundaries.
-struct Curves {
+struct DrawnCurves {
   std::vector<std::vector<int>> boundaries;  // of each curve, ascending
   std::vector<Block> blocks;
 };
 
-Curves curves_of(const Mesh& mesh) {
+DrawnCurves curves_of(const Mesh& mesh) {
   struct Named {
     const Edge* edge;
     std::vector<int> boundaries;
@@ -61,7 +61,7 @@ Curves curves_of(const Mesh& mesh) {
       if (is_new) edges.push_back({&edge, {}});
       edges[at->second].boundaries.push_back(int(b));
     }
-  Curves curves;
+  DrawnCurves curves;
   std::map<std::vector<int>, int> numbers;
   std::map<std::pair<int, int>, std::size_t> blocks;  // by curve and type
   for (const Named& named : edges) {
@@ -170,7 +170,7 @@ void write_elements(std::FILE* f, const std::vector<Block>& blocks) {
 }
 
 void write_sections(std::FILE* f, const Mesh& mesh) {
-  const Curves curves = curves_of(mesh);
+  const DrawnCurves curves = curves_of(mesh);
   const std::vector<Block> cells = blocks_of_cells(mesh);
   const std::vector<PointEntity> points = points_of(mesh);
   std::vector<std::vector<int>> surfaces;

@@ -9,7 +9,7 @@ namespace mortise {
 namespace {
 
 // p is exactly zero where contact is open: more than round-off of the largest means that it is closed up to the end.
-constexpr double least_pressure = 1e-3;
+constexpr double least_end_pressure = 1e-3;
 
 // The edges of the outline by their ends: of two bodies that are bonded each has its own direction.
 using EdgeAt = std::map<std::pair<int, int>, int>;
@@ -62,7 +62,7 @@ void add_ends(const AuditedBodies& b, const EdgeAt& edges, const Curve& curve, i
   if (curve.closed) return;
   for (const bool at_back : {false, true}) {
     const int node = at_back ? curve.edges.back().nodes[1] : curve.edges.front().nodes[0];
-    if (!(pressure_at(side, node) > least_pressure * p_max)) continue;
+    if (!(pressure_at(side, node) > least_end_pressure * p_max)) continue;
     const int beyond = edge_beyond(b, edges, curve, at_back);
     if (beyond < 0 || paired_with_body(b, beyond, other_body) || !faces(b, beyond, other_body)) continue;
     places += (places.empty() ? "'" : " and of '") + side.curve + "' " + near_point(b.mesh.nodes.row(node).transpose());

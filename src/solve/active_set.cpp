@@ -8,8 +8,8 @@
 namespace mortise {
 namespace {
 
-constexpr double negligible_penetration = 1e-11;  // of the largest displacement
-constexpr double without_pressure = 1e-8;         // of the largest: rows that are closed again if they must be
+constexpr double least_penetration = 1e-11;  // of the largest displacement
+constexpr double without_pressure = 1e-8;    // of the largest: rows that are closed again if they must be
 
 // Unilateral rows that must not stay as they are: closed and in tension, or open and penetrated; `step` has the most of
 // both.
@@ -162,7 +162,7 @@ ActiveSetResult find_active_set(const ComplementarityProblem& p, const VecX& rhs
 bool penetrates(const SaddlePointSystem& s, const Solution& solution) {
   if (s.unilateral.empty()) return false;
   const VecX w = (s.B * solution.u - s.g).cwiseQuotient(s.row_scale);
-  const double penetration = negligible_penetration * largest_entry(solution.u);
+  const double penetration = least_penetration * largest_entry(solution.u);
   for (Eigen::Index a = 0; a < w.size(); ++a)
     if (s.unilateral[a] && !solution.active[a] && w(a) < -penetration) return true;
   return false;

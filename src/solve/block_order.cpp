@@ -15,7 +15,7 @@ namespace {
 static_assert(sizeof(idx_t) == sizeof(int));
 
 // Who is coupled to whom: the neighbours of i are row[start[i]] ... row[start[i + 1] - 1], rising.
-struct Graph {
+struct BlockGraph {
   std::vector<int> start{0}, row;
 
   int size() const { return int(start.size()) - 1; }
@@ -41,8 +41,8 @@ struct Nodes {
 };
 
 // Of each node the ones before it.
-Graph nodes_before(const SparseMatrix& upper, const std::vector<int>& blocks, const Nodes& nodes) {
-  Graph graph;
+BlockGraph nodes_before(const SparseMatrix& upper, const std::vector<int>& blocks, const Nodes& nodes) {
+  BlockGraph graph;
   graph.row.reserve(1);  // AMD wants an address also where nothing is coupled
   for (int b = 0; b < nodes.size(); ++b) {
     for (SparseMatrix::InnerIterator it(upper, nodes.unknowns[nodes.first[b]]); it; ++it) {
@@ -56,8 +56,8 @@ Graph nodes_before(const SparseMatrix& upper, const std::vector<int>& blocks, co
 }
 
 // The part of a graph between kept nodes, in both directions; `number` of a kept one is its place among them, else -1.
-Graph both_ways(const Graph& before, const std::vector<int>& number) {
-  Graph both;
+BlockGraph both_ways(const BlockGraph& before, const std::vector<int>& number) {
+  BlockGraph both;
   const auto for_each_edge = [&](auto visit) {
     for (int b = 0; b < before.size(); ++b)
       for (const int* r = before.begin(b); number[b] >= 0 && r != before.end(b); ++r)
@@ -79,7 +79,7 @@ Graph both_ways(const Graph& before, const std::vector<int>& number) {
 }
 
 // Whether all neighbours of b are a or neighbours of a.
-bool covers(const Graph& graph, int a, int b) {
+bool covers(const BlockGraph& graph, int a, int b) {
   const int* at = graph.begin(a);
   for (const int* j = graph.begin(b); j != graph.end(b); ++j) {
     if (*j == a) continue;
@@ -91,7 +91,7 @@ bool covers(const Graph& graph, int a, int b) {
 
 // Calls visit(a) for each neighbour that covers b and is above it: has more neighbours, or as many and comes first.
 template <typename Visit>
-void for_each_cover(const Graph& graph, int b, Visit visit) {
+void for_each_cover(const BlockGraph& graph, int b, Visit visit) {
   for (const int* a = graph.begin(b); a != graph.end(b); ++a) {
     const int more = graph.degree(*a) - graph.degree(b);
     if ((more > 0 || (more == 0 && *a < b)) && covers(graph, *a, b)) visit(*a);
@@ -109,7 +109,7 @@ struct Places {
   std::array<idx_t, 3> sizes;
 };
 
-Places dissected(Graph graph) {
+Places dissected(BlockGraph graph) {
   static std::mutex one;  // it draws from the process's random numbers, from a seed of its own
   const std::lock_guard lock(one);
   idx_t options[METIS_NOPTIONS];
@@ -128,11 +128,11 @@ Places dissected(Graph graph) {
 // nodes that nothing covers has all there is to dissect, a third of the nodes of quadratic elements; a covered node is
 // eliminated just before the first of those that cover it. It is on that one's side of the separator: all its
 // neighbours are neighbours of that one.
-Order nested_dissection(const Graph& before) {
+Order nested_dissection(const BlockGraph& before) {
   const int count = before.size();
   std::vector<int> number(count);
   for (int b = 0; b < count; ++b) number[b] = b;
-  const Graph all = both_ways(before, number);
+  const BlockGraph all = both_ways(before, number);
   std::vector<int> cover_start{0}, covers_of;
   for (int b = 0, kept = 0; b < count; ++b) {
     for_each_cover(all, b, [&](int a) { covers_of.push_back(a); });
@@ -156,7 +156,7 @@ Order nested_dissection(const Graph& before) {
   return order;
 }
 
-Order minimum_degree(const Graph& before) {
+Order minimum_degree(const BlockGraph& before) {
   Order order{std::vector<int>(before.size()), before.size()};
   if (amd_order(before.size(), before.start.data(), before.row.data(), order.nodes.data(), nullptr, nullptr) < AMD_OK)
     throw std::runtime_error("AMD ordering failed");
@@ -169,7 +169,7 @@ Dissection dissection(const SparseMatrix& upper, const std::vector<int>& blocks,
                       int dissect) {
   if (unknowns.empty()) return {};
   const Nodes nodes(unknowns, blocks);
-  const Graph before = nodes_before(upper, blocks, nodes);
+  const BlockGraph before = nodes_before(upper, blocks, nodes);
   const Order order = int(unknowns.size()) < dissect ? minimum_degree(before) : nested_dissection(before);
   Dissection result;
   result.order.reserve(unknowns.size());

@@ -3,7 +3,7 @@
 namespace mortise {
 namespace {
 
-constexpr double negligible_tension = 1e-10;      // of the largest multiplier (over its scale)
+constexpr double least_tension = 1e-10;           // of the largest multiplier (over its scale)
 constexpr double negligible_penetration = 1e-11;  // of the largest term of any w
 constexpr double unheld = 1e-14;  // of the mean stiffness against motions: a few round-offs of its largest part
 
@@ -56,7 +56,7 @@ ContactRows::Answer DenseRows::solve(const std::vector<char>& closed, const VecX
                              : springs() == 0 ? terms
                                               : largest(moved_most, 1e-2 * terms),
                largest_stress = largest_entry(answer.lambda.cwiseQuotient(p_.scale));
-  answer.negligible_tension = std::max(negligible_tension * largest_stress, negligible_stress_);
+  answer.negligible_tension = std::max(least_tension * largest_stress, negligible_stress_);
   answer.negligible_penetration = std::max(negligible_penetration * largest_gap, p_.round_off);
   answer.driven_mode = system_->driven_mode(rhs);
   answer.opening = opened(answer.driven_mode);

@@ -5,14 +5,14 @@
 namespace mortise {
 namespace {
 
-constexpr int most_steps = 35;         // half as many again as the hardest problems of the tests take
-constexpr int least_progress = 5;      // good enough, and so many steps without any: round-off
-constexpr double exact = 1e-12;        // of the largest terms: some thousand round-offs
-constexpr double round_off = 1e-15;    // of the largest terms, its square of their product
-constexpr double apart = 1e5;          // pressure over gap, or gap over pressure, of a row that is told
-constexpr double good_enough = 1e-5;   // the same, for the rows to be told apart
-constexpr double runaway = 1e8;        // pressures over those of the start, where nothing carries the load
-constexpr double to_the_edge = 0.995;  // of the way to where a pressure or a gap is zero (Mehrotra 1992)
+constexpr int most_steps = 35;            // half as many again as the hardest problems of the tests take
+constexpr int least_progress = 5;         // good enough, and so many steps without any: round-off
+constexpr double exact = 1e-12;           // of the largest terms: some thousand round-offs
+constexpr double path_round_off = 1e-15;  // of the largest terms, its square of their product
+constexpr double apart = 1e5;             // pressure over gap, or gap over pressure, of a row that is told
+constexpr double good_enough = 1e-5;      // the same, for the rows to be told apart
+constexpr double runaway = 1e8;           // pressures over those of the start, where nothing carries the load
+constexpr double to_the_edge = 0.995;     // of the way to where a pressure or a gap is zero (Mehrotra 1992)
 
 // Newton's method for x = -lambda and z = w, both positive on unilateral rows. Compared are x over, and gaps times, the
 // root of the compliance of each row, and work over the root of each motion's stiffness: all are then of one unit.
@@ -163,7 +163,7 @@ InteriorPoint find_interior_point(ContactRows& rows) {
       best.at = path.at();
       best.closed = path.closed();
     }
-    best.converged = path.error() <= exact && (path.told() || path.product() <= round_off * round_off);
+    best.converged = path.error() <= exact && (path.told() || path.product() <= path_round_off * path_round_off);
   }
   best.converged = least <= good_enough;
   return best;

@@ -5,7 +5,7 @@
 namespace mortise {
 namespace {
 
-constexpr double round_off = 1e-12;  // of the largest terms
+constexpr double fit_round_off = 1e-12;  // of the largest terms
 
 class Fit {
  public:
@@ -34,7 +34,7 @@ class Fit {
     const VecX residual = b_ - A_ * x_, along = A_.transpose() * residual;
     const double terms = largest_entry(b_) + largest_entry(A_.cwiseAbs() * x_.cwiseAbs());
     Eigen::Index best = -1;
-    double most = round_off * terms;
+    double most = fit_round_off * terms;
     for (Eigen::Index a = 0; a < along.size(); ++a)
       if (!used_[a] && !refused_[a] && size_(a) > 0 && along(a) / size_(a) > most) {
         best = a;
