@@ -20,6 +20,11 @@ namespace {
 
 struct Interrupted {};
 
+// A scene that is refused on a mesh that was made.
+struct RefusedOnMesh {
+  InputError error;
+};
+
 constexpr int least_edges = 10;      // along a contact curve, of any mesh after the first
 constexpr double largest_step = 16;  // by which one mesh is to lower the error: a coarse one's estimate is not exact
 constexpr double aimed = 0.7;        // of what was asked, lest a mesh that just misses it be solved in vain
@@ -92,7 +97,14 @@ class Loop {
       for (;;) {
         std::optional<ActiveSet> start;
         if (last) start = active_set(*last);
-        Results r = solve_on(sizes, start ? &*start : nullptr, int(report.solves.size()) + 1);
+        Results r;
+        try {
+          r = solve_on(sizes, start ? &*start : nullptr, int(report.solves.size()) + 1);
+        } catch (const RefusedOnMesh& refused) {  // what was solved on the mesh before
+          if (!last || others_++ == most_others) throw InputError(refused.error);
+          sizes = finer(sizes);
+          continue;
+        }
         seconds += r.seconds;
         const bool confirmed = last && !is_pressed(*last) && !is_pressed(r);  // p = 0 on two meshes is an answer
         report.solves.push_back({free_unknowns(r), confirmed ? 0 : estimated(r), r.seconds.total()});
@@ -104,7 +116,7 @@ class Loop {
         if (others_ == 0)
           sizes = next_sizes(*last);
         else
-          sizes = [sizes](const Vec2& x) { return sizes(x) / another; };
+          sizes = finer(sizes);
       }
     } catch (const Interrupted&) {
       if (!last) return std::nullopt;
@@ -116,8 +128,10 @@ class Loop {
     Stopwatch watch;
     set_force_bars(*last);
     seconds.estimate += watch.lap();
+    // What is left was spent on the geometry, and on the sizes of the next mesh.
+    seconds.mesh += watch_.elapsed() - seconds.total();
     last->seconds = seconds;
-    if (!report.reached()) last->status = std::max(last->status, Status::not_converged);
+    if (!report.reached()) last->status = std::max(last->status, Status::accuracy_not_reached);
     last->accuracy = std::move(report);
     return last;
   }
@@ -140,7 +154,7 @@ class Loop {
       at_limit_ = true;
     }
     const double meshing = watch.lap();
-    Results r = solve_scene(scene_, std::move(mesh), stage, start);
+    Results r = refusable([&] { return solve_scene(scene_, std::move(mesh), stage, start); });
     r.seconds.mesh = meshing;
     stage("estimate");
     try {
@@ -155,6 +169,19 @@ class Loop {
          << " unknowns)";
     told_ = text.str();
     return r;
+  }
+
+  static SizeAt finer(const SizeAt& sizes) {
+    return [sizes](const Vec2& x) { return sizes(x) / another; };
+  }
+
+  template <typename Work>
+  static Results refusable(Work work) {
+    try {
+      return work();
+    } catch (const InputError& error) {
+      throw RefusedOnMesh{error};
+    }
   }
 
   // Where gmsh refuses these sizes, of larger ones.
@@ -227,7 +254,7 @@ class Loop {
       return r.status == Status::not_converged ? "the solver did not converge"
              : spec_.of == Goal::pressure      ? "nothing is loaded, apart from what is left out"
                                                : "nothing is loaded there";
-    if (n >= most_solves) return std::to_string(n) + " solves";
+    if (int(n) >= spec_.solves_max) return std::to_string(n) + " solve" + (n > 1 ? "s" : "");
     if (at_limit_ || solves.back().unknowns >= spec_.unknowns_max) return "unknowns_max";
     if (n >= 4 && solves[n - 1].estimated > solves[n - 2].estimated &&
         solves[n - 2].estimated > solves[n - 3].estimated)
@@ -261,6 +288,7 @@ class Loop {
     return [field, factor = std::sqrt(std::max(1.0, excess))](const Vec2& x) { return factor * (*field)(x); };
   }
 
+  Stopwatch watch_;  // from the start
   const Scene& scene_;
   const AccuracySpec& spec_;
   const Progress& progress_;

@@ -21,6 +21,7 @@
 #include "io/output_folder.hpp"
 #include "io/write_msh.hpp"
 #include "mesh/measures.hpp"
+#include "results/error_report.hpp"
 #include "results/model_summary.hpp"
 #include "results/summary.hpp"
 #include "results/write_results.hpp"
@@ -102,7 +103,10 @@ int solve(const Options& options) {
   if (ranks().rank() == 0) results.seconds.write = write_results(scene, results, folder);
   line.reset();
   if (!options.quiet) say(terminal_summary(shown(scene), results, folder));
-  if (results.status != Status::solved)
+  if (results.status == Status::accuracy_not_reached)
+    std::cerr << "mortise: " << scene.path << ": " << to_string(results.status) << ": " << results.accuracy->reason
+              << "; largest part: " << largest_error(results) << "\n";
+  else if (results.status != Status::solved)
     std::cerr << "mortise: " << scene.path << ": " << to_string(results.status) << " (see the summary's checks)\n";
   return exit_code(results.status);
 }

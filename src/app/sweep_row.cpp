@@ -57,7 +57,7 @@ std::string exact(double value) {
 RunRow row_of(const Results& results) { return {to_string(results.status), figures(results)}; }
 
 Status status_of(const RunRow& row) {
-  for (const Status status : {Status::solved, Status::not_converged})
+  for (const Status status : {Status::solved, Status::accuracy_not_reached, Status::not_converged})
     if (row.status == to_string(status)) return status;
   return Status::check_failed;
 }

@@ -19,7 +19,7 @@ struct RunRow {
 
 RunRow row_of(const Results& results);
 
-/// solved, not_converged or check_failed, as bad input counts.
+/// solved, accuracy_not_reached, not_converged or check_failed, as bad input counts.
 Status status_of(const RunRow& row);
 
 /// One line without its end, that row_in reads again bit for bit; nothing if it is not whole.

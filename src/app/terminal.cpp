@@ -52,7 +52,7 @@ std::string colour_of(const std::string& line, bool title) {
   if (title) return "1";                            // bold
   if (line.starts_with("  solved;")) return "32";   // green
   if (line.starts_with("  warning ")) return "33";  // yellow
-  for (const char* bad : {"  check_failed;", "  not_converged;", "  FAILED "})
+  for (const char* bad : {"  accuracy_not_reached;", "  check_failed;", "  not_converged;", "  FAILED "})
     if (line.starts_with(bad)) return "1;31";  // red
   return "";
 }

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <sstream>
 
 #include "base/errors.hpp"
 #include "io/memory_file.hpp"
+#include "mesh/box_index.hpp"
 
 namespace mortise {
 namespace {
@@ -48,6 +50,34 @@ std::string without_mesh(const std::string& geo) {
   return text;
 }
 
+// A geometry of gmsh's own kernel, moved to the origin where it lies farther from it than it is large: gmsh's tolerances
+// are parts of the coordinates, and at 1000 times the size it finds points in one place. All places are in lines
+// "Point(1) = {x, y, z, size};".
+Vec2 move_to_origin(std::string& geo) {
+  const auto read_point = [](const std::string& line, Vec2& x) {
+    int end = 0;
+    return std::sscanf(line.c_str(), "Point(%*d) = {%lf , %lf%n", &x.x(), &x.y(), &end) == 2 ? end : 0;
+  };
+  Box box;
+  Vec2 x;
+  std::istringstream lines(geo);
+  for (std::string line; std::getline(lines, line);)
+    if (read_point(line, x) > 0) box.extend(x);
+  if (box.isEmpty() || box.center().norm() <= box.diagonal().norm()) return Vec2::Zero();
+  const Vec2 centre = box.center();
+  lines = std::istringstream(geo);
+  std::ostringstream moved;
+  moved.precision(17);
+  for (std::string line; std::getline(lines, line);)
+    if (const int end = read_point(line, x); end > 0)
+      moved << line.substr(0, line.find('{') + 1) << x.x() - centre.x() << ", " << x.y() - centre.y()
+            << line.substr(end) << "\n";
+    else
+      moved << line << "\n";
+  geo = moved.str();
+  return -centre;
+}
+
 void require_drawn(const std::string& file) {
   const auto fail = [&](const std::string& why) { throw InputError(file + ": has no geometry to refine: " + why); };
   gmsh::vectorpair surfaces;
@@ -78,7 +108,9 @@ FreeGeometry read_free_geometry(GmshSession& session, const std::string& file,
   session.read(file, parameters);
   require_drawn(file);
   FreeGeometry geometry{.file = file, .parameters = parameters, .text = {}, .groups = open_groups()};
-  if (!drawn_by_opencascade(file)) geometry.text = without_mesh(unrolled(session, file));
+  if (drawn_by_opencascade(file)) return geometry;
+  geometry.text = without_mesh(unrolled(session, file));
+  geometry.shift = move_to_origin(geometry.text);
   return geometry;
 }
 

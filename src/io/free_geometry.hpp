@@ -16,6 +16,7 @@ struct FreeGeometry {
   std::map<std::string, double> parameters;
   std::string text;                   ///< the geometry as a .geo; empty where only `file` has it (OpenCASCADE)
   std::vector<PhysicalGroup> groups;  ///< dimensions 1 and 2
+  Vec2 shift = Vec2::Zero();          ///< by which `text` is moved from where it is drawn: to the origin
 };
 
 /// Reads a .geo. Transfinite, Recombine, Periodic, Compound, fields and all mesh options are dropped, as is a mesh that

@@ -86,8 +86,10 @@ MeshData mesh_freely(const FreeGeometry& geometry, const SizeAt& size, bool reco
   GmshSession session;
   open_free_geometry(session, geometry);
   set_mesh_options(recombine);
-  generate(session, geometry.file, size);
-  return gmsh_data(geometry.file);
+  generate(session, geometry.file, [&](const Vec2& x) { return size(x - geometry.shift); });
+  MeshData data = gmsh_data(geometry.file);
+  move(-geometry.shift, data);
+  return data;
 }
 
 }  // namespace mortise

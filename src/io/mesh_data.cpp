@@ -5,6 +5,18 @@
 
 namespace mortise {
 
+void move(const Vec2& by, MeshData& data) {
+  if (by == Vec2::Zero()) return;
+  for (std::array<double, 3>& x : data.nodes) {
+    x[0] += by.x();
+    x[1] += by.y();
+  }
+  for (ElementBlock& block : data.blocks)
+    for (EdgeSamples& edge : block.samples)
+      for (SamplePiece& piece : edge.pieces)
+        for (Vec2& place : piece.places) place += by;
+}
+
 NodeRows::NodeRows(const std::vector<std::int64_t>& tags) {
   const std::int64_t largest = tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end());
   if (largest <= 4 * static_cast<std::int64_t>(tags.size()) + 1000) {

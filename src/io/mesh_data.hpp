@@ -39,6 +39,9 @@ struct MeshData {
   bool named_by_tag = false;            ///< as Mesh's
 };
 
+/// Moves the nodes and the drawn curves.
+void move(const Vec2& by, MeshData& data);
+
 /// Rows of nodes by the tags that a file gives them, which may be any numbers > 0.
 class NodeRows {
  public:

@@ -140,6 +140,8 @@ std::string to_string(Status status) {
   switch (status) {
     case Status::solved:
       return "solved";
+    case Status::accuracy_not_reached:
+      return "accuracy_not_reached";
     case Status::check_failed:
       return "check_failed";
     case Status::not_converged:

@@ -26,6 +26,9 @@ std::string largest_error(const Results& r) {
   Eigen::Index cell = 0;
   if (estimate.far.parts.size() > 0) estimate.far.parts.cwiseAbs().rowwise().sum().maxCoeff(&cell);
   const Cell& at = r.mesh.cells[cell];
+  const auto between = [&](std::size_t k) {
+    return " of '" + r.contacts[k].multiplier.curve + "' on '" + r.contacts[k].opposite.curve + "'";
+  };
   const std::string farthest =
       "the mesh of body '" + r.mesh.bodies[at.body] + "' " + near_point(centre_of(r.mesh.nodes, at));
   double largest = -1;
@@ -34,7 +37,7 @@ std::string largest_error(const Results& r) {
     const PressureEstimate& e = estimate.pressures[k];
     if (e.far2 > std::max(largest, e.local2)) {
       largest = e.far2;
-      words = farthest;
+      words = farthest + ", for the pressure" + between(k);
     }
     if (!(e.local2 > largest)) continue;
     largest = e.local2;
@@ -45,7 +48,7 @@ std::string largest_error(const Results& r) {
       size = e.local.l2(i);
       worst = i;
     }
-    words = (e.local.border[worst] ? "the border of contact " : "edges of '" + r.contacts[k].multiplier.curve + "' ") +
+    words = (e.local.border[worst] ? "the border of contact" : "edges") + between(k) + " " +
             near_point(e.line.position[worst]);
   }
   return words;

@@ -11,7 +11,7 @@
 namespace mortise {
 
 /// In the order of severity.
-enum class Status { solved, check_failed, not_converged };
+enum class Status { solved, accuracy_not_reached, check_failed, not_converged };
 std::string to_string(Status status);
 
 /// One figure that must stay below its limit.

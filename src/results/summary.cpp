@@ -103,6 +103,7 @@ Json accuracy_json(const Results& r) {
           {"asked", a.asked},
           {"reached", a.reached()},
           {"reason", a.reason},
+          {"largest", a.reached() ? Json() : Json(largest_error(r))},
           {"excluded", a.excluded},
           {"solves", solves}};
 }

@@ -53,7 +53,8 @@ void read_accuracy(const Node& root, Scene& scene) {
   const Node* node = find(root, "accuracy");
   if (node == nullptr) return;
   expect_keys(*node,
-              {"of", "pair", "window", "at", "body", "value", "exclude", "unknowns_max", "first_edges", "recombine"});
+              {"of", "pair", "window", "at", "body", "value", "exclude", "unknowns_max", "solves_max", "first_edges",
+               "recombine"});
   AccuracySpec accuracy;
   accuracy.of =
       choice(find(*node, "of"),
@@ -62,6 +63,7 @@ void read_accuracy(const Node& root, Scene& scene) {
   accuracy.value = part(require(*node, "value", "a part such as 0.01 or \"1%\""));
   if (const Node* exclude = find(*node, "exclude")) accuracy.exclude = part(*exclude);
   if (const Node* most = find(*node, "unknowns_max")) accuracy.unknowns_max = whole(*most, 100, 1e9);
+  if (const Node* most = find(*node, "solves_max")) accuracy.solves_max = whole(*most, 1, 100);
   if (const Node* edges = find(*node, "first_edges")) accuracy.first_edges = whole(*edges, 2, 1e5);
   if (const Node* recombine = find(*node, "recombine")) accuracy.recombine = boolean(*recombine);
   if (scene.contacts.empty())

@@ -116,6 +116,7 @@ struct AccuracySpec {
   double value = 0;            ///< asked, relative, > 0 and < 1
   double exclude = 0.1;        ///< of the loaded length, on either side of a singular point: left out of the norm
   int unknowns_max = 1000000;
+  int solves_max = 8;
   int first_edges = 20;    ///< of the first mesh along each contact curve
   bool recombine = false;  ///< quadrilaterals instead of triangles
 };

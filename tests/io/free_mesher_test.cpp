@@ -281,5 +281,32 @@ TEST(FreeMesher, WhatLiesWithinASurfaceIsKept) {
   EXPECT_EQ(on_line, 11);  // five edges of 0.08
 }
 
+// gmsh's tolerances are parts of the coordinates: at 1000 times the size it finds points in one place.
+TEST(FreeMesher, MeshesFarFromTheOriginAsNearIt) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("far.geo", R"(DefineConstant[X = 0];
+Point(1) = {X, -X, 0}; Point(2) = {X + 1, -X, 0}; Point(3) = {X, 1 - X, 0};
+Line(1) = {1, 2}; Circle(2) = {2, 1, 3}; Line(3) = {3, 1}; Curve Loop(1) = {1:3}; Plane Surface(1) = {1};
+Physical Surface("quarter") = {1}; Physical Curve("arc") = {2};)");
+  const auto mesh_at = [&](double x) {
+    const Vec2 corner(x, -x);
+    return FreeMesher(file, {{"X", x}}).mesh([=](const Vec2& at) {
+      return 1e-3 + 0.2 * (at - corner - Vec2(1, 0)).norm();
+    });
+  };
+  const Mesh near = mesh_at(0);
+  for (const double x : {1e3, 1e6}) {
+    const Vec2 corner(x, -x);
+    const double round_off = 1e-14 * x;
+    const Mesh mesh = mesh_at(x);
+    EXPECT_NEAR(double(mesh.cells.size()), double(near.cells.size()), 0.03 * double(near.cells.size()));
+    EXPECT_NEAR((mesh.nodes.colwise().minCoeff().transpose() - corner).norm(), 0, round_off);
+    ASSERT_EQ(mesh.boundaries.size(), 1u);
+    for (const Edge& edge : mesh.boundaries[0].edges) EXPECT_NEAR((place(mesh, edge.nodes[0]) - corner).norm(), 1, round_off);
+    for (const EdgeSamples& edge : mesh.boundaries[0].samples)
+      EXPECT_NEAR((edge.pieces.front().places[4] - corner).norm(), 1, round_off);
+  }
+}
+
 }  // namespace
 }  // namespace mortise
