@@ -4,19 +4,13 @@
 #include <limits>
 
 namespace mortise {
-namespace {
-
-constexpr int leaf = 8;                  // layers; a few are looked at sooner than their boxes
-constexpr double round_off = 1 - 1e-12;  // of a bound, which must not be above what it bounds
-
-}  // namespace
-
 LayeredSizes::LayeredSizes(std::vector<SizeLayers> layers) : layers_(std::move(layers)) {
   if (!layers_.empty()) grow(0, int(layers_.size()));
 }
 
 // Halves at the middle of the longer side.
 void LayeredSizes::grow(int first, int last) {
+  constexpr int leaf = 8;  // layers; a few are looked at sooner than their boxes
   const auto from = layers_.begin() + first, to = layers_.begin() + last;
   Branch branch{Box(), from->least, from->growth, first, last};
   for (auto layer = from; layer != to; ++layer) {
@@ -36,6 +30,7 @@ void LayeredSizes::grow(int first, int last) {
 }
 
 void LayeredSizes::search(int number, const Vec2& x, double& size) const {
+  constexpr double round_off = 1 - 1e-12;  // of a bound, which must not be above what it bounds
   const Branch& branch = branches_[number];
   if (branch.second == 0) {
     for (int i = branch.first; i < branch.last; ++i)
