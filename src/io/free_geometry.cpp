@@ -50,9 +50,9 @@ std::string without_mesh(const std::string& geo) {
   return text;
 }
 
-// A geometry of gmsh's own kernel, moved to the origin where it lies farther from it than it is large: gmsh's tolerances
-// are parts of the coordinates, and at 1000 times the size it finds points in one place. All places are in lines
-// "Point(1) = {x, y, z, size};".
+// A geometry of gmsh's own kernel, moved to the origin where it lies farther from it than it is large: gmsh's
+// tolerances are parts of the coordinates, and at 1000 times the size it finds points in one place. All places are in
+// lines "Point(1) = {x, y, z, size};".
 Vec2 move_to_origin(std::string& geo) {
   const auto read_point = [](const std::string& line, Vec2& x) {
     int end = 0;

@@ -52,9 +52,8 @@ void read_goal(const Node& node, int contacts, AccuracySpec& accuracy) {
 void read_accuracy(const Node& root, Scene& scene) {
   const Node* node = find(root, "accuracy");
   if (node == nullptr) return;
-  expect_keys(*node,
-              {"of", "pair", "window", "at", "body", "value", "exclude", "unknowns_max", "solves_max", "first_edges",
-               "recombine"});
+  expect_keys(*node, {"of", "pair", "window", "at", "body", "value", "exclude", "unknowns_max", "solves_max",
+                      "first_edges", "recombine"});
   AccuracySpec accuracy;
   accuracy.of =
       choice(find(*node, "of"),

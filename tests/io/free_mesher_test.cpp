@@ -302,7 +302,8 @@ Physical Surface("quarter") = {1}; Physical Curve("arc") = {2};)");
     EXPECT_NEAR(double(mesh.cells.size()), double(near.cells.size()), 0.03 * double(near.cells.size()));
     EXPECT_NEAR((mesh.nodes.colwise().minCoeff().transpose() - corner).norm(), 0, round_off);
     ASSERT_EQ(mesh.boundaries.size(), 1u);
-    for (const Edge& edge : mesh.boundaries[0].edges) EXPECT_NEAR((place(mesh, edge.nodes[0]) - corner).norm(), 1, round_off);
+    for (const Edge& edge : mesh.boundaries[0].edges)
+      EXPECT_NEAR((place(mesh, edge.nodes[0]) - corner).norm(), 1, round_off);
     for (const EdgeSamples& edge : mesh.boundaries[0].samples)
       EXPECT_NEAR((edge.pieces.front().places[4] - corner).norm(), 1, round_off);
   }
