@@ -86,12 +86,15 @@ def bars_of(told, folder):
     return sums
 
 
-def differs(case, told, folder, program):
-    """What the same assembly gives in another way that it must not."""
+def differs(case, told, folder, program, carried):
+    """What the same assembly gives in another way that it must not. Where only places far from the nearest ones carry the
+    load (`carried` is None), it hangs on the normals of either side whether they do."""
     other = solve_case("assembly", "", case.other["scene.toml"], case.other["mesh.geo"], mesh_file="mesh.geo")
     with tempfile.TemporaryDirectory(prefix="mortise_assembly_") as second:
         other.write(second)
         run = one_call.call(program, other, second)
+        if run.status == 1 and carried is None and case.variant == "other side":
+            return None
         if run.status not in (0, 2):
             return f"{case.variant}: exit status {run.status}: {run.said.strip()[:200]}"
         again = json.loads(Path(second, "results/summary.json").read_text())
@@ -121,5 +124,5 @@ def judge(case, run, folder, known):
     wrong = violated(told, folder)
     if (off := unbalanced(told, case.setting)) > EXACT:
         wrong.append(f"a body is out of balance by {off:.2g}")
-    wrong += [words] if (words := differs(case, told, folder, known.program)) else []
+    wrong += [words] if (words := differs(case, told, folder, known.program, carried)) else []
     return ("worse", "; ".join(wrong)) if wrong else ("kept", None)

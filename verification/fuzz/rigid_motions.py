@@ -69,12 +69,14 @@ def nearest(place, normal, gap, size):
 
 def drift(assembly, near_only):
     """The most work that the loads can do on rigid motions of at most 1, over the sum of the loads' sizes: 0 where contact
-    carries them. Such a motion opens no contact further: all that face each other, or only the nearest places."""
+    carries them. Such a motion opens no contact further: all that face each other along the normals of either side (which of
+    them counts is the side's with the multipliers), or only the nearest places."""
     column = {part.name: 3 * k for k, part in enumerate(assembly.parts)}
     reach = max(np.abs(polyline(piece)).max() for part in assembly.parts for loop in part.loops for piece in loop)
     at = lambda place, way: np.array([way[0], way[1], (place[0] * way[1] - place[1] * way[0]) / reach])
     closes, fixed, work, total = [], [], np.zeros(3 * len(column)), 0.0
-    for pair in assembly.pairs:
+    pairs = [*assembly.pairs, *([] if near_only else [pair[::-1] for pair in assembly.pairs])]
+    for pair in pairs:
         first, second = (column[end.split("_")[0]] for end in pair)
         found = openings(assembly, pair)
         for place, normal, gap in zip(*(nearest(*found, assembly.size) if near_only else found)):
