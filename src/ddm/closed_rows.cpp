@@ -39,23 +39,21 @@ SparseMatrix sum_of_ranks(SparseMatrix A) {
 
 }  // namespace
 
-ClosedRows::ClosedRows(const DualSystem& system, const std::vector<char>& closed, const VecX& compliance)
+ClosedRows::ClosedRows(const DualSystem& system, const std::vector<char>& closed)
     : system_(system), rows_(system.rows()) {
-  if (compliance.size() > 0) compliance_ = rows_.own(compliance);
-  share_jumps(closed, compliance);
+  share_jumps(closed);
   if (dependent_row >= 0) return;
   hold_motions();
   if (system.slender.empty()) return;
-  slender_.emplace(system.slender, closed, compliance);
+  slender_.emplace(system.slender, closed);
   VecX compact = VecX::Ones(Eigen::Index(closed.size()));
   compact(system.slender.rows).setZero();
   compact_ = rows_.own(compact);
 }
 
 // Open rows keep their diagonal, which nothing reaches.
-void ClosedRows::share_jumps(const std::vector<char>& flags, const VecX& compliance) {
+void ClosedRows::share_jumps(const std::vector<char>& flags) {
   SparseMatrix sharing = system_.sharing;
-  for (Eigen::Index a = 0; a < compliance.size(); ++a) sharing.coeffRef(a, a) += compliance(a);
   const VecX closed = ones_and_zeros(flags);
   for (int j = 0; j < sharing.cols(); ++j)
     for (SparseMatrix::InnerIterator it(sharing, j); it; ++it)
@@ -127,12 +125,6 @@ VecX ClosedRows::without_resultants(VecX lambda) const {
   return lambda;
 }
 
-VecX ClosedRows::multiply(const VecX& lambda) const {
-  VecX opened = system_.multiply(lambda);
-  if (compliance_.size() > 0) opened += compliance_.cwiseProduct(lambda);
-  return opened;
-}
-
 // What lambda does to the motions, s.
 VecX ClosedRows::resultants(const VecX& lambda) const {
   VecX found = system_.H.transpose() * lambda;
@@ -143,13 +135,9 @@ VecX ClosedRows::resultants(const VecX& lambda) const {
 // A^-1 of a jump of the rows.
 VecX ClosedRows::unshared(const VecX& jump) const { return on_closed(rows_.own(sharing_.solve(rows_.whole(jump)))); }
 
-// Of a jump, the pressures by the parts' stiffness. What gives way in a row shares the jump as one more body, whose
-// stiffness is the inverse of its compliance.
+// Of a jump, the pressures by the parts' stiffness.
 VecX ClosedRows::stiffened(const VecX& jump) const {
-  const VecX shared = unshared(jump);
-  VecX pressures = system_.multiply_stiffness(shared);
-  if (compliance_.size() > 0) pressures += compliance_.cwiseProduct(shared);
-  return unshared(on_closed(pressures));
+  return unshared(on_closed(system_.multiply_stiffness(unshared(jump))));
 }
 
 VecX ClosedRows::precondition(const VecX& residual) const {
@@ -160,7 +148,7 @@ VecX ClosedRows::precondition(const VecX& residual) const {
 
 void ClosedRows::solve(const DualSystem::Forces& forces, IterationMonitor& monitor, DualSolution& x) const {
   const VecX gaps = rows_.own(forces.r), response = rows_.own(forces.response);
-  VecX lambda = balanced(rows_.own(x.lambda), forces.h), C_lambda = multiply(lambda);
+  VecX lambda = balanced(rows_.own(x.lambda), forces.h), C_lambda = system_.multiply(lambda);
   VecX r = without_motions(on_closed(gaps - C_lambda)), z = without_resultants(precondition(r)), p = z;
   double rz = rows_.dot(r, z);
   const auto residuals = [&] {
@@ -172,7 +160,7 @@ void ClosedRows::solve(const DualSystem::Forces& forces, IterationMonitor& monit
                                       of_one_row * fraction(rows_.largest(z), rows_.largest(lambda)))};
   };
   while (monitor.go_on(residuals(), std::sqrt(std::abs(rz)))) {
-    const VecX Cp = multiply(p);
+    const VecX Cp = system_.multiply(p);
     const double alpha = rz / rows_.dot(p, Cp), before = rz;
     lambda += alpha * p;
     C_lambda += alpha * Cp;

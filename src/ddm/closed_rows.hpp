@@ -16,9 +16,8 @@ struct DualSolution {
 
 class ClosedRows {
  public:
-  /// `compliance`: m, by which each row gives way besides C, as one more body between its two sides; empty: none. Keeps
-  /// a reference to `system`.
-  ClosedRows(const DualSystem& system, const std::vector<char>& closed, const VecX& compliance = {});
+  /// Keeps a reference to `system`.
+  ClosedRows(const DualSystem& system, const std::vector<char>& closed);
 
   /// A closed row that the others imply, or -1. Nothing below may be called where there is one.
   int dependent_row = -1;
@@ -37,7 +36,6 @@ class ClosedRows {
 
  private:
   VecX on_closed(const VecX& v) const { return closed_.cwiseProduct(v); }
-  VecX multiply(const VecX& lambda) const;
   VecX coarse(VecX b) const;
   VecX balanced(VecX lambda, const VecX& h) const;
   VecX motions(const VecX& residual) const;
@@ -48,7 +46,7 @@ class ClosedRows {
   VecX openings(const VecX& motion) const;
   VecX resultants(const VecX& lambda) const;
   VecX unshared(const VecX& jump) const;
-  void share_jumps(const std::vector<char>& closed, const VecX& compliance);
+  void share_jumps(const std::vector<char>& closed);
   void hold_motions();
 
   using SparseCholesky = Eigen::SimplicialLDLT<SparseMatrix>;
@@ -56,7 +54,6 @@ class ClosedRows {
   // Vectors of the iteration have the own rows.
   const DualSystem& system_;
   const DealtRows& rows_;
-  VecX compliance_;        // own, or empty
   VecX closed_;            // 1 or 0
   VecX weights_;           // of closed rows: about the inverse of C's diagonal
   std::vector<int> free_;  // springs whose motions no closed row holds

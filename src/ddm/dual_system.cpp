@@ -89,6 +89,13 @@ VecX DualSystem::Part::pressed(const VecX& lambda) const {
   return C * lambda;
 }
 
+MatX DualSystem::Part::compliance() const {
+  if (!slender()) return C;
+  MatX all(B.rows(), B.rows());
+  for (Eigen::Index a = 0; a < B.rows(); ++a) all.col(a) = pressed(VecX::Unit(B.rows(), a));
+  return all;
+}
+
 VecX DualSystem::Part::displacements(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const {
   VecX u = VecX::Zero(unknowns.size());
   if (slender()) {
@@ -245,6 +252,24 @@ VecX DualSystem::work_terms(const VecX& h, const VecX& lambda) const {
 MatX DualSystem::all_openings() const {
   MatX all(sharing.rows(), H.cols());
   for (Eigen::Index k = 0; k < H.cols(); ++k) all.col(k) = rows_->whole(VecX(H.col(k)));
+  return all;
+}
+
+SparseMatrix DualSystem::matrix() const {
+  const Eigen::Index m = sharing.rows(), size = m + H.cols();
+  Triplets entries;
+  for (const Part& part : parts_) {
+    const MatX C = part.compliance();
+    for (std::size_t b = 0; b < part.rows.size(); ++b) {
+      for (std::size_t a = 0; a < part.rows.size(); ++a)
+        if (part.rows[a] >= part.rows[b]) entries.emplace_back(part.rows[a], part.rows[b], C(a, b));
+      for (std::size_t k = 0; k < part.springs.size(); ++k)
+        entries.emplace_back(int(m) + part.springs[k], part.rows[b], part.H(b, k));
+    }
+  }
+  entries = ranks().of_all(std::move(entries));
+  SparseMatrix all(size, size);
+  all.setFromTriplets(entries.begin(), entries.end());
   return all;
 }
 

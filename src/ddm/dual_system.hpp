@@ -58,6 +58,8 @@ class DualSystem {
   VecX opening(const VecX& motion) const { return rows_->whole(H * motion); }
   VecX resultants(const VecX& lambda) const { return sum_over_ranks(H.transpose() * rows_->own(lambda)); }
   MatX all_openings() const;  ///< m x s: H on all ranks
+  /// [C, H; H^T, 0], m + s, lower triangle, on all ranks. A slender part's C takes a solve a row.
+  SparseMatrix matrix() const;
   /// |h| + |H|^T |lambda|: what the work that lambda leaves of h is a difference of.
   VecX work_terms(const VecX& h, const VecX& lambda) const;
   /// s: diagonal of H^T D^-1 H, with D that of C.
@@ -84,6 +86,7 @@ class DualSystem {
     bool slender() const { return B.cols() > 0; }
     BodyGroup::Answer answer(const VecX& force) const;
     VecX pressed(const VecX& lambda) const;  // C lambda
+    MatX compliance() const;                 // C
     // Under forces, lambda and mu, of all rows and springs of the part.
     VecX displacements(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const;
   };

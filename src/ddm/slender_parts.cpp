@@ -95,7 +95,7 @@ void set_touching(SlenderParts& parts, TouchingParts touching, const VecX& local
   parts.H.setFromTriplets(touching.H.begin(), touching.H.end());
 }
 
-SlenderInverse::SlenderInverse(const SlenderParts& parts, const std::vector<char>& closed, const VecX& compliance)
+SlenderInverse::SlenderInverse(const SlenderParts& parts, const std::vector<char>& closed)
     : rows_(parts.rows), closed_(parts.rows.size()), unknowns_(parts.K.cols() + parts.H.cols()) {
   for (std::size_t a = 0; a < rows_.size(); ++a) closed_(a) = closed[rows_[a]] ? 1 : 0;
   Triplets all;
@@ -109,8 +109,6 @@ SlenderInverse::SlenderInverse(const SlenderParts& parts, const std::vector<char
   const auto hold = [&](Eigen::Index unknown) { all.emplace_back(int(unknown), int(unknown), soft_spring); };
   for (const auto& [unknown, spring] : parts.springs) hold(unknown);
   for (Eigen::Index k = 0; k < parts.H.cols(); ++k) hold(parts.K.cols() + k);
-  for (std::size_t a = 0; compliance.size() > 0 && a < rows_.size(); ++a)
-    all.emplace_back(int(unknowns_) + int(a), int(unknowns_) + int(a), -compliance(rows_[a]));
   add(parts.H, unknowns_, parts.K.cols(),
       [&](Eigen::Index a, Eigen::Index, double entry) { return -closed_(a) * entry; });
   add(parts.D, unknowns_, unknowns_,

@@ -54,8 +54,7 @@ void set_touching(SlenderParts& parts, TouchingParts touching, const VecX& local
 /// with springs that are next to none at the motions.
 class SlenderInverse {
  public:
-  /// `compliance`: of ClosedRows, m, more of D; empty: none.
-  SlenderInverse(const SlenderParts& parts, const std::vector<char>& closed, const VecX& compliance);
+  SlenderInverse(const SlenderParts& parts, const std::vector<char>& closed);
   /// Both of all rows.
   VecX multiply(const VecX& gap) const;
 

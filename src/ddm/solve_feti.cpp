@@ -5,6 +5,7 @@
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "ddm/closed_rows.hpp"
+#include "ddm/soft_rows.hpp"
 #include "solve/active_set.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/threads.hpp"
@@ -17,9 +18,6 @@ constexpr double dual_tolerance = 1e-5;   // of duals: products of errors, which
 constexpr double round_off = 10;          // tolerances: what is smaller opens and closes no row
 constexpr double wide_gap = 0.3;          // of a row's part of the contact curve
 constexpr int most_refinements = 2, most_corrections = 8;
-constexpr double inner_tolerance =
-    1e-6;  // of the interior point: with 1e-3 its path ends where light bodies are not told
-constexpr int most_inner_steps = 400;
 
 // Duals by the same iteration.
 class FetiFactor : public ContactFactor {
@@ -163,16 +161,12 @@ class FetiRows : public ContactRows {
   VecX unbalanced(const VecX& lambda) const override { return system_.load.h - system_.resultants(lambda); }
 
   bool soften(const VecX& compliance) override {
-    softened_.emplace(system_, std::vector<char>(s_.B.rows(), 1), compliance);
-    return softened_->dependent_row < 0;
+    if (!softened_) softened_.emplace(system_.matrix(), s_.B.rows());
+    return softened_->factorise(compliance);
   }
 
   Forces solve_softened(const VecX& gap, const VecX& work) override {
-    DualSystem::Forces forces{.r = gap, .h = work, .response = VecX::Zero(gap.size())};
-    DualSolution x{.lambda = VecX::Zero(gap.size()), .mu = {}};
-    IterationMonitor monitor(inner_tolerance, most_inner_steps);
-    softened_->solve(forces, monitor, x);
-    return {.lambda = x.lambda, .mu = x.mu};
+    return softened_->solve(gap, work);
   }
 
   const IterationMonitor& monitor() const { return monitor_; }
@@ -198,7 +192,7 @@ class FetiRows : public ContactRows {
   const DualSystem& system_;
   const std::vector<char> unilateral_;
   double tolerance_, final_tolerance_;
-  std::optional<ClosedRows> softened_;
+  std::optional<SoftRows> softened_;
   IterationMonitor monitor_;
   std::shared_ptr<const ClosedRows> rows_;
   DualSolution x_;

@@ -8,6 +8,7 @@ namespace {
 constexpr int most_steps = 35;            // half as many again as the hardest problems of the tests take
 constexpr int least_progress = 5;         // good enough, and so many steps without any: round-off
 constexpr double exact = 1e-12;           // of the largest terms: some thousand round-offs
+constexpr double balanced = 1e-10;        // likewise, of the equations: differences of springs' terms
 constexpr double path_round_off = 1e-15;  // of the largest terms, its square of their product
 constexpr double apart = 1e5;             // pressure over gap, or gap over pressure, of a row that is told
 constexpr double good_enough = 1e-5;      // the same, for the rows to be told apart
@@ -155,7 +156,7 @@ InteriorPoint find_interior_point(ContactRows& rows) {
   int left = least_progress;
   while (!best.converged && path.finite() && best.steps < most_steps && left > 0 && !path.runs_away() && path.step()) {
     ++best.steps;
-    const bool nearer = path.error() <= std::max(least, exact);
+      const bool nearer = path.error() <= std::max(least, balanced);
     left = least > good_enough || (nearer && path.product() < 0.5 * smallest) ? least_progress : left - 1;
     if (nearer) {
       least = std::min(least, path.error());
@@ -163,7 +164,7 @@ InteriorPoint find_interior_point(ContactRows& rows) {
       best.at = path.at();
       best.closed = path.closed();
     }
-    best.converged = path.error() <= exact && (path.told() || path.product() <= path_round_off * path_round_off);
+    best.converged = path.error() <= balanced && (path.told() || path.product() <= path_round_off * path_round_off);
   }
   best.converged = least <= good_enough;
   return best;

@@ -1,0 +1,63 @@
+#include "ddm/soft_rows.hpp"
+
+#include <limits>
+
+namespace mortise {
+namespace {
+
+// Of what the rows do against a motion alone: the root of round-off, which the two errors that it trades, of the zero
+// that it stands for and of pivots that it makes large, have in common. Refinement takes both away.
+const double motion_softness = std::sqrt(std::numeric_limits<double>::epsilon());
+constexpr int most_soft_refinements = 10;
+
+SparseMatrix with_stored_diagonal(const SparseMatrix& A) {
+  SparseMatrix zeros(A.rows(), A.cols());
+  zeros.reserve(Eigen::VectorXi::Constant(A.cols(), 1));
+  for (Eigen::Index k = 0; k < A.cols(); ++k) zeros.insert(k, k) = 0;
+  return A + zeros;
+}
+
+}  // namespace
+
+SoftRows::SoftRows(const SparseMatrix& system, Eigen::Index rows)
+    : matrix_(with_stored_diagonal(system)), own_(matrix_.diagonal()), rows_(rows) {
+  unit_ = stacked(own_.head(rows), stiffness()).cwiseSqrt();
+  unit_ = unit_.cwiseMax(std::numeric_limits<double>::min());
+  factor_.analyzePattern(matrix_);
+}
+
+VecX SoftRows::stiffness() const {
+  VecX sum = VecX::Zero(own_.size() - rows_);
+  for (int a = 0; a < rows_; ++a)
+    for (SparseMatrix::InnerIterator it(matrix_, a); it; ++it)
+      if (it.row() >= rows_) sum(it.row() - rows_) += it.value() * it.value() / matrix_.coeff(a, a);
+  return sum;
+}
+
+bool SoftRows::factorise(const VecX& compliance) {
+  matrix_.diagonal() = own_;
+  matrix_.diagonal().head(rows_) += compliance;
+  const VecX held = stiffness();
+  matrix_.diagonal().tail(held.size()) =
+      -motion_softness * held.cwiseMax(std::numeric_limits<double>::epsilon() * largest_entry(held));
+  factor_.factorize(matrix_);
+  matrix_.diagonal().tail(held.size()).setZero();
+  return factor_.info() == Eigen::Success && factor_.vectorD().allFinite();
+}
+
+ContactRows::Forces SoftRows::solve(const VecX& gap, const VecX& work) const {
+  const VecX rhs = stacked(gap, work);
+  VecX x = VecX::Zero(rhs.size()), left = rhs;
+  double least = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < most_soft_refinements; ++pass) {
+    const VecX next = x + factor_.solve(left), now = rhs - matrix_.selfadjointView<Eigen::Lower>() * next;
+    const double size = largest_entry(now.cwiseQuotient(unit_));
+    if (!(size < least / 2)) break;
+    least = size;
+    x = next;
+    left = now;
+  }
+  return {.lambda = x.head(rows_), .mu = x.tail(rhs.size() - rows_)};
+}
+
+}  // namespace mortise

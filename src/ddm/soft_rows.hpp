@@ -1,0 +1,34 @@
+// The system of the multipliers where each row gives way, as one sparse factorisation.
+#pragma once
+
+#include <Eigen/SparseCholesky>
+
+#include "solve/contact_rows.hpp"
+
+namespace mortise {
+
+/// [C + D, H; H^T, 0] with D > 0 on unilateral rows: what a step of the interior point solves. The path leads through
+/// systems that no iteration preconditioned for closed rows ends on, as D spans some twenty orders, so they are
+/// factorised: C has entries only between rows of one part.
+class SoftRows {
+ public:
+  /// `system`: DualSystem::matrix, of `rows` rows.
+  SoftRows(const SparseMatrix& system, Eigen::Index rows);
+
+  /// D, rows. False where the system is singular.
+  bool factorise(const VecX& compliance);
+  /// To round-off.
+  ContactRows::Forces solve(const VecX& gap, const VecX& work) const;
+
+ private:
+  // What the rows do against each motion alone.
+  VecX stiffness() const;
+
+  SparseMatrix matrix_;  // lower triangle, with a diagonal
+  VecX own_;             // its diagonal without D
+  VecX unit_;            // of gaps and work: the root of a row's compliance, of a motion's stiffness
+  Eigen::Index rows_;
+  Eigen::SimplicialLDLT<SparseMatrix> factor_;
+};
+
+}  // namespace mortise
