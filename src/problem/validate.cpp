@@ -8,7 +8,7 @@
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "contact/curve_resolution.hpp"
-#include "contact/seen_motions.hpp"
+#include "contact/smooth_normals.hpp"
 
 namespace mortise {
 namespace {
@@ -60,20 +60,7 @@ Floating find_floating(const Mesh& mesh, const Constraints& constraints) {
 
 namespace {
 
-std::vector<char> supported_bodies(const Mesh& mesh, const Constraints& constraints) {
-  std::vector<char> supported(mesh.bodies.size(), 0);
-  for (const Cell& cell : mesh.cells)
-    for (int a = 0; a < node_count(cell.kind); ++a)
-      if (constraints.fixed[2 * cell.nodes[a]] || constraints.fixed[2 * cell.nodes[a] + 1]) supported[cell.body] = 1;
-  return supported;
-}
-
-// A roller that nothing but contact holds rolls as its own curves and those beside it allow. Where both bodies have
-// supports, a motion that these leave is resisted by the rows along the multiplier side's normals: an unknown that held
-// it would take a part of the load.
-SmoothNormals normals_of(const Mesh& mesh, const ContactPair& pair, const std::vector<char>& supported) {
-  if (!supported[pair.multiplier.body] || !supported[pair.opposite.body])
-    return seen_motions(mesh.nodes, pair.multiplier, pair.opposite, pair.points);
+SmoothNormals normals_of(const Mesh& mesh, const ContactPair& pair) {
   std::vector<char> faces(pair.multiplier.edges.size(), 0);
   for (const ContactPoint& point : pair.points) faces[point.edge] = 1;
   return smooth_normals(mesh.nodes, pair.multiplier, pair.opposite.body, faces);
@@ -84,7 +71,6 @@ SmoothNormals normals_of(const Mesh& mesh, const ContactPair& pair, const std::v
 std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
                                                         const std::vector<std::string>& findings,
                                                         SaddlePointSystem& system) {
-  const std::vector<char> supported = supported_bodies(mesh, system.constraints);
   std::vector<std::vector<RigidMotion>> held;
   const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions, double round_off) {
     const std::vector<char> moves = driven(mesh, motions, system.f, round_off);
@@ -102,7 +88,7 @@ std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const 
   std::vector<ContactNormal> normals;
   double edge_error = 0;
   for (const ContactPair& pair : pairs) {
-    const SmoothNormals of_pair = normals_of(mesh, pair, supported);
+    const SmoothNormals of_pair = normals_of(mesh, pair);
     normals.insert(normals.end(), of_pair.normals.begin(), of_pair.normals.end());
     edge_error = std::max(edge_error, of_pair.edge_error);
   }

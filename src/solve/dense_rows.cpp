@@ -42,7 +42,8 @@ ContactRows::Answer DenseRows::solve(const std::vector<char>& closed, const VecX
     rhs.head(rows()) -= opened(at);
     x.tail(springs()) = at;
   }
-  x += system_->solve(rhs);
+  const VecX found = system_->solve(rhs);
+  x += found;
   const VecX sum = (p_.compliance.selfadjointView<Eigen::Lower>() * x).head(rows()), moved = opened(x.tail(springs()));
   answer.w = rhs_.head(rows()) - sum;
   answer.lambda = x.head(rows());
@@ -58,7 +59,7 @@ ContactRows::Answer DenseRows::solve(const std::vector<char>& closed, const VecX
                largest_stress = largest_entry(answer.lambda.cwiseQuotient(p_.scale));
   answer.negligible_tension = std::max(least_tension * largest_stress, negligible_stress_);
   answer.negligible_penetration = std::max(negligible_penetration * largest_gap, p_.round_off);
-  answer.driven_mode = system_->driven_mode(rhs);
+  answer.driven_mode = system_->driven_mode(rhs, found);
   answer.opening = opened(answer.driven_mode);
   return answer;
 }

@@ -12,6 +12,7 @@ namespace {
 // root of this part of its size.
 constexpr double rigid_limit = 1e-10;
 constexpr double work_round_off = 1e-12;
+constexpr double curve_noise = 1e-9;  // of a row's normal: what drawn places leave of an arc's spin, which it should not see
 
 }  // namespace
 
@@ -74,16 +75,21 @@ VecX MultiplierSystem::solve(const VecX& rhs) const {
   return x;
 }
 
-VecX MultiplierSystem::driven_mode(const VecX& rhs) const {
+VecX MultiplierSystem::driven_mode(const VecX& rhs, const VecX& x) const {
   VecX driven = VecX::Zero(springs_);
   if (rigid_modes_.cols() == 0) return driven;
-  const VecX y = on_active(rhs), work = unbalanced(rhs, y),
+  // Of the rows in balance with what they hold: springs make on_active(rhs) far larger, and its round-off with it.
+  const VecX y = x(active_), work = unbalanced(rhs, y),
              terms = rhs.tail(springs_).cwiseAbs() + H_.cwiseAbs().transpose() * y.cwiseAbs();
+  const VecX most = H_.cwiseAbs().rowwise().maxCoeff();  // in any motion, of each row
+  const MatX sees = (H_.cwiseAbs().array() > (work_round_off * most).replicate(1, springs_).array()).cast<double>();
+  const VecX noise = curve_noise * sees.transpose() * most.cwiseProduct(y.cwiseAbs());
   const double round_off =
       work_round_off * largest_entry(terms);  // of bodies at which a mode is zero but for round-off
   for (const auto& motion : rigid_modes_.colwise())
     if (std::abs(motion.dot(work)) >
-        std::max(std::sqrt(rigid_limit) * motion.cwiseAbs().dot(terms), round_off * largest_entry(motion)))
+        std::max({std::sqrt(rigid_limit) * motion.cwiseAbs().dot(terms), motion.cwiseAbs().dot(noise),
+                  round_off * largest_entry(motion)}))
       driven += motion.dot(work) * motion;
   return driven;
 }
