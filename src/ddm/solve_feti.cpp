@@ -165,9 +165,7 @@ class FetiRows : public ContactRows {
     return softened_->factorise(compliance);
   }
 
-  Forces solve_softened(const VecX& gap, const VecX& work) override {
-    return softened_->solve(gap, work);
-  }
+  Forces solve_softened(const VecX& gap, const VecX& work) override { return softened_->solve(gap, work); }
 
   const IterationMonitor& monitor() const { return monitor_; }
   /// Of the last active set.

@@ -156,7 +156,7 @@ InteriorPoint find_interior_point(ContactRows& rows) {
   int left = least_progress;
   while (!best.converged && path.finite() && best.steps < most_steps && left > 0 && !path.runs_away() && path.step()) {
     ++best.steps;
-      const bool nearer = path.error() <= std::max(least, balanced);
+    const bool nearer = path.error() <= std::max(least, balanced);
     left = least > good_enough || (nearer && path.product() < 0.5 * smallest) ? least_progress : left - 1;
     if (nearer) {
       least = std::min(least, path.error());

@@ -12,7 +12,8 @@ namespace {
 // root of this part of its size.
 constexpr double rigid_limit = 1e-10;
 constexpr double work_round_off = 1e-12;
-constexpr double curve_noise = 1e-9;  // of a row's normal: what drawn places leave of an arc's spin, which it should not see
+constexpr double curve_noise =
+    1e-9;  // of a row's normal: what drawn places leave of an arc's spin, which it should not see
 
 }  // namespace
 
@@ -87,9 +88,8 @@ VecX MultiplierSystem::driven_mode(const VecX& rhs, const VecX& x) const {
   const double round_off =
       work_round_off * largest_entry(terms);  // of bodies at which a mode is zero but for round-off
   for (const auto& motion : rigid_modes_.colwise())
-    if (std::abs(motion.dot(work)) >
-        std::max({std::sqrt(rigid_limit) * motion.cwiseAbs().dot(terms), motion.cwiseAbs().dot(noise),
-                  round_off * largest_entry(motion)}))
+    if (std::abs(motion.dot(work)) > std::max({std::sqrt(rigid_limit) * motion.cwiseAbs().dot(terms),
+                                               motion.cwiseAbs().dot(noise), round_off * largest_entry(motion)}))
       driven += motion.dot(work) * motion;
   return driven;
 }

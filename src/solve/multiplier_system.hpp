@@ -30,8 +30,9 @@ class MultiplierSystem {
 
   /// s x count: the springs' unknowns in each rigid mode, told_apart.
   const MatX& rigid_modes() const { return rigid_modes_; }
-  /// With x = solve(rhs), the rigid mode that the load drives, s, in its direction: H times it is how the rows open. Zero where the work of
-  /// the load and the rows is no more than rows do that a motion opens too little to be held by them.
+  /// With x = solve(rhs), the rigid mode that the load drives, s, in its direction: H times it is how the rows open.
+  /// Zero where the work of the load and the rows is no more than rows do that a motion opens too little to be held by
+  /// them.
   VecX driven_mode(const VecX& rhs, const VecX& x) const;
 
  private:

@@ -27,9 +27,9 @@ std::string discs_between_plates(int count) {
   for (int k = 0; k < count; ++k) {
     const int first = 1000 + 100 * k;
     const double x = 2 * k;
-    out << "Point(" << first << ") = {" << x << ", 0, 0}; Point(" << first + 1 << ") = {" << x + 1
-        << ", 0, 0}; Point(" << first + 2 << ") = {" << x << ", 1, 0}; Point(" << first + 3 << ") = {" << x - 1
-        << ", 0, 0}; Point(" << first + 4 << ") = {" << x << ", -1, 0};\n";
+    out << "Point(" << first << ") = {" << x << ", 0, 0}; Point(" << first + 1 << ") = {" << x + 1 << ", 0, 0}; Point("
+        << first + 2 << ") = {" << x << ", 1, 0}; Point(" << first + 3 << ") = {" << x - 1 << ", 0, 0}; Point("
+        << first + 4 << ") = {" << x << ", -1, 0};\n";
     for (int i = 0; i < 4; ++i)
       out << "Circle(" << first + i << ") = {" << first + 1 + i << ", " << first << ", " << first + 1 + (i + 1) % 4
           << "};\n";
@@ -70,8 +70,7 @@ TEST(RollerBalance, DiscsInARowPassOnTheWholeForceWhicheverSideHasTheMultipliers
       const Results r = solved(count, first_side);
       ASSERT_EQ(r.solution.status, SolveStatus::converged);
       ASSERT_EQ(int(r.contacts.size()), count + 1);
-      for (const ContactResults& contact : r.contacts)
-        EXPECT_NEAR(std::abs(contact.force.x()), 3e-6, 3e-6 * 1e-7);
+      for (const ContactResults& contact : r.contacts) EXPECT_NEAR(std::abs(contact.force.x()), 3e-6, 3e-6 * 1e-7);
     }
 }
 

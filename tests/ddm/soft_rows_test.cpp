@@ -1,6 +1,5 @@
 #include "ddm/soft_rows.hpp"
 
-
 #include <gtest/gtest.h>
 
 #include <random>
@@ -47,8 +46,7 @@ TEST(SoftRows, SolveToRoundOffHoweverFarTheComplianceOfRowsIsApart) {
     const ContactRows::Forces found = soft.solve(gap, work);
     SparseMatrix matrix = made.matrix;
     for (Eigen::Index a = 0; a < made.rows; ++a) matrix.coeffRef(a, a) += compliance(a);
-    const VecX left = stacked(gap, work) -
-                      matrix.selfadjointView<Eigen::Lower>() * stacked(found.lambda, found.mu);
+    const VecX left = stacked(gap, work) - matrix.selfadjointView<Eigen::Lower>() * stacked(found.lambda, found.mu);
     const double terms = largest_entry(stacked(gap, work)) + largest_entry(found.lambda) + largest_entry(found.mu);
     EXPECT_LT(largest_entry(left), 1e-11 * terms) << bodies << " bodies";
   }
