@@ -11,6 +11,7 @@
 #include "base/printable.hpp"
 #include "base/stopwatch.hpp"
 #include "base/vectors.hpp"
+#include "contact/least_gap.hpp"
 #include "error/wanted_sizes.hpp"
 #include "io/free_mesher.hpp"
 #include "results/error_report.hpp"
@@ -106,14 +107,16 @@ class Loop {
           continue;
         }
         seconds += r.seconds;
-        const bool confirmed = last && !is_pressed(*last) && !is_pressed(r);  // p = 0 on two meshes is an answer
+        const bool confirmed = is_open(r);  // then p = 0 is an answer
         report.solves.push_back({free_unknowns(r), confirmed ? 0 : estimated(r), r.seconds.total()});
         if (spec_.of == Goal::peak) require_peak(r);
         last = std::move(r);
         report.reason = why_to_stop(*last, report);
         if (report.reached() || !report.reason.empty()) break;
-        others_ = tells_sizes(*last) ? 0 : others_ + 1;
-        if (others_ == 0)
+        others_ = tells_sizes(*last) || !is_pressed(*last) ? 0 : others_ + 1;
+        if (!is_pressed(*last))
+          sizes = small_at_gaps(finer(sizes));
+        else if (others_ == 0)
           sizes = next_sizes(*last);
         else
           sizes = finer(sizes);
@@ -196,6 +199,33 @@ class Loop {
 
   static bool is_pressed(const Results& r) {
     return r.status == Status::not_converged || largest_entry(r.solution.lambda) > 0;
+  }
+
+  // Whether nothing is pressed, between the points of this mesh too: a round body may have come through the other where
+  // no edge is as short as the contact. Keeps where the curves are nearest.
+  bool is_open(const Results& r) {
+    if (is_pressed(r)) {
+      gaps_.clear();
+      return false;
+    }
+    std::vector<LeastGap> gaps;
+    for (const ContactPair& pair : r.pairs)
+      gaps.push_back(least_gap(r.mesh.nodes, r.solution.u, pair.multiplier, pair.opposite, pair.points));
+    const double round_off = 1e-9 * largest_entry(r.solution.u);
+    bool open = gaps.size() == gaps_.size();
+    for (std::size_t k = 0; k < gaps.size() && open; ++k) open = stays_open(gaps_[k], gaps[k], round_off);
+    gaps_ = std::move(gaps);
+    return open;
+  }
+
+  // Edges an eighth as long where the curves are nearest.
+  SizeAt small_at_gaps(const SizeAt& sizes) const {
+    std::vector<SizeLayers> layers;
+    for (const LeastGap& gap : gaps_)
+      if (std::isfinite(gap.gap)) layers.push_back({gap.place, gap.edge / 8, size_growth});
+    return [sizes, layered = std::make_shared<LayeredSizes>(std::move(layers))](const Vec2& x) {
+      return std::min(sizes(x), (*layered)(x));
+    };
   }
 
   bool tells_sizes(const Results& r) const { return r.status != Status::not_converged && std::isfinite(estimated(r)); }
@@ -295,6 +325,7 @@ class Loop {
   const std::function<bool()>& interrupted_;
   FreeMesher mesher_;
   LayeredSizes largest_;           // sizes that no mesh goes above
+  std::vector<LeastGap> gaps_;     // of all pairs, on the last mesh if nothing was pressed on it
   std::vector<FoundPoint> found_;  // singular points, of all solves so far
   std::string told_;               // of the solve before, in the progress line
   int others_ = 0;                 // meshes since the last that told the sizes of the next

@@ -263,6 +263,32 @@ TEST(Accuracy, OfContactThatOpensEverywhereIsReachedOnTheSecondMesh) {
   EXPECT_EQ(largest_entry(r->solution.lambda), 0);
 }
 
+// A disc that comes into a block by less than its gap at the points of the first meshes: their p is zero, not the
+// answer.
+TEST(Accuracy, OfContactThatIsShorterThanTheFirstEdgesIsFound) {
+  const test::TemporaryFolder folder;
+  folder.write("disc.geo", R"(
+Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 0.5, 0}; Point(4) = {0, 0.5, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Point(11) = {0.51, 1, 0}; Point(12) = {0.01, 1, 0}; Point(13) = {0.51, 0.5, 0}; Point(14) = {1.01, 1, 0};
+Circle(11) = {12, 11, 13}; Circle(12) = {13, 11, 14}; Line(13) = {14, 12};
+Curve Loop(2) = {11:13}; Plane Surface(2) = {2};
+Physical Surface("block") = {1}; Physical Surface("disc") = {2};
+Physical Curve("ground") = {1}; Physical Curve("face") = {3}; Physical Curve("round") = {11, 12}; Physical Curve("head") = {13};)");
+  const std::string file = folder.write("disc.toml", R"(
+mesh = { file = "disc.geo" }
+materials.steel = { young = 200e3, poisson = 0.3 }
+bodies = { block = "steel", disc = "steel" }
+boundary = [{ on = ["ground"], displacement = { x = 0, y = 0 } },
+            { on = ["head"], displacement = { x = 0, y = -5e-6 } }]
+contact = [{ between = ["round", "face"] }]
+accuracy = { value = "5%", first_edges = 6 })");
+  const auto r = solve_to_accuracy(read_scene(file, {}));
+  ASSERT_TRUE(r);
+  EXPECT_TRUE(r->accuracy->reached()) << r->accuracy->reason;
+  EXPECT_GT(largest_entry(r->solution.lambda), 0);
+}
+
 TEST(Accuracy, KeepsTheLastCompleteAnswerWhenInterrupted) {
   int meshes = 0;
   bool stop = false;
