@@ -135,7 +135,7 @@ VecX errors_by_duals(const Mesh& mesh, const BodyPoints& points, const Discretis
   std::shared_ptr<const ContactFactor> factor = solution.factor;
   if (!factor) factor = factorise_contact(s, solution.active);
   const ErrorProducts found =
-      products_with_duals(mesh, points, d.laws, solution.u, *factor, rows, MatX::Zero(s.K.cols(), count), add_lines);
+      products_with_duals(mesh, points, d.laws, solution.u, *factor, rows, MatX(s.K.cols(), 0), add_lines);
   return errors + found.products.rightCols(count).cwiseAbs().colwise().sum().transpose();
 }
 
