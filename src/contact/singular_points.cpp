@@ -12,8 +12,8 @@
 namespace mortise {
 namespace {
 
-// One kink of two bodies that slide across it is singular however little it turns (exponents near 0), but turns of
-// meshes and splines that are meant to be smooth are no kinks.
+// One kink of two bodies that slide across it is singular however little it turns (exponents near 0). Of those that
+// turn by less it is how far the bodies slide that says whether anything is seen of it (error/sliding_kinks.hpp).
 constexpr double least_shared_kink = 2 * straight / 180;
 
 // What directions of a drawn straight line differ by, and of a line rebuilt through the nodes (contact_line.hpp).
@@ -169,7 +169,10 @@ SingularPoint singular_point(const Vec2& x, const Corner& a, const Corner& b, bo
   double jump = 0;
   if (point.meeting == Meeting::kink) {
     fit_kink(first, second);
-    if (std::abs(first.angle - straight) > least_shared_kink) found = tips.kinks(first, second);
+    if (const double turn = std::abs(first.angle - straight); turn > least_shared_kink)
+      found = tips.kinks(first, second);
+    else
+      point.small_turn = turn;
   } else if (!a.end && !b.end && on_both_sides) {
     found = tips.ends(half_of(first), half_of(second));
     jump = 2 * straight - first.angle - second.angle;
@@ -182,6 +185,8 @@ SingularPoint singular_point(const Vec2& x, const Corner& a, const Corner& b, bo
   if (found.pressure.real() <= singular_limit) point.pressure_exponent = found.pressure.real();
   if (point.pressure_exponent == 1 && !one_curve && std::abs(jump) > 2 * (a.error + b.error))
     point.log_pressure = log_amplitude(first, second, jump);
+  if (point.exponent == 1 && point.log_pressure == 0 && (a.end || b.end))
+    point.small_power = found.pressure.real() < 1 ? found.pressure.real() - 1 : found.falling - 1;
   return point;
 }
 
@@ -215,7 +220,8 @@ std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& ta
       const bool both = at.before && at.after;
       const SingularPoint point = k == 0 ? singular_point(x, corner, *opposite, both, one_curve, tips)
                                          : singular_point(x, *opposite, corner, both, one_curve, tips);
-      if (point.exponent <= singular_limit || point.log_pressure > 0) points.push_back(point);
+      if (point.exponent <= singular_limit || point.log_pressure > 0 || point.small_power != 0 || point.small_turn > 0)
+        points.push_back(point);
     }
   }
   return points;

@@ -24,6 +24,10 @@ struct SingularPoint {
   /// Where the slope of the gap jumps and contact is closed on both sides, p = -log_pressure ln r + ...; stress, 0
   /// where it does not.
   double log_pressure = 0;
+  /// Of one kink of both curves that turns too little for exponents to say what it does: by how much, radians, else 0.
+  double small_turn = 0;
+  /// p ~ r^small_power, to zero or without limit, so slowly that the point is none of those above (exponent 1); else 0.
+  double small_power = 0;
 
   /// Whether p has no limit there.
   bool is_unbounded() const { return pressure_exponent < 1 || log_pressure > 0; }

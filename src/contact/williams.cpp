@@ -170,6 +170,25 @@ std::vector<Wedge> relative(std::span<const Wedge> wedges) {
   return list;
 }
 
+// The least real exponent above a regular one, of a mode that loads the contact: of faces that meet at other than right
+// angles p = 0 at the very end, if neither shear nor the free face leaves anything else.
+double falling_exponent(const Wedge& a, const Wedge& b) {
+  constexpr double begin = 2 - regular_exponent, step = 0.01;
+  const auto f = [&](double lambda) { return matching(a, b, lambda).real(); };
+  for (double left = begin, right; left < falling_limit; left = right) {
+    right = std::min(left + step, falling_limit);
+    const double at_left = f(left);
+    if (!(at_left * f(right) < 0)) continue;
+    double low = left, high = right;
+    while (high - low > 1e-10) {
+      const double middle = (low + high) / 2;
+      (at_left * f(middle) < 0 ? high : low) = middle;
+    }
+    if (loads_contact(a, b, low)) return low;
+  }
+  return 1;
+}
+
 bool lower(Complex a, Complex b) { return a.real() < b.real(); }
 
 }  // namespace
@@ -214,6 +233,7 @@ TipExponents end_exponents(const Wedge& a, const Wedge& b) {
     found.pressure = *zero;
     break;
   }
+  if (found.stress == 1.0) found.falling = falling_exponent(a, b);
   return found;
 }
 

@@ -41,7 +41,13 @@ inline constexpr double regular_exponent = 0.999;
 struct TipExponents {
   std::complex<double> stress = 1;    ///< of all modes
   std::complex<double> pressure = 1;  ///< of those whose sigma_thetatheta on the contact face is not zero
+  /// Where both are 1, the exponent of the pressure between regular_exponent's like above 1 and falling_limit, of the
+  /// end of a contact line: p falls as r^(falling - 1) to zero. 1 where there is none.
+  double falling = 1;
 };
+
+/// Falling faster than as the root of r, p at an end is seen by the mesh: slopes of p show it.
+inline constexpr double falling_limit = 1.5;
 
 /// One wedge, by its outer face and its other one. Accurate to 1e-10, or to 1e-7 where two exponents coincide.
 std::complex<double> wedge_exponent(const Wedge& wedge, Face other);

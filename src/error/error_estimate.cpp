@@ -9,6 +9,8 @@
 #include "error/body_products.hpp"
 #include "error/gap_error.hpp"
 #include "error/recovered_pressure.hpp"
+#include "error/sliding_kinks.hpp"
+#include "error/weak_points.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/threads.hpp"
 
@@ -52,7 +54,8 @@ std::vector<SingularPoint> that_count(std::vector<SingularPoint> points, const P
   const double mean = std::sqrt(line.h.dot(line.p.cwiseAbs2()) / loaded);
   std::erase_if(points, [&](SingularPoint& point) {
     if (folds * point.log_pressure <= std::max(least, asked) * mean) point.log_pressure = 0;
-    return point.exponent > singular_limit && point.log_pressure == 0;
+    return point.exponent > singular_limit && point.log_pressure == 0 && point.small_power == 0 &&
+           point.small_turn == 0;
   });
   return points;
 }
@@ -111,6 +114,9 @@ std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const SideTab
     e.singular = that_count(singular_points(mesh, table, pair.multiplier, pair.opposite, d.system.constraints, d.laws,
                                             tips, reached[k], one_curve),
                             e.line, asked.spec.value);
+    add_weak_points(e.line, e.singular, e.local);
+    judge_small_kinks(pair, e.line, contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]),
+                      solution.u, asked.spec.value, e.singular);
     find_excluded(asked.spec.exclude, e);
   });
   return list;
@@ -198,6 +204,7 @@ void find_bars(PressureEstimate& e) {
   const Eigen::Index count = line.p.size();
   e.local2 = e.far2 = e.p2 = 0;
   e.bar = e.local.pointwise(line);
+  if (e.local.at_weak.size() > 0) e.bar = e.bar.cwiseMax(e.local.at_weak);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double far = far_at(e, i);
     e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? far : 0));

@@ -46,6 +46,7 @@ struct LineError {
     double part;        ///< its length over half the width of the contact beside it
   };
   std::vector<Border> borders;
+  VecX at_weak{};  ///< of vertices at which p goes as a small power of the distance, stress; empty: there are none
   /// At each vertex what p is off by, stress: the largest within four edges. What the border makes falls with the
   /// distance r from it as sqrt(h / r): that is what moving it does to a root.
   VecX pointwise(const PressureLine& line) const;

@@ -1,0 +1,57 @@
+#include "error/sliding_kinks.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "fem/edges.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double seen = 1. / 3;        // of what is asked: squares of errors add up, a tenth more
+constexpr double least_asked = 0.001;  // of a mesh of one's own: bars are judged at the nodes
+
+Vec2 value_at(const Edge& edge, const EdgeShape& shape, const VecX& u) {
+  Vec2 value = Vec2::Zero();
+  for (int a = 0; a < edge.node_count; ++a) value += shape.N[a] * u.segment<2>(2 * edge.nodes[a]);
+  return value;
+}
+
+// How far the sides slide at the contact point nearest to a place.
+double slide_at(const ContactPair& pair, const PressureLine& line, const Vec2& x, const VecX& u) {
+  double nearest = std::numeric_limits<double>::infinity(), slide = 0;
+  for (const ContactPoint& point : pair.points) {
+    const double end = (1 + point.xi) / 2;
+    const Vec2 at = (1 - end) * line.position[point.edge] + end * line.position[point.edge + 1];
+    if ((at - x).norm() >= nearest) continue;
+    nearest = (at - x).norm();
+    const Edge &own = pair.multiplier.edges[point.edge], &other = pair.opposite.edges[point.opposite_edge];
+    const Vec2 jump = value_at(other, edge_shape(other.node_count, point.eta), u) -
+                      value_at(own, edge_shape(own.node_count, point.xi), u);
+    slide = std::abs(jump.x() * point.normal.y() - jump.y() * point.normal.x());
+  }
+  return slide;
+}
+
+}  // namespace
+
+void judge_small_kinks(const ContactPair& pair, const PressureLine& line, double modulus, const VecX& u, double asked,
+                       std::vector<SingularPoint>& points) {
+  double length = 0, square = 0;
+  for (Eigen::Index i = 0; i < line.p.size(); ++i) {
+    if (line.loaded[i]) length += line.h(i);
+    square += line.h(i) * line.p(i) * line.p(i);
+  }
+  const double mean = std::sqrt(square / length), least = seen * (asked > 0 ? asked : least_asked);
+  std::erase_if(points, [&](SingularPoint& point) {
+    if (point.small_turn == 0) return false;
+    const double opens =
+        modulus * point.small_turn * slide_at(pair, line, point.position, u) / (2 * std::numbers::pi * mean);
+    if (!(std::sqrt(2 * opens / length) > least)) return true;
+    point.log_pressure = mean;  // counts as one: an exponent near 0 has no layers that a mesh could have
+    return false;
+  });
+}
+
+}  // namespace mortise

@@ -1,0 +1,17 @@
+// Points where p goes as a small power of the distance, to zero or without limit: no mesh shows it.
+#pragma once
+
+#include <vector>
+
+#include "contact/singular_points.hpp"
+#include "error/pressure_line.hpp"
+
+namespace mortise {
+
+/// Where a free face meets the contact line at other than a right angle p is zero at the very end, and c r^d at a
+/// distance r from it; where rollers do it grows so, d < 0 (SingularPoint::small_power). Of a small d p is as good as
+/// constant a little further on: slopes between vertices show nothing. Takes such points from the list, which leaves
+/// nothing out around them, and adds to `error` what hats miss of r^d (docs/theory.md eq. 47b).
+void add_weak_points(const PressureLine& line, std::vector<SingularPoint>& points, LineError& error);
+
+}  // namespace mortise

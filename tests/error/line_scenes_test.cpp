@@ -1,0 +1,124 @@
+// Two blocks on one another: what data, gaps and kinks do to the bars, and which vertices contact reaches.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/solve_scene.hpp"
+#include "error/contact_reach.hpp"
+#include "error/gap_misfit.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+// Blocks 1 x 0.5, the upper one from x = `left` on; in the middle the line turns by about 2 `kink`.
+std::string blocks(double left, double kink) {
+  return "left = " + std::to_string(left) + "; kink = " + std::to_string(kink / 2) + R"(;
+Mesh.ElementOrder = 2; Mesh.MeshSizeMax = 0.1;
+Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 0.5, 0}; Point(4) = {0.5, 0.5 + kink, 0}; Point(5) = {0, 0.5, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 1};
+Curve Loop(1) = {1 : 5}; Plane Surface(1) = {1};
+Point(11) = {left, 0.5, 0}; Point(12) = {0.5, 0.5 + kink, 0}; Point(13) = {1, 0.5, 0}; Point(14) = {1, 1, 0}; Point(15) = {left, 1, 0};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 15}; Line(15) = {15, 11};
+Curve Loop(2) = {11 : 15}; Plane Surface(2) = {2};
+Transfinite Curve{3, 4} = 6; Transfinite Curve{11, 12} = 7;
+Physical Surface("lower") = {1}; Physical Surface("upper") = {2};
+Physical Curve("foot") = {11, 12}; Physical Curve("seat") = {3, 4};
+Physical Curve("bottom") = {1}; Physical Curve("top") = {14}; Physical Curve("sides") = {5, 2, 13, 15};
+)";
+}
+
+struct Data {
+  std::string pressure = "1e-3", contact = "", more = "";
+};
+
+Results solved(const std::string& geo, const Data& data) {
+  const TemporaryFolder folder;
+  folder.write("a.geo", geo);
+  Results r = solve_scene(read_scene(folder.write("a.toml", R"(
+mesh.file = "a.geo"
+materials.one = { young = 1, poisson = 0.3 }
+bodies = { lower = "one", upper = "one" }
+boundary = [ { on = "bottom", displacement = { y = 0 } }, { on = "sides", displacement = { x = 0 } }, { on = "top", pressure = ")" +
+                                                                data.pressure +
+                                                                R"(" } ]
+contact = [{ between = ["foot", "seat"], multipliers_on = "foot")" +
+                                                                data.contact + " }]\n" + data.more)));
+  estimate(r);
+  return r;
+}
+
+double largest_bar(const Results& r) { return largest_entry(r.estimate->pressures[0].bar); }
+
+TEST(DataEstimate, OfASpikeBetweenTheNodesIsInTheBars) {
+  const Results spike = solved(blocks(0, 0), {.pressure = "1e-3 * (1 + 20 * exp(-((x - 0.4137) / 0.004)^2))"}),
+                even = solved(blocks(0, 0), {.pressure = "1.14e-3"});
+  const VecX &far = spike.estimate->pressures[0].far, &without = even.estimate->pressures[0].far;
+  EXPECT_GT(far.maxCoeff(), 20 * without.maxCoeff());
+  EXPECT_EQ(std::ranges::count_if(spike.warnings, [](const auto& w) { return w.find("boundary.2") != w.npos; }), 1);
+}
+
+// An initial strain that the cells miss works on the duals by its energy.
+TEST(DataEstimate, OfAnInitialStrainIsInTheBars) {
+  const std::string box =
+      "initial_strain = [{ body = 'lower', strain = { xx = 0, yy = \"VALUE\", zz = 0, xy = 0 } }]\n";
+  const auto with = [&](const std::string& value) {
+    std::string text = box;
+    return solved(blocks(0, 0), {.more = text.replace(text.find("VALUE"), 5, value)});
+  };
+  EXPECT_GT(with("1e-3 * (abs(x - 0.43) < 0.02 && abs(y - 0.3) < 0.02 ? 1 : 0)").estimate->pressures[0].far.maxCoeff(),
+            20 * with("1e-3").estimate->pressures[0].far.maxCoeff());
+}
+
+TEST(GapMisfit, OfAJumpIsItsPlaceAndOfASpikeAStress) {
+  const Results jump = solved(blocks(0, 0), {.contact = ", initial_gap = \"x < 0.4 ? 0 : 1e-5\""});
+  const GapErrors at = gap_errors(jump.mesh, jump.pairs[0], jump.discretisation.laws);
+  ASSERT_EQ(at.jumps.size(), 1u);
+  EXPECT_NEAR(at.jumps[0].position.x(), 0.4, 1e-6);
+  const Results spike = solved(blocks(0, 0), {.contact = ", initial_gap = \"1e-5 * exp(-((x - 0.458) / 0.01)^2)\""});
+  const GapErrors of_spike = gap_errors(spike.mesh, spike.pairs[0], spike.discretisation.laws);
+  EXPECT_TRUE(of_spike.jumps.empty());
+  Eigen::Index worst = 0;
+  of_spike.l2.maxCoeff(&worst);
+  EXPECT_EQ(worst, 5);  // of twelve edges that which has the spike's middle
+  EXPECT_GT(largest_bar(spike), 10 * largest_bar(solved(blocks(0, 0), {})));
+}
+
+TEST(GapMisfit, OfAnEvenGapIsNone) {
+  const Results even = solved(blocks(0, 0), {.contact = ", initial_gap = 0"});
+  EXPECT_EQ(gap_errors(even.mesh, even.pairs[0], even.discretisation.laws).l2.size(), 0);
+}
+
+// The upper block covers the right part of the lower one's top, seat, which runs from x = 1 to 0 in ten edges; it ends
+// within the eighth, whose far vertex is the nearest that the lower body has to that corner.
+TEST(ContactReach, IsWhereTheSidesFaceEachOtherAndAreClosed) {
+  const Results r = solved(blocks(0.25, 0), {});
+  const PressureLine& line = r.estimate->pressures[0].line;
+  const ContactReach reach = contact_reach(r.mesh, r.pairs[0], line, {});
+  ASSERT_EQ(reach[1].size(), 11u);
+  for (int i = 0; i <= 10; ++i) EXPECT_EQ(reach[1][i].any(), i <= 8) << i;
+  for (const Reach& at : reach[0]) EXPECT_TRUE(at.any());
+}
+
+TEST(ContactReach, IsNotLostAtAPlaceThatWasFoundBefore) {
+  const Results r = solved(blocks(0.25, 0), {});
+  const PressureLine& line = r.estimate->pressures[0].line;
+  const FoundPoint found{.between = {"seat", "foot"}, .position = {0, 0.5}},
+      other{.between = {"a", "b"}, .position = {0, 0.5}};
+  EXPECT_TRUE(contact_reach(r.mesh, r.pairs[0], line, {found})[1].back().any());
+  EXPECT_FALSE(contact_reach(r.mesh, r.pairs[0], line, {other})[1].back().any());
+}
+
+// p near a kink of 0.02 goes as E* turn slide / 2 pi r: listed; of a turn of 1e-7 nothing is seen.
+TEST(SlidingKinks, AreListedWhereWhatTheyDoIsSeen) {
+  const auto kinks = [](const Results& r) {
+    return std::ranges::count_if(r.estimate->pressures[0].singular,
+                                 [](const SingularPoint& point) { return std::abs(point.position.x() - 0.5) < 1e-6; });
+  };
+  const Data pushed{.more = "[[body_force]]\nbody = 'upper'\nforce = [1e-4, 0]\n"};
+  EXPECT_EQ(kinks(solved(blocks(0, 0.01), pushed)), 1);
+  EXPECT_EQ(kinks(solved(blocks(0, 2e-6), pushed)), 0);
+}
+
+}  // namespace
+}  // namespace mortise::test
