@@ -120,7 +120,7 @@ def held_case(kind, what, group, scene, drawing, number, seed, own_mesh):
     r = random.Random(f"{seed}:{number}")
     if r.random() < OWN:
         method = {"multipliers": r.choice(("linear", "linear", "quadratic", "dual"))}
-        pair = scene["contact"][0] | {"multipliers_on": r.choice(("upper_bottom", "lower_top"))}
+        pair = {"multipliers_on": r.choice(("upper_bottom", "lower_top"))} | scene["contact"][0]
         name, mesh, middles, cells = own_mesh(r)
         told, asked = scene | {"method": method, "contact": [pair]}, None
         how = f"own mesh of {cells}, {method['multipliers']}"
