@@ -13,6 +13,7 @@ constexpr double dependent_limit = 1e-13;  // likewise of a row's
 constexpr double of_one_row = 1e-2;        // a single multiplier's error that counts as much as one of all in energy
 constexpr double negligible_work = 1e-5;   // of its terms
 constexpr double work_round_off = 1e-12;   // of the largest terms of any motion
+constexpr double normal_noise = 1e-9;      // of a row's normal: as curve_noise of MultiplierSystem
 
 VecX ones_and_zeros(const std::vector<char>& flags) {
   VecX v(flags.size());
@@ -35,6 +36,18 @@ SparseMatrix sum_of_ranks(SparseMatrix A) {
   entries = ranks().of_all(std::move(entries));
   A.setFromTriplets(entries.begin(), entries.end());
   return A;
+}
+
+// What own rows of H under lambda do at most on any motion of each motion's bodies, s.
+VecX most_work(const SparseMatrix& H, const VecX& lambda) {
+  VecX most = VecX::Zero(H.rows()), sum = VecX::Zero(H.cols());
+  for (int k = 0; k < H.cols(); ++k)
+    for (SparseMatrix::InnerIterator it(H, k); it; ++it)
+      most(it.row()) = std::max(most(it.row()), std::abs(it.value()));
+  for (int k = 0; k < H.cols(); ++k)
+    for (SparseMatrix::InnerIterator it(H, k); it; ++it) sum(k) += most(it.row()) * std::abs(lambda(it.row()));
+  ranks().sum(sum.data(), sum.size());
+  return sum;
 }
 
 }  // namespace
@@ -177,10 +190,11 @@ VecX ClosedRows::driven_motion(const VecX& h, const VecX& lambda) const {
   VecX driven = VecX::Zero(h.size());
   if (free_.empty()) return driven;
   const VecX work = h - system_.resultants(lambda), terms = system_.work_terms(h, lambda);
+  const VecX noise = normal_noise * most_work(system_.H, rows_.own(lambda));
   const double round_off = work_round_off * largest_entry(terms);
   for (const auto& motion : free_motions.colwise())
-    if (std::abs(motion.dot(work)) >
-        std::max(negligible_work * motion.cwiseAbs().dot(terms), round_off * largest_entry(motion)))
+    if (std::abs(motion.dot(work)) > std::max({negligible_work * motion.cwiseAbs().dot(terms),
+                                               motion.cwiseAbs().dot(noise), round_off * largest_entry(motion)}))
       driven += motion.dot(work) * motion;
   return driven;
 }
