@@ -19,7 +19,7 @@ struct Task {
   std::size_t part;
 };
 
-// Cuts bodies, the largest first, and hands out their parts: whoever comes takes the largest part that is there, or
+// Cuts bodies, the largest first, and hands out their parts: each idle thread takes the largest ready part, or
 // cuts the next body where there is none, so that nobody waits for an order (one at a time) while there is other work.
 class Agenda {
  public:

@@ -13,21 +13,21 @@ namespace {
 
 using Overrides = std::vector<Override>;
 
-Results run(const std::string& name, Overrides overrides, const Overrides& more = {}) {
+Results run_ddm(const std::string& name, Overrides overrides, const Overrides& more = {}) {
   overrides.insert(overrides.end(), more.begin(), more.end());
   return solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/" + name + ".toml", overrides));
 }
 
 Results ddm(const std::string& name, Overrides overrides, const Overrides& more = {}) {
   overrides.push_back({"method.kind", "ddm"});
-  return run(name, overrides, more);
+  return run_ddm(name, overrides, more);
 }
 
 double displacement_difference(const Results& a, const Results& b) {
   return largest_entry(a.solution.u - b.solution.u) / largest_entry(b.solution.u);
 }
 
-Overrides plates(int upper, int lower, int kind, int order) {
+Overrides ddm_plates(int upper, int lower, int kind, int order) {
   return {{"mesh.parameters.n_upper", std::to_string(upper)},
           {"mesh.parameters.n_lower", std::to_string(lower)},
           {"mesh.parameters.kind", std::to_string(kind)},
@@ -55,7 +55,7 @@ TEST_P(SameAnswer, OnAllMeshes) {
     for (const char* side : {"upper", "lower"}) {
       const bool lower_side = std::string(side) == "lower";
       if (both && (lower_side ? lower > upper : upper > lower)) continue;
-      Overrides overrides = plates(upper, lower, kind, order);
+      Overrides overrides = ddm_plates(upper, lower, kind, order);
       overrides.push_back({"contact.multipliers_on", std::string(side) + "_contact"});
       const Results r = ddm(scene, overrides,
                             {{"method.scheme", scheme},
@@ -63,7 +63,7 @@ TEST_P(SameAnswer, OnAllMeshes) {
                              {"method.dirichlet", side},
                              {"method.tolerance", "1e-10"},
                              {"method.max_iterations", "2000"}});
-      const Results mortar = run(scene, overrides);
+      const Results mortar = run_ddm(scene, overrides);
       EXPECT_NE(r.status, Status::not_converged) << upper << ":" << lower << " " << side;
       EXPECT_LT(pressure_difference(r, mortar), 1e-8) << upper << ":" << lower << " " << side;
       EXPECT_LT(displacement_difference(r, mortar), 1e-8) << upper << ":" << lower << " " << side;
@@ -84,7 +84,7 @@ TEST(Decompose, MatchesMortarOnRingsAndShrinkFit) {
       const Overrides overrides{{"contact.multipliers_on", std::string(side) + "_contact"}};
       const Results r = ddm(scene, overrides, {{"method.dirichlet", side}, {"method.tolerance", "1e-10"}});
       EXPECT_EQ(r.status, Status::solved);
-      EXPECT_LT(pressure_difference(r, run(scene, overrides)), 1e-8) << scene << " " << side;
+      EXPECT_LT(pressure_difference(r, run_ddm(scene, overrides)), 1e-8) << scene << " " << side;
     }
 }
 
@@ -104,15 +104,15 @@ TEST(Decompose, StackOfThreeBodiesHasTwoInOneRole) {
 
 TEST(Decompose, TheSofterBodyTakesTheDisplacement) {
   for (const double ratio : {0.1, 10.0}) {
-    const Results r = ddm("parabola_1", with_ratio(plates(8, 10, 0, 2), ratio));
+    const Results r = ddm("parabola_1", with_ratio(ddm_plates(8, 10, 0, 2), ratio));
     EXPECT_EQ(r.dirichlet, std::vector<std::string>{ratio < 1 ? "upper" : "lower"});
     EXPECT_EQ(r.pairs[0].spec.multipliers_on, ratio < 1 ? "upper_contact" : "lower_contact");
   }
 }
 
 TEST(Decompose, OfEquallyStiffBodiesTheFinerTakesTheDisplacement) {
-  EXPECT_EQ(ddm("parabola_1", plates(8, 10, 0, 2)).dirichlet, std::vector<std::string>{"lower"});
-  EXPECT_EQ(ddm("parabola_1", plates(10, 8, 0, 2)).dirichlet, std::vector<std::string>{"upper"});
+  EXPECT_EQ(ddm("parabola_1", ddm_plates(8, 10, 0, 2)).dirichlet, std::vector<std::string>{"lower"});
+  EXPECT_EQ(ddm("parabola_1", ddm_plates(10, 8, 0, 2)).dirichlet, std::vector<std::string>{"upper"});
 }
 
 TEST(Decompose, ContradictingRolesAreAnError) {
@@ -133,7 +133,7 @@ Spectrum spectrum_of(const Results& r) {
 TEST(Decompose, FixedBetaConvergesAtThePredictedFactor) {
   for (const double ratio : {0.01, 0.1, 1.0, 10.0, 100.0})
     for (const double part : {0.2, 0.5, 0.9}) {  // of the interval in which beta converges
-      Overrides overrides = with_ratio(plates(16, 20, 0, 2), ratio);
+      Overrides overrides = with_ratio(ddm_plates(16, 20, 0, 2), ratio);
       overrides.insert(overrides.end(), {{"method.dirichlet", "upper"}, {"method.acceleration", "none"}});
       const Spectrum spectrum = spectrum_of(ddm("parabola_1", overrides, {{"method.max_iterations", "1"}}));
       const double beta = part * spectrum.largest_beta();
@@ -147,7 +147,7 @@ TEST(Decompose, FixedBetaConvergesAtThePredictedFactor) {
 
 TEST(Decompose, BeyondItsIntervalBetaDivergesAndTheRunSaysWhatWouldConverge) {
   const Overrides overrides = {{"method.dirichlet", "upper"}, {"method.acceleration", "none"}, {"method.beta", "5"}};
-  const Results r = ddm("parabola_1", plates(8, 10, 0, 2), overrides);
+  const Results r = ddm("parabola_1", ddm_plates(8, 10, 0, 2), overrides);
   EXPECT_EQ(r.status, Status::not_converged);
   EXPECT_LT(r.solution.iteration->history.size(), 100U);
   EXPECT_GT(r.solution.iteration->convergence_rate, 1);
@@ -159,7 +159,7 @@ TEST(Decompose, BeyondItsIntervalBetaDivergesAndTheRunSaysWhatWouldConverge) {
 TEST(Decompose, AcceleratedItTakesAtMostFourteenEvaluations) {
   for (const char* scene : {"parabola_1", "cosine"})
     for (const double ratio : {0.01, 0.1, 1.0, 10.0, 100.0}) {
-      const Results r = ddm(scene, with_ratio(plates(20, 25, 0, 2), ratio));
+      const Results r = ddm(scene, with_ratio(ddm_plates(20, 25, 0, 2), ratio));
       EXPECT_LE(r.solution.iteration->history.size(), 14U) << scene << " " << ratio;
       EXPECT_LE(r.solution.iteration->history.back().residuals.largest(), 1e-8);
     }
@@ -173,7 +173,7 @@ void expect_mortar_solution(const std::string& scene, const char* side, Override
   more.push_back({"contact.multipliers_on", side});
   Overrides settings = method;
   settings.push_back({"method.tolerance", "1e-10"});
-  const Results r = ddm(scene, more, settings), mortar = run(scene, more);
+  const Results r = ddm(scene, more, settings), mortar = run_ddm(scene, more);
   EXPECT_NE(r.status, Status::not_converged) << scene;
   EXPECT_EQ(r.solution.active, mortar.solution.active) << scene;
   EXPECT_LT(pressure_difference(r, mortar), 1e-8) << scene;
@@ -256,15 +256,15 @@ TEST(Decompose, WhatOverflowsIsNotSolved) {
 // A cladding 80 long and 0.6 thick among ten pellets, in a plane where it bends freely: contact nodes' stiffness alone
 // as preconditioner takes 767 steps (docs/theory.md, section 15).
 TEST(Feti, TakesFewStepsWithASlenderBody) {
-  const Results feti = run("pellets", {{"method.solver", "feti"}}),
-                direct = run("pellets", {{"method.solver", "direct"}});
+  const Results feti = run_ddm("pellets", {{"method.solver", "feti"}}),
+                direct = run_ddm("pellets", {{"method.solver", "direct"}});
   EXPECT_EQ(feti.status, Status::solved);
   EXPECT_LE(feti.solution.iteration->steps, 100);
   EXPECT_LE(largest_entry(feti.solution.lambda - direct.solution.lambda), 1e-8 * largest_entry(direct.solution.lambda));
 }
 
 TEST(Decompose, KeysOfDomainDecompositionNeedIt) {
-  expect_contains(message_of([] { run("rings", {{"method.beta", "0.3"}}); }), "expected solver = \"ddm\"");
+  expect_contains(message_of([] { run_ddm("rings", {{"method.beta", "0.3"}}); }), "expected solver = \"ddm\"");
   expect_contains(message_of([] { ddm("rings", {{"method.beta", "-1"}}); }), "method.beta");
   expect_contains(message_of([] { ddm("rings", {{"method.dirichlet", "iner"}}); }), "inner");
   expect_contains(message_of([] { ddm("rings", {{"method.max_iterations", "1.5"}}); }), "whole number");

@@ -134,7 +134,7 @@ Setting draw_setting(const std::string& method, unsigned seed) {
 }
 
 // Nothing where the scene is refused.
-std::optional<Results> solved(const Scene& scene, const TwoPlates& plates) {
+std::optional<Results> solved_if_held(const Scene& scene, const TwoPlates& plates) {
   try {
     return solve_scene(scene, mesh_of(plates));
   } catch (const InputError&) {
@@ -165,7 +165,7 @@ TEST_P(Differential, EachMethodAgreesWithTheDirectOneOrSaysThatItDoesNot) {
     const Setting s = draw_setting(GetParam(), seed);
     SCOPED_TRACE(std::to_string(seed) + ": " + s.words);
     std::optional<Results> found;
-    ASSERT_NO_THROW(found = solved(s.scene, s.plates));
+    ASSERT_NO_THROW(found = solved_if_held(s.scene, s.plates));
     if (!found || found->status == Status::not_converged) {
       ++(found ? unfinished : refused);
       continue;
@@ -174,7 +174,7 @@ TEST_P(Differential, EachMethodAgreesWithTheDirectOneOrSaysThatItDoesNot) {
     Scene direct = s.scene;
     direct.method.solver = Solver::direct;
     direct.contacts[0].multipliers_on = found->pairs[0].spec.multipliers_on;
-    const std::optional<Results> reference = solved(direct, s.plates);
+    const std::optional<Results> reference = solved_if_held(direct, s.plates);
     ASSERT_TRUE(reference.has_value()) << "the direct method refuses the scene";
     ++compared;
     EXPECT_EQ(to_string(found->status), to_string(reference->status));

@@ -9,8 +9,9 @@
 namespace mortise::test {
 namespace {
 
-// Two blocks 0 <= x <= 2, the lower one from y = 0 to 1, the upper one to 1.6, on meshes that do not match; E = 1000.
-const std::string blocks = R"toml(
+// Two two_blocks 0 <= x <= 2, the lower one from y = 0 to 1, the upper one to 1.6, on meshes that do not match; E =
+// 1000.
+const std::string two_blocks = R"toml(
 SetFactory("OpenCASCADE");
 Mesh.ElementOrder = 2;
 Rectangle(1) = {0, 0, 0, 2, 1};
@@ -29,8 +30,8 @@ Physical Curve("top") = {7};
 Physical Curve("upper_left") = {8};
 )toml";
 
-Scene scene_of(const TemporaryFolder& folder, const std::string& poisson, const std::string& rest,
-               const std::string& geo = blocks) {
+Scene loaded_scene(const TemporaryFolder& folder, const std::string& poisson, const std::string& rest,
+                   const std::string& geo = two_blocks) {
   folder.write("blocks.geo", geo);
   return read_scene(folder.write("scene.toml",
                                  "mesh.file = \"blocks.geo\"\nmodel.plane = \"stress\"\n"
@@ -52,7 +53,7 @@ double displacement_error(const Results& r, const Exact& exact) {
 // Pure bending about the contact line, sigma_11 = k (y - 1): u = k/E (x (y - 1), -x^2/2 - nu (y - 1)^2/2), p = 0.
 TEST(FunctionsOfPlace, BendingByTractionsAndDisplacementsIsExact) {
   const TemporaryFolder folder;
-  const Scene scene = scene_of(folder, "0.3", R"toml(
+  const Scene scene = loaded_scene(folder, "0.3", R"toml(
 boundary = [
   { on = ["lower_left", "upper_left"], displacement = { x = "0*x", y = "-1e-3 * 0.3 * (y - 1)^2 / 2" } },
   { on = ["lower_right", "upper_right"], traction = ["1 * (y - 1)", 0] },
@@ -75,7 +76,7 @@ TEST(FunctionsOfPlace, ALinearPressureGoesThroughContactExactly) {
   const TemporaryFolder folder;
   for (const std::string load :
        {"pressure = \"3 * (1 + x)\"", "pressure = \"3 + 3*s\"", "traction = [0, \"-3 * (1 + r*cos(theta))\"]"}) {
-    const Results r = solve_scene(scene_of(folder, "0", R"toml(
+    const Results r = solve_scene(loaded_scene(folder, "0", R"toml(
 boundary = [
   { on = "bottom", displacement = { x = 0, y = 0 } },
   { on = "top", displacement = { x = "0.003 * y^2 / 2" } },
@@ -112,7 +113,7 @@ initial_strain = [
   for (const std::string& entries :
        {"{ body = \"upper\", temperature_change = \"50 * x\" }, { body = \"lower\", " + strain,
         "{ body = \"lower\", temperature_change = \"50 * r*cos(theta)\" }, { body = \"upper\", " + strain}) {
-    Scene scene = scene_of(folder, "0.3, thermal_expansion = 2e-5", held + entries + "\n]\n");
+    Scene scene = loaded_scene(folder, "0.3, thermal_expansion = 2e-5", held + entries + "\n]\n");
     const Results r = solve_scene(scene);
     EXPECT_LT(displacement_error(r, exact), 1e-10);
     EXPECT_LT(r.stress.points.cwiseAbs().maxCoeff(), 1e-10);  // of E times 2e-3
@@ -122,7 +123,7 @@ initial_strain = [
 
 TEST(FunctionsOfPlace, ABodyForceHasTheForceAndMomentOfItsField) {
   const TemporaryFolder folder;
-  const Scene scene = scene_of(folder, "0.3", R"toml(
+  const Scene scene = loaded_scene(folder, "0.3", R"toml(
 body_force = [{ body = "lower", force = ["3 * y", "-x"] }]
 )toml");
   const Mesh mesh = scene_mesh(scene);
@@ -139,18 +140,18 @@ TEST(FunctionsOfPlace, GravityIsABodyForceByDensity) {
   const std::string rest =
       "boundary = [{ on = \"bottom\", displacement = { x = 0, y = 0 } }]\n"
       "contact = [{ between = [\"upper_contact\", \"lower_contact\"] }]\n";
-  const Scene gravity = scene_of(folder, "0.3, density = 0.5", "model.gravity = [0, -10]\n" + rest);
-  const Scene force = scene_of(folder, "0.3",
-                               "body_force = [{ body = \"lower\", force = [0, -5] }, "
-                               "{ body = \"upper\", force = [0, \"-5 + 0*x\"] }]\n" +
-                                   rest);
+  const Scene gravity = loaded_scene(folder, "0.3, density = 0.5", "model.gravity = [0, -10]\n" + rest);
+  const Scene force = loaded_scene(folder, "0.3",
+                                   "body_force = [{ body = \"lower\", force = [0, -5] }, "
+                                   "{ body = \"upper\", force = [0, \"-5 + 0*x\"] }]\n" +
+                                       rest);
   const Mesh mesh = scene_mesh(gravity);
   const Discretisation a = discretise(gravity, mesh), b = discretise(force, mesh);
   EXPECT_LT((a.weight.force - Vec2(0, -16)).norm(), 1e-13);  // 0.5 * 10 * 2 * 1.6
   EXPECT_LT((a.system.f - b.system.f).cwiseAbs().maxCoeff(), 1e-14);
   expect_contains(model_lines(gravity, mesh, a), "  load      gravity (0, -10), in sum (0, -16), moment");
   expect_contains(
-      message_of([&] { scene_of(folder, "0.3", "model.gravity = [0, -10]\n"); }),
+      message_of([&] { loaded_scene(folder, "0.3", "model.gravity = [0, -10]\n"); }),
       "materials.m: 'density' of the material 'm' is missing; expected one, as there is gravity (model.gravity");
 }
 
@@ -160,7 +161,7 @@ TEST(FunctionsOfPlace, AFoundationSinksByPressureOverModulus) {
   const TemporaryFolder folder;
   const auto exact = [](const Vec2& x) { return Vec2(0.003 * x.y() * x.y() / 2, -0.03 - 0.003 * (1 + x.x()) * x.y()); };
   for (const std::string modulus : {"\"100 * (1 + x)\"", "\"100 + 100*s\"", "[0, \"100 * (1 + x)\"]"}) {
-    const Results r = solve_scene(scene_of(folder, "0", R"toml(
+    const Results r = solve_scene(loaded_scene(folder, "0", R"toml(
 boundary = [
   { on = "bottom", foundation = )toml" + modulus + R"toml( },
   { on = "top", displacement = { x = "0.003 * y^2 / 2" } },
@@ -174,10 +175,11 @@ contact = [{ between = ["upper_contact", "lower_contact"] }]
     // 1/2 int sigma^2 / E: 9 / 2000 times int (1 + x)^2 over 2 x 1.6.
     EXPECT_NEAR(r.energy, 9.0 / 2000 * 26 / 3 * 1.6, 1e-10);
   }
-  expect_contains(message_of([&] {
-                    check_scene(scene_of(folder, "0", "boundary = [{ on = \"bottom\", foundation = \"x - 1\" }]\n"));
-                  }),
-                  "boundary.0 (line 5).foundation: 'x - 1' is -0.9");
+  expect_contains(
+      message_of([&] {
+        check_scene(loaded_scene(folder, "0", "boundary = [{ on = \"bottom\", foundation = \"x - 1\" }]\n"));
+      }),
+      "boundary.0 (line 5).foundation: 'x - 1' is -0.9");
 }
 
 TEST(FunctionsOfPlace, ASpringAlongXHoldsNothingAlongY) {
@@ -188,7 +190,7 @@ TEST(FunctionsOfPlace, ASpringAlongXHoldsNothingAlongY) {
       "contact = [{ between = [\"upper_contact\", \"lower_contact\"] }]\n";
   const auto with = [&](const std::string& k) {
     std::string text = scene;
-    return scene_of(folder, "0", text.replace(text.find('K'), 1, k));
+    return loaded_scene(folder, "0", text.replace(text.find('K'), 1, k));
   };
   expect_contains(message_of([&] { check_scene(with("0")); }), "nothing holds");
   const Results weak = solve_scene(with("1e-6"));  // of E = 1000
@@ -208,7 +210,7 @@ contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilatera
   const auto solved = [&](const std::string& what) {
     std::string text = rest;
     text.replace(text.find("WHAT"), 4, what);
-    return solve_scene(scene_of(folder, "0.3", text));
+    return solve_scene(loaded_scene(folder, "0.3", text));
   };
   const Results r = solved("force = [2.6, -5.2]"), traction = solved("traction = [1, -2]");  // 2 + 0.6 long
   EXPECT_LT((r.discretisation.boundary_sums[2].force - Vec2(2.6, -5.2)).norm(), 1e-13);
@@ -217,7 +219,7 @@ contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilatera
 
 TEST(FunctionsOfPlace, AreToldAsTheyAreWritten) {
   const TemporaryFolder folder;
-  const Scene scene = scene_of(folder, "0.3", R"toml(
+  const Scene scene = loaded_scene(folder, "0.3", R"toml(
 boundary = [
   { on = "bottom", displacement = { x = 0, y = "1e-3 * x" } },
   { on = "top", pressure = "3 + 3*s" },
@@ -247,7 +249,7 @@ contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilatera
 TEST(FunctionsOfPlace, WhatCannotBeIsNamedWithItsPlace) {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& entry) {
-    return message_of([&] { check_scene(scene_of(folder, "0.3", "boundary = [\n" + entry + "\n]\n")); });
+    return message_of([&] { check_scene(loaded_scene(folder, "0.3", "boundary = [\n" + entry + "\n]\n")); });
   };
   const std::string file = folder.path("scene.toml") + ": ";
   EXPECT_EQ(message("{ on = \"lower_left\", displacement = { y = \"1 / (y - 1)\" } }"),
@@ -261,10 +263,10 @@ TEST(FunctionsOfPlace, WhatCannotBeIsNamedWithItsPlace) {
 
 TEST(FunctionsOfPlace, ArcLengthNeedsOneChain) {
   const TemporaryFolder folder;
-  std::string geo = blocks;
+  std::string geo = two_blocks;
   geo.replace(geo.find("{1};\nPhysical Curve(\"lower_right\")"), 3, "{1, 7}");
   const std::string message = message_of(
-      [&] { check_scene(scene_of(folder, "0.3", "boundary = [{ on = \"bottom\", pressure = \"s\" }]\n", geo)); });
+      [&] { check_scene(loaded_scene(folder, "0.3", "boundary = [{ on = \"bottom\", pressure = \"s\" }]\n", geo)); });
   expect_contains(message, "boundary 'bottom' belongs to more than one body");
 }
 

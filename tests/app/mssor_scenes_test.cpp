@@ -19,7 +19,7 @@ using Overrides = std::vector<Override>;
 
 std::string scene_file(const std::string& name) { return std::string(MORTISE_SOURCE_DIR) + "/geo/" + name + ".toml"; }
 
-Results run(const std::string& name, Overrides overrides, const Overrides& more = {}) {
+Results run_mssor(const std::string& name, Overrides overrides, const Overrides& more = {}) {
   overrides.insert(overrides.end(), more.begin(), more.end());
   return solve_scene(read_scene(scene_file(name), overrides));
 }
@@ -30,7 +30,7 @@ Overrides mssor(Overrides overrides, const std::string& acceleration = "krylov")
   return overrides;
 }
 
-Overrides plates(int upper, int lower, int kind = 0, int order = 2) {
+Overrides mssor_plates(int upper, int lower, int kind = 0, int order = 2) {
   return {{"mesh.parameters.n_upper", std::to_string(upper)},
           {"mesh.parameters.n_lower", std::to_string(lower)},
           {"mesh.parameters.kind", std::to_string(kind)},
@@ -58,53 +58,53 @@ std::string message_of(const std::function<void()>& action) {
 TEST(SolveMssor, IsTheDirectSolversAnswer) {
   for (const char* acceleration : {"none", "krylov", "minres"})
     for (const auto& [kind, order] : {std::pair{0, 2}, {1, 1}, {1, 2}, {0, 1}}) {
-      const Overrides mesh = plates(8, 10, kind, order);
-      expect_as_direct(run("parabola_1", mssor(mesh, acceleration)), run("parabola_1", mesh));
+      const Overrides mesh = mssor_plates(8, 10, kind, order);
+      expect_as_direct(run_mssor("parabola_1", mssor(mesh, acceleration)), run_mssor("parabola_1", mesh));
     }
 }
 
 TEST(SolveMssor, IsTheDirectSolversAnswerOnOtherScenes) {
   // three bodies, unilateral and closed; a gap that is measured; a kink; multipliers of other spaces
-  expect_as_direct(run("stack", mssor({})), run("stack", {}));
-  expect_as_direct(run("shrink_fit", mssor({})), run("shrink_fit", {}));
-  const Overrides mesh = plates(16, 20);
-  expect_as_direct(run("tent_c", mssor(mesh)), run("tent_c", mesh));
+  expect_as_direct(run_mssor("stack", mssor({})), run_mssor("stack", {}));
+  expect_as_direct(run_mssor("shrink_fit", mssor({})), run_mssor("shrink_fit", {}));
+  const Overrides mesh = mssor_plates(16, 20);
+  expect_as_direct(run_mssor("tent_c", mssor(mesh)), run_mssor("tent_c", mesh));
   for (const char* space : {"dual", "quadratic"}) {
     const Overrides other = {{"method.multipliers", space}};
-    expect_as_direct(run("patch_inclined", mssor(other)), run("patch_inclined", other));
+    expect_as_direct(run_mssor("patch_inclined", mssor(other)), run_mssor("patch_inclined", other));
   }
 }
 
 TEST(SolveMssor, ALooseToleranceIsWhatTheChecksAskFor) {
-  const Results r = run("patch_flat", mssor({{"method.tolerance", "1e-6"}}));
+  const Results r = run_mssor("patch_flat", mssor({{"method.tolerance", "1e-6"}}));
   EXPECT_EQ(r.status, Status::solved);
   EXPECT_LE(r.checks[0].value, 1e-6);
   EXPECT_EQ(r.checks[0].limit, 1e-6);
-  EXPECT_LT(r.solution.iteration->steps, run("patch_flat", mssor({})).solution.iteration->steps);
+  EXPECT_LT(r.solution.iteration->steps, run_mssor("patch_flat", mssor({})).solution.iteration->steps);
 }
 
 TEST(SolveMssor, OpeningContactIsRefused) {
-  const std::string text = message_of([] { run("lift_off", mssor({})); });
+  const std::string text = message_of([] { run_mssor("lift_off", mssor({})); });
   EXPECT_NE(text.find("contact is in tension here"), std::string::npos) << text;
   EXPECT_NE(text.find("solver = \"direct\""), std::string::npos) << text;
 }
 
 TEST(SolveMssor, DivergenceNamesTheBorderAndTheBorderHolds) {
-  Overrides mesh = plates(8, 10);
-  const double limit = run("parabola_1", mssor(mesh, "none")).solution.iteration->figures.back().second;
+  Overrides mesh = mssor_plates(8, 10);
+  const double limit = run_mssor("parabola_1", mssor(mesh, "none")).solution.iteration->figures.back().second;
   ASSERT_GT(limit, 0);
   mesh.push_back({"method.tau", std::to_string(1.05 * limit)});
-  const Results r = run("parabola_1", mssor(mesh, "none"));
+  const Results r = run_mssor("parabola_1", mssor(mesh, "none"));
   EXPECT_EQ(r.status, Status::not_converged);
   ASSERT_FALSE(r.warnings.empty());
   EXPECT_NE(r.warnings[0].find("diverges"), std::string::npos) << r.warnings[0];
   EXPECT_NE(r.warnings[0].find("converges for tau below"), std::string::npos) << r.warnings[0];
   mesh.back().value = std::to_string(0.95 * limit);
-  EXPECT_NE(run("parabola_1", mssor(mesh, "none")).status, Status::not_converged);
+  EXPECT_NE(run_mssor("parabola_1", mssor(mesh, "none")).status, Status::not_converged);
 }
 
 TEST(SolveMssor, TooFewStepsAreNotConverged) {
-  const Results r = run("patch_flat", mssor({{"method.max_iterations", "5"}}));
+  const Results r = run_mssor("patch_flat", mssor({{"method.max_iterations", "5"}}));
   EXPECT_EQ(r.status, Status::not_converged);
   EXPECT_EQ(r.solution.iteration->steps, 5);
   ASSERT_FALSE(r.warnings.empty());
@@ -145,10 +145,10 @@ TEST(SolveMssor, WhatOverflowsIsNotSolved) {
   for (const char* acceleration : {"none", "krylov", "minres"}) {
     for (const char* y : {"-1e300", "-1e308"}) {
       const std::string top = std::string("{ on = [\"top\"], displacement = { y = ") + y + " } }";
-      EXPECT_EQ(run("patch_flat", mssor({{"boundary.2", top}}, acceleration)).status, Status::not_converged);
+      EXPECT_EQ(run_mssor("patch_flat", mssor({{"boundary.2", top}}, acceleration)).status, Status::not_converged);
     }
     const Overrides tau = {{"method.tau", "1e300"}, {"method.max_iterations", "200"}};
-    const Results r = run("patch_flat", mssor(tau, acceleration));
+    const Results r = run_mssor("patch_flat", mssor(tau, acceleration));
     EXPECT_TRUE(r.status == Status::not_converged || r.solution.u.allFinite());
   }
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr double young = 210e9, poisson = 0.3;
 
 // A pair of two bodies of steel, unilateral, with the gap that the mesh has.
-Scene scene_of(const std::string& first, const std::string& second, const std::string& multipliers_on) {
+Scene pressed_scene(const std::string& first, const std::string& second, const std::string& multipliers_on) {
   Scene s;
   s.path = "test scene";
   s.materials["steel"] = {young, poisson, 0};
@@ -33,7 +33,7 @@ void hold(Scene& s, std::vector<std::string> on, std::optional<double> x, std::o
   s.boundaries.push_back(b);
 }
 
-Results solved(Scene s, const Mesh& mesh) {
+Results solved_on(Scene s, const Mesh& mesh) {
   for (const std::string& body : mesh.bodies) s.bodies.push_back({body, "steel"});
   return solve_scene(s, mesh);
 }
@@ -55,10 +55,10 @@ double taper_force(int n, double deep, CellKind kind, const std::string& side) {
                                  "lower", n, 6, 0, 1, [](double) { return 0; }, [](double) { return 0.5; }),
                              block("upper", n * 5 / 4, 6, 0, 1, line, [](double) { return 1; })},
                             kind);
-  Scene s = scene_of("lower_north", "upper_south", side);
+  Scene s = pressed_scene("lower_north", "upper_south", side);
   hold(s, {"lower_south", "upper_north"}, {}, 0);
   hold(s, {"lower_west", "lower_east", "upper_west", "upper_east"}, 0, {});
-  const Results r = solved(s, mesh);
+  const Results r = solved_on(s, mesh);
   EXPECT_NEAR(r.contacts[0].length_in_contact, 1, 0.1) << n;
   return std::abs(r.contacts[0].force.y());
 }
@@ -73,7 +73,7 @@ TEST_P(Overlap, OfATaperTakesTheForceOfAShallowOneOnEveryMesh) {
 // ---- A press fit: a quarter of two rings, the inner one 2 % too large ----
 
 // Plane strain, ring a < r < b under pressure p inside and q outside (Lame): u(r).
-double lame(double a, double b, double r, double p, double q) {
+double lame_between(double a, double b, double r, double p, double q) {
   const double d = b * b - a * a, A = (p * a * a - q * b * b) / d, B = (p - q) * a * a * b * b / d;
   return (1 + poisson) / young * ((1 - 2 * poisson) * A * r + B / r);
 }
@@ -81,14 +81,15 @@ double lame(double a, double b, double r, double p, double q) {
 // The force on a radian: the outer ring takes it at r = 1, the inner one at r = 1.02, and both displacements fill the
 // overlap.
 TEST_P(Overlap, OfAPressFitTakesLamesForceOnEveryMesh) {
-  const double opening = lame(1, 1.5, 1, 1, 0) - lame(0.5, 1.02, 1.02, 0, 1 / 1.02), exact = 0.02 / opening;
+  const double opening = lame_between(1, 1.5, 1, 1, 0) - lame_between(0.5, 1.02, 1.02, 0, 1 / 1.02),
+               exact = 0.02 / opening;
   for (const int n : {24, 48, 160}) {
     const Mesh mesh = mesh_of(
         {ring("inner", n, 4, {0, 0}, 0.5, 1.02, 90, 0), ring("outer", n * 4 / 3, 4, {0, 0}, 1, 1.5, 90, 0)}, kind());
-    Scene s = scene_of("inner_north", "outer_south", side("inner_north", "outer_south"));
+    Scene s = pressed_scene("inner_north", "outer_south", side("inner_north", "outer_south"));
     hold(s, {"inner_east", "outer_east"}, {}, 0);
     hold(s, {"inner_west", "outer_west"}, 0, {});
-    const Vec2 force = solved(s, mesh).contacts[0].force;
+    const Vec2 force = solved_on(s, mesh).contacts[0].force;
     for (const int c : {0, 1}) EXPECT_NEAR(std::abs(force(c)), exact, 0.01 * exact) << n;
   }
 }
@@ -101,9 +102,9 @@ TEST_P(Overlap, OfTwoCylindersTakesTheSameForceOnEveryMesh) {
     const Mesh mesh = mesh_of(
         {ring("lower", n, 8, {0, 0}, 0.5, 1, 115, 65), ring("upper", n * 5 / 4, 8, {0, 1.98}, 0.5, 1, 295, 245)},
         kind());
-    Scene s = scene_of("lower_north", "upper_north", side("lower_north", "upper_north"));
+    Scene s = pressed_scene("lower_north", "upper_north", side("lower_north", "upper_north"));
     hold(s, {"lower_south", "upper_south"}, 0, 0);
-    forces.push_back(std::abs(solved(s, mesh).contacts[0].force.y()));
+    forces.push_back(std::abs(solved_on(s, mesh).contacts[0].force.y()));
   }
   EXPECT_NEAR(forces[0], forces[2], 0.03 * forces[2]);
   EXPECT_NEAR(forces[1], forces[2], 0.02 * forces[2]);
@@ -117,7 +118,7 @@ struct Facing {
 };
 
 Facing facing(const Mesh& mesh, const std::string& first, const std::string& second, const std::string& on) {
-  Scene s = scene_of(first, second, on);
+  Scene s = pressed_scene(first, second, on);
   for (const std::string& body : mesh.bodies) s.bodies.push_back({body, "steel"});
   return {mesh, couple_pairs(s.method, mesh, discretise(s, mesh), contact_curves(s, mesh))};
 }
@@ -160,10 +161,10 @@ Results in_v_block(const std::string& side) {
                block(
                    "vee", 320, 8, -1.5, 1.5, [](double) { return -1; }, [](double x) { return std::abs(x); })},
               CellKind::quad8);
-  Scene s = scene_of("cylinder_north", "vee_north", side);
+  Scene s = pressed_scene("cylinder_north", "vee_north", side);
   hold(s, {"vee_south"}, 0, 0);
   hold(s, {"cylinder_south"}, 0, -5e-3);
-  return solved(s, mesh);
+  return solved_on(s, mesh);
 }
 
 TEST(Default, TheCoveredSideCarriesTheMultipliers) {
@@ -182,10 +183,10 @@ Results under_a_punch(const std::string& side) {
                              block(
                                  "block", 230, 30, -0.3, 0.5, [](double) { return -0.2; }, [](double) { return 0.2; })},
                             CellKind::quad8);
-  Scene s = scene_of("block_north", "punch_south", side);
+  Scene s = pressed_scene("block_north", "punch_south", side);
   hold(s, {"block_south"}, 0, 0);
   hold(s, {"punch_north"}, 0, -1e-5);
-  return solved(s, mesh);
+  return solved_on(s, mesh);
 }
 
 TEST(Default, APunchCarriesTheMultipliers) {

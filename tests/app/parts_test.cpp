@@ -11,7 +11,7 @@
 namespace mortise::test {
 namespace {
 
-Results solved(const std::string& name, const std::string& parameter = "", const std::string& value = "") {
+Results solved_part(const std::string& name, const std::string& parameter = "", const std::string& value = "") {
   std::vector<Override> overrides;
   if (!parameter.empty()) overrides.push_back({parameter, value});
   Results r = solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/" + name + ".toml", overrides));
@@ -43,7 +43,7 @@ Vec2 force_on(const Results& r, std::size_t pair, const std::string& curve) {
 class Refined : public testing::TestWithParam<int> {};
 
 TEST_P(Refined, ABeamOnThreeSupports) {
-  const Results r = solved("beam_on_supports", "mesh.parameters.n", std::to_string(GetParam()));
+  const Results r = solved_part("beam_on_supports", "mesh.parameters.n", std::to_string(GetParam()));
   expect_few_words(r);
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) sum += force_on(r, k, "foot_" + std::to_string(k)).y();
@@ -53,14 +53,14 @@ TEST_P(Refined, ABeamOnThreeSupports) {
 INSTANTIATE_TEST_SUITE_P(Meshes, Refined, testing::Values(3, 4, 8, 12));
 
 TEST(Parts, ADovetail) {
-  const Results r = solved("dovetail");
+  const Results r = solved_part("dovetail");
   expect_few_words(r);
   const double pull = 20e6 * (0.05 - 0.04 / std::sqrt(3));  // the flank is at 60 degrees: its normal is at 30
   expect_force(force_on(r, 0, "tenon_flank"), {-pull * std::sqrt(3), -pull});
 }
 
 TEST(Parts, AShaftInAVBlock) {
-  const Results r = solved("v_block");
+  const Results r = solved_part("v_block");
   expect_few_words(r, true);
   const Vec2 weight = r.discretisation.body_sums[0].force;
   EXPECT_NEAR(weight.y(), -2e8 * std::numbers::pi / 2 * 0.02 * 0.02, 1);
@@ -68,20 +68,20 @@ TEST(Parts, AShaftInAVBlock) {
 }
 
 TEST(Parts, ABlockInAnL) {
-  const Results r = solved("block_in_l");
+  const Results r = solved_part("block_in_l");
   expect_few_words(r);
   expect_force(force_on(r, 0, "block_sides"), {5e5, 1e6});
 }
 
 TEST(Parts, TwoStackedBlocksUnderTheirWeight) {
-  const Results r = solved("stacked_blocks");
+  const Results r = solved_part("stacked_blocks");
   expect_few_words(r);
   expect_force(force_on(r, 0, "upper_foot"), {0, 25e3});
   for (const ContactNode& n : r.contacts[0].multiplier.nodes) EXPECT_NEAR(n.p, 25e3, 1e-6 * 25e3);
 }
 
 TEST(Parts, TwoBondedMaterialsAreOneBodyForTheBalance) {
-  const Results r = solved("bonded_pair");
+  const Results r = solved_part("bonded_pair");
   expect_few_words(r);
   expect_force(force_on(r, 0, "lining_foot"), {0, 10e6});
 }
@@ -95,20 +95,20 @@ bool says_p_is_off(const Results& r) {
 }
 
 TEST(EstimatedError, ACoarseMeshIsNamedWithItsPlace) {
-  const Results coarse = solved("v_block", "mesh.parameters.n", "6");
+  const Results coarse = solved_part("v_block", "mesh.parameters.n", "6");
   EXPECT_EQ(coarse.status, Status::check_failed);  // by more than half
   EXPECT_GT(coarse.estimate->pressure(), pressure_error_limit);
   EXPECT_TRUE(says_p_is_off(coarse));
 }
 
 TEST(EstimatedError, DoesNotChangeWhereAllIsMovedAsAWhole) {
-  const Results still = solved("v_block");
-  const Results moved = solved("v_block", "boundary.1", "{on = \"ground\", displacement = { y = -0.009 }}");
+  const Results still = solved_part("v_block");
+  const Results moved = solved_part("v_block", "boundary.1", "{on = \"ground\", displacement = { y = -0.009 }}");
   EXPECT_NEAR(moved.estimate->pressure(), still.estimate->pressure(), 1e-5);
 }
 
 TEST(EstimatedError, IsNoneWhereContactCarriesNothing) {
-  const Results r = solved("v_block", "body_force.0.force", "[0, 0]");
+  const Results r = solved_part("v_block", "body_force.0.force", "[0, 0]");
   EXPECT_EQ(r.estimate->pressure_square(), 0);
   EXPECT_FALSE(says_p_is_off(r));
 }

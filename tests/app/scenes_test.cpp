@@ -8,7 +8,7 @@
 namespace mortise::test {
 namespace {
 
-Results solved(const std::string& name, std::vector<Override> overrides = {}) {
+Results solved_scene(const std::string& name, std::vector<Override> overrides = {}) {
   return solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/" + name + ".toml", overrides));
 }
 
@@ -66,10 +66,10 @@ std::array<double, 4> lame_study(const std::string& scene, double exact, const s
                                  const std::string& space) {
   std::array<double, 4> errors{};
   for (int level = 0; level < 4; ++level) {
-    const Results r = solved(scene, {{"mesh.parameters.n_inner", std::to_string(12 << level)},
-                                     {"mesh.parameters.n_outer", std::to_string(16 << level)},
-                                     {"contact.multipliers_on", side},
-                                     {"method.multipliers", space}});
+    const Results r = solved_scene(scene, {{"mesh.parameters.n_inner", std::to_string(12 << level)},
+                                           {"mesh.parameters.n_outer", std::to_string(16 << level)},
+                                           {"contact.multipliers_on", side},
+                                           {"method.multipliers", space}});
     errors[level] = pressure_error(r, exact);
     EXPECT_EQ(r.status, Status::solved);
   }
@@ -113,7 +113,7 @@ TEST(Lame, ShrinkFit) {
 TEST(Lame, DisplacementsOfTheShrinkFit) {
   const Ring inner{1, 2, 210e9, 0.3, 0}, outer{2, 3, 70e9, 0.3, 12e-6 * -100};
   const double p = lame_pressure(inner, outer, 0, 0);
-  const Results r = solved("shrink_fit", {{"mesh.parameters.n_inner", "24"}, {"mesh.parameters.n_outer", "32"}});
+  const Results r = solved_scene("shrink_fit", {{"mesh.parameters.n_inner", "24"}, {"mesh.parameters.n_outer", "32"}});
   double worst = 0, largest = 0;
   for (std::size_t b = 0; b < 2; ++b)
     for (int i = r.points.first[b]; i < r.points.first[b + 1]; ++i) {
@@ -129,8 +129,8 @@ TEST(Lame, DisplacementsOfTheShrinkFit) {
 }
 
 TEST(Default, MultipliersLieOnTheFinerSide) {
-  const Results fine_below = solved("patch_flat"),
-                fine_above = solved("patch_flat", {{"mesh.parameters.n_upper", "13"}});
+  const Results fine_below = solved_scene("patch_flat"),
+                fine_above = solved_scene("patch_flat", {{"mesh.parameters.n_upper", "13"}});
   EXPECT_EQ(fine_below.pairs[0].spec.multipliers_on, "lower_contact");
   EXPECT_EQ(fine_above.pairs[0].spec.multipliers_on, "upper_contact");
 }
@@ -149,10 +149,10 @@ TEST(Default, LinearMultipliersDoNotOscillateWhereQuadraticOnesDo) {
   };
   const Override held{"contact.condition", "bilateral"};
   const Override edges{"method.normals", "edges"}, quadratic{"method.multipliers", "quadratic"};
-  const double linear = swing(solved("cosine", {held, edges}));
+  const double linear = swing(solved_scene("cosine", {held, edges}));
   EXPECT_LT(linear, 0.05);
-  EXPECT_GT(swing(solved("cosine", {held, edges, quadratic})), 5 * linear);
-  EXPECT_LT(swing(solved("cosine", {held, quadratic})), 3 * linear);  // along the curve's
+  EXPECT_GT(swing(solved_scene("cosine", {held, edges, quadratic})), 5 * linear);
+  EXPECT_LT(swing(solved_scene("cosine", {held, quadratic})), 3 * linear);  // along the curve's
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ Physical Curve("upper_left") = {8};
   return geo.str();
 }
 
-Scene scene_of(const TemporaryFolder& folder, const std::string& rest, double degrees = 0, double poisson = 0.3) {
+Scene supported_scene(const TemporaryFolder& folder, const std::string& rest, double degrees = 0,
+                      double poisson = 0.3) {
   folder.write("blocks.geo", blocks(degrees));
   return read_scene(folder.write(
       "scene.toml", "mesh.file = \"blocks.geo\"\nmodel.plane = \"stress\"\nmaterials.m = { young = 1000, poisson = " +
@@ -61,7 +62,7 @@ const std::string contact = "contact = [{ between = [\"upper_contact\", \"lower_
 // A punch pressed down in a part of the top, beside a symmetry line.
 TEST(Supports, TurnedAxesChangeNothing) {
   const TemporaryFolder straight_folder, turned_folder;
-  const Results straight = solve_scene(scene_of(straight_folder, contact + R"toml(
+  const Results straight = solve_scene(supported_scene(straight_folder, contact + R"toml(
 boundary = [
   { on = ["lower_left", "upper_left"], displacement = { x = 0 } },
   { on = "bottom", displacement = { y = 2e-3 } },
@@ -70,13 +71,13 @@ boundary = [
   ASSERT_EQ(straight.status, Status::solved);
   for (const std::string method : {"direct", "mssor", "ddm", "feti"}) {
     SCOPED_TRACE(method);
-    const Results turned = solve_scene(scene_of(turned_folder, contact + "method.solver = \"" + method + R"toml("
+    const Results turned = solve_scene(supported_scene(turned_folder, contact + "method.solver = \"" + method + R"toml("
 boundary = [
   { on = ["lower_left", "upper_left"], displacement = { normal = 0 } },
   { on = "bottom", displacement = { direction = [-1, 1.7320508075688772], value = 2e-3 } },
   { on = "top", pressure = "1 + (x * cos(30 * pi / 180) + y * sin(30 * pi / 180))^3" },
 ])toml",
-                                                30));
+                                                       30));
     EXPECT_EQ(turned.status, Status::solved);
     const VecX &p = turned.contacts[0].pressure, &q = straight.contacts[0].pressure;
     ASSERT_EQ(p.size(), q.size());
@@ -97,13 +98,13 @@ TEST(Supports, TheEstimateOfTurnedAxesIsTheSame) {
     estimate(r, {});
     return r;
   };
-  const Results straight = estimated(scene_of(straight_folder, contact + R"toml(
+  const Results straight = estimated(supported_scene(straight_folder, contact + R"toml(
 boundary = [{ on = "bottom", displacement = { x = 0, y = 0 } }, { on = "upper_left", displacement = { x = 0 } },
             { on = "top", pressure = "1 + s" }])toml")),
-                turned = estimated(scene_of(turned_folder, contact + R"toml(
+                turned = estimated(supported_scene(turned_folder, contact + R"toml(
 boundary = [{ on = "bottom", displacement = { x = 0, y = 0 } }, { on = "upper_left", displacement = { normal = 0 } },
             { on = "top", pressure = "1 + s" }])toml",
-                                            50));
+                                                   50));
   EXPECT_NEAR(turned.estimate->pressure(), straight.estimate->pressure(), 1e-6 * straight.estimate->pressure());
 }
 
@@ -113,7 +114,7 @@ TEST(Supports, ARigidTopTakesForceAndMoment) {
   const std::string held = "boundary = [{ on = \"bottom\", displacement = { x = 0, y = 0 } }, { on = \"top\", rigid = ";
   const double force = -6, moment = 0.4, height = 1.6, E = 1000, a = force / 2, b = moment / (2.0 / 3);
   const Results loaded =
-      solve_scene(scene_of(folder, contact + held + "{ x = 0, force = [0, -6], moment = 0.4 } }]", 0, 0));
+      solve_scene(supported_scene(folder, contact + held + "{ x = 0, force = [0, -6], moment = 0.4 } }]", 0, 0));
   EXPECT_EQ(loaded.status, Status::solved);
   ASSERT_EQ(loaded.reactions.rigid_motions.size(), 1u);
   const Eigen::Vector3d motion = loaded.reactions.rigid_motions[0];
@@ -128,7 +129,7 @@ TEST(Supports, ARigidTopTakesForceAndMoment) {
   given.precision(17);
   given << "{ x = " << at_corner.x() << ", y = " << at_corner.y() << ", rotation = " << motion(2)
         << ", about = [2, 1.6] } }]";
-  const Results moved = solve_scene(scene_of(folder, contact + held + given.str(), 0, 0));
+  const Results moved = solve_scene(supported_scene(folder, contact + held + given.str(), 0, 0));
   EXPECT_EQ(moved.status, Status::solved);
   EXPECT_NEAR(moved.reactions.entries[1].force.x(), 0, 1e-9);
   EXPECT_NEAR(moved.reactions.entries[1].force.y(), force, 1e-9);
@@ -138,13 +139,13 @@ TEST(Supports, ARigidTopTakesForceAndMoment) {
 // The line of symmetry holds a node of the rigid top, which moves along it.
 TEST(Supports, ARigidTopMayEndOnALineOfSymmetry) {
   const TemporaryFolder folder;
-  const Results r = solve_scene(scene_of(folder, contact + R"toml(
+  const Results r = solve_scene(supported_scene(folder, contact + R"toml(
 boundary = [
   { on = "bottom", displacement = { y = 0 } },
   { on = ["lower_left", "upper_left"], displacement = { x = 0 } },
   { on = "top", rigid = { x = 0, y = -1.6e-3, rotation = 0 } },
 ])toml",
-                                         0, 0));
+                                                0, 0));
   EXPECT_EQ(r.status, Status::solved);
   EXPECT_NEAR(r.reactions.entries[2].force.y(), -2, 1e-9);
   for (const double p : r.contacts[0].pressure) EXPECT_NEAR(p, 1, 1e-9);
@@ -179,7 +180,7 @@ contact = [{ between = ["foot", "top"], multipliers_on = ")" + side + "\" }]\n")
 
 TEST(Supports, PointsHoldLoadAndSpring) {
   const TemporaryFolder folder;
-  const Results r = solve_scene(scene_of(folder, contact + R"toml(
+  const Results r = solve_scene(supported_scene(folder, contact + R"toml(
 boundary = [
   { on = "corner", displacement = { x = 0 } },
   { on = "upper_left", displacement = { x = 0 } },
@@ -203,8 +204,8 @@ boundary = [
 TEST(Supports, RefusesWhatCannotBeMeant) {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& entry) {
-    const Scene scene =
-        scene_of(folder, contact + "boundary = [{ on = \"bottom\", displacement = { x = 0, y = 0 } }, " + entry + "]");
+    const Scene scene = supported_scene(
+        folder, contact + "boundary = [{ on = \"bottom\", displacement = { x = 0, y = 0 } }, " + entry + "]");
     return message_of([&] { solve_scene(scene); });
   };
   const auto expect = [&](const std::string& entry, const std::string& words) {

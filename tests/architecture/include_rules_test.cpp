@@ -116,6 +116,29 @@ TEST(IncludeRules, HoldInAllOfSrc) {
   EXPECT_GT(files, 50) << "not the source tree? " << project;
 }
 
+// Units of src/ (a header, or headers and sources, of one name) that the page on the architecture does not name.
+std::vector<std::string> unnamed_units(const std::string& page) {
+  std::vector<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(project / "src")) {
+    if (entry.path().extension() != ".hpp") continue;
+    const std::string unit = entry.path().stem().string();
+    const std::string room = entry.path().parent_path().filename().string();
+    // "`mesh/mesh.hpp`" names a unit as "`mesh`" does.
+    if (!std::regex_search(page, std::regex("`(" + room + "/)?" + unit + "(\\.hpp)?`")))
+      found.push_back(room + "/" + unit);
+  }
+  return found;
+}
+
+TEST(IncludeRules, ThePageNamesEveryUnit) {
+  std::ifstream text(project / "docs/architecture.md");
+  ASSERT_TRUE(text);
+  const std::string page((std::istreambuf_iterator<char>(text)), {});
+  for (const std::string& unit : unnamed_units(page))
+    ADD_FAILURE() << "docs/architecture.md does not name src/" << unit;
+  EXPECT_GT(unnamed_units("`coupling`").size(), 100u);
+}
+
 TEST(IncludeRules, NameFileAndLineOfAForbiddenInclude) {
   EXPECT_EQ(
       violations_of("mesh/mesh.cpp", "#include <vector>\n\n#include \"solve/saddle_point.hpp\"\n"),

@@ -13,15 +13,15 @@ namespace {
 
 using test::TwoPlates;
 
-struct Curves {
+struct GapCurves {
   Mesh mesh;
   Curve multiplier, opposite;
   std::vector<ContactPoint> points;
 };
 
 // Both plates of one mesh, the upper one lifted by `gap`.
-Curves curves_of(const TwoPlates& plates, double gap = 0) {
-  Curves c{test::mesh_of(plates), {}, {}, {}};
+GapCurves gap_curves_of(const TwoPlates& plates, double gap = 0) {
+  GapCurves c{test::mesh_of(plates), {}, {}, {}};
   for (Eigen::Index i = 0; i < c.mesh.nodes.rows(); ++i) {
     const auto in_upper = [&](const Cell& cell) {
       return cell.body == 0 && std::find(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind), int(i)) !=
@@ -48,13 +48,13 @@ TEST(Sagittas, OfAStraightCurveVanish) {
   for (const CellKind kind : {CellKind::quad4, CellKind::quad8}) {
     TwoPlates plates;
     plates.kind_upper = plates.kind_lower = kind;
-    const Curves c = curves_of(plates);
+    const GapCurves c = gap_curves_of(plates);
     for (const double s : sagittas(c.mesh.nodes, c.multiplier)) EXPECT_LE(s, 1e-15);
   }
 }
 
 TEST(Sagittas, OfChordsAreAtLeastTheArcsDistance) {
-  const Curves c = curves_of(circle(20, 31, CellKind::quad4));
+  const GapCurves c = gap_curves_of(circle(20, 31, CellKind::quad4));
   const std::vector<double> list = sagittas(c.mesh.nodes, c.multiplier);
   for (std::size_t e = 0; e < list.size(); ++e) {
     const double h = edge_length(c.mesh.nodes, c.multiplier.edges[e]);
@@ -65,7 +65,7 @@ TEST(Sagittas, OfChordsAreAtLeastTheArcsDistance) {
 }
 
 // How far each edge of the lower plate's line lies from `height`, by the vertical distance and the slope.
-std::vector<double> distances(const Curves& c, const std::function<double(double)>& height) {
+std::vector<double> distances(const GapCurves& c, const std::function<double(double)>& height) {
   std::vector<double> list;
   for (const Edge& e : c.multiplier.edges) {
     double largest = 0;
@@ -90,7 +90,7 @@ TEST(Sagittas, OfQuadraticEdgesAreWhatParabolasMiss) {
       TwoPlates plates;
       plates.height = height;
       plates.n_upper = plates.n_lower = n;
-      const Curves c = curves_of(plates);
+      const GapCurves c = gap_curves_of(plates);
       const std::vector<double> bound = sagittas(c.mesh.nodes, c.multiplier), exact = distances(c, height);
       for (std::size_t e = 0; e < bound.size(); ++e) EXPECT_LE(exact[e], 2 * bound[e]) << n << " " << e;
       EXPECT_LE(*std::max_element(bound.begin(), bound.end()), 20 * *std::max_element(exact.begin(), exact.end())) << n;
@@ -103,7 +103,7 @@ TEST(Sagittas, OfAParabolaInQuadraticEdgesFallAtTheFourthOrder) {
     TwoPlates plates;
     plates.height = [](double x) { return 0.2 + x - 1.25 * x * x; };
     plates.n_upper = plates.n_lower = n;
-    const Curves c = curves_of(plates);
+    const GapCurves c = gap_curves_of(plates);
     const std::vector<double> list = sagittas(c.mesh.nodes, c.multiplier);
     return *std::max_element(list.begin(), list.end());
   };
@@ -112,14 +112,14 @@ TEST(Sagittas, OfAParabolaInQuadraticEdgesFallAtTheFourthOrder) {
 }
 
 TEST(OpenPlace, AClearanceOfAThousandthIsNotTheQuadraticMeshesOwn) {
-  const Curves c = curves_of(circle(20, 31, CellKind::quad8), 5e-4);
+  const GapCurves c = gap_curves_of(circle(20, 31, CellKind::quad8), 5e-4);
   EXPECT_TRUE(open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points, 1e-6));
 }
 
 TEST(OpenPlace, NoneBetweenTwoMeshesOfOneCurve) {
   for (const CellKind kind : {CellKind::quad4, CellKind::quad8, CellKind::tri3, CellKind::tri6})
     for (const auto& [n_upper, n_lower] : {std::pair(5, 8), {8, 5}, {4, 40}, {20, 31}}) {
-      const Curves c = curves_of(circle(n_upper, n_lower, kind));
+      const GapCurves c = gap_curves_of(circle(n_upper, n_lower, kind));
       EXPECT_FALSE(open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points)) << n_upper << " " << n_lower;
       EXPECT_FALSE(open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points, 1e-6));
     }
@@ -130,7 +130,7 @@ TEST(OpenPlace, IsARealGap) {
   TwoPlates plates;
   plates.n_upper = 8;
   plates.n_lower = 12;
-  const Curves c = curves_of(plates, gap);
+  const GapCurves c = gap_curves_of(plates, gap);
   const auto open = open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points);
   ASSERT_TRUE(open);
   EXPECT_NEAR(open->gap, gap, 1e-14);

@@ -34,7 +34,7 @@ std::vector<SingularPoint> points_of(const TwoPlates& plates, const Sides& held)
 
 const std::vector<std::string> all_sides{"upper_left", "upper_right", "lower_left", "lower_right"};
 
-Wedge steel(double angle, Face outer) { return wedge(angle, elastic_law(210e9, 0.3, {Plane::strain}), outer); }
+Wedge steel_wedge(double angle, Face outer) { return wedge(angle, elastic_law(210e9, 0.3, {Plane::strain}), outer); }
 
 TEST(SingularPoints, OfABodyAloneAreItsCornersByWhatHoldsThem) {
   const Mesh mesh = test::mesh_of(TwoPlates{});
@@ -46,7 +46,7 @@ TEST(SingularPoints, OfABodyAloneAreItsCornersByWhatHoldsThem) {
   EXPECT_EQ(corner_exponent(mesh, middle, constraints, law), 1);
   for (const int c : {0, 1}) prescribe(mesh, boundary_index(mesh, "lower_left"), c, 0, constraints);
   EXPECT_NEAR(corner_exponent(mesh, corner, constraints, law),
-              wedge_exponent(steel(90 * degree, Face::free), Face::clamped).real(), 1e-9);
+              wedge_exponent(steel_wedge(90 * degree, Face::free), Face::clamped).real(), 1e-9);
   EXPECT_EQ(corner_exponent(mesh, middle, constraints, law), 1);
 }
 
@@ -60,7 +60,7 @@ TEST(SingularPoints, BetweenClampedSidesOnlyTheBodiesStressIs) {
   ASSERT_EQ(points.size(), 2u);
   for (const SingularPoint& p : points) {
     EXPECT_EQ(p.meeting, Meeting::ends);
-    EXPECT_NEAR(p.exponent, wedge_exponent(steel(90 * degree, Face::free), Face::clamped).real(), 1e-9);
+    EXPECT_NEAR(p.exponent, wedge_exponent(steel_wedge(90 * degree, Face::free), Face::clamped).real(), 1e-9);
     EXPECT_EQ(p.pressure_exponent, 1);
   }
 }
@@ -70,8 +70,9 @@ TEST(SingularPoints, WhatHoldsAnEndIsTheSideBesideIt) {
   const auto points = points_of({}, {{"lower_left"}, {0, 1}});
   ASSERT_EQ(points.size(), 1u);
   EXPECT_NEAR(points[0].position.x(), 0, 1e-15);
-  EXPECT_NEAR(points[0].exponent,
-              end_exponents(steel(90 * degree, Face::clamped), steel(90 * degree, Face::free)).stress.real(), 1e-9);
+  EXPECT_NEAR(
+      points[0].exponent,
+      end_exponents(steel_wedge(90 * degree, Face::clamped), steel_wedge(90 * degree, Face::free)).stress.real(), 1e-9);
 }
 
 // The preprint's parabola has slopes 1 and -1 at its ends, with elements of any kind, and no corner between them.
@@ -83,7 +84,8 @@ TEST(SingularPoints, AParabolaMeetsItsSlidingSidesAtTheAnglesOfTheCurve) {
     const auto points = points_of(plates, {all_sides, {0}});
     ASSERT_EQ(points.size(), 2u);
     const double exact =
-        end_exponents(steel(45 * degree, Face::symmetric), steel(135 * degree, Face::symmetric)).pressure.real();
+        end_exponents(steel_wedge(45 * degree, Face::symmetric), steel_wedge(135 * degree, Face::symmetric))
+            .pressure.real();
     for (const SingularPoint& p : points) {
       EXPECT_NEAR(p.exponent, exact, 2e-3);  // rebuilt through 8 and 12 vertices; by the chords 0.05
       EXPECT_EQ(p.exponent, p.pressure_exponent);
@@ -108,8 +110,8 @@ TEST(SingularPoints, AKinkOfBothPlatesIsOnePointWithBothFacesShared) {
   const double beside = points[kink == points.begin() ? 1 : 0].exponent;
   EXPECT_NEAR(kink_exponents(kink->wedges[0], kink->wedges[1], Face::symmetric).stress.real(), beside, 1e-9);
   EXPECT_NEAR(kink->exponent,
-              end_exponents(steel(straight / 2 - half_turn, Face::antisymmetric),
-                            steel(straight / 2 + half_turn, Face::antisymmetric))
+              end_exponents(steel_wedge(straight / 2 - half_turn, Face::antisymmetric),
+                            steel_wedge(straight / 2 + half_turn, Face::antisymmetric))
                   .stress.real(),
               1e-9);
 }
@@ -162,8 +164,10 @@ TEST(SingularPoints, UnderACornerPressedOnOneFaceItIsThatOfAWedge) {
   ASSERT_EQ(points.size(), 1u);
   EXPECT_EQ(points[0].log_pressure, 0);
   const double angle = 180 - 2 * std::atan(0.5) / degree;
-  EXPECT_NEAR(points[0].pressure_exponent,
-              end_exponents(steel(angle * degree, Face::free), steel(180 * degree, Face::free)).pressure.real(), 1e-3);
+  EXPECT_NEAR(
+      points[0].pressure_exponent,
+      end_exponents(steel_wedge(angle * degree, Face::free), steel_wedge(180 * degree, Face::free)).pressure.real(),
+      1e-3);
 }
 
 TEST(SingularPoints, WhatContactDoesNotReachIsNone) {

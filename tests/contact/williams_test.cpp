@@ -17,39 +17,39 @@ using Matrix8 = Eigen::Matrix<double, 8, 8>;
 
 constexpr double pi = std::numbers::pi, degree = pi / 180;
 
-Wedge steel(double degrees, Face outer = Face::free, double young = 1, double poisson = 0.3) {
+Wedge wedge_of(double degrees, Face outer = Face::free, double young = 1, double poisson = 0.3) {
   return wedge(degrees * degree, elastic_law(young, poisson, {Plane::strain}), outer);
 }
 
 // ---- One wedge: Williams (1952) ----
 
 TEST(Williams, KolosovsConstantIsTheOneOfThePlane) {
-  const Wedge strain = steel(90), stress = wedge(1, elastic_law(1, 0.3, {Plane::stress}));
+  const Wedge strain = wedge_of(90), stress = wedge(1, elastic_law(1, 0.3, {Plane::stress}));
   EXPECT_NEAR(strain.kolosov, 3 - 4 * 0.3, 1e-14);
   EXPECT_NEAR(stress.kolosov, (3 - 0.3) / 1.3, 1e-14);
   EXPECT_NEAR(stress.shear, 1 / 2.6, 1e-14);
 }
 
 TEST(Williams, FreeFacesHaveTheRootsOfTheCharacteristicEquation) {
-  EXPECT_NEAR(wedge_exponent(steel(360), Face::free).real(), 0.5, 1e-10);  // a crack
-  EXPECT_NEAR(wedge_exponent(steel(270), Face::free).real(), 0.5444837367,
+  EXPECT_NEAR(wedge_exponent(wedge_of(360), Face::free).real(), 0.5, 1e-10);  // a crack
+  EXPECT_NEAR(wedge_exponent(wedge_of(270), Face::free).real(), 0.5444837367,
               1e-10);  // an L: sin(lambda w) = -lambda sin w
   for (const double degrees : {200.0, 240.0, 300.0, 350.0}) {
-    const Complex lambda = wedge_exponent(steel(degrees), Face::free);
+    const Complex lambda = wedge_exponent(wedge_of(degrees), Face::free);
     EXPECT_EQ(lambda.imag(), 0);
     EXPECT_NEAR(std::sin(lambda.real() * degrees * degree), -lambda.real() * std::sin(degrees * degree), 1e-10);
   }
   for (const double degrees : {20.0, 90.0, 179.0, 180.0})
-    EXPECT_EQ(wedge_exponent(steel(degrees), Face::free), 1.0) << degrees;
+    EXPECT_EQ(wedge_exponent(wedge_of(degrees), Face::free), 1.0) << degrees;
 }
 
 TEST(Williams, ClampedAndFree) {
-  EXPECT_NEAR(wedge_exponent(steel(90), Face::clamped).real(), 0.7111729, 1e-7);
-  const Complex flat = wedge_exponent(steel(180), Face::clamped);  // Muskhelishvili (1953): 1/2 + i ln(kappa) / 2 pi
+  EXPECT_NEAR(wedge_exponent(wedge_of(90), Face::clamped).real(), 0.7111729, 1e-7);
+  const Complex flat = wedge_exponent(wedge_of(180), Face::clamped);  // Muskhelishvili (1953): 1/2 + i ln(kappa) / 2 pi
   EXPECT_NEAR(std::abs(flat - Complex(0.5, std::log(1.8) / (2 * pi))), 0, 1e-10);
   for (const double degrees : {70.0, 120.0, 150.0, 250.0, 340.0}) {
     const double w = degrees * degree, kappa = 1.8;
-    const Complex lambda = wedge_exponent(steel(degrees, Face::clamped), Face::free), s = std::sin(lambda * w);
+    const Complex lambda = wedge_exponent(wedge_of(degrees, Face::clamped), Face::free), s = std::sin(lambda * w);
     EXPECT_LT(lambda.real(), 1);
     EXPECT_NEAR(
         std::abs(4 * kappa * s * s - (kappa + 1) * (kappa + 1) + 4.0 * lambda * lambda * std::pow(std::sin(w), 2)), 0,
@@ -59,9 +59,10 @@ TEST(Williams, ClampedAndFree) {
 }
 
 TEST(Williams, HalfOfASymmetricWedgeHasItsModes) {
-  EXPECT_NEAR(std::abs(wedge_exponent(steel(135), Face::symmetric) - wedge_exponent(steel(270), Face::free)), 0, 1e-10);
+  EXPECT_NEAR(std::abs(wedge_exponent(wedge_of(135), Face::symmetric) - wedge_exponent(wedge_of(270), Face::free)), 0,
+              1e-10);
   // The antisymmetric modes of an L: sin(lambda w) = lambda sin w, 0.9085 (Williams 1952).
-  EXPECT_NEAR(wedge_exponent(steel(135), Face::antisymmetric).real(), 0.9085291898, 1e-9);
+  EXPECT_NEAR(wedge_exponent(wedge_of(135), Face::antisymmetric).real(), 0.9085291898, 1e-9);
 }
 
 // ---- Two wedges: Dundurs & Lee (1972) ----
@@ -69,7 +70,7 @@ TEST(Williams, HalfOfASymmetricWedgeHasItsModes) {
 TEST(Williams, AWedgeOnAHalfPlaneHasTheExponentOfDundursAndLee) {
   for (const double stiffness : {1.0, 3.0, 0.2})
     for (const double degrees : {90.0, 120.0, 160.0}) {
-      const TipExponents found = end_exponents(steel(degrees, Face::free, stiffness), steel(180));
+      const TipExponents found = end_exponents(wedge_of(degrees, Face::free, stiffness), wedge_of(180));
       const double s = found.stress.real(), w = degrees * degree, alpha = (stiffness - 1) / (stiffness + 1);
       ASSERT_LT(s, 1) << degrees;
       EXPECT_EQ(found.stress, found.pressure);
@@ -77,30 +78,32 @@ TEST(Williams, AWedgeOnAHalfPlaneHasTheExponentOfDundursAndLee) {
                       (1 - alpha) / 2 * std::sin(pi * s) * (std::sin(2 * s * w) + s * std::sin(2 * w)),
                   0, 1e-10);
     }
-  EXPECT_NEAR(end_exponents(steel(90), steel(180)).pressure.real(), 0.774013, 1e-6);
-  EXPECT_NEAR(end_exponents(steel(90, Face::free, 1e9), steel(180)).pressure.real(), 0.5, 1e-8);  // a rigid punch
+  EXPECT_NEAR(end_exponents(wedge_of(90), wedge_of(180)).pressure.real(), 0.774013, 1e-6);
+  EXPECT_NEAR(end_exponents(wedge_of(90, Face::free, 1e9), wedge_of(180)).pressure.real(), 0.5, 1e-8);  // a rigid punch
 }
 
 TEST(Williams, ATableKeepsTipsApart) {
   TipTable tips;
-  const std::pair<Wedge, Wedge> asked[] = {
-      {steel(90), steel(180)}, {steel(90 + 1e-10), steel(180)},  // the same
-      {steel(91), steel(180)}, {steel(90, Face::clamped), steel(180)}, {steel(90, Face::free, 3), steel(180)},
-      {steel(180), steel(90)}};
+  const std::pair<Wedge, Wedge> asked[] = {{wedge_of(90), wedge_of(180)},
+                                           {wedge_of(90 + 1e-10), wedge_of(180)},  // the same
+                                           {wedge_of(91), wedge_of(180)},
+                                           {wedge_of(90, Face::clamped), wedge_of(180)},
+                                           {wedge_of(90, Face::free, 3), wedge_of(180)},
+                                           {wedge_of(180), wedge_of(90)}};
   for (int again = 0; again < 2; ++again)
     for (const auto& [a, b] : asked)
       EXPECT_NEAR(std::abs(tips.ends(a, b).stress - end_exponents(a, b).stress), 0, 1e-9);
   EXPECT_EQ(tips.ends(asked[0].first, asked[0].second).stress, tips.ends(asked[1].first, asked[1].second).stress);
-  const Wedge a = steel(100), b = steel(260);
+  const Wedge a = wedge_of(100), b = wedge_of(260);
   EXPECT_NEAR(std::abs(tips.kinks(a, b).stress - kink_exponents(a, b).stress), 0, 1e-9);
 }
 
 TEST(Williams, QuarterPlanesThatMeetHaveNoneUnlessTheyAreClamped) {
-  EXPECT_EQ(end_exponents(steel(90), steel(90)).stress, 1.0);
-  EXPECT_EQ(end_exponents(steel(90, Face::symmetric), steel(90, Face::symmetric, 7)).stress, 1.0);
+  EXPECT_EQ(end_exponents(wedge_of(90), wedge_of(90)).stress, 1.0);
+  EXPECT_EQ(end_exponents(wedge_of(90, Face::symmetric), wedge_of(90, Face::symmetric, 7)).stress, 1.0);
   // Each on its own, clamped and free: the other one's mirror image, p = 0.
-  const TipExponents clamped = end_exponents(steel(90, Face::clamped), steel(90, Face::clamped));
-  EXPECT_NEAR(clamped.stress.real(), wedge_exponent(steel(90), Face::clamped).real(), 1e-10);
+  const TipExponents clamped = end_exponents(wedge_of(90, Face::clamped), wedge_of(90, Face::clamped));
+  EXPECT_NEAR(clamped.stress.real(), wedge_exponent(wedge_of(90), Face::clamped).real(), 1e-10);
   EXPECT_EQ(clamped.pressure, 1.0);
 }
 
@@ -171,7 +174,7 @@ double pressure_of_mode(const Wedge& a, const Wedge& b, double lambda) {
 
 Wedge random_wedge(std::mt19937& random, double largest) {
   const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
-  return steel(uniform(20, largest), Face(int(uniform(0, 4))), std::exp(uniform(-3, 3)), uniform(0, 0.45));
+  return wedge_of(uniform(20, largest), Face(int(uniform(0, 4))), std::exp(uniform(-3, 3)), uniform(0, 0.45));
 }
 
 // The smallest lambda between 0.01 and 0.99 at which the determinant changes its sign.
@@ -205,14 +208,14 @@ TEST(Williams, ModesOfAKinkSatisfyTheConditionsOnBothFaces) {
   for (const double turn : {2.0, 28.07, 53.13, 90.0, 150.0})
     for (const double stiffness : {1.0, 10.0})
       for (const Face bisector : {Face::symmetric, Face::antisymmetric}) {
-        const Wedge a = steel(180 + turn, Face::free, stiffness, 0.2), b = steel(180 - turn);
+        const Wedge a = wedge_of(180 + turn, Face::free, stiffness, 0.2), b = wedge_of(180 - turn);
         const Complex lambda = kink_exponents(a, b, bisector).pressure;
         ASSERT_LT(lambda.real(), 1);
         EXPECT_EQ(lambda.imag(), 0);
         EXPECT_LE(residual(kink_conditions(a, b, lambda.real())), 1e-11) << turn;
         EXPECT_LE(kink_exponents(a, b).stress.real(), lambda.real());
       }
-  EXPECT_EQ(kink_exponents(steel(180), steel(180)).stress, 1.0);
+  EXPECT_EQ(kink_exponents(wedge_of(180), wedge_of(180)).stress, 1.0);
 }
 
 }  // namespace

@@ -40,13 +40,13 @@ std::string msh(const std::string& nodes, const std::string& elements) {
 
 const std::string kUnitNodes = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n";
 
-struct Broken {
+struct BrokenMesh {
   std::string name, file, text;
   std::map<std::string, double> parameters;
   std::vector<std::string> said;
 };
 
-std::vector<Broken> broken_meshes() {
+std::vector<BrokenMesh> broken_meshes() {
   return {
       {"no extension", "mesh", "", {}, {"mesh: a mesh file ends in .geo or .msh"}},
       {"other kind", "a.vtu", "", {}, {"a.vtu: a mesh file ends in .geo or .msh"}},
@@ -166,7 +166,7 @@ std::vector<Broken> broken_meshes() {
 }
 
 TEST(BrokenMesh, IsRefusedInOneLineThatSaysWhere) {
-  for (const Broken& broken : broken_meshes()) {
+  for (const BrokenMesh& broken : broken_meshes()) {
     const TemporaryFolder folder;
     const std::string file = folder.write(broken.file, broken.text);
     const std::string message = message_of<InputError>([&] { load_mesh(file, broken.parameters); });

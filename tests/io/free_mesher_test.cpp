@@ -57,7 +57,7 @@ double size_ratio(const Mesh& mesh, const Edge& edge, const SizeAt& size) {
 }
 
 // Exact for sides that are parabolas.
-double area(const Mesh& mesh, int body) {
+double free_area(const Mesh& mesh, int body) {
   double sum = 0;
   for (const Cell& cell : mesh.cells)
     for (int side = 0; cell.body == body && side < corner_count(cell.kind); ++side) {
@@ -136,7 +136,7 @@ TEST_P(EveryScene, IsMeshedFreely) {
   EXPECT_EQ(mesh.bodies, own.bodies);
   EXPECT_EQ(boundary_names(mesh), boundary_names(own));
   for (int body = 0; body < std::ssize(own.bodies); ++body)
-    EXPECT_NEAR(area(mesh, body), area(own, body), 1e-4 * area(own, body)) << own.bodies[body];
+    EXPECT_NEAR(free_area(mesh, body), free_area(own, body), 1e-4 * free_area(own, body)) << own.bodies[body];
   for (std::size_t b = 0; b < own.boundaries.size(); ++b) {
     const Boundary& boundary = mesh.boundaries[b];
     EXPECT_EQ(boundary.undrawn, own.boundaries[b].undrawn) << boundary.name;
@@ -171,8 +171,8 @@ TEST(FreeMesher, AGeometryOfOpenCascadeToo) {
     for (const Edge& edge : boundary.edges) EXPECT_NEAR(size_ratio(mesh, edge, size), 1, 0.2) << boundary.name;
   }
   for (const Cell& cell : mesh.cells) EXPECT_EQ(cell.kind, CellKind::tri6);
-  EXPECT_NEAR(area(mesh, 0), M_PI / 4, 1e-4);
-  EXPECT_NEAR(area(mesh, 1), 2, 1e-12);
+  EXPECT_NEAR(free_area(mesh, 0), M_PI / 4, 1e-4);
+  EXPECT_NEAR(free_area(mesh, 1), 2, 1e-12);
 }
 
 TEST(FreeMesher, QuadrilateralsOnRequest) {
@@ -272,7 +272,7 @@ TEST(FreeMesher, WhatLiesWithinASurfaceIsKept) {
     Physical Surface("body") = {1}; Physical Curve("base") = {1};
   )");
   const Mesh mesh = FreeMesher(geo, {}).mesh([](const Vec2&) { return 0.08; });
-  EXPECT_NEAR(area(mesh, 0), 1, 1e-12);
+  EXPECT_NEAR(free_area(mesh, 0), 1, 1e-12);
   int on_line = 0;
   for (int node = 0; node < mesh.nodes.rows(); ++node) {
     const Vec2 x = place(mesh, node);

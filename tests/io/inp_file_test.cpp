@@ -44,12 +44,12 @@ const std::string sets = R"(*ELSET, ELSET=Left
 Eall, S3
 )";
 
-Mesh mesh_of(const std::string& text) {
+Mesh inp_mesh(const std::string& text) {
   const TemporaryFolder folder;
   return load_mesh(folder.write("a.inp", text), {});
 }
 
-double length(const Mesh& mesh, const std::string& name) {
+double inp_length(const Mesh& mesh, const std::string& name) {
   double sum = 0;
   for (const Edge& edge : mesh.boundaries[boundary_index(mesh, name)].edges)
     sum += (mesh.nodes.row(edge.nodes[0]) - mesh.nodes.row(edge.nodes[1])).norm();
@@ -57,14 +57,14 @@ double length(const Mesh& mesh, const std::string& name) {
 }
 
 TEST(InpFile, SetsAreBodiesCurvesAndPoints) {
-  const Mesh mesh = mesh_of(nodes + cells + sets);
+  const Mesh mesh = inp_mesh(nodes + cells + sets);
   EXPECT_EQ(mesh.nodes.rows(), 6);
   EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"Left", "Right"}));
   EXPECT_EQ(boundary_names(mesh), (std::vector<std::string>{"Top", "Nall", "Bottom", "Sides"}));
-  EXPECT_EQ(length(mesh, "Top"), 2);
-  EXPECT_EQ(length(mesh, "Bottom"), 2);
-  EXPECT_EQ(length(mesh, "Sides"), 2);
-  EXPECT_EQ(length(mesh, "Nall"), 7);  // the common side is on the boundary of both bodies
+  EXPECT_EQ(inp_length(mesh, "Top"), 2);
+  EXPECT_EQ(inp_length(mesh, "Bottom"), 2);
+  EXPECT_EQ(inp_length(mesh, "Sides"), 2);
+  EXPECT_EQ(inp_length(mesh, "Nall"), 7);  // the common side is on the boundary of both bodies
   ASSERT_EQ(mesh.points.size(), 1u);
   EXPECT_EQ(mesh.points[0].name, "Tip");
   EXPECT_EQ(mesh.nodes.row(mesh.points[0].nodes.at(0)), Eigen::RowVector2d(2, 1));
@@ -73,30 +73,30 @@ TEST(InpFile, SetsAreBodiesCurvesAndPoints) {
 }
 
 TEST(InpFile, SolidSectionsMakeTheBodies) {
-  const Mesh mesh = mesh_of(nodes + cells + sets + "*SOLID SECTION, ELSET=EALL, MATERIAL=steel\n*STEP\n*STATIC\n");
+  const Mesh mesh = inp_mesh(nodes + cells + sets + "*SOLID SECTION, ELSET=EALL, MATERIAL=steel\n*STEP\n*STATIC\n");
   EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"Eall"}));
-  EXPECT_EQ(length(mesh, "Nall"), 6);
+  EXPECT_EQ(inp_length(mesh, "Nall"), 6);
   EXPECT_NE(message_of<InputError>([] {
-              mesh_of(nodes + cells + sets + "*SOLID SECTION, ELSET=Left, MATERIAL=steel\n");
+              inp_mesh(nodes + cells + sets + "*SOLID SECTION, ELSET=Left, MATERIAL=steel\n");
             }).find("the element 20 is in no body"),
             std::string::npos);
   EXPECT_NE(message_of<InputError>([] {
-              mesh_of(nodes + cells + sets +
-                      "*SOLID SECTION, ELSET=Left, MATERIAL=a\n*SOLID SECTION, ELSET=Eall, MATERIAL=a\n");
+              inp_mesh(nodes + cells + sets +
+                       "*SOLID SECTION, ELSET=Left, MATERIAL=a\n*SOLID SECTION, ELSET=Eall, MATERIAL=a\n");
             }).find("the element 10 is in two bodies, 'Left' and 'Eall'"),
             std::string::npos);
 }
 
 TEST(InpFile, WithoutSetsConnectedPartsAreTheBodies) {
-  const Mesh mesh = mesh_of(nodes + "7, 5, 0\n8, 6, 0\n9, 5, 1\n*ELEMENT, TYPE=CPE4\n1, 1, 2, 5, 4\n2, 2, 3, 6, 5\n" +
-                            "*ELEMENT, TYPE=CPE3\n3, 7, 8, 9\n");
+  const Mesh mesh = inp_mesh(nodes + "7, 5, 0\n8, 6, 0\n9, 5, 1\n*ELEMENT, TYPE=CPE4\n1, 1, 2, 5, 4\n2, 2, 3, 6, 5\n" +
+                             "*ELEMENT, TYPE=CPE3\n3, 7, 8, 9\n");
   EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"surface_1", "surface_2"}));
   EXPECT_TRUE(mesh.named_by_tag);
 }
 
 TEST(InpFile, ASetOfPartsThatHangApartIsABodyForEach) {
   const Mesh mesh =
-      mesh_of(nodes + "7, 5, 0\n8, 6, 0\n9, 5, 1\n" + cells + "*ELEMENT, TYPE=CPS3, ELSET=Eall\n3, 7, 8, 9\n");
+      inp_mesh(nodes + "7, 5, 0\n8, 6, 0\n9, 5, 1\n" + cells + "*ELEMENT, TYPE=CPS3, ELSET=Eall\n3, 7, 8, 9\n");
   EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"Eall_1", "Eall_2"}));
   EXPECT_TRUE(mesh.named_by_tag);
   EXPECT_EQ(mesh.cells.back().body, 1);
@@ -118,11 +118,11 @@ TEST(InpFile, EveryKindOfPlaneElement) {
                                                        {"6M" + triangle, tri6},
                                                        {"8\n1,1,2,3,4,5,6,7,8\n", quad8},
                                                        {"8R\n1,1,2,3,4,5,6,\n7,8\n", quad8}}) {
-      const Mesh mesh = mesh_of(eight + type + rest);
+      const Mesh mesh = inp_mesh(eight + type + rest);
       ASSERT_EQ(mesh.cells.size(), 1u);
       EXPECT_EQ(mesh.cells[0].kind, kind);
       EXPECT_EQ(mesh.bodies, std::vector<std::string>{"E"});
-      EXPECT_EQ(length(mesh, "low"), 2);
+      EXPECT_EQ(inp_length(mesh, "low"), 2);
       const Edge& low = mesh.boundaries[0].edges.at(0);
       EXPECT_EQ(low.node_count, is_quadratic(kind) ? 3 : 2);
       if (low.node_count == 3) {
@@ -133,35 +133,35 @@ TEST(InpFile, EveryKindOfPlaneElement) {
 }
 
 TEST(InpFile, SurfacesByFacesAndByAllThatIsFree) {
-  const Mesh mesh = mesh_of(nodes + cells +
-                            "*SURFACE, NAME=faces\n10, S1\n20, s2\n*SURFACE, NAME=skin\nEall,\n"
-                            "*SURFACE, TYPE=NODE, NAME=upper\n4\n5\n6\n");
+  const Mesh mesh = inp_mesh(nodes + cells +
+                             "*SURFACE, NAME=faces\n10, S1\n20, s2\n*SURFACE, NAME=skin\nEall,\n"
+                             "*SURFACE, TYPE=NODE, NAME=upper\n4\n5\n6\n");
   EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"Eall"}));
-  EXPECT_EQ(length(mesh, "faces"), 2);
-  EXPECT_EQ(length(mesh, "skin"), 6);
-  EXPECT_EQ(length(mesh, "upper"), 2);
+  EXPECT_EQ(inp_length(mesh, "faces"), 2);
+  EXPECT_EQ(inp_length(mesh, "skin"), 6);
+  EXPECT_EQ(inp_length(mesh, "upper"), 2);
 }
 
 TEST(InpFile, LinesOfADeckThatGmshWroteAreCurves) {
-  const Mesh mesh = mesh_of(nodes + cells + "*ELEMENT, TYPE=T3D2, ELSET=Line1\n30, 1, 2\n31, 2, 3\n");
-  EXPECT_EQ(length(mesh, "Line1"), 2);
+  const Mesh mesh = inp_mesh(nodes + cells + "*ELEMENT, TYPE=T3D2, ELSET=Line1\n30, 1, 2\n31, 2, 3\n");
+  EXPECT_EQ(inp_length(mesh, "Line1"), 2);
 }
 
 TEST(InpFile, SpringsAreLeftOutWithANote) {
-  const Mesh mesh = mesh_of(nodes + cells + "*ELEMENT, TYPE=SPRINGA, ELSET=springs\n30, 1, 2\n31, 2, 3\n");
+  const Mesh mesh = inp_mesh(nodes + cells + "*ELEMENT, TYPE=SPRINGA, ELSET=springs\n30, 1, 2\n31, 2, 3\n");
   EXPECT_EQ(mesh.notes, std::vector<std::string>{"left out: 2 elements of the kind SPRINGA"});
 }
 
 TEST(InpFile, SetsOfSetsAndOnePart) {
   const Mesh mesh =
-      mesh_of("*PART, NAME=p\n" + nodes + cells + sets +
-              "*NSET, NSET=both\nBottom, TIP\n*NSET, NSET=right, ELSET=Right\n*END PART\n*ASSEMBLY, NAME=a\n"
-              "*INSTANCE, NAME=p-1, PART=p\n*END INSTANCE\n*NSET, NSET=low, INSTANCE=p-1\n1, 2\n"
-              "*NSET, NSET=left\np-1.1, p-1.4\n*END ASSEMBLY\n");
-  EXPECT_EQ(length(mesh, "both"), 3);
-  EXPECT_EQ(length(mesh, "right"), 4);
-  EXPECT_EQ(length(mesh, "low"), 1);
-  EXPECT_EQ(length(mesh, "left"), 1);
+      inp_mesh("*PART, NAME=p\n" + nodes + cells + sets +
+               "*NSET, NSET=both\nBottom, TIP\n*NSET, NSET=right, ELSET=Right\n*END PART\n*ASSEMBLY, NAME=a\n"
+               "*INSTANCE, NAME=p-1, PART=p\n*END INSTANCE\n*NSET, NSET=low, INSTANCE=p-1\n1, 2\n"
+               "*NSET, NSET=left\np-1.1, p-1.4\n*END ASSEMBLY\n");
+  EXPECT_EQ(inp_length(mesh, "both"), 3);
+  EXPECT_EQ(inp_length(mesh, "right"), 4);
+  EXPECT_EQ(inp_length(mesh, "low"), 1);
+  EXPECT_EQ(inp_length(mesh, "left"), 1);
 }
 
 TEST(InpFile, SaysWhatIsWrongAndWhere) {

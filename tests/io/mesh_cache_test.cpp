@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using test::TemporaryFolder;
 using test::text_of;
 
-const std::string disc = R"(
+const std::string disc_geo = R"(
 DefineConstant[ r = 1 ];
 Include "size.geo";
 Point(1) = {0, 0, 0}; Point(2) = {r, 0, 0, h}; Point(3) = {-r, 0, 0, h};
@@ -32,7 +32,7 @@ class MeshCache : public testing::Test {
     setenv("XDG_CACHE_HOME", cache_.path().c_str(), 1);
     set_mesh_cache(true);
     folder_.write("size.geo", "h = 0.3;\n");
-    folder_.write("disc.geo", disc);
+    folder_.write("disc.geo", disc_geo);
   }
   ~MeshCache() override {
     set_mesh_cache(false);
@@ -95,7 +95,7 @@ TEST_F(MeshCache, KnowsParametersAndIncludedFiles) {
   const auto nodes = mesh_.nodes.rows();
   EXPECT_FALSE(kept());
   EXPECT_GT(mesh_.nodes.rows(), nodes);
-  folder_.write("disc.geo", disc + "Mesh.ElementOrder = 1;\n");
+  folder_.write("disc.geo", disc_geo + "Mesh.ElementOrder = 1;\n");
   EXPECT_FALSE(kept());
 }
 
@@ -139,7 +139,7 @@ TEST_F(MeshCache, WithoutAFolderThereIsNone) {
 TEST_F(MeshCache, AGeometryThatLooksOutsideIsNotKept) {
   for (const std::string line : {"x = Rand(1);", "Printf(Today);", "x = GetEnv(\"HOME\");", "SystemCall \"true\";",
                                  "name = \"size.geo\"; Include Str(name);", "x() = ListFromFile(\"size.geo\");"}) {
-    folder_.write("disc.geo", disc + line + "\n");
+    folder_.write("disc.geo", disc_geo + line + "\n");
     EXPECT_FALSE(mesh_key(folder_.path("disc.geo"), {})) << line;
   }
   EXPECT_FALSE(mesh_key(folder_.path("none.geo"), {}));

@@ -79,7 +79,7 @@ TEST(SidesOf, EmptyBoundaryHasNoSides) {
 }
 
 /// What sides_of says about the plate's bottom with one edge changed.
-std::string trouble(Mesh mesh, const Edge& edge) {
+std::string trouble_with(Mesh mesh, const Edge& edge) {
   mesh.boundaries[0].edges[0] = edge;
   return message_of<InputError>([&] { sides_of(mesh, mesh.boundaries[0]); });
 }
@@ -87,30 +87,31 @@ std::string trouble(Mesh mesh, const Edge& edge) {
 TEST(SidesOf, SaysWhereAnEdgeIsNotOnTheBoundary) {
   const Mesh mesh = plate(CellKind::quad8, 2, 1);
   const Edge interior = side_edge(mesh.cells[0], 1);
-  EXPECT_EQ(trouble(mesh, interior),
+  EXPECT_EQ(trouble_with(mesh, interior),
             "plate.msh: boundary 'bottom': the edge near (1, 0.5) lies between two cells of body 'plate'; expected an "
             "edge of its boundary");
 
   const Edge across{3, {mesh.cells[0].nodes[0], mesh.cells[0].nodes[2], mesh.cells[0].nodes[4]}};
-  EXPECT_TRUE(contains(trouble(mesh, across), "'bottom': the edge near (0.5, 0.5) belongs to no cell"));
+  EXPECT_TRUE(contains(trouble_with(mesh, across), "'bottom': the edge near (0.5, 0.5) belongs to no cell"));
 
   Edge bent = mesh.boundaries[0].edges[0];
   bent.nodes[2] = mesh.cells[0].nodes[5];
-  EXPECT_TRUE(contains(trouble(mesh, bent), "the edge near (0.5, 0) has another middle node than its cell"));
+  EXPECT_TRUE(contains(trouble_with(mesh, bent), "the edge near (0.5, 0) has another middle node than its cell"));
 
   Edge straight = mesh.boundaries[0].edges[0];
   straight.node_count = 2;
   straight.nodes[2] = -1;
-  EXPECT_TRUE(contains(trouble(mesh, straight), "the edge near (0.5, 0) has 2 nodes, but the side of its cell has 3"));
+  EXPECT_TRUE(
+      contains(trouble_with(mesh, straight), "the edge near (0.5, 0) has 2 nodes, but the side of its cell has 3"));
 
-  EXPECT_TRUE(contains(trouble(mesh, mesh.boundaries[0].edges[1]), "the edge near (1.5, 0) is listed twice"));
+  EXPECT_TRUE(contains(trouble_with(mesh, mesh.boundaries[0].edges[1]), "the edge near (1.5, 0) is listed twice"));
 }
 
 TEST(SidesOf, SaysWhereAnEdgeBelongsToTwoBodies) {
   Mesh mesh = plate(CellKind::tri6, 2, 1);
   mesh.bodies = {"left part", "right part"};
   mesh.cells[2].body = mesh.cells[3].body = 1;
-  const std::string message = trouble(mesh, side_edge(mesh.cells[0], 1));
+  const std::string message = trouble_with(mesh, side_edge(mesh.cells[0], 1));
   EXPECT_TRUE(contains(message, "the edge near (1, 0.5) belongs to both bodies 'left part' and 'right part'"))
       << message;
 }

@@ -6,7 +6,7 @@
 namespace mortise {
 namespace {
 
-struct Problem {
+struct SmallProblem {
   SparseMatrix K, B, S;
   std::vector<char> fixed, active;
   VecX scale;
@@ -30,8 +30,8 @@ struct Problem {
 SparseMatrix sparse(const MatX& dense) { return dense.sparseView(); }
 
 // Three nodes, two rows, each on an unknown of its own: C = diag(1, 1 / 4).
-Problem two_rows() {
-  Problem p;
+SmallProblem two_rows() {
+  SmallProblem p;
   MatX K = MatX::Identity(6, 6);
   K(0, 0) = 2;  // with 0 and 4 linked the inverse's first entry is 1 / (2 - 1)
   K(4, 0) = 1;
@@ -49,7 +49,7 @@ Problem two_rows() {
 }
 
 TEST(InfSup, OfADiagonalSystemIsItsSmallestRatio) {
-  Problem p = two_rows();
+  SmallProblem p = two_rows();
   EXPECT_NEAR(p.solve().beta, 0.5, 1e-12);
   EXPECT_NEAR(p.solve().mode(0), 0, 1e-12);
   EXPECT_NEAR(p.solve().mode(1), 1, 1e-12);
@@ -58,7 +58,7 @@ TEST(InfSup, OfADiagonalSystemIsItsSmallestRatio) {
 }
 
 TEST(InfSup, RowsThatAreOpenTakeNoPart) {
-  Problem p = two_rows();
+  SmallProblem p = two_rows();
   p.active = {1, 0};
   EXPECT_NEAR(p.solve().beta, 1, 1e-12);
   EXPECT_EQ(p.solve().mode(1), 0);
@@ -69,7 +69,7 @@ TEST(InfSup, RowsThatAreOpenTakeNoPart) {
 TEST(InfSup, MultipliersThatMoveAFloatingBodyAreHeldByItsMotion) {
   // Unknowns 0 and 2 hang on a spring of stiffness 1 between them and float together: only lambda = (q, -q) deforms
   // them, by C = 1 for q^2 of it against the norm 2 q^2.
-  Problem p = two_rows();
+  SmallProblem p = two_rows();
   MatX K = MatX::Identity(6, 6);
   K(0, 0) = K(2, 2) = 1;
   K(2, 0) = -1;

@@ -13,7 +13,7 @@
 namespace mortise {
 namespace {
 
-struct Problem {
+struct ConvexProblem {
   ComplementarityProblem rows;
   VecX rhs;
   Eigen::Index m() const { return rows.scale.size(); }
@@ -22,10 +22,11 @@ struct Problem {
   MatX H() const { return rows.compliance.bottomLeftCorner(motions(), m()).transpose(); }
 };
 
-Problem problem(const MatX& C, const MatX& H, const VecX& r, const VecX& h) {
+ConvexProblem problem(const MatX& C, const MatX& H, const VecX& r, const VecX& h) {
   const Eigen::Index m = C.rows(), s = H.cols();
-  Problem p{{.compliance = MatX::Zero(m + s, m + s), .scale = VecX::Ones(m), .unilateral = std::vector<char>(m, 1)},
-            stacked(r, h)};
+  ConvexProblem p{
+      {.compliance = MatX::Zero(m + s, m + s), .scale = VecX::Ones(m), .unilateral = std::vector<char>(m, 1)},
+      stacked(r, h)};
   p.rows.compliance.topLeftCorner(m, m) = C;
   p.rows.compliance.topRightCorner(m, s) = H;
   p.rows.compliance.bottomLeftCorner(s, m) = H.transpose();
@@ -36,7 +37,7 @@ enum class Kind { any, carried, degenerate, weak, pulled };
 
 // `carried`: the load is what some pressures do. `degenerate`: and rows in threes are nearly one, some of them just
 // touch. `weak`: and motions open rows by 1 to 1e-4. `pulled`: the load on one motion goes away from all rows.
-Problem random_problem(std::mt19937& random, Kind kind, Eigen::Index m, Eigen::Index s) {
+ConvexProblem random_convex(std::mt19937& random, Kind kind, Eigen::Index m, Eigen::Index s) {
   std::normal_distribution<double> value;
   const auto draw = [&] { return value(random); };
   const MatX V = MatX::NullaryExpr(m, m, draw);
@@ -61,7 +62,7 @@ Problem random_problem(std::mt19937& random, Kind kind, Eigen::Index m, Eigen::I
   return problem(C, H, r, h);
 }
 
-void expect_solution(const Problem& p, const ActiveSetResult& r) {
+void expect_optimal(const ConvexProblem& p, const ActiveSetResult& r) {
   const VecX w = p.rhs.head(p.m()) - p.C() * r.lambda - p.H() * r.mu;
   const double pressure = largest_entry(r.lambda),
                gap = std::max(largest_entry(p.rhs.head(p.m())), largest_entry(p.C() * r.lambda.cwiseAbs()));
@@ -77,7 +78,7 @@ void expect_solution(const Problem& p, const ActiveSetResult& r) {
 }
 
 // Farkas: opens no row to below zero, and the load works on it.
-void expect_proof(const Problem& p, const VecX& motion) {
+void expect_proof(const ConvexProblem& p, const VecX& motion) {
   const VecX opening = p.H() * motion;
   EXPECT_GE(opening.minCoeff(), -1e-8 * largest_entry(opening));
   EXPECT_GT(motion.dot(p.rhs.tail(p.motions())), 1e-8 * motion.cwiseAbs().dot(p.rhs.tail(p.motions()).cwiseAbs()));
@@ -93,12 +94,12 @@ TEST_P(RandomContact, EndsAsASolutionOrAsAProofThatThereIsNone) {
     const Eigen::Index m = 4 + run % 50, s = run % 7 * m / 10;
     if (GetParam() == Kind::pulled && s == 0) continue;
     ++runs;
-    const Problem p = random_problem(random, GetParam(), m, s);
+    const ConvexProblem p = random_convex(random, GetParam(), m, s);
     const ActiveSetResult r = find_active_set(p.rows, p.rhs);
     interior += r.interior_steps > 0;
     most = std::max(most, r.interior_steps + int(r.steps.size()));
     if (r.status == SolveStatus::converged) {
-      expect_solution(p, r);
+      expect_optimal(p, r);
     } else {
       ASSERT_EQ(r.status, SolveStatus::unconstrained) << r.interior_steps << " interior steps, " << r.steps.size()
                                                       << " of the set, " << r.infeasible.size() << " infeasible rows";
@@ -129,7 +130,7 @@ TEST(InteriorPoint, AloneFindsTheRowsOfRandomProblems) {
   for (int run = 0; run < 100; ++run) {
     SCOPED_TRACE(run);
     const Eigen::Index m = 4 + run, s = run % 5 * m / 20;
-    const Problem p = random_problem(random, Kind::carried, m, s);
+    const ConvexProblem p = random_convex(random, Kind::carried, m, s);
     DenseRows rows(p.rows, p.rhs);
     const InteriorPoint point = find_interior_point(rows);
     ASSERT_TRUE(point.converged);

@@ -37,7 +37,7 @@ SaddlePointSystem by_hand() {
 
 // Two chains of nodes in two unknowns a node, each spring of its own stiffness; the first is held at one end, the
 // second (it may move by (1, 1)) by the rows of B alone.
-SaddlePointSystem two_chains(int nodes = 12, int rows = 5) {
+SaddlePointSystem two_long_chains(int nodes = 12, int rows = 5) {
   SaddlePointSystem p;
   std::vector<Eigen::Triplet<double>> entries, of_rows;
   const auto spring = [&](int a, int b, double k) {
@@ -74,8 +74,8 @@ SaddlePointSystem grounded(SaddlePointSystem p) {
   return p;
 }
 
-Solution run(const SaddlePointSystem& p, Acceleration acceleration, double omega, double tau,
-             double tolerance = 1e-11) {
+Solution run_mssor(const SaddlePointSystem& p, Acceleration acceleration, double omega, double tau,
+                   double tolerance = 1e-11) {
   return solve_by_mssor(p, {omega, tau, acceleration, tolerance, 200000});
 }
 
@@ -138,7 +138,7 @@ TEST(Mssor, AStepByHand) {
 }
 
 TEST(Mssor, QIsSymmetricAndAboveK) {
-  const SweepSystem s = sweep_system(two_chains());
+  const SweepSystem s = sweep_system(two_long_chains());
   const MatX K = dense_A(s).topLeftCorner(s.n(), s.n());
   for (const double omega : {0.2, 1.0, 1.3, 1.9}) {
     const MatX inverse = inverse_Q(s, omega), Q = inverse.inverse();
@@ -154,7 +154,7 @@ TEST(Mssor, QIsSymmetricAndAboveK) {
 }
 
 TEST(Mssor, MIsTheFactoredMatrix) {
-  const SweepSystem s = sweep_system(two_chains());
+  const SweepSystem s = sweep_system(two_long_chains());
   const double omega = 1.3, tau = 0.6;
   const Eigen::Index n = s.n(), m = s.m();
   MatX M(n + m, n + m);
@@ -169,11 +169,11 @@ TEST(Mssor, MIsTheFactoredMatrix) {
 }
 
 TEST(Mssor, AgreesWithTheDirectSolverWhereBHoldsAFloatingBody) {
-  const SaddlePointSystem p = two_chains();
+  const SaddlePointSystem p = two_long_chains();
   const Solution direct = solve_directly(grounded(p));
   for (const Acceleration acceleration : {Acceleration::none, Acceleration::krylov, Acceleration::minres})
     for (const double omega : {0.8, 1.3}) {
-      const Solution s = run(p, acceleration, omega, 0.5);
+      const Solution s = run_mssor(p, acceleration, omega, 0.5);
       ASSERT_EQ(s.status, Status::converged) << int(acceleration) << " " << omega;
       EXPECT_LE(difference(s.u, direct.u), 1e-8);
       EXPECT_LE(difference(s.lambda, direct.lambda), 1e-8);
@@ -184,22 +184,22 @@ TEST(Mssor, AgreesWithTheDirectSolverWhereBHoldsAFloatingBody) {
 }
 
 TEST(Mssor, ScalesDoNotChangeTheStepsOrTheAnswer) {
-  SaddlePointSystem p = two_chains();
-  const Solution a = run(p, Acceleration::krylov, 1.3, 0.7);
+  SaddlePointSystem p = two_long_chains();
+  const Solution a = run_mssor(p, Acceleration::krylov, 1.3, 0.7);
   p.K *= 0x1p37;  // powers of two: the same round-off
   p.f *= 0x1p37;
   p.B = SparseMatrix(0x1p-10 * p.B);
   p.g *= 0x1p-10;
   p.row_scale *= 0x1p-10;
   p.stiffness_scale = 0x1p37;
-  const Solution b = run(p, Acceleration::krylov, 1.3, 0.7);
+  const Solution b = run_mssor(p, Acceleration::krylov, 1.3, 0.7);
   EXPECT_EQ(a.iteration->steps, b.iteration->steps);
   EXPECT_LE(difference(a.u, b.u), 1e-14);
   EXPECT_LE(difference(a.lambda, VecX(b.lambda * 0x1p-47)), 1e-14);
 }
 
 TEST(Mssor, TheStationaryMethodConvergesUpToTheLimitOfTau) {
-  const SaddlePointSystem p = two_chains();
+  const SaddlePointSystem p = two_long_chains();
   const SweepSystem s = sweep_system(p);
   for (const double omega : {0.5, 1.0, 1.3, 1.7}) {
     const double limit = tau_limit(s, omega);
@@ -216,24 +216,24 @@ TEST(Mssor, TheStationaryMethodConvergesUpToTheLimitOfTau) {
 }
 
 TEST(Mssor, DivergenceIsSaidWithTheLimit) {
-  const SaddlePointSystem p = two_chains();
+  const SaddlePointSystem p = two_long_chains();
   const double limit = tau_limit(sweep_system(p), 1.3);
-  const Solution s = run(p, Acceleration::none, 1.3, 1.2 * limit);
+  const Solution s = run_mssor(p, Acceleration::none, 1.3, 1.2 * limit);
   EXPECT_EQ(s.status, Status::diverged);
   EXPECT_GT(s.iteration->convergence_rate, 1);
   EXPECT_EQ(s.iteration->figures.back(), std::pair(std::string("tau_limit"), limit));
-  EXPECT_EQ(run(p, Acceleration::krylov, 1.3, 1.2 * limit).status, Status::converged);
-  EXPECT_EQ(run(p, Acceleration::minres, 1.3, 1.2 * limit).status, Status::converged);
+  EXPECT_EQ(run_mssor(p, Acceleration::krylov, 1.3, 1.2 * limit).status, Status::converged);
+  EXPECT_EQ(run_mssor(p, Acceleration::minres, 1.3, 1.2 * limit).status, Status::converged);
 }
 
 TEST(Mssor, TheConvergenceRateIsTheSpectralRadius) {
-  const SaddlePointSystem p = two_chains();
-  const Solution s = run(p, Acceleration::none, 1.3, 0.5);
+  const SaddlePointSystem p = two_long_chains();
+  const Solution s = run_mssor(p, Acceleration::none, 1.3, 0.5);
   EXPECT_NEAR(s.iteration->convergence_rate, spectral_radius(sweep_system(p), 1.3, 0.5), 1e-4);
 }
 
 TEST(Mssor, SymmetricQmrNeedsAboutTheStepsOfGmres) {
-  const SaddlePointSystem p = two_chains(40, 15);
+  const SaddlePointSystem p = two_long_chains(40, 15);
   const SweepSystem s = sweep_system(p);
   SweepPreconditioner M{s, 1.3, 0.7};
   const auto correction = [&](const VecX& x) -> VecX {
@@ -251,13 +251,13 @@ TEST(Mssor, SymmetricQmrNeedsAboutTheStepsOfGmres) {
   const RelaxationResult gmres =
       relax(correction, measure, VecX::Zero(s.rhs.size()), {Acceleration::krylov, 1, 1e-9, 400});
   ASSERT_EQ(gmres.status, Status::converged);
-  const Solution qmr = run(p, Acceleration::krylov, 1.3, 0.7, 1e-9);
+  const Solution qmr = run_mssor(p, Acceleration::krylov, 1.3, 0.7, 1e-9);
   ASSERT_EQ(qmr.status, Status::converged);
   EXPECT_LE(qmr.iteration->steps, 1.5 * double(gmres.history.size()));
 }
 
 TEST(Mssor, ToldWhereThereIsNoSolution) {
-  SaddlePointSystem p = two_chains();
+  SaddlePointSystem p = two_long_chains();
   SparseMatrix doubled(6, p.B.cols());
   std::vector<Eigen::Triplet<double>> entries;
   for (int j = 0; j < p.B.outerSize(); ++j)
@@ -269,26 +269,26 @@ TEST(Mssor, ToldWhereThereIsNoSolution) {
   p.B = doubled;
   p.g = VecX::Zero(6);
   p.row_scale = VecX::Ones(6);
-  const Solution dependent = run(p, Acceleration::krylov, 1.3, 0.7);
+  const Solution dependent = run_mssor(p, Acceleration::krylov, 1.3, 0.7);
   EXPECT_EQ(dependent.status, Status::dependent_row);
   EXPECT_EQ(dependent.failed_at, 5);
 
-  p = two_chains();
+  p = two_long_chains();
   p.K.coeffRef(7, 7) = 0;
-  const Solution zero = run(p, Acceleration::krylov, 1.3, 0.7);
+  const Solution zero = run_mssor(p, Acceleration::krylov, 1.3, 0.7);
   EXPECT_EQ(zero.status, Status::not_positive_definite);
   EXPECT_EQ(zero.failed_at, 7);
 }
 
 TEST(Mssor, AUnilateralRowInTensionIsRefused) {
-  SaddlePointSystem p = two_chains();
+  SaddlePointSystem p = two_long_chains();
   p.unilateral.assign(5, 1);  // random loads: some row is in tension
-  EXPECT_GT(solve_directly(grounded(two_chains())).lambda.maxCoeff(), 0);
-  EXPECT_EQ(run(p, Acceleration::krylov, 1.3, 0.7).status, Status::in_tension);
+  EXPECT_GT(solve_directly(grounded(two_long_chains())).lambda.maxCoeff(), 0);
+  EXPECT_EQ(run_mssor(p, Acceleration::krylov, 1.3, 0.7).status, Status::in_tension);
 }
 
 TEST(Mssor, StopsAtTheLimitOfSteps) {
-  const SaddlePointSystem p = two_chains();
+  const SaddlePointSystem p = two_long_chains();
   for (const Acceleration acceleration : {Acceleration::none, Acceleration::krylov, Acceleration::minres}) {
     const Solution s = solve_by_mssor(p, {1.3, 0.5, acceleration, 1e-11, 7});
     EXPECT_EQ(s.status, Status::not_converged);
@@ -298,7 +298,7 @@ TEST(Mssor, StopsAtTheLimitOfSteps) {
 }
 
 TEST(Mssor, ATolerancePastRoundOffEnds) {
-  const Solution s = solve_by_mssor(two_chains(), {1.3, 0.5, Acceleration::krylov, 1e-20, 3000});
+  const Solution s = solve_by_mssor(two_long_chains(), {1.3, 0.5, Acceleration::krylov, 1e-20, 3000});
   EXPECT_EQ(s.status, Status::not_converged);
   EXPECT_LE(s.force_residual, 1e-13);
 }
@@ -319,13 +319,13 @@ TEST(BandOrder, NumbersAShuffledChainAlongItself) {
 TEST(Mssor, WhatIsNotFiniteDivergesAndNeverConverges) {
   for (const Acceleration acceleration : {Acceleration::none, Acceleration::krylov, Acceleration::minres}) {
     for (const double bad : {std::nan(""), HUGE_VAL, 1e300}) {  // of the last the squares overflow
-      SaddlePointSystem p = two_chains();
+      SaddlePointSystem p = two_long_chains();
       p.f(9) = bad;
       const Solution s = solve_by_mssor(p, {.acceleration = acceleration});
       EXPECT_EQ(s.status, Status::diverged) << bad;
       EXPECT_FALSE(s.iteration->history.empty());
     }
-    const SaddlePointSystem p = two_chains();
+    const SaddlePointSystem p = two_long_chains();
     const Solution s = solve_by_mssor(p, {.tau = 1e300, .acceleration = acceleration});
     if (s.status == Status::converged) EXPECT_LE(s.force_residual, 1e-10);
     EXPECT_FALSE(s.iteration->history.empty());
@@ -334,7 +334,7 @@ TEST(Mssor, WhatIsNotFiniteDivergesAndNeverConverges) {
 
 TEST(Mssor, NoLoadIsNoDisplacement) {
   for (const Acceleration acceleration : {Acceleration::none, Acceleration::krylov, Acceleration::minres}) {
-    SaddlePointSystem p = two_chains();
+    SaddlePointSystem p = two_long_chains();
     p.f.setZero();
     p.g.setZero();
     p.constraints.value.setZero();
