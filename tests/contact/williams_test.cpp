@@ -15,10 +15,10 @@ namespace {
 using Complex = std::complex<double>;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
+constexpr double pi = std::numbers::pi, one_degree = pi / 180;
 
 Wedge wedge_of(double degrees, Face outer = Face::free, double young = 1, double poisson = 0.3) {
-  return wedge(degrees * degree, elastic_law(young, poisson, {Plane::strain}), outer);
+  return wedge(degrees * one_degree, elastic_law(young, poisson, {Plane::strain}), outer);
 }
 
 // ---- One wedge: Williams (1952) ----
@@ -37,7 +37,7 @@ TEST(Williams, FreeFacesHaveTheRootsOfTheCharacteristicEquation) {
   for (const double degrees : {200.0, 240.0, 300.0, 350.0}) {
     const Complex lambda = wedge_exponent(wedge_of(degrees), Face::free);
     EXPECT_EQ(lambda.imag(), 0);
-    EXPECT_NEAR(std::sin(lambda.real() * degrees * degree), -lambda.real() * std::sin(degrees * degree), 1e-10);
+    EXPECT_NEAR(std::sin(lambda.real() * degrees * one_degree), -lambda.real() * std::sin(degrees * one_degree), 1e-10);
   }
   for (const double degrees : {20.0, 90.0, 179.0, 180.0})
     EXPECT_EQ(wedge_exponent(wedge_of(degrees), Face::free), 1.0) << degrees;
@@ -48,7 +48,7 @@ TEST(Williams, ClampedAndFree) {
   const Complex flat = wedge_exponent(wedge_of(180), Face::clamped);  // Muskhelishvili (1953): 1/2 + i ln(kappa) / 2 pi
   EXPECT_NEAR(std::abs(flat - Complex(0.5, std::log(1.8) / (2 * pi))), 0, 1e-10);
   for (const double degrees : {70.0, 120.0, 150.0, 250.0, 340.0}) {
-    const double w = degrees * degree, kappa = 1.8;
+    const double w = degrees * one_degree, kappa = 1.8;
     const Complex lambda = wedge_exponent(wedge_of(degrees, Face::clamped), Face::free), s = std::sin(lambda * w);
     EXPECT_LT(lambda.real(), 1);
     EXPECT_NEAR(
@@ -71,7 +71,7 @@ TEST(Williams, AWedgeOnAHalfPlaneHasTheExponentOfDundursAndLee) {
   for (const double stiffness : {1.0, 3.0, 0.2})
     for (const double degrees : {90.0, 120.0, 160.0}) {
       const TipExponents found = end_exponents(wedge_of(degrees, Face::free, stiffness), wedge_of(180));
-      const double s = found.stress.real(), w = degrees * degree, alpha = (stiffness - 1) / (stiffness + 1);
+      const double s = found.stress.real(), w = degrees * one_degree, alpha = (stiffness - 1) / (stiffness + 1);
       ASSERT_LT(s, 1) << degrees;
       EXPECT_EQ(found.stress, found.pressure);
       EXPECT_NEAR((1 + alpha) * std::cos(pi * s) * (std::pow(std::sin(s * w), 2) - std::pow(s * std::sin(w), 2)) +

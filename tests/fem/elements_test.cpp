@@ -8,10 +8,10 @@
 namespace mortise {
 namespace {
 
-constexpr CellKind kinds[] = {CellKind::tri3, CellKind::tri6, CellKind::quad4, CellKind::quad8, CellKind::quad9};
+constexpr CellKind cell_kinds[] = {CellKind::tri3, CellKind::tri6, CellKind::quad4, CellKind::quad8, CellKind::quad9};
 
 TEST(Elements, ShapeFunctionsAreOneAtTheirNodeAndZeroAtTheOthers) {
-  for (const CellKind kind : kinds) {
+  for (const CellKind kind : cell_kinds) {
     const Points at = reference_nodes(kind);
     for (Eigen::Index b = 0; b < at.rows(); ++b) {
       const CellShape s = cell_shape(kind, at.row(b));
@@ -21,7 +21,7 @@ TEST(Elements, ShapeFunctionsAreOneAtTheirNodeAndZeroAtTheOthers) {
 }
 
 TEST(Elements, ShapeFunctionsSumToOneAndReproduceCoordinates) {
-  for (const CellKind kind : kinds) {
+  for (const CellKind kind : cell_kinds) {
     const Points at = reference_nodes(kind);
     for (const Vec2& xi : product_rule(kind, 4).points) {
       const CellShape s = cell_shape(kind, xi);
@@ -44,7 +44,7 @@ TEST(Elements, ShapeFunctionsSumToOneAndReproduceCoordinates) {
 
 TEST(Elements, GradientsAreTheDerivativesOfTheValues) {
   const double h = 1e-6;
-  for (const CellKind kind : kinds)
+  for (const CellKind kind : cell_kinds)
     for (const Vec2& xi : cell_rule(kind).points)
       for (int c = 0; c < 2; ++c) {
         const CellShape s = cell_shape(kind, xi), up = cell_shape(kind, xi + h * Vec2::Unit(c)),
@@ -54,7 +54,7 @@ TEST(Elements, GradientsAreTheDerivativesOfTheValues) {
 }
 
 TEST(Elements, EdgeShapesAreTheTraceOfCellShapes) {
-  for (const CellKind kind : kinds) {
+  for (const CellKind kind : cell_kinds) {
     if (corner_count(kind) != 4) continue;
     const int nodes = is_quadratic(kind) ? 3 : 2;
     for (const double xi : {-0.7, 0.1, 0.9}) {
@@ -82,7 +82,7 @@ TEST(Quadrature, GaussLegendreIsExactToItsDegree) {
 }
 
 TEST(Quadrature, RulesHaveTheAreaOfTheirCell) {
-  for (const CellKind kind : kinds)
+  for (const CellKind kind : cell_kinds)
     for (const CellRule& rule : {cell_rule(kind), stress_points(kind), product_rule(kind, 5)}) {
       double area = 0;
       for (const double w : rule.weights) area += w;

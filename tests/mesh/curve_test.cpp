@@ -15,13 +15,11 @@ namespace {
 
 using test::message_of;
 using testing_meshes::all_kinds;
+using testing_meshes::at;
+using testing_meshes::contains;
 using testing_meshes::Lattice;
 using testing_meshes::make_cell;
 using testing_meshes::plate;
-
-Vec2 at(const Mesh& mesh, int node) { return mesh.nodes.row(node).transpose(); }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string trouble(const Mesh& mesh, int boundary) {
   return message_of<InputError>([&] { contact_curve(mesh, boundary); });

@@ -93,4 +93,9 @@ inline const std::vector<CellKind>& all_kinds() {
   return kinds;
 }
 
+/// Where a node is.
+inline Vec2 at(const Mesh& mesh, int node) { return mesh.nodes.row(node).transpose(); }
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
 }  // namespace mortise::testing_meshes

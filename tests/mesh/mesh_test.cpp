@@ -15,11 +15,9 @@ namespace {
 
 using test::message_of;
 using testing_meshes::all_kinds;
+using testing_meshes::at;
+using testing_meshes::contains;
 using testing_meshes::plate;
-
-Vec2 at(const Mesh& mesh, int node) { return mesh.nodes.row(node).transpose(); }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Mesh, FindsBodiesAndBoundariesByName) {
   const Mesh mesh = plate(CellKind::quad8, 2, 2);

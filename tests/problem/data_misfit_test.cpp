@@ -7,14 +7,14 @@
 namespace mortise::test {
 namespace {
 
-Field function(const std::string& text) { return {text, {.key = "boundary.0", .on_curve = true}}; }
+Field field_of(const std::string& text) { return {text, {.key = "boundary.0", .on_curve = true}}; }
 
 DataMisfits on_top(std::optional<Field> BoundarySpec::*what, const std::string& text) {
   Scene scene;
   BoundarySpec& spec = scene.boundaries.emplace_back();
   spec.key = "boundary.0";
   spec.on = {"top"};
-  spec.*what = function(text);
+  spec.*what = field_of(text);
   return data_misfits(scene, mesh_of({}), {});
 }
 
