@@ -72,7 +72,9 @@ TEST(Accuracy, OfTheLargestPressureAndTheHalfWidthOfHertz) {
 }
 
 TEST(Accuracy, OfALargestPressureThatThereIsNotIsRefused) {
-  const std::string text = message_of([] { solve_to_accuracy(scene_to_accuracy("punch", "1%", {{"accuracy.of", "peak"}})); });
+  const std::string text = message_of([] {
+    solve_to_accuracy(scene_to_accuracy("punch", "1%", {{"accuracy.of", "peak"}}));
+  });
   for (const char* part : {"punch.toml: accuracy.of", "p has no largest value near (0.2, 0.2)", "grows as r^-0.23"})
     expect_contains(text, part);
 }
@@ -81,8 +83,8 @@ TEST(Accuracy, OfAMeanPressureOfHertz) {
   const double a = 0.0100757, p0 = 581.290e6, from = 0.004, to = 0.009;
   const auto integral = [&](double x) { return p0 / 2 * (x * std::sqrt(1 - x * x / (a * a)) + a * std::asin(x / a)); };
   for (const char* asked : {"5%", "1%", "0.2%"}) {
-    const auto r =
-        solve_to_accuracy(scene_to_accuracy("hertz", asked, {{"accuracy.of", "mean"}, {"accuracy.window", "[0.004, 0.009]"}}));
+    const auto r = solve_to_accuracy(
+        scene_to_accuracy("hertz", asked, {{"accuracy.of", "mean"}, {"accuracy.window", "[0.004, 0.009]"}}));
     ASSERT_TRUE(r && r->accuracy->reached()) << asked;
     EXPECT_LE(std::abs(r->estimate->goal->value(0) / ((integral(to) - integral(from)) / (to - from)) - 1),
               r->accuracy->asked)
@@ -117,9 +119,10 @@ TEST(Accuracy, OfADisplacementAndAStressOfRingsIsThatOfLame) {
   const VecX exact[] = {Vec2(u, u), Eigen::Vector3d(A, A, -B / (r * r))};
   for (const char* asked : {"5%", "1%", "0.1%"})
     for (const bool stress : {false, true}) {
-      const auto found = solve_to_accuracy(scene_to_accuracy("rings", asked,
-                                                 {{"accuracy.of", stress ? "stress" : "displacement"},
-                                                  {"accuracy.at", "[1.0606601717798212, 1.0606601717798212]"}}));
+      const auto found =
+          solve_to_accuracy(scene_to_accuracy("rings", asked,
+                                              {{"accuracy.of", stress ? "stress" : "displacement"},
+                                               {"accuracy.at", "[1.0606601717798212, 1.0606601717798212]"}}));
       ASSERT_TRUE(found && found->accuracy->reached()) << asked;
       const double off = (found->estimate->goal->value - exact[stress]).norm() / exact[stress].norm();
       EXPECT_LE(off, found->accuracy->asked) << asked;
@@ -255,8 +258,8 @@ TEST(Accuracy, HasEverySecondInAStage) {
 }
 
 TEST(Accuracy, OfContactThatOpensEverywhereIsReachedOnTheSecondMesh) {
-  const auto r =
-      solve_to_accuracy(scene_to_accuracy("hertz", "1%", {{"boundary.2", "{ on = [\"head\"], displacement = { y = 1e-4 } }"}}));
+  const auto r = solve_to_accuracy(
+      scene_to_accuracy("hertz", "1%", {{"boundary.2", "{ on = [\"head\"], displacement = { y = 1e-4 } }"}}));
   ASSERT_TRUE(r);
   EXPECT_EQ(r->status, Status::solved);
   EXPECT_EQ(r->accuracy->solves.size(), 2u);
