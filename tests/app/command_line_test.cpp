@@ -92,7 +92,7 @@ TEST(CommandLine, AnAccuracyIsAskedForAndToldWithWhatIsLeftOut) {
                                 "accuracy.unknowns_max=1000", "-o", folder.path("run")});
   EXPECT_EQ(less.status, 2) << less.err;
   EXPECT_NE(less.out.find("not reached: unknowns_max; largest part: "), std::string::npos) << less.out;
-  EXPECT_EQ(summary(folder.path("run"))["status"], "not_converged");
+  EXPECT_EQ(summary(folder.path("run"))["status"], "accuracy_not_reached");
 
   const auto mean = [&](const std::string& window) {
     return mortise({"solve", geo("hertz.toml"), "--accuracy", "5%", "--set", "accuracy.of=mean", "--set",

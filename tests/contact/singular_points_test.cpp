@@ -12,7 +12,7 @@ namespace {
 
 using test::TwoPlates;
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double deg = std::numbers::pi / 180;
 
 struct Sides {
   std::vector<std::string> names;  // of boundaries
@@ -46,7 +46,7 @@ TEST(SingularPoints, OfABodyAloneAreItsCornersByWhatHoldsThem) {
   EXPECT_EQ(corner_exponent(mesh, middle, constraints, law), 1);
   for (const int c : {0, 1}) prescribe(mesh, boundary_index(mesh, "lower_left"), c, 0, constraints);
   EXPECT_NEAR(corner_exponent(mesh, corner, constraints, law),
-              wedge_exponent(steel_wedge(90 * degree, Face::free), Face::clamped).real(), 1e-9);
+              wedge_exponent(steel_wedge(90 * deg, Face::free), Face::clamped).real(), 1e-9);
   EXPECT_EQ(corner_exponent(mesh, middle, constraints, law), 1);
 }
 
@@ -60,7 +60,7 @@ TEST(SingularPoints, BetweenClampedSidesOnlyTheBodiesStressIs) {
   ASSERT_EQ(points.size(), 2u);
   for (const SingularPoint& p : points) {
     EXPECT_EQ(p.meeting, Meeting::ends);
-    EXPECT_NEAR(p.exponent, wedge_exponent(steel_wedge(90 * degree, Face::free), Face::clamped).real(), 1e-9);
+    EXPECT_NEAR(p.exponent, wedge_exponent(steel_wedge(90 * deg, Face::free), Face::clamped).real(), 1e-9);
     EXPECT_EQ(p.pressure_exponent, 1);
   }
 }
@@ -72,7 +72,7 @@ TEST(SingularPoints, WhatHoldsAnEndIsTheSideBesideIt) {
   EXPECT_NEAR(points[0].position.x(), 0, 1e-15);
   EXPECT_NEAR(
       points[0].exponent,
-      end_exponents(steel_wedge(90 * degree, Face::clamped), steel_wedge(90 * degree, Face::free)).stress.real(), 1e-9);
+      end_exponents(steel_wedge(90 * deg, Face::clamped), steel_wedge(90 * deg, Face::free)).stress.real(), 1e-9);
 }
 
 // The preprint's parabola has slopes 1 and -1 at its ends, with elements of any kind, and no corner between them.
@@ -84,7 +84,7 @@ TEST(SingularPoints, AParabolaMeetsItsSlidingSidesAtTheAnglesOfTheCurve) {
     const auto points = points_of(plates, {all_sides, {0}});
     ASSERT_EQ(points.size(), 2u);
     const double exact =
-        end_exponents(steel_wedge(45 * degree, Face::symmetric), steel_wedge(135 * degree, Face::symmetric))
+        end_exponents(steel_wedge(45 * deg, Face::symmetric), steel_wedge(135 * deg, Face::symmetric))
             .pressure.real();
     for (const SingularPoint& p : points) {
       EXPECT_NEAR(p.exponent, exact, 2e-3);  // rebuilt through 8 and 12 vertices; by the chords 0.05
@@ -163,10 +163,10 @@ TEST(SingularPoints, UnderACornerPressedOnOneFaceItIsThatOfAWedge) {
   const auto points = points_of({0.5, 0.4}, reach, {});
   ASSERT_EQ(points.size(), 1u);
   EXPECT_EQ(points[0].log_pressure, 0);
-  const double angle = 180 - 2 * std::atan(0.5) / degree;
+  const double angle = 180 - 2 * std::atan(0.5) / deg;
   EXPECT_NEAR(
       points[0].pressure_exponent,
-      end_exponents(steel_wedge(angle * degree, Face::free), steel_wedge(180 * degree, Face::free)).pressure.real(),
+      end_exponents(steel_wedge(angle * deg, Face::free), steel_wedge(180 * deg, Face::free)).pressure.real(),
       1e-3);
 }
 
