@@ -80,7 +80,7 @@ TEST(LineChecks, APressureThatIsOffByMoreThanHalfFails) {
   estimate(coarse);
   EXPECT_EQ(coarse.status, Status::check_failed);
   EXPECT_EQ(coarse.checks.back().name, "estimated error of p");
-  expect_contains(coarse.checks.back().where, "border of contact near (");
+  expect_contains(coarse.checks.back().where, "border of contact of 'shaft_foot' on 'flank' near (");
   Results fine = solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/hertz.toml"));
   estimate(fine);
   EXPECT_EQ(fine.status, Status::solved);
