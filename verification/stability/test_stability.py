@@ -129,7 +129,9 @@ def test_defaults_lie_inside_the_stable_regions(scene):
     """The scenes as they stand: no run fails but by the coarse mesh's checks, and none gets a word about its gap."""
     run = {"axes": {}, "scene": scene, "settings": parameters(scene), "measures": []}
     row = execute(run)
-    assert row["outcome"] in ("solved", "check") and row["steps"] <= study_7_iterations.BAR, row
+    # The rollers take all twenty steps of the active set alone, then those from the interior point's partition.
+    steps = 20 + study_7_iterations.BAR if scene == "rollers" else study_7_iterations.BAR
+    assert row["outcome"] in ("solved", "check") and row["steps"] <= steps, row
     assert set(filter(None, row["failed_checks"].split("; "))) <= OF_COARSE_MESHES
     assert "initial_gap" not in row["warnings"]
     nu = [material["poisson"] for material in tomllib.loads(launch.scene_file(scene).read_text())["materials"].values()]
