@@ -70,9 +70,9 @@ TEST(SingularPoints, WhatHoldsAnEndIsTheSideBesideIt) {
   const auto points = points_of({}, {{"lower_left"}, {0, 1}});
   ASSERT_EQ(points.size(), 1u);
   EXPECT_NEAR(points[0].position.x(), 0, 1e-15);
-  EXPECT_NEAR(
-      points[0].exponent,
-      end_exponents(steel_wedge(90 * deg, Face::clamped), steel_wedge(90 * deg, Face::free)).stress.real(), 1e-9);
+  EXPECT_NEAR(points[0].exponent,
+              end_exponents(steel_wedge(90 * deg, Face::clamped), steel_wedge(90 * deg, Face::free)).stress.real(),
+              1e-9);
 }
 
 // The preprint's parabola has slopes 1 and -1 at its ends, with elements of any kind, and no corner between them.
@@ -84,8 +84,7 @@ TEST(SingularPoints, AParabolaMeetsItsSlidingSidesAtTheAnglesOfTheCurve) {
     const auto points = points_of(plates, {all_sides, {0}});
     ASSERT_EQ(points.size(), 2u);
     const double exact =
-        end_exponents(steel_wedge(45 * deg, Face::symmetric), steel_wedge(135 * deg, Face::symmetric))
-            .pressure.real();
+        end_exponents(steel_wedge(45 * deg, Face::symmetric), steel_wedge(135 * deg, Face::symmetric)).pressure.real();
     for (const SingularPoint& p : points) {
       EXPECT_NEAR(p.exponent, exact, 2e-3);  // rebuilt through 8 and 12 vertices; by the chords 0.05
       EXPECT_EQ(p.exponent, p.pressure_exponent);
@@ -164,10 +163,9 @@ TEST(SingularPoints, UnderACornerPressedOnOneFaceItIsThatOfAWedge) {
   ASSERT_EQ(points.size(), 1u);
   EXPECT_EQ(points[0].log_pressure, 0);
   const double angle = 180 - 2 * std::atan(0.5) / deg;
-  EXPECT_NEAR(
-      points[0].pressure_exponent,
-      end_exponents(steel_wedge(angle * deg, Face::free), steel_wedge(180 * deg, Face::free)).pressure.real(),
-      1e-3);
+  EXPECT_NEAR(points[0].pressure_exponent,
+              end_exponents(steel_wedge(angle * deg, Face::free), steel_wedge(180 * deg, Face::free)).pressure.real(),
+              1e-3);
 }
 
 TEST(SingularPoints, WhatContactDoesNotReachIsNone) {
