@@ -7,13 +7,13 @@
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "base/patterns.hpp"
 #include "base/printable.hpp"
 #include "base/stopwatch.hpp"
 #include "base/vectors.hpp"
 #include "contact/least_gap.hpp"
 #include "error/wanted_sizes.hpp"
-#include "io/free_mesher.hpp"
+#include "gmsh/free_mesher.hpp"
+#include "model/patterns.hpp"
 #include "results/error_report.hpp"
 
 namespace mortise {

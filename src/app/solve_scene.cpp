@@ -3,14 +3,14 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "app/load_fields.hpp"
 #include "app/solve_system.hpp"
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "ddm/ranks.hpp"
 #include "error/data_estimate.hpp"
-#include "io/gmsh_mesh.hpp"
+#include "fields/load_fields.hpp"
+#include "gmsh/load_mesh.hpp"
 #include "mesh/copy_bodies.hpp"
 #include "problem/audit.hpp"
 #include "problem/dirichlet_neumann.hpp"

@@ -2,12 +2,12 @@
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
-#include "ddm/solve_ddm.hpp"
 #include "ddm/solve_feti.hpp"
 #include "ddm/substructures.hpp"
+#include "preprint_solvers/mssor.hpp"
+#include "preprint_solvers/solve_ddm.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/direct.hpp"
-#include "solve/mssor.hpp"
 #include "solve/multipoint_system.hpp"
 
 namespace mortise {

@@ -11,8 +11,8 @@
 #include "app/workers.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
-#include "io/geo_file.hpp"
-#include "io/staged_file.hpp"
+#include "base/staged_file.hpp"
+#include "gmsh/geo_file.hpp"
 
 namespace mortise {
 namespace {

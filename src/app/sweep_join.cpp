@@ -5,8 +5,8 @@
 
 #include "app/sweep_row.hpp"
 #include "base/errors.hpp"
-#include "io/csv.hpp"
-#include "io/staged_file.hpp"
+#include "base/staged_file.hpp"
+#include "output/csv.hpp"
 
 namespace mortise {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <sstream>
 
-#include "io/csv.hpp"
-#include "io/staged_file.hpp"
+#include "base/staged_file.hpp"
+#include "output/csv.hpp"
 
 namespace mortise {
 namespace {

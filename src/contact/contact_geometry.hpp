@@ -2,11 +2,11 @@
 // edges; and the model whose depth its lengths have.
 #pragma once
 
-#include "base/field.hpp"
-#include "base/model.hpp"
 #include "contact/contact_line.hpp"
 #include "contact/projection.hpp"
 #include "fem/arc_length.hpp"
+#include "model/field.hpp"
+#include "model/model.hpp"
 
 namespace mortise {
 

@@ -21,7 +21,7 @@ struct DroppedMultiplier {
 struct Coupling {
   SparseRows B;                             ///< rows x degrees of freedom: int psi (u_opposite - u_multiplier) . n dA
   VecX gap0;                                ///< rows: int psi g0 dA, length dA; zero where the gap is closed
-  VecX scale;                               ///< rows: int |psi| dA, dA = ds times depth (base/model.hpp)
+  VecX scale;                               ///< rows: int |psi| dA, dA = ds times depth (model/model.hpp)
   std::vector<int> node;                    ///< multiplier -> node of the mesh
   std::vector<int> row;                     ///< multiplier -> row of B, or -1: no support, lambda = 0
   std::vector<std::array<int, 3>> on_edge;  ///< edge of the multiplier side -> its multipliers, -1 where none

@@ -1,11 +1,11 @@
 // Which multipliers are unknowns of their own.
 #pragma once
 
-#include "base/choices.hpp"
 #include "contact/contact_geometry.hpp"
 #include "contact/coupling_rows.hpp"
 #include "fem/constraints.hpp"
 #include "mesh/curve.hpp"
+#include "model/choices.hpp"
 
 namespace mortise {
 

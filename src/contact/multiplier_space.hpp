@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "base/choices.hpp"
 #include "contact/segments.hpp"
+#include "model/choices.hpp"
 
 namespace mortise {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "base/choices.hpp"
 #include "contact/contact_geometry.hpp"
+#include "model/choices.hpp"
 
 namespace mortise {
 
@@ -26,7 +26,7 @@ struct ContactPoint {
   int edge;  ///< of the multiplier side
   double xi;
   double ds;    ///< weight times length element, length
-  double dA;    ///< ds times depth (base/model.hpp)
+  double dA;    ///< ds times depth (model/model.hpp)
   Vec2 normal;  ///< unit, out of the multiplier side's body
   int opposite_edge;
   double eta;          ///< reference coordinate on the opposite edge

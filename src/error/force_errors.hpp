@@ -6,7 +6,7 @@
 namespace mortise {
 
 /// Of each pair what the force on the multiplier side's body along x and y, and its moment about a centre, may be off
-/// by, times depth (base/model.hpp). Each is a functional of its own: a motion of that side by 1, with a dual solution
+/// by, times depth (model/model.hpp). Each is a functional of its own: a motion of that side by 1, with a dual solution
 /// (docs/theory.md, section 14). Where equilibrium fixes the force that is a rigid motion, which has no error:
 /// round-off of the forces is left, and nothing is solved for. Where more than most_own_duals are not fixed, and with
 /// multi-point constraints, they are sums of the bars of p. `centres`: one a pair. `solution`: as of estimate_error.

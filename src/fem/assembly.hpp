@@ -4,14 +4,15 @@
 #include <functional>
 #include <vector>
 
-#include "base/resultant.hpp"
 #include "fem/material.hpp"
 #include "mesh/mesh.hpp"
+#include "model/resultant.hpp"
 
 namespace mortise {
 
 /// K_ab = int B_a^T C B_b (docs/theory.md eq. 4), lower triangle, 2 nodes x 2 nodes, stress times depth
-/// (base/model.hpp). `laws` holds one law a body. Its columns are shared out over `threads`; K does not depend on them.
+/// (model/model.hpp). `laws` holds one law a body. Its columns are shared out over `threads`; K does not depend on
+/// them.
 SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticLaw>& laws, int threads = 1);
 
 /// load += int B^T C : eps0, for the bodies whose law has an initial strain. Returns int 1/2 eps0 : C : eps0, the

@@ -4,8 +4,8 @@
 #include <array>
 #include <functional>
 
-#include "base/field_range.hpp"
 #include "fem/quadrature.hpp"
+#include "model/field_range.hpp"
 
 namespace mortise {
 

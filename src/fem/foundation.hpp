@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "base/model.hpp"
 #include "fem/line_cuts.hpp"
 #include "mesh/mesh.hpp"
+#include "model/model.hpp"
 
 namespace mortise {
 
@@ -14,7 +14,7 @@ namespace mortise {
 /// length. Of a normal foundation of modulus k (Winkler's) k n n^T.
 using Foundation = std::function<Eigen::Matrix2d(const Vec2& position, const Vec2& normal)>;
 
-/// Appends int N_a k N_b ds, times depth (base/model.hpp), over the sides of a boundary: entries of the lower triangle
+/// Appends int N_a k N_b ds, times depth (model/model.hpp), over the sides of a boundary: entries of the lower triangle
 /// of a matrix like the stiffness. Four Gauss points on each piece of an edge.
 void add_foundation(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
                     const Foundation& foundation, std::vector<Eigen::Triplet<double>>& entries,

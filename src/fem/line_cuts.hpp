@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "base/field_range.hpp"
 #include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
+#include "model/field_range.hpp"
 
 namespace mortise {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/moduli.hpp"
+#include "model/moduli.hpp"
 
 namespace mortise {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "base/model.hpp"
 #include "base/types.hpp"
+#include "model/model.hpp"
 
 namespace mortise {
 

@@ -50,7 +50,7 @@ Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, 
 /// The whole stress (11, 22, 33, 12) at x, initial strains included, of a recovered one.
 Vec4 whole_stress(const std::vector<ElasticLaw>& laws, int body, const Eigen::RowVectorXd& recovered, const Vec2& x);
 
-/// Products of recovered errors d_k = sigma*_k - sigma_h,k, times depth (base/model.hpp).
+/// Products of recovered errors d_k = sigma*_k - sigma_h,k, times depth (model/model.hpp).
 struct ErrorProducts {
   MatX products;  ///< cells x F: int d_0 : C^-1 : d_k; column 0 estimates the cell's share of the squared energy norm
                   ///< of the error of field 0 (twice its energy)

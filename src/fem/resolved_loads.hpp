@@ -1,10 +1,10 @@
 // The loads of fem/assembly.hpp with quadrature as fine as the functions that they are made of. Code: fem/assembly.cpp.
 #pragma once
 
-#include "base/resultant.hpp"
 #include "fem/line_cuts.hpp"
 #include "fem/material.hpp"
 #include "mesh/mesh.hpp"
+#include "model/resultant.hpp"
 
 namespace mortise {
 

@@ -1,8 +1,8 @@
 // Many bodies from the meshes of a few.
 #pragma once
 
-#include "base/body_copy.hpp"
 #include "mesh/mesh.hpp"
+#include "model/body_copy.hpp"
 
 namespace mortise {
 

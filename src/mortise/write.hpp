@@ -1,5 +1,5 @@
 /// Results and meshes into files: write_results, write_msh.
 #pragma once
 
-#include "io/write_msh.hpp"
+#include "gmsh/write_msh.hpp"
 #include "results/write_results.hpp"

@@ -1,7 +1,7 @@
 #include "problem/body_entries.hpp"
 
 #include "base/errors.hpp"
-#include "base/patterns.hpp"
+#include "model/patterns.hpp"
 
 namespace mortise {
 

@@ -1,9 +1,9 @@
 // What a [[boundary]] entry does to the equations: prescribed displacements, loads, foundations.
 #pragma once
 
-#include "base/resultant.hpp"
 #include "fem/foundation.hpp"
 #include "mesh/side_table.hpp"
+#include "model/resultant.hpp"
 #include "problem/scene_names.hpp"
 #include "scene/scene.hpp"
 #include "solve/saddle_point_system.hpp"

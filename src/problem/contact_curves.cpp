@@ -5,10 +5,10 @@
 #include <set>
 
 #include "base/errors.hpp"
-#include "base/patterns.hpp"
 #include "base/printable.hpp"
 #include "base/union_find.hpp"
 #include "fem/edges.hpp"
+#include "model/patterns.hpp"
 #include "problem/facing_pairs.hpp"
 #include "problem/scene_names.hpp"
 

@@ -7,12 +7,12 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
-#include "base/patterns.hpp"
 #include "base/printable.hpp"
 #include "contact/gap_resolution.hpp"
 #include "fem/edges.hpp"
 #include "mesh/body_points.hpp"
 #include "mesh/thickness.hpp"
+#include "model/patterns.hpp"
 #include "problem/facing_pairs.hpp"
 #include "problem/scene_names.hpp"
 #include "solve/threads.hpp"

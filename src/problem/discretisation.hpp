@@ -29,7 +29,7 @@ Discretisation discretise(const Scene& scene, const Mesh& mesh);
 VecX spring_forces(const Discretisation& discretisation, const VecX& u);
 
 /// Strain energy of the bodies, without foundations', 1/2 int (eps - eps0) : C : (eps - eps0), times depth
-/// (base/model.hpp): J/m of a plane model in SI, J of rings.
+/// (model/model.hpp): J/m of a plane model in SI, J of rings.
 double strain_energy(const Discretisation& discretisation, const VecX& u);
 
 }  // namespace mortise

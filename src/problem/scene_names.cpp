@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
-#include "base/patterns.hpp"
+#include "model/patterns.hpp"
 
 namespace mortise {
 namespace {

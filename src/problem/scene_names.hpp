@@ -12,7 +12,7 @@ class SceneNames {
   explicit SceneNames(const Mesh& mesh);
 
   /// Indices of the bodies or boundaries that `key` of the scene names: one, or those that match a pattern
-  /// (base/patterns.hpp), ascending. Throws SceneError with the known names where there is none.
+  /// (model/patterns.hpp), ascending. Throws SceneError with the known names where there is none.
   std::vector<int> bodies(const std::string& key, const std::string& name) const;
   std::vector<int> boundaries(const std::string& key, const std::string& name) const;
 

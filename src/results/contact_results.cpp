@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/resultant.hpp"
 #include "fem/edges.hpp"
+#include "model/resultant.hpp"
 #include "results/contact_length.hpp"
 
 namespace mortise {

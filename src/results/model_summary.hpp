@@ -9,7 +9,7 @@
 namespace mortise {
 
 /// Lines for the terminal, a support or load each, with the sums of the loads and, where they are known, the reactions
-/// (times depth, base/model.hpp).
+/// (times depth, model/model.hpp).
 std::string model_lines(const Scene& scene, const Mesh& mesh, const Discretisation& discretisation,
                         const Reactions* reactions = nullptr);
 

@@ -1,7 +1,7 @@
 // What supports put on the bodies.
 #pragma once
 
-#include "base/resultant.hpp"
+#include "model/resultant.hpp"
 #include "problem/discretisation.hpp"
 
 namespace mortise {
@@ -15,7 +15,7 @@ struct Reaction {
   Resultant sum;
 };
 
-/// Forces on the bodies, times depth (base/model.hpp).
+/// Forces on the bodies, times depth (model/model.hpp).
 struct Reactions {
   VecX nodal;                      ///< n: K u - f + B^T lambda at prescribed and tied unknowns, and the springs' forces
   std::vector<Reaction> curves;    ///< in the scene's order

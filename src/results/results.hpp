@@ -67,7 +67,7 @@ struct Results {
   Extremes extremes;
   Reactions reactions;
   std::vector<ProbeValue> probes;
-  double energy = 0;                       ///< strain energy, times depth (base/model.hpp)
+  double energy = 0;                       ///< strain energy, times depth (model/model.hpp)
   std::optional<ErrorEstimate> estimate;   ///< unless the run was asked for none
   std::optional<AccuracyReport> accuracy;  ///< where one was asked for
   std::optional<InfSupReport> inf_sup;     ///< where the run was asked to diagnose

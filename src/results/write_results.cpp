@@ -5,9 +5,9 @@
 
 #include "base/errors.hpp"
 #include "base/stopwatch.hpp"
-#include "io/csv.hpp"
-#include "io/output_folder.hpp"
-#include "io/vtu.hpp"
+#include "output/csv.hpp"
+#include "output/output_folder.hpp"
+#include "output/vtu.hpp"
 #include "results/summary.hpp"
 
 namespace mortise {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/errors.hpp"
-#include "base/field.hpp"
 #include "base/types.hpp"
+#include "model/field.hpp"
 #include "scene/document.hpp"
 #include "scene/fail.hpp"
 #include "scene/scene.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/patterns.hpp"
+#include "model/patterns.hpp"
 #include "scene/fields.hpp"
 #include "scene/sections.hpp"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/patterns.hpp"
+#include "model/patterns.hpp"
 #include "scene/fail.hpp"
 #include "scene/fields.hpp"
 #include "scene/sections.hpp"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "base/patterns.hpp"
+#include "model/patterns.hpp"
 #include "scene/fail.hpp"
 #include "scene/fields.hpp"
 #include "scene/sections.hpp"

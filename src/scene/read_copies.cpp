@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/patterns.hpp"
 #include "base/printable.hpp"
+#include "model/patterns.hpp"
 #include "scene/fail.hpp"
 #include "scene/fields.hpp"
 #include "scene/sections.hpp"

@@ -1,7 +1,7 @@
 // [mesh]
 #include <filesystem>
 
-#include "base/mesh_endings.hpp"
+#include "model/mesh_endings.hpp"
 #include "scene/fields.hpp"
 #include "scene/files.hpp"
 #include "scene/sections.hpp"

@@ -1,7 +1,7 @@
 // A scene file from text to checked data.
 #include <filesystem>
 
-#include "base/mesh_endings.hpp"
+#include "model/mesh_endings.hpp"
 #include "scene/fields.hpp"
 #include "scene/files.hpp"
 #include "scene/overrides.hpp"

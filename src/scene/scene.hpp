@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "base/body_copy.hpp"
-#include "base/choices.hpp"
-#include "base/field.hpp"
-#include "base/geo_limits.hpp"
-#include "base/model.hpp"
-#include "base/moduli.hpp"
 #include "base/types.hpp"
+#include "model/body_copy.hpp"
+#include "model/choices.hpp"
+#include "model/field.hpp"
+#include "model/geo_limits.hpp"
+#include "model/model.hpp"
+#include "model/moduli.hpp"
 
 namespace mortise {
 
@@ -37,7 +37,7 @@ struct BodySpec {
 struct RigidSpec {
   std::optional<double> x, y;      ///< prescribed displacement of `about`, length
   std::optional<double> rotation;  ///< prescribed, radians counter-clockwise
-  Vec2 force = Vec2::Zero();       ///< at `about`, times depth (base/model.hpp)
+  Vec2 force = Vec2::Zero();       ///< at `about`, times depth (model/model.hpp)
   double moment = 0;               ///< the same times length, positive counter-clockwise
   std::optional<Vec2> about;       ///< none: the curves' centre
 };
@@ -54,7 +54,7 @@ struct BoundarySpec {
   std::optional<RigidSpec> rigid;
   std::optional<Field> pressure;        ///< positive pushes onto the body, stress
   std::optional<VectorField> traction;  ///< stress
-  std::optional<Vec2> force;            ///< sum of a constant traction on all its curves, times depth (base/model.hpp)
+  std::optional<Vec2> force;            ///< sum of a constant traction on all its curves, times depth (model/model.hpp)
   /// Springs to the ground, stress per length, >= 0: along the normal, or along x and y.
   std::optional<Field> normal_foundation;
   std::optional<VectorField> foundation;
@@ -83,7 +83,7 @@ struct InitialStrainSpec {
 /// One [[contact]] entry.
 struct ContactSpec {
   std::string key;
-  /// Physical curves; or patterns (base/patterns.hpp), for all pairs of theirs that face each other.
+  /// Physical curves; or patterns (model/patterns.hpp), for all pairs of theirs that face each other.
   std::array<std::string, 2> between;
   std::optional<double> within;  ///< how far apart these may be, length; none: half an edge
   bool found = false;            ///< a pair of a pattern's: its curves need not face each other all along

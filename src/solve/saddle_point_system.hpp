@@ -11,7 +11,7 @@ namespace mortise {
 /// Without rows (m = 0) it is that of the bodies alone.
 struct SaddlePointSystem {
   SparseMatrix K;              ///< n x n, lower triangle, positive semidefinite, stress units
-  VecX f;                      ///< n, force times depth (base/model.hpp)
+  VecX f;                      ///< n, force times depth (model/model.hpp)
   Constraints constraints;     ///< n
   double stiffness_scale = 1;  ///< a typical entry of K (Young's modulus)
   /// Unknowns that springs must hold for K to be positive definite (one for each motion that only B resists). The

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/choices.hpp"
 #include "base/types.hpp"
+#include "model/choices.hpp"
 
 namespace mortise {
 

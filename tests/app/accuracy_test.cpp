@@ -7,7 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/stopwatch.hpp"
-#include "io/write_msh.hpp"
+#include "gmsh/write_msh.hpp"
 #include "results/error_report.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "app/solve_scene.hpp"
-#include "io/gmsh_mesh.hpp"
-#include "io/write_msh.hpp"
+#include "gmsh/load_mesh.hpp"
+#include "gmsh/write_msh.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
-#include "ddm/interface.hpp"
+#include "preprint_solvers/interface.hpp"
 #include "support/differences.hpp"
 #include "support/messages.hpp"
 

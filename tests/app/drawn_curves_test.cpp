@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "app/solve_scene.hpp"
-#include "io/gmsh_mesh.hpp"
-#include "io/write_msh.hpp"
+#include "gmsh/load_mesh.hpp"
+#include "gmsh/write_msh.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise::test {

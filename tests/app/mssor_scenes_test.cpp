@@ -6,9 +6,9 @@
 
 #include "app/sweep.hpp"
 #include "base/errors.hpp"
+#include "preprint_solvers/mssor.hpp"
 #include "results/summary.hpp"
 #include "results/write_results.hpp"
-#include "solve/mssor.hpp"
 #include "support/differences.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -4,11 +4,11 @@
 
 #include <numbers>
 
-#include "base/moduli.hpp"
 #include "fem/constraints.hpp"
 #include "fem/patch_recovery.hpp"
 #include "fem/stress.hpp"
 #include "mesh/side_table.hpp"
+#include "model/moduli.hpp"
 #include "support/two_plates.hpp"
 
 namespace mortise {

@@ -1,8 +1,8 @@
 // An exact plane-strain field, and two plates in contact that it solves.
 #pragma once
 
-#include "base/choices.hpp"
 #include "fem/constraints.hpp"
+#include "model/choices.hpp"
 #include "support/two_plates.hpp"
 
 namespace mortise::test {

@@ -8,7 +8,7 @@
 
 #include "app/solve_scene.hpp"
 #include "base/stopwatch.hpp"
-#include "io/gmsh_mesh.hpp"
+#include "gmsh/load_mesh.hpp"
 #include "limit.hpp"
 #include "peak_memory.hpp"
 #include "solve/dense_kernel.hpp"

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "gmsh/load_mesh.hpp"
 #include "graded_plates.hpp"
-#include "io/gmsh_mesh.hpp"
 #include "lame.hpp"
 #include "support/manufactured.hpp"
 

@@ -1,0 +1,12 @@
+#include "fields/grid_module.hpp"
+
+#include "base/module.hpp"
+
+namespace mortise {
+
+const GridModule& grid_module() {
+  static const auto& module = load_module<GridModule>("mortise_grid", "values at points are read by VTK");
+  return module;
+}
+
+}  // namespace mortise

@@ -1,0 +1,95 @@
+#include "gmsh/free_mesh.hpp"
+
+#include <gmsh.h>
+
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "base/printable.hpp"
+#include "gmsh/gmsh_data.hpp"
+#include "gmsh/gmsh_session.hpp"
+
+namespace mortise {
+namespace {
+
+void set_mesh_options(bool recombine) {
+  const std::vector<std::pair<const char*, double>> options{
+      {"Mesh.Algorithm", 6},  // Frontal-Delaunay
+      {"Mesh.ElementOrder", 2},
+      {"Mesh.SecondOrderIncomplete", 1},
+      {"Mesh.SecondOrderLinear", 0},
+      {"Mesh.HighOrderOptimize", 0},
+      {"Mesh.MeshSizeFromPoints", 0},
+      {"Mesh.MeshSizeFromCurvature", 0},
+      {"Mesh.MeshSizeExtendFromBoundary", 0},
+      {"Mesh.MinimumCircleNodes", 0},
+      {"Mesh.MinimumCurveNodes", 0},
+      {"Mesh.LcIntegrationPrecision", 1e-5},  // of a count of edges; less gives the same meshes, later
+      {"Mesh.RandomFactor", 1e-13},  // of the whole; gmsh moves points by it, 1e-9 flattens triangles at tiny edges
+      {"Mesh.RecombineAll", recombine ? 1 : 0},
+  };
+  for (const auto& [name, value] : options) gmsh::option::setNumber(name, value);
+}
+
+/// While it lives, gmsh's only sizes: it takes the least of all that it is given, and is given no others.
+class SizeCallback {
+ public:
+  /// `failure`: takes what the function throws, which must not go through gmsh.
+  SizeCallback(const SizeAt& size, std::exception_ptr& failure) : size_(size), failure_(failure) {
+    gmsh::vectorpair curves;
+    gmsh::model::getEntities(curves, 1);
+    for (const auto& [dimension, curve] : curves) factors_[curve] = speed_factor(curve);
+    gmsh::model::mesh::setSizeCallback(
+        [this](int dimension, int tag, double x, double y, double) { return answer(dimension, tag, Vec2(x, y)); });
+  }
+  ~SizeCallback() { gmsh::model::mesh::removeSizeCallback(); }
+  SizeCallback(const SizeCallback&) = delete;
+  SizeCallback& operator=(const SizeCallback&) = delete;
+
+ private:
+  double answer(int dimension, int tag, const Vec2& x) {
+    constexpr double coarse = 1e22;  // gmsh's largest; lets it come to an end soon
+    if (failure_) return coarse;
+    try {
+      const double size = size_(x);
+      if (!(size > 0)) throw std::domain_error("mesh size " + std::to_string(size) + " " + near_point(x));
+      return dimension == 1 ? size * factors_.at(tag) : size;
+    } catch (...) {
+      failure_ = std::current_exception();
+      return coarse;
+    }
+  }
+
+  const SizeAt& size_;
+  std::map<int, double> factors_;  // by curve
+  std::exception_ptr& failure_;
+};
+
+void generate(GmshSession& session, const std::string& file, const SizeAt& size) {
+  std::exception_ptr failure;
+  try {
+    session.run(file, "meshing", [&] {
+      const SizeCallback callback(size, failure);
+      gmsh::model::mesh::generate(2);
+    });
+  } catch (const InputError&) {
+    if (!failure) throw;
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
+MeshData mesh_freely(const FreeGeometry& geometry, const SizeAt& size, bool recombine) {
+  GmshSession session;
+  open_free_geometry(session, geometry);
+  set_mesh_options(recombine);
+  generate(session, geometry.file, [&](const Vec2& x) { return size(x - geometry.shift); });
+  MeshData data = gmsh_data(geometry.file);
+  move(-geometry.shift, data);
+  return data;
+}
+
+}  // namespace mortise

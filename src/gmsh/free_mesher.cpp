@@ -1,0 +1,45 @@
+#include "gmsh/free_mesher.hpp"
+
+#include <filesystem>
+
+#include "base/errors.hpp"
+#include "base/library_guard.hpp"
+#include "fem/elements.hpp"
+#include "gmsh/load_mesh.hpp"
+#include "mesh_files/assemble_mesh.hpp"
+
+namespace mortise {
+
+FreeMesher::FreeMesher(const std::string& file, const std::map<std::string, double>& parameters,
+                       const GeoLimits& limits)
+    : limits_(limits) {
+  check_mesh_file(file, parameters, limits);
+  if (std::filesystem::path(file).extension() != ".geo")
+    throw InputError(file + ": a mesh has no geometry to refine; expected a .geo");
+  const GmshModule& gmsh = gmsh_module();
+  const LibraryGuard guard(file, limits.seconds);
+  drawing_ = gmsh.read_drawing(file, parameters);
+}
+
+Mesh FreeMesher::mesh_once(const SizeAt& size, bool recombine) const {
+  const LibraryGuard guard(drawing_.geometry.file, limits_.seconds);
+  Mesh mesh = assemble_mesh(gmsh_module().mesh_freely(drawing_.geometry, size, recombine));
+  check_cells(mesh);
+  return mesh;
+}
+
+// gmsh 4.8 leaves flat triangles at kinks and corners where edges are below about 1e-7 of the whole, and inverted ones
+// where a curve turns within an edge; other sizes a little smaller avoid them.
+Mesh FreeMesher::mesh(const SizeAt& size, bool recombine) const {
+  constexpr int attempts = 6;
+  double part = 1;
+  for (int attempt = 1;; ++attempt, part *= 0.9) {
+    try {
+      return mesh_once([&](const Vec2& x) { return part * size(x); }, recombine);
+    } catch (const InputError&) {
+      if (attempt == attempts) throw;
+    }
+  }
+}
+
+}  // namespace mortise

@@ -1,0 +1,37 @@
+// Free meshes of a drawn geometry with sizes by a function: the mesher of an accuracy loop. No gmsh header here.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gmsh/gmsh_module.hpp"
+#include "mesh/mesh.hpp"
+#include "model/geo_limits.hpp"
+
+namespace mortise {
+
+/// Meshes one .geo again and again: its geometry, its physical groups, its parameters, and nothing that it says of the
+/// mesh. gmsh runs in the constructor and in mesh() only.
+class FreeMesher {
+ public:
+  /// Throws InputError where load_mesh would before it meshes, and where there is no geometry: a .msh, or what
+  /// read_free_geometry refuses. `limits`: of each call.
+  FreeMesher(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits = {});
+
+  /// For the first sizes, before there is a mesh.
+  const std::vector<DrawnCurve>& curves() const { return drawing_.curves; }
+
+  /// 6-node triangles, or 8-node quadrilaterals with a few triangles between them. The same sizes give the same mesh.
+  /// Throws what `size` throws; std::domain_error where it is not > 0; InputError as load_mesh does, and where cells
+  /// stay flat or inverted at 0.6 of the sizes too.
+  Mesh mesh(const SizeAt& size, bool recombine = false) const;
+
+ private:
+  Mesh mesh_once(const SizeAt& size, bool recombine) const;
+
+  GeoLimits limits_;
+  FreeDrawing drawing_;
+};
+
+}  // namespace mortise

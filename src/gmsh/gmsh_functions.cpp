@@ -1,0 +1,37 @@
+// The module's own side of gmsh_module.hpp.
+#include <dlfcn.h>
+#include <gmsh.h>
+
+#include "gmsh/free_mesh.hpp"
+#include "gmsh/gmsh_data.hpp"
+#include "gmsh/gmsh_module.hpp"
+#include "gmsh/gmsh_session.hpp"
+
+namespace mortise {
+namespace {
+
+MeshData mesh_geo(const std::string& file, const std::map<std::string, double>& parameters) {
+  GmshSession session;
+  session.open(file, parameters);
+  return gmsh_data(file);
+}
+
+FreeDrawing read_drawing(const std::string& file, const std::map<std::string, double>& parameters) {
+  GmshSession session;
+  FreeDrawing drawing{read_free_geometry(session, file, parameters), {}};
+  session.run(file, "sampling its curves", [&] { drawing.curves = drawn_curves(); });
+  return drawing;
+}
+
+std::vector<std::string> files() {
+  std::vector<std::string> names;
+  for (const void* symbol : {reinterpret_cast<const void*>(&mesh_geo), reinterpret_cast<const void*>(&gmsh::open)})
+    if (Dl_info info; ::dladdr(symbol, &info) != 0) names.emplace_back(info.dli_fname);
+  return names;
+}
+
+}  // namespace
+}  // namespace mortise
+
+extern "C" [[gnu::visibility("default")]] const mortise::GmshModule mortise_gmsh;
+const mortise::GmshModule mortise_gmsh{mortise::mesh_geo, mortise::read_drawing, mortise::mesh_freely, mortise::files};

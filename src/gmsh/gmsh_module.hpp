@@ -1,0 +1,42 @@
+// What is done by gmsh, in a shared object of its own that is loaded when the first .geo is meshed: libgmsh brings some
+// ninety libraries with it, which take longer to load than a small scene to solve. No gmsh header here.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gmsh/free_geometry.hpp"
+#include "gmsh/gmsh_curves.hpp"
+#include "mesh_files/mesh_data.hpp"
+
+namespace mortise {
+
+/// Wanted length of the edges at a place, > 0.
+using SizeAt = std::function<double(const Vec2& x)>;
+
+/// A geometry to be meshed freely, and its curves.
+struct FreeDrawing {
+  FreeGeometry geometry;
+  std::vector<DrawnCurve> curves;
+};
+
+/// The module's functions. A LibraryGuard should be there while one of them runs. All throw InputError that names the
+/// file and gmsh's own message.
+struct GmshModule {
+  /// Meshes a .geo with these values of its DefineConstant names.
+  MeshData (*mesh_geo)(const std::string& file, const std::map<std::string, double>& parameters);
+  /// read_free_geometry and drawn_curves.
+  FreeDrawing (*read_drawing)(const std::string& file, const std::map<std::string, double>& parameters);
+  /// Meshes the geometry with these sizes: see FreeMesher.
+  MeshData (*mesh_freely)(const FreeGeometry& geometry, const SizeAt& size, bool recombine);
+  /// The files that the module and libgmsh were loaded from.
+  std::vector<std::string> (*files)();
+};
+
+/// Loads it at the first call, from where the program's RPATH says. Throws InputError with the loader's words if it or
+/// a library that it needs is not there.
+const GmshModule& gmsh_module();
+
+}  // namespace mortise

@@ -1,0 +1,107 @@
+#include "mesh_files/inp_cards.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+namespace mortise {
+namespace {
+
+std::string trimmed(std::string_view text) {
+  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+  return std::string(text);
+}
+
+/// Between the commas; nothing behind the last one.
+std::vector<std::string> split(std::string_view text) {
+  std::vector<std::string> fields;
+  for (std::size_t start = 0, end = 0; start <= text.size(); start = end + 1) {
+    end = std::min(text.find(',', start), text.size());
+    fields.push_back(trimmed(text.substr(start, end - start)));
+  }
+  if (fields.back().empty()) fields.pop_back();
+  return fields;
+}
+
+bool ends_in_comma(std::string_view text) {
+  const std::size_t last = text.find_last_not_of(" \t\r");
+  return last != text.npos && text[last] == ',';
+}
+
+void add_parameters(InpCard& card, const std::vector<std::string>& fields, std::size_t first) {
+  for (std::size_t i = first; i < fields.size(); ++i) {
+    const std::size_t equals = std::min(fields[i].find('='), fields[i].size());
+    const std::string value = equals < fields[i].size() ? trimmed(std::string_view(fields[i]).substr(equals + 1)) : "";
+    card.parameters[inp_key(std::string_view(fields[i]).substr(0, equals))] = value;
+  }
+}
+
+std::string_view without_plus(const std::string& field) {
+  return field.starts_with('+') ? std::string_view(field).substr(1) : std::string_view(field);
+}
+
+}  // namespace
+
+std::string inp_key(std::string_view text) {
+  std::string key;
+  for (const char c : text)
+    if (c != ' ' && c != '\t' && c != '\r') key += char(std::toupper(static_cast<unsigned char>(c)));
+  return key;
+}
+
+std::vector<InpCard> read_inp_cards(MshInput& input) {
+  std::vector<InpCard> cards;
+  std::string_view line;
+  bool card_goes_on = false;
+  while (input.next_line(line)) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
+    if (line.empty() || line.starts_with("**")) continue;
+    const std::vector<std::string> fields = split(line);
+    if (line.starts_with('*')) {
+      cards.push_back({inp_key(std::string_view(fields.at(0)).substr(1)), {}, input.record(), {}});
+      add_parameters(cards.back(), fields, 1);
+    } else if (cards.empty()) {
+      input.fail("this is no deck of Abaqus or CalculiX: expected a card such as *NODE, found '" +
+                 std::string(line.substr(0, 40)) + "'");
+    } else if (card_goes_on) {
+      add_parameters(cards.back(), fields, 0);
+    } else if (!fields.empty()) {
+      cards.back().lines.push_back({input.record(), fields, ends_in_comma(line)});
+    }
+    card_goes_on = (line.starts_with('*') || card_goes_on) && ends_in_comma(line);
+  }
+  return cards;
+}
+
+std::optional<std::string> parameter(const InpCard& card, const std::string& name) {
+  const auto found = card.parameters.find(name);
+  return found == card.parameters.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::int64_t inp_integer(const MshInput& input, const InpLine& line, const std::string& field, const char* what) {
+  const std::string_view text = without_plus(field);
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value <= 0) {
+    input.fail_at(line.record, std::string("expected ") + what + ", a number > 0, found '" + field + "'");
+  }
+  return value;
+}
+
+double inp_real(const MshInput& input, const InpLine& line, const std::string& field, const char* what) {
+  std::string text(without_plus(field));
+  std::ranges::replace(text, 'D', 'e');
+  std::ranges::replace(text, 'd', 'e');
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+    input.fail_at(line.record, std::string("expected ") + what + ", found '" + field + "'");
+  }
+  return value;
+}
+
+}  // namespace mortise

@@ -1,0 +1,21 @@
+// The plane of a model, and how deep it is out of that plane.
+#pragma once
+
+#include <numbers>
+
+#include "model/choices.hpp"
+
+namespace mortise {
+
+struct Model {
+  Plane plane = Plane::strain;
+  double thickness = 1;  ///< length; of a plane model
+
+  bool axisymmetric() const { return plane == Plane::axisymmetric; }
+
+  /// What an area of the mesh, or a length of its curves, is multiplied by where the first coordinate is x1, length:
+  /// the thickness, or the circumference of the ring.
+  double depth(double x1) const { return axisymmetric() ? 2 * std::numbers::pi * x1 : thickness; }
+};
+
+}  // namespace mortise
