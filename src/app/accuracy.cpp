@@ -209,8 +209,8 @@ class Loop {
       return false;
     }
     std::vector<LeastGap> gaps;
-    for (const ContactPair& pair : r.pairs)
-      gaps.push_back(least_gap(r.mesh.nodes, r.solution.u, pair.multiplier, pair.opposite, pair.points));
+    for (const ContactPair& pair : r.problem.pairs)
+      gaps.push_back(least_gap(r.problem.mesh.nodes, r.solution.u, pair.multiplier, pair.opposite, pair.points));
     const double round_off = 1e-9 * largest_entry(r.solution.u);
     bool open = gaps.size() == gaps_.size();
     for (std::size_t k = 0; k < gaps.size() && open; ++k) open = stays_open(gaps_[k], gaps[k], round_off);
@@ -233,9 +233,9 @@ class Loop {
   // A point once found stays on all meshes that follow.
   void keep_found(const Results& r) {
     std::vector<FoundPoint> found;
-    for (std::size_t k = 0; k < r.pairs.size(); ++k)
+    for (std::size_t k = 0; k < r.problem.pairs.size(); ++k)
       for (const SingularPoint& point : r.estimate->pressures[k].singular)
-        found.push_back({curve_names(r.mesh, r.pairs[k]), point.position});
+        found.push_back({curve_names(r.problem.mesh, r.problem.pairs[k]), point.position});
     for (const FoundPoint& old : found_)
       if (std::ranges::none_of(found, [&](const FoundPoint& point) { return point.is(old); })) found.push_back(old);
     found_ = std::move(found);
@@ -308,12 +308,12 @@ class Loop {
       factors.goal_line = std::clamp(e.goal->line() / each, 0.4, largest_step);
       factors.far_field = std::clamp(e.goal->far() / each, 0.25, 5 * largest_step);
     }
-    WantedSizes wanted = wanted_sizes(r.mesh, r.pairs, e, factors);
+    WantedSizes wanted = wanted_sizes(r.problem.mesh, r.problem.pairs, e, factors);
     for (Eigen::Index i = 0; i < wanted.sizes.size(); ++i)
-      wanted.sizes(i) = std::min(wanted.sizes(i), largest_(r.mesh.nodes.row(i).transpose()));
-    const auto field = std::make_shared<SizeField>(r.mesh, wanted.sizes, std::move(wanted.layers));
+      wanted.sizes(i) = std::min(wanted.sizes(i), largest_(r.problem.mesh.nodes.row(i).transpose()));
+    const auto field = std::make_shared<SizeField>(r.problem.mesh, wanted.sizes, std::move(wanted.layers));
     // More than may be, as far as the old mesh tells: all elements larger, and this is the last mesh.
-    const double excess = expected_unknowns(r.mesh, e.energy.areas, *field) / spec_.unknowns_max;
+    const double excess = expected_unknowns(r.problem.mesh, e.energy.areas, *field) / spec_.unknowns_max;
     at_limit_ = excess > 1;
     return [field, factor = std::sqrt(std::max(1.0, excess))](const Vec2& x) { return factor * (*field)(x); };
   }

@@ -51,12 +51,6 @@ std::vector<Override> overrides(const Options& options) {
 
 std::string stem(const Options& options) { return std::filesystem::path(options.scene).stem().string(); }
 
-// Its title on one line.
-Scene shown(Scene scene) {
-  scene.title = printable(scene.title);
-  return scene;
-}
-
 int exit_code(Status status) { return status == Status::solved ? 0 : 2; }
 
 std::atomic<bool> interrupted = false;
@@ -97,12 +91,12 @@ int solve(const Options& options) {
   }
   if (options.diagnose) {
     stage("diagnose");
-    diagnose(scene, results);
+    diagnose(results);
   }
   stage("write");
-  if (ranks().rank() == 0) results.seconds.write = write_results(scene, results, folder);
+  if (ranks().rank() == 0) results.seconds.write = write_results(results, folder);
   line.reset();
-  if (!options.quiet) say(terminal_summary(shown(scene), results, folder));
+  if (!options.quiet) say(terminal_summary(results, folder));
   if (results.status == Status::accuracy_not_reached)
     std::cerr << "mortise: " << scene.path << ": " << to_string(results.status) << ": " << results.accuracy->reason
               << "; largest part: " << largest_error(results) << "\n";
@@ -137,17 +131,16 @@ std::string measures_lines(const Mesh& mesh) {
 // What the scene will model, and what it leaves out.
 int check(const Options& options) {
   const Scene scene = read_scene(options.scene, overrides(options));
-  const CheckedScene checked = check_scene(scene);
-  const int drawn = options.picture.empty() ? 0 : draw_setup(scene, checked, options.picture);
+  const Problem problem = check_scene(scene);
+  const int drawn = options.picture.empty() ? 0 : draw_setup(problem, options.picture);
   if (options.quiet) return drawn;
   std::ostringstream text;
-  text << shown(scene).title << "\n  mesh      " << checked.mesh.source << ": " << checked.mesh.nodes.rows()
-       << " nodes, " << checked.mesh.cells.size() << " elements\n"
-       << measures_lines(checked.mesh) << copies_line(shown(scene))
-       << model_lines(shown(scene), checked.mesh, checked.discretisation);
-  const std::size_t count = checked.pairs.size(), told = count > told_in_full ? told_of_many : count;
+  text << printable(scene.title) << "\n  mesh      " << problem.mesh.source << ": " << problem.mesh.nodes.rows()
+       << " nodes, " << problem.mesh.cells.size() << " elements\n"
+       << measures_lines(problem.mesh) << copies_line(scene) << model_lines(problem);
+  const std::size_t count = problem.pairs.size(), told = count > told_in_full ? told_of_many : count;
   for (std::size_t k = 0; k < told; ++k) {
-    const ContactPair& pair = checked.pairs[k];
+    const ContactPair& pair = problem.pairs[k];
     text << "  contact   " << pair.spec.between[0] << " - " << pair.spec.between[1] << ": "
          << to_string(pair.spec.condition) << ", frictionless, gap " << gap_words(pair) << ", "
          << pair.coupling.gap0.size() << " multipliers on " << pair.spec.multipliers_on << ", facing over "
@@ -157,7 +150,7 @@ int check(const Options& options) {
   text << "  left out  friction, large displacements, plasticity, time"
        << (scene.body_forces.empty() && !scene.gravity ? ", body forces" : "")
        << (scene.initial_strains.empty() ? ", initial strains" : "") << "\n";
-  for (const std::string& warning : checked.warnings) text << "  warning   " << warning << "\n";
+  for (const std::string& warning : problem.warnings) text << "  warning   " << warning << "\n";
   say(text.str());
   return drawn;
 }
@@ -171,7 +164,7 @@ int mesh(const Options& options) {
   if (scene.accuracy) {
     const Results results = solve_to_accuracy(scene, StageLine(options.quiet));
     status = results.status;
-    write_msh(results.mesh, output.string());
+    write_msh(results.problem.mesh, output.string());
   } else {
     write_msh(scene_mesh(scene), output.string());
   }

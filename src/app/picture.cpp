@@ -59,9 +59,9 @@ struct TemporaryFile {
 
 int draw_picture(const std::vector<std::string>& arguments) { return run_script("picture.py", arguments); }
 
-int draw_setup(const Scene& scene, const CheckedScene& checked, const fs::path& picture) {
+int draw_setup(const Problem& problem, const fs::path& picture) {
   const TemporaryFile file;
-  write_setup(scene, checked.mesh, checked.discretisation, checked.pairs, file.path);
+  write_setup(problem, file.path);
   return run_script("setup.py", {file.path, picture.string()});
 }
 

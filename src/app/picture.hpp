@@ -14,6 +14,6 @@ namespace mortise {
 int draw_picture(const std::vector<std::string>& arguments);
 
 /// `mortise check --picture`: the set-up as a .png, .pdf or .svg, by setup.py. As draw_picture.
-int draw_setup(const Scene& scene, const CheckedScene& checked, const std::filesystem::path& picture);
+int draw_setup(const Problem& problem, const std::filesystem::path& picture);
 
 }  // namespace mortise

@@ -5,16 +5,13 @@
 
 #include "app/solve_system.hpp"
 #include "base/errors.hpp"
-#include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "ddm/ranks.hpp"
 #include "error/data_estimate.hpp"
 #include "fields/load_fields.hpp"
 #include "gmsh/load_mesh.hpp"
 #include "mesh/copy_bodies.hpp"
-#include "problem/audit.hpp"
 #include "problem/dirichlet_neumann.hpp"
-#include "problem/ties.hpp"
 #include "results/audit_solution.hpp"
 #include "results/checks.hpp"
 #include "results/data_warnings.hpp"
@@ -23,73 +20,12 @@
 #include "results/line_checks.hpp"
 #include "results/unheld.hpp"
 #include "results/warnings.hpp"
-#include "solve/threads.hpp"
 
 namespace mortise {
 namespace {
 
-// The rows that are closed at first: each as the nearest one of `start`; empty: all.
-std::vector<char> starting_rows(const ActiveSet* start, const Mesh& mesh, const std::vector<ContactPair>& pairs) {
-  if (!start || start->pairs.size() != pairs.size()) return {};
-  std::vector<char> closed;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const std::vector<ActiveSet::Row>& rows = start->pairs[k];
-    if (rows.empty()) return {};
-    // Both run along the curve, though maybe against each other: on from the one before.
-    std::size_t at = 0;
-    for (const int node : row_nodes(pairs[k].coupling)) {
-      const Vec2 x = mesh.nodes.row(node).transpose();
-      const auto away = [&](std::size_t i) { return (rows[i].place - x).squaredNorm(); };
-      if (closed.size() == std::size_t(pairs[k].first_row))
-        for (std::size_t i = 1; i < rows.size(); ++i)
-          if (away(i) < away(at)) at = i;
-      while (at + 1 < rows.size() && away(at + 1) <= away(at)) ++at;
-      while (at > 0 && away(at - 1) < away(at)) --at;
-      closed.push_back(rows[at].active);
-    }
-  }
-  return closed;
-}
-
-// Bodies that take the displacement in domain decomposition; empty without.
-std::vector<char> dirichlet_roles(const Scene& scene, const Mesh& mesh, const Discretisation& d,
-                                  const std::vector<ContactCurves>& curves) {
-  if (scene.method.solver != Solver::ddm) return {};
-  return dirichlet_bodies(scene.method.dirichlet, mesh, d, curves);
-}
-
 void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
   lines.insert(lines.end(), more.begin(), more.end());
-}
-
-struct Contact {
-  std::vector<ContactPair> pairs;
-  std::vector<std::string> warnings;  // of the audit, and of motions held
-  std::vector<std::vector<RigidMotion>> held;
-};
-
-// Bodies drawn over one another may have no places that face each other: that is said first.
-std::vector<ContactPair> coupled_pairs(const Scene& scene, const Mesh& mesh, const std::vector<ContactCurves>& curves,
-                                       const std::vector<char>& dirichlet, const Discretisation& d) {
-  try {
-    return couple_pairs(scene.method, mesh, d, curves, dirichlet);
-  } catch (const InputError&) {
-    audit_scene(scene, mesh, {});
-    throw;
-  }
-}
-
-// Couples the pairs and puts their rows into the system; refuses what cannot be meant.
-Contact add_contact(const Scene& scene, const Mesh& mesh, const std::vector<ContactCurves>& curves,
-                    const std::vector<char>& dirichlet, Discretisation& d) {
-  Contact contact{coupled_pairs(scene, mesh, curves, dirichlet, d), {}, {}};
-  set_contact(contact.pairs, d.system);
-  contact.warnings = mesh.notes;
-  append(contact.warnings, audit_scene(scene, mesh, contact.pairs));
-  require_closed(mesh, contact.pairs);
-  contact.held = hold_free_motions(mesh, contact.pairs, contact.warnings, d.system);
-  append(contact.warnings, held_lines(mesh, contact.held));
-  return contact;
 }
 
 // Each rank reads or meshes the file by itself.
@@ -103,6 +39,12 @@ void require_same_mesh(const Mesh& mesh) {
   double sum = own;
   ranks().sum(&sum, 1);
   if (sum != own * ranks().count()) throw std::runtime_error(mesh.source + ": the ranks have different meshes of it");
+}
+
+// The scene's fields read, too.
+Problem prepared(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr) {
+  load_fields(scene);
+  return prepare(scene, std::move(mesh), progress, start);
 }
 
 // What `work` returns; what it refuses of the scene is told with the scene's path.
@@ -135,29 +77,16 @@ Results solve_scene(const Scene& scene, const Progress& progress, const ActiveSe
   return results;
 }
 
-CheckedScene check_scene(const Scene& scene) {
-  return told_with_path(scene, [&] {
-    load_fields(scene);
-    CheckedScene checked{scene_mesh(scene), {}, {}, {}};
-    tie_curves(scene, checked.mesh);
-    checked.discretisation = discretise(scene, checked.mesh);
-    locate_probes(scene, checked.mesh);
-    const std::vector<ContactCurves> curves = contact_curves(scene, checked.mesh);
-    Contact contact =
-        add_contact(scene, checked.mesh, curves, dirichlet_roles(scene, checked.mesh, checked.discretisation, curves),
-                    checked.discretisation);
-    checked.pairs = std::move(contact.pairs);
-    checked.warnings = std::move(contact.warnings);
-    return checked;
-  });
+Problem check_scene(const Scene& scene) {
+  return told_with_path(scene, [&] { return prepared(scene, scene_mesh(scene)); });
 }
 
 ActiveSet active_set(const Results& r) {
   ActiveSet set;
-  for (const ContactPair& pair : r.pairs) {
+  for (const ContactPair& pair : r.problem.pairs) {
     std::vector<ActiveSet::Row>& rows = set.pairs.emplace_back();
     for (const int node : row_nodes(pair.coupling))
-      rows.push_back({r.mesh.nodes.row(node).transpose(), r.solution.active[pair.first_row + rows.size()]});
+      rows.push_back({r.problem.mesh.nodes.row(node).transpose(), r.solution.active[pair.first_row + rows.size()]});
   }
   return set;
 }
@@ -165,12 +94,14 @@ ActiveSet active_set(const Results& r) {
 void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint>& found, bool forces) {
   Stopwatch watch;
   require_held(r, spec);
-  r.estimate = estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution, spec, most_own_duals, found);
-  add_data_errors(r.mesh, r.points, r.discretisation, r.pairs, r.solution, r.misfits, spec, *r.estimate);
-  for (std::size_t k = 0; k < r.contacts.size(); ++k) set_bars(r.estimate->pressures[k], r.contacts[k]);
-  const std::vector<PlaceError> of_probes = place_errors(r.mesh, r.points, r.discretisation, r.pairs, r.solution,
-                                                         r.estimate->pressures, probed_places(r.probes));
-  for (std::size_t i = 0; i < of_probes.size(); ++i) r.probes[i].error = of_probes[i];
+  const Problem& p = r.problem;
+  Recovery& recovery = r.recovery;
+  r.estimate = estimate_error(p.mesh, p.points, p.discretisation, p.pairs, r.solution, spec, most_own_duals, found);
+  add_data_errors(p.mesh, p.points, p.discretisation, p.pairs, r.solution, p.misfits, spec, *r.estimate);
+  for (std::size_t k = 0; k < recovery.contacts.size(); ++k) set_bars(r.estimate->pressures[k], recovery.contacts[k]);
+  const std::vector<PlaceError> of_probes = place_errors(p.mesh, p.points, p.discretisation, p.pairs, r.solution,
+                                                         r.estimate->pressures, probed_places(recovery.probes));
+  for (std::size_t i = 0; i < of_probes.size(); ++i) recovery.probes[i].error = of_probes[i];
   leave_out_unheld(r);
   if (forces) set_force_bars(r);
   append(r.warnings, error_warnings(r));
@@ -179,9 +110,9 @@ void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint
   r.seconds.estimate = watch.lap();
 }
 
-void diagnose(const Scene& scene, Results& r) {
+void diagnose(Results& r) {
   const Stopwatch watch;
-  r.inf_sup = inf_sup_report(scene, r);
+  r.inf_sup = inf_sup_report(r);
   r.seconds.estimate += watch.elapsed();
   if (!r.inf_sup) return;
   if (const auto line = inf_sup_warning(*r.inf_sup)) r.warnings.push_back(*line);
@@ -189,70 +120,48 @@ void diagnose(const Scene& scene, Results& r) {
 
 namespace {
 
-Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
-  const auto stage = [&](const std::string& name) {
-    if (progress) progress(name);
-  };
-  Results r;
-  r.mesh = std::move(mesh);
-  Stopwatch watch;
-  require_same_mesh(r.mesh);
-  tie_curves(scene, r.mesh);
-
-  stage("assemble");
-  load_fields(scene);
-  r.points = body_points(r.mesh);
-  r.discretisation = discretise(scene, r.mesh);
-  r.misfits = data_misfits(scene, r.mesh, r.discretisation.laws);
-  const std::vector<ProbePlace> probes = locate_probes(scene, r.mesh);
-  SaddlePointSystem& system = r.discretisation.system;
-  r.seconds.assemble = watch.lap();
-
-  stage("couple");
-  const std::vector<ContactCurves> curves = contact_curves(scene, r.mesh);
-  const std::vector<char> dirichlet = dirichlet_roles(scene, r.mesh, r.discretisation, curves);
-  for (std::size_t b = 0; b < dirichlet.size(); ++b)
-    if (dirichlet[b]) r.dirichlet.push_back(r.mesh.bodies[b]);
-  Contact contact = add_contact(scene, r.mesh, curves, dirichlet, r.discretisation);
-  r.pairs = std::move(contact.pairs);
-  r.warnings = std::move(contact.warnings);
-  r.unheld = std::move(contact.held);
-  const Floating floating = find_floating(r.mesh, system.constraints);
-  system.grounded = floating.grounded;
-  system.start = starting_rows(start, r.mesh, r.pairs);
-  r.seconds.couple = watch.lap();
-
-  stage("solve for " + std::to_string(free_unknowns(r)) + " unknowns");
-  r.solution = solve_system(scene.method, system, unknowns_of(r.mesh, dirichlet));
-  require_solution(r.mesh, r.pairs, floating, r.solution);
+// The motions that the solver left free, too: what holds them counts as prescribed.
+void find_unheld(Results& r) {
+  Problem& p = r.problem;
   std::vector<std::vector<RigidMotion>> free;
   for (const auto& mode : r.solution.rigid_modes.colwise())
-    free.push_back(motion_through(r.mesh, floating.motions, floating.grounded, mode));
-  append(r.warnings, held_lines(r.mesh, free));
+    free.push_back(motion_through(p.mesh, p.floating.motions, p.floating.grounded, mode));
+  append(r.warnings, held_lines(p.mesh, free));
+  r.unheld = p.held;
   r.unheld.insert(r.unheld.end(), free.begin(), free.end());
-  for (const int unknown : held_unknowns(floating.grounded, r.solution)) system.constraints.fixed[unknown] = 1;
+  for (const int unknown : held_unknowns(p.floating.grounded, r.solution))
+    p.discretisation.system.constraints.fixed[unknown] = 1;
+}
+
+void judge(Results& r) {
+  r.checks = checks(r);
+  r.status = verdict(r);
+  append(r.warnings, warnings(r));
+  if (!r.problem.seeks_accuracy) append(r.warnings, data_warnings(r.problem.misfits));
+  append(r.warnings, audit_solution(r));
+  append(r.warnings, unheld_probes(r));
+}
+
+Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
+  require_same_mesh(mesh);
+  Results r;
+  r.problem = prepared(scene, std::move(mesh), progress, start);
+  const Problem& p = r.problem;
+  r.warnings = p.warnings;
+  r.seconds.assemble = p.assemble_seconds;
+  r.seconds.couple = p.couple_seconds;
+
+  Stopwatch watch;
+  if (progress) progress("solve for " + std::to_string(free_unknowns(r)) + " unknowns");
+  r.solution = solve_system(p.method, p.discretisation.system, unknowns_of(p.mesh, p.dirichlet));
+  require_solution(p.mesh, p.pairs, p.floating, r.solution);
+  find_unheld(r);
   r.seconds.factorise = r.solution.factorise_seconds;
   r.seconds.solve = watch.lap() - r.seconds.factorise;
 
-  stage("recover");
-  const VecX& u = r.solution.u;
-  r.stress = recover_stress(r.mesh, r.points, r.discretisation.laws, u);
-  r.energy = strain_energy(r.discretisation, u);
-  r.contacts.resize(r.pairs.size());
-  for_each_index(r.pairs.size(), solver_threads(), [&](std::size_t k) {
-    const ContactPair& pair = r.pairs[k];
-    r.contacts[k] = contact_results(r.mesh, pair, system.constraints, r.points, r.stress, u,
-                                    r.solution.lambda.segment(pair.first_row, pair.coupling.B.rows()));
-  });
-  r.probes = probe_values(r.mesh, r.points, r.discretisation.laws, u, r.stress, probes);
-  r.extremes = find_extremes(r.mesh, r.points, r.stress, r.contacts);
-  r.reactions = find_reactions(scene, r.mesh, r.discretisation, r.solution);
-  r.checks = checks(scene, r);
-  r.status = verdict(r);
-  append(r.warnings, warnings(scene, r));
-  if (!scene.accuracy) append(r.warnings, data_warnings(r.misfits));
-  append(r.warnings, audit_solution(r));
-  append(r.warnings, unheld_probes(scene, r));
+  if (progress) progress("recover");
+  r.recovery = recover(p, r.solution);
+  judge(r);
   r.seconds.recover = watch.lap();
   return r;
 }

@@ -1,26 +1,12 @@
 // One scene from data to results.
 #pragma once
 
-#include <functional>
-
 #include "results/results.hpp"
 
 namespace mortise {
 
-/// Where contact was closed, for a later run to start from.
-struct ActiveSet {
-  struct Row {
-    Vec2 place;  ///< of its first multiplier
-    char active;
-  };
-  std::vector<std::vector<Row>> pairs;  ///< rows of each, along its curve
-};
-
 /// Reads or makes the mesh, with the copies in it. `cached`: as of load_mesh. Throws InputError.
 Mesh scene_mesh(const Scene& scene, bool* cached = nullptr);
-
-/// Called as each stage begins, with its name.
-using Progress = std::function<void(const std::string& stage)>;
 
 /// Reads or makes the mesh and solves. Throws InputError for bad input, and where nothing holds a body.
 /// `start`: the active set to start from, each row from the nearest one; all rows closed where there is none, or it
@@ -37,19 +23,11 @@ void estimate(Results& results, const AccuracySpec& spec = {}, const std::vector
               bool forces = true);
 
 /// The inf-sup constant into the results, and a warning where it is small.
-void diagnose(const Scene& scene, Results& results);
+void diagnose(Results& results);
 
 ActiveSet active_set(const Results& results);
 
-/// A scene that was meshed and validated, but not solved.
-struct CheckedScene {
-  Mesh mesh;
-  Discretisation discretisation;
-  std::vector<ContactPair> pairs;
-  std::vector<std::string> warnings;  ///< of the audit
-};
-
 /// Everything solve_scene would refuse before it factorises, refused. Throws InputError as it does.
-CheckedScene check_scene(const Scene& scene);
+Problem check_scene(const Scene& scene);
 
 }  // namespace mortise

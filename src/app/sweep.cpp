@@ -24,7 +24,7 @@ RunRow run_one(const SweepPlan& plan, std::size_t run, std::optional<ActiveSet>&
   const Scene scene = read_scene(plan.scene, plan.overrides_of(run));
   Results results = scene.accuracy ? *solve_to_accuracy(scene) : solve_scene(scene, {}, start ? &*start : nullptr);
   if (!scene.accuracy) estimate(results);
-  if (plan.diagnosed) diagnose(scene, results);
+  if (plan.diagnosed) diagnose(results);
   start = active_set(results);
   return row_of(results);
 } catch (const InputError& error) {

@@ -14,12 +14,12 @@ namespace {
 
 std::vector<std::pair<std::string, double>> figures(const Results& r) {
   std::vector<std::pair<std::string, double>> row{
-      {"nodes", double(r.mesh.nodes.rows())},
-      {"elements", double(r.mesh.cells.size())},
+      {"nodes", double(r.problem.mesh.nodes.rows())},
+      {"elements", double(r.problem.mesh.cells.size())},
       {"dofs", free_unknowns(r)},
       {"multipliers", double(r.solution.lambda.size())},
-      {"iterations.contact", double(r.pairs.empty() ? 0 : r.solution.steps.size())},
-      {"energy", r.energy},
+      {"iterations.contact", double(r.problem.pairs.empty() ? 0 : r.solution.steps.size())},
+      {"energy", r.recovery.energy},
       {"seconds.mesh", r.seconds.mesh},
       {"seconds.solve", r.seconds.total() - r.seconds.mesh}};
   if (const auto& iteration = r.solution.iteration) {
@@ -33,8 +33,8 @@ std::vector<std::pair<std::string, double>> figures(const Results& r) {
     row.emplace_back("estimate.pressure.error", r.estimate->pressure());
   }
   if (r.inf_sup) row.emplace_back("inf_sup", r.inf_sup->beta);
-  for (std::size_t k = 0; k < r.contacts.size(); ++k) {
-    const ContactResults& c = r.contacts[k];
+  for (std::size_t k = 0; k < r.recovery.contacts.size(); ++k) {
+    const ContactResults& c = r.recovery.contacts[k];
     const std::string at = "contact." + std::to_string(k) + ".";
     row.insert(row.end(), {{at + "pressure.min", c.p_min},
                            {at + "pressure.mean", c.p_mean},

@@ -18,8 +18,9 @@ std::vector<std::string> self_contact_lines(const Mesh& mesh, const std::vector<
 
 }  // namespace
 
-std::vector<std::string> audit_scene(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs) {
-  refuse_double_loads(scene, mesh);
+std::vector<std::string> audit(const Mesh& mesh, const std::vector<BoundaryEntry>& entries,
+                               const std::vector<ContactPair>& pairs) {
+  refuse_double_loads(mesh, entries);
   std::vector<std::string> lines = self_contact_lines(mesh, pairs);
   const AuditedBodies bodies = audited_bodies(mesh, pairs);
   if (bodies.outline.pieces.size() < 2) return lines;

@@ -8,8 +8,9 @@ namespace mortise {
 
 /// Boundaries of different bodies that meet, or lie over one another, where no contact pair stands
 /// between them; one line for two bodies.
-/// Throws InputError for what is surely a mistake: elements listed twice, an edge that two loads name, bodies drawn
+/// Throws SceneError for what is surely a mistake: elements listed twice, an edge that two loads name, bodies drawn
 /// over one another (docs/files.md, notes).
-std::vector<std::string> audit_scene(const Scene& scene, const Mesh& mesh, const std::vector<ContactPair>& pairs);
+std::vector<std::string> audit(const Mesh& mesh, const std::vector<BoundaryEntry>& entries,
+                               const std::vector<ContactPair>& pairs);
 
 }  // namespace mortise

@@ -3,8 +3,8 @@
 
 #include <map>
 
+#include "problem/boundary_entries.hpp"
 #include "problem/encounters.hpp"
-#include "scene/scene.hpp"
 
 namespace mortise {
 
@@ -20,7 +20,7 @@ LineOfBodies meeting_lines(const AuditedBodies& bodies, const std::vector<Encoun
 /// interference that contact could press apart.
 LineOfBodies overlap_lines(const AuditedBodies& bodies, const std::vector<Encounter>& encounters);
 
-/// Throws InputError where two names in the scene's loads have an edge in common.
-void refuse_double_loads(const Scene& scene, const Mesh& mesh);
+/// Throws SceneError where two curves with loads have an edge in common.
+void refuse_double_loads(const Mesh& mesh, const std::vector<BoundaryEntry>& entries);
 
 }  // namespace mortise

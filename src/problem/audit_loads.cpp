@@ -7,7 +7,6 @@
 #include "contact/segments.hpp"
 #include "fem/edges.hpp"
 #include "problem/audit_lines.hpp"
-#include "problem/scene_names.hpp"
 
 namespace mortise {
 namespace {
@@ -19,17 +18,15 @@ struct LoadedEdge {
   int boundary, edge;
 };
 
-std::vector<LoadedEdge> loaded_edges(const Scene& scene, const Mesh& mesh) {
-  const SceneNames names(mesh);
+std::vector<LoadedEdge> loaded_edges(const Mesh& mesh, const std::vector<BoundaryEntry>& entries) {
   std::vector<LoadedEdge> list;
-  for (const BoundarySpec& spec : scene.boundaries) {
-    if (!spec.is_load()) continue;
-    for (const std::string& name : spec.on)
-      for (const int b : names.places(spec.key + ".on", name).boundaries)
-        for (int e = 0; e < int(mesh.boundaries[b].edges.size()); ++e) {
-          const auto& nodes = mesh.boundaries[b].edges[e].nodes;
-          list.push_back({std::minmax(nodes[0], nodes[1]), &spec, b, e});
-        }
+  for (const BoundaryEntry& entry : entries) {
+    if (!is_load(entry.spec.what)) continue;
+    for (const NamedBoundary& on : entry.curves)
+      for (int e = 0; e < int(mesh.boundaries[on.boundary].edges.size()); ++e) {
+        const auto& nodes = mesh.boundaries[on.boundary].edges[e].nodes;
+        list.push_back({std::minmax(nodes[0], nodes[1]), &entry.spec, on.boundary, e});
+      }
   }
   std::stable_sort(list.begin(), list.end(), [](const auto& x, const auto& y) { return x.ends < y.ends; });
   return list;
@@ -37,8 +34,8 @@ std::vector<LoadedEdge> loaded_edges(const Scene& scene, const Mesh& mesh) {
 
 }  // namespace
 
-void refuse_double_loads(const Scene& scene, const Mesh& mesh) {
-  const std::vector<LoadedEdge> list = loaded_edges(scene, mesh);
+void refuse_double_loads(const Mesh& mesh, const std::vector<BoundaryEntry>& entries) {
+  const std::vector<LoadedEdge> list = loaded_edges(mesh, entries);
   const auto same = [](const LoadedEdge& x, const LoadedEdge& y) { return x.ends == y.ends; };
   const auto first = std::adjacent_find(list.begin(), list.end(), same);
   if (first == list.end()) return;
@@ -52,10 +49,10 @@ void refuse_double_loads(const Scene& scene, const Mesh& mesh) {
   const Edge& edge = mesh.boundaries[first->boundary].edges[first->edge];
   const Vec2 middle = (mesh.nodes.row(edge.nodes[0]) + mesh.nodes.row(edge.nodes[1])) / 2;
   std::ostringstream text;
-  text << scene.path << ": " << what(*first) << " and " << what(*second) << " load the same edges, "
-       << near_point(middle) << " and over a length of " << length
+  text << what(*first) << " and " << what(*second) << " load the same edges, " << near_point(middle)
+       << " and over a length of " << length
        << " in all: the loads would add up; expected every edge in one load at most";
-  throw InputError(text.str());
+  throw SceneError(text.str());
 }
 
 }  // namespace mortise

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fem/cell_cuts.hpp"
-#include "scene/scene.hpp"
+#include "model/body_specs.hpp"
 
 namespace mortise {
 

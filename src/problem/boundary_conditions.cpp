@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "base/overloaded.hpp"
 #include "base/printable.hpp"
 #include "fem/assembly.hpp"
 #include "fem/constraints.hpp"
@@ -34,41 +35,38 @@ void for_each_piece(const Mesh& mesh, const NamedBoundary& on, const BoundaryFie
 }
 
 // The constant traction whose sum is the entry's force.
-Vec2 traction_of_force(const Mesh& mesh, const Model& model, const BoundarySpec& spec,
-                       const std::vector<NamedBoundary>& boundaries) {
+Vec2 traction_of_force(const Mesh& mesh, const Model& model, const BoundaryEntry& entry, const Vec2& force) {
   VecX unused = VecX::Zero(2 * mesh.nodes.rows());
   const auto unit = [](const Vec2&, const Vec2&) -> Vec2 { return Vec2::UnitX(); };
   double area = 0;
-  for (const NamedBoundary& on : boundaries) area += add_traction(mesh, model, on.sides, unit, unused).force.x();
-  if (!(area > 0)) throw SceneError(spec.key + ".force: its curves have no length; expected some to put the force on");
-  return *spec.force / area;
+  for (const NamedBoundary& on : entry.curves) area += add_traction(mesh, model, on.sides, unit, unused).force.x();
+  if (!(area > 0))
+    throw SceneError(entry.spec.key + ".force: its curves have no length; expected some to put the force on");
+  return force / area;
 }
 
 // An equal part of the force at each node.
-Resultant add_force(const Mesh& mesh, const Vec2& force, const std::vector<const NamedPoint*>& points, VecX& f) {
+Resultant add_force(const Mesh& mesh, const Vec2& force, const std::vector<int>& points, VecX& f) {
   std::size_t count = 0;
-  for (const NamedPoint* point : points) count += point->nodes.size();
+  for (const int point : points) count += mesh.points[point].nodes.size();
   Resultant sum;
-  for (const NamedPoint* point : points)
-    for (const int node : point->nodes) {
+  for (const int point : points)
+    for (const int node : mesh.points[point].nodes) {
       f.segment<2>(2 * node) += force / double(count);
       sum.add(mesh.nodes.row(node).transpose(), force / double(count));
     }
   return sum;
 }
 
-Resultant add_loads(const Mesh& mesh, const Model& model, const BoundarySpec& spec,
-                    const std::vector<NamedBoundary>& boundaries, VecX& f) {
-  const Vec2 of_force = spec.force ? traction_of_force(mesh, model, spec, boundaries) : Vec2::Zero();
-  const BoundaryFields fields(mesh, boundaries, fields_of(spec));
+// `traction` at a place, with its outward normal and s.
+template <typename AtPlace>
+Resultant add_load(const Mesh& mesh, const Model& model, const BoundaryEntry& entry, const AtPlace& traction, VecX& f) {
+  const BoundaryFields fields(mesh, entry.curves, fields_of(entry.spec.what));
   Resultant sum;
-  for (const NamedBoundary& on : boundaries)
+  for (const NamedBoundary& on : entry.curves)
     for_each_piece(mesh, on, fields, [&](const std::vector<CellSide>& sides, const auto& s, const EdgeCuts& cuts) {
-      const Traction traction = [&](const Vec2& x, const Vec2& n) -> Vec2 {
-        if (spec.pressure) return -(*spec.pressure)(x, s(x)) * n;
-        return spec.traction ? (*spec.traction)(x, s(x)) : of_force;
-      };
-      sum += add_traction(mesh, model, sides, traction, cuts, f);
+      sum += add_traction(
+          mesh, model, sides, [&](const Vec2& x, const Vec2& n) -> Vec2 { return traction(x, n, s(x)); }, cuts, f);
     });
   return sum;
 }
@@ -83,38 +81,77 @@ double modulus(const BoundarySpec& spec, const Field& field, const Vec2& x, doub
   throw SceneError(text.str());
 }
 
-void add_springs(const Mesh& mesh, const Model& model, const BoundarySpec& spec,
-                 const std::vector<NamedBoundary>& boundaries, std::vector<Eigen::Triplet<double>>& springs) {
-  const BoundaryFields fields(mesh, boundaries, fields_of(spec));
-  for (const NamedBoundary& on : boundaries)
+// `stiffness` as add_load's traction.
+template <typename AtPlace>
+void add_springs(const Mesh& mesh, const Model& model, const BoundaryEntry& entry, const AtPlace& stiffness,
+                 std::vector<Eigen::Triplet<double>>& springs) {
+  const BoundaryFields fields(mesh, entry.curves, fields_of(entry.spec.what));
+  for (const NamedBoundary& on : entry.curves)
     for_each_piece(mesh, on, fields, [&](const std::vector<CellSide>& sides, const auto& s, const EdgeCuts& cuts) {
-      const Foundation foundation = [&](const Vec2& x, const Vec2& n) -> Eigen::Matrix2d {
-        if (spec.normal_foundation) return modulus(spec, *spec.normal_foundation, x, s(x)) * n * n.transpose();
-        const Field &along_x = spec.foundation->x, &along_y = spec.foundation->y;
-        return Vec2(modulus(spec, along_x, x, s(x)), modulus(spec, along_y, x, s(x))).asDiagonal();
-      };
-      add_foundation(mesh, model, sides, foundation, springs, cuts);
+      add_foundation(
+          mesh, model, sides, [&](const Vec2& x, const Vec2& n) -> Eigen::Matrix2d { return stiffness(x, n, s(x)); },
+          springs, cuts);
     });
+}
+
+// Along x and y.
+void prescribe(const Mesh& mesh, const BoundaryEntry& entry, const Displacement& u, Constraints& constraints) {
+  for (const int p : entry.points)
+    for (const int node : mesh.points[p].nodes) {
+      const Vec2 x = mesh.nodes.row(node).transpose();
+      if (u.x) prescribe(mesh, mesh.points[p].name, node, 0, (*u.x)(x), constraints);
+      if (u.y) prescribe(mesh, mesh.points[p].name, node, 1, (*u.y)(x), constraints);
+    }
+  prescribe(mesh, entry.curves, 0, u.x, constraints);
+  prescribe(mesh, entry.curves, 1, u.y, constraints);
+}
+
+void add_point_springs(const Mesh& mesh, const BoundaryEntry& entry, const Vec2& stiffness,
+                       std::vector<Eigen::Triplet<double>>& springs) {
+  for (const int point : entry.points)
+    for (const int node : mesh.points[point].nodes)
+      for (int c = 0; c < 2; ++c)
+        if (stiffness(c) > 0) springs.emplace_back(2 * node + c, 2 * node + c, stiffness(c));
 }
 
 }  // namespace
 
-Resultant apply(const Mesh& mesh, const Model& model, const SideTable& table, const SceneNames& names,
-                const BoundarySpec& spec, SaddlePointSystem& system, std::vector<Eigen::Triplet<double>>& springs) {
-  const Places on_all = places_of(mesh, table, names, spec);
-  for (const NamedPoint* point : on_all.points)
-    for (const int node : point->nodes) {
-      const Vec2 x = mesh.nodes.row(node).transpose();
-      if (const auto& u = spec.displacement_x) prescribe(mesh, point->name, node, 0, (*u)(x), system.constraints);
-      if (const auto& u = spec.displacement_y) prescribe(mesh, point->name, node, 1, (*u)(x), system.constraints);
-      for (int c = 0; c < 2 && spec.spring; ++c)
-        if ((*spec.spring)(c) > 0) springs.emplace_back(2 * node + c, 2 * node + c, (*spec.spring)(c));
-    }
-  prescribe(mesh, on_all.boundaries, 0, spec.displacement_x, system.constraints);
-  prescribe(mesh, on_all.boundaries, 1, spec.displacement_y, system.constraints);
-  if (spec.is_foundation()) add_springs(mesh, model, spec, on_all.boundaries, springs);
-  if (spec.force && !on_all.points.empty()) return add_force(mesh, *spec.force, on_all.points, system.f);
-  return spec.is_load() ? add_loads(mesh, model, spec, on_all.boundaries, system.f) : Resultant();
+Resultant apply(const Mesh& mesh, const Model& model, const BoundaryEntry& entry, SaddlePointSystem& system,
+                std::vector<Eigen::Triplet<double>>& springs) {
+  const BoundarySpec& spec = entry.spec;
+  Resultant sum;
+  const auto load = [&](const auto& traction) { sum = add_load(mesh, model, entry, traction, system.f); };
+  std::visit(Overloaded{[&](const Displacement& u) { prescribe(mesh, entry, u, system.constraints); },
+                        [](const NormalDisplacement&) {}, [](const DirectedDisplacement&) {}, [](const RigidSpec&) {},
+                        [&](const Pressure& p) {
+                          load([&](const Vec2& x, const Vec2& n, double s) -> Vec2 { return -p.value(x, s) * n; });
+                        },
+                        [&](const SurfaceTraction& t) {
+                          load([&](const Vec2& x, const Vec2&, double s) -> Vec2 { return t.value(x, s); });
+                        },
+                        [&](const TotalForce& force) {
+                          if (!entry.points.empty()) {
+                            sum = add_force(mesh, force.value, entry.points, system.f);
+                            return;
+                          }
+                          const Vec2 traction = traction_of_force(mesh, model, entry, force.value);
+                          load([&](const Vec2&, const Vec2&, double) -> Vec2 { return traction; });
+                        },
+                        [&](const NormalFoundation& k) {
+                          const auto normal = [&](const Vec2& x, const Vec2& n, double s) -> Eigen::Matrix2d {
+                            return modulus(spec, k.modulus, x, s) * n * n.transpose();
+                          };
+                          add_springs(mesh, model, entry, normal, springs);
+                        },
+                        [&](const AxesFoundation& k) {
+                          const auto axes = [&](const Vec2& x, const Vec2&, double s) -> Eigen::Matrix2d {
+                            return Vec2(modulus(spec, k.moduli.x, x, s), modulus(spec, k.moduli.y, x, s)).asDiagonal();
+                          };
+                          add_springs(mesh, model, entry, axes, springs);
+                        },
+                        [&](const PointSpring& k) { add_point_springs(mesh, entry, k.stiffness, springs); }},
+             spec.what);
+  return sum;
 }
 
 }  // namespace mortise

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fem/line_cuts.hpp"
-#include "problem/boundary_places.hpp"
+#include "problem/boundary_entries.hpp"
 
 namespace mortise {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "base/overloaded.hpp"
 #include "base/vectors.hpp"
-#include "problem/body_entries.hpp"
 #include "problem/body_fields.hpp"
 #include "problem/boundary_fields.hpp"
 
@@ -131,22 +131,30 @@ void add_displacement(const Mesh& mesh, const Model& model, const std::string& k
   }
 }
 
-void add_boundary(const Mesh& mesh, const Model& model, const SideTable& table, const SceneNames& names,
-                  const BoundarySpec& spec, DataMisfits& found) {
-  const std::vector<const Field*> all = fields_of(spec);
+void add_boundary(const Mesh& mesh, const Model& model, const SideTable& table, const BoundaryEntry& entry,
+                  DataMisfits& found) {
+  const BoundarySpec& spec = entry.spec;
+  const std::vector<const Field*> all = fields_of(spec.what);
   if (std::ranges::all_of(all, [](const Field* field) { return field->is_constant(); })) return;
-  const std::vector<NamedBoundary> on = places_of(mesh, table, names, spec).boundaries;
   using enum DataMisfit::Kind;
-  const auto displaced = [&](const std::optional<Field>& field, const std::function<Vec2(const Vec2&)>& direction) {
-    if (field) add_displacement(mesh, model, spec.key + ".displacement", table, on, *field, direction, found);
+  const auto displaced = [&](const Field& field, const std::function<Vec2(const Vec2&)>& direction) {
+    add_displacement(mesh, model, spec.key + ".displacement", table, entry.curves, field, direction, found);
   };
-  displaced(spec.displacement_x, [](const Vec2&) -> Vec2 { return Vec2::UnitX(); });
-  displaced(spec.displacement_y, [](const Vec2&) -> Vec2 { return Vec2::UnitY(); });
-  displaced(spec.displacement_normal, [](const Vec2& n) { return n; });
-  displaced(spec.displacement_along, [&](const Vec2&) { return *spec.direction; });
-  if (spec.pressure || spec.traction)
-    add_along(mesh, model, spec.key + (spec.pressure ? ".pressure" : ".traction"), force, on, all, found);
-  if (spec.is_foundation()) add_along(mesh, model, spec.key + ".foundation", foundation, on, all, found);
+  const auto along = [&](const char* key, DataMisfit::Kind kind) {
+    add_along(mesh, model, spec.key + key, kind, entry.curves, all, found);
+  };
+  std::visit(
+      Overloaded{[&](const Displacement& u) {
+                   if (u.x) displaced(*u.x, [](const Vec2&) -> Vec2 { return Vec2::UnitX(); });
+                   if (u.y) displaced(*u.y, [](const Vec2&) -> Vec2 { return Vec2::UnitY(); });
+                 },
+                 [&](const NormalDisplacement& u) { displaced(u.value, [](const Vec2& n) { return n; }); },
+                 [&](const DirectedDisplacement& u) { displaced(u.value, [&](const Vec2&) { return u.direction; }); },
+                 [](const RigidSpec&) {}, [&](const Pressure&) { along(".pressure", force); },
+                 [&](const SurfaceTraction&) { along(".traction", force); }, [](const TotalForce&) {},
+                 [&](const NormalFoundation&) { along(".foundation", foundation); },
+                 [&](const AxesFoundation&) { along(".foundation", foundation); }, [](const PointSpring&) {}},
+      spec.what);
 }
 
 double corner_area(const Mesh& mesh, const Cell& cell) {
@@ -186,29 +194,30 @@ Mat4 root_of(const Mat4& stiffness) {
   return eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-bool has_functions(const Scene& scene) {
+bool has_functions(const Entries& entries) {
   const auto varies = [](const Field& field) { return !field.is_constant(); };
-  return std::ranges::any_of(scene.boundaries,
-                             [&](const BoundarySpec& spec) {
-                               return std::ranges::any_of(fields_of(spec), [&](const Field* f) { return varies(*f); });
+  return std::ranges::any_of(entries.boundaries,
+                             [&](const BoundaryEntry& entry) {
+                               return std::ranges::any_of(fields_of(entry.spec.what),
+                                                          [&](const Field* f) { return varies(*f); });
                              }) ||
-         std::ranges::any_of(scene.body_forces, [](const BodyForceSpec& spec) { return !spec.force.is_constant(); }) ||
-         std::ranges::any_of(scene.initial_strains, [&](const InitialStrainSpec& spec) {
+         std::ranges::any_of(entries.body_forces,
+                             [](const BodyForceSpec& spec) { return !spec.force.is_constant(); }) ||
+         std::ranges::any_of(entries.initial_strains, [&](const InitialStrainSpec& spec) {
            return spec.temperature_change ? varies(*spec.temperature_change) : std::ranges::any_of(spec.strain, varies);
          });
 }
 
 }  // namespace
 
-DataMisfits data_misfits(const Scene& scene, const Mesh& mesh, const std::vector<ElasticLaw>& laws) {
+DataMisfits data_misfits(const Entries& entries, const Mesh& mesh, const std::vector<ElasticLaw>& laws) {
   DataMisfits found;
-  if (!has_functions(scene)) return found;
+  if (!has_functions(entries)) return found;
   const SideTable table(mesh);
-  const SceneNames names(mesh);
-  for (const BoundarySpec& spec : scene.boundaries) add_boundary(mesh, scene.model, table, names, spec, found);
-  const std::vector<int> body_forces = loads_of(scene.body_forces, mesh, names);
-  for (int i = 0; i < int(scene.body_forces.size()); ++i) {
-    const BodyForceSpec& spec = scene.body_forces[i];
+  for (const BoundaryEntry& entry : entries.boundaries) add_boundary(mesh, entries.model, table, entry, found);
+  const std::vector<int>& body_forces = entries.body_force_of;
+  for (int i = 0; i < int(entries.body_forces.size()); ++i) {
+    const BodyForceSpec& spec = entries.body_forces[i];
     BodyFields fields(mesh);
     for (int b = 0; b < int(body_forces.size()); ++b)
       if (body_forces[b] == i) {
@@ -216,12 +225,12 @@ DataMisfits data_misfits(const Scene& scene, const Mesh& mesh, const std::vector
         fields.add(b, spec.force.y);
       }
     add_over(
-        mesh, scene.model, spec.key + ".force", DataMisfit::Kind::force, fields,
+        mesh, entries.model, spec.key + ".force", DataMisfit::Kind::force, fields,
         [&](int, const Vec2& x) -> VecX { return spec.force(x); }, found);
   }
-  const std::vector<int> strains = loads_of(scene.initial_strains, mesh, names);
-  for (int i = 0; i < int(scene.initial_strains.size()); ++i) {
-    const InitialStrainSpec& spec = scene.initial_strains[i];
+  const std::vector<int>& strains = entries.initial_strain_of;
+  for (int i = 0; i < int(entries.initial_strains.size()); ++i) {
+    const InitialStrainSpec& spec = entries.initial_strains[i];
     BodyFields fields(mesh);
     for (int b = 0; b < int(strains.size()); ++b)
       if (strains[b] == i) add_strain(spec, b, fields);
@@ -229,7 +238,7 @@ DataMisfits data_misfits(const Scene& scene, const Mesh& mesh, const std::vector
     std::vector<Mat4> roots;
     for (const ElasticLaw& law : laws) roots.push_back(root_of(law.stiffness));
     add_over(
-        mesh, scene.model, spec.key, DataMisfit::Kind::strain, fields,
+        mesh, entries.model, spec.key, DataMisfit::Kind::strain, fields,
         [&](int body, const Vec2& x) -> VecX {
           const Vec4 e = laws[body].initial_strain(x);
           return roots[body] * Vec4(e(0), e(1), e(2), 2 * e(3));

@@ -5,7 +5,7 @@
 
 #include "fem/material.hpp"
 #include "mesh/mesh.hpp"
-#include "scene/scene.hpp"
+#include "problem/entries.hpp"
 
 namespace mortise {
 
@@ -39,8 +39,7 @@ struct DataMisfits {
   std::vector<EntryMisfit> entries;  ///< that have any
 };
 
-/// Of all entries but gaps (error/gap_misfit.hpp). Constants cost nothing. `laws`: one a body. Throws as
-/// discretise does.
-DataMisfits data_misfits(const Scene& scene, const Mesh& mesh, const std::vector<ElasticLaw>& laws);
+/// Of all entries but gaps (error/gap_misfit.hpp). Constants cost nothing. `laws`: one a body.
+DataMisfits data_misfits(const Entries& entries, const Mesh& mesh, const std::vector<ElasticLaw>& laws);
 
 }  // namespace mortise

@@ -149,6 +149,13 @@ std::vector<char> dirichlet_bodies(const std::vector<std::string>& names, const 
   return dirichlet;
 }
 
+std::vector<std::string> dirichlet_names(const Mesh& mesh, const std::vector<char>& dirichlet) {
+  std::vector<std::string> names;
+  for (std::size_t b = 0; b < dirichlet.size(); ++b)
+    if (dirichlet[b]) names.push_back(mesh.bodies[b]);
+  return names;
+}
+
 std::vector<char> unknowns_of(const Mesh& mesh, const std::vector<char>& bodies) {
   if (bodies.empty()) return {};
   std::vector<char> member(2 * mesh.nodes.rows(), 0);

@@ -13,6 +13,9 @@ namespace mortise {
 std::vector<char> dirichlet_bodies(const std::vector<std::string>& names, const Mesh& mesh,
                                    const Discretisation& discretisation, const std::vector<ContactCurves>& contacts);
 
+/// The names of those that do.
+std::vector<std::string> dirichlet_names(const Mesh& mesh, const std::vector<char>& dirichlet);
+
 /// The unknowns of some bodies: one entry each, none of none.
 std::vector<char> unknowns_of(const Mesh& mesh, const std::vector<char>& bodies);
 

@@ -1,10 +1,10 @@
-// From a scene and its mesh to the equations of the bodies, contact apart.
+// From the entries of a scene and the mesh to the equations of the bodies, contact apart.
 #pragma once
 
 #include "fem/assembly.hpp"
 #include "fem/constraints.hpp"
+#include "problem/entries.hpp"
 #include "problem/multipoint_supports.hpp"
-#include "scene/scene.hpp"
 
 namespace mortise {
 
@@ -14,16 +14,15 @@ struct Discretisation {
   SaddlePointSystem system;      ///< of the bodies; contact adds its rows (contact_pair.hpp)
   VecX initial_load;             ///< the part of system.f that initial strains make
   double initial_energy = 0;     ///< of the initial strains held at zero strain
-  /// Sums of the forces of each of Scene::boundaries (zero of prescribed displacements) and of Scene::body_forces.
+  /// Sums of the forces of each of Entries::boundaries (zero of prescribed displacements) and Entries::body_forces.
   std::vector<Resultant> boundary_sums, body_sums;
-  Resultant weight;  ///< of all bodies, by Scene::gravity
+  Resultant weight;  ///< of all bodies, by Entries::gravity
   MultipointSupports multipoint;
   SparseMatrix springs;  ///< the part of system.K that foundations make; without any it has no columns
 };
 
-/// Throws SceneError where the scene names a body or boundary that the mesh does not have, leaves a body without
-/// material, or prescribes two values at one node.
-Discretisation discretise(const Scene& scene, const Mesh& mesh);
+/// Throws SceneError where two values are prescribed at one node, or a field has no value.
+Discretisation discretise(const Entries& entries, const Mesh& mesh);
 
 /// What foundations do to the nodes, force.
 VecX spring_forces(const Discretisation& discretisation, const VecX& u);

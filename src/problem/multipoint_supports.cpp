@@ -28,12 +28,11 @@ struct NodeNormals {
   }
 };
 
-void prescribe_normals(const Mesh& mesh, int entry, const BoundarySpec& spec, const Places& on_all,
+void prescribe_normals(const Mesh& mesh, int number, const BoundaryEntry& entry, const Field& along_normal,
                        MultipointBuilder& builder) {
   std::map<int, NodeNormals> normals;
-  const Field& along_normal = *spec.displacement_normal;
-  const std::map<int, double> values = prescribed_values(mesh, on_all.boundaries, along_normal);
-  for (const NamedBoundary& on : on_all.boundaries)
+  const std::map<int, double> values = prescribed_values(mesh, entry.curves, along_normal);
+  for (const NamedBoundary& on : entry.curves)
     for (const CellSide& side : on.sides) {
       const Edge edge = side_edge(mesh.cells[side.cell], side.side);
       for (int a = 0; a < edge.node_count; ++a) {
@@ -44,26 +43,25 @@ void prescribe_normals(const Mesh& mesh, int entry, const BoundarySpec& spec, co
       }
     }
   for (const auto& [node, at] : normals)
-    for (const Vec2& sum : at.sums) builder.prescribe(entry, spec.key, node, sum.normalized(), at.value);
+    for (const Vec2& sum : at.sums) builder.prescribe(number, entry.spec.key, node, sum.normalized(), at.value);
 }
 
-void prescribe_direction(const Mesh& mesh, int entry, const BoundarySpec& spec, const Places& on_all,
+void prescribe_direction(const Mesh& mesh, int number, const BoundaryEntry& entry, const DirectedDisplacement& u,
                          MultipointBuilder& builder) {
-  const Field& along = *spec.displacement_along;
-  std::map<int, double> values = prescribed_values(mesh, on_all.boundaries, along);
-  for (const NamedBoundary& on : on_all.boundaries)
+  const Field& along = u.value;
+  std::map<int, double> values = prescribed_values(mesh, entry.curves, along);
+  for (const NamedBoundary& on : entry.curves)
     for (const Edge& edge : mesh.boundaries[on.boundary].edges)
       for (int a = 0; a < edge.node_count && along.is_constant(); ++a) values[edge.nodes[a]] = along.constant();
-  for (const NamedPoint* point : on_all.points)
-    for (const int node : point->nodes) values[node] = along(mesh.nodes.row(node).transpose());
-  for (const auto& [node, value] : values) builder.prescribe(entry, spec.key, node, *spec.direction, value);
+  for (const int point : entry.points)
+    for (const int node : mesh.points[point].nodes) values[node] = along(mesh.nodes.row(node).transpose());
+  for (const auto& [node, value] : values) builder.prescribe(number, entry.spec.key, node, u.direction, value);
 }
 
-RigidCurve make_rigid(const Mesh& mesh, const BoundarySpec& spec, const Places& on_all, MultipointBuilder& builder,
+RigidCurve make_rigid(const Mesh& mesh, const BoundaryEntry& entry, const RigidSpec& rigid, MultipointBuilder& builder,
                       SaddlePointSystem& system) {
-  const RigidSpec& rigid = *spec.rigid;
   std::vector<Edge> edges;
-  for (const NamedBoundary& on : on_all.boundaries) {
+  for (const NamedBoundary& on : entry.curves) {
     const std::vector<Edge>& more = mesh.boundaries[on.boundary].edges;
     edges.insert(edges.end(), more.begin(), more.end());
   }
@@ -71,28 +69,27 @@ RigidCurve make_rigid(const Mesh& mesh, const BoundarySpec& spec, const Places& 
   for (const Edge& edge : edges) nodes.insert(nodes.end(), edge.nodes.begin(), edge.nodes.begin() + edge.node_count);
   const bool rings = system.constraints.rings;  // they move along the axis alone
   const auto in_plane = [&](const std::optional<double>& value) { return rings ? std::optional(0.0) : value; };
-  RigidCurve curve = builder.make_rigid(spec.key, std::move(nodes), rigid.about.value_or(centre_of(mesh.nodes, edges)),
-                                        {in_plane(rigid.x), rigid.y, in_plane(rigid.rotation)});
+  RigidCurve curve =
+      builder.make_rigid(entry.spec.key, std::move(nodes), rigid.about.value_or(centre_of(mesh.nodes, edges)),
+                         {in_plane(rigid.x), rigid.y, in_plane(rigid.rotation)});
   add_rigid_load(mesh, curve, rigid.force, rigid.moment, system.f);
   return curve;
 }
 
 }  // namespace
 
-MultipointSupports add_multipoint_supports(const Scene& scene, const Mesh& mesh, const SideTable& table,
-                                           const SceneNames& names, SaddlePointSystem& system) {
+MultipointSupports add_multipoint_supports(const std::vector<BoundaryEntry>& entries, const Mesh& mesh,
+                                           SaddlePointSystem& system) {
   MultipointSupports supports;
   MultipointBuilder builder(mesh, system.constraints);
-  for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
-    const BoundarySpec& spec = scene.boundaries[i];
-    if (!spec.is_skew() && !spec.rigid) continue;
-    const Places on_all = places_of(mesh, table, names, spec);
-    if (spec.rigid)
-      supports.rigid_curves.push_back({int(i), make_rigid(mesh, spec, on_all, builder, system)});
-    else if (spec.displacement_normal)
-      prescribe_normals(mesh, int(i), spec, on_all, builder);
-    else
-      prescribe_direction(mesh, int(i), spec, on_all, builder);
+  for (int i = 0; i < int(entries.size()); ++i) {
+    const BoundaryEntry& entry = entries[i];
+    if (const auto* rigid = std::get_if<RigidSpec>(&entry.spec.what))
+      supports.rigid_curves.push_back({i, make_rigid(mesh, entry, *rigid, builder, system)});
+    else if (const auto* normal = std::get_if<NormalDisplacement>(&entry.spec.what))
+      prescribe_normals(mesh, i, entry, normal->value, builder);
+    else if (const auto* directed = std::get_if<DirectedDisplacement>(&entry.spec.what))
+      prescribe_direction(mesh, i, entry, *directed, builder);
   }
   add_ties(mesh, builder);
   supports.held_twice = builder.finish();

@@ -2,14 +2,12 @@
 #pragma once
 
 #include "fem/multipoint.hpp"
-#include "mesh/side_table.hpp"
-#include "problem/scene_names.hpp"
-#include "scene/scene.hpp"
+#include "problem/boundary_entries.hpp"
 #include "solve/saddle_point_system.hpp"
 
 namespace mortise {
 
-/// A rigid curve and the entry of Scene::boundaries that makes it.
+/// A rigid curve and the entry of Entries::boundaries that makes it.
 struct RigidSupport {
   int entry;
   RigidCurve curve;
@@ -17,13 +15,13 @@ struct RigidSupport {
 
 struct MultipointSupports {
   std::vector<RigidSupport> rigid_curves;
-  std::map<int, HeldTwice> held_twice;  ///< by node; supports are entries of Scene::boundaries
+  std::map<int, HeldTwice> held_twice;  ///< by node; supports are of Entries::boundaries
 };
 
 /// Adds those of all entries, after all that is prescribed along x and y, and the forces on rigid curves to the load.
 /// A normal is the mean of the edges' at a node; where they differ by more than 15 degrees, both are held. Throws
 /// SceneError where two entries contradict each other.
-MultipointSupports add_multipoint_supports(const Scene& scene, const Mesh& mesh, const SideTable& table,
-                                           const SceneNames& names, SaddlePointSystem& system);
+MultipointSupports add_multipoint_supports(const std::vector<BoundaryEntry>& entries, const Mesh& mesh,
+                                           SaddlePointSystem& system);
 
 }  // namespace mortise

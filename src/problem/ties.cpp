@@ -18,13 +18,13 @@ int following(const ContactCurves& pair) {
 }
 
 // A node that follows another curve already is left out.
-Tie tie_of(const Scene& scene, const Mesh& mesh, const ContactCurves& pair, std::set<int>& tied) {
+Tie tie_of(const Model& model, const Mesh& mesh, const ContactCurves& pair, std::set<int>& followers) {
   const int first = following(pair);
   Tie tie{.key = pair.spec.key,
           .curves = {},
           .boundary = {},
           .body = {},
-          .nodes = mortar_projection(mesh.nodes, pair.curves[first], pair.curves[1 - first], scene.model)};
+          .nodes = mortar_projection(mesh.nodes, pair.curves[first], pair.curves[1 - first], model)};
   for (const int k : {0, 1}) {
     const int of = k == 0 ? first : 1 - first;
     tie.curves[k] = pair.spec.between[of];
@@ -34,7 +34,7 @@ Tie tie_of(const Scene& scene, const Mesh& mesh, const ContactCurves& pair, std:
   if (tie.nodes.empty())
     throw SceneError(tie.key + ": '" + tie.curves[0] + "' and '" + tie.curves[1] +
                      "' do not face each other anywhere; expected curves that coincide");
-  std::erase_if(tie.nodes, [&](const TiedNode& one) { return !tied.insert(one.node).second; });
+  std::erase_if(tie.nodes, [&](const TiedNode& one) { return !followers.insert(one.node).second; });
   return tie;
 }
 
@@ -58,12 +58,12 @@ void require_near(const Mesh& mesh, const Tie& tie, double edge) {
 
 }  // namespace
 
-void tie_curves(const Scene& scene, Mesh& mesh) {
+Mesh tied(const Scene& scene, Mesh mesh) {
   mesh.ties.clear();
-  if (scene.ties.empty()) return;
-  std::set<int> tied;
+  if (scene.ties.empty()) return mesh;
+  std::set<int> followers;
   for (const ContactCurves& pair : tied_curves(scene, mesh)) {
-    mesh.ties.push_back(tie_of(scene, mesh, pair, tied));
+    mesh.ties.push_back(tie_of(scene.model, mesh, pair, followers));
     require_near(mesh, mesh.ties.back(), std::min(pair.edge_size[0], pair.edge_size[1]));
   }
   // Those that follow others that follow come after them, whatever the order of the entries.
@@ -74,6 +74,7 @@ void tie_curves(const Scene& scene, Mesh& mesh) {
         if (scene.model.axisymmetric() && mesh.nodes(one.node, 0) <= 0) to.x() = 0;  // stays on the axis
         mesh.nodes.row(one.node) = to.transpose();
       }
+  return mesh;
 }
 
 void add_ties(const Mesh& mesh, MultipointBuilder& builder) {

@@ -6,10 +6,10 @@
 
 namespace mortise {
 
-/// Sets Mesh::ties, and moves the nodes that follow to where their weights have them (Puso 2004): on curves, by what
+/// The mesh with its ties, the nodes that follow moved to where their weights have them (Puso 2004): on curves, by what
 /// the two meshes leave between each other, so that a tied body turns without strain. Throws SceneError, with the
 /// place, where the curves are more than a tenth of an edge apart.
-void tie_curves(const Scene& scene, Mesh& mesh);
+Mesh tied(const Scene& scene, Mesh mesh);
 
 /// Ties the displacements; after all other supports.
 void add_ties(const Mesh& mesh, MultipointBuilder& builder);

@@ -17,8 +17,8 @@ py::dict contact_columns(const Results& r) {
   std::vector<int> pair;
   std::vector<std::string> curve;
   std::vector<const ContactNode*> nodes;
-  for (std::size_t k = 0; k < r.contacts.size(); ++k)
-    for (const ContactSide* side : {&r.contacts[k].multiplier, &r.contacts[k].opposite})
+  for (std::size_t k = 0; k < r.recovery.contacts.size(); ++k)
+    for (const ContactSide* side : {&r.recovery.contacts[k].multiplier, &r.recovery.contacts[k].opposite})
       for (const ContactNode& node : side->nodes) {
         pair.push_back(int(k));
         curve.push_back(side->curve);
@@ -46,17 +46,17 @@ py::dict contact_columns(const Results& r) {
 
 // Points of the bodies, as in result.vtu.
 py::dict body_fields(const Results& r) {
-  const Eigen::Index count = Eigen::Index(r.points.node.size());
+  const Eigen::Index count = Eigen::Index(r.problem.points.node.size());
   MatX x(count, 2), u(count, 2);
   for (Eigen::Index p = 0; p < count; ++p) {
-    const int node = r.points.node[std::size_t(p)];
-    x.row(p) = r.mesh.nodes.row(node);
+    const int node = r.problem.points.node[std::size_t(p)];
+    x.row(p) = r.problem.mesh.nodes.row(node);
     u.row(p) = r.solution.u.segment<2>(2 * node).transpose();
   }
   py::dict fields;
   fields["x"] = x;
   fields["u"] = u;
-  fields["stress"] = MatX(r.stress.points);
+  fields["stress"] = MatX(r.recovery.stress.points);
   return fields;
 }
 
@@ -78,7 +78,7 @@ py::tuple solve(const std::string& path, const std::vector<std::pair<std::string
     for (const auto& [key, value] : changes) overrides.push_back({key, value});
     scene = read_scene(path, overrides);
     results = solved(scene, with_estimate);
-    summary = summary_json(scene, results, 0).dump();
+    summary = summary_json(results, 0).dump();
   }
   return py::make_tuple(contact_columns(results), body_fields(results), summary);
 }

@@ -54,8 +54,8 @@ std::string line(const AuditedBodies& b, int first, int second, const Crossing& 
 std::vector<std::string> crossing_lines(const AuditedBodies& b, const Results& r) {
   if (!r.solution.u.allFinite()) return {};
   const double largest = largest_entry(r.solution.u);
-  const Outline deformed =
-      outline(b.boundary, r.mesh.nodes + Eigen::Map<const Points>(r.solution.u.data(), r.mesh.nodes.rows(), 2));
+  const Outline deformed = outline(
+      b.boundary, r.problem.mesh.nodes + Eigen::Map<const Points>(r.solution.u.data(), r.problem.mesh.nodes.rows(), 2));
   static const LineRule rule = gauss_legendre(3);
   std::map<std::pair<int, int>, Crossing> crossings;
   for (int e = 0; e < int(deformed.edges.size()); ++e)

@@ -16,29 +16,29 @@ namespace {
 // less than a tenth of it, it was undone by moving one of them as a whole.
 constexpr double many_times = 10;
 
-Vec2 at(const Results& r, int node) { return r.mesh.nodes.row(node).transpose(); }
+Vec2 at(const Results& r, int node) { return r.problem.mesh.nodes.row(node).transpose(); }
 
 // The largest displacement of a body's nodes but for a motion of the whole: the translation and the small turn about
 // the middle that are nearest in least squares.
 double deformed_by(const Results& r, int body) {
-  const int first = r.points.first[body], end = r.points.first[body + 1];
+  const int first = r.problem.points.first[body], end = r.problem.points.first[body + 1];
   Vec2 centre = Vec2::Zero(), mean = Vec2::Zero();
   for (int p = first; p < end; ++p) {
-    centre += at(r, r.points.node[p]) / (end - first);
-    mean += r.solution.u.segment<2>(2 * r.points.node[p]) / (end - first);
+    centre += at(r, r.problem.points.node[p]) / (end - first);
+    mean += r.solution.u.segment<2>(2 * r.problem.points.node[p]) / (end - first);
   }
   double turning = 0, inertia = 0;
   for (int p = first; p < end; ++p) {
-    const Vec2 arm = at(r, r.points.node[p]) - centre;
-    turning += cross(arm, r.solution.u.segment<2>(2 * r.points.node[p]) - mean);
+    const Vec2 arm = at(r, r.problem.points.node[p]) - centre;
+    turning += cross(arm, r.solution.u.segment<2>(2 * r.problem.points.node[p]) - mean);
     inertia += arm.squaredNorm();
   }
   const double turn = inertia > 0 ? turning / inertia : 0;
   double largest = 0;
   for (int p = first; p < end; ++p) {
-    const Vec2 arm = at(r, r.points.node[p]) - centre;
+    const Vec2 arm = at(r, r.problem.points.node[p]) - centre;
     const Vec2 whole = mean + turn * Vec2(-arm.y(), arm.x());
-    largest = std::max(largest, (r.solution.u.segment<2>(2 * r.points.node[p]) - whole).norm());
+    largest = std::max(largest, (r.solution.u.segment<2>(2 * r.problem.points.node[p]) - whole).norm());
   }
   return largest;
 }
@@ -47,13 +47,14 @@ double deformed_by(const Results& r, int body) {
 bool is_overlapped(const Results& r, const ContactPair& pair) {
   const InitialGap gap = pair.spec.initial_gap;
   if (gap != InitialGap::curve && gap != InitialGap::measured) return false;
-  if (!is_drawn(pair) && !open_place(r.mesh.nodes, pair.multiplier, pair.opposite, pair.points, 1e-6)) return false;
-  return pair.coupling.gap_min < -1e-9 * curve_length(r.mesh.nodes, pair.multiplier);
+  if (!is_drawn(pair) && !open_place(r.problem.mesh.nodes, pair.multiplier, pair.opposite, pair.points, 1e-6))
+    return false;
+  return pair.coupling.gap_min < -1e-9 * curve_length(r.problem.mesh.nodes, pair.multiplier);
 }
 
 std::string line(const Results& r, const ContactPair& pair, double deformed) {
   const ContactPoint& deepest = *std::ranges::min_element(pair.points, {}, &ContactPoint::gap);
-  const Vec2 place = edge_point(r.mesh.nodes, pair.multiplier.edges[deepest.edge], deepest.xi).position;
+  const Vec2 place = edge_point(r.problem.mesh.nodes, pair.multiplier.edges[deepest.edge], deepest.xi).position;
   std::ostringstream text;
   text.precision(3);
   text << pair.spec.key << ": '" << pair.spec.between[0] << "' and '" << pair.spec.between[1]
@@ -74,7 +75,7 @@ std::vector<std::string> drawn_overlap_lines(const Results& r) {
     if (is_new) found->second = deformed_by(r, body);
     return found->second;
   };
-  for (const ContactPair& pair : r.pairs) {
+  for (const ContactPair& pair : r.problem.pairs) {
     if (!is_overlapped(r, pair)) continue;
     const double both = of(pair.multiplier.body) + of(pair.opposite.body);
     if (-pair.coupling.gap_min > many_times * both) lines.push_back(line(r, pair, both));

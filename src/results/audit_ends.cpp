@@ -74,9 +74,9 @@ void add_ends(const AuditedBodies& b, const EdgeAt& edges, const Curve& curve, i
 std::vector<std::string> end_lines(const AuditedBodies& b, const Results& r) {
   const EdgeAt edges = edges_by_ends(b.outline);
   std::vector<std::string> lines;
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
-    const ContactPair& pair = r.pairs[k];
-    const ContactResults& c = r.contacts[k];
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
+    const ContactPair& pair = r.problem.pairs[k];
+    const ContactResults& c = r.recovery.contacts[k];
     if (pair.spec.condition != Condition::unilateral) continue;
     std::string places;
     add_ends(b, edges, pair.multiplier, pair.opposite.body, c.multiplier, c.p_max, places);

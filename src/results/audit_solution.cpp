@@ -4,8 +4,8 @@ namespace mortise {
 
 std::vector<std::string> audit_solution(const Results& r) {
   if (r.status == Status::not_converged) return {};  // where the bodies are is not known
-  if (r.mesh.bodies.size() < 2 && r.pairs.empty()) return {};
-  const AuditedBodies bodies = audited_bodies(r.mesh, r.pairs);
+  if (r.problem.mesh.bodies.size() < 2 && r.problem.pairs.empty()) return {};
+  const AuditedBodies bodies = audited_bodies(r.problem.mesh, r.problem.pairs);
   std::vector<std::string> lines = end_lines(bodies, r);
   const std::vector<std::string> crossings = crossing_lines(bodies, r);
   const std::vector<std::string> overlaps = drawn_overlap_lines(r);

@@ -16,23 +16,23 @@ struct LeftOver {
 // Of a sum about the middle of what the forces act on, `diagonal` in size; `size`: sum of their sizes. Of rings only
 // what acts along the axis is in balance: radial forces and moments strain them.
 LeftOver left_over(const Results& r, const Resultant& sum, double size, double diagonal) {
-  if (r.discretisation.model.axisymmetric()) return {fraction(std::abs(sum.force.y()), size), 0};
+  if (r.problem.discretisation.model.axisymmetric()) return {fraction(std::abs(sum.force.y()), size), 0};
   return {fraction(sum.force.norm(), size), fraction(std::abs(sum.moment), size * diagonal)};
 }
 
 // Forces smaller than this are round-off of stiffness times displacement.
 double rigid_force(const Results& r) {
-  return rigid_part * largest_entry(VecX(r.discretisation.system.K.diagonal())) * largest_entry(r.solution.u);
+  return rigid_part * largest_entry(VecX(r.problem.discretisation.system.K.diagonal())) * largest_entry(r.solution.u);
 }
 
 // Nodes of each body, those of bodies that hang together as one: their common nodes' forces belong to both.
 std::vector<std::vector<int>> nodes_of_bodies(const Results& r) {
-  const std::vector<int> first = bonded_to(r.mesh, r.points);
+  const std::vector<int> first = bonded_to(r.problem.mesh, r.problem.points);
   std::vector<std::vector<int>> nodes(first.size());
-  std::vector<char> counted(r.mesh.nodes.rows(), 0);
+  std::vector<char> counted(r.problem.mesh.nodes.rows(), 0);
   for (int b = 0; b < int(first.size()); ++b)
-    for (int p = r.points.first[b]; p < r.points.first[b + 1]; ++p) {
-      const int node = r.points.node[p];
+    for (int p = r.problem.points.first[b]; p < r.problem.points.first[b + 1]; ++p) {
+      const int node = r.problem.points.node[p];
       if (!counted[node]) nodes[first[b]].push_back(node);
       counted[node] = 1;
     }
@@ -41,38 +41,39 @@ std::vector<std::vector<int>> nodes_of_bodies(const Results& r) {
 
 // Largest out-of-balance force and moment of any body, over the sum of the forces on it (times its size).
 void balance_of_bodies(const Results& r, double limit, std::vector<Check>& checks) {
-  const SaddlePointSystem& s = r.discretisation.system;
-  const VecX forces = s.f - s.B.transpose() * r.solution.lambda + r.reactions.nodal;
+  const SaddlePointSystem& s = r.problem.discretisation.system;
+  const VecX forces = s.f - s.B.transpose() * r.solution.lambda + r.recovery.reactions.nodal;
   const double rigid = rigid_force(r);
   LeftOver worst{0, 0};
   for (const std::vector<int>& nodes : nodes_of_bodies(r)) {
     if (nodes.empty()) continue;  // counted with another body
     Vec2 low(1e300, 1e300), high(-1e300, -1e300);
     for (const int node : nodes) {
-      low = low.cwiseMin(r.mesh.nodes.row(node).transpose());
-      high = high.cwiseMax(r.mesh.nodes.row(node).transpose());
+      low = low.cwiseMin(r.problem.mesh.nodes.row(node).transpose());
+      high = high.cwiseMax(r.problem.mesh.nodes.row(node).transpose());
     }
     Resultant sum;
     for (const int node : nodes)
-      sum.add(r.mesh.nodes.row(node).transpose() - (low + high) / 2, forces.segment<2>(2 * node));
+      sum.add(r.problem.mesh.nodes.row(node).transpose() - (low + high) / 2, forces.segment<2>(2 * node));
     const LeftOver left = left_over(r, sum, largest(sum.size, rigid), (high - low).norm());
     worst = {largest(worst.force, left.force), largest(worst.moment, left.moment)};
   }
   checks.push_back({"force balance of each body", worst.force, limit});
-  if (!r.discretisation.model.axisymmetric()) checks.push_back({"moment balance of each body", worst.moment, limit});
+  if (!r.problem.discretisation.model.axisymmetric())
+    checks.push_back({"moment balance of each body", worst.moment, limit});
 }
 
 // Loads and reactions of all bodies, over the sizes of all forces, those of contact too.
 void balance_of_all(const Results& r, double limit, std::vector<Check>& checks) {
-  const SaddlePointSystem& s = r.discretisation.system;
+  const SaddlePointSystem& s = r.problem.discretisation.system;
   const VecX contact = s.B.transpose() * r.solution.lambda;
-  const Vec2 low = r.mesh.nodes.colwise().minCoeff(), high = r.mesh.nodes.colwise().maxCoeff();
+  const Vec2 low = r.problem.mesh.nodes.colwise().minCoeff(), high = r.problem.mesh.nodes.colwise().maxCoeff();
   Resultant sum;
   double contact_size = 0;
-  for (Eigen::Index i = 0; i < r.mesh.nodes.rows(); ++i) {
-    const Vec2 arm = r.mesh.nodes.row(i).transpose() - (low + high) / 2;
+  for (Eigen::Index i = 0; i < r.problem.mesh.nodes.rows(); ++i) {
+    const Vec2 arm = r.problem.mesh.nodes.row(i).transpose() - (low + high) / 2;
     sum.add(arm, s.f.segment<2>(2 * i));
-    sum.add(arm, r.reactions.nodal.segment<2>(2 * i));
+    sum.add(arm, r.recovery.reactions.nodal.segment<2>(2 * i));
     contact_size += contact.segment<2>(2 * i).norm();
   }
   const LeftOver left = left_over(r, sum, largest(sum.size + contact_size, rigid_force(r)), (high - low).norm());
@@ -82,15 +83,15 @@ void balance_of_all(const Results& r, double limit, std::vector<Check>& checks) 
 // What the contact puts on both sides of a pair, together: it must vanish.
 void balance_of_contact(const Results& r, std::vector<Check>& checks) {
   double force = 0, moment = 0;
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
-    const Coupling& coupling = r.pairs[k].coupling;
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
+    const Coupling& coupling = r.problem.pairs[k].coupling;
     const std::map<int, Vec2> forces =
-        contact_forces(coupling, r.solution.lambda.segment(r.pairs[k].first_row, coupling.B.rows()));
-    const ContactResults& c = r.contacts[k];
+        contact_forces(coupling, r.solution.lambda.segment(r.problem.pairs[k].first_row, coupling.B.rows()));
+    const ContactResults& c = r.recovery.contacts[k];
     const Vec2 centre = c.multiplier.nodes[c.multiplier.nodes.size() / 2].position;
     Resultant sum;
     double on_multiplier_side = 0;
-    for (const auto& [node, contact] : forces) sum.add(r.mesh.nodes.row(node).transpose() - centre, contact);
+    for (const auto& [node, contact] : forces) sum.add(r.problem.mesh.nodes.row(node).transpose() - centre, contact);
     for (const ContactNode& n : c.multiplier.nodes)
       if (const auto contact = forces.find(n.node); contact != forces.end())
         on_multiplier_side += contact->second.norm();
@@ -104,19 +105,20 @@ void balance_of_contact(const Results& r, std::vector<Check>& checks) {
 // A pressure that matters to no body, stress: 1e-3 of the largest stress in any, or round-off. It does not change
 // where bodies are moved as a whole.
 double negligible_pressure(const Results& r, double round_off) {
-  const double stress = r.stress.points.size() > 0 ? r.stress.points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0;
+  const double stress =
+      r.recovery.stress.points.size() > 0 ? r.recovery.stress.points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0;
   return largest(1e-3 * stress, round_off);
 }
 
 // p >= 0, gap >= 0 and p gap = 0 on unilateral rows, in the sense of the multipliers (docs/theory.md eq. 24).
 void unilateral_checks(const Results& r, double limit, std::vector<Check>& checks) {
-  const SaddlePointSystem& s = r.discretisation.system;
+  const SaddlePointSystem& s = r.problem.discretisation.system;
   const Solution& solution = r.solution;
   const std::vector<char>& unilateral = s.unilateral;
   if (std::find(unilateral.begin(), unilateral.end(), 1) == unilateral.end()) return;
   const VecX gap = (s.B * solution.u - s.g).cwiseQuotient(s.row_scale);
   const double displacement = largest_entry(solution.u),
-               round_off = round_off_pressure(r.mesh, r.pairs, s.stiffness_scale, solution.u),
+               round_off = round_off_pressure(r.problem.mesh, r.problem.pairs, s.stiffness_scale, solution.u),
                least = negligible_pressure(r, round_off), p_size = largest(10 * least, largest_entry(solution.lambda));
   double tension = 0, penetration = 0, product = 0, dip = 0;
   for (Eigen::Index a = 0; a < gap.size(); ++a) {
@@ -125,9 +127,10 @@ void unilateral_checks(const Results& r, double limit, std::vector<Check>& check
     penetration = largest(penetration, -gap(a));
     product = largest(product, std::abs(solution.lambda(a) * gap(a)));
   }
-  for (std::size_t k = 0; k < r.pairs.size(); ++k)
-    if (r.pairs[k].spec.condition == Condition::unilateral)
-      dip = largest(dip, fraction(-r.contacts[k].p_least, largest(10 * least, largest_entry(r.contacts[k].pressure))));
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k)
+    if (r.problem.pairs[k].spec.condition == Condition::unilateral)
+      dip = largest(dip, fraction(-r.recovery.contacts[k].p_least,
+                                  largest(10 * least, largest_entry(r.recovery.contacts[k].pressure))));
   checks.push_back({"p >= 0 at the multipliers", fraction(tension, p_size), limit});
   checks.push_back({"weighted gap >= 0", fraction(penetration, displacement), limit});
   checks.push_back({"p gap = 0", fraction(product, p_size * displacement), limit});
@@ -163,20 +166,20 @@ Seconds& Seconds::operator+=(const Seconds& other) {
 }
 
 int free_unknowns(const Results& r) {
-  const std::vector<char>& fixed = r.discretisation.system.constraints.fixed;
+  const std::vector<char>& fixed = r.problem.discretisation.system.constraints.fixed;
   return int(std::count(fixed.begin(), fixed.end(), 0));
 }
 
-std::vector<Check> checks(const Scene& scene, const Results& r) {
+std::vector<Check> checks(const Results& r) {
   const Solution& s = r.solution;
   std::vector<Check> list{{"residual of the forces", s.force_residual, s.force_tolerance},
                           {"residual of the contact condition", s.constraint_residual, s.constraint_tolerance}};
   balance_of_bodies(r, std::max(1e-9, 10 * s.force_tolerance), list);
   balance_of_all(r, s.iteration ? std::max(1e-10, 10 * s.force_tolerance) : 1e-10, list);
   balance_of_contact(r, list);
-  if (!r.pairs.empty()) list.push_back(coverage_check(scene, r));
+  if (!r.problem.pairs.empty()) list.push_back(coverage_check(r));
   unilateral_checks(r, std::max(s.constraint_tolerance, 1e-9), list);
-  if (!r.pairs.empty()) list.push_back(motion_check(r));
+  if (!r.problem.pairs.empty()) list.push_back(motion_check(r));
   return list;
 }
 
@@ -191,9 +194,9 @@ std::string not_finite(const Results& r) {
   if (!s.u.allFinite()) return "displacements";
   if (!s.lambda.allFinite()) return "contact pressures";
   if (!std::isfinite(s.force_residual) || !std::isfinite(s.constraint_residual)) return "residuals";
-  if (!r.stress.points.allFinite() || !r.stress.centres.allFinite()) return "stresses";
-  if (!std::isfinite(r.energy)) return "the energy";
-  for (const ContactResults& c : r.contacts)
+  if (!r.recovery.stress.points.allFinite() || !r.recovery.stress.centres.allFinite()) return "stresses";
+  if (!std::isfinite(r.recovery.energy)) return "the energy";
+  for (const ContactResults& c : r.recovery.contacts)
     for (const double figure : {c.length_in_contact, c.force.x(), c.force.y(), c.p_min, c.p_mean, c.p_max, c.p_least})
       if (!std::isfinite(figure)) return "contact pressures or forces";
   return "";

@@ -9,7 +9,7 @@ namespace mortise {
 inline constexpr const char* balance_check = "reactions and loads sum to zero";
 
 /// Of a run that has all but checks and warnings.
-std::vector<Check> checks(const Scene& scene, const Results& results);
+std::vector<Check> checks(const Results& results);
 
 /// solved where the solver converged, all checks hold and all is finite.
 Status verdict(const Results& results);

@@ -59,24 +59,27 @@ std::size_t largest_pair(std::size_t pairs, Value value) {
 }
 
 void print_all(const Results& r, const std::string& space, std::ostream& out) {
-  const std::size_t count = r.pairs.size();
+  const std::size_t count = r.problem.pairs.size();
   const auto most = [&](auto value) { return largest_pair(count, value); };
-  const std::size_t low = most([&](std::size_t k) { return -r.contacts[k].p_min; }),
-                    high = most([&](std::size_t k) { return r.contacts[k].p_max; }),
-                    strong = most([&](std::size_t k) { return r.contacts[k].force.norm(); });
-  double length = 0, in_contact = 0, gap_min = r.pairs[0].coupling.gap_min, gap_max = r.pairs[0].coupling.gap_max;
+  const std::size_t low = most([&](std::size_t k) { return -r.recovery.contacts[k].p_min; }),
+                    high = most([&](std::size_t k) { return r.recovery.contacts[k].p_max; }),
+                    strong = most([&](std::size_t k) { return r.recovery.contacts[k].force.norm(); });
+  double length = 0, in_contact = 0, gap_min = r.problem.pairs[0].coupling.gap_min,
+         gap_max = r.problem.pairs[0].coupling.gap_max;
   for (std::size_t k = 0; k < count; ++k) {
-    length += r.contacts[k].length;
-    in_contact += r.contacts[k].length_in_contact;
-    gap_min = std::min(gap_min, r.pairs[k].coupling.gap_min);
-    gap_max = std::max(gap_max, r.pairs[k].coupling.gap_max);
+    length += r.recovery.contacts[k].length;
+    in_contact += r.recovery.contacts[k].length_in_contact;
+    gap_min = std::min(gap_min, r.problem.pairs[k].coupling.gap_min);
+    gap_max = std::max(gap_max, r.problem.pairs[k].coupling.gap_max);
   }
-  const auto open = std::ranges::count_if(r.contacts, [](const ContactResults& c) { return c.length_in_contact == 0; });
-  const Vec2& force = r.contacts[strong].force;
-  out << "  contact   " << count << " pairs, " << space << " multipliers: " << kinds_of(r.pairs)
-      << "\n            lowest pressure " << r.contacts[low].p_min << " (" << name_of(r.pairs[low]) << "), highest "
-      << r.contacts[high].p_max << " (" << name_of(r.pairs[high]) << ")\n            largest force (" << force.x()
-      << ", " << force.y() << ") on " << r.contacts[strong].multiplier.curve << " (" << name_of(r.pairs[strong])
+  const auto open =
+      std::ranges::count_if(r.recovery.contacts, [](const ContactResults& c) { return c.length_in_contact == 0; });
+  const Vec2& force = r.recovery.contacts[strong].force;
+  out << "  contact   " << count << " pairs, " << space << " multipliers: " << kinds_of(r.problem.pairs)
+      << "\n            lowest pressure " << r.recovery.contacts[low].p_min << " (" << name_of(r.problem.pairs[low])
+      << "), highest " << r.recovery.contacts[high].p_max << " (" << name_of(r.problem.pairs[high])
+      << ")\n            largest force (" << force.x() << ", " << force.y() << ") on "
+      << r.recovery.contacts[strong].multiplier.curve << " (" << name_of(r.problem.pairs[strong])
       << ")\n            length " << length << ", in contact " << in_contact << "; " << open
       << " pairs open; undeformed gap " << gap_min << " ... " << gap_max << "\n";
   out << "            each pair: summary.json, contact.csv\n";
@@ -84,26 +87,28 @@ void print_all(const Results& r, const std::string& space, std::ostream& out) {
 
 }  // namespace
 
-std::string space_word(const Scene& scene, const Results& r) {
-  const bool quadratic_edges = std::any_of(r.pairs.begin(), r.pairs.end(),
+std::string space_word(const Results& r) {
+  const bool quadratic_edges = std::any_of(r.problem.pairs.begin(), r.problem.pairs.end(),
                                            [](const ContactPair& p) { return p.multiplier.edges[0].node_count == 3; });
-  if (scene.method.multipliers == Multipliers::quadratic && !quadratic_edges) return to_string(Multipliers::linear);
-  return to_string(scene.method.multipliers);
+  if (r.problem.method.multipliers == Multipliers::quadratic && !quadratic_edges) return to_string(Multipliers::linear);
+  return to_string(r.problem.method.multipliers);
 }
 
-std::string contact_lines(const Scene& scene, const Results& r) {
+std::string contact_lines(const Results& r) {
   std::ostringstream out;
-  const std::string space = space_word(scene, r);
-  if (r.pairs.size() > told_in_full)
+  const std::string space = space_word(r);
+  if (r.problem.pairs.size() > told_in_full)
     print_all(r, space, out);
   else
-    for (std::size_t k = 0; k < r.pairs.size(); ++k) print_pair(r.pairs[k], r.contacts[k], space, out);
+    for (std::size_t k = 0; k < r.problem.pairs.size(); ++k)
+      print_pair(r.problem.pairs[k], r.recovery.contacts[k], space, out);
   return out.str();
 }
 
 std::string contact_words(const Results& r) {
-  const int unilateral = int(std::count_if(
-      r.pairs.begin(), r.pairs.end(), [](const ContactPair& p) { return p.spec.condition == Condition::unilateral; }));
+  const int unilateral = int(std::count_if(r.problem.pairs.begin(), r.problem.pairs.end(), [](const ContactPair& p) {
+    return p.spec.condition == Condition::unilateral;
+  }));
   if (unilateral == 0 || r.solution.iteration) return "";
   if (r.solution.steps.size() > 1)
     return std::to_string(r.solution.steps.size()) + " solves until nothing is in tension or overlaps" +

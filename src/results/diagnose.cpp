@@ -11,18 +11,18 @@ namespace mortise {
 namespace {
 
 // S of all pairs, each over its contact modulus E* (1 / E* = sum of the bodies' 1 / E').
-SparseMatrix stacked_norm(const Scene& scene, const Results& r) {
+SparseMatrix stacked_norm(const Results& r) {
   std::vector<Eigen::Triplet<double>> entries;
-  for (const ContactPair& pair : r.pairs) {
-    const std::vector<ElasticLaw>& laws = r.discretisation.laws;
+  for (const ContactPair& pair : r.problem.pairs) {
+    const std::vector<ElasticLaw>& laws = r.problem.discretisation.laws;
     const double compliance = 1 / contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
     const SparseMatrix S =
-        pressure_norm(r.mesh.nodes, pair.multiplier, pair.points, scene.method.multipliers, pair.coupling);
+        pressure_norm(r.problem.mesh.nodes, pair.multiplier, pair.points, r.problem.method.multipliers, pair.coupling);
     for (Eigen::Index j = 0; j < S.outerSize(); ++j)
       for (SparseMatrix::InnerIterator it(S, j); it; ++it)
         entries.emplace_back(pair.first_row + int(it.row()), pair.first_row + int(it.col()), compliance * it.value());
   }
-  const Eigen::Index rows = r.discretisation.system.B.rows();
+  const Eigen::Index rows = r.problem.discretisation.system.B.rows();
   SparseMatrix all(rows, rows);
   all.setFromTriplets(entries.begin(), entries.end());
   return all;
@@ -30,15 +30,15 @@ SparseMatrix stacked_norm(const Scene& scene, const Results& r) {
 
 }  // namespace
 
-std::optional<InfSupReport> inf_sup_report(const Scene& scene, const Results& r) {
-  if (r.pairs.empty()) return {};
-  const SaddlePointSystem& system = r.discretisation.system;
-  const InfSup found = inf_sup(system.constraints.multipoint ? independent_system(system) : system,
-                               stacked_norm(scene, r), r.solution.active);
+std::optional<InfSupReport> inf_sup_report(const Results& r) {
+  if (r.problem.pairs.empty()) return {};
+  const SaddlePointSystem& system = r.problem.discretisation.system;
+  const InfSup found =
+      inf_sup(system.constraints.multipoint ? independent_system(system) : system, stacked_norm(r), r.solution.active);
   if (found.mode.size() == 0) return {};
   Eigen::Index worst = 0;
   found.mode.maxCoeff(&worst);
-  return InfSupReport{found.beta, r.mesh.nodes.row(row_nodes(r.pairs)[worst]).transpose()};
+  return InfSupReport{found.beta, r.problem.mesh.nodes.row(row_nodes(r.problem.pairs)[worst]).transpose()};
 }
 
 std::optional<std::string> inf_sup_warning(const InfSupReport& report) {

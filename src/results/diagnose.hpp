@@ -7,7 +7,7 @@ namespace mortise {
 
 /// The inf-sup constant of the closed rows; nothing where there are none. Costs another factorisation and the
 /// eigenvalues of a dense matrix of the multipliers' size.
-std::optional<InfSupReport> inf_sup_report(const Scene& scene, const Results& results);
+std::optional<InfSupReport> inf_sup_report(const Results& results);
 
 /// Below this the pressures are not to be trusted: docs/stability.md shows what happens there.
 inline constexpr double inf_sup_limit = 0.1;

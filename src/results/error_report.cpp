@@ -25,15 +25,15 @@ std::string largest_error(const Results& r) {
   const ErrorEstimate& estimate = *r.estimate;
   Eigen::Index cell = 0;
   if (estimate.far.parts.size() > 0) estimate.far.parts.cwiseAbs().rowwise().sum().maxCoeff(&cell);
-  const Cell& at = r.mesh.cells[cell];
+  const Cell& at = r.problem.mesh.cells[cell];
   const auto between = [&](std::size_t k) {
-    return " of '" + r.contacts[k].multiplier.curve + "' on '" + r.contacts[k].opposite.curve + "'";
+    return " of '" + r.recovery.contacts[k].multiplier.curve + "' on '" + r.recovery.contacts[k].opposite.curve + "'";
   };
   const std::string farthest =
-      "the mesh of body '" + r.mesh.bodies[at.body] + "' " + near_point(centre_of(r.mesh.nodes, at));
+      "the mesh of body '" + r.problem.mesh.bodies[at.body] + "' " + near_point(centre_of(r.problem.mesh.nodes, at));
   double largest = -1;
   std::string words;
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];
     if (e.far2 > std::max(largest, e.local2)) {
       largest = e.far2;
@@ -59,7 +59,7 @@ std::vector<std::string> error_warnings(const Results& r) {
   std::vector<std::string> lines;
   if (estimate.energy.error > energy_error_limit)
     lines.push_back("the mesh is coarse: stresses are off by about " + percent(estimate.energy.error) +
-                    " in the energy norm, the most in body '" + r.mesh.bodies[estimate.energy.body] + "' " +
+                    " in the energy norm, the most in body '" + r.problem.mesh.bodies[estimate.energy.body] + "' " +
                     near_point(estimate.energy.position) + "; expected a finer mesh there, or quadratic elements");
   const double error = estimate.pressure();
   if (std::isinf(error))  // all that is loaded is left out
@@ -72,8 +72,8 @@ std::vector<std::string> error_warnings(const Results& r) {
 }
 
 bool grows_without_limit(const Results& r, const Extreme& stress) {
-  if (corner_exponent(r.mesh, stress.node, r.discretisation.system.constraints, r.discretisation.laws[stress.of]) <=
-      singular_limit)
+  if (corner_exponent(r.problem.mesh, stress.node, r.problem.discretisation.system.constraints,
+                      r.problem.discretisation.laws[stress.of]) <= singular_limit)
     return true;
   if (!r.estimate) return false;
   return std::ranges::any_of(r.estimate->pressures, [&](const PressureEstimate& e) {
@@ -85,15 +85,15 @@ bool grows_without_limit(const Results& r, const Extreme& stress) {
 
 void set_force_bars(Results& r) {
   std::vector<Vec2> centres;
-  for (const ContactResults& contact : r.contacts) centres.push_back(contact.centre);
-  const std::vector<Eigen::Vector3d> errors =
-      force_errors(r.mesh, r.points, r.discretisation, r.pairs, r.solution, r.estimate->pressures, centres);
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
-    r.contacts[k].force_error = errors[k];
+  for (const ContactResults& contact : r.recovery.contacts) centres.push_back(contact.centre);
+  const std::vector<Eigen::Vector3d> errors = force_errors(r.problem.mesh, r.problem.points, r.problem.discretisation,
+                                                           r.problem.pairs, r.solution, r.estimate->pressures, centres);
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
+    r.recovery.contacts[k].force_error = errors[k];
     const PressureEstimate& e = r.estimate->pressures[k];
     double length = 0;
     for (const LineError::Border& border : e.local.borders) length += e.line.s(border.edge + 1) - e.line.s(border.edge);
-    r.contacts[k].length_error = length;
+    r.recovery.contacts[k].length_error = length;
   }
 }
 

@@ -35,22 +35,22 @@ struct Largest {
 
 Largest largest_in_contact(const Results& r) {
   Largest worst;
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
-    const ContactPair& pair = r.pairs[k];
-    const ContactResults& contact = r.contacts[k];
-    const std::vector<double> curvature = edge_curvatures(r.mesh.nodes, pair.multiplier),
-                              opposite_curvature = edge_curvatures(r.mesh.nodes, pair.opposite);
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
+    const ContactPair& pair = r.problem.pairs[k];
+    const ContactResults& contact = r.recovery.contacts[k];
+    const std::vector<double> curvature = edge_curvatures(r.problem.mesh.nodes, pair.multiplier),
+                              opposite_curvature = edge_curvatures(r.problem.mesh.nodes, pair.opposite);
     for (const ContactPoint& c : pair.points) {
       if (!(interpolate(pair.coupling, pair.multiplier, contact.pressure, c.edge, c.xi) > 1e-3 * contact.p_max))
         continue;
       const Edge &edge = pair.multiplier.edges[c.edge], &other = pair.opposite.edges[c.opposite_edge];
-      const Vec2 x = edge_point(r.mesh.nodes, edge, c.xi).position;
+      const Vec2 x = edge_point(r.problem.mesh.nodes, edge, c.xi).position;
       const Vec2 moved = edge_value(r.solution.u, other, c.eta) - edge_value(r.solution.u, edge, c.xi);
       const double slip = std::abs(moved.x() * c.normal.y() - moved.y() * c.normal.x());
       const double curved = moved.norm() * std::max(curvature[c.edge], opposite_curvature[c.opposite_edge]),
                    along = slip / contact.length_in_contact,
-                   turned = std::max(rotation(r.mesh.nodes, r.solution.u, edge),
-                                     rotation(r.mesh.nodes, r.solution.u, other));
+                   turned = std::max(rotation(r.problem.mesh.nodes, r.solution.u, edge),
+                                     rotation(r.problem.mesh.nodes, r.solution.u, other));
       worst.take(curved, x, 100 * curved, "the sides move against one another by ", " % of the contact line's radius");
       worst.take(along, x, 100 * along, "the sides slide along one another by ", " % of the length in contact");
       worst.take(turned * turned, x, turned, "a side turns by ", " radians");
@@ -64,7 +64,7 @@ Largest largest_in_contact(const Results& r) {
 std::optional<std::string> large_displacement(const Results& r) {
   std::ostringstream text;
   text.precision(2);
-  const Vec2 size = (r.mesh.nodes.colwise().maxCoeff() - r.mesh.nodes.colwise().minCoeff()).transpose();
+  const Vec2 size = (r.problem.mesh.nodes.colwise().maxCoeff() - r.problem.mesh.nodes.colwise().minCoeff()).transpose();
   const double whole = largest_entry(r.solution.u) / size.norm();
   if (const Largest worst = largest_in_contact(r); worst.part > 0.01)
     text << "large displacements: " << worst.what << " " << near_point(worst.position)

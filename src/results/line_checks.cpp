@@ -20,8 +20,8 @@ std::string uncovered_place(const Results& r, const ContactPair& pair) {
   double longest = 0, run = 0;
   std::size_t last = 0, length = 0, end = 0;
   for (std::size_t e = 0; e < curve.edges.size(); ++e) {
-    const double open = edge_length(r.mesh.nodes, curve.edges[e]) - covered[e];
-    const bool counts = open > 0.01 * edge_length(r.mesh.nodes, curve.edges[e]);
+    const double open = edge_length(r.problem.mesh.nodes, curve.edges[e]) - covered[e];
+    const bool counts = open > 0.01 * edge_length(r.problem.mesh.nodes, curve.edges[e]);
     run = counts ? run + open : 0;
     length = counts ? length + 1 : 0;
     if (run <= longest) continue;
@@ -31,7 +31,7 @@ std::string uncovered_place(const Results& r, const ContactPair& pair) {
   }
   const std::string pair_words = pair.spec.key + ": '" + pair.spec.multipliers_on + "'";
   if (longest == 0) return pair_words + " is covered more than once";
-  const Vec2 middle = edge_point(r.mesh.nodes, curve.edges[end - last / 2], 0).position;
+  const Vec2 middle = edge_point(r.problem.mesh.nodes, curve.edges[end - last / 2], 0).position;
   const std::string& other = pair.spec.between[pair.spec.between[0] == pair.spec.multipliers_on];
   std::ostringstream text;
   text
@@ -42,16 +42,16 @@ std::string uncovered_place(const Results& r, const ContactPair& pair) {
 
 }  // namespace
 
-Check coverage_check(const Scene& scene, const Results& r) {
+Check coverage_check(const Results& r) {
   // A closed curve meshed twice: the chords' lengths differ by their geometric error.
-  Check check{scene.method.integration == Integration::segments ? "segments cover the closed contact curve"
-                                                                : "points cover the closed contact curve",
+  Check check{r.problem.method.integration == Integration::segments ? "segments cover the closed contact curve"
+                                                                    : "points cover the closed contact curve",
               0, 1e-2};
   const ContactPair* worst = nullptr;
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
-    const ContactPair& pair = r.pairs[k];
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
+    const ContactPair& pair = r.problem.pairs[k];
     if (pair.spec.initial_gap != InitialGap::closed || pair.spec.found) continue;
-    const double facing = std::min(r.contacts[k].length, curve_length(r.mesh.nodes, pair.opposite));
+    const double facing = std::min(r.recovery.contacts[k].length, curve_length(r.problem.mesh.nodes, pair.opposite));
     const double uncovered = std::abs(1 - pair.coupling.covered_length / facing);
     if (!(uncovered <= check.value)) worst = &pair;
     check.value = largest(check.value, uncovered);
@@ -64,11 +64,12 @@ Check motion_check(const Results& r) {
   Check check{"turn and slide of contact lines", 0, 0.5};
   if (!r.solution.u.allFinite()) check.value = std::numeric_limits<double>::quiet_NaN();
   double largest_pressure = 0;
-  for (const ContactResults& contact : r.contacts)
+  for (const ContactResults& contact : r.recovery.contacts)
     largest_pressure = largest(largest_pressure, largest_entry(contact.pressure));
   const double negligible = 1e-6 * largest_pressure;  // round-off of the others, in a pair that has opened
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
-    const auto motion = line_motion(r.mesh.nodes, r.pairs[k], r.contacts[k], r.solution.u, negligible);
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
+    const auto motion =
+        line_motion(r.problem.mesh.nodes, r.problem.pairs[k], r.recovery.contacts[k], r.solution.u, negligible);
     if (!motion) continue;
     const auto take = [&](double part, const char* before, double shown, const char* after) {
       if (!(part > check.value)) return;
@@ -76,8 +77,8 @@ Check motion_check(const Results& r) {
       if (check.ok()) return;
       std::ostringstream text;
       text.precision(2);
-      text << r.pairs[k].spec.key << ": the contact line " << near_point(motion->position) << before << shown << after
-           << ", more than small displacements bear: forces and pressures are those of the undeformed bodies";
+      text << r.problem.pairs[k].spec.key << ": the contact line " << near_point(motion->position) << before << shown
+           << after << ", more than small displacements bear: forces and pressures are those of the undeformed bodies";
       check.where = text.str();
     };
     take(motion->turned, " turns by ", motion->turned, " radians as a whole");

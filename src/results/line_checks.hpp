@@ -8,7 +8,7 @@
 namespace mortise {
 
 /// What part of a closed pair's shorter curve the segments miss, or take twice; with the place.
-Check coverage_check(const Scene& scene, const Results& results);
+Check coverage_check(const Results& results);
 
 /// Contact is written on the undeformed bodies: the force of a line that turns by an angle is off by about that part,
 /// and so is p where the sides move by that part of the length in contact or of the radius of curvature (LineMotion).

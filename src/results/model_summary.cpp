@@ -4,6 +4,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "base/overloaded.hpp"
 #include "base/printable.hpp"
 
 namespace mortise {
@@ -61,15 +62,15 @@ Json json_of(const Material& m) {
   return json;
 }
 
-void print_materials(const Scene& scene, std::ostream& out) {
+void print_materials(const Entries& entries, std::ostream& out) {
   std::map<std::string, std::vector<std::string>> bodies;
-  for (const BodySpec& body : scene.bodies) bodies[body.material].push_back(body.name);
+  for (const BodySpec& body : entries.bodies) bodies[body.material].push_back(body.name);
   const char* separator = "; ";
-  for (const auto& [name, m] : scene.materials) {
+  for (const auto& [name, m] : entries.materials) {
     out << separator << name << " (";
     print_moduli(m, out);
     if (m.thermal_expansion != 0) out << ", alpha " << m.thermal_expansion;
-    if (scene.gravity) out << ", density " << m.density;
+    if (entries.gravity) out << ", density " << m.density;
     out << "): " << listed(bodies[name]);
   }
 }
@@ -90,7 +91,7 @@ Json json_of(const VectorField& v) { return {json_of(v.x), json_of(v.y)}; }
 
 std::string words(const RigidSpec& rigid) {
   std::ostringstream text;
-  text << " rigid";
+  text << "rigid";
   if (rigid.x) text << ", u_x = " << *rigid.x;
   if (rigid.y) text << ", u_y = " << *rigid.y;
   if (rigid.rotation) text << ", rotation " << *rigid.rotation;
@@ -100,31 +101,23 @@ std::string words(const RigidSpec& rigid) {
   return text.str();
 }
 
-// What an entry prescribes, wherever.
-std::string words(const BoundarySpec& spec) {
+std::string words(const Displacement& u) {
   std::string text;
-  if (spec.displacement_x) text += " u_x = " + words(*spec.displacement_x);
-  if (spec.displacement_y) text += (spec.displacement_x ? ", u_y = " : " u_y = ") + words(*spec.displacement_y);
-  if (spec.displacement_normal) text += " u_n = " + words(*spec.displacement_normal);
-  if (spec.displacement_along) text += " u = " + words(*spec.displacement_along) + " along " + pair_of(*spec.direction);
-  if (spec.rigid) text += words(*spec.rigid);
-  if (spec.spring) text += " springs " + pair_of(*spec.spring);
-  if (spec.pressure) text += " pressure " + words(*spec.pressure);
-  if (spec.traction) text += " traction " + words(*spec.traction);
-  if (spec.force) text += " force " + pair_of(*spec.force);
-  if (spec.normal_foundation) text += " foundation " + words(*spec.normal_foundation) + " along the normal";
-  if (spec.foundation) text += " foundation " + words(*spec.foundation);
+  if (u.x) text += "u_x = " + words(*u.x);
+  if (u.y) text += (u.x ? ", u_y = " : "u_y = ") + words(*u.y);
   return text;
 }
 
 // `forces`: the sum of a load, or the reactions.
 void print_boundary(const BoundarySpec& spec, const std::string& forces, std::ostream& out) {
-  out << (spec.is_load() ? "  load      " : "  support   ") << listed(spec.on) << ":" << words(spec) << forces << "\n";
+  out << (is_load(spec.what) ? "  load      " : "  support   ") << listed(spec.on) << ": " << words_of(spec.what)
+      << forces << "\n";
 }
 
 // Of the curves that the entry names, one by one if they are few.
-std::string reaction_words(const Scene& scene, const Discretisation& d, const Reactions& reactions, std::size_t entry) {
-  const std::size_t named = scene.boundaries[entry].on.size();
+std::string reaction_words(const Problem& p, const Reactions& reactions, std::size_t entry) {
+  const Discretisation& d = p.discretisation;
+  const std::size_t named = p.entries.boundaries[entry].spec.on.size();
   std::vector<std::string> forces;
   for (const Reaction& r : reactions.curves)
     if (r.entry == int(entry)) forces.push_back(force_of(r.sum));
@@ -133,21 +126,22 @@ std::string reaction_words(const Scene& scene, const Discretisation& d, const Re
       const Eigen::Vector3d& motion = reactions.rigid_motions[k];
       std::ostringstream text;
       text << "; moves by " << pair_of(motion.head<2>());
-      if (!scene.model.axisymmetric()) text << ", turns by " << motion(2);
-      return text.str() + "; reaction " + in_sum(reactions.entries[entry], scene.model);
+      if (!p.entries.model.axisymmetric()) text << ", turns by " << motion(2);
+      return text.str() + "; reaction " + in_sum(reactions.entries[entry], p.entries.model);
     }
   if (forces.size() == 1 || forces.size() != named || named > told_in_full)
-    return "; reaction " + in_sum(reactions.entries[entry], scene.model);
+    return "; reaction " + in_sum(reactions.entries[entry], p.entries.model);
   return "; reactions " + listed(forces);
 }
 
 // Entries that prescribe the same as one, in the order of the first, with the sum of their forces.
-std::vector<std::pair<BoundarySpec, Resultant>> alike_as_one(const Scene& scene, const std::vector<Resultant>& sums) {
+std::vector<std::pair<BoundarySpec, Resultant>> alike_as_one(const std::vector<BoundaryEntry>& all,
+                                                             const std::vector<Resultant>& sums) {
   std::vector<std::pair<BoundarySpec, Resultant>> entries;
   std::map<std::string, std::size_t> number;
-  for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
-    const BoundarySpec& spec = scene.boundaries[i];
-    const auto [found, is_new] = number.try_emplace(words(spec), entries.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const BoundarySpec& spec = all[i].spec;
+    const auto [found, is_new] = number.try_emplace(words_of(spec.what), entries.size());
     if (is_new) {
       entries.emplace_back(spec, sums[i]);
       continue;
@@ -193,24 +187,29 @@ Json json_of(const RigidSpec& rigid) {
 
 Json boundary_json(const BoundarySpec& spec) {
   Json entry{{"on", spec.on}};
-  if (spec.displacement_x) entry["displacement"]["x"] = json_of(*spec.displacement_x);
-  if (spec.displacement_y) entry["displacement"]["y"] = json_of(*spec.displacement_y);
-  if (spec.displacement_normal) entry["displacement"]["normal"] = json_of(*spec.displacement_normal);
-  if (spec.displacement_along)
-    entry["displacement"] = {{"direction", json_of(*spec.direction)}, {"value", json_of(*spec.displacement_along)}};
-  if (spec.spring) entry["spring"] = json_of(*spec.spring);
-  if (spec.rigid) entry["rigid"] = json_of(*spec.rigid);
-  if (spec.pressure) entry["pressure"] = json_of(*spec.pressure);
-  if (spec.traction) entry["traction"] = json_of(*spec.traction);
-  if (spec.force) entry["force"] = json_of(*spec.force);
-  if (spec.normal_foundation) entry["foundation"] = json_of(*spec.normal_foundation);
-  if (spec.foundation) entry["foundation"] = json_of(*spec.foundation);
+  std::visit(Overloaded{[&](const Displacement& u) {
+                          if (u.x) entry["displacement"]["x"] = json_of(*u.x);
+                          if (u.y) entry["displacement"]["y"] = json_of(*u.y);
+                        },
+                        [&](const NormalDisplacement& u) { entry["displacement"]["normal"] = json_of(u.value); },
+                        [&](const DirectedDisplacement& u) {
+                          entry["displacement"] = {{"direction", json_of(u.direction)}, {"value", json_of(u.value)}};
+                        },
+                        [&](const RigidSpec& rigid) { entry["rigid"] = json_of(rigid); },
+                        [&](const Pressure& p) { entry["pressure"] = json_of(p.value); },
+                        [&](const SurfaceTraction& t) { entry["traction"] = json_of(t.value); },
+                        [&](const TotalForce& force) { entry["force"] = json_of(force.value); },
+                        [&](const NormalFoundation& k) { entry["foundation"] = json_of(k.modulus); },
+                        [&](const AxesFoundation& k) { entry["foundation"] = json_of(k.moduli); },
+                        [&](const PointSpring& k) { entry["spring"] = json_of(k.stiffness); }},
+             spec.what);
   return entry;
 }
 
 // With the reaction of the entry, and of each curve.
-Json support_json(const Scene& scene, const Discretisation& d, const Reactions& reactions, std::size_t i) {
-  Json entry = boundary_json(scene.boundaries[i]);
+Json support_json(const Problem& p, const Reactions& reactions, std::size_t i) {
+  const Discretisation& d = p.discretisation;
+  Json entry = boundary_json(p.entries.boundaries[i].spec);
   entry["reaction"] = json_of(reactions.entries[i].force);
   entry["moment"] = reactions.entries[i].moment;
   for (std::size_t k = 0; k < d.multipoint.rigid_curves.size(); ++k)
@@ -227,58 +226,75 @@ Json support_json(const Scene& scene, const Discretisation& d, const Reactions& 
 
 }  // namespace
 
-std::string boundary_words(const BoundarySpec& spec) { return words(spec).substr(1); }
+std::string words_of(const BoundaryCondition& what) {
+  return std::visit(
+      Overloaded{
+          [](const Displacement& u) { return words(u); },
+          [](const NormalDisplacement& u) { return "u_n = " + words(u.value); },
+          [](const DirectedDisplacement& u) { return "u = " + words(u.value) + " along " + pair_of(u.direction); },
+          [](const RigidSpec& rigid) { return words(rigid); },
+          [](const Pressure& p) { return "pressure " + words(p.value); },
+          [](const SurfaceTraction& t) { return "traction " + words(t.value); },
+          [](const TotalForce& force) { return "force " + pair_of(force.value); },
+          [](const NormalFoundation& k) { return "foundation " + words(k.modulus) + " along the normal"; },
+          [](const AxesFoundation& k) { return "foundation " + words(k.moduli); },
+          [](const PointSpring& k) { return "springs " + pair_of(k.stiffness); }},
+      what);
+}
 
 Json json_of(const Field& f) { return f.is_constant() ? Json(f.constant()) : Json(f.words()); }
 
-std::string model_lines(const Scene& scene, const Mesh& mesh, const Discretisation& d, const Reactions* reactions) {
+std::string model_lines(const Problem& p, const Reactions* reactions) {
+  const Entries& entries = p.entries;
+  const Discretisation& d = p.discretisation;
   std::ostringstream out;
-  out << "  model     plane " << to_string(scene.model.plane);
-  if (scene.model.thickness != 1) out << ", thickness " << scene.model.thickness;
-  print_materials(scene, out);
+  out << "  model     plane " << to_string(entries.model.plane);
+  if (entries.model.thickness != 1) out << ", thickness " << entries.model.thickness;
+  print_materials(entries, out);
   out << "\n";
-  if (scene.boundaries.size() > told_in_full) {
+  if (entries.boundaries.size() > told_in_full) {
     std::vector<Resultant> sums = d.boundary_sums;
     for (std::size_t i = 0; reactions && i < sums.size(); ++i) sums[i] += reactions->entries[i];
-    const auto entries = alike_as_one(scene, sums);
-    print_some(entries, "supports and loads on boundaries", out, [&](std::size_t i) {
-      const auto& [spec, sum] = entries[i];
+    const auto merged = alike_as_one(entries.boundaries, sums);
+    print_some(merged, "supports and loads on boundaries", out, [&](std::size_t i) {
+      const auto& [spec, sum] = merged[i];
       print_boundary(spec,
-                     spec.is_load() ? ", in sum " + in_sum(sum, scene.model)
-                     : reactions    ? "; reaction " + in_sum(sum, scene.model)
-                                    : "",
+                     is_load(spec.what) ? ", in sum " + in_sum(sum, entries.model)
+                     : reactions        ? "; reaction " + in_sum(sum, entries.model)
+                                        : "",
                      out);
     });
   } else {
-    for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
-      const BoundarySpec& spec = scene.boundaries[i];
+    for (std::size_t i = 0; i < entries.boundaries.size(); ++i) {
+      const BoundarySpec& spec = entries.boundaries[i].spec;
       print_boundary(spec,
-                     spec.is_load() ? ", in sum " + in_sum(d.boundary_sums[i], scene.model)
-                     : reactions    ? reaction_words(scene, d, *reactions, i)
-                                    : "",
+                     is_load(spec.what) ? ", in sum " + in_sum(d.boundary_sums[i], entries.model)
+                     : reactions        ? reaction_words(p, *reactions, i)
+                                        : "",
                      out);
     }
   }
-  for (std::size_t k = 0; k < mesh.ties.size() && k < told_in_full; ++k) {
-    const Tie& tie = mesh.ties[k];
+  for (std::size_t k = 0; k < p.mesh.ties.size() && k < told_in_full; ++k) {
+    const Tie& tie = p.mesh.ties[k];
     out << "  tied      " << tie.curves[0] << " follows " << tie.curves[1] << " at " << tie.nodes.size() << " nodes";
     if (reactions) out << "; force " << force_of(reactions->ties[k]) << " on " << tie.curves[0];
     out << "\n";
   }
-  print_some(scene.fields, "fields", out, [&](std::size_t i) {
-    const FieldSpec& field = scene.fields[i];
+  print_some(p.fields, "fields", out, [&](std::size_t i) {
+    const FieldSpec& field = p.fields[i];
     out << "  field     " << field.function->name << ": " << printable(field.values);
     if (field.component) out << "[" << *field.component << "]";
     out << " of " << printable(field.file) << "\n";
   });
-  if (scene.gravity)
-    out << "  load      gravity " << pair_of(*scene.gravity) << ", in sum " << in_sum(d.weight, scene.model) << "\n";
-  print_some(scene.body_forces, "forces per volume", out, [&](std::size_t i) {
-    out << "  load      body " << scene.body_forces[i].body << ": force per volume "
-        << words(scene.body_forces[i].force) << ", in sum " << in_sum(d.body_sums[i], scene.model) << "\n";
+  if (entries.gravity)
+    out << "  load      gravity " << pair_of(*entries.gravity) << ", in sum " << in_sum(d.weight, entries.model)
+        << "\n";
+  print_some(entries.body_forces, "forces per volume", out, [&](std::size_t i) {
+    out << "  load      body " << entries.body_forces[i].body << ": force per volume "
+        << words(entries.body_forces[i].force) << ", in sum " << in_sum(d.body_sums[i], entries.model) << "\n";
   });
-  print_some(scene.initial_strains, "initial strains", out, [&](std::size_t i) {
-    const InitialStrainSpec& s = scene.initial_strains[i];
+  print_some(entries.initial_strains, "initial strains", out, [&](std::size_t i) {
+    const InitialStrainSpec& s = entries.initial_strains[i];
     out << "  load      body " << s.body << ": ";
     if (s.temperature_change)
       out << "temperature change " << s.temperature_change->words() << "\n";
@@ -289,25 +305,27 @@ std::string model_lines(const Scene& scene, const Mesh& mesh, const Discretisati
   return out.str();
 }
 
-Json model_json(const Scene& scene, const Mesh& mesh, const Discretisation& d, const Reactions& reactions) {
+Json model_json(const Problem& p, const Reactions& reactions) {
+  const Entries& entries = p.entries;
+  const Discretisation& d = p.discretisation;
   Json materials = Json::object(), bodies = Json::object(), supports = Json::array(), loads = Json::array();
-  for (const auto& [name, m] : scene.materials) materials[name] = json_of(m);
-  if (scene.gravity)
-    for (const auto& [name, m] : scene.materials) materials[name]["density"] = m.density;
-  for (const BodySpec& body : scene.bodies) bodies[body.name] = body.material;
-  for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
-    const BoundarySpec& spec = scene.boundaries[i];
-    if (spec.is_load())
+  for (const auto& [name, m] : entries.materials) materials[name] = json_of(m);
+  if (entries.gravity)
+    for (const auto& [name, m] : entries.materials) materials[name]["density"] = m.density;
+  for (const BodySpec& body : entries.bodies) bodies[body.name] = body.material;
+  for (std::size_t i = 0; i < entries.boundaries.size(); ++i) {
+    const BoundarySpec& spec = entries.boundaries[i].spec;
+    if (is_load(spec.what))
       loads.push_back(with_sum(boundary_json(spec), d.boundary_sums[i]));
     else
-      supports.push_back(support_json(scene, d, reactions, i));
+      supports.push_back(support_json(p, reactions, i));
   }
-  if (scene.gravity) loads.push_back(with_sum({{"gravity", json_of(*scene.gravity)}}, d.weight));
-  for (std::size_t i = 0; i < scene.body_forces.size(); ++i) {
-    const BodyForceSpec& spec = scene.body_forces[i];
+  if (entries.gravity) loads.push_back(with_sum({{"gravity", json_of(*entries.gravity)}}, d.weight));
+  for (std::size_t i = 0; i < entries.body_forces.size(); ++i) {
+    const BodyForceSpec& spec = entries.body_forces[i];
     loads.push_back(with_sum({{"body", spec.body}, {"force", json_of(spec.force)}}, d.body_sums[i]));
   }
-  for (const InitialStrainSpec& s : scene.initial_strains) {
+  for (const InitialStrainSpec& s : entries.initial_strains) {
     Json entry{{"body", s.body}};
     if (s.temperature_change)
       entry["temperature_change"] = json_of(*s.temperature_change);
@@ -318,24 +336,24 @@ Json model_json(const Scene& scene, const Mesh& mesh, const Discretisation& d, c
                          {"xy", json_of(s.strain[3])}};
     loads.push_back(entry);
   }
-  Json model{{"plane", to_string(scene.model.plane)},
+  Json model{{"plane", to_string(entries.model.plane)},
              {"materials", materials},
              {"bodies", bodies},
              {"supports", supports},
              {"loads", loads}};
-  for (std::size_t k = 0; k < mesh.ties.size(); ++k) {
-    const Tie& tie = mesh.ties[k];
+  for (std::size_t k = 0; k < p.mesh.ties.size(); ++k) {
+    const Tie& tie = p.mesh.ties[k];
     model["ties"].push_back({{"follows", tie.curves[0]},
                              {"leads", tie.curves[1]},
                              {"nodes", tie.nodes.size()},
                              {"force", json_of(reactions.ties[k].force)},
                              {"moment", reactions.ties[k].moment}});
   }
-  for (const FieldSpec& field : scene.fields) {
+  for (const FieldSpec& field : p.fields) {
     Json& entry = model["fields"][field.function->name] = {{"file", field.file}, {"values", field.values}};
     if (field.component) entry["component"] = *field.component;
   }
-  if (!scene.model.axisymmetric()) model["thickness"] = scene.model.thickness;
+  if (!entries.model.axisymmetric()) model["thickness"] = entries.model.thickness;
   return model;
 }
 

@@ -3,8 +3,8 @@
 #include <Eigen/LU>
 #include <map>
 
+#include "base/overloaded.hpp"
 #include "fem/edges.hpp"
-#include "problem/scene_names.hpp"
 
 namespace mortise {
 namespace {
@@ -88,6 +88,38 @@ std::vector<int> nodes_of(const Boundary& curve) {
   return nodes;
 }
 
+// Of the nodes of a curve or point that a support is on.
+Resultant reaction_at(const std::vector<int>& nodes, const BoundaryCondition& what, int number, Collector& collector,
+                      Collector& springs) {
+  const auto of_springs = [&] { return springs.take(nodes, true, true); };
+  const auto skew = [&] { return collector.take_skew(number, nodes); };
+  return std::visit(
+      Overloaded{[&](const Displacement& u) { return collector.take(nodes, u.x.has_value(), u.y.has_value()); },
+                 [&](const NormalDisplacement&) { return skew(); }, [&](const DirectedDisplacement&) { return skew(); },
+                 [&](const RigidSpec&) { return collector.take(nodes, true, true); },
+                 [](const Pressure&) { return Resultant(); }, [](const SurfaceTraction&) { return Resultant(); },
+                 [](const TotalForce&) { return Resultant(); }, [&](const NormalFoundation&) { return of_springs(); },
+                 [&](const AxesFoundation&) { return of_springs(); }, [&](const PointSpring&) { return of_springs(); }},
+      what);
+}
+
+std::vector<Reaction> reactions_of(const Mesh& mesh, const BoundaryEntry& entry, int number, Collector& collector,
+                                   Collector& springs) {
+  std::vector<Reaction> reactions;
+  const auto add = [&](const std::string& name, const std::vector<int>& nodes, const Vec2& centre) {
+    reactions.push_back({number, name, centre, reaction_at(nodes, entry.spec.what, number, collector, springs)});
+  };
+  for (const NamedBoundary& on : entry.curves) {
+    const Boundary& curve = mesh.boundaries[on.boundary];
+    add(curve.name, nodes_of(curve), centre_of(mesh.nodes, curve.edges));
+  }
+  for (const int p : entry.points) {
+    const NamedPoint& point = mesh.points[p];
+    add(point.name, point.nodes, mesh.nodes(point.nodes, Eigen::all).colwise().mean().transpose());
+  }
+  return reactions;
+}
+
 Resultant sum_of_loads(const Mesh& mesh, const Discretisation& d) {
   Resultant sum;
   const VecX loads = d.system.f - d.initial_load;
@@ -97,7 +129,9 @@ Resultant sum_of_loads(const Mesh& mesh, const Discretisation& d) {
 
 }  // namespace
 
-Reactions find_reactions(const Scene& scene, const Mesh& mesh, const Discretisation& d, const Solution& solution) {
+Reactions find_reactions(const Problem& problem, const Solution& solution) {
+  const Mesh& mesh = problem.mesh;
+  const Discretisation& d = problem.discretisation;
   Reactions r;
   const NodalForces forces = nodal_forces(d.system, solution);
   r.nodal = forces.supports;
@@ -109,30 +143,15 @@ Reactions find_reactions(const Scene& scene, const Mesh& mesh, const Discretisat
     for (const TiedNode& one : tie.nodes)
       sum.add(mesh.nodes.row(one.node).transpose(), forces.ties.segment<2>(2 * one.node));
   }
-  const SceneNames names(mesh);
-  for (const BoundarySpec& spec : scene.boundaries) {
-    Resultant& entry = r.entries.emplace_back();
-    if (spec.is_load()) continue;
-    const auto take = [&](const std::string& name, const std::vector<int>& nodes, const Vec2& centre) {
-      const int number = int(r.entries.size()) - 1;
-      const Resultant sum =
-          spec.is_foundation() || spec.spring ? springs.take(nodes, true, true)
-          : spec.is_skew()                    ? collector.take_skew(number, nodes)
-          : spec.rigid                        ? collector.take(nodes, true, true)
-                       : collector.take(nodes, spec.displacement_x.has_value(), spec.displacement_y.has_value());
-      r.curves.push_back({number, name, centre, sum});
-      entry += sum;
-    };
-    for (const std::string& name : spec.on) {
-      const SceneNames::Places places = names.places(spec.key + ".on", name);
-      for (const int b : places.boundaries)
-        take(mesh.boundaries[b].name, nodes_of(mesh.boundaries[b]), centre_of(mesh.nodes, mesh.boundaries[b].edges));
-      for (const int p : places.points) {
-        const NamedPoint& point = mesh.points[p];
-        take(point.name, point.nodes, mesh.nodes(point.nodes, Eigen::all).colwise().mean().transpose());
-      }
+  for (const BoundaryEntry& entry : problem.entries.boundaries) {
+    const int number = int(r.entries.size());
+    Resultant& all = r.entries.emplace_back();
+    if (is_load(entry.spec.what)) continue;
+    for (Reaction& part : reactions_of(mesh, entry, number, collector, springs)) {
+      all += part.sum;
+      r.curves.push_back(std::move(part));
     }
-    r.all += entry;
+    r.all += all;
   }
   for (const RigidSupport& rigid : d.multipoint.rigid_curves)
     r.rigid_motions.push_back(rigid_motion(rigid.curve, *d.system.constraints.multipoint, solution.u));

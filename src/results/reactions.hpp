@@ -2,14 +2,14 @@
 #pragma once
 
 #include "model/resultant.hpp"
-#include "problem/discretisation.hpp"
+#include "problem/problem.hpp"
 
 namespace mortise {
 
 /// Of one curve or point of a support. A node that several hold along one direction counts for the
 /// first that names it.
 struct Reaction {
-  int entry;       ///< of Scene::boundaries
+  int entry;       ///< of Entries::boundaries
   std::string on;  ///< name of the curve or point
   Vec2 centre;     ///< of the curve, its mean place along its length; of a point its nodes' mean place
   Resultant sum;
@@ -18,8 +18,8 @@ struct Reaction {
 /// Forces on the bodies, times depth (model/model.hpp).
 struct Reactions {
   VecX nodal;                      ///< n: K u - f + B^T lambda at prescribed and tied unknowns, and the springs' forces
-  std::vector<Reaction> curves;    ///< in the scene's order
-  std::vector<Resultant> entries;  ///< sums of each of Scene::boundaries, zero of loads
+  std::vector<Reaction> curves;    ///< in the scene's order, of an entry its curves first
+  std::vector<Resultant> entries;  ///< sums of each of Entries::boundaries, zero of loads
   std::vector<Resultant> ties;     ///< on the nodes that follow, of Mesh::ties
   /// Of Discretisation::multipoint: displacement of `about`, and the turn in radians.
   std::vector<Eigen::Vector3d> rigid_motions;
@@ -28,7 +28,6 @@ struct Reactions {
   Resultant all;    ///< of supports and held motions
 };
 
-Reactions find_reactions(const Scene& scene, const Mesh& mesh, const Discretisation& discretisation,
-                         const Solution& solution);
+Reactions find_reactions(const Problem& problem, const Solution& solution);
 
 }  // namespace mortise

@@ -2,11 +2,7 @@
 #pragma once
 
 #include "error/error_estimate.hpp"
-#include "fem/rigid_motions.hpp"
-#include "problem/data_misfit.hpp"
-#include "results/extremes.hpp"
-#include "results/probes.hpp"
-#include "results/reactions.hpp"
+#include "results/recovery.hpp"
 
 namespace mortise {
 
@@ -52,28 +48,18 @@ struct AccuracyReport {
 };
 
 struct Results {
-  Status status = Status::solved;
-  Mesh mesh;
-  bool mesh_cached = false;  ///< whether it was not made now, but kept from an earlier run
-  BodyPoints points;
-  Discretisation discretisation;  ///< held motions (validate.hpp) count as prescribed
-  DataMisfits misfits;            ///< of the scene's functions of place
-  std::vector<ContactPair> pairs;
-  std::vector<std::string> dirichlet;  ///< of domain decomposition: bodies that took the displacement
+  Problem problem;  ///< held motions (validate.hpp) count as prescribed
   Solution solution;
   std::vector<std::vector<RigidMotion>> unheld;  ///< that nothing holds and no load drives: held, or zero
-  StressField stress;
-  std::vector<ContactResults> contacts;  ///< one a pair
-  Extremes extremes;
-  Reactions reactions;
-  std::vector<ProbeValue> probes;
-  double energy = 0;                       ///< strain energy, times depth (model/model.hpp)
+  Recovery recovery;
   std::optional<ErrorEstimate> estimate;   ///< unless the run was asked for none
   std::optional<AccuracyReport> accuracy;  ///< where one was asked for
   std::optional<InfSupReport> inf_sup;     ///< where the run was asked to diagnose
-  Seconds seconds;
   std::vector<Check> checks;
   std::vector<std::string> warnings;  ///< what a user should know; nothing that fails
+  Status status = Status::solved;
+  Seconds seconds;
+  bool mesh_cached = false;  ///< whether the mesh was not made now, but kept from an earlier run
 };
 
 /// Displacement unknowns that are not prescribed.

@@ -5,7 +5,6 @@
 
 #include "base/errors.hpp"
 #include "mesh/boundary_edges.hpp"
-#include "problem/scene_names.hpp"
 #include "results/model_summary.hpp"
 
 namespace mortise {
@@ -24,13 +23,13 @@ Json round(const Cell& cell) {
   return nodes;
 }
 
-Json bodies_json(const Scene& scene, const Mesh& mesh) {
+Json bodies_json(const Problem& p) {
   Json bodies = Json::array();
-  for (const std::string& name : mesh.bodies) bodies.push_back({{"name", name}, {"cells", Json::array()}});
-  for (const Cell& cell : mesh.cells) bodies[std::size_t(cell.body)]["cells"].push_back(round(cell));
-  const SceneNames names(mesh);
-  for (const BodySpec& spec : scene.bodies)
-    for (const int b : names.bodies("bodies", spec.name)) bodies[std::size_t(b)]["material"] = spec.material;
+  for (std::size_t b = 0; b < p.mesh.bodies.size(); ++b)
+    bodies.push_back({{"name", p.mesh.bodies[b]},
+                      {"cells", Json::array()},
+                      {"material", p.entries.bodies[p.entries.body_of[b]].material}});
+  for (const Cell& cell : p.mesh.cells) bodies[std::size_t(cell.body)]["cells"].push_back(round(cell));
   return bodies;
 }
 
@@ -46,13 +45,10 @@ Json curves_json(const Mesh& mesh, const std::set<std::string>& named) {
 }
 
 // The names of all curves and points that an entry is on.
-std::vector<std::string> places_of(const BoundarySpec& spec, const Mesh& mesh, const SceneNames& names) {
+std::vector<std::string> places_of(const BoundaryEntry& entry, const Mesh& mesh) {
   std::vector<std::string> places;
-  for (const std::string& name : spec.on) {
-    const SceneNames::Places found = names.places(spec.key, name);
-    for (const int b : found.boundaries) places.push_back(mesh.boundaries[std::size_t(b)].name);
-    for (const int p : found.points) places.push_back(mesh.points[std::size_t(p)].name);
-  }
+  for (const NamedBoundary& on : entry.curves) places.push_back(mesh.boundaries[on.boundary].name);
+  for (const int point : entry.points) places.push_back(mesh.points[point].name);
   return places;
 }
 
@@ -65,22 +61,23 @@ Json points_json(const Mesh& mesh, const std::set<std::string>& named) {
 
 }  // namespace
 
-void write_setup(const Scene& scene, const Mesh& mesh, const Discretisation& d, const std::vector<ContactPair>& pairs,
-                 const std::filesystem::path& path) {
+void write_setup(const Problem& p, const std::filesystem::path& path) {
+  const Mesh& mesh = p.mesh;
+  const Entries& entries = p.entries;
   std::set<std::string> named;
   Json nodes = Json::array(), supports = Json::array(), loads = Json::array(), contact = Json::array(),
        ties = Json::array(), rest = Json::array();
   for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) nodes.push_back({mesh.nodes(n, 0), mesh.nodes(n, 1)});
-  const SceneNames names(mesh);
-  for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
-    const BoundarySpec& spec = scene.boundaries[i];
-    const std::vector<std::string> on = places_of(spec, mesh, names);
+  for (std::size_t i = 0; i < entries.boundaries.size(); ++i) {
+    const BoundaryEntry& entry = entries.boundaries[i];
+    const std::vector<std::string> on = places_of(entry, mesh);
     named.insert(on.begin(), on.end());
-    Json entry{{"on", on}, {"words", boundary_words(spec)}};
-    if (spec.is_load()) entry["sum"] = {d.boundary_sums[i].force.x(), d.boundary_sums[i].force.y()};
-    (spec.is_load() ? loads : supports).push_back(entry);
+    Json json{{"on", on}, {"words", words_of(entry.spec.what)}};
+    const Vec2& sum = p.discretisation.boundary_sums[i].force;
+    if (is_load(entry.spec.what)) json["sum"] = {sum.x(), sum.y()};
+    (is_load(entry.spec.what) ? loads : supports).push_back(json);
   }
-  for (const ContactPair& pair : pairs) {
+  for (const ContactPair& pair : p.pairs) {
     named.insert(pair.spec.between.begin(), pair.spec.between.end());
     contact.push_back({{"between", pair.spec.between},
                        {"words", to_string(pair.spec.condition) + ", gap " + gap_words(pair) + ", multipliers on " +
@@ -90,13 +87,13 @@ void write_setup(const Scene& scene, const Mesh& mesh, const Discretisation& d, 
     named.insert(tie.curves.begin(), tie.curves.end());
     ties.push_back(tie.curves);
   }
-  if (scene.gravity) rest.push_back("gravity");
-  if (!scene.body_forces.empty()) rest.push_back("forces per volume");
-  if (!scene.initial_strains.empty()) rest.push_back("initial strains");
+  if (entries.gravity) rest.push_back("gravity");
+  if (!entries.body_forces.empty()) rest.push_back("forces per volume");
+  if (!entries.initial_strains.empty()) rest.push_back("initial strains");
   std::ofstream file(path);
-  file << Json{{"title", scene.title},
+  file << Json{{"title", p.title},
                {"nodes", nodes},
-               {"bodies", bodies_json(scene, mesh)},
+               {"bodies", bodies_json(p)},
                {"curves", curves_json(mesh, named)},
                {"points", points_json(mesh, named)},
                {"supports", supports},

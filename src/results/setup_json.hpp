@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "problem/contact_pair.hpp"
+#include "problem/problem.hpp"
 
 namespace mortise {
 
@@ -13,7 +13,6 @@ namespace mortise {
 /// "supports" and "loads" ("on", "words", "sum" of a load); "contact" ("between", "words"); "ties" (two curves each);
 /// "rest", lines of what acts on no curve. Lengths and forces in the scene's units. Throws InputError where it cannot
 /// be written.
-void write_setup(const Scene& scene, const Mesh& mesh, const Discretisation& discretisation,
-                 const std::vector<ContactPair>& pairs, const std::filesystem::path& path);
+void write_setup(const Problem& problem, const std::filesystem::path& path);
 
 }  // namespace mortise

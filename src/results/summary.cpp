@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/printable.hpp"
+#include "problem/dirichlet_neumann.hpp"
 #include "results/checks.hpp"
 #include "results/contact_summary.hpp"
 #include "results/diagnose.hpp"
@@ -32,9 +33,9 @@ Json balance_json(const Reactions& r) {
 
 Json extremes_json(const Results& r) {
   const auto in_body = [&](const Extreme& e) -> Json {
-    return {{"value", e.value}, {"body", r.mesh.bodies[e.of]}, {"position", {e.place.x(), e.place.y()}}};
+    return {{"value", e.value}, {"body", r.problem.mesh.bodies[e.of]}, {"position", {e.place.x(), e.place.y()}}};
   };
-  const Extremes& found = r.extremes;
+  const Extremes& found = r.recovery.extremes;
   Json json{{"von_mises", in_body(found.von_mises)},
             {"principal", {{"max", in_body(found.principal_max)}, {"min", in_body(found.principal_min)}}}};
   json["von_mises"]["limit"] = !grows_without_limit(r, found.von_mises);
@@ -85,10 +86,10 @@ Json pressure_json(const Results& r) {
 Json estimate_json(const Results& r) {
   if (!r.estimate) return nullptr;
   const EnergyEstimate& e = r.estimate->energy;
-  return {
-      {"error", e.error},
-      {"largest", {{"body", r.mesh.bodies[e.body]}, {"part", e.part}, {"position", {e.position.x(), e.position.y()}}}},
-      {"pressure", pressure_json(r)}};
+  return {{"error", e.error},
+          {"largest",
+           {{"body", r.problem.mesh.bodies[e.body]}, {"part", e.part}, {"position", {e.position.x(), e.position.y()}}}},
+          {"pressure", pressure_json(r)}};
 }
 
 Json accuracy_json(const Results& r) {
@@ -136,8 +137,9 @@ void print_iteration(const Results& r, std::ostream& out) {
   const Residuals last = i.history.back().residuals;
   out << "  iteration " << i.method << ", acceleration " << to_string(i.acceleration)
       << (i.settings.empty() ? "" : ", ") << i.settings << "\n            ";
-  if (!r.dirichlet.empty()) out << "displacement taken by " << listed(r.dirichlet);
-  out << (r.dirichlet.empty() ? "" : "; ") << i.steps << " steps to residuals " << last.kinematic << " (kinematic), "
+  const std::vector<std::string> dirichlet = dirichlet_names(r.problem.mesh, r.problem.dirichlet);
+  if (!dirichlet.empty()) out << "displacement taken by " << listed(dirichlet);
+  out << (dirichlet.empty() ? "" : "; ") << i.steps << " steps to residuals " << last.kinematic << " (kinematic), "
       << last.force << " (force); " << i.convergence_rate << " a step\n";
 }
 
@@ -202,10 +204,10 @@ void print_accuracy(const Results& r, std::ostream& out) {
 }
 
 void print_extremes(const Results& r, std::ostream& out) {
-  const Extremes& found = r.extremes;
+  const Extremes& found = r.recovery.extremes;
   const Extreme& v = found.von_mises;
   out << std::setprecision(6) << "  largest   displacement " << r.solution.u.cwiseAbs().maxCoeff() << "; von Mises "
-      << v.value << " in " << r.mesh.bodies[v.of] << " " << near_point(v.place)
+      << v.value << " in " << r.problem.mesh.bodies[v.of] << " " << near_point(v.place)
       << (grows_without_limit(r, v) ? ", where it has no limit" : "") << "; principal stresses "
       << found.principal_min.value << " ... " << found.principal_max.value << "\n";
 }
@@ -230,14 +232,14 @@ Json gap_json(const ContactSpec& spec) {
 
 }  // namespace
 
-Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
+Json summary_json(const Results& r, double write_seconds) {
   Json on = Json::array(), condition = Json::array(), gap = Json::array(), contact = Json::array();
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
-    const ContactSpec& spec = r.pairs[k].spec;
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
+    const ContactSpec& spec = r.problem.pairs[k].spec;
     on.push_back(spec.multipliers_on);
     condition.push_back(to_string(spec.condition));
     gap.push_back(gap_json(spec));
-    contact.push_back(contact_json(r.pairs[k], r.contacts[k]));
+    contact.push_back(contact_json(r.problem.pairs[k], r.recovery.contacts[k]));
   }
   Json checks = Json::array();
   for (const Check& c : r.checks) {
@@ -245,24 +247,24 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
     if (!c.ok() && !c.where.empty()) checks.back()["where"] = c.where;
   }
   const Seconds& s = r.seconds;
-  return {{"title", scene.title},
-          {"scene", scene.path},
+  return {{"title", r.problem.title},
+          {"scene", r.problem.scene},
           {"version", MORTISE_VERSION},
           {"dense_kernel", dense_kernel()},
           {"status", to_string(r.status)},
-          {"model", model_json(scene, r.mesh, r.discretisation, r.reactions)},
+          {"model", model_json(r.problem, r.recovery.reactions)},
           {"method",
-           {{"integration", to_string(scene.method.integration)},
-            {"normals", to_string(scene.method.normals)},
-            {"multipliers", space_word(scene, r)},
+           {{"integration", to_string(r.problem.method.integration)},
+            {"normals", to_string(r.problem.method.normals)},
+            {"multipliers", space_word(r)},
             {"multipliers_on", on},
             {"solver", to_string(r.solution.solver)},
-            {"dirichlet", r.dirichlet},
+            {"dirichlet", dirichlet_names(r.problem.mesh, r.problem.dirichlet)},
             {"condition", condition},
             {"initial_gap", gap}}},
           {"mesh",
-           {{"nodes", r.mesh.nodes.rows()},
-            {"elements", r.mesh.cells.size()},
+           {{"nodes", r.problem.mesh.nodes.rows()},
+            {"elements", r.problem.mesh.cells.size()},
             {"dofs", free_unknowns(r)},
             {"multipliers", r.solution.lambda.size()},
             {"cached", r.mesh_cached}}},
@@ -277,7 +279,7 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
             {"write", write_seconds},
             {"total", s.total() + write_seconds}}},
           {"iterations",
-           {{"contact", r.pairs.empty() ? 0 : r.solution.steps.size()},
+           {{"contact", r.problem.pairs.empty() ? 0 : r.solution.steps.size()},
             {"contact_coarse", r.solution.coarse_steps},
             {"solver", r.solution.iteration ? r.solution.iteration->steps : 0}}},
           {"contact_steps", steps_json(r)},
@@ -285,35 +287,35 @@ Json summary_json(const Scene& scene, const Results& r, double write_seconds) {
           {"estimate", estimate_json(r)},
           {"accuracy", accuracy_json(r)},
           {"inf_sup", r.inf_sup ? Json(r.inf_sup->beta) : Json()},
-          {"energy", r.energy},
+          {"energy", r.recovery.energy},
           {"contact", contact},
-          {"balance", balance_json(r.reactions)},
+          {"balance", balance_json(r.recovery.reactions)},
           {"extremes", extremes_json(r)},
           {"checks", checks},
           {"warnings", r.warnings}};
 }
 
-std::string terminal_summary(const Scene& scene, const Results& r, const std::filesystem::path& folder) {
+std::string terminal_summary(const Results& r, const std::filesystem::path& folder) {
   std::ostringstream out;
-  out << scene.title << "\n";
+  out << printable(r.problem.title) << "\n";
   out << "  " << to_string(r.status) << "; results in " << folder.string() << "/ (result.vtu opens in ParaView)\n";
-  out << "  mesh      " << r.mesh.nodes.rows() << " nodes, " << r.mesh.cells.size() << " elements; " << free_unknowns(r)
-      << " unknowns, " << r.solution.lambda.size() << " multipliers\n";
-  out << std::setprecision(6) << model_lines(scene, r.mesh, r.discretisation, &r.reactions);
-  out << contact_lines(scene, r);
+  out << "  mesh      " << r.problem.mesh.nodes.rows() << " nodes, " << r.problem.mesh.cells.size() << " elements; "
+      << free_unknowns(r) << " unknowns, " << r.solution.lambda.size() << " multipliers\n";
+  out << std::setprecision(6) << model_lines(r.problem, &r.recovery.reactions);
+  out << contact_lines(r);
   out << std::setprecision(3);
   print_iteration(r, out);
   print_steps(r, out);
   if (const std::string words = contact_words(r); !words.empty()) out << "            " << words << "\n";
   print_extremes(r, out);
-  out << "  energy    " << r.energy << "\n";
+  out << "  energy    " << r.recovery.energy << "\n";
   if (r.estimate)
     out << std::setprecision(2) << "  estimate  stresses off by " << 100 * r.estimate->energy.error
-        << " % (energy norm), the most in " << r.mesh.bodies[r.estimate->energy.body] << " "
+        << " % (energy norm), the most in " << r.problem.mesh.bodies[r.estimate->energy.body] << " "
         << near_point(r.estimate->energy.position) << "\n"
         << std::setprecision(6);
   print_accuracy(r, out);
-  if (!r.probes.empty()) out << "  probes    " << r.probes.size() << " places in probes.csv\n";
+  if (!r.recovery.probes.empty()) out << "  probes    " << r.recovery.probes.size() << " places in probes.csv\n";
   if (r.inf_sup)
     out << "  inf-sup   " << r.inf_sup->beta << ", worst " << near_point(r.inf_sup->position) << " (limit "
         << inf_sup_limit << ")\n";

@@ -10,9 +10,9 @@ namespace mortise {
 
 /// The keys of summary.json (docs/files.md). Figures that are not finite become null. `write_seconds`: what writing the
 /// other files took.
-nlohmann::ordered_json summary_json(const Scene& scene, const Results& results, double write_seconds);
+nlohmann::ordered_json summary_json(const Results& results, double write_seconds);
 
 /// The summary of a run for the terminal: at most one screen, the verdict below the title.
-std::string terminal_summary(const Scene& scene, const Results& results, const std::filesystem::path& folder);
+std::string terminal_summary(const Results& results, const std::filesystem::path& folder);
 
 }  // namespace mortise

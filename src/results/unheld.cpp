@@ -17,7 +17,7 @@ constexpr double moves = 1e-6;  // of a motion of unit size; less is its round-o
 std::string motion_words(const Results& r, int body) {
   for (const std::vector<RigidMotion>& motion : r.unheld)
     if (std::ranges::any_of(motion, [&](const RigidMotion& part) { return part.body == body; }))
-      return describe(r.mesh, motion);
+      return describe(r.problem.mesh, motion);
   return "";
 }
 
@@ -25,7 +25,7 @@ std::string direction(const std::array<bool, 2>& unheld) {
   return unheld[0] && unheld[1] ? "along x and y" : unheld[0] ? "along x" : "along y";
 }
 
-int body_of(const Results& r, const ProbeValue& value) { return r.mesh.cells[value.place.in.cell].body; }
+int body_of(const Results& r, const ProbeValue& value) { return r.problem.mesh.cells[value.place.in.cell].body; }
 
 }  // namespace
 
@@ -40,25 +40,24 @@ std::array<bool, 2> unheld_at(const Results& r, int body, const Vec2& x) {
   return unheld;
 }
 
-std::vector<std::string> unheld_probes(const Scene& scene, const Results& r) {
+std::vector<std::string> unheld_probes(const Results& r) {
   std::vector<std::string> lines;
   std::set<int> told;
-  for (const ProbeValue& value : r.probes) {
+  for (const ProbeValue& value : r.recovery.probes) {
     const std::array<bool, 2> unheld = unheld_at(r, body_of(r, value), value.place.x);
     if (!(unheld[0] || unheld[1]) || !told.insert(value.place.probe).second) continue;
-    lines.push_back(scene.probes[value.place.probe].key + ": the displacement " + direction(unheld) + " " +
-                    near_point(value.place.x) + " is one of many and has no bar: nothing holds " +
-                    motion_words(r, body_of(r, value)));
+    lines.push_back(value.place.key + ": the displacement " + direction(unheld) + " " + near_point(value.place.x) +
+                    " is one of many and has no bar: nothing holds " + motion_words(r, body_of(r, value)));
   }
   return lines;
 }
 
 void require_held(const Results& r, const AccuracySpec& spec) {
   if (spec.of != Goal::displacement) return;
-  for (int b = 0; b < int(r.mesh.bodies.size()); ++b) {
-    if (!spec.body.empty() && r.mesh.bodies[b] != spec.body) continue;
+  for (int b = 0; b < int(r.problem.mesh.bodies.size()); ++b) {
+    if (!spec.body.empty() && r.problem.mesh.bodies[b] != spec.body) continue;
     const std::array<bool, 2> unheld = unheld_at(r, b, spec.at);
-    if (!(unheld[0] || unheld[1]) || !locate(r.mesh, b, spec.at)) continue;
+    if (!(unheld[0] || unheld[1]) || !locate(r.problem.mesh, b, spec.at)) continue;
     std::ostringstream where;
     where << "accuracy.at: (" << spec.at.x() << ", " << spec.at.y() << "): the displacement " << direction(unheld)
           << " is any, as nothing holds " << motion_words(r, b)
@@ -69,7 +68,7 @@ void require_held(const Results& r, const AccuracySpec& spec) {
 
 void leave_out_unheld(Results& r) {
   if (r.unheld.empty()) return;
-  for (ProbeValue& value : r.probes) {
+  for (ProbeValue& value : r.recovery.probes) {
     if (!value.error) continue;
     const std::array<bool, 2> unheld = unheld_at(r, body_of(r, value), value.place.x);
     for (const int c : {0, 1})

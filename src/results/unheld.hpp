@@ -10,7 +10,7 @@ namespace mortise {
 std::array<bool, 2> unheld_at(const Results& results, int body, const Vec2& x);
 
 /// One line a probe whose displacements are such.
-std::vector<std::string> unheld_probes(const Scene& scene, const Results& results);
+std::vector<std::string> unheld_probes(const Results& results);
 
 /// Throws SceneError where a displacement that an accuracy is asked of is such.
 void require_held(const Results& results, const AccuracySpec& spec);

@@ -9,7 +9,6 @@
 
 #include "base/printable.hpp"
 #include "contact/curve_resolution.hpp"
-#include "problem/scene_names.hpp"
 #include "results/checks.hpp"
 #include "results/large_displacement.hpp"
 
@@ -23,10 +22,10 @@ using Lines = std::vector<std::string>;
 void warn_of_active_set(const Results& r, Lines& lines) {
   const std::vector<int>& rows = r.solution.infeasible;
   if (rows.empty()) return;
-  const std::vector<int> nodes = row_nodes(r.pairs);
+  const std::vector<int> nodes = row_nodes(r.problem.pairs);
   std::string places;
   for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 5); ++i)
-    places += (i > 0 ? ", " : "") + near_node(r.mesh, nodes[rows[i]]);
+    places += (i > 0 ? ", " : "") + near_node(r.problem.mesh, nodes[rows[i]]);
   if (rows.size() > 5) places += " and " + std::to_string(rows.size() - 5) + " more";
   lines.push_back("the active set did not converge in " + std::to_string(r.solution.steps.size()) + " steps: contact " +
                   places + " still changes");
@@ -76,7 +75,7 @@ void warn_of_dropped(const ContactPair& pair, const Results& r, Lines& lines) {
   std::map<std::string, std::vector<Vec2>> places;
   for (const DroppedMultiplier& d : pair.coupling.dropped)
     if (!d.reason.empty() && (d.faces || !pair.spec.found))
-      places[d.reason].push_back(r.mesh.nodes.row(d.node).transpose());
+      places[d.reason].push_back(r.problem.mesh.nodes.row(d.node).transpose());
   for (const auto& [reason, at] : places)
     lines.push_back(pair.spec.key + ": " + std::to_string(at.size()) + (at.size() == 1 ? " node of '" : " nodes of '") +
                     pair.spec.multipliers_on + "' (" + range(at) + ") " + reason);
@@ -85,7 +84,7 @@ void warn_of_dropped(const ContactPair& pair, const Results& r, Lines& lines) {
 void warn_of_gap(const ContactPair& pair, const Results& r, double displacement, Lines& lines) {
   const double low = pair.coupling.gap_min, high = pair.coupling.gap_max;
   if (pair.spec.initial_gap != InitialGap::closed || std::max(-low, high) <= 0.01 * displacement) return;
-  if (!is_drawn(pair) && !open_place(r.mesh.nodes, pair.multiplier, pair.opposite, pair.points, 1e-6)) return;
+  if (!is_drawn(pair) && !open_place(r.problem.mesh.nodes, pair.multiplier, pair.opposite, pair.points, 1e-6)) return;
   std::ostringstream text;
   text << pair.spec.key << ": initial_gap = \"closed\" leaves out gaps of " << low << " ... " << high
        << ", which are not small against the displacements (up to " << displacement
@@ -96,7 +95,7 @@ void warn_of_gap(const ContactPair& pair, const Results& r, double displacement,
 // A geometry that the file draws and contact cannot use.
 void warn_of_geometry(const ContactPair& pair, const Results& r, Lines& lines) {
   for (const Curve* curve : {&pair.multiplier, &pair.opposite})
-    if (const Boundary& boundary = r.mesh.boundaries[curve->boundary]; !boundary.undrawn.empty())
+    if (const Boundary& boundary = r.problem.mesh.boundaries[curve->boundary]; !boundary.undrawn.empty())
       lines.push_back(pair.spec.key + ": the drawn curve '" + boundary.name + "' is not used, as " + boundary.undrawn +
                       ": gaps and normals are those of a smooth curve through the nodes");
 }
@@ -105,19 +104,19 @@ int degrees(double angle) { return int(std::lround(angle * 180 / std::numbers::p
 
 // Both meshes must follow the contact line: its curvature, and its kinks (docs/stability.md, geometry).
 void warn_of_shape(const ContactPair& pair, const Results& r, Lines& lines) {
-  const auto name = [&](const Curve& curve) { return "'" + r.mesh.boundaries[curve.boundary].name + "'"; };
+  const auto name = [&](const Curve& curve) { return "'" + r.problem.mesh.boundaries[curve.boundary].name + "'"; };
   for (const auto& [curve, other] :
        {std::pair{&pair.multiplier, &pair.opposite}, std::pair{&pair.opposite, &pair.multiplier}}) {
-    const Turn sharpest = sharpest_edge(r.mesh.nodes, *curve);
+    const Turn sharpest = sharpest_edge(r.problem.mesh.nodes, *curve);
     if (degrees(sharpest.angle) > 30)
       lines.push_back(pair.spec.key + ": an edge of " + name(*curve) + " " + near_point(sharpest.position) +
                       " turns by " + std::to_string(degrees(sharpest.angle)) +
                       " degrees: the mesh is coarse for the curve; expected at most 30");
     // A gap that is drawn is meant: a corner may stand on a flat side.
     if (pair.spec.initial_gap != InitialGap::closed) continue;
-    if (const auto kink = missed_kink(r.mesh.nodes, *curve, *other))
-      lines.push_back(pair.spec.key + ": " + name(*curve) + " has a kink of " + std::to_string(degrees(kink->angle)) +
-                      " degrees " + near_point(kink->position) + ", where " + name(*other) +
+    if (const auto missed = missed_kink(r.problem.mesh.nodes, *curve, *other))
+      lines.push_back(pair.spec.key + ": " + name(*curve) + " has a kink of " + std::to_string(degrees(missed->angle)) +
+                      " degrees " + near_point(missed->position) + ", where " + name(*other) +
                       " has no vertex and cuts it short; expected a vertex of both meshes there");
   }
 }
@@ -128,7 +127,7 @@ constexpr double round_off = std::numeric_limits<double>::epsilon();
 // A gap is a difference of positions: far from the origin it is round-off.
 void warn_of_far_origin(const ContactPair& pair, const Results& r, Lines& lines) {
   if (pair.spec.initial_gap == InitialGap::closed) return;
-  const double farthest = r.mesh.nodes.cwiseAbs().maxCoeff();
+  const double farthest = r.problem.mesh.nodes.cwiseAbs().maxCoeff();
   const double gap = std::max(std::abs(pair.coupling.gap_min), std::abs(pair.coupling.gap_max));
   const double size = std::max(gap, r.solution.u.cwiseAbs().maxCoeff());
   if (round_off * farthest <= 1e-8 * size) return;
@@ -150,71 +149,70 @@ std::string locking(bool linear, bool quadrilaterals) {
 }
 
 // Poisson's ratio from which elements lock in plane strain and in rings.
-void warn_of_locking(const Scene& scene, const Results& r, Lines& lines) {
-  if (scene.model.plane == Plane::stress) return;
-  const SceneNames names(r.mesh);
-  std::vector<char> has_linear(r.mesh.bodies.size(), 0), has_quadrilaterals = has_linear;
-  for (const Cell& cell : r.mesh.cells) {
+void warn_of_locking(const Problem& p, Lines& lines) {
+  if (p.entries.model.plane == Plane::stress) return;
+  std::vector<char> has_linear(p.mesh.bodies.size(), 0), has_quadrilaterals = has_linear;
+  for (const Cell& cell : p.mesh.cells) {
     if (!is_quadratic(cell.kind)) has_linear[cell.body] = 1;
     if (corner_count(cell.kind) == 4) has_quadrilaterals[cell.body] = 1;
   }
-  for (const BodySpec& body : scene.bodies) {
-    const double poisson = scene.materials.at(body.material).poisson;
-    const std::vector<int> bodies = names.bodies("bodies." + body.name, body.name);
+  for (int i = 0; i < int(p.entries.bodies.size()); ++i) {
+    const BodySpec& spec = p.entries.bodies[i];
+    const double poisson = p.entries.materials.at(spec.material).poisson;
     const auto any = [&](const std::vector<char>& has) {
-      return std::ranges::any_of(bodies, [&](int b) { return has[b] != 0; });
+      for (std::size_t b = 0; b < has.size(); ++b)
+        if (has[b] && p.entries.body_of[b] == i) return true;
+      return false;
     };
     const bool linear = any(has_linear);
     if (poisson < (linear ? 0.4 : 0.49)) continue;
     std::ostringstream text;
-    text << "body '" << body.name << "' is nearly incompressible (poisson = " << poisson
+    text << "body '" << spec.name << "' is nearly incompressible (poisson = " << poisson
          << "): " << locking(linear, any(has_quadrilaterals));
     lines.push_back(text.str());
   }
 }
 
-// Forces at points, of loads and of supports.
-void warn_of_points(const Scene& scene, const Results& r, Lines& lines) {
-  const SceneNames names(r.mesh);
-  const auto warn = [&](const BoundarySpec& spec, const std::string& name, double force) {
+// Forces at the points of an entry, of a load or of a support.
+void warn_of_points(const Problem& p, const Reactions& reactions, Lines& lines) {
+  double most = reactions.loads.size;
+  for (const Resultant& entry : reactions.entries) most = std::max(most, entry.size);
+  for (int i = 0; i < int(p.entries.boundaries.size()); ++i) {
+    const BoundaryEntry& entry = p.entries.boundaries[i];
+    std::vector<std::string> names;
+    for (const int point : entry.points) names.push_back("'" + p.mesh.points[point].name + "'");
+    if (names.empty()) continue;
+    double force = 0;
+    if (const auto* load = std::get_if<TotalForce>(&entry.spec.what)) force = load->value.norm();
+    for (const Reaction& of : reactions.curves)
+      if (of.entry == i && std::ranges::find(names, "'" + of.on + "'") != names.end()) force += of.sum.force.norm();
+    if (!(force > 1e-6 * most)) continue;
     std::ostringstream text;
-    text << spec.key << ": a force of " << force << " at the point '" << name
-         << "': stresses there have no bound, they grow as the mesh is refined, and the displacement of the point with "
+    text << entry.spec.key << ": a force of " << force << " at the point" << (names.size() > 1 ? "s " : " ")
+         << listed(names)
+         << ": stresses there have no bound, they grow as the mesh is refined, and the displacement of the point with "
             "them; what is more than a few elements away is right";
     lines.push_back(text.str());
-  };
-  double most = r.reactions.loads.size;
-  for (const Resultant& entry : r.reactions.entries) most = std::max(most, entry.size);
-  for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
-    const BoundarySpec& spec = scene.boundaries[i];
-    for (const std::string& name : spec.on) {
-      if (names.places(spec.key + ".on", name).points.empty()) continue;
-      if (spec.force) warn(spec, name, spec.force->norm());
-      double reaction = 0;
-      for (const Reaction& of : r.reactions.curves)
-        if (of.entry == int(i) && of.on == name) reaction += of.sum.force.norm();
-      if (reaction > 1e-6 * most) warn(spec, name, reaction);
-    }
   }
 }
 
 }  // namespace
 
-std::vector<std::string> warnings(const Scene& scene, const Results& r) {
+std::vector<std::string> warnings(const Results& r) {
   Lines lines;
   warn_of_active_set(r, lines);
   warn_of_iteration(r.solution, lines);
   warn_of_what_is_not_finite(r, lines);
   if (auto line = large_displacement(r)) lines.push_back(*std::move(line));
-  warn_of_locking(scene, r, lines);
-  if (!r.mesh.points.empty()) warn_of_points(scene, r, lines);
+  warn_of_locking(r.problem, lines);
+  warn_of_points(r.problem, r.recovery.reactions, lines);
   const double displacement = largest_entry(r.solution.u);
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
-    warn_of_dropped(r.pairs[k], r, lines);
-    warn_of_gap(r.pairs[k], r, displacement, lines);
-    warn_of_geometry(r.pairs[k], r, lines);
-    warn_of_shape(r.pairs[k], r, lines);
-    warn_of_far_origin(r.pairs[k], r, lines);
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
+    warn_of_dropped(r.problem.pairs[k], r, lines);
+    warn_of_gap(r.problem.pairs[k], r, displacement, lines);
+    warn_of_geometry(r.problem.pairs[k], r, lines);
+    warn_of_shape(r.problem.pairs[k], r, lines);
+    warn_of_far_origin(r.problem.pairs[k], r, lines);
   }
   return lines;
 }

@@ -6,6 +6,6 @@
 namespace mortise {
 
 /// One line each, with its place, of a run that has all but warnings.
-std::vector<std::string> warnings(const Scene& scene, const Results& results);
+std::vector<std::string> warnings(const Results& results);
 
 }  // namespace mortise

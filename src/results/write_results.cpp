@@ -16,21 +16,21 @@ namespace {
 // Bodies are written apart: a node that two bodies share is a point of each, with each body's stress.
 VtuGrid result_grid(const Results& r) {
   VtuGrid grid;
-  const Eigen::Index count = r.points.node.size();
+  const Eigen::Index count = r.problem.points.node.size();
   grid.points.resize(count, 2);
-  MatX u(count, 2), von_mises_stress(count, 1), body(r.mesh.cells.size(), 1);
+  MatX u(count, 2), von_mises_stress(count, 1), body(r.problem.mesh.cells.size(), 1);
   for (Eigen::Index p = 0; p < count; ++p) {
-    const int node = r.points.node[p];
-    grid.points.row(p) = r.mesh.nodes.row(node);
+    const int node = r.problem.points.node[p];
+    grid.points.row(p) = r.problem.mesh.nodes.row(node);
     u.row(p) = r.solution.u.segment<2>(2 * node).transpose();
-    von_mises_stress(p, 0) = von_mises(r.stress.points.row(p).transpose());
+    von_mises_stress(p, 0) = von_mises(r.recovery.stress.points.row(p).transpose());
   }
-  grid.cells = cells_on_points(r.mesh, r.points);
+  grid.cells = cells_on_points(r.problem.mesh, r.problem.points);
   for (std::size_t e = 0; e < grid.cells.size(); ++e) body(e, 0) = grid.cells[e].body;
   const std::vector<std::string> stress_names{"11", "22", "33", "12"};
   grid.point_fields = {
-      {"displacement", u, {}}, {"stress", r.stress.points, stress_names}, {"von_mises", von_mises_stress, {}}};
-  grid.cell_fields = {{"body", body, {}}, {"stress_centre", r.stress.centres, stress_names}};
+      {"displacement", u, {}}, {"stress", r.recovery.stress.points, stress_names}, {"von_mises", von_mises_stress, {}}};
+  grid.cell_fields = {{"body", body, {}}, {"stress_centre", r.recovery.stress.centres, stress_names}};
   if (r.estimate) grid.cell_fields.push_back({"error_density", r.estimate->energy.density, {}});
   return grid;
 }
@@ -40,15 +40,15 @@ VtuGrid contact_grid(const Results& r) {
   VtuGrid grid;
   std::vector<std::pair<const ContactSide*, const Curve*>> sides;
   Eigen::Index count = 0;
-  for (std::size_t k = 0; k < r.pairs.size(); ++k) {
-    sides.emplace_back(&r.contacts[k].multiplier, &r.pairs[k].multiplier);
-    sides.emplace_back(&r.contacts[k].opposite, &r.pairs[k].opposite);
-    count += r.contacts[k].multiplier.nodes.size() + r.contacts[k].opposite.nodes.size();
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
+    sides.emplace_back(&r.recovery.contacts[k].multiplier, &r.problem.pairs[k].multiplier);
+    sides.emplace_back(&r.recovery.contacts[k].opposite, &r.problem.pairs[k].opposite);
+    count += r.recovery.contacts[k].multiplier.nodes.size() + r.recovery.contacts[k].opposite.nodes.size();
   }
   grid.points.resize(count, 2);
   MatX u(count, 2), normal(count, 2), p(count, 1), p_error(count, 1), gap(count, 1), sigma_n(count, 1);
   Eigen::Index i = 0;
-  std::vector<int> point_of_node(r.mesh.nodes.rows());
+  std::vector<int> point_of_node(r.problem.mesh.nodes.rows());
   for (const auto& [side, curve] : sides) {
     for (const ContactNode& n : side->nodes) {
       point_of_node[n.node] = int(i);
@@ -74,9 +74,9 @@ VtuGrid contact_grid(const Results& r) {
 // Calls add(pair number, side) for both sides of every pair, multiplier side first.
 template <typename Add>
 void for_each_side(const Results& r, Add add) {
-  for (std::size_t k = 0; k < r.contacts.size(); ++k) {
-    add(double(k), r.contacts[k].multiplier);
-    add(double(k), r.contacts[k].opposite);
+  for (std::size_t k = 0; k < r.recovery.contacts.size(); ++k) {
+    add(double(k), r.recovery.contacts[k].multiplier);
+    add(double(k), r.recovery.contacts[k].opposite);
   }
 }
 
@@ -133,11 +133,11 @@ void write_probes_csv(const Results& r, const std::filesystem::path& path) {
   for (const char* name : {"probe", "body", "s", "x", "y", "u_x", "u_y", "sigma_11", "sigma_22", "sigma_33", "sigma_12",
                            "von_mises", "spread"})
     columns.push_back({name, {}, {}});
-  if (r.probes[0].error)
+  if (r.recovery.probes[0].error)
     for (const char* name : {"u_x_error", "u_y_error", "sigma_11_error", "sigma_22_error", "sigma_12_error"})
       columns.push_back({name, {}, {}});
-  for (const ProbeValue& v : r.probes) {
-    columns[1].words.push_back(r.mesh.bodies[r.mesh.cells[v.place.in.cell].body]);
+  for (const ProbeValue& v : r.recovery.probes) {
+    columns[1].words.push_back(r.problem.mesh.bodies[r.problem.mesh.cells[v.place.in.cell].body]);
     std::size_t c = 0;
     for (const double value : {double(v.place.probe), v.place.s, v.place.x.x(), v.place.x.y(), v.u.x(), v.u.y(),
                                v.stress(0), v.stress(1), v.stress(2), v.stress(3), v.von_mises, v.spread}) {
@@ -153,25 +153,25 @@ void write_probes_csv(const Results& r, const std::filesystem::path& path) {
 
 }  // namespace
 
-double write_results(const Scene& scene, const Results& results, const std::filesystem::path& folder) {
+double write_results(const Results& results, const std::filesystem::path& folder) {
   Stopwatch watch;
   OutputFolder output(folder);
   try {
     write_vtu(output.path("result.vtu"), result_grid(results));
-    if (!results.pairs.empty()) {
+    if (!results.problem.pairs.empty()) {
       write_vtu(output.path("contact.vtu"), contact_grid(results));
       write_contact_csv(results, output.path("contact.csv"));
       write_centres_csv(results, output.path("contact_centres.csv"));
     }
     if (const auto& iteration = results.solution.iteration)
       write_iteration_csv(*iteration, output.path("iteration.csv"));
-    if (!results.probes.empty()) write_probes_csv(results, output.path("probes.csv"));
+    if (!results.recovery.probes.empty()) write_probes_csv(results, output.path("probes.csv"));
   } catch (const InputError& error) {
     throw InputError(output.with_target(error.what()));
   }
   const double seconds = watch.lap();
   std::ofstream file(output.path("summary.json"));
-  file << summary_json(scene, results, seconds).dump(2) << "\n";
+  file << summary_json(results, seconds).dump(2) << "\n";
   file.close();
   if (!file) throw InputError(folder.string() + ": cannot write summary.json");
   output.commit();

@@ -42,7 +42,7 @@ void check_load(const Node& load, double size, const Stiffest& most) {
            locate(*most.node) + "), found " + describe(load) + "; probably a unit mismatch");
 }
 
-void read_displacement(const Node& node, const FieldUse& use, BoundarySpec& boundary) {
+BoundaryCondition read_displacement(const Node& node, const FieldUse& use) {
   expect_keys(node, {"x", "y", "normal", "direction", "value"});
   const std::string expected = "expected x, y or both; or normal; or direction and value";
   if (node.items.empty()) fail(node, "is empty; " + expected);
@@ -50,29 +50,33 @@ void read_displacement(const Node& node, const FieldUse& use, BoundarySpec& boun
   const Node *direction = find(node, "direction"), *value = find(node, "value");
   if (int(x != nullptr || y != nullptr) + int(normal != nullptr) + int(direction != nullptr || value != nullptr) > 1)
     fail(node, "names several directions; " + expected);
-  if (x != nullptr) boundary.displacement_x = field(*x, use);
-  if (y != nullptr) boundary.displacement_y = field(*y, use);
-  if (normal != nullptr) boundary.displacement_normal = field(*normal, use);
-  if (direction == nullptr && value == nullptr) return;
-  const Vec2 along = number_pair(require(node, "direction", "[dx, dy], along which 'value' is prescribed"));
-  if (!(along.stableNorm() > 0)) fail(*direction, "has no length; expected a direction, [dx, dy]");
-  boundary.direction = along.stableNormalized();
-  boundary.displacement_along = field(require(node, "value", "the displacement along 'direction'"), use);
+  if (normal != nullptr) return NormalDisplacement{field(*normal, use)};
+  if (direction != nullptr || value != nullptr) {
+    const Vec2 along = number_pair(require(node, "direction", "[dx, dy], along which 'value' is prescribed"));
+    if (!(along.stableNorm() > 0)) fail(*direction, "has no length; expected a direction, [dx, dy]");
+    return DirectedDisplacement{along.stableNormalized(),
+                                field(require(node, "value", "the displacement along 'direction'"), use)};
+  }
+  Displacement displacement;
+  if (x != nullptr) displacement.x = field(*x, use);
+  if (y != nullptr) displacement.y = field(*y, use);
+  return displacement;
 }
 
-void read_rigid(const Node& node, const Model& model, BoundarySpec& boundary) {
+RigidSpec read_rigid(const Node& node, const Model& model) {
   expect_keys(node, {"x", "y", "rotation", "force", "moment", "about"});
-  RigidSpec& rigid = boundary.rigid.emplace();
+  RigidSpec rigid;
   if (const Node* x = find(node, "x")) rigid.x = number(*x);
   if (const Node* y = find(node, "y")) rigid.y = number(*y);
   if (const Node* rotation = find(node, "rotation")) rigid.rotation = number(*rotation);
   if (const Node* force = find(node, "force")) rigid.force = number_pair(*force);
   if (const Node* moment = find(node, "moment")) rigid.moment = number(*moment);
   if (const Node* about = find(node, "about")) rigid.about = number_pair(*about);
-  if (!model.axisymmetric()) return;
+  if (!model.axisymmetric()) return rigid;
   for (const char* key : {"x", "rotation", "moment", "about"})
     if (const Node* given = find(node, key))
       fail(*given, "rings that are rigid move along the axis alone; expected y or force");
+  return rigid;
 }
 
 /// One number for both, or [kx, ky].
@@ -82,27 +86,28 @@ Vec2 read_spring(const Node& node) {
   return k;
 }
 
-void read_what(const Node& what, const Scene& scene, const Stiffest& most, BoundarySpec& boundary) {
-  if (what.name == "displacement") {
-    read_displacement(what, expression_use(scene, true), boundary);
-  } else if (what.name == "rigid") {
-    read_rigid(what, scene.model, boundary);
-  } else if (what.name == "spring") {
-    boundary.spring = read_spring(what);
-  } else if (what.name == "pressure") {
-    boundary.pressure = field(what, load_use(scene, most));
-    if (boundary.pressure->is_constant()) check_load(what, std::abs(boundary.pressure->constant()), most);
-  } else if (what.name == "traction") {
-    boundary.traction = field_pair(what, load_use(scene, most));
-    for (const Field& t : {boundary.traction->x, boundary.traction->y})
-      if (t.is_constant()) check_load(what, std::abs(t.constant()), most);
-  } else if (what.name == "force") {
-    boundary.force = number_pair(what);
-  } else if (what.kind == Node::Kind::list) {
-    boundary.foundation = field_pair(what, expression_use(scene, true));
-  } else {
-    boundary.normal_foundation = field(what, expression_use(scene, true));
-  }
+Pressure read_pressure(const Node& node, const Scene& scene, const Stiffest& most) {
+  Pressure pressure{field(node, load_use(scene, most))};
+  if (pressure.value.is_constant()) check_load(node, std::abs(pressure.value.constant()), most);
+  return pressure;
+}
+
+SurfaceTraction read_traction(const Node& node, const Scene& scene, const Stiffest& most) {
+  SurfaceTraction traction{field_pair(node, load_use(scene, most))};
+  for (const Field* t : {&traction.value.x, &traction.value.y})
+    if (t->is_constant()) check_load(node, std::abs(t->constant()), most);
+  return traction;
+}
+
+BoundaryCondition read_what(const Node& what, const Scene& scene, const Stiffest& most) {
+  if (what.name == "displacement") return read_displacement(what, expression_use(scene, true));
+  if (what.name == "rigid") return read_rigid(what, scene.model);
+  if (what.name == "spring") return PointSpring{read_spring(what)};
+  if (what.name == "pressure") return read_pressure(what, scene, most);
+  if (what.name == "traction") return read_traction(what, scene, most);
+  if (what.name == "force") return TotalForce{number_pair(what)};
+  if (what.kind == Node::Kind::list) return AxesFoundation{field_pair(what, expression_use(scene, true))};
+  return NormalFoundation{field(what, expression_use(scene, true))};
 }
 
 /// Each curve once in an entry, with at most one load and each displacement component once in all entries.
@@ -139,7 +144,7 @@ void read_boundaries(const Node& root, Scene& scene) {
     boundary.key = locate(*entry);
     const std::vector<const Node*> curves = names(require(*entry, "on", "the names of physical curves"));
     for (const Node* curve : curves) boundary.on.push_back(curve->text);
-    read_what(what, scene, most, boundary);
+    boundary.what = read_what(what, scene, most);
     check_once(*entry, what, curves, once);
     scene.boundaries.push_back(boundary);
   }

@@ -63,10 +63,10 @@ TEST(Accuracy, OfTheLargestPressureAndTheHalfWidthOfHertz) {
   for (const char* asked : {"5%", "1%", "0.2%"}) {
     const auto peak = solve_to_accuracy(scene_to_accuracy("hertz", asked, {{"accuracy.of", "peak"}}));
     ASSERT_TRUE(peak && peak->accuracy->reached()) << asked;
-    EXPECT_LE(std::abs(peak->contacts[0].p_max / 581.290e6 - 1), peak->accuracy->asked) << asked;
+    EXPECT_LE(std::abs(peak->recovery.contacts[0].p_max / 581.290e6 - 1), peak->accuracy->asked) << asked;
     const auto width = solve_to_accuracy(scene_to_accuracy("hertz", asked, {{"accuracy.of", "half_width"}}));
     ASSERT_TRUE(width && width->accuracy->reached()) << asked;
-    EXPECT_LE(std::abs(width->contacts[0].length_in_contact / 0.0100757 - 1), width->accuracy->asked) << asked;
+    EXPECT_LE(std::abs(width->recovery.contacts[0].length_in_contact / 0.0100757 - 1), width->accuracy->asked) << asked;
     EXPECT_LE(free_unknowns(*width), 15000) << asked;
   }
 }
@@ -98,8 +98,9 @@ TEST(Accuracy, OfTheForceThatOnlyTheStiffnessGives) {
     const auto r = solve_to_accuracy(read_scene(MORTISE_SOURCE_DIR "/verification/accuracy/arm.toml",
                                                 {{"accuracy.value", asked}, {"accuracy.of", "force"}}));
     EXPECT_TRUE(r->accuracy->reached());
-    EXPECT_LE((r->estimate->goal->value - r->contacts[0].force).norm(), 1e-9 * r->contacts[0].force.norm());
-    return r->contacts[0].force.norm();
+    EXPECT_LE((r->estimate->goal->value - r->recovery.contacts[0].force).norm(),
+              1e-9 * r->recovery.contacts[0].force.norm());
+    return r->recovery.contacts[0].force.norm();
   };
   const double reference = force("0.005%");
   EXPECT_LE(std::abs(force("2%") / reference - 1), 2e-2);
@@ -197,8 +198,8 @@ TEST(Accuracy, OfRingsIsTheConstantPressure) {
   const auto r = solve_to_accuracy(scene_to_accuracy("rings", "0.1%"));
   ASSERT_TRUE(r && r->accuracy->reached());
   double mean = 0;
-  for (const ContactNode& n : r->contacts[0].multiplier.nodes)
-    mean += n.p / double(r->contacts[0].multiplier.nodes.size());
+  for (const ContactNode& n : r->recovery.contacts[0].multiplier.nodes)
+    mean += n.p / double(r->recovery.contacts[0].multiplier.nodes.size());
   const Got g = got(*r, [&](const Vec2&) { return mean; });
   EXPECT_EQ(g.inside, 1);
   EXPECT_LE(g.error, 1e-3);
@@ -311,12 +312,14 @@ TEST(Accuracy, LeavesTheMeshThatItFoundToOthers) {
   const TemporaryFolder folder;
   for (const char* most : {"1000000", "2500"}) {  // as it is, and held to a number of unknowns
     const auto found = solve_to_accuracy(scene_to_accuracy("punch", "1%", {{"accuracy.unknowns_max", most}}));
-    write_msh(found->mesh, folder.path("punch.msh"));
+    write_msh(found->problem.mesh, folder.path("punch.msh"));
     const Results again =
         solve_scene(read_scene(MORTISE_SOURCE_DIR "/geo/punch.toml",
                                {{"mesh.file", "\"" + folder.path("punch.msh") + "\""}, {"mesh.parameters", "{}"}}));
-    ASSERT_EQ(again.mesh.cells.size(), found->mesh.cells.size()) << most;
-    EXPECT_NEAR(again.contacts[0].p_max, found->contacts[0].p_max, 1e-9 * found->contacts[0].p_max) << most;
+    ASSERT_EQ(again.problem.mesh.cells.size(), found->problem.mesh.cells.size()) << most;
+    EXPECT_NEAR(again.recovery.contacts[0].p_max, found->recovery.contacts[0].p_max,
+                1e-9 * found->recovery.contacts[0].p_max)
+        << most;
   }
 }
 

@@ -92,7 +92,7 @@ grid = { count = [3, 3], step = [1, 1] }
 std::map<std::tuple<std::string, double, double>, double> pressures(const Results& r) {
   std::map<std::tuple<std::string, double, double>, double> found;
   const auto rounded = [](double x) { return std::round(x * 1e6) / 1e6; };
-  for (const ContactResults& contact : r.contacts)
+  for (const ContactResults& contact : r.recovery.contacts)
     for (const ContactSide* side : {&contact.multiplier, &contact.opposite})
       for (const ContactNode& node : side->nodes)
         found[{side->curve, rounded(node.position.x()), rounded(node.position.y())}] = node.p;
@@ -127,9 +127,9 @@ class CopiedWall : public testing::Test {
 TEST_F(CopiedWall, IsTheDrawnOne) {
   const Results copied = solve_scene(copied_), drawn = solve_scene(drawn_);
   EXPECT_EQ(copied.status, Status::solved);
-  EXPECT_EQ(copied.pairs.size(), 12u);
-  EXPECT_EQ(copied.mesh.nodes.rows(), drawn.mesh.nodes.rows());
-  EXPECT_NEAR(copied.energy, drawn.energy, 1e-10 * drawn.energy);
+  EXPECT_EQ(copied.problem.pairs.size(), 12u);
+  EXPECT_EQ(copied.problem.mesh.nodes.rows(), drawn.problem.mesh.nodes.rows());
+  EXPECT_NEAR(copied.recovery.energy, drawn.recovery.energy, 1e-10 * drawn.recovery.energy);
   expect_same_pressures(copied, drawn, 1e-9);
 }
 
@@ -182,10 +182,10 @@ TEST_F(CopiedWall, TakesBodyForcesAndStrainsByPatterns) {
   for (const std::string all : {"*", "b_*", "b_*_*"}) {
     const Results patterns = solved("[{body='b_1_1', force=[0, -9e5]}, {body='" + all + "', force=[0, '-2e5*(1+x)']}]",
                                     "[{body='" + all + "', strain={xx=1e-6}}, {body='b_1_1', strain={xx=3e-6}}]");
-    EXPECT_NEAR(patterns.energy, each.energy, 1e-10 * each.energy) << all;
+    EXPECT_NEAR(patterns.recovery.energy, each.recovery.energy, 1e-10 * each.recovery.energy) << all;
     expect_same_pressures(patterns, each, 1e-9);
   }
-  EXPECT_GT(std::abs(each.energy - solve_scene(drawn_).energy), 0.01 * each.energy);
+  EXPECT_GT(std::abs(each.recovery.energy - solve_scene(drawn_).recovery.energy), 0.01 * each.recovery.energy);
 }
 
 TEST_F(CopiedWall, RefusesABodyThatTwoPatternsLoad) {
@@ -244,15 +244,15 @@ between = ["lower_north", "upper_south"]
   };
   const Results upright = solved(0);
   ASSERT_EQ(upright.status, Status::solved);
-  EXPECT_LT(upright.contacts[0].length_in_contact, 0.75);
+  EXPECT_LT(upright.recovery.contacts[0].length_in_contact, 0.75);
   for (const double degrees : {30.0, 90.0, -163.5}) {
     const Results turned = solved(degrees);
     ASSERT_EQ(turned.status, Status::solved) << degrees;
-    VecX p = upright.contacts[0].pressure, q = turned.contacts[0].pressure;
+    VecX p = upright.recovery.contacts[0].pressure, q = turned.recovery.contacts[0].pressure;
     ASSERT_EQ(p.size(), q.size());
     if ((p - q).norm() > (p - q.reverse()).norm()) q = q.reverse().eval();  // s may run the other way
     EXPECT_LE((p - q).cwiseAbs().maxCoeff(), 1e-9 * p.maxCoeff()) << degrees;
-    EXPECT_NEAR(turned.energy, upright.energy, 1e-9 * upright.energy);
+    EXPECT_NEAR(turned.recovery.energy, upright.recovery.energy, 1e-9 * upright.recovery.energy);
   }
 }
 

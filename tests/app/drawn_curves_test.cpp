@@ -114,7 +114,7 @@ TEST(DrawnLines, OneLineHasNoGapWhateverTheMeshes) {
     const TemporaryFolder folder;
     const Drawing d = random_drawing(random);
     folder.write("a.geo", geo_of(d));
-    const CheckedScene checked = check_scene(scene_on(folder, folder.path("a.geo")));
+    const Problem checked = check_scene(scene_on(folder, folder.path("a.geo")));
     const std::string name = d.kind + " of " + std::to_string(d.heights.size()) + ", " + std::to_string(d.lower) + ":" +
                              std::to_string(d.upper) + (d.reversed ? " reversed" : "");
     for (const Boundary& boundary : checked.mesh.boundaries) EXPECT_EQ(boundary.undrawn, "") << name;
@@ -136,7 +136,7 @@ TEST(DrawnLines, PartsThatAreOneLineAreClosedAndOthersKeepTheirGap) {
     d.other = d.heights;
     d.other[10] += 0.003;
     folder.write("a.geo", geo_of(d));
-    const CheckedScene checked = check_scene(scene_on(folder, folder.path("a.geo")));
+    const Problem checked = check_scene(scene_on(folder, folder.path("a.geo")));
     double largest = 0;
     for (const ContactPoint& p : checked.pairs[0].points) {
       const Edge& edge = checked.pairs[0].multiplier.edges[p.edge];
@@ -151,10 +151,10 @@ TEST(DrawnLines, PartsThatAreOneLineAreClosedAndOthersKeepTheirGap) {
 
 // The part of the nodes of the multiplier side whose bars hold what p differs by from another answer on the same mesh.
 double held_part(const Results& answer, const Results& truth) {
-  const std::vector<ContactNode>& nodes = answer.contacts[0].multiplier.nodes;
+  const std::vector<ContactNode>& nodes = answer.recovery.contacts[0].multiplier.nodes;
   std::size_t held = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    held += !(std::abs(nodes[k].p - truth.contacts[0].multiplier.nodes[k].p) > nodes[k].p_error);
+    held += !(std::abs(nodes[k].p - truth.recovery.contacts[0].multiplier.nodes[k].p) > nodes[k].p_error);
   return double(held) / double(nodes.size());
 }
 
@@ -180,15 +180,18 @@ TEST(DrawnLines, AGapThatTheNodesCannotTellIsInTheBar) {
     Scene scene = read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/pin_in_hole.toml",
                              {{"mesh.parameters.n", n}, {"mesh.parameters.order", "1"}});
     const Results drawn = solve_scene(scene);
-    write_msh(drawn.mesh, folder.path("a.msh"));
+    write_msh(drawn.problem.mesh, folder.path("a.msh"));
     scene.mesh_file = folder.path("a.msh");
     scene.mesh_parameters.clear();
     Results rebuilt = solve_scene(scene);
     estimate(rebuilt);
     EXPECT_GE(held_part(rebuilt, drawn), 0.95) << n;
-    const bool known = std::ranges::none_of(rebuilt.pairs[0].geometry.one_line, [](char one) { return one != 0; });
+    const bool known =
+        std::ranges::none_of(rebuilt.problem.pairs[0].geometry.one_line, [](char one) { return one != 0; });
     EXPECT_EQ(known, n[0] == '6');
-    if (known) EXPECT_NEAR(rebuilt.contacts[0].p_max, drawn.contacts[0].p_max, 2e-3 * drawn.contacts[0].p_max);
+    if (known)
+      EXPECT_NEAR(rebuilt.recovery.contacts[0].p_max, drawn.recovery.contacts[0].p_max,
+                  2e-3 * drawn.recovery.contacts[0].p_max);
   }
 }
 

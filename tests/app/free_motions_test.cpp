@@ -32,7 +32,7 @@ TEST(FreeMotions, APlateThatMaySlideIsHeldByEveryMethodAndThePressureIsExact) {
     const Results r = solve_scene(scene, mesh_of({}));
     EXPECT_EQ(r.status, Status::solved);
     EXPECT_EQ(held_notes(r), 1);
-    const VecX& p = r.contacts[0].pressure;
+    const VecX& p = r.recovery.contacts[0].pressure;
     EXPECT_LE(largest_entry(p - VecX::Constant(p.size(), 10e6)), 1e-7 * 10e6);
   }
 }
@@ -56,7 +56,8 @@ TEST(FreeMotions, ASaddleOnARoundTopMayTurnWhateverItsChordsSay) {
       EXPECT_NE(r.status, Status::not_converged);
       EXPECT_EQ(held_notes(r), 1);
       EXPECT_LE(largest_entry(r.solution.u), 2 * reference);
-      EXPECT_NEAR(std::abs(r.contacts[0].force.y()), 10e6 * 0.8, 1e-6 * 10e6);  // balances the load, on whichever side
+      EXPECT_NEAR(std::abs(r.recovery.contacts[0].force.y()), 10e6 * 0.8,
+                  1e-6 * 10e6);  // balances the load, on whichever side
     }
   }
 }
@@ -67,7 +68,7 @@ TEST(FreeMotions, AMotionThatTheLoadDrivesIsAnError) {
     BoundarySpec across;
     across.key = "boundary";
     across.on = {"upper_left"};
-    across.traction = Vec2(1e5, 0);
+    across.what = SurfaceTraction{Vec2(1e5, 0)};
     scene.boundaries.push_back(across);
     const TwoPlates plates = round ? saddle(12, CellKind::quad4) : TwoPlates{};
     expect_contains(message_of([&] { solve_scene(scene, mesh_of(plates)); }), "nothing holds body 'upper'");

@@ -67,7 +67,7 @@ void expect_theory(const Results& r, double pressure, int n_upper, int n_lower) 
   const double h = half_width / std::min(n_upper, n_lower), reach = exact.a - 4 * h;
   EXPECT_EQ(r.status, Status::solved);
   EXPECT_LE(r.solution.steps.size(), 12u);
-  const ContactResults& contact = r.contacts[0];
+  const ContactResults& contact = r.recovery.contacts[0];
   EXPECT_NEAR(std::abs(contact.force.y()), pressure, 1e-6 * pressure);
   EXPECT_NEAR(contact.length_in_contact, exact.a, 1.5 * h);
   for (const ContactSide* side : {&contact.multiplier, &contact.opposite}) {
@@ -130,10 +130,10 @@ TEST(CylinderOnABlock, NafemsIsWithinOnePercentOfHertz) {
       SCOPED_TRACE(std::string(side_name(on_block)) + " 20:" + std::to_string(n_lower));
       const Results r = solved_hertz("hertz_nafems", mesh(2, 0, 20, n_lower, on_block));
       EXPECT_EQ(r.status, Status::solved);
-      const Hertz found = fit(r.contacts[0].multiplier, 0.8 * exact.a);
+      const Hertz found = fit(r.recovery.contacts[0].multiplier, 0.8 * exact.a);
       EXPECT_NEAR(found.p0, exact.p0, 0.01 * exact.p0);
       EXPECT_NEAR(found.a, exact.a, 0.01 * exact.a);
-      EXPECT_LE(worst_within(r.contacts[0].multiplier, exact, 0.8 * exact.a), 0.01);
+      EXPECT_LE(worst_within(r.recovery.contacts[0].multiplier, exact, 0.8 * exact.a), 0.01);
     }
 }
 
@@ -148,7 +148,8 @@ TEST(CylinderOnABlock, NafemsInMetresAgreesWithMillimetres) {
                                                   {"boundary.2.pressure", "350e6"}});
   // The limit is that of two runs of gmsh, which places the nodes along a curve by numerical integration.
   EXPECT_EQ(m.solution.active, mm.solution.active);
-  EXPECT_LE((m.contacts[0].pressure - 1e6 * mm.contacts[0].pressure).cwiseAbs().maxCoeff(), 1e-8 * m.contacts[0].p_max);
+  EXPECT_LE((m.recovery.contacts[0].pressure - 1e6 * mm.recovery.contacts[0].pressure).cwiseAbs().maxCoeff(),
+            1e-8 * m.recovery.contacts[0].p_max);
 }
 
 }  // namespace

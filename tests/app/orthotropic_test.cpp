@@ -27,8 +27,8 @@ TEST(Orthotropic, BlocksUnderPressureShortenByTheirCompliance) {
     scene.materials = {{"along", of_wood(0.5)}, {"across", of_wood(2)}};
     scene.bodies = {{"lower", "along"}, {"upper", "across"}};
     BoundarySpec table{.key = "boundary.0", .on = {"lower_south"}}, load{.key = "boundary.1", .on = {"upper_north"}};
-    table.displacement_y = 0;
-    load.pressure = 10e6;
+    table.what = Displacement{{}, 0};
+    load.what = Pressure{10e6};
     scene.boundaries = {table, load};
     scene.contacts = {{.key = "contact.0", .between = {"lower_north", "upper_south"}}};
     const Mesh mesh =
@@ -36,10 +36,10 @@ TEST(Orthotropic, BlocksUnderPressureShortenByTheirCompliance) {
                 CellKind::quad8);
     const Results r = solve_scene(scene, mesh);
     EXPECT_EQ(r.status, Status::solved);
-    const VecX& p = r.contacts[0].pressure;
+    const VecX& p = r.recovery.contacts[0].pressure;
     EXPECT_LE(largest_entry(p - VecX::Constant(p.size(), 10e6)), 1e-8 * 10e6);
     const auto in_plane = [&](int body) {
-      return Eigen::Matrix3d(r.discretisation.laws[body].stiffness({0, 1, 3}, {0, 1, 3})).inverse()(1, 1);
+      return Eigen::Matrix3d(r.problem.discretisation.laws[body].stiffness({0, 1, 3}, {0, 1, 3})).inverse()(1, 1);
     };
     const double shortened = 10e6 * (1.0 * in_plane(0) + 0.5 * in_plane(1));
     for (const Edge& edge : mesh.boundaries[boundary_index(mesh, "upper_north")].edges)
@@ -55,10 +55,11 @@ TEST(Thickness, ScalesForcesAlone) {
   };
   const Results thick = solved("2"), thin = solved("1");
   EXPECT_EQ(thick.status, Status::solved);
-  const VecX &p = thick.contacts[0].pressure, &q = thin.contacts[0].pressure;
+  const VecX &p = thick.recovery.contacts[0].pressure, &q = thin.recovery.contacts[0].pressure;
   EXPECT_LE(largest_entry(p - q), 1e-9 * largest_entry(q));
-  EXPECT_LE((thick.contacts[0].force - 2 * thin.contacts[0].force).norm(), 1e-9 * thick.contacts[0].force.norm());
-  EXPECT_NEAR(thick.energy, 2 * thin.energy, 1e-9 * thick.energy);
+  EXPECT_LE((thick.recovery.contacts[0].force - 2 * thin.recovery.contacts[0].force).norm(),
+            1e-9 * thick.recovery.contacts[0].force.norm());
+  EXPECT_NEAR(thick.recovery.energy, 2 * thin.recovery.energy, 1e-9 * thick.recovery.energy);
 }
 
 }  // namespace

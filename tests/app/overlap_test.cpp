@@ -28,8 +28,7 @@ void hold(Scene& s, std::vector<std::string> on, std::optional<double> x, std::o
   BoundarySpec b;
   b.key = "boundary";
   b.on = std::move(on);
-  b.displacement_x = x;
-  b.displacement_y = y;
+  b.what = Displacement{x, y};
   s.boundaries.push_back(b);
 }
 
@@ -59,8 +58,8 @@ double taper_force(int n, double deep, CellKind kind, const std::string& side) {
   hold(s, {"lower_south", "upper_north"}, {}, 0);
   hold(s, {"lower_west", "lower_east", "upper_west", "upper_east"}, 0, {});
   const Results r = solved_on(s, mesh);
-  EXPECT_NEAR(r.contacts[0].length_in_contact, 1, 0.1) << n;
-  return std::abs(r.contacts[0].force.y());
+  EXPECT_NEAR(r.recovery.contacts[0].length_in_contact, 1, 0.1) << n;
+  return std::abs(r.recovery.contacts[0].force.y());
 }
 
 // The problem is linear in the overlap but for the change of the shape, which is 4 % of the height at most.
@@ -89,7 +88,7 @@ TEST_P(Overlap, OfAPressFitTakesLamesForceOnEveryMesh) {
     Scene s = pressed_scene("inner_north", "outer_south", side("inner_north", "outer_south"));
     hold(s, {"inner_east", "outer_east"}, {}, 0);
     hold(s, {"inner_west", "outer_west"}, 0, {});
-    const Vec2 force = solved_on(s, mesh).contacts[0].force;
+    const Vec2 force = solved_on(s, mesh).recovery.contacts[0].force;
     for (const int c : {0, 1}) EXPECT_NEAR(std::abs(force(c)), exact, 0.01 * exact) << n;
   }
 }
@@ -104,7 +103,7 @@ TEST_P(Overlap, OfTwoCylindersTakesTheSameForceOnEveryMesh) {
         kind());
     Scene s = pressed_scene("lower_north", "upper_north", side("lower_north", "upper_north"));
     hold(s, {"lower_south", "upper_south"}, 0, 0);
-    forces.push_back(std::abs(solved_on(s, mesh).contacts[0].force.y()));
+    forces.push_back(std::abs(solved_on(s, mesh).recovery.contacts[0].force.y()));
   }
   EXPECT_NEAR(forces[0], forces[2], 0.03 * forces[2]);
   EXPECT_NEAR(forces[1], forces[2], 0.02 * forces[2]);
@@ -120,7 +119,7 @@ struct Facing {
 Facing facing(const Mesh& mesh, const std::string& first, const std::string& second, const std::string& on) {
   Scene s = pressed_scene(first, second, on);
   for (const std::string& body : mesh.bodies) s.bodies.push_back({body, "steel"});
-  return {mesh, couple_pairs(s.method, mesh, discretise(s, mesh), contact_curves(s, mesh))};
+  return {mesh, couple_pairs(s.method, mesh, discretise(resolve(s, mesh), mesh), contact_curves(s, mesh))};
 }
 
 // Their whole outlines are the contact curves, and their edges are longer than both together are thick.
@@ -169,11 +168,11 @@ Results in_v_block(const std::string& side) {
 
 TEST(Default, TheCoveredSideCarriesTheMultipliers) {
   const Results r = in_v_block(""), finer = in_v_block("vee_north");
-  EXPECT_EQ(r.pairs[0].spec.multipliers_on, "cylinder_north");
-  EXPECT_TRUE(r.pairs[0].coupling.dropped.empty());
-  EXPECT_FALSE(finer.pairs[0].coupling.dropped.empty());
-  const double force = std::abs(finer.contacts[0].force.y());
-  EXPECT_NEAR(std::abs(r.contacts[0].force.y()), force, 0.02 * force);  // normals of one side or the other
+  EXPECT_EQ(r.problem.pairs[0].spec.multipliers_on, "cylinder_north");
+  EXPECT_TRUE(r.problem.pairs[0].coupling.dropped.empty());
+  EXPECT_FALSE(finer.problem.pairs[0].coupling.dropped.empty());
+  const double force = std::abs(finer.recovery.contacts[0].force.y());
+  EXPECT_NEAR(std::abs(r.recovery.contacts[0].force.y()), force, 0.02 * force);  // normals of one side or the other
 }
 
 // A punch on a block whose edges are shorter: those at the punch's corners would face it with a part of their length.
@@ -191,9 +190,9 @@ Results under_a_punch(const std::string& side) {
 
 TEST(Default, APunchCarriesTheMultipliers) {
   const Results r = under_a_punch(""), finer = under_a_punch("block_north");
-  EXPECT_EQ(r.pairs[0].spec.multipliers_on, "punch_south");
-  EXPECT_TRUE(r.pairs[0].coupling.dropped.empty());
-  EXPECT_FALSE(finer.pairs[0].coupling.dropped.empty());
+  EXPECT_EQ(r.problem.pairs[0].spec.multipliers_on, "punch_south");
+  EXPECT_TRUE(r.problem.pairs[0].coupling.dropped.empty());
+  EXPECT_FALSE(finer.problem.pairs[0].coupling.dropped.empty());
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ void expect_few_words(const Results& r, bool coarse = false) {
   EXPECT_EQ(r.status, coarse ? Status::check_failed : Status::solved);
   for (const Check& check : r.checks)
     EXPECT_EQ(check.ok(), !(coarse && check.name == "estimated error of p")) << check.name << ": " << check.value;
-  EXPECT_LE(r.warnings.size(), r.pairs.size());
+  EXPECT_LE(r.warnings.size(), r.problem.pairs.size());
   for (const std::string& note : r.warnings)
     EXPECT_TRUE(note.find("near (") != std::string::npos || note.find("(x = ") != std::string::npos ||
                 note.find("body '") != std::string::npos)
@@ -36,7 +36,7 @@ void expect_force(const Vec2& force, const Vec2& exact) {
 }
 
 Vec2 force_on(const Results& r, std::size_t pair, const std::string& curve) {
-  const ContactResults& c = r.contacts[pair];
+  const ContactResults& c = r.recovery.contacts[pair];
   return c.multiplier.curve == curve ? c.force : Vec2(-c.force);
 }
 
@@ -62,7 +62,7 @@ TEST(Parts, ADovetail) {
 TEST(Parts, AShaftInAVBlock) {
   const Results r = solved_part("v_block");
   expect_few_words(r, true);
-  const Vec2 weight = r.discretisation.body_sums[0].force;
+  const Vec2 weight = r.problem.discretisation.body_sums[0].force;
   EXPECT_NEAR(weight.y(), -2e8 * std::numbers::pi / 2 * 0.02 * 0.02, 1);
   expect_force(force_on(r, 0, "shaft_foot"), {weight.y(), -weight.y()});
 }
@@ -77,7 +77,7 @@ TEST(Parts, TwoStackedBlocksUnderTheirWeight) {
   const Results r = solved_part("stacked_blocks");
   expect_few_words(r);
   expect_force(force_on(r, 0, "upper_foot"), {0, 25e3});
-  for (const ContactNode& n : r.contacts[0].multiplier.nodes) EXPECT_NEAR(n.p, 25e3, 1e-6 * 25e3);
+  for (const ContactNode& n : r.recovery.contacts[0].multiplier.nodes) EXPECT_NEAR(n.p, 25e3, 1e-6 * 25e3);
 }
 
 TEST(Parts, TwoBondedMaterialsAreOneBodyForTheBalance) {
@@ -126,16 +126,16 @@ Results pin(int n, int order, int straight, const std::vector<Override>& more = 
 
 TEST(PinInAHole, ItsPressureIsRightOnStraightSides) {
   const Results curved = pin(60, 2, 0);
-  const double peak = curved.contacts[0].p_max;
+  const double peak = curved.recovery.contacts[0].p_max;
   for (const int n : {30, 60}) {
-    EXPECT_NEAR(pin(n, 2, 1).contacts[0].p_max, peak, 0.01 * peak) << n;  // 6-node triangles
-    EXPECT_NEAR(pin(n, 1, 0).contacts[0].p_max, peak, 0.03 * peak) << n;  // 3-node triangles
+    EXPECT_NEAR(pin(n, 2, 1).recovery.contacts[0].p_max, peak, 0.01 * peak) << n;  // 6-node triangles
+    EXPECT_NEAR(pin(n, 1, 0).recovery.contacts[0].p_max, peak, 0.03 * peak) << n;  // 3-node triangles
   }
   const Override meshes_gap{"contact.0.initial_gap", "measured"};
-  EXPECT_GT(pin(30, 1, 0, {meshes_gap}).contacts[0].p_max, 1.5 * peak);
+  EXPECT_GT(pin(30, 1, 0, {meshes_gap}).recovery.contacts[0].p_max, 1.5 * peak);
 
-  const std::vector<ContactCentre> means = pin(60, 1, 0).contacts[0].multiplier.centres,
-                                   expected = curved.contacts[0].multiplier.centres;
+  const std::vector<ContactCentre> means = pin(60, 1, 0).recovery.contacts[0].multiplier.centres,
+                                   expected = curved.recovery.contacts[0].multiplier.centres;
   ASSERT_EQ(means.size(), expected.size());
   for (std::size_t e = 0; e < means.size(); ++e) {
     ASSERT_LE((means[e].position - expected[e].position).norm(), 1e-3);

@@ -11,9 +11,9 @@ namespace {
 double patch_error(const Results& r, const Vec4& stress) {
   const double size = stress.cwiseAbs().maxCoeff();
   double worst = 0;
-  for (const auto* field : {&r.stress.points, &r.stress.centres})
+  for (const auto* field : {&r.recovery.stress.points, &r.recovery.stress.centres})
     worst = std::max(worst, (field->rowwise() - stress.transpose()).cwiseAbs().maxCoeff() / size);
-  for (const ContactResults& c : r.contacts)
+  for (const ContactResults& c : r.recovery.contacts)
     for (const ContactSide* side : {&c.multiplier, &c.opposite})
       for (const ContactNode& n : side->nodes) {
         const Vec4& s = stress;
@@ -74,20 +74,21 @@ TEST(Units, MetresAndPascalsAgreeWithMillimetresAndMegapascals) {
   millimetres.nodes *= 1000;
   Scene pascals = clamped_scene(), megapascals = pascals;
   megapascals.materials["steel"].young *= 1e-6;
-  megapascals.boundaries.back().pressure = 10;
+  megapascals.boundaries.back().what = Pressure{10};
   const Results a = solve_scene(pascals, metres), b = solve_scene(megapascals, millimetres);
   EXPECT_LE((a.solution.u - b.solution.u / 1000).cwiseAbs().maxCoeff(), 1e-9 * a.solution.u.cwiseAbs().maxCoeff());
-  EXPECT_LE((a.stress.points - 1e6 * b.stress.points).cwiseAbs().maxCoeff(),
-            1e-9 * a.stress.points.cwiseAbs().maxCoeff());
-  EXPECT_LE((a.contacts[0].pressure - 1e6 * b.contacts[0].pressure).cwiseAbs().maxCoeff(), 1e-9 * a.contacts[0].p_max);
-  EXPECT_NEAR(a.energy, b.energy, 1e-9 * a.energy);  // Pa m^2 = MPa mm^2
+  EXPECT_LE((a.recovery.stress.points - 1e6 * b.recovery.stress.points).cwiseAbs().maxCoeff(),
+            1e-9 * a.recovery.stress.points.cwiseAbs().maxCoeff());
+  EXPECT_LE((a.recovery.contacts[0].pressure - 1e6 * b.recovery.contacts[0].pressure).cwiseAbs().maxCoeff(),
+            1e-9 * a.recovery.contacts[0].p_max);
+  EXPECT_NEAR(a.recovery.energy, b.recovery.energy, 1e-9 * a.recovery.energy);  // Pa m^2 = MPa mm^2
 }
 
 TEST(Energy, EqualsHalfTheWorkOfTheLoadOnASupportedBody) {
   const Results r = solve_scene(uniaxial_scene(), mesh_of({}));
-  EXPECT_NEAR(r.energy, 0.5 * r.solution.u.dot(r.discretisation.system.f), 1e-10 * r.energy);
+  EXPECT_NEAR(r.recovery.energy, 0.5 * r.solution.u.dot(r.problem.discretisation.system.f), 1e-10 * r.recovery.energy);
   // Uniaxial plane strain: sigma^2 (1 - nu^2) / (2 E) times the area.
-  EXPECT_NEAR(r.energy, 1e14 * 0.91 / (2 * 210e9) * 0.48, 1e-8 * r.energy);
+  EXPECT_NEAR(r.recovery.energy, 1e14 * 0.91 / (2 * 210e9) * 0.48, 1e-8 * r.recovery.energy);
 }
 
 }  // namespace

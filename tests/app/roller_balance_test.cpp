@@ -69,8 +69,9 @@ TEST(RollerBalance, DiscsInARowPassOnTheWholeForceWhicheverSideHasTheMultipliers
       SCOPED_TRACE(std::to_string(count) + (first_side ? " discs, first sides" : " discs, second sides"));
       const Results r = solved(count, first_side);
       ASSERT_EQ(r.solution.status, SolveStatus::converged);
-      ASSERT_EQ(int(r.contacts.size()), count + 1);
-      for (const ContactResults& contact : r.contacts) EXPECT_NEAR(std::abs(contact.force.x()), 3e-6, 3e-6 * 1e-7);
+      ASSERT_EQ(int(r.recovery.contacts.size()), count + 1);
+      for (const ContactResults& contact : r.recovery.contacts)
+        EXPECT_NEAR(std::abs(contact.force.x()), 3e-6, 3e-6 * 1e-7);
     }
 }
 

@@ -22,7 +22,7 @@ TEST_P(Scenes, EveryCheckHoldsOnBothMultiplierSides) {
     const Results r = solve_scene(s);
     EXPECT_EQ(r.status, Status::solved);
     for (const Check& c : r.checks) EXPECT_TRUE(c.ok()) << c.name << ": " << c.value << " above " << c.limit;
-    EXPECT_EQ(r.contacts.size(), scene.contacts.size());
+    EXPECT_EQ(r.recovery.contacts.size(), scene.contacts.size());
   }
 }
 
@@ -51,7 +51,7 @@ double lame_pressure(const Ring& inner, const Ring& outer, double inside, double
 
 // L2 error of p over the arc, relative to the exact constant: Simpson's rule on each quadratic edge.
 double pressure_error(const Results& r, double exact) {
-  const auto& nodes = r.contacts[0].multiplier.nodes;
+  const auto& nodes = r.recovery.contacts[0].multiplier.nodes;
   double sum = 0, length = 0;
   for (std::size_t i = 0; i + 2 < nodes.size(); i += 2) {
     const double width = nodes[i + 2].s - nodes[i].s;
@@ -116,12 +116,12 @@ TEST(Lame, DisplacementsOfTheShrinkFit) {
   const Results r = solved_scene("shrink_fit", {{"mesh.parameters.n_inner", "24"}, {"mesh.parameters.n_outer", "32"}});
   double worst = 0, largest = 0;
   for (std::size_t b = 0; b < 2; ++b)
-    for (int i = r.points.first[b]; i < r.points.first[b + 1]; ++i) {
-      const int node = r.points.node[i];
-      const Vec2 x = r.mesh.nodes.row(node).transpose();
+    for (int i = r.problem.points.first[b]; i < r.problem.points.first[b + 1]; ++i) {
+      const int node = r.problem.points.node[i];
+      const Vec2 x = r.problem.mesh.nodes.row(node).transpose();
       const double radius = x.norm();
       const double exact =
-          r.mesh.bodies[b] == "inner" ? inner.displacement(radius, 0, p) : outer.displacement(radius, p, 0);
+          r.problem.mesh.bodies[b] == "inner" ? inner.displacement(radius, 0, p) : outer.displacement(radius, p, 0);
       worst = std::max(worst, (r.solution.u.segment<2>(2 * node) - exact * x / radius).norm());
       largest = std::max(largest, std::abs(exact));
     }
@@ -131,15 +131,15 @@ TEST(Lame, DisplacementsOfTheShrinkFit) {
 TEST(Default, MultipliersLieOnTheFinerSide) {
   const Results fine_below = solved_scene("patch_flat"),
                 fine_above = solved_scene("patch_flat", {{"mesh.parameters.n_upper", "13"}});
-  EXPECT_EQ(fine_below.pairs[0].spec.multipliers_on, "lower_contact");
-  EXPECT_EQ(fine_above.pairs[0].spec.multipliers_on, "upper_contact");
+  EXPECT_EQ(fine_below.problem.pairs[0].spec.multipliers_on, "lower_contact");
+  EXPECT_EQ(fine_above.problem.pairs[0].spec.multipliers_on, "upper_contact");
 }
 
 TEST(Default, LinearMultipliersDoNotOscillateWhereQuadraticOnesDo) {
   // The cosine held together where it would part, along the edges' normals: quadratic multipliers swing by the size of
   // the pressure itself.
   const auto swing = [](const Results& r) {  // mean |second difference| of p over mean |p|
-    const auto& n = r.contacts[0].multiplier.nodes;
+    const auto& n = r.recovery.contacts[0].multiplier.nodes;
     double sum = 0, size = 0;
     for (std::size_t i = 2; i + 2 < n.size(); i += 1) {
       sum += std::abs(n[i - 1].p - 2 * n[i].p + n[i + 1].p);

@@ -79,14 +79,14 @@ boundary = [
 ])toml",
                                                        30));
     EXPECT_EQ(turned.status, Status::solved);
-    const VecX &p = turned.contacts[0].pressure, &q = straight.contacts[0].pressure;
+    const VecX &p = turned.recovery.contacts[0].pressure, &q = straight.recovery.contacts[0].pressure;
     ASSERT_EQ(p.size(), q.size());
     EXPECT_LE(largest_entry(p - q), 1e-7 * largest_entry(q));
-    EXPECT_NEAR(turned.energy, straight.energy, 1e-7 * straight.energy);
+    EXPECT_NEAR(turned.recovery.energy, straight.recovery.energy, 1e-7 * straight.recovery.energy);
     const Eigen::Rotation2Dd turn(std::numbers::pi / 6);
     for (std::size_t i = 0; i < 2; ++i) {
-      const Vec2 force = turn * straight.reactions.entries[i].force;
-      EXPECT_LE((turned.reactions.entries[i].force - force).norm(), 1e-7) << i;
+      const Vec2 force = turn * straight.recovery.reactions.entries[i].force;
+      EXPECT_LE((turned.recovery.reactions.entries[i].force - force).norm(), 1e-7) << i;
     }
   }
 }
@@ -116,12 +116,12 @@ TEST(Supports, ARigidTopTakesForceAndMoment) {
   const Results loaded =
       solve_scene(supported_scene(folder, contact + held + "{ x = 0, force = [0, -6], moment = 0.4 } }]", 0, 0));
   EXPECT_EQ(loaded.status, Status::solved);
-  ASSERT_EQ(loaded.reactions.rigid_motions.size(), 1u);
-  const Eigen::Vector3d motion = loaded.reactions.rigid_motions[0];
+  ASSERT_EQ(loaded.recovery.reactions.rigid_motions.size(), 1u);
+  const Eigen::Vector3d motion = loaded.recovery.reactions.rigid_motions[0];
   EXPECT_NEAR(motion(0), 0, 1e-15);
   EXPECT_NEAR(motion(1), a * height / E, 1e-12);
   EXPECT_NEAR(motion(2), b * height / E, 1e-12);
-  EXPECT_LE(loaded.reactions.entries[1].force.norm(), 1e-9);
+  EXPECT_LE(loaded.recovery.reactions.entries[1].force.norm(), 1e-9);
 
   // What was found is prescribed, about another point: the same reactions.
   const Vec2 at_corner = motion.head<2>() + motion(2) * Vec2(0, 1);
@@ -131,9 +131,9 @@ TEST(Supports, ARigidTopTakesForceAndMoment) {
         << ", about = [2, 1.6] } }]";
   const Results moved = solve_scene(supported_scene(folder, contact + held + given.str(), 0, 0));
   EXPECT_EQ(moved.status, Status::solved);
-  EXPECT_NEAR(moved.reactions.entries[1].force.x(), 0, 1e-9);
-  EXPECT_NEAR(moved.reactions.entries[1].force.y(), force, 1e-9);
-  EXPECT_NEAR(moved.reactions.entries[1].moment_about({1, height}), moment, 1e-9);
+  EXPECT_NEAR(moved.recovery.reactions.entries[1].force.x(), 0, 1e-9);
+  EXPECT_NEAR(moved.recovery.reactions.entries[1].force.y(), force, 1e-9);
+  EXPECT_NEAR(moved.recovery.reactions.entries[1].moment_about({1, height}), moment, 1e-9);
 }
 
 // The line of symmetry holds a node of the rigid top, which moves along it.
@@ -147,8 +147,8 @@ boundary = [
 ])toml",
                                                 0, 0));
   EXPECT_EQ(r.status, Status::solved);
-  EXPECT_NEAR(r.reactions.entries[2].force.y(), -2, 1e-9);
-  for (const double p : r.contacts[0].pressure) EXPECT_NEAR(p, 1, 1e-9);
+  EXPECT_NEAR(r.recovery.reactions.entries[2].force.y(), -2, 1e-9);
+  for (const double p : r.recovery.contacts[0].pressure) EXPECT_NEAR(p, 1, 1e-9);
 }
 
 // A wheel whose head is held along x may only turn about it, which rolls its foot along the rail; contact resists that
@@ -173,7 +173,7 @@ bodies = { rail = "steel", wheel = "steel" }
 boundary = [{ on = "ground", displacement = { x = 0, y = 0 } }, { on = "head", displacement = { x = 0 } },
             { on = "head", pressure = 12.5 }]
 contact = [{ between = ["foot", "top"], multipliers_on = ")" + side + "\" }]\n")));
-    EXPECT_NEAR(std::abs(r.contacts[0].force.y()), 1000, 1e-6) << side;
+    EXPECT_NEAR(std::abs(r.recovery.contacts[0].force.y()), 1000, 1e-6) << side;
     for (const std::string& line : r.warnings) EXPECT_EQ(line.find("nothing holds"), std::string::npos) << line;
   }
 }
@@ -190,11 +190,11 @@ boundary = [
 ])toml"));
   EXPECT_EQ(r.status, Status::solved);
   double pushed = 0;
-  for (const NamedPoint& point : r.mesh.points)
+  for (const NamedPoint& point : r.problem.mesh.points)
     if (point.name == "feet")
       for (const int node : point.nodes) pushed -= 50 * r.solution.u(2 * node + 1);
   EXPECT_NEAR(pushed, 1.5, 1e-9);
-  EXPECT_NEAR(r.reactions.entries[2].force.y(), 1.5, 1e-9);
+  EXPECT_NEAR(r.recovery.reactions.entries[2].force.y(), 1.5, 1e-9);
   int told = 0;
   for (const std::string& line : r.warnings)
     if (line.find("point") != std::string::npos) ++told;

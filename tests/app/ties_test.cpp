@@ -56,12 +56,12 @@ boundary = [
   { on = "block_bottom", displacement = { x = 0, y = 0 } },
 ])toml"));
     EXPECT_EQ(r.status, Status::solved);
-    for (Eigen::Index i = 0; i < r.mesh.nodes.rows(); ++i) {
-      const Vec2 x = r.mesh.nodes.row(i).transpose();
+    for (Eigen::Index i = 0; i < r.problem.mesh.nodes.rows(); ++i) {
+      const Vec2 x = r.problem.mesh.nodes.row(i).transpose();
       if (x.y() < 1 || (x.y() == 1 && r.solution.u(2 * i) == 0)) continue;  // of the block, which nothing loads
       EXPECT_LE((r.solution.u.segment<2>(2 * i) - 1e-3 * Vec2(x.x() + 2 * x.y(), 3 * x.y() - x.x())).norm(), 1e-13);
     }
-    ASSERT_EQ(r.reactions.ties.size(), 1u);
+    ASSERT_EQ(r.recovery.reactions.ties.size(), 1u);
   }
 }
 
@@ -76,14 +76,16 @@ boundary = [
 method.solver = )toml";
   const Results direct = solve_scene(scene_of(folder, rest + "\"direct\""));
   EXPECT_EQ(direct.status, Status::solved);
-  EXPECT_NEAR(direct.reactions.ties[0].force.y() * (direct.mesh.ties[0].curves[0] == "lower_top" ? -1 : 1), 4, 1e-9);
+  EXPECT_NEAR(
+      direct.recovery.reactions.ties[0].force.y() * (direct.problem.mesh.ties[0].curves[0] == "lower_top" ? -1 : 1), 4,
+      1e-9);
   EXPECT_EQ(direct.warnings.size(), 0u) << direct.warnings[0];
   for (const std::string solver : {"mssor", "ddm", "feti"}) {
     SCOPED_TRACE(solver);
     const Results other = solve_scene(scene_of(folder, rest + "\"" + solver + "\""));
     EXPECT_EQ(other.status, Status::solved);
-    EXPECT_LE(largest_entry(other.contacts[0].pressure - direct.contacts[0].pressure),
-              1e-7 * largest_entry(direct.contacts[0].pressure));
+    EXPECT_LE(largest_entry(other.recovery.contacts[0].pressure - direct.recovery.contacts[0].pressure),
+              1e-7 * largest_entry(direct.recovery.contacts[0].pressure));
   }
 }
 
@@ -145,11 +147,13 @@ Physical Curve("a_tie") = {2}; Physical Curve("b_tie") = {8};
   const Results turned =
       plate(40, R"({ on = "bottom", displacement = { normal = 0 } }, { on = "left", displacement = { normal = 0 } })");
   EXPECT_EQ(turned.status, Status::solved);
-  EXPECT_NEAR(turned.energy, straight.energy, 1e-9 * straight.energy);
+  EXPECT_NEAR(turned.recovery.energy, straight.recovery.energy, 1e-9 * straight.recovery.energy);
   const Eigen::Rotation2Dd turn(40 * std::numbers::pi / 180);
   for (int i = 0; i < 2; ++i)
-    EXPECT_LE((turned.reactions.entries[i].force - turn * straight.reactions.entries[i].force).norm(), 1e-9) << i;
-  EXPECT_LE((turned.reactions.ties[0].force - turn * straight.reactions.ties[0].force).norm(), 1e-9);
+    EXPECT_LE((turned.recovery.reactions.entries[i].force - turn * straight.recovery.reactions.entries[i].force).norm(),
+              1e-9)
+        << i;
+  EXPECT_LE((turned.recovery.reactions.ties[0].force - turn * straight.recovery.reactions.ties[0].force).norm(), 1e-9);
 }
 
 TEST(Ties, OnACircleTurnWithoutStrain) {
@@ -188,9 +192,9 @@ Physical Curve("rim") = {40 : 43};
                                     boundary + "]\n")));
   };
   const Results turned = solved(R"({ on = "bore", displacement = { x = "-1e-3 * y", y = "1e-3 * x" } })");
-  EXPECT_LE(turned.energy, 1e-15);  // of a strain as large as the turn: 1e-3
-  for (Eigen::Index i = 0; i < turned.mesh.nodes.rows(); ++i) {
-    const Vec2 x = turned.mesh.nodes.row(i).transpose();
+  EXPECT_LE(turned.recovery.energy, 1e-15);  // of a strain as large as the turn: 1e-3
+  for (Eigen::Index i = 0; i < turned.problem.mesh.nodes.rows(); ++i) {
+    const Vec2 x = turned.problem.mesh.nodes.row(i).transpose();
     EXPECT_LE((turned.solution.u.segment<2>(2 * i) - 1e-3 * Vec2(-x.y(), x.x())).norm(), 1e-13);
   }
   // Twisted and squeezed: every check holds, and the squeeze is Lame's.

@@ -54,12 +54,12 @@ int coarse(const Results& r) {
 
 TEST(EnergyEstimate, NamesAnArmOfLinearElementsThatIsTooStiff) {
   const Results fine = solved(arm(40, 2, false));
-  const double force = std::abs(fine.contacts[0].force.y());
+  const double force = std::abs(fine.recovery.contacts[0].force.y());
   for (const bool triangles : {true, false}) {
     const Results r = solved(arm(5, 1, triangles));
-    EXPECT_GT(std::abs(r.contacts[0].force.y()), 1.2 * force);
+    EXPECT_GT(std::abs(r.recovery.contacts[0].force.y()), 1.2 * force);
     ASSERT_EQ(coarse(r), 1);
-    EXPECT_EQ(r.mesh.bodies[r.estimate->energy.body], "arm");
+    EXPECT_EQ(r.problem.mesh.bodies[r.estimate->energy.body], "arm");
     EXPECT_GT(r.estimate->energy.part, 0.5);
   }
   EXPECT_EQ(coarse(fine), 0);

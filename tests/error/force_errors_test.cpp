@@ -50,8 +50,8 @@ TEST(ForceErrors, AreRoundOffWhereEquilibriumGivesTheForce) {
     Results r = solve_scene(read_scene(MORTISE_SOURCE_DIR "/geo/hertz.toml",
                                        {{"mesh.parameters.n_upper", n}, {"mesh.parameters.n_lower", n}}));
     estimate(r);
-    const Vec2& force = r.contacts[0].force;
-    const Eigen::Vector3d& error = *r.contacts[0].force_error;
+    const Vec2& force = r.recovery.contacts[0].force;
+    const Eigen::Vector3d& error = *r.recovery.contacts[0].force_error;
     EXPECT_NEAR(std::abs(force.y()), 4.6e6, error(1)) << n;
     EXPECT_LE(error(1), 1e-9 * 4.6e6) << n;
     EXPECT_GT(error(1), 0) << n;
@@ -66,8 +66,8 @@ TEST(ForceErrors, HoldWhereTheStiffnessesShareTheLoad) {
     const Results r = beam(size);
     double largest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double reference = fine.contacts[k].force.y(), bar = (*r.contacts[k].force_error)(1);
-      EXPECT_LE(std::abs(r.contacts[k].force.y() - reference), bar) << size;
+      const double reference = fine.recovery.contacts[k].force.y(), bar = (*r.recovery.contacts[k].force_error)(1);
+      EXPECT_LE(std::abs(r.recovery.contacts[k].force.y() - reference), bar) << size;
       largest = std::max(largest, bar / std::abs(reference));
     }
     EXPECT_LT(largest, before) << size;

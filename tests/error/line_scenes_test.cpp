@@ -72,11 +72,11 @@ TEST(DataEstimate, OfAnInitialStrainIsInTheBars) {
 
 TEST(GapMisfit, OfAJumpIsItsPlaceAndOfASpikeAStress) {
   const Results jump = solved(blocks(0, 0), {.contact = ", initial_gap = \"x < 0.4 ? 0 : 1e-5\""});
-  const GapErrors at = gap_errors(jump.mesh, jump.pairs[0], jump.discretisation.laws);
+  const GapErrors at = gap_errors(jump.problem.mesh, jump.problem.pairs[0], jump.problem.discretisation.laws);
   ASSERT_EQ(at.jumps.size(), 1u);
   EXPECT_NEAR(at.jumps[0].position.x(), 0.4, 1e-6);
   const Results spike = solved(blocks(0, 0), {.contact = ", initial_gap = \"1e-5 * exp(-((x - 0.458) / 0.01)^2)\""});
-  const GapErrors of_spike = gap_errors(spike.mesh, spike.pairs[0], spike.discretisation.laws);
+  const GapErrors of_spike = gap_errors(spike.problem.mesh, spike.problem.pairs[0], spike.problem.discretisation.laws);
   EXPECT_TRUE(of_spike.jumps.empty());
   Eigen::Index worst = 0;
   of_spike.l2.maxCoeff(&worst);
@@ -86,7 +86,7 @@ TEST(GapMisfit, OfAJumpIsItsPlaceAndOfASpikeAStress) {
 
 TEST(GapMisfit, OfAnEvenGapIsNone) {
   const Results even = solved(blocks(0, 0), {.contact = ", initial_gap = 0"});
-  EXPECT_EQ(gap_errors(even.mesh, even.pairs[0], even.discretisation.laws).l2.size(), 0);
+  EXPECT_EQ(gap_errors(even.problem.mesh, even.problem.pairs[0], even.problem.discretisation.laws).l2.size(), 0);
 }
 
 // The upper block covers the right part of the lower one's top, seat, which runs from x = 1 to 0 in ten edges; it ends
@@ -94,7 +94,7 @@ TEST(GapMisfit, OfAnEvenGapIsNone) {
 TEST(ContactReach, IsWhereTheSidesFaceEachOtherAndAreClosed) {
   const Results r = solved(blocks(0.25, 0), {});
   const PressureLine& line = r.estimate->pressures[0].line;
-  const ContactReach reach = contact_reach(r.mesh, r.pairs[0], line, {});
+  const ContactReach reach = contact_reach(r.problem.mesh, r.problem.pairs[0], line, {});
   ASSERT_EQ(reach[1].size(), 11u);
   for (int i = 0; i <= 10; ++i) EXPECT_EQ(reach[1][i].any(), i <= 8) << i;
   for (const Reach& at : reach[0]) EXPECT_TRUE(at.any());
@@ -105,8 +105,8 @@ TEST(ContactReach, IsNotLostAtAPlaceThatWasFoundBefore) {
   const PressureLine& line = r.estimate->pressures[0].line;
   const FoundPoint found{.between = {"seat", "foot"}, .position = {0, 0.5}},
       other{.between = {"a", "b"}, .position = {0, 0.5}};
-  EXPECT_TRUE(contact_reach(r.mesh, r.pairs[0], line, {found})[1].back().any());
-  EXPECT_FALSE(contact_reach(r.mesh, r.pairs[0], line, {other})[1].back().any());
+  EXPECT_TRUE(contact_reach(r.problem.mesh, r.problem.pairs[0], line, {found})[1].back().any());
+  EXPECT_FALSE(contact_reach(r.problem.mesh, r.problem.pairs[0], line, {other})[1].back().any());
 }
 
 // p near a kink of 0.02 goes as E* turn slide / 2 pi r: listed; of a turn of 1e-7 nothing is seen.

@@ -120,7 +120,8 @@ TEST(SharedDuals, OfAWallSayWhatItsOwnSay) {
   const Wall w = wall(6);
   const Results r = solve_scene(w.scene, w.mesh);
   const auto estimated = [&](int own_duals) {
-    return estimate_error(r.mesh, r.points, r.discretisation, r.pairs, r.solution, {}, own_duals);
+    return estimate_error(r.problem.mesh, r.problem.points, r.problem.discretisation, r.problem.pairs, r.solution, {},
+                          own_duals);
   };
   const ErrorEstimate own = estimated(1000), shared = estimated(most_own_duals);
   EXPECT_EQ(own.far.parts.cols(), 180);
@@ -147,11 +148,11 @@ TEST(SharedDuals, OfAWallKeepTheBars) {
   estimate(r);
   const Results reference = solve_scene(fine.scene, fine.mesh);
   int nodes = 0, held = 0;
-  for (std::size_t k = 0; k < r.contacts.size(); ++k)
-    for (const ContactSide* side : {&r.contacts[k].multiplier, &r.contacts[k].opposite}) {
-      const bool same = side->curve == reference.contacts[k].multiplier.curve;
+  for (std::size_t k = 0; k < r.recovery.contacts.size(); ++k)
+    for (const ContactSide* side : {&r.recovery.contacts[k].multiplier, &r.recovery.contacts[k].opposite}) {
+      const bool same = side->curve == reference.recovery.contacts[k].multiplier.curve;
       const std::vector<ContactNode>& exact =
-          (same ? reference.contacts[k].multiplier : reference.contacts[k].opposite).nodes;
+          (same ? reference.recovery.contacts[k].multiplier : reference.recovery.contacts[k].opposite).nodes;
       for (const ContactNode& node : side->nodes) {
         if (!(node.p_error > 0)) continue;
         const auto nearest = std::ranges::min_element(

@@ -12,7 +12,7 @@ int main(int argc, char** argv) try {
   for (const std::string& warning : results->warnings) std::cerr << warning << "\n";
 
   std::cout << "s p bar\n";
-  for (const mortise::ContactResults& contact : results->contacts) {
+  for (const mortise::ContactResults& contact : results->recovery.contacts) {
     for (const mortise::ContactNode& node : contact.multiplier.nodes)
       std::cout << node.s << " " << node.p << " " << node.p_error << "\n";
     std::cout << "mean " << contact.p_mean << "\n";

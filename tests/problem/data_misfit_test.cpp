@@ -9,16 +9,16 @@ namespace {
 
 Field field_of(const std::string& text) { return {text, {.key = "boundary.0", .on_curve = true}}; }
 
-DataMisfits on_top(std::optional<Field> BoundarySpec::*what, const std::string& text) {
-  Scene scene;
-  BoundarySpec& spec = scene.boundaries.emplace_back();
-  spec.key = "boundary.0";
-  spec.on = {"top"};
-  spec.*what = field_of(text);
-  return data_misfits(scene, mesh_of({}), {});
+DataMisfits on_top(BoundaryCondition what) {
+  const Mesh mesh = mesh_of({});
+  Entries entries;
+  entries.boundaries = boundary_entries({{.key = "boundary.0", .on = {"top"}, .what = std::move(what)}}, mesh,
+                                        SideTable(mesh), SceneNames(mesh));
+  entries.body_force_of = entries.initial_strain_of = std::vector<int>(mesh.bodies.size(), -1);
+  return data_misfits(entries, mesh, {});
 }
 
-DataMisfits of_pressure(const std::string& text) { return on_top(&BoundarySpec::pressure, text); }
+DataMisfits of_pressure(const std::string& text) { return on_top(Pressure{field_of(text)}); }
 
 TEST(DataMisfits, AreNoneOfWhatTheMeshResolves) {
   EXPECT_TRUE(of_pressure("1 + x - x^2").parts.empty());
@@ -42,7 +42,7 @@ TEST(DataMisfits, NameEntryPlaceAndSizeOfAStep) {
 }
 
 TEST(DataMisfits, OfADisplacementHaveNoMean) {
-  const DataMisfits found = on_top(&BoundarySpec::displacement_y, "x < 0.437 ? 1 : 3");
+  const DataMisfits found = on_top(Displacement{{}, field_of("x < 0.437 ? 1 : 3")});
   ASSERT_EQ(found.parts.size(), 1u);
   EXPECT_LT(found.parts[0].mean.norm(), 1e-8);
   EXPECT_GT(found.parts[0].size, 0.01);

@@ -36,14 +36,14 @@ boundary = [
 )" + contact));
 }
 
-std::set<std::string> pairs_of(const CheckedScene& checked) {
+std::set<std::string> pairs_of(const Problem& checked) {
   std::set<std::string> names;
   for (const ContactPair& pair : checked.pairs) names.insert(pair.spec.between[0] + " " + pair.spec.between[1]);
   return names;
 }
 
 TEST(FacingPairs, OfAWallAreAllNeighboursAndNoCorners) {
-  const CheckedScene checked = check_scene(wall({{"mesh.parameters.bricks", "3"}, {"mesh.parameters.courses", "4"}}));
+  const Problem checked = check_scene(wall({{"mesh.parameters.bricks", "3"}, {"mesh.parameters.courses", "4"}}));
   // In a course one pair less than bricks (3, 4, 3, 4), between two courses 2 x 3.
   EXPECT_EQ(checked.pairs.size(), 2u + 3 + 2 + 3 + 3 * 6);
   EXPECT_EQ(pairs_of(checked).size(), checked.pairs.size());
@@ -57,9 +57,9 @@ TEST(FacingPairs, GiveTheWallItsWeight) {
     const Results r = solve_scene(scene);
     EXPECT_EQ(r.status, Status::solved);
     double weight = 0;  // of the topmost course and the load on it
-    for (const ContactPair& pair : r.pairs)
+    for (const ContactPair& pair : r.problem.pairs)
       if (pair.spec.between[0].starts_with("brick_4_") && pair.spec.between[1].starts_with("brick_5_"))
-        weight += std::abs(r.contacts[&pair - r.pairs.data()].force.y());
+        weight += std::abs(r.recovery.contacts[&pair - r.problem.pairs.data()].force.y());
     EXPECT_NEAR(weight, 8e6 + 8 * 20e3, 1e-6 * 8e6);
   }
 }
@@ -76,7 +76,7 @@ TEST(FacingPairs, AreThoseWithinADistance) {
 
 TEST(FacingPairs, LeaveWhatIsNamedItsOwnSettings) {
   const TemporaryFolder folder;
-  const CheckedScene checked = check_scene(squares(folder, R"(
+  const Problem checked = check_scene(squares(folder, R"(
 [[contact]]
 between = ["*", "*"]
 [[contact]]
@@ -94,10 +94,11 @@ TEST(FacingPairs, ACurveInTwoPairsIsSolvedByEverySolver) {
   const Results direct = solve_scene(scene);
   scene.method.solver = Solver::feti;
   const Results feti = solve_scene(scene);
-  ASSERT_EQ(direct.contacts.size(), 2u);
+  ASSERT_EQ(direct.recovery.contacts.size(), 2u);
   for (const Results* r : {&direct, &feti}) {
     EXPECT_EQ(r->status, Status::solved);
-    const double left = std::abs(r->contacts[0].force.y()), right = std::abs(r->contacts[1].force.y());
+    const double left = std::abs(r->recovery.contacts[0].force.y()),
+                 right = std::abs(r->recovery.contacts[1].force.y());
     EXPECT_GT(left / right, 1.0 / 210);  // the base gives way under the stiff one
     EXPECT_LT(left / right, 2.0 / 210);
   }

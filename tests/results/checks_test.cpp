@@ -29,10 +29,10 @@ Results judged(const Scene& scene, Spoil spoil) {
   Results r = solve_scene(scene, mesh_of({}));
   EXPECT_EQ(r.status, Status::solved);
   spoil(r.solution, r);
-  r.reactions = find_reactions(scene, r.mesh, r.discretisation, r.solution);
-  r.checks = checks(scene, r);
+  r.recovery.reactions = find_reactions(r.problem, r.solution);
+  r.checks = checks(r);
   r.status = verdict(r);
-  r.warnings = warnings(scene, r);
+  r.warnings = warnings(r);
   return r;
 }
 
@@ -69,8 +69,8 @@ TEST(Checks, EveryOneFailsOnWhatIsNoNumber) {
       if (part == 0) s.u(s.u.size() / 2) = nan;
       if (part == 1) s.lambda(s.lambda.size() / 2) = nan;
       if (part == 2) s.force_residual = s.constraint_residual = nan;
-      if (part == 3) results.contacts[0].p_least = nan;
-      if (part == 4) results.pairs[0].coupling.covered_length = nan;
+      if (part == 3) results.recovery.contacts[0].p_least = nan;
+      if (part == 4) results.problem.pairs[0].coupling.covered_length = nan;
     });
     EXPECT_NE(r.status, Status::solved) << part;
     for (const std::string& name : failed(r)) never_failed.erase(name);
@@ -84,9 +84,9 @@ TEST(Checks, WhatIsNotFiniteHasNotConverged) {
       const Results r = judged(unilateral_scene(), [&](Solution& s, Results& results) {
         if (part == 0) s.u(0) = value;
         if (part == 1) s.lambda(0) = value;
-        if (part == 2) results.stress.points(0, 2) = value;
-        if (part == 3) results.energy = value;
-        if (part == 4) results.contacts[0].force.x() = value;
+        if (part == 2) results.recovery.stress.points(0, 2) = value;
+        if (part == 3) results.recovery.energy = value;
+        if (part == 4) results.recovery.contacts[0].force.x() = value;
         if (part == 5) s.force_residual = value;  // as of a load that is no number
       });
       EXPECT_EQ(r.status, Status::not_converged) << part;
@@ -109,7 +109,7 @@ TEST(Checks, AHundredMillionthOfAnotherPressureFails) {
 
 TEST(Checks, AnOverlapFails) {
   const Results r = judged(unilateral_scene(), [](Solution& s, Results& results) {
-    const ContactNode& n = results.contacts[0].multiplier.nodes[2];
+    const ContactNode& n = results.recovery.contacts[0].multiplier.nodes[2];
     s.u.segment<2>(2 * n.node) += 1e-6 * largest_entry(s.u) * n.normal;
   });
   EXPECT_TRUE(failed(r).contains("weighted gap >= 0"));

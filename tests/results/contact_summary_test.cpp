@@ -18,21 +18,21 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 TEST(ContactSummary, TellsFourPairsOneByOne) {
   const Wall w = wall(2);
   const Results r = solve_scene(w.scene, w.mesh);
-  const std::string text = contact_lines(w.scene, r);
+  const std::string text = contact_lines(r);
   EXPECT_EQ(lines_of(text), 12);
-  for (const ContactPair& pair : r.pairs) EXPECT_TRUE(contains(text, pair.spec.between[0] + " - ")) << text;
+  for (const ContactPair& pair : r.problem.pairs) EXPECT_TRUE(contains(text, pair.spec.between[0] + " - ")) << text;
 }
 
 TEST(ContactSummary, OfAWallFitsOneScreenAndNamesItsExtremes) {
   const Wall w = wall(7);
   Results r = solve_scene(w.scene, w.mesh);
   estimate(r);
-  const std::string text = terminal_summary(w.scene, r, "out");
+  const std::string text = terminal_summary(r, "out");
   EXPECT_LE(lines_of(text), 40) << text;
   EXPECT_TRUE(contains(text, "84 pairs, linear multipliers: 84 unilateral, gap closed")) << text;
   EXPECT_TRUE(contains(text, "b0_0, b1_0, b2_0 and 46 more")) << text;
-  const auto highest = std::ranges::max_element(r.contacts, {}, &ContactResults::p_max);
-  const ContactSpec& spec = r.pairs[std::size_t(highest - r.contacts.begin())].spec;
+  const auto highest = std::ranges::max_element(r.recovery.contacts, {}, &ContactResults::p_max);
+  const ContactSpec& spec = r.problem.pairs[std::size_t(highest - r.recovery.contacts.begin())].spec;
   EXPECT_TRUE(contains(text, "(" + spec.between[0] + " - " + spec.between[1] + ")\n            largest force")) << text;
 }
 

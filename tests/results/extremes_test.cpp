@@ -31,16 +31,16 @@ TEST(Extremes, OfARingUnderPressureLieInItsBore) {
   s.path = "test scene";
   s.materials["steel"] = {210e9, 0.3, 0};
   s.bodies = {{"ring", "steel"}};
-  s.boundaries = {{.key = "cut", .on = {"ring_east"}, .displacement_y = 0},
-                  {.key = "cut", .on = {"ring_west"}, .displacement_x = 0},
-                  {.key = "bore", .on = {"ring_south"}, .pressure = 10e6}};
+  s.boundaries = {{.key = "cut", .on = {"ring_east"}, .what = Displacement{{}, 0}},
+                  {.key = "cut", .on = {"ring_west"}, .what = Displacement{0, {}}},
+                  {.key = "bore", .on = {"ring_south"}, .what = Pressure{10e6}}};
   const Results r = solve_scene(s, mesh_of({{"ring", 32, 16,
                                              [](double a, double t) {
                                                const double angle = std::numbers::pi / 2 * (1 - a);
                                                return Vec2((1 + t) * Vec2(std::cos(angle), std::sin(angle)));
                                              }}},
                                            CellKind::quad8));
-  const Extremes& found = r.extremes;
+  const Extremes& found = r.recovery.extremes;
   EXPECT_NEAR(found.principal_max.value, 5.0 / 3 * 10e6, 2e-3 * 10e6);
   EXPECT_NEAR(found.principal_min.value, -10e6, 5e-3 * 10e6);
   EXPECT_NEAR(found.von_mises.value, von_mises({-10e6, 5.0 / 3 * 10e6, 0.2 * 10e6, 0}), 5e-3 * 10e6);
@@ -56,29 +56,29 @@ TEST(Extremes, NameTheBodyAndTheCornerWithoutLimit) {
   s.path = "test scene";
   s.materials["steel"] = {210e9, 0.3, 0};
   s.bodies = {{"idle", "steel"}, {"pulled", "steel"}};
-  s.boundaries = {{.key = "clamp", .on = {"pulled_west", "idle_west"}, .displacement_x = 0, .displacement_y = 0},
-                  {.key = "load", .on = {"pulled_east"}, .traction = Vec2(10e6, 0)}};
+  s.boundaries = {{.key = "clamp", .on = {"pulled_west", "idle_west"}, .what = Displacement{0, 0}},
+                  {.key = "load", .on = {"pulled_east"}, .what = SurfaceTraction{Vec2(10e6, 0)}}};
   const auto block = [](const std::string& name, double y) {
     return Patch{name, 8, 8, [=](double a, double b) { return Vec2(a, y + b); }};
   };
   const Results r = solve_scene(s, mesh_of({block("idle", 0), block("pulled", 2)}, CellKind::quad8));
-  EXPECT_EQ(r.mesh.bodies[r.extremes.von_mises.of], "pulled");
-  EXPECT_NEAR(r.extremes.von_mises.place.x(), 0, 1e-12);
-  EXPECT_TRUE(grows_without_limit(r, r.extremes.von_mises));
+  EXPECT_EQ(r.problem.mesh.bodies[r.recovery.extremes.von_mises.of], "pulled");
+  EXPECT_NEAR(r.recovery.extremes.von_mises.place.x(), 0, 1e-12);
+  EXPECT_TRUE(grows_without_limit(r, r.recovery.extremes.von_mises));
 }
 
 TEST(Extremes, OfThePressureIsItsPlaceOnItsPair) {
   const Results r = solve_scene(clamped_scene(), mesh_of({}));
-  ASSERT_TRUE(r.extremes.pressure);
-  EXPECT_EQ(r.extremes.pressure->of, 0);
-  EXPECT_EQ(r.extremes.pressure->value, r.contacts[0].p_max);
+  ASSERT_TRUE(r.recovery.extremes.pressure);
+  EXPECT_EQ(r.recovery.extremes.pressure->of, 0);
+  EXPECT_EQ(r.recovery.extremes.pressure->value, r.recovery.contacts[0].p_max);
 }
 
 TEST(ContactMoments, AreOppositeToThoseOfTheLoadAbove) {
   const Results r = solve_scene(uniaxial_scene(), mesh_of({}));
-  const ContactResults& c = r.contacts[0];
+  const ContactResults& c = r.recovery.contacts[0];
   const double sign = c.multiplier.curve == "upper_contact" ? -1 : 1;
-  const Resultant& load = r.discretisation.boundary_sums[2];
+  const Resultant& load = r.problem.discretisation.boundary_sums[2];
   EXPECT_NEAR(c.moment, sign * load.moment, 1e-9 * std::abs(load.moment));
   EXPECT_NEAR(c.moment - (c.centre.x() * c.force.y() - c.centre.y() * c.force.x()), 0, 1e-9 * std::abs(load.moment));
 }

@@ -20,9 +20,10 @@ namespace {
 Results moved(double slope, double slide) {
   const auto prescribed = [&](const std::string& curve, double along, double down) -> BoundarySpec {
     const std::string s = std::to_string(slope);
-    return {.on = {curve},
-            .displacement_x = Field(std::to_string(along) + " - " + s + " * y", {}),
-            .displacement_y = Field(s + " * x - " + std::to_string(down), {})};
+    return {.key = {},
+            .on = {curve},
+            .what = Displacement{Field(std::to_string(along) + " - " + s + " * y", {}),
+                                 Field(s + " * x - " + std::to_string(down), {})}};
   };
   Scene s = bare_scene();
   s.boundaries = {prescribed("bottom", 0, 0), prescribed("top", slide, 1e-4)};
@@ -36,14 +37,15 @@ const Check& motion_of(const Results& r) {
 TEST(LineMotion, IsTheTurnAndTheSlideOfTheWhole) {
   for (const double slope : {0.0, 0.01, 0.3, 2.5}) {
     const Results r = moved(slope, 0);
-    const auto motion = line_motion(r.mesh.nodes, r.pairs[0], r.contacts[0], r.solution.u);
+    const auto motion = line_motion(r.problem.mesh.nodes, r.problem.pairs[0], r.recovery.contacts[0], r.solution.u);
     ASSERT_TRUE(motion);
     EXPECT_NEAR(motion->turned, std::atan(slope), 1e-3);
     EXPECT_NEAR(motion->slid, 0, 1e-3);
     EXPECT_NEAR((motion->position - Vec2(0.4, 0.3)).norm(), 0, 1e-3);
   }
   const Results r = moved(0, 0.2);
-  EXPECT_NEAR(line_motion(r.mesh.nodes, r.pairs[0], r.contacts[0], r.solution.u)->slid, 0.2 / 0.8, 1e-3);
+  EXPECT_NEAR(line_motion(r.problem.mesh.nodes, r.problem.pairs[0], r.recovery.contacts[0], r.solution.u)->slid,
+              0.2 / 0.8, 1e-3);
 }
 
 TEST(LineChecks, FailWhereALineTurnsOrSlidesByHalf) {

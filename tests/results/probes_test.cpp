@@ -24,17 +24,17 @@ TEST(Probes, AreExactWhereTheStressIsUniform) {
   Scene s = uniaxial_scene();
   s.probes = {probe({{0.13, 0.05}, {0.61, 0.37}}), probe({{0.4, 0.3}}, "lower", 45), probe({{0.4, 0.3}}, "lower", 30)};
   const Results r = solve_scene(s, mesh_of({}));
-  ASSERT_EQ(r.probes.size(), 4u);
+  ASSERT_EQ(r.recovery.probes.size(), 4u);
   for (const int k : {0, 1}) {
-    const ProbeValue& v = r.probes[k];
+    const ProbeValue& v = r.recovery.probes[k];
     EXPECT_LE(difference(v.stress, {0, -10e6, -3e6, 0}), 1);
     EXPECT_NEAR(v.u.y(), -(1 - 0.09) / 210e9 * 10e6 * v.place.x.y(), 1e-15);
     EXPECT_NEAR(v.von_mises, 10e6 * std::sqrt(1 - 0.3 + 0.09), 1);
     EXPECT_TRUE(std::isnan(v.place.s));
   }
-  EXPECT_LE(difference(r.probes[2].stress, {-5e6, -5e6, -3e6, -5e6}), 1);
+  EXPECT_LE(difference(r.recovery.probes[2].stress, {-5e6, -5e6, -3e6, -5e6}), 1);
   const double half = std::sqrt(3) / 2;  // cos 30
-  EXPECT_LE(difference(r.probes[3].stress, {-10e6 / 4, -10e6 * 3 / 4, -3e6, -10e6 * half / 2}), 1);
+  EXPECT_LE(difference(r.recovery.probes[3].stress, {-10e6 / 4, -10e6 * 3 / 4, -3e6, -10e6 * half / 2}), 1);
 }
 
 TEST(Probes, LeaveOutTheStrainOfAnExpansionThatNothingHinders) {
@@ -44,8 +44,8 @@ TEST(Probes, LeaveOutTheStrainOfAnExpansionThatNothingHinders) {
     s.initial_strains.push_back({"initial_strain", body, {}, {Field(1e-3), Field(1e-3), Field(), Field()}});
   s.probes = {probe({{0.2, 0.1}})};
   const Results r = solve_scene(s, mesh_of({}));
-  EXPECT_LE(difference(r.probes[0].stress, Vec4::Zero()), 1e-8 * 210e9 * 1e-3);
-  EXPECT_NEAR(r.probes[0].u.x(), 2e-4, 1e-12);
+  EXPECT_LE(difference(r.recovery.probes[0].stress, Vec4::Zero()), 1e-8 * 210e9 * 1e-3);
+  EXPECT_NEAR(r.recovery.probes[0].u.x(), 2e-4, 1e-12);
 }
 
 // A quarter ring, 1 < r < 2, under pressure in its bore.
@@ -54,9 +54,9 @@ Results ring(int n, const std::vector<ProbeSpec>& probes) {
   s.path = "test scene";
   s.materials["steel"] = {210e9, 0.3, 0};
   s.bodies = {{"ring", "steel"}};
-  s.boundaries = {{.key = "cut", .on = {"ring_east"}, .displacement_y = 0},
-                  {.key = "cut", .on = {"ring_west"}, .displacement_x = 0},
-                  {.key = "bore", .on = {"ring_south"}, .pressure = 10e6}};
+  s.boundaries = {{.key = "cut", .on = {"ring_east"}, .what = Displacement{{}, 0}},
+                  {.key = "cut", .on = {"ring_west"}, .what = Displacement{0, {}}},
+                  {.key = "bore", .on = {"ring_south"}, .what = Pressure{10e6}}};
   s.probes = probes;
   return solve_scene(s, mesh_of({{"ring", 2 * n, n,
                                   [](double a, double t) {
@@ -77,18 +77,19 @@ TEST(Probes, AlongARadiusOfLamesRingConvergeFasterThanTheElementsOwnStress) {
   double before = 0;
   for (const int n : {4, 8, 16}) {
     const Results r = ring(n, {line});
-    ASSERT_EQ(r.probes.size(), line.at.size());
-    EXPECT_NEAR(r.probes.back().place.s, 1, 1e-12);
+    ASSERT_EQ(r.recovery.probes.size(), line.at.size());
+    EXPECT_NEAR(r.recovery.probes.back().place.s, 1, 1e-12);
     double inside = 0, own_inside = 0, all = 0, spread = 0;
-    for (const ProbeValue& v : r.probes) {
+    for (const ProbeValue& v : r.recovery.probes) {
       const double at = v.place.x.norm(), q = 4 / (at * at);
       const Vec4 exact = pressure / 3 * Vec4(1 - q, 1 + q, 2 * 0.3, 0);
       const double error = difference(v.stress, exact);
       all = std::max(all, error);
       spread = std::max(spread, v.spread);
       if (at < 1 + 1.0 / n || at > 2 - 1.0 / n) continue;  // cells along the boundary
-      const Vec4 own = stress_at(r.mesh, r.mesh.cells[v.place.in.cell], r.discretisation.laws[0], r.solution.u,
-                                 cell_shape(CellKind::quad8, v.place.in.xi));
+      const Vec4 own =
+          stress_at(r.problem.mesh, r.problem.mesh.cells[v.place.in.cell], r.problem.discretisation.laws[0],
+                    r.solution.u, cell_shape(CellKind::quad8, v.place.in.xi));
       inside = std::max(inside, error);
       own_inside = std::max(own_inside, difference(in_turned_axes(own, angle), exact));
     }
@@ -112,11 +113,11 @@ TEST(Probes, HaveBarsWhereErrorsAreEstimated) {
   }
   for (const int n : {4, 8, 16, 32}) {
     Results r = ring(n, lines);
-    EXPECT_FALSE(r.probes[0].error);
+    EXPECT_FALSE(r.recovery.probes[0].error);
     estimate(r);
     int held = 0, counted = 0;
     std::vector<double> ratios;
-    for (const ProbeValue& v : r.probes) {
+    for (const ProbeValue& v : r.recovery.probes) {
       const double at = v.place.x.norm(), q = 4 / (at * at);
       const Vec2 u = 1.3 / 210e9 * (0.4 * A + B / (at * at)) * v.place.x;
       const Vec4 off = v.stress - A * Vec4(1 - q, 1 + q, 2 * 0.3, 0);
@@ -139,13 +140,13 @@ TEST(Probes, HaveBarsWhereErrorsAreEstimated) {
 TEST(Probes, HaveNoBarOfAStressWithoutLimit) {
   // The punch's corner on the line of contact, and a place beside it.
   Scene s = uniaxial_scene();
-  s.boundaries[0] = {.key = "boundary.0", .on = {"bottom"}, .displacement_x = 0, .displacement_y = 0};
+  s.boundaries[0] = {.key = "boundary.0", .on = {"bottom"}, .what = Displacement{0, 0}};
   s.probes = {probe({{0, 0}, {0.1, 0.1}})};
   Results r = solve_scene(s, mesh_of({}));
   estimate(r);
-  EXPECT_TRUE(r.probes[0].error->stress.hasNaN());
-  EXPECT_FALSE(r.probes[0].error->u.hasNaN());
-  EXPECT_FALSE(r.probes[1].error->stress.hasNaN());
+  EXPECT_TRUE(r.recovery.probes[0].error->stress.hasNaN());
+  EXPECT_FALSE(r.recovery.probes[0].error->u.hasNaN());
+  EXPECT_FALSE(r.recovery.probes[1].error->stress.hasNaN());
 }
 
 TEST(Probes, HaveBarsInTurnedAxes) {
@@ -158,10 +159,10 @@ TEST(Probes, HaveBarsInTurnedAxes) {
   Results r = ring(6, {straight, turned, points});
   estimate(r);
   for (int i = 0; i <= 20; ++i) {
-    const Eigen::Vector3d a = r.probes[i].error->stress, b = r.probes[21 + i].error->stress;
+    const Eigen::Vector3d a = r.recovery.probes[i].error->stress, b = r.recovery.probes[21 + i].error->stress;
     EXPECT_LE((a - Eigen::Vector3d(b(1), b(0), b(2))).norm(), 1e-6 * a.norm());
     if (i % 4 > 0) continue;
-    const Eigen::Vector3d own = r.probes[42 + i / 4].error->stress;
+    const Eigen::Vector3d own = r.recovery.probes[42 + i / 4].error->stress;
     EXPECT_GE((a - 0.5 * own).minCoeff(), 0) << i;
     EXPECT_GE((2 * own - 0.5 * a).minCoeff(), 0) << i;
   }
@@ -186,7 +187,9 @@ TEST(Probes, BesideAContactLineBelongToTheBodyThatHasThem) {
   Scene s = uniaxial_scene();
   s.probes = {probe({{0.4, 0.302}, {0.4, 0.298}})};
   const Results r = solve_scene(s, mesh_of({}));
-  const auto body = [&](int k) { return r.mesh.bodies[r.mesh.cells[r.probes[k].place.in.cell].body]; };
+  const auto body = [&](int k) {
+    return r.problem.mesh.bodies[r.problem.mesh.cells[r.recovery.probes[k].place.in.cell].body];
+  };
   EXPECT_EQ(body(0), "upper");
   EXPECT_EQ(body(1), "lower");
 }

@@ -50,10 +50,10 @@ TEST(Unheld, AProbeSaysSoAndHasNoBarOfThatComponent) {
 )");
   Results r = solve_scene(scene);
   estimate(r);
-  ASSERT_EQ(r.probes.size(), 2u);
-  EXPECT_TRUE(std::isnan(r.probes[0].error->u.x()));
-  EXPECT_GT(r.probes[0].error->u.y(), 0);
-  EXPECT_GT(r.probes[1].error->u.x(), 0);
+  ASSERT_EQ(r.recovery.probes.size(), 2u);
+  EXPECT_TRUE(std::isnan(r.recovery.probes[0].error->u.x()));
+  EXPECT_GT(r.recovery.probes[0].error->u.y(), 0);
+  EXPECT_GT(r.recovery.probes[1].error->u.x(), 0);
   int said = 0;
   for (const std::string& line : r.warnings)
     said += line.find("probe.0") == 0 && line.find("displacement along x near (1.4, 1.6) is one of many") != line.npos;

@@ -31,7 +31,7 @@ std::string all(const Results& r) {
 
 TEST(Notes, NodesThatFaceNothingAreAsTheyShouldBe) {
   const Results r = solved("geo/punch.toml", {{"contact.multipliers_on", "block_top"}});
-  EXPECT_GT(std::ranges::count(r.pairs[0].coupling.row, -1), 10);
+  EXPECT_GT(std::ranges::count(r.problem.pairs[0].coupling.row, -1), 10);
   EXPECT_EQ(notes_with(r, "block_top"), 0) << all(r);
 }
 
@@ -53,7 +53,7 @@ TEST(Notes, ClosedSaysWhatItLeavesOut) {
   // A press fit whose interference is drawn: closed drops it, and nothing is pressed.
   const std::string rings = "tests/parts/drawn_interference.toml";
   const Results measured = solved(rings, {});
-  EXPECT_GT(measured.contacts[0].p_max, 1e6);
+  EXPECT_GT(measured.recovery.contacts[0].p_max, 1e6);
   EXPECT_EQ(notes_with(measured, "closed"), 0) << all(measured);
   const Results closed = solved(rings, {{"contact.initial_gap", "closed"}});
   EXPECT_EQ(notes_with(closed, "leaves out gaps"), 1) << all(closed);
@@ -100,14 +100,15 @@ contact = [ { between = ["above", "below"], condition = "bilateral" } ]
 )";
   const Results bent = solve_scene(read_scene(folder.path("a.toml")));
   EXPECT_EQ(notes_with(bent, "is not used"), 0) << all(bent);
-  EXPECT_EQ(bent.pairs[0].coupling.gap_max, 0);  // one line; the edges are 5e-4 apart
+  EXPECT_EQ(bent.problem.pairs[0].coupling.gap_max, 0);  // one line; the edges are 5e-4 apart
 }
 
 TEST(Notes, StraightSidesOfACurvedLineChangeNothing) {
   const std::string pin = "tests/parts/pin_in_hole.toml";
   const Results straight = solved(pin, {{"mesh.parameters.straight", "1"}}), curved = solved(pin, {});
   EXPECT_EQ(notes_with(straight, "contact.0"), notes_with(curved, "contact.0")) << all(straight);
-  EXPECT_NEAR(straight.contacts[0].p_max, curved.contacts[0].p_max, 0.01 * curved.contacts[0].p_max);
+  EXPECT_NEAR(straight.recovery.contacts[0].p_max, curved.recovery.contacts[0].p_max,
+              0.01 * curved.recovery.contacts[0].p_max);
 }
 
 // ---- Displacements ----
@@ -125,7 +126,7 @@ TEST(Notes, ATurnOfTheWholeIsALargeDisplacement) {
   EXPECT_EQ(notes_with(solve_scene(s, mesh_of({})), "large displacements"), 0);
   // Bottom and top move as a turn of the whole by 9 degrees moves them, and are pressed together.
   const auto turned = [](const std::string& curve, const std::string& y) -> BoundarySpec {
-    return {.on = {curve}, .displacement_x = Field("-0.15 * y", {}), .displacement_y = Field(y, {})};
+    return {.key = {}, .on = {curve}, .what = Displacement{Field("-0.15 * y", {}), Field(y, {})}};
   };
   s.boundaries = {turned("bottom", "0.15 * x"), turned("top", "0.15 * x - 1e-4")};
   const Results r = solve_scene(s, mesh_of({}));

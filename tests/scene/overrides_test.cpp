@@ -43,10 +43,10 @@ TEST(Overrides, NumbersWordsListsAndTables) {
   EXPECT_EQ(scene.mesh_parameters.at("n_upper"), 40);
   EXPECT_EQ(scene.mesh_parameters.at("height"), 0.25);
   EXPECT_EQ(scene.materials.at("steel").young, 70e9);
-  EXPECT_EQ(scene.boundaries[2].pressure, 5e6);
-  EXPECT_EQ(scene.boundaries[3].traction, Vec2(3, 4));
-  EXPECT_FALSE(scene.boundaries[1].displacement_x);
-  EXPECT_EQ(scene.boundaries[1].displacement_y, 1);
+  EXPECT_EQ(std::get<Pressure>(scene.boundaries[2].what).value, 5e6);
+  EXPECT_EQ(std::get<SurfaceTraction>(scene.boundaries[3].what).value, Vec2(3, 4));
+  EXPECT_FALSE(std::get<Displacement>(scene.boundaries[1].what).x);
+  EXPECT_EQ(std::get<Displacement>(scene.boundaries[1].what).y, 1);
   EXPECT_EQ(scene.title, "Two plates, bent");
 }
 

@@ -48,14 +48,13 @@ TEST_F(EveryKey, Boundaries) {
       std::tie(scene_.boundaries[0], scene_.boundaries[1], scene_.boundaries[2], scene_.boundaries[3]);
   EXPECT_EQ(symmetry.key, "boundary.0 (line 24)");
   EXPECT_EQ(symmetry.on, (std::vector<std::string>{"upper_left", "lower_left"}));
-  EXPECT_EQ(symmetry.displacement_x, 0);
-  EXPECT_FALSE(symmetry.displacement_y || symmetry.pressure || symmetry.traction);
+  EXPECT_EQ(std::get<Displacement>(symmetry.what).x, 0);
+  EXPECT_FALSE(std::get<Displacement>(symmetry.what).y);
   EXPECT_EQ(bottom.on, std::vector<std::string>{"bottom"});
-  EXPECT_EQ(bottom.displacement_x, 0.001);
-  EXPECT_EQ(bottom.displacement_y, -0.002);
-  EXPECT_EQ(top.pressure, 10e6);
-  EXPECT_FALSE(top.displacement_x || top.displacement_y || top.traction);
-  EXPECT_EQ(right.traction, Vec2(1e6, -2e6));
+  EXPECT_EQ(std::get<Displacement>(bottom.what).x, 0.001);
+  EXPECT_EQ(std::get<Displacement>(bottom.what).y, -0.002);
+  EXPECT_EQ(std::get<Pressure>(top.what).value, 10e6);
+  EXPECT_EQ(std::get<SurfaceTraction>(right.what).value, Vec2(1e6, -2e6));
 }
 
 TEST_F(EveryKey, BodyForcesAndInitialStrains) {
@@ -145,7 +144,7 @@ TEST(ReadScene, TomlMayBeWrittenInAnyOfItsForms) {
   const Scene scene = read_scene(folder.write("scene.toml", "\xEF\xBB\xBF" + text));
   EXPECT_EQ(scene.bodies[0].name, "the block");
   EXPECT_EQ(scene.materials.at("steel").young, 2000);
-  EXPECT_EQ(scene.boundaries[0].pressure, -1);
+  EXPECT_EQ(std::get<Pressure>(scene.boundaries[0].what).value, -1);
 }
 
 TEST(ReadScene, WordsOfTheEnums) {

@@ -7,8 +7,7 @@ BoundarySpec held(std::vector<std::string> on, std::optional<double> x, std::opt
   BoundarySpec b;
   b.key = "boundary";
   b.on = std::move(on);
-  b.displacement_x = x;
-  b.displacement_y = y;
+  b.what = Displacement{x, y};
   return b;
 }
 
@@ -16,7 +15,7 @@ BoundarySpec pressed(std::vector<std::string> on) {
   BoundarySpec b;
   b.key = "boundary";
   b.on = std::move(on);
-  b.pressure = 10e6;
+  b.what = Pressure{10e6};
   return b;
 }
 

@@ -24,11 +24,8 @@ Mesh mesh_of_wall(int n, int elements) {
   return mesh_of(blocks, CellKind::quad8);
 }
 
-BoundarySpec boundary(const std::string& on) {
-  BoundarySpec spec;
-  spec.key = "boundary";
-  spec.on = {on};
-  return spec;
+BoundarySpec boundary(const std::string& on, BoundaryCondition what) {
+  return {.key = "boundary", .on = {on}, .what = std::move(what)};
 }
 
 }  // namespace
@@ -44,9 +41,8 @@ Wall wall(int n, int elements) {
     contact.initial_gap = InitialGap::closed;
     w.scene.contacts.push_back(contact);
   };
-  const auto slide = [&](const std::string& on) {
-    w.scene.boundaries.push_back(boundary(on));
-    w.scene.boundaries.back().displacement_x = 0;
+  const auto slide = [&](const std::string& on, std::optional<double> y = {}) {
+    w.scene.boundaries.push_back(boundary(on, Displacement{0, y}));
   };
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
@@ -56,13 +52,9 @@ Wall wall(int n, int elements) {
       if (j + 1 < n) add_pair(name + "_north", block_name(i, j + 1) + "_south");
       if (i == 0) slide(name + "_west");
       if (i + 1 == n) slide(name + "_east");
-      if (j == 0) {
-        slide(name + "_south");
-        w.scene.boundaries.back().displacement_y = 0;
-      }
+      if (j == 0) slide(name + "_south", 0);
       if (j + 1 == n) {
-        w.scene.boundaries.push_back(boundary(name + "_north"));
-        w.scene.boundaries.back().pressure = 1e6 * (1 + i % 3);
+        w.scene.boundaries.push_back(boundary(name + "_north", Pressure{1e6 * (1 + i % 3)}));
       }
     }
   return w;

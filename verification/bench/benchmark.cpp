@@ -57,8 +57,9 @@ Case make_case(int n_upper) {
 
 void measure_memory(Case& c) {
   GroundedSystem system;
-  c.limit_megabytes = peak_megabytes([&] { system = grounded_system(c.mesh, discretise(c.scene, c.mesh)); },
-                                     [&] { cholmod_solution(system); });
+  c.limit_megabytes =
+      peak_megabytes([&] { system = grounded_system(c.mesh, discretise(resolve(c.scene, c.mesh), c.mesh)); },
+                     [&] { cholmod_solution(system); });
   c.whole_megabytes = peak_megabytes([] {}, [&] { solve_scene(c.scene, std::move(c.mesh)); });
 }
 
@@ -76,7 +77,7 @@ double seconds_of(const Work& work) {
 }
 
 void print_row(const Case& c, int repeats) {
-  GroundedSystem system = grounded_system(c.mesh, discretise(c.scene, c.mesh));
+  GroundedSystem system = grounded_system(c.mesh, discretise(resolve(c.scene, c.mesh), c.mesh));
   std::vector<double> limit, whole, ratios;
   std::vector<Seconds> stages;
   for (int i = 0; i < repeats; ++i) {

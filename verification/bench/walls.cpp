@@ -20,7 +20,7 @@ void print_row(int n) {
   const double megabytes = peak_megabytes([] {}, [&] { solve(); });
   const Results r = solve();
   const Seconds& s = r.seconds;
-  std::printf("%4d x %-4d %7zu %9zu %9d  %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %8.0f\n", n, n, r.pairs.size(),
+  std::printf("%4d x %-4d %7zu %9zu %9d  %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %8.0f\n", n, n, r.problem.pairs.size(),
               std::size_t(r.solution.lambda.size()), int(r.solution.u.size()), s.assemble, s.couple, s.factorise,
               s.solve, s.recover, s.estimate, megabytes);
   std::fflush(stdout);

@@ -80,9 +80,10 @@ void print_refused(const std::string& name) { std::printf("%s,0,refused,,,,,,,,,
 
 void print_row(const std::string& name, int turn, const Results& r, const RunErrors& e, double total, double wall) {
   const int steps = r.solution.iteration ? r.solution.iteration->steps : 0;
-  std::printf("%s,%d,%s,%d,%d,%d,%d,%d", name.c_str(), turn, to_string(r.status).c_str(), int(r.mesh.nodes.rows()),
-              int(r.mesh.cells.size()), free_unknowns(r), int(r.solution.lambda.size()), steps);
-  std::printf(",%.17g", r.energy);
+  std::printf("%s,%d,%s,%d,%d,%d,%d,%d", name.c_str(), turn, to_string(r.status).c_str(),
+              int(r.problem.mesh.nodes.rows()), int(r.problem.mesh.cells.size()), free_unknowns(r),
+              int(r.solution.lambda.size()), steps);
+  std::printf(",%.17g", r.recovery.energy);
   const Seconds& s = r.seconds;
   for (const double value : {e.energy, e.p_l2, e.p_l2_inner, e.p_max_inner, s.assemble, s.couple, s.factorise, s.solve,
                              s.recover, total, wall})

@@ -12,9 +12,9 @@ namespace mortise::chart {
 namespace {
 
 double energy_error(const Results& r, const test::Field& exact) {
-  const auto& laws = r.discretisation.laws;
-  const double norm = test::field_errors(r.mesh, laws, VecX::Zero(r.solution.u.size()), exact).energy;
-  return test::field_errors(r.mesh, laws, r.solution.u, exact).energy / norm;
+  const auto& laws = r.problem.discretisation.laws;
+  const double norm = test::field_errors(r.problem.mesh, laws, VecX::Zero(r.solution.u.size()), exact).energy;
+  return test::field_errors(r.problem.mesh, laws, r.solution.u, exact).energy / norm;
 }
 
 struct Place {
@@ -23,9 +23,9 @@ struct Place {
 };
 
 Place place_at(const Results& r, int edge, double xi, double weight) {
-  const ContactPair& pair = r.pairs.front();
-  const EdgePoint at = edge_point(r.mesh.nodes, pair.multiplier.edges[edge], xi);
-  return {at.position, interpolate(pair.coupling, pair.multiplier, r.contacts.front().pressure, edge, xi),
+  const ContactPair& pair = r.problem.pairs.front();
+  const EdgePoint at = edge_point(r.problem.mesh.nodes, pair.multiplier.edges[edge], xi);
+  return {at.position, interpolate(pair.coupling, pair.multiplier, r.recovery.contacts.front().pressure, edge, xi),
           weight * at.jacobian()};
 }
 
@@ -37,8 +37,8 @@ RunErrors run_errors(const Results& r, const Problem& problem) {
   if (problem.exact) e.energy = energy_error(r, *problem.exact);
   if (!problem.pressure) return e;
   const LineRule rule = gauss_legendre(5);
-  const Curve& curve = r.pairs.front().multiplier;
-  const double length = r.contacts.front().length;
+  const Curve& curve = r.problem.pairs.front().multiplier;
+  const double length = r.recovery.contacts.front().length;
   double s = 0, sum = 0, norm = 0, inner_sum = 0, inner_norm = 0, worst = 0, largest = 0;
   for (int edge = 0; edge < int(curve.edges.size()); ++edge) {
     double along = s;
@@ -70,7 +70,7 @@ RunErrors run_errors(const Results& r, const Problem& problem) {
 
 void write_pressure(const Results& r, const std::string& path) {
   std::vector<Place> places;
-  const Curve& curve = r.pairs.front().multiplier;
+  const Curve& curve = r.problem.pairs.front().multiplier;
   for (int edge = 0; edge < int(curve.edges.size()); ++edge) {
     const int pieces = curve.edges[edge].node_count == 3 ? 16 : 1;
     for (int i = edge == 0 ? 0 : 1; i <= pieces; ++i) places.push_back(place_at(r, edge, -1 + 2. * i / pieces, 0));

@@ -34,16 +34,16 @@ class Table {
 }  // namespace
 
 void take_fields(Results& r, const std::string& files) {
-  const ContactPair& pair = r.pairs.front();
+  const ContactPair& pair = r.problem.pairs.front();
   const Table bodies(files + "_bodies.txt"), contact(files + "_contact.txt");
-  const auto place = [&](int node) { return Vec2(r.mesh.nodes.row(node)); };
-  for (const Cell& cell : r.mesh.cells)
+  const auto place = [&](int node) { return Vec2(r.problem.mesh.nodes.row(node)); };
+  for (const Cell& cell : r.problem.mesh.cells)
     for (int a = 0; a < node_count(cell.kind); ++a) {
       const int node = cell.nodes[a];
       r.solution.u.segment<2>(2 * node) = bodies.at(cell.body, place(node));
     }
   for (std::size_t i = 0; i < pair.coupling.node.size(); ++i)
-    r.contacts.front().pressure(Eigen::Index(i)) = contact.at(0, place(pair.coupling.node[i])).x();
+    r.recovery.contacts.front().pressure(Eigen::Index(i)) = contact.at(0, place(pair.coupling.node[i])).x();
 }
 
 }  // namespace mortise::chart

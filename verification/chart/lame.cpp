@@ -11,7 +11,8 @@ constexpr double r0 = 1, r1 = 2, r2 = 3;
 double pressure_on(const Scene& scene, const std::string& curve) {
   double sum = 0;
   for (const BoundarySpec& b : scene.boundaries)
-    if (b.pressure && std::find(b.on.begin(), b.on.end(), curve) != b.on.end()) sum += b.pressure->constant();
+    if (const auto* pressure = std::get_if<mortise::Pressure>(&b.what))
+      if (std::find(b.on.begin(), b.on.end(), curve) != b.on.end()) sum += pressure->value.constant();
   return sum;
 }
 

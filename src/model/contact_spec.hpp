@@ -1,0 +1,26 @@
+// One [[contact]] entry.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "model/choices.hpp"
+#include "model/field.hpp"
+
+namespace mortise {
+
+struct ContactSpec {
+  std::string key;
+  /// Physical curves; or patterns (model/patterns.hpp), for all pairs of theirs that face each other.
+  std::array<std::string, 2> between;
+  std::optional<double> within;  ///< how far apart these may be, length; none: half an edge
+  bool found = false;            ///< a pair of a pattern's: its curves need not face each other all along
+  Condition condition = Condition::unilateral;
+  InitialGap initial_gap = InitialGap::curve;
+  Field gap;                   ///< of InitialGap::given: the gap, length: + open, - overlap
+  Field clearance;             ///< added to the drawn or measured gap, length
+  std::string multipliers_on;  ///< one of `between`; empty: couple_pairs chooses; of a tie the curve that follows
+};
+
+}  // namespace mortise

@@ -1,0 +1,32 @@
+// What a scene says of bodies and boundaries, its names resolved in the mesh.
+#pragma once
+
+#include <map>
+
+#include "model/body_specs.hpp"
+#include "model/model.hpp"
+#include "problem/boundary_entries.hpp"
+#include "scene/scene.hpp"
+
+namespace mortise {
+
+struct Entries {
+  Model model;
+  std::map<std::string, Material> materials;
+  std::vector<BodySpec> bodies;
+  std::vector<int> body_of;  ///< of each body of the mesh, in `bodies`
+  std::vector<BoundaryEntry> boundaries;
+  std::vector<BodyForceSpec> body_forces;
+  std::vector<int> body_force_of;  ///< of each body of the mesh, in `body_forces`; -1: none
+  std::vector<InitialStrainSpec> initial_strains;
+  std::vector<int> initial_strain_of;  ///< likewise
+  std::optional<Vec2> gravity;         ///< acceleration
+
+  const Material& material(int body) const { return materials.at(bodies[body_of[body]].material); }
+};
+
+/// Throws SceneError where the scene names what the mesh does not have, leaves a body without material, or says two
+/// things of one.
+Entries resolve(const Scene& scene, const Mesh& mesh);
+
+}  // namespace mortise

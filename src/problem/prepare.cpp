@@ -1,0 +1,72 @@
+#include "base/errors.hpp"
+#include "base/stopwatch.hpp"
+#include "problem/audit.hpp"
+#include "problem/dirichlet_neumann.hpp"
+#include "problem/problem.hpp"
+#include "problem/ties.hpp"
+
+namespace mortise {
+namespace {
+
+void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+  lines.insert(lines.end(), more.begin(), more.end());
+}
+
+// Bodies drawn over one another may have no places that face each other: that is said first.
+std::vector<ContactPair> coupled_pairs(const Problem& p, std::vector<ContactCurves> curves) {
+  try {
+    return couple_pairs(p.method, p.mesh, p.discretisation, std::move(curves), p.dirichlet);
+  } catch (const InputError&) {
+    audit(p.mesh, p.entries.boundaries, {});
+    throw;
+  }
+}
+
+// Couples the pairs and puts their rows into the system; refuses what cannot be meant.
+void add_contact(std::vector<ContactCurves> curves, Problem& p) {
+  p.pairs = coupled_pairs(p, std::move(curves));
+  SaddlePointSystem& system = p.discretisation.system;
+  set_contact(p.pairs, system);
+  p.warnings = p.mesh.notes;
+  append(p.warnings, audit(p.mesh, p.entries.boundaries, p.pairs));
+  require_closed(p.mesh, p.pairs);
+  p.held = hold_free_motions(p.mesh, p.pairs, p.warnings, system);
+  append(p.warnings, held_lines(p.mesh, p.held));
+  p.floating = find_floating(p.mesh, system.constraints);
+  system.grounded = p.floating.grounded;
+}
+
+}  // namespace
+
+Problem prepare(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
+  const auto stage = [&](const std::string& name) {
+    if (progress) progress(name);
+  };
+  Stopwatch watch;
+  Problem p;
+  p.title = scene.title;
+  p.scene = scene.path;
+  p.method = scene.method;
+  p.seeks_accuracy = scene.accuracy.has_value();
+  p.fields = scene.fields;
+  p.mesh = tied(scene, std::move(mesh));
+
+  stage("assemble");
+  p.points = body_points(p.mesh);
+  p.entries = resolve(scene, p.mesh);
+  p.discretisation = discretise(p.entries, p.mesh);
+  p.misfits = data_misfits(p.entries, p.mesh, p.discretisation.laws);
+  p.probes = locate_probes(scene, p.mesh);
+  p.assemble_seconds = watch.lap();
+
+  stage("couple");
+  std::vector<ContactCurves> curves = contact_curves(scene, p.mesh);
+  if (p.method.solver == Solver::ddm)
+    p.dirichlet = dirichlet_bodies(p.method.dirichlet, p.mesh, p.discretisation, curves);
+  add_contact(std::move(curves), p);
+  if (start) p.discretisation.system.start = starting_rows(*start, p.mesh, p.pairs);
+  p.couple_seconds = watch.lap();
+  return p;
+}
+
+}  // namespace mortise

@@ -1,0 +1,40 @@
+// A scene in its mesh: every name resolved, every equation there. Nothing that comes after reads the scene.
+#pragma once
+
+#include "mesh/body_points.hpp"
+#include "problem/contact_pair.hpp"
+#include "problem/data_misfit.hpp"
+#include "problem/discretisation.hpp"
+#include "problem/probe_places.hpp"
+#include "problem/starting_rows.hpp"
+#include "problem/validate.hpp"
+
+namespace mortise {
+
+struct Problem {
+  std::string title, scene;  ///< the scene's title, and the path of its file
+  Method method;
+  bool seeks_accuracy = false;    ///< whether the mesh is one of those that [accuracy] makes
+  std::vector<FieldSpec> fields;  ///< functions of place from files
+  Mesh mesh;                      ///< with its ties
+  BodyPoints points;
+  Entries entries;
+  Discretisation discretisation;  ///< with the rows of all pairs
+  DataMisfits misfits;            ///< of the functions of place
+  std::vector<ContactPair> pairs;
+  std::vector<char> dirichlet;                 ///< of domain decomposition: whether a body takes the displacement
+  Floating floating;                           ///< what only contact holds
+  std::vector<std::vector<RigidMotion>> held;  ///< motions that nothing holds and no load drives, held
+  std::vector<ProbePlace> probes;
+  std::vector<std::string> warnings;  ///< of the mesh and the audit, and of motions held
+  double assemble_seconds = 0, couple_seconds = 0;
+};
+
+/// Called as each stage begins, with its name.
+using Progress = std::function<void(const std::string& stage)>;
+
+/// All that `check` says and `solve` needs; `start`: where contact is closed at first. Throws SceneError for what
+/// cannot be meant or has no solution, before anything is factorised.
+Problem prepare(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr);
+
+}  // namespace mortise

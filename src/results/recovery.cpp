@@ -1,0 +1,25 @@
+#include "results/recovery.hpp"
+
+#include "base/parallel.hpp"
+#include "solve/threads.hpp"
+
+namespace mortise {
+
+Recovery recover(const Problem& p, const Solution& solution) {
+  const VecX& u = solution.u;
+  Recovery r;
+  r.stress = recover_stress(p.mesh, p.points, p.discretisation.laws, u);
+  r.energy = strain_energy(p.discretisation, u);
+  r.contacts.resize(p.pairs.size());
+  for_each_index(p.pairs.size(), solver_threads(), [&](std::size_t k) {
+    const ContactPair& pair = p.pairs[k];
+    r.contacts[k] = contact_results(p.mesh, pair, p.discretisation.system.constraints, p.points, r.stress, u,
+                                    solution.lambda.segment(pair.first_row, pair.coupling.B.rows()));
+  });
+  r.probes = probe_values(p.mesh, p.points, p.discretisation.laws, u, r.stress, p.probes);
+  r.extremes = find_extremes(p.mesh, p.points, r.stress, r.contacts);
+  r.reactions = find_reactions(p, solution);
+  return r;
+}
+
+}  // namespace mortise
