@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "fem/patch_recovery.hpp"
+#include "fem/error_products.hpp"
 #include "solve/contact_factor.hpp"
 
 namespace mortise {

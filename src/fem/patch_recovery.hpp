@@ -21,13 +21,18 @@ struct StressSamples {
 /// `fields`: n x F, displacements. `laws`: of one model.
 StressSamples sample_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const MatX& fields);
 
+/// 1, x, y, x^2, xy, y^2.
+using Monomials = Eigen::Matrix<double, 6, 1>;
+
 /// Stresses as polynomials about vertices.
 struct StressPatches {
   std::vector<Vec2> centre;  ///< of each body point
   std::vector<double> size;  ///< of each patch, length: the polynomial is in (x - centre) / size
-  std::vector<int> terms;    ///< 1, x, y, x^2, xy, y^2: 1, 3 or 6 of them; 0: no vertex
+  std::vector<int> terms;    ///< 1, 3 or 6 of the monomials; 0: no vertex
   std::vector<int> row;      ///< of each body point: the first of its six rows; -1: no vertex
   FieldStresses coefficients;
+
+  Monomials monomials_at(int p, const Vec2& x) const;  ///< of patch p
 
   /// Adds factor times the stresses of patch p at x to `sum`, a row of stresses.
   void add_at(int p, const Vec2& x, double factor, Eigen::RowVectorXd& sum) const;
@@ -49,17 +54,5 @@ Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, 
 
 /// The whole stress (11, 22, 33, 12) at x, initial strains included, of a recovered one.
 Vec4 whole_stress(const std::vector<ElasticLaw>& laws, int body, const Eigen::RowVectorXd& recovered, const Vec2& x);
-
-/// Products of recovered errors d_k = sigma*_k - sigma_h,k, times depth (model/model.hpp).
-struct ErrorProducts {
-  MatX products;  ///< cells x F: int d_0 : C^-1 : d_k; column 0 estimates the cell's share of the squared energy norm
-                  ///< of the error of field 0 (twice its energy)
-  VecX norms;     ///< of each cell: int sigma*_0 : C^-1 : sigma*_0, initial strains included
-  VecX areas;     ///< of each cell
-};
-
-/// sigma* as recovered_stress.
-ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                             const MatX& fields, const StressPatches& patches);
 
 }  // namespace mortise

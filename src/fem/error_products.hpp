@@ -1,0 +1,21 @@
+// Products of the errors that recovered stresses show.
+#pragma once
+
+#include "fem/patch_recovery.hpp"
+
+namespace mortise {
+
+/// Products of recovered errors d_k = sigma*_k - sigma_h,k, times depth (base/model.hpp).
+struct ErrorProducts {
+  MatX products;  ///< cells x F: int d_0 : C^-1 : d_k; column 0 estimates the cell's share of the squared energy norm
+                  ///< of the error of field 0 (twice its energy)
+  VecX norms;     ///< of each cell: int sigma*_0 : C^-1 : sigma*_0, initial strains included
+  VecX areas;     ///< of each cell
+};
+
+/// sigma* as recovered_stress. `patches`: of the same `fields`. What field 0 does to the patches and to the nodes of a
+/// cell is found once; each further field costs a few products a cell.
+ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                             const MatX& fields, const StressPatches& patches);
+
+}  // namespace mortise
