@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "app/solve_system.hpp"
 #include "base/errors.hpp"
@@ -96,14 +97,17 @@ void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint
   require_held(r, spec);
   const Problem& p = r.problem;
   Recovery& recovery = r.recovery;
-  r.estimate = estimate_error(p.mesh, p.points, p.discretisation, p.pairs, r.solution, spec, most_own_duals, found);
+  ForcesAsked asked;
+  if (forces) asked = ask_forces(r);
+  r.estimate =
+      estimate_error(p.mesh, p.points, p.discretisation, p.pairs, r.solution, spec, most_own_duals, found, asked.rows);
   add_data_errors(p.mesh, p.points, p.discretisation, p.pairs, r.solution, p.misfits, spec, *r.estimate);
   for (std::size_t k = 0; k < recovery.contacts.size(); ++k) set_bars(r.estimate->pressures[k], recovery.contacts[k]);
   const std::vector<PlaceError> of_probes = place_errors(p.mesh, p.points, p.discretisation, p.pairs, r.solution,
                                                          r.estimate->pressures, probed_places(recovery.probes));
   for (std::size_t i = 0; i < of_probes.size(); ++i) recovery.probes[i].error = of_probes[i];
   leave_out_unheld(r);
-  if (forces) set_force_bars(r);
+  if (forces) set_force_bars(asked, std::exchange(r.estimate->also, {}), r);
   append(r.warnings, error_warnings(r));
   if (auto check = estimate_check(r)) r.checks.push_back(*std::move(check));
   r.status = std::max(r.status, verdict(r));

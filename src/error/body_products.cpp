@@ -79,4 +79,16 @@ ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, co
   return all;
 }
 
+FoundDuals find_duals(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws, const VecX& u,
+                      const ContactFactor& factor, const MatX& functionals) {
+  FoundDuals found{.z = MatX(u.size(), functionals.cols()), .sums = {}};
+  const auto keep = [&](Eigen::Index first, const MatX& fields) {
+    found.z.middleCols(first, fields.cols() - 1) = fields.rightCols(fields.cols() - 1);
+  };
+  const MatX no_loads(u.size(), 0);
+  const ErrorProducts parts = products_with_duals(mesh, points, laws, u, factor, functionals, no_loads, keep);
+  found.sums = parts.products.rightCols(functionals.cols()).cwiseAbs().colwise().sum();
+  return found;
+}
+
 }  // namespace mortise

@@ -23,4 +23,13 @@ ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, co
                                   const VecX& u, const ContactFactor& factor, const MatX& functionals,
                                   const MatX& loads, const SeeDuals& see = {});
 
+/// The duals of functionals.
+struct FoundDuals {
+  MatX z;     ///< n x F
+  VecX sums;  ///< of each the sum of the cells' parts without their signs
+};
+
+FoundDuals find_duals(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws, const VecX& u,
+                      const ContactFactor& factor, const MatX& functionals);
+
 }  // namespace mortise

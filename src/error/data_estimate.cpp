@@ -148,6 +148,44 @@ void add_gap_errors(const Mesh& mesh, const std::vector<ContactPair>& pairs, con
   }
 }
 
+// Edges of the multiplier side at each node of both sides of a pair, the first and the last.
+std::map<int, std::pair<int, int>> edges_at_nodes(const ContactPair& pair) {
+  std::map<int, std::pair<int, int>> edges;
+  for (const ContactPoint& point : pair.points)
+    for (const Edge& edge : {pair.multiplier.edges[point.edge], pair.opposite.edges[point.opposite_edge]})
+      for (int a = 0; a < edge.node_count; ++a) {
+        const auto [at, found] = edges.try_emplace(edge.nodes[a], point.edge, point.edge);
+        at->second.first = std::min(at->second.first, point.edge);
+        at->second.second = std::max(at->second.second, point.edge);
+      }
+  return edges;
+}
+
+// An initial strain that a cell does not follow makes stresses of its own size there. Where the cell is on the line
+// they are a part of p at its vertices: means over windows, which are many times as wide, hardly feel them.
+void add_strains_on_line(const Mesh& mesh, const std::vector<ContactPair>& pairs, const std::vector<ElasticLaw>& laws,
+                         const DataMisfits& data, ErrorEstimate& estimate) {
+  const auto is_strain = [](const DataMisfit& part) { return part.kind == DataMisfit::Kind::strain; };
+  if (std::ranges::none_of(data.parts, is_strain)) return;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const std::map<int, std::pair<int, int>> edges = edges_at_nodes(pairs[k]);
+    PressureEstimate& e = estimate.pressures[k];
+    for (const DataMisfit& part : data.parts) {
+      if (!is_strain(part)) continue;
+      const Cell& cell = mesh.cells[part.cell];
+      std::pair on_line{int(e.line.p.size()), -1};
+      for (int a = 0; a < node_count(cell.kind); ++a)
+        if (const auto at = edges.find(cell.nodes[a]); at != edges.end())
+          on_line = {std::min(on_line.first, at->second.first), std::max(on_line.second, at->second.second)};
+      const ElasticLaw& law = laws[cell.body];
+      const double volume = estimate.energy.areas(part.cell) * law.model.depth(centre_of(mesh.nodes, cell).x());
+      const double stress = part.size * std::sqrt(law.young / volume);
+      for (int i = on_line.first; i <= on_line.second + 1; ++i)
+        if (e.line.loaded[i]) e.local.l2(i) = std::hypot(e.local.l2(i), stress * std::sqrt(e.line.h(i)));
+    }
+  }
+}
+
 }  // namespace
 
 void add_data_errors(const Mesh& mesh, const BodyPoints& points, const Discretisation& d,
@@ -156,6 +194,7 @@ void add_data_errors(const Mesh& mesh, const BodyPoints& points, const Discretis
   constexpr Eigen::Index at_once = 12;
   add_gap_errors(mesh, pairs, d.laws, spec.exclude, estimate.pressures);
   if (data.parts.empty() || pairs.empty()) return;
+  add_strains_on_line(mesh, pairs, d.laws, data, estimate);
   const Eigen::Index rows = d.system.B.rows(), shared = estimate.far.windows.count;
   const GoalFunctionals goal = goal_functionals(mesh, d, pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
   const Eigen::Index goals = estimate.goal ? goal.rows.cols() : 0, count = shared + goals;

@@ -6,7 +6,6 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
-#include "error/body_products.hpp"
 #include "error/gap_error.hpp"
 #include "error/recovered_pressure.hpp"
 #include "error/sliding_kinks.hpp"
@@ -115,6 +114,7 @@ std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const SideTab
                                             tips, reached[k], one_curve),
                             e.line, asked.spec.value);
     add_weak_points(e.line, e.singular, e.local);
+    add_hardly_faced(pair, e.line, e.local);
     judge_small_kinks(pair, e.line, contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]),
                       solution.u, asked.spec.value, e.singular);
     find_excluded(asked.spec.exclude, e);
@@ -204,7 +204,7 @@ void find_bars(PressureEstimate& e) {
   const Eigen::Index count = line.p.size();
   e.local2 = e.far2 = e.p2 = 0;
   e.bar = e.local.pointwise(line);
-  if (e.local.at_weak.size() > 0) e.bar = e.bar.cwiseMax(e.local.at_weak);
+  if (e.local.least.size() > 0) e.bar = e.bar.cwiseMax(e.local.least);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double far = far_at(e, i);
     e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? far : 0));
@@ -257,7 +257,7 @@ double ErrorEstimate::far_field() const { return error_norm(pressures, 0, 1) / s
 
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
                              const std::vector<ContactPair>& pairs, const Solution& solution, const AccuracySpec& spec,
-                             int own_duals, const std::vector<FoundPoint>& found_points) {
+                             int own_duals, const std::vector<FoundPoint>& found_points, const MatX& also) {
   const SaddlePointSystem& system = discretisation.system;
   const Eigen::Index rows = system.B.rows();
   const std::vector<ElasticLaw>& laws = discretisation.laws;
@@ -277,9 +277,10 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
   GoalFunctionals goal;
   if (!pairs.empty())
     goal = goal_functionals(mesh, discretisation, pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
-  const Eigen::Index shared = estimate.far.windows.count, goals = goal.rows.cols();
-  MatX functionals(rows, shared + goals);
+  const Eigen::Index shared = estimate.far.windows.count, goals = goal.rows.cols(), more = also.cols();
+  MatX functionals(rows, shared + more + goals);
   functionals.leftCols(shared) = window_functionals(pairs, estimate.pressures, estimate.far.windows, rows);
+  if (more > 0) functionals.middleCols(shared, more) = also;
   if (goals > 0) functionals.rightCols(goals) = goal.rows;
   std::shared_ptr<const ContactFactor> factor = solution.factor;
   if (functionals.cols() > 0 && !factor) factor = factorise_contact(system, solution.active);
@@ -288,11 +289,11 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
         mesh, table,
         free_corners(body_corners(mesh, table, system.constraints, laws, tips), mesh.nodes.rows(), pairs, reached));
   CornerProducts at_corners(mesh, laws, estimate.tails.corners);
-  MatX goal_duals(goals > 0 ? solution.u.size() : 0, goals);
+  MatX kept(more + goals > 0 ? solution.u.size() : 0, more + goals);
   const auto see = [&](Eigen::Index first, const MatX& fields) {
     at_corners.add(fields);
     for (Eigen::Index k = std::max(first, shared); k < first + fields.cols() - 1; ++k)
-      goal_duals.col(k - shared) = fields.col(1 + k - first);
+      kept.col(k - shared) = fields.col(1 + k - first);
   };
   const ErrorProducts found = functionals.cols() > 0 ? products_with_duals(mesh, points, laws, solution.u, *factor,
                                                                            functionals, goal.loads, see)
@@ -301,7 +302,7 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
   estimate.far.parts = found.products.middleCols(1, shared);
   if (goals > 0) {
     estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
-    estimate.goal->lines = line_parts(pairs, estimate.pressures, goal_duals, spec.pair, goal.opening);
+    estimate.goal->lines = line_parts(pairs, estimate.pressures, kept.rightCols(goals), spec.pair, goal.opening);
   }
   if (spec.of == Goal::stress) {
     const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, solution.u));
@@ -312,6 +313,9 @@ ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const D
     estimate.tails.parts = tails.middleCols(1, shared);
     estimate.tails.goal = tails.rightCols(goals);
     if (goals > 0) estimate.goal->corners = estimate.tails.goal.colwise().sum().transpose();
+    estimate.also = {.z = kept.leftCols(more),
+                     .sums = found.products.middleCols(1 + shared, more).cwiseAbs().colwise().sum() +
+                             tails.middleCols(1 + shared, more).colwise().sum()};
   }
   std::vector<TailShares> tails = tails_along(mesh, estimate.pressures, estimate.far.windows, estimate.tails);
   const VecX far = far_fields(mesh, estimate.far);

@@ -1,6 +1,7 @@
 // How far a solution is from that of the problem: the stresses in the energy norm, the contact pressure node by node.
 #pragma once
 
+#include "error/body_products.hpp"
 #include "error/contact_reach.hpp"
 #include "error/goal_estimate.hpp"
 #include "error/pressure_windows.hpp"
@@ -50,6 +51,7 @@ struct ErrorEstimate {
   FarField far;
   CornerTails tails;
   std::optional<GoalEstimate> goal;  ///< where one is asked for
+  FoundDuals also;                   ///< of further functionals; corners are in their sums
 
   /// L2 norms of the estimated error of p over that of p on all contact lines, singular points left out: of the whole,
   /// and of its two parts before the safety factor. NaN where nothing is loaded or all is excluded.
@@ -65,11 +67,12 @@ struct ErrorEstimate {
 
 /// `solution`: converged or not; where it has no factor (iterative solvers) the whole system is factorised once.
 /// `spec`: what is left out, and a functional that is asked for. `own_duals`: as most_own of share_duals. Throws
-/// SceneError as goal_functionals does. `found`: singular points of earlier meshes, which stay.
+/// SceneError as goal_functionals does. `found`: singular points of earlier meshes, which stay. `also`: m x F,
+/// functionals whose duals are wanted besides.
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
                              const std::vector<ContactPair>& pairs, const Solution& solution,
                              const AccuracySpec& spec = {}, int own_duals = most_own_duals,
-                             const std::vector<FoundPoint>& found = {});
+                             const std::vector<FoundPoint>& found = {}, const MatX& also = {});
 
 // Its parts, for what adds to an estimate (error/data_estimate.hpp).
 

@@ -21,14 +21,9 @@ double unit_motion(const Mesh& mesh, int i, int c, const Vec2& centre) {
   return i % 2 == 0 ? -arm.y() : arm.x();
 }
 
-struct AskedForce {
-  std::size_t pair;
-  int component;  // x, y, the moment
-};
-
 // m: by how much the rows are to open where the multiplier side of a pair moves by 1.
 VecX opened_rows(const Mesh& mesh, const SaddlePointSystem& system, const std::vector<ContactPair>& pairs,
-                 const std::vector<Vec2>& centres, const AskedForce& asked) {
+                 const std::vector<Vec2>& centres, const ForcesAsked::One& asked) {
   const ContactPair& pair = pairs[asked.pair];
   VecX motion = VecX::Zero(system.K.cols()), rows = VecX::Zero(system.B.rows());
   for (const int node : curve_nodes(pair.multiplier))
@@ -111,32 +106,19 @@ VecX along_normals(const Mesh& mesh, const ContactPair& pair, int component, con
   return along;
 }
 
-// What the bodies' error and that of p on all lines do to each.
-VecX errors_by_duals(const Mesh& mesh, const BodyPoints& points, const Discretisation& d,
-                     const std::vector<ContactPair>& pairs, const Solution& solution,
+// What the error of p on all lines does to each.
+VecX errors_of_lines(const Mesh& mesh, const std::vector<ContactPair>& pairs,
                      const std::vector<PressureEstimate>& pressures, const std::vector<Vec2>& centres,
-                     const std::vector<AskedForce>& asked) {
-  const SaddlePointSystem& s = d.system;
-  const auto count = Eigen::Index(asked.size());
-  MatX rows(s.B.rows(), count);
-  for (Eigen::Index k = 0; k < count; ++k) rows.col(k) = opened_rows(mesh, s, pairs, centres, asked[k]);
-  VecX errors = VecX::Zero(count);
-  const auto add_lines = [&](Eigen::Index first, MatX& fields) {
-    const auto z = fields.rightCols(fields.cols() - 1);
-    for (std::size_t p = 0; p < pairs.size(); ++p) {
-      MatX opened = openings(pairs[p], z);
-      for (Eigen::Index k = 0; k < z.cols(); ++k) {
-        const AskedForce& one = asked[first + k];
-        if (one.pair == p) opened.col(k) += along_normals(mesh, pairs[p], one.component, centres[p]);
-      }
-      errors.segment(first, z.cols()) += line_part(pairs[p], pressures[p].line, pressures[p].local, opened).sum();
-    }
-  };
-  std::shared_ptr<const ContactFactor> factor = solution.factor;
-  if (!factor) factor = factorise_contact(s, solution.active);
-  const ErrorProducts found =
-      products_with_duals(mesh, points, d.laws, solution.u, *factor, rows, MatX(s.K.cols(), 0), add_lines);
-  return errors + found.products.rightCols(count).cwiseAbs().colwise().sum().transpose();
+                     const ForcesAsked& asked, const MatX& z) {
+  VecX errors = VecX::Zero(z.cols());
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    MatX opened = openings(pairs[p], z);
+    for (Eigen::Index k = 0; k < z.cols(); ++k)
+      if (const auto& one = asked.by_duals[k]; one.pair == p)
+        opened.col(k) += along_normals(mesh, pairs[p], one.component, centres[p]);
+    errors += line_part(pairs[p], pressures[p].line, pressures[p].local, opened).sum();
+  }
+  return errors;
 }
 
 // By the bars of p: force along x and y, and moment.
@@ -156,30 +138,62 @@ Eigen::Vector3d sum_of_bars(const Mesh& mesh, const ContactPair& pair, const Pre
 
 }  // namespace
 
+ForcesAsked ask_forces(const Mesh& mesh, const BodyPoints& points, const Discretisation& d,
+                       const std::vector<ContactPair>& pairs, const Solution& solution,
+                       const std::vector<Vec2>& centres) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  ForcesAsked asked{.by_statics = {pairs.size(), Eigen::Vector3d::Constant(unknown)}, .by_duals = {}, .rows = {}};
+  if (pairs.size() > std::size_t(most_own_duals) || mesh.bodies.size() > std::size_t(most_own_duals)) return asked;
+  const Statics statics(mesh, points, d.system);
+  const VecX left = what_is_left(d.system, solution);
+  std::vector<VecX> rows;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (int c = 0; c < 3; ++c) {
+      VecX opened = opened_rows(mesh, d.system, pairs, centres, {k, c});
+      if (const auto motion = statics.motion(opened)) {
+        asked.by_statics[k](c) = left.dot(motion->cwiseAbs());
+      } else {
+        asked.by_duals.push_back({k, c});
+        rows.push_back(std::move(opened));
+      }
+    }
+  if (rows.size() > std::size_t(most_own_duals)) {
+    rows.clear();
+    asked.by_duals.clear();
+  }
+  asked.rows.resize(d.system.B.rows(), Eigen::Index(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) asked.rows.col(Eigen::Index(k)) = rows[k];
+  return asked;
+}
+
+std::vector<Eigen::Vector3d> force_errors(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                                          const std::vector<PressureEstimate>& pressures,
+                                          const std::vector<Vec2>& centres, const ForcesAsked& asked,
+                                          const FoundDuals& duals) {
+  std::vector<Eigen::Vector3d> errors;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const Eigen::Vector3d& known = asked.by_statics[k];
+    errors.push_back(known.array().isNaN().select(sum_of_bars(mesh, pairs[k], pressures[k], centres[k]), known));
+  }
+  if (asked.by_duals.empty()) return errors;
+  const VecX found = duals.sums + errors_of_lines(mesh, pairs, pressures, centres, asked, duals.z);
+  for (std::size_t k = 0; k < asked.by_duals.size(); ++k)
+    errors[asked.by_duals[k].pair](asked.by_duals[k].component) = error_safety * found(Eigen::Index(k));
+  return errors;
+}
+
 std::vector<Eigen::Vector3d> force_errors(const Mesh& mesh, const BodyPoints& points, const Discretisation& d,
                                           const std::vector<ContactPair>& pairs, const Solution& solution,
                                           const std::vector<PressureEstimate>& pressures,
                                           const std::vector<Vec2>& centres) {
-  std::vector<Eigen::Vector3d> errors;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    errors.push_back(sum_of_bars(mesh, pairs[k], pressures[k], centres[k]));
-  if (pairs.size() > std::size_t(most_own_duals) || mesh.bodies.size() > std::size_t(most_own_duals)) return errors;
-  const Statics statics(mesh, points, d.system);
-  const VecX left = what_is_left(d.system, solution);
-  std::vector<AskedForce> asked;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    for (int c = 0; c < 3; ++c) {
-      const AskedForce one{k, c};
-      if (const auto motion = statics.motion(opened_rows(mesh, d.system, pairs, centres, one)))
-        errors[k](c) = left.dot(motion->cwiseAbs());
-      else
-        asked.push_back(one);
-    }
-  if (asked.empty() || asked.size() > std::size_t(most_own_duals)) return errors;
-  const VecX found = errors_by_duals(mesh, points, d, pairs, solution, pressures, centres, asked);
-  for (std::size_t k = 0; k < asked.size(); ++k)
-    errors[asked[k].pair](asked[k].component) = error_safety * found(Eigen::Index(k));
-  return errors;
+  const ForcesAsked asked = ask_forces(mesh, points, d, pairs, solution, centres);
+  FoundDuals duals;
+  if (!asked.by_duals.empty()) {
+    std::shared_ptr<const ContactFactor> factor = solution.factor;
+    if (!factor) factor = factorise_contact(d.system, solution.active);
+    duals = find_duals(mesh, points, d.laws, solution.u, *factor, asked.rows);
+  }
+  return force_errors(mesh, pairs, pressures, centres, asked, duals);
 }
 
 }  // namespace mortise

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/multiplier_rows.hpp"
 #include "fem/edges.hpp"
 
 namespace mortise {
@@ -161,6 +162,28 @@ VecX LineError::pointwise(const PressureLine& line) const {
     }
   }
   return found;
+}
+
+void LineError::raise(Eigen::Index vertex, double by) {
+  if (least.size() == 0) least = VecX::Zero(l2.size());
+  least(vertex) = std::max(least(vertex), by);
+}
+
+void add_hardly_faced(const ContactPair& pair, const PressureLine& line, LineError& error) {
+  const Eigen::Index last = line.p.size() - 1;
+  VecX faced = VecX::Zero(last), of_vertex = VecX::Zero(last + 1), length = of_vertex;
+  for (const ContactPoint& point : pair.points) faced(point.edge) += point.ds;
+  for (Eigen::Index e = 0; e < last; ++e)
+    for (const Eigen::Index i : {e, e + 1}) {
+      of_vertex(i) += faced(e);
+      length(i) += line.s(e + 1) - line.s(e);
+    }
+  if (line.closed) {
+    of_vertex(0) = of_vertex(last) = of_vertex(0) + of_vertex(last);
+    length(0) = length(last) = length(0) + length(last);
+  }
+  for (Eigen::Index i = 0; i <= last; ++i)
+    if (line.loaded[i] && of_vertex(i) < faced_limit * length(i)) error.raise(i, std::abs(line.p(i)));
 }
 
 }  // namespace mortise

@@ -46,12 +46,19 @@ struct LineError {
     double part;        ///< its length over half the width of the contact beside it
   };
   std::vector<Border> borders;
-  VecX at_weak{};  ///< of vertices at which p goes as a small power of the distance, stress; empty: there are none
+  /// What p is off by at least, of vertices at which it goes as a small power of the distance, or that hardly face the
+  /// other side, stress; empty: there are none.
+  VecX least{};
+  void raise(Eigen::Index vertex, double by);  ///< `least` at a vertex
   /// At each vertex what p is off by, stress: the largest within four edges. What the border makes falls with the
   /// distance r from it as sqrt(h / r): that is what moving it does to a root.
   VecX pointwise(const PressureLine& line) const;
 };
 
 LineError line_error(const PressureLine& line);
+
+/// Raises `least` where the edges of a vertex hardly face the other side: its p is that of the nearest free node (or
+/// what little they face makes of it), and is known no better than to its own size.
+void add_hardly_faced(const ContactPair& pair, const PressureLine& line, LineError& error);
 
 }  // namespace mortise

@@ -33,8 +33,7 @@ void add_weak_points(const PressureLine& line, std::vector<SingularPoint>& point
     for (const Eigen::Index next : {i - 1, i + 1})
       if (next >= 0 && next < line.p.size()) p = std::max(p, std::abs(line.p(next)));
     error.l2(i) = std::hypot(error.l2(i), missed(d) * p * std::sqrt(line.h(i)));
-    if (error.at_weak.size() == 0) error.at_weak = VecX::Zero(line.p.size());
-    error.at_weak(i) = p * std::abs(std::exp(-folds * d) - 1);
+    error.raise(i, p * std::abs(std::exp(-folds * d) - 1));
     return true;
   });
 }

@@ -1,7 +1,7 @@
 // Stresses of many displacement fields at once, point by point.
 #pragma once
 
-#include "fem/patch_recovery.hpp"
+#include "fem/stress.hpp"
 
 namespace mortise {
 
@@ -11,7 +11,7 @@ using NodalFields = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen:
 /// `fields`: n x F, displacements.
 NodalFields by_node(const MatX& fields);
 
-/// Stresses of a field in FieldStresses: (11, 22, 12), and 33 of rings.
+/// Stresses of a field: (11, 22, 12), and 33 of rings.
 Eigen::Index components(const std::vector<ElasticLaw>& laws);
 
 /// (11, 22, 33, 12) of `count` such components, those from `first` on.
@@ -26,7 +26,7 @@ class CellSampler {
   Vec2 x;
   double area = 0;              ///< Jacobian determinant
   std::array<Vec2, 9> slopes;   ///< of the nodes' shape functions, d / dx
-  Eigen::RowVectorXd stresses;  ///< a row of FieldStresses
+  Eigen::RowVectorXd stresses;  ///< (11, 22, 12) of each field, of rings (11, 22, 12, 33)
 
   /// `laws`: of one model.
   CellSampler(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const MatX& fields);

@@ -5,7 +5,7 @@
 
 namespace mortise {
 
-/// Products of recovered errors d_k = sigma*_k - sigma_h,k, times depth (base/model.hpp).
+/// Products of recovered errors d_k = sigma*_k - sigma_h,k, times depth (model/model.hpp).
 struct ErrorProducts {
   MatX products;  ///< cells x F: int d_0 : C^-1 : d_k; column 0 estimates the cell's share of the squared energy norm
                   ///< of the error of field 0 (twice its energy)

@@ -83,11 +83,15 @@ bool grows_without_limit(const Results& r, const Extreme& stress) {
   });
 }
 
-void set_force_bars(Results& r) {
+namespace {
+
+std::vector<Vec2> centres_of(const Results& r) {
   std::vector<Vec2> centres;
   for (const ContactResults& contact : r.recovery.contacts) centres.push_back(contact.centre);
-  const std::vector<Eigen::Vector3d> errors = force_errors(r.problem.mesh, r.problem.points, r.problem.discretisation,
-                                                           r.problem.pairs, r.solution, r.estimate->pressures, centres);
+  return centres;
+}
+
+void put_force_bars(const std::vector<Eigen::Vector3d>& errors, Results& r) {
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     r.recovery.contacts[k].force_error = errors[k];
     const PressureEstimate& e = r.estimate->pressures[k];
@@ -95,6 +99,23 @@ void set_force_bars(Results& r) {
     for (const LineError::Border& border : e.local.borders) length += e.line.s(border.edge + 1) - e.line.s(border.edge);
     r.recovery.contacts[k].length_error = length;
   }
+}
+
+}  // namespace
+
+ForcesAsked ask_forces(const Results& r) {
+  return ask_forces(r.problem.mesh, r.problem.points, r.problem.discretisation, r.problem.pairs, r.solution,
+                    centres_of(r));
+}
+
+void set_force_bars(const ForcesAsked& asked, const FoundDuals& duals, Results& r) {
+  put_force_bars(force_errors(r.problem.mesh, r.problem.pairs, r.estimate->pressures, centres_of(r), asked, duals), r);
+}
+
+void set_force_bars(Results& r) {
+  put_force_bars(force_errors(r.problem.mesh, r.problem.points, r.problem.discretisation, r.problem.pairs, r.solution,
+                              r.estimate->pressures, centres_of(r)),
+                 r);
 }
 
 void set_bars(const PressureEstimate& estimate, ContactResults& contact) {

@@ -1,6 +1,7 @@
 // What a user reads of the estimated errors.
 #pragma once
 
+#include "error/force_errors.hpp"
 #include "results/results.hpp"
 
 namespace mortise {
@@ -20,6 +21,10 @@ void set_bars(const PressureEstimate& estimate, ContactResults& contact);
 
 /// The bars of forces, moments and lengths in contact into the pairs.
 void set_force_bars(Results& results);
+
+/// What it asks, so that estimate_error finds its duals with the others; then the bars by these.
+ForcesAsked ask_forces(const Results& results);
+void set_force_bars(const ForcesAsked& asked, const FoundDuals& duals, Results& results);
 
 /// What makes most of the estimated error of p, in words with its place: "the border of contact near (0.01, 0)".
 std::string largest_error(const Results& results);

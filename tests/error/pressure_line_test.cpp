@@ -109,5 +109,26 @@ TEST(LineError, OfAnEndOfTheOtherSideIsThatOfAnEndOfTheLine) {
   EXPECT_EQ(line_error(line).borders.size(), 1U);
 }
 
+// Two edges face the other side, of the third a twentieth: its far vertex has a p of its neighbour's.
+TEST(HardlyFaced, VerticesAreKnownNoBetterThanToTheirOwnSize) {
+  const PressureLine line = line_of(VecX::LinSpaced(4, 0, 3), [](double) { return 7; });
+  ContactPair pair{};
+  for (const auto& [edge, length] : {std::pair(0, 1.0), {1, 0.4}, {1, 0.6}, {2, 0.05}}) {
+    ContactPoint point{};
+    point.edge = edge;
+    point.ds = length;
+    pair.points.push_back(point);
+  }
+  LineError error = line_error(line);
+  add_hardly_faced(pair, line, error);
+  ASSERT_EQ(error.least.size(), 4);
+  EXPECT_EQ(error.least.head(3).maxCoeff(), 0);
+  EXPECT_EQ(error.least(3), 7);
+  pair.points.back().ds = 0.2;
+  LineError well = line_error(line);
+  add_hardly_faced(pair, line, well);
+  EXPECT_EQ(well.least.size(), 0);
+}
+
 }  // namespace
 }  // namespace mortise

@@ -65,9 +65,9 @@ TEST(WeakPoints, HaveBarsThatReachZeroAndLeaveTheList) {
   add_weak_points(line, points, error);
   ASSERT_EQ(points.size(), 1u);
   EXPECT_EQ(points[0].exponent, 0.5);
-  ASSERT_EQ(error.at_weak.size(), 31);
-  EXPECT_NEAR(error.at_weak(0), (1 - std::exp(-1.5)) * line.p(1), 1e-12);
-  EXPECT_EQ(error.at_weak(1), 0);
+  ASSERT_EQ(error.least.size(), 31);
+  EXPECT_NEAR(error.least(0), (1 - std::exp(-1.5)) * line.p(1), 1e-12);
+  EXPECT_EQ(error.least(1), 0);
 }
 
 }  // namespace

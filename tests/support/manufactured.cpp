@@ -8,6 +8,7 @@
 #include "fem/assembly.hpp"
 #include "fem/edges.hpp"
 #include "fem/elements.hpp"
+#include "fem/error_products.hpp"
 #include "fem/patch_recovery.hpp"
 #include "fem/quadrature.hpp"
 #include "solve/direct.hpp"

@@ -121,7 +121,7 @@ def make_outline(seed, number):
     r = random.Random(f"{seed}:outline:{number // SHARED}")
     drawing = r.choice(FAMILIES)(r)
     scene = scene_of(r, drawing)
-    if drawing.what == "crown":  # along its normals or the block's: p differs by the square of the angle between
+    if drawing.what in ("crown", "cone", "wedge"):  # along its normals or the block's: p differs by the square of the angle between
         scene["contact"][0]["multipliers_on"] = r.choice(("upper_bottom", "lower_top"))
     closed = scene | {"contact": [scene["contact"][0] | ({"initial_gap": "closed"} if drawing.one_line else {})]}
     case = held_case("outline", drawing.what, drawing.what, scene, drawing, number, seed, lambda r: own_mesh(r, drawing))

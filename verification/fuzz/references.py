@@ -33,7 +33,7 @@ INSIDE = 0.95  # of the nodes on a mesh of one's own
 ROUND_OFF = 1e-7  # of the largest p: as two references agree where the answer is exact
 NEAR = 0.06  # of the length: a place that a message gives is that of the feature
 NUMBER = r"(-?\d+\.?\d*(?:e[-+]?\d+)?)"
-PLACE = rf"\({NUMBER}, {NUMBER}\)"
+PLACE = rf"\((?:x = )?{NUMBER}, (?:y = )?{NUMBER}\)"
 
 
 def line_of(folder, middles=True):
