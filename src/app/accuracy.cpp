@@ -209,8 +209,7 @@ class Loop {
       return false;
     }
     std::vector<LeastGap> gaps;
-    for (const ContactPair& pair : r.problem.pairs)
-      gaps.push_back(least_gap(r.problem.mesh.nodes, r.solution.u, pair.multiplier, pair.opposite, pair.points));
+    for (const ContactPair& pair : r.problem.pairs) gaps.push_back(least_gap(r.problem.mesh.nodes, r.solution.u, pair));
     const double round_off = 1e-9 * largest_entry(r.solution.u);
     bool open = gaps.size() == gaps_.size();
     for (std::size_t k = 0; k < gaps.size() && open; ++k) open = stays_open(gaps_[k], gaps[k], round_off);

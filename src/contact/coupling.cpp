@@ -34,8 +34,8 @@ struct Accumulated {
   Support support;
 };
 
-Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std::vector<ContactPoint>& points,
-                       const CouplingOptions& options, const Coupling& coupling) {
+Accumulated accumulate(const ContactInterface& interface, const CouplingOptions& options, const Coupling& coupling) {
+  const std::vector<ContactPoint>& points = interface.points;
   const Eigen::Index count = coupling.node.size();
   Accumulated sums{{},
                    VecX::Zero(count),
@@ -48,12 +48,12 @@ Accumulated accumulate(const Curve& multiplier, const Curve& opposite, const std
   sums.B.reserve(points.size() * 36);
   for (auto first = points.begin(); first != points.end();) {
     const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
-    const Edge& edge = multiplier.edges[first->edge];
+    const Edge& edge = interface.multiplier.edges[first->edge];
     const auto& multipliers = coupling.on_edge[first->edge];
     const EdgeMultipliers space = edge_multipliers(edge, options.multipliers, {first, last});
     for (; first != last; ++first) {
       const ContactPoint& p = *first;
-      const Edge& other = opposite.edges[p.opposite_edge];
+      const Edge& other = interface.opposite.edges[p.opposite_edge];
       const EdgeShape N = edge_shape(edge.node_count, p.xi), M = edge_shape(other.node_count, p.eta);
       const Eigen::Vector3d shape = space.shape(p.xi), psi = p.dA * shape;
       const EdgeShape lagrange = edge_shape(space.count, p.xi);
@@ -91,9 +91,10 @@ SparseRows rows_of(const std::vector<std::map<int, double>>& rows, Eigen::Index 
 
 }  // namespace
 
-Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite,
-                const std::vector<ContactPoint>& points, const Constraints& constraints, const CouplingOptions& options,
-                const ContactGeometry& geometry) {
+Coupling couple(const Mesh& mesh, const ContactInterface& interface, const Constraints& constraints,
+                const CouplingOptions& options) {
+  const Curve &multiplier = interface.multiplier, &opposite = interface.opposite;
+  const std::vector<ContactPoint>& points = interface.points;
   if (points.empty())
     throw InputError(
         mesh.source + ": contact between '" + mesh.boundaries[multiplier.boundary].name + "' and '" +
@@ -102,8 +103,8 @@ Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite
         (multiplier.body == opposite.body ? "; both are curves of body '" + mesh.bodies[multiplier.body] + "'" : ""));
   Coupling coupling;
   number_multipliers(multiplier, options.multipliers, coupling);
-  const Accumulated sums = accumulate(multiplier, opposite, points, options, coupling);
-  number_rows(mesh, multiplier, opposite, constraints, options.initial_gap, geometry, sums.support, coupling);
+  const Accumulated sums = accumulate(interface, options, coupling);
+  number_rows(mesh, interface, constraints, options.initial_gap, sums.support, coupling);
 
   coupling.gap_min = coupling.gap_max = points.front().gap;
   for (const ContactPoint& p : points) {
@@ -145,10 +146,10 @@ std::map<int, Vec2> contact_forces(const Coupling& coupling, const VecX& row_val
   return forces;
 }
 
-double interpolate(const Coupling& coupling, const Curve& multiplier, const VecX& values, int edge, double xi) {
-  const auto& on = coupling.on_edge[edge];
-  const int count = on[2] >= 0 ? multiplier.edges[edge].node_count : 2;
-  const EdgeShape s = edge_shape(count, xi);
+double interpolate(const ContactInterface& interface, const VecX& values, const Place& at) {
+  const auto& on = interface.coupling.on_edge[at.edge];
+  const int count = on[2] >= 0 ? interface.multiplier.edges[at.edge].node_count : 2;
+  const EdgeShape s = edge_shape(count, at.xi);
   double value = 0;
   for (int i = 0; i < count; ++i) value += s.N[i] * values(on[i]);
   return value;

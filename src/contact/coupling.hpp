@@ -16,10 +16,9 @@ struct CouplingOptions {
   InitialGap initial_gap = InitialGap::curve;  ///< closed: the points' gaps are left out
 };
 
-/// Throws InputError if the curves do not face each other anywhere.
-Coupling couple(const Mesh& mesh, const Curve& multiplier, const Curve& opposite,
-                const std::vector<ContactPoint>& points, const Constraints& constraints, const CouplingOptions& options,
-                const ContactGeometry& geometry = {});
+/// Of an interface that has its points. Throws InputError if the curves do not face each other anywhere.
+Coupling couple(const Mesh& mesh, const ContactInterface& interface, const Constraints& constraints,
+                const CouplingOptions& options);
 
 /// For each row the node of its first multiplier.
 std::vector<int> row_nodes(const Coupling& coupling);
@@ -32,6 +31,6 @@ std::map<int, Vec2> contact_forces(const Coupling& coupling, const VecX& row_val
 
 /// The multipliers' values interpolated at a point of the multiplier side with the Lagrange functions of their nodes,
 /// also where psi is dual (its own functions jump between edges).
-double interpolate(const Coupling& coupling, const Curve& multiplier, const VecX& values, int edge, double xi);
+double interpolate(const ContactInterface& interface, const VecX& values, const Place& at);
 
 }  // namespace mortise

@@ -61,14 +61,14 @@ std::vector<double> sagittas(const Points& nodes, const Curve& curve) {
   return list;
 }
 
-std::optional<OpenPlace> open_place(const Points& nodes, const Curve& multiplier, const Curve& opposite,
-                                    std::span<const ContactPoint> points, double slack) {
+std::optional<OpenPlace> open_place(const Points& nodes, const ContactInterface& interface, double slack) {
+  const Curve &multiplier = interface.multiplier, &opposite = interface.opposite;
   const std::vector<double> sagitta = sagittas(nodes, multiplier), opposite_sagitta = sagittas(nodes, opposite);
   std::vector<double> length, opposite_length;
   for (const Edge& edge : multiplier.edges) length.push_back(edge_length(nodes, edge));
   for (const Edge& edge : opposite.edges) opposite_length.push_back(edge_length(nodes, edge));
   std::optional<OpenPlace> worst;
-  for (const ContactPoint& p : points) {
+  for (const ContactPoint& p : interface.points) {
     const int e = p.edge, o = p.opposite_edge;
     const double limit = 2 * (sagitta[e] + opposite_sagitta[o]) + slack * std::max(length[e], opposite_length[o]);
     if (std::abs(p.gap) > limit && (!worst || std::abs(p.gap) - limit > std::abs(worst->gap) - worst->limit))

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "contact/segments.hpp"
 
@@ -24,8 +23,7 @@ struct OpenPlace {
 
 /// The point whose gap is furthest above its limit, which is twice the two edges' sagittas and `slack` of the longer
 /// edge; nothing if all gaps are within.
-std::optional<OpenPlace> open_place(const Points& nodes, const Curve& multiplier, const Curve& opposite,
-                                    std::span<const ContactPoint> points, double slack = 0.01);
+std::optional<OpenPlace> open_place(const Points& nodes, const ContactInterface& interface, double slack = 0.01);
 
 struct Turn {
   double angle;  ///< radians

@@ -81,11 +81,12 @@ void close(const std::vector<EdgeGaps>& list, std::size_t first, std::size_t las
 
 }  // namespace
 
-void find_one_line(const Points& nodes, const Curve& multiplier, const Curve& opposite, ContactGeometry& geometry,
-                   std::vector<ContactPoint>& points) {
+void find_one_line(const Points& nodes, ContactInterface& interface) {
+  const Curve &multiplier = interface.multiplier, &opposite = interface.opposite;
+  ContactGeometry& geometry = interface.geometry;
   if (!geometry.gap || geometry.given) return;
   geometry.one_line.assign(multiplier.edges.size(), 0);
-  const std::vector<EdgeGaps> list = gaps_by_edge(nodes, multiplier, geometry, points);
+  const std::vector<EdgeGaps> list = gaps_by_edge(nodes, multiplier, geometry, interface.points);
   const bool rebuilt = multiplier.samples.empty() || opposite.samples.empty();
   std::vector<double> sagitta, opposite_sagitta;
   if (rebuilt) {

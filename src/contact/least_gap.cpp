@@ -7,8 +7,9 @@
 
 namespace mortise {
 
-LeastGap least_gap(const Points& nodes, const VecX& u, const Curve& multiplier, const Curve& opposite,
-                   const std::vector<ContactPoint>& points) {
+LeastGap least_gap(const Points& nodes, const VecX& u, const ContactInterface& interface) {
+  const Curve &multiplier = interface.multiplier, &opposite = interface.opposite;
+  const std::vector<ContactPoint>& points = interface.points;
   LeastGap least{std::numeric_limits<double>::infinity(), Vec2::Zero(), 0, 0};
   for (const ContactPoint& point : points) {
     const Edge& edge = multiplier.edges[point.edge];

@@ -14,8 +14,7 @@ struct LeastGap {
 };
 
 /// `u`: displacements, two a node.
-LeastGap least_gap(const Points& nodes, const VecX& u, const Curve& multiplier, const Curve& opposite,
-                   const std::vector<ContactPoint>& points);
+LeastGap least_gap(const Points& nodes, const VecX& u, const ContactInterface& interface);
 
 /// Whether curves without pressure on a mesh and on a finer one at their least gap are open between its points too:
 /// they come nearer nowhere by more than `round_off`, or the least gap, which is then known to half of itself, is open.

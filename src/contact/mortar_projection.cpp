@@ -11,9 +11,9 @@ namespace mortise {
 
 std::vector<TiedNode> mortar_projection(const Points& nodes, const Curve& multiplier, const Curve& opposite,
                                         const Model& model) {
-  ContactGeometry edges;
-  edges.model = model;
-  const std::vector<ContactPoint> points = contact_points(nodes, multiplier, opposite, Integration::segments, edges);
+  ContactInterface edges{.multiplier = multiplier, .opposite = opposite, .geometry = {}, .points = {}, .coupling = {}};
+  edges.geometry.model = model;
+  const std::vector<ContactPoint> points = contact_points(nodes, edges, Integration::segments);
   std::map<int, std::map<int, double>> M;
   std::map<int, int> beside;
   for (std::size_t first = 0; first < points.size();) {

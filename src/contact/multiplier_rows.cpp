@@ -30,26 +30,26 @@ std::string reason(State state) {
   return "";
 }
 
-std::string between(const Mesh& mesh, const Curve& multiplier, const Curve& opposite) {
-  return mesh.source + ": contact between '" + mesh.boundaries[multiplier.boundary].name + "' and '" +
-         mesh.boundaries[opposite.boundary].name + "': ";
+std::string between(const Mesh& mesh, const ContactInterface& interface) {
+  return mesh.source + ": contact between '" + mesh.boundaries[interface.multiplier.boundary].name + "' and '" +
+         mesh.boundaries[interface.opposite.boundary].name + "': ";
 }
 
 // The gap that prescribed displacements leave at a node of the multiplier side; nothing unless both sides' normal
 // displacements are prescribed there.
-std::optional<double> prescribed_gap(const Mesh& mesh, const Curve& multiplier, int e, std::size_t local,
-                                     const Curve& opposite, const Constraints& constraints, InitialGap initial_gap,
-                                     const ContactGeometry& geometry) {
+std::optional<double> prescribed_gap(const Mesh& mesh, const ContactInterface& interface, int e, int local,
+                                     const Constraints& constraints, InitialGap initial_gap) {
+  const Curve &multiplier = interface.multiplier, &opposite = interface.opposite;
   const Edge& edge = multiplier.edges[e];
-  const Place at{e, xi_of_node(int(local))};
-  const Line line = geometry.line_from(mesh.nodes, multiplier, at);
+  const Place at{e, xi_of_node(local)};
+  const Line line = interface.geometry.line_from(mesh.nodes, multiplier, at);
   const Vec2& n = line.n;
   if (!prescribed_along(constraints, edge.nodes[local], n)) return {};
   const auto hit = project_onto_curve(mesh.nodes, opposite, line);
   if (!hit) return {};
   const auto value = [&](int node) { return prescribed_displacement(constraints, node).dot(n); };
-  double gap =
-      (initial_gap == InitialGap::closed ? 0 : geometry.initial_gap(line, at, *hit)) - value(edge.nodes[local]);
+  double gap = (initial_gap == InitialGap::closed ? 0 : interface.geometry.initial_gap(line, at, *hit)) -
+               value(edge.nodes[local]);
   const Edge& other = opposite.edges[hit->edge];
   const EdgeShape s = edge_shape(other.node_count, hit->xi);
   for (int b = 0; b < other.node_count; ++b) {
@@ -59,16 +59,16 @@ std::optional<double> prescribed_gap(const Mesh& mesh, const Curve& multiplier, 
   return gap;
 }
 
-std::vector<State> find_states(const Mesh& mesh, const Curve& multiplier, const Curve& opposite,
-                               const Constraints& constraints, InitialGap initial_gap, const ContactGeometry& geometry,
-                               const Support& support, const Coupling& coupling) {
+std::vector<State> find_states(const Mesh& mesh, const ContactInterface& interface, const Constraints& constraints,
+                               InitialGap initial_gap, const Support& support, const Coupling& coupling) {
+  const Curve& multiplier = interface.multiplier;
   std::vector<State> state(coupling.node.size(), State::free);
   VecX length = VecX::Zero(state.size());  // of each multiplier's edges
   for (std::size_t e = 0; e < multiplier.edges.size(); ++e)
     for (const int a : coupling.on_edge[e])
       if (a >= 0) length(a) += edge_length(mesh.nodes, multiplier.edges[e]);
   for (std::size_t e = 0; e < multiplier.edges.size(); ++e)
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; ++i) {
       const int a = coupling.on_edge[e][i];
       if (a < 0) continue;
       State& found = state[a];
@@ -76,12 +76,12 @@ std::vector<State> find_states(const Mesh& mesh, const Curve& multiplier, const 
         found = State::unsupported;
         continue;
       }
-      const auto gap = prescribed_gap(mesh, multiplier, int(e), i, opposite, constraints, initial_gap, geometry);
+      const auto gap = prescribed_gap(mesh, interface, int(e), i, constraints, initial_gap);
       const double round_off = 1e-9 * length(a);
       if (gap && *gap < -round_off) {
         std::ostringstream text;
-        text << between(mesh, multiplier, opposite) << "the prescribed displacements of the two sides overlap by "
-             << -*gap << " " << near_point(mesh.nodes.row(coupling.node[a]).transpose())
+        text << between(mesh, interface) << "the prescribed displacements of the two sides overlap by " << -*gap << " "
+             << near_point(mesh.nodes.row(coupling.node[a]).transpose())
              << "; expected values that close the gap or leave it open";
         throw InputError(text.str());
       }
@@ -106,15 +106,14 @@ std::vector<int> along(const Coupling& coupling) {
 
 }  // namespace
 
-void number_rows(const Mesh& mesh, const Curve& multiplier, const Curve& opposite, const Constraints& constraints,
-                 InitialGap initial_gap, const ContactGeometry& geometry, const Support& support, Coupling& coupling) {
-  std::vector<State> state =
-      find_states(mesh, multiplier, opposite, constraints, initial_gap, geometry, support, coupling);
+void number_rows(const Mesh& mesh, const ContactInterface& interface, const Constraints& constraints,
+                 InitialGap initial_gap, const Support& support, Coupling& coupling) {
+  std::vector<State> state = find_states(mesh, interface, constraints, initial_gap, support, coupling);
   const auto count = [&](State which) { return std::count(state.begin(), state.end(), which); };
   if (count(State::free) == 0)  // better extrapolated than none
     std::replace(state.begin(), state.end(), State::hardly_facing, State::free);
   if (count(State::free) == 0 && count(State::prescribed) > 0)
-    throw InputError(between(mesh, multiplier, opposite) +
+    throw InputError(between(mesh, interface) +
                      "the normal displacements are prescribed on both curves everywhere, so contact has nothing to "
                      "decide; expected at least one curve that is free to move along its normal");
   coupling.row.assign(coupling.node.size(), -1);

@@ -1,8 +1,7 @@
 // Which multipliers are unknowns of their own.
 #pragma once
 
-#include "contact/contact_geometry.hpp"
-#include "contact/coupling_rows.hpp"
+#include "contact/contact_interface.hpp"
 #include "fem/constraints.hpp"
 #include "mesh/curve.hpp"
 #include "model/choices.hpp"
@@ -29,7 +28,7 @@ inline constexpr double faced_limit = 0.1;
 /// sign, and those whose edges hardly face the other side share the row of the nearest free one along the curve (so
 /// that constants stay in the space: Wohlmuth 2000, the end edges of a mortar). Where the prescribed displacements
 /// leave the sides apart, the pressure is zero. Throws InputError where they overlap, and where no multiplier is free.
-void number_rows(const Mesh& mesh, const Curve& multiplier, const Curve& opposite, const Constraints& constraints,
-                 InitialGap initial_gap, const ContactGeometry& geometry, const Support& support, Coupling& coupling);
+void number_rows(const Mesh& mesh, const ContactInterface& interface, const Constraints& constraints,
+                 InitialGap initial_gap, const Support& support, Coupling& coupling);
 
 }  // namespace mortise

@@ -7,12 +7,13 @@
 
 namespace mortise {
 
-SparseMatrix pressure_norm(const Points& nodes, const Curve& multiplier, const std::vector<ContactPoint>& points,
-                           Multipliers space, const Coupling& coupling) {
+SparseMatrix pressure_norm(const Points& nodes, const ContactInterface& interface, Multipliers space) {
+  const std::vector<ContactPoint>& points = interface.points;
+  const Coupling& coupling = interface.coupling;
   std::vector<Eigen::Triplet<double>> entries;
   for (auto first = points.begin(); first != points.end();) {
     const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
-    const Edge& edge = multiplier.edges[first->edge];
+    const Edge& edge = interface.multiplier.edges[first->edge];
     const auto& on = coupling.on_edge[first->edge];
     const EdgeMultipliers shapes = edge_multipliers(edge, space, {first, last});
     const double h = edge_length(nodes, edge);

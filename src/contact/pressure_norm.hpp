@@ -6,8 +6,7 @@
 namespace mortise {
 
 /// m x m, length^2: sum over the edges of the multiplier side of h int psi_a psi_b ds, h the edge's length, on the rows
-/// of the coupling (docs/theory.md eq. 40; Wohlmuth 2000, section 2). `points` and `space` as in couple().
-SparseMatrix pressure_norm(const Points& nodes, const Curve& multiplier, const std::vector<ContactPoint>& points,
-                           Multipliers space, const Coupling& coupling);
+/// of the coupling (docs/theory.md eq. 40; Wohlmuth 2000, section 2). `space` as in couple().
+SparseMatrix pressure_norm(const Points& nodes, const ContactInterface& interface, Multipliers space);
 
 }  // namespace mortise

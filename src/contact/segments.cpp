@@ -94,8 +94,9 @@ int gauss_count(const Edge& edge, const Edge& opposite) {
 
 }  // namespace
 
-std::vector<Segment> find_segments(const Points& nodes, const Curve& multiplier, const Curve& opposite,
-                                   const ContactGeometry& geometry) {
+std::vector<Segment> find_segments(const Points& nodes, const ContactInterface& interface) {
+  const Curve &multiplier = interface.multiplier, &opposite = interface.opposite;
+  const ContactGeometry& geometry = interface.geometry;
   std::vector<Segment> segments;
   for (int e = 0; e < int(multiplier.edges.size()); ++e) {
     const std::vector<double> cuts = cuts_of(nodes, multiplier, e, opposite, geometry);
@@ -107,11 +108,13 @@ std::vector<Segment> find_segments(const Points& nodes, const Curve& multiplier,
   return segments;
 }
 
-std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multiplier, const Curve& opposite,
-                                         Integration integration, const ContactGeometry& geometry) {
+std::vector<ContactPoint> contact_points(const Points& nodes, const ContactInterface& interface,
+                                         Integration integration) {
+  const Curve &multiplier = interface.multiplier, &opposite = interface.opposite;
+  const ContactGeometry& geometry = interface.geometry;
   std::vector<Segment> pieces;
   if (integration == Integration::segments) {
-    pieces = find_segments(nodes, multiplier, opposite, geometry);
+    pieces = find_segments(nodes, interface);
   } else {
     for (int e = 0; e < int(multiplier.edges.size()); ++e) pieces.push_back({e, -1, 1, -1});
   }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "contact/contact_geometry.hpp"
+#include "contact/contact_interface.hpp"
 #include "model/choices.hpp"
 
 namespace mortise {
@@ -18,26 +18,12 @@ struct Segment {
 
 /// Cuts the multiplier side at the opposite side's vertices, projected along the multiplier side's normals.
 /// Pieces that face nothing are left out (partial overlap).
-std::vector<Segment> find_segments(const Points& nodes, const Curve& multiplier, const Curve& opposite,
-                                   const ContactGeometry& geometry = {});
-
-/// A quadrature point of a contact pair.
-struct ContactPoint {
-  int edge;  ///< of the multiplier side
-  double xi;
-  double ds;    ///< weight times length element, length
-  double dA;    ///< ds times depth (model/model.hpp)
-  Vec2 normal;  ///< unit, out of the multiplier side's body
-  int opposite_edge;
-  double eta;          ///< reference coordinate on the opposite edge
-  double gap;          ///< undeformed, along the normal, length, positive when open
-  double unknown = 0;  ///< what the gap may be off by, as the lines are not known any better, length
-};
+std::vector<Segment> find_segments(const Points& nodes, const ContactInterface& interface);
 
 /// Gauss points on each segment: exact on straight edges for the product of both sides' shape functions.
 /// Integration::elements takes the same rule on whole edges without cutting; points that face nothing are left out.
-std::vector<ContactPoint> contact_points(const Points& nodes, const Curve& multiplier, const Curve& opposite,
-                                         Integration integration, const ContactGeometry& geometry = {});
+std::vector<ContactPoint> contact_points(const Points& nodes, const ContactInterface& interface,
+                                         Integration integration);
 
 /// The part of a curve's length that faces the other curve, 0 ... 1, asked at two points an edge.
 double covered_part(const Points& nodes, const Curve& curve, const Curve& opposite);

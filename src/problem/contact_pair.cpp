@@ -63,12 +63,10 @@ ContactPair coupled(const Method& method, const Mesh& mesh, const Discretisation
   const ContactSpec& spec = contact.spec;
   const bool second = spec.multipliers_on.empty() ? on_second(method.ddm.scheme, mesh.nodes, contact, d.laws, dirichlet)
                                                   : spec.multipliers_on == spec.between[1];
-  ContactPair pair{.spec = spec,
-                   .multiplier = std::move(contact.curves[second ? 1 : 0]),
-                   .opposite = std::move(contact.curves[second ? 0 : 1]),
-                   .geometry = {},
-                   .points = {},
-                   .coupling = {}};
+  ContactPair pair;
+  pair.spec = spec;
+  pair.multiplier = std::move(contact.curves[second ? 1 : 0]);
+  pair.opposite = std::move(contact.curves[second ? 0 : 1]);
   pair.spec.multipliers_on = spec.between[second ? 1 : 0];
   pair.geometry = {.multiplier = ContactLine(mesh.nodes, pair.multiplier),
                    .opposite = ContactLine(mesh.nodes, pair.opposite),
@@ -80,10 +78,9 @@ ContactPair coupled(const Method& method, const Mesh& mesh, const Discretisation
                    .model = d.model};
   if (spec.gap.uses_arc_length() || spec.clearance.uses_arc_length())
     pair.geometry.s.emplace(mesh.nodes, pair.multiplier);
-  pair.points = contact_points(mesh.nodes, pair.multiplier, pair.opposite, method.integration, pair.geometry);
-  find_one_line(mesh.nodes, pair.multiplier, pair.opposite, pair.geometry, pair.points);
-  pair.coupling = couple(mesh, pair.multiplier, pair.opposite, pair.points, d.system.constraints,
-                         {method.multipliers, spec.initial_gap}, pair.geometry);
+  pair.points = contact_points(mesh.nodes, pair, method.integration);
+  find_one_line(mesh.nodes, pair);
+  pair.coupling = couple(mesh, pair, d.system.constraints, {method.multipliers, spec.initial_gap});
   return pair;
 }
 

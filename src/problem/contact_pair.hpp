@@ -7,12 +7,8 @@
 
 namespace mortise {
 
-struct ContactPair {
+struct ContactPair : ContactInterface {
   ContactSpec spec;
-  Curve multiplier, opposite;
-  ContactGeometry geometry;
-  std::vector<ContactPoint> points;
-  Coupling coupling;
   int first_row = 0;  ///< of its rows, in those of all pairs below one another
 };
 

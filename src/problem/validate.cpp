@@ -117,7 +117,7 @@ std::vector<std::string> held_lines(const Mesh& mesh, const std::vector<std::vec
 void require_closed(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
   for (const ContactPair& pair : pairs) {
     if (pair.spec.initial_gap != InitialGap::closed) continue;
-    const auto open = open_place(mesh.nodes, pair.multiplier, pair.opposite, pair.points);
+    const auto open = open_place(mesh.nodes, pair);
     if (!open) continue;
     std::ostringstream text;
     text << pair.spec.key << ".initial_gap = \"closed\", but '" << pair.spec.between[0] << "' and '"

@@ -47,8 +47,7 @@ double deformed_by(const Results& r, int body) {
 bool is_overlapped(const Results& r, const ContactPair& pair) {
   const InitialGap gap = pair.spec.initial_gap;
   if (gap != InitialGap::curve && gap != InitialGap::measured) return false;
-  if (!is_drawn(pair) && !open_place(r.problem.mesh.nodes, pair.multiplier, pair.opposite, pair.points, 1e-6))
-    return false;
+  if (!is_drawn(pair) && !open_place(r.problem.mesh.nodes, pair, 1e-6)) return false;
   return pair.coupling.gap_min < -1e-9 * curve_length(r.problem.mesh.nodes, pair.multiplier);
 }
 

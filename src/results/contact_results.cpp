@@ -132,7 +132,7 @@ double least_pressure(const ContactPair& pair, const VecX& pressure) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ContactPoint& c = points[i];
-    least = std::min(least, interpolate(pair.coupling, pair.multiplier, pressure, c.edge, c.xi));
+    least = std::min(least, interpolate(pair, pressure, {c.edge, c.xi}));
     const auto& on = pair.coupling.on_edge[c.edge];
     if (on[2] < 0 || i + 1 == points.size() || points[i + 1].edge != c.edge) continue;
     const double start = pressure(on[0]), end = pressure(on[1]), middle = pressure(on[2]);
@@ -160,7 +160,7 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
 
   for (const CurveNode& at : along) {
     ContactNode n = node_results(mesh, at, pair.multiplier.body, at.normal, points, stress, u);
-    n.p = interpolate(pair.coupling, pair.multiplier, r.pressure, at.place.edge, at.place.xi);
+    n.p = interpolate(pair, r.pressure, at.place);
     n.on_multiplier = at.place;
     const Line line{n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)};
     if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite, line)) {
@@ -186,7 +186,7 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
     });
     const Vec2 normal = vertex != along.end() ? vertex->normal : line.n;
     ContactNode n = node_results(mesh, at, pair.opposite.body, normal, points, stress, u);
-    n.p = interpolate(pair.coupling, pair.multiplier, r.pressure, foot->edge, foot->xi);
+    n.p = interpolate(pair, r.pressure, *foot);
     n.on_multiplier = *foot;
     n.gap = initial_gap({line.x, normal, line.depth}, *foot, {at.place.edge, at.place.xi, (x - line.x).dot(normal)}) +
             n.u_n - edge_value(u, edge, foot->xi).dot(normal);
@@ -217,7 +217,7 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
   double area = 0;
   for (const ContactPoint& c : pair.points) {
     area += c.dA;
-    r.p_mean += c.dA * interpolate(pair.coupling, pair.multiplier, r.pressure, c.edge, c.xi);
+    r.p_mean += c.dA * interpolate(pair, r.pressure, {c.edge, c.xi});
   }
   r.length_in_contact = length_in_contact(mesh.nodes, pair, r.pressure);
   const std::map<int, Vec2> forces = contact_forces(pair.coupling, lambda);

@@ -16,8 +16,7 @@ SparseMatrix stacked_norm(const Results& r) {
   for (const ContactPair& pair : r.problem.pairs) {
     const std::vector<ElasticLaw>& laws = r.problem.discretisation.laws;
     const double compliance = 1 / contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
-    const SparseMatrix S =
-        pressure_norm(r.problem.mesh.nodes, pair.multiplier, pair.points, r.problem.method.multipliers, pair.coupling);
+    const SparseMatrix S = pressure_norm(r.problem.mesh.nodes, pair, r.problem.method.multipliers);
     for (Eigen::Index j = 0; j < S.outerSize(); ++j)
       for (SparseMatrix::InnerIterator it(S, j); it; ++it)
         entries.emplace_back(pair.first_row + int(it.row()), pair.first_row + int(it.col()), compliance * it.value());

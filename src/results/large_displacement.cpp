@@ -41,8 +41,7 @@ Largest largest_in_contact(const Results& r) {
     const std::vector<double> curvature = edge_curvatures(r.problem.mesh.nodes, pair.multiplier),
                               opposite_curvature = edge_curvatures(r.problem.mesh.nodes, pair.opposite);
     for (const ContactPoint& c : pair.points) {
-      if (!(interpolate(pair.coupling, pair.multiplier, contact.pressure, c.edge, c.xi) > 1e-3 * contact.p_max))
-        continue;
+      if (!(interpolate(pair, contact.pressure, {c.edge, c.xi}) > 1e-3 * contact.p_max)) continue;
       const Edge &edge = pair.multiplier.edges[c.edge], &other = pair.opposite.edges[c.opposite_edge];
       const Vec2 x = edge_point(r.problem.mesh.nodes, edge, c.xi).position;
       const Vec2 moved = edge_value(r.solution.u, other, c.eta) - edge_value(r.solution.u, edge, c.xi);

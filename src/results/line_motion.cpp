@@ -68,7 +68,7 @@ std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pa
   const bool both_ways = pair.spec.condition != Condition::unilateral;  // tension too
   const double least = std::max(negligible, 1e-3 * largest_entry(contact.pressure));
   for (const ContactPoint& c : pair.points) {
-    const double signed_p = interpolate(pair.coupling, pair.multiplier, contact.pressure, c.edge, c.xi);
+    const double signed_p = interpolate(pair, contact.pressure, {c.edge, c.xi});
     const double p = both_ways ? std::abs(signed_p) : signed_p;
     if (!(p > least)) continue;
     const Edge &edge = pair.multiplier.edges[c.edge], &facing = pair.opposite.edges[c.opposite_edge];

@@ -84,7 +84,7 @@ void warn_of_dropped(const ContactPair& pair, const Results& r, Lines& lines) {
 void warn_of_gap(const ContactPair& pair, const Results& r, double displacement, Lines& lines) {
   const double low = pair.coupling.gap_min, high = pair.coupling.gap_max;
   if (pair.spec.initial_gap != InitialGap::closed || std::max(-low, high) <= 0.01 * displacement) return;
-  if (!is_drawn(pair) && !open_place(r.problem.mesh.nodes, pair.multiplier, pair.opposite, pair.points, 1e-6)) return;
+  if (!is_drawn(pair) && !open_place(r.problem.mesh.nodes, pair, 1e-6)) return;
   std::ostringstream text;
   text << pair.spec.key << ": initial_gap = \"closed\" leaves out gaps of " << low << " ... " << high
        << ", which are not small against the displacements (up to " << displacement

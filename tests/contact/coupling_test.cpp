@@ -15,21 +15,18 @@ namespace {
 
 using test::TwoPlates;
 
-struct Pair {
+struct Pair : ContactInterface {
   Mesh mesh;
-  Curve multiplier, opposite;
-  std::vector<ContactPoint> points;
-  Coupling coupling;
 };
 
 Pair pair_of(const TwoPlates& plates, CouplingOptions options, const Constraints* constraints = nullptr,
              Integration integration = Integration::segments) {
-  Pair p{test::mesh_of(plates), {}, {}, {}, {}};
+  Pair p;
+  p.mesh = test::mesh_of(plates);
   p.multiplier = contact_curve(p.mesh, boundary_index(p.mesh, "lower_contact"));
   p.opposite = contact_curve(p.mesh, boundary_index(p.mesh, "upper_contact"));
-  p.points = contact_points(p.mesh.nodes, p.multiplier, p.opposite, integration);
-  p.coupling =
-      couple(p.mesh, p.multiplier, p.opposite, p.points, constraints ? *constraints : no_constraints(p.mesh), options);
+  p.points = contact_points(p.mesh.nodes, p, integration);
+  p.coupling = couple(p.mesh, p, constraints ? *constraints : no_constraints(p.mesh), options);
   return p;
 }
 
@@ -84,7 +81,8 @@ TEST(Coupling, RowsSumToTheLengthAndTheirScaleIsPositive) {
 
 TEST(Coupling, MeasuredGapOfPlatesApart) {
   TwoPlates plates;  // flat
-  Pair p{test::mesh_of(plates), {}, {}, {}, {}};
+  Pair p;
+  p.mesh = test::mesh_of(plates);
   for (const Cell& cell : p.mesh.cells)
     if (cell.body == 0)
       for (int a = 0; a < node_count(cell.kind); ++a) {
@@ -93,9 +91,8 @@ TEST(Coupling, MeasuredGapOfPlatesApart) {
       }
   p.multiplier = contact_curve(p.mesh, boundary_index(p.mesh, "lower_contact"));
   p.opposite = contact_curve(p.mesh, boundary_index(p.mesh, "upper_contact"));
-  p.points = contact_points(p.mesh.nodes, p.multiplier, p.opposite, Integration::segments);
-  const Coupling c = couple(p.mesh, p.multiplier, p.opposite, p.points, no_constraints(p.mesh),
-                            {Multipliers::linear, InitialGap::measured});
+  p.points = contact_points(p.mesh.nodes, p, Integration::segments);
+  const Coupling c = couple(p.mesh, p, no_constraints(p.mesh), {Multipliers::linear, InitialGap::measured});
   EXPECT_NEAR(c.gap_min, 0.008, 1e-14);
   EXPECT_NEAR(c.gap_max, 0.008, 1e-14);
   for (Eigen::Index r = 0; r < c.gap0.size(); ++r) EXPECT_NEAR(c.gap0(r), 0.008 * c.scale(r), 1e-15);  // psi >= 0
@@ -104,8 +101,11 @@ TEST(Coupling, MeasuredGapOfPlatesApart) {
 // ---- The curves that the meshes stand for ----
 
 std::vector<ContactPoint> points_on_lines(const Mesh& mesh, const Curve& multiplier, const Curve& opposite) {
-  const ContactGeometry lines{ContactLine(mesh.nodes, multiplier), ContactLine(mesh.nodes, opposite), true, true};
-  return contact_points(mesh.nodes, multiplier, opposite, Integration::segments, lines);
+  ContactInterface interface {
+    multiplier, opposite, {}, {}, {}
+  };
+  interface.geometry = {ContactLine(mesh.nodes, multiplier), ContactLine(mesh.nodes, opposite), true, true};
+  return contact_points(mesh.nodes, interface, Integration::segments);
 }
 
 double largest_gap(const std::vector<ContactPoint>& points) {
@@ -133,7 +133,8 @@ TEST(ContactGeometry, OneCurveHasNoGapOnTwoMeshes) {
 TEST(ContactGeometry, AGapThatIsDrawnKeepsItsSize) {
   TwoPlates plates = parabola(40, 50);
   for (const double drawn : {1e-3, -1e-3}) {
-    Pair p{test::mesh_of(plates), {}, {}, {}, {}};
+    Pair p;
+    p.mesh = test::mesh_of(plates);
     const int upper = body_index(p.mesh, "upper");
     std::vector<char> moved(p.mesh.nodes.rows(), 0);
     for (const Cell& cell : p.mesh.cells)
@@ -192,7 +193,8 @@ TEST(Dropped, EndsHeldOnBothSidesShareTheirNeighboursRow) {
 
 TEST(Dropped, MultipliersThatFaceNothingAreZeroAndNamed) {
   TwoPlates plates;
-  Pair p{test::mesh_of(plates), {}, {}, {}, {}};
+  Pair p;
+  p.mesh = test::mesh_of(plates);
   std::vector<char> moved(p.mesh.nodes.rows(), 0);
   for (const Cell& cell : p.mesh.cells)
     for (int a = 0; a < node_count(cell.kind) && cell.body == 0; ++a) moved[cell.nodes[a]] = 1;
@@ -200,8 +202,8 @@ TEST(Dropped, MultipliersThatFaceNothingAreZeroAndNamed) {
     if (moved[i]) p.mesh.nodes(i, 0) += 0.3;
   p.multiplier = contact_curve(p.mesh, boundary_index(p.mesh, "lower_contact"));
   p.opposite = contact_curve(p.mesh, boundary_index(p.mesh, "upper_contact"));
-  p.points = contact_points(p.mesh.nodes, p.multiplier, p.opposite, Integration::segments);
-  const Coupling c = couple(p.mesh, p.multiplier, p.opposite, p.points, no_constraints(p.mesh), {});
+  p.points = contact_points(p.mesh.nodes, p, Integration::segments);
+  const Coupling c = couple(p.mesh, p, no_constraints(p.mesh), {});
   EXPECT_EQ(c.dropped.size(), 4u);  // vertices at 0, 1/11, 2/11, 3/11 of 0.8; the one at 4/11 = 0.29 still counts
   EXPECT_NEAR(c.covered_length, 0.5, 1e-12);
 }
@@ -212,9 +214,11 @@ TEST(Coupling, CurvesThatDoNotFaceAreAnError) {
         bottom = contact_curve(mesh, boundary_index(mesh, "bottom"));
   const Thickness thickness(mesh.nodes, boundary_edges(mesh), bonded_to(mesh, body_points(mesh)));
   for (Curve* c : {&top, &bottom}) c->thickness = thickness.behind(*c);
-  const auto points = contact_points(mesh.nodes, top, bottom, Integration::segments);
-  EXPECT_TRUE(points.empty());
-  EXPECT_THROW(couple(mesh, top, bottom, points, no_constraints(mesh), {}), InputError);
+  const ContactInterface interface {
+    top, bottom, {}, {}, {}
+  };
+  EXPECT_TRUE(contact_points(mesh.nodes, interface, Integration::segments).empty());
+  EXPECT_THROW(couple(mesh, interface, no_constraints(mesh), {}), InputError);
 }
 
 TEST(Coupling, EveryRowsWeightIsPositiveHoweverLittleOfAnEdgeFaces) {
@@ -230,11 +234,9 @@ TEST(Coupling, EveryRowsWeightIsPositiveHoweverLittleOfAnEdgeFaces) {
           if (double& x = p.mesh.nodes(cell.nodes[a], 0); cell.body == 0 && x < 10) x += 10 - shift;
       for (Eigen::Index i = 0; i < p.mesh.nodes.rows(); ++i)
         if (p.mesh.nodes(i, 0) > 9) p.mesh.nodes(i, 0) -= 10;
-      const auto points = contact_points(p.mesh.nodes, p.multiplier, p.opposite, Integration::segments);
-      std::vector<ContactPoint> apart = points;
-      for (ContactPoint& point : apart) point.gap = 1;
-      const Coupling c =
-          couple(p.mesh, p.multiplier, p.opposite, apart, no_constraints(p.mesh), {space, InitialGap::measured});
+      p.points = contact_points(p.mesh.nodes, p, Integration::segments);
+      for (ContactPoint& point : p.points) point.gap = 1;
+      const Coupling c = couple(p.mesh, p, no_constraints(p.mesh), {space, InitialGap::measured});
       EXPECT_GE(c.gap0.cwiseQuotient(c.scale).minCoeff(), 0.02) << "shift " << shift;
       EXPECT_NEAR(c.gap0.sum(), c.covered_length, 1e-12);  // psi sum to one
     }

@@ -13,15 +13,14 @@ namespace {
 
 using test::TwoPlates;
 
-struct GapCurves {
+struct GapCurves : ContactInterface {
   Mesh mesh;
-  Curve multiplier, opposite;
-  std::vector<ContactPoint> points;
 };
 
 // Both plates of one mesh, the upper one lifted by `gap`.
 GapCurves gap_curves_of(const TwoPlates& plates, double gap = 0) {
-  GapCurves c{test::mesh_of(plates), {}, {}, {}};
+  GapCurves c;
+  c.mesh = test::mesh_of(plates);
   for (Eigen::Index i = 0; i < c.mesh.nodes.rows(); ++i) {
     const auto in_upper = [&](const Cell& cell) {
       return cell.body == 0 && std::find(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind), int(i)) !=
@@ -31,7 +30,7 @@ GapCurves gap_curves_of(const TwoPlates& plates, double gap = 0) {
   }
   c.multiplier = contact_curve(c.mesh, boundary_index(c.mesh, "lower_contact"));
   c.opposite = contact_curve(c.mesh, boundary_index(c.mesh, "upper_contact"));
-  c.points = contact_points(c.mesh.nodes, c.multiplier, c.opposite, Integration::segments);
+  c.points = contact_points(c.mesh.nodes, c, Integration::segments);
   return c;
 }
 
@@ -113,15 +112,15 @@ TEST(Sagittas, OfAParabolaInQuadraticEdgesFallAtTheFourthOrder) {
 
 TEST(OpenPlace, AClearanceOfAThousandthIsNotTheQuadraticMeshesOwn) {
   const GapCurves c = gap_curves_of(circle(20, 31, CellKind::quad8), 5e-4);
-  EXPECT_TRUE(open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points, 1e-6));
+  EXPECT_TRUE(open_place(c.mesh.nodes, c, 1e-6));
 }
 
 TEST(OpenPlace, NoneBetweenTwoMeshesOfOneCurve) {
   for (const CellKind kind : {CellKind::quad4, CellKind::quad8, CellKind::tri3, CellKind::tri6})
     for (const auto& [n_upper, n_lower] : {std::pair(5, 8), {8, 5}, {4, 40}, {20, 31}}) {
       const GapCurves c = gap_curves_of(circle(n_upper, n_lower, kind));
-      EXPECT_FALSE(open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points)) << n_upper << " " << n_lower;
-      EXPECT_FALSE(open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points, 1e-6));
+      EXPECT_FALSE(open_place(c.mesh.nodes, c)) << n_upper << " " << n_lower;
+      EXPECT_FALSE(open_place(c.mesh.nodes, c, 1e-6));
     }
 }
 
@@ -131,12 +130,12 @@ TEST(OpenPlace, IsARealGap) {
   plates.n_upper = 8;
   plates.n_lower = 12;
   const GapCurves c = gap_curves_of(plates, gap);
-  const auto open = open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points);
+  const auto open = open_place(c.mesh.nodes, c);
   ASSERT_TRUE(open);
   EXPECT_NEAR(open->gap, gap, 1e-14);
   EXPECT_NEAR(open->limit, 1e-3, 1e-12);
   EXPECT_NEAR(open->position.y(), 0.3, 1e-12);
-  EXPECT_FALSE(open_place(c.mesh.nodes, c.multiplier, c.opposite, c.points, 0.021));
+  EXPECT_FALSE(open_place(c.mesh.nodes, c, 0.021));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ struct Rows {
   }
 
   std::vector<int> numbered() {
-    number_rows(mesh, multiplier, opposite, constraints, InitialGap::measured, {}, support, coupling);
+    number_rows(mesh, {multiplier, opposite, {}, {}, {}}, constraints, InitialGap::measured, support, coupling);
     return coupling.row;
   }
 };

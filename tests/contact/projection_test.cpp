@@ -106,7 +106,7 @@ double covered(const std::vector<Segment>& segments, const Curves& c, const Curv
 
 TEST(Segments, OfFlatMeshesAreTheCommonRefinement) {
   const Curves c = curves_of({});  // 7 against 11 edges: 17 pieces
-  const auto segments = find_segments(c.mesh.nodes, c.lower, c.upper);
+  const auto segments = find_segments(c.mesh.nodes, {c.lower, c.upper, {}, {}, {}});
   EXPECT_EQ(segments.size(), 17u);
   EXPECT_NEAR(covered(segments, c, c.lower), 0.8, 1e-15);
 }
@@ -116,7 +116,7 @@ TEST(Segments, OfMatchingMeshesAreTheEdges) {
   plates.height = [](double x) { return 0.3 + 0.1 * std::sin(7 * x); };
   plates.n_upper = plates.n_lower = 9;
   const Curves c = curves_of(plates);
-  const auto segments = find_segments(c.mesh.nodes, c.lower, c.upper);
+  const auto segments = find_segments(c.mesh.nodes, {c.lower, c.upper, {}, {}, {}});
   ASSERT_EQ(segments.size(), 9u);
   for (const Segment& s : segments) EXPECT_EQ(s.end - s.begin, 2);
 }
@@ -128,7 +128,7 @@ TEST(Segments, CoverACurvedLineFromBothSides) {
   plates.n_lower = 8;
   const Curves c = curves_of(plates);
   for (const auto& [side, other] : {std::pair(&c.lower, &c.upper), std::pair(&c.upper, &c.lower)}) {
-    const auto segments = find_segments(c.mesh.nodes, *side, *other);
+    const auto segments = find_segments(c.mesh.nodes, {*side, *other, {}, {}, {}});
     EXPECT_NEAR(covered(segments, c, *side), curve_length(c.mesh.nodes, *side), 1e-12);
     for (std::size_t i = 1; i < segments.size(); ++i) EXPECT_GE(segments[i].edge, segments[i - 1].edge);
   }
@@ -144,8 +144,8 @@ TEST(Segments, CoverOnlyWhereTheCurvesFaceEachOther) {
       for (int a = 0; a < node_count(cell.kind); ++a) moved[cell.nodes[a]] = 1;
   for (Eigen::Index i = 0; i < c.mesh.nodes.rows(); ++i)
     if (moved[i]) c.mesh.nodes(i, 0) += 0.13;
-  EXPECT_NEAR(covered(find_segments(c.mesh.nodes, c.lower, c.upper), c, c.lower), 0.67, 1e-12);
-  EXPECT_NEAR(covered(find_segments(c.mesh.nodes, c.upper, c.lower), c, c.upper), 0.67, 1e-12);
+  EXPECT_NEAR(covered(find_segments(c.mesh.nodes, {c.lower, c.upper, {}, {}, {}}), c, c.lower), 0.67, 1e-12);
+  EXPECT_NEAR(covered(find_segments(c.mesh.nodes, {c.upper, c.lower, {}, {}, {}}), c, c.upper), 0.67, 1e-12);
 }
 
 TEST(Segments, VerticesThatAlmostCoincideMakeNoSlivers) {
@@ -156,7 +156,7 @@ TEST(Segments, VerticesThatAlmostCoincideMakeNoSlivers) {
     for (const Edge& e : c.upper.edges)
       for (const int node : e.nodes)
         if (c.mesh.nodes(node, 0) > 0.01 && c.mesh.nodes(node, 0) < 0.79) c.mesh.nodes(node, 0) += shift;
-    const auto segments = find_segments(c.mesh.nodes, c.lower, c.upper);
+    const auto segments = find_segments(c.mesh.nodes, {c.lower, c.upper, {}, {}, {}});
     EXPECT_EQ(segments.size(), 6u) << shift;
     EXPECT_NEAR(covered(segments, c, c.lower), 0.8, 1e-12);
   }

@@ -51,8 +51,9 @@ void add_slip_loads(const Mesh& mesh, const ExactField& exact, const Slip& slip,
   }
 }
 
-double pressure_error(const Mesh& mesh, const ExactField& exact, const TwoPlates& plates, const Curve& curve,
-                      const Coupling& coupling, const VecX& pressure) {
+double pressure_error(const Mesh& mesh, const ExactField& exact, const TwoPlates& plates,
+                      const ContactInterface& interface, const VecX& pressure) {
+  const Curve& curve = interface.multiplier;
   const LineRule rule = gauss_legendre(5);
   double sum = 0;
   for (int e = 0; e < int(curve.edges.size()); ++e)
@@ -61,7 +62,7 @@ double pressure_error(const Mesh& mesh, const ExactField& exact, const TwoPlates
       const double h = 1e-6, slope = (plates.height(p.position.x() + h) - plates.height(p.position.x() - h)) / (2 * h);
       const Vec2 n = Vec2(-slope, 1).normalized();  // of the exact line; its sign does not matter
       const double sigma_n = traction_at(exact, p.position, n).dot(n);
-      const double difference = interpolate(coupling, curve, pressure, e, rule.points[q]) + sigma_n;
+      const double difference = interpolate(interface, pressure, {e, rule.points[q]}) + sigma_n;
       sum += rule.weights[q] * p.jacobian() * difference * difference;
     }
   return std::sqrt(sum);
@@ -153,13 +154,14 @@ Errors manufactured_errors(const ManufacturedCase& which) {
 
   const Curve upper = contact_curve(mesh, boundary_index(mesh, "upper_contact"));
   const Curve lower = contact_curve(mesh, boundary_index(mesh, "lower_contact"));
-  const Curve& multiplier = which.multipliers_on_lower ? lower : upper;
-  const Curve& opposite = which.multipliers_on_lower ? upper : lower;
-  const ContactGeometry geometry{ContactLine(mesh.nodes, multiplier), ContactLine(mesh.nodes, opposite),
-                                 which.normals == Normals::curve};
-  const Coupling coupling =
-      couple(mesh, multiplier, opposite, contact_points(mesh.nodes, multiplier, opposite, which.integration, geometry),
-             constraints, {which.multipliers, InitialGap::closed});
+  ContactInterface interface {
+    which.multipliers_on_lower ? lower : upper, which.multipliers_on_lower ? upper : lower, {}, {}, {}
+  };
+  interface.geometry = {ContactLine(mesh.nodes, interface.multiplier), ContactLine(mesh.nodes, interface.opposite),
+                        which.normals == Normals::curve};
+  interface.points = contact_points(mesh.nodes, interface, which.integration);
+  interface.coupling = couple(mesh, interface, constraints, {which.multipliers, InitialGap::closed});
+  const Coupling& coupling = interface.coupling;
   const VecX g = -coupling.gap0;
   const Solution s = solve_directly({.K = K,
                                      .f = load,
@@ -176,7 +178,7 @@ Errors manufactured_errors(const ManufacturedCase& which) {
   const BodyPoints points = body_points(mesh);
   const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, s.u));
   return {e.displacement, e.energy,
-          pressure_error(mesh, exact, which.plates, multiplier, coupling, -multiplier_values(coupling, s.lambda)),
+          pressure_error(mesh, exact, which.plates, interface, -multiplier_values(coupling, s.lambda)),
           std::sqrt(error_products(mesh, points, laws, s.u, patches).products.sum())};
 }
 

@@ -25,8 +25,7 @@ struct Place {
 Place place_at(const Results& r, int edge, double xi, double weight) {
   const ContactPair& pair = r.problem.pairs.front();
   const EdgePoint at = edge_point(r.problem.mesh.nodes, pair.multiplier.edges[edge], xi);
-  return {at.position, interpolate(pair.coupling, pair.multiplier, r.recovery.contacts.front().pressure, edge, xi),
-          weight * at.jacobian()};
+  return {at.position, interpolate(pair, r.recovery.contacts.front().pressure, {edge, xi}), weight * at.jacobian()};
 }
 
 }  // namespace
