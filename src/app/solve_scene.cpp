@@ -6,6 +6,7 @@
 
 #include "app/solve_system.hpp"
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "base/stopwatch.hpp"
 #include "ddm/ranks.hpp"
 #include "error/data_estimate.hpp"
@@ -24,10 +25,6 @@
 
 namespace mortise {
 namespace {
-
-void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
-  lines.insert(lines.end(), more.begin(), more.end());
-}
 
 // Each rank reads or meshes the file by itself.
 void require_same_mesh(const Mesh& mesh) {
@@ -108,7 +105,7 @@ void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint
   for (std::size_t i = 0; i < of_probes.size(); ++i) recovery.probes[i].error = of_probes[i];
   leave_out_unheld(r);
   if (forces) set_force_bars(asked, std::exchange(r.estimate->also, {}), r);
-  append(r.warnings, error_warnings(r));
+  append_lines(r.warnings, error_warnings(r));
   if (auto check = estimate_check(r)) r.checks.push_back(*std::move(check));
   r.status = std::max(r.status, verdict(r));
   r.seconds.estimate = watch.lap();
@@ -130,7 +127,7 @@ void find_unheld(Results& r) {
   std::vector<std::vector<RigidMotion>> free;
   for (const auto& mode : r.solution.rigid_modes.colwise())
     free.push_back(motion_through(p.mesh, p.floating.motions, p.floating.grounded, mode));
-  append(r.warnings, held_lines(p.mesh, free));
+  append_lines(r.warnings, held_lines(p.mesh, free));
   r.unheld = p.held;
   r.unheld.insert(r.unheld.end(), free.begin(), free.end());
   for (const int unknown : held_unknowns(p.floating.grounded, r.solution))
@@ -140,10 +137,10 @@ void find_unheld(Results& r) {
 void judge(Results& r) {
   r.checks = checks(r);
   r.status = verdict(r);
-  append(r.warnings, warnings(r));
-  if (!r.problem.seeks_accuracy) append(r.warnings, data_warnings(r.problem.misfits));
-  append(r.warnings, audit_solution(r));
-  append(r.warnings, unheld_probes(r));
+  append_lines(r.warnings, warnings(r));
+  if (!r.problem.seeks_accuracy) append_lines(r.warnings, data_warnings(r.problem.misfits));
+  append_lines(r.warnings, audit_solution(r));
+  append_lines(r.warnings, unheld_probes(r));
 }
 
 Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "results/results.hpp"
+#include "scene/scene.hpp"
 
 namespace mortise {
 

@@ -87,6 +87,10 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+void append_lines(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+  lines.insert(lines.end(), more.begin(), more.end());
+}
+
 std::string near_point(const Vec2& point) {
   std::array<char, 80> text{};
   // Adding zero turns -0 into 0.

@@ -22,6 +22,9 @@ inline constexpr std::size_t told_in_full = 6, told_of_many = 3;
 /// "a, b, c", or "a, b, c and 397 more".
 std::string listed(const std::vector<std::string>& names);
 
+/// Puts more lines behind the lines.
+void append_lines(std::vector<std::string>& lines, const std::vector<std::string>& more);
+
 /// "near (0.4, 0.3)": where to look in the mesh, six digits.
 std::string near_point(const Vec2& point);
 

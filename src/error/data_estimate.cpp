@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "error/gap_misfit.hpp"
 #include "fem/quadrature.hpp"
@@ -148,16 +149,12 @@ void add_gap_errors(const Mesh& mesh, const std::vector<ContactPair>& pairs, con
   }
 }
 
-// Edges of the multiplier side at each node of both sides of a pair, the first and the last.
-std::map<int, std::pair<int, int>> edges_at_nodes(const ContactPair& pair) {
-  std::map<int, std::pair<int, int>> edges;
+// Edges of the multiplier side at each node of both sides of a pair.
+std::map<int, std::set<int>> edges_at_nodes(const ContactPair& pair) {
+  std::map<int, std::set<int>> edges;
   for (const ContactPoint& point : pair.points)
     for (const Edge& edge : {pair.multiplier.edges[point.edge], pair.opposite.edges[point.opposite_edge]})
-      for (int a = 0; a < edge.node_count; ++a) {
-        const auto [at, found] = edges.try_emplace(edge.nodes[a], point.edge, point.edge);
-        at->second.first = std::min(at->second.first, point.edge);
-        at->second.second = std::max(at->second.second, point.edge);
-      }
+      for (int a = 0; a < edge.node_count; ++a) edges[edge.nodes[a]].insert(point.edge);
   return edges;
 }
 
@@ -168,19 +165,19 @@ void add_strains_on_line(const Mesh& mesh, const std::vector<ContactPair>& pairs
   const auto is_strain = [](const DataMisfit& part) { return part.kind == DataMisfit::Kind::strain; };
   if (std::ranges::none_of(data.parts, is_strain)) return;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const std::map<int, std::pair<int, int>> edges = edges_at_nodes(pairs[k]);
+    const std::map<int, std::set<int>> edges = edges_at_nodes(pairs[k]);
     PressureEstimate& e = estimate.pressures[k];
     for (const DataMisfit& part : data.parts) {
       if (!is_strain(part)) continue;
       const Cell& cell = mesh.cells[part.cell];
-      std::pair on_line{int(e.line.p.size()), -1};
+      std::set<int> vertices;
       for (int a = 0; a < node_count(cell.kind); ++a)
         if (const auto at = edges.find(cell.nodes[a]); at != edges.end())
-          on_line = {std::min(on_line.first, at->second.first), std::max(on_line.second, at->second.second)};
+          for (const int edge : at->second) vertices.insert({edge, edge + 1});
       const ElasticLaw& law = laws[cell.body];
       const double volume = estimate.energy.areas(part.cell) * law.model.depth(centre_of(mesh.nodes, cell).x());
       const double stress = part.size * std::sqrt(law.young / volume);
-      for (int i = on_line.first; i <= on_line.second + 1; ++i)
+      for (const int i : vertices)
         if (e.line.loaded[i]) e.local.l2(i) = std::hypot(e.local.l2(i), stress * std::sqrt(e.line.h(i)));
     }
   }

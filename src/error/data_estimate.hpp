@@ -2,6 +2,7 @@
 #pragma once
 
 #include "error/error_estimate.hpp"
+#include "model/method.hpp"
 #include "problem/data_misfit.hpp"
 
 namespace mortise {

@@ -8,6 +8,7 @@
 #include "error/shared_duals.hpp"
 #include "error/tail_shares.hpp"
 #include "mesh/body_points.hpp"
+#include "model/method.hpp"
 
 namespace mortise {
 

@@ -4,6 +4,7 @@
 #include "error/line_part.hpp"
 #include "fem/locate.hpp"
 #include "fem/patch_recovery.hpp"
+#include "model/method.hpp"
 #include "problem/discretisation.hpp"
 #include "solve/solution.hpp"
 

@@ -11,6 +11,7 @@
 #include "model/patterns.hpp"
 #include "problem/facing_pairs.hpp"
 #include "problem/scene_names.hpp"
+#include "scene/scene.hpp"
 
 namespace mortise {
 namespace {

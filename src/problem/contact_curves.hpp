@@ -2,9 +2,11 @@
 #pragma once
 
 #include "mesh/curve.hpp"
-#include "scene/scene.hpp"
+#include "model/contact_spec.hpp"
 
 namespace mortise {
+
+struct Scene;
 
 /// The two curves of a [[contact]] entry, in its order.
 struct ContactCurves {

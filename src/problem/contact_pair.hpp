@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/coupling.hpp"
+#include "model/method.hpp"
 #include "problem/contact_curves.hpp"
 #include "problem/discretisation.hpp"
 

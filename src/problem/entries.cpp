@@ -2,6 +2,7 @@
 
 #include "base/errors.hpp"
 #include "problem/body_entries.hpp"
+#include "scene/scene.hpp"
 
 namespace mortise {
 namespace {

@@ -6,9 +6,10 @@
 #include "model/body_specs.hpp"
 #include "model/model.hpp"
 #include "problem/boundary_entries.hpp"
-#include "scene/scene.hpp"
 
 namespace mortise {
+
+struct Scene;
 
 struct Entries {
   Model model;

@@ -1,16 +1,14 @@
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "base/stopwatch.hpp"
 #include "problem/audit.hpp"
 #include "problem/dirichlet_neumann.hpp"
 #include "problem/problem.hpp"
 #include "problem/ties.hpp"
+#include "scene/scene.hpp"
 
 namespace mortise {
 namespace {
-
-void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
-  lines.insert(lines.end(), more.begin(), more.end());
-}
 
 // Bodies drawn over one another may have no places that face each other: that is said first.
 std::vector<ContactPair> coupled_pairs(const Problem& p, std::vector<ContactCurves> curves) {
@@ -28,10 +26,10 @@ void add_contact(std::vector<ContactCurves> curves, Problem& p) {
   SaddlePointSystem& system = p.discretisation.system;
   set_contact(p.pairs, system);
   p.warnings = p.mesh.notes;
-  append(p.warnings, audit(p.mesh, p.entries.boundaries, p.pairs));
+  append_lines(p.warnings, audit(p.mesh, p.entries.boundaries, p.pairs));
   require_closed(p.mesh, p.pairs);
   p.held = hold_free_motions(p.mesh, p.pairs, p.warnings, system);
-  append(p.warnings, held_lines(p.mesh, p.held));
+  append_lines(p.warnings, held_lines(p.mesh, p.held));
   p.floating = find_floating(p.mesh, system.constraints);
   system.grounded = p.floating.grounded;
 }

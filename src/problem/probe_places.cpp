@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "problem/scene_names.hpp"
+#include "scene/scene.hpp"
 
 namespace mortise {
 namespace {

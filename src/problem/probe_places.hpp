@@ -2,9 +2,10 @@
 #pragma once
 
 #include "fem/locate.hpp"
-#include "scene/scene.hpp"
 
 namespace mortise {
+
+struct Scene;
 
 struct ProbePlace {
   int probe;        ///< of Scene::probes

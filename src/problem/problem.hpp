@@ -2,6 +2,8 @@
 #pragma once
 
 #include "mesh/body_points.hpp"
+#include "model/method.hpp"
+#include "model/probe_spec.hpp"
 #include "problem/contact_pair.hpp"
 #include "problem/data_misfit.hpp"
 #include "problem/discretisation.hpp"
@@ -10,6 +12,8 @@
 #include "problem/validate.hpp"
 
 namespace mortise {
+
+struct Scene;
 
 struct Problem {
   std::string title, scene;  ///< the scene's title, and the path of its file

@@ -7,6 +7,7 @@
 #include "base/printable.hpp"
 #include "contact/mortar_projection.hpp"
 #include "problem/contact_curves.hpp"
+#include "scene/scene.hpp"
 
 namespace mortise {
 namespace {

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "fem/multipoint.hpp"
-#include "scene/scene.hpp"
 
 namespace mortise {
+
+struct Scene;
 
 /// The mesh with its ties, the nodes that follow moved to where their weights have them (Puso 2004): on curves, by what
 /// the two meshes leave between each other, so that a tied body turns without strain. Throws SceneError, with the

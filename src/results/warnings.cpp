@@ -179,13 +179,16 @@ void warn_of_points(const Problem& p, const Reactions& reactions, Lines& lines) 
   for (const Resultant& entry : reactions.entries) most = std::max(most, entry.size);
   for (int i = 0; i < int(p.entries.boundaries.size()); ++i) {
     const BoundaryEntry& entry = p.entries.boundaries[i];
-    std::vector<std::string> names;
-    for (const int point : entry.points) names.push_back("'" + p.mesh.points[point].name + "'");
-    if (names.empty()) continue;
+    if (entry.points.empty()) continue;
     double force = 0;
     if (const auto* load = std::get_if<TotalForce>(&entry.spec.what)) force = load->value.norm();
-    for (const Reaction& of : reactions.curves)
-      if (of.entry == i && std::ranges::find(names, "'" + of.on + "'") != names.end()) force += of.sum.force.norm();
+    std::vector<std::string> names;
+    for (const int point : entry.points) {
+      const std::string& name = p.mesh.points[point].name;
+      names.push_back("'" + name + "'");
+      for (const Reaction& of : reactions.curves)
+        if (of.entry == i && of.on == name) force += of.sum.force.norm();
+    }
     if (!(force > 1e-6 * most)) continue;
     std::ostringstream text;
     text << entry.spec.key << ": a force of " << force << " at the point" << (names.size() > 1 ? "s " : " ")
