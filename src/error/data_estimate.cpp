@@ -174,6 +174,8 @@ void add_strains_on_line(const Mesh& mesh, const std::vector<ContactPair>& pairs
       for (int a = 0; a < node_count(cell.kind); ++a)
         if (const auto at = edges.find(cell.nodes[a]); at != edges.end())
           for (const int edge : at->second) vertices.insert({edge, edge + 1});
+      const int last = int(e.line.p.size()) - 1;
+      if (e.line.closed && (vertices.contains(0) || vertices.contains(last))) vertices.insert({0, last});  // one vertex
       const ElasticLaw& law = laws[cell.body];
       const double volume = estimate.energy.areas(part.cell) * law.model.depth(centre_of(mesh.nodes, cell).x());
       const double stress = part.size * std::sqrt(law.young / volume);

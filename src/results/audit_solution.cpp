@@ -1,5 +1,7 @@
 #include "results/audit_solution.hpp"
 
+#include "base/printable.hpp"
+
 namespace mortise {
 
 std::vector<std::string> audit_solution(const Results& r) {
@@ -7,10 +9,8 @@ std::vector<std::string> audit_solution(const Results& r) {
   if (r.problem.mesh.bodies.size() < 2 && r.problem.pairs.empty()) return {};
   const AuditedBodies bodies = audited_bodies(r.problem.mesh, r.problem.pairs);
   std::vector<std::string> lines = end_lines(bodies, r);
-  const std::vector<std::string> crossings = crossing_lines(bodies, r);
-  const std::vector<std::string> overlaps = drawn_overlap_lines(r);
-  lines.insert(lines.end(), crossings.begin(), crossings.end());
-  lines.insert(lines.end(), overlaps.begin(), overlaps.end());
+  append_lines(lines, crossing_lines(bodies, r));
+  append_lines(lines, drawn_overlap_lines(r));
   return lines;
 }
 
