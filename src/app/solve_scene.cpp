@@ -22,6 +22,7 @@
 #include "results/line_checks.hpp"
 #include "results/unheld.hpp"
 #include "results/warnings.hpp"
+#include "scene/check_ranges.hpp"
 
 namespace mortise {
 namespace {
@@ -41,6 +42,7 @@ void require_same_mesh(const Mesh& mesh) {
 
 // The scene's fields read, too.
 Problem prepared(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr) {
+  check_ranges(scene);
   load_fields(scene);
   return prepare(scene, std::move(mesh), progress, start);
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -72,16 +71,15 @@ std::vector<const Node*> names(const Node& node);
 /// The entries of an array of tables ([[NAME]]); none if the document has no such array.
 std::vector<const Node*> entries(const Node& root, const std::string& section);
 
-/// The value of an enum by its word; `fallback` if the key is absent.
+/// The value of an enum by its word.
 template <class Enum>
-Enum choice(const Node* node, std::initializer_list<Enum> values, Enum fallback) {
-  if (node == nullptr) return fallback;
+Enum choice(const Node& node, const std::vector<Enum>& values) {
   std::vector<std::string> words;
   for (const Enum value : values) {
     words.push_back(to_string(value));
-    if (text(*node) == words.back()) return value;
+    if (text(node) == words.back()) return value;
   }
-  fail(*node, unknown_name(node->name, node->text, words));
+  fail(node, unknown_name(node.name, node.text, words));
 }
 
 }  // namespace mortise::scene_file

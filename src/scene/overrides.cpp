@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <set>
 #include <utility>
 
 #include "base/errors.hpp"
 #include "scene/fail.hpp"
 #include "scene/fields.hpp"
+#include "scene/schema.hpp"
 
 namespace mortise::scene_file {
 namespace {
@@ -45,10 +45,10 @@ Node& item_at(Node& list, const std::string& part, const Setting& setting) {
   return list.items[index];
 }
 
-/// The sections that are lists of entries: an override changes entries, it cannot add one by its index.
+/// An override changes entries, it cannot add one by its index.
 bool is_list_of_entries(const std::string& path) {
-  static const std::set<std::string> sections{"boundary", "body_force", "initial_strain", "contact", "copies", "probe"};
-  return sections.contains(path);
+  return std::ranges::any_of(
+      sections(), [&](const Section& section) { return section.name == path && section.schema["type"] == "array"; });
 }
 
 Node& create_table(Node& parent, const std::string& part, const Setting& setting) {

@@ -1,75 +1,79 @@
 // [accuracy]
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <limits>
 
 #include "model/patterns.hpp"
-#include "scene/fields.hpp"
 #include "scene/sections.hpp"
 
 namespace mortise::scene_file {
 namespace {
 
-// A part: 0.01, or "1%".
-double part(const Node& node) {
-  double value = std::nan("");
-  if (node.kind == Node::Kind::string) {
-    const std::string& text = node.text;
-    double percent = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), percent);
-    if (error == std::errc() && std::string(end, text.data() + text.size()) == "%") value = percent / 100;
-  } else {
-    value = number(node);
-  }
-  if (!(value > 0 && value < 1))
-    fail(node, "expected a part above 0 and below 1, such as 0.01 or \"1%\", found " + describe(node));
-  return value;
-}
-
 // What only some goals have.
-void read_goal(const Node& node, int contacts, AccuracySpec& accuracy) {
-  const Node *pair = find(node, "pair"), *window = find(node, "window"), *at = find(node, "at"),
-             *body = find(node, "body");
-  const bool one_pair = accuracy.of == Goal::mean || accuracy.of == Goal::force;
-  if (pair && !one_pair) fail(*pair, "goes with of = \"mean\" or \"force\"");
-  if (pair) accuracy.pair = whole(*pair, 0, contacts - 1);
-  if (window && accuracy.of != Goal::mean) fail(*window, "goes with of = \"mean\"");
-  const bool place = accuracy.of == Goal::displacement || accuracy.of == Goal::stress;
-  for (const Node* key : {at, body})
-    if (key && !place) fail(*key, "goes with of = \"displacement\" or \"stress\"");
-  if (place) accuracy.at = number_pair(require(node, "at", "[x, y], a place in a body"));
-  if (body) accuracy.body = text(*body);
-  if (accuracy.of != Goal::mean) return;
-  const Node& given = require(node, "window", "[from, to], arc lengths along the contact line");
-  accuracy.window = number_pair(given);
+void check_goal(const Node& node, const AccuracySpec& accuracy) {
+  const auto goes_with = [&](const char* name, bool fits, const char* goals) {
+    if (const Node* given = find(node, name); given && !fits) fail(*given, std::string("goes with of = ") + goals);
+  };
+  const bool mean = accuracy.of == Goal::mean, place = accuracy.of == Goal::displacement || accuracy.of == Goal::stress;
+  goes_with("pair", mean || accuracy.of == Goal::force, "\"mean\" or \"force\"");
+  goes_with("window", mean, "\"mean\"");
+  goes_with("at", place, "\"displacement\" or \"stress\"");
+  goes_with("body", place, "\"displacement\" or \"stress\"");
+  if (place) require(node, "at", "[x, y], a place in a body");
+  if (!mean) return;
+  const Node& window = require(node, "window", "[from, to], arc lengths along the contact line");
   if (!(accuracy.window(0) < accuracy.window(1)))
-    fail(given, "expected [from, to] with from < to, arc lengths along the contact line, found " + describe(given));
+    fail(window, "expected [from, to] with from < to, arc lengths along the contact line, found " + describe(window));
 }
 
 }  // namespace
 
+Keys accuracy_keys(AccuracySpec& a, int last_pair) {
+  return {
+      required(key("value", a.value, a_part(),
+                   "0 < value < 1 or `\"1%\"`, as `--accuracy 1%`: the pressure to this part, on a mesh that is found "
+                   "for it ([accuracy.md](accuracy.md)); the file is a `.geo`, whose own mesh sizes, `Transfinite` and "
+                   "`Recombine` do not count",
+                   "none: the mesh is the file's"),
+               "a part such as 0.01 or \"1%\""),
+      key("of", a.of,
+          one_of({Goal::pressure, Goal::peak, Goal::half_width, Goal::mean, Goal::force, Goal::displacement,
+                  Goal::stress}),
+          "what the accuracy is asked of: `\"pressure\"` along all contact lines; `\"peak\"`, the largest $p$, refused "
+          "where $p$ has no limit; `\"half_width\"` of every contact, by the edge on which it ends; `\"mean\"`, the "
+          "mean $p$ over `accuracy.window`; `\"force\"` of a pair; `\"displacement\"` (x, y) or `\"stress\"` (11, 22, "
+          "12) at `accuracy.at`, a stress refused at a corner where it has no limit, a displacement where nothing "
+          "holds the body against it"),
+      key("pair", a.pair, whole_number(0, last_pair), "of `mean` and `force`: the `[[contact]]` entry, from 0"),
+      key("window", a.window, a_pair(),
+          "of `mean`: `[from, to]`, arc lengths `s` as in contact.csv, along the side with the multipliers",
+          "required"),
+      key("at", a.at, a_pair(), "of `displacement` and `stress`: `[x, y]`, a place in a body or on its boundary",
+          "required"),
+      key("body", a.body, a_text(), "the body that has the place, where several do: on a contact line", "the only one"),
+      key("exclude", a.exclude, a_part(),
+          "0 < part < 1 of the loaded length, on either side of a point where p has no limit: left out of the norm"),
+      key("unknowns_max", a.unknowns_max, whole_number(100, 1000000000),
+          "100 to 1e9: no finer mesh is made from one that has as many"),
+      key("solves_max", a.solves_max, whole_number(1, 100),
+          "1 to 100: so many solves at most, each on a mesh of its own"),
+      key("first_edges", a.first_edges, whole_number(2, 100000),
+          "2 to 100000: edges of the first mesh along each contact curve"),
+      key("recombine", a.recombine, true_or_false(), "`true`: quadrilaterals, with a few triangles between them"),
+  };
+}
+
 void read_accuracy(const Node& root, Scene& scene) {
   const Node* node = find(root, "accuracy");
   if (node == nullptr) return;
-  expect_keys(*node, {"of", "pair", "window", "at", "body", "value", "exclude", "unknowns_max", "solves_max",
-                      "first_edges", "recombine"});
-  AccuracySpec accuracy;
-  accuracy.of =
-      choice(find(*node, "of"),
-             {Goal::pressure, Goal::peak, Goal::half_width, Goal::mean, Goal::force, Goal::displacement, Goal::stress},
-             accuracy.of);
-  accuracy.value = part(require(*node, "value", "a part such as 0.01 or \"1%\""));
-  if (const Node* exclude = find(*node, "exclude")) accuracy.exclude = part(*exclude);
-  if (const Node* most = find(*node, "unknowns_max")) accuracy.unknowns_max = whole(*most, 100, 1e9);
-  if (const Node* most = find(*node, "solves_max")) accuracy.solves_max = whole(*most, 1, 100);
-  if (const Node* edges = find(*node, "first_edges")) accuracy.first_edges = whole(*edges, 2, 1e5);
-  if (const Node* recombine = find(*node, "recombine")) accuracy.recombine = boolean(*recombine);
-  if (scene.contacts.empty())
-    fail(*node, "the accuracy of the contact pressure is asked for where there is no [[contact]]");
   const bool found = std::ranges::any_of(
       scene.contacts, [](const ContactSpec& c) { return is_pattern(c.between[0]) || is_pattern(c.between[1]); });
-  read_goal(*node, found ? std::numeric_limits<int>::max() : int(scene.contacts.size()), accuracy);
+  const int last_pair =
+      found || scene.contacts.empty() ? std::numeric_limits<int>::max() : int(scene.contacts.size()) - 1;
+  AccuracySpec accuracy;
+  read(*node, accuracy_keys(accuracy, last_pair));
+  if (scene.contacts.empty())
+    fail(*node, "the accuracy of the contact pressure is asked for where there is no [[contact]]");
+  check_goal(*node, accuracy);
   if (!scene.mesh_file.ends_with(".geo"))
     fail(*node, "a mesh has no geometry to refine; expected mesh.file = a .geo (with a .msh every solve gives bars)");
   if (!scene.copies.empty())

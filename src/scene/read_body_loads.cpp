@@ -4,21 +4,16 @@
 #include <cmath>
 
 #include "model/patterns.hpp"
-#include "scene/fail.hpp"
-#include "scene/fields.hpp"
 #include "scene/sections.hpp"
 
 namespace mortise::scene_file {
 namespace {
 
-/// The name, or the pattern, of what an entry acts on.
-const std::string& read_body_name(const Node& entry) { return name(require(entry, "body", "the name of a body")); }
-
 /// The entries of [bodies] that may hold a body that an entry of a section names: its own alone, if there is one; of a
 /// pattern none that has an entry of its own there. Throws if there can be none.
 std::vector<const BodySpec*> bodies_named(const Node& entry, const std::vector<const Node*>& section, const Node& root,
                                           const Scene& scene) {
-  const std::string& body = read_body_name(entry);
+  const std::string& body = find(entry, "body")->text;
   const auto has_its_own = [&](const BodySpec& spec) {
     return is_pattern(body) && std::ranges::any_of(section, [&](const Node* other) {
              const Node* named = find(*other, "body");
@@ -65,16 +60,23 @@ Field read_temperature(const Node& entry, const std::vector<const BodySpec*>& bo
   return field(change, use);
 }
 
+constexpr std::array<const char*, 4> strain_components{"xx", "yy", "zz", "xy"};
+
+Keys strain_keys() {
+  Keys keys;
+  for (const char* component : strain_components) keys.push_back({component, a_field({}).schema, ""});
+  return keys;
+}
+
 std::array<Field, 4> read_strain(const Node& node, const Scene& scene) {
-  const std::array<const char*, 4> components{"xx", "yy", "zz", "xy"};
-  expect_keys(node, {components.begin(), components.end()});
+  expect_keys(node, strain_keys());
   if (node.items.empty()) fail(node, "is empty; expected at least one of xx, yy, zz, xy");
   std::array<Field, 4> strain;
   FieldUse use = expression_use(scene, false);
   use.largest = 1;
   use.limit = "a strain below 1";
   for (int i = 0; i < 4; ++i) {
-    const Node* component = find(node, components[i]);
+    const Node* component = find(node, strain_components[i]);
     if (component == nullptr) continue;
     strain[i] = field(*component, use);
     if (strain[i].is_constant() && std::abs(strain[i].constant()) >= 1)
@@ -85,16 +87,36 @@ std::array<Field, 4> read_strain(const Node& node, const Scene& scene) {
 
 }  // namespace
 
+Keys body_force_keys(BodyForceSpec& spec, const FieldUse& use) {
+  return {
+      required(key("body", spec.body, a_name(), "a body, or a pattern of bodies"), "the name of a body"),
+      required(key("force", spec.force, two_fields(use), "`[fx, fy]` per volume, functions of place"),
+               "a force per volume [fx, fy]"),
+  };
+}
+
+Keys initial_strain_keys(InitialStrainSpec& spec) {
+  Json strain = object_of(strain_keys());
+  strain["minProperties"] = 1;
+  return {
+      required(key("body", spec.body, a_name(), "a body, or a pattern of bodies"), "the name of a body"),
+      {"temperature_change", a_field({}).schema, "a function of place: the strain is that times `thermal_expansion`",
+       "this, or `strain`"},
+      {"strain", strain, "`{ xx, yy, zz, xy }`, `xy` the tensor component; functions of place",
+       "this, or `temperature_change`"},
+  };
+}
+
 void read_body_forces(const Node& root, Scene& scene) {
   Once once;
   const std::vector<const Node*> section = entries(root, "body_force");
   for (const Node* entry : section) {
-    expect_keys(*entry, {"body", "force"});
-    const std::string& body = read_body_name(*entry);
+    BodyForceSpec spec;
+    read(*entry, body_force_keys(spec, expression_use(scene, false)));
+    spec.key = locate(*entry);
     bodies_named(*entry, section, root, scene);
-    once.take("body '" + body + "' is given a body force", *find(*entry, "body"), *entry);
-    const Node& force = require(*entry, "force", "a force per volume [fx, fy]");
-    scene.body_forces.push_back({locate(*entry), body, field_pair(force, expression_use(scene, false))});
+    once.take("body '" + spec.body + "' is given a body force", *find(*entry, "body"), *entry);
+    scene.body_forces.push_back(spec);
   }
 }
 
@@ -102,11 +124,11 @@ void read_initial_strains(const Node& root, Scene& scene) {
   Once once;
   const std::vector<const Node*> section = entries(root, "initial_strain");
   for (const Node* entry : section) {
-    expect_keys(*entry, {"body", "temperature_change", "strain"});
-    const std::string& body = read_body_name(*entry);
+    InitialStrainSpec spec;
+    read(*entry, initial_strain_keys(spec));
+    spec.key = locate(*entry);
     const std::vector<const BodySpec*> bodies = bodies_named(*entry, section, root, scene);
-    once.take("body '" + body + "' is given an initial strain", *find(*entry, "body"), *entry);
-    InitialStrainSpec spec{locate(*entry), body, {}, {}};
+    once.take("body '" + spec.body + "' is given an initial strain", *find(*entry, "body"), *entry);
     const Node& what = exactly_one(*entry, {"temperature_change", "strain"});
     if (what.name == "strain") {
       spec.strain = read_strain(what, scene);

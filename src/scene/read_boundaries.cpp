@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/fail.hpp"
-#include "scene/fields.hpp"
 #include "scene/sections.hpp"
 
 namespace mortise::scene_file {
@@ -42,8 +40,29 @@ void check_load(const Node& load, double size, const Stiffest& most) {
            locate(*most.node) + "), found " + describe(load) + "; probably a unit mismatch");
 }
 
+Keys displacement_keys(Displacement& displacement, const FieldUse& use) {
+  const Json value = a_field(use).schema;
+  return {
+      key("x", displacement.x, a_field(use), ""),    key("y", displacement.y, a_field(use), ""),
+      {"normal", value, "along the outward normal"}, {"direction", a_pair().schema, "[dx, dy]"},
+      {"value", value, "along the direction"},
+  };
+}
+
+Keys rigid_keys(RigidSpec& rigid) {
+  return {
+      key("x", rigid.x, a_number(), ""),
+      key("y", rigid.y, a_number(), ""),
+      key("rotation", rigid.rotation, a_number(), "radians, counter-clockwise"),
+      key("force", rigid.force, a_pair(), "[Fx, Fy] at `about`"),
+      key("moment", rigid.moment, a_number(), ""),
+      key("about", rigid.about, a_pair(), "[x, y] (their centre)"),
+  };
+}
+
 BoundaryCondition read_displacement(const Node& node, const FieldUse& use) {
-  expect_keys(node, {"x", "y", "normal", "direction", "value"});
+  Displacement displacement;
+  read(node, displacement_keys(displacement, use));
   const std::string expected = "expected x, y or both; or normal; or direction and value";
   if (node.items.empty()) fail(node, "is empty; " + expected);
   const Node *x = find(node, "x"), *y = find(node, "y"), *normal = find(node, "normal");
@@ -57,21 +76,12 @@ BoundaryCondition read_displacement(const Node& node, const FieldUse& use) {
     return DirectedDisplacement{along.stableNormalized(),
                                 field(require(node, "value", "the displacement along 'direction'"), use)};
   }
-  Displacement displacement;
-  if (x != nullptr) displacement.x = field(*x, use);
-  if (y != nullptr) displacement.y = field(*y, use);
   return displacement;
 }
 
 RigidSpec read_rigid(const Node& node, const Model& model) {
-  expect_keys(node, {"x", "y", "rotation", "force", "moment", "about"});
   RigidSpec rigid;
-  if (const Node* x = find(node, "x")) rigid.x = number(*x);
-  if (const Node* y = find(node, "y")) rigid.y = number(*y);
-  if (const Node* rotation = find(node, "rotation")) rigid.rotation = number(*rotation);
-  if (const Node* force = find(node, "force")) rigid.force = number_pair(*force);
-  if (const Node* moment = find(node, "moment")) rigid.moment = number(*moment);
-  if (const Node* about = find(node, "about")) rigid.about = number_pair(*about);
+  read(node, rigid_keys(rigid));
   if (!model.axisymmetric()) return rigid;
   for (const char* key : {"x", "rotation", "moment", "about"})
     if (const Node* given = find(node, key))
@@ -131,19 +141,47 @@ void check_once(const Node& entry, const Node& what, const std::vector<const Nod
 
 }  // namespace
 
+const std::vector<std::string> boundary_conditions{"displacement", "pressure", "traction", "force",
+                                                   "foundation",   "spring",   "rigid"};
+
+Keys boundary_keys(BoundarySpec& boundary) {
+  Displacement displacement;
+  RigidSpec rigid;
+  Json moved = object_of(displacement_keys(displacement, {}));
+  moved["minProperties"] = 1;
+  moved["dependencies"] = {{"direction", {"value"}}, {"value", {"direction"}}};
+  const Json value = a_field({}).schema, pair = a_pair().schema, values = two_fields({}).schema;
+  return {
+      required(key("on", boundary.on, some_names(),
+                   "a physical curve or a list of them; of `displacement`, `force` and `spring` also physical points. "
+                   "A curve counts before a point of the same name; stresses have no bound at a point that bears a "
+                   "force (a warning says so)"),
+               "the names of physical curves"),
+      {"displacement", moved,
+       "`{ x, y }`, one or both; `{ normal }`, along the outward normal: an inclined symmetry line, a guide; or `{ "
+       "direction = [dx, dy], value }`; functions of place",
+       "one of these seven"},
+      {"pressure", value,
+       "positive pushes onto the body, a function of place. An edge carries one load at most, under whichever name"},
+      {"traction", values, "`[tx, ty]`, functions of place"},
+      {"force", pair, "`[Fx, Fy]`, their sum: a constant traction on all the curves"},
+      {"foundation", either(value, values),
+       "springs to the ground, stress per length ≥ 0: `k` along the normal, or `[kx, ky]`; functions of place"},
+      {"spring", either(above(0).schema, pair),
+       "of a point, to the ground, force per length: `k`, or `[kx, ky]` along x and y"},
+      {"rigid", object_of(rigid_keys(rigid)), "the curves keep their shape ([below](#rigid-curves))"},
+  };
+}
+
 void read_boundaries(const Node& root, Scene& scene) {
   Once once;
   const Stiffest most = stiffest(root, scene);
   for (const Node* entry : entries(root, "boundary")) {
-    std::vector<std::string> keys{"displacement", "pressure", "traction", "force", "foundation", "spring", "rigid"};
-    keys.push_back("on");
-    expect_keys(*entry, keys);
-    keys.pop_back();
-    const Node& what = exactly_one(*entry, keys);
     BoundarySpec boundary;
+    read(*entry, boundary_keys(boundary));
+    const Node& what = exactly_one(*entry, boundary_conditions);
     boundary.key = locate(*entry);
-    const std::vector<const Node*> curves = names(require(*entry, "on", "the names of physical curves"));
-    for (const Node* curve : curves) boundary.on.push_back(curve->text);
+    const std::vector<const Node*> curves = names(*find(*entry, "on"));
     boundary.what = read_what(what, scene, most);
     check_once(*entry, what, curves, once);
     scene.boundaries.push_back(boundary);

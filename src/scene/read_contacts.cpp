@@ -3,8 +3,6 @@
 #include <cctype>
 
 #include "model/patterns.hpp"
-#include "scene/fail.hpp"
-#include "scene/fields.hpp"
 #include "scene/sections.hpp"
 
 namespace mortise::scene_file {
@@ -22,18 +20,13 @@ std::array<std::string, 2> read_between(const Node& node, const Node& entry, Onc
   return {first, second};
 }
 
-std::string read_multipliers_on(const Node& entry, const ContactSpec& contact) {
-  const Node* node = find(entry, "multipliers_on");
-  if (node == nullptr) return {};
+void check_multipliers_on(const Node& entry, const ContactSpec& contact) {
   const auto& [first, second] = contact.between;
-  if (name(*node) != first && node->text != second) {
-    const Node& between = *find(entry, "between");
-    fail(blame(between, *node).place, node->path, unknown_name("curve of this pair", node->text, {first, second}));
-  }
-  return node->text;
+  const std::string& on = contact.multipliers_on;
+  if (on.empty() || on == first || on == second) return;
+  const Node& node = *find(entry, "multipliers_on");
+  fail(blame(*find(entry, "between"), node).place, node.path, unknown_name("curve of this pair", on, {first, second}));
 }
-
-const std::initializer_list<InitialGap> gap_words{InitialGap::curve, InitialGap::measured, InitialGap::closed};
 
 // All names of an expression's are single letters but theta and pi.
 bool is_word(const std::string& text) {
@@ -46,7 +39,7 @@ void read_initial_gap(const Node* node, const Scene& scene, ContactSpec& contact
   if (node == nullptr) return;
   if (node->kind == Node::Kind::string && is_word(node->text) &&
       std::ranges::none_of(scene.fields, [&](const FieldSpec& f) { return f.function->name == node->text; })) {
-    contact.initial_gap = choice(node, gap_words, contact.initial_gap);
+    contact.initial_gap = choice<InitialGap>(*node, {InitialGap::curve, InitialGap::measured, InitialGap::closed});
     return;
   }
   if (node->kind != Node::Kind::number && node->kind != Node::Kind::string)
@@ -55,41 +48,67 @@ void read_initial_gap(const Node* node, const Scene& scene, ContactSpec& contact
   contact.gap = field(*node, expression_use(scene, true));
 }
 
-// What is added to the gap between the drawn curves, or between the edges.
-void read_clearance(const Node& entry, const Scene& scene, ContactSpec& contact) {
+// It is added to a gap that is drawn or measured.
+void check_clearance(const Node& entry, const ContactSpec& contact) {
   const Node* node = find(entry, "clearance");
-  if (node == nullptr) return;
-  if (contact.initial_gap == InitialGap::closed || contact.initial_gap == InitialGap::given) {
-    const Node& gap = *find(entry, "initial_gap");
-    fail(blame(gap, *node).place, node->path,
-         "is added to the gap that is drawn, but initial_gap = " + describe(gap) + "; expected one of them");
-  }
-  contact.clearance = field(*node, expression_use(scene, true));
+  if (node == nullptr || contact.initial_gap == InitialGap::curve || contact.initial_gap == InitialGap::measured)
+    return;
+  const Node& gap = *find(entry, "initial_gap");
+  fail(blame(gap, *node).place, node->path,
+       "is added to the gap that is drawn, but initial_gap = " + describe(gap) + "; expected one of them");
 }
 
 }  // namespace
 
+Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
+  return {
+      required({"between", list_of(a_name().schema, 2, 2),
+                "two physical curves, or patterns: then all pairs of two bodies' curves that face each other are in "
+                "contact, but for those with an entry of their own; curves of several bodies are none. A curve may be "
+                "in several pairs"},
+               "a list of two physical curves"),
+      key("within", contact.within, above(0),
+          "of patterns: > 0, how far apart the curves may be where they face each other", "half an edge"),
+      key("condition", contact.condition, one_of({Condition::unilateral, Condition::bilateral, Condition::tied}),
+          "`\"unilateral\"`, `\"bilateral\"`, or `\"tied\"`: both bodies are one where their meshes do not match, in "
+          "both components and in tension too. `multipliers_on` names the curve whose nodes follow the other then "
+          "(default: that with the shorter edges); no gap, no `contact.csv`, not counted by `accuracy.pair`; the "
+          "terminal and summary.json tell the force that goes through"),
+      {"initial_gap", a_field(use).schema,
+       "`\"curve\"`: between the drawn curves, whatever their meshes (theory, section 9); a length, which may be a "
+       "[function of place](#functions-of-place): the gap is that, + open, − overlap, whatever is drawn and meshed; "
+       "`\"closed\"`: zero, the curves are one curve (a gap that meshes of one curve cannot show is an error: theory, "
+       "section 10); `\"measured\"`: between the edges of the meshes, the preprint's, for studies",
+       "`\"curve\"`"},
+      key("clearance", contact.clearance, a_field(use),
+          "a length, which may be a function of place, that is added to a drawn or measured gap: + open, − overlap",
+          "0"),
+      key("multipliers_on", contact.multipliers_on, a_name(), "one of the two curves",
+          "that of the softer body where the other is more than 10 times as stiff (theory, section 13), else that of a "
+          "curve which faces the other on at least 95 % of its length where the other does so on at most 90 %, else "
+          "the one with the shorter edges on average, the first if equal; but of linear elements the longer edges if "
+          "they are more than 1.5 times as long ([stability.md](stability.md)). In domain decomposition: the curve of "
+          "the body that takes the displacement, or the coarser one where both bodies take both"),
+  };
+}
+
 void read_contacts(const Node& root, Scene& scene) {
   Once once;
   for (const Node* entry : entries(root, "contact")) {
-    expect_keys(*entry, {"between", "within", "condition", "initial_gap", "clearance", "multipliers_on"});
     ContactSpec contact;
+    read(*entry, contact_keys(contact, expression_use(scene, true)));
     contact.key = locate(*entry);
-    contact.between = read_between(require(*entry, "between", "a list of two physical curves"), *entry, once);
-    if (const Node* within = find(*entry, "within")) {
-      contact.within = positive_number(*within);
-      if (!is_pattern(contact.between[0]) && !is_pattern(contact.between[1]))
-        fail(*within, "goes with between = patterns, such as [\"block_*\", \"block_*\"], whose pairs are found");
-    }
-    contact.condition = choice(find(*entry, "condition"),
-                               {Condition::unilateral, Condition::bilateral, Condition::tied}, contact.condition);
+    contact.between = read_between(*find(*entry, "between"), *entry, once);
+    if (contact.within && !is_pattern(contact.between[0]) && !is_pattern(contact.between[1]))
+      fail(*find(*entry, "within"),
+           "goes with between = patterns, such as [\"block_*\", \"block_*\"], whose pairs are found");
     const bool tied = contact.condition == Condition::tied;
     for (const char* key : {"initial_gap", "clearance"})
       if (const Node* node = find(*entry, key); tied && node != nullptr)
         fail(*node, "has no meaning with condition = \"tied\", which makes one body of both; expected one of them");
     read_initial_gap(find(*entry, "initial_gap"), scene, contact);
-    read_clearance(*entry, scene, contact);
-    contact.multipliers_on = read_multipliers_on(*entry, contact);
+    check_clearance(*entry, contact);
+    check_multipliers_on(*entry, contact);
     (tied ? scene.ties : scene.contacts).push_back(contact);
   }
 }

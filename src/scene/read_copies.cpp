@@ -4,8 +4,6 @@
 
 #include "base/printable.hpp"
 #include "model/patterns.hpp"
-#include "scene/fail.hpp"
-#include "scene/fields.hpp"
 #include "scene/sections.hpp"
 
 namespace mortise::scene_file {
@@ -20,23 +18,35 @@ struct CopyPlace {
   Vec2 shift;
 };
 
-std::vector<CopyPlace> read_grid(const Node& grid) {
-  expect_keys(grid, {"count", "step", "start", "shift"});
-  const Node& count = require(grid, "count", "[columns, rows]");
-  const Node& step_node = require(grid, "step", "[x, y], from one column and row to the next");
-  const Vec2 step = number_pair(step_node);
+// [copies.grid] but for the count.
+struct Grid {
+  Vec2 step = Vec2::Zero(), start = Vec2::Zero();
+  double shift = 0;
+};
+
+Keys grid_keys(Grid& grid) {
+  return {
+      required({"count", list_of(whole_number(1, most_copies).schema, 2, 2), "[columns, rows]"}, "[columns, rows]"),
+      required(key("step", grid.step, a_pair(), "[x, y], from one to the next"),
+               "[x, y], from one column and row to the next"),
+      key("start", grid.start, a_pair(), "[x, y], how far the first is moved"),
+      key("shift", grid.shift, a_number(), "how far every other row is moved along x"),
+  };
+}
+
+std::vector<CopyPlace> read_grid(const Node& node) {
+  Grid grid;
+  read(node, grid_keys(grid));
+  const Node &count = *find(node, "count"), &step = *find(node, "step");
   number_pair(count);
   const int columns = whole(count.items[0], 1, most_copies), rows = whole(count.items[1], 1, most_copies / columns);
   for (int k = 0; k < 2; ++k)
-    if ((k == 0 ? columns : rows) > 1 && step(k) == 0)
-      fail(step_node.items[k], "expected a step other than 0, as there are several: they would lie on one another");
-  const Node *start = find(grid, "start"), *shift = find(grid, "shift");
-  const Vec2 from = start ? number_pair(*start) : Vec2::Zero();
-  const double of_odd_rows = shift ? number(*shift) : 0;
+    if ((k == 0 ? columns : rows) > 1 && grid.step(k) == 0)
+      fail(step.items[k], "expected a step other than 0, as there are several: they would lie on one another");
   std::vector<CopyPlace> places;
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i)
-      places.push_back({i, j, 0, from + Vec2(i * step.x() + (j % 2) * of_odd_rows, j * step.y())});
+      places.push_back({i, j, 0, grid.start + Vec2(i * grid.step.x() + (j % 2) * grid.shift, j * grid.step.y())});
   return places;
 }
 
@@ -87,28 +97,48 @@ void check_name(const Node& node, bool grid, std::size_t count) {
 }
 
 void read_entry(const Node& entry, Scene& scene) {
-  expect_keys(entry, {"body", "name", "grid", "places", "ring", "centre"});
-  const std::vector<const Node*> bodies = names(require(entry, "body", "a body of the mesh, or a list of them"));
-  const Node& called = require(entry, "name", "the names of the copies, such as \"block_*\"");
+  CopiesEntry copies;
+  read(entry, copies_keys(copies));
   const Node& what = exactly_one(entry, {"grid", "places", "ring"});
   const bool grid = what.name == "grid";
   const std::vector<CopyPlace> places = grid                    ? read_grid(what)
                                         : what.name == "places" ? read_places(what)
                                                                 : read_ring(what);
-  check_name(called, grid, places.size());
-  const Node* centre = find(entry, "centre");
-  if (centre && grid) fail(*centre, "goes with places = [[x, y, degrees], ...] or ring, whose copies are turned");
-  const Vec2 about = centre ? number_pair(*centre) : Vec2::Zero();
+  check_name(*find(entry, "name"), grid, places.size());
+  if (const Node* centre = find(entry, "centre"); centre && grid)
+    fail(*centre, "goes with places = [[x, y, degrees], ...] or ring, whose copies are turned");
   for (const CopyPlace& place : places)
     scene.copies.push_back({.key = locate(entry),
-                            .body = bodies[(place.i + place.j) % bodies.size()]->text,
-                            .name = name_of(called.text, grid, place),
+                            .body = copies.bodies[(place.i + place.j) % copies.bodies.size()],
+                            .name = name_of(copies.name, grid, place),
                             .degrees = place.degrees,
-                            .centre = about,
+                            .centre = copies.centre,
                             .shift = place.shift});
 }
 
 }  // namespace
+
+Keys copies_keys(CopiesEntry& copies) {
+  Grid grid;
+  return {
+      required(key("body", copies.bodies, some_names(),
+                   "a body of the file, or a list of bodies that take turns: in a grid like the squares of a "
+                   "chessboard. They have nodes of their own"),
+               "a body of the mesh, or a list of them"),
+      required(key("name", copies.name, a_name(),
+                   "names of the copies, by a pattern: `*` is the number of the copy, from 0; of a grid its column and "
+                   "row: `\"b_*\"` is `b_3_4`, as `\"b_*_*\"` is"),
+               "the names of the copies, such as \"block_*\""),
+      {"grid", object_of(grid_keys(grid)),
+       "one of these three: `count = [columns, rows]`, `step = [x, y]` from one to the next; also `start = [x, y]`, "
+       "how far the first one is moved, and `shift`, how far every other row is moved along x"},
+      {"places", list_of(list_of(a_number().schema, 2, 3), 1),
+       "`[[x, y], [x, y, degrees], ...]`: how far each is moved, having been turned (counter-clockwise)"},
+      {"ring", whole_number(2, most_copies).schema,
+       "2 or more: so many all round, each turned on by the same part of a full turn"},
+      key("centre", copies.centre, a_pair(), "`[x, y]`, about which they are turned, as drawn", "`[0, 0]`"),
+  };
+}
 
 void read_copies(const Node& root, Scene& scene) {
   for (const Node* entry : entries(root, "copies")) read_entry(*entry, scene);

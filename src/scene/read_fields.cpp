@@ -1,5 +1,4 @@
 // [fields]
-#include "scene/fields.hpp"
 #include "scene/files.hpp"
 #include "scene/sections.hpp"
 
@@ -13,24 +12,35 @@ FieldSpec read_field(const Node& node, const std::string& scene_path) {
     fail(node,
          "'" + node.name + "' cannot be a name in expressions; expected letters, digits and _, and none of theirs");
   }
-  expect_keys(node, {"file", "values", "component"});
-  const Node& file = require(node, "file", "the name of a .vtu or a .csv");
+  FieldSpec spec{locate(node), {}, node.name, {}, std::make_shared<NamedFunction>()};
+  read(node, field_keys(spec));
+  const Node& file = *find(node, "file");
   const fs::path path = resolve(file, scene_path);
   if (const std::string ending = path.extension().string(); ending != ".vtu" && ending != ".csv")
     fail(file, "expected a file that ends in .vtu or .csv, found '" + file.text + "'");
   if (const std::string trouble = file_trouble(path); !trouble.empty())
     fail(file, "'" + path.string() + "': " + trouble);
-  FieldSpec spec{locate(node), path.string(), node.name, {}, std::make_shared<NamedFunction>()};
+  spec.file = path.string();
   spec.function->name = node.name;
-  if (const Node* values = find(node, "values")) spec.values = name(*values);
   const Node* component = find(node, "component");
   if (component != nullptr && path.extension() == ".csv")
     fail(*component, "is of the arrays of a .vtu; expected values = a column");
-  if (component != nullptr) spec.component = whole(*component, 0, 8);
   return spec;
 }
 
 }  // namespace
+
+Keys field_keys(FieldSpec& spec) {
+  return {
+      required({"file",
+                {{"type", "string"}, {"pattern", "\\.(vtu|csv)$"}},
+                "a `.vtu` or a `.csv`, relative to the scene file"},
+               "the name of a .vtu or a .csv"),
+      key("values", spec.values, a_name(), "the array or the column that has the values", "the field's own name"),
+      key("component", spec.component, whole_number(0, 8),
+          "of an array of a `.vtu` with several components, counted from 0"),
+  };
+}
 
 void read_fields(const Node& root, Scene& scene) {
   const Node* fields = find(root, "fields");

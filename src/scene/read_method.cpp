@@ -1,74 +1,27 @@
 // [method]
 #include <algorithm>
-#include <cmath>
 
-#include "scene/fields.hpp"
 #include "scene/sections.hpp"
 
 namespace mortise::scene_file {
 namespace {
 
 // A number > 0, or "auto", which is the same as no entry.
-std::optional<double> read_beta(const Node* node) {
-  if (node == nullptr || (node->kind == Node::Kind::string && node->text == "auto")) return std::nullopt;
-  return positive_number(*node);
-}
-
-int read_count(const Node& node) {
-  const double value = positive_number(node);
-  if (value != std::floor(value) || value > 1e6)
-    fail(node, "expected a whole number from 1 to 1000000, found " + describe(node));
-  return int(value);
-}
-
-void read_ddm(const Node& node, const Node& chosen, Scene& scene) {
-  if (scene.contacts.empty())
-    fail(chosen, "domain decomposition needs a [[contact]] to iterate on; expected one, or solver = \"direct\"");
-  DdmOptions& ddm = scene.method.ddm;
-  ddm.scheme = choice(find(node, "scheme"),
-                      {Scheme::neumann_dirichlet, Scheme::neumann_neumann, Scheme::dirichlet_dirichlet}, ddm.scheme);
-  ddm.acceleration = choice(find(node, "acceleration"),
-                            {Acceleration::none, Acceleration::aitken, Acceleration::anderson, Acceleration::krylov},
-                            ddm.acceleration);
-  ddm.beta = read_beta(find(node, "beta"));
-  if (const Node* tolerance = find(node, "tolerance")) ddm.tolerance = positive_number(*tolerance);
-  if (const Node* most = find(node, "max_iterations")) ddm.max_iterations = read_count(*most);
-  const Node* dirichlet = find(node, "dirichlet");
-  if (dirichlet == nullptr) return;
-  std::vector<std::string> known;
-  for (const BodySpec& body : scene.bodies) known.push_back(body.name);
-  for (const Node* body : names(*dirichlet)) {
-    if (std::find(known.begin(), known.end(), body->text) == known.end())
-      fail(*body, unknown_name("body", body->text, known));
-    scene.method.dirichlet.push_back(body->text);
-  }
-}
-
-void read_mssor(const Node& node, Scene& scene) {
-  MssorOptions& mssor = scene.method.mssor;
-  if (const Node* omega = find(node, "omega")) {
-    mssor.omega = number(*omega);
-    if (!(mssor.omega > 0 && mssor.omega < 2))
-      fail(*omega, "expected a number between 0 and 2 (both excluded), found " + describe(*omega));
-  }
-  if (const Node* tau = find(node, "tau")) mssor.tau = positive_number(*tau);
-  mssor.acceleration = choice(find(node, "acceleration"),
-                              {Acceleration::none, Acceleration::krylov, Acceleration::minres}, mssor.acceleration);
-  if (const Node* tolerance = find(node, "tolerance")) mssor.tolerance = positive_number(*tolerance);
-  if (const Node* most = find(node, "max_iterations")) mssor.max_iterations = read_count(*most);
-}
-
-void read_feti(const Node& node, FetiOptions& feti) {
-  if (const Node* tolerance = find(node, "tolerance")) feti.tolerance = positive_number(*tolerance);
-  if (const Node* most = find(node, "max_iterations")) feti.max_iterations = read_count(*most);
+Kind<std::optional<double>> number_or_auto() {
+  const Kind<double> number = above(0);
+  return {either(number.schema, {{"const", "auto"}}),
+          [=](const Node& node) -> std::optional<double> {
+            if (node.kind == Node::Kind::string && node.text == "auto") return std::nullopt;
+            return number.read(node);
+          },
+          [=](const std::optional<double>& value) { return value ? number.trouble(*value) : ""; }};
 }
 
 // "solver"; scene files written before it could say "ddm" say kind = "ddm", and "mortar" for what is not.
 std::optional<Solver> read_solver(const Node& node) {
   const Node *solver = find(node, "solver"), *kind = find(node, "kind");
   std::optional<Solver> chosen;
-  if (solver != nullptr)
-    chosen = choice(solver, {Solver::direct, Solver::mssor, Solver::ddm, Solver::feti}, Solver::direct);
+  if (solver != nullptr) chosen = solver_word().read(*solver);
   if (kind == nullptr) return chosen;
   const bool ddm = text(*kind) == "ddm";
   if (!ddm && text(*kind) != "mortar") fail(*kind, unknown_name("kind", kind->text, {"mortar", "ddm"}));
@@ -84,38 +37,102 @@ void refuse_strangers(const Node& node, const std::vector<std::string>& keys, co
     if (const Node* extra = find(node, key)) fail(*extra, message);
 }
 
-const std::vector<std::string> of_ddm{"scheme", "beta", "dirichlet"};
-const std::vector<std::string> of_mssor{"omega", "tau"};
-const std::vector<std::string> of_iterations{"tolerance", "max_iterations"};
+void check_solver(const Node& node, const Method& method) {
+  const bool ddm = method.solver == Solver::ddm, mssor = method.solver == Solver::mssor,
+             feti = method.solver == Solver::feti;
+  if (!ddm)
+    refuse_strangers(node, {"scheme", "beta", "dirichlet"},
+                     "belongs to domain decomposition; expected solver = \"ddm\" with it");
+  if (!mssor)
+    refuse_strangers(node, {"omega", "tau"}, "belongs to the iterative solver; expected solver = \"mssor\" with it");
+  if (!ddm && !mssor)
+    refuse_strangers(node, {"acceleration"},
+                     "belongs to an iteration that has some; expected solver = \"ddm\" or \"mssor\" with it");
+  if (!ddm && !mssor && !feti)
+    refuse_strangers(node, {"tolerance", "max_iterations"},
+                     "belongs to an iteration; expected solver = \"feti\", \"ddm\" or \"mssor\" with it");
+}
+
+void check_ddm(const Node& node, const Scene& scene) {
+  if (scene.contacts.empty())
+    fail(*(find(node, "solver") ? find(node, "solver") : find(node, "kind")),
+         "domain decomposition needs a [[contact]] to iterate on; expected one, or solver = \"direct\"");
+  const Node* dirichlet = find(node, "dirichlet");
+  if (dirichlet == nullptr) return;
+  std::vector<std::string> known;
+  for (const BodySpec& body : scene.bodies) known.push_back(body.name);
+  for (const Node* body : names(*dirichlet))
+    if (!std::ranges::count(known, body->text)) fail(*body, unknown_name("body", body->text, known));
+}
+
+Kind<Acceleration> acceleration_of(const std::optional<Solver>& solver) {
+  using enum Acceleration;
+  if (solver == Solver::ddm) return one_of({none, aitken, anderson, krylov});
+  if (solver == Solver::mssor) return one_of({none, krylov, minres});
+  return one_of({none, aitken, anderson, krylov, minres});
+}
 
 }  // namespace
+
+Kind<Solver> solver_word() { return one_of({Solver::direct, Solver::mssor, Solver::ddm, Solver::feti}); }
+
+Keys method_keys(Method& m) {
+  const bool mssor = m.solver == Solver::mssor, feti = m.solver == Solver::feti;
+  double& tolerance = mssor ? m.mssor.tolerance : feti ? m.feti.tolerance : m.ddm.tolerance;
+  int& most = mssor ? m.mssor.max_iterations : feti ? m.feti.max_iterations : m.ddm.max_iterations;
+  return {
+      key("multipliers", m.multipliers, one_of({Multipliers::quadratic, Multipliers::linear, Multipliers::dual}),
+          "`\"linear\"`, `\"quadratic\"`, `\"dual\"` (theory, section 4)"),
+      key("integration", m.integration, one_of({Integration::segments, Integration::elements}),
+          "`\"segments\"`, or `\"elements\"`: whole edges without cutting"),
+      key("normals", m.normals, one_of({Normals::edges, Normals::curve}),
+          "along which contact acts: those of the drawn `\"curve\"` of the multiplier side, or of its `\"edges\"`, for "
+          "studies (theory, section 9)"),
+      {"solver", solver_word().schema,
+       "`\"direct\"`: one factorisation; `\"feti\"`: each body factorised alone, the pressures between any number of "
+       "them by conjugate gradients (theory, section 15); `\"mssor\"`: block SSOR for saddle points, plain or as "
+       "preconditioner, for contact that stays closed (theory, section 12); `\"ddm\"`: domain decomposition (theory, "
+       "section 11). `kind = \"ddm\"` in older scene files means that",
+       "`\"direct\"`; `\"feti\"` from 1000 multipliers on if there are three bodies or more, and `\"direct\"` after "
+       "all where its iteration does not converge"},
+      {"kind", {{"enum", {"mortar", "ddm"}}}, "in older scenes; `solver` says it now", "`\"mortar\"`"},
+      key("omega", m.mssor.omega, between(0, 2), "`mssor` only: 0 < `omega` < 2, relaxation of the sweeps"),
+      key("tau", m.mssor.tau, above(0),
+          "`mssor` only: > 0, step of the multipliers; `acceleration = \"none\"` converges below a limit that the "
+          "summary gives"),
+      key("scheme", m.ddm.scheme,
+          one_of({Scheme::neumann_dirichlet, Scheme::neumann_neumann, Scheme::dirichlet_dirichlet}),
+          "`ddm` only, as all below but where `mssor` is named: `\"neumann_dirichlet\"`, `\"neumann_neumann\"`, "
+          "`\"dirichlet_dirichlet\"`"),
+      key("dirichlet", m.dirichlet, some_names(),
+          "a body or a list of them that take the displacement; their opposites take the pressure",
+          "the softer bodies; of equally stiff ones those with the finer curves; never a body whose whole contact "
+          "curve is prescribed"),
+      key("acceleration", mssor ? m.mssor.acceleration : m.ddm.acceleration, acceleration_of(m.solver),
+          "`\"none\"`, `\"aitken\"`, `\"anderson\"`, `\"krylov\"`. With `mssor`: `\"none\"`, `\"krylov\"`, "
+          "`\"minres\"`"),
+      key("beta", m.ddm.beta, number_or_auto(),
+          "relaxation > 0, or `\"auto\"`; of accelerated iterations the first step's. `\"krylov\"` has none",
+          "`\"auto\"`"),
+      key("tolerance", tolerance, above(0),
+          "> 0, of the kinematic and the force residual, both relative; also with `mssor`", "1e-8; `mssor`: 1e-10"),
+      key("max_iterations", most, whole_number(1, 1000000),
+          "≥ 1, evaluations of the iteration (the start is the first); also with `mssor`: steps",
+          "100; `mssor`: 20000"),
+  };
+}
 
 void read_method(const Node& root, Scene& scene) {
   const Node* node = find(root, "method");
   if (node == nullptr) return;
-  std::vector<std::string> keys{"kind", "integration", "normals", "multipliers", "solver", "acceleration"};
-  for (const auto& some : {of_ddm, of_mssor, of_iterations}) keys.insert(keys.end(), some.begin(), some.end());
-  expect_keys(*node, keys);
+  expect_table(*node);
   Method& method = scene.method;
-  method.integration =
-      choice(find(*node, "integration"), {Integration::segments, Integration::elements}, method.integration);
-  method.normals = choice(find(*node, "normals"), {Normals::edges, Normals::curve}, method.normals);
-  method.multipliers = choice(find(*node, "multipliers"),
-                              {Multipliers::quadratic, Multipliers::linear, Multipliers::dual}, method.multipliers);
   method.solver = read_solver(*node);
-  const bool ddm = method.solver == Solver::ddm, mssor = method.solver == Solver::mssor,
-             feti = method.solver == Solver::feti;
-  if (!ddm) refuse_strangers(*node, of_ddm, "belongs to domain decomposition; expected solver = \"ddm\" with it");
-  if (!mssor) refuse_strangers(*node, of_mssor, "belongs to the iterative solver; expected solver = \"mssor\" with it");
-  if (!ddm && !mssor)
-    refuse_strangers(*node, {"acceleration"},
-                     "belongs to an iteration that has some; expected solver = \"ddm\" or \"mssor\" with it");
-  if (!ddm && !mssor && !feti)
-    refuse_strangers(*node, of_iterations,
-                     "belongs to an iteration; expected solver = \"feti\", \"ddm\" or \"mssor\" with it");
-  if (ddm) read_ddm(*node, *(find(*node, "solver") ? find(*node, "solver") : find(*node, "kind")), scene);
-  if (mssor) read_mssor(*node, scene);
-  if (feti) read_feti(*node, method.feti);
+  const Keys keys = method_keys(method);
+  expect_keys(*node, keys);
+  check_solver(*node, method);
+  if (method.solver == Solver::ddm) check_ddm(*node, scene);
+  read(*node, keys);
 }
 
 }  // namespace mortise::scene_file

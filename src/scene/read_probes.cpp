@@ -1,8 +1,6 @@
 // [[probe]]
 #include <algorithm>
 
-#include "scene/fail.hpp"
-#include "scene/fields.hpp"
 #include "scene/sections.hpp"
 
 namespace mortise::scene_file {
@@ -33,17 +31,30 @@ std::vector<Vec2> read_line(const Node& entry) {
 
 }  // namespace
 
+Keys probe_keys(ProbeSpec& probe) {
+  const Json pair = a_pair().schema;
+  return {
+      {"at", either(pair, list_of(pair, 1)), "`[x, y]`, or a list of such: places in a body or on its boundary",
+       "this, or `from`"},
+      {"from", pair, "the start of a straight line"},
+      {"to", pair, "its end", "required with `from`"},
+      {"points", whole_number(2, most_points).schema, "how many places along it, both ends included",
+       "required with `from`"},
+      key("body", probe.body, a_name(),
+          "the body (or a pattern) that has the places: needed on a contact line, where two have them", "the only one"),
+      key("angle", probe.angle, a_number(), "of the axes of the stresses: degrees counter-clockwise from $x_1$"),
+  };
+}
+
 void read_probes(const Node& root, Scene& scene) {
   for (const Node* entry : entries(root, "probe")) {
-    expect_keys(*entry, {"at", "from", "to", "points", "body", "angle"});
     ProbeSpec probe;
+    read(*entry, probe_keys(probe));
     probe.key = locate(*entry);
     probe.line = exactly_one(*entry, {"at", "from"}).name == "from";
     for (const char* key : {"to", "points"})
       if (const Node* node = find(*entry, key); node && !probe.line) fail(*node, "goes with 'from', along a line");
     probe.at = probe.line ? read_line(*entry) : read_points(*find(*entry, "at"));
-    if (const Node* body = find(*entry, "body")) probe.body = name(*body);
-    if (const Node* angle = find(*entry, "angle")) probe.angle = number(*angle);
     scene.probes.push_back(probe);
   }
 }

@@ -2,9 +2,9 @@
 #include <filesystem>
 
 #include "model/mesh_endings.hpp"
-#include "scene/fields.hpp"
 #include "scene/files.hpp"
 #include "scene/overrides.hpp"
+#include "scene/schema.hpp"
 #include "scene/sections.hpp"
 
 namespace mortise::scene_file {
@@ -23,30 +23,21 @@ Node load_document(const std::string& path) {
   return parse_document(read_text(path), path);
 }
 
-void read_title(const Node& root, Scene& scene) {
-  if (const Node* title = find(root, "title")) scene.title = text(*title);
-}
-
 void read_model(const Node& root, Scene& scene) {
   const Node* model = find(root, "model");
   if (model == nullptr) return;
-  expect_keys(*model, {"plane", "thickness", "gravity"});
-  scene.model.plane =
-      choice(find(*model, "plane"), {Plane::strain, Plane::stress, Plane::axisymmetric}, scene.model.plane);
-  if (const Node* thickness = find(*model, "thickness")) {
-    if (scene.model.axisymmetric())
-      fail(*thickness, "an axisymmetric model has none; expected plane = \"strain\" or \"stress\" with it");
-    scene.model.thickness = positive_number(*thickness);
-  }
-  if (const Node* gravity = find(*model, "gravity")) scene.gravity = number_pair(*gravity);
+  read(*model, model_keys(scene));
+  if (const Node* thickness = find(*model, "thickness"); thickness && scene.model.axisymmetric())
+    fail(*thickness, "an axisymmetric model has none; expected plane = \"strain\" or \"stress\" with it");
 }
 
 Scene read_sections(const Node& root, const std::string& path) {
-  expect_keys(root, {"title", "mesh", "copies", "fields", "model", "materials", "bodies", "boundary", "body_force",
-                     "initial_strain", "contact", "probe", "method", "accuracy"});
+  std::vector<std::string> known;
+  for (const Section& section : sections()) known.push_back(section.name);
+  expect_keys(root, known);
   Scene scene;
   scene.path = path;
-  read_title(root, scene);
+  if (const Node* title = find(root, "title")) scene.title = text(*title);
   read_mesh_section(root, scene);
   read_copies(root, scene);
   read_fields(root, scene);
@@ -63,6 +54,19 @@ Scene read_sections(const Node& root, const std::string& path) {
 }
 
 }  // namespace
+
+Keys model_keys(Scene& scene) {
+  return {
+      key("plane", scene.model.plane, one_of({Plane::strain, Plane::stress, Plane::axisymmetric}),
+          "`\"strain\"`, `\"stress\"`, or `\"axisymmetric\"`: x is the radius, y along the axis x = 0, whose nodes are "
+          "held; forces and energy are those of the whole ring"),
+      key("thickness", scene.model.thickness, above(0),
+          "> 0, of a plane model: forces, moments, energy, springs and reactions are those of it; pressures and "
+          "displacements do not depend on it"),
+      key("gravity", scene.gravity, a_pair(), "`[gx, gy]`: a force per volume of `density` times this on every body"),
+  };
+}
+
 }  // namespace mortise::scene_file
 
 namespace mortise {

@@ -1,0 +1,67 @@
+// Kinds of values that a key of a scene may have: each reads one, says what is wrong with one, and describes itself as
+// JSON Schema does.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/fields.hpp"
+
+namespace mortise::scene_file {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+struct Kind {
+  Json schema;
+  std::function<T(const Node&)> read;              ///< throws InputError that says what was expected
+  std::function<std::string(const T&)> trouble{};  ///< "expected ..., found ..." of a value that no file gave; or empty
+};
+
+/// Any finite number; one above `least`; one between the two, both excluded.
+Kind<double> a_number();
+Kind<double> above(double least);
+Kind<double> between(double least, double most);
+
+/// One between 0 and 1, both excluded, or as text "1%".
+Kind<double> a_part();
+
+/// From `least` to `most`, both included.
+Kind<int> whole_number(int least, int most);
+
+Kind<bool> true_or_false();
+
+/// Text; text that is not empty; a list of names, or one.
+Kind<std::string> a_text();
+Kind<std::string> a_name();
+Kind<std::vector<std::string>> some_names();
+
+/// [x, y].
+Kind<Vec2> a_pair();
+
+/// A number or an expression; [x, y] of such.
+Kind<Field> a_field(const FieldUse& use);
+Kind<VectorField> two_fields(const FieldUse& use);
+
+/// One of the words of an enum.
+template <class Enum>
+Kind<Enum> one_of(std::initializer_list<Enum> values) {
+  Json words = Json::array();
+  for (const Enum value : values) words.push_back(to_string(value));
+  return {{{"enum", words}}, [values = std::vector<Enum>(values)](const Node& node) { return choice(node, values); }};
+}
+
+/// A number as a page has it: 2, not 2.0.
+Json plain(double number);
+
+/// Of either kind.
+Json either(const Json& one, const Json& other);
+
+/// A list of between `least` and `most` such (0: any number).
+Json list_of(const Json& one, int least, int most = 0);
+
+}  // namespace mortise::scene_file
