@@ -22,9 +22,7 @@
 #include "mesh/measures.hpp"
 #include "output/output_folder.hpp"
 #include "results/error_report.hpp"
-#include "results/model_summary.hpp"
-#include "results/summary.hpp"
-#include "results/write_results.hpp"
+#include "results/report_text.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -94,9 +92,10 @@ int solve(const Options& options) {
     diagnose(results);
   }
   stage("write");
-  if (ranks().rank() == 0) results.seconds.write = write_results(results, folder);
+  Json report = report_of(results);
+  if (ranks().rank() == 0) write_results(results, report, folder);
   line.reset();
-  if (!options.quiet) say(terminal_summary(results, folder));
+  if (!options.quiet) say(report_text(report, folder));
   if (results.status == Status::accuracy_not_reached)
     std::cerr << "mortise: " << scene.path << ": " << to_string(results.status) << ": " << results.accuracy->reason
               << "; largest part: " << largest_error(results) << "\n";
@@ -137,7 +136,7 @@ int check(const Options& options) {
   std::ostringstream text;
   text << printable(scene.title) << "\n  mesh      " << problem.mesh.source << ": " << problem.mesh.nodes.rows()
        << " nodes, " << problem.mesh.cells.size() << " elements\n"
-       << measures_lines(problem.mesh) << copies_line(scene) << model_lines(problem);
+       << measures_lines(problem.mesh) << copies_line(scene) << model_text(model_report(problem));
   const std::size_t count = problem.pairs.size(), told = count > told_in_full ? told_of_many : count;
   for (std::size_t k = 0; k < told; ++k) {
     const ContactPair& pair = problem.pairs[k];

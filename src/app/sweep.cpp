@@ -26,7 +26,7 @@ RunRow run_one(const SweepPlan& plan, std::size_t run, std::optional<ActiveSet>&
   if (!scene.accuracy) estimate(results);
   if (plan.diagnosed) diagnose(results);
   start = active_set(results);
-  return row_of(results);
+  return row_of(report_of(results));
 } catch (const InputError& error) {
   return {printable(std::string("bad input: ") + error.what()), {}};
 }

@@ -12,38 +12,39 @@
 namespace mortise {
 namespace {
 
-std::vector<std::pair<std::string, double>> figures(const Results& r) {
-  std::vector<std::pair<std::string, double>> row{
-      {"nodes", double(r.problem.mesh.nodes.rows())},
-      {"elements", double(r.problem.mesh.cells.size())},
-      {"dofs", free_unknowns(r)},
-      {"multipliers", double(r.solution.lambda.size())},
-      {"iterations.contact", double(r.problem.pairs.empty() ? 0 : r.solution.steps.size())},
-      {"energy", r.recovery.energy},
-      {"seconds.mesh", r.seconds.mesh},
-      {"seconds.solve", r.seconds.total() - r.seconds.mesh}};
-  if (const auto& iteration = r.solution.iteration) {
-    row.insert(row.end(), {{"iteration.steps", double(iteration->steps)},
-                           {"iteration.convergence_rate", iteration->convergence_rate},
-                           {"iteration.seconds", r.seconds.solve}});
-    for (const auto& [name, value] : iteration->figures) row.emplace_back("iteration." + name, value);
+double figure(const Json& report, const std::string& dotted) {
+  std::string path = "/" + dotted;
+  std::ranges::replace(path, '.', '/');
+  return report.at(Json::json_pointer(path)).get<double>();
+}
+
+// Columns by the dotted keys of summary.json, but for a few that are shorter.
+std::vector<std::pair<std::string, double>> figures(const Json& r) {
+  std::vector<std::pair<std::string, double>> row;
+  for (const char* name : {"nodes", "elements", "dofs", "multipliers"}) row.emplace_back(name, r["mesh"][name]);
+  for (const char* name : {"iterations.contact", "energy", "seconds.mesh"}) row.emplace_back(name, figure(r, name));
+  row.emplace_back("seconds.solve", figure(r, "seconds.total") - figure(r, "seconds.mesh"));
+  if (const Json& iteration = r["iteration"]; !iteration.is_null()) {
+    for (const auto& [name, value] : iteration.items())
+      if (value.is_number() && name != "kinematic" && name != "force") row.emplace_back("iteration." + name, value);
+    row.emplace_back("iteration.seconds", figure(r, "seconds.solve"));
   }
-  if (r.estimate) {
-    row.emplace_back("estimate.error", r.estimate->energy.error);
-    row.emplace_back("estimate.pressure.error", r.estimate->pressure());
+  if (const Json& estimate = r["estimate"]; !estimate.is_null()) {
+    row.emplace_back("estimate.error", estimate["error"]);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    row.emplace_back("estimate.pressure.error",
+                     estimate["pressure"].is_null() ? nan : estimate["pressure"]["error"].get<double>());
   }
-  if (r.inf_sup) row.emplace_back("inf_sup", r.inf_sup->beta);
-  for (std::size_t k = 0; k < r.recovery.contacts.size(); ++k) {
-    const ContactResults& c = r.recovery.contacts[k];
+  if (!r["inf_sup"].is_null()) row.emplace_back("inf_sup", r["inf_sup"]);
+  for (std::size_t k = 0; k < r["contact"].size(); ++k) {
+    const Json& c = r["contact"][k];
     const std::string at = "contact." + std::to_string(k) + ".";
-    row.insert(row.end(), {{at + "pressure.min", c.p_min},
-                           {at + "pressure.mean", c.p_mean},
-                           {at + "pressure.max", c.p_max},
-                           {at + "force.x", c.force.x()},
-                           {at + "force.y", c.force.y()},
-                           {at + "length_in_contact", c.length_in_contact}});
+    for (const auto& [name, value] : c["pressure"].items()) row.emplace_back(at + "pressure." + name, value);
+    row.emplace_back(at + "force.x", c["force"][0]);
+    row.emplace_back(at + "force.y", c["force"][1]);
+    row.emplace_back(at + "length_in_contact", c["length_in_contact"]);
   }
-  for (const Check& c : r.checks) row.emplace_back(c.name, c.value);
+  for (const Json& check : r["checks"]) row.emplace_back(check["name"], check["value"]);
   return row;
 }
 
@@ -54,7 +55,7 @@ std::string exact(double value) {
 
 }  // namespace
 
-RunRow row_of(const Results& results) { return {to_string(results.status), figures(results)}; }
+RunRow row_of(const Json& report) { return {report["status"], figures(report)}; }
 
 Status status_of(const RunRow& row) {
   for (const Status status : {Status::solved, Status::accuracy_not_reached, Status::not_converged})

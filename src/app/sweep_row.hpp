@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "results/results.hpp"
+#include "results/report.hpp"
 
 namespace mortise {
 
@@ -17,7 +17,7 @@ struct RunRow {
   std::vector<std::pair<std::string, double>> figures;  ///< by column
 };
 
-RunRow row_of(const Results& results);
+RunRow row_of(const Json& report);
 
 /// solved, accuracy_not_reached, not_converged or check_failed, as bad input counts.
 Status status_of(const RunRow& row);

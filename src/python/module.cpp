@@ -5,7 +5,7 @@
 
 #include "mortise/scene.hpp"
 #include "mortise/solve.hpp"
-#include "results/summary.hpp"
+#include "results/report.hpp"
 
 namespace mortise {
 namespace {
@@ -78,7 +78,7 @@ py::tuple solve(const std::string& path, const std::vector<std::pair<std::string
     for (const auto& [key, value] : changes) overrides.push_back({key, value});
     scene = read_scene(path, overrides);
     results = solved(scene, with_estimate);
-    summary = summary_json(results, 0).dump();
+    summary = report_of(results).dump();
   }
   return py::make_tuple(contact_columns(results), body_fields(results), summary);
 }

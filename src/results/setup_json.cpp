@@ -5,12 +5,10 @@
 
 #include "base/errors.hpp"
 #include "mesh/boundary_edges.hpp"
-#include "results/model_summary.hpp"
+#include "results/report.hpp"
 
 namespace mortise {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Corners and middles in turn, counter-clockwise.
 Json round(const Cell& cell) {
@@ -52,6 +50,16 @@ std::vector<std::string> places_of(const BoundaryEntry& entry, const Mesh& mesh)
   return places;
 }
 
+// Entries of the model on boundaries, with the names that stand in the mesh.
+Json as_drawn(const Json& entries, const std::vector<std::vector<std::string>>& places) {
+  Json drawn = Json::array();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    drawn.push_back({{"on", places[i]}, {"words", entries[i]["words"]}});
+    if (entries[i].contains("sum")) drawn.back()["sum"] = entries[i]["sum"];
+  }
+  return drawn;
+}
+
 Json points_json(const Mesh& mesh, const std::set<std::string>& named) {
   Json points = Json::object();
   for (const NamedPoint& point : mesh.points)
@@ -65,18 +73,17 @@ void write_setup(const Problem& p, const std::filesystem::path& path) {
   const Mesh& mesh = p.mesh;
   const Entries& entries = p.entries;
   std::set<std::string> named;
-  Json nodes = Json::array(), supports = Json::array(), loads = Json::array(), contact = Json::array(),
-       ties = Json::array(), rest = Json::array();
+  std::vector<std::vector<std::string>> places_of_supports, places_of_loads;
+  Json nodes = Json::array(), contact = Json::array(), ties = Json::array(), rest = Json::array();
   for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) nodes.push_back({mesh.nodes(n, 0), mesh.nodes(n, 1)});
-  for (std::size_t i = 0; i < entries.boundaries.size(); ++i) {
-    const BoundaryEntry& entry = entries.boundaries[i];
+  for (const BoundaryEntry& entry : entries.boundaries) {
     const std::vector<std::string> on = places_of(entry, mesh);
     named.insert(on.begin(), on.end());
-    Json json{{"on", on}, {"words", words_of(entry.spec.what)}};
-    const Vec2& sum = p.discretisation.boundary_sums[i].force;
-    if (is_load(entry.spec.what)) json["sum"] = {sum.x(), sum.y()};
-    (is_load(entry.spec.what) ? loads : supports).push_back(json);
+    (is_load(entry.spec.what) ? places_of_loads : places_of_supports).push_back(on);
   }
+  const Json model = model_report(p);
+  const Json supports = as_drawn(model["supports"], places_of_supports),
+             loads = as_drawn(model["loads"], places_of_loads);
   for (const ContactPair& pair : p.pairs) {
     named.insert(pair.spec.between.begin(), pair.spec.between.end());
     contact.push_back({{"between", pair.spec.between},

@@ -1,14 +1,13 @@
 #include "results/write_results.hpp"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "base/errors.hpp"
 #include "base/stopwatch.hpp"
 #include "output/csv.hpp"
 #include "output/output_folder.hpp"
 #include "output/vtu.hpp"
-#include "results/summary.hpp"
+#include "results/report.hpp"
 
 namespace mortise {
 namespace {
@@ -153,7 +152,7 @@ void write_probes_csv(const Results& r, const std::filesystem::path& path) {
 
 }  // namespace
 
-double write_results(const Results& results, const std::filesystem::path& folder) {
+void write_results(const Results& results, Json& report, const std::filesystem::path& folder) {
   Stopwatch watch;
   OutputFolder output(folder);
   try {
@@ -170,12 +169,18 @@ double write_results(const Results& results, const std::filesystem::path& folder
     throw InputError(output.with_target(error.what()));
   }
   const double seconds = watch.lap();
+  report["seconds"]["write"] = seconds;
+  report["seconds"]["total"] = report["seconds"]["total"].get<double>() + seconds;
   std::ofstream file(output.path("summary.json"));
-  file << summary_json(results, seconds).dump(2) << "\n";
+  file << report.dump(2) << "\n";
   file.close();
   if (!file) throw InputError(folder.string() + ": cannot write summary.json");
   output.commit();
-  return seconds;
+}
+
+void write_results(const Results& results, const std::filesystem::path& folder) {
+  Json report = report_of(results);
+  write_results(results, report, folder);
 }
 
 }  // namespace mortise

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/solve_scene.hpp"
-#include "results/model_summary.hpp"
+#include "results/report_text.hpp"
 #include "results/write_results.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
@@ -75,7 +75,7 @@ TEST(Fields, ATableIsAStrainAPressureAndABodyForce) {
   const Results exact = solve_scene(ring_scene(folder, "exact", 0.3, rest("1 + x - 0.2 * y")));
   EXPECT_LT(largest_difference(r.solution.u, exact.solution.u), 1e-12);
   EXPECT_NEAR(r.recovery.energy, exact.recovery.energy, 1e-12 * exact.recovery.energy);
-  expect_contains(model_lines(r.problem), "  field     q: q of " + folder.path("table.csv"));
+  expect_contains(model_text(model_report(r.problem)), "  field     q: q of " + folder.path("table.csv"));
 }
 
 TEST(Fields, WhatCannotBeIsToldAtTheScene) {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/solve_scene.hpp"
-#include "results/model_summary.hpp"
+#include "results/report_text.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -149,7 +149,8 @@ TEST(FunctionsOfPlace, GravityIsABodyForceByDensity) {
   const Discretisation a = discretise(resolve(gravity, mesh), mesh), b = discretise(resolve(force, mesh), mesh);
   EXPECT_LT((a.weight.force - Vec2(0, -16)).norm(), 1e-13);  // 0.5 * 10 * 2 * 1.6
   EXPECT_LT((a.system.f - b.system.f).cwiseAbs().maxCoeff(), 1e-14);
-  expect_contains(model_lines(check_scene(gravity)), "  load      gravity (0, -10), in sum (0, -16), moment");
+  expect_contains(model_text(model_report(check_scene(gravity))),
+                  "  load      gravity (0, -10), in sum (0, -16), moment");
   expect_contains(
       message_of([&] { loaded_scene(folder, "0.3", "model.gravity = [0, -10]\n"); }),
       "materials.m: 'density' of the material 'm' is missing; expected one, as there is gravity (model.gravity");
@@ -233,14 +234,14 @@ contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilatera
   Problem problem;
   problem.entries = resolve(scene, mesh);
   problem.discretisation = discretise(problem.entries, mesh);
-  const std::string lines = model_lines(problem);
+  const std::string lines = model_text(model_report(problem));
   for (const char* line :
        {"  support   bottom: u_x = 0, u_y = 1e-3 * x\n", "  load      top: pressure 3 + 3*s, in sum (0, -12), moment",
         "  load      upper_right: traction (0.001, -y), in sum (0.0006, -0.78), moment",
         "  load      lower_right: traction (0, 1e-3 + 1e-3 * x + 1e-3 * x^2 + 1e-3 * x^3 + 1e ...), in sum",
         "  load      upper_left: force (0, -2), in sum (0, -2), moment"})
     expect_contains(lines, line);
-  const auto json = model_json(problem, {.entries = std::vector<Resultant>(scene.boundaries.size())});
+  const Json json = model_report(problem);
   EXPECT_EQ(json["supports"][0]["displacement"].dump(), "{\"x\":0.0,\"y\":\"1e-3 * x\"}");
   EXPECT_EQ(json["loads"][0]["pressure"], "3 + 3*s");
   EXPECT_EQ(json["loads"][1]["traction"].dump(), "[0.001,\"-y\"]");

@@ -7,7 +7,7 @@
 #include "app/sweep.hpp"
 #include "base/errors.hpp"
 #include "preprint_solvers/mssor.hpp"
-#include "results/summary.hpp"
+#include "results/report_text.hpp"
 #include "results/write_results.hpp"
 #include "support/differences.hpp"
 #include "support/temporary_folder.hpp"
@@ -114,14 +114,14 @@ TEST(SolveMssor, TooFewStepsAreNotConverged) {
 TEST(SolveMssor, TheSummarySaysHow) {
   const Scene scene = read_scene(scene_file("patch_flat"), mssor({{"method.omega", "1.1"}, {"method.tau", "0.5"}}));
   const Results r = solve_scene(scene);
-  const nlohmann::ordered_json summary = summary_json(r, 0);
+  const Json summary = report_of(r);
   EXPECT_EQ(summary["method"]["solver"], "mssor");
   EXPECT_EQ(summary["iterations"]["solver"], r.solution.iteration->steps);
   EXPECT_EQ(summary["iterations"]["contact"], 1);
   EXPECT_EQ(summary["iteration"]["omega"], 1.1);
   EXPECT_EQ(summary["iteration"]["tau"], 0.5);
   EXPECT_LE(summary["iteration"]["force"].get<double>(), 1e-10);
-  EXPECT_NE(terminal_summary(r, "out").find("mssor, acceleration krylov, omega 1.1, tau 0.5"), std::string::npos);
+  EXPECT_NE(report_text(summary, "out").find("mssor, acceleration krylov, omega 1.1, tau 0.5"), std::string::npos);
 }
 
 TEST(SolveMssor, ASweepVariesItsParameters) {

@@ -1,11 +1,10 @@
 // What the terminal says of few pairs and of many.
-#include "results/contact_summary.hpp"
+#include "results/report_text.hpp"
 
 #include <gtest/gtest.h>
 
 #include "app/solve_scene.hpp"
 #include "base/printable.hpp"
-#include "results/summary.hpp"
 #include "support/wall.hpp"
 
 namespace mortise::test {
@@ -15,19 +14,19 @@ long lines_of(const std::string& text) { return std::count(text.begin(), text.en
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-TEST(ContactSummary, TellsFourPairsOneByOne) {
+TEST(ReportText, TellsFourPairsOneByOne) {
   const Wall w = wall(2);
   const Results r = solve_scene(w.scene, w.mesh);
-  const std::string text = contact_lines(r);
+  const std::string text = contact_text(report_of(r));
   EXPECT_EQ(lines_of(text), 12);
   for (const ContactPair& pair : r.problem.pairs) EXPECT_TRUE(contains(text, pair.spec.between[0] + " - ")) << text;
 }
 
-TEST(ContactSummary, OfAWallFitsOneScreenAndNamesItsExtremes) {
+TEST(ReportText, OfAWallFitsOneScreenAndNamesItsExtremes) {
   const Wall w = wall(7);
   Results r = solve_scene(w.scene, w.mesh);
   estimate(r);
-  const std::string text = terminal_summary(r, "out");
+  const std::string text = report_text(report_of(r), "out");
   EXPECT_LE(lines_of(text), 40) << text;
   EXPECT_TRUE(contains(text, "84 pairs, linear multipliers: 84 unilateral, gap closed")) << text;
   EXPECT_TRUE(contains(text, "b0_0, b1_0, b2_0 and 46 more")) << text;

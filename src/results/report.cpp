@@ -1,0 +1,207 @@
+#include "results/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "problem/dirichlet_neumann.hpp"
+#include "results/checks.hpp"
+#include "results/error_report.hpp"
+#include "solve/dense_kernel.hpp"
+
+namespace mortise {
+namespace {
+
+Json balance_json(const Reactions& r) {
+  Json balance;
+  const auto add = [&](const char* name, const Resultant& sum) {
+    balance[name] = {{"force", {sum.force.x(), sum.force.y()}}, {"moment", sum.moment}};
+  };
+  add("loads", r.loads);
+  add("reactions", r.all);
+  add("held", r.held);
+  return balance;
+}
+
+Json extremes_json(const Results& r) {
+  const auto in_body = [&](const Extreme& e) -> Json {
+    return {{"value", e.value}, {"body", r.problem.mesh.bodies[e.of]}, {"position", {e.place.x(), e.place.y()}}};
+  };
+  const Extremes& found = r.recovery.extremes;
+  Json json{{"von_mises", in_body(found.von_mises)},
+            {"principal", {{"max", in_body(found.principal_max)}, {"min", in_body(found.principal_min)}}}};
+  json["displacement"] = r.solution.u.cwiseAbs().maxCoeff();
+  json["von_mises"]["limit"] = !grows_without_limit(r, found.von_mises);
+  if (const auto& p = found.pressure)
+    json["pressure"] = {{"value", p->value}, {"pair", p->of}, {"position", {p->place.x(), p->place.y()}}};
+  return json;
+}
+
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+Json contact_json(const ContactPair& pair, const ContactResults& c) {
+  const auto& error = c.force_error;
+  return {{"between", pair.spec.between},
+          {"length", c.length},
+          {"length_in_contact", c.length_in_contact},
+          {"length_in_contact_error", or_null(c.length_error)},
+          {"force", {c.force.x(), c.force.y()}},
+          {"force_error", error ? Json{(*error)(0), (*error)(1)} : Json()},
+          {"moment", c.moment},
+          {"centre", {c.centre.x(), c.centre.y()}},
+          {"moment_about_centre", c.moment - (c.centre.x() * c.force.y() - c.centre.y() * c.force.x())},
+          {"moment_about_centre_error", error ? Json((*error)(2)) : Json()},
+          {"pressure", {{"min", c.p_min}, {"mean", c.p_mean}, {"max", c.p_max}}},
+          {"drawn", is_drawn(pair)},
+          {"gap", gap_words(pair)},
+          {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
+}
+
+Json pressure_json(const Results& r) {
+  const ErrorEstimate& e = *r.estimate;
+  if (e.pressures.empty() || e.pressure_square() == 0) return nullptr;
+  Json singular = Json::array(), excluded = Json::array();
+  for (std::size_t k = 0; k < e.pressures.size(); ++k) {
+    for (const SingularPoint& point : e.pressures[k].singular)
+      singular.push_back({{"pair", k},
+                          {"position", {point.position.x(), point.position.y()}},
+                          {"exponent", point.exponent},
+                          {"pressure_exponent", point.pressure_exponent},
+                          {"logarithmic", point.log_pressure > 0},
+                          {"unbounded", point.is_unbounded()}});
+    excluded.push_back(e.pressures[k].excluded_distance);
+  }
+  return {{"error", e.pressure()},
+          {"line", e.line()},
+          {"far_field", e.far_field()},
+          {"singular", singular},
+          {"excluded", excluded}};
+}
+
+Json estimate_json(const Results& r) {
+  if (!r.estimate) return nullptr;
+  const EnergyEstimate& e = r.estimate->energy;
+  return {{"error", e.error},
+          {"largest",
+           {{"body", r.problem.mesh.bodies[e.body]}, {"part", e.part}, {"position", {e.position.x(), e.position.y()}}}},
+          {"pressure", pressure_json(r)}};
+}
+
+Json accuracy_json(const Results& r) {
+  if (!r.accuracy) return nullptr;
+  const AccuracyReport& a = *r.accuracy;
+  Json solves = Json::array();
+  for (const AccuracyReport::Solve& s : a.solves)
+    solves.push_back({{"unknowns", s.unknowns}, {"estimated", s.estimated}, {"seconds", s.seconds}});
+  return {{"of", to_string(a.of)},
+          {"value", r.estimate->goal ? Json(std::vector(r.estimate->goal->value.begin(), r.estimate->goal->value.end()))
+                                     : Json()},
+          {"asked", a.asked},
+          {"reached", a.reached()},
+          {"reason", a.reason},
+          {"largest", a.reached() ? Json() : Json(largest_error(r))},
+          {"excluded", a.excluded},
+          {"solves", solves}};
+}
+
+Json steps_json(const Results& r) {
+  Json steps = Json::array();
+  for (const ActiveSetStep& s : r.solution.steps)
+    steps.push_back(
+        {{"active", s.active}, {"changed", s.changed}, {"penetration", s.penetration}, {"tension", s.tension}});
+  return steps;
+}
+
+Json iteration_json(const Solution& solution) {
+  if (!solution.iteration) return nullptr;
+  const Iteration& i = *solution.iteration;
+  const Residuals last = i.history.back().residuals;
+  Json json{{"method", i.method}, {"acceleration", to_string(i.acceleration)}, {"settings", i.settings},
+            {"steps", i.steps},   {"convergence_rate", i.convergence_rate},    {"kinematic", last.kinematic},
+            {"force", last.force}};
+  for (const auto& [name, value] : i.figures) json[name] = value;
+  return json;
+}
+
+Json gap_json(const ContactSpec& spec) {
+  if (spec.initial_gap == InitialGap::given)
+    return spec.gap.is_constant() ? Json(spec.gap.constant()) : Json(spec.gap.words());
+  const std::string word = to_string(spec.initial_gap);
+  return spec.clearance == Field() ? word : word + " + " + spec.clearance.words();
+}
+
+// The multiplier space that is really used: quadratic needs 3-node edges.
+std::string space_word(const Results& r) {
+  const bool quadratic_edges = std::any_of(r.problem.pairs.begin(), r.problem.pairs.end(),
+                                           [](const ContactPair& p) { return p.multiplier.edges[0].node_count == 3; });
+  if (r.problem.method.multipliers == Multipliers::quadratic && !quadratic_edges) return to_string(Multipliers::linear);
+  return to_string(r.problem.method.multipliers);
+}
+
+}  // namespace
+
+Json report_of(const Results& r) {
+  Json on = Json::array(), condition = Json::array(), gap = Json::array(), contact = Json::array();
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
+    const ContactSpec& spec = r.problem.pairs[k].spec;
+    on.push_back(spec.multipliers_on);
+    condition.push_back(to_string(spec.condition));
+    gap.push_back(gap_json(spec));
+    contact.push_back(contact_json(r.problem.pairs[k], r.recovery.contacts[k]));
+  }
+  Json checks = Json::array();
+  for (const Check& c : r.checks) {
+    checks.push_back({{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"ok", c.ok()}});
+    if (!c.ok() && !c.where.empty()) checks.back()["where"] = c.where;
+  }
+  const Seconds& s = r.seconds;
+  return {{"title", r.problem.title},
+          {"scene", r.problem.scene},
+          {"version", MORTISE_VERSION},
+          {"dense_kernel", dense_kernel()},
+          {"status", to_string(r.status)},
+          {"model", model_report(r.problem, &r.recovery.reactions)},
+          {"method",
+           {{"integration", to_string(r.problem.method.integration)},
+            {"normals", to_string(r.problem.method.normals)},
+            {"multipliers", space_word(r)},
+            {"multipliers_on", on},
+            {"solver", to_string(r.solution.solver)},
+            {"dirichlet", dirichlet_names(r.problem.mesh, r.problem.dirichlet)},
+            {"condition", condition},
+            {"initial_gap", gap}}},
+          {"mesh",
+           {{"nodes", r.problem.mesh.nodes.rows()},
+            {"elements", r.problem.mesh.cells.size()},
+            {"dofs", free_unknowns(r)},
+            {"multipliers", r.solution.lambda.size()},
+            {"cached", r.mesh_cached}}},
+          {"seconds",
+           {{"mesh", s.mesh},
+            {"assemble", s.assemble},
+            {"couple", s.couple},
+            {"factorise", s.factorise},
+            {"solve", s.solve},
+            {"recover", s.recover},
+            {"estimate", s.estimate},
+            {"write", s.write},
+            {"total", s.total()}}},
+          {"iterations",
+           {{"contact", r.problem.pairs.empty() ? 0 : r.solution.steps.size()},
+            {"contact_coarse", r.solution.coarse_steps},
+            {"solver", r.solution.iteration ? r.solution.iteration->steps : 0}}},
+          {"contact_steps", steps_json(r)},
+          {"iteration", iteration_json(r.solution)},
+          {"estimate", estimate_json(r)},
+          {"accuracy", accuracy_json(r)},
+          {"inf_sup", r.inf_sup ? Json(r.inf_sup->beta) : Json()},
+          {"inf_sup_position", r.inf_sup ? Json{r.inf_sup->position.x(), r.inf_sup->position.y()} : Json()},
+          {"probes", r.recovery.probes.size()},
+          {"energy", r.recovery.energy},
+          {"contact", contact},
+          {"balance", balance_json(r.recovery.reactions)},
+          {"extremes", extremes_json(r)},
+          {"checks", checks},
+          {"warnings", r.warnings}};
+}
+
+}  // namespace mortise
