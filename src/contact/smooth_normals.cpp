@@ -77,23 +77,25 @@ class Vertices {
 
 }  // namespace
 
-SmoothNormals smooth_normals(const Points& nodes, const Curve& curve, int other, const std::vector<char>& faces) {
+std::vector<ContactNormal> smooth_normals(const Points& nodes, const Curve& curve, int other,
+                                          const std::vector<char>& faces) {
   const Vertices vertices(nodes, curve);
   std::vector<char> taken(vertices.count(), 0);
   for (int i = 0; i < int(faces.size()); ++i)
     if (faces[i]) taken[i] = taken[vertices.ahead(i)] = 1;
-  SmoothNormals result;
+  std::vector<ContactNormal> result;
   for (int i = 0; i < vertices.count(); ++i) {
     if (!taken[i]) continue;
     const Vec2 at = vertices.position(i);
-    const auto add = [&](const Vec2& normal) { result.normals.push_back({at, normal, curve.body, other}); };
+    const auto add = [&](const Vec2& normal) { result.push_back({at, normal, curve.body, other}); };
     if (vertices.is_end(i) || vertices.smooth(i))
       add(vertices.of_circle(i));
     else
       for (const Vec2& normal : vertices.of_edges(i)) add(normal);
   }
-  result.edge_error = vertices.edge_error();
   return result;
 }
+
+double edge_error(const Points& nodes, const Curve& curve) { return Vertices(nodes, curve).edge_error(); }
 
 }  // namespace mortise

@@ -32,10 +32,10 @@ std::vector<int> unknowns_to_hold(const Mesh& mesh, const std::vector<ContactPai
   return std::ranges::all_of(motion_sets(mesh, motions), held) ? away : anywhere;
 }
 
-// Of each motion, whether the load drives it: by work of more than `round_off` of its terms, and than what rounding of
-// the motion makes.
+// Of each motion, whether the load drives it: by work of more than a part of its terms, round-off or how far the edges
+// of its bodies leave the curves that they stand for, and than what rounding of the motion makes.
 std::vector<char> driven(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions, const VecX& load,
-                         double round_off) {
+                         const VecX& edge_error) {
   std::vector<char> driven(motions.size(), 0);
   const double load_size = load.lpNorm<1>();
   for (const MotionSet& set : motion_sets(mesh, motions))
@@ -43,8 +43,10 @@ std::vector<char> driven(const Mesh& mesh, const std::vector<std::vector<RigidMo
       const auto motion = set.fields.col(k);
       VecX work(motion.size());
       for (Eigen::Index i = 0; i < work.size(); ++i) work(i) = motion(i) * load(set.unknown(i));
+      double part = 1e-9;
+      for (const RigidMotion& of : motions[set.motions[k]]) part = std::max(part, edge_error(of.body));
       const double least = 1e-12 * load_size * motion.lpNorm<Eigen::Infinity>();
-      driven[set.motions[k]] = std::abs(work.sum()) > std::max(round_off * work.lpNorm<1>(), least);
+      driven[set.motions[k]] = std::abs(work.sum()) > std::max(part * work.lpNorm<1>(), least);
     }
   return driven;
 }
@@ -60,7 +62,7 @@ Floating find_floating(const Mesh& mesh, const Constraints& constraints) {
 
 namespace {
 
-SmoothNormals normals_of(const Mesh& mesh, const ContactPair& pair) {
+std::vector<ContactNormal> normals_of(const Mesh& mesh, const ContactPair& pair) {
   std::vector<char> faces(pair.multiplier.edges.size(), 0);
   for (const ContactPoint& point : pair.points) faces[point.edge] = 1;
   return smooth_normals(mesh.nodes, pair.multiplier, pair.opposite.body, faces);
@@ -72,8 +74,12 @@ std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const 
                                                         const std::vector<std::string>& findings,
                                                         SaddlePointSystem& system) {
   std::vector<std::vector<RigidMotion>> held;
-  const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions, double round_off) {
-    const std::vector<char> moves = driven(mesh, motions, system.f, round_off);
+  VecX edge_errors = VecX::Zero(Eigen::Index(mesh.bodies.size()));
+  for (const ContactPair& pair : pairs)
+    for (const Curve* curve : {&pair.multiplier, &pair.opposite})
+      edge_errors(curve->body) = std::max(edge_errors(curve->body), edge_error(mesh.nodes, *curve));
+  const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions) {
+    const std::vector<char> moves = driven(mesh, motions, system.f, edge_errors);
     for (std::size_t k = 0; k < motions.size(); ++k) {
       if (moves[k])
         throw SceneError("nothing holds " + describe(mesh, motions[k]) +
@@ -84,15 +90,11 @@ std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const 
     for (const int unknown : unknowns_to_hold(mesh, pairs, system.constraints, motions))
       system.constraints.fixed[unknown] = 1;
   };
-  hold(free_motions(mesh, system.constraints, unit_rows(system)), 1e-9);
+  hold(free_motions(mesh, system.constraints, unit_rows(system)));
   std::vector<ContactNormal> normals;
-  double edge_error = 0;
-  for (const ContactPair& pair : pairs) {
-    const SmoothNormals of_pair = normals_of(mesh, pair);
-    normals.insert(normals.end(), of_pair.normals.begin(), of_pair.normals.end());
-    edge_error = std::max(edge_error, of_pair.edge_error);
-  }
-  hold(free_motions(mesh, system.constraints, normals), std::max(1e-9, edge_error));
+  for (const ContactPair& pair : pairs)
+    for (const ContactNormal& normal : normals_of(mesh, pair)) normals.push_back(normal);
+  hold(free_motions(mesh, system.constraints, normals));
   return held;
 }
 

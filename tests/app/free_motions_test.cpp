@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <random>
 
 #include "app/solve_scene.hpp"
 #include "support/differences.hpp"
@@ -72,6 +74,36 @@ TEST(FreeMotions, AMotionThatTheLoadDrivesIsAnError) {
     scene.boundaries.push_back(across);
     const TwoPlates plates = round ? saddle(12, CellKind::quad4) : TwoPlates{};
     expect_contains(message_of([&] { solve_scene(scene, mesh_of(plates)); }), "nothing holds body 'upper'");
+  }
+}
+
+Scene logs(double width, const std::string& order, const std::string& edges) {
+  return read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/logs.toml",
+                    {{"mesh.parameters.width", std::to_string(width)},
+                     {"mesh.parameters.order", order},
+                     {"mesh.parameters.fine", edges}});
+}
+
+// A mesh of uneven edges has the weight of its disc beside the centre, by as much as the edges leave the circle.
+TEST(FreeMotions, TheWeightOfAnUnevenMeshTurnsNoDisc) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> widths(2.2, 3.6);
+  for (const char* order : {"1", "2"})
+    for (const char* edges : {"0.02", "0.05", "0.1"}) {
+      const double width = widths(random);
+      SCOPED_TRACE("order " + std::string(order) + ", edges " + edges + ", width " + std::to_string(width));
+      EXPECT_NO_THROW(check_scene(logs(width, order, edges)));
+    }
+}
+
+TEST(FreeMotions, LogsPressOnOneAnotherAsStaticsSays) {
+  const Results r = solve_scene(logs(3.2, "2", "0.05"));
+  EXPECT_EQ(r.status, Status::solved);
+  const double weight = 600 * 9.81 * std::numbers::pi;  // per length, of radius 1
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
+    const std::string other = r.problem.pairs[k].spec.between[1];
+    const double expected = other == "floor" ? 2 * weight : other.starts_with("rim") ? weight : 0;
+    EXPECT_NEAR(std::abs(r.recovery.contacts[k].force.y()), expected, 0.005 * weight) << other;
   }
 }
 
