@@ -14,7 +14,8 @@ void check_ranges(Scene scene) {
     if (!material.stiffness) check(isotropic_keys(material), "materials." + name);
     check(material_keys(material), "materials." + name);
   }
-  for (ContactSpec& contact : scene.contacts) check(contact_keys(contact, {}), contact.key);
+  for (auto* contacts : {&scene.contacts, &scene.ties})
+    for (ContactSpec& contact : *contacts) check(contact_keys(contact, {}), contact.key);
   for (ProbeSpec& probe : scene.probes) check(probe_keys(probe), probe.key);
   check(method_keys(scene.method), "method");
   if (scene.accuracy) check(accuracy_keys(*scene.accuracy, std::numeric_limits<int>::max()), "accuracy");

@@ -7,7 +7,8 @@
 namespace mortise::scene_file {
 namespace {
 
-std::string in_words(double number) { return plain(number).dump(); }
+// JSON has no infinite numbers.
+std::string in_words(double number) { return std::isfinite(number) ? plain(number).dump() : std::to_string(number); }
 
 // A number for which `holds`, which `expected` says in words.
 Kind<double> number_that(Json schema, const std::string& expected, const std::function<bool(double)>& holds) {
@@ -19,7 +20,7 @@ Kind<double> number_that(Json schema, const std::string& expected, const std::fu
           },
           [=](const double& value) {
             const bool fits = std::isfinite(value) && holds(value);
-            return fits ? std::string{} : "expected " + expected + ", found " + std::to_string(value);
+            return fits ? std::string{} : "expected " + expected + ", found " + in_words(value);
           }};
 }
 
@@ -33,7 +34,10 @@ double part_of(const Node& node) {
 
 }  // namespace
 
-Json plain(double number) { return number == std::floor(number) ? Json(std::int64_t(number)) : Json(number); }
+Json plain(double number) {
+  const bool whole = number == std::floor(number) && std::abs(number) < 1e15;  // doubles are exact up to 9e15
+  return whole ? Json(std::int64_t(number)) : Json(number);
+}
 
 Kind<double> a_number() {
   return number_that({{"type", "number"}}, "a finite number", [](double) { return true; });

@@ -56,6 +56,7 @@ TEST(Keys, RangesHoldForScenesOfAProgram) {
       {"model.thickness", [](Scene& s) { s.model.thickness = -1; }},
       {"model.gravity", [=](Scene& s) { s.gravity = Vec2(0, nan); }},
       {"contact.0.within", [](Scene& s) { s.contacts.push_back({.key = "contact.0", .within = 0}); }},
+      {"contact.1.within", [](Scene& s) { s.ties.push_back({.key = "contact.1", .within = -1}); }},
       {"probe.0.angle", [=](Scene& s) { s.probes.push_back({.key = "probe.0", .angle = nan}); }},
       {"method.omega", [](Scene& s) { s.method.mssor.omega = 2; }},
       {"method.beta", [](Scene& s) { s.method.ddm.beta = -0.5; }},
@@ -80,6 +81,15 @@ TEST(Keys, RangesHoldForScenesOfAProgram) {
     Scene scene = right;
     slip.make(scene);
     EXPECT_EQ(message_of([&] { check_ranges(scene); }).find(slip.key + ": expected "), 0u) << slip.key;
+  }
+}
+
+TEST(Keys, ARefusalSaysTheNumberAsItIs) {
+  Scene scene;
+  for (const auto& [young, words] : std::vector<std::pair<double, std::string>>{
+           {-1, "-1"}, {-1e-12, "-1e-12"}, {-1e300, "-1e+300"}, {std::nan(""), "nan"}}) {
+    scene.materials["steel"] = {.young = young};
+    EXPECT_EQ(message_of([&] { check_ranges(scene); }), "materials.steel.young: expected a number > 0, found " + words);
   }
 }
 
