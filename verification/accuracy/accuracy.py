@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Asked against got: scenes with `accuracy` from 5 to 0.01 %, five first meshes each, against references.
 
-Written are OUT/answers.csv (a row an answer), verdicts.csv, two pictures and section.html; the runs are kept in
+Written are OUT/answers.csv (a row an answer), verdicts.csv, two pictures and accuracy.md; the runs are kept in
 OUT/runs. --docs writes docs/accuracy.md and its pictures. Exit status 1 where a run fails or an answer is worse than
 what was asked.
 """
@@ -117,7 +117,7 @@ def main(arguments=None):
     write(options.output, rows, known, drawn, verdicts, options)
     for words, found, holds in verdicts:
         print(f"{'holds   ' if holds else 'does not'}  {words}: {found}")
-    print(*filter(None, map(finding, rows)), f"{options.output}/section.html", sep="\n")
+    print(*filter(None, map(finding, rows)), f"{options.output}/accuracy.md", sep="\n")
     sys.exit(1 if any(row["failed"] or row["got"] > row["asked"] for row in rows) else 0)
 
 

@@ -35,4 +35,4 @@ def test_the_study_of_one_scene(mortise, tmp_path, capsys):
     assert ended.value.code == 0, capsys.readouterr().out
     rows = launch.columns(tmp_path / "answers.csv")
     assert rows["asked"].tolist() == [0.05, 0.05, 0.01, 0.01] and max(rows["got"]) < 1e-3 and min(rows["inside"]) > 0.95
-    assert "holds" in (tmp_path / "section.html").read_text()
+    assert "holds" in (tmp_path / "accuracy.md").read_text()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Benchmarks of frictionless contact with known pressures, on four meshes each and with --accuracy 1%.
 
-Written are OUT/benchmarks.csv (a row a run), a picture a benchmark and section.html; the runs are kept in OUT/runs.
+Written are OUT/benchmarks.csv (a row a run), a picture a benchmark and benchmarks.md; the runs are kept in OUT/runs.
 --docs writes docs/benchmarks.md. Exit status 1 where a run fails or an error is above its limit.
 """
 

@@ -75,7 +75,7 @@ def test_every_benchmark_runs(mortise, tmp_path, capsys):
     assert ended.value.code == 0, capsys.readouterr().out
     rows = launch.columns(tmp_path / "benchmarks.csv")
     assert set(rows["case"]) == {case.name for case in benchmark_cases.CASES}
-    assert (tmp_path / "section.html").read_text().count("<img") == len(benchmark_cases.CASES)
+    assert (tmp_path / "benchmarks.md").read_text().count("![") == len(benchmark_cases.CASES)
 
 
 @pytest.mark.parametrize("by", ["FreeFEM", "GetFEM"])

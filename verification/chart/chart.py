@@ -2,7 +2,7 @@
 """Accuracy against speed: errors and seconds of every method on finer and finer meshes, drawn and put into words.
 
 Written into the output folder are chart.csv (a row a run: errors, seconds of the stages, their medians and range), a
-picture a problem, economy.csv and section.html. Runs are kept below the folder and not repeated while the executables,
+picture a problem, economy.csv and chart.md. Runs are kept below the folder and not repeated while the executables,
 scenes and measures are the same: a run that was stopped goes on. Other work on the machine falsifies the seconds.
 
 Exit status: 0; 1 if a program is missing or fails, or the half models or the bilateral contact change p.
@@ -36,7 +36,7 @@ def run(output, quick, docs):
     print(*("  ".join(row) for row in advice.table(rows)), *advice.recommendation(rows), sep="\n")
     worst = max(row["difference_of_p"] for row in saved)
     print(f"half models and bilateral contact: p differs by at most {worst:.1e} of its largest value")
-    print(f"{output}/section.html ({time.perf_counter() - start:.0f} s)")
+    print(f"{output}/chart.md ({time.perf_counter() - start:.0f} s)")
     return worst <= economy.SAME
 
 

@@ -1,4 +1,4 @@
-"""The chart in words and tables (chart_texts.md): OUT/section.html, and docs/chart.md with its pictures."""
+"""The chart in words and tables (chart_texts.md): OUT/chart.md, and docs/chart.md with its pictures."""
 
 import advice
 import economy

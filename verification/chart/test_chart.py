@@ -195,11 +195,11 @@ def test_a_second_run_repeats_nothing_and_all_is_drawn(quick, capsys):
     assert left.value.code == 0, said
     meshes = [line for line in said.splitlines() if "methods" in line]
     assert meshes and all(", kept" in line for line in meshes)
-    section = (quick["output"] / "section.html").read_text()
+    page = (quick["output"] / "chart.md").read_text()
     for problem in chart_methods.PROBLEMS:
-        assert f"{problem}.png" in section and (quick["output"] / f"{problem}.png").stat().st_size > 10000
+        assert f"{problem}.png" in page and (quick["output"] / f"{problem}.png").stat().st_size > 10000
     for text in ("What to use", "Are the seconds right?", "Model no more than a scene needs"):
-        assert text in section
+        assert text in page
 
 
 def test_half_models_have_the_same_pressure(quick):

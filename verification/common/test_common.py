@@ -70,13 +70,15 @@ def test_texts_of_a_template(tmp_path):
     assert template.table(["a", "b"], [[1, "x|y"]]) == "| a | b |\n|---|---|\n| 1 | x\\|y |"
 
 
-def test_a_page_of_markdown():
-    text = "# T < 1\n\nsome *words*, 2 * 3 * 4,\n**bold** `a_b` [l](x.md)\n\n- 1\n  more\n- two\n\n![c *d*](p.png)\n\n"
-    made = page.from_markdown(text + template.table(["a"], [["x|y"], ["ok"], [1.5]]))
-    for part in ("<h2>T &lt; 1</h2>", "<i>words</i>, 2 * 3 * 4,",
-                 "<b>bold</b> <code>a_b</code>", '<a href="x.md">l</a>',
-                 "<li>1\n  more\n</li>", '<img src="p.png"', ">x|y</td>", '"ok">ok<', '"number">1.5<'):  # fmt: skip
-        assert part in made
+def test_a_page_and_its_picture_in_docs(tmp_path, monkeypatch):
+    monkeypatch.setattr(page, "DOCS", tmp_path / "docs")
+    drawing, axes = figure.panels(1, 1, (4, 3))
+    figure.save(drawing, tmp_path / "line.png")
+    (tmp_path / "docs").mkdir()
+    page.write(tmp_path, "study", "# Study\n\n![a](study/line.png)\n\n[b](theory.md)\n\n", docs=True)
+    assert (tmp_path / "study.md").read_text() == f"# Study\n\n![a](line.png)\n\n[b]({tmp_path}/docs/theory.md)\n"
+    assert (tmp_path / "docs/study.md").read_text() == "# Study\n\n![a](study/line.png)\n\n[b](theory.md)\n"
+    assert (tmp_path / "docs/study/line.png").is_file()
 
 
 def test_figures_are_drawn_and_made_small(tmp_path):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Solves every case of cases.toml by mortise and by FreeFEM on the same mesh, and compares the two.
 
-The report is written to OUTPUT: report.html, report.md, report.json, pictures, and a folder a case with difference.vtu.
+The report is written to OUTPUT: crosscheck.md, report.json, pictures, and a folder a case with difference.vtu.
 Exit status: 0 all cases ran and hold; 1 one does not, or nothing could run; 77 with --skip-without-freefem if FreeFEM
 is not there. MORTISE names another executable than build/release/mortise.
 """
@@ -82,7 +82,7 @@ def main(arguments=None):
     seconds = time.perf_counter() - start
     report.write(results, output, seconds)
     bad = [result for result in results if result.status != "ok"]
-    print(f"{len(results) - len(bad)} of {len(results)} cases hold, {seconds:.0f} s; {options.output}/report.html")
+    print(f"{len(results) - len(bad)} of {len(results)} cases hold, {seconds:.0f} s; {options.output}/crosscheck.md")
     print(*(f"{result.status}: {result.name}" for result in bad), sep="\n")
     return 1 if bad else 0
 

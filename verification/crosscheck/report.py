@@ -1,4 +1,4 @@
-"""The report: report.json with every figure, report.md and report.html for people, section.html for the whole."""
+"""The report: report.json with every figure, crosscheck.md for people."""
 
 import json
 import math
@@ -126,21 +126,17 @@ def summary_line(results, seconds):
     return f"{len(results)} cases in {seconds:.0f} s. " + ("All hold." if bad == 0 else f"{bad} do not hold.")
 
 
-def markdown(results, seconds, drawn, whole):
-    """The report, or without all cases and their pictures the part of it that stands among the other studies."""
-    parts = [summary_line(results, seconds)]
-    parts += [f"**{result.name}**\n{result.message}" for result in results if result.message and whole]
+def markdown(results, seconds, drawn):
+    """The page; within a level, the cases that fail come first."""
+    parts = ["# mortise against FreeFEM", summary_line(results, seconds)]
+    parts += [f"**{result.name}**\n{result.message}" for result in results if result.message]
     for level in LEVELS:
-        found = sorted((r for r in results if r.level == level), key=lambda r: r.status == "ok")  # first what fails
+        found = sorted((r for r in results if r.level == level), key=lambda r: r.status == "ok")
         if not found:
             continue
-        mine = [text for at, text in drawn if at == level and (whole or "rates.png" in text)]
-        parts.append(TEXTS[level])
-        if level == "timing":
-            parts += [template.table(*timing_table(found)), *mine]
-        else:
-            parts += [*(["### By scene"] if whole else []), template.table(*worst_table(found)), *mine]
-            parts += ["### All cases", template.table(*TABLES[level](found))] if whole else []
+        by_scene = [] if level == "timing" else ["### By scene", template.table(*worst_table(found))]
+        mine = [text for at, text in drawn if at == level]
+        parts += [TEXTS[level], *by_scene, *mine, "### All cases", template.table(*TABLES[level](found))]
     return "\n\n".join(parts) + "\n"
 
 
@@ -156,10 +152,4 @@ def write(results, output, seconds):
         "results": [result.as_table() for result in results],
     }
     (output / "report.json").write_text(json.dumps(without_nan(table), indent=1, allow_nan=False) + "\n")
-    text = "# mortise against FreeFEM\n\n" + markdown(results, seconds, drawn, whole=True)
-    (output / "report.md").write_text(text)
-    head = f'<meta charset="utf-8"><title>mortise against FreeFEM</title><style>{page.STYLE}</style>'
-    body = f"<body>\n{page.from_markdown(text)}</body>"
-    (output / "report.html").write_text(f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n{body}</html>\n')
-    short = page.from_markdown(markdown(results, seconds, drawn, whole=False))
-    page.write_section(output, "crosscheck", "The same scenes by FreeFEM", [short])
+    page.write(output, "crosscheck", markdown(results, seconds, drawn))

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Exact solutions: what a scene can say, held against formulas on four meshes.
 
-Written are OUT/exact.csv (a row a run) and section.html; the runs are kept in OUT/runs. --docs writes docs/exact.md.
+Written are OUT/exact.csv (a row a run) and exact.md; the runs are kept in OUT/runs. --docs writes docs/exact.md.
 Exit status 1 where a run fails, an error is above its limit or a rate is lost.
 """
 

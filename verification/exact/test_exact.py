@@ -21,4 +21,4 @@ def test_every_case_holds(mortise, tmp_path, capsys):
     assert ended.value.code == 0, capsys.readouterr().out
     rows = launch.columns(tmp_path / "exact.csv")
     assert set(rows["case"]) == {case.name for case in exact_cases.CASES}
-    assert "holds" in (tmp_path / "section.html").read_text()
+    assert "holds" in (tmp_path / "exact.md").read_text()

@@ -12,7 +12,7 @@ import pytest
 import launch
 import markdown
 
-PAGES = [launch.ROOT / "README.md", *sorted((launch.ROOT / "docs").glob("*.md"))]
+PAGES = [launch.ROOT / "README.md", *sorted((launch.ROOT / "docs").rglob("*.md"))]
 TEXTS = {page.name: page.read_text() for page in PAGES}
 RECIPES = markdown.sections(TEXTS["recipes.md"])
 WITH_COMMANDS = [name for name, text in RECIPES.items() if markdown.commands(text)]

@@ -4,7 +4,7 @@
 Seconds are of the processor, one thread, and hold everything but the making of the mesh file; memory is the process's
 peak. The error is that of p in L2 without a tenth of the line at each end, against mortise's own p on a graded mesh of
 its own; programs that are missing are left out, aloud. Written are OUT/performance.csv (a row a program and mesh) and
-section.html; the runs are kept in OUT/runs. --docs writes docs/performance.md.
+performance.md; the runs are kept in OUT/runs. --docs writes docs/performance.md.
 """
 
 import json
@@ -205,7 +205,7 @@ def main(arguments=None):
     text = template.fill((HERE / "performance.md").read_text(), versions=said, cores=os.cpu_count(), load=load,
                          **texts(rows, threads))  # fmt: skip
     page.write(options.output, "performance", text, options.docs)
-    print(f"{options.output}/section.html")
+    print(f"{options.output}/performance.md")
 
 
 if __name__ == "__main__":

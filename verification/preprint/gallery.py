@@ -4,7 +4,6 @@ Ours is the preprint's discretisation with gap and normals of the curve; pale li
 comes nearest to the printed tables.
 """
 
-import html
 from dataclasses import dataclass
 
 import numpy as np
@@ -199,13 +198,7 @@ def make(view, folder, chosen=None, say=lambda text: None):
             yield {**row, "holds": holds(*verdict), "picture": path}
 
 
-def section(rows):
-    """HTML: pictures side by side, each with its caption below."""
-    yield '<div style="display:grid;grid-template-columns:repeat(auto-fill,minmax(400px,1fr));gap:0 1.2em">\n'
-    for row in rows:
-        texts = {name: html.escape(str(text)) for name, text in row.items()}
-        caption = "<b>Figure {figure}.</b> {caption}<br>The preprint: {says}<br>Here: {found} <b>Ours: {holds}.</b>"
-        wide = ' style="grid-column:1/-1"' if row["figure"] in (2, 10, 24, 25) else ""
-        image = f'<img src="{row["picture"]}" alt="Figure {row["figure"]}">'
-        yield f"<figure{wide}>{image}<figcaption>{caption.format(**texts)}</figcaption></figure>\n"
-    yield "</div>\n"
+def words(row):
+    """A figure's picture, and what is said of it."""
+    said = f"The preprint: {row['says']} Here: {row['found']} **Ours: {row['holds']}.**"
+    return f"![Figure {row['figure']}. {row['caption']}]({row['picture']})\n\n{said}"

@@ -2,7 +2,7 @@
 """The study of the preprint (Aronov & Rodin 2019, Keldysh Institute preprint 87), in one command.
 
 Tables 1-3 and 5-8 beside our figures, why the preprint's stresses oscillate, and its figures from our results. Written
-into OUTPUT are section.html, tables.csv, variants.csv, verdicts.csv, effects.csv, unprinted.csv, medians.csv,
+into OUTPUT are preprint.md, tables.csv, variants.csv, verdicts.csv, effects.csv, unprinted.csv, medians.csv,
 gaps.csv, gallery.csv and the pictures; the runs lie in OUTPUT/runs and are not repeated. Exit status: 0 if the study is
 complete, 1 if it could not run. MORTISE names another executable than build/release/mortise.
 """
@@ -142,8 +142,7 @@ def meshes_as_text(rows):
 def write(output, found):
     for name in ("tables", "variants", "verdicts", "effects", "unprinted", "medians", "gaps", "gallery"):
         launch.write_csv(output / f"{name}.csv", meshes_as_text(found[name]))
-    body = [page.from_markdown(markdown(found)), *gallery.section(found["gallery"])]
-    page.write_section(output, "preprint", "The preprint's study", body)
+    page.write(output, "preprint", "\n\n".join([markdown(found), *map(gallery.words, found["gallery"])]))
 
 
 def main(arguments=None):
@@ -158,7 +157,7 @@ def main(arguments=None):
         write(options.output, found)
     except launch.StudyError as error:
         sys.exit(f"preprint.py: {error}")
-    print(*summary(found), f"{options.output}/section.html, tables.csv", sep="\n")
+    print(*summary(found), f"{options.output}/preprint.md, tables.csv", sep="\n")
     return store.fresh
 
 

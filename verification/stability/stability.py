@@ -8,9 +8,10 @@ A study is a module study_N_NAME.py with
   failures(rows)     the failures found (failures.failure)
   values(rows)       what fills the first text of study_N_NAME.md (optional)
 and a template study_N_NAME.md: title, introduction and captions; then a text for each failure, of three paragraphs:
-where it begins, why, what mortise does. Written are OUT/NAME.csv, NAME.png, NAME.json and section.html; the runs are
-kept in OUT/runs. --docs writes docs/stability.md and its pictures from what the full studies have found. Exit status 1
-also if a run ends as it must not: an internal error, a crash, a hang, or a row that says 0 of `ok`.
+where it begins, why, what mortise does. Written are OUT/NAME.csv, NAME.png, NAME.json and NAME.md, and of all of them
+the table stability.md; the runs are kept in OUT/runs. --docs writes docs/stability.md and a page a study in
+docs/stability/ from what the full studies have found. Exit status 1 also if a run ends as it must not: an internal
+error, a crash, a hang, or a row that says 0 of `ok`.
 """
 
 import importlib
@@ -90,20 +91,35 @@ def wrapped(text, indent=""):
     return textwrap.fill(text, 120, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
 
 
-def study_text(result):
-    """The study's part of the page."""
-    heads = result["head"].removeprefix("# ").split("\n\n")
-    yield f"## {list(STUDIES).index(result['name']) + 1}. {heads[0]}"
-    yield from (part if part[0] in "|#" else wrapped(" ".join(part.split())) for part in heads[1:])
-    failures = result["failures"]
-    yield template.table(["what fails", "begins at", "state"], [[f["name"], f["begins"], f["state"]] for f in failures])
-    yield "\n".join(wrapped(f"- **{f['name']}.** {f['why']} *mortise:* {f['mortise']}", "  ") for f in failures)
-    yield f"{len(result['rows'])} runs: {outcomes(result['rows'])}."
+def title(result):
+    return f"{list(STUDIES).index(result['name']) + 1}. {result['head'].removeprefix('# ').splitlines()[0]}"
+
+
+def study_page(result):
+    """OUT/NAME.md: what was varied, the pictures, and each failure with its cause."""
+    failures, heads = result["failures"], result["head"].split("\n\n")[1:]
+    parts = [f"# {title(result)}", "What the states mean: [where it fails](../stability.md)."]
+    parts += [part if part[0] in "|#" else wrapped(" ".join(part.split())) for part in heads]
+    parts.append(template.table(["what fails", "begins at", "state"], [[f["name"], f["begins"], f["state"]] for f in failures]))
+    parts += [wrapped(f"- **{f['name']}.** {f['why']} *mortise:* {f['mortise']}", "  ") for f in failures]
+    return "\n\n".join([*parts, f"{len(result['rows'])} runs: {outcomes(result['rows'])}."])
 
 
 def page_text(results, quick):
-    parts = [part for result in results for part in study_text(result)]
-    return template.fill((HERE / "stability.md").read_text(), quick=quick, studies="\n\n".join(parts))
+    """The one table of all failures, each with a link to its study."""
+    link = lambda result: f"[{title(result)}](stability/{result['name']}.md)"
+    rows = [[link(r), f["name"], f["begins"], f["state"]] for r in results for f in r["failures"]]
+    table = template.table(["study", "what fails", "begins at", "state"], rows)
+    return template.fill((HERE / "stability.md").read_text(), quick=quick, table=table)
+
+
+def write_pages(folder, results, options):
+    for result in results:
+        text = study_page(result)
+        (folder / f"{result['name']}.md").write_text(text + "\n")
+        if options.docs:
+            page.write_docs(folder, "stability", text, f"stability/{result['name']}")
+    page.write(folder, "stability", page_text(results, options.quick), options.docs)
 
 
 def run_studies(folder, quick, names=(), jobs=1):
@@ -120,9 +136,9 @@ def main(arguments=None):
         results = run_studies(options.output, options.quick, options.only, options.jobs)
     except launch.StudyError as error:
         sys.exit(f"stability.py: {error}")
-    page.write(options.output, "stability", page_text(results, options.quick), options.docs)
+    write_pages(options.output, results, options)
     wrong = [line for result in results for line in result["wrong"]]
-    print(*wrong, f"{options.output}/section.html", sep="\n")
+    print(*wrong, f"{options.output}/stability.md", sep="\n")
     sys.exit(1 if wrong else 0)
 
 

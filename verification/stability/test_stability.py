@@ -69,8 +69,8 @@ def test_a_study_is_written_whole_and_is_not_repeated(tmp_path):
     with pytest.raises(SystemExit) as done:
         stability.main(["--quick", "--only", "numbers", "-o", str(tmp_path)])
     assert done.value.code == 0 and times == {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").iterdir()}
-    text = (tmp_path / "section.html").read_text()
-    assert 'src="numbers.png"' in text and "Quick: a subset" in text and "8. Units" in text
+    text = (tmp_path / "stability.md").read_text()
+    assert '](numbers.png)' in text and "Quick: a subset" in text and "8. Units" in text
 
 
 def test_crashes_hangs_and_internal_errors_are_reported(tmp_path, monkeypatch):
