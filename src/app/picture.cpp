@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 fs::path script(const std::string& name) {
   const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
   for (const fs::path& share : {folder / MORTISE_BIN_TO_SHARE, folder / "share/mortise"})
-    if (const fs::path found = share / "picture" / name; fs::exists(found)) return found;
-  throw InputError(name + " is not there: expected in " + (folder / MORTISE_BIN_TO_SHARE / "picture").string());
+    if (const fs::path found = share / "pictures" / name; fs::exists(found)) return found;
+  throw InputError(name + " is not there: expected in " + (folder / MORTISE_BIN_TO_SHARE / "pictures").string());
 }
 
 // The system's Python has the packages of the distribution; MORTISE_PYTHON names another.

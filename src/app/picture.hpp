@@ -1,4 +1,4 @@
-// Pictures: the scripts that draw them (verification/picture), found beside the program and run by Python.
+// Pictures: the scripts that draw them (python/pictures), found beside the program and run by Python.
 #pragma once
 
 #include <filesystem>

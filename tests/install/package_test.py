@@ -17,7 +17,7 @@ FILES = [
     "usr/lib/mortise/mortise_vtk.so",
     "usr/lib/libmortise.a",
     "usr/include/mortise/scene/scene.hpp",
-    "usr/share/mortise/picture/picture.py",
+    "usr/share/mortise/pictures/picture.py",
     "usr/share/mortise/geo/punch.toml",
     "usr/share/doc/mortise/docs/files.md",
     "usr/share/doc/mortise/LICENSE",

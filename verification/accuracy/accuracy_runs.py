@@ -1,6 +1,5 @@
 """What the study runs: the scenes, what is asked of them, the first meshes; and a run as a row."""
 
-import json
 import math
 import sys
 import tempfile

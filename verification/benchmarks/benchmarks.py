@@ -19,8 +19,8 @@ import numpy as np
 
 import benchmark_cases
 import closed_forms
+import launch  # makes src/python/pictures known
 import figure
-import launch
 import layer
 import page
 import patches

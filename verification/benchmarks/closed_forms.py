@@ -5,7 +5,7 @@ Lengths in units of a. A body of profile f on a half plane: two half planes with
 """
 
 from dataclasses import dataclass
-from math import acosh, asin, pi, sqrt
+from math import asin, pi
 from typing import Callable
 
 import numpy as np

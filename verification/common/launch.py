@@ -3,23 +3,22 @@
 import argparse
 import csv
 import json
-import math
 import os
-import re
 import resource
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
 
-import numpy as np
-
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "src/python/pictures"))  # what mortise itself draws with: figure, result_tables
+
+from result_tables import columns, contact, read_csv  # noqa: F401
 MORTISE = Path(os.environ.get("MORTISE", ROOT / "build/release/mortise")).absolute()
 CHART = Path(os.environ.get("MORTISE_CHART", ROOT / "build/release/verification/chart/mortise_chart")).absolute()
 YOUNG = 210e9  # of the lower body, in the scenes' units
 SOLVED = (0, 2)  # exit status: 2 is a check that fails, or no convergence, with the results written
-NAMES = ("curve", "body")  # columns of names, in the tables of mortise
 TIME_LIMIT = 1800  # seconds for one call
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # environment of runs that are timed
 
@@ -108,45 +107,10 @@ def stiffness(ratio):
     return {"materials.other": f"{{ young = {YOUNG * ratio!r}, poisson = 0.3 }}", "bodies.upper": "other"}
 
 
-def number_or_text(text):
-    try:
-        return float(text)
-    except ValueError:
-        return text
-
-
 def solve(scene, settings, folder):
     """Solves geo/SCENE.toml, or the scene file at a path, into a folder; returns the table of summary.json."""
     call("solve", scene_file(scene), *options(settings), "-o", folder, "--quiet")
     return json.loads((Path(folder) / "summary.json").read_text())
-
-
-def name_in_table(text):
-    """A name as it is: mortise puts an apostrophe before one that a spreadsheet would take for a formula."""
-    return text[1:] if re.match(r"'[=+\-@\t\r]", text) else text
-
-
-def read_csv(path):
-    """The rows of a CSV file: dictionaries of numbers and texts. A name is a text, whatever it looks like."""
-    of = lambda key, text: name_in_table(text) if key in NAMES else number_or_text(text)
-    with open(path, newline="") as file:
-        return [{key: of(key, value) for key, value in row.items()} for row in csv.DictReader(file)]
-
-
-def columns(path):
-    """The columns of a CSV file: arrays of numbers, NaN where nothing stands, or of texts."""
-    table = read_csv(path)
-    lists = {key: [row[key] for row in table] for key in (table[0] if table else {})}
-    is_text = lambda values: any(isinstance(value, str) and value for value in values)
-    of = lambda values: np.array(values if is_text(values) else [math.nan if v == "" else v for v in values])
-    return {key: of(values) for key, values in lists.items()}
-
-
-def contact(folder, curve=None, table="contact.csv"):
-    """Columns of a table of the contact line, of one curve: by default of the first pair's multiplier side."""
-    found = columns(Path(folder) / table)
-    here = found["curve"] == (curve or found["curve"][0])
-    return {key: values[here] for key, values in found.items()}
 
 
 def sweep(scene, settings, vary):

@@ -2,8 +2,8 @@
 
 import re
 
+import launch  # makes src/python/pictures known
 import figure
-import launch
 
 DOCS = launch.ROOT / "docs"
 

@@ -18,8 +18,8 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.with_name("common")))
 
+import launch  # makes src/python/pictures known
 import figure
-import launch
 import numpy as np
 import page
 import parabola_mesh

@@ -12,9 +12,16 @@ import meshio
 import numpy as np
 import pytest
 
-import launch
+import launch  # makes src/python/pictures known
+import drawn_bodies
+import drawn_cells
+import drawn_forces
+import drawn_pressure
+import figure
 import odd_scenes
 import picture
+import result_tables
+import shapes
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "pages"))
 
@@ -55,12 +62,12 @@ def test_picture_is_drawn_beside_the_results(solve, scene):
 def test_arrows_are_in_balance(solve, scene):
     """Loads and reactions, each at its place with its moment about it: their sums vanish."""
     model = json.loads((solve(scene) / "summary.json").read_text())["model"]
-    forces = list(picture.acting_forces(model))
+    forces = list(drawn_forces.acting_forces(model))
     size = sum(np.linalg.norm(force) for _, force, _, _ in forces)
     assert np.linalg.norm(sum(force for _, force, _, _ in forces)) < 1e-10 * size
-    assert {colour for colour, _, _, _ in forces} == {picture.LOAD, picture.REACTION}
-    everything = picture.acting_forces(model | {"supports": [s | {"displacement": {"x": 0, "y": 0}} for s in model["supports"]]})
-    moments = [at[0] * force[1] - at[1] * force[0] + moment for colour, force, at, moment in everything if colour == picture.REACTION]
+    assert {colour for colour, _, _, _ in forces} == {drawn_forces.LOAD, drawn_forces.REACTION}
+    everything = drawn_forces.acting_forces(model | {"supports": [s | {"displacement": {"x": 0, "y": 0}} for s in model["supports"]]})
+    moments = [at[0] * force[1] - at[1] * force[0] + moment for colour, force, at, moment in everything if colour == drawn_forces.REACTION]
     assert sum(moments) == pytest.approx(-sum(load["moment"] for load in model["loads"]), abs=1e-9 * size)
 
 
@@ -72,7 +79,7 @@ def test_zoom_shows_the_contact(solve, scene, tmp_path):
 
 def test_zoom_on_hertz_is_a_little_more_than_the_contact(solve):
     results = solve("hertz")
-    low, high = picture.loaded_box(meshio.read(results / "result.vtu"), picture.launch.columns(results / "contact.csv"))
+    low, high = drawn_bodies.loaded_box(meshio.read(results / "result.vtu"), result_tables.columns(results / "contact.csv"))
     half_width = 0.0100757  # Hertz, geo/hertz.toml
     assert low[0] < 0 and half_width < high[0] < 1.5 * half_width
     assert high[1] - low[1] == pytest.approx(high[0] - low[0])
@@ -84,7 +91,7 @@ def test_a_box_may_begin_with_a_minus_and_a_picture_is_no_box():
     assert picture.with_box(["out", "a.png", "--zoom"]) == ["out", "a.png", "--zoom=contact"]
     assert picture.box_of("-1,1,0,2") == [-1, 1, 0, 2]
     for wrong in ("1,1,0,2", "0,1,2", "a,b,c,d", "0,1,3,2"):
-        with pytest.raises(picture.argparse.ArgumentTypeError, match="no box"):
+        with pytest.raises(argparse.ArgumentTypeError, match="no box"):
             picture.box_of(wrong)
 
 
@@ -99,27 +106,27 @@ def test_no_gap_is_drawn_as_an_overlap():
         "u_n": np.array([0, 0, -1e-3, -1e-3]),
         "gap": np.array([0, 0, np.nan, np.nan]),
     }
-    assert picture.scale_without_overlap(table, size=1) == pytest.approx((1e-3 + picture.OVERLAP) / 1e-3)
-    assert picture.scale_without_overlap(table | {"gap": np.full(4, 1e-3)}, 1) == pytest.approx((2e-3 + picture.OVERLAP) / 1e-3)
-    assert picture.scale_without_overlap(table | {"u_n": np.zeros(4)}, 1) == np.inf
+    assert drawn_bodies.scale_without_overlap(table, size=1) == pytest.approx((1e-3 + drawn_bodies.OVERLAP) / 1e-3)
+    assert drawn_bodies.scale_without_overlap(table | {"gap": np.full(4, 1e-3)}, 1) == pytest.approx((2e-3 + drawn_bodies.OVERLAP) / 1e-3)
+    assert drawn_bodies.scale_without_overlap(table | {"u_n": np.zeros(4)}, 1) == np.inf
 
 
 @pytest.mark.parametrize("scene", ["hertz", "gap_close"])
 def test_bodies_are_not_magnified_into_each_other(solve, scene):
-    table = picture.launch.columns(solve(scene) / "contact.csv")
+    table = result_tables.columns(solve(scene) / "contact.csv")
     points = meshio.read(solve(scene) / "result.vtu").points[:, :2]
-    assert picture.scale_without_overlap(table, picture.size_of(points)) < 100  # thousands without
+    assert drawn_bodies.scale_without_overlap(table, drawn_cells.size_of(points)) < 100  # thousands without
 
 
 def test_the_stress_across_the_contact_is_the_pressure_there(solve):
     results = solve("punch")
     mesh, curve = (meshio.read(results / name) for name in ("result.vtu", "contact.vtu"))
-    of_bodies = picture.field_of(mesh, curve, "sigma_n")
+    of_bodies = drawn_bodies.field_of(mesh, curve, "sigma_n")
     known = np.isfinite(curve.point_data["sigma_n"].ravel())
     places, expected = curve.points[known, :2], curve.point_data["sigma_n"].ravel()[known]
     numbers = [(block.data, np.ravel(body)) for block, body in zip(mesh.cells, mesh.cell_data["body"])]
     bodies = [np.unique(np.concatenate([cells[body == k].ravel() for cells, body in numbers])) for k in (0, 1)]
-    found = [of_bodies[of[picture.nearest(places, mesh.points[of, :2])]] for of in bodies]
+    found = [of_bodies[of[drawn_cells.nearest(places, mesh.points[of, :2])]] for of in bodies]
     error = np.min([np.abs(values - expected) for values in found], axis=0)
     assert error.max() < 1e-9 * np.abs(expected).max()
 
@@ -151,8 +158,8 @@ def test_the_set_up_is_drawn_before_it_is_solved(mortise, scene, tmp_path):
 def test_the_axis_of_the_pressure_is_cut_to_the_contact():
     s = np.linspace(0, 10, 101)
     part = np.where((s > 3.95) & (s < 6.05), 1.0, 0.0)
-    assert picture.loaded_part(s, part) == pytest.approx((3.8, 6.2), abs=0.02)
-    assert picture.loaded_part(s, np.ones(101)) == (0, 10)
+    assert drawn_pressure.loaded_part(s, part) == pytest.approx((3.8, 6.2), abs=0.02)
+    assert drawn_pressure.loaded_part(s, np.ones(101)) == (0, 10)
 
 
 @pytest.mark.parametrize("singular, shown", [([], True), ([0.7], False), ([1.0], True)])
@@ -164,18 +171,18 @@ def test_a_peak_is_shown_where_p_has_a_limit(singular, shown):
     table["curve"][201:] = "top"
     table["pair"] = np.zeros(402, dtype=int)
     points = [{"pair": 0, "pressure_exponent": exponent} for exponent in singular]
-    bounded = picture.has_limit({"estimate": {"pressure": {"singular": points}}}, 0)
-    drawing, axes = picture.figure.panels(1, 1, (4, 3))
-    picture.draw_pair(axes, table, 0, bounded)
+    bounded = drawn_pressure.has_limit({"estimate": {"pressure": {"singular": points}}}, 0)
+    drawing, axes = figure.panels(1, 1, (4, 3))
+    drawn_pressure.draw_pair(axes, table, 0, bounded)
     assert (axes.get_ylim()[1] > 100) == shown == ("off the scale" not in axes.get_xlabel())
-    assert not picture.has_limit({"estimate": None}, 0)
+    assert not drawn_pressure.has_limit({"estimate": None}, 0)
 
 
 def test_forces_act_where_the_pressure_does():
     table = {"s": np.array([0.0, 1, 2, 3]), "x": np.array([0.0, 1, 2, 3]), "y": np.zeros(4), "p": np.array([0.0, 0, 3, 3])}
-    np.testing.assert_allclose(picture.place_of_force(table, np.full(4, True)), (2.5, 0))
+    np.testing.assert_allclose(drawn_forces.place_of_force(table, np.full(4, True)), (2.5, 0))
     table["p"][:] = 0  # no force: in the middle
-    np.testing.assert_allclose(picture.place_of_force(table, np.full(4, True)), (1.5, 0))
+    np.testing.assert_allclose(drawn_forces.place_of_force(table, np.full(4, True)), (1.5, 0))
 
 
 @pytest.mark.parametrize("scene", ["patch_flat", "rings"])
@@ -190,7 +197,7 @@ def test_meshio_reads_quadratic_cells(solve, scene):
 def test_sub_triangles_cover_the_bodies(solve):
     """Quarter rings between the radii 1 and 3: area 2 pi, up to the error of the sub-triangles' straight sides."""
     mesh = meshio.read(solve("rings") / "result.vtu")
-    xy, _, triangles = picture.shaded_triangles(mesh, mesh.points[:, :2], mesh.point_data["von_mises"].ravel())
+    xy, _, triangles = drawn_cells.shaded_triangles(mesh, mesh.points[:, :2], mesh.point_data["von_mises"].ravel())
     a, b = xy[triangles[:, 1]] - xy[triangles[:, 0]], xy[triangles[:, 2]] - xy[triangles[:, 0]]
     twice_the_area = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
     assert (twice_the_area > 0).all()
@@ -199,10 +206,10 @@ def test_sub_triangles_cover_the_bodies(solve):
 
 @pytest.mark.parametrize("kind, n", [("triangle", 1), ("triangle6", 3), ("quad", 1), ("quad8", 4), ("quad9", 2)])
 def test_shape_functions_and_subdivision(kind, n):
-    x, y, triangles = picture.subdivision(kind, n)
-    N = picture.shape_functions(kind, x, y)
+    x, y, triangles = shapes.subdivision(kind, n)
+    N = shapes.shape_functions(kind, x, y)
     np.testing.assert_allclose(N.sum(axis=1), 1, atol=1e-14)
-    corners = picture.CORNERS[kind]
+    corners = shapes.CORNERS[kind]
     assert len(triangles) == (n * n if corners == 3 else 2 * n * n)
     area = lambda t: np.linalg.det(np.stack([[x[j] - x[t[0]], y[j] - y[t[0]]] for j in t[1:]])) / 2
     assert sum(area(t) for t in triangles) == pytest.approx(0.5 if corners == 3 else 4)
@@ -271,7 +278,7 @@ def test_both_sides_are_found_whatever_their_names(mortise, tmp_path):
     """contact.csv has an apostrophe before a name that a spreadsheet would take for a formula."""
     launch.solve(write_odd(tmp_path, {"foot": "=a", "track": "12"}), {}, tmp_path / "out")
     table = launch.columns(tmp_path / "out/contact.csv")
-    first, other = picture.sides_of(table, 0)
+    first, other = result_tables.sides_of(table, 0)
     assert set(table["curve"]) == {"=a", "12"} and first.sum() > 1 and other.sum() > 1
     assert not (first & other).any() and (first | other).all()
 
@@ -280,26 +287,26 @@ def test_a_rigid_curve_s_forces_are_in_balance():
     """Held along x, pushed along y and turned: its own force and moment, and the reaction about the same point."""
     rigid = {"x": 0, "force": [0, -3], "moment": 0.5, "about": [2, 1], "displacement": [0, -1], "turned": 0.1}
     support = {"rigid": rigid, "reaction": [4, 0], "moment": -4.0, "curves": [{"reaction": [4, 0], "centre": [2, 0]}]}
-    load, reaction = picture.acting_forces({"loads": [], "supports": [support]})
-    assert load[0] == picture.LOAD and list(load[1]) == [0, -3] and list(load[2]) == [2, 1] and load[3] == 0.5
-    assert reaction[0] == picture.REACTION and list(reaction[1]) == [4, 0] and reaction[3] == 0  # 4 at an arm of 1 about 0
+    load, reaction = drawn_forces.acting_forces({"loads": [], "supports": [support]})
+    assert load[0] == drawn_forces.LOAD and list(load[1]) == [0, -3] and list(load[2]) == [2, 1] and load[3] == 0.5
+    assert reaction[0] == drawn_forces.REACTION and list(reaction[1]) == [4, 0] and reaction[3] == 0  # 4 at an arm of 1 about 0
 
 
 def test_reactions_that_are_round_off_are_not_drawn():
-    drawing, axes = picture.figure.panels(1, 1, (4, 3))
+    drawing, axes = figure.panels(1, 1, (4, 3))
     model = {"loads": [], "supports": [{"curves": [{"reaction": [1e-11, 0], "centre": [0, 0]}]}]}
     points = np.array([[0.0, 0], [1, 1]])
-    picture.draw_arrows(axes, points, model, at_work=1.0)
+    drawn_forces.draw_arrows(axes, points, model, at_work=1.0)
     assert not axes.texts
-    picture.draw_arrows(axes, points, model, at_work=0.0)
+    drawn_forces.draw_arrows(axes, points, model, at_work=0.0)
     assert axes.texts
 
 
 def test_users_texts_are_drawn_as_they_are_written():
-    assert picture.figure.plain("5 $ or $x$") == "5 \\$ or \\$x\\$"
-    assert picture.figure.plain("a\x07b\u202e") == "a?b?"
-    assert len(picture.figure.short("long" * 40)) <= picture.figure.LONGEST
-    assert picture.figure.wrapped("word " * 200).count("\n") == 2
+    assert figure.plain("5 $ or $x$") == "5 \\$ or \\$x\\$"
+    assert figure.plain("a\x07b\u202e") == "a?b?"
+    assert len(figure.short("long" * 40)) <= figure.LONGEST
+    assert figure.wrapped("word " * 200).count("\n") == 2
 
 
 def test_meshio_finds_the_arrays_of_the_smallest_meshes(mortise, tmp_path):

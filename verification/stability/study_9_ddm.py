@@ -17,15 +17,10 @@ has shown its asymptote (not larger by that, where the prediction is a bound); a
 (method.solver = "ddm" and nothing else) must need at most 14 steps everywhere.
 """
 
-import sys
-from pathlib import Path
-
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.patches import Rectangle
-
-sys.path.append(str(Path(__file__).resolve().parents[1] / "picture"))
 
 import figure
 import history

@@ -5,15 +5,13 @@ import sys
 
 import pytest
 
+import launch  # makes src/python/pictures known
+import history
 import iterates
-import launch
 import stability
 import study_9_ddm as ddm
 import study_10_mssor as mssor
 from failures import select
-
-sys.path.append(str(launch.ROOT / "verification/picture"))
-import history  # noqa: E402
 
 
 @pytest.fixture(scope="module")

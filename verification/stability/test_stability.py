@@ -46,7 +46,7 @@ def test_every_study_has_what_the_driver_asks_for(name):
     study = stability.importlib.import_module(stability.STUDIES[name])
     assert hasattr(study, "draw") and hasattr(study, "failures") and hasattr(study, "runs") != hasattr(study, "measure")
     head, *texts = template.texts(stability.HERE / f"{stability.STUDIES[name]}.md").values()
-    assert head.startswith("# ") and f"(stability/{name}.png)" in head
+    assert head.startswith("# ") and f"({name}.png)" in head
     assert texts and all(len(stability.paragraphs(text)) == 3 for text in texts)
     if hasattr(study, "runs"):
         full, quick = ([json.dumps(run, sort_keys=True) for run in study.runs(quick)] for quick in (False, True))
@@ -69,8 +69,9 @@ def test_a_study_is_written_whole_and_is_not_repeated(tmp_path):
     with pytest.raises(SystemExit) as done:
         stability.main(["--quick", "--only", "numbers", "-o", str(tmp_path)])
     assert done.value.code == 0 and times == {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").iterdir()}
-    text = (tmp_path / "stability.md").read_text()
-    assert '](numbers.png)' in text and "Quick: a subset" in text and "8. Units" in text
+    text, study = ((tmp_path / f"{name}.md").read_text() for name in ("stability", "numbers"))
+    assert "](numbers.png)" in study and study.startswith("# 8. Units")
+    assert "Quick: a subset" in text and "| [8. Units" in text and "](numbers.md) | Units |" in text
 
 
 def test_crashes_hangs_and_internal_errors_are_reported(tmp_path, monkeypatch):

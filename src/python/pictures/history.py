@@ -9,20 +9,17 @@ PICTURE is a .png, .pdf or .svg.
 
 import argparse
 import json
-import sys
 from pathlib import Path
 
 from matplotlib.ticker import MaxNLocator
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
-
 import figure
-import launch
+import result_tables
 
 
 def read(folder):
     """Columns of iteration.csv."""
-    return launch.columns(folder / "iteration.csv")
+    return result_tables.columns(folder / "iteration.csv")
 
 
 def describe(folder):

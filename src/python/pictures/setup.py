@@ -9,7 +9,6 @@ SETUP.json is what mortise writes for it (src/results/setup_json.hpp).
 
 import argparse
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -17,10 +16,10 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
-
 import figure
-from picture import LOAD, MANY_PAIRS, PAIR_COLOURS, REACTION, polylines, size_of
+from drawn_bodies import MANY_PAIRS, PAIR_COLOURS
+from drawn_cells import polylines, size_of
+from drawn_forces import LOAD, REACTION
 
 FILLS = ["#dbe7f3", "#f4e6d4", "#dff0dc", "#eee0f0", "#f3f0cf", "#e4e4e4"]  # a material each
 MANY_NAMES = 24  # more are not written on the picture

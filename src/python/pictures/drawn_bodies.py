@@ -1,0 +1,153 @@
+"""The deformed bodies, coloured by a field, with their contact lines."""
+
+import math
+
+import figure
+import meshio
+import numpy as np
+from drawn_cells import areas_at_nodes, at_points, inside, nearest, outlines, percentiles, polylines, shaded_triangles, size_of
+from drawn_forces import draw_arrows, forces_at_work
+from matplotlib.collections import LineCollection
+from result_tables import arc_length_on, sides_of
+from shapes import CORNERS
+
+FIELDS = {
+    "von_mises": "von Mises stress (scene's units)",
+    "sigma_n": "stress across the contact line",
+    "error": "energy of the estimated error by area, $\\log_{10}$",
+}
+CONTACT = "contact"  # --zoom without a box
+OVERLAP = 0.002  # of the diagonal of what is shown: as wide as a line
+MANY_PAIRS = 6  # more are not drawn one by one
+PAIR_COLOURS = ["#111111", "#c2188b", "#1a7f37", "#7a4fd0", "#a65d00", "#00798c"]
+
+
+def round_scale(value):
+    """The nearest of ..., 1, 2, 5, 10, 20, ... below."""
+    power = 10 ** math.floor(math.log10(value))
+    return max(step for step in (1, 2, 5) if step * power <= value * (1 + 1e-9)) * power
+
+
+def choose_scale(points, displacements):
+    largest = float(np.linalg.norm(displacements, axis=1).max())
+    return round_scale(0.04 * size_of(points) / largest) if largest > 0 else 1.0
+
+
+def scale_without_overlap(table, size):
+    """The largest magnification at which no gap is drawn as an overlap of more than OVERLAP of the size: a gap is the
+    undeformed one and, so many times, what the displacements add to it."""
+    largest = math.inf
+    for k in np.unique(table["pair"]):
+        first, other = sides_of(table, k)
+        known = first & np.isfinite(table["gap"])
+        if known.sum() < 2 or other.sum() < 2:
+            continue
+        along, across = (np.stack([table["x"][rows], table["y"][rows]], axis=1) for rows in (other, known))
+        s = np.arange(other.sum(), dtype=float)
+        added = np.interp(arc_length_on(along, s, across), s, table["u_n"][other]) - table["u_n"][known]
+        undeformed, closing = np.maximum(table["gap"][known] - added, 0), added < 0
+        if closing.any():
+            largest = min(largest, ((undeformed + OVERLAP * size)[closing] / -added[closing]).min())
+    return max(largest, 1.0)
+
+
+def loaded_box(mesh, table):
+    """Lower and upper corner of a box round where contact carries pressure, with half as much again."""
+    on = table["p"] > 1e-6 * np.nanmax(np.abs(table["p"]))
+    if not on.any():
+        raise SystemExit("picture.py: --zoom: no contact carries pressure")
+    at = np.stack([table["x"], table["y"]], axis=1)[on]
+    half = max(0.75 * np.ptp(at, axis=0).max(), 1e-3 * size_of(mesh.points[:, :2]))
+    middle = (at.min(axis=0) + at.max(axis=0)) / 2
+    return np.array([middle - half, middle + half])
+
+
+def shown_box(mesh, table, zoom):
+    """Lower and upper corner of what is shown: of all bodies, of the loaded contact or as told."""
+    points = mesh.points[:, :2]
+    if not zoom:
+        return np.array([points.min(axis=0), points.max(axis=0)])
+    return loaded_box(mesh, table) if zoom == CONTACT else np.array(zoom).reshape(2, 2).T
+
+
+def field_of(mesh, curve, field):
+    """The values of a field of FIELDS at the points of the mesh; `curve` is contact.vtu."""
+    if field == "von_mises":
+        return mesh.point_data["von_mises"].ravel()
+    if field == "error":
+        if "error_density" not in mesh.cell_data:
+            raise SystemExit("picture.py: --field error: the run estimated none; solve without --no-estimate")
+        blocks = [value for block, value in zip(mesh.cells, mesh.cell_data["error_density"]) if block.type in CORNERS]
+        density = at_points(mesh, blocks)
+        if not (density > 0).any():
+            raise SystemExit("picture.py: --field error: the estimated error is nought")
+        return np.log10(np.maximum(density, 1e-6 * density.max()))
+    if curve is None:
+        raise SystemExit("picture.py: --field sigma_n: the scene has no contact pair")
+    known = np.isfinite(curve.point_data["normal"][:, :2]).all(axis=1)
+    normal = curve.point_data["normal"][known][nearest(mesh.points[:, :2], curve.points[known, :2]), :2]
+    s = mesh.point_data["stress"]
+    return normal[:, 0] ** 2 * s[:, 0] + normal[:, 1] ** 2 * s[:, 1] + 2 * normal[:, 0] * normal[:, 1] * s[:, 3]
+
+
+def stress_range(stress, areas):
+    """Without the singular corners. A uniform stress gets a range around it."""
+    low, high = percentiles(stress, areas, [0.5, 99.5])
+    if high - low < 1e-3 * abs(high):
+        return 0.0, 1.25 * high or 1.0
+    return low, high
+
+
+def draw_contact_lines(axes, curve, table, scale, pairs):
+    """Both curves of each pair, in its colour."""
+    at = curve.points[:, :2] + scale * curve.point_data["displacement"][:, :2]
+    lines = [(*row[:2], row[2] if len(row) > 2 else -1) for block in curve.cells for row in block.data]
+    colours = ["black"] * len(lines)
+    if 1 < pairs <= MANY_PAIRS:  # points stand in the order of contact.csv
+        colours = [PAIR_COLOURS[int(table["pair"][line[0]])] for line in lines]
+    axes.add_collection(LineCollection(polylines(at, lines), colors="white", linewidths=2.6))
+    axes.add_collection(LineCollection(polylines(at, lines), colors=colours, linewidths=1.3))
+
+
+def draw_bodies(axes, results, summary, table, options):
+    """The deformed bodies; returns the magnification and, in words, why it is no larger."""
+    mesh = meshio.read(results / "result.vtu")
+    curve = meshio.read(results / "contact.vtu") if summary["contact"] else None
+    points, u = mesh.points[:, :2], mesh.point_data["displacement"][:, :2]
+    if not np.isfinite(u).all():
+        raise SystemExit("picture.py: the displacements are not finite (see the summary's warnings): nothing to draw")
+    box = shown_box(mesh, table, options.zoom)
+    seen = inside(points, box)
+    seen = seen if seen.any() else np.full(len(points), True)
+    scale, why = options.scale, ""
+    if scale is None:
+        wanted = scale = choose_scale(box, u[seen])
+        if summary["contact"] and scale_without_overlap(table, size_of(box)) < scale:
+            scale = round_scale(scale_without_overlap(table, size_of(box)))
+        why = " (more would draw bodies over each other)" if scale < wanted else ""
+    moved, values = points + scale * u, field_of(mesh, curve, options.field)
+    low, high = stress_range(values[seen], areas_at_nodes(mesh)[seen])
+    xy, colours, triangles = shaded_triangles(mesh, moved, values)
+    shading = axes.tripcolor(*xy.T, triangles, colours, shading="gouraud", cmap="viridis", vmin=low, vmax=high)
+    edges = outlines(mesh)
+    axes.add_collection(LineCollection(polylines(points, edges), colors="0.6", linewidths=0.6, linestyles=(0, (5, 4))))
+    axes.add_collection(LineCollection(polylines(moved, edges), colors="black", linewidths=0.8))
+    if summary["contact"]:
+        draw_contact_lines(axes, curve, table, scale, len(summary["contact"]))
+    if options.zoom:
+        shift = scale * u[seen].mean(axis=0) if options.zoom == CONTACT else np.zeros(2)
+        axes.set_xlim(*(box[:, 0] + shift[0]))
+        axes.set_ylim(*(box[:, 1] + shift[1]))
+    else:
+        draw_arrows(axes, points, summary["model"], forces_at_work(summary["contact"]))
+        axes.autoscale_view()
+        axes.margins(0.03)
+    axes.set_aspect("equal")
+    extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}
+    far = 1e-9 * max(abs(low), abs(high))
+    clipped = (int(values[seen].min() < low - far), int(values[seen].max() > high + far))
+    bar = axes.figure.colorbar(shading, ax=axes, extend=extend[clipped], pad=0.02, aspect=25)
+    bar.set_label(FIELDS[options.field])
+    figure.scientific(bar.ax.yaxis)
+    axes.set(xlabel="$x_1$", ylabel="$x_2$")
+    return scale, why

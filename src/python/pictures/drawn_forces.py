@@ -1,0 +1,110 @@
+"""Forces as arrows: loads and reactions at their places, and of many contact pairs a stroke each."""
+
+import math
+
+import figure
+import numpy as np
+from drawn_cells import body_areas, outlines, polylines, size_of
+from matplotlib.collections import LineCollection
+from matplotlib.patheffects import withStroke
+from result_tables import sides_of
+
+ROUND_OFF = 1e-9  # of a force: the program's checks of balance have 1e-10
+LOAD, REACTION = "#b00020", "#0b4f9c"
+
+
+def is_clamp(support):
+    """Whether both displacements are prescribed along the whole curve: it bears a moment."""
+    return {"x", "y"} <= support.get("displacement", {}).keys()
+
+
+def rigid_forces(support):
+    """As acting_forces, of rigid curves: one body, whose forces and moments are about one point."""
+    rigid, reaction = support["rigid"], np.array(support["reaction"])
+    about = np.array(rigid["about"])
+    yield LOAD, np.array(rigid["force"]), about, rigid["moment"]
+    yield REACTION, reaction, about, support["moment"] - (about[0] * reaction[1] - about[1] * reaction[0])
+
+
+def acting_forces(model):
+    """(colour, force, place, moment about it) of every load and of every curve of every support; moments of clamps and
+    rigid curves only, 0 of others."""
+    for load in model["loads"]:
+        if "sum" in load:
+            yield LOAD, np.array(load["sum"]), np.array(load["centre"]), 0
+    for support in model["supports"]:
+        if "rigid" in support:
+            yield from rigid_forces(support)
+            continue
+        for curve in support["curves"]:
+            moment = curve["moment_about_centre"] if is_clamp(support) else 0
+            yield REACTION, np.array(curve["reaction"]), np.array(curve["centre"]), moment
+
+
+def forces_at_work(pairs):
+    """The size of what contact carries, also where its sum vanishes, as round a shaft."""
+    return max((pair["pressure"]["max"] * pair["length_in_contact"] for pair in pairs), default=0)
+
+
+def draw_arrows(axes, points, model, at_work):
+    """Forces as arrows whose length goes with them, the shortest still to be seen: onto what they push, away from what
+    they pull. None where all are round-off of the forces `at_work` in contact."""
+    forces = list(acting_forces(model))
+    largest = max((np.linalg.norm(force) for _, force, _, _ in forces), default=0)
+    if largest <= ROUND_OFF * at_work:
+        return
+    shown = [f for f in forces if np.linalg.norm(f[1]) > 1e-6 * largest > 0]
+    size, middle = size_of(points), (points.min(axis=0) + points.max(axis=0)) / 2
+    for colour, force, place, moment in shown:
+        norm = np.linalg.norm(force)
+        step = size * (0.05 + 0.09 * norm / largest) * force / norm
+        pushes = np.dot(middle - place, force) > 1e-3 * size * norm
+        start, end = (place - step, place) if pushes else (place, place + step)
+        style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.8, "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", xy=end, xytext=start, arrowprops=style, zorder=6)
+        axes.update_datalim([start, end])
+        if len(shown) <= 12:
+            label = f"{norm:.3g}" + (f"\nmoment {moment:.3g}" if abs(moment) > 1e-3 * largest * size else "")
+            free = start if pushes else end
+            left = (free - place)[0] < -0.3 * np.linalg.norm(free - place)
+            options = {"textcoords": "offset points", "ha": "right" if left else "left", "va": "bottom", "fontsize": 7}
+            text = axes.annotate(label, free, (0 if left else 3, 2), color=colour, zorder=7, **options)
+            text.set_path_effects([withStroke(linewidth=2, foreground="white")])
+
+
+def place_of_force(table, rows):
+    """Where a pair's pressure acts on the whole: rows of one side, in the order of their arc length."""
+    s, p = table["s"][rows], table["p"][rows]
+    weights = np.maximum(p, 0) * np.abs(np.gradient(s)) if len(s) > 1 else np.ones(1)
+    weights = weights if weights.sum() > 0 else np.ones(len(s))
+    return np.average(np.stack([table["x"][rows], table["y"][rows]], axis=1), axis=0, weights=weights)
+
+
+def draw_forces(axes, mesh, table, pairs):
+    """A stroke a contact pair, where its force acts and along it, as wide and dark as it is large."""
+    axes.add_collection(LineCollection(polylines(mesh.points[:, :2], outlines(mesh)), colors="0.75", linewidths=0.6))
+    forces = np.array([pair["force"] for pair in pairs])
+    sizes = np.linalg.norm(forces, axis=1)
+    largest = sizes.max()
+    acting = np.flatnonzero(sizes > 1e-3 * largest) if largest > 0 else []
+    rows = {k: sides_of(table, k)[0] for k in acting}
+    places = np.array([place_of_force(table, rows[k]) for k in acting]).reshape(-1, 2)
+    reach = 0.35 * math.sqrt(np.median(body_areas(mesh)))
+    along = reach * forces[acting] / sizes[acting, None] if len(acting) else places
+    part = sizes[acting] / largest if len(acting) else sizes
+    strokes = LineCollection(
+        np.stack([places - along, places + along], axis=1),
+        linewidths=0.5 + 4.5 * part,
+        array=sizes[acting],
+        cmap="magma_r",
+        clim=(0, largest),
+        capstyle="round",
+    )
+    axes.add_collection(strokes)
+    axes.set(aspect="equal", xlabel="$x_1$", ylabel="$x_2$")
+    axes.autoscale_view()
+    axes.margins(0.03)
+    bar = axes.figure.colorbar(strokes, ax=axes, pad=0.02, aspect=25)
+    bar.set_label("contact force of a pair (scene's units)")
+    figure.scientific(bar.ax.yaxis)
+    axes.set_title(f"forces between bodies:\n{len(acting)} of {len(pairs)} pairs carry some", fontsize=9)
