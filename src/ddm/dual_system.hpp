@@ -12,7 +12,7 @@ namespace mortise {
 
 /// Each substructure factorised once, on its own, or once for all that are alike. Where contact closes all rows,
 ///
-///   [C  H; H^T  0] (lambda, mu) = (r, h),   C = sum of the parts' B K^-1 B^T,   H = B R   (docs/theory.md eq. 51)
+///   [C  H; H^T  0] (lambda, mu) = (r, h),   C = sum of the parts' B K^-1 B^T,   H = B R   (docs/theory.md eq. 51a)
 ///
 /// with s rigid motions R that only contact holds, as in BodyGroup; dimensionless, as the bordered system. Each rank
 /// has the parts of its block; what has m or s entries is on all of them, unless it says "own" (DealtRows).

@@ -11,7 +11,7 @@ namespace mortise {
 /// Kucera 2006: prescribed displacements are eliminated, and springs hold what is left). Preconditioned by the
 /// stiffness of the parts' contact nodes, jumps shared by stiffness (Farhat, Mandel & Roux 1994; Rixen & Farhat 1999;
 /// for mortar rows Stefanica 2001). Unilateral rows by the primal-dual active set method around it (as
-/// solve/active_set.hpp; Avery & Farhat 2009), each started from the one before. docs/theory.md eq. 51 to 54.
+/// solve/active_set.hpp; Avery & Farhat 2009), each started from the one before. docs/theory.md eq. 51a to 54.
 ///
 /// `system`: as for solve_directly; no dense matrix is larger than the rows of one part. Status as solve_directly's.
 Solution solve_by_feti(const SaddlePointSystem& system, const FetiOptions& options);

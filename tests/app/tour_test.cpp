@@ -3,11 +3,11 @@
 
 #include <fstream>
 #include <iomanip>
-#include <regex>
 #include <sstream>
 
 #include "app/solve_scene.hpp"
 #include "app/solve_system.hpp"
+#include "base/dense.hpp"
 #include "contact/segments.hpp"
 #include "mortise/scene.hpp"
 
@@ -22,13 +22,21 @@ std::string text_of(const std::string& path) {
 // The fences of a language, one after another.
 std::vector<std::string> fences(const std::string& page, const std::string& language) {
   std::vector<std::string> found;
-  const std::regex fence("```" + language + "\n([^`]*)```");
-  for (std::sregex_iterator at(page.begin(), page.end(), fence), end; at != end; ++at) found.push_back((*at)[1]);
+  const std::string begin = "```" + language + "\n", end = "```";
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+    at += begin.size();
+    found.push_back(page.substr(at, page.find(end, at) - at));
+  }
   return found;
 }
 
 // Whatever its layout.
-std::string in_one_line(const std::string& text) { return std::regex_replace(text, std::regex("\\s+"), " "); }
+std::string in_one_line(const std::string& text) {
+  std::istringstream words(text);
+  std::string line, word;
+  while (words >> word) line += word + " ";
+  return line;
+}
 
 // What the walk prints.
 std::string walk() {
@@ -88,7 +96,7 @@ std::string walk() {
   bordered(m, m) = S.dot(free) - 1;
   VecX right(m + 1);
   right << B * factor.solve(f) - system.g.cwiseQuotient(system.row_scale), S.dot(factor.solve(f));
-  const VecX lambda = E * bordered.partialPivLu().solve(right).head(m).cwiseQuotient(system.row_scale);
+  const VecX lambda = E * solve_square(bordered, right).head(m).cwiseQuotient(system.row_scale);
 
   const Solution solution = solve_system(problem.method, system, problem.dirichlet);
   const bool same = (lambda - solution.lambda).norm() < 1e-9 * lambda.norm();
