@@ -211,7 +211,7 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
                     "refuse a .geo that runs programs or writes files: it is a program itself");
   command->add_flag("--no-cache", options.no_cache, "mesh a .geo anew, and do not keep its mesh for later runs");
   command->add_option("--threads", options.threads, "threads, for bodies beside each other (default: all cores)")
-      ->check(CLI::Range(1, 1024));
+      ->check(CLI::Range(1, most_threads));
   return command;
 }
 

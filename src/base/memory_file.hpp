@@ -14,6 +14,7 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   std::string path() const;
+  int descriptor() const { return descriptor_; }
   /// What it holds now.
   std::string text() const;
 

@@ -16,7 +16,7 @@ struct VtuGrid;
 struct GridModule {
   /// Points, plane cells (`body` 0; lines and points are left out) and the array of that name at the points of a .vtu.
   /// Throws InputError where it cannot be read or has no such array, leaves the plane z = 0 or has cells that Mesh does
-  /// not know. A LibraryGuard should be there.
+  /// not know. For a child process: VTK may crash on a damaged file.
   VtuGrid (*read)(const std::filesystem::path& path, const std::string& array);
   /// Delaunay's triangles of points that all differ; none of points on one line.
   std::vector<std::array<int, 3>> (*triangulate)(const Points& points);

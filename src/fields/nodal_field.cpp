@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <sstream>
 
+#include "base/child_process.hpp"
 #include "base/errors.hpp"
-#include "base/library_guard.hpp"
+#include "base/packed.hpp"
 #include "fem/locate.hpp"
 #include "fields/csv_points.hpp"
 #include "fields/grid_module.hpp"
@@ -58,10 +59,32 @@ class NodalField {
   CellFinder finder_;
 };
 
+/// The grid and its only field, read in a child process.
+VtuGrid read_vtu(const std::string& file, const std::string& name) {
+  const GridModule& vtk = grid_module();
+  const std::string bytes = run_in_child({.file = file, .library = "VTK", .seconds = longest_read, .limit = ""}, [&] {
+    const VtuGrid grid = vtk.read(file, name);
+    const MatX& values = grid.point_fields.front().values;
+    Packed to;
+    to.put(grid.points.data(), std::size_t(grid.points.size()));
+    to.put(grid.cells.data(), grid.cells.size());
+    to.put(values.data(), std::size_t(values.size()));
+    return std::move(to.bytes);
+  });
+  Unpacked from(bytes);
+  const auto points = from.list<double>();
+  VtuGrid grid;
+  grid.points = Eigen::Map<const Points>(points.data(), std::ssize(points) / 2, 2);
+  grid.cells = from.list<Cell>();
+  const auto values = from.list<double>();
+  const Eigen::Index rows = grid.points.rows(), columns = rows == 0 ? 1 : std::ssize(values) / rows;
+  grid.point_fields = {{name, Eigen::Map<const MatX>(values.data(), rows, columns), {}}};
+  return grid;
+}
+
 std::shared_ptr<NodalField> field_of_vtu(const std::string& file, const std::string& name,
                                          std::optional<int> component) {
-  const LibraryGuard guard(file, longest_read, "VTK", "");
-  VtuGrid grid = grid_module().read(file, name);
+  VtuGrid grid = read_vtu(file, name);
   const MatX& values = grid.point_fields.front().values;
   const Eigen::Index components = values.cols();
   if (component ? *component >= components : components != 1)

@@ -9,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "base/memory_file.hpp"
+#include "gmsh/sandbox.hpp"
 #include "mesh/box_index.hpp"
 
 namespace mortise {
@@ -37,6 +38,7 @@ std::string unrolled(GmshSession& session, const std::string& file) {
   gmsh::option::setNumber("Mesh.Format", as_geo);
   gmsh::option::setNumber("Print.GeoLabels", 0);  // with names instead of tags the groups would be numbered anew
   gmsh::option::setNumber("Print.GeoOnlyPhysicals", 0);
+  const WritingInto memory(output.descriptor());
   session.run(file, "writing its geometry", [&] { gmsh::merge(script.path()); });
   return output.text();
 }

@@ -82,8 +82,8 @@ void generate(GmshSession& session, const std::string& file, const SizeAt& size)
 
 }  // namespace
 
-MeshData mesh_freely(const FreeGeometry& geometry, const SizeAt& size, bool recombine) {
-  GmshSession session;
+MeshData mesh_freely(const FreeGeometry& geometry, const SizeAt& size, bool recombine, ForbiddenBy forbidden) {
+  GmshSession session(forbidden);
   open_free_geometry(session, geometry);
   set_mesh_options(recombine);
   generate(session, geometry.file, [&](const Vec2& x) { return size(x - geometry.shift); });

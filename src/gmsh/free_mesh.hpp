@@ -6,6 +6,6 @@
 namespace mortise {
 
 /// GmshModule's.
-MeshData mesh_freely(const FreeGeometry& geometry, const SizeAt& size, bool recombine);
+MeshData mesh_freely(const FreeGeometry& geometry, const SizeAt& size, bool recombine, ForbiddenBy forbidden);
 
 }  // namespace mortise

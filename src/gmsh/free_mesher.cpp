@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "base/errors.hpp"
-#include "base/library_guard.hpp"
 #include "fem/elements.hpp"
 #include "gmsh/load_mesh.hpp"
 #include "mesh_files/assemble_mesh.hpp"
@@ -12,25 +11,22 @@ namespace mortise {
 
 FreeMesher::FreeMesher(const std::string& file, const std::map<std::string, double>& parameters,
                        const GeoLimits& limits)
-    : limits_(limits) {
-  check_mesh_file(file, parameters, limits);
+    : gmsh_(file, limits) {
+  check_mesh_file(file, parameters);
   if (std::filesystem::path(file).extension() != ".geo")
     throw InputError(file + ": a mesh has no geometry to refine; expected a .geo");
-  const GmshModule& gmsh = gmsh_module();
-  const LibraryGuard guard(file, limits.seconds);
-  drawing_ = gmsh.read_drawing(file, parameters);
+  drawing_ = gmsh_.read_drawing(parameters);
 }
 
-Mesh FreeMesher::mesh_once(const SizeAt& size, bool recombine) const {
-  const LibraryGuard guard(drawing_.geometry.file, limits_.seconds);
-  Mesh mesh = assemble_mesh(gmsh_module().mesh_freely(drawing_.geometry, size, recombine));
+Mesh FreeMesher::mesh_once(const SizeAt& size, bool recombine) {
+  Mesh mesh = assemble_mesh(gmsh_.mesh_freely(drawing_.geometry, size, recombine));
   check_cells(mesh);
   return mesh;
 }
 
 // gmsh 4.8 leaves flat triangles at kinks and corners where edges are below about 1e-7 of the whole, and inverted ones
 // where a curve turns within an edge; other sizes a little smaller avoid them.
-Mesh FreeMesher::mesh(const SizeAt& size, bool recombine) const {
+Mesh FreeMesher::mesh(const SizeAt& size, bool recombine) {
   constexpr int attempts = 6;
   double part = 1;
   for (int attempt = 1;; ++attempt, part *= 0.9) {

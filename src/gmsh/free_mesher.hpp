@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "gmsh/gmsh_module.hpp"
+#include "gmsh/gmsh_process.hpp"
 #include "mesh/mesh.hpp"
 #include "model/geo_limits.hpp"
 
 namespace mortise {
 
 /// Meshes one .geo again and again: its geometry, its physical groups, its parameters, and nothing that it says of the
-/// mesh. gmsh runs in the constructor and in mesh() only.
+/// mesh. gmsh runs in the constructor and in mesh() only, in a child process each.
 class FreeMesher {
  public:
   /// Throws InputError where load_mesh would before it meshes, and where there is no geometry: a .msh, or what
@@ -23,14 +23,15 @@ class FreeMesher {
   const std::vector<DrawnCurve>& curves() const { return drawing_.curves; }
 
   /// 6-node triangles, or 8-node quadrilaterals with a few triangles between them. The same sizes give the same mesh.
-  /// Throws what `size` throws; std::domain_error where it is not > 0; InputError as load_mesh does, and where cells
-  /// stay flat or inverted at 0.6 of the sizes too.
-  Mesh mesh(const SizeAt& size, bool recombine = false) const;
+  /// `size` is called in the child: what it throws comes through as run_in_child
+  /// says, and what it writes to is not seen here. Throws std::domain_error where it is not > 0; InputError as
+  /// load_mesh does, and where cells stay flat or inverted at 0.6 of the sizes too.
+  Mesh mesh(const SizeAt& size, bool recombine = false);
 
  private:
-  Mesh mesh_once(const SizeAt& size, bool recombine) const;
+  Mesh mesh_once(const SizeAt& size, bool recombine);
 
-  GeoLimits limits_;
+  GmshProcess gmsh_;
   FreeDrawing drawing_;
 };
 

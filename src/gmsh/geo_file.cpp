@@ -8,7 +8,6 @@
 #include <set>
 
 #include "base/errors.hpp"
-#include "gmsh/geo_programs.hpp"
 #include "gmsh/geo_text.hpp"
 
 namespace mortise {
@@ -75,14 +74,6 @@ void add_constants(const std::string& code, std::size_t i, std::vector<GeoParame
   }
 }
 
-void check_no_exit(const GeoText& geo) {
-  for (const char* word : {"Exit", "Abort"}) {
-    for (const std::size_t end : ends_of_word(geo.code, word)) {
-      throw InputError(place_of(geo, end) + ": the command " + word + " would end the program; remove it");
-    }
-  }
-}
-
 bool is_text(const fs::path& file) {
   std::error_code ignored;
   return file.extension() != ".msh" && fs::is_regular_file(file, ignored);
@@ -123,7 +114,6 @@ std::vector<GeoParameter> geo_parameters(const fs::path& file) {
   std::set<fs::path> seen;
   std::vector<GeoParameter> parameters;
   for_each_text(file, seen, [&](const GeoText& geo) {
-    check_no_exit(geo);
     for (const std::size_t end : ends_of_word(geo.code, "DefineConstant")) add_constants(geo.code, end, parameters);
   });
   std::set<std::string> listed;
@@ -146,21 +136,21 @@ std::optional<std::vector<fs::path>> geo_sources(const fs::path& file) {
   constexpr std::array outward{
       "GetEnv",       "GetValue",   "GetStringValue", "GetNumber",       "GetString", "Today",      "Rand",
       "Cpu",          "Memory",     "TotalMemory",    "CurrentFileName", "DirName",   "CurrentDir", "CurrentDirectory",
-      "AbsolutePath", "FileExists", "FileName",       "ListFromFile"};
+      "AbsolutePath", "FileExists", "FileName",       "ListFromFile",    "Plugin"};
   bool closed = true;
   std::set<fs::path> seen;
   try {
     for_each_text(file, seen, [&](const GeoText& geo) {
-      check_no_programs(geo);
       for (const char* word : outward) closed = closed && ends_of_word(geo.code, word).empty();
+      for (const GeoInclude& include : includes_of(geo)) closed = closed && !include.file.empty();
     });
-  } catch (const InputError&) {
+  } catch (const InputError&) {  // a file that is not there
     return std::nullopt;
   }
   return closed ? std::optional(geo_inputs(file)) : std::nullopt;
 }
 
-void check_geo(const fs::path& file, const std::map<std::string, double>& values, bool programs) {
+void check_geo(const fs::path& file, const std::map<std::string, double>& values) {
   const std::vector<GeoParameter> known = geo_parameters(file);
   std::vector<std::string> names;
   for (const GeoParameter& parameter : known) names.push_back(parameter.name);
@@ -174,9 +164,6 @@ void check_geo(const fs::path& file, const std::map<std::string, double>& values
     }
     check_range(file, known[found - names.begin()], value);
   }
-  if (programs) return;
-  std::set<fs::path> seen;
-  for_each_text(file, seen, [](const GeoText& geo) { check_no_programs(geo); });
 }
 
 }  // namespace mortise

@@ -1,5 +1,4 @@
-// What a .geo says about itself before gmsh reads it: the parameters that can be set from outside, the files it reads,
-// and whether it runs programs.
+// What a .geo says about itself before gmsh reads it: the parameters that can be set from outside, the files it reads.
 #pragma once
 
 #include <filesystem>
@@ -19,19 +18,17 @@ struct GeoParameter {
 
 /// Parameters of `file` and the files it includes, in the order of the text, each once.
 /// An Include whose name is not a plain string is not followed.
-/// Throws InputError, with the line, at an Exit or Abort command, with which gmsh would end our process.
 std::vector<GeoParameter> geo_parameters(const std::filesystem::path& file);
 
 /// `file` and all files that it reads by Include or Merge with plain names, themselves or through one another.
 std::vector<std::filesystem::path> geo_inputs(const std::filesystem::path& file);
 
-/// geo_inputs, if the mesh of `file` depends on nothing but them: empty where it runs programs or writes files, reads
-/// files by names that are not plain or by other commands, or asks for the date, the environment or random numbers.
+/// geo_inputs, if by its text the mesh of `file` depends on nothing but them: empty where it reads files by names that
+/// are not plain or by other commands, or asks for the date, the environment or random numbers. Programs that it runs
+/// are found when it is meshed (gmsh_process.hpp).
 std::optional<std::vector<std::filesystem::path>> geo_sources(const std::filesystem::path& file);
 
 /// Throws InputError unless all `values` are finite, of parameters that the .geo has, and in the ranges it gives.
-/// Without `programs` also, with the line, at the first command that runs a program or writes a file
-/// (geo_programs.hpp).
-void check_geo(const std::filesystem::path& file, const std::map<std::string, double>& values, bool programs);
+void check_geo(const std::filesystem::path& file, const std::map<std::string, double>& values);
 
 }  // namespace mortise

@@ -10,14 +10,15 @@
 namespace mortise {
 namespace {
 
-MeshData mesh_geo(const std::string& file, const std::map<std::string, double>& parameters) {
-  GmshSession session;
+MeshData mesh_geo(const std::string& file, const std::map<std::string, double>& parameters, ForbiddenBy forbidden) {
+  GmshSession session(forbidden);
   session.open(file, parameters);
   return gmsh_data(file);
 }
 
-FreeDrawing read_drawing(const std::string& file, const std::map<std::string, double>& parameters) {
-  GmshSession session;
+FreeDrawing read_drawing(const std::string& file, const std::map<std::string, double>& parameters,
+                         ForbiddenBy forbidden) {
+  GmshSession session(forbidden);
   FreeDrawing drawing{read_free_geometry(session, file, parameters), {}};
   session.run(file, "sampling its curves", [&] { drawing.curves = drawn_curves(); });
   return drawing;

@@ -9,6 +9,7 @@
 
 #include "gmsh/free_geometry.hpp"
 #include "gmsh/gmsh_curves.hpp"
+#include "gmsh/sandbox.hpp"
 #include "mesh_files/mesh_data.hpp"
 
 namespace mortise {
@@ -22,15 +23,17 @@ struct FreeDrawing {
   std::vector<DrawnCurve> curves;
 };
 
-/// The module's functions. A LibraryGuard should be there while one of them runs. All throw InputError that names the
-/// file and gmsh's own message.
+/// The module's functions, for a child process (GmshProcess): gmsh changes the process that it runs in. All throw
+/// InputError that names the file and gmsh's own message. `forbidden`: null where a .geo may run programs and write
+/// files.
 struct GmshModule {
   /// Meshes a .geo with these values of its DefineConstant names.
-  MeshData (*mesh_geo)(const std::string& file, const std::map<std::string, double>& parameters);
+  MeshData (*mesh_geo)(const std::string& file, const std::map<std::string, double>& parameters, ForbiddenBy forbidden);
   /// read_free_geometry and drawn_curves.
-  FreeDrawing (*read_drawing)(const std::string& file, const std::map<std::string, double>& parameters);
+  FreeDrawing (*read_drawing)(const std::string& file, const std::map<std::string, double>& parameters,
+                              ForbiddenBy forbidden);
   /// Meshes the geometry with these sizes: see FreeMesher.
-  MeshData (*mesh_freely)(const FreeGeometry& geometry, const SizeAt& size, bool recombine);
+  MeshData (*mesh_freely)(const FreeGeometry& geometry, const SizeAt& size, bool recombine, ForbiddenBy forbidden);
   /// The files that the module and libgmsh were loaded from.
   std::vector<std::string> (*files)();
 };

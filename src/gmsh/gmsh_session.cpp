@@ -2,17 +2,16 @@
 
 #include <fcntl.h>
 #include <gmsh.h>
-#include <omp.h>
 #include <unistd.h>
 
 #include <array>
-#include <clocale>
 #include <cstdio>
 #include <filesystem>
 
 #include "base/errors.hpp"
 #include "base/memory_file.hpp"
 #include "base/printable.hpp"
+#include "gmsh/sandbox.hpp"
 
 namespace mortise {
 namespace {
@@ -22,7 +21,7 @@ namespace fs = std::filesystem;
 /// Also after a .geo has been read, which may set any option. AbortOnError stays off: with it on, gmsh 4.8 throws a
 /// string out of an OpenMP region, which ends the process. Errors are found in the log instead.
 void set_options() {
-  gmsh::option::setNumber("General.Terminal", 1);  // LibraryGuard keeps it from the terminal, and quotes the last line
+  gmsh::option::setNumber("General.Terminal", 1);  // run_in_child keeps it from the terminal, and quotes the last line
   gmsh::option::setNumber("General.Verbosity", 2);
   gmsh::option::setNumber("General.AbortOnError", 0);
   gmsh::option::setNumber("General.NumThreads", 1);
@@ -125,7 +124,7 @@ bool has_cells() {
 
 }  // namespace
 
-GmshSession::GmshSession() : omp_threads_(omp_get_max_threads()), locale_(std::setlocale(LC_ALL, nullptr)) {
+GmshSession::GmshSession(ForbiddenBy forbidden) {
   std::string name = "mortise";
   std::string option = "-v";
   std::string value = "0";
@@ -133,13 +132,7 @@ GmshSession::GmshSession() : omp_threads_(omp_get_max_threads()), locale_(std::s
   gmsh::initialize(static_cast<int>(arguments.size()), arguments.data(), false);
   set_options();
   gmsh::logger::start();
-}
-
-GmshSession::~GmshSession() {
-  gmsh::logger::stop();
-  gmsh::finalize();
-  omp_set_num_threads(omp_threads_);
-  std::setlocale(LC_ALL, locale_.c_str());
+  if (forbidden) forbid_acts(forbidden);
 }
 
 void GmshSession::run(const std::string& file, const std::string& what, const std::function<void()>& step) {

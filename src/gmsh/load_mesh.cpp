@@ -3,9 +3,8 @@
 #include <filesystem>
 
 #include "base/errors.hpp"
-#include "base/library_guard.hpp"
 #include "gmsh/geo_file.hpp"
-#include "gmsh/gmsh_module.hpp"
+#include "gmsh/gmsh_process.hpp"
 #include "gmsh/mesh_cache.hpp"
 #include "mesh_files/assemble_mesh.hpp"
 #include "mesh_files/bdf_file.hpp"
@@ -34,23 +33,16 @@ MeshData read_mesh_file(const std::string& file) {
   return data;
 }
 
-MeshData mesh_geo(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits) {
-  const GmshModule& gmsh = gmsh_module();
-  const LibraryGuard guard(file, limits.seconds);
-  return gmsh.mesh_geo(file, parameters);
-}
-
 }  // namespace
 
-void check_mesh_file(const std::string& file, const std::map<std::string, double>& parameters,
-                     const GeoLimits& limits) {
+void check_mesh_file(const std::string& file, const std::map<std::string, double>& parameters) {
   if (!is_mesh_ending(fs::path(file).extension().string())) {
     throw InputError(file + ": a mesh file ends in " + mesh_endings_in_words + mesh_ending_advice(file));
   }
   std::error_code error;
   if (!fs::is_regular_file(file, error)) throw InputError(file + ": no such file");
   if (is_geo(file)) {
-    check_geo(file, parameters, limits.programs);
+    check_geo(file, parameters);
   } else if (!parameters.empty()) {
     throw InputError(file + ": parameter '" + parameters.begin()->first +
                      "' given to a mesh; only a .geo has parameters");
@@ -59,13 +51,14 @@ void check_mesh_file(const std::string& file, const std::map<std::string, double
 
 Mesh load_mesh(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits,
                bool* cached) {
-  check_mesh_file(file, parameters, limits);
+  check_mesh_file(file, parameters);
   if (!is_geo(file)) return assemble_mesh(read_mesh_file(file));
   const auto key = [&] { return mesh_cache_on() ? mesh_key(file, parameters) : std::nullopt; };
   const std::optional<std::string> before = key();
   std::optional<MeshData> kept = before ? cached_mesh(*before) : std::nullopt;
-  MeshData data = kept ? *std::move(kept) : mesh_geo(file, parameters, limits);
-  if (before && !kept && key() == before) keep_mesh(*before, gmsh_module().files(), data);
+  GmshProcess gmsh(file, limits);
+  MeshData data = kept ? *std::move(kept) : gmsh.mesh_geo(parameters);
+  if (before && !kept && !gmsh.acts() && key() == before) keep_mesh(*before, gmsh_module().files(), data);
   data.file = file;
   if (cached) *cached = kept.has_value();
   return assemble_mesh(std::move(data));

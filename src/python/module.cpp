@@ -60,9 +60,15 @@ py::dict body_fields(const Results& r) {
   return fields;
 }
 
+// Python's handlers of signals run between the stages: Ctrl-C ends a solve.
+void check_signals(const std::string& /*stage*/) {
+  const py::gil_scoped_acquire python;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
 Results solved(const Scene& scene, bool with_estimate) {
-  if (scene.accuracy) return *solve_to_accuracy(scene);
-  Results results = solve_scene(scene);
+  if (scene.accuracy) return *solve_to_accuracy(scene, check_signals);
+  Results results = solve_scene(scene, check_signals);
   if (with_estimate) estimate(results);
   return results;
 }

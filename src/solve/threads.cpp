@@ -39,7 +39,10 @@ void reserve_blas_buffers() {
 
 void set_solver_threads(int threads) { requested = threads; }
 
-int solver_threads() { return requested > 0 ? requested : int(std::max(1u, std::thread::hardware_concurrency())); }
+int solver_threads() {
+  const int wanted = requested > 0 ? requested : int(std::thread::hardware_concurrency());
+  return std::clamp(wanted, 1, most_threads);
+}
 
 void apply_solver_threads() {
   static std::once_flag reserved;

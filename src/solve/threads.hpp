@@ -3,7 +3,10 @@
 
 namespace mortise {
 
-/// 0 (the default): as many as there are cores.
+/// Debian's OpenBLAS has tables for so many callers at a time, and crashes at more.
+constexpr int most_threads = 128;
+
+/// 0 (the default): as many as there are cores. At most most_threads in any case.
 void set_solver_threads(int threads);
 
 /// For bodies, parts of a system, estimates beside each other.

@@ -54,6 +54,7 @@ struct Foreign {
 const std::vector<Foreign> foreigners{
     {"Boost", R"(boost/.*)", {"mesh"}, true},
     {"gmsh", R"(gmsh\..*)", {"gmsh"}, true},
+    {"libseccomp", R"(seccomp\.h)", {"gmsh"}, true},
     {"VTK", R"(vtk\w+\.h)", {"output", "fields"}, true},
     {"CHOLMOD", R"((.*/)?cholmod.*)", {"solve"}, true},
     {"AMD", R"((.*/)?amd\.h)", {"solve"}, true},
@@ -67,11 +68,24 @@ const std::vector<Foreign> foreigners{
     {"METIS", R"((.*/)?metis\.h)", {"solve"}, true},
 };
 
-const Names top_level{
-    "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "CHANGELOG.md", "CITATION.cff", "dev", "src", "geo",
-    "freefem",        "verification",      "tests",     "docs",    "build",        "out"};  // the last two are made by
-                                                                                            // the presets and by runs;
-                                                                                            // git ignores them
+const Names top_level{"CMakeLists.txt",
+                      "CMakePresets.json",
+                      "README.md",
+                      "LICENSE",
+                      "CHANGELOG.md",
+                      "CITATION.cff",
+                      "SECURITY.md",
+                      "dev",
+                      "src",
+                      "geo",
+                      "freefem",
+                      "verification",
+                      "tests",
+                      "docs",
+                      "build",
+                      "out"};  // the last two are made by
+                               // the presets and by runs;
+                               // git ignores them
 
 // What is wrong with one include of `file` (a path below src/); empty if nothing.
 std::string trouble(const fs::path& file, const std::string& header, bool quoted) {

@@ -78,12 +78,12 @@ TEST(GeoParameters, OutsideTheirRangeAreRefused) {
   const TemporaryFolder folder;
   const std::string file = folder.write("a.geo", "DefineConstant[ n = {7, Min 1, Max 9}, kind = {0, Choices{0, 1}} ];");
   const auto message = [&](const std::string& name, double value) {
-    return message_of([&] { check_geo(file, {{name, value}}, true); });
+    return message_of([&] { check_geo(file, {{name, value}}); });
   };
   EXPECT_EQ(message("n", -3), file + ": parameter 'n' = -3: expected at least 1, as its DefineConstant says");
   test::expect_contains(message("n", 10), "expected at most 9");
   test::expect_contains(message("kind", 2), "expected 0 or 1");
-  for (const double good : {1.0, 9.0}) EXPECT_NO_THROW(check_geo(file, {{"n", good}}, true));
+  for (const double good : {1.0, 9.0}) EXPECT_NO_THROW(check_geo(file, {{"n", good}}));
 }
 
 TEST(GeoParameters, EveryGeoOfOursRefusesANumberOfElementsThatCannotBe) {
@@ -107,13 +107,6 @@ TEST(GeoInputs, AreAllFilesThatItReads) {
   const std::string file = folder.write("a.geo", "Include 'part/b.geo';\nMerge StrCat(\"x\", \"y\");");
   EXPECT_EQ(geo_inputs(file),
             (std::vector<std::filesystem::path>{file, folder.path("part/b.geo"), folder.path("part/c.msh")}));
-}
-
-TEST(GeoParameters, RefuseTheExitCommand) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("a.geo", "// Exit;\nx = \"Exit\";\nExit;\n");
-  const std::string message = test::message_of<InputError>([&] { geo_parameters(file); });
-  EXPECT_EQ(message, file + ", line 3: the command Exit would end the program; remove it");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "gmsh/mesh_cache.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -137,12 +138,38 @@ TEST_F(MeshCache, WithoutAFolderThereIsNone) {
 }
 
 TEST_F(MeshCache, AGeometryThatLooksOutsideIsNotKept) {
-  for (const std::string line : {"x = Rand(1);", "Printf(Today);", "x = GetEnv(\"HOME\");", "SystemCall \"true\";",
+  for (const std::string line : {"x = Rand(1);", "Printf(Today);", "x = GetEnv(\"HOME\");",
                                  "name = \"size.geo\"; Include Str(name);", "x() = ListFromFile(\"size.geo\");"}) {
     folder_.write("disc.geo", disc_geo + line + "\n");
     EXPECT_FALSE(mesh_key(folder_.path("disc.geo"), {})) << line;
   }
   EXPECT_FALSE(mesh_key(folder_.path("none.geo"), {}));
+}
+
+TEST_F(MeshCache, AGeometryThatRunsAProgramIsNotKept) {
+  for (const std::string line : {"SystemCall \"true\";", "If (0)\n x = Str(\" EndIf System 'true'; //\");\nEndIf"}) {
+    folder_.write("disc.geo", disc_geo + line + "\n");
+    EXPECT_FALSE(kept()) << line;
+    EXPECT_FALSE(kept()) << line;
+    EXPECT_TRUE(entries().empty()) << line;
+  }
+}
+
+TEST_F(MeshCache, AnEntryThatIsNoFileOfOnesOwnIsNotRead) {
+  EXPECT_FALSE(kept());
+  const fs::path entry = entries().at(0), moved = folder_.path("moved.mesh");
+  fs::rename(entry, moved);
+  fs::create_symlink(moved, entry);
+  EXPECT_FALSE(kept()) << "a link";
+  EXPECT_TRUE(kept()) << "which is replaced";
+  fs::remove(entry);
+  ASSERT_EQ(mkfifo(entry.c_str(), 0600), 0);
+  EXPECT_FALSE(kept()) << "a pipe would never end";
+  EXPECT_TRUE(kept());
+  fs::remove(entry);
+  fs::create_directory(entry);
+  EXPECT_FALSE(kept()) << "a folder";
+  EXPECT_EQ(entries().size(), 1U) << "nothing is left beside it";
 }
 
 TEST_F(MeshCache, TheOldestGoFirst) {

@@ -63,7 +63,7 @@ std::vector<BrokenMesh> broken_meshes() {
       {"unknown variable", "a.geo", "x = y + 1;\n", {}, {"a.geo', line 1", "Unknown variable 'y'"}},
       {"missing include", "a.geo", "Include \"none.geo\";\n", {}, {"none.geo"}},
       {"error command", "a.geo", "Error(\"no such plate\");\n", {}, {"no such plate"}},
-      {"exit", "a.geo", "Exit;\n", {}, {"a.geo, line 1", "Exit"}},
+      {"exit", "a.geo", "Exit;\n", {}, {"a.geo: gmsh ended the program", "Exit"}},
       {"curves that cross",
        "a.geo",
        "Point(1)={0,0,0,1}; Point(2)={1,0,0,1}; Point(3)={0,1,0,1}; Point(4)={1,1,0,1};\nLine(1)={1,2}; Line(2)={2,3}; "

@@ -1,9 +1,12 @@
 """Python's module: results that the program wrote are read back, scenes are solved without files."""
 
+import concurrent.futures
 import os
 import re
+import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -92,3 +95,41 @@ def test_the_page_draws_its_picture(tmp_path):
     environment = os.environ | {"PYTHONPATH": str(BUILT), "MPLBACKEND": "Agg"}
     subprocess.run([sys.executable, "-c", script], cwd=tmp_path, env=environment, check=True)
     assert (tmp_path / "punch.png").read_bytes().startswith(b"\x89PNG")
+
+
+@solves
+def test_threads_solve_geometries_beside_each_other():
+    """Each mesh is made in a process of its own; its size says whose it is."""
+    scene, sizes = launch.ROOT / "geo/patch_flat.toml", (3, 4, 5, 6)
+
+    def points(size):
+        return [len(mortise.solve(scene, {"mesh.parameters.n_upper": size}, estimate=False).x) for _ in range(5)]
+
+    alone = [points(size)[0] for size in sizes]
+    with concurrent.futures.ThreadPoolExecutor(len(sizes)) as pool:
+        assert list(pool.map(points, sizes)) == [[count] * 5 for count in alone]
+
+
+@solves
+def test_what_ends_gmsh_does_not_end_python(tmp_path):
+    scene = {"mesh": {"file": tmp_path / "a.geo"}, "materials": {"m": {"young": 1, "poisson": 0.3}}, "bodies": {"a": "m"}}
+    (tmp_path / "a.geo").write_text("Exit;\n")
+    with pytest.raises(mortise.InputError, match="gmsh ended the program"):
+        mortise.solve(scene)
+    (tmp_path / "a.geo").write_text("For i In {1:1e9}\n x = i;\nEndFor\n")
+    with pytest.raises(mortise.InputError, match="took longer than mesh.time_limit = 0.5"):
+        mortise.solve(scene, {"mesh.time_limit": 0.5})
+
+
+@solves
+def test_an_interrupt_ends_a_solve():
+    """Between its stages; some 3 s of meshes and solves are left out."""
+    script = f"import sys; sys.path.insert(0, {str(BUILT)!r}); import mortise; print('go', flush=True); " + (
+        f"[mortise.solve({str(launch.ROOT / 'geo/parabola_1.toml')!r}, {{'accuracy.value': 1e-3}}) for _ in range(30)]"
+    )
+    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
+        assert run.stdout.readline() == "go\n"
+        time.sleep(0.3)
+        run.send_signal(signal.SIGINT)
+        assert "KeyboardInterrupt" in run.stderr.read()
+    assert run.returncode == -signal.SIGINT
