@@ -1,9 +1,11 @@
 #include "base/staged_file.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -27,6 +29,29 @@ std::string first_line(const fs::path& file) {
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(stream.gcount());
   return text.substr(0, text.find_first_of("\r\n"));
+}
+
+/// ".NAME.1234.mortise.csv" for NAME.csv and process 1234.
+fs::path staging_of(const fs::path& target, pid_t process) {
+  std::string name = ".";
+  name += target.stem().string() + "." + std::to_string(process) + ".mortise";
+  return target.parent_path() / name.append(target.extension().string());
+}
+
+bool has_ended(pid_t process) { return process != ::getpid() && ::kill(process, 0) != 0 && errno == ESRCH; }
+
+void remove_leftovers(const fs::path& target) {
+  const std::string start = "." + target.stem().string() + ".";
+  std::error_code error;
+  std::vector<fs::path> left;
+  for (const fs::directory_entry& entry : fs::directory_iterator(target.parent_path(), error)) {
+    const std::string name = entry.path().filename().string();
+    pid_t process = 0;
+    if (!name.starts_with(start)) continue;
+    std::from_chars(name.data() + start.size(), name.data() + name.size(), process);
+    if (process > 0 && entry.path() == staging_of(target, process) && has_ended(process)) left.push_back(entry.path());
+  }
+  for (const fs::path& file : left) fs::remove(file, error);
 }
 
 void check_place(const fs::path& target, const fs::file_status& status) {
@@ -56,9 +81,7 @@ StagedFile::StagedFile(const fs::path& target) : shown_(target) {
   std::error_code error;
   target_ = fs::weakly_canonical(fs::absolute(target, error), error);
   if (error) fail_write(shown_, error.message());
-  std::string name = ".";
-  name += target_.stem().string() + "." + std::to_string(getpid()) + ".mortise";
-  staging_ = target_.parent_path() / name.append(target_.extension().string());
+  staging_ = staging_of(target_, ::getpid());
   constexpr int flags = O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC;
   int descriptor = ::open(staging_.c_str(), flags, 0666);
   if (descriptor < 0 && errno == EEXIST) {  // of a process that was killed and had our number
@@ -70,6 +93,7 @@ StagedFile::StagedFile(const fs::path& target) : shown_(target) {
     fail(errno);
   }
   ::close(descriptor);
+  remove_leftovers(target_);  // after there is another, so that there is one at all times
 }
 
 StagedFile::~StagedFile() {
@@ -78,13 +102,13 @@ StagedFile::~StagedFile() {
 
 void StagedFile::fail(int error) const { fail_write(shown_, std::strerror(error)); }
 
-void StagedFile::commit() {
+void StagedFile::commit(bool on_disk) {
   const int descriptor = ::open(staging_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) fail(errno);
-  const bool on_disk = ::fsync(descriptor) == 0 || errno == EINVAL;  // not every file system can
+  const bool written = !on_disk || ::fsync(descriptor) == 0 || errno == EINVAL;  // not every file system can
   const int error = errno;
   if (::close(descriptor) != 0) fail(errno);
-  if (!on_disk) fail(error);
+  if (!written) fail(error);
   if (::rename(staging_.c_str(), target_.c_str()) != 0) fail(errno);
   staging_.clear();
 }

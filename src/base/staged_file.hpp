@@ -19,7 +19,8 @@ void check_target(const std::filesystem::path& target, const std::vector<std::fi
 /// Written under a hidden name beside the target, then put in its place in one step.
 class StagedFile {
  public:
-  /// Makes the hidden file, which has the ending of `target`. Throws InputError if it cannot.
+  /// Makes the hidden file, which has the ending of `target`, and removes those that processes left beside it which
+  /// were killed as they wrote `target`. Throws InputError if it cannot.
   explicit StagedFile(const std::filesystem::path& target);
   /// Removes what was not committed.
   ~StagedFile();
@@ -28,9 +29,9 @@ class StagedFile {
 
   /// Where to write before commit().
   const std::filesystem::path& path() const { return staging_; }
-  /// Once, when the file is written and closed: waits until the disk has it, so that a full one is noticed here.
-  /// Throws InputError.
-  void commit();
+  /// Once, when the file is written and closed. `on_disk`: waits until the disk has it, so that a full one is noticed
+  /// here. Throws InputError.
+  void commit(bool on_disk = true);
 
  private:
   [[noreturn]] void fail(int error) const;

@@ -1,21 +1,14 @@
 #include "output/output_folder.hpp"
 
-#include <fcntl.h>
-#include <linux/fs.h>
-#include <signal.h>
-#include <sys/syscall.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <charconv>
-#include <optional>
+#include <fstream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include "base/errors.hpp"
 
@@ -25,188 +18,105 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// All that mortise ever writes. Add a new output here: what is not listed is taken for the user's and carried over.
+constexpr std::string_view summary = "summary.json";
+
+/// All that mortise ever writes. Add a new output here: what is not listed is the user's and stays.
 constexpr std::array<std::string_view, 7> own_files{
-    "result.vtu", "contact.vtu", "contact.csv", "contact_centres.csv", "iteration.csv", "probes.csv", "summary.json"};
-constexpr std::string_view staging_suffix = ".mortise";
+    "result.vtu", "contact.vtu", "contact.csv", "contact_centres.csv", "iteration.csv", "probes.csv", summary};
 
-bool is_listed(const std::string& name) {
-  return std::find(own_files.begin(), own_files.end(), name) != own_files.end();
+[[noreturn]] void fail(const fs::path& target, const std::string& why) {
+  throw InputError(target.string() + ": cannot write results here: " + why);
 }
 
-bool is_own(const fs::path& file) { return is_listed(file.filename().string()) && !fs::is_directory(file); }
-
-/// ".run1.1234.mortise" for the target "run1" and process 1234.
-fs::path staging_path(const fs::path& target, pid_t process) {
-  std::string name = ".";
-  name += target.filename().string() + "." + std::to_string(process);
-  return target.parent_path() / name.append(staging_suffix);
+/// Whether a run of ours has written here: its summary, or the hidden one of a run that was killed as it put its files
+/// in their places.
+bool holds_results(const fs::path& target) {
+  std::string start(16 * 1024, '\0');
+  std::ifstream(target / summary).read(start.data(), std::ssize(start));
+  if (start.find("\"dense_kernel\"") != std::string::npos) return true;
+  return std::ranges::any_of(fs::directory_iterator(target), [](const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return name.starts_with(".summary.") && name.ends_with(".mortise.json");
+  });
 }
 
-/// The process that a staging folder (or one put aside) of `target` belongs to.
-std::optional<pid_t> process_of(const fs::path& staging, const fs::path& target) {
-  const std::string name = staging.filename().string();
-  const std::string start = std::string(".").append(target.filename().string()).append(".");
-  if (name.rfind(start, 0) != 0) return std::nullopt;
-  pid_t process = 0;
-  const auto [end, error] = std::from_chars(name.data() + start.size(), name.data() + name.size(), process);
-  if (error != std::errc() || process <= 0) return std::nullopt;
-  const fs::path plain = staging_path(target, process);
-  if (staging != plain && staging != aside_of(plain)) return std::nullopt;
-  return process;
+/// Files in a folder with the sticky bit can be replaced by their owner and the folder's only.
+bool may_replace(const fs::path& target, const fs::path& file) {
+  struct stat of_folder {
+  }, of_file{};
+  if (::stat(target.c_str(), &of_folder) != 0 || ::lstat(file.c_str(), &of_file) != 0) return true;
+  const uid_t me = ::geteuid();
+  return !(of_folder.st_mode & S_ISVTX) || me == 0 || me == of_file.st_uid || me == of_folder.st_uid;
 }
 
-bool is_running(pid_t process) { return process != getpid() && (kill(process, 0) == 0 || errno != ESRCH); }
-
-/// Moves what is not ours from one folder to the other. False if something had to stay because its name is taken.
-bool carry_over(const fs::path& from, const fs::path& to) {
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(from)) {
-    if (!is_own(entry.path())) files.push_back(entry.path());
-  }
-  bool all = true;
-  for (const fs::path& file : files) {
-    const fs::path place = to / file.filename();
-    if (fs::exists(fs::symlink_status(place))) {
-      all = false;
-    } else {
-      fs::rename(file, place);
-    }
-  }
-  return all;
-}
-
-/// Killed while writing, a process leaves its staging folder; killed just after the exchange, the old results in it,
-/// with the user's files; killed between the steps of an exchange, the target itself under another name.
-void tidy_up(const fs::path& target) {
-  std::vector<fs::path> left_over;
-  for (const fs::directory_entry& entry : fs::directory_iterator(target.parent_path())) {
-    const std::optional<pid_t> process = process_of(entry.path(), target);
-    if (process && !is_running(*process)) left_over.push_back(entry.path());
-  }
-  for (const fs::path& folder : left_over) {
-    const bool was_target = !folder.filename().string().ends_with(staging_suffix);
-    if (was_target && !fs::exists(target)) {
-      fs::rename(folder, target);
-    } else if (!fs::exists(target) || carry_over(folder, target)) {
-      fs::remove_all(folder);
-    }
-  }
-}
-
-/// Absolute, through symbolic links, so that the folder itself is exchanged and not a link to it.
-fs::path resolved(const fs::path& target) {
-  fs::path path = fs::weakly_canonical(fs::absolute(target));
-  return path.has_filename() ? path : path.parent_path();
-}
-
-/// A folder of the name of one of our files: we would neither replace nor carry it over.
-void check_no_folders(const fs::path& shown, const fs::path& target) {
+void check_files(const fs::path& target) {
+  const bool ours = holds_results(target);
   for (const std::string_view name : own_files) {
-    if (!fs::is_directory(target / name)) continue;
-    throw InputError((shown / name).string() +
-                     ": is a folder where a file of results goes; expected it to be moved away");
+    const fs::path file = target / name;
+    const fs::file_status status = fs::symlink_status(file);
+    if (!fs::exists(status)) continue;
+    if (fs::is_directory(status))
+      throw InputError(file.string() + ": is a folder where a file of results goes; expected it to be moved away");
+    if (!ours)
+      throw InputError(file.string() +
+                       ": a file of this name is there that mortise did not write; expected -o another folder");
+    if (!may_replace(target, file)) throw InputError(file.string() + ": is another user's; expected -o another folder");
   }
 }
 
-void check_folder(const fs::path& shown, const fs::path& target) {
-  if (fs::exists(target) && !fs::is_directory(target)) {
-    throw InputError(shown.string() + ": cannot write results here: it is a file, expected a folder");
-  }
-  const fs::path here = fs::current_path();
-  const auto differs = std::mismatch(target.begin(), target.end(), here.begin(), here.end());
-  if (differs.first == target.end()) {
-    throw InputError(shown.string() + ": cannot write results here: it is or holds the current folder; " +
-                     "expected a folder of their own");
-  }
-  check_no_folders(shown, target);
-}
-
-[[noreturn]] void fail(const fs::path& target, const fs::filesystem_error& error) {
-  throw InputError(target.string() + ": cannot write results here: " + error.code().message());
+/// The folder itself, or the nearest above it that is there.
+fs::path nearest_folder(fs::path target) {
+  target = fs::absolute(target);
+  while (!fs::exists(fs::symlink_status(target)) && target.has_relative_path()) target = target.parent_path();
+  return target;
 }
 
 }  // namespace
 
-fs::path aside_of(const fs::path& a) {
-  fs::path aside = a;
-  aside += "-old";
-  return aside;
-}
-
-void exchange_folders_in_steps(const fs::path& a, const fs::path& b, const fs::path& aside) {
-  fs::rename(b, aside);
-  try {
-    fs::rename(a, b);
-  } catch (const fs::filesystem_error&) {
-    fs::rename(aside, b);
-    throw;
-  }
-  fs::rename(aside, a);
-}
-
-void exchange_folders(const fs::path& a, const fs::path& b) {
-  if (syscall(SYS_renameat2, AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0) return;
-  // NFS and some FUSE file systems know no exchange.
-  if (errno == EINVAL || errno == ENOSYS || errno == ENOTSUP) {
-    exchange_folders_in_steps(a, b, aside_of(a));
-    return;
-  }
-  throw fs::filesystem_error("cannot exchange", a, b, std::error_code(errno, std::generic_category()));
-}
-
 void check_output_folder(const fs::path& target) try {
-  check_folder(target, resolved(target));
+  const fs::path there = nearest_folder(target);
+  if (!fs::is_directory(there)) fail(target, there.string() + " is a file, expected a folder");
+  if (::access(there.c_str(), W_OK | X_OK) != 0)
+    fail(target, std::error_code(errno, std::generic_category()).message());
+  if (fs::is_directory(target)) check_files(target);
 } catch (const fs::filesystem_error& error) {
-  fail(target, error);
+  fail(target, error.code().message());
 }
 
-OutputFolder::OutputFolder(fs::path target) : shown_(target) {
-  try {
-    target_ = resolved(target);
-    check_folder(target, target_);
-    fs::create_directories(target_.parent_path());
-    tidy_up(target_);
-    staging_ = staging_path(target_, getpid());
-    if (fs::exists(target_)) {
-      fs::create_directory(staging_, target_);  // with the same permissions
-    } else {
-      fs::create_directory(staging_);
-    }
-  } catch (const fs::filesystem_error& error) {
-    fail(target, error);
-  }
+OutputFolder::OutputFolder(fs::path target) : target_(std::move(target)) {
+  check_output_folder(target_);
+  std::error_code error;
+  fs::create_directories(target_, error);
+  if (!fs::is_directory(target_)) fail(target_, error.message());
 }
 
-OutputFolder::~OutputFolder() {
-  std::error_code ignored;
-  if (!staging_.empty()) fs::remove_all(staging_, ignored);
-}
-
-fs::path OutputFolder::path(const std::string& name) const {
-  if (!is_listed(name)) throw std::logic_error(name + ": a new output belongs into own_files");
-  return staging_ / name;
+fs::path OutputFolder::path(const std::string& name) {
+  if (std::ranges::find(own_files, name) == own_files.end())
+    throw std::logic_error(name + ": a new output belongs into own_files");
+  return files_.emplace_back(target_ / name).staged.path();
 }
 
 std::string OutputFolder::with_target(std::string message) const {
-  const std::string hidden = staging_.string();
-  const std::size_t at = hidden.empty() ? std::string::npos : message.find(hidden);
-  return at == std::string::npos ? message : message.replace(at, hidden.size(), shown_.string());
+  for (const File& file : files_)
+    if (const std::size_t at = message.find(file.staged.path().string()); at != std::string::npos)
+      message.replace(at, file.staged.path().string().size(), file.place.string());
+  return message;
 }
 
 void OutputFolder::commit() {
+  const auto written = [&](std::string_view name) {
+    return std::ranges::any_of(files_, [&](const File& file) { return file.place.filename() == name; });
+  };
   try {
-    if (!fs::exists(target_)) {
-      fs::rename(staging_, target_);
-      staging_.clear();
-      return;
-    }
-    exchange_folders(staging_, target_);
-    const fs::path old = std::exchange(staging_, fs::path());  // from here on it holds the user's files
-    if (carry_over(old, target_)) fs::remove_all(old);
+    fs::remove(target_ / summary);
+    for (const std::string_view name : own_files)
+      if (!written(name)) fs::remove(target_ / name);
   } catch (const fs::filesystem_error& error) {
-    fail(target_, error);
+    fail(target_, error.code().message());
   }
+  for (const bool last : {false, true})
+    for (File& file : files_)
+      if ((file.place.filename() == summary) == last) file.staged.commit(false);
 }
 
 }  // namespace mortise
