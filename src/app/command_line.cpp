@@ -302,7 +302,9 @@ int run_command_line(int argc, const char* const* argv) {
     return 1;
   };
   try {
-    return parse_and_run(argc, argv);
+    const int status = parse_and_run(argc, argv);
+    if (std::cout.flush()) return status;
+    return refuse("the standard output cannot be written");
   } catch (const InputError& error) {
     return refuse(error.what());
   } catch (const std::filesystem::filesystem_error& error) {

@@ -37,6 +37,12 @@ constexpr const char* journal_title = "mortise sweep: runs that are complete";
 
 fs::path journal_of(const fs::path& csv) { return csv.parent_path() / ("." + csv.filename().string() + ".runs"); }
 
+std::string checksum(const std::string& text) {
+  std::ostringstream sum;
+  sum << std::hex << std::hash<std::string>{}(text);
+  return sum.str();
+}
+
 // Tells a group of runs from others: what is varied and set, and how the files stand that it reads.
 std::string key_of(const SweepPlan& plan, std::size_t group) {
   std::ostringstream text;
@@ -58,21 +64,25 @@ std::string key_of(const SweepPlan& plan, std::size_t group) {
     } catch (const InputError&) {  // its row will say so
     }
   }
-  std::ostringstream key;
-  key << std::hex << std::hash<std::string>{}(text.str());
-  return key.str();
+  return checksum(text.str());
 }
 
-// The lines of the journal by their keys; only the first title says that it is one.
+// "KEY<tab>ROW<tab>CHECKSUM"
+std::string journal_line(const std::string& key, const RunRow& row) {
+  const std::string text = key + "\t" + line_of(row);
+  return text + "\t" + checksum(text) + "\n";
+}
+
+// The lines of the journal by their keys; only the first title says that it is one. Damaged lines are left out.
 std::map<std::string, std::vector<RunRow>> read_journal(const fs::path& path) {
   std::map<std::string, std::vector<RunRow>> found;
   std::ifstream file(path);
   std::string line;
   if (!std::getline(file, line) || line != journal_title) return found;
   while (std::getline(file, line)) {
-    const std::size_t end = line.find('\t');
-    const auto row = end == std::string::npos ? std::nullopt : row_in(line.substr(end + 1));
-    if (row) found[line.substr(0, end)].push_back(*row);
+    const std::size_t end = line.find('\t'), sum = line.rfind('\t');
+    if (sum == end || line.substr(sum + 1) != checksum(line.substr(0, sum))) continue;
+    if (const auto row = row_in(line.substr(end + 1, sum - end - 1))) found[line.substr(0, end)].push_back(*row);
   }
   return found;
 }
@@ -134,7 +144,7 @@ Status sweep(const SweepPlan& plan, const fs::path& whole, const SweepPart& part
     const auto [from, to] = runs_of_group(plan, group);
     if (run + 1 < to) return;
     std::string complete;
-    for (std::size_t k = from; k < to; ++k) complete += keys[group] + "\t" + line_of(rows.at(k)) + "\n";
+    for (std::size_t k = from; k < to; ++k) complete += journal_line(keys[group], rows.at(k));
     lines << complete << std::flush;
   };
   if (!share_work(groups.size(), jobs, work, take))

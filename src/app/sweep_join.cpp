@@ -5,6 +5,7 @@
 
 #include "app/sweep_row.hpp"
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "base/staged_file.hpp"
 #include "output/csv.hpp"
 
@@ -50,6 +51,9 @@ TextTable checked_part(const SweepPlan& plan, const SweepPart& part, const fs::p
   if (!fs::is_regular_file(path))
     throw InputError(name + "no such file; expected what --part " + number + "/" + of + " writes");
   const TextTable table = read_table(path);
+  for (const auto& row : table.rows)
+    for (const std::string& field : row)
+      if (printable(field) != field) throw InputError(name + "is damaged: it holds '" + field + "'; start it again");
   const auto [first, last] = runs_of(plan, part);
   const auto require = [&](bool same) {
     if (!same)

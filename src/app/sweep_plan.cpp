@@ -10,6 +10,8 @@ namespace mortise {
 namespace {
 
 constexpr std::size_t group_size = 4;
+/// Of one sweep: with a hundredth of a second each a quarter of an hour, and each row is kept in memory.
+constexpr std::size_t most_runs = 100000;
 
 }  // namespace
 
@@ -32,6 +34,9 @@ SweepPlan plan_sweep(const std::string& scene, const std::vector<Override>& over
   SweepPlan plan{scene, overrides, {}, {{}}, diagnosed};
   for (const Variation& v : variations) {
     plan.keys.push_back(v.key);
+    if (v.values.size() > most_runs / plan.values.size())
+      throw InputError("--vary " + v.key + ": the values combine to more than " + std::to_string(most_runs) +
+                       " runs; expected fewer, or several sweeps");
     std::vector<std::vector<std::string>> longer;
     for (const std::vector<std::string>& values : plan.values)
       for (const std::string& value : v.values) {

@@ -23,9 +23,10 @@ FILES = [
     "usr/share/doc/mortise/LICENSE",
     "usr/share/doc/mortise/CHANGELOG.md",
     "usr/share/doc/mortise/CITATION.cff",
+    "usr/share/doc/mortise/SECURITY.md",
     "usr/share/man/man1/mortise.1",
 ]
-DEPENDS = ["libgmsh", "libvtk9", "libcholmod3", "libmetis5", "libopenblas0", "libmuparser2", "libc6"]
+DEPENDS = ["libgmsh", "libvtk9", "libcholmod3", "libmetis5", "libopenblas0", "libmuparser2", "libseccomp2", "libc6"]
 SUGGESTS = ["python3-matplotlib", "python3-meshio"]
 
 
@@ -57,6 +58,11 @@ def main():
     (package,) = work.glob("*.deb")
     root = work / "root"
     run("dpkg-deb", "-x", package, root)
+    # An empty entry, or one that is not relative to the program, lets the current folder or another bring the libraries.
+    programs = [root / "usr/bin/mortise", build / "mortise", build / "tests/mortise_tests", *(build / "python/mortise").glob("*.so")]
+    for program in filter(Path.exists, programs):
+        for path in re.findall(r"RUNPATH.*\[(.*)\]", run("readelf", "-d", program)):
+            expect(all(entry.startswith("$ORIGIN") for entry in path.split(":")), f"{program}: its RUNPATH is {path}")
 
     missing = [name for name in FILES if not (root / name).is_file()]
     expect(not missing, f"not in the package: {missing}")
