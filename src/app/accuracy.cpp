@@ -117,7 +117,7 @@ class Loop {
         if (!is_pressed(*last))
           sizes = small_at_gaps(finer(sizes));
         else if (others_ == 0)
-          sizes = next_sizes(*last);
+          sizes = next_sizes(*last, report.solves.size() == 1);
         else
           sizes = finer(sizes);
       }
@@ -291,12 +291,13 @@ class Loop {
     return "";
   }
 
-  SizeAt next_sizes(const Results& r) {
+  // On the first mesh p swings about corners that have no layers yet: its edges are judged by the slopes alone.
+  SizeAt next_sizes(const Results& r, bool first) {
     const ErrorEstimate& e = *r.estimate;
     // What was asked of another quantity, as an error of p that is as far above what it should be.
     const double found = estimated(r), asked = spec_.value * (spec_.of == Goal::pressure ? 1 : e.pressure() / found);
     const double target = std::max(aimed * asked, e.pressure() / largest_step) / error_safety;
-    ErrorFactors factors{.line = std::clamp(e.line() / (0.8 * target), 0.4, largest_step),
+    ErrorFactors factors{.line = std::clamp((first ? e.slopes() : e.line()) / (0.8 * target), 0.4, largest_step),
                          .far_field = std::clamp(e.far_field() / (0.5 * target), 0.25, 5 * largest_step),
                          .target = target};
     if (spec_.of == Goal::half_width) factors.border = found / (aimed * spec_.value);

@@ -199,17 +199,22 @@ void find_excluded(double part, PressureEstimate& e) {
   if (!left) e.excluded.assign(line.p.size(), 0);
 }
 
+bool PressureEstimate::counts(Eigen::Index i) const {
+  return line.loaded[i] && !excluded[i] && !(line.closed && i == line.p.size() - 1);
+}
+
 void find_bars(PressureEstimate& e) {
   const PressureLine& line = e.line;
   const Eigen::Index count = line.p.size();
   e.local2 = e.far2 = e.p2 = 0;
+  const VecX local = e.local.whole();
   e.bar = e.local.pointwise(line);
   if (e.local.least.size() > 0) e.bar = e.bar.cwiseMax(e.local.least);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double far = far_at(e, i);
     e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? far : 0));
-    if (!line.loaded[i] || e.excluded[i] || (line.closed && i == count - 1)) continue;
-    e.local2 += e.local.l2(i) * e.local.l2(i);
+    if (!e.counts(i)) continue;
+    e.local2 += local(i) * local(i);
     e.far2 += far * far * line.h(i);
     e.p2 += line.p(i) * line.p(i) * line.h(i);
   }
@@ -253,6 +258,13 @@ double ErrorEstimate::pressure() const {
   return error_safety * error_norm(pressures, 1, 1) / std::sqrt(pressure_square());
 }
 double ErrorEstimate::line() const { return error_norm(pressures, 1, 0) / std::sqrt(pressure_square()); }
+double ErrorEstimate::slopes() const {
+  double square = 0;
+  for (const PressureEstimate& e : pressures)
+    for (Eigen::Index i = 0; i < e.line.p.size(); ++i)
+      if (e.counts(i)) square += e.local.l2(i) * e.local.l2(i);
+  return std::sqrt(square / pressure_square());
+}
 double ErrorEstimate::far_field() const { return error_norm(pressures, 0, 1) / std::sqrt(pressure_square()); }
 
 ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,

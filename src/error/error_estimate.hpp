@@ -38,6 +38,8 @@ struct PressureEstimate {
   std::vector<char> excluded;           ///< of each vertex
   /// Squares of L2 norms along what is not excluded, stress^2 length: of the local error, the far field's and p.
   double local2 = 0, far2 = 0, p2 = 0;
+
+  bool counts(Eigen::Index vertex) const;  ///< in these
 };
 
 /// What the bodies' error does to the windows' means, cell by cell.
@@ -58,6 +60,7 @@ struct ErrorEstimate {
   /// and of its two parts before the safety factor. NaN where nothing is loaded or all is excluded.
   double pressure() const;
   double line() const;
+  double slopes() const;  ///< the line's part without what p swings by
   double far_field() const;
   /// Of the largest pressure its bar, relative; of half the width of a contact the edges on which it ends, whose
   /// relative length is the largest: 0 where contact ends nowhere within a line.

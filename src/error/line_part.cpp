@@ -51,7 +51,7 @@ LinePart line_part(const ContactPair& pair, const PressureLine& line, const Line
       part.vertices.row(vertex) += hat * depth * point.dA * opened.row(i).cwiseAbs2();
     }
   }
-  part.vertices = local.l2.asDiagonal() * part.vertices.cwiseSqrt();
+  part.vertices = local.whole().asDiagonal() * part.vertices.cwiseSqrt();
   for (std::size_t b = 0; b < local.borders.size(); ++b) {
     const std::array<Eigen::Index, 2> edges = edges_at(line, local.borders[b].edge);
     double force = 0;

@@ -144,7 +144,7 @@ LineError line_error(const PressureLine& line) {
 
 VecX LineError::pointwise(const PressureLine& line) const {
   constexpr Eigen::Index reach = 4;
-  const VecX at = l2.array() / line.h.array().sqrt() * pointwise_factor;
+  const VecX at = whole().array() / line.h.array().sqrt() * pointwise_factor;
   const Eigen::Index count = at.size(), period = count - 1;
   VecX found = at;
   for (Eigen::Index i = 0; i < count; ++i)
@@ -163,6 +163,8 @@ VecX LineError::pointwise(const PressureLine& line) const {
   }
   return found;
 }
+
+VecX LineError::whole() const { return swing.size() > 0 ? VecX(l2.cwiseMax(swing)) : l2; }
 
 void LineError::raise(Eigen::Index vertex, double by) {
   if (least.size() == 0) least = VecX::Zero(l2.size());

@@ -38,6 +38,9 @@ double round_off_pressure(const Mesh& mesh, const std::vector<ContactPair>& pair
 /// an edge or not, is known: that is an end of the line, no border.
 struct LineError {
   VecX l2;  ///< of each vertex, stress sqrt(length)
+  /// Likewise, of what p swings by about its slopes; empty: nothing. Edges of the next mesh are made by `l2`, whose
+  /// rate is known.
+  VecX swing{};
   /// Of the worst of a piecewise linear function's error, J h / 8, over l2 / sqrt(h), which is sqrt(h^2 J^2 / 120).
   static constexpr double pointwise_factor = 1.3693063937629153;  // sqrt(120) / 8
   std::vector<char> border;                                       ///< whether the border of contact makes it
@@ -50,6 +53,7 @@ struct LineError {
   /// other side, stress; empty: there are none.
   VecX least{};
   void raise(Eigen::Index vertex, double by);  ///< `least` at a vertex
+  VecX whole() const;                          ///< of each vertex the larger of `l2` and `swing`
   /// At each vertex what p is off by, stress: the largest within four edges. What the border makes falls with the
   /// distance r from it as sqrt(h / r): that is what moving it does to a root.
   VecX pointwise(const PressureLine& line) const;

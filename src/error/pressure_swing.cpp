@@ -81,10 +81,10 @@ VecX means_at_vertices(const PressureNodes& nodes, const VecX& figures) {
   return means;
 }
 
-void raise_to(const VecX& errors, const PressureLine& line, LineError& local) {
+void set_swing(const VecX& errors, const PressureLine& line, LineError& local) {
+  local.swing = VecX::Zero(errors.size());
   for (Eigen::Index i = 0; i < errors.size(); ++i)
-    if (line.loaded[i] && std::isfinite(errors(i)))
-      local.l2(i) = std::max(local.l2(i), errors(i) * std::sqrt(line.h(i)));
+    if (line.loaded[i] && std::isfinite(errors(i))) local.swing(i) = errors(i) * std::sqrt(line.h(i));
 }
 
 }  // namespace mortise

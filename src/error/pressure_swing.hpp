@@ -26,7 +26,7 @@ VecX swings(const PressureNodes& nodes);
 /// left out: infinity where all are.
 VecX means_at_vertices(const PressureNodes& nodes, const VecX& figures);
 
-/// Where `errors` (stress, one a vertex) is more than what the local error has, it takes its place.
-void raise_to(const VecX& errors, const PressureLine& line, LineError& local);
+/// Gives the local error the swing `errors` (stress, one a vertex).
+void set_swing(const VecX& errors, const PressureLine& line, LineError& local);
 
 }  // namespace mortise

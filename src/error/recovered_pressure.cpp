@@ -74,7 +74,7 @@ void add_swings(const Mesh& mesh, const BodyPoints& points, const std::vector<El
     if (errors[k].size() == 0) continue;
     for (const VecX& p : recovered_pressures(mesh, points, laws, patches, pairs[k], nodes[k]))
       errors[k] = errors[k].cwiseMin(means_at_vertices(nodes[k], nodes[k].p - p));
-    raise_to(errors[k], lines[k].line, lines[k].local);
+    set_swing(errors[k], lines[k].line, lines[k].local);
   }
 }
 

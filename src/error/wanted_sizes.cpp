@@ -209,7 +209,7 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
     p2 += e.p2;
     borders += double(std::ranges::count(e.local.border, 1));
   }
-  const double target = estimate.line() * std::sqrt(p2) / factors.line;
+  const double target = estimate.slopes() * std::sqrt(p2) / factors.line;
   const GoalLines lines = estimate.goal ? goal_lines(*estimate.goal, factors.goal_line) : GoalLines{};
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];

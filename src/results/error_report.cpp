@@ -43,9 +43,10 @@ std::string largest_error(const Results& r) {
     largest = e.local2;
     Eigen::Index worst = 0;
     double size = -1;
-    for (Eigen::Index i = 0; i < e.local.l2.size(); ++i) {
-      if (e.excluded[i] || !(e.local.l2(i) > size)) continue;
-      size = e.local.l2(i);
+    const VecX local = e.local.whole();
+    for (Eigen::Index i = 0; i < local.size(); ++i) {
+      if (e.excluded[i] || !(local(i) > size)) continue;
+      size = local(i);
       worst = i;
     }
     words = (e.local.border[worst] ? "the border of contact" : "edges") + between(k) + " " +
