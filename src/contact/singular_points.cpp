@@ -161,12 +161,13 @@ double log_amplitude(const Wedge& a, const Wedge& b, double jump) {
   return 2 * std::abs(jump) / (a.compliance() + b.compliance());
 }
 
+// `given_slope`: of the gap away from an end, beside that of the curves.
 SingularPoint singular_point(const Vec2& x, const Corner& a, const Corner& b, bool on_both_sides, bool one_curve,
-                             TipTable& tips) {
+                             double given_slope, TipTable& tips) {
   SingularPoint point{x, std::max(a.edge, b.edge), 1, 1, meeting_of(a, b, one_curve), {a.wedge, b.wedge}};
   auto& [first, second] = point.wedges;
   TipExponents found;
-  double jump = 0;
+  double jump = 0, given_jump = 0;
   if (point.meeting == Meeting::kink) {
     fit_kink(first, second);
     if (const double turn = std::abs(first.angle - straight); turn > least_shared_kink)
@@ -178,13 +179,15 @@ SingularPoint singular_point(const Vec2& x, const Corner& a, const Corner& b, bo
     jump = 2 * straight - first.angle - second.angle;
   } else {
     found = tips.ends(first, second);
-    if (a.end && b.end && first.outer == Face::symmetric && second.outer == Face::symmetric)
+    if (a.end && b.end && first.outer == Face::symmetric && second.outer == Face::symmetric) {
       jump = 2 * (straight - first.angle - second.angle);
+      given_jump = 2 * given_slope;
+    }
   }
   if (found.stress.real() <= singular_limit) point.exponent = found.stress.real();
   if (found.pressure.real() <= singular_limit) point.pressure_exponent = found.pressure.real();
-  if (point.pressure_exponent == 1 && !one_curve && std::abs(jump) > 2 * (a.error + b.error))
-    point.log_pressure = log_amplitude(first, second, jump);
+  if (one_curve || std::abs(jump) <= 2 * (a.error + b.error)) jump = 0;
+  if (point.pressure_exponent == 1) point.log_pressure = log_amplitude(first, second, jump + given_jump);
   if (point.exponent == 1 && point.log_pressure == 0 && (a.end || b.end))
     point.small_power = found.pressure.real() < 1 ? found.pressure.real() - 1 : found.falling - 1;
   return point;
@@ -200,7 +203,7 @@ ContactReach reached_everywhere(const Curve& first, const Curve& second) {
 std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& table, const Curve& first,
                                            const Curve& second, const Constraints& constraints,
                                            const std::vector<ElasticLaw>& laws, TipTable& tips,
-                                           const ContactReach& reach, bool one_curve) {
+                                           const ContactReach& reach, const GivenGap& given) {
   const LineSide sides[] = {{mesh, table, first, constraints, laws[first.body], ContactLine(mesh.nodes, first)},
                             {mesh, table, second, constraints, laws[second.body], ContactLine(mesh.nodes, second)}};
   std::vector<SingularPoint> points;
@@ -218,8 +221,9 @@ std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& ta
       if (!opposite) continue;
       if (k == 0) seen.push_back(opposite->node);
       const bool both = at.before && at.after;
-      const SingularPoint point = k == 0 ? singular_point(x, corner, *opposite, both, one_curve, tips)
-                                         : singular_point(x, *opposite, corner, both, one_curve, tips);
+      const double slope = k == 0 && v.is_end() ? given.end_slopes[i == 0 ? 0 : 1] : 0;
+      const SingularPoint point = singular_point(x, k == 0 ? corner : *opposite, k == 0 ? *opposite : corner, both,
+                                                 given.one_curve, slope, tips);
       if (point.exponent <= singular_limit || point.log_pressure > 0 || point.small_power != 0 || point.small_turn > 0)
         points.push_back(point);
     }

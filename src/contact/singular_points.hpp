@@ -46,18 +46,24 @@ using ContactReach = std::array<std::vector<Reach>, 2>;
 /// All of them reached.
 ContactReach reached_everywhere(const Curve& first, const Curve& second);
 
+/// What a scene says of the gap, whatever its curves.
+struct GivenGap {
+  bool one_curve = false;                  ///< both curves are meant to be one
+  std::array<double, 2> end_slopes{0, 0};  ///< of a gap that is given or added, away from the first curve's ends
+};
+
 /// Both bodies as wedges at each place that contact reaches, however far from each other they are drawn
 /// (contact/williams.hpp): their angles from the curves that the edges stand for and, at an end, the edge of the body's
 /// boundary beyond it, whose prescribed displacements say what holds it. A body whose curve goes on there is a straight
 /// wedge, or one of its kink's angle, free beyond. Kinks of both curves are one where their angles add up to 2 pi, as
-/// they do where the drawn curves coincide, or where `one_curve` says that both are meant to: the bodies then share
+/// they do where the drawn curves coincide, or where `given` says that both are meant to: the bodies then share
 /// both faces, the exponent is the smallest of all modes, and a load that is symmetric about the bisector does not
 /// excite the antisymmetric ones. Else the slope of the gap jumps there: where contact is closed on both sides the
-/// bodies share both faces as those of a symmetric load do, elsewhere one. As if contact were closed; `laws` one a
-/// body.
+/// bodies share both faces as those of a symmetric load do, elsewhere one; so it does at an end on a line of symmetry
+/// from which a given gap rises or falls. As if contact were closed; `laws` one a body.
 std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& table, const Curve& first,
                                            const Curve& second, const Constraints& constraints,
                                            const std::vector<ElasticLaw>& laws, TipTable& tips,
-                                           const ContactReach& reach, bool one_curve = false);
+                                           const ContactReach& reach, const GivenGap& given = {});
 
 }  // namespace mortise

@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "contact/gap_cuts.hpp"
 #include "error/gap_error.hpp"
 #include "error/recovered_pressure.hpp"
 #include "error/sliding_kinks.hpp"
@@ -110,8 +111,10 @@ std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const SideTab
     e.windows = pressure_windows(pair, e.line);
     reached[k] = contact_reach(mesh, pair, e.line, asked.found);
     const bool one_curve = pair.spec.initial_gap == InitialGap::closed || pair.spec.initial_gap == InitialGap::given;
+    const GivenGap given{.one_curve = one_curve,
+                         .end_slopes = gap_slopes_at_ends(mesh.nodes, pair.multiplier, pair.geometry)};
     e.singular = that_count(singular_points(mesh, table, pair.multiplier, pair.opposite, d.system.constraints, d.laws,
-                                            tips, reached[k], one_curve),
+                                            tips, reached[k], given),
                             e.line, asked.spec.value);
     add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
