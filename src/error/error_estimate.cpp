@@ -94,6 +94,15 @@ struct Asked {
   const std::vector<FoundPoint>& found;
 };
 
+// If each window keeps a dual of its own with them.
+void add_end_windows(const std::vector<ContactPair>& pairs, std::vector<PressureEstimate>& list) {
+  std::size_t count = 0;
+  for (const PressureEstimate& e : list) count += e.windows.size() + 2;
+  if (count > most_own_duals) return;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    list[k].windows = with_end_windows(pairs[k], list[k].line, list[k].excluded, std::move(list[k].windows));
+}
+
 // `reached`: of each node whether contact reaches it as a vertex of its curve.
 std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const SideTable& table, const Discretisation& d,
                                                  const std::vector<ContactPair>& pairs, const Solution& solution,
@@ -122,6 +131,7 @@ std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const SideTab
                       solution.u, asked.spec.value, e.singular);
     find_excluded(asked.spec.exclude, e);
   });
+  add_end_windows(pairs, list);
   return list;
 }
 

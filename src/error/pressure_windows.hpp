@@ -20,6 +20,11 @@ struct PressureWindow {
 /// each further piece up to nine. None where nothing is loaded.
 std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line);
 
+/// With windows of half the width at the ends of a line that is loaded up to them, unless they are left out: there p
+/// may be off by more than anywhere within.
+std::vector<PressureWindow> with_end_windows(const ContactPair& pair, const PressureLine& line,
+                                             const std::vector<char>& excluded, std::vector<PressureWindow> windows);
+
 /// Adds weight times -lambda at a place of the multiplier side, as the rows' values make it, to `weights` (the
 /// pair's rows).
 void add_pressure_at(const ContactPair& pair, int edge, double xi, double weight, VecX& weights);

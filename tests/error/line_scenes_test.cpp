@@ -50,6 +50,45 @@ contact = [{ between = ["foot", "seat"], multipliers_on = "foot")" +
 
 double largest_bar(const Results& r) { return largest_entry(r.estimate->pressures[0].bar); }
 
+// Mirrored on the rollers, the gap has a kink there: p = -(E* / 4) 2 slope ln r under a cone (Johnson 1985,
+// section 5.3).
+TEST(GivenGap, ThatRisesFromALineOfSymmetryMakesALogarithm) {
+  const Results sloped = solved(blocks(0, 0), {.contact = R"gap(, initial_gap = "1e-5 * sin(6 * x)")gap"}),
+                flat =
+                    solved(blocks(0, 0), {.contact = R"gap(, initial_gap = "1e-5 * cos(6.283185307179586 * x)")gap"});
+  EXPECT_TRUE(flat.estimate->pressures[0].singular.empty());
+  const auto& points = sloped.estimate->pressures[0].singular;
+  ASSERT_EQ(points.size(), 2u);
+  const double modulus = 1 / (2 * (1 - 0.3 * 0.3));
+  for (const SingularPoint& point : points) {
+    EXPECT_NEAR(point.log_pressure, modulus / 2 * 6e-5 * std::cos(6 * point.position.x()), 1e-9);
+    EXPECT_TRUE(point.is_unbounded());
+  }
+}
+
+// Of p = s: the mean over half a window at the end, 0.3 of the windows' distance, is int z (1 - z^2)^3 / int (1 -
+// z^2)^3 = (1 / 8) / (16 / 35) of its length.
+TEST(PressureWindows, AtTheEndsAreHalfAsWide) {
+  const Results r = solved(blocks(0, 0), {});
+  const PressureEstimate& e = r.estimate->pressures[0];
+  ASSERT_EQ(e.windows.size(), 5u);
+  const Coupling& coupling = r.problem.pairs[0].coupling;
+  VecX s = VecX::Zero(coupling.B.rows());
+  for (Eigen::Index edge = 0; edge + 1 < e.line.s.size(); ++edge)
+    for (const int end : {0, 1})
+      if (const int row = coupling.row[coupling.on_edge[edge][end]]; row >= 0) s(row) = e.line.s(edge + end);
+  const double away = 0.3 / 3 * (1.0 / 8) / (16.0 / 35);
+  const std::array<double, 5> means{away, 1.0 / 6, 0.5, 5.0 / 6, 1 - away};
+  for (int k = 0; k < 5; ++k) EXPECT_NEAR(e.windows[k].weights.dot(s), means[k], 2e-3) << k;  // rules of few points
+}
+
+TEST(PressureWindows, AreNotAtEndsThatAreLeftOut) {
+  const Results r = solved(blocks(0.2, 0), {});
+  const PressureEstimate& e = r.estimate->pressures[0];
+  EXPECT_EQ(e.windows.size(), 4u);
+  EXPECT_EQ(e.excluded.front() + e.excluded.back(), 1);
+}
+
 TEST(DataEstimate, OfASpikeBetweenTheNodesIsInTheBars) {
   const Results spike = solved(blocks(0, 0), {.pressure = "1e-3 * (1 + 20 * exp(-((x - 0.4137) / 0.004)^2))"}),
                 even = solved(blocks(0, 0), {.pressure = "1.14e-3"});
