@@ -215,6 +215,83 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
   return command;
 }
 
+void add_diagnose(CLI::App* command, Options& options) {
+  command->add_flag("--diagnose", options.diagnose,
+                    "find the inf-sup constant too: do the meshes control the pressure?");
+}
+
+CLI::Option* add_accuracy(CLI::App* command, Options& options) {
+  return command
+      ->add_option("--accuracy", options.accuracy,
+                   "find a mesh on which the contact pressure is right to this part, such as 1%")
+      ->check(filled("a part such as 1% or 0.01"));
+}
+
+CLI::App* add_solve(CLI::App& app, Options& options) {
+  CLI::App* command = add_command(app, "solve", "mesh, solve, check and write the results of a scene", options,
+                                  "folder of the results (default: out/SCENE)");
+  add_diagnose(command, options);
+  CLI::Option* accuracy = add_accuracy(command, options);
+  command->add_flag("--no-estimate", options.no_estimate, "do not estimate the discretisation error")
+      ->excludes(accuracy);
+  return command;
+}
+
+CLI::App* add_check(CLI::App& app, Options& options) {
+  CLI::App* command = add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
+  command->add_option("--picture", options.picture, "FILE.png: draw bodies, supports, loads and contact pairs")
+      ->check(filled("a .png, .pdf or .svg to write"));
+  return command;
+}
+
+CLI::App* add_mesh(CLI::App& app, Options& options) {
+  CLI::App* command =
+      add_command(app, "mesh", "write the mesh of a scene", options, ".msh to write (default: out/SCENE.msh)");
+  add_accuracy(command, options);
+  return command;
+}
+
+void add_sweep(CLI::App& app, Options& options) {
+  CLI::App* command = add_command(
+      app, "sweep", "solve a scene many times, one CSV row a run; each starts from the contact of the one before",
+      options, ".csv to write (default: out/SCENE_sweep.csv)");
+  command->add_option("--vary", options.vary, "KEY=V1,V2,...: values to run through; repeat for combinations")
+      ->required()
+      ->allow_extra_args(false);
+  command->add_option("--jobs", options.jobs, "runs at the same time, each on one thread (default: 1)")
+      ->check(CLI::Range(1, 1024));
+  CLI::Option* const part = command->add_option(
+      "--part", options.part, "K/N: run the Kth of N parts and write FILE.K_of_N.csv, as one of a batch system's jobs");
+  part->check(filled("K/N"));
+  command->add_option("--join", options.join, "N: put the tables of N parts together")
+      ->check(CLI::Range(1, 10000))
+      ->excludes(part);
+  add_diagnose(command, options);
+}
+
+CLI::App* add_picture(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("picture", "draw the results in a folder (mortise picture --help has the options)");
+  command->set_help_flag();
+  command->prefix_command();  // the script reads them
+  return command;
+}
+
+// The exit status of --help and --version; none of a command.
+std::optional<int> parse(CLI::App& app, int argc, const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0)
+      throw InputError(std::string("command line: ") + error.what() + " (mortise --help)");
+    std::ostringstream text;
+    const int status = app.exit(error, text, text);
+    say(text.str());
+    return status;
+  }
+}
+
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App app("Two-dimensional frictionless contact of linear-elastic bodies on meshes that do not match.");
   app.set_version_flag("--version", version_text());
@@ -222,59 +299,13 @@ int parse_and_run(int argc, const char* const* argv) {
   app.footer(
       "Exit status: 0 solved and all checks hold; 1 bad input; 2 a check fails or no convergence; 3 internal error.");
   Options options;
-  CLI::App* solve_command = add_command(app, "solve", "mesh, solve, check and write the results of a scene", options,
-                                        "folder of the results (default: out/SCENE)");
-  const auto add_diagnose = [&](CLI::App* command) {
-    command->add_flag("--diagnose", options.diagnose,
-                      "find the inf-sup constant too: do the meshes control the pressure?");
-  };
-  add_diagnose(solve_command);
-  const auto add_accuracy = [&](CLI::App* command) {
-    return command
-        ->add_option("--accuracy", options.accuracy,
-                     "find a mesh on which the contact pressure is right to this part, such as 1%")
-        ->check(filled("a part such as 1% or 0.01"));
-  };
-  CLI::Option* accuracy = add_accuracy(solve_command);
-  solve_command->add_flag("--no-estimate", options.no_estimate, "do not estimate the discretisation error")
-      ->excludes(accuracy);
-  CLI::App* check_command =
-      add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
-  check_command->add_option("--picture", options.picture, "FILE.png: draw bodies, supports, loads and contact pairs")
-      ->check(filled("a .png, .pdf or .svg to write"));
-  CLI::App* mesh_command =
-      add_command(app, "mesh", "write the mesh of a scene", options, ".msh to write (default: out/SCENE.msh)");
-  add_accuracy(mesh_command);
-  CLI::App* sweep_command = add_command(
-      app, "sweep", "solve a scene many times, one CSV row a run; each starts from the contact of the one before",
-      options, ".csv to write (default: out/SCENE_sweep.csv)");
-  sweep_command->add_option("--vary", options.vary, "KEY=V1,V2,...: values to run through; repeat for combinations")
-      ->required()
-      ->allow_extra_args(false);
-  sweep_command->add_option("--jobs", options.jobs, "runs at the same time, each on one thread (default: 1)")
-      ->check(CLI::Range(1, 1024));
-  CLI::Option* const part = sweep_command->add_option(
-      "--part", options.part, "K/N: run the Kth of N parts and write FILE.K_of_N.csv, as one of a batch system's jobs");
-  part->check(filled("K/N"));
-  sweep_command->add_option("--join", options.join, "N: put the tables of N parts together")
-      ->check(CLI::Range(1, 10000))
-      ->excludes(part);
-  add_diagnose(sweep_command);
-  CLI::App* picture_command =
-      app.add_subcommand("picture", "draw the results in a folder (mortise picture --help has the options)");
-  picture_command->set_help_flag();
-  picture_command->prefix_command();  // the script reads them
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) {  // --help, --version
-      std::ostringstream text;
-      const int status = app.exit(error, text, text);
-      say(text.str());
-      return status;
-    }
-    throw InputError(std::string("command line: ") + error.what() + " (mortise --help)");
-  }
+  CLI::App* solve_command = add_solve(app, options);
+  CLI::App* check_command = add_check(app, options);
+  CLI::App* mesh_command = add_mesh(app, options);
+  add_sweep(app, options);
+  CLI::App* picture_command = add_picture(app);
+  if (const auto status = parse(app, argc, argv)) return *status;
+
   if (*picture_command) return draw_picture(picture_command->remaining());
   const bool alone = ranks().count() == 1 && options.jobs == 1;
   set_solver_threads(options.threads > 0 || alone ? options.threads : 1);

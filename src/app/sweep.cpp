@@ -100,60 +100,76 @@ Status worst_of(const std::map<std::size_t, RunRow>& rows) {
   return worst;
 }
 
-}  // namespace
+// A sweep under way: what is known, what is to be run, and its two files.
+struct Running {
+  const SweepPlan& plan;
+  fs::path csv, journal;
+  std::map<std::size_t, RunRow> rows = {};       // by number of the run
+  std::vector<std::size_t> groups = {};          // to be run
+  std::map<std::size_t, std::string> keys = {};  // of groups
+  std::ofstream lines = {};                      // of the journal
 
-Status sweep(const SweepPlan& plan, const fs::path& whole, const SweepPart& part, int jobs, const SweepReport& report) {
-  const fs::path csv = table_of(whole, part), journal = journal_of(csv);
-  if (csv.has_parent_path()) fs::create_directories(csv.parent_path());
-  check_target(csv, {plan.scene}, is_sweep_table);
-  check_target(journal, {plan.scene}, [](const std::string& title) { return title == journal_title; });
+  void write() const { write_table(csv, plan.keys, plan.values, rows); }
+};
 
-  std::map<std::size_t, RunRow> rows;  // by number of the run
-  const std::map<std::string, std::vector<RunRow>> kept = read_journal(journal);
-  std::vector<std::size_t> groups;  // to be run
-  std::map<std::size_t, std::string> keys;
-  const auto [first, last] = groups_of(plan, part);
+// What the journal of an earlier call has; it is gone on with.
+void resume(Running& now, const SweepPart& part, const SweepReport& report) {
+  const std::map<std::string, std::vector<RunRow>> kept = read_journal(now.journal);
+  const auto [first, last] = groups_of(now.plan, part);
   for (std::size_t group = first; group < last; ++group) {
-    const auto [from, to] = runs_of_group(plan, group);
-    const auto found = kept.find(keys[group] = key_of(plan, group));
+    const auto [from, to] = runs_of_group(now.plan, group);
+    const auto found = kept.find(now.keys[group] = key_of(now.plan, group));
     if (found == kept.end() || found->second.size() != to - from) {
-      groups.push_back(group);
+      now.groups.push_back(group);
       continue;
     }
     for (std::size_t run = from; run < to; ++run) {
-      rows[run] = found->second[run - from];
-      report(told(plan, run, rows[run]) + " (kept)");
+      now.rows[run] = found->second[run - from];
+      report(told(now.plan, run, now.rows[run]) + " (kept)");
     }
   }
-  if (groups.empty()) write_table(csv, plan.keys, plan.values, rows);
+  if (now.groups.empty()) now.write();
+  now.lines.open(now.journal, kept.empty() ? std::ios::trunc : std::ios::app);
+  if (kept.empty()) now.lines << journal_title << "\n" << std::flush;
+}
 
-  std::ofstream lines(journal, kept.empty() ? std::ios::trunc : std::ios::app);
-  if (kept.empty()) lines << journal_title << "\n" << std::flush;
+// Takes in a line of a process: "RUN row". A group that is complete goes into the journal.
+void take_line(Running& now, const std::string& line, const SweepReport& report) {
+  const std::size_t run = std::stoul(line), group = group_of(run);
+  const RunRow row = row_in(line.substr(line.find(' ') + 1)).value();
+  now.rows[run] = row;
+  now.write();
+  report(told(now.plan, run, row));
+  const auto [from, to] = runs_of_group(now.plan, group);
+  if (run + 1 < to) return;
+  std::string complete;
+  for (std::size_t k = from; k < to; ++k) complete += journal_line(now.keys[group], now.rows.at(k));
+  now.lines << complete << std::flush;
+}
+
+}  // namespace
+
+Status sweep(const SweepPlan& plan, const fs::path& whole, const SweepPart& part, int jobs, const SweepReport& report) {
+  Running now{plan, table_of(whole, part), journal_of(table_of(whole, part))};
+  if (now.csv.has_parent_path()) fs::create_directories(now.csv.parent_path());
+  check_target(now.csv, {plan.scene}, is_sweep_table);
+  check_target(now.journal, {plan.scene}, [](const std::string& title) { return title == journal_title; });
+  resume(now, part, report);
+
   const auto work = [&](std::size_t index, const Answer& answer) {
     std::optional<ActiveSet> start;
-    const auto [from, to] = runs_of_group(plan, groups[index]);
+    const auto [from, to] = runs_of_group(plan, now.groups[index]);
     for (std::size_t run = from; run < to; ++run)
       answer(std::to_string(run) + " " + line_of(run_one(plan, run, start)));
   };
-  const auto take = [&](const std::string& line) {
-    const std::size_t run = std::stoul(line), group = group_of(run);
-    const RunRow row = row_in(line.substr(line.find(' ') + 1)).value();
-    rows[run] = row;
-    write_table(csv, plan.keys, plan.values, rows);
-    report(told(plan, run, row));
-    const auto [from, to] = runs_of_group(plan, group);
-    if (run + 1 < to) return;
-    std::string complete;
-    for (std::size_t k = from; k < to; ++k) complete += journal_line(keys[group], rows.at(k));
-    lines << complete << std::flush;
-  };
-  if (!share_work(groups.size(), jobs, work, take))
-    throw InputError(csv.string() +
+  const auto take = [&](const std::string& line) { take_line(now, line, report); };
+  if (!share_work(now.groups.size(), jobs, work, take))
+    throw InputError(now.csv.string() +
                      ": a process of the sweep has ended before its runs were complete; the same command goes on "
                      "with those that are missing");
-  lines.close();
-  fs::remove(journal);
-  return worst_of(rows);
+  now.lines.close();
+  fs::remove(now.journal);
+  return worst_of(now.rows);
 }
 
 }  // namespace mortise

@@ -70,31 +70,13 @@ class Looking {
       : nodes_(nodes), cell_(cell), fields_(fields) {}
 
   Looked look(const CellPiece& piece) const {
-    constexpr double inwards = 0.02;  // values are not defined beyond a boundary, if they are so on it
     const int n = piece.corners;
-    const Vec2 middle = centre(piece);
-    // Corners, middles of sides, centre: within the piece, and on its outline.
-    std::array<Vec2, 9> x, drawn;
-    x.fill(middle);
-    drawn.fill(middle);
-    for (int a = 0; a < 2 * n + 1; ++a) {
-      const Vec2 xi = a < n       ? piece.at[a]
-                      : a < 2 * n ? Vec2((piece.at[a - n] + piece.at[(a - n + 1) % n]) / 2)
-                                  : middle;
-      drawn[a] = cell_point(nodes_, cell_, xi).x;
-      x[a] = cell_point(nodes_, cell_, (1 - inwards) * xi + inwards * middle).x;
-    }
-    Vec2 low = drawn[0], high = drawn[0];
-    for (int a = 0; a < n; ++a) {
-      const Vec2 crossing = 2 * drawn[n + a] - (drawn[a] + drawn[(a + 1) % n]) / 2;  // as of along_edge
-      low = low.cwiseMin(drawn[a]).cwiseMin(crossing);
-      high = high.cwiseMax(drawn[a]).cwiseMax(crossing);
-    }
+    const Places at = places(piece);
     Looked looked{piece};
     std::array<double, 4> bends{};
     for (const auto& [field, range_of, scale] : fields_) {
       std::array<double, 9> f;
-      for (int a = 0; a < 2 * n + 1; ++a) f[a] = (*field)(x[a]);
+      for (int a = 0; a < 2 * n + 1; ++a) f[a] = (*field)(at.x[a]);
       double mean = 0;
       for (int a = 0; a < n; ++a) {
         bends[a] = std::max(bends[a], std::abs(f[n + a] - (f[a] + f[(a + 1) % n]) / 2) / scale);
@@ -102,7 +84,7 @@ class Looking {
       }
       looked.error = std::max(looked.error, std::abs(f[2 * n] - mean) / scale);
       if (!range_of.known()) continue;
-      const Interval range = range_of({{low.x(), high.x()}, {low.y(), high.y()}, {}});
+      const Interval range = range_of({{at.low.x(), at.high.x()}, {at.low.y(), at.high.y()}, {}});
       const auto [least, most] = std::minmax_element(f.begin(), f.begin() + 2 * n + 1);
       const double beyond =
           std::max(range.high - *most, *least - range.low) - (*most - *least) - hidden_in_cell * scale;
@@ -110,19 +92,55 @@ class Looking {
       looked.hidden = true;
       looked.error = std::max(looked.error, std::min(beyond / scale, 1e6));
     }
-    const double most = *std::max_element(bends.begin(), bends.end());
-    looked.error = std::max(looked.error, most);
-    double length = -1;
-    for (int a = 0; a < n; ++a) {
-      const double side = (drawn[(a + 1) % n] - drawn[a]).norm();
-      if (bends[a] < 0.5 * most || side <= length) continue;
-      length = side;
-      looked.longest = a;
-    }
+    looked.error = std::max(looked.error, *std::max_element(bends.begin(), bends.end()));
+    looked.longest = side_to_cut(at, n, bends);
     return looked;
   }
 
  private:
+  // Corners, middles of sides, centre: within the piece, and on its outline; and a box that holds the piece.
+  struct Places {
+    std::array<Vec2, 9> x, drawn;
+    Vec2 low, high;
+  };
+
+  Places places(const CellPiece& piece) const {
+    constexpr double inwards = 0.02;  // values are not defined beyond a boundary, if they are so on it
+    const int n = piece.corners;
+    const Vec2 middle = centre(piece);
+    Places at;
+    at.x.fill(middle);
+    at.drawn.fill(middle);
+    for (int a = 0; a < 2 * n + 1; ++a) {
+      const Vec2 xi = a < n       ? piece.at[a]
+                      : a < 2 * n ? Vec2((piece.at[a - n] + piece.at[(a - n + 1) % n]) / 2)
+                                  : middle;
+      at.drawn[a] = cell_point(nodes_, cell_, xi).x;
+      at.x[a] = cell_point(nodes_, cell_, (1 - inwards) * xi + inwards * middle).x;
+    }
+    at.low = at.high = at.drawn[0];
+    for (int a = 0; a < n; ++a) {
+      const Vec2 crossing = 2 * at.drawn[n + a] - (at.drawn[a] + at.drawn[(a + 1) % n]) / 2;  // as of along_edge
+      at.low = at.low.cwiseMin(at.drawn[a]).cwiseMin(crossing);
+      at.high = at.high.cwiseMax(at.drawn[a]).cwiseMax(crossing);
+    }
+    return at;
+  }
+
+  // The longest of the n sides along which a field bends at least half as much as on the worst.
+  static int side_to_cut(const Places& at, int n, const std::array<double, 4>& bends) {
+    const double most = *std::max_element(bends.begin(), bends.end());
+    int longest = 0;
+    double length = -1;
+    for (int a = 0; a < n; ++a) {
+      const double side = (at.drawn[(a + 1) % n] - at.drawn[a]).norm();
+      if (bends[a] < 0.5 * most || side <= length) continue;
+      length = side;
+      longest = a;
+    }
+    return longest;
+  }
+
   const Points& nodes_;
   const Cell& cell_;
   const std::vector<ScaledField>& fields_;

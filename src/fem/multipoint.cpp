@@ -16,6 +16,29 @@ constexpr double parallel = 1e-6;  // sine between directions that are one
 // Displacement of a place when it turns about another by 1.
 Vec2 turned(const Vec2& place, const Vec2& about) { return {about.y() - place.y(), place.x() - about.x()}; }
 
+bool agree(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+std::string other_value(const Vec2& direction, double value, double other) {
+  std::ostringstream text;
+  text << "prescribes a displacement of " << value << " along (" << direction.x() << ", " << direction.y()
+       << "), where another entry makes it " << other << "; expected one value a node,";
+  return text.str();
+}
+
+// The node that is farthest from the first one along x or y, and the displacement at right angles, which shows the
+// turn.
+std::pair<int, int> turning_unknown(const Points& at, const std::vector<int>& nodes) {
+  const int first = nodes.front();
+  int last = first, along = 0;
+  for (const int node : nodes)
+    for (int c = 0; c < 2; ++c)
+      if (std::abs(at(node, c) - at(first, c)) > std::abs(at(last, along) - at(first, along))) {
+        last = node;
+        along = c;
+      }
+  return {last, 1 - along};
+}
+
 }  // namespace
 
 void add_rigid_load(const Mesh& mesh, const RigidCurve& curve, const Vec2& force, double moment, VecX& f) {
@@ -54,16 +77,7 @@ void MultipointBuilder::prescribe(int support, const std::string& key, int node,
     for (int c = 0; c < 2; ++c)
       if (constraints_.fixed[x + c]) given.emplace_back(Vec2::Unit(c), constraints_.value(x + c));
 
-  const auto agree = [&](const std::pair<Vec2, double>& other, double sign) {
-    const double wanted = sign * value;
-    return std::abs(other.second - wanted) <= 1e-9 * std::max(std::abs(other.second), std::abs(wanted));
-  };
-  const auto conflict = [&](double other) {
-    std::ostringstream text;
-    text << "prescribes a displacement of " << value << " along (" << direction.x() << ", " << direction.y()
-         << "), where another entry makes it " << other << "; expected one value a node,";
-    refuse(key, node, text.str());
-  };
+  const auto conflict = [&](double other) { refuse(key, node, other_value(direction, value, other)); };
   if (given.size() == 3) {  // already held in both directions
     const double there = direction.dot(constraints_.value.segment<2>(x));
     const double size = constraints_.value.segment<2>(x).norm();
@@ -85,7 +99,7 @@ void MultipointBuilder::prescribe(int support, const std::string& key, int node,
   const double sine = cross(given[0].first, given[1].first);
   if (std::abs(sine) < parallel) {
     const double sign = given[0].first.dot(given[1].first) > 0 ? 1 : -1;
-    if (!agree(given[1], sign)) conflict(sign * given[1].second);
+    if (!agree(given[1].second, sign * value)) conflict(sign * given[1].second);
     return;
   }
   // Two directions hold the node altogether: n1 . u = v1, n2 . u = v2.
@@ -132,18 +146,9 @@ RigidCurve MultipointBuilder::make_rigid(const std::string& key, std::vector<int
       constraints_.value(unknown) = 0;
     }
   }
-  // The pair of nodes that is farthest apart from the first one, along x or y, tells the turn.
   const int first = nodes.front();
-  int last = first, along = 0;
-  for (const int node : nodes)
-    for (int c = 0; c < 2; ++c)
-      if (const double d = std::abs(place(node)(c) - place(first)(c));
-          d > std::abs(place(last)(along) - place(first)(along))) {
-        last = node;
-        along = c;
-      }
+  const auto [last, c] = turning_unknown(mesh_.nodes, nodes);
   if (last == first) refuse(key, first, "makes a single node rigid; expected a curve");
-  const int c = 1 - along;  // the displacement that tells the turn is at right angles
   const double arm = lever_of(last)(c) - lever_of(first)(c);
   const RigidCurve curve{std::move(nodes), about, {2 * first, 2 * first + 1, 2 * last + c}, arm};
   const auto [qx, qy, turn] = curve.q;

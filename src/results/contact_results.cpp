@@ -92,14 +92,6 @@ double normal_stress(const Eigen::Ref<const Eigen::RowVector4d>& s, const Vec2& 
   return s(0) * n.x() * n.x() + s(1) * n.y() * n.y() + 2 * s(3) * n.x() * n.y();
 }
 
-// A node's stresses, and u_n along `normal`.
-ContactNode node_results(const Mesh& mesh, const CurveNode& at, int body, const Vec2& normal, const BodyPoints& points,
-                         const StressField& stress, const VecX& u) {
-  const auto s = stress.points.row(point_of(points, body, at.node));
-  return {at.node, at.s, mesh.nodes.row(at.node).transpose(), normal, u.segment<2>(2 * at.node).dot(normal),
-          nan,     nan,  normal_stress(s, at.normal),         s(1)};
-}
-
 // `nodes`: of the same side, in the curve's order.
 std::vector<ContactCentre> centre_results(const Mesh& mesh, const Curve& curve, const std::vector<ContactNode>& nodes,
                                           const StressField& stress) {
@@ -143,65 +135,82 @@ double least_pressure(const ContactPair& pair, const VecX& pressure) {
   return least;
 }
 
-}  // namespace
+// What all nodes of a pair are asked with.
+struct Asked {
+  const Mesh& mesh;
+  const ContactPair& pair;
+  const BodyPoints& points;
+  const StressField& stress;
+  const VecX &u, &pressure;
 
-ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const Constraints& constraints,
-                               const BodyPoints& points, const StressField& stress, const VecX& u, const VecX& lambda) {
-  const ContactGeometry& geometry = pair.geometry;
-  const std::vector<CurveNode> along =
-      nodes_along(mesh, pair.multiplier, constraints, geometry.normals ? &*geometry.multiplier : nullptr);
-  const auto initial_gap = [&](const Line& line, const Place& at, const Hit& hit) {
-    return pair.spec.initial_gap == InitialGap::closed ? 0 : geometry.initial_gap(line, at, hit);
-  };
-  ContactResults r;
-  r.pressure = 0 - multiplier_values(pair.coupling, lambda).array();  // 0 - 0 is 0, -0 is not
-  r.multiplier.curve = mesh.boundaries[pair.multiplier.boundary].name;
-  r.opposite.curve = mesh.boundaries[pair.opposite.boundary].name;
-
-  for (const CurveNode& at : along) {
-    ContactNode n = node_results(mesh, at, pair.multiplier.body, at.normal, points, stress, u);
-    n.p = interpolate(pair, r.pressure, at.place);
-    n.on_multiplier = at.place;
-    const Line line{n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)};
-    if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite, line)) {
-      const Vec2 other = edge_value(u, pair.opposite.edges[hit->edge], hit->xi);
-      n.gap = initial_gap(line, at.place, *hit) + other.dot(at.normal) - n.u_n;
-    }
-    r.multiplier.nodes.push_back(n);
+  // A node's stresses, and u_n along `normal`.
+  ContactNode node(const CurveNode& at, int body, const Vec2& normal) const {
+    const auto s = stress.points.row(point_of(points, body, at.node));
+    return {.node = at.node,
+            .s = at.s,
+            .position = mesh.nodes.row(at.node).transpose(),
+            .normal = normal,
+            .u_n = u.segment<2>(2 * at.node).dot(normal),
+            .p = nan,
+            .gap = nan,
+            .sigma_n = normal_stress(s, at.normal),
+            .sigma_2 = s(1)};
   }
-  for (const CurveNode& at :
-       nodes_along(mesh, pair.opposite, constraints, geometry.normals ? &*geometry.opposite : nullptr)) {
-    const Vec2 x = mesh.nodes.row(at.node).transpose();
-    const auto foot = foot_of(mesh, pair.multiplier, along, x);
-    if (!foot) {
-      r.opposite.nodes.push_back(node_results(mesh, at, pair.opposite.body, -at.normal, points, stress, u));
-      r.opposite.nodes.back().p = 0;
-      continue;
-    }
-    const Edge& edge = pair.multiplier.edges[foot->edge];
-    const Line line = geometry.line_from(mesh.nodes, pair.multiplier, *foot);
-    // At a vertex of the multiplier side its mean normal, as in that side's own rows.
-    const auto vertex = std::find_if(along.begin(), along.end(), [&](const CurveNode& c) {
-      return (mesh.nodes.row(c.node).transpose() - line.x).norm() < 1e-9 * edge_length(mesh.nodes, edge);
-    });
-    const Vec2 normal = vertex != along.end() ? vertex->normal : line.n;
-    ContactNode n = node_results(mesh, at, pair.opposite.body, normal, points, stress, u);
-    n.p = interpolate(pair, r.pressure, *foot);
-    n.on_multiplier = *foot;
-    n.gap = initial_gap({line.x, normal, line.depth}, *foot, {at.place.edge, at.place.xi, (x - line.x).dot(normal)}) +
-            n.u_n - edge_value(u, edge, foot->xi).dot(normal);
-    r.opposite.nodes.push_back(n);
-  }
-  r.multiplier.centres = centre_results(mesh, pair.multiplier, r.multiplier.nodes, stress);
-  r.opposite.centres = centre_results(mesh, pair.opposite, r.opposite.nodes, stress);
 
-  r.length = curve_length(mesh.nodes, pair.multiplier);
-  // Both curves keep their bodies on the left, so they run against each other.
-  if (runs_backwards(mesh.nodes, pair.multiplier))
+  double initial_gap(const Line& line, const Place& at, const Hit& hit) const {
+    return pair.spec.initial_gap == InitialGap::closed ? 0 : pair.geometry.initial_gap(line, at, hit);
+  }
+};
+
+ContactNode on_multiplier_side(const Asked& asked, const CurveNode& at) {
+  const ContactPair& pair = asked.pair;
+  ContactNode n = asked.node(at, pair.multiplier.body, at.normal);
+  n.p = interpolate(pair, asked.pressure, at.place);
+  n.on_multiplier = at.place;
+  const Line line{n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)};
+  if (const auto hit = project_onto_curve(asked.mesh.nodes, pair.opposite, line)) {
+    const Vec2 other = edge_value(asked.u, pair.opposite.edges[hit->edge], hit->xi);
+    n.gap = asked.initial_gap(line, at.place, *hit) + other.dot(at.normal) - n.u_n;
+  }
+  return n;
+}
+
+// `along`: the nodes of the multiplier side.
+ContactNode on_opposite_side(const Asked& asked, const CurveNode& at, const std::vector<CurveNode>& along) {
+  const Points& nodes = asked.mesh.nodes;
+  const ContactPair& pair = asked.pair;
+  const Vec2 x = nodes.row(at.node).transpose();
+  const auto foot = foot_of(asked.mesh, pair.multiplier, along, x);
+  if (!foot) {
+    ContactNode n = asked.node(at, pair.opposite.body, -at.normal);
+    n.p = 0;
+    return n;
+  }
+  const Edge& edge = pair.multiplier.edges[foot->edge];
+  const Line line = pair.geometry.line_from(nodes, pair.multiplier, *foot);
+  // At a vertex of the multiplier side its mean normal, as in that side's own rows.
+  const auto vertex = std::find_if(along.begin(), along.end(), [&](const CurveNode& c) {
+    return (nodes.row(c.node).transpose() - line.x).norm() < 1e-9 * edge_length(nodes, edge);
+  });
+  const Vec2 normal = vertex != along.end() ? vertex->normal : line.n;
+  ContactNode n = asked.node(at, pair.opposite.body, normal);
+  n.p = interpolate(pair, asked.pressure, *foot);
+  n.on_multiplier = *foot;
+  const Hit own{at.place.edge, at.place.xi, (x - line.x).dot(normal)};
+  n.gap = asked.initial_gap({line.x, normal, line.depth}, *foot, own) + n.u_n -
+          edge_value(asked.u, edge, foot->xi).dot(normal);
+  return n;
+}
+
+// Both curves keep their bodies on the left, so they run against each other.
+void run_together(const Points& nodes, const ContactPair& pair, ContactResults& r) {
+  if (runs_backwards(nodes, pair.multiplier))
     reverse(r.multiplier, r.length);
   else
-    reverse(r.opposite, curve_length(mesh.nodes, pair.opposite));
+    reverse(r.opposite, curve_length(nodes, pair.opposite));
+}
 
+void set_extremes(const ContactPair& pair, ContactResults& r) {
   r.p_least = least_pressure(pair, r.pressure);
   r.p_min = std::numeric_limits<double>::infinity();
   r.p_max = -r.p_min;
@@ -214,21 +223,54 @@ ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const 
     r.p_min = r.pressure.minCoeff();
     r.p_max = r.pressure.maxCoeff();
   }
-  double area = 0;
+}
+
+double mean_pressure(const ContactPair& pair, const VecX& pressure) {
+  double area = 0, sum = 0;
   for (const ContactPoint& c : pair.points) {
     area += c.dA;
-    r.p_mean += c.dA * interpolate(pair, r.pressure, {c.edge, c.xi});
+    sum += c.dA * interpolate(pair, pressure, {c.edge, c.xi});
   }
-  r.length_in_contact = length_in_contact(mesh.nodes, pair, r.pressure);
-  const std::map<int, Vec2> forces = contact_forces(pair.coupling, lambda);
+  return sum / area;
+}
+
+Resultant force_on(const Points& nodes, const std::vector<CurveNode>& along, const std::map<int, Vec2>& forces) {
   Resultant sum;
   for (const CurveNode& at : along)
     if (const auto force = forces.find(at.node); force != forces.end())
-      sum.add(mesh.nodes.row(at.node).transpose(), force->second);
+      sum.add(nodes.row(at.node).transpose(), force->second);
+  return sum;
+}
+
+}  // namespace
+
+ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const Constraints& constraints,
+                               const BodyPoints& points, const StressField& stress, const VecX& u, const VecX& lambda) {
+  const ContactGeometry& geometry = pair.geometry;
+  const auto along =
+      nodes_along(mesh, pair.multiplier, constraints, geometry.normals ? &*geometry.multiplier : nullptr);
+  const auto facing = nodes_along(mesh, pair.opposite, constraints, geometry.normals ? &*geometry.opposite : nullptr);
+  ContactResults r;
+  r.pressure = 0 - multiplier_values(pair.coupling, lambda).array();  // 0 - 0 is 0, -0 is not
+  const Asked asked{mesh, pair, points, stress, u, r.pressure};
+
+  r.multiplier.curve = mesh.boundaries[pair.multiplier.boundary].name;
+  for (const CurveNode& at : along) r.multiplier.nodes.push_back(on_multiplier_side(asked, at));
+  r.multiplier.centres = centre_results(mesh, pair.multiplier, r.multiplier.nodes, stress);
+
+  r.opposite.curve = mesh.boundaries[pair.opposite.boundary].name;
+  for (const CurveNode& at : facing) r.opposite.nodes.push_back(on_opposite_side(asked, at, along));
+  r.opposite.centres = centre_results(mesh, pair.opposite, r.opposite.nodes, stress);
+
+  r.length = curve_length(mesh.nodes, pair.multiplier);
+  run_together(mesh.nodes, pair, r);
+  set_extremes(pair, r);
+  r.p_mean = mean_pressure(pair, r.pressure);
+  r.length_in_contact = length_in_contact(mesh.nodes, pair, r.pressure);
+  const Resultant sum = force_on(mesh.nodes, along, contact_forces(pair.coupling, lambda));
   r.force = sum.force;
   r.moment = sum.moment;
   r.centre = centre_of(mesh.nodes, pair.multiplier.edges);
-  r.p_mean /= area;
   return r;
 }
 

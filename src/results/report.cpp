@@ -137,58 +137,73 @@ std::string space_word(const Results& r) {
   return to_string(r.problem.method.multipliers);
 }
 
+Json method_json(const Results& r) {
+  const Method& method = r.problem.method;
+  Json on = Json::array(), condition = Json::array(), gap = Json::array();
+  for (const ContactPair& pair : r.problem.pairs) {
+    on.push_back(pair.spec.multipliers_on);
+    condition.push_back(to_string(pair.spec.condition));
+    gap.push_back(gap_json(pair.spec));
+  }
+  return {{"integration", to_string(method.integration)},
+          {"normals", to_string(method.normals)},
+          {"multipliers", space_word(r)},
+          {"multipliers_on", on},
+          {"solver", to_string(r.solution.solver)},
+          {"dirichlet", dirichlet_names(r.problem.mesh, r.problem.dirichlet)},
+          {"condition", condition},
+          {"initial_gap", gap}};
+}
+
+Json mesh_json(const Results& r) {
+  return {{"nodes", r.problem.mesh.nodes.rows()},
+          {"elements", r.problem.mesh.cells.size()},
+          {"dofs", free_unknowns(r)},
+          {"multipliers", r.solution.lambda.size()},
+          {"cached", r.mesh_cached}};
+}
+
+Json seconds_json(const Seconds& s) {
+  return {{"mesh", s.mesh},           {"assemble", s.assemble}, {"couple", s.couple},
+          {"factorise", s.factorise}, {"solve", s.solve},       {"recover", s.recover},
+          {"estimate", s.estimate},   {"write", s.write},       {"total", s.total()}};
+}
+
+Json counts_json(const Results& r) {
+  return {{"contact", r.problem.pairs.empty() ? 0 : r.solution.steps.size()},
+          {"contact_coarse", r.solution.coarse_steps},
+          {"solver", r.solution.iteration ? r.solution.iteration->steps : 0}};
+}
+
+Json contacts_json(const Results& r) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k)
+    list.push_back(contact_json(r.problem.pairs[k], r.recovery.contacts[k]));
+  return list;
+}
+
+Json checks_json(const std::vector<Check>& checks) {
+  Json list = Json::array();
+  for (const Check& c : checks) {
+    list.push_back({{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"ok", c.ok()}});
+    if (!c.ok() && !c.where.empty()) list.back()["where"] = c.where;
+  }
+  return list;
+}
+
 }  // namespace
 
 Json report_of(const Results& r) {
-  Json on = Json::array(), condition = Json::array(), gap = Json::array(), contact = Json::array();
-  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
-    const ContactSpec& spec = r.problem.pairs[k].spec;
-    on.push_back(spec.multipliers_on);
-    condition.push_back(to_string(spec.condition));
-    gap.push_back(gap_json(spec));
-    contact.push_back(contact_json(r.problem.pairs[k], r.recovery.contacts[k]));
-  }
-  Json checks = Json::array();
-  for (const Check& c : r.checks) {
-    checks.push_back({{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"ok", c.ok()}});
-    if (!c.ok() && !c.where.empty()) checks.back()["where"] = c.where;
-  }
-  const Seconds& s = r.seconds;
   Json report{{"title", r.problem.title},
               {"scene", r.problem.scene},
               {"version", MORTISE_VERSION},
               {"dense_kernel", dense_kernel()},
               {"status", to_string(r.status)},
               {"model", model_report(r.problem, &r.recovery.reactions)},
-              {"method",
-               {{"integration", to_string(r.problem.method.integration)},
-                {"normals", to_string(r.problem.method.normals)},
-                {"multipliers", space_word(r)},
-                {"multipliers_on", on},
-                {"solver", to_string(r.solution.solver)},
-                {"dirichlet", dirichlet_names(r.problem.mesh, r.problem.dirichlet)},
-                {"condition", condition},
-                {"initial_gap", gap}}},
-              {"mesh",
-               {{"nodes", r.problem.mesh.nodes.rows()},
-                {"elements", r.problem.mesh.cells.size()},
-                {"dofs", free_unknowns(r)},
-                {"multipliers", r.solution.lambda.size()},
-                {"cached", r.mesh_cached}}},
-              {"seconds",
-               {{"mesh", s.mesh},
-                {"assemble", s.assemble},
-                {"couple", s.couple},
-                {"factorise", s.factorise},
-                {"solve", s.solve},
-                {"recover", s.recover},
-                {"estimate", s.estimate},
-                {"write", s.write},
-                {"total", s.total()}}},
-              {"iterations",
-               {{"contact", r.problem.pairs.empty() ? 0 : r.solution.steps.size()},
-                {"contact_coarse", r.solution.coarse_steps},
-                {"solver", r.solution.iteration ? r.solution.iteration->steps : 0}}},
+              {"method", method_json(r)},
+              {"mesh", mesh_json(r)},
+              {"seconds", seconds_json(r.seconds)},
+              {"iterations", counts_json(r)},
               {"contact_steps", steps_json(r)},
               {"iteration", iteration_json(r.solution)},
               {"estimate", estimate_json(r)},
@@ -196,10 +211,10 @@ Json report_of(const Results& r) {
               {"inf_sup", r.inf_sup ? Json(r.inf_sup->beta) : Json()},
               {"probes", r.recovery.probes.size()},
               {"energy", r.recovery.energy},
-              {"contact", contact},
+              {"contact", contacts_json(r)},
               {"balance", balance_json(r.recovery.reactions)},
               {"extremes", extremes_json(r)},
-              {"checks", checks},
+              {"checks", checks_json(r.checks)},
               {"warnings", r.warnings}};
   if (r.inf_sup) report["inf_sup_position"] = {r.inf_sup->position.x(), r.inf_sup->position.y()};
   return report;
