@@ -3,15 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "preprint_solvers/solve_ddm.hpp"
 #include "solve/direct.hpp"
+#include "support/eigenvalues.hpp"
 #include "support/two_groups.hpp"
 
 namespace mortise {
 namespace {
 
+using test::eigenvalue_moduli;
 using test::two_groups;
 using test::TwoGroups;
 
@@ -65,7 +65,7 @@ TEST(Interface, TheSpectrumsEndsAreThoseOfTheIterationsMatrix) {
   MatX A(g.m, g.m);  // x -> z(0) - z(x)
   for (int k = 0; k < g.m; ++k)
     A.col(k) = iteration.correction(VecX::Zero(g.m)) - iteration.correction(VecX::Unit(g.m, k));
-  const VecX sizes = A.eigenvalues().cwiseAbs();
+  const VecX sizes = eigenvalue_moduli(A);
   const Spectrum found = spectrum(iteration);
   EXPECT_NEAR(found.smallest, sizes.minCoeff(), 1e-8 * sizes.maxCoeff());
   EXPECT_NEAR(found.largest, sizes.maxCoeff(), 1e-8 * sizes.maxCoeff());
