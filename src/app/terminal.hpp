@@ -1,4 +1,4 @@
-// What mortise says, made safe on its way out.
+// Output to the terminal, with unsafe characters escaped.
 #pragma once
 
 #include <ostream>

@@ -5,7 +5,7 @@
 
 namespace mortise {
 
-/// Of a symmetric matrix, of which the lower triangle is read.
+/// Eigenvalues and vectors of a symmetric matrix, of which the lower triangle is read.
 struct SymmetricEigen {
   VecX values;   ///< ascending
   MatX vectors;  ///< orthonormal columns

@@ -14,8 +14,8 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Bad input told without its file: solve_scene and check_scene put the scene's path before what() and throw that as an
-/// InputError.
+/// Bad input reported without its file: solve_scene and check_scene put the scene's path before what() and throw that
+/// as an InputError.
 class SceneError : public InputError {
  public:
   using InputError::InputError;

@@ -37,7 +37,7 @@ Interval cosine(const Interval& a);
 Interval tangent(const Interval& a);
 Interval angle(const Interval& y, const Interval& x);  ///< atan2
 
-/// Of a function that rises on its domain [least, most].
+/// The range of a function that rises on its domain [least, most].
 Interval rising(double (*function)(double), const Interval& a, double least = -std::numeric_limits<double>::infinity(),
                 double most = std::numeric_limits<double>::infinity());
 

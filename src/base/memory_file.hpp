@@ -15,7 +15,7 @@ class MemoryFile {
 
   std::string path() const;
   int descriptor() const { return descriptor_; }
-  /// What it holds now.
+  /// Its present contents.
   std::string text() const;
 
  private:

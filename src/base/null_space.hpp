@@ -1,4 +1,4 @@
-// What a symmetric matrix makes nothing of.
+// The null space of a symmetric matrix.
 #pragma once
 
 #include "base/types.hpp"

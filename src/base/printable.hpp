@@ -16,7 +16,7 @@ std::string printable(const std::string& text);
 /// A line of more than 900 bytes without its middle.
 std::string in_short(const std::string& line);
 
-/// Of a list for the terminal: so many are told in full, of more the first three and how many more there are.
+/// A list on the terminal shows up to so many entries, else the first three and how many more there are.
 inline constexpr std::size_t told_in_full = 6, told_of_many = 3;
 
 /// "a, b, c", or "a, b, c and 397 more".

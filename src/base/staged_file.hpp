@@ -27,7 +27,7 @@ class StagedFile {
   StagedFile(const StagedFile&) = delete;
   StagedFile& operator=(const StagedFile&) = delete;
 
-  /// Where to write before commit().
+  /// The path to write to before commit().
   const std::filesystem::path& path() const { return staging_; }
   /// Once, when the file is written and closed. `on_disk`: waits until the disk has it, so that a full one is noticed
   /// here. Throws InputError.

@@ -14,7 +14,7 @@ inline constexpr double singular_limit = 0.95;
 /// The sides of cells that end at a node and have no cell behind them, the body on their left.
 std::vector<Edge> outline_at(const Mesh& mesh, const SideTable& table, int node);
 
-/// What holds a face, by what is prescribed at all nodes of its edge.
+/// The condition on a face, by what is prescribed at all nodes of its edge.
 Face face_of(const Points& nodes, const Edge& edge, const Constraints& constraints);
 
 /// Of a body on the left of an outline that goes on from one tangent to the other, radians in (0, 2 pi).

@@ -1,4 +1,4 @@
-// Where a contact pair takes its normals and its undeformed gap from: the curves that its meshes stand for, or their
+// The source of a contact pair's normals and undeformed gap: the curves that its meshes stand for, or their
 // edges; and the model whose depth its lengths have.
 #pragma once
 
@@ -33,7 +33,7 @@ struct ContactGeometry {
   /// open. Throws SceneError where a field of the scene has no finite value.
   double initial_gap(const Line& line, const Place& at, const Hit& hit) const;
 
-  /// What the scene adds to the gap of the lines at a place of the multiplier side's edges, length.
+  /// The clearance that the scene adds to the gap of the lines at a place of the multiplier side's edges, length.
   double clearance_at(const Vec2& x, const Place& at) const;
 };
 

@@ -42,10 +42,10 @@ class ContactLine {
   /// and a little beyond.
   LinePoint at(int edge, double xi) const;
 
-  /// Where the normal of the edge's line passes through x. Nothing unless it does so near the edge.
+  /// The place whose normal on the edge's line passes through x; nothing unless it is near the edge.
   std::optional<double> foot(int edge, const Vec2& x, double start) const;
 
-  /// Where the straight line through x along n meets the edge's line. Nothing unless it does so near the edge.
+  /// The place where the straight line through x along n meets the edge's line; nothing unless it is near the edge.
   std::optional<double> crossing(int edge, const Vec2& x, const Vec2& n, double start) const;
 
   /// How far the curve that the edge stands for may lie from the line, length: what the pieces miss of the drawn curve;

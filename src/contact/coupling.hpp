@@ -16,7 +16,7 @@ struct CouplingOptions {
   InitialGap initial_gap = InitialGap::curve;  ///< closed: the points' gaps are left out
 };
 
-/// Of an interface that has its points. Throws InputError if the curves do not face each other anywhere.
+/// The rows of an interface that has its points. Throws InputError if the curves do not face each other anywhere.
 Coupling couple(const Mesh& mesh, const ContactInterface& interface, const Constraints& constraints,
                 const CouplingOptions& options);
 
@@ -26,7 +26,7 @@ std::vector<int> row_nodes(const Coupling& coupling);
 /// Multipliers from the rows' values: value[row[a]], zero without support.
 VecX multiplier_values(const Coupling& coupling, const VecX& row_values);
 
-/// What the rows' values put on the nodes of both sides, -B^T row_values: forces times depth, by node.
+/// Forces of the rows' values on the nodes of both sides, -B^T row_values, times depth; by node.
 std::map<int, Vec2> contact_forces(const Coupling& coupling, const VecX& row_values);
 
 /// The multipliers' values interpolated at a point of the multiplier side with the Lagrange functions of their nodes,

@@ -1,4 +1,4 @@
-// Where a gap that is given, or added to that of the curves, varies within edges of the multiplier side.
+// Cuts where a gap that is given, or added to that of the curves, varies within edges of the multiplier side.
 #pragma once
 
 #include <array>

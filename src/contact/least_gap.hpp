@@ -1,11 +1,11 @@
-// Where the curves of a pair that bear nothing are nearest to one another.
+// The nearest approach of the curves of a pair that bear nothing.
 #pragma once
 
 #include "contact/segments.hpp"
 
 namespace mortise {
 
-/// Of the points at which contact is integrated. All of a pair whose curves face nowhere: infinite, no approach.
+/// The nearest contact point; if the curves of a pair face nowhere: infinite, no approach.
 struct LeastGap {
   double gap;   ///< deformed, the least of all points, length; negative: drawn curves pass through one another there
   Vec2 place;   ///< of it, undeformed

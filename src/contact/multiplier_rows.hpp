@@ -8,7 +8,7 @@
 
 namespace mortise {
 
-/// What the contact points say of each multiplier.
+/// Sums over the contact points for each multiplier.
 struct Support {
   /// int |N| ds, length, with N the Lagrange function of the multiplier's node: dual psi may vanish where N does not.
   VecX extent;

@@ -8,7 +8,7 @@
 
 namespace mortise {
 
-/// Of one piece of a body: edges first .. last - 1.
+/// One piece of a body: edges first .. last - 1.
 struct PieceOutline {
   int body;
   int first, last;
@@ -17,7 +17,7 @@ struct PieceOutline {
   BoxIndex edges;  ///< number k is edge first + k
 };
 
-/// Where a corner begins: up to this angle two edges that meet are taken for one smooth curve.
+/// The least angle of a corner: up to it two edges that meet are taken for one smooth curve.
 inline constexpr double smooth_turn = 0.6;  // 34 degrees
 
 /// Boundary edges at given positions of the nodes.

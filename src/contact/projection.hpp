@@ -8,7 +8,7 @@
 
 namespace mortise {
 
-/// Where a line meets an edge of a curve.
+/// The place where a line meets an edge of a curve.
 struct Hit {
   int edge;         ///< index into Curve::edges
   double xi;        ///< on that edge, [-1, 1] up to projection_tolerance

@@ -1,4 +1,4 @@
-// Where the stress on a contact line has no limit, so that no mesh shows it.
+// Places where the stress on a contact line has no limit, so that no mesh shows it.
 #pragma once
 
 #include <array>

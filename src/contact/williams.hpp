@@ -18,8 +18,8 @@ namespace mortise {
 
 constexpr double straight = std::numbers::pi;  // the angle of a boundary without a corner
 
-/// What holds a straight face of a wedge: nothing, u = 0, the face as a line of symmetry (u_theta = sigma_rtheta = 0),
-/// or of antisymmetry (u_r = sigma_thetatheta = 0).
+/// The condition on a straight face of a wedge: nothing, u = 0, the face as a line of symmetry (u_theta = sigma_rtheta
+/// = 0), or of antisymmetry (u_r = sigma_thetatheta = 0).
 enum class Face { free, clamped, symmetric, antisymmetric };
 
 struct Wedge {

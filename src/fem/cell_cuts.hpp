@@ -32,7 +32,7 @@ std::vector<CellPiece> resolving_pieces(const Points& nodes, const Cell& cell, c
 /// 3 x 3 points on each piece.
 CellRule piece_rule(const std::vector<CellPiece>& pieces);
 
-/// What is left of functions without the linear one that stands for them.
+/// Functions less the linear one that stands for them.
 struct CellMisfit {
   double root_mean_square;  ///< over the cell, of the length of the vector of differences
   Vec2 at;                  ///< place of the largest difference

@@ -19,7 +19,7 @@ struct EdgeShape {
 
 EdgeShape edge_shape(int node_count, double xi);
 
-/// Where an edge is at xi, and which way it goes.
+/// Position and direction of an edge at xi.
 struct EdgePoint {
   Vec2 position;
   Vec2 tangent;  ///< d position / d xi, length per unit of xi
@@ -34,7 +34,7 @@ EdgePoint edge_point(const Points& nodes, const Edge& edge, double xi);
 /// xi of an edge's node a: start, end, middle.
 constexpr double xi_of_node(int a) { return a == 0 ? -1 : a == 1 ? 1 : 0; }
 
-/// Of a field u with two unknowns a node, 2 x nodes: its value at xi.
+/// Value at xi of a field u with two unknowns a node, 2 x nodes.
 Vec2 edge_value(const VecX& u, const Edge& edge, double xi);
 
 /// Length of an edge from its start to xi; of an edge; of a curve.

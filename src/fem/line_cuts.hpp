@@ -1,4 +1,4 @@
-// Where to cut an edge so that a function upon it is integrated as it is: spikes, waves and jumps within the edge too.
+// Cuts of an edge with which a function on it is integrated as it is: spikes, waves and jumps within the edge too.
 #pragma once
 
 #include <functional>
@@ -41,7 +41,7 @@ LineFunction along_edge(const Points& nodes, const Edge& edge, const Field& fiel
 /// range f is looked at in 64 points first. A jump ends up in a piece of 2^-30 of the edge; no edge has more than 4096.
 std::vector<double> resolving_cuts(const LineFunction& f);
 
-/// Where to cut an edge, as resolving_cuts does; empty: nowhere.
+/// The places at which resolving_cuts cuts an edge; may be empty.
 using EdgeCuts = std::function<std::vector<double>(const Edge&)>;
 
 /// The union of both, each ascending from -1 to 1.
@@ -50,7 +50,7 @@ std::vector<double> merged(const std::vector<double>& a, const std::vector<doubl
 /// The points of a rule on each of the pieces between cuts, as one rule on [-1, 1].
 LineRule cut_rule(const std::vector<double>& cuts, int gauss_points);
 
-/// What is left of f without the polynomial that stands for it in the mean.
+/// f less the polynomial that stands for it in the mean.
 struct LineMisfit {
   double mean = 0;       ///< of |f - polynomial| over the edge
   double largest = 0;    ///< of the same

@@ -23,7 +23,7 @@ class CellFinder {
  public:
   explicit CellFinder(const Mesh& mesh);
 
-  /// Of each body that has x, or comes nearest, its cell, by the distance of it.
+  /// The cell of each body that has x or comes nearest, ordered by distance.
   std::vector<CellPlace> around(const Vec2& x) const;
 
   /// The first cell of any body that has x, to round-off, or the one that comes nearest.

@@ -17,7 +17,7 @@ struct MotionSet {
 /// All motions: floating bodies that nothing joins are a set each.
 std::vector<MotionSet> motion_sets(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions);
 
-/// What the set's motions are at its unknowns, of one unknown for each of all motions (a row each).
+/// The set's motions at its unknowns, a row for each motion.
 MatX motions_at(const MotionSet& set, const std::vector<int>& unknowns);
 
 /// One free unknown for each free motion of single bodies, spread as far apart as they go: springs there would hold

@@ -1,4 +1,4 @@
-// What is read and triangulated by VTK, in a shared object of its own that is loaded for the first field that comes
+// Files read and triangulated by VTK, in a shared object of its own that is loaded for the first field that comes
 // from a file. No VTK header here.
 #pragma once
 

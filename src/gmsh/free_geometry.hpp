@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// What gmsh is given again and again to mesh as we like.
+/// Geometry that gmsh meshes again and again with sizes of our own.
 struct FreeGeometry {
   std::string file;  ///< where it came from
   std::map<std::string, double> parameters;

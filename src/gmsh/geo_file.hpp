@@ -1,4 +1,4 @@
-// What a .geo says about itself before gmsh reads it: the parameters that can be set from outside, the files it reads.
+// A .geo's text before gmsh reads it: the parameters that can be set from outside, the files it reads.
 #pragma once
 
 #include <filesystem>

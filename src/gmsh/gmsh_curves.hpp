@@ -1,4 +1,4 @@
-// Where the curves that gmsh has drawn run between the nodes of their meshes. No gmsh header here.
+// The course of the curves that gmsh has drawn between the nodes of their meshes. No gmsh header here.
 #pragma once
 
 #include "mesh_files/mesh_data.hpp"

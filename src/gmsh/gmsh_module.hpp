@@ -1,4 +1,4 @@
-// What is done by gmsh, in a shared object of its own that is loaded when the first .geo is meshed: libgmsh brings some
+// The calls of gmsh, in a shared object of their own that is loaded when the first .geo is meshed: libgmsh brings some
 // ninety libraries with it, which take longer to load than a small scene to solve. No gmsh header here.
 #pragma once
 

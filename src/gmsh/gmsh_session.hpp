@@ -22,7 +22,7 @@ class GmshSession {
   /// Throws InputError with gmsh's own message.
   void read(const std::string& file, const std::map<std::string, double>& parameters);
 
-  /// Opens the text of a .geo, which messages tell as `file`. Throws as read does.
+  /// Opens the text of a .geo, which messages call `file`. Throws as read does.
   void read_text(const std::string& file, const std::string& text);
 
   /// All options as they were before a file was read.

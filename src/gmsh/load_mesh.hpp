@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// What can be told before `file` is read. Throws InputError naming it: an ending that is not known, no such file,
+/// Checks that need not read `file`. Throws InputError naming it: an ending that is not known, no such file,
 /// parameters given to another than a .geo, what check_geo refuses.
 void check_mesh_file(const std::string& file, const std::map<std::string, double>& parameters);
 

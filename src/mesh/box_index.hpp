@@ -21,7 +21,7 @@ class BoxIndex {
   /// Numbers of the boxes that have a point in common with `box`, ascending.
   std::vector<int> meeting(const Box& box) const;
 
-  /// Of those that have a point in common with the straight line between two places.
+  /// Calls it for the boxes that the straight line between two places meets.
   std::vector<int> meeting(const Vec2& from, const Vec2& to) const;
 
   /// Numbers of the `count` boxes nearest to x, nearest first; all where there are fewer.

@@ -16,7 +16,7 @@ struct Curve {
   std::vector<CellSide> sides;         ///< the cell side of each edge
   bool closed;                         ///< the last edge ends where the first begins
   std::vector<EdgeSamples> samples{};  ///< of each edge, from its start to its end; empty: only the mesh is known
-  /// Of the body behind each edge, length (mesh/thickness.hpp); empty: not asked for, without limit.
+  /// Thickness of the body behind each edge, length (mesh/thickness.hpp); empty: not asked for, without limit.
   std::vector<double> thickness{};
 };
 

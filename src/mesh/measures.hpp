@@ -1,4 +1,4 @@
-// Sizes and places of bodies and boundaries, to tell them apart.
+// Sizes and places of bodies and boundaries, which distinguish them.
 #pragma once
 
 #include "mesh/mesh.hpp"
@@ -11,7 +11,7 @@ struct Measure {
   Vec2 centre = Vec2::Zero();
 };
 
-/// Of each body, of each boundary, by the polygons through their nodes.
+/// Measures of each body and boundary, by the polygons through their nodes.
 std::vector<Measure> body_measures(const Mesh& mesh);
 std::vector<Measure> boundary_measures(const Mesh& mesh);
 

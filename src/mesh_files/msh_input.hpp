@@ -1,4 +1,4 @@
-// The text of a .msh, read number by number. What is not as expected throws InputError with file, line (byte in binary
+// The text of a .msh, read number by number. An unexpected value throws InputError with file, line (byte in binary
 // files) and section.
 #pragma once
 
@@ -22,7 +22,7 @@ class MshInput {
   void set_section(std::string section) { section_ = std::move(section); }
   const std::string& section() const { return section_; }
 
-  /// Where the record that is being read begins: for fail_at.
+  /// The beginning of the record being read, for fail_at.
   std::size_t record() const { return record_; }
   [[noreturn]] void fail(const std::string& trouble) const { fail_at(record_, trouble); }
   [[noreturn]] void fail_at(std::size_t record, const std::string& trouble) const;

@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// What has been read so far. An entity or a group is a pair: dimension, tag.
+/// The sections read so far. An entity or a group is a pair: dimension, tag.
 struct MshParts {
   std::map<std::pair<int, int>, std::string> names;           ///< of physical groups
   std::map<std::pair<int, int>, std::vector<int>> groups_of;  ///< format 4.1: of each entity

@@ -44,7 +44,7 @@ struct SetMesh {
   bool named_by_tag = false;  ///< whether sets were named by numbers of the file
 };
 
-/// Of files that number the properties of elements: cells of one property are a candidate for a body, surface_7, after
+/// For files that number the properties of elements: cells of one property are a candidate for a body, surface_7, after
 /// the sets that have cells; its lines are a curve, curve_7, if no set makes curves.
 void add_property_sets(const std::vector<int>& properties, SetMesh& mesh);
 

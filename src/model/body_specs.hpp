@@ -1,4 +1,4 @@
-// What bodies are made of, and what acts on all of a body.
+// The materials of bodies, and the loads on whole bodies.
 #pragma once
 
 #include <array>

@@ -11,7 +11,7 @@ enum class Plane { strain, stress, axisymmetric };
 /// tied: what is drawn as two bodies is one.
 enum class Condition { unilateral, bilateral, tied };
 
-/// What the undeformed gap is: that between the curves that the meshes stand for, that between their edges, none, or
+/// The undeformed gap: that between the curves that the meshes stand for, that between their edges, none, or
 /// one that the scene gives.
 enum class InitialGap { curve, measured, closed, given };
 
@@ -20,8 +20,8 @@ enum class Normals { edges, curve };
 enum class Integration { segments, elements };
 enum class Multipliers { quadratic, linear, dual };
 
-/// What an accuracy is asked of: the pressure along all contact lines, its largest value, half the width of a contact,
-/// the mean pressure over a part of a line, the force of a pair.
+/// The figure whose accuracy is asked for: the pressure along all contact lines, its largest value, half the width of a
+/// contact, the mean pressure over a part of a line, the force of a pair.
 enum class Goal { pressure, peak, half_width, mean, force, displacement, stress };
 
 /// direct: a factorisation of all bodies; mssor: block SSOR on all of them; ddm: domain decomposition by two groups of

@@ -1,4 +1,4 @@
-// What a field may be between the places at which it is evaluated.
+// Bounds on a field between the places at which it is evaluated.
 #pragma once
 
 #include "model/expression_range.hpp"

@@ -1,4 +1,4 @@
-// What a .geo, which is a program, may do.
+// Limits on a .geo, which is a program.
 #pragma once
 
 namespace mortise {

@@ -18,7 +18,7 @@ inline bool is_mesh_ending(std::string_view ending) {
   return std::ranges::find(mesh_endings, ending) != mesh_endings.end();
 }
 
-/// What to do with a file of another ending; may be empty.
+/// Advice for a file of another ending; may be empty.
 inline std::string mesh_ending_advice(std::string_view file) {
   if (file.ends_with(".med")) return "; save it as .unv in Salome (Export, UNV file), which keeps its groups";
   if (file.ends_with(".cgns")) return "; save it as .msh, .unv or .bdf by the program that made it";

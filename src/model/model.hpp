@@ -13,7 +13,7 @@ struct Model {
 
   bool axisymmetric() const { return plane == Plane::axisymmetric; }
 
-  /// What an area of the mesh, or a length of its curves, is multiplied by where the first coordinate is x1, length:
+  /// The factor of an area of the mesh, or of a length of its curves, where the first coordinate is x1, length:
   /// the thickness, or the circumference of the ring.
   double depth(double x1) const { return axisymmetric() ? 2 * std::numbers::pi * x1 : thickness; }
 };

@@ -8,7 +8,7 @@
 
 namespace mortise {
 
-/// Of three directions at right angles, the third out of the plane; nu_ij = -eps_j / eps_i under a stress along i.
+/// For three directions at right angles, the third out of the plane; nu_ij = -eps_j / eps_i under a stress along i.
 struct OrthotropicModuli {
   double e1 = 0, e2 = 0, e3 = 0;        ///< stress, > 0
   double nu12 = 0, nu13 = 0, nu23 = 0;  ///< nu_ji = nu_ij E_j / E_i

@@ -37,7 +37,7 @@ struct Resultant {
     return *this;
   }
 
-  /// Where the forces act, as the mean of their places; the origin where there are none.
+  /// The mean of the places where the forces act; the origin if there are none.
   Vec2 centre() const { return size > 0 ? Vec2(places / size) : Vec2::Zero(); }
 
   double moment_about(const Vec2& x) const { return moment - (x.x() * force.y() - x.y() * force.x()); }

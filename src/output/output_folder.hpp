@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// Throws InputError where results cannot be put, as far as can be told before they are written: `target` is a file, or
+/// Throws InputError if results cannot be put there, as far as is known before they are written: `target` is a file, or
 /// a folder that may not be written to, or holds a file or folder of the name of one of ours that no run of ours has
 /// written.
 void check_output_folder(const std::filesystem::path& target);

@@ -1,4 +1,4 @@
-// What is done by VTK, in a shared object of its own that is loaded when the first file is written. No VTK header here.
+// The calls of VTK, in a shared object of their own that is loaded when the first file is written. No VTK header here.
 #pragma once
 
 #include <filesystem>

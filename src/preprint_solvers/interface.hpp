@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// What the multipliers lambda leave open, (C_N + C_D) lambda + H mu = gap with H^T lambda = work closing it
+/// The gaps that the multipliers lambda leave, (C_N + C_D) lambda + H mu = gap with H^T lambda = work closing it
 /// (docs/theory.md eq. 31). Dimensionless, as BodyGroup.
 struct Interface {
   BodyGroup neumann;    ///< takes the pressure
@@ -19,8 +19,8 @@ struct Interface {
   VecX gap0;            ///< m: the part of it that is not the groups' response
   MatX H;               ///< m x s: rigid motions, the Neumann group's first
   VecX work;            ///< s
-  /// What the Dirichlet group takes to close a gap: [C_D H; H^T .] and which rows may open; and its solution with all
-  /// rows closed.
+  /// The multipliers with which the Dirichlet group closes a gap: [C_D H; H^T .] and which rows may open; and its
+  /// solution with all rows closed.
   ComplementarityProblem dirichlet_problem;
   std::shared_ptr<const MultiplierSystem> dirichlet_closed;
 };
@@ -58,7 +58,7 @@ InterfaceIteration neumann_neumann(const Interface& interface);
 /// section 1.3.5: FETI with the Dirichlet preconditioner, Farhat & Roux 1991). Bilateral.
 InterfaceIteration dirichlet_dirichlet(const Interface& interface);
 
-/// What the Dirichlet group takes where the Neumann group has moved under lambda.
+/// The Dirichlet group's multipliers after the Neumann group has moved under lambda.
 struct DirichletSolution {
   VecX lambda, mu;           ///< m, s: its multipliers, and the motions of the floating bodies
   std::vector<char> active;  ///< m: its closed rows; empty: all

@@ -1,4 +1,4 @@
-// Where the stationary MSSOR method converges.
+// The region in which the stationary MSSOR method converges.
 #pragma once
 
 #include "preprint_solvers/mssor_sweeps.hpp"

@@ -1,4 +1,4 @@
-// What a scene probably does not mean: looked for before the solve, each finding one line with its place. What shows
+// Findings before the solve of what a scene probably does not mean, one line each with its place. What shows
 // after it: results/audit_solution.hpp.
 #pragma once
 

@@ -50,8 +50,7 @@ void refuse_double_loads(const Mesh& mesh, const std::vector<BoundaryEntry>& ent
   const Vec2 middle = (mesh.nodes.row(edge.nodes[0]) + mesh.nodes.row(edge.nodes[1])) / 2;
   std::ostringstream text;
   text << what(*first) << " and " << what(*second) << " load the same edges, " << near_point(middle)
-       << " and over a length of " << length
-       << " in all: the loads would add up; expected every edge in one load at most";
+       << " and over a length of " << length << " in all: they would add up; expected at most one load on each edge";
   throw SceneError(text.str());
 }
 

@@ -98,7 +98,7 @@ double thickness(const PieceOutline& piece) { return 2 * piece.area / piece.peri
        << " are drawn over one another";
   if (depth > 0) text << " by " << depth;
   text << " " << near_point(place)
-       << ", which is no interference that contact could press apart; expected every place in one body at most (in a "
+       << ", too deep for contact to press apart; expected each place in at most one body (in a "
           ".geo: Translate moves one off the other, BooleanDifference cuts one out of the other)";
   throw SceneError(text.str());
 }

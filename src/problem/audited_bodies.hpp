@@ -1,4 +1,4 @@
-// What the parts of the audit share: the outlines of the bodies, their names, and which edges are in a contact pair.
+// Shared by the parts of the audit: the outlines of the bodies, their names, and which edges are in a contact pair.
 #pragma once
 
 #include "contact/outline.hpp"
@@ -42,7 +42,7 @@ std::string two_bodies(const Mesh& mesh, int first, int second);
 /// third.
 std::string name_of(const AuditedBodies& bodies, const std::vector<int>& edges);
 
-/// What to write so that contact is there: [[contact]] between the two names; of two pieces of one body, to join them.
+/// Advice that adds the contact: [[contact]] between the two names; of two pieces of one body, to join them.
 std::string advice(const AuditedBodies& bodies, const std::vector<int>& edges, const std::vector<int>& others);
 
 /// The edge whose middle is nearest to the middle of all: where to look. Its middle.

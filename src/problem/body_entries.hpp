@@ -12,7 +12,7 @@ struct BodyEntry {
   std::string key, body;
 };
 
-/// Of each body the index of its entry, -1 where there is none. A name of its own counts before a pattern. Where two
+/// The index of each body's entry, -1 if there is none. A name of its own counts before a pattern. Where two
 /// patterns name a body the first one counts, after `twice(body, first, second)`, which may throw.
 /// Throws SceneError where an entry names no body of the mesh.
 std::vector<int> entries_of_bodies(
@@ -22,7 +22,7 @@ std::vector<int> entries_of_bodies(
 /// The same of entries that exclude each other: throws SceneError where two patterns name a body.
 std::vector<int> entries_of_bodies(const Mesh& mesh, const SceneNames& names, const std::vector<BodyEntry>& entries);
 
-/// Of each body the entry of [[body_force]] or [[initial_strain]] that acts on it; -1: none.
+/// The entry of [[body_force]] or [[initial_strain]] that acts on each body; -1: none.
 template <typename Spec>
 std::vector<int> loads_of(const std::vector<Spec>& specs, const Mesh& mesh, const SceneNames& names) {
   std::vector<BodyEntry> entries;

@@ -6,7 +6,7 @@
 
 namespace mortise {
 
-/// The fields that vary of each body. What is given must outlive it.
+/// The fields that vary of each body. Its arguments must outlive it.
 class BodyFields {
  public:
   explicit BodyFields(const Mesh& mesh) : mesh_(mesh), fields_(mesh.bodies.size()) {}

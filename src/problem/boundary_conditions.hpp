@@ -1,4 +1,4 @@
-// What a [[boundary]] entry does to the equations: prescribed displacements along x and y, loads, foundations.
+// A [[boundary]] entry in the equations: prescribed displacements along x and y, loads, foundations.
 #pragma once
 
 #include "fem/foundation.hpp"

@@ -12,7 +12,7 @@ std::vector<Edge> edges_of(const Mesh& mesh, const NamedBoundary& on);
 /// Those fields of an entry that vary, along its curves.
 class BoundaryFields {
  public:
-  /// What is given must outlive it. Constants cost nothing.
+  /// Its arguments must outlive it. Constants cost nothing.
   BoundaryFields(const Mesh& mesh, const std::vector<NamedBoundary>& boundaries, std::vector<const Field*> fields);
 
   bool any() const { return !fields_.empty(); }

@@ -37,10 +37,10 @@ std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, co
 /// Whether both curves are known as they are drawn, not by their meshes alone.
 bool is_drawn(const ContactPair& pair);
 
-/// What the pair's gap is, as words for the user: "closed", the one given, or whose gap and with what clearance.
+/// The pair's gap in words for the user: "closed", the one given, or whose gap and with what clearance.
 std::string gap_words(const ContactPair& pair);
 
-/// Of the rows of all pairs below one another: the node of each one's first multiplier.
+/// The node of the first multiplier of each row, of all pairs below one another.
 std::vector<int> row_nodes(const std::vector<ContactPair>& pairs);
 
 /// Sets the system's rows: those of all pairs below one another.

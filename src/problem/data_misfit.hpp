@@ -1,4 +1,4 @@
-// What the functions of place of a scene do within elements of the mesh.
+// The variation of a scene's functions of place within elements of the mesh.
 #pragma once
 
 #include <string>

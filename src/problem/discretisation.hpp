@@ -24,7 +24,7 @@ struct Discretisation {
 /// Throws SceneError where two values are prescribed at one node, or a field has no value.
 Discretisation discretise(const Entries& entries, const Mesh& mesh);
 
-/// What foundations do to the nodes, force.
+/// Forces of the foundations on the nodes.
 VecX spring_forces(const Discretisation& discretisation, const VecX& u);
 
 /// Strain energy of the bodies, without foundations', 1/2 int (eps - eps0) : C : (eps - eps0), times depth

@@ -1,4 +1,4 @@
-// Where the outline of one piece meets that of another, or lies inside it, as drawn.
+// Places where the outline of one piece meets that of another, or lies inside it, as drawn.
 #pragma once
 
 #include "problem/audited_bodies.hpp"

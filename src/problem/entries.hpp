@@ -1,4 +1,4 @@
-// What a scene says of bodies and boundaries, its names resolved in the mesh.
+// The scene's entries on bodies and boundaries, their names resolved in the mesh.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// Where the places of the [[probe]] entries lie.
+// The cells in which the places of [[probe]] entries lie.
 #pragma once
 
 #include "fem/locate.hpp"

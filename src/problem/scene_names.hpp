@@ -1,4 +1,4 @@
-// What the names of a scene stand for in its mesh.
+// The bodies, curves and points of the mesh that a scene's names mean.
 #pragma once
 
 #include <unordered_map>

@@ -1,11 +1,11 @@
-// Where contact is closed at first, from an earlier run.
+// The rows closed at first, from an earlier run.
 #pragma once
 
 #include "problem/contact_pair.hpp"
 
 namespace mortise {
 
-/// Where contact was closed, for a later run to start from.
+/// The closed rows of a run, for a later one to start from.
 struct ActiveSet {
   struct Row {
     Vec2 place;  ///< of its first multiplier

@@ -6,7 +6,7 @@
 
 namespace mortise {
 
-/// What only contact holds: the motions that no prescribed displacement resists, and a spring's unknown for each.
+/// Motions that only contact holds: those that no prescribed displacement resists, and a spring's unknown for each.
 struct Floating {
   std::vector<std::vector<RigidMotion>> motions;
   std::vector<int> grounded;

@@ -58,9 +58,9 @@ std::string line(const Results& r, const ContactPair& pair, double deformed) {
   text.precision(3);
   text << pair.spec.key << ": '" << pair.spec.between[0] << "' and '" << pair.spec.between[1]
        << "' are drawn into one another by " << -pair.coupling.gap_min << " " << near_point(place) << ", ";
-  if (deformed > 0) text << std::llround(-pair.coupling.gap_min / deformed) << " times what the bodies deform by";
+  if (deformed > 0) text << std::llround(-pair.coupling.gap_min / deformed) << " times the bodies' deformation";
   if (!(deformed > 0)) text << "and the bodies do not deform";
-  text << ": no interference, as a body moves out of the other as a whole; expected bodies that touch as drawn";
+  text << ": too much for an interference, which a body leaves as a whole; expected bodies drawn touching";
   return text.str();
 }
 

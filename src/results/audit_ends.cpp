@@ -83,8 +83,8 @@ std::vector<std::string> end_lines(const AuditedBodies& b, const Results& r) {
     add_ends(b, edges, pair.opposite, pair.multiplier.body, c.opposite, c.p_max, places);
     if (!places.empty())
       lines.push_back(pair.spec.key + ": contact reaches the end of " + places +
-                      ", where the boundary goes on smoothly and faces the other body: the pressure piles up at the "
-                      "end; name the rest of the boundary too");
+                      ", where the boundary goes on smoothly and faces the other body: the pressure concentrates "
+                      "there; extend the named curve over the rest of the boundary");
   }
   return lines;
 }

@@ -1,4 +1,4 @@
-// What a solution shows that the scene probably does not mean.
+// Findings in a solution that the scene probably does not mean.
 #pragma once
 
 #include "problem/audited_bodies.hpp"

@@ -5,7 +5,7 @@
 
 namespace mortise {
 
-/// The sum of reactions and loads, which the terminal tells of every scene.
+/// The sum of reactions and loads, which the terminal shows for every scene.
 inline constexpr const char* balance_check = "reactions and loads sum to zero";
 
 /// Of a run that has all but checks and warnings.
@@ -14,7 +14,7 @@ std::vector<Check> checks(const Results& results);
 /// solved where the solver converged, all checks hold and all is finite.
 Status verdict(const Results& results);
 
-/// What of the results is not finite, in words; empty if all is.
+/// The results that are not finite, in words; empty if all are.
 std::string not_finite(const Results& results);
 
 }  // namespace mortise

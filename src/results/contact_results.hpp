@@ -1,4 +1,4 @@
-// What a contact pair says at its nodes and element centres.
+// Results of a contact pair at its nodes and element centres.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,4 @@
-// What a solved scene's meshes say of its pressures, beside the checks of every run.
+// How well a solved scene's meshes control its pressures, beside the checks of every run.
 #pragma once
 
 #include "results/results.hpp"

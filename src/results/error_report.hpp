@@ -1,4 +1,4 @@
-// What a user reads of the estimated errors.
+// The estimated errors in words.
 #pragma once
 
 #include "error/force_errors.hpp"
@@ -6,7 +6,7 @@
 
 namespace mortise {
 
-/// Estimated errors above these parts are told with their place: of the stresses in the energy norm, and of p.
+/// Estimated errors above these parts are reported with their place: of the stresses in the energy norm, and of p.
 inline constexpr double energy_error_limit = 0.2, pressure_error_limit = 0.1;
 
 /// Warnings where the estimate is above a limit.
@@ -22,11 +22,11 @@ void set_bars(const PressureEstimate& estimate, ContactResults& contact);
 /// The bars of forces, moments and lengths in contact into the pairs.
 void set_force_bars(Results& results);
 
-/// What it asks, so that estimate_error finds its duals with the others; then the bars by these.
+/// Its questions, so that estimate_error finds its duals with the others; then the bars by these.
 ForcesAsked ask_forces(const Results& results);
 void set_force_bars(const ForcesAsked& asked, const FoundDuals& duals, Results& results);
 
-/// What makes most of the estimated error of p, in words with its place: "the border of contact near (0.01, 0)".
+/// The largest source of the estimated error of p, in words with its place: "the border of contact near (0.01, 0)".
 std::string largest_error(const Results& results);
 
 }  // namespace mortise

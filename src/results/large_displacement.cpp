@@ -70,7 +70,7 @@ std::optional<std::string> large_displacement(const Results& r) {
          << "; contact is written on the undeformed bodies, so p may be off by " << 100 * worst.part << " %";
   else if (whole > 0.02)
     text << "large displacements: up to " << 100 * whole
-         << " % of the size of the whole; the equations are those of small displacements";
+         << " % of the size of the scene; the equations assume small displacements";
   else
     return {};
   return text.str();

@@ -7,7 +7,7 @@
 
 namespace mortise {
 
-/// What part of a closed pair's shorter curve the segments miss, or take twice; with the place.
+/// The part of a closed pair's shorter curve that segments miss, or take twice; with the place.
 Check coverage_check(const Results& results);
 
 /// Contact is written on the undeformed bodies: the force of a line that turns by an angle is off by about that part,

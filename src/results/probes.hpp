@@ -19,7 +19,7 @@ struct ProbeValue {
 std::vector<ProbeValue> probe_values(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
                                      const VecX& u, const StressField& averages, const std::vector<ProbePlace>& places);
 
-/// Of each [[probe]] its places.
+/// The places of each [[probe]].
 std::vector<ProbedPlaces> probed_places(const std::vector<ProbeValue>& values);
 
 }  // namespace mortise

@@ -1,4 +1,4 @@
-// What supports put on the bodies.
+// Reactions: the forces of supports on the bodies.
 #pragma once
 
 #include "model/resultant.hpp"
@@ -6,7 +6,7 @@
 
 namespace mortise {
 
-/// Of one curve or point of a support. A node that several hold along one direction counts for the
+/// One curve or point of a support. A node that several hold along one direction counts for the
 /// first that names it.
 struct Reaction {
   int entry;       ///< of Entries::boundaries

@@ -1,4 +1,4 @@
-// What the displacements and multipliers say, figure by figure.
+// Figures that follow from the displacements and multipliers.
 #pragma once
 
 #include "problem/problem.hpp"

@@ -1,4 +1,4 @@
-// What a scene sets up, for the picture of it before it is solved (verification/picture/setup.py).
+// The set-up of a scene, for its picture before it is solved (python/pictures/setup.py).
 #pragma once
 
 #include <filesystem>

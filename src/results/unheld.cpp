@@ -47,7 +47,7 @@ std::vector<std::string> unheld_probes(const Results& r) {
     const std::array<bool, 2> unheld = unheld_at(r, body_of(r, value), value.place.x);
     if (!(unheld[0] || unheld[1]) || !told.insert(value.place.probe).second) continue;
     lines.push_back(value.place.key + ": the displacement " + direction(unheld) + " " + near_point(value.place.x) +
-                    " is one of many and has no bar: nothing holds " + motion_words(r, body_of(r, value)));
+                    " is undetermined and has no bar: nothing holds " + motion_words(r, body_of(r, value)));
   }
   return lines;
 }
@@ -60,7 +60,7 @@ void require_held(const Results& r, const AccuracySpec& spec) {
     if (!(unheld[0] || unheld[1]) || !locate(r.problem.mesh, b, spec.at)) continue;
     std::ostringstream where;
     where << "accuracy.at: (" << spec.at.x() << ", " << spec.at.y() << "): the displacement " << direction(unheld)
-          << " is any, as nothing holds " << motion_words(r, b)
+          << " is undetermined: nothing holds " << motion_words(r, b)
           << "; expected a support that does, or another quantity in accuracy.of";
     throw SceneError(where.str());
   }

@@ -48,9 +48,10 @@ void warn_of_iteration(const Solution& s, Lines& lines) {
 
 void warn_of_what_is_not_finite(const Results& r, Lines& lines) {
   if (const std::string what = not_finite(r); !what.empty())
-    lines.push_back("not finite: " + what +
-                    "; nothing of these results can be used. Expected loads, prescribed displacements and settings in "
-                    "proportion, and an iteration that converges");
+    lines.push_back(
+        "not finite: " + what +
+        "; discard these results. Expected loads, prescribed displacements and settings of reasonable size, and an "
+        "iteration that converges");
 }
 
 // "x = 0.1 ... 0.9, y = 0.2"
@@ -111,7 +112,7 @@ void warn_of_shape(const ContactPair& pair, const Results& r, Lines& lines) {
     if (degrees(sharpest.angle) > 30)
       lines.push_back(pair.spec.key + ": an edge of " + name(*curve) + " " + near_point(sharpest.position) +
                       " turns by " + std::to_string(degrees(sharpest.angle)) +
-                      " degrees: the mesh is coarse for the curve; expected at most 30");
+                      " degrees: the mesh is too coarse for the curve; expected at most 30");
     // A gap that is drawn is meant: a corner may stand on a flat side.
     if (pair.spec.initial_gap != InitialGap::closed) continue;
     if (const auto missed = missed_kink(r.problem.mesh.nodes, *curve, *other))
@@ -133,7 +134,7 @@ void warn_of_far_origin(const ContactPair& pair, const Results& r, Lines& lines)
   if (round_off * farthest <= 1e-8 * size) return;
   std::ostringstream text;
   text << pair.spec.key << ": coordinates up to " << farthest << " are rounded to about " << round_off * farthest
-       << ", where gaps and displacements are up to " << size << "; expected an origin near the bodies";
+       << ", but gaps and displacements are only up to " << size << "; expected an origin near the bodies";
   lines.push_back(text.str());
 }
 
@@ -193,8 +194,9 @@ void warn_of_points(const Problem& p, const Reactions& reactions, Lines& lines) 
     std::ostringstream text;
     text << entry.spec.key << ": a force of " << force << " at the point" << (names.size() > 1 ? "s " : " ")
          << listed(names)
-         << ": stresses there have no bound, they grow as the mesh is refined, and the displacement of the point with "
-            "them; what is more than a few elements away is right";
+         << ": stresses and the displacement there are unbounded and grow as the mesh is refined; results a few "
+            "elements "
+            "away are right";
     lines.push_back(text.str());
   }
 }

@@ -1,4 +1,4 @@
-// Where an answer is poor, and why: what a user should know that no check fails for.
+// Warnings: places where an answer is poor, and why, though no check fails.
 #pragma once
 
 #include "results/results.hpp"

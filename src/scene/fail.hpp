@@ -8,7 +8,7 @@
 
 namespace mortise::scene_file {
 
-/// Throws InputError "FILE:LINE: PATH: TROUBLE", with ":COLUMN" behind the line where one is told, or "FILE: --set
+/// Throws InputError "FILE:LINE: PATH: TROUBLE", with ":COLUMN" behind the line if it is known, or "FILE: --set
 /// KEY=VALUE: PATH: TROUBLE" for an override. Control characters in the parts are escaped, so that it stays one line;
 /// long settings and paths are clipped.
 [[noreturn]] void fail(const Place& place, const std::string& path, const std::string& trouble);
@@ -20,7 +20,7 @@ std::string describe(const Node& node);
 /// "boundary.2 (line 31)", or "boundary.2 (--set KEY=VALUE)".
 std::string locate(const Node& node);
 
-/// Of two values that do not go together the one to blame: `second`, unless only `first` comes from an override.
+/// The one to blame of two values that do not go together: `second`, unless only `first` comes from an override.
 const Node& blame(const Node& first, const Node& second);
 
 /// Remembers who took a name first.

@@ -1,4 +1,4 @@
-// Typed access to the values of a document. What is not as expected throws InputError with its place.
+// Typed access to the values of a document. An unexpected value throws InputError with its place.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ Vec2 number_pair(const Node& node);
 /// Three finite numbers of directions 1, 2, 3, or of pairs of these.
 std::array<double, 3> number_triple(const Node& node, const std::string& expected);
 
-/// What an expression of the scene may name. After read_fields.
+/// The names that an expression of the scene may use. After read_fields.
 FieldUse expression_use(const Scene& scene, bool on_curve);
 
 /// A finite number, or an expression. Of `use` the key is filled in.

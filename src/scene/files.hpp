@@ -12,7 +12,7 @@ namespace mortise::scene_file {
 /// directory.
 std::filesystem::path resolve(const Node& file, const std::string& scene_path);
 
-/// What is wrong with `path` as a file to read, with the nearest file of the same ending beside it; empty if nothing.
+/// The fault of `path` as a file to read, with the nearest file of the same ending beside it; empty if nothing.
 std::string file_trouble(const std::filesystem::path& path);
 
 /// The whole text of a scene file. Throws InputError, naming the file, if it cannot be read or is larger than 4 MB.

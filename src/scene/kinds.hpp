@@ -58,7 +58,7 @@ Kind<Enum> one_of(std::initializer_list<Enum> values) {
 /// A number as a page has it: 2, not 2.0.
 Json plain(double number);
 
-/// Of either kind.
+/// A value of either kind.
 Json either(const Json& one, const Json& other);
 
 /// A list of between `least` and `most` such (0: any number).

@@ -7,11 +7,11 @@
 /// How a scene file is read; the rest of the program needs scene.hpp only.
 namespace mortise::scene_file {
 
-/// Where a value was written: in a line of the scene file, or in an override given on the command line.
+/// The place at which a value was written: in a line of the scene file, or in an override given on the command line.
 struct Place {
   std::string file;     ///< the scene file
   int line = 0;         ///< from 1; 0 for the document itself and for overrides
-  int column = 0;       ///< from 1; 0: not told
+  int column = 0;       ///< from 1; 0: unknown
   std::string setting;  ///< "--set KEY=VALUE"; empty for what the file says
 };
 

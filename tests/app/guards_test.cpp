@@ -114,7 +114,7 @@ TEST(Curves, EdgesThatTurnTooFarAreNoted) {
   plates.n_upper = 6;
   plates.n_lower = 8;
   const Results coarse = solve_scene(clamped_scene(), mesh_of(plates));
-  EXPECT_TRUE(noted(coarse, "degrees: the mesh is coarse for the curve")) << all_notes(coarse);
+  EXPECT_TRUE(noted(coarse, "degrees: the mesh is too coarse for the curve")) << all_notes(coarse);
   plates.n_upper = 40;
   plates.n_lower = 50;
   const Results fine = solve_scene(clamped_scene(), mesh_of(plates));

@@ -258,7 +258,7 @@ TEST(Audit, NamesADrawnOverlapThatNoBodyDeformsBy) {
   };
   const std::string free = lines("pressure = 1");
   expect_contains(free, "'up1' and 'down2' are drawn into one another by 0.01 near (");
-  expect_contains(free, " times what the bodies deform by");
+  expect_contains(free, " times the bodies' deformation");
   EXPECT_EQ(lines("displacement = { y = 0 }"), "");
   EXPECT_EQ(lines("pressure = 1e3"), "");  // deforms them by 0.007
 }
