@@ -94,7 +94,7 @@ def judged(scene, run, row, references):
         "solves": len(unknowns),
         "unknowns": unknowns[-1],
         "work": sum(n**1.24 for n in unknowns) / unknowns[-1] ** 1.24,
-        "seconds": row["seconds"]["total"],
+        "seconds": row["processor"],
         "wall": row["wall"],
         "meshing": row["seconds"]["mesh"] / sum(row["seconds"][key] for key in SOLVING),
         "energy_ratio": estimate["error"] / math.sqrt(energy) if known else None,
@@ -144,7 +144,7 @@ def verdicts(rows, seconds):
     if energies := [ratio for ratio in values("energy_ratio") if ratio]:
         fine = 0.5 <= min(energies) and max(energies) <= 2
         yield "energy estimate over true energy error 0.5 to 2", f"{min(energies):.2g} to {max(energies):.2g}", fine
-    yield "parabola_1 at 1 %: the whole process at most 0.35 s", f"{seconds:.3f} s", seconds <= 0.35
+    yield "parabola_1 at 1 %: the whole process at most 0.35 processor s", f"{seconds:.3f} s", seconds <= 0.35
     trusted = sum(values("trusted"))
     words = "the reference's own error below a fifth of what is measured"
     yield words, f"{trusted} of {len(good)}", trusted == len(good)
