@@ -101,8 +101,7 @@ void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint
   r.estimate =
       estimate_error(p.mesh, p.points, p.discretisation, p.pairs, r.solution, spec, most_own_duals, found, asked.rows);
   add_data_errors(p.mesh, p.points, p.discretisation, p.pairs, r.solution, p.misfits, spec, *r.estimate);
-  r.estimate->recovered = recover_pressures(p.pairs, p.method.multipliers, p.discretisation.model, *r.estimate);
-  set_pressures(r);
+  for (std::size_t k = 0; k < recovery.contacts.size(); ++k) set_bars(r.estimate->pressures[k], recovery.contacts[k]);
   const std::vector<PlaceError> of_probes = place_errors(p.mesh, p.points, p.discretisation, p.pairs, r.solution,
                                                          r.estimate->pressures, probed_places(recovery.probes));
   for (std::size_t i = 0; i < of_probes.size(); ++i) recovery.probes[i].error = of_probes[i];

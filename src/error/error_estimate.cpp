@@ -221,11 +221,10 @@ void find_bars(PressureEstimate& e) {
   const Eigen::Index count = line.p.size();
   e.local2 = e.far2 = e.p2 = 0;
   const VecX local = e.local.whole();
-  e.far_at.resize(count);
   e.bar = e.local.pointwise(line);
   if (e.local.least.size() > 0) e.bar = e.bar.cwiseMax(e.local.least);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const double far = e.far_at(i) = far_at(e, i);
+    const double far = far_at(e, i);
     e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? far : 0));
     if (!e.counts(i)) continue;
     e.local2 += local(i) * local(i);
@@ -244,43 +243,21 @@ MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector
   return columns;
 }
 
-std::vector<EqualMoments> recover_pressures(const std::vector<ContactPair>& pairs, Multipliers space,
-                                            const Model& model, const ErrorEstimate& estimate) {
-  std::vector<EqualMoments> list(pairs.size());
-  for_each_index(pairs.size(), solver_threads(),
-                 [&](std::size_t k) { list[k] = equal_moments(pairs[k], space, model, estimate.pressures[k]); });
-  return list;
-}
-
 double ErrorEstimate::peak() const {
   double p = 0, bar = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t k = 0; k < pressures.size(); ++k) {
-    const VecX& at = recovered.empty() ? pressures[k].line.p : recovered[k].p;
-    const VecX& bars = recovered.empty() ? pressures[k].bar : recovered[k].bar;
-    for (Eigen::Index i = 0; i < at.size(); ++i)
-      if (at(i) > p) {
-        p = at(i);
-        bar = bars(i);
+  for (const PressureEstimate& e : pressures)
+    for (Eigen::Index i = 0; i < e.line.p.size(); ++i)
+      if (e.line.p(i) > p) {
+        p = e.line.p(i);
+        bar = e.bar(i);
       }
-  }
   return bar / p;
-}
-
-double ErrorEstimate::border_bar(std::size_t k, const LineError::Border& border) const {
-  const VecX& s = pressures[k].line.s;
-  if (!recovered.empty())
-    for (const BorderPlace& place : recovered[k].borders)
-      if (place.edge == border.edge) return place.bar;
-  return s(border.edge + 1) - s(border.edge);
 }
 
 double ErrorEstimate::half_width() const {
   double part = 0;
-  for (std::size_t k = 0; k < pressures.size(); ++k)
-    for (const LineError::Border& border : pressures[k].local.borders) {
-      const VecX& s = pressures[k].line.s;
-      part = std::max(part, border.part * border_bar(k, border) / (s(border.edge + 1) - s(border.edge)));
-    }
+  for (const PressureEstimate& e : pressures)
+    for (const LineError::Border& border : e.local.borders) part = std::max(part, border.part);
   return part;
 }
 

@@ -3,10 +3,10 @@
 
 #include "error/body_products.hpp"
 #include "error/contact_reach.hpp"
-#include "error/equal_moments.hpp"
 #include "error/goal_estimate.hpp"
-#include "error/pressure_estimate.hpp"
+#include "error/pressure_windows.hpp"
 #include "error/shared_duals.hpp"
+#include "error/tail_shares.hpp"
 #include "mesh/body_points.hpp"
 #include "model/method.hpp"
 
@@ -24,6 +24,24 @@ struct EnergyEstimate {
   Vec2 position;  ///< the cell in it with the largest share
 };
 
+/// What the pressure of a pair is off by (docs/theory.md eq. 45 to 48): the local error of a piecewise linear function
+/// along the line, and what the bodies' far field makes of it, seen by dual solutions of windowed means.
+struct PressureEstimate {
+  PressureLine line;
+  LineError local;
+  std::vector<PressureWindow> windows;
+  VecX far;  ///< of each window's mean, stress: the sum of the cells' parts without their signs, and of tails.means
+  TailShares tails;                     ///< what the mesh misses at the bodies' corners
+  VecX bar;                             ///< of p at each vertex of `line`, stress
+  std::vector<SingularPoint> singular;  ///< of its loaded part
+  double excluded_distance = 0;         ///< from a point where p has no limit: there p is left out of the norm
+  std::vector<char> excluded;           ///< of each vertex
+  /// Squares of L2 norms along what is not excluded, stress^2 length: of the local error, the far field's and p.
+  double local2 = 0, far2 = 0, p2 = 0;
+
+  bool counts(Eigen::Index vertex) const;  ///< in these
+};
+
 /// What the bodies' error does to the windows' means, cell by cell.
 struct FarField {
   MatX parts;           ///< cells x duals: int d_0 : C^-1 : d_k, stress
@@ -35,9 +53,8 @@ struct ErrorEstimate {
   std::vector<PressureEstimate> pressures;  ///< one a pair
   FarField far;
   CornerTails tails;
-  std::optional<GoalEstimate> goal;     ///< where one is asked for
-  FoundDuals also;                      ///< of further functionals; corners are in their sums
-  std::vector<EqualMoments> recovered;  ///< p* of each pair, once it is asked for (recover_pressures)
+  std::optional<GoalEstimate> goal;  ///< where one is asked for
+  FoundDuals also;                   ///< of further functionals; corners are in their sums
 
   /// L2 norms of the estimated error of p over that of p on all contact lines, singular points left out: of the whole,
   /// and of its two parts before the safety factor. NaN where nothing is loaded or all is excluded.
@@ -45,12 +62,10 @@ struct ErrorEstimate {
   double line() const;
   double slopes() const;  ///< the line's part without what p swings by
   double far_field() const;
-  /// Of the largest pressure its bar, relative; of half the width of a contact the bars of the borders on which it
-  /// ends, the largest, relative: 0 where contact ends nowhere within a line.
+  /// Of the largest pressure its bar, relative; of half the width of a contact the edges on which it ends, whose
+  /// relative length is the largest: 0 where contact ends nowhere within a line.
   double peak() const;
   double half_width() const;
-  /// What the place of a border of pair k may be off by, length: p*'s bar, or the edge that it lies on.
-  double border_bar(std::size_t k, const LineError::Border& border) const;
   double pressure_square() const;  ///< of p on these, stress^2 length
 };
 
@@ -71,10 +86,6 @@ MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector
 
 /// Leaves out of the norm what lies nearer than this part of the loaded length to a singular point.
 void find_excluded(double part, PressureEstimate& estimate);
-
-/// p* of all pairs, once their bars are there.
-std::vector<EqualMoments> recover_pressures(const std::vector<ContactPair>& pairs, Multipliers space,
-                                            const Model& model, const ErrorEstimate& estimate);
 
 /// Sets the bars and the squares of an estimate whose line, local errors and far field are there.
 void find_bars(PressureEstimate& estimate);

@@ -48,8 +48,7 @@ double part_in_contact(const Points& nodes, const ContactPair& pair, const VecX&
 
 }  // namespace
 
-double length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure,
-                         const std::map<int, double>& known) {
+double length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure) {
   const double loaded = 1e-9 * (pressure.size() > 0 ? pressure.maxCoeff() : 0);
   std::vector<double> part(pair.multiplier.edges.size(), 1);
   if (pair.spec.condition == Condition::unilateral)
@@ -58,10 +57,7 @@ double length_in_contact(const Points& nodes, const ContactPair& pair, const Vec
                  end = pressure(pair.coupling.on_edge[e][1]) > loaded;
       const int middle = pair.coupling.on_edge[e][2];
       if (!start && !end) part[e] = middle >= 0 && pressure(middle) > loaded ? 1 : 0;
-      if (start == end) continue;
-      const auto found = known.find(int(e));
-      part[e] = found != known.end() ? found->second / edge_length(nodes, pair.multiplier.edges[e])
-                                     : part_in_contact(nodes, pair, pressure, int(e), start ? 0 : 1, loaded);
+      if (start != end) part[e] = part_in_contact(nodes, pair, pressure, int(e), start ? 0 : 1, loaded);
     }
   double length = 0;
   for (const ContactPoint& c : pair.points) length += c.ds * part[c.edge];

@@ -1,8 +1,6 @@
 // How much of a curve is in contact.
 #pragma once
 
-#include <map>
-
 #include "problem/contact_pair.hpp"
 
 namespace mortise {
@@ -10,9 +8,7 @@ namespace mortise {
 /// Length of the multiplier side that faces the opposite side and carries pressure; of bilateral pairs, that faces it.
 /// Where contact ends within an edge, p falls like the root of the distance to its end (Johnson 1985, section 4.2): the
 /// end lies where the line through the last three vertices' p^2 is zero. On Hertz' problem within 0.3 of an edge.
-/// `pressure`: one a multiplier, stress. `known`: of edges on which contact ends, what is in contact beyond the loaded
-/// vertex, length; negative where it ends before that vertex.
-double length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure,
-                         const std::map<int, double>& known = {});
+/// `pressure`: one a multiplier, stress.
+double length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure);
 
 }  // namespace mortise

@@ -152,7 +152,6 @@ struct Asked {
             .normal = normal,
             .u_n = u.segment<2>(2 * at.node).dot(normal),
             .p = nan,
-            .p_multiplier = nan,
             .gap = nan,
             .sigma_n = normal_stress(s, at.normal),
             .sigma_2 = s(1)};
@@ -166,7 +165,7 @@ struct Asked {
 ContactNode on_multiplier_side(const Asked& asked, const CurveNode& at) {
   const ContactPair& pair = asked.pair;
   ContactNode n = asked.node(at, pair.multiplier.body, at.normal);
-  n.p = n.p_multiplier = interpolate(pair, asked.pressure, at.place);
+  n.p = interpolate(pair, asked.pressure, at.place);
   n.on_multiplier = at.place;
   const Line line{n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)};
   if (const auto hit = project_onto_curve(asked.mesh.nodes, pair.opposite, line)) {
@@ -184,7 +183,7 @@ ContactNode on_opposite_side(const Asked& asked, const CurveNode& at, const std:
   const auto foot = foot_of(asked.mesh, pair.multiplier, along, x);
   if (!foot) {
     ContactNode n = asked.node(at, pair.opposite.body, -at.normal);
-    n.p = n.p_multiplier = 0;
+    n.p = 0;
     return n;
   }
   const Edge& edge = pair.multiplier.edges[foot->edge];
@@ -195,7 +194,7 @@ ContactNode on_opposite_side(const Asked& asked, const CurveNode& at, const std:
   });
   const Vec2 normal = vertex != along.end() ? vertex->normal : line.n;
   ContactNode n = asked.node(at, pair.opposite.body, normal);
-  n.p = n.p_multiplier = interpolate(pair, asked.pressure, *foot);
+  n.p = interpolate(pair, asked.pressure, *foot);
   n.on_multiplier = *foot;
   const Hit own{at.place.edge, at.place.xi, (x - line.x).dot(normal)};
   n.gap = asked.initial_gap({line.x, normal, line.depth}, *foot, own) + n.u_n -
@@ -213,7 +212,17 @@ void run_together(const Points& nodes, const ContactPair& pair, ContactResults& 
 
 void set_extremes(const ContactPair& pair, ContactResults& r) {
   r.p_least = least_pressure(pair, r.pressure);
-  find_pressure_range(r);
+  r.p_min = std::numeric_limits<double>::infinity();
+  r.p_max = -r.p_min;
+  for (const ContactNode& n : r.multiplier.nodes) {
+    if (std::isnan(n.gap) && n.p == 0) continue;
+    r.p_min = std::min(r.p_min, n.p);
+    r.p_max = largest(r.p_max, n.p);
+  }
+  if (r.p_min > r.p_max) {  // the opposite side faces parts of edges only
+    r.p_min = r.pressure.minCoeff();
+    r.p_max = r.pressure.maxCoeff();
+  }
 }
 
 double mean_pressure(const ContactPair& pair, const VecX& pressure) {
@@ -234,20 +243,6 @@ Resultant force_on(const Points& nodes, const std::vector<CurveNode>& along, con
 }
 
 }  // namespace
-
-void find_pressure_range(ContactResults& r) {
-  r.p_min = std::numeric_limits<double>::infinity();
-  r.p_max = -r.p_min;
-  for (const ContactNode& n : r.multiplier.nodes) {
-    if (std::isnan(n.gap) && n.p == 0) continue;
-    r.p_min = std::min(r.p_min, n.p);
-    r.p_max = largest(r.p_max, n.p);
-  }
-  if (r.p_min > r.p_max) {  // the opposite side faces parts of edges only
-    r.p_min = r.pressure.minCoeff();
-    r.p_max = r.pressure.maxCoeff();
-  }
-}
 
 ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const Constraints& constraints,
                                const BodyPoints& points, const StressField& stress, const VecX& u, const VecX& lambda) {

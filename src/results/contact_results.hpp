@@ -12,14 +12,11 @@ namespace mortise {
 /// One node of either curve. Lengths and stresses in the scene's units; NaN where a node faces nothing.
 struct ContactNode {
   int node;
-  double s;       ///< arc length, undeformed
-  Vec2 position;  ///< undeformed
-  Vec2 normal;    ///< of the multiplier side there
-  double u_n;     ///< displacement along `normal`
-  /// Contact pressure; on the opposite side the projected one. Where errors are estimated p*, that of the multiplier's
-  /// moments (error/equal_moments.hpp), else the multiplier.
-  double p;
-  double p_multiplier;         ///< the multiplier itself
+  double s;                    ///< arc length, undeformed
+  Vec2 position;               ///< undeformed
+  Vec2 normal;                 ///< of the multiplier side there
+  double u_n;                  ///< displacement along `normal`
+  double p;                    ///< contact pressure; on the opposite side the projected one
   double gap;                  ///< deformed, along `normal`; the undeformed gap is zero in a `closed` pair
   double sigma_n;              ///< normal stress recovered in the node's own body (preprint eq. 26)
   double sigma_2;              ///< stress 22 there
@@ -56,9 +53,6 @@ struct ContactResults {
   double p_mean = 0;            ///< over what faces the other side
   double p_least = 0;           ///< the smallest between the nodes too, where the sides face each other
 };
-
-/// Sets p_min and p_max by the nodes' p.
-void find_pressure_range(ContactResults& contact);
 
 /// s runs along both curves from the end of the multiplier side with the smaller x (then y).
 /// `lambda` holds the pair's row values (stress).

@@ -7,7 +7,6 @@
 #include "base/printable.hpp"
 #include "contact/singular_points.hpp"
 #include "error/force_errors.hpp"
-#include "results/contact_length.hpp"
 
 namespace mortise {
 namespace {
@@ -98,7 +97,7 @@ void put_force_bars(const std::vector<Eigen::Vector3d>& errors, Results& r) {
     r.recovery.contacts[k].force_error = errors[k];
     const PressureEstimate& e = r.estimate->pressures[k];
     double length = 0;
-    for (const LineError::Border& border : e.local.borders) length += r.estimate->border_bar(k, border);
+    for (const LineError::Border& border : e.local.borders) length += e.line.s(border.edge + 1) - e.line.s(border.edge);
     r.recovery.contacts[k].length_error = length;
   }
 }
@@ -120,38 +119,16 @@ void set_force_bars(Results& r) {
                  r);
 }
 
-namespace {
-
-void set_nodes(const PressureEstimate& estimate, const EqualMoments& recovered, ContactResults& contact) {
+void set_bars(const PressureEstimate& estimate, ContactResults& contact) {
   for (ContactSide* side : {&contact.multiplier, &contact.opposite})
     for (ContactNode& node : side->nodes) {
       if (node.on_multiplier.edge < 0) continue;
       const auto [edge, xi] = node.on_multiplier;
       const bool within = std::abs(xi) < 1;
-      if (within && !estimate.line.faced[edge] && node.p_multiplier != 0) continue;  // between p and nothing
+      if (within && !estimate.line.faced[edge] && node.p != 0) continue;  // between p and nothing
       const double end = (1 + xi) / 2;
-      node.p_error = (1 - end) * recovered.bar(edge) + end * recovered.bar(edge + 1);
-      if (xi == -1 || xi == 1)
-        node.p = recovered.p(edge + (xi < 0 ? 0 : 1));
-      else
-        node.p = recovered.at(edge, end).value_or(node.p_multiplier);
+      node.p_error = (1 - end) * estimate.bar(edge) + end * estimate.bar(edge + 1);
     }
-}
-
-}  // namespace
-
-void set_pressures(Results& r) {
-  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
-    const EqualMoments& recovered = r.estimate->recovered[k];
-    ContactResults& contact = r.recovery.contacts[k];
-    set_nodes(r.estimate->pressures[k], recovered, contact);
-    find_pressure_range(contact);
-    if (recovered.borders.empty()) continue;
-    std::map<int, double> known;
-    for (const BorderPlace& border : recovered.borders) known[int(border.edge)] = border.length;
-    contact.length_in_contact = length_in_contact(r.problem.mesh.nodes, r.problem.pairs[k], contact.pressure, known);
-  }
-  r.recovery.extremes.pressure = largest_pressure(r.recovery.contacts);
 }
 
 }  // namespace mortise

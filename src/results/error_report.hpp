@@ -16,9 +16,8 @@ std::vector<std::string> error_warnings(const Results& results);
 /// where the errors are estimated, a point of a contact line.
 bool grows_without_limit(const Results& results, const Extreme& stress);
 
-/// p* of the estimate with its bars into the nodes of all pairs, and what follows from it: the largest p, the lengths
-/// in contact.
-void set_pressures(Results& results);
+/// The bars of p into the nodes of a pair.
+void set_bars(const PressureEstimate& estimate, ContactResults& contact);
 
 /// The bars of forces, moments and lengths in contact into the pairs.
 void set_force_bars(Results& results);

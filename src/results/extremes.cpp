@@ -6,14 +6,6 @@
 
 namespace mortise {
 
-std::optional<Extreme> largest_pressure(const std::vector<ContactResults>& contacts) {
-  std::optional<Extreme> found;
-  for (int k = 0; k < int(contacts.size()); ++k)
-    for (const ContactNode& n : contacts[k].multiplier.nodes)
-      if (!found || n.p > found->value) found = {n.p, k, n.node, n.position};
-  return found;
-}
-
 Extremes find_extremes(const Mesh& mesh, const BodyPoints& points, const StressField& stress,
                        const std::vector<ContactResults>& contacts) {
   int von_mises_at = 0, max_at = 0, min_at = 0;
@@ -30,7 +22,11 @@ Extremes find_extremes(const Mesh& mesh, const BodyPoints& points, const StressF
     const int body = int(std::ranges::upper_bound(points.first, p) - points.first.begin()) - 1, node = points.node[p];
     return Extreme{value, body, node, mesh.nodes.row(node).transpose()};
   };
-  return {at(largest_von_mises, von_mises_at), at(max, max_at), at(min, min_at), largest_pressure(contacts)};
+  Extremes found{at(largest_von_mises, von_mises_at), at(max, max_at), at(min, min_at), {}};
+  for (int k = 0; k < int(contacts.size()); ++k)
+    for (const ContactNode& n : contacts[k].multiplier.nodes)
+      if (!found.pressure || n.p > found.pressure->value) found.pressure = {n.p, k, n.node, n.position};
+  return found;
 }
 
 }  // namespace mortise

@@ -19,9 +19,6 @@ struct Extremes {
   std::optional<Extreme> pressure;                  ///< at the nodes of the multiplier sides; none without a pair
 };
 
-/// Of all nodes of the multiplier sides.
-std::optional<Extreme> largest_pressure(const std::vector<ContactResults>& contacts);
-
 Extremes find_extremes(const Mesh& mesh, const BodyPoints& points, const StressField& stress,
                        const std::vector<ContactResults>& contacts);
 

@@ -38,15 +38,6 @@ Json extremes_json(const Results& r) {
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
-// Where contact ends as p* has it.
-Json borders_json(const Results& r, std::size_t k) {
-  if (!r.estimate) return nullptr;
-  Json list = Json::array();
-  for (const BorderPlace& border : r.estimate->recovered[k].borders)
-    list.push_back({{"position", {border.position.x(), border.position.y()}}, {"error", border.bar}});
-  return list;
-}
-
 Json contact_json(const ContactPair& pair, const ContactResults& c) {
   const auto& error = c.force_error;
   return {{"between", pair.spec.between},
@@ -186,10 +177,8 @@ Json counts_json(const Results& r) {
 
 Json contacts_json(const Results& r) {
   Json list = Json::array();
-  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k)
     list.push_back(contact_json(r.problem.pairs[k], r.recovery.contacts[k]));
-    list.back()["borders"] = borders_json(r, k);
-  }
   return list;
 }
 

@@ -45,8 +45,7 @@ VtuGrid contact_grid(const Results& r) {
     count += r.recovery.contacts[k].multiplier.nodes.size() + r.recovery.contacts[k].opposite.nodes.size();
   }
   grid.points.resize(count, 2);
-  MatX u(count, 2), normal(count, 2), p(count, 1), p_multiplier(count, 1), p_error(count, 1), gap(count, 1),
-      sigma_n(count, 1);
+  MatX u(count, 2), normal(count, 2), p(count, 1), p_error(count, 1), gap(count, 1), sigma_n(count, 1);
   Eigen::Index i = 0;
   std::vector<int> point_of_node(r.problem.mesh.nodes.rows());
   for (const auto& [side, curve] : sides) {
@@ -56,7 +55,6 @@ VtuGrid contact_grid(const Results& r) {
       u.row(i) = r.solution.u.segment<2>(2 * n.node).transpose();
       normal.row(i) = n.normal.transpose();
       p(i, 0) = n.p;
-      p_multiplier(i, 0) = n.p_multiplier;
       p_error(i, 0) = n.p_error;
       gap(i, 0) = n.gap;
       sigma_n(i++, 0) = n.sigma_n;
@@ -66,8 +64,8 @@ VtuGrid contact_grid(const Results& r) {
       grid.edges.push_back(edge);
     }
   }
-  grid.point_fields = {{"displacement", u, {}}, {"normal", normal, {}},   {"p", p, {}},
-                       {"gap", gap, {}},        {"sigma_n", sigma_n, {}}, {"p_multiplier", p_multiplier, {}}};
+  grid.point_fields = {
+      {"displacement", u, {}}, {"normal", normal, {}}, {"p", p, {}}, {"gap", gap, {}}, {"sigma_n", sigma_n, {}}};
   if (r.estimate) grid.point_fields.push_back({"p_error", p_error, {}});
   return grid;
 }
@@ -83,15 +81,14 @@ void for_each_side(const Results& r, Add add) {
 
 void write_contact_csv(const Results& r, const std::filesystem::path& path) {
   std::vector<CsvColumn> columns;
-  for (const char* name : {"pair", "curve", "s", "x", "y", "u_n", "p", "gap", "sigma_n", "sigma_2", "p_multiplier"})
+  for (const char* name : {"pair", "curve", "s", "x", "y", "u_n", "p", "gap", "sigma_n", "sigma_2"})
     columns.push_back({name, {}, {}});
   if (r.estimate) columns.push_back({"p_error", {}, {}});
   for_each_side(r, [&](double pair, const ContactSide& side) {
     for (const ContactNode& n : side.nodes) {
       columns[1].words.push_back(side.curve);
       std::size_t c = 0;
-      for (const double value :
-           {pair, n.s, n.position.x(), n.position.y(), n.u_n, n.p, n.gap, n.sigma_n, n.sigma_2, n.p_multiplier}) {
+      for (const double value : {pair, n.s, n.position.x(), n.position.y(), n.u_n, n.p, n.gap, n.sigma_n, n.sigma_2}) {
         columns[c].numbers.push_back(value);
         c += c == 0 ? 2 : 1;
       }

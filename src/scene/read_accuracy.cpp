@@ -39,7 +39,7 @@ Keys accuracy_keys(AccuracySpec& a, int last_pair) {
           one_of({Goal::pressure, Goal::peak, Goal::half_width, Goal::mean, Goal::force, Goal::displacement,
                   Goal::stress}),
           "what the accuracy is asked of: `\"pressure\"` along all contact lines; `\"peak\"`, the largest $p$, refused "
-          "where $p$ has no limit; `\"half_width\"` of every contact, by the bars of where it ends; `\"mean\"`, the "
+          "where $p$ has no limit; `\"half_width\"` of every contact, by the edge on which it ends; `\"mean\"`, the "
           "mean $p$ over `accuracy.window`; `\"force\"` of a pair; `\"displacement\"` (x, y) or `\"stress\"` (11, 22, "
           "12) at `accuracy.at`, a stress refused at a corner where it has no limit, a displacement where nothing "
           "holds the body against it"),

@@ -168,8 +168,7 @@ TEST(DrawnLines, FromTheMeshAloneOneLineHasNoGapOrTheBarSaysWhatItCosts) {
     Results open = solve_scene(scene);
     estimate(open);
     scene.contacts[0].initial_gap = InitialGap::closed;
-    Results closed = solve_scene(scene);
-    estimate(closed);
+    const Results closed = solve_scene(scene);
     EXPECT_GE(held_part(open, closed), 0.95) << i << " " << d.kind << " of " << d.heights.size();
   }
 }

@@ -27,7 +27,7 @@ def run(mortise, ranks, *arguments):
 def contact(folder):
     with open(folder / "contact.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    return {name: [float(row[name] or 0) for row in rows] for name in ("u_n", "p_multiplier", "p", "sigma_n", "p_error")}
+    return {name: [float(row[name] or 0) for row in rows] for name in ("u_n", "p", "sigma_n", "p_error")}
 
 
 def largest(values):

@@ -75,7 +75,7 @@ def execute(run):
         row = {"failed": "", "wall": time.monotonic() - start, "processor": launch.processor_seconds() - used}
         row |= {key: summary.get(key) for key in KEPT}
         side = launch.contact(folder)
-    return row | {"line": {key: side[key].tolist() for key in ("s", "x", "y", "p", "p_multiplier", "p_error")}}
+    return row | {"line": {key: side[key].tolist() for key in ("s", "x", "y", "p", "p_error")}}
 
 
 def whole_process(asked, repeats=5):

@@ -50,7 +50,7 @@ def functions(scene, references):
     """p of the two references, as functions of places; exact ones twice."""
     if scene == "rings":
         return [FORMULAS["rings"]] * 2
-    lines = [Line.of_multiplier(row["line"]) for row in references]
+    lines = [Line.of(row["line"]) for row in references]
     return [fitted(line, *FORMS[scene])[0] if scene in FORMS else pressure_of(line) for line in lines]
 
 
@@ -63,16 +63,14 @@ def zones(row):
 
 
 def judged(scene, run, row, references):
-    """A row of the study's table. `got`: of the multiplier at the nodes; `got_line`: along the edges, where it is linear;
-    `told`: of p at the nodes."""
+    """A row of the study's table. `got`: of the nodes; `got_line`: along the edges, where p is linear."""
     told = {"scene": scene, "asked": run["settings"]["accuracy.value"]}
     told |= {"first_edges": run["settings"]["accuracy.first_edges"], "failed": row["failed"]}
     if row["failed"]:
         return told
     line, zone, estimate = Line.of(row["line"]), zones(row), row["estimate"]
-    multiplier = Line.of_multiplier(row["line"])
     exact, second = functions(scene, references)
-    got, got_line = (rms_error(multiplier, exact, *zone, places) for places in (at_vertices, samples))
+    got, got_line = (rms_error(line, exact, *zone, places) for places in (at_vertices, samples))
     own = rms_error(Line(line.x, second(line.x), line.bar), exact, *zone)
     inside, inside_excluded, worst = inside_bars(line, exact, *zone)
     unknowns = [solve["unknowns"] for solve in row["accuracy"]["solves"]]
@@ -83,7 +81,6 @@ def judged(scene, run, row, references):
         "reason": row["accuracy"]["reason"],
         "got": got,
         "got_line": got_line,
-        "told": rms_error(line, exact, *zone),
         "estimated": estimate["pressure"]["error"],
         "ratio": estimate["pressure"]["error"] / got,
         "ratio_line": estimate["pressure"]["error"] / got_line,
@@ -107,7 +104,7 @@ def judged(scene, run, row, references):
 def independent(scene, references):
     """Of the program's reference: the difference from what is known otherwise, the ends of contact (0.95) and the
     singular points left out."""
-    line = Line.of_multiplier(references[0]["line"])
+    line = Line.of(references[0]["line"])
     x, p, ds = samples(line)
     kept = np.full(len(x), True)
     if scene in FORMS:

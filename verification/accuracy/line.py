@@ -21,11 +21,6 @@ class Line:
     def of(cls, columns):
         return cls(np.column_stack([columns["x"], columns["y"]]), np.array(columns["p"]), np.array(columns["p_error"]))
 
-    @classmethod
-    def of_multiplier(cls, columns):
-        """The multiplier in the place of p: what the estimate of the whole speaks of."""
-        return cls.of(columns | {"p": columns["p_multiplier"]})
-
     def vertices(self):
         return Line(self.x[::2], self.p[::2], self.bar[::2])
 

@@ -37,7 +37,7 @@ def execute(run):
         mesh = f'mesh.file = "{HERE / "patch.geo"}"\nmesh.parameters = {{ order = {order}, quads = {quads} }}\n'
         path.write_text(mesh + SCENE + pair)
         summary = launch.solve(path, {}, Path(folder) / "out")
-        p = launch.contact(Path(folder) / "out")["p_multiplier"]
+        p = launch.contact(Path(folder) / "out")["p"]
     failed = "" if summary["status"] == "solved" else summary["status"]
     return {"failed": failed, "error": float(np.abs(p / 100 - 1).max())}
 

@@ -119,7 +119,7 @@ def pressures(solved, side):
         theirs = table[table[:, 0] == number, 1:]
         places, size = np.stack([found["x"][ours], found["y"][ours]], axis=1), max(b.size() for b in solved.bodies)
         row = match(theirs[:, :2], places, size, f"multipliers on {name[0]}")
-        s, p = found["s"][ours][row], found["p_multiplier"][ours][row]
+        s, p = found["s"][ours][row], found["p"][ours][row]
         order = np.argsort(s)
         parts.append([length + s[order], p[order], theirs[order, 2]])
         length += s.max()

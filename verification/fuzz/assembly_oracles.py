@@ -65,7 +65,7 @@ def unsolved(told):
 def violated(told, folder):
     """What of p >= 0, gap >= 0, p gap = 0 and the balance of every body does not hold, by how much."""
     checks = unsolved(told)
-    p = launch.columns(Path(folder, "results/contact.csv"))["p_multiplier"]
+    p = launch.columns(Path(folder, "results/contact.csv"))["p"]
     if np.nanmin(p) < -EXACT * max(np.nanmax(p), 1e-300):
         checks.append(f"p down to {np.nanmin(p):.2g}")
     return checks

@@ -36,11 +36,10 @@ NUMBER = r"(-?\d+\.?\d*(?:e[-+]?\d+)?)"
 PLACE = rf"\((?:x = )?{NUMBER}, (?:y = )?{NUMBER}\)"
 
 
-def line_of(folder, middles=True, pressure="p"):
-    """The line with the multipliers, `pressure` the column of p; of edges without middle nodes with such added."""
+def line_of(folder, middles=True):
+    """The line with the multipliers; of edges without middle nodes with such added."""
     table = launch.contact(folder)
     names = ("s", "x", "y", "p", "p_error")
-    table |= {"p": table[pressure]}
     columns = [np.nan_to_num(table.get(name, table["p"])) for name in names]  # of a reference without bars
     if not middles:
         columns = [np.insert(v, range(1, len(v)), (v[1:] + v[:-1]) / 2) for v in columns]
@@ -120,7 +119,7 @@ class References:
             run = one_call.call(self.program, case, folder)
             if run.status not in (0, 2):
                 raise launch.StudyError(f"reference: exit status {run.status}: {run.said.strip()[:300]}")
-            return sharpened(*line_of(os.path.join(folder, "results"), pressure="p_multiplier"))
+            return sharpened(*line_of(os.path.join(folder, "results")))
 
 
 def names_place(texts, case):

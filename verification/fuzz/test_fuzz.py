@@ -127,9 +127,8 @@ def test_a_pressure_that_hangs_on_the_place_is_found_by_a_twin(mortise, wrong_pr
     assert objections(mortise, case) == []
     by_place = """
 rows = [row.split(",") for row in (results / "contact.csv").read_text().splitlines()]
-at = rows[0].index("p_multiplier")
 for row in rows[1:]:
-    row[at] = repr(float(row[at]) * (1 + float(rows[1][3])))
+    row[6] = repr(float(row[6]) * (1 + float(rows[1][3])))
 (results / "contact.csv").write_text("\\n".join(",".join(row) for row in rows) + "\\n")
 """
     assert objections(wrong_program(by_place), case) == ["twin"]
@@ -143,7 +142,7 @@ def test_a_difference_below_round_off_is_no_difference_of_pressure(mortise, tmp_
     outcome = one_call.call(mortise, case, tmp_path)
     least = oracles.least_pressure(tmp_path / "results", case.setting)
     table = (tmp_path / "results/contact.csv").read_text()
-    p = results_files.rows(tmp_path / "results/contact.csv")[0]["p_multiplier"]
+    p = results_files.rows(tmp_path / "results/contact.csv")[0]["p"]
     for share, found in ((0.5, False), (2, True)):
         shutil.copytree(tmp_path / "results", tmp_path / f"{share}/results")
         changed = table.replace(p, repr(float(p) + share * least))

@@ -62,9 +62,8 @@ class Store(runs.Store):
         return self.tables[path]
 
     def curve(self, scene, mesh, settings, body, at="nodes"):
-        """Columns of one body's contact line by x1, at its nodes or its element centres; p is the multiplier."""
+        """Columns of one body's contact line by x1, at its nodes or its element centres."""
         table = self.table(self.run(scene, mesh, settings) / FILES[at])
-        table = table | {"p": table.get("p_multiplier", table["p"])}
         here = np.flatnonzero(table["curve"] == SIDES[body])
         order = here[np.argsort(table["x"][here])]
         return {name: values[order] for name, values in table.items()}

@@ -112,10 +112,9 @@ def inf_sup(folder, run):
 
 
 def multiplier_side(folder):
-    """s, x, y, and the multiplier as p, along the multiplier side of the first pair."""
+    """s, x, y, p along the multiplier side of the first pair."""
     side = launch.contact(folder)
-    names = {"s": "s", "x": "x", "y": "y", "p": "p_multiplier"}
-    return {name: np.nan_to_num(side[column][side["pair"] == 0]) for name, column in names.items()}
+    return {name: np.nan_to_num(side[name][side["pair"] == 0]) for name in ("s", "x", "y", "p")}
 
 
 def pressure(folder, run):
@@ -135,8 +134,8 @@ def uniform_facing(folder, run):
     """As uniform, of the multipliers up to run["last"], where the last edge ends that faces the other side: p_error;
     and of p at the nodes that face it themselves: p_error_facing. The edges are run["edge"] long."""
     side, exact = launch.contact(folder), run.get("exact", 10e6)
-    error, at = np.abs(side["p_multiplier"] / exact - 1), side["x"] / run["edge"]
-    near = (side["x"] < run["last"] + 1e-9) & (side["p_multiplier"] != 0)
+    error, at = np.abs(side["p"] / exact - 1), side["x"] / run["edge"]
+    near = (side["x"] < run["last"] + 1e-9) & (side["p"] != 0)
     if run["settings"].get("method.multipliers") == "linear":
         near &= np.abs(at - np.round(at)) < 1e-6  # the vertices
     return {"p_error": float(error[near].max()), "p_error_facing": float(error[~np.isnan(side["gap"])].max())}
@@ -229,7 +228,7 @@ def timed(run):
         "outcome": "unfinished" if summary["status"] == "not_converged" else "converged",
         "force": checks["residual of the forces"],
         "kinematic": checks["residual of the contact condition"],
-        "p": contact["p_multiplier"].tolist(),
+        "p": contact["p"].tolist(),
     }
 
 
