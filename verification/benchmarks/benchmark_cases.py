@@ -140,10 +140,12 @@ def places(case, line):
     return np.abs(np.arctan2(line["x"], -line["y"]))
 
 
-def error(case, at, p):
-    """Root of the mean square of p - exact along the line over that of the exact p; p is linear between its nodes."""
+def error(case, at, p, left_out=0):
+    """Root of the mean square of p - exact along the line over that of the exact p; p is linear between its nodes.
+
+    `left_out`: the length beside the axis that is not compared."""
     end = case.compared * case.half_width
-    fine = (np.arange(20000) + 0.5) / 20000 * end
+    fine = left_out + (np.arange(20000) + 0.5) / 20000 * (end - left_out)
     order = np.argsort(at)
     known = case.exact(fine)
     weights = fine if case.ring else np.ones_like(fine)

@@ -33,6 +33,13 @@ WIDTH_LIMIT = 5e-3  # of the half width of contact on the finest mesh
 SIZES = (25, 50, 100, 200)  # of the blocks that stand for half planes
 
 
+def left_out_at_axis(summary):
+    """What --accuracy leaves out beside a point on the axis at which p has no limit, as the wedge's tip."""
+    pressure = summary["estimate"]["pressure"]
+    on_axis = any(point["position"][0] == 0 for point in pressure["singular"])
+    return pressure["excluded"][0] if on_axis else 0
+
+
 def execute(run):
     """One run: `error` of p, `width`: relative error of the half width, unknowns, seconds, and the line for pictures."""
     if "patch" in run:
@@ -59,7 +66,7 @@ def execute(run):
     length = summary["contact"][0]["length_in_contact"]
     return {
         "failed": "" if summary["status"] == "solved" else summary["status"],
-        "error": benchmark_cases.error(case, at, line["p"]),
+        "error": benchmark_cases.error(case, at, line["p"], 0 if run["size"] else left_out_at_axis(summary)),
         "width": length / case.half_width - 1,
         "unknowns": summary["mesh"]["dofs"],
         "seconds": seconds,
