@@ -11,7 +11,7 @@
 namespace mortise {
 namespace {
 
-// Three plates, pressed together and sheared a little; the ends of the lines are unloaded by nothing.
+// Three plates under uniform pressure: every row is loaded alike.
 const Results& answer() {
   static const Results results = [] {
     Scene scene = read_scene(MORTISE_SOURCE_DIR "/geo/stack.toml", {});
