@@ -16,21 +16,12 @@ _cache = tempfile.TemporaryDirectory(prefix="mortise_cache_")
 os.environ["XDG_CACHE_HOME"] = _cache.name  # of meshes: never the user's
 
 
-def need(path):
-    if not path.is_file():
-        pytest.skip(f"{path} is missing: ./dev build makes it")
-    return path
-
-
 @pytest.fixture(scope="session")
 def mortise():
     """The executable of mortise."""
-    return need(launch.MORTISE)
-
-
-@pytest.fixture(scope="session")
-def chart_tool(mortise):
-    return need(launch.CHART)
+    if not launch.MORTISE.is_file():
+        pytest.skip(f"{launch.MORTISE} is missing: ./dev build makes it")
+    return launch.MORTISE
 
 
 @pytest.fixture(scope="session")

@@ -177,7 +177,7 @@ def main(arguments=None):
     names = [case.name for case in benchmark_cases.CASES]
     options = launch.command_line(__doc__, "benchmarks", arguments, names=names, jobs=False, docs=True)
     stability = HERE.with_name("stability")
-    depends = [*HERE.glob("*.py"), *HERE.glob("*.geo"), stability / "persson.py", stability / "pin.geo", *HERE.with_name("getfem").glob("*.py")]
+    depends = [*HERE.glob("*.py"), *HERE.glob("*.geo"), stability / "persson.py", stability / "pin.geo", *HERE.with_name("chart").glob("*getfem*.py")]
     store = runs.Store(options.output / "runs", sorted(depends))
     os.environ.update(launch.ONE_THREAD)
     rows, lines, answers, pictures, second, wrong = [], [], [], [], [], []

@@ -1,7 +1,7 @@
 """The benchmarks by other programs on mortise's meshes, with multipliers on the same side.
 
 FreeFEM (freefem/active_set.edp): P2 on 6-node triangles or on two triangles of each quadrilateral, with straight sides, and
-the gaps and segments that the cross-check writes out for it. GetFEM (getfem/getfem_contact.py): the mesh's own elements.
+the gaps and segments that the cross-check writes out for it. GetFEM (chart/getfem_contact.py): the mesh's own elements.
 """
 
 import sys
@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.with_name("crosscheck")), str(HERE.with_name("getfem"))]
+sys.path[:0] = [str(HERE.with_name("crosscheck")), str(HERE.with_name("chart"))]
 
 import benchmark_cases
 import by_getfem

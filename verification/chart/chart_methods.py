@@ -4,7 +4,11 @@ A method is a dictionary of the scene's keys (docs/files.md), as `mortise solve 
 can be had again by hand. A row whose keys the executable refuses is skipped, and says so.
 """
 
+import sys
 from pathlib import Path
+
+for folder in ("common", "crosscheck"):
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1] / folder))
 
 import launch
 
@@ -84,6 +88,7 @@ PROBLEMS = {
         "finer": "lower_contact",
     },
 }
+ERRORS = ("e_energy", "e_p_l2", "e_p_l2_inner", "e_p_max_inner")  # errors.py
 # The errors that are drawn; the advice goes by the first.
 PANELS = {
     "manufactured": ("e_p_l2", "e_energy", "e_p_max_inner"),

@@ -1,19 +1,19 @@
-"""The runs of the chart: mortise_chart by problem and mesh, kept in the store of runs, and their medians."""
+"""The runs of the chart: mortise by problem and mesh, kept in the store of runs, and their medians."""
 
-import csv
-import io
+import json
 import os
 import statistics
-import sys
+import tempfile
 from pathlib import Path
 
-for folder in ("common", "crosscheck", "getfem"):
-    sys.path.insert(0, str(Path(__file__).resolve().parents[1] / folder))
+from chart_methods import ERRORS, PROBLEMS  # makes common/ known
 
+import errors
+import known
 import launch
+import parabola_mesh
 import runs
 
-ERRORS = ("e_energy", "e_p_l2", "e_p_l2_inner", "e_p_max_inner")
 STAGES = ("s_assemble", "s_couple", "s_factorise", "s_solve", "s_recover", "s_total", "s_wall")
 SIZES = ("nodes", "elements", "dofs", "multipliers", "interface_steps")
 COLUMNS = (
@@ -21,7 +21,8 @@ COLUMNS = (
     *("s_total_min", "s_total_max"),
 )
 # What measures, beside the programs and the scenes.
-MEASURES = ("chart_runs", "economy", "peer_runs", "reference", "timing_check")
+MEASURES = ("chart_runs", "economy", "errors", "getfem_contact", "known", "manufactured", "parabola_mesh", "peer_runs",
+            "reference", "timing_check")  # fmt: skip
 FREEFEM = ("mortar.edp", "elasticity.idp", "contact.idp", "system.idp")
 CROSSCHECK = ("convert", "run", "scene")
 
@@ -30,46 +31,73 @@ def make_store(output, quick):
     here = Path(__file__).parent
     files = [*(here / f"{name}.py" for name in MEASURES), *(launch.ROOT / "freefem" / name for name in FREEFEM)]
     files += [here.with_name("crosscheck") / f"{name}.py" for name in CROSSCHECK]
-    files += [*sorted(here.with_name("getfem").glob("*.py")), here / "manufactured.toml"]
-    return runs.Store(output / ("runs_quick" if quick else "runs"), files, [launch.CHART, launch.MORTISE])
+    return runs.Store(output / ("runs_quick" if quick else "runs"), [*files, here / "manufactured.toml"])
 
 
-def tool(problem, named_ways, turns, *options):
-    """Rows of mortise_chart, texts as printed, and what it said of ways that it refuses."""
-    ways = [";".join([name, *(f"{key}={value}" for key, value in way.items())]) for name, way in named_ways]
-    words = [word for way in ways for word in ("--run", way)]
-    command = [launch.need(launch.CHART), problem, *words, "--turns", turns, "--threads", 1, *options]
-    done, _ = launch.run(command, expected=(0,), env={**os.environ, **launch.ONE_THREAD})
-    return list(csv.DictReader(io.StringIO(done.stdout))), done.stderr.strip()
+def arguments_of(problem, settings, folder):
+    """Scene and settings of a run; with chart.grading, on the graded mesh of parabola_mesh."""
+    settings = dict(settings)
+    if (grading := settings.pop("chart.grading", None)) is not None:
+        sizes = [settings.pop(f"mesh.parameters.{key}") for key in ("n_upper", "n_lower")]
+        parabola_mesh.write_gmsh(folder / "graded.msh", sizes, grading)
+        settings |= {"mesh.file": folder / "graded.msh", "mesh.parameters": "{}"}
+    return [launch.scene_file(PROBLEMS[problem]["scene"]), *launch.options(settings)]
 
 
-def number(text):
-    return None if text in ("", None) else float(text)
-
-
-def of_turns(rows):
-    """One row of the turns of a method: medians of the seconds, and the range of the whole."""
-    first, totals = rows[0], [float(row["s_total"]) for row in rows]
+def solve(problem, settings, folder):
+    """One run: sizes, energy, and seconds without meshing and writing. The stages are by the clock, as summary.json has
+    them; s_total is s_wall times the processor's share of the whole process, which other work hardly changes. With
+    accuracy.value both hold the whole loop with its meshes, none of them kept from before."""
+    asked, before = "accuracy.value" in settings, launch.processor_seconds()
+    words = ["--no-cache"] if asked else ["--no-estimate"]
+    _, whole = launch.run([launch.need(launch.MORTISE), "solve", *arguments_of(problem, settings, folder), "-o", folder,
+                           "--quiet", "--threads", 1, *words], env={**os.environ, **launch.ONE_THREAD})  # fmt: skip
+    processor = launch.processor_seconds() - before
+    summary = json.loads((folder / "summary.json").read_text())
+    own, size = summary["seconds"], summary["mesh"]
+    wall = own["total"] - own["write"] - (0 if asked else own["mesh"])
     return {
-        **{"method": first["name"], "status": first["status"], "turns": len(rows)},
-        **{key: int(first[key]) for key in SIZES},
-        **{key: number(first[key]) for key in ("energy", *ERRORS)},
-        **{key: statistics.median(float(row[key]) for row in rows) for key in STAGES},
-        **{"s_total_min": min(totals), "s_total_max": max(totals)},
+        "status": summary["status"],
+        **{key: size[key] for key in ("nodes", "elements", "dofs", "multipliers")},
+        **{"interface_steps": summary["iterations"]["solver"], "energy": summary["energy"]},
+        **{f"s_{stage}": own[stage] for stage in ("assemble", "couple", "factorise", "solve", "recover")},
+        **{"s_total": wall * min(1, processor / whole), "s_wall": wall},
     }
+
+
+def by_turns(problem, named_ways, turns, reference=None):
+    """The rows of each way, its errors in the first, and the words of those that are refused, by name."""
+    rows, refused = {name: [] for name, _ in named_ways}, {}
+    with tempfile.TemporaryDirectory() as base:
+        for turn in range(turns):
+            for name, settings in named_ways:
+                folder = Path(base) / name
+                folder.mkdir(exist_ok=True)
+                try:
+                    if name not in refused:
+                        rows[name].append(solve(problem, settings, folder))
+                except launch.StudyError as error:
+                    if "exit status 1\n" not in str(error):
+                        raise
+                    refused[name] = str(error).splitlines()[-1].removeprefix("mortise: error: ")
+                if turn == 0 and name not in refused:
+                    rows[name][0] |= errors.of_run(folder, known.known(problem, reference))
+    return rows, refused
+
+
+def of_turns(name, rows):
+    """One row of the turns of a method: medians of the seconds, and the range of the whole."""
+    totals = [row["s_total"] for row in rows]
+    medians = {key: statistics.median(row[key] for row in rows) for key in STAGES}
+    return {"method": name, **rows[0], "turns": len(rows), **medians, "s_total_min": min(totals), "s_total_max": max(totals)}
 
 
 def of_mortise(store, problem, mesh_text, named_ways, turns, reference=None):
     """The methods' rows on one mesh, which is run by turns, and what was said of the refused ones."""
-    options = ["--reference", reference] if reference else []
 
     def make(_):
-        rows, said = tool(problem, named_ways, turns, *options)
-        by_name = {name: [row for row in rows if row["name"] == name] for name, _ in named_ways}
-        refused = {name for name, mine in by_name.items() if mine[0]["status"] == "refused"}
-        line_of = lambda name: next((line for line in said.splitlines() if line.startswith(name + ":")), name)
-        words = {name: line_of(name) for name in refused}
-        return {"rows": [of_turns(mine) for name, mine in by_name.items() if name not in refused], "refused": words}
+        rows, refused = by_turns(problem, named_ways, turns, reference)
+        return {"rows": [of_turns(name, mine) for name, mine in rows.items() if mine], "refused": refused}
 
     found = store.row([problem, mesh_text, named_ways, turns, reference and runs.digest(reference)], make, problem)
     return found["rows"], found["refused"]

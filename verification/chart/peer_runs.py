@@ -1,10 +1,10 @@
-"""Other programs' runs of the chart, on mortise's meshes; the errors are taken by mortise_chart, as those of mortise.
+"""Other programs' runs of the chart, on mortise's meshes; the errors are taken by errors.py, as those of mortise.
 
 FreeFEM: the scripts of freefem/ on the triangles that mortise's 3-node meshes have, displacements P1 or P2, linear
 multipliers on the finer side, segments, straight sides. Seconds are those that the script reports, of the processor:
 assembly, coupling (curves, segments, projections: loops of FreeFEM's interpreted language) and solution.
 
-GetFEM: getfem/getfem_contact.py on mortise's 8-node meshes, linear multipliers on the finer side; its seconds of the
+GetFEM: getfem_contact.py on mortise's 8-node meshes, linear multipliers on the finer side; its seconds of the
 processor from the mesh in memory to p, of which its system's assembly is a part.
 """
 
@@ -13,14 +13,16 @@ import statistics
 import tempfile
 from pathlib import Path
 
-import chart_runs  # makes common/, crosscheck/ and getfem/ known
+from chart_methods import ERRORS, PROBLEMS, size_settings  # makes common/ and crosscheck/ known
 
 import by_getfem
+import chart_runs
+import errors
+import known
 import launch
 import run
 import runs
 from cases import Step
-from chart_methods import PROBLEMS, size_settings
 
 PROGRAMS = {"FreeFEM": "freefem++", "GetFEM": "python3-getfem"}  # and Debian's packages
 GAUSS_POINTS = {1: 2, 2: 5}  # an edge piece, by the order
@@ -71,19 +73,22 @@ def by_getfem_too(problem, mesh, _, folder, turns):
     return seconds, summary, {}, folder / "getfem"
 
 
-def measured(problem, mesh, name, program, order, turns, against):
-    """One row of the chart. `against`: options of mortise_chart."""
+def measured(problem, mesh, name, program, order, turns, reference):
+    """One row of the chart."""
     with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
         make = by_freefem if program == "FreeFEM" else by_getfem_too
-        seconds, summary, same, files = make(problem, mesh, order, Path(folder), turns)
+        seconds, summary, same, files = make(problem, mesh, order, folder, turns)
         settings = {**size_settings(problem, mesh), **same, "contact.multipliers_on": PROBLEMS[problem]["finer"]}
-        rows, _ = chart_runs.tool(problem, [(name, settings)], 1, "--fields", files, *against)
-    found = chart_runs.of_turns(rows)
+        (folder / "same").mkdir()
+        nodes = chart_runs.solve(problem, settings, folder / "same")
+        found = errors.of_run(folder / "same", known.known(problem, reference), files)
     totals, (assemble, couple, solve) = [sum(s) for s in seconds], map(statistics.median, zip(*seconds))
     return {
         **{"method": name, "status": "solved", "turns": turns, "dofs": int(summary["unknowns"])},
         **{"multipliers": int(summary["multipliers"]), "interface_steps": 0, "energy": summary["energy"]},
-        **{key: found[key] for key in ("nodes", "elements", *chart_runs.ERRORS)},
+        **{key: nodes[key] for key in ("nodes", "elements")},
+        **{key: found[key] for key in ERRORS},
         **{"s_assemble": assemble, "s_couple": couple, "s_factorise": 0.0, "s_solve": solve, "s_recover": 0.0},
         "s_wall": None,
         **{"s_total": statistics.median(totals), "s_total_min": min(totals), "s_total_max": max(totals)},
@@ -92,8 +97,7 @@ def measured(problem, mesh, name, program, order, turns, against):
 
 def of_peer(store, problem, mesh, ways, turns, reference=None):
     """The rows on one mesh of a program; `ways`: name, program, order of the displacements."""
-    against = ["--reference", reference] if reference else []
     os.environ.update(launch.ONE_THREAD)
-    make = lambda _: [measured(problem, mesh, *way, turns, against) for way in ways]
+    make = lambda _: [measured(problem, mesh, *way, turns, reference) for way in ways]
     key = [version(ways[0][1]), problem, mesh, ways, turns, reference and runs.digest(reference)]
     return store.row(key, make, f"{ways[0][1]}_{problem}")

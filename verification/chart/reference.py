@@ -17,9 +17,12 @@ tenth of the length at each end.
 
 import json
 import math
+import tempfile
+from pathlib import Path
 
-import chart_runs  # makes launch known
-import launch
+import chart_runs
+import errors
+import known
 
 COLUMNS = {"full": 384, "quick": 64}
 GRADINGS = (2, 3, 4)
@@ -28,18 +31,15 @@ SAFETY = 2
 KEYS = ("e_p_l2_inner", "e_p_max_inner")
 
 
-def way(columns, grading):
-    sizes = {"mesh.parameters.n_upper": columns, "mesh.parameters.n_lower": columns}
-    return "reference", {**sizes, "chart.grading": grading, "method.multipliers": "quadratic"}
-
-
 def solve(columns, grading, path=None, reference=None):
     """One run's row; its pressure goes to a file, its errors are against a reference."""
-    options = [*(["--pressure", path] if path else []), *(["--reference", reference] if reference else [])]
-    rows, said = chart_runs.tool("parabola_1", [way(columns, grading)], 1, *options)
-    if rows[0]["status"] == "refused":
-        raise launch.StudyError(f"the reference was refused: {said}")
-    return rows[0]
+    sizes = {"mesh.parameters.n_upper": columns, "mesh.parameters.n_lower": columns}
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        row = chart_runs.solve("parabola_1", {**sizes, "chart.grading": grading, "method.multipliers": "quadratic"}, folder)
+        if path:
+            errors.write_pressure(folder, path)
+        return row | errors.of_run(folder, known.known("parabola_1", reference))
 
 
 def aitken(energies):
@@ -57,19 +57,19 @@ def make(columns, folder):
     limits = {}
     for g in (2, CHOSEN):
         finest = chosen if g == CHOSEN else others[g]
-        energies = [float(solve(columns // part, g)["energy"]) for part in (4, 2)]
-        limits[g] = aitken([*energies, float(finest["energy"])])
-    even = [float(solve(columns // part, 1)["energy"]) for part in (4, 2)]
+        energies = [solve(columns // part, g)["energy"] for part in (4, 2)]
+        limits[g] = aitken([*energies, finest["energy"]])
+    even = [solve(columns // part, 1)["energy"] for part in (4, 2)]
     energy = limits[CHOSEN][0]
     trust = abs(limits[CHOSEN][0] - limits[2][0]) / energy
     table = {
-        **{"columns": columns, "unknowns": int(chosen["dofs"]), "energy": energy},
+        **{"columns": columns, "unknowns": chosen["dofs"], "energy": energy},
         "energy_rates": {g: rate for g, (_, rate) in limits.items()},
         "energy_limits": {g: limit for g, (limit, _) in limits.items()},
         "energy_rate_even_meshes": math.log2((energy - even[0]) / (energy - even[1])),
-        "differences": {g: {key: float(row[key]) for key in KEYS} for g, row in others.items()},
+        "differences": {g: {key: row[key] for key in KEYS} for g, row in others.items()},
         "trust": {
-            **{key: SAFETY * max(float(row[key]) for row in others.values()) for key in KEYS},
+            **{key: SAFETY * max(row[key] for row in others.values()) for key in KEYS},
             "energy": SAFETY * trust,
             "e_energy": math.sqrt(SAFETY * trust),
         },

@@ -27,7 +27,7 @@ def row(method, seconds, error, n=8, problem="manufactured"):
 
 
 @pytest.fixture(scope="module")
-def quick(chart_tool, tmp_path_factory):
+def quick(mortise, tmp_path_factory):
     output, said = tmp_path_factory.mktemp("chart"), []
     store = chart_runs.make_store(output, True)
     rows, about = measure.measure(store, output, True, lambda text, start=None: said.append(text))

@@ -16,7 +16,6 @@ sys.path.append(str(ROOT / "src/python/pictures"))  # what mortise itself draws 
 
 from result_tables import columns, contact, read_csv  # noqa: F401
 MORTISE = Path(os.environ.get("MORTISE", ROOT / "build/release/mortise")).absolute()
-CHART = Path(os.environ.get("MORTISE_CHART", ROOT / "build/release/verification/chart/mortise_chart")).absolute()
 YOUNG = 210e9  # of the lower body, in the scenes' units
 SOLVED = (0, 2)  # exit status: 2 is a check that fails, or no convergence, with the results written
 TIME_LIMIT = 1800  # seconds for one call
@@ -48,8 +47,7 @@ def command_line(description, name, arguments=None, names=None, jobs=True, docs=
 def need(program):
     """The program, or StudyError if it is not there."""
     if not program.is_file():
-        variable = "MORTISE_CHART" if program == CHART else "MORTISE"
-        raise StudyError(f"{program} is missing: ./dev build makes it, or {variable} names another")
+        raise StudyError(f"{program} is missing: ./dev build makes it, or MORTISE names another")
     return program
 
 

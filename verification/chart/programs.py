@@ -3,13 +3,12 @@
 import functools
 import os
 import re
-import shutil
-import subprocess
 import sys
 
 import launch
 import numpy as np
 import parabola_mesh
+import peer_runs
 
 HERE = launch.Path(__file__).resolve().parent
 SCENE = """
@@ -80,14 +79,7 @@ def version(name):
     """Of a program that is there, else None."""
     if name == "mortise":
         return launch.run([launch.need(launch.MORTISE), "--version"])[0].stdout.strip().replace("\n", "; ")
-    if name == "FreeFEM":
-        if not shutil.which("FreeFem++"):
-            return None
-        said = subprocess.run(["FreeFem++", "-nw", "-?"], capture_output=True, text=True, check=False).stdout.split()
-        return said[said.index("version") + 1] if "version" in said else "of unknown version"
-    ask = [sys.executable, "-c", "import getfem; print(getfem.getfem_env('version'))"]
-    asked = subprocess.run(ask, capture_output=True, text=True, check=False)
-    return asked.stdout.strip() if asked.returncode == 0 else None
+    return peer_runs.version(name)
 
 
 @functools.cache
@@ -95,11 +87,11 @@ def dense_kernel():
     return re.search(r"OpenBLAS \S+ (\w+)", version("mortise"))[1]
 
 
-def measured(words):
-    """Processor and wall seconds and peak memory (MB) of a process."""
+def measured(words, own_threads=False):
+    """Processor and wall seconds and peak memory (MB) of a process; on one thread, unless it knows how many."""
     own = {"FF_LOADPATH": "/usr/lib/freefem++", "FF_INCLUDEPATH": str(launch.ROOT / "freefem")}
     environment = {**own, **os.environ}
-    if "--threads" not in words:  # the others; the dense kernel that mortise has chosen, too
+    if "--threads" not in words and not own_threads:  # the others; the dense kernel that mortise has chosen, too
         environment = {**launch.ONE_THREAD, "OPENBLAS_CORETYPE": dense_kernel(), **environment}
     done, _ = launch.run([sys.executable, "-SEc", METER, *words], range(256), env=environment)
     status, seconds, wall, megabytes = map(float, done.stdout.split())

@@ -6,6 +6,7 @@ import pytest
 
 import performance
 import programs
+import stages
 
 
 def solved(name, folder, grading=1):
@@ -27,6 +28,14 @@ def test_programs_find_the_same_pressure(mortise, tmp_path, name):
 def test_programs_find_the_same_pressure_on_graded_meshes(mortise, tmp_path):
     graded = [solved(name, tmp_path / name, performance.GRADING) for name in ("mortise", "FreeFEM")]
     assert performance.error_of(*graded) < 0.005
+
+
+def test_stages_beside_cholmod_and_of_a_wall(mortise):
+    if not stages.CHOLMOD.is_file():
+        pytest.skip(f"{stages.CHOLMOD} is missing: ./dev build makes it")
+    mesh, unknowns, least, whole, ratio, *_ = stages.against_limit(40, 1, 1)
+    assert mesh == "40x50" and unknowns == 9460 and whole / least == pytest.approx(ratio) and 0.1 < ratio < 10
+    assert stages.wall(2, 1)[:3] == ["2x2", 7, 33]
 
 
 def test_seconds_between_meshes_follow_a_power_law():

@@ -1,4 +1,4 @@
-"""Polynomials of x and y."""
+"""Polynomials of x and y, their coefficients real or complex."""
 
 import numpy as np
 
@@ -7,18 +7,18 @@ class Polynomial:
     """c[i, j] x^i y^j."""
 
     def __init__(self, coefficients):
-        self.c = np.atleast_2d(np.asarray(coefficients, dtype=float))
+        self.c = np.atleast_2d(np.asarray(coefficients) + 0.0)
 
     def __add__(self, other):
         other = polynomial(other)
-        sum = np.zeros(np.maximum(self.c.shape, other.c.shape))
+        sum = np.zeros(np.maximum(self.c.shape, other.c.shape), np.result_type(self.c, other.c))
         sum[: self.c.shape[0], : self.c.shape[1]] += self.c
         sum[: other.c.shape[0], : other.c.shape[1]] += other.c
         return Polynomial(sum)
 
     def __mul__(self, other):
         other = polynomial(other)
-        product = np.zeros(np.array(self.c.shape) + other.c.shape - 1)
+        product = np.zeros(np.array(self.c.shape) + other.c.shape - 1, np.result_type(self.c, other.c))
         for (i, j), value in np.ndenumerate(self.c):
             if value:
                 product[i : i + other.c.shape[0], j : j + other.c.shape[1]] += value * other.c
@@ -35,12 +35,20 @@ class Polynomial:
     def __call__(self, x, y):
         return np.polynomial.polynomial.polyval2d(x, y, self.c)
 
-    def __str__(self):
-        """As an expression of a scene, to eight digits."""
+    def __format__(self, digits):
+        """As an expression of a scene, to eight digits unless `digits` says else; of real coefficients."""
         power = lambda name, n: f"*{name}^{n}" if n > 1 else f"*{name}" * n
         least = 1e-14 * np.abs(self.c).max()
-        terms = [f"{v:.8g}{power('x', i)}{power('y', j)}" for (i, j), v in np.ndenumerate(self.c) if abs(v) > least]
+        terms = [f"{v:{digits or '.8g'}}{power('x', i)}{power('y', j)}" for (i, j), v in np.ndenumerate(self.c) if abs(v) > least]
         return "+".join(terms).replace("+-", "-") or "0"
+
+    __str__ = lambda self: format(self)
+
+    def conjugate(self):
+        """The conjugate value, of real x and y."""
+        return Polynomial(self.c.conjugate())
+
+    real, imag = property(lambda self: Polynomial(self.c.real)), property(lambda self: Polynomial(self.c.imag))
 
     def dx(self):
         return Polynomial(self.c[1:] * np.arange(1, len(self.c))[:, None]) if len(self.c) > 1 else polynomial(0)
