@@ -90,7 +90,7 @@ Check motion_check(const Results& r) {
 
 std::optional<Check> estimate_check(const Results& r) {
   const double error = r.estimate->pressure();
-  if (std::isnan(error)) return {};  // nothing is loaded; if all that is has no estimate, it is infinite
+  if (std::isnan(error)) return {};  // nothing is loaded
   Check check{"estimated error of p", error, 0.5};
   if (!check.ok()) check.where = "the most from " + largest_error(r) + "; expected a finer mesh there";
   return check;

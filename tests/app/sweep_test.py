@@ -45,7 +45,7 @@ def test_parts(mortise, folder, whole):
     for part in (1, 2, 3):
         sweep(mortise, "--part", f"{part}/3", "-o", table, status=2 if part == 2 else 0)
     said = sweep(mortise, "--join", 4, "-o", table, status=1)
-    assert "parts.1_of_4.csv, part 1 of 4: no such file" in said, said
+    assert "parts.1_of_4.csv, part 1 of 4: no such file; expected what --part 1/4 writes" in said, said
     sweep(mortise, "--join", 3, "-o", table)
     assert rows(table) == whole
     # The text of the whole: its rows one after the other, with the header of the first part that has figures.
@@ -56,13 +56,13 @@ def test_parts(mortise, folder, whole):
     lines = second.read_text().splitlines(keepends=True)
     second.write_text("".join(lines[:-1]))
     said = sweep(mortise, "--join", 3, "-o", table, status=1)
-    assert "part 2 of 3: 3 of its 4 runs are complete" in said, said
+    assert "part 2 of 3: 3 of its 4 runs are complete; start it again" in said, said
     second.write_text("".join(lines).replace("1.04e6", "1.5e6"))
     said = sweep(mortise, "--join", 3, "-o", table, status=1)
     assert "is of another sweep" in said, said
     second.write_bytes("".join(lines).encode().replace(b"solved", b"sol\xffed", 1))
     said = sweep(mortise, "--join", 3, "-o", table, status=1)
-    assert "part 2 of 3: is damaged" in said, said
+    assert "part 2 of 3: is damaged: it holds 'sol" in said, said
     assert rows(table) == whole, "an error leaves the table standing"
 
 

@@ -178,7 +178,7 @@ TEST(ActiveSetThatDoesNotConverge, AWarningNamesThePlaces) {
   Results r = solved("gap_close", {{"contact.multipliers_on", "lower_contact"}});
   r.solution.infeasible = {0, 11};
   const std::string line = warnings(r)[0];
-  EXPECT_NE(line.find("did not converge"), std::string::npos) << line;
+  EXPECT_NE(line.find("the active set did not converge in "), std::string::npos) << line;
   EXPECT_NE(line.find("near (0.8, 0.3), near (0, 0.3)"), std::string::npos) << line;
 }
 

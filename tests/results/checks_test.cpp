@@ -92,6 +92,7 @@ TEST(Checks, WhatIsNotFiniteHasNotConverged) {
       EXPECT_EQ(r.status, Status::not_converged) << part;
       ASSERT_FALSE(r.warnings.empty());
       EXPECT_EQ(r.warnings[0].rfind("not finite", 0), 0u) << r.warnings[0];
+      EXPECT_NE(r.warnings[0].find("; discard these results"), std::string::npos) << r.warnings[0];
     }
 }
 

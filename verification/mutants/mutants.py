@@ -1,0 +1,211 @@
+"""Faults put into the program on purpose, one at a time: does a test notice?
+
+Each line of mutants.txt is a fault: file @@ old text @@ new text @@ what it breaks, and @@ why it may survive where no
+test can tell. It goes into a copy of the tree, which is built incrementally; then the tests run, the cheap ones first:
+those of at most 0.1 s, those of at most 5 s, the other C++ tests, the Python tests on scenes. What kills it ends its
+turn. A mutant that does not compile is an error of the list. Results stand in WORK/journal.csv, by the fault's line;
+those that are there are not run again."""
+
+import argparse
+import csv
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+import time
+from collections import Counter, namedtuple
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+STAGES = ["fast", "quick", "slow", "scenes"]
+FAST, QUICK = 0.1, 5  # seconds of a test, at most
+# Python tests that solve scenes; the others look at pages, pictures and programs.
+SCENES = ["exact", "benchmarks", "accuracy", "stability", "fuzz"]
+
+Mutant = namedtuple("Mutant", "file old new what reason")
+
+
+def read_mutants(path=HERE / "mutants.txt"):
+    """The faults of the list, in its order."""
+    lines = [line for line in path.read_text().splitlines() if line and not line.startswith("#")]
+    return [Mutant(*(line.split(" @@ ") + [""])[:5]) for line in lines]
+
+
+def room(mutant):
+    return mutant.file.split("/")[0]
+
+
+class Tree:
+    """A copy of the working tree with a build folder of its own."""
+
+    def __init__(self, work):
+        self.work, self.source, self.build = work, work / "tree", work / "build"
+        self.env = dict(os.environ, CCACHE_SLOPPINESS="pch_defines,time_macros,include_file_ctime,include_file_mtime",
+                        XDG_CACHE_HOME=str(work / "cache"), MORTISE=str(self.build / "mortise"))  # fmt: skip
+
+    def refresh(self):
+        """As the working tree is now. Files that have not changed keep their times."""
+        files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, check=True, text=True,
+                               capture_output=True).stdout.splitlines()  # fmt: skip
+        kept = {self.source / name for name in files}
+        for old in [path for path in self.source.rglob("*") if path.is_file() and path not in kept]:
+            old.unlink()
+        for name in files:
+            new, old = ROOT / name, self.source / name
+            if new.is_file() and not (old.is_file() and old.read_bytes() == new.read_bytes()):
+                old.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(new, old)
+                shutil.copymode(new, old)
+
+    def configure(self):
+        launcher = ["-D", "CMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+        linker = ["-D", "CMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld"] if shutil.which("ld.lld") else []
+        # No warnings: what a fault leaves unused is no error.
+        subprocess.run(["cmake", "-S", self.source, "-B", self.build, "-G", "Ninja", "-D", "CMAKE_BUILD_TYPE=Release",
+                        "-D", "CMAKE_UNITY_BUILD=ON", "-D", "CMAKE_CXX_FLAGS=-w", "-D", "CMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG",
+                        "-D", "MORTISE_BENCHMARKS=OFF", *launcher, *linker,
+                        "-D", f"CMAKE_PROJECT_INCLUDE={self.source}/verification/mutants/library_units.cmake"],
+                       check=True, stdout=subprocess.DEVNULL, env=self.env)  # fmt: skip
+
+    def compile(self, jobs):
+        """What the compiler says if it fails, else nothing."""
+        done = subprocess.run(["ninja", "-C", self.build, f"-j{jobs}", "mortise_executable", "mortise_tests"],
+                              text=True, errors="replace", capture_output=True, env=self.env)  # fmt: skip
+        return done.stdout[-3000:] if done.returncode else ""
+
+    def run_tests(self, names, limit, *arguments):
+        """The test that fails, or "crash" or "late"; nothing if all pass."""
+        listed = self.work / "tests.txt"
+        listed.write_text("--gtest_filter=" + ":".join(names))
+        try:
+            done = subprocess.run([self.build / "tests/mortise_tests", f"--gtest_flagfile={listed}", *arguments],
+                                  cwd=self.build, text=True, errors="replace", capture_output=True, timeout=limit,
+                                  env=self.env)  # fmt: skip
+        except subprocess.TimeoutExpired:
+            return "late"
+        failed = [line.split("]")[1].split(",")[0].split("(")[0].strip()
+                  for line in done.stdout.splitlines() if line.startswith("[  FAILED  ]")]  # fmt: skip
+        return failed[0] if failed else "" if done.returncode == 0 else "crash"
+
+    def run_scenes(self):
+        try:
+            done = subprocess.run(["/usr/bin/python3", "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider",
+                                   *(self.source / "verification" / name for name in SCENES)],
+                                  text=True, errors="replace", capture_output=True, timeout=3600, env=self.env)  # fmt: skip
+        except subprocess.TimeoutExpired:
+            return "late"
+        failed = [line for line in done.stdout.splitlines() if line.startswith("FAILED")]
+        return failed[0].split()[1].split("/")[-1] if failed else "" if done.returncode == 0 else "crash"
+
+    def test_seconds(self):
+        """Of each C++ test without a fault. Tests that fail here say nothing of mutants: an error."""
+        found, report = self.work / "seconds.json", self.work / "report.json"
+        self.run_tests(["*"], 3600, f"--gtest_output=json:{report}")
+        tests = [(f"{suite['name']}.{test['name']}", test)
+                 for suite in json.loads(report.read_text())["testsuites"] for test in suite["testsuite"]]  # fmt: skip
+        failed = [name for name, test in tests if "failures" in test]
+        if failed:
+            sys.exit(f"mutants: tests fail without a fault: {', '.join(failed)}")
+        seconds = {name: float(test["time"].rstrip("s")) for name, test in tests}
+        found.write_text(json.dumps(seconds))
+        return seconds
+
+
+def stages_of(seconds):
+    """Names and a time limit for each stage of C++ tests."""
+    limits = [(0, FAST), (FAST, QUICK), (QUICK, float("inf"))]
+    for least, most in limits:
+        names = [name for name, time in seconds.items() if least < time <= most or time == least == 0]
+        yield names, 60 + 10 * sum(seconds[name] for name in names)
+
+
+def judge(tree, mutant, stages, last, jobs):
+    """The stage that kills it ("survived": none, "error": it does not compile) and by what."""
+    path = tree.source / "src" / mutant.file
+    text = path.read_text()
+    try:
+        path.write_text(text.replace(mutant.old, mutant.new))
+        if trouble := tree.compile(jobs):
+            return "error", trouble
+        for name, (tests, limit) in zip(STAGES, stages):
+            if tests and (killer := tree.run_tests(tests, limit, "--gtest_fail_fast")):
+                return name, killer
+            if name == last:
+                return "survived", name
+        killer = tree.run_scenes()
+        return ("scenes", killer) if killer else ("survived", "scenes")
+    finally:
+        path.write_text(text)
+
+
+def read_journal(path):
+    if not path.is_file():
+        return {}
+    with path.open(newline="") as file:
+        return {tuple(row[:4]): row[4:] for row in csv.reader(file)}
+
+
+def table(mutants, journal):
+    """By room: how many ran, and what killed them."""
+    known = [(m, journal[m[:4]]) for m in mutants if m[:4] in journal]
+    counts = Counter((room(m), stage) for m, (stage, *_) in known)
+    words = [*STAGES, "survived", "error"]
+    lines = ["| room | listed | run | " + " | ".join(words) + " |", "|---" * (len(words) + 3) + "|"]
+    for name in [*dict.fromkeys(map(room, mutants)), "all"]:
+        of = [sum(n for (r, s), n in counts.items() if s == word and name in (r, "all")) for word in words]
+        listed = sum(name in (room(m), "all") for m in mutants)
+        lines.append(f"| {name} | {listed} | {sum(of)} | " + " | ".join(map(str, of)) + " |")
+    for m, (stage, by, *_) in known:
+        if stage in ("survived", "error"):
+            lines.append(f"{stage} ({by.splitlines()[-1] if by else ''}): {m.file}: {m.what}" + (f" ({m.reason})" if m.reason else ""))
+    return "\n".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("count", nargs="?", type=int, help="so many, drawn at random (default: all, in order)")
+    parser.add_argument("seed", nargs="?", type=int, default=1)
+    parser.add_argument("--room", nargs="+", default=[], metavar="ROOM", help="of these folders of src only")
+    parser.add_argument("--work", type=Path, default=ROOT / "out/mutants", help="tree, build folder and journal")
+    parser.add_argument("--last", choices=STAGES, default="scenes", help="the last stage (default: scenes)")
+    parser.add_argument("--again", action="store_true", help="those that survived before, from the start")
+    parser.add_argument("--jobs", type=int, default=2, help="of the compiler (default: 2)")
+    parser.add_argument("--report", action="store_true", help="only print what the journal says")
+    options = parser.parse_args()
+    mutants = read_mutants()
+    work = options.work.absolute()
+    work.mkdir(parents=True, exist_ok=True)
+    path = work / "journal.csv"
+    journal = read_journal(path)
+    if options.report:
+        return print(table(mutants, journal))
+    chosen = [m for m in mutants if not options.room or room(m) in options.room]
+    if options.again:
+        chosen = [m for m in chosen if journal.get(m[:4], [""])[0] in ("survived", "error")]
+    else:
+        chosen = [m for m in chosen if m[:4] not in journal]
+    if options.count:
+        chosen = random.Random(options.seed).sample(chosen, min(options.count, len(chosen)))
+    tree = Tree(work)
+    tree.refresh()
+    tree.configure()
+    if trouble := tree.compile(options.jobs):
+        sys.exit(f"mutants: the tree does not compile\n{trouble}")
+    stages = list(stages_of(tree.test_seconds()))
+    for m in chosen:
+        start = time.perf_counter()
+        stage, by = judge(tree, m, stages, options.last, options.jobs)
+        seconds = time.perf_counter() - start
+        print(f"{stage:9} {seconds:5.0f} s  {m.file}: {m.what}  {by.splitlines()[-1] if by else ''}", flush=True)
+        journal[m[:4]] = [stage, by, f"{seconds:.1f}"]
+        with path.open("a", newline="") as file:
+            csv.writer(file).writerow([*m[:4], *journal[m[:4]]])
+    print(table(mutants, {m[:4]: journal[m[:4]] for m in chosen}))
+    sys.exit(any(journal[m[:4]][0] == "error" or journal[m[:4]][0] == "survived" and not m.reason for m in chosen))
+
+
+if __name__ == "__main__":
+    main()
