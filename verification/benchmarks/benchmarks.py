@@ -8,7 +8,6 @@ Written are OUT/benchmarks.csv (a row a run), a picture a benchmark and benchmar
 import os
 import re
 import sys
-import tempfile
 from math import log2
 from pathlib import Path
 
@@ -50,28 +49,22 @@ def execute(run):
     if "size" in parameters:  # the load stays
         scale = benchmark_cases.SIZE / parameters["size"]
         scene = re.sub(r"(?<=pressure = )[\d.e-]+", lambda found: repr(scale * float(found[0])), scene)
-    with tempfile.TemporaryDirectory() as folder:
-        path, out = Path(folder) / "scene.toml", Path(folder) / "out"
-        path.write_text(scene)
-        settings = {} if run["size"] else {"accuracy.value": ASKED}
-        before = launch.processor_seconds()
-        try:
-            summary = launch.solve(path, settings, out)
-        except launch.StudyError as failure:
-            return {"failed": str(failure)} | dict.fromkeys(("error", "width", "unknowns", "seconds", "line"))
-        seconds = launch.processor_seconds() - before
-        line = launch.contact(out)
-    at = benchmark_cases.places(case, line)
-    near = np.flatnonzero(at <= 1.3 * case.half_width)
-    length = summary["contact"][0]["length_in_contact"]
-    return {
-        "failed": "" if summary["status"] == "solved" else summary["status"],
-        "error": benchmark_cases.error(case, at, line["p"], 0 if run["size"] else left_out_at_axis(summary)),
-        "width": length / case.half_width - 1,
-        "unknowns": summary["mesh"]["dofs"],
-        "seconds": seconds,
-        "line": [list(map(float, values[near])) for values in (at, line["p"], line["p_error"])],
-    }
+    before = launch.processor_seconds()
+
+    def measure(folder, summary):
+        seconds, line = launch.processor_seconds() - before, launch.contact(folder)
+        at = benchmark_cases.places(case, line)
+        near = np.flatnonzero(at <= 1.3 * case.half_width)
+        return {
+            "error": benchmark_cases.error(case, at, line["p"], 0 if run["size"] else left_out_at_axis(summary)),
+            "width": summary["contact"][0]["length_in_contact"] / case.half_width - 1,
+            "unknowns": summary["mesh"]["dofs"],
+            "seconds": seconds,
+            "line": [list(map(float, values[near])) for values in (at, line["p"], line["p_error"])],
+        }
+
+    nothing = dict.fromkeys(("failed", "error", "width", "unknowns", "seconds", "line"))
+    return nothing | launch.measured(scene, measure, {} if run["size"] else {"accuracy.value": ASKED})
 
 
 def verdict(case, meshes, asked):

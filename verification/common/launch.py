@@ -111,6 +111,20 @@ def solve(scene, settings, folder):
     return json.loads((Path(folder) / "summary.json").read_text())
 
 
+def measured(text, measure, settings=None):
+    """Of the scene with this text: `failed`, why it is not solved or "", and what measure(folder, summary) finds in its
+    results, if there are any."""
+    with tempfile.TemporaryDirectory() as folder:
+        scene = Path(folder) / "scene.toml"
+        scene.write_text(text)
+        try:
+            summary = solve(scene, settings or {}, scene.with_name("out"))
+        except StudyError as error:
+            return {"failed": str(error)}
+        failed = "" if summary["status"] == "solved" else summary["status"]
+        return {"failed": failed} | measure(scene.with_name("out"), summary)
+
+
 def sweep(scene, settings, vary):
     """The rows of `mortise sweep`: one dictionary a run. `vary`: key and its values."""
     words = [w for key, values in vary.items() for w in ("--vary", f"{key}={','.join(str(v) for v in values)}")]

@@ -9,7 +9,6 @@ an estimate is below 0.7 of the true error, or the median is above 4 times that.
 import json
 import random as random_numbers
 import sys
-import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -131,16 +130,9 @@ def measure(folder, fields):
 
 
 def execute(run):
-    with tempfile.TemporaryDirectory() as folder:
-        folder = Path(folder)
-        fields = fields_of(run)
-        scene = folder / "scene.toml"
-        scene.write_text(scene_of(run, fields))
-        try:
-            solved = launch.solve(scene, {}, folder / "out")
-        except launch.StudyError as error:
-            return {"failed": str(error)}
-        return {"failed": ""} | measure(folder / "out", fields)
+    fields = fields_of(run)
+    found = launch.measured(scene_of(run, fields), lambda folder, _: measure(folder, fields))
+    return found | {"failed": found["failed"] if len(found) == 1 else ""}
 
 
 def groups(rows):

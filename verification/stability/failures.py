@@ -1,4 +1,6 @@
-"""How the stability studies name the failures they find, and what they share to find them in the rows."""
+"""What the stability studies share: runs of scenes, lines of rows, and the failures they find in them."""
+
+import figure
 
 # Parameters of the geometries in geo/.
 ELEMENTS = {
@@ -24,6 +26,24 @@ def failure(name, bound, state, **values):
 def parameters(**values):
     """Settings of a geometry's parameters."""
     return {f"mesh.parameters.{key}": value for key, value in values.items()}
+
+
+def of_scene(axes, scene, settings, *measures, **others):
+    """A run (stability_runs) of a scene of geo/."""
+    return {"axes": axes, "scene": scene, "settings": settings, "measures": list(measures), **others}
+
+
+def draw_line(axes, rows, x, y, style="o-", hollow=None, least=1e-17, **options):
+    """A curve through the rows that have the figure y, but no less than `least`; open where `hollow` holds of the row."""
+    rows = [row for row in rows if solved(row) and row.get(y) is not None]
+    some = {row[x] for row in rows if hollow and hollow(row)}
+    of = hollow and (lambda at, _: at in some)
+    return figure.curve(axes, [(row[x], max(row[y], least)) for row in rows], style, hollow=of, **options)
+
+
+def warned(row):
+    """Whether a check fails or p is warned of."""
+    return row["failed_checks"]
 
 
 def select(rows, **axes):

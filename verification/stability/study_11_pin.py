@@ -8,7 +8,7 @@ import numpy as np
 import figure
 import persson
 import template
-from failures import OF_MESHES, failure, first, largest, last, over, parameters, select, solved, told
+from failures import OF_MESHES, draw_line, failure, first, largest, last, of_scene, over, parameters, select, solved, told
 
 HERE = Path(__file__).parent
 COUNTS, BAR = [30, 60, 120], 60
@@ -37,15 +37,10 @@ def pin(clearance, elements, count, source):
     """source: "geo", "msh" (the mesh alone), "measured" (the mesh as it is, as in the preprint)."""
     force = contact(clearance)[1] / math.pi
     settings = parameters(**ELEMENTS[elements], n=count, clearance=clearance)
-    settings["body_force.0.force"] = f"[0, {-force!r}]"
-    return {
-        "axes": {"clearance": clearance, "elements": elements, "value": count, "source": source},
-        "scene": (HERE / "pin.toml").read_text(),
-        "files": {"pin.geo": (HERE / "pin.geo").read_text()},
-        "settings": settings | (OF_MESHES if source == "measured" else {}),
-        "measures": ["pressure"],
-        "from_mesh": source == "msh",
-    }
+    settings |= {"body_force.0.force": f"[0, {-force!r}]", **(OF_MESHES if source == "measured" else {})}
+    axes = {"clearance": clearance, "elements": elements, "value": count, "source": source}
+    scene, geometry = ((HERE / f"pin.{ending}").read_text() for ending in ("toml", "geo"))
+    return of_scene(axes, scene, settings, "pressure", files={"pin.geo": geometry}, from_mesh=source == "msh")
 
 
 def runs(quick):
@@ -104,9 +99,8 @@ def draw(rows, path):
         figure.label(axes, "degrees", y, title, legend={"fontsize": 7}, **limits)
     for number, elements in enumerate(ELEMENTS):
         for source, style in (("geo", "o-"), ("msh", "x--"), ("measured", "^:")):
-            line = [(r["value"], r["nodes"]) for r in select(rows, clearance=1e-3, elements=elements, source=source)]
-            label = elements if source == "geo" else None
-            figure.curve(right, line, style, color=f"C{number}", label=label, linewidth=1.1)
+            line, label = select(rows, clearance=1e-3, elements=elements, source=source), elements if source == "geo" else None
+            draw_line(right, line, "value", "nodes", style, color=f"C{number}", label=label, linewidth=1.1)
     title = "from .geo; dashed: .msh; dotted: meshes' own gap"
     y = f"largest error of p at a vertex, {INNER} of the contact"
     figure.label(right, "n, elements on the quarter circle", y, title, "xy", 0.01, {"fontsize": 7}, ylim=(5e-4, 9))

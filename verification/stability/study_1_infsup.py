@@ -2,7 +2,7 @@
 
 import figure
 import launch
-from failures import ELEMENTS, SPACES, failure, parameters, quote, select, solved
+from failures import ELEMENTS, SPACES, draw_line, failure, of_scene, parameters, quote, select, solved
 
 STYLES = dict(zip(SPACES, ("-", "--", ":")))
 SIZES = [10, 20, 40, 80, 160]
@@ -20,13 +20,8 @@ def constant(part, element, space, upper, lower, side, contrast=1.0, **axes):
     if side:
         settings["contact.multipliers_on"] = f"{side}_contact"
     own = {"part": part, "element": element, "space": space, "upper": upper, "lower": lower, "side": side or "default"}
-    return {
-        "axes": {**own, "contrast": contrast, **axes},
-        "scene": "parabola_1",
-        "settings": settings,
-        "arguments": ["--diagnose"],
-        "measures": ["inf_sup"],
-    }
+    own |= {"contrast": contrast, **axes}
+    return of_scene(own, "parabola_1", settings, "inf_sup", arguments=["--diagnose"])
 
 
 def runs(quick):
@@ -54,10 +49,9 @@ def draw(rows, path):
     ]
     for element, space in PAIRS:
         for axes, (x, axes_of) in zip(panels, lines):
-            points = [(row[x], row["inf_sup"]) for row in select(rows, element=element, space=space, **axes_of)]
             style = {"color": f"C{list(ELEMENTS).index(element)}", "markersize": 3, "label": f"{element}, {space}"}
-            if points:
-                figure.curve(axes, points, "o" + STYLES[space], **style)
+            if line := select(rows, element=element, space=space, **axes_of):
+                draw_line(axes, line, x, "inf_sup", "o" + STYLES[space], **style)
         for row in select(rows, part="contrasts", side="default", element=element, space=space):
             panels[2].plot(row["contrast"], row["inf_sup"], "s", markersize=6, color=style["color"], fillstyle="none")
     labels = ("elements along the line", "elements: multiplier side / other side", "E upper / E lower")

@@ -3,7 +3,7 @@
 import numpy as np
 
 import figure
-from failures import away, checks_of, failure, parameters, select, silent, solved, told
+from failures import away, checks_of, draw_line, failure, of_scene, parameters, select, silent, told
 from stability_runs import ESTIMATED_ERROR
 
 RATIOS = [1, 1.5, 2, 3, 5, 10, 20]
@@ -13,7 +13,7 @@ CURVES = {"rings": ("n_inner", "n_outer", "inner_contact"), "parabola_1": ("n_up
 NO_SEGMENTS = "linear, whole edges"
 SPACES = {1: ["linear", "dual", NO_SEGMENTS], 2: ["linear", "quadratic", "dual", NO_SEGMENTS]}  # by order
 CASES = [(scene, order, space) for scene in CURVES for order in SPACES for space in SPACES[order]]
-MEASURES = {"rings": ["rings"], "parabola_1": ["pressure"]}
+MEASURES = {"rings": "rings", "parabola_1": "pressure"}
 LIMITS = {"rings": 0.01, "parabola_1": 0.1}
 REFERENCE = 96  # elements along the line of both bodies of the matching meshes that parabola_1 is held against
 COLOURS = {"linear": "C0", "quadratic": "C1", "dual": "C2", NO_SEGMENTS: "C3"}
@@ -24,17 +24,10 @@ def run_of(scene, order, space, ratio, on_fine):
     coarse, fine = COARSE[scene], round(COARSE[scene] * ratio)
     first_name, second_name, curve = CURVES[scene]
     counts = dict(zip((first_name, second_name), (fine, coarse) if on_fine else (coarse, fine)))
-    return {
-        "axes": {"scene": scene, "order": order, "space": space, "ratio": ratio if on_fine else 1 / ratio},
-        "scene": scene,
-        "settings": {
-            **parameters(**counts, order=order),
-            "contact.multipliers_on": curve,
-            "method.multipliers": space.split(",")[0],
-            "method.integration": "elements" if space == NO_SEGMENTS else "segments",
-        },
-        "measures": MEASURES[scene],
-    }
+    settings = {"contact.multipliers_on": curve, "method.multipliers": space.split(",")[0]}
+    settings["method.integration"] = "elements" if space == NO_SEGMENTS else "segments"
+    axes = {"scene": scene, "order": order, "space": space, "ratio": ratio if on_fine else 1 / ratio}
+    return of_scene(axes, scene, settings | parameters(**counts, order=order), MEASURES[scene])
 
 
 def runs(quick):
@@ -59,10 +52,8 @@ def complete(rows):
 
 def draw_panel(axes, rows, scene, order):
     for space in SPACES[order]:
-        line = [row for row in select(rows, scene=scene, order=order, space=space) if solved(row)]
-        warned = {row["ratio"] for row in line if ESTIMATED_ERROR in row["failed_checks"]}
-        points = [(row["ratio"], row["p_error"]) for row in line]
-        figure.curve(axes, points, hollow=lambda x, y: x in warned, color=COLOURS[space], label=space)
+        line, estimated = select(rows, scene=scene, order=order, space=space), lambda row: ESTIMATED_ERROR in row["failed_checks"]
+        draw_line(axes, line, "ratio", "p_error", hollow=estimated, color=COLOURS[space], label=space)
     axes.axvline(1, color="0.8", linewidth=0.8, zorder=0)
     title = f"{scene}, {'linear' if order == 1 else 'quadratic'} quadrilaterals"
     figure.label(axes, title=title, log="xy", limit=LIMITS[scene])

@@ -2,7 +2,7 @@
 
 import figure
 import launch
-from failures import away, ends, failure, first, largest, quote, select, solved
+from failures import away, draw_line, ends, failure, first, largest, of_scene, quote, select, solved
 
 RATIOS = [10.0**k for k in range(-6, 7)]
 OUTER = 70e9
@@ -20,37 +20,25 @@ SIDES = {"rings": ("inner_contact", "outer_contact"), "patch": ("upper_contact",
 
 def rings(ratio, side):
     """The inner ring is `ratio` times as stiff as the outer one."""
-    stiffness = {"materials.stiff.young": OUTER * ratio, "materials.soft.young": OUTER}
-    return {
-        "axes": {"part": "rings", "ratio": ratio, "side": side},
-        "scene": "rings",
-        "settings": {**stiffness, "contact.multipliers_on": side},
-        "materials": [(OUTER * ratio, 0.3), (OUTER, 0.3)],
-        "measures": ["rings"],
-    }
+    settings = {"materials.stiff.young": OUTER * ratio, "materials.soft.young": OUTER, "contact.multipliers_on": side}
+    materials = [(OUTER * ratio, 0.3), (OUTER, 0.3)]
+    return of_scene({"part": "rings", "ratio": ratio, "side": side}, "rings", settings, "rings", materials=materials)
 
 
 def patch(ratio, side):
     settings = {**launch.stiffness(ratio), "contact.multipliers_on": side}
-    axes = {"part": "patch", "ratio": ratio, "side": side}
-    return {"axes": axes, "scene": "patch_flat", "settings": settings, "measures": ["uniform"]}
+    return of_scene({"part": "patch", "ratio": ratio, "side": side}, "patch_flat", settings, "uniform")
 
 
 def decomposed(ratio, scheme, acceleration):
     """parabola_1 with an upper body `ratio` times as stiff as the lower one, by domain decomposition."""
     kind, wrong = SCHEMES[scheme]
-    settings = {
-        **launch.sizes((20, 25)),
-        **launch.stiffness(ratio),
-        "method.solver": "ddm",
-        "method.scheme": kind,
-        "method.acceleration": acceleration,
-        "method.max_iterations": MOST,
-    }
+    method = {"solver": "ddm", "scheme": kind, "acceleration": acceleration, "max_iterations": MOST}
+    settings = launch.sizes((20, 25)) | launch.stiffness(ratio) | {f"method.{key}": value for key, value in method.items()}
     if wrong:
         settings["method.dirichlet"] = "upper" if ratio >= 1 else "lower"
     axes = {"part": "ddm", "ratio": ratio, "scheme": scheme, "acceleration": acceleration}
-    return {"axes": axes, "scene": "parabola_1", "settings": settings, "measures": ["pressure"]}
+    return of_scene(axes, "parabola_1", settings, "pressure")
 
 
 def runs(quick):
@@ -67,15 +55,14 @@ def converged(row):
 def draw_mortar(axes, rows, key):
     for part, sides in SIDES.items():
         for side, marker in zip(sides, "os"):
-            points = [(row["ratio"], row[key]) for row in select(rows, part=part, side=side) if solved(row)]
-            figure.curve(axes, points, marker + "-", fillstyle="none", label=f"{part}, on {side.split('_')[0]}")
+            style = {"fillstyle": "none", "label": f"{part}, on {side.split('_')[0]}"}
+            draw_line(axes, select(rows, part=part, side=side), "ratio", key, marker + "-", **style)
 
 
 def draw_steps(axes, rows, scheme):
     for number, (acceleration, colour) in enumerate(ACCELERATIONS.items()):
         line = select(rows, part="ddm", scheme=scheme, acceleration=acceleration)
-        points = [(row["ratio"], row["interface_steps"]) for row in line if converged(row)]
-        figure.curve(axes, points, color=colour, label=acceleration)
+        draw_line(axes, filter(converged, line), "ratio", "interface_steps", color=colour, label=acceleration)
         bad = [row["ratio"] for row in line if not converged(row)]
         axes.plot(bad, [MOST * (1.25 + 0.35 * number)] * len(bad), "x", color=colour)
     axes.axhline(MOST, color="0.7", linewidth=0.8)

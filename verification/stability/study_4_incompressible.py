@@ -1,7 +1,8 @@
 """Near incompressibility: which elements lock, and what it does to the contact pressure (plane strain)."""
 
 import figure
-from failures import ELEMENTS, checks_of, ends, failure, first, largest, parameters, quote, select, silent, solved, told
+from failures import ELEMENTS, checks_of, draw_line, ends, failure, first, largest, of_scene, parameters, quote, select
+from failures import silent, solved, told
 
 POISSON = [0.3, 0.4, 0.45, 0.49, 0.499, 0.4999, 0.49999, 0.499999]
 MESHES = [(12, 16), (24, 32)]
@@ -11,23 +12,17 @@ COMPARED = 0.49  # of the quick studies too
 
 
 def rings(element, poisson, mesh):
-    return {
-        "axes": {"scene": "rings", "element": element, "poisson": poisson, "mesh": mesh[0]},
-        "scene": "rings",
-        "settings": {
-            **parameters(**ELEMENTS[element], n_inner=mesh[0], n_outer=mesh[1]),
-            "materials.stiff.poisson": poisson,
-            "materials.soft.poisson": poisson,
-        },
-        "materials": [(young, poisson) for young in YOUNG],
-        "measures": ["rings", "rings_fields"],
-    }
+    axes = {"scene": "rings", "element": element, "poisson": poisson, "mesh": mesh[0]}
+    settings = parameters(**ELEMENTS[element], n_inner=mesh[0], n_outer=mesh[1])
+    settings |= {f"materials.{name}.poisson": poisson for name in ("stiff", "soft")}
+    materials = [(young, poisson) for young in YOUNG]
+    return of_scene(axes, "rings", settings, "rings", "rings_fields", materials=materials)
 
 
 def patch(element, poisson):
     settings = {**parameters(**ELEMENTS[element]), "materials.steel.poisson": poisson}
     axes = {"scene": "patch_flat", "element": element, "poisson": poisson, "mesh": 7}
-    return {"axes": axes, "scene": "patch_flat", "settings": settings, "measures": ["uniform"]}
+    return of_scene(axes, "patch_flat", settings, "uniform")
 
 
 def runs(quick):
@@ -42,10 +37,10 @@ def draw(rows, path):
     for axes, key, label in zip(panels, LIMITS, labels):
         for number, element in enumerate(ELEMENTS):
             for mesh, style in zip(MESHES, ("o-", "o--")):
-                line = [row for row in select(rows, scene="rings", element=element, mesh=mesh[0]) if solved(row)]
-                points = [(1 - 2 * row["poisson"], row[key]) for row in line]
+                line = select(rows, scene="rings", element=element, mesh=mesh[0])
+                line = [{**row, "from half": 1 - 2 * row["poisson"]} for row in line]
                 name = element if style == "o-" else None
-                figure.curve(axes, points, style, markersize=3.5, color=f"C{number}", label=name)
+                draw_line(axes, line, "from half", key, style, markersize=3.5, color=f"C{number}", label=name)
         figure.label(axes, r"$1 - 2\nu$", label, log="xy", limit=0.1)
         axes.invert_xaxis()
     panels[0].legend(loc="lower right")

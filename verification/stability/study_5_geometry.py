@@ -3,8 +3,8 @@
 import math
 
 import figure
-from failures import OF_MESHES, SPACES, checks_of, ends, failure, first, largest, last, over
-from failures import parameters, quote, select, silent, solved, told
+from failures import OF_MESHES, SPACES, checks_of, draw_line, ends, failure, first, largest, last, of_scene, over
+from failures import parameters, quote, select, silent, solved, told, warned
 from plates import even
 from small_meshes import PRESSED, SLIDING, WIDTH, plates, run, touching
 
@@ -54,7 +54,7 @@ def wall(angle, kind, count):
 def rings(count, edges, gap):
     axes = {"part": "rings", "value": count, "line": f"{edges}, {gap}"}
     settings = parameters(**RING_EDGES[edges], n_inner=count, n_outer=count * 5 // 4) | GAPS[gap]
-    return {"axes": axes, "scene": "rings", "settings": settings, "measures": ["rings"]}
+    return of_scene(axes, "rings", settings, "rings")
 
 
 def cosine(count, space, gap, side):
@@ -106,12 +106,9 @@ def complete(rows):
     return rows
 
 
-def draw_line(axes, rows, label, key="p_error", **options):
+def draw_part(axes, rows, label, key="p_error", **options):
     """One curve over `value`; open where a check fails or p is warned of, crosses where the run is refused."""
-    good = [row for row in rows if solved(row) and row.get(key) is not None]
-    failed = {row["value"] for row in good if row["failed_checks"]}
-    points = [(row["value"], max(row[key], 1e-16)) for row in good]
-    line = figure.curve(axes, points, hollow=lambda x, y: x in failed, label=label, linewidth=1.2, **options)
+    line = draw_line(axes, rows, "value", key, hollow=warned, least=1e-16, label=label, linewidth=1.2, **options)
     refused = [row["value"] for row in rows if not solved(row)]
     axes.plot(refused, [30.0] * len(refused), "x", color=line.get_color())
 
@@ -131,24 +128,24 @@ def draw(rows, path):
     for number, name in enumerate(KINK_MESHES):
         for gap, style in zip(KINK_GAPS, ("o-", "o--")):
             line = worse_side(select(part("kink"), line=f"{name}, {gap}"))
-            draw_line(kinks, line, f"{name}, {gap}", style=style, color=f"C{number}")
+            draw_part(kinks, line, f"{name}, {gap}", style=style, color=f"C{number}")
     for number, kind in enumerate(WALLS):
         counts = sorted({row["count"] for row in part("wall")})[1:]
         for count, style in zip(counts, ("o--", "o-")):
             label = f"{kind}, {count // 2} to {count} elements"
             line = select(part("wall"), line=kind, count=count)
-            draw_line(walls, line, label, "growth", style=style, color=f"C{number}")
+            draw_part(walls, line, label, "growth", style=style, color=f"C{number}")
     walls.axhline(1, color="0.6", linewidth=0.8)
     for number, edges in enumerate(RING_EDGES):
         for gap, style in zip(RING_GAPS, ("o-", "o--")):
             name = f"{edges}, {gap}"
-            draw_line(ring_axes, select(part("rings"), line=name), name, style=style, color=f"C{number}")
+            draw_part(ring_axes, select(part("rings"), line=name), name, style=style, color=f"C{number}")
     for space, gap in COSINES:
         style = "o--" if gap == "closed" else "o-"
-        draw_line(cosines, worse_side(select(part("cosine"), line=f"{space}, {gap}")), f"{space}, {gap}", style=style)
+        draw_part(cosines, worse_side(select(part("cosine"), line=f"{space}, {gap}")), f"{space}, {gap}", style=style)
     for axes, name in ((slivers, "vertices missed"), (out, "sticking out")):
         for space in SPACES:
-            draw_line(axes, select(part("sliver"), line=f"{name}, {space}"), space)
+            draw_part(axes, select(part("sliver"), line=f"{name}, {space}"), space)
     slope, fraction = "slope at the kinks, degrees", "fraction of an element"
     settings = [
         (kinks, slope, "kinks, of which only the meshes are known", "y", {"ylim": (1e-15, 5e3)}),

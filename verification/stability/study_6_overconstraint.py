@@ -5,7 +5,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
 import figure
-from failures import SPACES, checks_of, ends, failure, largest, over, quote, select, solved
+from failures import SPACES, checks_of, draw_line, ends, failure, largest, over, quote, select, solved, warned
 from plates import Body, between, even
 from small_meshes import LEFT, PRESSED, SLIDING, WIDTH, plates, run, touching
 
@@ -148,12 +148,9 @@ def draw_cases(axes, rows):
 
 def draw_covered(axes, rows):
     for number, space in enumerate(dict.fromkeys(row["space"] for row in rows)):
-        line = [row for row in select(rows, space=space) if solved(row)]
-        failed = {row["value"] for row in line if row["failed_checks"]}
-        points = lambda key: [(row["value"], max(row[key], 1e-16)) for row in line]
-        style = {"color": f"C{number}"}
-        figure.curve(axes, points("p_error"), hollow=lambda x, y: x in failed, label=f"{space}, all nodes", **style)
-        figure.curve(axes, points("p_error_facing"), "--", label=f"{space}, where it faces", **style)
+        line, style = select(rows, space=space), {"color": f"C{number}", "least": 1e-16}
+        draw_line(axes, line, "value", "p_error", hollow=warned, label=f"{space}, all nodes", **style)
+        draw_line(axes, line, "value", "p_error_facing", "--", label=f"{space}, where it faces", **style)
     q = "fraction q of the last edge that faces the other side"
     figure.label(axes, q, "largest relative error of p", log="xy", limit=LIMIT, legend=True)
 

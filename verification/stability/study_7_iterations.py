@@ -3,7 +3,7 @@
 import figure
 import launch
 import small_meshes
-from failures import OF_MESHES, SPACES, failure, first, parameters, quote, select, solved
+from failures import OF_MESHES, SPACES, failure, first, of_scene, parameters, quote, select, solved
 from plates import even
 
 PERTURBATIONS = [1e-14, 1e-12, 1e-9, 1e-6, 1e-3, 1e-1]
@@ -14,8 +14,7 @@ BAR = 10  # steps: what is called many
 
 
 def geo(part, scene, settings, value, line):
-    axes = {"part": part, "value": value, "line": line}
-    return {"axes": axes, "scene": scene, "settings": settings, "measures": ["pressure"]}
+    return of_scene({"part": part, "value": value, "line": line}, scene, settings, "pressure")
 
 
 def lift(force, space, mesh):

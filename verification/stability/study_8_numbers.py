@@ -3,7 +3,7 @@
 import numpy as np
 
 import figure
-from failures import checks_of, ends, failure, first, largest, last, quote, select, solved
+from failures import checks_of, draw_line, ends, failure, first, largest, last, of_scene, quote, select, solved
 from plates import even
 from small_meshes import PRESSED, plates, run, touching
 
@@ -32,13 +32,8 @@ def scaled(scene, axis, value, length=1.0, stiffness=1.0, load=10e6, shift=0.0):
 
 def repeated(threads, time):
     """parabola_1 as it stands."""
-    return {
-        "axes": {"scene": "parabola_1", "axis": "threads", "value": threads, "time": time, "p_scale": 1},
-        "scene": "parabola_1",
-        "settings": {},
-        "arguments": ["--threads", str(threads)],
-        "measures": ["pressure", "digests"],
-    }
+    axes = {"scene": "parabola_1", "axis": "threads", "value": threads, "time": time, "p_scale": 1}
+    return of_scene(axes, "parabola_1", {}, "pressure", "digests", arguments=["--threads", str(threads)])
 
 
 def runs(quick):
@@ -66,8 +61,7 @@ def complete(rows):
 def draw_axis(axes, rows, label):
     for (scene, name), marker in zip(SCENES.items(), "os"):
         line = [row for row in select(rows, scene=scene) if row["value"] > 0]
-        points = [(row["value"], max(row["difference"], 1e-17)) for row in line if "difference" in row]
-        figure.curve(axes, points, marker + "-", fillstyle="none", label=name)
+        draw_line(axes, line, "value", "difference", marker + "-", fillstyle="none", label=name)
         refused = [row["value"] for row in line if "difference" not in row]
         axes.plot(refused, [3.0] * len(refused), "x", color=figure.RED)
     figure.label(axes, label, log="xy", limit=LOST, ylim=(3e-18, 10))
