@@ -43,34 +43,28 @@ CellTable<kind> cell_table(const CellRule& rule, std::size_t first = 0) {
   return table;
 }
 
-// Gradients of the shape functions in space, d/dx1 and d/dx2 (a row a quadrature point), and the area that each point
-// stands for.
+// A cell's values at the quadrature points of a table: gradients of the shape functions in space, d/dx1 and d/dx2 (a
+// row a point), and the area that each point stands for.
 template <CellKind kind>
-struct CellGradients {
-  Table<kind> d1, d2;
-  Eigen::Matrix<double, points<kind>, 1> dA;
-};
+struct CellValues {
+  CellTable<kind> table;
+  Eigen::Matrix<double, n<kind>, 2> nodes = {};
+  Table<kind> d1 = {}, d2 = {};
+  Eigen::Matrix<double, points<kind>, 1> dA = {};
 
-template <CellKind kind>
-using CellPoints = Eigen::Matrix<double, n<kind>, 2>;
+  Vec2 x(Eigen::Index q) const { return (table.N.row(q) * nodes).transpose(); }
 
-template <CellKind kind>
-CellPoints<kind> nodes_of(const Points& nodes, const Cell& cell) {
-  CellPoints<kind> x;
-  for (int a = 0; a < n<kind>; ++a) x.row(a) = nodes.row(cell.nodes[a]);
-  return x;
-}
-
-template <CellKind kind>
-void cell_gradients(const CellPoints<kind>& x, const CellTable<kind>& table, CellGradients<kind>& g) {
-  for (Eigen::Index q = 0; q < points<kind>; ++q) {
-    const Eigen::Matrix<double, 1, 2> x_xi = table.dxi.row(q) * x, x_eta = table.deta.row(q) * x;
-    const double J = x_xi(0) * x_eta(1) - x_xi(1) * x_eta(0);
-    g.d1.row(q) = (x_eta(1) * table.dxi.row(q) - x_xi(1) * table.deta.row(q)) / J;
-    g.d2.row(q) = (x_xi(0) * table.deta.row(q) - x_eta(0) * table.dxi.row(q)) / J;
-    g.dA(q) = table.weights[q] * J;
+  void reinit(const Points& all, const Cell& cell) {
+    for (int a = 0; a < n<kind>; ++a) nodes.row(a) = all.row(cell.nodes[a]);
+    for (Eigen::Index q = 0; q < points<kind>; ++q) {
+      const Eigen::Matrix<double, 1, 2> x_xi = table.dxi.row(q) * nodes, x_eta = table.deta.row(q) * nodes;
+      const double J = x_xi(0) * x_eta(1) - x_xi(1) * x_eta(0);
+      d1.row(q) = (x_eta(1) * table.dxi.row(q) - x_xi(1) * table.deta.row(q)) / J;
+      d2.row(q) = (x_xi(0) * table.deta.row(q) - x_eta(0) * table.dxi.row(q)) / J;
+      dA(q) = table.weights[q] * J;
+    }
   }
-}
+};
 
 // Which nodes share a cell, lower triangle: rows of column j are row[first[j]] .. row[first[j+1] - 1], ascending,
 // beginning with j itself.
@@ -129,171 +123,159 @@ SparseMatrix block_matrix(const NodeGraph& graph) {
   return K;
 }
 
-// The columns of some nodes, all zero.
-void lay_out(const NodeGraph& graph, NodeRange nodes, SparseMatrix& K) {
-  int* inner = K.innerIndexPtr();
-  const int begin = 4 * graph.first[nodes.first] - nodes.first;
-  int at = begin;
-  for (int j = nodes.first; j < nodes.last; ++j)
-    for (int c = 0; c < 2; ++c) {
-      K.outerIndexPtr()[2 * j + c] = at;
-      for (int k = graph.first[j]; k < graph.first[j + 1]; ++k)
-        for (int r = 0; r < 2; ++r)
-          if (2 * graph.row[k] + r >= 2 * j + c) inner[at++] = 2 * graph.row[k] + r;
-    }
-  std::fill(K.valuePtr() + begin, K.valuePtr() + at, 0.0);
-}
+// Of two nodes' displacements.
+struct Block {
+  double k11, k12, k21, k22;
+};
 
-// Adds the block of nodes (i, j), i >= j, in place.
-void add_block(const NodeGraph& graph, SparseMatrix& K, int i, int j, double k11, double k12, double k21, double k22) {
-  const int* begin = graph.row.data() + graph.first[j];
-  const int* end = graph.row.data() + graph.first[j + 1];
-  const auto position = std::lower_bound(begin, end, i) - begin;
-  double* column1 = K.valuePtr() + K.outerIndexPtr()[2 * j] + 2 * position;
-  double* column2 = K.valuePtr() + K.outerIndexPtr()[2 * j + 1] + 2 * position - 1;
-  column1[0] += k11;
-  column1[1] += k21;
-  if (i != j) column2[0] += k12;
-  column2[1] += k22;
-}
+// The columns of some nodes.
+struct Columns {
+  const NodeGraph& graph;
+  NodeRange nodes;
+  SparseMatrix& K;
+
+  // All zero.
+  void lay_out() const {
+    int* inner = K.innerIndexPtr();
+    const int begin = 4 * graph.first[nodes.first] - nodes.first;
+    int at = begin;
+    for (int j = nodes.first; j < nodes.last; ++j)
+      for (int c = 0; c < 2; ++c) {
+        K.outerIndexPtr()[2 * j + c] = at;
+        for (int k = graph.first[j]; k < graph.first[j + 1]; ++k)
+          for (int r = 0; r < 2; ++r)
+            if (2 * graph.row[k] + r >= 2 * j + c) inner[at++] = 2 * graph.row[k] + r;
+      }
+    std::fill(K.valuePtr() + begin, K.valuePtr() + at, 0.0);
+  }
+
+  // Whether the block of nodes (i, j) is stored here.
+  bool have(int i, int j) const { return i >= j && nodes.has(j); }
+
+  // Adds the block of nodes (i, j) in place.
+  void add(int i, int j, const Block& k) const {
+    const int* begin = graph.row.data() + graph.first[j];
+    const int* end = graph.row.data() + graph.first[j + 1];
+    const auto position = std::lower_bound(begin, end, i) - begin;
+    double* column1 = K.valuePtr() + K.outerIndexPtr()[2 * j] + 2 * position;
+    double* column2 = K.valuePtr() + K.outerIndexPtr()[2 * j + 1] + 2 * position - 1;
+    column1[0] += k.k11;
+    column1[1] += k.k21;
+    if (i != j) column2[0] += k.k12;
+    column2[1] += k.k22;
+  }
+};
 
 // Whether normal strains make no shear stress and both directions are alike: fewer products.
 bool is_isotropic_in_plane(const Mat4& C) { return C(0, 0) == C(1, 1) && C(0, 3) == 0 && C(1, 3) == 0; }
 
 template <CellKind kind>
-void add_isotropic_plane(const Cell& cell, const ElasticLaw& law, const CellGradients<kind>& g, const NodeGraph& graph,
-                         NodeRange columns, SparseMatrix& K) {
+void add_isotropic_plane(const Cell& cell, const ElasticLaw& law, const CellValues<kind>& v, const Columns& columns) {
   const double t = law.model.thickness, a = t * law.stiffness(0, 0), b = t * law.stiffness(0, 1),
                c = t * law.stiffness(3, 3);
   // G_ij = int dN/dx_i dN/dx_j, n x n.
-  const Table<kind> w1 = g.dA.asDiagonal() * g.d1, w2 = g.dA.asDiagonal() * g.d2;
+  const Table<kind> w1 = v.dA.asDiagonal() * v.d1, w2 = v.dA.asDiagonal() * v.d2;
   using Square = Eigen::Matrix<double, n<kind>, n<kind>>;
-  const Square G11 = g.d1.transpose() * w1, G12 = g.d1.transpose() * w2, G22 = g.d2.transpose() * w2;
+  const Square G11 = v.d1.transpose() * w1, G12 = v.d1.transpose() * w2, G22 = v.d2.transpose() * w2;
   for (int p = 0; p < n<kind>; ++p)
-    for (int q = 0; q < n<kind>; ++q) {
-      const int i = cell.nodes[p], j = cell.nodes[q];
-      if (i < j || !columns.has(j)) continue;
-      add_block(graph, K, i, j, a * G11(p, q) + c * G22(p, q), b * G12(p, q) + c * G12(q, p),
-                b * G12(q, p) + c * G12(p, q), a * G22(p, q) + c * G11(p, q));
-    }
+    for (int q = 0; q < n<kind>; ++q)
+      if (const int i = cell.nodes[p], j = cell.nodes[q]; columns.have(i, j))
+        columns.add(i, j,
+                    {a * G11(p, q) + c * G22(p, q), b * G12(p, q) + c * G12(q, p), b * G12(q, p) + c * G12(p, q),
+                     a * G22(p, q) + c * G11(p, q)});
 }
 
 // Of each node's displacement the strain (11, 22, 33, gamma_12) at a quadrature point: 4 x 2 n, components alternate.
 template <CellKind kind>
-Eigen::Matrix<double, 4, 2 * n<kind>> strains_at(Eigen::Index q, const CellGradients<kind>& g,
-                                                 const CellTable<kind>& table, const Model& model, double x1) {
+Eigen::Matrix<double, 4, 2 * n<kind>> strains_at(Eigen::Index q, const CellValues<kind>& v, const Model& model,
+                                                 double x1) {
   Eigen::Matrix<double, 4, 2 * n<kind>> B = Eigen::Matrix<double, 4, 2 * n<kind>>::Zero();
   for (int a = 0; a < n<kind>; ++a) {
-    B(0, 2 * a) = B(3, 2 * a + 1) = g.d1(q, a);
-    B(1, 2 * a + 1) = B(3, 2 * a) = g.d2(q, a);
-    if (model.axisymmetric()) B(2, 2 * a) = table.N(q, a) / x1;
+    B(0, 2 * a) = B(3, 2 * a + 1) = v.d1(q, a);
+    B(1, 2 * a + 1) = B(3, 2 * a) = v.d2(q, a);
+    if (model.axisymmetric()) B(2, 2 * a) = v.table.N(q, a) / x1;
   }
   return B;
 }
 
 template <CellKind kind>
-void add_any(const Cell& cell, const ElasticLaw& law, const CellPoints<kind>& x, const CellTable<kind>& table,
-             const CellGradients<kind>& g, const NodeGraph& graph, NodeRange columns, SparseMatrix& K) {
+void add_any(const Cell& cell, const ElasticLaw& law, const CellValues<kind>& v, const Columns& columns) {
   Eigen::Matrix<double, 2 * n<kind>, 2 * n<kind>> k = Eigen::Matrix<double, 2 * n<kind>, 2 * n<kind>>::Zero();
   for (Eigen::Index q = 0; q < points<kind>; ++q) {
-    const double x1 = table.N.row(q).dot(x.col(0));
-    const auto B = strains_at<kind>(q, g, table, law.model, x1);
-    const Eigen::Matrix<double, 4, 2 * n<kind>> stress = g.dA(q) * law.model.depth(x1) * law.stiffness * B;
+    const double x1 = v.table.N.row(q).dot(v.nodes.col(0));
+    const auto B = strains_at<kind>(q, v, law.model, x1);
+    const Eigen::Matrix<double, 4, 2 * n<kind>> stress = v.dA(q) * law.model.depth(x1) * law.stiffness * B;
     k.noalias() += B.transpose() * stress;
   }
   for (int p = 0; p < n<kind>; ++p)
     for (int q = 0; q < n<kind>; ++q)
-      if (const int i = cell.nodes[p], j = cell.nodes[q]; i >= j && columns.has(j))
-        add_block(graph, K, i, j, k(2 * p, 2 * q), k(2 * p, 2 * q + 1), k(2 * p + 1, 2 * q), k(2 * p + 1, 2 * q + 1));
+      if (const int i = cell.nodes[p], j = cell.nodes[q]; columns.have(i, j))
+        columns.add(i, j, {k(2 * p, 2 * q), k(2 * p, 2 * q + 1), k(2 * p + 1, 2 * q), k(2 * p + 1, 2 * q + 1)});
 }
 
-// Into the columns of some nodes.
 template <CellKind kind>
-void add_cells(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const NodeGraph& graph, NodeRange columns,
-               SparseMatrix& K) {
-  const CellTable<kind> table = cell_table<kind>(cell_rule(kind));
-  CellGradients<kind> g;
+void add_cells(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const Columns& columns) {
+  CellValues<kind> v{cell_table<kind>(cell_rule(kind))};
   for (const Cell& cell : mesh.cells) {
-    if (cell.kind != kind || !columns.touches(cell)) continue;
-    const CellPoints<kind> x = nodes_of<kind>(mesh.nodes, cell);
-    cell_gradients(x, table, g);
+    if (cell.kind != kind || !columns.nodes.touches(cell)) continue;
+    v.reinit(mesh.nodes, cell);
     const ElasticLaw& law = laws[cell.body];
     if (!law.model.axisymmetric() && is_isotropic_in_plane(law.stiffness))
-      add_isotropic_plane<kind>(cell, law, g, graph, columns, K);
+      add_isotropic_plane<kind>(cell, law, v, columns);
     else
-      add_any<kind>(cell, law, x, table, g, graph, columns, K);
+      add_any<kind>(cell, law, v, columns);
   }
 }
 
-// Calls visit with the table of the cell's own rule, or, as many points at a time, with those of the rule that `rules`
-// has for it.
-template <CellKind kind, typename Visit>
-void for_each_table(const CellTable<kind>& own, const CellRules& rules, const Cell& cell, const Visit& visit) {
-  CellRule rule = rules ? rules(cell) : CellRule();
-  if (rule.points.empty()) return visit(own);
-  for (; rule.points.size() % points<kind> != 0; rule.weights.push_back(0)) rule.points.push_back(rule.points.back());
-  for (std::size_t first = 0; first < rule.points.size(); first += points<kind>) visit(cell_table<kind>(rule, first));
+// Calls visit(cell, values, q) for the quadrature points of the wanted cells of one kind: those of the cells' own rule,
+// or, as many at a time, those of the rule that `rules` has for a cell.
+template <CellKind kind, typename Wanted, typename Visit>
+void for_each_point(const Mesh& mesh, const CellRules& rules, const Wanted& wanted, const Visit& visit) {
+  CellValues<kind> own{cell_table<kind>(cell_rule(kind))};
+  for (const Cell& cell : mesh.cells) {
+    if (cell.kind != kind || !wanted(cell)) continue;
+    const auto visit_points = [&](CellValues<kind>& v) {
+      v.reinit(mesh.nodes, cell);
+      for (Eigen::Index q = 0; q < points<kind>; ++q) visit(cell, v, q);
+    };
+    CellRule rule = rules ? rules(cell) : CellRule();
+    if (rule.points.empty()) visit_points(own);
+    for (; rule.points.size() % points<kind> != 0; rule.weights.push_back(0)) rule.points.push_back(rule.points.back());
+    for (std::size_t first = 0; first < rule.points.size(); first += points<kind>) {
+      CellValues<kind> v{cell_table<kind>(rule, first)};
+      visit_points(v);
+    }
+  }
 }
 
 // load += int B^T C : eps0 over the cells of one kind; the energy of eps0.
 template <CellKind kind>
 double add_cell_strains(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const CellRules& rules, VecX& load) {
-  const CellTable<kind> own = cell_table<kind>(cell_rule(kind));
-  CellGradients<kind> g;
   double energy = 0;
-  for (const Cell& cell : mesh.cells) {
+  const auto strained = [&](const Cell& cell) { return bool(laws[cell.body].initial_strain); };
+  for_each_point<kind>(mesh, rules, strained, [&](const Cell& cell, const CellValues<kind>& v, Eigen::Index q) {
     const ElasticLaw& law = laws[cell.body];
-    if (cell.kind != kind || !law.initial_strain) continue;
-    const CellPoints<kind> nodes = nodes_of<kind>(mesh.nodes, cell);
-    for_each_table<kind>(own, rules, cell, [&](const CellTable<kind>& table) {
-      cell_gradients(nodes, table, g);
-      for (Eigen::Index q = 0; q < points<kind>; ++q) {
-        const Vec2 x = (table.N.row(q) * nodes).transpose();
-        const double dV = g.dA(q) * law.model.depth(x.x());
-        const Eigen::Matrix<double, 2 * n<kind>, 1> forces =
-            strains_at<kind>(q, g, table, law.model, x.x()).transpose() * (-dV * law.stress0(x));
-        for (int a = 0; a < n<kind>; ++a) load.segment<2>(2 * cell.nodes[a]) += forces.template segment<2>(2 * a);
-        energy += dV * law.energy0(x);
-      }
-    });
-  }
+    const Vec2 x = v.x(q);
+    const double dV = v.dA(q) * law.model.depth(x.x());
+    const Eigen::Matrix<double, 2 * n<kind>, 1> forces =
+        strains_at<kind>(q, v, law.model, x.x()).transpose() * (-dV * law.stress0(x));
+    for (int a = 0; a < n<kind>; ++a) load.segment<2>(2 * cell.nodes[a]) += forces.template segment<2>(2 * a);
+    energy += dV * law.energy0(x);
+  });
   return energy;
 }
 
 template <CellKind kind>
-void add_cell_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces, const CellRules& rules,
-                     VecX& load, Resultant& sum) {
-  const CellTable<kind> own = cell_table<kind>(cell_rule(kind));
-  CellGradients<kind> g;
-  for (const Cell& cell : mesh.cells) {
-    if (cell.kind != kind || !forces[cell.body]) continue;
-    const CellPoints<kind> nodes = nodes_of<kind>(mesh.nodes, cell);
-    for_each_table<kind>(own, rules, cell, [&](const CellTable<kind>& table) {
-      cell_gradients(nodes, table, g);
-      for (Eigen::Index q = 0; q < points<kind>; ++q) {
-        const Vec2 x = (table.N.row(q) * nodes).transpose();
-        const Vec2 force = g.dA(q) * model.depth(x.x()) * forces[cell.body](x);
-        for (int a = 0; a < n<kind>; ++a) load.segment<2>(2 * cell.nodes[a]) += table.N(q, a) * force;
-        sum.add(x, force);
-      }
-    });
-  }
-}
-
-Resultant add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
-                       const Traction& traction, const LineRule& whole, const EdgeCuts& cuts, VecX& load) {
+Resultant add_cell_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces,
+                          const CellRules& rules, VecX& load) {
   Resultant sum;
-  for (const CellSide& at : sides) {
-    const Edge edge = side_edge(mesh.cells[at.cell], at.side);
-    const LineRule rule = cuts ? cut_rule(cuts(edge), int(whole.points.size())) : whole;
-    for (std::size_t q = 0; q < rule.points.size(); ++q) {
-      const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
-      const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);
-      const Vec2 t = rule.weights[q] * p.jacobian() * model.depth(p.position.x()) * traction(p.position, p.normal());
-      for (int a = 0; a < edge.node_count; ++a) load.segment<2>(2 * edge.nodes[a]) += s.N[a] * t;
-      sum.add(p.position, t);
-    }
-  }
+  const auto loaded = [&](const Cell& cell) { return bool(forces[cell.body]); };
+  for_each_point<kind>(mesh, rules, loaded, [&](const Cell& cell, const CellValues<kind>& v, Eigen::Index q) {
+    const Vec2 x = v.x(q);
+    const Vec2 force = v.dA(q) * model.depth(x.x()) * forces[cell.body](x);
+    for (int a = 0; a < n<kind>; ++a) load.segment<2>(2 * cell.nodes[a]) += v.table.N(q, a) * force;
+    sum.add(x, force);
+  });
   return sum;
 }
 
@@ -306,9 +288,9 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticLaw>&
   const int count = int(mesh.nodes.rows()), ranges = std::clamp(count / nodes_a_thread, 1, threads);
   for_each_index(ranges, threads, [&](std::size_t k) {
     const auto start = [&](std::size_t range) { return int(std::size_t(count) * range / ranges); };
-    const NodeRange columns{start(k), start(k + 1)};
-    lay_out(graph, columns, K);
-    for_each_kind([&]<CellKind kind>() { add_cells<kind>(mesh, laws, graph, columns, K); });
+    const Columns columns{graph, {start(k), start(k + 1)}, K};
+    columns.lay_out();
+    for_each_kind([&]<CellKind kind>() { add_cells<kind>(mesh, laws, columns); });
   });
   return K;
 }
@@ -327,7 +309,7 @@ double add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws,
 Resultant add_body_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces,
                           const CellRules& rules, VecX& load) {
   Resultant sum;
-  for_each_kind([&]<CellKind kind>() { add_cell_forces<kind>(mesh, model, forces, rules, load, sum); });
+  for_each_kind([&]<CellKind kind>() { sum += add_cell_forces<kind>(mesh, model, forces, rules, load); });
   return sum;
 }
 
@@ -335,14 +317,25 @@ Resultant add_body_forces(const Mesh& mesh, const Model& model, const std::vecto
   return add_body_forces(mesh, model, forces, {}, load);
 }
 
-Resultant add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
-                       const Traction& traction, VecX& load, int gauss_points) {
-  return add_traction(mesh, model, sides, traction, gauss_legendre(gauss_points), {}, load);
+Resultant add_traction(const Mesh& mesh, const Model& model, const CutSides& on, const Traction& traction, VecX& load) {
+  Resultant sum;
+  for (const CellSide& at : on.sides) {
+    const Edge edge = side_edge(mesh.cells[at.cell], at.side);
+    const LineRule rule = on.rule(edge);
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
+      const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);
+      const Vec2 t = rule.weights[q] * p.jacobian() * model.depth(p.position.x()) * traction(p.position, p.normal());
+      for (int a = 0; a < edge.node_count; ++a) load.segment<2>(2 * edge.nodes[a]) += s.N[a] * t;
+      sum.add(p.position, t);
+    }
+  }
+  return sum;
 }
 
 Resultant add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
-                       const Traction& traction, const EdgeCuts& cuts, VecX& load) {
-  return add_traction(mesh, model, sides, traction, gauss_legendre(4), cuts, load);
+                       const Traction& traction, VecX& load) {
+  return add_traction(mesh, model, CutSides{sides, {}}, traction, load);
 }
 
 }  // namespace mortise

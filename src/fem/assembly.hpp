@@ -28,8 +28,9 @@ Resultant add_body_forces(const Mesh& mesh, const Model& model, const std::vecto
 /// Traction (force per area) on a boundary as a function of the place and the outward unit normal.
 using Traction = std::function<Vec2(const Vec2& position, const Vec2& normal)>;
 
-/// load += int N t over the sides of a boundary (mesh/side_table.hpp). `gauss_points` an edge. Returns their sum.
+/// load += int N t over the sides of a boundary (mesh/side_table.hpp), four Gauss points an edge. Returns their
+/// sum.
 Resultant add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
-                       const Traction& traction, VecX& load, int gauss_points = 4);
+                       const Traction& traction, VecX& load);
 
 }  // namespace mortise

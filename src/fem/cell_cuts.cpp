@@ -15,21 +15,8 @@ constexpr std::size_t most_cell_pieces = 400;
 constexpr int blind_splits = 6;  // 64 pieces where no range is known
 constexpr int piece_points = 9;
 
-struct CellPoint {
-  Vec2 x = Vec2::Zero();
-  double area = 0;  // Jacobian determinant
-};
-
 CellPoint cell_point(const Points& nodes, const Cell& cell, const Vec2& xi) {
-  const CellShape shape = cell_shape(cell.kind, xi);
-  CellPoint point;
-  Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero();
-  for (int a = 0; a < node_count(cell.kind); ++a) {
-    point.x += shape.N[a] * nodes.row(cell.nodes[a]).transpose();
-    x_xi += shape.dN[a] * nodes.row(cell.nodes[a]);
-  }
-  point.area = x_xi.determinant();
-  return point;
+  return cell_point(nodes, cell, cell_shape(cell.kind, xi));
 }
 
 CellPiece whole(CellKind kind) {
@@ -221,7 +208,7 @@ CellMisfit misfit(const Points& nodes, const Cell& cell, const std::vector<CellP
     if (q == 0) f.resize(count, here.size());
     f.row(q) = here;
     x.row(q) = point.x;
-    dA(q) = rule.weights[q] * point.area;
+    dA(q) = rule.weights[q] * point.jacobian();
     terms.row(q) << 1, rule.points[q].transpose();
   }
   const MatX weighted = dA.asDiagonal() * terms;

@@ -32,14 +32,10 @@ CellSampler::CellSampler(const Mesh& mesh, const std::vector<ElasticLaw>& laws, 
 
 void CellSampler::sample(const Cell& cell, const CellShape& shape) {
   const int nodes = node_count(cell.kind);
-  x.setZero();
-  Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero();  // (i, j) = d x_j / d xi_i
-  for (int a = 0; a < nodes; ++a) {
-    x += shape.N[a] * mesh_.nodes.row(cell.nodes[a]).transpose();
-    x_xi += shape.dN[a] * mesh_.nodes.row(cell.nodes[a]);
-  }
-  area = x_xi.determinant();
-  const Eigen::Matrix2d xi_x = x_xi.inverse();
+  const CellPoint at = cell_point(mesh_.nodes, cell, shape);
+  x = at.x;
+  area = at.jacobian();
+  const Eigen::Matrix2d xi_x = at.x_xi.inverse();
   gradient_.setZero();
   double *along_x = &gradient_(0, 0), *along_y = &gradient_(1, 0);
   for (int a = 0; a < nodes; ++a) {

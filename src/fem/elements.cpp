@@ -115,21 +115,15 @@ void check_cells(const Mesh& mesh) {
     list.push_back(cell_shape(kind, reference_centre(kind)));
   }
   for (const Cell& cell : mesh.cells) {
-    const int count = node_count(cell.kind);
-    std::array<Vec2, 9> x;
-    for (int a = 0; a < count; ++a) x[a] = mesh.nodes.row(cell.nodes[a]).transpose();
     for (const CellShape& s : shapes[int(cell.kind)]) {
-      Vec2 x_xi = Vec2::Zero(), x_eta = Vec2::Zero();
-      for (int a = 0; a < count; ++a) {
-        x_xi += s.dN[a].x() * x[a];
-        x_eta += s.dN[a].y() * x[a];
-      }
-      const double jacobian = x_xi.x() * x_eta.y() - x_xi.y() * x_eta.x();
+      const CellPoint at = cell_point(mesh.nodes, cell, s);
+      const double jacobian = at.jacobian();
       // Round-off of the determinant is far below this; a cell flatter than 1e-10 is no cell.
-      if (jacobian > 1e-10 * (x_xi.squaredNorm() + x_eta.squaredNorm())) continue;
+      if (jacobian > 1e-10 * at.x_xi.squaredNorm()) continue;
       std::ostringstream text;
-      text << mesh.source << ": body '" << mesh.bodies[cell.body] << "': the element " << near_point(x[0])
-           << " is inverted or degenerate (Jacobian " << jacobian << "); expected a positive Jacobian everywhere";
+      text << mesh.source << ": body '" << mesh.bodies[cell.body] << "': the element "
+           << near_point(mesh.nodes.row(cell.nodes[0]).transpose()) << " is inverted or degenerate (Jacobian "
+           << jacobian << "); expected a positive Jacobian everywhere";
       throw InputError(text.str());
     }
   }

@@ -18,6 +18,23 @@ struct CellShape {
 
 CellShape cell_shape(CellKind kind, const Vec2& xi);
 
+/// A point of a cell in space.
+struct CellPoint {
+  Vec2 x = Vec2::Zero();
+  Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero();  ///< (i, j) = d x_j / d xi_i
+
+  double jacobian() const { return x_xi(0, 0) * x_xi(1, 1) - x_xi(1, 0) * x_xi(0, 1); }
+};
+
+inline CellPoint cell_point(const Points& nodes, const Cell& cell, const CellShape& shape) {
+  CellPoint at;
+  for (int a = 0; a < node_count(cell.kind); ++a) {
+    at.x += shape.N[a] * nodes.row(cell.nodes[a]).transpose();
+    at.x_xi += shape.dN[a] * nodes.row(cell.nodes[a]);
+  }
+  return at;
+}
+
 /// Reference coordinates of a cell's nodes: node_count(kind) x 2.
 Points reference_nodes(CellKind kind);
 Vec2 reference_centre(CellKind kind);

@@ -5,12 +5,11 @@
 
 namespace mortise {
 
-void add_foundation(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
-                    const Foundation& foundation, std::vector<Eigen::Triplet<double>>& entries, const EdgeCuts& cuts) {
-  const LineRule whole = gauss_legendre(4);
-  for (const CellSide& at : sides) {
+void add_foundation(const Mesh& mesh, const Model& model, const CutSides& on, const Foundation& foundation,
+                    std::vector<Eigen::Triplet<double>>& entries) {
+  for (const CellSide& at : on.sides) {
     const Edge edge = side_edge(mesh.cells[at.cell], at.side);
-    const LineRule rule = cuts ? cut_rule(cuts(edge), 4) : whole;
+    const LineRule rule = on.rule(edge);
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
       const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);

@@ -159,6 +159,11 @@ LineRule cut_rule(const std::vector<double>& cuts, int gauss_points) {
   return all;
 }
 
+LineRule CutSides::rule(const Edge& edge) const {
+  static const LineRule whole = gauss_legendre(4);
+  return cuts ? cut_rule(cuts(edge), 4) : whole;
+}
+
 LineMisfit misfit(const LineFunction& f, const std::vector<double>& cuts) {
   if (cuts.size() == 2) return {};
   const LineRule all = cut_rule(cuts, rule_points);

@@ -50,6 +50,15 @@ std::vector<double> merged(const std::vector<double>& a, const std::vector<doubl
 /// The points of a rule on each of the pieces between cuts, as one rule on [-1, 1].
 LineRule cut_rule(const std::vector<double>& cuts, int gauss_points);
 
+/// Sides of a boundary, and where their edges are cut; empty `cuts`: nowhere.
+struct CutSides {
+  const std::vector<CellSide>& sides;
+  EdgeCuts cuts;
+
+  /// Four Gauss points on each piece of an edge.
+  LineRule rule(const Edge& edge) const;
+};
+
 /// f less the polynomial that stands for it in the mean.
 struct LineMisfit {
   double mean = 0;       ///< of |f - polynomial| over the edge

@@ -36,16 +36,9 @@ CellPlace nearest_in(const Mesh& mesh, int e, const Vec2& x) {
   const Cell& cell = mesh.cells[e];
   CellPlace place{e, reference_centre(cell.kind), 0};
   for (int step = 0;; ++step) {
-    const CellShape shape = cell_shape(cell.kind, place.xi);
-    Vec2 at = Vec2::Zero();
-    Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero();  // (i, j) = d x_i / d xi_j
-    for (int a = 0; a < node_count(cell.kind); ++a) {
-      const Vec2 node = mesh.nodes.row(cell.nodes[a]).transpose();
-      at += shape.N[a] * node;
-      x_xi += node * shape.dN[a].transpose();
-    }
-    place.distance = (x - at).norm();
-    const Vec2 next = into_cell(cell.kind, place.xi + x_xi.inverse() * (x - at));
+    const CellPoint at = cell_point(mesh.nodes, cell, cell_shape(cell.kind, place.xi));
+    place.distance = (x - at.x).norm();
+    const Vec2 next = into_cell(cell.kind, place.xi + at.x_xi.transpose().inverse() * (x - at.x));
     if (step == 20 || (next - place.xi).norm() < 1e-14) return place;
     place.xi = next;
   }

@@ -12,9 +12,11 @@ namespace {
 
 // For each body point the cells that have a corner there: cells[first[p]] .. cells[first[p + 1] - 1].
 struct CellsAround {
+  std::vector<Cell> on_points;
   std::vector<int> first, cells;
 
-  CellsAround(const std::vector<Cell>& on_points, int count) : first(count + 1, 0) {
+  CellsAround(const Mesh& mesh, const BodyPoints& points)
+      : on_points(cells_on_points(mesh, points)), first(points.node.size() + 1, 0) {
     for (const Cell& cell : on_points)
       for (int a = 0; a < corner_count(cell.kind); ++a) ++first[cell.nodes[a] + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
@@ -27,7 +29,7 @@ struct CellsAround {
   std::vector<int> at(int p) const { return {cells.begin() + first[p], cells.begin() + first[p + 1]}; }
 
   // Some cells and those around their corners, each once.
-  std::vector<int> beside(std::vector<int> some, const std::vector<Cell>& on_points) const {
+  std::vector<int> beside(std::vector<int> some) const {
     for (const int e : std::vector(some))
       for (int a = 0; a < corner_count(on_points[e].kind); ++a) {
         const int q = on_points[e].nodes[a];
@@ -106,8 +108,8 @@ StressSamples sample_some(const Mesh& mesh, const std::vector<ElasticLaw>& laws,
 }
 
 // Patches of all vertices among the body points that `wanted` flags; of all where it is empty.
-StressPatches recover_some(const Mesh& mesh, const std::vector<Cell>& on_points, const CellsAround& around,
-                           const BodyPoints& points, const StressSamples& samples, const std::vector<char>& wanted) {
+StressPatches recover_some(const Mesh& mesh, const CellsAround& around, const BodyPoints& points,
+                           const StressSamples& samples, const std::vector<char>& wanted) {
   const int count = int(points.node.size());
   const auto samples_in = [&](const std::vector<int>& cells) {
     int sum = 0;
@@ -130,7 +132,7 @@ StressPatches recover_some(const Mesh& mesh, const std::vector<Cell>& on_points,
     if (patches.row[p] < 0) continue;
     std::vector<int> cells = around.at(p);
     const bool quadratic = std::ranges::all_of(cells, [&](int e) { return is_quadratic(mesh.cells[e].kind); });
-    if (samples_in(cells) < (quadratic ? 9 : 4)) cells = around.beside(cells, on_points);
+    if (samples_in(cells) < (quadratic ? 9 : 4)) cells = around.beside(cells);
     const int found = samples_in(cells);
     patches.terms[p] = quadratic && found >= 9 ? 6 : found >= 4 ? 3 : 1;
     patches.centre[p] = mesh.nodes.row(points.node[p]);
@@ -153,20 +155,18 @@ StressSamples sample_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& l
 }
 
 StressPatches recover_patches(const Mesh& mesh, const BodyPoints& points, const StressSamples& samples) {
-  const std::vector<Cell> on_points = cells_on_points(mesh, points);
-  return recover_some(mesh, on_points, CellsAround(on_points, int(points.node.size())), points, samples, {});
+  return recover_some(mesh, CellsAround(mesh, points), points, samples, {});
 }
 
 StressPatches recover_patches_at(const std::vector<int>& some, const Mesh& mesh, const BodyPoints& points,
                                  const std::vector<ElasticLaw>& laws, const MatX& fields) {
-  const std::vector<Cell> on_points = cells_on_points(mesh, points);
-  const CellsAround around(on_points, int(points.node.size()));
+  const CellsAround around(mesh, points);
   std::vector<char> wanted(points.node.size(), 0), take(mesh.cells.size(), 0);
   for (const int p : some) {
     wanted[p] = 1;
-    for (const int e : around.beside(around.at(p), on_points)) take[e] = 1;
+    for (const int e : around.beside(around.at(p))) take[e] = 1;
   }
-  return recover_some(mesh, on_points, around, points, sample_some(mesh, laws, fields, take), wanted);
+  return recover_some(mesh, around, points, sample_some(mesh, laws, fields, take), wanted);
 }
 
 Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, const StressPatches& patches,

@@ -16,9 +16,7 @@ double add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws,
 Resultant add_body_forces(const Mesh& mesh, const Model& model,
                           const std::vector<std::function<Vec2(const Vec2& position)>>& forces, const CellRules& rules,
                           VecX& load);
-/// Four Gauss points on each piece of an edge.
-Resultant add_traction(const Mesh& mesh, const Model& model, const std::vector<CellSide>& sides,
-                       const std::function<Vec2(const Vec2& position, const Vec2& normal)>& traction,
-                       const EdgeCuts& cuts, VecX& load);
+Resultant add_traction(const Mesh& mesh, const Model& model, const CutSides& on,
+                       const std::function<Vec2(const Vec2& position, const Vec2& normal)>& traction, VecX& load);
 
 }  // namespace mortise

@@ -47,19 +47,17 @@ ForEachKind<Recovery> all_recoveries() {
 }  // namespace
 
 Vec4 stress_at(const Mesh& mesh, const Cell& cell, const ElasticLaw& law, const VecX& u, const CellShape& shape) {
-  Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero(), u_xi = Eigen::Matrix2d::Zero();  // (i, j) = d value_j / d xi_i
-  Vec2 x = Vec2::Zero();
+  const CellPoint at = cell_point(mesh.nodes, cell, shape);
+  Eigen::Matrix2d u_xi = Eigen::Matrix2d::Zero();  // (i, j) = d u_j / d xi_i
   double u1 = 0;
   for (int a = 0; a < node_count(cell.kind); ++a) {
     const int node = cell.nodes[a];
-    x_xi += shape.dN[a] * mesh.nodes.row(node);
     u_xi += shape.dN[a] * u.segment<2>(2 * node).transpose();
-    x += shape.N[a] * mesh.nodes.row(node).transpose();
     u1 += shape.N[a] * u(2 * node);
   }
-  const Eigen::Matrix2d grad = x_xi.inverse() * u_xi;  // (i, j) = d u_j / d x_i
-  const double hoop = !law.model.axisymmetric() ? 0 : x.x() > 0 ? u1 / x.x() : grad(0, 0);
-  return law.stiffness * Vec4(grad(0, 0), grad(1, 1), hoop, grad(0, 1) + grad(1, 0)) + law.stress0(x);
+  const Eigen::Matrix2d grad = at.x_xi.inverse() * u_xi;  // (i, j) = d u_j / d x_i
+  const double hoop = !law.model.axisymmetric() ? 0 : at.x.x() > 0 ? u1 / at.x.x() : grad(0, 0);
+  return law.stiffness * Vec4(grad(0, 0), grad(1, 1), hoop, grad(0, 1) + grad(1, 0)) + law.stress0(at.x);
 }
 
 StressField recover_stress(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,

@@ -30,17 +30,13 @@ class NodalField {
     const Cell& cell = mesh_.cells[place->cell];
     const CellShape shape = cell_shape(cell.kind, place->xi);
     double value = 0;
-    Vec2 in_cell = Vec2::Zero(), slope = Vec2::Zero();
-    Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero();
+    Vec2 slope = Vec2::Zero();  // d value / d xi
     for (int a = 0; a < node_count(cell.kind); ++a) {
-      const Vec2 node = mesh_.nodes.row(cell.nodes[a]).transpose();
-      const double v = values_[cell.nodes[a]];
-      value += shape.N[a] * v;
-      in_cell += shape.N[a] * node;
-      slope += shape.dN[a] * v;
-      x_xi += node * shape.dN[a].transpose();
+      value += shape.N[a] * values_[cell.nodes[a]];
+      slope += shape.dN[a] * values_[cell.nodes[a]];
     }
-    return value + slope.dot(x_xi.inverse() * (x - in_cell));
+    const CellPoint at = cell_point(mesh_.nodes, cell, shape);
+    return value + slope.dot(at.x_xi.transpose().inverse() * (x - at.x));
   }
 
  private:

@@ -66,7 +66,8 @@ Resultant add_load(const Mesh& mesh, const Model& model, const BoundaryEntry& en
   for (const NamedBoundary& on : entry.curves)
     for_each_piece(mesh, on, fields, [&](const std::vector<CellSide>& sides, const auto& s, const EdgeCuts& cuts) {
       sum += add_traction(
-          mesh, model, sides, [&](const Vec2& x, const Vec2& n) -> Vec2 { return traction(x, n, s(x)); }, cuts, f);
+          mesh, model, CutSides{sides, cuts},
+          [&](const Vec2& x, const Vec2& n) -> Vec2 { return traction(x, n, s(x)); }, f);
     });
   return sum;
 }
@@ -89,8 +90,8 @@ void add_springs(const Mesh& mesh, const Model& model, const BoundaryEntry& entr
   for (const NamedBoundary& on : entry.curves)
     for_each_piece(mesh, on, fields, [&](const std::vector<CellSide>& sides, const auto& s, const EdgeCuts& cuts) {
       add_foundation(
-          mesh, model, sides, [&](const Vec2& x, const Vec2& n) -> Eigen::Matrix2d { return stiffness(x, n, s(x)); },
-          springs, cuts);
+          mesh, model, {sides, cuts},
+          [&](const Vec2& x, const Vec2& n) -> Eigen::Matrix2d { return stiffness(x, n, s(x)); }, springs);
     });
 }
 

@@ -25,18 +25,28 @@ Vec2 displaced(const Outline& deformed, const Outline& drawn, int edge, double x
   return edge_point(deformed.nodes, nodes, xi).position - edge_point(drawn.nodes, nodes, xi).position;
 }
 
-// How far a point of an edge has come into another piece; 0 where it has not, or a pair stands there.
-double depth_at(const AuditedBodies& b, const Outline& deformed, int edge, double xi, int piece, double largest,
-                int& other) {
+struct Moved {
+  const AuditedBodies& b;
+  const Outline& deformed;
+  double largest;  // displacement
+};
+
+struct Depth {
+  double value = 0;
+  int other = -1;  // the edge of the other piece; none where nothing crosses
+};
+
+// How far a point of an edge has come into another piece; nothing where it has not, or a pair stands there.
+Depth depth_at(const Moved& all, int edge, double xi, int piece) {
+  const auto& [b, deformed, largest] = all;
   const Edge& nodes = deformed.edges[edge].edge;
   const OutlinePlace place = nearest(deformed, piece, edge_point(deformed.nodes, nodes, xi).position);
-  if (-place.distance <= of_largest * largest || nearly_paired(b, edge, place.edge)) return 0;
+  if (-place.distance <= of_largest * largest || nearly_paired(b, edge, place.edge)) return {};
   const Vec2 moved = displaced(deformed, b.outline, edge, xi) - displaced(deformed, b.outline, place.edge, place.xi);
   const double drawn = nearest(b.outline, piece, edge_point(b.outline.nodes, nodes, xi).position).distance;
   const double depth = -place.distance - std::max(0., -drawn);
-  if (depth <= of_relative * moved.norm() + of_largest * largest) return 0;
-  other = place.edge;
-  return depth;
+  if (depth <= of_relative * moved.norm() + of_largest * largest) return {};
+  return {depth, place.edge};
 }
 
 std::string line(const AuditedBodies& b, int first, int second, const Crossing& c, double largest) {
@@ -62,8 +72,7 @@ std::vector<std::string> crossing_lines(const AuditedBodies& b, const Results& r
     for (const int piece : deformed.boxes.meeting(edge_box(deformed, e, 0))) {
       if (piece == deformed.edges[e].piece) continue;
       for (const double xi : rule.points) {
-        int other = -1;
-        const double depth = depth_at(b, deformed, e, xi, piece, largest, other);
+        const auto [depth, other] = depth_at({b, deformed, largest}, e, xi, piece);
         if (other < 0) continue;
         const bool second = deformed.edges[e].body > deformed.pieces[piece].body;
         Crossing& c = crossings[std::minmax(deformed.edges[e].body, deformed.pieces[piece].body)];

@@ -50,15 +50,23 @@ bool faces(const AuditedBodies& b, int edge, int body) {
   return false;
 }
 
+// One side of a pair with its results.
+struct Audited {
+  const Curve& curve;
+  int other_body;
+  const ContactSide& side;
+  double p_max;  // of the pair
+};
+
 double pressure_at(const ContactSide& side, int node) {
   for (const ContactNode* end : {&side.nodes.front(), &side.nodes.back()})
     if (end->node == node) return end->p;
   return 0;
 }
 
-// "'foot' near (0.1, 0)" for each end of a curve that contact reaches and should not.
-void add_ends(const AuditedBodies& b, const EdgeAt& edges, const Curve& curve, int other_body, const ContactSide& side,
-              double p_max, std::string& places) {
+// Adds "'foot' near (0.1, 0)" for each end of a curve that contact reaches and should not.
+void add_ends(const AuditedBodies& b, const EdgeAt& edges, const Audited& at, std::string& places) {
+  const auto& [curve, other_body, side, p_max] = at;
   if (curve.closed) return;
   for (const bool at_back : {false, true}) {
     const int node = at_back ? curve.edges.back().nodes[1] : curve.edges.front().nodes[0];
@@ -79,8 +87,8 @@ std::vector<std::string> end_lines(const AuditedBodies& b, const Results& r) {
     const ContactResults& c = r.recovery.contacts[k];
     if (pair.spec.condition != Condition::unilateral) continue;
     std::string places;
-    add_ends(b, edges, pair.multiplier, pair.opposite.body, c.multiplier, c.p_max, places);
-    add_ends(b, edges, pair.opposite, pair.multiplier.body, c.opposite, c.p_max, places);
+    add_ends(b, edges, {pair.multiplier, pair.opposite.body, c.multiplier, c.p_max}, places);
+    add_ends(b, edges, {pair.opposite, pair.multiplier.body, c.opposite, c.p_max}, places);
     if (!places.empty())
       lines.push_back(pair.spec.key + ": contact reaches the end of " + places +
                       ", where the boundary goes on smoothly and faces the other body: the pressure concentrates "

@@ -27,9 +27,16 @@ double end_of_contact(const std::vector<Sample>& samples, double limit) {
   return xy < 0 ? std::clamp(x - y * xx / xy, 0.0, limit) : limit;
 }
 
+struct LoadedLine {
+  const Points& nodes;
+  const ContactPair& pair;
+  const VecX& pressure;
+  double loaded;  // p above it
+};
+
 // Part of edge e that is in contact, where p ends on it: it carries p at vertex `last` (0: start, 1: end) only.
-double part_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure, int e, int last,
-                       double loaded) {
+double part_in_contact(const LoadedLine& line, int e, int last) {
+  const auto& [nodes, pair, pressure, loaded] = line;
   const int count = int(pair.multiplier.edges.size()), back = last == 0 ? -1 : 1;  // away from the end of contact
   const double length = edge_length(nodes, pair.multiplier.edges[e]);
   const double at_last = pressure(pair.coupling.on_edge[e][last]);
@@ -57,7 +64,7 @@ double length_in_contact(const Points& nodes, const ContactPair& pair, const Vec
                  end = pressure(pair.coupling.on_edge[e][1]) > loaded;
       const int middle = pair.coupling.on_edge[e][2];
       if (!start && !end) part[e] = middle >= 0 && pressure(middle) > loaded ? 1 : 0;
-      if (start != end) part[e] = part_in_contact(nodes, pair, pressure, int(e), start ? 0 : 1, loaded);
+      if (start != end) part[e] = part_in_contact({nodes, pair, pressure, loaded}, int(e), start ? 0 : 1);
     }
   double length = 0;
   for (const ContactPoint& c : pair.points) length += c.ds * part[c.edge];

@@ -244,15 +244,18 @@ Resultant force_on(const Points& nodes, const std::vector<CurveNode>& along, con
 
 }  // namespace
 
-ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const Constraints& constraints,
-                               const BodyPoints& points, const StressField& stress, const VecX& u, const VecX& lambda) {
+ContactResults contact_results(const Problem& problem, const ContactPair& pair, const StressField& stress,
+                               const Solution& solution) {
+  const Mesh& mesh = problem.mesh;
+  const Constraints& constraints = problem.discretisation.system.constraints;
+  const VecX lambda = solution.lambda.segment(pair.first_row, pair.coupling.B.rows());
   const ContactGeometry& geometry = pair.geometry;
   const auto along =
       nodes_along(mesh, pair.multiplier, constraints, geometry.normals ? &*geometry.multiplier : nullptr);
   const auto facing = nodes_along(mesh, pair.opposite, constraints, geometry.normals ? &*geometry.opposite : nullptr);
   ContactResults r;
   r.pressure = 0 - multiplier_values(pair.coupling, lambda).array();  // 0 - 0 is 0, -0 is not
-  const Asked asked{mesh, pair, points, stress, u, r.pressure};
+  const Asked asked{mesh, pair, problem.points, stress, solution.u, r.pressure};
 
   r.multiplier.curve = mesh.boundaries[pair.multiplier.boundary].name;
   for (const CurveNode& at : along) r.multiplier.nodes.push_back(on_multiplier_side(asked, at));

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "fem/stress.hpp"
-#include "problem/contact_pair.hpp"
+#include "problem/problem.hpp"
 
 namespace mortise {
 
@@ -55,8 +55,8 @@ struct ContactResults {
 };
 
 /// s runs along both curves from the end of the multiplier side with the smaller x (then y).
-/// `lambda` holds the pair's row values (stress).
-ContactResults contact_results(const Mesh& mesh, const ContactPair& pair, const Constraints& constraints,
-                               const BodyPoints& points, const StressField& stress, const VecX& u, const VecX& lambda);
+/// `pair`: one of the problem's.
+ContactResults contact_results(const Problem& problem, const ContactPair& pair, const StressField& stress,
+                               const Solution& solution);
 
 }  // namespace mortise

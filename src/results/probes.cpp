@@ -22,13 +22,12 @@ auto interpolated(const Mesh& mesh, const CellPlace& place, Values at_node) {
 
 }  // namespace
 
-std::vector<ProbeValue> probe_values(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                                     const VecX& u, const StressField& averages,
-                                     const std::vector<ProbePlace>& places) {
+std::vector<ProbeValue> probe_values(const Problem& problem, const VecX& u, const StressField& averages) {
+  const auto& [mesh, points, laws] = std::tie(problem.mesh, problem.points, problem.discretisation.laws);
   std::vector<ProbeValue> values;
-  if (places.empty()) return values;
+  if (problem.probes.empty()) return values;
   const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, u));
-  for (const ProbePlace& place : places) {
+  for (const ProbePlace& place : problem.probes) {
     const int body = mesh.cells[place.in.cell].body;
     const Vec4 stress = whole_stress(laws, body, recovered_stress(mesh, points, patches, place.in), place.x);
     const Vec4 average = interpolated(mesh, place.in, [&](int node) -> Vec4 {

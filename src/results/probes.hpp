@@ -3,7 +3,7 @@
 
 #include "error/place_errors.hpp"
 #include "fem/stress.hpp"
-#include "problem/probe_places.hpp"
+#include "problem/problem.hpp"
 
 namespace mortise {
 
@@ -16,8 +16,8 @@ struct ProbeValue {
   std::optional<PlaceError> error;  ///< where errors were estimated
 };
 
-std::vector<ProbeValue> probe_values(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                                     const VecX& u, const StressField& averages, const std::vector<ProbePlace>& places);
+/// At all of the problem's places. `averages`: recover_stress.
+std::vector<ProbeValue> probe_values(const Problem& problem, const VecX& u, const StressField& averages);
 
 /// The places of each [[probe]].
 std::vector<ProbedPlaces> probed_places(const std::vector<ProbeValue>& values);

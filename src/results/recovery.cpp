@@ -11,12 +11,9 @@ Recovery recover(const Problem& p, const Solution& solution) {
   r.stress = recover_stress(p.mesh, p.points, p.discretisation.laws, u);
   r.energy = strain_energy(p.discretisation, u);
   r.contacts.resize(p.pairs.size());
-  for_each_index(p.pairs.size(), solver_threads(), [&](std::size_t k) {
-    const ContactPair& pair = p.pairs[k];
-    r.contacts[k] = contact_results(p.mesh, pair, p.discretisation.system.constraints, p.points, r.stress, u,
-                                    solution.lambda.segment(pair.first_row, pair.coupling.B.rows()));
-  });
-  r.probes = probe_values(p.mesh, p.points, p.discretisation.laws, u, r.stress, p.probes);
+  for_each_index(p.pairs.size(), solver_threads(),
+                 [&](std::size_t k) { r.contacts[k] = contact_results(p, p.pairs[k], r.stress, solution); });
+  r.probes = probe_values(p, u, r.stress);
   r.extremes = find_extremes(p.mesh, p.points, r.stress, r.contacts);
   r.reactions = find_reactions(p, solution);
   return r;

@@ -26,7 +26,7 @@ double load_of(const std::string& text) {
   VecX load = VecX::Zero(2 * mesh.nodes.rows());
   const auto traction = [&](const Vec2& x, const Vec2&) { return Vec2(field(x), 0); };
   const auto cuts = [&](const Edge& edge) { return fields.cuts(top, 0, edge); };
-  const double sum = add_traction(mesh, {}, top.sides, traction, cuts, load).force.x();
+  const double sum = add_traction(mesh, {}, CutSides{top.sides, cuts}, traction, load).force.x();
   EXPECT_NEAR(load.sum(), sum, 1e-12 * std::abs(sum));
   return sum;
 }

@@ -23,14 +23,11 @@ FieldErrors field_errors(const Mesh& mesh, const std::vector<ElasticLaw>& laws, 
     const CellRule rule = product_rule(cell.kind, 4);
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const CellShape s = cell_shape(cell.kind, rule.points[q]);
-      Vec2 x = Vec2::Zero(), value = Vec2::Zero();
-      Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
-      for (int a = 0; a < node_count(cell.kind); ++a) {
-        x += s.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
-        value += s.N[a] * u.segment<2>(2 * cell.nodes[a]);
-        J += s.dN[a] * mesh.nodes.row(cell.nodes[a]);
-      }
-      const double dV = rule.weights[q] * J.determinant();
+      const CellPoint at = cell_point(mesh.nodes, cell, s);
+      const Vec2 x = at.x;
+      Vec2 value = Vec2::Zero();
+      for (int a = 0; a < node_count(cell.kind); ++a) value += s.N[a] * u.segment<2>(2 * cell.nodes[a]);
+      const double dV = rule.weights[q] * at.jacobian();
       const Vec4 e = stress_at(mesh, cell, laws[body], u, s) - exact.stress(x, cell.body);
       const Eigen::Vector3d difference(e(0), e(1), e(3));
       l2 += dV * (value - exact.displacement(x, cell.body)).squaredNorm();

@@ -39,13 +39,8 @@ void add_slip_loads(const Mesh& mesh, const ExactField& exact, const Slip& slip,
     const CellRule rule = product_rule(cell.kind, 4);
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const CellShape shape = cell_shape(cell.kind, rule.points[q]);
-      Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();
-      Vec2 x = Vec2::Zero();
-      for (int a = 0; a < node_count(cell.kind); ++a) {
-        jacobian += shape.dN[a] * mesh.nodes.row(cell.nodes[a]);
-        x += shape.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
-      }
-      const Vec2 force = rule.weights[q] * jacobian.determinant() * slip.body_force(x, exact.young, exact.poisson);
+      const CellPoint at = cell_point(mesh.nodes, cell, shape);
+      const Vec2 force = rule.weights[q] * at.jacobian() * slip.body_force(at.x, exact.young, exact.poisson);
       for (int a = 0; a < node_count(cell.kind); ++a) load.segment<2>(2 * cell.nodes[a]) += shape.N[a] * force;
     }
   }
