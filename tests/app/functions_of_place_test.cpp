@@ -1,6 +1,8 @@
 // Scenes whose loads and supports are expressions, against exact solutions that quadratic elements hold.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "app/solve_scene.hpp"
 #include "results/report_text.hpp"
 #include "support/messages.hpp"
@@ -181,6 +183,57 @@ contact = [{ between = ["upper_contact", "lower_contact"] }]
         check_scene(loaded_scene(folder, "0", "boundary = [{ on = \"bottom\", foundation = \"x - 1\" }]\n"));
       }),
       "boundary.0 (line 5).foundation: 'x - 1' is -0.9");
+}
+
+// nu = 0, upright: under the pressure q and the weight f a volume both bodies are strained as columns, of rings too.
+TEST(FunctionsOfPlace, OfRingsAFoundationSinksByPressureAndWeightOverModulus) {
+  const TemporaryFolder folder;
+  const double q = 3, f = 2, k = 100, young = 1000, height = 1.6;
+  for (const Plane plane : {Plane::axisymmetric, Plane::strain}) {
+    Scene scene = loaded_scene(folder, "0", R"toml(
+boundary = [
+  { on = "bottom", foundation = 100 },
+  { on = ["lower_left", "upper_left"], displacement = { x = 0 } },
+  { on = "top", pressure = 3 },
+]
+body_force = [{ body = "*", force = [0, -2] }]
+contact = [{ between = ["upper_contact", "lower_contact"] }]
+)toml");
+    scene.model = {.plane = plane, .thickness = plane == Plane::strain ? 5.0 : 1.0};
+    const Results r = solve_scene(scene);
+    EXPECT_EQ(r.status, Status::solved);
+    const auto exact = [&](const Vec2& x) {
+      return Vec2(0, -(q + f * height) / k - (q * x.y() + f * (height * x.y() - x.y() * x.y() / 2)) / young);
+    };
+    // Three points integrate the stiffness of 6-node triangles in rings to 1e-4 only.
+    EXPECT_LT(displacement_error(r, exact), plane == Plane::axisymmetric ? 1e-3 : 1e-10);
+    EXPECT_NEAR(r.recovery.contacts[0].p_mean, q + f * 0.6, 1e-9);
+    const double area = plane == Plane::axisymmetric ? 4 * std::numbers::pi : 10;
+    EXPECT_NEAR(r.recovery.reactions.entries[0].force.y(), area * (q + f * height), 1e-8);
+    EXPECT_NEAR(r.recovery.reactions.loads.force.y(), -area * (q + f * height), 1e-8);
+  }
+}
+
+// A strain that nothing hinders makes no stress, of rings and of thick models too; its energy is all taken back.
+TEST(FunctionsOfPlace, AFreeInitialStrainMakesNoStressInRingsAndThickModels) {
+  const TemporaryFolder folder;
+  for (const Plane plane : {Plane::axisymmetric, Plane::strain, Plane::stress}) {
+    Scene scene = loaded_scene(folder, "0.3",
+                               R"toml(
+boundary = [
+  { on = "bottom", displacement = { y = 0 } },
+  { on = ["lower_left", "upper_left"], displacement = { x = 0 } },
+]
+initial_strain = [{ body = "*", strain = { xx = 1e-3, yy = 1e-3, zz = )toml" +
+                                   std::string(plane == Plane::strain ? "0" : "1e-3") + R"toml( } }]
+contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilateral" }]
+)toml");
+    scene.model = {.plane = plane, .thickness = plane == Plane::axisymmetric ? 1.0 : 5.0};
+    const Results r = solve_scene(scene);
+    EXPECT_LT(displacement_error(r, [](const Vec2& x) { return Vec2(1e-3 * x); }), 1e-10);
+    EXPECT_LT(r.recovery.stress.points.cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_NEAR(r.recovery.energy, 0, 1e-12);
+  }
 }
 
 TEST(FunctionsOfPlace, ASpringAlongXHoldsNothingAlongY) {

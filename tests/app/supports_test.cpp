@@ -204,6 +204,54 @@ boundary = [
                                               "boundary.4 (line 12): a force of 0.5 at the point 'top_right'"}));
 }
 
+// A displacement along -x by v is one along x by -v.
+TEST(Supports, AValueAlongAnAxisBackwardsIsItsOpposite) {
+  const TemporaryFolder folder;
+  const auto moved = [&](const std::string& right, const std::string& top) {
+    return solve_scene(supported_scene(folder, contact +
+                                                   "boundary = [{ on = \"bottom\", displacement = { y = 0 } }, "
+                                                   "{ on = [\"lower_left\", \"upper_left\"], displacement = { x = 0 } "
+                                                   "}, { on = \"lower_right\", displacement = { " +
+                                                   right + " } }, { on = \"top\", displacement = { " + top + " } }]"));
+  };
+  const VecX u = moved("x = 0.02", "y = -0.01").solution.u;
+  for (const char* right : {"direction = [-1, 0], value = -0.02", "direction = [2, 0], value = 0.02", "normal = 0.02"})
+    for (const char* top : {"direction = [0, -3], value = 0.01", "direction = [0, 1], value = -0.01"})
+      EXPECT_LT((moved(right, top).solution.u - u).norm(), 1e-12 * u.norm()) << right << ", " << top;
+}
+
+TEST(Supports, AForceOnTwoPointsIsTheirSum) {
+  const TemporaryFolder folder;
+  const Results r = solve_scene(supported_scene(folder, contact + R"toml(
+boundary = [
+  { on = ["lower_contact"], displacement = { y = 0 } },
+  { on = ["lower_left", "upper_left"], displacement = { x = 0 } },
+  { on = "feet", force = [0, -2] },
+  { on = "top", pressure = 1 },
+])toml"));
+  EXPECT_NEAR(r.recovery.reactions.loads.force.y(), -4, 1e-12);
+  EXPECT_NEAR(r.recovery.reactions.all.force.y(), 4, 1e-9);
+}
+
+// Two entries that hold a node along one line, either way, must agree.
+TEST(Supports, TwoEntriesAlongOneLineThatDisagreeAreRefused) {
+  const TemporaryFolder folder;
+  const auto with = [&](const std::string& corner) {
+    const Scene scene = supported_scene(
+        folder,
+        contact +
+            "boundary = [{ on = \"lower_left\", displacement = { direction = "
+            "[1, 1], value = 1e-3 } }, { on = \"bottom\", displacement = { direction = [1, -1], value = 0 } }, "
+            "{ on = \"upper_left\", displacement = { x = 0 } }, { on = \"top\", pressure = 1 }, { on = \"top_right\", "
+            "displacement = { direction = [1, 2], value = 0 } }, { on = \"upper_right\", displacement = { " +
+            corner + " } }]");
+    return message_of([&] { solve_scene(scene); });
+  };
+  EXPECT_NE(with("direction = [1, 2], value = 1e-6").find("expected one value a node"), std::string::npos);
+  EXPECT_NE(with("direction = [-1, -2], value = 1e-6").find("expected one value a node"), std::string::npos);
+  EXPECT_EQ(with("direction = [-1, -2], value = 0"), "(nothing was thrown)");
+}
+
 TEST(Supports, RefusesWhatCannotBeMeant) {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& entry) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "contact/segments.hpp"
 #include "fem/edges.hpp"
 #include "support/two_plates.hpp"
@@ -159,6 +161,40 @@ TEST(Segments, VerticesThatAlmostCoincideMakeNoSlivers) {
     const auto segments = find_segments(c.mesh.nodes, {c.lower, c.upper, {}, {}, {}});
     EXPECT_EQ(segments.size(), 6u) << shift;
     EXPECT_NEAR(covered(segments, c, c.lower), 0.8, 1e-12);
+  }
+}
+
+// A rim of `inner` edges in a hole of `outer`, both closed; the hole's edges begin with the `start`th.
+struct RimInHole {
+  Points nodes;
+  Curve rim{0, 0, {}, {}, true}, hole{1, 1, {}, {}, true};
+
+  RimInHole(int inner, int outer, int start) : nodes(inner + outer, 2) {
+    const auto place = [&](int row, double angle) { nodes.row(row) << std::cos(angle), std::sin(angle); };
+    for (int i = 0; i < inner; ++i) {
+      place(i, 2 * std::numbers::pi * i / inner);
+      rim.edges.push_back({2, {i, (i + 1) % inner, -1}});
+    }
+    for (int k = 0; k < outer; ++k) place(inner + k, 0.1 + 2 * std::numbers::pi * k / outer);
+    for (int k = 0; k < outer; ++k) {  // against the rim: its body lies outside
+      const int i = (start + outer - k) % outer;
+      hole.edges.push_back({2, {inner + i, inner + (i + outer - 1) % outer, -1}});
+    }
+  }
+};
+
+TEST(Segments, DoNotDependOnWhereAClosedCurveBegins) {
+  for (int start = 0; start < 23; ++start) {
+    const RimInHole c(8, 23, start);
+    const auto segments = find_segments(c.nodes, {c.rim, c.hole, {}, {}, {}});
+    EXPECT_GE(segments.size(), 8u + 23u) << start;
+    for (const Segment& s : segments) {  // each on the one opposite edge that its normals meet
+      const Edge& other = c.hole.edges[s.opposite_edge];
+      for (const double part : {0.1, 0.5, 0.9}) {
+        const Line line = line_from(c.nodes, c.rim, s.edge, s.begin + part * (s.end - s.begin));
+        EXPECT_TRUE(project_onto_edge(c.nodes, c.hole, s.opposite_edge, line)) << start << " " << other.nodes[0];
+      }
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <set>
 
 #include "support/two_plates.hpp"
 
@@ -73,6 +74,31 @@ TEST(SingularPoints, WhatHoldsAnEndIsTheSideBesideIt) {
   EXPECT_NEAR(points[0].exponent,
               end_exponents(steel_wedge(90 * deg, Face::clamped), steel_wedge(90 * deg, Face::free)).stress.real(),
               1e-9);
+}
+
+// A body that ends within the other's edge, nearer to its vertex or not, ends on a straight side.
+TEST(SingularPoints, AnEndWithinTheOthersEdgeIsNoMeetingOfCorners) {
+  TwoPlates plates;
+  plates.n_upper = plates.n_lower = 8;
+  const double exact =
+      end_exponents(steel_wedge(90 * deg, Face::free), steel_wedge(180 * deg, Face::free)).pressure.real();
+  for (const double edges : {0.1, 0.4, 0.6}) {
+    Mesh mesh = test::mesh_of(plates);
+    const Curve upper = contact_curve(mesh, boundary_index(mesh, "upper_contact")),
+                lower = contact_curve(mesh, boundary_index(mesh, "lower_contact"));
+    std::set<int> of_upper;
+    for (const Cell& cell : mesh.cells)
+      if (cell.body == upper.body) of_upper.insert(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind));
+    for (const int node : of_upper) mesh.nodes(node, 0) += edges * 0.1;
+    const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
+    TipTable tips;
+    const auto points = singular_points(mesh, SideTable(mesh), lower, upper, no_constraints(mesh), laws, tips,
+                                        reached_everywhere(lower, upper));
+    const auto end = std::ranges::find_if(
+        points, [&](const SingularPoint& p) { return std::abs(p.position.x() - edges * 0.1) < 1e-12; });
+    ASSERT_NE(end, points.end()) << edges;
+    EXPECT_NEAR(end->pressure_exponent, exact, 1e-9) << edges;
+  }
 }
 
 // The preprint's parabola has slopes 1 and -1 at its ends, with elements of any kind, and no corner between them.

@@ -12,18 +12,21 @@ namespace mortise {
 namespace {
 
 // Three plates under uniform pressure: every row is loaded alike.
+Results solved(Plane plane) {
+  Scene scene = read_scene(MORTISE_SOURCE_DIR "/geo/stack.toml", {});
+  scene.model.plane = plane;
+  for (ContactSpec& contact : scene.contacts) contact.condition = Condition::unilateral;
+  return solve_scene(scene);
+}
+
 const Results& answer() {
-  static const Results results = [] {
-    Scene scene = read_scene(MORTISE_SOURCE_DIR "/geo/stack.toml", {});
-    for (ContactSpec& contact : scene.contacts) contact.condition = Condition::unilateral;
-    return solve_scene(scene);
-  }();
+  static const Results results = solved(Plane::strain);
   return results;
 }
 
 /// Names of the checks that fail on the answer with what `spoil` has made of it.
-std::set<std::string> failed(const std::function<void(Results&)>& spoil) {
-  Results r = answer();
+std::set<std::string> failed(const std::function<void(Results&)>& spoil, const Results& of = answer()) {
+  Results r = of;
   spoil(r);
   std::set<std::string> names;
   for (const Check& check : checks(r))
@@ -107,6 +110,20 @@ TEST(ChecksOfPairs, AForceOrACoupleOnAnyBodyFails) {
   }
 }
 
+// Radial forces strain a ring, and so do couples.
+TEST(ChecksOfPairs, OfRingsForcesAlongTheAxisAloneMustBalance) {
+  static const Results rings = solved(Plane::axisymmetric);
+  for (std::size_t body = 0; body < rings.problem.mesh.bodies.size(); ++body) {
+    const int node = rings.problem.points.node[rings.problem.points.first[body]];
+    const auto pushed = [&](const Vec2& by) {
+      return failed([&](Results& r) { r.recovery.reactions.nodal.segment<2>(2 * node) += by; }, rings);
+    };
+    const double force = 1e-6 * rings.solution.lambda.cwiseAbs().maxCoeff();
+    EXPECT_EQ(pushed(Vec2(0, force)), (Names{of_bodies, balance_check})) << body;
+    EXPECT_EQ(pushed(Vec2(force, 0)), Names()) << body;
+  }
+}
+
 TEST(ChecksOfPairs, AForceOrACoupleBetweenTheSidesOfAnyPairFails) {
   for (std::size_t pair = 0; pair < answer().problem.pairs.size(); ++pair) {
     const auto changed = [&](double first, double last) {
@@ -131,7 +148,7 @@ TEST(ChecksOfPairs, ALineThatIsCoveredTwiceOrHalfFails) {
   for (std::size_t pair = 0; pair < answer().problem.pairs.size(); ++pair)
     for (const double part : {0.5, 0.98, 1.02, 2.0})
       EXPECT_EQ(failed([&](Results& r) {
-                  r.problem.pairs[pair].spec.initial_gap = InitialGap::closed;
+                  for (ContactPair& any : r.problem.pairs) any.spec.initial_gap = InitialGap::closed;
                   r.problem.pairs[pair].coupling.covered_length *= part;
                 }),
                 Names{"segments cover the closed contact curve"})

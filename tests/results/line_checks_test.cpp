@@ -48,6 +48,22 @@ TEST(LineMotion, IsTheTurnAndTheSlideOfTheWhole) {
               0.2 / 0.8, 1e-3);
 }
 
+// Tension carries a bonded line as pressure does, and a contact line not at all.
+TEST(LineMotion, OfABondedLineInTensionIsThatUnderPressure) {
+  Results r = moved(0.3, 0.1);
+  const auto motion = [&] {
+    return line_motion(r.problem.mesh.nodes, r.problem.pairs[0], r.recovery.contacts[0], r.solution.u);
+  };
+  r.problem.pairs[0].spec.condition = Condition::unilateral;
+  const auto pressed = motion();
+  r.recovery.contacts[0].pressure *= -1;
+  EXPECT_FALSE(motion());
+  r.problem.pairs[0].spec.condition = Condition::bilateral;
+  ASSERT_TRUE(motion() && pressed);
+  EXPECT_EQ(motion()->turned, pressed->turned);
+  EXPECT_EQ(motion()->slid, pressed->slid);
+}
+
 TEST(LineChecks, FailWhereALineTurnsOrSlidesByHalf) {
   EXPECT_EQ(moved(0.1, 0.1).status, Status::solved);
   const Results turned = moved(2.5, 0);  // 1.19 radians

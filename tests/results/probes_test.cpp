@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <numeric>
 
 #include "app/solve_scene.hpp"
+#include "error/goal_estimate.hpp"
+#include "fem/quadrature.hpp"
 #include "support/messages.hpp"
 #include "support/patches.hpp"
 #include "support/plate_scenes.hpp"
@@ -134,6 +137,30 @@ TEST(Probes, HaveBarsWhereErrorsAreEstimated) {
     EXPECT_GE(held, 0.95 * counted) << n;
     std::ranges::nth_element(ratios, ratios.begin() + ratios.size() / 2);
     EXPECT_LT(ratios[ratios.size() / 2], 40) << n;
+  }
+}
+
+// Where the elements' own stress crosses the recovered one both err: the bar is no less than the cell's own difference
+// in the mean.
+TEST(Probes, BarsOfStressesAreNoLessThanTheDifferenceOverTheirCell) {
+  ProbeSpec line = probe({}, "", 0);
+  line.line = true;
+  for (int i = 0; i <= 40; ++i) line.at.push_back((1.2 + 0.6 * i / 40) * Vec2(std::cos(0.6), std::sin(0.6)));
+  Results r = ring(6, {line});
+  estimate(r);
+  const Problem& problem = r.problem;
+  const StressPatches patches = recover_patches(
+      problem.mesh, problem.points, sample_stresses(problem.mesh, problem.discretisation.laws, r.solution.u));
+  for (const ProbeValue& v : r.recovery.probes) {
+    const int cell = v.place.in.cell;
+    const CellRule rule = product_rule(problem.mesh.cells[cell].kind, 2);
+    Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+    for (std::size_t q = 0; q < rule.points.size(); ++q)
+      squares += rule.weights[q] * stress_difference(problem.mesh, problem.points, problem.discretisation, r.solution.u,
+                                                     patches, {cell, rule.points[q], 0})
+                                       .cwiseAbs2();
+    squares /= std::accumulate(rule.weights.begin(), rule.weights.end(), 0.0);
+    EXPECT_GE((v.error->stress - error_safety * squares.cwiseSqrt()).minCoeff(), 0) << v.place.x.transpose();
   }
 }
 

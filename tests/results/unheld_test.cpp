@@ -30,6 +30,21 @@ contact = [{ between = ["foot", "top"] }]
 )" + more));
 }
 
+// The body turns about (0, 0) and travels along x; another body's motions are none of its own.
+TEST(Unheld, AComponentIsUndeterminedWhereAnyMotionOfTheBodyMovesThePlace) {
+  Results r;
+  const auto at = [&](double x, double y) { return unheld_at(r, 0, Vec2(x, y)); };
+  using Unheld = std::array<bool, 2>;
+  r.unheld = {{{.body = 1, .translation = {1, 1}, .rotation = 0, .centre = {0, 0}}}};
+  EXPECT_EQ(at(0, 0), (Unheld{false, false}));
+  r.unheld = {{{.body = 0, .translation = {1, 0}, .rotation = 1, .centre = {0, 0}}}};
+  EXPECT_EQ(at(0, 1), (Unheld{false, false}));  // the turn undoes the travel
+  EXPECT_EQ(at(0, -1), (Unheld{true, false}));
+  EXPECT_EQ(at(2, 1), (Unheld{false, true}));
+  r.unheld.push_back({{.body = 0, .translation = {0, 0}, .rotation = 0, .centre = {0, 0}}});
+  EXPECT_EQ(at(0, -1), (Unheld{true, false}));
+}
+
 TEST(Unheld, ADisplacementAlongAMotionThatNothingHoldsIsNoGoal) {
   const TemporaryFolder folder;
   const auto told = [&](const std::string& at, const std::string& body) {

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "app/solve_scene.hpp"
+#include "results/data_warnings.hpp"
 #include "support/plate_scenes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -27,6 +28,20 @@ std::string all(const Results& r) {
   std::string text;
   for (const std::string& note : r.warnings) text += note + "\n";
   return text;
+}
+
+// From a hundredth of an entry on that elements cannot follow.
+TEST(DataWarnings, NameEachEntryThatVariesWithinElements) {
+  const auto entry = [](const std::string& key, double part) {
+    return EntryMisfit{.key = key, .part = part, .at = {1, 2}, .finest = 0.1, .size = 0.5};
+  };
+  const auto lines = data_warnings({.parts = {}, .entries = {entry("a", 0.011), entry("b", 0.009), entry("c", 0.5)}});
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(
+      lines[0].rfind("a varies within elements near (1, 2): over a length of 0.1, where they are 0.5 wide; 1.1 %", 0),
+      0U)
+      << lines[0];
+  EXPECT_EQ(lines[1].rfind("c varies", 0), 0U);
 }
 
 TEST(Notes, NodesThatFaceNothingAreAsTheyShouldBe) {

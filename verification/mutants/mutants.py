@@ -1,8 +1,8 @@
 """Faults put into the program on purpose, one at a time: does a test notice?
 
 Each line of mutants.txt is a fault: file @@ old text @@ new text @@ what it breaks, and @@ why it may survive where no
-test can tell. It goes into a copy of the tree, which is built incrementally; then the tests run, the cheap ones first:
-those of at most 0.1 s, those of at most 5 s, the other C++ tests, the Python tests on scenes. What kills it ends its
+test can tell. It goes into a copy of the tree, which is built incrementally; then the tests run, the cheap ones first: of at most
+0.1 s (of its own room 1 s), of at most 5 s, the other C++ tests, the Python tests on scenes. What kills it ends its
 turn. A mutant that does not compile is an error of the list. Results stand in WORK/journal.csv, by the fault's line;
 those that are there are not run again."""
 
@@ -11,6 +11,7 @@ import csv
 import json
 import os
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -70,9 +71,9 @@ class Tree:
                         "-D", f"CMAKE_PROJECT_INCLUDE={self.source}/verification/mutants/library_units.cmake"],
                        check=True, stdout=subprocess.DEVNULL, env=self.env)  # fmt: skip
 
-    def compile(self, jobs):
+    def compile(self, jobs, target="mortise_tests"):
         """What the compiler says if it fails, else nothing."""
-        done = subprocess.run(["ninja", "-C", self.build, f"-j{jobs}", "mortise_executable", "mortise_tests"],
+        done = subprocess.run(["ninja", "-C", self.build, f"-j{jobs}", target],
                               text=True, errors="replace", capture_output=True, env=self.env)  # fmt: skip
         return done.stdout[-3000:] if done.returncode else ""
 
@@ -101,28 +102,51 @@ class Tree:
         return failed[0].split()[1].split("/")[-1] if failed else "" if done.returncode == 0 else "crash"
 
     def test_seconds(self):
-        """Of each C++ test without a fault. Tests that fail here say nothing of mutants: an error."""
-        found, report = self.work / "seconds.json", self.work / "report.json"
-        self.run_tests(["*"], 3600, f"--gtest_output=json:{report}")
-        tests = [(f"{suite['name']}.{test['name']}", test)
-                 for suite in json.loads(report.read_text())["testsuites"] for test in suite["testsuite"]]  # fmt: skip
-        failed = [name for name, test in tests if "failures" in test]
-        if failed:
-            sys.exit(f"mutants: tests fail without a fault: {', '.join(failed)}")
-        seconds = {name: float(test["time"].rstrip("s")) for name, test in tests}
-        found.write_text(json.dumps(seconds))
+        """Of each C++ test without a fault; what was measured before stays. Tests that fail here say nothing of mutants:
+        an error."""
+        kept, report = self.work / "seconds.json", self.work / "report.json"
+        known = json.loads(kept.read_text()) if kept.is_file() else {}
+        listed = subprocess.run([self.build / "tests/mortise_tests", "--gtest_list_tests"], text=True, check=True,
+                                capture_output=True, env=self.env).stdout.splitlines()  # fmt: skip
+        names, suite = [], ""
+        for line in listed:
+            suite = suite if line.startswith(" ") else line.split()[0]
+            names += [suite + line.split()[0]] if line.startswith(" ") else []
+        new = [name for name in names if name not in known]
+        if new:
+            self.run_tests(new, 3600, f"--gtest_output=json:{report}")
+            tests = [(f"{suite['name']}.{test['name']}", test)
+                     for suite in json.loads(report.read_text())["testsuites"] for test in suite["testsuite"]]  # fmt: skip
+            if failed := [name for name, test in tests if "failures" in test]:
+                sys.exit(f"mutants: tests fail without a fault: {', '.join(failed)}")
+            known.update((name, float(test["time"].rstrip("s"))) for name, test in tests)
+        seconds = {name: known[name] for name in names}
+        kept.write_text(json.dumps(seconds))
         return seconds
 
 
-def stages_of(seconds):
-    """Names and a time limit for each stage of C++ tests."""
-    limits = [(0, FAST), (FAST, QUICK), (QUICK, float("inf"))]
-    for least, most in limits:
-        names = [name for name, time in seconds.items() if least < time <= most or time == least == 0]
-        yield names, 60 + 10 * sum(seconds[name] for name in names)
+def suites_of(room):
+    """Of the tests of a room."""
+    code = "".join(path.read_text() for path in sorted(ROOT.glob(f"tests/{room}/*_test.cpp")))
+    return set(re.findall(r"\bTEST(?:_[FP])?\((\w+),", code))
 
 
-def judge(tree, mutant, stages, last, jobs):
+def stages_of(seconds, own):
+    """(stage, names, time limit) for each stage of C++ tests; `own`: suites that come first."""
+    is_own = {name: name.split(".")[0].split("/")[-1] in own for name in seconds}
+    parts = [
+        ("fast", lambda name, time: is_own[name] and time <= 10 * FAST),
+        ("fast", lambda name, time: not is_own[name] and time <= FAST),
+        ("quick", lambda name, time: is_own[name] and 10 * FAST < time <= QUICK),
+        ("quick", lambda name, time: not is_own[name] and FAST < time <= QUICK),
+        ("slow", lambda name, time: time > QUICK),
+    ]
+    for stage, belongs in parts:
+        names = [name for name, time in seconds.items() if belongs(name, time)]
+        yield stage, names, 60 + 20 * sum(seconds[name] for name in names)
+
+
+def judge(tree, mutant, seconds, last, jobs):
     """The stage that kills it ("survived": none, "error": it does not compile) and by what."""
     path = tree.source / "src" / mutant.file
     text = path.read_text()
@@ -130,11 +154,14 @@ def judge(tree, mutant, stages, last, jobs):
         path.write_text(text.replace(mutant.old, mutant.new))
         if trouble := tree.compile(jobs):
             return "error", trouble
-        for name, (tests, limit) in zip(STAGES, stages):
+        for name, tests, limit in stages_of(seconds, suites_of(room(mutant))):
+            if STAGES.index(name) > STAGES.index(last):
+                return "survived", last
             if tests and (killer := tree.run_tests(tests, limit, "--gtest_fail_fast")):
                 return name, killer
-            if name == last:
-                return "survived", name
+        if last == "slow":
+            return "survived", last
+        tree.compile(jobs, "mortise_executable")
         killer = tree.run_scenes()
         return ("scenes", killer) if killer else ("survived", "scenes")
     finally:
@@ -169,6 +196,7 @@ def main():
     parser.add_argument("count", nargs="?", type=int, help="so many, drawn at random (default: all, in order)")
     parser.add_argument("seed", nargs="?", type=int, default=1)
     parser.add_argument("--room", nargs="+", default=[], metavar="ROOM", help="of these folders of src only")
+    parser.add_argument("--match", default="", metavar="REGEX", help="of those whose file and words it fits only")
     parser.add_argument("--work", type=Path, default=ROOT / "out/mutants", help="tree, build folder and journal")
     parser.add_argument("--last", choices=STAGES, default="scenes", help="the last stage (default: scenes)")
     parser.add_argument("--again", action="store_true", help="those that survived before, from the start")
@@ -183,6 +211,7 @@ def main():
     if options.report:
         return print(table(mutants, journal))
     chosen = [m for m in mutants if not options.room or room(m) in options.room]
+    chosen = [m for m in chosen if re.search(options.match, f"{m.file}: {m.what}")]
     if options.again:
         chosen = [m for m in chosen if journal.get(m[:4], [""])[0] in ("survived", "error")]
     else:
@@ -194,10 +223,10 @@ def main():
     tree.configure()
     if trouble := tree.compile(options.jobs):
         sys.exit(f"mutants: the tree does not compile\n{trouble}")
-    stages = list(stages_of(tree.test_seconds()))
+    seconds_of_tests = tree.test_seconds()
     for m in chosen:
         start = time.perf_counter()
-        stage, by = judge(tree, m, stages, options.last, options.jobs)
+        stage, by = judge(tree, m, seconds_of_tests, options.last, options.jobs)
         seconds = time.perf_counter() - start
         print(f"{stage:9} {seconds:5.0f} s  {m.file}: {m.what}  {by.splitlines()[-1] if by else ''}", flush=True)
         journal[m[:4]] = [stage, by, f"{seconds:.1f}"]

@@ -1,0 +1,147 @@
+// Bars, norms and figures of an estimate, computed again from what the headers say they are.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/solve_scene.hpp"
+#include "error/error_estimate.hpp"
+#include "error/wanted_sizes.hpp"
+#include "fem/edges.hpp"
+
+namespace mortise {
+namespace {
+
+// Vertices at uneven distances, two windows with different far fields; the last vertex takes no part.
+PressureEstimate made_by_hand() {
+  PressureEstimate e;
+  e.line.s = VecX{{0, 1, 3, 4, 6, 7}};
+  e.line.p = VecX{{4, 2, 5, 1, 2, 0}};
+  e.line.h = VecX{{1, 1.5, 1.5, 1.5, 1.5, 1}};
+  for (const double s : e.line.s) e.line.position.emplace_back(s, 0);
+  e.line.faced.assign(5, 1);
+  e.line.loaded = {1, 1, 1, 1, 1, 0};
+  e.local = line_error(e.line);
+  for (const double s : {1.5, 4.5}) e.windows.push_back({.s = s, .place = {}, .weights = {}});
+  e.far = VecX{{0.25, 0.75}};
+  e.excluded.assign(6, 0);
+  return e;
+}
+
+const VecX far_of{{0.25, 0.25, 0.5, 0.25 + 0.5 * 2.5 / 3, 0.75, 0}};  // linear between the windows
+
+TEST(Bars, AreTheLocalErrorAndTheFarFieldTimesTheirSafety) {
+  PressureEstimate e = made_by_hand();
+  find_bars(e);
+  EXPECT_LT((e.bar - error_safety * (e.local.pointwise(e.line) + far_of)).norm(), 1e-14);
+  e.local.raise(2, 100);
+  find_bars(e);
+  EXPECT_NEAR(e.bar(2), error_safety * (100 + far_of(2)), 1e-12);
+}
+
+TEST(Bars, SquaresAreThoseOfTheNormsOfWhatCounts) {
+  PressureEstimate e = made_by_hand();
+  e.excluded[1] = 1;
+  find_bars(e);
+  double local2 = 0, far2 = 0, p2 = 0;
+  for (const int i : {0, 2, 3, 4}) {
+    local2 += std::pow(e.local.whole()(i), 2);
+    far2 += far_of(i) * far_of(i) * e.line.h(i);
+    p2 += e.line.p(i) * e.line.p(i) * e.line.h(i);
+  }
+  EXPECT_NEAR(e.local2, local2, 1e-12);
+  EXPECT_NEAR(e.far2, far2, 1e-12);
+  EXPECT_NEAR(e.p2, p2, 1e-12);
+  ErrorEstimate all;
+  all.pressures = {e, e};
+  EXPECT_NEAR(all.pressure(), error_safety * std::sqrt((local2 + far2) / p2), 1e-12);
+  EXPECT_NEAR(all.line(), std::sqrt(local2 / p2), 1e-12);
+  EXPECT_NEAR(all.far_field(), std::sqrt(far2 / p2), 1e-12);
+  EXPECT_NEAR(all.slopes(), std::sqrt(local2 / p2), 1e-12);
+}
+
+TEST(Bars, TheSeamOfAClosedLineCountsOnce) {
+  PressureEstimate e = made_by_hand();
+  e.line.loaded[5] = 1;
+  EXPECT_TRUE(e.counts(0) && e.counts(5));
+  e.line.closed = true;
+  EXPECT_TRUE(e.counts(0));
+  EXPECT_FALSE(e.counts(5));
+}
+
+TEST(Bars, OfThePeakIsThatOfTheLargestPressureOfAllPairs) {
+  ErrorEstimate all;
+  all.pressures = {made_by_hand(), made_by_hand()};
+  all.pressures[0].bar = VecX{{1, 2, 3, 4, 5, 6}};
+  all.pressures[1].bar = VecX{{6, 5, 4, 3, 2, 1}};
+  all.pressures[1].line.p(2) = 4.9;
+  EXPECT_NEAR(all.peak(), 3.0 / 5, 1e-15);
+  all.pressures[1].line.p(2) = 8;
+  EXPECT_NEAR(all.peak(), 4.0 / 8, 1e-15);
+  all.pressures[0].local.borders = {{.edge = 0, .part = 0.1}, {.edge = 3, .part = 0.5}, {.edge = 4, .part = 0.2}};
+  all.pressures[1].local.borders = {{.edge = 1, .part = 0.3}};
+  EXPECT_EQ(all.half_width(), 0.5);
+}
+
+TEST(Bars, WhatLiesBesideAPointWithoutLimitIsLeftOut) {
+  PressureEstimate e = made_by_hand();
+  SingularPoint point{
+      .position = {3, 0}, .edge = 1, .exponent = 0.5, .pressure_exponent = 1, .meeting = {}, .wedges = {}};
+  e.singular = {point};
+  find_excluded(0.3, e);
+  EXPECT_EQ(e.excluded, std::vector<char>(6, 0));  // p has a limit there
+  e.singular[0].pressure_exponent = 0.5;
+  find_excluded(0.3, e);
+  EXPECT_NEAR(e.excluded_distance, 0.3 * 6, 1e-15);
+  EXPECT_EQ(e.excluded, (std::vector<char>{0, 0, 1, 1, 0, 0}));
+  e.singular[0].pressure_exponent = 1;
+  e.singular[0].log_pressure = 1;
+  find_excluded(0.3, e);
+  EXPECT_EQ(e.excluded, (std::vector<char>{0, 0, 1, 1, 0, 0}));
+  find_excluded(2, e);  // nothing would be left: all counts
+  EXPECT_EQ(e.excluded, std::vector<char>(6, 0));
+}
+
+const Results& solved(const std::string& scene) {
+  static std::map<std::string, Results> known;
+  const auto found = known.find(scene);
+  if (found != known.end()) return found->second;
+  Results r = solve_scene(read_scene(MORTISE_SOURCE_DIR + scene));
+  estimate(r);
+  return known.emplace(scene, std::move(r)).first->second;
+}
+
+TEST(PressureLine, LengthsAreHalvesOfTheEdgesAndTheOneEdgeOfAnEnd) {
+  for (const char* scene : {"/geo/patch_flat.toml", "/geo/hertz.toml"}) {
+    const Results& r = solved(scene);
+    const ContactPair& pair = r.problem.pairs[0];
+    const PressureLine line = pressure_line(r.problem.mesh, pair, r.solution.lambda, 0);
+    const auto edge = [&](Eigen::Index e) { return edge_length(r.problem.mesh.nodes, pair.multiplier.edges[e]); };
+    const Eigen::Index last = line.h.size() - 1;
+    for (Eigen::Index i = 1; i < last; ++i) EXPECT_NEAR(line.h(i), (edge(i - 1) + edge(i)) / 2, 1e-15) << scene;
+    EXPECT_NEAR(line.h(0), edge(0), 1e-15) << scene;
+    EXPECT_NEAR(line.h(last), edge(last - 1), 1e-15) << scene;
+    const PressureLine none = pressure_line(r.problem.mesh, pair, r.solution.lambda, 1e3 * line.p.maxCoeff());
+    EXPECT_EQ(none.p.cwiseAbs().maxCoeff(), 0);
+    EXPECT_EQ(none.loaded, std::vector<char>(line.p.size(), 0));
+  }
+}
+
+// Of each edge of the mesh: sizes at its ends differ by no more than the growth over its length.
+TEST(WantedSizes, GrowWithinTheLimitOverEachEdge) {
+  const Results& r = solved("/geo/hertz.toml");
+  const Mesh& mesh = r.problem.mesh;
+  const VecX sizes =
+      wanted_sizes(mesh, r.problem.pairs, *r.estimate, {.line = 100, .far_field = 100, .target = 1e-4, .border = 0})
+          .sizes;
+  double steepest = 0;
+  for (const Cell& cell : mesh.cells)
+    for (int a = 0; a < corner_count(cell.kind); ++a) {
+      const int i = cell.nodes[a], j = cell.nodes[(a + 1) % corner_count(cell.kind)];
+      steepest = std::max(steepest, std::abs(sizes(i) - sizes(j)) / (mesh.nodes.row(i) - mesh.nodes.row(j)).norm());
+    }
+  EXPECT_LE(steepest, size_growth * (1 + 1e-12));
+  EXPECT_GE(steepest, 0.99 * size_growth);  // the limit is used
+}
+
+}  // namespace
+}  // namespace mortise

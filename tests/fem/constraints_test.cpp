@@ -1,0 +1,46 @@
+// What supports prescribe of single nodes.
+#include "fem/constraints.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mesh/grid.hpp"
+#include "support/messages.hpp"
+
+namespace mortise::test {
+namespace {
+
+Mesh square() { return testing_meshes::plate(CellKind::quad4, 1, 1); }
+
+TEST(Constraints, AValueThatContradictsAnotherIsRefused) {
+  const Mesh mesh = square();
+  Constraints constraints = no_constraints(mesh);
+  prescribe(mesh, "first", 0, 1, 0.001, constraints);
+  prescribe(mesh, "same", 0, 1, 0.001 * (1 + 1e-14), constraints);
+  prescribe(mesh, "other component", 0, 0, 0.5, constraints);
+  EXPECT_NE(message_of([&] {
+              prescribe(mesh, "second", 0, 1, 0.0010000005, constraints);
+            }).find("boundary 'second': displacement y = 0.001"),
+            std::string::npos);
+}
+
+TEST(Constraints, HoldTheAxisOfRingsButForRoundOff) {
+  Mesh mesh = square();
+  mesh.nodes.col(0).array() -= mesh.nodes.col(0).minCoeff();
+  const double size = mesh.nodes.col(0).maxCoeff();
+  const auto held = [&](double off) {
+    Mesh moved = mesh;
+    for (Eigen::Index i = 0; i < moved.nodes.rows(); ++i)
+      if (moved.nodes(i, 0) == 0) moved.nodes(i, 0) = off * size;
+    Constraints constraints = no_constraints(moved);
+    hold_axis(moved, constraints);
+    return std::count(constraints.fixed.begin(), constraints.fixed.end(), 1);
+  };
+  EXPECT_EQ(held(0), 2);
+  EXPECT_EQ(held(1e-12), 2);
+  EXPECT_EQ(held(-1e-12), 2);
+  EXPECT_EQ(held(1e-3), 0);
+  EXPECT_NE(message_of([&] { held(-0.01); }).find("beyond the axis x = 0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mortise::test
