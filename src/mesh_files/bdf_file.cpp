@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
+#include "mesh_files/element_types.hpp"
 
 namespace mortise {
 namespace {
@@ -23,21 +24,6 @@ const std::map<std::string, int> kinds{{"CTRIA3", 2},  {"CTRIAR", 2},  {"CPLSTN3
                                        {"CPLSTN6", 9}, {"CPLSTS6", 9}, {"CQUAD4", 3},   {"CQUADR", 3},   {"CPLSTN4", 3},
                                        {"CPLSTS4", 3}, {"CQUAD8", 16}, {"CPLSTN8", 16}, {"CPLSTS8", 16}, {"CBAR", 1},
                                        {"CBEAM", 1},   {"CROD", 1}};
-
-std::size_t nodes_of(int type) {
-  switch (type) {
-    case 1:
-      return 2;
-    case 2:
-      return 3;
-    case 3:
-      return 4;
-    case 9:
-      return 6;
-    default:
-      return 8;
-  }
-}
 
 bool is_solid(const std::string& name) {
   for (const char* other : {"CHEXA", "CTETRA", "CPENTA", "CPYRAM", "CTRIAX", "CQUADX", "CQUAD", "CSHEAR"})
@@ -193,7 +179,8 @@ class BdfReader {
 
   void read_element(const Entry& entry, std::int64_t tag, const NodeRows& rows) {
     SetElement element{tag, kinds.at(entry.name), {}};
-    for (std::size_t k = 0; k < nodes_of(element.type); ++k) {
+    const int count = element_type(element.type)->node_count;
+    for (std::size_t k = 0; k < std::size_t(count); ++k) {
       const int row = rows.find(integer(entry, 2 + k, "a node's number"));
       if (row < 0) fail(entry, entry.name + ": there is no node " + entry.fields[2 + k]);
       element.nodes.push_back(row);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 #include <tuple>
 
 #include "base/errors.hpp"
+#include "base/union_find.hpp"
 #include "mesh_files/element_types.hpp"
 
 namespace mortise {
@@ -86,20 +86,15 @@ bool parts_the_cells(const SetMesh& mesh, const std::vector<int>& sets, std::vec
 
 /// Cells with common nodes are of one part.
 Bodies connected_parts(const SetMesh& mesh) {
-  std::vector<int> parent(mesh.nodes.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int node) {
-    while (parent[node] != node) node = parent[node] = parent[parent[node]];
-    return node;
-  };
+  UnionFind nodes(mesh.nodes.size());
   for (const SetElement& element : mesh.elements)
     if (is_cell(element))
-      for (const int node : element.nodes) parent[root(node)] = root(element.nodes[0]);
+      for (const int node : element.nodes) nodes.join(node, element.nodes[0]);
   Bodies bodies{.names = {}, .of_element = std::vector<int>(mesh.elements.size(), -1), .named_by_tag = true};
   std::map<int, int> numbers;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     if (!is_cell(mesh.elements[e])) continue;
-    const auto [number, starts] = numbers.emplace(root(mesh.elements[e].nodes[0]), int(numbers.size()));
+    const auto [number, starts] = numbers.emplace(nodes.find(mesh.elements[e].nodes[0]), int(numbers.size()));
     if (starts) bodies.names.push_back("surface_" + std::to_string(numbers.size()));
     bodies.of_element[e] = number->second;
   }

@@ -3,36 +3,22 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <optional>
 #include <sstream>
 
+#include "mesh_files/element_types.hpp"
 #include "mesh_files/inp_cards.hpp"
 
 namespace mortise {
 namespace {
 
-/// A finite-element descriptor: gmsh's number of the kind and its nodes; of second order corners and middles take
-/// turns.
-struct Kind {
-  int type, nodes;
-};
-
-std::optional<Kind> kind_of(std::int64_t descriptor) {
-  if (descriptor == 11 || descriptor == 21 || descriptor == 22) return Kind{1, 2};
-  if (descriptor == 23 || descriptor == 24) return Kind{8, 3};
-  if (descriptor < 41 || descriptor > 95) return std::nullopt;
-  switch (descriptor % 10) {  // of plane stress, plane strain, plates, membranes, rings, shells
-    case 1:
-      return Kind{2, 3};
-    case 2:
-      return Kind{9, 6};
-    case 4:
-      return Kind{3, 4};
-    case 5:
-      return Kind{16, 8};
-    default:
-      return std::nullopt;
-  }
+/// gmsh's number of the kind of element that a finite-element descriptor names, 0 if it is left out. Corners and
+/// middles of second order take turns.
+int kind_of(std::int64_t descriptor) {
+  if (descriptor == 11 || descriptor == 21 || descriptor == 22) return 1;
+  if (descriptor == 23 || descriptor == 24) return 8;
+  if (descriptor < 41 || descriptor > 95) return 0;
+  static constexpr int by_last_digit[10] = {0, 2, 9, 0, 3, 16, 0, 0, 0, 0};
+  return by_last_digit[descriptor % 10];  // of plane stress, plane strain, plates, membranes, rings, shells
 }
 
 bool is_beam(std::int64_t descriptor) { return descriptor == 11 || (descriptor >= 21 && descriptor <= 24); }
@@ -110,11 +96,12 @@ class UnvReader {
       const InpLine& head = next(lines, i, 6);
       const auto number = [&](int k, const char* what) { return inp_integer(input_, head, head.fields[k], what); };
       const std::int64_t descriptor = number(1, "a finite-element descriptor"), count = number(5, "a number of nodes");
-      const std::optional<Kind> kind = kind_of(descriptor);
-      if (kind && kind->nodes != count)
-        input_.fail_at(head.record, "expected " + std::to_string(kind->nodes) + " nodes of an element of the kind " +
+      const int type = kind_of(descriptor);
+      const int expected = type != 0 ? element_type(type)->node_count : int(count);
+      if (expected != count)
+        input_.fail_at(head.record, "expected " + std::to_string(expected) + " nodes of an element of the kind " +
                                         head.fields[1] + ", found " + head.fields[5]);
-      SetElement element{number(0, "an element's number"), kind ? kind->type : 0, {}};
+      SetElement element{number(0, "an element's number"), type, {}};
       if (is_beam(descriptor)) next(lines, i, 1);
       while (std::int64_t(element.nodes.size()) < count) {
         const InpLine& line = next(lines, i, 1);
@@ -125,8 +112,8 @@ class UnvReader {
         }
       }
       if (std::int64_t(element.nodes.size()) > count) input_.fail_at(head.record, "has more nodes than it says");
-      if (!kind) ++left_out_[head.fields[1]];
-      if (kind && (kind->type == 8 || kind->type == 9 || kind->type == 16)) corners_first(element.nodes);
+      if (type == 0) ++left_out_[head.fields[1]];
+      if (type == 8 || type == 9 || type == 16) corners_first(element.nodes);
       element_tags_.push_back(element.tag);
       int property = 0;
       std::from_chars(head.fields[2].data(), head.fields[2].data() + head.fields[2].size(), property);
