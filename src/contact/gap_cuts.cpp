@@ -32,9 +32,10 @@ std::array<double, 2> gap_slopes_at_ends(const Points& nodes, const Curve& multi
 
 LineFunction gap_along(const Points& nodes, const Curve& multiplier, const ContactGeometry& geometry, int edge,
                        const FieldRange& range, double scale) {
-  return along_edge(
-      nodes, multiplier.edges[edge], gap_field(geometry), range,
-      [&geometry, edge](double xi) { return geometry.s->at(edge, xi); }, scale);
+  LineFunction gap = along_edge(nodes, multiplier.edges[edge], gap_field(geometry), range,
+                                [&geometry, edge](double xi) { return geometry.s->at(edge, xi); });
+  gap.scale = scale;
+  return gap;
 }
 
 double gap_scale(const Points& nodes, const Curve& multiplier, const ContactGeometry& geometry,

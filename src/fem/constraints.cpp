@@ -13,14 +13,12 @@ Constraints no_constraints(const Mesh& mesh) {
   return {std::vector<char>(2 * mesh.nodes.rows(), 0), VecX::Zero(2 * mesh.nodes.rows())};
 }
 
-void prescribe(const Mesh& mesh, const std::string& name, int node, int component, double value,
-               Constraints& constraints) {
-  const int dof = 2 * node + component;
+void prescribe(const Mesh& mesh, const std::string& name, int dof, double value, Constraints& constraints) {
   const double other = constraints.value(dof), round_off = 1e-12 * std::max(std::abs(value), std::abs(other));
   if (constraints.fixed[dof] && std::abs(value - other) > round_off) {
     std::ostringstream text;
-    text << mesh.source << ": boundary '" << name << "': displacement " << (component ? "y" : "x") << " = " << value
-         << " " << near_point(mesh.nodes.row(node).transpose()) << ", where another boundary prescribes " << other
+    text << mesh.source << ": boundary '" << name << "': displacement " << (dof % 2 ? "y" : "x") << " = " << value
+         << " " << near_point(mesh.nodes.row(dof / 2).transpose()) << ", where another boundary prescribes " << other
          << "; expected one value a node";
     throw InputError(text.str());
   }
@@ -33,7 +31,7 @@ void prescribe(const Mesh& mesh, int boundary, int component, const std::functio
   const Boundary& curve = mesh.boundaries[boundary];
   for (const Edge& edge : curve.edges)
     for (int a = 0; a < edge.node_count; ++a)
-      prescribe(mesh, curve.name, edge.nodes[a], component, value(edge.nodes[a]), constraints);
+      prescribe(mesh, curve.name, 2 * edge.nodes[a] + component, value(edge.nodes[a]), constraints);
 }
 
 void prescribe(const Mesh& mesh, int boundary, int component, double value, Constraints& constraints) {

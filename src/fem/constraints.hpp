@@ -10,9 +10,8 @@ namespace mortise {
 
 Constraints no_constraints(const Mesh& mesh);
 
-/// Prescribes component 0 or 1 at a node that is called `name`, for messages.
-void prescribe(const Mesh& mesh, const std::string& name, int node, int component, double value,
-               Constraints& constraints);
+/// Prescribes unknown `dof` at a node that is called `name`, for messages.
+void prescribe(const Mesh& mesh, const std::string& name, int dof, double value, Constraints& constraints);
 
 /// The same on a boundary, by the value at each node. Throws InputError, with coordinates, where
 /// another value already stands at a node (boundaries may share nodes, but must agree there up to round-off).

@@ -97,7 +97,7 @@ void LineScale::look_at(const LineFunction& f) {
 double LineScale::value() const { return scale_of(values_.value_or(Interval{1, 1}), range_); }
 
 LineFunction along_edge(const Points& nodes, const Edge& edge, const Field& field, const FieldRange& range,
-                        const std::function<double(double xi)>& s, double scale) {
+                        const std::function<double(double xi)>& s) {
   const bool uses_s = field.uses_arc_length();
   const auto place = [&nodes, edge](double xi) { return edge_point(nodes, edge, xi).position; };
   return {.at = [&field, s, place, uses_s](double xi) { return field(place(xi), uses_s ? s(xi) : 0); },
@@ -109,8 +109,7 @@ LineFunction along_edge(const Points& nodes, const Edge& edge, const Field& fiel
             const Vec2 low = start.cwiseMin(end).cwiseMin(crossing), high = start.cwiseMax(end).cwiseMax(crossing);
             const double s_from = uses_s ? s(from) : 0, s_to = uses_s ? s(to) : 0;
             return range({{low.x(), high.x()}, {low.y(), high.y()}, {std::min(s_from, s_to), std::max(s_from, s_to)}});
-          },
-          .scale = scale};
+          }};
 }
 
 std::vector<double> resolving_cuts(const LineFunction& f) {

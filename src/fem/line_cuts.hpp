@@ -30,9 +30,9 @@ class LineScale {
 };
 
 /// A field along an edge. `range`: its own. `s`: the arc length at xi; asked where the field uses it. What is given
-/// must outlive the function, but for the edge.
+/// must outlive the function, but for the edge. Its scale is 1.
 LineFunction along_edge(const Points& nodes, const Edge& edge, const Field& field, const FieldRange& range,
-                        const std::function<double(double xi)>& s, double scale = 1);
+                        const std::function<double(double xi)>& s);
 
 /// Cuts, ascending, from -1 to 1: between two of them four Gauss points integrate f, f xi and f xi^2 to 1e-9 of the
 /// scale. {-1, 1} where they do so on the whole edge. Pieces are halved, the worst first (Piessens et al., QUADPACK,

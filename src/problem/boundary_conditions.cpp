@@ -100,8 +100,8 @@ void prescribe(const Mesh& mesh, const BoundaryEntry& entry, const Displacement&
   for (const int p : entry.points)
     for (const int node : mesh.points[p].nodes) {
       const Vec2 x = mesh.nodes.row(node).transpose();
-      if (u.x) prescribe(mesh, mesh.points[p].name, node, 0, (*u.x)(x), constraints);
-      if (u.y) prescribe(mesh, mesh.points[p].name, node, 1, (*u.y)(x), constraints);
+      if (u.x) prescribe(mesh, mesh.points[p].name, 2 * node, (*u.x)(x), constraints);
+      if (u.y) prescribe(mesh, mesh.points[p].name, 2 * node + 1, (*u.y)(x), constraints);
     }
   prescribe(mesh, entry.curves, 0, u.x, constraints);
   prescribe(mesh, entry.curves, 1, u.y, constraints);

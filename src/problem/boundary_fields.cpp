@@ -56,7 +56,9 @@ BoundaryFields::BoundaryFields(const Mesh& mesh, const std::vector<NamedBoundary
 }
 
 LineFunction BoundaryFields::along(std::size_t k, const NamedBoundary& on, int e, const Edge& edge) const {
-  return along_edge(mesh_.nodes, edge, *fields_[k], ranges_[k], arc_along(on, e), scales_[k]);
+  LineFunction f = along_edge(mesh_.nodes, edge, *fields_[k], ranges_[k], arc_along(on, e));
+  f.scale = scales_[k];
+  return f;
 }
 
 std::vector<double> BoundaryFields::cuts(const NamedBoundary& on, int e, const Edge& edge) const {

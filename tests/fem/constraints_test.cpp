@@ -14,11 +14,11 @@ Mesh square() { return testing_meshes::plate(CellKind::quad4, 1, 1); }
 TEST(Constraints, AValueThatContradictsAnotherIsRefused) {
   const Mesh mesh = square();
   Constraints constraints = no_constraints(mesh);
-  prescribe(mesh, "first", 0, 1, 0.001, constraints);
-  prescribe(mesh, "same", 0, 1, 0.001 * (1 + 1e-14), constraints);
-  prescribe(mesh, "other component", 0, 0, 0.5, constraints);
+  prescribe(mesh, "first", 1, 0.001, constraints);
+  prescribe(mesh, "same", 1, 0.001 * (1 + 1e-14), constraints);
+  prescribe(mesh, "other component", 0, 0.5, constraints);
   EXPECT_NE(message_of([&] {
-              prescribe(mesh, "second", 0, 1, 0.0010000005, constraints);
+              prescribe(mesh, "second", 1, 0.0010000005, constraints);
             }).find("boundary 'second': displacement y = 0.001"),
             std::string::npos);
 }

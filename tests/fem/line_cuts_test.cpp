@@ -32,7 +32,9 @@ class OnEdge {
   LineFunction function() const {
     LineScale scale;
     scale.look_at(along_edge(nodes_, edge_, field_, range_, {}));
-    return along_edge(nodes_, edge_, field_, range_, {}, scale.value());
+    LineFunction f = along_edge(nodes_, edge_, field_, range_, {});
+    f.scale = scale.value();
+    return f;
   }
 
   const Points nodes_{{0.0, 0.0}, {1.0, 0.0}};
