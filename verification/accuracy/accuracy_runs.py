@@ -1,18 +1,15 @@
 """What the study runs: the scenes, what is asked of them, the first meshes; and a run as a row."""
 
 import math
-import sys
 import tempfile
 import time
 from pathlib import Path
 
 import launch
+import persson
 
 HERE = Path(__file__).resolve().parent
 STABILITY = HERE.with_name("stability")
-sys.path.insert(0, str(STABILITY))
-
-import persson
 
 ANGLE = math.radians(80)  # where the pin's contact ends
 STIFFNESS = 210e9 / (1 - 0.3**2)  # E / (1 - nu^2) of all steel here

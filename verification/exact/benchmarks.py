@@ -24,6 +24,7 @@ import layer
 import page
 import patches
 import peers
+import persson
 import runs
 import template
 
@@ -169,8 +170,8 @@ def page_text(lines, asked, pictures, patch, large, others):
 def main(arguments=None):
     names = [case.name for case in benchmark_cases.CASES]
     options = launch.command_line(__doc__, "benchmarks", arguments, names=names, jobs=False, docs=True)
-    stability = HERE.with_name("stability")
-    depends = [*HERE.glob("*.py"), *HERE.glob("*.geo"), stability / "persson.py", stability / "pin.geo", *HERE.with_name("chart").glob("*getfem*.py")]
+    others = [persson.__file__, HERE.with_name("stability") / "pin.geo", *HERE.with_name("chart").glob("*getfem*.py")]
+    depends = [*HERE.glob("*.py"), *HERE.glob("*.geo"), *map(Path, others)]
     store = runs.Store(options.output / "runs", sorted(depends))
     os.environ.update(launch.ONE_THREAD)
     rows, lines, answers, pictures, second, wrong = [], [], [], [], [], []

@@ -1,19 +1,16 @@
 """The benchmarks: of each the scene, the exact pressure along the line, and how it is compared."""
 
 import math
-import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Callable
 
-import numpy as np
-
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.with_name("stability")))
-
 import closed_forms
 import layer
+import numpy as np
 import persson
+
+HERE = Path(__file__).resolve().parent
 
 STEEL, ALUMINIUM = (210e3, 0.3), (70e3, 0.33)
 SIZE = 100  # of the blocks that stand for half planes, in half widths of the contact
