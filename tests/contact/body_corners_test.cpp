@@ -42,6 +42,27 @@ std::vector<BodyCorner> corners_of(const Mesh& mesh, const std::vector<ElasticLa
   return corners_of(mesh, no_constraints(mesh), laws);
 }
 
+// By the direction in which all of its nodes are held: across the face it is a line of symmetry, along it one of
+// antisymmetry.
+TEST(BodyCorners, AFaceIsWhatHoldsAllOfItsNodes) {
+  const Mesh mesh = quarters(1);
+  const Edge along_x{2, {0, 1, -1}}, along_y{2, {1, 2, -1}};
+  const auto face = [&](const Edge& edge, const std::vector<std::pair<int, int>>& held) {
+    Constraints constraints = no_constraints(mesh);
+    for (const auto& [node, component] : held) constraints.fixed[2 * node + component] = 1;
+    return face_of(mesh.nodes, edge, constraints);
+  };
+  EXPECT_EQ(face(along_x, {}), Face::free);
+  EXPECT_EQ(face(along_x, {{0, 0}, {0, 1}}), Face::free);
+  EXPECT_EQ(face(along_x, {{0, 1}, {1, 1}}), Face::symmetric);
+  EXPECT_EQ(face(along_x, {{0, 0}, {1, 0}}), Face::antisymmetric);
+  EXPECT_EQ(face(along_y, {{1, 1}, {2, 1}}), Face::antisymmetric);
+  EXPECT_EQ(face(along_y, {{1, 0}, {2, 0}}), Face::symmetric);
+  EXPECT_EQ(face(along_x, {{0, 0}, {0, 1}, {1, 0}, {1, 1}}), Face::clamped);
+  EXPECT_EQ(face(along_x, {{0, 0}, {0, 1}, {1, 1}}), Face::symmetric);  // one node held in both
+  EXPECT_EQ(face(along_x, {{0, 0}, {1, 1}}), Face::free);
+}
+
 TEST(BodyCorners, AreThoseThatTurnInwards) {
   EXPECT_TRUE(corners_of(quarters(1), {steel}).empty());
   EXPECT_TRUE(corners_of(quarters(2), {steel, steel}).empty());

@@ -42,5 +42,15 @@ TEST(Outline, FindsTheNearestOfSlantedEdges) {
   }
 }
 
+// By ends and middles: a square of 8-node cells whose one outer middle node lies 0.2 outside.
+TEST(Outline, KnowsTheAreaBehindCurvedEdges) {
+  Mesh mesh = testing_meshes::plate(CellKind::quad8, 1, 1);
+  for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i)
+    if (mesh.nodes(i, 0) == 1 && mesh.nodes(i, 1) == 0.5) mesh.nodes(i, 0) = 1.2;
+  const Outline o = outline(boundary_edges(mesh), mesh.nodes);
+  ASSERT_EQ(o.pieces.size(), 1U);
+  EXPECT_NEAR(o.pieces[0].area, 1 + 0.2 / 2, 1e-15);
+}
+
 }  // namespace
 }  // namespace mortise::test

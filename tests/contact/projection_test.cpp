@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <random>
 
+#include "contact/gap_cuts.hpp"
 #include "contact/segments.hpp"
 #include "fem/edges.hpp"
 #include "support/two_plates.hpp"
@@ -83,6 +85,42 @@ TEST(Foot, IsWhereTheNormalPassesThroughThePoint) {
   EXPECT_FALSE(foot_on_edge(e.nodes, e.curve.edges[0], Vec2(2, 0)));
 }
 
+// Strongly bent edges too, on which Newton's method goes astray.
+TEST(Foot, IsFoundWhereverTheOffsetChangesItsSign) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> part(-1, 1);
+  int found = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Points nodes = (Points(3, 2) << 0, 0, 1, 0, 0.5 + 0.2 * part(random), 0.8 * part(random)).finished();
+    const Edge edge{3, {0, 1, 2}};
+    const Vec2 x(0.5 + part(random), part(random));
+    const auto offset = [&](double xi) {
+      const EdgePoint p = edge_point(nodes, edge, xi);
+      return (x - p.position).dot(p.tangent);
+    };
+    const auto foot = foot_on_edge(nodes, edge, x);
+    if (foot) {
+      EXPECT_LE(std::abs(*foot), 1) << k;
+      EXPECT_LE(std::abs(offset(*foot)), 1e-10) << k;
+    }
+    if (offset(-1) > 0 && offset(1) < 0) EXPECT_TRUE(foot) << k;
+    found += foot.has_value();
+  }
+  EXPECT_GT(found, 500);
+}
+
+// An edge that goes past the line and comes back: start, middle and end lie on one side.
+TEST(Projection, OfAnEdgeThatGoesPastTheLineAndBackIsWhereItFacesIt) {
+  const Points nodes = (Points(3, 2) << -4, 0.2, -1, -0.2, -0.05, 0).finished();
+  const Curve curve{0, 0, {{3, {0, 1, 2}}}, {}, false};
+  const auto hit = project_onto_edge(nodes, curve, 0, {Vec2(0, 1), Vec2(0, -1), 10});
+  ASSERT_TRUE(hit);
+  const EdgePoint at = edge_point(nodes, curve.edges[0], hit->xi);
+  EXPECT_NEAR(at.position.x(), 0, 1e-14);
+  EXPECT_GT(at.normal().y(), 0);
+  EXPECT_NEAR(hit->distance, 1 - at.position.y(), 1e-14);
+}
+
 // ---- Segments ----
 
 using test::TwoPlates;
@@ -137,17 +175,21 @@ TEST(Segments, CoverACurvedLineFromBothSides) {
 }
 
 TEST(Segments, CoverOnlyWhereTheCurvesFaceEachOther) {
-  Curves c = curves_of({});
-  // The upper plate pushed to the right by a quarter of an edge and more: the lower one sticks out on the left.
-  const auto body = std::find(c.mesh.bodies.begin(), c.mesh.bodies.end(), "upper") - c.mesh.bodies.begin();
-  std::vector<char> moved(c.mesh.nodes.rows(), 0);
-  for (const Cell& cell : c.mesh.cells)
-    if (cell.body == body)
-      for (int a = 0; a < node_count(cell.kind); ++a) moved[cell.nodes[a]] = 1;
-  for (Eigen::Index i = 0; i < c.mesh.nodes.rows(); ++i)
-    if (moved[i]) c.mesh.nodes(i, 0) += 0.13;
-  EXPECT_NEAR(covered(find_segments(c.mesh.nodes, {c.lower, c.upper, {}, {}, {}}), c, c.lower), 0.67, 1e-12);
-  EXPECT_NEAR(covered(find_segments(c.mesh.nodes, {c.upper, c.lower, {}, {}, {}}), c, c.upper), 0.67, 1e-12);
+  for (const int edges : {7, 1}) {
+    TwoPlates plates;
+    plates.n_upper = edges;
+    Curves c = curves_of(plates);
+    // The upper plate pushed to the right by a quarter of an edge and more: the lower one sticks out on the left.
+    const auto body = std::find(c.mesh.bodies.begin(), c.mesh.bodies.end(), "upper") - c.mesh.bodies.begin();
+    std::vector<char> moved(c.mesh.nodes.rows(), 0);
+    for (const Cell& cell : c.mesh.cells)
+      if (cell.body == body)
+        for (int a = 0; a < node_count(cell.kind); ++a) moved[cell.nodes[a]] = 1;
+    for (Eigen::Index i = 0; i < c.mesh.nodes.rows(); ++i)
+      if (moved[i]) c.mesh.nodes(i, 0) += 0.13;
+    EXPECT_NEAR(covered(find_segments(c.mesh.nodes, {c.lower, c.upper, {}, {}, {}}), c, c.lower), 0.67, 1e-12);
+    EXPECT_NEAR(covered(find_segments(c.mesh.nodes, {c.upper, c.lower, {}, {}, {}}), c, c.upper), 0.67, 1e-12);
+  }
 }
 
 TEST(Segments, VerticesThatAlmostCoincideMakeNoSlivers) {
@@ -196,6 +238,20 @@ TEST(Segments, DoNotDependOnWhereAClosedCurveBegins) {
       }
     }
   }
+}
+
+// Away from either end, of a gap that is no straight line.
+TEST(GapCuts, SlopesAtTheEndsAreThoseOfTheGivenGap) {
+  const Curves c = curves_of({});
+  ContactGeometry geometry;
+  geometry.given = Field("x^2 + 3*x", {});
+  const bool backwards = c.mesh.nodes(c.lower.edges[0].nodes[0], 0) > 0.4;
+  auto slopes = gap_slopes_at_ends(c.mesh.nodes, c.lower, geometry);
+  if (backwards) std::swap(slopes[0], slopes[1]);
+  EXPECT_NEAR(slopes[0], 3, 1e-7);
+  EXPECT_NEAR(slopes[1], -(2 * 0.8 + 3), 1e-7);
+  geometry.given = Field(0.1);
+  EXPECT_EQ(gap_slopes_at_ends(c.mesh.nodes, c.lower, geometry), (std::array<double, 2>{0, 0}));
 }
 
 }  // namespace

@@ -71,6 +71,8 @@ TEST(LineMisfit, IsWhatAParabolaLeavesOfAFunction) {
   const LineMisfit step = OnEdge("x < 0.5 ? 0 : 1").what_is_left();
   EXPECT_NEAR(step.mean, 5. / 24, 0.01);  // by four points on either side
   EXPECT_NEAR(step.mean_of_f, 0.5, 1e-9);
+  const LineMisfit with_parabola = OnEdge("(x < 0.5 ? 0 : 1) + 1 + 3 * x - 5 * (2 * x - 1)^2").what_is_left();
+  EXPECT_NEAR(with_parabola.mean, step.mean, 0.01);  // on other cuts
   const LineMisfit spike = OnEdge("exp(-((x - 0.4137) / 1e-3)^2)").what_is_left();
   EXPECT_NEAR(spike.at, 2 * 0.4137 - 1, 1e-3);
   EXPECT_LT(spike.finest, 4e-3);

@@ -45,5 +45,24 @@ TEST(Locate, GoesToTheNearestPlaceBesideABodyAndToNoneAway) {
   EXPECT_TRUE(locate(mesh, upper, {0.41, 0.3}) && locate(mesh, lower, {0.41, 0.3}));  // where they meet
 }
 
+// Beyond each side and each corner of a triangle.
+TEST(Locate, GoesToTheNearestPlaceOfATriangle) {
+  Mesh mesh;
+  mesh.bodies = {"one"};
+  mesh.nodes = (Points(3, 2) << 0, 0, 1, 0, 0, 1).finished();
+  mesh.cells = {{CellKind::tri3, 0, {0, 1, 2}}};
+  const std::pair<Vec2, Vec2> places[] = {{{0.73, 0.31}, {0.71, 0.29}},
+                                          {{0.3, -0.04}, {0.3, 0}},
+                                          {{-0.03, 0.6}, {0, 0.6}},
+                                          {{1.05, 0.01}, {1, 0}},
+                                          {{-0.02, 1.05}, {0, 1}}};
+  for (const auto& [x, nearest] : places) {
+    const auto place = locate(mesh, 0, x);
+    ASSERT_TRUE(place) << x.transpose();
+    EXPECT_LE((position(mesh, *place) - nearest).norm(), 1e-14) << x.transpose();
+    EXPECT_NEAR(place->distance, (x - nearest).norm(), 1e-14);
+  }
+}
+
 }  // namespace
 }  // namespace mortise

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "solve/coarse_rows.hpp"
+#include "solve/dense_rows.hpp"
 
 namespace mortise {
 namespace {
@@ -130,6 +131,54 @@ TEST(ActiveSet, OneSolveWhereNothingIsInTension) {
   EXPECT_EQ(r.steps.size(), 1u);
   EXPECT_EQ(r.steps[0].active, 3);
   EXPECT_EQ(r.steps[0].changed, 0);
+}
+
+TEST(ActiveSet, AStepTellsTheMostOfWhatItFoundInAnyRow) {
+  const Problem open = held_problem(MatX::Identity(3, 3), Eigen::Vector3d(-3, -5, -1));
+  const ActiveSetResult penetrated = open.solve({0, 0, 0});
+  EXPECT_EQ(penetrated.steps[0].penetration, 5);
+  EXPECT_EQ(penetrated.steps[0].tension, 0);
+  EXPECT_EQ(penetrated.steps[0].changed, 3);
+  const ActiveSetResult pulled = held_problem(MatX::Identity(3, 3), Eigen::Vector3d(3, 5, 1)).solve({1, 1, 1});
+  EXPECT_EQ(pulled.steps[0].tension, 5);
+  EXPECT_EQ(pulled.steps[0].penetration, 0);
+}
+
+// With a part of the answer known and taken off the right-hand side, the whole answer is the same: open rows carry
+// nothing.
+TEST(ActiveSet, WhatIsKnownOfTheMultipliersChangesNoAnswer) {
+  std::mt19937 random(5);
+  const Problem p = random_problem(random, 6, 0, false);
+  const std::vector<char> closed{1, 0, 1, 1, 0, 1};
+  const ComplementarityProblem whole = p.problem();
+  const ContactRows::Answer answer = DenseRows(whole, p.rhs).solve(closed, {});
+  ComplementarityProblem rest = whole;
+  rest.known = VecX::LinSpaced(6, -2, 3);
+  rest.displacement = 1;
+  const VecX left = p.rhs - p.compliance * rest.known;
+  const ContactRows::Answer corrected = DenseRows(rest, left).solve(closed, {});
+  EXPECT_LT((corrected.lambda - answer.lambda).norm(), 1e-10 * answer.lambda.norm());
+  EXPECT_LT((corrected.w - answer.w).norm(), 1e-10 * p.rhs.norm());
+}
+
+TEST(ActiveSet, AnOpenRowThatPenetratesIsSeen) {
+  SaddlePointSystem s;
+  s.B = MatX(MatX::Identity(2, 2)).sparseView();
+  s.g = VecX::Zero(2);
+  s.row_scale = VecX::Ones(2);
+  s.unilateral = {1, 1};
+  Solution solution;
+  const auto seen = [&](double second, std::vector<char> active) {
+    solution.u = VecX{{1, second}};
+    solution.active = std::move(active);
+    return penetrates(s, solution);
+  };
+  EXPECT_TRUE(seen(-1e-6, {1, 0}));
+  EXPECT_FALSE(seen(-1e-6, {1, 1}));
+  EXPECT_FALSE(seen(-1e-13, {1, 0}));
+  EXPECT_FALSE(seen(1e-6, {1, 0}));
+  s.unilateral = {1, 0};
+  EXPECT_FALSE(seen(-1e-6, {1, 0}));
 }
 
 TEST(ActiveSet, RoundOffChangesNoRow) {

@@ -8,6 +8,7 @@ those that are there are not run again."""
 
 import argparse
 import csv
+import fnmatch
 import json
 import os
 import random
@@ -150,6 +151,8 @@ def judge(tree, mutant, seconds, last, jobs):
     """The stage that kills it ("survived": none, "error": it does not compile) and by what."""
     path = tree.source / "src" / mutant.file
     text = path.read_text()
+    if text.count(mutant.old) != 1:
+        return "error", "its old text does not stand once in its file"
     try:
         path.write_text(text.replace(mutant.old, mutant.new))
         if trouble := tree.compile(jobs):
@@ -200,6 +203,7 @@ def main():
     parser.add_argument("--work", type=Path, default=ROOT / "out/mutants", help="tree, build folder and journal")
     parser.add_argument("--last", choices=STAGES, default="scenes", help="the last stage (default: scenes)")
     parser.add_argument("--again", action="store_true", help="those that survived before, from the start")
+    parser.add_argument("--filter", metavar="SUITE.TEST", help="of the tests of at most 5 s these only, as in --gtest_filter")
     parser.add_argument("--jobs", type=int, default=2, help="of the compiler (default: 2)")
     parser.add_argument("--report", action="store_true", help="only print what the journal says")
     options = parser.parse_args()
@@ -224,6 +228,10 @@ def main():
     if trouble := tree.compile(options.jobs):
         sys.exit(f"mutants: the tree does not compile\n{trouble}")
     seconds_of_tests = tree.test_seconds()
+    if options.filter:
+        patterns = options.filter.split(":")
+        seconds_of_tests = {name: seconds for name, seconds in seconds_of_tests.items()
+                            if any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns)}  # fmt: skip
     for m in chosen:
         start = time.perf_counter()
         stage, by = judge(tree, m, seconds_of_tests, options.last, options.jobs)
