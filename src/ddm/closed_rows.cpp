@@ -7,8 +7,10 @@
 namespace mortise {
 namespace {
 
-// Of a motion's own diagonal of the coarse problem: a pivot below it is round-off.
+// What a motion that the rows hold does to them, over what its springs' unknowns would do one by one; and the pivots,
+// of their diagonals, that no other motions' have: each is followed up.
 constexpr double rigid_limit = 1e-9;
+constexpr double small_pivot = 1e-4;
 constexpr double dependent_limit = 1e-13;  // likewise of a row's
 constexpr double of_one_row = 1e-2;        // a single multiplier's error that counts as much as one of all in energy
 constexpr double negligible_work = 1e-5;   // of its terms
@@ -94,15 +96,37 @@ void ClosedRows::hold_motions() {
   const double most = size.maxCoeff();
   for (double& of_motion : size)
     if (!(of_motion > rigid_limit * most)) of_motion = most > 0 ? most : 1;
-  // A thousandth of the limit keeps pivots that should be zero from spoiling those after them.
-  coarse_.compute(with_diagonal(E, 1e-3 * rigid_limit * size));
-  const VecX pivots = coarse_.vectorD();
-  for (Eigen::Index k = 0; k < springs; ++k) {
-    const int spring = coarse_.permutationPinv().indices()(k);
-    if (!(pivots(k) > rigid_limit * size(spring))) free_.push_back(spring);
-  }
+  // A thousandth of the limit keeps pivots that should be zero from spoiling those after them. It makes the pivot of a
+  // free motion larger, too, by how little the motion moves the pivot's spring: what small pivots stand for is looked
+  // at, the softest first, which is all of it where two stand for one.
   VecX held = VecX::Zero(springs);
-  held(free_) = size(free_);
+  for (bool all_told = false; !all_told;) {
+    const SparseMatrix with_held = with_diagonal(E, held);
+    coarse_.compute(with_diagonal(with_held, 1e-3 * rigid_limit * size));
+    const VecX pivots = coarse_.vectorD();
+    const std::size_t before = free_.size();
+    double least = rigid_limit;
+    VecX softest;
+    all_told = true;
+    for (Eigen::Index k = 0; k < springs; ++k) {
+      const int spring = coarse_.permutationPinv().indices()(k);
+      if (!(pivots(k) > rigid_limit * size(spring))) free_.push_back(spring);
+      if (pivots(k) > small_pivot * size(spring) || !(pivots(k) > rigid_limit * size(spring))) continue;
+      const VecX motion = coarse_.solve(VecX(VecX::Unit(springs, spring) * size(spring))),
+                 energies = size.cwiseProduct(motion.cwiseAbs2());
+      const double softness = motion.dot(with_held * motion) / energies.sum();
+      if (!(softness < least)) continue;
+      least = softness;
+      softest = energies;
+      all_told = false;
+    }
+    if (free_.size() == before && softest.size() > 0) {
+      Eigen::Index moved;
+      softest.maxCoeff(&moved);
+      free_.push_back(int(moved));
+    }
+    held(free_) = size(free_);
+  }
   coarse_.compute(with_diagonal(E, held));
   MatX found(springs, Eigen::Index(free_.size()));
   for (std::size_t k = 0; k < free_.size(); ++k)

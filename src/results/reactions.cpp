@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <map>
+#include <utility>
 
 #include "base/overloaded.hpp"
 #include "fem/edges.hpp"
@@ -62,11 +63,8 @@ class Collector {
     return sum;
   }
 
-  Resultant take_rest() {
-    Resultant sum;
-    for (int node = 0; node < int(mesh_.nodes.rows()); ++node) take_node(node, true, true, sum);
-    return sum;
-  }
+  /// What has not been added, n.
+  const VecX& rest() const { return left_; }
 
  private:
   void take_node(int node, bool x, bool y, Resultant& sum) {
@@ -155,7 +153,14 @@ Reactions find_reactions(const Problem& problem, const Solution& solution) {
   }
   for (const RigidSupport& rigid : d.multipoint.rigid_curves)
     r.rigid_motions.push_back(rigid_motion(rigid.curve, *d.system.constraints.multipoint, solution.u));
-  r.held = collector.take_rest();
+  r.held_bodies.resize(mesh.bodies.size());
+  std::vector<char> counted(mesh.nodes.rows(), 0);
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+    for (int p = problem.points.first[b]; p < problem.points.first[b + 1]; ++p)
+      if (const int node = problem.points.node[p]; !std::exchange(counted[node], 1))
+        r.held_bodies[b].add(mesh.nodes.row(node).transpose(), collector.rest().segment<2>(2 * node));
+    r.held += r.held_bodies[b];
+  }
   r.all += r.held;
   r.loads = sum_of_loads(mesh, d);
   return r;

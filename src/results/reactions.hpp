@@ -23,9 +23,10 @@ struct Reactions {
   std::vector<Resultant> ties;     ///< on the nodes that follow, of Mesh::ties
   /// Of Discretisation::multipoint: displacement of `about`, and the turn in radians.
   std::vector<Eigen::Vector3d> rigid_motions;
-  Resultant held;   ///< of the motions that nothing holds (validate.hpp): round-off
-  Resultant loads;  ///< of all nodes; initial strains, which are in balance, left out
-  Resultant all;    ///< of supports and held motions
+  Resultant held;                      ///< of the motions that nothing holds (validate.hpp)
+  std::vector<Resultant> held_bodies;  ///< the same of each body of the mesh, nodes that several share with the first
+  Resultant loads;                     ///< of all nodes; initial strains, which are in balance, left out
+  Resultant all;                       ///< of supports and held motions
 };
 
 Reactions find_reactions(const Problem& problem, const Solution& solution);

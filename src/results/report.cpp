@@ -11,14 +11,14 @@
 namespace mortise {
 namespace {
 
-Json balance_json(const Reactions& r) {
-  Json balance;
-  const auto add = [&](const char* name, const Resultant& sum) {
-    balance[name] = {{"force", {sum.force.x(), sum.force.y()}}, {"moment", sum.moment}};
+Json balance_json(const Results& results) {
+  const auto of = [](const Resultant& sum) -> Json {
+    return {{"force", {sum.force.x(), sum.force.y()}}, {"moment", sum.moment}};
   };
-  add("loads", r.loads);
-  add("reactions", r.all);
-  add("held", r.held);
+  const Reactions& r = results.recovery.reactions;
+  Json balance{{"loads", of(r.loads)}, {"reactions", of(r.all)}, {"held", of(r.held)}};
+  for (std::size_t b = 0; b < r.held_bodies.size(); ++b)
+    if (r.held_bodies[b].size > 0) balance["held"]["bodies"][results.problem.mesh.bodies[b]] = of(r.held_bodies[b]);
   return balance;
 }
 
@@ -172,6 +172,7 @@ Json seconds_json(const Seconds& s) {
 Json counts_json(const Results& r) {
   return {{"contact", r.problem.pairs.empty() ? 0 : r.solution.steps.size()},
           {"contact_coarse", r.solution.coarse_steps},
+          {"contact_interior", r.solution.interior_steps},
           {"solver", r.solution.iteration ? r.solution.iteration->steps : 0}};
 }
 
@@ -212,7 +213,7 @@ Json report_of(const Results& r) {
               {"probes", r.recovery.probes.size()},
               {"energy", r.recovery.energy},
               {"contact", contacts_json(r)},
-              {"balance", balance_json(r.recovery.reactions)},
+              {"balance", balance_json(r)},
               {"extremes", extremes_json(r)},
               {"checks", checks_json(r.checks)},
               {"warnings", r.warnings}};

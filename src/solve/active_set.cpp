@@ -1,5 +1,8 @@
 #include "solve/active_set.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "solve/coarse_rows.hpp"
 #include "solve/dense_rows.hpp"
 #include "solve/interior_point.hpp"
@@ -9,7 +12,8 @@ namespace mortise {
 namespace {
 
 constexpr double least_penetration = 1e-11;  // of the largest displacement
-constexpr double without_pressure = 1e-8;    // of the largest: rows that are closed again if they must be
+constexpr int most_descents = 60;  // an interior point leaves a few rows to change, where those just touch some tens
+constexpr double without_pressure = 1e-8;  // of the largest: rows that are closed again if they must be
 
 // Unilateral rows that must not stay as they are: closed and in tension, or open and penetrated; `step` has the most of
 // both.
@@ -33,35 +37,61 @@ std::vector<int> infeasible_rows(const ContactRows& rows, const ContactRows::Ans
   return infeasible;
 }
 
-// The method from a given active set. r.infeasible is empty where it ended, also on a solution that is not finite or an
-// iteration inside that ended early (not_converged). `at`: as of ContactRows::solve.
-void iterate(ContactRows& rows, std::vector<char> start, const VecX& at, int max_steps, int may_stall,
-             ActiveSetResult& r) {
-  r.active = std::move(start);
-  r.infeasible.clear();
-  for (std::size_t a = 0; a < r.active.size(); ++a)
-    if (!rows.unilateral()[a]) r.active[a] = 1;
-  std::size_t fewest = r.active.size() + 1;
-  int left = may_stall;
-  for (int step = 1;; ++step) {
-    ContactRows::Answer answer = rows.solve(r.active, at);
+// Where motions that no closed row holds, nor a load drives, go so that no open row is penetrated.
+VecX out_of_the_way(const ContactRows& rows, const ContactRows::Answer& answer, const std::vector<char>& active) {
+  const MatX free = rows.free_motions();
+  return free.cols() == 0 ? answer.mu : least_motions(rows, answer.mu, free, answer.w, active);
+}
+
+// Solves with r.active closed; false if that is the end: the solution is not finite, an iteration inside ended early,
+// or no row is infeasible. `at`: as of ContactRows::solve; where it is given, free motions may leave it for open rows'
+// sake.
+bool look(ContactRows& rows, const VecX& at, ActiveSetResult& r, ContactRows::Answer& answer) {
+  answer = rows.solve(r.active, at);
+  const auto penetrated = [&](int a) { return !r.active[a]; };
+  for (bool may_move = at.size() > 0;; may_move = false) {
+    r.infeasible.clear();
     r.status = answer.status;
     r.dependent_row = answer.dependent_row;
     r.lambda = answer.lambda;
     r.mu = answer.mu;
     r.driven_mode = answer.driven_mode;
-    if (r.status != SolveStatus::converged) return;
+    if (r.status != SolveStatus::converged) return false;
     r.status = SolveStatus::not_converged;
-    if (!r.lambda.allFinite() || !r.mu.allFinite() || !answer.w.allFinite()) return;
+    if (!r.lambda.allFinite() || !r.mu.allFinite() || !answer.w.allFinite()) return false;
     r.infeasible = infeasible_rows(rows, answer, r.active, r.steps.emplace_back());
-    r.status = r.driven_mode.any() ? SolveStatus::unconstrained : SolveStatus::converged;
-    if (r.infeasible.empty()) {
-      if (r.status == SolveStatus::unconstrained || !rows.refine()) return;
+    if (!may_move || r.driven_mode.any() || std::ranges::none_of(r.infeasible, penetrated)) break;
+    const VecX moved = out_of_the_way(rows, answer, r.active);
+    if (moved == r.mu) break;
+    answer = rows.solve(r.active, moved);
+  }
+  if (!r.infeasible.empty()) return true;
+  r.status = r.driven_mode.any() ? SolveStatus::unconstrained : SolveStatus::converged;
+  return false;
+}
+
+void change(const std::vector<int>& changed, ActiveSetResult& r) {
+  r.steps.back().changed = int(changed.size());
+  for (const int a : changed) r.active[a] ^= 1;
+}
+
+// The method from a given active set. r.infeasible is empty where it ended, also on a solution that is not finite or an
+// iteration inside that ended early (not_converged). `at`: as of ContactRows::solve.
+void iterate(ContactRows& rows, std::vector<char> start, const VecX& at, int max_steps, int may_stall,
+             ActiveSetResult& r) {
+  r.active = std::move(start);
+  for (std::size_t a = 0; a < r.active.size(); ++a)
+    if (!rows.unilateral()[a]) r.active[a] = 1;
+  std::size_t fewest = r.active.size() + 1;
+  int left = may_stall;
+  ContactRows::Answer answer;
+  for (int step = 1;; ++step) {
+    if (!look(rows, at, r, answer)) {
+      if (r.status != SolveStatus::converged || !rows.refine()) return;
       fewest = r.active.size() + 1;
       step = 0;
       continue;
     }
-    r.status = SolveStatus::not_converged;
     if (step == max_steps) return;  // the solution belongs to r.active
     if (r.infeasible.size() < fewest) {
       fewest = r.infeasible.size();
@@ -69,8 +99,40 @@ void iterate(ContactRows& rows, std::vector<char> start, const VecX& at, int max
     } else if (--left < 0) {
       return;
     }
-    r.steps.back().changed = int(r.infeasible.size());
-    for (const int a : r.infeasible) r.active[a] ^= 1;
+    change(r.infeasible, r);
+  }
+}
+
+// The rows that change on the way from pressures `carried`, which carry the load, to those of the closed rows, and how
+// far that goes: until rows are without pressure, which open, or to its end, where penetrated rows close. Where the
+// closed rows let the load drive a motion, some of `carried` that they are without holds it: the row that does most of
+// that closes.
+std::vector<int> first_on_the_way(const ActiveSetResult& r, const ContactRows::Answer& to, VecX& carried) {
+  if (r.driven_mode.any()) {
+    Eigen::Index most;
+    if (carried.cwiseProduct(to.opening).maxCoeff(&most) > 0 && !r.active[most]) return {int(most)};
+  }
+  const auto way = [&](int a) { return r.active[a] ? carried(a) / (carried(a) - r.lambda(a)) : 1.0; };
+  const double shortest = way(*std::ranges::min_element(r.infeasible, {}, way));
+  std::vector<int> changed;
+  std::ranges::copy_if(r.infeasible, std::back_inserter(changed), [&](int a) { return way(a) <= shortest; });
+  carried += shortest * (r.lambda - carried);
+  return changed;
+}
+
+// The active set method of convex programmes (Fletcher, J. Inst. Maths Applics 7 (1971) 76-91) from an interior point.
+// Each step lowers the energy, so that no set comes twice but by round-off.
+void descend(ContactRows& rows, const InteriorPoint& from, ActiveSetResult& r) {
+  r.active = from.closed;
+  VecX carried = from.at.lambda;
+  for (Eigen::Index a = 0; a < carried.size(); ++a)
+    if (rows.unilateral()[a]) carried(a) = std::min(carried(a), 0.0);
+  ContactRows::Answer answer;
+  for (int left = most_descents; left > 0; --left) {
+    if (look(rows, from.at.mu, r, answer))
+      change(first_on_the_way(r, answer, carried), r);
+    else if (r.status != SolveStatus::converged || !rows.refine())
+      return;
   }
 }
 
@@ -119,10 +181,10 @@ void find(ContactRows& rows, std::vector<char> start, const ActiveSetOptions& op
   r.interior_steps = point.steps;
   if (!point.converged) {
     r.driven_mode = driven_motions(rows);
-    r.status = r.driven_mode.any() ? SolveStatus::unconstrained : SolveStatus::not_converged;
-    return;
+    r.status = SolveStatus::unconstrained;
+    if (r.driven_mode.any()) return;
   }
-  iterate(rows, point.closed, point.at.mu, options.settling_steps, options.settling_steps, r);
+  descend(rows, point, r);
   if (r.status == SolveStatus::converged) move_least(rows, options, r);
 }
 
@@ -146,8 +208,11 @@ ActiveSetResult find_active_set(const ComplementarityProblem& p, const VecX& rhs
   }
   DenseRows rows(p, rhs);
   const std::vector<char> all(p.scale.size(), 1);
-  iterate(rows, start.empty() ? all : start, {}, options.start_steps, options.max_stalled_steps, r);
-  if (!ended(r)) {
+  if (p.known.size() > 0)
+    descend(rows, {.at = {.lambda = p.known, .mu = VecX::Zero(rows.motions())}, .closed = start}, r);
+  else
+    iterate(rows, start.empty() ? all : start, {}, options.start_steps, options.max_stalled_steps, r);
+  if (!ended(r) && p.known.size() == 0) {
     std::vector<char> next = guess(p, rhs, options, r.coarse_steps);
     if (next == r.active)  // nothing learned
       for (const int a : r.infeasible) next[a] ^= 1;
@@ -176,6 +241,7 @@ void take_active_set(const SaddlePointSystem& s, const ActiveSetResult& set, Sol
     solution.steps.push_back(step);
   }
   solution.coarse_steps += set.coarse_steps;
+  solution.interior_steps += set.interior_steps;
   solution.infeasible = set.infeasible;
   solution.driven_mode = set.driven_mode;
   solution.rigid_modes = set.free_motions;

@@ -59,7 +59,7 @@ ContactRows::Answer DenseRows::solve(const std::vector<char>& closed, const VecX
                largest_stress = largest_entry(answer.lambda.cwiseQuotient(p_.scale));
   answer.negligible_tension = std::max(least_tension * largest_stress, negligible_stress_);
   answer.negligible_penetration = std::max(negligible_penetration * largest_gap, p_.round_off);
-  answer.driven_mode = system_->driven_mode(rhs, found);
+  answer.driven_mode = system_->driven_mode(rhs, found, answer.lambda);
   answer.opening = opened(answer.driven_mode);
   return answer;
 }

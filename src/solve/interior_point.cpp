@@ -10,10 +10,11 @@ constexpr int least_progress = 5;         // good enough, and so many steps with
 constexpr double exact = 1e-12;           // of the largest terms: some thousand round-offs
 constexpr double balanced = 1e-10;        // likewise, of the equations: differences of springs' terms
 constexpr double path_round_off = 1e-15;  // of the largest terms, its square of their product
-constexpr double apart = 1e5;             // pressure over gap, or gap over pressure, of a row that is told
-constexpr double good_enough = 1e-5;      // the same, for the rows to be told apart
-constexpr double runaway = 1e8;           // pressures over those of the start, where nothing carries the load
-constexpr double to_the_edge = 0.995;     // of the way to where a pressure or a gap is zero (Mehrotra 1992)
+constexpr double least_told = path_round_off / balanced;  // pressures, of the start: what is balanced can be computed
+constexpr double apart = 1e5;          // pressure over gap, or gap over pressure, of a row that is told
+constexpr double good_enough = 1e-5;   // the same, for the rows to be told apart
+constexpr double runaway = 1e8;        // pressures over those of the start, where nothing carries the load
+constexpr double to_the_edge = 0.995;  // of the way to where a pressure or a gap is zero (Mehrotra 1992)
 
 // Newton's method for x = -lambda and z = w, both positive on unilateral rows. Compared are x over, and gaps times, the
 // root of the compliance of each row, and work over the root of each motion's stiffness: all are then of one unit.
@@ -105,8 +106,9 @@ class Path {
     left_ = rows_.gaps(at_) - z_;
     work_ = rows_.unbalanced(at_.lambda);
     mean_ = product({at_, z_});
-    const double size = largest(unit_, largest_pressure());
-    error_ = fraction(largest({gap_size(left_), work_size(work_), count_ > 0 ? mean_ / unit_ : 0}), size);
+    const double size = largest(largest_pressure(), count_ > 0 ? least_told * unit_ : unit_);
+    error_ =
+        fraction(largest({gap_size(left_), work_size(work_), count_ > 0 ? mean_ / std::min(unit_, size) : 0}), size);
   }
 
   // Mean of -lambda w.

@@ -76,15 +76,15 @@ VecX MultiplierSystem::solve(const VecX& rhs) const {
   return x;
 }
 
-VecX MultiplierSystem::driven_mode(const VecX& rhs, const VecX& x) const {
+VecX MultiplierSystem::driven_mode(const VecX& rhs, const VecX& x, const VecX& lambda) const {
   VecX driven = VecX::Zero(springs_);
   if (rigid_modes_.cols() == 0) return driven;
   // Of the rows in balance with what they hold: springs make on_active(rhs) far larger, and its round-off with it.
-  const VecX y = x(active_), work = unbalanced(rhs, y),
-             terms = rhs.tail(springs_).cwiseAbs() + H_.cwiseAbs().transpose() * y.cwiseAbs();
+  const VecX work = unbalanced(rhs, x(active_)), pressed = lambda(active_).cwiseAbs(),
+             terms = rhs.tail(springs_).cwiseAbs() + H_.cwiseAbs().transpose() * pressed;
   const VecX most = H_.cwiseAbs().rowwise().maxCoeff();  // in any motion, of each row
   const MatX sees = (H_.cwiseAbs().array() > (work_round_off * most).replicate(1, springs_).array()).cast<double>();
-  const VecX noise = curve_noise * sees.transpose() * most.cwiseProduct(y.cwiseAbs());
+  const VecX noise = curve_noise * sees.transpose() * most.cwiseProduct(pressed);
   const double round_off =
       work_round_off * largest_entry(terms);  // of bodies at which a mode is zero but for round-off
   for (const auto& motion : rigid_modes_.colwise())

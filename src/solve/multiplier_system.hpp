@@ -32,8 +32,8 @@ class MultiplierSystem {
   const MatX& rigid_modes() const { return rigid_modes_; }
   /// With x = solve(rhs), the rigid mode that the load drives, s, in its direction: H times it is how the rows open.
   /// Zero where the work of the load and the rows is no more than rows do that a motion opens too little to be held by
-  /// them.
-  VecX driven_mode(const VecX& rhs, const VecX& x) const;
+  /// them. `lambda`: m, of which x is, or corrects, the active rows'.
+  VecX driven_mode(const VecX& rhs, const VecX& x, const VecX& lambda) const;
 
  private:
   // h - H_A^T y: the load's work that the rows' forces y leave.

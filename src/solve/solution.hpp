@@ -95,6 +95,7 @@ struct Solution {
 
   std::vector<ActiveSetStep> steps;    ///< one a solve of the contact problem
   int coarse_steps = 0;                ///< solves on coarse rows, to start from
+  int interior_steps = 0;              ///< of the interior point, a factorisation each
   std::vector<int> infeasible;         ///< rows that the last step would still change
   std::optional<Iteration> iteration;  ///< where the method iterates
   double factorise_seconds = 0, solve_seconds = 0;

@@ -33,10 +33,11 @@ ConvexProblem problem(const MatX& C, const MatX& H, const VecX& r, const VecX& h
   return p;
 }
 
-enum class Kind { any, carried, degenerate, weak, pulled };
+enum class Kind { any, carried, degenerate, weak, apart, pulled };
 
 // `carried`: the load is what some pressures do. `degenerate`: and rows in threes are nearly one, some of them just
-// touch. `weak`: and motions open rows by 1 to 1e-4. `pulled`: the load on one motion goes away from all rows.
+// touch. `weak`: and motions open rows by 1 to 1e-4. `apart`: and open rows are 1 to 1e6 away. `pulled`: the load on
+// one motion goes away from all rows.
 ConvexProblem random_convex(std::mt19937& random, Kind kind, Eigen::Index m, Eigen::Index s) {
   std::normal_distribution<double> value;
   const auto draw = [&] { return value(random); };
@@ -56,6 +57,11 @@ ConvexProblem random_convex(std::mt19937& random, Kind kind, Eigen::Index m, Eig
     r = C * lambda + H * mu;  // all rows touch
     for (Eigen::Index a = 0; a < m; ++a)
       if (lambda(a) == 0 && a % 3 == 0) r(a) += 1;
+  }
+  if (kind == Kind::apart) {
+    r = C * lambda + H * mu;
+    for (Eigen::Index a = 0; a < m; ++a)
+      if (lambda(a) == 0) r(a) += std::pow(10.0, 6 * std::min(1.0, std::abs(draw())));
   }
   if (kind != Kind::any) h = H.transpose() * lambda;
   if (kind == Kind::pulled) h(0) = 1;
@@ -123,7 +129,8 @@ TEST_P(RandomContact, EndsAsASolutionOrAsAProofThatThereIsNone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RandomContact,
-                         testing::Values(Kind::any, Kind::carried, Kind::degenerate, Kind::weak, Kind::pulled));
+                         testing::Values(Kind::any, Kind::carried, Kind::degenerate, Kind::weak, Kind::apart,
+                                         Kind::pulled));
 
 TEST(InteriorPoint, AloneFindsTheRowsOfRandomProblems) {
   std::mt19937 random(5);
