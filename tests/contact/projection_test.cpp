@@ -6,6 +6,7 @@
 #include <random>
 
 #include "contact/gap_cuts.hpp"
+#include "contact/least_gap.hpp"
 #include "contact/segments.hpp"
 #include "fem/edges.hpp"
 #include "support/two_plates.hpp"
@@ -175,7 +176,7 @@ TEST(Segments, CoverACurvedLineFromBothSides) {
 }
 
 TEST(Segments, CoverOnlyWhereTheCurvesFaceEachOther) {
-  for (const int edges : {7, 1}) {
+  for (const auto& [edges, shift] : {std::pair(7, 0.13), {1, 0.13}, {7, -0.13}, {1, -0.13}}) {
     TwoPlates plates;
     plates.n_upper = edges;
     Curves c = curves_of(plates);
@@ -186,7 +187,7 @@ TEST(Segments, CoverOnlyWhereTheCurvesFaceEachOther) {
       if (cell.body == body)
         for (int a = 0; a < node_count(cell.kind); ++a) moved[cell.nodes[a]] = 1;
     for (Eigen::Index i = 0; i < c.mesh.nodes.rows(); ++i)
-      if (moved[i]) c.mesh.nodes(i, 0) += 0.13;
+      if (moved[i]) c.mesh.nodes(i, 0) += shift;
     EXPECT_NEAR(covered(find_segments(c.mesh.nodes, {c.lower, c.upper, {}, {}, {}}), c, c.lower), 0.67, 1e-12);
     EXPECT_NEAR(covered(find_segments(c.mesh.nodes, {c.upper, c.lower, {}, {}, {}}), c, c.upper), 0.67, 1e-12);
   }
@@ -252,6 +253,35 @@ TEST(GapCuts, SlopesAtTheEndsAreThoseOfTheGivenGap) {
   EXPECT_NEAR(slopes[1], -(2 * 0.8 + 3), 1e-7);
   geometry.given = Field(0.1);
   EXPECT_EQ(gap_slopes_at_ends(c.mesh.nodes, c.lower, geometry), (std::array<double, 2>{0, 0}));
+}
+
+// The upper plate comes down the more the farther right.
+TEST(LeastGap, IsWhereTheSidesComeNearest) {
+  const Curves c = curves_of({});
+  ContactInterface pair{c.lower, c.upper, {}, {}, {}};
+  pair.points = contact_points(c.mesh.nodes, pair, Integration::segments);
+  VecX u = VecX::Zero(2 * c.mesh.nodes.rows());
+  for (const int node : curve_nodes(c.upper)) u(2 * node + 1) = -0.1 * c.mesh.nodes(node, 0);
+  double right = 0;
+  for (const ContactPoint& p : pair.points)
+    right = std::max(right, edge_point(c.mesh.nodes, c.lower.edges[p.edge], p.xi).position.x());
+  const LeastGap least = least_gap(c.mesh.nodes, u, pair);
+  EXPECT_NEAR(least.approach, 0.1 * right, 1e-15);
+  EXPECT_NEAR(least.gap, -0.1 * right, 1e-15);
+  EXPECT_NEAR(least.place.x(), right, 1e-15);
+  EXPECT_NEAR(least.edge, 0.8 / double(c.lower.edges.size()), 1e-15);
+  EXPECT_LE(least_gap(c.mesh.nodes, -u, pair).approach, 0);  // they part
+}
+
+TEST(LeastGap, CurvesStayOpenThatComeNoNearerOrWhoseGapIsKnown) {
+  const auto open = [](double coarser, double finer, double approach) {
+    return stays_open({coarser, {}, 1, approach}, {finer, {}, 1, approach}, 1e-9);
+  };
+  EXPECT_TRUE(open(-1, -1, 1e-10));
+  EXPECT_TRUE(open(1, 0.7, 1));
+  EXPECT_FALSE(open(1, 0.6, 1));
+  EXPECT_FALSE(open(-1, -1, 1));
+  EXPECT_TRUE(open(1, std::numeric_limits<double>::infinity(), 1));
 }
 
 }  // namespace
