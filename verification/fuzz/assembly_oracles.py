@@ -18,7 +18,7 @@ DRIVEN = 1e-6  # work of the loads on a motion of 1, over their sizes: above the
 SAMPLED = 1e-2  # the same where curves touch: their normals are known to two degrees, slipping logs do a tenth and more
 EXACT = 1e-9
 APART = 1e-6  # of moments: a pair's force has another arm on either side of the gap between two meshes of an arc
-ROUND_OFF = 1e-13  # of Young's modulus times the largest displacement: some hundred round-offs of what stresses are differences of
+ROUND_OFF = 1e-12  # of Young's modulus times the largest displacement: gaps below that part of it are round-off to mortise, too
 HONEST = {"estimated error of p", "turn and slide of contact lines"}  # checks of the mesh and the model, not of the solver
 ALIKE = 1e-6  # forces of the pairs by two solvers, over the largest
 
