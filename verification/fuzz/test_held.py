@@ -7,7 +7,7 @@ from random import Random
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "benchmarks"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "exact"))
 
 import assemblies
 import assembly_oracles

@@ -25,7 +25,7 @@ ROOT = HERE.parents[1]
 STAGES = ["fast", "quick", "slow", "scenes"]
 FAST, QUICK = 0.1, 5  # seconds of a test, at most
 # Python tests that solve scenes; the others look at pages, pictures and programs.
-SCENES = ["exact", "benchmarks", "accuracy", "stability", "fuzz"]
+SCENES = ["exact", "accuracy", "stability", "fuzz"]
 
 Mutant = namedtuple("Mutant", "file old new what reason")
 
