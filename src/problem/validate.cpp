@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -33,9 +34,10 @@ std::vector<int> unknowns_to_hold(const Mesh& mesh, const std::vector<ContactPai
 }
 
 // Of each motion, whether the load drives it: by work of more than a part of its terms, round-off or how far the edges
-// of its bodies leave the curves that they stand for, and than what rounding of the motion makes.
+// of its bodies leave the curves that they stand for, and than what rounding makes of the motion and of edges' `turn`,
+// radians.
 std::vector<char> driven(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions, const VecX& load,
-                         const VecX& edge_error) {
+                         const VecX& edge_error, double turn) {
   std::vector<char> driven(motions.size(), 0);
   const double load_size = load.lpNorm<1>();
   for (const MotionSet& set : motion_sets(mesh, motions))
@@ -45,7 +47,7 @@ std::vector<char> driven(const Mesh& mesh, const std::vector<std::vector<RigidMo
       for (Eigen::Index i = 0; i < work.size(); ++i) work(i) = motion(i) * load(set.unknown(i));
       double part = 1e-9;
       for (const RigidMotion& of : motions[set.motions[k]]) part = std::max(part, edge_error(of.body));
-      const double least = 1e-12 * load_size * motion.lpNorm<Eigen::Infinity>();
+      const double least = std::max(1e-12, turn) * load_size * motion.lpNorm<Eigen::Infinity>();
       driven[set.motions[k]] = std::abs(work.sum()) > std::max(part * work.lpNorm<1>(), least);
     }
   return driven;
@@ -61,6 +63,17 @@ Floating find_floating(const Mesh& mesh, const Constraints& constraints) {
 }
 
 namespace {
+
+// By how much rounded coordinates turn the shortest edge of the contact, radians.
+double rounding_of_edges(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const ContactPair& pair : pairs)
+    for (const Curve* curve : {&pair.multiplier, &pair.opposite})
+      for (const Edge& edge : curve->edges)
+        shortest = std::min(shortest, (mesh.nodes.row(edge.nodes[1]) - mesh.nodes.row(edge.nodes[0])).norm());
+  return 4 * std::numeric_limits<double>::epsilon() * mesh.nodes.cwiseAbs().maxCoeff() /
+         shortest;  // both ends' x and y
+}
 
 std::vector<ContactNormal> normals_of(const Mesh& mesh, const ContactPair& pair) {
   std::vector<char> faces(pair.multiplier.edges.size(), 0);
@@ -78,8 +91,9 @@ std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const 
   for (const ContactPair& pair : pairs)
     for (const Curve* curve : {&pair.multiplier, &pair.opposite})
       edge_errors(curve->body) = std::max(edge_errors(curve->body), edge_error(mesh.nodes, *curve));
+  const double turn = rounding_of_edges(mesh, pairs);
   const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions) {
-    const std::vector<char> moves = driven(mesh, motions, system.f, edge_errors);
+    const std::vector<char> moves = driven(mesh, motions, system.f, edge_errors, turn);
     for (std::size_t k = 0; k < motions.size(); ++k) {
       if (moves[k])
         throw SceneError("nothing holds " + describe(mesh, motions[k]) +

@@ -168,6 +168,42 @@ FAMILIES = (heap, chain, bearing, arch, pin, wedge, bricks, rings)
 # ---- Cases ----
 
 
+class View(NamedTuple):
+    """The same assembly seen otherwise: in other units of length, mirrored, turned by quarters, then moved by lengths of its
+    own. Stresses are the same, forces as many times larger as lengths."""
+
+    unit: float = 1.0
+    mirrored: bool = False
+    quarters: int = 0
+    far: float = 0.0
+
+    def turned(self, x, y):
+        x = -x if self.mirrored else x
+        for _ in range(self.quarters):
+            x, y = -y, x
+        return x, y
+
+    def of(self, assembly):
+        size = assembly.size * self.unit
+
+        def place(point):
+            x, y = self.turned(*point)
+            return self.unit * x + self.far * size, self.unit * y - self.far * size
+
+        def part(one):
+            loops = [[(name, word, [place(point) for point in points]) for name, word, points in loop] for loop in one.loops]
+            axes = "yx" if self.quarters % 2 else "xy"
+            held = {curve: "".join(axes["xy".index(axis)] for axis in held) for curve, held in one.held.items()}
+            force = tuple(component / self.unit for component in self.turned(*one.force))
+            return Part(one.name, loops, held, force)
+
+        return Assembly(assembly.what, [part(one) for one in assembly.parts], assembly.pairs, size)
+
+
+def other_view(r):
+    return View(r.choice((1.0, 1e-3, 1e3)), r.random() < 0.5, r.randint(0, 3), r.choice((0.0, 1e3, 1e6)))
+
+
 def geo(assembly, order, quads):
     lines = [f"Mesh.ElementOrder = {order}; Mesh.SecondOrderIncomplete = 1; Mesh.RecombineAll = {quads};"]
     for k, part in enumerate(assembly.parts):
@@ -188,12 +224,16 @@ def make_assembly(seed, number):
     r = random.Random(f"{seed}:assembly:{number}")
     assembly = r.choice(FAMILIES)(r, 10 ** r.uniform(-6, -4))
     scene, order, quads = scene_of(assembly), r.choice((1, 2, 2)), r.choice((0, 1))
-    variant = r.choice(("feti", "other side", "again"))
+    variant, view = r.choice(("feti", "other side", "again")), View()
+    variant = "view" if variant == "again" and r.random() < 0.7 else variant
     other, solver = scene | {"method": {"solver": "direct"}}, {"method": {"solver": "feti"}}
     if variant == "feti":
         scene, other = other, scene | solver
     elif variant == "again":
         other = scene
+    elif variant == "view":
+        view = other_view(r)
+        other = scene_of(view.of(assembly))
     else:
         sides = [[{**pair, "multipliers_on": pair["between"][k]} for pair in scene["contact"]] for k in (0, 1)]
         scene, other = scene | {"contact": sides[0]}, scene | {"contact": sides[1]}
@@ -201,5 +241,6 @@ def make_assembly(seed, number):
     case = solve_case("assembly", f"{assembly.what} of {len(assembly.parts)} bodies, {'TQ'[quads]}{order}, {variant}",
                       scene_text(scene, "mesh.geo"), mesh, mesh_file="mesh.geo")  # fmt: skip
     case.setting, case.group, case.variant = assembly, f"assembly: {assembly.what}", variant
-    case.other = {"scene.toml": scene_text(other, "mesh.geo"), "mesh.geo": mesh}
+    case.view, seen = view, geo(view.of(assembly), order, quads) if variant == "view" else mesh
+    case.other = {"scene.toml": scene_text(other, "mesh.geo"), "mesh.geo": seen}
     return case

@@ -58,8 +58,9 @@ class Case:
     middles: bool = True  # whether edges have middle nodes
     named: list = field(default_factory=list)  # words that a warning of the feature has, or else a place near one of
     places: list = field(default_factory=list)  # these (x, y); None: any
-    variant: str = ""  # of an assembly: how it is solved again, and its files
+    variant: str = ""  # of an assembly: how it is solved again, its files, and how these see it
     other: dict = field(default_factory=dict)
+    view: object = None
 
     def write(self, folder):
         """Puts the files into `folder`."""
