@@ -7,9 +7,10 @@
 namespace mortise {
 namespace {
 
-// What a motion that the rows hold does to them, over what its springs' unknowns would do one by one; and the pivots,
-// of their diagonals, that no other motions' have: each is followed up.
+// Of a motion's own diagonal of the coarse problem: a pivot below it is round-off, and so is what a motion does to the
+// rows.
 constexpr double rigid_limit = 1e-9;
+// A free motion's pivot is 1e-3 rigid_limit over the square of its spring's part in the motion: parts down to 1e-4.
 constexpr double small_pivot = 1e-4;
 constexpr double dependent_limit = 1e-13;  // likewise of a row's
 constexpr double of_one_row = 1e-2;        // a single multiplier's error that counts as much as one of all in energy
@@ -85,6 +86,36 @@ void ClosedRows::share_jumps(const std::vector<char>& flags) {
   }
 }
 
+// Springs of motions that E (s x s, of the rows and of springs held so far) leaves free, or none. A thousandth of the
+// limit keeps pivots that should be zero from spoiling those after them, but makes the pivot of a free motion larger
+// the less its spring moves in it. So if no pivot is round-off, the motions of small ones are looked at: the softest is
+// one, and where several are soft they may be the same.
+std::vector<int> ClosedRows::springs_left_free(const SparseMatrix& E, const VecX& size) {
+  coarse_.compute(with_diagonal(E, 1e-3 * rigid_limit * size));
+  const VecX pivots = coarse_.vectorD();
+  std::vector<int> free, weak;
+  for (Eigen::Index k = 0; k < pivots.size(); ++k) {
+    const int spring = coarse_.permutationPinv().indices()(k);
+    if (!(pivots(k) > rigid_limit * size(spring)))
+      free.push_back(spring);
+    else if (pivots(k) < small_pivot * size(spring))
+      weak.push_back(spring);
+  }
+  if (!free.empty()) return free;
+  double softest = rigid_limit;
+  for (const int spring : weak) {
+    const VecX motion = coarse_.solve(VecX(VecX::Unit(size.size(), spring) * size(spring))),
+               parts = size.cwiseProduct(motion.cwiseAbs2());
+    const double softness = motion.dot(E * motion) / parts.sum();
+    if (!(softness < softest)) continue;
+    softest = softness;
+    Eigen::Index most;
+    parts.maxCoeff(&most);
+    free = {int(most)};
+  }
+  return free;
+}
+
 // H^T weights H, with a spring at each motion that it leaves free.
 void ClosedRows::hold_motions() {
   const SparseMatrix& H = system_.H;
@@ -96,36 +127,10 @@ void ClosedRows::hold_motions() {
   const double most = size.maxCoeff();
   for (double& of_motion : size)
     if (!(of_motion > rigid_limit * most)) of_motion = most > 0 ? most : 1;
-  // A thousandth of the limit keeps pivots that should be zero from spoiling those after them. It makes the pivot of a
-  // free motion larger, too, by how little the motion moves the pivot's spring: what small pivots stand for is looked
-  // at, the softest first, which is all of it where two stand for one.
   VecX held = VecX::Zero(springs);
-  for (bool all_told = false; !all_told;) {
-    const SparseMatrix with_held = with_diagonal(E, held);
-    coarse_.compute(with_diagonal(with_held, 1e-3 * rigid_limit * size));
-    const VecX pivots = coarse_.vectorD();
-    const std::size_t before = free_.size();
-    double least = rigid_limit;
-    VecX softest;
-    all_told = true;
-    for (Eigen::Index k = 0; k < springs; ++k) {
-      const int spring = coarse_.permutationPinv().indices()(k);
-      if (!(pivots(k) > rigid_limit * size(spring))) free_.push_back(spring);
-      if (pivots(k) > small_pivot * size(spring) || !(pivots(k) > rigid_limit * size(spring))) continue;
-      const VecX motion = coarse_.solve(VecX(VecX::Unit(springs, spring) * size(spring))),
-                 energies = size.cwiseProduct(motion.cwiseAbs2());
-      const double softness = motion.dot(with_held * motion) / energies.sum();
-      if (!(softness < least)) continue;
-      least = softness;
-      softest = energies;
-      all_told = false;
-    }
-    if (free_.size() == before && softest.size() > 0) {
-      Eigen::Index moved;
-      softest.maxCoeff(&moved);
-      free_.push_back(int(moved));
-    }
-    held(free_) = size(free_);
+  for (std::vector<int> free; !(free = springs_left_free(with_diagonal(E, held), size)).empty();) {
+    free_.insert(free_.end(), free.begin(), free.end());
+    held(free) = size(free);
   }
   coarse_.compute(with_diagonal(E, held));
   MatX found(springs, Eigen::Index(free_.size()));

@@ -47,6 +47,7 @@ class ClosedRows {
   VecX resultants(const VecX& lambda) const;
   VecX unshared(const VecX& jump) const;
   void share_jumps(const std::vector<char>& closed);
+  std::vector<int> springs_left_free(const SparseMatrix& E, const VecX& size);
   void hold_motions();
 
   using SparseCholesky = Eigen::SimplicialLDLT<SparseMatrix>;

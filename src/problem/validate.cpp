@@ -64,15 +64,14 @@ Floating find_floating(const Mesh& mesh, const Constraints& constraints) {
 
 namespace {
 
-// By how much rounded coordinates turn the shortest edge of the contact, radians.
+// By how much rounded coordinates, both of both ends, turn the shortest edge of the contact: radians.
 double rounding_of_edges(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const ContactPair& pair : pairs)
     for (const Curve* curve : {&pair.multiplier, &pair.opposite})
       for (const Edge& edge : curve->edges)
         shortest = std::min(shortest, (mesh.nodes.row(edge.nodes[1]) - mesh.nodes.row(edge.nodes[0])).norm());
-  return 4 * std::numeric_limits<double>::epsilon() * mesh.nodes.cwiseAbs().maxCoeff() /
-         shortest;  // both ends' x and y
+  return 4 * std::numeric_limits<double>::epsilon() * mesh.nodes.cwiseAbs().maxCoeff() / shortest;
 }
 
 std::vector<ContactNormal> normals_of(const Mesh& mesh, const ContactPair& pair) {

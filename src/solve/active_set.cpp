@@ -12,8 +12,8 @@ namespace mortise {
 namespace {
 
 constexpr double least_penetration = 1e-11;  // of the largest displacement
-constexpr int most_descents = 60;  // an interior point leaves a few rows to change, where those just touch some tens
-constexpr double without_pressure = 1e-8;  // of the largest: rows that are closed again if they must be
+constexpr int most_descents = 60;            // what random assemblies take in all is 47
+constexpr double without_pressure = 1e-8;    // of the largest: rows that are closed again if they must be
 
 // Unilateral rows that must not stay as they are: closed and in tension, or open and penetrated; `step` has the most of
 // both.
@@ -37,12 +37,6 @@ std::vector<int> infeasible_rows(const ContactRows& rows, const ContactRows::Ans
   return infeasible;
 }
 
-// Where motions that no closed row holds, nor a load drives, go so that no open row is penetrated.
-VecX out_of_the_way(const ContactRows& rows, const ContactRows::Answer& answer, const std::vector<char>& active) {
-  const MatX free = rows.free_motions();
-  return free.cols() == 0 ? answer.mu : least_motions(rows, answer.mu, free, answer.w, active);
-}
-
 // Solves with r.active closed; false if that is the end: the solution is not finite, an iteration inside ended early,
 // or no row is infeasible. `at`: as of ContactRows::solve; where it is given, free motions may leave it for open rows'
 // sake.
@@ -61,7 +55,9 @@ bool look(ContactRows& rows, const VecX& at, ActiveSetResult& r, ContactRows::An
     if (!r.lambda.allFinite() || !r.mu.allFinite() || !answer.w.allFinite()) return false;
     r.infeasible = infeasible_rows(rows, answer, r.active, r.steps.emplace_back());
     if (!may_move || r.driven_mode.any() || std::ranges::none_of(r.infeasible, penetrated)) break;
-    const VecX moved = out_of_the_way(rows, answer, r.active);
+    const MatX free = rows.free_motions();
+    if (free.cols() == 0) break;
+    const VecX moved = least_motions(rows, r.mu, free, answer.w, r.active);
     if (moved == r.mu) break;
     answer = rows.solve(r.active, moved);
   }
@@ -181,8 +177,10 @@ void find(ContactRows& rows, std::vector<char> start, const ActiveSetOptions& op
   r.interior_steps = point.steps;
   if (!point.converged) {
     r.driven_mode = driven_motions(rows);
-    r.status = SolveStatus::unconstrained;
-    if (r.driven_mode.any()) return;
+    if (r.driven_mode.any()) {
+      r.status = SolveStatus::unconstrained;
+      return;
+    }
   }
   descend(rows, point, r);
   if (r.status == SolveStatus::converged) move_least(rows, options, r);
@@ -208,11 +206,12 @@ ActiveSetResult find_active_set(const ComplementarityProblem& p, const VecX& rhs
   }
   DenseRows rows(p, rhs);
   const std::vector<char> all(p.scale.size(), 1);
-  if (p.known.size() > 0)
+  const bool correction = p.known.size() > 0;
+  if (correction)
     descend(rows, {.at = {.lambda = p.known, .mu = VecX::Zero(rows.motions())}, .closed = start}, r);
   else
     iterate(rows, start.empty() ? all : start, {}, options.start_steps, options.max_stalled_steps, r);
-  if (!ended(r) && p.known.size() == 0) {
+  if (!ended(r) && !correction) {
     std::vector<char> next = guess(p, rhs, options, r.coarse_steps);
     if (next == r.active)  // nothing learned
       for (const int a : r.infeasible) next[a] ^= 1;

@@ -18,8 +18,8 @@ struct ActiveSetOptions {
 };
 
 struct ActiveSetResult {
-  /// converged, dependent_row, unconstrained: no pressures carry the load, and driven_mode proves it; or not_converged,
-  /// where the solution is not finite or an iteration inside ended early.
+  /// converged, dependent_row, unconstrained: no pressures carry the load, and driven_mode proves it; or not_converged:
+  /// the solution is not finite, an iteration inside ended early, or rows still change after all steps.
   SolveStatus status = SolveStatus::not_converged;
   VecX lambda, mu;                   ///< m, s
   std::vector<char> active;          ///< m
@@ -50,6 +50,8 @@ ActiveSetResult find_active_set(ContactRows& rows, std::vector<char> start, cons
 /// from `start` or all rows closed, is not the solution, the next starts from the active set of a problem with
 /// neighbouring rows joined (coarse_rows), which is found in the same way, down to a few. That makes the number of
 /// steps independent of the mesh.
+///
+/// A correction (problem.known) starts from the known multipliers and `start`, and takes steps that lower the energy.
 ///
 /// `rhs`: (r, h), m + s. `start`: empty: none known.
 ActiveSetResult find_active_set(const ComplementarityProblem& problem, const VecX& rhs,

@@ -59,7 +59,7 @@ Solution solve_directly(const SaddlePointSystem& s) {
                                             largest_entry(factor.backward(y, VecX::Zero(rhs.size()))));
       }
       ActiveSetResult set = find_active_set(problem, rhs, pass > 0 ? solution.active : s.start);
-      if (pass > 0 && set.status != SolveStatus::converged) break;  // the rows of the first pass are as good
+      if (pass > 0 && set.status != SolveStatus::converged) break;  // those before stay, and the checks look at them
       take_active_set(s, set, solution);
       if (solution.status == SolveStatus::dependent_row || solution.status == SolveStatus::unconstrained)
         return solution;
