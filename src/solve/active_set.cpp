@@ -205,12 +205,12 @@ ActiveSetResult find_active_set(const ComplementarityProblem& p, const VecX& rhs
     return r;
   }
   DenseRows rows(p, rhs);
-  const std::vector<char> all(p.scale.size(), 1);
+  const std::vector<char> first = start.empty() ? std::vector<char>(p.scale.size(), 1) : start;
   const bool correction = p.known.size() > 0;
   if (correction)
-    descend(rows, {.at = {.lambda = p.known, .mu = VecX::Zero(rows.motions())}, .closed = start}, r);
+    descend(rows, {.at = {.lambda = p.known, .mu = VecX::Zero(rows.motions())}, .closed = first}, r);
   else
-    iterate(rows, start.empty() ? all : start, {}, options.start_steps, options.max_stalled_steps, r);
+    iterate(rows, first, {}, options.start_steps, options.max_stalled_steps, r);
   if (!ended(r) && !correction) {
     std::vector<char> next = guess(p, rhs, options, r.coarse_steps);
     if (next == r.active)  // nothing learned

@@ -5,11 +5,11 @@
 namespace mortise {
 namespace {
 
-constexpr int most_steps = 35;            // half as many again as the hardest problems of the tests take
-constexpr int least_progress = 5;         // good enough, and so many steps without any: round-off
-constexpr double exact = 1e-12;           // of the largest terms: some thousand round-offs
-constexpr double balanced = 1e-10;        // likewise, of the equations: differences of springs' terms
-constexpr double path_round_off = 1e-15;  // of the largest terms, its square of their product
+constexpr int most_steps = 35;                            // a few more than the hardest problems of the tests take
+constexpr int least_progress = 5;                         // good enough, and so many steps without any: round-off
+constexpr double exact = 1e-12;                           // of the largest terms: some thousand round-offs
+constexpr double balanced = 1e-10;                        // likewise, of the equations: differences of springs' terms
+constexpr double path_round_off = 1e-15;                  // of the largest terms, its square of their product
 constexpr double least_told = path_round_off / balanced;  // pressures, of the start: what is balanced can be computed
 constexpr double apart = 1e5;          // pressure over gap, or gap over pressure, of a row that is told
 constexpr double good_enough = 1e-5;   // the same, for the rows to be told apart
