@@ -17,6 +17,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
+#include <new>
 #include <optional>
 #include <stdexcept>
 
@@ -161,6 +162,8 @@ VtuGrid read(const std::filesystem::path& path, const std::string& array) {
     return {plane_points(path, grid), plane_cells(path, grid), {}, {point_field(path, grid, array)}, {}};
   } catch (const std::length_error&) {
     throw InputError(path.string() + ": is no .vtu that VTK can read");
+  } catch (const std::bad_alloc&) {
+    throw InputError(path.string() + ": its points and cells need more memory than there is; are their numbers right?");
   }
 }
 

@@ -6,7 +6,9 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 #include "base/errors.hpp"
 #include "base/memory_file.hpp"
@@ -122,9 +124,30 @@ bool has_cells() {
   return !types.empty();
 }
 
+/// The toolkit of gmsh's windows would write its settings to ~/.fltk as gmsh starts: a home where nothing can be made.
+class NoHome {
+ public:
+  NoHome() {
+    if (const char* const home = std::getenv("HOME")) home_ = home;
+    setenv("HOME", "/dev/null", 1);
+  }
+  ~NoHome() {
+    if (home_)
+      setenv("HOME", home_->c_str(), 1);
+    else
+      unsetenv("HOME");
+  }
+  NoHome(const NoHome&) = delete;
+  NoHome& operator=(const NoHome&) = delete;
+
+ private:
+  std::optional<std::string> home_;
+};
+
 }  // namespace
 
 GmshSession::GmshSession(ForbiddenBy forbidden) {
+  const NoHome no_home;
   std::string name = "mortise";
   std::string option = "-v";
   std::string value = "0";

@@ -65,6 +65,7 @@ void remove_oldest() {
   std::vector<Entry> entries;
   std::uintmax_t sum = 0;
   for (const fs::directory_entry& file : fs::directory_iterator(folder())) {
+    if (!is_own_file(file.path())) continue;
     entries.push_back({file.last_write_time(), file.file_size(), file.path()});
     sum += entries.back().size;
   }

@@ -56,8 +56,8 @@ Keys accuracy_keys(AccuracySpec& a, int last_pair) {
           "100 to 1e9: no finer mesh is made from one that has as many"),
       key("solves_max", a.solves_max, whole_number(1, 100),
           "1 to 100: so many solves at most, each on a mesh of its own"),
-      key("first_edges", a.first_edges, whole_number(2, 100000),
-          "2 to 100000: edges of the first mesh along each contact curve"),
+      key("first_edges", a.first_edges, whole_number(2, 1000),
+          "2 to 1000: edges of the first mesh along each contact curve"),
       key("recombine", a.recombine, true_or_false(), "`true`: quadrilaterals, with a few triangles between them"),
   };
 }

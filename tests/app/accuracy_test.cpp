@@ -350,7 +350,7 @@ TEST(Accuracy, IsRefusedWhereItCannotBeHad) {
         {Override{"accuracy.of", "stress"}, "'at' is missing; expected [x, y], a place in a body"},
         {Override{"accuracy.of", "peek"}, "did you mean 'peak'"},
         {Override{"accuracy.recombine", "1"}, "expected true or false"},
-        {Override{"accuracy.first_edges", "1"}, "expected a whole number from 2 to 100000"}})
+        {Override{"accuracy.first_edges", "1"}, "expected a whole number from 2 to 1000"}})
     expect_contains(message_of([&] { scene_to_accuracy("hertz", "1%", {change}); }), words);
   const TemporaryFolder folder;
   folder.write("a.msh", "");

@@ -156,5 +156,16 @@ TEST(NodalField, DamagedVtuFilesAreRefused) {
   expect_contains(message("x,y,T\n0,0,1\n"), file + ": ");
 }
 
+TEST(NodalField, AVtuWithMorePointsThanMemoryIsRefusedByName) {
+  const TemporaryFolder folder;
+  std::string text = text_of(write_ring(folder, CellKind::quad4, linear));
+  const std::string mark = "NumberOfPoints=\"";
+  const std::size_t start = text.find(mark) + mark.size(), end = text.find('"', start);
+  text.replace(start, end - start, "99999999999");
+  const std::string file = folder.write("huge.vtu", text);
+  EXPECT_EQ(message_of([&] { nodal_field("fields.T", file, "T", {}); }),
+            file + ": its points and cells need more memory than there is; are their numbers right?");
+}
+
 }  // namespace
 }  // namespace mortise::test

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <regex>
 #include <thread>
 
@@ -13,6 +15,7 @@
 namespace mortise {
 namespace {
 
+namespace fs = std::filesystem;
 using test::message_of;
 using test::TemporaryFolder;
 
@@ -72,6 +75,17 @@ TEST_F(GmshProcesses, WhatAGeoPrintsStaysOffTheTerminal) {
       folder_.write("a.geo", triangle + "General.Verbosity = 99; General.Terminal = 1; Printf(\"hello\");\n");
   load_mesh(file, {});
   EXPECT_EQ(testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(GmshProcesses, NothingIsMadeInTheHomeFolderWhichAGeoMayAskFor) {
+  const TemporaryFolder home;
+  const std::string before = std::getenv("HOME") ? std::getenv("HOME") : "";
+  setenv("HOME", home.path().c_str(), 1);
+  const std::string asks =
+      "If (StrCmp(GetEnv(\"HOME\"), \"" + home.path().string() + "\"))\n Error(\"another home\");\nEndIf\n";
+  EXPECT_EQ(load_mesh(folder_.write("a.geo", triangle + asks), {}).bodies.size(), 1U);
+  setenv("HOME", before.c_str(), 1);
+  EXPECT_TRUE(fs::is_empty(home.path()));
 }
 
 TEST_F(GmshProcesses, ThreadsMeshBesideEachOther) {

@@ -175,6 +175,7 @@ TEST_F(MeshCache, AnEntryThatIsNoFileOfOnesOwnIsNotRead) {
 TEST_F(MeshCache, TheOldestGoFirst) {
   EXPECT_FALSE(kept());
   EXPECT_FALSE(kept({{"r", 2}}));
+  fs::create_directory(cache_.path() / "mortise" / "no file");
   const fs::path large = cache_.path() / "mortise" / "large.mesh";
   std::ofstream(large) << "";
   fs::resize_file(large, 511 << 20);

@@ -3,6 +3,7 @@
 import argparse
 import json
 import re
+import shutil
 import subprocess
 import sys
 from functools import cache
@@ -332,3 +333,26 @@ def test_a_folder_of_an_older_mortise_is_refused(tmp_path):
     (tmp_path / "summary.json").write_text(json.dumps({"model": model}))
     run = subprocess.run([sys.executable, picture.__file__, tmp_path], capture_output=True, text=True, check=False)
     assert run.returncode == 1 and "older mortise" in run.stderr and "Traceback" not in run.stderr
+
+
+def test_a_picture_of_no_known_kind_is_refused(solve):
+    run = subprocess.run([sys.executable, picture.__file__, solve("patch_flat"), "a.txt"], capture_output=True, text=True, check=False)
+    assert run.returncode == 2 and "a.txt: expected a name that ends in .png, .pdf, .svg" in run.stderr
+
+
+DAMAGES = {"cut": lambda data: data[:300], "noise": lambda data: data[:200] + bytes([0xF9]) * 40 + data[240:], "gone": None}
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+@pytest.mark.parametrize("file", ["summary.json", "result.vtu", "contact.csv"])
+def test_damaged_results_are_told_in_one_line(solve, file, damage, tmp_path):
+    folder = tmp_path / "results"
+    shutil.copytree(solve("patch_flat"), folder)
+    whole = (folder / file).read_bytes()
+    (folder / file).unlink()
+    if DAMAGES[damage]:
+        (folder / file).write_bytes(DAMAGES[damage](whole))
+    run = subprocess.run([sys.executable, picture.__file__, folder], capture_output=True, text=True, check=False)
+    assert run.returncode in (1, 2) and "Traceback" not in run.stderr
+    assert run.stderr.splitlines()[-1].startswith("picture.py: ")
+    assert not (tmp_path / "results.png").exists()

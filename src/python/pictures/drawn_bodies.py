@@ -111,8 +111,8 @@ def draw_contact_lines(axes, curve, table, scale, pairs):
 
 def draw_bodies(axes, results, summary, table, options):
     """The deformed bodies; returns the magnification and, in words, why it is no larger."""
-    mesh = meshio.read(results / "result.vtu")
-    curve = meshio.read(results / "contact.vtu") if summary["contact"] else None
+    mesh = meshio.vtu.read(results / "result.vtu")
+    curve = meshio.vtu.read(results / "contact.vtu") if summary["contact"] else None
     points, u = mesh.points[:, :2], mesh.point_data["displacement"][:, :2]
     if not np.isfinite(u).all():
         raise SystemExit("picture.py: the displacements are not finite (see the summary's warnings): nothing to draw")

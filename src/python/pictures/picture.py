@@ -34,6 +34,9 @@ from drawn_forces import draw_forces
 from drawn_pressure import draw_pair, has_limit
 
 
+ENDINGS = (".png", ".pdf", ".svg")
+
+
 def refuse_older(results, model):
     """Ends the program where summary.json does not say where forces act."""
     acting = [load for load in model.get("loads", []) if "sum" in load]
@@ -57,7 +60,7 @@ def draw(results, picture, options):
         if not 0 <= options.pair < len(pairs):
             raise SystemExit(f"picture.py: --pair {options.pair}: the scene's pairs have the numbers 0 to {len(pairs) - 1}")
         shown = [options.pair]
-    mesh = meshio.read(results / "result.vtu")
+    mesh = meshio.vtu.read(results / "result.vtu")
     table = result_tables.columns(results / "contact.csv") if pairs else {}
     if options.zoom == CONTACT and not pairs:
         raise SystemExit("picture.py: --zoom: the scene has no contact pair")
@@ -132,7 +135,13 @@ def main():
     if not (options.results / "summary.json").is_file():
         parser.error(f"{options.results}: no summary.json there; expected the folder of a run of mortise solve")
     picture = options.picture or options.results.with_name(options.results.resolve().name + ".png")
-    draw(options.results, picture, options)
+    if picture.suffix not in ENDINGS:
+        parser.error(f"{picture}: expected a name that ends in {', '.join(ENDINGS)}")
+    try:
+        draw(options.results, picture, options)
+    except Exception as error:  # of damaged files whatever their readers throw
+        words = " ".join(str(error).split())
+        raise SystemExit(f"picture.py: {options.results}: cannot be drawn to {picture} ({type(error).__name__}: {words})") from None
     print(picture)
 
 
