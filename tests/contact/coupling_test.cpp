@@ -177,6 +177,14 @@ TEST(DualMultipliers, AreBiorthogonalAlsoOnPartOfAnEdge) {
   EXPECT_LE((D - Eigen::Matrix3d(weight.asDiagonal())).cwiseAbs().maxCoeff(), 1e-12 * weight.cwiseAbs().maxCoeff());
 }
 
+TEST(DualMultipliers, AreTheStandardOnesWhereASliverOfTheEdgeCannotTellThemApart) {
+  const Pair p = pair_of(parabola(7, 12), {Multipliers::dual, InitialGap::closed});
+  std::vector<ContactPoint> sliver(3, p.points.front());
+  for (int i = 0; i < 3; ++i) sliver[std::size_t(i)].xi = -1 + 1e-3 * i;
+  const EdgeMultipliers dual = edge_multipliers(p.multiplier.edges[sliver[0].edge], Multipliers::dual, sliver);
+  EXPECT_EQ(dual.A, Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+}
+
 TEST(Dropped, EndsHeldOnBothSidesShareTheirNeighboursRow) {
   TwoPlates plates;
   Mesh mesh = test::mesh_of(plates);

@@ -255,6 +255,13 @@ TEST(GapCuts, SlopesAtTheEndsAreThoseOfTheGivenGap) {
   EXPECT_EQ(gap_slopes_at_ends(c.mesh.nodes, c.lower, geometry), (std::array<double, 2>{0, 0}));
 }
 
+TEST(GapCuts, AClosedCurveHasNoEndsAtWhichAGapCouldRise) {
+  const RimInHole c(8, 23, 0);
+  ContactGeometry geometry;
+  geometry.given = Field("1 + x + 3*y", {});
+  EXPECT_EQ(gap_slopes_at_ends(c.nodes, c.rim, geometry), (std::array<double, 2>{0, 0}));
+}
+
 // The upper plate comes down the more the farther right.
 TEST(LeastGap, IsWhereTheSidesComeNearest) {
   const Curves c = curves_of({});
