@@ -109,6 +109,12 @@ TEST(NodalField, ATableOfScatteredPointsIsExactForALinearField) {
   for (const Vec2& x : places(0, 2)) EXPECT_NEAR(T(x), linear(x), 1e-12);
 }
 
+TEST(NodalField, ATableMayBeginWithAByteOrderMark) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("points.csv", "\xef\xbb\xbfx,y,T\n0,0,1\n1,0,2\n0,1,3\n");
+  EXPECT_NEAR(nodal_field("fields.T", file, "T", {})(Vec2(0.5, 0.25)), 2, 1e-14);
+}
+
 TEST(NodalField, APlaceOutsideIsToldWithItsDistance) {
   const TemporaryFolder folder;
   const std::string file = write_ring(folder, CellKind::quad8, linear);

@@ -20,5 +20,20 @@ TEST(Measures, ArePlainOfAPlate) {
   }
 }
 
+// Of the sides 2 and 1 at a distance of 1, where no cell is its own image.
+TEST(Measures, KnowTheCentreOfATrapezium) {
+  for (const CellKind kind : testing_meshes::all_kinds()) {
+    Mesh mesh = testing_meshes::plate(kind, 3, 2);
+    const Eigen::RowVector2d low = mesh.nodes.colwise().minCoeff(), high = mesh.nodes.colwise().maxCoeff();
+    for (auto place : mesh.nodes.rowwise()) {
+      place = (place - low).cwiseQuotient(high - low).eval();
+      place.x() *= 2 - place.y();
+    }
+    const Measure body = body_measures(mesh).at(0);
+    EXPECT_NEAR(body.size, 1.5, 1e-14);
+    EXPECT_LE((body.centre - Vec2(7.0 / 9, 4.0 / 9)).norm(), 1e-14);
+  }
+}
+
 }  // namespace
 }  // namespace mortise

@@ -147,6 +147,17 @@ TEST(InpFile, LinesOfADeckThatGmshWroteAreCurves) {
   EXPECT_EQ(inp_length(mesh, "Line1"), 2);
 }
 
+TEST(InpFile, ALineOfThreeNodesHasItsMiddleSecond) {
+  const Mesh mesh = inp_mesh(
+      "*NODE\n1,0,0\n2,2,0\n3,2,2\n4,0,2\n5,1,0\n6,2,1\n7,1,2\n8,0,1\n"
+      "*ELEMENT, TYPE=CPS8, ELSET=Eall\n10, 1, 2, 3, 4, 5, 6, 7, 8\n*ELEMENT, TYPE=T2D3, ELSET=Low\n30, 1, 5, 2\n");
+  ASSERT_EQ(boundary_names(mesh), (std::vector<std::string>{"Low"}));
+  const Edge& edge = mesh.boundaries[0].edges.at(0);
+  EXPECT_EQ(edge.node_count, 3);
+  EXPECT_EQ(Vec2(mesh.nodes.row(edge.nodes[2])), Vec2(1, 0));
+  EXPECT_EQ(inp_length(mesh, "Low"), 2);
+}
+
 TEST(InpFile, SpringsAreLeftOutWithANote) {
   const Mesh mesh = inp_mesh(nodes + cells + "*ELEMENT, TYPE=SPRINGA, ELSET=springs\n30, 1, 2\n31, 2, 3\n");
   EXPECT_EQ(mesh.notes, std::vector<std::string>{"left out: 2 elements of the kind SPRINGA"});
