@@ -138,6 +138,9 @@ TEST(NodalField, WhatCannotBeReadIsNamed) {
   const auto table = [&](const std::string& text) { return folder.write("points.csv", text); };
   const std::string csv = folder.path("points.csv");
   EXPECT_EQ(message(table("x,y,T\n0,0,1\n\n1,0,?\n"), "T"), csv + ":4: expected a finite number, found '?'");
+  for (const std::string value : {"nan", "inf"})
+    EXPECT_EQ(message(table("x,y,T\n0,0,1\n1,0," + value + "\n"), "T"),
+              csv + ":3: expected a finite number, found '" + value + "'");
   EXPECT_EQ(message(table("x,y,T\n0,0\n"), "T"), csv + ":2: 2 fields; expected 3 or more");
   EXPECT_EQ(message(table("x,y,T\n0,0,1\n1,0,2\n0,0,3\n"), "T"),
             csv +
