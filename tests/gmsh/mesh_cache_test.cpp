@@ -128,6 +128,17 @@ TEST_F(MeshCache, WhatIsDamagedIsMadeAgain) {
   }
 }
 
+TEST_F(MeshCache, AnEntryIsKnownByItsKeyNotByItsName) {
+  EXPECT_FALSE(kept());
+  const fs::path entry = entries().at(0), moved = folder_.path("moved.mesh");
+  fs::rename(entry, moved);
+  EXPECT_FALSE(kept({{"r", 2}}));
+  const Mesh made = mesh_;
+  fs::rename(moved, entries().at(0));  // as of two keys with one hash
+  EXPECT_FALSE(kept({{"r", 2}}));
+  expect_same(made, mesh_);
+}
+
 TEST_F(MeshCache, WithoutAFolderThereIsNone) {
   setenv("XDG_CACHE_HOME", "/proc/no/such", 1);
   EXPECT_FALSE(kept());

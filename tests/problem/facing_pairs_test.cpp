@@ -74,6 +74,31 @@ TEST(FacingPairs, AreThoseWithinADistance) {
   EXPECT_EQ(check_scene(squares(folder, R"(contact = [{ between = ["*", "*"], within = 0.02 }])")).pairs.size(), 2u);
 }
 
+TEST(FacingPairs, AreMeasuredBetweenTheCurvesAndNotBetweenTheBoxesAroundThem) {
+  const TemporaryFolder folder;
+  folder.write("a.geo", R"(
+Point(1) = {0, 0, 0}; Point(2) = {4, 0, 0}; Point(3) = {4, 3, 0}; Point(4) = {0, 1, 0};
+Point(5) = {0, 1.1, 0}; Point(6) = {4, 3.1, 0}; Point(7) = {4, 5, 0}; Point(8) = {0, 5, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};
+Curve Loop(1) = {1 : 4}; Curve Loop(2) = {5 : 8}; Plane Surface(1) = {1}; Plane Surface(2) = {2};
+Physical Surface("low") = {1}; Physical Surface("up") = {2};
+Physical Curve("low_top") = {3}; Physical Curve("up_foot") = {5}; Physical Curve("ground") = {1, 7};
+)");
+  const auto pairs_within = [&](const char* within) {
+    return check_scene(read_scene(folder.write("a.toml", R"(
+mesh.file = "a.geo"
+materials.m = { young = 1, poisson = 0.3 }
+bodies = { "*" = "m" }
+boundary = [{ on = "ground", displacement = { x = 0, y = 0 } }]
+contact = [{ between = ["low_*", "up_*"], within = )" + std::string(within) +
+                                                             " }]\n")))
+        .pairs.size();
+  };
+  EXPECT_EQ(pairs_within("0.095"), 1u);  // 0.1 above one another, 0.0894 apart
+  EXPECT_THROW(pairs_within("0.085"), InputError);
+}
+
 TEST(FacingPairs, LeaveWhatIsNamedItsOwnSettings) {
   const TemporaryFolder folder;
   const Problem checked = check_scene(squares(folder, R"(
