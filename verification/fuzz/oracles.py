@@ -14,7 +14,7 @@ NO_PRESSURE = 1e-9  # of E u / size: a difference of pressures below is round-of
 
 
 def crash(case, run, folder):
-    if run.status is None or run.in_gmsh or 0 <= run.status < 99:
+    if run.status is None or 0 <= run.status < 99:
         return None
     sanitizer = next((line for line in run.said.splitlines() if "Sanitizer" in line or "runtime error" in line), "")
     return f"ended by signal {-run.status}" if run.status < 0 else f"exit status {run.status}: {sanitizer}"
