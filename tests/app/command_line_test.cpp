@@ -264,6 +264,7 @@ const BadInput bad_input[] = {
     {"LoadThatIsNotThere", {"--set", "body_force.0.force=[0,0]"}, {"body_force: no entry with index 0"}},
     {"ThreadsNotANumber", {"--threads", "many"}, {"many"}},
     {"ThreadsZero", {"--threads", "0"}, {"threads"}},
+    {"ThreadsThatOpenBlasDoesNotHave", {"--threads", "129"}, {"--threads", "range 1 to 128"}},
     {"TheLoadPullsTheBodyAway", {"--set", "boundary.2.pressure=-1e6"}, {"nothing holds", "'upper'", "(0, 1)"}},
     {"AClosedGapThatIsOpen",
      {"--set", "contact.initial_gap=closed", "--set", "mesh.parameters.gap=0.01"},

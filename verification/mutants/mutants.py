@@ -2,7 +2,7 @@
 
 Each line of mutants.txt is a fault: file @@ old text @@ new text @@ what it breaks, and @@ why it may survive where no
 test can tell. It goes into a copy of the tree, which is built incrementally; then the tests run, the cheap ones first: of at most
-0.1 s (of its own room 1 s), of at most 5 s, the other C++ tests, the Python tests on scenes. What kills it ends its
+0.1 s (of its own room 1 s), of at most 5 s, the other C++ tests, the Python tests on sweeps and scenes. What kills it ends its
 turn. A mutant that does not compile is an error of the list. Results stand in WORK/journal.csv, by the fault's line;
 those that are there are not run again."""
 
@@ -93,6 +93,11 @@ class Tree:
         return failed[0] if failed else "" if done.returncode == 0 else "crash"
 
     def run_scenes(self):
+        """The test that fails of those that run the program: sweeps, and the Python tests on scenes."""
+        sweeps = subprocess.run(["/usr/bin/python3", self.source / "tests/app/sweep_test.py", self.build / "mortise"],
+                                capture_output=True, env=self.env)  # fmt: skip
+        if sweeps.returncode:
+            return "sweep_test.py"
         try:
             done = subprocess.run(["/usr/bin/python3", "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider",
                                    *(self.source / "verification" / name for name in SCENES)],
