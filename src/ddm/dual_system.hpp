@@ -1,12 +1,9 @@
 // The system of the multipliers, part by part: what the dual method iterates on.
 #pragma once
 
-#include <memory>
-
-#include "ddm/body_group.hpp"
+#include "ddm/dual_part.hpp"
 #include "ddm/ranks.hpp"
 #include "ddm/slender_parts.hpp"
-#include "ddm/substructures.hpp"
 
 namespace mortise {
 
@@ -72,30 +69,14 @@ class DualSystem {
   void add_displacements(const Answer& forces, const VecX& lambda, const VecX& mu, VecX& u) const;
 
  private:
-  // Of parts that are alike.
-  struct Shared;
-
-  struct Part {
-    std::vector<int> unknowns, rows, springs;
-    std::vector<int> places;                // of the rows, in the vectors that this rank's parts see
-    std::shared_ptr<const BodyGroup> body;  // its own; or that of all parts alike, with a unit row a contact unknown
-    SparseMatrix rows_of_body;              // then B on these, rows x contact unknowns; else empty
-    MatX C, H, stiffness;                   // of its rows; stiffness: of multiply_stiffness, full
-    SparseMatrix B;  // of a slender part, whose body has no rows: then C and stiffness are empty; else empty
-
-    bool slender() const { return B.cols() > 0; }
-    BodyGroup::Answer answer(const VecX& force) const;
-    VecX pressed(const VecX& lambda) const;  // C lambda
-    MatX compliance() const;                 // C
-    // Under forces, lambda and mu, of all rows and springs of the part.
-    VecX displacements(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const;
-  };
   void add_up(Answer& answer) const;
 
+  void factorise(const SaddlePointSystem& system);
+  void gather(const SaddlePointSystem& system);
   void deal_rows(Eigen::Index m);
   static VecX sum_over_ranks(VecX sum);
 
-  std::vector<Part> parts_;
+  std::vector<std::unique_ptr<DualPart>> parts_;
   std::unique_ptr<const DealtRows> rows_;
 };
 

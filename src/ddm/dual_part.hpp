@@ -1,0 +1,55 @@
+// One part of the dual method: what forces and multipliers do to it, by its kind.
+#pragma once
+
+#include "ddm/body_group.hpp"
+#include "ddm/substructures.hpp"
+
+namespace mortise {
+
+/// A substructure, factorised. Its rows, unknowns and springs are those of the whole system that it has; vectors below
+/// are of these alone, dimensionless as the bordered system.
+class DualPart {
+ public:
+  virtual ~DualPart() = default;
+
+  std::vector<int> unknowns, rows, springs;
+  std::vector<int> places;  ///< of the rows, in the vectors that this rank's parts see
+  MatX H;                   ///< rows x springs: B R, as BodyGroup
+  SparseMatrix sharing;     ///< rows x rows: B W^-1 B^T, as DualSystem
+  BodyGroup::Answer load;   ///< to its own
+
+  /// -1, or the unknown of the whole at which it is not positive definite: nothing else may be used then.
+  int failed_at() const { return body_->failed_at < 0 ? -1 : unknowns[body_->failed_at]; }
+  /// To forces on its unknowns, over the stiffness scale.
+  virtual BodyGroup::Answer answer(const VecX& force) const { return body_->answer(force); }
+  virtual VecX pressed(const VecX& lambda) const = 0;  ///< C lambda
+  virtual MatX compliance() const = 0;                 ///< C, full; of a slender part a solve a row
+  virtual VecX diagonal() const = 0;                   ///< of C; of a slender part what a row's pressure does near it
+  virtual VecX stiffened(const VecX& x) const = 0;     ///< B W^-1 S W^-1 B^T x, as DualSystem; 0 of a slender part
+  virtual VecX displacements(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const = 0;
+  virtual bool is_slender() const { return false; }
+
+ protected:
+  VecX moved(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const;
+
+  std::shared_ptr<const BodyGroup> body_;
+};
+
+/// What parts that are alike have in common, with a unit row a contact unknown.
+struct AlikeBody {
+  std::vector<int> contact;  ///< unknowns, c of them
+  SparseMatrix units;        ///< n x c, a unit column each
+  std::shared_ptr<const BodyGroup> body;
+  MatX stiffness;  ///< c x c: S
+
+  explicit AlikeBody(SaddlePointSystem system);
+};
+
+/// For each of `parts` that of the first one alike, if this takes less than the parts one by one; else empty.
+std::vector<std::shared_ptr<const AlikeBody>> alike_bodies(const std::vector<Substructure>& parts,
+                                                           const std::vector<char>& slender);
+
+/// Factorises a part; `alike`: nullptr if it has a body of its own.
+std::unique_ptr<DualPart> dual_part(Substructure part, bool slender, const AlikeBody* alike);
+
+}  // namespace mortise
