@@ -51,14 +51,15 @@ bool is_overlapped(const Results& r, const ContactPair& pair) {
   return pair.coupling.gap_min < -1e-9 * curve_length(r.problem.mesh.nodes, pair.multiplier);
 }
 
-std::string line(const Results& r, const ContactPair& pair) {
+// `deformed`: what both bodies deform by.
+std::string line(const Results& r, const ContactPair& pair, double deformed) {
   const ContactPoint& deepest = *std::ranges::min_element(pair.points, {}, &ContactPoint::gap);
   const Vec2 place = edge_point(r.problem.mesh.nodes, pair.multiplier.edges[deepest.edge], deepest.xi).position;
   std::ostringstream text;
   text.precision(3);
   text << pair.spec.key << ": '" << pair.spec.between[0] << "' and '" << pair.spec.between[1]
-       << "' are drawn into one another by " << -pair.coupling.gap_min << " " << near_point(place) << ", more than "
-       << many_times
+       << "' are drawn into one another by " << -pair.coupling.gap_min << " " << near_point(place) << ", "
+       << -pair.coupling.gap_min / deformed
        << " times the bodies' deformation: too much for an interference, which a body leaves as a whole; "
           "expected bodies drawn touching";
   return text.str();
@@ -77,7 +78,7 @@ std::vector<std::string> drawn_overlap_lines(const Results& r) {
   for (const ContactPair& pair : r.problem.pairs) {
     if (!is_overlapped(r, pair)) continue;
     const double both = of(pair.multiplier.body) + of(pair.opposite.body);
-    if (-pair.coupling.gap_min > many_times * both) lines.push_back(line(r, pair));
+    if (-pair.coupling.gap_min > many_times * both) lines.push_back(line(r, pair, both));
   }
   return lines;
 }
