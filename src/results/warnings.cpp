@@ -15,8 +15,6 @@
 namespace mortise {
 namespace {
 
-std::string near_node(const Mesh& mesh, int node) { return near_point(mesh.nodes.row(node).transpose()); }
-
 using Lines = std::vector<std::string>;
 
 void warn_of_active_set(const Results& r, Lines& lines) {
@@ -25,7 +23,7 @@ void warn_of_active_set(const Results& r, Lines& lines) {
   const std::vector<int> nodes = row_nodes(r.problem.pairs);
   std::string places;
   for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 5); ++i)
-    places += (i > 0 ? ", " : "") + near_node(r.problem.mesh, nodes[rows[i]]);
+    places += (i > 0 ? ", " : "") + near_point(r.problem.mesh.nodes.row(nodes[rows[i]]).transpose());
   if (rows.size() > 5) places += " and " + std::to_string(rows.size() - 5) + " more";
   lines.push_back("the active set did not converge in " + std::to_string(r.solution.steps.size()) + " steps: contact " +
                   places + " still changes");
