@@ -183,14 +183,11 @@ VecX goal_line_refinement(const PressureEstimate& e, const LinePart& part, const
   return r;
 }
 
-}  // namespace
-
-WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs, const ErrorEstimate& estimate,
-                         const ErrorFactors& factors) {
-  const VecX r = cell_refinement(mesh, estimate, factors.far_field);
+// At each node the geometric mean of what its cells' sizes become; infinite where it is a corner of none.
+VecX node_sizes(const Mesh& mesh, const ErrorEstimate& estimate, const VecX& refinement) {
   VecX logs = VecX::Zero(mesh.nodes.rows()), cells_at = logs;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const double size = side_of(estimate, int(e)) / r(e);
+    const double size = side_of(estimate, int(e)) / refinement(e);
     for (int a = 0; a < corner_count(mesh.cells[e].kind); ++a) {
       logs(mesh.cells[e].nodes[a]) += std::log(size);
       cells_at(mesh.cells[e].nodes[a]) += 1;
@@ -199,11 +196,11 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
   VecX sizes = VecX::Constant(logs.size(), std::numeric_limits<double>::infinity());
   for (Eigen::Index i = 0; i < sizes.size(); ++i)
     if (cells_at(i) > 0) sizes(i) = std::exp(logs(i) / cells_at(i));
+  return sizes;
+}
 
-  const double far_parts = cell_parts(mesh, estimate).sum() + corner_parts(estimate).sum();
-  const double scene = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
-  WantedSizes wanted;
-  add_corner_layers(estimate, sizes, corner_share * far_parts / factors.far_field, least_layer * scene, wanted.layers);
+// By what the edges at each vertex of each pair are to shorten, for p and for the goal.
+std::vector<VecX> lines_refinement(const ErrorEstimate& estimate, const ErrorFactors& factors) {
   double p2 = 0, borders = 0;
   for (const PressureEstimate& e : estimate.pressures) {
     p2 += e.p2;
@@ -211,41 +208,64 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
   }
   const double target = estimate.slopes() * std::sqrt(p2) / factors.line;
   const GoalLines lines = estimate.goal ? goal_lines(*estimate.goal, factors.goal_line) : GoalLines{};
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
+  std::vector<VecX> all;
+  for (std::size_t k = 0; k < estimate.pressures.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];
-    VecX shorter = VecX::Constant(e.line.p.size(), coarsen);
+    VecX& shorter = all.emplace_back(VecX::Constant(e.line.p.size(), coarsen));
     if (!estimate.goal || estimate.goal->local > 0) shorter = line_refinement(e, target, borders, factors.border);
     if (estimate.goal) shorter = shorter.cwiseMax(goal_line_refinement(e, estimate.goal->lines[k], lines));
-    const VecX along = e.line.h.cwiseQuotient(shorter).cwiseMax(least_size * scene);
-    const auto lower = [&](int node, const Vec2& from, double size) {
-      const double distance = (mesh.nodes.row(node).transpose() - from).norm();
-      sizes(node) = std::min(sizes(node), size + size_growth * distance);
-    };
-    const std::vector<Edge>&edges = pairs[k].multiplier.edges, &opposite = pairs[k].opposite.edges;
-    for (std::size_t i = 0; i < edges.size(); ++i)
-      for (const int end : {0, 1})
-        if (e.line.loaded[i + end]) lower(edges[i].nodes[end], e.line.position[i + end], along(Eigen::Index(i) + end));
-    // The opposite side where it faces these: its vertices, and at the border, where its edges are too long for the
-    // sizes that are wanted, the places themselves.
-    int last_edge = -1;
-    for (const ContactPoint& point : pairs[k].points) {
-      if (!e.line.loaded[point.edge] || !e.line.loaded[point.edge + 1]) continue;
-      const Edge& other = opposite[point.opposite_edge];
-      const Vec2 place = edge_point(mesh.nodes, other, point.eta).position;
-      const double end = (1 + point.xi) / 2, size = (1 - end) * along(point.edge) + end * along(point.edge + 1);
-      for (const int a : {0, 1}) lower(other.nodes[a], place, size);
-      if (point.edge != last_edge && e.local.border[point.edge] && e.local.border[point.edge + 1])
-        wanted.layers.push_back({place, size, size_growth});
-      last_edge = point.edge;
-    }
+  }
+  return all;
+}
+
+// The sizes at the nodes of both sides of a pair. `along`: of the edges at each vertex of its line.
+void lower_sizes(const Mesh& mesh, const ContactPair& pair, const PressureEstimate& e, const VecX& along,
+                 WantedSizes& wanted) {
+  const auto lower = [&](int node, const Vec2& from, double size) {
+    const double distance = (mesh.nodes.row(node).transpose() - from).norm();
+    wanted.sizes(node) = std::min(wanted.sizes(node), size + size_growth * distance);
+  };
+  const std::vector<Edge>&edges = pair.multiplier.edges, &opposite = pair.opposite.edges;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (const int end : {0, 1})
+      if (e.line.loaded[i + end]) lower(edges[i].nodes[end], e.line.position[i + end], along(Eigen::Index(i) + end));
+  // The opposite side where it faces these: its vertices, and at the border, where its edges are too long for the
+  // sizes that are wanted, the places themselves.
+  int last_edge = -1;
+  for (const ContactPoint& point : pair.points) {
+    if (!e.line.loaded[point.edge] || !e.line.loaded[point.edge + 1]) continue;
+    const Edge& other = opposite[point.opposite_edge];
+    const Vec2 place = edge_point(mesh.nodes, other, point.eta).position;
+    const double end = (1 + point.xi) / 2, size = (1 - end) * along(point.edge) + end * along(point.edge + 1);
+    for (const int a : {0, 1}) lower(other.nodes[a], place, size);
+    if (point.edge != last_edge && e.local.border[point.edge] && e.local.border[point.edge + 1])
+      wanted.layers.push_back({place, size, size_growth});
+    last_edge = point.edge;
+  }
+}
+
+}  // namespace
+
+WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs, const ErrorEstimate& estimate,
+                         const ErrorFactors& factors) {
+  WantedSizes wanted;
+  wanted.sizes = node_sizes(mesh, estimate, cell_refinement(mesh, estimate, factors.far_field));
+  const double far_parts = cell_parts(mesh, estimate).sum() + corner_parts(estimate).sum();
+  const double scene = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
+  add_corner_layers(estimate, wanted.sizes, corner_share * far_parts / factors.far_field, least_layer * scene,
+                    wanted.layers);
+  const std::vector<VecX> shorter = lines_refinement(estimate, factors);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const PressureEstimate& e = estimate.pressures[k];
+    lower_sizes(mesh, pairs[k], e, e.line.h.cwiseQuotient(shorter[k]).cwiseMax(least_size * scene), wanted);
     const double scale = e.line.h.sum() / 2;
     for (const SingularPoint& point : e.singular) {
       const double least = scale * std::pow(0.3 * factors.target, 1 / (2 * point.exponent));
       wanted.layers.push_back({point.position, std::max(least, least_layer * scene), size_growth});
     }
   }
-  limit_growth(mesh, size_growth, sizes);
-  wanted.sizes = sizes.cwiseMax(least_size * scene);
+  limit_growth(mesh, size_growth, wanted.sizes);
+  wanted.sizes = wanted.sizes.cwiseMax(least_size * scene);
   return wanted;
 }
 

@@ -48,29 +48,51 @@ double mean_size(const LineFunction& f) {
   return sum;
 }
 
-// Pressure, traction or foundation.
-void add_along(const Mesh& mesh, const Model& model, const std::string& key, DataMisfit::Kind kind,
-               const std::vector<NamedBoundary>& boundaries, const std::vector<const Field*>& of, DataMisfits& found) {
-  const BoundaryFields fields(mesh, boundaries, of);
+// What entries are off by, one after the other.
+class Misfits {
+ public:
+  Misfits(const Mesh& mesh, const Model& model) : mesh_(mesh), model_(model), table_(mesh) {}
+
+  void add(const BoundaryEntry& entry);
+  // Over bodies, by root mean squares; `values` of a strain such that their square is its energy density.
+  void add_over(const std::string& key, DataMisfit::Kind kind, BodyFields& fields,
+                const std::function<VecX(int body, const Vec2&)>& values);
+
+  DataMisfits found;
+
+ private:
+  // Pressure, traction or foundation.
+  void add_along(const BoundaryEntry& entry, const std::string& key, DataMisfit::Kind kind);
+  // `direction`: of the displacement, by the outward normal of an edge.
+  void add_displacement(const BoundaryEntry& entry, const Field& field,
+                        const std::function<Vec2(const Vec2&)>& direction);
+
+  const Mesh& mesh_;
+  const Model& model_;
+  SideTable table_;
+};
+
+void Misfits::add_along(const BoundaryEntry& entry, const std::string& key, DataMisfit::Kind kind) {
+  const BoundaryFields fields(mesh_, entry.curves, fields_of(entry.spec.what));
   for (std::size_t k = 0; k < fields.count(); ++k) {
-    Collector collector(key, found);
-    for (const NamedBoundary& on : boundaries) {
-      const std::vector<Edge> edges = edges_of(mesh, on);
+    Collector collector(entry.spec.key + key, found);
+    for (const NamedBoundary& on : entry.curves) {
+      const std::vector<Edge> edges = edges_of(mesh_, on);
       for (int e = 0; e < int(edges.size()); ++e) {
         const LineFunction f = fields.along(k, on, e, edges[e]);
         const std::vector<double> cuts = resolving_cuts(f);
-        const double length = edge_length(mesh.nodes, edges[e]);
+        const double length = edge_length(mesh_.nodes, edges[e]);
         if (cuts.size() == 2) {
           collector.add_all(length * mean_size(f));
           continue;
         }
         const LineMisfit m = misfit(f, cuts);
         collector.add_all(length * m.mean_of_f);
-        const Vec2 at = edge_point(mesh.nodes, edges[e], m.at).position;
+        const Vec2 at = edge_point(mesh_.nodes, edges[e], m.at).position;
         collector.add({.kind = kind,
                        .cell = on.sides[e].cell,
                        .side = on.sides[e].side,
-                       .size = m.mean * length * model.depth(at.x()),
+                       .size = m.mean * length * model_.depth(at.x()),
                        .at = at,
                        .finest = m.finest / 2 * length},
                       length * m.mean, length);
@@ -86,24 +108,22 @@ std::optional<CellSide> side_of(const SideTable& table, const Edge& edge) {
   return {};
 }
 
-// `direction`: of the displacement, by the outward normal of an edge.
-void add_displacement(const Mesh& mesh, const Model& model, const std::string& key, const SideTable& table,
-                      const std::vector<NamedBoundary>& boundaries, const Field& field,
-                      const std::function<Vec2(const Vec2&)>& direction, DataMisfits& found) {
-  const BoundaryFields fields(mesh, boundaries, {&field});
+void Misfits::add_displacement(const BoundaryEntry& entry, const Field& field,
+                               const std::function<Vec2(const Vec2&)>& direction) {
+  const BoundaryFields fields(mesh_, entry.curves, {&field});
   if (!fields.any()) return;
-  const std::map<int, double> values = prescribed_values(mesh, boundaries, field);
-  Collector collector(key, found);
-  for (const NamedBoundary& on : boundaries) {
-    const std::vector<Edge> edges = edges_of(mesh, on);
+  const std::map<int, double> values = prescribed_values(mesh_, entry.curves, field);
+  Collector collector(entry.spec.key + ".displacement", found);
+  for (const NamedBoundary& on : entry.curves) {
+    const std::vector<Edge> edges = edges_of(mesh_, on);
     for (int e = 0; e < int(edges.size()); ++e) {
       const Edge& edge = edges[e];
       const LineFunction g = fields.along(0, on, e, edge);
-      const double length = edge_length(mesh.nodes, edge);
+      const double length = edge_length(mesh_.nodes, edge);
       const std::vector<double> cuts = resolving_cuts(g);
       collector.add_all(length * g.scale);
       if (cuts.size() == 2) continue;
-      const auto side = side_of(table, edge);
+      const auto side = side_of(table_, edge);
       if (!side) continue;
       const LineRule rule = cut_rule(cuts, 4);
       DataMisfit part{.kind = DataMisfit::Kind::displacement,
@@ -114,11 +134,11 @@ void add_displacement(const Mesh& mesh, const Model& model, const std::string& k
                       .finest = misfit(g, cuts).finest / 2 * length};
       double sum = 0, worst = -1;
       for (std::size_t q = 0; q < rule.points.size(); ++q) {
-        const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
+        const EdgePoint p = edge_point(mesh_.nodes, edge, rule.points[q]);
         const EdgeShape shape = edge_shape(edge.node_count, rule.points[q]);
         double difference = g.at(rule.points[q]);
         for (int a = 0; a < edge.node_count; ++a) difference -= shape.N[a] * values.at(edge.nodes[a]);
-        const double ds = rule.weights[q] * p.jacobian(), dA = ds * model.depth(p.position.x());
+        const double ds = rule.weights[q] * p.jacobian(), dA = ds * model_.depth(p.position.x());
         sum += ds * std::abs(difference);
         part.size += dA * std::abs(difference);
         part.mean += dA * difference * direction(p.normal());
@@ -131,30 +151,24 @@ void add_displacement(const Mesh& mesh, const Model& model, const std::string& k
   }
 }
 
-void add_boundary(const Mesh& mesh, const Model& model, const SideTable& table, const BoundaryEntry& entry,
-                  DataMisfits& found) {
-  const BoundarySpec& spec = entry.spec;
-  const std::vector<const Field*> all = fields_of(spec.what);
-  if (std::ranges::all_of(all, [](const Field* field) { return field->is_constant(); })) return;
+void Misfits::add(const BoundaryEntry& entry) {
+  if (std::ranges::all_of(fields_of(entry.spec.what), [](const Field* field) { return field->is_constant(); })) return;
   using enum DataMisfit::Kind;
-  const auto displaced = [&](const Field& field, const std::function<Vec2(const Vec2&)>& direction) {
-    add_displacement(mesh, model, spec.key + ".displacement", table, entry.curves, field, direction, found);
-  };
-  const auto along = [&](const char* key, DataMisfit::Kind kind) {
-    add_along(mesh, model, spec.key + key, kind, entry.curves, all, found);
-  };
   std::visit(
-      Overloaded{[&](const Displacement& u) {
-                   if (u.x) displaced(*u.x, [](const Vec2&) -> Vec2 { return Vec2::UnitX(); });
-                   if (u.y) displaced(*u.y, [](const Vec2&) -> Vec2 { return Vec2::UnitY(); });
-                 },
-                 [&](const NormalDisplacement& u) { displaced(u.value, [](const Vec2& n) { return n; }); },
-                 [&](const DirectedDisplacement& u) { displaced(u.value, [&](const Vec2&) { return u.direction; }); },
-                 [](const RigidSpec&) {}, [&](const Pressure&) { along(".pressure", force); },
-                 [&](const SurfaceTraction&) { along(".traction", force); }, [](const TotalForce&) {},
-                 [&](const NormalFoundation&) { along(".foundation", foundation); },
-                 [&](const AxesFoundation&) { along(".foundation", foundation); }, [](const PointSpring&) {}},
-      spec.what);
+      Overloaded{
+          [&](const Displacement& u) {
+            if (u.x) add_displacement(entry, *u.x, [](const Vec2&) -> Vec2 { return Vec2::UnitX(); });
+            if (u.y) add_displacement(entry, *u.y, [](const Vec2&) -> Vec2 { return Vec2::UnitY(); });
+          },
+          [&](const NormalDisplacement& u) { add_displacement(entry, u.value, [](const Vec2& n) { return n; }); },
+          [&](const DirectedDisplacement& u) {
+            add_displacement(entry, u.value, [&](const Vec2&) { return u.direction; });
+          },
+          [](const RigidSpec&) {}, [&](const Pressure&) { add_along(entry, ".pressure", force); },
+          [&](const SurfaceTraction&) { add_along(entry, ".traction", force); }, [](const TotalForce&) {},
+          [&](const NormalFoundation&) { add_along(entry, ".foundation", foundation); },
+          [&](const AxesFoundation&) { add_along(entry, ".foundation", foundation); }, [](const PointSpring&) {}},
+      entry.spec.what);
 }
 
 double corner_area(const Mesh& mesh, const Cell& cell) {
@@ -164,21 +178,20 @@ double corner_area(const Mesh& mesh, const Cell& cell) {
   return twice / 2;
 }
 
-// Over bodies, by root mean squares; `values` of a strain such that their square is its energy density.
-void add_over(const Mesh& mesh, const Model& model, const std::string& key, DataMisfit::Kind kind, BodyFields& fields,
-              const std::function<VecX(int body, const Vec2&)>& values, DataMisfits& found) {
+void Misfits::add_over(const std::string& key, DataMisfit::Kind kind, BodyFields& fields,
+                       const std::function<VecX(int body, const Vec2&)>& values) {
   fields.find_scales();
   if (!fields.any()) return;
   Collector collector(key, found);
-  for (int e = 0; e < int(mesh.cells.size()); ++e) {
-    const Cell& cell = mesh.cells[e];
-    const double area = corner_area(mesh, cell);
-    const Vec2 centre = centre_of(mesh.nodes, cell);
+  for (int e = 0; e < int(mesh_.cells.size()); ++e) {
+    const Cell& cell = mesh_.cells[e];
+    const double area = corner_area(mesh_, cell);
+    const Vec2 centre = centre_of(mesh_.nodes, cell);
     const std::vector<CellPiece> pieces = fields.pieces(cell);
     if (fields.any(cell.body)) collector.add_all(area * values(cell.body, centre).norm());
     if (pieces.empty()) continue;
-    const CellMisfit m = misfit(mesh.nodes, cell, pieces, [&](const Vec2& x) { return values(cell.body, x); });
-    const double volume = area * model.depth(centre.x());
+    const CellMisfit m = misfit(mesh_.nodes, cell, pieces, [&](const Vec2& x) { return values(cell.body, x); });
+    const double volume = area * model_.depth(centre.x());
     collector.add({.kind = kind,
                    .cell = e,
                    .size = m.root_mean_square * (kind == DataMisfit::Kind::strain ? std::sqrt(volume) : volume),
@@ -211,10 +224,9 @@ bool has_functions(const Entries& entries) {
 }  // namespace
 
 DataMisfits data_misfits(const Entries& entries, const Mesh& mesh, const std::vector<ElasticLaw>& laws) {
-  DataMisfits found;
-  if (!has_functions(entries)) return found;
-  const SideTable table(mesh);
-  for (const BoundaryEntry& entry : entries.boundaries) add_boundary(mesh, entries.model, table, entry, found);
+  if (!has_functions(entries)) return {};
+  Misfits misfits(mesh, entries.model);
+  for (const BoundaryEntry& entry : entries.boundaries) misfits.add(entry);
   const std::vector<int>& body_forces = entries.body_force_of;
   for (int i = 0; i < int(entries.body_forces.size()); ++i) {
     const BodyForceSpec& spec = entries.body_forces[i];
@@ -224,9 +236,8 @@ DataMisfits data_misfits(const Entries& entries, const Mesh& mesh, const std::ve
         fields.add(b, spec.force.x);
         fields.add(b, spec.force.y);
       }
-    add_over(
-        mesh, entries.model, spec.key + ".force", DataMisfit::Kind::force, fields,
-        [&](int, const Vec2& x) -> VecX { return spec.force(x); }, found);
+    misfits.add_over(spec.key + ".force", DataMisfit::Kind::force, fields,
+                     [&](int, const Vec2& x) -> VecX { return spec.force(x); });
   }
   const std::vector<int>& strains = entries.initial_strain_of;
   for (int i = 0; i < int(entries.initial_strains.size()); ++i) {
@@ -237,15 +248,12 @@ DataMisfits data_misfits(const Entries& entries, const Mesh& mesh, const std::ve
     if (!fields.any()) continue;
     std::vector<Mat4> roots;
     for (const ElasticLaw& law : laws) roots.push_back(root_of(law.stiffness));
-    add_over(
-        mesh, entries.model, spec.key, DataMisfit::Kind::strain, fields,
-        [&](int body, const Vec2& x) -> VecX {
-          const Vec4 e = laws[body].initial_strain(x);
-          return roots[body] * Vec4(e(0), e(1), e(2), 2 * e(3));
-        },
-        found);
+    misfits.add_over(spec.key, DataMisfit::Kind::strain, fields, [&](int body, const Vec2& x) -> VecX {
+      const Vec4 e = laws[body].initial_strain(x);
+      return roots[body] * Vec4(e(0), e(1), e(2), 2 * e(3));
+    });
   }
-  return found;
+  return std::move(misfits.found);
 }
 
 }  // namespace mortise

@@ -14,72 +14,99 @@ constexpr int max_passes = 6;
 
 VecX on(const std::vector<int>& free, const VecX& v) { return v(free); }
 
+bool is_without_solution(const Solution& solution) {
+  return solution.status == SolveStatus::dependent_row || solution.status == SolveStatus::unconstrained;
+}
+
+// The first pass solves, as a rule to round-off of the residual itself; others refine where it did not.
+class Passes {
+ public:
+  Passes(const SaddlePointSystem& s, SplitCholesky& factor, const std::vector<int>& free, Solution& solution)
+      : s_(s), factor_(factor), free_(free), solution_(solution) {
+    solution_.u = s_.constraints.value;
+    solution_.lambda = VecX::Zero(s_.B.rows());
+    Ku_ = s_.K.selfadjointView<Eigen::Lower>() * solution_.u;
+    problem_.compliance = factor.take_border_compliance();
+    problem_.scale = s_.row_scale;
+    problem_.unilateral = s_.unilateral.empty() ? std::vector<char>(s_.B.rows(), 0) : s_.unilateral;
+  }
+
+  // False if another pass would change nothing, or nothing for the better.
+  bool next() {
+    const Eigen::Index m = s_.B.rows();
+    const VecX unbalanced = s_.f - Ku_ - s_.B.transpose() * solution_.lambda;
+    const VecX y = factor_.forward(on(free_, unbalanced) / s_.stiffness_scale);
+    VecX rhs = factor_.at_border(y);
+    rhs.head(m) -= (s_.g - s_.B * solution_.u).cwiseQuotient(s_.row_scale);
+    const std::optional<VecX> lambda = multipliers_for(y, rhs);
+    if (!lambda) return false;
+    solution_.u(free_) += factor_.backward(y, *lambda);
+    solution_.lambda += s_.stiffness_scale * lambda->head(m).cwiseQuotient(s_.row_scale);
+    Ku_ = s_.K.selfadjointView<Eigen::Lower>() * solution_.u;
+    measure_residuals(s_, solution_);
+    const bool exact = largest(solution_.force_residual, solution_.constraint_residual) < 1e-11;
+    if (solution_.status != SolveStatus::converged || (pass_ > 0 && !penetrated_ && !exact)) return false;
+    penetrated_ = penetrates(s_, solution_);
+    ++pass_;
+    return !exact || penetrated_;
+  }
+
+  std::optional<MultiplierSystem> system;  // of the active set
+
+ private:
+  // What lambda and mu change by; nothing where no active set is found, or none for the better.
+  std::optional<VecX> multipliers_for(const VecX& y, const VecX& rhs) {
+    if (pass_ > 0 && !penetrated_) return system->solve(rhs);
+    if (pass_ > 0) {
+      problem_.known = solution_.lambda.cwiseProduct(s_.row_scale) / s_.stiffness_scale;
+      problem_.displacement = largest_entry(solution_.u);
+      problem_.round_off = 0;
+    } else if (!s_.unilateral.empty()) {
+      // Of the largest displacement without contact, floating bodies held by their springs: gaps are its differences.
+      problem_.round_off = 1e-12 * largest(largest_entry(s_.constraints.value),
+                                           largest_entry(factor_.backward(y, VecX::Zero(rhs.size()))));
+    }
+    ActiveSetResult set = find_active_set(problem_, rhs, pass_ > 0 ? solution_.active : s_.start);
+    if (pass_ > 0 && set.status != SolveStatus::converged) return {};  // those before stay; the checks look at them
+    take_active_set(s_, set, solution_);
+    if (is_without_solution(solution_)) return {};
+    if (pass_ > 0) set.lambda -= problem_.known;
+    const VecX change = stacked(set.lambda, set.mu);
+    system = std::move(set.system);
+    return change;
+  }
+
+  const SaddlePointSystem& s_;
+  SplitCholesky& factor_;
+  const std::vector<int>& free_;
+  Solution& solution_;
+  ComplementarityProblem problem_;
+  VecX Ku_;
+  int pass_ = 0;
+  bool penetrated_ = false;
+};
+
 }  // namespace
 
 Solution solve_directly(const SaddlePointSystem& s) {
   Solution solution;
   Stopwatch watch;
-  const Eigen::Index m = s.B.rows();
   BorderedSystem reduced = bordered_system(s);
   SplitCholesky factor(std::move(reduced.matrix), reduced.blocks);
-  const std::vector<int>& free = reduced.free;
   if (factor.failed_at() >= 0) {
     solution.status = SolveStatus::not_positive_definite;
-    solution.failed_at = free[std::min(factor.failed_at(), int(free.size()) - 1)];
+    solution.failed_at = reduced.free[std::min(factor.failed_at(), int(reduced.free.size()) - 1)];
     return solution;
   }
   solution.factorise_seconds = watch.lap();
-
-  solution.u = s.constraints.value;
-  solution.lambda = VecX::Zero(m);
-  const auto symmetric = s.K.selfadjointView<Eigen::Lower>();
-  VecX Ku = symmetric * solution.u;
-  ComplementarityProblem problem{.compliance = factor.take_border_compliance(),
-                                 .scale = s.row_scale,
-                                 .unilateral = s.unilateral.empty() ? std::vector<char>(m, 0) : s.unilateral};
-  std::optional<MultiplierSystem> multipliers;  // of the active set
-  // The first pass solves, as a rule to round-off of the residual itself; others refine where it did not.
-  bool penetrated = false;
-  for (int pass = 0; pass < max_passes; ++pass) {
-    const VecX unbalanced = s.f - Ku - s.B.transpose() * solution.lambda;
-    const VecX y = factor.forward(on(free, unbalanced) / s.stiffness_scale);
-    VecX rhs = factor.at_border(y);
-    rhs.head(m) -= (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
-    VecX lambda;
-    if (pass > 0 && !penetrated) {
-      lambda = multipliers->solve(rhs);
-    } else {
-      if (pass > 0) {
-        problem.known = solution.lambda.cwiseProduct(s.row_scale) / s.stiffness_scale;
-        problem.displacement = largest_entry(solution.u);
-        problem.round_off = 0;
-      } else if (!s.unilateral.empty()) {
-        // Of the largest displacement without contact, floating bodies held by their springs: gaps are its differences.
-        problem.round_off = 1e-12 * largest(largest_entry(s.constraints.value),
-                                            largest_entry(factor.backward(y, VecX::Zero(rhs.size()))));
-      }
-      ActiveSetResult set = find_active_set(problem, rhs, pass > 0 ? solution.active : s.start);
-      if (pass > 0 && set.status != SolveStatus::converged) break;  // those before stay, and the checks look at them
-      take_active_set(s, set, solution);
-      if (solution.status == SolveStatus::dependent_row || solution.status == SolveStatus::unconstrained)
-        return solution;
-      if (pass > 0) set.lambda -= problem.known;
-      lambda = stacked(set.lambda, set.mu);
-      multipliers = std::move(set.system);
-    }
-    solution.u(free) += factor.backward(y, lambda);
-    solution.lambda += s.stiffness_scale * lambda.head(m).cwiseQuotient(s.row_scale);
-    Ku = symmetric * solution.u;
-    measure_residuals(s, solution);
-    const bool exact = largest(solution.force_residual, solution.constraint_residual) < 1e-11;
-    if (solution.status != SolveStatus::converged || (pass > 0 && !penetrated && !exact)) break;
-    penetrated = penetrates(s, solution);
-    if (exact && !penetrated) break;
+  Passes passes(s, factor, reduced.free, solution);
+  for (int pass = 0; pass < max_passes && passes.next(); ++pass) {
   }
+  if (is_without_solution(solution)) return solution;
   if (!std::isfinite(largest(solution.force_residual, solution.constraint_residual)))
     solution.status = SolveStatus::not_converged;
   solution.factor =
-      std::make_shared<DirectFactor>(s, std::move(reduced.free), std::move(factor), *std::move(multipliers));
+      std::make_shared<DirectFactor>(s, std::move(reduced.free), std::move(factor), *std::move(passes.system));
   solution.solve_seconds = watch.lap();
   return solution;
 }
