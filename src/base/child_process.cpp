@@ -91,6 +91,13 @@ void leave_parent(pid_t parent, const Pipe& answer, const Pipe& text) {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
+  // gmsh lifts the limit of its stack as far as it may, and a recursion without end would fill the memory.
+  constexpr rlim_t largest_stack = 1 << 30;
+  rlimit stack{};
+  ::getrlimit(RLIMIT_STACK, &stack);
+  stack.rlim_max = std::min(stack.rlim_max, largest_stack);
+  stack.rlim_cur = std::min(stack.rlim_cur, stack.rlim_max);
+  ::setrlimit(RLIMIT_STACK, &stack);
   std::atexit([] { ::_exit(1); });  // the first to be called
   reply_end = answer.in;
   ::dup2(text.in, STDOUT_FILENO);

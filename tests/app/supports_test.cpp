@@ -205,6 +205,24 @@ boundary = [
 }
 
 // A displacement along -x by v is one along x by -v.
+// The node of the corner is held twice, and what holds it is each support's own.
+TEST(Supports, TwoThatMeetReactAlongTheirOwnNormals) {
+  const TemporaryFolder folder;
+  const Results r = solve_scene(supported_scene(folder, contact + R"toml(
+boundary = [
+  { on = ["lower_left", "upper_left"], displacement = { normal = 0 } },
+  { on = "bottom", displacement = { normal = 0 } },
+  { on = "top", pressure = 1 }, { on = ["lower_right", "upper_right"], pressure = 0.25 },
+])toml",
+                                                30));
+  ASSERT_EQ(r.status, Status::solved);
+  const Eigen::Rotation2Dd turn(std::numbers::pi / 6);
+  const Vec2 left = r.recovery.reactions.entries[0].force, bottom = r.recovery.reactions.entries[1].force;
+  EXPECT_GT(left.norm(), 0.1);
+  EXPECT_NEAR(left.dot(turn * Vec2::UnitY()), 0, 1e-9 * left.norm());
+  EXPECT_NEAR(bottom.dot(turn * Vec2::UnitX()), 0, 1e-9 * bottom.norm());
+}
+
 TEST(Supports, AValueAlongAnAxisBackwardsIsItsOpposite) {
   const TemporaryFolder folder;
   const auto moved = [&](const std::string& right, const std::string& top) {

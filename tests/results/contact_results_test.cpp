@@ -1,0 +1,120 @@
+#include "results/contact_results.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "app/solve_scene.hpp"
+#include "contact/coupling.hpp"
+#include "fem/quadrature.hpp"
+
+namespace mortise {
+namespace {
+
+Results solved_with(const std::string& scene, std::vector<Override> settings) {
+  return solve_scene(read_scene(MORTISE_SOURCE_DIR "/geo/" + scene, settings));
+}
+
+/// The first pair's results with other pressures or displacements.
+ContactResults of(const Results& r, const Solution& solution) {
+  return contact_results(r.problem, r.problem.pairs[0], r.recovery.stress, solution);
+}
+
+Solution with_any_pressures(const Results& r, int seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> part(-1, 1);
+  Solution solution = r.solution;
+  for (double& lambda : solution.lambda) lambda *= part(random);
+  return solution;
+}
+
+const std::vector<Override> quadratic{
+    {"method.multipliers", "quadratic"}, {"mesh.parameters.n_upper", "16"}, {"mesh.parameters.n_lower", "20"}};
+
+TEST(ContactResults, PositionsRunFromZeroToTheLengthOnBothSides) {
+  for (const std::string scene : {"patch_inclined.toml", "parabola_1.toml"}) {
+    const Results r = solved_with(scene, {});
+    const ContactResults& c = r.recovery.contacts[0];
+    for (const ContactSide* side : {&c.multiplier, &c.opposite}) {
+      EXPECT_NEAR(side->nodes.front().s, 0, 1e-12);
+      EXPECT_NEAR(side->nodes.back().s, c.length, 1e-2 * c.length);
+      for (std::size_t i = 1; i < side->nodes.size(); ++i)
+        EXPECT_NEAR(side->nodes[i].s - side->nodes[i - 1].s,
+                    (side->nodes[i].position - side->nodes[i - 1].position).norm(), 1e-3 * c.length);
+    }
+    EXPECT_LE((c.multiplier.nodes[0].position - c.opposite.nodes[0].position).norm(), 1e-3 * c.length);
+  }
+}
+
+// The parabola's own normal leans there, by a slope of 1.
+TEST(ContactResults, NormalsAtEndsOnSymmetryPlanesLieInThem) {
+  const Results r = solved_with("parabola_1.toml", quadratic);
+  for (const ContactSide* side : {&r.recovery.contacts[0].multiplier, &r.recovery.contacts[0].opposite})
+    for (const ContactNode* end : {&side->nodes.front(), &side->nodes.back()})
+      EXPECT_NEAR(std::abs(end->normal.y()), 1, 1e-12) << side->curve;
+}
+
+TEST(ContactResults, NormalStressesOfCurvedSidesAreThePressures) {
+  const Results r = solved_with("shrink_fit.toml", {});
+  const ContactResults& c = r.recovery.contacts[0];
+  for (const ContactNode& n : c.multiplier.nodes) EXPECT_NEAR(n.sigma_n, -n.p, 0.05 * c.p_max) << n.position;
+}
+
+TEST(ContactResults, MeansOverEdgesAreThoseOfTheParabolas) {
+  const Results r = solved_with("parabola_1.toml", quadratic);
+  const ContactResults c = of(r, with_any_pressures(r));
+  const ContactPair& pair = r.problem.pairs[0];
+  const LineRule rule = gauss_legendre(3);
+  for (int e = 0; e < int(pair.multiplier.edges.size()); ++e) {
+    double mean = 0;
+    for (int q = 0; q < int(rule.points.size()); ++q)
+      mean += rule.weights[q] / 2 * interpolate(pair, c.pressure, {e, rule.points[q]});
+    EXPECT_TRUE(std::ranges::any_of(c.multiplier.centres, [&](const ContactCentre& at) {
+      return std::abs(at.p - mean) < 1e-9 * c.p_max;
+    })) << e;
+  }
+}
+
+TEST(ContactResults, TheLeastPressureIsFoundBetweenTheNodesToo) {
+  const Results r = solved_with("parabola_1.toml", quadratic);
+  const ContactPair& pair = r.problem.pairs[0];
+  int between = 0;
+  for (int run = 0; run < 60; ++run) {
+    const ContactResults c = of(r, with_any_pressures(r, run));
+    double least = c.p_max;
+    for (std::size_t k = 1; k < pair.points.size(); ++k) {
+      const ContactPoint &from = pair.points[k - 1], &to = pair.points[k];
+      if (from.edge != to.edge) continue;
+      for (const double part : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0})
+        least = std::min(least, interpolate(pair, c.pressure, {to.edge, from.xi + part * (to.xi - from.xi)}));
+    }
+    EXPECT_NEAR(c.p_least, least, 1e-3 * c.p_max);
+    between += least < c.pressure.minCoeff() - 1e-2 * c.p_max;
+  }
+  EXPECT_GT(between, 3);
+}
+
+TEST(ContactResults, GapsOpenByHowFarTheBodiesMoveApart) {
+  const Results r = solved_with("patch_inclined.toml", {{"contact.initial_gap", "curve"}});
+  const ContactPair& pair = r.problem.pairs[0];
+  Solution solution = r.solution;
+  const Vec2 own(0.3, -0.2), other(-0.1, 0.5);
+  for (const Cell& cell : r.problem.mesh.cells)
+    for (int i = 0; i < node_count(cell.kind); ++i)
+      solution.u.segment<2>(2 * cell.nodes[i]) = cell.body == pair.multiplier.body ? own : other;
+  const ContactResults c = of(r, solution);
+  for (const ContactSide* side : {&c.multiplier, &c.opposite})
+    for (const ContactNode& n : side->nodes)
+      if (!std::isnan(n.gap)) EXPECT_NEAR(n.gap, (other - own).dot(n.normal), 1e-9) << n.position;
+}
+
+TEST(ContactResults, TheMeanPressureOfRingsIsTheForceOverTheArea) {
+  const Results r = solved_with("patch_flat.toml", {{"model.plane", "axisymmetric"}});
+  const ContactResults c = of(r, with_any_pressures(r));
+  double area = 0;
+  for (const ContactPoint& point : r.problem.pairs[0].points) area += point.dA;
+  EXPECT_NEAR(std::abs(c.p_mean) * area, std::abs(c.force.y()), 1e-9 * c.p_max * area);
+}
+
+}  // namespace
+}  // namespace mortise
