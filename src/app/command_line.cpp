@@ -22,6 +22,7 @@
 #include "mesh/measures.hpp"
 #include "output/output_folder.hpp"
 #include "results/error_report.hpp"
+#include "results/expected.hpp"
 #include "results/report_text.hpp"
 #include "solve/threads.hpp"
 
@@ -91,6 +92,7 @@ int solve(const Options& options) {
     stage("diagnose");
     diagnose(results);
   }
+  judge_expectations(results);
   stage("write");
   Json report = report_of(results);
   if (ranks().rank() == 0) write_results(results, report, folder);

@@ -13,6 +13,7 @@
 #include "base/printable.hpp"
 #include "base/staged_file.hpp"
 #include "gmsh/geo_file.hpp"
+#include "results/expected.hpp"
 
 namespace mortise {
 namespace {
@@ -25,6 +26,7 @@ RunRow run_one(const SweepPlan& plan, std::size_t run, std::optional<ActiveSet>&
   Results results = scene.accuracy ? *solve_to_accuracy(scene) : solve_scene(scene, {}, start ? &*start : nullptr);
   if (!scene.accuracy) estimate(results);
   if (plan.diagnosed) diagnose(results);
+  judge_expectations(results);
   start = active_set(results);
   return row_of(report_of(results));
 } catch (const InputError& error) {

@@ -55,6 +55,7 @@ Problem prepare(const Scene& scene, Mesh mesh, const Progress& progress, const A
   p.discretisation = discretise(p.entries, p.mesh);
   p.misfits = data_misfits(p.entries, p.mesh, p.discretisation.laws);
   p.probes = locate_probes(scene, p.mesh);
+  p.expectations = scene.expectations;
   p.assemble_seconds = watch.lap();
 
   stage("couple");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/body_points.hpp"
+#include "model/expectation.hpp"
 #include "model/method.hpp"
 #include "model/probe_spec.hpp"
 #include "problem/contact_pair.hpp"
@@ -30,6 +31,7 @@ struct Problem {
   Floating floating;                           ///< what only contact holds
   std::vector<std::vector<RigidMotion>> held;  ///< motions that nothing holds and no load drives, held
   std::vector<ProbePlace> probes;
+  std::vector<Expectation> expectations;
   std::vector<std::string> warnings;  ///< of the mesh and the audit, and of motions held
   double assemble_seconds = 0, couple_seconds = 0;
 };

@@ -5,6 +5,7 @@
 
 #include "mortise/scene.hpp"
 #include "mortise/solve.hpp"
+#include "results/expected.hpp"
 #include "results/report.hpp"
 
 namespace mortise {
@@ -84,6 +85,7 @@ py::tuple solve(const std::string& path, const std::vector<std::pair<std::string
     for (const auto& [key, value] : changes) overrides.push_back({key, value});
     scene = read_scene(path, overrides);
     results = solved(scene, with_estimate);
+    judge_expectations(results);
     summary = report_of(results).dump();
   }
   return py::make_tuple(contact_columns(results), body_fields(results), summary);

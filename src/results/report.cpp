@@ -192,6 +192,18 @@ Json checks_json(const std::vector<Check>& checks) {
   return list;
 }
 
+Json expected_json(const std::vector<ExpectedFigure>& expected) {
+  Json list = Json::array();
+  for (const ExpectedFigure& e : expected)
+    list.push_back({{"figure", e.name},
+                    {"value", e.of.value.is_constant() ? Json(e.of.value.constant()) : Json(e.of.value.words())},
+                    {"found", e.found},
+                    {"off", e.off},
+                    {"tolerance", e.of.tolerance},
+                    {"source", e.of.source}});
+  return list;
+}
+
 }  // namespace
 
 Json report_of(const Results& r) {
@@ -217,6 +229,7 @@ Json report_of(const Results& r) {
               {"extremes", extremes_json(r)},
               {"checks", checks_json(r.checks)},
               {"warnings", r.warnings}};
+  if (!r.expected.empty()) report["expected"] = expected_json(r.expected);
   if (r.inf_sup) report["inf_sup_position"] = {r.inf_sup->position.x(), r.inf_sup->position.y()};
   return report;
 }

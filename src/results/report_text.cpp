@@ -146,6 +146,28 @@ void print_checks(const Json& checks, std::ostream& out) {
           << "\n";
 }
 
+// "contact.0.pressure.max 2145.1: 0.098 % off 2143, 1 % allowed (Johnson 1985)"
+void print_expected(const Json& expected, std::ostream& out) {
+  for (const Json& e : expected) {
+    const double found = e["found"].get<double>(), off = e["off"].get<double>();
+    out << "  expected  " << printable(e["figure"]) << std::setprecision(6);
+    if (std::isfinite(found)) out << " " << found;
+    out << ": " << std::setprecision(2);
+    if (std::isfinite(off))
+      out << 100 * off << " % off ";
+    else
+      out << "not known; ";
+    out << std::setprecision(6);
+    if (e["value"].is_number())
+      out << e["value"].get<double>();
+    else
+      out << printable(e["value"]);
+    out << std::setprecision(2) << ", " << 100 * e["tolerance"].get<double>() << " % allowed";
+    if (e["source"] != "") out << " (" << printable(e["source"]) << ")";
+    out << "\n";
+  }
+}
+
 void print_warnings(const Json& warnings, std::ostream& out) {
   constexpr std::size_t most = 5;
   for (std::size_t i = 0; i < std::min(warnings.size(), most); ++i)
@@ -187,6 +209,7 @@ std::string report_text(const Json& r, const std::filesystem::path& folder) {
   if (!r["inf_sup"].is_null())
     out << "  inf-sup   " << r["inf_sup"].get<double>() << ", worst " << near(r["inf_sup_position"]) << " (limit "
         << inf_sup_limit << ")\n";
+  if (r.contains("expected")) print_expected(r["expected"], out);
   print_checks(r["checks"], out);
   print_warnings(r["warnings"], out);
   print_seconds(r, out);

@@ -19,6 +19,15 @@ struct Check {
   bool ok() const { return value <= limit; }  // NaN fails
 };
 
+/// A figure that the scene expects.
+struct ExpectedFigure {
+  Expectation of;
+  std::string name;     ///< of the figure, for messages
+  double found;         ///< NaN of a pressure along a pair, and where there is none
+  double off;           ///< from the value, a part of it; NaN where it is not known
+  std::string trouble;  ///< what is found and where, or why nothing is
+};
+
 /// How well the displacements control the multipliers (diagnose).
 struct InfSupReport {
   double beta;    ///< inf-sup constant, dimensionless
@@ -55,6 +64,7 @@ struct Results {
   std::optional<ErrorEstimate> estimate;   ///< unless the run was asked for none
   std::optional<AccuracyReport> accuracy;  ///< where one was asked for
   std::optional<InfSupReport> inf_sup;     ///< where the run was asked to diagnose
+  std::vector<ExpectedFigure> expected;    ///< by the scene
   std::vector<Check> checks;
   std::vector<std::string> warnings;  ///< what a user should know; nothing that fails
   Status status = Status::solved;

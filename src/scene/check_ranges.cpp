@@ -17,6 +17,7 @@ void check_ranges(Scene scene) {
   for (auto* contacts : {&scene.contacts, &scene.ties})
     for (ContactSpec& contact : *contacts) check(contact_keys(contact, {}), contact.key);
   for (ProbeSpec& probe : scene.probes) check(probe_keys(probe), probe.key);
+  for (Expectation& expectation : scene.expectations) check(expectation_keys(expectation, {}), expectation.key);
   check(method_keys(scene.method), "method");
   if (scene.accuracy) check(accuracy_keys(*scene.accuracy, std::numeric_limits<int>::max()), "accuracy");
 }

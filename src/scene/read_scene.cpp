@@ -48,6 +48,7 @@ Scene read_sections(const Node& root, const std::string& path) {
   read_initial_strains(root, scene);
   read_contacts(root, scene);
   read_probes(root, scene);
+  read_expectations(root, scene);
   read_method(root, scene);
   read_accuracy(root, scene);
   return scene;

@@ -10,6 +10,7 @@
 #include "model/body_specs.hpp"
 #include "model/boundary_spec.hpp"
 #include "model/contact_spec.hpp"
+#include "model/expectation.hpp"
 #include "model/geo_limits.hpp"
 #include "model/method.hpp"
 #include "model/model.hpp"
@@ -36,6 +37,7 @@ struct Scene {
   std::vector<ContactSpec> contacts;
   std::vector<ContactSpec> ties;  ///< the [[contact]] entries of Condition::tied
   std::vector<ProbeSpec> probes;
+  std::vector<Expectation> expectations;
   Method method;
   std::optional<AccuracySpec> accuracy;  ///< none: the mesh is the file's
 };

@@ -67,6 +67,7 @@ std::vector<Section> all_sections() {
   InitialStrainSpec initial_strain;
   ContactSpec contact;
   ProbeSpec probe;
+  Expectation expectation;
   AccuracySpec accuracy;
   return {
       {"title", a_text().schema, "| `title` | text | empty |\n"},
@@ -86,6 +87,8 @@ std::vector<Section> all_sections() {
       entries_of("contact", "pairs of curves in contact", contact_keys(contact, {})),
       entries_of("probe", "places at which displacement and stress are written to probes.csv ([below](#probescsv))",
                  probe_keys(probe), {{"at"}, {"from", "to", "points"}}),
+      entries_of("expect", "what results should be: exit status 2 if one is not", expectation_keys(expectation, {}),
+                 {{"figure", "value"}, {"pressure"}}),
       table("method", method_keys(scene.method)),
       table("accuracy", accuracy_keys(accuracy, std::numeric_limits<int>::max())),
   };

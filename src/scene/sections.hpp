@@ -60,6 +60,10 @@ void read_contacts(const Node& root, Scene& scene);
 Keys probe_keys(ProbeSpec& probe);
 void read_probes(const Node& root, Scene& scene);
 
+/// [[expect]]: what figures or pressures should be.
+Keys expectation_keys(Expectation& expectation, const FieldUse& use);
+void read_expectations(const Node& root, Scene& scene);
+
 /// [method]. After read_bodies.
 Kind<Solver> solver_word();
 Keys method_keys(Method& method);  ///< the iteration's rows are those of method.solver

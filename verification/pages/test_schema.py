@@ -31,6 +31,7 @@ body_force = [{ body = "upper", force = [0, 1] }]
 initial_strain = [{ body = "upper", strain = { xx = 0 } }, { body = "lower", temperature_change = 1 }]
 contact = [{ between = ["a", "b"], initial_gap = "closed" }]
 probe = [{ at = [0, 0] }, { from = [0, 0], to = [1, 0], points = 3 }]
+expect = [{ figure = "energy", value = 1, tolerance = "1%" }, { pressure = "x", pair = 0, tolerance = 0.1, source = "a book" }]
 method.solver = "ddm"
 [accuracy]
 value = "1%"
@@ -48,6 +49,7 @@ WRONG = [
     "body_force.0.force=1", "initial_strain.0.temperature_change=1", "initial_strain.0.strain=1",
     "contact.0.between=a", "contact.0.within=0", "contact.0.clearance=true", "contact.0.condition=glued",
     "probe.0.at=1", "probe.1.points=1", "probe.1.at=[0, 0]", "probe.0.body=1",
+    "expect.0.figure=1", "expect.0.value=energy", "expect.0.tolerance=2", "expect.1.pair=-1", "expect.1.source=1",
     "method.beta=fast", "method.tolerance=0", "method.max_iterations=0", "method.dirichlet=[]", "method.omega=2",
     "accuracy.value=1", "accuracy.value=5", "accuracy.unknowns_max=1", "accuracy.first_edges=1",
     "accuracy.recombine=1", "accuracy.pair=-1",
