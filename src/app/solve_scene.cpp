@@ -94,16 +94,14 @@ ActiveSet active_set(const Results& r) {
 void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint>& found, bool forces) {
   Stopwatch watch;
   require_held(r, spec);
-  const Problem& p = r.problem;
   Recovery& recovery = r.recovery;
   ForcesAsked asked;
   if (forces) asked = ask_forces(r);
-  r.estimate =
-      estimate_error(p.mesh, p.points, p.discretisation, p.pairs, r.solution, spec, most_own_duals, found, asked.rows);
-  add_data_errors(p.mesh, p.points, p.discretisation, p.pairs, r.solution, p.misfits, spec, *r.estimate);
+  r.estimate = estimate_error(r.problem, r.solution, {.spec = spec, .found = found, .also = asked.rows});
+  add_data_errors(r.problem, r.solution, spec, *r.estimate);
   for (std::size_t k = 0; k < recovery.contacts.size(); ++k) set_bars(r.estimate->pressures[k], recovery.contacts[k]);
-  const std::vector<PlaceError> of_probes = place_errors(p.mesh, p.points, p.discretisation, p.pairs, r.solution,
-                                                         r.estimate->pressures, probed_places(recovery.probes));
+  const std::vector<PlaceError> of_probes =
+      place_errors(r.problem, r.solution, r.estimate->pressures, probed_places(recovery.probes));
   for (std::size_t i = 0; i < of_probes.size(); ++i) recovery.probes[i].error = of_probes[i];
   leave_out_unheld(r);
   if (forces) set_force_bars(asked, std::exchange(r.estimate->also, {}), r);

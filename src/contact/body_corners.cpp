@@ -127,8 +127,8 @@ double interior_angle(const Vec2& before, const Vec2& after) {
   return straight - std::atan2(cross(before, after), before.dot(after));
 }
 
-std::vector<BodyCorner> body_corners(const Mesh& mesh, const SideTable& table, const Constraints& constraints,
-                                     const std::vector<ElasticLaw>& laws, TipTable& tips) {
+std::vector<BodyCorner> body_corners(const Surroundings& around) {
+  const auto& [mesh, table, constraints, laws, tips] = around;
   std::vector<BodyCorner> corners;
   for (int node = 0; node < int(mesh.nodes.rows()); ++node) {
     const auto sides = table.at(node);

@@ -27,11 +27,20 @@ struct BodyCorner {
   double exponent;  ///< real part, at most singular_limit
 };
 
+/// What stands around the vertices of a mesh: sides, what holds them, laws (one a body), and the exponents found so
+/// far.
+struct Surroundings {
+  const Mesh& mesh;
+  const SideTable& table;
+  const Constraints& constraints;
+  const std::vector<ElasticLaw>& laws;
+  TipTable& tips;
+};
+
 /// All of them, as the edges of the mesh turn at the outlines' vertices and as the nodes of these edges are held. Faces
 /// in contact count as free, and so do tied ones. Time as the nodes; exponents are found once for corners that are
 /// alike to 1e-4 radians.
-std::vector<BodyCorner> body_corners(const Mesh& mesh, const SideTable& table, const Constraints& constraints,
-                                     const std::vector<ElasticLaw>& laws, TipTable& tips);
+std::vector<BodyCorner> body_corners(const Surroundings& around);
 
 /// The exponent of one body's own corner at a node, its faces free of contact: 1 where it has none below, and inside.
 double corner_exponent(const Mesh& mesh, int node, const Constraints& constraints, const ElasticLaw& law);

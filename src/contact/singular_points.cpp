@@ -52,14 +52,15 @@ struct Corner {
 
 // One of the two curves with the line that it stands for.
 struct LineSide {
-  const Mesh& mesh;
-  const SideTable& table;
+  const Surroundings& around;
   const Curve& curve;
-  const Constraints& constraints;
   const ElasticLaw& law;
   ContactLine line;
 
-  Vec2 position(const Vertex& v) const { return mesh.nodes.row(v.node).transpose(); }
+  LineSide(const Surroundings& of, const Curve& along)
+      : around(of), curve(along), law(of.laws[along.body]), line(of.mesh.nodes, along) {}
+
+  Vec2 position(const Vertex& v) const { return around.mesh.nodes.row(v.node).transpose(); }
   Vec2 before(const Vertex& v) const { return line.at(v.before, 1).tangent; }
   Vec2 after(const Vertex& v) const { return line.at(v.after, -1).tangent; }
   double turn(const Vertex& v) const { return v.is_end() ? 0 : straight - interior_angle(before(v), after(v)); }
@@ -70,7 +71,7 @@ struct LineSide {
   double edge_at(const Vertex& v) const {
     double length = 0;
     for (const int e : {v.before, v.after})
-      if (e >= 0) length = std::max(length, edge_length(mesh.nodes, curve.edges[e]));
+      if (e >= 0) length = std::max(length, edge_length(around.mesh.nodes, curve.edges[e]));
     return length;
   }
   Vec2 normal(const Vertex& v) const {
@@ -110,12 +111,13 @@ double LineSide::end_error(int e, int end) const {
 
 Corner LineSide::corner(const Vertex& v) const {
   if (!v.is_end()) return {wedge(straight - turn(v), law), false, edge_at(v), turn_error(v), v.node};
-  for (const Edge& beyond : outline_at(mesh, table, v.node)) {
+  for (const Edge& beyond : outline_at(around.mesh, around.table, v.node)) {
     const bool starts = beyond.nodes[0] == v.node;
     if (starts != (v.after < 0)) continue;  // the curve's own
-    const Vec2 tangent = edge_point(mesh.nodes, beyond, starts ? -1 : 1).tangent;
+    const Vec2 tangent = edge_point(around.mesh.nodes, beyond, starts ? -1 : 1).tangent;
     const double angle = starts ? interior_angle(before(v), tangent) : interior_angle(tangent, after(v));
-    return {wedge(angle, law, face_of(mesh.nodes, beyond, constraints)), true, edge_at(v), turn_error(v), v.node};
+    return {wedge(angle, law, face_of(around.mesh.nodes, beyond, around.constraints)), true, edge_at(v), turn_error(v),
+            v.node};
   }
   return {wedge(straight, law), true, edge_at(v), turn_error(v), v.node};
 }
@@ -125,12 +127,12 @@ std::optional<Corner> facing(const LineSide& side, const Vertex& v, const LineSi
   const Vec2 x = side.position(v);
   const double edge = side.edge_at(v);
   const Line line{x, side.normal(v), deepest_overlap(side.curve, std::max(v.before, v.after))};
-  const auto hit = project_onto_curve(side.mesh.nodes, other.curve, line);
+  const auto hit = project_onto_curve(side.around.mesh.nodes, other.curve, line);
   const Vec2 place = hit ? Vec2(x + hit->distance * line.n) : x;
   for (const Vertex& w : vertices_of(other.curve))
     if ((other.position(w) - place).norm() < at_one_place * edge) return other.corner(w);
   if (!hit) return {};
-  return Corner{wedge(straight, other.law), false, edge_length(other.mesh.nodes, other.curve.edges[hit->edge])};
+  return Corner{wedge(straight, other.law), false, edge_length(other.around.mesh.nodes, other.curve.edges[hit->edge])};
 }
 
 Meeting meeting_of(const Corner& a, const Corner& b, bool one_curve) {
@@ -161,10 +163,11 @@ double log_amplitude(const Wedge& a, const Wedge& b, double jump) {
   return 2 * std::abs(jump) / (a.compliance() + b.compliance());
 }
 
-// `given_slope`: of the gap away from an end, beside that of the curves.
-SingularPoint singular_point(const Vec2& x, const Corner& a, const Corner& b, bool on_both_sides, bool one_curve,
+// `given_slope`: of the gap away from an end, beside that of the curves. The position is left to the caller.
+SingularPoint singular_point(const std::array<Corner, 2>& corners, bool on_both_sides, bool one_curve,
                              double given_slope, TipTable& tips) {
-  SingularPoint point{x, std::max(a.edge, b.edge), 1, 1, meeting_of(a, b, one_curve), {a.wedge, b.wedge}};
+  const auto& [a, b] = corners;
+  SingularPoint point{Vec2::Zero(), std::max(a.edge, b.edge), 1, 1, meeting_of(a, b, one_curve), {a.wedge, b.wedge}};
   auto& [first, second] = point.wedges;
   TipExponents found;
   double jump = 0, given_jump = 0;
@@ -200,12 +203,9 @@ ContactReach reached_everywhere(const Curve& first, const Curve& second) {
           std::vector<Reach>(second.edges.size() + 1, {true, true})};
 }
 
-std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& table, const Curve& first,
-                                           const Curve& second, const Constraints& constraints,
-                                           const std::vector<ElasticLaw>& laws, TipTable& tips,
+std::vector<SingularPoint> singular_points(const Surroundings& around, const Curve& first, const Curve& second,
                                            const ContactReach& reach, const GivenGap& given) {
-  const LineSide sides[] = {{mesh, table, first, constraints, laws[first.body], ContactLine(mesh.nodes, first)},
-                            {mesh, table, second, constraints, laws[second.body], ContactLine(mesh.nodes, second)}};
+  const LineSide sides[] = {{around, first}, {around, second}};
   std::vector<SingularPoint> points;
   std::vector<int> seen;  // vertices of the second curve that face one of the first
   for (const int k : {0, 1}) {
@@ -215,15 +215,15 @@ std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& ta
       const Reach& at = reach[k][i];
       if (!at.any() || (!v.is_end() && !sides[k].is_kink(v))) continue;
       if (k == 1 && std::ranges::count(seen, v.node) > 0) continue;
-      const Vec2 x = sides[k].position(v);
-      const Corner corner = sides[k].corner(v);
       const auto opposite = facing(sides[k], v, sides[1 - k]);
       if (!opposite) continue;
       if (k == 0) seen.push_back(opposite->node);
       const bool both = at.before && at.after;
       const double slope = k == 0 && v.is_end() ? given.end_slopes[i == 0 ? 0 : 1] : 0;
-      const SingularPoint point = singular_point(x, k == 0 ? corner : *opposite, k == 0 ? *opposite : corner, both,
-                                                 given.one_curve, slope, tips);
+      std::array<Corner, 2> corners{sides[k].corner(v), *opposite};
+      if (k == 1) std::swap(corners[0], corners[1]);
+      SingularPoint point = singular_point(corners, both, given.one_curve, slope, around.tips);
+      point.position = sides[k].position(v);
       if (point.exponent <= singular_limit || point.log_pressure > 0 || point.small_power != 0 || point.small_turn > 0)
         points.push_back(point);
     }

@@ -60,10 +60,8 @@ struct GivenGap {
 /// both faces, the exponent is the smallest of all modes, and a load that is symmetric about the bisector does not
 /// excite the antisymmetric ones. Else the slope of the gap jumps there: where contact is closed on both sides the
 /// bodies share both faces as those of a symmetric load do, elsewhere one; so it does at an end on a line of symmetry
-/// from which a given gap rises or falls. As if contact were closed; `laws` one a body.
-std::vector<SingularPoint> singular_points(const Mesh& mesh, const SideTable& table, const Curve& first,
-                                           const Curve& second, const Constraints& constraints,
-                                           const std::vector<ElasticLaw>& laws, TipTable& tips,
+/// from which a given gap rises or falls. As if contact were closed.
+std::vector<SingularPoint> singular_points(const Surroundings& around, const Curve& first, const Curve& second,
                                            const ContactReach& reach, const GivenGap& given = {});
 
 }  // namespace mortise

@@ -19,8 +19,9 @@ std::vector<int> first_cells(const Mesh& mesh) {
 
 }  // namespace
 
-ErrorProducts products_by_body(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                               const MatX& fields) {
+ErrorProducts products_by_body(const Problem& problem, const MatX& fields) {
+  const Mesh& mesh = problem.mesh;
+  const BodyPoints& points = problem.points;
   const std::vector<Cell> on_points = cells_on_points(mesh, points);
   const std::vector<int> first_cell = first_cells(mesh);
   const Eigen::Index cells = Eigen::Index(mesh.cells.size()), count = fields.cols();
@@ -43,7 +44,7 @@ ErrorProducts products_by_body(const Mesh& mesh, const BodyPoints& points, const
       cell.body = 0;
       for (int a = 0; a < node_count(cell.kind); ++a) cell.nodes[a] -= first;
     }
-    const std::vector<ElasticLaw> law{laws[b]};
+    const std::vector<ElasticLaw> law{problem.discretisation.laws[b]};
     const ErrorProducts own = error_products(body, all_nodes, law, of_body,
                                              recover_patches(body, all_nodes, sample_stresses(body, law, of_body)));
     const Eigen::Index own_cells = own.areas.size();
@@ -54,9 +55,8 @@ ErrorProducts products_by_body(const Mesh& mesh, const BodyPoints& points, const
   return all;
 }
 
-ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                                  const VecX& u, const ContactFactor& factor, const MatX& functionals,
-                                  const MatX& loads, const SeeDuals& see) {
+ErrorProducts products_with_duals(const Problem& problem, const VecX& u, const ContactFactor& factor,
+                                  const MatX& functionals, const MatX& loads, const SeeDuals& see) {
   constexpr Eigen::Index at_once = 12;  // recovered stresses take far more room than displacements
   const Eigen::Index count = functionals.cols(), without_load = count - loads.cols();
   ErrorProducts all;
@@ -68,7 +68,7 @@ ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, co
     const MatX own = loads.middleCols(std::max(first - without_load, Eigen::Index(0)), loaded);
     fields.rightCols(duals) = factor.duals(functionals.middleCols(first, duals), own);
     if (see) see(first, fields);
-    ErrorProducts some = products_by_body(mesh, points, laws, fields);
+    ErrorProducts some = products_by_body(problem, fields);
     if (first == 0) {
       all = std::move(some);
       all.products.conservativeResize(Eigen::NoChange, 1 + count);
@@ -79,14 +79,13 @@ ErrorProducts products_with_duals(const Mesh& mesh, const BodyPoints& points, co
   return all;
 }
 
-FoundDuals find_duals(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws, const VecX& u,
-                      const ContactFactor& factor, const MatX& functionals) {
+FoundDuals find_duals(const Problem& problem, const VecX& u, const ContactFactor& factor, const MatX& functionals) {
   FoundDuals found{.z = MatX(u.size(), functionals.cols()), .sums = {}};
   const auto keep = [&](Eigen::Index first, const MatX& fields) {
     found.z.middleCols(first, fields.cols() - 1) = fields.rightCols(fields.cols() - 1);
   };
   const MatX no_loads(u.size(), 0);
-  const ErrorProducts parts = products_with_duals(mesh, points, laws, u, factor, functionals, no_loads, keep);
+  const ErrorProducts parts = products_with_duals(problem, u, factor, functionals, no_loads, keep);
   found.sums = parts.products.rightCols(functionals.cols()).cwiseAbs().colwise().sum();
   return found;
 }

@@ -38,12 +38,12 @@ Vec2 place_of(const Mesh& mesh, const Cell& cell, const CellShape& shape) {
 
 class Duals {
  public:
-  Duals(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws, MatX fields)
-      : mesh_(mesh),
-        points_(points),
-        laws_(laws),
+  Duals(const Problem& problem, MatX fields)
+      : mesh_(problem.mesh),
+        points_(problem.points),
+        laws_(problem.discretisation.laws),
         fields_(std::move(fields)),
-        patches_(recover_patches(mesh, points, sample_stresses(mesh, laws, fields_))) {}
+        patches_(recover_patches(mesh_, points_, sample_stresses(mesh_, laws_, fields_))) {}
 
   CellErrors errors(int e) const {
     const Cell& cell = mesh_.cells[e];
@@ -135,10 +135,9 @@ void add_jumps(const GapErrors& gap, const PressureLine& line, std::vector<Singu
   }
 }
 
-void add_gap_errors(const Mesh& mesh, const std::vector<ContactPair>& pairs, const std::vector<ElasticLaw>& laws,
-                    double excluded, std::vector<PressureEstimate>& pressures) {
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const GapErrors gap = gap_errors(mesh, pairs[k], laws);
+void add_gap_errors(const Problem& problem, double excluded, std::vector<PressureEstimate>& pressures) {
+  for (std::size_t k = 0; k < pressures.size(); ++k) {
+    const GapErrors gap = gap_errors(problem.mesh, problem.pairs[k], problem.discretisation.laws);
     if (gap.l2.size() == 0) continue;
     PressureEstimate& e = pressures[k];
     for (Eigen::Index i = 0; i < gap.l2.size(); ++i)
@@ -160,24 +159,24 @@ std::map<int, std::set<int>> edges_at_nodes(const ContactPair& pair) {
 
 // An initial strain that a cell does not follow makes stresses of its own size there. Where the cell is on the line
 // they are a part of p at its vertices: means over windows, which are many times as wide, hardly feel them.
-void add_strains_on_line(const Mesh& mesh, const std::vector<ContactPair>& pairs, const std::vector<ElasticLaw>& laws,
-                         const DataMisfits& data, ErrorEstimate& estimate) {
+void add_strains_on_line(const Problem& problem, ErrorEstimate& estimate) {
+  const std::vector<DataMisfit>& parts = problem.misfits.parts;
   const auto is_strain = [](const DataMisfit& part) { return part.kind == DataMisfit::Kind::strain; };
-  if (std::ranges::none_of(data.parts, is_strain)) return;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const std::map<int, std::set<int>> edges = edges_at_nodes(pairs[k]);
+  if (std::ranges::none_of(parts, is_strain)) return;
+  for (std::size_t k = 0; k < problem.pairs.size(); ++k) {
+    const std::map<int, std::set<int>> edges = edges_at_nodes(problem.pairs[k]);
     PressureEstimate& e = estimate.pressures[k];
-    for (const DataMisfit& part : data.parts) {
+    for (const DataMisfit& part : parts) {
       if (!is_strain(part)) continue;
-      const Cell& cell = mesh.cells[part.cell];
+      const Cell& cell = problem.mesh.cells[part.cell];
       std::set<int> vertices;
       for (int a = 0; a < node_count(cell.kind); ++a)
         if (const auto at = edges.find(cell.nodes[a]); at != edges.end())
           for (const int edge : at->second) vertices.insert({edge, edge + 1});
       const int last = int(e.line.p.size()) - 1;
       if (e.line.closed && (vertices.contains(0) || vertices.contains(last))) vertices.insert({0, last});  // one vertex
-      const ElasticLaw& law = laws[cell.body];
-      const double volume = estimate.energy.areas(part.cell) * law.model.depth(centre_of(mesh.nodes, cell).x());
+      const ElasticLaw& law = problem.discretisation.laws[cell.body];
+      const double volume = estimate.energy.areas(part.cell) * law.model.depth(centre_of(problem.mesh.nodes, cell).x());
       const double stress = part.size * std::sqrt(law.young / volume);
       for (const int i : vertices)
         if (e.line.loaded[i]) e.local.l2(i) = std::hypot(e.local.l2(i), stress * std::sqrt(e.line.h(i)));
@@ -185,47 +184,58 @@ void add_strains_on_line(const Mesh& mesh, const std::vector<ContactPair>& pairs
   }
 }
 
-}  // namespace
-
-void add_data_errors(const Mesh& mesh, const BodyPoints& points, const Discretisation& d,
-                     const std::vector<ContactPair>& pairs, const Solution& solution, const DataMisfits& data,
-                     const AccuracySpec& spec, ErrorEstimate& estimate) {
+// Misfits x duals: what each does to the windows' shared means, and after them to the goal's components.
+MatX works_of_all(const Problem& problem, const Solution& solution, const AccuracySpec& spec,
+                  const ErrorEstimate& estimate) {
   constexpr Eigen::Index at_once = 12;
-  add_gap_errors(mesh, pairs, d.laws, spec.exclude, estimate.pressures);
-  if (data.parts.empty() || pairs.empty()) return;
-  add_strains_on_line(mesh, pairs, d.laws, data, estimate);
+  const Discretisation& d = problem.discretisation;
+  const std::vector<DataMisfit>& parts = problem.misfits.parts;
   const Eigen::Index rows = d.system.B.rows(), shared = estimate.far.windows.count;
-  const GoalFunctionals goal = goal_functionals(mesh, d, pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
+  const GoalFunctionals goal =
+      goal_functionals(problem.mesh, d, problem.pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
   const Eigen::Index goals = estimate.goal ? goal.rows.cols() : 0, count = shared + goals;
-  if (count == 0) return;
+  MatX works(Eigen::Index(parts.size()), count);
+  if (count == 0) return works;
   MatX functionals(rows, count), loads = MatX::Zero(d.system.K.cols(), count);
-  functionals.leftCols(shared) = window_functionals(pairs, estimate.pressures, estimate.far.windows, rows);
+  functionals.leftCols(shared) = window_functionals(problem.pairs, estimate.pressures, estimate.far.windows, rows);
   if (goals > 0) {
     functionals.rightCols(goals) = goal.rows;
     loads.rightCols(goals) = goal.loads;
   }
-  std::shared_ptr<const ContactFactor> factor = solution.factor;
-  if (!factor) factor = factorise_contact(d.system, solution.active);
-  MatX works(Eigen::Index(data.parts.size()), count);
+  const std::shared_ptr<const ContactFactor> factor = contact_factor(d.system, solution);
   for (Eigen::Index first = 0; first < count; first += at_once) {
     const Eigen::Index some = std::min(at_once, count - first);
-    const Duals duals(mesh, points, d.laws,
-                      factor->duals(functionals.middleCols(first, some), loads.middleCols(first, some)));
+    const Duals duals(problem, factor->duals(functionals.middleCols(first, some), loads.middleCols(first, some)));
     std::map<int, CellErrors> known;
-    for (std::size_t i = 0; i < data.parts.size(); ++i)
-      works.row(Eigen::Index(i)).segment(first, some) = works_of(mesh, data.parts[i], solution.u, duals, known);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      works.row(Eigen::Index(i)).segment(first, some) = works_of(problem.mesh, parts[i], solution.u, duals, known);
   }
+  return works;
+}
+
+}  // namespace
+
+void add_data_errors(const Problem& problem, const Solution& solution, const AccuracySpec& spec,
+                     ErrorEstimate& estimate) {
+  const std::vector<DataMisfit>& parts = problem.misfits.parts;
+  add_gap_errors(problem, spec.exclude, estimate.pressures);
+  if (parts.empty() || problem.pairs.empty()) return;
+  add_strains_on_line(problem, estimate);
+  const MatX works = works_of_all(problem, solution, spec, estimate);
+  if (works.cols() == 0) return;
+  const Eigen::Index shared = estimate.far.windows.count;
   VecX far = VecX::Zero(Eigen::Index(estimate.far.windows.dual.size()));
   const auto grow = [](double& part, double by) { part += part < 0 ? -by : by; };
-  for (std::size_t i = 0; i < data.parts.size(); ++i) {
-    const DataMisfit& part = data.parts[i];
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const DataMisfit& part = parts[i];
     const Eigen::Index row = Eigen::Index(i);
     for (int k = 0; k < int(shared); ++k) {
       grow(estimate.far.parts(part.cell, k), works(row, k));
-      estimate.far.windows.for_each_window(mesh.cells[part.cell].body, k, part.at,
+      estimate.far.windows.for_each_window(problem.mesh.cells[part.cell].body, k, part.at,
                                            [&](int window, double share) { far(window) += share * works(row, k); });
     }
-    for (Eigen::Index k = 0; k < goals; ++k) grow(estimate.goal->parts(part.cell, k), works(row, shared + k));
+    for (Eigen::Index k = shared; k < works.cols(); ++k)
+      grow(estimate.goal->parts(part.cell, k - shared), works(row, k));
   }
   Eigen::Index window = 0;
   for (PressureEstimate& e : estimate.pressures) {

@@ -3,14 +3,12 @@
 
 #include "error/error_estimate.hpp"
 #include "model/method.hpp"
-#include "problem/data_misfit.hpp"
 
 namespace mortise {
 
 /// Adds what the entries' misfits do to the windows' means and to the goal (docs/theory.md eq. 51), cell by cell, and
 /// what the gaps' do to p along the lines; costs nothing where there are none. `spec`: that of the estimate.
-void add_data_errors(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
-                     const std::vector<ContactPair>& pairs, const Solution& solution, const DataMisfits& data,
-                     const AccuracySpec& spec, ErrorEstimate& estimate);
+void add_data_errors(const Problem& problem, const Solution& solution, const AccuracySpec& spec,
+                     ErrorEstimate& estimate);
 
 }  // namespace mortise

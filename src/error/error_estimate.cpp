@@ -88,12 +88,6 @@ double round_off_energy(const ErrorProducts& found, double stiffness_scale, cons
   return stiffness_scale * strain * strain;
 }
 
-// What is asked, and what is known of the points that no mesh shows.
-struct Asked {
-  const AccuracySpec& spec;
-  const std::vector<FoundPoint>& found;
-};
-
 // If each window keeps a dual of its own with them.
 void add_end_windows(const std::vector<ContactPair>& pairs, std::vector<PressureEstimate>& list) {
   std::size_t count = 0;
@@ -103,35 +97,34 @@ void add_end_windows(const std::vector<ContactPair>& pairs, std::vector<Pressure
     list[k].windows = with_end_windows(pairs[k], list[k].line, list[k].excluded, std::move(list[k].windows));
 }
 
-// `reached`: of each node whether contact reaches it as a vertex of its curve.
-std::vector<PressureEstimate> lines_with_windows(const Mesh& mesh, const SideTable& table, const Discretisation& d,
-                                                 const std::vector<ContactPair>& pairs, const Solution& solution,
-                                                 const Asked& asked, TipTable& tips,
-                                                 std::vector<ContactReach>& reached) {
-  const double round_off = round_off_pressure(mesh, pairs, d.system.stiffness_scale, solution.u);
-  std::vector<PressureEstimate> list(pairs.size());
-  reached.resize(pairs.size());
-  for_each_index(pairs.size(), solver_threads(), [&](std::size_t k) {
+// `reached`: of each pair the vertices that contact reaches.
+std::vector<PressureEstimate> lines_with_windows(const Problem& p, const Surroundings& around, const Solution& solution,
+                                                 const EstimateOptions& options, std::vector<ContactReach>& reached) {
+  const Discretisation& d = p.discretisation;
+  const AccuracySpec& spec = options.spec;
+  const double round_off = round_off_pressure(p.mesh, p.pairs, d.system.stiffness_scale, solution.u);
+  std::vector<PressureEstimate> list(p.pairs.size());
+  reached.resize(p.pairs.size());
+  for_each_index(p.pairs.size(), solver_threads(), [&](std::size_t k) {
     PressureEstimate& e = list[k];
-    const ContactPair& pair = pairs[k];
-    e.line = pressure_line(mesh, pair, solution.lambda, round_off);
+    const ContactPair& pair = p.pairs[k];
+    e.line = pressure_line(p.mesh, pair, solution.lambda, round_off);
     e.local = line_error(e.line);
     add_gap_error(e.line, gap_error(pair, d.laws, e.line), e.local);
     e.windows = pressure_windows(pair, e.line);
-    reached[k] = contact_reach(mesh, pair, e.line, asked.found);
+    reached[k] = contact_reach(p.mesh, pair, e.line, options.found);
     const bool one_curve = pair.spec.initial_gap == InitialGap::closed || pair.spec.initial_gap == InitialGap::given;
     const GivenGap given{.one_curve = one_curve,
-                         .end_slopes = gap_slopes_at_ends(mesh.nodes, pair.multiplier, pair.geometry)};
-    e.singular = that_count(singular_points(mesh, table, pair.multiplier, pair.opposite, d.system.constraints, d.laws,
-                                            tips, reached[k], given),
-                            e.line, asked.spec.value);
+                         .end_slopes = gap_slopes_at_ends(p.mesh.nodes, pair.multiplier, pair.geometry)};
+    e.singular =
+        that_count(singular_points(around, pair.multiplier, pair.opposite, reached[k], given), e.line, spec.value);
     add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
-    judge_small_kinks(pair, e.line, contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]),
-                      solution.u, asked.spec.value, e.singular);
-    find_excluded(asked.spec.exclude, e);
+    judge_small_kinks(pair, contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]), solution.u,
+                      spec.value, e);
+    find_excluded(spec.exclude, e);
   });
-  add_end_windows(pairs, list);
+  add_end_windows(p.pairs, list);
   return list;
 }
 
@@ -194,6 +187,73 @@ VecX far_fields(const Mesh& mesh, const FarField& far) {
   return sums;
 }
 
+// What cells do to each window's mean, its corners' tails, and where windows share duals the stiffness of the whole.
+void add_far_errors(const Mesh& mesh, ErrorEstimate& estimate) {
+  std::vector<TailShares> tails = tails_along(mesh, estimate.pressures, estimate.far.windows, estimate.tails);
+  const VecX far = far_fields(mesh, estimate.far);
+  const double stiffness_part = uneven * estimate.energy.error * estimate.energy.error;
+  Eigen::Index window = 0;
+  for (std::size_t k = 0; k < estimate.pressures.size(); ++k) {
+    PressureEstimate& e = estimate.pressures[k];
+    e.tails = std::move(tails[k]);
+    e.far = far.segment(window, Eigen::Index(e.windows.size())) + e.tails.means;
+    if (!estimate.far.windows.own()) e.far.array() += stiffness_part * largest_entry(e.line.p);
+    window += Eigen::Index(e.windows.size());
+    find_bars(e);
+  }
+}
+
+// A column a dual: those that the windows share, those wanted besides, the goal's.
+MatX all_functionals(const Problem& p, const GoalFunctionals& goal, const MatX& also, const ErrorEstimate& estimate) {
+  const Eigen::Index rows = p.discretisation.system.B.rows();
+  const Eigen::Index shared = estimate.far.windows.count, goals = goal.rows.cols(), more = also.cols();
+  MatX functionals(rows, shared + more + goals);
+  functionals.leftCols(shared) = window_functionals(p.pairs, estimate.pressures, estimate.far.windows, rows);
+  if (more > 0) functionals.middleCols(shared, more) = also;
+  if (goals > 0) functionals.rightCols(goals) = goal.rows;
+  return functionals;
+}
+
+// The errors of cells and at the bodies' corners, and what they do to the functionals.
+void add_products(const Problem& p, const Solution& solution, const GoalFunctionals& goal,
+                  const EstimateOptions& options, ErrorEstimate& estimate) {
+  const SaddlePointSystem& system = p.discretisation.system;
+  const MatX functionals = all_functionals(p, goal, options.also, estimate);
+  const Eigen::Index shared = estimate.far.windows.count, goals = goal.rows.cols(), more = options.also.cols();
+  CornerProducts at_corners(p.mesh, p.discretisation.laws, estimate.tails.corners);
+  MatX kept(more + goals > 0 ? solution.u.size() : 0, more + goals);
+  const auto see = [&](Eigen::Index first, const MatX& fields) {
+    at_corners.add(fields);
+    for (Eigen::Index k = std::max(first, shared); k < first + fields.cols() - 1; ++k)
+      kept.col(k - shared) = fields.col(1 + k - first);
+  };
+  const bool has_duals = functionals.cols() > 0;
+  const ErrorProducts found =
+      has_duals ? products_with_duals(p, solution.u, *contact_factor(system, solution), functionals, goal.loads, see)
+                : products_by_body(p, solution.u);
+  estimate.energy = energy_estimate(p.mesh, found, round_off_energy(found, system.stiffness_scale, solution.u));
+  estimate.far.parts = found.products.middleCols(1, shared);
+  if (goals > 0) {
+    estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
+    estimate.goal->lines =
+        line_parts(p.pairs, estimate.pressures, kept.rightCols(goals), options.spec.pair, goal.opening);
+  }
+  if (!has_duals) return;
+  const MatX tails = at_corners.tails();
+  estimate.tails.parts = tails.middleCols(1, shared);
+  estimate.tails.goal = tails.rightCols(goals);
+  if (goals > 0) estimate.goal->corners = estimate.tails.goal.colwise().sum().transpose();
+  estimate.also = {.z = kept.leftCols(more),
+                   .sums = found.products.middleCols(1 + shared, more).cwiseAbs().colwise().sum() +
+                           tails.middleCols(1 + shared, more).colwise().sum()};
+}
+
+void require_pair(const AccuracySpec& spec, std::size_t count) {
+  if (spec.pair >= int(count) && spec.pair > 0)
+    throw SceneError("accuracy.pair: " + std::to_string(spec.pair) + "; expected a number below that of the pairs, " +
+                     std::to_string(count));
+}
+
 }  // namespace
 
 void find_excluded(double part, PressureEstimate& e) {
@@ -210,10 +270,6 @@ void find_excluded(double part, PressureEstimate& e) {
   bool left = false;
   for (Eigen::Index i = 0; i < line.p.size(); ++i) left = left || (line.loaded[i] && line.p(i) != 0 && !e.excluded[i]);
   if (!left) e.excluded.assign(line.p.size(), 0);
-}
-
-bool PressureEstimate::counts(Eigen::Index i) const {
-  return line.loaded[i] && !excluded[i] && !(line.closed && i == line.p.size() - 1);
 }
 
 void find_bars(PressureEstimate& e) {
@@ -280,83 +336,32 @@ double ErrorEstimate::slopes() const {
 }
 double ErrorEstimate::far_field() const { return error_norm(pressures, 0, 1) / std::sqrt(pressure_square()); }
 
-ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
-                             const std::vector<ContactPair>& pairs, const Solution& solution, const AccuracySpec& spec,
-                             int own_duals, const std::vector<FoundPoint>& found_points, const MatX& also) {
-  const SaddlePointSystem& system = discretisation.system;
-  const Eigen::Index rows = system.B.rows();
-  const std::vector<ElasticLaw>& laws = discretisation.laws;
-  if (spec.pair >= int(pairs.size()) && spec.pair > 0)
-    throw SceneError("accuracy.pair: " + std::to_string(spec.pair) + "; expected a number below that of the pairs, " +
-                     std::to_string(pairs.size()));
+ErrorEstimate estimate_error(const Problem& p, const Solution& solution, const EstimateOptions& options) {
+  const AccuracySpec& spec = options.spec;
+  const Discretisation& d = p.discretisation;
+  require_pair(spec, p.pairs.size());
   ErrorEstimate estimate;
-  const SideTable table(mesh);
+  const SideTable table(p.mesh);
   TipTable tips;
+  const Surroundings around{p.mesh, table, d.system.constraints, d.laws, tips};
   std::vector<ContactReach> reached;
-  estimate.pressures =
-      lines_with_windows(mesh, table, discretisation, pairs, solution, {spec, found_points}, tips, reached);
+  estimate.pressures = lines_with_windows(p, around, solution, options, reached);
   std::vector<JudgedLine> lines;
   for (PressureEstimate& e : estimate.pressures) lines.push_back({e.line, e.excluded, e.local});
-  add_swings(mesh, points, laws, pairs, solution.u, lines);
-  estimate.far.windows = share_duals(mesh, window_places(estimate.pressures), own_duals);
+  add_swings(p, solution.u, lines);
+  estimate.far.windows = share_duals(p.mesh, window_places(estimate.pressures), options.own_duals);
   GoalFunctionals goal;
-  if (!pairs.empty())
-    goal = goal_functionals(mesh, discretisation, pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
-  const Eigen::Index shared = estimate.far.windows.count, goals = goal.rows.cols(), more = also.cols();
-  MatX functionals(rows, shared + more + goals);
-  functionals.leftCols(shared) = window_functionals(pairs, estimate.pressures, estimate.far.windows, rows);
-  if (more > 0) functionals.middleCols(shared, more) = also;
-  if (goals > 0) functionals.rightCols(goals) = goal.rows;
-  std::shared_ptr<const ContactFactor> factor = solution.factor;
-  if (functionals.cols() > 0 && !factor) factor = factorise_contact(system, solution.active);
-  if (functionals.cols() > 0)
-    estimate.tails.corners = corner_rings(
-        mesh, table,
-        free_corners(body_corners(mesh, table, system.constraints, laws, tips), mesh.nodes.rows(), pairs, reached));
-  CornerProducts at_corners(mesh, laws, estimate.tails.corners);
-  MatX kept(more + goals > 0 ? solution.u.size() : 0, more + goals);
-  const auto see = [&](Eigen::Index first, const MatX& fields) {
-    at_corners.add(fields);
-    for (Eigen::Index k = std::max(first, shared); k < first + fields.cols() - 1; ++k)
-      kept.col(k - shared) = fields.col(1 + k - first);
-  };
-  const ErrorProducts found = functionals.cols() > 0 ? products_with_duals(mesh, points, laws, solution.u, *factor,
-                                                                           functionals, goal.loads, see)
-                                                     : products_by_body(mesh, points, laws, solution.u);
-  estimate.energy = energy_estimate(mesh, found, round_off_energy(found, system.stiffness_scale, solution.u));
-  estimate.far.parts = found.products.middleCols(1, shared);
-  if (goals > 0) {
-    estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
-    estimate.goal->lines = line_parts(pairs, estimate.pressures, kept.rightCols(goals), spec.pair, goal.opening);
-  }
-  if (spec.of == Goal::stress) {
-    const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, solution.u));
-    add_stress_error(mesh, points, discretisation, goal, solution.u, patches, *estimate.goal);
-  }
-  if (functionals.cols() > 0) {
-    const MatX tails = at_corners.tails();
-    estimate.tails.parts = tails.middleCols(1, shared);
-    estimate.tails.goal = tails.rightCols(goals);
-    if (goals > 0) estimate.goal->corners = estimate.tails.goal.colwise().sum().transpose();
-    estimate.also = {.z = kept.leftCols(more),
-                     .sums = found.products.middleCols(1 + shared, more).cwiseAbs().colwise().sum() +
-                             tails.middleCols(1 + shared, more).colwise().sum()};
-  }
-  std::vector<TailShares> tails = tails_along(mesh, estimate.pressures, estimate.far.windows, estimate.tails);
-  const VecX far = far_fields(mesh, estimate.far);
-  const double stiffness_part = uneven * estimate.energy.error * estimate.energy.error;
-  Eigen::Index window = 0;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    PressureEstimate& e = estimate.pressures[k];
-    e.tails = std::move(tails[k]);
-    e.far = far.segment(window, Eigen::Index(e.windows.size())) + e.tails.means;
-    if (!estimate.far.windows.own()) e.far.array() += stiffness_part * largest_entry(e.line.p);
-    window += Eigen::Index(e.windows.size());
-    find_bars(e);
-  }
+  if (!p.pairs.empty())
+    goal = goal_functionals(p.mesh, d, p.pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
+  if (estimate.far.windows.count + goal.rows.cols() + options.also.cols() > 0)
+    estimate.tails.corners =
+        corner_rings(p.mesh, table, free_corners(body_corners(around), p.mesh.nodes.rows(), p.pairs, reached));
+  add_products(p, solution, goal, options, estimate);
+  if (spec.of == Goal::stress) add_stress_error(p, goal, solution.u, *estimate.goal);
+  add_far_errors(p.mesh, estimate);
   if (spec.of == Goal::mean) {
     const PressureEstimate& e = estimate.pressures[spec.pair];
-    estimate.goal->local = mean_error(mesh, pairs[spec.pair], e.line, e.local.pointwise(e.line), spec.window);
+    estimate.goal->local = mean_error(p.mesh, p.pairs[spec.pair], e.line, e.local.pointwise(e.line), spec.window);
   }
   return estimate;
 }

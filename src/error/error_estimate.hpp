@@ -4,9 +4,8 @@
 #include "error/body_products.hpp"
 #include "error/contact_reach.hpp"
 #include "error/goal_estimate.hpp"
-#include "error/pressure_windows.hpp"
+#include "error/pressure_estimate.hpp"
 #include "error/shared_duals.hpp"
-#include "error/tail_shares.hpp"
 #include "mesh/body_points.hpp"
 #include "model/method.hpp"
 
@@ -22,24 +21,6 @@ struct EnergyEstimate {
   int body;       ///< whose part of the squared error is the largest
   double part;    ///< that part, 0 ... 1
   Vec2 position;  ///< the cell in it with the largest share
-};
-
-/// What the pressure of a pair is off by (docs/theory.md eq. 45 to 48): the local error of a piecewise linear function
-/// along the line, and what the bodies' far field makes of it, seen by dual solutions of windowed means.
-struct PressureEstimate {
-  PressureLine line;
-  LineError local;
-  std::vector<PressureWindow> windows;
-  VecX far;  ///< of each window's mean, stress: the sum of the cells' parts without their signs, and of tails.means
-  TailShares tails;                     ///< what the mesh misses at the bodies' corners
-  VecX bar;                             ///< of p at each vertex of `line`, stress
-  std::vector<SingularPoint> singular;  ///< of its loaded part
-  double excluded_distance = 0;         ///< from a point where p has no limit: there p is left out of the norm
-  std::vector<char> excluded;           ///< of each vertex
-  /// Squares of L2 norms along what is not excluded, stress^2 length: of the local error, the far field's and p.
-  double local2 = 0, far2 = 0, p2 = 0;
-
-  bool counts(Eigen::Index vertex) const;  ///< in these
 };
 
 /// What the bodies' error does to the windows' means, cell by cell.
@@ -69,14 +50,16 @@ struct ErrorEstimate {
   double pressure_square() const;  ///< of p on these, stress^2 length
 };
 
-/// `solution`: converged or not; where it has no factor (iterative solvers) the whole system is factorised once.
-/// `spec`: what is left out, and a functional that is asked for. `own_duals`: as most_own of share_duals. Throws
-/// SceneError as goal_functionals does. `found`: singular points of earlier meshes, which stay. `also`: m x F,
-/// functionals whose duals are wanted besides.
-ErrorEstimate estimate_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
-                             const std::vector<ContactPair>& pairs, const Solution& solution,
-                             const AccuracySpec& spec = {}, int own_duals = most_own_duals,
-                             const std::vector<FoundPoint>& found = {}, const MatX& also = {});
+struct EstimateOptions {
+  AccuracySpec spec = {};              ///< what is left out of the norm, and a functional that is asked for
+  int own_duals = most_own_duals;      ///< as most_own of share_duals
+  std::vector<FoundPoint> found = {};  ///< singular points of earlier meshes, which stay
+  MatX also = {};                      ///< m x F: functionals whose duals are wanted besides
+};
+
+/// `solution`: converged or not; where it has no factor (iterative solvers) the whole system is factorised once. Throws
+/// SceneError as goal_functionals does.
+ErrorEstimate estimate_error(const Problem& problem, const Solution& solution, const EstimateOptions& options = {});
 
 // Its parts, for what adds to an estimate (error/data_estimate.hpp).
 

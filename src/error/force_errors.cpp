@@ -22,12 +22,13 @@ double unit_motion(const Mesh& mesh, int i, int c, const Vec2& centre) {
 }
 
 // m: by how much the rows are to open where the multiplier side of a pair moves by 1.
-VecX opened_rows(const Mesh& mesh, const SaddlePointSystem& system, const std::vector<ContactPair>& pairs,
-                 const std::vector<Vec2>& centres, const ForcesAsked::One& asked) {
-  const ContactPair& pair = pairs[asked.pair];
+VecX opened_rows(const Problem& problem, const std::vector<Vec2>& centres, const ForcesAsked::One& asked) {
+  const SaddlePointSystem& system = problem.discretisation.system;
+  const ContactPair& pair = problem.pairs[asked.pair];
   VecX motion = VecX::Zero(system.K.cols()), rows = VecX::Zero(system.B.rows());
   for (const int node : curve_nodes(pair.multiplier))
-    for (const int i : {2 * node, 2 * node + 1}) motion(i) = unit_motion(mesh, i, asked.component, centres[asked.pair]);
+    for (const int i : {2 * node, 2 * node + 1})
+      motion(i) = unit_motion(problem.mesh, i, asked.component, centres[asked.pair]);
   rows.segment(pair.first_row, pair.coupling.B.rows()) = pair.coupling.B * motion;
   return rows;
 }
@@ -107,15 +108,15 @@ VecX along_normals(const Mesh& mesh, const ContactPair& pair, int component, con
 }
 
 // What the error of p on all lines does to each.
-VecX errors_of_lines(const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                     const std::vector<PressureEstimate>& pressures, const std::vector<Vec2>& centres,
-                     const ForcesAsked& asked, const MatX& z) {
+VecX errors_of_lines(const Problem& problem, const std::vector<PressureEstimate>& pressures,
+                     const std::vector<Vec2>& centres, const ForcesAsked& asked, const MatX& z) {
+  const std::vector<ContactPair>& pairs = problem.pairs;
   VecX errors = VecX::Zero(z.cols());
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     MatX opened = openings(pairs[p], z);
     for (Eigen::Index k = 0; k < z.cols(); ++k)
       if (const auto& one = asked.by_duals[k]; one.pair == p)
-        opened.col(k) += along_normals(mesh, pairs[p], one.component, centres[p]);
+        opened.col(k) += along_normals(problem.mesh, pairs[p], one.component, centres[p]);
     errors += line_part(pairs[p], pressures[p].line, pressures[p].local, opened).sum();
   }
   return errors;
@@ -138,18 +139,19 @@ Eigen::Vector3d sum_of_bars(const Mesh& mesh, const ContactPair& pair, const Pre
 
 }  // namespace
 
-ForcesAsked ask_forces(const Mesh& mesh, const BodyPoints& points, const Discretisation& d,
-                       const std::vector<ContactPair>& pairs, const Solution& solution,
-                       const std::vector<Vec2>& centres) {
+ForcesAsked ask_forces(const Problem& problem, const Solution& solution, const std::vector<Vec2>& centres) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const Mesh& mesh = problem.mesh;
+  const SaddlePointSystem& system = problem.discretisation.system;
+  const std::vector<ContactPair>& pairs = problem.pairs;
   ForcesAsked asked{.by_statics = {pairs.size(), Eigen::Vector3d::Constant(unknown)}, .by_duals = {}, .rows = {}};
   if (pairs.size() > std::size_t(most_own_duals) || mesh.bodies.size() > std::size_t(most_own_duals)) return asked;
-  const Statics statics(mesh, points, d.system);
-  const VecX left = what_is_left(d.system, solution);
+  const Statics statics(mesh, problem.points, system);
+  const VecX left = what_is_left(system, solution);
   std::vector<VecX> rows;
   for (std::size_t k = 0; k < pairs.size(); ++k)
     for (int c = 0; c < 3; ++c) {
-      VecX opened = opened_rows(mesh, d.system, pairs, centres, {k, c});
+      VecX opened = opened_rows(problem, centres, {k, c});
       if (const auto motion = statics.motion(opened)) {
         asked.by_statics[k](c) = left.dot(motion->cwiseAbs());
       } else {
@@ -161,39 +163,36 @@ ForcesAsked ask_forces(const Mesh& mesh, const BodyPoints& points, const Discret
     rows.clear();
     asked.by_duals.clear();
   }
-  asked.rows.resize(d.system.B.rows(), Eigen::Index(rows.size()));
+  asked.rows.resize(system.B.rows(), Eigen::Index(rows.size()));
   for (std::size_t k = 0; k < rows.size(); ++k) asked.rows.col(Eigen::Index(k)) = rows[k];
   return asked;
 }
 
-std::vector<Eigen::Vector3d> force_errors(const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                                          const std::vector<PressureEstimate>& pressures,
+std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const std::vector<PressureEstimate>& pressures,
                                           const std::vector<Vec2>& centres, const ForcesAsked& asked,
                                           const FoundDuals& duals) {
+  const std::vector<ContactPair>& pairs = problem.pairs;
   std::vector<Eigen::Vector3d> errors;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const Eigen::Vector3d& known = asked.by_statics[k];
-    errors.push_back(known.array().isNaN().select(sum_of_bars(mesh, pairs[k], pressures[k], centres[k]), known));
+    errors.push_back(
+        known.array().isNaN().select(sum_of_bars(problem.mesh, pairs[k], pressures[k], centres[k]), known));
   }
   if (asked.by_duals.empty()) return errors;
-  const VecX found = duals.sums + errors_of_lines(mesh, pairs, pressures, centres, asked, duals.z);
+  const VecX found = duals.sums + errors_of_lines(problem, pressures, centres, asked, duals.z);
   for (std::size_t k = 0; k < asked.by_duals.size(); ++k)
     errors[asked.by_duals[k].pair](asked.by_duals[k].component) = error_safety * found(Eigen::Index(k));
   return errors;
 }
 
-std::vector<Eigen::Vector3d> force_errors(const Mesh& mesh, const BodyPoints& points, const Discretisation& d,
-                                          const std::vector<ContactPair>& pairs, const Solution& solution,
+std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const Solution& solution,
                                           const std::vector<PressureEstimate>& pressures,
                                           const std::vector<Vec2>& centres) {
-  const ForcesAsked asked = ask_forces(mesh, points, d, pairs, solution, centres);
+  const ForcesAsked asked = ask_forces(problem, solution, centres);
   FoundDuals duals;
-  if (!asked.by_duals.empty()) {
-    std::shared_ptr<const ContactFactor> factor = solution.factor;
-    if (!factor) factor = factorise_contact(d.system, solution.active);
-    duals = find_duals(mesh, points, d.laws, solution.u, *factor, asked.rows);
-  }
-  return force_errors(mesh, pairs, pressures, centres, asked, duals);
+  if (!asked.by_duals.empty())
+    duals = find_duals(problem, solution.u, *contact_factor(problem.discretisation.system, solution), asked.rows);
+  return force_errors(problem, pressures, centres, asked, duals);
 }
 
 }  // namespace mortise

@@ -17,24 +17,20 @@ struct ForcesAsked {
 };
 
 /// `centres`: one a pair.
-ForcesAsked ask_forces(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
-                       const std::vector<ContactPair>& pairs, const Solution& solution,
-                       const std::vector<Vec2>& centres);
+ForcesAsked ask_forces(const Problem& problem, const Solution& solution, const std::vector<Vec2>& centres);
 
 /// Of each pair what the force on the multiplier side's body along x and y, and its moment about a centre, may be off
 /// by, times depth (model/model.hpp). Each is a functional of its own: a motion of that side by 1, with a dual solution
 /// (docs/theory.md, section 14). Where equilibrium fixes the force that is a rigid motion, which has no error:
 /// round-off of the forces is left, and nothing is solved for. Where more than most_own_duals are not fixed, and with
 /// multi-point constraints, they are sums of the bars of p. `duals`: of asked.rows.
-std::vector<Eigen::Vector3d> force_errors(const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                                          const std::vector<PressureEstimate>& pressures,
+std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const std::vector<PressureEstimate>& pressures,
                                           const std::vector<Vec2>& centres, const ForcesAsked& asked,
                                           const FoundDuals& duals);
 
 /// The same with duals of its own. `solution`: as of estimate_error.
-std::vector<Eigen::Vector3d> force_errors(const Mesh& mesh, const BodyPoints& points,
-                                          const Discretisation& discretisation, const std::vector<ContactPair>& pairs,
-                                          const Solution& solution, const std::vector<PressureEstimate>& pressures,
+std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const Solution& solution,
+                                          const std::vector<PressureEstimate>& pressures,
                                           const std::vector<Vec2>& centres);
 
 }  // namespace mortise

@@ -225,25 +225,25 @@ GoalEstimate goal_estimate(const GoalFunctionals& functionals, const Solution& s
           .lines = {}};
 }
 
-Eigen::Vector3d stress_difference(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
-                                  const VecX& u, const StressPatches& patches, const CellPlace& place) {
+Eigen::Vector3d stress_difference(const Problem& problem, const VecX& u, const StressPatches& patches,
+                                  const CellPlace& place) {
+  const Mesh& mesh = problem.mesh;
   const Cell& cell = mesh.cells[place.cell];
-  const ElasticLaw& law = discretisation.laws[cell.body];
+  const ElasticLaw& law = problem.discretisation.laws[cell.body];
   const CellShape shape = cell_shape(cell.kind, place.xi);
   const Vec4 own = stress_at(mesh, cell, law, u, shape) - law.stress0(place_in(mesh, place));
-  return recovered_stress(mesh, points, patches, place).head<3>().transpose() - own({0, 1, 3});
+  return recovered_stress(mesh, problem.points, patches, place).head<3>().transpose() - own({0, 1, 3});
 }
 
-void add_stress_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
-                      const GoalFunctionals& functionals, const VecX& u, const StressPatches& patches,
-                      GoalEstimate& goal) {
+void add_stress_error(const Problem& problem, const GoalFunctionals& functionals, const VecX& u, GoalEstimate& goal) {
+  const Mesh& mesh = problem.mesh;
+  const std::vector<ElasticLaw>& laws = problem.discretisation.laws;
   const CellPlace& place = *functionals.place;
-  const ElasticLaw& law = discretisation.laws[mesh.cells[place.cell].body];
-  goal.value = recovered_stress(mesh, points, patches, place).head<3>().transpose() +
-               law.stress0(place_in(mesh, place))({0, 1, 3});
+  const StressPatches patches = recover_patches(mesh, problem.points, sample_stresses(mesh, laws, u));
+  goal.value = recovered_stress(mesh, problem.points, patches, place).head<3>().transpose() +
+               laws[mesh.cells[place.cell].body].stress0(place_in(mesh, place))({0, 1, 3});
   goal.parts.row(place.cell) =
-      goal.parts.row(place.cell).cwiseAbs() +
-      stress_difference(mesh, points, discretisation, u, patches, place).cwiseAbs().transpose();
+      goal.parts.row(place.cell).cwiseAbs() + stress_difference(problem, u, patches, place).cwiseAbs().transpose();
 }
 
 double mean_error(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& errors,

@@ -5,7 +5,7 @@
 #include "fem/locate.hpp"
 #include "fem/patch_recovery.hpp"
 #include "model/method.hpp"
-#include "problem/discretisation.hpp"
+#include "problem/problem.hpp"
 #include "solve/solution.hpp"
 
 namespace mortise {
@@ -38,8 +38,8 @@ MatX stress_loads(const Mesh& mesh, const Discretisation& discretisation, const 
 double exponent_at(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place, const Vec2& x);
 
 /// 11, 22, 12: the stress recovered at the place less the elements' own. `patches`: u in its first field.
-Eigen::Vector3d stress_difference(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
-                                  const VecX& u, const StressPatches& patches, const CellPlace& place);
+Eigen::Vector3d stress_difference(const Problem& problem, const VecX& u, const StressPatches& patches,
+                                  const CellPlace& place);
 
 /// The values, and what they may be off by.
 struct GoalEstimate {
@@ -60,10 +60,8 @@ struct GoalEstimate {
 GoalEstimate goal_estimate(const GoalFunctionals& functionals, const Solution& solution, MatX parts);
 
 /// The value of a stress becomes the recovered one; by what the elements' own differs from it there, the cell that has
-/// the place has a larger part. `patches`: u in its first field.
-void add_stress_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
-                      const GoalFunctionals& functionals, const VecX& u, const StressPatches& patches,
-                      GoalEstimate& goal);
+/// the place has a larger part.
+void add_stress_error(const Problem& problem, const GoalFunctionals& functionals, const VecX& u, GoalEstimate& goal);
 
 /// Mean of the errors at the vertices of the edges that have a part in the window of spec.
 double mean_error(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& errors,

@@ -32,17 +32,17 @@ Eigen::Matrix3d turning(double angle) {
 
 // Of each component the larger of the difference at the place and its root mean square over the cell: where the
 // elements' own stresses cross the recovered ones both err.
-Eigen::Vector3d local_error(const Mesh& mesh, const BodyPoints& points, const Discretisation& d, const VecX& u,
-                            const StressPatches& patches, const CellPlace& place, const Eigen::Matrix3d& turn) {
-  const CellRule rule = product_rule(mesh.cells[place.cell].kind, 2);
+Eigen::Vector3d local_error(const Problem& problem, const VecX& u, const StressPatches& patches, const CellPlace& place,
+                            const Eigen::Matrix3d& turn) {
+  const CellRule rule = product_rule(problem.mesh.cells[place.cell].kind, 2);
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
   double weight = 0;
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
     const CellPlace at{place.cell, rule.points[q], 0};
-    squares += rule.weights[q] * (turn * stress_difference(mesh, points, d, u, patches, at)).cwiseAbs2();
+    squares += rule.weights[q] * (turn * stress_difference(problem, u, patches, at)).cwiseAbs2();
     weight += rule.weights[q];
   }
-  const Eigen::Vector3d here = (turn * stress_difference(mesh, points, d, u, patches, place)).cwiseAbs();
+  const Eigen::Vector3d here = (turn * stress_difference(problem, u, patches, place)).cwiseAbs();
   return here.cwiseMax((squares / weight).cwiseSqrt());
 }
 
@@ -78,15 +78,16 @@ double largest_at(const Cell& cell, const VecX& at_nodes) {
 
 }  // namespace
 
-std::vector<PlaceError> place_errors(const Mesh& mesh, const BodyPoints& points, const Discretisation& d,
-                                     const std::vector<ContactPair>& pairs, const Solution& solution,
+std::vector<PlaceError> place_errors(const Problem& problem, const Solution& solution,
                                      const std::vector<PressureEstimate>& pressures,
                                      const std::vector<ProbedPlaces>& probes) {
   std::vector<PlaceError> errors;
   if (probes.empty()) return errors;
-  std::shared_ptr<const ContactFactor> factor = solution.factor;
-  if (!factor) factor = factorise_contact(d.system, solution.active);
-  const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, d.laws, solution.u));
+  const Mesh& mesh = problem.mesh;
+  const Discretisation& d = problem.discretisation;
+  const std::vector<ContactPair>& pairs = problem.pairs;
+  const std::shared_ptr<const ContactFactor> factor = contact_factor(d.system, solution);
+  const StressPatches patches = recover_patches(mesh, problem.points, sample_stresses(mesh, d.laws, solution.u));
   const std::vector<char> boundary = boundary_nodes(mesh);
   const VecX bars_of_p = bars_at_nodes(mesh, pairs, pressures);
   for (const ProbedPlaces& probe : probes) {
@@ -105,7 +106,7 @@ std::vector<PlaceError> place_errors(const Mesh& mesh, const BodyPoints& points,
         far.segment(first, z.cols()) +=
             line_part(pairs[k], pressures[k].line, pressures[k].local, openings(pairs[k], z)).sum();
     };
-    const ErrorProducts found = products_with_duals(mesh, points, d.laws, solution.u, *factor,
+    const ErrorProducts found = products_with_duals(problem, solution.u, *factor,
                                                     MatX::Zero(d.system.B.rows(), loads.cols()), loads, add_lines);
     far += found.products.rightCols(loads.cols()).cwiseAbs().colwise().sum().transpose();
     std::size_t next = 0;
@@ -113,7 +114,7 @@ std::vector<PlaceError> place_errors(const Mesh& mesh, const BodyPoints& points,
       if (with_duals[next] < i) ++next;
       Eigen::Matrix<double, 5, 1> error = far.segment<5>(5 * next);
       if (with_duals[next] > i) error = error.cwiseMax(far.segment<5>(5 * (next - 1)));
-      error.tail<3>() += local_error(mesh, points, d, solution.u, patches, probe.in[i], turn);
+      error.tail<3>() += local_error(problem, solution.u, patches, probe.in[i], turn);
       if (touches(mesh.cells[probe.in[i].cell], boundary)) error.tail<3>().array() += probe.spread[i];
       error.tail<3>().array() += largest_at(mesh.cells[probe.in[i].cell], bars_of_p) / error_safety;
       if (exponent_at(mesh, d, probe.in[i], probe.x[i]) <= singular_limit)

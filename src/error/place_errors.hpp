@@ -27,8 +27,7 @@ struct PlaceError {
 /// and the difference of each place's own stresses. What the error of p on the pairs' lines does is a part of each
 /// (error/line_part.hpp), and of stresses in a cell on a line the bar of p there. `solution`: as of estimate_error;
 /// `pressures`: estimated, one a pair.
-std::vector<PlaceError> place_errors(const Mesh& mesh, const BodyPoints& points, const Discretisation& discretisation,
-                                     const std::vector<ContactPair>& pairs, const Solution& solution,
+std::vector<PlaceError> place_errors(const Problem& problem, const Solution& solution,
                                      const std::vector<PressureEstimate>& pressures,
                                      const std::vector<ProbedPlaces>& probes);
 

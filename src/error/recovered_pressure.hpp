@@ -5,6 +5,7 @@
 
 #include "error/pressure_swing.hpp"
 #include "fem/patch_recovery.hpp"
+#include "problem/problem.hpp"
 
 namespace mortise {
 
@@ -13,8 +14,7 @@ std::vector<int> points_of_pair(const BodyPoints& points, const ContactPair& pai
 
 /// -n . sigma* . n at each node of the multiplier side, in its own body and where its normal meets the other one,
 /// stress; NaN where it meets nothing.
-std::array<VecX, 2> recovered_pressures(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                                        const StressPatches& patches, const ContactPair& pair,
+std::array<VecX, 2> recovered_pressures(const Problem& problem, const StressPatches& patches, const ContactPair& pair,
                                         const PressureNodes& nodes);
 
 /// The line of a pair, flags of its vertices that are left out, and the local error.
@@ -28,7 +28,6 @@ struct JudgedLine {
 /// recovered stresses of either body, each a mean over nine nodes (docs/theory.md eq. 47a). Only where the swing is
 /// more than the local error of some vertex are stresses recovered, beside the pairs' curves. Sets the swing of
 /// `lines[k].local`, k the number of the pair.
-void add_swings(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                const std::vector<ContactPair>& pairs, const VecX& u, const std::vector<JudgedLine>& lines);
+void add_swings(const Problem& problem, const VecX& u, const std::vector<JudgedLine>& lines);
 
 }  // namespace mortise

@@ -36,15 +36,16 @@ double slide_at(const ContactPair& pair, const PressureLine& line, const Vec2& x
 
 }  // namespace
 
-void judge_small_kinks(const ContactPair& pair, const PressureLine& line, double modulus, const VecX& u, double asked,
-                       std::vector<SingularPoint>& points) {
+void judge_small_kinks(const ContactPair& pair, double modulus, const VecX& u, double asked,
+                       PressureEstimate& estimate) {
+  const PressureLine& line = estimate.line;
   double length = 0, square = 0;
   for (Eigen::Index i = 0; i < line.p.size(); ++i) {
     if (line.loaded[i]) length += line.h(i);
     square += line.h(i) * line.p(i) * line.p(i);
   }
   const double mean = std::sqrt(square / length), least = seen * (asked > 0 ? asked : least_asked);
-  std::erase_if(points, [&](SingularPoint& point) {
+  std::erase_if(estimate.singular, [&](SingularPoint& point) {
     if (point.small_turn == 0) return false;
     const double opens =
         modulus * point.small_turn * slide_at(pair, line, point.position, u) / (2 * std::numbers::pi * mean);

@@ -1,20 +1,16 @@
 // Kinks of one line in both bodies that turn little: what they do to p hangs on how far the bodies slide across them.
 #pragma once
 
-#include <vector>
-
-#include "contact/singular_points.hpp"
-#include "error/pressure_line.hpp"
-#include "problem/contact_pair.hpp"
+#include "error/pressure_estimate.hpp"
 
 namespace mortise {
 
 /// Where bodies slide by s along a line that turns by theta, the gap would open by theta s beyond the kink: closed,
 /// that is a dislocation of this height, p = p0 +- E* theta s / (2 pi r), down to a distance r0 = E* theta s / (2 pi
-/// p0) where one side opens. Of points with a small turn those stay in the list, as points where p has no limit, whose
-/// part of p in L2, sqrt(2 r0 / L) with L the loaded length, is more than a third of what is asked (of a mesh of one's
-/// own: 0.1 %); the others go. `modulus`: E*. `u`: displacements, n.
-void judge_small_kinks(const ContactPair& pair, const PressureLine& line, double modulus, const VecX& u, double asked,
-                       std::vector<SingularPoint>& points);
+/// p0) where one side opens. Of singular points with a small turn those stay in the list, as points where p has no
+/// limit, whose part of p in L2, sqrt(2 r0 / L) with L the loaded length, is more than a third of what is asked (of a
+/// mesh of one's own: 0.1 %); the others go. `modulus`: E*. `u`: displacements, n.
+void judge_small_kinks(const ContactPair& pair, double modulus, const VecX& u, double asked,
+                       PressureEstimate& estimate);
 
 }  // namespace mortise

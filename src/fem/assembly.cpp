@@ -319,17 +319,11 @@ Resultant add_body_forces(const Mesh& mesh, const Model& model, const std::vecto
 
 Resultant add_traction(const Mesh& mesh, const Model& model, const CutSides& on, const Traction& traction, VecX& load) {
   Resultant sum;
-  for (const CellSide& at : on.sides) {
-    const Edge edge = side_edge(mesh.cells[at.cell], at.side);
-    const LineRule rule = on.rule(edge);
-    for (std::size_t q = 0; q < rule.points.size(); ++q) {
-      const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
-      const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);
-      const Vec2 t = rule.weights[q] * p.jacobian() * model.depth(p.position.x()) * traction(p.position, p.normal());
-      for (int a = 0; a < edge.node_count; ++a) load.segment<2>(2 * edge.nodes[a]) += s.N[a] * t;
-      sum.add(p.position, t);
-    }
-  }
+  on.for_each_point(mesh, model, [&](const Edge& edge, const EdgePoint& p, const EdgeShape& s, double dA) {
+    const Vec2 t = dA * traction(p.position, p.normal());
+    for (int a = 0; a < edge.node_count; ++a) load.segment<2>(2 * edge.nodes[a]) += s.N[a] * t;
+    sum.add(p.position, t);
+  });
   return sum;
 }
 

@@ -7,21 +7,14 @@ namespace mortise {
 
 void add_foundation(const Mesh& mesh, const Model& model, const CutSides& on, const Foundation& foundation,
                     std::vector<Eigen::Triplet<double>>& entries) {
-  for (const CellSide& at : on.sides) {
-    const Edge edge = side_edge(mesh.cells[at.cell], at.side);
-    const LineRule rule = on.rule(edge);
-    for (std::size_t q = 0; q < rule.points.size(); ++q) {
-      const EdgePoint p = edge_point(mesh.nodes, edge, rule.points[q]);
-      const EdgeShape s = edge_shape(edge.node_count, rule.points[q]);
-      const double dA = rule.weights[q] * p.jacobian() * model.depth(p.position.x());
-      const Eigen::Matrix2d k = dA * foundation(p.position, p.normal());
-      for (int i = 0; i < 2 * edge.node_count; ++i)
-        for (int j = 0; j < 2 * edge.node_count; ++j) {
-          const int row = 2 * edge.nodes[i / 2] + i % 2, column = 2 * edge.nodes[j / 2] + j % 2;
-          if (row >= column) entries.emplace_back(row, column, s.N[i / 2] * k(i % 2, j % 2) * s.N[j / 2]);
-        }
-    }
-  }
+  on.for_each_point(mesh, model, [&](const Edge& edge, const EdgePoint& p, const EdgeShape& s, double dA) {
+    const Eigen::Matrix2d k = dA * foundation(p.position, p.normal());
+    for (int i = 0; i < 2 * edge.node_count; ++i)
+      for (int j = 0; j < 2 * edge.node_count; ++j) {
+        const int row = 2 * edge.nodes[i / 2] + i % 2, column = 2 * edge.nodes[j / 2] + j % 2;
+        if (row >= column) entries.emplace_back(row, column, s.N[i / 2] * k(i % 2, j % 2) * s.N[j / 2]);
+      }
+  });
 }
 
 SparseMatrix spring_rows(const SparseMatrix& stiffness) {

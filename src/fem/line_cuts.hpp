@@ -7,7 +7,9 @@
 
 #include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
+#include "mesh/mesh.hpp"
 #include "model/field_range.hpp"
+#include "model/model.hpp"
 
 namespace mortise {
 
@@ -57,6 +59,20 @@ struct CutSides {
 
   /// Four Gauss points on each piece of an edge.
   LineRule rule(const Edge& edge) const;
+
+  /// Calls visit(edge, point, shape, dA) at each of these, dA with the depth.
+  template <typename Visit>
+  void for_each_point(const Mesh& mesh, const Model& model, const Visit& visit) const {
+    for (const CellSide& at : sides) {
+      const Edge edge = side_edge(mesh.cells[at.cell], at.side);
+      const LineRule points = rule(edge);
+      for (std::size_t q = 0; q < points.points.size(); ++q) {
+        const EdgePoint p = edge_point(mesh.nodes, edge, points.points[q]);
+        const double dA = points.weights[q] * p.jacobian() * model.depth(p.position.x());
+        visit(edge, p, edge_shape(edge.node_count, points.points[q]), dA);
+      }
+    }
+  }
 };
 
 /// f less the polynomial that stands for it in the mean.

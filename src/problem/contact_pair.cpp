@@ -58,8 +58,7 @@ void append(const SparseRows& rows, int first, std::vector<Eigen::Triplet<double
 
 // `contact` is moved from.
 ContactPair coupled(const Method& method, const Mesh& mesh, const Discretisation& d, ContactCurves& contact,
-                    const Thickness& thickness, const std::vector<char>& dirichlet) {
-  for (Curve& curve : contact.curves) curve.thickness = thickness.behind(curve);
+                    const std::vector<char>& dirichlet) {
   const ContactSpec& spec = contact.spec;
   const bool second = spec.multipliers_on.empty() ? on_second(method.ddm.scheme, mesh.nodes, contact, d.laws, dirichlet)
                                                   : spec.multipliers_on == spec.between[1];
@@ -91,8 +90,10 @@ std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, co
   if (contacts.empty()) return {};
   const Thickness thickness(mesh.nodes, boundary_edges(mesh), bonded_to(mesh, body_points(mesh)));
   std::vector<ContactPair> pairs(contacts.size());
-  for_each_index(pairs.size(), solver_threads(),
-                 [&](std::size_t k) { pairs[k] = coupled(method, mesh, d, contacts[k], thickness, dirichlet); });
+  for_each_index(pairs.size(), solver_threads(), [&](std::size_t k) {
+    for (Curve& curve : contacts[k].curves) curve.thickness = thickness.behind(curve);
+    pairs[k] = coupled(method, mesh, d, contacts[k], dirichlet);
+  });
   int first_row = 0;
   for (ContactPair& pair : pairs) {
     pair.first_row = first_row;

@@ -49,4 +49,8 @@ std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& 
   return std::make_shared<DirectFactor>(s, std::move(reduced.free), std::move(factor), std::move(multipliers));
 }
 
+std::shared_ptr<const ContactFactor> contact_factor(const SaddlePointSystem& system, const Solution& solution) {
+  return solution.factor ? solution.factor : factorise_contact(system, solution.active);
+}
+
 }  // namespace mortise

@@ -52,4 +52,7 @@ class MultipointFactor : public ContactFactor {
 std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& system,
                                                        const std::vector<char>& closed);
 
+/// That which the solution has, or one made for it where its solver has none (iterative ones).
+std::shared_ptr<const ContactFactor> contact_factor(const SaddlePointSystem& system, const Solution& solution);
+
 }  // namespace mortise

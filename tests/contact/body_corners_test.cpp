@@ -35,7 +35,7 @@ Mesh quarters(int count) {
 std::vector<BodyCorner> corners_of(const Mesh& mesh, const Constraints& constraints,
                                    const std::vector<ElasticLaw>& laws) {
   TipTable tips;
-  return body_corners(mesh, SideTable(mesh), constraints, laws, tips);
+  return body_corners({mesh, SideTable(mesh), constraints, laws, tips});
 }
 
 std::vector<BodyCorner> corners_of(const Mesh& mesh, const std::vector<ElasticLaw>& laws) {

@@ -29,7 +29,7 @@ std::vector<SingularPoint> points_of(const TwoPlates& plates, const Sides& held)
   TipTable tips;
   const Curve lower = contact_curve(mesh, boundary_index(mesh, "lower_contact")),
               upper = contact_curve(mesh, boundary_index(mesh, "upper_contact"));
-  return singular_points(mesh, SideTable(mesh), lower, upper, constraints, laws, tips,
+  return singular_points({mesh, SideTable(mesh), constraints, laws, tips}, lower, upper,
                          reached_everywhere(lower, upper));
 }
 
@@ -92,7 +92,7 @@ TEST(SingularPoints, AnEndWithinTheOthersEdgeIsNoMeetingOfCorners) {
     for (const int node : of_upper) mesh.nodes(node, 0) += edges * 0.1;
     const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
     TipTable tips;
-    const auto points = singular_points(mesh, SideTable(mesh), lower, upper, no_constraints(mesh), laws, tips,
+    const auto points = singular_points({mesh, SideTable(mesh), no_constraints(mesh), laws, tips}, lower, upper,
                                         reached_everywhere(lower, upper));
     const auto end = std::ranges::find_if(
         points, [&](const SingularPoint& p) { return std::abs(p.position.x() - edges * 0.1) < 1e-12; });
@@ -165,7 +165,7 @@ std::vector<SingularPoint> points_of(const WedgeOnFlat& wedge, const std::vector
   ContactReach reach = reached_everywhere(lower, upper);
   for (Reach& at : reach[0]) at = {false, false};
   if (!upper_reach.empty()) reach[1] = upper_reach;
-  return singular_points(mesh, SideTable(mesh), lower, upper, constraints, laws, tips, reach);
+  return singular_points({mesh, SideTable(mesh), constraints, laws, tips}, lower, upper, reach);
 }
 
 // Johnson (1985), section 5.2: p = E* slope / pi arccosh(a / x), whose logarithm has half of what a cone's has.

@@ -1,0 +1,31 @@
+// What is known of the pressure of one pair.
+#pragma once
+
+#include "contact/singular_points.hpp"
+#include "error/pressure_windows.hpp"
+#include "error/tail_shares.hpp"
+
+namespace mortise {
+
+/// What the pressure of a pair is off by (docs/theory.md eq. 45 to 48): the local error of a piecewise linear function
+/// along the line, and what the bodies' far field makes of it, seen by dual solutions of windowed means.
+struct PressureEstimate {
+  PressureLine line;
+  LineError local;
+  std::vector<PressureWindow> windows;
+  VecX far;  ///< of each window's mean, stress: the sum of the cells' parts without their signs, and of tails.means
+  TailShares tails;                     ///< what the mesh misses at the bodies' corners
+  VecX bar;                             ///< of p at each vertex of `line`, stress
+  std::vector<SingularPoint> singular;  ///< of its loaded part
+  double excluded_distance = 0;         ///< from a point where p has no limit: there p is left out of the norm
+  std::vector<char> excluded;           ///< of each vertex
+  /// Squares of L2 norms along what is not excluded, stress^2 length: of the local error, the far field's and p.
+  double local2 = 0, far2 = 0, p2 = 0;
+
+  /// Whether a vertex is in these.
+  bool counts(Eigen::Index i) const {
+    return line.loaded[i] && !excluded[i] && !(line.closed && i == line.p.size() - 1);
+  }
+};
+
+}  // namespace mortise
