@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
+#include <set>
+#include <utility>
 
 #include "solve/coarse_rows.hpp"
 #include "solve/dense_rows.hpp"
@@ -39,9 +42,13 @@ std::vector<int> infeasible_rows(const ContactRows& rows, const ContactRows::Ans
 
 // Solves with r.active closed; false if that is the end: the solution is not finite, an iteration inside ended early,
 // or no row is infeasible. `at`: as of ContactRows::solve; where it is given, free motions may leave it for open rows'
-// sake.
-bool look(ContactRows& rows, const VecX& at, ActiveSetResult& r, ContactRows::Answer& answer) {
-  answer = rows.solve(r.active, at);
+// sake. `tension`: which is none, as what the rows say is.
+bool look(ContactRows& rows, const VecX& at, ActiveSetResult& r, ContactRows::Answer& answer, double tension = 0) {
+  const auto solve = [&](const VecX& from) {
+    answer = rows.solve(r.active, from);
+    answer.negligible_tension = std::max(answer.negligible_tension, tension);
+  };
+  solve(at);
   const auto penetrated = [&](int a) { return !r.active[a]; };
   for (bool may_move = at.size() > 0;; may_move = false) {
     r.infeasible.clear();
@@ -59,7 +66,7 @@ bool look(ContactRows& rows, const VecX& at, ActiveSetResult& r, ContactRows::An
     if (free.cols() == 0) break;
     const VecX moved = least_motions(rows, r.mu, free, answer.w, r.active);
     if (moved == r.mu) break;
-    answer = rows.solve(r.active, moved);
+    solve(moved);
   }
   if (!r.infeasible.empty()) return true;
   r.status = r.driven_mode.any() ? SolveStatus::unconstrained : SolveStatus::converged;
@@ -117,18 +124,31 @@ std::vector<int> first_on_the_way(const ActiveSetResult& r, const ContactRows::A
 }
 
 // The active set method of convex programmes (Fletcher, J. Inst. Maths Applics 7 (1971) 76-91) from an interior point.
-// Each step lowers the energy, so that no set comes twice but by round-off.
+// Each step lowers the energy, so that no set comes twice but by round-off: then the least tension that opened a row
+// since is none.
 void descend(ContactRows& rows, const InteriorPoint& from, ActiveSetResult& r) {
   r.active = from.closed;
   VecX carried = from.at.lambda;
   for (Eigen::Index a = 0; a < carried.size(); ++a)
     if (rows.unilateral()[a]) carried(a) = std::min(carried(a), 0.0);
+  constexpr double none = std::numeric_limits<double>::infinity();
   ContactRows::Answer answer;
+  std::set<std::vector<char>> seen;
+  double tension = 0, least = none;
   for (int left = most_descents; left > 0; --left) {
-    if (look(rows, from.at.mu, r, answer))
-      change(first_on_the_way(r, answer, carried), r);
-    else if (r.status != SolveStatus::converged || !rows.refine())
-      return;
+    if (!look(rows, from.at.mu, r, answer, tension)) {
+      if (r.status != SolveStatus::converged || !rows.refine()) return;
+      continue;
+    }
+    if (!seen.insert(r.active).second && least < none) {
+      tension = std::exchange(least, none);
+      seen.clear();
+      continue;
+    }
+    const std::vector<int> changed = first_on_the_way(r, answer, carried);
+    for (const int a : changed)
+      if (r.active[a]) least = std::min(least, r.lambda(a) / rows.scale()(a));
+    change(changed, r);
   }
 }
 
