@@ -20,7 +20,7 @@ double number_at(const Json& report, const std::string& dotted) try {
   std::ranges::replace(path, '.', '/');
   const Json::json_pointer pointer(path);
   return report.contains(pointer) && report[pointer].is_number() ? report[pointer].get<double>() : unknown;
-} catch (const Json::parse_error&) {  // a ~ is none of a key's letters
+} catch (const Json::exception&) {  // no key: a ~, an index beyond all
   return unknown;
 }
 
@@ -55,7 +55,7 @@ ExpectedFigure compare_pressure(const Results& r, const Expectation& e) {
     if (!counts(r, e.pair, node)) continue;
     const double value = e.value(node.position, node.s), difference = std::abs(node.p - value);
     largest_value = std::max(largest_value, std::abs(value));
-    if (worst && !(difference > off)) continue;
+    if (worst && (difference <= off || std::isnan(off))) continue;
     off = difference;
     worst = &node;
   }

@@ -45,7 +45,8 @@ TEST(Expected, FiguresHoldWithinTheirTolerance) {
 }
 
 TEST(Expected, AFigureThatIsNotThereDoesNotHold) {
-  for (const char* name : {"contact.7.pressure.max", "contact.0.pressure", "title", "contact.x", "~"}) {
+  for (const char* name : {"contact.7.pressure.max", "contact.0.pressure", "title", "contact.x", "~",
+                           "contact.99999999999999999999.length"}) {
     const Results r = judged({figure(name, 1, 0.99)});
     EXPECT_EQ(r.status, Status::check_failed) << name;
     EXPECT_NE(r.checks.back().where.find("expected a dotted key"), std::string::npos) << name;
@@ -61,6 +62,16 @@ TEST(Expected, PressuresHoldAtEveryNode) {
   EXPECT_EQ(r.status, Status::check_failed);
   EXPECT_NEAR(r.expected[0].off, 0.02 / 1.02, 1e-6);
   EXPECT_EQ(judged({pressure(step, 0.0197)}).status, Status::solved);
+}
+
+TEST(Expected, APressureThatIsNoNumberDoesNotHold) {
+  for (const std::size_t node : {0u, 3u}) {
+    Results r = judged({});
+    r.problem.expectations = {pressure(largest_pressure(), 0.5)};
+    r.recovery.contacts[0].multiplier.nodes[node].p = std::nan("");
+    judge_expectations(r);
+    EXPECT_FALSE(r.checks.back().ok()) << node;
+  }
 }
 
 TEST(Expected, APressureWithoutAValueOrPairDoesNotHold) {
