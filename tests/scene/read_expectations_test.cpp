@@ -1,18 +1,13 @@
 // [[expect]] as a user writes it, and as one miswrites it.
 #include <gtest/gtest.h>
 
-#include "scene/scene.hpp"
 #include "scene/scene_files.hpp"
 #include "support/messages.hpp"
 
 namespace mortise::test {
 namespace {
 
-Scene expecting(const std::string& expectation) {
-  const TemporaryFolder folder;
-  folder.write("block.msh", "");
-  return read_scene(folder.write("scene.toml", shortest_scene + "\n[[expect]]\n" + expectation));
-}
+Scene expecting(const std::string& expectation) { return scene_with("\n[[expect]]\n" + expectation); }
 
 TEST(ReadExpectations, FiguresAndPressures) {
   const Expectation figure =

@@ -1,18 +1,13 @@
 // [[probe]] as a user writes it, and as one miswrites it.
 #include <gtest/gtest.h>
 
-#include "scene/scene.hpp"
 #include "scene/scene_files.hpp"
 #include "support/messages.hpp"
 
 namespace mortise::test {
 namespace {
 
-Scene with(const std::string& probe) {
-  const TemporaryFolder folder;
-  folder.write("block.msh", "");
-  return read_scene(folder.write("scene.toml", shortest_scene + "\n[[probe]]\n" + probe));
-}
+Scene with(const std::string& probe) { return scene_with("\n[[probe]]\n" + probe); }
 
 TEST(ReadProbes, OnePointSeveralAndALine) {
   const Scene one = with("at = [0.1, 0.2]\nbody = \"block\"\nangle = 30"), two = with("at = [[0, 1], [2, 3]]"),

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "scene/scene.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise::test {
@@ -81,5 +82,12 @@ poisson = 0.3
 [bodies]
 block = "steel"
 )";
+
+/// The shortest scene with `text` after it, read from a file.
+inline Scene scene_with(const std::string& text) {
+  const TemporaryFolder folder;
+  folder.write("block.msh", "");
+  return read_scene(folder.write("scene.toml", shortest_scene + text));
+}
 
 }  // namespace mortise::test
