@@ -163,6 +163,23 @@ TEST(Axisymmetric, AHeatedDiscExpandsFreely) {
   EXPECT_LE(std::abs(r.recovery.energy), 1e-12 * young);
 }
 
+// A rigid curve of rings moves along the axis alone, though the pressure in the bore would tilt and widen it.
+TEST(Axisymmetric, ARigidCurveMovesAlongTheAxisAlone) {
+  const auto level = [](double z) { return [=](double) { return z; }; };
+  const Mesh mesh = mesh_of({block("tube", 4, 2, 1, 2, level(0), level(0.5))}, CellKind::quad8);
+  Scene scene = rings_of({"tube"});
+  scene.boundaries = {held({"tube_south"}), pressed("tube_west", 100e6), held({"tube_north"})};
+  scene.boundaries[2].what = RigidSpec{};
+  const Results r = solve_scene(scene, mesh);
+  EXPECT_EQ(r.status, Status::solved);
+  ASSERT_EQ(r.recovery.reactions.rigid_motions.size(), 1u);
+  const Eigen::Vector3d motion = r.recovery.reactions.rigid_motions[0];
+  EXPECT_GT(std::abs(motion(1)), 1e-6);
+  for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i)
+    if (mesh.nodes(i, 1) == 0.5)
+      EXPECT_LE((r.solution.u.segment<2>(2 * i) - Vec2(0, motion(1))).norm(), 1e-12 * std::abs(motion(1))) << i;
+}
+
 TEST(Axisymmetric, OnlyMotionsAlongTheAxisAreFree) {
   const auto level = [](double z) { return [=](double) { return z; }; };
   const Mesh mesh = mesh_of({block("tube", 2, 2, 1, 2, level(0), level(1))}, CellKind::quad8);

@@ -234,7 +234,25 @@ contact = [{ between = ["upper_contact", "lower_contact"], condition = "bilatera
     EXPECT_LT(displacement_error(r, exact), 1e-10);
     EXPECT_LT(r.recovery.stress.points.cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_NEAR(r.recovery.energy, 0, 1e-12);
+    EXPECT_EQ(r.recovery.reactions.loads.size, 0);  // a strain is no load
   }
+}
+
+// A block that slides along its foundation is pressed by it alone: u = (d + nu q x / E, -q / k - q y / E).
+TEST(FunctionsOfPlace, AFoundationDoesNotResistSliding) {
+  const TemporaryFolder folder;
+  const Results r = solve_scene(loaded_scene(folder, "0.3", R"toml(
+boundary = [
+  { on = "bottom", foundation = 100 },
+  { on = ["lower_left", "upper_left"], displacement = { x = 0.02 } },
+  { on = "top", pressure = 3 },
+]
+contact = [{ between = ["upper_contact", "lower_contact"] }]
+)toml"));
+  const auto exact = [](const Vec2& x) { return Vec2(0.02 + 0.9e-3 * x.x(), -0.03 - 3e-3 * x.y()); };
+  EXPECT_LT(displacement_error(r, exact), 1e-10);
+  EXPECT_LE(r.recovery.reactions.entries[1].force.norm(), 1e-9);
+  EXPECT_LE((r.recovery.reactions.entries[0].force - Vec2(0, 6)).norm(), 1e-9);
 }
 
 TEST(FunctionsOfPlace, ASpringAlongXHoldsNothingAlongY) {

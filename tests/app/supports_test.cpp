@@ -204,7 +204,6 @@ boundary = [
                                               "boundary.4 (line 12): a force of 0.5 at the point 'top_right'"}));
 }
 
-// A displacement along -x by v is one along x by -v.
 // The node of the corner is held twice, and what holds it is each support's own.
 TEST(Supports, TwoThatMeetReactAlongTheirOwnNormals) {
   const TemporaryFolder folder;
@@ -221,8 +220,41 @@ boundary = [
   EXPECT_GT(left.norm(), 0.1);
   EXPECT_NEAR(left.dot(turn * Vec2::UnitY()), 0, 1e-9 * left.norm());
   EXPECT_NEAR(bottom.dot(turn * Vec2::UnitX()), 0, 1e-9 * bottom.norm());
+  EXPECT_LE(r.recovery.reactions.held.force.norm(), 1e-9 * left.norm());  // nothing is left of either
 }
 
+// "feet" is on the first node of the bottom and on its last, the corner on two curves of one support.
+TEST(Supports, TheReactionOfANodeThatTwoCurvesShareCountsOnce) {
+  const TemporaryFolder folder;
+  const Results r = solve_scene(supported_scene(folder, contact + R"toml(
+boundary = [
+  { on = ["bottom", "lower_left"], displacement = { direction = [1, 3], value = 0 } },
+  { on = "feet", displacement = { direction = [3, -1], value = 0 } },
+  { on = "upper_left", displacement = { x = 0 } },
+  { on = "top", pressure = 1 },
+])toml"));
+  Vec2 sum = r.recovery.reactions.loads.force;
+  for (const Resultant& entry : r.recovery.reactions.entries) sum += entry.force;
+  EXPECT_NEAR(r.recovery.reactions.loads.force.y(), -2, 1e-12);
+  EXPECT_GT(std::abs(r.recovery.reactions.entries[1].force.x()), 0.1);
+  EXPECT_LE(sum.norm(), 1e-9);
+}
+
+// One support on three sides of a rectangle holds its corners both ways: u = (0.3 x, -y) / E under a pressure of 1.
+TEST(Supports, NormalsAtACornerAreThoseOfBothSides) {
+  const TemporaryFolder folder;
+  const Results r = solve_scene(supported_scene(folder, contact + R"toml(
+boundary = [
+  { on = ["bottom", "lower_left", "upper_left"], displacement = { normal = 0 } },
+  { on = "top", pressure = 1 },
+])toml"));
+  for (Eigen::Index i = 0; i < r.problem.mesh.nodes.rows(); ++i) {
+    const Vec2 x = r.problem.mesh.nodes.row(i).transpose();
+    EXPECT_LE((r.solution.u.segment<2>(2 * i) - Vec2(0.3e-3 * x.x(), -1e-3 * x.y())).norm(), 1e-12) << x.transpose();
+  }
+}
+
+// A displacement along -x by v is one along x by -v.
 TEST(Supports, AValueAlongAnAxisBackwardsIsItsOpposite) {
   const TemporaryFolder folder;
   const auto moved = [&](const std::string& right, const std::string& top) {

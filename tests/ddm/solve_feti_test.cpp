@@ -140,6 +140,19 @@ TEST(Feti, OpensTheRowsThatTheDirectMethodOpens) {
   expect_same(solve_by_feti(s, {}), direct, 1e-8);
 }
 
+// The lowest ring has a node that is moved up or down, away from the row on it.
+TEST(Feti, OpensTheRowsThatAPrescribedDisplacementOpens) {
+  std::vector<std::ptrdiff_t> open;
+  for (const double value : {-300.0, 0.3, 300.0}) {
+    SaddlePointSystem s = tower(6, {.unilateral = true});
+    s.constraints.value(7) = value;
+    const Solution direct = solve_directly(s);
+    open.push_back(std::ranges::count(direct.active, 0));
+    expect_same(solve_by_feti(s, {}), direct, 1e-8);
+  }
+  EXPECT_GT(open.front() + open.back(), 0);
+}
+
 // A beam of 240 nodes, held by one end, whose every other node touches a ring of springs, three a ring. Every other
 // ring is held by one node, the others lie on the beam.
 SaddlePointSystem beam_and_rings() {

@@ -7,6 +7,7 @@
 #include "app/solve_scene.hpp"
 #include "contact/coupling.hpp"
 #include "fem/quadrature.hpp"
+#include "support/patches.hpp"
 
 namespace mortise {
 namespace {
@@ -52,6 +53,27 @@ TEST(ContactResults, NormalsAtEndsOnSymmetryPlanesLieInThem) {
   for (const ContactSide* side : {&r.recovery.contacts[0].multiplier, &r.recovery.contacts[0].opposite})
     for (const ContactNode* end : {&side->nodes.front(), &side->nodes.back()})
       EXPECT_NEAR(std::abs(end->normal.y()), 1, 1e-12) << side->curve;
+}
+
+// Of a polygon of even edges in a polygon: along the radius at each vertex, wherever the curve begins.
+TEST(ContactResults, NormalsOfClosedCurvesAreMeansOfBothEdgesAtTheSeamToo) {
+  Scene scene;
+  scene.path = "rings";
+  scene.materials["steel"] = {210e9, 0.3};
+  scene.bodies = {{"inner", "steel"}, {"outer", "steel"}};
+  scene.boundaries = {{.key = "support", .on = {"inner_south"}, .what = Displacement{0, 0}},
+                      {.key = "load", .on = {"outer_north"}, .what = Pressure{1e6}}};
+  scene.contacts = {{.key = "contact.0", .between = {"inner_north", "outer_south"}}};
+  scene.method.normals = Normals::edges;
+  test::Patch inner = test::ring("inner", 12, 2, {0, 0}, 1, 2, 360, 0),
+              outer = test::ring("outer", 12, 2, {0, 0}, 2, 3, 360, 0);
+  inner.closed = outer.closed = true;
+  const Results r = solve_scene(scene, test::mesh_of({inner, outer}, CellKind::quad4));
+  const ContactResults& c = r.recovery.contacts[0];
+  ASSERT_EQ(c.multiplier.nodes.size(), 12u);
+  for (const ContactSide* side : {&c.multiplier, &c.opposite})
+    for (const ContactNode& n : side->nodes)
+      EXPECT_NEAR(std::abs(n.normal.dot(n.position)), n.position.norm(), 1e-12) << n.position.transpose();
 }
 
 TEST(ContactResults, NormalStressesOfCurvedSidesAreThePressures) {

@@ -67,6 +67,20 @@ TEST(Extremes, NameTheBodyAndTheCornerWithoutLimit) {
   EXPECT_TRUE(grows_without_limit(r, r.recovery.extremes.von_mises));
 }
 
+// At the end of a flat punch the block's own outline goes on straight: only the estimate knows the point.
+TEST(Extremes, StressesAtTheEndsOfContactHaveNoLimit) {
+  Results r = solve_scene(read_scene(MORTISE_SOURCE_DIR "/geo/punch.toml"));
+  estimate(r);
+  const PressureEstimate& e = r.estimate->pressures[0];
+  ASSERT_FALSE(e.singular.empty());
+  Extreme stress = r.recovery.extremes.von_mises;
+  stress.node = r.recovery.contacts[0].multiplier.nodes[5].node;
+  stress.place = e.singular[0].position;
+  EXPECT_TRUE(grows_without_limit(r, stress));
+  stress.place += Vec2(0.1, 0.1) * e.singular[0].edge;
+  EXPECT_FALSE(grows_without_limit(r, stress));
+}
+
 TEST(Extremes, OfThePressureIsItsPlaceOnItsPair) {
   const Results r = solve_scene(clamped_scene(), mesh_of({}));
   ASSERT_TRUE(r.recovery.extremes.pressure);

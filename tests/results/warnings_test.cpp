@@ -118,6 +118,13 @@ contact = [ { between = ["above", "below"], condition = "bilateral" } ]
   EXPECT_EQ(bent.problem.pairs[0].coupling.gap_max, 0);  // one line; the edges are 5e-4 apart
 }
 
+TEST(Notes, ADrawnCurveThatIsNotUsedIsNamedWithTheReason) {
+  Mesh mesh = mesh_of({});
+  std::ranges::find(mesh.boundaries, "lower_contact", &Boundary::name)->undrawn = "nobody knows it";
+  const Results r = solve_scene(uniaxial_scene(), mesh);
+  EXPECT_EQ(notes_with(r, "the drawn curve 'lower_contact' is not used, as nobody knows it"), 1) << all(r);
+}
+
 TEST(Notes, StraightSidesOfACurvedLineChangeNothing) {
   const std::string pin = "tests/parts/pin_in_hole.toml";
   const Results straight = solved(pin, {{"mesh.parameters.straight", "1"}}), curved = solved(pin, {});
@@ -134,6 +141,17 @@ TEST(Notes, AClearanceOfThreePercentOfTheRadiusIsALargeDisplacement) {
   EXPECT_EQ(notes_with(r, "of the contact line's radius"), 1) << all(r);
   const Results small = solved("tests/parts/pin_in_hole.toml", {{"mesh.parameters.clearance", "0.0003"}});
   EXPECT_EQ(notes_with(small, "large displacements"), 0) << all(small);
+}
+
+// The upper plate slides by 5 % of the length, on a straight line and without a turn.
+TEST(Notes, SidesThatSlideAreALargeDisplacement) {
+  Scene s = uniaxial_scene();
+  s.boundaries[0].on = {"lower_left"};
+  s.boundaries.push_back({.key = {}, .on = {"upper_left"}, .what = Displacement{0.04, {}}});
+  const Results r = solve_scene(s, mesh_of({}));
+  EXPECT_EQ(notes_with(r, "the sides slide along one another by 5 % of the length in contact"), 1) << all(r);
+  s.boundaries.back().what = Displacement{0.004, {}};
+  EXPECT_EQ(notes_with(solve_scene(s, mesh_of({})), "large displacements"), 0);
 }
 
 TEST(Notes, ATurnOfTheWholeIsALargeDisplacement) {
