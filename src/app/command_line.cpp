@@ -271,11 +271,11 @@ void add_sweep(CLI::App& app, Options& options) {
   add_diagnose(command, options);
 }
 
-CLI::App* add_picture(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("picture", "draw the results in a folder (mortise picture --help has the options)");
+// A script reads the options.
+CLI::App* add_scripted(CLI::App& app, const std::string& name, const std::string& what) {
+  CLI::App* command = app.add_subcommand(name, what + " (mortise " + name + " --help has the options)");
   command->set_help_flag();
-  command->prefix_command();  // the script reads them
+  command->prefix_command();
   return command;
 }
 
@@ -305,10 +305,13 @@ int parse_and_run(int argc, const char* const* argv) {
   CLI::App* check_command = add_check(app, options);
   CLI::App* mesh_command = add_mesh(app, options);
   add_sweep(app, options);
-  CLI::App* picture_command = add_picture(app);
+  CLI::App* picture_command = add_scripted(app, "picture", "draw the results in a folder");
+  CLI::App* certify_command =
+      add_scripted(app, "certify", "solve a scene by several means and say which figures agree within their bars");
   if (const auto status = parse(app, argc, argv)) return *status;
 
   if (*picture_command) return draw_picture(picture_command->remaining());
+  if (*certify_command) return certify(certify_command->remaining());
   const bool alone = ranks().count() == 1 && options.jobs == 1;
   set_solver_threads(options.threads > 0 || alone ? options.threads : 1);
   set_mesh_cache(!options.no_cache);

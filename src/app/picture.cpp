@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 fs::path script(const std::string& name) {
   const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
   for (const fs::path& share : {folder / MORTISE_BIN_TO_SHARE, folder / "share/mortise"})
-    if (const fs::path found = share / "pictures" / name; fs::exists(found)) return found;
-  throw InputError(name + " is not there: expected in " + (folder / MORTISE_BIN_TO_SHARE / "pictures").string());
+    if (const fs::path found = share / name; fs::exists(found)) return found;
+  throw InputError(name + " is not there: expected in " + (folder / MORTISE_BIN_TO_SHARE).string());
 }
 
 // The system's Python has the packages of the distribution; MORTISE_PYTHON names another.
@@ -36,11 +36,11 @@ int run_script(const std::string& name, const std::vector<std::string>& argument
   argv.push_back(nullptr);
   pid_t process = 0;
   if (::posix_spawnp(&process, argv[0], nullptr, nullptr, argv.data(), environ) != 0)
-    throw InputError("a picture is drawn by Python, which is not there (" + words[0] +
+    throw InputError(name + " is run by Python, which is not there (" + words[0] +
                      "): apt-get install python3-matplotlib python3-meshio");
   int status = 0;
   ::waitpid(process, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? 0 : 1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
 struct TemporaryFile {
@@ -57,12 +57,19 @@ struct TemporaryFile {
 
 }  // namespace
 
-int draw_picture(const std::vector<std::string>& arguments) { return run_script("picture.py", arguments); }
+int draw_picture(const std::vector<std::string>& arguments) {
+  return run_script("pictures/picture.py", arguments) == 0 ? 0 : 1;
+}
+
+int certify(const std::vector<std::string>& arguments) {
+  ::setenv("MORTISE_PROGRAM", fs::read_symlink("/proc/self/exe").c_str(), 1);
+  return run_script("reports/certify.py", arguments);
+}
 
 int draw_setup(const Problem& problem, const fs::path& picture) {
   const TemporaryFile file;
   write_setup(problem, file.path);
-  return run_script("setup.py", {file.path, picture.string()});
+  return run_script("pictures/setup.py", {file.path, picture.string()}) == 0 ? 0 : 1;
 }
 
 }  // namespace mortise

@@ -18,6 +18,7 @@ FILES = [
     "usr/lib/libmortise.a",
     "usr/include/mortise/scene/scene.hpp",
     "usr/share/mortise/pictures/picture.py",
+    "usr/share/mortise/reports/certify.py",
     "usr/share/mortise/geo/punch.toml",
     "usr/share/doc/mortise/docs/files.md",
     "usr/share/doc/mortise/LICENSE",
@@ -88,7 +89,7 @@ def main():
         expect(said.startswith(f"mortise {number}"), f"{where} says {number}, mortise --version {said}")
 
     manual = (root / "usr/share/man/man1/mortise.1").read_text().replace("\\-", "-")
-    for command in ("solve", "check", "mesh", "sweep", "picture"):
+    for command in ("solve", "check", "mesh", "sweep", "picture", "certify"):
         told = set(re.findall(r"--[a-z][a-z-]+", run(program, command, "--help")))
         expect(all(option in manual for option in told), f"man page: {command} has {sorted(o for o in told if o not in manual)}")
 
@@ -100,6 +101,7 @@ def main():
     run(program, "solve", "punch.toml", "--accuracy", "1%", cwd=work, env=environment)
     expect((work / "out/punch/result.vtu").is_file(), "no result.vtu")
     run(program, "picture", "out/punch", cwd=work, env=environment)
+    run(program, "certify", "punch.toml", cwd=work, env=environment)
     run(program, "check", "punch.toml", "--picture", "setup.png", "--quiet", cwd=work, env=environment)
     if any((build / "python/mortise").glob("*.so")):
         modules = {"PYTHONPATH": str(root / "usr/lib/python3/dist-packages")}

@@ -95,7 +95,7 @@ def test_wrong_figures_are_found(tmp_path):
 def test_the_readme_s_scene(desk):
     section = markdown.sections(TEXTS["README.md"])["A scene of your own"]
     files, commands = markdown.files(section), markdown.commands(section)
-    assert set(files) == {"punch.geo", "punch.toml"} and len(commands) == 3
+    assert set(files) == {"punch.geo", "punch.toml"} and len(commands) == 4
     write(desk, files)
     assert "solved" in "".join(run(desk, command) for command in commands)
     assert list((desk / "out").rglob("punch*.png"))
@@ -146,7 +146,7 @@ def calls(pattern):
 
 
 def test_options_of_mortise(mortise):
-    found = list(calls(r"\bmortise (solve|check|mesh|sweep|picture)\b(.*)"))
+    found = list(calls(r"\bmortise (solve|check|mesh|sweep|picture|certify)\b(.*)"))
     assert len(found) > 15
     for page, call in found:
         known = help_of(mortise, call[1], "--help")

@@ -1,0 +1,263 @@
+#!/usr/bin/python3
+"""Solves a scene to an accuracy and again by what does not share its errors: another mesh family, the multipliers on the
+other side, another solver, two finer meshes. Says of each figure its value, its bar, how far the other runs are off, and
+whether all of them agree within their bars.
+
+Each run is a `mortise solve` with a few --set, and its results stay in a folder: what certificate.json and the report list
+can be run again by hand. Exit status: 0 all figures agree; 1 bad input; 2 one does not, or the scene's own run fails.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import time
+import tomllib
+from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+try:
+    from figures import compare, line_difference, read_run
+except ImportError as missing:
+    raise SystemExit(f"certify.py: {missing}: apt-get install python3-numpy") from missing
+
+FINER = (4, 16)  # times as accurate: the meshes of the study
+
+
+@dataclass
+class Variation:
+    """One more run: its folder's name, what it does not share with the scene's own, and its --set."""
+
+    name: str
+    what: str
+    changes: list
+    status: str = ""  # of summary.json, or "skipped"
+    seconds: float = 0
+    words: str = ""  # of the program, where it is not solved
+    command: list = field(default_factory=list)
+    run: object = None
+
+    @property
+    def counts(self):
+        return self.run is not None and self.status in ("solved", "accuracy_not_reached")
+
+
+def solve(mortise, scene, changes, variation, folder):
+    """Runs a variation and reads its results; what the program refuses is skipped."""
+    words = [word for change in [*changes, *variation.changes] for word in ("--set", change)]
+    variation.command = ["mortise", "solve", str(scene), *words, "-o", str(folder)]
+    start = time.perf_counter()
+    ended = subprocess.run([mortise, *variation.command[1:], "--quiet"], capture_output=True, text=True)
+    variation.seconds = time.perf_counter() - start
+    variation.words = ended.stderr.strip().removeprefix("mortise: ")
+    if ended.returncode in (0, 2):
+        variation.run = read_run(folder)
+        variation.status = variation.run.summary["status"]
+    else:
+        variation.status = "skipped" if ended.returncode == 1 else "failed"
+    return variation
+
+
+def toml(value):
+    """As TOML writes it, tables inline."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(key)} = {toml(item)}" for key, item in value.items()) + "}"
+    return "[" + ", ".join(map(toml, value)) + "]" if isinstance(value, list) else json.dumps(value, ensure_ascii=False)
+
+
+def with_probe(tables, summary):
+    """A --set that adds a probe where the largest von Mises stress is; none where that has no limit."""
+    at = summary["extremes"]["von_mises"]
+    if not at["limit"] or not at["value"] > 0:
+        return []
+    return ["probe=" + toml([*tables.get("probe", []), {"at": at["position"], "body": at["body"]}])]
+
+
+def other_sides(tables, summary):
+    """A --set for each contact entry whose other side can be named, and carries no multipliers yet."""
+    on = set(summary["method"]["multipliers_on"])
+    for k, entry in enumerate(tables.get("contact", [])):
+        first, second = entry["between"]
+        if first != second and entry.get("condition") != "tied":
+            taken = any(fnmatchcase(curve, first) for curve in on)
+            yield f"contact.{k}.multipliers_on={json.dumps(second if taken else first)}"
+
+
+def variations_of(tables, summary, accuracy):
+    """What else to run, as far as the scene allows it, and what is skipped and why."""
+    runs, skipped = [], []
+    if accuracy is None:
+        skipped.append("other meshes: the scene has a mesh of its own, and no geometry to mesh anew")
+    else:
+        family = tables.get("accuracy", {}).get("recombine", False)
+        other = json.dumps(not family)
+        runs.append(Variation("triangles" if family else "quadrilaterals", "mesh family", [f"accuracy.recombine={other}"]))
+        runs += [Variation(f"finer_{k}", f"asked {k} times the accuracy", [f"accuracy.value={accuracy / k:.3g}"]) for k in FINER]
+    if sides := list(other_sides(tables, summary)):
+        runs.append(Variation("other_side", "multipliers on the other side", sides))
+    elif summary["contact"]:
+        skipped.append("the other side: both curves have one pattern")
+    if len(summary["model"]["bodies"]) < 2 or not summary["contact"]:
+        skipped.append("another solver: there is no contact that one could solve for")
+    else:
+        solver = "feti" if summary["method"]["solver"] == "direct" else "direct"
+        runs.append(Variation(solver, "solver", [f"method.solver={json.dumps(solver)}"]))
+    return runs, skipped
+
+
+# ---- The verdict ----
+
+
+def rows_of(base, runs):
+    """One row a kind of figures: the one that is nearest to its limit, of all runs."""
+    rows = {}
+    for variation in runs:
+        for found in compare(base.run, variation.run):
+            row = rows.setdefault(found.kind, {"kind": found.kind, "count": set(), "agrees": True, "worst": -1.0})
+            row["count"].add(found.name)
+            part = found.off / found.allowed if found.allowed > 0 else float(found.off > 0)
+            if not (part <= row["worst"]):
+                row |= {"figure": found.name, "value": found.value, "bar": found.bar, "off": found.off, "allowed": found.allowed}
+                row |= {"worst": part, "run": variation.name}
+            row["agrees"] = row["agrees"] and found.agrees
+    for row in rows.values():
+        row["count"] = len(row["count"])
+    return list(rows.values())
+
+
+def study_of(base, runs):
+    """The meshes of the study: how far p is from the finest one's, and how it falls with the size of the elements."""
+    finer = [variation for variation in runs if variation.name.startswith("finer_")]
+    meshes = [base, *finer]
+    if not finer or not base.run.lines:
+        return []
+    finest, rows = meshes[-1].run, []
+    for variation in meshes:
+        off = line_difference(variation.run, finest) if variation.run is not finest else None
+        size = variation.run.summary["mesh"]["dofs"]
+        told = variation.run.summary["estimate"]["pressure"]["error"]
+        rows.append({"run": variation.name, "unknowns": size, "estimated": told, "off": off})
+    return rows
+
+
+def troubles_of(base, runs, asked, geometry):
+    """What keeps the certificate from being one, besides figures that do not agree."""
+    if base.status != "solved":
+        return [f"its own run: {base.words}"]
+    troubles = [f"{v.name}: {v.words}" for v in runs if not v.counts and v.status != "skipped"]
+    told = (base.run.summary["estimate"] or {}).get("pressure")
+    if not geometry and told and told["error"] > asked:
+        troubles.append(f"p is within {100 * told['error']:.2g} % only on the scene's own mesh, {100 * asked:g} % are asked")
+    if not any(v.counts for v in runs):
+        troubles.append("no other run could be made")
+    return troubles
+
+
+def certificate(base, runs, skipped, asked, geometry, seconds):
+    """All that certificate.json holds."""
+    counted = [v for v in runs if v.counts]
+    rows = rows_of(base, counted)
+    troubles = troubles_of(base, runs, asked, geometry)
+    skipped = skipped + [f"{v.name}: {v.words}" for v in runs if v.status == "skipped"]
+    describe = lambda v: {
+        "name": v.name, "what": v.what, "status": v.status, "seconds": round(v.seconds, 2), "command": v.command,
+        "unknowns": v.run.summary["mesh"]["dofs"] if v.run else None,
+    }  # fmt: skip
+    return {
+        "title": base.run.summary["title"],
+        "scene": base.run.summary["scene"],
+        "asked": asked,
+        "agrees": not troubles and bool(rows) and all(row["agrees"] for row in rows),
+        "figures": rows,
+        "troubles": troubles,
+        "skipped": skipped,
+        "left_out": base.run.left_out,
+        "runs": [describe(v) for v in [base, *runs]],
+        "study": study_of(base, counted),
+        "seconds": round(seconds, 2),
+    }
+
+
+def sentence(found):
+    """The verdict in one sentence."""
+    others = sum(run["status"] not in ("skipped", "failed") for run in found["runs"]) - 1
+    if found["agrees"]:
+        return f"agrees: {sum(r['count'] for r in found['figures'])} figures by {others} other runs, each within the bars"
+    wrong = [row["kind"] for row in found["figures"] if not row["agrees"]]
+    return "does not agree: " + "; ".join([*wrong, *found["troubles"]]) if wrong or found["troubles"] else "nothing to compare"
+
+
+def text_of(found):
+    """The certificate for a terminal."""
+    lines = [found["title"] or found["scene"], f"  {sentence(found)}"]
+    for run in found["runs"]:
+        size = "" if run["unknowns"] is None else f"{run['unknowns']} unknowns, "
+        lines.append(f"  run       {run['name']} ({run['what']}): {run['status'].replace('_', ' ')}, {size}{run['seconds']:.1f} s")
+    for row in found["figures"]:
+        verdict = "agrees" if row["agrees"] else "DOES NOT AGREE"
+        of = f" of {row['count']}: {row['figure']}" if row["count"] > 1 else "" if row["figure"] == row["kind"] else f": {row['figure']}"
+        lines.append(f"  {verdict:9} {row['kind']}{of} {row['value']:.6g} ± {row['bar']:.2g}")
+        lines.append(f"            off by {row['off']:.2g} of {row['allowed']:.2g} that both bars allow, in {row['run']}")
+    for row in found["study"]:
+        off = "" if row["off"] is None else f", {row['off']:.2g} from the finest"
+        lines.append(f"  mesh      {row['run']}: {row['unknowns']} unknowns, p estimated within {100 * row['estimated']:.2g} %{off}")
+    lines += [f"  trouble   {words}" for words in found["troubles"]]
+    lines += [f"  skipped   {words}" for words in found["skipped"]]
+    lines += [f"  left out  {words}" for words in found["left_out"]]
+    return "\n".join(lines)
+
+
+def certify(mortise, scene, output, changes=(), accuracy=None, spoil=None):
+    """Runs all and returns the certificate, which is also written: output/certificate.json. `spoil`: more --set of a run by
+    its name, for tests of the verdict. Raises SystemExit with the program's words where the scene is refused."""
+    try:
+        tables = tomllib.loads(scene.read_text())
+    except (OSError, ValueError) as error:
+        raise SystemExit(f"mortise certify: error: {scene}: {error}") from None
+    start, output = time.perf_counter(), output.absolute()
+    asked = accuracy or part_of(tables.get("accuracy", {}).get("value", "1%"))
+    geometry = str(tables.get("mesh", {}).get("file", "")).endswith(".geo")
+    changes = [*changes, *([f"accuracy.value={asked:.6g}"] if geometry else [])]
+    run = lambda variation, more=(): solve(mortise, scene, [*changes, *more], variation, output / variation.name)
+    base = run(Variation("own", "the scene as it is", []))
+    if base.run is None:
+        raise SystemExit(base.words)
+    probe = with_probe(tables, base.run.summary)
+    if probe and base.status == "solved":
+        base = run(Variation("own", "the scene as it is", []), probe)
+    others, skipped = variations_of(tables, base.run.summary, asked if geometry else None)
+    if not probe:
+        base.run.left_out.append("largest von Mises stress: it has no limit where it stands")
+    for variation in others if base.status == "solved" else []:
+        variation.changes += (spoil or {}).get(variation.name, [])
+        run(variation, probe)
+    done = others if base.status == "solved" else []
+    found = certificate(base, done, skipped, asked, geometry, time.perf_counter() - start)
+    (output / "certificate.json").write_text(json.dumps(found, indent=1) + "\n")
+    return found
+
+
+def part_of(text):
+    """0.01 or "1%" as a number."""
+    text = str(text)
+    return float(text[:-1]) / 100 if text.endswith("%") else float(text)
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="mortise certify", description=__doc__.split("\n\n")[0])
+    parser.add_argument("scene", type=Path, help="scene file (.toml)")
+    parser.add_argument("--accuracy", type=part_of, help="of p, such as 1%% (default: the scene's, else 1%%)")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a value of the scene, in all runs")
+    parser.add_argument("-o", "--output", type=Path, help="folder of all runs (default: out/SCENE_certificate)")
+    options = parser.parse_args()
+    output = options.output or Path("out") / f"{options.scene.stem}_certificate"
+    mortise = os.environ.get("MORTISE_PROGRAM", "mortise")
+    found = certify(mortise, options.scene, output, options.set, options.accuracy)
+    print(text_of(found))
+    sys.exit(0 if found["agrees"] else 2)
+
+
+if __name__ == "__main__":
+    main()

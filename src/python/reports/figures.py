@@ -1,0 +1,181 @@
+"""The figures of a run that another run can confirm, each with its bar."""
+
+import csv
+import json
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+# Of a figure's scale: what another solver may leave (its iterations end at 1e-8 of the load) and bars do not know.
+ROUND_OFF = 1e-6
+
+
+@dataclass
+class Figure:
+    kind: str  # figures of a kind are told together
+    value: float
+    bar: float
+    scale: float  # of its kind, for round-off
+    of_side: bool = False  # means another thing where the multipliers are on the other side
+
+
+@dataclass
+class Run:
+    """What a results folder says: figures by name, and what has none, in words."""
+
+    folder: Path
+    summary: dict
+    figures: dict = field(default_factory=dict)
+    left_out: list = field(default_factory=list)
+    lines: dict = field(default_factory=dict)  # by pair: places, p and weights of the vertices that count
+
+
+def pair_key(pair):
+    return frozenset(pair["between"])
+
+
+def rows_of(path):
+    if not path.exists():
+        return []
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def has_no_limit(summary, k):
+    """The places of pair k's line at which p has no limit, and the distance within which it does not count."""
+    told = summary["estimate"]["pressure"]
+    places = [at["position"] for at in told["singular"] if at["pair"] == k and at["unbounded"]]
+    return np.array(places).reshape(-1, 2), told["excluded"][k]
+
+
+def read_line(run, table, k):
+    """The vertices of the multiplier side that face the other and count: places, p, and the length that each stands for."""
+    rows = [row for row in table if row["pair"] == str(k)]
+    rows = [row for row in rows if row["curve"] == rows[0]["curve"] and row["gap"]]
+    xy = np.array([[float(row["x"]), float(row["y"])] for row in rows]).reshape(-1, 2)
+    p, s = (np.array([float(row[name]) for row in rows]) for name in ("p", "s"))
+    length = np.gradient(s) if len(s) > 1 else np.ones(len(s))
+    places, distance = has_no_limit(run.summary, k)
+    for place in places:
+        length = np.where(np.linalg.norm(xy - place, axis=1) < distance, 0, length)
+    return xy, p, length
+
+
+def read_pairs(run):
+    summary, table = run.summary, rows_of(run.folder / "contact.csv")
+    pairs = summary["contact"]
+    carried = max((pair["pressure"]["max"] * pair["length_in_contact"] for pair in pairs), default=0)
+    largest = max((pair["pressure"]["max"] for pair in pairs), default=0)
+    by_node = {}
+    for row in table:
+        key = int(row["pair"])
+        if row["p"] and (key not in by_node or float(row["p"]) > float(by_node[key]["p"])):
+            by_node[key] = row
+    for k, pair in enumerate(pairs):
+        name = " - ".join(pair["between"])
+        sign = 1 if summary["method"]["multipliers_on"][k] == pair["between"][0] else -1
+        for axis, force, bar in zip("xy", pair["force"], pair["force_error"] or []):
+            across = abs(force) < max(map(abs, pair["force"]))  # goes with the normals, which the two curves do not share
+            run.figures[f"force {axis}, {name}"] = Figure("contact forces", sign * force, bar, carried, across)
+        if pair["length_in_contact_error"] is not None:
+            run.figures[f"length in contact, {name}"] = Figure(
+                "lengths in contact", pair["length_in_contact"], pair["length_in_contact_error"], pair["length"], True
+            )
+        if summary["estimate"]["pressure"] is None:
+            continue
+        run.lines[pair_key(pair)] = read_line(run, table, k)
+        if len(has_no_limit(summary, k)[0]):
+            run.left_out.append(f"largest p of {name}: it has no limit there")
+        elif k in by_node and by_node[k].get("p_error"):
+            value, bar = float(by_node[k]["p"]), float(by_node[k]["p_error"])
+            run.figures[f"largest p, {name}"] = Figure("largest p", value, bar, largest)
+
+
+def read_probes(run):
+    extremes = run.summary["extremes"]
+    scales = {"u": ("displacements", extremes["displacement"]), "s": ("stresses", extremes["von_mises"]["value"])}
+    for number, row in enumerate(rows_of(run.folder / "probes.csv")):
+        place = f"({float(row['x']):.6g}, {float(row['y']):.6g}) of {row['body']}"
+        for name in ("u_x", "u_y", "sigma_11", "sigma_22", "sigma_12"):
+            if not row.get(f"{name}_error"):
+                run.left_out.append(f"{name} at {place}: it has no bar")
+                continue
+            kind, scale = scales[name[0]]
+            run.figures[f"{name} at {place} [{number}]"] = Figure(kind, float(row[name]), float(row[f"{name}_error"]), scale)
+
+
+def read_run(folder):
+    """The figures of the results in a folder."""
+    run = Run(folder, json.loads((folder / "summary.json").read_text()))
+    if run.summary["estimate"] is not None:
+        read_pairs(run)
+        read_probes(run)
+    return run
+
+
+def root_mean_square(lines, values):
+    """Of values at the vertices of lines, over their length; NaN without any."""
+    length = sum(lines[key][2].sum() for key in values)
+    return math.sqrt(sum((lines[key][2] * values[key] ** 2).sum() for key in values) / length) if length > 0 else math.nan
+
+
+def p_at(places, line):
+    """p of a run at places of another's line: between the two vertices of the edge that is nearest."""
+    xy, p, _ = line
+    start, step = xy[:-1], np.diff(xy, axis=0)
+    values = np.empty(len(places))
+    for i, place in enumerate(places):
+        t = np.clip(((place - start) * step).sum(axis=1) / (step**2).sum(axis=1), 0, 1)
+        e = np.linalg.norm(start + t[:, None] * step - place, axis=1).argmin()
+        values[i] = p[e] + t[e] * (p[e + 1] - p[e])
+    return values
+
+
+def line_pressure(run):
+    """Root mean square of p on all lines, and its bar: None where nothing is pressed."""
+    if not run.lines:
+        return None
+    size = root_mean_square(run.lines, {key: line[1] for key, line in run.lines.items()})
+    return Figure("p along the lines", size, size * run.summary["estimate"]["pressure"]["error"], size)
+
+
+def line_difference(run, other):
+    """Root mean square of what p of another run is off from a run's, at the run's vertices; NaN if a pair is not there."""
+    if run.lines.keys() != other.lines.keys() or any(len(line[1]) < 2 for line in other.lines.values()):
+        return math.nan
+    return root_mean_square(run.lines, {k: p_at(xy, other.lines[k]) - p for k, (xy, p, _) in run.lines.items()})
+
+
+@dataclass
+class Comparison:
+    name: str
+    kind: str
+    value: float
+    bar: float
+    off: float  # |difference| of the other run
+    allowed: float  # both bars, and round-off
+
+    @property
+    def agrees(self):
+        return self.off <= self.allowed  # NaN does not
+
+
+def compare(run, other):
+    """Each figure of a run against another run's, which may be off by both bars together."""
+    same_side = run.summary["method"]["multipliers_on"] == other.summary["method"]["multipliers_on"]
+    mine = line_pressure(run)
+    found = []
+    if mine:
+        theirs = line_pressure(other)
+        bar = theirs.bar if theirs else math.nan
+        found.append(Comparison(mine.kind, mine.kind, mine.value, mine.bar, line_difference(run, other), mine.bar + bar))
+    for name, figure in run.figures.items():
+        if figure.of_side and not same_side:
+            continue
+        theirs = other.figures.get(name)
+        off = abs(theirs.value - figure.value) if theirs else math.nan
+        allowed = figure.bar + (theirs.bar if theirs else math.nan) + ROUND_OFF * figure.scale
+        found.append(Comparison(name, figure.kind, figure.value, figure.bar, off, allowed))
+    return found
