@@ -14,6 +14,7 @@
 #include "gmsh/load_mesh.hpp"
 #include "mesh/copy_bodies.hpp"
 #include "problem/dirichlet_neumann.hpp"
+#include "problem/take_loads.hpp"
 #include "results/audit_solution.hpp"
 #include "results/checks.hpp"
 #include "results/data_warnings.hpp"
@@ -23,6 +24,7 @@
 #include "results/unheld.hpp"
 #include "results/warnings.hpp"
 #include "scene/check_ranges.hpp"
+#include "scene/loads.hpp"
 
 namespace mortise {
 namespace {
@@ -49,7 +51,7 @@ Problem prepared(const Scene& scene, Mesh mesh, const Progress& progress = {}, c
 
 // What `work` returns; what it refuses of the scene is told with the scene's path.
 template <typename Work>
-auto told_with_path(const Scene& scene, Work work) {
+decltype(auto) told_with_path(const Scene& scene, Work work) {
   try {
     return work();
   } catch (const SceneError& error) {
@@ -143,18 +145,16 @@ void judge(Results& r) {
   append_lines(r.warnings, unheld_probes(r));
 }
 
-Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
-  require_same_mesh(mesh);
-  Results r;
-  r.problem = prepared(scene, std::move(mesh), progress, start);
-  const Problem& p = r.problem;
-  r.warnings = p.warnings;
-  r.seconds.assemble = p.assemble_seconds;
-  r.seconds.couple = p.couple_seconds;
+std::unique_ptr<SystemSolver> solver_of(const Problem& p) {
+  return std::make_unique<SystemSolver>(p.method, p.discretisation.system, unknowns_of(p.mesh, p.dirichlet));
+}
 
+// The rest of results that have their problem.
+void solve_problem(SystemSolver& solver, const Progress& progress, Results& r) {
+  const Problem& p = r.problem;
   Stopwatch watch;
   if (progress) progress("solve for " + std::to_string(free_unknowns(r)) + " unknowns");
-  r.solution = solve_system(p.method, p.discretisation.system, unknowns_of(p.mesh, p.dirichlet));
+  r.solution = solver.solve();
   require_solution(p.mesh, p.pairs, p.floating, r.solution);
   find_unheld(r);
   r.seconds.factorise = r.solution.factorise_seconds;
@@ -164,6 +164,20 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   r.recovery = recover(p, r.solution);
   judge(r);
   r.seconds.recover = watch.lap();
+}
+
+void take_problem(Problem&& problem, Results& r) {
+  r.problem = std::move(problem);
+  r.warnings = r.problem.warnings;
+  r.seconds.assemble = r.problem.assemble_seconds;
+  r.seconds.couple = r.problem.couple_seconds;
+}
+
+Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
+  require_same_mesh(mesh);
+  Results r;
+  take_problem(prepared(scene, std::move(mesh), progress, start), r);
+  solve_problem(*solver_of(r.problem), progress, r);
   return r;
 }
 
@@ -171,6 +185,52 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
 
 Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
   return told_with_path(scene, [&] { return solve_on(scene, std::move(mesh), progress, start); });
+}
+
+CaseSolver::CaseSolver() = default;
+CaseSolver::~CaseSolver() = default;
+
+// Whether the results have the problem under the scene's loads now.
+bool CaseSolver::take(const Scene& scene) {
+  if (!scene_ || !differ_in_loads_alone(*scene_, scene)) return false;
+  const Stopwatch watch;
+  Problem problem = std::move(results_.problem);
+  results_ = {};
+  results_.problem = std::move(problem);
+  results_.problem.discretisation.system.constraints.fixed = fixed_;
+  check_ranges(scene);
+  load_fields(scene);
+  if (!take_loads(scene, results_.problem)) return false;
+  results_.problem.warnings = results_.warnings = warnings_;
+  SaddlePointSystem& system = results_.problem.discretisation.system;
+  system.start = start_ ? starting_rows(*start_, results_.problem.mesh, results_.problem.pairs) : std::vector<char>();
+  results_.seconds.assemble = watch.elapsed();
+  ++shared_;
+  return true;
+}
+
+void CaseSolver::begin(const Scene& scene, const Progress& progress) {
+  scene_.reset();
+  results_ = {};
+  Stopwatch watch;
+  if (progress) progress("mesh");
+  Mesh mesh = scene_mesh(scene, &results_.mesh_cached);
+  results_.seconds.mesh = watch.lap();
+  require_same_mesh(mesh);
+  take_problem(prepared(scene, std::move(mesh), progress, start_ ? &*start_ : nullptr), results_);
+  fixed_ = results_.problem.discretisation.system.constraints.fixed;
+  warnings_ = results_.warnings;
+  solver_ = solver_of(results_.problem);
+  scene_ = scene;
+}
+
+Results& CaseSolver::solve(const Scene& scene, const Progress& progress) {
+  return told_with_path(scene, [&]() -> Results& {
+    if (!take(scene)) begin(scene, progress);
+    solve_problem(*solver_, progress, results_);
+    start_ = active_set(results_);
+    return results_;
+  });
 }
 
 }  // namespace mortise

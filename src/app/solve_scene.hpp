@@ -1,6 +1,8 @@
 // One scene from data to results.
 #pragma once
 
+#include <memory>
+
 #include "results/results.hpp"
 #include "scene/scene.hpp"
 
@@ -16,6 +18,37 @@ Results solve_scene(const Scene& scene, const Progress& progress = {}, const Act
 
 /// The same on a mesh that is already there.
 Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr);
+
+class SystemSolver;
+
+/// Solves scenes one after another. One that differs from the one before in loads alone (scene/loads.hpp) has its mesh,
+/// its equations and, by the direct solver, its factor; it starts from the rows that were closed there.
+class CaseSolver {
+ public:
+  CaseSolver();
+  ~CaseSolver();
+  CaseSolver(const CaseSolver&) = delete;
+  CaseSolver& operator=(const CaseSolver&) = delete;
+
+  /// What solve_scene returns; it stays here until the next call. Throws as solve_scene.
+  Results& solve(const Scene& scene, const Progress& progress = {});
+  /// The next scene starts from no known rows.
+  void forget_rows() { start_.reset(); }
+  /// How many of those solved had the factor of one before.
+  int shared() const { return shared_; }
+
+ private:
+  bool take(const Scene& scene);
+  void begin(const Scene& scene, const Progress& progress);
+
+  std::optional<Scene> scene_;  // that what is kept is of; none: nothing is kept
+  Results results_;
+  std::vector<char> fixed_;            // of the system as it was factorised
+  std::vector<std::string> warnings_;  // of the problem
+  std::optional<ActiveSet> start_;
+  std::unique_ptr<SystemSolver> solver_;
+  int shared_ = 0;
+};
 
 /// The estimated error into the results, and a warning where it is large. `found`: as of estimate_error; `forces`:
 /// whether forces and lengths in contact get bars too. Throws SceneError as estimate_error does, and where spec asks

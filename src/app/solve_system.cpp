@@ -7,7 +7,6 @@
 #include "preprint_solvers/mssor.hpp"
 #include "preprint_solvers/solve_ddm.hpp"
 #include "solve/contact_factor.hpp"
-#include "solve/direct.hpp"
 #include "solve/multipoint_system.hpp"
 
 namespace mortise {
@@ -41,34 +40,54 @@ Solver solver_for(const Method& method, const SaddlePointSystem& system) {
   return system.B.rows() >= many_rows && part_count(system.K) >= many_parts ? Solver::feti : Solver::direct;
 }
 
-Solution solve_system(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet) {
-  if (const auto& multipoint = system.constraints.multipoint) {
-    Solution solution = solve_system(method, independent_system(system), dirichlet);
-    if (solution.u.size() > 0) solution.u = multipoint->T * solution.u;
-    if (solution.factor) solution.factor = std::make_shared<MultipointFactor>(multipoint->T, solution.factor);
-    return solution;
+Solution SystemSolver::solve() {
+  const auto& multipoint = system_.constraints.multipoint;
+  if (!multipoint) return solve_independent(system_);
+  if (!independent_) {
+    independent_ = std::make_unique<SaddlePointSystem>(independent_system(system_));
+  } else {
+    independent_->f = multipoint->T.transpose() * system_.f;
+    independent_->g = system_.g;
+    independent_->constraints.value = system_.constraints.value;
+    independent_->start = system_.start;
   }
-  const Solver solver = solver_for(method, system);
+  Solution solution = solve_independent(*independent_);
+  if (solution.u.size() > 0) solution.u = multipoint->T * solution.u;
+  if (solution.factor) solution.factor = std::make_shared<MultipointFactor>(multipoint->T, solution.factor);
+  return solution;
+}
+
+Solution SystemSolver::solve_by_factor(const SaddlePointSystem& system) {
+  if (!direct_) direct_.emplace(system);
+  return direct_->solve();
+}
+
+Solution SystemSolver::solve_independent(const SaddlePointSystem& system) {
+  const Solver solver = solver_for(method_, system);
   Solution solution;
   switch (solver) {
     case Solver::direct:
-      solution = solve_directly(system);
+      solution = solve_by_factor(system);
       break;
     case Solver::mssor:
-      solution = solve_by_mssor(system, method.mssor);
+      solution = solve_by_mssor(system, method_.mssor);
       break;
     case Solver::ddm:
-      solution = solve_by_ddm(system, dirichlet, method.ddm);
+      solution = solve_by_ddm(system, dirichlet_, method_.ddm);
       break;
     case Solver::feti:
-      solution = solve_by_feti(system, method.feti);
+      solution = solve_by_feti(system, method_.feti);
       break;
   }
   solution.solver = solver;
-  if (method.solver || solver != Solver::feti || solution.status != SolveStatus::not_converged) return solution;
-  solution = solve_directly(system);  // conjugate gradients may not end
+  if (method_.solver || solver != Solver::feti || solution.status != SolveStatus::not_converged) return solution;
+  solution = solve_by_factor(system);  // conjugate gradients may not end
   solution.solver = Solver::direct;
   return solution;
+}
+
+Solution solve_system(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet) {
+  return SystemSolver(method, system, dirichlet).solve();
 }
 
 void require_solution(const Mesh& mesh, const std::vector<ContactPair>& pairs, const Floating& floating,

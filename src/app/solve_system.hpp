@@ -2,12 +2,34 @@
 #pragma once
 
 #include "problem/validate.hpp"
+#include "solve/direct.hpp"
 
 namespace mortise {
 
 /// The one that is named; else feti from 1000 rows on, where three parts or more hang together by contact alone: from
 /// there on it is faster than the direct solver's dense compliance. Else direct.
 Solver solver_for(const Method& method, const SaddlePointSystem& system);
+
+/// Solves one system under as many loads as come.
+class SystemSolver {
+ public:
+  /// Keeps references. f, g, the prescribed values and the rows to start from may change between solves; by the direct
+  /// solver all have one factor. `dirichlet`: as of solve_system.
+  SystemSolver(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet)
+      : method_(method), system_(system), dirichlet_(dirichlet) {}
+
+  Solution solve();
+
+ private:
+  Solution solve_independent(const SaddlePointSystem& system);
+  Solution solve_by_factor(const SaddlePointSystem& system);
+
+  const Method& method_;
+  const SaddlePointSystem& system_;
+  const std::vector<char> dirichlet_;
+  std::unique_ptr<SaddlePointSystem> independent_;  // of one with multi-point constraints
+  std::optional<DirectSolver> direct_;
+};
 
 /// By the direct solver after all where nobody named feti and it does not converge. `dirichlet`: of domain
 /// decomposition, n: the unknowns of the bodies that take the displacement.

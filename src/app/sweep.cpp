@@ -20,15 +20,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Runs one, and leaves its active set in `start`, from which the next one may go on.
-RunRow run_one(const SweepPlan& plan, std::size_t run, std::optional<ActiveSet>& start) try {
-  const Scene scene = read_scene(plan.scene, plan.overrides_of(run));
-  Results results = scene.accuracy ? *solve_to_accuracy(scene) : solve_scene(scene, {}, start ? &*start : nullptr);
-  if (!scene.accuracy) estimate(results);
+RunRow row_of_results(const SweepPlan& plan, Results& results) {
   if (plan.diagnosed) diagnose(results);
   judge_expectations(results);
-  start = active_set(results);
   return row_of(report_of(results));
+}
+
+RunRow run_one(const SweepPlan& plan, std::size_t run, CaseSolver& solver) try {
+  const Scene scene = read_scene(plan.scene, plan.overrides_of(run));
+  if (scene.accuracy) {
+    Results results = *solve_to_accuracy(scene);
+    return row_of_results(plan, results);
+  }
+  Results& results = solver.solve(scene);
+  estimate(results);
+  return row_of_results(plan, results);
 } catch (const InputError& error) {
   return {printable(std::string("bad input: ") + error.what()), {}};
 }
@@ -158,11 +164,12 @@ Status sweep(const SweepPlan& plan, const fs::path& whole, const SweepPart& part
   check_target(now.journal, {plan.scene}, [](const std::string& title) { return title == journal_title; });
   resume(now, part, report);
 
+  CaseSolver solver;  // of each process its own
   const auto work = [&](std::size_t index, const Answer& answer) {
-    std::optional<ActiveSet> start;
+    solver.forget_rows();
     const auto [from, to] = runs_of_group(plan, now.groups[index]);
     for (std::size_t run = from; run < to; ++run)
-      answer(std::to_string(run) + " " + line_of(run_one(plan, run, start)));
+      answer(std::to_string(run) + " " + line_of(run_one(plan, run, solver)));
   };
   const auto take = [&](const std::string& line) { take_line(now, line, report); };
   if (!share_work(now.groups.size(), jobs, work, take))

@@ -15,6 +15,8 @@ struct BodyCopy {
   double degrees = 0;          ///< counter-clockwise
   Vec2 centre = Vec2::Zero();  ///< as drawn
   Vec2 shift = Vec2::Zero();   ///< length
+
+  bool operator==(const BodyCopy&) const = default;
 };
 
 }  // namespace mortise

@@ -18,11 +18,15 @@ struct Material {
   double density = 0;                       ///< mass per volume
   std::optional<OrthotropicModuli> moduli;  ///< of an orthotropic material
   std::optional<Mat4> stiffness;            ///< (11, 22, 33, gamma_12), of one that is not isotropic
+
+  bool operator==(const Material&) const = default;
 };
 
 struct BodySpec {
   std::string name;      ///< physical surface
   std::string material;  ///< key of Scene::materials
+
+  bool operator==(const BodySpec&) const = default;
 };
 
 /// One [[body_force]] entry: force per volume.
@@ -30,6 +34,8 @@ struct BodyForceSpec {
   std::string key;
   std::string body;
   VectorField force;
+
+  bool operator==(const BodyForceSpec&) const = default;
 };
 
 /// One [[initial_strain]] entry: a strain, or a temperature change (strain alpha dT in all three directions).
@@ -38,6 +44,8 @@ struct InitialStrainSpec {
   std::string body;
   std::optional<Field> temperature_change;  ///< K
   std::array<Field, 4> strain;              ///< (11, 22, 33, 12), tensor shear strain
+
+  bool operator==(const InitialStrainSpec&) const = default;
 };
 
 }  // namespace mortise

@@ -37,6 +37,8 @@ struct DdmOptions {
   std::optional<double> beta;                        ///< relaxation, > 0; default: estimated
   double tolerance = 1e-8;                           ///< of both residuals
   int max_iterations = 100;
+
+  bool operator==(const DdmOptions&) const = default;
 };
 
 struct MssorOptions {
@@ -45,11 +47,15 @@ struct MssorOptions {
   Acceleration acceleration = Acceleration::krylov;  ///< none, krylov or minres
   double tolerance = 1e-10;                          ///< of both residuals
   int max_iterations = 20000;
+
+  bool operator==(const MssorOptions&) const = default;
 };
 
 struct FetiOptions {
   double tolerance = 1e-10;  ///< of both residuals
   int max_iterations = 1000;
+
+  bool operator==(const FetiOptions&) const = default;
 };
 
 /// The words of the scene file ("strain", "bilateral", ...).

@@ -21,6 +21,8 @@ struct ContactSpec {
   Field gap;                   ///< of InitialGap::given: the gap, length: + open, - overlap
   Field clearance;             ///< added to the drawn or measured gap, length
   std::string multipliers_on;  ///< one of `between`; empty: couple_pairs chooses; of a tie the curve that follows
+
+  bool operator==(const ContactSpec&) const = default;
 };
 
 }  // namespace mortise

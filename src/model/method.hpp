@@ -20,6 +20,8 @@ struct Method {
   FetiOptions feti;
   DdmOptions ddm;
   std::vector<std::string> dirichlet;  ///< of ddm: bodies that take the displacement; default: the softer ones
+
+  bool operator==(const Method&) const = default;
 };
 
 /// [accuracy]: what the pressure is to be right to, on a mesh that is found for it.
@@ -35,6 +37,8 @@ struct AccuracySpec {
   int solves_max = 8;
   int first_edges = 20;    ///< of the first mesh along each contact curve
   bool recombine = false;  ///< quadrilaterals instead of triangles
+
+  bool operator==(const AccuracySpec&) const = default;
 };
 
 }  // namespace mortise

@@ -16,6 +16,8 @@ struct Model {
   /// The factor of an area of the mesh, or of a length of its curves, where the first coordinate is x1, length:
   /// the thickness, or the circumference of the ring.
   double depth(double x1) const { return axisymmetric() ? 2 * std::numbers::pi * x1 : thickness; }
+
+  bool operator==(const Model&) const = default;
 };
 
 }  // namespace mortise

@@ -14,6 +14,8 @@ struct OrthotropicModuli {
   double nu12 = 0, nu13 = 0, nu23 = 0;  ///< nu_ji = nu_ij E_j / E_i
   double g12 = 0;                       ///< stress, > 0
   double angle = 0;                     ///< from x1 to direction 1, radians
+
+  bool operator==(const OrthotropicModuli&) const = default;
 };
 
 /// Stiffness (11, 22, 33, gamma_12) in the axes of the plane; nothing where the moduli belong to no material, as not

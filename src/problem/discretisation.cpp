@@ -80,17 +80,26 @@ Resultant add_gravity(const Entries& entries, const Mesh& mesh, VecX& f) {
   return add_body_forces(mesh, entries.model, weights, f);
 }
 
-// All that lies on boundaries.
-void apply_boundaries(const Entries& entries, const Mesh& mesh, Discretisation& d) {
-  std::vector<Eigen::Triplet<double>> springs;
+using Springs = std::vector<Eigen::Triplet<double>>;
+
+// All that lies on boundaries; the entries of springs are returned.
+Springs apply_boundaries(const Entries& entries, const Mesh& mesh, Discretisation& d) {
+  Springs springs;
+  d.boundary_sums.clear();
   for (const BoundaryEntry& entry : entries.boundaries)
     d.boundary_sums.push_back(apply(mesh, d.model, entry, d.system, springs));
-  if (!springs.empty()) {
-    d.springs.resize(d.system.K.rows(), d.system.K.cols());
-    d.springs.setFromTriplets(springs.begin(), springs.end());
-    d.system.K += d.springs;
-    d.system.constraints.springs = spring_rows(d.springs);
-  }
+  return springs;
+}
+
+void add_springs(const Springs& springs, Discretisation& d) {
+  if (springs.empty()) return;
+  d.springs.resize(d.system.K.rows(), d.system.K.cols());
+  d.springs.setFromTriplets(springs.begin(), springs.end());
+  d.system.K += d.springs;
+  d.system.constraints.springs = spring_rows(d.springs);
+}
+
+void apply_multipoint(const Entries& entries, const Mesh& mesh, Discretisation& d) {
   d.multipoint = add_multipoint_supports(entries.boundaries, mesh, d.system);
   for (const RigidSupport& support : d.multipoint.rigid_curves) {
     const auto& rigid = std::get<RigidSpec>(entries.boundaries[support.entry].spec.what);
@@ -99,12 +108,8 @@ void apply_boundaries(const Entries& entries, const Mesh& mesh, Discretisation& 
   }
 }
 
-}  // namespace
-
-Discretisation discretise(const Entries& entries, const Mesh& mesh) {
-  check_cells(mesh);
-  Discretisation d;
-  d.model = entries.model;
+// Into the bodies: initial strains, body forces, weight.
+void load_bodies(const Entries& entries, const Mesh& mesh, Discretisation& d) {
   d.laws = laws_of(entries);
   d.system.constraints = no_constraints(mesh);
   if (d.model.axisymmetric()) hold_axis(mesh, d.system.constraints);
@@ -112,14 +117,33 @@ Discretisation discretise(const Entries& entries, const Mesh& mesh) {
   const BodyFields strains = strain_fields(entries, mesh);
   d.initial_energy = add_initial_strain(mesh, d.laws, rules_of(strains), d.initial_load);
   d.system.f = d.initial_load;
+  d.body_sums.clear();
   for (int i = 0; i < int(entries.body_forces.size()); ++i)
     d.body_sums.push_back(add_body_force(entries, mesh, i, d.system.f));
-  if (entries.gravity) d.weight = add_gravity(entries, mesh, d.system.f);
+  d.weight = entries.gravity ? add_gravity(entries, mesh, d.system.f) : Resultant();
+}
+
+}  // namespace
+
+Discretisation discretise(const Entries& entries, const Mesh& mesh) {
+  check_cells(mesh);
+  Discretisation d;
+  d.model = entries.model;
+  load_bodies(entries, mesh, d);
   d.system.K = assemble_stiffness(mesh, d.laws, solver_threads());
-  apply_boundaries(entries, mesh, d);
+  add_springs(apply_boundaries(entries, mesh, d), d);
+  apply_multipoint(entries, mesh, d);
   d.system.stiffness_scale = 0;
   for (const ElasticLaw& law : d.laws) d.system.stiffness_scale = std::max(d.system.stiffness_scale, law.young);
   return d;
+}
+
+void take_loads(const Entries& entries, const Mesh& mesh, Discretisation& d) {
+  SparseMatrix springs = std::move(d.system.constraints.springs);
+  load_bodies(entries, mesh, d);
+  apply_boundaries(entries, mesh, d);
+  d.system.constraints.springs = std::move(springs);
+  apply_multipoint(entries, mesh, d);
 }
 
 VecX spring_forces(const Discretisation& d, const VecX& u) {

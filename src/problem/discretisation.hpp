@@ -24,6 +24,10 @@ struct Discretisation {
 /// Throws SceneError where two values are prescribed at one node, or a field has no value.
 Discretisation discretise(const Entries& entries, const Mesh& mesh);
 
+/// What the entries' loads, prescribed values and initial strains make, anew: for entries of the same kinds at the same
+/// places on the same bodies. K, springs, scales stay. Throws as discretise.
+void take_loads(const Entries& entries, const Mesh& mesh, Discretisation& discretisation);
+
 /// Forces of the foundations on the nodes.
 VecX spring_forces(const Discretisation& discretisation, const VecX& u);
 

@@ -82,24 +82,29 @@ std::vector<ContactNormal> normals_of(const Mesh& mesh, const ContactPair& pair)
 
 }  // namespace
 
-std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                                                        const std::vector<std::string>& findings,
-                                                        SaddlePointSystem& system) {
-  std::vector<std::vector<RigidMotion>> held;
+void refuse_driven(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                   const std::vector<std::vector<RigidMotion>>& motions, const std::vector<std::string>& findings,
+                   const VecX& load) {
+  if (motions.empty()) return;
   VecX edge_errors = VecX::Zero(Eigen::Index(mesh.bodies.size()));
   for (const ContactPair& pair : pairs)
     for (const Curve* curve : {&pair.multiplier, &pair.opposite})
       edge_errors(curve->body) = std::max(edge_errors(curve->body), edge_error(mesh.nodes, *curve));
-  const double turn = rounding_of_edges(mesh, pairs);
+  const std::vector<char> moves = driven(mesh, motions, load, edge_errors, rounding_of_edges(mesh, pairs));
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    if (moves[k])
+      throw SceneError("nothing holds " + describe(mesh, motions[k]) +
+                       "; expected prescribed displacements or contact that prevent it" +
+                       (findings.empty() ? "" : ": " + findings.front()));
+}
+
+std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                                                        const std::vector<std::string>& findings,
+                                                        SaddlePointSystem& system) {
+  std::vector<std::vector<RigidMotion>> held;
   const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions) {
-    const std::vector<char> moves = driven(mesh, motions, system.f, edge_errors, turn);
-    for (std::size_t k = 0; k < motions.size(); ++k) {
-      if (moves[k])
-        throw SceneError("nothing holds " + describe(mesh, motions[k]) +
-                         "; expected prescribed displacements or contact that prevent it" +
-                         (findings.empty() ? "" : ": " + findings.front()));
-      held.push_back(motions[k]);
-    }
+    refuse_driven(mesh, pairs, motions, findings, system.f);
+    held.insert(held.end(), motions.begin(), motions.end());
     for (const int unknown : unknowns_to_hold(mesh, pairs, system.constraints, motions))
       system.constraints.fixed[unknown] = 1;
   };

@@ -22,6 +22,11 @@ std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const 
                                                         const std::vector<std::string>& findings,
                                                         SaddlePointSystem& system);
 
+/// Throws the SceneError of hold_free_motions if the load, n, drives one of the motions.
+void refuse_driven(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                   const std::vector<std::vector<RigidMotion>>& motions, const std::vector<std::string>& findings,
+                   const VecX& load);
+
 /// "nothing holds MOTION, but no load drives it either ..."; one line for many.
 std::vector<std::string> held_lines(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions);
 

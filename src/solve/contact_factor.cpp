@@ -5,31 +5,31 @@
 
 namespace mortise {
 
-DirectFactor::DirectFactor(const SaddlePointSystem& system, std::vector<int> free, SplitCholesky factor,
+DirectFactor::DirectFactor(const SaddlePointSystem& system, std::shared_ptr<const FactoredBodies> bodies,
                            MultiplierSystem multipliers)
     : row_scale_(system.row_scale),
       stiffness_scale_(system.stiffness_scale),
       unknowns_(system.K.cols()),
       springs_(system.grounded.size()),
-      free_(std::move(free)),
-      factor_(std::move(factor)),
+      bodies_(std::move(bodies)),
       multipliers_(std::move(multipliers)) {}
 
 MatX DirectFactor::duals(const MatX& functionals, const MatX& loads) const {
+  const auto& [free, factor] = *bodies_;
   const Eigen::Index rows = functionals.rows(), count = functionals.cols(), without_load = count - loads.cols();
-  MatX multipliers(rows + springs_, count), y = MatX::Zero(factor_.size(), count);
+  MatX multipliers(rows + springs_, count), y = MatX::Zero(factor.size(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     VecX rhs = VecX::Zero(rows + springs_);
     if (k >= without_load) {
       const VecX load = loads.col(k - without_load);
-      y.col(k) = factor_.forward(load(free_) / stiffness_scale_);
-      rhs = factor_.at_border(y.col(k));
+      y.col(k) = factor.forward(load(free) / stiffness_scale_);
+      rhs = factor.at_border(y.col(k));
     }
     rhs.head(rows) -= functionals.col(k).cwiseQuotient(row_scale_);
     multipliers.col(k) = multipliers_.solve(rhs);
   }
   MatX z = MatX::Zero(unknowns_, count);
-  z(free_, Eigen::all) = factor_.backward(std::move(y), multipliers);
+  z(free, Eigen::all) = factor.backward(std::move(y), multipliers);
   return z;
 }
 
@@ -46,7 +46,8 @@ std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& 
   for (int a = 0; a < int(closed.size()); ++a)
     if (closed[a]) rows.push_back(a);
   MultiplierSystem multipliers(factor.take_border_compliance(), Eigen::Index(s.grounded.size()), std::move(rows));
-  return std::make_shared<DirectFactor>(s, std::move(reduced.free), std::move(factor), std::move(multipliers));
+  return std::make_shared<DirectFactor>(s, std::make_shared<FactoredBodies>(std::move(reduced.free), std::move(factor)),
+                                        std::move(multipliers));
 }
 
 std::shared_ptr<const ContactFactor> contact_factor(const SaddlePointSystem& system, const Solution& solution) {

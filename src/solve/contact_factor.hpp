@@ -18,11 +18,17 @@ class ContactFactor {
   virtual MatX duals(const MatX& functionals, const MatX& loads = {}) const = 0;
 };
 
-/// That of solve_directly: one backward substitution for all duals, and a forward one of each load.
+/// The factor of the bodies, and their unknowns that it has.
+struct FactoredBodies {
+  std::vector<int> free;
+  SplitCholesky factor;
+};
+
+/// That of DirectSolver: one backward substitution for all duals, and a forward one of each load.
 class DirectFactor : public ContactFactor {
  public:
-  /// `free`: the unknowns of `factor`; `multipliers`: of the closed rows.
-  DirectFactor(const SaddlePointSystem& system, std::vector<int> free, SplitCholesky factor,
+  /// `multipliers`: of the closed rows.
+  DirectFactor(const SaddlePointSystem& system, std::shared_ptr<const FactoredBodies> bodies,
                MultiplierSystem multipliers);
 
   MatX duals(const MatX& functionals, const MatX& loads = {}) const override;
@@ -31,8 +37,7 @@ class DirectFactor : public ContactFactor {
   VecX row_scale_;
   double stiffness_scale_;
   Eigen::Index unknowns_, springs_;
-  std::vector<int> free_;
-  SplitCholesky factor_;
+  std::shared_ptr<const FactoredBodies> bodies_;
   MultiplierSystem multipliers_;
 };
 

@@ -1,11 +1,11 @@
 #include "solve/direct.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/stopwatch.hpp"
 #include "solve/active_set.hpp"
 #include "solve/bordered_system.hpp"
-#include "solve/contact_factor.hpp"
 
 namespace mortise {
 namespace {
@@ -21,14 +21,13 @@ bool is_without_solution(const Solution& solution) {
 // The first pass solves, as a rule to round-off of the residual itself; others refine where it did not.
 class Passes {
  public:
-  Passes(const SaddlePointSystem& s, SplitCholesky& factor, const std::vector<int>& free, Solution& solution)
-      : s_(s), factor_(factor), free_(free), solution_(solution) {
+  Passes(const SaddlePointSystem& s, const FactoredBodies& bodies, ComplementarityProblem& problem, Solution& solution)
+      : s_(s), factor_(bodies.factor), free_(bodies.free), problem_(problem), solution_(solution) {
     solution_.u = s_.constraints.value;
     solution_.lambda = VecX::Zero(s_.B.rows());
     Ku_ = s_.K.selfadjointView<Eigen::Lower>() * solution_.u;
-    problem_.compliance = factor.take_border_compliance();
-    problem_.scale = s_.row_scale;
-    problem_.unilateral = s_.unilateral.empty() ? std::vector<char>(s_.B.rows(), 0) : s_.unilateral;
+    problem_.round_off = problem_.displacement = 0;
+    problem_.known = {};
   }
 
   // False if another pass would change nothing, or nothing for the better.
@@ -77,10 +76,10 @@ class Passes {
   }
 
   const SaddlePointSystem& s_;
-  SplitCholesky& factor_;
+  const SplitCholesky& factor_;
   const std::vector<int>& free_;
+  ComplementarityProblem& problem_;
   Solution& solution_;
-  ComplementarityProblem problem_;
   VecX Ku_;
   int pass_ = 0;
   bool penetrated_ = false;
@@ -88,27 +87,41 @@ class Passes {
 
 }  // namespace
 
-Solution solve_directly(const SaddlePointSystem& s) {
-  Solution solution;
+DirectSolver::DirectSolver(const SaddlePointSystem& s) : system_(s) {
   Stopwatch watch;
   BorderedSystem reduced = bordered_system(s);
   SplitCholesky factor(std::move(reduced.matrix), reduced.blocks);
   if (factor.failed_at() >= 0) {
+    failed_at_ = reduced.free[std::min(factor.failed_at(), int(reduced.free.size()) - 1)];
+    return;
+  }
+  problem_.compliance = factor.take_border_compliance();
+  problem_.scale = s.row_scale;
+  problem_.unilateral = s.unilateral.empty() ? std::vector<char>(s.B.rows(), 0) : s.unilateral;
+  bodies_ = std::make_shared<FactoredBodies>(std::move(reduced.free), std::move(factor));
+  factorise_seconds_ = watch.lap();
+}
+
+Solution DirectSolver::solve() {
+  Solution solution;
+  if (failed_at_ >= 0) {
     solution.status = SolveStatus::not_positive_definite;
-    solution.failed_at = reduced.free[std::min(factor.failed_at(), int(reduced.free.size()) - 1)];
+    solution.failed_at = failed_at_;
     return solution;
   }
-  solution.factorise_seconds = watch.lap();
-  Passes passes(s, factor, reduced.free, solution);
+  Stopwatch watch;
+  solution.factorise_seconds = std::exchange(factorise_seconds_, 0);
+  Passes passes(system_, *bodies_, problem_, solution);
   for (int pass = 0; pass < max_passes && passes.next(); ++pass) {
   }
   if (is_without_solution(solution)) return solution;
   if (!std::isfinite(largest(solution.force_residual, solution.constraint_residual)))
     solution.status = SolveStatus::not_converged;
-  solution.factor =
-      std::make_shared<DirectFactor>(s, std::move(reduced.free), std::move(factor), *std::move(passes.system));
+  solution.factor = std::make_shared<DirectFactor>(system_, bodies_, *std::move(passes.system));
   solution.solve_seconds = watch.lap();
   return solution;
 }
+
+Solution solve_directly(const SaddlePointSystem& system) { return DirectSolver(system).solve(); }
 
 }  // namespace mortise

@@ -1,0 +1,13 @@
+// What of a scene acts on its bodies, apart from what the bodies are and how they are held.
+#pragma once
+
+#include "scene/scene.hpp"
+
+namespace mortise {
+
+/// Whether two scenes have the same bodies, mesh, kinds of support and load at the same places, and contact pairs, so
+/// that they differ at most in loads, prescribed values, temperatures and initial strains, thermal expansion, density,
+/// gravity, gaps, clearances and expectations.
+bool differ_in_loads_alone(const Scene& one, const Scene& other);
+
+}  // namespace mortise

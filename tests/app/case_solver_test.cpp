@@ -1,0 +1,149 @@
+// Cases on one factor: what each scene says by itself, whatever came before.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "app/solve_scene.hpp"
+#include "base/errors.hpp"
+#include "scene/loads.hpp"
+
+namespace mortise::test {
+namespace {
+
+using Overrides = std::vector<Override>;
+
+Scene scene(const std::string& name, const Overrides& overrides) {
+  return read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/" + name + ".toml", overrides);
+}
+
+// `tolerance`: of what each was solved to.
+void expect_same(const Results& one, const Results& other, double tolerance, const std::string& of) {
+  EXPECT_EQ(one.status, other.status) << of;
+  EXPECT_EQ(one.solution.active, other.solution.active) << of;
+  EXPECT_EQ(one.warnings, other.warnings) << of;
+  ASSERT_EQ(one.solution.lambda.size(), other.solution.lambda.size()) << of;
+  EXPECT_LE(largest_entry(one.solution.lambda - other.solution.lambda),
+            tolerance * largest_entry(other.solution.lambda))
+      << of;
+  EXPECT_LE(largest_entry(one.solution.u - other.solution.u), tolerance * largest_entry(other.solution.u)) << of;
+  EXPECT_LE(largest_entry(one.problem.discretisation.system.f - other.problem.discretisation.system.f),
+            tolerance * largest_entry(other.problem.discretisation.system.f))
+      << of;
+  EXPECT_NEAR(one.recovery.energy, other.recovery.energy, 10 * tolerance * std::abs(other.recovery.energy)) << of;
+  ASSERT_EQ(one.recovery.reactions.entries.size(), other.recovery.reactions.entries.size()) << of;
+  const double force = largest_entry(other.recovery.reactions.nodal) * 100;
+  for (std::size_t i = 0; i < one.recovery.reactions.entries.size(); ++i)
+    EXPECT_LE((one.recovery.reactions.entries[i].force - other.recovery.reactions.entries[i].force).norm(),
+              tolerance * force)
+        << of;
+  ASSERT_EQ(one.checks.size(), other.checks.size()) << of;
+  for (std::size_t i = 0; i < one.checks.size(); ++i) EXPECT_EQ(one.checks[i].ok(), other.checks[i].ok()) << of;
+}
+
+// A scene, what of it is the same in all cases, and what varies: a key and values around which numbers are drawn.
+struct Drawn {
+  const char* name;
+  Overrides fixed;
+  std::vector<std::pair<std::string, std::vector<std::string>>> varied;  // %: a number between 0.2 and 2
+};
+
+std::string with_number(std::string text, double number) {
+  for (std::size_t at; (at = text.find('%')) != std::string::npos;) text.replace(at, 1, std::to_string(number));
+  return text;
+}
+
+class Cases : public testing::TestWithParam<Drawn> {};
+
+TEST_P(Cases, AreWhatEachIsAlone) {
+  const auto& [name, fixed, varied] = GetParam();
+  for (const char* side : {"first", "second"})
+    for (const char* solver : {"direct", "feti"})
+      for (const char* space : {"linear", "quadratic", "dual"}) {
+        std::mt19937 random(38);
+        CaseSolver cases;
+        Overrides common = fixed;
+        common.push_back({"method.solver", solver});
+        common.push_back({"method.multipliers", space});
+        const ContactSpec contact = scene(name, fixed).contacts[0];
+        common.push_back({"contact.0.multipliers_on", contact.between[side == std::string("second")]});
+        const int count = 5;
+        for (int k = 0; k < count; ++k) {
+          Overrides all = common;
+          std::string of = std::string(name) + " " + side + " " + solver + " " + space;
+          for (const auto& [key, values] : varied) {
+            const std::string& drawn = values[random() % values.size()];
+            all.push_back({key, with_number(drawn, std::uniform_real_distribution(0.2, 2.0)(random))});
+            of += " " + key + "=" + all.back().value;
+          }
+          const Scene one = scene(name, all);
+          const bool iterates = solver == std::string("feti");
+          expect_same(cases.solve(one), solve_scene(one), iterates ? 1e-7 : 1e-12, of);
+        }
+        EXPECT_EQ(cases.shared(), count - 1) << name;
+      }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Random, Cases,
+    testing::Values(Drawn{"lift_off",
+                          {{"mesh.parameters.n_plate", "16"}, {"mesh.parameters.n_block", "20"}},
+                          {{"boundary.2.pressure", {"%e6", "\"%e6*(1+x)\"", "\"%e6*sin(s)\""}},
+                           {"boundary.3.traction", {"[0, %e6]", "[%e5, 0]", "[0, \"1e6*y*%\"]"}}}},
+                    Drawn{"lift_off",
+                          {{"mesh.parameters.n_plate", "12"},
+                           {"mesh.parameters.n_block", "10"},
+                           {"mesh.parameters.kind", "1"},
+                           {"mesh.parameters.order", "1"}},
+                          {{"boundary.2.pressure", {"%e6"}}, {"contact.0.clearance", {"%e-6", "-%e-6", "\"%e-6*x\""}}}},
+                    Drawn{"gap_close",
+                          {{"mesh.parameters.kind", "1"}, {"mesh.parameters.nine_node", "1"}},
+                          {{"boundary.2.displacement", {"{y = -%e-4}"}}, {"boundary.1.displacement", {"{y = %e-5}"}}}},
+                    Drawn{"gap_close",
+                          {
+                              {"mesh.parameters.kind", "1"},
+                          },
+                          {{"boundary.2.displacement", {"{normal = -%e-4}"}}}},
+                    Drawn{"shrink_fit",
+                          {{"mesh.parameters.n_inner", "4"}, {"mesh.parameters.n_outer", "5"}},
+                          {{"initial_strain.0.temperature_change", {"-%e2", "\"-%e2*r\""}},
+                           {"materials.soft.thermal_expansion", {"%e-5"}},
+                           {"contact.0.clearance", {"-%e-5", "0"}}}},
+                    Drawn{"stack",
+                          {},
+                          {{"boundary.2.pressure", {"%e7", "\"%e7*x\""}},
+                           {"model.gravity", {"[0, -%]"}},
+                           {"materials.steel.density", {"7850", "%e3"}}}}));
+
+TEST(CasesThatAreNone, AreSolvedAnew) {
+  const Scene one = scene("gap_close", {});
+  EXPECT_TRUE(differ_in_loads_alone(one, scene("gap_close", {{"boundary.2.displacement", "{y = -1e-4}"}})));
+  for (const Override& change : Overrides{{"materials.steel.young", "200e9"},
+                                          {"mesh.parameters.n_upper", "8"},
+                                          {"boundary.2.displacement", "{x = 0, y = -3e-4}"},
+                                          {"contact.0.condition", "bilateral"},
+                                          {"contact.0.initial_gap", "measured"},
+                                          {"model.plane", "stress"},
+                                          {"method.multipliers", "dual"}}) {
+    const Scene other = scene("gap_close", {change});
+    EXPECT_FALSE(differ_in_loads_alone(one, other)) << change.key;
+    CaseSolver cases;
+    cases.solve(one);
+    expect_same(cases.solve(other), solve_scene(other), 1e-12, change.key);
+    EXPECT_EQ(cases.shared(), 0) << change.key;
+  }
+}
+
+// One that has no solution leaves the others as they are.
+TEST(CasesThatAreNone, SpoilNoOther) {
+  const Overrides pushed{{"boundary.2", "{on = [\"top\"], pressure = 1e6}"}},
+      pulled{{"boundary.2", "{on = [\"top\"], pressure = -1e6}"}};
+  CaseSolver cases;
+  const Scene good = scene("gap_close", pushed);
+  cases.solve(good);
+  EXPECT_THROW(cases.solve(scene("gap_close", pulled)), InputError);
+  expect_same(cases.solve(good), solve_scene(good), 1e-12, "after one without a solution");
+  EXPECT_EQ(cases.shared(), 2);
+}
+
+}  // namespace
+}  // namespace mortise::test
