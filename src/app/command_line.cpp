@@ -308,10 +308,12 @@ int parse_and_run(int argc, const char* const* argv) {
   CLI::App* picture_command = add_scripted(app, "picture", "draw the results in a folder");
   CLI::App* certify_command =
       add_scripted(app, "certify", "solve a scene by several means and say which figures agree within their bars");
+  CLI::App* report_command = add_scripted(app, "report", "write one page of the results in a folder, to hand over");
   if (const auto status = parse(app, argc, argv)) return *status;
 
   if (*picture_command) return draw_picture(picture_command->remaining());
-  if (*certify_command) return certify(certify_command->remaining());
+  if (*certify_command) return run_report("certify", certify_command->remaining());
+  if (*report_command) return run_report("report", report_command->remaining());
   const bool alone = ranks().count() == 1 && options.jobs == 1;
   set_solver_threads(options.threads > 0 || alone ? options.threads : 1);
   set_mesh_cache(!options.no_cache);

@@ -61,9 +61,9 @@ int draw_picture(const std::vector<std::string>& arguments) {
   return run_script("pictures/picture.py", arguments) == 0 ? 0 : 1;
 }
 
-int certify(const std::vector<std::string>& arguments) {
+int run_report(const std::string& name, const std::vector<std::string>& arguments) {
   ::setenv("MORTISE_PROGRAM", fs::read_symlink("/proc/self/exe").c_str(), 1);
-  return run_script("reports/certify.py", arguments);
+  return run_script("reports/" + name + ".py", arguments);
 }
 
 int draw_setup(const Problem& problem, const fs::path& picture) {

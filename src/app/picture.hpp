@@ -13,9 +13,9 @@ namespace mortise {
 /// error. Throws InputError where the script or Python is not there.
 int draw_picture(const std::vector<std::string>& arguments);
 
-/// `mortise certify`: runs reports/certify.py, which runs this program again and again. Its exit status; throws as
-/// draw_picture does.
-int certify(const std::vector<std::string>& arguments);
+/// `mortise certify` and `mortise report`: run reports/NAME.py, which runs this program again. Its exit status; throws
+/// as draw_picture does.
+int run_report(const std::string& name, const std::vector<std::string>& arguments);
 
 /// `mortise check --picture`: the set-up as a .png, .pdf or .svg, by setup.py. As draw_picture.
 int draw_setup(const Problem& problem, const std::filesystem::path& picture);

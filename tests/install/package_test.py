@@ -89,7 +89,7 @@ def main():
         expect(said.startswith(f"mortise {number}"), f"{where} says {number}, mortise --version {said}")
 
     manual = (root / "usr/share/man/man1/mortise.1").read_text().replace("\\-", "-")
-    for command in ("solve", "check", "mesh", "sweep", "picture", "certify"):
+    for command in ("solve", "check", "mesh", "sweep", "picture", "certify", "report"):
         told = set(re.findall(r"--[a-z][a-z-]+", run(program, command, "--help")))
         expect(all(option in manual for option in told), f"man page: {command} has {sorted(o for o in told if o not in manual)}")
 

@@ -1,6 +1,7 @@
 """The verdict of `mortise certify`: scenes that agree, and scenes with something wrong in one of the runs."""
 
 import json
+import re
 import subprocess
 import sys
 
@@ -36,6 +37,10 @@ def test_certificate_of_hertz(mortise, tmp_path):
     }  # fmt: skip
     assert [run["name"] for run in found["runs"]] == ["own", "quadrilaterals", "finer_4", "finer_16", "other_side", "feti"]
     assert "agrees: 10 figures by 5 other runs" in said
+    page = (tmp_path / "runs.html").read_text()
+    assert page.count("<svg") == 3 and "not drawn" not in page and "does not" not in page
+    assert all(words in page for words in ("A cylinder pressed on a block: Hertz", "all 14 checks hold", "agree within the bars"))
+    assert not re.search(r'(src|href)="(?!#|data:)', page)
     largest = next(row for row in found["figures"] if row["kind"] == "largest p")
     assert largest["value"] == pytest.approx(5.8184e8, abs=2 * largest["bar"])  # Hertz: docs/benchmarks.md
     unknowns = [row["unknowns"] for row in found["study"]]

@@ -221,7 +221,7 @@ OPTIONS = {"zoom": None, "field": "von_mises", "pair": None, "scale": None, "dpi
 
 def draw(results, drawn):
     """As `mortise picture` does, in this process."""
-    picture.draw(results, drawn, argparse.Namespace(**OPTIONS))
+    picture.draw(results, drawn, argparse.Namespace(**OPTIONS, bodies=False))
     assert png_size(drawn)[0] == 8 * 40
 
 

@@ -19,6 +19,7 @@ FIELDS = {
 CONTACT = "contact"  # --zoom without a box
 OVERLAP = 0.002  # of the diagonal of what is shown: as wide as a line
 MANY_PAIRS = 6  # more are not drawn one by one
+MANY_EDGES = 2000  # more would make an .svg of megabytes: each has half a kilobyte
 PAIR_COLOURS = ["#111111", "#c2188b", "#1a7f37", "#7a4fd0", "#a65d00", "#00798c"]
 
 
@@ -105,8 +106,9 @@ def draw_contact_lines(axes, curve, table, scale, pairs):
     colours = ["black"] * len(lines)
     if 1 < pairs <= MANY_PAIRS:  # points stand in the order of contact.csv
         colours = [PAIR_COLOURS[int(table["pair"][line[0]])] for line in lines]
-    axes.add_collection(LineCollection(polylines(at, lines), colors="white", linewidths=2.6))
-    axes.add_collection(LineCollection(polylines(at, lines), colors=colours, linewidths=1.3))
+    dots = {"rasterized": len(lines) > MANY_EDGES}
+    axes.add_collection(LineCollection(polylines(at, lines), colors="white", linewidths=2.6, **dots))
+    axes.add_collection(LineCollection(polylines(at, lines), colors=colours, linewidths=1.3, **dots))
 
 
 def draw_bodies(axes, results, summary, table, options):
@@ -128,10 +130,11 @@ def draw_bodies(axes, results, summary, table, options):
     moved, values = points + scale * u, field_of(mesh, curve, options.field)
     low, high = stress_range(values[seen], areas_at_nodes(mesh)[seen])
     xy, colours, triangles = shaded_triangles(mesh, moved, values)
-    shading = axes.tripcolor(*xy.T, triangles, colours, shading="gouraud", cmap="viridis", vmin=low, vmax=high)
+    shading = axes.tripcolor(*xy.T, triangles, colours, shading="gouraud", cmap="viridis", vmin=low, vmax=high, rasterized=True)
     edges = outlines(mesh)
-    axes.add_collection(LineCollection(polylines(points, edges), colors="0.6", linewidths=0.6, linestyles=(0, (5, 4))))
-    axes.add_collection(LineCollection(polylines(moved, edges), colors="black", linewidths=0.8))
+    dots = {"rasterized": len(edges) > MANY_EDGES}
+    axes.add_collection(LineCollection(polylines(points, edges), colors="0.6", linewidths=0.6, linestyles=(0, (5, 4)), **dots))
+    axes.add_collection(LineCollection(polylines(moved, edges), colors="black", linewidths=0.8, **dots))
     if summary["contact"]:
         draw_contact_lines(axes, curve, table, scale, len(summary["contact"]))
     if options.zoom:

@@ -2,7 +2,7 @@
 """One picture of a run: the deformed bodies with von Mises stress, loads and reactions, and the pressure along each
 contact line; of many contact pairs the forces between the bodies instead.
 
-Usage: picture.py RESULTS [PICTURE] [--zoom [X0,X1,Y0,Y1]] [--field FIELD] [--pair K] [--scale FACTOR] [--dpi DPI]
+Usage: picture.py RESULTS [PICTURE] [--zoom [X0,X1,Y0,Y1]] [--field FIELD] [--pair K] [--bodies] [--scale FACTOR] [--dpi DPI]
 (mortise picture does the same)
 
 RESULTS is the folder that `mortise solve` wrote; read are result.vtu, contact.vtu, summary.json
@@ -66,6 +66,8 @@ def draw(results, picture, options):
         raise SystemExit("picture.py: --zoom: the scene has no contact pair")
     of_shown = {name: column[np.isin(table["pair"], shown)] for name, column in table.items()}
     extent = np.ptp(shown_box(mesh, of_shown, options.zoom), axis=0)
+    if options.bodies:
+        shown, pairs = [], []
     above = float(np.clip(6.6 * extent[1] / extent[0], 2.5, 6.5))
     below = 2.5
     many = len(shown) > MANY_PAIRS
@@ -129,6 +131,7 @@ def main():
     parser.add_argument("--zoom", type=box_of, metavar="[X0,X1,Y0,Y1]", help=zoom_help)
     parser.add_argument("--field", choices=FIELDS, default="von_mises", help="what colours the bodies (default: von_mises)")
     parser.add_argument("--pair", type=int, metavar="K", help="the Kth contact pair only, from 0")
+    parser.add_argument("--bodies", action="store_true", help="the bodies only, without the pressure")
     parser.add_argument("--scale", type=float, help="magnification of the displacements")
     parser.add_argument("--dpi", type=int, default=130)
     options = parser.parse_args(with_box(sys.argv[1:]))

@@ -32,7 +32,7 @@ def draw_bodies(axes, setup, nodes):
     for body in setup["bodies"]:
         fill = FILLS[materials.index(body["material"]) % len(FILLS)]
         lines = {"edgecolors": "0.75", "linewidths": 0.3} if cells <= MANY_CELLS else {"edgecolors": fill, "linewidths": 0.3}
-        axes.add_collection(PolyCollection([nodes[cell] for cell in body["cells"]], facecolors=fill, **lines))
+        axes.add_collection(PolyCollection([nodes[cell] for cell in body["cells"]], facecolors=fill, rasterized=True, **lines))
         if len(setup["bodies"]) <= MANY_NAMES:
             middles = np.array([nodes[cell].mean(axis=0) for cell in body["cells"]])
             at = middles[np.linalg.norm(middles - middles.mean(axis=0), axis=1).argmin()]
