@@ -38,8 +38,7 @@ std::array<bool, 2> PressureLine::faced_beside(Eigen::Index i) const {
   return {(closed || i > 0) && at(i - 1), (closed || i < last) && at(i)};
 }
 
-double round_off_pressure(const Mesh& mesh, const std::vector<ContactPair>& pairs, double stiffness_scale,
-                          const VecX& u) {
+double round_off_pressure(const Mesh& mesh, std::span<const ContactPair> pairs, double stiffness_scale, const VecX& u) {
   double edge = std::numeric_limits<double>::infinity();
   for (const ContactPair& pair : pairs)
     for (const Edge& e : pair.multiplier.edges) edge = std::min(edge, edge_length(mesh.nodes, e));

@@ -8,6 +8,8 @@
 #include "base/printable.hpp"
 #include "base/union_find.hpp"
 #include "fem/edges.hpp"
+#include "mesh/body_points.hpp"
+#include "mesh/thickness.hpp"
 #include "model/patterns.hpp"
 #include "problem/facing_pairs.hpp"
 #include "problem/scene_names.hpp"
@@ -71,13 +73,17 @@ std::set<std::pair<int, int>> named_pairs(const Scene& scene, const SceneNames& 
 }
 
 std::vector<ContactCurves> curves_of(const Scene& scene, const std::vector<ContactSpec>& specs, const Mesh& mesh) {
+  if (specs.empty()) return {};
   const SideTable table(mesh);
+  const Thickness thickness(mesh.nodes, boundary_edges(mesh), bonded_to(mesh, body_points(mesh)));
   const SceneNames names(mesh);
   std::map<int, Curve> curves;  // by boundary
   const auto curve_of = [&](int boundary) -> const Curve& {
     const auto at = curves.find(boundary);
-    return at != curves.end() ? at->second
-                              : curves.emplace(boundary, contact_curve(mesh, boundary, table)).first->second;
+    if (at != curves.end()) return at->second;
+    Curve curve = contact_curve(mesh, boundary, table);
+    curve.thickness = thickness.behind(curve);
+    return curves.emplace(boundary, std::move(curve)).first->second;
   };
   std::vector<ContactCurves> all;
   const std::set<std::pair<int, int>> named = named_pairs(scene, names);

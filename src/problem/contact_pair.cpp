@@ -10,8 +10,6 @@
 #include "base/printable.hpp"
 #include "contact/gap_resolution.hpp"
 #include "fem/edges.hpp"
-#include "mesh/body_points.hpp"
-#include "mesh/thickness.hpp"
 #include "model/patterns.hpp"
 #include "problem/facing_pairs.hpp"
 #include "problem/scene_names.hpp"
@@ -87,13 +85,9 @@ ContactPair coupled(const Method& method, const Mesh& mesh, const Discretisation
 
 std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, const Discretisation& d,
                                       std::vector<ContactCurves> contacts, const std::vector<char>& dirichlet) {
-  if (contacts.empty()) return {};
-  const Thickness thickness(mesh.nodes, boundary_edges(mesh), bonded_to(mesh, body_points(mesh)));
   std::vector<ContactPair> pairs(contacts.size());
-  for_each_index(pairs.size(), solver_threads(), [&](std::size_t k) {
-    for (Curve& curve : contacts[k].curves) curve.thickness = thickness.behind(curve);
-    pairs[k] = coupled(method, mesh, d, contacts[k], dirichlet);
-  });
+  for_each_index(pairs.size(), solver_threads(),
+                 [&](std::size_t k) { pairs[k] = coupled(method, mesh, d, contacts[k], dirichlet); });
   int first_row = 0;
   for (ContactPair& pair : pairs) {
     pair.first_row = first_row;

@@ -11,9 +11,10 @@ namespace mortise {
 namespace {
 
 // Bodies drawn over one another may have no places that face each other: that is said first.
-std::vector<ContactPair> coupled_pairs(const Problem& p, std::vector<ContactCurves> curves) {
+template <typename Find>
+auto audited(const Problem& p, Find find) {
   try {
-    return couple_pairs(p.method, p.mesh, p.discretisation, std::move(curves), p.dirichlet);
+    return find();
   } catch (const InputError&) {
     audit(p.mesh, p.entries.boundaries, {});
     throw;
@@ -22,7 +23,8 @@ std::vector<ContactPair> coupled_pairs(const Problem& p, std::vector<ContactCurv
 
 // Couples the pairs and puts their rows into the system; refuses what cannot be meant.
 void add_contact(std::vector<ContactCurves> curves, Problem& p) {
-  p.pairs = coupled_pairs(p, std::move(curves));
+  p.pairs =
+      audited(p, [&] { return couple_pairs(p.method, p.mesh, p.discretisation, std::move(curves), p.dirichlet); });
   SaddlePointSystem& system = p.discretisation.system;
   set_contact(p.pairs, system);
   p.warnings = p.mesh.notes;
@@ -59,7 +61,7 @@ Problem prepare(const Scene& scene, Mesh mesh, const Progress& progress, const A
   p.assemble_seconds = watch.lap();
 
   stage("couple");
-  std::vector<ContactCurves> curves = contact_curves(scene, p.mesh);
+  std::vector<ContactCurves> curves = audited(p, [&] { return contact_curves(scene, p.mesh); });
   if (p.method.solver == Solver::ddm)
     p.dirichlet = dirichlet_bodies(p.method.dirichlet, p.mesh, p.discretisation, curves);
   add_contact(std::move(curves), p);

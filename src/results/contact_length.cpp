@@ -55,8 +55,8 @@ double part_in_contact(const LoadedLine& line, int e, int last) {
 
 }  // namespace
 
-double length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure) {
-  const double loaded = 1e-9 * (pressure.size() > 0 ? pressure.maxCoeff() : 0);
+double length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure, double round_off) {
+  const double loaded = std::max(round_off, 1e-9 * (pressure.size() > 0 ? pressure.maxCoeff() : 0));
   std::vector<double> part(pair.multiplier.edges.size(), 1);
   if (pair.spec.condition == Condition::unilateral)
     for (std::size_t e = 0; e < part.size(); ++e) {

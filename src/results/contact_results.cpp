@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "error/pressure_line.hpp"
 #include "fem/edges.hpp"
 #include "model/resultant.hpp"
 #include "results/contact_length.hpp"
@@ -269,7 +270,9 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   run_together(mesh.nodes, pair, r);
   set_extremes(pair, r);
   r.p_mean = mean_pressure(pair, r.pressure);
-  r.length_in_contact = length_in_contact(mesh.nodes, pair, r.pressure);
+  r.length_in_contact = length_in_contact(
+      mesh.nodes, pair, r.pressure,
+      round_off_pressure(mesh, {&pair, 1}, problem.discretisation.system.stiffness_scale, solution.u));
   const Resultant sum = force_on(mesh.nodes, along, contact_forces(pair.coupling, lambda));
   r.force = sum.force;
   r.moment = sum.moment;

@@ -38,6 +38,7 @@ Largest largest_in_contact(const Results& r) {
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     const ContactPair& pair = r.problem.pairs[k];
     const ContactResults& contact = r.recovery.contacts[k];
+    if (contact.length_in_contact == 0) continue;
     const std::vector<double> curvature = edge_curvatures(r.problem.mesh.nodes, pair.multiplier),
                               opposite_curvature = edge_curvatures(r.problem.mesh.nodes, pair.opposite);
     for (const ContactPoint& c : pair.points) {

@@ -99,6 +99,20 @@ contact = [{ between = ["low_*", "up_*"], within = )" + std::string(within) +
   EXPECT_THROW(pairs_within("0.085"), InputError);
 }
 
+// However far they may be apart, no curve faces another through its own body; what is found can be coupled.
+TEST(FacingPairs, AreNotThroughABody) {
+  const Problem checked = check_scene(wall({{"contact.within", "1e9"}, {"contact.initial_gap", "curve"}}));
+  EXPECT_GT(checked.pairs.size(), 100u);
+  for (const std::string& names : pairs_of(checked)) {
+    EXPECT_FALSE(names == "brick_0_1_left brick_0_2_right") << names;
+    EXPECT_TRUE(names.find("_left ") == std::string::npos || !names.ends_with("_left")) << names;
+  }
+  expect_contains(message_of([&] {
+                    check_scene(wall({{"contact.within", "1e9"}}));
+                  }),
+                  "initial_gap = \"closed\", but 'brick_");
+}
+
 TEST(FacingPairs, LeaveWhatIsNamedItsOwnSettings) {
   const TemporaryFolder folder;
   const Problem checked = check_scene(squares(folder, R"(

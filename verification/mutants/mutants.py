@@ -8,6 +8,7 @@ those that are there are not run again."""
 
 import argparse
 import csv
+import fcntl
 import fnmatch
 import json
 import os
@@ -227,6 +228,11 @@ def main():
         chosen = [m for m in chosen if m[:4] not in journal]
     if options.count:
         chosen = random.Random(options.seed).sample(chosen, min(options.count, len(chosen)))
+    lock = (work / "lock").open("w")
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        sys.exit(f"mutants: another run is at work in {work}; expected one at a time")
     tree = Tree(work)
     tree.refresh()
     tree.configure()
