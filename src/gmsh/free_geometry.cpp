@@ -8,9 +8,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "base/memory_file.hpp"
-#include "gmsh/sandbox.hpp"
-#include "mesh/box_index.hpp"
+#include "gmsh/far_geometry.hpp"
 
 namespace mortise {
 namespace {
@@ -29,20 +27,6 @@ std::vector<PhysicalGroup> open_groups() {
   return groups;
 }
 
-// gmsh has no command that takes Transfinite back from a curve of its own kernel. It writes the geometry as a .geo
-// without loops, variables and commands, one statement a line; to a path without an extension only by Save.
-std::string unrolled(GmshSession& session, const std::string& file) {
-  constexpr int as_geo = 8;
-  const MemoryFile output;
-  const MemoryFile script("Save \"" + output.path() + "\";\n");
-  gmsh::option::setNumber("Mesh.Format", as_geo);
-  gmsh::option::setNumber("Print.GeoLabels", 0);  // with names instead of tags the groups would be numbered anew
-  gmsh::option::setNumber("Print.GeoOnlyPhysicals", 0);
-  const WritingInto memory(output.descriptor());
-  session.run(file, "writing its geometry", [&] { gmsh::merge(script.path()); });
-  return output.text();
-}
-
 std::string without_mesh(const std::string& geo) {
   constexpr std::array dropped{"Transfinite ", "Recombine ", "Periodic ", "Field[", "Background Field"};
   std::istringstream lines(geo);
@@ -52,9 +36,8 @@ std::string without_mesh(const std::string& geo) {
   return text;
 }
 
-// A geometry of gmsh's own kernel, moved to the origin where it lies farther from it than it is large: gmsh's
-// tolerances are parts of the coordinates, and at 1000 times the size it finds points in one place. All places are in
-// lines "Point(1) = {x, y, z, size};".
+// A geometry of gmsh's own kernel, moved to the origin if it lies far from it. All places are in lines
+// "Point(1) = {x, y, z, size};".
 Vec2 move_to_origin(std::string& geo) {
   const auto read_point = [](const std::string& line, Vec2& x) {
     int end = 0;
@@ -65,7 +48,7 @@ Vec2 move_to_origin(std::string& geo) {
   std::istringstream lines(geo);
   for (std::string line; std::getline(lines, line);)
     if (read_point(line, x) > 0) box.extend(x);
-  if (box.isEmpty() || box.center().norm() <= box.diagonal().norm()) return Vec2::Zero();
+  if (box.isEmpty() || !lies_far(box)) return Vec2::Zero();
   const Vec2 centre = box.center();
   lines = std::istringstream(geo);
   std::ostringstream moved;

@@ -2,6 +2,9 @@
 #include <dlfcn.h>
 #include <gmsh.h>
 
+#include <filesystem>
+
+#include "gmsh/far_geometry.hpp"
 #include "gmsh/free_mesh.hpp"
 #include "gmsh/gmsh_data.hpp"
 #include "gmsh/gmsh_module.hpp"
@@ -12,8 +15,13 @@ namespace {
 
 MeshData mesh_geo(const std::string& file, const std::map<std::string, double>& parameters, ForbiddenBy forbidden) {
   GmshSession session(forbidden);
-  session.open(file, parameters);
-  return gmsh_data(file);
+  session.read(file, parameters);
+  if (std::filesystem::path(file).extension() == ".msh" || session.has_cells()) return gmsh_data(file);
+  const Vec2 shift = move_to_origin(session, file);
+  session.run(file, "meshing", [] { gmsh::model::mesh::generate(2); });
+  MeshData data = gmsh_data(file);
+  move(-shift, data);
+  return data;
 }
 
 FreeDrawing read_drawing(const std::string& file, const std::map<std::string, double>& parameters,

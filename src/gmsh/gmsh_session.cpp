@@ -118,12 +118,6 @@ void require_order(const std::string& file) {
     throw InputError(file + ": Mesh.ElementOrder = " + number_text(order) + ": expected 1 (linear) or 2 (quadratic)");
 }
 
-bool has_cells() {
-  std::vector<int> types;
-  gmsh::model::mesh::getElementTypes(types, 2);
-  return !types.empty();
-}
-
 /// The toolkit of gmsh's windows would write its settings to ~/.fltk as gmsh starts: a home where nothing can be made.
 class NoHome {
  public:
@@ -201,10 +195,10 @@ void GmshSession::reset_options() {
   set_options();
 }
 
-void GmshSession::open(const std::string& file, const std::map<std::string, double>& parameters) {
-  read(file, parameters);
-  if (fs::path(file).extension() != ".msh" && !has_cells())
-    run(file, "meshing", [] { gmsh::model::mesh::generate(2); });
+bool GmshSession::has_cells() const {
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types, 2);
+  return !types.empty();
 }
 
 }  // namespace mortise

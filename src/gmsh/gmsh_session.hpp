@@ -28,8 +28,8 @@ class GmshSession {
   /// All options as they were before a file was read.
   void reset_options();
 
-  /// Reads, and meshes the surfaces unless the .geo has done so itself. Throws as read does.
-  void open(const std::string& file, const std::map<std::string, double>& parameters);
+  /// Whether what was read has cells: a .msh, or a .geo that meshes itself.
+  bool has_cells() const;
 
   /// Runs a step of gmsh; whatever it throws (gmsh 4.8: strings and numbers too) or only logs becomes an InputError of
   /// `file` that says `what` it did.

@@ -352,6 +352,39 @@ std::string disc(bool one_curve) {
          "}; Mesh.CharacteristicLengthMax = 0.7;\n";
 }
 
+// Part of a disc: arcs, a transfinite one, sizes at points; or sizes by a field, a function of place. And a disc of two
+// halves that touches it.
+TEST(LoadMesh, MeshesFarFromTheOriginAsNearIt) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("disc.geo", R"geo(DefineConstant[ X = 0, by_field = 0 ];
+Mesh.ElementOrder = 2; Mesh.SecondOrderIncomplete = 1;
+Point(1) = {X, -X, 0}; Point(2) = {X + 3, -X, 0, 0.3}; Point(3) = {X, 3 - X, 0, 0.6}; Point(4) = {X, -3 - X, 0, 0.6};
+Circle(1) = {2, 1, 3}; Circle(2) = {4, 1, 2}; Line(3) = {3, 4}; Transfinite Curve {1} = 12;
+Curve Loop(1) = {1, 3, 2}; Plane Surface(1) = {1}; Physical Surface("disc") = {1}; Physical Curve("rim") = {1, 2};
+Point(11) = {X + 3, -X, 0, 0.3}; Point(12) = {X + 4, -X, 0}; Point(13) = {X + 5, -X, 0, 0.3};
+Circle(11) = {11, 12, 13}; Circle(12) = {13, 12, 11};
+Curve Loop(11) = {11, 12}; Plane Surface(11) = {11}; Physical Surface("ball") = {11};
+If(by_field)
+Field[1] = MathEval; Field[1].F = Sprintf("0.1 + 0.2 * abs(x - %.10g)",
+                                        X + 3);
+  Background Field = 1;
+  Mesh.MeshSizeFromPoints = 0;
+EndIf
+)geo");
+  for (const double by_field : {0.0, 1.0}) {
+    const Mesh near = load_mesh(file, {{"by_field", by_field}});
+    for (const double x : by_field > 0 ? std::vector<double>{20} : std::vector<double>{1e3, 1e5, 3e7}) {
+      const Mesh far = load_mesh(file, {{"by_field", by_field}, {"X", x}});
+      EXPECT_EQ(far.bodies.size(), 2u) << x;
+      EXPECT_EQ(far.boundaries.at(0).edges.size(), near.boundaries.at(0).edges.size()) << x;
+      EXPECT_NEAR(double(far.cells.size()), double(near.cells.size()), 0.03 * double(near.cells.size())) << x;
+      for (const Edge& edge : far.boundaries[0].edges)
+        for (const int node : edge.nodes)
+          EXPECT_NEAR((Vec2(far.nodes.row(node).transpose()) - Vec2(x, -x)).norm(), 3, 4e-16 * x + 1e-12);
+    }
+  }
+}
+
 TEST(DrawnCurves, SamplesLieOnTheCurveFromNodeToNode) {
   for (const bool one_curve : {false, true})
     for (const char* order :
