@@ -493,7 +493,7 @@ def test_program_without_its_parts(mortise, tmp_path):
     alone = shutil.copy(mortise, tmp_path)
     assert "picture.py is not there: expected in " in call(alone, "picture", tmp_path)
     assert "a .geo is meshed by gmsh, which cannot be loaded: " in call(alone, "check", launch.ROOT / "geo/patch_flat.toml", "--no-cache")
-    assert ("a picture is drawn by Python, which is not there (/no/python): apt-get install python3-matplotlib"
+    assert ("picture.py is run by Python, which is not there (/no/python): apt-get install python3-matplotlib"
             in call(mortise, "picture", tmp_path, MORTISE_PYTHON="/no/python"))  # fmt: skip
 
 
