@@ -11,7 +11,7 @@ import sys
 import time
 from pathlib import Path
 
-import report
+import results_page
 import run
 from cases import StudyError, all_cases, choose
 from judge import judge
@@ -80,7 +80,7 @@ def main(arguments=None):
     output.mkdir(parents=True, exist_ok=True)
     results = list(run_cases(cases, output))
     seconds = time.perf_counter() - start
-    report.write(results, output, seconds)
+    results_page.write(results, output, seconds)
     bad = [result for result in results if result.status != "ok"]
     print(f"{len(results) - len(bad)} of {len(results)} cases hold, {seconds:.0f} s; {options.output}/crosscheck.md")
     print(*(f"{result.status}: {result.name}" for result in bad), sep="\n")

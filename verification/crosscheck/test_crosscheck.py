@@ -15,7 +15,7 @@ import compare
 import convert
 import judge
 import launch
-import report
+import results_page
 import run
 import scene as scenes
 from cases import StudyError
@@ -360,7 +360,7 @@ def output(tmp_path_factory):
     results = [with_files(result, folder) for result in drawn] + [broken, timed]
     (folder / broken.folder).mkdir(parents=True)
     (folder / timed.folder).mkdir(parents=True)
-    report.write(results, folder, 12.0)
+    results_page.write(results, folder, 12.0)
     return folder
 
 
@@ -388,4 +388,4 @@ def test_json_holds_every_figure(output):
     rings = next(result for result in table["results"] if result["scene"] == "rings")
     figures = [(f["name"], f["value"], f["limit"], f["ok"]) for f in rings["figures"]]
     assert figures == [(name, 1e-5, 1e-8, False) for name in LIMITS]
-    assert report.without_nan({"a": [math.nan, 1.0, math.inf]}) == {"a": [None, 1.0, None]}
+    assert results_page.without_nan({"a": [math.nan, 1.0, math.inf]}) == {"a": [None, 1.0, None]}
