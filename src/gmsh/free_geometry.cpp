@@ -27,6 +27,7 @@ std::vector<PhysicalGroup> open_groups() {
   return groups;
 }
 
+// gmsh has no command that takes Transfinite back from a curve of its own kernel.
 std::string without_mesh(const std::string& geo) {
   constexpr std::array dropped{"Transfinite ", "Recombine ", "Periodic ", "Field[", "Background Field"};
   std::istringstream lines(geo);
