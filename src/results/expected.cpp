@@ -24,10 +24,21 @@ double number_at(const Json& report, const std::string& dotted) try {
   return unknown;
 }
 
+// summary.json, and the rows of probes.csv as probe.0, probe.1, ...
+Json named_figures(const Results& r) {
+  Json report = report_of(r);
+  for (const ProbeValue& value : r.recovery.probes) {
+    Json& row = report["probe"].emplace_back();
+    for (const auto& [name, number] : probe_figures(value)) row[name] = number;
+  }
+  return report;
+}
+
 ExpectedFigure compare_figure(const Json& report, const Expectation& e) {
   ExpectedFigure found{e, e.figure, number_at(report, e.figure), unknown, {}};
   if (std::isnan(found.found)) {
-    found.trouble = "summary.json has no such number; expected a dotted key such as contact.0.pressure.max";
+    found.trouble =
+        "summary.json has no such number; expected a dotted key such as contact.0.pressure.max, or probe.0.u_y";
     return found;
   }
   const double value = e.value.constant();
@@ -79,7 +90,7 @@ ExpectedFigure compare(const Results& r, const Json& report, const Expectation& 
 
 void judge_expectations(Results& r) {
   if (r.problem.expectations.empty()) return;
-  const Json report = report_of(r);
+  const Json report = named_figures(r);
   for (const Expectation& e : r.problem.expectations) {
     r.expected.push_back(compare(r, report, e));
     const ExpectedFigure& found = r.expected.back();

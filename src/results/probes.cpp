@@ -43,6 +43,21 @@ std::vector<ProbeValue> probe_values(const Problem& problem, const VecX& u, cons
   return values;
 }
 
+std::vector<std::pair<const char*, double>> probe_figures(const ProbeValue& v) {
+  std::vector<std::pair<const char*, double>> figures{
+      {"s", v.place.s},          {"x", v.place.x.x()},       {"y", v.place.x.y()},      {"u_x", v.u.x()},
+      {"u_y", v.u.y()},          {"sigma_11", v.stress(0)},  {"sigma_22", v.stress(1)}, {"sigma_33", v.stress(2)},
+      {"sigma_12", v.stress(3)}, {"von_mises", v.von_mises}, {"spread", v.spread}};
+  if (!v.error) return figures;
+  const auto& [u, stress] = *v.error;
+  figures.insert(figures.end(), {{"u_x_error", u.x()},
+                                 {"u_y_error", u.y()},
+                                 {"sigma_11_error", stress(0)},
+                                 {"sigma_22_error", stress(1)},
+                                 {"sigma_12_error", stress(2)}});
+  return figures;
+}
+
 std::vector<ProbedPlaces> probed_places(const std::vector<ProbeValue>& values) {
   std::vector<ProbedPlaces> probes;
   int last = -1;

@@ -19,6 +19,9 @@ struct ProbeValue {
 /// At all of the problem's places. `averages`: recover_stress.
 std::vector<ProbeValue> probe_values(const Problem& problem, const VecX& u, const StressField& averages);
 
+/// The numbers of a place by their columns in probes.csv, but for that of its [[probe]].
+std::vector<std::pair<const char*, double>> probe_figures(const ProbeValue& value);
+
 /// The places of each [[probe]].
 std::vector<ProbedPlaces> probed_places(const std::vector<ProbeValue>& values);
 

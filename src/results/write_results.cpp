@@ -128,24 +128,13 @@ void write_iteration_csv(const Iteration& iteration, const std::filesystem::path
 }
 
 void write_probes_csv(const Results& r, const std::filesystem::path& path) {
-  std::vector<CsvColumn> columns;
-  for (const char* name : {"probe", "body", "s", "x", "y", "u_x", "u_y", "sigma_11", "sigma_22", "sigma_33", "sigma_12",
-                           "von_mises", "spread"})
-    columns.push_back({name, {}, {}});
-  if (r.recovery.probes[0].error)
-    for (const char* name : {"u_x_error", "u_y_error", "sigma_11_error", "sigma_22_error", "sigma_12_error"})
-      columns.push_back({name, {}, {}});
+  std::vector<CsvColumn> columns{{"probe", {}, {}}, {"body", {}, {}}};
+  for (const auto& [name, value] : probe_figures(r.recovery.probes[0])) columns.push_back({name, {}, {}});
   for (const ProbeValue& v : r.recovery.probes) {
+    columns[0].numbers.push_back(v.place.probe);
     columns[1].words.push_back(r.problem.mesh.bodies[r.problem.mesh.cells[v.place.in.cell].body]);
-    std::size_t c = 0;
-    for (const double value : {double(v.place.probe), v.place.s, v.place.x.x(), v.place.x.y(), v.u.x(), v.u.y(),
-                               v.stress(0), v.stress(1), v.stress(2), v.stress(3), v.von_mises, v.spread}) {
-      columns[c].numbers.push_back(value);
-      c += c == 0 ? 2 : 1;
-    }
-    if (!v.error) continue;
-    const auto& [u, stress] = *v.error;
-    for (const double value : {u.x(), u.y(), stress(0), stress(1), stress(2)}) columns[c++].numbers.push_back(value);
+    std::size_t c = 2;
+    for (const auto& [name, value] : probe_figures(v)) columns[c++].numbers.push_back(value);
   }
   write_csv(path, columns);
 }

@@ -6,7 +6,10 @@ namespace mortise::scene_file {
 Keys expectation_keys(Expectation& expectation, const FieldUse& use) {
   return {
       key("figure", expectation.figure, a_name(),
-          "a number of summary.json by its dotted key, such as `\"contact.0.pressure.max\"`", "this, or `pressure`"),
+          "a number of summary.json by its dotted key, such as `\"contact.0.pressure.max\"`, or of a row of "
+          "probes.csv, "
+          "from 0: `\"probe.0.u_y\"`",
+          "this, or `pressure`"),
       {"value", a_number().schema, "what it should be, not 0", "required with `figure`"},
       key("pressure", expectation.value, a_field(use),
           "a number or an expression: what $p$ should be at each node of a pair's multiplier side that faces the "

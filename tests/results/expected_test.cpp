@@ -44,6 +44,18 @@ TEST(Expected, FiguresHoldWithinTheirTolerance) {
   EXPECT_EQ(judged({figure("contact.0.pressure.max", -p, 0.5)}).status, Status::check_failed);
 }
 
+TEST(Expected, FiguresOfProbesAreThoseOfTheirRow) {
+  Scene scene = read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/patch_flat.toml");
+  scene.probes = {{.key = "probe.0", .at = {{0.3, 0.2}, {0.3, 0.4}}}};
+  Results r = solve_scene(scene);
+  const ProbeValue& second = r.recovery.probes[1];
+  r.problem.expectations = {figure("probe.1.u_y", second.u.y(), 1e-12),
+                            figure("probe.1.sigma_22", second.stress(1), 1e-12),
+                            figure("probe.0.u_y", second.u.y(), 1e-12), figure("probe.2.u_y", second.u.y(), 1)};
+  judge_expectations(r);
+  for (const int k : {0, 1, 2, 3}) EXPECT_EQ(r.checks[r.checks.size() - 4 + k].ok(), k < 2) << k;
+}
+
 TEST(Expected, AFigureThatIsNotThereDoesNotHold) {
   for (const char* name : {"contact.7.pressure.max", "contact.0.pressure", "title", "contact.x", "~",
                            "contact.99999999999999999999.length"}) {
