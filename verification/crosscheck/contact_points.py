@@ -160,6 +160,8 @@ def contact_points(chain, opposite, gauss):
                 if hit is None:
                     continue
                 there = zero(lambda t, edge=hit[0]: cross(opposite.curve(edge, t) - x, n))
+                if there is None:  # n passes the curve by beside the edge, as at the end of a half circle
+                    continue
                 gap = (opposite.curve(hit[0], there) - chain.curve(edge, here)) @ n
                 rows.append([edge, s, w, *n, *hit[:2], gap])
     return np.array(rows)

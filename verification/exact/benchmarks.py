@@ -22,7 +22,6 @@ import launch  # makes src/python/pictures known
 import figure
 import layer
 import page
-import patches
 import peers
 import persson
 import runs
@@ -42,8 +41,6 @@ def left_out_at_axis(summary):
 
 def execute(run):
     """One run: `error` of p, `width`: relative error of the half width, unknowns, seconds, and the line for pictures."""
-    if "patch" in run:
-        return patches.execute(run)
     case = benchmark_cases.by_name(run["case"])
     parameters = run.get("parameters", {})
     scene = benchmark_cases.scene_text(case, run["size"] or case.sizes[1], parameters)
@@ -147,7 +144,7 @@ def by_others(store, meshes):
     return template.table(heading, lines)
 
 
-def page_text(lines, asked, pictures, patch, large, others):
+def page_text(lines, asked, pictures, large, others):
     heading = ["", *(f"mesh {k + 1}" for k in range(4)), "rate", "limit", "half width: finest mesh, 1 % asked",
                "p: 1 % asked", "unknowns", "seconds"]  # fmt: skip
     peaks = ["failed" if row["failed"] else f"{100 * peak(row):.3f} %" for row in large]
@@ -155,7 +152,6 @@ def page_text(lines, asked, pictures, patch, large, others):
         (HERE / "benchmarks.md").read_text(),
         table=template.table(heading, lines),
         pictures="\n\n".join(pictures),
-        patch=max(row["error"] for row in patch),
         fewest=min(row["unknowns"] for row in asked),
         most=max(row["unknowns"] for row in asked),
         best=percent(min(row["error"] for row in asked)),
@@ -191,10 +187,10 @@ def main(arguments=None):
             if not options.quick or case.name == "flat_punch":
                 second.append((case, meshes[1]))
             pictures.append(f"![{case.title}. {case.source}.](benchmarks/{case.name}.png)")
-    patch, large = patches.rows(store), truncation(store, options.quick)
-    wrong += patches.wrong(patch) + [row["failed"] for row in large if row["failed"]]
+    large = truncation(store, options.quick)
+    wrong += [row["failed"] for row in large if row["failed"]]
     launch.write_csv(options.output / "benchmarks.csv", rows)
-    text = page_text(lines, answers, pictures, patch, large, by_others(store, second))
+    text = page_text(lines, answers, pictures, large, by_others(store, second))
     page.write(options.output, "benchmarks", text, options.docs)
     print("\n".join(" | ".join(map(str, line)) for line in lines))
     print("\n".join(wrong) or "all hold")

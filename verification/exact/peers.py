@@ -25,11 +25,11 @@ FAILURES = {"contact is lost everywhere": "loses all contact", "no convergence":
 METHOD = {"order": 2, "multipliers": "linear", "integration": "segments", "gauss": 5}
 
 
-def by_freefem(case, path, mesh, side, folder):
-    """Of its scene on a mesh: lines of multipliers."""
+def by_freefem(path, mesh, side, folder):
+    """Of a scene on a mesh: lines of multipliers."""
     scene = scenes.read_scene(path, {})
     gap = "scene" if scene["contact"][0].get("initial_gap", "curve") != "curve" else "curve"
-    step = cases.Step(case.name, (), side, {}, {}, METHOD, "unilateral", gap, same_nodes=False)
+    step = cases.Step(path.stem, (), side, {}, {}, METHOD, "unilateral", gap, same_nodes=False)
     crosscheck.convert_step(step, scene, mesh, folder)
     crosscheck.call_freefem(crosscheck.SCRIPTS["unilateral"], folder=folder)
     return np.loadtxt(folder / "freefem_contact.txt")
@@ -47,7 +47,7 @@ def execute(run):
         before = launch.processor_seconds()
         try:
             if run["by"] == "FreeFEM":
-                lines = by_freefem(case, path, mesh, side, folder)
+                lines = by_freefem(path, mesh, side, folder)
             else:
                 lines = by_getfem.contact(path, mesh, side, folder)
         except launch.StudyError as failure:
