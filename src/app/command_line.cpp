@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "app/accuracy.hpp"
+#include "app/cases.hpp"
 #include "app/picture.hpp"
 #include "app/sweep.hpp"
 #include "app/sweep_join.hpp"
@@ -33,7 +34,7 @@ struct Options {
   std::string scene;
   std::vector<std::string> set, vary;
   std::string output;
-  std::string accuracy, picture;
+  std::string accuracy, picture, one_case;
   bool quiet = false, diagnose = false, no_estimate = false, no_programs = false, no_cache = false;
   int threads = 0, jobs = 1;
   std::string part;
@@ -76,12 +77,35 @@ void check_fields_stay(const Scene& scene, const std::filesystem::path& folder) 
       throw InputError(field.key + ": " + field.file + " lies in the results folder; expected -o another folder");
 }
 
+// Or one of its cases.
+Scene scene_of(const Options& options) {
+  Scene scene = read_scene(options.scene, overrides(options));
+  return options.one_case.empty() ? std::move(scene) : case_of(scene, options.one_case);
+}
+
+int solve_all_cases(const Options& options, const Scene& scene, const std::filesystem::path& folder,
+                    std::optional<StageLine>& line) {
+  if (ranks().count() > 1)
+    throw InputError("command line: several processes solve one of the cases of " + scene.path +
+                     "; expected --case NAME after mpirun");
+  const CaseTable table = write_cases(
+      scene, {!options.no_estimate, options.diagnose}, [&](const std::string& name) { (*line)(name); }, folder);
+  line.reset();
+  if (!options.quiet) say(cases_text(scene.title, table, folder));
+  const Status worst = table.worst();
+  if (worst != Status::solved)
+    std::cerr << "mortise: " << scene.path << ": " << to_string(worst)
+              << ": not every case is solved (see the status in " << (folder / "cases.csv").string() << ")\n";
+  return exit_code(worst);
+}
+
 int solve(const Options& options) {
-  const Scene scene = read_scene(options.scene, overrides(options));
+  const Scene scene = scene_of(options);
   const std::filesystem::path folder = options.output.empty() ? "out/" + stem(options) : options.output;
   check_output_folder(folder);
   check_fields_stay(scene, folder);
   std::optional<StageLine> line(options.quiet);
+  if (!scene.cases.empty()) return solve_all_cases(options, scene, folder, line);
   const auto stage = [&](const std::string& name) { (*line)(name); };
   Results results = scene.accuracy ? solve_to_accuracy(scene, *line) : solve_scene(scene, stage);
   if (!scene.accuracy && !options.no_estimate) {
@@ -115,6 +139,13 @@ std::string copies_line(const Scene& scene) {
   return words.empty() ? "" : "  copies    " + listed(words) + "\n";
 }
 
+// "cases     half, full, hot; the above is the scene without them"
+std::string cases_line(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const LoadCase& load : scene.cases) names.push_back(load.name);
+  return names.empty() ? "" : "  cases     " + listed(names) + "; the above is the scene without them\n";
+}
+
 // Where those bodies and curves are whose names are only tags.
 std::string measures_lines(const Mesh& mesh) {
   if (!mesh.named_by_tag) return "";
@@ -131,7 +162,7 @@ std::string measures_lines(const Mesh& mesh) {
 
 // What the scene will model, and what it leaves out.
 int check(const Options& options) {
-  const Scene scene = read_scene(options.scene, overrides(options));
+  const Scene scene = scene_of(options);
   const Problem problem = check_scene(scene);
   const int drawn = options.picture.empty() ? 0 : draw_setup(problem, options.picture);
   if (options.quiet) return drawn;
@@ -152,6 +183,7 @@ int check(const Options& options) {
        << (scene.body_forces.empty() && !scene.gravity ? ", body forces" : "")
        << (scene.initial_strains.empty() ? ", initial strains" : "") << "\n";
   for (const std::string& warning : problem.warnings) text << "  warning   " << warning << "\n";
+  text << cases_line(scene);
   say(text.str());
   return drawn;
 }
@@ -222,6 +254,11 @@ void add_diagnose(CLI::App* command, Options& options) {
                     "find the inf-sup constant too: do the meshes control the pressure?");
 }
 
+void add_case(CLI::App* command, Options& options) {
+  command->add_option("--case", options.one_case, "NAME: this one of the scene's cases, as a scene of its own")
+      ->check(filled("the name of a case"));
+}
+
 CLI::Option* add_accuracy(CLI::App* command, Options& options) {
   return command
       ->add_option("--accuracy", options.accuracy,
@@ -233,6 +270,7 @@ CLI::App* add_solve(CLI::App& app, Options& options) {
   CLI::App* command = add_command(app, "solve", "mesh, solve, check and write the results of a scene", options,
                                   "folder of the results (default: out/SCENE)");
   add_diagnose(command, options);
+  add_case(command, options);
   CLI::Option* accuracy = add_accuracy(command, options);
   command->add_flag("--no-estimate", options.no_estimate, "do not estimate the discretisation error")
       ->excludes(accuracy);
@@ -241,6 +279,7 @@ CLI::App* add_solve(CLI::App& app, Options& options) {
 
 CLI::App* add_check(CLI::App& app, Options& options) {
   CLI::App* command = add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
+  add_case(command, options);
   command->add_option("--picture", options.picture, "FILE.png: draw bodies, supports, loads and contact pairs")
       ->check(filled("a .png, .pdf or .svg to write"));
   return command;

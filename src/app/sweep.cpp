@@ -23,11 +23,14 @@ namespace fs = std::filesystem;
 RunRow row_of_results(const SweepPlan& plan, Results& results) {
   if (plan.diagnosed) diagnose(results);
   judge_expectations(results);
-  return row_of(report_of(results));
+  return row_of(results, report_of(results));
 }
 
 RunRow run_one(const SweepPlan& plan, std::size_t run, CaseSolver& solver) try {
   const Scene scene = read_scene(plan.scene, plan.overrides_of(run));
+  if (!scene.cases.empty())
+    throw InputError(scene.path +
+                     ": the scene has cases of its own; expected mortise solve, or a scene without [[case]]");
   if (scene.accuracy) {
     Results results = *solve_to_accuracy(scene);
     return row_of_results(plan, results);

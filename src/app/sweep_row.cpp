@@ -18,9 +18,18 @@ double figure(const Json& report, const std::string& dotted) {
   return report.at(Json::json_pointer(path)).get<double>();
 }
 
+using Figures = std::vector<std::pair<std::string, double>>;
+
+// "AT.x", "AT.y" of [x, y]; nothing of null.
+void add_pair(const std::string& at, const Json& pair, Figures& row) {
+  if (pair.is_null()) return;
+  row.emplace_back(at + ".x", pair[0]);
+  row.emplace_back(at + ".y", pair[1]);
+}
+
 // Columns by the dotted keys of summary.json, but for a few that are shorter.
-std::vector<std::pair<std::string, double>> figures(const Json& r) {
-  std::vector<std::pair<std::string, double>> row;
+Figures figures(const Json& r) {
+  Figures row;
   for (const char* name : {"nodes", "elements", "dofs", "multipliers"}) row.emplace_back(name, r["mesh"][name]);
   for (const char* name : {"iterations.contact", "energy", "seconds.mesh"}) row.emplace_back(name, figure(r, name));
   row.emplace_back("seconds.solve", figure(r, "seconds.total") - figure(r, "seconds.mesh"));
@@ -39,13 +48,49 @@ std::vector<std::pair<std::string, double>> figures(const Json& r) {
   for (std::size_t k = 0; k < r["contact"].size(); ++k) {
     const Json& c = r["contact"][k];
     const std::string at = "contact." + std::to_string(k) + ".";
-    for (const auto& [name, value] : c["pressure"].items()) row.emplace_back(at + "pressure." + name, value);
-    row.emplace_back(at + "force.x", c["force"][0]);
-    row.emplace_back(at + "force.y", c["force"][1]);
-    row.emplace_back(at + "length_in_contact", c["length_in_contact"]);
+    for (const auto& [name, value] : c["pressure"].items())
+      if (!value.is_null()) row.emplace_back(at + "pressure." + name, value);
+    add_pair(at + "force", c["force"], row);
+    add_pair(at + "force_error", c["force_error"], row);
+    for (const char* name : {"length_in_contact", "length_in_contact_error"})
+      if (!c[name].is_null()) row.emplace_back(at + name, c[name]);
+    if (const Json& ends = c["ends"]; !ends.is_null()) {
+      row.emplace_back(at + "from", ends[0]);
+      row.emplace_back(at + "to", ends[1]);
+    }
   }
   for (const Json& check : r["checks"]) row.emplace_back(check["name"], check["value"]);
   return row;
+}
+
+// Reactions; of rigid curves how they moved.
+void add_supports(const Json& supports, Figures& row) {
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    const Json& support = supports[i];
+    const std::string at = "support." + std::to_string(i) + ".";
+    add_pair(at + "reaction", support["reaction"], row);
+    row.emplace_back(at + "moment", support["moment"]);
+    if (!support.contains("rigid")) continue;
+    add_pair(at + "displacement", support["rigid"]["displacement"], row);
+    row.emplace_back(at + "turned", support["rigid"]["turned"]);
+  }
+}
+
+// Of each row of probes.csv.
+void add_probes(const std::vector<ProbeValue>& probes, Figures& row) {
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const std::string at = "probe." + std::to_string(i) + ".";
+    const auto add_vector = [&](const std::string& name, const Vec2& v) {
+      row.emplace_back(at + name + "_x", v.x());
+      row.emplace_back(at + name + "_y", v.y());
+    };
+    add_vector("u", probes[i].u);
+    if (probes[i].error) {
+      row.emplace_back(at + "u_x_error", probes[i].error->u.x());
+      row.emplace_back(at + "u_y_error", probes[i].error->u.y());
+    }
+    row.emplace_back(at + "von_mises", probes[i].von_mises);
+  }
 }
 
 std::string exact(double value) {
@@ -55,7 +100,12 @@ std::string exact(double value) {
 
 }  // namespace
 
-RunRow row_of(const Json& report) { return {report["status"], figures(report)}; }
+RunRow row_of(const Results& results, const Json& report) {
+  RunRow row{report["status"], figures(report)};
+  add_supports(report["model"]["supports"], row.figures);
+  add_probes(results.recovery.probes, row.figures);
+  return row;
+}
 
 Status status_of(const RunRow& row) {
   for (const Status status : {Status::solved, Status::accuracy_not_reached, Status::not_converged})

@@ -17,7 +17,7 @@ struct RunRow {
   std::vector<std::pair<std::string, double>> figures;  ///< by column
 };
 
-RunRow row_of(const Json& report);
+RunRow row_of(const Results& results, const Json& report);
 
 /// solved, accuracy_not_reached, not_converged or check_failed, as bad input counts.
 Status status_of(const RunRow& row);

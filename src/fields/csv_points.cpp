@@ -5,48 +5,22 @@
 #include <charconv>
 #include <fstream>
 #include <numeric>
-#include <string_view>
 #include <vector>
 
+#include "base/csv_fields.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 
 namespace mortise {
 namespace {
 
-// Without blanks around it, and the quotes round those.
-std::string_view bare(std::string_view field) {
-  for (const std::string_view around : {" \t\r", "\"", " \t"}) {
-    const std::size_t first = field.find_first_not_of(around);
-    if (first == std::string_view::npos) return {};
-    field = field.substr(first, field.find_last_not_of(around) - first + 1);
-  }
-  return field;
-}
-
-// Nothing between quotes parts two fields.
-std::vector<std::string_view> fields_of(std::string_view line, char separator) {
-  std::vector<std::string_view> fields;
-  bool quoted = false;
-  std::size_t from = 0;
-  for (std::size_t i = 0; i <= line.size(); ++i) {
-    if (i < line.size() && line[i] == '"') quoted = !quoted;
-    if (i < line.size() && (quoted || line[i] != separator)) continue;
-    fields.push_back(bare(line.substr(from, i - from)));
-    from = i + 1;
-  }
-  return fields;
-}
-
 class CsvReader {
  public:
   CsvReader(const std::string& file, const std::string& column) : file_(file), stream_(file, std::ios::binary) {
     std::string line;
     if (!next(line)) throw InputError(file + ": cannot be read, or is empty");
-    if (line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
-    for (const char c : {'\t', ';', ','})
-      if (line.find(c) != std::string::npos) separator_ = c;
-    const std::vector<std::string_view> fields = fields_of(line, separator_);
+    separator_ = csv_separator(line);
+    const std::vector<std::string_view> fields = csv_fields(line, separator_);
     const std::vector<std::string> names(fields.begin(), fields.end());
     const bool paraview =
         std::ranges::find(names, "x") == names.end() && std::ranges::find(names, "Points:0") != names.end();
@@ -57,8 +31,8 @@ class CsvReader {
   CsvPoints read() {
     std::string line;
     while (next(line)) {
-      if (bare(line).empty()) continue;
-      const std::vector<std::string_view> fields = fields_of(line, separator_);
+      if (is_blank_line(line)) continue;
+      const std::vector<std::string_view> fields = csv_fields(line, separator_);
       std::array<double, 3> row{};
       for (int k = 0; k < 3; ++k) row[k] = number(fields, columns_[k]);
       rows_.push_back(row);

@@ -78,7 +78,7 @@ struct Field::Function {
   std::mutex mutex;  // of values and parser
 };
 
-Field::Field(const std::string& text, const FieldUse& use) : function_(std::make_shared<Function>()) {
+Field::Field(const std::string& text, const FieldUse& use) : constant_(1), function_(std::make_shared<Function>()) {
   Function& f = *function_;
   f.text = text;
   f.use = use;
@@ -107,6 +107,12 @@ double Field::constant() const {
   return constant_;
 }
 
+Field Field::times(double factor) const {
+  Field product = *this;
+  product.constant_ *= factor;
+  return product;
+}
+
 bool Field::uses_arc_length() const { return function_ && function_->used[s_]; }
 
 double Field::value_at(const Vec2& x, double s) const {
@@ -117,11 +123,11 @@ double Field::value_at(const Vec2& x, double s) const {
     f.values = {x.x(), x.y(), f.used[r_] ? x.norm() : 0, f.used[theta_] ? std::atan2(x.y(), x.x()) : 0, s};
     for (std::size_t i = 0; i < f.named.size(); ++i)
       if (f.use.functions[i]) f.named[i] = f.use.functions[i]->at(x);
-    value = f.parser.Eval();
+    value = constant_ * f.parser.Eval();
   }
   if (std::abs(value) <= f.use.largest) return value;
   std::ostringstream text;
-  text << f.use.key << ": '" << printable(f.text) << "' is ";
+  text << f.use.key << ": '" << words() << "' is ";
   if (std::isnan(value))
     text << "not a number";
   else
@@ -131,9 +137,13 @@ double Field::value_at(const Vec2& x, double s) const {
 }
 
 std::string Field::words() const {
-  if (function_) return printable(function_->text);
   std::ostringstream text;
-  text << constant_;
+  if (!function_)
+    text << constant_;
+  else if (constant_ == 1)
+    text << printable(function_->text);
+  else
+    text << constant_ << " * (" << printable(function_->text) << ")";
   return text.str();
 }
 

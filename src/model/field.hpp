@@ -49,6 +49,8 @@ class Field {
   /// Throws SceneError, with key and place, where the value is not finite or larger than `largest`.
   double operator()(const Vec2& x, double s = 0) const { return function_ ? value_at(x, s) : constant_; }
 
+  Field times(double factor) const;
+
   bool is_constant() const { return !function_; }
   /// Only of one that is constant.
   double constant() const;
@@ -63,7 +65,7 @@ class Field {
   double value_at(const Vec2& x, double s) const;
   bool same_function(const Field& other) const;
 
-  double constant_ = 0;
+  double constant_ = 0;                 // of a function a factor
   std::shared_ptr<Function> function_;  // none: constant_
 };
 

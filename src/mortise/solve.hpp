@@ -1,5 +1,6 @@
-/// From a scene to its results: solve_scene, estimate, solve_to_accuracy, check_scene; Results, Status.
+/// From a scene to its results: solve_scene, estimate, solve_to_accuracy, check_scene, solve_cases; Results, Status.
 #pragma once
 
 #include "app/accuracy.hpp"
+#include "app/cases.hpp"
 #include "app/solve_scene.hpp"

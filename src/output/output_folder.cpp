@@ -21,8 +21,9 @@ namespace {
 constexpr std::string_view summary = "summary.json";
 
 /// All that mortise ever writes. Add a new output here: what is not listed is the user's and stays.
-constexpr std::array<std::string_view, 7> own_files{
-    "result.vtu", "contact.vtu", "contact.csv", "contact_centres.csv", "iteration.csv", "probes.csv", summary};
+constexpr std::array<std::string_view, 9> own_files{"result.vtu",          "contact.vtu",   "contact.csv",
+                                                    "contact_centres.csv", "iteration.csv", "probes.csv",
+                                                    "cases.csv",           "cases.pvd",     summary};
 
 [[noreturn]] void fail(const fs::path& target, const std::string& why) {
   throw InputError(target.string() + ": cannot write results here: " + why);
@@ -88,6 +89,13 @@ OutputFolder::OutputFolder(fs::path target) : target_(std::move(target)) {
   std::error_code error;
   fs::create_directories(target_, error);
   if (!fs::is_directory(target_)) fail(target_, error.message());
+}
+
+void remove_results(const fs::path& target) {
+  std::error_code ignored;
+  if (fs::is_symlink(target, ignored) || !fs::is_directory(target, ignored) || !holds_results(target)) return;
+  for (const std::string_view name : own_files) fs::remove(target / name, ignored);
+  fs::remove(target, ignored);  // if nothing else is in it
 }
 
 fs::path OutputFolder::path(const std::string& name) {

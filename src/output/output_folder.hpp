@@ -14,6 +14,9 @@ namespace mortise {
 /// written.
 void check_output_folder(const std::filesystem::path& target);
 
+/// Removes what a run of ours has written into a folder, and the folder where nothing else is in it.
+void remove_results(const std::filesystem::path& target);
+
 /// Files are written under hidden names in the folder; commit() removes the old summary.json, puts them in their places
 /// and the new summary.json last: a folder that has one is the whole of one run, whenever a process was killed. The
 /// folder itself stays as it is (owner, modes, the user's files). What mortise writes is listed in output_folder.cpp.

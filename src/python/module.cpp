@@ -74,16 +74,25 @@ Results solved(const Scene& scene, bool with_estimate) {
   return results;
 }
 
-py::tuple solve(const std::string& path, const std::vector<std::pair<std::string, std::string>>& changes,
-                bool with_estimate) {
+using Changes = std::vector<std::pair<std::string, std::string>>;
+
+Scene scene_of(const std::string& path, const Changes& changes) {
+  std::vector<Override> overrides;
+  for (const auto& [key, value] : changes) overrides.push_back({key, value});
+  return read_scene(path, overrides);
+}
+
+py::tuple solve(const std::string& path, const Changes& changes, bool with_estimate, const std::string& one_case) {
   Scene scene;
   Results results;
   std::string summary;
   {
     const py::gil_scoped_release others_run;
-    std::vector<Override> overrides;
-    for (const auto& [key, value] : changes) overrides.push_back({key, value});
-    scene = read_scene(path, overrides);
+    scene = scene_of(path, changes);
+    if (!one_case.empty()) scene = case_of(scene, one_case);
+    if (!scene.cases.empty())
+      throw InputError(path +
+                       ": the scene has cases; expected solve(scene, case=NAME), or cases(scene) for all of them");
     results = solved(scene, with_estimate);
     judge_expectations(results);
     summary = report_of(results).dump();
@@ -91,11 +100,35 @@ py::tuple solve(const std::string& path, const std::vector<std::pair<std::string
   return py::make_tuple(contact_columns(results), body_fields(results), summary);
 }
 
+// Words of all cases by key, and numbers by column.
+py::tuple cases(const std::string& path, const Changes& changes, bool with_estimate) {
+  CaseTable table;
+  {
+    const py::gil_scoped_release others_run;
+    const Scene scene = scene_of(path, changes);
+    if (scene.cases.empty()) throw InputError(path + ": the scene has no [[case]]; expected some, or solve(scene)");
+    table = solve_cases(scene, {.estimated = with_estimate}, check_signals);
+  }
+  std::map<std::string, std::vector<std::string>> words;
+  std::map<std::string, VecX> numbers;
+  for (const auto& [run, row] : table.rows) {
+    for (std::size_t k = 0; k < table.keys.size(); ++k) words[table.keys[k]].push_back(table.values[run][k]);
+    words["status"].push_back(row.status);
+    for (const auto& [name, value] : row.figures) {
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      const auto column = numbers.try_emplace(name, VecX::Constant(Eigen::Index(table.rows.size()), nan)).first;
+      column->second(Eigen::Index(run)) = value;
+    }
+  }
+  return py::make_tuple(words, numbers);
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_mortise, m) {
   py::register_exception<InputError>(m, "InputError", PyExc_ValueError);
   m.def("solve", &solve);
+  m.def("cases", &cases);
 }
 
 }  // namespace mortise

@@ -53,22 +53,46 @@ double part_in_contact(const LoadedLine& line, int e, int last) {
   return samples.size() > 1 ? end_of_contact(samples, length) / length : 1;
 }
 
+// Of an edge in contact the part, and whether that is its end rather than its start.
+struct EdgePart {
+  double part = 1;
+  bool at_end = false;
+};
+
+std::vector<EdgePart> parts_in_contact(const LoadedLine& line) {
+  const auto& [nodes, pair, pressure, loaded] = line;
+  std::vector<EdgePart> parts(pair.multiplier.edges.size());
+  if (pair.spec.condition != Condition::unilateral) return parts;
+  for (std::size_t e = 0; e < parts.size(); ++e) {
+    const auto& on = pair.coupling.on_edge[e];
+    const bool start = pressure(on[0]) > loaded, end = pressure(on[1]) > loaded;
+    if (!start && !end) parts[e].part = on[2] >= 0 && pressure(on[2]) > loaded ? 1 : 0;
+    if (start != end) parts[e] = {part_in_contact(line, int(e), start ? 0 : 1), end};
+  }
+  return parts;
+}
+
 }  // namespace
 
-double length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure, double round_off) {
+ContactLength length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure, double round_off) {
   const double loaded = std::max(round_off, 1e-9 * (pressure.size() > 0 ? pressure.maxCoeff() : 0));
-  std::vector<double> part(pair.multiplier.edges.size(), 1);
-  if (pair.spec.condition == Condition::unilateral)
-    for (std::size_t e = 0; e < part.size(); ++e) {
-      const bool start = pressure(pair.coupling.on_edge[e][0]) > loaded,
-                 end = pressure(pair.coupling.on_edge[e][1]) > loaded;
-      const int middle = pair.coupling.on_edge[e][2];
-      if (!start && !end) part[e] = middle >= 0 && pressure(middle) > loaded ? 1 : 0;
-      if (start != end) part[e] = part_in_contact({nodes, pair, pressure, loaded}, int(e), start ? 0 : 1);
+  const std::vector<EdgePart> parts = parts_in_contact({nodes, pair, pressure, loaded});
+  ContactLength found;
+  std::vector<char> faced(parts.size(), 0);
+  for (const ContactPoint& c : pair.points) {
+    found.length += c.ds * parts[c.edge].part;
+    faced[c.edge] = 1;
+  }
+  double s = 0;
+  for (std::size_t e = 0; e < parts.size(); ++e) {
+    const double length = edge_length(nodes, pair.multiplier.edges[e]), part = parts[e].part * length;
+    if (part > 0 && faced[e] && !pair.multiplier.closed) {
+      const double from = parts[e].at_end ? s + length - part : s;
+      found.ends = {found.ends ? (*found.ends)[0] : from, from + part};
     }
-  double length = 0;
-  for (const ContactPoint& c : pair.points) length += c.ds * part[c.edge];
-  return length;
+    s += length;
+  }
+  return found;
 }
 
 }  // namespace mortise

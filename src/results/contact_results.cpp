@@ -270,9 +270,13 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   run_together(mesh.nodes, pair, r);
   set_extremes(pair, r);
   r.p_mean = mean_pressure(pair, r.pressure);
-  r.length_in_contact = length_in_contact(
+  const ContactLength in_contact = length_in_contact(
       mesh.nodes, pair, r.pressure,
       round_off_pressure(mesh, {&pair, 1}, problem.discretisation.system.stiffness_scale, solution.u));
+  r.length_in_contact = in_contact.length;
+  r.ends = in_contact.ends;
+  if (r.ends && runs_backwards(mesh.nodes, pair.multiplier))
+    r.ends = {r.length - (*in_contact.ends)[1], r.length - (*in_contact.ends)[0]};
   const Resultant sum = force_on(mesh.nodes, along, contact_forces(pair.coupling, lambda));
   r.force = sum.force;
   r.moment = sum.moment;

@@ -1,6 +1,7 @@
 // Results of a contact pair at its nodes and element centres.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 
@@ -40,12 +41,13 @@ struct ContactSide {
 
 struct ContactResults {
   ContactSide multiplier, opposite;
-  VecX pressure;                 ///< one a multiplier (Coupling::node)
-  double length = 0;             ///< of the multiplier side
-  double length_in_contact = 0;  ///< as length_in_contact() says
-  Vec2 force = Vec2::Zero();     ///< of the contact on the multiplier side's body, times depth
-  double moment = 0;             ///< of the same about the origin
-  Vec2 centre = Vec2::Zero();    ///< of the multiplier side, mean place along its length
+  VecX pressure;                              ///< one a multiplier (Coupling::node)
+  double length = 0;                          ///< of the multiplier side
+  double length_in_contact = 0;               ///< as length_in_contact() says
+  std::optional<std::array<double, 2>> ends;  ///< s at which contact begins and ends, the same
+  Vec2 force = Vec2::Zero();                  ///< of the contact on the multiplier side's body, times depth
+  double moment = 0;                          ///< of the same about the origin
+  Vec2 centre = Vec2::Zero();                 ///< of the multiplier side, mean place along its length
   /// Where errors are estimated: what the force and its moment about `centre`, and the length in contact may be off by.
   std::optional<Eigen::Vector3d> force_error;
   std::optional<double> length_error;

@@ -19,7 +19,8 @@ Json report_of(const Results& results);
 /// where they are known. Of forces what is round-off of their parts is 0.
 Json model_report(const Problem& problem, const Reactions* reactions = nullptr);
 
-/// Writes all files of a run into `folder`, and into `report` how long that took. Throws InputError where it cannot.
-void write_results(const Results& results, Json& report, const std::filesystem::path& folder);
+/// Writes all files of a run into `folder`, without result.vtu if `bodies` is false, and into `report` how long that
+/// took. Throws InputError where it cannot.
+void write_results(const Results& results, Json& report, const std::filesystem::path& folder, bool bodies = true);
 
 }  // namespace mortise

@@ -141,11 +141,11 @@ void write_probes_csv(const Results& r, const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_results(const Results& results, Json& report, const std::filesystem::path& folder) {
+void write_results(const Results& results, Json& report, const std::filesystem::path& folder, bool bodies) {
   Stopwatch watch;
   OutputFolder output(folder);
   try {
-    write_vtu(output.path("result.vtu"), result_grid(results));
+    if (bodies) write_vtu(output.path("result.vtu"), result_grid(results));
     if (!results.problem.pairs.empty()) {
       write_vtu(output.path("contact.vtu"), contact_grid(results));
       write_contact_csv(results, output.path("contact.csv"));

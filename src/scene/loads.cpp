@@ -5,53 +5,52 @@
 namespace mortise {
 namespace {
 
-void take_values_away(std::optional<Field>& field) {
-  if (field) field = Field();
-}
-
-void take_values_away(std::optional<double>& value) {
-  if (value) value = 0;
+template <typename Change>
+void change_given(auto& value, const Change& change) {
+  if (value) change(*value);
 }
 
 // Of a rigid curve what is prescribed stays so.
-void take_values_away(RigidSpec& rigid) {
-  take_values_away(rigid.x);
-  take_values_away(rigid.y);
-  take_values_away(rigid.rotation);
-  rigid.force.setZero();
-  rigid.moment = 0;
+template <typename Change>
+void change_values(BoundaryCondition& what, const Change& change) {
+  std::visit(
+      Overloaded{[&](Displacement& u) {
+                   change_given(u.x, change);
+                   change_given(u.y, change);
+                 },
+                 [&](NormalDisplacement& u) { change(u.value); }, [&](DirectedDisplacement& u) { change(u.value); },
+                 [&](RigidSpec& rigid) {
+                   for (auto* motion : {&rigid.x, &rigid.y, &rigid.rotation}) change_given(*motion, change);
+                   change(rigid.force);
+                   change(rigid.moment);
+                 },
+                 [&](Pressure& p) { change(p.value); }, [&](SurfaceTraction& t) { change(t.value); },
+                 [&](TotalForce& force) { change(force.value); }, [](NormalFoundation&) {}, [](AxesFoundation&) {},
+                 [](PointSpring&) {}},
+      what);
 }
 
-void take_values_away(BoundaryCondition& what) {
-  std::visit(
-      Overloaded{[](Displacement& u) {
-                   take_values_away(u.x);
-                   take_values_away(u.y);
-                 },
-                 [](NormalDisplacement& u) { u.value = Field(); }, [](DirectedDisplacement& u) { u.value = Field(); },
-                 [](RigidSpec& rigid) { take_values_away(rigid); }, [](Pressure& p) { p.value = Field(); },
-                 [](SurfaceTraction& t) { t.value = VectorField(); }, [](TotalForce& force) { force.value.setZero(); },
-                 [](NormalFoundation&) {}, [](AxesFoundation&) {}, [](PointSpring&) {}},
-      what);
+// Calls change(value) for a Field, VectorField, double or Vec2 that acts on the bodies.
+template <typename Change>
+void change_loads(Scene& scene, const Change& change) {
+  change_given(scene.gravity, change);
+  for (BoundarySpec& boundary : scene.boundaries) change_values(boundary.what, change);
+  for (BodyForceSpec& force : scene.body_forces) change(force.force);
+  for (InitialStrainSpec& strain : scene.initial_strains) {
+    change_given(strain.temperature_change, change);
+    for (Field& component : strain.strain) change(component);
+  }
 }
 
 // Keys of entries with loads go, too: they say where the values were given.
 Scene without_loads(Scene scene) {
+  change_loads(scene, Overloaded{[](Field& f) { f = Field(); }, [](VectorField& f) { f = VectorField(); },
+                                 [](double& value) { value = 0; }, [](Vec2& v) { v.setZero(); }});
   scene.gravity.reset();
   for (auto& [name, material] : scene.materials) material.thermal_expansion = material.density = 0;
-  for (BoundarySpec& boundary : scene.boundaries) {
-    boundary.key.clear();
-    take_values_away(boundary.what);
-  }
-  for (BodyForceSpec& force : scene.body_forces) {
-    force.key.clear();
-    force.force = VectorField();
-  }
-  for (InitialStrainSpec& strain : scene.initial_strains) {
-    strain.key.clear();
-    take_values_away(strain.temperature_change);
-    strain.strain.fill(Field());
-  }
+  for (BoundarySpec& boundary : scene.boundaries) boundary.key.clear();
+  for (BodyForceSpec& force : scene.body_forces) force.key.clear();
+  for (InitialStrainSpec& strain : scene.initial_strains) strain.key.clear();
   for (ContactSpec& contact : scene.contacts) contact.gap = contact.clearance = Field();
   scene.expectations.clear();
   return scene;
@@ -67,6 +66,17 @@ bool differ_in_loads_alone(const Scene& one, const Scene& other) {
          a.boundaries == b.boundaries && a.body_forces == b.body_forces && a.initial_strains == b.initial_strains &&
          a.contacts == b.contacts && a.ties == b.ties && a.probes == b.probes && a.method == b.method &&
          a.accuracy == b.accuracy;
+}
+
+Scene scaled_loads(Scene scene, double factor) {
+  const auto scale = [&](Field& f) { f = f.times(factor); };
+  change_loads(scene, Overloaded{scale,
+                                 [&](VectorField& f) {
+                                   scale(f.x);
+                                   scale(f.y);
+                                 },
+                                 [&](double& value) { value *= factor; }, [&](Vec2& v) { v *= factor; }});
+  return scene;
 }
 
 }  // namespace mortise

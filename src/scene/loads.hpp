@@ -10,4 +10,8 @@ namespace mortise {
 /// gravity, gaps, clearances and expectations.
 bool differ_in_loads_alone(const Scene& one, const Scene& other);
 
+/// The scene with its loads times the factor: forces, pressures, tractions, prescribed displacements and turns,
+/// gravity, body forces, temperatures and initial strains; gaps and clearances stay.
+Scene scaled_loads(Scene scene, double factor);
+
 }  // namespace mortise

@@ -14,13 +14,6 @@ namespace {
 
 using Parts = std::vector<std::string>;
 
-/// An override on its way into the document.
-struct Setting {
-  Parts parts;
-  std::string value;
-  Place place;
-};
-
 bool is_index(const std::string& part) {
   return !part.empty() && std::all_of(part.begin(), part.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
@@ -31,14 +24,14 @@ std::string count_of_entries(std::size_t count) {
   return "there are " + std::to_string(count) + " entries (index 0 to " + std::to_string(count - 1) + ")";
 }
 
-[[noreturn]] void fail_index(const Setting& setting, const std::string& path, const std::string& part,
+[[noreturn]] void fail_index(const Change& setting, const std::string& path, const std::string& part,
                              std::size_t count) {
   const std::string trouble =
       is_index(part) ? "no entry with index " + part : "expected an index, found '" + part + "'";
   fail(setting.place, path, trouble + "; " + count_of_entries(count));
 }
 
-Node& item_at(Node& list, const std::string& part, const Setting& setting) {
+Node& item_at(Node& list, const std::string& part, const Change& setting) {
   std::size_t index = list.items.size();
   if (is_index(part)) std::from_chars(part.data(), part.data() + part.size(), index);
   if (index >= list.items.size()) fail_index(setting, list.path, part, list.items.size());
@@ -51,7 +44,7 @@ bool is_list_of_entries(const std::string& path) {
       sections(), [&](const Section& section) { return section.name == path && section.schema["type"] == "array"; });
 }
 
-Node& create_table(Node& parent, const std::string& part, const Setting& setting) {
+Node& create_table(Node& parent, const std::string& part, const Change& setting) {
   Node table;
   table.name = part;
   table.path = join_path(parent.path, part);
@@ -61,7 +54,7 @@ Node& create_table(Node& parent, const std::string& part, const Setting& setting
 }
 
 /// The entry of a table or item of a list that `part` leads to; a new table if the table has no such entry.
-Node& step(Node& node, const std::string& part, const Setting& setting) {
+Node& step(Node& node, const std::string& part, const Change& setting) {
   if (node.kind == Node::Kind::list) return item_at(node, part, setting);
   if (node.kind != Node::Kind::table) {
     fail(setting.place, node.path, "is " + describe(node) + ", so there is no '" + part + "' in it; expected a table");
@@ -72,7 +65,7 @@ Node& step(Node& node, const std::string& part, const Setting& setting) {
   return create_table(node, part, setting);
 }
 
-void set(Node& root, const Setting& setting) {
+void set(Node& root, const Change& setting) {
   Node* node = &root;
   for (std::size_t i = 0; i < setting.parts.size(); ++i) {
     const std::string& part = setting.parts[i];
@@ -82,7 +75,7 @@ void set(Node& root, const Setting& setting) {
     }
     node = &step(*node, part, setting);
   }
-  *node = parse_value(setting.value, *node, setting.place);
+  *node = setting.value(*node);
 }
 
 /// contact.KEY, which stands for that key of every pair.
@@ -93,25 +86,30 @@ bool means_every_pair(const Parts& parts, const Node* contacts) {
 
 }  // namespace
 
-void apply_override(Node& root, const Override& change) {
-  Setting setting{.parts = split_key(change.key), .value = change.value, .place = root.place};
-  setting.place.setting = "--set " + change.key + "=" + change.value;
-  if (setting.parts.empty()) {
-    fail(setting.place, "",
-         "'" + change.key.substr(0, 80) +
-             "' is not a dotted key; expected one such as method.kind or boundary.2.pressure");
-  }
+void apply(Node& root, Change change) {
   const Node* contacts = find(root, "contact");
-  if (!means_every_pair(setting.parts, contacts)) {
-    set(root, setting);
+  if (!means_every_pair(change.parts, contacts)) {
+    set(root, change);
     return;
   }
   const std::size_t count = contacts->items.size();
-  setting.parts.insert(setting.parts.begin() + 1, "");
+  change.parts.insert(change.parts.begin() + 1, "");
   for (std::size_t i = 0; i < count; ++i) {
-    setting.parts[1] = std::to_string(i);
-    set(root, setting);
+    change.parts[1] = std::to_string(i);
+    set(root, change);
   }
+}
+
+void apply_override(Node& root, const Override& change) {
+  Place place = root.place;
+  place.setting = "--set " + change.key + "=" + change.value;
+  const Parts parts = split_key(change.key);
+  if (parts.empty()) {
+    fail(place, "",
+         "'" + change.key.substr(0, 80) +
+             "' is not a dotted key; expected one such as method.kind or boundary.2.pressure");
+  }
+  apply(root, {parts, place, [&](const Node& spot) { return parse_value(change.value, spot, place); }});
 }
 
 }  // namespace mortise::scene_file

@@ -51,6 +51,8 @@ Scene read_sections(const Node& root, const std::string& path) {
   read_expectations(root, scene);
   read_method(root, scene);
   read_accuracy(root, scene);
+  read_cases(
+      root, [&](const Node& changed) { return read_sections(changed, path); }, scene);
   return scene;
 }
 

@@ -18,6 +18,12 @@
 
 namespace mortise {
 
+struct LoadCase;
+
+/// What of cases is written besides their table: nothing, what runs along the contact lines, or all.
+enum class CaseFiles { table, contact, all };
+std::string to_string(CaseFiles value);
+
 /// Units are the user's own, used throughout (SI if E is in Pa and lengths in m).
 struct Scene {
   std::string path;  ///< the .toml, for messages
@@ -40,6 +46,16 @@ struct Scene {
   std::vector<Expectation> expectations;
   Method method;
   std::optional<AccuracySpec> accuracy;  ///< none: the mesh is the file's
+  std::vector<LoadCase> cases;           ///< none: the scene itself is solved
+  CaseFiles case_files = CaseFiles::table;
+};
+
+/// One case of [[case]]: the scene with some of its values changed, and its loads times `scale`.
+struct LoadCase {
+  std::string name;  ///< of letters, digits and _ - + . that may name a folder
+  double scale = 1;
+  std::vector<std::pair<std::string, std::string>> changed;  ///< dotted keys and what they are here, in words
+  Scene scene;                                               ///< that it is, without cases
 };
 
 /// One `--set KEY=VALUE`, e.g. {"contact.0.multipliers_on", "lower_contact"}.

@@ -36,6 +36,19 @@ Section fields_section(FieldSpec& field) {
   return fields;
 }
 
+// An entry's other keys are the scene's.
+Section case_section(CaseEntry& entry) {
+  Section cases = entries_of(
+      "case",
+      "load cases, each a row of cases.csv, on one mesh and one factor where only loads differ ([below](#cases))",
+      case_keys(entry));
+  cases.schema["items"]["additionalProperties"] = true;
+  cases.rows +=
+      "| `case.KEY` | any key of the scene, as in `--set`: what is another value in this case, such as "
+      "`boundary.2.pressure = 2e6`; of a table the keys that it has | the scene's own |\n";
+  return cases;
+}
+
 std::vector<std::vector<std::string>> each_alone(const std::vector<std::string>& names) {
   std::vector<std::vector<std::string>> groups;
   for (const std::string& name : names) groups.push_back({name});
@@ -69,6 +82,7 @@ std::vector<Section> all_sections() {
   ProbeSpec probe;
   Expectation expectation;
   AccuracySpec accuracy;
+  CaseEntry case_entry;
   return {
       {"title", a_text().schema, "| `title` | text | empty |\n"},
       table("mesh", mesh_keys(scene)),
@@ -91,6 +105,8 @@ std::vector<Section> all_sections() {
                  {{"figure", "value"}, {"pressure"}}),
       table("method", method_keys(scene.method)),
       table("accuracy", accuracy_keys(accuracy, std::numeric_limits<int>::max())),
+      case_section(case_entry),
+      table("cases", cases_keys(scene)),
   };
 }
 

@@ -3,6 +3,7 @@
 // Readers take the document (after overrides) and write their part of `scene`; all throw InputError.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -72,5 +73,15 @@ void read_method(const Node& root, Scene& scene);
 /// [accuracy]. After read_mesh_section, read_copies and read_contacts.
 Keys accuracy_keys(AccuracySpec& accuracy, int last_pair);
 void read_accuracy(const Node& root, Scene& scene);
+
+/// One entry of [[case]], but for what it changes: every other key is one of the scene's.
+struct CaseEntry {
+  std::string name, file;
+};
+
+/// [cases], and [[case]]: each the scene as `read_scene` reads it from a document with the case's changes.
+Keys cases_keys(Scene& scene);
+Keys case_keys(CaseEntry& entry);
+void read_cases(const Node& root, const std::function<Scene(const Node&)>& read_scene, Scene& scene);
 
 }  // namespace mortise::scene_file

@@ -468,6 +468,8 @@ def test_command_lines_that_are_refused(said, tmp_path):
     for vary, message in [("x", "--vary 'x': expected KEY=VALUE1,VALUE2,... such as mesh.parameters.n_upper=20,40,80"),
                           ("x=", "--vary x=: no value; expected KEY=VALUE1,VALUE2,... such as mesh.parameters")]:  # fmt: skip
         assert message in said(command="sweep", options=["--vary", vary, "-o", "x.csv"])
+    assert ("the scene has cases of its own; expected mortise solve, or a scene without [[case]]"
+            in said("case=[{}]", command="sweep", options=["--vary", "boundary.2.pressure=1e6", "-o", "x.csv"]))  # fmt: skip
     (tmp_path / "taken.msh").write_text("mine")
     assert ("a file of this name is there that mortise did not write; choose another name or remove it"
             in said(command="mesh", options=["-o", "taken.msh"]))  # fmt: skip

@@ -133,3 +133,22 @@ def test_an_interrupt_ends_a_solve():
         run.send_signal(signal.SIGINT)
         assert "KeyboardInterrupt" in run.stderr.read()
     assert run.returncode == -signal.SIGINT
+
+
+@solves
+def test_cases_of_a_scene():
+    scene = launch.ROOT / "geo/gap_close.toml"
+    changes = {"case": [{"name": "part", "scale": [0.5, 0.75]}, {"name": "deep", "boundary.2.displacement.y": -4e-4}]}
+    table = mortise.cases(scene, changes)
+    assert list(table["case"]) == ["part_0.5", "part_0.75", "deep"] and list(table["status"]) == ["solved"] * 3
+    assert list(table["scale"]) == [0.5, 0.75, 1] and list(table["boundary.2.displacement.y"]) == ["", "", "-4e-04"]
+    modulus = 1 / (0.3 / 282.692e9 + 0.3 / 94.2308e9)  # geo/gap_close.toml, with a gap of 1e-4
+    np.testing.assert_allclose(table["contact.0.pressure.max"], [0.5e-4 * modulus, 1.25e-4 * modulus, 3e-4 * modulus], rtol=1e-5)
+    deep = mortise.solve(scene, changes, case="deep")
+    assert deep.p.max() == pytest.approx(table["contact.0.pressure.max"][2], rel=1e-12)
+    with pytest.raises(mortise.InputError, match=r"the scene has cases; expected solve\(scene, case=NAME\)"):
+        mortise.solve(scene, changes)
+    with pytest.raises(mortise.InputError, match="unknown case 'dep'; did you mean 'deep'"):
+        mortise.solve(scene, changes, case="dep")
+    with pytest.raises(mortise.InputError, match=r"the scene has no \[\[case\]\]"):
+        mortise.cases(scene)

@@ -7,6 +7,7 @@
 `solve` needs the compiled part (./dev build); `read` needs numpy only. docs/python.md.
 """
 
+import contextlib
 import csv
 import json
 import os
@@ -21,7 +22,7 @@ try:
 except ImportError:  # only the reader is there
     InputError = ValueError
 
-__all__ = ["InputError", "Results", "read", "solve"]
+__all__ = ["InputError", "Results", "cases", "read", "solve"]
 
 
 class Results:
@@ -61,22 +62,30 @@ class Results:
     gap = property(lambda self: self._first("gap"))
 
 
-def solve(scene, changes=None, estimate=True):
+def solve(scene, changes=None, estimate=True, case=""):
     """Meshes and solves a scene: the path of a .toml or its tables as a dict, in which mesh.file is relative to the
     working directory. `changes`: {"materials.steel.young": 70e9, ...} as `mortise solve --set`. Writes no files. Raises
-    InputError (a ValueError) with the words of the program; whether all checks hold is Results.status."""
+    InputError (a ValueError) with the words of the program; whether all checks hold is Results.status. `case`: the name of
+    the one of the scene's [[case]] entries that is solved."""
     from . import _mortise
 
     words = [(key, _toml(value)) for key, value in (changes or {}).items()]
-    if not isinstance(scene, dict):
-        return _results(*_mortise.solve(os.fspath(scene), words, estimate))
-    tables = dict(scene)
-    if isinstance(tables.get("mesh"), dict) and isinstance(tables["mesh"].get("file"), (str, os.PathLike)):
-        tables["mesh"] = tables["mesh"] | {"file": os.path.abspath(tables["mesh"]["file"])}
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "scene.toml"
-        path.write_text("".join(f"{_key(key)} = {_toml(value)}\n" for key, value in tables.items()))
-        return _results(*_mortise.solve(str(path), words, estimate))
+    with _file_of(scene) as path:
+        return _results(*_mortise.solve(path, words, estimate, case))
+
+
+def cases(scene, changes=None, estimate=True):
+    """Solves all cases of a scene, on one mesh and one factor where only loads differ: the columns of cases.csv by name, as
+    arrays with a value a case. Of keys that cases change these are words, as are "case" and "status" ("solved", or
+    "bad input: ..." of a case without a solution, whose figures are nan)."""
+    from . import _mortise
+
+    with _file_of(scene) as path:
+        words, numbers = _mortise.cases(path, [(key, _toml(value)) for key, value in (changes or {}).items()], estimate)
+    table = {name: np.array(column) for name, column in words.items()} | numbers
+    if "scale" in table:
+        table["scale"] = table["scale"].astype(float)
+    return table
 
 
 def read(folder):
@@ -90,6 +99,21 @@ def read(folder):
 
 def _results(contact, fields, summary):
     return Results({name: np.asarray(column) for name, column in contact.items()}, fields, json.loads(summary))
+
+
+@contextlib.contextmanager
+def _file_of(scene):
+    """The path of a scene, that of a dict for as long as it is asked for."""
+    if not isinstance(scene, dict):
+        yield os.fspath(scene)
+        return
+    tables = dict(scene)
+    if isinstance(tables.get("mesh"), dict) and isinstance(tables["mesh"].get("file"), (str, os.PathLike)):
+        tables["mesh"] = tables["mesh"] | {"file": os.path.abspath(tables["mesh"]["file"])}
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "scene.toml"
+        path.write_text("".join(f"{_key(key)} = {_toml(value)}\n" for key, value in tables.items()))
+        yield str(path)
 
 
 def _key(key):

@@ -1,0 +1,255 @@
+#include "app/cases.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iomanip>
+#include <set>
+#include <sstream>
+
+#include "app/solve_scene.hpp"
+#include "base/errors.hpp"
+#include "base/printable.hpp"
+#include "base/stopwatch.hpp"
+#include "output/output_folder.hpp"
+#include "results/expected.hpp"
+#include "solve/dense_kernel.hpp"
+
+namespace mortise {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string bad_input = "bad input: ";
+
+void refuse_accuracy(const Scene& scene) {
+  const auto refuse = [&](const std::string& of) {
+    throw InputError(
+        scene.path + ": " + of +
+        ": a mesh is found for one load; expected [[case]] without an accuracy (each case has bars), or one "
+        "of the cases by --case NAME with it");
+  };
+  if (scene.accuracy) refuse("accuracy");
+  for (const LoadCase& load : scene.cases)
+    if (load.scene.accuracy) refuse("case '" + load.name + "', accuracy");
+}
+
+// What no case can be solved for is the scene's own.
+void refuse_if_all_are(const Scene& scene, const CaseTable& table) {
+  const std::string& first = table.rows.at(0).status;
+  if (first.starts_with(bad_input) &&
+      std::ranges::all_of(table.rows, [&](const auto& row) { return row.second.status == first; }))
+    throw InputError(first.substr(bad_input.size()) + (scene.cases.size() > 1 ? " (every case)" : ""));
+}
+
+std::string shortest(double value) {
+  std::ostringstream text;
+  text << std::setprecision(15) << value;
+  return text.str();
+}
+
+// The columns that say which case it is.
+void set_keys(const Scene& scene, CaseTable& table) {
+  table.keys = {"case"};
+  if (std::ranges::any_of(scene.cases, [](const LoadCase& load) { return load.scale != 1; }))
+    table.keys.emplace_back("scale");
+  const std::size_t own = table.keys.size();
+  for (const LoadCase& load : scene.cases) {
+    std::vector<std::string>& values = table.values.emplace_back();
+    values = {load.name};
+    if (own > 1) values.push_back(shortest(load.scale));
+    for (const auto& [key, value] : load.changed) {
+      std::size_t k =
+          std::size_t(std::find(table.keys.begin() + std::ptrdiff_t(own), table.keys.end(), key) - table.keys.begin());
+      if (k == table.keys.size()) table.keys.push_back(key);
+      values.resize(std::max(values.size(), k + 1));
+      values[k] = value;
+    }
+  }
+  for (auto& values : table.values) values.resize(table.keys.size());
+}
+
+RunRow solve_case(const LoadCase& load, const CaseOptions& options, const Progress& progress, CaseSolver& solver,
+                  const TakeCase& take, std::vector<std::string>& warnings) try {
+  Results& results = solver.solve(load.scene, progress);
+  if (options.estimated) estimate(results);
+  if (options.diagnosed) diagnose(results);
+  judge_expectations(results);
+  warnings = results.warnings;
+  Json report = report_of(results);
+  const RunRow row = row_of(results, report);
+  if (take) take(load, results, report);
+  return row;
+} catch (const InputError& error) {
+  return {printable(bad_input + error.what()), {}};
+}
+
+Json summary_of(const Scene& scene, const CaseTable& table) {
+  Json cases = Json::array();
+  for (const auto& [k, row] : table.rows)
+    cases.push_back({{"name", scene.cases[k].name},
+                     {"scale", scene.cases[k].scale},
+                     {"status", row.status},
+                     {"warnings", table.warnings[k]}});
+  return {{"title", scene.title},
+          {"scene", scene.path},
+          {"version", MORTISE_VERSION},
+          {"dense_kernel", dense_kernel()},
+          {"status", to_string(table.worst())},
+          {"cases", cases},
+          {"shared_factor", table.shared},
+          {"seconds", {{"total", table.seconds}}}};
+}
+
+// ParaView's list of files: the cases take the place of times.
+void write_collection(const Scene& scene, const CaseTable& table, const fs::path& path) {
+  std::ofstream file(path);
+  file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+  for (const auto& [k, row] : table.rows)
+    if (!row.figures.empty())
+      file << "<DataSet timestep=\"" << k << "\" part=\"0\" file=\"cases/" << scene.cases[k].name
+           << "/result.vtu\"/>\n";
+  file << "</Collection>\n</VTKFile>\n";
+  file.close();
+  if (!file) throw InputError(path.string() + ": cannot be written");
+}
+
+// Folders of cases that an earlier run had.
+void remove_older_cases(const Scene& scene, const fs::path& folder) {
+  std::set<std::string> kept;
+  if (scene.case_files != CaseFiles::table)
+    for (const LoadCase& load : scene.cases) kept.insert(load.name);
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (!kept.contains(entry.path().filename().string())) remove_results(entry.path());
+  fs::remove(folder, ignored);  // if nothing is left in it
+}
+
+double figure(const RunRow& row, const std::string& name) {
+  const auto found = std::ranges::find(row.figures, name, &std::pair<std::string, double>::first);
+  return found == row.figures.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
+}
+
+// "solved, pressure 5.8e8 within 3.1e6, in contact 0.0101, force (0, -9.2e6)" of the first pair.
+std::string row_text(const RunRow& row) {
+  std::ostringstream text;
+  text << std::setprecision(6) << row.status;
+  const double pressure = figure(row, "contact.0.pressure.max"), bar = figure(row, "contact.0.pressure.max_error");
+  if (std::isnan(pressure)) return text.str();
+  text << ", largest p " << pressure;
+  if (!std::isnan(bar)) text << std::setprecision(2) << " within " << bar << std::setprecision(6);
+  text << ", in contact " << figure(row, "contact.0.length_in_contact") << ", force ("
+       << figure(row, "contact.0.force.x") << ", " << figure(row, "contact.0.force.y") << ")";
+  return text.str();
+}
+
+void print_cases(const CaseTable& table, std::ostream& out) {
+  constexpr std::size_t most = 20;
+  std::size_t told = 0, left = 0;
+  for (const auto& [k, row] : table.rows) {
+    if (told == most) {
+      ++left;
+      continue;
+    }
+    out << "  case      " << table.values[k][0] << ": " << row_text(row) << "\n";
+    ++told;
+  }
+  if (left > 0) out << "            and " << left << " more in cases.csv\n";
+}
+
+// What a warning says, whatever its figures.
+std::string without_figures(std::string warning) {
+  std::erase_if(warning, [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; });
+  return warning;
+}
+
+// Each once, with the cases that have it.
+void print_warnings(const CaseTable& table, std::ostream& out) {
+  constexpr std::size_t most = 5;
+  std::map<std::string, std::set<std::string>> cases;
+  std::vector<std::string> order;
+  for (std::size_t k = 0; k < table.warnings.size(); ++k)
+    for (const std::string& warning : table.warnings[k]) {
+      std::set<std::string>& with = cases[without_figures(warning)];
+      if (with.empty()) order.push_back(warning);
+      with.insert(table.values[k][0]);
+    }
+  for (std::size_t i = 0; i < std::min(order.size(), most); ++i) {
+    const std::size_t with = cases[without_figures(order[i])].size();
+    out << "  warning   " << (with > 1 ? "in " + std::to_string(with) + " cases, first " : "") << order[i] << "\n";
+  }
+  if (order.size() > most) out << "  warning   " << order.size() - most << " more in summary.json\n";
+}
+
+}  // namespace
+
+Status CaseTable::worst() const {
+  Status worst = Status::solved;
+  for (const auto& [k, row] : rows) worst = std::max(worst, status_of(row));
+  return worst;
+}
+
+CaseTable solve_cases(const Scene& scene, const CaseOptions& options, const Progress& progress, const TakeCase& take) {
+  refuse_accuracy(scene);
+  const Stopwatch watch;
+  CaseTable table;
+  set_keys(scene, table);
+  table.warnings.resize(scene.cases.size());
+  CaseSolver solver;
+  for (std::size_t k = 0; k < scene.cases.size(); ++k) {
+    const LoadCase& load = scene.cases[k];
+    const Progress stage = [&](const std::string& name) {
+      if (progress)
+        progress("case " + std::to_string(k + 1) + " of " + std::to_string(scene.cases.size()) + ", " + load.name +
+                 ": " + name);
+    };
+    table.rows[k] = solve_case(load, options, stage, solver, take, table.warnings[k]);
+  }
+  refuse_if_all_are(scene, table);
+  table.shared = solver.shared();
+  table.seconds = watch.elapsed();
+  return table;
+}
+
+Scene case_of(const Scene& scene, const std::string& name) {
+  const auto load = std::ranges::find(scene.cases, name, &LoadCase::name);
+  if (load != scene.cases.end()) return load->scene;
+  std::vector<std::string> known;
+  for (const LoadCase& one : scene.cases) known.push_back(one.name);
+  throw InputError(scene.path + ": " + unknown_name("case", name, known));
+}
+
+CaseTable write_cases(const Scene& scene, const CaseOptions& options, const Progress& progress,
+                      const fs::path& folder) {
+  const fs::path parts = folder / "cases";
+  const TakeCase take = [&](const LoadCase& load, Results& results, Json& report) {
+    write_results(results, report, parts / load.name, scene.case_files == CaseFiles::all);
+  };
+  const CaseTable table =
+      solve_cases(scene, options, progress, scene.case_files == CaseFiles::table ? TakeCase() : take);
+  OutputFolder output(folder);
+  write_table(output.path("cases.csv"), table.keys, table.values, table.rows);
+  if (scene.case_files == CaseFiles::all) write_collection(scene, table, output.path("cases.pvd"));
+  std::ofstream file(output.path("summary.json"));
+  file << summary_of(scene, table).dump(2) << "\n";
+  file.close();
+  if (!file) throw InputError(folder.string() + ": cannot write summary.json");
+  output.commit();
+  remove_older_cases(scene, parts);
+  return table;
+}
+
+std::string cases_text(const std::string& title, const CaseTable& table, const fs::path& folder) {
+  std::ostringstream out;
+  const auto solved =
+      std::ranges::count_if(table.rows, [&](const auto& row) { return status_of(row.second) == Status::solved; });
+  out << printable(title) << "\n  " << to_string(table.worst()) << "; " << solved << " of " << table.rows.size()
+      << " cases are solved; figures in " << (folder / "cases.csv").string() << "\n";
+  print_cases(table, out);
+  print_warnings(table, out);
+  out << std::fixed << std::setprecision(3) << "  seconds   " << table.seconds << ", "
+      << table.seconds / double(std::max<std::size_t>(table.rows.size(), 1)) << " a case; " << table.shared
+      << " of them had the factor of the one before\n";
+  return out.str();
+}
+
+}  // namespace mortise

@@ -1,0 +1,102 @@
+// All cases of a scene: their table and files.
+#include "app/cases.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "app/solve_scene.hpp"
+#include "base/errors.hpp"
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// gap_close with cases.
+Scene with_cases(const std::vector<Override>& overrides) {
+  std::vector<Override> all{{"mesh.parameters.n_upper", "6"}, {"mesh.parameters.n_lower", "5"}};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/gap_close.toml", all);
+}
+
+const std::string three =
+    "[{name = \"half\", scale = 0.5}, {name = \"less\", \"boundary.2.displacement.y\" = -2e-4}, "
+    "{name = \"soft\", \"materials.steel.young\" = 1e9}]";
+
+double figure(const RunRow& row, const std::string& name) {
+  for (const auto& [key, value] : row.figures)
+    if (key == name) return value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+TEST(SolveCases, SayWhatEachSaysAlone) {
+  const Scene scene = with_cases({{"case", three}});
+  std::vector<std::string> taken;
+  const CaseTable table = solve_cases(scene, {}, {}, [&](const LoadCase& load, const Results& results, const Json&) {
+    taken.push_back(load.name);
+    Results alone = solve_scene(case_of(scene, load.name));
+    estimate(alone);
+    EXPECT_LE(largest_entry(alone.solution.lambda - results.solution.lambda),
+              1e-12 * largest_entry(alone.solution.lambda))
+        << load.name;
+    EXPECT_EQ(alone.solution.active, results.solution.active);
+    EXPECT_NEAR(alone.estimate->pressure(), results.estimate->pressure(), 1e-8);
+  });
+  EXPECT_EQ(table.rows.at(0).status, "solved");
+  EXPECT_EQ(table.shared, 1);
+  EXPECT_EQ(table.keys,
+            (std::vector<std::string>{"case", "scale", "boundary.2.displacement.y", "materials.steel.young"}));
+  EXPECT_EQ(table.values[1], (std::vector<std::string>{"less", "1", "-2e-04", ""}));
+  EXPECT_GT(figure(table.rows.at(0), "contact.0.pressure.max_error"), 0);
+  EXPECT_EQ(figure(table.rows.at(0), "contact.0.from"), 0);
+  EXPECT_GT(figure(table.rows.at(0), "contact.0.to"), 0);
+}
+
+TEST(SolveCases, OneWithoutASolutionSaysSo) {
+  const Scene scene = with_cases({{"boundary.2", "{on = \"top\", pressure = 1e6}"},
+                                  {"case", "[{name = \"pressed\"}, {name = \"pulled\", scale = -1}]"}});
+  const CaseTable table = solve_cases(scene, {}, {});
+  EXPECT_EQ(table.rows.at(0).status, "solved");
+  EXPECT_TRUE(table.rows.at(1).status.starts_with("bad input: ")) << table.rows.at(1).status;
+  EXPECT_EQ(table.worst(), Status::check_failed);
+  expect_contains(cases_text("title", table, "folder"), "1 of 2 cases are solved; figures in folder/cases.csv");
+  // What all say is bad input.
+  const Scene none = with_cases({{"mesh.parameters.n_upper", "-1"}, {"case", "[{scale = [1, 2]}]"}});
+  expect_contains(message_of([&] { solve_cases(none, {}, {}); }), "(every case)");
+}
+
+TEST(SolveCases, ThatSeekAnAccuracyAreRefused) {
+  const Scene one = with_cases({{"case", "[{name = \"a\", \"accuracy.value\" = \"1%\"}]"}});
+  expect_contains(message_of([&] { solve_cases(one, {}, {}); }), "case 'a', accuracy");
+  const Scene scene = with_cases({{"case", "[{scale = 1}]"}, {"accuracy.value", "1%"}});
+  expect_contains(message_of([&] { solve_cases(scene, {}, {}); }), "by --case NAME with it");
+  expect_contains(message_of([&] { case_of(scene, "scale_2"); }), "unknown case 'scale_2'; did you mean 'scale_1'?");
+}
+
+TEST(WriteCases, AsMuchAsIsAsked) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path("out");
+  const std::string two = "[{name = \"a\", scale = 0.5}, {name = \"b\"}]", one = "[{name = \"b\"}]";
+  write_cases(with_cases({{"case", two}, {"cases.write", "all"}}), {}, {}, out);
+  for (const char* name : {"cases.csv", "cases.pvd", "summary.json", "cases/a/result.vtu", "cases/b/contact.csv"})
+    EXPECT_TRUE(fs::exists(out / name)) << name;
+  std::ifstream list(out / "cases.pvd");
+  const std::string text((std::istreambuf_iterator<char>(list)), {});
+  expect_contains(text, "<DataSet timestep=\"1\" part=\"0\" file=\"cases/b/result.vtu\"/>");
+  write_cases(with_cases({{"case", one}, {"cases.write", "contact"}}), {}, {}, out);
+  EXPECT_FALSE(fs::exists(out / "cases/a"));
+  EXPECT_FALSE(fs::exists(out / "cases.pvd"));
+  EXPECT_TRUE(fs::exists(out / "cases/b/contact.csv"));
+  EXPECT_FALSE(fs::exists(out / "cases/b/result.vtu"));
+  folder.write("out/cases/b/mine.txt", "");
+  write_cases(with_cases({{"case", one}}), {}, {}, out);
+  EXPECT_TRUE(fs::exists(out / "cases/b/mine.txt"));
+  EXPECT_FALSE(fs::exists(out / "cases/b/contact.csv"));
+  EXPECT_TRUE(fs::exists(out / "cases.csv"));
+}
+
+}  // namespace
+}  // namespace mortise::test
