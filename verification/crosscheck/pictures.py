@@ -39,7 +39,7 @@ def draw_pressures(above, below, table, side):
     below.axhline(0, color="0.7", linewidth=0.6)
     figure.label(below, "arc length" if side in SIDES else f"arc length along {side}", "difference / mean $|p|$", xlim=(s.min(), s.max()))
     for axes in (above, below):
-        figure.scientific(axes.yaxis)
+        figure.scientific(axes.yaxis, axes.get_ylabel())
 
 
 def draw_difference(axes, mesh):

@@ -17,6 +17,7 @@ import launch  # makes src/python/pictures known
 import drawn_bodies
 import drawn_cells
 import drawn_forces
+import drawn_pairs
 import drawn_pressure
 import figure
 import odd_scenes
@@ -301,6 +302,48 @@ def test_reactions_that_are_round_off_are_not_drawn():
     assert not axes.texts
     drawn_forces.draw_arrows(axes, points, model, at_work=0.0)
     assert axes.texts
+
+
+@pytest.mark.parametrize("limits, label, tick", [((0, 2e7), "p, $10^{7}$", "1.5"), ((0, 15), "p", "4"), ((-4e-5, 0), "p, $10^{-5}$", "-2")])
+def test_the_power_of_ten_is_in_the_label(limits, label, tick):
+    drawing, axes = figure.panels(1, 1, (4, 3))
+    axes.set_ylim(*limits)
+    figure.scientific(axes.yaxis, "p")
+    drawing.canvas.draw()
+    texts = [text.get_text().replace("\u2212", "-") for text in axes.get_yticklabels()]
+    assert axes.get_ylabel() == label and tick in texts and not axes.yaxis.get_offset_text().get_text()
+
+
+def test_two_runs_over_each_other_and_p_alone(mortise, solve, tmp_path):
+    first, second = solve("punch"), tmp_path / "second"
+    shutil.copytree(first, second)
+    draw = lambda *words: subprocess.run([mortise, "picture", *words], capture_output=True, text=True, check=False)
+    assert draw(first, second, tmp_path / "two.pdf").returncode == 0 and (tmp_path / "two.pdf").read_bytes()[:4] == b"%PDF"
+    assert draw(second, "--pressure", "--format", "svg").returncode == 0 and "<svg" in (tmp_path / "second.svg").read_text()
+    refused = draw(first, solve("hertz"), tmp_path / "no.png")
+    assert refused.returncode == 1 and "has no pair of block_top and foot" in refused.stderr
+    refused = draw(first, tmp_path, tmp_path / "no.png")
+    assert refused.returncode == 1 and "no summary.json there" in refused.stderr and not (tmp_path / "no.png").exists()
+
+
+def test_a_turned_scene_is_the_same_scene(solve):
+    results = solve("pellets")
+    mesh, curve = (meshio.read(results / f"{name}.vtu") for name in ("result", "contact"))
+    table = result_tables.columns(results / "contact.csv")
+    kept = drawn_bodies.field_of(mesh, curve, "sigma_n")
+    x = table["x"]
+    drawn_bodies.turn(mesh, curve, table)
+    same = np.isclose(drawn_bodies.field_of(mesh, curve, "sigma_n"), kept)
+    assert same.mean() > 0.999 and (table["y"] == x).all()  # two places may be as near
+    assert np.ptp(mesh.points[:, 0]) > 3 * np.ptp(mesh.points[:, 1])
+
+
+def test_the_curve_of_most_pairs_and_the_most_loaded():
+    pairs = [{"between": [f"pellet_{k}", "inside" if k != 7 else "outside"], "force": [0, k % 5]} for k in range(20)]
+    assert drawn_pairs.shared_curve(pairs) == ("inside", [k for k in range(20) if k != 7])
+    assert drawn_pairs.shared_curve(pairs[7:8]) is None
+    chosen = drawn_pairs.most_loaded(pairs)
+    assert len(chosen) == drawn_pairs.SMALL and chosen == sorted(chosen) and {k % 5 for k in chosen} == {2, 3, 4}
 
 
 def test_users_texts_are_drawn_as_they_are_written():

@@ -3,10 +3,9 @@
 import math
 
 import figure
-import meshio
 import numpy as np
-from drawn_cells import areas_at_nodes, at_points, inside, nearest, outlines, percentiles, polylines, shaded_triangles, size_of
-from drawn_forces import draw_arrows, forces_at_work
+from drawn_cells import areas_at_nodes, at_points, inside, joined, nearest, outlines, percentiles, polylines, shaded_triangles, size_of
+from drawn_forces import colour_bar, draw_arrows, forces_at_work, label_places
 from matplotlib.collections import LineCollection
 from result_tables import arc_length_on, sides_of
 from shapes import CORNERS
@@ -18,8 +17,10 @@ FIELDS = {
 }
 CONTACT = "contact"  # --zoom without a box
 OVERLAP = 0.002  # of the diagonal of what is shown: as wide as a line
+SLENDER = 3  # times as tall as wide: turned
 MANY_PAIRS = 6  # more are not drawn one by one
 MANY_EDGES = 2000  # more would make an .svg of megabytes: each has half a kilobyte
+CLOSED = "#e8452c"  # where contact carries pressure
 PAIR_COLOURS = ["#111111", "#c2188b", "#1a7f37", "#7a4fd0", "#a65d00", "#00798c"]
 
 
@@ -103,18 +104,30 @@ def draw_contact_lines(axes, curve, table, scale, pairs):
     """Both curves of each pair, in its colour."""
     at = curve.points[:, :2] + scale * curve.point_data["displacement"][:, :2]
     lines = [(*row[:2], row[2] if len(row) > 2 else -1) for block in curve.cells for row in block.data]
-    colours = ["black"] * len(lines)
-    if 1 < pairs <= MANY_PAIRS:  # points stand in the order of contact.csv
-        colours = [PAIR_COLOURS[int(table["pair"][line[0]])] for line in lines]
+    colour_of = lambda line: PAIR_COLOURS[int(table["pair"][line[0]])]  # points stand in the order of contact.csv
+    colours = {"black": lines}
+    if 1 < pairs <= MANY_PAIRS:
+        colours = {colour: [line for line in lines if colour_of(line) == colour] for colour in PAIR_COLOURS[:pairs]}
     dots = {"rasterized": len(lines) > MANY_EDGES}
-    axes.add_collection(LineCollection(polylines(at, lines), colors="white", linewidths=2.6, **dots))
-    axes.add_collection(LineCollection(polylines(at, lines), colors=colours, linewidths=1.3, **dots))
+    axes.add_collection(LineCollection(joined(polylines(at, lines)), colors="white", linewidths=2.6, **dots))
+    for colour, some in colours.items():
+        axes.add_collection(LineCollection(joined(polylines(at, some)), colors=colour, linewidths=1.3, **dots))
+    p = np.nan_to_num(curve.point_data["p"].ravel())
+    closed = [line for line in lines if min(p[line[0]], p[line[1]]) > 1e-6 * p.max()]
+    axes.add_collection(LineCollection(joined(polylines(at, closed)), colors=CLOSED, linewidths=2.2, **dots))
 
 
-def draw_bodies(axes, results, summary, table, options):
-    """The deformed bodies; returns the magnification and, in words, why it is no larger."""
-    mesh = meshio.vtu.read(results / "result.vtu")
-    curve = meshio.vtu.read(results / "contact.vtu") if summary["contact"] else None
+def turn(mesh, curve, table):
+    """Exchanges both coordinates, so that a tall scene fills the width of a page."""
+    for part in filter(None, (mesh, curve)):
+        part.points[:, :2] = part.points[:, 1::-1]
+        for name in part.point_data.keys() & {"displacement", "normal", "stress"}:
+            part.point_data[name][:, :2] = part.point_data[name][:, 1::-1]
+    table |= {name: table[other] for name, other in (("x", "y"), ("y", "x")) if table}
+
+
+def draw_bodies(axes, mesh, curve, summary, table, options, turned):
+    """The deformed bodies; returns the magnification and, in words, why it is no larger. `curve`: contact.vtu, if any."""
     points, u = mesh.points[:, :2], mesh.point_data["displacement"][:, :2]
     if not np.isfinite(u).all():
         raise SystemExit("picture.py: the displacements are not finite (see the summary's warnings): nothing to draw")
@@ -133,8 +146,8 @@ def draw_bodies(axes, results, summary, table, options):
     shading = axes.tripcolor(*xy.T, triangles, colours, shading="gouraud", cmap="viridis", vmin=low, vmax=high, rasterized=True)
     edges = outlines(mesh)
     dots = {"rasterized": len(edges) > MANY_EDGES}
-    axes.add_collection(LineCollection(polylines(points, edges), colors="0.6", linewidths=0.6, linestyles=(0, (5, 4)), **dots))
-    axes.add_collection(LineCollection(polylines(moved, edges), colors="black", linewidths=0.8, **dots))
+    axes.add_collection(LineCollection(joined(polylines(points, edges)), colors="0.6", linewidths=0.6, linestyles=(0, (5, 4)), **dots))
+    axes.add_collection(LineCollection(joined(polylines(moved, edges)), colors="black", linewidths=0.8, **dots))
     if summary["contact"]:
         draw_contact_lines(axes, curve, table, scale, len(summary["contact"]))
     if options.zoom:
@@ -142,15 +155,13 @@ def draw_bodies(axes, results, summary, table, options):
         axes.set_xlim(*(box[:, 0] + shift[0]))
         axes.set_ylim(*(box[:, 1] + shift[1]))
     else:
-        draw_arrows(axes, points, summary["model"], forces_at_work(summary["contact"]))
+        draw_arrows(axes, points, summary["model"], forces_at_work(summary["contact"]), turned)
         axes.autoscale_view()
         axes.margins(0.03)
     axes.set_aspect("equal")
+    label_places(axes, turned)
     extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}
     far = 1e-9 * max(abs(low), abs(high))
     clipped = (int(values[seen].min() < low - far), int(values[seen].max() > high + far))
-    bar = axes.figure.colorbar(shading, ax=axes, extend=extend[clipped], pad=0.02, aspect=25)
-    bar.set_label(FIELDS[options.field])
-    figure.scientific(bar.ax.yaxis)
-    axes.set(xlabel="$x_1$", ylabel="$x_2$")
+    colour_bar(axes, shading, FIELDS[options.field], turned, extend[clipped])
     return scale, why

@@ -6,6 +6,8 @@ import numpy as np
 
 from shapes import CORNERS, shape_functions, subdivision
 
+MANY_LINES = 400  # of more, no curve within an edge is seen
+
 
 def shaded_triangles(mesh, points, values):
     """Points, values and triangles of all cells, fine enough for curved sides."""
@@ -47,6 +49,24 @@ def polylines(points, edges):
         c = points[middle] if middle >= 0 else (a + b) / 2
         lines.append(xi * (xi - 1) / 2 * a + xi * (xi + 1) / 2 * b + (1 - xi * xi) * c)
     return lines
+
+
+def joined(lines):
+    """Lines of points in as few as they are when each begins where another ends: a file of vectors is as long as it has
+    lines. Of many, the ends and middles only."""
+    lines = [line[:: (len(line) - 1) // 2 or 1] for line in lines] if len(lines) > MANY_LINES else lines
+    following = {}
+    for line in lines:
+        following.setdefault(tuple(line[0]), []).append(line)
+    ends = {tuple(line[-1]) for line in lines}
+    chains = []
+    for first in sorted(lines, key=lambda line: tuple(line[0]) in ends):  # those that nothing leads to
+        chain = []
+        while waiting := following.get(tuple(chain[-1][-1] if chain else first[0])):
+            chain.append(waiting.pop())
+        if chain:
+            chains.append(np.concatenate([chain[0], *(line[1:] for line in chain[1:])]))
+    return chains
 
 
 def size_of(points):

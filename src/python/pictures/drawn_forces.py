@@ -4,7 +4,7 @@ import math
 
 import figure
 import numpy as np
-from drawn_cells import body_areas, outlines, polylines, size_of
+from drawn_cells import body_areas, joined, outlines, polylines, size_of
 from matplotlib.collections import LineCollection
 from matplotlib.patheffects import withStroke
 from result_tables import sides_of
@@ -46,15 +46,30 @@ def forces_at_work(pairs):
     return max((pair["pressure"]["max"] * pair["length_in_contact"] for pair in pairs), default=0)
 
 
-def draw_arrows(axes, points, model, at_work):
+def label_places(axes, turned):
+    """The coordinates' names; a turned picture is a rotated one, not a mirrored one."""
+    axes.set(xlabel="$x_2$" if turned else "$x_1$", ylabel="$x_1$" if turned else "$x_2$")
+    if turned:
+        axes.invert_yaxis()
+
+
+def colour_bar(axes, drawn, label, turned, extend="neither"):
+    """Beside the panel, of a turned scene's low one below it."""
+    bar = axes.figure.colorbar(drawn, ax=axes, extend=extend, pad=0.02, aspect=60 if turned else 25, location="bottom" if turned else "right")
+    figure.scientific(bar.ax.xaxis if turned else bar.ax.yaxis, label)
+
+
+def draw_arrows(axes, points, model, at_work, turned=False):
     """Forces as arrows whose length goes with them, the shortest still to be seen: onto what they push, away from what
-    they pull. None where all are round-off of the forces `at_work` in contact."""
-    forces = list(acting_forces(model))
+    they pull. None that are round-off of the forces `at_work` in contact. `turned`: the points are (drawn_bodies.turn)."""
+    order = slice(None, None, -1 if turned else 1)
+    forces = [(colour, force[order], place[order], moment) for colour, force, place, moment in acting_forces(model)]
     largest = max((np.linalg.norm(force) for _, force, _, _ in forces), default=0)
-    if largest <= ROUND_OFF * at_work:
-        return
-    shown = [f for f in forces if np.linalg.norm(f[1]) > 1e-6 * largest > 0]
-    size, middle = size_of(points), (points.min(axis=0) + points.max(axis=0)) / 2
+    shown = [f for f in forces if np.linalg.norm(f[1]) > max(1e-6 * largest, ROUND_OFF * at_work)]
+    drawn_on = axes.get_figure()
+    width, height = drawn_on.bbox.size * 72 / drawn_on.dpi * 0.75  # of the panel, points, about
+    point = max(np.ptp(points[:, 0]) / width, np.ptp(points[:, 1]) / height)
+    size, middle = size_of(points) * (0.3 if turned else 1), (points.min(axis=0) + points.max(axis=0)) / 2
     for colour, force, place, moment in shown:
         norm = np.linalg.norm(force)
         step = size * (0.05 + 0.09 * norm / largest) * force / norm
@@ -70,6 +85,8 @@ def draw_arrows(axes, points, model, at_work):
             options = {"textcoords": "offset points", "ha": "right" if left else "left", "va": "bottom", "fontsize": 7}
             text = axes.annotate(label, free, (0 if left else 3, 2), color=colour, zorder=7, **options)
             text.set_path_effects([withStroke(linewidth=2, foreground="white")])
+            long, high = 5.2 * max(map(len, label.split("\n"))) * point, 9 * (1 + label.count("\n")) * point
+            axes.update_datalim([free + [-long if left else long, -high if turned else high]])  # beside the ticks, not over them
 
 
 def place_of_force(table, rows):
@@ -80,10 +97,10 @@ def place_of_force(table, rows):
     return np.average(np.stack([table["x"][rows], table["y"][rows]], axis=1), axis=0, weights=weights)
 
 
-def draw_forces(axes, mesh, table, pairs):
+def draw_forces(axes, mesh, table, pairs, turned):
     """A stroke a contact pair, where its force acts and along it, as wide and dark as it is large."""
-    axes.add_collection(LineCollection(polylines(mesh.points[:, :2], outlines(mesh)), colors="0.75", linewidths=0.6))
-    forces = np.array([pair["force"] for pair in pairs])
+    axes.add_collection(LineCollection(joined(polylines(mesh.points[:, :2], outlines(mesh))), colors="0.75", linewidths=0.6))
+    forces = np.array([pair["force"] for pair in pairs])[:, :: -1 if turned else 1]
     sizes = np.linalg.norm(forces, axis=1)
     largest = sizes.max()
     acting = np.flatnonzero(sizes > 1e-3 * largest) if largest > 0 else []
@@ -101,10 +118,9 @@ def draw_forces(axes, mesh, table, pairs):
         capstyle="round",
     )
     axes.add_collection(strokes)
-    axes.set(aspect="equal", xlabel="$x_1$", ylabel="$x_2$")
+    axes.set_aspect("equal")
     axes.autoscale_view()
     axes.margins(0.03)
-    bar = axes.figure.colorbar(strokes, ax=axes, pad=0.02, aspect=25)
-    bar.set_label("contact force of a pair (scene's units)")
-    figure.scientific(bar.ax.yaxis)
+    label_places(axes, turned)
+    colour_bar(axes, strokes, "contact force of a pair (scene's units)", turned)
     axes.set_title(f"forces between bodies:\n{len(acting)} of {len(pairs)} pairs carry some", fontsize=9)

@@ -71,8 +71,7 @@ def draw_pair(axes, table, pair, bounded, label="$p$ (multipliers)", colour=PAIR
         count = f"{len(off)} of {np.isfinite(everything).sum()}"
         label += f"    ({count} values off the scale, the farthest {farthest:.3g})"
     axes.set_xlabel(label)
-    figure.scientific(axes.yaxis)
+    figure.scientific(axes.yaxis, "contact pressure")
     axes.grid(color="0.9", linewidth=0.6)
     axes.set_axisbelow(True)
-    axes.set_ylabel("contact pressure")
     axes.legend(loc="upper center", ncol=4, frameon=False, fontsize=8, bbox_to_anchor=(0.5, 1.17))

@@ -1,14 +1,16 @@
 """Figures in one style: panels, labelled axes, a legend below, and small PNG files."""
 
 import logging
+import math
 import textwrap
 import warnings
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-from matplotlib.ticker import ScalarFormatter
+from matplotlib.ticker import FuncFormatter, ScalarFormatter
 from PIL import Image
 
 RED = "#c00000"  # what fails
@@ -61,11 +63,21 @@ def wrapped(text, width=95, lines=3):
     return "\n".join(plain(line) for line in cut)
 
 
-def scientific(axis):
-    """Ticks of large and small numbers with their power of ten beside the axis."""
-    formatter = ScalarFormatter(useMathText=True)
-    formatter.set_powerlimits((-3, 4))
-    axis.set_major_formatter(formatter)
+def scientific(axis, label):
+    """Ticks of large and small numbers, their power of ten in the label, where it lies over nothing. Of an axis whose limits
+    are set."""
+    largest = np.abs(axis.get_view_interval()).max()
+    power = math.floor(math.log10(largest)) if largest > 0 else 0
+    if -3 <= power < 4:
+        axis.set_major_formatter(ScalarFormatter(useOffset=False))
+        return axis.set_label_text(label)
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / 10.0**power:.4g}"))
+    return axis.set_label_text(f"{label}, $10^{{{power}}}$")
+
+
+def grouped(value):
+    """A magnification as it is read: 20 000, not 2e+04."""
+    return f"{value:,.0f}".replace(",", "\u2009") if 1 <= value < 1e9 else f"{value:g}"
 
 
 def curve(axes, points, style="o-", hollow=None, **options):

@@ -1,13 +1,15 @@
 #!/usr/bin/python3
 """One picture of a run: the deformed bodies with von Mises stress, loads and reactions, and the pressure along each
-contact line; of many contact pairs the forces between the bodies instead.
+contact line; of many contact pairs the forces between the bodies, p along a curve that many have and of the most loaded.
 
-Usage: picture.py RESULTS [PICTURE] [--zoom [X0,X1,Y0,Y1]] [--field FIELD] [--pair K] [--bodies] [--scale FACTOR] [--dpi DPI]
+Usage: picture.py RESULTS [MORE...] [PICTURE] [--format FORMAT] [--zoom [X0,X1,Y0,Y1]] [--field FIELD] [--pair K] [--bodies]
+[--pressure] [--scale FACTOR] [--dpi DPI]
 (mortise picture does the same)
 
 RESULTS is the folder that `mortise solve` wrote; read are result.vtu, contact.vtu, summary.json
 (docs/files.md) and contact.csv, or with 3-node triangles contact_centres.csv: p zigzags at their nodes. PICTURE is a
-.png, .pdf or .svg, by default RESULTS.png beside the folder. --scale magnifies the
+.png, .pdf or .svg, by default RESULTS.png beside the folder (--format: another kind). With MORE folders it is p of all runs
+over each other, with --pressure p of one. A scene that is much taller than wide is turned. --scale magnifies the
 displacements; by default the largest is drawn as about 4 % of the size of what is shown, less where bodies whose gap
 closes would be drawn over each other. --zoom shows the bodies where contact carries pressure, or in a box, without loads
 and reactions; --pair K takes the Kth contact pair alone, from 0. --field: von_mises; sigma_n, the normal stress across
@@ -29,12 +31,13 @@ except ImportError as missing:
     raise SystemExit(f"picture.py: {missing}: apt-get install python3-matplotlib python3-meshio") from missing
 
 import result_tables
-from drawn_bodies import CONTACT, FIELDS, MANY_PAIRS, PAIR_COLOURS, draw_bodies, shown_box
+from drawn_bodies import CONTACT, FIELDS, MANY_PAIRS, PAIR_COLOURS, SLENDER, draw_bodies, shown_box, turn
 from drawn_forces import draw_forces
+from drawn_pairs import COLUMNS, SMALL, draw_along, draw_runs, draw_small, most_loaded, shared_curve
 from drawn_pressure import draw_pair, has_limit
 
 
-ENDINGS = (".png", ".pdf", ".svg")
+FORMATS = ("png", "pdf", "svg")
 
 
 def refuse_older(results, model):
@@ -50,52 +53,114 @@ def is_given(gaps):
     return any(gap not in ("curve", "measured", "closed") for gap in gaps)
 
 
-def draw(results, picture, options):
-    """One picture of the results: `options` as of the command line."""
+def summary_of(results):
     summary = json.loads((results / "summary.json").read_text())
     refuse_older(results, summary["model"])
+    return summary
+
+
+def table_of(results, mesh):
+    """contact.csv; with 3-node triangles, whose p zigzags, the means over edges."""
+    zigzags = any(block.type == "triangle" for block in mesh.cells)
+    return result_tables.columns(results / ("contact_centres.csv" if zigzags else "contact.csv")), zigzags
+
+
+def shown_pairs(summary, options):
+    """The numbers of the pairs that are shown."""
     pairs = summary["contact"]
-    shown = list(range(len(pairs)))
-    if options.pair is not None:
-        if not 0 <= options.pair < len(pairs):
-            raise SystemExit(f"picture.py: --pair {options.pair}: the scene's pairs have the numbers 0 to {len(pairs) - 1}")
-        shown = [options.pair]
+    if options.pair is None:
+        return list(range(len(pairs)))
+    if not 0 <= options.pair < len(pairs):
+        raise SystemExit(f"picture.py: --pair {options.pair}: the scene's pairs have the numbers 0 to {len(pairs) - 1}")
+    return [options.pair]
+
+
+def entitle(row, summary):
+    """Above the first row of panels."""
+    title = figure.wrapped(summary["title"] or summary["scene"])
+    if summary["status"] == "solved":
+        row.suptitle(title, fontsize=11)
+    else:
+        row.suptitle(f"{title}\n{summary['status'].replace('_', ' ')}", fontsize=11, color=figure.RED)
+
+
+def rows_of_panels(heights):
+    """A figure with a row of panels for each height, inches; each row may have several."""
+    drawing = figure.plt.figure(figsize=(8, sum(heights) + 0.6), layout="constrained")
+    drawing.get_layout_engine().set(h_pad=0.08)
+    return drawing, list(drawing.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0])
+
+
+def draw_many(rows, mesh, table, pairs, turned):
+    """Forces between the bodies, p along a curve that most pairs have, and the most loaded pairs one by one."""
+    draw_forces(rows.pop(0).subplots(), mesh, table, pairs, turned)
+    if shared := shared_curve(pairs):
+        draw_along(rows.pop(0).subplots(), table, *shared)
+    numbers = most_loaded(pairs)
+    rows[0].suptitle(f"the {len(numbers)} pairs with the largest forces: p over the arc length", fontsize=9)
+    draw_small(rows[0].subplots(-(-len(numbers) // COLUMNS), COLUMNS).ravel(), table, pairs, numbers)
+
+
+def draw(results, picture, options):
+    """One picture of the results: `options` as of the command line."""
+    summary = summary_of(results)
+    shown, pairs = shown_pairs(summary, options), summary["contact"]
     mesh = meshio.vtu.read(results / "result.vtu")
+    curve = meshio.vtu.read(results / "contact.vtu") if pairs else None
     table = result_tables.columns(results / "contact.csv") if pairs else {}
     if options.zoom == CONTACT and not pairs:
         raise SystemExit("picture.py: --zoom: the scene has no contact pair")
     of_shown = {name: column[np.isin(table["pair"], shown)] for name, column in table.items()}
     extent = np.ptp(shown_box(mesh, of_shown, options.zoom), axis=0)
+    turned = bool(extent[1] > SLENDER * extent[0])
+    if turned:
+        turn(mesh, curve, table)
+        extent = extent[::-1]
+        of_shown = {name: column[np.isin(table["pair"], shown)] for name, column in table.items()}
+        options.zoom = options.zoom if options.zoom in (None, CONTACT) else options.zoom[2:] + options.zoom[:2]
     if options.bodies:
         shown, pairs = [], []
-    above = float(np.clip(6.6 * extent[1] / extent[0], 2.5, 6.5))
-    below = 2.5
-    many = len(shown) > MANY_PAIRS
-    if many and extent[1] > 3 * extent[0]:  # a tall scene
-        drawing, panels = figure.panels(1, 2, (8, above + 0.6), squeeze=False)
-        panels = panels.T
-    else:
-        heights = [above] + ([above] if many else [below] * len(shown))
-        drawing, panels = figure.panels(len(heights), 1, (8, sum(heights) + 0.6), height_ratios=heights, squeeze=False)
-    used, why = draw_bodies(panels[0, 0], results, summary, table if options.pair is None else of_shown, options)
+    above, many = float(np.clip(6.6 * extent[1] / extent[0], 1.4 if turned else 2.5, 6.5)), len(shown) > MANY_PAIRS
+    below = [2.5] * len(shown)
+    if many:
+        below = [above + turned, *([2.5] if shared_curve(pairs) else []), 0.3 + 1.25 * -(-min(len(pairs), SMALL) // COLUMNS)]
+    drawing, rows = rows_of_panels([above + 0.6, *below])
+    entitle(rows[0], summary)
+    axes = rows.pop(0).subplots()
+    used, why = draw_bodies(axes, mesh, curve, summary, table if options.pair is None else of_shown, options, turned)
     given = " (a gap that is given, not drawn, is not to be seen)" if is_given(summary["method"]["initial_gap"]) else ""
-    panels[0, 0].set_title(f"displacements \u00d7 {used:g}{why},\nundeformed outline dashed{given}", fontsize=9)
-    title = figure.wrapped(summary["title"] or summary["scene"])
-    if summary["status"] == "solved":
-        drawing.suptitle(title, fontsize=11)
-    else:
-        drawing.suptitle(f"{title}\n{summary['status'].replace('_', ' ')}", fontsize=11, color=figure.RED)
-    if pairs:
-        zigzags = any(block.type == "triangle" for block in mesh.cells)
-        if zigzags:
-            table = result_tables.columns(results / "contact_centres.csv")
+    closed = ", closed contact in red" if summary["contact"] else ""
+    axes.set_title(f"displacements \u00d7 {figure.grouped(used)}{why},\nundeformed outline dashed{closed}{given}", fontsize=9)
+    if many:
+        draw_many(rows, mesh, table, pairs, turned)
+    elif pairs:
+        table, zigzags = table_of(results, mesh)
         label = ("$p$ (means over edges)",) if zigzags else ()
-        if many:
-            draw_forces(panels[1, 0], mesh, table, pairs)
-            shown = []
-        for panel, k in zip(panels[1:, 0], shown):
+        for row, k in zip(rows, shown):
             colour = PAIR_COLOURS[k] if len(pairs) <= MANY_PAIRS else PAIR_COLOURS[0]
-            draw_pair(panel, table, k, has_limit(summary, k), *label, colour=colour)
+            draw_pair(row.subplots(), table, k, has_limit(summary, k), *label, colour=colour)
+    figure.save(drawing, picture, options.dpi)
+
+
+def draw_pressures(folders, picture, options):
+    """p along the lines alone, of several runs over each other; of many pairs the most loaded."""
+    runs = []
+    for folder in folders:
+        table, _ = table_of(folder, meshio.vtu.read(folder / "result.vtu"))
+        runs.append((folder.name or folder.resolve().name, summary_of(folder), table))
+    summary = runs[0][1]
+    numbers = shown_pairs(summary, options)
+    if not numbers:
+        raise SystemExit("picture.py: the scene has no contact pair, and so no p to draw")
+    if len(numbers) > MANY_PAIRS:
+        numbers = most_loaded(summary["contact"])[:MANY_PAIRS]
+    drawing, rows = rows_of_panels([3.2] * len(numbers))
+    entitle(rows[0], summary)
+    if len(runs) == 1:
+        for row, k in zip(rows, numbers):
+            draw_pair(row.subplots(), runs[0][2], k, has_limit(summary, k))
+    else:
+        draw_runs([row.subplots() for row in rows], runs, numbers, summary)
     figure.save(drawing, picture, options.dpi)
 
 
@@ -126,22 +191,30 @@ def with_box(arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("results", type=Path, help="folder that mortise solve wrote")
-    parser.add_argument("picture", type=Path, nargs="?", help=".png, .pdf or .svg (default: RESULTS.png)")
+    parser.add_argument("more", type=Path, nargs="*", help="more such folders: p of all runs; a .png, .pdf or .svg (default: RESULTS.png)")
+    parser.add_argument("--format", choices=FORMATS, help="of the picture without a name (default: png)")
     zoom_help = "this box only; without numbers, where contact carries pressure"
     parser.add_argument("--zoom", type=box_of, metavar="[X0,X1,Y0,Y1]", help=zoom_help)
     parser.add_argument("--field", choices=FIELDS, default="von_mises", help="what colours the bodies (default: von_mises)")
     parser.add_argument("--pair", type=int, metavar="K", help="the Kth contact pair only, from 0")
     parser.add_argument("--bodies", action="store_true", help="the bodies only, without the pressure")
+    parser.add_argument("--pressure", action="store_true", help="p along the lines only, without the bodies")
     parser.add_argument("--scale", type=float, help="magnification of the displacements")
     parser.add_argument("--dpi", type=int, default=130)
     options = parser.parse_args(with_box(sys.argv[1:]))
-    if not (options.results / "summary.json").is_file():
-        parser.error(f"{options.results}: no summary.json there; expected the folder of a run of mortise solve")
-    picture = options.picture or options.results.with_name(options.results.resolve().name + ".png")
-    if picture.suffix not in ENDINGS:
-        parser.error(f"{picture}: expected a name that ends in {', '.join(ENDINGS)}")
+    *others, last = [options.results, *options.more]
+    folders = [*others, last] if last.is_dir() or not options.more else others
+    for folder in folders:
+        if not (folder / "summary.json").is_file():
+            parser.error(f"{folder}: no summary.json there; expected the folder of a run of mortise solve")
+    picture = options.results.with_name(f"{options.results.resolve().name}.{options.format or FORMATS[0]}") if last in folders else last
+    if picture.suffix[1:] not in FORMATS:
+        parser.error(f"{picture}: expected a name that ends in {', '.join(f'.{name}' for name in FORMATS)}")
     try:
-        draw(options.results, picture, options)
+        if options.pressure or len(folders) > 1:
+            draw_pressures(folders, picture, options)
+        else:
+            draw(options.results, picture, options)
     except Exception as error:  # of damaged files whatever their readers throw
         words = " ".join(str(error).split())
         raise SystemExit(f"picture.py: {options.results}: cannot be drawn to {picture} ({type(error).__name__}: {words})") from None

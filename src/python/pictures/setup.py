@@ -17,9 +17,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
 import figure
-from drawn_bodies import MANY_PAIRS, PAIR_COLOURS
-from drawn_cells import polylines, size_of
-from drawn_forces import LOAD, REACTION
+from drawn_bodies import MANY_EDGES, MANY_PAIRS, PAIR_COLOURS, SLENDER
+from drawn_cells import joined, polylines, size_of
+from drawn_forces import LOAD, REACTION, label_places
 
 FILLS = ["#dbe7f3", "#f4e6d4", "#dff0dc", "#eee0f0", "#f3f0cf", "#e4e4e4"]  # a material each
 MANY_NAMES = 24  # more are not written on the picture
@@ -33,6 +33,13 @@ def draw_bodies(axes, setup, nodes):
         fill = FILLS[materials.index(body["material"]) % len(FILLS)]
         lines = {"edgecolors": "0.75", "linewidths": 0.3} if cells <= MANY_CELLS else {"edgecolors": fill, "linewidths": 0.3}
         axes.add_collection(PolyCollection([nodes[cell] for cell in body["cells"]], facecolors=fill, rasterized=True, **lines))
+        sides = {}
+        for cell in body["cells"]:
+            for side in zip(cell, [*cell[1:], cell[0]]):
+                sides[frozenset(side)] = None if frozenset(side) in sides else side
+        outline = [nodes[list(side)] for side in sides.values() if side is not None]
+        dots = {"rasterized": len(outline) > MANY_EDGES}
+        axes.add_collection(LineCollection(joined(outline), colors="0.35", linewidths=0.7, **dots))
         if len(setup["bodies"]) <= MANY_NAMES:
             middles = np.array([nodes[cell].mean(axis=0) for cell in body["cells"]])
             at = middles[np.linalg.norm(middles - middles.mean(axis=0), axis=1).argmin()]
@@ -47,7 +54,7 @@ def name(axes, place, text, colour, **options):
 
 
 def draw_curve(axes, lines, colour, width=2.0, style="-"):
-    axes.add_collection(LineCollection(lines, colors=colour, linewidths=width, linestyles=style, zorder=4, capstyle="round"))
+    axes.add_collection(LineCollection(joined(lines), colors=colour, linewidths=width, linestyles=style, zorder=4, capstyle="round"))
 
 
 def places_along(lines, spacing):
@@ -74,23 +81,32 @@ def chained(edges):
     return chain
 
 
-def draw_support(axes, lines, size):
-    """Hatches on the outside."""
+def held_along(words):
+    """Directions in which a support holds, of those along x and y."""
+    return np.array([along for name, along in (("u_x", (1, 0)), ("u_y", (0, 1))) if f"{name} =" in words]).reshape(-1, 2)
+
+
+def draw_support(axes, lines, size, held):
+    """Hatches on the outside: along x or y where only that displacement is held, else slanted."""
     at, normal = places_along(lines, 0.025 * size)
-    slanted = normal + 0.8 * np.stack([-normal[:, 1], normal[:, 0]], axis=1)
     draw_curve(axes, lines, REACTION)
-    draw_curve(axes, np.stack([at, at + 0.018 * size * slanted], axis=1), REACTION, 0.9)
+    if len(held) == 1:
+        middle, half = at + 0.014 * size * normal, 0.009 * size * held
+        strokes = np.stack([middle - half, middle + half], axis=1)
+    else:
+        slanted = normal + 0.8 * np.stack([-normal[:, 1], normal[:, 0]], axis=1)
+        strokes = np.stack([at, at + 0.018 * size * slanted], axis=1)
+    draw_curve(axes, strokes, REACTION, 0.9)
 
 
-def draw_load(axes, lines, load, size):
+def draw_load(axes, lines, force, words, size):
     """Arrows along the sum of the load, of a pressure along the normal: onto what they push, away from what they pull."""
     at, normal = places_along(lines, 0.06 * size)
-    force = np.array(load["sum"])
-    pressure = load["words"].startswith("pressure")
+    pressure = words.startswith("pressure")
     if not np.linalg.norm(force) > 0 and not pressure:
         return
     along = force / np.linalg.norm(force) if np.linalg.norm(force) > 0 else np.zeros(2)
-    inwards = not load["words"].startswith("pressure -")
+    inwards = not words.startswith("pressure -")
     draw_curve(axes, lines, LOAD)
     for place, n in zip(at, normal):
         step = 0.055 * size * ((-n if inwards else n) if pressure else along)
@@ -113,11 +129,15 @@ def arrow(axes, start, end):
 def draw(setup, picture):
     nodes = np.array(setup["nodes"])
     curves = {key: polylines(nodes, chained(edges)) for key, edges in setup["curves"].items()}
+    turned = bool(np.ptp(nodes[:, 1]) > SLENDER * np.ptp(nodes[:, 0]))
+    order = slice(None, None, -1 if turned else 1)  # of coordinates; and of a curve, which keeps its body on the left so
+    nodes, curves = nodes[:, order], {key: [line[order, order] for line in lines][order] for key, lines in curves.items()}
     size = size_of(nodes)
     named = len(curves) <= MANY_NAMES
     extent = np.ptp(nodes, axis=0)
-    height = float(np.clip(7 * extent[1] / extent[0], 2.5, 9))
-    entries = sum(len(setup[key]) for key in ("supports", "loads", "contact", "ties", "rest")) + 1
+    height = float(np.clip(7 * extent[1] / extent[0], 1.6 if turned else 2.5, 9))
+    pairs = len(setup["contact"]) if len(setup["contact"]) <= MANY_PAIRS else 1
+    entries = sum(len(setup[key]) for key in ("supports", "loads", "ties", "rest")) + pairs + 1
     drawing, axes = figure.panels(1, 1, (8, height + 0.8 + 0.16 * min(20, entries)))
     legend = draw_bodies(axes, setup, nodes)
     written = set()
@@ -129,7 +149,7 @@ def draw(setup, picture):
             if named and curve in curves and curve not in written:
                 written.add(curve)
                 at, n = (row[0] for row in places_along(curves[curve], np.inf))
-                n = side * n
+                n = side * n * [1, -1 if turned else 1]  # on the page
                 words = {"ha": "left" if n[0] > 0.5 else "right" if n[0] < -0.5 else "center",
                          "va": "bottom" if n[1] > 0.5 else "top" if n[1] < -0.5 else "center"}
                 words["rotation"] = 90 if abs(n[0]) > 0.9 else 0
@@ -138,7 +158,7 @@ def draw(setup, picture):
     for support in setup["supports"]:
         for curve in support["on"]:
             if curve in curves:
-                draw_support(axes, curves[curve], size)
+                draw_support(axes, curves[curve], size, held_along(support["words"])[:, order])
             else:
                 axes.plot(*nodes[setup["points"].get(curve, [])].T, "^", color=REACTION, zorder=6)
         tell(REACTION, f"support {listed(support['on'])}: {figure.plain(support['words'])}", support["on"])
@@ -147,9 +167,9 @@ def draw(setup, picture):
         force[np.abs(force) < 1e-9 * np.abs(force).max()] = 0
         for curve in load["on"]:
             if curve in curves:
-                draw_load(axes, curves[curve], load, size)
+                draw_load(axes, curves[curve], force[order], load["words"], size)
             else:
-                draw_arrows_at(axes, nodes[setup["points"].get(curve, [])], force, size)
+                draw_arrows_at(axes, nodes[setup["points"].get(curve, [])], force[order], size)
         tell(LOAD, f"load {listed(load['on'])}: {figure.plain(load['words'])}, in sum ({force[0]:.4g}, {force[1]:.4g})", load["on"])
     for k, pair in enumerate(setup["contact"]):
         colour = PAIR_COLOURS[k % len(PAIR_COLOURS)]
@@ -166,7 +186,8 @@ def draw(setup, picture):
     legend += [Line2D([], [], linestyle="", label=f"besides: {what}") for what in setup["rest"]]
     axes.autoscale_view()
     axes.margins(0.1)
-    axes.set(aspect="equal", xlabel="$x_1$", ylabel="$x_2$")
+    axes.set_aspect("equal")
+    label_places(axes, turned)
     drawing.suptitle(figure.wrapped(f"{setup['title'] or 'set-up'} (before it is solved)"), fontsize=11)
     below = {"loc": "upper left", "bbox_to_anchor": (0, -0.5 / height), "borderaxespad": 0}
     axes.legend(handles=legend[:20], frameon=False, fontsize=7.5, **below)
