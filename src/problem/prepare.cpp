@@ -46,6 +46,7 @@ Problem prepare(const Scene& scene, Mesh mesh, const Progress& progress, const A
   Problem p;
   p.title = scene.title;
   p.scene = scene.path;
+  p.changes = scene.changes;
   p.method = scene.method;
   p.seeks_accuracy = scene.accuracy.has_value();
   p.fields = scene.fields;

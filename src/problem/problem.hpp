@@ -17,7 +17,8 @@ namespace mortise {
 struct Scene;
 
 struct Problem {
-  std::string title, scene;  ///< the scene's title, and the path of its file
+  std::string title, scene;          ///< the scene's title, and the path of its file
+  std::vector<std::string> changes;  ///< of the scene: KEY=VALUE of each `--set`
   Method method;
   bool seeks_accuracy = false;    ///< whether the mesh is one of those that [accuracy] makes
   std::vector<FieldSpec> fields;  ///< functions of place from files

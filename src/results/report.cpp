@@ -217,6 +217,7 @@ Json expected_json(const std::vector<ExpectedFigure>& expected) {
 Json report_of(const Results& r) {
   Json report{{"title", r.problem.title},
               {"scene", r.problem.scene},
+              {"changes", r.problem.changes},
               {"version", MORTISE_VERSION},
               {"dense_kernel", dense_kernel()},
               {"status", to_string(r.status)},

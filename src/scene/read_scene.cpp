@@ -77,7 +77,9 @@ namespace mortise {
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
   scene_file::Node root = scene_file::load_document(path);
   for (const Override& change : overrides) scene_file::apply_override(root, change);
-  return scene_file::read_sections(root, path);
+  Scene scene = scene_file::read_sections(root, path);
+  for (const Override& change : overrides) scene.changes.push_back(change.key + "=" + change.value);
+  return scene;
 }
 
 }  // namespace mortise

@@ -26,7 +26,8 @@ std::string to_string(CaseFiles value);
 
 /// Units are the user's own, used throughout (SI if E is in Pa and lengths in m).
 struct Scene {
-  std::string path;  ///< the .toml, for messages
+  std::string path;                  ///< the .toml, for messages
+  std::vector<std::string> changes;  ///< KEY=VALUE of each `--set`, for the report
   std::string title;
   std::string mesh_file;  ///< absolute or relative to the working directory
   std::map<std::string, double> mesh_parameters;

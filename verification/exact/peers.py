@@ -8,31 +8,18 @@ import sys
 import tempfile
 from pathlib import Path
 
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.with_name("crosscheck")), str(HERE.with_name("chart"))]
 
 import benchmark_cases
 import by_getfem
-import cases
 import launch
+import on_mesh
 import run as crosscheck
 import scene as scenes
 
 # FreeFEM's active set starts closed, without springs.
 FAILURES = {"contact is lost everywhere": "loses all contact", "no convergence": "does not converge"}
-METHOD = {"order": 2, "multipliers": "linear", "integration": "segments", "gauss": 5}
-
-
-def by_freefem(path, mesh, side, folder):
-    """Of a scene on a mesh: lines of multipliers."""
-    scene = scenes.read_scene(path, {})
-    gap = "scene" if scene["contact"][0].get("initial_gap", "curve") != "curve" else "curve"
-    step = cases.Step(path.stem, (), side, {}, {}, METHOD, "unilateral", gap, same_nodes=False)
-    crosscheck.convert_step(step, scene, mesh, folder)
-    crosscheck.call_freefem(crosscheck.SCRIPTS["unilateral"], folder=folder)
-    return np.loadtxt(folder / "freefem_contact.txt")
 
 
 def execute(run):
@@ -47,7 +34,7 @@ def execute(run):
         before = launch.processor_seconds()
         try:
             if run["by"] == "FreeFEM":
-                lines = by_freefem(path, mesh, side, folder)
+                lines = on_mesh.line(scenes.read_scene(path, {}), mesh, [side], folder)
             else:
                 lines = by_getfem.contact(path, mesh, side, folder)
         except launch.StudyError as failure:

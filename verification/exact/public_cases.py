@@ -19,7 +19,8 @@ import numpy as np
 
 import launch
 import page
-import peers
+import peers  # makes crosscheck/ known
+import on_mesh
 import runs
 import template
 
@@ -95,13 +96,13 @@ def by_freefem(run):
         launch.call("mesh", scene, "--accuracy", "0.5%", "-o", mesh)
         settings = {"mesh.file": json.dumps(str(mesh)), "mesh.parameters": "{}", "expect": "[]"}
         summary = launch.solve(scene, settings, results)
-        sides = {[*pair["between"]].index(on) for pair, on in zip(summary["contact"], summary["method"]["multipliers_on"])}
+        on = summary["method"]["multipliers_on"]
         try:
-            x, y, p = peers.by_freefem(scene, mesh, ("first", "second")[sides.pop()], Path(folder)).T[1:4]
+            x, y, p = on_mesh.line(tomllib.loads(scene.read_text()), mesh, on, Path(folder)).T[1:4]
         except launch.StudyError as error:
             return {"failed": str(error).splitlines()[-1], "unknowns": summary["mesh"]["dofs"], "off": None}
         line = launch.columns(results / "contact.csv")
-        ours = np.isin(line["curve"], summary["method"]["multipliers_on"])
+        ours = np.isin(line["curve"], on)
         distance = np.hypot(line["x"][ours] - x[:, None], line["y"][ours] - y[:, None])
         at = line["p"][ours][distance.argmin(axis=1)]
         return {"failed": "", "unknowns": summary["mesh"]["dofs"], "off": float(np.linalg.norm(p - at) / np.linalg.norm(at))}

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Solves a scene to an accuracy and again by what does not share its errors: another mesh family, the multipliers on the
-other side, another solver, two finer meshes. Says of each figure its value, its bar, how far the other runs are off, and
+other side, another solver, two finer meshes, FreeFEM on the same mesh. Says of each figure its value, its bar, how far the other runs are off, and
 whether all of them agree within their bars.
 
 Each run is a `mortise solve` with a few --set, and its results stay in a folder: what certificate.json and the report list
@@ -9,7 +9,9 @@ can be run again by hand. Exit status: 0 all figures agree; 1 bad input; 2 one d
 
 import argparse
 import json
+import math
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -19,12 +21,13 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 try:
-    from figures import compare, line_difference, read_run
+    from figures import compare, deformed_gaps, line_difference, of_freefem, read_run, tilt
     from report import write_report
 except ImportError as missing:
-    raise SystemExit(f"certify.py: {missing}: apt-get install python3-numpy") from missing
+    raise SystemExit(f"certify.py: {missing}: apt-get install python3-numpy python3-meshio") from missing
 
 FINER = (4, 16)  # times as accurate: the meshes of the study
+FREEFEM = Path(__file__).resolve().parents[3] / "verification/crosscheck/on_mesh.py"
 
 
 @dataclass
@@ -108,6 +111,31 @@ def variations_of(tables, summary, accuracy):
     return runs, skipped
 
 
+def by_freefem(base, mortise, output):
+    """p by FreeFEM on the mesh of the scene's own run; in words, why there is none."""
+    name = "FreeFEM on the same mesh"
+    if not shutil.which("FreeFem++"):
+        return None, f"{name}: FreeFem++ is not installed"
+    if not FREEFEM.is_file():
+        return None, f"{name}: the scripts that write its case are in the source tree only (verification/crosscheck)"
+    if not base.run.lines:
+        return None, f"{name}: nothing is pressed"
+    folder, words = output / "freefem", base.command[2 : base.command.index("-o")]
+    folder.mkdir(parents=True, exist_ok=True)
+    found = Variation("freefem", "another program on the same mesh", [])
+    curves = ",".join(base.run.summary["method"]["multipliers_on"])
+    changes = [word for word in words[1:] if word != "--set"]
+    found.command = ["on_mesh.py", words[0], str(folder / "mesh.msh"), str(folder), curves, *changes]
+    start = time.perf_counter()
+    for command in [mortise, "mesh", *words, "-o", folder / "mesh.msh", "--quiet"], [sys.executable, FREEFEM, *found.command[1:]]:
+        ended = subprocess.run(command, capture_output=True, text=True, env=os.environ | {"MORTISE": mortise})
+        if ended.returncode:
+            return None, f"{name}: {(ended.stderr.strip() or 'no answer').splitlines()[-1]}"
+    found.seconds, found.status = time.perf_counter() - start, "solved"
+    found.run = of_freefem(base.run, folder / "freefem_contact.txt")
+    return found, ""
+
+
 # ---- The verdict ----
 
 
@@ -116,9 +144,11 @@ def rows_of(base, runs):
     rows = {}
     for variation in runs:
         for found in compare(base.run, variation.run):
-            row = rows.setdefault(found.kind, {"kind": found.kind, "count": set(), "agrees": True, "worst": -1.0})
+            row = rows.setdefault(found.kind, {"kind": found.kind, "count": set(), "agrees": True, "of_normals": 0, "worst": -1.0})
             row["count"].add(found.name)
             part = found.off / found.allowed if found.allowed > 0 else float(found.off > 0)
+            if found.agrees and not found.by_bars:  # told by itself: no bar of a mesh is to hold it
+                row["of_normals"], part = max(row["of_normals"], found.off), 0.0
             if not (part <= row["worst"]):
                 row |= {"figure": found.name, "value": found.value, "bar": found.bar, "off": found.off, "allowed": found.allowed}
                 row |= {"worst": part, "run": variation.name}
@@ -128,8 +158,20 @@ def rows_of(base, runs):
     return list(rows.values())
 
 
+def told_apart(base, asked):
+    """How far the deformed sides are apart where p acts, as a part of the largest displacement: of what small displacements
+    leave out, the angle between the curves' normals squared, besides what was asked."""
+    gap = deformed_gaps(base.run) if base.run.lines else None
+    if gap is None:
+        return None
+    angle = tilt(base.run)
+    off = gap / base.run.summary["extremes"]["displacement"]
+    return {"off": off, "allowed": asked + angle**2, "tilt": angle, "agrees": off <= asked + angle**2}
+
+
 def study_of(base, runs):
-    """The meshes of the study: how far p is from the finest one's, and how it falls with the size of the elements."""
+    """The meshes of the study: how far p is from the finest one's, and as which power of the estimate that falls (1, if the estimate
+    is right: on graded meshes the size of the elements says little)."""
     finer = [variation for variation in runs if variation.name.startswith("finer_")]
     meshes = [base, *finer]
     if not finer or not base.run.lines:
@@ -139,11 +181,14 @@ def study_of(base, runs):
         off = line_difference(variation.run, finest) if variation.run is not finest else None
         size = variation.run.summary["mesh"]["dofs"]
         told = variation.run.summary["estimate"]["pressure"]["error"]
-        rows.append({"run": variation.name, "unknowns": size, "estimated": told, "off": off})
+        rows.append({"run": variation.name, "unknowns": size, "estimated": told, "off": off, "rate": None})
+    for coarse, fine in zip(rows, rows[1:-1]):  # the finest has no error to compare
+        if coarse["off"] > 0 and fine["off"] > 0 and coarse["estimated"] > fine["estimated"] > 0:
+            fine["rate"] = math.log(coarse["off"] / fine["off"]) / math.log(coarse["estimated"] / fine["estimated"])
     return rows
 
 
-def troubles_of(base, runs, asked, geometry):
+def troubles_of(base, runs, asked, geometry, gap):
     """What keeps the certificate from being one, besides figures that do not agree."""
     if base.status != "solved":
         return [f"its own run: {base.words}"]
@@ -151,6 +196,8 @@ def troubles_of(base, runs, asked, geometry):
     told = (base.run.summary["estimate"] or {}).get("pressure")
     if not geometry and told and told["error"] > asked:
         troubles.append(f"p is within {100 * told['error']:.2g} % only on the scene's own mesh, {100 * asked:g} % are asked")
+    if gap and not gap["agrees"]:
+        troubles.append(f"the deformed sides are apart by {gap['off']:.2g} of the largest displacement where p acts, {gap['allowed']:.2g} expected")
     if not any(v.counts for v in runs):
         troubles.append("no other run could be made")
     return troubles
@@ -160,7 +207,8 @@ def certificate(base, runs, skipped, asked, geometry, seconds):
     """All that certificate.json holds."""
     counted = [v for v in runs if v.counts]
     rows = rows_of(base, counted)
-    troubles = troubles_of(base, runs, asked, geometry)
+    gap = told_apart(base, asked) if base.status == "solved" else None
+    troubles = troubles_of(base, runs, asked, geometry, gap)
     skipped = skipped + [f"{v.name}: {v.words}" for v in runs if v.status == "skipped"]
     describe = lambda v: {
         "name": v.name, "what": v.what, "status": v.status, "seconds": round(v.seconds, 2), "command": v.command,
@@ -172,6 +220,7 @@ def certificate(base, runs, skipped, asked, geometry, seconds):
         "asked": asked,
         "agrees": not troubles and bool(rows) and all(row["agrees"] for row in rows),
         "figures": rows,
+        "deformed_gap": gap,
         "troubles": troubles,
         "skipped": skipped,
         "left_out": base.run.left_out,
@@ -185,7 +234,9 @@ def sentence(found):
     """The verdict in one sentence."""
     others = sum(run["status"] not in ("skipped", "failed") for run in found["runs"]) - 1
     if found["agrees"]:
-        return f"agrees: {sum(r['count'] for r in found['figures'])} figures by {others} other runs, each within the bars"
+        apart = ", ".join(f"{r['kind']} by {r['of_normals']:.2g}" for r in found["figures"] if r["of_normals"])
+        besides = f", but for which curve's normals p acts along ({apart}: small displacements do not tell)" if apart else ""
+        return f"agrees: {sum(r['count'] for r in found['figures'])} figures by {others} other runs, each within the bars{besides}"
     wrong = [row["kind"] for row in found["figures"] if not row["agrees"]]
     return "does not agree: " + "; ".join([*wrong, *found["troubles"]]) if wrong or found["troubles"] else "nothing to compare"
 
@@ -201,18 +252,22 @@ def text_of(found):
         of = f" of {row['count']}: {row['figure']}" if row["count"] > 1 else "" if row["figure"] == row["kind"] else f": {row['figure']}"
         lines.append(f"  {verdict:9} {row['kind']}{of} {row['value']:.6g} ± {row['bar']:.2g}")
         lines.append(f"            off by {row['off']:.2g} of {row['allowed']:.2g} that both bars allow, in {row['run']}")
-        if not row["agrees"] and row["run"] == "other_side":
-            lines.append("            (where contact is wide, the other curve's normals are others: small displacements do not tell which count)")
+        if row["of_normals"]:
+            lines.append(f"            and by {row['of_normals']:.2g} in other_side, as p acts along the other curve's normals there")
     for row in found["study"]:
         off = "" if row["off"] is None else f", {row['off']:.2g} from the finest"
-        lines.append(f"  mesh      {row['run']}: {row['unknowns']} unknowns, p estimated within {100 * row['estimated']:.2g} %{off}")
+        rate = "" if row["rate"] is None else f", falling as the estimate to the power {row['rate']:.1f}"
+        lines.append(f"  mesh      {row['run']}: {row['unknowns']} unknowns, p estimated within {100 * row['estimated']:.2g} %{off}{rate}")
+    if gap := found["deformed_gap"]:
+        off = f"{gap['off']:.2g} of the largest displacement ({gap['allowed']:.2g} expected)"
+        lines.append(f"  gaps      where p acts the deformed sides are apart by {off}; their normals by {gap['tilt']:.2g} radians")
     lines += [f"  trouble   {words}" for words in found["troubles"]]
     lines += [f"  skipped   {words}" for words in found["skipped"]]
     lines += [f"  left out  {words}" for words in found["left_out"]]
     return "\n".join(lines)
 
 
-def certify(mortise, scene, output, changes=(), accuracy=None, spoil=None):
+def certify(mortise, scene, output, changes=(), accuracy=None, freefem=True, spoil=None):
     """Runs all and returns the certificate, which is also written: output/certificate.json. `spoil`: more --set of a run by
     its name, for tests of the verdict. Raises SystemExit with the program's words where the scene is refused."""
     try:
@@ -237,6 +292,9 @@ def certify(mortise, scene, output, changes=(), accuracy=None, spoil=None):
         variation.changes += (spoil or {}).get(variation.name, [])
         run(variation, probe)
     done = others if base.status == "solved" else []
+    if freefem and done:
+        peer, why = by_freefem(base, mortise, output)
+        done, skipped = [*done, *([peer] if peer else [])], [*skipped, *([why] if why else [])]
     found = certificate(base, done, skipped, asked, geometry, time.perf_counter() - start)
     (output / "certificate.json").write_text(json.dumps(found, indent=1) + "\n")
     return found
@@ -253,11 +311,12 @@ def main():
     parser.add_argument("scene", type=Path, help="scene file (.toml)")
     parser.add_argument("--accuracy", type=part_of, help="of p, such as 1%% (default: the scene's, else 1%%)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a value of the scene, in all runs")
+    parser.add_argument("--no-freefem", action="store_true", help="not by FreeFEM too, which takes some seconds")
     parser.add_argument("-o", "--output", type=Path, help="folder of all runs (default: out/SCENE_certificate)")
     options = parser.parse_args()
     output = options.output or Path("out") / f"{options.scene.stem}_certificate"
     mortise = os.environ.get("MORTISE_PROGRAM", "mortise")
-    found = certify(mortise, options.scene, output, options.set, options.accuracy)
+    found = certify(mortise, options.scene, output, options.set, options.accuracy, not options.no_freefem)
     print(text_of(found))
     page = output.with_name(output.resolve().name + ".html")
     write_report(output, page, mortise)

@@ -3,10 +3,15 @@
 import csv
 import json
 import math
+import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import meshio
 import numpy as np
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "pictures"))
+from drawn_cells import polylines
 
 # Of a figure's scale: what another solver may leave (its iterations end at 1e-8 of the load) and bars do not know.
 ROUND_OFF = 1e-6
@@ -27,7 +32,7 @@ class Run:
 
     folder: Path
     summary: dict
-    figures: dict = field(default_factory=dict)
+    figures: dict | None = field(default_factory=dict)  # None: this program tells p alone
     left_out: list = field(default_factory=list)
     lines: dict = field(default_factory=dict)  # by pair: places, p and weights of the vertices that count
 
@@ -115,6 +120,34 @@ def read_run(folder):
     return run
 
 
+def chain(table, curve):
+    """Places and p of one curve's nodes, in the order of its arc length."""
+    rows = [row for row in table if row["curve"] == curve]
+    return np.array([[float(row[name] or "nan") for name in ("x", "y", "p")] for row in rows])
+
+
+def slope(xy):
+    """Angle of a chain's tangent at its nodes."""
+    step = np.gradient(xy, axis=0)
+    return np.unwrap(np.arctan2(step[:, 1], step[:, 0]))
+
+
+def tilt(run):
+    """The angle between the normals of a pair's two curves where p acts, weighed by p: the largest of all pairs, radians."""
+    worst, table = 0, rows_of(run.folder / "contact.csv")
+    for k in range(len(run.summary["contact"])):
+        rows = [row for row in table if row["pair"] == str(k)]
+        mine, theirs = (chain(rows, curve) for curve in dict.fromkeys(row["curve"] for row in rows))
+        pressed = np.nan_to_num(mine[:, 2]) > 0
+        if len(mine) < 2 or len(theirs) < 2 or not pressed.any():
+            continue
+        nearest = np.linalg.norm(mine[pressed, None, :2] - theirs[None, :, :2], axis=2).argmin(axis=1)
+        angle = slope(mine[:, :2])[pressed] - slope(theirs[:, :2])[nearest]
+        angle = np.abs((angle + np.pi / 2) % np.pi - np.pi / 2)  # of lines, whichever way they run
+        worst = max(worst, float(np.average(angle, weights=mine[pressed, 2])))
+    return worst
+
+
 def root_mean_square(lines, values):
     """Of values at the vertices of lines, over their length; NaN without any."""
     length = sum(lines[key][2].sum() for key in values)
@@ -156,26 +189,69 @@ class Comparison:
     bar: float
     off: float  # |difference| of the other run
     allowed: float  # both bars, and round-off
+    of_normals: float = 0  # what the choice between the curves' normals explains besides
+
+    @property
+    def by_bars(self):
+        return self.off <= self.allowed  # NaN does not
 
     @property
     def agrees(self):
-        return self.off <= self.allowed  # NaN does not
+        return self.off <= self.allowed + self.of_normals
 
 
 def compare(run, other):
-    """Each figure of a run against another run's, which may be off by both bars together."""
+    """Each figure of a run against another run's, which may be off by both bars together; where the multipliers are on the
+    other curve, also by the angle between both curves' normals, as a part of the figure's scale: p acts along those of one."""
     same_side = run.summary["method"]["multipliers_on"] == other.summary["method"]["multipliers_on"]
+    angle = 0 if same_side else tilt(run)
     mine = line_pressure(run)
     found = []
     if mine:
-        theirs = line_pressure(other)
-        bar = theirs.bar if theirs else math.nan
-        found.append(Comparison(mine.kind, mine.kind, mine.value, mine.bar, line_difference(run, other), mine.bar + bar))
-    for name, figure in run.figures.items():
+        theirs = line_pressure(other) if other.figures is not None else mine
+        allowed = mine.bar + (theirs.bar if theirs else math.nan)
+        found.append(Comparison(mine.kind, mine.kind, mine.value, mine.bar, line_difference(run, other), allowed, angle * mine.scale))
+    for name, figure in run.figures.items() if other.figures is not None else ():
         if figure.of_side and not same_side:
             continue
         theirs = other.figures.get(name)
         off = abs(theirs.value - figure.value) if theirs else math.nan
         allowed = figure.bar + (theirs.bar if theirs else math.nan) + ROUND_OFF * figure.scale
-        found.append(Comparison(name, figure.kind, figure.value, figure.bar, off, allowed))
+        found.append(Comparison(name, figure.kind, figure.value, figure.bar, off, allowed, angle * figure.scale))
     return found
+
+
+def of_freefem(run, path):
+    """The run with p by FreeFEM along its lines, at vertices in their order (verification/crosscheck/on_mesh.py)."""
+    table, lines = np.loadtxt(path, ndmin=2), {}
+    for k, pair in enumerate(run.summary["contact"]):
+        key, rows = pair_key(pair), table[table[:, 0] == k]
+        if key in run.lines:
+            order = np.linalg.norm(rows[:, None, 1:3] - run.lines[key][0][None], axis=2).argmin(axis=1).argsort()
+            lines[key] = rows[order, 1:3], rows[order, 3], np.ones(len(order))
+    return Run(run.folder, run.summary, None, [], lines)
+
+
+def deformed_gaps(run):
+    """Where p acts, how far the deformed sides of the drawn pairs are apart or overlap: the largest distance of a vertex of
+    the multiplier side from the deformed other curve; None without such pairs. Of the files' places and displacements
+    alone, not of what the program projects and integrates."""
+    lines, table = meshio.vtu.read(run.folder / "contact.vtu"), rows_of(run.folder / "contact.csv")
+    moved = lines.points[:, :2] + lines.point_data["displacement"][:, :2]
+    edges = [(*row[:2], row[2] if len(row) > 2 else -1) for block in lines.cells for row in block.data]
+    vertices = {node for edge in edges for node in edge[:2]}
+    largest = None
+    for k, gap in enumerate(run.summary["method"]["initial_gap"]):
+        if gap not in ("curve", "measured"):
+            continue
+        rows = [number for number, row in enumerate(table) if row["pair"] == str(k)]
+        mine = {number for number in rows if table[number]["curve"] == table[rows[0]]["curve"]}
+        other = np.array(polylines(moved, [edge for edge in edges if edge[0] in set(rows) - mine]))
+        start, step = (part.reshape(-1, 2) for part in (other[:, :-1], np.diff(other, axis=1)))
+        for number in mine & vertices:
+            if float(table[number]["p"] or 0) <= 0:
+                continue
+            t = np.clip(((moved[number] - start) * step).sum(axis=1) / (step**2).sum(axis=1), 0, 1)
+            distance = np.linalg.norm(start + t[:, None] * step - moved[number], axis=1).min()
+            largest = max(largest or 0, float(distance))
+    return largest

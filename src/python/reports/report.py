@@ -41,6 +41,7 @@ dd { margin: 0; overflow-wrap: anywhere } pre { white-space: pre-wrap; overflow-
   figure svg { max-height: 100mm } body { padding: 0; font-size: 9.5pt } h2 { break-after: avoid } @page { margin: 16mm } }
 """
 PROBES_SHOWN = 20
+COARSE = 0.1  # error of p from which on the program warns: where no accuracy was asked, a page with more is not green
 
 
 def text(value):
@@ -91,6 +92,7 @@ def inline(svg):
     """A picture of matplotlib inside a page, in the page's ink and on its paper."""
     svg = re.sub(r"^.*?(?=<svg)", "", svg, flags=re.DOTALL)
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
+    svg = re.sub(r' d="[^"]*"', lambda path: re.sub(r"(\.\d\d)\d+", r"\1", path[0]), svg)  # hundredths of a point are enough
     svg = re.sub(r'(<svg[^>]*?) width="[^"]*"', r"\1", re.sub(r'(<svg[^>]*?) height="[^"]*"', r"\1", svg, count=1), count=1)
     return re.sub("#(000000|111111)", "var(--ink)", svg).replace("#ffffff", "var(--paper)").replace("#0b4f9c", "var(--blue)").replace("#b00020", "var(--red)")
 
@@ -114,14 +116,18 @@ def verdict(s, certificate):
     """In a sentence; whether it is good."""
     failed = [check["name"] for check in s["checks"] if not check["ok"]]
     told = (s["estimate"] or {}).get("pressure")
+    coarse = told is not None and not told["error"] <= COARSE and not s["accuracy"]
     words = [s["status"].replace("_", " ").capitalize() + (f" ({s['accuracy']['reason']})" if (s["accuracy"] or {}).get("reason") else "")]
     if told:
         asked = f", {percent(s['accuracy']['asked'])} were asked" if s["accuracy"] else ""
-        words.append(f"the contact pressure is within {percent(told['error'])} along the lines (estimated{asked})")
+        only = " only: the mesh is too coarse for it" if coarse else ""
+        words.append(f"the contact pressure is within {percent(told['error'])} along the lines (estimated{asked}){only}")
     words.append(f"not all checks hold: {', '.join(failed)}" if failed else f"all {len(s['checks'])} checks hold")
     if certificate:
-        words.append("other meshes, side and solver " + ("agree within the bars" if certificate["agrees"] else "do not agree"))
-    return "; ".join(words) + ".", s["status"] == "solved" and (not certificate or certificate["agrees"])
+        apart = [row for row in certificate["figures"] if row["of_normals"]]
+        agreed = "agree within the bars" + (", but for which curve's normals p acts along" if apart else "")
+        words.append("other meshes, side and solver " + (agreed if certificate["agrees"] else "do not agree"))
+    return "; ".join(words) + ".", s["status"] == "solved" and not coarse and (not certificate or certificate["agrees"])
 
 
 def material_words(name, material):
@@ -216,16 +222,25 @@ def extreme_rows(s):
 def certificate_section(c):
     figures = [
         [text(r["figure"]) + (f' <span class="soft">worst of {r["count"]}</span>' if r["count"] > 1 else ""), number(r["value"], 6),
-         number(r["bar"], 2), number(r["off"], 2), number(r["allowed"], 2), text(r["run"]), holds(r["agrees"], "agrees", "does not agree")]
+         number(r["bar"], 2), number(r["off"], 2), number(r["allowed"], 2), text(r["run"]), number(r["of_normals"] or None, 2),
+         holds(r["agrees"], "agrees", "does not agree")]
         for r in c["figures"]
     ]  # fmt: skip
     runs = [[text(r["name"]), text(r["what"]), text(r["status"].replace("_", " ")), number(r["unknowns"], 9), f"{r['seconds']:.1f}"] for r in c["runs"]]
-    study = [[text(r["run"]), number(r["unknowns"], 9), percent(r["estimated"]), number(r["off"], 2)] for r in c["study"]]
+    study = [
+        [text(r["run"]), number(r["unknowns"], 9), percent(r["estimated"]), number(r["off"], 2), number(r["rate"], 2)] for r in c["study"]
+    ]
+    gap = c["deformed_gap"]
+    gaps = "" if gap is None else (
+        f"<p>Where p acts the deformed sides are apart by {percent(gap['off'])} of the largest displacement ({percent(gap['allowed'])} expected), "
+        f"their normals by {gap['tilt']:.2g} radians.</p>"
+    )  # fmt: skip
     return section(
         "Confirmed by other means",
-        table(["figure", "value", "bar", "off by", "both bars", "in", ""], figures),
+        table(["figure", "value", "bar", "off by", "both bars", "in", "by the other curve's normals", ""], figures),
         table(["run", "what differs", "status", "unknowns", "seconds"], runs),
-        table(["mesh", "unknowns", "p estimated within", "rms of p off the finest"], study),
+        table(["mesh", "unknowns", "p estimated within", "rms of p off the finest", "falls as the estimate to the power"], study),
+        gaps,
         listed([f"not confirmed: {words}" for words in [*c["troubles"], *c["skipped"], *c["left_out"]]]),
     )
 
@@ -247,9 +262,11 @@ def page_of(folder, certificate, mortise):
     words, good = verdict(s, certificate)
     picture = [sys.executable, Path(__file__).resolve().parents[1] / "pictures/picture.py", folder]
     with tempfile.TemporaryDirectory() as at:
-        setup = figure("The set-up", [mortise, "check", s["scene"], "--quiet", "--no-programs", "--picture"], at)
-        whole = figure("Deformed bodies; p along the contact lines with its bar", picture, at)
-        zoomed = figure("Where contact carries pressure", picture, at, ["--zoom=contact", "--bodies"]) if s["contact"] else ""
+        changes = [word for change in s.get("changes", []) for word in ("--set", change)]
+        setup = figure("The set-up", [mortise, "check", s["scene"], *changes, "--quiet", "--no-programs", "--picture"], at)
+        dots = ["--dpi", "100"]  # of the bodies' colours
+        whole = figure("Deformed bodies; p along the contact lines with its bar", picture, at, dots)
+        zoomed = figure("Where contact carries pressure", picture, at, ["--zoom=contact", "--bodies", *dots]) if s["contact"] else ""
     solves = [[number(v["unknowns"], 9), percent(v["estimated"]), f"{v['seconds']:.2f}"] for v in (s["accuracy"] or {}).get("solves", []) if v["estimated"] is not None]
     checks = [[text(c["name"]), number(c["value"], 2), number(c["limit"], 2), holds(c["ok"])] for c in s["checks"]]
     expected = [
@@ -270,7 +287,7 @@ def page_of(folder, certificate, mortise):
         section("Checks", table(["check", "value", "limit", ""], checks)),
         section("Warnings", listed(s["warnings"]) or "<p>None.</p>"),
         section("Versions", f"<p>mortise {text(s['version'])}; {text(s['dense_kernel'])}; page of {datetime.date.today()}</p>"),
-        section("The scene", f'<p class="soft">{text(s["scene"])}</p>', scene_text(s["scene"])),
+        section("The scene", f'<p class="soft">{text(" ".join([s["scene"], *(f"--set {change}" for change in s.get("changes", []))]))}</p>', scene_text(s["scene"])),
     ]
     head = f'<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>{text(title)}</title>'
     return f'<!doctype html>\n<html lang="en"><head>{head}<style>{STYLE}</style></head><body>{"".join(body)}</body></html>\n'
