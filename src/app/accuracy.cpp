@@ -80,13 +80,16 @@ double expected_unknowns(const Mesh& mesh, const VecX& areas, const SizeField& s
 
 class Loop {
  public:
-  Loop(const Scene& scene, const Progress& progress, const std::function<bool()>& interrupted)
-      : scene_(scene),
-        spec_(*scene.accuracy),
+  Loop(std::vector<const Scene*> cases, const Progress& progress, const std::function<bool()>& interrupted)
+      : cases_(std::move(cases)),
+        scene_(*cases_.front()),
+        spec_(*scene_.accuracy),
         progress_(progress),
         interrupted_(interrupted),
-        mesher_(scene.mesh_file, scene.mesh_parameters, scene.geo_limits),
-        largest_(sizes_of(mesher_.curves(), scene, std::min(spec_.first_edges, least_edges))) {}
+        mesher_(scene_.mesh_file, scene_.mesh_parameters, scene_.geo_limits),
+        largest_(sizes_of(mesher_.curves(), scene_, std::min(spec_.first_edges, least_edges))),
+        gaps_(cases_.size()),
+        open_(cases_.size()) {}
 
   std::optional<Results> run() {
     std::optional<Results> last;
@@ -107,15 +110,14 @@ class Loop {
           continue;
         }
         seconds += r.seconds;
-        const bool confirmed = is_open(r);  // then p = 0 is an answer
-        report.solves.push_back({free_unknowns(r), confirmed ? 0 : estimated(r), r.seconds.total()});
+        report.solves.push_back({free_unknowns(r), open_[worst_] ? 0 : estimated(r), r.seconds.total()});
         if (spec_.of == Goal::peak) require_peak(r);
         last = std::move(r);
         report.reason = why_to_stop(*last, report);
         if (report.reached() || !report.reason.empty()) break;
         others_ = tells_sizes(*last) || !is_pressed(*last) ? 0 : others_ + 1;
         if (!is_pressed(*last))
-          sizes = small_at_gaps(finer(sizes));
+          sizes = with_wanted(*last, small_at_gaps(finer(sizes)));
         else if (others_ == 0)
           sizes = next_sizes(*last, report.solves.size() == 1);
         else
@@ -139,6 +141,9 @@ class Loop {
     return last;
   }
 
+  const std::vector<FoundPoint>& found() const { return found_; }
+  const std::vector<char>& open() const { return open_; }
+
  private:
   Results solve_on(const SizeAt& sizes, const ActiveSet* start, int number) {
     const std::string words = "solve " + std::to_string(number) + told_;
@@ -157,21 +162,66 @@ class Loop {
       at_limit_ = true;
     }
     const double meshing = watch.lap();
-    Results r = refusable([&] { return solve_scene(scene_, std::move(mesh), stage, start); });
+    Results r =
+        cases_.size() == 1 ? solve_one(std::move(mesh), stage, start) : solve_all(std::move(mesh), stage, number);
     r.seconds.mesh = meshing;
-    stage("estimate");
-    try {
-      estimate(r, spec_, found_, false);
-    } catch (const SceneError& error) {
-      throw InputError(scene_.path + ": " + error.what());
-    }
-    keep_found(r);
     std::ostringstream text;
     text.precision(2);
     text << " (" << to_string(spec_.of) << " was within " << 100 * estimated(r) << " % with " << free_unknowns(r)
          << " unknowns)";
     told_ = text.str();
     return r;
+  }
+
+  void estimate_one(Results& r) {
+    try {
+      estimate(r, spec_, found_, false);
+    } catch (const SceneError& error) {
+      throw InputError(scene_.path + ": " + error.what());
+    }
+    keep_found(r);
+  }
+
+  Results solve_one(Mesh mesh, const Progress& stage, const ActiveSet* start) {
+    Results r = refusable([&] { return solve_scene(scene_, std::move(mesh), stage, start); });
+    stage("estimate");
+    estimate_one(r);
+    open_[0] = is_open(r, 0);  // then p = 0 is an answer
+    return r;
+  }
+
+  // That of the cases which is farthest from what was asked; what all want of the next mesh is kept.
+  Results solve_all(Mesh mesh, const Progress& stage, int number) {
+    wanted_.reset();
+    CaseSolver solver(std::move(mesh));
+    std::optional<InputError> refused;
+    double most = -1;
+    for (std::size_t k = 0; k < cases_.size(); ++k) try {
+        const auto of_case = [&](const std::string& name) { stage("case " + std::to_string(k + 1) + ", " + name); };
+        Results& r = solver.solve(*cases_[k], of_case);
+        estimate_one(r);
+        open_[k] = is_open(r, k);
+        if (is_pressed(r) && tells_sizes(r)) add_wanted(wanted(r, number == 1));
+        const double off = open_[k] ? 0 : tells_sizes(r) ? estimated(r) : std::numeric_limits<double>::infinity();
+        if (off <= most) continue;
+        most = off;
+        worst_ = k;
+      } catch (const InputError& error) {
+        if (!refused) refused = error;
+      }
+    if (most < 0) throw RefusedOnMesh{*refused};
+    Results& r = solver.solve(*cases_[worst_], stage);
+    estimate_one(r);
+    return std::move(r);
+  }
+
+  void add_wanted(WantedSizes wanted) {
+    if (!wanted_) {
+      wanted_ = std::move(wanted);
+      return;
+    }
+    wanted_->sizes = wanted_->sizes.cwiseMin(wanted.sizes);
+    wanted_->layers.insert(wanted_->layers.end(), wanted.layers.begin(), wanted.layers.end());
   }
 
   static SizeAt finer(const SizeAt& sizes) {
@@ -203,24 +253,25 @@ class Loop {
 
   // Whether nothing is pressed, between the points of this mesh too: a round body may have come through the other where
   // no edge is as short as the contact. Keeps where the curves are nearest.
-  bool is_open(const Results& r) {
+  bool is_open(const Results& r, std::size_t k) {
+    std::vector<LeastGap>& before = gaps_[k];
     if (is_pressed(r)) {
-      gaps_.clear();
+      before.clear();
       return false;
     }
     std::vector<LeastGap> gaps;
     for (const ContactPair& pair : r.problem.pairs) gaps.push_back(least_gap(r.problem.mesh.nodes, r.solution.u, pair));
     const double round_off = 1e-9 * largest_entry(r.solution.u);
-    bool open = gaps.size() == gaps_.size();
-    for (std::size_t k = 0; k < gaps.size() && open; ++k) open = stays_open(gaps_[k], gaps[k], round_off);
-    gaps_ = std::move(gaps);
+    bool open = gaps.size() == before.size();
+    for (std::size_t i = 0; i < gaps.size() && open; ++i) open = stays_open(before[i], gaps[i], round_off);
+    before = std::move(gaps);
     return open;
   }
 
   // Edges an eighth as long where the curves are nearest.
   SizeAt small_at_gaps(const SizeAt& sizes) const {
     std::vector<SizeLayers> layers;
-    for (const LeastGap& gap : gaps_)
+    for (const LeastGap& gap : gaps_[worst_])
       if (std::isfinite(gap.gap)) layers.push_back({gap.place, gap.edge / 8, size_growth});
     return [sizes, layered = std::make_shared<LayeredSizes>(std::move(layers))](const Vec2& x) {
       return std::min(sizes(x), (*layered)(x));
@@ -240,22 +291,7 @@ class Loop {
     found_ = std::move(found);
   }
 
-  double estimated(const Results& r) const {
-    switch (spec_.of) {
-      case Goal::pressure:
-        return r.estimate->pressure();
-      case Goal::peak:
-        return r.estimate->peak();
-      case Goal::half_width:
-        return r.estimate->half_width();
-      case Goal::mean:
-      case Goal::force:
-      case Goal::displacement:
-      case Goal::stress:
-        return r.estimate->goal->error();
-    }
-    return 0;
-  }
+  double estimated(const Results& r) const { return estimated_error(r, spec_.of); }
 
   // Throws InputError where p has no largest value.
   void require_peak(const Results& r) const {
@@ -292,7 +328,7 @@ class Loop {
   }
 
   // On the first mesh p swings about corners that have no layers yet: its edges are judged by the slopes alone.
-  SizeAt next_sizes(const Results& r, bool first) {
+  WantedSizes wanted(const Results& r, bool first) const {
     const ErrorEstimate& e = *r.estimate;
     // What was asked of another quantity, as an error of p that is as far above what it should be.
     const double found = estimated(r), asked = spec_.value * (spec_.of == Goal::pressure ? 1 : e.pressure() / found);
@@ -308,35 +344,76 @@ class Loop {
       factors.goal_line = std::clamp(e.goal->line() / each, 0.4, largest_step);
       factors.far_field = std::clamp(e.goal->far() / each, 0.25, 5 * largest_step);
     }
-    WantedSizes wanted = wanted_sizes(r.problem.mesh, r.problem.pairs, e, factors);
+    return wanted_sizes(r.problem.mesh, r.problem.pairs, e, factors);
+  }
+
+  SizeAt next_sizes(const Results& r, bool first) { return sizes_as(r, wanted_ ? *wanted_ : wanted(r, first)); }
+
+  // Where other cases than this one want sizes too.
+  SizeAt with_wanted(const Results& r, SizeAt sizes) {
+    if (!wanted_) return sizes;
+    return [sizes = std::move(sizes), others = sizes_as(r, *wanted_)](const Vec2& x) {
+      return std::min(sizes(x), others(x));
+    };
+  }
+
+  SizeAt sizes_as(const Results& r, WantedSizes wanted) {
     for (Eigen::Index i = 0; i < wanted.sizes.size(); ++i)
       wanted.sizes(i) = std::min(wanted.sizes(i), largest_(r.problem.mesh.nodes.row(i).transpose()));
     const auto field = std::make_shared<SizeField>(r.problem.mesh, wanted.sizes, std::move(wanted.layers));
     // More than may be, as far as the old mesh tells: all elements larger, and this is the last mesh.
-    const double excess = expected_unknowns(r.problem.mesh, e.energy.areas, *field) / spec_.unknowns_max;
+    const double excess = expected_unknowns(r.problem.mesh, r.estimate->energy.areas, *field) / spec_.unknowns_max;
     at_limit_ = excess > 1;
     return [field, factor = std::sqrt(std::max(1.0, excess))](const Vec2& x) { return factor * (*field)(x); };
   }
 
   Stopwatch watch_;  // from the start
-  const Scene& scene_;
+  const std::vector<const Scene*> cases_;
+  const Scene& scene_;  // the first
   const AccuracySpec& spec_;
   const Progress& progress_;
   const std::function<bool()>& interrupted_;
   FreeMesher mesher_;
-  LayeredSizes largest_;           // sizes that no mesh goes above
-  std::vector<LeastGap> gaps_;     // of all pairs, on the last mesh if nothing was pressed on it
-  std::vector<FoundPoint> found_;  // singular points, of all solves so far
-  std::string told_;               // of the solve before, in the progress line
-  int others_ = 0;                 // meshes since the last that told the sizes of the next
-  bool at_limit_ = false;          // the mesh has been held to unknowns_max
+  LayeredSizes largest_;                     // sizes that no mesh goes above
+  std::vector<std::vector<LeastGap>> gaps_;  // of each case all pairs, on the last mesh if nothing was pressed on it
+  std::vector<char> open_;                   // of each case: nothing is pressed, and that is the answer
+  std::size_t worst_ = 0;                    // case
+  std::optional<WantedSizes> wanted_;        // of several cases on the last mesh, where any of them tells
+  std::vector<FoundPoint> found_;            // singular points, of all solves so far
+  std::string told_;                         // of the solve before, in the progress line
+  int others_ = 0;                           // meshes since the last that told the sizes of the next
+  bool at_limit_ = false;                    // the mesh has been held to unknowns_max
 };
 
 }  // namespace
 
+double estimated_error(const Results& r, Goal of) {
+  switch (of) {
+    case Goal::pressure:
+      return r.estimate->pressure();
+    case Goal::peak:
+      return r.estimate->peak();
+    case Goal::half_width:
+      return r.estimate->half_width();
+    case Goal::mean:
+    case Goal::force:
+    case Goal::displacement:
+    case Goal::stress:
+      return r.estimate->goal->error();
+  }
+  return 0;
+}
+
+AccurateMesh mesh_to_accuracy(const std::vector<const Scene*>& cases, const Progress& progress) {
+  const std::function<bool()> never;
+  Loop loop(cases, progress, never);
+  Results results = *loop.run();
+  return {std::move(results.problem.mesh), std::move(*results.accuracy), loop.found(), loop.open()};
+}
+
 std::optional<Results> solve_to_accuracy(const Scene& scene, const Progress& progress,
                                          const std::function<bool()>& interrupted) {
-  return Loop(scene, progress, interrupted).run();
+  return Loop({&scene}, progress, interrupted).run();
 }
 
 }  // namespace mortise

@@ -12,4 +12,20 @@ namespace mortise {
 std::optional<Results> solve_to_accuracy(const Scene& scene, const Progress& progress = {},
                                          const std::function<bool()>& interrupted = {});
 
+/// A mesh for several cases.
+struct AccurateMesh {
+  Mesh mesh;
+  AccuracyReport report;          ///< of the case that is farthest from what was asked
+  std::vector<FoundPoint> found;  ///< singular points of all cases, on all meshes
+  std::vector<char> open;         ///< of each case: nothing is pressed, and that is the answer
+};
+
+/// The same for cases of one geometry and one accuracy: on each mesh all are solved (CaseSolver), the next has the
+/// sizes that the most demanding of them asks for at each place, and the last is one on which all are within what was
+/// asked. Cases that are refused are left out. Throws InputError where all are.
+AccurateMesh mesh_to_accuracy(const std::vector<const Scene*>& cases, const Progress& progress = {});
+
+/// By which part of it the figure that an accuracy is asked of is off, as estimated.
+double estimated_error(const Results& results, Goal of);
+
 }  // namespace mortise

@@ -1,11 +1,13 @@
 #include "app/cases.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iomanip>
 #include <set>
 #include <sstream>
 
+#include "app/accuracy.hpp"
 #include "app/solve_scene.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
@@ -20,18 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string bad_input = "bad input: ";
-
-void refuse_accuracy(const Scene& scene) {
-  const auto refuse = [&](const std::string& of) {
-    throw InputError(
-        scene.path + ": " + of +
-        ": a mesh is found for one load; expected [[case]] without an accuracy (each case has bars), or one "
-        "of the cases by --case NAME with it");
-  };
-  if (scene.accuracy) refuse("accuracy");
-  for (const LoadCase& load : scene.cases)
-    if (load.scene.accuracy) refuse("case '" + load.name + "', accuracy");
-}
 
 // What no case can be solved for is the scene's own.
 void refuse_if_all_are(const Scene& scene, const CaseTable& table) {
@@ -68,19 +58,84 @@ void set_keys(const Scene& scene, CaseTable& table) {
   for (auto& values : table.values) values.resize(table.keys.size());
 }
 
-RunRow solve_case(const LoadCase& load, const CaseOptions& options, const Progress& progress, CaseSolver& solver,
-                  const TakeCase& take, std::vector<std::string>& warnings) try {
-  Results& results = solver.solve(load.scene, progress);
-  if (options.estimated) estimate(results);
-  if (options.diagnosed) diagnose(results);
-  judge_expectations(results);
-  warnings = results.warnings;
-  Json report = report_of(results);
-  const RunRow row = row_of(results, report);
-  if (take) take(load, results, report);
-  return row;
-} catch (const InputError& error) {
-  return {printable(bad_input + error.what()), {}};
+// The bars of a case on a mesh that was found for all.
+void estimate_case(const AccuracySpec& spec, const AccurateMesh& on, std::size_t k, Results& r) {
+  estimate(r, spec, on.found);
+  r.accuracy = on.report;
+  r.accuracy->solves.back() = {free_unknowns(r), on.open[k] ? 0 : estimated_error(r, spec.of), r.seconds.total()};
+  if (r.accuracy->reached())
+    r.accuracy->reason.clear();
+  else
+    r.status = std::max(r.status, Status::accuracy_not_reached);
+}
+
+// All cases one after another, on the mesh that is found for them or else on each scene's own.
+class Run {
+ public:
+  Run(const Scene& scene, const CaseOptions& options, const Progress& progress, const TakeCase& take)
+      : scene_(scene), options_(options), progress_(progress), take_(take) {
+    set_keys(scene, table);
+  }
+
+  void solve(const AccurateMesh* on) {
+    table.warnings.assign(scene_.cases.size(), {});
+    CaseSolver solver(on ? std::optional<Mesh>(on->mesh) : std::nullopt);
+    for (std::size_t k = 0; k < scene_.cases.size(); ++k) table.rows[k] = solve_case(k, on, solver);
+    refuse_if_all_are(scene_, table);
+    table.shared = solver.shared();
+  }
+
+  Progress stage_of(std::size_t k) const {
+    return [this, k](const std::string& name) {
+      if (progress_)
+        progress_("case " + std::to_string(k + 1) + " of " + std::to_string(scene_.cases.size()) + ", " +
+                  scene_.cases[k].name + ": " + name);
+    };
+  }
+
+  CaseTable table;
+
+ private:
+  RunRow solve_case(std::size_t k, const AccurateMesh* on, CaseSolver& solver) try {
+    const LoadCase& load = scene_.cases[k];
+    Results& results = solver.solve(load.scene, stage_of(k));
+    if (on)
+      estimate_case(*load.scene.accuracy, *on, k, results);
+    else if (options_.estimated)
+      estimate(results);
+    if (options_.diagnosed) diagnose(results);
+    judge_expectations(results);
+    table.warnings[k] = results.warnings;
+    Json report = report_of(results);
+    const RunRow row = row_of(results, report);
+    if (take_) take_(load, results, report);
+    return row;
+  } catch (const InputError& error) {
+    return {printable(bad_input + error.what()), {}};
+  }
+
+  const Scene& scene_;
+  const CaseOptions& options_;
+  const Progress& progress_;
+  const TakeCase& take_;
+};
+
+// Where any case asks for an accuracy, a mesh for all.
+std::optional<AccurateMesh> mesh_for(const Scene& scene, const Progress& progress) {
+  std::vector<const Scene*> cases;
+  for (const LoadCase& load : scene.cases) cases.push_back(&load.scene);
+  if (std::ranges::none_of(cases, [](const Scene* one) { return bool(one->accuracy); })) return {};
+  for (const LoadCase& load : scene.cases) {
+    const Scene& own = load.scene;
+    if (own.accuracy == scene.accuracy && own.mesh_file == scene.mesh_file &&
+        own.mesh_parameters == scene.mesh_parameters)
+      continue;
+    throw InputError(scene.path + ": case '" + load.name +
+                     "': the mesh of an accuracy is found for all cases; expected one geometry and one [accuracy], or "
+                     "this case by --case " +
+                     load.name);
+  }
+  return mesh_to_accuracy(cases, progress);
 }
 
 Json summary_of(const Scene& scene, const CaseTable& table) {
@@ -189,25 +244,12 @@ Status CaseTable::worst() const {
 }
 
 CaseTable solve_cases(const Scene& scene, const CaseOptions& options, const Progress& progress, const TakeCase& take) {
-  refuse_accuracy(scene);
   const Stopwatch watch;
-  CaseTable table;
-  set_keys(scene, table);
-  table.warnings.resize(scene.cases.size());
-  CaseSolver solver;
-  for (std::size_t k = 0; k < scene.cases.size(); ++k) {
-    const LoadCase& load = scene.cases[k];
-    const Progress stage = [&](const std::string& name) {
-      if (progress)
-        progress("case " + std::to_string(k + 1) + " of " + std::to_string(scene.cases.size()) + ", " + load.name +
-                 ": " + name);
-    };
-    table.rows[k] = solve_case(load, options, stage, solver, take, table.warnings[k]);
-  }
-  refuse_if_all_are(scene, table);
-  table.shared = solver.shared();
-  table.seconds = watch.elapsed();
-  return table;
+  Run run(scene, options, progress, take);
+  const std::optional<AccurateMesh> on = mesh_for(scene, progress);
+  run.solve(on ? &*on : nullptr);
+  run.table.seconds = watch.elapsed();
+  return std::move(run.table);
 }
 
 Scene case_of(const Scene& scene, const std::string& name) {

@@ -187,7 +187,7 @@ Results solve_scene(const Scene& scene, Mesh mesh, const Progress& progress, con
   return told_with_path(scene, [&] { return solve_on(scene, std::move(mesh), progress, start); });
 }
 
-CaseSolver::CaseSolver() = default;
+CaseSolver::CaseSolver(std::optional<Mesh> mesh) : mesh_(std::move(mesh)) {}
 CaseSolver::~CaseSolver() = default;
 
 // Whether the results have the problem under the scene's loads now.
@@ -214,7 +214,7 @@ void CaseSolver::begin(const Scene& scene, const Progress& progress) {
   results_ = {};
   Stopwatch watch;
   if (progress) progress("mesh");
-  Mesh mesh = scene_mesh(scene, &results_.mesh_cached);
+  Mesh mesh = mesh_ ? *mesh_ : scene_mesh(scene, &results_.mesh_cached);
   results_.seconds.mesh = watch.lap();
   require_same_mesh(mesh);
   take_problem(prepared(scene, std::move(mesh), progress, start_ ? &*start_ : nullptr), results_);

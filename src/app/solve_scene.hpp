@@ -25,7 +25,8 @@ class SystemSolver;
 /// its equations and, by the direct solver, its factor; it starts from the rows that were closed there.
 class CaseSolver {
  public:
-  CaseSolver();
+  /// `mesh`: of all scenes, where it is there already; else each has the one that it names.
+  explicit CaseSolver(std::optional<Mesh> mesh = {});
   ~CaseSolver();
   CaseSolver(const CaseSolver&) = delete;
   CaseSolver& operator=(const CaseSolver&) = delete;
@@ -41,6 +42,7 @@ class CaseSolver {
   bool take(const Scene& scene);
   void begin(const Scene& scene, const Progress& progress);
 
+  std::optional<Mesh> mesh_;
   std::optional<Scene> scene_;  // that what is kept is of; none: nothing is kept
   Results results_;
   std::vector<char> fixed_;            // of the system as it was factorised

@@ -1,6 +1,7 @@
 // Cases on one factor: what each scene says by itself, whatever came before.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <random>
 
 #include "app/solve_scene.hpp"
@@ -82,6 +83,45 @@ TEST_P(Cases, AreWhatEachIsAlone) {
         EXPECT_EQ(cases.shared(), count - 1) << name;
       }
 }
+
+// A table of values over all scenes.
+std::string values_over_all() {
+  const std::string path = testing::TempDir() + "mortise_case_values.csv";
+  std::ofstream(path) << "x,y,T\n-10,-10,1\n10,-10,2\n10,10,3\n-10,10,1.5\n";
+  return path;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    More, Cases,
+    testing::Values(
+        Drawn{"punch",
+              {{"mesh.parameters.n_punch", "8"},
+               {"mesh.parameters.n_block", "14"},
+               {"boundary.1", "{on = \"head\", rigid = {x = 0, force = [0, 0], moment = 0}}"}},
+              {{"boundary.1.rigid.force", {"[0, -%e7]"}},
+               {"boundary.1.rigid.moment", {"%e5", "-%e5"}},
+               {"boundary.2.pressure", {"%e6", "\"%e6*(1+x)\""}}}},
+        Drawn{"punch",
+              {{"mesh.parameters.n_punch", "9"},
+               {"mesh.parameters.n_block", "12"},
+               {"mesh.parameters.kind", "0"},
+               {"mesh.parameters.order", "1"},
+               {"boundary.1", "{on = \"head\", pressure = 1e6}"},
+               {"boundary.2", "{on = \"head\", rigid = {x = 0, y = 0, rotation = 0}}"}},
+              {{"boundary.2.rigid", {"{x = 0, y = -%e-5, rotation = %e-6}", "{x = 0, y = %e-6, rotation = -%e-5}"}}}},
+        Drawn{"lift_off",
+              {{"mesh.parameters.n_plate", "10"},
+               {"mesh.parameters.n_block", "12"},
+               {"mesh.parameters.kind", "0"},
+               {"boundary.1", "{on = \"bottom\", foundation = [1e12, \"1e12*(1+x)\"]}"},
+               {"fields.T", "{file = \"" + values_over_all() + "\"}"}},
+              {{"boundary.2.pressure", {"%e6", "\"%e6*T\"", "\"%e6*T*x\""}}, {"boundary.3.traction", {"[0, %e6]"}}}},
+        Drawn{"rings",
+              {{"mesh.parameters.n_inner", "4"}, {"mesh.parameters.n_outer", "5"}},
+              {{"contact.0.initial_gap", {"-%e-5", "\"%e-5*x\"", "\"-%e-5*s\""}}, {"boundary.2.pressure", {"%e7"}}}},
+        Drawn{"hertz_sphere",
+              {{"mesh.parameters.n_upper", "4"}, {"mesh.parameters.n_lower", "5"}},
+              {{"boundary.1.pressure", {"%e4", "%e5", "\"%e5*x\""}}, {"contact.0.clearance", {"-%e-6", "%e-7"}}}}));
 
 INSTANTIATE_TEST_SUITE_P(
     Random, Cases,
