@@ -79,6 +79,7 @@ Scene read_scene(const std::string& path, const std::vector<Override>& overrides
   for (const Override& change : overrides) scene_file::apply_override(root, change);
   Scene scene = scene_file::read_sections(root, path);
   for (const Override& change : overrides) scene.changes.push_back(change.key + "=" + change.value);
+  for (LoadCase& load : scene.cases) load.scene.changes = scene.changes;
   return scene;
 }
 

@@ -15,6 +15,7 @@ import pytest
 
 import launch  # makes src/python/pictures known
 import drawn_bodies
+import drawn_cases
 import drawn_cells
 import drawn_forces
 import drawn_pairs
@@ -236,6 +237,9 @@ def test_every_recipe_is_drawn(mortise, name, tmp_path):
     for file, text in RECIPES.items():
         (tmp_path / file).write_text(text)
     launch.solve(tmp_path / name, {}, tmp_path / "out")
+    if "[[case]]" in RECIPES[name]:
+        drawn_cases.draw_history(tmp_path / "out", tmp_path / "a.png", argparse.Namespace(along=None, pair=None, dpi=40))
+        return
     draw(tmp_path / "out", tmp_path / "a.png")
 
 
@@ -324,6 +328,58 @@ def test_two_runs_over_each_other_and_p_alone(mortise, solve, tmp_path):
     assert refused.returncode == 1 and "has no pair of block_top and foot" in refused.stderr
     refused = draw(first, tmp_path, tmp_path / "no.png")
     assert refused.returncode == 1 and "no summary.json there" in refused.stderr and not (tmp_path / "no.png").exists()
+
+
+CASES = """
+[[case]]
+name = "part"
+scale = [0.5, 0.75, 1]
+[[case]]
+name = "pulled"
+boundary.2.displacement.y = 1e-4
+[cases]
+write = "all"
+"""
+
+
+def test_the_history_of_cases(mortise, tmp_path):
+    scene = tmp_path / "scene.toml"
+    geo = launch.ROOT / "geo"
+    scene.write_text((geo / "gap_close.toml").read_text().replace("gap_close.geo", str(geo / "gap_close.geo")) + CASES)
+    folder = tmp_path / "cases"
+    subprocess.run([mortise, "solve", scene, "-o", folder, "--quiet"], check=True)
+    draw = lambda *words: subprocess.run([mortise, "picture", *words], capture_output=True, text=True, check=False)
+    ended = draw(folder, "--history", "--dpi", "60")
+    assert ended.returncode == 0, ended.stderr
+    width, height = png_size(folder.with_name("cases.png"))
+    assert width == 8 * 60 and height > 500
+    assert draw(folder, tmp_path / "along.svg", "--history", "--along", "energy").returncode == 0
+    assert "energy" in (tmp_path / "along.svg").read_text()
+    assert draw(folder / "cases/part_1", tmp_path / "one.png").returncode == 0
+    reader = meshio.vtu.read(folder / "cases/part_0.5/result.vtu")
+    assert f'file="cases/part_0.5/result.vtu"' in (folder / "cases.pvd").read_text() and len(reader.points) > 0
+    for words, said in [((folder,), "the cases of a scene; expected --history, or the folder cases/NAME"),
+                        ((folder / "cases/part_1", "--history"), "no cases.csv there; expected the folder of a scene with [[case]]"),
+                        ((folder, "--history", "--along", "q"), "--along q: no such column; expected one of cases.csv: case, scale"),
+                        ((folder, "--history", "--pair", "1"), "cases.csv has no contact pair 1")]:  # fmt: skip
+        refused = draw(*words)
+        assert refused.returncode == 1 and said in refused.stderr, refused.stderr
+    refused = subprocess.run([mortise, "report", folder], capture_output=True, text=True, check=False)
+    assert refused.returncode != 0 and "expected one of the folders cases/NAME" in refused.stderr
+    assert subprocess.run([mortise, "report", folder / "cases/part_1"], capture_output=True, check=False).returncode == 0
+    refused = subprocess.run([mortise, "certify", scene, "-o", tmp_path / "certificate"], capture_output=True, text=True, check=False)
+    assert refused.returncode == 1 and "one load is certified; expected --set case=[]" in refused.stderr
+
+
+def test_the_columns_that_cases_are_drawn_over():
+    table = {"case": np.array(["a", "b"]), "scale": np.array([1.0, 1.0]), "boundary.2.pressure": np.array([2.0, 1.0]),
+             "status": np.array(["solved"] * 2), "support.1.displacement.x": np.array([0.0, 1.0]),
+             "support.1.displacement.y": np.array([0.0, -3.0]), "support.1.reaction.y": np.array([5.0, 6.0])}  # fmt: skip
+    assert drawn_cases.load_axis(table, None)[0] == "boundary.2.pressure"
+    name, moved, reaction = drawn_cases.approach(table)
+    assert name == "support.1.displacement.y" and moved[1] == -3 and reaction[1] == 6
+    del table["boundary.2.pressure"]
+    assert drawn_cases.load_axis(table, None)[0] == "case"
 
 
 def test_a_turned_scene_is_the_same_scene(solve):

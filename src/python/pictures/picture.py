@@ -3,12 +3,13 @@
 contact line; of many contact pairs the forces between the bodies, p along a curve that many have and of the most loaded.
 
 Usage: picture.py RESULTS [MORE...] [PICTURE] [--format FORMAT] [--zoom [X0,X1,Y0,Y1]] [--field FIELD] [--pair K] [--bodies]
-[--pressure] [--scale FACTOR] [--dpi DPI]
+[--pressure] [--history] [--along COLUMN] [--scale FACTOR] [--dpi DPI]
 (mortise picture does the same)
 
 RESULTS is the folder that `mortise solve` wrote; read are result.vtu, contact.vtu, summary.json
 (docs/files.md) and contact.csv, or with 3-node triangles contact_centres.csv: p zigzags at their nodes. PICTURE is a
-.png, .pdf or .svg, by default RESULTS.png beside the folder (--format: another kind). With MORE folders it is p of all runs
+.png, .pdf or .svg, by default RESULTS.png beside the folder (--format: another kind). With --history RESULTS
+is the folder of a scene with cases, and the picture what cases.csv says over the load, or over any of its COLUMNs. With MORE folders it is p of all runs
 over each other, with --pressure p of one. A scene that is much taller than wide is turned. --scale magnifies the
 displacements; by default the largest is drawn as about 4 % of the size of what is shown, less where bodies whose gap
 closes would be drawn over each other. --zoom shows the bodies where contact carries pressure, or in a box, without loads
@@ -32,6 +33,7 @@ except ImportError as missing:
 
 import result_tables
 from drawn_bodies import CONTACT, FIELDS, MANY_PAIRS, PAIR_COLOURS, SLENDER, draw_bodies, shown_box, turn
+from drawn_cases import draw_history
 from drawn_forces import draw_forces
 from drawn_pairs import COLUMNS, SMALL, draw_along, draw_runs, draw_small, most_loaded, shared_curve
 from drawn_pressure import draw_pair, has_limit
@@ -199,6 +201,8 @@ def main():
     parser.add_argument("--pair", type=int, metavar="K", help="the Kth contact pair only, from 0")
     parser.add_argument("--bodies", action="store_true", help="the bodies only, without the pressure")
     parser.add_argument("--pressure", action="store_true", help="p along the lines only, without the bodies")
+    parser.add_argument("--history", action="store_true", help="of a scene's cases: figures over the load, from cases.csv")
+    parser.add_argument("--along", metavar="COLUMN", help="of --history: over this column (default: the scale, or what cases change)")
     parser.add_argument("--scale", type=float, help="magnification of the displacements")
     parser.add_argument("--dpi", type=int, default=130)
     options = parser.parse_args(with_box(sys.argv[1:]))
@@ -207,11 +211,17 @@ def main():
     for folder in folders:
         if not (folder / "summary.json").is_file():
             parser.error(f"{folder}: no summary.json there; expected the folder of a run of mortise solve")
+    for folder in folders:
+        if options.history != (folder / "cases.csv").is_file():
+            parser.error(f"{folder}: no cases.csv there; expected the folder of a scene with [[case]]" if options.history
+                         else f"{folder}: the cases of a scene; expected --history, or the folder cases/NAME of one of them")
     picture = options.results.with_name(f"{options.results.resolve().name}.{options.format or FORMATS[0]}") if last in folders else last
     if picture.suffix[1:] not in FORMATS:
         parser.error(f"{picture}: expected a name that ends in {', '.join(f'.{name}' for name in FORMATS)}")
     try:
-        if options.pressure or len(folders) > 1:
+        if options.history:
+            draw_history(options.results, picture, options)
+        elif options.pressure or len(folders) > 1:
             draw_pressures(folders, picture, options)
         else:
             draw(options.results, picture, options)

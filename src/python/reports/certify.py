@@ -274,6 +274,8 @@ def certify(mortise, scene, output, changes=(), accuracy=None, freefem=True, spo
         tables = tomllib.loads(scene.read_text())
     except (OSError, ValueError) as error:
         raise SystemExit(f"mortise certify: error: {scene}: {error}") from None
+    if tables.get("case") and not any(change.replace(" ", "") == "case=[]" for change in changes):
+        raise SystemExit(f"mortise certify: error: {scene}: one load is certified; expected --set case=[], and a --set of what the case changes")
     start, output = time.perf_counter(), output.absolute()
     asked = accuracy or part_of(tables.get("accuracy", {}).get("value", "1%"))
     geometry = str(tables.get("mesh", {}).get("file", "")).endswith(".geo")

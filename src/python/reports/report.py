@@ -307,6 +307,8 @@ def main():
     options = parser.parse_args()
     if not any((options.folder / name).is_file() for name in ("summary.json", "certificate.json")):
         parser.error(f"{options.folder}: no summary.json there; expected the folder of a run of mortise solve or certify")
+    if (options.folder / "cases.csv").is_file():
+        parser.error(f"{options.folder}: the cases of a scene; expected one of the folders cases/NAME in it")
     page = options.page or options.folder.with_name(options.folder.resolve().name + ".html")
     if page.suffix != ".html":
         parser.error(f"{page}: expected a name that ends in .html")

@@ -1,0 +1,122 @@
+"""The history of a scene's cases: what cases.csv says over the load, and p along the first contact line of some."""
+
+import json
+
+import figure
+import numpy as np
+import result_tables
+from drawn_pressure import loaded_part
+
+MOST_LINES = 6  # of p along the contact line
+
+
+def varies(column):
+    """Whether a column holds numbers that differ."""
+    return column.dtype.kind == "f" and np.isfinite(column).sum() > 1 and np.nanmax(column) > np.nanmin(column)
+
+
+def load_axis(table, asked):
+    """Name and values of what the cases are drawn over: a column that is asked for, else the scale, else the first
+    number that cases change, else their numbers."""
+    if asked is not None:
+        if asked not in table:
+            raise SystemExit(f"picture.py: --along {asked}: no such column; expected one of cases.csv: {', '.join(table)}")
+        return asked, table[asked]
+    names = list(table)
+    for name in names[1 : names.index("status")]:
+        if varies(table[name]):
+            return name, table[name]
+    return "case", np.arange(len(table["case"]), dtype=float)
+
+
+def approach(table):
+    """Displacement and reaction of the rigid curve that moves most, and their names; nothing where none moves."""
+    moves = [name for name in table if ".displacement." in name and name.startswith("support.") and varies(table[name])]
+    if not moves:
+        return None
+    name = max(moves, key=lambda name: np.ptp(table[name][np.isfinite(table[name])]))
+    return name, table[name], table[name.replace("displacement", "reaction")]
+
+
+def contact_panels(table, pair):
+    """Of each panel its label, its values and their bars."""
+    at = f"contact.{pair}."
+    column = lambda name: table.get(at + name, np.full(len(table["case"]), np.nan))
+    force = np.hypot(column("force.x"), column("force.y"))
+    return [
+        ("largest p", column("pressure.max"), column("pressure.max_error")),
+        ("length in contact", column("length_in_contact"), column("length_in_contact_error")),
+        ("contact force", force, np.hypot(column("force_error.x"), column("force_error.y"))),
+    ]
+
+
+def draw_over(axes, x, values, bars, label, name):
+    """Values with their bars over x, in its order."""
+    order = np.argsort(x, kind="stable")
+    order = order[np.isfinite(values[order]) & np.isfinite(x[order])]
+    bars = np.where(np.isfinite(bars), bars, 0)
+    axes.fill_between(x[order], (values - bars)[order], (values + bars)[order], color="0.82", linewidth=0)
+    axes.plot(x[order], values[order], "o-", markersize=3, linewidth=1.2)
+    figure.label(axes, figure.short(name), "")
+    figure.scientific(axes.yaxis, label)
+
+
+def draw_stiffness(axes, name, moved, reaction):
+    """Reaction over displacement, and its slope on an axis of its own."""
+    known = np.isfinite(moved) & np.isfinite(reaction)
+    order = np.flatnonzero(known)[np.argsort(moved[known])]
+    u, force = moved[order], reaction[order]
+    axes.plot(u, force, "o-", markersize=3, linewidth=1.2)
+    figure.label(axes, figure.short(name), "")
+    figure.scientific(axes.yaxis, "reaction")
+    if len(np.unique(u)) == len(u) > 2:
+        slope = axes.twinx()
+        slope.plot(u, np.gradient(force, u), "--", color="0.4", linewidth=1)
+        figure.scientific(slope.yaxis, "stiffness dF/du (dashed)")
+
+
+def pressures(folder, table, pair):
+    """Case, s, p and curve of the multiplier side of a pair, of some of the cases that have a contact.csv."""
+    names = [name for name in map(name_of, table["case"]) if (folder / "cases" / name / "contact.csv").is_file()]
+    if len(names) > MOST_LINES:
+        names = [names[round(k)] for k in np.linspace(0, len(names) - 1, MOST_LINES)]
+    for name in names:
+        found = result_tables.columns(folder / "cases" / name / "contact.csv")
+        on, _ = result_tables.sides_of(found, pair)
+        yield name, found["s"][on], found["p"][on], found["curve"][on][0]
+
+
+def name_of(case):
+    """The name of a case whose names are all numbers, as it was."""
+    return f"{case:g}" if isinstance(case, float) else str(case)
+
+
+def draw_history(folder, picture, options):
+    """One picture of the cases in a folder."""
+    summary = json.loads((folder / "summary.json").read_text())
+    table = result_tables.columns(folder / "cases.csv")
+    name, x = load_axis(table, options.along)
+    pair = options.pair or 0
+    if f"contact.{pair}.pressure.max" not in table:
+        raise SystemExit(f"picture.py: {folder}: cases.csv has no contact pair {pair}")
+    lines = list(pressures(folder, table, pair))
+    moves = approach(table)
+    count = 3 + bool(moves) + bool(lines)
+    drawing, panels = figure.panels(count, 1, (8, 2.4 * count + 0.6), squeeze=False)
+    rest = iter(panels[:, 0])
+    for label, values, bars in contact_panels(table, pair):
+        draw_over(next(rest), x, values, bars, label, name)
+    if moves:
+        draw_stiffness(next(rest), *moves)
+    if lines:
+        axes = next(rest)
+        for case, s, p, curve in lines:
+            axes.plot(s, p, linewidth=1.2, label=figure.short(case))
+        parts = [loaded_part(s, p) for _, s, p, _ in lines]
+        axes.set_xlim(min(part[0] for part in parts), max(part[1] for part in parts))
+        figure.label(axes, f"arc length $s$ along {figure.short(lines[0][3])}", "", legend={"frameon": False})
+        figure.scientific(axes.yaxis, "contact pressure")
+    title = figure.wrapped(summary["title"] or summary["scene"])
+    bad = int(np.sum(table["status"] != "solved"))
+    drawing.suptitle(f"{title}\n{bad} of {len(x)} cases are not solved" if bad else title, fontsize=11, color=figure.RED if bad else "black")
+    figure.save(drawing, picture, options.dpi)
