@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import meshio
 import numpy as np
 import pytest
 
@@ -51,7 +52,8 @@ def test_certificate_of_hertz(mortise, tmp_path):
     assert not re.search(r'(src|href)="(?!#|data:)', page)
     largest = next(row for row in found["figures"] if row["kind"] == "largest p")
     assert largest["value"] == pytest.approx(5.8184e8, abs=2 * largest["bar"])  # Hertz: docs/benchmarks.md
-    assert 0.5 < found["study"][1]["rate"] < 4
+    own, finer, _ = found["study"]
+    assert (own["estimated"] / finer["estimated"]) ** finer["rate"] == pytest.approx(own["off"] / finer["off"]) and finer["rate"] > 0.5
     unknowns = [row["unknowns"] for row in found["study"]]
     assert unknowns == sorted(unknowns) and found["study"][0]["off"] > found["study"][1]["off"]
 
@@ -86,6 +88,17 @@ def test_an_accuracy_that_is_not_reached(wrong):
     assert not found["agrees"] and "accuracy_not_reached" in found["troubles"][0] and len(found["runs"]) == 1
 
 
+def test_a_run_that_ends_without_an_answer_is_a_trouble(mortise, tmp_path):
+    """What the program refuses is skipped, with its words."""
+    program = tmp_path / "program"
+    program.write_text(f'#!/bin/sh\ncase "$*" in *feti*) exit 3;; *other*|*multipliers_on*) echo "mortise: no" >&2; exit 1;; esac\nexec {mortise} "$@"\n')
+    program.chmod(0o755)
+    found = certify.certify(str(program), RINGS, tmp_path / "runs", freefem=False)
+    status = {run["name"]: run["status"] for run in found["runs"]}
+    assert status["feti"] == "failed" and status["other_side"] == "skipped" and not found["agrees"]
+    assert found["troubles"] == ["feti: "] and found["skipped"] == ["other_side: no"]
+
+
 def test_bad_input_is_refused_as_by_solve(mortise, tmp_path):
     ended = subprocess.run([mortise, "certify", tmp_path / "no.toml"], capture_output=True, text=True)
     assert ended.returncode == 1 and "no.toml" in ended.stderr and "Traceback" not in ended.stderr
@@ -115,7 +128,7 @@ def test_freefem_is_compared_at_its_vertices(tmp_path, mortise):
     run = figures.read_run(tmp_path / "own")
     (xy, p, _), = run.lines.values()
     for factor, agrees in ((1, True), (1.2, False), (float("nan"), False)):
-        rows = np.column_stack([0 * p, xy, factor * p, 0 * p])[::-2]
+        rows = np.random.default_rng(5).permutation(np.column_stack([0 * p, xy, factor * p, 0 * p])[::2])
         np.savetxt(tmp_path / "freefem_contact.txt", rows)
         found, = figures.compare(run, figures.of_freefem(run, tmp_path / "freefem_contact.txt"))
         assert found.agrees == agrees and (factor != 1 or found.off < 1e-6 * found.value)
@@ -132,3 +145,18 @@ def test_a_report_of_a_coarse_mesh_is_not_green(mortise, tmp_path):
     assert "only: the mesh is too coarse" in page and "class='verdict bad'" in page and "--set boundary.2.pressure=2e7" in page
     summary["estimate"]["pressure"]["error"], summary["status"] = 0.05, "solved"
     assert report.verdict(summary, None)[1]
+
+
+def test_deformed_sides_that_part_are_seen(mortise, tmp_path):
+    """Where only one of them is moved on, in the files."""
+    subprocess.run([mortise, "solve", HERTZ, "--accuracy", "1%", "-o", tmp_path / "own", "--quiet"], check=True)
+    base = certify.Variation("own", "", [], "solved", run=figures.read_run(tmp_path / "own"))
+    kept = certify.told_apart(base, 0.01)
+    path = tmp_path / "own/contact.vtu"
+    lines = meshio.vtu.read(path)
+    first = [row["curve"] == "block_top" for row in figures.rows_of(tmp_path / "own/contact.csv")]
+    lines.point_data["displacement"][first, 1] -= 0.05 * base.run.summary["extremes"]["displacement"]
+    meshio.vtu.write(path, lines)
+    moved = certify.told_apart(base, 0.01)
+    assert kept["agrees"] and kept["off"] < 1e-3 and not moved["agrees"] and moved["off"] == pytest.approx(0.05, rel=0.02)
+    assert "the deformed sides are apart by 0.05" in certify.troubles_of(base, [base], 0.01, True, moved)[0]

@@ -61,7 +61,8 @@ def loaded_box(mesh, table):
     at = np.stack([table["x"], table["y"]], axis=1)[on]
     half = max(0.75 * np.ptp(at, axis=0).max(), 1e-3 * size_of(mesh.points[:, :2]))
     middle = (at.min(axis=0) + at.max(axis=0)) / 2
-    return np.array([middle - half, middle + half])
+    points, beside = mesh.points[:, :2], 0.02 * size_of(mesh.points[:, :2])  # no more of the page than the bodies fill
+    return np.array([np.maximum(middle - half, points.min(axis=0) - beside), np.minimum(middle + half, points.max(axis=0) + beside)])
 
 
 def shown_box(mesh, table, zoom):

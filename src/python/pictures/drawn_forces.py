@@ -54,8 +54,10 @@ def label_places(axes, turned):
 
 
 def colour_bar(axes, drawn, label, turned, extend="neither"):
-    """Beside the panel, of a turned scene's low one below it."""
-    bar = axes.figure.colorbar(drawn, ax=axes, extend=extend, pad=0.02, aspect=60 if turned else 25, location="bottom" if turned else "right")
+    """Beside the panel, which stays in the middle of the page; of a turned scene's low one below it."""
+    wide, high = np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())
+    place = {"ax": axes, "location": "bottom", "aspect": 60} if turned else {"cax": axes.inset_axes([1.03, 0, high / wide / 25, 1])}
+    bar = axes.figure.colorbar(drawn, extend=extend, **place)
     figure.scientific(bar.ax.xaxis if turned else bar.ax.yaxis, label)
 
 

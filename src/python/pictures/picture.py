@@ -126,7 +126,7 @@ def draw(results, picture, options):
     below = [2.5] * len(shown)
     if many:
         below = [above + turned, *([2.5] if shared_curve(pairs) else []), 0.3 + 1.25 * -(-min(len(pairs), SMALL) // COLUMNS)]
-    drawing, rows = rows_of_panels([above + 0.6, *below])
+    drawing, rows = rows_of_panels([above + (1.4 if turned else 0.6), *below])
     entitle(rows[0], summary)
     axes = rows.pop(0).subplots()
     used, why = draw_bodies(axes, mesh, curve, summary, table if options.pair is None else of_shown, options, turned)

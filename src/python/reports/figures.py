@@ -126,10 +126,9 @@ def chain(table, curve):
     return np.array([[float(row[name] or "nan") for name in ("x", "y", "p")] for row in rows])
 
 
-def slope(xy):
-    """Angle of a chain's tangent at its nodes."""
-    step = np.gradient(xy, axis=0)
-    return np.unwrap(np.arctan2(step[:, 1], step[:, 0]))
+def tangents(xy):
+    """Of a chain at its nodes, as complex numbers."""
+    return np.gradient(xy[:, 0] + 1j * xy[:, 1])
 
 
 def tilt(run):
@@ -142,8 +141,7 @@ def tilt(run):
         if len(mine) < 2 or len(theirs) < 2 or not pressed.any():
             continue
         nearest = np.linalg.norm(mine[pressed, None, :2] - theirs[None, :, :2], axis=2).argmin(axis=1)
-        angle = slope(mine[:, :2])[pressed] - slope(theirs[:, :2])[nearest]
-        angle = np.abs((angle + np.pi / 2) % np.pi - np.pi / 2)  # of lines, whichever way they run
+        angle = np.abs(np.angle(tangents(mine)[pressed] / tangents(theirs)[nearest]))  # both run the same way
         worst = max(worst, float(np.average(angle, weights=mine[pressed, 2])))
     return worst
 
