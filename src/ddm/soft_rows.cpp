@@ -17,13 +17,28 @@ SparseMatrix with_stored_diagonal(const SparseMatrix& A) {
   return A + zeros;
 }
 
+// A, a lower triangle, without the entries between the first rows that are not both kept.
+SparseMatrix uncoupled(const SparseMatrix& A, const std::vector<char>& kept) {
+  const int rows = int(kept.size());
+  SparseMatrix left(A.rows(), A.cols());
+  std::vector<int> sizes(A.cols(), 0);
+  const auto stays = [&](int i, int j) { return i == j || i >= rows || (kept[i] && kept[j]); };
+  for (int j = 0; j < A.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(A, j); it; ++it) sizes[j] += stays(int(it.row()), j);
+  left.reserve(sizes);
+  for (int j = 0; j < A.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(A, j); it; ++it)
+      if (stays(int(it.row()), j)) left.insert(it.row(), j) = it.value();
+  left.makeCompressed();
+  return left;
+}
+
 }  // namespace
 
 SoftRows::SoftRows(const SparseMatrix& system, Eigen::Index rows)
     : matrix_(with_stored_diagonal(system)), own_(matrix_.diagonal()), rows_(rows) {
   unit_ = stacked(own_.head(rows), stiffness()).cwiseSqrt();
   unit_ = unit_.cwiseMax(std::numeric_limits<double>::min());
-  factor_.analyzePattern(matrix_);
 }
 
 VecX SoftRows::stiffness() const {
@@ -40,7 +55,9 @@ bool SoftRows::factorise(const VecX& compliance) {
   const VecX held = stiffness();
   matrix_.diagonal().tail(held.size()) =
       -motion_softness * held.cwiseMax(std::numeric_limits<double>::epsilon() * largest_entry(held));
-  factor_.factorize(matrix_);
+  std::vector<char> coupled(rows_);
+  for (Eigen::Index a = 0; a < rows_; ++a) coupled[a] = compliance(a) <= far_more * own_(a);
+  factor_.compute(uncoupled(matrix_, coupled));
   matrix_.diagonal().tail(held.size()).setZero();
   return factor_.info() == Eigen::Success && factor_.vectorD().allFinite();
 }

@@ -9,7 +9,7 @@ namespace mortise {
 
 /// [C + D, H; H^T, 0] with D > 0 on unilateral rows: what a step of the interior point solves. The path leads through
 /// systems that no iteration preconditioned for closed rows ends on, as D spans some twenty orders, so they are
-/// factorised: C has entries only between rows of one part.
+/// factorised: C has entries only between rows of one part, and none of soft rows (far_more).
 class SoftRows {
  public:
   /// `system`: DualSystem::matrix, of `rows` rows.

@@ -47,7 +47,8 @@ class ContactRows {
   /// w, m, and h - H^T lambda, s: zero for none of both vectors.
   virtual VecX gaps(const Forces& forces) const = 0;
   virtual VecX unbalanced(const VecX& lambda) const = 0;
-  /// From now on each row gives way by `compliance` (m, >= 0) times its lambda. False where there is no such system.
+  /// From now on each row gives way by `compliance` (m, >= 0) times its lambda, and one that gives way far more than
+  /// the bodies do presses on motions alone. False where there is no such system.
   virtual bool soften(const VecX& compliance) = 0;
   /// [C + compliance, H; H^T 0] (lambda, mu) = (gap, work).
   virtual Forces solve_softened(const VecX& gap, const VecX& work) = 0;
@@ -56,5 +57,8 @@ class ContactRows {
   /// s x count: the motions that none of the closed rows of the last solve holds, told_apart.
   virtual MatX free_motions() const = 0;
 };
+
+/// Of a row's own compliance in C: what gives way more is soft. Left out of a step are then terms of its inverse.
+inline constexpr double far_more = 1e3;
 
 }  // namespace mortise

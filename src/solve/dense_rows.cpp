@@ -72,25 +72,35 @@ VecX DenseRows::gaps(const Forces& forces) const {
 VecX DenseRows::unbalanced(const VecX& lambda) const { return rhs_.tail(springs()) - Ht() * unknown(lambda); }
 
 bool DenseRows::soften(const VecX& compliance) {
-  MatX C = p_.compliance.topLeftCorner(rows(), rows());
-  C.diagonal() += compliance;
+  coupled_.clear();
+  soft_ = VecX::Zero(rows());
+  for (Eigen::Index a = 0; a < rows(); ++a) {
+    if (compliance(a) <= far_more * p_.compliance(a, a))
+      coupled_.push_back(int(a));
+    else
+      soft_(a) = 1 / (compliance(a) + p_.compliance(a, a));
+  }
+  MatX C = p_.compliance(coupled_, coupled_);
+  C.diagonal() += compliance(coupled_);
   softened_.compute(C);
   if (softened_.info() != Eigen::Success) return false;
   if (springs() == 0) return true;
-  reduced_ = softened_.matrixL().solve(openings());
-  MatX T = reduced_.transpose() * reduced_;
+  reduced_ = softened_.matrixL().solve(MatX(Ht()(Eigen::all, coupled_).transpose()));
+  MatX T = reduced_.transpose() * reduced_ + Ht() * soft_.asDiagonal() * Ht().transpose();
   T.diagonal().array() += unheld * T.diagonal().mean();
   motions_.compute(T);
   return true;
 }
 
 ContactRows::Forces DenseRows::solve_softened(const VecX& gap, const VecX& work) {
-  VecX y = softened_.matrixL().solve(gap), mu = VecX::Zero(springs());
+  VecX y = softened_.matrixL().solve(gap(coupled_)), mu = VecX::Zero(springs());
   if (springs() > 0) {
-    mu = motions_.solve(reduced_.transpose() * y - work);
+    mu = motions_.solve(reduced_.transpose() * y + Ht() * soft_.cwiseProduct(gap) - work);
     y -= reduced_ * mu;
   }
-  return {.lambda = softened_.matrixU().solve(y), .mu = mu};
+  VecX lambda = soft_.cwiseProduct(gap - opened(mu));
+  lambda(coupled_) = VecX(softened_.matrixU().solve(y));
+  return {.lambda = lambda, .mu = mu};
 }
 
 }  // namespace mortise

@@ -39,9 +39,12 @@ class DenseRows : public ContactRows {
   const VecX& rhs_;
   double negligible_stress_ = 0;  // opens no row by more than round-off
   std::optional<MultiplierSystem> system_;
-  // Of rows that give way: L L^T = C + compliance; L^-1 H; its square.
+  // Of rows that give way: those that press on others; their L L^T = C + compliance and L^-1 H; 1 / compliance of the
+  // soft ones, 0 of others; what all do against motions.
+  std::vector<int> coupled_;
   Eigen::LLT<MatX> softened_;
   MatX reduced_;
+  VecX soft_;
   Eigen::LDLT<MatX> motions_;
 };
 

@@ -169,6 +169,32 @@ TEST(InteriorPoint, EndsWhereNothingIsPressed) {
   }
 }
 
+// Rows that give way far more than the bodies do are solved as if each were alone; some motions are held by them alone.
+TEST(InteriorPoint, SoftRowsPressOnMotionsAlone) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> power(0, 6);
+  for (int run = 0; run < 100; ++run) {
+    SCOPED_TRACE(run);
+    const Eigen::Index m = 10 + run, s = 3, soft = m / 2;
+    ConvexProblem p = random_convex(random, Kind::any, m, s);
+    p.rows.compliance.row(m + s - 1).tail(m + s - soft).setZero();
+    p.rows.compliance.col(m + s - 1).tail(m + s - soft).setZero();
+    DenseRows rows(p.rows, p.rhs);
+    VecX give = rows.diagonal();
+    for (Eigen::Index a = 0; a < soft; ++a) give(a) *= 2 * far_more * std::pow(10, power(random));
+    MatX system = p.rows.compliance;
+    system.diagonal().head(m) += give;
+    const VecX exact = system.fullPivLu().solve(p.rhs);
+    ASSERT_TRUE(rows.soften(give));
+    const auto [lambda, mu] = rows.solve_softened(p.rhs.head(m), p.rhs.tail(s));
+    const VecX size = give.cwiseSqrt();
+    EXPECT_LE((lambda - exact.head(m)).cwiseProduct(size).norm(),
+              double(m) / far_more * exact.head(m).cwiseProduct(size).norm());
+    EXPECT_LE((mu - exact.tail(s)).norm(), double(m) / far_more * exact.tail(s).norm());
+    EXPECT_LE((p.H().transpose() * lambda - p.rhs.tail(s)).norm(), 1e-8 * p.rhs.tail(s).norm());
+  }
+}
+
 // The last motion is seen by no row; what is left of its load is round-off of the pressures, not of their correction.
 TEST(ActiveSet, ACorrectionStartsFromWhatIsKnown) {
   std::mt19937 random(9);
