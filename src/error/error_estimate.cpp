@@ -8,6 +8,7 @@
 #include "base/parallel.hpp"
 #include "contact/gap_cuts.hpp"
 #include "error/gap_error.hpp"
+#include "error/missed_contact.hpp"
 #include "error/recovered_pressure.hpp"
 #include "error/sliding_kinks.hpp"
 #include "error/weak_points.hpp"
@@ -124,6 +125,13 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, const Surroun
                       spec.value, e);
     find_excluded(spec.exclude, e);
   });
+  std::vector<PressureLine*> lines;
+  std::vector<LineError*> errors;
+  for (PressureEstimate& e : list) {
+    lines.push_back(&e.line);
+    errors.push_back(&e.local);
+  }
+  add_missed_contact(p, solution, lines, errors);
   add_end_windows(p.pairs, list);
   return list;
 }

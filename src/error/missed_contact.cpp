@@ -1,0 +1,152 @@
+#include "error/missed_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "error/line_part.hpp"
+#include "fem/edges.hpp"
+#include "fem/motion_sets.hpp"
+#include "solve/nonnegative_fit.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double round_off = 1e-9;  // of the largest displacement
+constexpr int many_motions = 200;   // that fit_nonnegative is not made for: these bodies stay where they are
+// What moving a body by a length costs over what an overlap of that length does: enough to choose one of many places.
+constexpr double of_moving = 1e-3;
+
+// The gap at the points of a pair that are away from contact, and what each free motion does to it.
+struct OpenPoints {
+  std::vector<int> points;
+  VecX gaps;     // length
+  MatX motions;  // points x motions
+};
+
+using Motion = std::vector<RigidMotion>;
+
+Vec2 moved(const Motion& motion, int body, const Vec2& x) {
+  for (const RigidMotion& part : motion)
+    if (part.body == body) {
+      const Vec2 arm = x - part.centre;
+      return part.translation + part.rotation * Vec2(-arm.y(), arm.x());
+    }
+  return Vec2::Zero();
+}
+
+OpenPoints open_points(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& u,
+                       const std::vector<Motion>& motions) {
+  OpenPoints open;
+  if (pair.spec.condition != Condition::unilateral) return open;
+  for (std::size_t i = 0; i < pair.points.size(); ++i)
+    if (const int e = pair.points[i].edge; !line.loaded[e] && !line.loaded[e + 1]) open.points.push_back(int(i));
+  const VecX opened = openings(pair, u);
+  open.gaps.resize(Eigen::Index(open.points.size()));
+  open.motions.resize(open.gaps.size(), Eigen::Index(motions.size()));
+  for (Eigen::Index k = 0; k < open.gaps.size(); ++k) {
+    const ContactPoint& point = pair.points[open.points[k]];
+    open.gaps(k) = point.gap + opened(open.points[k]);
+    const Vec2 x = edge_point(mesh.nodes, pair.multiplier.edges[point.edge], point.xi).position,
+               y = edge_point(mesh.nodes, pair.opposite.edges[point.opposite_edge], point.eta).position;
+    for (std::size_t j = 0; j < motions.size(); ++j)
+      open.motions(k, Eigen::Index(j)) =
+          point.normal.dot(moved(motions[j], pair.opposite.body, y) - moved(motions[j], pair.multiplier.body, x));
+  }
+  return open;
+}
+
+struct Constraint {
+  std::size_t pair;
+  Eigen::Index point;
+  bool operator==(const Constraint&) const = default;
+};
+
+// Of the motions by which the pairs overlap least, in the sum of squares of the most that each does, at these points
+// alone: least distance programming (Lawson & Hanson 1974, chapter 23) for (of_moving times motions, overlaps).
+VecX least_overlaps(const std::vector<OpenPoints>& pairs, const std::vector<Constraint>& constraints, double unit) {
+  const Eigen::Index motions = pairs[constraints.front().pair].motions.cols(),
+                     size = motions + Eigen::Index(pairs.size());
+  MatX columns = MatX::Zero(size + 1, Eigen::Index(constraints.size()));
+  for (std::size_t c = 0; c < constraints.size(); ++c) {
+    const auto [k, point] = constraints[c];
+    auto column = columns.col(Eigen::Index(c));
+    column.head(motions) = pairs[k].motions.row(point).transpose() / of_moving;
+    column(motions + Eigen::Index(k)) = 1;
+    column(size) = -pairs[k].gaps(point) / unit;
+  }
+  const std::vector<char> free(constraints.size(), 0);
+  const VecX left = fit_nonnegative(columns, VecX::Unit(size + 1, size), free).residual;
+  if (!(left(size) > 0)) return VecX::Zero(size);
+  VecX found = -left.head(size) / left(size) * unit;
+  found.head(motions) /= of_moving;
+  return found;
+}
+
+// The gaps once bodies that nothing holds are moved apart. Constraints are those that earlier ones leave violated.
+void move_apart(std::vector<OpenPoints>& pairs, double least) {
+  const Eigen::Index motions = pairs.empty() ? 0 : pairs[0].motions.cols();
+  double unit = 0;
+  for (const OpenPoints& open : pairs)
+    if (open.gaps.size() > 0) unit = std::max(unit, -open.gaps.minCoeff());
+  if (motions == 0 || motions > many_motions || unit <= least) return;
+  std::vector<Constraint> constraints;
+  VecX by = VecX::Zero(motions + Eigen::Index(pairs.size()));
+  for (;;) {
+    const std::size_t before = constraints.size();
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      if (pairs[k].gaps.size() == 0 || pairs[k].motions.cwiseAbs().maxCoeff() < round_off) continue;
+      Eigen::Index worst;
+      const double gap = (pairs[k].gaps + pairs[k].motions * by.head(motions)).minCoeff(&worst);
+      const Constraint constraint{k, worst};
+      if (gap + by(motions + Eigen::Index(k)) < -least &&
+          std::ranges::find(constraints, constraint) == constraints.end())
+        constraints.push_back(constraint);
+    }
+    if (constraints.size() == before) break;
+    by = least_overlaps(pairs, constraints, unit);
+  }
+  for (OpenPoints& open : pairs)
+    if (open.gaps.size() > 0) open.gaps += open.motions * by.head(motions);
+}
+
+void add_overlaps(const ContactPair& pair, const OpenPoints& open, double modulus, double least, PressureLine& line,
+                  LineError& error) {
+  const Eigen::Index edges = line.p.size() - 1;
+  VecX overlap = VecX::Zero(edges), width = VecX::Zero(edges);
+  for (Eigen::Index k = 0; k < open.gaps.size(); ++k) {
+    if (open.gaps(k) >= -least) continue;
+    const ContactPoint& point = pair.points[open.points[k]];
+    overlap(point.edge) = std::max(overlap(point.edge), -open.gaps(k));
+    width(point.edge) += point.ds;
+  }
+  for (Eigen::Index e = 0; e < edges; ++e) {
+    if (overlap(e) == 0) continue;
+    const double a = width(e) / 2, p0 = modulus * overlap(e) / a, half = std::sqrt(2 * a / 3) * p0;
+    for (const Eigen::Index i : {e, e + 1}) {
+      error.l2(i) = std::hypot(error.l2(i), half);
+      line.loaded[i] = 1;
+    }
+  }
+  if (line.closed && (line.loaded.front() || line.loaded.back())) line.loaded.front() = line.loaded.back() = 1;
+}
+
+}  // namespace
+
+void add_missed_contact(const Problem& p, const Solution& solution, const std::vector<PressureLine*>& lines,
+                        const std::vector<LineError*>& errors) {
+  std::vector<Motion> motions;
+  for (const auto& mode : solution.rigid_modes.colwise())
+    motions.push_back(motion_through(p.mesh, p.floating.motions, p.floating.grounded, mode));
+  std::vector<OpenPoints> open;
+  for (std::size_t k = 0; k < p.pairs.size(); ++k)
+    open.push_back(open_points(p.mesh, p.pairs[k], *lines[k], solution.u, motions));
+  const double least = round_off * largest_entry(solution.u);
+  move_apart(open, least);
+  for (std::size_t k = 0; k < p.pairs.size(); ++k) {
+    const std::vector<ElasticLaw>& laws = p.discretisation.laws;
+    const double modulus = contact_modulus(laws[p.pairs[k].multiplier.body], laws[p.pairs[k].opposite.body]);
+    add_overlaps(p.pairs[k], open[k], modulus, least, *lines[k], *errors[k]);
+  }
+}
+
+}  // namespace mortise
