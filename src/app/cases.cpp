@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "app/accuracy.hpp"
-#include "app/solve_scene.hpp"
+#include "app/sweep_row.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "base/stopwatch.hpp"
@@ -106,9 +106,9 @@ class Run {
     if (options_.diagnosed) diagnose(results);
     judge_expectations(results);
     table.warnings[k] = results.warnings;
-    Json report = report_of(results);
+    const Json report = report_of(results);
     const RunRow row = row_of(results, report);
-    if (take_) take_(load, results, report);
+    if (take_) take_(load, results);
     return row;
   } catch (const InputError& error) {
     return {printable(bad_input + error.what()), {}};
@@ -263,7 +263,8 @@ Scene case_of(const Scene& scene, const std::string& name) {
 CaseTable write_cases(const Scene& scene, const CaseOptions& options, const Progress& progress,
                       const fs::path& folder) {
   const fs::path parts = folder / "cases";
-  const TakeCase take = [&](const LoadCase& load, Results& results, Json& report) {
+  const TakeCase take = [&](const LoadCase& load, Results& results) {
+    Json report = report_of(results);
     write_results(results, report, parts / load.name, scene.case_files == CaseFiles::all);
   };
   const CaseTable table =

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 
-#include "app/sweep_row.hpp"
-#include "scene/scene.hpp"
+#include "app/run_row.hpp"
+#include "app/solve_scene.hpp"
 
 namespace mortise {
 
@@ -24,8 +26,8 @@ struct CaseTable {
   Status worst() const;
 };
 
-/// Called with the results of each case and their report, which both may be taken.
-using TakeCase = std::function<void(const LoadCase& load, Results& results, Json& report)>;
+/// Called with the results of each case, which may be taken.
+using TakeCase = std::function<void(const LoadCase& load, Results& results)>;
 
 /// Solves, checks and estimates each case, as CaseSolver does: from the closed rows of the one before. One that has no
 /// solution gets a row that says so. Throws InputError where the scene, or a case, asks for an accuracy.

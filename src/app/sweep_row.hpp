@@ -5,17 +5,12 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "app/run_row.hpp"
 #include "results/report.hpp"
 
 namespace mortise {
-
-struct RunRow {
-  std::string status;                                   ///< a word, or "bad input: " and a message
-  std::vector<std::pair<std::string, double>> figures;  ///< by column
-};
 
 RunRow row_of(const Results& results, const Json& report);
 

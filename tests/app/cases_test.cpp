@@ -7,6 +7,7 @@
 
 #include "app/solve_scene.hpp"
 #include "base/errors.hpp"
+#include "results/report.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -35,7 +36,7 @@ double figure(const RunRow& row, const std::string& name) {
 TEST(SolveCases, SayWhatEachSaysAlone) {
   const Scene scene = with_cases({{"case", three}});
   std::vector<std::string> taken;
-  const CaseTable table = solve_cases(scene, {}, {}, [&](const LoadCase& load, const Results& results, const Json&) {
+  const CaseTable table = solve_cases(scene, {}, {}, [&](const LoadCase& load, const Results& results) {
     taken.push_back(load.name);
     Results alone = solve_scene(case_of(scene, load.name));
     estimate(alone);
@@ -75,7 +76,8 @@ TEST(SolveCases, HaveOneMeshOfAnAccuracy) {
       read_scene(file, {{"accuracy.value", "0.05"},
                         {"case", "[{name = \"l\", scale = [1, 0.2, 0.02]}, {name = \"pulled\", scale = -1}]"}});
   std::vector<double> peaks;
-  const CaseTable table = solve_cases(scene, {}, {}, [&](const LoadCase& load, const Results& r, const Json& report) {
+  const CaseTable table = solve_cases(scene, {}, {}, [&](const LoadCase& load, const Results& r) {
+    const Json report = report_of(r);
     EXPECT_LE(r.estimate->pressure(), 0.02) << load.name;
     EXPECT_TRUE(report["accuracy"]["reached"]) << load.name;
     peaks.push_back(r.recovery.contacts[0].p_max);
