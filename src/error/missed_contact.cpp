@@ -1,22 +1,24 @@
 #include "error/missed_contact.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "error/line_part.hpp"
 #include "fem/edges.hpp"
-#include "fem/motion_sets.hpp"
 #include "solve/nonnegative_fit.hpp"
 
 namespace mortise {
 namespace {
 
-constexpr double round_off = 1e-9;  // of the largest displacement
-constexpr int many_motions = 200;   // that fit_nonnegative is not made for: these bodies stay where they are
+constexpr double round_off = 1e-9;   // of the largest displacement
+constexpr int edges_of_contact = 4;  // from its middle to its end: about what a first mesh tells of a known one
+constexpr int many_motions = 200;    // that fit_nonnegative is not made for: these bodies stay where they are
 // What moving a body by a length costs over what an overlap of that length does: enough to choose one of many places.
 constexpr double of_moving = 1e-3;
 
-// The gap at the points of a pair that are away from contact, and what each free motion does to it.
+// The gap at the points of a pair that are away from contact, and what motions do to it.
 struct OpenPoints {
   std::vector<int> points;
   VecX gaps;     // length
@@ -34,23 +36,53 @@ Vec2 moved(const Motion& motion, int body, const Vec2& x) {
   return Vec2::Zero();
 }
 
+VecX openings_at(const Mesh& mesh, const ContactPair& pair, const ContactPoint& point,
+                 const std::vector<Motion>& motions) {
+  const Vec2 x = edge_point(mesh.nodes, pair.multiplier.edges[point.edge], point.xi).position,
+             y = edge_point(mesh.nodes, pair.opposite.edges[point.opposite_edge], point.eta).position;
+  VecX openings(Eigen::Index(motions.size()));
+  for (std::size_t j = 0; j < motions.size(); ++j)
+    openings(Eigen::Index(j)) =
+        point.normal.dot(moved(motions[j], pair.opposite.body, y) - moved(motions[j], pair.multiplier.body, x));
+  return openings;
+}
+
+// Motions x count: the combinations that leave every vertex with a pressure, and of pairs that cannot open all of them,
+// as they are in the mean.
+MatX left_free(const Problem& p, const std::vector<Motion>& motions, const std::vector<PressureLine*>& lines) {
+  std::vector<VecX> held;
+  for (std::size_t k = 0; k < p.pairs.size(); ++k) {
+    const ContactPair& pair = p.pairs[k];
+    MatX means = MatX::Zero(Eigen::Index(motions.size()), lines[k]->p.size());
+    for (const ContactPoint& point : pair.points) {
+      const VecX opened = point.ds * openings_at(p.mesh, pair, point, motions);
+      means.col(point.edge) += (1 - point.xi) / 2 * opened;
+      means.col(point.edge + 1) += (1 + point.xi) / 2 * opened;
+    }
+    for (Eigen::Index i = 0; i < means.cols(); ++i)
+      if (lines[k]->p(i) != 0 || pair.spec.condition != Condition::unilateral)
+        held.push_back(means.col(i) / lines[k]->h(i));
+  }
+  MatX rows = MatX::Zero(std::max<Eigen::Index>(Eigen::Index(held.size()), 1), Eigen::Index(motions.size()));
+  for (std::size_t i = 0; i < held.size(); ++i) rows.row(Eigen::Index(i)) = held[i].transpose();
+  Eigen::FullPivLU<MatX> factor(rows);
+  factor.setThreshold(1e-8);  // what the errors of drawn curves make of a turn about the centre of a circle
+  return factor.dimensionOfKernel() > 0 ? MatX(factor.kernel()) : MatX(rows.cols(), 0);
+}
+
 OpenPoints open_points(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& u,
-                       const std::vector<Motion>& motions) {
+                       const std::vector<Motion>& motions, const MatX& free) {
   OpenPoints open;
   if (pair.spec.condition != Condition::unilateral) return open;
   for (std::size_t i = 0; i < pair.points.size(); ++i)
     if (const int e = pair.points[i].edge; !line.loaded[e] && !line.loaded[e + 1]) open.points.push_back(int(i));
   const VecX opened = openings(pair, u);
   open.gaps.resize(Eigen::Index(open.points.size()));
-  open.motions.resize(open.gaps.size(), Eigen::Index(motions.size()));
+  open.motions.resize(open.gaps.size(), free.cols());
   for (Eigen::Index k = 0; k < open.gaps.size(); ++k) {
     const ContactPoint& point = pair.points[open.points[k]];
     open.gaps(k) = point.gap + opened(open.points[k]);
-    const Vec2 x = edge_point(mesh.nodes, pair.multiplier.edges[point.edge], point.xi).position,
-               y = edge_point(mesh.nodes, pair.opposite.edges[point.opposite_edge], point.eta).position;
-    for (std::size_t j = 0; j < motions.size(); ++j)
-      open.motions(k, Eigen::Index(j)) =
-          point.normal.dot(moved(motions[j], pair.opposite.body, y) - moved(motions[j], pair.multiplier.body, x));
+    open.motions.row(k) = openings_at(mesh, pair, point, motions).transpose() * free;
   }
   return open;
 }
@@ -88,7 +120,7 @@ void move_apart(std::vector<OpenPoints>& pairs, double least) {
   double unit = 0;
   for (const OpenPoints& open : pairs)
     if (open.gaps.size() > 0) unit = std::max(unit, -open.gaps.minCoeff());
-  if (motions == 0 || motions > many_motions || unit <= least) return;
+  if (motions == 0 || unit <= least) return;
   std::vector<Constraint> constraints;
   VecX by = VecX::Zero(motions + Eigen::Index(pairs.size()));
   for (;;) {
@@ -119,11 +151,15 @@ void add_overlaps(const ContactPair& pair, const OpenPoints& open, double modulu
     overlap(point.edge) = std::max(overlap(point.edge), -open.gaps(k));
     width(point.edge) += point.ds;
   }
+  if (overlap.sum() == 0) return;
+  error.missed = VecX::Zero(edges + 1);
+  error.noticing = VecX::Constant(edges + 1, std::numeric_limits<double>::infinity());
   for (Eigen::Index e = 0; e < edges; ++e) {
     if (overlap(e) == 0) continue;
     const double a = width(e) / 2, p0 = modulus * overlap(e) / a, half = std::sqrt(2 * a / 3) * p0;
     for (const Eigen::Index i : {e, e + 1}) {
-      error.l2(i) = std::hypot(error.l2(i), half);
+      error.missed(i) = std::hypot(error.missed(i), half);
+      error.noticing(i) = std::min(error.noticing(i), a / edges_of_contact);
       line.loaded[i] = 1;
     }
   }
@@ -134,12 +170,12 @@ void add_overlaps(const ContactPair& pair, const OpenPoints& open, double modulu
 
 void add_missed_contact(const Problem& p, const Solution& solution, const std::vector<PressureLine*>& lines,
                         const std::vector<LineError*>& errors) {
-  std::vector<Motion> motions;
-  for (const auto& mode : solution.rigid_modes.colwise())
-    motions.push_back(motion_through(p.mesh, p.floating.motions, p.floating.grounded, mode));
+  const bool few = !p.floating.motions.empty() && int(p.floating.motions.size()) <= many_motions;
+  const std::vector<Motion> motions = few ? p.floating.motions : std::vector<Motion>{};
+  const MatX free = few ? left_free(p, motions, lines) : MatX(0, 0);
   std::vector<OpenPoints> open;
   for (std::size_t k = 0; k < p.pairs.size(); ++k)
-    open.push_back(open_points(p.mesh, p.pairs[k], *lines[k], solution.u, motions));
+    open.push_back(open_points(p.mesh, p.pairs[k], *lines[k], solution.u, motions, free));
   const double least = round_off * largest_entry(solution.u);
   move_apart(open, least);
   for (std::size_t k = 0; k < p.pairs.size(); ++k) {

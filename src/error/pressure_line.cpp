@@ -163,7 +163,12 @@ VecX LineError::pointwise(const PressureLine& line) const {
   return found;
 }
 
-VecX LineError::whole() const { return swing.size() > 0 ? VecX(l2.cwiseMax(swing)) : l2; }
+VecX LineError::whole() const {
+  VecX largest = l2;
+  for (const VecX& other : {swing, missed})
+    if (other.size() > 0) largest = largest.cwiseMax(other);
+  return largest;
+}
 
 void LineError::raise(Eigen::Index vertex, double by) {
   if (least.size() == 0) least = VecX::Zero(l2.size());

@@ -41,6 +41,9 @@ struct LineError {
   /// Likewise, of what p swings by about its slopes; empty: nothing. Edges of the next mesh are made by `l2`, whose
   /// rate is known.
   VecX swing{};
+  /// Likewise, of contact that the mesh does not notice, and how long edges would (infinite: as they like); empty:
+  /// none.
+  VecX missed{}, noticing{};
   /// Of the worst of a piecewise linear function's error, J h / 8, over l2 / sqrt(h), which is sqrt(h^2 J^2 / 120).
   static constexpr double pointwise_factor = 1.3693063937629153;  // sqrt(120) / 8
   std::vector<char> border;                                       ///< whether the border of contact makes it
@@ -53,7 +56,7 @@ struct LineError {
   /// other side, stress; empty: there are none.
   VecX least{};
   void raise(Eigen::Index vertex, double by);  ///< `least` at a vertex
-  VecX whole() const;                          ///< of each vertex the larger of `l2` and `swing`
+  VecX whole() const;                          ///< of each vertex the largest of `l2`, `swing` and `missed`
   /// At each vertex what p is off by, stress: the largest within four edges. What the border makes falls with the
   /// distance r from it as sqrt(h / r): that is what moving it does to a root.
   VecX pointwise(const PressureLine& line) const;

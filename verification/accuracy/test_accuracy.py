@@ -1,5 +1,9 @@
 """The study on one scene, and its verdicts on answers that are known."""
 
+import json
+import subprocess
+
+import numpy as np
 import pytest
 
 import accuracy
@@ -36,3 +40,18 @@ def test_the_study_of_one_scene(mortise, tmp_path, capsys):
     rows = launch.columns(tmp_path / "answers.csv")
     assert rows["asked"].tolist() == [0.05, 0.05, 0.01, 0.01] and max(rows["got"]) < 1e-3 and min(rows["inside"]) > 0.95
     assert "holds" in (tmp_path / "accuracy.md").read_text()
+
+
+@pytest.mark.parametrize("rollers", [7, 8])
+def test_rollers_between_the_nodes_of_a_first_mesh_carry_load(mortise, tmp_path, rollers):
+    """Coarse first edges pass through the rollers at the sides; a mesh of one's own, fine at all of them, does not."""
+
+    def forces(name, fine, *more):
+        changes = f"mesh.parameters={{rollers={rollers}, fine={fine}}}"
+        scene = str(launch.ROOT / "geo/rollers.toml")
+        subprocess.run([str(mortise), "solve", scene, "-o", name, "--set", changes, *more], cwd=tmp_path, capture_output=True)
+        pairs = json.loads((tmp_path / name / "summary.json").read_text())["contact"]
+        return np.array([np.hypot(*pair["force"]) for pair in sorted(pairs, key=lambda pair: sorted(pair["between"]))])
+
+    found, expected = forces("found", 0.2, "--accuracy", "5%"), forces("expected", 0.1)
+    assert (expected > 0.1 * expected.max()).sum() >= 6 and np.abs(found - expected).max() < 0.015 * expected.max()
