@@ -23,6 +23,7 @@ struct OpenPoints {
   std::vector<int> points;
   VecX gaps;     // length
   MatX motions;  // points x motions
+  double overlap() const { return gaps.size() > 0 ? std::max(0.0, -gaps.minCoeff()) : 0; }
 };
 
 using Motion = std::vector<RigidMotion>;
@@ -70,20 +71,15 @@ MatX left_free(const Problem& p, const std::vector<Motion>& motions, const std::
   return factor.dimensionOfKernel() > 0 ? MatX(factor.kernel()) : MatX(rows.cols(), 0);
 }
 
-OpenPoints open_points(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& u,
-                       const std::vector<Motion>& motions, const MatX& free) {
+OpenPoints open_points(const ContactPair& pair, const PressureLine& line, const VecX& u) {
   OpenPoints open;
   if (pair.spec.condition != Condition::unilateral) return open;
   for (std::size_t i = 0; i < pair.points.size(); ++i)
     if (const int e = pair.points[i].edge; !line.loaded[e] && !line.loaded[e + 1]) open.points.push_back(int(i));
   const VecX opened = openings(pair, u);
   open.gaps.resize(Eigen::Index(open.points.size()));
-  open.motions.resize(open.gaps.size(), free.cols());
-  for (Eigen::Index k = 0; k < open.gaps.size(); ++k) {
-    const ContactPoint& point = pair.points[open.points[k]];
-    open.gaps(k) = point.gap + opened(open.points[k]);
-    open.motions.row(k) = openings_at(mesh, pair, point, motions).transpose() * free;
-  }
+  for (Eigen::Index k = 0; k < open.gaps.size(); ++k)
+    open.gaps(k) = pair.points[open.points[k]].gap + opened(open.points[k]);
   return open;
 }
 
@@ -114,13 +110,10 @@ VecX least_overlaps(const std::vector<OpenPoints>& pairs, const std::vector<Cons
   return found;
 }
 
-// The gaps once bodies that nothing holds are moved apart. Constraints are those that earlier ones leave violated.
-void move_apart(std::vector<OpenPoints>& pairs, double least) {
-  const Eigen::Index motions = pairs.empty() ? 0 : pairs[0].motions.cols();
-  double unit = 0;
-  for (const OpenPoints& open : pairs)
-    if (open.gaps.size() > 0) unit = std::max(unit, -open.gaps.minCoeff());
-  if (motions == 0 || unit <= least) return;
+// The gaps once bodies that no pressure holds are moved apart, from the overlap `unit`. Constraints are those that
+// earlier ones leave violated.
+void move_apart(std::vector<OpenPoints>& pairs, double unit, double least) {
+  const Eigen::Index motions = pairs[0].motions.cols();
   std::vector<Constraint> constraints;
   VecX by = VecX::Zero(motions + Eigen::Index(pairs.size()));
   for (;;) {
@@ -170,14 +163,23 @@ void add_overlaps(const ContactPair& pair, const OpenPoints& open, double modulu
 
 void add_missed_contact(const Problem& p, const Solution& solution, const std::vector<PressureLine*>& lines,
                         const std::vector<LineError*>& errors) {
-  const bool few = !p.floating.motions.empty() && int(p.floating.motions.size()) <= many_motions;
-  const std::vector<Motion> motions = few ? p.floating.motions : std::vector<Motion>{};
-  const MatX free = few ? left_free(p, motions, lines) : MatX(0, 0);
   std::vector<OpenPoints> open;
+  double overlap = 0;
   for (std::size_t k = 0; k < p.pairs.size(); ++k)
-    open.push_back(open_points(p.mesh, p.pairs[k], *lines[k], solution.u, motions, free));
+    overlap = std::max(overlap, open.emplace_back(open_points(p.pairs[k], *lines[k], solution.u)).overlap());
   const double least = round_off * largest_entry(solution.u);
-  move_apart(open, least);
+  if (overlap <= least) return;
+  const std::vector<Motion>& motions = p.floating.motions;
+  if (!motions.empty() && int(motions.size()) <= many_motions) {
+    const MatX free = left_free(p, motions, lines);
+    for (std::size_t k = 0; k < p.pairs.size(); ++k) {
+      open[k].motions.resize(open[k].gaps.size(), free.cols());
+      for (Eigen::Index i = 0; i < open[k].gaps.size(); ++i)
+        open[k].motions.row(i) =
+            openings_at(p.mesh, p.pairs[k], p.pairs[k].points[open[k].points[i]], motions).transpose() * free;
+    }
+    if (free.cols() > 0) move_apart(open, overlap, least);
+  }
   for (std::size_t k = 0; k < p.pairs.size(); ++k) {
     const std::vector<ElasticLaw>& laws = p.discretisation.laws;
     const double modulus = contact_modulus(laws[p.pairs[k].multiplier.body], laws[p.pairs[k].opposite.body]);
