@@ -125,13 +125,7 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, const Surroun
                       spec.value, e);
     find_excluded(spec.exclude, e);
   });
-  std::vector<PressureLine*> lines;
-  std::vector<LineError*> errors;
-  for (PressureEstimate& e : list) {
-    lines.push_back(&e.line);
-    errors.push_back(&e.local);
-  }
-  add_missed_contact(p, solution, lines, errors);
+  add_missed_contact(p, solution, list);
   add_end_windows(p.pairs, list);
   return list;
 }

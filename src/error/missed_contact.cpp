@@ -50,19 +50,19 @@ VecX openings_at(const Mesh& mesh, const ContactPair& pair, const ContactPoint& 
 
 // Motions x count: the combinations that leave every vertex with a pressure, and of pairs that cannot open all of them,
 // as they are in the mean.
-MatX left_free(const Problem& p, const std::vector<Motion>& motions, const std::vector<PressureLine*>& lines) {
+MatX left_free(const Problem& p, const std::vector<Motion>& motions, const std::vector<PressureEstimate>& list) {
   std::vector<VecX> held;
   for (std::size_t k = 0; k < p.pairs.size(); ++k) {
     const ContactPair& pair = p.pairs[k];
-    MatX means = MatX::Zero(Eigen::Index(motions.size()), lines[k]->p.size());
+    MatX means = MatX::Zero(Eigen::Index(motions.size()), list[k].line.p.size());
     for (const ContactPoint& point : pair.points) {
       const VecX opened = point.ds * openings_at(p.mesh, pair, point, motions);
       means.col(point.edge) += (1 - point.xi) / 2 * opened;
       means.col(point.edge + 1) += (1 + point.xi) / 2 * opened;
     }
     for (Eigen::Index i = 0; i < means.cols(); ++i)
-      if (lines[k]->p(i) != 0 || pair.spec.condition != Condition::unilateral)
-        held.push_back(means.col(i) / lines[k]->h(i));
+      if (list[k].line.p(i) != 0 || pair.spec.condition != Condition::unilateral)
+        held.push_back(means.col(i) / list[k].line.h(i));
   }
   MatX rows = MatX::Zero(std::max<Eigen::Index>(Eigen::Index(held.size()), 1), Eigen::Index(motions.size()));
   for (std::size_t i = 0; i < held.size(); ++i) rows.row(Eigen::Index(i)) = held[i].transpose();
@@ -161,17 +161,16 @@ void add_overlaps(const ContactPair& pair, const OpenPoints& open, double modulu
 
 }  // namespace
 
-void add_missed_contact(const Problem& p, const Solution& solution, const std::vector<PressureLine*>& lines,
-                        const std::vector<LineError*>& errors) {
+void add_missed_contact(const Problem& p, const Solution& solution, std::vector<PressureEstimate>& list) {
   std::vector<OpenPoints> open;
   double overlap = 0;
   for (std::size_t k = 0; k < p.pairs.size(); ++k)
-    overlap = std::max(overlap, open.emplace_back(open_points(p.pairs[k], *lines[k], solution.u)).overlap());
+    overlap = std::max(overlap, open.emplace_back(open_points(p.pairs[k], list[k].line, solution.u)).overlap());
   const double least = round_off * largest_entry(solution.u);
   if (overlap <= least) return;
   const std::vector<Motion>& motions = p.floating.motions;
   if (!motions.empty() && int(motions.size()) <= many_motions) {
-    const MatX free = left_free(p, motions, lines);
+    const MatX free = left_free(p, motions, list);
     for (std::size_t k = 0; k < p.pairs.size(); ++k) {
       open[k].motions.resize(open[k].gaps.size(), free.cols());
       for (Eigen::Index i = 0; i < open[k].gaps.size(); ++i)
@@ -183,7 +182,7 @@ void add_missed_contact(const Problem& p, const Solution& solution, const std::v
   for (std::size_t k = 0; k < p.pairs.size(); ++k) {
     const std::vector<ElasticLaw>& laws = p.discretisation.laws;
     const double modulus = contact_modulus(laws[p.pairs[k].multiplier.body], laws[p.pairs[k].opposite.body]);
-    add_overlaps(p.pairs[k], open[k], modulus, least, *lines[k], *errors[k]);
+    add_overlaps(p.pairs[k], open[k], modulus, least, list[k].line, list[k].local);
   }
 }
 

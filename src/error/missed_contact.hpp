@@ -1,18 +1,17 @@
 // Contact that the mesh is too coarse to notice.
 #pragma once
 
-#include "error/pressure_line.hpp"
+#include "error/pressure_estimate.hpp"
 #include "problem/problem.hpp"
 
 namespace mortise {
 
 /// A row of the multipliers holds the gap open in the mean of its edges. Where these are longer than a contact would
-/// be, round bodies pass through one another between their nodes, and p is 0. Adds to `errors`, on edges that are away
-/// from those of contact, the pressure that would part the bodies: curves that overlap by d over a width 2 a make as
-/// cylinders p0 = E* d / a (Johnson 1985, eq. 4.45: d = a^2 / 2 R, p0 = E* a / 2 R), sqrt(4 a / 3) p0 in L2; and marks
-/// these vertices as loaded. Bodies that no pressure holds are moved apart first as far as they can be. `lines`,
-/// `errors`: one a pair.
-void add_missed_contact(const Problem& problem, const Solution& solution, const std::vector<PressureLine*>& lines,
-                        const std::vector<LineError*>& errors);
+/// be, round bodies pass through one another between their nodes, and p is 0. Sets LineError::missed, on edges that are
+/// away from those of contact, the pressure that would part the bodies: curves that overlap by d over a width 2 a make
+/// as cylinders p0 = E* d / a (Johnson 1985, eq. 4.45: d = a^2 / 2 R, p0 = E* a / 2 R), sqrt(4 a / 3) p0 in L2; and
+/// marks these vertices as loaded. Bodies that no pressure holds are moved apart first as far as they can be. `list`:
+/// one a pair, with its line and the line's own error.
+void add_missed_contact(const Problem& problem, const Solution& solution, std::vector<PressureEstimate>& list);
 
 }  // namespace mortise

@@ -41,8 +41,8 @@ struct LineError {
   /// Likewise, of what p swings by about its slopes; empty: nothing. Edges of the next mesh are made by `l2`, whose
   /// rate is known.
   VecX swing{};
-  /// Likewise, of contact that the mesh does not notice, and how long edges would (infinite: as they like); empty:
-  /// none.
+  /// Likewise, of contact that the mesh does not notice; and how long edges are that would, length (infinite if there
+  /// is none). Empty: none.
   VecX missed{}, noticing{};
   /// Of the worst of a piecewise linear function's error, J h / 8, over l2 / sqrt(h), which is sqrt(h^2 J^2 / 120).
   static constexpr double pointwise_factor = 1.3693063937629153;  // sqrt(120) / 8

@@ -124,7 +124,9 @@ def test_what_ends_gmsh_does_not_end_python(tmp_path):
 @solves
 def test_an_interrupt_ends_a_solve():
     """Between its stages; some 3 s of meshes and solves are left out."""
-    script = f"import sys; sys.path.insert(0, {str(BUILT)!r}); import mortise; print('go', flush=True); " + (
+    # A shell that runs the tests in the background tells them to ignore SIGINT.
+    script = "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); " + (
+        f"sys.path.insert(0, {str(BUILT)!r}); import mortise; print('go', flush=True); "
         f"[mortise.solve({str(launch.ROOT / 'geo/parabola_1.toml')!r}, {{'accuracy.value': 1e-3}}) for _ in range(30)]"
     )
     with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
