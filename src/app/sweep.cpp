@@ -20,28 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-RunRow row_of_results(const SweepPlan& plan, Results& results) {
-  if (plan.diagnosed) diagnose(results);
-  judge_expectations(results);
-  return row_of(results, report_of(results));
-}
-
-RunRow run_one(const SweepPlan& plan, std::size_t run, CaseSolver& solver) try {
-  const Scene scene = read_scene(plan.scene, plan.overrides_of(run));
-  if (!scene.cases.empty())
-    throw InputError(scene.path +
-                     ": the scene has cases of its own; expected mortise solve, or a scene without [[case]]");
-  if (scene.accuracy) {
-    Results results = *solve_to_accuracy(scene);
-    return row_of_results(plan, results);
-  }
-  Results& results = solver.solve(scene);
-  estimate(results);
-  return row_of_results(plan, results);
-} catch (const InputError& error) {
-  return {printable(std::string("bad input: ") + error.what()), {}};
-}
-
 // ---- The journal: complete groups, kept until the table is complete ----
 
 constexpr const char* journal_title = "mortise sweep: runs that are complete";
@@ -158,7 +136,30 @@ void take_line(Running& now, const std::string& line, const SweepReport& report)
   now.lines << complete << std::flush;
 }
 
+RunRow row_of_results(Results& results, bool diagnosed) {
+  if (diagnosed) diagnose(results);
+  judge_expectations(results);
+  return row_of(results, report_of(results));
+}
+
 }  // namespace
+
+RunRow solve_run(const std::string& path, const std::vector<Override>& overrides, bool diagnosed, CaseSolver& solver,
+                 const Progress& progress) try {
+  const Scene scene = read_scene(path, overrides);
+  if (!scene.cases.empty())
+    throw InputError(scene.path +
+                     ": the scene has cases of its own; expected mortise solve, or a scene without [[case]]");
+  if (scene.accuracy) {
+    Results results = *solve_to_accuracy(scene, progress);
+    return row_of_results(results, diagnosed);
+  }
+  Results& results = solver.solve(scene, progress);
+  estimate(results);
+  return row_of_results(results, diagnosed);
+} catch (const InputError& error) {
+  return {printable(std::string("bad input: ") + error.what()), {}};
+}
 
 Status sweep(const SweepPlan& plan, const fs::path& whole, const SweepPart& part, int jobs, const SweepReport& report) {
   Running now{plan, table_of(whole, part), journal_of(table_of(whole, part))};
@@ -172,7 +173,8 @@ Status sweep(const SweepPlan& plan, const fs::path& whole, const SweepPart& part
     solver.forget_rows();
     const auto [from, to] = runs_of_group(plan, now.groups[index]);
     for (std::size_t run = from; run < to; ++run)
-      answer(std::to_string(run) + " " + line_of(run_one(plan, run, solver)));
+      answer(std::to_string(run) + " " +
+             line_of(solve_run(plan.scene, plan.overrides_of(run), plan.diagnosed, solver)));
   };
   const auto take = [&](const std::string& line) { take_line(now, line, report); };
   if (!share_work(now.groups.size(), jobs, work, take))

@@ -5,10 +5,15 @@
 #include <functional>
 #include <string>
 
+#include "app/run_row.hpp"
+#include "app/solve_scene.hpp"
 #include "app/sweep_plan.hpp"
-#include "results/results.hpp"
 
 namespace mortise {
+
+/// One run: solved, to its accuracy where it asks for one, estimated and judged. Bad input is a row that says so.
+RunRow solve_run(const std::string& path, const std::vector<Override>& overrides, bool diagnosed, CaseSolver& solver,
+                 const Progress& progress = {});
 
 /// Called after each run.
 using SweepReport = std::function<void(const std::string& line)>;

@@ -76,11 +76,13 @@ Results solved(const Scene& scene, bool with_estimate) {
 
 using Changes = std::vector<std::pair<std::string, std::string>>;
 
-Scene scene_of(const std::string& path, const Changes& changes) {
+std::vector<Override> overrides_of(const Changes& changes) {
   std::vector<Override> overrides;
   for (const auto& [key, value] : changes) overrides.push_back({key, value});
-  return read_scene(path, overrides);
+  return overrides;
 }
+
+Scene scene_of(const std::string& path, const Changes& changes) { return read_scene(path, overrides_of(changes)); }
 
 py::tuple solve(const std::string& path, const Changes& changes, bool with_estimate, const std::string& one_case) {
   Scene scene;
@@ -123,12 +125,29 @@ py::tuple cases(const std::string& path, const Changes& changes, bool with_estim
   return py::make_tuple(words, numbers);
 }
 
+using Row = std::pair<std::string, std::vector<std::pair<std::string, double>>>;
+
+// Runs of a sweep, one after another; the first starts from no known rows. `solver` keeps mesh and factor from call to
+// call.
+std::vector<Row> rows(CaseSolver& solver, const std::string& path, const std::vector<Changes>& runs) {
+  const py::gil_scoped_release others_run;
+  solver.forget_rows();
+  std::vector<Row> rows;
+  for (const Changes& changes : runs) {
+    const RunRow row = solve_run(path, overrides_of(changes), false, solver, check_signals);
+    rows.emplace_back(row.status, row.figures);
+  }
+  return rows;
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_mortise, m) {
   py::register_exception<InputError>(m, "InputError", PyExc_ValueError);
   m.def("solve", &solve);
   m.def("cases", &cases);
+  m.def("set_threads", &set_solver_threads);
+  py::class_<CaseSolver>(m, "Solver").def(py::init<>()).def("rows", &rows);
 }
 
 }  // namespace mortise

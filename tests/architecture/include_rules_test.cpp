@@ -40,7 +40,7 @@ const std::map<std::string, Names> may_enter{
     {"app",
      {"base", "model", "mesh", "fem", "contact", "solve", "ddm", "preprint_solvers", "scene", "mesh_files", "gmsh",
       "output", "fields", "problem", "error", "results"}},
-    {"mortise", {"base", "scene", "gmsh", "results", "app"}},
+    {"mortise", {"base", "solve", "scene", "gmsh", "results", "app"}},
     {"python", {"mortise", "results"}},
 };
 

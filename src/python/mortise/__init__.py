@@ -9,10 +9,13 @@
 
 import contextlib
 import csv
+import itertools
 import json
 import os
 import re
 import tempfile
+import threading
+from concurrent import futures
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +25,7 @@ try:
 except ImportError:  # only the reader is there
     InputError = ValueError
 
-__all__ = ["InputError", "Results", "cases", "read", "solve"]
+__all__ = ["InputError", "Results", "cases", "read", "solve", "sweep"]
 
 
 class Results:
@@ -88,6 +91,84 @@ def cases(scene, changes=None, estimate=True):
     return table
 
 
+_group = 4  # runs of one task: each starts from the rows that were closed in the one before
+_worker = threading.local()
+
+
+def sweep(scene, vary, executor=None, changes=None):
+    """Solves every combination of the values of `vary`, {"boundary.2.pressure": [1e6, 2e6], ...}, the last key fastest, by
+    any executor of concurrent.futures; without one here, run by run. Returns the columns of the table of `mortise sweep` by
+    name, as arrays with a value a run: those of `vary`, "status" ("solved", or "bad input: ..." of a run whose figures are
+    nan), figures. They do not depend on the executor, but for the seconds. Files that the scene names must be there for all
+    workers; a worker keeps the last mesh and factor, and if it is another process it has one thread. Where a process of the
+    executor is killed, processes of our own do what it left; a run that kills two of these raises BrokenExecutor."""
+    runs = list(itertools.product(*vary.values()))
+    words = [[(key, _toml(value)) for key, value in ((changes or {}) | dict(zip(vary, run))).items()] for run in runs]
+    groups = [words[k : k + _group] for k in range(0, len(words), _group)]
+    scene = _anywhere(scene)
+    if executor is None:
+        from . import _mortise
+
+        solver = _mortise.Solver()
+        done = [_rows(scene, group, solver) for group in groups]
+    else:
+        done = _by_workers(executor, scene, groups)
+    rows = list(itertools.chain.from_iterable(done))
+    table = {key: np.array(column) for key, column in zip(vary, zip(*runs))}
+    table["status"] = np.array([status for status, _ in rows])
+    for k, (_, figures) in enumerate(rows):
+        for name, value in figures:
+            table.setdefault(name, np.full(len(rows), np.nan))[k] = value
+    return table
+
+
+def _by_workers(executor, scene, groups):
+    done = {}
+    whole = _done_by(executor, scene, groups, done)
+    while not whole:
+        before = len(done)
+        with futures.ProcessPoolExecutor(getattr(executor, "_max_workers", None)) as own:
+            whole = _done_by(own, scene, groups, done)
+        if not whole and len(done) == before:
+            raise futures.BrokenExecutor("a run of the sweep ends each process that solves it")
+    return [done[k] for k in range(len(groups))]
+
+
+def _done_by(executor, scene, groups, done):
+    """Adds the groups that are missing; False where one of the executor's processes was killed."""
+    tasks = {}
+    try:
+        for k in range(len(groups)):
+            if k not in done:
+                tasks[executor.submit(_task, os.getpid(), scene, groups[k])] = k
+        futures.wait(tasks, return_when=futures.FIRST_EXCEPTION)
+        for task in tasks:
+            if task.done():
+                task.result()
+    except futures.BrokenExecutor:
+        return False
+    finally:
+        for task, k in tasks.items():
+            if not task.cancel() and task.done() and not task.exception():
+                done[k] = task.result()
+    return True
+
+
+def _task(caller, scene, group):
+    from . import _mortise
+
+    if os.getpid() != caller:
+        _mortise.set_threads(1)
+    if not hasattr(_worker, "solver"):
+        _worker.solver = _mortise.Solver()
+    return _rows(scene, group, _worker.solver)
+
+
+def _rows(scene, group, solver):
+    with _file_of(scene) as path:
+        return solver.rows(path, group)
+
+
 def read(folder):
     """The results that `mortise solve` wrote into a folder."""
     folder = Path(folder)
@@ -101,15 +182,22 @@ def _results(contact, fields, summary):
     return Results({name: np.asarray(column) for name, column in contact.items()}, fields, json.loads(summary))
 
 
+def _anywhere(scene):
+    """The same in any working directory."""
+    if not isinstance(scene, dict):
+        return os.path.abspath(scene)
+    if isinstance(scene.get("mesh"), dict) and isinstance(scene["mesh"].get("file"), (str, os.PathLike)):
+        return scene | {"mesh": scene["mesh"] | {"file": os.path.abspath(scene["mesh"]["file"])}}
+    return scene
+
+
 @contextlib.contextmanager
 def _file_of(scene):
     """The path of a scene, that of a dict for as long as it is asked for."""
     if not isinstance(scene, dict):
         yield os.fspath(scene)
         return
-    tables = dict(scene)
-    if isinstance(tables.get("mesh"), dict) and isinstance(tables["mesh"].get("file"), (str, os.PathLike)):
-        tables["mesh"] = tables["mesh"] | {"file": os.path.abspath(tables["mesh"]["file"])}
+    tables = _anywhere(scene)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.toml"
         path.write_text("".join(f"{_key(key)} = {_toml(value)}\n" for key, value in tables.items()))
