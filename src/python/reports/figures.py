@@ -55,12 +55,16 @@ def has_no_limit(summary, k):
     return np.array(places).reshape(-1, 2), told["excluded"][k]
 
 
-def read_line(run, table, k):
-    """The vertices of the multiplier side that face the other and count: places, p, and the length that each stands for."""
+def sides_of(table, k):
+    """Of pair k the rows of its two curves, the multiplier side first."""
     rows = [row for row in table if row["pair"] == str(k)]
-    rows = [row for row in rows if row["curve"] == rows[0]["curve"] and row["gap"]]
-    xy = np.array([[float(row["x"]), float(row["y"])] for row in rows]).reshape(-1, 2)
-    p, s = (np.array([float(row[name]) for row in rows]) for name in ("p", "s"))
+    return [[row for row in rows if row["curve"] == curve] for curve in dict.fromkeys(row["curve"] for row in rows)]
+
+
+def read_line(run, side, k):
+    """The vertices of a side of pair k, those that count: places, p, and the length that each stands for."""
+    xy = np.array([[float(row["x"]), float(row["y"])] for row in side]).reshape(-1, 2)
+    p, s = (np.array([float(row[name]) for row in side]) for name in ("p", "s"))
     length = np.gradient(s) if len(s) > 1 else np.ones(len(s))
     places, distance = has_no_limit(run.summary, k)
     for place in places:
@@ -90,7 +94,7 @@ def read_pairs(run):
             )
         if summary["estimate"]["pressure"] is None:
             continue
-        run.lines[pair_key(pair)] = read_line(run, table, k)
+        run.lines[pair_key(pair)] = read_line(run, [row for row in sides_of(table, k)[0] if row["gap"]], k)
         if len(has_no_limit(summary, k)[0]):
             run.left_out.append(f"largest p of {name}: it has no limit there")
         elif k in by_node and by_node[k].get("p_error"):
@@ -120,10 +124,9 @@ def read_run(folder):
     return run
 
 
-def chain(table, curve):
+def chain(side):
     """Places and p of one curve's nodes, in the order of its arc length."""
-    rows = [row for row in table if row["curve"] == curve]
-    return np.array([[float(row[name] or "nan") for name in ("x", "y", "p")] for row in rows])
+    return np.array([[float(row[name] or "nan") for name in ("x", "y", "p")] for row in side])
 
 
 def tangents(xy):
@@ -135,8 +138,7 @@ def tilt(run):
     """The angle between the normals of a pair's two curves where p acts, weighed by p: the largest of all pairs, radians."""
     worst, table = 0, rows_of(run.folder / "contact.csv")
     for k in range(len(run.summary["contact"])):
-        rows = [row for row in table if row["pair"] == str(k)]
-        mine, theirs = (chain(rows, curve) for curve in dict.fromkeys(row["curve"] for row in rows))
+        mine, theirs = (chain(side) for side in sides_of(table, k))
         pressed = np.nan_to_num(mine[:, 2]) > 0
         if len(mine) < 2 or len(theirs) < 2 or not pressed.any():
             continue
@@ -219,6 +221,31 @@ def compare(run, other):
     return found
 
 
+def stress_difference(run):
+    """Root mean square of what p is off from the stress across the line that a body has recovered, over that of p: of each
+    pair's two bodies the one that is nearer; None where nothing is pressed. Those stresses carry the loads, whatever p is."""
+    total, table = np.zeros(2), rows_of(run.folder / "contact.csv")
+    for k in range(len(run.summary["contact"])):
+        sums = []
+        for side in sides_of(table, k):
+            side = [row for row in side if row["p"] and row["sigma_n"]]
+            _, p, length = read_line(run, side, k)
+            off = p + [float(row["sigma_n"]) for row in side]
+            sums.append(((length * off**2).sum(), (length * p**2).sum()))
+        total += min((pair for pair in sums if pair[1] > 0), key=lambda pair: pair[0] / pair[1], default=0)
+    return float(math.sqrt(total[0] / total[1])) if total[1] > 0 else None
+
+
+def middles(run, most=6):
+    """A place inside each of the first bodies: the middle of the cell that is nearest to the mean of all."""
+    mesh = meshio.vtu.read(run.folder / "result.vtu")
+    body = np.concatenate(mesh.cell_data["body"]).ravel()
+    places = np.concatenate([mesh.points[block.data[:, : 3 if "triangle" in block.type else 4], :2].mean(axis=1) for block in mesh.cells])
+    for number in np.unique(body)[:most]:
+        mine = places[body == number]
+        yield mine[np.linalg.norm(mine - mine.mean(axis=0), axis=1).argmin()].tolist()
+
+
 def of_freefem(run, path):
     """The run with p by FreeFEM along its lines, at vertices in their order (verification/crosscheck/on_mesh.py)."""
     table, lines = np.loadtxt(path, ndmin=2), {}
@@ -247,7 +274,7 @@ def deformed_gaps(run):
         other = np.array(polylines(moved, [edge for edge in edges if edge[0] in set(rows) - mine]))
         start, step = (part.reshape(-1, 2) for part in (other[:, :-1], np.diff(other, axis=1)))
         for number in mine & vertices:
-            if float(table[number]["p"] or 0) <= 0:
+            if not table[number]["gap"] or float(table[number]["p"] or 0) <= 0:  # beyond the other's end it faces nothing
                 continue
             t = np.clip(((moved[number] - start) * step).sum(axis=1) / (step**2).sum(axis=1), 0, 1)
             distance = np.linalg.norm(start + t[:, None] * step - moved[number], axis=1).min()

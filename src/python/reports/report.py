@@ -235,6 +235,8 @@ def certificate_section(c):
         f"<p>Where p acts the deformed sides are apart by {percent(gap['off'])} of the largest displacement ({percent(gap['allowed'])} expected), "
         f"their normals by {gap['tilt']:.2g} radians.</p>"
     )  # fmt: skip
+    if stress := c["stress_difference"]:
+        gaps += f"<p>p is off from the stresses of the nearer body by {percent(stress['off'])} ({percent(stress['allowed'])} expected).</p>"
     return section(
         "Confirmed by other means",
         table(["figure", "value", "bar", "off by", "both bars", "in", "by the other curve's normals", ""], figures),
