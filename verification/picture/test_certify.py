@@ -182,7 +182,7 @@ def test_a_report_of_a_coarse_mesh_is_not_green(mortise, tmp_path):
     summary = json.loads((tmp_path / "out/summary.json").read_text())
     assert summary["changes"] == changes and summary["estimate"]["pressure"]["error"] > report.COARSE
     page = report.page_of(tmp_path / "out", None, mortise)
-    assert "only: the mesh is too coarse" in page and "class='verdict bad'" in page and "--set boundary.2.pressure=2e7" in page
+    assert "no other run; <code>mortise certify</code>" in page and "only: the mesh is too coarse" in page and "class='verdict bad'" in page and "--set boundary.2.pressure=2e7" in page
     summary["estimate"]["pressure"]["error"], summary["status"] = 0.05, "solved"
     assert report.verdict(summary, None)[1]
 

@@ -26,7 +26,8 @@ MANY_NAMES = 24  # more are not written on the picture
 MANY_CELLS = 20000  # more are not drawn one by one
 
 
-def draw_bodies(axes, setup, nodes):
+def draw_bodies(axes, setup, nodes, room):
+    """Fills and outlines; names, with their materials where there is room for two lines; for the legend the materials."""
     materials = list(dict.fromkeys(body["material"] for body in setup["bodies"]))
     cells = sum(len(body["cells"]) for body in setup["bodies"])
     for body in setup["bodies"]:
@@ -40,12 +41,24 @@ def draw_bodies(axes, setup, nodes):
         outline = [nodes[list(side)] for side in sides.values() if side is not None]
         dots = {"rasterized": len(outline) > MANY_EDGES}
         axes.add_collection(LineCollection(joined(outline), colors="0.35", linewidths=0.7, **dots))
-        if len(setup["bodies"]) <= MANY_NAMES:
-            middles = np.array([nodes[cell].mean(axis=0) for cell in body["cells"]])
-            at = middles[np.linalg.norm(middles - middles.mean(axis=0), axis=1).argmin()]
-            name(axes, at, f"{figure.short(body['name'])}\n({figure.short(body['material'])})", "0.25", ha="center", va="center")
+    if len(setup["bodies"]) <= MANY_NAMES:
+        for body, at in zip(setup["bodies"], name_places(setup["bodies"], nodes)):
+            material = f"\n({figure.short(body['material'])})" if room else ""
+            name(axes, at, f"{figure.short(body['name'])}{material}", "0.25", ha="center", va="center")
     return [Line2D([], [], marker="s", linestyle="", markersize=8, color=FILLS[k % len(FILLS)], label=f"material {figure.short(m)}")
             for k, m in enumerate(materials)]
+
+
+def name_places(bodies, nodes):
+    """Where each body's name stands: on the cell nearest to its middle; of a ring, which has none there, farthest from the others'."""
+    cells = [np.array([nodes[cell].mean(axis=0) for cell in body["cells"]]) for body in bodies]
+    off = [np.linalg.norm(middles - middles.mean(axis=0), axis=1) for middles in cells]
+    ring = [from_middle.min() > 0.2 * from_middle.max() for from_middle in off]
+    places = [middles[from_middle.argmin()] for middles, from_middle in zip(cells, off)]
+    for k in np.flatnonzero(ring):
+        others = np.array([place for j, place in enumerate(places) if j != k and (not ring[j] or j < k)]).reshape(-1, 1, 2)
+        places[k] = cells[k][np.linalg.norm(cells[k] - others, axis=2).min(axis=0).argmax()] if len(others) else places[k]
+    return places
 
 
 def name(axes, place, text, colour, **options):
@@ -139,7 +152,7 @@ def draw(setup, picture):
     pairs = len(setup["contact"]) if len(setup["contact"]) <= MANY_PAIRS else 1
     entries = sum(len(setup[key]) for key in ("supports", "loads", "ties", "rest")) + pairs + 1
     drawing, axes = figure.panels(1, 1, (8, height + 0.8 + 0.16 * min(20, entries)))
-    legend = draw_bodies(axes, setup, nodes)
+    legend = draw_bodies(axes, setup, nodes, not turned)
     written = set()
 
     def tell(colour, label, on, side=1):

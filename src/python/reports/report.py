@@ -28,9 +28,9 @@ h1 { font-size: 1.5rem; margin: 0 0 .3rem } h2 { font-size: 1.1rem; margin: 1.8r
 .verdict { font-size: 1.1rem; border-left: 5px solid var(--good); padding: .1rem .8rem } .bad { border-color: var(--bad) }
 .no, .bad b { color: var(--bad); font-weight: 600 } .soft, figcaption { color: var(--soft); font-size: .87rem }
 .first { display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); gap: 0 2rem }
-figure { margin: .6rem 0; break-inside: avoid } figure svg { width: 100%; height: auto; max-height: 85vh; fill: var(--ink) }
+figure { margin: .6rem 0; break-inside: avoid } figure svg { width: 100%; height: auto; max-height: 85vh; fill: var(--ink) } figure.tall svg { max-height: none }
 .sheet { --paper: #fff; --ink: #1a1a1a; --blue: #0b4f9c; --red: #b00020 } .sheet svg { background: #fff }
-table { margin-bottom: .8rem; border-collapse: collapse; font-size: .87rem; font-variant-numeric: tabular-nums; break-inside: avoid }
+table { margin-bottom: .8rem; border-collapse: collapse; font-size: .87rem; font-variant-numeric: tabular-nums } tr { break-inside: avoid }
 .wide { overflow-x: auto } th, td { padding: .15rem .8rem .15rem 0; border-bottom: 1px solid var(--line); text-align: left }
 dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: .15rem 1rem; margin: .5rem 0 } dt { color: var(--soft) }
 dd { margin: 0; overflow-wrap: anywhere } pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8rem;
@@ -38,7 +38,7 @@ dd { margin: 0; overflow-wrap: anywhere } pre { white-space: pre-wrap; overflow-
 @media (max-width: 800px) { .first { grid-template-columns: minmax(0, 1fr) } }
 @media print { :root { --paper: #fff; --ink: #000; --soft: #444; --line: #ccc; --good: #1a7f37; --bad: #c00000; --blue: #0b4f9c;
   --red: #b00020 }
-  figure svg { max-height: 100mm } body { padding: 0; font-size: 9.5pt } h2 { break-after: avoid } @page { margin: 16mm } }
+  figure svg { max-height: 100mm } figure.tall svg { max-height: 225mm } body { padding: 0; font-size: 9.5pt } h2 { break-after: avoid } @page { margin: 16mm } }
 """
 PROBES_SHOWN = 20
 COARSE = 0.1  # error of p from which on the program warns: where no accuracy was asked, a page with more is not green
@@ -105,8 +105,10 @@ def figure(caption, command, folder, options=()):
     if ended.returncode or not picture.exists():
         said = (ended.stderr.strip() or "no picture").splitlines()[-1]
         return f'<p class="soft">{text(caption)}: not drawn ({text(said)})</p>'
-    kind = ' class="sheet"' if "--picture" in command else ""  # names stand on pale bodies there
-    return f"<figure{kind}>{inline(picture.read_text())}<figcaption>{text(caption)}</figcaption></figure>"
+    drawn = inline(picture.read_text())
+    width, height = map(float, re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', drawn).groups())
+    kind = "sheet" if "--picture" in command else "tall" if height > 1.4 * width else "whole"  # sheet: names stand on pale bodies there
+    return f'<figure class="{kind}">{drawn}<figcaption>{text(caption)}</figcaption></figure>'
 
 
 # ---- Words ----
@@ -143,11 +145,11 @@ def model_words(s):
     yield "bodies", ", ".join(f"{name} ({material})" for name, material in bodies[:8]) + (f" and {len(bodies) - 8} more" * (len(bodies) > 8))
     for name, material in model["materials"].items():
         yield "material", material_words(name, material)
-    for k, pair in enumerate(s["contact"][:3]):
-        condition = s["method"]["condition"][k]
-        yield "contact", f"{' – '.join(pair['between'])}: {condition}, frictionless, gap {pair['gap']}"
-    if len(s["contact"]) > 3:
-        yield "contact", f"and {len(s['contact']) - 3} more pairs"
+    alike = {}
+    for pair, condition in zip(s["contact"], s["method"]["condition"]):
+        alike.setdefault(f"{condition}, frictionless, gap {pair['gap']}", []).append(" – ".join(pair["between"]))
+    for kind, names in alike.items():
+        yield "contact", f"{names[0] if len(names) == 1 else f'{len(names)} pairs, such as {names[0]}'}: {kind}"
     size = f"{s['mesh']['nodes']} nodes, {s['mesh']['dofs']} unknowns, {s['mesh']['multipliers']} multipliers"
     yield "mesh", size
     yield "left out", "friction, large displacements, plasticity, time"
@@ -156,17 +158,29 @@ def model_words(s):
 def known_words(s, certificate):
     """How one knows, in short."""
     sums = [s["balance"][key]["force"] for key in ("loads", "reactions")]
-    yield "balance", f"loads {vector(sums[0], 4)}, reactions {vector(sums[1], 4)}"
-    for k, pair in enumerate(s["contact"][:3]):
+    if s["model"]["plane"] == "axisymmetric":  # what acts along the radius balances itself round the axis
+        yield "balance", f"along the axis: loads {number(sums[0][1], 4)}, reactions {number(sums[1][1], 4)}"
+    else:
+        yield "balance", f"loads {vector(sums[0], 4)}, reactions {vector(sums[1], 4)}"
+    pairs = sorted(enumerate(s["contact"]), key=lambda pair: -pair[1]["pressure"]["max"])
+    for k, pair in pairs[:3]:
         unbounded = any(at["pair"] == k and at["unbounded"] for at in ((s["estimate"] or {}).get("pressure") or {}).get("singular", []))
-        limit = ", without limit at its largest" if unbounded else ""
-        yield "pressure", f"{' – '.join(map(text, pair['between']))}: mean {number(pair['pressure']['mean'])}, largest {number(pair['pressure']['max'])}{limit}"
+        bar = pair["pressure"].get("max_error")
+        largest = f"{number(pair['pressure']['max'])}, which has no limit" if unbounded else number(pair["pressure"]["max"]) + (f" ± {number(bar, 2)}" if bar else "")
+        yield "pressure", f"{' – '.join(map(text, pair['between']))}: mean {number(pair['pressure']['mean'])}, largest {largest}"
+    if len(pairs) > 3:
+        yield "pressure", f"and {len(pairs) - 3} more pairs with less"
     if s["accuracy"]:
         yield "meshes", f"{len(s['accuracy']['solves'])} solved, each finer where the error came from"
     if certificate:
         counted = [run["what"] for run in certificate["runs"][1:] if run["status"] not in ("skipped", "failed")]
         yield "confirmed by", text(", ".join(counted))
-    yield "warnings", str(len(s["warnings"]))
+    else:
+        yield "confirmed by", "no other run; <code>mortise certify</code> makes some"
+    closes = ", p ≥ 0, no overlap" * ("unilateral" in s["method"]["condition"])
+    yield "checked", f"equilibrium of each body{', contact forces equal and opposite' * bool(s['contact'])}{closes} (table below)"
+    more = f" (and {len(s['warnings']) - 1} more below)" if len(s["warnings"]) > 1 else ""
+    yield "warnings", text(s["warnings"][0]) + more if s["warnings"] else "none"
 
 
 def described(pairs, escape=True):
