@@ -99,11 +99,11 @@ void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint
   Recovery& recovery = r.recovery;
   ForcesAsked asked;
   if (forces) asked = ask_forces(r);
-  r.estimate = estimate_error(r.problem, r.solution, {.spec = spec, .found = found, .also = asked.rows});
+  r.estimate = estimate_error(r.problem, r.solution, *r.memory, {.spec = spec, .found = found, .also = asked.rows});
   add_data_errors(r.problem, r.solution, spec, *r.estimate);
   for (std::size_t k = 0; k < recovery.contacts.size(); ++k) set_bars(r.estimate->pressures[k], recovery.contacts[k]);
   const std::vector<PlaceError> of_probes =
-      place_errors(r.problem, r.solution, r.estimate->pressures, probed_places(recovery.probes));
+      place_errors(r.problem, r.solution, r.estimate->pressures, probed_places(recovery.probes), r.memory->products);
   for (std::size_t i = 0; i < of_probes.size(); ++i) recovery.probes[i].error = of_probes[i];
   leave_out_unheld(r);
   if (forces) set_force_bars(asked, std::exchange(r.estimate->also, {}), r);
@@ -194,9 +194,9 @@ CaseSolver::~CaseSolver() = default;
 bool CaseSolver::take(const Scene& scene) {
   if (!scene_ || !differ_in_loads_alone(*scene_, scene)) return false;
   const Stopwatch watch;
-  Problem problem = std::move(results_.problem);
-  results_ = {};
-  results_.problem = std::move(problem);
+  Results before = std::exchange(results_, {});
+  results_.problem = std::move(before.problem);
+  results_.memory = std::move(before.memory);
   results_.problem.discretisation.system.constraints.fixed = fixed_;
   check_ranges(scene);
   load_fields(scene);
@@ -212,6 +212,7 @@ bool CaseSolver::take(const Scene& scene) {
 void CaseSolver::begin(const Scene& scene, const Progress& progress) {
   scene_.reset();
   results_ = {};
+  results_.memory = std::make_shared<EstimateMemory>(true);
   Stopwatch watch;
   if (progress) progress("mesh");
   Mesh mesh = mesh_ ? *mesh_ : scene_mesh(scene, &results_.mesh_cached);

@@ -17,75 +17,113 @@ std::vector<int> first_cells(const Mesh& mesh) {
   return first;
 }
 
+bool same(const MatX& a, const MatX& b) { return a.rows() == b.rows() && a.cols() == b.cols() && a == b; }
+
+// Of a body's own points, rows of fields.
+MatX fields_at(const std::vector<int>& node, int first, int count, const MatX& fields) {
+  MatX own(2 * count, fields.cols());
+  for (int i = 0; i < count; ++i) own.middleRows<2>(2 * i) = fields.middleRows<2>(2 * node[first + i]);
+  return own;
+}
+
 }  // namespace
 
-ErrorProducts products_by_body(const Problem& problem, const MatX& fields) {
+BodyProducts::Body BodyProducts::body_of(const Problem& problem, std::size_t b, int first_cell) {
   const Mesh& mesh = problem.mesh;
   const BodyPoints& points = problem.points;
-  const std::vector<Cell> on_points = cells_on_points(mesh, points);
+  const int first = points.first[b], nodes = points.first[b + 1] - first;
+  Body body;
+  body.mesh.bodies = {mesh.bodies[b]};
+  body.mesh.nodes.resize(nodes, 2);
+  body.points = {.first = {0, nodes}, .node = std::vector<int>(nodes)};
+  std::iota(body.points.node.begin(), body.points.node.end(), 0);
+  for (int i = 0; i < nodes; ++i) body.mesh.nodes.row(i) = mesh.nodes.row(points.node[first + i]);
+  for (std::size_t e = first_cell; e < mesh.cells.size() && mesh.cells[e].body == int(b); ++e) {
+    Cell& cell = body.mesh.cells.emplace_back(mesh.cells[e]);
+    for (int a = 0; a < node_count(cell.kind); ++a) cell.nodes[a] = point_of(points, int(b), cell.nodes[a]) - first;
+    cell.body = 0;
+  }
+  return body;
+}
+
+// `patches`: of z by body, made where it is empty, and kept there; null: made and dropped.
+ErrorProducts BodyProducts::products(const Problem& problem, const VecX& u, const MatX& z,
+                                     std::vector<StressPatches>* patches) {
+  const Mesh& mesh = problem.mesh;
+  const BodyPoints& points = problem.points;
   const std::vector<int> first_cell = first_cells(mesh);
-  const Eigen::Index cells = Eigen::Index(mesh.cells.size()), count = fields.cols();
+  const Eigen::Index cells = Eigen::Index(mesh.cells.size()), count = 1 + z.cols();
   ErrorProducts all{.products = MatX(cells, count), .norms = VecX(cells), .areas = VecX(cells)};
+  if (keeps_) bodies_.resize(mesh.bodies.size());
+  const bool known = patches && !patches->empty();
+  if (patches) patches->resize(mesh.bodies.size());
   for_each_index(mesh.bodies.size(), solver_threads(), [&](std::size_t b) {
-    const int first = points.first[b], nodes = points.first[b + 1] - first;
-    Mesh body;
-    body.bodies = {mesh.bodies[b]};
-    body.nodes.resize(nodes, 2);
-    BodyPoints all_nodes{.first = {0, nodes}, .node = std::vector<int>(nodes)};
-    std::iota(all_nodes.node.begin(), all_nodes.node.end(), 0);
-    MatX of_body(2 * nodes, count);
-    for (int i = 0; i < nodes; ++i) {
-      const int node = points.node[first + i];
-      body.nodes.row(i) = mesh.nodes.row(node);
-      of_body.middleRows<2>(2 * i) = fields.middleRows<2>(2 * node);
-    }
-    body.cells.assign(on_points.begin() + first_cell[b], on_points.begin() + first_cell[b + 1]);
-    for (Cell& cell : body.cells) {
-      cell.body = 0;
-      for (int a = 0; a < node_count(cell.kind); ++a) cell.nodes[a] -= first;
-    }
+    Body made, &body = keeps_ ? bodies_[b] : made;
+    if (body.mesh.cells.empty()) body = body_of(problem, b, first_cell[b]);
     const std::vector<ElasticLaw> law{problem.discretisation.laws[b]};
-    const ErrorProducts own = error_products(body, all_nodes, law, of_body,
-                                             recover_patches(body, all_nodes, sample_stresses(body, law, of_body)));
-    const Eigen::Index own_cells = own.areas.size();
-    all.products.middleRows(first_cell[b], own_cells) = own.products;
-    all.norms.segment(first_cell[b], own_cells) = own.norms;
-    all.areas.segment(first_cell[b], own_cells) = own.areas;
+    const auto recovered = [&](MatX fields) {
+      const StressSamples samples = sample_stresses(body.mesh, law, fields);
+      if (!body.recovery) body.recovery = std::make_unique<PatchRecovery>(body.mesh, body.points, samples);
+      return body.recovery->fit(samples);
+    };
+    const int nodes = int(body.points.node.size());
+    RecoveredFields own{fields_at(points.node, points.first[b], nodes, u), {}},
+        others{fields_at(points.node, points.first[b], nodes, z), {}};
+    own.patches = recovered(own.fields);
+    if (z.cols() > 0) others.patches = known ? std::move((*patches)[b]) : recovered(others.fields);
+    const ErrorProducts found = error_products(body.mesh, body.points, law, own, others);
+    if (patches) (*patches)[b] = std::move(others.patches);
+    const Eigen::Index own_cells = found.areas.size();
+    all.products.middleRows(first_cell[b], own_cells) = found.products;
+    all.norms.segment(first_cell[b], own_cells) = found.norms;
+    all.areas.segment(first_cell[b], own_cells) = found.areas;
   });
   return all;
 }
 
-ErrorProducts products_with_duals(const Problem& problem, const VecX& u, const ContactFactor& factor,
-                                  const MatX& functionals, const MatX& loads, const SeeDuals& see) {
+BodyProducts::Duals& BodyProducts::find(const std::shared_ptr<const ContactFactor>& factor, DualsAsked asked) {
+  if (!keeps_ || factor_ != factor) duals_.clear();
+  factor_ = factor;
+  for (const auto& duals : duals_)
+    if (same(duals->asked.functionals, asked.functionals) && same(duals->asked.loads, asked.loads)) return *duals;
+  MatX z = factor->duals(asked.functionals, asked.loads);
+  return *duals_.emplace_back(std::make_unique<Duals>(Duals{std::move(asked), std::move(z), {}}));
+}
+
+ErrorProducts BodyProducts::with_duals(const Problem& problem, const VecX& u,
+                                       const std::shared_ptr<const ContactFactor>& factor, const DualsAsked& asked,
+                                       const SeeDuals& see) {
   constexpr Eigen::Index at_once = 12;  // recovered stresses take far more room than displacements
-  const Eigen::Index count = functionals.cols(), without_load = count - loads.cols();
+  const Eigen::Index count = asked.functionals.cols(), without_load = count - asked.loads.cols();
   ErrorProducts all;
   for (Eigen::Index first = 0; first < count; first += at_once) {
-    const Eigen::Index duals = std::min(at_once, count - first);
-    MatX fields(u.size(), 1 + duals);
-    fields.col(0) = u;
-    const Eigen::Index loaded = std::clamp(first + duals - without_load, Eigen::Index(0), duals);
-    const MatX own = loads.middleCols(std::max(first - without_load, Eigen::Index(0)), loaded);
-    fields.rightCols(duals) = factor.duals(functionals.middleCols(first, duals), own);
-    if (see) see(first, fields);
-    ErrorProducts some = products_by_body(problem, fields);
+    const Eigen::Index some = std::min(at_once, count - first);
+    const Eigen::Index loaded = std::clamp(first + some - without_load, Eigen::Index(0), some);
+    Duals& duals = find(factor, {asked.functionals.middleCols(first, some),
+                                 asked.loads.middleCols(std::max(first - without_load, Eigen::Index(0)), loaded)});
+    if (see) {
+      MatX fields(u.size(), 1 + some);
+      fields << u, duals.z;
+      see(first, fields);
+    }
+    ErrorProducts found = products(problem, u, duals.z, keeps_ ? &duals.patches : nullptr);
     if (first == 0) {
-      all = std::move(some);
+      all = std::move(found);
       all.products.conservativeResize(Eigen::NoChange, 1 + count);
     } else {
-      all.products.middleCols(1 + first, duals) = some.products.rightCols(duals);
+      all.products.middleCols(1 + first, some) = found.products.rightCols(some);
     }
   }
   return all;
 }
 
-FoundDuals find_duals(const Problem& problem, const VecX& u, const ContactFactor& factor, const MatX& functionals) {
+FoundDuals find_duals(const Problem& problem, const VecX& u, const std::shared_ptr<const ContactFactor>& factor,
+                      const MatX& functionals) {
   FoundDuals found{.z = MatX(u.size(), functionals.cols()), .sums = {}};
   const auto keep = [&](Eigen::Index first, const MatX& fields) {
     found.z.middleCols(first, fields.cols() - 1) = fields.rightCols(fields.cols() - 1);
   };
-  const MatX no_loads(u.size(), 0);
-  const ErrorProducts parts = products_with_duals(problem, u, factor, functionals, no_loads, keep);
+  const ErrorProducts parts = BodyProducts().with_duals(problem, u, factor, {functionals, MatX(u.size(), 0)}, keep);
   found.sums = parts.products.rightCols(functionals.cols()).cwiseAbs().colwise().sum();
   return found;
 }

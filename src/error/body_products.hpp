@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "fem/error_products.hpp"
 #include "problem/problem.hpp"
@@ -9,18 +10,47 @@
 
 namespace mortise {
 
-/// error_products of the patches that recover_patches makes of `fields` (n x F, displacements): the same figures, found
-/// for each body alone, on all cores.
-ErrorProducts products_by_body(const Problem& problem, const MatX& fields);
+/// Functionals (rows x F, at least one); `loads` (n x L): of the last L of them. ContactFactor::duals.
+struct DualsAsked {
+  MatX functionals, loads;
+};
 
-/// Called with u and, after it, the duals (n x some) of the functionals from the first on, before their products are
-/// taken: to be looked at, or to be added to.
-using SeeDuals = std::function<void(Eigen::Index first, MatX& fields)>;
+/// Called with u and, after it, the duals (n x some) of the functionals from the first on.
+using SeeDuals = std::function<void(Eigen::Index first, const MatX& fields)>;
 
-/// Of u and the duals of functionals (rows x F, at least one), in the order of both; `loads` (n x L): of the last L of
-/// them. `see`: called with u and some of the duals after another.
-ErrorProducts products_with_duals(const Problem& problem, const VecX& u, const ContactFactor& factor,
-                                  const MatX& functionals, const MatX& loads, const SeeDuals& see = {});
+/// error_products of u and of duals: the same figures, found for each body alone, on all cores.
+class BodyProducts {
+ public:
+  /// `keeps`: what the mesh makes of it, and what was asked of the last factor, stays: for loads that come one after
+  /// another on one mesh and one law.
+  explicit BodyProducts(bool keeps = false) : keeps_(keeps) {}
+
+  ErrorProducts of(const Problem& problem, const VecX& u) { return products(problem, u, MatX(u.size(), 0), nullptr); }
+
+  /// In the order of u and the duals.
+  ErrorProducts with_duals(const Problem& problem, const VecX& u, const std::shared_ptr<const ContactFactor>& factor,
+                           const DualsAsked& asked, const SeeDuals& see = {});
+
+ private:
+  struct Body {
+    Mesh mesh;
+    BodyPoints points;
+    std::unique_ptr<const PatchRecovery> recovery;  // none before the first field
+  };
+  struct Duals {  // some of those that were asked for
+    DualsAsked asked;
+    MatX z;
+    std::vector<StressPatches> patches;  // of each body; empty before the first product
+  };
+  static Body body_of(const Problem& problem, std::size_t b, int first_cell);
+  ErrorProducts products(const Problem& problem, const VecX& u, const MatX& z, std::vector<StressPatches>* patches);
+  Duals& find(const std::shared_ptr<const ContactFactor>& factor, DualsAsked asked);
+
+  bool keeps_;
+  std::vector<Body> bodies_;
+  std::shared_ptr<const ContactFactor> factor_;  // that duals_ are of
+  std::vector<std::unique_ptr<Duals>> duals_;    // if they are not kept the last ones
+};
 
 /// The duals of functionals.
 struct FoundDuals {
@@ -28,6 +58,7 @@ struct FoundDuals {
   VecX sums;  ///< of each the sum of the cells' parts without their signs
 };
 
-FoundDuals find_duals(const Problem& problem, const VecX& u, const ContactFactor& factor, const MatX& functionals);
+FoundDuals find_duals(const Problem& problem, const VecX& u, const std::shared_ptr<const ContactFactor>& factor,
+                      const MatX& functionals);
 
 }  // namespace mortise

@@ -218,7 +218,7 @@ MatX all_functionals(const Problem& p, const GoalFunctionals& goal, const MatX& 
 
 // The errors of cells and at the bodies' corners, and what they do to the functionals.
 void add_products(const Problem& p, const Solution& solution, const GoalFunctionals& goal,
-                  const EstimateOptions& options, ErrorEstimate& estimate) {
+                  const EstimateOptions& options, BodyProducts& products, ErrorEstimate& estimate) {
   const SaddlePointSystem& system = p.discretisation.system;
   const MatX functionals = all_functionals(p, goal, options.also, estimate);
   const Eigen::Index shared = estimate.far.windows.count, goals = goal.rows.cols(), more = options.also.cols();
@@ -231,8 +231,8 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
   };
   const bool has_duals = functionals.cols() > 0;
   const ErrorProducts found =
-      has_duals ? products_with_duals(p, solution.u, *contact_factor(system, solution), functionals, goal.loads, see)
-                : products_by_body(p, solution.u);
+      has_duals ? products.with_duals(p, solution.u, contact_factor(system, solution), {functionals, goal.loads}, see)
+                : products.of(p, solution.u);
   estimate.energy = energy_estimate(p.mesh, found, round_off_energy(found, system.stiffness_scale, solution.u));
   estimate.far.parts = found.products.middleCols(1, shared);
   if (goals > 0) {
@@ -338,14 +338,14 @@ double ErrorEstimate::slopes() const {
 }
 double ErrorEstimate::far_field() const { return error_norm(pressures, 0, 1) / std::sqrt(pressure_square()); }
 
-ErrorEstimate estimate_error(const Problem& p, const Solution& solution, const EstimateOptions& options) {
+ErrorEstimate estimate_error(const Problem& p, const Solution& solution, EstimateMemory& memory,
+                             const EstimateOptions& options) {
   const AccuracySpec& spec = options.spec;
   const Discretisation& d = p.discretisation;
   require_pair(spec, p.pairs.size());
   ErrorEstimate estimate;
   const SideTable table(p.mesh);
-  TipTable tips;
-  const Surroundings around{p.mesh, table, d.system.constraints, d.laws, tips};
+  const Surroundings around{p.mesh, table, d.system.constraints, d.laws, memory.tips};
   std::vector<ContactReach> reached;
   estimate.pressures = lines_with_windows(p, around, solution, options, reached);
   std::vector<JudgedLine> lines;
@@ -358,7 +358,7 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, const E
   if (estimate.far.windows.count + goal.rows.cols() + options.also.cols() > 0)
     estimate.tails.corners =
         corner_rings(p.mesh, table, free_corners(body_corners(around), p.mesh.nodes.rows(), p.pairs, reached));
-  add_products(p, solution, goal, options, estimate);
+  add_products(p, solution, goal, options, memory.products, estimate);
   if (spec.of == Goal::stress) add_stress_error(p, goal, solution.u, *estimate.goal);
   add_far_errors(p.mesh, estimate);
   if (spec.of == Goal::mean) {

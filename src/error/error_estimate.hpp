@@ -1,6 +1,7 @@
 // How far a solution is from that of the problem: the stresses in the energy norm, the contact pressure node by node.
 #pragma once
 
+#include "contact/williams.hpp"
 #include "error/body_products.hpp"
 #include "error/contact_reach.hpp"
 #include "error/goal_estimate.hpp"
@@ -50,6 +51,14 @@ struct ErrorEstimate {
   double pressure_square() const;  ///< of p on these, stress^2 length
 };
 
+/// What estimates on one mesh share.
+struct EstimateMemory {
+  BodyProducts products;
+  TipTable tips;
+  /// `keeps`: as of BodyProducts.
+  explicit EstimateMemory(bool keeps = false) : products(keeps) {}
+};
+
 struct EstimateOptions {
   AccuracySpec spec = {};              ///< what is left out of the norm, and a functional that is asked for
   int own_duals = most_own_duals;      ///< as most_own of share_duals
@@ -59,7 +68,8 @@ struct EstimateOptions {
 
 /// `solution`: converged or not; where it has no factor (iterative solvers) the whole system is factorised once. Throws
 /// SceneError as goal_functionals does.
-ErrorEstimate estimate_error(const Problem& problem, const Solution& solution, const EstimateOptions& options = {});
+ErrorEstimate estimate_error(const Problem& problem, const Solution& solution, EstimateMemory& memory,
+                             const EstimateOptions& options = {});
 
 // Its parts, for what adds to an estimate (error/data_estimate.hpp).
 

@@ -191,7 +191,7 @@ std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const Solution
   const ForcesAsked asked = ask_forces(problem, solution, centres);
   FoundDuals duals;
   if (!asked.by_duals.empty())
-    duals = find_duals(problem, solution.u, *contact_factor(problem.discretisation.system, solution), asked.rows);
+    duals = find_duals(problem, solution.u, contact_factor(problem.discretisation.system, solution), asked.rows);
   return force_errors(problem, pressures, centres, asked, duals);
 }
 

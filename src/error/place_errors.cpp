@@ -80,7 +80,7 @@ double largest_at(const Cell& cell, const VecX& at_nodes) {
 
 std::vector<PlaceError> place_errors(const Problem& problem, const Solution& solution,
                                      const std::vector<PressureEstimate>& pressures,
-                                     const std::vector<ProbedPlaces>& probes) {
+                                     const std::vector<ProbedPlaces>& probes, BodyProducts& products) {
   std::vector<PlaceError> errors;
   if (probes.empty()) return errors;
   const Mesh& mesh = problem.mesh;
@@ -106,8 +106,8 @@ std::vector<PlaceError> place_errors(const Problem& problem, const Solution& sol
         far.segment(first, z.cols()) +=
             line_part(pairs[k], pressures[k].line, pressures[k].local, openings(pairs[k], z)).sum();
     };
-    const ErrorProducts found = products_with_duals(problem, solution.u, *factor,
-                                                    MatX::Zero(d.system.B.rows(), loads.cols()), loads, add_lines);
+    const ErrorProducts found = products.with_duals(problem, solution.u, factor,
+                                                    {MatX::Zero(d.system.B.rows(), loads.cols()), loads}, add_lines);
     far += found.products.rightCols(loads.cols()).cwiseAbs().colwise().sum().transpose();
     std::size_t next = 0;
     for (int i = 0; i < int(probe.in.size()); ++i) {

@@ -55,11 +55,11 @@ inline void add_nodal_forces(const Cell& cell, const ElasticLaw& law, const Cell
   }
 }
 
-// The products of one cell with fields 1, 2, ...
+// The products of one cell with other fields.
 class OtherFields {
  public:
-  OtherFields(const StressPatches& patches, const MatX& fields, Eigen::Index components)
-      : patches_(patches), u_(by_node(fields)), count_(fields.cols()), components_(components) {}
+  OtherFields(const RecoveredFields& others, Eigen::Index components)
+      : patches_(others.patches), u_(by_node(others.fields)), count_(others.fields.cols()), components_(components) {}
 
   template <typename Row>
   void add(const CellFunctional& of, const Cell& cell, const Cell& on_points, Row&& products) const {
@@ -68,13 +68,13 @@ class OtherFields {
       for (int t = 0; t < patches_.terms[p]; ++t) {
         const Vec4& weight = of.patches[a][t];
         const double* s = &patches_.coefficients(patches_.row[p] + t, 0);
-        for (Eigen::Index k = 1; k < count_; ++k)
+        for (Eigen::Index k = 0; k < count_; ++k)
           for (Eigen::Index c = 0; c < components_; ++c) products(k) += weight(c) * s[components_ * k + c];
       }
     }
     for (int a = 0; a < node_count(cell.kind); ++a) {
       const double* u = &u_(cell.nodes[a], 0);
-      for (Eigen::Index k = 1; k < count_; ++k) products(k) -= of.nodes[a].x() * u[k] + of.nodes[a].y() * u[count_ + k];
+      for (Eigen::Index k = 0; k < count_; ++k) products(k) -= of.nodes[a].x() * u[k] + of.nodes[a].y() * u[count_ + k];
     }
   }
 
@@ -87,31 +87,35 @@ class OtherFields {
 }  // namespace
 
 ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                             const MatX& fields, const StressPatches& patches) {
+                             const RecoveredFields& field, const RecoveredFields& others) {
+  const StressPatches& patches = field.patches;
   const ForEachKind<Rule> rules = error_rules();
   const std::vector<Cell> on_points = cells_on_points(mesh, points);
   const Eigen::Index cells = Eigen::Index(mesh.cells.size()), of_field = components(laws);
-  ErrorProducts found{
-      .products = MatX::Zero(cells, fields.cols()), .norms = VecX::Zero(cells), .areas = VecX::Zero(cells)};
-  CellSampler at(mesh, laws, fields.leftCols(1));
-  const OtherFields others(patches, fields, of_field);
+  const Eigen::Index count = others.fields.cols();
+  ErrorProducts found{.products = MatX::Zero(cells, 1 + count), .norms = VecX::Zero(cells), .areas = VecX::Zero(cells)};
+  CellSampler at(mesh, laws, field.fields);
+  const OtherFields with(others, of_field);
   CellFunctional functional;
   std::array<Monomials, 4> blended;  // times the linear shape function of the corner
-  Eigen::RowVectorXd recovered(of_field), own_row(fields.cols());
+  Eigen::RowVectorXd recovered(of_field), own_row(count);
   for (Eigen::Index e = 0; e < cells; ++e) {
     const Cell& cell = mesh.cells[e];
     const ElasticLaw& law = laws[cell.body];
     const Rule& rule = rules[int(cell.kind)];
     functional.clear();
     own_row.setZero();
+    double energy = 0;
     for (std::size_t q = 0; q < rule.weights.size(); ++q) {
       at.sample(cell, rule.shapes[q]);
       recovered.setZero();
       for (int a = 0; a < corner_count(cell.kind); ++a) {
         const int p = on_points[e].nodes[a];
         blended[a] = rule.linear[q].N[a] * patches.monomials_at(p, at.x);
-        for (int t = 0; t < patches.terms[p]; ++t)
-          recovered += blended[a](t) * patches.coefficients.row(patches.row[p] + t).head(of_field);
+        for (int t = 0; t < patches.terms[p]; ++t) {
+          const double* s = &patches.coefficients(patches.row[p] + t, 0);
+          for (Eigen::Index c = 0; c < of_field; ++c) recovered(c) += blended[a](t) * s[c];
+        }
       }
       const double area = rule.weights[q] * at.area, volume = area * law.model.depth(at.x.x());
       const Vec4 whole = all_components(law, recovered, 0, of_field) + law.stress0(at.x);
@@ -119,14 +123,14 @@ ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const s
       found.norms(e) += volume * whole.dot(law.compliance * whole);
       recovered -= at.stresses;
       const Vec4 d = all_components(law, recovered, 0, of_field), error = volume * law.compliance * d;
-      own_row(0) += error.dot(d);
+      energy += error.dot(d);
       const Vec4 g = in_components(law, error);
       for (int a = 0; a < corner_count(cell.kind); ++a)
         for (int t = 0; t < patches.terms[on_points[e].nodes[a]]; ++t) functional.patches[a][t] += blended[a](t) * g;
       add_nodal_forces(cell, law, at, rule.shapes[q], g, functional);
     }
-    others.add(functional, cell, on_points[e], own_row);
-    found.products.row(e) = own_row;
+    if (count > 0) with.add(functional, cell, on_points[e], own_row);
+    found.products.row(e) << energy, own_row;
   }
   return found;
 }

@@ -13,9 +13,15 @@ struct ErrorProducts {
   VecX areas;     ///< of each cell
 };
 
-/// sigma* as recovered_stress. `patches`: of the same `fields`. What field 0 does to the patches and to the nodes of a
-/// cell is found once; each further field costs a few products a cell.
+/// Displacements, n x F, and the patches that they make.
+struct RecoveredFields {
+  MatX fields;
+  StressPatches patches;
+};
+
+/// sigma* as recovered_stress. `field`: field 0 alone, `others`: those after it. What field 0 does to the patches and
+/// to the nodes of a cell is found once; each further field costs a few products a cell.
 ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                             const MatX& fields, const StressPatches& patches);
+                             const RecoveredFields& field, const RecoveredFields& others);
 
 }  // namespace mortise

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "fem/cell_sampler.hpp"
 #include "fem/quadrature.hpp"
@@ -43,45 +44,17 @@ struct CellsAround {
 
 Monomials monomials(const Vec2& x) { return {1, x.x(), x.y(), x.x() * x.x(), x.x() * x.y(), x.y() * x.y()}; }
 
-// Fits patch p, whose terms are set, to the samples of the cells: what each sample adds to the coefficients is found
-// from their places alone, for all fields at once.
-void fit(const std::vector<int>& cells, const StressSamples& samples, int p, StressPatches& patches) {
-  const int terms = patches.terms[p];
-  double& size = patches.size[p];
-  Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(samples.stresses.cols());
-  int count = 0;
+// Calls visit(q) for each sample of some cells.
+template <typename Visit>
+void for_each_sample(std::span<const int> cells, const StressSamples& samples, Visit visit) {
   for (const int e : cells)
-    for (int q = samples.first[e]; q < samples.first[e + 1]; ++q, ++count) {
-      size = std::max(size, (samples.x[q] - patches.centre[p]).norm());
-      mean += samples.stresses.row(q);
-    }
-  mean /= count;
-  const auto powers = [&](int q) {
-    Monomials m = patches.monomials_at(p, samples.x[q]);
-    m.tail(6 - terms).setZero();
-    return m;
-  };
-  Eigen::Matrix<double, 6, 6> M = Eigen::Matrix<double, 6, 6>::Zero();
-  for (const int e : cells)
-    for (int q = samples.first[e]; q < samples.first[e + 1]; ++q) {
-      const Monomials m = powers(q);
-      M += m * m.transpose();
-    }
-  // Samples on few lines leave the terms of the highest degree open, as y^2 in a beam one element thick: they stay
-  // small.
-  const int highest = terms == 6 ? 3 : 1;
-  M.diagonal().segment(highest, terms - highest).array() += 1e-12 * count;
-  M.diagonal().tail(6 - terms).setOnes();
-  const Eigen::Matrix<double, 6, 6> inverse = M.llt().solve(Eigen::Matrix<double, 6, 6>::Identity());
-  auto coefficients = patches.coefficients.middleRows<6>(patches.row[p]);
-  Eigen::RowVectorXd rest(mean.size());
-  for (const int e : cells)
-    for (int q = samples.first[e]; q < samples.first[e + 1]; ++q) {
-      const Monomials parts = inverse * powers(q);
-      rest = samples.stresses.row(q) - mean;
-      for (int t = 0; t < terms; ++t) coefficients.row(t) += parts(t) * rest;
-    }
-  coefficients.row(0) += mean;
+    for (int q = samples.first[e]; q < samples.first[e + 1]; ++q) visit(q);
+}
+
+Monomials powers(const StressPatches& patches, int p, const Vec2& x) {
+  Monomials m = patches.monomials_at(p, x);
+  m.tail(6 - patches.terms[p]).setZero();
+  return m;
 }
 
 // `take`: flags of cells; the others have no samples. Empty: all have.
@@ -107,40 +80,6 @@ StressSamples sample_some(const Mesh& mesh, const std::vector<ElasticLaw>& laws,
   return samples;
 }
 
-// Patches of all vertices among the body points that `wanted` flags; of all where it is empty.
-StressPatches recover_some(const Mesh& mesh, const CellsAround& around, const BodyPoints& points,
-                           const StressSamples& samples, const std::vector<char>& wanted) {
-  const int count = int(points.node.size());
-  const auto samples_in = [&](const std::vector<int>& cells) {
-    int sum = 0;
-    for (const int e : cells) sum += samples.first[e + 1] - samples.first[e];
-    return sum;
-  };
-  StressPatches patches{.centre = std::vector<Vec2>(count, Vec2::Zero()),
-                        .size = std::vector<double>(count, 0),
-                        .terms = std::vector<int>(count, 0),
-                        .row = std::vector<int>(count, -1),
-                        .coefficients = {}};
-  int rows = 0;
-  for (int p = 0; p < count; ++p) {
-    if (around.first[p] == around.first[p + 1] || !(wanted.empty() || wanted[p])) continue;
-    patches.row[p] = rows;
-    rows += 6;
-  }
-  patches.coefficients = MatX::Zero(rows, samples.stresses.cols());
-  for (int p = 0; p < count; ++p) {
-    if (patches.row[p] < 0) continue;
-    std::vector<int> cells = around.at(p);
-    const bool quadratic = std::ranges::all_of(cells, [&](int e) { return is_quadratic(mesh.cells[e].kind); });
-    if (samples_in(cells) < (quadratic ? 9 : 4)) cells = around.beside(cells);
-    const int found = samples_in(cells);
-    patches.terms[p] = quadratic && found >= 9 ? 6 : found >= 4 ? 3 : 1;
-    patches.centre[p] = mesh.nodes.row(points.node[p]);
-    fit(cells, samples, p, patches);
-  }
-  return patches;
-}
-
 }  // namespace
 
 Monomials StressPatches::monomials_at(int p, const Vec2& x) const { return monomials((x - centre[p]) / size[p]); }
@@ -154,8 +93,84 @@ StressSamples sample_stresses(const Mesh& mesh, const std::vector<ElasticLaw>& l
   return sample_some(mesh, laws, fields, {});
 }
 
+PatchRecovery::PatchRecovery(const Mesh& mesh, const BodyPoints& points, const StressSamples& samples,
+                             const std::vector<char>& wanted) {
+  const CellsAround around(mesh, points);
+  const int count = int(points.node.size());
+  const auto samples_in = [&](const std::vector<int>& cells) {
+    int sum = 0;
+    for (const int e : cells) sum += samples.first[e + 1] - samples.first[e];
+    return sum;
+  };
+  empty_ = {.centre = std::vector<Vec2>(count, Vec2::Zero()),
+            .size = std::vector<double>(count, 0),
+            .terms = std::vector<int>(count, 0),
+            .row = std::vector<int>(count, -1),
+            .coefficients = {}};
+  for (int p = 0; p < count; ++p) {
+    if (around.first[p] == around.first[p + 1] || !(wanted.empty() || wanted[p])) continue;
+    std::vector<int> cells = around.at(p);
+    const bool quadratic = std::ranges::all_of(cells, [&](int e) { return is_quadratic(mesh.cells[e].kind); });
+    if (samples_in(cells) < (quadratic ? 9 : 4)) cells = around.beside(cells);
+    const int found = samples_in(cells);
+    empty_.row[p] = 6 * int(patches_.size());
+    empty_.terms[p] = quadratic && found >= 9 ? 6 : found >= 4 ? 3 : 1;
+    empty_.centre[p] = mesh.nodes.row(points.node[p]);
+    const int first = int(cells_.size());
+    cells_.insert(cells_.end(), cells.begin(), cells.end());
+    patches_.push_back({p, first, int(cells_.size()), inverse_at(p, cells, samples)});
+  }
+}
+
+Eigen::Matrix<double, 6, 6> PatchRecovery::inverse_at(int p, std::span<const int> cells, const StressSamples& samples) {
+  const int terms = empty_.terms[p];
+  int count = 0;
+  for_each_sample(cells, samples, [&](int q) {
+    empty_.size[p] = std::max(empty_.size[p], (samples.x[q] - empty_.centre[p]).norm());
+    ++count;
+  });
+  Eigen::Matrix<double, 6, 6> M = Eigen::Matrix<double, 6, 6>::Zero();
+  for_each_sample(cells, samples, [&](int q) {
+    const Monomials m = powers(empty_, p, samples.x[q]);
+    M += m * m.transpose();
+  });
+  // Samples on few lines leave the terms of the highest degree open, as y^2 in a beam one element thick: they stay
+  // small.
+  const int highest = terms == 6 ? 3 : 1;
+  M.diagonal().segment(highest, terms - highest).array() += 1e-12 * count;
+  M.diagonal().tail(6 - terms).setOnes();
+  return M.llt().solve(Eigen::Matrix<double, 6, 6>::Identity());
+}
+
+// What each sample adds to the coefficients is the same for all fields.
+StressPatches PatchRecovery::fit(const StressSamples& samples) const {
+  StressPatches patches = empty_;
+  const Eigen::Index columns = samples.stresses.cols();
+  patches.coefficients = MatX::Zero(6 * Eigen::Index(patches_.size()), columns);
+  Eigen::RowVectorXd mean(columns), rest(columns);
+  for (const Patch& patch : patches_) {
+    const std::span<const int> cells(cells_.data() + patch.first, cells_.data() + patch.last);
+    const int p = patch.point;
+    mean.setZero();
+    int count = 0;
+    for_each_sample(cells, samples, [&](int q) {
+      mean += samples.stresses.row(q);
+      ++count;
+    });
+    mean /= count;
+    auto coefficients = patches.coefficients.middleRows<6>(patches.row[p]);
+    for_each_sample(cells, samples, [&](int q) {
+      const Monomials parts = patch.inverse * powers(patches, p, samples.x[q]);
+      rest = samples.stresses.row(q) - mean;
+      for (int t = 0; t < patches.terms[p]; ++t) coefficients.row(t) += parts(t) * rest;
+    });
+    coefficients.row(0) += mean;
+  }
+  return patches;
+}
+
 StressPatches recover_patches(const Mesh& mesh, const BodyPoints& points, const StressSamples& samples) {
-  return recover_some(mesh, CellsAround(mesh, points), points, samples, {});
+  return PatchRecovery(mesh, points, samples).fit(samples);
 }
 
 StressPatches recover_patches_at(const std::vector<int>& some, const Mesh& mesh, const BodyPoints& points,
@@ -166,7 +181,8 @@ StressPatches recover_patches_at(const std::vector<int>& some, const Mesh& mesh,
     wanted[p] = 1;
     for (const int e : around.beside(around.at(p))) take[e] = 1;
   }
-  return recover_some(mesh, around, points, sample_some(mesh, laws, fields, take), wanted);
+  const StressSamples samples = sample_some(mesh, laws, fields, take);
+  return PatchRecovery(mesh, points, samples, wanted).fit(samples);
 }
 
 Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, const StressPatches& patches,

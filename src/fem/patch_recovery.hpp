@@ -1,6 +1,8 @@
 // Stresses that are better than the elements' own, and the energy error that they show.
 #pragma once
 
+#include <span>
+
 #include "fem/locate.hpp"
 #include "fem/stress.hpp"
 
@@ -40,7 +42,29 @@ struct StressPatches {
 
 /// Superconvergent patch recovery (Zienkiewicz & Zhu 1992): at each vertex of each body (by body point) the polynomial
 /// that fits the values at the superconvergent points of the cells around it in least squares, of degree 2 if these are
-/// quadratic, else 1; where they are few, as on the boundary, the cells around these too.
+/// quadratic, else 1; where they are few, as on the boundary, the cells around these too. What the mesh alone makes of
+/// it is found once.
+class PatchRecovery {
+ public:
+  /// `samples`: their places count, of the cells that have some. `wanted`: flags of body points; empty: all vertices.
+  PatchRecovery(const Mesh& mesh, const BodyPoints& points, const StressSamples& samples,
+                const std::vector<char>& wanted = {});
+
+  /// `samples`: at the same places.
+  StressPatches fit(const StressSamples& samples) const;
+
+ private:
+  struct Patch {
+    int point, first, last;               // of its cells in cells_
+    Eigen::Matrix<double, 6, 6> inverse;  // of the normal equations
+  };
+  Eigen::Matrix<double, 6, 6> inverse_at(int p, std::span<const int> cells, const StressSamples& samples);
+
+  StressPatches empty_;  // without coefficients
+  std::vector<Patch> patches_;
+  std::vector<int> cells_;
+};
+
 StressPatches recover_patches(const Mesh& mesh, const BodyPoints& points, const StressSamples& samples);
 
 /// The same at some body points only, in the time that the cells around these take, and a look at all cells.

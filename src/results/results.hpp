@@ -58,6 +58,7 @@ struct AccuracyReport {
 
 struct Results {
   Problem problem;  ///< held motions (validate.hpp) count as prescribed
+  std::shared_ptr<EstimateMemory> memory = std::make_shared<EstimateMemory>();  ///< of estimates on its mesh
   Solution solution;
   std::vector<std::vector<RigidMotion>> unheld;  ///< that nothing holds and no load drives: held, or zero
   Recovery recovery;

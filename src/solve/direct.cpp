@@ -6,6 +6,7 @@
 #include "base/stopwatch.hpp"
 #include "solve/active_set.hpp"
 #include "solve/bordered_system.hpp"
+#include "solve/known_loads.hpp"
 
 namespace mortise {
 namespace {
@@ -21,11 +22,11 @@ bool is_without_solution(const Solution& solution) {
 // The first pass solves, as a rule to round-off of the residual itself; others refine where it did not.
 class Passes {
  public:
-  Passes(const SaddlePointSystem& s, const FactoredBodies& bodies, ComplementarityProblem& problem, Solution& solution)
-      : s_(s), factor_(bodies.factor), free_(bodies.free), problem_(problem), solution_(solution) {
+  Passes(const SaddlePointSystem& s, const FactoredBodies& bodies, KnownLoads& loads, ComplementarityProblem& problem,
+         Solution& solution)
+      : s_(s), factor_(bodies.factor), free_(bodies.free), loads_(loads), problem_(problem), solution_(solution) {
     solution_.u = s_.constraints.value;
     solution_.lambda = VecX::Zero(s_.B.rows());
-    Ku_ = s_.K.selfadjointView<Eigen::Lower>() * solution_.u;
     problem_.round_off = problem_.displacement = 0;
     problem_.known = {};
   }
@@ -33,15 +34,15 @@ class Passes {
   // False if another pass would change nothing, or nothing for the better.
   bool next() {
     const Eigen::Index m = s_.B.rows();
-    const VecX unbalanced = s_.f - Ku_ - s_.B.transpose() * solution_.lambda;
-    const VecX y = factor_.forward(on(free_, unbalanced) / s_.stiffness_scale);
+    const VecX Ku = s_.K.selfadjointView<Eigen::Lower>() * solution_.u;
+    const VecX unbalanced = s_.f - Ku - s_.B.transpose() * solution_.lambda;
+    const VecX load = on(free_, unbalanced) / s_.stiffness_scale, y = factor_.forward(load);
     VecX rhs = factor_.at_border(y);
     rhs.head(m) -= (s_.g - s_.B * solution_.u).cwiseQuotient(s_.row_scale);
-    const std::optional<VecX> lambda = multipliers_for(y, rhs);
+    const std::optional<VecX> lambda = multipliers_for(load, y, rhs);
     if (!lambda) return false;
     solution_.u(free_) += factor_.backward(y, *lambda);
     solution_.lambda += s_.stiffness_scale * lambda->head(m).cwiseQuotient(s_.row_scale);
-    Ku_ = s_.K.selfadjointView<Eigen::Lower>() * solution_.u;
     measure_residuals(s_, solution_);
     const bool exact = largest(solution_.force_residual, solution_.constraint_residual) < 1e-11;
     if (solution_.status != SolveStatus::converged || (pass_ > 0 && !penetrated_ && !exact)) return false;
@@ -54,7 +55,7 @@ class Passes {
 
  private:
   // What lambda and mu change by; nothing where no active set is found, or none for the better.
-  std::optional<VecX> multipliers_for(const VecX& y, const VecX& rhs) {
+  std::optional<VecX> multipliers_for(const VecX& load, const VecX& y, const VecX& rhs) {
     if (pass_ > 0 && !penetrated_) return system->solve(rhs);
     if (pass_ > 0) {
       problem_.known = solution_.lambda.cwiseProduct(s_.row_scale) / s_.stiffness_scale;
@@ -62,8 +63,8 @@ class Passes {
       problem_.round_off = 0;
     } else if (!s_.unilateral.empty()) {
       // Of the largest displacement without contact, floating bodies held by their springs: gaps are its differences.
-      problem_.round_off = 1e-12 * largest(largest_entry(s_.constraints.value),
-                                           largest_entry(factor_.backward(y, VecX::Zero(rhs.size()))));
+      problem_.round_off =
+          1e-12 * largest(largest_entry(s_.constraints.value), loads_.displacement(factor_, rhs.size(), load, y));
     }
     ActiveSetResult set = find_active_set(problem_, rhs, pass_ > 0 ? solution_.active : s_.start);
     if (pass_ > 0 && set.status != SolveStatus::converged) return {};  // those before stay; the checks look at them
@@ -78,9 +79,9 @@ class Passes {
   const SaddlePointSystem& s_;
   const SplitCholesky& factor_;
   const std::vector<int>& free_;
+  KnownLoads& loads_;
   ComplementarityProblem& problem_;
   Solution& solution_;
-  VecX Ku_;
   int pass_ = 0;
   bool penetrated_ = false;
 };
@@ -111,13 +112,16 @@ Solution DirectSolver::solve() {
   }
   Stopwatch watch;
   solution.factorise_seconds = std::exchange(factorise_seconds_, 0);
-  Passes passes(system_, *bodies_, problem_, solution);
+  Passes passes(system_, *bodies_, loads_, problem_, solution);
   for (int pass = 0; pass < max_passes && passes.next(); ++pass) {
   }
   if (is_without_solution(solution)) return solution;
   if (!std::isfinite(largest(solution.force_residual, solution.constraint_residual)))
     solution.status = SolveStatus::not_converged;
-  solution.factor = std::make_shared<DirectFactor>(system_, bodies_, *std::move(passes.system));
+  if (!factor_ || solution.active != closed_)
+    factor_ = std::make_shared<DirectFactor>(system_, bodies_, *std::move(passes.system));
+  closed_ = solution.active;
+  solution.factor = factor_;
   solution.solve_seconds = watch.lap();
   return solution;
 }

@@ -3,6 +3,7 @@
 
 #include "solve/complementarity_problem.hpp"
 #include "solve/contact_factor.hpp"
+#include "solve/known_loads.hpp"
 
 namespace mortise {
 
@@ -20,6 +21,9 @@ class DirectSolver {
   const SaddlePointSystem& system_;
   std::shared_ptr<const FactoredBodies> bodies_;
   ComplementarityProblem problem_;
+  KnownLoads loads_;
+  std::shared_ptr<const DirectFactor> factor_;  // of the last solution
+  std::vector<char> closed_;                    // and its closed rows
   int failed_at_ = -1;
   double factorise_seconds_ = 0;  // that no solution has told
 };

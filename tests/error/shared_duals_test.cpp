@@ -119,7 +119,9 @@ TEST(SharedDuals, OfAWallDoNotGrowWithItsPairs) {
 TEST(SharedDuals, OfAWallSayWhatItsOwnSay) {
   const Wall w = wall(6);
   const Results r = solve_scene(w.scene, w.mesh);
-  const auto estimated = [&](int own_duals) { return estimate_error(r.problem, r.solution, {.own_duals = own_duals}); };
+  const auto estimated = [&](int own_duals) {
+    return estimate_error(r.problem, r.solution, *r.memory, {.own_duals = own_duals});
+  };
   const ErrorEstimate own = estimated(1000), shared = estimated(most_own_duals);
   EXPECT_EQ(own.far.parts.cols(), 180);
   EXPECT_NEAR(shared.far_field(), own.far_field(), 0.1 * own.far_field());

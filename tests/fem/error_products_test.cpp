@@ -28,8 +28,11 @@ TEST(ErrorProducts, OfAFieldWithItselfAreTheSameBothWays) {
       for (Eigen::Index i = 0; i < fields.rows(); ++i) fields.row(i) << std::sin(double(i)), std::cos(double(i)), 0, 0;
       fields.col(2) = fields.col(0);
       fields.col(3) = 2 * fields.col(0) - fields.col(1);
-      const ErrorProducts found = error_products(mesh, points, laws, fields,
-                                                 recover_patches(mesh, points, sample_stresses(mesh, laws, fields)));
+      const auto recovered = [&](MatX some) {
+        return RecoveredFields{some, recover_patches(mesh, points, sample_stresses(mesh, laws, some))};
+      };
+      const ErrorProducts found =
+          error_products(mesh, points, laws, recovered(fields.leftCols(1)), recovered(fields.rightCols(3)));
       const MatX& products = found.products;
       const double least = 1e-10 * products.col(0).norm();
       EXPECT_GT(products.col(0).minCoeff(), 0) << int(kind) << int(plane);

@@ -174,7 +174,7 @@ Errors manufactured_errors(const ManufacturedCase& which) {
   const StressPatches patches = recover_patches(mesh, points, sample_stresses(mesh, laws, s.u));
   return {e.displacement, e.energy,
           pressure_error(mesh, exact, which.plates, interface, -multiplier_values(coupling, s.lambda)),
-          std::sqrt(error_products(mesh, points, laws, s.u, patches).products.sum())};
+          std::sqrt(error_products(mesh, points, laws, {s.u, patches}, {}).products.sum())};
 }
 
 }  // namespace mortise::test
