@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <set>
 #include <sstream>
 
+#include "app/drawn_sizes.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "base/stopwatch.hpp"
-#include "base/vectors.hpp"
 #include "contact/least_gap.hpp"
 #include "error/wanted_sizes.hpp"
 #include "gmsh/free_mesher.hpp"
-#include "model/patterns.hpp"
 #include "results/error_report.hpp"
 
 namespace mortise {
@@ -31,42 +28,6 @@ constexpr double largest_step = 16;  // by which one mesh is to lower the error:
 constexpr double aimed = 0.7;        // of what was asked, lest a mesh that just misses it be solved in vain
 constexpr double another = 1.5;      // by which all sizes change where a mesh tells nothing of the next, or is not made
 constexpr int most_others = 2;       // such meshes in succession
-
-// The contact curves in so many edges, and arcs in turns of 15 degrees.
-LayeredSizes sizes_of(const std::vector<DrawnCurve>& curves, const Scene& scene, int edges) {
-  constexpr double turn = 15 * std::numbers::pi / 180;
-  const auto length = [](const DrawnCurve& curve) {
-    double sum = 0;
-    for (std::size_t i = 1; i < curve.places.size(); ++i) sum += (curve.places[i] - curve.places[i - 1]).norm();
-    return sum;
-  };
-  std::map<std::string, double> lengths;
-  for (const DrawnCurve& curve : curves)
-    for (const std::string& name : curve.names) lengths[name] += length(curve);
-  std::set<std::string> in_contact;
-  std::vector<std::string> patterns;
-  for (const ContactSpec& contact : scene.contacts)
-    for (const std::string& side : contact.between)
-      if (is_pattern(side))
-        patterns.push_back(side);
-      else
-        in_contact.insert(side);
-  std::vector<SizeLayers> places;
-  for (const DrawnCurve& curve : curves) {
-    double largest = std::numeric_limits<double>::infinity();
-    for (const std::string& name : curve.names)
-      if (in_contact.contains(name) ||
-          std::ranges::any_of(patterns, [&](const std::string& pattern) { return matches(pattern, name); }))
-        largest = std::min(largest, lengths[name] / edges);
-    for (std::size_t i = 1; i + 1 < curve.places.size(); ++i) {
-      const Vec2 before = curve.places[i] - curve.places[i - 1], after = curve.places[i + 1] - curve.places[i];
-      const double angle = angle_between(before, after), step = (before.norm() + after.norm()) / 2;
-      const double size = std::min(largest, angle > 1e-9 ? turn * step / angle : largest);
-      if (std::isfinite(size)) places.push_back({curve.places[i], size, size_growth});
-    }
-  }
-  return LayeredSizes(std::move(places));
-}
 
 // Of a mesh with these sizes: about four unknowns a triangle. `areas`: of the cells.
 double expected_unknowns(const Mesh& mesh, const VecX& areas, const SizeField& sizes) {
@@ -87,7 +48,7 @@ class Loop {
         progress_(progress),
         interrupted_(interrupted),
         mesher_(scene_.mesh_file, scene_.mesh_parameters, scene_.geo_limits),
-        largest_(sizes_of(mesher_.curves(), scene_, std::min(spec_.first_edges, least_edges))),
+        largest_(drawn_sizes(mesher_.curves(), scene_, std::min(spec_.first_edges, least_edges))),
         gaps_(cases_.size()),
         open_(cases_.size()) {}
 
@@ -95,7 +56,7 @@ class Loop {
     std::optional<Results> last;
     AccuracyReport report{.of = spec_.of, .asked = spec_.value, .excluded = spec_.exclude, .solves = {}, .reason = {}};
     Seconds seconds;
-    const LayeredSizes first = sizes_of(mesher_.curves(), scene_, spec_.first_edges);
+    const LayeredSizes first = drawn_sizes(mesher_.curves(), scene_, spec_.first_edges);
     SizeAt sizes = [&first](const Vec2& x) { return first(x); };
     try {
       for (;;) {
