@@ -23,9 +23,9 @@ double length_of(const DrawnCurve& curve) {
 }
 
 // The curves that a scene's contact pairs name.
-class ContactCurves {
+class NamedInContact {
  public:
-  explicit ContactCurves(const Scene& scene) {
+  explicit NamedInContact(const Scene& scene) {
     for (const ContactSpec& contact : scene.contacts)
       for (const std::string& side : contact.between)
         if (is_pattern(side))
@@ -50,7 +50,7 @@ LayeredSizes drawn_sizes(const std::vector<DrawnCurve>& curves, const Scene& sce
   std::map<std::string, double> lengths;
   for (const DrawnCurve& curve : curves)
     for (const std::string& name : curve.names) lengths[name] += length_of(curve);
-  const ContactCurves in_contact(scene);
+  const NamedInContact in_contact(scene);
   std::vector<SizeLayers> places;
   for (const DrawnCurve& curve : curves) {
     double largest = std::numeric_limits<double>::infinity();
