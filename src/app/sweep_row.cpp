@@ -63,6 +63,13 @@ Figures figures(const Json& r) {
   return row;
 }
 
+// The upper half of a matrix; nothing of null.
+void add_stiffness(const std::string& at, const Json& matrix, Figures& row) {
+  constexpr std::array motions{"x", "y", "turn"};
+  for (std::size_t i = 0; i < matrix.size(); ++i)
+    for (std::size_t j = i; j < 3; ++j) row.emplace_back(at + motions[i] + "." + motions[j], matrix[i][j]);
+}
+
 // Reactions; of rigid curves how they moved.
 void add_supports(const Json& supports, Figures& row) {
   for (std::size_t i = 0; i < supports.size(); ++i) {
@@ -70,6 +77,7 @@ void add_supports(const Json& supports, Figures& row) {
     const std::string at = "support." + std::to_string(i) + ".";
     add_pair(at + "reaction", support["reaction"], row);
     row.emplace_back(at + "moment", support["moment"]);
+    if (support.contains("stiffness")) add_stiffness(at + "stiffness.", support["stiffness"]["matrix"], row);
     if (!support.contains("rigid")) continue;
     add_pair(at + "displacement", support["rigid"]["displacement"], row);
     row.emplace_back(at + "turned", support["rigid"]["turned"]);

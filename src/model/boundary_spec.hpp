@@ -89,6 +89,7 @@ struct BoundarySpec {
   std::string key;              ///< where it stands, for messages: "boundary.2 (line 31)", counted from 0
   std::vector<std::string> on;  ///< physical curves; of displacements, forces and springs also points
   BoundaryCondition what;
+  bool stiffness = false;  ///< of a support whether its stiffness is asked for (results/joint_stiffness.hpp)
 
   bool operator==(const BoundarySpec&) const = default;
 };

@@ -153,6 +153,14 @@ Json reaction_json(const Reaction& r) {
   return json;
 }
 
+Json stiffness_json(const JointStiffness& stiffness) {
+  Json json{{"about", json_of(stiffness.about)}, {"matrix", nullptr}};
+  if (!stiffness.matrix) return json;
+  json["matrix"] = Json::array();
+  for (const auto& row : stiffness.matrix->rowwise()) json["matrix"].push_back({row(0), row(1), row(2)});
+  return json;
+}
+
 // With the reaction of the entry, and of each curve.
 Json support_json(const Problem& p, const Reactions* reactions, std::size_t i) {
   Json entry = boundary_json(p.entries.boundaries[i].spec);
@@ -165,6 +173,8 @@ Json support_json(const Problem& p, const Reactions* reactions, std::size_t i) {
       entry["rigid"]["displacement"] = json_of(Vec2(reactions->rigid_motions[k].head<2>()));
       entry["rigid"]["turned"] = reactions->rigid_motions[k](2);
     }
+  for (const JointStiffness& s : reactions->stiffnesses)
+    if (s.entry == int(i)) entry["stiffness"] = stiffness_json(s);
   entry["curves"] = Json::array();
   for (const Reaction& r : reactions->curves)
     if (r.entry == int(i)) entry["curves"].push_back(reaction_json(r));

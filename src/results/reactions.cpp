@@ -153,6 +153,7 @@ Reactions find_reactions(const Problem& problem, const Solution& solution) {
   }
   for (const RigidSupport& rigid : d.multipoint.rigid_curves)
     r.rigid_motions.push_back(rigid_motion(rigid.curve, *d.system.constraints.multipoint, solution.u));
+  r.stiffnesses = joint_stiffnesses(problem, solution);
   r.held_bodies.resize(mesh.bodies.size());
   std::vector<char> counted(mesh.nodes.rows(), 0);
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {

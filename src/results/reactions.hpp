@@ -3,6 +3,7 @@
 
 #include "model/resultant.hpp"
 #include "problem/problem.hpp"
+#include "results/joint_stiffness.hpp"
 
 namespace mortise {
 
@@ -23,6 +24,7 @@ struct Reactions {
   std::vector<Resultant> ties;     ///< on the nodes that follow, of Mesh::ties
   /// Of Discretisation::multipoint: displacement of `about`, and the turn in radians.
   std::vector<Eigen::Vector3d> rigid_motions;
+  std::vector<JointStiffness> stiffnesses;
   Resultant held;                      ///< of the motions that nothing holds (validate.hpp)
   std::vector<Resultant> held_bodies;  ///< the same of each body of the mesh, nodes that several share with the first
   Resultant loads;                     ///< of all nodes; initial strains, which are in balance, left out

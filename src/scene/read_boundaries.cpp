@@ -170,6 +170,10 @@ Keys boundary_keys(BoundarySpec& boundary) {
       {"spring", either(above(0).schema, pair),
        "of a point, to the ground, force per length: `k`, or `[kx, ky]` along x and y"},
       {"rigid", object_of(rigid_keys(rigid)), "the curves keep their shape ([below](#rigid-curves))"},
+      key("stiffness", boundary.stiffness, true_or_false(),
+          "`true`, of `rigid` and of a displacement along x or y: summary.json tells how the support's force and "
+          "moment "
+          "change as it moves ([below](#stiffness-of-a-joint))"),
   };
 }
 
@@ -183,6 +187,9 @@ void read_boundaries(const Node& root, Scene& scene) {
     boundary.key = locate(*entry);
     const std::vector<const Node*> curves = names(*find(*entry, "on"));
     boundary.what = read_what(what, scene, most);
+    if (boundary.stiffness && !std::holds_alternative<RigidSpec>(boundary.what) &&
+        !std::holds_alternative<Displacement>(boundary.what))
+      fail(*find(*entry, "stiffness"), "is that of a support; expected it with rigid, or displacement = { x, y }");
     check_once(*entry, what, curves, once);
     scene.boundaries.push_back(boundary);
   }

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy
 
 # Keys of summary.json that are null where they do not apply.
-NONE_ALLOWED = {"accuracy.largest", "iteration", "inf_sup", "accuracy", "accuracy.value", "estimate.pressure", "ends"}
+NONE_ALLOWED = {"accuracy.largest", "iteration", "inf_sup", "accuracy", "accuracy.value", "estimate.pressure", "ends", "matrix"}
 TYPES = {"Float64": "<f8", "Float32": "<f4", "Int32": "<i4", "Int64": "<i8", "UInt8": "u1"}  # of VTK
 LENGTH = 8  # bytes of the length before each array of a .vtu file (header_type UInt64)
 

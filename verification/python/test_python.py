@@ -149,6 +149,9 @@ def test_cases_of_a_scene():
     assert list(table["scale"]) == [0.5, 0.75, 1] and list(table["boundary.2.displacement.y"]) == ["", "", "-4e-04"]
     modulus = 1 / (0.3 / 282.692e9 + 0.3 / 94.2308e9)  # geo/gap_close.toml, with a gap of 1e-4
     np.testing.assert_allclose(table["contact.0.pressure.max"], [0.5e-4 * modulus, 1.25e-4 * modulus, 3e-4 * modulus], rtol=1e-5)
+    stiff = mortise.cases(scene, changes | {"boundary.2.stiffness": True})
+    force = -stiff["support.2.reaction.y"]
+    np.testing.assert_allclose(stiff["support.2.stiffness.y.y"], np.diff(force)[1] / 1.75e-4, rtol=1e-9)
     deep = mortise.solve(scene, changes, case="deep")
     assert deep.p.max() == pytest.approx(table["contact.0.pressure.max"][2], rel=1e-12)
     with pytest.raises(mortise.InputError, match=r"the scene has cases; expected solve\(scene, case=NAME\)"):
