@@ -7,6 +7,7 @@
 #include "preprint_solvers/mssor.hpp"
 #include "preprint_solvers/solve_ddm.hpp"
 #include "solve/contact_factor.hpp"
+#include "solve/layered_system.hpp"
 #include "solve/multipoint_system.hpp"
 
 namespace mortise {
@@ -42,7 +43,7 @@ Solver solver_for(const Method& method, const SaddlePointSystem& system) {
 
 Solution SystemSolver::solve() {
   const auto& multipoint = system_.constraints.multipoint;
-  if (!multipoint) return solve_independent(system_);
+  if (!multipoint) return solve_layered(system_);
   if (!independent_) {
     independent_ = std::make_unique<SaddlePointSystem>(independent_system(system_));
   } else {
@@ -51,9 +52,26 @@ Solution SystemSolver::solve() {
     independent_->constraints.value = system_.constraints.value;
     independent_->start = system_.start;
   }
-  Solution solution = solve_independent(*independent_);
+  Solution solution = solve_layered(*independent_);
   if (solution.u.size() > 0) solution.u = multipoint->T * solution.u;
   if (solution.factor) solution.factor = std::make_shared<MultipointFactor>(multipoint->T, solution.factor);
+  return solution;
+}
+
+Solution SystemSolver::solve_layered(const SaddlePointSystem& system) {
+  const Eigen::Index count = system.layers.K.cols(), unknowns = system.f.size();
+  if (count == 0) return solve_independent(system);
+  if (layered_)
+    take_loads(system, *layered_);
+  else
+    layered_ = std::make_unique<SaddlePointSystem>(layered_system(system));
+  Solution solution = solve_independent(*layered_);
+  if (solution.u.size() > 0) {
+    solution.compression = solution.u.segment(unknowns, count);
+    solution.u.conservativeResize(unknowns);
+  }
+  if (solution.factor)
+    solution.factor = std::make_shared<MultipointFactor>(without_layers(unknowns, layered_->f.size()), solution.factor);
   return solution;
 }
 

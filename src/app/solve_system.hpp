@@ -21,6 +21,7 @@ class SystemSolver {
   Solution solve();
 
  private:
+  Solution solve_layered(const SaddlePointSystem& system);
   Solution solve_independent(const SaddlePointSystem& system);
   Solution solve_by_factor(const SaddlePointSystem& system);
 
@@ -28,6 +29,7 @@ class SystemSolver {
   const SaddlePointSystem& system_;
   const std::vector<char> dirichlet_;
   std::unique_ptr<SaddlePointSystem> independent_;  // of one with multi-point constraints
+  std::unique_ptr<SaddlePointSystem> layered_;      // of one with surface layers
   std::optional<DirectSolver> direct_;
 };
 

@@ -142,7 +142,7 @@ void add_gap_errors(const Problem& problem, double excluded, std::vector<Pressur
     PressureEstimate& e = pressures[k];
     for (Eigen::Index i = 0; i < gap.l2.size(); ++i)
       for (const int end : {0, 1}) e.local.l2(i + end) = std::hypot(e.local.l2(i + end), gap.l2(i));
-    add_jumps(gap, e.line, e.singular);
+    if (!problem.pairs[k].spec.stiffness) add_jumps(gap, e.line, e.singular);
     find_excluded(excluded, e);
     find_bars(e);
   }

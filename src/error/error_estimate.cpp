@@ -117,12 +117,14 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, const Surroun
     const bool one_curve = pair.spec.initial_gap == InitialGap::closed || pair.spec.initial_gap == InitialGap::given;
     const GivenGap given{.one_curve = one_curve,
                          .end_slopes = gap_slopes_at_ends(p.mesh.nodes, pair.multiplier, pair.geometry)};
-    e.singular =
-        that_count(singular_points(around, pair.multiplier, pair.opposite, reached[k], given), e.line, spec.value);
+    if (!pair.spec.stiffness)  // p is no larger than k times the overlap
+      e.singular =
+          that_count(singular_points(around, pair.multiplier, pair.opposite, reached[k], given), e.line, spec.value);
     add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
-    judge_small_kinks(pair, contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]), solution.u,
-                      spec.value, e);
+    if (!pair.spec.stiffness)
+      judge_small_kinks(pair, contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]), solution.u,
+                        spec.value, e);
     find_excluded(spec.exclude, e);
   });
   add_missed_contact(p, solution, list);
@@ -136,6 +138,7 @@ std::vector<BodyCorner> free_corners(std::vector<BodyCorner> corners, Eigen::Ind
   std::vector<char> in_contact(nodes, 0);
   for (std::size_t k = 0; k < pairs.size(); ++k)
     for (const int side : {0, 1}) {
+      if (pairs[k].spec.stiffness) continue;  // it loads a corner, and holds no face
       const Curve& curve = side == 0 ? pairs[k].multiplier : pairs[k].opposite;
       for (std::size_t e = 0; e < curve.edges.size(); ++e)
         for (const int end : {0, 1})

@@ -19,6 +19,12 @@ std::array<Eigen::Index, 2> edges_at(const PressureLine& line, Eigen::Index e) {
 
 bool among(const std::array<Eigen::Index, 2>& edges, Eigen::Index e) { return e == edges[0] || e == edges[1]; }
 
+std::vector<char> pressed(const PressureLine& line) {
+  std::vector<char> vertices = line.loaded;
+  for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] &= line.p(Eigen::Index(i)) != 0;
+  return vertices;
+}
+
 }  // namespace
 
 MatX openings(const ContactPair& pair, const MatX& z) {
@@ -37,7 +43,8 @@ MatX openings(const ContactPair& pair, const MatX& z) {
   return opened;
 }
 
-LinePart line_part(const ContactPair& pair, const PressureLine& line, const LineError& local, const MatX& opened) {
+LinePart line_part(const ContactPair& pair, const PressureLine& line, const LineError& local, MatX opened) {
+  if (pair.spec.stiffness) opened = less_layer(pair, pressed(line), std::move(opened));
   const Eigen::Index count = line.p.size(), functionals = opened.cols();
   LinePart part{.vertices = MatX::Zero(count, functionals),
                 .borders = MatX::Zero(Eigen::Index(local.borders.size()), functionals)};

@@ -20,6 +20,6 @@ struct LinePart {
 /// An error of p does to the functional the integral of both. Between the borders that is at most the product of the
 /// L2 norms at each vertex. At a border all that is known is that contact ends somewhere on one edge: p on that edge
 /// and the next within may be anywhere on the two, so that its force times the largest opening there is a bound.
-LinePart line_part(const ContactPair& pair, const PressureLine& line, const LineError& local, const MatX& opened);
+LinePart line_part(const ContactPair& pair, const PressureLine& line, const LineError& local, MatX opened);
 
 }  // namespace mortise

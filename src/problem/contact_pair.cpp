@@ -78,7 +78,27 @@ ContactPair coupled(const Method& method, const Mesh& mesh, const Discretisation
   pair.points = contact_points(mesh.nodes, pair, method.integration);
   find_one_line(mesh.nodes, pair);
   pair.coupling = couple(mesh, pair, d.system.constraints, {method.multipliers, spec.initial_gap});
+  if (spec.stiffness) pair.layer = surface_layer(pair, method.multipliers, *spec.stiffness);
   return pair;
+}
+
+// The layers of all pairs, one behind another.
+SurfaceLayers surface_layers(const std::vector<ContactPair>& pairs, Eigen::Index rows) {
+  std::vector<Eigen::Triplet<double>> K, B;
+  SurfaceLayers layers;
+  for (const ContactPair& pair : pairs) {
+    if (!pair.spec.stiffness) continue;
+    const int first = int(layers.beside.size());
+    for (const auto& t : pair.layer.stiffness) K.emplace_back(first + t.row(), first + t.col(), t.value());
+    for (const auto& t : pair.layer.rows) B.emplace_back(pair.first_row + t.row(), first + t.col(), t.value());
+    for (const int node : pair.coupling.node) layers.beside.push_back(2 * node);
+  }
+  const Eigen::Index count = Eigen::Index(layers.beside.size());
+  layers.K.resize(count, count);
+  layers.K.setFromTriplets(K.begin(), K.end());
+  layers.B.resize(rows, count);
+  layers.B.setFromTriplets(B.begin(), B.end());
+  return layers;
 }
 
 }  // namespace
@@ -99,12 +119,15 @@ std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, co
 bool is_drawn(const ContactPair& pair) { return !pair.multiplier.samples.empty() && !pair.opposite.samples.empty(); }
 
 std::string gap_words(const ContactPair& pair) {
-  if (pair.spec.initial_gap == InitialGap::closed) return "closed";
-  if (pair.spec.initial_gap == InitialGap::given) return pair.spec.gap.words();
-  const std::string of = pair.spec.initial_gap == InitialGap::measured ? "of the meshes"
-                         : is_drawn(pair)                              ? "as drawn"
-                                                                       : "of curves through the nodes";
-  return pair.spec.clearance == Field() ? of : of + " + " + pair.spec.clearance.words();
+  const ContactSpec& spec = pair.spec;
+  std::ostringstream stiffness;
+  if (spec.stiffness) stiffness << ", stiffness " << *spec.stiffness;
+  if (spec.initial_gap == InitialGap::closed) return "closed" + stiffness.str();
+  if (spec.initial_gap == InitialGap::given) return spec.gap.words() + stiffness.str();
+  const std::string of = spec.initial_gap == InitialGap::measured ? "of the meshes"
+                         : is_drawn(pair)                         ? "as drawn"
+                                                                  : "of curves through the nodes";
+  return (spec.clearance == Field() ? of : of + " + " + spec.clearance.words()) + stiffness.str();
 }
 
 std::vector<int> row_nodes(const std::vector<ContactPair>& pairs) {
@@ -132,6 +155,7 @@ void set_contact(const std::vector<ContactPair>& pairs, SaddlePointSystem& syste
   }
   system.B.resize(rows, system.f.size());
   system.B.setFromTriplets(entries.begin(), entries.end());
+  system.layers = surface_layers(pairs, rows);
 }
 
 }  // namespace mortise

@@ -116,7 +116,9 @@ void unilateral_checks(const Results& r, double limit, std::vector<Check>& check
   const Solution& solution = r.solution;
   const std::vector<char>& unilateral = s.unilateral;
   if (std::find(unilateral.begin(), unilateral.end(), 1) == unilateral.end()) return;
-  const VecX gap = (s.B * solution.u - s.g).cwiseQuotient(s.row_scale);
+  VecX gap = s.B * solution.u - s.g;
+  if (solution.compression.size() > 0) gap += s.layers.B * solution.compression;
+  gap = gap.cwiseQuotient(s.row_scale).eval();
   const double displacement = largest_entry(solution.u),
                round_off = round_off_pressure(r.problem.mesh, r.problem.pairs, s.stiffness_scale, solution.u),
                least = negligible_pressure(r, round_off), p_size = largest(10 * least, largest_entry(solution.lambda));

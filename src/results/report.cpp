@@ -47,21 +47,23 @@ Json peak_error(const ContactResults& c) {
 
 Json contact_json(const ContactPair& pair, const ContactResults& c) {
   const auto& error = c.force_error;
-  return {{"between", pair.spec.between},
-          {"length", c.length},
-          {"length_in_contact", c.length_in_contact},
-          {"length_in_contact_error", or_null(c.length_error)},
-          {"ends", c.ends ? Json{(*c.ends)[0], (*c.ends)[1]} : Json()},
-          {"force", {c.force.x(), c.force.y()}},
-          {"force_error", error ? Json{(*error)(0), (*error)(1)} : Json()},
-          {"moment", c.moment},
-          {"centre", {c.centre.x(), c.centre.y()}},
-          {"moment_about_centre", c.moment - (c.centre.x() * c.force.y() - c.centre.y() * c.force.x())},
-          {"moment_about_centre_error", error ? Json((*error)(2)) : Json()},
-          {"pressure", {{"min", c.p_min}, {"mean", c.p_mean}, {"max", c.p_max}, {"max_error", peak_error(c)}}},
-          {"drawn", is_drawn(pair)},
-          {"gap", gap_words(pair)},
-          {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
+  Json json{{"between", pair.spec.between},
+            {"length", c.length},
+            {"length_in_contact", c.length_in_contact},
+            {"length_in_contact_error", or_null(c.length_error)},
+            {"ends", c.ends ? Json{(*c.ends)[0], (*c.ends)[1]} : Json()},
+            {"force", {c.force.x(), c.force.y()}},
+            {"force_error", error ? Json{(*error)(0), (*error)(1)} : Json()},
+            {"moment", c.moment},
+            {"centre", {c.centre.x(), c.centre.y()}},
+            {"moment_about_centre", c.moment - (c.centre.x() * c.force.y() - c.centre.y() * c.force.x())},
+            {"moment_about_centre_error", error ? Json((*error)(2)) : Json()},
+            {"pressure", {{"min", c.p_min}, {"mean", c.p_mean}, {"max", c.p_max}, {"max_error", peak_error(c)}}},
+            {"drawn", is_drawn(pair)},
+            {"gap", gap_words(pair)},
+            {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
+  if (pair.spec.stiffness) json["stiffness"] = *pair.spec.stiffness;
+  return json;
 }
 
 Json pressure_json(const Results& r) {

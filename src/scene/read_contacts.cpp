@@ -83,6 +83,11 @@ Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
       key("clearance", contact.clearance, a_field(use),
           "a length, which may be a function of place, that is added to a drawn or measured gap: + open, − overlap",
           "0"),
+      key("stiffness", contact.stiffness, above(0),
+          "$k$ > 0, stress over length: of rough surfaces or a thin layer, $p = k$ times what the sides overlap "
+          "(theory, "
+          "section 5). By the solvers `direct` and `feti`",
+          "none: the sides do not overlap"),
       key("multipliers_on", contact.multipliers_on, a_name(), "one of the two curves",
           "that of the softer body where the other is more than 10 times as stiff (theory, section 13), else that of a "
           "curve which faces the other on at least 95 % of its length where the other does so on at most 90 %, else "
@@ -103,7 +108,7 @@ void read_contacts(const Node& root, Scene& scene) {
       fail(*find(*entry, "within"),
            "goes with between = patterns, such as [\"block_*\", \"block_*\"], whose pairs are found");
     const bool tied = contact.condition == Condition::tied;
-    for (const char* key : {"initial_gap", "clearance"})
+    for (const char* key : {"initial_gap", "clearance", "stiffness"})
       if (const Node* node = find(*entry, key); tied && node != nullptr)
         fail(*node, "has no meaning with condition = \"tied\", which makes one body of both; expected one of them");
     read_initial_gap(find(*entry, "initial_gap"), scene, contact);

@@ -65,6 +65,15 @@ void check_ddm(const Node& node, const Scene& scene) {
     if (!std::ranges::count(known, body->text)) fail(*body, unknown_name("body", body->text, known));
 }
 
+// The preprint's solvers have no rows that give way.
+void check_stiffness(const Node& node, const Scene& scene) {
+  for (const ContactSpec& contact : scene.contacts)
+    if (contact.stiffness)
+      fail(*(find(node, "solver") ? find(node, "solver") : find(node, "kind")),
+           "does not solve contact that gives way, but " + contact.key +
+               " has a stiffness; expected \"direct\" or \"feti\"");
+}
+
 Kind<Acceleration> acceleration_of(const std::optional<Solver>& solver) {
   using enum Acceleration;
   if (solver == Solver::ddm) return one_of({none, aitken, anderson, krylov});
@@ -132,6 +141,7 @@ void read_method(const Node& root, Scene& scene) {
   expect_keys(*node, keys);
   check_solver(*node, method);
   if (method.solver == Solver::ddm) check_ddm(*node, scene);
+  if (method.solver == Solver::ddm || method.solver == Solver::mssor) check_stiffness(*node, scene);
   read(*node, keys);
 }
 

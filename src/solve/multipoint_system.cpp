@@ -14,7 +14,8 @@ SaddlePointSystem independent_system(const SaddlePointSystem& s) {
                                 .g = s.g,
                                 .row_scale = s.row_scale,
                                 .unilateral = s.unilateral,
-                                .start = s.start};
+                                .start = s.start,
+                                .layers = s.layers};
   independent.constraints.multipoint.reset();
   return independent;
 }

@@ -7,6 +7,13 @@
 
 namespace mortise {
 
+/// l compressions d of surface layers: unknowns of their own beside u (layered_system.hpp). None: all empty.
+struct SurfaceLayers {
+  SparseMatrix K;           ///< l x l, lower triangle, positive definite, stress units
+  SparseMatrix B;           ///< m x l: rows are B u + B_d d, length times depth
+  std::vector<int> beside;  ///< l: an unknown of the body that each lies on
+};
+
 /// Unknowns come in pairs (2 i, 2 i + 1: one node). Any units: the system is made dimensionless by the two scales.
 /// Without rows (m = 0) it is that of the bodies alone.
 struct SaddlePointSystem {
@@ -23,6 +30,7 @@ struct SaddlePointSystem {
   VecX row_scale;                ///< m: size of each row of B, length times depth
   std::vector<char> unilateral;  ///< m: rows that may open; empty: none
   std::vector<char> start;       ///< m: rows that are closed at first; empty: all
+  SurfaceLayers layers = {};     ///< of rows that give way
 };
 
 /// Forces are compared with this part of stiffness times displacement, |K| |u| in their own row, where they are

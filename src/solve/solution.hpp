@@ -83,6 +83,7 @@ struct Solution {
 
   VecX u;                    ///< n, length
   VecX lambda;               ///< m, stress
+  VecX compression;          ///< l, of the surface layers, length
   std::vector<char> active;  ///< m: the rows that are closed
   /// A column a rigid motion that no closed row holds and no load drives: the grounded unknowns in it; it is 0 in u, or
   /// what springs left there (solve/active_set.hpp).

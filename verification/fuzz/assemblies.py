@@ -212,11 +212,12 @@ def geo(assembly, order, quads):
     return "\n".join([*lines, f"MeshSize{{:}} = {assembly.size!r};", ""]).encode()
 
 
-def scene_of(assembly):
+def scene_of(assembly, stiffness=None):
+    gives_way = {"stiffness": stiffness} if stiffness else {}
     boundary = [{"on": f"{part.name}_{curve}", "displacement": {axis: 0 for axis in axes}}
                 for part in assembly.parts for curve, axes in part.held.items()]  # fmt: skip
     return {"materials": {"one": {"young": 1.0, "poisson": 0.3}}, "bodies": {part.name: "one" for part in assembly.parts},
-            "boundary": boundary, "contact": [{"between": list(pair)} for pair in assembly.pairs],
+            "boundary": boundary, "contact": [{"between": list(pair)} | gives_way for pair in assembly.pairs],
             "body_force": [{"body": part.name, "force": list(part.force)} for part in assembly.parts if any(part.force)],
             }  # fmt: skip
 
@@ -224,7 +225,9 @@ def scene_of(assembly):
 def make_assembly(seed, number):
     r = random.Random(f"{seed}:assembly:{number}")
     assembly = r.choice(FAMILIES)(r, 10 ** r.uniform(-6, -4))
-    scene, order, quads = scene_of(assembly), r.choice((1, 2, 2)), r.choice((0, 1))
+    own = random.Random(f"{seed}:assembly:{number}:stiffness")
+    stiffness = 10 ** own.uniform(-2, 2) / assembly.size if own.random() < 0.2 else None  # of edges as stiff as the bodies: 1
+    scene, order, quads = scene_of(assembly, stiffness), r.choice((1, 2, 2)), r.choice((0, 1))
     variant, view = r.choice(("feti", "other side", "again")), View()
     variant = "view" if variant == "again" and r.random() < 0.7 else variant
     variant = "accuracy" if variant == "feti" and len(assembly.pairs) <= FINE and r.random() < 0.5 else variant
@@ -237,12 +240,12 @@ def make_assembly(seed, number):
         scene, other = (scene | {"accuracy": {"value": asked, "first_edges": r.randint(8, 40)}} for asked in (0.1, 0.03))
     elif variant == "view":
         view = other_view(r)
-        other = scene_of(view.of(assembly))
+        other = scene_of(view.of(assembly), stiffness and stiffness / view.unit)
     else:
         sides = [[{**pair, "multipliers_on": pair["between"][k]} for pair in scene["contact"]] for k in (0, 1)]
         scene, other = scene | {"contact": sides[0]}, scene | {"contact": sides[1]}
     mesh = geo(assembly, order, quads)
-    case = solve_case("assembly", f"{assembly.what} of {len(assembly.parts)} bodies, {'TQ'[quads]}{order}, {variant}",
+    case = solve_case("assembly", f"{assembly.what} of {len(assembly.parts)} bodies, {'TQ'[quads]}{order}, {variant}{', gives way' if stiffness else ''}",
                       scene_text(scene, "mesh.geo"), mesh, mesh_file="mesh.geo")  # fmt: skip
     case.setting, case.group, case.variant = assembly, f"assembly: {assembly.what}", variant
     case.view, seen = view, geo(view.of(assembly), order, quads) if variant == "view" else mesh

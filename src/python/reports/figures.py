@@ -267,7 +267,7 @@ def deformed_gaps(run):
     vertices = {node for edge in edges for node in edge[:2]}
     largest = None
     for k, gap in enumerate(run.summary["method"]["initial_gap"]):
-        if gap not in ("curve", "measured"):
+        if gap not in ("curve", "measured") or "stiffness" in run.summary["contact"][k]:
             continue
         rows = [number for number, row in enumerate(table) if row["pair"] == str(k)]
         mine = {number for number in rows if table[number]["curve"] == table[rows[0]]["curve"]}
