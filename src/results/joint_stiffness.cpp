@@ -72,6 +72,7 @@ MatX responses(const SaddlePointSystem& s, const ContactFactor& factor, const Ri
 std::optional<Eigen::Matrix3d> stiffness_of(const Problem& p, const ContactFactor& factor, const RigidCurve* rigid,
                                             const MatX& q, bool all_held) {
   const SaddlePointSystem& s = p.discretisation.system;
+  if (s.layers.K.cols() > 0) return std::nullopt;  // what layers store is not in u
   const std::vector<int> free = free_motions(s.constraints, rigid, q);
   if (!free.empty() && !all_held) return std::nullopt;
   const MatX u = responses(s, factor, rigid, q, free);

@@ -48,10 +48,11 @@ void expect_close(const Eigen::Matrix3d& found, const Eigen::Matrix3d& expected,
 }
 
 // Two bars, 0.2 wide, one upon the other, 0.7 high together.
-Results two_bars(const BoundaryCondition& top) {
+Results two_bars(const BoundaryCondition& top, const std::optional<double>& layer = {}) {
   Scene scene = bars({"lower", "upper"});
   scene.boundaries = {support({"lower_south"}, Displacement{0, 0}), support({"upper_north"}, top, true)};
   scene.contacts = {contact("upper_south", "lower_north")};
+  scene.contacts[0].stiffness = layer;
   return solve_scene(scene, mesh_of({bar("lower", 0, 0.2, 0, 0.3), bar("upper", 0, 0.2, 0.3, 0.7)}, CellKind::quad8));
 }
 
@@ -169,6 +170,12 @@ TEST(JointStiffness, IsNoneWhereAMotionIsHeldThatNothingHolds) {
   const Results r = two_bars(RigidSpec{.rotation = 0, .force = {0, -1e6}});
   ASSERT_FALSE(r.unheld.empty());
   EXPECT_FALSE(r.recovery.reactions.stiffnesses.at(0).matrix);
+}
+
+TEST(JointStiffness, IsNoneBesideContactThatGivesWay) {
+  const Displacement pressed{.x = 0, .y = -1e-4};
+  EXPECT_TRUE(two_bars(pressed).recovery.reactions.stiffnesses.at(0).matrix);
+  EXPECT_FALSE(two_bars(pressed, young).recovery.reactions.stiffnesses.at(0).matrix);
 }
 
 }  // namespace
