@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <functional>
 
 #include "app/sweep.hpp"
-#include "base/errors.hpp"
 #include "preprint_solvers/mssor.hpp"
 #include "results/report_text.hpp"
 #include "results/write_results.hpp"
 #include "support/differences.hpp"
+#include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise::test {
@@ -44,15 +43,6 @@ void expect_as_direct(const Results& a, const Results& b) {
   ASSERT_TRUE(a.solution.iteration.has_value());
   EXPECT_GT(a.solution.iteration->steps, 10);
   EXPECT_FALSE(b.solution.iteration.has_value());
-}
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(SolveMssor, IsTheDirectSolversAnswer) {
