@@ -14,7 +14,7 @@ LOAD, RADIUS, MODULUS = 9.2e6, 1.0, 210e9 / 0.91 / 2  # geo/hertz.toml
 
 def rough_hertz(stiffness, count=1000):
     """Places x >= 0, p there and half the width of contact: half planes (Johnson 1985, section 2.8) whose surfaces give way by
-    p / k besides (Goryacheva, Contact Mechanics in Tribology, 1998, section 2.3), p constant in each of the cells:
+    p / k besides (Goryacheva, Contact Mechanics in Tribology, 1998, chapter 2), p constant in each of the cells:
 
         p / k + 2 / (pi E*) int p(t) ln |1 / (x - t)| dt = d - x^2 / 2 R, the integral of p the load, p >= 0."""
     end = 1.15 * np.hypot(np.sqrt(4 * LOAD * RADIUS / (np.pi * MODULUS)), (1.5 * LOAD * RADIUS / stiffness) ** (1 / 3))
