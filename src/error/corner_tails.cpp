@@ -6,21 +6,11 @@
 #include <numbers>
 
 #include "fem/elements.hpp"
+#include "fem/locate.hpp"
 #include "fem/quadrature.hpp"
 
 namespace mortise {
 namespace {
-
-double area_of(const Mesh& mesh, int cell) {
-  const Cell& c = mesh.cells[cell];
-  const int corners = corner_count(c.kind);
-  double twice = 0;
-  for (int a = 0; a < corners; ++a) {
-    const auto x = mesh.nodes.row(c.nodes[a]), y = mesh.nodes.row(c.nodes[(a + 1) % corners]);
-    twice += x(0) * y(1) - x(1) * y(0);
-  }
-  return twice / 2;
-}
 
 void sort_out(std::vector<int>& cells) {
   std::ranges::sort(cells);
@@ -69,7 +59,7 @@ std::vector<CornerRings> corner_rings(const Mesh& mesh, const SideTable& table,
     const double angle = angle_at(mesh, corner.node, rings.cells[0]);
     double area = 0;
     for (const int ring : {0, 1}) {
-      for (const int e : rings.cells[ring]) area += area_of(mesh, e);
+      for (const int e : rings.cells[ring]) area += cell_area(mesh, e);
       rings.radius[ring] = std::sqrt(2 * area / angle);
     }
     rings.degree = std::ranges::all_of(rings.cells[0], [&](int e) { return is_quadratic(mesh.cells[e].kind); });

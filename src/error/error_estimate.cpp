@@ -362,6 +362,7 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, Estimat
     estimate.tails.corners =
         corner_rings(p.mesh, table, free_corners(body_corners(around), p.mesh.nodes.rows(), p.pairs, reached));
   add_products(p, solution, goal, options, memory.products, estimate);
+  if (spec.of == Goal::displacement) add_displacement_error(p, goal, solution.u, *estimate.goal);
   if (spec.of == Goal::stress) add_stress_error(p, goal, solution.u, *estimate.goal);
   add_far_errors(p.mesh, estimate);
   if (spec.of == Goal::mean) {

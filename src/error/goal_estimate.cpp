@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <numbers>
 #include <span>
 #include <sstream>
 
@@ -233,6 +234,36 @@ Eigen::Vector3d stress_difference(const Problem& problem, const VecX& u, const S
   const CellShape shape = cell_shape(cell.kind, place.xi);
   const Vec4 own = stress_at(mesh, cell, law, u, shape) - law.stress0(place_in(mesh, place));
   return recovered_stress(mesh, problem.points, patches, place).head<3>().transpose() - own({0, 1, 3});
+}
+
+Eigen::Vector3d cell_stress_error(const Problem& problem, const VecX& u, const StressPatches& patches,
+                                  const CellPlace& place, const Eigen::Matrix3d& turn) {
+  const CellRule rule = product_rule(problem.mesh.cells[place.cell].kind, 2);
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  double weight = 0;
+  for (std::size_t q = 0; q < rule.points.size(); ++q) {
+    const CellPlace at{place.cell, rule.points[q], 0};
+    squares += rule.weights[q] * (turn * stress_difference(problem, u, patches, at)).cwiseAbs2();
+    weight += rule.weights[q];
+  }
+  const Eigen::Vector3d here = (turn * stress_difference(problem, u, patches, place)).cwiseAbs();
+  return here.cwiseMax((squares / weight).cwiseSqrt());
+}
+
+double cell_displacement_error(const Problem& problem, int cell, const Eigen::Vector3d& stress) {
+  const double size = std::sqrt(stress(0) * stress(0) + stress(1) * stress(1) + 2 * stress(2) * stress(2));
+  return std::sqrt(cell_area(problem.mesh, cell) / std::numbers::pi) * size /
+         problem.discretisation.laws[problem.mesh.cells[cell].body].young;
+}
+
+void add_displacement_error(const Problem& problem, const GoalFunctionals& functionals, const VecX& u,
+                            GoalEstimate& goal) {
+  const CellPlace& place = *functionals.place;
+  const StressPatches patches =
+      recover_patches(problem.mesh, problem.points, sample_stresses(problem.mesh, problem.discretisation.laws, u));
+  const Eigen::Vector3d stress = cell_stress_error(problem, u, patches, place, Eigen::Matrix3d::Identity());
+  goal.parts.row(place.cell) =
+      goal.parts.row(place.cell).cwiseAbs().array() + cell_displacement_error(problem, place.cell, stress);
 }
 
 void add_stress_error(const Problem& problem, const GoalFunctionals& functionals, const VecX& u, GoalEstimate& goal) {

@@ -41,6 +41,16 @@ double exponent_at(const Mesh& mesh, const Discretisation& discretisation, const
 Eigen::Vector3d stress_difference(const Problem& problem, const VecX& u, const StressPatches& patches,
                                   const CellPlace& place);
 
+/// In the axes of `turn`, of each component the larger of that difference at the place and its root mean square over
+/// the cell: where the elements' own stresses cross the recovered ones both err.
+Eigen::Vector3d cell_stress_error(const Problem& problem, const VecX& u, const StressPatches& patches,
+                                  const CellPlace& place, const Eigen::Matrix3d& turn);
+
+/// By how much that error of a cell's stresses moves a place in it, length: the stresses of a unit force there are
+/// about 1 / (2 pi r) (Kelvin), which no dual on this mesh shows within the cell. Over a disc of its area their product
+/// with the strains is at most the disc's radius times these.
+double cell_displacement_error(const Problem& problem, int cell, const Eigen::Vector3d& stress);
+
 /// The values, and what they may be off by.
 struct GoalEstimate {
   VecX value;         ///< of each component; of a stress the recovered one at the place
@@ -58,6 +68,10 @@ struct GoalEstimate {
 
 /// `parts`: cells x components, of the functionals' duals (ErrorProducts).
 GoalEstimate goal_estimate(const GoalFunctionals& functionals, const Solution& solution, MatX parts);
+
+/// The cell that has the place has a larger part, by what its own stresses may move the place.
+void add_displacement_error(const Problem& problem, const GoalFunctionals& functionals, const VecX& u,
+                            GoalEstimate& goal);
 
 /// The value of a stress becomes the recovered one; by what the elements' own differs from it there, the cell that has
 /// the place has a larger part.

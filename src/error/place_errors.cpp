@@ -3,7 +3,6 @@
 #include "contact/singular_points.hpp"
 #include "error/body_products.hpp"
 #include "error/goal_estimate.hpp"
-#include "fem/quadrature.hpp"
 #include "mesh/boundary_edges.hpp"
 
 namespace mortise {
@@ -28,22 +27,6 @@ Eigen::Matrix3d turning(double angle) {
     turn.col(k) = in_turned_axes(unit, angle)({0, 1, 3});
   }
   return turn;
-}
-
-// Of each component the larger of the difference at the place and its root mean square over the cell: where the
-// elements' own stresses cross the recovered ones both err.
-Eigen::Vector3d local_error(const Problem& problem, const VecX& u, const StressPatches& patches, const CellPlace& place,
-                            const Eigen::Matrix3d& turn) {
-  const CellRule rule = product_rule(problem.mesh.cells[place.cell].kind, 2);
-  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
-  double weight = 0;
-  for (std::size_t q = 0; q < rule.points.size(); ++q) {
-    const CellPlace at{place.cell, rule.points[q], 0};
-    squares += rule.weights[q] * (turn * stress_difference(problem, u, patches, at)).cwiseAbs2();
-    weight += rule.weights[q];
-  }
-  const Eigen::Vector3d here = (turn * stress_difference(problem, u, patches, place)).cwiseAbs();
-  return here.cwiseMax((squares / weight).cwiseSqrt());
 }
 
 std::vector<char> boundary_nodes(const Mesh& mesh) {
@@ -114,7 +97,9 @@ std::vector<PlaceError> place_errors(const Problem& problem, const Solution& sol
       if (with_duals[next] < i) ++next;
       Eigen::Matrix<double, 5, 1> error = far.segment<5>(5 * next);
       if (with_duals[next] > i) error = error.cwiseMax(far.segment<5>(5 * (next - 1)));
-      error.tail<3>() += local_error(problem, solution.u, patches, probe.in[i], turn);
+      const Eigen::Vector3d local = cell_stress_error(problem, solution.u, patches, probe.in[i], turn);
+      error.head<2>().array() += cell_displacement_error(problem, probe.in[i].cell, local);
+      error.tail<3>() += local;
       if (touches(mesh.cells[probe.in[i].cell], boundary)) error.tail<3>().array() += probe.spread[i];
       error.tail<3>().array() += largest_at(mesh.cells[probe.in[i].cell], bars_of_p) / error_safety;
       if (exponent_at(mesh, d, probe.in[i], probe.x[i]) <= singular_limit)

@@ -79,6 +79,17 @@ std::optional<CellPlace> CellFinder::nearest(const Vec2& x) const {
   return nearest;
 }
 
+double cell_area(const Mesh& mesh, int cell) {
+  const Cell& c = mesh.cells[cell];
+  const int corners = corner_count(c.kind);
+  double twice = 0;
+  for (int a = 0; a < corners; ++a) {
+    const auto x = mesh.nodes.row(c.nodes[a]), y = mesh.nodes.row(c.nodes[(a + 1) % corners]);
+    twice += x(0) * y(1) - x(1) * y(0);
+  }
+  return twice / 2;
+}
+
 std::vector<CellPlace> CellFinder::around(const Vec2& x) const {
   std::map<int, CellPlace> nearest;  // of each body
   for (const int e : cells_.meeting(Box(x))) {

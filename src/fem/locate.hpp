@@ -37,4 +37,7 @@ class CellFinder {
 /// Diagonal of the box round a cell.
 double cell_size(const Mesh& mesh, int cell);
 
+/// Of the polygon of its corners.
+double cell_area(const Mesh& mesh, int cell);
+
 }  // namespace mortise
