@@ -10,6 +10,7 @@
 
 #include "app/accuracy.hpp"
 #include "app/cases.hpp"
+#include "app/check.hpp"
 #include "app/picture.hpp"
 #include "app/sweep.hpp"
 #include "app/sweep_join.hpp"
@@ -20,7 +21,7 @@
 #include "ddm/ranks.hpp"
 #include "gmsh/mesh_cache.hpp"
 #include "gmsh/write_msh.hpp"
-#include "mesh/measures.hpp"
+#include "model/mesh_endings.hpp"
 #include "output/output_folder.hpp"
 #include "results/error_report.hpp"
 #include "results/expected.hpp"
@@ -130,62 +131,24 @@ int solve(const Options& options) {
   return exit_code(results.status);
 }
 
-// "copies    100 of coarse, 50 of fine"
-std::string copies_line(const Scene& scene) {
-  std::map<std::string, int> counts;
-  for (const BodyCopy& copy : scene.copies) ++counts[copy.body];
-  std::vector<std::string> words;
-  for (const auto& [body, count] : counts) words.push_back(std::to_string(count) + " of " + body);
-  return words.empty() ? "" : "  copies    " + listed(words) + "\n";
+bool is_geometry(const Options& options) {
+  return is_mesh_ending(std::filesystem::path(options.scene).extension().string());
 }
 
-// "cases     half, full, hot; the above is the scene without them"
-std::string cases_line(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const LoadCase& load : scene.cases) names.push_back(load.name);
-  return names.empty() ? "" : "  cases     " + listed(names) + "; the above is the scene without them\n";
-}
+GeoLimits geo_limits(const Options& options) { return {.programs = !options.no_programs}; }
 
-// Where those bodies and curves are whose names are only tags.
-std::string measures_lines(const Mesh& mesh) {
-  if (!mesh.named_by_tag) return "";
-  std::ostringstream text;
-  const auto tell = [&](const std::string& name, const char* size, const Measure& measure) {
-    text << "            " << name << ": " << size << " " << measure.size << ", centre "
-         << near_point(measure.centre).substr(5) << "\n";
-  };
-  const std::vector<Measure> bodies = body_measures(mesh), boundaries = boundary_measures(mesh);
-  for (std::size_t b = 0; b < bodies.size(); ++b) tell(mesh.bodies[b], "area", bodies[b]);
-  for (std::size_t b = 0; b < boundaries.size(); ++b) tell(mesh.boundaries[b].name, "length", boundaries[b]);
-  return text.str();
-}
-
-// What the scene will model, and what it leaves out.
 int check(const Options& options) {
-  const Scene scene = scene_of(options);
-  const Problem problem = check_scene(scene);
-  const int drawn = options.picture.empty() ? 0 : draw_setup(problem, options.picture);
-  if (options.quiet) return drawn;
-  std::ostringstream text;
-  text << printable(scene.title) << "\n  mesh      " << problem.mesh.source << ": " << problem.mesh.nodes.rows()
-       << " nodes, " << problem.mesh.cells.size() << " elements\n"
-       << measures_lines(problem.mesh) << copies_line(scene) << model_text(model_report(problem));
-  const std::size_t count = problem.pairs.size(), told = count > told_in_full ? told_of_many : count;
-  for (std::size_t k = 0; k < told; ++k) {
-    const ContactPair& pair = problem.pairs[k];
-    text << "  contact   " << pair.spec.between[0] << " - " << pair.spec.between[1] << ": "
-         << to_string(pair.spec.condition) << ", frictionless, gap " << gap_words(pair) << ", "
-         << pair.coupling.gap0.size() << " multipliers on " << pair.spec.multipliers_on << ", facing over "
-         << pair.coupling.covered_length << "\n";
-  }
-  if (told < count) text << "            and " << count - told << " more pairs\n";
-  text << "  left out  friction, large displacements, plasticity, time"
-       << (scene.body_forces.empty() && !scene.gravity ? ", body forces" : "")
-       << (scene.initial_strains.empty() ? ", initial strains" : "") << "\n";
-  for (const std::string& warning : problem.warnings) text << "  warning   " << warning << "\n";
-  text << cases_line(scene);
-  say(text.str());
-  return drawn;
+  if (!is_geometry(options)) return check(scene_of(options), options.picture, options.quiet);
+  if (!options.set.empty() || !options.one_case.empty())
+    throw InputError("command line: " + options.scene +
+                     " is no scene; expected a scene file (.toml) with --set and --case");
+  return check_geometry(options.scene, geo_limits(options), options.picture, options.quiet);
+}
+
+int new_scene(const Options& options) {
+  std::filesystem::path target = options.output;
+  if (target.empty()) target = std::filesystem::path(options.scene).replace_extension(".toml");
+  return new_scene(options.scene, geo_limits(options), target);
 }
 
 int mesh(const Options& options) {
@@ -233,6 +196,12 @@ CLI::Validator filled(const std::string& expected) {
           ""};
 }
 
+void add_geo_limits(CLI::App* command, Options& options) {
+  command->add_flag("--no-programs", options.no_programs,
+                    "refuse a .geo that runs programs or writes files: it is a program itself");
+  command->add_flag("--no-cache", options.no_cache, "mesh a .geo anew, and do not keep its mesh for later runs");
+}
+
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, Options& options,
                       const std::string& output) {
   CLI::App* command = app.add_subcommand(name, what);
@@ -241,9 +210,7 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
       ->allow_extra_args(false);
   if (!output.empty()) command->add_option("-o,--output", options.output, output)->check(filled("a path"));
   command->add_flag("--quiet", options.quiet, "print errors only");
-  command->add_flag("--no-programs", options.no_programs,
-                    "refuse a .geo that runs programs or writes files: it is a program itself");
-  command->add_flag("--no-cache", options.no_cache, "mesh a .geo anew, and do not keep its mesh for later runs");
+  add_geo_limits(command, options);
   command->add_option("--threads", options.threads, "threads, for bodies beside each other (default: all cores)")
       ->check(CLI::Range(1, most_threads));
   return command;
@@ -278,10 +245,22 @@ CLI::App* add_solve(CLI::App& app, Options& options) {
 }
 
 CLI::App* add_check(CLI::App& app, Options& options) {
-  CLI::App* command = add_command(app, "check", "read, mesh and validate a scene without solving it", options, "");
+  CLI::App* command = add_command(
+      app, "check",
+      "read, mesh and validate a scene without solving it; of a geometry or mesh alone, list bodies and curves",
+      options, "");
   add_case(command, options);
-  command->add_option("--picture", options.picture, "FILE.png: draw bodies, supports, loads and contact pairs")
+  command->add_option("--picture", options.picture, "FILE.png: draw bodies, curves, supports, loads and contact pairs")
       ->check(filled("a .png, .pdf or .svg to write"));
+  return command;
+}
+
+CLI::App* add_new(CLI::App& app, Options& options) {
+  CLI::App* command = app.add_subcommand("new", "write a scene from a geometry or a mesh, to be filled in");
+  command->add_option("file", options.scene, "geometry (.geo) or mesh")->required();
+  command->add_option("-o,--output", options.output, "scene file to write (default: FILE.toml beside it)")
+      ->check(filled("a path"));
+  add_geo_limits(command, options);
   return command;
 }
 
@@ -342,6 +321,7 @@ int parse_and_run(int argc, const char* const* argv) {
   Options options;
   CLI::App* solve_command = add_solve(app, options);
   CLI::App* check_command = add_check(app, options);
+  CLI::App* new_command = add_new(app, options);
   CLI::App* mesh_command = add_mesh(app, options);
   add_sweep(app, options);
   CLI::App* picture_command = add_scripted(app, "picture", "draw the results in a folder");
@@ -351,8 +331,8 @@ int parse_and_run(int argc, const char* const* argv) {
   if (const auto status = parse(app, argc, argv)) return *status;
 
   if (*picture_command) return draw_picture(picture_command->remaining());
-  if (*certify_command) return run_report("certify", certify_command->remaining());
-  if (*report_command) return run_report("report", report_command->remaining());
+  if (*certify_command) return run_with_program("reports/certify.py", certify_command->remaining());
+  if (*report_command) return run_with_program("reports/report.py", report_command->remaining());
   const bool alone = ranks().count() == 1 && options.jobs == 1;
   set_solver_threads(options.threads > 0 || alone ? options.threads : 1);
   set_mesh_cache(!options.no_cache);
@@ -362,6 +342,7 @@ int parse_and_run(int argc, const char* const* argv) {
   }
   if (*solve_command) return solve(options);
   if (*check_command) return check(options);
+  if (*new_command) return new_scene(options);
   if (*mesh_command) return mesh(options);
   return sweep(options);
 }

@@ -61,9 +61,16 @@ int draw_picture(const std::vector<std::string>& arguments) {
   return run_script("pictures/picture.py", arguments) == 0 ? 0 : 1;
 }
 
-int run_report(const std::string& name, const std::vector<std::string>& arguments) {
+int run_with_program(const std::string& script, const std::vector<std::string>& arguments) {
   ::setenv("MORTISE_PROGRAM", fs::read_symlink("/proc/self/exe").c_str(), 1);
-  return run_script("reports/" + name + ".py", arguments);
+  return run_script(script, arguments);
+}
+
+int run_on_geometry(const std::string& name, const Mesh& mesh, std::vector<std::string> arguments) {
+  const TemporaryFile file;
+  write_geometry(mesh, file.path);
+  arguments.insert(arguments.begin(), file.path);
+  return run_script("scenes/" + name + ".py", arguments) == 0 ? 0 : 1;
 }
 
 int draw_setup(const Problem& problem, const fs::path& picture) {

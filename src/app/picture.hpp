@@ -13,11 +13,15 @@ namespace mortise {
 /// error. Throws InputError where the script or Python is not there.
 int draw_picture(const std::vector<std::string>& arguments);
 
-/// `mortise certify` and `mortise report`: run reports/NAME.py, which runs this program again. Its exit status; throws
-/// as draw_picture does.
-int run_report(const std::string& name, const std::vector<std::string>& arguments);
+/// `mortise certify` and `report`: run a script, reports/certify.py or another, which runs this program again.
+/// Its exit status; throws as draw_picture does.
+int run_with_program(const std::string& script, const std::vector<std::string>& arguments);
 
 /// `mortise check --picture`: the set-up as a .png, .pdf or .svg, by setup.py. As draw_picture.
 int draw_setup(const Problem& problem, const std::filesystem::path& picture);
+
+/// `mortise check` and `mortise new` of a geometry or mesh without a scene: what its bodies and curves are, by
+/// scenes/NAME.py, with these arguments behind it. As draw_picture.
+int run_on_geometry(const std::string& name, const Mesh& mesh, std::vector<std::string> arguments);
 
 }  // namespace mortise

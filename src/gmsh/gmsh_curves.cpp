@@ -88,8 +88,10 @@ std::vector<DrawnCurve> drawn_curves() {
   for (const auto& [dimension, curve] : found) names[curve];
   gmsh::model::getEntities(found, 1);
   for (const auto& [dimension, curve] : found)
-    for (const int group : groups_of_entity(dimension, curve))
-      if (const std::string name = group_name(dimension, group); !name.empty()) names[curve].push_back(name);
+    for (const int group : groups_of_entity(dimension, curve)) {
+      const std::string name = group_name(dimension, group);
+      names[curve].push_back(name.empty() ? "curve_" + std::to_string(group) : name);
+    }
   std::vector<DrawnCurve> drawn;
   for (const auto& [curve, its_names] : names) {
     const auto [low, high] = parameter_range(curve);

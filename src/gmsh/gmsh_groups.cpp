@@ -22,4 +22,18 @@ std::string group_name(int dimension, int group) {
   return name;
 }
 
+void group_by_entity() {
+  gmsh::vectorpair groups, surfaces, curves;
+  gmsh::model::getPhysicalGroups(groups, 1);
+  if (!groups.empty()) return;
+  gmsh::model::getEntities(surfaces, 2);
+  gmsh::model::getBoundary(surfaces, curves, false, false);
+  std::ranges::sort(curves);
+  curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+  gmsh::model::getPhysicalGroups(groups, 2);
+  if (!groups.empty()) surfaces.clear();
+  for (const gmsh::vectorpair& entities : {curves, surfaces})
+    for (const auto& [dimension, tag] : entities) gmsh::model::addPhysicalGroup(dimension, {tag}, tag);
+}
+
 }  // namespace mortise

@@ -13,4 +13,8 @@ std::vector<int> groups_of_entity(int dimension, int entity);
 
 std::string group_name(int dimension, int group);
 
+/// As a mesh without groups has them (mesh_files/mesh_groups.hpp): where no curve is in a group each curve that bounds
+/// a surface is one of its own, without a name, and where no surface is in one either each surface.
+void group_by_entity();
+
 }  // namespace mortise

@@ -179,6 +179,7 @@ void GmshSession::read(const std::string& file, const std::map<std::string, doub
     run(file, "reading", [&] { gmsh::open(script.path()); });
     set_options();
     require_order(file);
+    group_by_entity();
   } catch (const InputError& error) {
     throw InputError(quoted.shown(error.what()));
   }

@@ -18,7 +18,8 @@ class GmshSession {
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;
 
-  /// Opens a .msh, or a .geo with these values for its DefineConstant names, unmeshed unless the .geo meshes itself.
+  /// Opens a .msh, or a .geo with these values for its DefineConstant names, unmeshed unless the .geo meshes itself;
+  /// the curves and surfaces of one without groups are groups (gmsh_groups.hpp).
   /// Throws InputError with gmsh's own message.
   void read(const std::string& file, const std::map<std::string, double>& parameters);
 

@@ -33,6 +33,21 @@ MeshData read_mesh_file(const std::string& file) {
   return data;
 }
 
+MeshData load_data(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits,
+                   bool* cached) {
+  check_mesh_file(file, parameters);
+  if (!is_geo(file)) return read_mesh_file(file);
+  const auto key = [&] { return mesh_cache_on() ? mesh_key(file, parameters) : std::nullopt; };
+  const std::optional<std::string> before = key();
+  std::optional<MeshData> kept = before ? cached_mesh(*before) : std::nullopt;
+  GmshProcess gmsh(file, limits);
+  MeshData data = kept ? *std::move(kept) : gmsh.mesh_geo(parameters);
+  if (before && !kept && !gmsh.acts() && key() == before) keep_mesh(*before, gmsh_module().files(), data);
+  data.file = file;
+  if (cached) *cached = kept.has_value();
+  return data;
+}
+
 }  // namespace
 
 void check_mesh_file(const std::string& file, const std::map<std::string, double>& parameters) {
@@ -51,16 +66,12 @@ void check_mesh_file(const std::string& file, const std::map<std::string, double
 
 Mesh load_mesh(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits,
                bool* cached) {
-  check_mesh_file(file, parameters);
-  if (!is_geo(file)) return assemble_mesh(read_mesh_file(file));
-  const auto key = [&] { return mesh_cache_on() ? mesh_key(file, parameters) : std::nullopt; };
-  const std::optional<std::string> before = key();
-  std::optional<MeshData> kept = before ? cached_mesh(*before) : std::nullopt;
-  GmshProcess gmsh(file, limits);
-  MeshData data = kept ? *std::move(kept) : gmsh.mesh_geo(parameters);
-  if (before && !kept && !gmsh.acts() && key() == before) keep_mesh(*before, gmsh_module().files(), data);
-  data.file = file;
-  if (cached) *cached = kept.has_value();
+  return assemble_mesh(load_data(file, parameters, limits, cached));
+}
+
+Mesh load_all_named(const std::string& file, const GeoLimits& limits) {
+  MeshData data = load_data(file, {}, limits, nullptr);
+  group_the_rest(data);
   return assemble_mesh(std::move(data));
 }
 

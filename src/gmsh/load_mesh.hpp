@@ -23,4 +23,8 @@ void check_mesh_file(const std::string& file, const std::map<std::string, double
 Mesh load_mesh(const std::string& file, const std::map<std::string, double>& parameters, const GeoLimits& limits = {},
                bool* cached = nullptr);
 
+/// The same with every body and every curve of it that the file numbers, named or not, for those who look for names:
+/// one without is called by its number, curve_7.
+Mesh load_all_named(const std::string& file, const GeoLimits& limits);
+
 }  // namespace mortise

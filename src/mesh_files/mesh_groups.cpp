@@ -52,6 +52,8 @@ void check_names(const MeshData& data, int dimension) {
   }
 }
 
+std::string name_by_tag(int dimension, int tag) { return section_kinds[dimension] + ("_" + std::to_string(tag)); }
+
 std::string name_of(const MeshData& data, int body) {
   for (const PhysicalGroup& group : data.groups) {
     if (group.dimension == 2 && group.tag == body) return group.name;
@@ -79,7 +81,7 @@ void check_surfaces(const MeshData& data) {
 void name_groups(MeshData& data) {
   for (PhysicalGroup& group : data.groups) {
     if (!group.name.empty()) continue;
-    group.name = section_kinds[group.dimension] + ("_" + std::to_string(group.tag));
+    group.name = name_by_tag(group.dimension, group.tag);
     if (group.dimension > 0) data.named_by_tag = true;
   }
 }
@@ -93,6 +95,23 @@ void group_by_entity(MeshData& data) {
     entities.emplace(block.dimension, block.entity);
   }
   for (const auto& [dimension, entity] : entities) data.groups.push_back({dimension, entity, ""});
+}
+
+void group_the_rest(MeshData& data) {
+  std::vector<char> of_cells(data.nodes.size(), 0);
+  int last = 0;
+  for (const PhysicalGroup& group : data.groups) last = std::max(last, group.tag);
+  for (const ElementBlock& block : data.blocks)
+    if (block.dimension == 2)
+      for (const int node : block.nodes) of_cells[node] = 1;
+  std::map<std::pair<int, int>, int> tags;  // of new groups, by dimension and entity
+  for (ElementBlock& block : data.blocks) {
+    if (block.dimension == 0 || !block.groups.empty() || block.nodes.empty()) continue;
+    if (!std::ranges::all_of(block.nodes, [&](int node) { return of_cells[node] != 0; })) continue;
+    const auto [found, inserted] = tags.emplace(std::pair(block.dimension, block.entity), last + 1);
+    if (inserted) data.groups.push_back({block.dimension, ++last, name_by_tag(block.dimension, block.entity)});
+    block.groups = {found->second};
+  }
 }
 
 void check_groups(const MeshData& data) {

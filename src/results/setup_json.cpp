@@ -1,9 +1,13 @@
 #include "results/setup_json.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
 
 #include "base/errors.hpp"
+#include "base/vectors.hpp"
 #include "mesh/boundary_edges.hpp"
 #include "results/report.hpp"
 
@@ -21,25 +25,72 @@ Json round(const Cell& cell) {
   return nodes;
 }
 
-Json bodies_json(const Problem& p) {
+Json nodes_json(const Mesh& mesh) {
+  Json nodes = Json::array();
+  for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) nodes.push_back({mesh.nodes(n, 0), mesh.nodes(n, 1)});
+  return nodes;
+}
+
+Json bodies_json(const Mesh& mesh) {
   Json bodies = Json::array();
-  for (std::size_t b = 0; b < p.mesh.bodies.size(); ++b)
-    bodies.push_back({{"name", p.mesh.bodies[b]},
-                      {"cells", Json::array()},
-                      {"material", p.entries.bodies[p.entries.body_of[b]].material}});
-  for (const Cell& cell : p.mesh.cells) bodies[std::size_t(cell.body)]["cells"].push_back(round(cell));
+  for (const std::string& name : mesh.bodies) bodies.push_back({{"name", name}, {"cells", Json::array()}});
+  for (const Cell& cell : mesh.cells) bodies[std::size_t(cell.body)]["cells"].push_back(round(cell));
   return bodies;
 }
 
-Json curves_json(const Mesh& mesh, const std::set<std::string>& named) {
+// From the edge's start to its end as it is drawn; empty where that is straight.
+Json drawn_places(const EdgeSamples& samples) {
+  std::vector<Vec2> places;
+  for (const SamplePiece& piece : samples.pieces) places.insert(places.end(), piece.places.begin(), piece.places.end());
+  const Vec2 chord = places.back() - places.front();
+  Json drawn = Json::array();
+  if (std::ranges::all_of(places, [&](const Vec2& x) {
+        return std::abs(cross(chord, x - places.front())) <= 1e-9 * chord.squaredNorm();
+      }))
+    return drawn;
+  for (const Vec2& x : places) drawn.push_back({x.x(), x.y()});
+  return drawn;
+}
+
+using DrawnEdges = std::map<std::array<int, 2>, Json>;  // by their ends, both ways
+
+DrawnEdges drawn_edges(const Boundary& boundary) {
+  DrawnEdges drawn;
+  for (std::size_t e = 0; e < boundary.samples.size(); ++e) {
+    const auto& [start, end, middle] = boundary.edges[e].nodes;
+    drawn[{start, end}] = drawn_places(boundary.samples[e]);
+    drawn[{end, start}] = drawn_places(reversed(boundary.samples[e]));
+  }
+  return drawn;
+}
+
+Json curves_json(const Mesh& mesh) {
   Json curves = Json::object();
   const BoundaryEdges all = boundary_edges(mesh);
   const std::vector<std::vector<int>> names = names_of(mesh, all.edges);
+  std::vector<DrawnEdges> drawn;
+  for (const Boundary& boundary : mesh.boundaries) drawn.push_back(drawn_edges(boundary));
   for (std::size_t e = 0; e < all.edges.size(); ++e)
-    for (const int b : names[e])
-      if (const std::string& name = mesh.boundaries[std::size_t(b)].name; named.count(name))
-        curves[name].push_back(all.edges[e].edge.nodes);
+    for (const int b : names[e]) {
+      const auto& [start, end, middle] = all.edges[e].edge.nodes;
+      curves[mesh.boundaries[std::size_t(b)].name].push_back(
+          {start, end, middle, all.edges[e].body, drawn[std::size_t(b)][{start, end}]});
+    }
   return curves;
+}
+
+Json geometry_json(const Mesh& mesh) {
+  return {{"source", mesh.source},
+          {"nodes", nodes_json(mesh)},
+          {"bodies", bodies_json(mesh)},
+          {"curves", curves_json(mesh)}};
+}
+
+void write_json(const Json& document, const std::filesystem::path& path) {
+  std::ofstream file(path);
+  file << document;
+  file.close();
+  if (!file) throw InputError(path.string() + ": cannot be written");
 }
 
 // The names of all curves and points that an entry is on.
@@ -72,44 +123,39 @@ Json points_json(const Mesh& mesh, const std::set<std::string>& named) {
 void write_setup(const Problem& p, const std::filesystem::path& path) {
   const Mesh& mesh = p.mesh;
   const Entries& entries = p.entries;
-  std::set<std::string> named;
+  std::set<std::string> points;
   std::vector<std::vector<std::string>> places_of_supports, places_of_loads;
-  Json nodes = Json::array(), contact = Json::array(), ties = Json::array(), rest = Json::array();
-  for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) nodes.push_back({mesh.nodes(n, 0), mesh.nodes(n, 1)});
+  Json contact = Json::array(), ties = Json::array(), rest = Json::array();
   for (const BoundaryEntry& entry : entries.boundaries) {
     const std::vector<std::string> on = places_of(entry, mesh);
-    named.insert(on.begin(), on.end());
+    points.insert(on.begin(), on.end());
     (is_load(entry.spec.what) ? places_of_loads : places_of_supports).push_back(on);
   }
   const Json model = model_report(p);
   const Json supports = as_drawn(model["supports"], places_of_supports),
              loads = as_drawn(model["loads"], places_of_loads);
   for (const ContactPair& pair : p.pairs) {
-    named.insert(pair.spec.between.begin(), pair.spec.between.end());
     contact.push_back({{"between", pair.spec.between},
                        {"words", to_string(pair.spec.condition) + ", gap " + gap_words(pair) + ", multipliers on " +
                                      pair.spec.multipliers_on}});
   }
-  for (const Tie& tie : mesh.ties) {
-    named.insert(tie.curves.begin(), tie.curves.end());
-    ties.push_back(tie.curves);
-  }
+  for (const Tie& tie : mesh.ties) ties.push_back(tie.curves);
   if (entries.gravity) rest.push_back("gravity");
   if (!entries.body_forces.empty()) rest.push_back("forces per volume");
   if (!entries.initial_strains.empty()) rest.push_back("initial strains");
-  std::ofstream file(path);
-  file << Json{{"title", p.title},
-               {"nodes", nodes},
-               {"bodies", bodies_json(p)},
-               {"curves", curves_json(mesh, named)},
-               {"points", points_json(mesh, named)},
-               {"supports", supports},
-               {"loads", loads},
-               {"contact", contact},
-               {"ties", ties},
-               {"rest", rest}};
-  file.close();
-  if (!file) throw InputError(path.string() + ": cannot be written");
+  Json setup = geometry_json(mesh);
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
+    setup["bodies"][b]["material"] = entries.bodies[entries.body_of[b]].material;
+  setup.update({{"title", p.title},
+                {"points", points_json(mesh, points)},
+                {"supports", supports},
+                {"loads", loads},
+                {"contact", contact},
+                {"ties", ties},
+                {"rest", rest}});
+  write_json(setup, path);
 }
+
+void write_geometry(const Mesh& mesh, const std::filesystem::path& path) { write_json(geometry_json(mesh), path); }
 
 }  // namespace mortise

@@ -89,7 +89,7 @@ std::vector<BrokenMesh> broken_meshes() {
       {"empty msh", "a.msh", "", {}, {"a.msh, line 1: "}},
       {"not a msh", "a.msh", "hello world\n", {}, {"a.msh, line 1: this is no .msh"}},
       {"half a msh", "a.msh", msh(kUnitNodes, "1 3 2 1 1 1 2 3 4\n").substr(0, 140), {}, {"a.msh, line ", "$Nodes"}},
-      {"no body", "a.geo", square(1, "0"), {}, {"no physical surface"}},
+      {"no body", "a.geo", square(1, "0") + "Physical Curve(\"side\") = {11};", {}, {"no physical surface"}},
       {"surface of no body",
        "a.geo",
        kBody + square(2, "3"),
@@ -218,7 +218,7 @@ TEST(MeshNames, GroupsWithOnlyATagAreNamedByIt) {
   EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"body", "surface_7"}));
   EXPECT_EQ(boundary_names(mesh), (std::vector<std::string>{"curve_8", "top"}));
   EXPECT_TRUE(mesh.named_by_tag);
-  EXPECT_FALSE(load_mesh(folder.write("b.geo", kBody), {}).named_by_tag);
+  EXPECT_FALSE(load_mesh(folder.write("b.geo", kBody + "Physical Curve(\"top\") = {13};"), {}).named_by_tag);
 }
 
 TEST(MeshNames, AMeshWithoutGroupsIsNamedByItsEntities) {
@@ -228,6 +228,27 @@ TEST(MeshNames, AMeshWithoutGroupsIsNamedByItsEntities) {
   EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"surface_4", "surface_6"}));
   EXPECT_EQ(boundary_names(mesh), (std::vector<std::string>{"curve_5"}));
   EXPECT_TRUE(mesh.named_by_tag);
+}
+
+TEST(MeshNames, AGeometryWithoutGroupsIsNamedByItsEntities) {
+  const TemporaryFolder folder;
+  const std::string loose = "Point(91) = {5, 5, 0}; Point(92) = {6, 5, 0}; Line(91) = {91, 92};\n";
+  const Mesh mesh = load_mesh(folder.write("a.geo", square(1, "0") + loose), {});
+  EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"surface_1"}));
+  EXPECT_EQ(mesh.boundaries.size(), 4U);  // none of the line that bounds nothing
+  EXPECT_FALSE(mesh.boundaries[0].samples.empty());
+  EXPECT_TRUE(mesh.named_by_tag);
+  EXPECT_EQ(load_mesh(folder.write("b.geo", kBody), {}).boundaries.size(), 4U);  // of named bodies too
+}
+
+TEST(MeshNames, AllAreNamedForThoseWhoLookForNames) {
+  const TemporaryFolder folder;
+  const std::string geo = folder.write("a.geo", kBody + square(2, "3") + "Physical Curve(\"top\", 9) = {13};");
+  EXPECT_THROW(load_mesh(geo, {}), InputError);  // surface 2 is of no body
+  const Mesh mesh = load_all_named(geo, {});
+  EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"body", "surface_2"}));
+  ASSERT_EQ(mesh.boundaries.size(), 8U);
+  EXPECT_EQ(mesh.boundaries[0].name, "top");
 }
 
 }  // namespace

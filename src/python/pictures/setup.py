@@ -9,29 +9,37 @@ SETUP.json is what mortise writes for it (src/results/setup_json.hpp).
 
 import argparse
 import json
-from pathlib import Path
+import pathlib
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.lines import Line2D
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 from matplotlib.patheffects import withStroke
 
 import figure
 from drawn_bodies import MANY_EDGES, MANY_PAIRS, PAIR_COLOURS, SLENDER
-from drawn_cells import joined, polylines, size_of
+from drawn_cells import joined, size_of
+from drawn_curves import lines_of
 from drawn_forces import LOAD, REACTION, label_places
 
 FILLS = ["#dbe7f3", "#f4e6d4", "#dff0dc", "#eee0f0", "#f3f0cf", "#e4e4e4"]  # a material each
-MANY_NAMES = 24  # more are not written on the picture
+MANY_NAMES = 40  # more are not written on the picture
+UNUSED = "0.55"
 MANY_CELLS = 20000  # more are not drawn one by one
 
 
 def draw_bodies(axes, setup, nodes, room):
-    """Fills and outlines; names, with their materials where there is room for two lines; for the legend the materials."""
-    materials = list(dict.fromkeys(body["material"] for body in setup["bodies"]))
+    """Fills and outlines; names, with their materials where there is room for two lines; for the legend the materials,
+    where a scene says them."""
+    materials = list(dict.fromkeys(body.get("material") for body in setup["bodies"]))
     cells = sum(len(body["cells"]) for body in setup["bodies"])
-    for body in setup["bodies"]:
-        fill = FILLS[materials.index(body["material"]) % len(FILLS)]
+    for k, body in enumerate(setup["bodies"]):
+        fill = FILLS[materials.index(body.get("material")) % len(FILLS)]
+        if "material" not in body and (loops := loops_of(setup, k, room)):  # as drawn: whatever its mesh is, it is not used yet
+            axes.add_patch(PathPatch(Path.make_compound_path(*map(Path, loops)), facecolor=fill, linewidth=0))
+            continue
         lines = {"edgecolors": "0.75", "linewidths": 0.3} if cells <= MANY_CELLS else {"edgecolors": fill, "linewidths": 0.3}
         axes.add_collection(PolyCollection([nodes[cell] for cell in body["cells"]], facecolors=fill, rasterized=True, **lines))
         sides = {}
@@ -43,10 +51,19 @@ def draw_bodies(axes, setup, nodes, room):
         axes.add_collection(LineCollection(joined(outline), colors="0.35", linewidths=0.7, **dots))
     if len(setup["bodies"]) <= MANY_NAMES:
         for body, at in zip(setup["bodies"], name_places(setup["bodies"], nodes)):
-            material = f"\n({figure.short(body['material'])})" if room else ""
+            material = f"\n({figure.short(body['material'])})" if room and "material" in body else ""
             name(axes, at, f"{figure.short(body['name'])}{material}", "0.25", ha="center", va="center")
     return [Line2D([], [], marker="s", linestyle="", markersize=8, color=FILLS[k % len(FILLS)], label=f"material {figure.short(m)}")
-            for k, m in enumerate(materials)]
+            for k, m in enumerate(materials) if m is not None]
+
+
+def loops_of(setup, body, upright):
+    """The outline of a body by the curves on it, if they close."""
+    nodes = np.array(setup["nodes"])
+    edges = [edge for curve in setup["curves"].values() for edge in curve if edge[3] == body]
+    loops = joined(lines_of(nodes, edges)) if edges else []
+    size = size_of(nodes)
+    return [loop[:, :: 1 if upright else -1] for loop in loops] if all(np.linalg.norm(loop[0] - loop[-1]) < 1e-6 * size for loop in loops) else []
 
 
 def name_places(bodies, nodes):
@@ -79,19 +96,6 @@ def places_along(lines, spacing):
     k = np.minimum(np.searchsorted(np.cumsum(lengths), wanted), len(lengths) - 1)
     along = (ends - starts)[k] / lengths[k, None]
     return (starts + ends)[k] / 2, np.stack([along[:, 1], -along[:, 0]], axis=1)
-
-
-def chained(edges):
-    """Edges (start, end, middle) in the order in which one begins where another ends."""
-    following = {edge[0]: edge for edge in edges}
-    ends = {edge[1] for edge in edges}
-    chain = []
-    for first in [edge for edge in edges if edge[0] not in ends] + edges:
-        edge = following.pop(first[0], None)
-        while edge is not None:
-            chain.append(edge)
-            edge = following.pop(edge[1], None)
-    return chain
 
 
 def held_along(words):
@@ -141,7 +145,7 @@ def arrow(axes, start, end):
 
 def draw(setup, picture):
     nodes = np.array(setup["nodes"])
-    curves = {key: polylines(nodes, chained(edges)) for key, edges in setup["curves"].items()}
+    curves = {key: lines_of(nodes, edges) for key, edges in setup["curves"].items()}
     turned = bool(np.ptp(nodes[:, 1]) > SLENDER * np.ptp(nodes[:, 0]))
     order = slice(None, None, -1 if turned else 1)  # of coordinates; and of a curve, which keeps its body on the left so
     nodes, curves = nodes[:, order], {key: [line[order, order] for line in lines][order] for key, lines in curves.items()}
@@ -158,6 +162,9 @@ def draw(setup, picture):
     def tell(colour, label, on, side=1):
         """A line of the legend, and the names of its curves outside (1) or inside (-1) of their bodies."""
         legend.append(Line2D([], [], color=colour, linewidth=2, label=label))
+        write(colour, on, side)
+
+    def write(colour, on, side):
         for curve in on:
             if named and curve in curves and curve not in written:
                 written.add(curve)
@@ -188,7 +195,9 @@ def draw(setup, picture):
         colour = PAIR_COLOURS[k % len(PAIR_COLOURS)]
         for curve, style in zip(pair["between"], ["-", (0, (3, 2))]):
             draw_curve(axes, curves[curve], colour, 2.4, style)
-        if len(setup["contact"]) <= MANY_PAIRS:
+        if len(setup["contact"]) > MANY_PAIRS:
+            write(colour, pair["between"], -1)
+        else:
             tell(colour, f"contact {listed(pair['between'], ' - ')}: {figure.plain(pair['words'])}", pair["between"], -1)
     if len(setup["contact"]) > MANY_PAIRS:
         tell(PAIR_COLOURS[0], f"{len(setup['contact'])} contact pairs", [])
@@ -196,12 +205,18 @@ def draw(setup, picture):
         for curve in tie:
             draw_curve(axes, curves[curve], "0.45", 2.0)
         tell("0.45", f"tied: {listed(tie, ' - ')}", tie, -1)
+    used = {curve for key in ("supports", "loads") for entry in setup[key] for curve in entry["on"]}
+    used.update(curve for pair in [*setup["ties"], *(pair["between"] for pair in setup["contact"])] for curve in pair)
+    for curve in curves.keys() - used:
+        draw_curve(axes, curves[curve], UNUSED, 1.4)
+    if unused := [curve for curve in curves if curve not in used]:
+        tell(UNUSED, f"unused: {listed(unused)}", unused)
     legend += [Line2D([], [], linestyle="", label=f"besides: {what}") for what in setup["rest"]]
     axes.autoscale_view()
     axes.margins(0.1)
     axes.set_aspect("equal")
     label_places(axes, turned)
-    drawing.suptitle(figure.wrapped(f"{setup['title'] or 'set-up'} (before it is solved)"), fontsize=11)
+    drawing.suptitle(figure.wrapped(setup["title"]), fontsize=11)
     below = {"loc": "upper left", "bbox_to_anchor": (0, -0.5 / height), "borderaxespad": 0}
     axes.legend(handles=legend[:20], frameon=False, fontsize=7.5, **below)
     figure.save(drawing, picture, 130)
@@ -215,12 +230,13 @@ def listed(names, between=", "):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("setup", type=Path, help=".json")
-    parser.add_argument("picture", type=Path, help=".png, .pdf or .svg")
+    parser.add_argument("setup", type=pathlib.Path, help=".json")
+    parser.add_argument("picture", type=pathlib.Path, help=".png, .pdf or .svg")
     options = parser.parse_args()
     if options.picture.suffix not in (".png", ".pdf", ".svg"):
         parser.error(f"{options.picture}: expected a .png, .pdf or .svg to write")
-    draw(json.loads(options.setup.read_text()), options.picture)
+    setup = json.loads(options.setup.read_text())
+    draw(setup | {"title": f"{setup['title'] or 'set-up'} (before it is solved)"}, options.picture)
     print(options.picture)
 
 

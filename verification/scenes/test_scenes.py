@@ -1,0 +1,132 @@
+"""From a geometry without names to a scene: what `mortise check PART.geo` lists and draws, and what `mortise new` writes."""
+
+import re
+import subprocess
+
+import numpy as np
+import pytest
+
+import launch  # makes src/python/pictures known
+
+PUNCH = """SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 0.6, 0.2};
+Rectangle(2) = {0.2, 0.2, 0, 0.2, 0.1};
+"""
+PIN = """SetFactory("OpenCASCADE");
+Rectangle(1) = {-60, -40, 0, 160, 80};
+Disk(2) = {0, 0, 0, 20};
+BooleanDifference(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };
+Disk(4) = {0, 0, 0, 19.9};
+"""
+SCENE = """mesh.file = "punch.geo"
+materials.steel = { young = 210e9, poisson = 0.3 }
+bodies = { "*" = "steel" }
+boundary = [
+  { on = "BOTTOM", displacement = { x = 0, y = 0 } },
+  { on = "TOP", displacement = { x = 0 } },
+  { on = "TOP", pressure = 10e6 },
+]
+"""
+GREY = "#8c8c8c"  # of curves that a scene does not use
+
+
+@pytest.fixture
+def call(mortise, tmp_path):
+    def run(*words, expected=0):
+        done = subprocess.run([mortise, *words], cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert done.returncode == expected, done.stdout + done.stderr
+        return done.stdout + done.stderr
+
+    return run
+
+
+def lines_behind(said, heading):
+    """The lines to paste that stand behind a heading."""
+    return said[said.index(heading) :].split("\n\n")[0].split("\n", 1)[1]
+
+
+def filled(text):
+    """A new scene with what it proposes taken for said."""
+    return re.sub(r"^( *)# (?=\{ |young|poisson|\[\[body|body|force)", r"\1", text, flags=re.MULTILINE)
+
+
+def test_an_unnamed_geometry_is_listed_and_its_numbers_are_names(call, tmp_path):
+    (tmp_path / "punch.geo").write_text(PUNCH)
+    said = call("check", "punch.geo")
+    assert "curve_7 of surface_2: length 0.2, straight, (0.4, 0.3) to (0.2, 0.3)" in said
+    assert "meet      curve_3 - curve_5: along 0.2, touching" in said
+    numbers = SCENE.replace("BOTTOM", "curve_1").replace("TOP", "curve_7")
+    (tmp_path / "scene.toml").write_text(numbers + lines_behind(said, "for the scene's file"))
+    assert "gap as drawn" in call("check", "scene.toml")
+
+
+def test_the_lines_to_paste_name_all_curves(call, tmp_path):
+    (tmp_path / "punch.geo").write_text(PUNCH)
+    names = lines_behind(call("check", "punch.geo"), "for punch.geo, names instead")
+    (tmp_path / "punch.geo").write_text(PUNCH + names)
+    said = call("check", "punch.geo")
+    assert "for punch.geo" not in said and "curve_" not in said
+    scene = SCENE.replace("BOTTOM", "body_1_bottom").replace("TOP", "body_2_top")
+    (tmp_path / "scene.toml").write_text(scene + lines_behind(said, "for the scene's file"))
+    assert "body_1_top - body_2_bottom" in call("check", "scene.toml")
+
+
+def test_a_gap_between_arcs_is_found_whatever_the_mesh(call, tmp_path):
+    (tmp_path / "pin.geo").write_text(PIN)
+    gap = float(re.search(r"curve_5 - curve_6: along \S+, gap (\S+)", call("check", "pin.geo"))[1])
+    assert gap == pytest.approx(20 - 19.9, rel=0.06)  # as coarse as its triangles are
+    assert "closed, radius 19.9 round (0, 0)" in call("check", "pin.geo")
+
+
+def test_curves_of_corners_and_of_one_body_do_not_meet(call, tmp_path):
+    (tmp_path / "punch.geo").write_text(PUNCH)
+    assert call("check", "punch.geo").count("\n  meet") == 1  # not the punch's sides, which end on the block
+
+
+def test_pictures_show_every_curve(call, tmp_path):
+    (tmp_path / "punch.geo").write_text(PUNCH)
+    assert call("check", "punch.geo", "--picture", "all.svg", "--quiet") == "all.svg\n"
+    assert GREY in (tmp_path / "all.svg").read_text()
+    contact = 'contact = [{ between = ["curve_3", "curve_5"] }]\n'
+    scene = SCENE.replace("BOTTOM", "curve_1").replace("TOP", "curve_7") + contact
+    (tmp_path / "scene.toml").write_text(scene)
+    call("check", "scene.toml", "--picture", "a.svg")
+    assert GREY in (tmp_path / "a.svg").read_text()
+    rest = '  { on = ["curve_2", "curve_4", "curve_6", "curve_8"], pressure = 1 },\n]'
+    (tmp_path / "scene.toml").write_text(scene.replace("\n]", f"\n{rest}", 1))
+    call("check", "scene.toml", "--picture", "a.svg")
+    assert GREY not in (tmp_path / "a.svg").read_text()
+
+
+@pytest.mark.parametrize("name", sorted(path.stem for path in (launch.ROOT / "geo").glob("*.geo")))
+def test_a_new_scene_is_complete_when_it_is_filled_in(call, tmp_path, name):
+    call("new", str(launch.ROOT / f"geo/{name}.geo"), "-o", "new.toml")
+    said = call("check", "new.toml", expected=1)
+    assert "materials.steel" in said and "young" in said
+    (tmp_path / "new.toml").write_text(filled((tmp_path / "new.toml").read_text()))
+    assert "  contact   " in call("check", "new.toml")
+
+
+def test_a_new_scene_of_an_unnamed_geometry_solves(call, tmp_path):
+    (tmp_path / "punch.geo").write_text(PUNCH)
+    assert call("new", "punch.geo") == "punch.toml\n"
+    (tmp_path / "punch.toml").write_text(filled((tmp_path / "punch.toml").read_text()))
+    said = call("solve", "punch.toml", "--accuracy", "2%", "-o", "out")
+    force = re.search(r"force \((\S+), (\S+)\) on curve_5", said)
+    np.testing.assert_allclose([float(part) for part in force.groups()], [0, 2e6], atol=1)  # 10 MPa on 0.2 m
+
+
+def test_a_new_scene_of_a_mesh_and_what_is_refused(call, tmp_path):
+    (tmp_path / "punch.geo").write_text(PUNCH)
+    (tmp_path / "scene.toml").write_text(SCENE.replace("BOTTOM", "curve_1").replace("TOP", "curve_7") + 'contact = [{ between = ["curve_3", "curve_5"] }]')
+    call("mesh", "scene.toml", "-o", "punch.msh")
+    call("new", "punch.msh")
+    assert 'between = ["curve_3", "curve_5"]' in (tmp_path / "punch.toml").read_text()
+    before = (tmp_path / "punch.toml").read_text()
+    assert "punch.toml: is there already" in call("new", "punch.msh", expected=1)
+    assert (tmp_path / "punch.toml").read_text() == before
+    assert "is no scene" in call("check", "punch.geo", "--set", "model.plane=stress", expected=1)
+    (tmp_path / "bad.geo").write_text('SystemCall "touch ran";\n' + PUNCH)
+    assert "bad.geo" in call("check", "bad.geo", "--no-programs", expected=1)
+    assert "bad.geo" in call("new", "bad.geo", "--no-programs", expected=1)
+    assert not (tmp_path / "ran").exists() and not (tmp_path / "bad.toml").exists()
