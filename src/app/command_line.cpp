@@ -328,11 +328,13 @@ int parse_and_run(int argc, const char* const* argv) {
   CLI::App* certify_command =
       add_scripted(app, "certify", "solve a scene by several means and say which figures agree within their bars");
   CLI::App* report_command = add_scripted(app, "report", "write one page of the results in a folder, to hand over");
+  CLI::App* window_command = add_scripted(app, "window", "look at a scene in gmsh's window, pick, check and solve");
   if (const auto status = parse(app, argc, argv)) return *status;
 
   if (*picture_command) return draw_picture(picture_command->remaining());
   if (*certify_command) return run_with_program("reports/certify.py", certify_command->remaining());
   if (*report_command) return run_with_program("reports/report.py", report_command->remaining());
+  if (*window_command) return run_with_program("scenes/window.py", window_command->remaining());
   const bool alone = ranks().count() == 1 && options.jobs == 1;
   set_solver_threads(options.threads > 0 || alone ? options.threads : 1);
   set_mesh_cache(!options.no_cache);

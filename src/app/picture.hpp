@@ -13,8 +13,8 @@ namespace mortise {
 /// error. Throws InputError where the script or Python is not there.
 int draw_picture(const std::vector<std::string>& arguments);
 
-/// `mortise certify` and `report`: run a script, reports/certify.py or another, which runs this program again.
-/// Its exit status; throws as draw_picture does.
+/// `mortise certify`, `report` and `window`: run a script, reports/certify.py or another, which runs this program
+/// again. Its exit status; throws as draw_picture does.
 int run_with_program(const std::string& script, const std::vector<std::string>& arguments);
 
 /// `mortise check --picture`: the set-up as a .png, .pdf or .svg, by setup.py. As draw_picture.

@@ -146,7 +146,7 @@ def calls(pattern):
 
 
 def test_options_of_mortise(mortise):
-    found = list(calls(r"\bmortise (solve|check|new|mesh|sweep|picture|certify|report)\b(.*)"))
+    found = list(calls(r"\bmortise (solve|check|new|mesh|sweep|picture|certify|report|window)\b(.*)"))
     assert len(found) > 15
     for page, call in found:
         known = help_of(mortise, call[1], "--help")

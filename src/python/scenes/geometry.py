@@ -140,4 +140,6 @@ def meeting(a, b):
     along = min(dx[facing.any(axis=1)].sum(), dy[facing.any(axis=0)].sum())
     if along < NEAR * min(a.length, b.length):
         return None
-    return Meeting((a, b), float(gap[facing][np.abs(gap[facing]).argmin()]), float(along), arrow(a, n, dx) + arrow(b, m, dy))
+    opposite = np.where(facing, across, np.inf).argmin(axis=1)  # of each piece, that which it faces most squarely
+    gaps = gap[np.arange(len(x)), opposite][facing.any(axis=1)]
+    return Meeting((a, b), float(gaps[np.abs(gaps).argmin()]), float(along), arrow(a, n, dx) + arrow(b, m, dy))

@@ -46,10 +46,8 @@ def boundary_lines(part, sides, pressure):
     lines += [line(curve, CLAMPED) for curve in sides["bottom"]] + [line(curve, GUIDED) for curve in sides["left"]]
     lines += [line(curve, GUIDED) for curve in sides["top"] if not held & set(curve.bodies)]
     lines += ["  # Loads. A pressure pushes; traction = [tx, ty] per area, force = [fx, fy] in sum."]
-    lines += [line(curve, f"pressure = {pressure}") for curve in sides["top"]]
-    if sides["rest"]:
-        lines.append(f"  # Free besides: {', '.join(curve.name for curve in sides['rest'])}")
-    return lines
+    lines += [line(curve, f"pressure = {pressure}") for curve in sides["top"] or sides["left"]]
+    return lines + [f"  # free: {curve.name}, length {curve.length:.4g}, {curve.words()}" for curve in sides["rest"]]
 
 
 def quoted(name):

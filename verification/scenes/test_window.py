@@ -1,0 +1,131 @@
+"""`mortise window` under Xvfb: what is picked stands in the files, and p is the command line's."""
+
+import importlib.util
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import launch
+from test_scenes import PUNCH, filled
+
+sys.path[:0] = [str(launch.ROOT / "src/python/scenes"), str(launch.ROOT / "verification/pages")]
+
+import edits
+import markdown
+
+TUTORIAL = markdown.sections((launch.ROOT / "docs/tutorial.md").read_text())
+CASES = '\n[[case]]\nname = "half"\nscale = 0.5\n\n[[case]]\nname = "full"\n'
+
+
+@pytest.fixture
+def screen():
+    """The number of a display that nobody sees."""
+    missing = [program for program in ("Xvfb", "xdotool") if shutil.which(program) is None]
+    if missing or importlib.util.find_spec("gmsh") is None:
+        pytest.skip(f"the window cannot be driven without {', '.join(missing) or 'python3-gmsh'}: ./dev setup installs it")
+    read, write = os.pipe()
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x900x24"], pass_fds=[write], stderr=subprocess.DEVNULL)
+    yield ":" + os.read(read, 20).decode().strip()
+    server.terminate()
+    server.wait()
+    os.close(read)
+    os.close(write)
+
+
+def drive(mortise, screen, folder, *words):
+    """What the window told that drive_window.py had open."""
+    environment = os.environ | {"DISPLAY": screen, "MORTISE_PROGRAM": str(mortise), "PYTHONPATH": str(Path(launch.__file__).parent)}
+    command = [sys.executable, Path(__file__).with_name("drive_window.py"), *words]
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    return json.loads(done.stdout.splitlines()[-1])
+
+
+def test_a_scene_by_mouse_is_the_scene_of_the_command_line(mortise, screen, tmp_path):
+    (tmp_path / "punch.geo").write_text(PUNCH)
+    subprocess.run([mortise, "new", "punch.geo"], cwd=tmp_path, check=True)
+    text = filled((tmp_path / "punch.toml").read_text())
+    (tmp_path / "punch.toml").write_text(re.sub(r"\n  \{ between.*", "", text) + CASES)
+    told = drive(mortise, screen, tmp_path, "punch", "punch.toml")
+    assert "head" in told["named"] and "curve_7" not in told["named"]
+    assert 'Physical Curve("head") = {7};' in (tmp_path / "punch.geo").read_text()
+    scene = tomllib.loads((tmp_path / "punch.toml").read_text().replace('["curve_2", "nowhere"]', '"curve_1"'))
+    wanted = tomllib.loads(text.replace("10e6", "20e6").replace("curve_7", "head")) | {"contact": [{"between": ["curve_3", "curve_5"]}]} | {"case": scene["case"]}
+    assert scene == wanted
+    (tmp_path / "by_hand.toml").write_text((tmp_path / "punch.toml").read_text().replace('["curve_2", "nowhere"]', '"curve_1"'))
+    by_hand = [mortise, "solve", "by_hand.toml", "--accuracy", "1%", "--set", "cases.write=contact", "-o", "hand", "--quiet"]
+    subprocess.run(by_hand, cwd=tmp_path, check=True)
+    for number, name in ((1, "half"), (2, "full")):
+        table = launch.contact(tmp_path / "hand/cases" / name)
+        shown = told[f"case {number}"]
+        np.testing.assert_allclose(shown["p"], np.interp(shown["s"], table["s"], table["p"]), rtol=1e-9)
+        assert shown["lines"][:2] == [name, "solved"]
+    assert told["steps while it solved"] > 3  # the window lived on
+    assert any("nowhere" in line for line in told["error"]["lines"])
+    assert told["highlighted"] == ["curve_2"]
+
+
+@pytest.mark.parametrize("written", [
+    'contact = []', 'contact = [{ between = ["a", "b"] }]', 'contact = [\n  { between = ["a", "b"] },\n]', 'contact = [  # none\n]',
+    'contact = [\n  { between = ["a", "b"] }  # no comma: ]\n]', '[[contact]]\nbetween = ["a", "b"]', '',
+])  # fmt: skip
+def test_an_entry_goes_where_the_others_are(written):
+    before, entry = tomllib.loads(written), {"between": ["c", "d#]"], "gap": 0.5}
+    after = edits.with_entry(written + "\n", "contact", entry)
+    assert tomllib.loads(after) == {"contact": [*before.get("contact", []), entry]}
+
+
+def test_a_number_is_changed_where_it_stands_and_nothing_else():
+    text = 'a = 3\nmaterials.steel = { young = 3, poisson = 0.3 }  # 3\nboundary = [{ on = "x3", pressure = 3 }, { on = "b", pressure = 3 }]\n'
+    assert edits.with_value(text, "boundary.1.pressure", 4.5) == text[::-1].replace("3", "5.4", 1)[::-1]
+    assert edits.with_value(text, "materials.steel.young", 7) == text.replace("young = 3", "young = 7")
+    with pytest.raises(ValueError, match="not found"):
+        edits.with_value('boundary = [{ pressure = 3_0 }]'.replace("3_0", "0x1e"), "boundary.0.pressure", 4)
+
+
+@pytest.fixture
+def typed(mortise, tmp_path):
+    """Runs a command of the tutorial as it is printed."""
+
+    def run(command):
+        words = [str(mortise) if word == "mortise" else word for word in command.split()]
+        return launch.run(words, expected=(0,), cwd=tmp_path, env=os.environ | launch.ONE_THREAD)[0].stdout
+
+    return run
+
+
+def test_the_tutorial_by_files(typed, tmp_path):
+    drawing, curves, scene, solve = (TUTORIAL[name] for name in ("Draw it", "Which curve is which", "Say what happens", "Solve it"))
+    (tmp_path / "lug.geo").write_text(markdown.files(drawing)["lug.geo"])
+    said = typed(*markdown.commands(curves))
+    quoted = re.findall(r"`([^`\n]+)`\)", curves)
+    assert len(quoted) == 2 and all(words in said for words in quoted)
+    with (tmp_path / "lug.geo").open("a") as file:
+        file.write(markdown.files(curves)["lug.geo"])
+    new, check = markdown.commands(scene)
+    typed(new)
+    begun, full = (tomllib.loads(text) for text in ((tmp_path / "lug.toml").read_text(), markdown.files(scene)["lug.toml"]))
+    assert begun["contact"] == full["contact"] and begun["bodies"] == full["bodies"]
+    (tmp_path / "lug.toml").write_text(markdown.files(scene)["lug.toml"])
+    assert "pulled: pressure -50, in sum (-3000, 0)" in typed(check)
+    said = "".join(typed(command) for command in [*markdown.commands(solve), *markdown.commands(TUTORIAL["Hand it over"])])
+    assert not markdown.wrong_figures(solve, tmp_path, said)
+    pages = ["curves.png", "setup.png", "out/lug.png", "out/lug.html"]
+    assert all((tmp_path / name).stat().st_size > 10000 for name in pages)
+
+
+def test_the_tutorial_by_mouse(mortise, screen, tmp_path):
+    (tmp_path / "lug.geo").write_text(markdown.files(TUTORIAL["Draw it"])["lug.geo"])
+    told = drive(mortise, screen, tmp_path, "lug", "lug.geo")
+    scene = tomllib.loads((tmp_path / "lug.toml").read_text())
+    assert scene["boundary"] == [{"on": ["bore"], "displacement": {"x": 0, "y": 0}}, {"on": ["curve_2"], "displacement": {"y": 0}}, {"on": ["curve_2"], "pressure": -50}]
+    assert scene["materials"] == {"steel": {"young": 210e3, "poisson": 0.3}} and scene["contact"] == [{"between": ["curve_5", "curve_6"]}]
+    assert told["lines"][0] == "solved" and max(told["p"]) == pytest.approx(129.6, rel=0.05)  # plane strain, which differs little
