@@ -19,6 +19,8 @@ FILES = [
     "usr/include/mortise/scene/scene.hpp",
     "usr/share/mortise/pictures/picture.py",
     "usr/share/mortise/reports/certify.py",
+    "usr/share/mortise/scenes/window.py",
+    "usr/share/mortise/scenes/onelab.py",
     "usr/share/mortise/geo/punch.toml",
     "usr/share/doc/mortise/docs/files.md",
     "usr/share/doc/mortise/LICENSE",
@@ -28,7 +30,7 @@ FILES = [
     "usr/share/man/man1/mortise.1",
 ]
 DEPENDS = ["libgmsh", "libvtk9", "libcholmod3", "libmetis5", "libopenblas0", "libmuparser2", "libseccomp2", "libc6"]
-SUGGESTS = ["python3-matplotlib", "python3-meshio"]
+SUGGESTS = ["python3-matplotlib", "python3-meshio", "python3-gmsh"]
 
 
 def run(*command, **options):

@@ -129,3 +129,33 @@ def test_the_tutorial_by_mouse(mortise, screen, tmp_path):
     assert scene["boundary"] == [{"on": ["bore"], "displacement": {"x": 0, "y": 0}}, {"on": ["curve_2"], "displacement": {"y": 0}}, {"on": ["curve_2"], "pressure": -50}]
     assert scene["materials"] == {"steel": {"young": 210e3, "poisson": 0.3}} and scene["contact"] == [{"between": ["curve_5", "curve_6"]}]
     assert told["lines"][0] == "solved" and max(told["p"]) == pytest.approx(129.6, rel=0.05)  # plane strain, which differs little
+
+
+ONELAB = """
+import gmsh, sys
+gmsh.initialize(["gmsh"], False)
+gmsh.open("punch.geo")
+for action in ("check", "compute", "compute"):
+    gmsh.onelab.setString("Mortise/Action", [action])
+    gmsh.onelab.run("Mortise", sys.argv[1])
+    print(action, gmsh.view.getTags(), flush=True)
+    text = open("punch.toml").read() if action == "compute" else ""
+    if "# young" in text:
+        open("punch.toml", "w").write(sys.argv[2])
+kind, largest = (gmsh.option.getNumber(f"View[1].{name}") for name in ("Type", "Max"))
+print("graph", kind, largest)
+"""
+
+
+def test_gmsh_s_own_menu_runs_it(mortise, tmp_path):
+    if importlib.util.find_spec("gmsh") is None:
+        pytest.skip("no Python's gmsh: ./dev setup installs it")
+    (tmp_path / "punch.geo").write_text(PUNCH)
+    subprocess.run([mortise, "new", "punch.geo", "-o", "full.toml"], cwd=tmp_path, check=True)
+    full = filled((tmp_path / "full.toml").read_text())
+    done = subprocess.run([sys.executable, "-c", ONELAB, launch.ROOT / "src/python/scenes/onelab.py", full], cwd=tmp_path, env=os.environ | {"MORTISE_PROGRAM": str(mortise)}, capture_output=True, text=True, timeout=60, check=False)
+    assert re.findall(r"^(?:check|compute) .*", done.stdout, re.MULTILINE) == ["check []", "compute []", "compute [0 1]"], done.stdout + done.stderr
+    assert (tmp_path / "punch.toml").read_text() == full
+    shown = [float(word) for word in done.stdout.splitlines()[-1].split()[1:]]
+    table = launch.contact(tmp_path / "out/punch")
+    assert shown == [2, pytest.approx(table["p"].max())]

@@ -6,8 +6,6 @@ import tomllib
 from functools import reduce
 from operator import getitem
 
-TOKEN = re.compile(r"\"(?:\\.|[^\"\\\n])*\"|'[^'\n]*'|#[^\n]*|\S")
-
 
 def toml(value):
     """A value as TOML writes it on one line."""
@@ -18,43 +16,40 @@ def toml(value):
     return f"{value:.12g}" if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
 
 
+def parsed(text):
+    """What the text says; nothing where it is no TOML."""
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        return {}
+
+
 def with_entry(text, section, entry):
     """With one more entry of a list of the scene, contact or boundary: where they stand, or as a table at the end."""
     wanted = [*tomllib.loads(text).get(section, []), entry]
+    tries = [text.rstrip("\n") + f"\n\n[[{section}]]\n" + "".join(f"{key} = {toml(item)}\n" for key, item in entry.items())]
     if head := re.search(rf"^{section}[ \t]*=[ \t]*\[", text, re.MULTILINE):
-        depth, last = 1, "["
-        for token in TOKEN.finditer(text, head.end()):
-            depth += (token[0] in "[{") - (token[0] in "]}")
-            if depth == 0:
-                break
-            if not token[0].startswith("#"):
-                last, end = token[0], token.end()
-        if last not in "[,":
-            text, at = text[:end] + "," + text[end:], token.start() + 1
-        else:
-            at = token.start()
-        start = text.rfind("\n", 0, at) + 1
-        alone = not text[start:at].strip()  # the closing bracket on its line
-        text = f"{text[:start]}  {toml(entry)},\n{text[start:]}" if alone else f"{text[:at]} {toml(entry)} {text[at:]}"
-    else:
-        text = text.rstrip("\n") + f"\n\n[[{section}]]\n" + "".join(f"{key} = {toml(item)}\n" for key, item in entry.items())
-    if tomllib.loads(text)[section] != wanted:
-        raise ValueError(f"{section}: cannot be added to by the window; expected {section} = [...] or [[{section}]]")
-    return text
+        for end in (found.start() for found in re.finditer(r"\]", text) if found.start() >= head.end()):
+            line = text.rfind("\n", 0, end) + 1
+            alone = not text[line:end].strip()  # the closing bracket on its line
+            parts = (text[:line] + "  ", ",\n", text[line:]) if alone else (text[:end], "", text[end:])
+            tries += [f"{parts[0]}{comma}{toml(entry)}{parts[1]}{parts[2]}" for comma in ("", ", ")]
+    for changed in tries:
+        if parsed(changed).get(section) == wanted:
+            return changed
+    raise ValueError(f"{section}: cannot be added to by the window; expected {section} = [...] or [[{section}]]")
 
 
 def with_value(text, key, value):
     """With another value of a key such as boundary.0.pressure or materials.steel.young, in whatever way it is written."""
-    before, wanted = tomllib.loads(text), tomllib.loads(text)
-    *path, last = [int(part) if part.isdigit() else part for part in key.split(".")]
+    wanted, (*path, last) = tomllib.loads(text), (int(part) if part.isdigit() else part for part in key.split("."))
+    if reduce(getitem, path, wanted)[last] == value:
+        return text
     reduce(getitem, path, wanted)[last] = value
     for found in re.finditer(r"[-+]?\b[\d._]+(?:[eE][-+]?\d+)?\b|\"[^\"\n]*\"", text):
         changed = text[: found.start()] + toml(value) + text[found.end() :]
-        try:
-            if tomllib.loads(changed) == wanted != before:
-                return changed
-        except tomllib.TOMLDecodeError:
-            continue
+        if parsed(changed) == wanted:
+            return changed
     raise ValueError(f"{key}: not found as it is written")
 
 

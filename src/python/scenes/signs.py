@@ -11,10 +11,12 @@ import numpy as np
 import result_tables
 from drawn_bodies import choose_scale, scale_without_overlap
 from drawn_cells import outlines, polylines, shaded_triangles, size_of
+from setup import places_along
 
 HELD, LOADED, UNUSED, TOLD = (11, 79, 156), (176, 0, 32), (140, 140, 140), (255, 140, 0)
 PAIRS = [(26, 127, 55), (194, 24, 139), (122, 79, 208), (166, 93, 0), (0, 121, 140), (17, 17, 17)]
 SUPPORTS = ("displacement", "rigid", "spring")
+MANY_NAMES = 60  # of curves; more are not written
 ALONG = {"x": (1, 0), "y": (0, 1)}
 
 
@@ -29,8 +31,7 @@ def drawn_curves():
             length = float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
             names, body = names_of(1, abs(tag)), tuple(names_of(2, surface) or [f"surface_{surface}"])
             bodies.setdefault(abs(tag), []).append(body)
-            curve = geometry.Curve(", ".join(names) or f"curve_{abs(tag)}", [surface], line[:: 1 if area > 0 else -1], length, not names)
-            curves.setdefault(abs(tag), curve)
+            curves[abs(tag)] = geometry.Curve(", ".join(names) or f"curve_{abs(tag)}", [surface], line[:: 1 if area > 0 else -1], length, not names)
     within = [tag for tag, of in bodies.items() if len(of) > len(set(of))]
     gmsh.model.setVisibility([(1, tag) for tag in within], 0)
     return {tag: curve for tag, curve in curves.items() if tag not in within}
@@ -46,26 +47,16 @@ def places(tag, backwards, count=97):
     return points[::-1] if backwards else points
 
 
-def spaced(curve, spacing):
-    """Places, and outward normals, at about this spacing."""
-    s = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(curve.points, axis=0), axis=1))])
-    count = max(1, round(s[-1] / spacing))
-    at = (np.arange(count) + 0.5) * s[-1] / count
-    where = lambda s_: np.stack([np.interp(s_, s, x) for x in curve.points.T], axis=1)
-    step = where(at + 1e-3 * s[-1] / count) - where(at - 1e-3 * s[-1] / count)
-    return where(at), np.stack([step[:, 1], -step[:, 0]], axis=1) / np.linalg.norm(step, axis=1)[:, None]
-
-
 def strokes_of(curve, entry, size):
     """Lines (start, end) of an entry of the scene on a curve: hatches of a support, arrows of a load."""
     if any(key in entry for key in SUPPORTS):
-        at, n = spaced(curve, 0.025 * size)
+        at, n = places_along([curve.points], 0.025 * size)
         held = [ALONG[key] for key in (entry.get("displacement") or {}) if key in ALONG]
         if len(held) == 1:
             half = 0.009 * size * np.array(held)
             return np.stack([at + 0.014 * size * n - half, at + 0.014 * size * n + half], axis=1)
         return np.stack([at, at + 0.018 * size * (n + 0.8 * np.stack([-n[:, 1], n[:, 0]], axis=1))], axis=1)
-    at, n = spaced(curve, 0.06 * size)
+    at, n = places_along([curve.points], 0.06 * size)
     along = next((entry[key] for key in ("traction", "force") if key in entry), None)
     pulls = isinstance(entry.get("pressure"), (int, float)) and entry["pressure"] < 0
     if along and all(isinstance(part, (int, float)) for part in along) and np.linalg.norm(along) > 0:
@@ -108,8 +99,8 @@ def add_words(name, words):
 
 
 def on_curves(curves, patterns):
-    patterns = [patterns] if isinstance(patterns, str) else patterns
-    return [tag for tag, curve in curves.items() if any(fnmatchcase(name, pattern) for name in curve.name.split(", ") for pattern in patterns)]
+    of = lambda curve: any(fnmatchcase(name, pattern) for name in curve.name.split(", ") for pattern in np.atleast_1d(patterns))
+    return [tag for tag, curve in curves.items() if of(curve)]
 
 
 def show_setup(curves, scene, told=()):
@@ -134,7 +125,7 @@ def show_setup(curves, scene, told=()):
     middle = lambda tag: (*curves[tag].points[int(at.get(tag, 0.5) * (len(curves[tag].points) - 1))], 0)
     longest = {curve.name: tag for tag, curve in sorted(curves.items(), key=lambda item: item[1].length)}
     bodies = {", ".join(names_of(2, tag)) or f"surface_{tag}": np.reshape(gmsh.model.getBoundingBox(2, tag), (2, 3)).mean(axis=0) for _, tag in gmsh.model.getEntities(2)}
-    add_words("names", [(middle(tag), name, 13) for name, tag in longest.items()] + [(place, name, 15) for name, place in bodies.items()])
+    add_words("names", [(middle(tag), name, 13) for name, tag in longest.items() if len(longest) <= MANY_NAMES] + [(place, name, 15) for name, place in bodies.items()])
     look_at(1, 0, True)
 
 

@@ -65,13 +65,13 @@ class Run:
         os.set_blocking(self.terminal, False)
 
     def ended(self):
-        status = self.process.poll()
+        over = self.process.poll() is not None
         try:
             while read := os.read(self.terminal, 65536):
                 self.errors += re.sub(r"\x1b\[[0-9;]*[A-Za-z]", "", read.decode(errors="replace"))
         except OSError:  # nothing there yet, or no more
             pass
-        return status
+        return over
 
     def stage(self):
         lines = re.split(r"[\r\n]+", self.errors.strip())
@@ -108,13 +108,7 @@ class Window:
             gmsh.fltk.openTreeItem(item)
 
     def scene(self):
-        """As the file says it; while that cannot be read, as it said last."""
-        try:
-            self.last = tomllib.loads(self.file.read_text())
-        except tomllib.TOMLDecodeError:
-            if not hasattr(self, "last"):
-                raise
-        return self.last
+        return tomllib.loads(self.file.read_text())
 
     def changes(self):
         """Numbers of the scene that stand otherwise in the window."""
@@ -181,9 +175,9 @@ class Window:
         if self.run:  # the first time for the last answer that is complete, then at once
             self.run.process.send_signal(signal.SIGINT)
 
-    def ended(self, status):
+    def ended(self):
         run, self.run = self.run, None
-        said = run.said()
+        said, status = run.said(), run.process.returncode
         for line in said:
             gmsh.logger.write(line, "info" if status == 0 else "warning")
         errors = [line for line in said if line.startswith("mortise:")]
@@ -194,8 +188,8 @@ class Window:
         else:
             self.tell(**{"Error" if status else "Check": errors[-1].removeprefix("mortise: ") if errors else "fine"})
         warnings = [line.split(None, 1)[1] for line in said if line.startswith("  warning")]
-        at = [(float(x), float(y), 0, line) for line in errors + warnings for x, y in re.findall(r"near \((\S+), (\S+)\)", line)]
-        signs.add_words("messages", [((20, (-110 if self.shown else -40) - 20 * k), line, 14) for k, line in enumerate(errors + warnings)] + [(place[:3], "(!)", 18) for place in at])
+        at = [((x, y, 0), "(!)", 18) for x, y in re.findall(r"near \((\S+), (\S+)\)", " ".join(errors + warnings))]
+        signs.add_words("messages", [((20, (-110 if self.shown else -40) - 20 * k), line, 14) for k, line in enumerate(errors + warnings)] + at)
 
     def told_curves(self, text):
         """Curves that a message names between quotes, or by the number of an entry of the scene."""
@@ -212,8 +206,7 @@ class Window:
         summary = json.loads((folder / "summary.json").read_text())
         signs.show_results(folder, min(self.shown[0], len(summary["contact"]) - 1))
         error = ((summary["estimate"] or {}).get("pressure") or {}).get("error")
-        lines = {"Case": folder.name} if cases else {}
-        self.tell(**lines, Status=summary["status"], Pressure="no estimate" if error is None else f"p within {100 * error:.2g} %",
+        self.tell(**({"Case": folder.name} if cases else {}), Status=summary["status"], Pressure="no estimate" if error is None else f"p within {100 * error:.2g} %",
                   Checks=f"{sum(check['ok'] for check in summary['checks'])} of {len(summary['checks'])} hold")  # fmt: skip
 
     def changed(self):
@@ -242,8 +235,10 @@ class Window:
         return [self.curves[tag].name.split(", ")[0] for tag in tags]
 
     def name(self):
-        tags, name = self.pick(1, "curves to name"), gmsh.onelab.getString(NAME)[0]
-        if not tags:
+        name = gmsh.onelab.getString(NAME)[0]
+        if not re.fullmatch(r"\w[\w-]*", name) or signs.on_curves(self.curves, name):
+            raise ValueError(f"the name '{name}' is taken, or has other than letters, digits, _ and -")
+        if not (tags := self.pick(1, "curves to name")):
             return
         text, scene = self.geo.read_text(), self.file.read_text()
         if all(curve.numbered for curve in self.curves.values()):  # with the first name numbers are none any more
@@ -283,10 +278,9 @@ class Window:
         elif tags:
             for key, value in values.items():
                 text = text if key in known[name] else text.replace(f"\n# {key} =", f"\n{key} =", 1)  # as mortise new leaves it
-                text = edits.with_value(text, f"materials.{name}.{key}", value) if tomllib.loads(text)["materials"][name].get(key) != value else text
-        for tag in tags:
-            body = (signs.names_of(2, tag) or [f"surface_{tag}"])[0]
-            text = edits.with_value(text, f"bodies.{body}", name) if tomllib.loads(text)["bodies"].get(body) not in (None, name) else text
+                text = edits.with_value(text, f"materials.{name}.{key}", value)
+        for body in {(signs.names_of(2, tag) or [f"surface_{tag}"])[0] for tag in tags} & set(tomllib.loads(text)["bodies"]):
+            text = edits.with_value(text, f"bodies.{body}", name)
         self.file.write_text(text)
 
     def save(self):
@@ -298,14 +292,15 @@ class Window:
     # ---- The loop ----
 
     ACTIONS = {"solve": solve, "stop": stop, "check scene": lambda self: self.start("check"), "check": changed, "name": name, "hold": hold,
-               "load": load, "pair": pair, "material": material, "save": save, "reset": lambda self: gmsh.onelab.set(json.dumps(CONTROLS))}  # fmt: skip
+               "load": load, "pair": pair, "material": material, "save": save, "ended": ended, "reset": lambda self: gmsh.onelab.set(json.dumps(CONTROLS))}  # fmt: skip
 
     def act(self, action):
         """What a button asks for; the window stays, whatever comes of it."""
         try:
             self.ACTIONS[action](self)
             if action in ("name", "hold", "load", "pair", "material", "save"):
-                self.shown = None
+                self.shown, self.told = None, []
+                self.tell()
                 self.refresh()
         except Exception as error:
             self.tell(Error=f"{type(error).__name__}: {error}")
@@ -320,10 +315,8 @@ class Window:
             gmsh.onelab.setString(ACTION, [""])
         if action in self.ACTIONS:
             self.act(action)
-        if self.run and (status := self.run.ended()) is not None:
-            self.ended(status)
-            gmsh.fltk.update()
-            gmsh.graphics.draw()
+        if self.run and self.run.ended():
+            self.act("ended")
         elif self.run:
             gmsh.fltk.setStatusMessage(self.run.stage(), False)
         if gmsh.fltk.isAvailable():
