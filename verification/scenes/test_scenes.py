@@ -81,6 +81,7 @@ def test_a_gap_between_arcs_is_found_whatever_the_mesh(call, tmp_path):
 def test_curves_of_corners_and_of_one_body_do_not_meet(call, tmp_path):
     (tmp_path / "punch.geo").write_text(PUNCH)
     assert call("check", "punch.geo").count("\n  meet") == 1  # not the punch's sides, which end on the block
+    assert len(re.findall(r"\n  (?:meet|near)", call("check", str(launch.ROOT / "geo/parabola_1.geo")))) == 1  # not over a corner
 
 
 def test_pictures_show_every_curve(call, tmp_path):
