@@ -31,7 +31,7 @@ class FetiFactor : public ContactFactor {
         unknowns_(s.K.cols()),
         max_iterations_(max_iterations) {}
 
-  MatX duals(const MatX& functionals, const MatX& loads) const override {
+  DualAnswers answers(const MatX& functionals, const MatX& loads) const override {
     const Eigen::Index count = functionals.cols(), without_load = count - loads.cols();
     std::vector<DualSystem::Answer> answers{system_->answer(VecX::Zero(unknowns_))};
     for (const auto& load : loads.colwise()) answers.push_back(system_->answer(load / stiffness_scale_));
@@ -49,13 +49,14 @@ class FetiFactor : public ContactFactor {
       forces.r -= gaps;
       rows_->solve(forces, monitor, found[k]);
     });
-    MatX z = MatX::Zero(unknowns_, count);
+    DualAnswers duals{.z = MatX::Zero(unknowns_, count), .mu = MatX(functionals.rows(), count)};
     for (Eigen::Index k = 0; k < count; ++k) {
       VecX dual = VecX::Zero(unknowns_);
       system_->add_displacements(answer_to(k), found[k].lambda, found[k].mu, dual);
-      z.col(k) = dual;
+      duals.z.col(k) = dual;
+      duals.mu.col(k) = stiffness_scale_ * found[k].lambda.cwiseQuotient(row_scale_);
     }
-    return z;
+    return duals;
   }
 
  private:

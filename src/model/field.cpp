@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cctype>
+#include <iomanip>
 #include <mutex>
 #include <numbers>
 #include <regex>
@@ -33,6 +34,7 @@ std::string name_at(const std::string& text, std::size_t at) {
   if (const std::string name = name_at(text, at); error.GetCode() == mu::ecUNASSIGNABLE_TOKEN && !name.empty()) {
     std::vector<std::string> known(names.begin(), names.end() - (use.on_curve ? 0 : 1));
     known.push_back("pi");
+    for (const auto& [constant, value] : use.constants) known.push_back(constant);
     for (const auto& function : use.functions) known.push_back(function->name);
     std::string trouble = unknown_name("name", name, known) + ", and functions such as sin, sqrt, exp";
     if (name == "s" && !use.on_curve) trouble = "s, the arc length, is known on curves only; known: x, y, r, theta, pi";
@@ -43,6 +45,21 @@ std::string name_at(const std::string& text, std::size_t at) {
   std::string trouble = std::regex_replace(error.GetMsg(), position, "");
   trouble[0] = char(std::tolower(static_cast<unsigned char>(trouble[0])));
   throw ExpressionError(trouble, at);
+}
+
+// The text with the values of constants in the place of their names.
+std::string with_values(const std::string& text, const std::map<std::string, double>& constants) {
+  static const std::regex words(R"((\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[A-Za-z_]\w*)");
+  std::ostringstream replaced;
+  replaced << std::setprecision(17);
+  std::size_t at = 0;
+  for (std::sregex_iterator word(text.begin(), text.end(), words), end; word != end; ++word) {
+    const auto constant = constants.find(word->str());
+    if (constant == constants.end()) continue;
+    replaced << text.substr(at, std::size_t(word->position()) - at) << "(" << constant->second << ")";
+    at = std::size_t(word->position() + word->length());
+  }
+  return replaced.str() + text.substr(at);
 }
 
 // muParser takes "x = 3" for an assignment and "1, 2" for two results.
@@ -80,7 +97,7 @@ struct Field::Function {
 
 Field::Field(const std::string& text, const FieldUse& use) : constant_(1), function_(std::make_shared<Function>()) {
   Function& f = *function_;
-  f.text = text;
+  f.text = use.constants.empty() ? text : with_values(text, use.constants);
   f.use = use;
   if (text.size() > longest_expression) throw ExpressionError("longer than 1000 characters", longest_expression);
   refuse_assignments(text);
@@ -88,6 +105,7 @@ Field::Field(const std::string& text, const FieldUse& use) : constant_(1), funct
     for (std::size_t i = 0; i < names.size(); ++i)
       if (i != s_ || use.on_curve) f.parser.DefineVar(names[i], &f.values[i]);
     f.parser.DefineConst("pi", std::numbers::pi);
+    for (const auto& [constant, value] : use.constants) f.parser.DefineConst(constant, value);
     f.named.resize(use.functions.size());
     for (std::size_t i = 0; i < f.named.size(); ++i) f.parser.DefineVar(use.functions[i]->name, &f.named[i]);
     f.parser.SetExpr(text);
@@ -100,6 +118,9 @@ Field::Field(const std::string& text, const FieldUse& use) : constant_(1), funct
     fail_parsing(text, error, use);
   }
   if (f.parser.GetNumResults() != 1) throw ExpressionError("has a comma; expected one value", text.find(','));
+  if (use.constants.empty() || !f.parser.GetUsedVar().empty()) return;
+  constant_ = f.parser.Eval();  // of constants alone
+  function_.reset();
 }
 
 double Field::constant() const {

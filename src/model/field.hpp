@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,6 +36,7 @@ struct FieldUse {
   double largest = std::numeric_limits<double>::max();  ///< of its size
   std::string limit = {};  ///< "a load below every Young's modulus": what `largest` is, for messages
   std::vector<std::shared_ptr<const NamedFunction>> functions = {};  ///< that it may name
+  std::map<std::string, double> constants = {};                      ///< likewise; its text then has their values
 };
 
 /// A number, or a function of x and y (undeformed), r and theta (polar, about the origin), and on a curve s (its arc

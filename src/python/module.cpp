@@ -140,6 +140,27 @@ std::vector<Row> rows(CaseSolver& solver, const std::string& path, const std::ve
   return rows;
 }
 
+// Values, derivatives, bounds of gradients (app/gradients.hpp). `solver`: as of rows().
+py::tuple gradient(CaseSolver& solver, const std::string& path, const Changes& changes,
+                   const std::vector<std::pair<std::string, std::vector<double>>>& of,
+                   const std::vector<std::pair<std::string, double>>& by) {
+  std::vector<Figure> figures;
+  for (const auto& [name, numbers] : of) figures.push_back({name, numbers});
+  std::vector<Parameter> parameters;
+  for (const auto& [key, value] : by) parameters.push_back({key, value});
+  Gradients found;
+  {
+    const py::gil_scoped_release others_run;
+    const std::vector<Override> overrides = overrides_of(changes);
+    const Scene scene = parametrised(path, overrides, parameters);
+    if (scene.accuracy)
+      found = gradients(*solve_to_accuracy(scene, check_signals), path, overrides, figures, parameters);
+    else
+      found = gradients(solver.solve(scene, check_signals), path, overrides, figures, parameters);
+  }
+  return py::make_tuple(found.values, found.derivatives, found.between);
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_mortise, m) {
@@ -147,7 +168,7 @@ PYBIND11_MODULE(_mortise, m) {
   m.def("solve", &solve);
   m.def("cases", &cases);
   m.def("set_threads", &set_solver_threads);
-  py::class_<CaseSolver>(m, "Solver").def(py::init<>()).def("rows", &rows);
+  py::class_<CaseSolver>(m, "Solver").def(py::init<>()).def("rows", &rows).def("gradient", &gradient);
 }
 
 }  // namespace mortise

@@ -96,7 +96,7 @@ std::vector<JointStiffness> joint_stiffnesses(const Problem& p, const Solution& 
   for (int i = 0; i < int(p.entries.boundaries.size()); ++i) {
     const BoundaryEntry& entry = p.entries.boundaries[i];
     if (!entry.spec.stiffness) continue;
-    if (!factor) factor = contact_factor(p.discretisation.system, solution);
+    if (!factor) factor = exact_factor(p.discretisation.system, solution);
     const RigidCurve* rigid = nullptr;
     for (const RigidSupport& support : p.discretisation.multipoint.rigid_curves)
       if (support.entry == i) rigid = &support.curve;

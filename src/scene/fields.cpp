@@ -93,7 +93,7 @@ std::array<double, 3> number_triple(const Node& node, const std::string& expecte
 }
 
 FieldUse expression_use(const Scene& scene, bool on_curve) {
-  FieldUse use{.key = {}, .on_curve = on_curve};
+  FieldUse use{.key = {}, .on_curve = on_curve, .constants = scene.constants};
   for (const FieldSpec& spec : scene.fields) use.functions.push_back(spec.function);
   return use;
 }

@@ -1,4 +1,4 @@
-// [fields]
+// [constants] and [fields]
 #include "scene/files.hpp"
 #include "scene/sections.hpp"
 
@@ -7,11 +7,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-FieldSpec read_field(const Node& node, const std::string& scene_path) {
-  if (!is_free_name(node.name)) {
+void require_free_name(const Node& node, const Scene& scene) {
+  if (!is_free_name(node.name))
     fail(node,
          "'" + node.name + "' cannot be a name in expressions; expected letters, digits and _, and none of theirs");
-  }
+  if (scene.constants.contains(node.name)) fail(node, "is one of [constants] too; expected another name");
+}
+
+FieldSpec read_field(const Node& node, const std::string& scene_path) {
   FieldSpec spec{locate(node), {}, node.name, {}, std::make_shared<NamedFunction>()};
   read(node, field_keys(spec));
   const Node& file = *find(node, "file");
@@ -46,7 +49,20 @@ void read_fields(const Node& root, Scene& scene) {
   const Node* fields = find(root, "fields");
   if (fields == nullptr) return;
   expect_table(*fields);
-  for (const Node& node : fields->items) scene.fields.push_back(read_field(node, scene.path));
+  for (const Node& node : fields->items) {
+    require_free_name(node, scene);
+    scene.fields.push_back(read_field(node, scene.path));
+  }
+}
+
+void read_constants(const Node& root, Scene& scene) {
+  const Node* constants = find(root, "constants");
+  if (constants == nullptr) return;
+  expect_table(*constants);
+  for (const Node& node : constants->items) {
+    require_free_name(node, scene);
+    scene.constants[node.name] = number(node);
+  }
 }
 
 }  // namespace mortise::scene_file

@@ -40,6 +40,7 @@ Scene read_sections(const Node& root, const std::string& path) {
   if (const Node* title = find(root, "title")) scene.title = text(*title);
   read_mesh_section(root, scene);
   read_copies(root, scene);
+  read_constants(root, scene);
   read_fields(root, scene);
   read_model(root, scene);
   read_bodies(root, scene);

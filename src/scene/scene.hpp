@@ -32,7 +32,8 @@ struct Scene {
   std::string mesh_file;  ///< absolute or relative to the working directory
   std::map<std::string, double> mesh_parameters;
   GeoLimits geo_limits;
-  std::vector<BodyCopy> copies;  ///< of bodies of the mesh file, in their place
+  std::vector<BodyCopy> copies;             ///< of bodies of the mesh file, in their place
+  std::map<std::string, double> constants;  ///< that expressions name
   std::vector<FieldSpec> fields;
   Model model;
   std::optional<Vec2> gravity;  ///< acceleration: the force per volume is density times it

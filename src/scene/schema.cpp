@@ -36,6 +36,15 @@ Section fields_section(FieldSpec& field) {
   return fields;
 }
 
+Section constants_section() {
+  Section constants{
+      "constants", any_name({{"type", "number"}}),
+      "| `[constants]` | numbers that expressions may name: `[constants] c = 1e-3` and `\"c * x^2\"` | none "
+      "|\n"};
+  constants.schema["propertyNames"] = {{"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}};
+  return constants;
+}
+
 // An entry's other keys are the scene's.
 Section case_section(CaseEntry& entry) {
   Section cases = entries_of(
@@ -89,6 +98,7 @@ std::vector<Section> all_sections() {
       entries_of("copies",
                  "copies of bodies of the mesh file, which stand in their place ([below](#many-bodies-alike))",
                  copies_keys(copies), each_alone({"grid", "places", "ring"})),
+      constants_section(),
       fields_section(field),
       table("model", model_keys(scene)),
       named("materials", material_keys(material), {{"young", "poisson"}, {"stiffness"}}),

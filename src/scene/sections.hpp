@@ -30,6 +30,9 @@ struct CopiesEntry {
 Keys copies_keys(CopiesEntry& copies);
 void read_copies(const Node& root, Scene& scene);
 
+/// [constants]: numbers that expressions may name. Before whatever may be one.
+void read_constants(const Node& root, Scene& scene);
+
 /// [fields]: names that expressions may use, and the files that their values are in. Before whatever may be one.
 Keys field_keys(FieldSpec& field);
 void read_fields(const Node& root, Scene& scene);

@@ -14,7 +14,7 @@ DirectFactor::DirectFactor(const SaddlePointSystem& system, std::shared_ptr<cons
       bodies_(std::move(bodies)),
       multipliers_(std::move(multipliers)) {}
 
-MatX DirectFactor::duals(const MatX& functionals, const MatX& loads) const {
+DualAnswers DirectFactor::answers(const MatX& functionals, const MatX& loads) const {
   const auto& [free, factor] = *bodies_;
   const Eigen::Index rows = functionals.rows(), count = functionals.cols(), without_load = count - loads.cols();
   MatX multipliers(rows + springs_, count), y = MatX::Zero(factor.size(), count);
@@ -28,13 +28,16 @@ MatX DirectFactor::duals(const MatX& functionals, const MatX& loads) const {
     rhs.head(rows) -= functionals.col(k).cwiseQuotient(row_scale_);
     multipliers.col(k) = multipliers_.solve(rhs);
   }
-  MatX z = MatX::Zero(unknowns_, count);
-  z(free, Eigen::all) = factor.backward(std::move(y), multipliers);
-  return z;
+  DualAnswers found{.z = MatX::Zero(unknowns_, count),
+                    .mu = (stiffness_scale_ * row_scale_.cwiseInverse()).asDiagonal() * multipliers.topRows(rows)};
+  found.z(free, Eigen::all) = factor.backward(std::move(y), multipliers);
+  return found;
 }
 
-MatX MultipointFactor::duals(const MatX& functionals, const MatX& loads) const {
-  return T_ * of_q_->duals(functionals, loads.size() > 0 ? MatX(T_.transpose() * loads) : loads);
+DualAnswers MultipointFactor::answers(const MatX& functionals, const MatX& loads) const {
+  DualAnswers found = of_q_->answers(functionals, loads.size() > 0 ? MatX(T_.transpose() * loads) : loads);
+  found.z = T_ * found.z;
+  return found;
 }
 
 std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& s, const std::vector<char>& closed) {
@@ -48,6 +51,11 @@ std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& 
   MultiplierSystem multipliers(factor.take_border_compliance(), Eigen::Index(s.grounded.size()), std::move(rows));
   return std::make_shared<DirectFactor>(s, std::make_shared<FactoredBodies>(std::move(reduced.free), std::move(factor)),
                                         std::move(multipliers));
+}
+
+std::shared_ptr<const ContactFactor> exact_factor(const SaddlePointSystem& system, const Solution& solution) {
+  return solution.solver == Solver::direct && solution.factor ? solution.factor
+                                                              : factorise_contact(system, solution.active);
 }
 
 std::shared_ptr<const ContactFactor> contact_factor(const SaddlePointSystem& system, const Solution& solution) {

@@ -7,6 +7,12 @@
 
 namespace mortise {
 
+/// A column a question.
+struct DualAnswers {
+  MatX z;   ///< n
+  MatX mu;  ///< m, 0 on open rows
+};
+
 class ContactFactor {
  public:
   virtual ~ContactFactor() = default;
@@ -15,7 +21,9 @@ class ContactFactor {
   /// `functionals`, m; mu = 0 on the others): the dual solutions of the functionals g^T u - w^T lambda (Becker &
   /// Rannacher 2001). Rigid modes of the closed rows are zero in them. `loads`: the last of the g, n each; those before
   /// are zero.
-  virtual MatX duals(const MatX& functionals, const MatX& loads = {}) const = 0;
+  MatX duals(const MatX& functionals, const MatX& loads = {}) const { return answers(functionals, loads).z; }
+  /// The same with mu.
+  virtual DualAnswers answers(const MatX& functionals, const MatX& loads) const = 0;
 };
 
 /// The factor of the bodies, and their unknowns that it has.
@@ -31,7 +39,7 @@ class DirectFactor : public ContactFactor {
   DirectFactor(const SaddlePointSystem& system, std::shared_ptr<const FactoredBodies> bodies,
                MultiplierSystem multipliers);
 
-  MatX duals(const MatX& functionals, const MatX& loads = {}) const override;
+  DualAnswers answers(const MatX& functionals, const MatX& loads) const override;
 
  private:
   VecX row_scale_;
@@ -46,7 +54,7 @@ class MultipointFactor : public ContactFactor {
  public:
   MultipointFactor(const SparseRows& T, std::shared_ptr<const ContactFactor> of_q) : T_(T), of_q_(std::move(of_q)) {}
 
-  MatX duals(const MatX& functionals, const MatX& loads = {}) const override;
+  DualAnswers answers(const MatX& functionals, const MatX& loads) const override;
 
  private:
   SparseRows T_;
@@ -56,6 +64,9 @@ class MultipointFactor : public ContactFactor {
 /// Of a system whose stiffness proved positive definite and whose closed rows are independent (a converged Solution).
 std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& system,
                                                        const std::vector<char>& closed);
+
+/// One whose answers are exact but for round-off: that of a direct solution, or one made for it.
+std::shared_ptr<const ContactFactor> exact_factor(const SaddlePointSystem& system, const Solution& solution);
 
 /// That which the solution has, or one made for it where its solver has none (iterative ones).
 std::shared_ptr<const ContactFactor> contact_factor(const SaddlePointSystem& system, const Solution& solution);

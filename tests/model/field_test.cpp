@@ -40,6 +40,27 @@ TEST(Field, EqualsOneOfTheSameNumberOrText) {
   EXPECT_FALSE(on_curve("x") == on_curve("y") || on_curve("0") == Field(0) || Field(0) == on_curve("0"));
 }
 
+TEST(Field, ConstantsAreTheirValues) {
+  const FieldUse use{.key = "load", .constants = {{"c", -2.5}, {"e", 3}, {"c_2", 0.1}}};
+  const Vec2 at(2, 0);
+  EXPECT_DOUBLE_EQ(Field("c * x^e", use)(at), -20);
+  EXPECT_DOUBLE_EQ(Field("2^c + x", use)(at), std::pow(2, -2.5) + 2);
+  EXPECT_DOUBLE_EQ(Field("1e1*e+1.e1 *x+c_2", use)(at), 50.1);
+  EXPECT_EQ(Field("c_2 * x", use).words(), "(0.10000000000000001) * x");
+  FieldUse other = use;
+  other.constants["c"] = -2;
+  EXPECT_FALSE(Field("c * x", use) == Field("c * x", other));
+  EXPECT_TRUE(Field("e * x", use) == Field("e * x", other));
+  EXPECT_EQ(Field("c * e", use), Field(-7.5)) << "a number where nothing varies";
+  try {
+    Field("c * d", use);
+    FAIL();
+  } catch (const ExpressionError& error) {
+    EXPECT_EQ(error.position, 4u);
+    EXPECT_NE(std::string(error.what()).find("pi, c, c_2, e"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Field, SeveralThreadsMayAskTheSameOne) {
   const Field f = on_curve("sin(x) + s"), copy = f;
   std::vector<double> sums(4, 0);

@@ -263,6 +263,8 @@ inline Rows solver_rows() {
 
 inline Rows override_rows() {
   return {
+      {"ConstantOfATakenName", "", "constants.x=1", {"constants.x: 'x' cannot be a name in expressions"}},
+      {"ConstantThatIsAWord", "", "constants.c=one", {"constants.c: expected a number"}},
       {"SetWrongWord", "", "method.kind=mortr", {"method.kind: unknown kind 'mortr'", "'mortar'"}},
       {"SetUnknownKey", "", "method.knd=ddm", {"method: unknown key 'knd'", "'kind'"}},
       {"SetUnknownSection", "", "metod.kind=ddm", {"unknown key 'metod'", "'method'"}},

@@ -18,6 +18,7 @@ RECIPES = markdown.sections(TEXTS["recipes.md"])
 WITH_COMMANDS = [name for name, text in RECIPES.items() if markdown.commands(text)]
 SNIPPETS = [body for language, body in markdown.FENCE.findall(TEXTS["files.md"]) if language == "toml"]
 STUDY_OPTIONS = ("--docs", "--quick", "--only", "--jobs", "--output", "-o", "--help")  # launch.command_line
+MODULE = launch.MORTISE.with_name("python")
 
 # For snippets of a scene: bodies and curves of the names that they use.
 BASE_GEO = """
@@ -62,7 +63,7 @@ def desk(mortise, tmp_path):
 def run(desk, command):
     """What a command prints; it must succeed."""
     path = f"{desk / 'build/release'}:/usr/bin:{os.environ['PATH']}"
-    environment = os.environ | launch.ONE_THREAD | {"PATH": path, "MPLBACKEND": "Agg"}
+    environment = os.environ | launch.ONE_THREAD | {"PATH": path, "MPLBACKEND": "Agg", "PYTHONPATH": str(MODULE)}
     return launch.run(["bash", "-c", command], expected=(0,), cwd=desk, env=environment)[0].stdout
 
 
@@ -73,6 +74,8 @@ def write(desk, files):
 
 @pytest.mark.parametrize("name", WITH_COMMANDS)
 def test_recipe(desk, name):
+    if "import mortise" in RECIPES[name] and not list(MODULE.glob("mortise/_mortise*.so")):
+        pytest.skip(f"{MODULE} has no module: ./dev build makes it")
     write(desk, markdown.files(TEXTS["recipes.md"]))
     said = "".join(run(desk, command) for command in markdown.commands(RECIPES[name]))
     assert not markdown.wrong_figures(RECIPES[name], desk, said)

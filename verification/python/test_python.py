@@ -91,10 +91,11 @@ def test_the_scripts_of_the_page_run(tmp_path):
     readme = blocks.findall((launch.ROOT / "README.md").read_text())
     (tmp_path / "punch.geo").write_text(next(text for text in readme if text.startswith("SetFactory")))
     (tmp_path / "punch.toml").write_text(next(text for text in readme if text.startswith('title = "A punch')))
-    draw, sweep = blocks.findall((launch.ROOT / "docs/python.md").read_text())
+    draw, sweep, gradient = blocks.findall((launch.ROOT / "docs/python.md").read_text())
     (tmp_path / "sweep.py").write_text(sweep)
     environment = os.environ | {"PYTHONPATH": str(BUILT), "MPLBACKEND": "Agg"}
-    subprocess.run([sys.executable, "-c", draw], cwd=tmp_path, env=environment, check=True)
+    for script in (draw, gradient):
+        subprocess.run([sys.executable, "-c", script], cwd=tmp_path, env=environment, check=True)
     assert (tmp_path / "punch.png").read_bytes().startswith(b"\x89PNG")
     said = subprocess.run([sys.executable, "sweep.py"], cwd=tmp_path, env=environment, check=True, capture_output=True, text=True).stdout
     assert said.startswith("[ 5000000. 10000000. 20000000.] [") and said.endswith("['solved' 'solved' 'solved']\n")

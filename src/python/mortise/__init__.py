@@ -17,6 +17,7 @@ import tempfile
 import threading
 from concurrent import futures
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -25,7 +26,7 @@ try:
 except ImportError:  # only the reader is there
     InputError = ValueError
 
-__all__ = ["InputError", "Results", "cases", "read", "solve", "sweep"]
+__all__ = ["Gradients", "InputError", "Results", "cases", "gradient", "read", "solve", "sweep"]
 
 
 class Results:
@@ -122,6 +123,37 @@ def sweep(scene, vary, executor=None, changes=None):
     return table
 
 
+class Gradients(NamedTuple):
+    """value of the figures (n); derivative of each by each parameter (n, m); between (m, 2): the values of a parameter, the
+    others as they are, between which no row of contact opens or closes. Elsewhere the derivatives are others: at such a value
+    they are of one side."""
+
+    value: np.ndarray
+    derivative: np.ndarray
+    between: np.ndarray
+
+
+def gradient(scene, of, by, changes=None):
+    """How figures change with numbers of the scene. `by`: {"boundary.2.pressure": 1e6, "constants.crown": 2e-6, ...}: loads,
+    prescribed values, gaps, moduli or constants that expressions name, and what they are here. `of`: figures by their
+    columns of cases.csv: "energy", "probe.0.u_x", "contact.0.force.y", "contact.0.pressure.mean", also of a window,
+    ("contact.0.pressure.mean", 0.1, 0.3), and ("contact.0.pressure.norm", 8): (int p^8 dA / int dA)^(1/8). A thread keeps the
+    mesh and the factor for its next call."""
+    figures = [(name, []) if isinstance(name, str) else (name[0], list(name[1:])) for name in of]
+    words = [(key, _toml(value)) for key, value in (changes or {}).items()]
+    with _file_of(_anywhere(scene)) as path:
+        return Gradients(*_own_solver().gradient(path, words, figures, list(by.items())))
+
+
+def _own_solver():
+    """Of the thread."""
+    from . import _mortise
+
+    if not hasattr(_worker, "solver"):
+        _worker.solver = _mortise.Solver()
+    return _worker.solver
+
+
 def _by_workers(executor, scene, groups):
     done = {}
     whole = _done_by(executor, scene, groups, done)
@@ -155,13 +187,11 @@ def _done_by(executor, scene, groups, done):
 
 
 def _task(caller, scene, group):
-    from . import _mortise
-
     if os.getpid() != caller:
+        from . import _mortise
+
         _mortise.set_threads(1)
-    if not hasattr(_worker, "solver"):
-        _worker.solver = _mortise.Solver()
-    return _rows(scene, group, _worker.solver)
+    return _rows(scene, group, _own_solver())
 
 
 def _rows(scene, group, solver):
