@@ -22,7 +22,7 @@ void require_numbers(const Figure& figure, std::initializer_list<std::size_t> co
 std::size_t numbered(const Figure& figure, const std::string& number, std::size_t count, const std::string& what) {
   const std::size_t k = number.size() > 9 ? count : std::stoul(number);
   if (k < count) return k;
-  refuse(figure, "there are " + std::to_string(count) + " " + what + ", counted from 0");
+  refuse(figure, "of " + what + " the scene has " + std::to_string(count) + ", counted from 0");
 }
 
 LinearisedFigure of_lambda(const Results& r, const VecX& rows) {
@@ -58,8 +58,8 @@ LinearisedFigure norm_of(const Results& r, const ContactPair& pair, double power
 LinearisedFigure pressure_of(const Results& r, std::size_t k, const Figure& figure, bool norm) {
   const ContactPair& pair = r.problem.pairs[k];
   if (norm) {
-    require_numbers(figure, {1}, "a power, 1 or more");
-    if (!(figure.numbers[0] >= 1)) refuse(figure, "expected a power, 1 or more");
+    if (figure.numbers.size() != 1 || !(figure.numbers[0] >= 1 && figure.numbers[0] <= 1000))
+      refuse(figure, "expected a power, from 1 to 1000");
     const double p_max = r.recovery.contacts[k].pressure.maxCoeff();
     if (!(p_max > 0)) refuse(figure, "nothing is loaded, where the norm has no derivative");
     return norm_of(r, pair, figure.numbers[0], p_max);

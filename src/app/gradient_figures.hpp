@@ -7,8 +7,8 @@ namespace mortise {
 
 /// A figure by its column of cases.csv: "energy", "probe.I.u_x" or "u_y", "contact.K.force.x" or "y",
 /// "contact.K.pressure.mean" of all that faces the other side; with two `numbers` the mean over a window, from and to
-/// (s as in contact.csv, length). "contact.K.pressure.norm" with one, a power >= 1: (int p^power dA / int dA)^(1 /
-/// power).
+/// (s as in contact.csv, length). "contact.K.pressure.norm" with one, a power from 1 to 1000: (int p^power dA / int
+/// dA)^(1 / power).
 struct Figure {
   std::string name;
   std::vector<double> numbers;

@@ -12,6 +12,7 @@
 #include "scene/check_ranges.hpp"
 #include "scene/loads.hpp"
 #include "solve/contact_factor.hpp"
+#include "solve/layered_system.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -25,17 +26,6 @@ std::string exact(double value) {
 std::vector<Override> with_parameters(std::vector<Override> overrides, const std::vector<Parameter>& by) {
   for (const Parameter& one : by) overrides.push_back({one.key, exact(one.value)});
   return overrides;
-}
-
-// The scene's moduli become the others'.
-Scene with_moduli(Scene scene, const Scene& of) {
-  for (auto& [name, material] : scene.materials)
-    if (const auto own = of.materials.find(name); own != of.materials.end()) {
-      const Material changed = std::exchange(material, own->second);
-      material.thermal_expansion = changed.thermal_expansion;
-      material.density = changed.density;
-    }
-  return scene;
 }
 
 // What the solution leaves in the equations of a scene that is a little different, and its energy there.
@@ -62,7 +52,8 @@ class Equations {
         problem_(results.problem),
         path_(path),
         overrides_(with_parameters(overrides, by)),
-        own_(read_scene(path, overrides_)) {
+        own_(read_scene(path, overrides_)),
+        of_K_(own_.materials) {
     now_ = left(own_, path);
   }
 
@@ -75,7 +66,7 @@ class Equations {
     for (int tried = 1; best > straight && tried <= tries; ++tried, step *= 0.05) try {
         const Left up = at(p, p.value + step), down = at(p, p.value - step);
         const double bent = bend(up - now_, now_ - down);
-        if (bent < best || tried == 1) found = times(up - down, 0.5 / step);
+        if (bent < best || found.force.size() == 0) found = times(up - down, 0.5 / step);
         best = std::min(best, bent);
       } catch (const InputError&) {  // so far off it is no scene any more
         if (tried == tries && found.force.size() == 0) throw;
@@ -100,10 +91,12 @@ class Equations {
     std::vector<Override> changed = overrides_;
     changed.push_back({p.key, exact(value)});
     const Scene scene = read_scene(path_, changed);
-    if (!differ_in_loads_alone(own_, with_moduli(scene, own_)))
-      throw InputError(path_ + ": " + p.key +
-                       ": changes more than the equations; expected a load, a prescribed value, a gap, a modulus or a "
-                       "constant of such");
+    Scene alike = scene;
+    alike.materials = own_.materials;
+    if (!differ_in_loads_alone(own_, alike))
+      throw InputError(
+          path_ + ": " + p.key +
+          ": has no gradient here; expected a load, a prescribed value, a gap, a modulus or a constant of such");
     return left(scene, path_ + ": " + p.key);
   }
 
@@ -113,15 +106,17 @@ class Equations {
     if (!take_loads(scene, problem_))
       throw SceneError("changes which rows contact has, so that nothing is known of its gradients");
     Discretisation& d = problem_.discretisation;
-    if (scene.materials != of_K_.value_or(own_).materials) {
+    if (scene.materials != of_K_) {
       d.system.K = assemble_stiffness(problem_.mesh, d.laws, solver_threads());
       if (d.springs.cols() > 0) d.system.K += d.springs;
-      of_K_ = scene;
+      of_K_ = scene.materials;
     }
     const VecX& u = results_.solution.u;
     return {d.system.f - d.system.K.selfadjointView<Eigen::Lower>() * u, d.system.g, d.system.constraints.value,
             strain_energy(d, u)};
   } catch (const SceneError& error) {
+    problem_ = results_.problem;  // what is left of the other is none
+    of_K_ = own_.materials;
     throw InputError(told + ": " + error.what());
   }
 
@@ -130,7 +125,7 @@ class Equations {
   std::string path_;
   std::vector<Override> overrides_;
   Scene own_;
-  std::optional<Scene> of_K_;  // whose stiffness the problem has; none: the own one's
+  decltype(Scene::materials) of_K_;  // of which the problem has the stiffness
   Left now_;
 };
 
@@ -163,11 +158,12 @@ void shorten(double now, double slope, Eigen::Ref<Eigen::RowVector2d> steps) {
 MatX steps_to_changes(const Results& r, const Tangents& tangents, const std::vector<Left>& slopes) {
   constexpr double round_off = 1e-12;
   const SaddlePointSystem& s = r.problem.discretisation.system;
-  const VecX gap = s.B * r.solution.u - s.g;
+  const VecX gap = s.B * r.solution.u + layer_openings(s.layers, r.solution.lambda) - s.g;
+  const MatX opened = s.B * tangents.u + layer_openings(s.layers, tangents.lambda);
   MatX steps(tangents.u.cols(), 2);
   for (Eigen::Index k = 0; k < steps.rows(); ++k) {
     Eigen::RowVector2d within(-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
-    const VecX of_lambda = tangents.lambda.col(k), opening = s.B * tangents.u.col(k),
+    const VecX of_lambda = tangents.lambda.col(k), opening = opened.col(k),
                of_gap = opening - slopes[std::size_t(k)].gap;
     const double stress = round_off * largest_entry(of_lambda), length = round_off * largest_entry(opening);
     for (Eigen::Index a = 0; a < gap.size(); ++a) {

@@ -5,6 +5,7 @@
 
 #include "fem/edges.hpp"
 #include "solve/contact_factor.hpp"
+#include "solve/layered_system.hpp"
 
 namespace mortise {
 namespace {
@@ -57,33 +58,36 @@ std::vector<int> free_motions(const Constraints& constraints, const RigidCurve* 
   return free;
 }
 
-// Displacements, n x 3: those of the support's prescribed motions by 1, and of forces of the stiffness' size on the
-// free ones. Contact stays as it is, and all other forces do.
-MatX responses(const SaddlePointSystem& s, const ContactFactor& factor, const RigidCurve* rigid, MatX q,
-               const std::vector<int>& free) {
+// Displacements, n x 3, and changes of the multipliers with them: those of the support's prescribed motions by 1, and
+// of forces of the stiffness' size on the free ones. Contact stays as it is, and all other forces do.
+DualAnswers responses(const SaddlePointSystem& s, const ContactFactor& factor, const RigidCurve* rigid, MatX q,
+                      const std::vector<int>& free) {
   const auto& multipoint = s.constraints.multipoint;
   for (const int k : free) q.col(k).setZero();
   const MatX moved = multipoint ? MatX(multipoint->T * q) : q;
   MatX loads = -(s.K.selfadjointView<Eigen::Lower>() * moved);
   for (const int k : free) loads.col(k) = s.stiffness_scale * multipoint->inverse.row(rigid->q[k]).transpose();
-  return moved + factor.duals(-(s.B * moved), loads);
+  DualAnswers found = factor.answers(-(s.B * moved), loads);
+  found.z += moved;
+  return found;
 }
 
 std::optional<Eigen::Matrix3d> stiffness_of(const Problem& p, const ContactFactor& factor, const RigidCurve* rigid,
                                             const MatX& q, bool all_held) {
   const SaddlePointSystem& s = p.discretisation.system;
-  if (s.layers.K.cols() > 0) return std::nullopt;  // what layers store is not in u
   const std::vector<int> free = free_motions(s.constraints, rigid, q);
   if (!free.empty() && !all_held) return std::nullopt;
-  const MatX u = responses(s, factor, rigid, q, free);
+  const auto [u, lambda] = responses(s, factor, rigid, q, free);
   Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();  // column j: the support's motions in u_j
   for (const int j : free) moved.col(j).setZero();
   for (const int i : free)
     for (int j = 0; j < 3; ++j) moved(i, j) = rigid_motion(*rigid, *s.constraints.multipoint, u.col(j))(i);
   const Eigen::FullPivLU<Eigen::Matrix3d> unit(moved);
   if (!unit.isInvertible()) return std::nullopt;
-  const MatX of_units = u * unit.inverse();
-  const Eigen::Matrix3d stiffness = of_units.transpose() * (s.K.selfadjointView<Eigen::Lower>() * of_units).eval();
+  const Eigen::Matrix3d to_units = unit.inverse(),
+                        stored = u.transpose() * (s.K.selfadjointView<Eigen::Lower>() * u).eval() -
+                                 lambda.transpose() * layer_openings(s.layers, lambda),
+                        stiffness = to_units.transpose() * stored * to_units;
   return (stiffness + stiffness.transpose()) / 2;
 }
 
@@ -96,7 +100,7 @@ std::vector<JointStiffness> joint_stiffnesses(const Problem& p, const Solution& 
   for (int i = 0; i < int(p.entries.boundaries.size()); ++i) {
     const BoundaryEntry& entry = p.entries.boundaries[i];
     if (!entry.spec.stiffness) continue;
-    if (!factor) factor = exact_factor(p.discretisation.system, solution);
+    if (!factor) factor = contact_factor(p.discretisation.system, solution);
     const RigidCurve* rigid = nullptr;
     for (const RigidSupport& support : p.discretisation.multipoint.rigid_curves)
       if (support.entry == i) rigid = &support.curve;

@@ -13,7 +13,7 @@ struct JointStiffness {
   /// What moving the support by 1 along x, along y, and turning it by 1 radian (columns) changes of the force along x
   /// and y and of the moment that it puts on the bodies (rows), times depth (model/model.hpp); symmetric. Zero along
   /// what the entry does not hold; of rings along the axis alone. A rigid curve's is that with all three held, whatever
-  /// is prescribed of it. None where motions that nothing holds leave it open, and in scenes with a contact.stiffness.
+  /// is prescribed of it. None where motions that nothing holds leave it open.
   std::optional<Eigen::Matrix3d> matrix;
 };
 

@@ -1,6 +1,7 @@
 #include "solve/contact_factor.hpp"
 
 #include "solve/bordered_system.hpp"
+#include "solve/layered_system.hpp"
 #include "solve/multipoint_system.hpp"
 
 namespace mortise {
@@ -43,6 +44,11 @@ DualAnswers MultipointFactor::answers(const MatX& functionals, const MatX& loads
 std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& s, const std::vector<char>& closed) {
   if (const auto& multipoint = s.constraints.multipoint)
     return std::make_shared<MultipointFactor>(multipoint->T, factorise_contact(independent_system(s), closed));
+  if (s.layers.K.cols() > 0) {
+    const SaddlePointSystem layered = layered_system(s);
+    return std::make_shared<MultipointFactor>(without_layers(s.f.size(), layered.f.size()),
+                                              factorise_contact(layered, closed));
+  }
   BorderedSystem reduced = bordered_system(s);
   SplitCholesky factor(std::move(reduced.matrix), reduced.blocks);
   std::vector<int> rows;

@@ -1,5 +1,7 @@
 #include "solve/layered_system.hpp"
 
+#include <Eigen/SparseCholesky>
+
 namespace mortise {
 namespace {
 
@@ -46,6 +48,12 @@ SaddlePointSystem layered_system(const SaddlePointSystem& s) {
   layered.constraints.value = VecX::Zero(all);
   take_loads(s, layered);
   return layered;
+}
+
+MatX layer_openings(const SurfaceLayers& layers, const MatX& lambda) {
+  if (layers.K.cols() == 0) return MatX::Zero(lambda.rows(), lambda.cols());
+  const Eigen::SimplicialLDLT<SparseMatrix> factor(layers.K);
+  return -(layers.B * factor.solve(layers.B.transpose() * lambda));
 }
 
 SparseRows without_layers(Eigen::Index unknowns, Eigen::Index all) {

@@ -9,6 +9,9 @@ namespace mortise {
 /// solves it has rows that give way, C + B_d K_d^-1 B_d^T. The same loads; no layers left.
 SaddlePointSystem layered_system(const SaddlePointSystem& system);
 
+/// B_d d, m x count, of the compressions d that multipliers `lambda` (m x count) cause; 0 without layers.
+MatX layer_openings(const SurfaceLayers& layers, const MatX& lambda);
+
 /// n x (n + l): u of (u, d).
 SparseRows without_layers(Eigen::Index unknowns, Eigen::Index all);
 

@@ -1,4 +1,4 @@
-"""Gradients against central differences on six scenes, the values at which rows change, and what is refused."""
+"""Gradients against central differences on seven scenes, and what is refused."""
 
 import tomllib
 
@@ -64,13 +64,20 @@ def stamp():
     return tables, of, {f"boundary.1.rigid.{key}": value for key, value in keys.items()} | {"materials.steel.poisson": 0.3}
 
 
+def gasket():
+    """The same on a layer that gives way."""
+    tables, of, by = stamp()
+    tables["contact"][0]["stiffness"] = 1e12
+    return tables, of, by
+
+
 def shrink_fit():
     """Initial strains; a ring shrunk onto another."""
     by = {"materials.soft.thermal_expansion": 12e-6, "initial_strain.0.temperature_change": -100.0, "materials.soft.poisson": 0.3}
     return scene("shrink_fit", {}), ["contact.0.pressure.mean", ("contact.0.pressure.norm", 3), "energy"], by
 
 
-@pytest.mark.parametrize("case", [hertz, sphere, lift_off, gap_close, stamp, shrink_fit])
+@pytest.mark.parametrize("case", [hertz, sphere, lift_off, gap_close, stamp, gasket, shrink_fit])
 def test_differences(case):
     tables, of, by = case()
     found = mortise.gradient(tables, of, by)
@@ -85,27 +92,15 @@ def test_differences(case):
         assert (np.abs(found.derivative[:, k] - difference) <= 1e-6 * size).all(), (key, found.derivative[:, k], difference)
 
 
-def test_rows_change_where_it_says():
-    tables, of, _ = lift_off()
-    key = "boundary.2.pressure"
-    closed = lambda to: list(mortise.solve(tables, {key: to}, estimate=False).p > 0)
-    (low, high), here = mortise.gradient(tables, of, {key: 1e6}).between[0], closed(1e6)
-    assert 0 < low < 1e6 < high
-    for end, inside, outside in ((low, 1 + 1e-6, 1 - 1e-6), (high, 1 - 1e-6, 1 + 1e-6)):
-        assert closed(end * inside) == here != closed(end * outside)
-        within, beyond = (mortise.gradient(tables, of, {key: end * part}).derivative for part in (inside, outside))
-        assert np.abs(within / beyond - 1).max() > 1e-6
-
-
 REFUSED = [
     ("contact.0.pressure.max", "boundary.2.pressure", "expected energy, probe.I.u_x"),
-    ("contact.1.force.x", "boundary.2.pressure", "there are 1 pairs, counted from 0"),
-    ("probe.3.u_x", "boundary.2.pressure", "there are 1 probes, counted from 0"),
+    ("contact.1.force.x", "boundary.2.pressure", "of pairs the scene has 1, counted from 0"),
+    ("probe.3.u_x", "boundary.2.pressure", "of probes the scene has 1, counted from 0"),
     (("energy", 2), "boundary.2.pressure", "expected no number"),
-    ("contact.0.pressure.norm", "boundary.2.pressure", "expected a power, 1 or more"),
-    (("contact.0.pressure.norm", 0.5), "boundary.2.pressure", "expected a power, 1 or more"),
+    ("contact.0.pressure.norm", "boundary.2.pressure", "expected a power, from 1 to 1000"),
+    (("contact.0.pressure.norm", 0.5), "boundary.2.pressure", "expected a power, from 1 to 1000"),
     (("contact.0.pressure.mean", 1), "boundary.2.pressure", "expected no number, or a window, from and to along the curve"),
-    ("energy", "mesh.parameters.n_plate", "mesh.parameters.n_plate: changes more than the equations; expected a load"),
+    ("energy", "mesh.parameters.n_plate", "mesh.parameters.n_plate: has no gradient here; expected a load"),
     ("energy", "boundary.9.pressure", "boundary.9"),
 ]
 
