@@ -93,6 +93,7 @@ class Loop {
     }
     Stopwatch watch;
     set_force_bars(*last);
+    set_fitted_pressures(*last);
     seconds.estimate += watch.lap();
     // What is left was spent on the geometry, and on the sizes of the next mesh.
     seconds.mesh += watch_.elapsed() - seconds.total();

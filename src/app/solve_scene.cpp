@@ -93,12 +93,12 @@ ActiveSet active_set(const Results& r) {
   return set;
 }
 
-void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint>& found, bool forces) {
+void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint>& found, bool last) {
   Stopwatch watch;
   require_held(r, spec);
   Recovery& recovery = r.recovery;
   ForcesAsked asked;
-  if (forces) asked = ask_forces(r);
+  if (last) asked = ask_forces(r);
   r.estimate = estimate_error(r.problem, r.solution, *r.memory, {.spec = spec, .found = found, .also = asked.rows});
   add_data_errors(r.problem, r.solution, spec, *r.estimate);
   for (std::size_t k = 0; k < recovery.contacts.size(); ++k) set_bars(r.estimate->pressures[k], recovery.contacts[k]);
@@ -106,7 +106,10 @@ void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint
       place_errors(r.problem, r.solution, r.estimate->pressures, probed_places(recovery.probes), r.memory->products);
   for (std::size_t i = 0; i < of_probes.size(); ++i) recovery.probes[i].error = of_probes[i];
   leave_out_unheld(r);
-  if (forces) set_force_bars(asked, std::exchange(r.estimate->also, {}), r);
+  if (last) {
+    set_force_bars(asked, std::exchange(r.estimate->also, {}), r);
+    set_fitted_pressures(r);
+  }
   append_lines(r.warnings, error_warnings(r));
   if (auto check = estimate_check(r)) r.checks.push_back(*std::move(check));
   r.status = std::max(r.status, verdict(r));

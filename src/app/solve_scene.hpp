@@ -52,11 +52,11 @@ class CaseSolver {
   int shared_ = 0;
 };
 
-/// The estimated error into the results, and a warning where it is large. `found`: as of estimate_error; `forces`:
-/// whether forces and lengths in contact get bars too. Throws SceneError as estimate_error does, and where spec asks
+/// The estimated error into the results, and a warning where it is large. `found`: as of estimate_error; `last`:
+/// whether they are to be shown, with bars of forces and lengths in contact and p*. Throws SceneError as estimate_error does, and where spec asks
 /// for a displacement that nothing holds.
 void estimate(Results& results, const AccuracySpec& spec = {}, const std::vector<FoundPoint>& found = {},
-              bool forces = true);
+              bool last = true);
 
 /// The inf-sup constant into the results, and a warning where it is small.
 void diagnose(Results& results);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "error/fitted_pressure.hpp"
 #include "error/pressure_line.hpp"
 #include "fem/edges.hpp"
 #include "model/resultant.hpp"
@@ -166,7 +167,7 @@ struct Asked {
 ContactNode on_multiplier_side(const Asked& asked, const CurveNode& at) {
   const ContactPair& pair = asked.pair;
   ContactNode n = asked.node(at, pair.multiplier.body, at.normal);
-  n.p = interpolate(pair, asked.pressure, at.place);
+  n.p = n.p_multiplier = interpolate(pair, asked.pressure, at.place);
   n.on_multiplier = at.place;
   const Line line{n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)};
   if (const auto hit = project_onto_curve(asked.mesh.nodes, pair.opposite, line)) {
@@ -184,7 +185,7 @@ ContactNode on_opposite_side(const Asked& asked, const CurveNode& at, const std:
   const auto foot = foot_of(asked.mesh, pair.multiplier, along, x);
   if (!foot) {
     ContactNode n = asked.node(at, pair.opposite.body, -at.normal);
-    n.p = 0;
+    n.p = n.p_multiplier = 0;
     return n;
   }
   const Edge& edge = pair.multiplier.edges[foot->edge];
@@ -195,7 +196,7 @@ ContactNode on_opposite_side(const Asked& asked, const CurveNode& at, const std:
   });
   const Vec2 normal = vertex != along.end() ? vertex->normal : line.n;
   ContactNode n = asked.node(at, pair.opposite.body, normal);
-  n.p = interpolate(pair, asked.pressure, *foot);
+  n.p = n.p_multiplier = interpolate(pair, asked.pressure, *foot);
   n.on_multiplier = *foot;
   const Hit own{at.place.edge, at.place.xi, (x - line.x).dot(normal)};
   n.gap = asked.initial_gap({line.x, normal, line.depth}, *foot, own) + n.u_n -
@@ -211,8 +212,7 @@ void run_together(const Points& nodes, const ContactPair& pair, ContactResults& 
     reverse(r.opposite, curve_length(nodes, pair.opposite));
 }
 
-void set_extremes(const ContactPair& pair, ContactResults& r) {
-  r.p_least = least_pressure(pair, r.pressure);
+void set_extremes(ContactResults& r) {
   r.p_min = std::numeric_limits<double>::infinity();
   r.p_max = -r.p_min;
   for (const ContactNode& n : r.multiplier.nodes) {
@@ -268,7 +268,8 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
 
   r.length = curve_length(mesh.nodes, pair.multiplier);
   run_together(mesh.nodes, pair, r);
-  set_extremes(pair, r);
+  r.p_least = least_pressure(pair, r.pressure);
+  set_extremes(r);
   r.p_mean = mean_pressure(pair, r.pressure);
   const ContactLength in_contact = length_in_contact(
       mesh.nodes, pair, r.pressure,
@@ -282,6 +283,21 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   r.moment = sum.moment;
   r.centre = centre_of(mesh.nodes, pair.multiplier.edges);
   return r;
+}
+
+void set_fitted_pressure(const Points& nodes, const Curve& multiplier, const FittedPressure& fitted,
+                         ContactResults& results) {
+  if (fitted.pieces.empty()) return;
+  VecX start = VecX::Zero(Eigen::Index(multiplier.edges.size()) + 1);
+  for (std::size_t e = 0; e < multiplier.edges.size(); ++e)
+    start(e + 1) = start(e) + edge_length(nodes, multiplier.edges[e]);
+  for (ContactSide* side : {&results.multiplier, &results.opposite})
+    for (ContactNode& node : side->nodes) {
+      const auto [edge, xi] = node.on_multiplier;
+      if (edge < 0) continue;
+      if (const auto p = fitted.at(start(edge) + (1 + xi) / 2 * (start(edge + 1) - start(edge)))) node.p = *p;
+    }
+  set_extremes(results);
 }
 
 }  // namespace mortise

@@ -10,6 +10,8 @@
 
 namespace mortise {
 
+struct FittedPressure;
+
 /// One node of either curve. Lengths and stresses in the scene's units; NaN where a node faces nothing.
 struct ContactNode {
   int node;
@@ -17,12 +19,14 @@ struct ContactNode {
   Vec2 position;               ///< undeformed
   Vec2 normal;                 ///< of the multiplier side there
   double u_n;                  ///< displacement along `normal`
-  double p;                    ///< contact pressure; on the opposite side the projected one
+  double p;                    ///< contact pressure (p* where errors are estimated and it is credible); on the opposite
+                               ///< side the projected one
   double gap;                  ///< deformed, along `normal`; the undeformed gap is zero in a `closed` pair
   double sigma_n;              ///< normal stress recovered in the node's own body (preprint eq. 26)
   double sigma_2;              ///< stress 22 there
   Place on_multiplier{-1, 0};  ///< on the multiplier side, where p is taken; edge -1: it faces nothing
-  double p_error = std::numeric_limits<double>::quiet_NaN();  ///< bar of p, stress; NaN where there is none
+  double p_error = std::numeric_limits<double>::quiet_NaN();       ///< bar of p, stress; NaN where there is none
+  double p_multiplier = std::numeric_limits<double>::quiet_NaN();  ///< the multiplier's own pressure
 };
 
 /// The centre of an element along the curve; s, position and normal at the middle of its edge.
@@ -60,5 +64,10 @@ struct ContactResults {
 /// `pair`: one of the problem's.
 ContactResults contact_results(const Problem& problem, const ContactPair& pair, const StressField& stress,
                                const Solution& solution);
+
+/// p* (error/fitted_pressure.hpp) into the nodes and the extremes of p. The multiplier's p stays at the centres and
+/// where p* is not known.
+void set_fitted_pressure(const Points& nodes, const Curve& multiplier, const FittedPressure& fitted,
+                         ContactResults& results);
 
 }  // namespace mortise

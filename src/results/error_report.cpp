@@ -4,9 +4,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/parallel.hpp"
 #include "base/printable.hpp"
 #include "contact/singular_points.hpp"
+#include "error/fitted_pressure.hpp"
 #include "error/force_errors.hpp"
+#include "solve/threads.hpp"
 
 namespace mortise {
 namespace {
@@ -109,6 +112,14 @@ void set_force_bars(const ForcesAsked& asked, const FoundDuals& duals, Results& 
 
 void set_force_bars(Results& r) {
   put_force_bars(force_errors(r.problem, r.solution, r.estimate->pressures, centres_of(r)), r);
+}
+
+void set_fitted_pressures(Results& r) {
+  for_each_index(r.problem.pairs.size(), solver_threads(), [&](std::size_t k) {
+    const ContactPair& pair = r.problem.pairs[k];
+    const FittedPressure fitted = fitted_pressure(r.problem, pair, r.estimate->pressures[k]);
+    set_fitted_pressure(r.problem.mesh.nodes, pair.multiplier, fitted, r.recovery.contacts[k]);
+  });
 }
 
 void set_bars(const PressureEstimate& estimate, ContactResults& contact) {

@@ -83,7 +83,8 @@ void write_contact_csv(const Results& r, const std::filesystem::path& path) {
   std::vector<CsvColumn> columns;
   for (const char* name : {"pair", "curve", "s", "x", "y", "u_n", "p", "gap", "sigma_n", "sigma_2"})
     columns.push_back({name, {}, {}});
-  if (r.estimate) columns.push_back({"p_error", {}, {}});
+  if (r.estimate)
+    for (const char* name : {"p_error", "p_multiplier"}) columns.push_back({name, {}, {}});
   for_each_side(r, [&](double pair, const ContactSide& side) {
     for (const ContactNode& n : side.nodes) {
       columns[1].words.push_back(side.curve);
@@ -92,7 +93,9 @@ void write_contact_csv(const Results& r, const std::filesystem::path& path) {
         columns[c].numbers.push_back(value);
         c += c == 0 ? 2 : 1;
       }
-      if (r.estimate) columns[c].numbers.push_back(n.p_error);
+      if (!r.estimate) continue;
+      columns[c].numbers.push_back(n.p_error);
+      columns[c + 1].numbers.push_back(n.p_multiplier);
     }
   });
   write_csv(path, columns);

@@ -113,7 +113,7 @@ TEST(CommandLine, ContactCsvHasOneRowANodeOrderedByArcLength) {
   std::ifstream file(folder.path("run/contact.csv"));
   std::string line;
   std::getline(file, line);
-  EXPECT_EQ(line, "pair,curve,s,x,y,u_n,p,gap,sigma_n,sigma_2,p_error");
+  EXPECT_EQ(line, "pair,curve,s,x,y,u_n,p,gap,sigma_n,sigma_2,p_error,p_multiplier");
   std::map<std::string, std::vector<double>> s;
   while (std::getline(file, line)) {
     std::stringstream fields(line);

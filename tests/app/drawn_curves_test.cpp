@@ -149,12 +149,14 @@ TEST(DrawnLines, PartsThatAreOneLineAreClosedAndOthersKeepTheirGap) {
   }
 }
 
-// The part of the nodes of the multiplier side whose bars hold what p differs by from another answer on the same mesh.
+// The part of the nodes of the multiplier side whose bars hold what the multiplier differs by from another answer on
+// the same mesh.
 double held_part(const Results& answer, const Results& truth) {
   const std::vector<ContactNode>& nodes = answer.recovery.contacts[0].multiplier.nodes;
   std::size_t held = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    held += !(std::abs(nodes[k].p - truth.recovery.contacts[0].multiplier.nodes[k].p) > nodes[k].p_error);
+    held += !(std::abs(nodes[k].p_multiplier - truth.recovery.contacts[0].multiplier.nodes[k].p_multiplier) >
+              nodes[k].p_error);
   return double(held) / double(nodes.size());
 }
 

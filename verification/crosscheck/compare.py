@@ -108,7 +108,7 @@ def pairs_of_mortise(folder):
 
 
 def pressures(solved, side):
-    """Both programs' pressures at FreeFEM's multipliers, pair behind pair."""
+    """Both programs' multipliers at FreeFEM's, pair behind pair."""
     found, numbers = launch.columns(solved.folder / "mortise/contact.csv"), pairs_of_mortise(solved.folder)
     names = [tuple(curve.name for curve in pair) for pair in solved.pairs]
     if set(names) != set(numbers):
@@ -119,7 +119,7 @@ def pressures(solved, side):
         theirs = table[table[:, 0] == number, 1:]
         places, size = np.stack([found["x"][ours], found["y"][ours]], axis=1), max(b.size() for b in solved.bodies)
         row = match(theirs[:, :2], places, size, f"multipliers on {name[0]}")
-        s, p = found["s"][ours][row], found["p"][ours][row]
+        s, p = found["s"][ours][row], found.get("p_multiplier", found["p"])[ours][row]
         order = np.argsort(s)
         parts.append([length + s[order], p[order], theirs[order, 2]])
         length += s.max()

@@ -92,9 +92,9 @@ def not_finite(folder, told):
 
 
 def pressures(folder, told, back=lambda x, y: (x, y), factor=1.0):
-    """(pair, x, y, p) at the nodes of the multiplier sides, put back by `back` and divided by `factor`."""
+    """(pair, x, y, p of the multiplier) at the nodes of the multiplier sides, put back by `back` and divided by `factor`."""
     sides = told["method"]["multipliers_on"]
-    return [(int(row["pair"]), *back(float(row["x"]), float(row["y"])), float(row["p"]) / factor)
+    return [(int(row["pair"]), *back(float(row["x"]), float(row["y"])), float(row.get("p_multiplier", row["p"])) / factor)
             for row in rows(Path(folder) / "contact.csv") if row["curve"] == sides[int(row["pair"])]]
 
 

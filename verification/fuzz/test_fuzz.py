@@ -120,7 +120,7 @@ def test_an_answer_to_what_is_wrong_is_found(mortise):
 
 
 def test_a_pressure_that_hangs_on_the_place_is_found_by_a_twin(mortise, wrong_program):
-    """mortise's is the same 100 m away; that of a program that multiplies p by the first x is not."""
+    """mortise's is the same 100 m away; that of a program that multiplies the multiplier by the first x is not."""
     case, setting = right_case(), command_cases.simple_setting(Random(1))
     setting.mesh.nodes = [(x + 100, y) for x, y in setting.mesh.nodes]
     case.twins = [Twin("elsewhere", twins.case_of(setting, "elsewhere"), back=lambda x, y: (x - 100, y))]
@@ -128,7 +128,7 @@ def test_a_pressure_that_hangs_on_the_place_is_found_by_a_twin(mortise, wrong_pr
     by_place = """
 rows = [row.split(",") for row in (results / "contact.csv").read_text().splitlines()]
 for row in rows[1:]:
-    row[6] = repr(float(row[6]) * (1 + float(rows[1][3])))
+    row[-1] = repr(float(row[-1]) * (1 + float(rows[1][3])))
 (results / "contact.csv").write_text("\\n".join(",".join(row) for row in rows) + "\\n")
 """
     assert objections(wrong_program(by_place), case) == ["twin"]
@@ -142,7 +142,8 @@ def test_a_difference_below_round_off_is_no_difference_of_pressure(mortise, tmp_
     outcome = one_call.call(mortise, case, tmp_path)
     least = oracles.least_pressure(tmp_path / "results", case.setting)
     table = (tmp_path / "results/contact.csv").read_text()
-    p = results_files.rows(tmp_path / "results/contact.csv")[0]["p"]
+    row = results_files.rows(tmp_path / "results/contact.csv")[0]
+    p = row.get("p_multiplier", row["p"])
     for share, found in ((0.5, False), (2, True)):
         shutil.copytree(tmp_path / "results", tmp_path / f"{share}/results")
         changed = table.replace(p, repr(float(p) + share * least))

@@ -1,0 +1,193 @@
+#include "error/fitted_pressure.hpp"
+
+#include <algorithm>
+
+#include "error/goal_estimate.hpp"
+#include "fem/edges.hpp"
+
+namespace mortise {
+namespace {
+
+using Eigen::Index;
+
+constexpr double loaded_part = 1e-9;    // of the largest p; less is none, as of pressure_line
+constexpr double whole_edge = 1e-6;     // of an edge's length, that it may lack of facing the other side all along
+constexpr double same_place = 1e-9;     // of the line's length
+constexpr double credible_part = 0.95;  // of the vertices: bars are made to hold at so many
+constexpr Index least_edges = 4;        // of a piece: a cubic has as many coefficients
+constexpr int tension_places = 200;     // along a piece, at which p* is looked at
+// Edges beside a border over which p_h swings, as they see contact end at a vertex: +9, -4, -36 % over the last five of
+// Hertz' pressure. Fewer if waves of p leave no cubic over ten.
+constexpr std::array border_edges{10, 6, 4};
+
+enum class Facing { none, part, whole };
+
+// Vertices one after another, on a closed curve from one at which p may be cut.
+struct Walk {
+  std::vector<Index> vertex;  // of the line
+  VecX s, p;                  // p: 0 where it is none
+  std::vector<char> carries;
+  std::vector<Facing> facing;  // of each edge
+  /// Of each vertex at which the form of p is known, as which power of the distance it goes; else NaN.
+  std::vector<double> power;
+
+  Index edges() const { return Index(facing.size()); }
+  bool loaded(Index e) const { return carries[e] && carries[e + 1] && facing[e] == Facing::whole; }
+  bool cut(Index v) const { return !std::isnan(power[v]); }
+};
+
+std::vector<Facing> facings(const Mesh& mesh, const ContactPair& pair) {
+  VecX faced = VecX::Zero(Index(pair.multiplier.edges.size()));
+  for (const ContactPoint& point : pair.points) faced(point.edge) += point.ds;
+  std::vector<Facing> all;
+  for (Index e = 0; e < faced.size(); ++e) {
+    const bool whole = faced(e) > (1 - whole_edge) * edge_length(mesh.nodes, pair.multiplier.edges[e]);
+    all.push_back(whole ? Facing::whole : faced(e) > 0 ? Facing::part : Facing::none);
+  }
+  return all;
+}
+
+double power_at(const PressureEstimate& estimate, Index i, double length) {
+  for (const SingularPoint& point : estimate.singular)
+    if ((point.position - estimate.line.position[i]).norm() < same_place * length)
+      return point.small_power != 0 ? point.small_power : point.pressure_exponent - 1;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+Walk walk_along(const Mesh& mesh, const ContactPair& pair, const PressureEstimate& estimate) {
+  const PressureLine& line = estimate.line;
+  const Index last = line.p.size() - 1;
+  const double least = loaded_part * largest_entry(line.p), length = line.s(last);
+  const bool bilateral = pair.spec.condition == Condition::bilateral;
+  const auto carries = [&](Index i) { return bilateral ? line.loaded[i] != 0 : line.p(i) > least; };
+  Index start = 0;
+  for (Index i = 0; line.closed && i < last; ++i)
+    if (!carries(i) || !std::isnan(power_at(estimate, i, length))) start = i;
+  const std::vector<Facing> facing = facings(mesh, pair);
+  Walk walk{.vertex = {}, .s = VecX(last + 1), .p = VecX(last + 1), .carries = {}, .facing = {}, .power = {}};
+  for (Index k = 0; k <= last; ++k) {
+    const Index i = start + k > last ? start + k - last : start + k;
+    walk.vertex.push_back(i);
+    walk.s(k) = line.s(i) + (start + k > last ? length : 0);
+    walk.carries.push_back(carries(i));
+    walk.p(k) = walk.carries[k] ? line.p(i) : 0;
+    walk.power.push_back(power_at(estimate, i, length));
+    if (k < last) walk.facing.push_back(facing[i % last]);
+  }
+  return walk;
+}
+
+// Vertices of the walk.
+struct Range {
+  Index first, last;  // that carry p
+  std::array<PieceEnd, 2> end;
+};
+
+// How a piece ends at vertex v, beyond which edge e is; nothing where that faces the other side in part: its moments
+// are no hat functions'.
+std::optional<PieceEnd> end_at(const Walk& walk, Index v, Index e) {
+  if (walk.cut(v)) return PieceEnd{.power = walk.power[v]};
+  if (e < 0 || e >= walk.edges() || walk.facing[e] == Facing::none) return PieceEnd{};
+  if (walk.facing[e] == Facing::part || walk.carries[e == v ? v + 1 : v - 1]) return std::nullopt;
+  return PieceEnd{.power = 0.5, .border = true};
+}
+
+std::vector<Range> loaded_ranges(const Walk& walk) {
+  std::vector<Range> ranges;
+  for (Index e = 0; e < walk.edges();) {
+    Index last = e;
+    while (last < walk.edges() && walk.loaded(last) && (last == e || !walk.cut(last))) ++last;
+    if (last - e >= least_edges) {
+      const auto start = end_at(walk, e, e - 1), end = end_at(walk, last, last);
+      if (start && end) ranges.push_back({e, last, {*start, *end}});
+    }
+    e = std::max(last, e + 1);
+  }
+  return ranges;
+}
+
+// With the vertices beyond borders.
+LoadedPiece piece_of(const Walk& walk, const Range& range, const PressureLine& line, bool rings) {
+  constexpr Index beyond = 2;
+  const auto carries_none = [&](Index v, Index e) {
+    return e >= 0 && e < walk.edges() && walk.facing[e] == Facing::whole && !walk.carries[v];
+  };
+  Index first = range.first, last = range.last;
+  while (range.end[0].border && range.first - first < beyond && carries_none(first - 1, first - 1)) --first;
+  while (range.end[1].border && last - range.last < beyond && carries_none(last + 1, last)) ++last;
+  const Index count = last - first + 1;
+  LoadedPiece piece{.s = walk.s.segment(first, count),
+                    .p = walk.p.segment(first, count),
+                    .width = VecX::Ones(count),
+                    .end = range.end};
+  for (Index k = 0; rings && k < count; ++k) {
+    const double x = line.position[walk.vertex[first + k]].x();
+    piece.width(k) = x > same_place * (walk.s(last) - walk.s(first)) ? x : 0;
+  }
+  for (const int which : {0, 1}) {
+    const Index v = which == 0 ? range.first : range.last;
+    piece.end[which].even = piece.width(which * (count - 1)) == 0 && !walk.cut(v);
+  }
+  return piece;
+}
+
+std::array<double, 2> ends_of(const LoadedPiece& piece) {
+  std::array<double, 2> ends;
+  for (const int which : {0, 1})
+    ends[which] = piece.end[which].border ? border_place(piece, which) : piece.s(piece.loaded(which));
+  return ends;
+}
+
+// `missed`: at each vertex of the line what p_h may miss along it.
+bool credible(const PressureForm& form, const Walk& walk, const Range& range, const PressureEstimate& estimate,
+              const VecX& missed, bool unilateral) {
+  int counted = 0, within = 0;
+  for (Index k = range.first; k <= range.last; ++k) {
+    const Index i = walk.vertex[k];
+    if (!estimate.counts(i)) continue;
+    ++counted;
+    const double p = form(walk.s(k));
+    within += std::abs(p - walk.p(k)) <= missed(i);
+    if (unilateral && p < 0) return false;
+  }
+  if (!(within >= credible_part * counted)) return false;
+  const auto [from, to] = form.ends();
+  for (int k = 1; unilateral && k < tension_places; ++k)
+    if (!(form(from + (to - from) * k / tension_places) >= 0)) return false;
+  return true;
+}
+
+}  // namespace
+
+std::optional<double> FittedPressure::at(double s) const {
+  for (const double round : {0.0, around})
+    for (const FittedPiece& piece : pieces)
+      if (s + round >= piece.vertices[0] && s + round <= piece.vertices[1])
+        if (const double p = piece.form(s + round); std::isfinite(p)) return p;
+  return std::nullopt;
+}
+
+FittedPressure fitted_pressure(const Problem& problem, const ContactPair& pair, const PressureEstimate& estimate) {
+  const PressureLine& line = estimate.line;
+  FittedPressure fitted{.pieces = {}, .around = line.closed ? line.s(line.s.size() - 1) : 0};
+  if (problem.method.multipliers != Multipliers::linear || pair.spec.stiffness || !(largest_entry(line.p) > 0))
+    return fitted;
+  const Walk walk = walk_along(problem.mesh, pair, estimate);
+  const bool unilateral = pair.spec.condition == Condition::unilateral;
+  const VecX missed = error_safety * estimate.local.pointwise(line);
+  for (const Range& range : loaded_ranges(walk)) {
+    const LoadedPiece piece = piece_of(walk, range, line, problem.discretisation.system.constraints.rings);
+    const bool borders = range.end[0].border || range.end[1].border;
+    for (const int edges : border_edges) {
+      const auto form = fit_pressure(piece, ends_of(piece), edges);
+      if (form && credible(*form, walk, range, estimate, missed, unilateral)) {
+        fitted.pieces.push_back({*form, {piece.s(0), piece.s(piece.s.size() - 1)}});
+        break;
+      }
+      if (!borders) break;
+    }
+  }
+  return fitted;
+}
+
+}  // namespace mortise

@@ -1,0 +1,194 @@
+#include "error/pressure_form.hpp"
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <unsupported/Eigen/Splines>
+
+#include "fem/quadrature.hpp"
+
+namespace mortise {
+namespace {
+
+using Eigen::Index;
+using Cubics = Eigen::Spline<double, 1, 3>;
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+constexpr int degree = 3;
+
+// The knots of q: its ends, and the vertices between them but for those next to each end. Without an end's own
+// condition a cubic leaves out one (not a knot); at r = 0 one more, as that moment is none.
+VecX knots_of(const LoadedPiece& piece, const std::array<double, 2>& ends, int border_edges) {
+  std::vector<double> places{ends[0]};
+  for (const double s : piece.s)
+    if (s > ends[0] && s < ends[1]) places.push_back(s);
+  places.push_back(ends[1]);
+  const Index last = piece.s.size() - 1;
+  const auto skipped = [&](int k) { return piece.end[k].border ? border_edges : piece.width(k * last) == 0 ? 3 : 2; };
+  const Index count = std::max<Index>(Index(places.size()) - skipped(0) - skipped(1), 0);
+  VecX knots(count + 2 * (degree + 1));
+  knots.head(degree + 1).setConstant(ends[0]);
+  for (Index k = 0; k < count; ++k) knots(degree + 1 + k) = places[skipped(0) + k];
+  knots.tail(degree + 1).setConstant(ends[1]);
+  return knots;
+}
+
+double power_of(double distance, double length, double power) {
+  return power == 0 ? 1 : std::pow(std::max(distance, 0.0) / length, power);
+}
+
+// The factor of q at s.
+double factor_at(const std::array<double, 2>& ends, const std::array<double, 2>& powers, double s) {
+  const double length = ends[1] - ends[0];
+  return power_of(s - ends[0], length, powers[0]) * power_of(ends[1] - s, length, powers[1]);
+}
+
+// Of each hat (row) and spline (column) the moment of the spline times the factor.
+Triplets spline_moments(const LoadedPiece& piece, const std::array<double, 2>& ends, const VecX& knots) {
+  static const LineRule rule = gauss_legendre(10);
+  const Cubics::KnotVectorType row = knots.transpose().array();
+  const std::array<double, 2> powers{piece.end[0].power, piece.end[1].power};
+  Triplets moments;
+  for (Index e = 0; e + 1 < piece.s.size(); ++e) {
+    const double from = std::max(piece.s(e), ends[0]), to = std::min(piece.s(e + 1), ends[1]);
+    if (!(from < to)) continue;
+    const bool left = from == ends[0] && powers[0] != 0, right = to == ends[1] && powers[1] != 0;
+    // Graded: of r^(exponent - 1) dr a line in t is left, of a root a parabola and a polynomial in t.
+    const double exponent = 1 + (left ? powers[0] : right ? powers[1] : 0);
+    const double grading = exponent == 1 ? 1 : exponent == 1.5 ? 2 : 2 / exponent;
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const double t = (1 + rule.points[q]) / 2, graded = std::pow(t, grading);
+      const double s = left || !right ? from + (to - from) * graded : to - (to - from) * graded;
+      const double z = (s - piece.s(e)) / (piece.s(e + 1) - piece.s(e));
+      const double width = (1 - z) * piece.width(e) + z * piece.width(e + 1);
+      const double weight =
+          (to - from) * grading * graded / t * rule.weights[q] / 2 * width * factor_at(ends, powers, s);
+      const Index first = Cubics::Span(s, degree, row) - degree;
+      const auto values = Cubics::BasisFunctions(s, degree, row);
+      for (int k = 0; k <= degree; ++k) {
+        moments.emplace_back(e, first + k, weight * (1 - z) * values(k));
+        moments.emplace_back(e + 1, first + k, weight * z * values(k));
+      }
+    }
+  }
+  return moments;
+}
+
+// int p_h phi_i.
+VecX multiplier_moments(const LoadedPiece& piece) {
+  VecX moments = VecX::Zero(piece.s.size());
+  for (Index e = 0; e + 1 < piece.s.size(); ++e) {
+    const double h = piece.s(e + 1) - piece.s(e);
+    for (const double t : {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)}) {  // Gauss, 3 points
+      const double weight = h * (t == 0.5 ? 4.0 : 2.5) / 9 * ((1 - t) * piece.width(e) + t * piece.width(e + 1)) *
+                            ((1 - t) * piece.p(e) + t * piece.p(e + 1));
+      moments(e) += weight * (1 - t);
+      moments(e + 1) += weight * t;
+    }
+  }
+  return moments;
+}
+
+// By which forces summed up to each vertex count, squared: as p's own square along the line, whatever the edges.
+VecX sum_weights(const LoadedPiece& piece) {
+  const Index count = piece.s.size();
+  VecX weights(count);
+  for (Index i = 0; i < count; ++i) {
+    const double length = piece.s(std::min(i + 1, count - 1)) - piece.s(std::max<Index>(i - 1, 0));
+    weights(i) = 2 / (length * std::max(piece.width(i), 1e-3 * piece.width.maxCoeff()));
+  }
+  return weights;
+}
+
+VecX column_sizes(const Triplets& entries, Index columns) {
+  VecX sizes = VecX::Constant(columns, std::numeric_limits<double>::min());
+  for (const auto& entry : entries) sizes(entry.col()) = std::max(sizes(entry.col()), std::abs(entry.value()));
+  return sizes;
+}
+
+}  // namespace
+
+Index LoadedPiece::loaded(int which) const {
+  Index i = which == 0 ? 0 : p.size() - 1;
+  while (p(i) == 0) i += which == 0 ? 1 : -1;
+  return i;
+}
+
+double PressureForm::operator()(double s) const {
+  if (s < ends_[0] || s > ends_[1]) return 0;
+  const Cubics::KnotVectorType row = knots_.transpose().array();
+  const Index first = Cubics::Span(s, degree, row) - degree;
+  const auto values = Cubics::BasisFunctions(s, degree, row);
+  double q = 0;
+  for (int k = 0; k <= degree; ++k) q += values(k) * q_(first + k);
+  return factor_at(ends_, powers_, s) * q;
+}
+
+// With c the sums of what is left of the moments: min sum_i w_i c_i^2 / 2 with c_i - c_{i-1} = m_i - (M q)_i, no force
+// left (the last c is 0), no moment (sum_i c_i h_i = 0) and no slope on an axis, by its saddle point, which is sparse.
+std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::array<double, 2>& ends,
+                                         int border_edges) {
+  PressureForm form;
+  form.ends_ = ends;
+  form.powers_ = {piece.end[0].power, piece.end[1].power};
+  form.knots_ = knots_of(piece, ends, border_edges);
+  const Triplets entries = spline_moments(piece, ends, form.knots_);
+  const Index columns = form.knots_.size() - degree - 1, count = piece.s.size(), sums = count - 1;
+  if (columns > count) return std::nullopt;
+  const VecX sizes = column_sizes(entries, columns), weights = sum_weights(piece), moments = multiplier_moments(piece);
+  const double force = moments.cwiseAbs().maxCoeff(), heaviest = weights.maxCoeff(),
+               length = piece.s(sums) - piece.s(0);
+  if (!(force > 0)) return std::nullopt;
+  // Unknowns: q, c, the multipliers of the rows, of the moment, of the slopes at both ends.
+  const Index at_row = columns + sums, moment = at_row + count, all = moment + 3;
+  Triplets system;
+  const auto add = [&](Index i, Index j, double value) {
+    system.emplace_back(i, j, value);
+    system.emplace_back(j, i, value);
+  };
+  for (const auto& entry : entries) add(at_row + entry.row(), entry.col(), entry.value() / sizes(entry.col()));
+  for (Index i = 0; i < sums; ++i) {
+    system.emplace_back(columns + i, columns + i, weights(i) / heaviest);
+    add(at_row + i, columns + i, 1);
+    add(at_row + i + 1, columns + i, -1);
+    add(moment, columns + i, (piece.s(i + 1) - piece.s(i)) / length);
+  }
+  for (const int which : {0, 1}) {
+    const Index row = all - 2 + which;
+    const Index edge = which == 0 ? 0 : columns - 1, next = which == 0 ? 1 : columns - 2;
+    if (!piece.end[which].even) {
+      system.emplace_back(row, row, 1);
+      continue;
+    }
+    // q' = 3 (q_1 - q_0) / h at its first coefficients, and what the factor of the other end does.
+    const double h = which == 0 ? form.knots_(degree + 1) - ends[0] : ends[1] - form.knots_(columns - 1);
+    const double of_factor = piece.end[1 - which].power * h / (ends[1] - ends[0]);
+    add(row, edge, (degree + of_factor) / sizes(edge));
+    add(row, next, -degree / sizes(next));
+  }
+  Eigen::SparseMatrix<double> matrix(all, all);
+  matrix.setFromTriplets(system.begin(), system.end());
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(matrix);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  VecX right = VecX::Zero(all);
+  right.segment(at_row, count) = moments / force;
+  const VecX found = factor.solve(right);
+  form.q_ = force * found.head(columns).cwiseQuotient(sizes);
+  if (!form.q_.allFinite()) return std::nullopt;
+  return form;
+}
+
+double border_place(const LoadedPiece& piece, int which) {
+  const Index last = piece.loaded(which), inward = which == 0 ? 1 : -1;
+  Eigen::Vector3d s, square;
+  for (Index k = 0; k < 3; ++k) {
+    s(k) = piece.s(last + k * inward);
+    square(k) = piece.p(last + k * inward) * piece.p(last + k * inward);
+  }
+  const Eigen::Vector3d off = s.array() - s.mean();
+  const double slope = off.dot(square) / off.squaredNorm(), place = s.mean() - square.mean() / slope;
+  const double next = piece.s(last - inward);
+  const bool rises = slope * double(inward) > 0;
+  return rises ? std::clamp(place, std::min(s(0), next), std::max(s(0), next)) : next;
+}
+
+}  // namespace mortise

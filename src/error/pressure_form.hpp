@@ -1,0 +1,50 @@
+// A pressure of the form that theory gives it, with the moments of a multiplier. docs/theory.md, section 14.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "base/types.hpp"
+
+namespace mortise {
+
+/// One end of a loaded piece of a contact line.
+struct PieceEnd {
+  double power = 0;  ///< p goes as so much of the distance from it: 1/2 at a border, exponent - 1 at a singular point
+  bool border = false;  ///< contact ends between vertices
+  bool even = false;    ///< on the axis of rings: p has no slope there
+};
+
+/// The vertices of a piece of a line that carries p, and beyond a border up to two more, at which it is 0.
+struct LoadedPiece {
+  VecX s;                       ///< arc length
+  VecX p;                       ///< of the piecewise linear multiplier, stress
+  VecX width;                   ///< of the line there: distance from the axis in rings, else 1
+  std::array<PieceEnd, 2> end;  ///< the first and the last
+
+  Eigen::Index loaded(int which) const;  ///< the first (0) or the last (1) vertex that carries p
+};
+
+/// p* = (s - A)^a (B - s)^b q(s), q a cubic spline with knots at the vertices, none within `border_edges` of a border,
+/// where p_h swings. Its moments with the hat functions are those of p_h; where these are more than q has, in least
+/// squares of the forces summed from one end, the whole force and moment exactly.
+class PressureForm {
+ public:
+  double operator()(double s) const;  ///< p*, stress; 0 beyond the ends; infinite at an end of negative power
+  const std::array<double, 2>& ends() const { return ends_; }  ///< A, B
+
+ private:
+  friend std::optional<PressureForm> fit_pressure(const LoadedPiece&, const std::array<double, 2>&, int);
+  std::array<double, 2> ends_, powers_;
+  VecX knots_, q_;
+};
+
+/// Nothing where the moments do not determine q. Time as the vertices.
+std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::array<double, 2>& ends, int border_edges);
+
+/// Where the border at an end of a piece of three vertices or more lies, s: p goes as a root there (Johnson 1985,
+/// section 4.2), so that the line through the squares of the last three vertices' p is zero at it, not before the last
+/// of them and not beyond the next vertex.
+double border_place(const LoadedPiece& piece, int which);
+
+}  // namespace mortise

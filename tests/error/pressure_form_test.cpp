@@ -1,0 +1,123 @@
+// p* against pressures that are known, on vertices drawn at random.
+#include "error/pressure_form.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "app/solve_scene.hpp"
+#include "fem/quadrature.hpp"
+
+namespace mortise::test {
+namespace {
+
+using Pressure = std::function<double(double)>;
+
+// Uneven vertices between two places.
+VecX vertices(double from, double to, int edges, std::mt19937& draw) {
+  std::uniform_real_distribution<double> part(0.7, 1.4);
+  VecX s = VecX::Zero(edges + 1);
+  for (int i = 1; i <= edges; ++i) s(i) = s(i - 1) + part(draw);
+  return (from + (to - from) / s(edges) * s.array()).matrix();
+}
+
+// int p phi_i width ds from one place to another, p smooth but for powers at these.
+VecX moments(const VecX& s, const VecX& width, double from, double to, const Pressure& p) {
+  const LineRule rule = gauss_legendre(60);
+  VecX sums = VecX::Zero(s.size());
+  for (int e = 0; e + 1 < s.size(); ++e) {
+    const double a = std::max(s(e), from), b = std::min(s(e + 1), to);
+    for (std::size_t q = 0; a < b && q < rule.points.size(); ++q) {
+      const double t = (1 + rule.points[q]) / 2, graded = t * t * t * (10 + t * (6 * t - 15));  // towards both ends
+      const double x = a + (b - a) * graded, z = (x - s(e)) / (s(e + 1) - s(e));
+      const double weight = (b - a) * 30 * t * t * (1 - t) * (1 - t) * rule.weights[q] / 2 * p(x) *
+                            ((1 - z) * width(e) + z * width(e + 1));
+      sums(e) += weight * (1 - z);
+      sums(e + 1) += weight * z;
+    }
+  }
+  return sums;
+}
+
+MatX mass(const VecX& s, const VecX& width) {
+  MatX columns(s.size(), s.size());
+  for (int j = 0; j < s.size(); ++j)
+    columns.col(j) = moments(s, width, s(0), s(s.size() - 1), [&](double x) {
+      double hat = 0;
+      if (j > 0 && x <= s(j) && x >= s(j - 1)) hat = (x - s(j - 1)) / (s(j) - s(j - 1));
+      if (j + 1 < s.size() && x >= s(j) && x <= s(j + 1)) hat = (s(j + 1) - x) / (s(j + 1) - s(j));
+      return hat;
+    });
+  return columns;
+}
+
+TEST(PressureForm, HasThePressureWhoseMomentsTheMultiplierHas) {
+  // A power at each end times a cubic is in its space: found to round-off, in rings too.
+  std::mt19937 draw(35);
+  std::uniform_real_distribution<double> power(-0.3, 0.4), part(0, 1);
+  for (int k = 0; k < 40; ++k) {
+    const VecX s = vertices(1, 3, 6 + k, draw);
+    const VecX width = k % 2 == 0 ? VecX::Ones(s.size()) : s;
+    const double a = power(draw), b = k % 3 == 0 ? 0 : power(draw), c = part(draw), d = part(draw);
+    const Pressure p = [&](double x) {
+      const double r = x - 1, q = 3 - x;
+      return std::pow(r, a) * (b == 0 ? 1 : std::pow(q, b)) * (1 + c * r * r + d * r * r * r);
+    };
+    const VecX of_p = moments(s, width, 1, 3, p);
+    const LoadedPiece piece{
+        .s = s, .p = mass(s, width).fullPivLu().solve(of_p), .width = width, .end = {{{.power = a}, {.power = b}}}};
+    const auto form = fit_pressure(piece, {1, 3}, 10);
+    ASSERT_TRUE(form) << k;
+    for (double x = 1.01; x < 3; x += 0.03) EXPECT_NEAR((*form)(x), p(x), 1e-6 * p(x)) << k << " " << a << " " << b;
+  }
+}
+
+TEST(PressureForm, HasNoSlopeOnAnAxis) {
+  // p = sqrt(1 - r^2) (1 + r^2 / 3) of rings: the moment of the vertex on the axis is none, its p all the same there.
+  std::mt19937 draw(37);
+  for (int edges = 8; edges < 40; edges += 3) {
+    const VecX s = vertices(0, 1, edges, draw);
+    const VecX of_p = moments(s, s, 0, 1, [](double r) { return std::sqrt(1 - r * r) * (1 + r * r / 3); });
+    LoadedPiece piece{
+        .s = s, .p = mass(s, s).fullPivLu().solve(of_p), .width = s, .end = {{{.even = true}, {.power = 0.5}}}};
+    const auto form = fit_pressure(piece, {0, 1}, 10);
+    ASSERT_TRUE(form) << edges;
+    EXPECT_NEAR((*form)(0), 1, 30 * std::pow(edges, -4)) << edges;
+    EXPECT_NEAR((*form)(1e-7), (*form)(0), 1e-10) << edges;
+  }
+}
+
+// Sphere on a block, exact (Hertz): p* of meshes drawn at random is nearer than the multiplier, on the axis too.
+TEST(FittedPressure, OfHertzsSphereIsNearerThanTheMultiplier) {
+  std::mt19937 draw(38);
+  const double E_star = 210e9 / (2 * (1 - 0.09)), force = std::numbers::pi * 48970.7517;
+  const double a = std::cbrt(3 * force / (4 * E_star)), p0 = 3 * force / (2 * std::numbers::pi * a * a);
+  double all = 0, all_h = 0;
+  for (int k = 0; k < 4; ++k) {
+    const int edges = std::uniform_int_distribution(18, 40)(draw);
+    Scene scene = read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/hertz_sphere.toml");
+    scene.mesh_parameters["n_upper"] = edges;
+    scene.mesh_parameters["n_lower"] = edges + edges / 4;
+    Results r = solve_scene(scene);
+    estimate(r);
+    double off = 0, off_h = 0;
+    for (const ContactNode& node : r.recovery.contacts[0].multiplier.nodes) {
+      if (node.p_multiplier == 0) continue;
+      const double exact = p0 * std::sqrt(std::max(0.0, 1 - std::pow(node.position.x() / a, 2)));
+      off += std::pow(node.p - exact, 2);
+      off_h += std::pow(node.p_multiplier - exact, 2);
+      EXPECT_LE(std::abs(node.p - exact), node.p_error) << edges << " " << node.position.x();
+      if (node.position.x() == 0) EXPECT_NEAR(node.p, exact, 1.5e-3 * exact) << edges;
+    }
+    EXPECT_LT(off, off_h / 1.5) << edges;
+    all += off;
+    all_h += off_h;
+  }
+  EXPECT_LT(std::sqrt(all), std::sqrt(all_h) / 3);
+}
+
+}  // namespace
+}  // namespace mortise::test
