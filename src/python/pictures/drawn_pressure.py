@@ -39,7 +39,7 @@ def has_limit(summary, pair):
     return told is not None and all(at["pair"] != pair or at["pressure_exponent"] >= 1 for at in told["singular"])
 
 
-def draw_pair(axes, table, pair, bounded, label="$p$ (multipliers)", colour=PAIR_COLOURS[0]):
+def draw_pair(axes, table, pair, bounded, label="$p$", colour=PAIR_COLOURS[0]):
     """p along the contact line of a pair with its bar as a band, and -sigma_n of both bodies, over the arc length of the
     multiplier side. All of a bounded p is shown."""
     xy = np.stack([table["x"], table["y"]], axis=1)
