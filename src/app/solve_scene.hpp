@@ -53,8 +53,8 @@ class CaseSolver {
 };
 
 /// The estimated error into the results, and a warning where it is large. `found`: as of estimate_error; `last`:
-/// whether they are to be shown, with bars of forces and lengths in contact and p*. Throws SceneError as estimate_error does, and where spec asks
-/// for a displacement that nothing holds.
+/// whether they are to be shown, with bars of forces and lengths in contact and p*. Throws SceneError as estimate_error
+/// does, and where spec asks for a displacement that nothing holds.
 void estimate(Results& results, const AccuracySpec& spec = {}, const std::vector<FoundPoint>& found = {},
               bool last = true);
 
