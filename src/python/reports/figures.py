@@ -61,10 +61,10 @@ def sides_of(table, k):
     return [[row for row in rows if row["curve"] == curve] for curve in dict.fromkeys(row["curve"] for row in rows)]
 
 
-def read_line(run, side, k):
+def read_line(run, side, k, of="p"):
     """The vertices of a side of pair k, those that count: places, p, and the length that each stands for."""
     xy = np.array([[float(row["x"]), float(row["y"])] for row in side]).reshape(-1, 2)
-    p, s = (np.array([float(row[name]) for row in side]) for name in ("p", "s"))
+    p, s = (np.array([float(row[name]) for row in side]) for name in (of, "s"))
     length = np.gradient(s) if len(s) > 1 else np.ones(len(s))
     places, distance = has_no_limit(run.summary, k)
     for place in places:
@@ -94,7 +94,8 @@ def read_pairs(run):
             )
         if summary["estimate"]["pressure"] is None:
             continue
-        run.lines[pair_key(pair)] = read_line(run, [row for row in sides_of(table, k)[0] if row["gap"]], k)
+        # The multipliers: all meshes, methods and programs have them, and of them the error is estimated.
+        run.lines[pair_key(pair)] = read_line(run, [row for row in sides_of(table, k)[0] if row["gap"]], k, "p_multiplier")
         if len(has_no_limit(summary, k)[0]):
             run.left_out.append(f"largest p of {name}: it has no limit there")
         elif k in by_node and by_node[k].get("p_error"):
