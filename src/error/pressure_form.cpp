@@ -105,6 +105,30 @@ VecX column_sizes(const Triplets& entries, Index columns) {
   return sizes;
 }
 
+void add_both(Index i, Index j, double value, Triplets& symmetric) {
+  symmetric.emplace_back(i, j, value);
+  symmetric.emplace_back(j, i, value);
+}
+
+// Two rows: p* has no slope at an end on an axis; nothing at others. q' = 3 (q_1 - q_0) / h there, and the factor of
+// the other end slopes too.
+void add_slopes(const LoadedPiece& piece, const std::array<double, 2>& ends, const VecX& knots, const VecX& sizes,
+                Index first_row, Triplets& system) {
+  const Index columns = sizes.size();
+  for (const int which : {0, 1}) {
+    const Index row = first_row + which;
+    if (!piece.end[which].even) {
+      system.emplace_back(row, row, 1);
+      continue;
+    }
+    const Index edge = which == 0 ? 0 : columns - 1, next = which == 0 ? 1 : columns - 2;
+    const double h = which == 0 ? knots(degree + 1) - ends[0] : ends[1] - knots(columns - 1);
+    const double of_factor = piece.end[1 - which].power * h / (ends[1] - ends[0]);
+    add_both(row, edge, (degree + of_factor) / sizes(edge), system);
+    add_both(row, next, -degree / sizes(next), system);
+  }
+}
+
 }  // namespace
 
 Index LoadedPiece::loaded(int which) const {
@@ -141,30 +165,15 @@ std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::ar
   // Unknowns: q, c, the multipliers of the rows, of the moment, of the slopes at both ends.
   const Index at_row = columns + sums, moment = at_row + count, all = moment + 3;
   Triplets system;
-  const auto add = [&](Index i, Index j, double value) {
-    system.emplace_back(i, j, value);
-    system.emplace_back(j, i, value);
-  };
-  for (const auto& entry : entries) add(at_row + entry.row(), entry.col(), entry.value() / sizes(entry.col()));
+  for (const auto& entry : entries)
+    add_both(at_row + entry.row(), entry.col(), entry.value() / sizes(entry.col()), system);
   for (Index i = 0; i < sums; ++i) {
     system.emplace_back(columns + i, columns + i, weights(i) / heaviest);
-    add(at_row + i, columns + i, 1);
-    add(at_row + i + 1, columns + i, -1);
-    add(moment, columns + i, (piece.s(i + 1) - piece.s(i)) / length);
+    add_both(at_row + i, columns + i, 1, system);
+    add_both(at_row + i + 1, columns + i, -1, system);
+    add_both(moment, columns + i, (piece.s(i + 1) - piece.s(i)) / length, system);
   }
-  for (const int which : {0, 1}) {
-    const Index row = all - 2 + which;
-    const Index edge = which == 0 ? 0 : columns - 1, next = which == 0 ? 1 : columns - 2;
-    if (!piece.end[which].even) {
-      system.emplace_back(row, row, 1);
-      continue;
-    }
-    // q' = 3 (q_1 - q_0) / h at its first coefficients, and what the factor of the other end does.
-    const double h = which == 0 ? form.knots_(degree + 1) - ends[0] : ends[1] - form.knots_(columns - 1);
-    const double of_factor = piece.end[1 - which].power * h / (ends[1] - ends[0]);
-    add(row, edge, (degree + of_factor) / sizes(edge));
-    add(row, next, -degree / sizes(next));
-  }
+  add_slopes(piece, ends, form.knots_, sizes, moment + 1, system);
   Eigen::SparseMatrix<double> matrix(all, all);
   matrix.setFromTriplets(system.begin(), system.end());
   Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(matrix);

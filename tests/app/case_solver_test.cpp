@@ -1,12 +1,12 @@
 // Cases on one factor: what each scene says by itself, whatever came before.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <random>
 
 #include "app/solve_scene.hpp"
 #include "base/errors.hpp"
 #include "scene/loads.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mortise::test {
 namespace {
@@ -105,9 +105,8 @@ TEST_P(Cases, AreWhatEachIsAlone) {
 
 // A table of values over all scenes.
 std::string values_over_all() {
-  const std::string path = testing::TempDir() + "mortise_case_values.csv";
-  std::ofstream(path) << "x,y,T\n-10,-10,1\n10,-10,2\n10,10,3\n-10,10,1.5\n";
-  return path;
+  static const TemporaryFolder folder;
+  return folder.write("values.csv", "x,y,T\n-10,-10,1\n10,-10,2\n10,10,3\n-10,10,1.5\n");
 }
 
 INSTANTIATE_TEST_SUITE_P(
