@@ -67,9 +67,9 @@ def stages(summary):
 
 
 def pressure(folder):
-    """x and p along the multiplier side."""
+    """x and the multiplier's p along its side."""
     side = launch.contact(folder)
-    return np.stack([side["x"], side["p"]], axis=1)
+    return np.stack([side["x"], side["p_multiplier"]], axis=1)
 
 
 def compare(study, scene, named, folder, repeats):

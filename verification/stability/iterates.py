@@ -84,7 +84,7 @@ def mortise_iterates(case, mesh, folder, places, steps):
         launch.solve(SCENE, {**settings, "method.max_iterations": k}, results)
         line = launch.contact(results, SIDE)
         own = np.stack([line["x"], line["y"]], axis=1)
-        found.append(line["p"][compare.match(places, own, 1.0, f"multipliers on {SIDE}")])
+        found.append(line["p_multiplier"][compare.match(places, own, 1.0, f"multipliers on {SIDE}")])
     return np.array(found), launch.columns(results / "iteration.csv")["force"]
 
 
