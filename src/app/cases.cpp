@@ -13,6 +13,7 @@
 #include "base/printable.hpp"
 #include "base/stopwatch.hpp"
 #include "output/output_folder.hpp"
+#include "output/vtu.hpp"
 #include "results/expected.hpp"
 #include "solve/dense_kernel.hpp"
 
@@ -271,7 +272,7 @@ CaseTable write_cases(const Scene& scene, const CaseOptions& options, const Prog
       solve_cases(scene, options, progress, scene.case_files == CaseFiles::table ? TakeCase() : take);
   OutputFolder output(folder);
   write_table(output.path("cases.csv"), table.keys, table.values, table.rows);
-  if (scene.case_files == CaseFiles::all) write_collection(scene, table, output.path("cases.pvd"));
+  if (scene.case_files == CaseFiles::all && !why_no_vtu()) write_collection(scene, table, output.path("cases.pvd"));
   std::ofstream file(output.path("summary.json"));
   file << summary_of(scene, table).dump(2) << "\n";
   file.close();

@@ -19,7 +19,8 @@ fs::path script(const std::string& name) {
   const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
   for (const fs::path& share : {folder / MORTISE_BIN_TO_SHARE, folder / "share/mortise"})
     if (const fs::path found = share / name; fs::exists(found)) return found;
-  throw InputError(name + " is not there: expected in " + (folder / MORTISE_BIN_TO_SHARE).string());
+  throw InputError(name + " (Debian package mortise-python) is not there: expected in " +
+                   (folder / MORTISE_BIN_TO_SHARE).string());
 }
 
 // The system's Python has the packages of the distribution; MORTISE_PYTHON names another.

@@ -5,7 +5,8 @@
 namespace mortise {
 
 const GridModule& grid_module() {
-  static const auto& module = load_module<GridModule>("mortise_grid", "values at points are read by VTK");
+  static const auto& module =
+      load_module<GridModule>("mortise_grid", "values at points are read by VTK (Debian package mortise-vtk)");
   return module;
 }
 

@@ -5,7 +5,8 @@
 namespace mortise {
 
 const GmshModule& gmsh_module() {
-  static const auto& module = load_module<GmshModule>("mortise_gmsh", "a .geo is meshed by gmsh");
+  static const auto& module =
+      load_module<GmshModule>("mortise_gmsh", "a .geo is meshed by gmsh (Debian package mortise-gmsh)");
   return module;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,11 @@ struct VtuGrid {
   std::vector<VtuField> cell_fields;
 };
 
+/// In one line why write_vtu cannot write here: VTK, a package of its own, cannot be loaded. Nothing if it can.
+std::optional<std::string> why_no_vtu();
+
 /// Binary appended, zlib-compressed only if that does not cost more time than it saves. Throws InputError if the
-/// file cannot be written.
+/// file cannot be written, or VTK cannot be loaded.
 void write_vtu(const std::filesystem::path& path, const VtuGrid& grid);
 
 }  // namespace mortise

@@ -191,8 +191,8 @@ std::string report_text(const Json& r, const std::filesystem::path& folder) {
   std::ostringstream out;
   const Json& mesh = r["mesh"];
   out << printable(r["title"]) << "\n";
-  out << "  " << r["status"].get<std::string>() << "; results in " << folder.string()
-      << "/ (result.vtu opens in ParaView)\n";
+  out << "  " << r["status"].get<std::string>() << "; results in " << folder.string() << "/"
+      << (std::filesystem::exists(folder / "result.vtu") ? " (result.vtu opens in ParaView)\n" : "\n");
   out << "  mesh      " << mesh["nodes"] << " nodes, " << mesh["elements"] << " elements; " << mesh["dofs"]
       << " unknowns, " << mesh["multipliers"] << " multipliers\n";
   out << std::setprecision(6) << model_text(r["model"]);

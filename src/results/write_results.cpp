@@ -147,10 +147,12 @@ void write_probes_csv(const Results& r, const std::filesystem::path& path) {
 void write_results(const Results& results, Json& report, const std::filesystem::path& folder, bool bodies) {
   Stopwatch watch;
   OutputFolder output(folder);
+  const std::optional<std::string> no_vtu = why_no_vtu();
+  if (no_vtu) report["warnings"].push_back("result.vtu and contact.vtu are left out: " + *no_vtu);
   try {
-    if (bodies) write_vtu(output.path("result.vtu"), result_grid(results));
+    if (bodies && !no_vtu) write_vtu(output.path("result.vtu"), result_grid(results));
     if (!results.problem.pairs.empty()) {
-      write_vtu(output.path("contact.vtu"), contact_grid(results));
+      if (!no_vtu) write_vtu(output.path("contact.vtu"), contact_grid(results));
       write_contact_csv(results, output.path("contact.csv"));
       write_centres_csv(results, output.path("contact_centres.csv"));
     }

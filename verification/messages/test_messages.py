@@ -493,8 +493,8 @@ def test_scenes_that_cannot_be_read(mortise):
 
 def test_program_without_its_parts(mortise, tmp_path):
     alone = shutil.copy(mortise, tmp_path)
-    assert "picture.py is not there: expected in " in call(alone, "picture", tmp_path)
-    assert "a .geo is meshed by gmsh, which cannot be loaded: " in call(alone, "check", launch.ROOT / "geo/patch_flat.toml", "--no-cache")
+    assert "picture.py (Debian package mortise-python) is not there: expected in " in call(alone, "picture", tmp_path)
+    assert "a .geo is meshed by gmsh (Debian package mortise-gmsh), which cannot be loaded: " in call(alone, "check", launch.ROOT / "geo/patch_flat.toml", "--no-cache")
     assert ("picture.py is run by Python, which is not there (/no/python): apt-get install python3-matplotlib"
             in call(mortise, "picture", tmp_path, MORTISE_PYTHON="/no/python"))  # fmt: skip
 
