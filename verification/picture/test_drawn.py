@@ -214,3 +214,24 @@ def test_meshio_finds_the_arrays_of_the_smallest_meshes(mortise, tmp_path):
             assert places[0] == 0 and all(place % 4 for place in places[1:])
             mesh = meshio.read(results / name)
             assert max(block.data.max() for block in mesh.cells) == len(mesh.points) - 1
+
+
+@pytest.mark.parametrize("start", [0.0, 0.5, 3.0, 6.0])
+def test_p_of_a_closed_curve_is_drawn_in_one_piece_wherever_the_curve_starts(start):
+    """Circles of radius 1 in contact over an angle of 1 to each side of 0: p = cos^2; s is the angle from the start."""
+    drawing, axes = figure.panels(1, 1, (4, 3))
+    sides = []
+    for count in (100, 87):
+        s = 2 * np.pi * np.arange(count) / count
+        angle = np.mod(s + start + np.pi, 2 * np.pi) - np.pi
+        p = np.where(np.abs(angle) < 1, np.cos(np.pi / 2 * angle) ** 2, 0)
+        sides.append({"s": s, "x": np.cos(angle), "y": np.sin(angle), "p": p, "sigma_n": -p, "curve": np.full(count, str(count))})
+    table = {key: np.concatenate([side[key] for side in sides]) for key in sides[0]} | {"pair": np.zeros(187, dtype=int)}
+    drawn_pressure.draw_pair(axes, table, 0, True)
+    left, right = axes.get_xlim()
+    assert right - left == pytest.approx(2.4, abs=0.2)
+    for line in axes.get_lines():
+        s, p = line.get_data()
+        inside = np.isfinite(s) & (s >= left) & (s <= right)
+        assert np.isfinite(p[inside]).all() and p[inside].max() > 0.99
+        assert np.nanmax(np.abs(np.diff(s))) < 0.2, line.get_label()  # no line across the graph

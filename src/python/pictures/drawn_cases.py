@@ -82,8 +82,8 @@ def pressures(folder, table, pair):
         names = [names[round(k)] for k in np.linspace(0, len(names) - 1, MOST_LINES)]
     for name in names:
         found = result_tables.columns(folder / "cases" / name / "contact.csv")
-        on, _ = result_tables.sides_of(found, pair)
-        yield name, found["s"][on], found["p"][on], found["curve"][on][0]
+        on, s = result_tables.line_of(found, result_tables.sides_of(found, pair)[0])
+        yield name, s, found["p"][on], found["curve"][on][0]
 
 
 def name_of(case):

@@ -4,7 +4,7 @@ import figure
 import numpy as np
 from drawn_bodies import PAIR_COLOURS
 from drawn_pressure import loaded_part
-from result_tables import arc_length_on, sides_of
+from result_tables import arc_length_on, line_of, sides_of
 
 SMALL, COLUMNS = 12, 4  # panels of pairs
 
@@ -44,11 +44,9 @@ def draw_small(panels, table, pairs, numbers):
     """p of the pairs with its bar, on one scale."""
     top = 1.05 * max((np.nanmax(table["p"][sides_of(table, k)[0]]) for k in numbers), default=0)
     for k, axes in zip(numbers, panels):
-        on = sides_of(table, k)[0]
-        left, right = loaded_part(table["s"][on], np.nan_to_num(table["p"][on]))
-        near = (table["s"] >= 2 * left - right) & (table["s"] <= 2 * right - left)
-        on &= near
-        s, p = table["s"][on], np.nan_to_num(table["p"][on])
+        on, s = line_of(table, sides_of(table, k)[0])
+        p = np.nan_to_num(table["p"][on])
+        left, right = loaded_part(s, p)
         if "p_error" in table:
             bar = np.nan_to_num(table["p_error"][on])
             axes.fill_between(s, p - bar, p + bar, color="0.82", linewidth=0)
@@ -71,8 +69,8 @@ def draw_runs(panels, runs, numbers, summary):
             same = [j for j, pair in enumerate(other["contact"]) if set(pair["between"]) == between]
             if not same:
                 raise SystemExit(f"picture.py: {name} has no pair of {' and '.join(sorted(between))}")
-            on = sides_of(table, same[0])[0]
-            xy, p, s = np.stack([table["x"][on], table["y"][on]], axis=1), table["p"][on], table["s"][on]
+            on, s = line_of(table, sides_of(table, same[0])[0])
+            xy, p = np.stack([table["x"][on], table["y"][on]], axis=1), table["p"][on]
             if number == 0:
                 line, length = xy, s
                 axes.set_xlim(*loaded_part(s, np.nan_to_num(p)))

@@ -4,7 +4,7 @@ import figure
 import numpy as np
 from drawn_bodies import PAIR_COLOURS
 from drawn_cells import percentiles
-from result_tables import arc_length_on, sides_of
+from result_tables import arc_length_on, line_of, sides_of
 
 COLOURS = ["#e8452c", "#4aa3e8"]  # multiplier side, opposite side
 
@@ -43,11 +43,11 @@ def draw_pair(axes, table, pair, bounded, label="$p$", colour=PAIR_COLOURS[0]):
     """p along the contact line of a pair with its bar as a band, and -sigma_n of both bodies, over the arc length of the
     multiplier side. All of a bounded p is shown."""
     xy = np.stack([table["x"], table["y"]], axis=1)
-    on, other = sides_of(table, pair)
-    multiplier_side, opposite = (figure.short(table["curve"][rows][0]) for rows in (on, other))
+    first, other = sides_of(table, pair)
+    multiplier_side, opposite = (figure.short(table["curve"][side][0]) for side in (first, other))
     other &= np.isfinite(table.get("gap", table["s"]))
-    s, p = table["s"][on], table["p"][on]
-    s_other = arc_length_on(xy[on], s, xy[other])
+    on, s = line_of(table, first)
+    p, s_other = table["p"][on], arc_length_on(xy[on], s, xy[other])
     mine, theirs = -table["sigma_n"][on], -table["sigma_n"][other]
     if "p_error" in table:
         bar = table["p_error"][on]
@@ -55,7 +55,8 @@ def draw_pair(axes, table, pair, bounded, label="$p$", colour=PAIR_COLOURS[0]):
     axes.plot(s, p, color=colour, linewidth=1.7, label=label, zorder=2)
     axes.plot(s, mine, color=COLOURS[0], linewidth=0.9, label=f"$-\\sigma_n$ of {multiplier_side}", zorder=3)
     label = f"$-\\sigma_n$ of {opposite}"
-    axes.plot(s_other, theirs, color=COLOURS[1], linewidth=0.9, dashes=(5, 2), label=label, zorder=4)
+    seam = np.flatnonzero(np.abs(np.diff(s_other)) > np.ptp(s) / 2) + 1  # of a closed curve: no line across the whole graph
+    axes.plot(np.insert(s_other, seam, np.nan), np.insert(theirs, seam, np.nan), color=COLOURS[1], linewidth=0.9, dashes=(5, 2), label=label, zorder=4)
     left, right = loaded_part(s, p)
     shown, shown_other = (s >= left) & (s <= right), (s_other >= left) & (s_other <= right)
     low, high = pressure_range([(s[shown], p[shown]), (s[shown], mine[shown]), (s_other[shown_other], theirs[shown_other])])

@@ -52,6 +52,23 @@ def sides_of(table, pair):
     return first, on & ~first
 
 
+def line_of(table, side):
+    """Row numbers of a side (rows of contact.csv) in the order in which they are drawn, and their arc lengths. A closed curve that carries
+    pressure across its first node is drawn from the middle of where it carries none, with s below 0 before that node."""
+    rows = np.flatnonzero(side)
+    s, p = table["s"][rows], np.nan_to_num(table["p"][rows])
+    places = np.stack([table["x"][rows], table["y"][rows]], axis=1)
+    closing = np.linalg.norm(places[0] - places[-1])
+    closed = len(s) > 2 and closing < 1.5 * max(s[1] - s[0], s[-1] - s[-2]) and closing < 0.2 * np.ptp(s)
+    free = np.flatnonzero(p <= 1e-9 * p.max())
+    if not closed or len(free) == 0 or free[0] == 0 or free[-1] == len(s) - 1:
+        return rows, s
+    parts = np.split(free, np.flatnonzero(np.diff(free) > 1) + 1)
+    longest = max(parts, key=lambda part: s[part[-1]] - s[part[0]])
+    first = longest[len(longest) // 2]
+    return np.roll(rows, -first), np.concatenate([s[first:] - np.ptp(s) - closing, s[:first]])
+
+
 def arc_length_on(along, s, points):
     """Arc length at the place of the polyline `along` nearest to each point."""
     start, step = along[:-1], np.diff(along, axis=0)
