@@ -73,8 +73,11 @@ def test_the_lines_to_paste_name_all_curves(call, tmp_path):
 
 def test_a_gap_between_arcs_is_found_whatever_the_mesh(call, tmp_path):
     (tmp_path / "pin.geo").write_text(PIN)
-    gap = float(re.search(r"curve_5 - curve_6: along \S+, gap (\S+)", call("check", "pin.geo"))[1])
-    assert gap == pytest.approx(20 - 19.9, rel=0.06)  # as coarse as its triangles are
+    assert re.search(r"curve_5 - curve_6: along \S+, gap 0\.1$", call("check", "pin.geo"), re.MULTILINE)  # 20 - 19.9
+    (tmp_path / "pin.geo").write_text(PIN.replace("Disk(4) = {0, 0, 0, 19.9}", "Disk(4) = {0.3, 0.4, 0, 19.513}"))
+    said = call("check", "pin.geo")  # 20 - 19.513 less half a unit: a little into the plate
+    assert re.search(r"curve_5 - curve_6: along \S+, overlap 0\.013$", said, re.MULTILINE)
+    (tmp_path / "pin.geo").write_text(PIN)
     assert "closed, radius 19.9 round (0, 0)" in call("check", "pin.geo")
 
 

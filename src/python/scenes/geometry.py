@@ -4,10 +4,12 @@ import json
 import re
 import sys
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations
 from pathlib import Path
 
 import numpy as np
+from numpy.polynomial import chebyshev
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.with_name("pictures")))
 
@@ -25,6 +27,33 @@ class Curve:
     points: np.ndarray  # along it, with its body on the left
     length: float
     numbered: bool  # without a name of its own
+    arcs: np.ndarray  # n x 9 x 2: coefficients of Chebyshev's polynomials, from -1 to 1 along each arc
+
+    def at(self, u):
+        """Places where u = k + 1/2 is the middle of arc k, and is so for all u of a closed curve."""
+        count = len(self.arcs)
+        u = np.mod(u, count) if np.array_equal(self.points[0], self.points[-1]) else np.clip(u, 0, count)
+        k = np.minimum(u.astype(int), count - 1)
+        T = chebyshev.chebvander(2 * (u - k) - 1, self.arcs.shape[1] - 1)
+        return np.einsum("ij,ijk->ik", T, self.arcs[k])
+
+    @cached_property
+    def samples(self):
+        u = np.linspace(0, len(self.arcs), 8 * len(self.arcs) + 1)
+        return u, self.at(u)
+
+    def near(self, x):
+        """For each of some places a u near that of the curve's nearest place."""
+        u, places = self.samples
+        return u[np.linalg.norm(places - x[:, None], axis=2).argmin(axis=1)]
+
+    def unknown(self):
+        """How far the curve may lie from its arcs, which are those of a mesh: by how they turn where they meet."""
+        ends = [chebyshev.chebval(end, chebyshev.chebder(np.moveaxis(self.arcs, 1, 0))).T for end in (-1, 1)]
+        before, behind = ends[1][:-1], ends[0][1:]
+        lengths = [np.maximum(np.linalg.norm(tangents, axis=1), 1e-300) for tangents in (before, behind)]
+        turns = np.linalg.norm(before / lengths[0][:, None] - behind / lengths[1][:, None], axis=1)
+        return float((turns * 2 * lengths[1])[turns < 0.5].max(initial=0) / 8 + 1e-9 * np.abs(self.points).max())
 
     @property
     def straight(self):
@@ -52,7 +81,7 @@ class Meeting:
     curves: tuple
     gap: float  # the least, negative where they overlap as drawn
     along: float  # length over which they face each other so near
-    known: float  # how well the gap is, which is that of short straight pieces
+    known: float  # how well the gap is: as well as the curves are
 
     def close(self):
         return abs(self.gap) <= MEET * min(curve.length for curve in self.curves)
@@ -99,14 +128,28 @@ class Geometry:
 
 
 def curve_of(nodes, name, edges):
-    lines = lines_of(nodes, edges)
+    return curve_through(name, sorted({edge[3] for edge in edges}), lines_of(nodes, edges))
+
+
+def curve_through(name, bodies, lines):
+    """The curve of lines of points as lines_of has them, one behind another."""
     points = np.concatenate([lines[0], *(line[1:] if np.array_equal(line[0], before[-1]) else line for before, line in zip(lines, lines[1:]))])
+    arcs = np.array([arc for line in lines for arc in polynomials(line)])
     length = sum(np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in lines)
-    return Curve(name, sorted({edge[3] for edge in edges}), points, float(length), numbered(name))
+    return Curve(name, bodies, points, float(length), numbered(name), arcs)
+
+
+def polynomials(line):
+    """Coefficients of the arcs of an edge, from its points: where it is as drawn, nine a piece, at -cos(pi k / 8)
+    (src/mesh/edge_samples.hpp); else seven evenly spaced ones of a polynomial of degree two."""
+    if len(line) % 9 == 0:
+        at, pieces = -np.cos(np.pi * np.arange(9) / 8), np.split(line, len(line) // 9)
+        return [chebyshev.chebfit(at, piece, 8) for piece in pieces]
+    return [np.pad(chebyshev.chebfit(np.linspace(-1, 1, len(line)), line, 2), ((0, 6), (0, 0)))]
 
 
 def pieces(curve):
-    """Middles, outward normals and lengths of short straight pieces of a curve; of an arc as on it."""
+    """Middles, outward normals and lengths of short straight pieces of a curve."""
     s = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(curve.points, axis=0), axis=1))])
     at = np.union1d(s, np.linspace(0, s[-1], 241))
     at = at[:: len(at) // MANY_PLACES + 1]
@@ -115,17 +158,32 @@ def pieces(curve):
     length = np.linalg.norm(step, axis=1)
     kept = length > 1e-9 * s[-1]
     step, length = step[kept], length[kept]
-    middles, normals = (ends[:-1] + ends[1:])[kept] / 2, np.stack([step[:, 1], -step[:, 0]], axis=1) / length[:, None]
-    if circle := curve.circle():
-        out = (middles - circle[0]) / np.linalg.norm(middles - circle[0], axis=1)[:, None]
-        middles, normals = circle[0] + circle[1] * out, out * np.sign((out * normals).sum(axis=1))[:, None]
-    return middles, normals, length
+    return (ends[:-1] + ends[1:])[kept] / 2, np.stack([step[:, 1], -step[:, 0]], axis=1) / length[:, None], length
 
 
-def arrow(curve, normals, lengths):
-    """How far a curve may lie from its pieces, by how they turn."""
-    turns = np.linalg.norm(np.diff(normals, axis=0), axis=1)
-    return float(max((turns * lengths[1:])[turns < 0.5].max(initial=0) / 8, 1e-6 * curve.length))
+def nearest(function, at, known):
+    """Parameters of the least values of a function, known so well: on finer and finer grids round some near them."""
+    half = 0.5
+    while half > known:
+        grid = at[:, None] + np.linspace(-half, half, 9)
+        at, half = grid[np.arange(len(at)), function(grid).argmin(axis=1)], half / 3
+    return at
+
+
+def gaps_to(b, x):
+    """How far places lie before b, along its normals (negative: behind it); infinite beyond its ends."""
+    places = lambda v: b.at(v.ravel()).reshape(*v.shape, 2)
+    v = nearest(lambda v: np.linalg.norm(places(v) - x[:, None], axis=2), b.near(x), 1e-9)
+    across, along = x - places(v), places(v + 1e-6) - places(v - 1e-6)
+    along /= np.linalg.norm(along, axis=1)[:, None]
+    beyond = np.abs((across * along).sum(axis=1)) > 1e-3 * np.linalg.norm(across, axis=1) + 1e-7 * b.length
+    return np.where(beyond, np.inf, across[:, 0] * along[:, 1] - across[:, 1] * along[:, 0])
+
+
+def least_gap(a, b, x):
+    """The least gap between two curves near a place x of a."""
+    gaps = lambda u: gaps_to(b, a.at(u.ravel())).reshape(u.shape)
+    return float(gaps(nearest(gaps, a.near(x[None]), 1e-6))[0])
 
 
 def meeting(a, b):
@@ -142,4 +200,5 @@ def meeting(a, b):
         return None
     opposite = np.where(facing, across, np.inf).argmin(axis=1)  # of each piece, that which it faces most squarely
     gaps = gap[np.arange(len(x)), opposite][facing.any(axis=1)]
-    return Meeting((a, b), float(gaps[np.abs(gaps).argmin()]), float(along), arrow(a, n, dx) + arrow(b, m, dy))
+    gap = least_gap(a, b, x[facing.any(axis=1)][gaps.argmin()])
+    return Meeting((a, b), gap, float(along), a.unknown() + b.unknown())
