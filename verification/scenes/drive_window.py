@@ -1,7 +1,7 @@
 """Drives `mortise window` as a user would, by a mouse under Xvfb: picks curves on the screen, presses Solve.
 
-Usage: drive_window.py punch|lug FILE (in its folder, with DISPLAY, MORTISE_PROGRAM); prints what the window told, as JSON.
-punch: all that test_window.py looks at; lug: docs/tutorial.md.
+Usage: drive_window.py punch|lug|stop|feet FILE (in its folder, with DISPLAY, MORTISE_PROGRAM); prints what the window told, as JSON.
+lug: docs/tutorial.md, with its pictures; the others: what test_window.py looks at.
 """
 
 import json
@@ -22,7 +22,7 @@ import gmsh
 import signs
 import window
 
-SOLVE = (265, 838)  # the button, which stands still
+SOLVE, STOP = (265, 838), (121, 190)  # the buttons; the second where it is before there is a verdict
 
 
 def mouse(*words):
@@ -96,7 +96,6 @@ def punch(shown):
     picked(shown, "pair", [(0.25, 0.2)], box)
     pressure = next(name for name in gmsh.onelab.getNames(window.NUMBERS + ".*") if name.endswith("pressure"))
     gmsh.onelab.setNumber(pressure, [20e6])
-    shown.act("save")
     mouse("mousemove", *SOLVE, "click", 1)
     wait(shown, lambda: shown.run)
     steps = 0
@@ -119,6 +118,35 @@ def punch(shown):
     return told
 
 
+def stop(shown):
+    gmsh.onelab.setNumber(window.ACCURACY, [0])  # on the mesh of the .geo, which takes a while
+    mouse("mousemove", *SOLVE, "click", 1)
+    wait(shown, lambda: shown.run)
+    run, end = shown.run, time.monotonic() + 1.5
+    wait(shown, lambda: time.monotonic() > end)
+    told = {"ran": shown.run is run}
+    mouse("mousemove", *STOP, "click", 1)
+    wait(shown, lambda: not shown.run, 5)
+    told |= {"status": run.returncode, "stopped": told_by(shown)["lines"]}
+    shown.geo.write_text(shown.geo.read_text().split("Mesh.")[0])  # coarse again
+    shown.act("check scene")
+    wait(shown, lambda: not shown.run)
+    return told | {"checked": told_by(shown)["lines"]}
+
+
+def feet(shown):
+    mouse("mousemove", *SOLVE, "click", 1)
+    wait(shown, lambda: shown.run)
+    wait(shown, lambda: not shown.run, 60)
+    told = {"0": told_by(shown)}
+    for pair in (1, 0):  # as the list of pairs is clicked
+        gmsh.onelab.setNumber(window.PAIR, [pair])
+        gmsh.onelab.setString(window.ACTION, ["check"])
+        shown.step()
+        told[str(pair)] = told_by(shown)
+    return told
+
+
 def told_by(shown):
     graph = next((tag for tag in gmsh.view.getTags() if gmsh.option.getString(f"View[{gmsh.view.getIndex(tag)}].Name").startswith("p along")), None)
     values = gmsh.view.getListData(graph)[2][0] if graph is not None else []
@@ -130,7 +158,7 @@ def main():
     shown = window.Window(Path(sys.argv[2]))
     for _ in range(5):
         shown.step()
-    print(json.dumps({"punch": punch, "lug": lug}[sys.argv[1]](shown)))
+    print(json.dumps({"punch": punch, "lug": lug, "stop": stop, "feet": feet}[sys.argv[1]](shown)))
 
 
 if __name__ == "__main__":

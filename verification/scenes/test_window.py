@@ -5,6 +5,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tomllib
@@ -14,6 +15,7 @@ import numpy as np
 import pytest
 
 import launch
+from result_tables import sides_of
 from test_scenes import PUNCH, filled
 
 sys.path[:0] = [str(launch.ROOT / "src/python/scenes"), str(launch.ROOT / "verification/pages")]
@@ -71,6 +73,49 @@ def test_a_scene_by_mouse_is_the_scene_of_the_command_line(mortise, screen, tmp_
     assert told["steps while it solved"] > 3  # the window lived on
     assert any("nowhere" in line for line in told["error"]["lines"])
     assert told["highlighted"] == ["curve_2"]
+
+
+def test_stop_ends_a_solve(mortise, screen, tmp_path):
+    """While gmsh meshes, in a process of its own: nothing goes on, nothing is written, and the window lives."""
+    (tmp_path / "punch.geo").write_text(PUNCH)
+    subprocess.run([mortise, "new", "punch.geo"], cwd=tmp_path, check=True)
+    (tmp_path / "punch.toml").write_text(filled((tmp_path / "punch.toml").read_text()))
+    (tmp_path / "punch.geo").write_text(PUNCH + "Mesh.MeshSizeMax = 0.0004;\n")  # 1.7 million triangles
+    told = drive(mortise, screen, tmp_path, "stop", "punch.toml")
+    assert told["ran"] and told["status"] == -signal.SIGINT and told["stopped"] == ["stopped"]
+    assert told["checked"] == ["fine"]
+    assert not [*tmp_path.glob("out/**/*.*")]
+    left = [path for path in Path("/proc").glob("[0-9]*/cwd") if points_to(path, tmp_path)]
+    assert not left, "a process goes on"
+
+
+def points_to(link, folder):
+    try:
+        return link.resolve() == folder.resolve()
+    except OSError:  # it has ended, or is another's
+        return False
+
+
+FEET = """SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 0.6, 0.2};
+Rectangle(2) = {0.05, 0.2, 0, 0.1, 0.1};
+Rectangle(3) = {0.35, 0.2, 0, 0.2, 0.1};
+"""
+
+
+def test_p_of_the_chosen_pair_is_shown(mortise, screen, tmp_path):
+    (tmp_path / "feet.geo").write_text(FEET)
+    subprocess.run([mortise, "new", "feet.geo"], cwd=tmp_path, check=True)
+    (tmp_path / "feet.toml").write_text(filled((tmp_path / "feet.toml").read_text()))
+    told = drive(mortise, screen, tmp_path, "feet", "feet.toml")
+    table = launch.columns(tmp_path / "out/feet/contact.csv")
+    curves = []
+    for pair in (0, 1):
+        on = sides_of(table, pair)[0]
+        shown = told[str(pair)]
+        np.testing.assert_allclose(shown["p"], np.interp(shown["s"], table["s"][on], table["p"][on]), rtol=1e-9)
+        curves.append(shown["p"])
+    assert not np.allclose(*curves)
 
 
 @pytest.mark.parametrize("written", [

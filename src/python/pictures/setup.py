@@ -91,11 +91,11 @@ def places_along(lines, spacing):
     """Places and outward normals at about this spacing along polylines with the body on their left, one at least."""
     starts, ends = (np.concatenate([line[part] for line in lines]) for part in (slice(None, -1), slice(1, None)))
     lengths = np.linalg.norm(ends - starts, axis=1)
-    total = lengths.sum()
+    behind, total = np.cumsum(lengths), lengths.sum()
     wanted = (np.arange(max(1, round(total / spacing))) + 0.5) * total / max(1, round(total / spacing))
-    k = np.minimum(np.searchsorted(np.cumsum(lengths), wanted), len(lengths) - 1)
+    k = np.minimum(np.searchsorted(behind, wanted), len(lengths) - 1)
     along = (ends - starts)[k] / lengths[k, None]
-    return (starts + ends)[k] / 2, np.stack([along[:, 1], -along[:, 0]], axis=1)
+    return ends[k] - (behind[k] - wanted)[:, None] * along, np.stack([along[:, 1], -along[:, 0]], axis=1)
 
 
 def held_along(words):
@@ -103,31 +103,32 @@ def held_along(words):
     return np.array([along for name, along in (("u_x", (1, 0)), ("u_y", (0, 1))) if f"{name} =" in words]).reshape(-1, 2)
 
 
-def draw_support(axes, lines, size, held):
-    """Hatches on the outside: along x or y where only that displacement is held, else slanted."""
+def hatches(lines, size, held):
+    """Strokes (start, end) on the outside of a support: along x or y where only that displacement is held, else slanted."""
     at, normal = places_along(lines, 0.025 * size)
-    draw_curve(axes, lines, REACTION)
     if len(held) == 1:
-        middle, half = at + 0.014 * size * normal, 0.009 * size * held
-        strokes = np.stack([middle - half, middle + half], axis=1)
-    else:
-        slanted = normal + 0.8 * np.stack([-normal[:, 1], normal[:, 0]], axis=1)
-        strokes = np.stack([at, at + 0.018 * size * slanted], axis=1)
-    draw_curve(axes, strokes, REACTION, 0.9)
+        middle, half = at + 0.014 * size * normal, 0.009 * size * np.array(held)
+        return np.stack([middle - half, middle + half], axis=1)
+    slanted = normal + 0.8 * np.stack([-normal[:, 1], normal[:, 0]], axis=1)
+    return np.stack([at, at + 0.018 * size * slanted], axis=1)
+
+
+def shafts(lines, size, force, pulls=False):
+    """Arrows (start, end) of a load along a force, or along the normal if that is None: onto what they push, away from what they pull."""
+    at, normal = places_along(lines, 0.06 * size)
+    along = np.broadcast_to(force / np.linalg.norm(force), at.shape) if force is not None else normal if pulls else -normal
+    step = 0.055 * size * along
+    start = np.where(((step * normal).sum(axis=1) < 0)[:, None], at - step, at)
+    return np.stack([start, start + step], axis=1)
 
 
 def draw_load(axes, lines, force, words, size):
-    """Arrows along the sum of the load, of a pressure along the normal: onto what they push, away from what they pull."""
-    at, normal = places_along(lines, 0.06 * size)
     pressure = words.startswith("pressure")
     if not np.linalg.norm(force) > 0 and not pressure:
         return
-    along = force / np.linalg.norm(force) if np.linalg.norm(force) > 0 else np.zeros(2)
-    inwards = not words.startswith("pressure -")
     draw_curve(axes, lines, LOAD)
-    for place, n in zip(at, normal):
-        step = 0.055 * size * ((-n if inwards else n) if pressure else along)
-        arrow(axes, *((place - step, place) if step @ n < 0 else (place, place + step)))
+    for start, end in shafts(lines, size, None if pressure else force, words.startswith("pressure -")):
+        arrow(axes, start, end)
 
 
 def draw_arrows_at(axes, places, force, size):
@@ -178,7 +179,8 @@ def draw(setup, picture):
     for support in setup["supports"]:
         for curve in support["on"]:
             if curve in curves:
-                draw_support(axes, curves[curve], size, held_along(support["words"])[:, order])
+                draw_curve(axes, curves[curve], REACTION)
+                draw_curve(axes, hatches(curves[curve], size, held_along(support["words"])[:, order]), REACTION, 0.9)
             else:
                 axes.plot(*nodes[setup["points"].get(curve, [])].T, "^", color=REACTION, zorder=6)
         tell(REACTION, f"support {listed(support['on'])}: {figure.plain(support['words'])}", support["on"])

@@ -35,10 +35,10 @@ def solve(client, program, geo):
         client.send(ERROR if line.startswith("mortise:") else INFO, line)
     if command[1] != "solve" or done.returncode not in (0, 2) or not (out / "summary.json").exists():
         return
-    import gmsh, signs  # they take a while
+    import gmsh, views  # they take a while
 
     gmsh.initialize(["mortise", "-v", "0"], False)
-    signs.show_results(out, 0)
+    views.show_results(out, 0)
     last, (stress, *_, pressure) = "View[PostProcessing.NbViews-1]", gmsh.view.getTags()
     for tag, file, options in ((stress, "stress.pos", f"{last}.IntervalsType = 2;"), (pressure, "pressure.pos", f"{last}.Type = 2; {last}.Axes = 2;")):
         gmsh.view.write(tag, str(out / file))
