@@ -72,6 +72,7 @@ def picked(shown, action, places, box):
 
 def lug(shown):
     box = ((-100, -30), (30, 30))
+    ImageGrab.grab().save("opened.png")
     gmsh.onelab.setString(window.NAME, ["bore"])
     picked(shown, "name", [(0, 8)], box)
     picked(shown, "hold", [(0, 8)], box)
@@ -79,6 +80,9 @@ def lug(shown):
     picked(shown, "hold", [(-100, 10)], box)
     gmsh.onelab.setNumber(window.PRESSURE, [-50])
     picked(shown, "load", [(-100, 10)], box)
+    shown.act("check scene")
+    wait(shown, lambda: not shown.run)
+    ImageGrab.grab().save("message.png")
     picked(shown, "material", [(-60, 0)], box)
     ImageGrab.grab().save("window.png")
     mouse("mousemove", *SOLVE, "click", 1)

@@ -22,8 +22,9 @@ sys.path[:0] = [str(launch.ROOT / "src/python/scenes"), str(launch.ROOT / "verif
 
 import edits
 import markdown
+import tutorial
+from tutorial import drive
 
-TUTORIAL = markdown.sections((launch.ROOT / "docs/tutorial.md").read_text())
 CASES = '\n[[case]]\nname = "half"\nscale = 0.5\n\n[[case]]\nname = "full"\n'
 
 
@@ -33,22 +34,8 @@ def screen():
     missing = [program for program in ("Xvfb", "xdotool") if shutil.which(program) is None]
     if missing or importlib.util.find_spec("gmsh") is None:
         pytest.skip(f"the window cannot be driven without {', '.join(missing) or 'python3-gmsh'}: ./dev setup installs it")
-    read, write = os.pipe()
-    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x900x24"], pass_fds=[write], stderr=subprocess.DEVNULL)
-    yield ":" + os.read(read, 20).decode().strip()
-    server.terminate()
-    server.wait()
-    os.close(read)
-    os.close(write)
-
-
-def drive(mortise, screen, folder, *words):
-    """What the window told that drive_window.py had open."""
-    environment = os.environ | {"DISPLAY": screen, "MORTISE_PROGRAM": str(mortise), "PYTHONPATH": str(Path(launch.__file__).parent)}
-    command = [sys.executable, Path(__file__).with_name("drive_window.py"), *words]
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=120, check=False)
-    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
-    return json.loads(done.stdout.splitlines()[-1])
+    with tutorial.screen() as display:
+        yield display
 
 
 def test_a_scene_by_mouse_is_the_scene_of_the_command_line(mortise, screen, tmp_path):
@@ -136,40 +123,29 @@ def test_a_number_is_changed_where_it_stands_and_nothing_else():
         edits.with_value('boundary = [{ pressure = 3_0 }]'.replace("3_0", "0x1e"), "boundary.0.pressure", 4)
 
 
-@pytest.fixture
-def typed(mortise, tmp_path):
-    """Runs a command of the tutorial as it is printed."""
-
-    def run(command):
-        words = [str(mortise) if word == "mortise" else word for word in command.split()]
-        return launch.run(words, expected=(0,), cwd=tmp_path, env=os.environ | launch.ONE_THREAD)[0].stdout
-
-    return run
-
-
-def test_the_tutorial_by_files(typed, tmp_path):
-    drawing, curves, scene, solve = (TUTORIAL[name] for name in ("Draw it", "Which curve is which", "Say what happens", "Solve it"))
-    (tmp_path / "lug.geo").write_text(markdown.files(drawing)["lug.geo"])
-    said = typed(*markdown.commands(curves))
-    quoted = re.findall(r"`([^`\n]+)`\)", curves)
-    assert len(quoted) == 2 and all(words in said for words in quoted)
-    with (tmp_path / "lug.geo").open("a") as file:
-        file.write(markdown.files(curves)["lug.geo"])
-    new, check = markdown.commands(scene)
-    typed(new)
-    begun, full = (tomllib.loads(text) for text in ((tmp_path / "lug.toml").read_text(), markdown.files(scene)["lug.toml"]))
+def test_the_tutorial_by_files(mortise, tmp_path):
+    said, begun = tutorial.by_files(mortise, tmp_path)
+    quoted = re.findall(r"`([^`\n]+)`\)", tutorial.TEXT[tutorial.CURVES])
+    assert len(quoted) == 2 and all(words in said[tutorial.CURVES] for words in quoted)
+    begun, full = (tomllib.loads(text) for text in (begun, (tmp_path / "lug.toml").read_text()))
     assert begun["contact"] == full["contact"] and begun["bodies"] == full["bodies"]
-    (tmp_path / "lug.toml").write_text(markdown.files(scene)["lug.toml"])
-    assert "pulled: pressure -50, in sum (-3000, 0)" in typed(check)
-    said = "".join(typed(command) for command in [*markdown.commands(solve), *markdown.commands(TUTORIAL["Hand it over"])])
-    assert not markdown.wrong_figures(solve, tmp_path, said)
-    pages = ["curves.png", "setup.png", "out/lug.png", "out/lug.html"]
+    assert "pulled: pressure -50, in sum (-3000, 0)" in said[tutorial.SCENE]
+    for heading in (tutorial.SOLVE, tutorial.TRY, tutorial.GROW):
+        assert not markdown.wrong_figures(tutorial.TEXT[heading], tmp_path, said[heading])
+    pages = [*tutorial.BY_FILES.values(), "out/lug.html"]
     assert all((tmp_path / name).stat().st_size > 10000 for name in pages)
 
 
+def test_every_picture_of_the_tutorial_is_made():
+    shown = re.findall(r"\(tutorial/(\w+)\.png\)", tutorial.PAGE.read_text())
+    assert sorted(shown) == sorted([*tutorial.BY_FILES, *tutorial.BY_MOUSE])
+    files = [tutorial.PAGE.with_suffix("") / f"{name}.png" for name in shown]
+    assert sum(file.stat().st_size for file in files) < 1.2e6
+
+
 def test_the_tutorial_by_mouse(mortise, screen, tmp_path):
-    (tmp_path / "lug.geo").write_text(markdown.files(TUTORIAL["Draw it"])["lug.geo"])
-    told = drive(mortise, screen, tmp_path, "lug", "lug.geo")
+    told = tutorial.by_mouse(mortise, screen, tmp_path)
+    assert all((tmp_path / f"{name}.png").is_file() for name in tutorial.BY_MOUSE)
     scene = tomllib.loads((tmp_path / "lug.toml").read_text())
     assert scene["boundary"] == [{"on": ["bore"], "displacement": {"x": 0, "y": 0}}, {"on": ["curve_2"], "displacement": {"y": 0}}, {"on": ["curve_2"], "pressure": -50}]
     assert scene["materials"] == {"steel": {"young": 210e3, "poisson": 0.3}} and scene["contact"] == [{"between": ["curve_5", "curve_6"]}]

@@ -154,9 +154,7 @@ def draw(setup, picture):
     named = len(curves) <= MANY_NAMES
     extent = np.ptp(nodes, axis=0)
     height = float(np.clip(7 * extent[1] / extent[0], 1.6 if turned else 2.5, 9))
-    pairs = len(setup["contact"]) if len(setup["contact"]) <= MANY_PAIRS else 1
-    entries = sum(len(setup[key]) for key in ("supports", "loads", "ties", "rest")) + pairs + 1
-    drawing, axes = figure.panels(1, 1, (8, height + 0.8 + 0.16 * min(20, entries)))
+    drawing, axes = figure.panels(1, 1, (8, height + 0.8))
     legend = draw_bodies(axes, setup, nodes, not turned)
     written = set()
 
@@ -219,8 +217,11 @@ def draw(setup, picture):
     axes.set_aspect("equal")
     label_places(axes, turned)
     drawing.suptitle(figure.wrapped(setup["title"]), fontsize=11)
-    below = {"loc": "upper left", "bbox_to_anchor": (0, -0.5 / height), "borderaxespad": 0}
-    axes.legend(handles=legend[:20], frameon=False, fontsize=7.5, **below)
+    below = 0.1 + 0.165 * len(legend[:20])  # inches
+    drawing.set_size_inches(8, height + 0.8 + below)
+    part = below / (height + 0.8 + below)
+    drawing.get_layout_engine().set(rect=(0, part, 1, 1 - part))
+    drawing.legend(handles=legend[:20], frameon=False, fontsize=7.5, loc="lower left", bbox_to_anchor=(0.07, 0))
     figure.save(drawing, picture, 130)
 
 

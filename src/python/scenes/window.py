@@ -38,9 +38,9 @@ HOLDS = {"fixed": {"x": 0, "y": 0}, "x = 0": {"x": 0}, "y = 0": {"y": 0}, "norma
 PICKS = {"name": "curves to name", "hold": "curves to hold", "load": "curves that bear the pressure",
          "pair": "two curves, or one where they lie on each other", "material": "bodies"}  # fmt: skip
 LOOK = {"Geometry.Points": 0, "Geometry.CurveWidth": 3, "Geometry.Surfaces": 0, "Mesh.SurfaceEdges": 0, "Mesh.Lines": 0,
-        "Mesh.Points": 0, "Solver.AutoMesh": 0, "General.SmallAxes": 0, "General.GraphicsFontSize": 15,
-        "General.MenuWidth": 330, "General.GraphicsWidth": 1250, "General.GraphicsHeight": 800,
-        "General.GraphicsPositionX": 20, "General.GraphicsPositionY": 30}  # fmt: skip
+        "Mesh.Points": 0, "General.BackgroundGradient": 0, "Solver.AutoMesh": 0, "General.SmallAxes": 0,
+        "General.GraphicsFontSize": 15, "General.MenuWidth": 330, "General.GraphicsWidth": 1250,
+        "General.GraphicsHeight": 800, "General.GraphicsPositionX": 20, "General.GraphicsPositionY": 30}  # fmt: skip
 
 
 def field(name, *values, **more):
