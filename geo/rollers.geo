@@ -1,8 +1,9 @@
-// A roller bearing: rollers of radius 5 between an inner ring (radii 20, 30) and an outer one (40, 50), lengths in mm.
+// A roller bearing: rollers of radius 5 between two rings of thickness 10, lengths in mm.
 // Bodies "inner", "outer", "roller_NUMBER"; curves "bore", "rim", "inner_race", "outer_race", "roller_NUMBER_in" and
 // "roller_NUMBER_out", the halves towards the rings. A roller stands at the lowest place.
 DefineConstant[
   rollers = {12, Name "rollers"},
+  pitch = {35, Name "radius of the circle of their centres"},
   fine = {0.2, Name "edges at the contacts"},
   coarse = {3, Name "edges elsewhere"},
   order = {2, Name "order of the elements"},
@@ -28,19 +29,19 @@ Macro Ring
   EndFor
 Return
 
-r = 20;
+r = pitch - 15;
 size = coarse;
 Call Ring;
 bore[] = ring[];
-r = 30;
+r = pitch - 5;
 size = fine;
 Call Ring;
 inner[] = ring[];
-r = 40;
+r = pitch + 5;
 size = fine;
 Call Ring;
 outer[] = ring[];
-r = 50;
+r = pitch + 15;
 size = coarse;
 Call Ring;
 rim[] = ring[];
@@ -58,7 +59,7 @@ Physical Curve("rim") = {rim[]};
 
 For k In {0 : rollers - 1}
   a = 2 * Pi * k / rollers - Pi / 2;
-  x = 35 * Cos(a); y = 35 * Sin(a); u = 5 * Cos(a); v = 5 * Sin(a);
+  x = pitch * Cos(a); y = pitch * Sin(a); u = 5 * Cos(a); v = 5 * Sin(a);
   p = newp;
   Point(p) = {x, y, 0, coarse};
   Point(p + 1) = {x + u, y + v, 0, fine};

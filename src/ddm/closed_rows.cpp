@@ -56,7 +56,7 @@ VecX most_work(const SparseMatrix& H, const VecX& lambda) {
 }  // namespace
 
 ClosedRows::ClosedRows(const DualSystem& system, const std::vector<char>& closed)
-    : system_(system), rows_(system.rows()) {
+    : system_(system), rows_(system.rows()), of_parts_(system.closed_of_parts(closed)) {
   share_jumps(closed);
   if (dependent_row >= 0) return;
   hold_motions();
@@ -179,7 +179,7 @@ VecX ClosedRows::unshared(const VecX& jump) const { return on_closed(rows_.own(s
 
 // Of a jump, the pressures by the parts' stiffness.
 VecX ClosedRows::stiffened(const VecX& jump) const {
-  return unshared(on_closed(system_.multiply_stiffness(unshared(jump))));
+  return unshared(on_closed(system_.multiply_stiffness(unshared(jump), of_parts_)));
 }
 
 VecX ClosedRows::precondition(const VecX& residual) const {
@@ -190,7 +190,7 @@ VecX ClosedRows::precondition(const VecX& residual) const {
 
 void ClosedRows::solve(const DualSystem::Forces& forces, IterationMonitor& monitor, DualSolution& x) const {
   const VecX gaps = rows_.own(forces.r), response = rows_.own(forces.response);
-  VecX lambda = balanced(rows_.own(x.lambda), forces.h), C_lambda = system_.multiply(lambda);
+  VecX lambda = balanced(rows_.own(x.lambda), forces.h), C_lambda = on_closed(system_.multiply(lambda, of_parts_));
   VecX r = without_motions(on_closed(gaps - C_lambda)), z = without_resultants(precondition(r)), p = z;
   double rz = rows_.dot(r, z);
   const auto residuals = [&] {
@@ -202,11 +202,11 @@ void ClosedRows::solve(const DualSystem::Forces& forces, IterationMonitor& monit
                                       of_one_row * fraction(rows_.largest(z), rows_.largest(lambda)))};
   };
   while (monitor.go_on(residuals(), std::sqrt(std::abs(rz)))) {
-    const VecX Cp = system_.multiply(p);
+    const VecX Cp = on_closed(system_.multiply(p, of_parts_));
     const double alpha = rz / rows_.dot(p, Cp), before = rz;
     lambda += alpha * p;
     C_lambda += alpha * Cp;
-    r -= alpha * without_motions(on_closed(Cp));
+    r -= alpha * without_motions(Cp);
     z = without_resultants(precondition(r));
     rz = rows_.dot(r, z);
     p = z + rz / before * p;

@@ -55,9 +55,10 @@ class ClosedRows {
   // Vectors of the iteration have the own rows.
   const DualSystem& system_;
   const DealtRows& rows_;
-  VecX closed_;            // 1 or 0
-  VecX weights_;           // of closed rows: about the inverse of C's diagonal
-  std::vector<int> free_;  // springs whose motions no closed row holds
+  std::vector<SomeRows> of_parts_;  // DualSystem::closed_of_parts
+  VecX closed_;                     // 1 or 0
+  VecX weights_;                    // of closed rows: about the inverse of C's diagonal
+  std::vector<int> free_;           // springs whose motions no closed row holds
   SparseCholesky sharing_, coarse_;
   std::optional<SlenderInverse> slender_;
   VecX compact_;  // 1 or 0: own rows that slender parts do not see; empty where there are none of these

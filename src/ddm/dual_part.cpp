@@ -63,13 +63,30 @@ SparseMatrix shared_out(const SaddlePointSystem& s, const std::vector<int>& cont
   return shares(s, contact).asDiagonal() * SparseMatrix(B.transpose());
 }
 
+// A x on some rows, of an x that is zero on the others. `between`: A's entries there, where these are not all.
+VecX product(const MatX& A, const VecX& x, const std::vector<int>& some, const MatX& between) {
+  if (Eigen::Index(some.size()) == A.rows()) return A * x;
+  VecX product = VecX::Zero(x.size());
+  product(some) = between * x(some);
+  return product;
+}
+
 // Its compliance and the stiffness of its contact nodes as full matrices of its rows.
 class FullPart : public DualPart {
  public:
   VecX pressed(const VecX& lambda) const override { return C_ * lambda; }
   MatX compliance() const override { return C_; }
   VecX diagonal() const override { return C_.diagonal(); }
-  VecX stiffened(const VecX& x) const override { return stiffness_ * x; }
+  SomeRows some(std::vector<int> which) const override {
+    if (Eigen::Index(which.size()) == C_.rows()) return {.rows = std::move(which), .C = {}, .stiffness = {}};
+    return {.rows = which, .C = C_(which, which), .stiffness = stiffness_(which, which)};
+  }
+  VecX pressed(const VecX& lambda, const SomeRows& some) const override {
+    return product(C_, lambda, some.rows, some.C);
+  }
+  VecX stiffened(const VecX& x, const SomeRows& some) const override {
+    return product(stiffness_, x, some.rows, some.stiffness);
+  }
 
  protected:
   MatX C_, stiffness_;
@@ -146,7 +163,9 @@ class SlenderPart : public DualPart {
     return all;
   }
   VecX diagonal() const override { return sharing.diagonal(); }
-  VecX stiffened(const VecX& x) const override { return VecX::Zero(x.size()); }
+  SomeRows some(std::vector<int> which) const override { return {.rows = std::move(which), .C = {}, .stiffness = {}}; }
+  VecX pressed(const VecX& lambda, const SomeRows&) const override { return pressed(lambda); }
+  VecX stiffened(const VecX& x, const SomeRows&) const override { return VecX::Zero(x.size()); }
   VecX displacements(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const override {
     BodyGroup::Answer left = forces;
     left.y -= body_->answer(B_.transpose() * lambda).y;

@@ -6,6 +6,12 @@
 
 namespace mortise {
 
+/// Some rows of a part, places among its rows, and its matrices' entries between them; empty where they are all.
+struct SomeRows {
+  std::vector<int> rows;
+  MatX C, stiffness;
+};
+
 /// A substructure, factorised. Its rows, unknowns and springs are those of the whole system that it has; vectors below
 /// are of these alone, dimensionless as the bordered system.
 class DualPart {
@@ -25,7 +31,11 @@ class DualPart {
   virtual VecX pressed(const VecX& lambda) const = 0;  ///< C lambda
   virtual MatX compliance() const = 0;                 ///< C, full; of a slender part a solve a row
   virtual VecX diagonal() const = 0;                   ///< of C; of a slender part what a row's pressure does near it
-  virtual VecX stiffened(const VecX& x) const = 0;     ///< B W^-1 S W^-1 B^T x, as DualSystem; 0 of a slender part
+  virtual SomeRows some(std::vector<int> which) const = 0;
+  /// On some rows, of vectors that are zero on the others, where the results mean nothing: C lambda; and
+  /// B W^-1 S W^-1 B^T x, as DualSystem, 0 of a slender part.
+  virtual VecX pressed(const VecX& lambda, const SomeRows& some) const = 0;
+  virtual VecX stiffened(const VecX& x, const SomeRows& some) const = 0;
   virtual VecX displacements(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const = 0;
   virtual bool is_slender() const { return false; }
 

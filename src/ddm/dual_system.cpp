@@ -132,14 +132,15 @@ VecX DualSystem::stiffness() const {
 
 namespace {
 
-// The sum over the parts of what each makes of the entries of x in the places of its rows.
-template <typename Parts, typename Product>
-VecX sum_of_products(const Parts& parts, const VecX& x, Product product) {
+// The sum over the parts of what each, by its number, makes of the entries of x in the places of its rows. `count`:
+// of the rows of a part that count.
+template <typename Parts, typename Count, typename Product>
+VecX sum_of_products(const Parts& parts, const VecX& x, Count count, Product product) {
   std::vector<VecX> products(parts.size());
   double work = 0;
-  for (const auto& part : parts) work += double(part->rows.size()) * double(part->rows.size());
+  for (std::size_t k = 0; k < parts.size(); ++k) work += double(count(k)) * double(count(k));
   for_each_index(parts.size(), work > worth_threads ? solver_threads() : 1,
-                 [&](std::size_t k) { products[k] = product(*parts[k], VecX(x(parts[k]->places))); });
+                 [&](std::size_t k) { products[k] = product(k, VecX(x(parts[k]->places))); });
   VecX sum = VecX::Zero(x.size());
   for (std::size_t k = 0; k < parts.size(); ++k) sum(parts[k]->places) += products[k];
   return sum;
@@ -148,13 +149,32 @@ VecX sum_of_products(const Parts& parts, const VecX& x, Product product) {
 }  // namespace
 
 VecX DualSystem::multiply(const VecX& lambda) const {
-  return rows_->sum_of_seen(sum_of_products(parts_, rows_->seen(lambda),
-                                            [](const DualPart& part, const VecX& own) { return part.pressed(own); }));
+  return rows_->sum_of_seen(sum_of_products(
+      parts_, rows_->seen(lambda), [&](std::size_t k) { return parts_[k]->rows.size(); },
+      [&](std::size_t k, const VecX& own) { return parts_[k]->pressed(own); }));
 }
 
-VecX DualSystem::multiply_stiffness(const VecX& x) const {
-  return rows_->sum_of_seen(sum_of_products(parts_, rows_->seen(x),
-                                            [](const DualPart& part, const VecX& own) { return part.stiffened(own); }));
+std::vector<SomeRows> DualSystem::closed_of_parts(const std::vector<char>& closed) const {
+  std::vector<SomeRows> all;
+  for (const auto& part : parts_) {
+    std::vector<int> rows;
+    for (std::size_t a = 0; a < part->rows.size(); ++a)
+      if (closed[part->rows[a]]) rows.push_back(int(a));
+    all.push_back(part->some(std::move(rows)));
+  }
+  return all;
+}
+
+VecX DualSystem::multiply(const VecX& lambda, const std::vector<SomeRows>& closed) const {
+  return rows_->sum_of_seen(sum_of_products(
+      parts_, rows_->seen(lambda), [&](std::size_t k) { return closed[k].rows.size(); },
+      [&](std::size_t k, const VecX& own) { return parts_[k]->pressed(own, closed[k]); }));
+}
+
+VecX DualSystem::multiply_stiffness(const VecX& x, const std::vector<SomeRows>& closed) const {
+  return rows_->sum_of_seen(sum_of_products(
+      parts_, rows_->seen(x), [&](std::size_t k) { return closed[k].rows.size(); },
+      [&](std::size_t k, const VecX& own) { return parts_[k]->stiffened(own, closed[k]); }));
 }
 
 DualSystem::Answer DualSystem::answer(const VecX& force) const {

@@ -61,9 +61,13 @@ class DualSystem {
   VecX work_terms(const VecX& h, const VecX& lambda) const;
   /// s: diagonal of H^T D^-1 H, with D that of C.
   VecX stiffness() const;
-  /// B W^-1 S W^-1 B^T x, likewise own, with S the stiffness of the parts' contact nodes, all other nodes free (the
-  /// Schur complement); of all parts but the slender ones.
-  VecX multiply_stiffness(const VecX& x) const;
+  /// Of each part those of its rows that are closed (m).
+  std::vector<SomeRows> closed_of_parts(const std::vector<char>& closed) const;
+  /// On these rows, of vectors that are zero on all others, where the results mean nothing; own: C lambda.
+  VecX multiply(const VecX& lambda, const std::vector<SomeRows>& closed) const;
+  /// B W^-1 S W^-1 B^T x, likewise, with S the stiffness of the parts' contact nodes, all other nodes free (the Schur
+  /// complement); of all parts but the slender ones.
+  VecX multiply_stiffness(const VecX& x, const std::vector<SomeRows>& closed) const;
 
   /// Adds the displacements under forces and the multipliers to u (n, length).
   void add_displacements(const Answer& forces, const VecX& lambda, const VecX& mu, VecX& u) const;

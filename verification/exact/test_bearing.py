@@ -1,0 +1,44 @@
+"""How the rollers of a bearing with stiff rings share its load: as Stribeck (1901) and Sjovall (1933) say."""
+
+import json
+import subprocess
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from launch import ROOT
+
+YOUNG, POISSON, LOAD = 210e3, 0.3, np.pi * (30**2 - 20**2)  # geo/rollers.toml
+RADIUS, RACES = 5, (-30, 40)  # of a roller; of the races, < 0 where they are convex towards it
+
+
+def shares(rollers, play):
+    """Forces of the rollers from the lowest on: each gives way by what is left of the play of both its contacts, as a cylinder
+    between rigid bodies (Johnson 1985, eq. 5.57, half of it a contact)."""
+    modulus = YOUNG / (1 - POISSON**2)
+    curvatures = [1 / RADIUS - 1 / race for race in RACES]
+
+    def approach(force):
+        half_widths = [np.sqrt(4 * force / (np.pi * modulus * curvature)) for curvature in curvatures]
+        return sum(force / (np.pi * modulus) * (2 * np.log(4 * RADIUS / a) - 1) for a in half_widths)
+
+    falls = np.cos(2 * np.pi * np.arange(rollers) / rollers)
+    of = lambda given: brentq(lambda force: approach(force) - given, 1e-9, 10 * LOAD) if given > approach(1e-9) else 0
+    forces = lambda shift: np.array([of(shift * fall - play) for fall in falls])
+    return forces(brentq(lambda shift: forces(shift) @ falls - LOAD, play, play + approach(LOAD)))
+
+
+@pytest.mark.parametrize("rollers, play", [(12, 0), (12, 2e-3), (19, 0)])
+def test_rollers_share_the_load_of_stiff_rings(mortise, tmp_path, rollers, play):
+    changes = [f"mesh.parameters={{rollers={rollers}}}", f"contact.0.clearance={play / 2}", "materials.stiff.young=210e6",
+               "materials.stiff.poisson=0.3", "bodies.inner=stiff", "bodies.outer=stiff"]  # fmt: skip
+    options = [word for change in changes for word in ("--set", change)]
+    command = [str(mortise), "solve", str(ROOT / "geo/rollers.toml"), "--accuracy", "5%", "-o", "out", *options]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    pairs = json.loads((tmp_path / "out/summary.json").read_text())["contact"]
+    outer = {name: np.hypot(*pair["force"]) for pair in pairs for name in pair["between"] if name.endswith("_out")}
+    found, expected = np.array([outer[f"roller_{k}_out"] for k in range(rollers)]), shares(rollers, play)
+    assert np.abs(found - expected).max() < 0.005 * expected.max()
+    if play == 0:  # Stribeck: 4.08 F / Z on the lowest, of any number of rollers; Sjovall: more with play
+        assert abs(rollers * found[0] / LOAD - 4.08) < 0.04
