@@ -294,7 +294,10 @@ class Loop {
     const ErrorEstimate& e = *r.estimate;
     // What was asked of another quantity, as an error of p that is as far above what it should be.
     const double found = estimated(r), asked = spec_.value * (spec_.of == Goal::pressure ? 1 : e.pressure() / found);
-    const double target = std::max(aimed * asked, e.pressure() / largest_step) / error_safety;
+    // As few meshes as can be, of which each lowers the error by the same part.
+    const double fall = e.pressure() / (aimed * asked),
+                 meshes = std::max(1.0, std::ceil(std::log(fall) / std::log(largest_step))),
+                 target = aimed * asked * std::pow(fall, 1 - 1 / meshes) / error_safety;
     ErrorFactors factors{.line = std::clamp((first ? e.slopes() : e.line()) / (0.8 * target), 0.4, largest_step),
                          .far_field = std::clamp(e.far_field() / (0.5 * target), 0.25, 5 * largest_step),
                          .target = target};

@@ -13,7 +13,10 @@ namespace {
 constexpr double side_of_area = 1.5;         // side of a triangle over the root of its area
 constexpr double coarsen = 0.4, refine = 6;  // by what sizes may fall at once where the error is smooth
 constexpr double singular_share = 0.12;      // of a cell's energy norm; its error falls slowly then
-constexpr double singular_refine = 40, line_refine = 30, border_refine = 100;
+constexpr double singular_refine = 40;
+// By what edges may shorten at once. Where contact ends is known to an edge: of those that it is refined to, all but
+// one are for nothing.
+constexpr double line_refine = 8;
 constexpr double corner_share = 0.2;  // of the target of the far field, for all corners of the bodies
 constexpr double border_share = 0.5;  // of the target of the local error, for all borders
 constexpr double least_size = 2e-7,
@@ -142,8 +145,8 @@ VecX line_refinement(const PressureEstimate& e, double target, double borders, d
   for (Eigen::Index i = 0; i < l2.size(); ++i) {
     if (e.excluded[i] || !e.line.loaded[i]) continue;
     r(i) = !e.local.border[i] ? std::clamp(all * std::pow(l2(i), 0.4), coarsen, line_refine)
-           : border > 0       ? std::min(border, border_refine)
-                              : std::clamp(l2(i) / (border_share * target / std::sqrt(borders)), 0.7, border_refine);
+           : border > 0       ? std::min(border, line_refine)
+                              : std::clamp(l2(i) / (border_share * target / std::sqrt(borders)), 0.7, line_refine);
   }
   return r;
 }
@@ -175,7 +178,7 @@ VecX goal_line_refinement(const PressureEstimate& e, const LinePart& part, const
   for (Eigen::Index i = 0; i < r.size(); ++i)
     r(i) = std::clamp(std::pow(between, 0.2) * std::pow(vertices(i), 1.0 / 6), coarsen, line_refine);
   for (std::size_t b = 0; b < e.local.borders.size(); ++b) {
-    const double shorter = std::clamp(std::sqrt(between) * std::cbrt(borders(Eigen::Index(b))), 0.7, border_refine);
+    const double shorter = std::clamp(std::sqrt(between) * std::cbrt(borders(Eigen::Index(b))), 0.7, line_refine);
     const Eigen::Index edge = e.local.borders[b].edge;
     for (Eigen::Index i = std::max<Eigen::Index>(edge - 1, 0); i <= std::min(edge + 2, r.size() - 1); ++i)
       r(i) = std::max(r(i), shorter);

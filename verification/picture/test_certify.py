@@ -64,9 +64,9 @@ def test_certificate_of_hertz(mortise, tmp_path):
     [
         (PUNCH, "feti", "materials.steel.poisson=0.35", {"p along the lines"}),
         (HERTZ, "quadrilaterals", "materials.steel.young=200e9", {"largest p", "lengths in contact", "displacements"}),
-        (RINGS, "other_side", "boundary.2.pressure=9.9e6", {"p along the lines", "contact forces"}),
+        (RINGS, "other_side", "boundary.2.pressure=9.8e6", {"p along the lines", "contact forces"}),
         (PUNCH, "quadrilaterals", 'boundary.2.pressure="10e6 + 4e9 * exp(-((x - 0.3137) / 2e-4)^2)"', {"contact forces"}),
-        (HERTZ, "feti", "contact.0.clearance=1e-6", {"displacements"}),  # the cylinder, which the load holds, sinks further
+        (HERTZ, "feti", "contact.0.clearance=2e-6", {"displacements"}),  # the cylinder, which the load holds, sinks further
         (HERTZ, "finer_4", "model.plane=stress", {"p along the lines", "lengths in contact", "largest p"}),
     ],
 )
@@ -150,7 +150,7 @@ def test_what_the_normals_of_the_other_curve_change_is_told_apart(mortise, tmp_p
     moved = []
     for number, load in enumerate(("350", "87.5")):
         output = tmp_path / str(number)
-        found = certify.certify(mortise, scene, output, [f"boundary.2.pressure={load}"], freefem=False)
+        found = certify.certify(mortise, scene, output, [f"boundary.2.pressure={load}"], accuracy=0.003, freefem=False)
         row = next(row for row in found["figures"] if row["kind"] == "displacements")
         moved.append(row["of_normals"] / figures.read_run(output / "own").summary["extremes"]["displacement"])
         assert found["agrees"] and row["of_normals"] > 2 * row["allowed"] and "which curve's normals" in certify.sentence(found)
