@@ -18,18 +18,29 @@ class ExpressionRange {
   static std::optional<ExpressionRange> of(const std::string& text, const std::vector<std::string>& variables);
 
   /// An interval that contains all values over the box. It is no wider than a multiple of the box, unless the
-  /// expression itself is that steep.
+  /// expression itself is that steep; of a smooth one wider than its values by the square of the box's width alone, as
+  /// the mean value theorem bounds it too (Moore, Kearfott & Cloud 2009, chapter 6).
   Interval operator()(const std::vector<Interval>& variables) const;
 
  private:
   friend class RangeParser;
   using Apply = Interval (*)(const Interval* arguments, int count);
+  // By each argument the slopes that the result may have.
+  using Slopes = void (*)(const Interval* arguments, int count, const Interval& result, Interval* slopes);
   struct Step {
     Apply apply = nullptr;  // to so many on the stack; none: a value
+    Slopes slopes = nullptr;
     int count = 0;
     int variable = -1;  // none: a constant
     double constant = 0;
   };
+  // A value, and its slopes by the variables where they are asked for.
+  struct Value {
+    Interval range;
+    std::vector<Interval> slopes;
+  };
+  Value value_on(const std::vector<Interval>& variables, bool with_slopes) const;
+
   std::vector<Step> steps_;
 };
 

@@ -40,6 +40,24 @@ TEST(ExpressionRange, IsExactWhereEachVariableStandsOnce) {
   EXPECT_EQ(range_of("ln(x)", {0, 1}).low, -infinity);
 }
 
+// Else a smooth one is wider by the square of the box: by the mean value theorem.
+TEST(ExpressionRange, IsNearlySoWhereTheyStandTwice) {
+  for (const char* text : {"(x^2 + 1) / x^2", "x * cos(x) - x", "sqrt(x) / (1 + x)", "exp(x) / (exp(x) + x)",
+                           "x^1.5 - tanh(x) * ln(x)", "atan2(x, 2) / asin(x / 4)", "x / (x > 0 ? x + 1 : 0)"}) {
+    const double at = 1.3;
+    std::array<double, 2> wider;
+    for (const int fine : {0, 1}) {
+      const double h = fine == 0 ? 1e-2 : 1e-3;
+      const Interval all = range_of(text, {at, at + h});
+      Interval found = range_of(text, {at, at});
+      for (int i = 1; i <= 100; ++i) found = hull(found, range_of(text, {at + i * h / 100, at + i * h / 100}));
+      wider[fine] = (all.high - all.low) - (found.high - found.low);
+    }
+    EXPECT_GT(wider[0], 0) << text;
+    EXPECT_LT(wider[1], 2e-2 * wider[0]) << text;
+  }
+}
+
 // What would have it found by luck only: a spike of any width has its height in its range.
 TEST(ExpressionRange, HasSpikesOfAnyWidth) {
   expect_range("1 + 40 * exp(-((x - 0.4137) / 1e-9)^2)", {0, 1}, 1, 41);
@@ -58,7 +76,7 @@ TEST(ExpressionRange, ContainsAllValues) {
   const std::function<std::string(int)> text = [&](int depth) -> std::string {
     if (depth == 0) return draw(3) == 0 ? std::to_string(draw(40) / 10.0) : draw(2) == 0 ? "x" : "y";
     const std::string a = text(depth - 1), b = text(depth - 1);
-    switch (draw(7)) {
+    switch (draw(12)) {
       case 0:
         return a + " - (" + b + ")";
       case 1:
@@ -71,12 +89,22 @@ TEST(ExpressionRange, ContainsAllValues) {
         return std::string(draw(2) == 0 ? "sin" : "tanh") + "(" + a + ")";
       case 5:
         return "exp(-abs(" + a + ")) / (1.5 + cos(" + b + "))";
+      case 6:
+        return "sqrt(abs(" + a + ")) - ln(1 + abs(" + b + "))";
+      case 7:
+        return "atan2(" + a + ", " + b + ")";
+      case 8:
+        return "(1.1 + tanh(" + a + "))^sin(" + b + ")";
+      case 9:
+        return "asinh(" + a + ") * acos(tanh(" + b + ") / 2)";
+      case 10:
+        return "avg(atan(" + a + "), " + b + ", rint(" + a + "))";
       default:
         return "min(" + a + ", theta, " + b + ")";
     }
   };
   std::uniform_real_distribution<double> place(-2, 2), part(0, 1);
-  for (int k = 0; k < 300; ++k) {
+  for (int k = 0; k < 1000; ++k) {
     const Field field(text(1 + draw(3)), {.key = "load"});
     const Vec2 start(place(random), place(random)), size(part(random), part(random));
     const FieldRange range(field);
