@@ -31,7 +31,7 @@ class DualPart {
   virtual VecX pressed(const VecX& lambda) const = 0;  ///< C lambda
   virtual MatX compliance() const = 0;                 ///< C, full; of a slender part a solve a row
   virtual VecX diagonal() const = 0;                   ///< of C; of a slender part what a row's pressure does near it
-  virtual SomeRows some(std::vector<int> which) const = 0;
+  virtual SomeRows some(std::vector<int> which) const = 0;  ///< `which`: places among its rows, ascending
   /// On some rows, of vectors that are zero on the others, where the results mean nothing: C lambda; and
   /// B W^-1 S W^-1 B^T x, as DualSystem, 0 of a slender part.
   virtual VecX pressed(const VecX& lambda, const SomeRows& some) const = 0;

@@ -172,7 +172,7 @@ const std::map<std::string, Function>& functions() {
       {"abs",
        {1,
         [](Arguments a, int, const Interval&, Interval* slope) {
-          *slope = Interval{a[0].low >= 0 ? 1.0 : -1.0, a[0].high <= 0 ? -1.0 : 1.0};
+          *slope = Interval{a[0].low >= 0 ? 1.0 : -1.0, a[0].low < 0 && a[0].high <= 0 ? -1.0 : 1.0};
         },
         [](Arguments a, int) { return absolute(a[0]); }}},
       {"sign",

@@ -131,25 +131,24 @@ def test_ties_of_a_rigid_curve(said):
     assert "ties a node of a rigid curve; expected multipliers_on the other curve" in said(*tied)
 
 
-def test_overlap_without_a_pair_is_told(said):
+def upper_from(y):
+    """The mesh of both plates with the upper one from y on."""
     moved = plates.mesh_of([
         plates.Body("lower", plates.even(2), 1, plates.between(0, 1, 0, 1), plates.QUAD4),
-        plates.Body("upper", plates.even(3), 1, plates.between(0, 1, 0.99, 2), plates.QUAD4),
+        plates.Body("upper", plates.even(3), 1, plates.between(0, 1, y, 2), plates.QUAD4),
     ])  # fmt: skip
-    files = {"plates.msh": msh_file.write(msh_file.sections(moved, "4.1 ascii"), "4.1 ascii")}
+    return {"plates.msh": msh_file.write(msh_file.sections(moved, "4.1 ascii"), "4.1 ascii")}
+
+
+def test_overlap_without_a_pair_is_told(said):
     scene = SCENE[: SCENE.index("[[contact]]")] + "[[boundary]]\non = 'upper_right'\ndisplacement = { x = 0, y = 0 }"
-    found = said(scene=scene, files=files)
+    found = said(scene=scene, files=upper_from(0.99))
     assert "are drawn into one another by 0.01 near (" in found
     assert "), and no contact pair presses them apart there: " in found
 
 
 def test_closed_curves_that_are_apart(said):
-    moved = plates.mesh_of([
-        plates.Body("lower", plates.even(2), 1, plates.between(0, 1, 0, 1), plates.QUAD4),
-        plates.Body("upper", plates.even(3), 1, plates.between(0, 1, 1.1, 2), plates.QUAD4),
-    ])  # fmt: skip
-    files = {"plates.msh": msh_file.write(msh_file.sections(moved, "4.1 ascii"), "4.1 ascii")}
-    found = said("contact.0.initial_gap=closed", files=files)
+    found = said("contact.0.initial_gap=closed", files=upper_from(1.1))
     assert "are 0.1 apart near (" in found and 'where two meshes of one curve differ by at most ' in found
 
 
