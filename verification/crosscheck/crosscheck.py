@@ -2,8 +2,8 @@
 """Solves every case of cases.toml by mortise and by FreeFEM on the same mesh, and compares the two.
 
 The report is written to OUTPUT: crosscheck.md, report.json, pictures, and a folder a case with difference.vtu.
-Exit status: 0 all cases ran and hold; 1 one does not, or nothing could run; 77 with --skip-without-freefem if FreeFEM
-is not there. MORTISE names another executable than build/release/mortise.
+Exit status: 0 all cases ran and hold; 1 one does not, or nothing could run; 77 with --test if FreeFEM is not there.
+MORTISE names another executable than build/release/mortise.
 """
 
 import argparse
@@ -11,7 +11,6 @@ import sys
 import time
 from pathlib import Path
 
-import results_page
 import run
 from cases import StudyError, all_cases, choose
 from judge import judge
@@ -26,7 +25,7 @@ def read_options(arguments):
     parser.add_argument("--case", action="append", default=[], metavar="GLOB", help="only the cases of this name")
     parser.add_argument("--list", action="store_true", help="print the names of the cases and end")
     parser.add_argument("-o", "--output", type=Path, default=Path("out/crosscheck"), help="default: out/crosscheck")
-    parser.add_argument("--skip-without-freefem", action="store_true", help="exit status 77 if it is missing")
+    parser.add_argument("--test", action="store_true", help="no report; exit status 77 if FreeFEM is missing")
     return parser.parse_args(arguments)
 
 
@@ -69,7 +68,7 @@ def main(arguments=None):
         if options.list:
             print("\n".join(case.name for case in cases))
             return 0
-        if options.skip_without_freefem and run.find_freefem() is None:
+        if options.test and run.find_freefem() is None:
             print("skipped: FreeFem++ is not on the PATH")
             return SKIPPED
         run.need_programs()
@@ -80,9 +79,12 @@ def main(arguments=None):
     output.mkdir(parents=True, exist_ok=True)
     results = list(run_cases(cases, output))
     seconds = time.perf_counter() - start
-    results_page.write(results, output, seconds)
+    if not options.test:
+        import results_page  # which draws: matplotlib takes as long to start as some cases to run
+
+        results_page.write(results, output, seconds)
     bad = [result for result in results if result.status != "ok"]
-    print(f"{len(results) - len(bad)} of {len(results)} cases hold, {seconds:.0f} s; {options.output}/crosscheck.md")
+    print(f"{len(results) - len(bad)} of {len(results)} cases hold, {seconds:.0f} s; {options.output}")
     print(*(f"{result.status}: {result.name}" for result in bad), sep="\n")
     return 1 if bad else 0
 

@@ -47,7 +47,7 @@ def test_what_is_missing_is_an_error_or_a_skip(monkeypatch, capsys, tmp_path):
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setattr(launch, "MORTISE", cases.TABLE)  # any file: it is not run
     assert crosscheck.main([]) == 1 and "apt-get install freefem++" in capsys.readouterr().err
-    assert crosscheck.main(["--skip-without-freefem"]) == 77 and capsys.readouterr().out.startswith("skipped")
+    assert crosscheck.main(["--test"]) == 77 and capsys.readouterr().out.startswith("skipped")
     monkeypatch.setattr(launch, "MORTISE", tmp_path / "nothing")
     assert crosscheck.main([]) == 1 and "./dev build" in capsys.readouterr().err
 
