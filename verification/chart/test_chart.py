@@ -19,6 +19,7 @@ import measure
 import pareto
 import peer_runs
 import reference
+import timing_check
 
 
 def row(method, seconds, error, n=8, problem="manufactured"):
@@ -28,10 +29,15 @@ def row(method, seconds, error, n=8, problem="manufactured"):
 
 @pytest.fixture(scope="module")
 def quick(mortise, tmp_path_factory):
+    """Measured once each: what the seconds are, no test asks."""
     output, said = tmp_path_factory.mktemp("chart"), []
-    store = chart_runs.make_store(output, True)
-    rows, about = measure.measure(store, output, True, lambda text, start=None: said.append(text))
-    return {"output": output, "store": store, "rows": rows, "about": about, "said": said}
+    with pytest.MonkeyPatch.context() as patch:
+        for repeats in (chart_methods.TURNS, economy.REPEATS):
+            patch.setitem(repeats, "quick", 1)
+        patch.setattr(timing_check, "REPEATS", 1)
+        store = chart_runs.make_store(output, True)
+        rows, about = measure.measure(store, output, True, lambda text, start=None: said.append(text))
+        yield {"output": output, "store": store, "rows": rows, "about": about, "said": said}
 
 
 def series(rows, problem, method):
@@ -102,6 +108,14 @@ def test_table_and_recommendation_of_made_up_data():
     table = list(advice.table(rows))
     assert table[0][2:4] == ["Q8, linear (default)", "8x8"] and table[1][3] == table[2][3] == "16x16"
     assert any("For p: Q8, linear (default), 1 times the least" in text for text in advice.recommendation(rows))
+
+
+def test_several_turns_are_one_row(mortise):
+    named = [("q8_linear", chart_methods.size_settings("rings", (6, 8))), ("refused", {"method.solver": "none"})]
+    rows, refused = chart_runs.by_turns("rings", named, 2)
+    one = chart_runs.of_turns("q8_linear", rows["q8_linear"])
+    assert one["turns"] == 2 and 0 < one["s_total_min"] <= one["s_total"] <= one["s_total_max"] and one["e_p_l2"] < 0.1
+    assert rows["refused"] == [] and "method.solver" in refused["refused"]
 
 
 def test_quick_run_has_every_row(quick):
