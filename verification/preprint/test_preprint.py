@@ -1,6 +1,7 @@
 """The study of the preprint: its measure by hand, the printed tables, the cause, and a quick study as a whole."""
 
 import csv
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -21,9 +22,17 @@ import launch
 
 @pytest.fixture(scope="module")
 def quick(mortise, tmp_path_factory):
-    """Folder of a quick study, and how many runs it took."""
+    """Folder of a study quicker than --quick, whose figures show the meshes of its tables, and how many runs it took."""
     folder = tmp_path_factory.mktemp("preprint")
-    return folder, preprint.main(["--quick", "--jobs", "2", "-o", str(folder)])
+    with pytest.MonkeyPatch.context() as patch:
+        shown = [cause.OURS, cause.NORMALS, cause.GAP]
+        figures = [1, *preprint.QUICK.figures[1:]]
+        patch.setattr(preprint, "SHOWN", shown)
+        patch.setattr(preprint, "QUICK", replace(preprint.QUICK, variants=[*shown, cause.BOTH], figures=figures, unprinted=(12, 10)))
+        for module in (gallery, gallery.claims):
+            patch.setattr(module, "MESH", (40, 50))
+            patch.setattr(module, "MATCHING", (40, 40))
+        yield folder, preprint.main(["--quick", "--jobs", "2", "-o", str(folder)])
 
 
 @pytest.fixture(scope="module")
@@ -218,9 +227,9 @@ def test_quick_study_is_whole(quick):
     assert [float(row["printed"]) for row in rows] == [row["printed"] for row in printed]
     assert all(row["better_ok"] == "True" for row in rows)
     assert len(read(folder / "variants.csv")) == 24 * len(preprint.QUICK.variants)
-    gallery = read(folder / "gallery.csv")
-    assert [int(row["figure"]) for row in gallery] == preprint.QUICK.figures
-    pictures = [row["picture"] for row in gallery] + ["tables.png", "variants.png", "meshes.png", "curves.png"]
+    drawn = read(folder / "gallery.csv")
+    assert [int(row["figure"]) for row in drawn] == preprint.QUICK.figures
+    pictures = [row["picture"] for row in drawn] + ["tables.png", "variants.png", "meshes.png", "curves.png"]
     page = (folder / "preprint.md").read_text()
     for picture in pictures:
         figure.copy_small(folder / picture, folder / "small.png")  # as pages of docs/ are
