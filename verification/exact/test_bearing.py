@@ -29,7 +29,7 @@ def shares(rollers, play):
     return forces(brentq(lambda shift: forces(shift) @ falls - LOAD, play, play + approach(LOAD)))
 
 
-@pytest.mark.parametrize("rollers, play", [(12, 0), (12, 2e-3), (19, 0)])
+@pytest.mark.parametrize("rollers, play", [(10, 0), (11, 0), (9, 2e-3)])
 def test_rollers_share_the_load_of_stiff_rings(mortise, tmp_path, rollers, play):
     changes = [f"mesh.parameters={{rollers={rollers}}}", f"contact.0.clearance={play / 2}", "materials.stiff.young=210e6",
                "materials.stiff.poisson=0.3", "bodies.inner=stiff", "bodies.outer=stiff"]  # fmt: skip

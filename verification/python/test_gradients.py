@@ -20,7 +20,7 @@ def scene(name, parameters, **changed):
 
 def hertz():
     """Load, moduli, Poisson's ratio of a contact that grows."""
-    tables = scene("hertz", {"n_upper": 16, "n_lower": 20}, probe=[{"at": [0, -0.3], "body": "block"}])
+    tables = scene("hertz", {"n_upper": 8, "n_lower": 10}, probe=[{"at": [0, -0.3], "body": "block"}])
     tables["materials"]["soft"] = {"young": 70e9, "poisson": 0.33}
     tables["bodies"]["block"] = "soft"
     of = ["contact.0.force.y", ("contact.0.pressure.mean", 0, 0.005), ("contact.0.pressure.norm", 8), "energy", "probe.0.u_y"]
@@ -29,7 +29,7 @@ def hertz():
 
 def sphere():
     """Rings; a profile given by constants, of which one is a power; a load that is a function of place."""
-    tables = scene("hertz_sphere", {"n_upper": 12, "n_lower": 15}, constants={"c": 0.5, "n": 2.0, "q": 4e4})
+    tables = scene("hertz_sphere", {"n_upper": 8, "n_lower": 10}, constants={"c": 0.5, "n": 2.0, "q": 4e4})
     tables["contact"][0]["initial_gap"] = "c * x^n"
     tables["boundary"][1]["pressure"] = "q * (1 + x)"
     of = ["contact.0.pressure.mean", ("contact.0.pressure.norm", 2), "energy", "contact.0.force.y"]
