@@ -28,3 +28,8 @@ def mortise():
 def freefem(mortise):
     if shutil.which("FreeFem++") is None:
         pytest.skip("FreeFem++ is not on the PATH: ./dev setup installs it")
+
+
+def pytest_collection_modifyitems(items):
+    """The files that take longest first, so that two processes that take a file at a time (--dist loadfile) end together."""
+    items.sort(key=lambda item: item.path.parent.name not in ("picture", "preprint", "chart"))
