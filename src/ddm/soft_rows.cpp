@@ -1,6 +1,7 @@
 #include "ddm/soft_rows.hpp"
 
 #include <limits>
+#include <numeric>
 
 namespace mortise {
 namespace {
@@ -53,13 +54,28 @@ bool SoftRows::factorise(const VecX& compliance) {
   matrix_.diagonal() = own_;
   matrix_.diagonal().head(rows_) += compliance;
   const VecX held = stiffness();
-  matrix_.diagonal().tail(held.size()) =
-      -motion_softness * held.cwiseMax(std::numeric_limits<double>::epsilon() * largest_entry(held));
+  scale_ = stacked(matrix_.diagonal().head(rows_),
+                   held.cwiseMax(std::numeric_limits<double>::epsilon() * largest_entry(held)))
+               .cwiseSqrt()
+               .cwiseInverse();
   std::vector<char> coupled(rows_);
   for (Eigen::Index a = 0; a < rows_; ++a) coupled[a] = compliance(a) <= far_more * own_(a);
-  factor_.compute(uncoupled(matrix_, coupled));
-  matrix_.diagonal().tail(held.size()).setZero();
-  return factor_.info() == Eigen::Success && factor_.vectorD().allFinite();
+  SparseMatrix scaled = scale_.asDiagonal() * uncoupled(matrix_, coupled) * scale_.asDiagonal();
+  scaled.diagonal().tail(held.size()).setConstant(border_beta);
+  std::vector<int> one_by_one(rows_);
+  std::iota(one_by_one.begin(), one_by_one.end(), 0);
+  factor_.emplace(SparseMatrix(scaled.transpose()), one_by_one);
+  if (factor_->failed_at() >= 0) return false;
+  MatX S = factor_->take_border_compliance();
+  S.diagonal().array() += motion_softness;
+  motions_.compute(S);
+  return motions_.info() == Eigen::Success;
+}
+
+VecX SoftRows::solved(const VecX& rhs) const {
+  const VecX scaled = scale_.cwiseProduct(rhs), y = factor_->forward(scaled.head(rows_)),
+             mu = motions_.solve(factor_->at_border(y) - scaled.tail(rhs.size() - rows_));
+  return scale_.cwiseProduct(stacked(factor_->backward(y, mu), mu));
 }
 
 ContactRows::Forces SoftRows::solve(const VecX& gap, const VecX& work) const {
@@ -67,7 +83,7 @@ ContactRows::Forces SoftRows::solve(const VecX& gap, const VecX& work) const {
   VecX x = VecX::Zero(rhs.size()), left = rhs;
   double least = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < most_soft_refinements; ++pass) {
-    const VecX next = x + factor_.solve(left), now = rhs - matrix_.selfadjointView<Eigen::Lower>() * next;
+    const VecX next = x + solved(left), now = rhs - matrix_.selfadjointView<Eigen::Lower>() * next;
     const double size = largest_entry(now.cwiseQuotient(unit_));
     if (!(size < least / 2)) break;
     least = size;
