@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/columns.hpp"
+#include "solve/contact_rows.hpp"
 
 namespace mortise {
 namespace {
@@ -16,7 +17,6 @@ constexpr double dependent_limit = 1e-13;  // likewise of a row's
 constexpr double of_one_row = 1e-2;        // a single multiplier's error that counts as much as one of all in energy
 constexpr double negligible_work = 1e-5;   // of its terms
 constexpr double work_round_off = 1e-12;   // of the largest terms of any motion
-constexpr double normal_noise = 1e-9;      // of a row's normal: as curve_noise of MultiplierSystem
 
 VecX ones_and_zeros(const std::vector<char>& flags) {
   VecX v(flags.size());

@@ -4,6 +4,7 @@
 
 #include "base/columns.hpp"
 #include "base/dense.hpp"
+#include "solve/contact_rows.hpp"
 
 namespace mortise {
 namespace {
@@ -12,8 +13,6 @@ namespace {
 // root of this part of its size.
 constexpr double rigid_limit = 1e-10;
 constexpr double work_round_off = 1e-12;
-constexpr double curve_noise =
-    1e-9;  // of a row's normal: what drawn places leave of an arc's spin, which it should not see
 
 }  // namespace
 
@@ -84,7 +83,7 @@ VecX MultiplierSystem::driven_mode(const VecX& rhs, const VecX& x, const VecX& l
              terms = rhs.tail(springs_).cwiseAbs() + H_.cwiseAbs().transpose() * pressed;
   const VecX most = H_.cwiseAbs().rowwise().maxCoeff();  // in any motion, of each row
   const MatX sees = (H_.cwiseAbs().array() > (work_round_off * most).replicate(1, springs_).array()).cast<double>();
-  const VecX noise = curve_noise * sees.transpose() * most.cwiseProduct(pressed);
+  const VecX noise = normal_noise * sees.transpose() * most.cwiseProduct(pressed);
   const double round_off =
       work_round_off * largest_entry(terms);  // of bodies at which a mode is zero but for round-off
   for (const auto& motion : rigid_modes_.colwise())
