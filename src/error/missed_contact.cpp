@@ -30,10 +30,7 @@ using Motion = std::vector<RigidMotion>;
 
 Vec2 moved(const Motion& motion, int body, const Vec2& x) {
   for (const RigidMotion& part : motion)
-    if (part.body == body) {
-      const Vec2 arm = x - part.centre;
-      return part.translation + part.rotation * Vec2(-arm.y(), arm.x());
-    }
+    if (part.body == body) return part.at(x);
   return Vec2::Zero();
 }
 

@@ -34,8 +34,7 @@ std::vector<MotionSet> motion_sets(const Mesh& mesh, const std::vector<std::vect
       for (const RigidMotion& motion : motions[set.motions[k]])
         for (int p = points.first[motion.body]; p < points.first[motion.body + 1]; ++p) {
           const auto row = std::ranges::lower_bound(set.nodes, points.node[p]) - set.nodes.begin();
-          const Vec2 arm = mesh.nodes.row(points.node[p]).transpose() - motion.centre;
-          set.fields.block<2, 1>(2 * row, k) = motion.translation + motion.rotation * Vec2(-arm.y(), arm.x());
+          set.fields.block<2, 1>(2 * row, k) = motion.at(mesh.nodes.row(points.node[p]));
         }
   }
   return sets;

@@ -6,12 +6,15 @@
 
 namespace mortise {
 
-/// A small motion of a body as a whole: u(x) = translation + rotation * (-(x2 - centre2), x1 - centre1).
+/// A small motion of a body as a whole.
 struct RigidMotion {
   int body;
   Vec2 translation;
   double rotation;  ///< radians
   Vec2 centre;      ///< of the body
+
+  /// The displacement u(x).
+  Vec2 at(const Vec2& x) const { return translation + rotation * Vec2(centre.y() - x.y(), x.x() - centre.x()); }
 };
 
 /// A place where contact keeps two bodies from moving into or away from one another, along a unit normal.

@@ -34,7 +34,7 @@ std::array<bool, 2> unheld_at(const Results& r, int body, const Vec2& x) {
   for (const std::vector<RigidMotion>& motion : r.unheld)
     for (const RigidMotion& part : motion) {
       if (part.body != body) continue;
-      const Vec2 arm = x - part.centre, moved = part.translation + part.rotation * Vec2(-arm.y(), arm.x());
+      const Vec2 moved = part.at(x);
       for (const int c : {0, 1}) unheld[c] = unheld[c] || std::abs(moved(c)) > moves;
     }
   return unheld;

@@ -31,6 +31,18 @@ FieldSpec read_field(const Node& node, const std::string& scene_path) {
   return spec;
 }
 
+// Calls read(node) for each entry of a table whose names are to be free.
+template <typename Read>
+void for_each_new_name(const Node& root, const char* section, const Scene& scene, Read read) {
+  const Node* table = find(root, section);
+  if (table == nullptr) return;
+  expect_table(*table);
+  for (const Node& node : table->items) {
+    require_free_name(node, scene);
+    read(node);
+  }
+}
+
 }  // namespace
 
 Keys field_keys(FieldSpec& spec) {
@@ -46,23 +58,12 @@ Keys field_keys(FieldSpec& spec) {
 }
 
 void read_fields(const Node& root, Scene& scene) {
-  const Node* fields = find(root, "fields");
-  if (fields == nullptr) return;
-  expect_table(*fields);
-  for (const Node& node : fields->items) {
-    require_free_name(node, scene);
-    scene.fields.push_back(read_field(node, scene.path));
-  }
+  for_each_new_name(root, "fields", scene,
+                    [&](const Node& node) { scene.fields.push_back(read_field(node, scene.path)); });
 }
 
 void read_constants(const Node& root, Scene& scene) {
-  const Node* constants = find(root, "constants");
-  if (constants == nullptr) return;
-  expect_table(*constants);
-  for (const Node& node : constants->items) {
-    require_free_name(node, scene);
-    scene.constants[node.name] = number(node);
-  }
+  for_each_new_name(root, "constants", scene, [&](const Node& node) { scene.constants[node.name] = number(node); });
 }
 
 }  // namespace mortise::scene_file
