@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "error/line_part.hpp"
 #include "fem/edges.hpp"
@@ -131,25 +130,28 @@ void move_apart(std::vector<OpenPoints>& pairs, double unit, double least) {
     if (open.gaps.size() > 0) open.gaps += open.motions * by.head(motions);
 }
 
-void add_overlaps(const ContactPair& pair, const OpenPoints& open, double modulus, double least, PressureLine& line,
-                  LineError& error) {
+void add_overlaps(const Mesh& mesh, const ContactPair& pair, const OpenPoints& open, double modulus, double least,
+                  PressureEstimate& estimate) {
+  PressureLine& line = estimate.line;
+  LineError& error = estimate.local;
   const Eigen::Index edges = line.p.size() - 1;
-  VecX overlap = VecX::Zero(edges), width = VecX::Zero(edges);
+  VecX overlap = VecX::Zero(edges), width = VecX::Zero(edges), deepest = VecX::Zero(edges);  // its place on the edge
   for (Eigen::Index k = 0; k < open.gaps.size(); ++k) {
     if (open.gaps(k) >= -least) continue;
     const ContactPoint& point = pair.points[open.points[k]];
+    if (-open.gaps(k) > overlap(point.edge)) deepest(point.edge) = point.xi;
     overlap(point.edge) = std::max(overlap(point.edge), -open.gaps(k));
     width(point.edge) += point.ds;
   }
   if (overlap.sum() == 0) return;
   error.missed = VecX::Zero(edges + 1);
-  error.noticing = VecX::Constant(edges + 1, std::numeric_limits<double>::infinity());
   for (Eigen::Index e = 0; e < edges; ++e) {
     if (overlap(e) == 0) continue;
     const double a = width(e) / 2, p0 = modulus * overlap(e) / a, half = std::sqrt(2 * a / 3) * p0;
+    error.missed_at.push_back(
+        {edge_point(mesh.nodes, pair.multiplier.edges[e], deepest(e)).position, a / edges_of_contact});
     for (const Eigen::Index i : {e, e + 1}) {
       error.missed(i) = std::hypot(error.missed(i), half);
-      error.noticing(i) = std::min(error.noticing(i), a / edges_of_contact);
       line.loaded[i] = 1;
     }
   }
@@ -179,7 +181,7 @@ void add_missed_contact(const Problem& p, const Solution& solution, std::vector<
   for (std::size_t k = 0; k < p.pairs.size(); ++k) {
     const std::vector<ElasticLaw>& laws = p.discretisation.laws;
     const double modulus = contact_modulus(laws[p.pairs[k].multiplier.body], laws[p.pairs[k].opposite.body]);
-    add_overlaps(p.pairs[k], open[k], modulus, least, list[k].line, list[k].local);
+    add_overlaps(p.mesh, p.pairs[k], open[k], modulus, least, list[k]);
   }
 }
 

@@ -41,9 +41,13 @@ struct LineError {
   /// Likewise, of what p swings by about its slopes; empty: nothing. Edges of the next mesh are made by `l2`, whose
   /// rate is known.
   VecX swing{};
-  /// Likewise, of contact that the mesh does not notice; and how long edges are that would, length (infinite if there
-  /// is none). Empty: none.
-  VecX missed{}, noticing{};
+  /// Likewise, of contact that the mesh does not notice; empty: none.
+  VecX missed{};
+  struct Missed {
+    Vec2 place;
+    double edge;  ///< so long are edges that would notice it
+  };
+  std::vector<Missed> missed_at{};
   /// Of the worst of a piecewise linear function's error, J h / 8, over l2 / sqrt(h), which is sqrt(h^2 J^2 / 120).
   static constexpr double pointwise_factor = 1.3693063937629153;  // sqrt(120) / 8
   std::vector<char> border;                                       ///< whether the border of contact makes it

@@ -260,9 +260,9 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
   const std::vector<VecX> shorter = lines_refinement(estimate, factors);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];
-    VecX along = e.line.h.cwiseQuotient(shorter[k]);
-    if (e.local.noticing.size() > 0) along = along.cwiseMin(e.local.noticing);
-    lower_sizes(mesh, pairs[k], e, along.cwiseMax(least_size * scene), wanted);
+    lower_sizes(mesh, pairs[k], e, e.line.h.cwiseQuotient(shorter[k]).cwiseMax(least_size * scene), wanted);
+    for (const LineError::Missed& missed : e.local.missed_at)
+      wanted.layers.push_back({missed.place, std::max(missed.edge, least_size * scene), size_growth});
     const double scale = e.line.h.sum() / 2;
     for (const SingularPoint& point : e.singular) {
       const double least = scale * std::pow(0.3 * factors.target, 1 / (2 * point.exponent));
