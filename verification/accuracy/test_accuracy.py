@@ -58,6 +58,34 @@ def test_rollers_between_the_nodes_of_a_first_mesh_carry_load(mortise, tmp_path,
     assert (expected > 0.1 * expected.max()).sum() >= 6 and np.abs(found - expected).max() < 0.015 * expected.max()
 
 
+PIN = """
+SetFactory("OpenCASCADE");
+Rectangle(1) = {-3, -2, 0, 6, 1}; Rectangle(2) = {1.0001, -0.9, 0, 2, 2.9}; Disk(3) = {0, 0, 0, 1};
+Physical Surface("floor") = 1; Physical Surface("wall") = 2; Physical Surface("pin") = 3;
+Physical Curve("ground") = 1; Physical Curve("top") = 3; Physical Curve("far") = 6; Physical Curve("near") = 8;
+Physical Curve("rim") = 9;
+Mesh.ElementOrder = 2; MeshSize{:} = 0.26;
+"""
+SCENE = """
+mesh.file = "pin.geo"
+materials.one = { young = 1, poisson = 0.3 }
+bodies = { floor = "one", wall = "one", pin = "one" }
+boundary = [{ on = ["ground", "far"], displacement = { x = 0, y = 0 } }]
+contact = [{ between = ["rim", "top"] }, { between = ["rim", "near"] }]
+body_force = [{ body = "pin", force = [2.4e-6, 0] }]
+accuracy = { value = 0.1, first_edges = 10 }
+"""
+
+
+def test_a_pin_that_just_touches_the_floor_gets_no_long_row_of_tiny_edges(mortise, tmp_path):
+    """Where it dips into the floor between two nodes a mesh must be fine, but not all the way between them."""
+    (tmp_path / "pin.geo").write_text(PIN)
+    (tmp_path / "pin.toml").write_text(SCENE)
+    subprocess.run([str(mortise), "solve", "pin.toml", "-o", "out"], cwd=tmp_path, check=True)
+    first, second, *_ = (solve["unknowns"] for solve in json.loads((tmp_path / "out/summary.json").read_text())["accuracy"]["solves"])
+    assert second < 5 * first
+
+
 @pytest.mark.parametrize("scene", ["parabola_1", "tent_b", "punch"])
 def test_displacements_at_random_places_lie_within_their_bars(mortise, tmp_path, scene):
     """In large cells, within which u itself errs: no dual of a place shows the cell that has it."""
