@@ -13,7 +13,7 @@ struct RigidMotion {
   double rotation;  ///< radians
   Vec2 centre;      ///< of the body
 
-  /// The displacement u(x).
+  /// The displacement at x, length: translation and rotation by a small angle about the centre.
   Vec2 at(const Vec2& x) const { return translation + rotation * Vec2(centre.y() - x.y(), x.x() - centre.x()); }
 };
 
