@@ -56,6 +56,7 @@ class Loop {
     std::optional<Results> last;
     AccuracyReport report{.of = spec_.of, .asked = spec_.value, .excluded = spec_.exclude, .solves = {}, .reason = {}};
     Seconds seconds;
+    std::string said;
     const LayeredSizes first = drawn_sizes(mesher_.curves(), scene_, spec_.first_edges);
     SizeAt sizes = [&first](const Vec2& x) { return first(x); };
     try {
@@ -65,8 +66,9 @@ class Loop {
         Results r;
         try {
           r = solve_on(sizes, start ? &*start : nullptr, int(report.solves.size()) + 1);
-        } catch (const RefusedOnMesh& refused) {  // what was solved on the mesh before
-          if (!last || others_++ == most_others) throw InputError(refused.error);
+        } catch (const RefusedOnMesh& refused) {  // perhaps for this mesh alone: a finer one then says something else
+          if (refused.error.what() == said || others_++ == most_others) throw InputError(refused.error);
+          said = refused.error.what();
           sizes = finer(sizes);
           continue;
         }

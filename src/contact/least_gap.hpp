@@ -1,4 +1,4 @@
-// The nearest approach of the curves of a pair that bear nothing.
+// The nearest approach of the curves of a pair, also between the points at which contact is integrated.
 #pragma once
 
 #include "contact/segments.hpp"
@@ -15,6 +15,20 @@ struct LeastGap {
 
 /// `u`: displacements, two a node.
 LeastGap least_gap(const Points& nodes, const VecX& u, const ContactInterface& interface);
+
+/// How far the sides are apart at a point of the interface, undeformed gap and opening by `u` (two a node), length.
+double gap_at(const VecX& u, const ContactInterface& interface, const ContactPoint& point);
+
+/// A place where the gap is less than on both sides of it.
+struct Trough {
+  ContactPoint point;  ///< without weight
+  double
+      curvature;  ///< of the gap along the multiplier side, 1 / length: of the parabola that the points beside it make
+};
+
+/// All of them, with the gap deformed by `u`: between points that are next to one another on the curve, and to its
+/// ends.
+std::vector<Trough> troughs(const Points& nodes, const VecX& u, const ContactInterface& interface);
 
 /// Whether curves without pressure on a mesh and on a finer one at their least gap are open between its points too:
 /// they come nearer nowhere by more than `round_off`, or the least gap, which is then known to half of itself, is open.

@@ -108,6 +108,23 @@ std::vector<Segment> find_segments(const Points& nodes, const ContactInterface& 
   return segments;
 }
 
+std::optional<ContactPoint> contact_point(const Points& nodes, const ContactInterface& interface, int edge, double xi,
+                                          int opposite_edge) {
+  const Line line = interface.geometry.line_from(nodes, interface.multiplier, {edge, xi});
+  std::optional<Hit> hit;
+  if (opposite_edge >= 0) hit = project_onto_edge(nodes, interface.opposite, opposite_edge, line);
+  if (!hit) hit = project_onto_curve(nodes, interface.opposite, line);
+  if (!hit) return {};
+  return ContactPoint{.edge = edge,
+                      .xi = xi,
+                      .ds = 0,
+                      .dA = 0,
+                      .normal = line.n,
+                      .opposite_edge = hit->edge,
+                      .eta = hit->xi,
+                      .gap = interface.geometry.initial_gap(line, {edge, xi}, *hit)};
+}
+
 std::vector<ContactPoint> contact_points(const Points& nodes, const ContactInterface& interface,
                                          Integration integration) {
   const Curve &multiplier = interface.multiplier, &opposite = interface.opposite;
@@ -126,22 +143,13 @@ std::vector<ContactPoint> contact_points(const Points& nodes, const ContactInter
     const LineRule rule = gauss_legendre(gauss_count(edge, other));
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const double half = (piece.end - piece.begin) / 2, xi = piece.begin + half * (1 + rule.points[q]);
-      const Line line = geometry.line_from(nodes, multiplier, {piece.edge, xi});
-      // A segment knows its opposite edge; the whole curve is asked where a cut was merged away (or there are none).
-      std::optional<Hit> hit;
-      if (piece.opposite_edge >= 0) hit = project_onto_edge(nodes, opposite, piece.opposite_edge, line);
-      if (!hit) hit = project_onto_curve(nodes, opposite, line);
-      if (!hit) continue;
+      // A segment knows its opposite edge, but where a cut was merged away.
+      std::optional<ContactPoint> point = contact_point(nodes, interface, piece.edge, xi, piece.opposite_edge);
+      if (!point) continue;
       const EdgePoint at = edge_point(nodes, edge, xi);
-      const double ds = rule.weights[q] * half * at.jacobian();
-      points.push_back({.edge = piece.edge,
-                        .xi = xi,
-                        .ds = ds,
-                        .dA = ds * geometry.model.depth(at.position.x()),
-                        .normal = line.n,
-                        .opposite_edge = hit->edge,
-                        .eta = hit->xi,
-                        .gap = geometry.initial_gap(line, {piece.edge, xi}, *hit)});
+      point->ds = rule.weights[q] * half * at.jacobian();
+      point->dA = point->ds * geometry.model.depth(at.position.x());
+      points.push_back(*point);
     }
   }
   return points;

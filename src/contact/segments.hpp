@@ -1,6 +1,7 @@
 // Segments of the multiplier side, and the points at which contact is integrated.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "contact/contact_interface.hpp"
@@ -24,6 +25,11 @@ std::vector<Segment> find_segments(const Points& nodes, const ContactInterface& 
 /// Integration::elements takes the same rule on whole edges without cutting; points that face nothing are left out.
 std::vector<ContactPoint> contact_points(const Points& nodes, const ContactInterface& interface,
                                          Integration integration);
+
+/// The point at xi on an edge of the multiplier side, without weight; `opposite_edge`: asked first. Nothing where it
+/// faces nothing.
+std::optional<ContactPoint> contact_point(const Points& nodes, const ContactInterface& interface, int edge, double xi,
+                                          int opposite_edge = -1);
 
 /// The part of a curve's length that faces the other curve, 0 ... 1, asked at two points an edge.
 double covered_part(const Points& nodes, const Curve& curve, const Curve& opposite);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "error/line_part.hpp"
+#include "contact/least_gap.hpp"
 #include "fem/edges.hpp"
 #include "solve/nonnegative_fit.hpp"
 
@@ -14,14 +14,19 @@ namespace {
 constexpr double round_off = 1e-9;   // of the largest displacement
 constexpr int edges_of_contact = 4;  // from its middle to its end: about what a first mesh tells of a known one
 constexpr int many_motions = 200;    // that fit_nonnegative is not made for: these bodies stay where they are
-// What moving a body by a length costs over what an overlap of that length does: enough to choose one of many places.
-constexpr double of_moving = 1e-3;
+// What moving a body by a length costs over what an overlap of that length does, to choose one of many places: its
+// square of the way is left of an overlap that the body could leave, which is less than gaps are known to.
+constexpr double of_moving = 1e-5;
+// Vertices with a pressure, one after the other, of a contact that may be narrower than their edges: of more than two
+// there is contact all along the edge in the middle.
+constexpr Eigen::Index few_vertices = 2;
 
-// The gap at the points of a pair that are away from contact, and what motions do to it.
+// The gap at the points of a pair that are away from contact, troughs among them, and what motions do to it.
 struct OpenPoints {
-  std::vector<int> points;
-  VecX gaps;     // length
-  MatX motions;  // points x motions
+  std::vector<ContactPoint> points;
+  VecX curvature;  // of troughs; else 0
+  VecX gaps;       // length
+  MatX motions;    // points x motions
   double overlap() const { return gaps.size() > 0 ? std::max(0.0, -gaps.minCoeff()) : 0; }
 };
 
@@ -67,15 +72,41 @@ MatX left_free(const Problem& p, const std::vector<Motion>& motions, const std::
   return factor.dimensionOfKernel() > 0 ? MatX(factor.kernel()) : MatX(rows.cols(), 0);
 }
 
-OpenPoints open_points(const ContactPair& pair, const PressureLine& line, const VecX& u) {
+// Vertices with a pressure, those next to them too, where there are more than few_vertices in a row.
+std::vector<char> in_contact(const PressureLine& line) {
+  const Eigen::Index last = line.p.size() - 1;
+  std::vector<char> in(last + 1, 0);
+  const auto at = [&](Eigen::Index i) { return line.closed ? (i % last + last) % last : i; };
+  const auto pressed = [&](Eigen::Index i) { return (line.closed || (i >= 0 && i <= last)) && line.p(at(i)) != 0; };
+  for (Eigen::Index i = 0; i <= last; ++i) {
+    Eigen::Index run = 0;
+    for (Eigen::Index j = i; run <= few_vertices && pressed(j); --j) ++run;
+    if (run == 0) continue;
+    for (Eigen::Index j = i + 1; run <= few_vertices && pressed(j); ++j) ++run;
+    if (run <= few_vertices) continue;
+    for (Eigen::Index j = i - 1; j <= i + 1; ++j)
+      if (line.closed || (j >= 0 && j <= last)) in[at(j)] = 1;
+  }
+  if (line.closed) in[last] = in[0];
+  return in;
+}
+
+// Gaps count as wide as they may be.
+OpenPoints open_points(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& u) {
   OpenPoints open;
   if (pair.spec.condition != Condition::unilateral) return open;
-  for (std::size_t i = 0; i < pair.points.size(); ++i)
-    if (const int e = pair.points[i].edge; !line.loaded[e] && !line.loaded[e + 1]) open.points.push_back(int(i));
-  const VecX opened = openings(pair, u);
-  open.gaps.resize(Eigen::Index(open.points.size()));
-  for (Eigen::Index k = 0; k < open.gaps.size(); ++k)
-    open.gaps(k) = pair.points[open.points[k]].gap + opened(open.points[k]);
+  std::vector<double> gaps, curvature;
+  const std::vector<char> in = in_contact(line);
+  const auto add = [&](const ContactPoint& point, double bend) {
+    if (in[point.edge] || in[point.edge + 1]) return;
+    open.points.push_back(point);
+    gaps.push_back(gap_at(u, pair, point) + point.unknown);
+    curvature.push_back(bend);
+  };
+  for (const ContactPoint& point : pair.points) add(point, 0);
+  for (const Trough& trough : troughs(mesh.nodes, u, pair)) add(trough.point, trough.curvature);
+  open.gaps = Eigen::Map<VecX>(gaps.data(), Eigen::Index(gaps.size()));
+  open.curvature = Eigen::Map<VecX>(curvature.data(), Eigen::Index(gaps.size()));
   return open;
 }
 
@@ -138,10 +169,15 @@ void add_overlaps(const Mesh& mesh, const ContactPair& pair, const OpenPoints& o
   VecX overlap = VecX::Zero(edges), width = VecX::Zero(edges), deepest = VecX::Zero(edges);  // its place on the edge
   for (Eigen::Index k = 0; k < open.gaps.size(); ++k) {
     if (open.gaps(k) >= -least) continue;
-    const ContactPoint& point = pair.points[open.points[k]];
+    const ContactPoint& point = open.points[k];
     if (-open.gaps(k) > overlap(point.edge)) deepest(point.edge) = point.xi;
     overlap(point.edge) = std::max(overlap(point.edge), -open.gaps(k));
     width(point.edge) += point.ds;
+    if (point.ds > 0) continue;
+    // A trough, which comes after the other points: as wide as its parabola, if that is less than the edge.
+    const double length = edge_length(mesh.nodes, pair.multiplier.edges[point.edge]),
+                 parabola = 2 * std::sqrt(-2 * open.gaps(k) / open.curvature(k));
+    width(point.edge) = std::min(parabola, length);
   }
   if (overlap.sum() == 0) return;
   error.missed = VecX::Zero(edges + 1);
@@ -152,6 +188,7 @@ void add_overlaps(const Mesh& mesh, const ContactPair& pair, const OpenPoints& o
         {edge_point(mesh.nodes, pair.multiplier.edges[e], deepest(e)).position, a / edges_of_contact});
     for (const Eigen::Index i : {e, e + 1}) {
       error.missed(i) = std::hypot(error.missed(i), half);
+      error.raise(i, p0);
       line.loaded[i] = 1;
     }
   }
@@ -164,7 +201,7 @@ void add_missed_contact(const Problem& p, const Solution& solution, std::vector<
   std::vector<OpenPoints> open;
   double overlap = 0;
   for (std::size_t k = 0; k < p.pairs.size(); ++k)
-    overlap = std::max(overlap, open.emplace_back(open_points(p.pairs[k], list[k].line, solution.u)).overlap());
+    overlap = std::max(overlap, open.emplace_back(open_points(p.mesh, p.pairs[k], list[k].line, solution.u)).overlap());
   const double least = round_off * largest_entry(solution.u);
   if (overlap <= least) return;
   const std::vector<Motion>& motions = p.floating.motions;
@@ -173,8 +210,7 @@ void add_missed_contact(const Problem& p, const Solution& solution, std::vector<
     for (std::size_t k = 0; k < p.pairs.size(); ++k) {
       open[k].motions.resize(open[k].gaps.size(), free.cols());
       for (Eigen::Index i = 0; i < open[k].gaps.size(); ++i)
-        open[k].motions.row(i) =
-            openings_at(p.mesh, p.pairs[k], p.pairs[k].points[open[k].points[i]], motions).transpose() * free;
+        open[k].motions.row(i) = openings_at(p.mesh, p.pairs[k], open[k].points[i], motions).transpose() * free;
     }
     if (free.cols() > 0) move_apart(open, overlap, least);
   }

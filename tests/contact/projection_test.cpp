@@ -280,6 +280,24 @@ TEST(LeastGap, IsWhereTheSidesComeNearest) {
   EXPECT_LE(least_gap(c.mesh.nodes, -u, pair).approach, 0);  // they part
 }
 
+// The upper plate takes the shape of a parabola with its lowest place at x: within an edge, at a vertex, at an end.
+TEST(LeastGap, TroughsAreWhereItIsLeastBetweenThePoints) {
+  const Curves c = curves_of({});
+  ContactInterface pair{c.lower, c.upper, {}, {}, {}};
+  pair.points = contact_points(c.mesh.nodes, pair, Integration::segments);
+  for (const double x : {0.0, 0.1, 0.1234, 0.2, 0.37, 0.4, 0.8}) {
+    SCOPED_TRACE(x);
+    VecX u = VecX::Zero(2 * c.mesh.nodes.rows());
+    for (const int node : curve_nodes(c.upper)) u(2 * node + 1) = 0.3 * std::pow(c.mesh.nodes(node, 0) - x, 2) - 0.01;
+    const std::vector<Trough> found = troughs(c.mesh.nodes, u, pair);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NEAR(edge_point(c.mesh.nodes, c.lower.edges[found[0].point.edge], found[0].point.xi).position.x(), x, 1e-6);
+    EXPECT_NEAR(gap_at(u, pair, found[0].point), -0.01, 1e-12);
+    EXPECT_NEAR(found[0].curvature, 0.6, 1e-3);
+    EXPECT_EQ(found[0].point.ds, 0);
+  }
+}
+
 TEST(LeastGap, CurvesStayOpenThatComeNoNearerOrWhoseGapIsKnown) {
   const auto open = [](double coarser, double finer, double approach) {
     return stays_open({coarser, {}, 1, approach}, {finer, {}, 1, approach}, 1e-9);

@@ -59,19 +59,20 @@ def test_rollers_between_the_nodes_of_a_first_mesh_carry_load(mortise, tmp_path,
 
 
 PIN = """
-SetFactory("OpenCASCADE");
-Rectangle(1) = {-3, -2, 0, 6, 1}; Rectangle(2) = {1.0001, -0.9, 0, 2, 2.9}; Disk(3) = {0, 0, 0, 1};
-Physical Surface("floor") = 1; Physical Surface("wall") = 2; Physical Surface("pin") = 3;
-Physical Curve("ground") = 1; Physical Curve("top") = 3; Physical Curve("far") = 6; Physical Curve("near") = 8;
-Physical Curve("rim") = 9;
+SetFactory("OpenCASCADE"); play = 1e-4;
+Rectangle(1) = {-3, -2, 0, 6, 1}; Rectangle(2) = {1 + play, -0.9, 0, 2, 2.9}; Disk(3) = {0, 0, 0, 1};
+Rectangle(4) = {-3, -0.9, 0, 2 - play, 2.9};
+Physical Surface("floor") = 1; Physical Surface("walls") = {2, 4}; Physical Surface("pin") = 3;
+Physical Curve("ground") = 1; Physical Curve("top") = 3; Physical Curve("far") = {6, 13};
+Physical Curve("east") = 8; Physical Curve("west") = 11; Physical Curve("rim") = 9;
 Mesh.ElementOrder = 2; MeshSize{:} = 0.26;
 """
 SCENE = """
 mesh.file = "pin.geo"
 materials.one = { young = 1, poisson = 0.3 }
-bodies = { floor = "one", wall = "one", pin = "one" }
+bodies = { floor = "one", walls = "one", pin = "one" }
 boundary = [{ on = ["ground", "far"], displacement = { x = 0, y = 0 } }]
-contact = [{ between = ["rim", "top"] }, { between = ["rim", "near"] }]
+contact = [{ between = ["rim", "top"] }, { between = ["rim", "east"] }, { between = ["rim", "west"] }]
 body_force = [{ body = "pin", force = [2.4e-6, 0] }]
 accuracy = { value = 0.1, first_edges = 10 }
 """
@@ -84,6 +85,22 @@ def test_a_pin_that_just_touches_the_floor_gets_no_long_row_of_tiny_edges(mortis
     subprocess.run([str(mortise), "solve", "pin.toml", "-o", "out"], cwd=tmp_path, check=True)
     first, second, *_ = (solve["unknowns"] for solve in json.loads((tmp_path / "out/summary.json").read_text())["accuracy"]["solves"])
     assert second < 5 * first
+
+
+@pytest.mark.parametrize("weight, edges, stiffness", [(1e-4, 9, ""), (2.7e-5, 34, ""), (2.7e-5, 12, ", stiffness = 36.4"), (3e-6, 23, "")])
+def test_a_pin_that_just_touches_a_wall_presses_on_it_as_it_widens(mortise, tmp_path, weight, edges, stiffness):
+    """By its own weight, so little that no point at which contact is integrated on a first mesh sees it."""
+    (tmp_path / "pin.geo").write_text(PIN.replace("play = 1e-4", "play = 0"))
+    scene = SCENE.replace('t"]', f't"]{stiffness}').replace("[2.4e-6, 0]", f"[0, -{weight}]")
+
+    def wall(accuracy, first):
+        (tmp_path / "pin.toml").write_text(scene.replace("value = 0.1, first_edges = 10", f"value = {accuracy}, first_edges = {first}"))
+        subprocess.run([str(mortise), "solve", "pin.toml", "-o", "out"], cwd=tmp_path, capture_output=True)
+        told = json.loads((tmp_path / "out/summary.json").read_text())["contact"][1]
+        return np.hypot(*told["force"]), np.hypot(*told["force_error"])
+
+    (found, bar), (expected, known) = wall(0.1, edges), wall(0.03, 100)
+    assert expected > 10 * known and abs(found - expected) < bar + known
 
 
 @pytest.mark.parametrize("scene", ["parabola_1", "tent_b", "punch"])

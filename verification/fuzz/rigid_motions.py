@@ -40,10 +40,14 @@ def segments(part, curve):
     return np.concatenate(found)
 
 
+def segments_of(assembly, curve):
+    name, piece = curve.split("_")
+    return segments(next(part for part in assembly.parts if part.name == name), piece)
+
+
 def openings(assembly, pair):
     """Of each place of the first curve from which a normal meets the second: the place, the normal, the gap."""
-    parts = {part.name: part for part in assembly.parts}
-    mine, other = (segments(parts[name], curve) for name, curve in (end.split("_") for end in pair))
+    mine, other = (segments_of(assembly, curve) for curve in pair)
     middle, along, beyond = mine.mean(1), mine[:, 1] - mine[:, 0], other[:, 1] - other[:, 0]
     normal = np.column_stack([along[:, 1], -along[:, 0]]) / np.linalg.norm(along, axis=1)[:, None]
     cross = lambda a, b: a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
@@ -56,15 +60,32 @@ def openings(assembly, pair):
     return middle[np.isfinite(gap)], normal[np.isfinite(gap)], gap[np.isfinite(gap)]
 
 
-def nearest(place, normal, gap, size):
-    """Of these openings those where the sides are nearest; where curves touch, one in their middle: to first order no other
-    is felt."""
-    near = gap <= gap.min(initial=np.inf) + 1e-2 * size
+def centre_of(assembly, curve):
+    """Of a curve whose pieces are arcs about one centre; None of any other."""
+    name, piece = curve.split("_")
+    part = next(part for part in assembly.parts if part.name == name)
+    centres = {points[1] if word == "Circle" else None for loop in part.loops for end, word, points in loop if end == piece}
+    return np.array(next(iter(centres))) if len(centres) == 1 and None not in centres else None
+
+
+def nearest(assembly, pair):
+    """Of the openings of a pair those where the sides are nearest; where curves touch, one there, on the line of centres or
+    that through the centre at right angles to what is straight: to first order no other is felt."""
+    place, normal, gap = openings(assembly, pair)
+    near = gap <= gap.min(initial=np.inf) + 1e-2 * assembly.size
     place, normal, gap = place[near], normal[near], gap[near]
     turn = np.abs(normal - normal[:1]).max(initial=0.0)
     if turn < 1e-9 or turn > 0.5:  # flat, or all along one another
         return place, normal, gap
-    return place.mean(0)[None], (normal.mean(0) / np.linalg.norm(normal.mean(0)))[None], gap[:1]
+    one, other = (centre_of(assembly, curve) for curve in pair)
+    if one is not None and other is not None:
+        exact = other - one
+    else:
+        start, end = segments_of(assembly, pair[0 if one is None else 1])[0]
+        exact = np.array([start[1] - end[1], end[0] - start[0]])
+    exact = exact / np.linalg.norm(exact) * np.sign(exact @ normal.mean(0))
+    centre = other if one is None else one
+    return (centre + (place.mean(0) - centre) @ exact * exact)[None], exact[None], gap[:1]
 
 
 def drift(assembly, near_only):
@@ -78,8 +99,7 @@ def drift(assembly, near_only):
     pairs = [*assembly.pairs, *([] if near_only else [pair[::-1] for pair in assembly.pairs])]
     for pair in pairs:
         first, second = (column[end.split("_")[0]] for end in pair)
-        found = openings(assembly, pair)
-        for place, normal, gap in zip(*(nearest(*found, assembly.size) if near_only else found)):
+        for place, normal, gap in zip(*(nearest if near_only else openings)(assembly, pair)):
             row = np.zeros(len(work))
             row[first : first + 3], row[second : second + 3] = at(place, normal), -at(place + gap * normal, normal)
             closes.append(row)
