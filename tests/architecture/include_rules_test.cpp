@@ -52,7 +52,8 @@ struct Foreign {
   bool sources_only;
 };
 const std::vector<Foreign> foreigners{
-    {"Boost", R"(boost/.*)", {"mesh"}, true},
+    {"Boost", R"(boost/(?!math/).*)", {"mesh"}, true},
+    {"Boost.Math", R"(boost/math/.*)", {"contact"}, true},
     {"gmsh", R"(gmsh\..*)", {"gmsh"}, true},
     {"libseccomp", R"(seccomp\.h)", {"gmsh"}, true},
     {"VTK", R"(vtk\w+\.h)", {"output", "fields"}, true},
