@@ -42,11 +42,32 @@ void require_same_mesh(const Mesh& mesh) {
   if (sum != own * ranks().count()) throw std::runtime_error(mesh.source + ": the ranks have different meshes of it");
 }
 
+std::unique_ptr<SystemSolver> solver_of(const Problem& p) {
+  return std::make_unique<SystemSolver>(p.method, p.discretisation.system, unknowns_of(p.mesh, p.dirichlet));
+}
+
 // The scene's fields read, too.
 Problem prepared(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr) {
   check_ranges(scene);
   load_fields(scene);
   return prepare(scene, std::move(mesh), progress, start);
+}
+
+// The mesh with the overlaps of ties that are locked: what pretension makes of them before all other loads.
+Mesh tightened(const Scene& scene, Mesh mesh, const Progress& progress) {
+  if (std::ranges::none_of(scene.ties, &ContactSpec::locked)) return mesh;
+  Scene alone = scaled_loads(scene, 0);
+  for (ContactSpec& tie : alone.ties) tie.locked = false;
+  Problem p = prepared(alone, std::move(mesh), progress);
+  const Solution solution = solver_of(p)->solve();
+  require_solution(p.mesh, p.pairs, p.floating, solution);
+  if (solution.status != SolveStatus::converged)
+    throw SceneError(
+        "contact.locked: the solution under pretension alone, which the overlaps are from, has not converged");
+  const Discretisation& d = p.discretisation;
+  for (const auto& [k, overlap] : d.multipoint.overlaps)
+    p.mesh.ties[k].pretension->overlap = overlap_of(overlap, *d.system.constraints.multipoint, solution.u);
+  return std::move(p.mesh);
 }
 
 // What `work` returns; what it refuses of the scene is told with the scene's path.
@@ -148,10 +169,6 @@ void judge(Results& r) {
   append_lines(r.warnings, unheld_probes(r));
 }
 
-std::unique_ptr<SystemSolver> solver_of(const Problem& p) {
-  return std::make_unique<SystemSolver>(p.method, p.discretisation.system, unknowns_of(p.mesh, p.dirichlet));
-}
-
 // The rest of results that have their problem.
 void solve_problem(SystemSolver& solver, const Progress& progress, Results& r) {
   const Problem& p = r.problem;
@@ -179,7 +196,7 @@ void take_problem(Problem&& problem, Results& r) {
 Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
   require_same_mesh(mesh);
   Results r;
-  take_problem(prepared(scene, std::move(mesh), progress, start), r);
+  take_problem(prepared(scene, tightened(scene, std::move(mesh), progress), progress, start), r);
   solve_problem(*solver_of(r.problem), progress, r);
   return r;
 }
@@ -221,6 +238,7 @@ void CaseSolver::begin(const Scene& scene, const Progress& progress) {
   Mesh mesh = mesh_ ? *mesh_ : scene_mesh(scene, &results_.mesh_cached);
   results_.seconds.mesh = watch.lap();
   require_same_mesh(mesh);
+  mesh = tightened(scene, std::move(mesh), progress);
   take_problem(prepared(scene, std::move(mesh), progress, start_ ? &*start_ : nullptr), results_);
   fixed_ = results_.problem.discretisation.system.constraints.fixed;
   warnings_ = results_.warnings;

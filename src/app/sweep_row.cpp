@@ -111,6 +111,10 @@ std::string exact(double value) {
 RunRow row_of(const Results& results, const Json& report) {
   RunRow row{report["status"], figures(report)};
   add_supports(report["model"]["supports"], row.figures);
+  const Json ties = report["model"].value("ties", Json::array());
+  for (std::size_t i = 0; i < ties.size(); ++i)
+    for (const std::string name : {"overlap", "tension"})
+      if (ties[i].contains(name)) row.figures.emplace_back("tie." + std::to_string(i) + "." + name, ties[i][name]);
   add_probes(results.recovery.probes, row.figures);
   return row;
 }

@@ -13,7 +13,7 @@ namespace mortise {
 struct MultipointConstraints {
   SparseRows T, inverse;      ///< n x n
   std::vector<char> coupled;  ///< n: unknowns of u that are not the q of their own number
-  std::vector<char> tied;     ///< n: q that ties make 0
+  std::vector<char> tied;     ///< n: q that ties prescribe: 0, or what their overlap makes of them
 };
 
 /// Degrees of freedom whose displacement is given. Both have one entry a degree of freedom; with multi-point

@@ -58,6 +58,10 @@ Eigen::Vector3d rigid_motion(const RigidCurve& curve, const MultipointConstraint
   return motion;
 }
 
+double overlap_of(const TieOverlap& tie, const MultipointConstraints& multipoint, const VecX& u) {
+  return multipoint.inverse.row(tie.q).dot(u) / tie.part;
+}
+
 MultipointBuilder::MultipointBuilder(const Mesh& mesh, Constraints& constraints)
     : mesh_(mesh), constraints_(constraints) {}
 
@@ -193,8 +197,9 @@ std::array<MultipointBuilder::Axis, 2> MultipointBuilder::axes(int node) const {
           Axis{x + 1, Vec2::UnitY(), constraints_.fixed[x + 1] != 0}};
 }
 
-void MultipointBuilder::tie(const Tie& tie) {
-  std::map<int, double> area;  // of the tied q
+std::optional<TieOverlap> MultipointBuilder::tie(const Tie& tie) {
+  std::map<int, double> area, drawn;  // of the tied q
+  const Vec2 normal = tie.pretension ? tie.pretension->normal : Vec2(0, 0);
   const auto add = [&](int q, const TiedNode& one, const Vec2& along) {
     for (const auto& [other, weight] : one.weights)
       for (int c = 0; c < 2; ++c)
@@ -206,6 +211,7 @@ void MultipointBuilder::tie(const Tie& tie) {
     for (const Axis& axis : axes(one.node))
       if (!axis.held) {
         area[axis.q] = one.area;
+        drawn[axis.q] = normal.dot(axis.direction);
         add(axis.q, one, axis.direction);
       }
   }
@@ -215,9 +221,26 @@ void MultipointBuilder::tie(const Tie& tie) {
         const double part =
             held.held && area.contains(beside.q) ? one.area / area[beside.q] * held.direction.dot(beside.direction) : 0;
         if (part == 0) continue;
+        drawn[beside.q] += part * held.direction.dot(normal);
         add(beside.q, one, part * held.direction);
         for (int c = 0; c < 2; ++c) ties_[beside.q].emplace_back(2 * one.node + c, -part * held.direction(c));
       }
+  if (!tie.pretension) return {};
+  return draw(tie, drawn);
+}
+
+TieOverlap MultipointBuilder::draw(const Tie& tie, const std::map<int, double>& drawn) {
+  const auto most = std::ranges::max_element(drawn, {}, [](const auto& one) { return std::abs(one.second); });
+  if (most == drawn.end() || std::abs(most->second) < parallel)
+    throw SceneError(tie.key + ": supports or other ties hold all nodes of '" + tie.curves[0] +
+                     "' along its normal; expected multipliers_on the other curve, or a cut that nothing holds");
+  const TieOverlap overlap{most->first, most->second};
+  for (const auto& [q, part] : drawn)
+    if (tie.pretension->overlap)
+      constraints_.value(q) = part * *tie.pretension->overlap;
+    else if (part != 0)
+      drawn_.emplace_back(q, overlap.q, q == overlap.q ? 0 : part / overlap.part);
+  return overlap;
 }
 
 void MultipointBuilder::add_row(int u, double weight, int depth, std::map<int, double>& row) const {
@@ -233,6 +256,16 @@ void MultipointBuilder::add_row(int u, double weight, int depth, std::map<int, d
   const auto own = rows_.find(u);
   if (own == rows_.end()) return take(u, weight);
   for (const auto& [q, part] : own->second) take(q, weight * part);
+}
+
+// T q with the tied q that an overlap draws along as multiples of its own.
+void MultipointBuilder::take_overlaps(MultipointConstraints& multipoint) {
+  if (drawn_.empty()) return;
+  for (const auto& along : drawn_) constraints_.fixed[along.col()] = 0;
+  SparseRows others(multipoint.T.rows(), multipoint.T.cols());
+  others.setFromTriplets(drawn_.begin(), drawn_.end());
+  multipoint.T += SparseRows(multipoint.T * others);
+  multipoint.inverse -= SparseRows(others * multipoint.inverse);
 }
 
 std::map<int, HeldTwice> MultipointBuilder::finish() {
@@ -264,6 +297,7 @@ std::map<int, HeldTwice> MultipointBuilder::finish() {
   }
   multipoint.T.setFromTriplets(entries.begin(), entries.end());
   multipoint.inverse.setFromTriplets(inverse_.begin(), inverse_.end());
+  take_overlaps(multipoint);
   constraints_.multipoint = std::move(multipoint);
   return std::move(held_twice_);
 }

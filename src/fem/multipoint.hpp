@@ -17,6 +17,12 @@ struct RigidCurve {
   double arm;            ///< length: the turn in radians is q[2] / arm
 };
 
+/// How far the faces of a tie are drawn into each other, a length: q / part, q one of the Constraints' unknowns.
+struct TieOverlap {
+  int q;
+  double part;
+};
+
 /// Displacement of a point, and the turn about it; none: free.
 using PrescribedMotion = std::array<std::optional<double>, 3>;
 
@@ -33,6 +39,9 @@ void add_rigid_load(const Mesh& mesh, const RigidCurve& curve, const Vec2& force
 
 /// Displacement of `about` and the turn in radians, of the nodes' displacements.
 Eigen::Vector3d rigid_motion(const RigidCurve& curve, const MultipointConstraints& multipoint, const VecX& u);
+
+/// The overlap, a length, of the nodes' displacements.
+double overlap_of(const TieOverlap& tie, const MultipointConstraints& multipoint, const VecX& u);
 
 /// Collects, after all displacements along x and y, what the others prescribe.
 class MultipointBuilder {
@@ -51,8 +60,9 @@ class MultipointBuilder {
 
   /// Ties nodes to others in the components that nothing else prescribes; after all else. Where one is prescribed, its
   /// multiplier is added to that beside it, so that they still add up to 1 (the end edges of a mortar: Wohlmuth 2000).
-  /// Throws SceneError that begins with the tie's key where the curve is rigid.
-  void tie(const Tie& tie);
+  /// With pretension u_follow = sum_c w_c u_c + overlap * normal, and the overlap is returned. Throws SceneError that
+  /// begins with the tie's key where the curve is rigid, or held along the normal.
+  std::optional<TieOverlap> tie(const Tie& tie);
 
   /// Puts the multi-point constraints, if there are any, into the Constraints. Returns the nodes that are held twice.
   std::map<int, HeldTwice> finish();
@@ -69,6 +79,9 @@ class MultipointBuilder {
   void add_row(int u, double weight, int depth, std::map<int, double>& row) const;
   Vec2 place(int node) const { return mesh_.nodes.row(node).transpose(); }
   void require_same_motion(const std::string& key, int node, const Vec2& lever, const PrescribedMotion& motion) const;
+  // `drawn`: of each tied q what it is as the faces overlap by 1.
+  TieOverlap draw(const Tie& tie, const std::map<int, double>& drawn);
+  void take_overlaps(MultipointConstraints& multipoint);
   [[noreturn]] void refuse(const std::string& key, int node, const std::string& why) const;
 
   const Mesh& mesh_;
@@ -81,8 +94,9 @@ class MultipointBuilder {
   std::map<int, HeldTwice> held_twice_;
   std::set<int> rigid_;  // nodes
   using Weights = std::vector<std::pair<int, double>>;
-  std::map<int, Weights> rows_;  // of T without the ties, by u: those that are not q of their own number
-  std::map<int, Weights> ties_;  // of q, by u
+  std::map<int, Weights> rows_;                // of T without the ties, by u: those that are not q of their own number
+  std::map<int, Weights> ties_;                // of q, by u
+  std::vector<Eigen::Triplet<double>> drawn_;  // of q, by the q of an overlap that is an unknown
   std::vector<Eigen::Triplet<double>> inverse_;
 };
 

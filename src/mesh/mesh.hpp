@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,12 +88,20 @@ struct TiedNode {
   int beside;  ///< the next node of an edge that it ends: the middle one, or the other end
 };
 
+/// A straight cut of a tie that draws its faces into each other, along one normal.
+struct Pretension {
+  Vec2 normal;                    ///< of the curve that follows, out of its body
+  std::optional<double> force;    ///< times depth (model/model.hpp), + draws them together
+  std::optional<double> overlap;  ///< length, + into each other; none: what the force makes of it
+};
+
 /// Two curves that are one: the nodes of the first follow the second.
 struct Tie {
   std::string key;  ///< of the scene, for messages
   std::array<std::string, 2> curves;
   std::array<int, 2> boundary, body;
   std::vector<TiedNode> nodes;
+  std::optional<Pretension> pretension = {};
 };
 
 struct Mesh {

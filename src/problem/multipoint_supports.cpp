@@ -76,6 +76,17 @@ RigidCurve make_rigid(const Mesh& mesh, const BoundaryEntry& entry, const RigidS
   return curve;
 }
 
+// Of the ties whose overlap is unknown: pairs of forces that are in balance.
+void add_pretensions(const Mesh& mesh, MultipointSupports& supports, SaddlePointSystem& system) {
+  if (supports.overlaps.empty()) return;
+  supports.pretension = VecX::Zero(system.f.size());
+  for (const auto& [k, overlap] : supports.overlaps)
+    if (const Pretension& given = *mesh.ties[k].pretension; !given.overlap)
+      supports.pretension +=
+          *given.force / overlap.part * system.constraints.multipoint->inverse.row(overlap.q).transpose();
+  system.f += supports.pretension;
+}
+
 }  // namespace
 
 MultipointSupports add_multipoint_supports(const std::vector<BoundaryEntry>& entries, const Mesh& mesh,
@@ -91,8 +102,9 @@ MultipointSupports add_multipoint_supports(const std::vector<BoundaryEntry>& ent
     else if (const auto* directed = std::get_if<DirectedDisplacement>(&entry.spec.what))
       prescribe_direction(mesh, i, entry, *directed, builder);
   }
-  add_ties(mesh, builder);
+  supports.overlaps = add_ties(mesh, builder);
   supports.held_twice = builder.finish();
+  add_pretensions(mesh, supports, system);
   return supports;
 }
 

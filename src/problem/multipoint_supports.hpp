@@ -16,6 +16,8 @@ struct RigidSupport {
 struct MultipointSupports {
   std::vector<RigidSupport> rigid_curves;
   std::map<int, HeldTwice> held_twice;  ///< by node; supports are of Entries::boundaries
+  std::map<int, TieOverlap> overlaps;   ///< by number in Mesh::ties
+  VecX pretension;                      ///< n: the part of the load that draws ties together; empty: none does
 };
 
 /// Adds those of all entries, after all that is prescribed along x and y, and the forces on rigid curves to the load.

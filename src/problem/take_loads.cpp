@@ -5,6 +5,7 @@
 #include "base/errors.hpp"
 #include "contact/gap_resolution.hpp"
 #include "contact/segments.hpp"
+#include "problem/ties.hpp"
 #include "scene/scene.hpp"
 
 namespace mortise {
@@ -67,6 +68,7 @@ bool take_gaps(const Scene& scene, Problem& p) {
 
 bool take_loads(const Scene& scene, Problem& p) {
   take_entries(scene, p.mesh, p.entries);
+  take_pretensions(scene, p.mesh);
   p.fields = scene.fields;
   p.expectations = scene.expectations;
   SaddlePointSystem& system = p.discretisation.system;

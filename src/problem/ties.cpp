@@ -2,10 +2,12 @@
 
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "contact/mortar_projection.hpp"
+#include "fem/edges.hpp"
 #include "problem/contact_curves.hpp"
 #include "scene/scene.hpp"
 
@@ -16,6 +18,25 @@ namespace {
 int following(const ContactCurves& pair) {
   if (!pair.spec.multipliers_on.empty()) return pair.spec.multipliers_on == pair.spec.between[1] ? 1 : 0;
   return pair.edge_size[1] < (1 - 1e-6) * pair.edge_size[0] ? 1 : 0;
+}
+
+// Out of the body; of rings along the axis.
+Vec2 cut_normal(const Model& model, const Mesh& mesh, const ContactSpec& spec, const Curve& curve) {
+  constexpr double straight = 1e-3;  // sine
+  const Vec2 along =
+      (mesh.nodes.row(curve.edges.back().nodes[1]) - mesh.nodes.row(curve.edges[0].nodes[0])).transpose();
+  Vec2 normal = Vec2(along.y(), -along.x()).normalized();
+  if (model.axisymmetric()) normal = {0, normal.y() > 0 ? 1 : -1};
+  for (const Edge& edge : curve.edges)
+    for (int a = 0; a < edge.node_count; ++a) {
+      const EdgePoint at = edge_point(mesh.nodes, edge, xi_of_node(a));
+      if ((at.normal() - normal).norm() > straight)
+        throw SceneError(spec.key + (spec.overlap ? ".overlap: '" : ".pretension: '") +
+                         mesh.boundaries[curve.boundary].name + "' is not straight" +
+                         (model.axisymmetric() ? " across the axis " : " ") + near_point(at.position) +
+                         "; expected a straight cut" + (model.axisymmetric() ? ", whose nodes have one y" : ""));
+    }
+  return normal;
 }
 
 // A node that follows another curve already is left out.
@@ -35,6 +56,10 @@ Tie tie_of(const Model& model, const Mesh& mesh, const ContactCurves& pair, std:
   if (tie.nodes.empty())
     throw SceneError(tie.key + ": '" + tie.curves[0] + "' and '" + tie.curves[1] +
                      "' do not face each other anywhere; expected curves that coincide");
+  if (pair.spec.pretension || pair.spec.overlap)
+    tie.pretension = {.normal = cut_normal(model, mesh, pair.spec, pair.curves[first]),
+                      .force = pair.spec.pretension,
+                      .overlap = pair.spec.overlap};
   std::erase_if(tie.nodes, [&](const TiedNode& one) { return !followers.insert(one.node).second; });
   return tie;
 }
@@ -60,12 +85,14 @@ void require_near(const Mesh& mesh, const Tie& tie, double edge) {
 }  // namespace
 
 Mesh tied(const Scene& scene, Mesh mesh) {
-  mesh.ties.clear();
+  const std::vector<Tie> before = std::exchange(mesh.ties, {});
   if (scene.ties.empty()) return mesh;
   std::set<int> followers;
   for (const ContactCurves& pair : tied_curves(scene, mesh)) {
     mesh.ties.push_back(tie_of(scene.model, mesh, pair, followers));
     require_near(mesh, mesh.ties.back(), std::min(pair.edge_size[0], pair.edge_size[1]));
+    if (const std::size_t k = mesh.ties.size() - 1; pair.spec.locked && k < before.size() && before[k].pretension)
+      mesh.ties[k].pretension->overlap = before[k].pretension->overlap;
   }
   // Those that follow others that follow come after them, whatever the order of the entries.
   for (std::size_t round = 0; round < mesh.ties.size(); ++round)
@@ -78,8 +105,20 @@ Mesh tied(const Scene& scene, Mesh mesh) {
   return mesh;
 }
 
-void add_ties(const Mesh& mesh, MultipointBuilder& builder) {
-  for (const Tie& tie : mesh.ties) builder.tie(tie);
+std::map<int, TieOverlap> add_ties(const Mesh& mesh, MultipointBuilder& builder) {
+  std::map<int, TieOverlap> overlaps;
+  for (std::size_t k = 0; k < mesh.ties.size(); ++k)
+    if (const auto overlap = builder.tie(mesh.ties[k])) overlaps.emplace(int(k), *overlap);
+  return overlaps;
+}
+
+void take_pretensions(const Scene& scene, Mesh& mesh) {
+  for (Tie& tie : mesh.ties)
+    for (const ContactSpec& spec : scene.ties)
+      if (tie.pretension && tie.key == spec.key && !spec.locked) {
+        tie.pretension->force = spec.pretension;
+        tie.pretension->overlap = spec.overlap;
+      }
 }
 
 }  // namespace mortise

@@ -215,9 +215,16 @@ Json loads_json(const Problem& p) {
   return loads;
 }
 
-Json tie_json(const Tie& tie, const Resultant* force) {
+Json tie_json(const Problem& p, const Reactions* reactions, int k) {
+  const Tie& tie = p.mesh.ties[k];
   Json json{{"follows", tie.curves[0]}, {"leads", tie.curves[1]}, {"nodes", tie.nodes.size()}};
-  if (force) add_sum(json, "force", *force);
+  if (tie.pretension && tie.pretension->force) json["pretension"] = *tie.pretension->force;
+  if (tie.pretension && tie.pretension->overlap) json["overlap"] = *tie.pretension->overlap;
+  if (!reactions) return json;
+  add_sum(json, "force", reactions->ties[k]);
+  if (!tie.pretension) return json;
+  json["overlap"] = reactions->overlaps.at(k);
+  json["tension"] = reactions->ties[k].force.dot(tie.pretension->normal);
   return json;
 }
 
@@ -238,8 +245,7 @@ Json model_report(const Problem& p, const Reactions* reactions) {
              {"bodies", bodies},
              {"supports", supports},
              {"loads", loads_json(p)}};
-  for (std::size_t k = 0; k < p.mesh.ties.size(); ++k)
-    model["ties"].push_back(tie_json(p.mesh.ties[k], reactions ? &reactions->ties[k] : nullptr));
+  for (int k = 0; k < int(p.mesh.ties.size()); ++k) model["ties"].push_back(tie_json(p, reactions, k));
   for (const FieldSpec& field : p.fields) {
     Json& entry = model["fields"][field.function->name] = {{"file", field.file}, {"values", field.values}};
     if (field.component) entry["component"] = *field.component;

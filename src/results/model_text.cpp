@@ -113,6 +113,8 @@ std::string tie_line(const Json& tie) {
   out << "  tied      " << follows << " follows " << tie["leads"].get<std::string>() << " at " << tie["nodes"]
       << " nodes";
   if (tie.contains("force")) out << "; force " << pair_of(tie["force"]) << " on " << follows;
+  if (tie.contains("tension"))
+    out << "; overlap " << tie["overlap"].get<double>() << ", tension " << tie["tension"].get<double>();
   out << "\n";
   return out.str();
 }

@@ -136,10 +136,13 @@ Reactions find_reactions(const Problem& problem, const Solution& solution) {
   const VecX of_springs = spring_forces(d, solution.u);
   Collector collector(mesh, r.nodal, d.multipoint.held_twice), springs(mesh, of_springs, {});
   r.nodal += of_springs + forces.ties;
+  VecX tying = forces.ties;
+  if (d.multipoint.pretension.size() > 0) tying += d.multipoint.pretension;
+  for (const auto& [k, overlap] : d.multipoint.overlaps)
+    r.overlaps[k] = overlap_of(overlap, *d.system.constraints.multipoint, solution.u);
   for (const Tie& tie : mesh.ties) {
     Resultant& sum = r.ties.emplace_back();
-    for (const TiedNode& one : tie.nodes)
-      sum.add(mesh.nodes.row(one.node).transpose(), forces.ties.segment<2>(2 * one.node));
+    for (const TiedNode& one : tie.nodes) sum.add(mesh.nodes.row(one.node).transpose(), tying.segment<2>(2 * one.node));
   }
   for (const BoundaryEntry& entry : problem.entries.boundaries) {
     const int number = int(r.entries.size());

@@ -22,6 +22,7 @@ struct Reactions {
   std::vector<Reaction> curves;    ///< in the scene's order, of an entry its curves first
   std::vector<Resultant> entries;  ///< sums of each of Entries::boundaries, zero of loads
   std::vector<Resultant> ties;     ///< on the nodes that follow, of Mesh::ties
+  std::map<int, double> overlaps;  ///< length, + into each other: of those with pretension or overlap
   /// Of Discretisation::multipoint: displacement of `about`, and the turn in radians.
   std::vector<Eigen::Vector3d> rigid_motions;
   std::vector<JointStiffness> stiffnesses;

@@ -140,6 +140,10 @@ void write_setup(const Problem& p, const std::filesystem::path& path) {
                                      pair.spec.multipliers_on}});
   }
   for (const Tie& tie : mesh.ties) ties.push_back(tie.curves);
+  for (const Json& tie : model.value("ties", Json::array()))
+    for (const std::string what : {"pretension", "overlap"})
+      if (tie.contains(what))
+        rest.push_back(what + " " + tie[what].dump() + " across " + tie["follows"].get<std::string>());
   if (entries.gravity) rest.push_back("gravity");
   if (!entries.body_forces.empty()) rest.push_back("forces per volume");
   if (!entries.initial_strains.empty()) rest.push_back("initial strains");

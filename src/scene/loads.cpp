@@ -1,5 +1,7 @@
 #include "scene/loads.hpp"
 
+#include <algorithm>
+
 #include "base/overloaded.hpp"
 
 namespace mortise {
@@ -51,7 +53,13 @@ Scene without_loads(Scene scene) {
   for (BoundarySpec& boundary : scene.boundaries) boundary.key.clear();
   for (BodyForceSpec& force : scene.body_forces) force.key.clear();
   for (InitialStrainSpec& strain : scene.initial_strains) strain.key.clear();
-  for (ContactSpec& contact : scene.contacts) contact.gap = contact.clearance = Field();
+  // What is locked are the overlaps that pretension makes in these gaps.
+  if (std::ranges::none_of(scene.ties, &ContactSpec::locked)) {
+    for (ContactSpec& contact : scene.contacts) contact.gap = contact.clearance = Field();
+    for (ContactSpec& tie : scene.ties)
+      for (auto* given : {&tie.pretension, &tie.overlap})
+        if (*given) *given = 0;
+  }
   scene.expectations.clear();
   return scene;
 }

@@ -58,6 +58,17 @@ void check_clearance(const Node& entry, const ContactSpec& contact) {
        "is added to the gap that is drawn, but initial_gap = " + describe(gap) + "; expected one of them");
 }
 
+// One of pretension and overlap, of a tie.
+void check_pretension(const Node& entry, const ContactSpec& contact) {
+  for (const char* key : {"pretension", "overlap", "locked"})
+    if (const Node* node = find(entry, key); node != nullptr && contact.condition != Condition::tied)
+      fail(*node, "goes with condition = \"tied\", a cut through one body that is drawn together");
+  if (contact.pretension && contact.overlap)
+    fail(*find(entry, "overlap"), "is what a pretension makes; expected one of pretension and overlap");
+  if (contact.locked && !contact.pretension)
+    fail(*find(entry, "locked"), "goes with pretension, the force before all other loads; overlap is locked by itself");
+}
+
 }  // namespace
 
 Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
@@ -88,6 +99,14 @@ Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
           "(theory, "
           "section 5). By the solvers `direct` and `feti`",
           "none: the sides do not overlap"),
+      key("pretension", contact.pretension, a_number(),
+          "of a tie along a straight cut, as through the shank of a bolt: the force that draws its faces together "
+          "([below](#bolts))"),
+      key("locked", contact.locked, true_or_false(),
+          "with `pretension`: it is the force before all other loads, and the overlap that it makes stays as they come",
+          "`false`: it is the force under all loads"),
+      key("overlap", contact.overlap, a_number(),
+          "in place of `pretension`: how far the faces are drawn into each other, a length"),
       key("multipliers_on", contact.multipliers_on, a_name(), "one of the two curves",
           "that of the softer body where the other is more than 10 times as stiff (theory, section 13), else that of a "
           "curve which faces the other on at least 95 % of its length where the other does so on at most 90 %, else "
@@ -111,6 +130,7 @@ void read_contacts(const Node& root, Scene& scene) {
     for (const char* key : {"initial_gap", "clearance", "stiffness"})
       if (const Node* node = find(*entry, key); tied && node != nullptr)
         fail(*node, "has no meaning with condition = \"tied\", which makes one body of both; expected one of them");
+    check_pretension(*entry, contact);
     read_initial_gap(find(*entry, "initial_gap"), scene, contact);
     check_clearance(*entry, contact);
     check_multipliers_on(*entry, contact);

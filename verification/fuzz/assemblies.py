@@ -1,4 +1,5 @@
-"""Assemblies of many bodies that only contact holds: heaps, chains, bearings, arches, pins, wedges, bricks, nested rings.
+"""Assemblies of many bodies that only contact holds: heaps, chains, bearings, arches, pins, wedges, bricks, nested rings,
+bolts.
 
 Whether anything carries the load is a matter of the rigid motions alone (rigid_motions.py).
 """
@@ -27,7 +28,7 @@ class Assembly:
     parts: list
     pairs: list  # of curves "body_curve"
     size: float  # edges, over which contact is rough
-    more: dict = field(default_factory=dict)  # keys of every pair
+    ties: list = field(default_factory=list)  # straight cuts: two curves, and the pretension
 
 
 def disc(name, x, y, r, force, held=None):
@@ -163,6 +164,23 @@ def rings(r, weight):
     return Assembly("rings", parts, pairs, r.uniform(0.15, 0.35))
 
 
+def bolts(r, weight):
+    """Two plates on a bolt with play, cut across its shank and tightened; the upper plates are pulled or pushed."""
+    high, play, pull = r.uniform(1.0, 3.0), r.uniform(0.1, 0.5), r.choice((0.0, r.uniform(-4, 4), r.uniform(0, 40))) * weight
+    parts = []
+    for name, up in (("upper", 1), ("lower", -1)):
+        corners = [(up * x, up * y) for x, y in ((-1, 0), (1, 0), (1, high), (2, high), (2, high + 1), (-2, high + 1), (-2, high), (-1, high))]
+        curves = ("cut", "side", "seat", "end", "top", "back", "other", "wall")
+        parts.append(Part(name, [rim(corners[0], *zip(curves, (*corners[1:], corners[0])))]))
+    for side, sign in (("west", -1), ("east", 1)):
+        x = sorted((sign * (1 + play), sign * 4))
+        held = {"left" if sign < 0 else "right": "xy"}
+        parts += [block(f"high{side}", x[0], 0.0, x[1], high, (0.0, pull)), block(f"low{side}", x[0], -high, x[1], 0.0, held=held)]
+    pairs = [("upper_other", "highwest_top"), ("upper_seat", "higheast_top"), ("lower_seat", "lowwest_bottom"),
+             ("lower_other", "loweast_bottom"), ("highwest_bottom", "lowwest_top"), ("higheast_bottom", "loweast_top")]  # fmt: skip
+    return Assembly("bolts", parts, pairs, r.uniform(0.2, 0.4), [("upper_cut", "lower_cut", r.uniform(1, 30) * weight)])
+
+
 FAMILIES = (heap, chain, bearing, arch, pin, wedge, bricks, rings)
 
 
@@ -198,7 +216,8 @@ class View(NamedTuple):
             force = tuple(component / self.unit for component in self.turned(*one.force))
             return Part(one.name, loops, held, force)
 
-        return Assembly(assembly.what, [part(one) for one in assembly.parts], assembly.pairs, size)
+        ties = [(*cut, self.unit * force) for *cut, force in assembly.ties]
+        return Assembly(assembly.what, [part(one) for one in assembly.parts], assembly.pairs, size, ties)
 
 
 def other_view(r):
@@ -217,14 +236,16 @@ def scene_of(assembly, stiffness=None):
     boundary = [{"on": f"{part.name}_{curve}", "displacement": {axis: 0 for axis in axes}}
                 for part in assembly.parts for curve, axes in part.held.items()]  # fmt: skip
     return {"materials": {"one": {"young": 1.0, "poisson": 0.3}}, "bodies": {part.name: "one" for part in assembly.parts},
-            "boundary": boundary, "contact": [{"between": list(pair)} | gives_way for pair in assembly.pairs],
+            "boundary": boundary, "contact": [{"between": list(pair)} | gives_way for pair in assembly.pairs]
+            + [{"between": cut, "condition": "tied", "pretension": force} for *cut, force in assembly.ties],
             "body_force": [{"body": part.name, "force": list(part.force)} for part in assembly.parts if any(part.force)],
             }  # fmt: skip
 
 
 def make_assembly(seed, number):
     r = random.Random(f"{seed}:assembly:{number}")
-    assembly = r.choice(FAMILIES)(r, 10 ** r.uniform(-6, -4))
+    bolted = random.Random(f"{seed}:assembly:{number}:bolts").random() < 0.1
+    assembly = (bolts if bolted else r.choice(FAMILIES))(r, 10 ** r.uniform(-6, -4))
     own = random.Random(f"{seed}:assembly:{number}:stiffness")
     stiffness = 10 ** own.uniform(-2, 2) / assembly.size if own.random() < 0.2 else None  # of edges as stiff as the bodies: 1
     scene, order, quads = scene_of(assembly, stiffness), r.choice((1, 2, 2)), r.choice((0, 1))

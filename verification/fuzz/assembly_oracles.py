@@ -49,6 +49,10 @@ def unbalanced(told, assembly):
     for side, other, force in forces(told):
         add(side, force)
         add(other, -force)
+    for tie in told["model"].get("ties", []):
+        force = np.array([*tie["force"], tie["moment"]])
+        add(tie["follows"], force)
+        add(tie["leads"], -force)
     for load in told["model"]["loads"]:
         add(load["body"], np.array([*load["sum"], load["moment"]]))
     for curve in (curve for support in told["model"]["supports"] for curve in support["curves"]):

@@ -103,6 +103,16 @@ def drift(assembly, near_only):
             row = np.zeros(len(work))
             row[first : first + 3], row[second : second + 3] = at(place, normal), -at(place + gap * normal, normal)
             closes.append(row)
+    for first, second, force in assembly.ties:  # free along the normal
+        name, curve = first.split("_")
+        start, end = segments(next(part for part in assembly.parts if part.name == name), curve)[0]
+        along, jump = (end - start) / np.linalg.norm(end - start), np.zeros((3, len(work)))
+        for of, sign in ((name, 1), (second.split("_")[0], -1)):
+            jump[0, column[of] :][:3], jump[1, column[of] :][:3] = sign * at(start, along), sign * at(start, (along[1], -along[0]))
+            jump[2, column[of] + 2] += sign
+        fixed += [jump[0], jump[2]]
+        work += force * jump[1]
+        total += 2 * abs(force)
     for part in assembly.parts:
         for curve, axes in part.held.items():
             for place in segments(part, curve)[:: 6, 0]:
