@@ -4,15 +4,16 @@
 DefineConstant[
   rollers = {12, Name "rollers"},
   pitch = {35, Name "radius of the circle of their centres"},
-  fine = {0.2, Name "edges at the contacts"},
+  fine = {0.04, Name "edges where rollers touch rings"},
   coarse = {3, Name "edges elsewhere"},
   order = {2, Name "order of the elements"},
   straight = {0, Name "second-order nodes on 0: the circles, 1: straight edges"}
 ];
 
 o = newp;
-Point(o) = {0, 0, 0, coarse};
+Point(o) = {0, 0, 0};
 ring[] = {};
+touching[] = {};
 
 // A ring of arcs that end at the rollers' angles: its points, then its arcs into ring[].
 Macro Ring
@@ -20,7 +21,8 @@ Macro Ring
   ring[] = {};
   For k In {0 : rollers - 1}
     a = 2 * Pi * k / rollers - Pi / 2;
-    Point(first + k) = {r * Cos(a), r * Sin(a), 0, size};
+    Point(first + k) = {r * Cos(a), r * Sin(a), 0};
+    touching[] += first + k;
   EndFor
   For k In {0 : rollers - 1}
     c = newl;
@@ -29,20 +31,26 @@ Macro Ring
   EndFor
 Return
 
-r = pitch - 15;
-size = coarse;
-Call Ring;
-bore[] = ring[];
 r = pitch - 5;
-size = fine;
 Call Ring;
 inner[] = ring[];
 r = pitch + 5;
-size = fine;
 Call Ring;
 outer[] = ring[];
+// Edges of `fine` along six of them to both sides of where a roller touches, then longer by three tenths of the way.
+Field[1] = Distance;
+Field[1].PointsList = {touching[]};
+Field[2] = Threshold;
+Field[2].InField = 1;
+Field[2].SizeMin = fine;
+Field[2].SizeMax = coarse;
+Field[2].DistMin = 6 * fine;
+Field[2].DistMax = 6 * fine + (coarse - fine) / 0.3;
+Background Field = 2;
+r = pitch - 15;
+Call Ring;
+bore[] = ring[];
 r = pitch + 15;
-size = coarse;
 Call Ring;
 rim[] = ring[];
 s = news;
@@ -61,11 +69,11 @@ For k In {0 : rollers - 1}
   a = 2 * Pi * k / rollers - Pi / 2;
   x = pitch * Cos(a); y = pitch * Sin(a); u = 5 * Cos(a); v = 5 * Sin(a);
   p = newp;
-  Point(p) = {x, y, 0, coarse};
-  Point(p + 1) = {x + u, y + v, 0, fine};
-  Point(p + 2) = {x - v, y + u, 0, coarse / 2};
-  Point(p + 3) = {x - u, y - v, 0, fine};
-  Point(p + 4) = {x + v, y - u, 0, coarse / 2};
+  Point(p) = {x, y, 0};
+  Point(p + 1) = {x + u, y + v, 0};
+  Point(p + 2) = {x - v, y + u, 0};
+  Point(p + 3) = {x - u, y - v, 0};
+  Point(p + 4) = {x + v, y - u, 0};
   c = newl;
   Circle(c) = {p + 1, p, p + 2}; Circle(c + 1) = {p + 2, p, p + 3};
   Circle(c + 2) = {p + 3, p, p + 4}; Circle(c + 3) = {p + 4, p, p + 1};
@@ -79,4 +87,4 @@ EndFor
 Mesh.ElementOrder = order;
 Mesh.SecondOrderIncomplete = 1;
 Mesh.SecondOrderLinear = straight;
-Mesh.MeshSizeExtendFromBoundary = 1;
+Mesh.MeshSizeExtendFromBoundary = 0;

@@ -99,7 +99,8 @@ double thickness(const PieceOutline& piece) { return 2 * piece.area / piece.peri
   if (depth > 0) text << " by " << depth;
   text << " " << near_point(place)
        << ", too deep for contact to press apart; expected each place in at most one body (in a "
-          ".geo: Translate moves one off the other, BooleanDifference cuts one out of the other)";
+          ".geo: Translate moves one off the other, BooleanDifference cuts one out of the other; an interference fit "
+          "is drawn touching, with a negative clearance)";
   throw SceneError(text.str());
 }
 

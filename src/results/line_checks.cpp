@@ -63,15 +63,17 @@ Check coverage_check(const Results& r) {
 Check motion_check(const Results& r) {
   Check check{"turn and slide of contact lines", 0, 0.5};
   if (!r.solution.u.allFinite()) check.value = std::numeric_limits<double>::quiet_NaN();
-  double largest_pressure = 0;
-  for (const ContactResults& contact : r.recovery.contacts)
-    largest_pressure = largest(largest_pressure, largest_entry(contact.pressure));
-  const double negligible = 1e-6 * largest_pressure;  // round-off of the others, in a pair that has opened
+  std::vector<std::optional<LineMotion>> motions;
+  double norm = 0;
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
-    const auto motion =
-        line_motion(r.problem.mesh.nodes, r.problem.pairs[k], r.recovery.contacts[k], r.solution.u, negligible);
+    motions.push_back(line_motion(r.problem.mesh.nodes, r.problem.pairs[k], r.recovery.contacts[k], r.solution.u));
+    if (motions[k]) norm = std::hypot(norm, motions[k]->norm);
+  }
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const std::optional<LineMotion>& motion = motions[k];
     if (!motion) continue;
-    const auto take = [&](double part, const char* before, double shown, const char* after) {
+    const auto take = [&](double off, const char* before, double shown, const char* after) {
+      const double part = off * motion->norm / norm;
       if (!(part > check.value)) return;
       check.value = part;
       if (check.ok()) return;

@@ -12,7 +12,7 @@ Check coverage_check(const Results& results);
 
 /// Contact is written on the undeformed bodies: the force of a line that turns by an angle is off by about that part,
 /// and so is p where the sides move by that part of the length in contact or of the radius of curvature (LineMotion).
-/// From a half on, the answer is that of another problem.
+/// Of a pair, in the norm of all contact lines; from a half on, the answer is that of another problem.
 Check motion_check(const Results& results);
 
 /// Of a run with an estimate: by what part p is off in the norm of all contact lines; from a half on there is no figure

@@ -60,13 +60,13 @@ std::vector<double> edge_curvatures(const Points& nodes, const Curve& curve) {
 }
 
 std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pair, const ContactResults& contact,
-                                      const VecX& u, double negligible) {
+                                      const VecX& u) {
   const std::vector<double> curvature = edge_curvatures(nodes, pair.multiplier),
                             opposite_curvature = edge_curvatures(nodes, pair.opposite);
   std::vector<Moved> side, other;
-  double force = 0, length = 0, slid = 0, curved = 0;
+  double force = 0, square = 0, length = 0, slid = 0, curved = 0;
   const bool both_ways = pair.spec.condition != Condition::unilateral;  // tension too
-  const double least = std::max(negligible, 1e-3 * largest_entry(contact.pressure));
+  const double least = 1e-3 * largest_entry(contact.pressure);
   for (const ContactPoint& c : pair.points) {
     const double signed_p = interpolate(pair, contact.pressure, {c.edge, c.xi});
     const double p = both_ways ? std::abs(signed_p) : signed_p;
@@ -76,6 +76,7 @@ std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pa
     other.push_back({p * c.dA, edge_point(nodes, facing, c.eta).position, edge_value(u, facing, c.eta)});
     const Vec2 moved = other.back().u - side.back().u;
     force += p * c.dA;
+    square += p * p * c.dA;
     length += c.ds;
     slid += p * c.dA * cross(moved, c.normal);
     curved += p * c.dA * moved.norm() * std::max(curvature[c.edge], opposite_curvature[c.opposite_edge]);
@@ -84,7 +85,8 @@ std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pa
   return LineMotion{.turned = std::max(turn(side), turn(other)),
                     .slid = std::abs(slid / force) / length,
                     .curved = curved / force,
-                    .position = mean_place(side)};
+                    .position = mean_place(side),
+                    .norm = std::sqrt(square)};
 }
 
 }  // namespace mortise

@@ -16,12 +16,12 @@ struct LineMotion {
   double slid;    ///< how far the sides slide along one another, over the loaded length
   double curved;  ///< how far they move against one another, over the line's radius of curvature: a turn of the normals
   Vec2 position;  ///< the middle of what is loaded
+  double norm;    ///< root of the integral of p^2 dA, stress times root of length times depth
 };
 
-/// Places with less than `negligible`, stress, or a thousandth of the pair's largest pressure are not loaded. Nothing
-/// where none is.
+/// Places with less than a thousandth of the pair's largest pressure are not loaded. Nothing where none is.
 std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pair, const ContactResults& contact,
-                                      const VecX& u, double negligible = 0);
+                                      const VecX& u);
 
 /// Curvature of the line that each edge stands for, 1 / length, kinks left out.
 std::vector<double> edge_curvatures(const Points& nodes, const Curve& curve);

@@ -76,6 +76,18 @@ TEST(LineChecks, FailWhereALineTurnsOrSlidesByHalf) {
   expect_contains(motion_of(slid).where, "slides by 60 % of the loaded length");
 }
 
+// Beside a pair that does not slide, as its normals lie along the motion, and that presses three times as much.
+TEST(LineChecks, CountAPairByItsPartInTheNormOfAllPressure) {
+  Results r = moved(0, 0.48);
+  r.problem.pairs.push_back(r.problem.pairs[0]);
+  for (ContactPoint& point : r.problem.pairs[1].points) point.normal = {1, 0};
+  r.recovery.contacts.push_back(r.recovery.contacts[0]);
+  r.recovery.contacts[1].pressure *= 3;
+  const Check check = motion_check(r);
+  EXPECT_TRUE(check.ok());
+  EXPECT_NEAR(check.value, motion_of(r).value / std::sqrt(10.0), 1e-12);
+}
+
 // Pressed by a fifth of E, the surface at the corner of the punch turns by more than a third, and the line not at all.
 TEST(LineChecks, HoldWhereASingularCornerTurnsByItself) {
   const Results r =
