@@ -22,7 +22,6 @@ Macro Ring
   For k In {0 : rollers - 1}
     a = 2 * Pi * k / rollers - Pi / 2;
     Point(first + k) = {r * Cos(a), r * Sin(a), 0};
-    touching[] += first + k;
   EndFor
   For k In {0 : rollers - 1}
     c = newl;
@@ -31,12 +30,20 @@ Macro Ring
   EndFor
 Return
 
+r = pitch - 15;
+Call Ring;
+bore[] = ring[];
 r = pitch - 5;
 Call Ring;
 inner[] = ring[];
+touching[] += {first : first + rollers - 1};
 r = pitch + 5;
 Call Ring;
 outer[] = ring[];
+touching[] += {first : first + rollers - 1};
+r = pitch + 15;
+Call Ring;
+rim[] = ring[];
 // Edges of `fine` along six of them to both sides of where a roller touches, then longer by three tenths of the way.
 Field[1] = Distance;
 Field[1].PointsList = {touching[]};
@@ -47,12 +54,6 @@ Field[2].SizeMax = coarse;
 Field[2].DistMin = 6 * fine;
 Field[2].DistMax = 6 * fine + (coarse - fine) / 0.3;
 Background Field = 2;
-r = pitch - 15;
-Call Ring;
-bore[] = ring[];
-r = pitch + 15;
-Call Ring;
-rim[] = ring[];
 s = news;
 Curve Loop(s) = {inner[]}; Curve Loop(s + 1) = {bore[]};
 Plane Surface(s) = {s, s + 1};
