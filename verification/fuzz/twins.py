@@ -70,6 +70,8 @@ def changed(setting, place=None, displacement=same, traction=same, pressure=same
     for entry in scene.get("contact", []):
         if not isinstance(entry.get("initial_gap", ""), str):
             entry["initial_gap"] = gap(entry["initial_gap"])
+        if "overlap" in entry and not isinstance(gap(1.0), str):  # it is no function
+            entry["overlap"] = gap(entry["overlap"])
     mesh = plates.moved(setting.mesh, place) if place else setting.mesh
     return replace(setting, scene=scene, mesh=mesh, thrust=None)
 

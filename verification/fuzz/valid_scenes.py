@@ -33,7 +33,7 @@ def flat(_):
 
 def make_plates(random, length):
     """One to three plates, from below; each line of contact is one line, or a gap or an overlap of 1e-3 apart. The gap
-    and the width of the uppermost too."""
+    and the width of the uppermost too, and which of the lines are straight."""
     count = random.choice((1, 2, 2, 2, 2, 2, 2, 3))
     names = ("lower", "upper", "third")[:count]
     lines = [flat] + [contact_line(random, length) for _ in names[1:]] + [flat]
@@ -51,7 +51,7 @@ def make_plates(random, length):
         columns, rows = plates.even(random.randint(1, 6)), random.randint(1, 3)
         made.append(plates.Body(name, columns, rows, plates.between(left, right, below, above), kind, straight))
         floor += thickness
-    return made, gap, right - left
+    return made, gap, right - left, [line is flat for line in lines[1:-1]]
 
 
 def materials(random, young, heated):
@@ -123,14 +123,17 @@ def iteration(random, chosen, bodies):
         chosen["beta"] = random.choice(("auto", 0.1, 0.5, 1))
 
 
-def contacts(random, made, gap):
-    for below, above in zip(made, made[1:]):
+def contacts(random, made, gap, level):
+    for below, above, is_level in zip(made, made[1:], level):
         curves = [f"{above.name}_bottom", f"{below.name}_top"]
         random.shuffle(curves)
         entry = {"between": curves}
         if random.random() < 0.6:
             entry["condition"] = random.choice(("unilateral", "bilateral") * 4 + ("tied",))
-        if random.random() < 0.5 and entry.get("condition") != "tied":
+        tied = entry.get("condition") == "tied"
+        if tied and is_level and random.random() < 0.5:
+            entry["overlap"] = random.choice((-1e-5, 1e-5, 1e-3))
+        if random.random() < 0.5 and not tied:
             known = ["measured", "curve", random.choice((-1e-5, 1e-5, 1e-3))]
             if not gap or random.random() < 0.1:
                 known.append("closed")
@@ -143,7 +146,7 @@ def contacts(random, made, gap):
 def valid_setting(random):
     """A random scene; whether contact opens, an iteration converges or a check fails is mortise's to say."""
     length, young = random.choice((1.0, 1.0, 1e-3, 1e3)), random.choice((1.0, 2.1e11, 7e4))
-    made, gap, width = make_plates(random, length)
+    made, gap, width, level = make_plates(random, length)
     names = [plate.name for plate in made]
     heated = random.random() < 0.15
     load, pressed = top_load(random, young, length, width)
@@ -156,7 +159,7 @@ def valid_setting(random):
         "materials": {name: known[name] for name in known if name in bodies.values()},
         "bodies": bodies,
         "boundary": boundary(random, made, load),
-        "contact": list(contacts(random, made, gap)),
+        "contact": list(contacts(random, made, gap, level)),
         "method": method(random, len(made) - 1, names),
     }
     if heated:
