@@ -245,7 +245,7 @@ TEST(Pretension, HasGradients) {
                   "has no gradient here");
 }
 
-// An elastic head and axis, held along its normal: the same however it lies.
+// An elastic head in a guide: the same however it lies.
 TEST(Pretension, IsTheSameAlongAnyDirection) {
   const auto solved = [](const std::string& turn, const std::string& given) {
     const TemporaryFolder folder;
@@ -258,7 +258,7 @@ contact = [
                                                                  given + R"( },
   { between = ["sleeve_top", "seat"], initial_gap = 0 },
 ]
-boundary = [{ on = "foot", displacement = { x = 0, y = 0 } }, { on = "axis", displacement = { normal = 0 } }]
+boundary = [{ on = "foot", displacement = { x = 0, y = 0 } }, { on = "outer_neck", displacement = { normal = 0 } }]
 )")));
   };
   const Results upright = solved("", "pretension = 3");
