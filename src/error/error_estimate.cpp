@@ -111,6 +111,8 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, const Surroun
     const ContactPair& pair = p.pairs[k];
     e.line = pressure_line(p.mesh, pair, solution.lambda, round_off);
     e.local = line_error(e.line);
+    if (!e.line.p.any() && solution.lambda.segment(pair.first_row, pair.coupling.B.rows()).any())
+      for (Eigen::Index i = 0; i < e.line.p.size(); ++i) e.local.raise(i, round_off);  // of what was set to 0
     add_gap_error(e.line, gap_error(pair, d.laws, e.line), e.local);
     e.windows = pressure_windows(pair, e.line);
     reached[k] = contact_reach(p.mesh, pair, e.line, options.found);

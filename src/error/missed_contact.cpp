@@ -19,7 +19,7 @@ constexpr int many_motions = 200;    // that fit_nonnegative is not made for: th
 constexpr double of_moving = 1e-5;
 // Vertices with a pressure, one after the other, of a contact that may be narrower than their edges: of more than two
 // there is contact all along the edge in the middle.
-constexpr Eigen::Index few_vertices = 2;
+constexpr int few_vertices = 2;
 
 // The gap at the points of a pair that are away from contact, troughs among them, and what motions do to it.
 struct OpenPoints {
@@ -72,23 +72,41 @@ MatX left_free(const Problem& p, const std::vector<Motion>& motions, const std::
   return factor.dimensionOfKernel() > 0 ? MatX(factor.kernel()) : MatX(rows.cols(), 0);
 }
 
-// Vertices with a pressure, those next to them too, where there are more than few_vertices in a row.
-std::vector<char> in_contact(const PressureLine& line) {
+// Of each vertex how many in a row have a pressure with it, up to one more than few_vertices; 0 without a pressure.
+std::vector<int> pressed_in_a_row(const PressureLine& line) {
   const Eigen::Index last = line.p.size() - 1;
-  std::vector<char> in(last + 1, 0);
-  const auto at = [&](Eigen::Index i) { return line.closed ? (i % last + last) % last : i; };
-  const auto pressed = [&](Eigen::Index i) { return (line.closed || (i >= 0 && i <= last)) && line.p(at(i)) != 0; };
+  const auto pressed = [&](Eigen::Index i) {
+    if (line.closed) i = (i % last + last) % last;
+    return i >= 0 && i <= last && line.p(i) != 0;
+  };
+  std::vector<int> rows(last + 1, 0);
   for (Eigen::Index i = 0; i <= last; ++i) {
-    Eigen::Index run = 0;
-    for (Eigen::Index j = i; run <= few_vertices && pressed(j); --j) ++run;
-    if (run == 0) continue;
-    for (Eigen::Index j = i + 1; run <= few_vertices && pressed(j); ++j) ++run;
-    if (run <= few_vertices) continue;
-    for (Eigen::Index j = i - 1; j <= i + 1; ++j)
-      if (line.closed || (j >= 0 && j <= last)) in[at(j)] = 1;
+    int& row = rows[i];
+    for (Eigen::Index j = i; row <= few_vertices && pressed(j); --j) ++row;
+    if (row == 0) continue;
+    for (Eigen::Index j = i + 1; row <= few_vertices && pressed(j); ++j) ++row;
   }
-  if (line.closed) in[last] = in[0];
+  return rows;
+}
+
+// Vertices of contact that is wider than few_vertices, and those next to them.
+std::vector<char> in_contact(const PressureLine& line) {
+  const std::vector<int> rows = pressed_in_a_row(line);
+  const std::size_t last = rows.size() - 1;
+  std::vector<char> in(rows.size(), 0);
+  for (std::size_t i = 0; i <= last; ++i) {
+    if (rows[i] <= few_vertices) continue;
+    in[i] = in[i > 0 ? i - 1 : line.closed ? last - 1 : i] = in[i < last ? i + 1 : line.closed ? 1 : i] = 1;
+  }
+  if (line.closed) in[0] = in[last] = in[0] || in[last];
   return in;
+}
+
+// The pressure of so few vertices is known no better than to its own size.
+void add_few_vertices(const PressureLine& line, LineError& error) {
+  const std::vector<int> rows = pressed_in_a_row(line);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i] > 0 && rows[i] <= few_vertices) error.raise(Eigen::Index(i), std::abs(line.p(Eigen::Index(i))));
 }
 
 // Gaps count as wide as they may be.
@@ -200,8 +218,10 @@ void add_overlaps(const Mesh& mesh, const ContactPair& pair, const OpenPoints& o
 void add_missed_contact(const Problem& p, const Solution& solution, std::vector<PressureEstimate>& list) {
   std::vector<OpenPoints> open;
   double overlap = 0;
-  for (std::size_t k = 0; k < p.pairs.size(); ++k)
+  for (std::size_t k = 0; k < p.pairs.size(); ++k) {
     overlap = std::max(overlap, open.emplace_back(open_points(p.mesh, p.pairs[k], list[k].line, solution.u)).overlap());
+    if (p.pairs[k].spec.condition == Condition::unilateral) add_few_vertices(list[k].line, list[k].local);
+  }
   const double least = round_off * largest_entry(solution.u);
   if (overlap <= least) return;
   const std::vector<Motion>& motions = p.floating.motions;
