@@ -17,9 +17,6 @@ constexpr int many_motions = 200;    // that fit_nonnegative is not made for: th
 // What moving a body by a length costs over what an overlap of that length does, to choose one of many places: its
 // square of the way is left of an overlap that the body could leave, which is less than gaps are known to.
 constexpr double of_moving = 1e-5;
-// Vertices with a pressure, one after the other, of a contact that may be narrower than their edges: of more than two
-// there is contact all along the edge in the middle.
-constexpr int few_vertices = 2;
 
 // The gap at the points of a pair that are away from contact, troughs among them, and what motions do to it.
 struct OpenPoints {
@@ -72,51 +69,13 @@ MatX left_free(const Problem& p, const std::vector<Motion>& motions, const std::
   return factor.dimensionOfKernel() > 0 ? MatX(factor.kernel()) : MatX(rows.cols(), 0);
 }
 
-// Of each vertex how many in a row have a pressure with it, up to one more than few_vertices; 0 without a pressure.
-std::vector<int> pressed_in_a_row(const PressureLine& line) {
-  const Eigen::Index last = line.p.size() - 1;
-  const auto pressed = [&](Eigen::Index i) {
-    if (line.closed) i = (i % last + last) % last;
-    return i >= 0 && i <= last && line.p(i) != 0;
-  };
-  std::vector<int> rows(last + 1, 0);
-  for (Eigen::Index i = 0; i <= last; ++i) {
-    int& row = rows[i];
-    for (Eigen::Index j = i; row <= few_vertices && pressed(j); --j) ++row;
-    if (row == 0) continue;
-    for (Eigen::Index j = i + 1; row <= few_vertices && pressed(j); ++j) ++row;
-  }
-  return rows;
-}
-
-// Vertices of contact that is wider than few_vertices, and those next to them.
-std::vector<char> in_contact(const PressureLine& line) {
-  const std::vector<int> rows = pressed_in_a_row(line);
-  const std::size_t last = rows.size() - 1;
-  std::vector<char> in(rows.size(), 0);
-  for (std::size_t i = 0; i <= last; ++i) {
-    if (rows[i] <= few_vertices) continue;
-    in[i] = in[i > 0 ? i - 1 : line.closed ? last - 1 : i] = in[i < last ? i + 1 : line.closed ? 1 : i] = 1;
-  }
-  if (line.closed) in[0] = in[last] = in[0] || in[last];
-  return in;
-}
-
-// The pressure of so few vertices is known no better than to its own size.
-void add_few_vertices(const PressureLine& line, LineError& error) {
-  const std::vector<int> rows = pressed_in_a_row(line);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i] > 0 && rows[i] <= few_vertices) error.raise(Eigen::Index(i), std::abs(line.p(Eigen::Index(i))));
-}
-
 // Gaps count as wide as they may be.
 OpenPoints open_points(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& u) {
   OpenPoints open;
   if (pair.spec.condition != Condition::unilateral) return open;
   std::vector<double> gaps, curvature;
-  const std::vector<char> in = in_contact(line);
   const auto add = [&](const ContactPoint& point, double bend) {
-    if (in[point.edge] || in[point.edge + 1]) return;
+    if (line.loaded[point.edge] || line.loaded[point.edge + 1]) return;
     open.points.push_back(point);
     gaps.push_back(gap_at(u, pair, point) + point.unknown);
     curvature.push_back(bend);
@@ -220,7 +179,6 @@ void add_missed_contact(const Problem& p, const Solution& solution, std::vector<
   double overlap = 0;
   for (std::size_t k = 0; k < p.pairs.size(); ++k) {
     overlap = std::max(overlap, open.emplace_back(open_points(p.mesh, p.pairs[k], list[k].line, solution.u)).overlap());
-    if (p.pairs[k].spec.condition == Condition::unilateral) add_few_vertices(list[k].line, list[k].local);
   }
   const double least = round_off * largest_entry(solution.u);
   if (overlap <= least) return;

@@ -203,13 +203,7 @@ void find(ContactRows& rows, std::vector<char> start, const ActiveSetOptions& op
     }
   }
   descend(rows, point, r);
-}
-
-// Motions that nothing holds: the least. Rows that the interior point called closed may carry nothing, too.
-void settle(ContactRows& rows, const ActiveSetOptions& options, ActiveSetResult& r) {
-  if (r.status == SolveStatus::converged && (r.interior_steps > 0 || rows.free_motions().cols() > 0))
-    move_least(rows, options, r);
-  if (r.status == SolveStatus::converged) r.free_motions = rows.free_motions();
+  if (r.status == SolveStatus::converged) move_least(rows, options, r);
 }
 
 }  // namespace
@@ -217,7 +211,7 @@ void settle(ContactRows& rows, const ActiveSetOptions& options, ActiveSetResult&
 ActiveSetResult find_active_set(ContactRows& rows, std::vector<char> start, const ActiveSetOptions& options) {
   ActiveSetResult r;
   find(rows, std::move(start), options, r);
-  settle(rows, options, r);
+  if (r.status == SolveStatus::converged) r.free_motions = rows.free_motions();
   return r;
 }
 
@@ -244,10 +238,7 @@ ActiveSetResult find_active_set(const ComplementarityProblem& p, const VecX& rhs
     for (std::size_t a = 0; a < next.size(); ++a) r.steps.back().changed += next[a] != r.active[a];
     find(rows, std::move(next), options, r);
   }
-  if (!correction)
-    settle(rows, options, r);
-  else if (r.status == SolveStatus::converged)
-    r.free_motions = rows.free_motions();
+  if (r.status == SolveStatus::converged) r.free_motions = rows.free_motions();
   r.system = rows.take_system();
   return r;
 }

@@ -244,7 +244,7 @@ def scene_of(assembly, stiffness=None):
 
 def make_assembly(seed, number):
     r = random.Random(f"{seed}:assembly:{number}")
-    bolted = random.Random(f"{seed}:assembly:{number}:bolts").random() < 0.1
+    bolted = random.Random(f"{seed}:assembly:{number}:bolt").random() < 0.1
     assembly = (bolts if bolted else r.choice(FAMILIES))(r, 10 ** r.uniform(-6, -4))
     own = random.Random(f"{seed}:assembly:{number}:stiffness")
     stiffness = 10 ** own.uniform(-2, 2) / assembly.size if own.random() < 0.2 else None  # of edges as stiff as the bodies: 1

@@ -69,19 +69,13 @@ def centre_of(assembly, curve):
 
 
 def nearest(assembly, pair):
-    """Of the openings of a pair those where the sides are nearest, of flat ones longer than two edges not within one of
-    their ends: so far from it a mesh may bear at the last. Where curves touch, one there, on the line of centres or that through the centre at right
-    angles to what is straight: to first order no other is felt."""
+    """Of the openings of a pair those where the sides are nearest; where curves touch, one there, on the line of centres or
+    that through the centre at right angles to what is straight: to first order no other is felt."""
     place, normal, gap = openings(assembly, pair)
     near = gap <= gap.min(initial=np.inf) + 1e-2 * assembly.size
     place, normal, gap = place[near], normal[near], gap[near]
     turn = np.abs(normal - normal[:1]).max(initial=0.0)
-    if turn < 1e-9:  # flat
-        along = place @ [-normal[0][1], normal[0][0]]
-        end = assembly.size if np.ptp(along) > 2 * assembly.size else 0.0
-        within = (along >= along.min() + end) & (along <= along.max() - end)
-        return place[within], normal[within], gap[within]
-    if turn > 0.5:  # all along one another
+    if turn < 1e-9 or turn > 0.5:  # flat, or all along one another
         return place, normal, gap
     one, other = (centre_of(assembly, curve) for curve in pair)
     if one is not None and other is not None:
