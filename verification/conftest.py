@@ -13,7 +13,8 @@ sys.path.insert(0, str(Path(__file__).with_name("common")))
 import launch
 
 _cache = tempfile.TemporaryDirectory(prefix="mortise_cache_")
-os.environ["XDG_CACHE_HOME"] = _cache.name  # of meshes: never the user's
+# Of meshes: that of the whole run of all tests (./dev test), or one of this process; never the user's.
+os.environ["XDG_CACHE_HOME"] = os.environ.get("MORTISE_TESTS_CACHE", _cache.name)
 
 
 @pytest.fixture(scope="session")
