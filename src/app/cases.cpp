@@ -59,15 +59,24 @@ void set_keys(const Scene& scene, CaseTable& table) {
   for (auto& values : table.values) values.resize(table.keys.size());
 }
 
-// The bars of a case on a mesh that was found for all.
-void estimate_case(const AccuracySpec& spec, const AccurateMesh& on, std::size_t k, Results& r) {
-  estimate(r, spec, on.found);
-  r.accuracy = on.report;
+// A mesh for all cases, and which of them it was found with.
+struct SharedMesh {
+  AccurateMesh found;
+  std::vector<char> leads;  // of each case
+  std::vector<char> open;   // of each case, as of AccurateMesh
+};
+
+// The bars of a case on a mesh that was found for all; whether they are what was asked.
+bool estimate_case(const AccuracySpec& spec, const SharedMesh& on, std::size_t k, Results& r) {
+  estimate(r, spec, on.found.found);
+  r.accuracy = on.found.report;
   r.accuracy->solves.back() = {free_unknowns(r), on.open[k] ? 0 : estimated_error(r, spec.of), r.seconds.total()};
-  if (r.accuracy->reached())
+  const bool reached = r.accuracy->reached();
+  if (reached)
     r.accuracy->reason.clear();
   else
     r.status = std::max(r.status, Status::accuracy_not_reached);
+  return reached;
 }
 
 // All cases one after another, on the mesh that is found for them or else on each scene's own.
@@ -78,9 +87,10 @@ class Run {
     set_keys(scene, table);
   }
 
-  void solve(const AccurateMesh* on) {
+  void solve(const SharedMesh* on = nullptr) {
     table.warnings.assign(scene_.cases.size(), {});
-    CaseSolver solver(on ? std::optional<Mesh>(on->mesh) : std::nullopt);
+    reached.assign(scene_.cases.size(), 0);
+    CaseSolver solver(on ? std::optional<Mesh>(on->found.mesh) : std::nullopt);
     for (std::size_t k = 0; k < scene_.cases.size(); ++k) table.rows[k] = solve_case(k, on, solver);
     refuse_if_all_are(scene_, table);
     table.shared = solver.shared();
@@ -95,13 +105,14 @@ class Run {
   }
 
   CaseTable table;
+  std::vector<char> reached;  // of each case, whether the accuracy is that it asks for
 
  private:
-  RunRow solve_case(std::size_t k, const AccurateMesh* on, CaseSolver& solver) try {
+  RunRow solve_case(std::size_t k, const SharedMesh* on, CaseSolver& solver) try {
     const LoadCase& load = scene_.cases[k];
     Results& results = solver.solve(load.scene, stage_of(k));
     if (on)
-      estimate_case(*load.scene.accuracy, *on, k, results);
+      reached[k] = estimate_case(*load.scene.accuracy, *on, k, results);
     else if (options_.estimated)
       estimate(results);
     if (options_.diagnosed) diagnose(results);
@@ -121,11 +132,9 @@ class Run {
   const TakeCase& take_;
 };
 
-// Where any case asks for an accuracy, a mesh for all.
-std::optional<AccurateMesh> mesh_for(const Scene& scene, const Progress& progress) {
-  std::vector<const Scene*> cases;
-  for (const LoadCase& load : scene.cases) cases.push_back(&load.scene);
-  if (std::ranges::none_of(cases, [](const Scene* one) { return bool(one->accuracy); })) return {};
+// Whether any case asks for an accuracy: then all do, of one geometry.
+bool seek_accuracy(const Scene& scene) {
+  if (std::ranges::none_of(scene.cases, [](const LoadCase& load) { return bool(load.scene.accuracy); })) return false;
   for (const LoadCase& load : scene.cases) {
     const Scene& own = load.scene;
     if (own.accuracy == scene.accuracy && own.mesh_file == scene.mesh_file &&
@@ -136,7 +145,44 @@ std::optional<AccurateMesh> mesh_for(const Scene& scene, const Progress& progres
                      "this case by --case " +
                      load.name);
   }
-  return mesh_to_accuracy(cases, progress);
+  return true;
+}
+
+SharedMesh mesh_for(const Scene& scene, std::vector<char> leads, const Progress& progress) {
+  std::vector<const Scene*> leading;
+  for (std::size_t k = 0; k < leads.size(); ++k)
+    if (leads[k]) leading.push_back(&scene.cases[k].scene);
+  SharedMesh mesh{mesh_to_accuracy(leading, progress), std::move(leads), {}};
+  std::size_t found = 0;
+  for (const char lead : mesh.leads) mesh.open.push_back(lead ? mesh.found.open[found++] : 0);
+  return mesh;
+}
+
+// The mesh that serves the ends of a history mostly serves all that lies between them.
+std::vector<char> ends_lead(std::size_t cases) {
+  std::vector<char> leads(cases, 0);
+  leads.front() = leads.back() = 1;
+  return leads;
+}
+
+// Where the cases that lead have no solution on any mesh, perhaps others have.
+SharedMesh first_mesh(const Scene& scene, const Progress& progress) try {
+  return mesh_for(scene, ends_lead(scene.cases.size()), progress);
+} catch (const InputError&) {
+  return mesh_for(scene, std::vector<char>(scene.cases.size(), 1), progress);
+}
+
+// On a mesh that is good enough for all, if there is one.
+void solve_accurately(const Scene& scene, const Progress& progress, Run& run) {
+  SharedMesh mesh = first_mesh(scene, progress);
+  for (;;) {
+    run.solve(&mesh);
+    std::vector<char> leads = mesh.leads;
+    for (std::size_t k = 0; k < leads.size(); ++k)
+      if (!run.reached[k]) leads[k] = 1;
+    if (leads == mesh.leads) return;
+    mesh = mesh_for(scene, std::move(leads), progress);
+  }
 }
 
 Json summary_of(const Scene& scene, const CaseTable& table) {
@@ -247,8 +293,10 @@ Status CaseTable::worst() const {
 CaseTable solve_cases(const Scene& scene, const CaseOptions& options, const Progress& progress, const TakeCase& take) {
   const Stopwatch watch;
   Run run(scene, options, progress, take);
-  const std::optional<AccurateMesh> on = mesh_for(scene, progress);
-  run.solve(on ? &*on : nullptr);
+  if (seek_accuracy(scene))
+    solve_accurately(scene, progress, run);
+  else
+    run.solve();
   run.table.seconds = watch.elapsed();
   return std::move(run.table);
 }
