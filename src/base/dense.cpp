@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 namespace mortise {
 
@@ -11,5 +12,11 @@ SymmetricEigen symmetric_eigen(const MatX& A) {
 }
 
 VecX solve_square(const MatX& A, const VecX& b) { return A.cols() > 0 ? VecX(A.partialPivLu().solve(b)) : b; }
+
+MatX inverse_of(const MatX& A) { return A.partialPivLu().inverse(); }
+
+MatX orthonormal(const MatX& columns) {
+  return Eigen::HouseholderQR<MatX>(columns).householderQ() * MatX::Identity(columns.rows(), columns.cols());
+}
 
 }  // namespace mortise

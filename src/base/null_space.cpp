@@ -1,6 +1,5 @@
 #include "base/null_space.hpp"
 
-#include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 #include <random>
 
@@ -13,11 +12,6 @@ constexpr Eigen::Index small = 100;  // rows
 constexpr int inverse_steps = 4;
 
 using Factor = Eigen::SimplicialLDLT<SparseMatrix>;
-
-MatX orthonormal(const MatX& columns) {
-  const Eigen::HouseholderQR<MatX> qr(columns);
-  return qr.householderQ() * MatX::Identity(columns.rows(), columns.cols());
-}
 
 // Columns of V that span the eigenvectors with eigenvalues of at most `limit` in the space of V.
 MatX small_ones(const SparseMatrix& A, const MatX& V, double limit) {

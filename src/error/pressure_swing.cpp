@@ -1,9 +1,10 @@
 #include "error/pressure_swing.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "base/dense.hpp"
 
 namespace mortise {
 namespace {
@@ -19,8 +20,7 @@ double swing(const PressureNodes& nodes, Eigen::Index i, Eigen::Index first, Eig
   const double scale = largest_entry(t);
   MatX powers(count, cubic);
   for (Eigen::Index k = 0; k < cubic; ++k) powers.col(k) = (t / scale).array().pow(double(k));
-  const Eigen::HouseholderQR<MatX> qr(powers);
-  const MatX Q = qr.householderQ() * MatX::Identity(count, cubic);
+  const MatX Q = orthonormal(powers);
   const Eigen::RowVectorXd own = Q.row(i - first);
   const VecX at = nodes.p.segment(first, count).array() - nodes.p(i);
   return -own.dot(Q.transpose() * at) / std::sqrt(1 - own.squaredNorm());

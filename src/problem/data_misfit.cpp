@@ -1,8 +1,8 @@
 #include "problem/data_misfit.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "base/dense.hpp"
 #include "base/overloaded.hpp"
 #include "base/vectors.hpp"
 #include "problem/body_fields.hpp"
@@ -203,8 +203,8 @@ void Misfits::add_over(const std::string& key, DataMisfit::Kind kind, BodyFields
 
 // Of a stiffness, (11, 22, 33, gamma_12), which plane stress leaves semidefinite.
 Mat4 root_of(const Mat4& stiffness) {
-  const Eigen::SelfAdjointEigenSolver<Mat4> eigen(stiffness);
-  return eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+  const SymmetricEigen eigen = symmetric_eigen(stiffness);
+  return eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.vectors.transpose();
 }
 
 bool has_functions(const Entries& entries) {

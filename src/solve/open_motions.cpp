@@ -1,7 +1,6 @@
 #include "solve/open_motions.hpp"
 
-#include <Eigen/QR>
-
+#include "base/dense.hpp"
 #include "solve/nonnegative_fit.hpp"
 
 namespace mortise {
@@ -29,7 +28,7 @@ VecX driven_motions(const ContactRows& rows) {
 VecX least_motions(const ContactRows& rows, const VecX& at, const MatX& free, const VecX& w,
                    const std::vector<char>& closed) {
   const Eigen::Index count = free.cols();
-  const MatX Q = Eigen::HouseholderQR<MatX>(free).householderQ() * MatX::Identity(free.rows(), count);
+  const MatX Q = orthonormal(free);
   const VecX y = Q.transpose() * at, across = at - Q * y;
   const MatX opened = -rows.openings() * Q;  // rows x count: of w by y
   std::vector<Eigen::Index> open;

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-
+#include "base/dense.hpp"
 #include "support/two_groups.hpp"
 
 namespace mortise {
@@ -20,7 +19,7 @@ TEST(BodyGroup, OfAHeldBodyIsItsComplianceAtTheRows) {
   const BodyGroup group(g.system, g.first);
   ASSERT_EQ(group.failed_at, -1);
   EXPECT_EQ(group.motions, 0);
-  const MatX inverse = g.K().topLeftCorner(g.n, g.n).inverse() * g.system.stiffness_scale;
+  const MatX inverse = inverse_of(g.K().topLeftCorner(g.n, g.n)) * g.system.stiffness_scale;
   const MatX B = dimensionless_B(g).leftCols(g.n);
   const VecX f = g.system.f.head(g.n) / g.system.stiffness_scale;
   EXPECT_LE((group.C - B * inverse * B.transpose()).cwiseAbs().maxCoeff(), 1e-13);

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <random>
 
+#include "base/dense.hpp"
 #include "solve/coarse_rows.hpp"
 #include "solve/dense_rows.hpp"
 
@@ -298,7 +299,7 @@ Problem peeling(Eigen::Index m) {
   for (Eigen::Index a = 1; a + 1 < m; ++a) D.row(a).segment(a - 1, 3) = Eigen::RowVector3d(1, -2, 1) / (h * h);
   MatX K = 1e-6 * h * D.transpose() * D + 1e-3 * h * MatX::Identity(m, m);
   const MatX foundation = 1e-3 / h * MatX::Identity(m, m);
-  const MatX beam = K.inverse();
+  const MatX beam = inverse_of(K);
   VecX load = -VecX::Constant(m, h);
   load(m - 1) += 0.1;
   Problem p = held_problem(beam + foundation, beam * load);

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <random>
+
+#include "base/dense.hpp"
 
 namespace mortise {
 namespace {
@@ -81,7 +82,7 @@ VecX dense_solution(const SaddlePointSystem& p) {
       A(i, i) = 1;
       rhs(i) = p.constraints.value(i);
     }
-  return A.fullPivLu().solve(rhs);
+  return solve_square(A, rhs);
 }
 
 TEST(Direct, AgreesWithADenseSolverWhereBHoldsAFloatingBody) {

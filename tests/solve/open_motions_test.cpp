@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <random>
 
+#include "base/dense.hpp"
 #include "solve/dense_rows.hpp"
 
 namespace mortise {
@@ -32,7 +32,7 @@ TEST(OpenMotions, TheLeastKeepOpenRowsOpenAndNoOthersThatDoAreSmaller) {
     const VecX moved = least - at, left = w - H * moved;
     EXPECT_GE(left.tail(m - 1).minCoeff(), -1e-10) << "open rows stay open";
     touching += left.tail(m - 1).minCoeff() < 1e-10;
-    const MatX Q = Eigen::HouseholderQR<MatX>(free).householderQ() * MatX::Identity(s, count);
+    const MatX Q = orthonormal(free);
     EXPECT_LE((moved - Q * (Q.transpose() * moved)).norm(), 1e-10 * (1 + moved.norm())) << "by free motions alone";
     EXPECT_GE((Q.transpose() * least).dot(Q.transpose() * (other - least)), -1e-9);
   }
