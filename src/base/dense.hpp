@@ -1,6 +1,8 @@
 // Dense factorisations that several rooms need: instantiated once, which halves the time to compile their users.
 #pragma once
 
+#include <memory>
+
 #include "base/types.hpp"
 
 namespace mortise {
@@ -12,6 +14,9 @@ struct SymmetricEigen {
 };
 SymmetricEigen symmetric_eigen(const MatX& A);
 
+/// Moduli of the eigenvalues of a square matrix, in no order (LAPACK's dgeev).
+VecX eigenvalue_moduli(MatX A);
+
 /// A^-1 b of a square A, by LU with partial pivoting; b where both are empty.
 VecX solve_square(const MatX& A, const VecX& b);
 
@@ -20,5 +25,21 @@ MatX inverse_of(const MatX& A);
 
 /// Orthonormal columns that span those of a matrix of full column rank.
 MatX orthonormal(const MatX& columns);
+
+/// Columns that span what A maps to zero (LU with full pivoting): a pivot counts as zero if it is at most `threshold`
+/// of the largest, or round-off of it where that is 0.
+MatX kernel_of(const MatX& A, double threshold = 0);
+
+/// x of the least |A x - b|, by QR with pivoting of the columns.
+class LeastSquares {
+ public:
+  explicit LeastSquares(const MatX& A);
+  ~LeastSquares();
+  VecX solve(const VecX& b) const;
+
+ private:
+  struct Factor;
+  std::unique_ptr<const Factor> factor_;
+};
 
 }  // namespace mortise

@@ -1,10 +1,10 @@
 #include "error/force_errors.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <optional>
 
+#include "base/dense.hpp"
 #include "error/body_products.hpp"
 #include "fem/edges.hpp"
 #include "solve/contact_factor.hpp"
@@ -68,15 +68,15 @@ class Statics {
     const MatX of_springs = springs.cols() > 0 ? MatX(springs * motions_) : MatX(0, motions_.cols());
     all_.resize(of_rows.rows() + Eigen::Index(fixed.size()) + of_springs.rows(), motions_.cols());
     all_ << of_rows, motions_(fixed, Eigen::all), of_springs;
-    if (all_.size() > 0) factor_.compute(all_);
+    if (all_.size() > 0) factor_.emplace(all_);
   }
 
   // That motion, n.
   std::optional<VecX> motion(const VecX& rows) const {
-    if (all_.size() == 0) return std::nullopt;
+    if (!factor_) return std::nullopt;
     VecX wanted = VecX::Zero(all_.rows());
     wanted.head(rows.size()) = rows.cwiseQuotient(system_.row_scale);
-    const VecX parts = factor_.solve(wanted);
+    const VecX parts = factor_->solve(wanted);
     if (!(largest_entry(wanted - all_ * parts) <= determinate * largest_entry(wanted))) return std::nullopt;
     return motions_ * parts;
   }
@@ -84,7 +84,7 @@ class Statics {
  private:
   const SaddlePointSystem& system_;
   MatX motions_, all_;  // n x motions; of these what is held at zero
-  Eigen::ColPivHouseholderQR<MatX> factor_;
+  std::optional<LeastSquares> factor_;
 };
 
 // Of each unknown the force that the solution leaves, where none is held, and round-off of the load.

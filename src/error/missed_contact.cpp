@@ -1,9 +1,9 @@
 #include "error/missed_contact.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.hpp"
 #include "contact/least_gap.hpp"
 #include "fem/edges.hpp"
 #include "solve/nonnegative_fit.hpp"
@@ -64,9 +64,7 @@ MatX left_free(const Problem& p, const std::vector<Motion>& motions, const std::
   }
   MatX rows = MatX::Zero(std::max<Eigen::Index>(Eigen::Index(held.size()), 1), Eigen::Index(motions.size()));
   for (std::size_t i = 0; i < held.size(); ++i) rows.row(Eigen::Index(i)) = held[i].transpose();
-  Eigen::FullPivLU<MatX> factor(rows);
-  factor.setThreshold(1e-8);  // what the errors of drawn curves make of a turn about the centre of a circle
-  return factor.dimensionOfKernel() > 0 ? MatX(factor.kernel()) : MatX(rows.cols(), 0);
+  return kernel_of(rows, 1e-8);  // what the errors of drawn curves make of a turn about the centre of a circle
 }
 
 // Gaps count as wide as they may be.

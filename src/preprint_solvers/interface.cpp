@@ -1,6 +1,5 @@
 #include "preprint_solvers/interface.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <memory>
 #include <numeric>
 
@@ -221,7 +220,7 @@ Spectrum spectrum(const InterfaceIteration& iteration) {
     if (!(left > 1e-12 * hessenberg.cwiseAbs().maxCoeff())) break;
     V.col(steps) = image / left;
   }
-  const VecX sizes = hessenberg.topLeftCorner(steps, steps).eigenvalues().cwiseAbs();
+  const VecX sizes = eigenvalue_moduli(hessenberg.topLeftCorner(steps, steps));
   return {sizes.minCoeff(), sizes.maxCoeff()};
 }
 

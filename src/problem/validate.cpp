@@ -1,11 +1,11 @@
 #include "problem/validate.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <set>
 #include <sstream>
 
+#include "base/dense.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "contact/curve_resolution.hpp"
@@ -29,7 +29,7 @@ std::vector<int> unknowns_to_hold(const Mesh& mesh, const std::vector<ContactPai
     for (const Curve* curve : {&pair.multiplier, &pair.opposite})
       for (const int node : curve_nodes(*curve)) constraints.fixed[2 * node] = constraints.fixed[2 * node + 1] = 1;
   const std::vector<int> away = grounding_unknowns(mesh, constraints, motions);
-  const auto held = [&](const MotionSet& set) { return motions_at(set, away).fullPivLu().isInvertible(); };
+  const auto held = [&](const MotionSet& set) { return kernel_of(motions_at(set, away)).cols() == 0; };
   return std::ranges::all_of(motion_sets(mesh, motions), held) ? away : anywhere;
 }
 

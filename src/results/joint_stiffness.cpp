@@ -1,8 +1,8 @@
 #include "results/joint_stiffness.hpp"
 
-#include <Eigen/LU>
 #include <set>
 
+#include "base/dense.hpp"
 #include "fem/edges.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/layered_system.hpp"
@@ -82,9 +82,8 @@ std::optional<Eigen::Matrix3d> stiffness_of(const Problem& p, const ContactFacto
   for (const int j : free) moved.col(j).setZero();
   for (const int i : free)
     for (int j = 0; j < 3; ++j) moved(i, j) = rigid_motion(*rigid, *s.constraints.multipoint, u.col(j))(i);
-  const Eigen::FullPivLU<Eigen::Matrix3d> unit(moved);
-  if (!unit.isInvertible()) return std::nullopt;
-  const Eigen::Matrix3d to_units = unit.inverse(),
+  if (kernel_of(moved).cols() > 0) return std::nullopt;
+  const Eigen::Matrix3d to_units = inverse_of(moved),
                         stored = u.transpose() * (s.K.selfadjointView<Eigen::Lower>() * u).eval() -
                                  lambda.transpose() * layer_openings(s.layers, lambda),
                         stiffness = to_units.transpose() * stored * to_units;

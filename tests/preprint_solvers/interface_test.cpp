@@ -3,15 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "base/dense.hpp"
 #include "preprint_solvers/solve_ddm.hpp"
 #include "solve/direct.hpp"
-#include "support/eigenvalues.hpp"
 #include "support/two_groups.hpp"
 
 namespace mortise {
 namespace {
 
-using test::eigenvalue_moduli;
 using test::two_groups;
 using test::TwoGroups;
 
