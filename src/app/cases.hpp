@@ -26,8 +26,8 @@ struct CaseTable {
   Status worst() const;
 };
 
-/// Called with the results of each case, which may be taken. Of an accuracy the last call for a case counts: a mesh that
-/// turns out not to be good enough for all is followed by another.
+/// Called with the results of each case, which may be taken. Of an accuracy the last call for a case counts: a mesh
+/// that turns out not to be good enough for all is followed by another.
 using TakeCase = std::function<void(const LoadCase& load, Results& results)>;
 
 /// Solves, checks and estimates each case, as CaseSolver does: from the closed rows of the one before. One that has no
