@@ -10,7 +10,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double loaded_part = 1e-9;    // of the largest p; less is none, as of pressure_line
 constexpr double whole_edge = 1e-6;     // of an edge's length, that it may lack of facing the other side all along
 constexpr double same_place = 1e-9;     // of the line's length
 constexpr double credible_part = 0.95;  // of the vertices: bars are made to hold at so many
@@ -177,9 +176,10 @@ FittedPressure fitted_pressure(const Problem& problem, const ContactPair& pair, 
   const VecX missed = error_safety * estimate.local.pointwise(line);
   for (const Range& range : loaded_ranges(walk)) {
     const LoadedPiece piece = piece_of(walk, range, line, problem.discretisation.system.constraints.rings);
+    const std::array<double, 2> ends = ends_of(piece);
     const bool borders = range.end[0].border || range.end[1].border;
     for (const int edges : border_edges) {
-      const auto form = fit_pressure(piece, ends_of(piece), edges);
+      const auto form = fit_pressure(piece, ends, edges);
       if (form && credible(*form, walk, range, estimate, missed, unilateral)) {
         fitted.pieces.push_back({*form, {piece.s(0), piece.s(piece.s.size() - 1)}});
         break;

@@ -10,7 +10,6 @@
 namespace mortise {
 namespace {
 
-constexpr double loaded_part = 1e-9;  // of the largest p; less is none
 constexpr double border_part = 0.25;  // of the p at one edge from the border
 
 // Length of edge e over half that of the loaded piece that ends on it; over all of it where the piece's other end is

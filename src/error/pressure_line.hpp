@@ -8,6 +8,8 @@
 
 namespace mortise {
 
+inline constexpr double loaded_part = 1e-9;  ///< of the largest p; less is none
+
 /// Vertices in the order of the curve's edges, the first one again at the end of a closed curve: edge e joins vertices
 /// e and e + 1. Each of size edges + 1.
 struct PressureLine {

@@ -171,7 +171,7 @@ void move_least(ContactRows& rows, const ActiveSetOptions& options, ActiveSetRes
   }
   if (r.status == SolveStatus::converged) return;
   r = touching;
-  iterate(rows, touching.active, touching.mu, 1, 0, r);
+  rows.solve(r.active, r.mu);  // the rows' own state, of what was found before
 }
 
 // The active set of the coarse problems, level upon level, for the rows of `fine`.
