@@ -120,6 +120,8 @@ std::vector<int> first_on_the_way(const ActiveSetResult& r, const ContactRows::A
   std::vector<int> changed;
   std::ranges::copy_if(r.infeasible, std::back_inserter(changed), [&](int a) { return way(a) <= shortest; });
   carried += shortest * (r.lambda - carried);
+  for (const int a : changed)
+    if (r.active[a]) carried(a) = 0;  // not round-off of it, which would close the row again
   return changed;
 }
 

@@ -61,8 +61,9 @@ class ContactRows {
 /// Of a row's own compliance in C: what gives way more is soft. Left out of a step are then terms of its inverse.
 inline constexpr double far_more = 1e3;
 
-/// What a row's unit normal is off by: places are drawn to gmsh's Geometry.Tolerance, 1e-8. Pressures do so much work
-/// on motions that should not feel them, such as a disc's spin.
-inline constexpr double normal_noise = 1e-8;
+/// What a row's unit normal is off by: places are drawn to gmsh's Geometry.Tolerance, 1e-8 of the size, and turn an
+/// edge of a tenth of it so much. Pressures do so much work on motions that should not feel them, such as a disc's
+/// spin.
+inline constexpr double normal_noise = 1e-7;
 
 }  // namespace mortise

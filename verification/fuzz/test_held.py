@@ -168,7 +168,7 @@ def test_a_wrong_answer_to_an_assembly_is_found(program, tmp_path):
     assert "p down to" in answer(case, program, tmp_path / "wrong", lambda p: -p)[1]
 
 
-@pytest.mark.parametrize("numbered", ["61:35", "61:52", "71:248", "71:310", "71:628", "81:665", "91:279", "101:649", "201:71", "71:333", "111:1686"])
+@pytest.mark.parametrize("numbered", ["61:35", "61:52", "71:248", "71:310", "71:628", "81:665", "91:279", "101:649", "201:71", "71:333", "111:1686", "1001:151", "1001:1556"])
 def test_assemblies_that_went_round(program, tmp_path, numbered):
     """Far gaps, motions that rows hold by their normals' errors alone, several such at once, a wall far from the origin,
     loads along motions that nothing holds, sets that come again by round-off."""
