@@ -169,6 +169,7 @@ std::vector<char> ends_lead(std::size_t cases) {
 SharedMesh first_mesh(const Scene& scene, const Progress& progress) try {
   return mesh_for(scene, ends_lead(scene.cases.size()), progress);
 } catch (const InputError&) {
+  if (scene.cases.size() <= 2) throw;  // all lead
   return mesh_for(scene, std::vector<char>(scene.cases.size(), 1), progress);
 }
 

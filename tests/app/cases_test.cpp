@@ -97,7 +97,7 @@ TEST(SolveCases, HaveOneMeshOfAnAccuracy) {
   }
 }
 
-// The one in the middle bears on a place that the first and the last leave as it is.
+// The contact of the one in the middle is a hundredth as wide as the others': no longer than an edge of their mesh.
 TEST(SolveCases, OfAnAccuracyMayEachWantAMeshOfItsOwn) {
   const std::string file = std::string(MORTISE_SOURCE_DIR) + "/geo/hertz.toml";
   const Scene scene = read_scene(file, {{"accuracy.value", "0.05"}, {"case", "[{scale = [1, 1e-4, 0.9]}]"}});
