@@ -189,6 +189,8 @@ Gradients gradients(const Results& r, const std::string& path, const std::vector
                     const std::vector<Figure>& of, const std::vector<Parameter>& by) {
   if (r.solution.status != SolveStatus::converged)
     throw InputError(path + ": the solution has not converged, so that nothing is known of its gradients");
+  if (r.problem.fluid.size() > 0)
+    throw InputError(path + ": contact.fluid: gradients where a fluid gets into a gap are not known; expected none");
   Equations equations(r, path, overrides, by);
   std::vector<Left> slopes;
   for (const Parameter& one : by) slopes.push_back(equations.slope(one));

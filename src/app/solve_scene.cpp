@@ -14,6 +14,7 @@
 #include "gmsh/load_mesh.hpp"
 #include "mesh/copy_bodies.hpp"
 #include "problem/dirichlet_neumann.hpp"
+#include "problem/fluid.hpp"
 #include "problem/take_loads.hpp"
 #include "results/audit_solution.hpp"
 #include "results/checks.hpp"
@@ -169,12 +170,25 @@ void judge(Results& r) {
   append_lines(r.warnings, unheld_probes(r));
 }
 
+// Solved again as long as fluids get further.
+Solution solve_wet(SystemSolver& solver, Problem& p) {
+  Solution solution = solver.solve();
+  while (solution.status == SolveStatus::converged && spread_fluids(solution, p)) {
+    p.discretisation.system.start = solution.active;
+    const double factorise = solution.factorise_seconds;
+    solution = solver.solve();
+    solution.factorise_seconds += factorise;
+  }
+  add_fluids(p, solution);
+  return solution;
+}
+
 // The rest of results that have their problem.
 void solve_problem(SystemSolver& solver, const Progress& progress, Results& r) {
-  const Problem& p = r.problem;
+  Problem& p = r.problem;
   Stopwatch watch;
   if (progress) progress("solve for " + std::to_string(free_unknowns(r)) + " unknowns");
-  r.solution = solver.solve();
+  r.solution = solve_wet(solver, p);
   require_solution(p.mesh, p.pairs, p.floating, r.solution);
   find_unheld(r);
   r.seconds.factorise = r.solution.factorise_seconds;

@@ -5,6 +5,7 @@
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
+#include "contact/coupling.hpp"
 #include "contact/segments.hpp"
 #include "fem/edges.hpp"
 
@@ -95,15 +96,6 @@ std::vector<State> find_states(const Mesh& mesh, const ContactInterface& interfa
   return state;
 }
 
-// Multipliers along the curve: start, middle, end of each edge.
-std::vector<int> along(const Coupling& coupling) {
-  std::vector<int> order;
-  for (const auto& on : coupling.on_edge)
-    for (const int a : {on[0], on[2], on[1]})
-      if (a >= 0 && (order.empty() || order.back() != a)) order.push_back(a);
-  return order;
-}
-
 }  // namespace
 
 void number_rows(const Mesh& mesh, const ContactInterface& interface, const Constraints& constraints,
@@ -117,7 +109,7 @@ void number_rows(const Mesh& mesh, const ContactInterface& interface, const Cons
                      "the normal displacements are prescribed on both curves everywhere, so contact has nothing to "
                      "decide; expected at least one curve that is free to move along its normal");
   coupling.row.assign(coupling.node.size(), -1);
-  const std::vector<int> order = along(coupling);
+  const std::vector<int> order = multipliers_along(coupling);
   const auto free = [&](int i) { return state[order[i]] == State::free; };
   int rows = 0;
   for (const int a : order)

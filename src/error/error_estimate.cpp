@@ -109,7 +109,7 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, const Surroun
   for_each_index(p.pairs.size(), solver_threads(), [&](std::size_t k) {
     PressureEstimate& e = list[k];
     const ContactPair& pair = p.pairs[k];
-    e.line = pressure_line(p.mesh, pair, solution.lambda, round_off);
+    e.line = pressure_line(p.mesh, pair, solution.lambda, round_off, p.fluid);
     e.local = line_error(e.line);
     if (!e.line.p.any() && solution.lambda.segment(pair.first_row, pair.coupling.B.rows()).any())
       for (Eigen::Index i = 0; i < e.line.p.size(); ++i) e.local.raise(i, round_off);  // of what was set to 0
@@ -292,7 +292,8 @@ void find_bars(PressureEstimate& e) {
     if (!e.counts(i)) continue;
     e.local2 += local(i) * local(i);
     e.far2 += far * far * line.h(i);
-    e.p2 += line.p(i) * line.p(i) * line.h(i);
+    const double p = line.whole(i);
+    e.p2 += p * p * line.h(i);
   }
 }
 
@@ -310,8 +311,8 @@ double ErrorEstimate::peak() const {
   double p = 0, bar = std::numeric_limits<double>::quiet_NaN();
   for (const PressureEstimate& e : pressures)
     for (Eigen::Index i = 0; i < e.line.p.size(); ++i)
-      if (e.line.p(i) > p) {
-        p = e.line.p(i);
+      if (e.line.whole(i) > p) {
+        p = e.line.whole(i);
         bar = e.bar(i);
       }
   return bar / p;

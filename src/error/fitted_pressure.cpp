@@ -169,7 +169,8 @@ std::optional<double> FittedPressure::at(double s) const {
 FittedPressure fitted_pressure(const Problem& problem, const ContactPair& pair, const PressureEstimate& estimate) {
   const PressureLine& line = estimate.line;
   FittedPressure fitted{.pieces = {}, .around = line.closed ? line.s(line.s.size() - 1) : 0};
-  if (problem.method.multipliers != Multipliers::linear || pair.spec.stiffness || !(largest_entry(line.p) > 0))
+  if (problem.method.multipliers != Multipliers::linear || pair.spec.stiffness || line.fluid.size() > 0 ||
+      !(largest_entry(line.p) > 0))
     return fitted;
   const Walk walk = walk_along(problem.mesh, pair, estimate);
   const bool unilateral = pair.spec.condition == Condition::unilateral;

@@ -44,7 +44,31 @@ double round_off_pressure(const Mesh& mesh, std::span<const ContactPair> pairs, 
   return 1e-12 * stiffness_scale * largest_entry(u) / edge;
 }
 
-PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX& lambda, double round_off) {
+namespace {
+
+// The fluid's pressure at vertices that it wets, 0 at those that carry nothing; between these, linear in s; beyond the
+// last of them constant.
+VecX fluid_along(const VecX& wet, const PressureLine& line) {
+  const Eigen::Index last = line.p.size() - 1;
+  const double least = loaded_part * largest_entry(line.p);
+  VecX fluid = wet;
+  Eigen::Index before = -1;
+  for (Eigen::Index i = 0; i <= last; ++i) {
+    if (wet(i) == 0 && std::abs(line.p(i)) > least) continue;
+    for (Eigen::Index k = before + 1; k < i; ++k) {
+      const double part = before < 0 ? 1 : (line.s(k) - line.s(before)) / (line.s(i) - line.s(before));
+      fluid(k) = part * wet(i) + (before < 0 ? 0 : (1 - part) * wet(before));
+    }
+    before = i;
+  }
+  for (Eigen::Index k = before + 1; before >= 0 && k <= last; ++k) fluid(k) = wet(before);
+  return fluid;
+}
+
+}  // namespace
+
+PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX& lambda, double round_off,
+                           const VecX& fluid) {
   const Curve& curve = pair.multiplier;
   const Eigen::Index count = Eigen::Index(curve.edges.size()) + 1;
   const VecX pressure = -multiplier_values(pair.coupling, lambda.segment(pair.first_row, pair.coupling.B.rows()));
@@ -52,6 +76,7 @@ PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX
                     .position = {},
                     .s = VecX::Zero(count),
                     .p = VecX(count),
+                    .fluid = {},
                     .middle = {},
                     .h = VecX::Zero(count),
                     .faced = std::vector<char>(count - 1, 0),
@@ -78,6 +103,15 @@ PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX
     for (Eigen::Index e = 0; e < count - 1; ++e) line.middle(e) = pressure(pair.coupling.on_edge[e][2]);
   }
   if (largest_entry(line.p) <= round_off) line.p.setZero();
+  if (pair.spec.fluid && fluid.size() > 0) {
+    const VecX of_multipliers = multiplier_values(pair.coupling, fluid.segment(pair.first_row, pair.coupling.B.rows()));
+    VecX wet(count);
+    for (Eigen::Index i = 0; i < count; ++i)
+      wet(i) = of_multipliers(pair.coupling.on_edge[std::min(i, count - 2)][i < count - 1 ? 0 : 1]);
+    line.fluid = fluid_along(wet, line);
+    line.p -= line.fluid;
+    for (Eigen::Index e = 0; e < line.middle.size(); ++e) line.middle(e) -= (line.fluid(e) + line.fluid(e + 1)) / 2;
+  }
   const double least = loaded_part * largest_entry(line.p);
   for (const ContactPoint& point : pair.points) line.faced[point.edge] = 1;
   for (Eigen::Index i = 0; i < count; ++i)

@@ -16,19 +16,25 @@ struct PressureLine {
   bool closed = false;
   std::vector<Vec2> position;
   VecX s;                   ///< arc length from the first vertex
-  VecX p;                   ///< pressure
+  VecX p;                   ///< pressure, without `fluid`
+  VecX fluid;               ///< of the pressure what counts as the fluid's; empty: there is none
   VecX middle;              ///< the pressure at the middle of each edge, where multipliers stand there; else empty
   VecX h;                   ///< length that counts for the vertex: half of both edges, or the one edge of an end
   std::vector<char> faced;  ///< of each edge, whether a part of it faces the other side
   /// Vertices that take part: loaded, or next to one that is, on edges that are faced.
   std::vector<char> loaded;
 
+  double whole(Eigen::Index i) const { return fluid.size() > 0 ? p(i) + fluid(i) : p(i); }  ///< pressure at vertex i
   /// Whether edges are faced before and after vertex i.
   std::array<bool, 2> faced_beside(Eigen::Index i) const;
 };
 
 /// `lambda`: row values of all pairs, stress. Where p is nowhere above `round_off` (stress) nothing is loaded: p is 0.
-PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX& lambda, double round_off);
+/// `fluid`: as Problem::fluid. Contact carries the fluid's pressure where the fluid's way ends, and
+/// more behind it: what counts as the fluid's falls from there along the line to the other end of contact, so that p
+/// rises as a root from either.
+PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX& lambda, double round_off,
+                           const VecX& fluid = {});
 
 /// What round-off of the displacements makes of a contact that carries nothing, stress. `stiffness_scale`: of the
 /// system.

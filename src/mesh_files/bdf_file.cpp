@@ -101,7 +101,8 @@ class BdfReader {
     std::vector<int> properties;
     for (const Entry& entry : elements) {
       tags.push_back(integer(entry, 0, "an element's number"));
-      properties.push_back(int(integer(entry, 1, "a property's number")));
+      const bool has_property = entry.fields.size() > 1 && !entry.fields[1].empty();
+      properties.push_back(has_property ? int(integer(entry, 1, "a property's number")) : -1);
       read_element(entry, tags.back(), rows);
     }
     require_once(tags, elements, "element");

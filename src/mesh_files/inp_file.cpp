@@ -1,6 +1,7 @@
 #include "mesh_files/inp_file.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <optional>
 
@@ -12,26 +13,21 @@ namespace {
 
 /// gmsh's number of a kind of element: 0 of those that are left out, nothing of those that are not supported.
 std::optional<int> type_of(const std::string& name) {
-  for (const char* plane : {"CPS", "CPE", "CAX"}) {
+  for (const char* plane : {"CPS", "CPE", "CAX", "R3D", "M3D", "STRI", "S"}) {
     if (!name.starts_with(plane)) continue;
     static const std::map<std::string, int> of_name{
-        {"3", 2}, {"3H", 2}, {"4", 3},  {"4R", 3},  {"4I", 3}, {"4H", 3},  {"4RH", 3}, {"4IH", 3},
-        {"6", 9}, {"6M", 9}, {"6H", 9}, {"6MH", 9}, {"8", 16}, {"8R", 16}, {"8H", 16}, {"8RH", 16}};
-    const auto found = of_name.find(name.substr(3));
-    return found == of_name.end() ? std::nullopt : std::optional(found->second);
+        {"3", 2},   {"3H", 2},  {"3R", 2},  {"3RS", 2}, {"4", 3},    {"4R", 3},  {"4I", 3}, {"4H", 3},
+        {"4RH", 3}, {"4IH", 3}, {"4R5", 3}, {"4RS", 3}, {"6", 9},    {"65", 9},  {"6M", 9}, {"6H", 9},
+        {"6MH", 9}, {"8", 16},  {"8R", 16}, {"8H", 16}, {"8RH", 16}, {"8R5", 16}};
+    if (const auto found = of_name.find(name.substr(std::strlen(plane))); found != of_name.end()) return found->second;
   }
   for (const char* straight : {"T2D2", "T3D2", "B21", "B31"})
-    if (name == straight) return 1;
-  for (const char* curved : {"T2D3", "T3D3", "B22", "B32"})
-    if (name == curved) return 8;
+    if (name.starts_with(straight)) return 1;
+  for (const char* curved : {"T2D3", "T3D3", "B22", "B32", "B33"})  // meshio calls any line of three nodes B33H
+    if (name.starts_with(curved)) return 8;
   for (const char* other : {"SPRING", "DASHPOT", "MASS", "ROTARYI", "GAP", "CONN", "DCOUP", "D", "R2D", "RAX", "SAX"})
     if (name.starts_with(other)) return 0;
   return std::nullopt;
-}
-
-/// The middle node of a line of three comes second in a deck, last in gmsh.
-void order_as_gmsh(SetElement& element) {
-  if (element.type == 8) std::swap(element.nodes[1], element.nodes[2]);
 }
 
 class InpReader {
@@ -98,7 +94,7 @@ class InpReader {
     const std::optional<int> type = type_of(name);
     if (!type || card.parameters.contains("INPUT")) {
       fail(card, (type ? "INPUT is not supported" : "TYPE=" + name + " is not supported") +
-                     "; expected CPS, CPE or CAX with 3, 4, 6 or 8 nodes, listed here");
+                     "; expected CPS, CPE, CAX, or shells with 3, 4, 6 or 8 nodes, listed here");
     }
     const std::size_t first = mesh_.elements.size();
     for (std::size_t i = 0; i < card.lines.size(); ++i) {
@@ -131,7 +127,6 @@ class InpReader {
                                                   std::to_string(element.nodes.size()) + " nodes; expected " +
                                                   std::to_string(count));
     }
-    order_as_gmsh(element);
   }
 
   int node(const InpLine& line, const std::string& field) const {

@@ -14,6 +14,14 @@ bool is_entity_number(const std::string& field) {
   return !field.empty() && std::ranges::all_of(field, [](char c) { return c >= '0' && c <= '9'; });
 }
 
+// The number behind the name of an instance, or one that meshio writes as 12.0.
+std::string member_tag(const std::string& field) {
+  const std::size_t point = field.rfind('.');
+  const bool real =
+      point != std::string::npos && field.substr(point) == ".0" && is_entity_number(field.substr(0, point));
+  return real ? field.substr(0, point) : field.substr(point + 1);
+}
+
 }  // namespace
 
 InpSets::InpSets(const MshInput& input, const NodeRows& nodes, const NodeRows& elements, SetMesh& mesh)
@@ -54,6 +62,7 @@ void InpSets::read(const InpCard& card, const OwnRows& own) {
 
 void InpSets::read_set(const InpCard& card, const OwnRows& own, Sets& sets, const std::string& name) {
   if (name.empty()) fail(card, "the set has no name");
+  if (name.starts_with("gmsh:")) return;  // meshio's, of what gmsh had, and no set
   std::vector<int>& members = set_called(sets, name).members;
   if (card.name == "NODE" || card.name == "ELEMENT") {
     for (int row = own.first; row < own.end; ++row) members.push_back(row);
@@ -89,7 +98,7 @@ void InpSets::read_range(const InpLine& line, const Sets& sets, std::vector<int>
 void InpSets::read_members(const InpLine& line, const Sets& sets, std::vector<int>& members) const {
   for (const std::string& field : line.fields) {
     if (field.empty()) continue;
-    const std::string tag = field.substr(field.rfind('.') + 1);  // behind the name of an instance
+    const std::string tag = member_tag(field);
     if (!is_entity_number(tag)) {
       const std::vector<int> others = known_set(sets, line.record, field).members;
       members.insert(members.end(), others.begin(), others.end());

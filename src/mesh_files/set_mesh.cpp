@@ -26,7 +26,8 @@ void add_property_sets(const std::vector<int>& properties, SetMesh& mesh) {
   }
   std::map<std::pair<bool, int>, std::vector<int>> sets;
   for (int e = 0; e < int(properties.size()); ++e)
-    if (is_cell(mesh.elements[e]) || (is_line(e) && !curves)) sets[{is_line(e), properties[e]}].push_back(e);
+    if (properties[e] >= 0 && (is_cell(mesh.elements[e]) || (is_line(e) && !curves)))
+      sets[{is_line(e), properties[e]}].push_back(e);
   if (!with_cells.empty()) mesh.candidates.push_back(with_cells);
   std::vector<int> by_property;
   for (auto& [key, members] : sets) {
@@ -174,12 +175,13 @@ class Curves {
     add_curve(set.name, std::move(found));
   }
 
-  /// The lines of a set of elements.
+  /// The lines of a set of elements; of one with three nodes the second or the last is the middle one.
   void add_lines(const NamedSet& set) {
     std::vector<int> found;
     for (const int e : set.members)
       if (const SetElement& element = mesh_.elements[e]; element.type == 1 || element.type == 8)
-        add_side(element.nodes[0], element.nodes[1], found);
+        for (std::size_t i = 1; i < element.nodes.size(); ++i)
+          for (std::size_t k = 0; k < i; ++k) add_side(element.nodes[k], element.nodes[i], found);
     if (!found.empty()) add_curve(set.name, std::move(found));
   }
 

@@ -45,7 +45,7 @@ struct SetMesh {
 };
 
 /// For files that number the properties of elements: cells of one property are a candidate for a body, surface_7, after
-/// the sets that have cells; its lines are a curve, curve_7, if no set makes curves.
+/// the sets that have cells; its lines are a curve, curve_7, if no set makes curves. -1: none.
 void add_property_sets(const std::vector<int>& properties, SetMesh& mesh);
 
 /// Bodies: the sets that the file says, else of the candidates, each part that has no nodes in common with the others

@@ -4,11 +4,20 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "model/choices.hpp"
 #include "model/field.hpp"
 
 namespace mortise {
+
+/// Fluid in the gap of a pair.
+struct FluidSpec {
+  double pressure = 0;     ///< stress
+  std::vector<Vec2> from;  ///< where it gets in
+
+  bool operator==(const FluidSpec&) const = default;
+};
 
 struct ContactSpec {
   std::string key;
@@ -21,6 +30,7 @@ struct ContactSpec {
   Field gap;                         ///< of InitialGap::given: the gap, length: + open, - overlap
   Field clearance;                   ///< added to the drawn or measured gap, length
   std::optional<double> stiffness;   ///< k of p = k times what the sides overlap, stress over length; none: they do not
+  std::optional<FluidSpec> fluid;    ///< of a unilateral pair: it presses on what it wets (problem/fluid.hpp)
   std::optional<double> pretension;  ///< of a tie: the force that draws its faces together, times depth (model.hpp)
   std::optional<double> overlap;     ///< of a tie: how far they are drawn into each other, length
   bool locked = false;               ///< the overlap is what pretension makes of it before all other loads

@@ -3,6 +3,7 @@
 #include "base/stopwatch.hpp"
 #include "problem/audit.hpp"
 #include "problem/dirichlet_neumann.hpp"
+#include "problem/fluid.hpp"
 #include "problem/problem.hpp"
 #include "problem/ties.hpp"
 #include "scene/scene.hpp"
@@ -27,6 +28,7 @@ void add_contact(std::vector<ContactCurves> curves, Problem& p) {
       audited(p, [&] { return couple_pairs(p.method, p.mesh, p.discretisation, std::move(curves), p.dirichlet); });
   SaddlePointSystem& system = p.discretisation.system;
   set_contact(p.pairs, system);
+  p.fluid = dry_rows(p.mesh, p.pairs, system.B.rows());
   p.warnings = p.mesh.notes;
   append_lines(p.warnings, audit(p.mesh, p.entries.boundaries, p.pairs));
   require_closed(p.mesh, p.pairs);

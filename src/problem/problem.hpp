@@ -28,8 +28,9 @@ struct Problem {
   Discretisation discretisation;  ///< with the rows of all pairs
   DataMisfits misfits;            ///< of the functions of place
   std::vector<ContactPair> pairs;
-  std::vector<char> dirichlet;                 ///< of domain decomposition: whether a body takes the displacement
-  Floating floating;                           ///< what only contact holds
+  VecX fluid;                   ///< m: pressure of the fluid in wet rows, stress, 0 in dry ones; empty: no pair has any
+  std::vector<char> dirichlet;  ///< of domain decomposition: whether a body takes the displacement
+  Floating floating;            ///< what only contact holds
   std::vector<std::vector<RigidMotion>> held;  ///< motions that nothing holds and no load drives, held
   std::vector<ProbePlace> probes;
   std::vector<Expectation> expectations;

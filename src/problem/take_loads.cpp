@@ -59,6 +59,7 @@ bool take_gaps(const Scene& scene, Problem& p) {
   for (ContactPair& pair : p.pairs) {
     const auto spec = std::ranges::find(scene.contacts, pair.spec.key, &ContactSpec::key);
     if (spec == scene.contacts.end() || !take_gap(*spec, p, pair)) return false;
+    pair.spec.fluid = spec->fluid;
     p.discretisation.system.g.segment(pair.first_row, pair.coupling.gap0.size()) = -pair.coupling.gap0;
   }
   return true;
@@ -77,6 +78,7 @@ bool take_loads(const Scene& scene, Problem& p) {
   system.constraints.fixed = std::move(fixed);  // with held motions
   refuse_driven(p.mesh, p.pairs, p.held, {}, system.f);
   p.misfits = data_misfits(p.entries, p.mesh, p.discretisation.laws);
+  p.fluid.setZero();
   return take_gaps(scene, p);
 }
 

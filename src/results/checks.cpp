@@ -116,6 +116,8 @@ void unilateral_checks(const Results& r, double limit, std::vector<Check>& check
   const Solution& solution = r.solution;
   const std::vector<char>& unilateral = s.unilateral;
   if (std::find(unilateral.begin(), unilateral.end(), 1) == unilateral.end()) return;
+  VecX lambda = solution.lambda;
+  if (r.problem.fluid.size() > 0) lambda += r.problem.fluid;  // what the faces press each other with
   VecX gap = s.B * solution.u - s.g;
   if (solution.compression.size() > 0) gap += s.layers.B * solution.compression;
   gap = gap.cwiseQuotient(s.row_scale).eval();
@@ -125,9 +127,9 @@ void unilateral_checks(const Results& r, double limit, std::vector<Check>& check
   double tension = 0, penetration = 0, product = 0, dip = 0;
   for (Eigen::Index a = 0; a < gap.size(); ++a) {
     if (!unilateral[a]) continue;
-    tension = largest(tension, solution.lambda(a) - round_off);
+    tension = largest(tension, lambda(a) - round_off);
     penetration = largest(penetration, -gap(a));
-    product = largest(product, std::abs(solution.lambda(a) * gap(a)));
+    product = largest(product, std::abs(lambda(a) * gap(a)));
   }
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k)
     if (r.problem.pairs[k].spec.condition == Condition::unilateral)

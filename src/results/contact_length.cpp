@@ -31,21 +31,26 @@ struct LoadedLine {
   const Points& nodes;
   const ContactPair& pair;
   const VecX& pressure;
-  double loaded;  // p above it
+  const VecX& fluid;  // of it, at wet multipliers
+  double loaded;      // p above it
+
+  double solid(int multiplier) const { return pressure(multiplier) - fluid(multiplier); }
 };
 
-// Part of edge e that is in contact, where p ends on it: it carries p at vertex `last` (0: start, 1: end) only.
+// Part of edge e that is in contact, where p ends on it: it carries p at vertex `last` (0: start, 1: end) only. Beyond
+// fluid p rises from what that presses with.
 double part_in_contact(const LoadedLine& line, int e, int last) {
-  const auto& [nodes, pair, pressure, loaded] = line;
+  const auto& [nodes, pair, pressure, fluid, loaded] = line;
   const int count = int(pair.multiplier.edges.size()), back = last == 0 ? -1 : 1;  // away from the end of contact
   const double length = edge_length(nodes, pair.multiplier.edges[e]);
-  const double at_last = pressure(pair.coupling.on_edge[e][last]);
+  const double outside = fluid(pair.coupling.on_edge[e][1 - last]);
+  const double at_last = pressure(pair.coupling.on_edge[e][last]) - outside;
   std::vector<Sample> samples{{0, at_last * at_last}};
   double before = 0;
   for (int k = e + back; samples.size() < 3; k += back) {
     if (pair.multiplier.closed) k = (k + count) % count;
     if (k < 0 || k >= count) break;
-    const double p = pressure(pair.coupling.on_edge[k][last]);
+    const double p = pressure(pair.coupling.on_edge[k][last]) - outside;
     if (!(p > loaded)) break;
     before += edge_length(nodes, pair.multiplier.edges[k]);
     samples.push_back({before, p * p});
@@ -60,13 +65,13 @@ struct EdgePart {
 };
 
 std::vector<EdgePart> parts_in_contact(const LoadedLine& line) {
-  const auto& [nodes, pair, pressure, loaded] = line;
+  const auto& [nodes, pair, pressure, fluid, loaded] = line;
   std::vector<EdgePart> parts(pair.multiplier.edges.size());
   if (pair.spec.condition != Condition::unilateral) return parts;
   for (std::size_t e = 0; e < parts.size(); ++e) {
     const auto& on = pair.coupling.on_edge[e];
-    const bool start = pressure(on[0]) > loaded, end = pressure(on[1]) > loaded;
-    if (!start && !end) parts[e].part = on[2] >= 0 && pressure(on[2]) > loaded ? 1 : 0;
+    const bool start = line.solid(on[0]) > loaded, end = line.solid(on[1]) > loaded;
+    if (!start && !end) parts[e].part = on[2] >= 0 && line.solid(on[2]) > loaded ? 1 : 0;
     if (start != end) parts[e] = {part_in_contact(line, int(e), start ? 0 : 1), end};
   }
   return parts;
@@ -74,9 +79,10 @@ std::vector<EdgePart> parts_in_contact(const LoadedLine& line) {
 
 }  // namespace
 
-ContactLength length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure, double round_off) {
+ContactLength length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure, const VecX& fluid,
+                                double round_off) {
   const double loaded = std::max(round_off, 1e-9 * (pressure.size() > 0 ? pressure.maxCoeff() : 0));
-  const std::vector<EdgePart> parts = parts_in_contact({nodes, pair, pressure, loaded});
+  const std::vector<EdgePart> parts = parts_in_contact({nodes, pair, pressure, fluid, loaded});
   ContactLength found;
   std::vector<char> faced(parts.size(), 0);
   for (const ContactPoint& c : pair.points) {

@@ -18,7 +18,9 @@ struct ContactLength {
 /// Length of the multiplier side that faces the opposite side and carries pressure; of bilateral pairs, that faces it.
 /// Where contact ends within an edge, p falls like the root of the distance to its end (Johnson 1985, section 4.2): the
 /// end lies where the line through the last three vertices' p^2 is zero. On Hertz' problem within 0.3 of an edge.
-/// `pressure`: one a multiplier, stress; none is carried where it is no more than `round_off`.
-ContactLength length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure, double round_off);
+/// `pressure`: one a multiplier, stress; `fluid`: what of it a fluid's is (of dry ones 0); none is carried where it is
+/// no more than `round_off`.
+ContactLength length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure, const VecX& fluid,
+                                double round_off);
 
 }  // namespace mortise

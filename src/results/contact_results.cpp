@@ -143,7 +143,7 @@ struct Asked {
   const ContactPair& pair;
   const BodyPoints& points;
   const StressField& stress;
-  const VecX &u, &pressure;
+  const VecX &u, &pressure, &fluid;
 
   // A node's stresses, and u_n along `normal`.
   ContactNode node(const CurveNode& at, int body, const Vec2& normal) const {
@@ -168,6 +168,7 @@ ContactNode on_multiplier_side(const Asked& asked, const CurveNode& at) {
   const ContactPair& pair = asked.pair;
   ContactNode n = asked.node(at, pair.multiplier.body, at.normal);
   n.p = n.p_multiplier = interpolate(pair, asked.pressure, at.place);
+  n.p_fluid = interpolate(pair, asked.fluid, at.place);
   n.on_multiplier = at.place;
   const Line line{n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)};
   if (const auto hit = project_onto_curve(asked.mesh.nodes, pair.opposite, line)) {
@@ -197,6 +198,7 @@ ContactNode on_opposite_side(const Asked& asked, const CurveNode& at, const std:
   const Vec2 normal = vertex != along.end() ? vertex->normal : line.n;
   ContactNode n = asked.node(at, pair.opposite.body, normal);
   n.p = n.p_multiplier = interpolate(pair, asked.pressure, *foot);
+  n.p_fluid = interpolate(pair, asked.fluid, *foot);
   n.on_multiplier = *foot;
   const Hit own{at.place.edge, at.place.xi, (x - line.x).dot(normal)};
   n.gap = asked.initial_gap({line.x, normal, line.depth}, *foot, own) + n.u_n -
@@ -235,6 +237,20 @@ double mean_pressure(const ContactPair& pair, const VecX& pressure) {
   return sum / area;
 }
 
+// Row values of its fluid.
+VecX fluid_rows(const Problem& problem, const ContactPair& pair) {
+  const Eigen::Index rows = pair.coupling.B.rows();
+  return problem.fluid.size() > 0 ? VecX(problem.fluid.segment(pair.first_row, rows)) : VecX(VecX::Zero(rows));
+}
+
+double wet_length(const ContactPair& pair, const VecX& fluid) {
+  double length = 0;
+  for (const ContactPoint& c : pair.points)
+    if (const double p = interpolate(pair, fluid, {c.edge, c.xi}); p > 0)
+      length += c.ds * p / pair.spec.fluid->pressure;
+  return length;
+}
+
 Resultant force_on(const Points& nodes, const std::vector<CurveNode>& along, const std::map<int, Vec2>& forces) {
   Resultant sum;
   for (const CurveNode& at : along)
@@ -256,7 +272,8 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   const auto facing = nodes_along(mesh, pair.opposite, constraints, geometry.normals ? &*geometry.opposite : nullptr);
   ContactResults r;
   r.pressure = 0 - multiplier_values(pair.coupling, lambda).array();  // 0 - 0 is 0, -0 is not
-  const Asked asked{mesh, pair, problem.points, stress, solution.u, r.pressure};
+  const VecX of_fluid = fluid_rows(problem, pair), fluid = multiplier_values(pair.coupling, of_fluid);
+  const Asked asked{mesh, pair, problem.points, stress, solution.u, r.pressure, fluid};
 
   r.multiplier.curve = mesh.boundaries[pair.multiplier.boundary].name;
   for (const CurveNode& at : along) r.multiplier.nodes.push_back(on_multiplier_side(asked, at));
@@ -272,7 +289,7 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   set_extremes(r);
   r.p_mean = mean_pressure(pair, r.pressure);
   const ContactLength in_contact = length_in_contact(
-      mesh.nodes, pair, r.pressure,
+      mesh.nodes, pair, r.pressure, fluid,
       round_off_pressure(mesh, {&pair, 1}, problem.discretisation.system.stiffness_scale, solution.u));
   r.length_in_contact = in_contact.length;
   r.ends = in_contact.ends;
@@ -282,6 +299,9 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   r.force = sum.force;
   r.moment = sum.moment;
   r.centre = centre_of(mesh.nodes, pair.multiplier.edges);
+  if (pair.spec.fluid)
+    r.fluid = FluidResults{.force = force_on(mesh.nodes, along, contact_forces(pair.coupling, -of_fluid)).force,
+                           .wet_length = wet_length(pair, fluid)};
   return r;
 }
 

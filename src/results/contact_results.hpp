@@ -27,6 +27,7 @@ struct ContactNode {
   Place on_multiplier{-1, 0};  ///< on the multiplier side, where p is taken; edge -1: it faces nothing
   double p_error = std::numeric_limits<double>::quiet_NaN();       ///< bar of p, stress; NaN where there is none
   double p_multiplier = std::numeric_limits<double>::quiet_NaN();  ///< the multiplier's own pressure
+  double p_fluid = 0;                                              ///< what of p is the fluid's
 };
 
 /// The centre of an element along the curve; s, position and normal at the middle of its edge.
@@ -35,6 +36,12 @@ struct ContactCentre {
   Vec2 position;
   double p;  ///< mean over the edge: on 3-node triangles better than at the nodes, where it zigzags
   double sigma_n, sigma_2;
+};
+
+/// What the fluid of a pair does.
+struct FluidResults {
+  Vec2 force = Vec2::Zero();  ///< its part of ContactResults::force
+  double wet_length = 0;      ///< of the multiplier side where it faces the other
 };
 
 struct ContactSide {
@@ -55,6 +62,7 @@ struct ContactResults {
   /// Where errors are estimated: what the force and its moment about `centre`, and the length in contact may be off by.
   std::optional<Eigen::Vector3d> force_error;
   std::optional<double> length_error;
+  std::optional<FluidResults> fluid;
   double p_min = 0, p_max = 0;  ///< at the nodes of the multiplier side that face the other or carry pressure
   double p_mean = 0;            ///< over what faces the other side
   double p_least = 0;           ///< the smallest between the nodes too, where the sides face each other

@@ -53,6 +53,11 @@ void print_pair(const Json& report, std::size_t k, std::ostream& out) {
   out << on << force_within(c) << "\n            length " << c["length"].get<double>() << ", in contact "
       << c["length_in_contact"].get<double>() << length_within(c) << "; undeformed gap "
       << c["initial_gap"]["min"].get<double>() << " ... " << c["initial_gap"]["max"].get<double>() << "\n";
+  if (const auto fluid = c.find("fluid"); fluid != c.end()) {
+    out << "            fluid at " << (*fluid)["pressure"].get<double>() << " has wet "
+        << (*fluid)["wet_length"].get<double>() << "; of the force it makes (" << (*fluid)["force"][0].get<double>()
+        << ", " << (*fluid)["force"][1].get<double>() << ")\n";
+  }
 }
 
 // "480 unilateral, gap closed; 20 bilateral, gap as drawn"

@@ -63,6 +63,10 @@ Json contact_json(const ContactPair& pair, const ContactResults& c) {
             {"gap", gap_words(pair)},
             {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
   if (pair.spec.stiffness) json["stiffness"] = *pair.spec.stiffness;
+  if (c.fluid)
+    json["fluid"] = {{"pressure", pair.spec.fluid->pressure},
+                     {"wet_length", c.fluid->wet_length},
+                     {"force", {c.fluid->force.x(), c.fluid->force.y()}}};
   return json;
 }
 

@@ -45,7 +45,8 @@ VtuGrid contact_grid(const Results& r) {
     count += r.recovery.contacts[k].multiplier.nodes.size() + r.recovery.contacts[k].opposite.nodes.size();
   }
   grid.points.resize(count, 2);
-  MatX u(count, 2), normal(count, 2), p(count, 1), p_error(count, 1), gap(count, 1), sigma_n(count, 1);
+  MatX u(count, 2), normal(count, 2), p(count, 1), p_error(count, 1), p_fluid(count, 1), gap(count, 1),
+      sigma_n(count, 1);
   Eigen::Index i = 0;
   std::vector<int> point_of_node(r.problem.mesh.nodes.rows());
   for (const auto& [side, curve] : sides) {
@@ -56,6 +57,7 @@ VtuGrid contact_grid(const Results& r) {
       normal.row(i) = n.normal.transpose();
       p(i, 0) = n.p;
       p_error(i, 0) = n.p_error;
+      p_fluid(i, 0) = n.p_fluid;
       gap(i, 0) = n.gap;
       sigma_n(i++, 0) = n.sigma_n;
     }
@@ -67,6 +69,7 @@ VtuGrid contact_grid(const Results& r) {
   grid.point_fields = {
       {"displacement", u, {}}, {"normal", normal, {}}, {"p", p, {}}, {"gap", gap, {}}, {"sigma_n", sigma_n, {}}};
   if (r.estimate) grid.point_fields.push_back({"p_error", p_error, {}});
+  if (r.problem.fluid.size() > 0) grid.point_fields.push_back({"p_fluid", p_fluid, {}});
   return grid;
 }
 
@@ -85,6 +88,8 @@ void write_contact_csv(const Results& r, const std::filesystem::path& path) {
     columns.push_back({name, {}, {}});
   if (r.estimate)
     for (const char* name : {"p_error", "p_multiplier"}) columns.push_back({name, {}, {}});
+  const bool fluid = r.problem.fluid.size() > 0;
+  if (fluid) columns.push_back({"p_fluid", {}, {}});
   for_each_side(r, [&](double pair, const ContactSide& side) {
     for (const ContactNode& n : side.nodes) {
       columns[1].words.push_back(side.curve);
@@ -93,6 +98,7 @@ void write_contact_csv(const Results& r, const std::filesystem::path& path) {
         columns[c].numbers.push_back(value);
         c += c == 0 ? 2 : 1;
       }
+      if (fluid) columns.back().numbers.push_back(n.p_fluid);
       if (!r.estimate) continue;
       columns[c].numbers.push_back(n.p_error);
       columns[c + 1].numbers.push_back(n.p_multiplier);

@@ -87,6 +87,15 @@ Vec2 number_pair(const Node& node) {
   return {number(node.items[0]), number(node.items[1])};
 }
 
+std::vector<Vec2> one_or_more_points(const Node& node) {
+  const bool many = node.kind == Node::Kind::list && !node.items.empty() &&
+                    std::ranges::all_of(node.items, [](const Node& i) { return i.kind == Node::Kind::list; });
+  if (!many) return {number_pair(node)};
+  std::vector<Vec2> points;
+  for (const Node& item : node.items) points.push_back(number_pair(item));
+  return points;
+}
+
 std::array<double, 3> number_triple(const Node& node, const std::string& expected) {
   if (node.kind != Node::Kind::list || node.items.size() != 3) fail_expected(node, expected);
   return {number(node.items[0]), number(node.items[1]), number(node.items[2])};

@@ -47,6 +47,9 @@ bool boolean(const Node& node);
 /// Two finite numbers.
 Vec2 number_pair(const Node& node);
 
+/// One point [x, y], or a list of them.
+std::vector<Vec2> one_or_more_points(const Node& node);
+
 /// Three finite numbers of directions 1, 2, 3, or of pairs of these.
 std::array<double, 3> number_triple(const Node& node, const std::string& expected);
 

@@ -43,6 +43,10 @@ Kind<double> a_number() {
   return number_that({{"type", "number"}}, "a finite number", [](double) { return true; });
 }
 
+Kind<double> from_zero() {
+  return number_that({{"type", "number"}, {"minimum", 0}}, "a number >= 0", [](double value) { return value >= 0; });
+}
+
 Kind<double> above(double least) {
   return number_that({{"type", "number"}, {"exclusiveMinimum", plain(least)}}, "a number > " + in_words(least),
                      [least](double value) { return value > least; });

@@ -22,8 +22,9 @@ struct Kind {
   std::function<std::string(const T&)> trouble{};  ///< "expected ..., found ..." of a value that no file gave; or empty
 };
 
-/// Any finite number; one above `least`; one between the two, both excluded.
+/// Any finite number; one that is not negative; one above `least`; one between the two, both excluded.
 Kind<double> a_number();
+Kind<double> from_zero();
 Kind<double> above(double least);
 Kind<double> between(double least, double most);
 

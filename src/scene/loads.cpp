@@ -42,6 +42,8 @@ void change_loads(Scene& scene, const Change& change) {
     change_given(strain.temperature_change, change);
     for (Field& component : strain.strain) change(component);
   }
+  for (ContactSpec& contact : scene.contacts)
+    if (contact.fluid) change(contact.fluid->pressure);
 }
 
 // Keys of entries with loads go, too: they say where the values were given.

@@ -69,6 +69,35 @@ void check_pretension(const Node& entry, const ContactSpec& contact) {
     fail(*find(entry, "locked"), "goes with pretension, the force before all other loads; overlap is locked by itself");
 }
 
+// It presses faces apart that may open.
+void check_fluid(const Node& entry, const ContactSpec& contact) {
+  const Node* node = find(entry, "fluid");
+  if (node == nullptr) return;
+  if (contact.condition != Condition::unilateral)
+    fail(*node, "goes with condition = \"unilateral\", a gap that may open");
+  if (is_pattern(contact.between[0]) || is_pattern(contact.between[1]))
+    fail(*node, "goes with between = two curves, not with patterns: it does not get from pair to pair");
+}
+
+Keys fluid_keys(FluidSpec& fluid) {
+  const Json pair = a_pair().schema;
+  Key from{"from", either(pair, list_of(pair, 1)), "`[x, y]`, or a list of such: where it gets in"};
+  from.read = [&fluid](const Node& node) { fluid.from = one_or_more_points(node); };
+  return {required(key("pressure", fluid.pressure, from_zero(), "its pressure, stress"), "a number >= 0"),
+          required(std::move(from), "[x, y], where the fluid gets in, or a list of such")};
+}
+
+Kind<FluidSpec> a_fluid() {
+  FluidSpec any;
+  return {object_of(fluid_keys(any)),
+          [](const Node& node) {
+            FluidSpec fluid;
+            read(node, fluid_keys(fluid));
+            return fluid;
+          },
+          [](const FluidSpec& fluid) { return from_zero().trouble(fluid.pressure); }};
+}
+
 }  // namespace
 
 Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
@@ -99,6 +128,10 @@ Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
           "(theory, "
           "section 5). By the solvers `direct` and `feti`",
           "none: the sides do not overlap"),
+      key("fluid", contact.fluid, a_fluid(),
+          "`{ pressure, from }`: a fluid presses both faces apart with `pressure` from the places `from` (`[x, y]` or "
+          "a "
+          "list of such) on, as far as contact is open or carries less than it ([below](#fluid-in-a-gap))"),
       key("pretension", contact.pretension, a_number(),
           "of a tie along a straight cut, as through the shank of a bolt: the force that draws its faces together "
           "([below](#bolts))"),
@@ -127,10 +160,11 @@ void read_contacts(const Node& root, Scene& scene) {
       fail(*find(*entry, "within"),
            "goes with between = patterns, such as [\"block_*\", \"block_*\"], whose pairs are found");
     const bool tied = contact.condition == Condition::tied;
-    for (const char* key : {"initial_gap", "clearance", "stiffness"})
+    for (const char* key : {"initial_gap", "clearance", "stiffness", "fluid"})
       if (const Node* node = find(*entry, key); tied && node != nullptr)
         fail(*node, "has no meaning with condition = \"tied\", which makes one body of both; expected one of them");
     check_pretension(*entry, contact);
+    check_fluid(*entry, contact);
     read_initial_gap(find(*entry, "initial_gap"), scene, contact);
     check_clearance(*entry, contact);
     check_multipliers_on(*entry, contact);

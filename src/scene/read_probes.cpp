@@ -1,22 +1,10 @@
 // [[probe]]
-#include <algorithm>
-
 #include "scene/sections.hpp"
 
 namespace mortise::scene_file {
 namespace {
 
 constexpr int most_points = 100000;
-
-// One point [x, y], or a list of them.
-std::vector<Vec2> read_points(const Node& at) {
-  const bool many = at.kind == Node::Kind::list && !at.items.empty() &&
-                    std::ranges::all_of(at.items, [](const Node& i) { return i.kind == Node::Kind::list; });
-  if (!many) return {number_pair(at)};
-  std::vector<Vec2> points;
-  for (const Node& item : at.items) points.push_back(number_pair(item));
-  return points;
-}
 
 std::vector<Vec2> read_line(const Node& entry) {
   const Node& end = require(entry, "to", "[x, y], where the line ends");
@@ -54,7 +42,7 @@ void read_probes(const Node& root, Scene& scene) {
     probe.line = exactly_one(*entry, {"at", "from"}).name == "from";
     for (const char* key : {"to", "points"})
       if (const Node* node = find(*entry, key); node && !probe.line) fail(*node, "goes with 'from', along a line");
-    probe.at = probe.line ? read_line(*entry) : read_points(*find(*entry, "at"));
+    probe.at = probe.line ? read_line(*entry) : one_or_more_points(*find(*entry, "at"));
     scene.probes.push_back(probe);
   }
 }

@@ -146,6 +146,15 @@ TEST(BulkData, PropertiesAreBodiesAndCurves) {
   EXPECT_TRUE(mesh.named_by_tag);
 }
 
+TEST(BulkData, WithoutPropertiesPartsAreBodies) {
+  const Mesh mesh = mesh_of("a.bdf",
+                            "GRID,1,,0.,0.\nGRID,2,,1.,0.\nGRID,3,,1.,1.\nGRID,4,,0.,1.\nGRID,5,,2.,0.\n"
+                            "GRID,6,,3.,0.\nGRID,7,,3.,1.\nCTRIA3,1,,1,2,3\nCTRIA3,2,,1,3,4\n"
+                            "CTRIA3,3,,5,6,7\nCBAR,4,,1,2\n");
+  EXPECT_EQ(mesh.bodies, (std::vector<std::string>{"surface_1", "surface_2"}));
+  EXPECT_TRUE(boundary_names(mesh).empty());
+}
+
 TEST(BulkData, WhatCannotBeReadIsNamedWithItsLine) {
   EXPECT_EQ(trouble("a.bdf", "GRID,1,2,0.,0.\n"),
             ", line 1: GRID: the coordinate system 2 is not supported; expected none, or 0");

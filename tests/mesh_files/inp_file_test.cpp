@@ -108,7 +108,7 @@ TEST(InpFile, EveryKindOfPlaneElement) {
       "*NODE\n1,0,0\n2,2,0\n3,2,2\n4,0,2\n5,1,0\n6,2,1\n7,1,2\n8,0,1\n9,1,1\n*NSET,NSET=low\n1,2,5\n";
   const std::string triangle = "\n1, 1, 2, 4, 5, 9, 8\n";
   using enum CellKind;
-  for (const char* family : {"CPS", "CPE", "CAX", "cax"}) {
+  for (const char* family : {"CPS", "CPE", "CAX", "cax", "S", "M3D"}) {
     const std::string type = "*ELEMENT, ELSET=E, TYPE=" + std::string(family);
     for (const auto& [rest, kind] :
          std::vector<std::pair<std::string, CellKind>>{{"3\n1, 1, 2, 3\n", tri3},
@@ -156,6 +156,24 @@ TEST(InpFile, ALineOfThreeNodesHasItsMiddleSecond) {
   EXPECT_EQ(edge.node_count, 3);
   EXPECT_EQ(Vec2(mesh.nodes.row(edge.nodes[2])), Vec2(1, 0));
   EXPECT_EQ(inp_length(mesh, "Low"), 2);
+}
+
+// As meshio 5 writes plane meshes: shells, lines of three nodes as B33H with the middle one last, members of sets as
+// real numbers, and sets of gmsh's own that are none.
+TEST(InpFile, DecksOfMeshioHaveTheirNames) {
+  const std::string eight = "*NODE\n1,0,0,0\n2,2,0,0\n3,2,2,0\n4,0,2,0\n5,1,0,0\n6,2,1,0\n7,1,2,0\n8,0,1,0\n9,1,1,0\n",
+                    sets =
+                        "*ELSET, ELSET=low\n1.0\n*ELSET, ELSET=gmsh:bounding_entities\n0,-1\n*ELSET, ELSET=body\n2.0";
+  for (const auto& [line, cell] : std::vector<std::pair<std::string, std::string>>{
+           {"B33H\n1,1,2,5\n", "S8R5\n2,1,2,3,4,5,6,7,8\n"}, {"B31H\n1,1,2\n", "R3D4\n2,1,2,3,4\n"}}) {
+    const Mesh mesh = inp_mesh(eight + "*ELEMENT, TYPE=" + line + "*ELEMENT, TYPE=" + cell + sets);
+    EXPECT_EQ(mesh.bodies, std::vector<std::string>{"body"});
+    EXPECT_EQ(boundary_names(mesh), std::vector<std::string>{"low"});
+    EXPECT_EQ(inp_length(mesh, "low"), 2);
+  }
+  for (const auto& [cell, kind] : std::vector<std::pair<std::string, CellKind>>{
+           {"R3D3\n1,1,2,3\n", CellKind::tri3}, {"STRI65\n1,1,2,4,5,9,8\n", CellKind::tri6}})
+    EXPECT_EQ(inp_mesh(eight + "*ELEMENT, TYPE=" + cell).cells.at(0).kind, kind);
 }
 
 TEST(InpFile, SpringsAreLeftOutWithANote) {

@@ -242,6 +242,18 @@ def scene_of(assembly, stiffness=None):
             }  # fmt: skip
 
 
+def with_fluid(scene, assembly, own):
+    """The scene with a fluid that gets into one of its pairs, from where the first curve starts, at up to ten times the
+    pressure of the loads on the bodies' own size."""
+    pair = own.choice(scene["contact"][: len(assembly.pairs)])
+    name, curve = pair["between"][0].split("_")
+    part = next(part for part in assembly.parts if part.name == name)
+    place = next(points[0] for loop in part.loops for end, word, points in loop if end == curve)
+    load = max((sum(abs(f) for f in part.force) for part in assembly.parts), default=0.0) * assembly.size
+    fluid = {"pressure": load * 10 ** own.uniform(-1, 2), "from": list(place)}
+    return scene | {"contact": [one | {"fluid": fluid} if one is pair else one for one in scene["contact"]]}
+
+
 def make_assembly(seed, number):
     r = random.Random(f"{seed}:assembly:{number}")
     bolted = random.Random(f"{seed}:assembly:{number}:bolt").random() < 0.1
@@ -256,7 +268,7 @@ def make_assembly(seed, number):
     if variant == "feti":
         scene, other = other, scene | solver
     elif variant == "again":
-        other = scene
+        scene = other = with_fluid(scene, assembly, own) if assembly.pairs and own.random() < 0.5 else scene
     elif variant == "accuracy":  # on meshes of its own
         scene, other = (scene | {"accuracy": {"value": asked, "first_edges": r.randint(8, 40)}} for asked in (0.1, 0.03))
     elif variant == "view":
@@ -269,6 +281,7 @@ def make_assembly(seed, number):
     case = solve_case("assembly", f"{assembly.what} of {len(assembly.parts)} bodies, {'TQ'[quads]}{order}, {variant}{', gives way' if stiffness else ''}",
                       scene_text(scene, "mesh.geo"), mesh, mesh_file="mesh.geo")  # fmt: skip
     case.setting, case.group, case.variant = assembly, f"assembly: {assembly.what}", variant
+    case.wet = any("fluid" in pair for pair in scene["contact"])
     case.view, seen = view, geo(view.of(assembly), order, quads) if variant == "view" else mesh
     case.other = {"scene.toml": scene_text(other, "mesh.geo"), "mesh.geo": seen}
     return case

@@ -133,7 +133,7 @@ def differs(case, told, folder, program, carried):
 
 def judge(case, run, folder, known):
     """(one of references.LABELS, what is wrong or None)."""
-    carried = feasible(case.setting)
+    carried = None if case.wet else feasible(case.setting)  # a fluid may blow bodies away
     if run.status not in (0, 2):
         return "refused", f"refused, though contact carries the load: {run.said.strip()[:300]}" if carried else None
     told = json.loads(Path(folder, "results/summary.json").read_text())

@@ -3,6 +3,7 @@
 import re
 import subprocess
 
+import meshio
 import numpy as np
 import pytest
 
@@ -134,3 +135,21 @@ def test_a_new_scene_of_a_mesh_and_what_is_refused(call, tmp_path):
     assert "bad.geo" in call("check", "bad.geo", "--no-programs", expected=1)
     assert "bad.geo" in call("new", "bad.geo", "--no-programs", expected=1)
     assert not (tmp_path / "ran").exists() and not (tmp_path / "bad.toml").exists()
+
+
+@pytest.mark.parametrize(("order", "quads"), [(1, 0), (1, 1), (2, 0), (2, 1)])
+def test_decks_that_meshio_writes_are_the_mesh_that_it_read(call, tmp_path, order, quads):
+    names = 'Physical Surface("low") = {1}; Physical Surface("high") = {2}; Physical Curve("foot") = {1};\n'
+    (tmp_path / "punch.geo").write_text(f"{PUNCH}{names}Mesh.ElementOrder = {order}; Mesh.SecondOrderIncomplete = 1; Mesh.RecombineAll = {quads};\n"
+                                        'Physical Curve("seat") = {3}; Physical Curve("face") = {5}; Physical Curve("head") = {7};\n')  # fmt: skip
+    scene = SCENE.replace("BOTTOM", "foot").replace("TOP", "head") + 'contact = [{ between = ["face", "seat"] }]'
+    (tmp_path / "scene.toml").write_text(scene.replace("punch.geo", "punch.msh"))
+    (tmp_path / "deck.toml").write_text(scene.replace("punch.geo", "punch.inp"))
+    (tmp_path / "geo.toml").write_text(scene)
+    call("mesh", "geo.toml", "-o", "punch.msh")
+    meshio.read(tmp_path / "punch.msh").write(tmp_path / "punch.inp")
+    p = {}
+    for name in ("scene", "deck"):
+        call("solve", f"{name}.toml", "-o", name)
+        p[name] = launch.columns(tmp_path / name / "contact.csv")["p"]
+    np.testing.assert_allclose(p["deck"], p["scene"], rtol=1e-9)

@@ -1,0 +1,254 @@
+// Fluid that gets into gaps, from scene to results, against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/accuracy.hpp"
+#include "app/gradients.hpp"
+#include "app/solve_scene.hpp"
+#include "results/report.hpp"
+#include "results/report_text.hpp"
+#include "scene/loads.hpp"
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+// Two blocks, one on the other, whose meshes do not match; `half` of the width, `high` each.
+std::string blocks(double half, double high, double edge, double finer) {
+  std::ostringstream geo;
+  geo << "w = " << half << "; h = " << high << "; e = " << edge << "; f = " << finer << R"(;
+Point(1) = {0, 0, 0, e}; Point(2) = {w, 0, 0, e}; Point(3) = {w, h, 0, 9*e}; Point(4) = {0, h, 0, 9*e};
+Point(5) = {0, 0, 0, f}; Point(6) = {w, 0, 0, f}; Point(7) = {w, -h, 0, 9*e}; Point(8) = {0, -h, 0, 9*e};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};
+Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1}; Curve Loop(2) = {5 : 8}; Plane Surface(2) = {2};
+Mesh.ElementOrder = 2;
+Physical Surface("upper") = {1}; Physical Surface("lower") = {2};
+Physical Curve("face") = {1}; Physical Curve("seat") = {5}; Physical Curve("top") = {3}; Physical Curve("bottom") = {7};
+Physical Curve("left") = {4, 8}; Physical Curve("right") = {2, 6};
+)";
+  return geo.str();
+}
+
+// ---- A wavy surface (Westergaard 1939; Johnson 1985, section 13.2), with fluid in its troughs (Kuznetsov 1985) ----
+
+constexpr double young = 1000, poisson = 0.3, amplitude = 0.01;
+const double stiffness = young / (1 - poisson * poisson) / 2, flat = std::numbers::pi * stiffness * amplitude;
+
+struct Wave {
+  double edge = 0.02, mean = 10, fluid = 4;
+  std::string from = "[0.5, 0]", more = {};
+};
+
+Scene scene_of(const TemporaryFolder& folder, const Wave& wave) {
+  folder.write("blocks.geo", blocks(0.5, 1.5, wave.edge, 0.7 * wave.edge));
+  std::ostringstream text;
+  text << "mesh.file = \"blocks.geo\"\nmaterials.m = { young = 1000, poisson = 0.3 }\nbodies = { \"*\" = \"m\" }\n"
+       << "[[contact]]\nbetween = [\"face\", \"seat\"]\ninitial_gap = \"0.01 * (1 - cos(2 * pi * x))\"\n";
+  if (!wave.from.empty()) text << "fluid = { pressure = " << wave.fluid << ", from = " << wave.from << " }\n";
+  text << "[[boundary]]\non = [\"left\", \"right\"]\ndisplacement = { x = 0 }\n"
+       << "[[boundary]]\non = \"bottom\"\ndisplacement = { y = 0 }\n"
+       << "[[boundary]]\non = \"top\"\npressure = " << wave.mean << "\n"
+       << wave.more;
+  return read_scene(folder.write("scene.toml", text.str()));
+}
+
+// The faces' own pressure under a mean pressure, at x from a crest; wavelength 1.
+double westergaard(double mean, double x) {
+  const double inside = mean / flat - std::pow(std::sin(std::numbers::pi * x), 2);
+  return inside > 0 ? 2 * flat * std::cos(std::numbers::pi * x) * std::sqrt(inside) : 0;
+}
+
+double half_width(double mean) { return std::asin(std::sqrt(mean / flat)) / std::numbers::pi; }
+
+double worst_over_bar(const Results& r, double fluid, double mean) {
+  double worst = 0;
+  for (const ContactNode& n : r.recovery.contacts[0].multiplier.nodes)
+    worst = std::max(worst, std::abs(n.p - fluid - westergaard(mean - fluid, n.position.x())) / n.p_error);
+  return worst;
+}
+
+TEST(Fluid, PressesTheTroughsOfAWaveApart) {
+  for (const double edge : {0.04, 0.02, 0.01, 0.005}) {
+    const TemporaryFolder folder;
+    Results r = solve_scene(scene_of(folder, {.edge = edge}));
+    estimate(r);
+    const ContactResults& c = r.recovery.contacts[0];
+    EXPECT_EQ(r.status, Status::solved);
+    EXPECT_LT(worst_over_bar(r, 4, 10), 1) << edge;
+    EXPECT_NEAR(c.length_in_contact, half_width(6), 0.3 * edge);
+    EXPECT_NEAR(c.fluid->wet_length, 0.5 - half_width(6), edge);
+    EXPECT_NEAR(std::abs(c.force.y()), 5, 1e-9);
+    EXPECT_NEAR(std::abs(c.fluid->force.y()), 4 * c.fluid->wet_length, 1e-9);
+  }
+}
+
+TEST(Fluid, IsFoundToAnAccuracy) {
+  for (const double pressure : {0.5, 4.0, 8.0}) {
+    const TemporaryFolder folder;
+    Scene scene = scene_of(folder, {.fluid = pressure});
+    scene.accuracy = AccuracySpec{.value = 0.003};
+    const Results r = solve_to_accuracy(scene).value();
+    EXPECT_EQ(r.status, Status::solved);
+    EXPECT_LT(worst_over_bar(r, pressure, 10), 1) << pressure;
+    EXPECT_LT(r.problem.mesh.nodes.rows(), 20000) << pressure;
+  }
+}
+
+TEST(Fluid, AnswersAlikeByEitherSideAndSolver) {
+  const TemporaryFolder folder;
+  Results one = solve_scene(scene_of(folder, {}));
+  estimate(one);
+  for (const char* more :
+       {"[method]\nsolver = \"feti\"\n", "[method]\nsolver = \"ddm\"\n", "[method]\nmultipliers = \"dual\"\n"}) {
+    Results r = solve_scene(scene_of(folder, {.more = more}));
+    estimate(r);
+    EXPECT_EQ(r.status, Status::solved) << more;
+    EXPECT_LT(worst_over_bar(r, 4, 10), 1) << more;
+  }
+  Scene other = scene_of(folder, {});
+  for (const char* side : {"face", "seat"}) {
+    other.contacts[0].multipliers_on = side;
+    Results r = solve_scene(other);
+    estimate(r);
+    EXPECT_LT(worst_over_bar(r, 4, 10), 1) << side;
+  }
+}
+
+// ---- Where it gets and where not ----
+
+TEST(Fluid, GetsNowhereAgainstMorePressure) {
+  const TemporaryFolder folder;
+  const Results dry = solve_scene(scene_of(folder, {.from = ""}));
+  for (const Wave& wave : {Wave{.fluid = 4, .from = "[0, 0]"}, Wave{.fluid = 0}}) {
+    const Results r = solve_scene(scene_of(folder, wave));
+    EXPECT_EQ(r.solution.u, dry.solution.u) << wave.from;
+    EXPECT_EQ(r.solution.lambda, dry.solution.lambda) << wave.from;
+    EXPECT_EQ(r.recovery.contacts[0].fluid->wet_length, 0);
+  }
+}
+
+TEST(Fluid, GetsInFromAllItsPlaces) {
+  const TemporaryFolder folder;
+  const Results end = solve_scene(scene_of(folder, {})),
+                both = solve_scene(scene_of(folder, {.from = "[[0, 0], [0.5, 0]]"})),
+                middle = solve_scene(scene_of(folder, {.from = "[0.4, 0.001]"}));
+  EXPECT_EQ(both.solution.u, end.solution.u);
+  EXPECT_LT((middle.solution.u - end.solution.u).cwiseAbs().maxCoeff(), 1e-9 * end.solution.u.cwiseAbs().maxCoeff());
+}
+
+// Of the blocks one above the other each is a bar, without Poisson's ratio.
+Scene flange(const TemporaryFolder& folder, double fluid, const std::string& held) {
+  folder.write("blocks.geo", blocks(1, 1, 0.1, 0.07));
+  return read_scene(folder.write("scene.toml", R"(
+mesh.file = "blocks.geo"
+materials.m = { young = 1000, poisson = 0 }
+bodies = { "*" = "m" }
+[[contact]]
+between = ["face", "seat"]
+initial_gap = "closed"
+fluid = { from = [0, 0], pressure = )" + std::to_string(fluid) +
+                                                   R"( }
+[[boundary]]
+on = "left"
+displacement = { x = 0 }
+[[boundary]]
+on = "bottom"
+displacement = { y = 0 }
+[[body_force]]
+body = "upper"
+force = [0, -2]
+)" + held));
+}
+
+const std::string springs = "[[boundary]]\non = \"top\"\nfoundation = 10\n";
+
+TEST(Fluid, LiftsAFlangeOffItsSeat) {
+  const double p = 3, load = 2, k = 10;
+  const TemporaryFolder folder;
+  const Results r = solve_scene(flange(folder, p, springs));
+  const ContactResults& c = r.recovery.contacts[0];
+  EXPECT_EQ(r.status, Status::solved);
+  EXPECT_NEAR(c.fluid->wet_length, 1, 1e-12);
+  EXPECT_NEAR(std::abs(c.force.y()), p, 1e-9);
+  EXPECT_NEAR(std::abs(c.fluid->force.y()), p, 1e-9);
+  EXPECT_EQ(c.length_in_contact, 0);
+  for (const ContactNode& n : c.multiplier.nodes) {
+    EXPECT_NEAR(n.p, p, 1e-9);
+    EXPECT_NEAR(n.p_fluid, p, 1e-9);
+    EXPECT_NEAR(n.gap, (p - load) / k + (p - load / 2) / young + p / young, 1e-9);
+  }
+  expect_contains(report_text(report_of(r), {}), "fluid at 3 has wet 1; of the force it makes (0, ");
+}
+
+TEST(Fluid, SaysWhatItBlowsAway) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(solve_scene(flange(folder, 1.99, "")).status, Status::solved);
+  expect_contains(message_of([&] { solve_scene(flange(folder, 2.01, "")); }), "nothing holds body 'upper'");
+}
+
+// ---- Loads, and what is refused ----
+
+TEST(Fluid, IsALoadAmongCases) {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of(folder, {});
+  CaseSolver solver;
+  for (const double factor : {1.0, 0.5, 0.0, 1.2}) {
+    Scene scaled = scaled_loads(scene, factor);
+    EXPECT_DOUBLE_EQ(scaled.contacts[0].fluid->pressure, 4 * factor);
+    scaled.contacts[0].fluid->pressure *= 1.1;
+    const Results& shared = solver.solve(scaled);
+    const Results alone = solve_scene(scaled);
+    const double size = std::max(alone.solution.u.cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((shared.solution.u - alone.solution.u).cwiseAbs().maxCoeff(), 1e-12 * size) << factor;
+    EXPECT_EQ(shared.recovery.contacts[0].fluid->wet_length, alone.recovery.contacts[0].fluid->wet_length) << factor;
+  }
+  EXPECT_EQ(solver.shared(), 3);
+}
+
+std::string refused(const std::string& pair) {
+  const TemporaryFolder folder;
+  folder.write("blocks.geo", blocks(1, 1, 0.5, 0.5));
+  return message_of([&] {
+    solve_scene(read_scene(folder.write("scene.toml",
+                                        "mesh.file = \"blocks.geo\"\nmaterials.m = { young = 1, poisson = 0 "
+                                        "}\nbodies = { \"*\" = \"m\" }\n[[contact]]\nbetween = [\"face\", "
+                                        "\"seat\"]\n" +
+                                            pair + "\n" + springs +
+                                            "[[boundary]]\non = \"bottom\"\ndisplacement = { x = 0, y = 0 }\n")));
+  });
+}
+
+TEST(Fluid, RefusesWhatHasNoGap) {
+  expect_contains(refused("condition = \"tied\"\nfluid = { pressure = 1, from = [0, 0] }"),
+                  "fluid: has no meaning with");
+  expect_contains(refused("condition = \"bilateral\"\nfluid = { pressure = 1, from = [0, 0] }"),
+                  "fluid: goes with condition = \"unilateral\"");
+  expect_contains(refused("fluid = { pressure = -1, from = [0, 0] }"), "pressure: expected a number >= 0, found -1");
+  expect_contains(refused("fluid = { pressure = 1 }"), "from");
+  expect_contains(refused("fluid = { pressure = 1, from = \"left\" }"), "from: expected a list of two numbers [x, y]");
+  expect_contains(refused("fluid = { pressure = 1, from = [0, 0], to = 1 }"), "to");
+  expect_contains(refused("fluid = { pressure = 1, from = [0, 7] }"),
+                  "fluid.from: (0, 7) lies 7 from 'face', more than that is long, 1; expected a place on the curve");
+}
+
+TEST(Fluid, RefusesGradientsAndPatterns) {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of(folder, {});
+  const Results r = solve_scene(scene);
+  expect_contains(message_of([&] {
+                    gradients(r, scene.path, {}, {{"contact.0.p_max"}}, {{"boundary.2.pressure", 10}});
+                  }),
+                  "gradients where a fluid gets into a gap are not known");
+  Scene found = scene;
+  expect_contains(message_of([&] {
+                    read_scene(scene.path, {{"contact.0.between", "[\"fac*\", \"seat\"]"}});
+                  }),
+                  "fluid: goes with between = two curves");
+}
+
+}  // namespace
+}  // namespace mortise::test
