@@ -1,10 +1,12 @@
 #include "mesh/curve.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_map>
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
+#include "base/union_find.hpp"
 
 namespace mortise {
 namespace {
@@ -92,6 +94,32 @@ std::vector<std::size_t> chain_order(const Mesh& mesh, int boundary, const std::
 }
 
 }  // namespace
+
+std::vector<std::vector<int>> pieces_of(const Mesh& mesh, int boundary) {
+  const std::vector<Edge>& edges = mesh.boundaries[boundary].edges;
+  UnionFind together(edges.size());
+  std::unordered_map<int, int> edge_at;
+  const auto before = [&](int a, int b) {
+    return std::pair(mesh.nodes(a, 0), mesh.nodes(a, 1)) < std::pair(mesh.nodes(b, 0), mesh.nodes(b, 1));
+  };
+  std::vector<int> leftmost(edges.size());
+  for (int e = 0; e < int(edges.size()); ++e) {
+    for (const int end : {0, 1})
+      if (const auto [at, is_new] = edge_at.emplace(edges[e].nodes[end], e); !is_new) together.join(e, at->second);
+    leftmost[e] = std::min(edges[e].nodes[0], edges[e].nodes[1], before);
+  }
+  std::unordered_map<int, std::size_t> number;
+  std::vector<std::vector<int>> pieces;
+  std::vector<int> from_left(edges.size());
+  std::iota(from_left.begin(), from_left.end(), 0);
+  std::ranges::stable_sort(from_left, [&](int a, int b) { return before(leftmost[a], leftmost[b]); });
+  for (const int e : from_left) {
+    const auto [at, is_new] = number.emplace(together.find(e), pieces.size());
+    if (is_new) pieces.emplace_back();
+    pieces[at->second].push_back(e);
+  }
+  return pieces;
+}
 
 Curve contact_curve(const Mesh& mesh, int boundary) { return contact_curve(mesh, boundary, SideTable(mesh)); }
 

@@ -20,6 +20,9 @@ struct Curve {
   std::vector<double> thickness{};
 };
 
+/// The edges of a boundary by the pieces that hang together, from that with the leftmost, then lowest node on.
+std::vector<std::vector<int>> pieces_of(const Mesh& mesh, int boundary);
+
 /// The boundary's edges as one chain.
 /// Throws InputError, with coordinates, where they branch, fall into pieces, or belong to more than one body.
 Curve contact_curve(const Mesh& mesh, int boundary, const SideTable& table);

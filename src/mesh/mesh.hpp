@@ -72,6 +72,7 @@ struct Boundary {
   std::vector<Edge> edges;                ///< in no particular order or direction
   std::vector<EdgeSamples> samples = {};  ///< of each edge; empty where only the mesh is known
   std::string undrawn = {};               ///< why there are none although the file draws a geometry
+  int piece_of = -1;                      ///< the boundary of which it is a chain (problem/contact_curves.hpp)
 };
 
 /// A physical point.

@@ -2,6 +2,7 @@
 #include "base/printable.hpp"
 #include "base/stopwatch.hpp"
 #include "problem/audit.hpp"
+#include "problem/contact_curves.hpp"
 #include "problem/dirichlet_neumann.hpp"
 #include "problem/fluid.hpp"
 #include "problem/problem.hpp"
@@ -52,6 +53,7 @@ Problem prepare(const Scene& scene, Mesh mesh, const Progress& progress, const A
   p.method = scene.method;
   p.seeks_accuracy = scene.accuracy.has_value();
   p.fields = scene.fields;
+  add_pieces(scene, mesh);
   p.mesh = tied(scene, std::move(mesh));
 
   stage("assemble");

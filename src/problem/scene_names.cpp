@@ -25,7 +25,8 @@ std::vector<int> numbers_of(const std::string& name, const Numbers& numbers) {
 
 SceneNames::SceneNames(const Mesh& mesh) : mesh_(mesh) {
   for (const std::string& name : mesh.bodies) bodies_.emplace(name, int(bodies_.size()));
-  for (const Boundary& boundary : mesh.boundaries) boundaries_.emplace(boundary.name, int(boundaries_.size()));
+  for (int b = 0; b < int(mesh.boundaries.size()); ++b)
+    if (mesh.boundaries[b].piece_of < 0) boundaries_.emplace(mesh.boundaries[b].name, b);
   for (const NamedPoint& point : mesh.points) points_.emplace(point.name, int(points_.size()));
 }
 

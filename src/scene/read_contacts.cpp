@@ -105,7 +105,8 @@ Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
       required({"between", list_of(a_name().schema, 2, 2),
                 "two physical curves, or patterns: then all pairs of two bodies' curves that face each other are in "
                 "contact, but for those with an entry of their own; curves of several bodies are none. A curve may be "
-                "in several pairs"},
+                "in several pairs, and one in pieces, as a surface with grooves, is in those of its pieces (`NAME_1`, "
+                "`NAME_2` from left to right) that face the other's"},
                "a list of two physical curves"),
       key("within", contact.within, above(0),
           "of patterns: > 0, how far apart the curves may be where they face each other", "half an edge"),
