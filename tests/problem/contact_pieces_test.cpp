@@ -22,8 +22,9 @@ Scene grooves(const TemporaryFolder& folder, const std::string& named, const std
 Point(1) = {0, 0, 0}; Point(2) = {8, 0, 0}; Point(3) = {8, 2, 0}; Point(4) = {6, 2, 0}; Point(5) = {6, 1.5, 0};
 Point(6) = {5, 1.5, 0}; Point(7) = {5, 2, 0}; Point(8) = {2.5, 2, 0}; Point(9) = {2.5, 1.5, 0};
 Point(10) = {1.5, 1.5, 0}; Point(11) = {1.5, 2, 0}; Point(12) = {0, 2, 0};
-Point(21) = {0, 2, 0}; Point(22) = {3, 2, 0}; Point(23) = {3, 2.5, 0}; Point(24) = {4, 2.5, 0}; Point(25) = {4, 2, 0};
-Point(26) = {8, 2, 0}; Point(27) = {8, 3, 0}; Point(28) = {0, 3, 0};
+DefineConstant[y = 2];
+Point(21) = {0, y, 0}; Point(22) = {3, y, 0}; Point(23) = {3, y + 0.5, 0}; Point(24) = {4, y + 0.5, 0};
+Point(25) = {4, y, 0}; Point(26) = {8, y, 0}; Point(27) = {8, y + 1, 0}; Point(28) = {0, y + 1, 0};
 For i In {1 : 11}
   Line(i) = {i, i + 1};
 EndFor
@@ -105,10 +106,17 @@ TEST(ContactPieces, GoWithPatternsAndEntriesOfTheirOwn) {
   const std::string pattern = "[[contact]]\nbetween = [\"f*\", \"s*t\"]\n";
   EXPECT_EQ(pair_names(check_scene(grooves(folder, one_name, pattern))).size(), 4u);
   EXPECT_EQ(pair_names(check_scene(grooves(folder, one_name, pattern + one_entry))).size(), 4u);
+  const std::string of_both = "Physical Curve(\"fat\") = {3, 21};\n";  // of two bodies: none, and no pieces either
+  EXPECT_EQ(pair_names(check_scene(grooves(folder, one_name + of_both, pattern))).size(), 4u);
   // A number that is taken is left out.
   const Problem taken = check_scene(grooves(folder, one_name + "Physical Curve(\"seat_2\") = {2};", one_entry));
   EXPECT_EQ(pair_names(taken),
             (std::vector<std::string>{"foot_1 seat_1", "foot_1 seat_3", "foot_2 seat_3", "foot_2 seat_4"}));
+}
+
+TEST(ContactPieces, FaceEachOtherOverAnyGap) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(pair_names(check_scene(grooves(folder, one_name, one_entry, {{"mesh.parameters.y", "3"}}))).size(), 4u);
 }
 
 TEST(ContactPieces, AreNoPlacesForSupportsAndOneFluid) {
