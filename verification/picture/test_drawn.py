@@ -235,3 +235,11 @@ def test_p_of_a_closed_curve_is_drawn_in_one_piece_wherever_the_curve_starts(sta
         inside = np.isfinite(s) & (s >= left) & (s <= right)
         assert np.isfinite(p[inside]).all() and p[inside].max() > 0.99
         assert np.nanmax(np.abs(np.diff(s))) < 0.2, line.get_label()  # no line across the graph
+
+
+def test_names_that_would_lie_on_others_are_left_out():
+    drawing, axes = figure.panels(1, 1, (4, 3))
+    axes.set(xlim=(0, 1), ylim=(0, 1))
+    texts = [axes.annotate(text, at, rotation=turned) for text, at, turned in (("first", (0.5, 0.5), 0), ("on it", (0.52, 0.5), 90), ("beside", (0.1, 0.9), 0))]
+    assert figure.leave_out_overlaps(drawing, texts) == 1
+    assert [text.get_visible() for text in texts] == [True, False, True]

@@ -97,6 +97,17 @@ def legend_below(figure, axes, columns, height=0.08):
     figure.get_layout_engine().set(rect=(0, height, 1, 1 - height))
 
 
+def leave_out_overlaps(figure, texts):
+    """Hides of these texts those that would lie on one before them; how many."""
+    figure.canvas.draw()  # the layout
+    kept = []
+    for text in texts:
+        box = text.get_window_extent()
+        text.set_visible(not any(box.overlaps(other) for other in kept))
+        kept += [box] if text.get_visible() else []
+    return len(texts) - len(kept)
+
+
 def save(figure, path, dpi=85):
     """Writes the figure (format by the name's ending) and closes it."""
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -52,7 +52,7 @@ def draw_bodies(axes, setup, nodes, room):
     if len(setup["bodies"]) <= MANY_NAMES:
         for body, at in zip(setup["bodies"], name_places(setup["bodies"], nodes)):
             material = f"\n({figure.short(body['material'])})" if room and "material" in body else ""
-            name(axes, at, f"{figure.short(body['name'])}{material}", "0.25", ha="center", va="center")
+            name(axes, at, f"{figure.short(body['name'])}{material}", "0.25", ha="center", va="center").rank = 1
     return [Line2D([], [], marker="s", linestyle="", markersize=8, color=FILLS[k % len(FILLS)], label=f"material {figure.short(m)}")
             for k, m in enumerate(materials) if m is not None]
 
@@ -81,6 +81,8 @@ def name_places(bodies, nodes):
 def name(axes, place, text, colour, **options):
     written = axes.annotate(text, place, color=colour, fontsize=7.5, zorder=8, **options)
     written.set_path_effects([withStroke(linewidth=2, foreground="white")])
+    written.rank = 2  # of those that lie on one another, lower ones stay
+    return written
 
 
 def draw_curve(axes, lines, colour, width=2.0, style="-"):
@@ -158,12 +160,12 @@ def draw(setup, picture):
     legend = draw_bodies(axes, setup, nodes, not turned)
     written = set()
 
-    def tell(colour, label, on, side=1):
+    def tell(colour, label, on, side=1, rank=2):
         """A line of the legend, and the names of its curves outside (1) or inside (-1) of their bodies."""
         legend.append(Line2D([], [], color=colour, linewidth=2, label=label))
-        write(colour, on, side)
+        write(colour, on, side, rank)
 
-    def write(colour, on, side):
+    def write(colour, on, side, rank=2):
         for curve in on:
             if named and curve in curves and curve not in written:
                 written.add(curve)
@@ -172,7 +174,7 @@ def draw(setup, picture):
                 words = {"ha": "left" if n[0] > 0.5 else "right" if n[0] < -0.5 else "center",
                          "va": "bottom" if n[1] > 0.5 else "top" if n[1] < -0.5 else "center"}
                 words["rotation"] = 90 if abs(n[0]) > 0.9 else 0
-                name(axes, at, figure.short(curve), colour, textcoords="offset points", xytext=tuple((14 if side > 0 else 6) * n), **words)
+                name(axes, at, figure.short(curve), colour, textcoords="offset points", xytext=tuple((14 if side > 0 else 6) * n), **words).rank = rank
 
     for support in setup["supports"]:
         for curve in support["on"]:
@@ -181,7 +183,7 @@ def draw(setup, picture):
                 draw_curve(axes, hatches(curves[curve], size, held_along(support["words"])[:, order]), REACTION, 0.9)
             else:
                 axes.plot(*nodes[setup["points"].get(curve, [])].T, "^", color=REACTION, zorder=6)
-        tell(REACTION, f"support {listed(support['on'])}: {figure.plain(support['words'])}", support["on"])
+        tell(REACTION, f"support {listed(support['on'])}: {figure.plain(support['words'])}", support["on"], rank=0)
     for load in setup["loads"]:
         force = np.array(load["sum"])
         force[np.abs(force) < 1e-9 * np.abs(force).max()] = 0
@@ -190,7 +192,7 @@ def draw(setup, picture):
                 draw_load(axes, curves[curve], force[order], load["words"], size)
             else:
                 draw_arrows_at(axes, nodes[setup["points"].get(curve, [])], force[order], size)
-        tell(LOAD, f"load {listed(load['on'])}: {figure.plain(load['words'])}, in sum ({force[0]:.4g}, {force[1]:.4g})", load["on"])
+        tell(LOAD, f"load {listed(load['on'])}: {figure.plain(load['words'])}, in sum ({force[0]:.4g}, {force[1]:.4g})", load["on"], rank=0)
     for k, pair in enumerate(setup["contact"]):
         colour = PAIR_COLOURS[k % len(PAIR_COLOURS)]
         for curve, style in zip(pair["between"], ["-", (0, (3, 2))]):
@@ -217,10 +219,13 @@ def draw(setup, picture):
     axes.set_aspect("equal")
     label_places(axes, turned)
     drawing.suptitle(figure.wrapped(setup["title"]), fontsize=11)
-    below = 0.1 + 0.165 * len(legend[:20])  # inches
+    below = 0.1 + 0.165 * len([*legend, "names"][:20])  # inches
     drawing.set_size_inches(8, height + 0.8 + below)
     part = below / (height + 0.8 + below)
     drawing.get_layout_engine().set(rect=(0, part, 1, 1 - part))
+    names = sorted((text for text in axes.texts if hasattr(text, "rank")), key=lambda text: text.rank)
+    if left_out := figure.leave_out_overlaps(drawing, names):
+        legend.append(Line2D([], [], linestyle="", label=f"{left_out} names have no room"))
     drawing.legend(handles=legend[:20], frameon=False, fontsize=7.5, loc="lower left", bbox_to_anchor=(0.07, 0))
     figure.save(drawing, picture, 130)
 
