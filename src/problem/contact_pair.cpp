@@ -120,14 +120,15 @@ bool is_drawn(const ContactPair& pair) { return !pair.multiplier.samples.empty()
 
 std::string gap_words(const ContactPair& pair) {
   const ContactSpec& spec = pair.spec;
-  std::ostringstream stiffness;
-  if (spec.stiffness) stiffness << ", stiffness " << *spec.stiffness;
-  if (spec.initial_gap == InitialGap::closed) return "closed" + stiffness.str();
-  if (spec.initial_gap == InitialGap::given) return spec.gap.words() + stiffness.str();
+  std::ostringstream more;
+  if (spec.stiffness) more << ", stiffness " << *spec.stiffness;
+  if (spec.fluid) more << ", fluid at " << spec.fluid->pressure;
+  if (spec.initial_gap == InitialGap::closed) return "closed" + more.str();
+  if (spec.initial_gap == InitialGap::given) return spec.gap.words() + more.str();
   const std::string of = spec.initial_gap == InitialGap::measured ? "of the meshes"
                          : is_drawn(pair)                         ? "as drawn"
                                                                   : "of curves through the nodes";
-  return (spec.clearance == Field() ? of : of + " + " + spec.clearance.words()) + stiffness.str();
+  return (spec.clearance == Field() ? of : of + " + " + spec.clearance.words()) + more.str();
 }
 
 std::vector<int> row_nodes(const std::vector<ContactPair>& pairs) {

@@ -41,9 +41,11 @@ py::dict contact_columns(const Results& r) {
   columns["gap"] = column([](const ContactNode& n) { return n.gap; });
   columns["sigma_n"] = column([](const ContactNode& n) { return n.sigma_n; });
   columns["sigma_2"] = column([](const ContactNode& n) { return n.sigma_2; });
-  if (!r.estimate) return columns;
-  columns["p_error"] = column([](const ContactNode& n) { return n.p_error; });
-  columns["p_multiplier"] = column([](const ContactNode& n) { return n.p_multiplier; });
+  if (r.estimate) {
+    columns["p_error"] = column([](const ContactNode& n) { return n.p_error; });
+    columns["p_multiplier"] = column([](const ContactNode& n) { return n.p_multiplier; });
+  }
+  if (r.problem.fluid.size() > 0) columns["p_fluid"] = column([](const ContactNode& n) { return n.p_fluid; });
   return columns;
 }
 

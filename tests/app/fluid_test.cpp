@@ -181,6 +181,7 @@ TEST(Fluid, LiftsAFlangeOffItsSeat) {
     EXPECT_NEAR(n.p_fluid, p, 1e-9);
     EXPECT_NEAR(n.gap, (p - load) / k + (p - load / 2) / young + p / young, 1e-9);
   }
+  expect_contains(report_text(report_of(r), {}), "gap closed, fluid at 3, ");
   expect_contains(report_text(report_of(r), {}), "fluid at 3 has wet 1; of the force it makes (0, ");
 }
 

@@ -49,6 +49,16 @@ def test_a_field_of_a_file_is_what_other_readers_find(punch):
 
 
 @solves
+def test_a_fluid_has_its_column(tmp_path):
+    changes = {"contact.0.fluid.pressure": 4e6, "contact.0.fluid.from": [0.2, 0.2]}
+    launch.solve("punch", changes, tmp_path / "results")
+    run, read = mortise.solve(launch.scene_file("punch"), changes), mortise.read(tmp_path / "results")
+    assert list(run.contact) == list(read.contact)
+    np.testing.assert_array_equal(run.contact["p_fluid"], read.contact["p_fluid"])
+    assert set(run.contact["p_fluid"]) <= {0.0, 4e6}
+
+
+@solves
 def test_solved_here_is_as_solved_by_the_program(punch):
     run, read = mortise.solve(launch.scene_file("punch")), mortise.read(punch)
     for name in ("s", "p", "p_error", "x", "u", "stress"):

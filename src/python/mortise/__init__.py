@@ -32,7 +32,8 @@ __all__ = ["Gradients", "InputError", "Results", "cases", "gradient", "read", "s
 class Results:
     """What a run found, as arrays.
 
-    contact  columns of contact.csv by name: pair, curve, s, x, y, u_n, p, gap, sigma_n, sigma_2, p_error and p_multiplier if estimated
+    contact  columns of contact.csv by name: pair, curve, s, x, y, u_n, p, gap, sigma_n, sigma_2, p_error and p_multiplier if estimated,
+             p_fluid if a fluid gets into a gap
     x, u     places and displacements (n, 2) of the points of result.vtu; stress (n, 4): 11, 22, 33, 12
     summary  summary.json (docs/files.md); status and checks of it
     s, p, p_error, gap: of the first pair's multiplier side, in the order of s; of another: side(curve)
