@@ -137,6 +137,15 @@ std::array<double, 2> ends_of(const LoadedPiece& piece) {
   return ends;
 }
 
+// Nothing where it is not the same all along: p less a part that falls along the piece is no form that is known.
+std::optional<double> fluid_beside(const Walk& walk, const Range& range, const PressureLine& line) {
+  if (line.fluid.size() == 0) return 0.0;
+  const double fluid = line.fluid(walk.vertex[range.first]);
+  for (Index k = range.first; k <= range.last; ++k)
+    if (line.fluid(walk.vertex[k]) != fluid) return std::nullopt;
+  return fluid;
+}
+
 // `missed`: at each vertex of the line what p_h may miss along it.
 bool credible(const PressureForm& form, const Walk& walk, const Range& range, const PressureEstimate& estimate,
               const VecX& missed, bool unilateral) {
@@ -162,27 +171,28 @@ std::optional<double> FittedPressure::at(double s) const {
   for (const double round : {0.0, around})
     for (const FittedPiece& piece : pieces)
       if (s + round >= piece.vertices[0] && s + round <= piece.vertices[1])
-        if (const double p = piece.form(s + round); std::isfinite(p)) return p;
+        if (const double p = piece.form(s + round) + piece.fluid; std::isfinite(p)) return p;
   return std::nullopt;
 }
 
 FittedPressure fitted_pressure(const Problem& problem, const ContactPair& pair, const PressureEstimate& estimate) {
   const PressureLine& line = estimate.line;
   FittedPressure fitted{.pieces = {}, .around = line.closed ? line.s(line.s.size() - 1) : 0};
-  if (problem.method.multipliers != Multipliers::linear || pair.spec.stiffness || line.fluid.size() > 0 ||
-      !(largest_entry(line.p) > 0))
+  if (problem.method.multipliers != Multipliers::linear || pair.spec.stiffness || !(largest_entry(line.p) > 0))
     return fitted;
   const Walk walk = walk_along(problem.mesh, pair, estimate);
   const bool unilateral = pair.spec.condition == Condition::unilateral;
   const VecX missed = error_safety * estimate.local.pointwise(line);
   for (const Range& range : loaded_ranges(walk)) {
+    const std::optional<double> fluid = fluid_beside(walk, range, line);
+    if (!fluid) continue;
     const LoadedPiece piece = piece_of(walk, range, line, problem.discretisation.system.constraints.rings);
     const std::array<double, 2> ends = ends_of(piece);
     const bool borders = range.end[0].border || range.end[1].border;
     for (const int edges : border_edges) {
       const auto form = fit_pressure(piece, ends, edges);
       if (form && credible(*form, walk, range, estimate, missed, unilateral)) {
-        fitted.pieces.push_back({*form, {piece.s(0), piece.s(piece.s.size() - 1)}});
+        fitted.pieces.push_back({*form, {piece.s(0), piece.s(piece.s.size() - 1)}, *fluid});
         break;
       }
       if (!borders) break;

@@ -13,6 +13,7 @@ namespace mortise {
 struct FittedPiece {
   PressureForm form;
   std::array<double, 2> vertices;  ///< s of the first and the last vertex that has p* and not the multiplier
+  double fluid = 0;                ///< pressure of the fluid beside it, from which p rises
 };
 
 struct FittedPressure {
@@ -23,7 +24,8 @@ struct FittedPressure {
   std::optional<double> at(double s) const;
 };
 
-/// Of a pair with linear multipliers between bodies that do not give way on their surface; of others no piece. p* of a
+/// Of a pair with linear multipliers between bodies that do not give way on their surface; of others no piece, and none
+/// that has fluid on one side alone. p* of a
 /// piece is credible if it differs from p_h, at 95 % of the vertices that count, by no more than p_h may miss along the
 /// line as the estimate has it, the bodies' errors apart, and is nowhere tension in a unilateral pair. Time as the
 /// vertices.

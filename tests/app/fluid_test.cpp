@@ -86,6 +86,19 @@ TEST(Fluid, PressesTheTroughsOfAWaveApart) {
   }
 }
 
+TEST(Fluid, LeavesTheBetterReadingOfThePressure) {
+  const TemporaryFolder folder;
+  Results r = solve_scene(scene_of(folder, {.edge = 0.015}));
+  estimate(r);
+  double of_p = 0, of_multiplier = 0;
+  for (const ContactNode& n : r.recovery.contacts[0].multiplier.nodes) {
+    const double exact = 4 + westergaard(6, n.position.x());
+    of_p = std::max(of_p, std::abs(n.p - exact));
+    of_multiplier = std::max(of_multiplier, std::abs(n.p_multiplier - exact));
+  }
+  EXPECT_LT(of_p, 0.5 * of_multiplier);
+}
+
 TEST(Fluid, IsFoundToAnAccuracy) {
   for (const double pressure : {0.5, 4.0, 8.0}) {
     const TemporaryFolder folder;
