@@ -114,7 +114,8 @@ def draw_contact_lines(axes, curve, table, scale, pairs):
     for colour, some in colours.items():
         axes.add_collection(LineCollection(joined(polylines(at, some)), colors=colour, linewidths=1.3, **dots))
     p = np.nan_to_num(curve.point_data["p"].ravel())
-    closed = [line for line in lines if min(p[line[0]], p[line[1]]) > 1e-6 * p.max()]
+    solid = p - np.ravel(curve.point_data.get("p_fluid", np.zeros_like(p)))  # what is not the fluid's
+    closed = [line for line in lines if min(solid[line[0]], solid[line[1]]) > 1e-6 * p.max()]
     axes.add_collection(LineCollection(joined(polylines(at, closed)), colors=CLOSED, linewidths=2.2, **dots))
 
 

@@ -65,6 +65,7 @@ def show_results(folder, pair):
 def show_contact(curves, scale):
     """The multiplier sides, moved with the bodies: red where p > 0, blue where contact is open."""
     at, p = curves.points[:, :2] + scale * curves.point_data["displacement"][:, :2], np.ravel(curves.point_data["p"])
+    p = p - np.ravel(curves.point_data.get("p_fluid", np.zeros_like(p)))
     lines = np.concatenate([block.data[:, :2] for block in curves.cells])
     lines = lines[np.isfinite(p[lines]).all(axis=1)]
     add_lines("contact: red closed, blue open", at[lines], p[lines].sum(axis=1) > 1e-9 * np.nanmax(p), LineWidth=5)
