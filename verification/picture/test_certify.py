@@ -218,3 +218,16 @@ def test_deformed_sides_that_part_are_seen(mortise, tmp_path):
     moved = certify.told_apart(base, 0.01)
     assert kept["agrees"] and kept["off"] < 1e-3 and not moved["agrees"] and moved["off"] == pytest.approx(0.05, rel=0.02)
     assert "the deformed sides are apart by 0.05" in certify.troubles_of(base, [base], 0.01, True, moved, None)[0]
+
+
+def test_a_fluid_between_the_sides_does_not_part_them(mortise, tmp_path):
+    solve = [mortise, "solve", HERTZ, "--quiet", "-o"]
+    subprocess.run([*solve, tmp_path / "dry"], check=True)
+    rows = figures.rows_of(tmp_path / "dry/contact.csv")
+    end = max((row for row in rows if row["curve"] == rows[0]["curve"]), key=lambda row: float(row["s"]))
+    pressure = 1e-3 * max(float(row["p"]) for row in rows)  # more would lift the cylinder off
+    fluid = [f"contact.0.fluid.pressure={pressure}", f"contact.0.fluid.from=[{end['x']}, {end['y']}]"]
+    subprocess.run([*solve, tmp_path / "wet", *(word for one in fluid for word in ("--set", one))], check=True)
+    base = certify.Variation("wet", "", [], "solved", run=figures.read_run(tmp_path / "wet"))
+    assert base.run.summary["contact"][0]["fluid"]["wet_length"] > 0
+    assert certify.told_apart(base, 0.05)["agrees"]

@@ -259,7 +259,7 @@ def of_freefem(run, path):
 
 
 def deformed_gaps(run):
-    """Where p acts, how far the deformed sides of the drawn pairs are apart or overlap: the largest distance of a vertex of
+    """Where p acts that is not a fluid's, how far the deformed sides of the drawn pairs are apart or overlap: the largest distance of a vertex of
     the multiplier side from the deformed other curve; None without such pairs. Of the files' places and displacements
     alone, not of what the program projects and integrates."""
     lines, table = meshio.vtu.read(run.folder / "contact.vtu"), rows_of(run.folder / "contact.csv")
@@ -275,7 +275,8 @@ def deformed_gaps(run):
         other = np.array(polylines(moved, [edge for edge in edges if edge[0] in set(rows) - mine]))
         start, step = (part.reshape(-1, 2) for part in (other[:, :-1], np.diff(other, axis=1)))
         for number in mine & vertices:
-            if not table[number]["gap"] or float(table[number]["p"] or 0) <= 0:  # beyond the other's end it faces nothing
+            row = table[number]
+            if not row["gap"] or float(row["p"] or 0) <= float(row.get("p_fluid", 0)):  # beyond the other's end it faces nothing
                 continue
             t = np.clip(((moved[number] - start) * step).sum(axis=1) / (step**2).sum(axis=1), 0, 1)
             distance = np.linalg.norm(start + t[:, None] * step - moved[number], axis=1).min()
