@@ -124,14 +124,6 @@ Coupling couple(const Mesh& mesh, const ContactInterface& interface, const Const
   return coupling;
 }
 
-std::vector<int> multipliers_along(const Coupling& coupling) {
-  std::vector<int> order;
-  for (const auto& on : coupling.on_edge)
-    for (const int a : {on[0], on[2], on[1]})
-      if (a >= 0 && (order.empty() || order.back() != a)) order.push_back(a);
-  return order;
-}
-
 std::vector<int> row_nodes(const Coupling& coupling) {
   std::vector<int> nodes(coupling.gap0.size(), -1);
   for (std::size_t a = 0; a < coupling.row.size(); ++a)

@@ -23,9 +23,6 @@ Coupling couple(const Mesh& mesh, const ContactInterface& interface, const Const
 /// For each row the node of its first multiplier.
 std::vector<int> row_nodes(const Coupling& coupling);
 
-/// The multipliers along the curve: start, middle, end of each edge.
-std::vector<int> multipliers_along(const Coupling& coupling);
-
 /// Multipliers from the rows' values: value[row[a]], zero without support.
 VecX multiplier_values(const Coupling& coupling, const VecX& row_values);
 

@@ -5,7 +5,6 @@
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
-#include "contact/coupling.hpp"
 #include "contact/segments.hpp"
 #include "fem/edges.hpp"
 
@@ -97,6 +96,14 @@ std::vector<State> find_states(const Mesh& mesh, const ContactInterface& interfa
 }
 
 }  // namespace
+
+std::vector<int> multipliers_along(const Coupling& coupling) {
+  std::vector<int> order;
+  for (const auto& on : coupling.on_edge)
+    for (const int a : {on[0], on[2], on[1]})
+      if (a >= 0 && (order.empty() || order.back() != a)) order.push_back(a);
+  return order;
+}
 
 void number_rows(const Mesh& mesh, const ContactInterface& interface, const Constraints& constraints,
                  InitialGap initial_gap, const Support& support, Coupling& coupling) {

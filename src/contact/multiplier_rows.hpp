@@ -18,6 +18,9 @@ struct Support {
   VecX nearest;        ///< the smallest gap there, undeformed, length; 0 where the sides overlap
 };
 
+/// The multipliers along the curve: start, middle, end of each edge.
+std::vector<int> multipliers_along(const Coupling& coupling);
+
 /// Part of a multiplier's edges that must face the other side. Of less, what little gap there is weighs against the
 /// whole psi: p at the node would be extrapolated by about 1 / part. Where the sides are further apart than these edges
 /// are long it does not matter.

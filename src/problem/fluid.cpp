@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "contact/multiplier_rows.hpp"
 #include "fem/edges.hpp"
 
 namespace mortise {
