@@ -53,7 +53,7 @@ std::array<std::vector<int>, 2> boundaries_of(const ContactSpec& spec, const Sce
   return {names.boundaries(key, spec.between[0]), names.boundaries(key, spec.between[1])};
 }
 
-// One force, or one inlet, is of one chain.
+// One force, or one overlap, is of one chain.
 bool is_whole(const ContactSpec& spec) { return spec.pretension || spec.overlap; }
 
 using Pieces = std::multimap<int, int>;  // of a boundary those that are its pieces

@@ -148,6 +148,9 @@ void write_setup(const Problem& p, const std::filesystem::path& path) {
   if (!entries.body_forces.empty()) rest.push_back("forces per volume");
   if (!entries.initial_strains.empty()) rest.push_back("initial strains");
   Json setup = geometry_json(mesh);
+  for (const Boundary& piece : mesh.boundaries)  // in contact by its pieces alone
+    if (piece.piece_of >= 0 && !points.contains(mesh.boundaries[piece.piece_of].name))
+      setup["curves"].erase(mesh.boundaries[piece.piece_of].name);
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
     setup["bodies"][b]["material"] = entries.bodies[entries.body_of[b]].material;
   setup.update({{"title", p.title},

@@ -1,8 +1,12 @@
 // Contact curves in pieces: surfaces with grooves in them, and what their pieces are called.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "app/accuracy.hpp"
 #include "app/solve_scene.hpp"
+#include "results/report.hpp"
+#include "results/setup_json.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -112,6 +116,16 @@ TEST(ContactPieces, GoWithPatternsAndEntriesOfTheirOwn) {
   const Problem taken = check_scene(grooves(folder, one_name + "Physical Curve(\"seat_2\") = {2};", one_entry));
   EXPECT_EQ(pair_names(taken),
             (std::vector<std::string>{"foot_1 seat_1", "foot_1 seat_3", "foot_2 seat_3", "foot_2 seat_4"}));
+}
+
+TEST(ContactPieces, AreDrawnInPlaceOfTheWhole) {
+  const TemporaryFolder folder;
+  write_setup(check_scene(grooves(folder, one_name, one_entry)), folder.path("setup.json"));
+  std::ifstream file(folder.path("setup.json"));
+  const Json curves = Json::parse(file)["curves"];
+  EXPECT_FALSE(curves.contains("seat"));
+  for (const char* name : {"foot_1", "foot_2", "seat_1", "seat_2", "seat_3", "bottom"})
+    EXPECT_TRUE(curves.contains(name));
 }
 
 TEST(ContactPieces, FaceEachOtherOverAnyGap) {
