@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "contact/curve_resolution.hpp"
+#include "contact/outline.hpp"
 #include "contact/smooth_normals.hpp"
 
 namespace mortise {
@@ -33,11 +34,10 @@ std::vector<int> unknowns_to_hold(const Mesh& mesh, const std::vector<ContactPai
   return std::ranges::all_of(motion_sets(mesh, motions), held) ? away : anywhere;
 }
 
-// Of each motion, whether the load drives it: by work of more than a part of its terms, round-off or how far the edges
-// of its bodies leave the curves that they stand for, and than what rounding makes of the motion and of edges' `turn`,
-// radians.
+// Of each motion, whether the load drives it: by work of more than a part of its terms, round-off or what the mesh
+// leaves unknown of its bodies (mesh_errors), and than what rounding makes of the motion and of edges' `turn`, radians.
 std::vector<char> driven(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions, const VecX& load,
-                         const VecX& edge_error, double turn) {
+                         const VecX& mesh_error, double turn) {
   std::vector<char> driven(motions.size(), 0);
   const double load_size = load.lpNorm<1>();
   for (const MotionSet& set : motion_sets(mesh, motions))
@@ -46,7 +46,7 @@ std::vector<char> driven(const Mesh& mesh, const std::vector<std::vector<RigidMo
       VecX work(motion.size());
       for (Eigen::Index i = 0; i < work.size(); ++i) work(i) = motion(i) * load(set.unknown(i));
       double part = 1e-9;
-      for (const RigidMotion& of : motions[set.motions[k]]) part = std::max(part, edge_error(of.body));
+      for (const RigidMotion& of : motions[set.motions[k]]) part = std::max(part, mesh_error(of.body));
       const double least = std::max(1e-12, turn) * load_size * motion.lpNorm<Eigen::Infinity>();
       driven[set.motions[k]] = std::abs(work.sum()) > std::max(part * work.lpNorm<1>(), least);
     }
@@ -74,6 +74,21 @@ double rounding_of_edges(const Mesh& mesh, const std::vector<ContactPair>& pairs
   return 4 * std::numeric_limits<double>::epsilon() * mesh.nodes.cwiseAbs().maxCoeff() / shortest;
 }
 
+// Of each body: how far its contact edges leave the curves that they stand for, as part of the radius, or the area
+// between its outline and these curves, as part of its own: what loads do in a turn, and what weighs, is known no
+// better.
+VecX mesh_errors(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
+  VecX area = VecX::Zero(Eigen::Index(mesh.bodies.size())), unknown = area;
+  const Outline o = outline(boundary_edges(mesh), mesh.nodes);
+  for (const PieceOutline& piece : o.pieces) area(piece.body) += piece.area;
+  for (std::size_t e = 0; e < o.edges.size(); ++e) unknown(o.edges[e].body) += o.sagitta[e] * o.length[e];
+  VecX error = unknown.cwiseQuotient(area);
+  for (const ContactPair& pair : pairs)
+    for (const Curve* curve : {&pair.multiplier, &pair.opposite})
+      error(curve->body) = std::max(error(curve->body), edge_error(mesh.nodes, *curve));
+  return error;
+}
+
 std::vector<ContactNormal> normals_of(const Mesh& mesh, const ContactPair& pair) {
   std::vector<char> faces(pair.multiplier.edges.size(), 0);
   for (const ContactPoint& point : pair.points) faces[point.edge] = 1;
@@ -86,11 +101,7 @@ void refuse_driven(const Mesh& mesh, const std::vector<ContactPair>& pairs,
                    const std::vector<std::vector<RigidMotion>>& motions, const std::vector<std::string>& findings,
                    const VecX& load) {
   if (motions.empty()) return;
-  VecX edge_errors = VecX::Zero(Eigen::Index(mesh.bodies.size()));
-  for (const ContactPair& pair : pairs)
-    for (const Curve* curve : {&pair.multiplier, &pair.opposite})
-      edge_errors(curve->body) = std::max(edge_errors(curve->body), edge_error(mesh.nodes, *curve));
-  const std::vector<char> moves = driven(mesh, motions, load, edge_errors, rounding_of_edges(mesh, pairs));
+  const std::vector<char> moves = driven(mesh, motions, load, mesh_errors(mesh, pairs), rounding_of_edges(mesh, pairs));
   for (std::size_t k = 0; k < motions.size(); ++k)
     if (moves[k])
       throw SceneError("nothing holds " + describe(mesh, motions[k]) +

@@ -3,12 +3,15 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <sstream>
 
 #include "app/solve_scene.hpp"
 #include "support/differences.hpp"
 #include "support/messages.hpp"
 #include "support/plate_scenes.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mortise::test {
 namespace {
@@ -105,6 +108,70 @@ TEST(FreeMotions, LogsPressOnOneAnotherAsStaticsSays) {
     const double expected = other == "floor" ? 2 * weight : other.starts_with("rim") ? weight : 0;
     EXPECT_NEAR(std::abs(r.recovery.contacts[k].force.y()), expected, 0.005 * weight) << other;
   }
+}
+
+// An arch of stones with joints that have no friction stands if each weighs H (tan b - tan a), with a and b its joints'
+// angles from the vertical and H the thrust (La Hire 1695): under c (1 + (x / y)^2) a volume. `heavier`: of one stone.
+struct Arch {
+  int stones = 9, edges = 12, order = 2;
+  double half = 60, inner = 4, heavier = 1;  // degrees, length
+};
+
+Results solved_arch(const Arch& a) {
+  const TemporaryFolder folder;
+  std::ostringstream geo, scene;
+  geo << "stones = " << a.stones << "; half = " << a.half << "; R = " << a.inner << "; n = " << a.edges << R"(;
+For k In {0 : stones - 1}
+  a = Pi / 180 * half * (2 * k / stones - 1); b = Pi / 180 * half * (2 * (k + 1) / stones - 1);
+  p = newp; c = newc; s = news;
+  Point(p) = {0, 0, 0};
+  Point(p + 1) = {R * Sin(a), R * Cos(a), 0}; Point(p + 2) = {(R + 1) * Sin(a), (R + 1) * Cos(a), 0};
+  Point(p + 3) = {(R + 1) * Sin(b), (R + 1) * Cos(b), 0}; Point(p + 4) = {R * Sin(b), R * Cos(b), 0};
+  Line(c) = {p + 1, p + 2}; Circle(c + 1) = {p + 2, p, p + 3};
+  Line(c + 2) = {p + 3, p + 4}; Circle(c + 3) = {p + 4, p, p + 1};
+  Curve Loop(s) = {c : c + 3}; Plane Surface(s) = {s};
+  Physical Surface(Sprintf("stone_%g", k)) = {s};
+  Physical Curve(Sprintf("left_%g", k)) = {c}; Physical Curve(Sprintf("right_%g", k)) = {c + 2};
+  MeshSize{ p + 1, p + 2, p + 3, p + 4 } = 1 / (n + k % 2);
+EndFor
+Mesh.ElementOrder = )"
+      << a.order << ";\n";
+  folder.write("arch.geo", geo.str());
+  scene
+      << "mesh.file = \"arch.geo\"\nmaterials.stone = { young = 2e4, poisson = 0.2 }\nbodies.\"stone_*\" = \"stone\"\n"
+      << "boundary = [{ on = [\"left_0\", \"right_" << a.stones - 1 << "\"], displacement = { x = 0, y = 0 } }]\n"
+      << "contact = [{ between = [\"right_*\", \"left_*\"] }]\n"
+      << "body_force = [{ body = \"stone_*\", force = [0, \"-(1 + (x / y)^2)\"] }, "
+      << "{ body = \"stone_1\", force = [0, \"" << -a.heavier << " * (1 + (x / y)^2)\"] }]\n";
+  return solve_scene(read_scene(folder.write("arch.toml", scene.str())));
+}
+
+// The stones weigh on a mesh what they weigh as drawn but for the area between their edges and the arcs.
+TEST(FreeMotions, AnArchStandsOnAnyMeshOfItsStones) {
+  std::mt19937 random(7);
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (int i = 0; i < 12; ++i) {
+    const Arch arch{.stones = int(draw(3, 12)),
+                    .edges = int(draw(2, 9)),
+                    .order = 1 + i % 2,
+                    .half = draw(30, 70),
+                    .inner = draw(1.5, 8)};
+    SCOPED_TRACE(std::to_string(arch.stones) + " stones, " + std::to_string(arch.edges) + " edges, order " +
+                 std::to_string(arch.order) + ", half " + std::to_string(arch.half) + ", inner " +
+                 std::to_string(arch.inner));
+    std::optional<Results> solved;
+    ASSERT_NO_THROW(solved = solved_arch(arch));
+    const Results& r = *solved;
+    EXPECT_NE(r.status, Status::not_converged);
+    const double thrust = arch.inner + 0.5;
+    for (const ContactResults& joint : r.recovery.contacts)
+      EXPECT_NEAR(std::abs(joint.force.x()), thrust, (arch.order == 1 ? 3e-2 : 1e-3) * thrust);
+  }
+}
+
+TEST(FreeMotions, AnArchWithAStoneTooHeavyFalls) {
+  for (const double heavier : {1 - 1e-5, 1 + 1e-5})
+    expect_contains(message_of([&] { solved_arch({.heavier = heavier}); }), "nothing holds body 'stone_");
 }
 
 TEST(FreeMotions, WhatAnOvalLineHoldsIsHeld) {
