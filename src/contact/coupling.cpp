@@ -29,8 +29,8 @@ void number_multipliers(const Curve& curve, Multipliers space, Coupling& couplin
 
 // What the contact points say of each multiplier before any is dropped.
 struct Accumulated {
-  std::vector<Eigen::Triplet<double>> B;  // multiplier x degree of freedom
-  VecX gap;                               // int psi g0
+  std::vector<Eigen::Triplet<double>> own, opposite;  // of B's two sides, multiplier x degree of freedom
+  VecX gap;                                           // int psi g0
   Support support;
 };
 
@@ -38,6 +38,7 @@ Accumulated accumulate(const ContactInterface& interface, const CouplingOptions&
   const std::vector<ContactPoint>& points = interface.points;
   const Eigen::Index count = coupling.node.size();
   Accumulated sums{{},
+                   {},
                    VecX::Zero(count),
                    {.extent = VecX::Zero(count),
                     .scale = VecX::Zero(count),
@@ -45,7 +46,8 @@ Accumulated accumulate(const ContactInterface& interface, const CouplingOptions&
                     .lagrange = VecX::Zero(count),
                     .faced = VecX::Zero(count),
                     .nearest = VecX::Constant(count, std::numeric_limits<double>::infinity())}};
-  sums.B.reserve(points.size() * 36);
+  sums.own.reserve(points.size() * 18);
+  sums.opposite.reserve(points.size() * 18);
   for (auto first = points.begin(); first != points.end();) {
     const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
     const Edge& edge = interface.multiplier.edges[first->edge];
@@ -68,9 +70,9 @@ Accumulated accumulate(const ContactInterface& interface, const CouplingOptions&
         if (options.initial_gap != InitialGap::closed) sums.gap(a) += psi(i) * p.gap;
         for (int c = 0; c < 2; ++c) {
           for (int b = 0; b < edge.node_count; ++b)
-            sums.B.emplace_back(a, 2 * edge.nodes[b] + c, -psi(i) * N.N[b] * p.normal(c));
+            sums.own.emplace_back(a, 2 * edge.nodes[b] + c, -psi(i) * N.N[b] * p.normal(c));
           for (int b = 0; b < other.node_count; ++b)
-            sums.B.emplace_back(a, 2 * other.nodes[b] + c, psi(i) * M.N[b] * p.normal(c));
+            sums.opposite.emplace_back(a, 2 * other.nodes[b] + c, psi(i) * M.N[b] * p.normal(c));
         }
       }
     }
@@ -118,9 +120,13 @@ Coupling couple(const Mesh& mesh, const ContactInterface& interface, const Const
     coupling.scale(coupling.row[a]) += sums.support.scale(a);
   }
   std::vector<std::map<int, double>> rows(coupling.gap0.size());
-  for (const auto& t : sums.B)
-    if (coupling.row[t.row()] >= 0) rows[coupling.row[t.row()]][t.col()] += t.value();
-  coupling.B = rows_of(rows, 2 * mesh.nodes.rows());
+  const auto add = [&](const std::vector<Eigen::Triplet<double>>& side) {
+    for (const auto& t : side)
+      if (coupling.row[t.row()] >= 0) rows[coupling.row[t.row()]][t.col()] += t.value();
+    return rows_of(rows, 2 * mesh.nodes.rows());
+  };
+  coupling.own = add(sums.own);
+  coupling.B = add(sums.opposite);
   return coupling;
 }
 
@@ -138,10 +144,10 @@ VecX multiplier_values(const Coupling& coupling, const VecX& row_values) {
   return values;
 }
 
-std::map<int, Vec2> contact_forces(const Coupling& coupling, const VecX& row_values) {
+std::map<int, Vec2> contact_forces(const SparseRows& B, const VecX& row_values) {
   std::map<int, Vec2> forces;
-  for (Eigen::Index row = 0; row < coupling.B.rows(); ++row)
-    for (SparseRows::InnerIterator it(coupling.B, row); it; ++it)
+  for (Eigen::Index row = 0; row < B.rows(); ++row)
+    for (SparseRows::InnerIterator it(B, row); it; ++it)
       forces.try_emplace(int(it.col() / 2), Vec2::Zero()).first->second(it.col() % 2) -= it.value() * row_values(row);
   return forces;
 }

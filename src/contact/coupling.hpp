@@ -26,8 +26,8 @@ std::vector<int> row_nodes(const Coupling& coupling);
 /// Multipliers from the rows' values: value[row[a]], zero without support.
 VecX multiplier_values(const Coupling& coupling, const VecX& row_values);
 
-/// Forces of the rows' values on the nodes of both sides, -B^T row_values, times depth; by node.
-std::map<int, Vec2> contact_forces(const Coupling& coupling, const VecX& row_values);
+/// Forces of the rows' values on the nodes, -B^T row_values, times depth; by node. B: the coupling's, or its own.
+std::map<int, Vec2> contact_forces(const SparseRows& B, const VecX& row_values);
 
 /// The multipliers' values interpolated at a point of the multiplier side with the Lagrange functions of their nodes,
 /// also where psi is dual (its own functions jump between edges).

@@ -20,6 +20,7 @@ struct DroppedMultiplier {
 /// of B belongs to all multipliers a with row[a] == r.
 struct Coupling {
   SparseRows B;                             ///< rows x degrees of freedom: int psi (u_opposite - u_multiplier) . n dA
+  SparseRows own;                           ///< the multiplier side's part of B: both sides share the tip of a crack
   VecX gap0;                                ///< rows: int psi g0 dA, length dA; zero where the gap is closed
   VecX scale;                               ///< rows: int |psi| dA, dA = ds times depth (model/model.hpp)
   std::vector<int> node;                    ///< multiplier -> node of the mesh

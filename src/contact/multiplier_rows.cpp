@@ -11,7 +11,7 @@
 namespace mortise {
 namespace {
 
-enum class State { free, prescribed, apart, weightless, hardly_facing, unsupported };
+enum class State { free, prescribed, apart, tip, weightless, hardly_facing, unsupported };
 
 std::string reason(State state) {
   switch (state) {
@@ -21,6 +21,8 @@ std::string reason(State state) {
       return "with normal displacement prescribed on both sides: pressure of the nearest free node";
     case State::apart:
       return "with normal displacement prescribed on both sides, which stay apart: pressure zero";
+    case State::tip:
+      return "of both sides, the tip of a crack: pressure of the nearest free node";
     case State::weightless:
     case State::hardly_facing:
       return "whose edges hardly face the other side: pressure of the nearest free node";
@@ -71,6 +73,8 @@ std::vector<State> find_states(const Mesh& mesh, const ContactInterface& interfa
     for (int i = 0; i < 3; ++i) {
       const int a = coupling.on_edge[e][i];
       if (a < 0) continue;
+      // Multipliers of less degree than u need no row less where both sides move as one (Seshaiyer & Suri 2000).
+      const bool as_rich = multiplier.edges[e].node_count == 2 || coupling.on_edge[e][2] >= 0;
       State& found = state[a];
       if (support.extent(a) < 1e-10 * length(a)) {
         found = State::unsupported;
@@ -87,6 +91,8 @@ std::vector<State> find_states(const Mesh& mesh, const ContactInterface& interfa
       }
       if (gap)
         found = *gap > round_off ? State::apart : State::prescribed;
+      else if (as_rich && is_end(interface.opposite, coupling.node[a]))
+        found = State::tip;
       else if (support.weight(a) < 0.05 * std::max(support.scale(a), support.lagrange(a)))
         found = State::weightless;
       else if (support.faced(a) < faced_limit * length(a) && support.nearest(a) < length(a) / 2)

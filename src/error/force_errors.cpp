@@ -29,7 +29,7 @@ VecX opened_rows(const Problem& problem, const std::vector<Vec2>& centres, const
   for (const int node : curve_nodes(pair.multiplier))
     for (const int i : {2 * node, 2 * node + 1})
       motion(i) = unit_motion(problem.mesh, i, asked.component, centres[asked.pair]);
-  rows.segment(pair.first_row, pair.coupling.B.rows()) = pair.coupling.B * motion;
+  rows.segment(pair.first_row, pair.coupling.B.rows()) = pair.coupling.own * motion;
   return rows;
 }
 

@@ -60,12 +60,9 @@ Functional mean_functional(const Mesh& mesh, const ContactPair& pair, const Pres
 
 // The multiplier side's nodes moved by 1 along x and y.
 Functional force_functionals(const ContactPair& pair) {
-  std::vector<int> nodes = curve_nodes(pair.multiplier);
-  std::ranges::sort(nodes);
-  MatX weights = MatX::Zero(pair.coupling.B.rows(), 2);
-  for (Eigen::Index row = 0; row < pair.coupling.B.rows(); ++row)
-    for (SparseRows::InnerIterator it(pair.coupling.B, row); it; ++it)
-      if (std::ranges::binary_search(nodes, int(it.col() / 2))) weights(row, it.col() % 2) += it.value();
+  MatX weights = MatX::Zero(pair.coupling.own.rows(), 2);
+  for (Eigen::Index row = 0; row < pair.coupling.own.rows(); ++row)
+    for (SparseRows::InnerIterator it(pair.coupling.own, row); it; ++it) weights(row, it.col() % 2) += it.value();
   MatX opening(Eigen::Index(pair.points.size()), 2);
   for (std::size_t i = 0; i < pair.points.size(); ++i)
     opening.row(Eigen::Index(i)) = -pair.points[i].normal.transpose();

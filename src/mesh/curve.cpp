@@ -154,6 +154,14 @@ bool runs_backwards(const Points& nodes, const Curve& curve) {
   return front.x() > back.x() || (front.x() == back.x() && front.y() > back.y());
 }
 
+bool is_end(const Curve& curve, int node) {
+  return !curve.closed && (node == curve.edges.front().nodes[0] || node == curve.edges.back().nodes[1]);
+}
+
+bool meet_at_a_tip(const Curve& one, const Curve& other) {
+  return is_end(other, one.edges.front().nodes[0]) || is_end(other, one.edges.back().nodes[1]);
+}
+
 std::vector<int> curve_nodes(const Curve& curve) {
   std::vector<int> nodes;
   nodes.reserve(2 * curve.edges.size() + 1);

@@ -33,6 +33,12 @@ Curve contact_curve(const Mesh& mesh, int boundary);
 /// Whether the arc length s of the output runs against the edges: from the end with the smaller x, then y.
 bool runs_backwards(const Points& nodes, const Curve& curve);
 
+/// Whether a node ends the chain.
+bool is_end(const Curve& curve, int node);
+
+/// Whether the chains share an end, as the faces of a crack do its tip.
+bool meet_at_a_tip(const Curve& one, const Curve& other);
+
 /// Nodes along the chain, ends and middles, each once.
 std::vector<int> curve_nodes(const Curve& curve);
 

@@ -40,9 +40,12 @@ Thickness::Pieces Thickness::pieces_of(const Points& nodes, const std::vector<Ed
   return {std::move(pieces), BoxIndex(boxes), boxes.empty() ? 0 : all.diagonal().norm()};
 }
 
-std::vector<double> Thickness::behind(const Curve& curve) const {
+std::vector<double> Thickness::behind(const Curve& curve, const Curve* face) const {
   const auto point = [&](int node) { return Vec2(nodes_.row(node).transpose()); };
   const Pieces& outline = outlines_[bonded_[curve.body]];
+  std::vector<int> of_face = face ? curve_nodes(*face) : std::vector<int>();
+  std::ranges::sort(of_face);
+  const auto on_face = [&](int node) { return std::ranges::binary_search(of_face, node); };
   std::vector<double> thickness;
   thickness.reserve(curve.edges.size());
   for (const Edge& e : curve.edges) {
@@ -52,7 +55,8 @@ std::vector<double> Thickness::behind(const Curve& curve) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const int k : outline.boxes.meeting(middle, middle + outline.diagonal * inward)) {
       const Straight& piece = outline.pieces[k];
-      const bool own = piece.start == e.nodes[0] || piece.end == e.nodes[1];
+      const bool own =
+          piece.start == e.nodes[0] || piece.end == e.nodes[1] || (on_face(piece.start) && on_face(piece.end));
       const Vec2 a = point(piece.start) - middle, b = point(piece.end) - middle;
       const double left = cross(inward, a), right = cross(inward, b);
       if (own || left * right > 0 || left == right) continue;

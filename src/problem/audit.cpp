@@ -5,11 +5,12 @@
 namespace mortise {
 namespace {
 
-// Meant where a ring closes; more often two names were taken for one another.
+// Meant where a ring closes, and of a crack, whose faces meet at its tip; more often two names were taken for one
+// another.
 std::vector<std::string> self_contact_lines(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
   std::vector<std::string> lines;
   for (const ContactPair& pair : pairs)
-    if (pair.multiplier.body == pair.opposite.body)
+    if (pair.multiplier.body == pair.opposite.body && !meet_at_a_tip(pair.multiplier, pair.opposite))
       lines.push_back(pair.spec.key + ": '" + pair.spec.between[0] + "' and '" + pair.spec.between[1] +
                       "' are both curves of body '" + mesh.bodies[pair.multiplier.body] +
                       "', which is in contact with itself there");

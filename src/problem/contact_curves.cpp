@@ -18,11 +18,12 @@
 namespace mortise {
 namespace {
 
+// But for the tip of a crack, which ends both faces.
 void require_own_nodes(const Mesh& mesh, const ContactSpec& spec, const std::array<Curve, 2>& curves) {
   std::vector<int> first = curve_nodes(curves[0]);
   std::ranges::sort(first);
   for (const int node : curve_nodes(curves[1]))
-    if (std::ranges::binary_search(first, node))
+    if (std::ranges::binary_search(first, node) && !(is_end(curves[0], node) && is_end(curves[1], node)))
       throw InputError(mesh.source + ": " + spec.key + ": '" + spec.between[0] + "' and '" + spec.between[1] +
                        "' have a common node " + near_point(mesh.nodes.row(node).transpose()) +
                        "; expected curves with points of their own (in a .geo: a point and a curve for each body)");
@@ -152,6 +153,10 @@ std::vector<ContactCurves> curves_of(const Scene& scene, const std::vector<Conta
         if (!spec.multipliers_on.empty() && spec.multipliers_on == spec.between[i])
           contact.spec.multipliers_on = contact.spec.between[i];
         contact.edge_size[i] = curve_length(mesh.nodes, curve) / double(curve.edges.size());
+      }
+      if (auto& [one, other] = contact.curves; one.body == other.body) {
+        one.thickness = thickness.behind(one, &other);
+        other.thickness = thickness.behind(other, &one);
       }
       require_own_nodes(mesh, contact.spec, contact.curves);
       require_two_bodies(mesh, contact.spec, contact.curves);

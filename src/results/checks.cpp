@@ -86,7 +86,7 @@ void balance_of_contact(const Results& r, std::vector<Check>& checks) {
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     const Coupling& coupling = r.problem.pairs[k].coupling;
     const std::map<int, Vec2> forces =
-        contact_forces(coupling, r.solution.lambda.segment(r.problem.pairs[k].first_row, coupling.B.rows()));
+        contact_forces(coupling.B, r.solution.lambda.segment(r.problem.pairs[k].first_row, coupling.B.rows()));
     const ContactResults& c = r.recovery.contacts[k];
     const Vec2 centre = c.multiplier.nodes[c.multiplier.nodes.size() / 2].position;
     Resultant sum;

@@ -251,11 +251,10 @@ double wet_length(const ContactPair& pair, const VecX& fluid) {
   return length;
 }
 
-Resultant force_on(const Points& nodes, const std::vector<CurveNode>& along, const std::map<int, Vec2>& forces) {
+Resultant force_on_multiplier_side(const Points& nodes, const Coupling& coupling, const VecX& row_values) {
   Resultant sum;
-  for (const CurveNode& at : along)
-    if (const auto force = forces.find(at.node); force != forces.end())
-      sum.add(nodes.row(at.node).transpose(), force->second);
+  for (const auto& [node, force] : contact_forces(coupling.own, row_values))
+    sum.add(nodes.row(node).transpose(), force);
   return sum;
 }
 
@@ -295,12 +294,12 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   r.ends = in_contact.ends;
   if (r.ends && runs_backwards(mesh.nodes, pair.multiplier))
     r.ends = {r.length - (*in_contact.ends)[1], r.length - (*in_contact.ends)[0]};
-  const Resultant sum = force_on(mesh.nodes, along, contact_forces(pair.coupling, lambda));
+  const Resultant sum = force_on_multiplier_side(mesh.nodes, pair.coupling, lambda);
   r.force = sum.force;
   r.moment = sum.moment;
   r.centre = centre_of(mesh.nodes, pair.multiplier.edges);
   if (pair.spec.fluid)
-    r.fluid = FluidResults{.force = force_on(mesh.nodes, along, contact_forces(pair.coupling, -of_fluid)).force,
+    r.fluid = FluidResults{.force = force_on_multiplier_side(mesh.nodes, pair.coupling, -of_fluid).force,
                            .wet_length = wet_length(pair, fluid)};
   return r;
 }

@@ -229,7 +229,7 @@ def stress_difference(run):
     for k in range(len(run.summary["contact"])):
         sums = []
         for side in sides_of(table, k):
-            side = [row for row in side if row["p"] and row["sigma_n"]]
+            side = [row for row in side if float(row["p"] or 0) and row["sigma_n"]]
             _, p, length = read_line(run, side, k)
             off = p + [float(row["sigma_n"]) for row in side]
             sums.append(((length * off**2).sum(), (length * p**2).sum()))

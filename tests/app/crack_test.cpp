@@ -1,0 +1,122 @@
+// Faces of a crack: two contact curves of one body that share its tips.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <sstream>
+
+#include "app/accuracy.hpp"
+#include "app/solve_scene.hpp"
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+struct Crack {
+  double half_width = 2, angle = 0, x = 0, y = 0;  // of the plate; of the crack of half length 1, degrees, its centre
+  bool edge = false;                               // its first end lies on the plate's left side
+  int order = 2;
+  double size = 0.1;  // of the edges along it
+};
+
+// A square plate cut in two along the crack's line, the crack drawn twice between the same tips.
+std::string geo_of(const Crack& c) {
+  std::ostringstream geo;
+  geo << "W = " << c.half_width << "; a = Pi / 180 * " << c.angle << "; x = " << c.x << "; y = " << c.y
+      << "; h = " << c.size << "; edge = " << c.edge << ";\n"
+      << R"(Point(1) = {-W, -W, 0, W / 5}; Point(2) = {W, -W, 0, W / 5}; Point(3) = {W, y + (W - x) * Tan(a), 0, W / 5};
+Point(4) = {W, W, 0, W / 5}; Point(5) = {-W, W, 0, W / 5}; Point(6) = {-W, y - (W + x) * Tan(a), 0, edge ? h : W / 5};
+Point(8) = {x + Cos(a), y + Sin(a), 0, h};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(8) = {8, 3};
+If (edge)
+  Point(7) = {-W, y - (W + x) * Tan(a), 0, h};
+  Line(5) = {5, 6}; Line(6) = {7, 1}; Line(9) = {7, 8}; Line(10) = {6, 8};
+  Curve Loop(1) = {1, 2, -8, -9, 6}; Curve Loop(2) = {3, 4, 5, 10, 8};
+Else
+  Point(7) = {x - Cos(a), y - Sin(a), 0, h};
+  Line(5) = {5, 6}; Line(6) = {6, 1}; Line(7) = {6, 7}; Line(9) = {7, 8}; Line(10) = {7, 8};
+  Curve Loop(1) = {1, 2, -8, -9, -7, 6}; Curve Loop(2) = {3, 4, 5, 7, 10, 8};
+EndIf
+Plane Surface(1) = {1}; Plane Surface(2) = {2};
+MeshSize{ 8 } = h;
+Physical Surface("plate") = {1, 2};
+Physical Curve("lower") = {9}; Physical Curve("upper") = {10};
+Physical Curve("bottom") = {1}; Physical Curve("right") = {2, 3}; Physical Curve("top") = {4}; Physical Curve("left") = {5, 6};
+Physical Point("one") = {1}; Physical Point("other") = {2};
+Mesh.SecondOrderIncomplete = 1; Mesh.ElementOrder = )"
+      << c.order << ";\n";
+  return geo.str();
+}
+
+Results solved(const Crack& crack, const std::string& loads, const std::vector<Override>& overrides = {}) {
+  const TemporaryFolder folder;
+  folder.write("crack.geo", geo_of(crack));
+  const std::string scene = folder.write("crack.toml", R"(mesh.file = "crack.geo"
+materials.one = { young = 1000, poisson = 0.3 }
+bodies.plate = "one"
+contact = [{ between = ["upper", "lower"] }]
+boundary = [{ on = "one", displacement = { x = 0, y = 0 } }, { on = "other", displacement = { y = 0 } }, )" +
+                                                           loads + "]\n");
+  const Scene read = read_scene(scene, overrides);
+  return read.accuracy ? *solve_to_accuracy(read, {}, {}) : solve_scene(read);
+}
+
+TEST(Cracks, UnderEqualPressureAllRoundPressAsIfThereWereNone) {
+  std::mt19937 random(17);
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const std::array spaces{"linear", "quadratic", "dual"};
+  for (int i = 0; i < 24; ++i) {
+    const Crack crack{.angle = draw(-35, 35),
+                      .x = draw(-0.5, 0.5),
+                      .y = draw(-0.5, 0.5),
+                      .edge = i % 3 == 0,
+                      .order = 1 + i % 2,
+                      .size = draw(0.05, 0.4)};
+    const std::string space = spaces[crack.order == 1 ? 2 * (random() % 2) : random() % 3],
+                      side = random() % 2 ? "upper" : "lower";
+    SCOPED_TRACE(std::to_string(i) + ", " + space + " on " + side);
+    const Results r =
+        solved(crack, R"({ on = ["bottom", "right", "top", "left"], pressure = 2 })",
+               {{"method.multipliers", '"' + space + '"'}, {"contact.0.multipliers_on", '"' + side + '"'}});
+    EXPECT_EQ(r.status, Status::solved);
+    EXPECT_EQ(r.warnings.size(), space == "linear" && crack.order == 2 ? 0 : 1);
+    const ContactResults& c = r.recovery.contacts[0];
+    EXPECT_LE((c.pressure.array() - 2).abs().maxCoeff(), 1e-8);
+    EXPECT_NEAR(c.force.norm(), 2 * c.length, 1e-8);
+  }
+}
+
+// Inner crack of half length 1 in a plate that is large under stress s (x0 - x) across it: by Westergaard's function it is open
+// up to b, where the stress intensity of the open part vanishes, and pressed by p beyond.
+TEST(Cracks, ThatCloseInPartEndWhereTheyOpenWithoutStressIntensity) {
+  for (const int order : {1, 2})
+    for (const double x0 : {-0.2, 0.1, 0.4}) {
+      SCOPED_TRACE(std::to_string(order) + ", " + std::to_string(x0));
+      const std::string place = std::to_string(x0) + " - x";
+      const Results r = solved({.half_width = 120, .order = order},
+                               "{ on = \"top\", traction = [0, \"" + place +
+                                   "\"] }, { on = \"bottom\", traction = [0, \"-(" + place + ")\"] }",
+                               {{"accuracy.value", order == 1 ? "0.02" : "0.003"}});
+      EXPECT_EQ(r.status, Status::solved);
+      const double b = (1 + 4 * x0) / 3, half = (1 + b) / 2, centre = (b - 1) / 2;
+      const auto exact = [&](double x) {
+        const double t = (x - centre) / half;
+        return t > 1 ? half * (t + 0.5) * std::sqrt((t - 1) / (t + 1)) : 0;
+      };
+      const ContactResults& c = r.recovery.contacts[0];
+      double off = 0, size = 0;
+      for (std::size_t i = 1; i < c.multiplier.nodes.size(); ++i) {
+        const ContactNode& node = c.multiplier.nodes[i];
+        const double length = node.s - c.multiplier.nodes[i - 1].s;
+        off += length * std::pow(node.p - exact(node.position.x()), 2);
+        size += length * std::pow(exact(node.position.x()), 2);
+      }
+      EXPECT_LE(std::sqrt(off / size), order == 1 ? 0.022 : 0.005);
+      EXPECT_NEAR(c.length_in_contact, 1 - b, order == 1 ? 0.05 : 0.003);
+    }
+}
+
+}  // namespace
+}  // namespace mortise::test
