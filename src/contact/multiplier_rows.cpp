@@ -101,6 +101,17 @@ std::vector<State> find_states(const Mesh& mesh, const ContactInterface& interfa
   return state;
 }
 
+// Whether the ends of a curve are one place of neighbouring sectors.
+bool closes_in_the_next_sector(const Mesh& mesh, const Curve& curve) {
+  const int start = curve.edges.front().nodes[0], end = curve.edges.back().nodes[1];
+  const auto follows = [&](const TiedNode& one) {
+    const int other = one.node == start ? end : one.node == end ? start : -1;
+    return std::ranges::any_of(one.weights, [&](const auto& w) { return w.first == other && w.second > 0.99; });
+  };
+  return std::ranges::any_of(
+      mesh.ties, [&](const Tie& tie) { return !tie.turn.isIdentity() && std::ranges::any_of(tie.nodes, follows); });
+}
+
 }  // namespace
 
 std::vector<int> multipliers_along(const Coupling& coupling) {
@@ -125,6 +136,8 @@ void number_rows(const Mesh& mesh, const ContactInterface& interface, const Cons
   const std::vector<int> order = multipliers_along(coupling);
   const auto free = [&](int i) { return state[order[i]] == State::free; };
   int rows = 0;
+  if (free(0) && free(int(order.size()) - 1) && closes_in_the_next_sector(mesh, interface.multiplier))
+    coupling.row[order.front()] = coupling.row[order.back()] = rows++;
   for (const int a : order)
     if (state[a] == State::free && coupling.row[a] < 0) coupling.row[a] = rows++;
   for (int i = 0; i < int(order.size()); ++i) {

@@ -30,7 +30,8 @@ inline constexpr double faced_limit = 0.1;
 /// of nodes where both sides' normal displacements are prescribed, those whose weighted gap says nothing of the gap's
 /// sign, and those whose edges hardly face the other side share the row of the nearest free one along the curve (so
 /// that constants stay in the space: Wohlmuth 2000, the end edges of a mortar). Where the prescribed displacements
-/// leave the sides apart, the pressure is zero. Throws InputError where they overlap, and where no multiplier is free.
+/// leave the sides apart, the pressure is zero. The ends of a sector's curve that goes on in the next one share a row.
+/// Throws InputError where they overlap, and where no multiplier is free.
 void number_rows(const Mesh& mesh, const ContactInterface& interface, const Constraints& constraints,
                  InitialGap initial_gap, const Support& support, Coupling& coupling);
 

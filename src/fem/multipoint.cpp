@@ -201,15 +201,19 @@ std::optional<TieOverlap> MultipointBuilder::tie(const Tie& tie) {
   std::map<int, double> area, drawn;  // of the tied q
   const Vec2 normal = tie.pretension ? tie.pretension->normal : Vec2(0, 0);
   const auto add = [&](int q, const TiedNode& one, const Vec2& along) {
+    const Vec2 of_other = tie.turn.transpose() * along;
     for (const auto& [other, weight] : one.weights)
       for (int c = 0; c < 2; ++c)
-        if (along(c) != 0) ties_[q].emplace_back(2 * other + c, weight * along(c));
+        if (of_other(c) != 0) ties_[q].emplace_back(2 * other + c, weight * of_other(c));
   };
   for (const TiedNode& one : tie.nodes) {
     if (rigid_.contains(one.node))
       refuse(tie.key, one.node, "ties a node of a rigid curve; expected multipliers_on the other curve");
+    const bool is_its_own = std::ranges::any_of(one.weights, [&](const auto& w) { return w.first == one.node; });
     for (const Axis& axis : axes(one.node))
       if (!axis.held) {
+        if (is_its_own)
+          refuse(tie.key, one.node, "is on both curves; expected displacement = { x = 0, y = 0 } at the centre");
         area[axis.q] = one.area;
         drawn[axis.q] = normal.dot(axis.direction);
         add(axis.q, one, axis.direction);

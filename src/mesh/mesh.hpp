@@ -96,13 +96,14 @@ struct Pretension {
   std::optional<double> overlap;  ///< length, + into each other; none: what the force makes of it
 };
 
-/// Two curves that are one: the nodes of the first follow the second.
+/// Two curves that are one: the nodes of the first follow the second, or that turned about the origin.
 struct Tie {
   std::string key;  ///< of the scene, for messages
   std::array<std::string, 2> curves;
   std::array<int, 2> boundary, body;
   std::vector<TiedNode> nodes;
   std::optional<Pretension> pretension = {};
+  Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();
 };
 
 struct Mesh {

@@ -25,6 +25,8 @@ std::string to_string(Condition value) {
       return "bilateral";
     case Condition::tied:
       return "tied";
+    case Condition::cyclic:
+      return "cyclic";
   }
   assert(false && "no such Condition");
   return {};

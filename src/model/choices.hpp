@@ -8,8 +8,8 @@ namespace mortise {
 
 /// axisymmetric: the meridian plane of rings, the first coordinate is the radius.
 enum class Plane { strain, stress, axisymmetric };
-/// tied: what is drawn as two bodies is one.
-enum class Condition { unilateral, bilateral, tied };
+/// tied: what is drawn as two bodies is one; cyclic: so is a sector and the next one, turned about the origin.
+enum class Condition { unilateral, bilateral, tied, cyclic };
 
 /// The undeformed gap: that between the curves that the meshes stand for, that between their edges, none, or
 /// one that the scene gives.

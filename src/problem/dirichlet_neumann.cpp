@@ -138,7 +138,8 @@ std::vector<char> dirichlet_bodies(const std::vector<std::string>& names, const 
                                    const std::vector<ContactCurves>& contacts) {
   std::vector<Link> links = contact_links(mesh, contacts, d.system.constraints);
   add_shared_nodes(mesh, links);
-  for (const Tie& tie : mesh.ties) links.push_back({tie.body[0], tie.body[1], false, false, false, false, tie.key});
+  for (const Tie& tie : mesh.ties)
+    if (tie.body[0] != tie.body[1]) links.push_back({tie.body[0], tie.body[1], false, false, false, false, tie.key});
   const Dealt dealt = deal_out(mesh, links, contacts.size());
   const std::vector<int> named = named_sides(names, mesh, dealt), softer = softer_sides(links, dealt, d.laws);
   std::vector<char> dirichlet(mesh.bodies.size(), 0);

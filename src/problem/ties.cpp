@@ -1,11 +1,14 @@
 #include "problem/ties.hpp"
 
+#include <cmath>
+#include <numbers>
 #include <set>
 #include <sstream>
 #include <utility>
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
+#include "base/vectors.hpp"
 #include "contact/mortar_projection.hpp"
 #include "fem/edges.hpp"
 #include "problem/contact_curves.hpp"
@@ -39,14 +42,38 @@ Vec2 cut_normal(const Model& model, const Mesh& mesh, const ContactSpec& spec, c
   return normal;
 }
 
+// From curve `from` to curve `to` of the next sector, about the origin, by their ends that are farthest from it.
+Eigen::Matrix2d turn_between(const Mesh& mesh, const ContactSpec& spec, const Curve& from, const Curve& to) {
+  constexpr double whole = 1e-3;  // of a number of sectors
+  const auto farthest = [&](const Curve& curve) {
+    const Vec2 start = mesh.nodes.row(curve.edges.front().nodes[0]), end = mesh.nodes.row(curve.edges.back().nodes[1]);
+    return start.norm() > end.norm() ? start : end;
+  };
+  const Vec2 a = farthest(from), b = farthest(to);
+  const double angle = std::atan2(cross(a, b), a.dot(b)), count = 2 * std::numbers::pi / std::abs(angle);
+  if (!(std::abs(count - std::round(count)) < whole * count)) {
+    std::ostringstream text;
+    text << spec.key << ".condition = \"cyclic\": from '" << spec.between[0] << "' to '" << spec.between[1]
+         << "' there are " << 180 / std::numbers::pi * std::abs(angle)
+         << " degrees about the origin; expected a whole part of 360";
+    throw SceneError(text.str());
+  }
+  const double turn = std::copysign(2 * std::numbers::pi / std::round(count), angle);
+  return Eigen::Matrix2d{{std::cos(turn), -std::sin(turn)}, {std::sin(turn), std::cos(turn)}};
+}
+
+Points turned(Points nodes, const Curve& curve, const Eigen::Matrix2d& turn) {
+  for (const int node : curve_nodes(curve)) nodes.row(node) = (turn * nodes.row(node).transpose()).eval().transpose();
+  return nodes;
+}
+
 // A node that follows another curve already is left out.
 Tie tie_of(const Model& model, const Mesh& mesh, const ContactCurves& pair, std::set<int>& followers) {
   const int first = following(pair);
-  Tie tie{.key = pair.spec.key,
-          .curves = {},
-          .boundary = {},
-          .body = {},
-          .nodes = mortar_projection(mesh.nodes, pair.curves[first], pair.curves[1 - first], model)};
+  Tie tie{.key = pair.spec.key, .curves = {}, .boundary = {}, .body = {}, .nodes = {}};
+  const Curve &follows = pair.curves[first], &leads = pair.curves[1 - first];
+  if (pair.spec.condition == Condition::cyclic) tie.turn = turn_between(mesh, pair.spec, leads, follows);
+  tie.nodes = mortar_projection(turned(mesh.nodes, leads, tie.turn), follows, leads, model);
   for (const int k : {0, 1}) {
     const int of = k == 0 ? first : 1 - first;
     tie.curves[k] = pair.spec.between[of];
@@ -64,16 +91,16 @@ Tie tie_of(const Model& model, const Mesh& mesh, const ContactCurves& pair, std:
   return tie;
 }
 
-Vec2 place_of(const Points& nodes, const TiedNode& one) {
+Vec2 place_of(const Points& nodes, const Tie& tie, const TiedNode& one) {
   Vec2 place = Vec2::Zero();
   for (const auto& [node, weight] : one.weights) place += weight * nodes.row(node).transpose();
-  return place;
+  return tie.turn * place;
 }
 
 void require_near(const Mesh& mesh, const Tie& tie, double edge) {
   for (const TiedNode& one : tie.nodes) {
     const Vec2 drawn = mesh.nodes.row(one.node).transpose();
-    const double apart = (place_of(mesh.nodes, one) - drawn).norm();
+    const double apart = (place_of(mesh.nodes, tie, one) - drawn).norm();
     if (apart <= 0.1 * edge) continue;
     std::ostringstream text;
     text << tie.key << ": '" << tie.curves[0] << "' and '" << tie.curves[1] << "' are " << apart << " apart "
@@ -98,7 +125,7 @@ Mesh tied(const Scene& scene, Mesh mesh) {
   for (std::size_t round = 0; round < mesh.ties.size(); ++round)
     for (const Tie& tie : mesh.ties)
       for (const TiedNode& one : tie.nodes) {
-        Vec2 to = place_of(mesh.nodes, one);
+        Vec2 to = place_of(mesh.nodes, tie, one);
         if (scene.model.axisymmetric() && mesh.nodes(one.node, 0) <= 0) to.x() = 0;  // stays on the axis
         mesh.nodes.row(one.node) = to.transpose();
       }

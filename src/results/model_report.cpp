@@ -1,3 +1,4 @@
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <sstream>
@@ -218,6 +219,8 @@ Json loads_json(const Problem& p) {
 Json tie_json(const Problem& p, const Reactions* reactions, int k) {
   const Tie& tie = p.mesh.ties[k];
   Json json{{"follows", tie.curves[0]}, {"leads", tie.curves[1]}, {"nodes", tie.nodes.size()}};
+  if (const double turn = std::atan2(tie.turn(1, 0), tie.turn(0, 0)); turn != 0)
+    json["turned"] = 180 / std::numbers::pi * turn;
   if (tie.pretension && tie.pretension->force) json["pretension"] = *tie.pretension->force;
   if (tie.pretension && tie.pretension->overlap) json["overlap"] = *tie.pretension->overlap;
   if (!reactions) return json;

@@ -110,8 +110,9 @@ void print_some(const Json& entries, const std::string& what, std::ostream& out,
 std::string tie_line(const Json& tie) {
   std::ostringstream out;
   const std::string follows = tie["follows"];
-  out << "  tied      " << follows << " follows " << tie["leads"].get<std::string>() << " at " << tie["nodes"]
-      << " nodes";
+  out << "  tied      " << follows << " follows " << tie["leads"].get<std::string>();
+  if (tie.contains("turned")) out << ", turned by " << tie["turned"].get<double>() << " degrees,";
+  out << " at " << tie["nodes"] << " nodes";
   if (tie.contains("force")) out << "; force " << pair_of(tie["force"]) << " on " << follows;
   if (tie.contains("tension"))
     out << "; overlap " << tie["overlap"].get<double>() << ", tension " << tie["tension"].get<double>();

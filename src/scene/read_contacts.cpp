@@ -106,15 +106,21 @@ Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
                 "two physical curves, or patterns: then all pairs of two bodies' curves that face each other are in "
                 "contact, but for those with an entry of their own; curves of several bodies are none. A curve may be "
                 "in several pairs, and one in pieces, as a surface with grooves, is in those of its pieces (`NAME_1`, "
-                "`NAME_2` from left to right) that face the other's"},
+                "`NAME_2` from left to right) that face the other's. Both may be of one body, which touches itself "
+                "there: the "
+                "ends of a split ring, or the faces of a crack, two curves between the same points"},
                "a list of two physical curves"),
       key("within", contact.within, above(0),
           "of patterns: > 0, how far apart the curves may be where they face each other", "half an edge"),
-      key("condition", contact.condition, one_of({Condition::unilateral, Condition::bilateral, Condition::tied}),
-          "`\"unilateral\"`, `\"bilateral\"`, or `\"tied\"`: both bodies are one where their meshes do not match, in "
+      key("condition", contact.condition,
+          one_of({Condition::unilateral, Condition::bilateral, Condition::tied, Condition::cyclic}),
+          "`\"unilateral\"`, `\"bilateral\"`, `\"tied\"` or `\"cyclic\"`. Tied: both bodies are one where their meshes "
+          "do not match, in "
           "both components and in tension too. `multipliers_on` names the curve whose nodes follow the other then "
           "(default: that with the shorter edges); no gap, no `contact.csv`, not counted by `accuracy.pair`; the "
-          "terminal and summary.json tell the force that goes through"),
+          "terminal and summary.json tell the force that goes through. Cyclic: tied to the other turned about the "
+          "origin, "
+          "as a sector of a disc to the next one"),
       {"initial_gap", a_field(use).schema,
        "`\"curve\"`: between the drawn curves, whatever their meshes (theory, section 9); a length, which may be a "
        "[function of place](#functions-of-place): the gap is that, + open, − overlap, whatever is drawn and meshed; "
@@ -160,10 +166,13 @@ void read_contacts(const Node& root, Scene& scene) {
     if (contact.within && !is_pattern(contact.between[0]) && !is_pattern(contact.between[1]))
       fail(*find(*entry, "within"),
            "goes with between = patterns, such as [\"block_*\", \"block_*\"], whose pairs are found");
-    const bool tied = contact.condition == Condition::tied;
+    const bool cyclic = contact.condition == Condition::cyclic, tied = cyclic || contact.condition == Condition::tied;
+    if (cyclic && (scene.model.axisymmetric() || is_pattern(contact.between[0]) || is_pattern(contact.between[1])))
+      fail(*find(*entry, "condition"), "is of two curves by their names in a plane model; expected these");
     for (const char* key : {"initial_gap", "clearance", "stiffness", "fluid"})
       if (const Node* node = find(*entry, key); tied && node != nullptr)
-        fail(*node, "has no meaning with condition = \"tied\", which makes one body of both; expected one of them");
+        fail(*node, "has no meaning with condition = \"" + to_string(contact.condition) +
+                        "\", which makes one body of both; expected one of them");
     check_pretension(*entry, contact);
     check_fluid(*entry, contact);
     read_initial_gap(find(*entry, "initial_gap"), scene, contact);

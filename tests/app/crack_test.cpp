@@ -88,8 +88,8 @@ TEST(Cracks, UnderEqualPressureAllRoundPressAsIfThereWereNone) {
   }
 }
 
-// Inner crack of half length 1 in a plate that is large under stress s (x0 - x) across it: by Westergaard's function it is open
-// up to b, where the stress intensity of the open part vanishes, and pressed by p beyond.
+// Inner crack of half length 1 in a plate that is large under stress s (x0 - x) across it: by Westergaard's function it
+// is open up to b, where the stress intensity of the open part vanishes, and pressed by p beyond.
 TEST(Cracks, ThatCloseInPartEndWhereTheyOpenWithoutStressIntensity) {
   for (const int order : {1, 2})
     for (const double x0 : {-0.2, 0.1, 0.4}) {

@@ -91,7 +91,7 @@ def other_sides(tables, summary):
     on = set(summary["method"]["multipliers_on"])
     for k, entry in enumerate(tables.get("contact", [])):
         first, second = entry["between"]
-        if first != second and entry.get("condition") != "tied":
+        if first != second and entry.get("condition") not in ("tied", "cyclic"):
             taken = any(fnmatchcase(curve, first) for curve in on)
             yield f"contact.{k}.multipliers_on={json.dumps(second if taken else first)}"
 

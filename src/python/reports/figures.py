@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import sys
+from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -229,9 +230,9 @@ def stress_difference(run):
     for k in range(len(run.summary["contact"])):
         sums = []
         for side in sides_of(table, k):
-            side = [row for row in side if float(row["p"] or 0) and row["sigma_n"]]
+            side = [row for row in side if float(row["p"] or 0) and row["sigma_n"] and row["gap"]]
             _, p, length = read_line(run, side, k)
-            off = p + [float(row["sigma_n"]) for row in side]
+            off = np.abs(p + [float(row["sigma_n"]) for row in side])
             sums.append(((length * off**2).sum(), (length * p**2).sum()))
         total += min((pair for pair in sums if pair[1] > 0), key=lambda pair: pair[0] / pair[1], default=0)
     return float(math.sqrt(total[0] / total[1])) if total[1] > 0 else None
@@ -260,8 +261,8 @@ def of_freefem(run, path):
 
 def deformed_gaps(run):
     """Where p acts that is not a fluid's, how far the deformed sides of the drawn pairs are apart or overlap: the largest distance of a vertex of
-    the multiplier side from the deformed other curve; None without such pairs. Of the files' places and displacements
-    alone, not of what the program projects and integrates."""
+    the multiplier side from the deformed other curve, or from its tangent at an end, as far as anything slid beyond; None without such
+    pairs. Of the files' places and displacements alone, not of what the program projects and integrates."""
     lines, table = meshio.vtu.read(run.folder / "contact.vtu"), rows_of(run.folder / "contact.csv")
     moved = lines.points[:, :2] + lines.point_data["displacement"][:, :2]
     edges = [(*row[:2], row[2] if len(row) > 2 else -1) for block in lines.cells for row in block.data]
@@ -272,13 +273,21 @@ def deformed_gaps(run):
             continue
         rows = [number for number, row in enumerate(table) if row["pair"] == str(k)]
         mine = {number for number in rows if table[number]["curve"] == table[rows[0]]["curve"]}
-        other = np.array(polylines(moved, [edge for edge in edges if edge[0] in set(rows) - mine]))
+        others = [edge for edge in edges if edge[0] in set(rows) - mine]
+        other = np.array(polylines(moved, others))
+        pieces = other.shape[1] - 1
+        ends = Counter(node for edge in others for node in edge[:2])
+        first, last = (np.array([ends[edge[side]] == 1 for edge in others]) for side in (0, 1))
         start, step = (part.reshape(-1, 2) for part in (other[:, :-1], np.diff(other, axis=1)))
+        beyond = run.summary["extremes"]["displacement"] / np.linalg.norm(step, axis=1)
+        low, high = np.zeros(len(step)), np.ones(len(step))
+        low[::pieces] -= first * beyond[::pieces]
+        high[pieces - 1 :: pieces] += last * beyond[pieces - 1 :: pieces]
         for number in mine & vertices:
             row = table[number]
             if not row["gap"] or float(row["p"] or 0) <= float(row.get("p_fluid", 0)):  # beyond the other's end it faces nothing
                 continue
-            t = np.clip(((moved[number] - start) * step).sum(axis=1) / (step**2).sum(axis=1), 0, 1)
+            t = np.clip(((moved[number] - start) * step).sum(axis=1) / (step**2).sum(axis=1), low, high)
             distance = np.linalg.norm(start + t[:, None] * step - moved[number], axis=1).min()
             largest = max(largest or 0, float(distance))
     return largest
