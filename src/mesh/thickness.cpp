@@ -6,6 +6,11 @@
 #include "base/vectors.hpp"
 
 namespace mortise {
+namespace {
+
+constexpr double coincide = 0.1;  // of an edge: two meshes of one line that turns by less than 0.8 from edge to edge
+
+}  // namespace
 
 std::vector<std::vector<Edge>> outlines(const BoundaryEdges& boundary, const std::vector<int>& bonded) {
   std::vector<std::vector<Edge>> edges(bonded.size());
@@ -55,12 +60,12 @@ std::vector<double> Thickness::behind(const Curve& curve, const Curve* face) con
     double nearest = std::numeric_limits<double>::infinity();
     for (const int k : outline.boxes.meeting(middle, middle + outline.diagonal * inward)) {
       const Straight& piece = outline.pieces[k];
-      const bool own =
-          piece.start == e.nodes[0] || piece.end == e.nodes[1] || (on_face(piece.start) && on_face(piece.end));
+      const bool own = piece.start == e.nodes[0] || piece.end == e.nodes[1];
       const Vec2 a = point(piece.start) - middle, b = point(piece.end) - middle;
       const double left = cross(inward, a), right = cross(inward, b);
       if (own || left * right > 0 || left == right) continue;
       const double t = (left * b - right * a).dot(inward) / (left - right);
+      if (on_face(piece.start) && on_face(piece.end) && t < coincide * (end - start).norm()) continue;
       if (t > 0) nearest = std::min(nearest, t);
     }
     thickness.push_back(nearest);

@@ -18,12 +18,28 @@
 namespace mortise {
 namespace {
 
+// Whether two bodies share more than a point, or are one.
+bool bonded(const Mesh& mesh, int one, int other) {
+  if (one == other) return true;
+  std::vector<char> of_one(mesh.nodes.rows(), 0);
+  std::set<int> common;
+  for (const int body : {one, other})
+    for (const Cell& cell : mesh.cells)
+      for (int a = 0; cell.body == body && a < node_count(cell.kind); ++a)
+        if (body == one)
+          of_one[cell.nodes[a]] = 1;
+        else if (of_one[cell.nodes[a]])
+          common.insert(cell.nodes[a]);
+  return common.size() > 1;
+}
+
 // But for the tip of a crack, which ends both faces.
 void require_own_nodes(const Mesh& mesh, const ContactSpec& spec, const std::array<Curve, 2>& curves) {
   std::vector<int> first = curve_nodes(curves[0]);
   std::ranges::sort(first);
   for (const int node : curve_nodes(curves[1]))
-    if (std::ranges::binary_search(first, node) && !(is_end(curves[0], node) && is_end(curves[1], node)))
+    if (std::ranges::binary_search(first, node) &&
+        !(is_end(curves[0], node) && is_end(curves[1], node) && bonded(mesh, curves[0].body, curves[1].body)))
       throw InputError(mesh.source + ": " + spec.key + ": '" + spec.between[0] + "' and '" + spec.between[1] +
                        "' have a common node " + near_point(mesh.nodes.row(node).transpose()) +
                        "; expected curves with points of their own (in a .geo: a point and a curve for each body)");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "results/line_checks.hpp"
 
@@ -82,21 +83,31 @@ void balance_of_all(const Results& r, double limit, std::vector<Check>& checks) 
 
 // What the contact puts on both sides of a pair, together: it must vanish.
 void balance_of_contact(const Results& r, std::vector<Check>& checks) {
-  double force = 0, moment = 0;
+  struct Sums {
+    Resultant both;
+    double one_side = 0, length = 0;
+  };
+  std::vector<Sums> pairs;
+  double round_off = 0;
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     const Coupling& coupling = r.problem.pairs[k].coupling;
     const std::map<int, Vec2> forces =
         contact_forces(coupling.B, r.solution.lambda.segment(r.problem.pairs[k].first_row, coupling.B.rows()));
     const ContactResults& c = r.recovery.contacts[k];
     const Vec2 centre = c.multiplier.nodes[c.multiplier.nodes.size() / 2].position;
-    Resultant sum;
-    double on_multiplier_side = 0;
-    for (const auto& [node, contact] : forces) sum.add(r.problem.mesh.nodes.row(node).transpose() - centre, contact);
+    Sums& sums = pairs.emplace_back();
+    sums.length = c.length;
+    for (const auto& [node, contact] : forces)
+      sums.both.add(r.problem.mesh.nodes.row(node).transpose() - centre, contact);
     for (const ContactNode& n : c.multiplier.nodes)
-      if (const auto contact = forces.find(n.node); contact != forces.end())
-        on_multiplier_side += contact->second.norm();
-    force = largest(force, fraction(sum.force.norm(), on_multiplier_side));
-    moment = largest(moment, fraction(std::abs(sum.moment), on_multiplier_side * c.length));
+      if (const auto contact = forces.find(n.node); contact != forces.end()) sums.one_side += contact->second.norm();
+    round_off = largest(round_off, std::numeric_limits<double>::epsilon() * sums.one_side);
+  }
+  double force = 0, moment = 0;
+  for (const Sums& sums : pairs) {
+    const double size = largest(sums.one_side, round_off);
+    force = largest(force, fraction(sums.both.force.norm(), size));
+    moment = largest(moment, fraction(std::abs(sums.both.moment), size * sums.length));
   }
   checks.push_back({"contact forces equal and opposite", force, 1e-10});
   checks.push_back({"contact moments equal and opposite", moment, 1e-10});
