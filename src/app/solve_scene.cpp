@@ -61,7 +61,7 @@ Mesh tightened(const Scene& scene, Mesh mesh, const Progress& progress) {
   for (ContactSpec& tie : alone.ties) tie.locked = false;
   Problem p = prepared(alone, std::move(mesh), progress);
   const Solution solution = solver_of(p)->solve();
-  require_solution(p.mesh, p.pairs, p.floating, solution);
+  require_solution(p, solution);
   if (solution.status != SolveStatus::converged)
     throw SceneError(
         "contact.locked: the solution under pretension alone, which the overlaps are from, has not converged");
@@ -189,7 +189,7 @@ void solve_problem(SystemSolver& solver, const Progress& progress, Results& r) {
   Stopwatch watch;
   if (progress) progress("solve for " + std::to_string(free_unknowns(r)) + " unknowns");
   r.solution = solve_wet(solver, p);
-  require_solution(p.mesh, p.pairs, p.floating, r.solution);
+  require_solution(p, r.solution);
   find_unheld(r);
   r.seconds.factorise = r.solution.factorise_seconds;
   r.seconds.solve = watch.lap() - r.seconds.factorise;

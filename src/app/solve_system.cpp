@@ -4,11 +4,14 @@
 #include "base/printable.hpp"
 #include "ddm/solve_feti.hpp"
 #include "ddm/substructures.hpp"
+#include "fem/edges.hpp"
+#include "fem/motion_sets.hpp"
 #include "preprint_solvers/mssor.hpp"
 #include "preprint_solvers/solve_ddm.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/layered_system.hpp"
 #include "solve/multipoint_system.hpp"
+#include "solve/nonnegative_fit.hpp"
 
 namespace mortise {
 namespace {
@@ -25,12 +28,45 @@ std::string dependent_row(const Mesh& mesh, const std::vector<ContactPair>& pair
               : solution.advice);
 }
 
-std::string unconstrained(const Mesh& mesh, const Floating& floating, const Solution& solution) {
-  const std::string expected = "; expected a load that presses it on, or prescribed displacements that hold it" +
-                               (solution.advice.empty() ? std::string() : " (" + solution.advice + ")");
+// Whether pressures at the ends of segments would carry the load, as those that are spread over edges do not.
+bool points_carry(const Problem& p) {
+  constexpr double round_off = 1e-8;  // of the largest terms
+  const auto& motions = p.floating.motions;
+  VecX work = VecX::Zero(Eigen::Index(motions.size()));
+  for (const MotionSet& set : motion_sets(p.mesh, motions))
+    for (std::size_t k = 0; k < set.motions.size(); ++k)
+      for (Eigen::Index i = 0; i < set.fields.rows(); ++i)
+        work(set.motions[k]) += set.fields(i, Eigen::Index(k)) * p.discretisation.system.f(set.unknown(i));
+  std::vector<VecX> opened;  // by the motions, at each point
+  for (const ContactPair& pair : p.pairs) {
+    if (pair.spec.condition != Condition::unilateral) return false;
+    for (const Segment& segment : find_segments(p.mesh.nodes, pair))
+      for (const double xi : {segment.begin, segment.end}) {
+        const auto point = contact_point(p.mesh.nodes, pair, segment.edge, xi, segment.opposite_edge);
+        if (!point) continue;
+        const Vec2 x = edge_point(p.mesh.nodes, pair.multiplier.edges[segment.edge], xi).position;
+        VecX& at = opened.emplace_back(VecX::Zero(work.size()));
+        for (std::size_t k = 0; k < motions.size(); ++k)
+          for (const RigidMotion& part : motions[k])
+            at(Eigen::Index(k)) += (int(part.body == pair.multiplier.body) - int(part.body == pair.opposite.body)) *
+                                   point->normal.dot(part.at(x));
+      }
+  }
+  MatX A(work.size(), Eigen::Index(opened.size()));
+  for (std::size_t i = 0; i < opened.size(); ++i) A.col(Eigen::Index(i)) = opened[i];
+  const NonnegativeFit fit = fit_nonnegative(A, work, std::vector<char>(opened.size(), 0));
+  return largest_entry(fit.residual) <= round_off * largest_entry(work.cwiseAbs() + A.cwiseAbs() * fit.x);
+}
+
+std::string unconstrained(const Problem& p, const Solution& solution) {
+  const std::string expected =
+      solution.driven_mode.size() > 0 && points_carry(p)
+          ? " on this mesh; expected shorter edges where contact ends, whose pressures would carry the load"
+          : "; expected a load that presses it on, or prescribed displacements that hold it" +
+                (solution.advice.empty() ? std::string() : " (" + solution.advice + ")");
   if (solution.driven_mode.size() == 0) return "contact opens until nothing holds a body" + expected;
-  const auto motion = motion_through(mesh, floating.motions, floating.grounded, solution.driven_mode);
-  return "nothing holds " + describe(mesh, motion) + ": the load moves it away from the contact" + expected;
+  const auto motion = motion_through(p.mesh, p.floating.motions, p.floating.grounded, solution.driven_mode);
+  return "nothing holds " + describe(p.mesh, motion) + ": the load moves it away from the contact" + expected;
 }
 
 }  // namespace
@@ -108,20 +144,19 @@ Solution solve_system(const Method& method, const SaddlePointSystem& system, con
   return SystemSolver(method, system, dirichlet).solve();
 }
 
-void require_solution(const Mesh& mesh, const std::vector<ContactPair>& pairs, const Floating& floating,
-                      const Solution& solution) {
+void require_solution(const Problem& p, const Solution& solution) {
   switch (solution.status) {
     case SolveStatus::converged:
     case SolveStatus::not_converged:
     case SolveStatus::diverged:
       return;
     case SolveStatus::not_positive_definite:
-      throw SceneError("the stiffness is not positive definite " + near_node(mesh, solution.failed_at / 2) +
+      throw SceneError("the stiffness is not positive definite " + near_node(p.mesh, solution.failed_at / 2) +
                        ": a part of a body that nothing holds, or elements far out of shape there");
     case SolveStatus::dependent_row:
-      throw SceneError(dependent_row(mesh, pairs, solution));
+      throw SceneError(dependent_row(p.mesh, p.pairs, solution));
     case SolveStatus::unconstrained:
-      throw SceneError(unconstrained(mesh, floating, solution));
+      throw SceneError(unconstrained(p, solution));
     case SolveStatus::in_tension:
       throw SceneError(solution.advice);
   }

@@ -1,7 +1,7 @@
 // The equations of a scene, solved by the solver that it names.
 #pragma once
 
-#include "problem/validate.hpp"
+#include "problem/problem.hpp"
 #include "solve/direct.hpp"
 
 namespace mortise {
@@ -37,8 +37,8 @@ class SystemSolver {
 /// decomposition, n: the unknowns of the bodies that take the displacement.
 Solution solve_system(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet);
 
-/// Throws SceneError, with the place, where the solver found none: what SolveStatus says of it.
-void require_solution(const Mesh& mesh, const std::vector<ContactPair>& pairs, const Floating& floating,
-                      const Solution& solution);
+/// Throws SceneError, with the place, where the solver found none: what SolveStatus says of it. Of a load that nothing
+/// carries, whether a finer mesh may.
+void require_solution(const Problem& problem, const Solution& solution);
 
 }  // namespace mortise

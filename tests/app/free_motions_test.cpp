@@ -174,6 +174,37 @@ TEST(FreeMotions, AnArchWithAStoneTooHeavyFalls) {
     expect_contains(message_of([&] { solved_arch({.heavier = heavier}); }), "nothing holds body 'stone_");
 }
 
+// A block of width 1 on a wider one, its load's resultant a distance from its left end, on edges of a size.
+Results tipped(double from_end, double edge, int order) {
+  const TemporaryFolder folder;
+  std::ostringstream geo, scene;
+  geo << "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 1}; Rectangle(2) = {-0.5, -1, 0, 2, 1};\n"
+      << "Physical Surface(\"block\") = {1}; Physical Surface(\"ground\") = {2};\n"
+      << "Physical Curve(\"foot\") = {1}; Physical Curve(\"top\") = {3}; Physical Curve(\"floor\") = {7};\n"
+      << "Physical Curve(\"base\") = {5}; MeshSize{ : } = 0.3; MeshSize{ 1, 2 } = " << edge
+      << "; Mesh.ElementOrder = " << order << ";\n";
+  folder.write("block.geo", geo.str());
+  scene << "mesh.file = \"block.geo\"\nmaterials.one = { young = 1000, poisson = 0.3 }\n"
+        << "bodies = { block = \"one\", ground = \"one\" }\ncontact = [{ between = [\"foot\", \"floor\"] }]\n"
+        << "boundary = [{ on = \"base\", displacement = { x = 0, y = 0 } },\n"
+        << "{ on = \"top\", traction = [0, \"-1 - 12 * " << 0.5 - from_end << " * (0.5 - x)\"] }]\n";
+  return solve_scene(read_scene(folder.write("block.toml", scene.str())));
+}
+
+// Pressures that are linear along the edges reach no nearer to the end than a third of the last one.
+TEST(FreeMotions, ALoadThatOnlyAFinerMeshCarriesIsToldFromOneThatNothingCarries) {
+  std::mt19937 random(29);
+  std::uniform_real_distribution<double> part(0.05, 0.3), size(0.1, 0.5);
+  for (int i = 0; i < 8; ++i) {
+    const double edge = 1 / std::round(1 / size(random)), from_end = part(random) * edge;
+    const int order = 1 + i % 2;
+    SCOPED_TRACE(std::to_string(edge) + ", " + std::to_string(from_end));
+    expect_contains(message_of([&] { tipped(from_end, edge, order); }), "on this mesh; expected shorter edges");
+    EXPECT_NE(tipped(from_end, from_end, order).status, Status::not_converged);
+    expect_contains(message_of([&] { tipped(-from_end, edge, order); }), "contact; expected a load that presses it on");
+  }
+}
+
 TEST(FreeMotions, WhatAnOvalLineHoldsIsHeld) {
   TwoPlates plates = saddle(12, CellKind::quad8);
   plates.height = [](double x) { return 1.02 * std::sqrt(0.25 - (x - 0.4) * (x - 0.4)) - 0.1; };
