@@ -100,7 +100,7 @@ def test_too_coarse_a_mesh_of_its_own(mortise, wrong, tmp_path):
     scene.write_text("\n".join(line for line in text.splitlines() if not line.startswith("parameters")))
     _, found = wrong(scene)
     assert not found["agrees"] and "only on the scene's own mesh, 1 % are asked" in found["troubles"][0]
-    assert found["skipped"] == ["other meshes: the scene has a mesh of its own, and no geometry to mesh anew"]
+    assert found["skipped"] == ["other meshes: the scene has a mesh of its own or copies, and no geometry to mesh anew"]
 
 
 def test_a_multiplier_space_that_is_wrong_for_a_mesh_of_its_own(mortise, tmp_path):
@@ -231,3 +231,36 @@ def test_a_fluid_between_the_sides_does_not_part_them(mortise, tmp_path):
     base = certify.Variation("wet", "", [], "solved", run=figures.read_run(tmp_path / "wet"))
     assert base.run.summary["contact"][0]["fluid"]["wet_length"] > 0
     assert certify.told_apart(base, 0.05)["agrees"]
+
+
+def test_what_is_expected_is_of_the_scene_as_it_is(wrong):
+    kinds, found = wrong(PUNCH, ['expect=[{ figure = "contact.0.force.1", value = 2e6, tolerance = "1%" }]'])
+    assert not kinds and found["agrees"], found["troubles"]
+
+
+def test_bodies_that_slid_beyond_an_end_are_not_apart(mortise, tmp_path):
+    """A block held by nothing but friction, which there is none of, and by a wall that presses it along."""
+    (tmp_path / "slide.geo").write_text("""SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 1, 1}; Rectangle(2) = {0, -1, 0, 1, 1};
+Physical Surface("block") = {1}; Physical Surface("ground") = {2}; Physical Curve("foot") = {1}; Physical Curve("floor") = {7};
+Physical Curve("side") = {4}; Physical Curve("top") = {3}; Physical Curve("base") = {5}; MeshSize{ : } = 0.25;
+Mesh.ElementOrder = 2;""")
+    (tmp_path / "slide.toml").write_text("""mesh.file = "slide.geo"
+materials.one = { young = 1e5, poisson = 0.3 }
+bodies = { block = "one", ground = "one" }
+boundary = [{ on = "base", displacement = { x = 0, y = 0 } }, { on = "side", displacement = { x = 0.05 } }, { on = "top", pressure = 1 }]
+contact = [{ between = ["foot", "floor"] }]
+""")
+    subprocess.run([mortise, "solve", tmp_path / "slide.toml", "-o", tmp_path / "out", "--quiet"], check=True)
+    run = figures.read_run(tmp_path / "out")
+    assert figures.deformed_gaps(run) < 1e-4 * run.summary["extremes"]["displacement"]
+
+
+def test_lines_of_chords():
+    """A circle in n edges is off by (2 pi / n)^2 / 8 of its radius; straight lines and corners by nothing."""
+    run = figures.Run(Path(), {}, lines={})
+    for n in (12, 24, 48):
+        angle = np.linspace(0, 2 * np.pi, n + 1)
+        run.lines = {0: (np.column_stack([np.cos(angle), np.sin(angle)]), None, None)}
+        assert abs(figures.of_chords(run) / ((2 * np.pi / n) ** 2 / 8) - 1) < 1e-9
+    run.lines = {0: (np.array([[0.0, 0], [1, 0], [2, 0], [2, 1], [2, 2]]), None, None)}
+    assert figures.of_chords(run) == 0
