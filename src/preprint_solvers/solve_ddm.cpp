@@ -45,8 +45,9 @@ VecX add(const InterfaceIteration& iteration, const Measure& measure, const Rela
 }
 
 bool in_tension(const SaddlePointSystem& s, const VecX& lambda) {
+  constexpr double round_off = 1e-10;  // of the largest multiplier over its scale
   const VecX size = lambda.cwiseQuotient(s.row_scale);
-  const double limit = negligible_tension * largest_entry(size);
+  const double limit = round_off * largest_entry(size);
   for (std::size_t a = 0; a < s.unilateral.size(); ++a)
     if (s.unilateral[a] && size(a) > limit) return true;
   return false;

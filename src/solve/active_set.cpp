@@ -111,10 +111,9 @@ void iterate(ContactRows& rows, std::vector<char> start, const VecX& at, int max
 // closed rows let the load drive a motion, some of `carried` that they are without holds it: the row that does most of
 // that closes.
 std::vector<int> first_on_the_way(const ActiveSetResult& r, const ContactRows::Answer& to, VecX& carried) {
-  if (r.driven_mode.any()) {
-    Eigen::Index most;
-    if (carried.cwiseProduct(to.opening).maxCoeff(&most) > 0 && !r.active[most]) return {int(most)};
-  }
+  if (Eigen::Index most = 0;
+      r.driven_mode.any() && carried.cwiseProduct(to.opening).maxCoeff(&most) > 0 && !r.active[most])
+    return {int(most)};
   const auto way = [&](int a) { return r.active[a] ? carried(a) / (carried(a) - r.lambda(a)) : 1.0; };
   const double shortest = way(*std::ranges::min_element(r.infeasible, {}, way));
   std::vector<int> changed;
@@ -197,12 +196,9 @@ void find(ContactRows& rows, std::vector<char> start, const ActiveSetOptions& op
   if (ended(r)) return;
   const InteriorPoint point = find_interior_point(rows);
   r.interior_steps = point.steps;
-  if (!point.converged) {
-    r.driven_mode = driven_motions(rows);
-    if (r.driven_mode.any()) {
-      r.status = SolveStatus::unconstrained;
-      return;
-    }
+  if (!point.converged && (r.driven_mode = driven_motions(rows)).any()) {
+    r.status = SolveStatus::unconstrained;
+    return;
   }
   descend(rows, point, r);
   if (r.status == SolveStatus::converged) move_least(rows, options, r);

@@ -64,7 +64,4 @@ bool penetrates(const SaddlePointSystem& system, const Solution& solution);
 /// Adds what the method found of the system's rows, in its units but for lambda and u.
 void take_active_set(const SaddlePointSystem& system, const ActiveSetResult& set, Solution& solution);
 
-/// Part of the largest below which a multiplier (over its scale) is round-off.
-constexpr double negligible_tension = 1e-10;
-
 }  // namespace mortise
