@@ -1,5 +1,5 @@
 """Assemblies of many bodies that only contact holds: heaps, chains, bearings, arches, pins, wedges, bricks, nested rings,
-bolts.
+bolts, sectors of rings.
 
 Whether anything carries the load is a matter of the rigid motions alone (rigid_motions.py).
 """
@@ -29,6 +29,7 @@ class Assembly:
     pairs: list  # of curves "body_curve"
     size: float  # edges, over which contact is rough
     ties: list = field(default_factory=list)  # straight cuts: two curves, and the pretension
+    cyclic: list = field(default_factory=list)  # cuts of sectors about the origin: two curves
 
 
 def disc(name, x, y, r, force, held=None):
@@ -181,6 +182,23 @@ def bolts(r, weight):
     return Assembly("bolts", parts, pairs, r.uniform(0.2, 0.4), [("upper_cut", "lower_cut", r.uniform(1, 30) * weight)])
 
 
+def sectors(r, weight):
+    """A sector of rings shrunk on one another, about the origin."""
+    turn, start = 2 * math.pi / r.randint(4, 24), r.uniform(0, 2 * math.pi)
+    at = lambda radius, k: (radius * math.cos(start + k * turn), radius * math.sin(start + k * turn))
+    parts, pairs, inner = [], [], r.uniform(0.3, 2.0)
+    for k in range(r.randint(2, 4)):
+        outer = inner + r.uniform(0.3, 1.0)
+        arc = lambda curve, radius, ends: (curve, "Circle", [at(radius, ends[0]), (0.0, 0.0), at(radius, ends[1])])
+        cut = lambda curve, radii, end: (curve, "Line", [at(radii[0], end), at(radii[1], end)])
+        loop = [cut("low", (inner, outer), 0), arc("out", outer, (0, 1)), cut("high", (outer, inner), 1), arc("in", inner, (1, 0))]
+        parts.append(Part(f"ring{k}", [loop]))
+        pairs += [(f"ring{k - 1}_out", f"ring{k}_in")] if k else []
+        inner = outer - 10 ** r.uniform(-5, -3)
+    cuts = [(f"{part.name}_low", f"{part.name}_high") for part in parts]
+    return Assembly("sectors", parts, pairs, r.uniform(0.1, 0.3), cyclic=cuts)
+
+
 FAMILIES = (heap, chain, bearing, arch, pin, wedge, bricks, rings)
 
 
@@ -237,7 +255,8 @@ def scene_of(assembly, stiffness=None):
                 for part in assembly.parts for curve, axes in part.held.items()]  # fmt: skip
     return {"materials": {"one": {"young": 1.0, "poisson": 0.3}}, "bodies": {part.name: "one" for part in assembly.parts},
             "boundary": boundary, "contact": [{"between": list(pair)} | gives_way for pair in assembly.pairs]
-            + [{"between": cut, "condition": "tied", "pretension": force} for *cut, force in assembly.ties],
+            + [{"between": cut, "condition": "tied", "pretension": force} for *cut, force in assembly.ties]
+            + [{"between": list(cut), "condition": "cyclic"} for cut in assembly.cyclic],
             "body_force": [{"body": part.name, "force": list(part.force)} for part in assembly.parts if any(part.force)],
             }  # fmt: skip
 
@@ -256,13 +275,14 @@ def with_fluid(scene, assembly, own):
 
 def make_assembly(seed, number):
     r = random.Random(f"{seed}:assembly:{number}")
-    bolted = random.Random(f"{seed}:assembly:{number}:bolt").random() < 0.1
-    assembly = (bolts if bolted else r.choice(FAMILIES))(r, 10 ** r.uniform(-6, -4))
+    rare = lambda what, part: random.Random(f"{seed}:assembly:{number}:{what}").random() < part
+    family = bolts if rare("bolt", 0.1) else sectors if rare("sectors", 0.05) else r.choice(FAMILIES)
+    assembly = family(r, 10 ** r.uniform(-6, -4))
     own = random.Random(f"{seed}:assembly:{number}:stiffness")
     stiffness = 10 ** own.uniform(-2, 2) / assembly.size if own.random() < 0.2 else None  # of edges as stiff as the bodies: 1
     scene, order, quads = scene_of(assembly, stiffness), r.choice((1, 2, 2)), r.choice((0, 1))
     variant, view = r.choice(("feti", "other side", "again")), View()
-    variant = "view" if variant == "again" and r.random() < 0.7 else variant
+    variant = "view" if variant == "again" and r.random() < 0.7 and not assembly.cyclic else variant
     variant = "accuracy" if variant == "feti" and len(assembly.pairs) <= FINE and r.random() < 0.5 else variant
     other, solver = scene | {"method": {"solver": "direct"}}, {"method": {"solver": "feti"}}
     if variant == "feti":

@@ -3,6 +3,7 @@ a convex problem's answer, and the same however it is solved.
 """
 
 import json
+import math
 import os
 import tempfile
 from pathlib import Path
@@ -52,7 +53,9 @@ def unbalanced(told, assembly):
     for tie in told["model"].get("ties", []):
         force = np.array([*tie["force"], tie["moment"]])
         add(tie["follows"], force)
-        add(tie["leads"], -force)
+        angle = math.radians(tie.get("turned", 0.0))  # of a sector: the force on the other cut is that of the next one, turned back
+        across = complex(*force[:2]) * complex(math.cos(angle), -math.sin(angle))
+        add(tie["leads"], -np.array([across.real, across.imag, force[2]]))
     for load in told["model"]["loads"]:
         add(load["body"], np.array([*load["sum"], load["moment"]]))
     for curve in (curve for support in told["model"]["supports"] for curve in support["curves"]):

@@ -78,6 +78,8 @@ def nearest(assembly, pair):
     if turn < 1e-9 or turn > 0.5:  # flat, or all along one another
         return place, normal, gap
     one, other = (centre_of(assembly, curve) for curve in pair)
+    if one is not None and other is not None and np.allclose(one, other):  # sectors of rings
+        return place, normal, gap
     if one is not None and other is not None:
         exact = other - one
     else:
@@ -124,6 +126,8 @@ def drift(assembly, near_only):
             force = np.array(part.force) * abs(area) * (1 if k == 0 else -1)
             work[column[part.name] :][:3] += at(centre, force)
             total += np.abs(force).sum()
+    if total == 0:
+        return 0.0
     found = linprog(-work / total, closes or None, np.zeros(len(closes)) if closes else None, fixed or None,
                     np.zeros(len(fixed)) if fixed else None, bounds=(-1, 1), method="highs")  # fmt: skip
     return -found.fun
