@@ -17,22 +17,23 @@ namespace {
 // A ring of radii 1 and 3 cut into `sectors` along waves, with meshes that do not match on both cuts.
 struct Ring {
   int sectors = 6, low = 12, high = 17, order = 2;
-  double wave = 0.15, size = 0.15;  // radians, length
+  double wave = 0.15, twist = 0.1, size = 0.15;  // radians, the cut's outer end before its inner one; length
   std::string follows = "low";
 };
 
 std::string geo_of(const Ring& ring) {
   std::ostringstream geo;
-  geo << "a = 2 * Pi / " << ring.sectors << "; w = " << ring.wave << "; h = " << ring.size << R"(;
+  geo << "a = 2 * Pi / " << ring.sectors << "; w = " << ring.wave << "; s = " << ring.twist << "; h = " << ring.size
+      << R"(;
 Point(1) = {0, 0, 0};
 For k In {0 : 1}
   Point(10 + k) = {Cos(k * a), Sin(k * a), 0, h};
   Point(20 + k) = {1.6 * Cos(k * a + w), 1.6 * Sin(k * a + w), 0, h};
   Point(30 + k) = {2.3 * Cos(k * a - w), 2.3 * Sin(k * a - w), 0, h};
-  Point(40 + k) = {3 * Cos(k * a), 3 * Sin(k * a), 0, h};
+  Point(40 + k) = {3 * Cos(k * a + s), 3 * Sin(k * a + s), 0, h};
   Spline(10 + k) = {10 + k, 20 + k, 30 + k, 40 + k};
 EndFor
-Point(50) = {Cos(a / 2), Sin(a / 2), 0, h}; Point(51) = {3 * Cos(a / 2), 3 * Sin(a / 2), 0, h};
+Point(50) = {Cos(a / 2), Sin(a / 2), 0, h}; Point(51) = {3 * Cos(a / 2 + s), 3 * Sin(a / 2 + s), 0, h};
 Circle(1) = {10, 1, 50}; Circle(2) = {50, 1, 11}; Circle(3) = {40, 1, 51}; Circle(4) = {51, 1, 41};
 Curve Loop(1) = {10, 3, 4, -11, -2, -1}; Plane Surface(1) = {1};
 Transfinite Curve{10} = )"
@@ -70,6 +71,7 @@ TEST(CyclicSymmetry, ARingThatTurnsIsStressedAsIfItWereWhole) {
                     .high = int(draw(14, 30)),
                     .order = 1 + i % 2,
                     .wave = draw(-0.2, 0.2),
+                    .twist = draw(-0.1, 0.1),
                     .size = draw(0.08, 0.16),
                     .follows = random() % 2 ? "low" : "high"};
     SCOPED_TRACE(std::to_string(ring.sectors) + " sectors, " + std::to_string(ring.low) + ":" +
