@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <sstream>
 
 #include "base/errors.hpp"
 #include "contact/multiplier_rows.hpp"
@@ -91,6 +92,20 @@ SparseRows rows_of(const std::vector<std::map<int, double>>& rows, Eigen::Index 
   return B;
 }
 
+// Curves that go all round, sector by sector, face each other in one all along.
+void require_one_sector(const Mesh& mesh, const Curve& multiplier, const Curve& opposite, double covered) {
+  constexpr double sliver = 1e-2;  // of the curve: normals of two meshes at its ends
+  const double length = curve_length(mesh.nodes, multiplier);
+  if (covered > (1 - sliver) * length || !closes_in_the_next_sector(mesh, multiplier) ||
+      !closes_in_the_next_sector(mesh, opposite))
+    return;
+  std::ostringstream text;
+  text << mesh.source << ": contact between '" << mesh.boundaries[multiplier.boundary].name << "' and '"
+       << mesh.boundaries[opposite.boundary].name << "': both go on in the next sector, but face each other on "
+       << covered << " of " << length << "; expected cuts of the two bodies that cross contact at one place";
+  throw InputError(text.str());
+}
+
 }  // namespace
 
 Coupling couple(const Mesh& mesh, const ContactInterface& interface, const Constraints& constraints,
@@ -114,6 +129,7 @@ Coupling couple(const Mesh& mesh, const ContactInterface& interface, const Const
     coupling.gap_min = std::min(coupling.gap_min, p.gap);
     coupling.gap_max = std::max(coupling.gap_max, p.gap);
   }
+  require_one_sector(mesh, multiplier, opposite, coupling.covered_length);
   for (std::size_t a = 0; a < coupling.row.size(); ++a) {
     if (coupling.row[a] < 0) continue;
     coupling.gap0(coupling.row[a]) += sums.gap(a);

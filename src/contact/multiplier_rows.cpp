@@ -101,7 +101,8 @@ std::vector<State> find_states(const Mesh& mesh, const ContactInterface& interfa
   return state;
 }
 
-// Whether the ends of a curve are one place of neighbouring sectors.
+}  // namespace
+
 bool closes_in_the_next_sector(const Mesh& mesh, const Curve& curve) {
   const int start = curve.edges.front().nodes[0], end = curve.edges.back().nodes[1];
   const auto follows = [&](const TiedNode& one) {
@@ -111,8 +112,6 @@ bool closes_in_the_next_sector(const Mesh& mesh, const Curve& curve) {
   return std::ranges::any_of(
       mesh.ties, [&](const Tie& tie) { return !tie.turn.isIdentity() && std::ranges::any_of(tie.nodes, follows); });
 }
-
-}  // namespace
 
 std::vector<int> multipliers_along(const Coupling& coupling) {
   std::vector<int> order;

@@ -26,6 +26,9 @@ std::vector<int> multipliers_along(const Coupling& coupling);
 /// are long it does not matter.
 inline constexpr double faced_limit = 0.1;
 
+/// Whether the ends of a curve are one place of neighbouring sectors (Tie::turn).
+bool closes_in_the_next_sector(const Mesh& mesh, const Curve& curve);
+
 /// Fills coupling.row, coupling.dropped and the sizes of gap0 and scale. Multipliers without support have no row. Those
 /// of nodes where both sides' normal displacements are prescribed, those whose weighted gap says nothing of the gap's
 /// sign, and those whose edges hardly face the other side share the row of the nearest free one along the curve (so

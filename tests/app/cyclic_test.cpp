@@ -9,6 +9,7 @@
 
 #include "app/solve_scene.hpp"
 #include "results/error_report.hpp"
+#include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise::test {
@@ -98,10 +99,11 @@ body_force = [{ body = "ring", force = ["x", "y"] }]
 }
 
 // A lobed ring on a shaft, pressed on by its overlap; both may slide round. `whole`: all sectors, with common nodes.
-Results pressed_on(int sectors, bool whole, int order) {
+// `apart`: the cuts of the ring beside those of the shaft, radians.
+Results pressed_on(int sectors, bool whole, int order, double apart = 0) {
   const TemporaryFolder folder;
   std::ostringstream geo;
-  geo << "n = " << sectors << "; whole = " << whole << "; a = 2 * Pi / n; h = 0.12;"
+  geo << "n = " << sectors << "; whole = " << whole << "; apart = " << apart << "; a = 2 * Pi / n; h = 0.12;"
       << R"(
 Point(1) = {0, 0, 0};
 For k In {0 : n}
@@ -111,6 +113,7 @@ For k In {0 : n}
       For j In {0 : 2}
         Point(100 + 100 * k + 10 * i + j) = {(0.5 + 0.5 * j) * Cos(t), (0.5 + 0.5 * j) * Sin(t), 0, h};
       EndFor
+      t = t + apart;
       Point(100 + 100 * k + 10 * i + 3) = {Cos(t), Sin(t), 0, 0.7 * h};
       rim = 1.8 + 0.3 * Cos(n * (t - 0.3) + 1);
       Point(100 + 100 * k + 10 * i + 4) = {rim * Cos(t), rim * Sin(t), 0, h};
@@ -156,6 +159,12 @@ contact = [{ between = ["seat", "bore"], clearance = -0.01 })" + (whole ? "" : c
                                                                   "]\n")));
   estimate(r);
   return r;
+}
+
+TEST(CyclicSymmetry, CutsThatDoNotMeetAtTheContactAreAnError) {
+  for (const double apart : {-0.2, 0.05})
+    expect_contains(message_of([&] { pressed_on(5, false, 2, apart); }),
+                    "both go on in the next sector, but face each other on");
 }
 
 TEST(CyclicSymmetry, ASectorIsPressedAsTheWholeIs) {
