@@ -98,6 +98,42 @@ body_force = [{ body = "ring", force = ["x", "y"] }]
   }
 }
 
+// A disc that turns, by a sector of `degrees` with its centre, which is held or not.
+Results solid(double degrees, bool held) {
+  const TemporaryFolder folder;
+  std::ostringstream geo;
+  geo << "a = Pi / 180 * " << degrees << ";"
+      << R"(
+Point(1) = {0, 0, 0, 0.1}; Point(2) = {1, 0, 0, 0.1}; Point(3) = {Cos(a), Sin(a), 0, 0.1};
+Line(1) = {1, 2}; Circle(2) = {2, 1, 3}; Line(3) = {3, 1}; Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};
+Physical Surface("disc") = {1}; Physical Curve("low") = {1}; Physical Curve("high") = {3}; Physical Point("centre") = {1};
+Mesh.ElementOrder = 2;
+)";
+  folder.write("disc.geo", geo.str());
+  return solve_scene(read_scene(folder.write("disc.toml", R"(mesh.file = "disc.geo"
+materials.one = { young = 1000, poisson = 0.3 }
+bodies.disc = "one"
+contact = [{ between = ["low", "high"], condition = "cyclic" }]
+body_force = [{ body = "disc", force = ["x", "y"] }]
+)" + std::string(held ? "boundary = [{ on = \"centre\", displacement = { x = 0, y = 0 } }]\n" : ""))));
+}
+
+TEST(CyclicSymmetry, TheCentreOfADiscIsHeld) {
+  const Results r = solid(60, true);
+  EXPECT_EQ(r.status, Status::solved);
+  const double nu = 0.3 / 0.7;  // of plane strain: sigma_r = (3 + nu) / 8 (1 - r^2)
+  for (std::size_t e = 0; e < r.problem.mesh.cells.size(); ++e) {
+    const Vec2 x = centre_of(r.problem.mesh.nodes, r.problem.mesh.cells[e]), n = x.normalized();
+    const auto s = r.recovery.stress.centres.row(Eigen::Index(e));
+    EXPECT_NEAR(s(0) * n.x() * n.x() + s(1) * n.y() * n.y() + 2 * s(3) * n.x() * n.y(),
+                (3 + nu) / 8 * (1 - x.squaredNorm()), 5e-3);
+  }
+  expect_contains(message_of([&] { solid(60, false); }),
+                  "is on both curves; expected displacement = { x = 0, y = 0 } at the centre");
+  expect_contains(message_of([&] { solid(50, true); }),
+                  "there are 50 degrees about the origin; expected a whole part of 360");
+}
+
 // A lobed ring on a shaft, pressed on by its overlap; both may slide round. `whole`: all sectors, with common nodes.
 // `apart`: the cuts of the ring beside those of the shaft, radians.
 Results pressed_on(int sectors, bool whole, int order, double apart = 0) {
