@@ -16,8 +16,8 @@ class Thickness {
   Thickness(const Points& nodes, const BoundaryEdges& boundary, const std::vector<int>& bonded);
 
   /// For each edge of the curve, the length of the line from its middle along its inward normal to where that first
-  /// leaves the body. The outline's 3-node edges count as two straight ones. `face`: of the same body, the other face
-  /// of a crack, which does not count where it lies there too, to a tenth of an edge.
+  /// leaves the body. The outline's 3-node edges count as two straight ones. `face`: of the same or a bonded body, the
+  /// other face of a crack, which does not count where it lies there too, to a tenth of an edge.
   std::vector<double> behind(const Curve& curve, const Curve* face = nullptr) const;
 
  private:

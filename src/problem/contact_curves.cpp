@@ -1,8 +1,10 @@
 #include "problem/contact_curves.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
+#include <span>
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
@@ -19,27 +21,23 @@ namespace mortise {
 namespace {
 
 // Whether two bodies share more than a point, or are one.
-bool bonded(const Mesh& mesh, int one, int other) {
-  if (one == other) return true;
-  std::vector<char> of_one(mesh.nodes.rows(), 0);
-  std::set<int> common;
-  for (const int body : {one, other})
-    for (const Cell& cell : mesh.cells)
-      for (int a = 0; cell.body == body && a < node_count(cell.kind); ++a)
-        if (body == one)
-          of_one[cell.nodes[a]] = 1;
-        else if (of_one[cell.nodes[a]])
-          common.insert(cell.nodes[a]);
+bool bonded(const BodyPoints& points, int one, int other) {
+  const auto nodes = [&](int body) {
+    return std::span(points.node).subspan(points.first[body], points.first[body + 1] - points.first[body]);
+  };
+  std::vector<int> common;
+  std::ranges::set_intersection(nodes(one), nodes(other), std::back_inserter(common));
   return common.size() > 1;
 }
 
 // But for the tip of a crack, which ends both faces.
-void require_own_nodes(const Mesh& mesh, const ContactSpec& spec, const std::array<Curve, 2>& curves) {
+void require_own_nodes(const Mesh& mesh, const BodyPoints& points, const ContactSpec& spec,
+                       const std::array<Curve, 2>& curves) {
   std::vector<int> first = curve_nodes(curves[0]);
   std::ranges::sort(first);
   for (const int node : curve_nodes(curves[1]))
     if (std::ranges::binary_search(first, node) &&
-        !(is_end(curves[0], node) && is_end(curves[1], node) && bonded(mesh, curves[0].body, curves[1].body)))
+        !(is_end(curves[0], node) && is_end(curves[1], node) && bonded(points, curves[0].body, curves[1].body)))
       throw InputError(mesh.source + ": " + spec.key + ": '" + spec.between[0] + "' and '" + spec.between[1] +
                        "' have a common node " + near_point(mesh.nodes.row(node).transpose()) +
                        "; expected curves with points of their own (in a .geo: a point and a curve for each body)");
@@ -123,7 +121,9 @@ double size_of(const Mesh& mesh) { return (mesh.nodes.colwise().maxCoeff() - mes
 std::vector<ContactCurves> curves_of(const Scene& scene, const std::vector<ContactSpec>& specs, const Mesh& mesh) {
   if (specs.empty()) return {};
   const SideTable table(mesh);
-  const Thickness thickness(mesh.nodes, boundary_edges(mesh), bonded_to(mesh, body_points(mesh)));
+  const BodyPoints points = body_points(mesh);
+  const std::vector<int> whole = bonded_to(mesh, points);
+  const Thickness thickness(mesh.nodes, boundary_edges(mesh), whole);
   const SceneNames names(mesh);
   const Pieces pieces = all_pieces(mesh);
   std::map<int, Curve> curves;  // by boundary
@@ -170,11 +170,11 @@ std::vector<ContactCurves> curves_of(const Scene& scene, const std::vector<Conta
           contact.spec.multipliers_on = contact.spec.between[i];
         contact.edge_size[i] = curve_length(mesh.nodes, curve) / double(curve.edges.size());
       }
-      if (auto& [one, other] = contact.curves; one.body == other.body) {
+      if (auto& [one, other] = contact.curves; whole[one.body] == whole[other.body]) {
         one.thickness = thickness.behind(one, &other);
         other.thickness = thickness.behind(other, &one);
       }
-      require_own_nodes(mesh, contact.spec, contact.curves);
+      require_own_nodes(mesh, points, contact.spec, contact.curves);
       require_two_bodies(mesh, contact.spec, contact.curves);
       all.push_back(std::move(contact));
     }

@@ -72,8 +72,12 @@ Tie tie_of(const Model& model, const Mesh& mesh, const ContactCurves& pair, std:
   const int first = following(pair);
   Tie tie{.key = pair.spec.key, .curves = {}, .boundary = {}, .body = {}, .nodes = {}};
   const Curve &follows = pair.curves[first], &leads = pair.curves[1 - first];
-  if (pair.spec.condition == Condition::cyclic) tie.turn = turn_between(mesh, pair.spec, leads, follows);
-  tie.nodes = mortar_projection(turned(mesh.nodes, leads, tie.turn), follows, leads, model);
+  if (pair.spec.condition == Condition::cyclic) {
+    tie.turn = turn_between(mesh, pair.spec, leads, follows);
+    tie.nodes = mortar_projection(turned(mesh.nodes, leads, tie.turn), follows, leads, model);
+  } else {
+    tie.nodes = mortar_projection(mesh.nodes, follows, leads, model);
+  }
   for (const int k : {0, 1}) {
     const int of = k == 0 ? first : 1 - first;
     tie.curves[k] = pair.spec.between[of];

@@ -17,6 +17,7 @@ namespace {
 struct Crack {
   double half_width = 2, angle = 0, x = 0, y = 0;  // of the plate; of the crack of half length 1, degrees, its centre
   bool edge = false;                               // its first end lies on the plate's left side
+  bool two = false;                                // bodies, which are bonded where there is no crack
   int order = 2;
   double size = 0.1;  // of the edges along it
 };
@@ -25,7 +26,7 @@ struct Crack {
 std::string geo_of(const Crack& c) {
   std::ostringstream geo;
   geo << "W = " << c.half_width << "; a = Pi / 180 * " << c.angle << "; x = " << c.x << "; y = " << c.y
-      << "; h = " << c.size << "; edge = " << c.edge << ";\n"
+      << "; h = " << c.size << "; edge = " << c.edge << "; two = " << c.two << ";\n"
       << R"(Point(1) = {-W, -W, 0, W / 5}; Point(2) = {W, -W, 0, W / 5}; Point(3) = {W, y + (W - x) * Tan(a), 0, W / 5};
 Point(4) = {W, W, 0, W / 5}; Point(5) = {-W, W, 0, W / 5}; Point(6) = {-W, y - (W + x) * Tan(a), 0, edge ? h : W / 5};
 Point(8) = {x + Cos(a), y + Sin(a), 0, h};
@@ -41,7 +42,11 @@ Else
 EndIf
 Plane Surface(1) = {1}; Plane Surface(2) = {2};
 MeshSize{ 8 } = h;
-Physical Surface("plate") = {1, 2};
+If (two)
+  Physical Surface("half_0") = {1}; Physical Surface("half_1") = {2};
+Else
+  Physical Surface("half_0") = {1, 2};
+EndIf
 Physical Curve("lower") = {9}; Physical Curve("upper") = {10};
 Physical Curve("bottom") = {1}; Physical Curve("right") = {2, 3}; Physical Curve("top") = {4}; Physical Curve("left") = {5, 6};
 Physical Point("one") = {1}; Physical Point("other") = {2};
@@ -55,7 +60,7 @@ Results solved(const Crack& crack, const std::string& loads, const std::vector<O
   folder.write("crack.geo", geo_of(crack));
   const std::string scene = folder.write("crack.toml", R"(mesh.file = "crack.geo"
 materials.one = { young = 1000, poisson = 0.3 }
-bodies.plate = "one"
+bodies."half_*" = "one"
 contact = [{ between = ["upper", "lower"] }]
 boundary = [{ on = "one", displacement = { x = 0, y = 0 } }, { on = "other", displacement = { y = 0 } }, )" +
                                                            loads + "]\n");
@@ -72,6 +77,7 @@ TEST(Cracks, UnderEqualPressureAllRoundPressAsIfThereWereNone) {
                       .x = draw(-0.5, 0.5),
                       .y = draw(-0.5, 0.5),
                       .edge = i % 3 == 0,
+                      .two = i % 4 > 1,
                       .order = 1 + i % 2,
                       .size = draw(0.05, 0.4)};
     const std::string space = spaces[crack.order == 1 ? 2 * (random() % 2) : random() % 3],
