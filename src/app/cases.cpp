@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "app/accuracy.hpp"
-#include "app/sweep_row.hpp"
+#include "app/run_table.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "base/stopwatch.hpp"

@@ -1,5 +1,7 @@
 #include "app/command_line.hpp"
 
+#include <sys/prctl.h>
+
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>
@@ -13,7 +15,6 @@
 #include "app/check.hpp"
 #include "app/picture.hpp"
 #include "app/sweep.hpp"
-#include "app/sweep_join.hpp"
 #include "app/terminal.hpp"
 #include "app/version.hpp"
 #include "base/errors.hpp"
@@ -33,13 +34,11 @@ namespace {
 
 struct Options {
   std::string scene;
-  std::vector<std::string> set, vary;
+  std::vector<std::string> set;
   std::string output;
   std::string accuracy, picture, one_case;
   bool quiet = false, diagnose = false, no_estimate = false, no_programs = false, no_cache = false;
-  int threads = 0, jobs = 1;
-  std::string part;
-  std::size_t join = 0;
+  int threads = 0;
 };
 
 std::vector<Override> overrides(const Options& options) {
@@ -170,22 +169,11 @@ int mesh(const Options& options) {
   return exit_code(status);
 }
 
-int sweep(const Options& options) {
-  std::vector<Variation> variations;
-  for (const std::string& text : options.vary) variations.push_back(parse_variation(text));
-  const std::filesystem::path whole = options.output.empty() ? "out/" + stem(options) + "_sweep.csv" : options.output;
-  const SweepPlan plan = plan_sweep(options.scene, overrides(options), variations, options.diagnose);
-  const SweepPart part = options.part.empty() ? SweepPart{} : parse_part(options.part);
-  const std::string csv = table_of(whole, part).string();
-  const auto report = [&](const std::string& line) {
-    if (!options.quiet) std::cerr << line << "\n";
-  };
-  const Status worst =
-      options.join > 0 ? join_sweep(plan, whole, options.join) : sweep(plan, whole, part, options.jobs, report);
-  if (!options.quiet) std::cout << csv << "\n";
-  if (worst != Status::solved)
-    std::cerr << "mortise: " << options.scene << ": not every run is solved (see the status in " << csv << ")\n";
-  return exit_code(worst);
+// As one of the processes of a sweep: it ends with it.
+int solve_runs(const Options& options) {
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  serve_sweep(options.scene, overrides(options), options.diagnose, std::cin, std::cout);
+  return 0;
 }
 
 // An option that is given says something: an empty variable of a shell script is no default.
@@ -271,22 +259,11 @@ CLI::App* add_mesh(CLI::App& app, Options& options) {
   return command;
 }
 
-void add_sweep(CLI::App& app, Options& options) {
-  CLI::App* command = add_command(
-      app, "sweep", "solve a scene many times, one CSV row a run; each starts from the contact of the one before",
-      options, ".csv to write (default: out/SCENE_sweep.csv)");
-  command->add_option("--vary", options.vary, "KEY=V1,V2,...: values to run through; repeat for combinations")
-      ->required()
-      ->allow_extra_args(false);
-  command->add_option("--jobs", options.jobs, "runs at the same time, each on one thread (default: 1)")
-      ->check(CLI::Range(1, 1024));
-  CLI::Option* const part = command->add_option(
-      "--part", options.part, "K/N: run the Kth of N parts and write FILE.K_of_N.csv, as one of a batch system's jobs");
-  part->check(filled("K/N"));
-  command->add_option("--join", options.join, "N: put the tables of N parts together")
-      ->check(CLI::Range(1, 10000))
-      ->excludes(part);
+// Not shown: `mortise sweep` starts it.
+CLI::App* add_solve_runs(CLI::App& app, Options& options) {
+  CLI::App* command = add_command(app, "solve-runs", "solve the runs of a sweep", options, "");
   add_diagnose(command, options);
+  return command->group("");
 }
 
 // A script reads the options.
@@ -323,7 +300,8 @@ int parse_and_run(int argc, const char* const* argv) {
   CLI::App* check_command = add_check(app, options);
   CLI::App* new_command = add_new(app, options);
   CLI::App* mesh_command = add_mesh(app, options);
-  add_sweep(app, options);
+  add_solve_runs(app, options);
+  CLI::App* sweep_command = add_scripted(app, "sweep", "solve a scene many times, one CSV row a run");
   CLI::App* picture_command = add_scripted(app, "picture", "draw the results in a folder");
   CLI::App* certify_command =
       add_scripted(app, "certify", "solve a scene by several means and say which figures agree within their bars");
@@ -331,12 +309,12 @@ int parse_and_run(int argc, const char* const* argv) {
   CLI::App* window_command = add_scripted(app, "window", "look at a scene in gmsh's window, pick, check and solve");
   if (const auto status = parse(app, argc, argv)) return *status;
 
+  if (*sweep_command) become_script("sweeps/sweep.py", sweep_command->remaining());
   if (*picture_command) return draw_picture(picture_command->remaining());
-  if (*certify_command) return run_with_program("reports/certify.py", certify_command->remaining());
-  if (*report_command) return run_with_program("reports/report.py", report_command->remaining());
-  if (*window_command) return run_with_program("scenes/window.py", window_command->remaining());
-  const bool alone = ranks().count() == 1 && options.jobs == 1;
-  set_solver_threads(options.threads > 0 || alone ? options.threads : 1);
+  if (*certify_command) become_script("reports/certify.py", certify_command->remaining());
+  if (*report_command) become_script("reports/report.py", report_command->remaining());
+  if (*window_command) become_script("scenes/window.py", window_command->remaining());
+  set_solver_threads(options.threads > 0 || ranks().count() == 1 ? options.threads : 1);
   set_mesh_cache(!options.no_cache);
   if (ranks().count() > 1) {
     if (!*solve_command) throw InputError("command line: several processes solve; expected mortise solve after mpirun");
@@ -346,7 +324,7 @@ int parse_and_run(int argc, const char* const* argv) {
   if (*check_command) return check(options);
   if (*new_command) return new_scene(options);
   if (*mesh_command) return mesh(options);
-  return sweep(options);
+  return solve_runs(options);
 }
 
 }  // namespace

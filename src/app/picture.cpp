@@ -29,16 +29,29 @@ std::string python() {
   return fs::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
 }
 
-int run_script(const std::string& name, const std::vector<std::string>& arguments) {
+std::vector<std::string> words_of(const std::string& name, const std::vector<std::string>& arguments) {
   std::vector<std::string> words{python(), script(name).string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
+std::vector<char*> argv_of(std::vector<std::string>& words) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
+  return argv;
+}
+
+[[noreturn]] void fail_without_python(const std::string& name) {
+  throw InputError(name + " is run by Python, which is not there (" + python() +
+                   "): apt-get install python3-matplotlib python3-meshio");
+}
+
+int run_script(const std::string& name, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = words_of(name, arguments);
   pid_t process = 0;
-  if (::posix_spawnp(&process, argv[0], nullptr, nullptr, argv.data(), environ) != 0)
-    throw InputError(name + " is run by Python, which is not there (" + words[0] +
-                     "): apt-get install python3-matplotlib python3-meshio");
+  if (::posix_spawnp(&process, words[0].c_str(), nullptr, nullptr, argv_of(words).data(), environ) != 0)
+    fail_without_python(name);
   int status = 0;
   ::waitpid(process, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
@@ -62,9 +75,11 @@ int draw_picture(const std::vector<std::string>& arguments) {
   return run_script("pictures/picture.py", arguments) == 0 ? 0 : 1;
 }
 
-int run_with_program(const std::string& script, const std::vector<std::string>& arguments) {
+void become_script(const std::string& name, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = words_of(name, arguments);
   ::setenv("MORTISE_PROGRAM", fs::read_symlink("/proc/self/exe").c_str(), 1);
-  return run_script(script, arguments);
+  ::execvp(words[0].c_str(), argv_of(words).data());
+  fail_without_python(name);
 }
 
 int run_on_geometry(const std::string& name, const Mesh& mesh, std::vector<std::string> arguments) {

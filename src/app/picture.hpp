@@ -1,4 +1,4 @@
-// What scripts do (python/pictures, python/reports), which are found beside the program and run by Python.
+// What scripts do (src/python), which are found beside the program and run by Python.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +13,9 @@ namespace mortise {
 /// error. Throws InputError where the script or Python is not there.
 int draw_picture(const std::vector<std::string>& arguments);
 
-/// `mortise certify`, `report` and `window`: run a script, reports/certify.py or another, which runs this program
-/// again. Its exit status; throws as draw_picture does.
-int run_with_program(const std::string& script, const std::vector<std::string>& arguments);
+/// `mortise sweep`, `certify`, `report` and `window`: a script, reports/certify.py or another, takes the place of this
+/// process; it runs the program again. Returns only by throwing, as draw_picture does.
+[[noreturn]] void become_script(const std::string& name, const std::vector<std::string>& arguments);
 
 /// `mortise check --picture`: the set-up as a .png, .pdf or .svg, by setup.py. As draw_picture.
 int draw_setup(const Problem& problem, const std::filesystem::path& picture);

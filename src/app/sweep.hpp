@@ -1,13 +1,12 @@
-// Many runs of one scene, a row of a table each.
+// The runs of a sweep: one scene with other values.
 #pragma once
 
-#include <filesystem>
-#include <functional>
+#include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "app/run_row.hpp"
 #include "app/solve_scene.hpp"
-#include "app/sweep_plan.hpp"
 
 namespace mortise {
 
@@ -15,16 +14,14 @@ namespace mortise {
 RunRow solve_run(const std::string& path, const std::vector<Override>& overrides, bool diagnosed, CaseSolver& solver,
                  const Progress& progress = {});
 
-/// Called after each run.
-using SweepReport = std::function<void(const std::string& line)>;
-
-/// Runs a part in `jobs` processes and writes its table, one row a run in the order of the runs, after each; with more
-/// than one job, before anything else has started threads. Runs go in fours: within one, a run on the same mesh as the
-/// one before starts from its active set; so a row does not hang on jobs and parts. Complete fours are kept beside the
-/// table until it is complete: the same sweep, killed and started again, takes them from there. A run that is bad input
-/// gets a row that says so. Returns the worst status of the part's runs (bad input counts as check_failed). Throws
-/// InputError if the table is a file of the scene's, or one that is there and no such table; if a process ends.
-Status sweep(const SweepPlan& plan, const std::filesystem::path& csv, const SweepPart& part, int jobs,
-             const SweepReport& report);
+/// Serves `mortise sweep` (src/python/sweeps) as one of its processes, until `in` ends. Runs come in groups: within one,
+/// a run on the same mesh as the one before starts from its active set; what a group gives hangs on no other.
+///   out {}                                    the command line has been understood
+///   in  [[[KEY, VALUE], ...], ...]            a group: what each run overrides
+///   out {"key": KEY}                          what its rows follow from: values, version and how the files stand
+///   in  solve, or keep                        whether they are wanted
+///   out {"status": WORD, "figures": {...}}    of each run
+void serve_sweep(const std::string& path, const std::vector<Override>& overrides, bool diagnosed, std::istream& in,
+                 std::ostream& out);
 
 }  // namespace mortise

@@ -155,34 +155,6 @@ TEST(CommandLine, OneSolveIsSaidToBeOne) {
   EXPECT_EQ(summary(folder.path("run"))["iterations"]["contact"], 1);
 }
 
-TEST(CommandLine, ASweepOfALoadStartsFromTheRunBefore) {
-  const TemporaryFolder folder;
-  const auto steps = [&](const std::string& values) {
-    EXPECT_EQ(
-        mortise({"sweep", geo("lift_off.toml"), "--vary", "boundary.2.pressure=" + values, "-o", folder.path("s.csv")})
-            .status,
-        0);
-    std::ifstream file(folder.path("s.csv"));
-    std::string line;
-    std::getline(file, line);
-    const auto column = [](const std::string& row, std::size_t k) {
-      std::stringstream fields(row);
-      std::string field;
-      for (std::size_t i = 0; i <= k; ++i) std::getline(fields, field, ',');
-      return field;
-    };
-    std::size_t k = 0;
-    while (column(line, k) != "iterations.contact") ++k;
-    std::vector<int> list;
-    while (std::getline(file, line)) list.push_back(std::stoi(column(line, k)));
-    return list;
-  };
-  const std::vector<int> run = steps("1e6,1.01e6,1.02e6,1.03e6"), alone = steps("1.03e6");
-  ASSERT_EQ(run.size(), 4u);
-  EXPECT_LT(run[3], alone[0]);
-  EXPECT_LT(run[1] + run[2] + run[3], 3 * alone[0]);
-}
-
 TEST(CommandLine, CheckSaysWhatTheSceneModelsAndWritesNothing) {
   const TemporaryFolder folder;
   const auto before = fs::current_path();
@@ -200,23 +172,6 @@ TEST(CommandLine, MeshWritesAMeshThatSolves) {
   const Outcome o = mortise({"solve", geo("patch_inclined.toml"), "--set",
                              "mesh={file=\"" + folder.path("m.msh") + "\"}", "-o", folder.path("run")});
   EXPECT_EQ(o.status, 0) << o.err;
-}
-
-TEST(CommandLine, SweepWritesOneRowARun) {
-  const TemporaryFolder folder;
-  const Outcome o = mortise({"sweep", geo("patch_flat.toml"), "--vary", "mesh.parameters.n_upper=3,4,5", "--vary",
-                             "contact.multipliers_on=upper_contact,lower_contact", "-o", folder.path("s.csv")});
-  EXPECT_EQ(o.status, 0) << o.err;
-  std::ifstream file(folder.path("s.csv"));
-  std::string line;
-  std::getline(file, line);
-  EXPECT_EQ(line.find("mesh.parameters.n_upper,contact.multipliers_on,status,"), 0u) << line;
-  int rows = 0;
-  while (std::getline(file, line)) {
-    ++rows;
-    EXPECT_NE(line.find(",solved,"), std::string::npos) << line;
-  }
-  EXPECT_EQ(rows, 6);
 }
 
 TEST(CommandLine, HelpAndVersionSucceed) {
@@ -319,30 +274,6 @@ std::string scene_in(const TemporaryFolder& folder, const std::string& change = 
   return folder.write("scene.toml", text_of(geo("patch_flat.toml")));
 }
 
-TEST(CommandLineFiles, ASweepNeverReplacesWhatIsNotItsOwn) {
-  const TemporaryFolder folder;
-  const std::string scene = scene_in(folder), text = text_of(scene);
-  const std::vector<std::string> start{"sweep", scene, "--vary", "mesh.parameters.n_upper=3", "-o"};
-  const auto run = [&](const std::string& csv) {
-    std::vector<std::string> arguments = start;
-    arguments.push_back(csv);
-    return mortise(arguments);
-  };
-  expect_refused(run(scene), "it is the input");
-  fs::create_symlink(scene, folder.path("link.csv"));
-  expect_refused(run(folder.path("link.csv")), "it is the input");
-  expect_refused(run(folder.path("patch_flat.geo")), "mortise did not write");
-  expect_refused(run(folder.write("mine.csv", "a,b\n1,2\n")), "mortise did not write");
-  expect_refused(run(folder.path("common")), "it is a folder");
-  fs::create_symlink("loop.csv", folder.path("loop.csv"));
-  expect_refused(run(folder.path("loop.csv")), "loop.csv");
-  expect_refused(run("/proc/no/such.csv"), "/proc/no");
-  const std::string part = folder.write("s.csv.part", "mine");
-  for (int again = 0; again < 2; ++again) EXPECT_EQ(run(folder.path("s.csv")).status, 0);
-  EXPECT_EQ(text_of(part), "mine");
-  EXPECT_EQ(text_of(scene), text);
-}
-
 TEST(CommandLineFiles, AMeshNeverReplacesItsOwnInput) {
   const TemporaryFolder folder;
   const std::string scene = scene_in(folder), msh = folder.path("m.msh");
@@ -373,10 +304,6 @@ TEST(CommandLineFiles, WithoutProgramsAGeoThatRunsOneIsRefused) {
     arguments.insert(arguments.end(), {"--no-programs", "--set", "mesh.programs=true"});
     expect_refused(mortise(arguments), "patch_flat.geo: it runs a program; --no-programs");
   }
-  const Outcome o =
-      mortise({"sweep", scene, "--no-programs", "--vary", "mesh.parameters.n_upper=3", "-o", folder.path("s.csv")});
-  EXPECT_EQ(o.status, 2);
-  EXPECT_NE(o.err.find("it runs a program"), std::string::npos) << o.err;
   EXPECT_FALSE(fs::exists(proof));
   EXPECT_EQ(mortise({"check", scene}).status, 0);  // allowed unless it is asked for
   EXPECT_TRUE(fs::exists(proof));
@@ -400,7 +327,7 @@ TEST(CommandLineFiles, ControlCharactersDoNotReachTheTerminal) {
 
 TEST(BadCommands, MissingOrUnknown) {
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {}, {"solv"}, {"solve"}, {"solve", "a.toml", "b.toml"}, {"sweep", "x.toml"}, {"solve", "/no/such.toml"}}) {
+           {}, {"solv"}, {"solve"}, {"solve", "a.toml", "b.toml"}, {"solve", "/no/such.toml"}}) {
     const Outcome o = mortise(arguments);
     EXPECT_EQ(o.status, 1);
     EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;

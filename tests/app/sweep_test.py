@@ -4,7 +4,9 @@ Usage: sweep_test.py MORTISE
 """
 
 import csv
+import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -12,7 +14,8 @@ import tempfile
 import time
 from pathlib import Path
 
-SCENE = Path(__file__).resolve().parents[2] / "geo/lift_off.toml"
+GEO = Path(__file__).resolve().parents[2] / "geo"
+SCENE = GEO / "lift_off.toml"
 PRESSURES = "1e6,1.01e6,1.02e6,1.03e6,1.04e6,-1e6x,1.06e6,1.07e6,1.08e6,1.09e6"  # the sixth is bad input
 
 
@@ -79,19 +82,16 @@ def test_killed(mortise, folder, whole, jobs):
     running = subprocess.Popen(command(mortise, "--jobs", jobs, "-o", table), stderr=subprocess.DEVNULL)
     limit = time.monotonic() + 60
     while running.poll() is None and time.monotonic() < limit:
-        if journal.exists() and len(journal.read_text().splitlines()) > 8:
+        if journal.exists() and len(journal.read_text().splitlines()) > 2:
             break
         time.sleep(0.002)
     running.send_signal(signal.SIGKILL)
     killed = running.wait() == -signal.SIGKILL
     # A figure of it that has changed since: its group is run again.
     lines = journal.read_text().splitlines(keepends=True) if killed else []
-    for i, line in enumerate(lines[1:2], 1):
-        digit = max(line.rfind("1", 0, line.rfind("\t")), line.rfind("2", 0, line.rfind("\t")))
-        lines[i] = line[:digit] + "7" + line[digit + 1 :]
-        journal.write_text("".join(lines))
-    groups = [line.split("\t")[0] for line in lines[1:]]
-    kept = sum(group != groups[0] for group in groups)
+    if killed:
+        journal.write_text("".join([lines[0], lines[1].replace("1", "7", 1) if "1" in lines[1] else "7" + lines[1], *lines[2:]]))
+    kept = sum(len(json.loads(line.split(" ", 1)[1])["rows"]) for line in lines[2:])
     said = sweep(mortise, "--jobs", jobs, "-o", table)
     assert not killed or said.count("(kept)") == kept, said
     assert rows(table) == whole
@@ -125,6 +125,67 @@ def test_words(mortise, folder):
     assert not list(folder.glob(".*.mortise.csv")), "nothing is left of those that were killed"
 
 
+def run(mortise, *words, status=0):
+    done = subprocess.run([mortise, "sweep", *map(str, words)], capture_output=True, text=True, timeout=120)
+    assert done.returncode == status and (status != 1 or done.stderr.count("\n") == 1), (words, done.returncode, done.stderr)
+    return done.stderr
+
+
+def test_a_row_a_run(mortise, folder):
+    """Combinations, the last key fastest; of a load each run starts from the one before."""
+    vary = ["--vary", "mesh.parameters.n_upper=3,4,5", "--vary", "contact.multipliers_on=upper_contact,lower_contact"]
+    said = run(mortise, GEO / "patch_flat.toml", *vary, "-o", folder / "six.csv")
+    assert said.startswith("1/6 mesh.parameters.n_upper=3 contact.multipliers_on=upper_contact: solved\n"), said
+    table = rows(folder / "six.csv")
+    assert list(table[0])[:4] == ["mesh.parameters.n_upper", "contact.multipliers_on", "status", "nodes"]
+    assert [row["mesh.parameters.n_upper"] for row in table] == ["3", "3", "4", "4", "5", "5"]
+    assert {row["status"] for row in table} == {"solved"}
+    steps = {}
+    for name, values in (("four", "1e6,1.01e6,1.02e6,1.03e6"), ("one", "1.03e6")):
+        run(mortise, SCENE, "--vary", f"boundary.2.pressure={values}", "-o", folder / f"{name}.csv", "--quiet")
+        steps[name] = [int(row["iterations.contact"]) for row in rows(folder / f"{name}.csv")]
+    assert steps["four"][3] < steps["one"][0] and sum(steps["four"][1:]) < 3 * steps["one"][0], steps
+
+
+def test_what_is_not_its_own_stays(mortise, folder):
+    own = folder / "own"
+    shutil.copytree(GEO, own)
+    scene, vary = own / "patch_flat.toml", ["--vary", "mesh.parameters.n_upper=3"]
+    (own / "link.csv").symlink_to(scene)
+    (own / "loop.csv").symlink_to("loop.csv")
+    (own / "mine.csv").write_text("a,b\n1,2\n")
+    before = {path: path.read_bytes() for path in own.rglob("*") if path.is_file()}
+    for target, why in [("patch_flat.toml", "it is the input"), ("link.csv", "it is the input"), ("common", "it is a folder"),
+                        ("patch_flat.geo", "mortise did not write"), ("mine.csv", "mortise did not write"), ("loop.csv", "loop.csv"),
+                        ("/dev/null", "it is a device"), ("/proc/no/such.csv", "/proc/no")]:  # fmt: skip
+        assert why in run(mortise, scene, *vary, "-o", own / target, status=1), target
+    for _ in range(2):
+        run(mortise, scene, *vary, "-o", own / "s.csv")
+    assert {path: path.read_bytes() for path in before} == before
+    (own / "patch_flat.geo").write_text(f'SystemCall "touch {own}/proof";\n' + (own / "patch_flat.geo").read_text())
+    assert "it runs a program" in run(mortise, scene, *vary, "--no-programs", "-o", own / "s.csv", status=2)
+    assert not (own / "proof").exists()
+
+
+def test_command_lines_that_are_refused(mortise, folder):
+    for words, why in [((SCENE,), "required: --vary"), ((SCENE, "--vary", "x=1", "--job", 2), "unrecognized arguments: --job"),
+                       ((SCENE, "--vary", "x=1", "-o", ""), "expected a path, found an empty text"),
+                       ((SCENE, "--vary", "x=1", "--jobs", "x"), "expected a whole number from 1 to 1024, found 'x'"),
+                       ((SCENE, "--vary", b"x=\xff".decode(errors="surrogateescape")), "expected UTF-8"),
+                       ((SCENE, "--vary", "x=1", "--set", "y", "--jobs", 2), "--set 'y': expected KEY=VALUE")]:  # fmt: skip
+        words = [os.fsencode(str(word)) for word in (*words, *(() if "-o" in words else ("-o", folder / "no.csv")))]
+        done = subprocess.run([mortise, "sweep", *words], capture_output=True, timeout=60)
+        assert done.returncode == 1 and why in done.stderr.decode() and done.stderr.count(b"\n") == 1, (words, done)
+    assert not (folder / "no.csv").exists()
+
+
+def test_fields_are_those_of_other_tables(mortise, folder):
+    """Quotes, and an apostrophe before what a spreadsheet would take for a formula."""
+    run(mortise, SCENE, "--vary", "title==1+1,-5,say \"x\"; y", "-o", folder / "words.csv", "--quiet", status=2)
+    text = (folder / "words.csv").read_text().splitlines()
+    assert [line.split(",")[0] for line in text[1:]] == ['"\'=1+1"', "-5", '"say ""x""; y"'], text
+
+
 def main(mortise):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -139,6 +200,10 @@ def main(mortise):
             test_killed(mortise, folder, whole, jobs)
         test_a_process_that_ends(mortise, folder)
         test_words(mortise, folder)
+        test_a_row_a_run(mortise, folder)
+        test_what_is_not_its_own_stays(mortise, folder)
+        test_command_lines_that_are_refused(mortise, folder)
+        test_fields_are_those_of_other_tables(mortise, folder)
 
 
 if __name__ == "__main__":

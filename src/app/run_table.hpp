@@ -1,9 +1,8 @@
-// One run of a sweep: its status and figures, as a row of a table and as a line of text.
+// Runs and load cases as rows of a table.
 #pragma once
 
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +15,6 @@ RunRow row_of(const Results& results, const Json& report);
 
 /// solved, accuracy_not_reached, not_converged or check_failed, as bad input counts.
 Status status_of(const RunRow& row);
-
-/// One line without its end, that row_in reads again bit for bit; nothing if it is not whole.
-std::string line_of(const RunRow& row);
-std::optional<RunRow> row_in(const std::string& line);
 
 /// Writes rows by number, each behind its values of the varied keys, atomically. Columns stand in the order in which
 /// they first appear; what a run does not have stays empty.

@@ -1,10 +1,8 @@
-#include "app/sweep_row.hpp"
+#include "app/run_table.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
-#include <sstream>
 
 #include "base/staged_file.hpp"
 #include "output/csv.hpp"
@@ -101,11 +99,6 @@ void add_probes(const std::vector<ProbeValue>& probes, Figures& row) {
   }
 }
 
-std::string exact(double value) {
-  std::array<char, 40> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
-
 }  // namespace
 
 RunRow row_of(const Results& results, const Json& report) {
@@ -123,27 +116,6 @@ Status status_of(const RunRow& row) {
   for (const Status status : {Status::solved, Status::accuracy_not_reached, Status::not_converged})
     if (row.status == to_string(status)) return status;
   return Status::check_failed;
-}
-
-// Fields between tabs, of which no field has any; the last is a point, so that a line cut short is known.
-std::string line_of(const RunRow& row) {
-  std::string line = row.status;
-  for (const auto& [name, value] : row.figures) line += "\t" + name + "\t" + exact(value);
-  return line + "\t.";
-}
-
-std::optional<RunRow> row_in(const std::string& line) {
-  std::vector<std::string> fields;
-  std::stringstream stream(line);
-  for (std::string field; std::getline(stream, field, '\t');) fields.push_back(field);
-  if (fields.size() % 2 != 0 || fields.empty() || fields.back() != ".") return std::nullopt;
-  RunRow row{fields[0], {}};
-  for (std::size_t i = 1; i + 1 < fields.size(); i += 2) {
-    double value = 0;
-    std::from_chars(fields[i + 1].data(), fields[i + 1].data() + fields[i + 1].size(), value);
-    row.figures.emplace_back(fields[i], value);
-  }
-  return row;
 }
 
 void write_table(const std::filesystem::path& path, const std::vector<std::string>& keys,
