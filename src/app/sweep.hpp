@@ -14,8 +14,8 @@ namespace mortise {
 RunRow solve_run(const std::string& path, const std::vector<Override>& overrides, bool diagnosed, CaseSolver& solver,
                  const Progress& progress = {});
 
-/// Serves `mortise sweep` (src/python/sweeps) as one of its processes, until `in` ends. Runs come in groups: within one,
-/// a run on the same mesh as the one before starts from its active set; what a group gives hangs on no other.
+/// Serves `mortise sweep` (src/python/sweeps) as one of its processes, until `in` ends. Runs come in groups: within
+/// one, a run on the same mesh as the one before starts from its active set; what a group gives hangs on no other.
 ///   out {}                                    the command line has been understood
 ///   in  [[[KEY, VALUE], ...], ...]            a group: what each run overrides
 ///   out {"key": KEY}                          what its rows follow from: values, version and how the files stand

@@ -120,7 +120,8 @@ TEST(SolveMssor, ASweepVariesItsParameters) {
   std::set<double> steps;
   for (const char* omega : {"0.8", "1.3"})
     for (const char* tau : {"0.5", "1"}) {
-      const RunRow row = solve_run(scene_file("patch_flat"), mssor({{"method.omega", omega}, {"method.tau", tau}}), false, solver);
+      const RunRow row =
+          solve_run(scene_file("patch_flat"), mssor({{"method.omega", omega}, {"method.tau", tau}}), false, solver);
       EXPECT_EQ(row.status, "solved");
       const auto found = std::ranges::find(row.figures, "iteration.steps", &std::pair<std::string, double>::first);
       ASSERT_NE(found, row.figures.end());

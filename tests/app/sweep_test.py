@@ -76,17 +76,34 @@ def test_more_parts_than_runs(mortise, folder, whole):
     assert rows(folder / "few.csv") == whole
 
 
+def kill_after(running, journal, groups):
+    """Whether it was killed before it was done."""
+    limit = time.monotonic() + 60
+    while running.poll() is None and time.monotonic() < limit:
+        if journal.exists() and len(journal.read_text().splitlines()) > groups:
+            break
+        time.sleep(0.002)
+    running.send_signal(signal.SIGKILL)
+    return running.wait() == -signal.SIGKILL
+
+
+def test_what_is_kept_hangs_on_the_geometry(mortise, folder):
+    shutil.copytree(GEO, folder / "geo")
+    words = [mortise, "sweep", folder / "geo/lift_off.toml", "--vary", "boundary.2.pressure=" + ",".join(f"{1 + k / 100}e6" for k in range(40)), "-o", folder / "kept.csv"]
+    for changed in (False, True):
+        if not kill_after(subprocess.Popen(words, stderr=subprocess.DEVNULL), folder / ".kept.csv.runs", 2):
+            return  # a machine that is too quick
+        if changed:
+            os.utime(folder / "geo/lift_off.geo", (1, 1))
+        said = subprocess.run(words, capture_output=True, text=True, timeout=120).stderr
+        assert ("(kept)" in said) != changed, said
+
+
 def test_killed(mortise, folder, whole, jobs):
     table = folder / f"killed_{jobs}.csv"
     journal = folder / f".killed_{jobs}.csv.runs"
     running = subprocess.Popen(command(mortise, "--jobs", jobs, "-o", table), stderr=subprocess.DEVNULL)
-    limit = time.monotonic() + 60
-    while running.poll() is None and time.monotonic() < limit:
-        if journal.exists() and len(journal.read_text().splitlines()) > 2:
-            break
-        time.sleep(0.002)
-    running.send_signal(signal.SIGKILL)
-    killed = running.wait() == -signal.SIGKILL
+    killed = kill_after(running, journal, 2)
     # A figure of it that has changed since: its group is run again.
     lines = journal.read_text().splitlines(keepends=True) if killed else []
     if killed:
@@ -200,6 +217,7 @@ def main(mortise):
             test_killed(mortise, folder, whole, jobs)
         test_a_process_that_ends(mortise, folder)
         test_words(mortise, folder)
+        test_what_is_kept_hangs_on_the_geometry(mortise, folder)
         test_a_row_a_run(mortise, folder)
         test_what_is_not_its_own_stays(mortise, folder)
         test_command_lines_that_are_refused(mortise, folder)

@@ -35,7 +35,9 @@ def printable(text):
 
 
 def say(line):
-    print(printable(line), file=sys.stderr, flush=True)
+    """On the standard error; a long line without its middle."""
+    line = printable(line)
+    print(line if len(line) <= 900 else f"{line[:700]} [...] {line[-200:]}", file=sys.stderr, flush=True)
 
 
 # ---- Runs and parts ----
@@ -87,20 +89,27 @@ def table_of(path, part, of):
 
 def check_target(path, scene, ours):
     """It is not there yet, or empty or `ours` by its first line, and not the scene."""
+
+    def refuse(why):
+        raise Refused(f"{path}: cannot be written: {why}")
+
     try:
-        if path.exists():
-            if path.is_dir():
-                raise Refused(f"{path}: cannot be written: it is a folder; expected a file")
-            if not stat.S_ISREG(path.stat().st_mode):
-                raise Refused(f"{path}: cannot be written: it is a device or a pipe")
-            if scene.exists() and path.samefile(scene):
-                raise Refused(f"{path}: cannot be written: it is the input {scene}")
-            with open(path, encoding="utf-8", errors="replace") as file:
-                first = file.readline(1 << 16)
-            if first and not ours(first.rstrip("\n")):
-                raise Refused(f"{path}: cannot be written: a file of this name is there that mortise did not write; choose another name or remove it")
-    except (OSError, RuntimeError) as error:  # a link to itself
-        raise Refused(f"{path}: cannot be written: {error}") from None
+        mode = path.stat().st_mode
+        if stat.S_ISDIR(mode):
+            refuse("it is a folder; expected a file")
+        if not stat.S_ISREG(mode):
+            refuse("it is a device or a pipe")
+        if scene.exists() and path.samefile(scene):
+            refuse(f"it is the input {scene}")
+        with open(path, encoding="utf-8", errors="replace") as file:
+            first = file.readline(1 << 16).rstrip("\n")
+        if first and not ours(first):
+            refuse("a file of this name is there that mortise did not write; choose another name or remove it")
+    except FileNotFoundError:
+        if not Path(os.path.realpath(path)).parent.is_dir():  # of what a link names
+            refuse("no such folder")
+    except OSError as error:
+        refuse(error.strerror)
 
 
 def is_table(header):
@@ -118,12 +127,12 @@ def field(word):
 
 def write_lines(path, lines):
     """In one step, through symbolic links."""
-    path = Path(os.path.realpath(path))
-    staged = path.with_name(f".{path.stem}.new.mortise{path.suffix}")
+    target = Path(os.path.realpath(path))
+    staged = target.with_name(f".{target.stem}.new.mortise{target.suffix}")
     try:
         with open(staged, "w", encoding="utf-8", newline="") as file:
             file.writelines(line + "\n" for line in lines)
-        os.replace(staged, path)
+        os.replace(staged, target)
     except OSError as error:
         with contextlib.suppress(OSError):
             staged.unlink()
@@ -177,8 +186,10 @@ class Worker:
 
     def __init__(self, command):
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8")
-        if not self.process.stdout.readline():  # its command line is wrong, as it has said
-            sys.exit(1)
+        if not self.process.stdout.readline():
+            if self.process.wait() == 1:  # its command line is wrong, as it has said
+                sys.exit(1)
+            raise EOFError
 
     def answer(self):
         line = self.process.stdout.readline()
@@ -230,9 +241,6 @@ def sweep(options, keys, runs, path):
     check_target(path, options.scene, is_table)
     journal = Journal(path.with_name(f".{path.name}.runs"), options.scene)
     command = [os.environ.get("MORTISE_PROGRAM", "mortise"), "solve-runs", options.scene, *options.passed]
-    workers = []
-    for _ in range(max(min(options.jobs, len(groups)), 1)):
-        workers.append(Worker(command))
 
     def solve(worker, group):
         values = [list(zip(keys, runs[k])) for k in group]
@@ -242,8 +250,10 @@ def sweep(options, keys, runs, path):
             done.append(row)
             yield k, row, kept, (key, done) if len(done) == len(group) and not kept else None
 
-    found = {}
+    found, workers = {}, []
     try:
+        for _ in range(max(min(options.jobs, len(groups)), 1)):
+            workers.append(Worker(command))
         for k, row, kept, complete in share(workers, groups, solve):
             found[k] = row
             write_table(path, keys, runs, found)
