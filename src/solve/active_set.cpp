@@ -241,12 +241,13 @@ ActiveSetResult find_active_set(const ComplementarityProblem& p, const VecX& rhs
   return r;
 }
 
-bool penetrates(const SaddlePointSystem& s, const Solution& solution) {
+bool is_infeasible(const SaddlePointSystem& s, const Solution& solution) {
   if (s.unilateral.empty()) return false;
   const VecX w = (s.B * solution.u - s.g).cwiseQuotient(s.row_scale);
-  const double penetration = least_penetration * largest_entry(solution.u);
+  const double penetration = least_penetration * largest_entry(solution.u),
+               tension = least_tension * largest_entry(solution.lambda);
   for (Eigen::Index a = 0; a < w.size(); ++a)
-    if (s.unilateral[a] && !solution.active[a] && w(a) < -penetration) return true;
+    if (s.unilateral[a] && (solution.active[a] ? solution.lambda(a) > tension : w(a) < -penetration)) return true;
   return false;
 }
 

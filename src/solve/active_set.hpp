@@ -57,9 +57,9 @@ ActiveSetResult find_active_set(ContactRows& rows, std::vector<char> start, cons
 ActiveSetResult find_active_set(const ComplementarityProblem& problem, const VecX& rhs,
                                 const std::vector<char>& start = {}, const ActiveSetOptions& options = {});
 
-/// Whether an open row is penetrated by the solution's own u: exact where springs against unbalanced loads leave
-/// round-off in the multipliers' system (slender bodies).
-bool penetrates(const SaddlePointSystem& system, const Solution& solution);
+/// Whether an open row is penetrated by the solution's own u, or a closed one in tension by its lambda: exact where
+/// springs against unbalanced loads leave round-off in the multipliers' system (slender bodies, rollers without load).
+bool is_infeasible(const SaddlePointSystem& system, const Solution& solution);
 
 /// Adds what the method found of the system's rows, in its units but for lambda and u.
 void take_active_set(const SaddlePointSystem& system, const ActiveSetResult& set, Solution& solution);

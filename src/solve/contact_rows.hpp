@@ -58,6 +58,9 @@ class ContactRows {
   virtual MatX free_motions() const = 0;
 };
 
+/// Of the largest lambda_a / scale_a: less is round-off.
+inline constexpr double least_tension = 1e-10;
+
 /// Of a row's own compliance in C: what gives way more is soft. Left out of a step are then terms of its inverse.
 inline constexpr double far_more = 1e3;
 

@@ -45,10 +45,10 @@ class Passes {
     solution_.lambda += s_.stiffness_scale * lambda->head(m).cwiseQuotient(s_.row_scale);
     measure_residuals(s_, solution_);
     const bool exact = largest(solution_.force_residual, solution_.constraint_residual) < 1e-11;
-    if (solution_.status != SolveStatus::converged || (pass_ > 0 && !penetrated_ && !exact)) return false;
-    penetrated_ = penetrates(s_, solution_);
+    if (solution_.status != SolveStatus::converged || (pass_ > 0 && !infeasible_ && !exact)) return false;
+    infeasible_ = is_infeasible(s_, solution_);
     ++pass_;
-    return !exact || penetrated_;
+    return !exact || infeasible_;
   }
 
   std::optional<MultiplierSystem> system;  // of the active set
@@ -56,7 +56,7 @@ class Passes {
  private:
   // What lambda and mu change by; nothing where no active set is found, or none for the better.
   std::optional<VecX> multipliers_for(const VecX& load, const VecX& y, const VecX& rhs) {
-    if (pass_ > 0 && !penetrated_) return system->solve(rhs);
+    if (pass_ > 0 && !infeasible_) return system->solve(rhs);
     if (pass_ > 0) {
       problem_.known = solution_.lambda.cwiseProduct(s_.row_scale) / s_.stiffness_scale;
       problem_.displacement = largest_entry(solution_.u);
@@ -83,7 +83,7 @@ class Passes {
   ComplementarityProblem& problem_;
   Solution& solution_;
   int pass_ = 0;
-  bool penetrated_ = false;
+  bool infeasible_ = false;
 };
 
 }  // namespace

@@ -169,10 +169,11 @@ TEST(ActiveSet, AnOpenRowThatPenetratesIsSeen) {
   s.row_scale = VecX::Ones(2);
   s.unilateral = {1, 1};
   Solution solution;
+  solution.lambda = VecX::Zero(2);
   const auto seen = [&](double second, std::vector<char> active) {
     solution.u = VecX{{1, second}};
     solution.active = std::move(active);
-    return penetrates(s, solution);
+    return is_infeasible(s, solution);
   };
   EXPECT_TRUE(seen(-1e-6, {1, 0}));
   EXPECT_FALSE(seen(-1e-6, {1, 1}));
@@ -180,6 +181,26 @@ TEST(ActiveSet, AnOpenRowThatPenetratesIsSeen) {
   EXPECT_FALSE(seen(1e-6, {1, 0}));
   s.unilateral = {1, 0};
   EXPECT_FALSE(seen(-1e-6, {1, 0}));
+}
+
+TEST(ActiveSet, AClosedRowInTensionIsSeen) {
+  SaddlePointSystem s;
+  s.B = MatX(MatX::Identity(2, 2)).sparseView();
+  s.g = VecX::Zero(2);
+  s.row_scale = VecX::Ones(2);
+  s.unilateral = {1, 1};
+  Solution solution;
+  solution.u = VecX::Zero(2);
+  const auto seen = [&](double second, std::vector<char> active) {
+    solution.lambda = VecX{{-1, second}};
+    solution.active = std::move(active);
+    return is_infeasible(s, solution);
+  };
+  EXPECT_TRUE(seen(1e-8, {1, 1}));
+  EXPECT_FALSE(seen(1e-12, {1, 1}));
+  EXPECT_FALSE(seen(-1e-8, {1, 1}));
+  s.unilateral = {1, 0};
+  EXPECT_FALSE(seen(1e-8, {1, 1}));
 }
 
 TEST(ActiveSet, RoundOffChangesNoRow) {
