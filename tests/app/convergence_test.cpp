@@ -56,7 +56,8 @@ class Convergence : public testing::TestWithParam<std::tuple<CellKind, Multiplie
 TEST_P(Convergence, RatesAndErrorsOnAllLines) {
   const auto [kind, multipliers, on_lower] = GetParam();
   const int degree = is_quadratic(kind) ? 2 : 1;
-  for (std::size_t l = 0; l < 3; ++l) {
+  // The cosine's finest mesh takes as long as all others: on one side.
+  for (std::size_t l = 0; l < (degree == 1 || on_lower ? 3 : 2); ++l) {
     SCOPED_TRACE(lines[l].name);
     const auto e = study(lines[l], kind, multipliers, on_lower);
     EXPECT_NEAR(rate(e[2].displacement, e[3].displacement), degree + 1, 0.15);
