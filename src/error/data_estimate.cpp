@@ -141,7 +141,7 @@ void add_gap_errors(const Problem& problem, double excluded, std::vector<Pressur
     if (gap.l2.size() == 0) continue;
     PressureEstimate& e = pressures[k];
     for (Eigen::Index i = 0; i < gap.l2.size(); ++i)
-      for (const int end : {0, 1}) e.local.l2(i + end) = std::hypot(e.local.l2(i + end), gap.l2(i));
+      for (const int end : {0, 1}) e.local.add_data(i + end, gap.l2(i));
     if (!problem.pairs[k].spec.stiffness) add_jumps(gap, e.line, e.singular);
     find_excluded(excluded, e);
     find_bars(e);
@@ -179,7 +179,7 @@ void add_strains_on_line(const Problem& problem, ErrorEstimate& estimate) {
       const double volume = estimate.energy.areas(part.cell) * law.model.depth(centre_of(problem.mesh.nodes, cell).x());
       const double stress = part.size * std::sqrt(law.young / volume);
       for (const int i : vertices)
-        if (e.line.loaded[i]) e.local.l2(i) = std::hypot(e.local.l2(i), stress * std::sqrt(e.line.h(i)));
+        if (e.line.loaded[i]) e.local.add_data(i, stress * std::sqrt(e.line.h(i)));
     }
   }
 }

@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "contact/gap_cuts.hpp"
+#include "error/fitted_pressure.hpp"
 #include "error/gap_error.hpp"
 #include "error/missed_contact.hpp"
 #include "error/recovered_pressure.hpp"
@@ -59,6 +60,27 @@ std::vector<SingularPoint> that_count(std::vector<SingularPoint> points, const P
            point.small_turn == 0;
   });
   return points;
+}
+
+// Where the bodies' errors move a border of contact they change p beside it as 1 over the root of the distance: by how
+// much more at a vertex than in the window nearest to the border, if it lies between them.
+double near_border(const PressureEstimate& e, Eigen::Index i) {
+  const PressureLine& line = e.line;
+  const double around = line.closed ? line.s(line.s.size() - 1) : std::numeric_limits<double>::infinity();
+  const auto distance = [&](double from, double to) {
+    return std::min(std::abs(from - to), around - std::abs(from - to));
+  };
+  double factor = 1;
+  for (const LineError::Border& border : e.local.borders) {
+    const double open = line.s(line.p(border.edge) == 0 ? border.edge : border.edge + 1);
+    const auto from_border = [&](const PressureWindow& window) { return distance(window.s, open); };
+    const auto nearest = std::ranges::min_element(e.windows, {}, from_border);
+    if (nearest == e.windows.end()) continue;
+    const double r = distance(line.s(i), open), centre = from_border(*nearest);
+    if (r > 0 && r < centre && distance(line.s(i), nearest->s) <= centre)
+      factor = std::max(factor, std::sqrt(centre / r));
+  }
+  return factor;
 }
 
 // At a vertex: linear between the windows' centres, constant beyond them; of what corners nearby do each by its shape.
@@ -288,7 +310,7 @@ void find_bars(PressureEstimate& e) {
   if (e.local.least.size() > 0) e.bar = e.bar.cwiseMax(e.local.least);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double far = far_at(e, i);
-    e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? far : 0));
+    e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? far * near_border(e, i) : 0));
     if (!e.counts(i)) continue;
     e.local2 += local(i) * local(i);
     e.far2 += far * far * line.h(i);
@@ -337,9 +359,11 @@ double ErrorEstimate::pressure() const {
 double ErrorEstimate::line() const { return error_norm(pressures, 1, 0) / std::sqrt(pressure_square()); }
 double ErrorEstimate::slopes() const {
   double square = 0;
-  for (const PressureEstimate& e : pressures)
+  for (const PressureEstimate& e : pressures) {
+    const VecX along = e.local.along();
     for (Eigen::Index i = 0; i < e.line.p.size(); ++i)
-      if (e.counts(i)) square += e.local.l2(i) * e.local.l2(i);
+      if (e.counts(i)) square += along(i) * along(i);
+  }
   return std::sqrt(square / pressure_square());
 }
 double ErrorEstimate::far_field() const { return error_norm(pressures, 0, 1) / std::sqrt(pressure_square()); }
@@ -365,13 +389,15 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, Estimat
     estimate.tails.corners =
         corner_rings(p.mesh, table, free_corners(body_corners(around), p.mesh.nodes.rows(), p.pairs, reached));
   add_products(p, solution, goal, options, memory.products, estimate);
-  if (spec.of == Goal::displacement) add_displacement_error(p, goal, solution.u, *estimate.goal);
-  if (spec.of == Goal::stress) add_stress_error(p, goal, solution.u, *estimate.goal);
-  add_far_errors(p.mesh, estimate);
   if (spec.of == Goal::mean) {
     const PressureEstimate& e = estimate.pressures[spec.pair];
     estimate.goal->local = mean_error(p.mesh, p.pairs[spec.pair], e.line, e.local.pointwise(e.line), spec.window);
   }
+  if (spec.of == Goal::displacement) add_displacement_error(p, goal, solution.u, *estimate.goal);
+  if (spec.of == Goal::stress) add_stress_error(p, goal, solution.u, *estimate.goal);
+  for_each_index(p.pairs.size(), solver_threads(),
+                 [&](std::size_t k) { find_fitted_pressure(p, p.pairs[k], estimate.pressures[k]); });
+  add_far_errors(p.mesh, estimate);
   return estimate;
 }
 

@@ -165,21 +165,52 @@ bool credible(const PressureForm& form, const Walk& walk, const Range& range, co
   return true;
 }
 
-}  // namespace
-
-std::optional<double> FittedPressure::at(double s) const {
-  for (const double round : {0.0, around})
-    for (const FittedPiece& piece : pieces)
-      if (s + round >= piece.vertices[0] && s + round <= piece.vertices[1])
-        if (const double p = piece.form(s + round) + piece.fluid; std::isfinite(p)) return p;
+// p* as it would be of a mesh with every other vertex: of its moments, which are sums of the piece's.
+std::optional<PressureForm> fit_of_every_other(const LoadedPiece& piece, int edges_of_border) {
+  std::array<double, 2> ends = ends_of(piece);
+  for (const int which : {0, 1})
+    if (piece.end[which].border) ends[which] = border_place(piece, which, 2);
+  const LoadedPiece coarse = every_other(piece);
+  for (int edges = (edges_of_border + 1) / 2; edges >= 2; --edges)
+    if (auto form = fit_pressure(coarse, ends, edges)) return form;
   return std::nullopt;
 }
 
-FittedPressure fitted_pressure(const Problem& problem, const ContactPair& pair, const PressureEstimate& estimate) {
+// p* is at least as near as it would be of every other vertex: by as much as that is off from it, what p_h misses along
+// the line is lowered.
+void lower_errors(const Walk& walk, const Range& range, const PressureForm& form, const PressureForm& coarse,
+                  PressureEstimate& e) {
+  const PressureLine& line = e.line;
+  LineError& local = e.local;
+  const bool swings = local.swing.size() > 0;
+  const VecX missed = local.pointwise(line);
+  double worst = 0, square = 0, of_multiplier = 0;
+  for (Index k = range.first; k <= range.last; ++k) {
+    const Index i = walk.vertex[k];
+    if (!e.counts(i)) continue;
+    const double off = std::abs(form(walk.s(k)) - coarse(walk.s(k)));
+    worst = largest(worst, off / missed(i));
+    square += off * off * line.h(i);
+    of_multiplier += std::pow(swings ? std::max(local.l2(i), local.swing(i)) : local.l2(i), 2);
+  }
+  const double norm = std::sqrt(square / of_multiplier);
+  if (!(norm < 1)) return;
+  if (local.worst.size() == 0) local.worst = VecX::Ones(line.p.size());
+  for (Index k = range.first; k <= range.last; ++k) {
+    const Index i = walk.vertex[k];
+    local.l2(i) *= norm;
+    if (swings) local.swing(i) *= norm;
+    local.worst(i) = std::max(1.0, std::min(worst, 1.0) / norm);
+  }
+}
+
+}  // namespace
+
+void find_fitted_pressure(const Problem& problem, const ContactPair& pair, PressureEstimate& estimate) {
   const PressureLine& line = estimate.line;
-  FittedPressure fitted{.pieces = {}, .around = line.closed ? line.s(line.s.size() - 1) : 0};
-  if (problem.method.multipliers != Multipliers::linear || pair.spec.stiffness || !(largest_entry(line.p) > 0))
-    return fitted;
+  FittedPressure& fitted = estimate.fitted;
+  fitted = {.pieces = {}, .around = line.closed ? line.s(line.s.size() - 1) : 0};
+  if (problem.method.multipliers != Multipliers::linear || pair.spec.stiffness || !(largest_entry(line.p) > 0)) return;
   const Walk walk = walk_along(problem.mesh, pair, estimate);
   const bool unilateral = pair.spec.condition == Condition::unilateral;
   const VecX missed = error_safety * estimate.local.pointwise(line);
@@ -193,12 +224,12 @@ FittedPressure fitted_pressure(const Problem& problem, const ContactPair& pair, 
       const auto form = fit_pressure(piece, ends, edges);
       if (form && credible(*form, walk, range, estimate, missed, unilateral)) {
         fitted.pieces.push_back({*form, {piece.s(0), piece.s(piece.s.size() - 1)}, *fluid});
+        if (const auto coarse = fit_of_every_other(piece, edges)) lower_errors(walk, range, *form, *coarse, estimate);
         break;
       }
       if (!borders) break;
     }
   }
-  return fitted;
 }
 
 }  // namespace mortise

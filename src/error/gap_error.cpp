@@ -23,7 +23,8 @@ VecX gap_error(const ContactPair& pair, const std::vector<ElasticLaw>& laws, con
 }
 
 void add_gap_error(const PressureLine& line, const VecX& gap_error, LineError& error) {
-  error.l2.array() += gap_error.array() * line.h.array().sqrt() / LineError::pointwise_factor;
+  for (Eigen::Index i = 0; i < gap_error.size(); ++i)
+    error.add_data(i, gap_error(i) * std::sqrt(line.h(i)) / LineError::pointwise_factor);
 }
 
 }  // namespace mortise

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/singular_points.hpp"
+#include "error/pressure_form.hpp"
 #include "error/pressure_windows.hpp"
 #include "error/tail_shares.hpp"
 
@@ -12,6 +13,7 @@ namespace mortise {
 struct PressureEstimate {
   PressureLine line;
   LineError local;
+  FittedPressure fitted;  ///< the pressure that is reported, where it is nearer
   std::vector<PressureWindow> windows;
   VecX far;  ///< of each window's mean, stress: the sum of the cells' parts without their signs, and of tails.means
   TailShares tails;                     ///< what the mesh misses at the bodies' corners

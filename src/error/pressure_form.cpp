@@ -75,6 +75,7 @@ Triplets spline_moments(const LoadedPiece& piece, const std::array<double, 2>& e
 
 // int p_h phi_i.
 VecX multiplier_moments(const LoadedPiece& piece) {
+  if (piece.moments.size() > 0) return piece.moments;
   VecX moments = VecX::Zero(piece.s.size());
   for (Index e = 0; e + 1 < piece.s.size(); ++e) {
     const double h = piece.s(e + 1) - piece.s(e);
@@ -186,18 +187,47 @@ std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::ar
   return form;
 }
 
-double border_place(const LoadedPiece& piece, int which) {
+LoadedPiece every_other(const LoadedPiece& piece) {
+  const Index edges = piece.s.size() - 1, count = edges / 2 + 1;
+  const auto kept = [&](Index k) { return k + 1 < count ? 2 * k : edges; };  // an odd edge belongs to the last one
+  LoadedPiece coarse{
+      .s = VecX(count), .p = VecX(count), .width = VecX(count), .end = piece.end, .moments = VecX::Zero(count)};
+  for (Index k = 0; k < count; ++k) {
+    coarse.s(k) = piece.s(kept(k));
+    coarse.p(k) = piece.p(kept(k));
+    coarse.width(k) = piece.width(kept(k));
+  }
+  const VecX moments = multiplier_moments(piece);
+  coarse.moments(0) = moments(0);
+  for (Index k = 0; k + 1 < count; ++k)
+    for (Index i = kept(k) + 1; i <= kept(k + 1); ++i) {
+      const double z = (piece.s(i) - coarse.s(k)) / (coarse.s(k + 1) - coarse.s(k));
+      coarse.moments(k) += (1 - z) * moments(i);
+      coarse.moments(k + 1) += z * moments(i);
+    }
+  return coarse;
+}
+
+double border_place(const LoadedPiece& piece, int which, Index stride) {
   const Index last = piece.loaded(which), inward = which == 0 ? 1 : -1;
   Eigen::Vector3d s, square;
   for (Index k = 0; k < 3; ++k) {
-    s(k) = piece.s(last + k * inward);
-    square(k) = piece.p(last + k * inward) * piece.p(last + k * inward);
+    s(k) = piece.s(last + k * inward * stride);
+    square(k) = piece.p(last + k * inward * stride) * piece.p(last + k * inward * stride);
   }
   const Eigen::Vector3d off = s.array() - s.mean();
   const double slope = off.dot(square) / off.squaredNorm(), place = s.mean() - square.mean() / slope;
   const double next = piece.s(last - inward);
   const bool rises = slope * double(inward) > 0;
   return rises ? std::clamp(place, std::min(s(0), next), std::max(s(0), next)) : next;
+}
+
+std::optional<double> FittedPressure::at(double s) const {
+  for (const double round : {0.0, around})
+    for (const FittedPiece& piece : pieces)
+      if (s + round >= piece.vertices[0] && s + round <= piece.vertices[1])
+        if (const double p = piece.form(s + round) + piece.fluid; std::isfinite(p)) return p;
+  return std::nullopt;
 }
 
 }  // namespace mortise

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "base/types.hpp"
 
@@ -21,6 +22,7 @@ struct LoadedPiece {
   VecX p;                       ///< of the piecewise linear multiplier, stress
   VecX width;                   ///< of the line there: distance from the axis in rings, else 1
   std::array<PieceEnd, 2> end;  ///< the first and the last
+  VecX moments{};               ///< with the hat functions; empty: those of p
 
   Eigen::Index loaded(int which) const;  ///< the first (0) or the last (1) vertex that carries p
 };
@@ -44,7 +46,25 @@ std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::ar
 
 /// Where the border at an end of a piece of three vertices or more lies, s: p goes as a root there (Johnson 1985,
 /// section 4.2), so that the line through the squares of the last three vertices' p is zero at it, not before the last
-/// of them and not beyond the next vertex.
-double border_place(const LoadedPiece& piece, int which);
+/// of them and not beyond the next vertex. `stride`: of every so many vertices from the last on.
+double border_place(const LoadedPiece& piece, int which, Eigen::Index stride = 1);
+
+/// p* between two places of a line, where it is credible.
+struct FittedPiece {
+  PressureForm form;
+  std::array<double, 2> vertices;  ///< s of the first and the last vertex that has p* and not the multiplier
+  double fluid = 0;                ///< pressure of the fluid beside it, from which p rises
+};
+
+struct FittedPressure {
+  std::vector<FittedPiece> pieces;  ///< by s
+  double around = 0;                ///< length of a closed curve, whose s goes on beyond its first vertex; else 0
+
+  /// p* at s of the line, stress; nothing where p is the multiplier's.
+  std::optional<double> at(double s) const;
+};
+
+/// A piece of at least four edges with every other vertex, and its moments: those of p with the hats of these.
+LoadedPiece every_other(const LoadedPiece& piece);
 
 }  // namespace mortise

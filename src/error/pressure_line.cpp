@@ -176,7 +176,8 @@ LineError line_error(const PressureLine& line) {
 
 VecX LineError::pointwise(const PressureLine& line) const {
   constexpr Eigen::Index reach = 4;
-  const VecX at = whole().array() / line.h.array().sqrt() * pointwise_factor;
+  VecX at = whole().array() / line.h.array().sqrt() * pointwise_factor;
+  if (worst.size() > 0) at = at.cwiseProduct(worst);
   const Eigen::Index count = at.size(), period = count - 1;
   VecX found = at;
   for (Eigen::Index i = 0; i < count; ++i)
@@ -196,8 +197,15 @@ VecX LineError::pointwise(const PressureLine& line) const {
   return found;
 }
 
+VecX LineError::along() const { return data.size() > 0 ? VecX(l2 + data) : l2; }
+
+void LineError::add_data(Eigen::Index vertex, double by) {
+  if (data.size() == 0) data = VecX::Zero(l2.size());
+  data(vertex) = std::hypot(data(vertex), by);
+}
+
 VecX LineError::whole() const {
-  VecX largest = l2;
+  VecX largest = along();
   for (const VecX& other : {swing, missed})
     if (other.size() > 0) largest = largest.cwiseMax(other);
   return largest;

@@ -46,9 +46,13 @@ double round_off_pressure(const Mesh& mesh, std::span<const ContactPair> pairs, 
 /// an edge or not, is known: that is an end of the line, no border.
 struct LineError {
   VecX l2;  ///< of each vertex, stress sqrt(length)
-  /// Likewise, of what p swings by about its slopes; empty: nothing. Edges of the next mesh are made by `l2`, whose
-  /// rate is known.
+  /// Likewise, of what no pressure along the line tells, such as a gap that the mesh does not follow; empty: nothing.
+  VecX data{};
+  /// Likewise, of what p swings by about its slopes; empty: nothing. Edges of the next mesh are made by `l2` and
+  /// `data`, whose rates are known.
   VecX swing{};
+  /// By how much more than l2 says p is off at the worst of these vertices; empty: 1.
+  VecX worst{};
   /// Likewise, of contact that the mesh does not notice; empty: none.
   VecX missed{};
   struct Missed {
@@ -67,8 +71,10 @@ struct LineError {
   /// What p is off by at least, of vertices at which it goes as a small power of the distance, or that hardly face the
   /// other side, stress; empty: there are none.
   VecX least{};
-  void raise(Eigen::Index vertex, double by);  ///< `least` at a vertex
-  VecX whole() const;                          ///< of each vertex the largest of `l2`, `swing` and `missed`
+  void raise(Eigen::Index vertex, double by);     ///< `least` at a vertex
+  void add_data(Eigen::Index vertex, double by);  ///< a square to that of `data`
+  VecX along() const;                             ///< the sum of `l2` and `data`
+  VecX whole() const;                             ///< of each vertex the largest of along(), `swing` and `missed`
   /// At each vertex what p is off by, stress: the largest within four edges. What the border makes falls with the
   /// distance r from it as sqrt(h / r): that is what moving it does to a root.
   VecX pointwise(const PressureLine& line) const;

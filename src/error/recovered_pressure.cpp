@@ -22,8 +22,9 @@ double pressure_at(const Problem& problem, const StressPatches& patches, const C
 }
 
 bool swings_more(const JudgedLine& e, const VecX& swing) {
+  const VecX along = e.local.along();
   for (Eigen::Index i = 0; i < swing.size(); ++i)
-    if (e.line.loaded[i] && std::isfinite(swing(i)) && swing(i) * std::sqrt(e.line.h(i)) > e.local.l2(i)) return true;
+    if (e.line.loaded[i] && std::isfinite(swing(i)) && swing(i) * std::sqrt(e.line.h(i)) > along(i)) return true;
   return false;
 }
 

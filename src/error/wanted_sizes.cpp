@@ -135,7 +135,7 @@ void add_corner_layers(const ErrorEstimate& estimate, const VecX& sizes, double 
 
 // By what the edges at each vertex of a pair are to shorten.
 VecX line_refinement(const PressureEstimate& e, double target, double borders, double border) {
-  const VecX& l2 = e.local.l2;
+  const VecX l2 = e.local.along();
   VecX r = VecX::Constant(l2.size(), coarsen);
   if (!(target > 0)) return r;
   double sum = 0;

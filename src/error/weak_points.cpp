@@ -32,7 +32,7 @@ void add_weak_points(const PressureLine& line, std::vector<SingularPoint>& point
     double p = std::abs(line.p(i));  // at an edge's length, or extrapolated to the point
     for (const Eigen::Index next : {i - 1, i + 1})
       if (next >= 0 && next < line.p.size()) p = std::max(p, std::abs(line.p(next)));
-    error.l2(i) = std::hypot(error.l2(i), missed(d) * p * std::sqrt(line.h(i)));
+    error.add_data(i, missed(d) * p * std::sqrt(line.h(i)));
     error.raise(i, p * std::abs(std::exp(-folds * d) - 1));
     return true;
   });

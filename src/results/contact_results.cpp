@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "error/fitted_pressure.hpp"
+#include "error/pressure_form.hpp"
 #include "error/pressure_line.hpp"
 #include "fem/edges.hpp"
 #include "model/resultant.hpp"

@@ -73,7 +73,7 @@ struct ContactResults {
 ContactResults contact_results(const Problem& problem, const ContactPair& pair, const StressField& stress,
                                const Solution& solution);
 
-/// p* (error/fitted_pressure.hpp) into the nodes and the extremes of p. The multiplier's p stays at the centres and
+/// p* (error/pressure_form.hpp) into the nodes and the extremes of p. The multiplier's p stays at the centres and
 /// where p* is not known.
 void set_fitted_pressure(const Points& nodes, const Curve& multiplier, const FittedPressure& fitted,
                          ContactResults& results);

@@ -7,8 +7,8 @@
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
 #include "contact/singular_points.hpp"
-#include "error/fitted_pressure.hpp"
 #include "error/force_errors.hpp"
+#include "error/pressure_form.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -117,8 +117,7 @@ void set_force_bars(Results& r) {
 void set_fitted_pressures(Results& r) {
   for_each_index(r.problem.pairs.size(), solver_threads(), [&](std::size_t k) {
     const ContactPair& pair = r.problem.pairs[k];
-    const FittedPressure fitted = fitted_pressure(r.problem, pair, r.estimate->pressures[k]);
-    set_fitted_pressure(r.problem.mesh.nodes, pair.multiplier, fitted, r.recovery.contacts[k]);
+    set_fitted_pressure(r.problem.mesh.nodes, pair.multiplier, r.estimate->pressures[k].fitted, r.recovery.contacts[k]);
   });
 }
 

@@ -26,7 +26,7 @@ void set_force_bars(Results& results);
 ForcesAsked ask_forces(const Results& results);
 void set_force_bars(const ForcesAsked& asked, const FoundDuals& duals, Results& results);
 
-/// p* (error/fitted_pressure.hpp) into the pairs where it is credible.
+/// p* (error/pressure_form.hpp) into the pairs where it is credible.
 void set_fitted_pressures(Results& results);
 
 /// The largest source of the estimated error of p, in words with its place: "the border of contact near (0.01, 0)".

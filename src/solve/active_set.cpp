@@ -54,6 +54,7 @@ bool look(ContactRows& rows, const VecX& at, ActiveSetResult& r, ContactRows::An
     r.infeasible.clear();
     r.status = answer.status;
     r.dependent_row = answer.dependent_row;
+    r.negligible_tension = answer.negligible_tension;
     r.lambda = answer.lambda;
     r.mu = answer.mu;
     r.driven_mode = answer.driven_mode;
@@ -241,11 +242,10 @@ ActiveSetResult find_active_set(const ComplementarityProblem& p, const VecX& rhs
   return r;
 }
 
-bool is_infeasible(const SaddlePointSystem& s, const Solution& solution) {
+bool is_infeasible(const SaddlePointSystem& s, const Solution& solution, double tension) {
   if (s.unilateral.empty()) return false;
   const VecX w = (s.B * solution.u - s.g).cwiseQuotient(s.row_scale);
-  const double penetration = least_penetration * largest_entry(solution.u),
-               tension = least_tension * largest_entry(solution.lambda);
+  const double penetration = least_penetration * largest_entry(solution.u);
   for (Eigen::Index a = 0; a < w.size(); ++a)
     if (s.unilateral[a] && (solution.active[a] ? solution.lambda(a) > tension : w(a) < -penetration)) return true;
   return false;

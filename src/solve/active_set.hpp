@@ -28,6 +28,7 @@ struct ActiveSetResult {
   int coarse_steps = 0;              ///< on coarse rows
   int interior_steps = 0;            ///< of the interior point
   int dependent_row = -1;
+  double negligible_tension = 0;  ///< of the last solve, as of ContactRows::Answer
   /// s: motions that open no closed row and on which the load works (Farkas' lemma), or zero.
   VecX driven_mode;
   MatX free_motions;  ///< s x count: that the final active set does not hold, told_apart
@@ -59,7 +60,8 @@ ActiveSetResult find_active_set(const ComplementarityProblem& problem, const Vec
 
 /// Whether an open row is penetrated by the solution's own u, or a closed one in tension by its lambda: exact where
 /// springs against unbalanced loads leave round-off in the multipliers' system (slender bodies, rollers without load).
-bool is_infeasible(const SaddlePointSystem& system, const Solution& solution);
+/// `tension`: that is round-off, stress.
+bool is_infeasible(const SaddlePointSystem& system, const Solution& solution, double tension);
 
 /// Adds what the method found of the system's rows, in its units but for lambda and u.
 void take_active_set(const SaddlePointSystem& system, const ActiveSetResult& set, Solution& solution);

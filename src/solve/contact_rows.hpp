@@ -20,7 +20,7 @@ class ContactRows {
     VecX lambda, mu;  ///< m, s
     VecX w;           ///< m
     /// Largest lambda_a / scale_a, and -w_a, that are round-off.
-    double negligible_tension, negligible_penetration;
+    double negligible_tension = 0, negligible_penetration = 0;
     VecX driven_mode;  ///< s: the free motion that the load drives and no closed row holds, in its direction, or zero
     VecX opening;      ///< m: H driven_mode
   };
@@ -57,9 +57,6 @@ class ContactRows {
   /// s x count: the motions that none of the closed rows of the last solve holds, told_apart.
   virtual MatX free_motions() const = 0;
 };
-
-/// Of the largest lambda_a / scale_a: less is round-off.
-inline constexpr double least_tension = 1e-10;
 
 /// Of a row's own compliance in C: what gives way more is soft. Left out of a step are then terms of its inverse.
 inline constexpr double far_more = 1e3;

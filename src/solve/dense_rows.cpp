@@ -3,6 +3,7 @@
 namespace mortise {
 namespace {
 
+constexpr double least_tension = 1e-10;           // of the largest multiplier (over its scale)
 constexpr double negligible_penetration = 1e-11;  // of the largest term of any w
 constexpr double unheld = 1e-14;  // of the mean stiffness against motions: a few round-offs of its largest part
 

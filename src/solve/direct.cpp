@@ -46,7 +46,7 @@ class Passes {
     measure_residuals(s_, solution_);
     const bool exact = largest(solution_.force_residual, solution_.constraint_residual) < 1e-11;
     if (solution_.status != SolveStatus::converged || (pass_ > 0 && !infeasible_ && !exact)) return false;
-    infeasible_ = is_infeasible(s_, solution_);
+    infeasible_ = is_infeasible(s_, solution_, tension_);
     ++pass_;
     return !exact || infeasible_;
   }
@@ -69,6 +69,7 @@ class Passes {
     ActiveSetResult set = find_active_set(problem_, rhs, pass_ > 0 ? solution_.active : s_.start);
     if (pass_ > 0 && set.status != SolveStatus::converged) return {};  // those before stay; the checks look at them
     take_active_set(s_, set, solution_);
+    if (pass_ == 0) tension_ = s_.stiffness_scale * set.negligible_tension;
     if (is_without_solution(solution_)) return {};
     if (pass_ > 0) set.lambda -= problem_.known;
     const VecX change = stacked(set.lambda, set.mu);
@@ -84,6 +85,7 @@ class Passes {
   Solution& solution_;
   int pass_ = 0;
   bool infeasible_ = false;
+  double tension_ = 0;  // that is round-off, as the first pass has it
 };
 
 }  // namespace

@@ -92,7 +92,7 @@ TEST(SolveCases, HaveOneMeshOfAnAccuracy) {
     if (load.scale < 0) continue;
     const double exact = 581.290e6 * std::sqrt(load.scale);  // Hertz
     EXPECT_NEAR(said[load.name].peak, exact, 0.02 * exact) << load.name;
-    EXPECT_LE(said[load.name].estimated, 0.02) << load.name;
+    EXPECT_LE(said[load.name].estimated, 0.05) << load.name;
     EXPECT_TRUE(said[load.name].reached) << load.name;
   }
 }

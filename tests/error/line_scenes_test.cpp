@@ -121,7 +121,7 @@ TEST(GapMisfit, OfAJumpIsItsPlaceAndOfASpikeAStress) {
   of_spike.l2.maxCoeff(&worst);
   EXPECT_EQ(worst, 5);  // of twelve edges that which has the spike's middle
   EXPECT_GT(largest_bar(spike), 10 * largest_bar(solved(blocks(0, 0), {})));
-  const VecX& local = spike.estimate->pressures[0].local.l2;  // at both ends of each edge
+  const VecX& local = spike.estimate->pressures[0].local.data;  // at both ends of each edge
   for (Eigen::Index e = 0; e < of_spike.l2.size(); ++e)
     EXPECT_GE(std::min(local(e), local(e + 1)), of_spike.l2(e)) << e;
 }

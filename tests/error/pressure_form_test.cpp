@@ -90,6 +90,27 @@ TEST(PressureForm, HasNoSlopeOnAnAxis) {
   }
 }
 
+TEST(PressureForm, OfEveryOtherVertexHasTheMomentsOfItsHats) {
+  std::mt19937 draw(48);
+  for (int k = 0; k < 40; ++k) {
+    const VecX s = vertices(1, 3, 6 + k, draw), p = VecX::Random(s.size()),
+               width = k % 2 == 0 ? VecX::Ones(s.size()) : s;
+    const LoadedPiece coarse = every_other({.s = s, .p = p, .width = width, .end = {}});
+    ASSERT_EQ(coarse.s.size(), (s.size() - 1) / 2 + 1);
+    EXPECT_EQ(coarse.s(coarse.s.size() - 1), 3);
+    const VecX all = mass(s, width) * p;
+    for (Eigen::Index i = 0; i < coarse.s.size(); ++i) {
+      double moment = 0;  // a hat of the coarse vertices is a sum of hats of the fine ones, by its values there
+      for (Eigen::Index j = 0; j < s.size(); ++j) {
+        const double before = i > 0 ? (s(j) - coarse.s(i - 1)) / (coarse.s(i) - coarse.s(i - 1)) : 1,
+                     after = i + 1 < coarse.s.size() ? (coarse.s(i + 1) - s(j)) / (coarse.s(i + 1) - coarse.s(i)) : 1;
+        moment += std::max(0.0, std::min(before, after)) * all(j);
+      }
+      EXPECT_NEAR(coarse.moments(i), moment, 1e-12) << k << " " << i;
+    }
+  }
+}
+
 // Sphere on a block, exact (Hertz): p* of meshes drawn at random is nearer than the multiplier, on the axis too.
 TEST(FittedPressure, OfHertzsSphereIsNearerThanTheMultiplier) {
   std::mt19937 draw(38);

@@ -173,7 +173,7 @@ TEST(ActiveSet, AnOpenRowThatPenetratesIsSeen) {
   const auto seen = [&](double second, std::vector<char> active) {
     solution.u = VecX{{1, second}};
     solution.active = std::move(active);
-    return is_infeasible(s, solution);
+    return is_infeasible(s, solution, 0);
   };
   EXPECT_TRUE(seen(-1e-6, {1, 0}));
   EXPECT_FALSE(seen(-1e-6, {1, 1}));
@@ -194,7 +194,7 @@ TEST(ActiveSet, AClosedRowInTensionIsSeen) {
   const auto seen = [&](double second, std::vector<char> active) {
     solution.lambda = VecX{{-1, second}};
     solution.active = std::move(active);
-    return is_infeasible(s, solution);
+    return is_infeasible(s, solution, 1e-10);
   };
   EXPECT_TRUE(seen(1e-8, {1, 1}));
   EXPECT_FALSE(seen(1e-12, {1, 1}));
