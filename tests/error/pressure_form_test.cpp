@@ -134,6 +134,8 @@ TEST(FittedPressure, OfHertzsSphereIsNearerThanTheMultiplier) {
       if (node.position.x() == 0) EXPECT_NEAR(node.p, exact, 1.5e-3 * exact) << edges;
     }
     EXPECT_LT(off, off_h / 1.5) << edges;
+    const PressureEstimate& e = r.estimate->pressures[0];
+    EXPECT_LT(std::sqrt(e.local2), 0.9 * line_error(e.line).l2.norm()) << edges;  // what the multiplier's slopes miss
     all += off;
     all_h += off_h;
   }
