@@ -78,13 +78,7 @@ class Loop {
         last = std::move(r);
         report.reason = why_to_stop(*last, report);
         if (report.reached() || !report.reason.empty()) break;
-        others_ = tells_sizes(*last) || !is_pressed(*last) ? 0 : others_ + 1;
-        if (!is_pressed(*last))
-          sizes = with_wanted(*last, small_at_gaps(finer(sizes)));
-        else if (others_ == 0)
-          sizes = next_sizes(*last, report.solves.size() == 1);
-        else
-          sizes = finer(sizes);
+        sizes = sizes_after(*last, std::move(sizes), report.solves.size() == 1);
       }
     } catch (const Interrupted&) {
       if (!last) return std::nullopt;
@@ -93,15 +87,7 @@ class Loop {
       if (!last) throw;
       report.reason = error.what();
     }
-    Stopwatch watch;
-    set_force_bars(*last);
-    set_fitted_pressures(*last);
-    seconds.estimate += watch.lap();
-    // What is left was spent on the geometry, and on the sizes of the next mesh.
-    seconds.mesh += watch_.elapsed() - seconds.total();
-    last->seconds = seconds;
-    if (!report.reached()) last->status = std::max(last->status, Status::accuracy_not_reached);
-    last->accuracy = std::move(report);
+    complete(*last, std::move(report), seconds);
     return last;
   }
 
@@ -109,6 +95,27 @@ class Loop {
   const std::vector<char>& open() const { return open_; }
 
  private:
+  // `sizes`: of the mesh that r is on; `first`: of all.
+  SizeAt sizes_after(const Results& r, SizeAt sizes, bool first) {
+    const bool pressed = is_pressed(r);
+    others_ = tells_sizes(r) || !pressed ? 0 : others_ + 1;
+    if (!pressed) return with_wanted(r, small_at_gaps(finer(sizes)));
+    return others_ == 0 ? next_sizes(r, first) : finer(sizes);
+  }
+
+  // With what only the last results have. `seconds`: of all solves.
+  void complete(Results& last, AccuracyReport report, Seconds seconds) const {
+    Stopwatch watch;
+    set_force_bars(last);
+    set_fitted_pressures(last);
+    seconds.estimate += watch.lap();
+    // What is left was spent on the geometry, and on the sizes of the next mesh.
+    seconds.mesh += watch_.elapsed() - seconds.total();
+    last.seconds = seconds;
+    if (!report.reached()) last.status = std::max(last.status, Status::accuracy_not_reached);
+    last.accuracy = std::move(report);
+  }
+
   Results solve_on(const SizeAt& sizes, const ActiveSet* start, int number) {
     const std::string words = "solve " + std::to_string(number) + told_;
     const auto stage = [&](const std::string& name) {

@@ -29,6 +29,18 @@ double border_part_of(const PressureLine& line, Eigen::Index e, bool loaded_befo
   return edge / std::max(ends ? length / 2 : length, edge);
 }
 
+void mark_loaded(const ContactPair& pair, PressureLine& line) {
+  const Eigen::Index count = line.p.size();
+  const double least = loaded_part * largest_entry(line.p);
+  for (const ContactPoint& point : pair.points) line.faced[point.edge] = 1;
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (std::abs(line.p(i)) > least)
+      for (Eigen::Index j = std::max<Eigen::Index>(i - 1, 0); j <= std::min(i + 1, count - 1); ++j) line.loaded[j] = 1;
+  if (line.closed && (line.loaded.front() || line.loaded.back())) line.loaded.front() = line.loaded.back() = 1;
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (const auto [before, after] = line.faced_beside(i); !before && !after) line.loaded[i] = 0;
+}
+
 }  // namespace
 
 std::array<bool, 2> PressureLine::faced_beside(Eigen::Index i) const {
@@ -63,6 +75,17 @@ VecX fluid_along(const VecX& wet, const PressureLine& line) {
   }
   for (Eigen::Index k = before + 1; before >= 0 && k <= last; ++k) fluid(k) = wet(before);
   return fluid;
+}
+
+void take_fluid(const ContactPair& pair, const VecX& fluid, PressureLine& line) {
+  const VecX of_multipliers = multiplier_values(pair.coupling, fluid.segment(pair.first_row, pair.coupling.B.rows()));
+  const Eigen::Index count = line.p.size();
+  VecX wet(count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    wet(i) = of_multipliers(pair.coupling.on_edge[std::min(i, count - 2)][i < count - 1 ? 0 : 1]);
+  line.fluid = fluid_along(wet, line);
+  line.p -= line.fluid;
+  for (Eigen::Index e = 0; e < line.middle.size(); ++e) line.middle(e) -= (line.fluid(e) + line.fluid(e + 1)) / 2;
 }
 
 }  // namespace
@@ -103,23 +126,8 @@ PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX
     for (Eigen::Index e = 0; e < count - 1; ++e) line.middle(e) = pressure(pair.coupling.on_edge[e][2]);
   }
   if (largest_entry(line.p) <= round_off) line.p.setZero();
-  if (pair.spec.fluid && fluid.size() > 0) {
-    const VecX of_multipliers = multiplier_values(pair.coupling, fluid.segment(pair.first_row, pair.coupling.B.rows()));
-    VecX wet(count);
-    for (Eigen::Index i = 0; i < count; ++i)
-      wet(i) = of_multipliers(pair.coupling.on_edge[std::min(i, count - 2)][i < count - 1 ? 0 : 1]);
-    line.fluid = fluid_along(wet, line);
-    line.p -= line.fluid;
-    for (Eigen::Index e = 0; e < line.middle.size(); ++e) line.middle(e) -= (line.fluid(e) + line.fluid(e + 1)) / 2;
-  }
-  const double least = loaded_part * largest_entry(line.p);
-  for (const ContactPoint& point : pair.points) line.faced[point.edge] = 1;
-  for (Eigen::Index i = 0; i < count; ++i)
-    if (std::abs(line.p(i)) > least)
-      for (Eigen::Index j = std::max<Eigen::Index>(i - 1, 0); j <= std::min(i + 1, count - 1); ++j) line.loaded[j] = 1;
-  if (line.closed && (line.loaded.front() || line.loaded.back())) line.loaded.front() = line.loaded.back() = 1;
-  for (Eigen::Index i = 0; i < count; ++i)
-    if (const auto [before, after] = line.faced_beside(i); !before && !after) line.loaded[i] = 0;
+  if (pair.spec.fluid && fluid.size() > 0) take_fluid(pair, fluid, line);
+  mark_loaded(pair, line);
   return line;
 }
 

@@ -13,8 +13,8 @@
 #include "mesh/body_points.hpp"
 #include "mesh/thickness.hpp"
 #include "model/patterns.hpp"
+#include "problem/curve_pieces.hpp"
 #include "problem/facing_pairs.hpp"
-#include "problem/scene_names.hpp"
 #include "scene/scene.hpp"
 
 namespace mortise {
@@ -63,53 +63,15 @@ void require_two_bodies(const Mesh& mesh, const ContactSpec& spec, const std::ar
 // Whether the pairs of the entry find themselves.
 bool is_found(const ContactSpec& spec) { return is_pattern(spec.between[0]) || is_pattern(spec.between[1]); }
 
-std::array<std::vector<int>, 2> boundaries_of(const ContactSpec& spec, const SceneNames& names) {
-  const std::string key = spec.key + ".between";
-  return {names.boundaries(key, spec.between[0]), names.boundaries(key, spec.between[1])};
-}
-
-// One force, or one overlap, is of one chain.
-bool is_whole(const ContactSpec& spec) { return spec.pretension || spec.overlap; }
-
-using Pieces = std::multimap<int, int>;  // of a boundary those that are its pieces
-
-Pieces all_pieces(const Mesh& mesh) {
-  Pieces pieces;
-  for (int b = 0; b < int(mesh.boundaries.size()); ++b)
-    if (const int whole = mesh.boundaries[b].piece_of; whole >= 0) pieces.emplace(whole, b);
-  return pieces;
-}
-
-// Those of the sides of an entry, in place of a boundary that has some its pieces.
-std::array<std::vector<int>, 2> chains_of(const Pieces& pieces, const ContactSpec& spec, const SceneNames& names) {
-  std::array<std::vector<int>, 2> sides = boundaries_of(spec, names);
-  if (pieces.empty() || is_whole(spec)) return sides;
-  for (std::vector<int>& side : sides) {
-    std::vector<int> chains;
-    for (const int boundary : side) {
-      const auto [first, end] = pieces.equal_range(boundary);
-      if (first == end) chains.push_back(boundary);
-      for (auto piece = first; piece != end; ++piece) chains.push_back(piece->second);
-    }
-    side = std::move(chains);
-  }
-  return sides;
-}
-
-// A pattern may match those of several bodies, as a support's, and means others.
-bool is_of_one_body(const Mesh& mesh, int boundary, const SideTable& table) {
-  const std::vector<CellSide> sides = sides_of(mesh, mesh.boundaries[boundary], table);
-  return std::ranges::all_of(
-      sides, [&](const CellSide& side) { return mesh.cells[side.cell].body == mesh.cells[sides[0].cell].body; });
-}
+using BoundaryPair = std::pair<int, int>;
 
 // Those that an entry of their own has, with its settings.
-std::set<std::pair<int, int>> named_pairs(const Scene& scene, const Pieces& pieces, const SceneNames& names) {
-  std::set<std::pair<int, int>> pairs;
+std::set<BoundaryPair> named_pairs(const Scene& scene, const EntrySides& entries) {
+  std::set<BoundaryPair> pairs;
   for (const auto* specs : {&scene.contacts, &scene.ties})
     for (const ContactSpec& spec : *specs) {
       if (is_found(spec)) continue;
-      const auto sides = chains_of(pieces, spec, names);
+      const auto sides = entries.of(spec);
       for (const int one : sides[0])
         for (const int other : sides[1]) pairs.insert(std::minmax(one, other));
     }
@@ -118,105 +80,90 @@ std::set<std::pair<int, int>> named_pairs(const Scene& scene, const Pieces& piec
 
 double size_of(const Mesh& mesh) { return (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm(); }
 
-std::vector<ContactCurves> curves_of(const Scene& scene, const std::vector<ContactSpec>& specs, const Mesh& mesh) {
-  if (specs.empty()) return {};
-  const SideTable table(mesh);
-  const BodyPoints points = body_points(mesh);
-  const std::vector<int> whole = bonded_to(mesh, points);
-  const Thickness thickness(mesh.nodes, boundary_edges(mesh), whole);
-  const SceneNames names(mesh);
-  const Pieces pieces = all_pieces(mesh);
-  std::map<int, Curve> curves;  // by boundary
-  const auto curve_of = [&](int boundary) -> const Curve& {
-    const auto at = curves.find(boundary);
-    if (at != curves.end()) return at->second;
-    Curve curve = contact_curve(mesh, boundary, table);
-    curve.thickness = thickness.behind(curve);
-    return curves.emplace(boundary, std::move(curve)).first->second;
-  };
-  std::vector<ContactCurves> all;
-  const std::set<std::pair<int, int>> named = named_pairs(scene, pieces, names);
-  std::set<std::pair<int, int>> found_before;
-  for (const ContactSpec& spec : specs) {
-    auto sides = chains_of(pieces, spec, names);
+// The pairs of curves that entries are, in their order.
+class PairFinder {
+ public:
+  PairFinder(const Scene& scene, const Mesh& mesh)
+      : mesh_(mesh), entries_(mesh), named_(named_pairs(scene, entries_)) {}
+
+  void add(const ContactSpec& spec, std::vector<ContactCurves>& all) {
+    auto sides = entries_.of(spec);
     const bool by_pattern = is_found(spec), found = by_pattern || sides[0].size() + sides[1].size() > 2;
-    if (spec.fluid && found)
+    if (!found) return all.push_back(contact_of(spec, {sides[0][0], sides[1][0]}, false));
+    if (spec.fluid)
       throw SceneError(spec.key + ".fluid: '" + spec.between[0] + "' or '" + spec.between[1] +
                        "' falls into pieces; expected two curves of one piece each");
-    std::vector<std::array<int, 2>> pairs{{sides[0][0], sides[1][0]}};
-    if (found) {
-      for (std::vector<int>& side : sides) {
-        std::erase_if(side, [&](int boundary) { return !is_of_one_body(mesh, boundary, table); });
-        for (const int boundary : side) curve_of(boundary);
-      }
-      pairs = facing_pairs(mesh, curves, sides, by_pattern ? spec.within : size_of(mesh));
-      if (pairs.empty())
-        throw SceneError(spec.key + ".between: no curves '" + spec.between[0] + "' and '" + spec.between[1] +
-                         "' of two bodies face each other " +
-                         (!by_pattern ? "anywhere; expected others"
-                          : spec.within
-                              ? "within contact.within; expected others, or a larger distance"
-                              : "within half an edge; expected others, or contact.within = a larger distance"));
-    }
-    for (const std::array<int, 2>& pair : pairs) {
-      const auto both = std::minmax(pair[0], pair[1]);
-      if (found && ((by_pattern && named.contains(both)) || !found_before.insert(both).second)) continue;
-      ContactCurves contact{.spec = spec, .curves = {}};
-      contact.spec.found = found;
-      for (const int i : {0, 1}) {
-        const Curve& curve = contact.curves[i] = curve_of(pair[i]);
-        contact.spec.between[i] = mesh.boundaries[pair[i]].name;
-        if (!spec.multipliers_on.empty() && spec.multipliers_on == spec.between[i])
-          contact.spec.multipliers_on = contact.spec.between[i];
-        contact.edge_size[i] = curve_length(mesh.nodes, curve) / double(curve.edges.size());
-      }
-      if (auto& [one, other] = contact.curves; whole[one.body] == whole[other.body]) {
-        one.thickness = thickness.behind(one, &other);
-        other.thickness = thickness.behind(other, &one);
-      }
-      require_own_nodes(mesh, points, contact.spec, contact.curves);
-      require_two_bodies(mesh, contact.spec, contact.curves);
-      all.push_back(std::move(contact));
+    for (const std::array<int, 2>& pair : facing(spec, std::move(sides), by_pattern)) {
+      const BoundaryPair both = std::minmax(pair[0], pair[1]);
+      if ((by_pattern && named_.contains(both)) || !found_before_.insert(both).second) continue;
+      all.push_back(contact_of(spec, pair, true));
     }
   }
+
+ private:
+  const Curve& curve_of(int boundary) {
+    const auto at = curves_.find(boundary);
+    if (at != curves_.end()) return at->second;
+    Curve curve = contact_curve(mesh_, boundary, table_);
+    curve.thickness = thickness_.behind(curve);
+    return curves_.emplace(boundary, std::move(curve)).first->second;
+  }
+
+  std::vector<std::array<int, 2>> facing(const ContactSpec& spec, std::array<std::vector<int>, 2> sides,
+                                         bool by_pattern) {
+    for (std::vector<int>& side : sides) {
+      std::erase_if(side, [&](int boundary) { return !is_of_one_body(mesh_, boundary, table_); });
+      for (const int boundary : side) curve_of(boundary);
+    }
+    auto pairs = facing_pairs(mesh_, curves_, sides, by_pattern ? spec.within : size_of(mesh_));
+    if (pairs.empty())
+      throw SceneError(spec.key + ".between: no curves '" + spec.between[0] + "' and '" + spec.between[1] +
+                       "' of two bodies face each other " +
+                       (!by_pattern   ? "anywhere; expected others"
+                        : spec.within ? "within contact.within; expected others, or a larger distance"
+                                      : "within half an edge; expected others, or contact.within = a larger distance"));
+    return pairs;
+  }
+
+  ContactCurves contact_of(const ContactSpec& spec, const std::array<int, 2>& pair, bool found) {
+    ContactCurves contact{.spec = spec, .curves = {}};
+    contact.spec.found = found;
+    for (const int i : {0, 1}) {
+      const Curve& curve = contact.curves[i] = curve_of(pair[i]);
+      contact.spec.between[i] = mesh_.boundaries[pair[i]].name;
+      if (!spec.multipliers_on.empty() && spec.multipliers_on == spec.between[i])
+        contact.spec.multipliers_on = contact.spec.between[i];
+      contact.edge_size[i] = curve_length(mesh_.nodes, curve) / double(curve.edges.size());
+    }
+    if (auto& [one, other] = contact.curves; whole_[one.body] == whole_[other.body]) {  // faces of one crack
+      one.thickness = thickness_.behind(one, &other);
+      other.thickness = thickness_.behind(other, &one);
+    }
+    require_own_nodes(mesh_, points_, contact.spec, contact.curves);
+    require_two_bodies(mesh_, contact.spec, contact.curves);
+    return contact;
+  }
+
+  const Mesh& mesh_;
+  const SideTable table_{mesh_};
+  const BodyPoints points_ = body_points(mesh_);
+  const std::vector<int> whole_ = bonded_to(mesh_, points_);
+  const Thickness thickness_{mesh_.nodes, boundary_edges(mesh_), whole_};
+  const EntrySides entries_;
+  const std::set<BoundaryPair> named_;
+  std::set<BoundaryPair> found_before_;
+  std::map<int, Curve> curves_;  // by boundary
+};
+
+std::vector<ContactCurves> curves_of(const Scene& scene, const std::vector<ContactSpec>& specs, const Mesh& mesh) {
+  std::vector<ContactCurves> all;
+  if (specs.empty()) return all;
+  PairFinder finder(scene, mesh);
+  for (const ContactSpec& spec : specs) finder.add(spec, all);
   return all;
 }
 
 }  // namespace
-
-void add_pieces(const Scene& scene, Mesh& mesh) {
-  const SceneNames names(mesh);
-  std::set<int> in_contact;
-  for (const auto* specs : {&scene.contacts, &scene.ties})
-    for (const ContactSpec& spec : *specs) {
-      if (is_whole(spec)) continue;
-      for (const std::vector<int>& side : boundaries_of(spec, names)) in_contact.insert(side.begin(), side.end());
-    }
-  for (const Boundary& boundary : mesh.boundaries) in_contact.erase(boundary.piece_of);  // that has them
-  std::map<int, std::vector<std::vector<int>>> found;
-  for (const int whole : in_contact)
-    if (auto pieces = pieces_of(mesh, whole); pieces.size() > 1) found.emplace(whole, std::move(pieces));
-  if (found.empty()) return;
-  const SideTable table(mesh);
-  const std::vector<std::string> known = boundary_names(mesh);
-  for (const auto& [whole, pieces] : found) {
-    if (!is_of_one_body(mesh, whole, table)) continue;
-    int number = 0;
-    for (const std::vector<int>& edges : pieces) {
-      Boundary piece{.name = {}, .edges = {}};
-      const Boundary& of = mesh.boundaries[whole];
-      do piece.name = of.name + "_" + std::to_string(++number);
-      while (std::ranges::find(known, piece.name) != known.end());
-      for (const int e : edges) {
-        piece.edges.push_back(of.edges[e]);
-        if (!of.samples.empty()) piece.samples.push_back(of.samples[e]);
-      }
-      piece.undrawn = of.undrawn;
-      piece.piece_of = whole;
-      mesh.boundaries.push_back(std::move(piece));
-    }
-  }
-}
 
 std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh) {
   return curves_of(scene, scene.contacts, mesh);

@@ -15,10 +15,6 @@ struct ContactCurves {
   std::array<double, 2> edge_size{};  ///< mean, length
 };
 
-/// Of each curve in contact that falls into pieces, as a surface with a hole in it, a boundary more for each,
-/// NAME_1, NAME_2 from left to right: pairs are those of pieces that face each other.
-void add_pieces(const Scene& scene, Mesh& mesh);
-
 /// Those in contact, and those that are tied. Throws InputError for unknown curves, curves that are no chains, and
 /// curves with common nodes.
 std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh);

@@ -3,6 +3,7 @@
 #include "base/stopwatch.hpp"
 #include "problem/audit.hpp"
 #include "problem/contact_curves.hpp"
+#include "problem/curve_pieces.hpp"
 #include "problem/dirichlet_neumann.hpp"
 #include "problem/fluid.hpp"
 #include "problem/problem.hpp"
