@@ -189,7 +189,7 @@ void lower_errors(const Walk& walk, const Range& range, const PressureForm& form
     const Index i = walk.vertex[k];
     if (!e.counts(i)) continue;
     const double off = std::abs(form(walk.s(k)) - coarse(walk.s(k)));
-    worst = largest(worst, off / missed(i));
+    if (off > 0) worst = largest(worst, off / missed(i));
     square += off * off * line.h(i);
     of_multiplier += std::pow(swings ? std::max(local.l2(i), local.swing(i)) : local.l2(i), 2);
   }
@@ -198,6 +198,7 @@ void lower_errors(const Walk& walk, const Range& range, const PressureForm& form
   if (local.worst.size() == 0) local.worst = VecX::Ones(line.p.size());
   for (Index k = range.first; k <= range.last; ++k) {
     const Index i = walk.vertex[k];
+    if (walk.cut(k)) continue;  // of the next piece too
     local.l2(i) *= norm;
     if (swings) local.swing(i) *= norm;
     local.worst(i) = std::max(1.0, std::min(worst, 1.0) / norm);
