@@ -162,12 +162,18 @@ TEST(ActiveSet, WhatIsKnownOfTheMultipliersChangesNoAnswer) {
   EXPECT_LT((corrected.w - answer.w).norm(), 1e-10 * p.rhs.norm());
 }
 
-TEST(ActiveSet, AnOpenRowThatPenetratesIsSeen) {
+// Each row is one displacement.
+SaddlePointSystem two_unilateral_rows() {
   SaddlePointSystem s;
   s.B = MatX(MatX::Identity(2, 2)).sparseView();
   s.g = VecX::Zero(2);
   s.row_scale = VecX::Ones(2);
   s.unilateral = {1, 1};
+  return s;
+}
+
+TEST(ActiveSet, AnOpenRowThatPenetratesIsSeen) {
+  SaddlePointSystem s = two_unilateral_rows();
   Solution solution;
   solution.lambda = VecX::Zero(2);
   const auto seen = [&](double second, std::vector<char> active) {
@@ -184,11 +190,7 @@ TEST(ActiveSet, AnOpenRowThatPenetratesIsSeen) {
 }
 
 TEST(ActiveSet, AClosedRowInTensionIsSeen) {
-  SaddlePointSystem s;
-  s.B = MatX(MatX::Identity(2, 2)).sparseView();
-  s.g = VecX::Zero(2);
-  s.row_scale = VecX::Ones(2);
-  s.unilateral = {1, 1};
+  SaddlePointSystem s = two_unilateral_rows();
   Solution solution;
   solution.u = VecX::Zero(2);
   const auto seen = [&](double second, std::vector<char> active) {
