@@ -117,6 +117,13 @@ ErrorProducts BodyProducts::with_duals(const Problem& problem, const VecX& u,
   return all;
 }
 
+VecX off_by(const MatX& parts) {
+  VecX all(parts.cols());
+  for (Eigen::Index k = 0; k < all.size(); ++k)
+    all(k) = off_by(parts.col(k).sum(), parts.col(k).squaredNorm(), parts.col(k).lpNorm<1>());
+  return all;
+}
+
 FoundDuals find_duals(const Problem& problem, const VecX& u, const std::shared_ptr<const ContactFactor>& factor,
                       const MatX& functionals) {
   FoundDuals found{.z = MatX(u.size(), functionals.cols()), .sums = {}};
@@ -124,7 +131,7 @@ FoundDuals find_duals(const Problem& problem, const VecX& u, const std::shared_p
     found.z.middleCols(first, fields.cols() - 1) = fields.rightCols(fields.cols() - 1);
   };
   const ErrorProducts parts = BodyProducts().with_duals(problem, u, factor, {functionals, MatX(u.size(), 0)}, keep);
-  found.sums = parts.products.rightCols(functionals.cols()).cwiseAbs().colwise().sum();
+  found.sums = off_by(parts.products.rightCols(functionals.cols()));
   return found;
 }
 

@@ -1,6 +1,8 @@
 // Products of recovered errors, body by body.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 
@@ -52,10 +54,19 @@ class BodyProducts {
   std::vector<std::unique_ptr<Duals>> duals_;    // if they are not kept the last ones
 };
 
+/// What the sum of parts, each known to its own size and with an error of its own, may be off by: its size, and twice
+/// the root of the sum of the squares. No more than the parts with one sign.
+inline double off_by(double sum, double squares, double sizes) {
+  return std::min(std::abs(sum) + 2 * std::sqrt(squares), sizes);
+}
+
+/// Of each functional, `parts`: cells x F.
+VecX off_by(const MatX& parts);
+
 /// The duals of functionals.
 struct FoundDuals {
   MatX z;     ///< n x F
-  VecX sums;  ///< of each the sum of the cells' parts without their signs
+  VecX sums;  ///< of each what the cells' parts make it off by
 };
 
 FoundDuals find_duals(const Problem& problem, const VecX& u, const std::shared_ptr<const ContactFactor>& factor,

@@ -234,8 +234,10 @@ void add_data_errors(const Problem& problem, const Solution& solution, const Acc
       estimate.far.windows.for_each_window(problem.mesh.cells[part.cell].body, k, part.at,
                                            [&](int window, double share) { far(window) += share * works(row, k); });
     }
-    for (Eigen::Index k = shared; k < works.cols(); ++k)
+    for (Eigen::Index k = shared; k < works.cols(); ++k) {
       grow(estimate.goal->parts(part.cell, k - shared), works(row, k));
+      estimate.goal->besides(k - shared) += works(row, k);
+    }
   }
   Eigen::Index window = 0;
   for (PressureEstimate& e : estimate.pressures) {

@@ -62,9 +62,10 @@ std::vector<SingularPoint> that_count(std::vector<SingularPoint> points, const P
   return points;
 }
 
-// Where the bodies' errors move a border of contact they change p beside it as 1 over the root of the distance: by how
-// much more at a vertex than in the window nearest to the border, if it lies between them.
-double near_border(const PressureEstimate& e, Eigen::Index i) {
+// Where the bodies' errors move a border of contact, by d, they change p = c sqrt(r) beside it by c d / (2 sqrt(r)),
+// and by c sqrt(d) at most: by how much more at a vertex than `far`, in the window nearest to the border, if it lies
+// between them.
+double near_border(const PressureEstimate& e, Eigen::Index i, double far, double least) {
   const PressureLine& line = e.line;
   const double around = line.closed ? line.s(line.s.size() - 1) : std::numeric_limits<double>::infinity();
   const auto distance = [&](double from, double to) {
@@ -76,7 +77,9 @@ double near_border(const PressureEstimate& e, Eigen::Index i) {
     const auto from_border = [&](const PressureWindow& window) { return distance(window.s, open); };
     const auto nearest = std::ranges::min_element(e.windows, {}, from_border);
     if (nearest == e.windows.end()) continue;
-    const double r = distance(line.s(i), open), centre = from_border(*nearest);
+    const double centre = nearest->from_border > 0 ? nearest->from_border : from_border(*nearest),
+                 quarter = far * std::sqrt(centre) / (2 * border.root),
+                 r = std::max({distance(line.s(i), open), quarter, least});
     if (r > 0 && r < centre && distance(line.s(i), nearest->s) <= centre)
       factor = std::max(factor, std::sqrt(centre / r));
   }
@@ -114,10 +117,11 @@ double round_off_energy(const ErrorProducts& found, double stiffness_scale, cons
 // If each window keeps a dual of its own with them.
 void add_end_windows(const std::vector<ContactPair>& pairs, std::vector<PressureEstimate>& list) {
   std::size_t count = 0;
-  for (const PressureEstimate& e : list) count += e.windows.size() + 2;
+  for (const PressureEstimate& e : list) count += e.windows.size() + 2 + e.local.borders.size();
   if (count > most_own_duals) return;
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    list[k].windows = with_end_windows(pairs[k], list[k].line, list[k].excluded, std::move(list[k].windows));
+    list[k].windows =
+        with_end_windows(pairs[k], list[k].line, list[k].local.borders, list[k].excluded, std::move(list[k].windows));
 }
 
 // `reached`: of each pair the vertices that contact reaches.
@@ -202,18 +206,23 @@ std::vector<LinePart> line_parts(const std::vector<ContactPair>& pairs, const st
   return parts;
 }
 
-// Of each window the sum of the cells' parts without their signs.
+// Of each window what the cells' parts make it off by.
 VecX far_fields(const Mesh& mesh, const FarField& far) {
-  if (far.windows.own()) return far.parts.cwiseAbs().colwise().sum();
-  VecX sums = VecX::Zero(Eigen::Index(far.windows.dual.size()));
+  if (far.windows.own()) return off_by(far.parts);
+  const Eigen::Index count = Eigen::Index(far.windows.dual.size());
+  MatX sums = MatX::Zero(count, 3);  // of the parts, their squares and their sizes
   for (Eigen::Index e = 0; e < far.parts.rows(); ++e) {
     const Cell& cell = mesh.cells[e];
     const Vec2 x = centre_of(mesh.nodes, cell);
     for (int d = 0; d < far.windows.count; ++d)
-      far.windows.for_each_window(cell.body, d, x,
-                                  [&](int window, double part) { sums(window) += part * std::abs(far.parts(e, d)); });
+      far.windows.for_each_window(cell.body, d, x, [&](int window, double share) {
+        const double part = share * far.parts(e, d);
+        sums.row(window) += Eigen::RowVector3d(part, part * part, std::abs(part));
+      });
   }
-  return sums;
+  VecX all(count);
+  for (Eigen::Index k = 0; k < count; ++k) all(k) = off_by(sums(k, 0), sums(k, 1), sums(k, 2));
+  return all;
 }
 
 // What cells do to each window's mean, its corners' tails, and where windows share duals the stiffness of the whole.
@@ -271,10 +280,10 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
   const MatX tails = at_corners.tails();
   estimate.tails.parts = tails.middleCols(1, shared);
   estimate.tails.goal = tails.rightCols(goals);
-  if (goals > 0) estimate.goal->corners = estimate.tails.goal.colwise().sum().transpose();
+  if (goals > 0) estimate.goal->besides += estimate.tails.goal.colwise().sum().transpose();
   estimate.also = {.z = kept.leftCols(more),
-                   .sums = found.products.middleCols(1 + shared, more).cwiseAbs().colwise().sum() +
-                           tails.middleCols(1 + shared, more).colwise().sum()};
+                   .sums = off_by(found.products.middleCols(1 + shared, more)) +
+                           tails.middleCols(1 + shared, more).colwise().sum().transpose()};
 }
 
 void require_pair(const AccuracySpec& spec, std::size_t count) {
@@ -309,10 +318,11 @@ void find_bars(PressureEstimate& e) {
   e.bar = e.local.pointwise(line);
   if (e.local.least.size() > 0) e.bar = e.bar.cwiseMax(e.local.least);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const double far = far_at(e, i);
-    e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? far * near_border(e, i) : 0));
+    const double of_window = far_at(e, i), most = of_window * near_border(e, i, of_window, 0),
+                 far = of_window * near_border(e, i, of_window, line.h(i) / 2);
+    e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? most : 0));
     if (!e.counts(i)) continue;
-    e.local2 += local(i) * local(i);
+    e.local2 += local(i) * local(i) + (most * most - far * far) * line.h(i);
     e.far2 += far * far * line.h(i);
     const double p = line.whole(i);
     e.p2 += p * p * line.h(i);

@@ -188,6 +188,7 @@ void lower_errors(const Walk& walk, const Range& range, const PressureForm& form
   for (Index k = range.first; k <= range.last; ++k) {
     const Index i = walk.vertex[k];
     if (!e.counts(i)) continue;
+    if (local.border[i]) continue;
     const double off = std::abs(form(walk.s(k)) - coarse(walk.s(k)));
     if (off > 0) worst = largest(worst, off / missed(i));
     square += off * off * line.h(i);
@@ -198,7 +199,7 @@ void lower_errors(const Walk& walk, const Range& range, const PressureForm& form
   if (local.worst.size() == 0) local.worst = VecX::Ones(line.p.size());
   for (Index k = range.first; k <= range.last; ++k) {
     const Index i = walk.vertex[k];
-    if (walk.cut(k)) continue;  // of the next piece too
+    if (walk.cut(k) || local.border[i]) continue;
     local.l2(i) *= norm;
     if (swings) local.swing(i) *= norm;
     local.worst(i) = std::max(1.0, std::min(worst, 1.0) / norm);

@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "contact/singular_points.hpp"
+#include "error/body_products.hpp"
 #include "error/pressure_windows.hpp"
 #include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
@@ -218,9 +219,9 @@ double GoalEstimate::line() const {
 }
 
 GoalEstimate goal_estimate(const GoalFunctionals& functionals, const Solution& solution, MatX parts) {
-  return {.value = functionals.loads.transpose() * solution.u - functionals.rows.transpose() * solution.lambda,
-          .parts = std::move(parts),
-          .lines = {}};
+  VecX value = functionals.loads.transpose() * solution.u - functionals.rows.transpose() * solution.lambda;
+  VecX cells = off_by(parts), besides = VecX::Zero(value.size());
+  return {std::move(value), std::move(parts), std::move(cells), std::move(besides)};
 }
 
 Eigen::Vector3d stress_difference(const Problem& problem, const VecX& u, const StressPatches& patches,
@@ -259,8 +260,9 @@ void add_displacement_error(const Problem& problem, const GoalFunctionals& funct
   const StressPatches patches =
       recover_patches(problem.mesh, problem.points, sample_stresses(problem.mesh, problem.discretisation.laws, u));
   const Eigen::Vector3d stress = cell_stress_error(problem, u, patches, place, Eigen::Matrix3d::Identity());
-  goal.parts.row(place.cell) =
-      goal.parts.row(place.cell).cwiseAbs().array() + cell_displacement_error(problem, place.cell, stress);
+  const double own = cell_displacement_error(problem, place.cell, stress);
+  goal.besides.array() += own;
+  goal.parts.row(place.cell) = goal.parts.row(place.cell).cwiseAbs().array() + own;
 }
 
 void add_stress_error(const Problem& problem, const GoalFunctionals& functionals, const VecX& u, GoalEstimate& goal) {
@@ -270,8 +272,9 @@ void add_stress_error(const Problem& problem, const GoalFunctionals& functionals
   const StressPatches patches = recover_patches(mesh, problem.points, sample_stresses(mesh, laws, u));
   goal.value = recovered_stress(mesh, problem.points, patches, place).head<3>().transpose() +
                laws[mesh.cells[place.cell].body].stress0(place_in(mesh, place))({0, 1, 3});
-  goal.parts.row(place.cell) =
-      goal.parts.row(place.cell).cwiseAbs() + stress_difference(problem, u, patches, place).cwiseAbs().transpose();
+  const Eigen::Vector3d own = stress_difference(problem, u, patches, place).cwiseAbs();
+  goal.besides += own;
+  goal.parts.row(place.cell) = goal.parts.row(place.cell).cwiseAbs() + own.transpose();
 }
 
 double mean_error(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& errors,

@@ -53,15 +53,13 @@ double cell_displacement_error(const Problem& problem, int cell, const Eigen::Ve
 
 /// The values, and what they may be off by.
 struct GoalEstimate {
-  VecX value;         ///< of each component; of a stress the recovered one at the place
-  MatX parts;         ///< cells x components: of each cell in the error, its sign as it came
-  double local = 0;   ///< of a mean of p: mean of its local error
-  VecX corners = {};  ///< of each component what the mesh misses at the bodies' corners (error/corner_tails.hpp)
-  std::vector<LinePart> lines;  ///< of each pair: what the error of p does to each component
-  double far() const {
-    const VecX cells = parts.cwiseAbs().colwise().sum();
-    return (corners.size() > 0 ? VecX(cells + corners) : cells).norm();
-  }
+  VecX value;        ///< of each component; of a stress the recovered one at the place
+  MatX parts;        ///< cells x components: of each cell in the error, its sign as it came
+  VecX cells;        ///< of each component what these make it off by
+  VecX besides;      ///< what is added: of the bodies' corners (error/corner_tails.hpp), of data, of the place
+  double local = 0;  ///< of a mean of p: mean of its local error
+  std::vector<LinePart> lines = {};  ///< of each pair: what the error of p does to each component
+  double far() const { return (cells + besides).norm(); }
   double line() const;                                                                     ///< of all pairs
   double error() const { return error_safety * (far() + line() + local) / value.norm(); }  ///< relative
 };

@@ -91,7 +91,7 @@ std::vector<PlaceError> place_errors(const Problem& problem, const Solution& sol
     };
     const ErrorProducts found = products.with_duals(problem, solution.u, factor,
                                                     {MatX::Zero(d.system.B.rows(), loads.cols()), loads}, add_lines);
-    far += found.products.rightCols(loads.cols()).cwiseAbs().colwise().sum().transpose();
+    far += off_by(found.products.rightCols(loads.cols()));
     std::size_t next = 0;
     for (int i = 0; i < int(probe.in.size()); ++i) {
       if (with_duals[next] < i) ++next;

@@ -164,11 +164,11 @@ LineError line_error(const PressureLine& line) {
   for (Eigen::Index e = 0; e < last; ++e) {
     const bool start = std::abs(line.p(e)) > least, end = std::abs(line.p(e + 1)) > least;
     if (start == end || !line.faced[e]) continue;
-    error.borders.push_back({e, border_part_of(line, e, start, least)});
     // A root rises to its value at one edge's length from the border: the last p, or the one before over sqrt(2).
     const Eigen::Index before = start ? e - 1 : e + 2;
     double p = std::abs(line.p(start ? e : e + 1));
     if (before >= 0 && before <= last) p = std::max(p, std::abs(line.p(before)) / std::sqrt(2.0));
+    error.borders.push_back({e, border_part_of(line, e, start, least), p / std::sqrt(line.s(e + 1) - line.s(e))});
     for (Eigen::Index i = std::max<Eigen::Index>(e - 1, 0); i <= std::min(e + 2, last); ++i)
       last_p(i) = std::max(last_p(i), p);
   }

@@ -66,6 +66,7 @@ struct LineError {
   struct Border {
     Eigen::Index edge;  ///< on which contact ends
     double part;        ///< its length over half the width of the contact beside it
+    double root;        ///< p rises as this times the root of the distance, stress / sqrt(length)
   };
   std::vector<Border> borders;
   /// What p is off by at least, of vertices at which it goes as a small power of the distance, or that hardly face the

@@ -45,28 +45,42 @@ LoadedLength loaded_length(const PressureLine& line) {
   return loaded;
 }
 
-// About a place of the loaded length; nothing where it is narrower than the mesh, or where nothing is faced.
-std::optional<PressureWindow> window_at(const ContactPair& pair, const PressureLine& line, const LoadedLength& loaded,
-                                        double centre) {
-  const VecX& t = loaded.t;
+// A place of the loaded length: on an edge, at a part of it.
+struct LoadedPlace {
+  Eigen::Index edge;
+  double part;
+};
+
+LoadedPlace loaded_place(const LoadedLength& loaded, double t) {
   Eigen::Index e = 0;
-  while (e + 2 < t.size() && t(e + 1) < centre) ++e;
-  const double s = line.s(e) + (centre - t(e)), part = (s - line.s(e)) / (line.s(e + 1) - line.s(e));
-  PressureWindow window{.s = s,
-                        .place = {(1 - part) * line.position[e] + part * line.position[e + 1], loaded.distance / 2},
+  while (e + 2 < loaded.t.size() && loaded.t(e + 1) < t) ++e;
+  return {e, (t - loaded.t(e)) / (loaded.t(e + 1) - loaded.t(e))};
+}
+
+// About that place, not beyond what is not loaded; nothing where it is narrower than the mesh, or where nothing is
+// faced.
+std::optional<PressureWindow> window_at(const ContactPair& pair, const PressureLine& line, const LoadedLength& loaded,
+                                        const LoadedPlace& centre) {
+  const Eigen::Index c = centre.edge;
+  const double length = line.s(c + 1) - line.s(c), part = centre.part;
+  PressureWindow window{.s = line.s(c) + part * length,
+                        .place = {(1 - part) * line.position[c] + part * line.position[c + 1], loaded.distance / 2},
                         .weights = VecX::Zero(pair.coupling.B.rows())};
-  double mass = 0;
+  double mass = 0, inverse_roots = 0;
   for (const ContactPoint& point : pair.points) {
-    if (!(t(point.edge + 1) > t(point.edge))) continue;
-    const double at = t(point.edge) + (t(point.edge + 1) - t(point.edge)) * (1 + point.xi) / 2;
-    const double z = (at - centre) / (half_width * loaded.distance);
-    if (std::abs(z) >= 1) continue;
+    const Eigen::Index e = point.edge;
+    if (!(loaded.t(e + 1) > loaded.t(e))) continue;
+    const double r = std::abs(line.s(e) + (line.s(e + 1) - line.s(e)) * (1 + point.xi) / 2 - window.s);
+    const double z = r / (half_width * loaded.distance);
+    if (z >= 1) continue;
     const double weight = std::pow(1 - z * z, 3) * point.dA;
     mass += weight;
+    inverse_roots += weight / std::sqrt(r);
     add_pressure_at(pair, point.edge, point.xi, weight, window.weights);
   }
   if (!(mass > 0)) return {};
   window.weights /= mass;
+  window.from_border = mass * mass / (inverse_roots * inverse_roots);
   return window;
 }
 
@@ -77,22 +91,34 @@ std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const Pres
   std::vector<PressureWindow> windows;
   if (!(loaded.distance > 0)) return windows;
   for (int k = 0; k < loaded.count; ++k)
-    if (auto window = window_at(pair, line, loaded, (k + 0.5) * loaded.distance)) windows.push_back(std::move(*window));
+    if (auto window = window_at(pair, line, loaded, loaded_place(loaded, (k + 0.5) * loaded.distance))) {
+      window->from_border = 0;
+      windows.push_back(std::move(*window));
+    }
   return windows;
 }
 
 std::vector<PressureWindow> with_end_windows(const ContactPair& pair, const PressureLine& line,
+                                             const std::vector<LineError::Border>& borders,
                                              const std::vector<char>& excluded, std::vector<PressureWindow> windows) {
   const LoadedLength loaded = loaded_length(line);
   const Eigen::Index last = line.p.size() - 1;
-  if (line.closed || !(loaded.distance > 0)) return windows;
-  const auto counts = [&](Eigen::Index end, Eigen::Index next) {
-    return line.loaded[end] && line.loaded[next] && !excluded[end];
+  if (!(loaded.distance > 0)) return windows;
+  const auto add = [&](const LoadedPlace& centre, bool is_border) {
+    auto window = window_at(pair, line, loaded, centre);
+    if (!window) return;
+    if (!is_border) window->from_border = 0;
+    windows.push_back(std::move(*window));
   };
-  if (counts(0, 1))
-    if (auto window = window_at(pair, line, loaded, 0)) windows.insert(windows.begin(), std::move(*window));
-  if (counts(last, last - 1))
-    if (auto window = window_at(pair, line, loaded, loaded.t(last))) windows.push_back(std::move(*window));
+  const auto add_end = [&](Eigen::Index edge, double part) {
+    const Eigen::Index end = edge + Eigen::Index(part);
+    if (!line.closed && line.loaded[edge] && line.loaded[edge + 1] && !excluded[end] && line.p(end) != 0)
+      add({edge, part}, false);
+  };
+  add_end(0, 0);
+  add_end(last - 1, 1);
+  for (const LineError::Border& border : borders) add({border.edge, line.p(border.edge) == 0 ? 0.0 : 1.0}, true);
+  std::ranges::sort(windows, {}, &PressureWindow::s);
   return windows;
 }
 

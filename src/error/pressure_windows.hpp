@@ -14,15 +14,18 @@ struct PressureWindow {
   double s;           ///< its centre, arc length along the line's edges
   WindowPlace place;  ///< the same on the chord of its edge
   VecX weights;       ///< rows of the pair: the mean is -weights . lambda
+  /// Of one at a border of contact the distance from it at which 1 / sqrt(r) has its mean over the window; else 0.
+  double from_border = 0;
 };
 
 /// Evenly along the loaded part of the line, 0.6 of their distance wide: three where it is one piece, three more for
 /// each further piece up to nine. None where nothing is loaded.
 std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line);
 
-/// With windows of half the width at the ends of a line that is loaded up to them, unless they are left out: there p
-/// may be off by more than anywhere within.
+/// With windows of half the width at the ends of a line that is loaded up to them, unless they are left out, and at the
+/// borders of contact: there p may be off by more than anywhere within. `borders`: LineError::borders.
 std::vector<PressureWindow> with_end_windows(const ContactPair& pair, const PressureLine& line,
+                                             const std::vector<LineError::Border>& borders,
                                              const std::vector<char>& excluded, std::vector<PressureWindow> windows);
 
 /// Adds weight times -lambda at a place of the multiplier side, as the rows' values make it, to `weights` (the

@@ -32,7 +32,7 @@ Got got(const Results& r, const std::function<double(const Vec2&)>& exact) {
   const PressureEstimate& e = r.estimate->pressures[0];
   for (Eigen::Index i = 0; i < e.line.p.size(); ++i) {
     if (!e.line.loaded[i] || e.excluded[i]) continue;
-    const double p = exact(e.line.position[i]), off = std::abs(e.line.p(i) - p);
+    const double p = exact(e.line.position[i]), off = std::abs(e.fitted.at(e.line.s(i)).value_or(e.line.p(i)) - p);
     g.inside += off <= e.bar(i);
     ++count;
     square += off * off * e.line.h(i);

@@ -1,6 +1,7 @@
 // Bars, norms and figures of an estimate, computed again from what the headers say they are.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/solve_scene.hpp"
@@ -47,7 +48,7 @@ TEST(Bars, SquaresAreThoseOfTheNormsOfWhatCounts) {
   double local2 = 0, far2 = 0, p2 = 0;
   for (const int i : {0, 2, 3, 4}) {
     local2 += std::pow(e.local.whole()(i), 2);
-    far2 += far_of(i) * far_of(i) * e.line.h(i);
+    far2 += far_of(i) * far_of(i) * e.line.h(i) * (i == 4 ? 2.5 : 1);  // beside the border
     p2 += e.line.p(i) * e.line.p(i) * e.line.h(i);
   }
   EXPECT_NEAR(e.local2, local2, 1e-12);
@@ -59,6 +60,35 @@ TEST(Bars, SquaresAreThoseOfTheNormsOfWhatCounts) {
   EXPECT_NEAR(all.line(), std::sqrt(local2 / p2), 1e-12);
   EXPECT_NEAR(all.far_field(), std::sqrt(far2 / p2), 1e-12);
   EXPECT_NEAR(all.slopes(), std::sqrt(local2 / p2), 1e-12);
+}
+
+// Contact that ends d further on has p = c sqrt(r + d) in the place of c sqrt(r): at the border c sqrt(d), and no more
+// than that beside it. The mean of its square over where a vertex may stand in its edge counts for the far field.
+TEST(Bars, BesideABorderAreThoseOfTheRootThatItMovesTo) {
+  PressureEstimate e = made_by_hand();
+  const double c = 2, d = 8;  // p is 2 at one length from the border; beyond a length of 2 it is linear in d
+  e.far.setConstant(c * d / (2 * std::sqrt(2.5)));
+  find_bars(e);
+  EXPECT_NEAR(e.bar(4), error_safety * (e.local.pointwise(e.line)(4) + c * std::sqrt(d)), 1e-12);
+  PressureEstimate slight = made_by_hand();
+  slight.line.loaded[5] = 1;
+  slight.far *= 1e-6;  // moves the border by far less than an edge
+  find_bars(slight);
+  const double moved = 2 * slight.far(1) * std::sqrt(2.5) / c;
+  const VecX local = slight.local.pointwise(slight.line);
+  EXPECT_NEAR(slight.bar(5), error_safety * (local(5) + c * std::sqrt(moved)), 1e-12);
+  const double at_border = slight.far(1) * slight.far(1) * 2.5 / 0.5, on_line = c * c * moved;
+  EXPECT_LT(slight.far2, 10 * at_border);
+  EXPECT_NEAR(slight.local2, slight.local.whole().squaredNorm() + on_line, 0.01 * on_line);
+}
+
+TEST(Bars, PartsOfOneSignAddUpAndOthersAsIndependentErrors) {
+  MatX parts(100, 3);
+  parts.col(0).setConstant(-1);
+  for (int i = 0; i < 100; ++i) parts(i, 1) = i % 2 == 0 ? 1 : -1;
+  parts.col(2).setZero();
+  parts(7, 2) = -3;
+  EXPECT_LT((off_by(parts) - VecX{{100, 20, 3}}).norm(), 1e-12);
 }
 
 TEST(Bars, TheSeamOfAClosedLineCountsOnce) {
@@ -126,6 +156,25 @@ TEST(PressureLine, LengthsAreHalvesOfTheEdgesAndTheOneEdgeOfAnEnd) {
     EXPECT_EQ(none.p.cwiseAbs().maxCoeff(), 0);
     EXPECT_EQ(none.loaded, std::vector<char>(line.p.size(), 0));
   }
+}
+
+// A window over a border has the mean of 1 / sqrt(r) of its weight (1 - z^2)^3 over half of it, at 0.1212 of its width.
+TEST(PressureWindows, AtABorderOfContactKnowWhereARootsChangeHasItsMean) {
+  const Results& r = solved("/geo/hertz.toml");
+  const PressureEstimate& e = r.estimate->pressures[0];
+  ASSERT_EQ(e.local.borders.size(), 1U);
+  const Eigen::Index edge = e.local.borders[0].edge;
+  const double border = e.line.s(e.line.p(edge) == 0 ? edge : edge + 1);
+  int found = 0;
+  for (const PressureWindow& window : e.windows) {
+    if (window.from_border == 0) continue;
+    ++found;
+    EXPECT_NEAR(window.s, border, 1e-12);
+    const double limit = 0.1212 * window_width * window.place.reach;  // of a mesh that is finer and finer
+    EXPECT_NEAR(window.from_border, limit, 0.3 * limit);
+  }
+  EXPECT_EQ(found, 1);
+  EXPECT_TRUE(std::ranges::is_sorted(e.windows, {}, &PressureWindow::s));
 }
 
 // Of each edge of the mesh: sizes at its ends differ by no more than the growth over its length.

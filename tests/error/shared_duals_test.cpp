@@ -115,7 +115,7 @@ TEST(SharedDuals, OfAWallDoNotGrowWithItsPairs) {
 }
 
 // Against a dual for each window: the error of all lines is the same but for a few per cent, and so is that of most
-// windows but for a factor of two.
+// windows but for a factor of two, and somewhat more as parts of its own cancel.
 TEST(SharedDuals, OfAWallSayWhatItsOwnSay) {
   const Wall w = wall(6);
   const Results r = solve_scene(w.scene, w.mesh);
@@ -132,7 +132,7 @@ TEST(SharedDuals, OfAWallSayWhatItsOwnSay) {
       ratios.push_back(shared.pressures[k].far(i) / own.pressures[k].far(i));
   std::ranges::sort(ratios);
   EXPECT_GT(ratios[ratios.size() / 2], 0.8);
-  EXPECT_LT(ratios[ratios.size() / 2], 2);
+  EXPECT_LT(ratios[ratios.size() / 2], 2.5);
   EXPECT_GT(ratios[ratios.size() / 20], 0.5);  // little is left out anywhere
   EXPECT_NEAR(shared.energy.error, own.energy.error, 1e-12 * own.energy.error);
   EXPECT_LE((shared.far.parts.rowwise().sum() - own.far.parts.rowwise().sum()).cwiseAbs().maxCoeff(),
