@@ -231,6 +231,7 @@ bool CaseSolver::take(const Scene& scene) {
   Results before = std::exchange(results_, {});
   results_.problem = std::move(before.problem);
   results_.memory = std::move(before.memory);
+  results_.audited = std::move(before.audited);
   results_.problem.discretisation.system.constraints.fixed = fixed_;
   check_ranges(scene);
   load_fields(scene);

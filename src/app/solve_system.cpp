@@ -90,6 +90,7 @@ Solution SystemSolver::solve() {
   }
   Solution solution = solve_layered(*independent_);
   if (solution.u.size() > 0) solution.u = multipoint->T * solution.u;
+  solution.unbalanced.resize(0);
   if (solution.factor) solution.factor = std::make_shared<MultipointFactor>(multipoint->T, solution.factor);
   return solution;
 }
@@ -106,6 +107,7 @@ Solution SystemSolver::solve_layered(const SaddlePointSystem& system) {
     solution.compression = solution.u.segment(unknowns, count);
     solution.u.conservativeResize(unknowns);
   }
+  solution.unbalanced.resize(0);
   if (solution.factor)
     solution.factor = std::make_shared<MultipointFactor>(without_layers(unknowns, layered_->f.size()), solution.factor);
   return solution;

@@ -86,26 +86,37 @@ struct LineSide {
   double end_error(int e, int end) const;
 };
 
+constexpr int last_place = std::tuple_size_v<decltype(SamplePiece::places)> - 1;
+using PlaceWeights = std::array<double, last_place + 1>;
+
+// Of places 0, 2, ... in the slope at place `at` of the polynomial through them.
+PlaceWeights slope_weights(int at) {
+  const auto z = [](int k) { return -std::cos(straight * k / last_place); };
+  PlaceWeights weights{};
+  for (int k = 0; k <= last_place; k += 2) {
+    if (k == at) continue;
+    weights[k] = 1;
+    for (int m = 0; m <= last_place; m += 2) {
+      if (m == k) continue;
+      weights[k] /= z(k) - z(m);
+      if (m != at) weights[k] *= z(at) - z(m);
+    }
+  }
+  return weights;
+}
+
 // What the tangent at an end of a drawn edge may be off by, radians: as much as that of every second place of the piece
 // there is.
 double LineSide::end_error(int e, int end) const {
+  static const std::array<PlaceWeights, 2> all{slope_weights(0), slope_weights(last_place)};
   if (curve.samples.empty()) return 0;
   const std::vector<SamplePiece>& pieces = curve.samples[e].pieces;
   const auto& x = (end < 0 ? pieces.front() : pieces.back()).places;
-  constexpr int last = std::tuple_size_v<decltype(SamplePiece::places)> - 1;
-  const auto z = [](int k) { return -std::cos(straight * k / last); };
-  Vec2 slope = Vec2::Zero();  // of the polynomial through places 0, 2, ...
-  const int at = end < 0 ? 0 : last;
-  for (int k = 0; k <= last; k += 2) {
-    if (k == at) continue;
-    double weight = 1;
-    for (int m = 0; m <= last; m += 2) {
-      if (m == k) continue;
-      weight /= z(k) - z(m);
-      if (m != at) weight *= z(at) - z(m);
-    }
-    slope += weight * (x[k] - x[at]);
-  }
+  const PlaceWeights& weights = all[end < 0 ? 0 : 1];
+  const int at = end < 0 ? 0 : last_place;
+  Vec2 slope = Vec2::Zero();
+  for (int k = 0; k <= last_place; k += 2)
+    if (k != at) slope += weights[k] * (x[k] - x[at]);
   return angle_between(slope, line.at(e, end).tangent);
 }
 

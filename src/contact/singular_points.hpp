@@ -37,6 +37,7 @@ struct SingularPoint {
 struct Reach {
   bool before, after;
   bool any() const { return before || after; }
+  bool operator==(const Reach&) const = default;
 };
 
 /// Of the vertices of both curves, each in the order of its edges, the last one too (so once more the first of a closed
@@ -50,6 +51,7 @@ ContactReach reached_everywhere(const Curve& first, const Curve& second);
 struct GivenGap {
   bool one_curve = false;                  ///< both curves are meant to be one
   std::array<double, 2> end_slopes{0, 0};  ///< of a gap that is given or added, away from the first curve's ends
+  bool operator==(const GivenGap&) const = default;
 };
 
 /// Both bodies as wedges at each place that contact reaches, however far from each other they are drawn

@@ -46,33 +46,32 @@ BodyProducts::Body BodyProducts::body_of(const Problem& problem, std::size_t b, 
   return body;
 }
 
-// `patches`: of z by body, made where it is empty, and kept there; null: made and dropped.
+// `kept`: z by body, made where it is empty, and kept there; null: made and dropped.
 ErrorProducts BodyProducts::products(const Problem& problem, const VecX& u, const MatX& z,
-                                     std::vector<StressPatches>* patches) {
+                                     std::vector<OtherFields>* kept) {
   const Mesh& mesh = problem.mesh;
   const BodyPoints& points = problem.points;
   const std::vector<int> first_cell = first_cells(mesh);
   const Eigen::Index cells = Eigen::Index(mesh.cells.size()), count = 1 + z.cols();
   ErrorProducts all{.products = MatX(cells, count), .norms = VecX(cells), .areas = VecX(cells)};
   if (keeps_) bodies_.resize(mesh.bodies.size());
-  const bool known = patches && !patches->empty();
-  if (patches) patches->resize(mesh.bodies.size());
+  const bool known = kept && !kept->empty();
+  if (kept) kept->resize(mesh.bodies.size());
   for_each_index(mesh.bodies.size(), solver_threads(), [&](std::size_t b) {
     Body made, &body = keeps_ ? bodies_[b] : made;
     if (body.mesh.cells.empty()) body = body_of(problem, b, first_cell[b]);
     const std::vector<ElasticLaw> law{problem.discretisation.laws[b]};
-    const auto recovered = [&](MatX fields) {
-      const StressSamples samples = sample_stresses(body.mesh, law, fields);
-      if (!body.recovery) body.recovery = std::make_unique<PatchRecovery>(body.mesh, body.points, samples);
-      return body.recovery->fit(samples);
-    };
     const int nodes = int(body.points.node.size());
-    RecoveredFields own{fields_at(points.node, points.first[b], nodes, u), {}},
-        others{fields_at(points.node, points.first[b], nodes, z), {}};
-    own.patches = recovered(own.fields);
-    if (z.cols() > 0) others.patches = known ? std::move((*patches)[b]) : recovered(others.fields);
-    const ErrorProducts found = error_products(body.mesh, body.points, law, own, others);
-    if (patches) (*patches)[b] = std::move(others.patches);
+    const auto recovered = [&](const MatX& fields) {
+      RecoveredFields own{fields_at(points.node, points.first[b], nodes, fields), {}};
+      const StressSamples samples = sample_stresses(body.mesh, law, own.fields);
+      if (!body.recovery) body.recovery = std::make_unique<PatchRecovery>(body.mesh, body.points, samples);
+      own.patches = body.recovery->fit(samples);
+      return own;
+    };
+    OtherFields dropped, &others = kept ? (*kept)[b] : dropped;
+    if (z.cols() > 0 && !known) others = recovered(z);
+    const ErrorProducts found = error_products(body.mesh, body.points, law, recovered(u), others);
     const Eigen::Index own_cells = found.areas.size();
     all.products.middleRows(first_cell[b], own_cells) = found.products;
     all.norms.segment(first_cell[b], own_cells) = found.norms;
@@ -106,7 +105,7 @@ ErrorProducts BodyProducts::with_duals(const Problem& problem, const VecX& u,
       fields << u, duals.z;
       see(first, fields);
     }
-    ErrorProducts found = products(problem, u, duals.z, keeps_ ? &duals.patches : nullptr);
+    ErrorProducts found = products(problem, u, duals.z, keeps_ ? &duals.by_body : nullptr);
     if (first == 0) {
       all = std::move(found);
       all.products.conservativeResize(Eigen::NoChange, 1 + count);

@@ -42,10 +42,10 @@ class BodyProducts {
   struct Duals {  // some of those that were asked for
     DualsAsked asked;
     MatX z;
-    std::vector<StressPatches> patches;  // of each body; empty before the first product
+    std::vector<OtherFields> by_body;  // empty before the first product
   };
   static Body body_of(const Problem& problem, std::size_t b, int first_cell);
-  ErrorProducts products(const Problem& problem, const VecX& u, const MatX& z, std::vector<StressPatches>* patches);
+  ErrorProducts products(const Problem& problem, const VecX& u, const MatX& z, std::vector<OtherFields>* kept);
   Duals& find(const std::shared_ptr<const ContactFactor>& factor, DualsAsked asked);
 
   bool keeps_;

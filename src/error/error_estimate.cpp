@@ -6,7 +6,6 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
-#include "contact/gap_cuts.hpp"
 #include "error/fitted_pressure.hpp"
 #include "error/gap_error.hpp"
 #include "error/missed_contact.hpp"
@@ -125,13 +124,14 @@ void add_end_windows(const std::vector<ContactPair>& pairs, std::vector<Pressure
 }
 
 // `reached`: of each pair the vertices that contact reaches.
-std::vector<PressureEstimate> lines_with_windows(const Problem& p, const Surroundings& around, const Solution& solution,
+std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemory& memory, const Solution& solution,
                                                  const EstimateOptions& options, std::vector<ContactReach>& reached) {
   const Discretisation& d = p.discretisation;
   const AccuracySpec& spec = options.spec;
   const double round_off = round_off_pressure(p.mesh, p.pairs, d.system.stiffness_scale, solution.u);
   std::vector<PressureEstimate> list(p.pairs.size());
   reached.resize(p.pairs.size());
+  const Surroundings around = memory.around(p);
   for_each_index(p.pairs.size(), solver_threads(), [&](std::size_t k) {
     PressureEstimate& e = list[k];
     const ContactPair& pair = p.pairs[k];
@@ -142,12 +142,8 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, const Surroun
     add_gap_error(e.line, gap_error(pair, d.laws, e.line), e.local);
     e.windows = pressure_windows(pair, e.line);
     reached[k] = contact_reach(p.mesh, pair, e.line, options.found);
-    const bool one_curve = pair.spec.initial_gap == InitialGap::closed || pair.spec.initial_gap == InitialGap::given;
-    const GivenGap given{.one_curve = one_curve,
-                         .end_slopes = gap_slopes_at_ends(p.mesh.nodes, pair.multiplier, pair.geometry)};
     if (!pair.spec.stiffness)  // p is no larger than k times the overlap
-      e.singular =
-          that_count(singular_points(around, pair.multiplier, pair.opposite, reached[k], given), e.line, spec.value);
+      e.singular = that_count(memory.points(around, pair, k, reached[k]), e.line, spec.value);
     add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
     if (!pair.spec.stiffness)
@@ -384,20 +380,19 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, Estimat
   const Discretisation& d = p.discretisation;
   require_pair(spec, p.pairs.size());
   ErrorEstimate estimate;
-  const SideTable table(p.mesh);
-  const Surroundings around{p.mesh, table, d.system.constraints, d.laws, memory.tips};
+  memory.keep_for(p);
   std::vector<ContactReach> reached;
-  estimate.pressures = lines_with_windows(p, around, solution, options, reached);
+  estimate.pressures = lines_with_windows(p, memory, solution, options, reached);
   std::vector<JudgedLine> lines;
   for (PressureEstimate& e : estimate.pressures) lines.push_back({e.line, e.excluded, e.local});
-  add_swings(p, solution.u, lines);
+  add_swings(p, solution.u, lines, memory.beside);
   estimate.far.windows = share_duals(p.mesh, window_places(estimate.pressures), options.own_duals);
   GoalFunctionals goal;
   if (!p.pairs.empty())
     goal = goal_functionals(p.mesh, d, p.pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
   if (estimate.far.windows.count + goal.rows.cols() + options.also.cols() > 0)
-    estimate.tails.corners =
-        corner_rings(p.mesh, table, free_corners(body_corners(around), p.mesh.nodes.rows(), p.pairs, reached));
+    estimate.tails.corners = corner_rings(p.mesh, memory.around(p).table,
+                                          free_corners(memory.corners(p), p.mesh.nodes.rows(), p.pairs, reached));
   add_products(p, solution, goal, options, memory.products, estimate);
   if (spec.of == Goal::mean) {
     const PressureEstimate& e = estimate.pressures[spec.pair];

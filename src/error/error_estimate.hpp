@@ -2,8 +2,8 @@
 #pragma once
 
 #include "contact/williams.hpp"
-#include "error/body_products.hpp"
 #include "error/contact_reach.hpp"
+#include "error/estimate_memory.hpp"
 #include "error/goal_estimate.hpp"
 #include "error/pressure_estimate.hpp"
 #include "error/shared_duals.hpp"
@@ -49,14 +49,6 @@ struct ErrorEstimate {
   double peak() const;
   double half_width() const;
   double pressure_square() const;  ///< of p on these, stress^2 length
-};
-
-/// What estimates on one mesh share.
-struct EstimateMemory {
-  BodyProducts products;
-  TipTable tips;
-  /// `keeps`: as of BodyProducts.
-  explicit EstimateMemory(bool keeps = false) : products(keeps) {}
 };
 
 struct EstimateOptions {

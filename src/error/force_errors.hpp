@@ -17,7 +17,8 @@ struct ForcesAsked {
 };
 
 /// `centres`: one a pair.
-ForcesAsked ask_forces(const Problem& problem, const Solution& solution, const std::vector<Vec2>& centres);
+ForcesAsked ask_forces(const Problem& problem, const Solution& solution, const std::vector<Vec2>& centres,
+                       EstimateMemory& memory);
 
 /// Of each pair what the force on the multiplier side's body along x and y, and its moment about a centre, may be off
 /// by, times depth (model/model.hpp). Each is a functional of its own: a motion of that side by 1, with a dual solution

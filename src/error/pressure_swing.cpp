@@ -19,7 +19,8 @@ double swing(const PressureNodes& nodes, Eigen::Index i, Eigen::Index first, Eig
   const VecX t = nodes.s.segment(first, count).array() - nodes.s(i);
   const double scale = largest_entry(t);
   MatX powers(count, cubic);
-  for (Eigen::Index k = 0; k < cubic; ++k) powers.col(k) = (t / scale).array().pow(double(k));
+  powers.col(0).setOnes();
+  for (Eigen::Index k = 1; k < cubic; ++k) powers.col(k) = powers.col(k - 1).cwiseProduct(t / scale);
   const MatX Q = orthonormal(powers);
   const Eigen::RowVectorXd own = Q.row(i - first);
   const VecX at = nodes.p.segment(first, count).array() - nodes.p(i);

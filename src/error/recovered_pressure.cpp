@@ -56,7 +56,8 @@ std::array<VecX, 2> recovered_pressures(const Problem& problem, const StressPatc
   return p;
 }
 
-void add_swings(const Problem& problem, const VecX& u, const std::vector<JudgedLine>& lines) {
+void add_swings(const Problem& problem, const VecX& u, const std::vector<JudgedLine>& lines,
+                std::optional<LocalRecovery>& known) {
   const std::vector<ContactPair>& pairs = problem.pairs;
   std::vector<PressureNodes> nodes(pairs.size());
   std::vector<VecX> errors(pairs.size());  // of pairs that need stresses; else empty
@@ -70,8 +71,8 @@ void add_swings(const Problem& problem, const VecX& u, const std::vector<JudgedL
     beside.insert(beside.end(), of_pair.begin(), of_pair.end());
   }
   if (beside.empty()) return;
-  const StressPatches patches =
-      recover_patches_at(beside, problem.mesh, problem.points, problem.discretisation.laws, u);
+  if (!known || known->at() != beside) known.emplace(beside, problem.mesh, problem.points);
+  const StressPatches patches = known->recover(problem.mesh, problem.points, problem.discretisation.laws, u);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (errors[k].size() == 0) continue;
     for (const VecX& p : recovered_pressures(problem, patches, pairs[k], nodes[k]))

@@ -27,7 +27,8 @@ struct JudgedLine {
 /// What p swings by at each vertex and the bodies do not: the least of the swing and of what p differs by from the
 /// recovered stresses of either body, each a mean over nine nodes (docs/theory.md eq. 47a). Only where the swing is
 /// more than the local error of some vertex are stresses recovered, beside the pairs' curves. Sets the swing of
-/// `lines[k].local`, k the number of the pair.
-void add_swings(const Problem& problem, const VecX& u, const std::vector<JudgedLine>& lines);
+/// `lines[k].local`, k the number of the pair. `known`: kept for the next solution on the mesh.
+void add_swings(const Problem& problem, const VecX& u, const std::vector<JudgedLine>& lines,
+                std::optional<LocalRecovery>& known);
 
 }  // namespace mortise

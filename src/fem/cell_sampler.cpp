@@ -28,7 +28,9 @@ CellSampler::CellSampler(const Mesh& mesh, const std::vector<ElasticLaw>& laws, 
       laws_(laws),
       u_(by_node(fields)),
       count_(fields.cols()),
-      gradient_(2, 2 * fields.cols()) {}
+      gradient_(2, 2 * fields.cols()) {
+  for (const ElasticLaw& law : laws) in_plane_.push_back(law.stiffness({0, 1, 3}, {0, 1, 3}));
+}
 
 void CellSampler::sample(const Cell& cell, const CellShape& shape) {
   const int nodes = node_count(cell.kind);
@@ -36,20 +38,31 @@ void CellSampler::sample(const Cell& cell, const CellShape& shape) {
   x = at.x;
   area = at.jacobian();
   const Eigen::Matrix2d xi_x = at.x_xi.inverse();
+  for (int a = 0; a < nodes; ++a) slopes[a] = xi_x * shape.dN[a];
+  find_gradients(cell);
+  const ElasticLaw& law = laws_[cell.body];
+  if (law.model.axisymmetric()) return add_rings(cell, shape, law);
+  const Eigen::Matrix3d& C = in_plane_[cell.body];
+  for (Eigen::Index k = 0; k < count_; ++k) stresses.segment<3>(3 * k) = (C * strain(k)).transpose();
+}
+
+void CellSampler::find_gradients(const Cell& cell) {
+  const int nodes = node_count(cell.kind);
+  if (count_ == 1) {
+    Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+    for (int a = 0; a < nodes; ++a) sum += slopes[a] * u_.row(cell.nodes[a]).head<2>();
+    gradient_ = sum;
+    return;
+  }
   gradient_.setZero();
   double *along_x = &gradient_(0, 0), *along_y = &gradient_(1, 0);
   for (int a = 0; a < nodes; ++a) {
-    slopes[a] = xi_x * shape.dN[a];
     const double dx = slopes[a].x(), dy = slopes[a].y(), *u = &u_(cell.nodes[a], 0);
     for (Eigen::Index k = 0; k < 2 * count_; ++k) {
       along_x[k] += dx * u[k];
       along_y[k] += dy * u[k];
     }
   }
-  const ElasticLaw& law = laws_[cell.body];
-  if (law.model.axisymmetric()) return add_rings(cell, shape, law);
-  const Eigen::Matrix3d C = law.stiffness({0, 1, 3}, {0, 1, 3});
-  for (Eigen::Index k = 0; k < count_; ++k) stresses.segment<3>(3 * k) = (C * strain(k)).transpose();
 }
 
 // (eps_11, eps_22, gamma_12)

@@ -34,11 +34,13 @@ class CellSampler {
   void sample(const Cell& cell, const CellShape& shape);
 
  private:
+  void find_gradients(const Cell& cell);
   Eigen::Vector3d strain(Eigen::Index k) const;
   void add_rings(const Cell& cell, const CellShape& shape, const ElasticLaw& law);
 
   const Mesh& mesh_;
   const std::vector<ElasticLaw>& laws_;
+  std::vector<Eigen::Matrix3d> in_plane_;  // of their stiffness, (11, 22, 12)
   NodalFields u_;
   Eigen::Index count_;
   NodalFields gradient_;  // 2 x 2 F: (j, i F + k) = d u_i / d x_j of field k

@@ -1,6 +1,5 @@
 #include "fem/error_products.hpp"
 
-#include "fem/cell_sampler.hpp"
 #include "fem/quadrature.hpp"
 
 namespace mortise {
@@ -24,115 +23,159 @@ ForEachKind<Rule> error_rules() {
   return rules;
 }
 
+// Coefficients of one component in a cell: six of each corner; triangles leave the last ones zero.
+constexpr int of_corners = 24;
+
+// (11, 22, 12) of a stress, and 33 of rings.
+template <int components>
+using Components = Eigen::Matrix<double, components, 1>;
+
 // int d_0 : C^-1 : d_k over a cell as a function of field k: of the coefficients of the patches at its corners, less
 // that of its nodes' displacements.
+template <int components>
 struct CellFunctional {
-  std::array<std::array<Vec4, 6>, 4> patches;  // of each corner and monomial, a factor a component
+  Eigen::Matrix<double, of_corners, components> patches;
   std::array<Vec2, 9> nodes;
 
   void clear() {
-    for (auto& corner : patches) corner.fill(Vec4::Zero());
+    patches.setZero();
     nodes.fill(Vec2::Zero());
   }
 };
 
-// What the stresses of a field, as FieldStresses has them, are multiplied by: of `error` : (11, 22, 33, 12).
-Vec4 in_components(const ElasticLaw& law, const Vec4& error) {
-  if (law.model.axisymmetric()) return {error(0), error(1), error(3), error(2)};
-  const Eigen::RowVector3d& s33 = law.out_of_plane;
-  return {error(0) + error(2) * s33(0), error(1) + error(2) * s33(1), error(3) + error(2) * s33(2), 0};
+Vec4 whole(const ElasticLaw& law, const Components<3>& s) {
+  return {s(0), s(1), law.out_of_plane.dot(s.transpose()), s(2)};
+}
+Vec4 whole(const ElasticLaw&, const Components<4>& s) { return {s(0), s(1), s(3), s(2)}; }
+
+// What the components of a field are multiplied by: of `error` : (11, 22, 33, 12).
+template <int components>
+Components<components> in_components(const ElasticLaw& law, const Vec4& error) {
+  if constexpr (components == 4)
+    return {error(0), error(1), error(3), error(2)};
+  else
+    return Components<3>(error(0), error(1), error(3)) + error(2) * law.out_of_plane.transpose();
 }
 
 // As a strain g makes stresses C g, whose work on a field is that of its nodal forces on the nodes' displacements.
-inline void add_nodal_forces(const Cell& cell, const ElasticLaw& law, const CellSampler& at, const CellShape& shape,
-                             const Vec4& g, CellFunctional& functional) {
-  const bool rings = law.model.axisymmetric();
-  const Vec4 s = law.stiffness * Vec4(g(0), g(1), rings ? g(3) : 0, g(2));
+template <int components>
+void add_nodal_forces(const Cell& cell, const ElasticLaw& law, const CellSampler& at, const CellShape& shape,
+                      const Components<components>& g, CellFunctional<components>& functional) {
+  constexpr bool rings = components == 4;
+  const Vec4 s = law.stiffness * Vec4(g(0), g(1), rings ? g(components - 1) : 0, g(2));
+  const Vec2 along_x(s(0), s(3)), along_y(s(3), s(1));
   for (int a = 0; a < node_count(cell.kind); ++a) {
     const Vec2& slope = at.slopes[a];
-    const double hoop = rings ? s(2) * shape.N[a] / at.x.x() : 0;
-    functional.nodes[a] += Vec2(s(0) * slope.x() + s(3) * slope.y() + hoop, s(3) * slope.x() + s(1) * slope.y());
+    functional.nodes[a] += slope.x() * along_x + slope.y() * along_y;
+    if (rings) functional.nodes[a].x() += s(2) * shape.N[a] / at.x.x();
   }
 }
 
-// The products of one cell with other fields.
-class OtherFields {
+// Of field 0 in one cell: what it does to the others, and its own figures.
+template <int components>
+class OwnField {
  public:
-  OtherFields(const RecoveredFields& others, Eigen::Index components)
-      : patches_(others.patches), u_(by_node(others.fields)), count_(others.fields.cols()), components_(components) {}
+  CellFunctional<components> functional;
+  double energy = 0, norm = 0, area = 0;
 
-  template <typename Row>
-  void add(const CellFunctional& of, const Cell& cell, const Cell& on_points, Row&& products) const {
+  OwnField(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const RecoveredFields& field)
+      : laws_(laws), patches_(field.patches), at_(mesh, laws, field.fields), rules_(error_rules()) {}
+
+  void integrate(const Cell& cell, const Cell& on_points) {
+    const Rule& rule = rules_[int(cell.kind)];
+    functional.clear();
+    blended_.setZero();
+    coefficients_.setZero();
+    energy = norm = area = 0;
     for (int a = 0; a < corner_count(cell.kind); ++a) {
-      const int p = on_points.nodes[a];
-      for (int t = 0; t < patches_.terms[p]; ++t) {
-        const Vec4& weight = of.patches[a][t];
-        const double* s = &patches_.coefficients(patches_.row[p] + t, 0);
-        for (Eigen::Index k = 0; k < count_; ++k)
-          for (Eigen::Index c = 0; c < components_; ++c) products(k) += weight(c) * s[components_ * k + c];
-      }
+      const double* rows = &patches_.coefficients(patches_.row[on_points.nodes[a]], 0);
+      coefficients_.template middleRows<6>(6 * a) =
+          Eigen::Map<const Eigen::Matrix<double, 6, components, Eigen::RowMajor>>(rows);
     }
-    for (int a = 0; a < node_count(cell.kind); ++a) {
-      const double* u = &u_(cell.nodes[a], 0);
-      for (Eigen::Index k = 0; k < count_; ++k) products(k) -= of.nodes[a].x() * u[k] + of.nodes[a].y() * u[count_ + k];
-    }
+    for (std::size_t q = 0; q < rule.weights.size(); ++q)
+      add(cell, on_points, rule.shapes[q], rule.linear[q], rule.weights[q]);
   }
 
  private:
+  void add(const Cell& cell, const Cell& on_points, const CellShape& shape, const CellShape& linear, double weight) {
+    const ElasticLaw& law = laws_[cell.body];
+    at_.sample(cell, shape);
+    for (int a = 0; a < corner_count(cell.kind); ++a)
+      blended_.template segment<6>(6 * a) = linear.N[a] * patches_.monomials_at(on_points.nodes[a], at_.x);
+    Components<components> d = coefficients_.transpose() * blended_;
+    const double volume = weight * at_.area * law.model.depth(at_.x.x());
+    const Vec4 stress = whole(law, d) + law.stress0(at_.x);
+    area += weight * at_.area;
+    norm += volume * stress.dot(law.compliance * stress);
+    d -= at_.stresses.head<components>().transpose();
+    const Vec4 difference = whole(law, d), error = volume * (law.compliance * difference);
+    energy += error.dot(difference);
+    const Components<components> g = in_components<components>(law, error);
+    functional.patches.noalias() += blended_ * g.transpose();
+    add_nodal_forces(cell, law, at_, shape, g, functional);
+  }
+
+  const std::vector<ElasticLaw>& laws_;
   const StressPatches& patches_;
-  NodalFields u_;
-  Eigen::Index count_, components_;
+  CellSampler at_;
+  const ForEachKind<Rule> rules_;
+  Eigen::Matrix<double, of_corners, components> coefficients_;
+  Eigen::Matrix<double, of_corners, 1> blended_;  // monomials times the linear shape function of their corner
 };
+
+// Adds the products of one cell with other fields.
+template <int components>
+void add_products(const CellFunctional<components>& of, const OtherFields& others, const Cell& cell,
+                  const Cell& on_points, Eigen::RowVectorXd& products) {
+  using Row = Eigen::Map<const Eigen::RowVectorXd>;
+  using Rows = Eigen::Map<const Eigen::Matrix<double, components, Eigen::Dynamic, Eigen::RowMajor>>;
+  const Eigen::Index count = products.size();
+  for (int a = 0; a < corner_count(cell.kind); ++a)
+    for (int t = 0; t < 6; ++t) {
+      const double* s = &others.coefficients(others.row[on_points.nodes[a]] + t, 0);
+      products += of.patches.row(6 * a + t).lazyProduct(Rows(s, components, count));
+    }
+  for (int a = 0; a < node_count(cell.kind); ++a) {
+    const double* u = &others.u(cell.nodes[a], 0);
+    products.noalias() -= of.nodes[a].x() * Row(u, count) + of.nodes[a].y() * Row(u + count, count);
+  }
+}
+
+template <int components>
+ErrorProducts products_of(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                          const RecoveredFields& field, const OtherFields& others) {
+  const std::vector<Cell> on_points = cells_on_points(mesh, points);
+  const Eigen::Index cells = Eigen::Index(mesh.cells.size()), count = others.count();
+  ErrorProducts found{.products = MatX(cells, 1 + count), .norms = VecX(cells), .areas = VecX(cells)};
+  OwnField<components> own(mesh, laws, field);
+  Eigen::RowVectorXd products(count);
+  for (Eigen::Index e = 0; e < cells; ++e) {
+    own.integrate(mesh.cells[e], on_points[e]);
+    products.setZero();
+    if (count > 0) add_products(own.functional, others, mesh.cells[e], on_points[e], products);
+    found.products.row(e) << own.energy, products;
+    found.norms(e) = own.norm;
+    found.areas(e) = own.area;
+  }
+  return found;
+}
 
 }  // namespace
 
+OtherFields::OtherFields(const RecoveredFields& fields)
+    : row(fields.patches.row), coefficients(fields.patches.coefficients), u(by_node(fields.fields)) {
+  if (count() == 0) return;
+  const Eigen::Index components = coefficients.cols() / count();
+  for (Eigen::Index i = 0; i < coefficients.rows(); ++i)
+    for (Eigen::Index k = 0; k < count(); ++k)
+      for (Eigen::Index c = 0; c < components; ++c)
+        coefficients(i, c * count() + k) = fields.patches.coefficients(i, components * k + c);
+}
+
 ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                             const RecoveredFields& field, const RecoveredFields& others) {
-  const StressPatches& patches = field.patches;
-  const ForEachKind<Rule> rules = error_rules();
-  const std::vector<Cell> on_points = cells_on_points(mesh, points);
-  const Eigen::Index cells = Eigen::Index(mesh.cells.size()), of_field = components(laws);
-  const Eigen::Index count = others.fields.cols();
-  ErrorProducts found{.products = MatX::Zero(cells, 1 + count), .norms = VecX::Zero(cells), .areas = VecX::Zero(cells)};
-  CellSampler at(mesh, laws, field.fields);
-  const OtherFields with(others, of_field);
-  CellFunctional functional;
-  std::array<Monomials, 4> blended;  // times the linear shape function of the corner
-  Eigen::RowVectorXd recovered(of_field), own_row(count);
-  for (Eigen::Index e = 0; e < cells; ++e) {
-    const Cell& cell = mesh.cells[e];
-    const ElasticLaw& law = laws[cell.body];
-    const Rule& rule = rules[int(cell.kind)];
-    functional.clear();
-    own_row.setZero();
-    double energy = 0;
-    for (std::size_t q = 0; q < rule.weights.size(); ++q) {
-      at.sample(cell, rule.shapes[q]);
-      recovered.setZero();
-      for (int a = 0; a < corner_count(cell.kind); ++a) {
-        const int p = on_points[e].nodes[a];
-        blended[a] = rule.linear[q].N[a] * patches.monomials_at(p, at.x);
-        for (int t = 0; t < patches.terms[p]; ++t) {
-          const double* s = &patches.coefficients(patches.row[p] + t, 0);
-          for (Eigen::Index c = 0; c < of_field; ++c) recovered(c) += blended[a](t) * s[c];
-        }
-      }
-      const double area = rule.weights[q] * at.area, volume = area * law.model.depth(at.x.x());
-      const Vec4 whole = all_components(law, recovered, 0, of_field) + law.stress0(at.x);
-      found.areas(e) += area;
-      found.norms(e) += volume * whole.dot(law.compliance * whole);
-      recovered -= at.stresses;
-      const Vec4 d = all_components(law, recovered, 0, of_field), error = volume * law.compliance * d;
-      energy += error.dot(d);
-      const Vec4 g = in_components(law, error);
-      for (int a = 0; a < corner_count(cell.kind); ++a)
-        for (int t = 0; t < patches.terms[on_points[e].nodes[a]]; ++t) functional.patches[a][t] += blended[a](t) * g;
-      add_nodal_forces(cell, law, at, rule.shapes[q], g, functional);
-    }
-    if (count > 0) with.add(functional, cell, on_points[e], own_row);
-    found.products.row(e) << energy, own_row;
-  }
-  return found;
+                             const RecoveredFields& field, const OtherFields& others) {
+  return components(laws) == 4 ? products_of<4>(mesh, points, laws, field, others)
+                               : products_of<3>(mesh, points, laws, field, others);
 }
 
 }  // namespace mortise

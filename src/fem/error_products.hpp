@@ -1,6 +1,7 @@
 // Products of the errors that recovered stresses show.
 #pragma once
 
+#include "fem/cell_sampler.hpp"
 #include "fem/patch_recovery.hpp"
 
 namespace mortise {
@@ -19,9 +20,20 @@ struct RecoveredFields {
   StressPatches patches;
 };
 
+/// The same, in the order in which the products of another field with them are found: of each component all fields.
+struct OtherFields {
+  std::vector<int> row;        ///< StressPatches::row
+  FieldStresses coefficients;  ///< a column a component and field, the fields of one component beside each other
+  NodalFields u;
+
+  OtherFields() = default;
+  OtherFields(const RecoveredFields& fields);
+  Eigen::Index count() const { return u.cols() / 2; }
+};
+
 /// sigma* as recovered_stress. `field`: field 0 alone, `others`: those after it. What field 0 does to the patches and
 /// to the nodes of a cell is found once; each further field costs a few products a cell.
 ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                             const RecoveredFields& field, const RecoveredFields& others);
+                             const RecoveredFields& field, const OtherFields& others);
 
 }  // namespace mortise

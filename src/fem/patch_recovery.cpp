@@ -42,8 +42,6 @@ struct CellsAround {
   }
 };
 
-Monomials monomials(const Vec2& x) { return {1, x.x(), x.y(), x.x() * x.x(), x.x() * x.y(), x.y() * x.y()}; }
-
 // Calls visit(q) for each sample of some cells.
 template <typename Visit>
 void for_each_sample(std::span<const int> cells, const StressSamples& samples, Visit visit) {
@@ -82,8 +80,6 @@ StressSamples sample_some(const Mesh& mesh, const std::vector<ElasticLaw>& laws,
 
 }  // namespace
 
-Monomials StressPatches::monomials_at(int p, const Vec2& x) const { return monomials((x - centre[p]) / size[p]); }
-
 void StressPatches::add_at(int p, const Vec2& x, double factor, Eigen::RowVectorXd& sum) const {
   const Monomials m = monomials_at(p, x);
   for (int t = 0; t < terms[p]; ++t) sum += factor * m(t) * coefficients.row(row[p] + t);
@@ -118,10 +114,13 @@ PatchRecovery::PatchRecovery(const Mesh& mesh, const BodyPoints& points, const S
     empty_.centre[p] = mesh.nodes.row(points.node[p]);
     const int first = int(cells_.size());
     cells_.insert(cells_.end(), cells.begin(), cells.end());
-    patches_.push_back({p, first, int(cells_.size()), inverse_at(p, cells, samples)});
+    patches_.push_back({p, first, int(cells_.size()), parts_.size()});
+    const Eigen::Matrix<double, 6, 6> inverse = inverse_at(p, cells, samples);
+    for_each_sample(cells, samples, [&](int q) { parts_.push_back(inverse * powers(empty_, p, samples.x[q])); });
   }
 }
 
+// Of the normal equations.
 Eigen::Matrix<double, 6, 6> PatchRecovery::inverse_at(int p, std::span<const int> cells, const StressSamples& samples) {
   const int terms = empty_.terms[p];
   int count = 0;
@@ -142,30 +141,38 @@ Eigen::Matrix<double, 6, 6> PatchRecovery::inverse_at(int p, std::span<const int
   return M.llt().solve(Eigen::Matrix<double, 6, 6>::Identity());
 }
 
-// What each sample adds to the coefficients is the same for all fields.
+// `Row`: of stresses.
+template <typename Row>
+void PatchRecovery::fit_patch(const Patch& patch, const StressSamples& samples, FieldStresses& coefficients) const {
+  using Rows = Eigen::Matrix<double, 6, Row::ColsAtCompileTime, Eigen::RowMajor>;
+  const std::span<const int> cells(cells_.data() + patch.first, cells_.data() + patch.last);
+  const Eigen::Index columns = samples.stresses.cols();
+  const auto stresses = [&](int q) { return Eigen::Map<const Row>(&samples.stresses(q, 0), columns); };
+  Row mean = Row::Zero(columns), rest(columns);
+  int count = 0;
+  for_each_sample(cells, samples, [&](int q) {
+    mean += stresses(q);
+    ++count;
+  });
+  mean /= count;
+  Eigen::Map<Rows> of_patch(&coefficients(empty_.row[patch.point], 0), 6, columns);
+  const Monomials* part = parts_.data() + patch.first_part;
+  for_each_sample(cells, samples, [&](int q) {
+    rest = stresses(q) - mean;
+    of_patch.noalias() += *part++ * rest;
+  });
+  of_patch.row(0) += mean;
+}
+
 StressPatches PatchRecovery::fit(const StressSamples& samples) const {
   StressPatches patches = empty_;
   const Eigen::Index columns = samples.stresses.cols();
-  patches.coefficients = MatX::Zero(6 * Eigen::Index(patches_.size()), columns);
-  Eigen::RowVectorXd mean(columns), rest(columns);
-  for (const Patch& patch : patches_) {
-    const std::span<const int> cells(cells_.data() + patch.first, cells_.data() + patch.last);
-    const int p = patch.point;
-    mean.setZero();
-    int count = 0;
-    for_each_sample(cells, samples, [&](int q) {
-      mean += samples.stresses.row(q);
-      ++count;
-    });
-    mean /= count;
-    auto coefficients = patches.coefficients.middleRows<6>(patches.row[p]);
-    for_each_sample(cells, samples, [&](int q) {
-      const Monomials parts = patch.inverse * powers(patches, p, samples.x[q]);
-      rest = samples.stresses.row(q) - mean;
-      for (int t = 0; t < patches.terms[p]; ++t) coefficients.row(t) += parts(t) * rest;
-    });
-    coefficients.row(0) += mean;
-  }
+  patches.coefficients = FieldStresses::Zero(6 * Eigen::Index(patches_.size()), columns);
+  for (const Patch& patch : patches_)
+    if (columns == 3)
+      fit_patch<Eigen::RowVector3d>(patch, samples, patches.coefficients);
+    else if (columns > 0)
+      fit_patch<Eigen::RowVectorXd>(patch, samples, patches.coefficients);
   return patches;
 }
 
@@ -173,16 +180,25 @@ StressPatches recover_patches(const Mesh& mesh, const BodyPoints& points, const 
   return PatchRecovery(mesh, points, samples).fit(samples);
 }
 
+LocalRecovery::LocalRecovery(std::vector<int> some, const Mesh& mesh, const BodyPoints& points)
+    : some_(std::move(some)), wanted_(points.node.size(), 0), take_(mesh.cells.size(), 0) {
+  const CellsAround around(mesh, points);
+  for (const int p : some_) {
+    wanted_[p] = 1;
+    for (const int e : around.beside(around.at(p))) take_[e] = 1;
+  }
+}
+
+StressPatches LocalRecovery::recover(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                                     const MatX& fields) {
+  const StressSamples samples = sample_some(mesh, laws, fields, take_);
+  if (!recovery_) recovery_.emplace(mesh, points, samples, wanted_);
+  return recovery_->fit(samples);
+}
+
 StressPatches recover_patches_at(const std::vector<int>& some, const Mesh& mesh, const BodyPoints& points,
                                  const std::vector<ElasticLaw>& laws, const MatX& fields) {
-  const CellsAround around(mesh, points);
-  std::vector<char> wanted(points.node.size(), 0), take(mesh.cells.size(), 0);
-  for (const int p : some) {
-    wanted[p] = 1;
-    for (const int e : around.beside(around.at(p))) take[e] = 1;
-  }
-  const StressSamples samples = sample_some(mesh, laws, fields, take);
-  return PatchRecovery(mesh, points, samples, wanted).fit(samples);
+  return LocalRecovery(some, mesh, points).recover(mesh, points, laws, fields);
 }
 
 Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, const StressPatches& patches,

@@ -1,6 +1,7 @@
 // Stresses that are better than the elements' own, and the energy error that they show.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "fem/locate.hpp"
@@ -34,7 +35,11 @@ struct StressPatches {
   std::vector<int> row;      ///< of each body point: the first of its six rows; -1: no vertex
   FieldStresses coefficients;
 
-  Monomials monomials_at(int p, const Vec2& x) const;  ///< of patch p
+  /// Of patch p.
+  Monomials monomials_at(int p, const Vec2& place) const {
+    const Vec2 x = (place - centre[p]) / size[p];
+    return {1, x.x(), x.y(), x.x() * x.x(), x.x() * x.y(), x.y() * x.y()};
+  }
 
   /// Adds factor times the stresses of patch p at x to `sum`, a row of stresses.
   void add_at(int p, const Vec2& x, double factor, Eigen::RowVectorXd& sum) const;
@@ -55,19 +60,37 @@ class PatchRecovery {
 
  private:
   struct Patch {
-    int point, first, last;               // of its cells in cells_
-    Eigen::Matrix<double, 6, 6> inverse;  // of the normal equations
+    int point, first, last;  // of its cells in cells_
+    std::size_t first_part;  // of its samples
   };
   Eigen::Matrix<double, 6, 6> inverse_at(int p, std::span<const int> cells, const StressSamples& samples);
+  template <typename Row>
+  void fit_patch(const Patch& patch, const StressSamples& samples, FieldStresses& coefficients) const;
 
   StressPatches empty_;  // without coefficients
   std::vector<Patch> patches_;
   std::vector<int> cells_;
+  std::vector<Monomials> parts_;  // what each sample of a patch adds to its coefficients, the same for all fields
 };
 
 StressPatches recover_patches(const Mesh& mesh, const BodyPoints& points, const StressSamples& samples);
 
-/// The same at some body points only, in the time that the cells around these take, and a look at all cells.
+/// The same at some body points only, in the time that the cells around these take, and a look at all cells; of fields
+/// that come one after another.
+class LocalRecovery {
+ public:
+  LocalRecovery(std::vector<int> some, const Mesh& mesh, const BodyPoints& points);
+  const std::vector<int>& at() const { return some_; }
+  /// On the same mesh.
+  StressPatches recover(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
+                        const MatX& fields);
+
+ private:
+  std::vector<int> some_;
+  std::vector<char> wanted_, take_;  // of body points; of cells
+  std::optional<PatchRecovery> recovery_;
+};
+
 StressPatches recover_patches_at(const std::vector<int>& some, const Mesh& mesh, const BodyPoints& points,
                                  const std::vector<ElasticLaw>& laws, const MatX& fields);
 

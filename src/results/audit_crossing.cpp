@@ -59,28 +59,64 @@ std::string line(const AuditedBodies& b, int first, int second, const Crossing& 
   return text.str();
 }
 
+// `moved`: the most that any point moves by. What is nearest to a point then was farther by two such ways on either
+// side than what is nearest now.
+bool stays_apart(const AuditedBodies& b, const EdgeAndPiece& of, double moved) {
+  const Outline& o = b.outline;
+  static const LineRule rule = gauss_legendre(3);
+  for (const double xi : rule.points) {
+    const Vec2 x = edge_point(o.nodes, o.edges[of.edge].edge, xi).position;
+    const double distance = nearest(o, of.piece, x).distance;
+    if (distance > 3 * moved) continue;
+    const Vec2 reach = Vec2::Constant(std::abs(distance) + 5 * moved);
+    for (const int number : o.pieces[of.piece].edges.meeting(Box(x - reach, x + reach)))
+      if (!nearly_paired(b, of.edge, o.pieces[of.piece].first + number)) return false;
+  }
+  return true;
+}
+
+// Whose boxes, larger by `margin`, meet.
+std::vector<EdgeAndPiece> meeting(const Outline& o, double margin) {
+  std::vector<EdgeAndPiece> list;
+  for (int e = 0; e < int(o.edges.size()); ++e)
+    for (const int piece : o.boxes.meeting(edge_box(o, e, margin)))
+      if (piece != o.edges[e].piece) list.push_back({e, piece});
+  return list;
+}
+
+void add_crossing(const Moved& all, const EdgeAndPiece& of, std::map<std::pair<int, int>, Crossing>& crossings) {
+  const Outline& deformed = all.deformed;
+  const int body = deformed.edges[of.edge].body, other_body = deformed.pieces[of.piece].body;
+  static const LineRule rule = gauss_legendre(3);
+  for (const double xi : rule.points) {
+    const auto [depth, other] = depth_at(all, of.edge, xi, of.piece);
+    if (other < 0) continue;
+    Crossing& c = crossings[std::minmax(body, other_body)];
+    c.depth = std::max(c.depth, depth);
+    c.edges.push_back(body > other_body ? other : of.edge);
+    c.others.push_back(body > other_body ? of.edge : other);
+  }
+}
+
 }  // namespace
 
-std::vector<std::string> crossing_lines(const AuditedBodies& b, const Results& r) {
-  if (!r.solution.u.allFinite()) return {};
+std::vector<EdgeAndPiece> may_cross(const AuditedBodies& b, double largest) {
+  const double moved = 2 * largest;  // both components, and a point between nodes more than these
+  std::vector<EdgeAndPiece> list = meeting(b.outline, 5 * moved);
+  std::erase_if(list, [&](const EdgeAndPiece& of) { return stays_apart(b, of, moved); });
+  return list;
+}
+
+std::vector<std::string> crossing_lines(const AuditedBodies& b, const Results& r,
+                                        const std::vector<EdgeAndPiece>* some) {
+  if (!r.solution.u.allFinite() || (some && some->empty())) return {};
   const double largest = largest_entry(r.solution.u);
   const Outline deformed = outline(
       b.boundary, r.problem.mesh.nodes + Eigen::Map<const Points>(r.solution.u.data(), r.problem.mesh.nodes.rows(), 2));
-  static const LineRule rule = gauss_legendre(3);
   std::map<std::pair<int, int>, Crossing> crossings;
-  for (int e = 0; e < int(deformed.edges.size()); ++e)
-    for (const int piece : deformed.boxes.meeting(edge_box(deformed, e, 0))) {
-      if (piece == deformed.edges[e].piece) continue;
-      for (const double xi : rule.points) {
-        const auto [depth, other] = depth_at({b, deformed, largest}, e, xi, piece);
-        if (other < 0) continue;
-        const bool second = deformed.edges[e].body > deformed.pieces[piece].body;
-        Crossing& c = crossings[std::minmax(deformed.edges[e].body, deformed.pieces[piece].body)];
-        c.depth = std::max(c.depth, depth);
-        c.edges.push_back(second ? other : e);
-        c.others.push_back(second ? e : other);
-      }
-    }
+  for (const EdgeAndPiece& of : some ? *some : meeting(deformed, 0))
+    if (edge_box(deformed, of.edge, 0).intersects(deformed.pieces[of.piece].box))
+      add_crossing({b, deformed, largest}, of, crossings);
   std::vector<std::string> lines;
   for (const auto& [bodies, c] : crossings) lines.push_back(line(b, bodies.first, bodies.second, c, largest));
   return lines;

@@ -13,8 +13,14 @@ std::vector<std::string> audit_solution(const Results& results);
 /// there and still faces the other body.
 std::vector<std::string> end_lines(const AuditedBodies& bodies, const Results& results);
 
+/// Of the drawn bodies those edges and pieces that can make a line below by displacements up to `largest`: what comes
+/// near, and no pair stands between them.
+std::vector<EdgeAndPiece> may_cross(const AuditedBodies& bodies, double largest);
+
 /// A line for each two bodies that pass through one another in the deformed state where no pair stands between them.
-std::vector<std::string> crossing_lines(const AuditedBodies& bodies, const Results& results);
+/// `some`: all that may; null: not known.
+std::vector<std::string> crossing_lines(const AuditedBodies& bodies, const Results& results,
+                                        const std::vector<EdgeAndPiece>* some);
 
 /// A line for each pair whose drawn overlap is undone by moving bodies as a whole: it is many times what they deform
 /// by.

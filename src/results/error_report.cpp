@@ -73,9 +73,8 @@ std::vector<std::string> error_warnings(const Results& r) {
 }
 
 bool grows_without_limit(const Results& r, const Extreme& stress) {
-  if (corner_exponent(r.problem.mesh, stress.node, r.problem.discretisation.system.constraints,
-                      r.problem.discretisation.laws[stress.of]) <= singular_limit)
-    return true;
+  r.memory->keep_for(r.problem);
+  if (r.memory->exponent_at(r.problem, stress.node, stress.of) <= singular_limit) return true;
   if (!r.estimate) return false;
   return std::ranges::any_of(r.estimate->pressures, [&](const PressureEstimate& e) {
     return std::ranges::any_of(e.singular, [&](const SingularPoint& point) {
@@ -104,7 +103,7 @@ void put_force_bars(const std::vector<Eigen::Vector3d>& errors, Results& r) {
 
 }  // namespace
 
-ForcesAsked ask_forces(const Results& r) { return ask_forces(r.problem, r.solution, centres_of(r)); }
+ForcesAsked ask_forces(const Results& r) { return ask_forces(r.problem, r.solution, centres_of(r), *r.memory); }
 
 void set_force_bars(const ForcesAsked& asked, const FoundDuals& duals, Results& r) {
   put_force_bars(force_errors(r.problem, r.estimate->pressures, centres_of(r), asked, duals), r);

@@ -22,14 +22,11 @@ double rotation(const Points& nodes, const VecX& u, const Edge& edge) {
 struct Largest {
   double part = 0;
   Vec2 position = Vec2::Zero();
-  std::string what;
+  double shown = 0;
+  const char *before = "", *after = "";
 
-  void take(double other, const Vec2& at, double shown, const char* before, const char* after) {
-    if (!(other > part)) return;
-    std::ostringstream text;
-    text.precision(2);
-    text << before << shown << after;
-    *this = {other, at, text.str()};
+  void take(const Largest& other) {
+    if (other.part > part) *this = other;
   }
 };
 
@@ -51,9 +48,10 @@ Largest largest_in_contact(const Results& r) {
                    along = slip / contact.length_in_contact,
                    turned = std::max(rotation(r.problem.mesh.nodes, r.solution.u, edge),
                                      rotation(r.problem.mesh.nodes, r.solution.u, other));
-      worst.take(curved, x, 100 * curved, "the sides move against one another by ", " % of the contact line's radius");
-      worst.take(along, x, 100 * along, "the sides slide along one another by ", " % of the length in contact");
-      worst.take(turned * turned, x, turned, "a side turns by ", " radians");
+      worst.take(
+          {curved, x, 100 * curved, "the sides move against one another by ", " % of the contact line's radius"});
+      worst.take({along, x, 100 * along, "the sides slide along one another by ", " % of the length in contact"});
+      worst.take({turned * turned, x, turned, "a side turns by ", " radians"});
     }
   }
   return worst;
@@ -67,7 +65,7 @@ std::optional<std::string> large_displacement(const Results& r) {
   const Vec2 size = (r.problem.mesh.nodes.colwise().maxCoeff() - r.problem.mesh.nodes.colwise().minCoeff()).transpose();
   const double whole = largest_entry(r.solution.u) / size.norm();
   if (const Largest worst = largest_in_contact(r); worst.part > 0.01)
-    text << "large displacements: " << worst.what << " " << near_point(worst.position)
+    text << "large displacements: " << worst.before << worst.shown << worst.after << " " << near_point(worst.position)
          << "; contact is written on the undeformed bodies, so p may be off by " << 100 * worst.part << " %";
   else if (whole > 0.02)
     text << "large displacements: up to " << 100 * whole

@@ -16,7 +16,7 @@ struct NodalForces {
 };
 
 NodalForces nodal_forces(const SaddlePointSystem& s, const Solution& solution) {
-  const VecX residual = s.K.selfadjointView<Eigen::Lower>() * solution.u + s.B.transpose() * solution.lambda - s.f;
+  const VecX residual = -unbalanced_forces(s, solution);
   const auto& multipoint = s.constraints.multipoint;
   if (!multipoint)
     return {constraint_forces(s.constraints, s.constraints.fixed, residual), VecX::Zero(residual.size())};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "error/error_estimate.hpp"
+#include "results/audit_memory.hpp"
 #include "results/recovery.hpp"
 
 namespace mortise {
@@ -59,6 +60,7 @@ struct AccuracyReport {
 struct Results {
   Problem problem;  ///< held motions (validate.hpp) count as prescribed
   std::shared_ptr<EstimateMemory> memory = std::make_shared<EstimateMemory>();  ///< of estimates on its mesh
+  std::shared_ptr<AuditMemory> audited = std::make_shared<AuditMemory>();       ///< of audits likewise
   Solution solution;
   std::vector<std::vector<RigidMotion>> unheld;  ///< that nothing holds and no load drives: held, or zero
   Recovery recovery;

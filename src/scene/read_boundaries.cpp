@@ -147,10 +147,13 @@ const std::vector<std::string> boundary_conditions{"displacement", "pressure", "
 Keys boundary_keys(BoundarySpec& boundary) {
   Displacement displacement;
   RigidSpec rigid;
-  Json moved = object_of(displacement_keys(displacement, {}));
-  moved["minProperties"] = 1;
-  moved["dependencies"] = {{"direction", {"value"}}, {"value", {"direction"}}};
-  const Json value = a_field({}).schema, pair = a_pair().schema, values = two_fields({}).schema;
+  static const Json moved = [&] {
+    Json object = object_of(displacement_keys(displacement, {}));
+    object["minProperties"] = 1;
+    object["dependencies"] = {{"direction", {"value"}}, {"value", {"direction"}}};
+    return object;
+  }();
+  static const Json value = a_field({}).schema, pair = a_pair().schema, values = two_fields({}).schema;
   return {
       required(key("on", boundary.on, some_names(),
                    "a physical curve or a list of them; of `displacement`, `force` and `spring` also physical points. "

@@ -3,22 +3,22 @@
 namespace mortise {
 namespace {
 
-// K u, and |K| |u|: the sizes of the terms that each entry is the sum of.
-struct Product {
-  VecX sum, size;
-};
-
-Product multiply(const SparseMatrix& lower, const VecX& u) {
-  Product p{VecX::Zero(u.size()), VecX::Zero(u.size())};
-  const auto add = [&](int row, double term) {
-    p.sum(row) += term;
-    p.size(row) += std::abs(term);
-  };
-  for (int j = 0; j < int(lower.cols()); ++j)
+// K u, and |K| |u|, the sizes of the terms that each entry is the sum of: a row an unknown.
+Points multiply(const SparseMatrix& lower, const VecX& u) {
+  Points p = Points::Zero(u.size(), 2);
+  for (int j = 0; j < int(lower.cols()); ++j) {
+    double sum = p(j, 0), size = p(j, 1);
     for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
-      add(int(it.row()), it.value() * u(j));
-      if (it.row() != j) add(j, it.value() * u(it.row()));
+      const double term = it.value() * u(it.row());
+      sum += term;
+      size += std::abs(term);
+      if (it.row() == j) continue;
+      const double across = it.value() * u(j);
+      p(it.row(), 0) += across;
+      p(it.row(), 1) += std::abs(across);
     }
+    p.row(j) << sum, size;
+  }
   return p;
 }
 
@@ -32,17 +32,23 @@ std::vector<int> held_unknowns(const std::vector<int>& grounded, const Solution&
   return held;
 }
 
+VecX unbalanced_forces(const SaddlePointSystem& s, const Solution& solution) {
+  if (solution.unbalanced.size() == s.f.size()) return solution.unbalanced;
+  return s.f - s.K.selfadjointView<Eigen::Lower>() * solution.u - s.B.transpose() * solution.lambda;
+}
+
 void measure_residuals(const SaddlePointSystem& s, Solution& solution) {
-  const Product Ku = multiply(s.K, solution.u);
+  const Points Ku = multiply(s.K, solution.u);
   const VecX pressure = s.B.transpose() * solution.lambda;
-  const double forces = largest({largest_entry(s.f), largest_entry(Ku.sum), largest_entry(pressure)});
+  const double forces = largest({largest_entry(s.f), largest_entry(Ku.col(0)), largest_entry(pressure)});
+  solution.unbalanced = s.f - Ku.col(0) - pressure;
   solution.force_residual = fraction(0, forces);
   std::vector<char> held = s.constraints.fixed;
   for (const int unknown : held_unknowns(s.grounded, solution)) held[unknown] = 1;
   for (Eigen::Index i = 0; i < pressure.size(); ++i)
     if (!held[i])
-      solution.force_residual = largest(solution.force_residual, fraction(std::abs(s.f(i) - Ku.sum(i) - pressure(i)),
-                                                                          largest(forces, rigid_part * Ku.size(i))));
+      solution.force_residual = largest(
+          solution.force_residual, fraction(std::abs(solution.unbalanced(i)), largest(forces, rigid_part * Ku(i, 1))));
   VecX open = (s.g - s.B * solution.u).cwiseQuotient(s.row_scale);
   for (Eigen::Index a = 0; a < open.size(); ++a)
     if (!solution.active[a]) open(a) = 0;

@@ -43,7 +43,11 @@ inline constexpr double rigid_part = 1e-3;
 /// forces.
 std::vector<int> held_unknowns(const std::vector<int>& grounded, const Solution& solution);
 
-/// Fills the two residuals of u and lambda, where the `active` rows are closed. held_unknowns() have none.
+/// f - K u - B^T lambda, where the solution has none computed.
+VecX unbalanced_forces(const SaddlePointSystem& system, const Solution& solution);
+
+/// Fills the two residuals of u and lambda, where the `active` rows are closed, and what is unbalanced.
+/// held_unknowns() have no residual.
 void measure_residuals(const SaddlePointSystem& system, Solution& solution);
 
 }  // namespace mortise

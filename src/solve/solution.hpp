@@ -84,6 +84,7 @@ struct Solution {
   VecX u;                    ///< n, length
   VecX lambda;               ///< m, stress
   VecX compression;          ///< l, of the surface layers, length
+  VecX unbalanced;           ///< n: f - K u - B^T lambda, force; empty: not measured of the whole system
   std::vector<char> active;  ///< m: the rows that are closed
   /// A column a rigid motion that no closed row holds and no load drives: the grounded unknowns in it; it is 0 in u, or
   /// what springs left there (solve/active_set.hpp).

@@ -40,7 +40,8 @@ void reserve_blas_buffers() {
 void set_solver_threads(int threads) { requested = threads; }
 
 int solver_threads() {
-  const int wanted = requested > 0 ? requested : int(std::thread::hardware_concurrency());
+  static const int cores = int(std::thread::hardware_concurrency());  // which the system looks up in files
+  const int wanted = requested > 0 ? requested : cores;
   return std::clamp(wanted, 1, most_threads);
 }
 

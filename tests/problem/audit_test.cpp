@@ -7,6 +7,7 @@
 
 #include "app/solve_scene.hpp"
 #include "results/audit_solution.hpp"
+#include "scene/loads.hpp"
 #include "support/messages.hpp"
 #include "support/plate_scenes.hpp"
 #include "support/temporary_folder.hpp"
@@ -173,6 +174,18 @@ TEST(Audit, FindsTwoPiecesOfOneBodyThatAreNotJoined) {
   EXPECT_EQ(lines_of(lines), 1) << lines;
   expect_contains(lines, "two pieces of body 'a' meet");
   expect_contains(lines, "over a length of 4");
+}
+
+TEST(Audit, FindsWhichOfManyLoadsDriveBodiesIntoOneAnother) {
+  const TemporaryFolder folder;
+  const Scene scene = drawn(folder, rectangles({"0, 0, 0, 4, 1", "1, 1.1, 0, 2, 1"}), {"b1", "b2"},
+                            held("down1") + boundary("up2", "displacement = { x = 0, y = -0.001 }"));
+  CaseSolver solver;
+  for (const double times : {1., 2., 50., 300., 250., 1.}) {
+    const std::string lines = joined(audit_solution(solver.solve(scaled_loads(scene, times))));
+    EXPECT_EQ(lines.find("pass through one another") != std::string::npos, times > 100) << times << "\n" << lines;
+  }
+  EXPECT_EQ(solver.shared(), 5);
 }
 
 // A roller in a V whose right flank is in a pair, and the left one is not.

@@ -1,0 +1,52 @@
+#include "error/estimate_memory.hpp"
+
+#include "contact/gap_cuts.hpp"
+
+namespace mortise {
+
+void EstimateMemory::keep_for(const Problem& p) {
+  const std::vector<char>& fixed = p.discretisation.system.constraints.fixed;
+  if (fixed != fixed_) {
+    fixed_ = fixed;
+    corners_.reset();
+    exponents_.clear();
+    statics_.reset();
+    points_.clear();
+  }
+  points_.resize(p.pairs.size());
+}
+
+Surroundings EstimateMemory::around(const Problem& p) {
+  if (!sides_) sides_.emplace(p.mesh);
+  return {p.mesh, *sides_, p.discretisation.system.constraints, p.discretisation.laws, tips_};
+}
+
+const std::vector<BodyCorner>& EstimateMemory::corners(const Problem& p) {
+  if (!corners_) corners_ = body_corners(around(p));
+  return *corners_;
+}
+
+const Statics& EstimateMemory::statics(const Problem& p) {
+  if (!statics_) statics_.emplace(p.mesh, p.points, p.discretisation.system);
+  return *statics_;
+}
+
+double EstimateMemory::exponent_at(const Problem& p, int node, int body) {
+  const auto [known, is_new] = exponents_.try_emplace({node, body}, 1);
+  const Discretisation& d = p.discretisation;
+  if (is_new) known->second = corner_exponent(p.mesh, node, d.system.constraints, d.laws[body]);
+  return known->second;
+}
+
+const std::vector<SingularPoint>& EstimateMemory::points(const Surroundings& around, const ContactPair& pair,
+                                                         std::size_t k, const ContactReach& reach) {
+  std::optional<KnownPoints>& known = points_[k];
+  const bool one_curve = pair.spec.initial_gap == InitialGap::closed || pair.spec.initial_gap == InitialGap::given;
+  const GivenGap given{.one_curve = one_curve,
+                       .end_slopes = gap_slopes_at_ends(around.mesh.nodes, pair.multiplier, pair.geometry)};
+  if (!known || known->reach != reach || known->given != given)
+    known = {reach, given, singular_points(around, pair.multiplier, pair.opposite, reach, given)};
+  return known->points;
+}
+
+}  // namespace mortise

@@ -1,0 +1,48 @@
+// What estimates on one mesh share.
+#pragma once
+
+#include <map>
+
+#include "contact/singular_points.hpp"
+#include "error/body_products.hpp"
+#include "error/statics.hpp"
+
+namespace mortise {
+
+/// What the mesh, the bodies and what is fixed make, each part when it is first asked for. Of one problem, whose loads,
+/// closed rows and, by keep_for, fixed unknowns may change.
+class EstimateMemory {
+ public:
+  BodyProducts products;
+  std::optional<LocalRecovery> beside;  ///< the curves of the pairs that swing
+
+  /// `keeps`: as of BodyProducts.
+  explicit EstimateMemory(bool keeps = false) : products(keeps) {}
+
+  /// Before all below: forgets what was made with other unknowns fixed.
+  void keep_for(const Problem& problem);
+  Surroundings around(const Problem& problem);
+  const std::vector<BodyCorner>& corners(const Problem& problem);
+  const Statics& statics(const Problem& problem);
+  /// As corner_exponent.
+  double exponent_at(const Problem& problem, int node, int body);
+  /// Of pair k, found again where contact reaches other vertices or the gap is another. Of several pairs at once.
+  const std::vector<SingularPoint>& points(const Surroundings& around, const ContactPair& pair, std::size_t k,
+                                           const ContactReach& reach);
+
+ private:
+  struct KnownPoints {
+    ContactReach reach;
+    GivenGap given;
+    std::vector<SingularPoint> points;
+  };
+  TipTable tips_;
+  std::optional<SideTable> sides_;
+  std::vector<char> fixed_;
+  std::optional<std::vector<BodyCorner>> corners_;
+  std::map<std::pair<int, int>, double> exponents_;  // of node and body
+  std::optional<Statics> statics_;
+  std::vector<std::optional<KnownPoints>> points_;  // of each pair
+};
+
+}  // namespace mortise
