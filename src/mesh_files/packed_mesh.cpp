@@ -67,7 +67,7 @@ void check(const MeshData& data) {
   for (const ElementBlock& block : data.blocks) {
     const ElementType* const type = element_type(block.type);
     const auto known = [&](int node) { return node >= 0 && node < std::ssize(data.nodes); };
-    if (!type || type->dimension != block.dimension || block.nodes.size() % std::size_t(type->node_count) != 0 ||
+    if (!type || type->dimension() != block.dimension || block.nodes.size() % std::size_t(type->node_count) != 0 ||
         !std::ranges::all_of(block.nodes, known) ||
         (!block.samples.empty() && block.samples.size() != block.nodes.size() / std::size_t(type->node_count)))
       throw std::out_of_range("packed mesh");
