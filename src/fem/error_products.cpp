@@ -34,6 +34,18 @@ struct CellFunctional {
     for (auto& corner : patches) corner.fill(Vec4::Zero());
     nodes.fill(Vec2::Zero());
   }
+
+  // As a strain g makes stresses C g, whose work on a field is that of its nodal forces on the nodes' displacements.
+  void add_nodal_forces(const Cell& cell, const ElasticLaw& law, const CellSampler& at, const CellShape& shape,
+                        const Vec4& g) {
+    const bool rings = law.model.axisymmetric();
+    const Vec4 s = law.stiffness * Vec4(g(0), g(1), rings ? g(3) : 0, g(2));
+    for (int a = 0; a < node_count(cell.kind); ++a) {
+      const Vec2& slope = at.slopes[a];
+      const double hoop = rings ? s(2) * shape.N[a] / at.x.x() : 0;
+      nodes[a] += Vec2(s(0) * slope.x() + s(3) * slope.y() + hoop, s(3) * slope.x() + s(1) * slope.y());
+    }
+  }
 };
 
 // What the stresses of a field, as FieldStresses has them, are multiplied by: of `error` : (11, 22, 33, 12).
@@ -41,18 +53,6 @@ Vec4 in_components(const ElasticLaw& law, const Vec4& error) {
   if (law.model.axisymmetric()) return {error(0), error(1), error(3), error(2)};
   const Eigen::RowVector3d& s33 = law.out_of_plane;
   return {error(0) + error(2) * s33(0), error(1) + error(2) * s33(1), error(3) + error(2) * s33(2), 0};
-}
-
-// As a strain g makes stresses C g, whose work on a field is that of its nodal forces on the nodes' displacements.
-inline void add_nodal_forces(const Cell& cell, const ElasticLaw& law, const CellSampler& at, const CellShape& shape,
-                             const Vec4& g, CellFunctional& functional) {
-  const bool rings = law.model.axisymmetric();
-  const Vec4 s = law.stiffness * Vec4(g(0), g(1), rings ? g(3) : 0, g(2));
-  for (int a = 0; a < node_count(cell.kind); ++a) {
-    const Vec2& slope = at.slopes[a];
-    const double hoop = rings ? s(2) * shape.N[a] / at.x.x() : 0;
-    functional.nodes[a] += Vec2(s(0) * slope.x() + s(3) * slope.y() + hoop, s(3) * slope.x() + s(1) * slope.y());
-  }
 }
 
 // The products of one cell with other fields.
@@ -127,7 +127,7 @@ ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const s
       const Vec4 g = in_components(law, error);
       for (int a = 0; a < corner_count(cell.kind); ++a)
         for (int t = 0; t < patches.terms[on_points[e].nodes[a]]; ++t) functional.patches[a][t] += blended[a](t) * g;
-      add_nodal_forces(cell, law, at, rule.shapes[q], g, functional);
+      functional.add_nodal_forces(cell, law, at, rule.shapes[q], g);
     }
     if (count > 0) with.add(functional, cell, on_points[e], own_row);
     found.products.row(e) << energy, own_row;
