@@ -7,6 +7,7 @@
 #include <optional>
 #include <tuple>
 
+#include "base/each_once.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "mesh/orientation.hpp"
@@ -98,8 +99,7 @@ void add_boundary(Mesh& mesh, const MeshData& data, const PhysicalGroup& group,
 void add_point(Mesh& mesh, const PhysicalGroup& group, const std::vector<const ElementBlock*>& blocks) {
   std::vector<int> nodes;
   for (const ElementBlock* block : blocks) nodes.insert(nodes.end(), block->nodes.begin(), block->nodes.end());
-  std::ranges::sort(nodes);
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  keep_each_once(nodes);
   mesh.points.push_back({group.name, std::move(nodes)});
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/each_once.hpp"
+
 namespace mortise {
 namespace {
 
@@ -69,7 +71,7 @@ void InpSets::read_set(const InpCard& card, const OwnRows& own, Sets& sets, cons
     // Names that a program made begin so: they name parts of surfaces.
     if (&sets == &elements_ && !name.starts_with('_')) listed_.push_back(sets.by_key.at(inp_key(name)));
   }
-  sort_members(members);
+  keep_each_once(members);
 }
 
 void InpSets::read_range(const DeckRecord& line, const Sets& sets, std::vector<int>& members) const {
@@ -92,7 +94,7 @@ void InpSets::read_members(const DeckRecord& line, const Sets& sets, std::vector
     if (!is_entity_number(tag)) {
       const std::vector<int> others = known_set(sets, line.place, field).members;
       members.insert(members.end(), others.begin(), others.end());
-      sort_members(members);
+      keep_each_once(members);
       continue;
     }
     const int row = sets.rows.find(deck_.integer(line, tag, "a number"));
@@ -109,7 +111,7 @@ void InpSets::read_surface(const InpCard& card) {
     std::vector<int>& members = set_called(nodes_, name).members;
     for (const DeckRecord& line : card.lines)
       read_members({line.place, {line.fields.begin(), line.fields.begin() + !line.fields.empty()}}, nodes_, members);
-    return sort_members(members);
+    return keep_each_once(members);
   }
   if (type != "ELEMENT") return mesh_.notes.push_back("left out: the surface " + name + " of TYPE=" + type);
   SideSet sides{name, {}, {}};
@@ -118,7 +120,7 @@ void InpSets::read_surface(const InpCard& card) {
     read_members({line.place, {line.fields.at(0)}}, elements_, cells);
     add_faces(line, cells, sides);
   }
-  if (!surfaces_.emplace(inp_key(name), 0).second) fail(deck_.input, card, "a second surface '" + name + "'");
+  if (!surfaces_.insert(inp_key(name)).second) fail(deck_.input, card, "a second surface '" + name + "'");
   mesh_.sides.push_back(std::move(sides));
 }
 
@@ -150,7 +152,7 @@ void InpSets::read_section(const InpCard& card) {
 
 void InpSets::finish() {
   for (std::vector<int>* sets : {&listed_, &made_}) {
-    sort_members(*sets);
+    keep_each_once(*sets);
     std::erase_if(*sets, [&](int set) {
       return std::ranges::none_of(mesh_.element_sets[set].members, [&](int e) { return is_cell(mesh_.elements[e]); });
     });

@@ -1,6 +1,8 @@
 // The sets of a deck, card by card, for inp_file.cpp.
 #pragma once
 
+#include <set>
+
 #include "mesh_files/inp_cards.hpp"
 
 namespace mortise {
@@ -42,7 +44,7 @@ class InpSets {
   SetMesh& mesh_;
   Sets nodes_, elements_;
   std::vector<int> listed_, made_;  // element sets of *ELSET and of *ELEMENT, in their order
-  std::map<std::string, int> surfaces_;
+  std::set<std::string> surfaces_;
 };
 
 }  // namespace mortise

@@ -15,11 +15,6 @@ bool is_cell(const SetElement& element) { return cell_kind(element.type).has_val
 
 int corners_of(const SetElement& cell) { return corner_count(*cell_kind(cell.type)); }
 
-void sort_members(std::vector<int>& members) {
-  std::ranges::sort(members);
-  members.erase(std::unique(members.begin(), members.end()), members.end());
-}
-
 void add_property_sets(const std::vector<std::int64_t>& properties, SetMesh& mesh) {
   const auto line = [&](int e) { return is_line(mesh.elements[e].type); };
   std::vector<int> with_cells;

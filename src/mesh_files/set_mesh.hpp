@@ -19,9 +19,6 @@ struct SetElement {
 bool is_cell(const SetElement& element);
 int corners_of(const SetElement& cell);
 
-/// Rising, each once.
-void sort_members(std::vector<int>& members);
-
 /// Rows of nodes or of elements, rising, each once.
 struct NamedSet {
   std::string name;

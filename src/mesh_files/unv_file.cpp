@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "base/each_once.hpp"
 #include "mesh_files/deck.hpp"
 #include "mesh_files/element_types.hpp"
 
@@ -149,7 +150,7 @@ class UnvReader {
         }
       }
       NamedSet& set = of_elements.members.empty() ? of_nodes : of_elements;
-      sort_members(set.members);
+      keep_each_once(set.members);
       if (!set.members.empty())
         (of_elements.members.empty() ? deck_.mesh.node_sets : deck_.mesh.element_sets).push_back(std::move(set));
     }
