@@ -36,6 +36,8 @@ std::vector<std::string_view> csv_fields(std::string_view line, char separator) 
   return fields;
 }
 
+std::string bare_field(std::string_view field) { return std::string(bare(field)); }
+
 bool is_blank_line(std::string_view line) { return bare(line).empty(); }
 
 }  // namespace mortise

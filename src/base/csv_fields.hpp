@@ -14,6 +14,9 @@ char csv_separator(std::string& header);
 /// The fields of a line, without blanks and the quotes around them; nothing between quotes parts two fields.
 std::vector<std::string_view> csv_fields(std::string_view line, char separator);
 
+/// Without the blanks around it, and the quotes round what is left.
+std::string bare_field(std::string_view field);
+
 bool is_blank_line(std::string_view line);
 
 }  // namespace mortise

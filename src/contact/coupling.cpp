@@ -121,7 +121,7 @@ Coupling couple(const Mesh& mesh, const ContactInterface& interface, const Const
   Coupling coupling;
   number_multipliers(multiplier, options.multipliers, coupling);
   const Accumulated sums = accumulate(interface, options, coupling);
-  number_rows(mesh, interface, constraints, options.initial_gap, sums.support, coupling);
+  number_rows({mesh, interface, constraints, options.initial_gap}, sums.support, coupling);
 
   coupling.gap_min = coupling.gap_max = points.front().gap;
   for (const ContactPoint& p : points) {

@@ -31,11 +31,9 @@ std::array<double, 2> gap_slopes_at_ends(const Points& nodes, const Curve& multi
 }
 
 LineFunction gap_along(const Points& nodes, const Curve& multiplier, const ContactGeometry& geometry, int edge,
-                       const FieldRange& range, double scale) {
-  LineFunction gap = along_edge(nodes, multiplier.edges[edge], gap_field(geometry), range,
-                                [&geometry, edge](double xi) { return geometry.s->at(edge, xi); });
-  gap.scale = scale;
-  return gap;
+                       const FieldRange& range) {
+  return along_edge(nodes, multiplier.edges[edge], gap_field(geometry), range,
+                    [&geometry, edge](double xi) { return geometry.s->at(edge, xi); });
 }
 
 double gap_scale(const Points& nodes, const Curve& multiplier, const ContactGeometry& geometry,
@@ -52,8 +50,11 @@ std::vector<std::vector<double>> gap_cuts(const Points& nodes, const Curve& mult
   if (gap_field(geometry).is_constant()) return cuts;
   const FieldRange range(gap_field(geometry));
   const double scale = gap_scale(nodes, multiplier, geometry, range);
-  for (int e = 0; e < int(multiplier.edges.size()); ++e)
-    cuts.push_back(resolving_cuts(gap_along(nodes, multiplier, geometry, e, range, scale)));
+  for (int e = 0; e < int(multiplier.edges.size()); ++e) {
+    LineFunction gap = gap_along(nodes, multiplier, geometry, e, range);
+    gap.scale = scale;
+    cuts.push_back(resolving_cuts(gap));
+  }
   return cuts;
 }
 

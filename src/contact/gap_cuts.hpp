@@ -16,7 +16,7 @@ std::array<double, 2> gap_slopes_at_ends(const Points& nodes, const Curve& multi
 
 /// It along an edge of the multiplier side. `range`: its own; all that is given must outlive the function.
 LineFunction gap_along(const Points& nodes, const Curve& multiplier, const ContactGeometry& geometry, int edge,
-                       const FieldRange& range, double scale = 1);
+                       const FieldRange& range);
 
 /// By how much it varies along the multiplier side.
 double gap_scale(const Points& nodes, const Curve& multiplier, const ContactGeometry& geometry,

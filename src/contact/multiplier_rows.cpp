@@ -32,15 +32,15 @@ std::string reason(State state) {
   return "";
 }
 
-std::string between(const Mesh& mesh, const ContactInterface& interface) {
-  return mesh.source + ": contact between '" + mesh.boundaries[interface.multiplier.boundary].name + "' and '" +
-         mesh.boundaries[interface.opposite.boundary].name + "': ";
+std::string between(const Numbering& of) {
+  return of.mesh.source + ": contact between '" + of.mesh.boundaries[of.interface.multiplier.boundary].name +
+         "' and '" + of.mesh.boundaries[of.interface.opposite.boundary].name + "': ";
 }
 
 // The gap that prescribed displacements leave at a node of the multiplier side; nothing unless both sides' normal
 // displacements are prescribed there.
-std::optional<double> prescribed_gap(const Mesh& mesh, const ContactInterface& interface, int e, int local,
-                                     const Constraints& constraints, InitialGap initial_gap) {
+std::optional<double> prescribed_gap(const Numbering& of, int e, int local) {
+  const auto& [mesh, interface, constraints, initial_gap] = of;
   const Curve &multiplier = interface.multiplier, &opposite = interface.opposite;
   const Edge& edge = multiplier.edges[e];
   const Place at{e, xi_of_node(local)};
@@ -61,9 +61,9 @@ std::optional<double> prescribed_gap(const Mesh& mesh, const ContactInterface& i
   return gap;
 }
 
-std::vector<State> find_states(const Mesh& mesh, const ContactInterface& interface, const Constraints& constraints,
-                               InitialGap initial_gap, const Support& support, const Coupling& coupling) {
-  const Curve& multiplier = interface.multiplier;
+std::vector<State> find_states(const Numbering& of, const Support& support, const Coupling& coupling) {
+  const Mesh& mesh = of.mesh;
+  const Curve& multiplier = of.interface.multiplier;
   std::vector<State> state(coupling.node.size(), State::free);
   VecX length = VecX::Zero(state.size());  // of each multiplier's edges
   for (std::size_t e = 0; e < multiplier.edges.size(); ++e)
@@ -80,18 +80,18 @@ std::vector<State> find_states(const Mesh& mesh, const ContactInterface& interfa
         found = State::unsupported;
         continue;
       }
-      const auto gap = prescribed_gap(mesh, interface, int(e), i, constraints, initial_gap);
+      const auto gap = prescribed_gap(of, int(e), i);
       const double round_off = 1e-9 * length(a);
       if (gap && *gap < -round_off) {
         std::ostringstream text;
-        text << between(mesh, interface) << "the prescribed displacements of the two sides overlap by " << -*gap << " "
+        text << between(of) << "the prescribed displacements of the two sides overlap by " << -*gap << " "
              << near_point(mesh.nodes.row(coupling.node[a]).transpose())
              << "; expected values that close the gap or leave it open";
         throw InputError(text.str());
       }
       if (gap)
         found = *gap > round_off ? State::apart : State::prescribed;
-      else if (as_rich && is_end(interface.opposite, coupling.node[a]))
+      else if (as_rich && is_end(of.interface.opposite, coupling.node[a]))
         found = State::tip;
       else if (support.weight(a) < 0.05 * std::max(support.scale(a), support.lagrange(a)))
         found = State::weightless;
@@ -121,21 +121,20 @@ std::vector<int> multipliers_along(const Coupling& coupling) {
   return order;
 }
 
-void number_rows(const Mesh& mesh, const ContactInterface& interface, const Constraints& constraints,
-                 InitialGap initial_gap, const Support& support, Coupling& coupling) {
-  std::vector<State> state = find_states(mesh, interface, constraints, initial_gap, support, coupling);
+void number_rows(const Numbering& of, const Support& support, Coupling& coupling) {
+  std::vector<State> state = find_states(of, support, coupling);
   const auto count = [&](State which) { return std::count(state.begin(), state.end(), which); };
   if (count(State::free) == 0)  // better extrapolated than none
     std::replace(state.begin(), state.end(), State::hardly_facing, State::free);
   if (count(State::free) == 0 && count(State::prescribed) > 0)
-    throw InputError(between(mesh, interface) +
+    throw InputError(between(of) +
                      "the normal displacements are prescribed on both curves everywhere, so contact has nothing to "
                      "decide; expected at least one curve that is free to move along its normal");
   coupling.row.assign(coupling.node.size(), -1);
   const std::vector<int> order = multipliers_along(coupling);
   const auto free = [&](int i) { return state[order[i]] == State::free; };
   int rows = 0;
-  if (free(0) && free(int(order.size()) - 1) && closes_in_the_next_sector(mesh, interface.multiplier))
+  if (free(0) && free(int(order.size()) - 1) && closes_in_the_next_sector(of.mesh, of.interface.multiplier))
     coupling.row[order.front()] = coupling.row[order.back()] = rows++;
   for (const int a : order)
     if (state[a] == State::free && coupling.row[a] < 0) coupling.row[a] = rows++;

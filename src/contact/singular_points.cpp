@@ -209,11 +209,6 @@ SingularPoint singular_point(const std::array<Corner, 2>& corners, bool on_both_
 
 }  // namespace
 
-ContactReach reached_everywhere(const Curve& first, const Curve& second) {
-  return {std::vector<Reach>(first.edges.size() + 1, {true, true}),
-          std::vector<Reach>(second.edges.size() + 1, {true, true})};
-}
-
 std::vector<SingularPoint> singular_points(const Surroundings& around, const Curve& first, const Curve& second,
                                            const ContactReach& reach, const GivenGap& given) {
   const LineSide sides[] = {{around, first}, {around, second}};

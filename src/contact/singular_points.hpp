@@ -44,9 +44,6 @@ struct Reach {
 /// curve).
 using ContactReach = std::array<std::vector<Reach>, 2>;
 
-/// All of them reached.
-ContactReach reached_everywhere(const Curve& first, const Curve& second);
-
 /// What a scene says of the gap, whatever its curves.
 struct GivenGap {
   bool one_curve = false;                  ///< both curves are meant to be one

@@ -1,5 +1,6 @@
 #include "ddm/dual_system.hpp"
 
+#include "base/each_once.hpp"
 #include "base/parallel.hpp"
 #include "solve/threads.hpp"
 
@@ -87,8 +88,7 @@ void DualSystem::add_up(Answer& answer) const {
 void DualSystem::deal_rows(Eigen::Index m) {
   std::vector<int> seen;
   for (const auto& part : parts_) seen.insert(seen.end(), part->rows.begin(), part->rows.end());
-  std::ranges::sort(seen);
-  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+  keep_each_once(seen);
   rows_ = ranks().deal(m, seen);
   for (const auto& part : parts_) part->places = rows_->places(part->rows);
 }

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/each_once.hpp"
+
 namespace mortise {
 namespace {
 
@@ -159,8 +161,7 @@ std::vector<Substructure> substructures(const SaddlePointSystem& s, int rank, in
   for (Substructure& own : all) {
     for (const int unknown : own.unknowns)
       for (SparseMatrix::InnerIterator it(s.B, unknown); it; ++it) own.rows.push_back(int(it.row()));
-    std::ranges::sort(own.rows);
-    own.rows.erase(std::unique(own.rows.begin(), own.rows.end()), own.rows.end());
+    keep_each_once(own.rows);
     for (std::size_t a = 0; a < own.rows.size(); ++a) local_row[own.rows[a]] = int(a);
 
     SaddlePointSystem& system = own.system;

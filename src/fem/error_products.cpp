@@ -41,6 +41,19 @@ struct CellFunctional {
     patches.setZero();
     nodes.fill(Vec2::Zero());
   }
+
+  // As a strain g makes stresses C g, whose work on a field is that of its nodal forces on the nodes' displacements.
+  void add_nodal_forces(const Cell& cell, const ElasticLaw& law, const CellSampler& at, const CellShape& shape,
+                        const Components<components>& g) {
+    constexpr bool rings = components == 4;
+    const Vec4 s = law.stiffness * Vec4(g(0), g(1), rings ? g(components - 1) : 0, g(2));
+    const Vec2 along_x(s(0), s(3)), along_y(s(3), s(1));
+    for (int a = 0; a < node_count(cell.kind); ++a) {
+      const Vec2& slope = at.slopes[a];
+      nodes[a] += slope.x() * along_x + slope.y() * along_y;
+      if (rings) nodes[a].x() += s(2) * shape.N[a] / at.x.x();
+    }
+  }
 };
 
 Vec4 whole(const ElasticLaw& law, const Components<3>& s) {
@@ -55,20 +68,6 @@ Components<components> in_components(const ElasticLaw& law, const Vec4& error) {
     return {error(0), error(1), error(3), error(2)};
   else
     return Components<3>(error(0), error(1), error(3)) + error(2) * law.out_of_plane.transpose();
-}
-
-// As a strain g makes stresses C g, whose work on a field is that of its nodal forces on the nodes' displacements.
-template <int components>
-void add_nodal_forces(const Cell& cell, const ElasticLaw& law, const CellSampler& at, const CellShape& shape,
-                      const Components<components>& g, CellFunctional<components>& functional) {
-  constexpr bool rings = components == 4;
-  const Vec4 s = law.stiffness * Vec4(g(0), g(1), rings ? g(components - 1) : 0, g(2));
-  const Vec2 along_x(s(0), s(3)), along_y(s(3), s(1));
-  for (int a = 0; a < node_count(cell.kind); ++a) {
-    const Vec2& slope = at.slopes[a];
-    functional.nodes[a] += slope.x() * along_x + slope.y() * along_y;
-    if (rings) functional.nodes[a].x() += s(2) * shape.N[a] / at.x.x();
-  }
 }
 
 // Of field 0 in one cell: what it does to the others, and its own figures.
@@ -112,7 +111,7 @@ class OwnField {
     energy += error.dot(difference);
     const Components<components> g = in_components<components>(law, error);
     functional.patches.noalias() += blended_ * g.transpose();
-    add_nodal_forces(cell, law, at_, shape, g, functional);
+    functional.add_nodal_forces(cell, law, at_, shape, g);
   }
 
   const std::vector<ElasticLaw>& laws_;

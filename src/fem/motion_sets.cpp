@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/dense.hpp"
+#include "base/each_once.hpp"
 #include "base/union_find.hpp"
 
 namespace mortise {
@@ -27,8 +28,7 @@ std::vector<MotionSet> motion_sets(const Mesh& mesh, const std::vector<std::vect
                              points.node.begin() + points.first[motion.body + 1]);
   }
   for (MotionSet& set : sets) {
-    std::ranges::sort(set.nodes);
-    set.nodes.erase(std::unique(set.nodes.begin(), set.nodes.end()), set.nodes.end());
+    keep_each_once(set.nodes);
     set.fields = MatX::Zero(2 * set.nodes.size(), set.motions.size());
     for (std::size_t k = 0; k < set.motions.size(); ++k)
       for (const RigidMotion& motion : motions[set.motions[k]])

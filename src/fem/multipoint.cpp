@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/each_once.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "base/vectors.hpp"
@@ -139,8 +140,7 @@ void MultipointBuilder::require_same_motion(const std::string& key, int node, co
 
 RigidCurve MultipointBuilder::make_rigid(const std::string& key, std::vector<int> nodes, const Vec2& about,
                                          const PrescribedMotion& motion) {
-  std::ranges::sort(nodes);
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  keep_each_once(nodes);
   const auto lever_of = [&](int node) { return turned(place(node), about); };
   for (const int node : nodes) {
     require_same_motion(key, node, lever_of(node), motion);

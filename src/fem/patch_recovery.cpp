@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "base/each_once.hpp"
 #include "fem/cell_sampler.hpp"
 #include "fem/quadrature.hpp"
 
@@ -36,8 +37,7 @@ struct CellsAround {
         const int q = on_points[e].nodes[a];
         some.insert(some.end(), cells.begin() + first[q], cells.begin() + first[q + 1]);
       }
-    std::ranges::sort(some);
-    some.erase(std::unique(some.begin(), some.end()), some.end());
+    keep_each_once(some);
     return some;
   }
 };

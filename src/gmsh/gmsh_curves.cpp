@@ -10,6 +10,7 @@
 
 #include "base/printable.hpp"
 #include "gmsh/gmsh_groups.hpp"
+#include "mesh_files/element_types.hpp"
 
 namespace mortise {
 namespace {
@@ -52,7 +53,7 @@ std::vector<std::array<double, 2>> parameters_of(const std::vector<std::size_t>&
 
 void sample_curve(const std::vector<std::array<double, 3>>& nodes, const std::vector<std::size_t>& tags,
                   ElementBlock& block) {
-  const int node_count = block.type == 1 ? 2 : 3;
+  const int node_count = line_node_count(block.type);
   std::vector<EdgeSamples> samples;
   std::vector<std::array<double, 2>> ends;
   try {

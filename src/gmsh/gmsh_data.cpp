@@ -7,11 +7,12 @@
 #include "base/errors.hpp"
 #include "gmsh/gmsh_curves.hpp"
 #include "gmsh/gmsh_groups.hpp"
+#include "mesh_files/element_types.hpp"
 
 namespace mortise {
 namespace {
 
-NodeRows get_nodes(MeshData& data) {
+TagRows get_nodes(MeshData& data) {
   std::vector<std::size_t> tags;
   std::vector<double> coordinates;
   std::vector<double> parametric;
@@ -24,10 +25,10 @@ NodeRows get_nodes(MeshData& data) {
     }
     data.nodes.push_back({xyz[0], xyz[1], xyz[2]});
   }
-  return NodeRows(std::vector<std::int64_t>(tags.begin(), tags.end()));
+  return TagRows(std::vector<std::int64_t>(tags.begin(), tags.end()));
 }
 
-void get_elements(MeshData& data, const NodeRows& rows, int dimension, int entity, const std::vector<int>& groups) {
+void get_elements(MeshData& data, const TagRows& rows, int dimension, int entity, const std::vector<int>& groups) {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> element_tags;
   std::vector<std::vector<std::size_t>> node_tags;
@@ -36,7 +37,7 @@ void get_elements(MeshData& data, const NodeRows& rows, int dimension, int entit
     ElementBlock block{.dimension = dimension, .entity = entity, .type = types[k], .groups = groups, .nodes = {}};
     block.nodes.reserve(node_tags[k].size());
     for (const std::size_t tag : node_tags[k]) block.nodes.push_back(rows.find(static_cast<std::int64_t>(tag)));
-    if (!groups.empty() && (block.type == 1 || block.type == 8)) sample_curve(data.nodes, node_tags[k], block);
+    if (!groups.empty() && is_line(block.type)) sample_curve(data.nodes, node_tags[k], block);
     data.blocks.push_back(std::move(block));
   }
 }
@@ -46,7 +47,7 @@ void get_elements(MeshData& data, const NodeRows& rows, int dimension, int entit
 MeshData gmsh_data(const std::string& file) {
   MeshData data;
   data.file = file;
-  const NodeRows rows = get_nodes(data);
+  const TagRows rows = get_nodes(data);
   for (const int dimension : {0, 1, 2}) {
     gmsh::vectorpair groups, entities;
     gmsh::model::getPhysicalGroups(groups, dimension);

@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "base/each_once.hpp"
+
 namespace mortise {
 
 std::vector<int> groups_of_entity(int dimension, int entity) {
   std::vector<int> groups;
   gmsh::model::getPhysicalGroupsForEntity(dimension, entity, groups);
   for (int& group : groups) group = std::abs(group);
-  std::ranges::sort(groups);
-  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  keep_each_once(groups);
   return groups;
 }
 
@@ -28,8 +29,7 @@ void group_by_entity() {
   if (!groups.empty()) return;
   gmsh::model::getEntities(surfaces, 2);
   gmsh::model::getBoundary(surfaces, curves, false, false);
-  std::ranges::sort(curves);
-  curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+  keep_each_once(curves);
   gmsh::model::getPhysicalGroups(groups, 2);
   if (!groups.empty()) surfaces.clear();
   for (const gmsh::vectorpair& entities : {curves, surfaces})

@@ -1,7 +1,6 @@
 #include "gmsh/gmsh_process.hpp"
 
 #include "base/child_process.hpp"
-#include "base/packed.hpp"
 #include "mesh_files/packed_mesh.hpp"
 
 namespace mortise {
@@ -11,12 +10,7 @@ std::string packed(const FreeDrawing& drawing) {
   const FreeGeometry& geometry = drawing.geometry;
   Packed to;
   to.put(geometry.text);
-  to.put(std::ssize(geometry.groups));
-  for (const PhysicalGroup& group : geometry.groups) {
-    to.put(group.dimension);
-    to.put(group.tag);
-    to.put(group.name);
-  }
+  put_groups(to, geometry.groups);
   to.put(geometry.shift.data(), 2);
   to.put(std::ssize(drawing.curves));
   for (const DrawnCurve& curve : drawing.curves) {
@@ -34,10 +28,7 @@ FreeDrawing unpacked_drawing(const std::string& bytes) {
   FreeDrawing drawing;
   FreeGeometry& geometry = drawing.geometry;
   geometry.text = from.text();
-  for (std::int64_t count = from.number(); count > 0; --count) {
-    const auto dimension = int(from.number()), tag = int(from.number());
-    geometry.groups.push_back({dimension, tag, from.text()});
-  }
+  geometry.groups = take_groups(from);
   geometry.shift = Eigen::Map<const Vec2>(from.list<double>().data());
   for (std::int64_t count = from.number(); count > 0; --count) {
     DrawnCurve& curve = drawing.curves.emplace_back();

@@ -12,28 +12,13 @@
 #include "gmsh/geo_file.hpp"
 #include "mesh/box_index.hpp"
 #include "mesh_files/assemble_mesh.hpp"
+#include "mesh_files/element_types.hpp"
 #include "mesh_files/msh_file.hpp"
 
 namespace mortise {
 namespace {
 
 namespace fs = std::filesystem;
-
-int type_of(CellKind kind) {
-  switch (kind) {
-    case CellKind::tri3:
-      return 2;
-    case CellKind::tri6:
-      return 9;
-    case CellKind::quad4:
-      return 3;
-    case CellKind::quad8:
-      return 16;
-    case CellKind::quad9:
-      return 10;
-  }
-  return 0;  // no kind
-}
 
 // Elements of one kind on one point, curve or surface.
 struct Block {
@@ -69,7 +54,7 @@ DrawnCurves curves_of(const Mesh& mesh) {
     if (is_new) curves.boundaries.push_back(named.boundaries);
     const int count = named.edge->node_count;
     const auto [block, starts] = blocks.emplace(std::pair(number->second, count), curves.blocks.size());
-    if (starts) curves.blocks.push_back({1, number->second + 1, count == 2 ? 1 : 8, count, {}});
+    if (starts) curves.blocks.push_back({1, number->second + 1, line_type(count), count, {}});
     curves.blocks[block->second].elements.push_back(named.edge->nodes.data());
   }
   return curves;
@@ -95,7 +80,7 @@ std::vector<Block> blocks_of_cells(const Mesh& mesh) {
   std::map<std::pair<int, CellKind>, std::size_t> known;
   for (const Cell& cell : mesh.cells) {
     const auto [block, starts] = known.emplace(std::pair(cell.body, cell.kind), blocks.size());
-    if (starts) blocks.push_back({2, cell.body + 1, type_of(cell.kind), node_count(cell.kind), {}});
+    if (starts) blocks.push_back({2, cell.body + 1, cell_type(cell.kind), node_count(cell.kind), {}});
     blocks[block->second].elements.push_back(cell.nodes.data());
   }
   return blocks;
@@ -191,7 +176,7 @@ void write_sections(std::FILE* f, const Mesh& mesh) {
   std::fprintf(f, "$EndEntities\n");
   write_nodes(f, mesh);
   std::vector<Block> blocks;
-  for (std::size_t k = 0; k < points.size(); ++k) blocks.push_back({0, int(k) + 1, 15, 1, {&points[k].node}});
+  for (std::size_t k = 0; k < points.size(); ++k) blocks.push_back({0, int(k) + 1, point_type, 1, {&points[k].node}});
   blocks.insert(blocks.end(), curves.blocks.begin(), curves.blocks.end());
   blocks.insert(blocks.end(), cells.begin(), cells.end());
   write_elements(f, blocks);

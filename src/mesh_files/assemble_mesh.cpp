@@ -7,6 +7,7 @@
 #include <optional>
 #include <tuple>
 
+#include "base/each_once.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "mesh/orientation.hpp"
@@ -21,25 +22,8 @@ namespace {
 [[noreturn]] void fail_kind(const Mesh& mesh, const std::string& group, const ElementBlock& block,
                             const std::string& expected) {
   throw InputError(mesh.source + ": " + group + " has elements of a kind that is not supported, '" +
-                   element_type(block.type)->name + "', " +
+                   element_type(block.type)->name() + "', " +
                    near_point(mesh.nodes.row(block.nodes.front()).transpose()) + "; expected " + expected);
-}
-
-std::optional<CellKind> cell_kind(int type) {
-  switch (type) {
-    case 2:
-      return CellKind::tri3;
-    case 3:
-      return CellKind::quad4;
-    case 9:
-      return CellKind::tri6;
-    case 10:
-      return CellKind::quad9;
-    case 16:
-      return CellKind::quad8;
-    default:
-      return std::nullopt;
-  }
 }
 
 void append_cells(Mesh& mesh, const ElementBlock& block, int body) {
@@ -95,10 +79,10 @@ void add_boundary(Mesh& mesh, const MeshData& data, const PhysicalGroup& group,
                   const std::vector<const ElementBlock*>& blocks) {
   Boundary boundary{group.name, {}};
   for (const ElementBlock* block : blocks) {
-    if (block->type != 1 && block->type != 8) {
+    if (!is_line(block->type)) {
       fail_kind(mesh, "boundary '" + group.name + "'", *block, "lines of 2 or 3 nodes");
     }
-    const int count = block->type == 1 ? 2 : 3;
+    const int count = line_node_count(block->type);
     for (auto node = block->nodes.begin(); node != block->nodes.end(); node += count) {
       boundary.edges.push_back({count, {node[0], node[1], count == 3 ? node[2] : -1}});
     }
@@ -115,8 +99,7 @@ void add_boundary(Mesh& mesh, const MeshData& data, const PhysicalGroup& group,
 void add_point(Mesh& mesh, const PhysicalGroup& group, const std::vector<const ElementBlock*>& blocks) {
   std::vector<int> nodes;
   for (const ElementBlock* block : blocks) nodes.insert(nodes.end(), block->nodes.begin(), block->nodes.end());
-  std::ranges::sort(nodes);
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  keep_each_once(nodes);
   mesh.points.push_back({group.name, std::move(nodes)});
 }
 

@@ -1,131 +1,83 @@
 #include "mesh_files/element_types.hpp"
 
-#include <algorithm>
-#include <array>
+#include <map>
+#include <vector>
 
 namespace mortise {
 namespace {
 
-// From gmsh 4.8 (gmsh::model::mesh::getElementProperties), sorted by number.
-constexpr std::array types{
-    ElementType{1, 1, 2, "Line 2"},
-    ElementType{2, 2, 3, "Triangle 3"},
-    ElementType{3, 2, 4, "Quadrilateral 4"},
-    ElementType{4, 3, 4, "Tetrahedron 4"},
-    ElementType{5, 3, 8, "Hexahedron 8"},
-    ElementType{6, 3, 6, "Prism 6"},
-    ElementType{7, 3, 5, "Pyramid 5"},
-    ElementType{8, 1, 3, "Line 3"},
-    ElementType{9, 2, 6, "Triangle 6"},
-    ElementType{10, 2, 9, "Quadrilateral 9"},
-    ElementType{11, 3, 10, "Tetrahedron 10"},
-    ElementType{12, 3, 27, "Hexahedron 27"},
-    ElementType{13, 3, 18, "Prism 18"},
-    ElementType{14, 3, 14, "Pyramid 14"},
-    ElementType{15, 0, 1, "Point"},
-    ElementType{16, 2, 8, "Quadrilateral 8"},
-    ElementType{17, 3, 20, "Hexahedron 20"},
-    ElementType{18, 3, 15, "Prism 15"},
-    ElementType{19, 3, 13, "Pyramid 13"},
-    ElementType{20, 2, 9, "Triangle 9"},
-    ElementType{21, 2, 10, "Triangle 10"},
-    ElementType{22, 2, 12, "Triangle 12"},
-    ElementType{23, 2, 15, "Triangle 15"},
-    ElementType{24, 2, 15, "Triangle 15I"},
-    ElementType{25, 2, 21, "Triangle 21"},
-    ElementType{26, 1, 4, "Line 4"},
-    ElementType{27, 1, 5, "Line 5"},
-    ElementType{28, 1, 6, "Line 6"},
-    ElementType{29, 3, 20, "Tetrahedron 20"},
-    ElementType{30, 3, 35, "Tetrahedron 35"},
-    ElementType{31, 3, 56, "Tetrahedron 56"},
-    ElementType{32, 3, 22, "Tetrahedron 22"},
-    ElementType{33, 3, 28, "Tetrahedron 28"},
-    ElementType{36, 2, 16, "Quadrilateral 16"},
-    ElementType{37, 2, 25, "Quadrilateral 25"},
-    ElementType{38, 2, 36, "Quadrilateral 36"},
-    ElementType{39, 2, 12, "Quadrilateral 12"},
-    ElementType{40, 2, 16, "Quadrilateral 16I"},
-    ElementType{41, 2, 20, "Quadrilateral 20"},
-    ElementType{42, 2, 28, "Triangle 28"},
-    ElementType{43, 2, 36, "Triangle 36"},
-    ElementType{44, 2, 45, "Triangle 45"},
-    ElementType{45, 2, 55, "Triangle 55"},
-    ElementType{46, 2, 66, "Triangle 66"},
-    ElementType{47, 2, 49, "Quadrilateral 49"},
-    ElementType{48, 2, 64, "Quadrilateral 64"},
-    ElementType{49, 2, 81, "Quadrilateral 81"},
-    ElementType{50, 2, 100, "Quadrilateral 100"},
-    ElementType{51, 2, 121, "Quadrilateral 121"},
-    ElementType{52, 2, 18, "Triangle 18"},
-    ElementType{53, 2, 21, "Triangle 21I"},
-    ElementType{54, 2, 24, "Triangle 24"},
-    ElementType{55, 2, 27, "Triangle 27"},
-    ElementType{56, 2, 30, "Triangle 30"},
-    ElementType{57, 2, 24, "Quadrilateral 24"},
-    ElementType{58, 2, 28, "Quadrilateral 28"},
-    ElementType{59, 2, 32, "Quadrilateral 32"},
-    ElementType{60, 2, 36, "Quadrilateral 36I"},
-    ElementType{61, 2, 40, "Quadrilateral 40"},
-    ElementType{62, 1, 7, "Line 7"},
-    ElementType{63, 1, 8, "Line 8"},
-    ElementType{64, 1, 9, "Line 9"},
-    ElementType{65, 1, 10, "Line 10"},
-    ElementType{66, 1, 11, "Line 11"},
-    ElementType{71, 3, 84, "Tetrahedron 84"},
-    ElementType{72, 3, 120, "Tetrahedron 120"},
-    ElementType{73, 3, 165, "Tetrahedron 165"},
-    ElementType{74, 3, 220, "Tetrahedron 220"},
-    ElementType{75, 3, 286, "Tetrahedron 286"},
-    ElementType{79, 3, 34, "Tetrahedron 34"},
-    ElementType{80, 3, 40, "Tetrahedron 40"},
-    ElementType{81, 3, 46, "Tetrahedron 46"},
-    ElementType{82, 3, 52, "Tetrahedron 52"},
-    ElementType{83, 3, 58, "Tetrahedron 58"},
-    ElementType{84, 1, 1, "Line 1"},
-    ElementType{85, 2, 1, "Triangle 1"},
-    ElementType{86, 2, 1, "Quadrilateral 1"},
-    ElementType{87, 3, 1, "Tetrahedron 1"},
-    ElementType{88, 3, 1, "Hexahedron 1"},
-    ElementType{89, 3, 1, "Prism 1"},
-    ElementType{92, 3, 64, "Hexahedron 64"},
-    ElementType{93, 3, 125, "Hexahedron 125"},
-    ElementType{94, 3, 216, "Hexahedron 216"},
-    ElementType{95, 3, 343, "Hexahedron 343"},
-    ElementType{96, 3, 512, "Hexahedron 512"},
-    ElementType{97, 3, 729, "Hexahedron 729"},
-    ElementType{98, 3, 1000, "Hexahedron 1000"},
-    ElementType{99, 3, 32, "Hexahedron 32"},
-    ElementType{100, 3, 44, "Hexahedron 44"},
-    ElementType{101, 3, 56, "Hexahedron 56"},
-    ElementType{102, 3, 68, "Hexahedron 68"},
-    ElementType{103, 3, 80, "Hexahedron 80"},
-    ElementType{104, 3, 92, "Hexahedron 92"},
-    ElementType{105, 3, 104, "Hexahedron 104"},
-    ElementType{118, 3, 30, "Pyramid 30"},
-    ElementType{119, 3, 55, "Pyramid 55"},
-    ElementType{120, 3, 91, "Pyramid 91"},
-    ElementType{121, 3, 140, "Pyramid 140"},
-    ElementType{122, 3, 204, "Pyramid 204"},
-    ElementType{123, 3, 285, "Pyramid 285"},
-    ElementType{124, 3, 385, "Pyramid 385"},
-    ElementType{125, 3, 21, "Pyramid 21"},
-    ElementType{126, 3, 29, "Pyramid 29"},
-    ElementType{127, 3, 37, "Pyramid 37"},
-    ElementType{128, 3, 45, "Pyramid 45"},
-    ElementType{129, 3, 53, "Pyramid 53"},
-    ElementType{130, 3, 61, "Pyramid 61"},
-    ElementType{131, 3, 69, "Pyramid 69"},
-    ElementType{132, 3, 1, "Pyramid 1"},
-    ElementType{137, 3, 16, "Tetrahedron 16"},
-};
+using enum ElementShape;
+
+// Of each shape: the number of a kind, its nodes, the number of the next ... From gmsh 4.8
+// (gmsh::model::mesh::getElementProperties).
+const std::map<ElementShape, std::vector<int>> numbers_and_nodes{
+    {point, {15, 1}},
+    {line, {1, 2, 8, 3, 26, 4, 27, 5, 28, 6, 62, 7, 63, 8, 64, 9, 65, 10, 66, 11, 84, 1}},
+    {triangle, {2,  3,  9,  6,  20, 9,  21, 10, 22, 12, 23, 15, 24, 15, 25, 21, 42, 28, 43,
+                36, 44, 45, 45, 55, 46, 66, 52, 18, 53, 21, 54, 24, 55, 27, 56, 30, 85, 1}},
+    {quadrilateral, {3,  4,  10, 9,  16, 8,   36, 16,  37, 25, 38, 36, 39, 12, 40, 16, 41, 20, 47, 49,
+                     48, 64, 49, 81, 50, 100, 51, 121, 57, 24, 58, 28, 59, 32, 60, 36, 61, 40, 86, 1}},
+    {tetrahedron, {4,   4,  11,  10, 29,  20, 30, 35, 31, 56, 32, 22, 33, 28, 71, 84, 72, 120, 73,
+                   165, 74, 220, 75, 286, 79, 34, 80, 40, 81, 46, 82, 52, 83, 58, 87, 1,  137, 16}},
+    {pyramid, {7,   5,   14,  14, 19,  13, 118, 30, 119, 55, 120, 91, 121, 140, 122, 204, 123, 285,
+               124, 385, 125, 21, 126, 29, 127, 37, 128, 45, 129, 53, 130, 61,  131, 69,  132, 1}},
+    {prism, {6, 6, 13, 18, 18, 15, 89, 1}},
+    {hexahedron, {5,  8,   12, 27,   17, 20, 88,  1,  92,  64, 93,  125, 94,  216, 95,  343, 96,  512,
+                  97, 729, 98, 1000, 99, 32, 100, 44, 101, 56, 102, 68,  103, 80,  104, 92,  105, 104}}};
+
+const std::map<int, ElementType>& types() {
+  static const auto all = [] {
+    std::map<int, ElementType> types;
+    for (const auto& [shape, list] : numbers_and_nodes)
+      for (std::size_t k = 0; k < list.size(); k += 2) types[list[k]] = {list[k], shape, list[k + 1]};
+    return types;
+  }();
+  return all;
+}
 
 }  // namespace
 
+int ElementType::dimension() const { return shape == point ? 0 : shape == line ? 1 : shape <= quadrilateral ? 2 : 3; }
+
+std::string ElementType::name() const {
+  static constexpr const char* names[] = {"Point",       "Line",    "Triangle", "Quadrilateral",
+                                          "Tetrahedron", "Pyramid", "Prism",    "Hexahedron"};
+  if (shape == point) return "Point";
+  const bool incomplete = number == 24 || number == 40 || number == 53 || number == 60;
+  return names[int(shape)] + (" " + std::to_string(node_count)) + (incomplete ? "I" : "");
+}
+
 const ElementType* element_type(int number) {
-  const auto found = std::lower_bound(types.begin(), types.end(), number,
-                                      [](const ElementType& type, int wanted) { return type.number < wanted; });
-  return found != types.end() && found->number == number ? &*found : nullptr;
+  const auto found = types().find(number);
+  return found == types().end() ? nullptr : &found->second;
+}
+
+int cell_type(CellKind kind) {
+  switch (kind) {
+    case CellKind::tri3:
+      return 2;
+    case CellKind::tri6:
+      return 9;
+    case CellKind::quad4:
+      return 3;
+    case CellKind::quad8:
+      return 16;
+    case CellKind::quad9:
+      return 10;
+  }
+  return 0;  // no kind
+}
+
+std::optional<CellKind> cell_kind(int number) {
+  for (const CellKind kind : all_cell_kinds)
+    if (cell_type(kind) == number) return kind;
+  return std::nullopt;
+}
+
+int deck_cell_type(int nodes) {
+  for (const CellKind kind : all_cell_kinds)
+    if (node_count(kind) == nodes && kind != CellKind::quad9) return cell_type(kind);
+  return 0;
 }
 
 }  // namespace mortise

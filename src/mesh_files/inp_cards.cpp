@@ -2,27 +2,15 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <cmath>
+
+#include "base/csv_fields.hpp"
 
 namespace mortise {
 namespace {
 
-std::string trimmed(std::string_view text) {
-  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-  return std::string(text);
-}
-
 /// Between the commas; nothing behind the last one.
 std::vector<std::string> split(std::string_view text) {
-  std::vector<std::string> fields;
-  for (std::size_t start = 0, end = 0; start <= text.size(); start = end + 1) {
-    end = std::min(text.find(',', start), text.size());
-    fields.push_back(trimmed(text.substr(start, end - start)));
-  }
+  std::vector<std::string> fields = fields_between_commas(text);
   if (fields.back().empty()) fields.pop_back();
   return fields;
 }
@@ -35,13 +23,10 @@ bool ends_in_comma(std::string_view text) {
 void add_parameters(InpCard& card, const std::vector<std::string>& fields, std::size_t first) {
   for (std::size_t i = first; i < fields.size(); ++i) {
     const std::size_t equals = std::min(fields[i].find('='), fields[i].size());
-    const std::string value = equals < fields[i].size() ? trimmed(std::string_view(fields[i]).substr(equals + 1)) : "";
+    const std::string value =
+        equals < fields[i].size() ? bare_field(std::string_view(fields[i]).substr(equals + 1)) : "";
     card.parameters[inp_key(std::string_view(fields[i]).substr(0, equals))] = value;
   }
-}
-
-std::string_view without_plus(const std::string& field) {
-  return field.starts_with('+') ? std::string_view(field).substr(1) : std::string_view(field);
 }
 
 }  // namespace
@@ -70,7 +55,7 @@ std::vector<InpCard> read_inp_cards(MshInput& input) {
     } else if (card_goes_on) {
       add_parameters(cards.back(), fields, 0);
     } else if (!fields.empty()) {
-      cards.back().lines.push_back({input.record(), fields, ends_in_comma(line)});
+      cards.back().lines.push_back({.place = input.record(), .fields = fields, .goes_on = ends_in_comma(line)});
     }
     card_goes_on = (line.starts_with('*') || card_goes_on) && ends_in_comma(line);
   }
@@ -82,26 +67,8 @@ std::optional<std::string> parameter(const InpCard& card, const std::string& nam
   return found == card.parameters.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::int64_t inp_integer(const MshInput& input, const InpLine& line, const std::string& field, const char* what) {
-  const std::string_view text = without_plus(field);
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value <= 0) {
-    input.fail_at(line.record, std::string("expected ") + what + ", a number > 0, found '" + field + "'");
-  }
-  return value;
-}
-
-double inp_real(const MshInput& input, const InpLine& line, const std::string& field, const char* what) {
-  std::string text(without_plus(field));
-  std::ranges::replace(text, 'D', 'e');
-  std::ranges::replace(text, 'd', 'e');
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    input.fail_at(line.record, std::string("expected ") + what + ", found '" + field + "'");
-  }
-  return value;
+void fail(const MshInput& input, const InpCard& card, const std::string& trouble) {
+  input.fail_at(card.place, "*" + card.name + ": " + trouble);
 }
 
 }  // namespace mortise

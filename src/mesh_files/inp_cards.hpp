@@ -7,21 +7,15 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh_files/msh_input.hpp"
+#include "mesh_files/deck.hpp"
 
 namespace mortise {
-
-struct InpLine {
-  std::size_t record;               ///< for MshInput::fail_at
-  std::vector<std::string> fields;  ///< between the commas, without blanks around them
-  bool goes_on;                     ///< ends in a comma
-};
 
 struct InpCard {
   std::string name;                               ///< "SOLIDSECTION": upper case, no blanks
   std::map<std::string, std::string> parameters;  ///< by name in upper case, no blanks; values as written
-  std::size_t record;
-  std::vector<InpLine> lines;
+  std::size_t place;                              ///< for MshInput::fail_at
+  std::vector<DeckRecord> lines;
 };
 
 /// All cards of the file, without comments. Throws InputError: text before the first card.
@@ -33,8 +27,7 @@ std::optional<std::string> parameter(const InpCard& card, const std::string& nam
 /// In upper case, without blanks.
 std::string inp_key(std::string_view text);
 
-/// Throw InputError with file and line.
-std::int64_t inp_integer(const MshInput& input, const InpLine& line, const std::string& field, const char* what);
-double inp_real(const MshInput& input, const InpLine& line, const std::string& field, const char* what);
+/// Throws InputError with the card's line and name.
+[[noreturn]] void fail(const MshInput& input, const InpCard& card, const std::string& trouble);
 
 }  // namespace mortise

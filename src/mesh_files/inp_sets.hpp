@@ -1,8 +1,9 @@
 // The sets of a deck, card by card, for inp_file.cpp.
 #pragma once
 
+#include <set>
+
 #include "mesh_files/inp_cards.hpp"
-#include "mesh_files/set_mesh.hpp"
 
 namespace mortise {
 
@@ -14,7 +15,8 @@ struct OwnRows {
 /// Names of a deck are the same in upper and lower case; the way in which they are first written is kept.
 class InpSets {
  public:
-  InpSets(const MshInput& input, const NodeRows& nodes, const NodeRows& elements, SetMesh& mesh);
+  /// Of a deck whose nodes and elements are numbered.
+  explicit InpSets(Deck& deck);
   /// *NODE and *ELEMENT (their own sets), *NSET, *ELSET, *SURFACE, *SOLID SECTION; passes over others.
   /// Throws InputError with file and line.
   void read(const InpCard& card, const OwnRows& own);
@@ -24,26 +26,25 @@ class InpSets {
  private:
   struct Sets {
     const char* what;
-    const NodeRows& rows;
+    const TagRows& rows;
     std::vector<NamedSet>& sets;
     std::map<std::string, int> by_key = {};
   };
 
-  [[noreturn]] void fail(const InpCard& card, const std::string& trouble) const;
   NamedSet& set_called(Sets& sets, const std::string& name);
-  const NamedSet& known_set(const Sets& sets, std::size_t record, const std::string& name) const;
+  const NamedSet& known_set(const Sets& sets, std::size_t place, const std::string& name) const;
   void read_set(const InpCard& card, const OwnRows& own, Sets& sets, const std::string& name);
-  void read_range(const InpLine& line, const Sets& sets, std::vector<int>& members) const;
-  void read_members(const InpLine& line, const Sets& sets, std::vector<int>& members) const;
+  void read_range(const DeckRecord& line, const Sets& sets, std::vector<int>& members) const;
+  void read_members(const DeckRecord& line, const Sets& sets, std::vector<int>& members) const;
   void read_surface(const InpCard& card);
-  void add_faces(const InpLine& line, const std::vector<int>& cells, SideSet& sides) const;
+  void add_faces(const DeckRecord& line, const std::vector<int>& cells, SideSet& sides) const;
   void read_section(const InpCard& card);
 
-  const MshInput& input_;
+  const Deck& deck_;
   SetMesh& mesh_;
   Sets nodes_, elements_;
   std::vector<int> listed_, made_;  // element sets of *ELSET and of *ELEMENT, in their order
-  std::map<std::string, int> surfaces_;
+  std::set<std::string> surfaces_;
 };
 
 }  // namespace mortise

@@ -1,7 +1,6 @@
 #include "mesh_files/mesh_data.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace mortise {
 
@@ -17,7 +16,7 @@ void move(const Vec2& by, MeshData& data) {
         for (Vec2& place : piece.places) place += by;
 }
 
-NodeRows::NodeRows(const std::vector<std::int64_t>& tags) {
+TagRows::TagRows(const std::vector<std::int64_t>& tags) {
   const std::int64_t largest = tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end());
   if (largest <= 4 * static_cast<std::int64_t>(tags.size()) + 1000) {
     dense_.assign(largest + 1, -1);
@@ -29,21 +28,11 @@ NodeRows::NodeRows(const std::vector<std::int64_t>& tags) {
   std::sort(by_tag_.begin(), by_tag_.end());
 }
 
-int NodeRows::find(std::int64_t tag) const {
+int TagRows::find(std::int64_t tag) const {
   if (tag <= 0) return -1;
   if (!dense_.empty()) return tag < static_cast<std::int64_t>(dense_.size()) ? dense_[tag] : -1;
   const auto found = std::lower_bound(by_tag_.begin(), by_tag_.end(), std::pair(tag, 0));
   return found != by_tag_.end() && found->first == tag ? found->second : -1;
-}
-
-std::int64_t first_repeated(const std::vector<std::int64_t>& tags) {
-  if (std::adjacent_find(tags.begin(), tags.end(), std::greater_equal<>()) == tags.end()) return -1;
-  std::vector<std::int64_t> order(tags.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return tags[a] < tags[b]; });
-  const auto same = [&](auto a, auto b) { return tags[a] == tags[b]; };
-  const auto found = std::adjacent_find(order.begin(), order.end(), same);
-  return found == order.end() ? -1 : *(found + 1);
 }
 
 }  // namespace mortise

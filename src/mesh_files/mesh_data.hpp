@@ -42,20 +42,18 @@ struct MeshData {
 /// Moves the nodes and the drawn curves.
 void move(const Vec2& by, MeshData& data);
 
-/// Rows of nodes by the tags that a file gives them, which may be any numbers > 0.
-class NodeRows {
+/// Rows of nodes or elements by their tags.
+class TagRows {
  public:
+  TagRows() = default;
   /// The tag of row i is tags[i].
-  explicit NodeRows(const std::vector<std::int64_t>& tags);
-  /// The row, or -1 if no node has that tag.
+  explicit TagRows(const std::vector<std::int64_t>& tags);
+  /// The row, or -1 if none has that tag.
   int find(std::int64_t tag) const;
 
  private:
   std::vector<int> dense_;                            // by tag; of tags that leave few gaps
   std::vector<std::pair<std::int64_t, int>> by_tag_;  // sorted; of others
 };
-
-/// Index of an entry that came before, or -1 if all differ.
-std::int64_t first_repeated(const std::vector<std::int64_t>& tags);
 
 }  // namespace mortise

@@ -12,7 +12,6 @@ class Elements {
  public:
   Elements(MshInput& input, MshParts& parts, std::int64_t count) : input_(input), parts_(parts) {
     tags_.reserve(count);
-    records_.reserve(count);
   }
 
   const ElementType& type(std::int64_t number) const {
@@ -25,20 +24,16 @@ class Elements {
     return *known;
   }
 
-  void add_tag(std::int64_t tag) {
-    if (tag <= 0) input_.fail("the element's tag is " + std::to_string(tag) + "; expected a number > 0");
-    tags_.push_back(tag);
-    records_.push_back(input_.record());
-  }
+  void add_tag(std::int64_t tag) { tags_.add(input_, tag); }
 
   /// The block of such elements; null for elements that are neither points nor lines nor surfaces. `group` 0 is none.
   ElementBlock* block(const ElementType& type, std::int64_t entity, std::int64_t group) {
-    if (type.dimension > 2) return nullptr;
+    if (type.dimension() > 2) return nullptr;
     const Key key{type.number, entity, group};
     if (last_ != nullptr && key == last_key_) return last_;
     const auto [found, inserted] = index_.try_emplace(key, parts_.blocks.size());
     if (inserted) {
-      parts_.blocks.push_back({type.dimension, static_cast<int>(entity), type.number, {}, {}});
+      parts_.blocks.push_back({type.dimension(), static_cast<int>(entity), type.number, {}, {}});
       if (group > 0) parts_.blocks.back().groups.push_back(static_cast<int>(group));
     }
     last_key_ = key;
@@ -52,20 +47,16 @@ class Elements {
       const std::int64_t tag = wide ? input_.size("a node's tag") : input_.integer("a node's tag");
       const int row = parts_.rows->find(tag);
       if (row < 0) {
-        input_.fail("the node " + std::to_string(tag) + " of the element " + std::to_string(tags_.back()) +
+        input_.fail("the node " + std::to_string(tag) + " of the element " + std::to_string(tags_.all().back()) +
                     " is not in $Nodes");
       }
       if (block != nullptr) block->nodes.push_back(row);
     }
   }
 
-  void finish() const {
-    if (const std::int64_t repeated = first_repeated(tags_); repeated >= 0) {
-      input_.fail_at(records_[repeated], "the element " + std::to_string(tags_[repeated]) + " is listed twice");
-    }
-  }
+  void finish() const { tags_.require_once(input_); }
 
-  std::size_t size() const { return tags_.size(); }
+  std::size_t size() const { return tags_.all().size(); }
 
  private:
   using Key = std::tuple<int, std::int64_t, std::int64_t>;  // type, entity, group
@@ -75,17 +66,16 @@ class Elements {
   std::map<Key, std::size_t> index_;
   Key last_key_;
   ElementBlock* last_ = nullptr;  // a new block moves the others: then it is asked for anew
-  std::vector<std::int64_t> tags_;
-  std::vector<std::size_t> records_;
+  Tags tags_{"element"};
 };
 
 /// What format 2.2 says of an element beside its kind and nodes.
-struct Tags {
+struct ElementTags {
   std::int64_t group = 0, entity = 0;
 };
 
-Tags read_tags(MshInput& input, std::int64_t count) {
-  Tags tags;
+ElementTags read_tags(MshInput& input, std::int64_t count) {
+  ElementTags tags;
   for (std::int64_t i = 0; i < count; ++i) {
     const std::int64_t tag = input.integer("a tag of the element");
     if (i == 0) tags.group = std::abs(tag);  // reversed curves have negative ones
@@ -105,7 +95,7 @@ void read_text_2(MshInput& input, Elements& elements, std::int64_t count) {
     const ElementType& type = elements.type(input.integer("an element's kind"));
     const std::int64_t tag_count = input.integer("the number of tags");
     check_tag_count(input, tag_count);
-    const Tags tags = read_tags(input, tag_count);
+    const ElementTags tags = read_tags(input, tag_count);
     elements.read_nodes(type, elements.block(type, tags.entity, tags.group), false);
     input.end_record();
   }
@@ -126,7 +116,7 @@ void read_binary_2(MshInput& input, Elements& elements, std::int64_t count) {
     for (std::int64_t i = 0; i < run; ++i) {
       input.begin_record();
       elements.add_tag(input.integer("an element's tag"));
-      const Tags tags = read_tags(input, tag_count);
+      const ElementTags tags = read_tags(input, tag_count);
       elements.read_nodes(type, elements.block(type, tags.entity, tags.group), false);
     }
   }
@@ -138,11 +128,10 @@ void read_block(MshInput& input, const MshParts& parts, Elements& elements) {
   const std::int64_t dimension = input.integer("the dimension of the entity");
   const std::int64_t entity = input.integer("the entity's tag");
   const ElementType& type = elements.type(input.integer("the elements' kind"));
-  if (type.dimension != dimension) {
-    input.fail("elements of the kind '" + std::string(type.name) + "' on an entity of dimension " +
-               std::to_string(dimension));
+  if (type.dimension() != dimension) {
+    input.fail("elements of the kind '" + type.name() + "' on an entity of dimension " + std::to_string(dimension));
   }
-  const bool known = parts.groups_of.contains({type.dimension, static_cast<int>(entity)});
+  const bool known = parts.groups_of.contains({type.dimension(), static_cast<int>(entity)});
   if (parts.has_entities && !known) {
     input.fail("the entity of dimension " + std::to_string(dimension) + " and tag " + std::to_string(entity) +
                " is not in $Entities");

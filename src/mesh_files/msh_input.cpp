@@ -161,14 +161,19 @@ std::int64_t MshInput::count_line(const char* what, std::size_t text_bytes, std:
   return value;
 }
 
-bool MshInput::next_line(std::string_view& line) {
-  while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+bool MshInput::next_whole_line(std::string_view& line) {
   record_ = at_;
   if (at_ == text_.size()) return false;
-  std::size_t end = std::min(text_.find('\n', at_), text_.size());
+  const std::size_t end = std::min(text_.find('\n', at_), text_.size());
   at_ = std::min(end + 1, text_.size());
-  while (is_blank(text_[end - 1])) --end;
   line = std::string_view(text_).substr(record_, end - record_);
+  return true;
+}
+
+bool MshInput::next_line(std::string_view& line) {
+  while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+  if (!next_whole_line(line)) return false;
+  while (is_blank(line.back())) line.remove_suffix(1);
   return true;
 }
 

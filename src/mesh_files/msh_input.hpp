@@ -48,6 +48,8 @@ class MshInput {
   /// Text in both kinds of files: the next line, without its end; empty lines are skipped. False at the end of the
   /// file.
   bool next_line(std::string_view& line);
+  /// The same with empty lines, and the blanks around what stands there.
+  bool next_whole_line(std::string_view& line);
   /// Whether the next line that is not empty is `line`; then it is passed. For "$EndNodes".
   bool at_line(std::string_view line);
   /// Passes everything up to the line `line`. False if there is none.

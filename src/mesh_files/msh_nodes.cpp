@@ -4,46 +4,28 @@
 namespace mortise {
 namespace {
 
-/// Nodes and their tags while they are read.
-class Nodes {
- public:
-  Nodes(MshInput& input, MshParts& parts, std::int64_t count) : input_(input), parts_(parts) {
-    tags_.reserve(count);
-    records_.reserve(count);
-    parts_.nodes.reserve(count);
-  }
+void read_point(MshInput& input, MshParts& parts) {
+  const double x = input.real("a node's x");
+  const double y = input.real("a node's y");
+  const double z = input.real("a node's z");
+  parts.nodes.push_back({x, y, z});
+}
 
-  void add_tag(std::int64_t tag) {
-    if (tag <= 0) input_.fail("the node's tag is " + std::to_string(tag) + "; expected a number > 0");
-    tags_.push_back(tag);
-    records_.push_back(input_.record());
-  }
+/// Room for the nodes that the section says.
+Tags tags_for(std::int64_t count, MshParts& parts) {
+  Tags tags("node");
+  tags.reserve(count);
+  parts.nodes.reserve(count);
+  return tags;
+}
 
-  void read_point() {
-    const double x = input_.real("a node's x");
-    const double y = input_.real("a node's y");
-    const double z = input_.real("a node's z");
-    parts_.nodes.push_back({x, y, z});
-  }
-
-  void finish() {
-    if (const std::int64_t repeated = first_repeated(tags_); repeated >= 0) {
-      input_.fail_at(records_[repeated], "the node " + std::to_string(tags_[repeated]) + " is listed twice");
-    }
-    parts_.rows.emplace(tags_);
-  }
-
-  std::size_t size() const { return tags_.size(); }
-
- private:
-  MshInput& input_;
-  MshParts& parts_;
-  std::vector<std::int64_t> tags_;
-  std::vector<std::size_t> records_;  // where each tag stands
-};
+void finish(const MshInput& input, const Tags& tags, MshParts& parts) {
+  tags.require_once(input);
+  parts.rows.emplace(tags.all());
+}
 
 /// Nodes on one entity: first all tags, then all coordinates.
-void read_block(MshInput& input, Nodes& nodes) {
+void read_block(MshInput& input, Tags& tags, MshParts& parts) {
   input.begin_record();
   const std::int64_t dimension = input.integer("the dimension of the entity");
   if (dimension < 0 || dimension > 3) {
@@ -55,11 +37,11 @@ void read_block(MshInput& input, Nodes& nodes) {
   input.end_record();
   for (std::int64_t i = 0; i < count; ++i) {
     input.begin_record();
-    nodes.add_tag(input.size("a node's tag"));
+    tags.add(input, input.size("a node's tag"));
   }
   for (std::int64_t i = 0; i < count; ++i) {
     input.begin_record();
-    nodes.read_point();
+    read_point(input, parts);
     for (std::int64_t k = 0; parametric != 0 && k < dimension; ++k) input.real("a parametric coordinate");
     input.end_record();
   }
@@ -69,14 +51,14 @@ void read_block(MshInput& input, Nodes& nodes) {
 
 void read_nodes_2(MshInput& input, MshParts& parts) {
   const std::int64_t count = input.count_line("the number of nodes", 8, 28);
-  Nodes nodes(input, parts, count);
+  Tags tags = tags_for(count, parts);
   for (std::int64_t i = 0; i < count; ++i) {
     input.begin_record();
-    nodes.add_tag(input.integer("a node's tag"));
-    nodes.read_point();
+    tags.add(input, input.integer("a node's tag"));
+    read_point(input, parts);
     input.end_record();
   }
-  nodes.finish();
+  finish(input, tags, parts);
 }
 
 void read_nodes_4(MshInput& input, MshParts& parts) {
@@ -87,13 +69,13 @@ void read_nodes_4(MshInput& input, MshParts& parts) {
   input.size("the smallest tag");
   input.size("the largest tag");
   input.end_record();
-  Nodes nodes(input, parts, count);
-  for (std::int64_t b = 0; b < blocks; ++b) read_block(input, nodes);
-  if (nodes.size() != static_cast<std::size_t>(count)) {
-    input.fail_at(header,
-                  "the section says " + std::to_string(count) + " nodes, but lists " + std::to_string(nodes.size()));
+  Tags tags = tags_for(count, parts);
+  for (std::int64_t b = 0; b < blocks; ++b) read_block(input, tags, parts);
+  if (tags.all().size() != static_cast<std::size_t>(count)) {
+    input.fail_at(
+        header, "the section says " + std::to_string(count) + " nodes, but lists " + std::to_string(tags.all().size()));
   }
-  nodes.finish();
+  finish(input, tags, parts);
 }
 
 }  // namespace mortise

@@ -7,6 +7,7 @@
 
 #include "mesh_files/mesh_data.hpp"
 #include "mesh_files/msh_input.hpp"
+#include "mesh_files/tags.hpp"
 
 namespace mortise {
 
@@ -16,7 +17,7 @@ struct MshParts {
   std::map<std::pair<int, int>, std::vector<int>> groups_of;  ///< format 4.1: of each entity
   bool has_entities = false;                                  ///< format 4.1: whether $Entities is there
   std::vector<std::array<double, 3>> nodes;                   ///< x, y, z
-  std::optional<NodeRows> rows;                               ///< once $Nodes is read
+  std::optional<TagRows> rows;                                ///< once $Nodes is read
   std::vector<ElementBlock> blocks;
 };
 

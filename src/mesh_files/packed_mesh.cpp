@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "base/packed.hpp"
 #include "mesh_files/element_types.hpp"
 
 namespace mortise {
@@ -67,7 +66,7 @@ void check(const MeshData& data) {
   for (const ElementBlock& block : data.blocks) {
     const ElementType* const type = element_type(block.type);
     const auto known = [&](int node) { return node >= 0 && node < std::ssize(data.nodes); };
-    if (!type || type->dimension != block.dimension || block.nodes.size() % std::size_t(type->node_count) != 0 ||
+    if (!type || type->dimension() != block.dimension || block.nodes.size() % std::size_t(type->node_count) != 0 ||
         !std::ranges::all_of(block.nodes, known) ||
         (!block.samples.empty() && block.samples.size() != block.nodes.size() / std::size_t(type->node_count)))
       throw std::out_of_range("packed mesh");
@@ -76,15 +75,28 @@ void check(const MeshData& data) {
 
 }  // namespace
 
-std::string packed_mesh(const MeshData& data) {
-  Packed to;
-  to.put(data.nodes.data(), data.nodes.size());
-  to.put(std::ssize(data.groups));
-  for (const PhysicalGroup& group : data.groups) {
+void put_groups(Packed& to, const std::vector<PhysicalGroup>& groups) {
+  to.put(std::ssize(groups));
+  for (const PhysicalGroup& group : groups) {
     to.put(group.dimension);
     to.put(group.tag);
     to.put(group.name);
   }
+}
+
+std::vector<PhysicalGroup> take_groups(Unpacked& from) {
+  std::vector<PhysicalGroup> groups;
+  for (std::int64_t count = from.number(); count > 0; --count) {
+    const auto dimension = static_cast<int>(from.number()), tag = static_cast<int>(from.number());
+    groups.push_back({dimension, tag, from.text()});
+  }
+  return groups;
+}
+
+std::string packed_mesh(const MeshData& data) {
+  Packed to;
+  to.put(data.nodes.data(), data.nodes.size());
+  put_groups(to, data.groups);
   to.put(std::ssize(data.blocks));
   for (const ElementBlock& block : data.blocks) pack(to, block);
   return std::move(to.bytes);
@@ -94,10 +106,7 @@ MeshData unpacked_mesh(std::string_view bytes) {
   Unpacked from(bytes);
   MeshData data;
   data.nodes = from.list<std::array<double, 3>>();
-  for (std::int64_t count = from.number(); count > 0; --count) {
-    const auto dimension = static_cast<int>(from.number()), tag = static_cast<int>(from.number());
-    data.groups.push_back({dimension, tag, from.text()});
-  }
+  data.groups = take_groups(from);
   for (std::int64_t count = from.number(); count > 0; --count) data.blocks.push_back(unpack_block(from));
   check(data);
   return data;

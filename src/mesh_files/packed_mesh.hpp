@@ -4,9 +4,13 @@
 #include <string>
 #include <string_view>
 
+#include "base/packed.hpp"
 #include "mesh_files/mesh_data.hpp"
 
 namespace mortise {
+
+void put_groups(Packed& to, const std::vector<PhysicalGroup>& groups);
+std::vector<PhysicalGroup> take_groups(Unpacked& from);
 
 /// All of it but the file's name and what is only known of mesh files (notes, named_by_tag).
 std::string packed_mesh(const MeshData& data);

@@ -11,29 +11,29 @@
 
 namespace mortise {
 
-bool is_cell(const SetElement& element) { return element.type != 0 && element_type(element.type)->dimension == 2; }
+bool is_cell(const SetElement& element) { return cell_kind(element.type).has_value(); }
 
-int corners_of(const SetElement& cell) { return cell.type == 2 || cell.type == 9 ? 3 : 4; }
+int corners_of(const SetElement& cell) { return corner_count(*cell_kind(cell.type)); }
 
-void add_property_sets(const std::vector<int>& properties, SetMesh& mesh) {
-  const auto is_line = [&](int e) { return mesh.elements[e].type == 1 || mesh.elements[e].type == 8; };
+void add_property_sets(const std::vector<std::int64_t>& properties, SetMesh& mesh) {
+  const auto line = [&](int e) { return is_line(mesh.elements[e].type); };
   std::vector<int> with_cells;
   bool curves = !mesh.node_sets.empty();
   for (int s = 0; s < int(mesh.element_sets.size()); ++s) {
     const std::vector<int>& members = mesh.element_sets[s].members;
     if (std::ranges::any_of(members, [&](int e) { return is_cell(mesh.elements[e]); })) with_cells.push_back(s);
-    curves = curves || std::ranges::any_of(members, is_line);
+    curves = curves || std::ranges::any_of(members, line);
   }
-  std::map<std::pair<bool, int>, std::vector<int>> sets;
+  std::map<std::pair<bool, std::int64_t>, std::vector<int>> sets;
   for (int e = 0; e < int(properties.size()); ++e)
-    if (properties[e] >= 0 && (is_cell(mesh.elements[e]) || (is_line(e) && !curves)))
-      sets[{is_line(e), properties[e]}].push_back(e);
+    if (properties[e] >= 0 && (is_cell(mesh.elements[e]) || (line(e) && !curves)))
+      sets[{line(e), properties[e]}].push_back(e);
   if (!with_cells.empty()) mesh.candidates.push_back(with_cells);
   std::vector<int> by_property;
   for (auto& [key, members] : sets) {
-    const auto& [line, property] = key;
-    if (!line) by_property.push_back(int(mesh.element_sets.size()));
-    mesh.element_sets.push_back({(line ? "curve_" : "surface_") + std::to_string(property), std::move(members)});
+    const auto& [lines, property] = key;
+    if (!lines) by_property.push_back(int(mesh.element_sets.size()));
+    mesh.element_sets.push_back({(lines ? "curve_" : "surface_") + std::to_string(property), std::move(members)});
   }
   mesh.candidates.push_back(by_property);
   mesh.named_by_tag = !curves || with_cells.empty();
@@ -179,7 +179,7 @@ class Curves {
   void add_lines(const NamedSet& set) {
     std::vector<int> found;
     for (const int e : set.members)
-      if (const SetElement& element = mesh_.elements[e]; element.type == 1 || element.type == 8)
+      if (const SetElement& element = mesh_.elements[e]; is_line(element.type))
         for (std::size_t i = 1; i < element.nodes.size(); ++i)
           for (std::size_t k = 0; k < i; ++k) add_side(element.nodes[k], element.nodes[i], found);
     if (!found.empty()) add_curve(set.name, std::move(found));
@@ -216,7 +216,7 @@ class Curves {
     curves_.emplace(name, found);
     const int tag = ++count_;
     data_.groups.push_back({1, tag, name});
-    ElementBlock straight{1, tag, 1, {tag}, {}}, quadratic{1, tag, 8, {tag}, {}};
+    ElementBlock straight{1, tag, line_type(2), {tag}, {}}, quadratic{1, tag, line_type(3), {tag}, {}};
     for (const int s : found) {
       const auto& [a, b, middle] = sides_[s].nodes;
       ElementBlock& block = middle < 0 ? straight : quadratic;
@@ -230,7 +230,7 @@ class Curves {
   void add_point(const NamedSet& set) {
     const int tag = ++points_;
     data_.groups.push_back({0, tag, set.name});
-    if (!set.members.empty()) data_.blocks.push_back({0, tag, 15, {tag}, set.members});
+    if (!set.members.empty()) data_.blocks.push_back({0, tag, point_type, {tag}, set.members});
   }
 
   const SetMesh& mesh_;

@@ -46,7 +46,7 @@ struct SetMesh {
 
 /// For files that number the properties of elements: cells of one property are a candidate for a body, surface_7, after
 /// the sets that have cells; its lines are a curve, curve_7, if no set makes curves. -1: none.
-void add_property_sets(const std::vector<int>& properties, SetMesh& mesh);
+void add_property_sets(const std::vector<std::int64_t>& properties, SetMesh& mesh);
 
 /// Bodies: the sets that the file says, else of the candidates, each part that has no nodes in common with the others
 /// for itself as SET_1, SET_2 ...; else the parts that have no nodes in common, called surface_1, surface_2 ... Curves:

@@ -1,12 +1,13 @@
 #include "mesh_files/unv_file.hpp"
 
-#include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <map>
 #include <sstream>
 
+#include "base/each_once.hpp"
+#include "mesh_files/deck.hpp"
 #include "mesh_files/element_types.hpp"
-#include "mesh_files/inp_cards.hpp"
 
 namespace mortise {
 namespace {
@@ -14,11 +15,12 @@ namespace {
 /// gmsh's number of the kind of element that a finite-element descriptor names, 0 if it is left out. Corners and
 /// middles of second order take turns.
 int kind_of(std::int64_t descriptor) {
-  if (descriptor == 11 || descriptor == 21 || descriptor == 22) return 1;
-  if (descriptor == 23 || descriptor == 24) return 8;
+  if (descriptor == 11 || descriptor == 21 || descriptor == 22) return line_type(2);
+  if (descriptor == 23 || descriptor == 24) return line_type(3);
   if (descriptor < 41 || descriptor > 95) return 0;
-  static constexpr int by_last_digit[10] = {0, 2, 9, 0, 3, 16, 0, 0, 0, 0};
-  return by_last_digit[descriptor % 10];  // of plane stress, plane strain, plates, membranes, rings, shells
+  static constexpr int nodes_by_last_digit[10] = {0, 3, 6, 0, 4, 8, 0, 0, 0, 0};
+  return deck_cell_type(
+      nodes_by_last_digit[descriptor % 10]);  // of plane stress, plane strain, plates, membranes, rings, shells
 }
 
 bool is_beam(std::int64_t descriptor) { return descriptor == 11 || (descriptor >= 21 && descriptor <= 24); }
@@ -34,91 +36,87 @@ std::size_t entity_length(int dataset) {
 
 class UnvReader {
  public:
-  explicit UnvReader(const std::string& file) : input_(file) { mesh_.file = file; }
+  explicit UnvReader(const std::string& file) : deck_(file) {}
 
   SetMesh read() {
-    std::map<int, std::vector<std::vector<InpLine>>> datasets;
-    std::string_view text;
-    while (input_.next_line(text)) {
-      if (text != "-1") input_.fail("expected -1, where a dataset begins; is this a universal file?");
-      if (!input_.next_line(text)) break;
-      int number = 0;
-      std::from_chars(text.data(), text.data() + text.size(), number);
-      std::vector<InpLine>& lines = datasets[number].emplace_back();
-      bool ends = false;
-      while (!ends && input_.next_line(text)) {
-        ends = text == "-1";
-        const bool wanted = number == 2411 || number == 781 || number == 2412 || entity_length(number) > 0;
-        if (!ends && wanted) lines.push_back(line_of(text));
-      }
-      if (!ends) input_.fail("the dataset " + std::to_string(number) + " does not end; is the file cut off?");
-    }
+    read_datasets();
     for (const int number : {781, 2411})
-      for (const auto& lines : datasets[number]) read_nodes(lines);
-    NodeRows nodes = rows_of(node_tags_, "node"), elements({});
-    for (const auto& lines : datasets[2412]) read_elements(lines, nodes);
-    elements = rows_of(element_tags_, "element");
-    for (const auto& [number, all] : datasets)
-      for (const auto& lines : all) read_groups(lines, entity_length(number), nodes, elements);
-    add_properties();
-    return std::move(mesh_);
+      for (const auto& lines : datasets_[number]) read_nodes(lines);
+    deck_.number_nodes();
+    for (const auto& lines : datasets_[2412]) read_elements(lines);
+    deck_.number_elements();
+    for (const auto& [number, all] : datasets_)
+      for (const auto& lines : all) read_groups(lines, entity_length(number));
+    for (const auto& [kind, count] : left_out_)
+      deck_.mesh.notes.push_back("left out: " + std::to_string(count) + " elements of the kind " + kind);
+    add_property_sets(properties_, deck_.mesh);
+    return std::move(deck_.mesh);
   }
 
  private:
-  InpLine line_of(std::string_view text) const {
-    InpLine line{input_.record(), {}, false};
-    std::istringstream words{std::string(text)};
-    for (std::string word; words >> word;) line.fields.push_back(word);
-    return line;
-  }
-
-  /// The line that must be there; `at` moves on.
-  const InpLine& next(const std::vector<InpLine>& lines, std::size_t& at, std::size_t fields) const {
-    if (at == lines.size()) input_.fail_at(lines.back().record, "the dataset ends within a record");
-    if (lines[at].fields.size() < fields)
-      input_.fail_at(lines[at].record, "expected " + std::to_string(fields) + " numbers or more");
-    return lines[at++];
-  }
-
-  void read_nodes(const std::vector<InpLine>& lines) {
-    for (std::size_t i = 0; i < lines.size();) {
-      const InpLine& head = next(lines, i, 1);
-      node_tags_.push_back(inp_integer(input_, head, head.fields[0], "a node's number"));
-      const InpLine& x = next(lines, i, 3);
-      std::array<double, 3> place{};
-      for (int k = 0; k < 3; ++k) place[k] = inp_real(input_, x, x.fields[k], "a coordinate");
-      mesh_.nodes.push_back(place);
+  /// The lines of those that are wanted.
+  void read_datasets() {
+    MshInput& input = deck_.input;
+    std::string_view text;
+    while (input.next_line(text)) {
+      if (text != "-1") input.fail("expected -1, where a dataset begins; is this a universal file?");
+      if (!input.next_line(text)) break;
+      int number = 0;
+      std::from_chars(text.data(), text.data() + text.size(), number);
+      const bool wanted = number == 2411 || number == 781 || number == 2412 || entity_length(number) > 0;
+      std::vector<DeckRecord>& lines = datasets_[number].emplace_back();
+      bool ends = false;
+      while (!ends && input.next_line(text)) {
+        ends = text == "-1";
+        if (!ends && wanted) lines.push_back({input.record(), words_of(text)});
+      }
+      if (!ends) input.fail("the dataset " + std::to_string(number) + " does not end; is the file cut off?");
     }
   }
 
-  void read_elements(const std::vector<InpLine>& lines, const NodeRows& rows) {
+  static std::vector<std::string> words_of(std::string_view text) {
+    std::istringstream words{std::string(text)};
+    return {std::istream_iterator<std::string>(words), {}};
+  }
+
+  /// The line that must be there; `at` moves on.
+  const DeckRecord& next(const std::vector<DeckRecord>& lines, std::size_t& at, std::size_t fields) const {
+    if (at == lines.size()) deck_.fail(lines.back(), "the dataset ends within a record");
+    if (lines[at].fields.size() < fields)
+      deck_.fail(lines[at], "expected " + std::to_string(fields) + " numbers or more");
+    return lines[at++];
+  }
+
+  void read_nodes(const std::vector<DeckRecord>& lines) {
     for (std::size_t i = 0; i < lines.size();) {
-      const InpLine& head = next(lines, i, 6);
-      const auto number = [&](int k, const char* what) { return inp_integer(input_, head, head.fields[k], what); };
-      const std::int64_t descriptor = number(1, "a finite-element descriptor"), count = number(5, "a number of nodes");
+      const DeckRecord& head = next(lines, i, 1);
+      std::array<double, 3>& place = deck_.add_node(head);
+      const DeckRecord& x = next(lines, i, 3);
+      for (int k = 0; k < 3; ++k) place[k] = deck_.real(x, x.fields[k], "a coordinate");
+    }
+  }
+
+  void read_elements(const std::vector<DeckRecord>& lines) {
+    for (std::size_t i = 0; i < lines.size();) {
+      const DeckRecord& head = next(lines, i, 6);
+      const std::int64_t descriptor = deck_.integer(head, head.fields[1], "a finite-element descriptor");
+      const std::int64_t count = deck_.integer(head, head.fields[5], "a number of nodes");
       const int type = kind_of(descriptor);
-      const int expected = type != 0 ? element_type(type)->node_count : int(count);
-      if (expected != count)
-        input_.fail_at(head.record, "expected " + std::to_string(expected) + " nodes of an element of the kind " +
-                                        head.fields[1] + ", found " + head.fields[5]);
-      SetElement element{number(0, "an element's number"), type, {}};
+      if (type != 0 && element_type(type)->node_count != count)
+        deck_.fail(head, "expected " + std::to_string(element_type(type)->node_count) +
+                             " nodes of an element of the kind " + head.fields[1] + ", found " + head.fields[5]);
+      std::vector<int>& nodes = deck_.add_element(head, type).nodes;
       if (is_beam(descriptor)) next(lines, i, 1);
-      while (std::int64_t(element.nodes.size()) < count) {
-        const InpLine& line = next(lines, i, 1);
-        for (const std::string& field : line.fields) {
-          const int row = rows.find(inp_integer(input_, line, field, "a node's number"));
-          if (row < 0) input_.fail_at(line.record, "there is no node " + field);
-          element.nodes.push_back(row);
-        }
+      while (std::int64_t(nodes.size()) < count) {
+        const DeckRecord& line = next(lines, i, 1);
+        for (const std::string& field : line.fields) nodes.push_back(deck_.node(line, field));
       }
-      if (std::int64_t(element.nodes.size()) > count) input_.fail_at(head.record, "has more nodes than it says");
+      if (std::int64_t(nodes.size()) > count) deck_.fail(head, "has more nodes than it says");
       if (type == 0) ++left_out_[head.fields[1]];
-      if (type == 8 || type == 9 || type == 16) corners_first(element.nodes);
-      element_tags_.push_back(element.tag);
+      if (count > 4 || type == line_type(3)) corners_first(nodes);
       int property = 0;
       std::from_chars(head.fields[2].data(), head.fields[2].data() + head.fields[2].size(), property);
       properties_.push_back(property);
-      mesh_.elements.push_back(std::move(element));
     }
   }
 
@@ -132,31 +130,29 @@ class UnvReader {
   /// A head, whose last number counts the entities, a name, and the entities: of each what it is (7: a node, 8: an
   /// element) and its number first. Elements that are not there are gmsh's of points, beside which the node stands;
   /// nodes beside elements are those of these.
-  void read_groups(const std::vector<InpLine>& lines, std::size_t length, const NodeRows& nodes,
-                   const NodeRows& elements) {
+  void read_groups(const std::vector<DeckRecord>& lines, std::size_t length) {
     for (std::size_t i = 0; length > 0 && i < lines.size();) {
-      const InpLine& head = next(lines, i, 2);
+      const DeckRecord& head = next(lines, i, 2);
       std::size_t count = 0;
       const std::string& last = head.fields.back();
       std::from_chars(last.data(), last.data() + last.size(), count);
       const std::string name = joined(next(lines, i, 0).fields);
       NamedSet of_nodes{name, {}}, of_elements{name, {}};
-      std::vector<std::string> numbers;
       for (std::size_t done = 0; done < count;) {
-        const InpLine& line = next(lines, i, length);
+        const DeckRecord& line = next(lines, i, length);
         for (std::size_t k = 0; k + length <= line.fields.size() && done < count; k += length, ++done) {
           const bool node = line.fields[k] == "7";
           if (!node && line.fields[k] != "8") continue;
-          const int row = (node ? nodes : elements).find(inp_integer(input_, line, line.fields[k + 1], "a number"));
-          if (row < 0 && node) input_.fail_at(line.record, "there is no node " + line.fields[k + 1]);
+          const std::string& tag = line.fields[k + 1];
+          const int row = (node ? deck_.nodes : deck_.elements).find(deck_.integer(line, tag, "a number"));
+          if (row < 0 && node) deck_.fail(line, "there is no node " + tag);
           if (row >= 0) (node ? of_nodes : of_elements).members.push_back(row);
         }
       }
       NamedSet& set = of_elements.members.empty() ? of_nodes : of_elements;
-      std::ranges::sort(set.members);
-      set.members.erase(std::unique(set.members.begin(), set.members.end()), set.members.end());
+      keep_each_once(set.members);
       if (!set.members.empty())
-        (of_elements.members.empty() ? mesh_.node_sets : mesh_.element_sets).push_back(std::move(set));
+        (of_elements.members.empty() ? deck_.mesh.node_sets : deck_.mesh.element_sets).push_back(std::move(set));
     }
   }
 
@@ -166,22 +162,9 @@ class UnvReader {
     return text;
   }
 
-  NodeRows rows_of(const std::vector<std::int64_t>& tags, const char* what) const {
-    if (const std::int64_t repeated = first_repeated(tags); repeated >= 0)
-      input_.fail_at(0, std::string("the ") + what + " " + std::to_string(tags[repeated]) + " is listed twice");
-    return NodeRows(tags);
-  }
-
-  void add_properties() {
-    for (const auto& [kind, count] : left_out_)
-      mesh_.notes.push_back("left out: " + std::to_string(count) + " elements of the kind " + kind);
-    add_property_sets(properties_, mesh_);
-  }
-
-  MshInput input_;
-  SetMesh mesh_;
-  std::vector<std::int64_t> node_tags_, element_tags_;
-  std::vector<int> properties_;  // of each element
+  Deck deck_;
+  std::map<int, std::vector<std::vector<DeckRecord>>> datasets_;
+  std::vector<std::int64_t> properties_;  // of each element
   std::map<std::string, int> left_out_;
 };
 

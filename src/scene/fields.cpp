@@ -64,12 +64,6 @@ double number(const Node& node) {
   return node.number;
 }
 
-double positive_number(const Node& node) {
-  const double value = number(node);
-  if (value <= 0) fail_expected(node, "a number > 0");
-  return value;
-}
-
 int whole(const Node& node, int least, int most) {
   const double value = number(node);
   if (value != std::floor(value) || value < least || value > most)

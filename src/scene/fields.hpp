@@ -35,9 +35,6 @@ const Node& exactly_one(const Node& table, const std::vector<std::string>& names
 /// A finite number.
 double number(const Node& node);
 
-/// A finite number of a quantity that must be positive.
-double positive_number(const Node& node);
-
 /// A whole number between these, both included.
 int whole(const Node& node, int least, int most);
 

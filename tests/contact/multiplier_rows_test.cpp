@@ -42,7 +42,10 @@ struct Rows {
   }
 
   std::vector<int> numbered() {
-    number_rows(mesh, {multiplier, opposite, {}, {}, {}}, constraints, InitialGap::measured, support, coupling);
+    const ContactInterface interface {
+      multiplier, opposite, {}, {}, {}
+    };
+    number_rows({mesh, interface, constraints, InitialGap::measured}, support, coupling);
     return coupling.row;
   }
 };

@@ -11,6 +11,11 @@
 namespace mortise {
 namespace {
 
+ContactReach reached_everywhere(const Curve& first, const Curve& second) {
+  return {std::vector<Reach>(first.edges.size() + 1, {true, true}),
+          std::vector<Reach>(second.edges.size() + 1, {true, true})};
+}
+
 using test::TwoPlates;
 
 constexpr double deg = std::numbers::pi / 180;

@@ -110,7 +110,7 @@ TEST(UniversalFile, WhatCannotBeReadIsNamedWithItsLine) {
   EXPECT_EQ(trouble("a.unv", nodes_unv + "    -1\n  2412\n 1 44 1 1 7 3\n 1 2 5\n    -1\n"),
             ", line 23: expected 4 nodes of an element of the kind 44, found 3");
   EXPECT_EQ(trouble("a.unv", nodes_unv), ": no elements of plane bodies");
-  EXPECT_EQ(trouble("a.unv", nodes_unv + nodes_unv + elements_unv), ", line 1: the node 1 is listed twice");
+  EXPECT_EQ(trouble("a.unv", nodes_unv + nodes_unv + elements_unv), ", line 28: the node 1 is listed twice");
 }
 
 // Fields of 8 and of 16 characters, between commas, numbers without the e of their exponent.
