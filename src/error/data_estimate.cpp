@@ -5,6 +5,7 @@
 #include <set>
 
 #include "error/gap_misfit.hpp"
+#include "error/pressure_bars.hpp"
 #include "fem/quadrature.hpp"
 #include "solve/contact_factor.hpp"
 

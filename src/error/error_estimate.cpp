@@ -9,6 +9,7 @@
 #include "error/fitted_pressure.hpp"
 #include "error/gap_error.hpp"
 #include "error/missed_contact.hpp"
+#include "error/pressure_bars.hpp"
 #include "error/recovered_pressure.hpp"
 #include "error/sliding_kinks.hpp"
 #include "error/weak_points.hpp"
@@ -59,47 +60,6 @@ std::vector<SingularPoint> that_count(std::vector<SingularPoint> points, const P
            point.small_turn == 0;
   });
   return points;
-}
-
-// Where the bodies' errors move a border of contact, by d, they change p = c sqrt(r) beside it by c d / (2 sqrt(r)),
-// and by c sqrt(d) at most: by how much more at a vertex than `far`, in the window nearest to the border, if it lies
-// between them.
-double near_border(const PressureEstimate& e, Eigen::Index i, double far, double least) {
-  const PressureLine& line = e.line;
-  const double around = line.closed ? line.s(line.s.size() - 1) : std::numeric_limits<double>::infinity();
-  const auto distance = [&](double from, double to) {
-    return std::min(std::abs(from - to), around - std::abs(from - to));
-  };
-  double factor = 1;
-  for (const LineError::Border& border : e.local.borders) {
-    const double open = line.s(line.p(border.edge) == 0 ? border.edge : border.edge + 1);
-    const auto from_border = [&](const PressureWindow& window) { return distance(window.s, open); };
-    const auto nearest = std::ranges::min_element(e.windows, {}, from_border);
-    if (nearest == e.windows.end()) continue;
-    const double centre = nearest->from_border > 0 ? nearest->from_border : from_border(*nearest),
-                 quarter = far * std::sqrt(centre) / (2 * border.root),
-                 r = std::max({distance(line.s(i), open), quarter, least});
-    if (r > 0 && r < centre && distance(line.s(i), nearest->s) <= centre)
-      factor = std::max(factor, std::sqrt(centre / r));
-  }
-  return factor;
-}
-
-// At a vertex: linear between the windows' centres, constant beyond them; of what corners nearby do each by its shape.
-double far_at(const PressureEstimate& e, Eigen::Index i) {
-  if (e.windows.empty()) return 0;
-  const double s = e.line.s(i);
-  const int count = int(e.windows.size());
-  int k = 0;
-  while (k < count && e.windows[k].s < s) ++k;
-  const int before = std::max(k - 1, 0), after = std::min(k, count - 1);
-  const double part = before == after ? 0 : (s - e.windows[before].s) / (e.windows[after].s - e.windows[before].s);
-  double far = (1 - part) * e.far(before) + part * e.far(after);
-  for (const LocalTail& tail : e.tails.local) {
-    if (tail.window == before) far += (1 - part) * tail.at(e.line.position[i]);
-    if (tail.window == after && after != before) far += part * tail.at(e.line.position[i]);
-  }
-  return far;
 }
 
 double error_norm(const std::vector<PressureEstimate>& pressures, double local, double far) {
@@ -289,41 +249,6 @@ void require_pair(const AccuracySpec& spec, std::size_t count) {
 }
 
 }  // namespace
-
-void find_excluded(double part, PressureEstimate& e) {
-  const PressureLine& line = e.line;
-  double length = 0;
-  for (Eigen::Index i = 0; i + 1 < line.p.size(); ++i)
-    if (line.loaded[i] && line.loaded[i + 1]) length += line.s(i + 1) - line.s(i);
-  e.excluded_distance = part * length;
-  e.excluded.assign(line.p.size(), 0);
-  for (Eigen::Index i = 0; i < line.p.size(); ++i)
-    for (const SingularPoint& point : e.singular)
-      if (point.is_unbounded() && (line.position[i] - point.position).norm() < e.excluded_distance) e.excluded[i] = 1;
-  // A mesh too coarse to tell what is near such a point from the rest of the contact: all of it counts.
-  bool left = false;
-  for (Eigen::Index i = 0; i < line.p.size(); ++i) left = left || (line.loaded[i] && line.p(i) != 0 && !e.excluded[i]);
-  if (!left) e.excluded.assign(line.p.size(), 0);
-}
-
-void find_bars(PressureEstimate& e) {
-  const PressureLine& line = e.line;
-  const Eigen::Index count = line.p.size();
-  e.local2 = e.far2 = e.p2 = 0;
-  const VecX local = e.local.whole();
-  e.bar = e.local.pointwise(line);
-  if (e.local.least.size() > 0) e.bar = e.bar.cwiseMax(e.local.least);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const double of_window = far_at(e, i), most = of_window * near_border(e, i, of_window, 0),
-                 far = of_window * near_border(e, i, of_window, line.h(i) / 2);
-    e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? most : 0));
-    if (!e.counts(i)) continue;
-    e.local2 += local(i) * local(i) + (most * most - far * far) * line.h(i);
-    e.far2 += far * far * line.h(i);
-    const double p = line.whole(i);
-    e.p2 += p * p * line.h(i);
-  }
-}
 
 MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
                         const SharedDuals& shared, Eigen::Index rows) {

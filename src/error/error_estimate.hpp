@@ -63,16 +63,9 @@ struct EstimateOptions {
 ErrorEstimate estimate_error(const Problem& problem, const Solution& solution, EstimateMemory& memory,
                              const EstimateOptions& options = {});
 
-// Its parts, for what adds to an estimate (error/data_estimate.hpp).
-
-/// A column a dual, the sum of its windows, in the rows of all pairs.
+/// For what adds to an estimate (error/data_estimate.hpp). A column a dual, the sum of its windows, in the rows of all
+/// pairs.
 MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
                         const SharedDuals& shared, Eigen::Index rows);
-
-/// Leaves out of the norm what lies nearer than this part of the loaded length to a singular point.
-void find_excluded(double part, PressureEstimate& estimate);
-
-/// Sets the bars and the squares of an estimate whose line, local errors and far field are there.
-void find_bars(PressureEstimate& estimate);
 
 }  // namespace mortise

@@ -15,7 +15,7 @@ struct PressureEstimate {
   LineError local;
   FittedPressure fitted;  ///< the pressure that is reported, where it is nearer
   std::vector<PressureWindow> windows;
-  VecX far;  ///< of each window's mean, stress: the sum of the cells' parts without their signs, and of tails.means
+  VecX far;  ///< of each window's mean, stress: what the cells' parts make it off by, and the sum of tails.means
   TailShares tails;                     ///< what the mesh misses at the bodies' corners
   VecX bar;                             ///< of p at each vertex of `line`, stress
   std::vector<SingularPoint> singular;  ///< of its loaded part

@@ -6,6 +6,7 @@
 
 #include "app/solve_scene.hpp"
 #include "error/error_estimate.hpp"
+#include "error/pressure_bars.hpp"
 #include "error/wanted_sizes.hpp"
 #include "fem/edges.hpp"
 

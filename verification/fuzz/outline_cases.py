@@ -38,7 +38,8 @@ def slit(r, x, y, sign, loops):
 
 
 def hole(r, x, y, sign, loops):
-    radius = r.uniform(0.3, 1.5) * abs(y - 0.5)
+    far = abs(y - 0.5)
+    radius = min(r.uniform(0.3, 1.5) * far, 0.4 * (0.5 - far))  # within the body, whose outline is 0.5 from the line
     y += sign * radius
     ends = [(x - radius, y), (x + radius, y)]
     arcs = [("hole", "Circle", [a, (x, y), b]) for a, b in (ends, ends[::-1])]

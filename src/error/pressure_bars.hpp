@@ -1,0 +1,14 @@
+// The bars of the pressure of a pair, and what counts for its norms.
+#pragma once
+
+#include "error/pressure_estimate.hpp"
+
+namespace mortise {
+
+/// Leaves out of the norm what lies nearer than this part of the loaded length to a singular point.
+void find_excluded(double part, PressureEstimate& estimate);
+
+/// Sets the bars and the squares of an estimate whose line, local errors and far field are there.
+void find_bars(PressureEstimate& estimate);
+
+}  // namespace mortise
