@@ -158,8 +158,9 @@ void shorten(double now, double slope, Eigen::Ref<Eigen::RowVector2d> steps) {
 MatX steps_to_changes(const Results& r, const Tangents& tangents, const std::vector<Left>& slopes) {
   constexpr double round_off = 1e-12;
   const SaddlePointSystem& s = r.problem.discretisation.system;
-  const VecX gap = s.B * r.solution.u + layer_openings(s.layers, r.solution.lambda) - s.g;
-  const MatX opened = s.B * tangents.u + layer_openings(s.layers, tangents.lambda);
+  VecX gap = s.B * r.solution.u - s.g;
+  if (r.solution.compression.size() > 0) gap += s.layers.B * r.solution.compression;
+  const MatX opened = s.B * tangents.u + layer_openings(s.layers, r.solution.compression, tangents.lambda);
   MatX steps(tangents.u.cols(), 2);
   for (Eigen::Index k = 0; k < steps.rows(); ++k) {
     Eigen::RowVector2d within(-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());

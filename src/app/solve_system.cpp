@@ -12,6 +12,7 @@
 #include "solve/layered_system.hpp"
 #include "solve/multipoint_system.hpp"
 #include "solve/nonnegative_fit.hpp"
+#include "solve/solve_layers.hpp"
 
 namespace mortise {
 namespace {
@@ -96,13 +97,22 @@ Solution SystemSolver::solve() {
 }
 
 Solution SystemSolver::solve_layered(const SaddlePointSystem& system) {
-  const Eigen::Index count = system.layers.K.cols(), unknowns = system.f.size();
+  const Eigen::Index count = system.layers.B.cols(), unknowns = system.f.size();
   if (count == 0) return solve_independent(system);
-  if (layered_)
+  const auto solve_anew = [&](SaddlePointSystem layered) {
+    direct_.reset();
+    layered_ = std::make_unique<SaddlePointSystem>(std::move(layered));
+    return solve_independent(*layered_);
+  };
+  Solution solution;
+  if (!system.layers.are_linear()) {
+    solution = solve_layers(system, solve_anew);
+  } else if (!layered_) {
+    solution = solve_anew(layered_system(system, layer_stiffness(system.layers, VecX::Zero(count))));
+  } else {
     take_loads(system, *layered_);
-  else
-    layered_ = std::make_unique<SaddlePointSystem>(layered_system(system));
-  Solution solution = solve_independent(*layered_);
+    solution = solve_independent(*layered_);
+  }
   if (solution.u.size() > 0) {
     solution.compression = solution.u.segment(unknowns, count);
     solution.u.conservativeResize(unknowns);

@@ -1,22 +1,13 @@
-// Two rough surfaces between the sides of a pair: p in proportion to their approach.
+// Two rough surfaces between the sides of a pair: p grows with their approach.
 #pragma once
 
 #include "contact/contact_interface.hpp"
-#include "model/choices.hpp"
 
 namespace mortise {
 
-/// The layer's compression d = sum N_b d_b, b of Coupling::node, has the energy 1/2 int k d^2 dA. A row holds the gap
-/// open by int psi d dA less, so that p = k d in the mean (docs/theory.md eq. 13a). Lists of entries, 0 where a side
-/// faces nothing but for a small diagonal.
-struct SurfaceLayer {
-  using Entries = std::vector<Eigen::Triplet<double>>;
-  Entries stiffness;  ///< b, b' <= b: int k N_b N_b' dA, stress times depth
-  Entries rows;       ///< row, b: int psi_row N_b dA, length times depth
-};
-
-/// Of an interface that has its rows. `stiffness`: k, stress over length.
-SurfaceLayer surface_layer(const ContactInterface& interface, Multipliers space, double stiffness);
+/// The layer is compressed by d at each of the pair's points, under the pressure that the multipliers have there,
+/// -sum N_a lambda_a (docs/theory.md eq. 13a, 19). Entries of the rows: row, point: int N_a dA, length times depth.
+std::vector<Eigen::Triplet<double>> surface_layer(const ContactInterface& interface);
 
 /// What is left of openings at the pair's points (a row a point, a column a field) once the layer has followed them
 /// between `closed` vertices of the multiplier side: less their means with the hat functions of these.

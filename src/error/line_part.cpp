@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/surface_layer.hpp"
 #include "fem/edges.hpp"
 
 namespace mortise {

@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
 #include "contact/gap_resolution.hpp"
+#include "contact/surface_layer.hpp"
 #include "fem/edges.hpp"
 #include "model/patterns.hpp"
 #include "problem/facing_pairs.hpp"
@@ -78,25 +79,26 @@ ContactPair coupled(const Method& method, const Mesh& mesh, const Discretisation
   pair.points = contact_points(mesh.nodes, pair, method.integration);
   find_one_line(mesh.nodes, pair);
   pair.coupling = couple(mesh, pair, d.system.constraints, {method.multipliers, spec.initial_gap});
-  if (spec.stiffness) pair.layer = surface_layer(pair, method.multipliers, *spec.stiffness);
   return pair;
 }
 
 // The layers of all pairs, one behind another.
 SurfaceLayers surface_layers(const std::vector<ContactPair>& pairs, Eigen::Index rows) {
-  std::vector<Eigen::Triplet<double>> K, B;
+  std::vector<Eigen::Triplet<double>> B;
+  std::vector<double> weight;
   SurfaceLayers layers;
   for (const ContactPair& pair : pairs) {
     if (!pair.spec.stiffness) continue;
-    const int first = int(layers.beside.size());
-    for (const auto& t : pair.layer.stiffness) K.emplace_back(first + t.row(), first + t.col(), t.value());
-    for (const auto& t : pair.layer.rows) B.emplace_back(pair.first_row + t.row(), first + t.col(), t.value());
-    for (const int node : pair.coupling.node) layers.beside.push_back(2 * node);
+    for (const auto& t : surface_layer(pair))
+      B.emplace_back(pair.first_row + t.row(), int(weight.size()) + t.col(), t.value());
+    for (const ContactPoint& point : pair.points) {
+      weight.push_back(point.dA);
+      layers.beside.push_back(2 * pair.multiplier.edges[point.edge].nodes[0]);
+    }
+    layers.laws.push_back({*pair.spec.stiffness, int(weight.size())});
   }
-  const Eigen::Index count = Eigen::Index(layers.beside.size());
-  layers.K.resize(count, count);
-  layers.K.setFromTriplets(K.begin(), K.end());
-  layers.B.resize(rows, count);
+  layers.weight = Eigen::Map<const VecX>(weight.data(), Eigen::Index(weight.size()));
+  layers.B.resize(rows, layers.weight.size());
   layers.B.setFromTriplets(B.begin(), B.end());
   return layers;
 }
@@ -121,7 +123,7 @@ bool is_drawn(const ContactPair& pair) { return !pair.multiplier.samples.empty()
 std::string gap_words(const ContactPair& pair) {
   const ContactSpec& spec = pair.spec;
   std::ostringstream more;
-  if (spec.stiffness) more << ", stiffness " << *spec.stiffness;
+  if (spec.stiffness) more << ", " << spec.stiffness->words();
   if (spec.fluid) more << ", fluid at " << spec.fluid->pressure;
   if (spec.initial_gap == InitialGap::closed) return "closed" + more.str();
   if (spec.initial_gap == InitialGap::given) return spec.gap.words() + more.str();

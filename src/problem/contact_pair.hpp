@@ -2,7 +2,6 @@
 #pragma once
 
 #include "contact/coupling.hpp"
-#include "contact/surface_layer.hpp"
 #include "model/method.hpp"
 #include "problem/contact_curves.hpp"
 #include "problem/discretisation.hpp"
@@ -11,8 +10,7 @@ namespace mortise {
 
 struct ContactPair : ContactInterface {
   ContactSpec spec;
-  SurfaceLayer layer;  ///< empty without spec.stiffness
-  int first_row = 0;   ///< of its rows, in those of all pairs below one another
+  int first_row = 0;  ///< of its rows, in those of all pairs below one another
 };
 
 /// A body more than this many times as stiff as the other does not carry the multipliers by default: where its mesh is

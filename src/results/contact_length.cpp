@@ -30,9 +30,9 @@ double end_of_contact(const std::vector<Sample>& samples, double limit) {
 struct LoadedLine {
   const Points& nodes;
   const ContactPair& pair;
-  const VecX& pressure;
-  const VecX& fluid;  // of it, at wet multipliers
-  double loaded;      // p above it
+  const VecX& pressure;  // or overlap, of a pair that gives way
+  const VecX& fluid;     // of it, at wet multipliers
+  double loaded;         // p above it
 
   double solid(int multiplier) const { return pressure(multiplier) - fluid(multiplier); }
 };
@@ -45,6 +45,7 @@ double part_in_contact(const LoadedLine& line, int e, int last) {
   const double length = edge_length(nodes, pair.multiplier.edges[e]);
   const double outside = fluid(pair.coupling.on_edge[e][1 - last]);
   const double at_last = pressure(pair.coupling.on_edge[e][last]) - outside;
+  if (gives_way(pair)) return at_last / (at_last - pressure(pair.coupling.on_edge[e][1 - last]));
   std::vector<Sample> samples{{0, at_last * at_last}};
   double before = 0;
   for (int k = e + back; samples.size() < 3; k += back) {

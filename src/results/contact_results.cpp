@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "error/pressure_form.hpp"
 #include "error/pressure_line.hpp"
@@ -251,6 +252,15 @@ double wet_length(const ContactPair& pair, const VecX& fluid) {
   return length;
 }
 
+// At its multipliers; 0 where nothing is faced.
+VecX overlaps(const ContactPair& pair, const ContactResults& r) {
+  std::map<int, double> at_node;
+  for (const ContactNode& node : r.multiplier.nodes) at_node[node.node] = std::isfinite(node.gap) ? -node.gap : 0;
+  VecX overlaps(r.pressure.size());
+  for (Eigen::Index a = 0; a < overlaps.size(); ++a) overlaps(a) = at_node.at(pair.coupling.node[a]);
+  return overlaps;
+}
+
 Resultant force_on_multiplier_side(const Points& nodes, const Coupling& coupling, const VecX& row_values) {
   Resultant sum;
   for (const auto& [node, force] : contact_forces(coupling.own, row_values))
@@ -287,9 +297,11 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   r.p_least = least_pressure(pair, r.pressure);
   set_extremes(r);
   r.p_mean = mean_pressure(pair, r.pressure);
-  const ContactLength in_contact = length_in_contact(
-      mesh.nodes, pair, r.pressure, fluid,
-      round_off_pressure(mesh, {&pair, 1}, problem.discretisation.system.stiffness_scale, solution.u));
+  const double round_off =
+      round_off_pressure(mesh, {&pair, 1}, problem.discretisation.system.stiffness_scale, solution.u);
+  const ContactLength in_contact =
+      gives_way(pair) ? length_in_contact(mesh.nodes, pair, overlaps(pair, r), fluid, 1e-12 * largest_entry(solution.u))
+                      : length_in_contact(mesh.nodes, pair, r.pressure, fluid, round_off);
   r.length_in_contact = in_contact.length;
   r.ends = in_contact.ends;
   if (r.ends && runs_backwards(mesh.nodes, pair.multiplier))

@@ -72,9 +72,10 @@ DualAnswers responses(const SaddlePointSystem& s, const ContactFactor& factor, c
   return found;
 }
 
-std::optional<Eigen::Matrix3d> stiffness_of(const Problem& p, const ContactFactor& factor, const RigidCurve* rigid,
-                                            const MatX& q, bool all_held) {
+std::optional<Eigen::Matrix3d> stiffness_of(const Problem& p, const Solution& solution, const ContactFactor& factor,
+                                            const RigidCurve* rigid, const MatX& q) {
   const SaddlePointSystem& s = p.discretisation.system;
+  const bool all_held = p.held.empty() && solution.rigid_modes.cols() == 0;
   const std::vector<int> free = free_motions(s.constraints, rigid, q);
   if (!free.empty() && !all_held) return std::nullopt;
   const auto [u, lambda] = responses(s, factor, rigid, q, free);
@@ -85,7 +86,7 @@ std::optional<Eigen::Matrix3d> stiffness_of(const Problem& p, const ContactFacto
   if (kernel_of(moved).cols() > 0) return std::nullopt;
   const Eigen::Matrix3d to_units = inverse_of(moved),
                         stored = u.transpose() * (s.K.selfadjointView<Eigen::Lower>() * u).eval() -
-                                 lambda.transpose() * layer_openings(s.layers, lambda),
+                                 lambda.transpose() * layer_openings(s.layers, solution.compression, lambda),
                         stiffness = to_units.transpose() * stored * to_units;
   return (stiffness + stiffness.transpose()) / 2;
 }
@@ -99,14 +100,14 @@ std::vector<JointStiffness> joint_stiffnesses(const Problem& p, const Solution& 
   for (int i = 0; i < int(p.entries.boundaries.size()); ++i) {
     const BoundaryEntry& entry = p.entries.boundaries[i];
     if (!entry.spec.stiffness) continue;
-    if (!factor) factor = contact_factor(p.discretisation.system, solution);
+    const SaddlePointSystem& s = p.discretisation.system;
+    if (!factor) factor = s.layers.are_linear() ? contact_factor(s, solution) : exact_factor(s, solution);
     const RigidCurve* rigid = nullptr;
     for (const RigidSupport& support : p.discretisation.multipoint.rigid_curves)
       if (support.entry == i) rigid = &support.curve;
     const Vec2 about = rigid ? rigid->about : centre_of(p.mesh, entry);
     const MatX q = motions_in_q(p, entry, rigid, about);
-    const bool all_held = p.held.empty() && solution.rigid_modes.cols() == 0;
-    found.push_back({i, about, stiffness_of(p, *factor, rigid, q, all_held)});
+    found.push_back({i, about, stiffness_of(p, solution, *factor, rigid, q)});
   }
   return found;
 }

@@ -45,6 +45,16 @@ Json peak_error(const ContactResults& c) {
   return peak->p_error;
 }
 
+// As the scene has it.
+Json law_json(const ContactLaw& law) {
+  const Vec2& last = law.points.back();
+  if (law.is_linear()) return law.slope(0);
+  if (law.exponent != 1) return {{"pressure", last.y()}, {"overlap", last.x()}, {"exponent", law.exponent}};
+  Json table = Json::array();
+  for (const Vec2& point : law.points) table.push_back({point.x(), point.y()});
+  return table;
+}
+
 Json contact_json(const ContactPair& pair, const ContactResults& c) {
   const auto& error = c.force_error;
   Json json{{"between", pair.spec.between},
@@ -62,7 +72,7 @@ Json contact_json(const ContactPair& pair, const ContactResults& c) {
             {"drawn", is_drawn(pair)},
             {"gap", gap_words(pair)},
             {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
-  if (pair.spec.stiffness) json["stiffness"] = *pair.spec.stiffness;
+  if (pair.spec.stiffness) json["stiffness"] = law_json(*pair.spec.stiffness);
   if (c.fluid)
     json["fluid"] = {{"pressure", pair.spec.fluid->pressure},
                      {"wet_length", c.fluid->wet_length},
@@ -187,6 +197,7 @@ Json counts_json(const Results& r) {
   return {{"contact", r.problem.pairs.empty() ? 0 : r.solution.steps.size()},
           {"contact_coarse", r.solution.coarse_steps},
           {"contact_interior", r.solution.interior_steps},
+          {"layers", r.solution.layer_steps},
           {"solver", r.solution.iteration ? r.solution.iteration->steps : 0}};
 }
 

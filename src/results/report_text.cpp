@@ -48,8 +48,9 @@ void print_steps(const Json& steps, std::ostream& out) {
 void print_contact_search(const Json& report, std::ostream& out) {
   const Json &conditions = report["method"]["condition"], &steps = report["contact_steps"];
   if (std::ranges::count(conditions, Json("unilateral")) == 0 || !report["iteration"].is_null()) return;
-  const int coarse = report["iterations"]["contact_coarse"];
+  const int coarse = report["iterations"]["contact_coarse"], layers = report["iterations"]["layers"];
   out << "            ";
+  if (layers > 0) out << layers << " tangents until p is that of the law; with the last ";
   if (steps.size() > 1)
     out << steps.size() << " solves until nothing is in tension or overlaps"
         << (coarse > 0 ? ", and " + std::to_string(coarse) + " smaller ones for the second's start" : "") << "\n";

@@ -58,6 +58,12 @@ Kind<double> between(double least, double most) {
                      [=](double value) { return value > least && value < most; });
 }
 
+Kind<double> from_to(double least, double most) {
+  return number_that({{"type", "number"}, {"minimum", plain(least)}, {"maximum", plain(most)}},
+                     "a number from " + in_words(least) + " to " + in_words(most),
+                     [=](double value) { return value >= least && value <= most; });
+}
+
 Kind<double> a_part() {
   Kind<double> kind = between(0, 1);
   kind.schema = either(kind.schema, {{"type", "string"}, {"pattern", "^[0-9.eE+-]+%$"}});

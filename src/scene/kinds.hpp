@@ -28,6 +28,9 @@ Kind<double> from_zero();
 Kind<double> above(double least);
 Kind<double> between(double least, double most);
 
+/// One from `least` to `most`, both included.
+Kind<double> from_to(double least, double most);
+
 /// One between 0 and 1, both excluded, or as text "1%".
 Kind<double> a_part();
 

@@ -79,6 +79,58 @@ void check_fluid(const Node& entry, const ContactSpec& contact) {
     fail(*node, "goes with between = two curves, not with patterns: it does not get from pair to pair");
 }
 
+Keys power_law_keys(Vec2& point, double& exponent) {
+  return {required(key("pressure", point.y(), above(0), "that of `overlap`, stress"), "a number > 0"),
+          required(key("overlap", point.x(), above(0), "a length"), "a number > 0"),
+          required(key("exponent", exponent, from_to(1, 20), "1: in proportion"), "a number from 1 to 20")};
+}
+
+// Rows of overlap and pressure; the first may be the origin.
+std::vector<Vec2> read_law_table(const Node& node) {
+  std::vector<Vec2> points;
+  for (const Node& row : node.items) {
+    const Vec2 last = points.empty() ? Vec2(0, 0) : points.back(), point = number_pair(row);
+    if (&row == &node.items.front() && node.items.size() > 1 && point == last) continue;
+    if (!(point.array() > last.array()).all())
+      fail_expected(row, points.empty() ? "[overlap, pressure] > 0"
+                                        : "[overlap, pressure] above " + describe(*(&row - 1)) + ", the row before");
+    points.push_back(point);
+  }
+  return points;
+}
+
+ContactLaw read_law(const Node& node) {
+  ContactLaw law{.points = {Vec2(1, 0)}};
+  if (node.kind == Node::Kind::number)
+    law.points[0].y() = above(0).read(node);
+  else if (node.kind == Node::Kind::table)
+    read(node, power_law_keys(law.points[0], law.exponent));
+  else if (node.kind == Node::Kind::list && !node.items.empty())
+    law.points = read_law_table(node);
+  else
+    fail_expected(node, "a number > 0, a list of rows [overlap, pressure], or { pressure, overlap, exponent }");
+  return law;
+}
+
+// Of one that no file gave.
+std::string trouble_of_law(const ContactLaw& law) {
+  Vec2 last(0, 0);
+  bool grows = !law.points.empty() && (law.exponent == 1 || law.points.size() == 1);
+  for (const Vec2& point : law.points) {
+    grows = grows && point.allFinite() && (point.array() > last.array()).all();
+    last = point;
+  }
+  return grows ? from_to(1, 20).trouble(law.exponent)
+               : "expected points of overlap and pressure that grow from 0 on, one if there is an exponent";
+}
+
+Kind<ContactLaw> a_contact_law() {
+  Vec2 point;
+  double exponent = 1;
+  const Json table = list_of(list_of(a_number().schema, 2, 2), 1);
+  return {{{"oneOf", {above(0).schema, table, object_of(power_law_keys(point, exponent))}}}, read_law, trouble_of_law};
+}
+
 Keys fluid_keys(FluidSpec& fluid) {
   const Json pair = a_pair().schema;
   Key from{"from", either(pair, list_of(pair, 1)), "`[x, y]`, or a list of such: where it gets in"};
@@ -130,10 +182,11 @@ Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
       key("clearance", contact.clearance, a_field(use),
           "a length, which may be a function of place, that is added to a drawn or measured gap: + open, − overlap",
           "0"),
-      key("stiffness", contact.stiffness, above(0),
-          "$k$ > 0, stress over length: of rough surfaces or a thin layer, $p = k$ times what the sides overlap "
-          "(theory, "
-          "section 5). By the solvers `direct` and `feti`",
+      key("stiffness", contact.stiffness, a_contact_law(),
+          "of rough surfaces, a gasket or a thin layer: the pressure of what the sides overlap (theory, section 5). "
+          "$k$ > 0, stress over length: $p = k$ times that; `{ pressure, overlap, exponent }`: $p$ = pressure "
+          "(overlapped / overlap)^exponent, exponent from 1 to 20; `[[overlap, pressure], ...]`, both growing: $p$ "
+          "goes straight from 0 through these and on beyond the last. By the solvers `direct` and `feti`",
           "none: the sides do not overlap"),
       key("fluid", contact.fluid, a_fluid(),
           "`{ pressure, from }`: a fluid presses both faces apart with `pressure` from the places `from` (`[x, y]` or "

@@ -41,11 +41,13 @@ DualAnswers MultipointFactor::answers(const MatX& functionals, const MatX& loads
   return found;
 }
 
-std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& s, const std::vector<char>& closed) {
+std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& s, const std::vector<char>& closed,
+                                                       const VecX& compression) {
   if (const auto& multipoint = s.constraints.multipoint)
-    return std::make_shared<MultipointFactor>(multipoint->T, factorise_contact(independent_system(s), closed));
-  if (s.layers.K.cols() > 0) {
-    const SaddlePointSystem layered = layered_system(s);
+    return std::make_shared<MultipointFactor>(multipoint->T,
+                                              factorise_contact(independent_system(s), closed, compression));
+  if (!s.layers.laws.empty()) {
+    const SaddlePointSystem layered = layered_system(s, layer_stiffness(s.layers, compression));
     return std::make_shared<MultipointFactor>(without_layers(s.f.size(), layered.f.size()),
                                               factorise_contact(layered, closed));
   }
@@ -60,12 +62,13 @@ std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& 
 }
 
 std::shared_ptr<const ContactFactor> exact_factor(const SaddlePointSystem& system, const Solution& solution) {
-  return solution.solver == Solver::direct && solution.factor ? solution.factor
-                                                              : factorise_contact(system, solution.active);
+  const bool is_exact = solution.solver == Solver::direct && system.layers.are_linear();
+  return is_exact && solution.factor ? solution.factor
+                                     : factorise_contact(system, solution.active, solution.compression);
 }
 
 std::shared_ptr<const ContactFactor> contact_factor(const SaddlePointSystem& system, const Solution& solution) {
-  return solution.factor ? solution.factor : factorise_contact(system, solution.active);
+  return solution.factor ? solution.factor : factorise_contact(system, solution.active, solution.compression);
 }
 
 }  // namespace mortise

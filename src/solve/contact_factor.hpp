@@ -61,11 +61,13 @@ class MultipointFactor : public ContactFactor {
   std::shared_ptr<const ContactFactor> of_q_;
 };
 
-/// Of a system whose stiffness proved positive definite and whose closed rows are independent (a converged Solution).
-std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& system,
-                                                       const std::vector<char>& closed);
+/// Of a system whose stiffness proved positive definite and whose closed rows are independent (a converged Solution),
+/// with its layers as they give way from `compression` (l) on.
+std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& system, const std::vector<char>& closed,
+                                                       const VecX& compression = {});
 
-/// One whose answers are exact but for round-off: that of a direct solution, or one made for it.
+/// One whose answers are exact but for round-off: that of a direct solution whose layers are linear, or one made for
+/// it.
 std::shared_ptr<const ContactFactor> exact_factor(const SaddlePointSystem& system, const Solution& solution);
 
 /// That which the solution has, or one made for it where its solver has none (iterative ones).

@@ -1,9 +1,9 @@
 #include "solve/layered_system.hpp"
 
-#include <Eigen/SparseCholesky>
-
 namespace mortise {
 namespace {
+
+constexpr double least_slope = 1e-9;  // of a layer's largest: open contact may have none
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
@@ -21,9 +21,29 @@ SparseMatrix filled(Eigen::Index rows, Eigen::Index columns, const Triplets& ent
 
 }  // namespace
 
-SaddlePointSystem layered_system(const SaddlePointSystem& s) {
+VecX layer_forces(const SurfaceLayers& layers, const VecX& d) {
+  VecX forces = layers.weight;
+  int i = 0;
+  for (const auto& [law, end] : layers.laws)
+    for (; i < end; ++i) forces(i) *= law.pressure(d(i));
+  return forces;
+}
+
+VecX layer_stiffness(const SurfaceLayers& layers, const VecX& d) {
+  VecX slopes(d.size());
+  int first = 0;
+  for (const auto& [law, end] : layers.laws) {
+    auto of_layer = slopes.segment(first, end - first);
+    for (int i = 0; i < of_layer.size(); ++i) of_layer(i) = law.slope(d(first + i));
+    if (!law.is_linear()) of_layer = of_layer.cwiseMax(least_slope * of_layer.maxCoeff()).eval();
+    first = end;
+  }
+  return layers.weight.cwiseProduct(slopes);
+}
+
+SaddlePointSystem layered_system(const SaddlePointSystem& s, const VecX& stiffness) {
   const SurfaceLayers& layers = s.layers;
-  const Eigen::Index n = s.K.cols(), count = layers.K.cols(), all = n + count + count % 2;  // unknowns come in pairs
+  const Eigen::Index n = s.K.cols(), count = layers.B.cols(), all = n + count + count % 2;  // unknowns come in pairs
   SaddlePointSystem layered{.K = {},
                             .f = VecX::Zero(all),
                             .constraints = s.constraints,
@@ -36,9 +56,11 @@ SaddlePointSystem layered_system(const SaddlePointSystem& s) {
                             .start = {}};
   Triplets K, B;
   append(s.K, 0, 0, K);
-  append(layers.K, n, n, K);
   // Zeros, so that what looks for the parts of the matrix finds a layer in one with the body that it lies on.
-  for (int d = 0; d < int(count); ++d) K.emplace_back(int(n) + d, layers.beside[d], 0.0);
+  for (int d = 0; d < int(count); ++d) {
+    K.emplace_back(int(n) + d, int(n) + d, stiffness(d));
+    K.emplace_back(int(n) + d, layers.beside[d], 0.0);
+  }
   append(s.B, 0, 0, B);
   append(layers.B, 0, n, B);
   layered.K = filled(all, all, K);
@@ -50,10 +72,9 @@ SaddlePointSystem layered_system(const SaddlePointSystem& s) {
   return layered;
 }
 
-MatX layer_openings(const SurfaceLayers& layers, const MatX& lambda) {
-  if (layers.K.cols() == 0) return MatX::Zero(lambda.rows(), lambda.cols());
-  const Eigen::SimplicialLDLT<SparseMatrix> factor(layers.K);
-  return -(layers.B * factor.solve(layers.B.transpose() * lambda));
+MatX layer_openings(const SurfaceLayers& layers, const VecX& d, const MatX& lambda) {
+  if (layers.laws.empty()) return MatX::Zero(lambda.rows(), lambda.cols());
+  return -(layers.B * layer_stiffness(layers, d).cwiseInverse().asDiagonal() * (layers.B.transpose() * lambda));
 }
 
 SparseRows without_layers(Eigen::Index unknowns, Eigen::Index all) {

@@ -2,16 +2,31 @@
 // and lambda (B u - g) = 0; some unknowns prescribed.
 #pragma once
 
+#include <algorithm>
+
 #include "base/constraints.hpp"
+#include "model/contact_law.hpp"
 #include "solve/solution.hpp"
 
 namespace mortise {
 
-/// l compressions d of surface layers: unknowns of their own beside u (layered_system.hpp). None: all empty.
+/// The law of a layer: that of compressions before this end which are no earlier layer's.
+struct LayerLaw {
+  ContactLaw law;
+  int end;
+};
+
+/// l compressions d of surface layers, with the energy sum weight int_0^d p: unknowns of their own beside u
+/// (layered_system.hpp). None: all empty.
 struct SurfaceLayers {
-  SparseMatrix K;           ///< l x l, lower triangle, positive definite, stress units
+  std::vector<LayerLaw> laws;
+  VecX weight;              ///< l, length times depth
   SparseMatrix B;           ///< m x l: rows are B u + B_d d, length times depth
   std::vector<int> beside;  ///< l: an unknown of the body that each lies on
+
+  bool are_linear() const {
+    return std::ranges::all_of(laws, [](const LayerLaw& layer) { return layer.law.is_linear(); });
+  }
 };
 
 /// Unknowns come in pairs (2 i, 2 i + 1: one node). Any units: the system is made dimensionless by the two scales.

@@ -95,6 +95,7 @@ struct Solution {
   double force_residual = 0, constraint_residual = 0;
   double force_tolerance = 1e-10, constraint_tolerance = 1e-10;  ///< what the method was asked for
 
+  int layer_steps = 0;                 ///< linear layers, one after another, where their laws are not
   std::vector<ActiveSetStep> steps;    ///< one a solve of the contact problem
   int coarse_steps = 0;                ///< solves on coarse rows, to start from
   int interior_steps = 0;              ///< of the interior point, a factorisation each

@@ -66,6 +66,19 @@ TEST(Gradients, OfAnOpenPairAreZeroUntilItCloses) {
   EXPECT_EQ(found.between(0, 1), std::numeric_limits<double>::infinity());
 }
 
+// As of a layer with the slope that the law has there.
+TEST(Gradients, OfALawThatIsNotLinear) {
+  const double of_bodies = 0.3 * 1.3 * 0.4 / 0.7 * (1 / 70e9 + 1 / 210e9);
+  for (const char* solver : {"direct", "feti"}) {
+    const Gradients found = gradients_in(
+        "gap_close", {{"contact.0.stiffness", "{pressure=2e7, overlap=1e-5, exponent=2.5}"}, {"method.solver", solver}},
+        {{"contact.0.pressure.mean", {}}}, {{"boundary.2.displacement.y", -3e-4}});
+    const double p = found.values(0), overlap = 1e-5 * std::pow(p / 2e7, 0.4), slope = 2.5 * p / overlap;
+    EXPECT_NEAR(2e-4 - overlap, p * of_bodies, 1e-9 * 2e-4);
+    EXPECT_NEAR(found.derivatives(0, 0) * (of_bodies + 1 / slope), -1, 1e-8);
+  }
+}
+
 TEST(Gradients, ByTheMotionOfAContactCurve) {
   const double stiffness = 70e9 * 0.7 / (1.3 * 0.4 * 0.3);
   const Gradients found = gradients_in("gap_close", {{"boundary.2.on", "upper_contact"}},

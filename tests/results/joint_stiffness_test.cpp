@@ -48,7 +48,7 @@ void expect_close(const Eigen::Matrix3d& found, const Eigen::Matrix3d& expected,
 }
 
 // Two bars, 0.2 wide, one upon the other, 0.7 high together.
-Results two_bars(const BoundaryCondition& top, const std::optional<double>& layer = {},
+Results two_bars(const BoundaryCondition& top, const std::optional<ContactLaw>& layer = {},
                  Solver solver = Solver::direct) {
   Scene scene = bars({"lower", "upper"});
   scene.boundaries = {support({"lower_south"}, Displacement{0, 0}), support({"upper_north"}, top, true)};
@@ -176,8 +176,16 @@ TEST(JointStiffness, IsNoneWhereAMotionIsHeldThatNothingHolds) {
 
 TEST(JointStiffness, WithContactThatGivesWayIsThatOfSpringsInARow) {
   // The layer gives way as 1 more of a bar does, but for the 1e-9 that hold compressions where nothing faces.
+  const ContactLaw law{.points = {{1, young}}};
   for (const Solver solver : {Solver::direct, Solver::feti})
-    expect_close(stiffness_in(two_bars(Displacement{0, -1e-5}, young, solver)), bar_stiffness(0.2, 1.7, 0), 1e-9);
+    expect_close(stiffness_in(two_bars(Displacement{0, -1e-5}, law, solver)), bar_stiffness(0.2, 1.7, 0), 1e-9);
+}
+
+TEST(JointStiffness, WithALawThatIsNotLinearIsThatOfItsSlope) {
+  // Both bars are shortened by 0.7e-5, the layer by 0.5e-5: with p = c d^2 its slope is 2 p / d, that of 0.25 of a bar.
+  const ContactLaw law{.points = {{0.5e-5, 1e-5 * young}}, .exponent = 2};
+  for (const Solver solver : {Solver::direct, Solver::feti})
+    expect_close(stiffness_in(two_bars(Displacement{0, -1.2e-5}, law, solver)), bar_stiffness(0.2, 0.95, 0), 1e-7);
 }
 
 }  // namespace

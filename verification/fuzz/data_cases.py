@@ -133,6 +133,32 @@ def own_mesh(r, blocks):
     return "mesh.msh", mesh, cell not in (plates.TRI3, plates.QUAD4), plates.CELL_NAMES[cell]
 
 
+def draw_law(r, young):
+    """A number, a power or a table: overlaps of a hundredth to twice the blocks' own shortening at the mean pressure."""
+    overlap, pressure = STRAIN * 10 ** r.uniform(-2, 0.3), STRAIN * young
+    if r.random() < 0.2:
+        return pressure / overlap
+    if r.random() < 0.5:
+        return {"pressure": pressure, "overlap": overlap, "exponent": 1 + 6 * r.random() ** 2}
+    steps = [(0.1 + r.random(), 10 ** r.uniform(-1.5, 0.5)) for _ in range(r.randint(2, 5))]
+    sums = np.cumsum(steps, axis=0) * (overlap / 2, pressure / 2)
+    return [[float(d), float(p)] for d, p in sums]
+
+
+def gives_way(seed, number, scene, blocks, young):
+    """What the contact of these cases is besides: of a part of them it gives way, or a fluid gets into it from its left end."""
+    r = random.Random(f"{seed}:data:{number // SHARED}:pair")
+    pair, drawn = scene["contact"][0], r.random()
+    if drawn < 0.25:
+        pair["stiffness"] = draw_law(r, young)
+        return ", gives way"
+    if drawn < 0.35:
+        start = [blocks.start, float(blocks.line(blocks.start))]
+        pair["fluid"] = {"pressure": STRAIN * young * 10 ** r.uniform(-2, -0.1), "from": start}
+        return ", wet"
+    return ""
+
+
 def make_data(seed, number):
     r = random.Random(f"{seed}:data:{number // SHARED}")
     (blocks, plane), young = draw_blocks(r), r.choice((1.0, 7e4, 2.1e11))
@@ -145,7 +171,7 @@ def make_data(seed, number):
         feature, files["f.csv"] = place_functions.sampled(feature, blocks.start, blocks.top)
         scene["fields"] = {"f": {"file": "f.csv"}}
     put(r, scene, key, body, young, feature)
-    what = f"{feature.name} of width {feature.width:.2g} in {key}, {blocks.shape}"
+    what = f"{feature.name} of width {feature.width:.2g} in {key}, {blocks.shape}" + gives_way(seed, number, scene, blocks, young)
     case = held_case("data", what, key, scene, drawing, number, seed, lambda r: own_mesh(r, blocks))
     text = {"scene.toml": scene_text(scene, "mesh.msh")} | files
     case.reference = lambda *how: text | {"mesh.msh": reference_mesh(blocks, plane, feature, key, *how)}
