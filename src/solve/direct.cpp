@@ -48,6 +48,7 @@ class Passes {
     const bool exact = largest(solution_.force_residual, solution_.constraint_residual) < 1e-11;
     if (solution_.status != SolveStatus::converged || (pass_ > 0 && !infeasible_ && !exact)) return false;
     infeasible_ = is_infeasible(s_, solution_, tension_);
+    if (!exact && !infeasible_) feasible_ = solution_;
     ++pass_;
     return !exact || infeasible_;
   }
@@ -68,7 +69,10 @@ class Passes {
           1e-12 * largest(largest_entry(s_.constraints.value), loads_.displacement(factor_, rhs.size(), load, y));
     }
     ActiveSetResult set = find_active_set(problem_, rhs, pass_ > 0 ? solution_.active : s_.start);
-    if (pass_ > 0 && set.status != SolveStatus::converged) return {};  // those before stay; the checks look at them
+    if (pass_ > 0 && set.status != SolveStatus::converged) {  // those before stay; the checks look at them
+      if (feasible_) solution_ = *std::exchange(feasible_, {});
+      return {};
+    }
     take_active_set(s_, set, solution_);
     if (pass_ == 0) tension_ = s_.stiffness_scale * set.negligible_tension;
     if (is_without_solution(solution_)) return {};
@@ -86,6 +90,9 @@ class Passes {
   Solution& solution_;
   int pass_ = 0;
   bool infeasible_ = false;
+  /// What is refined, where its rows are as they must be: what it leaves of the forces on a body without load, round-off
+  /// of the others', may pull at rows that the refinement keeps closed.
+  std::optional<Solution> feasible_;
   double tension_ = 0;  // that is round-off, as the first pass has it
 };
 
