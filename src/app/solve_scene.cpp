@@ -151,9 +151,7 @@ namespace {
 // The motions that the solver left free, too: what holds them counts as prescribed.
 void find_unheld(Results& r) {
   Problem& p = r.problem;
-  std::vector<std::vector<RigidMotion>> free;
-  for (const auto& mode : r.solution.rigid_modes.colwise())
-    free.push_back(motion_through(p.mesh, p.floating.motions, p.floating.grounded, mode));
+  const auto free = motions_through(p.mesh, p.floating.motions, p.floating.grounded, r.solution.rigid_modes);
   append_lines(r.warnings, held_lines(p.mesh, free));
   r.unheld = p.held;
   r.unheld.insert(r.unheld.end(), free.begin(), free.end());
@@ -187,6 +185,8 @@ Solution solve_wet(SystemSolver& solver, Problem& p) {
 void solve_problem(SystemSolver& solver, const Progress& progress, Results& r) {
   Problem& p = r.problem;
   Stopwatch watch;
+  if (r.nodes.empty()) r.nodes = contact_nodes(p);  // before motions are held
+  const double nodes_seconds = watch.lap();
   if (progress) progress("solve for " + std::to_string(free_unknowns(r)) + " unknowns");
   r.solution = solve_wet(solver, p);
   require_solution(p, r.solution);
@@ -195,9 +195,9 @@ void solve_problem(SystemSolver& solver, const Progress& progress, Results& r) {
   r.seconds.solve = watch.lap() - r.seconds.factorise;
 
   if (progress) progress("recover");
-  r.recovery = recover(p, r.solution);
+  r.recovery = recover(p, r.nodes, r.solution);
   judge(r);
-  r.seconds.recover = watch.lap();
+  r.seconds.recover = nodes_seconds + watch.lap();
 }
 
 void take_problem(Problem&& problem, Results& r) {
@@ -232,6 +232,7 @@ bool CaseSolver::take(const Scene& scene) {
   results_.problem = std::move(before.problem);
   results_.memory = std::move(before.memory);
   results_.audited = std::move(before.audited);
+  results_.nodes = std::move(before.nodes);
   results_.problem.discretisation.system.constraints.fixed = fixed_;
   check_ranges(scene);
   load_fields(scene);

@@ -66,7 +66,7 @@ std::string unconstrained(const Problem& p, const Solution& solution) {
           : "; expected a load that presses it on, or prescribed displacements that hold it" +
                 (solution.advice.empty() ? std::string() : " (" + solution.advice + ")");
   if (solution.driven_mode.size() == 0) return "contact opens until nothing holds a body" + expected;
-  const auto motion = motion_through(p.mesh, p.floating.motions, p.floating.grounded, solution.driven_mode);
+  const auto motion = motions_through(p.mesh, p.floating.motions, p.floating.grounded, solution.driven_mode)[0];
   return "nothing holds " + describe(p.mesh, motion) + ": the load moves it away from the contact" + expected;
 }
 

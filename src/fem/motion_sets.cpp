@@ -72,11 +72,11 @@ MatX motions_at(const MotionSet& set, const std::vector<int>& unknowns) {
   return at;
 }
 
-std::vector<RigidMotion> motion_through(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions,
-                                        const std::vector<int>& unknowns, const VecX& values) {
-  VecX parts(values.size());
-  for (const MotionSet& set : motion_sets(mesh, motions))
-    parts(set.motions) = solve_square(motions_at(set, unknowns), values(set.motions));
+namespace {
+
+// `parts`: of each motion.
+std::vector<RigidMotion> combined(const std::vector<std::vector<RigidMotion>>& motions, const VecX& parts,
+                                  const BodyFrames& frames) {
   std::map<int, RigidMotion> sum;  // by body
   for (std::size_t m = 0; m < motions.size(); ++m)
     for (const RigidMotion& motion : motions[m]) {
@@ -84,7 +84,6 @@ std::vector<RigidMotion> motion_through(const Mesh& mesh, const std::vector<std:
       total.translation += parts(m) * motion.translation;
       total.rotation += parts(m) * motion.rotation;
     }
-  const BodyFrames frames = body_frames(mesh, body_points(mesh));
   double size = 0, turning = 0;
   for (const auto& [body, motion] : sum) {
     size = std::max(size, motion.translation.norm());
@@ -104,6 +103,21 @@ std::vector<RigidMotion> motion_through(const Mesh& mesh, const std::vector<std:
     result.push_back(motion);
   }
   return result;
+}
+
+}  // namespace
+
+std::vector<std::vector<RigidMotion>> motions_through(const Mesh& mesh,
+                                                      const std::vector<std::vector<RigidMotion>>& motions,
+                                                      const std::vector<int>& unknowns, const MatX& values) {
+  std::vector<std::vector<RigidMotion>> through;
+  if (values.cols() == 0) return through;
+  MatX parts(values.rows(), values.cols());
+  for (const MotionSet& set : motion_sets(mesh, motions))
+    parts(set.motions, Eigen::all) = inverse_of(motions_at(set, unknowns)) * values(set.motions, Eigen::all);
+  const BodyFrames frames = body_frames(mesh, body_points(mesh));
+  for (const auto& of_one : parts.colwise()) through.push_back(combined(motions, of_one, frames));
+  return through;
 }
 
 }  // namespace mortise

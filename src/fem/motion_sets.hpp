@@ -25,8 +25,10 @@ MatX motions_at(const MotionSet& set, const std::vector<int>& unknowns);
 std::vector<int> grounding_unknowns(const Mesh& mesh, const Constraints& constraints,
                                     const std::vector<std::vector<RigidMotion>>& motions);
 
-/// The combination of `motions` in which the grounded `unknowns` move by `values`, of unit size. One entry a body.
-std::vector<RigidMotion> motion_through(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions,
-                                        const std::vector<int>& unknowns, const VecX& values);
+/// For each column of `values` the combination of `motions` in which the grounded `unknowns` move by it, of unit size.
+/// One entry a body.
+std::vector<std::vector<RigidMotion>> motions_through(const Mesh& mesh,
+                                                      const std::vector<std::vector<RigidMotion>>& motions,
+                                                      const std::vector<int>& unknowns, const MatX& values);
 
 }  // namespace mortise

@@ -35,10 +35,12 @@ bool same_rows(const Coupling& a, const Coupling& b) {
   return a.row == b.row && a.scale == b.scale && a.B.nonZeros() == b.B.nonZeros() && (a.B - b.B).norm() == 0;
 }
 
-// The gap of a pair, and its rows with it; false where these are others. Prescribed displacements may leave out rows,
-// too.
+// The gap of a pair, and its rows with it; false where these are others. What of rows is left out may hang on
+// prescribed displacements where both sides' are.
 bool take_gap(const ContactSpec& spec, const Problem& p, ContactPair& of) {
-  if (of.spec.gap == spec.gap && of.spec.clearance == spec.clearance && of.coupling.dropped.empty()) return true;
+  if (of.spec.gap == spec.gap && of.spec.clearance == spec.clearance &&
+      std::ranges::none_of(of.coupling.dropped, &DroppedMultiplier::faces))
+    return true;
   ContactPair pair = of;
   pair.spec.gap = spec.gap;
   pair.spec.clearance = spec.clearance;

@@ -16,99 +16,21 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-struct CurveNode {
-  int node;
-  double s;
-  Place place;  // on one of the edges that meet at the node
-  Vec2 normal;  // mean of the edges' normals there
-};
-
-// An end on a symmetry plane continues as its mirror image: the mean normal vanishes along what is prescribed.
-Vec2 mirrored(const Vec2& n, const Constraints& constraints, int node) {
-  Vec2 m = n;
-  for (const Vec2& d : prescribed_directions(constraints, node)) m -= m.dot(d) * d;
-  return m.norm() > 1e-3 ? m.normalized() : n;
-}
-
-// `line`: whose normals are taken instead of the edges'.
-std::vector<CurveNode> nodes_along(const Mesh& mesh, const Curve& curve, const Constraints& constraints,
-                                   const ContactLine* line) {
-  const auto normal_at = [&](int e, double xi) {
-    return line ? line->at(e, xi).normal() : edge_point(mesh.nodes, curve.edges[e], xi).normal();
-  };
-  std::vector<CurveNode> list;
-  double s = 0;
-  for (int e = 0; e < int(curve.edges.size()); ++e) {
-    const Edge& edge = curve.edges[e];
-    const Vec2 n = normal_at(e, -1);
-    if (e == 0) {
-      list.push_back({edge.nodes[0], s, {e, -1}, n});
-    } else {
-      list.back().normal = (list.back().normal + n).normalized();
-    }
-    const double length = edge_length(mesh.nodes, edge);
-    if (edge.node_count == 3)  // the part of the length before the middle node: the same rule on half the edge
-      list.push_back({edge.nodes[2], s + length_to(mesh.nodes, edge, 0), {e, 0}, normal_at(e, 0)});
-    s += length;
-    list.push_back({edge.nodes[1], s, {e, 1}, normal_at(e, 1)});
-  }
-  if (curve.closed) {
-    list.front().normal = (list.front().normal + list.back().normal).normalized();
-    list.pop_back();
-  } else {
-    for (CurveNode* end : {&list.front(), &list.back()}) end->normal = mirrored(end->normal, constraints, end->node);
-  }
-  return list;
-}
-
-// Where the multiplier side's normal passes through a node of the opposite side, near its nearest node there.
-std::optional<Place> foot_of(const Mesh& mesh, const Curve& multiplier, const std::vector<CurveNode>& along,
-                             const Vec2& x) {
-  const auto nearest = std::min_element(along.begin(), along.end(), [&](const CurveNode& a, const CurveNode& b) {
-    return (mesh.nodes.row(a.node).transpose() - x).squaredNorm() <
-           (mesh.nodes.row(b.node).transpose() - x).squaredNorm();
-  });
-  std::optional<Place> best;
-  double distance = std::numeric_limits<double>::infinity();
-  const int count = int(multiplier.edges.size());
-  for (int step = -1; step <= 1; ++step) {
-    int e = nearest->place.edge + step;
-    if (multiplier.closed) e = (e + count) % count;
-    if (e < 0 || e >= count) continue;
-    const auto xi = foot_on_edge(mesh.nodes, multiplier.edges[e], x);
-    if (!xi) continue;
-    const double d = (edge_point(mesh.nodes, multiplier.edges[e], *xi).position - x).norm();
-    if (d < distance) {
-      distance = d;
-      best = Place{e, *xi};
-    }
-  }
-  // Between two edges' normals, or at the very node: the node itself, unless it is an end that lies off to the side.
-  const Vec2 away = x - mesh.nodes.row(nearest->node).transpose();
-  const double sideways = std::abs(away.x() * nearest->normal.y() - away.y() * nearest->normal.x());
-  const double size = edge_length(mesh.nodes, multiplier.edges[nearest->place.edge]);
-  if (away.norm() < distance && sideways < 0.1 * size) best = nearest->place;
-  return best;
-}
-
 double normal_stress(const Eigen::Ref<const Eigen::RowVector4d>& s, const Vec2& n) {
   return s(0) * n.x() * n.x() + s(1) * n.y() * n.y() + 2 * s(3) * n.x() * n.y();
 }
 
 // `nodes`: of the same side, in the curve's order.
-std::vector<ContactCentre> centre_results(const Mesh& mesh, const Curve& curve, const std::vector<ContactNode>& nodes,
-                                          const StressField& stress) {
+std::vector<ContactCentre> centre_results(const Curve& curve, const std::vector<EdgeMiddle>& middles,
+                                          const std::vector<ContactNode>& nodes, const StressField& stress) {
   const auto p = [&](std::size_t k) { return nodes[k % nodes.size()].p; };
   std::vector<ContactCentre> list;
-  double s = 0;
   for (std::size_t e = 0; e < curve.edges.size(); ++e) {
-    const EdgePoint middle = edge_point(mesh.nodes, curve.edges[e], 0);
+    const EdgeMiddle& middle = middles[e];
     const auto row = stress.centres.row(curve.sides[e].cell);
     const double mean =
         curve.edges[e].node_count == 2 ? (p(e) + p(e + 1)) / 2 : (p(2 * e) + 4 * p(2 * e + 1) + p(2 * e + 2)) / 6;
-    list.push_back({s + length_to(mesh.nodes, curve.edges[e], 0), middle.position, mean,
-                    normal_stress(row, middle.normal()), row(1)});
-    s += edge_length(mesh.nodes, curve.edges[e]);
+    list.push_back({middle.s, middle.position, mean, normal_stress(row, middle.normal), row(1)});
   }
   return list;
 }
@@ -146,73 +68,50 @@ struct Asked {
   const StressField& stress;
   const VecX &u, &pressure, &fluid;
 
-  // A node's stresses, and u_n along `normal`.
-  ContactNode node(const CurveNode& at, int body, const Vec2& normal) const {
+  ContactNode node(const FacingNode& at, int body) const {
     const auto s = stress.points.row(point_of(points, body, at.node));
+    const bool on_line = at.on_multiplier.edge >= 0;
+    const double p = on_line ? interpolate(pair, pressure, at.on_multiplier) : 0;
     return {.node = at.node,
             .s = at.s,
             .position = mesh.nodes.row(at.node).transpose(),
-            .normal = normal,
-            .u_n = u.segment<2>(2 * at.node).dot(normal),
-            .p = nan,
-            .gap = nan,
-            .sigma_n = normal_stress(s, at.normal),
-            .sigma_2 = s(1)};
+            .normal = at.normal,
+            .u_n = u.segment<2>(2 * at.node).dot(at.normal),
+            .p = p,
+            .gap = at.faces ? gap(*at.faces, at.normal) : nan,
+            .sigma_n = normal_stress(s, at.own_normal),
+            .sigma_2 = s(1),
+            .on_multiplier = at.on_multiplier,
+            .p_multiplier = p,
+            .p_fluid = on_line ? interpolate(pair, fluid, at.on_multiplier) : 0};
   }
 
-  double initial_gap(const Line& line, const Place& at, const Hit& hit) const {
-    return pair.spec.initial_gap == InitialGap::closed ? 0 : pair.geometry.initial_gap(line, at, hit);
+  // Deformed.
+  double gap(const FacingPlaces& at, const Vec2& normal) const {
+    const auto& [own, line, hit] = at;
+    const double undeformed =
+        pair.spec.initial_gap == InitialGap::closed ? 0 : pair.geometry.initial_gap(line, own, hit);
+    const auto moved = [&](const Curve& curve, int edge, double xi) {
+      return edge_value(u, curve.edges[edge], xi).dot(normal);
+    };
+    return undeformed + moved(pair.opposite, hit.edge, hit.xi) - moved(pair.multiplier, own.edge, own.xi);
+  }
+
+  ContactSide side(const Curve& curve, const CurveNodes& along) const {
+    ContactSide found;
+    found.curve = mesh.boundaries[curve.boundary].name;
+    for (const FacingNode& at : along.nodes) found.nodes.push_back(node(at, curve.body));
+    found.centres = centre_results(curve, along.middles, found.nodes, stress);
+    return found;
   }
 };
 
-ContactNode on_multiplier_side(const Asked& asked, const CurveNode& at) {
-  const ContactPair& pair = asked.pair;
-  ContactNode n = asked.node(at, pair.multiplier.body, at.normal);
-  n.p = n.p_multiplier = interpolate(pair, asked.pressure, at.place);
-  n.p_fluid = interpolate(pair, asked.fluid, at.place);
-  n.on_multiplier = at.place;
-  const Line line{n.position, at.normal, deepest_overlap(pair.multiplier, at.place.edge)};
-  if (const auto hit = project_onto_curve(asked.mesh.nodes, pair.opposite, line)) {
-    const Vec2 other = edge_value(asked.u, pair.opposite.edges[hit->edge], hit->xi);
-    n.gap = asked.initial_gap(line, at.place, *hit) + other.dot(at.normal) - n.u_n;
-  }
-  return n;
-}
-
-// `along`: the nodes of the multiplier side.
-ContactNode on_opposite_side(const Asked& asked, const CurveNode& at, const std::vector<CurveNode>& along) {
-  const Points& nodes = asked.mesh.nodes;
-  const ContactPair& pair = asked.pair;
-  const Vec2 x = nodes.row(at.node).transpose();
-  const auto foot = foot_of(asked.mesh, pair.multiplier, along, x);
-  if (!foot) {
-    ContactNode n = asked.node(at, pair.opposite.body, -at.normal);
-    n.p = n.p_multiplier = 0;
-    return n;
-  }
-  const Edge& edge = pair.multiplier.edges[foot->edge];
-  const Line line = pair.geometry.line_from(nodes, pair.multiplier, *foot);
-  // At a vertex of the multiplier side its mean normal, as in that side's own rows.
-  const auto vertex = std::find_if(along.begin(), along.end(), [&](const CurveNode& c) {
-    return (nodes.row(c.node).transpose() - line.x).norm() < 1e-9 * edge_length(nodes, edge);
-  });
-  const Vec2 normal = vertex != along.end() ? vertex->normal : line.n;
-  ContactNode n = asked.node(at, pair.opposite.body, normal);
-  n.p = n.p_multiplier = interpolate(pair, asked.pressure, *foot);
-  n.p_fluid = interpolate(pair, asked.fluid, *foot);
-  n.on_multiplier = *foot;
-  const Hit own{at.place.edge, at.place.xi, (x - line.x).dot(normal)};
-  n.gap = asked.initial_gap({line.x, normal, line.depth}, *foot, own) + n.u_n -
-          edge_value(asked.u, edge, foot->xi).dot(normal);
-  return n;
-}
-
 // Both curves keep their bodies on the left, so they run against each other.
-void run_together(const Points& nodes, const ContactPair& pair, ContactResults& r) {
-  if (runs_backwards(nodes, pair.multiplier))
-    reverse(r.multiplier, r.length);
+void run_together(bool multiplier_runs_backwards, const ContactNodes& nodes, ContactResults& r) {
+  if (multiplier_runs_backwards)
+    reverse(r.multiplier, nodes.multiplier.length);
   else
-    reverse(r.opposite, curve_length(nodes, pair.opposite));
+    reverse(r.opposite, nodes.opposite.length);
 }
 
 void set_extremes(ContactResults& r) {
@@ -270,30 +169,19 @@ Resultant force_on_multiplier_side(const Points& nodes, const Coupling& coupling
 
 }  // namespace
 
-ContactResults contact_results(const Problem& problem, const ContactPair& pair, const StressField& stress,
-                               const Solution& solution) {
+ContactResults contact_results(const Problem& problem, const ContactPair& pair, const ContactNodes& nodes,
+                               const StressField& stress, const Solution& solution) {
   const Mesh& mesh = problem.mesh;
-  const Constraints& constraints = problem.discretisation.system.constraints;
   const VecX lambda = solution.lambda.segment(pair.first_row, pair.coupling.B.rows());
-  const ContactGeometry& geometry = pair.geometry;
-  const auto along =
-      nodes_along(mesh, pair.multiplier, constraints, geometry.normals ? &*geometry.multiplier : nullptr);
-  const auto facing = nodes_along(mesh, pair.opposite, constraints, geometry.normals ? &*geometry.opposite : nullptr);
   ContactResults r;
   r.pressure = 0 - multiplier_values(pair.coupling, lambda).array();  // 0 - 0 is 0, -0 is not
   const VecX of_fluid = fluid_rows(problem, pair), fluid = multiplier_values(pair.coupling, of_fluid);
   const Asked asked{mesh, pair, problem.points, stress, solution.u, r.pressure, fluid};
-
-  r.multiplier.curve = mesh.boundaries[pair.multiplier.boundary].name;
-  for (const CurveNode& at : along) r.multiplier.nodes.push_back(on_multiplier_side(asked, at));
-  r.multiplier.centres = centre_results(mesh, pair.multiplier, r.multiplier.nodes, stress);
-
-  r.opposite.curve = mesh.boundaries[pair.opposite.boundary].name;
-  for (const CurveNode& at : facing) r.opposite.nodes.push_back(on_opposite_side(asked, at, along));
-  r.opposite.centres = centre_results(mesh, pair.opposite, r.opposite.nodes, stress);
-
-  r.length = curve_length(mesh.nodes, pair.multiplier);
-  run_together(mesh.nodes, pair, r);
+  r.multiplier = asked.side(pair.multiplier, nodes.multiplier);
+  r.opposite = asked.side(pair.opposite, nodes.opposite);
+  r.length = nodes.multiplier.length;
+  const bool backwards = runs_backwards(mesh.nodes, pair.multiplier);
+  run_together(backwards, nodes, r);
   r.p_least = least_pressure(pair, r.pressure);
   set_extremes(r);
   r.p_mean = mean_pressure(pair, r.pressure);
@@ -304,8 +192,7 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
                       : length_in_contact(mesh.nodes, pair, r.pressure, fluid, round_off);
   r.length_in_contact = in_contact.length;
   r.ends = in_contact.ends;
-  if (r.ends && runs_backwards(mesh.nodes, pair.multiplier))
-    r.ends = {r.length - (*in_contact.ends)[1], r.length - (*in_contact.ends)[0]};
+  if (r.ends && backwards) r.ends = {r.length - (*in_contact.ends)[1], r.length - (*in_contact.ends)[0]};
   const Resultant sum = force_on_multiplier_side(mesh.nodes, pair.coupling, lambda);
   r.force = sum.force;
   r.moment = sum.moment;

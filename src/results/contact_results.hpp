@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "fem/stress.hpp"
-#include "problem/problem.hpp"
+#include "results/contact_nodes.hpp"
 
 namespace mortise {
 
@@ -69,9 +69,9 @@ struct ContactResults {
 };
 
 /// s runs along both curves from the end of the multiplier side with the smaller x (then y).
-/// `pair`: one of the problem's.
-ContactResults contact_results(const Problem& problem, const ContactPair& pair, const StressField& stress,
-                               const Solution& solution);
+/// `pair`: one of the problem's, with its nodes.
+ContactResults contact_results(const Problem& problem, const ContactPair& pair, const ContactNodes& nodes,
+                               const StressField& stress, const Solution& solution);
 
 /// p* (error/pressure_form.hpp) into the nodes and the extremes of p. The multiplier's p stays at the centres and
 /// where p* is not known.

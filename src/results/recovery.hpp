@@ -18,7 +18,7 @@ struct Recovery {
   std::vector<ProbeValue> probes;
 };
 
-/// `solution`: converged or not.
-Recovery recover(const Problem& problem, const Solution& solution);
+/// `nodes`: one a pair. `solution`: converged or not.
+Recovery recover(const Problem& problem, const std::vector<ContactNodes>& nodes, const Solution& solution);
 
 }  // namespace mortise

@@ -61,6 +61,7 @@ struct Results {
   Problem problem;  ///< held motions (validate.hpp) count as prescribed
   std::shared_ptr<EstimateMemory> memory = std::make_shared<EstimateMemory>();  ///< of estimates on its mesh
   std::shared_ptr<AuditMemory> audited = std::make_shared<AuditMemory>();       ///< of audits likewise
+  std::vector<ContactNodes> nodes;                                              ///< of the pairs, likewise
   Solution solution;
   std::vector<std::vector<RigidMotion>> unheld;  ///< that nothing holds and no load drives: held, or zero
   Recovery recovery;

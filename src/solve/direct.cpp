@@ -90,8 +90,8 @@ class Passes {
   Solution& solution_;
   int pass_ = 0;
   bool infeasible_ = false;
-  /// What is refined, where its rows are as they must be: what it leaves of the forces on a body without load, round-off
-  /// of the others', may pull at rows that the refinement keeps closed.
+  /// What is refined, where its rows are as they must be: what it leaves of the forces on a body without load,
+  /// round-off of the others', may pull at rows that the refinement keeps closed.
   std::optional<Solution> feasible_;
   double tension_ = 0;  // that is round-off, as the first pass has it
 };
