@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "error/data_works.hpp"
 #include "error/fitted_pressure.hpp"
 #include "error/gap_error.hpp"
 #include "error/missed_contact.hpp"
@@ -197,6 +198,17 @@ void add_far_errors(const Mesh& mesh, ErrorEstimate& estimate) {
   }
 }
 
+// A column a dual, the sum of its windows, in the rows of all pairs.
+MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
+                        const SharedDuals& shared, Eigen::Index rows) {
+  MatX columns = MatX::Zero(rows, shared.count);
+  int window = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (const PressureWindow& w : pressures[k].windows)
+      columns.col(shared.dual[window++]).segment(pairs[k].first_row, w.weights.size()) += w.weights;
+  return columns;
+}
+
 // A column a dual: those that the windows share, those wanted besides, the goal's.
 MatX all_functionals(const Problem& p, const GoalFunctionals& goal, const MatX& also, const ErrorEstimate& estimate) {
   const Eigen::Index rows = p.discretisation.system.B.rows();
@@ -216,8 +228,11 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
   const Eigen::Index shared = estimate.far.windows.count, goals = goal.rows.cols(), more = options.also.cols();
   CornerProducts at_corners(p.mesh, p.discretisation.laws, estimate.tails.corners);
   MatX kept(more + goals > 0 ? solution.u.size() : 0, more + goals);
+  MatX works(Eigen::Index(p.misfits.parts.size()), functionals.cols());
   const auto see = [&](Eigen::Index first, const MatX& fields) {
     at_corners.add(fields);
+    if (works.rows() > 0)
+      works.middleCols(first, fields.cols() - 1) = data_works(p, solution.u, fields.rightCols(fields.cols() - 1));
     for (Eigen::Index k = std::max(first, shared); k < first + fields.cols() - 1; ++k)
       kept.col(k - shared) = fields.col(1 + k - first);
   };
@@ -233,6 +248,9 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
         line_parts(p.pairs, estimate.pressures, kept.rightCols(goals), options.spec.pair, goal.opening);
   }
   if (!has_duals) return;
+  estimate.data_works.resize(works.rows(), shared + goals);
+  estimate.data_works.leftCols(shared) = works.leftCols(shared);
+  estimate.data_works.rightCols(goals) = works.rightCols(goals);
   const MatX tails = at_corners.tails();
   estimate.tails.parts = tails.middleCols(1, shared);
   estimate.tails.goal = tails.rightCols(goals);
@@ -249,16 +267,6 @@ void require_pair(const AccuracySpec& spec, std::size_t count) {
 }
 
 }  // namespace
-
-MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
-                        const SharedDuals& shared, Eigen::Index rows) {
-  MatX columns = MatX::Zero(rows, shared.count);
-  int window = 0;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    for (const PressureWindow& w : pressures[k].windows)
-      columns.col(shared.dual[window++]).segment(pairs[k].first_row, w.weights.size()) += w.weights;
-  return columns;
-}
 
 double ErrorEstimate::peak() const {
   double p = 0, bar = std::numeric_limits<double>::quiet_NaN();

@@ -37,6 +37,7 @@ struct ErrorEstimate {
   CornerTails tails;
   std::optional<GoalEstimate> goal;  ///< where one is asked for
   FoundDuals also;                   ///< of further functionals; corners are in their sums
+  MatX data_works;                   ///< misfits of data x (duals of windows, then the goal's): data_works.hpp
 
   /// L2 norms of the estimated error of p over that of p on all contact lines, singular points left out: of the whole,
   /// and of its two parts before the safety factor. NaN where nothing is loaded or all is excluded.
@@ -62,10 +63,5 @@ struct EstimateOptions {
 /// SceneError as goal_functionals does.
 ErrorEstimate estimate_error(const Problem& problem, const Solution& solution, EstimateMemory& memory,
                              const EstimateOptions& options = {});
-
-/// For what adds to an estimate (error/data_estimate.hpp). A column a dual, the sum of its windows, in the rows of all
-/// pairs.
-MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
-                        const SharedDuals& shared, Eigen::Index rows);
 
 }  // namespace mortise
