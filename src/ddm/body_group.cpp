@@ -29,11 +29,11 @@ BodyGroup::BodyGroup(const SaddlePointSystem& s, const std::vector<char>& member
   load = answer(load_of(s));
 }
 
-BodyGroup::Answer BodyGroup::answer(const VecX& force) const {
-  Answer to{.y = factor_->forward(force(free_)), .response = {}, .work = {}};
-  const VecX all = factor_->at_border(to.y);
-  to.response = all.head(all.size() - motions);
-  to.work = all.tail(motions);
+BodyGroup::Answer BodyGroup::answer(const MatX& forces) const {
+  Answer to{.y = factor_->forward(forces(free_, Eigen::all)), .response = {}, .work = {}};
+  const MatX all = factor_->at_border(to.y);
+  to.response = all.topRows(all.rows() - motions);
+  to.work = all.bottomRows(motions);
   return to;
 }
 
@@ -41,15 +41,16 @@ MatX BodyGroup::motion_shapes(Eigen::Index unknowns) const {
   const Eigen::Index rows = C.rows();
   MatX border = MatX::Zero(rows + motions, motions), R = MatX::Zero(unknowns, motions);
   border.bottomRows(motions) = -MatX::Identity(motions, motions);
-  const MatX shapes = factor_->backward(factor_->forward(VecX::Zero(free_.size())).replicate(1, motions), border);
+  const MatX shapes = factor_->backward(factor_->forward(MatX::Zero(Eigen::Index(free_.size()), motions)), border);
   for (std::size_t i = 0; i < free_.size(); ++i) R.row(free_[i]) = shapes.row(i);
   return R;
 }
 
-void BodyGroup::add_displacements(const Answer& forces, const VecX& lambda, const VecX& mu, VecX& u) const {
-  VecX border(lambda.size() + mu.size());
-  border << lambda, mu;
-  u(free_) += factor_->backward(forces.y, border);
+void BodyGroup::add_displacements(const Answer& forces, const MatX& lambda, const MatX& mu, Eigen::Ref<MatX> u) const {
+  MatX border(lambda.rows() + mu.rows(), u.cols());
+  border.topRows(lambda.rows()) = lambda;
+  border.bottomRows(mu.rows()) = mu;
+  u(free_, Eigen::all) += factor_->backward(forces.y, border);
 }
 
 }  // namespace mortise

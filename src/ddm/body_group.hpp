@@ -28,9 +28,9 @@ class BodyGroup {
   MatX compliance;           ///< (m + s) x (m + s), lower triangle: [C; H^T, .]
   MatX C, H;                 ///< m x m (full), m x s
 
-  /// What forces do to the free group: y = L^-1 f for the displacements, response (m), work (s).
+  /// What forces do to the free group, a column each: y = L^-1 f for the displacements, response (m), work (s).
   struct Answer {
-    VecX y, response, work;
+    MatX y, response, work;
   };
   Answer load;  ///< to the system's own
 
@@ -38,11 +38,11 @@ class BodyGroup {
   bool has(int unknown) const { return std::binary_search(free_.begin(), free_.end(), unknown); }
 
   /// To forces on its unknowns, n, over the stiffness scale.
-  Answer answer(const VecX& force) const;
+  Answer answer(const MatX& forces) const;
   /// R on a system's n unknowns, n x s.
   MatX motion_shapes(Eigen::Index unknowns) const;
-  /// Adds the group's displacements under forces and the multipliers to u (n, length).
-  void add_displacements(const Answer& forces, const VecX& lambda, const VecX& mu, VecX& u) const;
+  /// Adds the group's displacements under forces and the multipliers to u (n, length), column by column.
+  void add_displacements(const Answer& forces, const MatX& lambda, const MatX& mu, Eigen::Ref<MatX> u) const;
 
  private:
   std::vector<int> free_;

@@ -1,8 +1,10 @@
 #include "ddm/closed_rows.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "base/columns.hpp"
+#include "ddm/solve_together.hpp"
 #include "solve/contact_rows.hpp"
 
 namespace mortise {
@@ -139,79 +141,129 @@ void ClosedRows::hold_motions() {
   free_motions = told_apart(std::move(found));
 }
 
-VecX ClosedRows::coarse(VecX b) const {
+MatX ClosedRows::coarse(MatX b) const {
   if (b.size() == 0) return b;
-  b(free_).setZero();
-  return coarse_.solve(b);
+  b(free_, Eigen::all).setZero();
+  return solve_together(coarse_, b);
 }
 
 // lambda, changed on closed rows until the parts are in balance.
-VecX ClosedRows::balanced(VecX lambda, const VecX& h) const {
+MatX ClosedRows::balanced(MatX lambda, const MatX& h) const {
   lambda = on_closed(lambda);
-  for (int pass = 0; pass < 2; ++pass) lambda += weights_.cwiseProduct(system_.H * coarse(h - resultants(lambda)));
+  for (int pass = 0; pass < 2; ++pass)
+    lambda += weights_.asDiagonal() * MatX(system_.H * coarse(h - resultants(lambda)));
   return lambda;
 }
 
 // Those that leave least of a residual, in the norm of the weights.
-VecX ClosedRows::motions(const VecX& residual) const { return coarse(resultants(weights_.cwiseProduct(residual))); }
+MatX ClosedRows::motions(const MatX& residual) const { return coarse(resultants(weights_.asDiagonal() * residual)); }
 
 // This projection, and its transpose below, twice: once leaves round-off of what the stiffest parts do in the way of
 // the softest ones.
-VecX ClosedRows::without_motions(VecX residual) const {
+MatX ClosedRows::without_motions(MatX residual) const {
   for (int pass = 0; pass < 2; ++pass) residual -= on_closed(system_.H * motions(residual));
   return residual;
 }
 
-VecX ClosedRows::without_resultants(VecX lambda) const {
-  for (int pass = 0; pass < 2; ++pass) lambda -= weights_.cwiseProduct(system_.H * coarse(resultants(lambda)));
+MatX ClosedRows::without_resultants(MatX lambda) const {
+  for (int pass = 0; pass < 2; ++pass) lambda -= weights_.asDiagonal() * MatX(system_.H * coarse(resultants(lambda)));
   return lambda;
 }
 
 // What lambda does to the motions, s.
-VecX ClosedRows::resultants(const VecX& lambda) const {
-  VecX found = system_.H.transpose() * lambda;
+MatX ClosedRows::resultants(const MatX& lambda) const {
+  MatX found = system_.H.transpose() * lambda;
   ranks().sum(found.data(), found.size());
   return found;
 }
 
 // A^-1 of a jump of the rows.
-VecX ClosedRows::unshared(const VecX& jump) const { return on_closed(rows_.own(sharing_.solve(rows_.whole(jump)))); }
+MatX ClosedRows::unshared(const MatX& jump) const {
+  return on_closed(rows_.own(solve_together(sharing_, rows_.whole(jump))));
+}
 
 // Of a jump, the pressures by the parts' stiffness.
-VecX ClosedRows::stiffened(const VecX& jump) const {
+MatX ClosedRows::stiffened(const MatX& jump) const {
   return unshared(on_closed(system_.multiply_stiffness(unshared(jump), of_parts_)));
 }
 
-VecX ClosedRows::precondition(const VecX& residual) const {
+MatX ClosedRows::precondition(const MatX& residual) const {
   if (!slender_) return stiffened(residual);
-  return compact_.cwiseProduct(stiffened(compact_.cwiseProduct(residual))) +
+  return compact_.asDiagonal() * stiffened(compact_.asDiagonal() * residual) +
          rows_.own(slender_->multiply(rows_.whole(residual)));
 }
 
-void ClosedRows::solve(const DualSystem::Forces& forces, IterationMonitor& monitor, DualSolution& x) const {
-  const VecX gaps = rows_.own(forces.r), response = rows_.own(forces.response);
-  VecX lambda = balanced(rows_.own(x.lambda), forces.h), C_lambda = on_closed(system_.multiply(lambda, of_parts_));
-  VecX r = without_motions(on_closed(gaps - C_lambda)), z = without_resultants(precondition(r)), p = z;
-  double rz = rows_.dot(r, z);
-  const auto residuals = [&] {
-    const double terms = largest(rows_.largest(C_lambda), rows_.largest(gaps)),
-                 size = system_.size(rows_.largest(on_closed(gaps - C_lambda)), terms),
-                 energy = forces.energy - 2 * rows_.dot(response, lambda) + rows_.dot(lambda, C_lambda);
-    return Residuals{.kinematic = fraction(rows_.largest(r), size),
-                     .force = largest(std::sqrt(fraction(std::abs(rz), std::abs(energy))),
-                                      of_one_row * fraction(rows_.largest(z), rows_.largest(lambda)))};
-  };
-  while (monitor.go_on(residuals(), std::sqrt(std::abs(rz)))) {
-    const VecX Cp = on_closed(system_.multiply(p, of_parts_));
-    const double alpha = rz / rows_.dot(p, Cp), before = rz;
-    lambda += alpha * p;
-    C_lambda += alpha * Cp;
-    r -= alpha * without_motions(Cp);
-    z = without_resultants(precondition(r));
-    rz = rows_.dot(r, z);
-    p = z + rz / before * p;
+// Those that are iterated on, and what they are of.
+struct ClosedRows::Columns {
+  std::vector<int> of;
+  MatX gaps, response, lambda, C_lambda, r, z, p;
+  VecX energy, rz;
+
+  void keep(const std::vector<int>& some) {
+    const auto each = [&](auto& all) { all = std::remove_reference_t<decltype(all)>(all(Eigen::all, some)); };
+    for (MatX* columns : {&gaps, &response, &lambda, &C_lambda, &r, &z, &p}) each(*columns);
+    energy = VecX(energy(some));
+    rz = VecX(rz(some));
+    std::vector<int> kept;
+    for (const int k : some) kept.push_back(of[k]);
+    of = std::move(kept);
   }
-  x.mu = motions(on_closed(gaps - C_lambda));
+};
+
+std::vector<Residuals> ClosedRows::residuals(const Columns& at) const {
+  const VecX C_lambda = rows_.largest(at.C_lambda), gaps = rows_.largest(at.gaps), r = rows_.largest(at.r),
+             moved = rows_.largest(on_closed(at.gaps - at.C_lambda)), z = rows_.largest(at.z),
+             lambda = rows_.largest(at.lambda),
+             energy = at.energy - 2 * rows_.dot(at.response, at.lambda) + rows_.dot(at.lambda, at.C_lambda);
+  std::vector<Residuals> all;
+  for (Eigen::Index k = 0; k < r.size(); ++k)
+    all.push_back({.kinematic = fraction(r(k), system_.size(moved(k), largest(C_lambda(k), gaps(k)))),
+                   .force = largest(std::sqrt(fraction(std::abs(at.rz(k)), std::abs(energy(k)))),
+                                    of_one_row * fraction(z(k), lambda(k)))});
+  return all;
+}
+
+void ClosedRows::solve(const DualSystem::Forces& forces, std::span<IterationMonitor> monitors, DualSolution& x) const {
+  const Eigen::Index count = forces.r.cols();
+  Columns at{.of = std::vector<int>(count),
+             .gaps = rows_.own(forces.r),
+             .response = rows_.own(forces.response),
+             .lambda = balanced(rows_.own(x.lambda), forces.h),
+             .C_lambda = {},
+             .r = {},
+             .z = {},
+             .p = {},
+             .energy = forces.energy,
+             .rz = {}};
+  std::iota(at.of.begin(), at.of.end(), 0);
+  at.C_lambda = on_closed(system_.multiply(at.lambda, of_parts_));
+  at.r = without_motions(on_closed(at.gaps - at.C_lambda));
+  at.p = at.z = without_resultants(precondition(at.r));
+  at.rz = rows_.dot(at.r, at.z);
+  MatX lambda(at.gaps.rows(), count), left(at.gaps.rows(), count);
+  while (true) {
+    const std::vector<Residuals> found = residuals(at);
+    std::vector<int> go_on;
+    for (std::size_t k = 0; k < at.of.size(); ++k) {
+      if (monitors[at.of[k]].go_on(found[k], std::sqrt(std::abs(at.rz(Eigen::Index(k)))))) {
+        go_on.push_back(int(k));
+        continue;
+      }
+      lambda.col(at.of[k]) = at.lambda.col(Eigen::Index(k));
+      left.col(at.of[k]) = at.gaps.col(Eigen::Index(k)) - at.C_lambda.col(Eigen::Index(k));
+    }
+    if (go_on.empty()) break;
+    if (go_on.size() < at.of.size()) at.keep(go_on);
+    const MatX Cp = on_closed(system_.multiply(at.p, of_parts_));
+    const VecX alpha = at.rz.cwiseQuotient(rows_.dot(at.p, Cp)), before = at.rz;
+    at.lambda += at.p * alpha.asDiagonal();
+    at.C_lambda += Cp * alpha.asDiagonal();
+    at.r -= without_motions(Cp) * alpha.asDiagonal();
+    at.z = without_resultants(precondition(at.r));
+    at.rz = rows_.dot(at.r, at.z);
+    at.p = at.z + at.p * at.rz.cwiseQuotient(before).asDiagonal();
+  }
+  x.mu = motions(on_closed(left));
   x.lambda = rows_.whole(lambda);
 }
 

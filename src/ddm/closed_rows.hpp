@@ -3,15 +3,16 @@
 
 #include <Eigen/SparseCholesky>
 #include <optional>
+#include <span>
 
 #include "ddm/dual_system.hpp"
 #include "solve/iteration_monitor.hpp"
 
 namespace mortise {
 
-/// lambda, m, zero on open rows; mu, s. Both on all ranks.
+/// lambda, m, zero on open rows; mu, s. Both on all ranks, a column each of several.
 struct DualSolution {
-  VecX lambda, mu;
+  MatX lambda, mu;
 };
 
 class ClosedRows {
@@ -24,35 +25,36 @@ class ClosedRows {
   /// s x count: the springs' unknowns in each motion that no closed row holds, told_apart.
   MatX free_motions;
 
-  /// Projected, preconditioned conjugate gradients from `x`, until the monitor ends them: lambda in balance with
-  /// forces.h, [C H] x = forces.r on closed rows. The residuals: what is left open over the largest displacement; and
-  /// the error of lambda in the norm of C, estimated by the preconditioner, over that of the displacements. Free
-  /// motions are zero in mu.
-  void solve(const DualSystem::Forces& forces, IterationMonitor& monitor, DualSolution& x) const;
+  /// Projected, preconditioned conjugate gradients from `x`, column by column until its monitor ends them: lambda in
+  /// balance with forces.h, [C H] x = forces.r on closed rows. The residuals: what is left open over the largest
+  /// displacement; and the error of lambda in the norm of C, estimated by the preconditioner, over that of the
+  /// displacements. Free motions are zero in mu.
+  void solve(const DualSystem::Forces& forces, std::span<IterationMonitor> monitors, DualSolution& x) const;
 
   /// The free motions that the work h of forces drives, in their direction, s: the work that lambda leaves, where it is
   /// more than round-off of its terms.
   VecX driven_motion(const VecX& h, const VecX& lambda) const;
 
  private:
-  VecX on_closed(const VecX& v) const { return closed_.cwiseProduct(v); }
-  VecX coarse(VecX b) const;
-  VecX balanced(VecX lambda, const VecX& h) const;
-  VecX motions(const VecX& residual) const;
-  VecX without_motions(VecX residual) const;
-  VecX without_resultants(VecX lambda) const;
-  VecX stiffened(const VecX& jump) const;
-  VecX precondition(const VecX& residual) const;
-  VecX openings(const VecX& motion) const;
-  VecX resultants(const VecX& lambda) const;
-  VecX unshared(const VecX& jump) const;
+  struct Columns;
+  MatX on_closed(const MatX& v) const { return closed_.asDiagonal() * v; }
+  MatX coarse(MatX b) const;
+  MatX balanced(MatX lambda, const MatX& h) const;
+  MatX motions(const MatX& residual) const;
+  MatX without_motions(MatX residual) const;
+  MatX without_resultants(MatX lambda) const;
+  MatX stiffened(const MatX& jump) const;
+  MatX precondition(const MatX& residual) const;
+  std::vector<Residuals> residuals(const Columns& at) const;
+  MatX resultants(const MatX& lambda) const;
+  MatX unshared(const MatX& jump) const;
   void share_jumps(const std::vector<char>& closed);
   std::vector<int> springs_left_free(const SparseMatrix& E, const VecX& size);
   void hold_motions();
 
   using SparseCholesky = Eigen::SimplicialLDLT<SparseMatrix>;
 
-  // Vectors of the iteration have the own rows.
+  // Vectors of the iteration have the own rows, a column each of several.
   const DualSystem& system_;
   const DealtRows& rows_;
   std::vector<SomeRows> of_parts_;  // DualSystem::closed_of_parts

@@ -64,27 +64,27 @@ SparseMatrix shared_out(const SaddlePointSystem& s, const std::vector<int>& cont
 }
 
 // A x on some rows, of an x that is zero on the others. `between`: A's entries there, where these are not all.
-VecX product(const MatX& A, const VecX& x, const std::vector<int>& some, const MatX& between) {
+MatX product(const MatX& A, const MatX& x, const std::vector<int>& some, const MatX& between) {
   if (Eigen::Index(some.size()) == A.rows()) return A * x;
-  VecX product = VecX::Zero(x.size());
-  product(some) = between * x(some);
+  MatX product = MatX::Zero(x.rows(), x.cols());
+  product(some, Eigen::all) = between * MatX(x(some, Eigen::all));
   return product;
 }
 
 // Its compliance and the stiffness of its contact nodes as full matrices of its rows.
 class FullPart : public DualPart {
  public:
-  VecX pressed(const VecX& lambda) const override { return C_ * lambda; }
+  MatX pressed(const MatX& lambda) const override { return C_ * lambda; }
   MatX compliance() const override { return C_; }
   VecX diagonal() const override { return C_.diagonal(); }
   SomeRows some(std::vector<int> which) const override {
     if (Eigen::Index(which.size()) == C_.rows()) return {.rows = std::move(which), .C = {}, .stiffness = {}};
     return {.rows = which, .C = C_(which, which), .stiffness = stiffness_(which, which)};
   }
-  VecX pressed(const VecX& lambda, const SomeRows& some) const override {
+  MatX pressed(const MatX& lambda, const SomeRows& some) const override {
     return product(C_, lambda, some.rows, some.C);
   }
-  VecX stiffened(const VecX& x, const SomeRows& some) const override {
+  MatX stiffened(const MatX& x, const SomeRows& some) const override {
     return product(stiffness_, x, some.rows, some.stiffness);
   }
 
@@ -105,7 +105,7 @@ class OwnPart : public FullPart {
     body_ = std::move(body);
   }
 
-  VecX displacements(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const override {
+  MatX displacements(const BodyGroup::Answer& forces, const MatX& lambda, const MatX& mu) const override {
     return moved(forces, lambda, mu);
   }
 };
@@ -124,12 +124,12 @@ class AlikePart : public FullPart {
     load = answer(load_of(s));
   }
 
-  BodyGroup::Answer answer(const VecX& force) const override {
-    BodyGroup::Answer of_body = body_->answer(force);
+  BodyGroup::Answer answer(const MatX& forces) const override {
+    BodyGroup::Answer of_body = body_->answer(forces);
     of_body.response = rows_of_body_ * of_body.response;
     return of_body;
   }
-  VecX displacements(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const override {
+  MatX displacements(const BodyGroup::Answer& forces, const MatX& lambda, const MatX& mu) const override {
     return moved(forces, rows_of_body_.transpose() * lambda, mu);
   }
 
@@ -149,14 +149,14 @@ class SlenderPart : public DualPart {
     load = answer(load_of(s));
   }
 
-  BodyGroup::Answer answer(const VecX& force) const override {
-    BodyGroup::Answer of_body = body_->answer(force);
-    VecX u = VecX::Zero(B_.cols());
-    body_->add_displacements(of_body, VecX(), VecX::Zero(body_->motions), u);
+  BodyGroup::Answer answer(const MatX& forces) const override {
+    BodyGroup::Answer of_body = body_->answer(forces);
+    MatX u = MatX::Zero(B_.cols(), forces.cols());
+    body_->add_displacements(of_body, MatX(0, forces.cols()), MatX::Zero(body_->motions, forces.cols()), u);
     of_body.response = B_ * u;
     return of_body;
   }
-  VecX pressed(const VecX& lambda) const override { return answer(B_.transpose() * lambda).response; }
+  MatX pressed(const MatX& lambda) const override { return answer(B_.transpose() * lambda).response; }
   MatX compliance() const override {
     MatX all(B_.rows(), B_.rows());
     for (Eigen::Index a = 0; a < B_.rows(); ++a) all.col(a) = pressed(VecX::Unit(B_.rows(), a));
@@ -164,12 +164,12 @@ class SlenderPart : public DualPart {
   }
   VecX diagonal() const override { return sharing.diagonal(); }
   SomeRows some(std::vector<int> which) const override { return {.rows = std::move(which), .C = {}, .stiffness = {}}; }
-  VecX pressed(const VecX& lambda, const SomeRows&) const override { return pressed(lambda); }
-  VecX stiffened(const VecX& x, const SomeRows&) const override { return VecX::Zero(x.size()); }
-  VecX displacements(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const override {
+  MatX pressed(const MatX& lambda, const SomeRows&) const override { return pressed(lambda); }
+  MatX stiffened(const MatX& x, const SomeRows&) const override { return MatX::Zero(x.rows(), x.cols()); }
+  MatX displacements(const BodyGroup::Answer& forces, const MatX& lambda, const MatX& mu) const override {
     BodyGroup::Answer left = forces;
     left.y -= body_->answer(B_.transpose() * lambda).y;
-    return moved(left, VecX(), mu);
+    return moved(left, MatX(0, mu.cols()), mu);
   }
   bool is_slender() const override { return true; }
 
@@ -192,8 +192,8 @@ AlikeBody::AlikeBody(SaddlePointSystem s) : contact(contact_unknowns(s)), units(
   body = std::make_shared<BodyGroup>(s, all_unknowns(s));
 }
 
-VecX DualPart::moved(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const {
-  VecX u = VecX::Zero(unknowns.size());
+MatX DualPart::moved(const BodyGroup::Answer& forces, const MatX& lambda, const MatX& mu) const {
+  MatX u = MatX::Zero(Eigen::Index(unknowns.size()), mu.cols());
   body_->add_displacements(forces, lambda, mu, u);
   return u;
 }

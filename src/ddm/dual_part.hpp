@@ -13,7 +13,7 @@ struct SomeRows {
 };
 
 /// A substructure, factorised. Its rows, unknowns and springs are those of the whole system that it has; vectors below
-/// are of these alone, dimensionless as the bordered system.
+/// are of these alone, a column each of several, dimensionless as the bordered system.
 class DualPart {
  public:
   virtual ~DualPart() = default;
@@ -27,20 +27,20 @@ class DualPart {
   /// -1, or the unknown of the whole at which it is not positive definite: nothing else may be used then.
   int failed_at() const { return body_->failed_at < 0 ? -1 : unknowns[body_->failed_at]; }
   /// To forces on its unknowns, over the stiffness scale.
-  virtual BodyGroup::Answer answer(const VecX& force) const { return body_->answer(force); }
-  virtual VecX pressed(const VecX& lambda) const = 0;  ///< C lambda
+  virtual BodyGroup::Answer answer(const MatX& forces) const { return body_->answer(forces); }
+  virtual MatX pressed(const MatX& lambda) const = 0;  ///< C lambda
   virtual MatX compliance() const = 0;                 ///< C, full; of a slender part a solve a row
   virtual VecX diagonal() const = 0;                   ///< of C; of a slender part what a row's pressure does near it
   virtual SomeRows some(std::vector<int> which) const = 0;  ///< `which`: places among its rows, ascending
   /// On some rows, of vectors that are zero on the others, where the results mean nothing: C lambda; and
   /// B W^-1 S W^-1 B^T x, as DualSystem, 0 of a slender part.
-  virtual VecX pressed(const VecX& lambda, const SomeRows& some) const = 0;
-  virtual VecX stiffened(const VecX& x, const SomeRows& some) const = 0;
-  virtual VecX displacements(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const = 0;
+  virtual MatX pressed(const MatX& lambda, const SomeRows& some) const = 0;
+  virtual MatX stiffened(const MatX& x, const SomeRows& some) const = 0;
+  virtual MatX displacements(const BodyGroup::Answer& forces, const MatX& lambda, const MatX& mu) const = 0;
   virtual bool is_slender() const { return false; }
 
  protected:
-  VecX moved(const BodyGroup::Answer& forces, const VecX& lambda, const VecX& mu) const;
+  MatX moved(const BodyGroup::Answer& forces, const MatX& lambda, const MatX& mu) const;
 
   std::shared_ptr<const BodyGroup> body_;
 };

@@ -26,7 +26,7 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
     set_touching(slender, std::move(touching), sharing.diagonal());
   }
   for (const auto& part : parts_) load.parts.push_back(std::move(part->load));
-  add_up(load);
+  add_up(1, load);
   load.r -= (s.g - s.B * s.constraints.value).cwiseQuotient(s.row_scale);
 }
 
@@ -69,19 +69,19 @@ void DualSystem::gather(const SaddlePointSystem& s) {
   sharing.setFromTriplets(of_sharing.begin(), of_sharing.end());
 }
 
-void DualSystem::add_up(Answer& answer) const {
-  answer.response = VecX::Zero(sharing.rows());
-  answer.h = VecX::Zero(H.cols());
-  VecX energy = VecX::Zero(1);
+void DualSystem::add_up(Eigen::Index count, Answer& answer) const {
+  answer.response = MatX::Zero(sharing.rows(), count);
+  answer.h = MatX::Zero(H.cols(), count);
+  answer.energy = VecX::Zero(count);
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const BodyGroup::Answer& part = answer.parts[k];
-    answer.response(parts_[k]->rows) += part.response;
-    answer.h(parts_[k]->springs) = part.work;
-    energy(0) += part.y.squaredNorm();
+    answer.response(parts_[k]->rows, Eigen::all) += part.response;
+    answer.h(parts_[k]->springs, Eigen::all) = part.work;
+    answer.energy += part.y.colwise().squaredNorm();
   }
   answer.response = sum_over_ranks(std::move(answer.response));
   answer.h = sum_over_ranks(std::move(answer.h));
-  answer.energy = sum_over_ranks(std::move(energy))(0);
+  answer.energy = sum_over_ranks(std::move(answer.energy));
   answer.r = answer.response;
 }
 
@@ -93,7 +93,7 @@ void DualSystem::deal_rows(Eigen::Index m) {
   for (const auto& part : parts_) part->places = rows_->places(part->rows);
 }
 
-VecX DualSystem::sum_over_ranks(VecX sum) {
+MatX DualSystem::sum_over_ranks(MatX sum) {
   ranks().sum(sum.data(), sum.size());
   return sum;
 }
@@ -135,23 +135,23 @@ namespace {
 // The sum over the parts of what each, by its number, makes of the entries of x in the places of its rows. `count`:
 // of the rows of a part that count.
 template <typename Parts, typename Count, typename Product>
-VecX sum_of_products(const Parts& parts, const VecX& x, Count count, Product product) {
-  std::vector<VecX> products(parts.size());
+MatX sum_of_products(const Parts& parts, const MatX& x, Count count, Product product) {
+  std::vector<MatX> products(parts.size());
   double work = 0;
-  for (std::size_t k = 0; k < parts.size(); ++k) work += double(count(k)) * double(count(k));
+  for (std::size_t k = 0; k < parts.size(); ++k) work += double(count(k)) * double(count(k)) * double(x.cols());
   for_each_index(parts.size(), work > worth_threads ? solver_threads() : 1,
-                 [&](std::size_t k) { products[k] = product(k, VecX(x(parts[k]->places))); });
-  VecX sum = VecX::Zero(x.size());
-  for (std::size_t k = 0; k < parts.size(); ++k) sum(parts[k]->places) += products[k];
+                 [&](std::size_t k) { products[k] = product(k, MatX(x(parts[k]->places, Eigen::all))); });
+  MatX sum = MatX::Zero(x.rows(), x.cols());
+  for (std::size_t k = 0; k < parts.size(); ++k) sum(parts[k]->places, Eigen::all) += products[k];
   return sum;
 }
 
 }  // namespace
 
-VecX DualSystem::multiply(const VecX& lambda) const {
+MatX DualSystem::multiply(const MatX& lambda) const {
   return rows_->sum_of_seen(sum_of_products(
       parts_, rows_->seen(lambda), [&](std::size_t k) { return parts_[k]->rows.size(); },
-      [&](std::size_t k, const VecX& own) { return parts_[k]->pressed(own); }));
+      [&](std::size_t k, const MatX& own) { return parts_[k]->pressed(own); }));
 }
 
 std::vector<SomeRows> DualSystem::closed_of_parts(const std::vector<char>& closed) const {
@@ -165,32 +165,33 @@ std::vector<SomeRows> DualSystem::closed_of_parts(const std::vector<char>& close
   return all;
 }
 
-VecX DualSystem::multiply(const VecX& lambda, const std::vector<SomeRows>& closed) const {
+MatX DualSystem::multiply(const MatX& lambda, const std::vector<SomeRows>& closed) const {
   return rows_->sum_of_seen(sum_of_products(
       parts_, rows_->seen(lambda), [&](std::size_t k) { return closed[k].rows.size(); },
-      [&](std::size_t k, const VecX& own) { return parts_[k]->pressed(own, closed[k]); }));
+      [&](std::size_t k, const MatX& own) { return parts_[k]->pressed(own, closed[k]); }));
 }
 
-VecX DualSystem::multiply_stiffness(const VecX& x, const std::vector<SomeRows>& closed) const {
+MatX DualSystem::multiply_stiffness(const MatX& x, const std::vector<SomeRows>& closed) const {
   return rows_->sum_of_seen(sum_of_products(
       parts_, rows_->seen(x), [&](std::size_t k) { return closed[k].rows.size(); },
-      [&](std::size_t k, const VecX& own) { return parts_[k]->stiffened(own, closed[k]); }));
+      [&](std::size_t k, const MatX& own) { return parts_[k]->stiffened(own, closed[k]); }));
 }
 
-DualSystem::Answer DualSystem::answer(const VecX& force) const {
+DualSystem::Answer DualSystem::answer(const MatX& forces) const {
   Answer all;
   all.parts.resize(parts_.size());
   for_each_index(parts_.size(), solver_threads(),
-                 [&](std::size_t k) { all.parts[k] = parts_[k]->answer(force(parts_[k]->unknowns)); });
-  add_up(all);
+                 [&](std::size_t k) { all.parts[k] = parts_[k]->answer(forces(parts_[k]->unknowns, Eigen::all)); });
+  add_up(forces.cols(), all);
   return all;
 }
 
-void DualSystem::add_displacements(const Answer& forces, const VecX& lambda, const VecX& mu, VecX& u) const {
-  VecX added = VecX::Zero(u.size());
+void DualSystem::add_displacements(const Answer& forces, const MatX& lambda, const MatX& mu, Eigen::Ref<MatX> u) const {
+  MatX added = MatX::Zero(u.rows(), u.cols());
   for_each_index(parts_.size(), solver_threads(), [&](std::size_t k) {
     const DualPart& part = *parts_[k];
-    added(part.unknowns) = part.displacements(forces.parts[k], lambda(part.rows), mu(part.springs));
+    added(part.unknowns, Eigen::all) =
+        part.displacements(forces.parts[k], lambda(part.rows, Eigen::all), mu(part.springs, Eigen::all));
   });
   ranks().sum(added.data(), added.size());
   u += added;

@@ -12,7 +12,8 @@ namespace mortise {
 ///   [C  H; H^T  0] (lambda, mu) = (r, h),   C = sum of the parts' B K^-1 B^T,   H = B R   (docs/theory.md eq. 51a)
 ///
 /// with s rigid motions R that only contact holds, as in BodyGroup; dimensionless, as the bordered system. Each rank
-/// has the parts of its block; what has m or s entries is on all of them, unless it says "own" (DealtRows).
+/// has the parts of its block; what has m or s entries is on all of them, unless it says "own" (DealtRows). A column
+/// each of several vectors.
 class DualSystem {
  public:
   explicit DualSystem(const SaddlePointSystem& system);
@@ -24,15 +25,15 @@ class DualSystem {
   /// What forces on the parts make of the right-hand side. The parts alone open the rows by `response`, with the energy
   /// f^T K^-1 f: where springs hold a body against its load, both are far more than of its balance with lambda.
   struct Forces {
-    VecX r, h, response;  ///< m, s, m
-    double energy = 0;
+    MatX r, h, response;  ///< m, s, m
+    VecX energy;
   };
   struct Answer : Forces {
     std::vector<BodyGroup::Answer> parts;  // of this rank
   };
   Answer load;  ///< to the system's own, and its gaps
   /// To forces, n, over the stiffness scale.
-  Answer answer(const VecX& force) const;
+  Answer answer(const MatX& forces) const;
 
   /// B W^-1 B^T with W the diagonal of K: how a jump across the contact is shared by its two sides, by stiffness (Rixen
   /// & Farhat 1999); m x m, lower triangle.
@@ -49,7 +50,7 @@ class DualSystem {
 
   const DealtRows& rows() const { return *rows_; }
   /// C lambda; own of both.
-  VecX multiply(const VecX& lambda) const;
+  MatX multiply(const MatX& lambda) const;
   /// On all ranks, of vectors on all ranks: C lambda, H motion, H^T lambda.
   VecX pressed(const VecX& lambda) const { return rows_->whole(multiply(rows_->own(lambda))); }
   VecX opening(const VecX& motion) const { return rows_->whole(H * motion); }
@@ -64,21 +65,21 @@ class DualSystem {
   /// Of each part those of its rows that are closed (m).
   std::vector<SomeRows> closed_of_parts(const std::vector<char>& closed) const;
   /// On these rows, of vectors that are zero on all others, where the results mean nothing; own: C lambda.
-  VecX multiply(const VecX& lambda, const std::vector<SomeRows>& closed) const;
+  MatX multiply(const MatX& lambda, const std::vector<SomeRows>& closed) const;
   /// B W^-1 S W^-1 B^T x, likewise, with S the stiffness of the parts' contact nodes, all other nodes free (the Schur
   /// complement); of all parts but the slender ones.
-  VecX multiply_stiffness(const VecX& x, const std::vector<SomeRows>& closed) const;
+  MatX multiply_stiffness(const MatX& x, const std::vector<SomeRows>& closed) const;
 
   /// Adds the displacements under forces and the multipliers to u (n, length).
-  void add_displacements(const Answer& forces, const VecX& lambda, const VecX& mu, VecX& u) const;
+  void add_displacements(const Answer& forces, const MatX& lambda, const MatX& mu, Eigen::Ref<MatX> u) const;
 
  private:
-  void add_up(Answer& answer) const;
+  void add_up(Eigen::Index count, Answer& answer) const;
 
   void factorise(const SaddlePointSystem& system);
   void gather(const SaddlePointSystem& system);
   void deal_rows(Eigen::Index m);
-  static VecX sum_over_ranks(VecX sum);
+  static MatX sum_over_ranks(MatX sum);
 
   std::vector<std::unique_ptr<DualPart>> parts_;
   std::unique_ptr<const DealtRows> rows_;

@@ -10,27 +10,32 @@ namespace mortise {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// Vectors over the rows of the contact, each entry with one rank: "own". This class: all of them, in their order.
+/// Vectors over the rows of the contact, a column each, each entry with one rank: "own". This class: all of them, in
+/// their order.
 class DealtRows {
  public:
   virtual ~DealtRows() = default;
 
-  /// The own entries of a vector that every rank has, m.
-  virtual VecX own(const VecX& whole) const { return whole; }
+  /// The own entries of vectors that every rank has, m.
+  virtual MatX own(const MatX& whole) const { return whole; }
   virtual SparseMatrix own(const SparseRows& whole) const { return whole; }
   /// The reverse, on every rank.
-  virtual VecX whole(const VecX& own) const { return own; }
+  virtual MatX whole(const MatX& own) const { return own; }
 
   /// Where rows that this rank's parts see stand in the vectors that the next two take and give.
   virtual std::vector<int> places(const std::vector<int>& rows) const { return rows; }
   /// The entries that this rank's parts see, from those who have them.
-  virtual VecX seen(const VecX& own) const { return own; }
+  virtual MatX seen(const MatX& own) const { return own; }
   /// The reverse: the sum of what all ranks' parts add to each row.
-  virtual VecX sum_of_seen(const VecX& seen) const { return seen; }
+  virtual MatX sum_of_seen(const MatX& seen) const { return seen; }
 
-  /// Of all entries; the same on each rank.
-  virtual double dot(const VecX& a, const VecX& b) const { return a.dot(b); }
-  virtual double largest(const VecX& own) const { return largest_entry(own); }
+  /// Of all entries, column by column; the same on each rank.
+  virtual VecX dot(const MatX& a, const MatX& b) const { return a.cwiseProduct(b).colwise().sum(); }
+  virtual VecX largest(const MatX& own) const {
+    VecX found(own.cols());
+    for (Eigen::Index k = 0; k < found.size(); ++k) found(k) = largest_entry(own.col(k));
+    return found;
+  }
 };
 
 /// This class: one process alone. All of these are called by all ranks, in the same order.

@@ -73,7 +73,6 @@ class PetscRows : public DealtRows {
       numbers.push_back(number[seen[k]]);
     }
     must(VecCreateMPIWithArray(PETSC_COMM_WORLD, 1, PetscInt(own_.size()), PetscInt(rows), nullptr, &own_vec_));
-    must(VecDuplicate(own_vec_, &other_));
     must(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, size_, nullptr, &seen_vec_));
     IS indices;
     must(ISCreateGeneral(PETSC_COMM_SELF, size_, numbers.data(), PETSC_COPY_VALUES, &indices));
@@ -82,11 +81,11 @@ class PetscRows : public DealtRows {
     must(VecScatterCreateToAll(own_vec_, &to_all_, &all_));
   }
   ~PetscRows() override {
-    for (Vec* vec : {&own_vec_, &other_, &seen_vec_, &all_}) VecDestroy(vec);
+    for (Vec* vec : {&own_vec_, &seen_vec_, &all_}) VecDestroy(vec);
     for (VecScatter* scatter : {&to_seen_, &to_all_}) VecScatterDestroy(scatter);
   }
 
-  VecX own(const VecX& whole) const override { return whole(own_); }
+  MatX own(const MatX& whole) const override { return whole(own_, Eigen::all); }
 
   SparseMatrix own(const SparseRows& whole) const override {
     Triplets entries;
@@ -98,7 +97,42 @@ class PetscRows : public DealtRows {
     return found;
   }
 
-  VecX whole(const VecX& own) const override {
+  MatX whole(const MatX& own) const override {
+    return by_columns(own, Eigen::Index(order_.size()), &PetscRows::whole_column);
+  }
+
+  MatX seen(const MatX& own) const override { return by_columns(own, size_, &PetscRows::seen_column); }
+
+  MatX sum_of_seen(const MatX& seen) const override {
+    return by_columns(seen, Eigen::Index(own_.size()), &PetscRows::sum_of_seen_column);
+  }
+
+  VecX dot(const MatX& a, const MatX& b) const override {
+    VecX found = a.cwiseProduct(b).colwise().sum();
+    return over_ranks(std::move(found), MPI_SUM);
+  }
+
+  VecX largest(const MatX& own) const override { return over_ranks(DealtRows::largest(own), MPI_MAX); }
+
+  std::vector<int> places(const std::vector<int>& rows) const override {
+    std::vector<int> found;
+    for (const int row : rows) found.push_back(place_[row]);
+    return found;
+  }
+
+ private:
+  MatX by_columns(const MatX& from, Eigen::Index rows, VecX (PetscRows::*to)(const VecX&) const) const {
+    MatX found(rows, from.cols());
+    for (Eigen::Index k = 0; k < from.cols(); ++k) found.col(k) = (this->*to)(from.col(k));
+    return found;
+  }
+
+  static VecX over_ranks(VecX values, MPI_Op operation) {
+    must_send(MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_DOUBLE, operation, PETSC_COMM_WORLD));
+    return values;
+  }
+
+  VecX whole_column(const VecX& own) const {
     const Placed from(own_vec_, own);
     must(VecScatterBegin(to_all_, own_vec_, all_, INSERT_VALUES, SCATTER_FORWARD));
     must(VecScatterEnd(to_all_, own_vec_, all_, INSERT_VALUES, SCATTER_FORWARD));
@@ -110,13 +144,7 @@ class PetscRows : public DealtRows {
     return found;
   }
 
-  std::vector<int> places(const std::vector<int>& rows) const override {
-    std::vector<int> found;
-    for (const int row : rows) found.push_back(place_[row]);
-    return found;
-  }
-
-  VecX seen(const VecX& own) const override {
+  VecX seen_column(const VecX& own) const {
     VecX found(size_);
     const Placed from(own_vec_, own), to(seen_vec_, found);
     must(VecScatterBegin(to_seen_, own_vec_, seen_vec_, INSERT_VALUES, SCATTER_FORWARD));
@@ -124,7 +152,7 @@ class PetscRows : public DealtRows {
     return found;
   }
 
-  VecX sum_of_seen(const VecX& seen) const override {
+  VecX sum_of_seen_column(const VecX& seen) const {
     VecX sum = VecX::Zero(own_.size());
     const Placed from(seen_vec_, seen), to(own_vec_, sum);
     must(VecScatterBegin(to_seen_, seen_vec_, own_vec_, ADD_VALUES, SCATTER_REVERSE));
@@ -132,24 +160,9 @@ class PetscRows : public DealtRows {
     return sum;
   }
 
-  double dot(const VecX& a, const VecX& b) const override {
-    const Placed one(own_vec_, a), other(other_, b);
-    PetscScalar found = 0;
-    must(VecDot(own_vec_, other_, &found));
-    return found;
-  }
-
-  double largest(const VecX& own) const override {
-    const Placed values(own_vec_, own);
-    PetscReal found = 0;
-    must(VecNorm(own_vec_, NORM_INFINITY, &found));
-    return found;
-  }
-
- private:
   std::vector<int> place_, order_, own_;
   PetscInt size_;
-  Vec own_vec_ = nullptr, other_ = nullptr, seen_vec_ = nullptr, all_ = nullptr;
+  Vec own_vec_ = nullptr, seen_vec_ = nullptr, all_ = nullptr;
   VecScatter to_seen_ = nullptr, to_all_ = nullptr;
 };
 

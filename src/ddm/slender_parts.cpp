@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "ddm/solve_together.hpp"
+
 namespace mortise {
 namespace {
 
@@ -118,10 +120,10 @@ SlenderInverse::SlenderInverse(const SlenderParts& parts, const std::vector<char
   factor_.compute(matrix);
 }
 
-VecX SlenderInverse::multiply(const VecX& gap) const {
-  const VecX found = factor_.solve(stacked(VecX::Zero(unknowns_), -closed_.cwiseProduct(VecX(gap(rows_)))));
-  VecX lambda = VecX::Zero(gap.size());
-  lambda(rows_) = closed_.cwiseProduct(found.tail(closed_.size()));
+MatX SlenderInverse::multiply(const MatX& gaps) const {
+  MatX right = MatX::Zero(unknowns_ + closed_.size(), gaps.cols()), lambda = MatX::Zero(gaps.rows(), gaps.cols());
+  right.bottomRows(closed_.size()) = -(closed_.asDiagonal() * MatX(gaps(rows_, Eigen::all)));
+  lambda(rows_, Eigen::all) = closed_.asDiagonal() * solve_together(factor_, right).bottomRows(closed_.size());
   return lambda;
 }
 

@@ -55,8 +55,8 @@ void set_touching(SlenderParts& parts, TouchingParts touching, const VecX& local
 class SlenderInverse {
  public:
   SlenderInverse(const SlenderParts& parts, const std::vector<char>& closed);
-  /// Both of all rows.
-  VecX multiply(const VecX& gap) const;
+  /// Both of all rows, column by column.
+  MatX multiply(const MatX& gaps) const;
 
  private:
   std::vector<int> rows_;

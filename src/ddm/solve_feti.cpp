@@ -15,6 +15,7 @@ namespace {
 
 constexpr double first_tolerance = 1e-4;  // of the inner iterations, until they change no row
 constexpr double dual_tolerance = 1e-5;   // of duals: products of errors, which are no more exact than a percent
+constexpr Eigen::Index most_at_once = 8;  // duals: their vectors stay in the processor's caches with a body's matrix
 constexpr double round_off = 10;          // tolerances: what is smaller opens and closes no row
 constexpr double wide_gap = 0.3;          // of a row's part of the contact curve
 constexpr int most_refinements = 2, most_corrections = 8;
@@ -32,30 +33,24 @@ class FetiFactor : public ContactFactor {
         max_iterations_(max_iterations) {}
 
   DualAnswers answers(const MatX& functionals, const MatX& loads) const override {
-    const Eigen::Index count = functionals.cols(), without_load = count - loads.cols();
-    std::vector<DualSystem::Answer> answers{system_->answer(VecX::Zero(unknowns_))};
-    for (const auto& load : loads.colwise()) answers.push_back(system_->answer(load / stiffness_scale_));
-    const auto answer_to = [&](Eigen::Index k) -> const DualSystem::Answer& {
-      return answers[std::max<Eigen::Index>(k - without_load + 1, 0)];
-    };
-    std::vector<DualSolution> found(count);
-    const int threads = ranks().count() > 1 ? 1 : solver_threads();  // ranks meet in the same order
-    for_each_index(count, threads, [&](std::size_t k) {
-      const VecX gaps = functionals.col(Eigen::Index(k)).cwiseQuotient(row_scale_);
-      const DualSystem::Answer& answer = answer_to(Eigen::Index(k));
-      IterationMonitor monitor(dual_tolerance, max_iterations_);
-      found[k].lambda = VecX::Zero(functionals.rows());
-      DualSystem::Forces forces = answer;
-      forces.r -= gaps;
-      rows_->solve(forces, monitor, found[k]);
-    });
+    const Eigen::Index count = functionals.cols(), blocks = (count + most_at_once - 1) / most_at_once;
     DualAnswers duals{.z = MatX::Zero(unknowns_, count), .mu = MatX(functionals.rows(), count)};
-    for (Eigen::Index k = 0; k < count; ++k) {
-      VecX dual = VecX::Zero(unknowns_);
-      system_->add_displacements(answer_to(k), found[k].lambda, found[k].mu, dual);
-      duals.z.col(k) = dual;
-      duals.mu.col(k) = stiffness_scale_ * found[k].lambda.cwiseQuotient(row_scale_);
-    }
+    const int threads = ranks().count() > 1 ? 1 : solver_threads();  // ranks meet in the same order
+    for_each_index(blocks, threads, [&](std::size_t k) {
+      const Eigen::Index first = Eigen::Index(k) * count / blocks,
+                         some = (Eigen::Index(k) + 1) * count / blocks - first;
+      MatX forces = MatX::Zero(unknowns_, some);
+      for (Eigen::Index i = 0; i < some; ++i)
+        if (const Eigen::Index load = first + i - (count - loads.cols()); load >= 0)
+          forces.col(i) = loads.col(load) / stiffness_scale_;
+      DualSystem::Answer answer = system_->answer(forces);
+      answer.r -= row_scale_.cwiseInverse().asDiagonal() * functionals.middleCols(first, some);
+      std::vector<IterationMonitor> monitors(some, IterationMonitor(dual_tolerance, max_iterations_));
+      DualSolution found{.lambda = MatX::Zero(functionals.rows(), some), .mu = {}};
+      rows_->solve(answer, monitors, found);
+      system_->add_displacements(answer, found.lambda, found.mu, duals.z.middleCols(first, some));
+      duals.mu.middleCols(first, some) = stiffness_scale_ * (row_scale_.cwiseInverse().asDiagonal() * found.lambda);
+    });
     return duals;
   }
 
@@ -87,7 +82,7 @@ double correct(const SaddlePointSystem& s, const DualSystem& system, const Close
   DualSystem::Answer left = system.answer((s.f - Ku - s.B.transpose() * state.lambda) / s.stiffness_scale);
   left.r += opening(s, state.u);
   DualSolution x{.lambda = VecX::Zero(s.B.rows()), .mu = {}};
-  rows.solve(left, monitor, x);
+  rows.solve(left, {&monitor, 1}, x);
   const VecX before = state.u;
   state.lambda += stresses(s, x.lambda);
   system.add_displacements(left, x.lambda, x.mu, state.u);
@@ -125,7 +120,7 @@ class FetiRows : public ContactRows {
     monitor_.restart(corrects ? std::max(first_tolerance, tolerance_) : tolerance_);
     DualSystem::Forces forces = system_.load;
     if (at.size() > 0) forces.r -= system_.opening(at);
-    rows_->solve(forces, monitor_, x_);
+    rows_->solve(forces, {&monitor_, 1}, x_);
     if (at.size() > 0) x_.mu += at;
     state_ = {};
     if (corrects) correct_round_off();

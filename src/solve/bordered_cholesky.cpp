@@ -180,20 +180,20 @@ BorderedCholesky::BorderedCholesky(BorderedCholesky&&) noexcept = default;
 
 int BorderedCholesky::failed_at() const { return factor_->failed_at; }
 
-VecX BorderedCholesky::forward(const VecX& f) const {
+MatX BorderedCholesky::forward(const MatX& f) const {
   const Factor& F = *factor_;
-  VecX b = VecX::Zero(F.n + F.m);
+  MatX b = MatX::Zero(F.n + F.m, f.cols());
   for (int k = 0; k < F.n + F.m; ++k)
-    if (F.perm()[k] < F.n) b(k) = f(F.perm()[k]);
+    if (F.perm()[k] < F.n) b.row(k) = f.row(F.perm()[k]);
   return factor_->solve(CHOLMOD_L, b);
 }
 
-VecX BorderedCholesky::at_border(const VecX& y) const {
+MatX BorderedCholesky::at_border(const MatX& y) const {
   const Factor& F = *factor_;
-  VecX response = VecX::Zero(F.m);
+  MatX response = MatX::Zero(F.m, y.cols());
   F.for_each_border_block([&](const BorderBlock& block) {
-    const VecX part = block.V * y.segment(block.first_column, block.V.cols());
-    for (Eigen::Index i = 0; i < part.size(); ++i) response(F.perm()[block.rows[i]] - F.n) += part(i);
+    const MatX part = block.V * y.middleRows(block.first_column, block.V.cols());
+    for (Eigen::Index i = 0; i < part.rows(); ++i) response.row(F.perm()[block.rows[i]] - F.n) += part.row(i);
   });
   return response;
 }

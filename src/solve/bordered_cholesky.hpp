@@ -46,11 +46,11 @@ class BorderedCholesky {
   /// C = B K^-1 B^T, m x m, lower triangle. It is given away: the factor does not need it.
   MatX take_border_compliance() { return std::move(compliance_); }
 
-  /// y = L^-1 f for f, n; in an order of its own, for the next two.
-  VecX forward(const VecX& f) const;
+  /// These three column by column. y = L^-1 f for f, n; in an order of its own, for the next two.
+  MatX forward(const MatX& f) const;
   /// V^T y = B K^-1 f, m.
-  VecX at_border(const VecX& y) const;
-  /// L^-T (y - V lambda) = K^-1 (f - B^T lambda), n; column by column.
+  MatX at_border(const MatX& y) const;
+  /// L^-T (y - V lambda) = K^-1 (f - B^T lambda), n.
   MatX backward(MatX y, const MatX& lambda) const;
 
  private:
