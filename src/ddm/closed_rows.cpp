@@ -1,6 +1,7 @@
 #include "ddm/closed_rows.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "base/columns.hpp"
@@ -216,10 +217,17 @@ std::vector<Residuals> ClosedRows::residuals(const Columns& at) const {
              lambda = rows_.largest(at.lambda),
              energy = at.energy - 2 * rows_.dot(at.response, at.lambda) + rows_.dot(at.lambda, at.C_lambda);
   std::vector<Residuals> all;
-  for (Eigen::Index k = 0; k < r.size(); ++k)
-    all.push_back({.kinematic = fraction(r(k), system_.size(moved(k), largest(C_lambda(k), gaps(k)))),
+  for (Eigen::Index k = 0; k < r.size(); ++k) {
+    const double size = system_.size(moved(k), largest(C_lambda(k), gaps(k)));
+    // Where motions close all gaps that are closed, round-off of them is left, and no pressure to compare with its own.
+    if (r(k) <= std::numeric_limits<double>::epsilon() * size) {
+      all.push_back({.kinematic = 0, .force = 0});
+      continue;
+    }
+    all.push_back({.kinematic = fraction(r(k), size),
                    .force = largest(std::sqrt(fraction(std::abs(at.rz(k)), std::abs(energy(k)))),
                                     of_one_row * fraction(z(k), lambda(k)))});
+  }
   return all;
 }
 

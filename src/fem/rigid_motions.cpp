@@ -148,9 +148,12 @@ void add_openings(const Bodies& bodies, const std::vector<ContactNormal>& normal
     Eigen::RowVector3d of_body = Eigen::RowVector3d::Zero(), of_other = of_body;
     for (int c = 0; c < 2; ++c) {
       of_body -= at.normal(c) * bodies.at(at.body, at.position, c);
-      of_other += at.normal(c) * bodies.at(at.other, at.position, c);
+      if (at.other >= 0) of_other += at.normal(c) * bodies.at(at.other, at.position, c);
     }
-    gram.add({{at.body, of_body}, {at.other, of_other}});
+    if (at.other >= 0)
+      gram.add({{at.body, of_body}, {at.other, of_other}});
+    else
+      gram.add({{at.body, of_body}});
   }
 }
 

@@ -20,7 +20,7 @@ struct RigidMotion {
 /// A place where contact keeps two bodies from moving into or away from one another, along a unit normal.
 struct ContactNormal {
   Vec2 position, normal;
-  int body, other;
+  int body, other;  ///< other: -1 where it is the place itself that the body is not to move from
 };
 
 /// Each body's centre and half-diagonal, so that the three motions of a body are of one size.

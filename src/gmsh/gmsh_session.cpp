@@ -29,7 +29,7 @@ void set_options() {
   gmsh::option::setNumber("General.NumThreads", 1);
 }
 
-/// gmsh's first error since the start; empty if there was none.
+/// gmsh's first error since the log began; empty if there was none.
 std::string first_error() {
   std::vector<std::string> log;
   gmsh::logger::get(log);
@@ -154,6 +154,8 @@ GmshSession::GmshSession(ForbiddenBy forbidden) {
 
 void GmshSession::run(const std::string& file, const std::string& what, const std::function<void()>& step) {
   std::string thrown;
+  gmsh::logger::stop();
+  gmsh::logger::start();  // of this step alone
   try {
     step();
   } catch (const std::exception& error) {

@@ -84,7 +84,7 @@ double size_of(const Mesh& mesh) { return (mesh.nodes.colwise().maxCoeff() - mes
 class PairFinder {
  public:
   PairFinder(const Scene& scene, const Mesh& mesh)
-      : mesh_(mesh), entries_(mesh), named_(named_pairs(scene, entries_)) {}
+      : mesh_(mesh), seeks_accuracy_(scene.accuracy), entries_(mesh), named_(named_pairs(scene, entries_)) {}
 
   void add(const ContactSpec& spec, std::vector<ContactCurves>& all) {
     auto sides = entries_.of(spec);
@@ -126,7 +126,7 @@ class PairFinder {
   }
 
   ContactCurves contact_of(const ContactSpec& spec, const std::array<int, 2>& pair, bool found) {
-    ContactCurves contact{.spec = spec, .curves = {}};
+    ContactCurves contact{.spec = spec, .curves = {}, .on_free_mesh = seeks_accuracy_};
     contact.spec.found = found;
     for (const int i : {0, 1}) {
       const Curve& curve = contact.curves[i] = curve_of(pair[i]);
@@ -145,6 +145,7 @@ class PairFinder {
   }
 
   const Mesh& mesh_;
+  const bool seeks_accuracy_;
   const SideTable table_{mesh_};
   const BodyPoints points_ = body_points(mesh_);
   const std::vector<int> whole_ = bonded_to(mesh_, points_);

@@ -13,6 +13,7 @@ struct ContactCurves {
   ContactSpec spec;
   std::array<Curve, 2> curves;
   std::array<double, 2> edge_size{};  ///< mean, length
+  bool on_free_mesh = false;          ///< on one of those that [accuracy] makes
 };
 
 /// Those in contact, and those that are tied. Throws InputError for unknown curves, curves that are no chains, and

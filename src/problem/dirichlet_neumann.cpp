@@ -29,14 +29,14 @@ bool prescribed(const Mesh& mesh, const Curve& curve, const Constraints& constra
 std::vector<Link> contact_links(const Mesh& mesh, const std::vector<ContactCurves>& contacts,
                                 const Constraints& constraints) {
   std::vector<Link> links;
-  for (const auto& [spec, curves, edge_size] : contacts)
-    links.push_back({.body = curves[0].body,
-                     .other = curves[1].body,
+  for (const ContactCurves& contact : contacts)
+    links.push_back({.body = contact.curves[0].body,
+                     .other = contact.curves[1].body,
                      .differ = true,
-                     .body_finer = edge_size[0] <= (1 + 1e-6) * edge_size[1],
-                     .body_prescribed = prescribed(mesh, curves[0], constraints),
-                     .other_prescribed = prescribed(mesh, curves[1], constraints),
-                     .key = spec.key});
+                     .body_finer = contact.edge_size[0] <= (1 + 1e-6) * contact.edge_size[1],
+                     .body_prescribed = prescribed(mesh, contact.curves[0], constraints),
+                     .other_prescribed = prescribed(mesh, contact.curves[1], constraints),
+                     .key = contact.spec.key});
   return links;
 }
 

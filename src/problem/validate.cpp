@@ -1,6 +1,7 @@
 #include "problem/validate.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -89,10 +90,37 @@ VecX mesh_errors(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
   return error;
 }
 
+std::vector<char> driven(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                         const std::vector<std::vector<RigidMotion>>& motions, const VecX& load) {
+  if (motions.empty()) return {};
+  return driven(mesh, motions, load, mesh_errors(mesh, pairs), rounding_of_edges(mesh, pairs));
+}
+
 std::vector<ContactNormal> normals_of(const Mesh& mesh, const ContactPair& pair) {
   std::vector<char> faces(pair.multiplier.edges.size(), 0);
   for (const ContactPoint& point : pair.points) faces[point.edge] = 1;
   return smooth_normals(mesh.nodes, pair.multiplier, pair.opposite.body, faces);
+}
+
+// Motions that leave the contact curves of their bodies where they are, as the turn of a disc does, and that no load
+// drives. No contact resists them, but rows do, as they have the normals of one side: those of a bore resist the turn
+// of a shaft about its own centre where the bore's is another, and none resists its turn about that of the bore, which
+// shifts it.
+std::vector<std::vector<RigidMotion>> idle_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                                                   const SaddlePointSystem& system) {
+  std::vector<ContactNormal> normals;
+  for (const ContactPair& pair : pairs) {
+    std::vector<char> faces(pair.multiplier.edges.size(), 0), opposite(pair.opposite.edges.size(), 0);
+    for (const ContactPoint& point : pair.points) faces[point.edge] = opposite[point.opposite_edge] = 1;
+    std::ranges::copy(smooth_normals(mesh.nodes, pair.multiplier, -1, faces), std::back_inserter(normals));
+    std::ranges::copy(smooth_normals(mesh.nodes, pair.opposite, -1, opposite), std::back_inserter(normals));
+  }
+  std::vector<std::vector<RigidMotion>> idle;
+  const auto motions = free_motions(mesh, system.constraints, normals);
+  const std::vector<char> moves = driven(mesh, pairs, motions, system.f);
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    if (!moves[k]) idle.push_back(motions[k]);
+  return idle;
 }
 
 }  // namespace
@@ -100,8 +128,7 @@ std::vector<ContactNormal> normals_of(const Mesh& mesh, const ContactPair& pair)
 void refuse_driven(const Mesh& mesh, const std::vector<ContactPair>& pairs,
                    const std::vector<std::vector<RigidMotion>>& motions, const std::vector<std::string>& findings,
                    const VecX& load) {
-  if (motions.empty()) return;
-  const std::vector<char> moves = driven(mesh, motions, load, mesh_errors(mesh, pairs), rounding_of_edges(mesh, pairs));
+  const std::vector<char> moves = driven(mesh, pairs, motions, load);
   for (std::size_t k = 0; k < motions.size(); ++k)
     if (moves[k])
       throw SceneError("nothing holds " + describe(mesh, motions[k]) +
@@ -119,10 +146,14 @@ std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const 
     for (const int unknown : unknowns_to_hold(mesh, pairs, system.constraints, motions))
       system.constraints.fixed[unknown] = 1;
   };
-  hold(free_motions(mesh, system.constraints, unit_rows(system)));
+  auto motions = free_motions(mesh, system.constraints, unit_rows(system));
+  if (std::ranges::count(driven(mesh, pairs, motions, system.f), 1) > 0) {
+    hold(idle_motions(mesh, pairs, system));
+    motions = free_motions(mesh, system.constraints, unit_rows(system));
+  }
+  hold(motions);
   std::vector<ContactNormal> normals;
-  for (const ContactPair& pair : pairs)
-    for (const ContactNormal& normal : normals_of(mesh, pair)) normals.push_back(normal);
+  for (const ContactPair& pair : pairs) std::ranges::copy(normals_of(mesh, pair), std::back_inserter(normals));
   hold(free_motions(mesh, system.constraints, normals));
   return held;
 }

@@ -205,6 +205,52 @@ TEST(FreeMotions, ALoadThatOnlyAFinerMeshCarriesIsToldFromOneThatNothingCarries)
   }
 }
 
+// A shaft of radius 10, `aside` of the middle of its bore, which is 0.05 wider and `soft` times as soft; a load of 1
+// per area pulls it along `angle`.
+Results shaft_in_a_bore(const Vec2& aside, double angle, double soft, const std::string& multipliers_on) {
+  const TemporaryFolder folder;
+  std::ostringstream geo, scene;
+  geo << "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {-30, -30, 0, 60, 60}; Disk(2) = {0, 0, 0, 10.05};\n"
+      << "BooleanDifference(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };\n"
+      << "Disk(4) = {" << aside.x() << ", " << aside.y() << ", 0, 10};\n"
+      << R"(
+Physical Surface("house") = {3}; Physical Surface("shaft") = {4};
+rim() = Boundary{ Surface{4}; }; Physical Curve("rim") = rim();
+all() = Boundary{ Surface{3}; }; bore() = Curve In BoundingBox{-11, -11, -1, 11, 11, 1}; bore() -= rim(); all() -= bore();
+Physical Curve("bore") = bore(); Physical Curve("out") = all();
+MeshSize{ : } = 5; MeshSize{ PointsOf{ Curve{rim(), bore()}; } } = 1; Mesh.ElementOrder = 2;)";
+  folder.write("shaft.geo", geo.str());
+  scene << "mesh.file = \"shaft.geo\"\nmaterials.steel = { young = 210e3, poisson = 0.3 }\n"
+        << "materials.soft = { young = " << 210e3 / soft << ", poisson = 0.3 }\n"
+        << "bodies = { shaft = \"steel\", house = \"soft\" }\n"
+        << "boundary = [{ on = \"out\", displacement = { x = 0, y = 0 } }]\n"
+        << "body_force = [{ body = \"shaft\", force = [" << std::cos(angle) << ", " << std::sin(angle) << "] }]\n"
+        << "[[contact]]\nbetween = [\"rim\", \"bore\"]\n";
+  if (!multipliers_on.empty()) scene << "multipliers_on = \"" << multipliers_on << "\"\n";
+  return solve_scene(read_scene(folder.write("shaft.toml", scene.str())));
+}
+
+// Along the normals of the bore the shaft's turn about its own centre opens a gap, and with it a shift that opens none.
+// The moment that holds the turn is that of the load on how far the shaft is aside: a force of that part of it, over
+// the radius.
+TEST(FreeMotions, AShaftThatIsDrawnAsideInItsBoreIsHeldWhosesoeverNormalsCount) {
+  std::mt19937 random(41);
+  std::uniform_real_distribution<double> far(0.05, 1), turn(0, 2 * std::numbers::pi);
+  for (int i = 0; i < 6; ++i) {
+    const double distance = 0.05 * far(random), at = turn(random), angle = turn(random);
+    const Vec2 aside = distance * Vec2(std::cos(at), std::sin(at)),
+               load = 100 * std::numbers::pi * Vec2(std::cos(angle), std::sin(angle));
+    for (const auto& [soft, on] : {std::pair{1.0, "rim"}, {1.0, "bore"}, {100.0, ""}}) {
+      SCOPED_TRACE(std::to_string(i) + ", " + on);
+      const Results r = shaft_in_a_bore(aside, angle, soft, on);
+      EXPECT_NE(r.status, Status::not_converged);
+      Vec2 force = r.recovery.contacts[0].force;
+      if (r.problem.pairs[0].spec.multipliers_on == "rim") force = -force;
+      EXPECT_LE((force - load).norm(), 0.01 * load.norm());
+    }
+  }
+}
+
 TEST(FreeMotions, WhatAnOvalLineHoldsIsHeld) {
   TwoPlates plates = saddle(12, CellKind::quad8);
   plates.height = [](double x) { return 1.02 * std::sqrt(0.25 - (x - 0.4) * (x - 0.4)) - 0.1; };

@@ -99,7 +99,7 @@ def test_a_pin_that_just_touches_a_wall_presses_on_it_as_it_widens(mortise, tmp_
         told = json.loads((tmp_path / "out/summary.json").read_text())["contact"][1]
         return np.hypot(*told["force"]), np.hypot(*told["force_error"])
 
-    (found, bar), (expected, known) = wall(0.1, edges), wall(0.03, 100)
+    (found, bar), (expected, known) = wall(0.1, edges), wall(0.01, 100)
     assert expected > 10 * known and abs(found - expected) < bar + known
 
 
