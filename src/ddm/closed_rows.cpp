@@ -201,8 +201,8 @@ struct ClosedRows::Columns {
   VecX energy, rz;
 
   void keep(const std::vector<int>& some) {
-    const auto each = [&](auto& all) { all = std::remove_reference_t<decltype(all)>(all(Eigen::all, some)); };
-    for (MatX* columns : {&gaps, &response, &lambda, &C_lambda, &r, &z, &p}) each(*columns);
+    for (MatX* columns : {&gaps, &response, &lambda, &C_lambda, &r, &z, &p})
+      *columns = MatX((*columns)(Eigen::all, some));
     energy = VecX(energy(some));
     rz = VecX(rz(some));
     std::vector<int> kept;

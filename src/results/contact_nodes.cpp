@@ -24,7 +24,7 @@ CurveNodes nodes_along(const Mesh& mesh, const Curve& curve, const Constraints& 
   };
   CurveNodes found;
   const auto add = [&](int node, double s, const Place& place, const Vec2& n) {
-    found.nodes.push_back({.node = node, .s = s, .place = place, .own_normal = n, .normal = n, .faces = {}});
+    found.nodes.push_back({.node = node, .s = s, .place = place, .own_normal = n, .normal = n});
   };
   double s = 0;
   for (int e = 0; e < int(curve.edges.size()); ++e) {
@@ -85,7 +85,7 @@ void face_from_multiplier_side(const Mesh& mesh, const ContactPair& pair, Facing
   node.on_multiplier = node.place;
   const Line line{mesh.nodes.row(node.node).transpose(), node.normal,
                   deepest_overlap(pair.multiplier, node.place.edge)};
-  if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite, line)) node.faces = {node.place, line, *hit};
+  if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite, line)) node.faces = {line, *hit};
 }
 
 // `along`: the nodes of the multiplier side.
@@ -104,7 +104,7 @@ void face_from_opposite_side(const Mesh& mesh, const ContactPair& pair, const st
   node.normal = vertex != along.end() ? vertex->normal : line.n;
   node.on_multiplier = *foot;
   const Hit own{node.place.edge, node.place.xi, (x - line.x).dot(node.normal)};
-  node.faces = {*foot, {line.x, node.normal, line.depth}, own};
+  node.faces = {{line.x, node.normal, line.depth}, own};
 }
 
 ContactNodes nodes_of(const Problem& problem, const ContactPair& pair) {

@@ -8,9 +8,8 @@
 
 namespace mortise {
 
-/// A place of the multiplier side, the line along its normal there, and where this meets the opposite side.
-struct FacingPlaces {
-  Place on_multiplier;
+/// The line along the normal at a place of the multiplier side, and where it meets the opposite side.
+struct Facing {
   Line line;
   Hit on_opposite;
 };
@@ -18,12 +17,12 @@ struct FacingPlaces {
 /// A node of either curve.
 struct FacingNode {
   int node;
-  double s;                           ///< arc length, from where its curve begins
-  Place place;                        ///< on one of the edges of its curve that meet there
-  Vec2 own_normal;                    ///< mean of these edges' normals; at an end on a symmetry plane in that plane
-  Vec2 normal;                        ///< of the multiplier side there; of a node that faces nothing, against its own
-  Place on_multiplier{-1, 0};         ///< edge -1: it faces nothing
-  std::optional<FacingPlaces> faces;  ///< none: it faces nothing
+  double s;                       ///< arc length, from where its curve begins
+  Place place;                    ///< on one of the edges of its curve that meet there
+  Vec2 own_normal;                ///< mean of these edges' normals; at an end on a symmetry plane in that plane
+  Vec2 normal;                    ///< of the multiplier side there; of a node that faces nothing, against its own
+  Place on_multiplier{-1, 0};     ///< on the multiplier side, where p is taken; edge -1: nowhere
+  std::optional<Facing> faces{};  ///< from there; none: it faces nothing
 };
 
 /// The middle of an edge.

@@ -78,7 +78,7 @@ struct Asked {
             .normal = at.normal,
             .u_n = u.segment<2>(2 * at.node).dot(at.normal),
             .p = p,
-            .gap = at.faces ? gap(*at.faces, at.normal) : nan,
+            .gap = at.faces ? gap(at) : nan,
             .sigma_n = normal_stress(s, at.own_normal),
             .sigma_2 = s(1),
             .on_multiplier = at.on_multiplier,
@@ -87,12 +87,13 @@ struct Asked {
   }
 
   // Deformed.
-  double gap(const FacingPlaces& at, const Vec2& normal) const {
-    const auto& [own, line, hit] = at;
+  double gap(const FacingNode& at) const {
+    const auto& [line, hit] = *at.faces;
+    const Place& own = at.on_multiplier;
     const double undeformed =
         pair.spec.initial_gap == InitialGap::closed ? 0 : pair.geometry.initial_gap(line, own, hit);
     const auto moved = [&](const Curve& curve, int edge, double xi) {
-      return edge_value(u, curve.edges[edge], xi).dot(normal);
+      return edge_value(u, curve.edges[edge], xi).dot(at.normal);
     };
     return undeformed + moved(pair.opposite, hit.edge, hit.xi) - moved(pair.multiplier, own.edge, own.xi);
   }

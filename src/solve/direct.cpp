@@ -76,6 +76,7 @@ class Passes {
     take_active_set(s_, set, solution_);
     if (pass_ == 0) tension_ = s_.stiffness_scale * set.negligible_tension;
     if (is_without_solution(solution_)) return {};
+    feasible_.reset();  // of other rows
     if (pass_ > 0) set.lambda -= problem_.known;
     const VecX change = stacked(set.lambda, set.mu);
     system = std::move(set.system);
@@ -90,8 +91,8 @@ class Passes {
   Solution& solution_;
   int pass_ = 0;
   bool infeasible_ = false;
-  /// What is refined, where its rows are as they must be: what it leaves of the forces on a body without load,
-  /// round-off of the others', may pull at rows that the refinement keeps closed.
+  // What is refined, where its rows are as they must be: what it leaves of the forces on a body without load, round-off
+  // of the others', may pull at rows that the refinement keeps closed.
   std::optional<Solution> feasible_;
   double tension_ = 0;  // that is round-off, as the first pass has it
 };

@@ -3,59 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "app/solve_scene.hpp"
-#include "results/audit_solution.hpp"
-#include "scene/loads.hpp"
+#include "support/audited_scenes.hpp"
 #include "support/messages.hpp"
 #include "support/plate_scenes.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace mortise::test {
 namespace {
-
-// A scene made by gmsh's OpenCASCADE kernel: `bodies` are its physical surfaces, all of steel.
-Scene drawn(const TemporaryFolder& folder, const std::string& geo, const std::vector<std::string>& bodies,
-            const std::string& rest) {
-  folder.write("s.geo", "SetFactory(\"OpenCASCADE\"); Mesh.ElementOrder = 2; Mesh.MeshSizeMax = 0.2;\n" + geo);
-  std::string toml = "[mesh]\nfile = \"s.geo\"\n[materials.steel]\nyoung = 210e3\npoisson = 0.3\n[bodies]\n";
-  for (const std::string& body : bodies) toml += body + " = \"steel\"\n";
-  return read_scene(folder.write("s.toml", toml + rest));
-}
-
-std::string boundary(const std::string& on, const std::string& what) {
-  return "[[boundary]]\non = [\"" + on + "\"]\n" + what + "\n";
-}
-std::string held(const std::string& on) { return boundary(on, "displacement = { x = 0, y = 0 }"); }
-std::string pair(const std::string& a, const std::string& b) {
-  return "[[contact]]\nbetween = [\"" + a + "\", \"" + b + "\"]\n";
-}
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string all;
-  for (const std::string& line : lines) all += line + "\n";
-  return all;
-}
-
-std::string before(const Scene& scene) { return joined(check_scene(scene).warnings); }
-std::string after(const Scene& scene) { return joined(audit_solution(solve_scene(scene))); }
-
-int lines_of(const std::string& text) { return int(std::count(text.begin(), text.end(), '\n')); }
-
-// Rectangles i = 1, 2, ...: x, y, width, height. Surfaces b1, ..; curves down1, right1, up1, left1, ..
-std::string rectangles(const std::vector<std::string>& boxes) {
-  std::string geo;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const std::string n = std::to_string(i + 1);
-    geo += "Rectangle(" + n + ") = {" + boxes[i] + "}; c" + n + "() = Boundary{ Surface{" + n + "}; };\n";
-    geo += "Physical Surface(\"b" + n + "\") = {" + n + "};\n";
-    const char* sides[] = {"down", "right", "up", "left"};
-    for (int k = 0; k < 4; ++k)
-      geo += std::string("Physical Curve(\"") + sides[k] + n + "\") = {c" + n + "(" + std::to_string(k) + ")};\n";
-  }
-  return geo;
-}
 
 // ---- Scenes that are right ----
 
@@ -174,18 +127,6 @@ TEST(Audit, FindsTwoPiecesOfOneBodyThatAreNotJoined) {
   EXPECT_EQ(lines_of(lines), 1) << lines;
   expect_contains(lines, "two pieces of body 'a' meet");
   expect_contains(lines, "over a length of 4");
-}
-
-TEST(Audit, FindsWhichOfManyLoadsDriveBodiesIntoOneAnother) {
-  const TemporaryFolder folder;
-  const Scene scene = drawn(folder, rectangles({"0, 0, 0, 4, 1", "1, 1.1, 0, 2, 1"}), {"b1", "b2"},
-                            held("down1") + boundary("up2", "displacement = { x = 0, y = -0.001 }"));
-  CaseSolver solver;
-  for (const double times : {1., 2., 50., 300., 250., 1.}) {
-    const std::string lines = joined(audit_solution(solver.solve(scaled_loads(scene, times))));
-    EXPECT_EQ(lines.find("pass through one another") != std::string::npos, times > 100) << times << "\n" << lines;
-  }
-  EXPECT_EQ(solver.shared(), 5);
 }
 
 // A roller in a V whose right flank is in a pair, and the left one is not.
@@ -324,22 +265,6 @@ TEST(Audit, RefusesElementsListedTwice) {
   expect_contains(message_of([&] { solve_scene(uniaxial_scene(), mesh); }), "one over the other, near (");
 }
 
-// ---- Loads ----
-
-TEST(Audit, RefusesAnEdgeThatTwoNamesLoad) {
-  const TemporaryFolder folder;
-  const std::string geo =
-      "Rectangle(1) = {0, 0, 0, 2, 1}; b() = Boundary{ Surface{1}; }; Physical Surface(\"p\") = {1};"
-      "Physical Curve(\"down\") = {b(0)}; Physical Curve(\"left\") = {b(3)}; Physical Curve(\"sides\") = {b(1), b(3)};";
-  const std::string load = boundary("left", "pressure = 5");
-  const std::string message = message_of(
-      [&] { check_scene(drawn(folder, geo, {"p"}, held("down") + load + boundary("sides", "traction = [1, 0]"))); });
-  for (const char* part : {"boundary.1", "'left'", "boundary.2", "'sides'", "near (0, ", "over a length of 1 "})
-    expect_contains(message, part);
-  const Scene moved = drawn(folder, geo, {"p"}, held("down") + load + boundary("sides", "displacement = { x = 0 }"));
-  EXPECT_EQ(before(moved), "");
-}
-
 // ---- Contact at the end of a curve ----
 
 // Two half cylinders of radius 1 that touch at the origin, named up to the angle `a`.
@@ -388,23 +313,6 @@ TEST(Audit, IsSilentWhereTheOtherBodyEndsToo) {
           pair("foot", "seat"));
   EXPECT_EQ(before(scene), "");
   EXPECT_EQ(after(scene), "");
-}
-
-// ---- Crossing that only the load brings about ----
-
-TEST(Audit, FindsBodiesThatTheLoadDrivesThroughOneAnother) {
-  const std::string geo = rectangles({"0, 0, 0, 2, 1", "0, 1.05, 0, 2, 1"});
-  const auto pushed = [&](const std::string& y, const std::string& contact) {
-    const TemporaryFolder folder;
-    return after(drawn(folder, geo, {"b1", "b2"},
-                       held("down1") + boundary("up2", "displacement = { x = 0, y = " + y + " }") + contact));
-  };
-  EXPECT_EQ(pushed("-0.04", ""), "");
-  EXPECT_EQ(pushed("-0.06", pair("up1", "down2")), "");
-  const std::string lines = pushed("-0.06", "");
-  EXPECT_EQ(lines_of(lines), 1) << lines;
-  expect_contains(lines, "by 0.01 (17 % of the largest displacement)");
-  expect_contains(lines, "[\"up1\", \"down2\"]");
 }
 
 }  // namespace

@@ -1,0 +1,61 @@
+// Which curve carries the multipliers on meshes that an accuracy makes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <sstream>
+
+#include "app/accuracy.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+// A roller in a groove of two flat sides that stand `lean` from upright: what is right and left is alike.
+Scene roller_in_a_groove(const TemporaryFolder& folder, double lean, double radius, double load, int first_edges) {
+  std::ostringstream geo, scene;
+  const double up = std::cos(lean), aside = std::sin(lean), y = radius / aside;
+  geo << "R = " << radius << "; y = " << y << "; s = " << aside << "; c = " << up << ";\n"
+      << R"(
+Point(1) = {0, y, 0}; Point(2) = {R, y, 0}; Point(3) = {0, y + R, 0}; Point(4) = {-R, y, 0}; Point(5) = {0, y - R, 0};
+Circle(1) = {2, 1, 3}; Circle(2) = {3, 1, 4}; Circle(3) = {4, 1, 5}; Circle(4) = {5, 1, 2};
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Point(11) = {-40, -20, 0}; Point(12) = {40, -20, 0}; Point(13) = {40, 30 * c, 0}; Point(14) = {30 * s, 30 * c, 0};
+Point(15) = {3 * s, 3 * c, 0}; Point(16) = {-3 * s, 3 * c, 0}; Point(17) = {-30 * s, 30 * c, 0}; Point(18) = {-40, 30 * c, 0};
+For i In {11:17}
+  Line(i) = {i, i + 1};
+EndFor
+Line(18) = {18, 11};
+Curve Loop(2) = {11:18}; Plane Surface(2) = {2};
+Physical Surface("roller") = {1}; Physical Surface("block") = {2};
+Physical Curve("rim") = {1:4}; Physical Curve("right") = {14}; Physical Curve("left") = {16}; Physical Curve("ground") = {11};)";
+  folder.write("groove.geo", geo.str());
+  scene << "mesh.file = \"groove.geo\"\nmaterials.steel = { young = 210e3, poisson = 0.3 }\n"
+        << "bodies = { \"*\" = \"steel\" }\n"
+        << "boundary = [{ on = \"ground\", displacement = { x = 0, y = 0 } }]\n"
+        << "body_force = [{ body = \"roller\", force = [0, " << -load << "] }]\n"
+        << "contact = [{ between = [\"rim\", \"left\"] }, { between = [\"rim\", \"right\"] }]\n"
+        << "accuracy = { value = \"2%\", first_edges = " << first_edges << " }\n";
+  return read_scene(folder.write("groove.toml", scene.str()), {});
+}
+
+// Where the sides slide along one another p hangs on whose normals count: pairs that are alike have them alike, on each
+// mesh.
+TEST(MultiplierSide, OfPairsThatAreAlikeIsAlikeOnEachMeshOfAnAccuracy) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> lean(0.5, 1.1), radius(6, 12), load(0.5, 3);
+  std::uniform_int_distribution<int> edges(12, 30);
+  for (int i = 0; i < 5; ++i) {
+    const TemporaryFolder folder;
+    const auto r =
+        solve_to_accuracy(roller_in_a_groove(folder, lean(random), radius(random), load(random), edges(random)));
+    ASSERT_TRUE(r && r->accuracy->reached()) << i;
+    for (const ContactPair& pair : r->problem.pairs) EXPECT_EQ(pair.spec.multipliers_on, "rim") << i;
+    const auto& contacts = r->recovery.contacts;
+    const double largest = largest_entry(contacts[0].pressure);
+    EXPECT_NEAR(largest_entry(contacts[1].pressure), largest, 0.01 * largest) << i;
+  }
+}
+
+}  // namespace
+}  // namespace mortise::test
