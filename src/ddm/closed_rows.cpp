@@ -219,8 +219,9 @@ std::vector<Residuals> ClosedRows::residuals(const Columns& at) const {
   std::vector<Residuals> all;
   for (Eigen::Index k = 0; k < r.size(); ++k) {
     const double size = system_.size(moved(k), largest(C_lambda(k), gaps(k)));
-    // Where motions close all gaps that are closed, round-off of them is left, and no pressure to compare with its own.
-    if (r(k) <= std::numeric_limits<double>::epsilon() * size) {
+    // Where motions alone close the gaps, what pressures do is round-off of them as is what is left, and no measure of
+    // it.
+    if (largest(r(k), C_lambda(k)) <= std::numeric_limits<double>::epsilon() * size) {
       all.push_back({.kinematic = 0, .force = 0});
       continue;
     }

@@ -279,6 +279,7 @@ TEST(Feti, FindsNoPressureWhereMotionsCloseAllGaps) {
     s.B.setFromTriplets(B.begin(), B.end());
     s.g = VecX::NullaryExpr(s.B.rows(), [&] { return gap(random); });
     s.row_scale = VecX::LinSpaced(s.B.rows(), 1, 2);
+    if (i % 2) s.f.setZero();  // nor is there any energy to compare with
     s.f.tail(2 * nodes * (bodies - 1)).setZero();
     const Solution found = solve_by_feti(s, {}), direct = solve_directly(s);
     ASSERT_EQ(found.status, SolveStatus::converged) << i;

@@ -43,7 +43,12 @@ TEST(FreeMotions, AreFoundFromWhatTheGroundedUnknownsDo) {
     const Vec2 arm = mesh.nodes.row(grounded[k] / 2).transpose() - Vec2(0.4, 0.6);
     values(k) = 0.1 * (grounded[k] % 2 ? arm.x() : -arm.y());
   }
-  const auto motion = motions_through(mesh, motions, grounded, values)[0];
+  MatX both(2, 2);
+  both << -values, values;
+  const auto through = motions_through(mesh, motions, grounded, both);
+  ASSERT_EQ(through.size(), 2u);
+  EXPECT_NEAR(through[0][0].rotation, -1 / 0.15, 1e-8);
+  const auto& motion = through[1];
   ASSERT_EQ(motion.size(), 1u);
   EXPECT_EQ(motion[0].body, 0);
   EXPECT_NEAR(motion[0].centre.y(), 0.45, 1e-12);
