@@ -211,6 +211,5 @@ def test_fifty_cases(mortise, tmp_path):
 
 def test_a_bearing_whose_gaps_motions_alone_close_ends(mortise, tmp_path):
     """By the dual method, which has no pressure then that residuals could be compared with: drawn as the 50th of 912."""
-    words = [sys.executable, fuzz.__file__, "1", "912:50", "--kind", "assembly", "--jobs", "1", "--out", str(tmp_path)]
-    done = subprocess.run(words, capture_output=True, text=True, env=dict(os.environ, MORTISE=str(mortise)))
-    assert done.returncode == 0, done.stdout
+    done = fuzz.fuzz(mortise, 1, "912", first=50, kinds=["assembly"], out=tmp_path)
+    assert [result[3] for result in done] == [[]]
