@@ -191,6 +191,22 @@ TEST(CasesThatAreNone, AreSolvedAnew) {
   }
 }
 
+// Where the displacements of both sides are prescribed they leave the gap open, or close it: its end has no pressure,
+// or that of the row beside it.
+TEST(CasesThatAreNone, HaveTheRowsThatTheirOwnDisplacementsLeave) {
+  CaseSolver cases;
+  for (const char* down : {"5e-5", "1e-4", "5e-5"}) {
+    const std::string moved = "{x = 0, y = \"-" + std::string(down) + " - 7e-4 * (y - 0.3001)\"}";  // pressed on
+    const Scene one = scene("gap_close", {{"boundary.0.on", "[\"upper_right\", \"lower_right\"]"},
+                                          {"boundary.1.on", "[\"bottom\", \"lower_left\"]"},
+                                          {"boundary.1.displacement", "{x = 0, y = 0}"},
+                                          {"boundary.2.on", "[\"top\", \"upper_left\"]"},
+                                          {"boundary.2.displacement", moved}});
+    expect_same(cases.solve(one), solve_scene(one), 1e-12, down);
+  }
+  EXPECT_EQ(cases.shared(), 0);
+}
+
 // One that has no solution leaves the others as they are.
 TEST(CasesThatAreNone, SpoilNoOther) {
   const Overrides pushed{{"boundary.2", "{on = [\"top\"], pressure = 1e6}"}},
