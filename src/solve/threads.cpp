@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <new>
 #include <thread>
@@ -20,7 +21,7 @@ namespace {
 
 constexpr std::size_t blas_buffer = std::size_t(160) << 20;  // bytes; OpenBLAS's are 128 MB on x86
 
-int requested = 0;
+std::atomic<int> requested = 0;  // set by one thread of a program while others solve
 
 // OpenBLAS asks for the buffers of its products, one a thread, again and again where there is no memory, without an
 // end: it gets them before there is much else, all or as many as there is memory for.
@@ -41,7 +42,7 @@ void set_solver_threads(int threads) { requested = threads; }
 
 int solver_threads() {
   static const int cores = int(std::thread::hardware_concurrency());  // which the system looks up in files
-  const int wanted = requested > 0 ? requested : cores;
+  const int asked = requested, wanted = asked > 0 ? asked : cores;
   return std::clamp(wanted, 1, most_threads);
 }
 

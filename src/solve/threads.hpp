@@ -7,6 +7,7 @@ namespace mortise {
 constexpr int most_threads = 128;
 
 /// 0 (the default): as many as there are cores. At most most_threads in any case.
+/// Any thread may call it, also while others solve: what they begin next takes it.
 void set_solver_threads(int threads);
 
 /// For bodies, parts of a system, estimates beside each other.

@@ -118,6 +118,9 @@ TEST(ContactStiffness, OfATableWithSteps) {
   const char* steps[] = {"[[1e-5, 1e7], [1e-4, 1.01e7], [1.01e-4, 3e7], [1e-3, 3.01e7]]",
                          "[[1e-4, 1e4], [1.00001e-4, 3e7], [2e-3, 3.001e7]]"};
   for (const char* law : steps) EXPECT_EQ(pressed_down(3e-4, law, {}).status, Status::solved) << law;
+}
+
+TEST(ContactStiffness, OfACylinderOnATableWithSteps) {
   const Results cylinder =
       solve_scene(rough_scene("hertz", {{"contact.0.stiffness", "[[1e-5, 1e4], [1.1e-5, 1e8], [1e-3, 1.001e8]]"}}));
   EXPECT_EQ(cylinder.status, Status::solved);
@@ -139,6 +142,24 @@ TEST(ContactStiffness, RigidCylinderOnAFoundation) {
     const double x = n.position.x(), p = std::max(0.0, k / (2 * R) * (a * a - x * x));
     EXPECT_NEAR(n.p, p, n.p_error + 1e-4 * k * a * a / (2 * R)) << x;
     EXPECT_LT(n.p_error, 0.05 * k * a * a / (2 * R)) << x;
+  }
+}
+
+// Wherever its border lies between the vertices.
+TEST(ContactStiffness, ContactEndsWhereTheSidesNoLongerOverlap) {
+  for (const double k : {1e13, 1.38e13, 2e13, 3e13}) {
+    const double P = 9.2e6, a = std::cbrt(1.5 * P / k);
+    const Results r = solve_scene(rough_scene("hertz", {{"contact.0.stiffness", std::to_string(k)},
+                                                        {"materials.steel.young", "1e18"},
+                                                        {"mesh.parameters.n_upper", "15"},
+                                                        {"mesh.parameters.n_lower", "19"}}));
+    const ContactResults& contact = r.recovery.contacts[0];
+    double edge = 0, before = 0;
+    for (const ContactNode& n : contact.multiplier.nodes) {
+      if (before < a && n.position.x() >= a) edge = n.position.x() - before;
+      before = n.position.x();
+    }
+    EXPECT_NEAR(contact.length_in_contact, a, 0.05 * edge) << k;
   }
 }
 

@@ -75,6 +75,23 @@ TEST(PressureForm, HasThePressureWhoseMomentsTheMultiplierHas) {
   }
 }
 
+// Whatever the multiplier: where p* has not all its moments it still has its force and its moment.
+TEST(PressureForm, HasTheForceAndTheMomentOfTheMultiplier) {
+  std::mt19937 draw(41);
+  std::uniform_real_distribution<double> power(-0.3, 0.5), part(0.5, 1.5);
+  for (int k = 0; k < 40; ++k) {
+    const VecX s = vertices(1, 3, 12 + k, draw), p = VecX::NullaryExpr(s.size(), [&] { return part(draw); }),
+               width = k % 2 == 0 ? VecX::Ones(s.size()) : s;
+    const std::array<PieceEnd, 2> ends{{{.power = power(draw)}, {.power = 0.5, .border = true}}};
+    const auto form = fit_pressure({.s = s, .p = p, .width = width, .end = ends}, {1, 3}, 3 + k % 8);
+    ASSERT_TRUE(form) << k;
+    const VecX left = mass(s, width) * p - moments(s, width, 1, 3, *form);
+    EXPECT_GT(largest_entry(left), 1e-4) << k;
+    EXPECT_NEAR(left.sum(), 0, 1e-6) << k;
+    EXPECT_NEAR(left.dot(s), 0, 1e-6) << k;
+  }
+}
+
 TEST(PressureForm, HasNoSlopeOnAnAxis) {
   // p = sqrt(1 - r^2) (1 + r^2 / 3) of rings: the moment of the vertex on the axis is none, its p all the same there.
   std::mt19937 draw(37);

@@ -83,6 +83,20 @@ TEST(JointStiffness, IsThatOfBarsWhateverIsPrescribed) {
   EXPECT_EQ(aside.recovery.reactions.stiffnesses[0].about, Vec2(0, 0.7));
 }
 
+TEST(JointStiffness, OfASupportOnTheContactCurveIsThatOfTheOtherSide) {
+  Scene scene = bars({"lower", "upper"});
+  scene.boundaries = {support({"lower_south"}, Displacement{0, 0}),
+                      support({"upper_south"}, Displacement{0, -1e-5}, true)};
+  scene.contacts = {contact("upper_south", "lower_north")};
+  for (const char* side : {"upper_south", "lower_north"}) {
+    scene.contacts[0].multipliers_on = side;
+    const Results r =
+        solve_scene(scene, mesh_of({bar("lower", 0, 0.2, 0, 0.3), bar("upper", 0, 0.2, 0.3, 0.7)}, CellKind::quad8));
+    ASSERT_EQ(r.status, Status::solved) << side;
+    expect_close(stiffness_in(r), bar_stiffness(0.2, 0.3, 0), 1e-10);
+  }
+}
+
 // A bolt, and beside it a sleeve with a cap that the bolt's head presses on it: both as long as each other.
 Results bolted(double overlap, double load) {
   Scene scene = bars({"bolt", "sleeve", "cap"});

@@ -5,6 +5,7 @@
 
 #include <numbers>
 #include <numeric>
+#include <random>
 
 #include "app/solve_scene.hpp"
 #include "error/goal_estimate.hpp"
@@ -52,7 +53,7 @@ TEST(Probes, LeaveOutTheStrainOfAnExpansionThatNothingHinders) {
 }
 
 // A quarter ring, 1 < r < 2, under pressure in its bore.
-Results ring(int n, const std::vector<ProbeSpec>& probes) {
+Results ring(int n, const std::vector<ProbeSpec>& probes, CellKind kind = CellKind::quad8) {
   Scene s;
   s.path = "test scene";
   s.materials["steel"] = {210e9, 0.3, 0};
@@ -66,7 +67,7 @@ Results ring(int n, const std::vector<ProbeSpec>& probes) {
                                     const double angle = std::numbers::pi / 2 * (1 - a);
                                     return Vec2((1 + t) * Vec2(std::cos(angle), std::sin(angle)));
                                   }}},
-                                CellKind::quad8));
+                                kind));
 }
 
 TEST(Probes, AlongARadiusOfLamesRingConvergeFasterThanTheElementsOwnStress) {
@@ -137,6 +138,28 @@ TEST(Probes, HaveBarsWhereErrorsAreEstimated) {
     EXPECT_GE(held, 0.95 * counted) << n;
     std::ranges::nth_element(ratios, ratios.begin() + ratios.size() / 2);
     EXPECT_LT(ratios[ratios.size() / 2], 40) << n;
+  }
+}
+
+// Places drawn at random among linear elements, whose own cell is much of what u is off by.
+TEST(Probes, HaveBarsOfDisplacementsWithinACell) {
+  constexpr double A = 10e6 / 3, B = 4 * A;
+  std::mt19937 draw(71);
+  std::uniform_real_distribution<double> part(0, 1);
+  std::vector<ProbeSpec> places;
+  for (int i = 0; i < 150; ++i) {
+    const double angle = std::numbers::pi / 2 * (0.02 + 0.96 * part(draw)), at = 1.05 + 0.9 * part(draw);
+    places.push_back(probe({at * Vec2(std::cos(angle), std::sin(angle))}));
+  }
+  for (const int n : {4, 8, 16}) {
+    Results r = ring(n, places, CellKind::quad4);
+    estimate(r);
+    double worst = 0;
+    for (const ProbeValue& v : r.recovery.probes) {
+      const Vec2 u = 1.3 / 210e9 * (0.4 * A + B / v.place.x.squaredNorm()) * v.place.x;
+      worst = std::max(worst, ((v.u - u).cwiseAbs().array() / v.error->u.array()).maxCoeff());
+    }
+    EXPECT_LT(worst, 1) << n;
   }
 }
 
