@@ -196,8 +196,9 @@ std::vector<LinePiece> through_nodes(const Knots& knots, int edges, int others) 
   return pieces;
 }
 
-// By the edge's coordinate.
-LinePoint point_of(const LinePiece& p, double xi) {
+}  // namespace
+
+LinePoint place_on(const LinePiece& p, double xi) {
   const double scale = 2 / (p.end - p.begin), zeta = scale * (xi - p.begin) - 1;
   LinePoint point{p.c[p.count - 1], Vec2::Zero(), Vec2::Zero()};
   for (int i = p.count - 2; i >= 0; --i) {
@@ -211,6 +212,8 @@ LinePoint point_of(const LinePiece& p, double xi) {
   return point;
 }
 
+namespace {
+
 // Of each edge how far the line through the nodes may be from the curve, length, by what it shows itself. Its tangents
 // through five nodes instead of seven put the middle of an interval elsewhere; and where its curvature jumps by J at a
 // node, as it does where the curve's changes faster than the nodes show, it is off by J h^2 / 32 in the interval beside
@@ -223,13 +226,13 @@ std::vector<double> uncertainty_of(const Knots& knots, const std::vector<LinePie
   for (int e = 0; e < edges; ++e) {
     for (int j = 0; j < count; ++j) {
       const double xi = (pieces[e].z[2 * j] + pieces[e].z[2 * j + 2]) / 2;
-      off[e] = std::max(off[e], (point_of(pieces[e], xi).position - point_of(other[e], xi).position).norm());
+      off[e] = std::max(off[e], (place_on(pieces[e], xi).position - place_on(other[e], xi).position).norm());
     }
   }
   for (int e = knots.closed ? 0 : 1; e < edges; ++e) {
     const int before = (e + edges - 1) % edges, vertex = count * e;
     if (knots.turns(vertex)) continue;
-    const double jump = std::abs(curvature(point_of(pieces[before], 1)) - curvature(point_of(pieces[e], -1)));
+    const double jump = std::abs(curvature(place_on(pieces[before], 1)) - curvature(place_on(pieces[e], -1)));
     const double h = std::max((knots[vertex] - knots[vertex - 1]).norm(), (knots[vertex + 1] - knots[vertex]).norm());
     for (const int beside : {before, e}) off[beside] = std::max(off[beside], jump * h * h / 32);
   }
@@ -270,12 +273,12 @@ std::span<const LinePiece> ContactLine::pieces(int edge) const {
 
 LinePoint ContactLine::at(int edge, double xi) const {
   const std::span<const LinePiece> of = pieces(edge);
-  if (of.size() == 1) return point_of(of[0], xi);
+  if (of.size() == 1) return place_on(of[0], xi);
   // A short piece says nothing far beyond itself: the line goes on with the curvature that it has at the edge's end.
   const double inside = std::clamp(xi, -1.0, 1.0), beyond = xi - inside;
   std::size_t k = 0;
   while (k + 1 < of.size() && of[k].end < inside) ++k;
-  LinePoint point = point_of(of[k], inside);
+  LinePoint point = place_on(of[k], inside);
   point.position += beyond * (point.tangent + beyond / 2 * point.bend);
   point.tangent += beyond * point.bend;
   return point;

@@ -26,6 +26,9 @@ struct LinePiece {
   std::array<Vec2, most> c{};
 };
 
+/// By the edge's coordinate.
+LinePoint place_on(const LinePiece& piece, double xi);
+
 /// Polynomial pieces: of each edge those of the drawn curve, or, where only the mesh is known, one through all
 /// nodes of the edge. At each node the pieces on both sides then have the tangent of the polynomial through seven nodes
 /// there, so that places are off by h^4 or less and normals by h^3; kinks stay. Where

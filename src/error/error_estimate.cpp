@@ -107,9 +107,11 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
       e.singular = that_count(memory.points(around, pair, k, reached[k]), e.line, spec.value);
     add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
-    if (!pair.spec.stiffness)
-      judge_small_kinks(pair, contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]), solution.u,
-                        spec.value, e);
+    if (!pair.spec.stiffness) {
+      const double modulus = contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]);
+      judge_small_kinks(pair, modulus, solution.u, spec.value, e);
+      add_curvature_jumps(p.mesh.nodes, pair, modulus, solution.u, reached[k][0], e);
+    }
     find_excluded(spec.exclude, e);
   });
   add_missed_contact(p, solution, list);

@@ -4,6 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include "contact/curvature_jumps.hpp"
+#include "error/weak_points.hpp"
 #include "fem/edges.hpp"
 
 namespace mortise {
@@ -53,6 +55,20 @@ void judge_small_kinks(const ContactPair& pair, double modulus, const VecX& u, d
     point.log_pressure = mean;  // counts as one: an exponent near 0 has no layers that a mesh could have
     return false;
   });
+}
+
+void add_curvature_jumps(const Points& nodes, const ContactPair& pair, double modulus, const VecX& u,
+                         const std::vector<Reach>& reach, PressureEstimate& estimate) {
+  if (!pair.geometry.normals) return;
+  const ContactLine& line = *pair.geometry.multiplier;
+  for (const CurvatureJump& at : curvature_jumps(nodes, pair.multiplier, line)) {
+    const bool closed =
+        at.xi > -1 ? reach[at.edge].after && reach[at.edge + 1].before : reach[at.edge].before && reach[at.edge].after;
+    if (!closed) continue;
+    const Vec2 place = line.at(at.edge, at.xi).position;
+    const double slope = at.jump * slide_at(pair, estimate.line, place, u);
+    add_weak_logarithm(estimate.line, place, modulus * slope / (2 * std::numbers::pi), estimate.local);
+  }
 }
 
 }  // namespace mortise

@@ -1,4 +1,5 @@
-// Kinks of one line in both bodies that turn little: what they do to p hangs on how far the bodies slide across them.
+// Kinks of one line in both bodies that turn little, and joints of its curvature: what they do to p hangs on how far
+// the bodies slide across them.
 #pragma once
 
 #include "error/pressure_estimate.hpp"
@@ -12,5 +13,11 @@ namespace mortise {
 /// mesh of one's own: 0.1 %); the others go. `modulus`: E*. `u`: displacements, n.
 void judge_small_kinks(const ContactPair& pair, double modulus, const VecX& u, double asked,
                        PressureEstimate& estimate);
+
+/// Where the curvature of the multiplier side jumps by k the normals turn on beyond, and the gap's slope jumps by k s
+/// where bodies slide by s: p = p0 +- (E* k s / 2 pi) ln r if contact is closed on both sides. Adds to the local error
+/// what the line misses of it.
+void add_curvature_jumps(const Points& nodes, const ContactPair& pair, double modulus, const VecX& u,
+                         const std::vector<Reach>& reach, PressureEstimate& estimate);
 
 }  // namespace mortise

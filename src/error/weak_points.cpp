@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace mortise {
 namespace {
@@ -10,9 +11,9 @@ namespace {
 // logarithms of error_estimate.cpp, from the scene's size down to the least edges that are made.
 constexpr double folds = 15;
 
-// Of c r^d on even edges of length h the part that the best hats miss in L2, over p(h) sqrt(h): 0.518 d to 0.103 d for
-// d from 0.005 to 0.5, within 2 % of this.
-double missed(double d) { return 0.52 * std::abs(d) * std::exp(-3.2 * d); }
+// Of c r^d on even edges of length h the part that the best hats miss in L2, over sqrt(h), with the amplitude d p(h):
+// for d from 0.005 to 0.5 0.518 to 0.103 of it, within 2 % of this.
+double missed(double d, double amplitude) { return 0.52 * amplitude * std::exp(-3.2 * d); }
 
 Eigen::Index nearest_vertex(const PressureLine& line, const Vec2& x) {
   Eigen::Index best = 0;
@@ -32,10 +33,17 @@ void add_weak_points(const PressureLine& line, std::vector<SingularPoint>& point
     double p = std::abs(line.p(i));  // at an edge's length, or extrapolated to the point
     for (const Eigen::Index next : {i - 1, i + 1})
       if (next >= 0 && next < line.p.size()) p = std::max(p, std::abs(line.p(next)));
-    error.add_data(i, missed(d) * p * std::sqrt(line.h(i)));
+    error.add_data(i, missed(d, std::abs(d) * p) * std::sqrt(line.h(i)));
     error.raise(i, p * std::abs(std::exp(-folds * d) - 1));
     return true;
   });
+}
+
+// The limit of a small power with p d = amplitude; hats that are symmetric about the place miss the same on both sides.
+void add_weak_logarithm(const PressureLine& line, const Vec2& place, double amplitude, LineError& error) {
+  const Eigen::Index i = nearest_vertex(line, place);
+  error.add_data(i, std::numbers::sqrt2 * missed(0, amplitude) * std::sqrt(line.h(i)));
+  error.raise(i, folds * amplitude);
 }
 
 }  // namespace mortise

@@ -14,4 +14,7 @@ namespace mortise {
 /// nothing out around them, and adds to `error` what hats miss of r^d (docs/theory.md eq. 47b).
 void add_weak_points(const PressureLine& line, std::vector<SingularPoint>& points, LineError& error);
 
+/// The same where p = p0 +- amplitude ln r on both sides of a place, stress.
+void add_weak_logarithm(const PressureLine& line, const Vec2& place, double amplitude, LineError& error);
+
 }  // namespace mortise

@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
+#include "contact/curvature_jumps.hpp"
 #include "contact/gap_resolution.hpp"
 #include "contact/surface_layer.hpp"
 #include "fem/edges.hpp"
@@ -30,9 +31,14 @@ int covered_curve(const Points& nodes, const std::array<Curve, 2>& curves) {
   return second > first ? 1 : 0;
 }
 
+bool is_smooth(const Points& nodes, const Curve& curve) {
+  return curvature_jumps(nodes, curve, ContactLine(nodes, curve)).empty();
+}
+
 // True if the multipliers lie on the second curve of a pair, where the scene does not say. On meshes that [accuracy]
 // makes the edges of both are alike but for chance; where the curves part p hangs on whose normals count, and one pair
-// would differ from mesh to mesh, or two that are alike from one another.
+// would differ from mesh to mesh, or two that are alike from one another. Normals of a curve whose curvature jumps make
+// p grow without limit there (error/sliding_kinks.hpp), so the other curve's count if that is smooth.
 bool on_second(Scheme scheme, const Points& nodes, const ContactCurves& contact, const std::vector<ElasticLaw>& laws,
                const std::vector<char>& dirichlet) {
   const auto& [curves, edge_size] = std::tie(contact.curves, contact.edge_size);
@@ -44,7 +50,7 @@ bool on_second(Scheme scheme, const Points& nodes, const ContactCurves& contact,
     const double first = contact_modulus(laws[curves[0].body]), second = contact_modulus(laws[curves[1].body]);
     if (std::max(first, second) > (1 + margin) * stiffer_limit * std::min(first, second)) return second < first;
     if (const int covered = covered_curve(nodes, curves); covered >= 0) return covered == 1;
-    if (contact.on_free_mesh) return false;
+    if (contact.on_free_mesh) return !is_smooth(nodes, curves[0]) && is_smooth(nodes, curves[1]);
     const double ratio = std::max(edge_size[0] / edge_size[1], edge_size[1] / edge_size[0]);
     const Curve& coarser = curves[second_finer ? 0 : 1];
     return coarser.edges[0].node_count == 2 && ratio > (1 + margin) * facet_limit ? !second_finer : second_finer;

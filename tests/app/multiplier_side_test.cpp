@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <iomanip>
 #include <random>
 #include <sstream>
 
@@ -54,6 +56,48 @@ TEST(MultiplierSide, OfPairsThatAreAlikeIsAlikeOnEachMeshOfAnAccuracy) {
     const auto& contacts = r->recovery.contacts;
     const double largest = largest_entry(contacts[0].pressure);
     EXPECT_NEAR(largest_entry(contacts[1].pressure), largest, 0.01 * largest) << i;
+  }
+}
+
+// A punch that is flat and rounded at its ends on a block as wide: normals that turn faster from where the rounding
+// begins make p grow as a logarithm there if the bodies slide. The flat side's do not.
+TEST(MultiplierSide, IsTheSmoothOneOfTwo) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> flat(2, 6), round(1, 4), load(500, 3000);
+  for (int i = 0; i < 4; ++i) {
+    const TemporaryFolder folder;
+    std::ostringstream geo, scene;
+    const double f = flat(random);
+    geo << std::setprecision(17) << "f = " << f << "; r = " << round(random) << ";\n"
+        << R"(
+Point(1) = {-f - r, r, 0}; Point(2) = {-f, r, 0}; Point(3) = {-f, 0, 0}; Point(4) = {f, 0, 0}; Point(5) = {f, r, 0};
+Point(6) = {f + r, r, 0}; Point(7) = {f + r, 15, 0}; Point(8) = {-f - r, 15, 0};
+Circle(1) = {1, 2, 3}; Line(2) = {3, 4}; Circle(3) = {4, 5, 6}; Line(4) = {6, 7}; Line(5) = {7, 8}; Line(6) = {8, 1};
+Curve Loop(1) = {1:6}; Plane Surface(1) = {1};
+Point(11) = {-f - r, -40, 0}; Point(12) = {f + r, -40, 0}; Point(13) = {f + r, 0, 0}; Point(14) = {-f - r, 0, 0};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 11};
+Curve Loop(2) = {11:14}; Plane Surface(2) = {2};
+Physical Surface("punch") = {1}; Physical Surface("block") = {2}; Physical Curve("foot") = {1:3};
+Physical Curve("head") = {5}; Physical Curve("ground") = {11}; Physical Curve("top") = {13};)";
+    folder.write("punch.geo", geo.str());
+    const std::string between = i % 2 == 0 ? "[\"foot\", \"top\"]" : "[\"top\", \"foot\"]";
+    scene << "mesh.file = \"punch.geo\"\nmaterials.steel = { young = 210e3, poisson = 0.3 }\n"
+          << "bodies = { \"*\" = \"steel\" }\n"
+          << "boundary = [{ on = \"ground\", displacement = { x = 0, y = 0 } },\n"
+          << "  { on = \"head\", rigid = { x = 0, rotation = 0, force = [0, " << -load(random) << "] } }]\n"
+          << "contact = [{ between = " << between << " }]\naccuracy = { value = \"1%\" }\n";
+    const std::filesystem::path path = folder.write("punch.toml", scene.str());
+    const auto r = solve_to_accuracy(read_scene(path, {}));
+    ASSERT_TRUE(r && r->accuracy->reached()) << i;
+    EXPECT_EQ(r->problem.pairs[0].spec.multipliers_on, "top") << i;
+    // With the other's normals the bars hold what they make of p where the rounding begins.
+    const auto turned = solve_to_accuracy(read_scene(path, {{"contact.0.multipliers_on", "foot"}}));
+    ASSERT_TRUE(turned && turned->accuracy->reached()) << i;
+    const PressureEstimate& estimate = turned->estimate->pressures[0];
+    int joints = 0;
+    for (Eigen::Index k = 0; k < estimate.local.least.size(); ++k)
+      joints += std::abs(std::abs(estimate.line.position[k].x()) - f) < 1e-9 && estimate.local.least(k) > 0;
+    EXPECT_EQ(joints, 2) << i;
   }
 }
 

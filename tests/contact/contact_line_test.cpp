@@ -7,6 +7,8 @@
 #include <functional>
 #include <numbers>
 
+#include "contact/curvature_jumps.hpp"
+
 namespace mortise {
 namespace {
 
@@ -228,6 +230,61 @@ TEST(ContactLine, TheFootsNormalPassesThroughThePoint) {
       }
     }
   EXPECT_FALSE(line.foot(0, Vec2(1.9, 0.3), 0));
+}
+
+// A line, an arc of radius 2 that it touches, and an arc of radius 5 that goes on where the first one ends; then a
+// kink.
+TEST(CurvatureJumps, AreWhereDrawnArcsJoinAndNotAtKinks) {
+  const auto places = [](const Shape& shape, double from, double to) {
+    const CurvePlaces at = [&](const std::vector<double>& t) {
+      std::vector<Vec2> list;
+      for (const double value : t) list.push_back(shape(value));
+      return list;
+    };
+    return sample_edges(at, {{from, to}})[0];
+  };
+  const Vec2 end(2 * std::sin(0.5), 2 - 2 * std::cos(0.5));
+  const Vec2 centre = end + 5 * Vec2(-std::sin(0.5), std::cos(0.5));
+  const Vec2 last = centre + 5 * Vec2(std::sin(0.8), -std::cos(0.8));
+  const std::vector<Shape> shapes{[](double t) { return Vec2(t, 0); },
+                                  [](double t) { return Vec2(2 * std::sin(t), 2 - 2 * std::cos(t)); },
+                                  [&](double t) { return Vec2(centre + 5 * Vec2(std::sin(t), -std::cos(t))); },
+                                  [&](double t) { return Vec2(last + t * Vec2(0, 1)); }};
+  const std::vector<std::array<double, 2>> ranges{{-1, 0}, {0, 0.5}, {0.5, 0.8}, {0, 1}};
+  Curve curve{.boundary = 0, .body = 0, .edges = {}, .sides = {}, .closed = false};
+  Points nodes(5, 2);
+  for (int e = 0; e < 4; ++e) {
+    nodes.row(e) = shapes[e](ranges[e][0]).transpose();
+    curve.edges.push_back({2, {e, e + 1, -1}});
+    curve.samples.push_back(places(shapes[e], ranges[e][0], ranges[e][1]));
+  }
+  nodes.row(4) = shapes[3](1).transpose();
+  const std::vector<CurvatureJump> jumps = curvature_jumps(nodes, curve, ContactLine(nodes, curve));
+  ASSERT_EQ(jumps.size(), 2);
+  EXPECT_EQ(jumps[0].edge, 1);
+  EXPECT_NEAR(jumps[0].jump, 1 / 2., 1e-9);
+  EXPECT_EQ(jumps[1].edge, 2);
+  EXPECT_NEAR(jumps[1].jump, 1 / 2. - 1 / 5., 1e-9);
+  curve.samples.clear();
+  EXPECT_TRUE(curvature_jumps(nodes, curve, ContactLine(nodes, curve)).empty());
+}
+
+// A straight line and an arc in one edge.
+TEST(CurvatureJumps, AreAlsoWithinAnEdge) {
+  const CurvePlaces at = [](const std::vector<double>& t) {
+    std::vector<Vec2> list;
+    for (const double value : t)
+      list.push_back(value < 1 ? Vec2(value - 1, 0) : Vec2(std::sin(value - 1), 1 - std::cos(value - 1)));
+    return list;
+  };
+  Curve curve{.boundary = 0, .body = 0, .edges = {{2, {0, 1, -1}}}, .sides = {}, .closed = false};
+  curve.samples = sample_edges(at, {{0, 2}});
+  Points nodes(2, 2);
+  nodes << at({0})[0].transpose(), at({2})[0].transpose();
+  const std::vector<CurvatureJump> jumps = curvature_jumps(nodes, curve, ContactLine(nodes, curve));
+  ASSERT_EQ(jumps.size(), 1);
+  EXPECT_NEAR(jumps[0].xi, 0, 1e-6);
+  EXPECT_NEAR(jumps[0].jump, 1, 1e-3);
 }
 
 }  // namespace

@@ -70,5 +70,44 @@ TEST(WeakPoints, HaveBarsThatReachZeroAndLeaveTheList) {
   EXPECT_EQ(error.least(1), 0);
 }
 
+// int (ln |s - s_i| - its best hats)^2 on even edges, by Gauss points of pieces that halve towards s_i.
+TEST(WeakPoints, MissOfALogarithmWhatHatsMissOfIt) {
+  const int edges = 30, at = 15;
+  const double h = 1.0 / edges;
+  const PressureLine line = power(edges, 0);
+  // By s of each edge: Gauss points of pieces that halve towards an end that is s_i.
+  std::vector<std::pair<double, double>> points;  // s, weight
+  const auto add = [&](double from, double to) {
+    for (const double g : {-std::sqrt(0.6), 0.0, std::sqrt(0.6)})
+      points.emplace_back((from + to) / 2 + (to - from) / 2 * g, (to - from) / 18 * (g == 0 ? 8 : 5));
+  };
+  for (int e = 0; e < edges; ++e)
+    for (int k = 0; k < 60; ++k) {
+      const double large = h * std::pow(0.5, k), small = k == 59 ? 0 : large / 2;
+      if (e + 1 == at)
+        add((e + 1) * h - large, (e + 1) * h - small);
+      else if (e == at)
+        add(e * h + small, e * h + large);
+      else if (k < 20)
+        add(e * h + k * h / 20, e * h + (k + 1) * h / 20);
+    }
+  MatX mass = MatX::Zero(edges + 1, edges + 1);
+  VecX right = VecX::Zero(edges + 1);
+  double square = 0;
+  for (const auto& [s, weight] : points) {
+    const int e = std::clamp(int(s / h), 0, edges - 1);
+    const double part = s / h - e, value = std::log(std::max(std::abs(s - at * h), 1e-300));
+    const Vec2 hats(1 - part, part);
+    mass.block<2, 2>(e, e) += weight * hats * hats.transpose();
+    right.segment<2>(e) += weight * value * hats;
+    square += weight * value * value;
+  }
+  const double missed = std::sqrt(square - right.dot(mass.ldlt().solve(right)));
+  LineError error{.l2 = VecX::Zero(edges + 1), .border = std::vector<char>(edges + 1, 0), .borders = {}};
+  add_weak_logarithm(line, line.position[at], 3, error);
+  EXPECT_NEAR(error.data.norm(), 3 * missed, 0.03 * error.data.norm());
+  EXPECT_EQ(error.data(at), error.data.norm());
+}
+
 }  // namespace
 }  // namespace mortise
