@@ -49,8 +49,10 @@ bool on_second(Scheme scheme, const Points& nodes, const ContactCurves& contact,
   if (dirichlet.empty()) {
     const double first = contact_modulus(laws[curves[0].body]), second = contact_modulus(laws[curves[1].body]);
     if (std::max(first, second) > (1 + margin) * stiffer_limit * std::min(first, second)) return second < first;
+    if (contact.on_free_mesh)
+      if (const bool one = is_smooth(nodes, curves[0]); one != is_smooth(nodes, curves[1])) return !one;
     if (const int covered = covered_curve(nodes, curves); covered >= 0) return covered == 1;
-    if (contact.on_free_mesh) return !is_smooth(nodes, curves[0]) && is_smooth(nodes, curves[1]);
+    if (contact.on_free_mesh) return false;
     const double ratio = std::max(edge_size[0] / edge_size[1], edge_size[1] / edge_size[0]);
     const Curve& coarser = curves[second_finer ? 0 : 1];
     return coarser.edges[0].node_count == 2 && ratio > (1 + margin) * facet_limit ? !second_finer : second_finer;

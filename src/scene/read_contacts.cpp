@@ -201,10 +201,10 @@ Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
       key("overlap", contact.overlap, a_number(),
           "in place of `pretension`: how far the faces are drawn into each other, a length"),
       key("multipliers_on", contact.multipliers_on, a_name(), "one of the two curves",
-          "that of the softer body where the other is more than 10 times as stiff (theory, section 13), else that of a "
+          "that of the softer body where the other is more than 10 times as stiff (theory, section 13), else, on the "
+          "meshes of `[accuracy]`, that whose drawn curvature does not jump where the other's does, else that of a "
           "curve which faces the other on at least 95 % of its length where the other does so on at most 90 %, else "
-          "the one with the shorter edges on average, the first if equal, on the meshes of `[accuracy]` the first, or "
-          "the second if its drawn curvature alone does not jump; but of "
+          "the one with the shorter edges on average, the first if equal, as on the meshes of `[accuracy]`; but of "
           "linear elements the longer edges if they are more than 1.5 times as long ([stability.md](stability.md)). In "
           "domain decomposition: the curve of "
           "the body that takes the displacement, or the coarser one where both bodies take both"),

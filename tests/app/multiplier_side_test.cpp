@@ -59,7 +59,7 @@ TEST(MultiplierSide, OfPairsThatAreAlikeIsAlikeOnEachMeshOfAnAccuracy) {
   }
 }
 
-// A punch that is flat and rounded at its ends on a block as wide: normals that turn faster from where the rounding
+// A punch that is flat and rounded at its ends on a wide block: normals that turn faster from where the rounding
 // begins make p grow as a logarithm there if the bodies slide. The flat side's do not.
 TEST(MultiplierSide, IsTheSmoothOneOfTwo) {
   std::mt19937 random(3);
@@ -74,7 +74,7 @@ Point(1) = {-f - r, r, 0}; Point(2) = {-f, r, 0}; Point(3) = {-f, 0, 0}; Point(4
 Point(6) = {f + r, r, 0}; Point(7) = {f + r, 15, 0}; Point(8) = {-f - r, 15, 0};
 Circle(1) = {1, 2, 3}; Line(2) = {3, 4}; Circle(3) = {4, 5, 6}; Line(4) = {6, 7}; Line(5) = {7, 8}; Line(6) = {8, 1};
 Curve Loop(1) = {1:6}; Plane Surface(1) = {1};
-Point(11) = {-f - r, -40, 0}; Point(12) = {f + r, -40, 0}; Point(13) = {f + r, 0, 0}; Point(14) = {-f - r, 0, 0};
+Point(11) = {-40, -40, 0}; Point(12) = {40, -40, 0}; Point(13) = {40, 0, 0}; Point(14) = {-40, 0, 0};
 Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 11};
 Curve Loop(2) = {11:14}; Plane Surface(2) = {2};
 Physical Surface("punch") = {1}; Physical Surface("block") = {2}; Physical Curve("foot") = {1:3};
