@@ -299,3 +299,10 @@ def test_lengths_differ_by_what_the_meshes_of_a_curve_do():
     off = lambda one, other: [found.agrees for found in figures.compare(one, other)]
     assert off(length(1.0, 1.0), length(1.00001, 1.00001)) == [True]
     assert off(length(1.0, 1.0), length(0.5, 1.00001)) == [False]
+
+
+@pytest.mark.skipif(not shutil.which("FreeFem++"), reason="FreeFem++ is not installed")
+def test_freefem_is_skipped_where_it_is_not_told_all_of_a_contact(mortise, tmp_path):
+    """A fluid, a clearance: with a part of the physics left out p would be another."""
+    found = certify.certify(mortise, PUNCH, tmp_path / "runs", ["contact.0.clearance=1e-9"])
+    assert found["agrees"] and any("FreeFEM is not told 'clearance'" in words for words in found["skipped"])
