@@ -78,13 +78,29 @@ std::set<BoundaryPair> named_pairs(const Scene& scene, const EntrySides& entries
   return pairs;
 }
 
+std::set<BoundaryPair> numbers_of(const Mesh& mesh, const std::vector<std::array<std::string, 2>>& names) {
+  std::map<std::string, int> numbers;
+  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) numbers.emplace(mesh.boundaries[b].name, int(b));
+  std::set<BoundaryPair> pairs;
+  for (const auto& [first, second] : names)
+    if (const auto one = numbers.find(first), other = numbers.find(second);
+        one != numbers.end() && other != numbers.end())
+      pairs.insert(std::minmax(one->second, other->second));
+  return pairs;
+}
+
 double size_of(const Mesh& mesh) { return (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm(); }
 
 // The pairs of curves that entries are, in their order.
 class PairFinder {
  public:
-  PairFinder(const Scene& scene, const Mesh& mesh)
-      : mesh_(mesh), seeks_accuracy_(scene.accuracy), entries_(mesh), named_(named_pairs(scene, entries_)) {}
+  // `known`: pairs of boundaries, by name, that patterns have found before.
+  PairFinder(const Scene& scene, const Mesh& mesh, const std::vector<std::array<std::string, 2>>& known)
+      : mesh_(mesh),
+        seeks_accuracy_(scene.accuracy),
+        entries_(mesh),
+        named_(named_pairs(scene, entries_)),
+        known_(numbers_of(mesh, known)) {}
 
   void add(const ContactSpec& spec, std::vector<ContactCurves>& all) {
     auto sides = entries_.of(spec);
@@ -116,6 +132,7 @@ class PairFinder {
       for (const int boundary : side) curve_of(boundary);
     }
     auto pairs = facing_pairs(mesh_, curves_, sides, by_pattern ? spec.within : size_of(mesh_));
+    if (by_pattern && !known_.empty()) add_known(sides, pairs);
     if (pairs.empty())
       throw SceneError(spec.key + ".between: no curves '" + spec.between[0] + "' and '" + spec.between[1] +
                        "' of two bodies face each other " +
@@ -123,6 +140,22 @@ class PairFinder {
                         : spec.within ? "within contact.within; expected others, or a larger distance"
                                       : "within half an edge; expected others, or contact.within = a larger distance"));
     return pairs;
+  }
+
+  // By the first, then the second, as those that face each other.
+  void add_known(const std::array<std::vector<int>, 2>& sides, std::vector<std::array<int, 2>>& pairs) const {
+    std::array<std::map<int, std::size_t>, 2> places;
+    for (const int side : {0, 1})
+      for (std::size_t i = 0; i < sides[side].size(); ++i) places[side].emplace(sides[side][i], i);
+    std::set<BoundaryPair> there;
+    for (const auto& [first, second] : pairs) there.insert(std::minmax(first, second));
+    for (const auto& [one, other] : known_)
+      for (const auto& [first, second] : {std::pair(one, other), std::pair(other, one)})
+        if (places[0].contains(first) && places[1].contains(second) && there.insert({one, other}).second)
+          pairs.push_back({first, second});
+    std::ranges::sort(pairs, {}, [&](const std::array<int, 2>& pair) {
+      return std::pair(places[0].at(pair[0]), places[1].at(pair[1]));
+    });
   }
 
   ContactCurves contact_of(const ContactSpec& spec, const std::array<int, 2>& pair, bool found) {
@@ -151,15 +184,16 @@ class PairFinder {
   const std::vector<int> whole_ = bonded_to(mesh_, points_);
   const Thickness thickness_{mesh_.nodes, boundary_edges(mesh_), whole_};
   const EntrySides entries_;
-  const std::set<BoundaryPair> named_;
+  const std::set<BoundaryPair> named_, known_;
   std::set<BoundaryPair> found_before_;
   std::map<int, Curve> curves_;  // by boundary
 };
 
-std::vector<ContactCurves> curves_of(const Scene& scene, const std::vector<ContactSpec>& specs, const Mesh& mesh) {
+std::vector<ContactCurves> curves_of(const Scene& scene, const std::vector<ContactSpec>& specs, const Mesh& mesh,
+                                     const std::vector<std::array<std::string, 2>>& known) {
   std::vector<ContactCurves> all;
   if (specs.empty()) return all;
-  PairFinder finder(scene, mesh);
+  PairFinder finder(scene, mesh, known);
   for (const ContactSpec& spec : specs) finder.add(spec, all);
   return all;
 }
@@ -167,11 +201,11 @@ std::vector<ContactCurves> curves_of(const Scene& scene, const std::vector<Conta
 }  // namespace
 
 std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh) {
-  return curves_of(scene, scene.contacts, mesh);
+  return curves_of(scene, scene.contacts, mesh, mesh.facing);
 }
 
 std::vector<ContactCurves> tied_curves(const Scene& scene, const Mesh& mesh) {
-  return curves_of(scene, scene.ties, mesh);
+  return curves_of(scene, scene.ties, mesh, {});
 }
 
 }  // namespace mortise

@@ -163,7 +163,9 @@ Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
                 "ends of a split ring, or the faces of a crack, two curves between the same points"},
                "a list of two physical curves"),
       key("within", contact.within, above(0),
-          "of patterns: > 0, how far apart the curves may be where they face each other", "half an edge"),
+          "of patterns: > 0, how far apart the curves may be where they face each other"
+          "; with an accuracy, on any of its meshes",
+          "half an edge"),
       key("condition", contact.condition,
           one_of({Condition::unilateral, Condition::bilateral, Condition::tied, Condition::cyclic}),
           "`\"unilateral\"`, `\"bilateral\"`, `\"tied\"` or `\"cyclic\"`. Tied: both bodies are one where their meshes "

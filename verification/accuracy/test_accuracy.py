@@ -122,3 +122,28 @@ def test_displacements_at_random_places_lie_within_their_bars(mortise, tmp_path,
     for u in ("u_x", "u_y"):
         off, bar = np.abs(found[u] - exact[u]), found[u + "_error"] + exact[u + "_error"]
         assert (off <= bar).all() and np.median(off / bar) > 0.02, (off / bar).max()
+
+
+def test_pairs_of_patterns_stay_pairs_on_finer_meshes(mortise, tmp_path):
+    """Found within half an edge of the first mesh; on the last one half an edge is less than the gap that the load closes."""
+    gap = 0.014
+    (tmp_path / "two.geo").write_text(f"""SetFactory("OpenCASCADE"); Rectangle(1) = {{0, 0, 0, 1, 1}}; Rectangle(2) = {{0.2, {1 + gap}, 0, 0.6, 0.5}};
+Physical Surface("lower") = {{1}}; Physical Surface("upper") = {{2}}; Physical Curve("base") = {{1}};
+Physical Curve("lower_face") = {{3}}; Physical Curve("upper_face") = {{5}}; Physical Curve("head") = {{7}}; Mesh.ElementOrder = 2;""")
+    (tmp_path / "two.toml").write_text("""mesh.file = "two.geo"
+materials.one = { young = 1e5, poisson = 0.3 }
+bodies = { "*" = "one" }
+boundary = [{ on = "base", displacement = { x = 0, y = 0 } }, { on = "head", displacement = { x = 0, y = -0.03 } }]
+contact = [{ between = ["*_face", "*_face"] }]
+""")
+    forces = []
+    for entry in ('["*_face", "*_face"]', '["lower_face", "upper_face"]'):
+        words = ["--accuracy", "0.5%", "--set", f"contact.0.between={entry}", "-o", tmp_path / "out", "--quiet"]
+        subprocess.run([mortise, "solve", tmp_path / "two.toml", *words], check=True)
+        summary = json.loads((tmp_path / "out/summary.json").read_text())
+        (pair,) = summary["contact"]
+        lines = (tmp_path / "out/contact.csv").read_text().splitlines()[1:]
+        edges = [sum(f",{name}," in line for line in lines) / 2 for name in pair["between"]]  # of three nodes
+        assert summary["accuracy"]["reached"] and min(0.6 / edges[0], 1 / edges[1]) / 2 < gap
+        forces.append(abs(pair["force"][1]))
+    assert forces[0] == pytest.approx(forces[1], rel=1e-9)

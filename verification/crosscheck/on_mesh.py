@@ -24,6 +24,8 @@ def line(scene, mesh, curves, folder):
     linear cells; gaps and segments as of the cross-check. StudyError where FreeFEM has no such model."""
     if any("stiffness" in entry for entry in scene["contact"]):
         raise StudyError("a contact that gives way")
+    for entry in scene["contact"]:
+        scenes.refuse_others(entry, {"between", "condition", "initial_gap", "multipliers_on", "within"})
     sides = {entry["between"].index(on) if on in entry["between"] else None for entry, on in zip(scene["contact"], curves)}
     gaps = {entry.get("initial_gap", "curve") for entry in scene["contact"]}
     conditions = {entry.get("condition", "unilateral") for entry in scene["contact"]}
@@ -46,7 +48,9 @@ def main():
         run.need_programs()
         line(scenes.read_scene(Path(scene), settings), Path(mesh), curves.split(","), Path(folder))
     except (StudyError, OSError, ValueError, KeyError, TypeError) as error:
-        sys.exit(f"{type(error).__name__ * (not isinstance(error, StudyError))} {error}".strip().splitlines()[-1])
+        words = f"{type(error).__name__ * (not isinstance(error, StudyError))} {error}".strip().splitlines()
+        own = [line for line in words if not line.strip().startswith(("current line", "exit(", "err code"))]  # FreeFEM's last lines
+        sys.exit((own or words)[-1])
 
 
 if __name__ == "__main__":

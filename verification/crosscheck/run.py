@@ -102,7 +102,8 @@ def convert_step(step, scene, mesh_file, folder):
     convert.write_mesh(list(bodies.values()), folder / scenes.MESH)
     of_pairs = [[side.tag for side in pair] for pair in pairs]
     values = Quantities()
-    text = scenes.case_text(scene, list(bodies), of_pairs, tags, step.freefem, step.gap, values)
+    areas = scenes.areas_of_curves(bodies, tags, scene.get("model", {}).get("plane"))
+    text = scenes.case_text(scene, list(bodies), of_pairs, tags, step.freefem, step.gap, values, areas)
     (folder / "case.txt").write_text(text)
     (folder / scenes.EXPRESSIONS).unlink(missing_ok=True)
     if values.code:

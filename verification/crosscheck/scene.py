@@ -131,10 +131,32 @@ def material_of(scene, body):
     return scene["materials"][scene["bodies"][pattern]]
 
 
-def boundary_lines(scene, tags, values):
-    """Prescribed displacements, loads and foundations, one line of the case file each."""
+def areas_of_curves(bodies, tags, plane):
+    """By tag, of straight edges: a plane model is one deep, a ring goes all round."""
+    areas = dict.fromkeys(tags.values(), 0.0)
+    for body in bodies.values():
+        x = body.points[body.edges]
+        depth = 2 * np.pi * x[:, :, 0].mean(axis=1) if plane == "axisymmetric" else 1.0
+        for tag, area in zip(body.labels, np.linalg.norm(x[:, 1] - x[:, 0], axis=1) * depth):
+            areas[tag] = areas.get(tag, 0.0) + area
+    return areas
+
+
+def traction_of_force(entry, tags, areas):
+    """The constant traction on all curves of an entry that has its force; StudyError where it acts on points."""
+    curves = named(entry["on"], tags)
+    if not curves:
+        raise StudyError(f"FreeFEM is not told the force on points of {entry}; expected curves")
+    whole = sum(areas[tags[curve]] for curve in curves)
+    return [float(component) / whole for component in entry["force"]]
+
+
+def boundary_lines(scene, tags, values, areas):
+    """Prescribed displacements, loads and foundations, one line of the case file each. `areas`: of curves, by tag."""
     for entry in scene.get("boundary", []):
-        refuse_others(entry, {"on", "displacement", "pressure", "traction", "foundation"})
+        refuse_others(entry, {"on", "displacement", "pressure", "traction", "force", "foundation"})
+        if "force" in entry:
+            entry = entry | {"traction": traction_of_force(entry, tags, areas)}
         for label in (tags[curve] for curve in named(entry["on"], tags)):
             refuse_others(entry.get("displacement", {}), {"x", "y"})
             for component, value in entry.get("displacement", {}).items():
@@ -175,9 +197,9 @@ def gap_lines(scene, gap, values):
     return ["gap given", f"points {POINTS}"] if gap == "curve" else [f"gap {gap}"]
 
 
-def case_text(scene, bodies, pairs, tags, freefem, gap, values):
+def case_text(scene, bodies, pairs, tags, freefem, gap, values, areas):
     """The case file; `bodies`: their names, `pairs`: the tags of the multiplier and the opposite side of each. `values`:
-    Quantities, to which the scene's expressions are added."""
+    Quantities, to which the scene's expressions are added; `areas`: of the curves, by tag."""
     refuse_others(scene.get("model", {}), {"plane", "gravity"})
     lines = [
         f"plane {scene.get('model', {}).get('plane', 'strain')}",
@@ -188,7 +210,7 @@ def case_text(scene, bodies, pairs, tags, freefem, gap, values):
         f"multipliers {ORDER_OF_MULTIPLIERS[freefem['multipliers']]}",
         *(f"{key} {freefem[key]}" for key in ("integration", "gauss", "springs") if key in freefem),
         *gap_lines(scene, gap, values),
-        *boundary_lines(scene, tags, values),
+        *boundary_lines(scene, tags, values, areas),
         "end",
     ]
     return "\n".join(lines) + "\n"

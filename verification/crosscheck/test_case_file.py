@@ -1,7 +1,9 @@
 """The case file for FreeFEM; functions of place: what is translated and what is refused."""
 
+import numpy as np
 import pytest
 
+import convert
 import launch
 import run
 import scene as scenes
@@ -38,11 +40,26 @@ def test_loads_and_supports_of_place():
         {"on": "top", "traction": [0, "x"]}, {"on": "bottom", "foundation": "1 + y"},
         {"on": "bottom", "foundation": [1e9, 0]}, {"on": "bottom", "displacement": {"x": "y"}},
     ]  # fmt: skip
-    assert list(scenes.boundary_lines({"boundary": boundary}, tags, values)) == [
+    assert list(scenes.boundary_lines({"boundary": boundary}, tags, values, {})) == [
         "traction 3 0.0 f0", "foundation 4 normal f1", "foundation 4 axes 1000000000.0 0.0", "displacement 4 x f2",
     ]  # fmt: skip
-    with pytest.raises(StudyError, match="force"):
-        list(scenes.boundary_lines({"boundary": [{"on": "top", "force": [0, -1]}]}, tags, values))
+    with pytest.raises(StudyError, match="spring"):
+        list(scenes.boundary_lines({"boundary": [{"on": "top", "spring": 1e9}]}, tags, values, {}))
+
+
+def test_a_force_is_a_constant_traction_on_all_its_curves():
+    """Whatever their lengths; round an axis on the whole ring. On points FreeFEM has none."""
+    tags = {"left": 5, "right": 6}
+    points = np.array([[1.0, 0], [1, 2], [3, 0], [3, 1]])
+    body = convert.Body("block", points, np.zeros((0, 3), int), np.array([[0, 1], [2, 3]]), np.array([5, 6]))
+    lines = lambda on, plane: list(scenes.boundary_lines(
+        {"boundary": [{"on": on, "force": [0, -6]}]}, tags, Quantities(), scenes.areas_of_curves({"block": body}, tags, plane)
+    ))  # fmt: skip
+    assert lines(["left", "right"], "strain") == ["traction 5 0.0 -2.0", "traction 6 0.0 -2.0"]
+    (text,) = lines("right", "axisymmetric")
+    assert text.startswith("traction 6 0.0 ") and float(text.split()[-1]) == pytest.approx(-6 / (2 * np.pi * 3))
+    with pytest.raises(StudyError, match="points"):
+        lines("corner", "strain")
 
 
 def test_gravity_is_a_body_force_and_temperature_a_strain():
@@ -62,7 +79,7 @@ def test_case_file_holds_the_physics_of_the_scene():
     tags = {"inner_cut_x": 2, "inner_contact": 3, "inner_cut_y": 4}
     tags |= {"outer_cut_x": 7, "outer_cut_y": 9, "outer_contact": 10}
     freefem = {"order": 2, "multipliers": "quadratic", "integration": "elements", "gauss": 3}
-    lines = scenes.case_text(scene, ["outer", "inner"], [[10, 3]], tags, freefem, "closed", Quantities()).splitlines()
+    lines = scenes.case_text(scene, ["outer", "inner"], [[10, 3]], tags, freefem, "closed", Quantities(), {}).splitlines()
     strain = repr(12e-6 * -100)
     assert lines[:2] == ["plane strain", f"mesh {scenes.MESH}"]
     assert lines[2:4] == ["body 70000000000.0 0.3", "body 210000000000.0 0.3"]
@@ -72,7 +89,7 @@ def test_case_file_holds_the_physics_of_the_scene():
         "displacement 2 y 0.0", "displacement 7 y 0.0", "displacement 4 x 0.0", "displacement 9 x 0.0",
         f"initial_strain 0 {strain} {strain} {strain} 0.0",
     }  # fmt: skip
-    of_curves = scenes.case_text(scene, ["outer", "inner"], [[10, 3]], tags, freefem, "curve", Quantities()).splitlines()
+    of_curves = scenes.case_text(scene, ["outer", "inner"], [[10, 3]], tags, freefem, "curve", Quantities(), {}).splitlines()
     assert set(of_curves) ^ set(lines) == {"gap closed", "gap given", f"points {scenes.POINTS}"}
 
 

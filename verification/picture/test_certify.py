@@ -265,3 +265,44 @@ def test_lines_of_chords():
         assert abs(figures.of_chords(run) / ((2 * np.pi / n) ** 2 / 8) - 1) < 1e-9
     run.lines = {0: (np.array([[0.0, 0], [1, 0], [2, 0], [2, 1], [2, 2]]), None, None)}
     assert figures.of_chords(run) == 0
+
+
+def run_with(figures_of, undetermined=(), method=("a",)):
+    summary = {"method": {"multipliers_on": list(method)}, "extremes": {"displacement": 1.0}}
+    return figures.Run(Path(), summary, {name: figures.Figure(*words) for name, words in figures_of.items()}, undetermined=set(undetermined))
+
+
+def variation(name, run):
+    return certify.Variation(name, "", [], "solved", run=run)
+
+
+def test_a_displacement_that_is_undetermined_elsewhere_is_told_by_the_others():
+    base = variation("own", run_with({"u_x": ("displacements", 1.0, 1e-3, 1.0)}))
+    other, silent = variation("feti", base.run), variation("other_side", run_with({}, ["u_x"]))
+    assert certify.untold_of(base, [other, silent]) == ({"u_x": ["other_side"]}, [])
+    (row,) = certify.rows_of(base, [silent, other])
+    assert row["agrees"] and row["run"] == "feti"
+    assert certify.untold_of(base, [silent])[1] == ["u_x"] and certify.rows_of(base, [silent]) == []
+
+
+def test_a_figure_that_another_run_does_not_have_is_the_one_named():
+    words = ("largest p", 1.0, 1e-3, 1.0)
+    base = variation("own", run_with({"first": words, "second": words}))
+    for order in (["first"], ["second"]):
+        (row,) = certify.rows_of(base, [variation("feti", run_with({name: words for name in order})), variation("direct", base.run)])
+        assert not row["agrees"] and {row["figure"], *order} == {"first", "second"} and row["run"] == "feti"
+
+
+def test_lengths_differ_by_what_the_meshes_of_a_curve_do():
+    """All of a curve in contact, whose edges on two meshes are 1e-5 longer or shorter; half of it is another length."""
+    length = lambda value, whole: run_with({"length": (figures.LENGTHS, value, 0.0, whole)})
+    off = lambda one, other: [found.agrees for found in figures.compare(one, other)]
+    assert off(length(1.0, 1.0), length(1.00001, 1.00001)) == [True]
+    assert off(length(1.0, 1.0), length(0.5, 1.00001)) == [False]
+
+
+@pytest.mark.skipif(not shutil.which("FreeFem++"), reason="FreeFem++ is not installed")
+def test_freefem_is_skipped_where_it_is_not_told_all_of_a_contact(mortise, tmp_path):
+    """A fluid, a clearance: with a part of the physics left out p would be another."""
+    found = certify.certify(mortise, PUNCH, tmp_path / "runs", ["contact.0.clearance=1e-9"])
+    assert found["agrees"] and any("FreeFEM is not told 'clearance'" in words for words in found["skipped"])

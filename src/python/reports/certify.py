@@ -16,6 +16,7 @@ import subprocess
 import sys
 import time
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -44,6 +45,7 @@ class Variation:
     words: str = ""  # of the program, where it is not solved
     command: list = field(default_factory=list)
     run: object = None
+    finer: int = 1  # times as accurate as what was asked
 
     @property
     def counts(self):
@@ -105,7 +107,7 @@ def variations_of(tables, summary, accuracy):
         family = tables.get("accuracy", {}).get("recombine", False)
         other = json.dumps(not family)
         runs.append(Variation("triangles" if family else "quadrilaterals", "mesh family", [f"accuracy.recombine={other}"]))
-        runs += [Variation(f"finer_{k}", f"asked {k} times the accuracy", [f"accuracy.value={accuracy / k:.3g}"]) for k in FINER]
+        runs += [Variation(f"finer_{k}", f"asked {k} times the accuracy", [f"accuracy.value={accuracy / k:.3g}"], finer=k) for k in FINER]
     if sides := list(other_sides(tables, summary)):
         runs.append(Variation("other_side", "multipliers on the other side", sides))
     elif summary["contact"]:
@@ -146,6 +148,16 @@ def by_freefem(base, mortise, output):
 # ---- The verdict ----
 
 
+def untold_of(base, runs):
+    """Of displacements that are undetermined in some runs, in which: these confirm nothing. And those which no run confirms."""
+    left = {}
+    for variation in runs:
+        for name in sorted(variation.run.undetermined & (base.run.figures or {}).keys()):
+            left.setdefault(name, []).append(variation.name)
+    every = [v for v in runs if v.run.figures is not None]
+    return left, [name for name, by in left.items() if len(by) == len(every)]
+
+
 def rows_of(base, runs):
     """One row a kind of figures: the one that is nearest to its limit, of all runs."""
     rows = {}
@@ -154,9 +166,10 @@ def rows_of(base, runs):
             row = rows.setdefault(found.kind, {"kind": found.kind, "count": set(), "agrees": True, "of_normals": 0, "worst": -1.0})
             row["count"].add(found.name)
             part = found.off / found.allowed if found.allowed > 0 else float(found.off > 0)
+            part = math.inf if math.isnan(found.off) else part  # the other run does not have it
             if found.agrees and not found.by_bars:  # told by itself: no bar of a mesh is to hold it
                 row["of_normals"], part = max(row["of_normals"], found.off), 0.0
-            if not (part <= row["worst"]):
+            if part > row["worst"]:
                 row |= {"figure": found.name, "value": found.value, "bar": found.bar, "off": found.off, "allowed": found.allowed}
                 row |= {"worst": part, "run": variation.name}
             row["agrees"] = row["agrees"] and found.agrees
@@ -227,6 +240,9 @@ def certificate(base, runs, skipped, asked, geometry, seconds):
     stress = by_stresses(base, asked) if base.status == "solved" else None
     troubles = troubles_of(base, runs, asked, geometry, gap, stress)
     skipped = skipped + [f"{v.name}: {v.words}" for v in runs if v.status == "skipped"]
+    left, alone = untold_of(base, counted)
+    troubles += [f"no other run determines {name}" for name in alone]
+    skipped += [f"{name}: undetermined in {', '.join(by)}" for name, by in left.items() if name not in alone]
     skipped += [f"{v.name}: it knows p to {100 * v.run.summary['estimate']['pressure']['error']:.2g} % only, and confirms nothing" for v in weak]
     describe = lambda v: {
         "name": v.name, "what": v.what, "status": v.status, "seconds": round(v.seconds, 2), "command": v.command,
@@ -245,6 +261,7 @@ def certificate(base, runs, skipped, asked, geometry, seconds):
         "left_out": base.run.left_out,
         "runs": [describe(v) for v in [base, *runs]],
         "study": study_of(base, counted),
+        "large_displacements": [words for words in base.run.summary["warnings"] if words.startswith("large displacements")],
         "seconds": round(seconds, 2),
     }
 
@@ -270,7 +287,8 @@ def text_of(found):
         verdict = "agrees" if row["agrees"] else "DOES NOT AGREE"
         of = f" of {row['count']}: {row['figure']}" if row["count"] > 1 else "" if row["figure"] == row["kind"] else f": {row['figure']}"
         lines.append(f"  {verdict:9} {row['kind']}{of} {row['value']:.6g} ± {row['bar']:.2g}")
-        lines.append(f"            off by {row['off']:.2g} of {row['allowed']:.2g} that both bars allow, in {row['run']}")
+        off = f"off by {row['off']:.2g} of {row['allowed']:.2g} that both bars allow, in {row['run']}"
+        lines.append("            " + (f"{row['run']} has no such figure" if math.isnan(row["off"]) else off))
         if row["of_normals"]:
             lines.append(f"            and by {row['of_normals']:.2g} in other_side, as p acts along the other curve's normals there")
     for row in found["study"]:
@@ -282,6 +300,7 @@ def text_of(found):
         lines.append(f"  gaps      where p acts the deformed sides are apart by {off}; their normals by {gap['tilt']:.2g} radians")
     if stress := found["stress_difference"]:
         lines.append(f"  stresses  p is off from those of the nearer body by {100 * stress['off']:.2g} % ({100 * stress['allowed']:.2g} % expected)")
+    lines += [f"  warning   {words}" for words in found["large_displacements"]]
     lines += [f"  trouble   {words}" for words in found["troubles"]]
     lines += [f"  skipped   {words}" for words in found["skipped"]]
     lines += [f"  left out  {words}" for words in found["left_out"]]
@@ -310,10 +329,13 @@ def certify(mortise, scene, output, changes=(), accuracy=None, freefem=True, spo
         probed.run.left_out += base.run.left_out
         base = probed
     others, skipped = variations_of(tables, base.run.summary, asked if geometry else None)
-    for variation in others if base.status == "solved" else []:
-        variation.changes += (spoil or {}).get(variation.name, [])
-        run(variation, [*probe, "expect=[]"])  # what is expected is of the scene as it is: a force is on the multiplier side
     done = others if base.status == "solved" else []
+    for variation in done:
+        variation.changes += (spoil or {}).get(variation.name, [])
+    # What is expected is of the scene as it is: a force is on the multiplier side. The finest mesh takes longest, and begins.
+    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as beside:
+        finest_first = sorted(done, key=lambda variation: variation.finer, reverse=True)
+        list(beside.map(lambda variation: run(variation, [*probe, "expect=[]"]), finest_first))
     if freefem and done:
         peer, why = by_freefem(base, mortise, output)
         done, skipped = [*done, *([peer] if peer else [])], [*skipped, *([why] if why else [])]

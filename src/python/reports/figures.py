@@ -16,6 +16,7 @@ from drawn_cells import polylines
 
 # Of a figure's scale: what another solver may leave (its iterations end at 1e-8 of the load) and bars do not know.
 ROUND_OFF = 1e-6
+LENGTHS = "lengths in contact"  # their scale is the length of the curve
 SMOOTH = 0.6  # radians from edge to edge: more is a corner
 
 
@@ -36,6 +37,7 @@ class Run:
     summary: dict
     figures: dict | None = field(default_factory=dict)  # None: this program tells p alone
     left_out: list = field(default_factory=list)
+    undetermined: set = field(default_factory=set)  # displacements: nothing holds what they are of
     lines: dict = field(default_factory=dict)  # by pair: places, p and weights of the vertices that count
 
 
@@ -92,7 +94,7 @@ def read_pairs(run):
             run.figures[f"force {axis}, {name}"] = Figure("contact forces", sign * force, bar, carried, across)
         if pair["length_in_contact_error"] is not None:
             run.figures[f"length in contact, {name}"] = Figure(
-                "lengths in contact", pair["length_in_contact"], pair["length_in_contact_error"], pair["length"], True
+                LENGTHS, pair["length_in_contact"], pair["length_in_contact_error"], pair["length"], True
             )
         if summary["estimate"]["pressure"] is None:
             continue
@@ -113,6 +115,7 @@ def read_probes(run):
         for name in ("u_x", "u_y", "sigma_11", "sigma_22", "sigma_12"):
             if not row.get(f"{name}_error"):
                 run.left_out.append(f"{name} at {place}: it has no bar")
+                run.undetermined |= {f"{name} at {place} [{number}]"} if name[0] == "u" else set()
                 continue
             kind, scale = scales[name[0]]
             run.figures[f"{name} at {place} [{number}]"] = Figure(kind, float(row[name]), float(row[f"{name}_error"]), scale)
@@ -224,11 +227,13 @@ def compare(run, other):
         allowed = mine.bar + (theirs.bar if theirs else math.nan) + round_off * mine.scale
         found.append(Comparison(mine.kind, mine.kind, mine.value, mine.bar, line_difference(run, other), allowed, angle * mine.scale))
     for name, figure in run.figures.items() if other.figures is not None else ():
-        if figure.of_side and not same_side:
+        if (figure.of_side and not same_side) or name in other.undetermined:
             continue
         theirs = other.figures.get(name)
         off = abs(theirs.value - figure.value) if theirs else math.nan
         allowed = figure.bar + (theirs.bar if theirs else math.nan) + ROUND_OFF * figure.scale
+        if theirs and figure.kind == LENGTHS:  # of curves that edges of two meshes make longer or shorter
+            allowed += abs(theirs.scale - figure.scale)
         found.append(Comparison(name, figure.kind, figure.value, figure.bar, off, allowed, angle * figure.scale))
     return found
 
@@ -266,7 +271,7 @@ def of_freefem(run, path):
         if key in run.lines:
             order = np.linalg.norm(rows[:, None, 1:3] - run.lines[key][0][None], axis=2).argmin(axis=1).argsort()
             lines[key] = rows[order, 1:3], rows[order, 3], np.ones(len(order))
-    return Run(run.folder, run.summary, None, [], lines)
+    return Run(run.folder, run.summary, None, lines=lines)
 
 
 def deformed_gaps(run):
