@@ -253,8 +253,9 @@ class Loop {
 
   bool tells_sizes(const Results& r) const { return r.status != Status::not_converged && std::isfinite(estimated(r)); }
 
-  // A point once found stays on all meshes that follow, and so does a pair of curves: half an edge, within which
-  // patterns find them, becomes less than the gap between them.
+  // A point once found stays on all meshes that follow, and so does a pair of curves (half an edge, within which
+  // patterns find them, becomes less than the gap between them) and its multiplier side (p hangs on whose normals
+  // count).
   void keep_found(const Results& r) {
     facing_.clear();
     for (const ContactPair& pair : r.problem.pairs) facing_.push_back(curve_names(r.problem.mesh, pair));

@@ -29,7 +29,6 @@ EnergyEstimate energy_estimate(const Mesh& mesh, const ErrorProducts& found, dou
   const VecX errors = found.products.col(0);
   EnergyEstimate estimate{.error = std::sqrt(errors.sum() / found.norms.sum()),
                           .density = errors.cwiseQuotient(found.areas),
-                          .energies = found.norms.cwiseQuotient(found.areas),
                           .areas = found.areas,
                           .body = 0,
                           .part = 0,

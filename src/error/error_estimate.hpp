@@ -17,7 +17,6 @@ namespace mortise {
 struct EnergyEstimate {
   double error;   ///< energy norm of the error over that of the stresses; 0 where these are round-off of displacements
   VecX density;   ///< squared, of each cell by its area: energy per volume times two, stress
-  VecX energies;  ///< of the stresses themselves, likewise
   VecX areas;     ///< of each cell, length^2
   int body;       ///< whose part of the squared error is the largest
   double part;    ///< that part, 0 ... 1

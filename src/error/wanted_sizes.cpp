@@ -5,15 +5,12 @@
 #include <limits>
 
 #include "fem/edges.hpp"
-#include "mesh/box_index.hpp"
 
 namespace mortise {
 namespace {
 
 constexpr double side_of_area = 1.5;         // side of a triangle over the root of its area
 constexpr double coarsen = 0.4, refine = 6;  // by what sizes may fall at once where the error is smooth
-constexpr double singular_share = 0.12;      // of a cell's energy norm; its error falls slowly then
-constexpr double singular_refine = 40;
 // By what edges may shorten at once. Where contact ends is known to an edge: of those that it is refined to, all but
 // one are for nothing.
 constexpr double line_refine = 8;
@@ -21,27 +18,6 @@ constexpr double corner_share = 0.2;  // of the target of the far field, for all
 constexpr double border_share = 0.5;  // of the target of the local error, for all borders
 constexpr double least_size = 2e-7,
                  least_layer = 3e-5;  // of the scene's size; gmsh makes flat triangles at corners below 1e-5
-
-// Of each node, whether it is a singular point of a contact line or a corner of a body: what it needs are layers.
-std::vector<char> layered_nodes(const Mesh& mesh, const ErrorEstimate& estimate) {
-  std::vector<Box> boxes;
-  for (const PressureEstimate& e : estimate.pressures)
-    for (const SingularPoint& point : e.singular) {
-      const Vec2 near = Vec2::Constant(1e-6 * point.edge);
-      boxes.emplace_back(point.position - near, point.position + near);
-    }
-  const BoxIndex points(boxes);
-  std::vector<char> layered(mesh.nodes.rows(), 0);
-  for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i)
-    layered[i] = !points.meeting(Box(Vec2(mesh.nodes.row(i).transpose()))).empty();
-  for (const CornerRings& rings : estimate.tails.corners) layered[rings.corner.node] = 1;
-  return layered;
-}
-
-bool has_layers(const Cell& cell, const std::vector<char>& layered) {
-  return std::any_of(cell.nodes.begin(), cell.nodes.begin() + corner_count(cell.kind),
-                     [&](int node) { return layered[node]; });
-}
 
 // Window by window the squares of what duals say of a place, as one number: stress length^(1/2).
 class WindowNorm {
@@ -90,17 +66,7 @@ VecX cell_refinement(const Mesh& mesh, const ErrorEstimate& estimate, double fac
   VecX r = VecX::Constant(part.size(), coarsen);
   if (!(target > 0)) return r;
   const double all = std::pow(part.array().pow(1.0 / 3).sum() / target, 0.25);
-  r = (all * part.array().pow(1.0 / 6)).max(coarsen).min(refine);
-  const double count = r.squaredNorm();
-  const std::vector<char> layered = layered_nodes(mesh, estimate);
-  for (Eigen::Index e = 0; e < r.size(); ++e) {
-    const double error = estimate.energy.density(e), all_energy = estimate.energy.energies(e),
-                 share = all_energy > 0 ? std::sqrt(error / all_energy) : 0;
-    const double proportional = part(e) * count / target;
-    if (share > singular_share && proportional > 1 && !has_layers(mesh.cells[e], layered))
-      r(e) = std::min(proportional, singular_refine);
-  }
-  return r;
+  return (all * part.array().pow(1.0 / 6)).max(coarsen).min(refine);
 }
 
 // Layers towards the bodies' corners where these would do more than they may, all together: what the sizes without

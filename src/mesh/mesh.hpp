@@ -116,8 +116,9 @@ struct Mesh {
   std::vector<Tie> ties;             ///< as the scene has them (problem/ties.hpp)
   std::vector<std::string> notes;    ///< what was mended when it was read, a sentence each
   bool named_by_tag = false;         ///< whether a body or a boundary had no name in the file
-  /// Pairs of boundaries, by name, that were in contact on an earlier mesh of the same geometry; where patterns found
-  /// them they stay pairs (problem/contact_curves.hpp), however short the edges have become.
+  /// Pairs of boundaries, by name, that were in contact on an earlier mesh of the same geometry, first the multiplier
+  /// side, which stays it; where patterns found them they stay pairs (problem/contact_curves.hpp), however short the
+  /// edges have become.
   std::vector<std::array<std::string, 2>> facing;
 };
 

@@ -78,14 +78,17 @@ std::set<BoundaryPair> named_pairs(const Scene& scene, const EntrySides& entries
   return pairs;
 }
 
-std::set<BoundaryPair> numbers_of(const Mesh& mesh, const std::vector<std::array<std::string, 2>>& names) {
+// Pairs of boundaries, and which of the two has the multipliers.
+using KnownPairs = std::map<BoundaryPair, int>;
+
+KnownPairs numbers_of(const Mesh& mesh, const std::vector<std::array<std::string, 2>>& names) {
   std::map<std::string, int> numbers;
   for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) numbers.emplace(mesh.boundaries[b].name, int(b));
-  std::set<BoundaryPair> pairs;
+  KnownPairs pairs;
   for (const auto& [first, second] : names)
     if (const auto one = numbers.find(first), other = numbers.find(second);
         one != numbers.end() && other != numbers.end())
-      pairs.insert(std::minmax(one->second, other->second));
+      pairs.emplace(std::minmax(one->second, other->second), one->second);
   return pairs;
 }
 
@@ -94,7 +97,7 @@ double size_of(const Mesh& mesh) { return (mesh.nodes.colwise().maxCoeff() - mes
 // The pairs of curves that entries are, in their order.
 class PairFinder {
  public:
-  // `known`: pairs of boundaries, by name, that patterns have found before.
+  // `known`: Mesh::facing.
   PairFinder(const Scene& scene, const Mesh& mesh, const std::vector<std::array<std::string, 2>>& known)
       : mesh_(mesh),
         seeks_accuracy_(scene.accuracy),
@@ -149,9 +152,9 @@ class PairFinder {
       for (std::size_t i = 0; i < sides[side].size(); ++i) places[side].emplace(sides[side][i], i);
     std::set<BoundaryPair> there;
     for (const auto& [first, second] : pairs) there.insert(std::minmax(first, second));
-    for (const auto& [one, other] : known_)
-      for (const auto& [first, second] : {std::pair(one, other), std::pair(other, one)})
-        if (places[0].contains(first) && places[1].contains(second) && there.insert({one, other}).second)
+    for (const auto& [pair, multiplier] : known_)
+      for (const auto& [first, second] : {pair, BoundaryPair(pair.second, pair.first)})
+        if (places[0].contains(first) && places[1].contains(second) && there.insert(pair).second)
           pairs.push_back({first, second});
     std::ranges::sort(pairs, {}, [&](const std::array<int, 2>& pair) {
       return std::pair(places[0].at(pair[0]), places[1].at(pair[1]));
@@ -168,6 +171,9 @@ class PairFinder {
         contact.spec.multipliers_on = contact.spec.between[i];
       contact.edge_size[i] = curve_length(mesh_.nodes, curve) / double(curve.edges.size());
     }
+    if (const auto known = known_.find(std::minmax(pair[0], pair[1]));
+        known != known_.end() && contact.spec.multipliers_on.empty())
+      contact.spec.multipliers_on = mesh_.boundaries[known->second].name;
     if (auto& [one, other] = contact.curves; whole_[one.body] == whole_[other.body]) {  // faces of one crack
       one.thickness = thickness_.behind(one, &other);
       other.thickness = thickness_.behind(other, &one);
@@ -184,7 +190,8 @@ class PairFinder {
   const std::vector<int> whole_ = bonded_to(mesh_, points_);
   const Thickness thickness_{mesh_.nodes, boundary_edges(mesh_), whole_};
   const EntrySides entries_;
-  const std::set<BoundaryPair> named_, known_;
+  const std::set<BoundaryPair> named_;
+  const KnownPairs known_;
   std::set<BoundaryPair> found_before_;
   std::map<int, Curve> curves_;  // by boundary
 };

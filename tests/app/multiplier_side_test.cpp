@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "app/accuracy.hpp"
+#include "app/solve_scene.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise::test {
@@ -99,6 +100,18 @@ Physical Curve("head") = {5}; Physical Curve("ground") = {11}; Physical Curve("t
       joints += std::abs(std::abs(estimate.line.position[k].x()) - f) < 1e-9 && estimate.local.least(k) > 0;
     EXPECT_EQ(joints, 2) << i;
   }
+}
+
+// Whatever a finer mesh says of edges and of how much of a curve faces the other.
+TEST(MultiplierSide, StaysThatOfAnEarlierMesh) {
+  const Scene scene = read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/hertz.toml", {});
+  Mesh mesh = scene_mesh(scene);
+  const auto side = [&](std::vector<std::array<std::string, 2>> facing) {
+    mesh.facing = std::move(facing);
+    return prepare(scene, mesh).pairs[0].spec.multipliers_on;
+  };
+  EXPECT_EQ(side({{"block_top", "cylinder_foot"}}), "block_top");
+  EXPECT_EQ(side({{"cylinder_foot", "block_top"}}), "cylinder_foot");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <random>
 
 #include "contact/curvature_jumps.hpp"
 
@@ -285,6 +286,41 @@ TEST(CurvatureJumps, AreAlsoWithinAnEdge) {
   ASSERT_EQ(jumps.size(), 1);
   EXPECT_NEAR(jumps[0].xi, 0, 1e-6);
   EXPECT_NEAR(jumps[0].jump, 1, 1e-3);
+}
+
+// However short the edges of an arc are, round-off of its places is no jump; that of an arc that ends is one.
+TEST(CurvatureJumps, AreNotMadeByRoundOff) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> exponent(-4, -1), place(-1, 1);
+  for (int i = 0; i < 200; ++i) {
+    const double h = std::pow(10, exponent(random)), radius = 1 + std::abs(place(random)), start = 3 * place(random);
+    const Vec2 centre(3 * place(random), 3 * place(random));
+    const auto arc = [&](const std::vector<double>& t) {
+      std::vector<Vec2> list;
+      for (const double value : t) list.push_back(centre + radius * Vec2(std::cos(value), std::sin(value)));
+      return list;
+    };
+    Curve curve{.boundary = 0, .body = 0, .edges = {}, .sides = {}, .closed = false};
+    for (const int k : {0, 1, 2}) curve.edges.push_back({2, {k, k + 1, -1}});
+    const double step = h / radius;
+    const std::array<double, 4> ends{start, start + step, start + 2 * step, start + 1};
+    curve.samples = sample_edges(arc, {{ends[0], ends[1]}, {ends[1], ends[2]}, {ends[2], ends[3]}});
+    Points nodes(4, 2);
+    for (const int k : {0, 1, 2, 3}) nodes.row(k) = arc({ends[k]})[0].transpose();
+    EXPECT_TRUE(curvature_jumps(nodes, curve, ContactLine(nodes, curve)).empty()) << i;
+    const Vec2 end = nodes.row(1).transpose(), along(-std::sin(start + step), std::cos(start + step));
+    const auto straight = [&](const std::vector<double>& t) {
+      std::vector<Vec2> list;
+      for (const double value : t) list.push_back(end + value * along);
+      return list;
+    };
+    const std::vector<EdgeSamples> on = sample_edges(straight, {{0, h}, {h, 1}});
+    std::ranges::copy(on, curve.samples.begin() + 1);
+    for (const int k : {2, 3}) nodes.row(k) = straight({k == 2 ? h : 1})[0].transpose();
+    const std::vector<CurvatureJump> jumps = curvature_jumps(nodes, curve, ContactLine(nodes, curve));
+    ASSERT_EQ(jumps.size(), 1) << i;
+    EXPECT_NEAR(jumps[0].jump, 1 / radius, 1e-3 / radius) << i;
+  }
 }
 
 }  // namespace

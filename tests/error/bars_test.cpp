@@ -195,29 +195,5 @@ TEST(WantedSizes, GrowWithinTheLimitOverEachEdge) {
   EXPECT_GE(steepest, 0.99 * size_growth);  // the limit is used
 }
 
-// A cell whose error is a large part of its own stresses has a place without limit in it, where the error falls slowly.
-TEST(WantedSizes, FallInProportionWhereAStressHasNoLimit) {
-  const Results& r = solved("/geo/hertz.toml");
-  const Mesh& mesh = r.problem.mesh;
-  const auto farthest = [&](int node) { return mesh.nodes.row(node).norm(); };
-  int cell = 0;  // far from the contact
-  for (int e = 0; e < int(mesh.cells.size()); ++e)
-    if (farthest(mesh.cells[e].nodes[0]) > farthest(mesh.cells[cell].nodes[0])) cell = e;
-  const auto size_with = [&](double share) {
-    ErrorEstimate estimate = *r.estimate;
-    estimate.far.parts.row(cell).setConstant(1e3 * estimate.far.parts.cwiseAbs().maxCoeff());
-    estimate.energy.density(cell) = share * share * estimate.energy.energies(cell);
-    const WantedSizes wanted =
-        wanted_sizes(mesh, r.problem.pairs, estimate, {.line = 1, .far_field = 100, .target = 1e-2, .border = 0});
-    double least = wanted.sizes(mesh.cells[cell].nodes[0]);
-    for (int a = 1; a < corner_count(mesh.cells[cell].kind); ++a)
-      least = std::min(least, wanted.sizes(mesh.cells[cell].nodes[a]));
-    return least;
-  };
-  EXPECT_EQ(size_with(0.01), size_with(0.05));
-  EXPECT_LT(size_with(0.3), 0.5 * size_with(0.05));
-  EXPECT_EQ(size_with(0.3), size_with(0.9));
-}
-
 }  // namespace
 }  // namespace mortise
