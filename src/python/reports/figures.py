@@ -38,7 +38,8 @@ class Run:
     figures: dict | None = field(default_factory=dict)  # None: this program tells p alone
     left_out: list = field(default_factory=list)
     undetermined: set = field(default_factory=set)  # displacements: nothing holds what they are of
-    lines: dict = field(default_factory=dict)  # by pair: places, p and weights of the vertices that count
+    lines: dict = field(default_factory=dict)  # by pair: places, p and weights of the nodes that count
+    multipliers: dict = field(default_factory=dict)  # the same of the multipliers' pressure, which is FreeFEM's on the same mesh
 
 
 def pair_key(pair):
@@ -66,7 +67,7 @@ def sides_of(table, k):
 
 
 def read_line(run, side, k, of="p"):
-    """The vertices of a side of pair k, those that count: places, p, and the length that each stands for."""
+    """The nodes of a side of pair k, those that count: places, p, and the length that each stands for."""
     xy = np.array([[float(row["x"]), float(row["y"])] for row in side]).reshape(-1, 2)
     p, s = (np.array([float(row[name]) for row in side]) for name in (of, "s"))
     length = np.gradient(s) if len(s) > 1 else np.ones(len(s))
@@ -98,8 +99,9 @@ def read_pairs(run):
             )
         if summary["estimate"]["pressure"] is None:
             continue
-        # The multipliers: all meshes, methods and programs have them, and of them the error is estimated.
-        run.lines[pair_key(pair)] = read_line(run, [row for row in sides_of(table, k)[0] if row["gap"]], k, "p_multiplier")
+        faced = [row for row in sides_of(table, k)[0] if row["gap"]]
+        run.lines[pair_key(pair)] = read_line(run, faced, k)
+        run.multipliers[pair_key(pair)] = read_line(run, faced, k, "p_multiplier")
         if len(has_no_limit(summary, k)[0]):
             run.left_out.append(f"largest p of {name}: it has no limit there")
         elif k in by_node and by_node[k].get("p_error"):
@@ -189,10 +191,11 @@ def line_pressure(run):
 
 
 def line_difference(run, other):
-    """Root mean square of what p of another run is off from a run's, at the run's vertices; NaN if a pair is not there."""
-    if run.lines.keys() != other.lines.keys() or any(len(line[1]) < 2 for line in other.lines.values()):
+    """Root mean square of what p of another run is off from a run's, at the run's nodes; NaN if a pair is not there."""
+    lines = run.lines if other.figures is not None else run.multipliers
+    if lines.keys() != other.lines.keys() or any(len(line[1]) < 2 for line in other.lines.values()):
         return math.nan
-    return root_mean_square(run.lines, {k: p_at(xy, other.lines[k]) - p for k, (xy, p, _) in run.lines.items()})
+    return root_mean_square(lines, {k: p_at(xy, other.lines[k]) - p for k, (xy, p, _) in lines.items()})
 
 
 @dataclass
