@@ -20,7 +20,7 @@ constexpr double least_turn = 0.01;
 
 // What round-off of the samples' coordinates makes of the curvature at the end of a piece of length h, times eps x /
 // h^2 with x the largest of them: up to 2100 of random arcs, and places that gmsh computes are off by several eps.
-constexpr double of_round_off = 1e4;
+constexpr double round_off_of_curvatures = 1e4;
 
 double curvature(const LinePoint& p) { return cross(p.tangent, p.bend) / std::pow(p.tangent.norm(), 3); }
 
@@ -35,8 +35,8 @@ std::vector<CurvatureJump> curvature_jumps(const Points& nodes, const Curve& cur
     const double xi = to.begin;
     const LinePoint before = place_on(from, from.end), after = place_on(to, xi);
     const double h = std::min((from.end - from.begin) * before.tangent.norm(), (to.end - xi) * after.tangent.norm());
-    const double round_off =
-        of_round_off * std::numeric_limits<double>::epsilon() * after.position.lpNorm<Eigen::Infinity>() / (h * h);
+    const double round_off = round_off_of_curvatures * std::numeric_limits<double>::epsilon() *
+                             after.position.lpNorm<Eigen::Infinity>() / (h * h);
     const double jump = std::abs(curvature(after) - curvature(before));
     if (jump > std::max(least, round_off) && angle_between(before.tangent, after.tangent) < sharpest_joint)
       jumps.push_back({edge, xi, jump});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -18,6 +19,11 @@ constexpr double least_shared_kink = 2 * straight / 180;
 
 // What directions of a drawn straight line differ by, and of a line rebuilt through the nodes (contact_line.hpp).
 constexpr double round_off = 1e-9;
+
+// What round-off of a drawn edge's places makes of its direction at an end, times eps x / h with h the length of the
+// piece there and x the largest coordinate: up to 66 of random arcs, and places that gmsh computes are off by several
+// eps.
+constexpr double round_off_of_directions = 300;
 
 // Kinks of both bodies are one where their angles add up to 2 pi to this part of their turn: a rebuilt line's, of three
 // nodes or more a side, are off by less.
@@ -106,7 +112,7 @@ PlaceWeights slope_weights(int at) {
 }
 
 // What the tangent at an end of a drawn edge may be off by, radians: as much as that of every second place of the piece
-// there is.
+// there is, and what round-off makes of it.
 double LineSide::end_error(int e, int end) const {
   static const std::array<PlaceWeights, 2> all{slope_weights(0), slope_weights(last_place)};
   if (curve.samples.empty()) return 0;
@@ -117,7 +123,9 @@ double LineSide::end_error(int e, int end) const {
   Vec2 slope = Vec2::Zero();
   for (int k = 0; k <= last_place; k += 2)
     if (k != at) slope += weights[k] * (x[k] - x[at]);
-  return angle_between(slope, line.at(e, end).tangent);
+  const double size = x[at].lpNorm<Eigen::Infinity>(), length = (x[last_place] - x[0]).norm();
+  return angle_between(slope, line.at(e, end).tangent) +
+         round_off_of_directions * std::numeric_limits<double>::epsilon() * size / length;
 }
 
 Corner LineSide::corner(const Vertex& v) const {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
+#include <random>
 #include <set>
 
 #include "support/two_plates.hpp"
@@ -103,6 +105,52 @@ TEST(SingularPoints, AnEndWithinTheOthersEdgeIsNoMeetingOfCorners) {
         points, [&](const SingularPoint& p) { return std::abs(p.position.x() - edges * 0.1) < 1e-12; });
     ASSERT_NE(end, points.end()) << edges;
     EXPECT_NEAR(end->pressure_exponent, exact, 1e-9) << edges;
+  }
+}
+
+// An arc drawn in both bodies, contact up to a vertex in the middle of it: however short its edges are and wherever it
+// is, the round-off of its places is no kink.
+TEST(SingularPoints, AreNotMadeByRoundOffOfDrawnArcs) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> exponent(-4, 0), place(-40, 40), angle(-3, 3);
+  const Mesh flat = test::mesh_of({});
+  const double y0 = flat.nodes(contact_curve(flat, boundary_index(flat, "lower_contact")).edges[0].nodes[0], 1);
+  const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
+  TipTable tips;
+  for (int i = 0; i < 100; ++i) {
+    const double scale = std::pow(10, exponent(random)), radius = 10 + std::abs(place(random)), start = angle(random);
+    const Vec2 centre(place(random), place(random));
+    const auto at = [&](double t, double r) { return Vec2(centre + r * Vec2(std::sin(t), std::cos(t))); };
+    const auto turn = [&](int node) { return start + scale * flat.nodes(node, 0) / radius; };
+    Mesh mesh = flat;
+    for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n)
+      mesh.nodes.row(n) = at(turn(int(n)), radius + scale * (flat.nodes(n, 1) - y0)).transpose();
+    std::vector<Curve> curves;
+    ContactReach reach;
+    for (const char* name : {"lower_contact", "upper_contact"}) {
+      Curve& curve = curves.emplace_back(contact_curve(mesh, boundary_index(mesh, name)));
+      std::vector<std::array<double, 2>> ends;
+      for (const Edge& edge : curve.edges) ends.push_back({turn(edge.nodes[0]), turn(edge.nodes[1])});
+      curve.samples = sample_edges(
+          [&](const std::vector<double>& turns) {
+            std::vector<Vec2> places;
+            for (const double t : turns) places.push_back(at(t, radius));
+            return places;
+          },
+          ends);
+      std::vector<Reach> reached(curve.edges.size() + 1, {false, false});
+      for (std::size_t v = 0; v < reached.size(); ++v) {  // where x is less than that of a vertex
+        const auto inside = [&](std::size_t edge) {
+          return edge < curve.edges.size() &&
+                 std::max(flat.nodes(curve.edges[edge].nodes[0], 0), flat.nodes(curve.edges[edge].nodes[1], 0)) < 0.5;
+        };
+        reached[v] = {v > 0 && inside(v - 1), inside(v)};
+      }
+      reach[curves.size() - 1] = reached;
+    }
+    const auto points =
+        singular_points({mesh, SideTable(mesh), no_constraints(mesh), laws, tips}, curves[0], curves[1], reach);
+    EXPECT_TRUE(points.empty()) << i << ": edges of " << scale << " times the plates'";
   }
 }
 

@@ -105,6 +105,7 @@ TEST(WeakPoints, MissOfALogarithmWhatHatsMissOfIt) {
   const double missed = std::sqrt(square - right.dot(mass.ldlt().solve(right)));
   LineError error{.l2 = VecX::Zero(edges + 1), .border = std::vector<char>(edges + 1, 0), .borders = {}};
   add_weak_logarithm(line, line.position[at], 3, error);
+  ASSERT_EQ(error.data.size(), edges + 1);
   EXPECT_NEAR(error.data.norm(), 3 * missed, 0.03 * error.data.norm());
   EXPECT_EQ(error.data(at), error.data.norm());
 }

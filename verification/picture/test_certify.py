@@ -185,7 +185,7 @@ def test_one_curve_has_one_normal(mortise, wrong):
 def test_freefem_is_compared_at_its_vertices(tmp_path, mortise):
     subprocess.run([mortise, "solve", HERTZ, "-o", tmp_path / "own", "--quiet"], check=True)
     run = figures.read_run(tmp_path / "own")
-    (xy, p, _), = run.lines.values()
+    (xy, p, _), = run.multipliers.values()
     for factor, agrees in ((1, True), (1.2, False), (float("nan"), False)):
         rows = np.random.default_rng(5).permutation(np.column_stack([0 * p, xy, factor * p, 0 * p])[::2])
         np.savetxt(tmp_path / "freefem_contact.txt", rows)
