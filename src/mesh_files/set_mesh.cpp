@@ -180,8 +180,7 @@ class Curves {
     std::vector<int> found;
     for (const int e : set.members)
       if (const SetElement& element = mesh_.elements[e]; is_line(element.type))
-        for (std::size_t i = 1; i < element.nodes.size(); ++i)
-          for (std::size_t k = 0; k < i; ++k) add_side(element.nodes[k], element.nodes[i], found);
+        for (std::size_t i = 1; i < element.nodes.size(); ++i) add_side(element.nodes[0], element.nodes[i], found);
     if (!found.empty()) add_curve(set.name, std::move(found));
   }
 

@@ -6,6 +6,7 @@
 
 #include "app/solve_scene.hpp"
 #include "error/error_estimate.hpp"
+#include "error/fitted_pressure.hpp"
 #include "error/pressure_bars.hpp"
 #include "error/wanted_sizes.hpp"
 #include "fem/edges.hpp"
@@ -176,6 +177,16 @@ TEST(PressureWindows, AtABorderOfContactKnowWhereARootsChangeHasItsMean) {
   }
   EXPECT_EQ(found, 1);
   EXPECT_TRUE(std::ranges::is_sorted(e.windows, {}, &PressureWindow::s));
+}
+
+// p* farther from the multipliers' pressure than that may be off is not taken.
+TEST(Bars, OfAFittedPressureAskForTheMultipliersWithinTheirs) {
+  const Results& r = solved("/geo/hertz.toml");
+  PressureEstimate e = r.estimate->pressures[0];
+  EXPECT_EQ(e.fitted.pieces.size(), 1U);
+  e.local = {.l2 = VecX::Zero(e.line.p.size()), .border = std::vector<char>(e.line.p.size(), 0), .borders = {}};
+  find_fitted_pressure(r.problem, r.problem.pairs[0], e);
+  EXPECT_TRUE(e.fitted.pieces.empty());
 }
 
 // Of each edge of the mesh: sizes at its ends differ by no more than the growth over its length.

@@ -42,5 +42,21 @@ TEST(Constraints, HoldTheAxisOfRingsButForRoundOff) {
   EXPECT_NE(message_of([&] { held(-0.01); }).find("beyond the axis x = 0"), std::string::npos);
 }
 
+// A node that follows another one, as those of a rigid curve do, is held in both directions; one whose q are turned and
+// fixed along one of them, in that.
+TEST(Constraints, DirectionsOfNodesThatFollowOthersAndOfTurnedOnes) {
+  const Mesh mesh = square();
+  Constraints constraints = no_constraints(mesh);
+  constraints.fixed[2 * 2] = 1;
+  MatX T = MatX::Identity(8, 8);
+  T.middleRows<2>(2 * 1) = T.middleRows<2>(2 * 0);  // node 1 follows node 0
+  T.block<2, 2>(4, 4) << 0.6, -0.8, 0.8, 0.6;
+  constraints.multipoint = MultipointConstraints{.T = T.sparseView(), .inverse = {}, .coupled = {}, .tied = {}};
+  EXPECT_TRUE(prescribed_directions(constraints, 0).empty());
+  EXPECT_EQ(prescribed_directions(constraints, 1), (std::vector<Vec2>{Vec2::UnitX(), Vec2::UnitY()}));
+  EXPECT_EQ(prescribed_directions(constraints, 2), (std::vector<Vec2>{Vec2(0.6, 0.8)}));
+  EXPECT_TRUE(prescribed_directions(constraints, 3).empty());
+}
+
 }  // namespace
 }  // namespace mortise::test
