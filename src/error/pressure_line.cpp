@@ -161,17 +161,19 @@ LineError line_error(const PressureLine& line) {
                   .borders = {}};
   const double least = loaded_part * largest_entry(line.p);
   VecX last_p = VecX::Zero(last + 1);
+  const auto vertex = [&](Eigen::Index i) { return line.closed ? (i + last) % last : i; };
   for (Eigen::Index e = 0; e < last; ++e) {
     const bool start = std::abs(line.p(e)) > least, end = std::abs(line.p(e + 1)) > least;
     if (start == end || !line.faced[e]) continue;
     // A root rises to its value at one edge's length from the border: the last p, or the one before over sqrt(2).
-    const Eigen::Index before = start ? e - 1 : e + 2;
+    const Eigen::Index before = vertex(start ? e - 1 : e + 2);
     double p = std::abs(line.p(start ? e : e + 1));
     if (before >= 0 && before <= last) p = std::max(p, std::abs(line.p(before)) / std::sqrt(2.0));
     error.borders.push_back({e, border_part_of(line, e, start, least), p / std::sqrt(line.s(e + 1) - line.s(e))});
-    for (Eigen::Index i = std::max<Eigen::Index>(e - 1, 0); i <= std::min(e + 2, last); ++i)
-      last_p(i) = std::max(last_p(i), p);
+    for (const Eigen::Index beside : {e - 1, e, e + 1, e + 2})
+      if (const Eigen::Index i = vertex(beside); i >= 0 && i <= last) last_p(i) = std::max(last_p(i), p);
   }
+  if (line.closed) last_p(last) = last_p(0);
   for (Eigen::Index i = 0; i <= last; ++i) {
     if (!line.loaded[i]) error.l2(i) = 0;
     const double at_border = border_part * last_p(i) * std::sqrt(line.h(i));

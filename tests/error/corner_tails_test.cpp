@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "error/tail_shares.hpp"
+#include "fem/assembly.hpp"
 
 namespace mortise {
 namespace {
@@ -121,6 +122,23 @@ TEST(CornerTails, OfABodyOfOneRingAreFinite) {
   const MatX tails = tails_of(mesh, fields);
   EXPECT_TRUE(tails.allFinite());
   EXPECT_GT(tails(0, 1), 0);
+}
+
+// Of a body of one ring: of all that both fields, here of constant stress, work on one another, what polynomials miss,
+// and more.
+TEST(CornerTails, ArePartsOfTheWorkOfBothFields) {
+  const Mesh mesh = l_shape(1, CellKind::quad4);
+  const VecX u = nodal(mesh, [](const Vec2&x) { return Vec2(x.y(), 0.3 * x.x()); }),
+             z = nodal(mesh, [](const Vec2&x) { return Vec2(2 * x.x() + x.y(), x.y()); });
+  MatX fields(u.size(), 2);
+  fields << u, z;
+  const SparseMatrix lower = assemble_stiffness(mesh, {law});
+  const VecX force = lower.selfadjointView<Eigen::Lower>() * u;
+  const MatX tails = tails_of(mesh, fields);
+  for (const int k : {0, 1}) {
+    const double work = std::abs(force.dot(fields.col(k)));
+    EXPECT_NEAR(tails(0, k), missed_more * missed_energy(0.5444837367, 0) * work, 1e-4 * work) << k;
+  }
 }
 
 TEST(CornerTails, AtTheCornerItselfAreThoseOfItsCells) {

@@ -1,7 +1,15 @@
-// Two blocks on one another: what data, gaps and kinks do to the bars, and which vertices contact reaches.
+// Two blocks, or a disc on a block: what data, gaps and kinks do to the bars, which vertices contact reaches, and that
+// a closed curve may begin anywhere.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <map>
+#include <numbers>
+#include <random>
+#include <sstream>
 
 #include "app/solve_scene.hpp"
 #include "error/contact_reach.hpp"
@@ -160,6 +168,60 @@ TEST(SlidingKinks, AreListedWhereWhatTheyDoIsSeen) {
   const Data pushed{.more = "[[body_force]]\nbody = 'upper'\nforce = [1e-4, 0]\n"};
   EXPECT_EQ(kinks(solved(blocks(0, 0.01), pushed)), 1);
   EXPECT_EQ(kinks(solved(blocks(0, 2e-6), pushed)), 0);
+}
+
+// Where a closed curve begins, at its leftmost node, says nothing of the pressure: a disc on a block, turned with its
+// mesh.
+TEST(ClosedCurves, TellTheSameWhereverTheyBegin) {
+  const TemporaryFolder folder;
+  folder.write("disc.geo", R"(
+Mesh.ElementOrder = 2;
+Point(1) = {0, 5, 0}; Point(2) = {5, 5, 0}; Point(3) = {0, 10, 0}; Point(4) = {-5, 5, 0}; Point(5) = {0, 0, 0};
+Circle(1) = {2, 1, 3}; Circle(2) = {3, 1, 4}; Circle(3) = {4, 1, 5}; Circle(4) = {5, 1, 2};
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Point(11) = {-10, -15, 0}; Point(12) = {10, -15, 0}; Point(13) = {10, 0, 0}; Point(14) = {-10, 0, 0};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 11};
+Curve Loop(2) = {11:14}; Plane Surface(2) = {2};
+Physical Surface("disc") = {1}; Physical Surface("block") = {2}; Physical Curve("rim") = {1:4};
+Physical Curve("ground") = {11}; Physical Curve("top") = {13};
+MeshSize{:} = 2; MeshSize{5} = 0.08;)");
+  const auto solved = [&](double angle) {
+    std::ostringstream scene;
+    scene << std::setprecision(17) << "mesh.file = \"disc.geo\"\nmaterials.rubber = { young = 1000, poisson = 0.3 }\n"
+          << "bodies = { \"*\" = \"rubber\" }\nboundary = [{ on = \"ground\", displacement = { x = 0, y = 0 } }]\n"
+          << "body_force = [{ body = \"disc\", force = [" << 0.3 * std::sin(angle) << ", " << -0.3 * std::cos(angle)
+          << "] }]\ncontact = [{ between = [\"rim\", \"top\"], multipliers_on = \"rim\" }]\n";
+    const Scene read = read_scene(folder.write("disc.toml", scene.str()), {});
+    Mesh mesh = scene_mesh(read);
+    const Eigen::Rotation2Dd turn(angle);
+    for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i)
+      mesh.nodes.row(i) = (turn * Vec2(mesh.nodes.row(i))).transpose();
+    for (Boundary& boundary : mesh.boundaries)
+      for (EdgeSamples& samples : boundary.samples)
+        for (SamplePiece& piece : samples.pieces)
+          for (Vec2& place : piece.places) place = turn * place;
+    Results r = solve_scene(read, std::move(mesh));
+    estimate(r);
+    return r;
+  };
+  const auto by_node = [](const Results& r) {
+    std::map<int, std::pair<double, double>> found;
+    for (const ContactNode& node : r.recovery.contacts[0].multiplier.nodes) found[node.node] = {node.p, node.p_error};
+    return found;
+  };
+  const Results first = solved(0);
+  const auto expected = by_node(first);
+  const double largest = largest_entry(first.recovery.contacts[0].pressure);
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> near(-0.3, 0.3);
+  for (int i = 0; i < 6; ++i) {
+    const Results r = solved(-std::numbers::pi / 2 + near(random));  // the contact is to the left
+    EXPECT_NEAR(r.estimate->pressure(), first.estimate->pressure(), 1e-6 * first.estimate->pressure()) << i;
+    for (const auto& [node, p] : by_node(r)) {
+      EXPECT_NEAR(p.first, expected.at(node).first, 1e-6 * largest) << i;
+      EXPECT_NEAR(p.second, expected.at(node).second, 1e-6 * largest) << i;
+    }
+  }
 }
 
 }  // namespace

@@ -93,6 +93,25 @@ TEST(LineError, GoesRoundAClosedCurve) {
   EXPECT_LT(line_error(line).pointwise(line)(15), 0.99 * found.pointwise(line)(15));
 }
 
+// Wherever a closed curve begins: of borders, too, beside which p goes as a root.
+TEST(LineError, AtVerticesOfAClosedCurveDoesNotHangOnItsSeam) {
+  constexpr int n = 24;
+  const auto at_seam = [&](int shift) {
+    PressureLine line = line_of(VecX::LinSpaced(n + 1, 0, 3), [](double) { return 0; });
+    for (int i = 0; i <= n; ++i)
+      line.p(i) = std::sqrt(std::max(0.0, std::cos(2 * std::numbers::pi * (i + shift) / n) - 0.3));
+    line.closed = true;
+    line.h.setConstant(3.0 / n);
+    return line_error(line).pointwise(line);
+  };
+  const VecX first = at_seam(0);
+  for (int shift = 1; shift < n; ++shift) {
+    const VecX turned = at_seam(shift);
+    for (int i = 0; i < n; ++i)
+      EXPECT_NEAR(turned(i), first((i + shift) % n), 1e-12 * largest_entry(first)) << shift << " " << i;
+  }
+}
+
 // A line that goes on beyond what it faces: as one that ends there.
 TEST(LineError, OfAnEndOfTheOtherSideIsThatOfAnEndOfTheLine) {
   const auto p = [](double s) { return 2 + std::sin(3 * s); };
