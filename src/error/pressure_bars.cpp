@@ -9,15 +9,22 @@
 namespace mortise {
 namespace {
 
-// At a vertex: linear between the windows' centres, constant beyond them; of what corners nearby do each by its shape.
+// At a vertex: linear between the windows' centres, constant beyond them, around a closed line from the last one to the
+// first; of what corners nearby do each by its shape.
 double between_windows(const PressureEstimate& e, Eigen::Index i) {
   if (e.windows.empty()) return 0;
   const double s = e.line.s(i);
   const int count = int(e.windows.size());
   int k = 0;
   while (k < count && e.windows[k].s < s) ++k;
-  const int before = std::max(k - 1, 0), after = std::min(k, count - 1);
-  const double part = before == after ? 0 : (s - e.windows[before].s) / (e.windows[after].s - e.windows[before].s);
+  const int before = k > 0           ? k - 1
+                     : e.line.closed ? count - 1
+                                     : 0,
+            after = k < count       ? k
+                    : e.line.closed ? 0
+                                    : count - 1;
+  const double from = e.line.distance(e.windows[before].s, s), to = e.line.distance(s, e.windows[after].s);
+  const double part = from + to > 0 ? from / (from + to) : 0;
   double far = (1 - part) * e.far(before) + part * e.far(after);
   for (const LocalTail& tail : e.tails.local) {
     if (tail.window == before) far += (1 - part) * tail.at(e.line.position[i]);
@@ -36,20 +43,16 @@ struct FarError {
 FarError far_at(const PressureEstimate& e, Eigen::Index i) {
   const PressureLine& line = e.line;
   const double far = between_windows(e, i);
-  const double around = line.closed ? line.s(line.s.size() - 1) : std::numeric_limits<double>::infinity();
-  const auto distance = [&](double from, double to) {
-    return std::min(std::abs(from - to), around - std::abs(from - to));
-  };
   FarError found{far, far};
   if (!(far > 0)) return found;
   for (const LineError::Border& border : e.local.borders) {
     const double open = line.s(line.p(border.edge) == 0 ? border.edge : border.edge + 1);
-    const auto from_border = [&](const PressureWindow& window) { return distance(window.s, open); };
+    const auto from_border = [&](const PressureWindow& window) { return line.distance(window.s, open); };
     const PressureWindow& nearest = *std::ranges::min_element(e.windows, {}, from_border);
     const double centre = nearest.from_border > 0 ? nearest.from_border : from_border(nearest);
-    if (distance(line.s(i), nearest.s) > centre) continue;
+    if (line.distance(line.s(i), nearest.s) > centre) continue;
     const double quarter = far * std::sqrt(centre) / (2 * border.root),
-                 r = std::max(distance(line.s(i), open), quarter);
+                 r = std::max(line.distance(line.s(i), open), quarter);
     found.most = std::max(found.most, far * std::sqrt(centre / r));
     found.mean = std::max(found.mean, far * std::sqrt(centre / std::max(r, line.h(i) / 2)));
   }

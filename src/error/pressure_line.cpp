@@ -49,6 +49,11 @@ std::array<bool, 2> PressureLine::faced_beside(Eigen::Index i) const {
   return {(closed || i > 0) && at(i - 1), (closed || i < last) && at(i)};
 }
 
+double PressureLine::distance(double one, double other) const {
+  const double r = std::abs(one - other);
+  return closed ? std::min(r, s(s.size() - 1) - r) : r;
+}
+
 double round_off_pressure(const Mesh& mesh, std::span<const ContactPair> pairs, double stiffness_scale, const VecX& u) {
   double edge = std::numeric_limits<double>::infinity();
   for (const ContactPair& pair : pairs)
@@ -199,8 +204,7 @@ VecX LineError::pointwise(const PressureLine& line) const {
   for (Eigen::Index b = 0; b < count; ++b) {
     if (!border[b]) continue;
     for (Eigen::Index i = 0; i < count; ++i) {
-      double r = std::abs(line.s(i) - line.s(b));
-      if (line.closed) r = std::min(r, line.s(period) - r);
+      const double r = line.distance(line.s(i), line.s(b));
       if (line.loaded[i]) found(i) = largest(found(i), at(b) * std::sqrt(line.h(b) / std::max(r, line.h(b))));
     }
   }

@@ -31,7 +31,7 @@ double swing(const PressureNodes& nodes, Eigen::Index i, Eigen::Index first, Eig
 
 PressureNodes pressure_nodes(const PressureLine& line, const std::vector<char>& excluded) {
   const Eigen::Index edges = line.p.size() - 1;
-  PressureNodes nodes{.step = line.middle.size() > 0 ? 2 : 1, .s = {}, .p = {}, .smooth = {}};
+  PressureNodes nodes{.step = line.middle.size() > 0 ? 2 : 1, .s = {}, .p = {}, .smooth = {}, .closed = line.closed};
   const Eigen::Index count = nodes.step * edges + 1;
   nodes.s.resize(count);
   nodes.p.resize(count);
@@ -50,8 +50,28 @@ PressureNodes pressure_nodes(const PressureLine& line, const std::vector<char>& 
   return nodes;
 }
 
+namespace {
+
+// Of closed ones so many nodes more at both ends as a fit reaches, so that the first is one like the others.
+constexpr Eigen::Index beyond = 2 * beside;
+
+PressureNodes extended(const PressureNodes& nodes) {
+  const Eigen::Index period = nodes.s.size() - 1, count = period + 1 + 2 * beyond;
+  PressureNodes more{.step = nodes.step, .s = VecX(count), .p = VecX(count), .smooth = std::vector<char>(count)};
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::Index turns = (k + period - beyond) / period - 1, i = k - beyond - turns * period;
+    more.s(k) = nodes.s(i) + double(turns) * (nodes.s(period) - nodes.s(0));
+    more.p(k) = nodes.p(i);
+    more.smooth[k] = nodes.smooth[i];
+  }
+  return more;
+}
+
+}  // namespace
+
 VecX swings(const PressureNodes& nodes) {
   const Eigen::Index count = nodes.s.size();
+  if (nodes.closed && count > beyond) return swings(extended(nodes)).segment(beyond, count);
   VecX found = VecX::Zero(count);
   for (Eigen::Index start = 0; start < count; ++start) {
     if (!nodes.smooth[start]) continue;
@@ -71,9 +91,9 @@ VecX means_at_vertices(const PressureNodes& nodes, const VecX& figures) {
   for (Eigen::Index v = 0; v < means.size(); ++v) {
     double squares = 0;
     int taken = 0;
-    for (Eigen::Index i = std::max<Eigen::Index>(nodes.step * v - beside, 0);
-         i <= std::min(nodes.step * v + beside, count - 1); ++i) {
-      if (!nodes.smooth[i] || std::isnan(figures(i))) continue;
+    for (Eigen::Index near = nodes.step * v - beside; near <= nodes.step * v + beside; ++near) {
+      const Eigen::Index i = nodes.closed ? (near + count - 1) % (count - 1) : near;
+      if (i < 0 || i >= count || !nodes.smooth[i] || std::isnan(figures(i))) continue;
       squares += figures(i) * figures(i);
       ++taken;
     }

@@ -12,6 +12,7 @@ struct PressureNodes {
   /// Whether p is smooth beside the node as far as is known: it carries pressure, faces the other side, and is not left
   /// out for a singular point.
   std::vector<char> smooth;
+  bool closed = false;  ///< the last node is the first one
 };
 
 /// `excluded`: flags of the line's vertices.

@@ -24,8 +24,12 @@ void add_pressure_at(const ContactPair& pair, int edge, double xi, double weight
 
 namespace {
 
-// Loaded length up to each vertex, along which windows are laid out, and in how many pieces it is.
+bool is_loaded(const PressureLine& line, Eigen::Index edge) { return line.loaded[edge] && line.loaded[edge + 1]; }
+
+// Loaded length up to each vertex, along which windows are laid out, and in how many pieces it is. Of a closed line
+// from a vertex on that is not loaded, if there is one: its first vertex is one like the others.
 struct LoadedLength {
+  Eigen::Index first = 0;  ///< vertex
   VecX t;
   int pieces = 0;
   double distance = 0;  ///< between two windows
@@ -35,10 +39,16 @@ struct LoadedLength {
 LoadedLength loaded_length(const PressureLine& line) {
   const Eigen::Index edges = line.p.size() - 1;
   LoadedLength loaded{.t = VecX::Zero(edges + 1)};
-  for (Eigen::Index e = 0; e < edges; ++e) {
-    const bool is_loaded = line.loaded[e] && line.loaded[e + 1];
-    loaded.t(e + 1) = loaded.t(e) + (is_loaded ? line.s(e + 1) - line.s(e) : 0);
-    if (is_loaded && (e == 0 || !line.loaded[e - 1])) ++loaded.pieces;
+  if (line.closed)
+    if (const auto open = std::ranges::find(line.loaded, 0); open != line.loaded.end())
+      loaded.first = open - line.loaded.begin();
+  bool before = false;
+  for (Eigen::Index k = 0; k < edges; ++k) {
+    const Eigen::Index e = (loaded.first + k) % edges;
+    const bool here = is_loaded(line, e);
+    loaded.t(k + 1) = loaded.t(k) + (here ? line.s(e + 1) - line.s(e) : 0);
+    loaded.pieces += here && !before;
+    before = here;
   }
   loaded.count = std::min(windows_a_piece * std::max(loaded.pieces, 1), most_windows);
   loaded.distance = loaded.t(edges) / loaded.count;
@@ -52,9 +62,10 @@ struct LoadedPlace {
 };
 
 LoadedPlace loaded_place(const LoadedLength& loaded, double t) {
-  Eigen::Index e = 0;
-  while (e + 2 < loaded.t.size() && loaded.t(e + 1) < t) ++e;
-  return {e, (t - loaded.t(e)) / (loaded.t(e + 1) - loaded.t(e))};
+  const Eigen::Index edges = loaded.t.size() - 1;
+  Eigen::Index k = 0;
+  while (k + 1 < edges && loaded.t(k + 1) < t) ++k;
+  return {(loaded.first + k) % edges, (t - loaded.t(k)) / (loaded.t(k + 1) - loaded.t(k))};
 }
 
 // About that place, not beyond what is not loaded; nothing where it is narrower than the mesh, or where nothing is
@@ -69,8 +80,8 @@ std::optional<PressureWindow> window_at(const ContactPair& pair, const PressureL
   double mass = 0, inverse_roots = 0;
   for (const ContactPoint& point : pair.points) {
     const Eigen::Index e = point.edge;
-    if (!(loaded.t(e + 1) > loaded.t(e))) continue;
-    const double r = std::abs(line.s(e) + (line.s(e + 1) - line.s(e)) * (1 + point.xi) / 2 - window.s);
+    if (!is_loaded(line, e)) continue;
+    const double r = line.distance(line.s(e) + (line.s(e + 1) - line.s(e)) * (1 + point.xi) / 2, window.s);
     const double z = r / (half_width * loaded.distance);
     if (z >= 1) continue;
     const double weight = std::pow(1 - z * z, 3) * point.dA;
@@ -95,6 +106,7 @@ std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const Pres
       window->from_border = 0;
       windows.push_back(std::move(*window));
     }
+  std::ranges::sort(windows, {}, &PressureWindow::s);
   return windows;
 }
 
