@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "error/goal_estimate.hpp"
 
@@ -17,12 +16,8 @@ double between_windows(const PressureEstimate& e, Eigen::Index i) {
   const int count = int(e.windows.size());
   int k = 0;
   while (k < count && e.windows[k].s < s) ++k;
-  const int before = k > 0           ? k - 1
-                     : e.line.closed ? count - 1
-                                     : 0,
-            after = k < count       ? k
-                    : e.line.closed ? 0
-                                    : count - 1;
+  const int before = k > 0 || e.line.closed ? (k + count - 1) % count : 0,
+            after = k < count || e.line.closed ? k % count : count - 1;
   const double from = e.line.distance(e.windows[before].s, s), to = e.line.distance(s, e.windows[after].s);
   const double part = from + to > 0 ? from / (from + to) : 0;
   double far = (1 - part) * e.far(before) + part * e.far(after);
