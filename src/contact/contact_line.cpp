@@ -112,6 +112,8 @@ std::vector<char> kinks_of(const Points& nodes, const Curve& curve, bool by_chor
 
 Vec2 LinePoint::normal() const { return Vec2(tangent.y(), -tangent.x()).normalized(); }
 
+double LinePoint::curvature() const { return cross(tangent, bend) / std::pow(tangent.norm(), 3); }
+
 namespace {
 
 // Whether the middle nodes of 3-node edges lie on the chords although the curve turns at its vertices. Nothing is said
@@ -222,7 +224,6 @@ std::vector<double> uncertainty_of(const Knots& knots, const std::vector<LinePie
   const int edges = int(pieces.size()), count = knots.per_edge;
   const std::vector<LinePiece> other = through_nodes(knots, edges, 4);
   std::vector<double> off(edges, 0.0);
-  const auto curvature = [](const LinePoint& p) { return cross(p.tangent, p.bend) / std::pow(p.tangent.norm(), 3); };
   for (int e = 0; e < edges; ++e) {
     for (int j = 0; j < count; ++j) {
       const double xi = (pieces[e].z[2 * j] + pieces[e].z[2 * j + 2]) / 2;
@@ -232,7 +233,7 @@ std::vector<double> uncertainty_of(const Knots& knots, const std::vector<LinePie
   for (int e = knots.closed ? 0 : 1; e < edges; ++e) {
     const int before = (e + edges - 1) % edges, vertex = count * e;
     if (knots.turns(vertex)) continue;
-    const double jump = std::abs(curvature(place_on(pieces[before], 1)) - curvature(place_on(pieces[e], -1)));
+    const double jump = std::abs(place_on(pieces[before], 1).curvature() - place_on(pieces[e], -1).curvature());
     const double h = std::max((knots[vertex] - knots[vertex - 1]).norm(), (knots[vertex + 1] - knots[vertex]).norm());
     for (const int beside : {before, e}) off[beside] = std::max(off[beside], jump * h * h / 32);
   }

@@ -13,7 +13,8 @@ namespace mortise {
 struct LinePoint {
   Vec2 position, tangent, bend;  ///< length; tangent along the curve's edges, the body on its left
 
-  Vec2 normal() const;  ///< unit, out of the body
+  Vec2 normal() const;       ///< unit, out of the body
+  double curvature() const;  ///< 1 / length, positive where the line turns to the left
 };
 
 /// A polynomial of a coordinate that is -1 at its begin and 1 at its end, in Newton's form: c_0 + c_1 (zeta - z_0) +

@@ -22,8 +22,6 @@ constexpr double least_turn = 0.01;
 // h^2 with x the largest of them: up to 2100 of random arcs, and places that gmsh computes are off by several eps.
 constexpr double round_off_of_curvatures = 1e4;
 
-double curvature(const LinePoint& p) { return cross(p.tangent, p.bend) / std::pow(p.tangent.norm(), 3); }
-
 }  // namespace
 
 std::vector<CurvatureJump> curvature_jumps(const Points& nodes, const Curve& curve, const ContactLine& line) {
@@ -37,7 +35,7 @@ std::vector<CurvatureJump> curvature_jumps(const Points& nodes, const Curve& cur
     const double h = std::min((from.end - from.begin) * before.tangent.norm(), (to.end - xi) * after.tangent.norm());
     const double round_off = round_off_of_curvatures * std::numeric_limits<double>::epsilon() *
                              after.position.lpNorm<Eigen::Infinity>() / (h * h);
-    const double jump = std::abs(curvature(after) - curvature(before));
+    const double jump = std::abs(after.curvature() - before.curvature());
     if (jump > std::max(least, round_off) && angle_between(before.tangent, after.tangent) < sharpest_joint)
       jumps.push_back({edge, xi, jump});
   };
