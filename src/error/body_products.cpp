@@ -20,7 +20,7 @@ std::vector<int> first_cells(const Mesh& mesh) {
 bool same(const MatX& a, const MatX& b) { return a.rows() == b.rows() && a.cols() == b.cols() && a == b; }
 
 // Of a body's own points, rows of fields.
-MatX fields_at(const std::vector<int>& node, int first, int count, const MatX& fields) {
+MatX fields_at(const std::vector<int>& node, int first, int count, const Eigen::Ref<const MatX>& fields) {
   MatX own(2 * count, fields.cols());
   for (int i = 0; i < count; ++i) own.middleRows<2>(2 * i) = fields.middleRows<2>(2 * node[first + i]);
   return own;
@@ -62,7 +62,7 @@ ErrorProducts BodyProducts::products(const Problem& problem, const VecX& u, cons
     if (body.mesh.cells.empty()) body = body_of(problem, b, first_cell[b]);
     const std::vector<ElasticLaw> law{problem.discretisation.laws[b]};
     const int nodes = int(body.points.node.size());
-    const auto recovered = [&](const MatX& fields) {
+    const auto recovered = [&](const Eigen::Ref<const MatX>& fields) {
       RecoveredFields own{fields_at(points.node, points.first[b], nodes, fields), {}};
       const StressSamples samples = sample_stresses(body.mesh, law, own.fields);
       if (!body.recovery) body.recovery = std::make_unique<PatchRecovery>(body.mesh, body.points, samples);

@@ -88,7 +88,7 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
                                                  const EstimateOptions& options, std::vector<ContactReach>& reached) {
   const Discretisation& d = p.discretisation;
   const AccuracySpec& spec = options.spec;
-  const double round_off = round_off_pressure(p.mesh, p.pairs, d.system.stiffness_scale, solution.u);
+  const double round_off = round_off_pressure(p.mesh, p.pairs, d.system.stiffness_scale, largest_entry(solution.u));
   std::vector<PressureEstimate> list(p.pairs.size());
   reached.resize(p.pairs.size());
   const Surroundings around = memory.around(p);

@@ -54,11 +54,12 @@ double PressureLine::distance(double one, double other) const {
   return closed ? std::min(r, s(s.size() - 1) - r) : r;
 }
 
-double round_off_pressure(const Mesh& mesh, std::span<const ContactPair> pairs, double stiffness_scale, const VecX& u) {
+double round_off_pressure(const Mesh& mesh, std::span<const ContactPair> pairs, double stiffness_scale,
+                          double displacement) {
   double edge = std::numeric_limits<double>::infinity();
   for (const ContactPair& pair : pairs)
     for (const Edge& e : pair.multiplier.edges) edge = std::min(edge, edge_length(mesh.nodes, e));
-  return 1e-12 * stiffness_scale * largest_entry(u) / edge;
+  return 1e-12 * stiffness_scale * displacement / edge;
 }
 
 namespace {

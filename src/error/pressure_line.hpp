@@ -39,8 +39,9 @@ PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX
                            const VecX& fluid = {});
 
 /// What round-off of the displacements makes of a contact that carries nothing, stress. `stiffness_scale`: of the
-/// system.
-double round_off_pressure(const Mesh& mesh, std::span<const ContactPair> pairs, double stiffness_scale, const VecX& u);
+/// system; `displacement`: the largest.
+double round_off_pressure(const Mesh& mesh, std::span<const ContactPair> pairs, double stiffness_scale,
+                          double displacement);
 
 /// What the pressure along the line is off by, from itself: near a vertex where the slope of p jumps by J it is a
 /// piecewise linear function's h J / 8 at its worst and sqrt(h^3 J^2 / 120) in L2; at the border of contact, where p

@@ -133,7 +133,7 @@ void unilateral_checks(const Results& r, double limit, std::vector<Check>& check
   if (solution.compression.size() > 0) gap += s.layers.B * solution.compression;
   gap = gap.cwiseQuotient(s.row_scale).eval();
   const double displacement = largest_entry(solution.u),
-               round_off = round_off_pressure(r.problem.mesh, r.problem.pairs, s.stiffness_scale, solution.u),
+               round_off = round_off_pressure(r.problem.mesh, r.problem.pairs, s.stiffness_scale, displacement),
                least = negligible_pressure(r, round_off), p_size = largest(10 * least, largest_entry(solution.lambda));
   double tension = 0, penetration = 0, product = 0, dip = 0;
   for (Eigen::Index a = 0; a < gap.size(); ++a) {

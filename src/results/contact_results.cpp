@@ -171,7 +171,7 @@ Resultant force_on_multiplier_side(const Points& nodes, const Coupling& coupling
 }  // namespace
 
 ContactResults contact_results(const Problem& problem, const ContactPair& pair, const ContactNodes& nodes,
-                               const StressField& stress, const Solution& solution) {
+                               const StressField& stress, const Solution& solution, double displacement) {
   const Mesh& mesh = problem.mesh;
   const VecX lambda = solution.lambda.segment(pair.first_row, pair.coupling.B.rows());
   ContactResults r;
@@ -187,9 +187,9 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   set_extremes(r);
   r.p_mean = mean_pressure(pair, r.pressure);
   const double round_off =
-      round_off_pressure(mesh, {&pair, 1}, problem.discretisation.system.stiffness_scale, solution.u);
+      round_off_pressure(mesh, {&pair, 1}, problem.discretisation.system.stiffness_scale, displacement);
   const ContactLength in_contact =
-      gives_way(pair) ? length_in_contact(mesh.nodes, pair, overlaps(pair, r), fluid, 1e-12 * largest_entry(solution.u))
+      gives_way(pair) ? length_in_contact(mesh.nodes, pair, overlaps(pair, r), fluid, 1e-12 * displacement)
                       : length_in_contact(mesh.nodes, pair, r.pressure, fluid, round_off);
   r.length_in_contact = in_contact.length;
   r.ends = in_contact.ends;

@@ -69,9 +69,9 @@ struct ContactResults {
 };
 
 /// s runs along both curves from the end of the multiplier side with the smaller x (then y).
-/// `pair`: one of the problem's, with its nodes.
+/// `pair`: one of the problem's, with its nodes; `displacement`: the solution's largest.
 ContactResults contact_results(const Problem& problem, const ContactPair& pair, const ContactNodes& nodes,
-                               const StressField& stress, const Solution& solution);
+                               const StressField& stress, const Solution& solution, double displacement);
 
 /// p* (error/pressure_form.hpp) into the nodes and the extremes of p. The multiplier's p stays at the centres and
 /// where p* is not known.

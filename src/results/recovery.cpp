@@ -11,8 +11,10 @@ Recovery recover(const Problem& p, const std::vector<ContactNodes>& nodes, const
   r.stress = recover_stress(p.mesh, p.points, p.discretisation.laws, u);
   r.energy = strain_energy(p.discretisation, u);
   r.contacts.resize(p.pairs.size());
-  for_each_index(p.pairs.size(), solver_threads(),
-                 [&](std::size_t k) { r.contacts[k] = contact_results(p, p.pairs[k], nodes[k], r.stress, solution); });
+  const double displacement = largest_entry(u);
+  for_each_index(p.pairs.size(), solver_threads(), [&](std::size_t k) {
+    r.contacts[k] = contact_results(p, p.pairs[k], nodes[k], r.stress, solution, displacement);
+  });
   r.probes = probe_values(p, u, r.stress);
   r.extremes = find_extremes(p.mesh, p.points, r.stress, r.contacts);
   r.reactions = find_reactions(p, solution);

@@ -18,7 +18,8 @@ Results solved_with(const std::string& scene, std::vector<Override> settings) {
 
 /// The first pair's results with other pressures or displacements.
 ContactResults of(const Results& r, const Solution& solution) {
-  return contact_results(r.problem, r.problem.pairs[0], r.nodes[0], r.recovery.stress, solution);
+  return contact_results(r.problem, r.problem.pairs[0], r.nodes[0], r.recovery.stress, solution,
+                         largest_entry(solution.u));
 }
 
 Solution with_any_pressures(const Results& r, int seed = 1) {
