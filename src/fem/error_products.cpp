@@ -87,20 +87,29 @@ class OwnField {
     coefficients_.setZero();
     energy = norm = area = 0;
     for (int a = 0; a < corner_count(cell.kind); ++a) {
-      const double* rows = &patches_.coefficients(patches_.row[on_points.nodes[a]], 0);
+      const int p = on_points.nodes[a];
+      corners_[a] = {patches_.centre[p], 1 / patches_.size[p]};
+      const double* rows = &patches_.coefficients(patches_.row[p], 0);
       coefficients_.template middleRows<6>(6 * a) =
           Eigen::Map<const Eigen::Matrix<double, 6, components, Eigen::RowMajor>>(rows);
     }
-    for (std::size_t q = 0; q < rule.weights.size(); ++q)
-      add(cell, on_points, rule.shapes[q], rule.linear[q], rule.weights[q]);
+    for (std::size_t q = 0; q < rule.weights.size(); ++q) add(cell, rule.shapes[q], rule.linear[q], rule.weights[q]);
   }
 
  private:
-  void add(const Cell& cell, const Cell& on_points, const CellShape& shape, const CellShape& linear, double weight) {
+  void add(const Cell& cell, const CellShape& shape, const CellShape& linear, double weight) {
     const ElasticLaw& law = laws_[cell.body];
     at_.sample(cell, shape);
-    for (int a = 0; a < corner_count(cell.kind); ++a)
-      blended_.template segment<6>(6 * a) = linear.N[a] * patches_.monomials_at(on_points.nodes[a], at_.x);
+    for (int a = 0; a < corner_count(cell.kind); ++a) {  // monomials_at: as a vector it is read at once, and waits
+      const Vec2 x = corners_[a].per_size * (at_.x - corners_[a].centre);
+      double* m = &blended_(6 * a);
+      m[0] = linear.N[a];
+      m[1] = m[0] * x.x();
+      m[2] = m[0] * x.y();
+      m[3] = m[1] * x.x();
+      m[4] = m[1] * x.y();
+      m[5] = m[2] * x.y();
+    }
     Components<components> d = coefficients_.transpose() * blended_;
     const double volume = weight * at_.area * law.model.depth(at_.x.x());
     const Vec4 stress = whole(law, d) + law.stress0(at_.x);
@@ -114,10 +123,16 @@ class OwnField {
     functional.add_nodal_forces(cell, law, at_, shape, g);
   }
 
+  struct Corner {
+    Vec2 centre;
+    double per_size;
+  };
+
   const std::vector<ElasticLaw>& laws_;
   const StressPatches& patches_;
   CellSampler at_;
   const ForEachKind<Rule> rules_;
+  std::array<Corner, 4> corners_;
   Eigen::Matrix<double, of_corners, components> coefficients_;
   Eigen::Matrix<double, of_corners, 1> blended_;  // monomials times the linear shape function of their corner
 };

@@ -208,14 +208,20 @@ void read_cases(const Node& root, const std::function<Scene(const Node&)>& read_
   if (given.empty()) return;
   Node plain = root;
   std::erase_if(plain.items, [](const Node& node) { return node.name == "case" || node.name == "cases"; });
+  std::optional<Scene> unchanged;  // that cases which are scaled alone have
   std::set<std::string> taken;
   for (Draft& draft : drafts_of(given, scene.path)) {
     if (draft.name.empty()) draft.name = std::to_string(scene.cases.size());
     check_name(draft, taken);
-    Node changed = plain;
     LoadCase& load = scene.cases.emplace_back();
     load.name = draft.name;
     load.scale = draft.scale;
+    if (draft.changes.empty()) {
+      if (!unchanged) unchanged = read_scene(plain);
+      load.scene = scaled_loads(*unchanged, draft.scale);
+      continue;
+    }
+    Node changed = plain;
     for (const Change& change : draft.changes) {
       apply(changed, change);
       load.changed.emplace_back(joined(change.parts), words(change.value({})));

@@ -34,9 +34,8 @@ class Passes {
   // False if another pass would change nothing, or nothing for the better.
   bool next() {
     const Eigen::Index m = s_.B.rows();
-    VecX unbalanced = s_.f;
-    if (solution_.u.any()) unbalanced -= s_.K.selfadjointView<Eigen::Lower>() * solution_.u;
-    if (pass_ > 0) unbalanced -= s_.B.transpose() * solution_.lambda;
+    VecX unbalanced = pass_ > 0 ? solution_.unbalanced : s_.f;
+    if (pass_ == 0 && solution_.u.any()) unbalanced -= s_.K.selfadjointView<Eigen::Lower>() * solution_.u;
     const VecX load = on(free_, unbalanced) / s_.stiffness_scale, y = factor_.forward(load);
     VecX rhs = factor_.at_border(y);
     rhs.head(m) -= (s_.g - s_.B * solution_.u).cwiseQuotient(s_.row_scale);
