@@ -117,6 +117,7 @@ int solve(const Options& options) {
     diagnose(results);
   }
   judge_expectations(results);
+  results.solution.factor.reset();  // what is written takes as much memory
   stage("write");
   Json report = report_of(results);
   if (ranks().rank() == 0) write_results(results, report, folder);

@@ -180,7 +180,7 @@ class SlenderPart : public DualPart {
 // Whether it takes less than the parts one by one: the borders' squares count, of all contact unknowns or of the rows.
 bool worth_sharing(const Substructure& part, std::size_t count) {
   const double c = double(contact_unknowns(part.system).size()), m = double(part.rows.size());
-  return count > 1 && c * c <= double(count) * m * m;
+  return c * c <= double(count) * m * m;
 }
 
 }  // namespace
@@ -198,14 +198,16 @@ MatX DualPart::moved(const BodyGroup::Answer& forces, const MatX& lambda, const 
   return u;
 }
 
-std::vector<std::shared_ptr<const AlikeBody>> alike_bodies(const std::vector<Substructure>& parts,
+std::vector<std::shared_ptr<const AlikeBody>> alike_bodies(const Substructures& parts,
                                                            const std::vector<char>& slender) {
   const std::vector<int> first = first_alike(parts);
   std::vector<std::size_t> counts(parts.size(), 0);
   for (const int k : first) ++counts[k];
   std::vector<std::shared_ptr<const AlikeBody>> of_first(parts.size()), bodies(parts.size());
   for_each_index(parts.size(), solver_threads(), [&](std::size_t k) {
-    if (!slender[k] && worth_sharing(parts[k], counts[k])) of_first[k] = std::make_shared<AlikeBody>(parts[k].system);
+    if (slender[k] || counts[k] < 2) return;
+    if (Substructure part = parts[k]; worth_sharing(part, counts[k]))
+      of_first[k] = std::make_shared<AlikeBody>(std::move(part.system));
   });
   for (std::size_t k = 0; k < parts.size(); ++k) bodies[k] = of_first[first[k]];
   return bodies;

@@ -56,7 +56,7 @@ struct AlikeBody {
 };
 
 /// For each of `parts` that of the first one alike, if this takes less than the parts one by one; else empty.
-std::vector<std::shared_ptr<const AlikeBody>> alike_bodies(const std::vector<Substructure>& parts,
+std::vector<std::shared_ptr<const AlikeBody>> alike_bodies(const Substructures& parts,
                                                            const std::vector<char>& slender);
 
 /// Factorises a part; `alike`: nullptr if it has a body of its own.

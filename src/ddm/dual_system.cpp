@@ -31,7 +31,7 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
 }
 
 void DualSystem::factorise(const SaddlePointSystem& s) {
-  std::vector<Substructure> all = substructures(s, ranks().rank(), ranks().count());
+  const Substructures all(s, ranks().rank(), ranks().count());
   std::vector<char> bends(all.size());
   for_each_index(all.size(), solver_threads(), [&](std::size_t k) { bends[k] = is_slender(all[k]); });
   Triplets slender_stiffness;
@@ -41,7 +41,7 @@ void DualSystem::factorise(const SaddlePointSystem& s) {
   const auto alike = alike_bodies(all, bends);
   parts_.resize(all.size());
   for_each_index(all.size(), solver_threads(),
-                 [&](std::size_t k) { parts_[k] = dual_part(std::move(all[k]), bends[k], alike[k].get()); });
+                 [&](std::size_t k) { parts_[k] = dual_part(all[k], bends[k], alike[k].get()); });
 }
 
 // `diagonal`, H and `sharing`, of all ranks' parts.

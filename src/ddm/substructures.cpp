@@ -31,8 +31,8 @@ std::vector<int> parts_of_nodes(const SparseMatrix& K) {
 }
 
 // The columns of `matrix` that `unknowns` names, rows renumbered.
-SparseMatrix columns_of(const SparseMatrix& matrix, const std::vector<int>& unknowns, const std::vector<int>& row,
-                        int rows) {
+template <typename Row>
+SparseMatrix columns_of(const SparseMatrix& matrix, const std::vector<int>& unknowns, int rows, Row row) {
   SparseMatrix part(rows, Eigen::Index(unknowns.size()));
   for (std::size_t j = 0; j < unknowns.size(); ++j)
     part.outerIndexPtr()[j + 1] =
@@ -41,7 +41,7 @@ SparseMatrix columns_of(const SparseMatrix& matrix, const std::vector<int>& unkn
   Eigen::Index at = 0;
   for (const int unknown : unknowns)
     for (SparseMatrix::InnerIterator it(matrix, unknown); it; ++it, ++at) {
-      part.innerIndexPtr()[at] = row[it.row()];
+      part.innerIndexPtr()[at] = row(int(it.row()));
       part.valuePtr()[at] = it.value();
     }
   return part;
@@ -59,14 +59,24 @@ bool same_stiffness(const SparseMatrix& one, const SparseMatrix& other) {
   return (a - b).cwiseAbs().maxCoeff() <= alike_stiffness * largest_entry(a);
 }
 
-// Leaves the parts whose middle unknown, with all counted through, is in the block of this rank.
-void keep_block(std::vector<Substructure>& parts, Eigen::Index unknowns, int rank, int ranks) {
+// Of each part, by its unknowns: whether the middle one, with all counted through, is in the block of this rank.
+std::vector<char> in_block(const std::vector<std::vector<int>>& parts, Eigen::Index unknowns, int rank, int ranks) {
   Eigen::Index before = 0;
-  std::erase_if(parts, [&](const Substructure& part) {
-    const Eigen::Index size = part.unknowns.size(), middle = before + size / 2;
+  std::vector<char> own;
+  for (const std::vector<int>& part : parts) {
+    const Eigen::Index size = Eigen::Index(part.size()), middle = before + size / 2;
     before += size;
-    return middle * ranks / unknowns != rank;
-  });
+    own.push_back(middle * ranks / unknowns == rank);
+  }
+  return own;
+}
+
+// The entries whose flags are set.
+std::vector<std::vector<int>> flagged(std::vector<std::vector<int>> lists, const std::vector<char>& flags) {
+  std::vector<std::vector<int>> left;
+  for (std::size_t k = 0; k < lists.size(); ++k)
+    if (flags[k]) left.push_back(std::move(lists[k]));
+  return left;
 }
 
 // The nodes in the order of their distance from the first one, in edges of the graph; and the largest distance.
@@ -113,12 +123,13 @@ std::vector<int> contact_unknowns(const SaddlePointSystem& part) {
   return seen;
 }
 
-std::vector<int> first_alike(const std::vector<Substructure>& parts) {
+std::vector<int> first_alike(const Substructures& parts) {
   // By what must be equal, then by the trace.
   std::map<std::vector<int>, std::multimap<double, int>> known;
+  std::map<int, SparseMatrix> stiffness;  // of the first ones
   std::vector<int> first(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    const SaddlePointSystem& s = parts[k].system;
+    SaddlePointSystem s = parts[k].system;
     std::vector<int> key = contact_unknowns(s);
     key.push_back(-1);
     for (std::size_t i = 0; i < s.constraints.fixed.size(); ++i)
@@ -129,11 +140,13 @@ std::vector<int> first_alike(const std::vector<Substructure>& parts) {
     const double trace = s.K.diagonal().sum(), margin = double(s.K.cols()) * alike_stiffness * trace;
     first[k] = int(k);
     for (auto it = by_trace.lower_bound(trace - margin); it != by_trace.end() && it->first <= trace + margin; ++it)
-      if (same_stiffness(s.K, parts[it->second].system.K)) {
+      if (same_stiffness(s.K, stiffness.at(it->second))) {
         first[k] = it->second;
         break;
       }
-    if (first[k] == int(k)) by_trace.emplace(trace, int(k));
+    if (first[k] != int(k)) continue;
+    by_trace.emplace(trace, int(k));
+    stiffness.emplace(int(k), std::move(s.K));
   }
   return first;
 }
@@ -143,37 +156,41 @@ int part_count(const SparseMatrix& K) {
   return part.empty() ? 0 : *std::ranges::max_element(part) + 1;
 }
 
-std::vector<Substructure> substructures(const SaddlePointSystem& s, int rank, int ranks) {
-  const int n = int(s.K.cols());
+Substructures::Substructures(const SaddlePointSystem& s, int rank, int ranks) : system_(s), local_(s.K.cols()) {
   const std::vector<int> part = parts_of_nodes(s.K);
-  std::vector<Substructure> all(part.empty() ? 0 : *std::ranges::max_element(part) + 1);
-  std::vector<int> local(n), local_row(s.B.rows(), -1);
-  for (int i = 0; i < n; ++i) {
-    local[i] = int(all[part[i / 2]].unknowns.size());
-    all[part[i / 2]].unknowns.push_back(i);
+  const std::size_t count = part.empty() ? 0 : *std::ranges::max_element(part) + 1;
+  unknowns_.resize(count);
+  springs_.resize(count);
+  for (int i = 0; i < int(local_.size()); ++i) {
+    local_[i] = int(unknowns_[part[i / 2]].size());
+    unknowns_[part[i / 2]].push_back(i);
   }
-  for (std::size_t k = 0; k < s.grounded.size(); ++k) {
-    Substructure& own = all[part[s.grounded[k] / 2]];
-    own.springs.push_back(int(k));
-    own.system.grounded.push_back(local[s.grounded[k]]);
-  }
-  keep_block(all, n, rank, ranks);
-  for (Substructure& own : all) {
-    for (const int unknown : own.unknowns)
-      for (SparseMatrix::InnerIterator it(s.B, unknown); it; ++it) own.rows.push_back(int(it.row()));
-    keep_each_once(own.rows);
-    for (std::size_t a = 0; a < own.rows.size(); ++a) local_row[own.rows[a]] = int(a);
+  for (std::size_t k = 0; k < s.grounded.size(); ++k) springs_[part[s.grounded[k] / 2]].push_back(int(k));
+  if (ranks == 1) return;
+  const std::vector<char> own = in_block(unknowns_, s.K.cols(), rank, ranks);
+  unknowns_ = flagged(std::move(unknowns_), own);
+  springs_ = flagged(std::move(springs_), own);
+}
 
-    SaddlePointSystem& system = own.system;
-    system.K = columns_of(s.K, own.unknowns, local, int(own.unknowns.size()));
-    system.B = columns_of(s.B, own.unknowns, local_row, int(own.rows.size()));
-    system.f = s.f(own.unknowns);
-    system.row_scale = s.row_scale(own.rows);
-    system.stiffness_scale = s.stiffness_scale;
-    system.constraints.value = s.constraints.value(own.unknowns);
-    for (const int unknown : own.unknowns) system.constraints.fixed.push_back(s.constraints.fixed[unknown]);
-  }
-  return all;
+Substructure Substructures::operator[](std::size_t k) const {
+  const SaddlePointSystem& s = system_;
+  Substructure own{.unknowns = unknowns_[k], .rows = {}, .springs = springs_[k], .system = {}};
+  for (const int unknown : own.unknowns)
+    for (SparseMatrix::InnerIterator it(s.B, unknown); it; ++it) own.rows.push_back(int(it.row()));
+  keep_each_once(own.rows);
+  const auto local = [&](int unknown) { return local_[unknown]; };
+  const auto local_row = [&](int row) { return int(std::ranges::lower_bound(own.rows, row) - own.rows.begin()); };
+
+  SaddlePointSystem& system = own.system;
+  system.K = columns_of(s.K, own.unknowns, int(own.unknowns.size()), local);
+  system.B = columns_of(s.B, own.unknowns, int(own.rows.size()), local_row);
+  system.f = s.f(own.unknowns);
+  system.row_scale = s.row_scale(own.rows);
+  system.stiffness_scale = s.stiffness_scale;
+  system.constraints.value = s.constraints.value(own.unknowns);
+  for (const int unknown : own.unknowns) system.constraints.fixed.push_back(s.constraints.fixed[unknown]);
+  for (const int spring : own.springs) system.grounded.push_back(local_[s.grounded[spring]]);
+  return own;
 }
 
 }  // namespace mortise

@@ -19,16 +19,29 @@ int part_count(const SparseMatrix& K);
 /// The free unknowns of a part that its rows see, ascending.
 std::vector<int> contact_unknowns(const SaddlePointSystem& part);
 
+/// The parts of a system, in the order of their first unknowns. Each is made when it is asked for: all of them together
+/// would take as much memory as the system. Of several ranks: a block of them for each, with about as many unknowns.
+class Substructures {
+ public:
+  /// Keeps a reference to `system`. Time and memory as its unknowns.
+  explicit Substructures(const SaddlePointSystem& system, int rank = 0, int ranks = 1);
+
+  std::size_t size() const { return unknowns_.size(); }
+  /// Time and memory as its entries of K and B.
+  Substructure operator[](std::size_t k) const;
+
+ private:
+  const SaddlePointSystem& system_;
+  std::vector<std::vector<int>> unknowns_, springs_;  // of each part
+  std::vector<int> local_;                            // of each unknown its place in its part
+};
+
 /// For each part the first one that is alike, itself maybe: the same stiffness to 1e-11 of its largest entry, unknown
 /// by unknown, with the same of them fixed, held by springs and in contact. The rows may differ.
-std::vector<int> first_alike(const std::vector<Substructure>& parts);
+std::vector<int> first_alike(const Substructures& parts);
 
 /// Levels of nodes from end to end, squared, over all nodes: about a third of length over thickness where elements have
 /// 8 nodes and are as long as wide, below 1 of compact bodies; half of it of rings. K: lower triangle, connected.
 double slenderness(const SparseMatrix& K);
-
-/// In the order of their first unknowns. Time and memory as the entries of K and B. Of several ranks: a block of them
-/// for each, with about as many unknowns.
-std::vector<Substructure> substructures(const SaddlePointSystem& system, int rank = 0, int ranks = 1);
 
 }  // namespace mortise

@@ -67,14 +67,15 @@ SaddlePointSystem tower(int bodies, const Towers& t = {}) {
 
 TEST(Substructures, AreTheSystemsOwnBlocks) {
   const SaddlePointSystem s = tower(4);
-  const std::vector<Substructure> all = substructures(s);
+  const Substructures all(s);
   ASSERT_EQ(all.size(), 4u);
   MatX K = MatX::Zero(s.K.rows(), s.K.cols()), B = MatX::Zero(s.B.rows(), s.B.cols());
-  for (const Substructure& own : all) {
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Substructure own = all[k];
     K(own.unknowns, own.unknowns) += MatX(own.system.K);
     B(own.rows, own.unknowns) += MatX(own.system.B);
-    for (std::size_t k = 0; k < own.springs.size(); ++k)
-      EXPECT_EQ(own.unknowns[own.system.grounded[k]], s.grounded[own.springs[k]]);
+    for (std::size_t i = 0; i < own.springs.size(); ++i)
+      EXPECT_EQ(own.unknowns[own.system.grounded[i]], s.grounded[own.springs[i]]);
     EXPECT_EQ(own.system.f, VecX(s.f(own.unknowns)));
     EXPECT_EQ(own.system.row_scale, VecX(s.row_scale(own.rows)));
     for (std::size_t i = 0; i < own.unknowns.size(); ++i)
@@ -85,7 +86,7 @@ TEST(Substructures, AreTheSystemsOwnBlocks) {
 }
 
 TEST(Substructures, AreAlikeByStiffnessSupportsAndContact) {
-  const auto first = [](const SaddlePointSystem& s) { return first_alike(substructures(s)); };
+  const auto first = [](const SaddlePointSystem& s) { return first_alike(Substructures(s)); };
   SaddlePointSystem s = tower(6);
   EXPECT_EQ(first(s),
             (std::vector<int>{0, 1, 1, 1, 1, 5}));  // the lowest is held, the uppermost has contact below only
