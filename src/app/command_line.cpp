@@ -1,5 +1,6 @@
 #include "app/command_line.hpp"
 
+#include <malloc.h>
 #include <sys/prctl.h>
 
 #include <CLI/CLI.hpp>
@@ -117,7 +118,8 @@ int solve(const Options& options) {
     diagnose(results);
   }
   judge_expectations(results);
-  results.solution.factor.reset();  // what is written takes as much memory
+  results.solution.factor.reset();
+  malloc_trim(0);  // what is written takes as much memory, in blocks of its own
   stage("write");
   Json report = report_of(results);
   if (ranks().rank() == 0) write_results(results, report, folder);
