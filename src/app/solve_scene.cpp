@@ -122,7 +122,7 @@ void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint
   ForcesAsked asked;
   if (last) asked = ask_forces(r);
   r.estimate = estimate_error(r.problem, r.solution, *r.memory, {.spec = spec, .found = found, .also = asked.rows});
-  add_data_errors(r.problem, spec, *r.estimate);
+  add_data_errors(r.problem, r.solution, spec, *r.estimate);
   for (std::size_t k = 0; k < recovery.contacts.size(); ++k) set_bars(r.estimate->pressures[k], recovery.contacts[k]);
   const std::vector<PlaceError> of_probes =
       place_errors(r.problem, r.solution, r.estimate->pressures, probed_places(recovery.probes), r.memory->products);

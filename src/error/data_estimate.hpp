@@ -7,7 +7,9 @@
 namespace mortise {
 
 /// Adds what the entries' misfits do to the windows' means and to the goal (docs/theory.md eq. 51), cell by cell, and
-/// what the gaps' do to p along the lines; costs nothing where there are none. `spec`: that of the estimate.
-void add_data_errors(const Problem& problem, const AccuracySpec& spec, ErrorEstimate& estimate);
+/// to p along the lines what those of gaps do, and of loads and strains nearby; costs nothing where there are none.
+/// `spec`: that of the estimate.
+void add_data_errors(const Problem& problem, const Solution& solution, const AccuracySpec& spec,
+                     ErrorEstimate& estimate);
 
 }  // namespace mortise

@@ -103,12 +103,16 @@ class Duals {
   StressPatches patches_;
 };
 
+}  // namespace
+
 double largest_on(const Mesh& mesh, const DataMisfit& part, const VecX& u) {
   const Edge edge = side_edge(mesh.cells[part.cell], part.side);
   double most = 0;
   for (int a = 0; a < edge.node_count; ++a) most = std::max(most, u.segment<2>(2 * edge.nodes[a]).norm());
   return most;
 }
+
+namespace {
 
 // Of each dual.
 VecX works_of(const Mesh& mesh, const DataMisfit& part, const VecX& u, const Duals& duals,

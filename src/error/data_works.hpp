@@ -9,4 +9,7 @@ namespace mortise {
 /// `z`: the duals, n x F.
 MatX data_works(const Problem& problem, const VecX& u, const MatX& z);
 
+/// The largest displacement of the nodes on the side of a cell that a foundation's misfit is of.
+double largest_on(const Mesh& mesh, const DataMisfit& part, const VecX& u);
+
 }  // namespace mortise

@@ -73,14 +73,17 @@ double round_off_energy(const ErrorProducts& found, double stiffness_scale, cons
   return stiffness_scale * strain * strain;
 }
 
-// If each window keeps a dual of its own with them.
+// If each window keeps a dual of its own with them: windows at ends and borders, and the fluctuations.
 void add_end_windows(const std::vector<ContactPair>& pairs, std::vector<PressureEstimate>& list) {
   std::size_t count = 0;
   for (const PressureEstimate& e : list) count += e.windows.size() + 2 + e.local.borders.size();
   if (count > most_own_duals) return;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    list[k].windows =
-        with_end_windows(pairs[k], list[k].line, list[k].local.borders, list[k].excluded, std::move(list[k].windows));
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    PressureEstimate& e = list[k];
+    if (e.windows.empty()) continue;
+    e.fluctuation = pressure_fluctuation(pairs[k], e.line, e.excluded, 2 * e.windows[0].place.reach);
+    e.windows = with_end_windows(pairs[k], e.line, e.local.borders, e.excluded, std::move(e.windows));
+  }
 }
 
 // `reached`: of each pair the vertices that contact reaches.
@@ -106,8 +109,10 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
       e.singular = that_count(memory.points(around, pair, k, reached[k]), e.line, spec.value);
     add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
-    if (!pair.spec.stiffness) {
-      const double modulus = contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]);
+    const double modulus = contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]);
+    if (pair.spec.stiffness) {
+      add_layer_ends(e.line, memory.points(around, pair, k, reached[k]), *pair.spec.stiffness, modulus, e.local);
+    } else {
       judge_small_kinks(pair, modulus, solution.u, spec.value, e);
       add_curvature_jumps(p.mesh.nodes, pair, modulus, solution.u, reached[k][0], e);
     }
@@ -166,7 +171,7 @@ std::vector<LinePart> line_parts(const std::vector<ContactPair>& pairs, const st
 
 // Of each window what the cells' parts make it off by.
 VecX far_fields(const Mesh& mesh, const FarField& far) {
-  if (far.windows.own()) return off_by(far.parts);
+  if (far.windows.own()) return off_by(far.parts.leftCols(far.windows.count));
   const Eigen::Index count = Eigen::Index(far.windows.dual.size());
   MatX sums = MatX::Zero(count, 3);  // of the parts, their squares and their sizes
   for (Eigen::Index e = 0; e < far.parts.rows(); ++e) {
@@ -187,12 +192,16 @@ VecX far_fields(const Mesh& mesh, const FarField& far) {
 void add_far_errors(const Mesh& mesh, ErrorEstimate& estimate) {
   std::vector<TailShares> tails = tails_along(mesh, estimate.pressures, estimate.far.windows, estimate.tails);
   const VecX far = far_fields(mesh, estimate.far);
+  const Eigen::Index of_windows = estimate.far.windows.count, others = estimate.far.parts.cols() - of_windows;
+  const VecX fluctuations =
+      off_by(estimate.far.parts.rightCols(others)) + estimate.tails.parts.rightCols(others).colwise().sum().transpose();
   const double stiffness_part = uneven * estimate.energy.error * estimate.energy.error;
-  Eigen::Index window = 0;
+  Eigen::Index window = 0, fluctuation = 0;
   for (std::size_t k = 0; k < estimate.pressures.size(); ++k) {
     PressureEstimate& e = estimate.pressures[k];
     e.tails = std::move(tails[k]);
     e.far = far.segment(window, Eigen::Index(e.windows.size())) + e.tails.means;
+    if (e.fluctuation) e.fluctuation->far = fluctuations(fluctuation++);
     if (!estimate.far.windows.own()) e.far.array() += stiffness_part * largest_entry(e.line.p);
     window += Eigen::Index(e.windows.size());
     find_bars(e);
@@ -210,12 +219,27 @@ MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector
   return columns;
 }
 
-// A column a dual: those that the windows share, those wanted besides, the goal's.
+// A column a pair that has one.
+MatX fluctuation_functionals(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
+                             Eigen::Index rows) {
+  const Eigen::Index count = std::ranges::count_if(pressures, [](const auto& e) { return e.fluctuation.has_value(); });
+  MatX columns = MatX::Zero(rows, count);
+  Eigen::Index column = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (const auto& found = pressures[k].fluctuation)
+      columns.col(column++).segment(pairs[k].first_row, found->weights.size()) = found->weights;
+  return columns;
+}
+
+// A column a dual: those that the windows share, the fluctuations', those wanted besides, the goal's.
 MatX all_functionals(const Problem& p, const GoalFunctionals& goal, const MatX& also, const ErrorEstimate& estimate) {
   const Eigen::Index rows = p.discretisation.system.B.rows();
-  const Eigen::Index shared = estimate.far.windows.count, goals = goal.rows.cols(), more = also.cols();
+  const MatX fluctuations = fluctuation_functionals(p.pairs, estimate.pressures, rows);
+  const Eigen::Index windows = estimate.far.windows.count, shared = windows + fluctuations.cols();
+  const Eigen::Index goals = goal.rows.cols(), more = also.cols();
   MatX functionals(rows, shared + more + goals);
-  functionals.leftCols(shared) = window_functionals(p.pairs, estimate.pressures, estimate.far.windows, rows);
+  functionals.leftCols(windows) = window_functionals(p.pairs, estimate.pressures, estimate.far.windows, rows);
+  functionals.middleCols(windows, fluctuations.cols()) = fluctuations;
   if (more > 0) functionals.middleCols(shared, more) = also;
   if (goals > 0) functionals.rightCols(goals) = goal.rows;
   return functionals;
@@ -226,7 +250,7 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
                   const EstimateOptions& options, BodyProducts& products, ErrorEstimate& estimate) {
   const SaddlePointSystem& system = p.discretisation.system;
   const MatX functionals = all_functionals(p, goal, options.also, estimate);
-  const Eigen::Index shared = estimate.far.windows.count, goals = goal.rows.cols(), more = options.also.cols();
+  const Eigen::Index goals = goal.rows.cols(), more = options.also.cols(), shared = functionals.cols() - goals - more;
   CornerProducts at_corners(p.mesh, p.discretisation.laws, estimate.tails.corners);
   MatX kept(more + goals > 0 ? solution.u.size() : 0, more + goals);
   MatX works(Eigen::Index(p.misfits.parts.size()), functionals.cols());

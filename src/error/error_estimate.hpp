@@ -25,7 +25,7 @@ struct EnergyEstimate {
 
 /// What the bodies' error does to the windows' means, cell by cell.
 struct FarField {
-  MatX parts;           ///< cells x duals: int d_0 : C^-1 : d_k, stress
+  MatX parts;           ///< cells x duals, those of windows, then of fluctuations: int d_0 : C^-1 : d_k, stress
   SharedDuals windows;  ///< of all pairs, one after the other, and which of them the parts count for
 };
 
@@ -36,7 +36,7 @@ struct ErrorEstimate {
   CornerTails tails;
   std::optional<GoalEstimate> goal;  ///< where one is asked for
   FoundDuals also;                   ///< of further functionals; corners are in their sums
-  MatX data_works;                   ///< misfits of data x (duals of windows, then the goal's): data_works.hpp
+  MatX data_works;                   ///< misfits of data x (duals as of far.parts, then the goal's): data_works.hpp
 
   /// L2 norms of the estimated error of p over that of p on all contact lines, singular points left out: of the whole,
   /// and of its two parts before the safety factor. NaN where nothing is loaded or all is excluded.

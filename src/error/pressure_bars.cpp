@@ -80,11 +80,13 @@ void find_bars(PressureEstimate& e) {
   if (e.local.least.size() > 0) e.bar = e.bar.cwiseMax(e.local.least);
   for (Eigen::Index i = 0; i < line.p.size(); ++i) {
     const FarError far = far_at(e, i);
-    e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? far.most : 0));
+    const double amplitude = e.fluctuation ? e.fluctuation->part() * e.fluctuation->amplitude(i) : 0,
+                 fluctuation = e.fluctuation ? e.fluctuation->part() * e.fluctuation->p(i) : 0;
+    e.bar(i) = error_safety * (e.bar(i) + (line.loaded[i] ? std::hypot(far.most, amplitude) : 0));
     if (!e.counts(i)) continue;
     // What shorter edges at a border make less counts with the line.
     e.local2 += local(i) * local(i) + (far.most * far.most - far.mean * far.mean) * line.h(i);
-    e.far2 += far.mean * far.mean * line.h(i);
+    e.far2 += (far.mean * far.mean + fluctuation * fluctuation) * line.h(i);
     const double p = line.whole(i);
     e.p2 += p * p * line.h(i);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/singular_points.hpp"
+#include "error/pressure_fluctuation.hpp"
 #include "error/pressure_form.hpp"
 #include "error/pressure_windows.hpp"
 #include "error/tail_shares.hpp"
@@ -16,11 +17,12 @@ struct PressureEstimate {
   FittedPressure fitted;  ///< the pressure that is reported, where it is nearer
   std::vector<PressureWindow> windows;
   VecX far;  ///< of each window's mean, stress: what the cells' parts make it off by, and the sum of tails.means
-  TailShares tails;                     ///< what the mesh misses at the bodies' corners
-  VecX bar;                             ///< of p at each vertex of `line`, stress
-  std::vector<SingularPoint> singular;  ///< of its loaded part
-  double excluded_distance = 0;         ///< from a point where p has no limit: there p is left out of the norm
-  std::vector<char> excluded;           ///< of each vertex
+  std::optional<PressureFluctuation> fluctuation;  ///< what they do not see, where each has a dual of its own
+  TailShares tails;                                ///< what the mesh misses at the bodies' corners
+  VecX bar;                                        ///< of p at each vertex of `line`, stress
+  std::vector<SingularPoint> singular;             ///< of its loaded part
+  double excluded_distance = 0;  ///< from a point where p has no limit: there p is left out of the norm
+  std::vector<char> excluded;    ///< of each vertex
   /// Squares of L2 norms along what is not excluded, stress^2 length: of the local error, the far field's and p.
   double local2 = 0, far2 = 0, p2 = 0;
 

@@ -25,6 +25,8 @@ class WindowNorm {
   explicit WindowNorm(const ErrorEstimate& estimate) : windows_(estimate.far.windows) {
     for (const PressureEstimate& e : estimate.pressures)
       lengths_.insert(lengths_.end(), e.windows.size(), e.line.h.sum() / double(e.windows.size()));
+    for (const PressureEstimate& e : estimate.pressures)
+      if (e.fluctuation) of_fluctuations_.push_back(e.fluctuation->length);
   }
   double operator()(int body, const Vec2& x, const Eigen::Ref<const Eigen::RowVectorXd>& parts) const {
     double sum = 0;
@@ -32,12 +34,14 @@ class WindowNorm {
       windows_.for_each_window(body, d, x, [&](int window, double share) {
         sum += lengths_[window] * (share * parts(d) * (share * parts(d)));
       });
+    for (std::size_t k = 0; k < of_fluctuations_.size(); ++k)
+      sum += of_fluctuations_[k] * std::pow(parts(windows_.count + Eigen::Index(k)), 2);
     return std::sqrt(sum);
   }
 
  private:
   const SharedDuals& windows_;
-  std::vector<double> lengths_;
+  std::vector<double> lengths_, of_fluctuations_;
 };
 
 // Of each cell what it does to what is asked for, and of each corner.

@@ -15,6 +15,9 @@ constexpr double folds = 15;
 // for d from 0.005 to 0.5 0.518 to 0.103 of it, within 2 % of this.
 double missed(double d, double amplitude) { return 0.52 * amplitude * std::exp(-3.2 * d); }
 
+// What the best hats miss of c r ln r on even edges of length h: in L2 over c h sqrt(h), and at the end over c h.
+constexpr double hats_in_l2 = 0.11, hats_at_end = 0.36;
+
 Eigen::Index nearest_vertex(const PressureLine& line, const Vec2& x) {
   Eigen::Index best = 0;
   for (Eigen::Index i = 1; i < line.p.size(); ++i)
@@ -37,6 +40,22 @@ void add_weak_points(const PressureLine& line, std::vector<SingularPoint>& point
     error.raise(i, p * std::abs(std::exp(-folds * d) - 1));
     return true;
   });
+}
+
+void add_layer_ends(const PressureLine& line, const std::vector<SingularPoint>& points, const ContactLaw& law,
+                    double modulus, LineError& error) {
+  for (const SingularPoint& point : points) {
+    const double d = point.small_power != 0 ? point.small_power : point.pressure_exponent - 1;
+    const Eigen::Index i = nearest_vertex(line, point.position);
+    if (d == 0 || !line.loaded[i]) continue;
+    // Between rollers p is constant but for a part of about d of it; elsewhere r^d is all of it.
+    const bool rollers = std::ranges::all_of(point.wedges, [](const Wedge& w) { return w.outer == Face::symmetric; });
+    const double p = std::abs(line.p(i)) * (rollers ? std::abs(d) : 1), h = line.h(i);
+    const double longer = h * law.slope(law.overlap(std::abs(line.p(i)))) / modulus;  // the edge than E* / k
+    const double soft = hats_in_l2 * std::abs(d) * p * longer, closed = missed(std::max(d, 0.0), std::abs(d) * p);
+    error.add_data(i, soft * closed / (soft + closed) * std::sqrt(h));
+    error.raise(i, p * std::abs(std::expm1(-d * std::log1p(hats_at_end * longer))));
+  }
 }
 
 // The limit of a small power with p d = amplitude; hats that are symmetric about the place miss the same on both sides.

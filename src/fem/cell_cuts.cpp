@@ -218,7 +218,10 @@ CellMisfit misfit(const Points& nodes, const Cell& cell, const std::vector<CellP
   const double all = dA.dot(squares);
   Eigen::Index worst = 0;
   squares.maxCoeff(&worst);
-  CellMisfit found{.root_mean_square = std::sqrt(all / area), .at = x.row(worst), .finest = std::sqrt(area)};
+  CellMisfit found{.root_mean_square = std::sqrt(all / area),
+                   .mean = dA.dot(squares.cwiseSqrt()) / area,
+                   .at = x.row(worst),
+                   .finest = std::sqrt(area)};
   for (std::size_t p = 0; p < pieces.size(); ++p)
     if (dA.segment(piece_points * Eigen::Index(p), piece_points)
             .dot(squares.segment(piece_points * Eigen::Index(p), piece_points)) > 0.01 * all)

@@ -35,6 +35,7 @@ CellRule piece_rule(const std::vector<CellPiece>& pieces);
 /// Functions less the linear one that stands for them.
 struct CellMisfit {
   double root_mean_square;  ///< over the cell, of the length of the vector of differences
+  double mean;              ///< likewise, without squares
   Vec2 at;                  ///< place of the largest difference
   double finest;            ///< side of a square as large as the smallest piece that has a hundredth of it, length
 };

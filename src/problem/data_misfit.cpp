@@ -94,7 +94,9 @@ void Misfits::add_along(const BoundaryEntry& entry, const std::string& key, Data
                        .side = on.sides[e].side,
                        .size = m.mean * length * model_.depth(at.x()),
                        .at = at,
-                       .finest = m.finest / 2 * length},
+                       .finest = m.finest / 2 * length,
+                       .sum = m.mean * length * model_.depth(at.x()),
+                       .spread = m.mean / m.largest * length},
                       length * m.mean, length);
       }
     }
@@ -196,7 +198,9 @@ void Misfits::add_over(const std::string& key, DataMisfit::Kind kind, BodyFields
                    .cell = e,
                    .size = m.root_mean_square * (kind == DataMisfit::Kind::strain ? std::sqrt(volume) : volume),
                    .at = m.at,
-                   .finest = m.finest},
+                   .finest = m.finest,
+                   .sum = m.mean * volume,
+                   .spread = m.mean / m.root_mean_square * std::sqrt(area)},
                   area * m.root_mean_square, std::sqrt(area));
   }
 }

@@ -23,6 +23,9 @@ struct DataMisfit {
   Vec2 mean = Vec2::Zero();  ///< of a displacement: int (g - g_h) dA along x and y
   Vec2 at = Vec2::Zero();    ///< place of the largest difference
   double finest;             ///< over what length the function changes there
+  /// Of loads: int |f - polynomial| dA, force or force over length, and the length over which it acts, of the cell the
+  /// side of the square on which its mean would have its mean square.
+  double sum = 0, spread = 0;
 };
 
 /// The same of an entry's function, in all.

@@ -10,9 +10,8 @@
 namespace mortise::test {
 namespace {
 
-// Two blocks 2 wide, the upper one strained in a square 0.1 wide that stands on the line; its edges are vertices of
-// meshes of 80 edges.
-Results strained_blocks(int lower, int upper) {
+// Two blocks 2 wide. `load`: of the scene besides the pressure on top.
+Results loaded_blocks(int lower, int upper, const std::string& load) {
   const TemporaryFolder folder;
   const auto edges = [](int count) { return std::to_string(count + 1); };
   folder.write("blocks.geo", R"(SetFactory("OpenCASCADE"); Mesh.ElementOrder = 2;
@@ -29,11 +28,18 @@ materials.m = { young = 1000, poisson = 0.3 }
 bodies = { lower = "m", upper = "m" }
 boundary = [{ on = "bottom", displacement = { y = 0 } }, { on = "sides", displacement = { x = 0 } },
   { on = "top", pressure = 1 }]
-initial_strain = [{ body = "upper", strain = { yy = "abs(x - 1) < 0.05 && y < 1.1 ? 1e-3 : 0", xx = 0, zz = 0, xy = 0 } }]
 contact = [{ between = ["upper_contact", "lower_contact"], multipliers_on = "lower_contact" }]
-)")));
+)" + load)));
   estimate(r);
   return r;
+}
+
+// The upper one strained in a square 0.1 wide that stands on the line; its edges are vertices of meshes of 80 edges.
+Results strained_blocks(int lower, int upper) {
+  return loaded_blocks(lower, upper, R"([[initial_strain]]
+body = "upper"
+strain = { yy = "abs(x - 1) < 0.05 && y < 1.1 ? 1e-3 : 0", xx = 0, zz = 0, xy = 0 }
+)");
 }
 
 double pressure_at(const std::vector<ContactNode>& nodes, double x) {
@@ -49,6 +55,21 @@ TEST(DataEstimate, AStrainWithinACellOnTheLineIsInTheBarsBesideIt) {
   const Results fine = strained_blocks(60, 80);
   for (const int edges : {5, 7, 9, 13}) {
     const Results coarse = strained_blocks(edges, 2 * edges);
+    for (const ContactNode& node : coarse.recovery.contacts[0].multiplier.nodes) {
+      const double off = std::abs(node.p - pressure_at(fine.recovery.contacts[0].multiplier.nodes, node.position.x()));
+      EXPECT_LE(off, node.p_error) << edges << " edges, x = " << node.position.x();
+    }
+  }
+}
+
+// In the upper block a force of 0.05 in a square 0.04 wide, 0.05 above the line: of the bars' windows the narrowest is
+// six times as wide as that. Cells are 0.08 to 0.17 wide, and those of the reference 0.0125.
+TEST(DataEstimate, AForceWithinACellBesideTheLineIsInTheBarsBeneathIt) {
+  const std::string force =
+      R"(body_force = [{ body = "upper", force = ["0", "abs(x - 1) < 0.02 && abs(y - 1.05) < 0.02 ? -31.25 : 0"] }])";
+  const Results fine = loaded_blocks(120, 160, force);
+  for (const int edges : {6, 8, 10, 12}) {
+    const Results coarse = loaded_blocks(edges, 2 * edges, force);
     for (const ContactNode& node : coarse.recovery.contacts[0].multiplier.nodes) {
       const double off = std::abs(node.p - pressure_at(fine.recovery.contacts[0].multiplier.nodes, node.position.x()));
       EXPECT_LE(off, node.p_error) << edges << " edges, x = " << node.position.x();

@@ -110,5 +110,37 @@ TEST(WeakPoints, MissOfALogarithmWhatHatsMissOfIt) {
   EXPECT_EQ(error.data(at), error.data.norm());
 }
 
+// At an end that gives way, on edges far shorter than E* / k, what hats miss of (|d| p k / E*) r ln r: 0.1095 c h^1.5
+// in L2, 0.3606 c h at the end (solved for on 60 even edges); on edges far longer, as at closed contact, from there
+// down to E* / k.
+TEST(WeakPoints, OfContactThatGivesWayAreRoundedOffByTheLayer) {
+  const int edges = 30;
+  const double h = 1.0 / edges, modulus = 500, d = 0.1;
+  const PressureLine line = power(edges, d);
+  const double p = line.p(0);
+  const auto at_end = [&](double power, double stiffness) {
+    LineError error{.l2 = VecX::Zero(edges + 1), .border = std::vector<char>(edges + 1, 0), .borders = {}};
+    add_layer_ends(line, {weak(power)}, {.points = {Vec2(1, stiffness)}}, modulus, error);
+    EXPECT_EQ(error.data.tail(edges).norm() + error.least.tail(edges).norm(), 0);
+    return Vec2(error.data(0), error.least(0));
+  };
+  const double soft = 1e-3 * modulus / h;
+  EXPECT_NEAR(at_end(d, soft)(0), 0.1095 * d * p * soft / modulus * std::pow(h, 1.5), 0.01 * at_end(d, soft)(0));
+  EXPECT_NEAR(at_end(-d, soft)(1), 0.3606 * d * p * soft / modulus * h, 0.01 * at_end(-d, soft)(1));
+  LineError closed{.l2 = VecX::Zero(edges + 1), .border = std::vector<char>(edges + 1, 0), .borders = {}};
+  std::vector<SingularPoint> points{weak(d)};
+  add_weak_points(line, points, closed);
+  const double hard = 1e5 * modulus / h;
+  EXPECT_NEAR(at_end(d, hard)(0), closed.data(0), 1e-3 * closed.data(0));
+  EXPECT_NEAR(at_end(d, hard)(1), p * (1 - std::pow(0.36e5, -d)), 1e-3 * p);
+  EXPECT_NEAR(at_end(-d, hard)(1), p * (std::pow(0.36e5, d) - 1), 1e-3 * p);
+  SingularPoint rollers = weak(-d);
+  for (Wedge& wedge : rollers.wedges) wedge.outer = Face::symmetric;
+  LineError between{.l2 = VecX::Zero(edges + 1), .border = std::vector<char>(edges + 1, 0), .borders = {}};
+  add_layer_ends(line, {rollers}, {.points = {Vec2(1, soft)}}, modulus, between);
+  EXPECT_NEAR(between.data(0), d * at_end(-d, soft)(0), 1e-9 * between.data(0));
+  EXPECT_NEAR(between.least(0), d * at_end(-d, soft)(1), 1e-9 * between.least(0));
+}
+
 }  // namespace
 }  // namespace mortise

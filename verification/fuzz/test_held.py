@@ -169,6 +169,14 @@ def test_a_wrong_answer_to_an_assembly_is_found(program, tmp_path):
     assert "p down to" in answer(case, program, tmp_path / "wrong", lambda p: -p)[1]
 
 
+@pytest.mark.parametrize("numbered", ["1127:36", "1127:10", "1127:184", "911:155", "1127:88", "911:78"])
+def test_bars_that_were_too_small(program, tmp_path, numbered):
+    """A force in a cell beside the line, foundations that an edge does not follow, waves shorter than windows on linear
+    triangles, ends of layers between rollers and between free faces that lean."""
+    seed, number = numbered.split(":")
+    assert answer(make_case(seed, int(number), ("data",)), program, tmp_path, lambda p: p) == ("kept", None)
+
+
 @pytest.mark.parametrize("numbered", ["61:35", "61:52", "71:248", "71:310", "71:628", "81:665", "91:279", "101:649", "201:71", "71:333", "111:1686", "1001:151", "1001:1556", "1003:2150", "1004:845"])
 def test_assemblies_that_went_round(program, tmp_path, numbered):
     """Far gaps, motions that rows hold by their normals' errors alone, several such at once, a wall far from the origin,

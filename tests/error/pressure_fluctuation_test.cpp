@@ -1,0 +1,120 @@
+// Waves of the pressure that are shorter than windows.
+#include "error/pressure_fluctuation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/solve_scene.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mortise::test {
+namespace {
+
+// Two blocks 1 wide of triangles of some order, pressed together over a clearance of four waves.
+Results waved_blocks(int order, int edges) {
+  const TemporaryFolder folder;
+  const std::string count = std::to_string(edges + 1), across = std::to_string(edges / 5 + 1);
+  folder.write("blocks.geo", R"(SetFactory("OpenCASCADE"); Mesh.ElementOrder = )" + std::to_string(order) + R"(;
+Rectangle(1) = {0, 0, 0, 1, 0.4}; Rectangle(2) = {0, 0.4, 0, 1, 0.4};
+Transfinite Curve{1, 3, 5, 7} = )" +
+                                 count + "; Transfinite Curve{2, 4, 6, 8} = " + across + R"(;
+Transfinite Surface{1, 2};
+Physical Surface("lower") = {1}; Physical Surface("upper") = {2}; Physical Curve("bottom") = {1};
+Physical Curve("sides") = {2, 4, 6, 8}; Physical Curve("lower_contact") = {3}; Physical Curve("upper_contact") = {5};
+Physical Curve("top") = {7};)");
+  Results r = solve_scene(read_scene(folder.write("scene.toml", R"(mesh.file = "blocks.geo"
+materials.m = { young = 1000, poisson = 0.3 }
+bodies = { lower = "m", upper = "m" }
+boundary = [{ on = "bottom", displacement = { y = 0 } }, { on = "sides", displacement = { x = 0 } },
+  { on = "top", pressure = 1 }]
+contact = [{ between = ["upper_contact", "lower_contact"], clearance = "2e-5 * cos(8 * pi * x) + 0" }]
+)")));
+  estimate(r);
+  return r;
+}
+
+double at(const std::vector<ContactNode>& nodes, double x) {
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const double a = nodes[i].position.x(), b = nodes[i + 1].position.x();
+    if ((a - x) * (b - x) <= 0) return nodes[i].p + (x - a) / (b - a) * (nodes[i + 1].p - nodes[i].p);
+  }
+  ADD_FAILURE() << x;
+  return 0;
+}
+
+// Linear triangles are too stiff for the waves by a tenth to a half, all of the line's means are right, and p is
+// smooth.
+TEST(PressureFluctuation, OfBodiesThatAreTooStiffForItIsInTheBars) {
+  const Results fine = waved_blocks(2, 200);
+  for (const int edges : {40, 60, 80}) {
+    const Results coarse = waved_blocks(1, edges);
+    const PressureEstimate& e = coarse.estimate->pressures[0];
+    ASSERT_TRUE(e.fluctuation);
+    double off2 = 0, exact2 = 0;
+    for (const ContactNode& node : coarse.recovery.contacts[0].multiplier.nodes) {
+      const double exact = at(fine.recovery.contacts[0].multiplier.nodes, node.position.x());
+      EXPECT_LE(std::abs(node.p - exact), node.p_error) << edges << " edges, x = " << node.position.x();
+      off2 += std::pow(node.p - exact, 2);
+      exact2 += exact * exact;
+    }
+    EXPECT_GE(coarse.estimate->pressure(), std::sqrt(off2 / exact2)) << edges;
+    EXPECT_LE(coarse.estimate->pressure(), 3 * std::sqrt(off2 / exact2)) << edges;
+  }
+}
+
+// A line of even edges that faces the other side all along, a multiplier a vertex.
+struct Made {
+  ContactPair pair;
+  PressureLine line;
+};
+
+Made made(const VecX& s, const VecX& p) {
+  const int count = int(s.size());
+  Made m;
+  m.line = {.s = s,
+            .p = p,
+            .h = VecX::Constant(count, s(1) - s(0)),
+            .faced = std::vector<char>(count - 1, 1),
+            .loaded = std::vector<char>(count, 1)};
+  m.pair.coupling.B.resize(count, 1);
+  for (int i = 0; i < count; ++i) {
+    m.pair.coupling.row.push_back(i);
+    if (i + 1 == count) break;
+    m.pair.coupling.on_edge.push_back({i, i + 1, -1});
+    for (const double xi : {-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)})
+      m.pair.points.push_back({.edge = i, .xi = xi, .ds = (s(1) - s(0)) / 2, .dA = (s(1) - s(0)) / 2});
+  }
+  return m;
+}
+
+TEST(PressureFluctuation, IsWhatAPolynomialOfFiveCoefficientsLeaves) {
+  const VecX s = VecX::LinSpaced(41, 0, 1);
+  const VecX smooth = 3 + s.array() - 2 * s.array().square() + s.array().pow(4);
+  const Made none = made(s, smooth);
+  EXPECT_FALSE(pressure_fluctuation(none.pair, none.line, std::vector<char>(41, 0), 0.2));
+  const VecX wave = 0.1 * (16 * std::numbers::pi * s).array().sin();
+  const Made m = made(s, smooth + wave);
+  const auto found = pressure_fluctuation(m.pair, m.line, std::vector<char>(41, 0), 0.2);
+  ASSERT_TRUE(found);
+  EXPECT_LE((found->p - wave).cwiseAbs().maxCoeff(), 0.03);
+  EXPECT_NEAR(found->rms, 0.1 / std::sqrt(2.0), 0.01);
+  EXPECT_NEAR(found->length, 1, 1e-12);
+  EXPECT_GE(found->amplitude.minCoeff(), 0.09);
+  EXPECT_LE(found->amplitude.maxCoeff(), 0.12);
+  EXPECT_NEAR(found->weights.dot(m.line.p), found->rms, 1e-3);  // its own mean, and none of the polynomial
+}
+
+TEST(PressureFluctuation, DoesNotLookAcrossWhatIsLeftOut) {
+  const VecX s = VecX::LinSpaced(41, 0, 1);
+  const VecX p = (s.array() > 0.51).select(VecX(5 + s.array()), VecX(1 + 2 * s.array()));
+  const Made m = made(s, p);
+  std::vector<char> excluded(41, 0);
+  EXPECT_TRUE(pressure_fluctuation(m.pair, m.line, excluded, 0.2));
+  excluded[20] = 1;
+  EXPECT_FALSE(pressure_fluctuation(m.pair, m.line, excluded, 0.2));
+}
+
+}  // namespace
+}  // namespace mortise::test
