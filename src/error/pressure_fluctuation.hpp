@@ -10,7 +10,7 @@ namespace mortise {
 /// Waves of p that are shorter than windows, and what the bodies' errors do to them: bodies that are too stiff for a
 /// wave, as of linear triangles, raise or lower all of it, and no mean over a window tells.
 struct PressureFluctuation {
-  VecX p;          ///< at each vertex p less the polynomial, stress; 0 where it has no part
+  VecX p;          ///< at each vertex p less what five coefficients tell, stress; 0 where it has no part
   VecX amplitude;  ///< the largest size of that within half of the distance between two windows
   VecX weights;    ///< rows of the pair: int p' p dA / (rms int dA) is -weights . lambda, p' the fluctuation
   double rms;      ///< of p', over what is loaded
@@ -22,8 +22,8 @@ struct PressureFluctuation {
 };
 
 /// p less the polynomial in s, of each piece of the line that is loaded and not left out, that fits it best in least
-/// squares with as many coefficients as windows tell means, five. `distance`: between two windows. Nothing where p is
-/// such a polynomial.
+/// squares with as many coefficients as windows tell means, five; of a closed line that is loaded all round, less its
+/// mean and its two longest waves. `distance`: between two windows. Nothing where p is no more than that.
 std::optional<PressureFluctuation> pressure_fluctuation(const ContactPair& pair, const PressureLine& line,
                                                         const std::vector<char>& excluded, double distance);
 

@@ -106,7 +106,8 @@ def zero(function):
     ends = -BEYOND, 1 + BEYOND
     if function(ends[0]) * function(ends[1]) > 0:
         return None
-    return brentq(function, *ends, xtol=1e-15, rtol=1e-15)
+    # At worst it takes the square of the 50 steps of bisection (Brent 1973, section 4.4).
+    return brentq(function, *ends, xtol=1e-15, rtol=1e-15, maxiter=2500)
 
 
 def foot(chain, edge, x):
