@@ -40,14 +40,14 @@ class Duals {
       : mesh_(problem.mesh),
         points_(problem.points),
         laws_(problem.discretisation.laws),
-        fields_(fields),
-        patches_(recover_patches(mesh_, points_, sample_stresses(mesh_, laws_, fields_))) {}
+        fields_(fields.colwise().begin(), fields.colwise().end()),
+        patches_(recover_patches(mesh_, points_, sample_stresses(mesh_, laws_, fields))) {}
 
   CellErrors errors(int e) const {
     const Cell& cell = mesh_.cells[e];
     const ElasticLaw& law = laws_[cell.body];
     const CellRule rule = product_rule(cell.kind, 3);
-    const Eigen::Index count = fields_.cols(), each = law.model.axisymmetric() ? 4 : 3;
+    const Eigen::Index count = Eigen::Index(fields_.size()), each = law.model.axisymmetric() ? 4 : 3;
     VecX squares = VecX::Zero(count);
     double volume = 0;
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
@@ -60,7 +60,7 @@ class Duals {
       const Eigen::RowVectorXd recovered = recovered_stress(mesh_, points_, patches_, {e, rule.points[q], 0});
       for (Eigen::Index k = 0; k < count; ++k) {
         const Vec4 d = whole_stress(laws_, cell.body, recovered.segment(each * k, each), x) -
-                       stress_at(mesh_, cell, law, fields_.col(k), shape);
+                       stress_at(mesh_, cell, law, fields_[k], shape);
         squares(k) += dV * d.dot(law.compliance * d);
       }
     }
@@ -77,13 +77,13 @@ class Duals {
     const Points reference = reference_nodes(cell.kind);
     const Vec2 first = reference.row(on.side), second = reference.row((on.side + 1) % corner_count(cell.kind));
     constexpr std::array<double, 3> weights{1. / 6, 4. / 6, 1. / 6};
-    VecX works(fields_.cols());
+    VecX works(Eigen::Index(fields_.size()));
     for (Eigen::Index k = 0; k < works.size(); ++k) {
       std::array<Vec2, 3> t;
       Vec2 mean = Vec2::Zero();
       for (int i = 0; i < 3; ++i) {
         const CellShape shape = cell_shape(cell.kind, first + i / 2. * (second - first));
-        const Vec4 s = stress_at(mesh_, cell, law, fields_.col(k), shape) - law.stress0(place_of(mesh_, cell, shape));
+        const Vec4 s = stress_at(mesh_, cell, law, fields_[k], shape) - law.stress0(place_of(mesh_, cell, shape));
         const Vec2 n = edge_point(mesh_.nodes, edge, i - 1.).normal();
         t[i] = {s(0) * n.x() + s(3) * n.y(), s(3) * n.x() + s(1) * n.y()};
         mean += weights[i] * t[i];
@@ -99,7 +99,7 @@ class Duals {
   const Mesh& mesh_;
   const BodyPoints& points_;
   const std::vector<ElasticLaw>& laws_;
-  const MatX& fields_;
+  const std::vector<VecX> fields_;  // a dual each: as a column of them all it would be copied at each use
   StressPatches patches_;
 };
 
