@@ -59,26 +59,6 @@ bool same_stiffness(const SparseMatrix& one, const SparseMatrix& other) {
   return (a - b).cwiseAbs().maxCoeff() <= alike_stiffness * largest_entry(a);
 }
 
-// Of each part, by its unknowns: whether the middle one, with all counted through, is in the block of this rank.
-std::vector<char> in_block(const std::vector<std::vector<int>>& parts, Eigen::Index unknowns, int rank, int ranks) {
-  Eigen::Index before = 0;
-  std::vector<char> own;
-  for (const std::vector<int>& part : parts) {
-    const Eigen::Index size = Eigen::Index(part.size()), middle = before + size / 2;
-    before += size;
-    own.push_back(middle * ranks / unknowns == rank);
-  }
-  return own;
-}
-
-// The entries whose flags are set.
-std::vector<std::vector<int>> flagged(std::vector<std::vector<int>> lists, const std::vector<char>& flags) {
-  std::vector<std::vector<int>> left;
-  for (std::size_t k = 0; k < lists.size(); ++k)
-    if (flags[k]) left.push_back(std::move(lists[k]));
-  return left;
-}
-
 // The nodes in the order of their distance from the first one, in edges of the graph; and the largest distance.
 struct Levels {
   std::vector<int> nodes;
@@ -158,23 +138,25 @@ int part_count(const SparseMatrix& K) {
 
 Substructures::Substructures(const SaddlePointSystem& s, int rank, int ranks) : system_(s), local_(s.K.cols()) {
   const std::vector<int> part = parts_of_nodes(s.K);
-  const std::size_t count = part.empty() ? 0 : *std::ranges::max_element(part) + 1;
-  unknowns_.resize(count);
-  springs_.resize(count);
+  parts_.resize(part.empty() ? 0 : *std::ranges::max_element(part) + 1);
   for (int i = 0; i < int(local_.size()); ++i) {
-    local_[i] = int(unknowns_[part[i / 2]].size());
-    unknowns_[part[i / 2]].push_back(i);
+    std::vector<int>& unknowns = parts_[part[i / 2]].unknowns;
+    local_[i] = int(unknowns.size());
+    unknowns.push_back(i);
   }
-  for (std::size_t k = 0; k < s.grounded.size(); ++k) springs_[part[s.grounded[k] / 2]].push_back(int(k));
-  if (ranks == 1) return;
-  const std::vector<char> own = in_block(unknowns_, s.K.cols(), rank, ranks);
-  unknowns_ = flagged(std::move(unknowns_), own);
-  springs_ = flagged(std::move(springs_), own);
+  for (std::size_t k = 0; k < s.grounded.size(); ++k) parts_[part[s.grounded[k] / 2]].springs.push_back(int(k));
+  // The parts whose middle unknown, with all counted through, is in the block of this rank.
+  Eigen::Index before = 0;
+  std::erase_if(parts_, [&](const Part& one) {
+    const Eigen::Index size = Eigen::Index(one.unknowns.size()), middle = before + size / 2;
+    before += size;
+    return middle * ranks / s.K.cols() != rank;
+  });
 }
 
 Substructure Substructures::operator[](std::size_t k) const {
   const SaddlePointSystem& s = system_;
-  Substructure own{.unknowns = unknowns_[k], .rows = {}, .springs = springs_[k], .system = {}};
+  Substructure own{.unknowns = parts_[k].unknowns, .rows = {}, .springs = parts_[k].springs, .system = {}};
   for (const int unknown : own.unknowns)
     for (SparseMatrix::InnerIterator it(s.B, unknown); it; ++it) own.rows.push_back(int(it.row()));
   keep_each_once(own.rows);

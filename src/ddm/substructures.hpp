@@ -26,14 +26,17 @@ class Substructures {
   /// Keeps a reference to `system`. Time and memory as its unknowns.
   explicit Substructures(const SaddlePointSystem& system, int rank = 0, int ranks = 1);
 
-  std::size_t size() const { return unknowns_.size(); }
+  std::size_t size() const { return parts_.size(); }
   /// Time and memory as its entries of K and B.
   Substructure operator[](std::size_t k) const;
 
  private:
+  struct Part {
+    std::vector<int> unknowns, springs;
+  };
   const SaddlePointSystem& system_;
-  std::vector<std::vector<int>> unknowns_, springs_;  // of each part
-  std::vector<int> local_;                            // of each unknown its place in its part
+  std::vector<Part> parts_;
+  std::vector<int> local_;  // of each unknown its place in its part
 };
 
 /// For each part the first one that is alike, itself maybe: the same stiffness to 1e-11 of its largest entry, unknown

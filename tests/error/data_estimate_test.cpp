@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/solve_scene.hpp"
+#include "support/pressure_at.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise::test {
@@ -40,15 +41,6 @@ Results strained_blocks(int lower, int upper) {
 body = "upper"
 strain = { yy = "abs(x - 1) < 0.05 && y < 1.1 ? 1e-3 : 0", xx = 0, zz = 0, xy = 0 }
 )");
-}
-
-double pressure_at(const std::vector<ContactNode>& nodes, double x) {
-  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const double a = nodes[i].position.x(), b = nodes[i + 1].position.x();
-    if ((a - x) * (b - x) <= 0) return nodes[i].p + (x - a) / (b - a) * (nodes[i + 1].p - nodes[i].p);
-  }
-  ADD_FAILURE() << x;
-  return 0;
 }
 
 TEST(DataEstimate, AStrainWithinACellOnTheLineIsInTheBarsBesideIt) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "app/solve_scene.hpp"
+#include "support/pressure_at.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise::test {
@@ -35,15 +36,6 @@ contact = [{ between = ["upper_contact", "lower_contact"], clearance = "2e-5 * c
   return r;
 }
 
-double at(const std::vector<ContactNode>& nodes, double x) {
-  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const double a = nodes[i].position.x(), b = nodes[i + 1].position.x();
-    if ((a - x) * (b - x) <= 0) return nodes[i].p + (x - a) / (b - a) * (nodes[i + 1].p - nodes[i].p);
-  }
-  ADD_FAILURE() << x;
-  return 0;
-}
-
 // Linear triangles are too stiff for the waves by a tenth to a half, all of the line's means are right, and p is
 // smooth.
 TEST(PressureFluctuation, OfBodiesThatAreTooStiffForItIsInTheBars) {
@@ -54,7 +46,7 @@ TEST(PressureFluctuation, OfBodiesThatAreTooStiffForItIsInTheBars) {
     ASSERT_TRUE(e.fluctuation);
     double off2 = 0, exact2 = 0;
     for (const ContactNode& node : coarse.recovery.contacts[0].multiplier.nodes) {
-      const double exact = at(fine.recovery.contacts[0].multiplier.nodes, node.position.x());
+      const double exact = pressure_at(fine.recovery.contacts[0].multiplier.nodes, node.position.x());
       EXPECT_LE(std::abs(node.p - exact), node.p_error) << edges << " edges, x = " << node.position.x();
       off2 += std::pow(node.p - exact, 2);
       exact2 += exact * exact;
@@ -114,6 +106,26 @@ TEST(PressureFluctuation, DoesNotLookAcrossWhatIsLeftOut) {
   EXPECT_TRUE(pressure_fluctuation(m.pair, m.line, excluded, 0.2));
   excluded[20] = 1;
   EXPECT_FALSE(pressure_fluctuation(m.pair, m.line, excluded, 0.2));
+}
+
+// Around a ring that is loaded all round: the mean and two waves are told by windows, and any vertex may be the first.
+TEST(PressureFluctuation, GoesAroundAClosedLine) {
+  const int count = 40;
+  const VecX s = VecX::LinSpaced(count + 1, 0, 1), angle = 2 * std::numbers::pi * s;
+  const auto around = [&](const VecX& p) {
+    Made m = made(s, p);
+    m.line.closed = true;
+    return pressure_fluctuation(m.pair, m.line, std::vector<char>(count + 1, 0), 0.2);
+  };
+  const VecX low = 3 + angle.array().cos() + (2 * angle.array() + 1).sin();
+  EXPECT_FALSE(around(low));
+  const auto with_wave = [&](double turn) -> VecX {
+    return 3 + (angle.array() + turn).cos() + 0.1 * (8 * (angle.array() + turn)).cos();
+  };
+  const auto found = around(with_wave(0)), turned = around(with_wave(2 * std::numbers::pi * 7 / count));
+  ASSERT_TRUE(found && turned);
+  EXPECT_NEAR(found->rms, turned->rms, 1e-12);
+  for (int i = 0; i < count; ++i) EXPECT_NEAR(turned->p(i), found->p((i + 7) % count), 1e-12) << i;
 }
 
 }  // namespace
