@@ -31,13 +31,8 @@ double least_free_angle() {
 // The wedges of the cells around a node counter-clockwise, those of one material as one.
 struct Fan {
   std::vector<Wedge> wedges;
-  bool closed;  // all around the node
+  bool closed = false;  // all around the node
   Face first = Face::free, last = Face::free;
-  double angle() const {
-    double sum = 0;
-    for (const Wedge& w : wedges) sum += w.angle;
-    return sum;
-  }
 };
 
 Vec2 direction_at(const Mesh& mesh, const SideAtNode& side) {
@@ -52,27 +47,34 @@ double angle_from(const Vec2& a, const Vec2& b) {
 
 bool same_law(const ElasticLaw& a, const ElasticLaw& b) { return a.stiffness == b.stiffness; }
 
-// From the cell whose first side starts at the node and goes to `start`.
-Fan fan_from(const Mesh& mesh, std::span<const SideAtNode> sides, int start, const std::vector<ElasticLaw>& laws) {
-  Fan fan{.wedges = {}, .closed = false};
-  int law = -1;
+// Calls see(body, angle) of the cells around a node, from that whose first side starts there and goes to `start`;
+// whether they come back to it.
+template <typename See>
+bool go_around(const Mesh& mesh, std::span<const SideAtNode> sides, int start, See see) {
+  int from = start;
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const auto first =
-        std::ranges::find_if(sides, [&](const SideAtNode& side) { return side.starts && side.other == start; });
-    if (first == sides.end()) return fan;
+        std::ranges::find_if(sides, [&](const SideAtNode& side) { return side.starts && side.other == from; });
+    if (first == sides.end()) return false;
     const auto last = std::ranges::find_if(
         sides, [&](const SideAtNode& side) { return !side.starts && side.side.cell == first->side.cell; });
-    const int body = mesh.cells[first->side.cell].body;
-    const double angle = angle_from(direction_at(mesh, *first), direction_at(mesh, *last));
+    see(mesh.cells[first->side.cell].body, angle_from(direction_at(mesh, *first), direction_at(mesh, *last)));
+    from = last->other;
+    if (from == start) return true;
+  }
+  return false;
+}
+
+Fan fan_from(const Mesh& mesh, std::span<const SideAtNode> sides, int start, const std::vector<ElasticLaw>& laws) {
+  Fan fan;
+  int law = -1;
+  fan.closed = go_around(mesh, sides, start, [&](int body, double angle) {
     if (law >= 0 && same_law(laws[law], laws[body]))
       fan.wedges.back().angle += angle;
     else
       fan.wedges.push_back(wedge(angle, laws[body]));
     law = body;
-    start = last->other;
-    fan.closed = fan.angle() > 2 * straight - 1e-6;
-    if (fan.closed) return fan;
-  }
+  });
   return fan;
 }
 
@@ -153,12 +155,13 @@ std::vector<BodyCorner> body_corners(const Surroundings& around) {
 }
 
 double corner_exponent(const Mesh& mesh, int node, const Constraints& constraints, const ElasticLaw& law) {
-  const std::vector<Edge> outline = outline_at(mesh, SideTable(mesh), node);
+  const SideTable table(mesh);
+  const std::vector<Edge> outline = outline_at(mesh, table, node);
   if (outline.size() != 2) return 1;
   const bool ordered = outline[0].nodes[1] == node;
   const Edge &before = outline[ordered ? 0 : 1], &after = outline[ordered ? 1 : 0];
-  const double angle =
-      interior_angle(edge_point(mesh.nodes, before, 1).tangent, edge_point(mesh.nodes, after, -1).tangent);
+  double angle = 0;
+  go_around(mesh, table.at(node), after.nodes[1], [&](int, double of_cell) { angle += of_cell; });
   return wedge_exponent(wedge(angle, law, face_of(mesh.nodes, before, constraints)),
                         face_of(mesh.nodes, after, constraints))
       .real();

@@ -215,6 +215,13 @@ SingularPoint singular_point(const std::array<Corner, 2>& corners, bool on_both_
   return point;
 }
 
+// The tip of a crack whose faces touch: modes that slide press nothing between bodies that are alike; between others p
+// has no limit either (Comninou 1977).
+SingularPoint crack_tip(const Corner& a, const Corner& b) {
+  const bool alike = a.wedge.shear == b.wedge.shear && a.wedge.kolosov == b.wedge.kolosov;
+  return {Vec2::Zero(), std::max(a.edge, b.edge), 0.5, alike ? 1 : 0.5, Meeting::tip, {a.wedge, b.wedge}};
+}
+
 }  // namespace
 
 std::vector<SingularPoint> singular_points(const Surroundings& around, const Curve& first, const Curve& second,
@@ -236,7 +243,9 @@ std::vector<SingularPoint> singular_points(const Surroundings& around, const Cur
       const double slope = k == 0 && v.is_end() ? given.end_slopes[i == 0 ? 0 : 1] : 0;
       std::array<Corner, 2> corners{sides[k].corner(v), *opposite};
       if (k == 1) std::swap(corners[0], corners[1]);
-      SingularPoint point = singular_point(corners, both, given.one_curve, slope, around.tips);
+      const bool is_tip = corners[0].node >= 0 && corners[0].node == corners[1].node;
+      SingularPoint point = is_tip ? crack_tip(corners[0], corners[1])
+                                   : singular_point(corners, both, given.one_curve, slope, around.tips);
       point.position = sides[k].position(v);
       if (point.exponent <= singular_limit || point.log_pressure > 0 || point.small_power != 0 || point.small_turn > 0)
         points.push_back(point);

@@ -9,8 +9,9 @@
 namespace mortise {
 
 /// How two bodies meet at a point of their contact line: the ends of both curves; a corner, an end or a kink, on a
-/// curve that goes on, or one of two kinks that are not one; one kink of both curves.
-enum class Meeting { ends, corner, kink };
+/// curve that goes on, or one of two kinks that are not one; one kink of both curves; the tip of a crack, whose faces
+/// they are.
+enum class Meeting { ends, corner, kink, tip };
 
 /// A kink of either curve, or an end of it, at which the stress is singular: stress ~ r^(exponent - 1), or the
 /// logarithm of it.
@@ -31,6 +32,9 @@ struct SingularPoint {
 
   /// Whether p has no limit there.
   bool is_unbounded() const { return pressure_exponent < 1 || log_pressure > 0; }
+  /// Whether p is as smooth there as elsewhere though the bodies' stress has no limit: p_h swings from node to node, the
+  /// more the shorter the edges.
+  bool is_swinging() const { return meeting == Meeting::tip && !is_unbounded(); }
 };
 
 /// Of a vertex of a contact curve, whether contact is closed on its edges before and after it, up to it.

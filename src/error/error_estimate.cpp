@@ -73,6 +73,30 @@ double round_off_energy(const ErrorProducts& found, double stiffness_scale, cons
   return stiffness_scale * strain * strain;
 }
 
+// Of each vertex, whether p_h swings there from node to node however short the edges, which the line's own error tells.
+std::vector<char> swinging(const PressureEstimate& e) {
+  const Eigen::Index last = e.line.p.size() - 1;
+  std::vector<char> all(last + 1, 0);
+  for (const SingularPoint& point : e.singular) {
+    if (!point.is_swinging()) continue;
+    const Eigen::Index tip = e.line.nearest(point.position);
+    for (Eigen::Index i = std::max<Eigen::Index>(tip - swing_reach, 0); i <= std::min(tip + swing_reach, last); ++i)
+      all[i] = 1;
+  }
+  return all;
+}
+
+// p_h may be zero where it swings: that is no border of contact.
+void forget_borders(const std::vector<char>& swinging, LineError& local) {
+  std::erase_if(local.borders, [&](const LineError::Border& b) { return swinging[b.edge] || swinging[b.edge + 1]; });
+  for (std::size_t i = 0; i < swinging.size(); ++i) local.border[i] = local.border[i] && !swinging[i];
+}
+
+std::vector<char> either(std::vector<char> one, const std::vector<char>& other) {
+  std::ranges::transform(one, other, one.begin(), [](char a, char b) { return a || b; });
+  return one;
+}
+
 // If each window keeps a dual of its own with them: windows at ends and borders, and the fluctuations.
 void add_end_windows(const std::vector<ContactPair>& pairs, std::vector<PressureEstimate>& list) {
   std::size_t count = 0;
@@ -81,7 +105,7 @@ void add_end_windows(const std::vector<ContactPair>& pairs, std::vector<Pressure
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     PressureEstimate& e = list[k];
     if (e.windows.empty()) continue;
-    e.fluctuation = pressure_fluctuation(pairs[k], e.line, e.excluded, 2 * e.windows[0].place.reach);
+    e.fluctuation = pressure_fluctuation(pairs[k], e.line, either(e.excluded, swinging(e)), 2 * e.windows[0].place.reach);
     e.windows = with_end_windows(pairs[k], e.line, e.local.borders, e.excluded, std::move(e.windows));
   }
 }
@@ -107,6 +131,7 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
     reached[k] = contact_reach(p.mesh, pair, e.line, options.found);
     if (!pair.spec.stiffness)  // p is no larger than k times the overlap
       e.singular = that_count(memory.points(around, pair, k, reached[k]), e.line, spec.value);
+    forget_borders(swinging(e), e.local);
     add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
     const double modulus = contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]);

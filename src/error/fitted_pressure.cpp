@@ -15,9 +15,12 @@ constexpr double same_place = 1e-9;     // of the line's length
 constexpr double credible_part = 0.95;  // of the vertices: bars are made to hold at so many
 constexpr Index least_edges = 4;        // of a piece: a cubic has as many coefficients
 constexpr int tension_places = 200;     // along a piece, at which p* is looked at
-// Edges beside a border over which p_h swings, as they see contact end at a vertex: +9, -4, -36 % over the last five of
-// Hertz' pressure. Fewer if waves of p leave no cubic over ten.
-constexpr std::array border_edges{10, 6, 4};
+// Edges beside an end over which p_h swings, as they see contact end at a vertex: +9, -4, -36 % over the last five of
+// Hertz' pressure; as many at the tip of a crack that slides. Fewer if waves of p leave no cubic over ten.
+constexpr std::array swing_edges{10, 6, 4};
+// At the tip of a crack the swings are the larger, the shorter the edges, and p is as smooth there as elsewhere: the
+// cubic goes on over so much of the piece, if waves of p leave it.
+constexpr std::array smooth_parts{0.25, 0.0625, 0.015625, 0.0};
 
 enum class Facing { none, part, whole };
 
@@ -29,6 +32,7 @@ struct Walk {
   std::vector<Facing> facing;  // of each edge
   /// Of each vertex at which the form of p is known, as which power of the distance it goes; else NaN.
   std::vector<double> power;
+  std::vector<char> swings;  // as of SingularPoint
 
   Index edges() const { return Index(facing.size()); }
   bool loaded(Index e) const { return carries[e] && carries[e + 1] && facing[e] == Facing::whole; }
@@ -46,11 +50,21 @@ std::vector<Facing> facings(const Mesh& mesh, const ContactPair& pair) {
   return all;
 }
 
-double power_at(const PressureEstimate& estimate, Index i, double length) {
+const SingularPoint* singular_at(const PressureEstimate& estimate, Index i, double length) {
   for (const SingularPoint& point : estimate.singular)
-    if ((point.position - estimate.line.position[i]).norm() < same_place * length)
-      return point.small_power != 0 ? point.small_power : point.pressure_exponent - 1;
-  return std::numeric_limits<double>::quiet_NaN();
+    if ((point.position - estimate.line.position[i]).norm() < same_place * length) return &point;
+  return nullptr;
+}
+
+double power_at(const PressureEstimate& estimate, Index i, double length) {
+  const SingularPoint* point = singular_at(estimate, i, length);
+  if (!point) return std::numeric_limits<double>::quiet_NaN();
+  return point->small_power != 0 ? point->small_power : point->pressure_exponent - 1;
+}
+
+bool swings_at(const PressureEstimate& estimate, Index i, double length) {
+  const SingularPoint* point = singular_at(estimate, i, length);
+  return point && point->is_swinging();
 }
 
 Walk walk_along(const Mesh& mesh, const ContactPair& pair, const PressureEstimate& estimate) {
@@ -58,12 +72,15 @@ Walk walk_along(const Mesh& mesh, const ContactPair& pair, const PressureEstimat
   const Index last = line.p.size() - 1;
   const double least = loaded_part * largest_entry(line.p), length = line.s(last);
   const bool bilateral = pair.spec.condition == Condition::bilateral;
-  const auto carries = [&](Index i) { return bilateral ? line.loaded[i] != 0 : line.p(i) > least; };
+  // p_h may be zero where it swings.
+  const auto carries = [&](Index i) {
+    return bilateral ? line.loaded[i] != 0 : line.p(i) > least || (line.loaded[i] && swings_at(estimate, i, length));
+  };
   Index start = 0;
   for (Index i = 0; line.closed && i < last; ++i)
     if (!carries(i) || !std::isnan(power_at(estimate, i, length))) start = i;
   const std::vector<Facing> facing = facings(mesh, pair);
-  Walk walk{.vertex = {}, .s = VecX(last + 1), .p = VecX(last + 1), .carries = {}, .facing = {}, .power = {}};
+  Walk walk{.vertex = {}, .s = VecX(last + 1), .p = VecX(last + 1), .carries = {}, .facing = {}, .power = {}, .swings = {}};
   for (Index k = 0; k <= last; ++k) {
     const Index i = start + k > last ? start + k - last : start + k;
     walk.vertex.push_back(i);
@@ -71,6 +88,7 @@ Walk walk_along(const Mesh& mesh, const ContactPair& pair, const PressureEstimat
     walk.carries.push_back(carries(i));
     walk.p(k) = walk.carries[k] ? line.p(i) : 0;
     walk.power.push_back(power_at(estimate, i, length));
+    walk.swings.push_back(swings_at(estimate, i, length));
     if (k < last) walk.facing.push_back(facing[i % last]);
   }
   return walk;
@@ -85,10 +103,10 @@ struct Range {
 // How a piece ends at vertex v, beyond which edge e is; nothing where that faces the other side in part: its moments
 // are no hat functions'.
 std::optional<PieceEnd> end_at(const Walk& walk, Index v, Index e) {
-  if (walk.cut(v)) return PieceEnd{.power = walk.power[v]};
+  if (walk.cut(v)) return PieceEnd{.power = walk.power[v], .swings = walk.swings[v] != 0};
   if (e < 0 || e >= walk.edges() || walk.facing[e] == Facing::none) return PieceEnd{};
   if (walk.facing[e] == Facing::part || walk.carries[e == v ? v + 1 : v - 1]) return std::nullopt;
-  return PieceEnd{.power = 0.5, .border = true};
+  return PieceEnd{.power = 0.5, .border = true, .swings = true};
 }
 
 std::vector<Range> loaded_ranges(const Walk& walk) {
@@ -133,7 +151,7 @@ LoadedPiece piece_of(const Walk& walk, const Range& range, const PressureLine& l
 std::array<double, 2> ends_of(const LoadedPiece& piece) {
   std::array<double, 2> ends;
   for (const int which : {0, 1})
-    ends[which] = piece.end[which].border ? border_place(piece, which) : piece.s(piece.loaded(which));
+    ends[which] = piece.end[which].border ? border_place(piece, which) : piece.s(which * (piece.s.size() - 1));
   return ends;
 }
 
@@ -166,14 +184,26 @@ bool credible(const PressureForm& form, const Walk& walk, const Range& range, co
 }
 
 // p* as it would be of a mesh with every other vertex: of its moments, which are sums of the piece's.
-std::optional<PressureForm> fit_of_every_other(const LoadedPiece& piece, int edges_of_border) {
+std::optional<PressureForm> fit_of_every_other(const LoadedPiece& piece) {
   std::array<double, 2> ends = ends_of(piece);
   for (const int which : {0, 1})
     if (piece.end[which].border) ends[which] = border_place(piece, which, 2);
-  const LoadedPiece coarse = every_other(piece);
-  for (int edges = (edges_of_border + 1) / 2; edges >= 2; --edges)
-    if (auto form = fit_pressure(coarse, ends, edges)) return form;
+  LoadedPiece coarse = every_other(piece);
+  for (coarse.swing.edges = (piece.swing.edges + 1) / 2; coarse.swing.edges >= 2; --coarse.swing.edges)
+    if (auto form = fit_pressure(coarse, ends)) return form;
   return std::nullopt;
+}
+
+// The longest first.
+std::vector<Swing> swings_to_try(const Range& range) {
+  const auto any = [&](auto has) { return has(range.end[0]) || has(range.end[1]); };
+  std::vector<Swing> all;
+  if (any([](const PieceEnd& end) { return end.swings && !end.border; }))
+    for (const double part : smooth_parts) all.push_back({swing_edges[0], part});
+  if (all.empty()) all.push_back({swing_edges[0], 0});
+  if (any([](const PieceEnd& end) { return end.swings; }))
+    for (std::size_t k = 1; k < swing_edges.size(); ++k) all.push_back({swing_edges[k], 0});
+  return all;
 }
 
 // p* is at least as near as it would be of every other vertex: by as much as that is off from it, what p_h misses along
@@ -199,7 +229,8 @@ void lower_errors(const Walk& walk, const Range& range, const PressureForm& form
   if (local.worst.size() == 0) local.worst = VecX::Ones(line.p.size());
   for (Index k = range.first; k <= range.last; ++k) {
     const Index i = walk.vertex[k];
-    if (walk.cut(k) || local.border[i]) continue;
+    const bool known = !walk.cut(k) || (walk.swings[k] && (k == 0 || k > range.first));  // once where two pieces meet
+    if (!known || local.border[i]) continue;
     local.l2(i) *= norm;
     if (swings) local.swing(i) *= norm;
     local.worst(i) = std::max(1.0, std::min(worst, 1.0) / norm);
@@ -219,17 +250,15 @@ void find_fitted_pressure(const Problem& problem, const ContactPair& pair, Press
   for (const Range& range : loaded_ranges(walk)) {
     const std::optional<double> fluid = fluid_beside(walk, range, line);
     if (!fluid) continue;
-    const LoadedPiece piece = piece_of(walk, range, line, problem.discretisation.system.constraints.rings);
+    LoadedPiece piece = piece_of(walk, range, line, problem.discretisation.system.constraints.rings);
     const std::array<double, 2> ends = ends_of(piece);
-    const bool borders = range.end[0].border || range.end[1].border;
-    for (const int edges : border_edges) {
-      const auto form = fit_pressure(piece, ends, edges);
-      if (form && credible(*form, walk, range, estimate, missed, unilateral)) {
-        fitted.pieces.push_back({*form, {piece.s(0), piece.s(piece.s.size() - 1)}, *fluid});
-        if (const auto coarse = fit_of_every_other(piece, edges)) lower_errors(walk, range, *form, *coarse, estimate);
-        break;
-      }
-      if (!borders) break;
+    for (const Swing& swing : swings_to_try(range)) {
+      piece.swing = swing;
+      const auto form = fit_pressure(piece, ends);
+      if (!form || !credible(*form, walk, range, estimate, missed, unilateral)) continue;
+      fitted.pieces.push_back({*form, {piece.s(0), piece.s(piece.s.size() - 1)}, *fluid});
+      if (const auto coarse = fit_of_every_other(piece)) lower_errors(walk, range, *form, *coarse, estimate);
+      break;
     }
   }
 }

@@ -17,13 +17,19 @@ constexpr int degree = 3;
 
 // The knots of q: its ends, and the vertices between them but for those next to each end. Without an end's own
 // condition a cubic leaves out one (not a knot); at r = 0 one more, as that moment is none.
-VecX knots_of(const LoadedPiece& piece, const std::array<double, 2>& ends, int border_edges) {
+VecX knots_of(const LoadedPiece& piece, const std::array<double, 2>& ends) {
   std::vector<double> places{ends[0]};
   for (const double s : piece.s)
     if (s > ends[0] && s < ends[1]) places.push_back(s);
   places.push_back(ends[1]);
   const Index last = piece.s.size() - 1;
-  const auto skipped = [&](int k) { return piece.end[k].border ? border_edges : piece.width(k * last) == 0 ? 3 : 2; };
+  const double smooth = piece.swing.part * (ends[1] - ends[0]);
+  const auto skipped = [&](int k) -> Index {
+    if (!piece.end[k].swings) return piece.width(k * last) == 0 ? 3 : 2;
+    if (piece.end[k].border) return piece.swing.edges;
+    const auto within = std::ranges::count_if(places, [&](double s) { return std::abs(s - ends[k]) < smooth; });
+    return std::max<Index>(piece.swing.edges, within);
+  };
   const Index count = std::max<Index>(Index(places.size()) - skipped(0) - skipped(1), 0);
   VecX knots(count + 2 * (degree + 1));
   knots.head(degree + 1).setConstant(ends[0]);
@@ -150,12 +156,11 @@ double PressureForm::operator()(double s) const {
 
 // With c the sums of what is left of the moments: min sum_i w_i c_i^2 / 2 with c_i - c_{i-1} = m_i - (M q)_i, no force
 // left (the last c is 0), no moment (sum_i c_i h_i = 0) and no slope on an axis, by its saddle point, which is sparse.
-std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::array<double, 2>& ends,
-                                         int border_edges) {
+std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::array<double, 2>& ends) {
   PressureForm form;
   form.ends_ = ends;
   form.powers_ = {piece.end[0].power, piece.end[1].power};
-  form.knots_ = knots_of(piece, ends, border_edges);
+  form.knots_ = knots_of(piece, ends);
   const Triplets entries = spline_moments(piece, ends, form.knots_);
   const Index columns = form.knots_.size() - degree - 1, count = piece.s.size(), sums = count - 1;
   if (columns > count) return std::nullopt;
@@ -191,7 +196,8 @@ LoadedPiece every_other(const LoadedPiece& piece) {
   const Index edges = piece.s.size() - 1, count = edges / 2 + 1;
   const auto kept = [&](Index k) { return k + 1 < count ? 2 * k : edges; };  // an odd edge belongs to the last one
   LoadedPiece coarse{
-      .s = VecX(count), .p = VecX(count), .width = VecX(count), .end = piece.end, .moments = VecX::Zero(count)};
+      .s = VecX(count), .p = VecX(count), .width = VecX(count), .end = piece.end, .moments = VecX::Zero(count),
+      .swing = piece.swing};
   for (Index k = 0; k < count; ++k) {
     coarse.s(k) = piece.s(kept(k));
     coarse.p(k) = piece.p(kept(k));

@@ -14,6 +14,13 @@ struct PieceEnd {
   double power = 0;  ///< p goes as so much of the distance from it: 1/2 at a border, exponent - 1 at a singular point
   bool border = false;  ///< contact ends between vertices
   bool even = false;    ///< on the axis of rings: p has no slope there
+  bool swings = false;  ///< p_h swings beside it, however short the edges: at the tip of a crack and at a border
+};
+
+/// How far from an end beside which p_h swings q has no knot.
+struct Swing {
+  int edges = 0;
+  double part = 0;  ///< of the piece's length, beside one that is no border
 };
 
 /// The vertices of a piece of a line that carries p, and beyond a border up to two more, at which it is 0.
@@ -23,12 +30,12 @@ struct LoadedPiece {
   VecX width;                   ///< of the line there: distance from the axis in rings, else 1
   std::array<PieceEnd, 2> end;  ///< the first and the last
   VecX moments{};               ///< with the hat functions; empty: those of p
+  Swing swing{};
 
   Eigen::Index loaded(int which) const;  ///< the first (0) or the last (1) vertex that carries p
 };
 
-/// p* = (s - A)^a (B - s)^b q(s), q a cubic spline with knots at the vertices, none within `border_edges` of a border,
-/// where p_h swings. Its moments with the hat functions are those of p_h; where these are more than q has, in least
+/// p* = (s - A)^a (B - s)^b q(s), q a cubic spline with knots at the vertices, none beside an end where p_h swings. Its moments with the hat functions are those of p_h; where these are more than q has, in least
 /// squares of the forces summed from one end, the whole force and moment exactly.
 class PressureForm {
  public:
@@ -36,13 +43,13 @@ class PressureForm {
   const std::array<double, 2>& ends() const { return ends_; }  ///< A, B
 
  private:
-  friend std::optional<PressureForm> fit_pressure(const LoadedPiece&, const std::array<double, 2>&, int);
+  friend std::optional<PressureForm> fit_pressure(const LoadedPiece&, const std::array<double, 2>&);
   std::array<double, 2> ends_, powers_;
   VecX knots_, q_;
 };
 
 /// Nothing where the moments do not determine q. Time as the vertices.
-std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::array<double, 2>& ends, int border_edges);
+std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::array<double, 2>& ends);
 
 /// Where the border at an end of a piece of three vertices or more lies, s: p goes as a root there (Johnson 1985,
 /// section 4.2), so that the line through the squares of the last three vertices' p is zero at it, not before the last

@@ -49,6 +49,10 @@ std::array<bool, 2> PressureLine::faced_beside(Eigen::Index i) const {
   return {(closed || i > 0) && at(i - 1), (closed || i < last) && at(i)};
 }
 
+Eigen::Index PressureLine::nearest(const Vec2& x) const {
+  return std::ranges::min_element(position, {}, [&](const Vec2& y) { return (y - x).norm(); }) - position.begin();
+}
+
 double PressureLine::distance(double one, double other) const {
   const double r = std::abs(one - other);
   return closed ? std::min(r, s(s.size() - 1) - r) : r;

@@ -27,6 +27,8 @@ struct PressureLine {
   double whole(Eigen::Index i) const { return fluid.size() > 0 ? p(i) + fluid(i) : p(i); }  ///< pressure at vertex i
   /// Whether edges are faced before and after vertex i.
   std::array<bool, 2> faced_beside(Eigen::Index i) const;
+  /// The vertex nearest to a place.
+  Eigen::Index nearest(const Vec2& x) const;
   /// Between two places by their arc lengths; around a closed line the shorter way.
   double distance(double one, double other) const;
 };

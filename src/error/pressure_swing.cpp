@@ -9,7 +9,7 @@
 namespace mortise {
 namespace {
 
-constexpr Eigen::Index beside = 4;  // nodes on either side
+constexpr Eigen::Index beside = swing_reach;
 constexpr Eigen::Index cubic = 4;   // coefficients
 
 // p(i) less the cubic that fits nodes first ... first + count - 1, over the root of 1 - q, with q the part of p(i)

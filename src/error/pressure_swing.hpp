@@ -15,6 +15,9 @@ struct PressureNodes {
   bool closed = false;  ///< the last node is the first one
 };
 
+/// The nodes on either side of one that swings() fits with it.
+inline constexpr int swing_reach = 4;
+
 /// `excluded`: flags of the line's vertices.
 PressureNodes pressure_nodes(const PressureLine& line, const std::vector<char>& excluded);
 

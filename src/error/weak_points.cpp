@@ -18,20 +18,13 @@ double missed(double d, double amplitude) { return 0.52 * amplitude * std::exp(-
 // What the best hats miss of c r ln r on even edges of length h: in L2 over c h sqrt(h), and at the end over c h.
 constexpr double hats_in_l2 = 0.11, hats_at_end = 0.36;
 
-Eigen::Index nearest_vertex(const PressureLine& line, const Vec2& x) {
-  Eigen::Index best = 0;
-  for (Eigen::Index i = 1; i < line.p.size(); ++i)
-    if ((line.position[i] - x).norm() < (line.position[best] - x).norm()) best = i;
-  return best;
-}
-
 }  // namespace
 
 void add_weak_points(const PressureLine& line, std::vector<SingularPoint>& points, LineError& error) {
   std::erase_if(points, [&](const SingularPoint& point) {
     const double d = point.small_power;
     if (d == 0) return false;
-    const Eigen::Index i = nearest_vertex(line, point.position);
+    const Eigen::Index i = line.nearest(point.position);
     if (!line.loaded[i]) return true;
     double p = std::abs(line.p(i));  // at an edge's length, or extrapolated to the point
     for (const Eigen::Index next : {i - 1, i + 1})
@@ -46,7 +39,7 @@ void add_layer_ends(const PressureLine& line, const std::vector<SingularPoint>& 
                     double modulus, LineError& error) {
   for (const SingularPoint& point : points) {
     const double d = point.small_power != 0 ? point.small_power : point.pressure_exponent - 1;
-    const Eigen::Index i = nearest_vertex(line, point.position);
+    const Eigen::Index i = line.nearest(point.position);
     if (d == 0 || !line.loaded[i]) continue;
     // Between rollers p is constant but for a part of about d of it; elsewhere r^d is all of it.
     const bool rollers = std::ranges::all_of(point.wedges, [](const Wedge& w) { return w.outer == Face::symmetric; });
@@ -60,7 +53,7 @@ void add_layer_ends(const PressureLine& line, const std::vector<SingularPoint>& 
 
 // The limit of a small power with p d = amplitude; hats that are symmetric about the place miss the same on both sides.
 void add_weak_logarithm(const PressureLine& line, const Vec2& place, double amplitude, LineError& error) {
-  const Eigen::Index i = nearest_vertex(line, place);
+  const Eigen::Index i = line.nearest(place);
   error.add_data(i, std::numbers::sqrt2 * missed(0, amplitude) * std::sqrt(line.h(i)));
   error.raise(i, folds * amplitude);
 }

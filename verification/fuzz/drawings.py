@@ -27,6 +27,7 @@ class Drawing:
     sides: tuple = ()  # curves on rollers along x
     load: dict = field(default_factory=lambda: {"pressure": 1e-3})
     planes: tuple = ("strain", "strain", "stress")
+    joined: bool = False  # the curves called joint are of both bodies, which are one: the contact is a crack's
 
 
 def rim(first, *curves):
@@ -49,24 +50,32 @@ def above(top, contact, leans=(0.0, 0.0)):
     return [[("bottom", word, points) for word, points in contact] + rim(last, *corners)]
 
 
-def draw_body(name, loops, tag, lines):
-    """Appends the body's statements, tags from `tag` on; returns {curve: its tags}."""
-    curves, loop_tags = {}, []
+def draw_body(name, loops, tag, lines, joints=None):
+    """Appends the body's statements, tags from `tag` on; returns {curve: its tags}. `joints`: its curves called joint by
+    their ends, added to or, turned round, taken from there; the body is then a part of "plate"."""
+    curves, loop_tags, taken = {}, [], list((joints or {}).values())
     for loop in loops:
-        known, listed = {}, []
+        known, listed = {point: tag for _, ends in taken for point, tag in ends.items()}, []
         for curve, word, points in loop:
+            if joints and (points[-1], points[0]) in joints:
+                listed.append(-joints[points[-1], points[0]][0])
+                continue
             for x, y in points:
                 if (x, y) not in known:
                     tag = known[x, y] = tag + 1
                     lines.append(f"Point({tag}) = {{{x!r}, {y!r}, 0}};")
             tag += 1
             lines.append(f"{word}({tag}) = {{{', '.join(str(known[p]) for p in points)}}};")
-            curves.setdefault(f"{name}_{curve}", []).append(tag)
             listed.append(tag)
+            if curve == "joint":
+                joints[points[0], points[-1]] = tag, {point: known[point] for point in points}
+            else:
+                curves.setdefault(f"{name}_{curve}", []).append(tag)
         tag += 1
         lines.append(f"Curve Loop({tag}) = {{{', '.join(map(str, listed))}}};")
         loop_tags.append(tag)
-    lines.append(f'Plane Surface({tag}) = {{{", ".join(map(str, loop_tags))}}}; Physical Surface("{name}") = {{{tag}}};')
+    physical = f'("{name if joints is None else "plate"}") {"+" if taken else ""}='
+    lines.append(f'Plane Surface({tag}) = {{{", ".join(map(str, loop_tags))}}}; Physical Surface{physical} {{{tag}}};')
     lines += [f'Physical Curve("{key}") = {{{", ".join(map(str, tags))}}};' for key, tags in curves.items()]
     return curves
 
@@ -74,7 +83,8 @@ def draw_body(name, loops, tag, lines):
 def geo(drawing, line=0.05, widest=0.1, order=2, quads=0, points=()):
     """The .geo: edges `line` long along contact and `size` within `reach` of the points (place, reach, size)."""
     lines = []
-    curves = draw_body("lower", drawing.lower, 1000, lines) | draw_body("upper", drawing.upper, 2000, lines)
+    joints = {} if drawing.joined else None
+    curves = draw_body("lower", drawing.lower, 1000, lines, joints) | draw_body("upper", drawing.upper, 2000, lines, joints)
     lines += [f"Mesh.ElementOrder = {order}; Mesh.SecondOrderIncomplete = 1; Mesh.RecombineAll = {quads};",
               "Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0; fields[] = {};"]  # fmt: skip
 
@@ -99,12 +109,12 @@ def scene_of(r, drawing, young=1.0, softest=-1):
     """The drawing's load on top, the bottom held; one material, or another below."""
     one, p = {"young": young, "poisson": r.choice((0.0, 0.2, 0.3, 0.45)), "thermal_expansion": 1e-5}, drawing.load
     made = {"model": {"plane": r.choice(drawing.planes)}, "materials": {"one": one},
-            "bodies": {"lower": "one", "upper": "one"},
+            "bodies": {"plate": "one"} if drawing.joined else {"lower": "one", "upper": "one"},
             "boundary": [{"on": "lower_bottom", "displacement": {"y": 0}}, {"on": "upper_top", **p}],
             "contact": [{"between": ["upper_bottom", "lower_top"]}]}  # fmt: skip
     if drawing.sides and made["model"]["plane"] != "axisymmetric":
         made["boundary"].append({"on": list(drawing.sides), "displacement": {"x": 0}})
-    if r.random() < 0.2:
+    if r.random() < 0.2 and not drawing.joined:
         made["materials"]["two"] = one | {"young": young * 10 ** r.uniform(softest, -softest), "poisson": 0.3}
         made["bodies"]["lower"] = "two"
     return made

@@ -58,6 +58,7 @@ class Case:
     middles: bool = True  # whether edges have middle nodes
     named: list = field(default_factory=list)  # words that a warning of the feature has, or else a place near one of
     places: list = field(default_factory=list)  # these (x, y); None: any
+    smooth: tuple = ()  # places beside which p of a reference swings and is smooth
     variant: str = ""  # of an assembly: how it is solved again, its files, and how these see it
     other: dict = field(default_factory=dict)
     view: object = None

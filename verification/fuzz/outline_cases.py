@@ -1,5 +1,5 @@
 """Two bodies with outlines that are hard to see: one spline drawn twice, slits and holes beside the line, corners,
-crowns, cones. The reference knows the points: its mesh is graded towards them, and of one line drawn twice the pair is
+crowns, cones, cracks. The reference knows the points: its mesh is graded towards them, and of one line drawn twice the pair is
 closed.
 """
 
@@ -100,7 +100,32 @@ def cone_of(slope, wide, pressed, plane):
                    [(0.0, 0.7)], sides=("upper_left", "lower_left"), load=load, planes=(plane,))  # fmt: skip
 
 
-FAMILIES = (one_line, one_line, flaw, flaw, punch, crown, cone)
+def crack(r):
+    """Within a plate or from its side, straight or an arc, under a pressure that may turn into tension: it slides, and opens
+    in part."""
+    left, right, side = r.uniform(0.2, 0.4), r.uniform(0.6, 0.8), r.random() < 0.4
+    plane = r.choice(("strain", "stress", "axisymmetric")) if side else r.choice(("strain", "stress"))
+    left = 0.0 if side else left
+    ends = [(x, r.uniform(0.4, 0.6)) for x in (left, right)]
+    faces, (dx, dy) = [("Line", ends)], (ends[1][0] - left, ends[1][1] - ends[0][1])
+    if r.random() < 0.4 and plane != "axisymmetric":
+        far = r.choice((1, -1)) * r.uniform(1, 5)  # of the centre, in lengths of the chord
+        middle = (left + dx / 2 - far * dy, (ends[0][1] + ends[1][1]) / 2 + far * dx)
+        faces = [("Circle", [ends[0], middle, ends[1]])]
+    joints = [("Line", [ends[1], (1.0, ends[1][1])])] + ([] if side else [("Line", [(0.0, ends[0][1]), ends[0]])])
+    line = [*joints[1:], *faces, joints[0]]
+
+    def jointed(loops):
+        ends = [set(points) for _, points in joints]
+        return [[("joint" if set(points) in ends else name, word, points) for name, word, points in loop] for loop in loops]
+
+    turns = r.choice((0.0, r.uniform(0, 1), r.uniform(1, 4), r.uniform(-4, -1)))
+    sides = ("lower_right", "upper_right") if side else ("lower_left", "upper_left")
+    return Drawing("crack", jointed(below(0.0, 1.0, line)), jointed(above(1.0, line)), ends[side:], True, sides=sides,
+                   load={"pressure": f"0.001 * (1 + {turns!r} * (2 * x - 1))"}, planes=(plane,), joined=True)  # fmt: skip
+
+
+FAMILIES = (one_line, one_line, flaw, flaw, punch, crown, cone, crack)
 
 
 def reference_geo(drawing, coarser, borders):
@@ -127,5 +152,5 @@ def make_outline(seed, number):
     closed = scene | {"contact": [scene["contact"][0] | ({"initial_gap": "closed"} if drawing.one_line else {})]}
     case = held_case("outline", drawing.what, drawing.what, scene, drawing, number, seed, lambda r: own_mesh(r, drawing))
     case.reference = lambda *how: {"scene.toml": scene_text(closed, "mesh.geo"), "mesh.geo": reference_geo(drawing, *how)}
-    case.places = drawing.tips
+    case.places, case.smooth = drawing.tips, tuple(drawing.tips) if drawing.joined else ()
     return case

@@ -30,6 +30,7 @@ LABELS = ("kept", "short", "worse", "told", "refused", "not reached", "unsure")
 SURE = 0.3  # largest difference of two references, over what is asked or promised
 SHORT = 2.0  # times what was asked: further off is "worse", and never without a word
 INSIDE = 0.95  # of the nodes on a mesh of one's own
+SWINGS = 16  # nodes, of eight edges: so far p swings beside the tip of a crack that slides
 ROUND_OFF = 1e-7  # of the largest p: as two references agree where the answer is exact
 NEAR = 0.06  # of the length: a place that a message gives is that of the feature
 NUMBER = r"(-?\d+\.?\d*(?:e[-+]?\d+)?)"
@@ -72,6 +73,20 @@ def sharpened(s, line):
     return Line(along(fine), spline(fine), np.zeros(len(fine)))
 
 
+def calmed(s, line, places):
+    """The line with p beside the places as the parabola through the vertices further on has it, if these are loaded."""
+    p = line.p.copy()
+    for place in places:
+        end = int(np.argmin(np.linalg.norm(line.x - place, axis=1)))
+        far = end - np.arange(SWINGS, 3 * SWINGS) if end > len(s) // 2 else end + np.arange(SWINGS, 3 * SWINGS)
+        if (p[far] > 0).all():
+            near = np.arange(min(end, far[0]), max(end, far[0]))  # the end itself too, whichever side it is on
+            near = np.unique(np.r_[near, end])
+            size = np.abs(s[far] - s[end]).max()
+            p[near] = np.polyval(np.polyfit((s[far] - s[end]) / size, p[far], 2), (s[near] - s[end]) / size)
+    return Line(line.x, p, line.bar)
+
+
 @cache
 def lock_of(_):
     return threading.Lock()
@@ -101,17 +116,17 @@ class References:
     def pair(self, case):
         """p as functions of places of the finer and the coarser reference, refined where contact ends; StudyError if one
         cannot be solved."""
-        ends = borders(self.line(case.reference(4, ())))
-        return [within(self.line(case.reference(coarser, ends))) for coarser in (1, 2)]
+        ends = borders(self.line(case.reference(4, ()), case.smooth))
+        return [within(self.line(case.reference(coarser, ends), case.smooth)) for coarser in (1, 2)]
 
-    def line(self, files):
+    def line(self, files, smooth):
         name = hashlib.sha1(b"".join(files[key] for key in sorted(files))).hexdigest()
         with lock_of(name):
             if name not in self.known:
-                self.known[name] = self.solve(files)
+                self.known[name] = self.solve(files, smooth)
         return self.known[name]
 
-    def solve(self, files):
+    def solve(self, files, smooth):
         case = solve_case("reference", "", files["scene.toml"], b"")
         case.files, case.words = files, [*case.words, "--no-estimate"]
         with tempfile.TemporaryDirectory(prefix="mortise_reference_") as folder:
@@ -119,7 +134,8 @@ class References:
             run = one_call.call(self.program, case, folder)
             if run.status not in (0, 2):
                 raise launch.StudyError(f"reference: exit status {run.status}: {run.said.strip()[:300]}")
-            return sharpened(*line_of(os.path.join(folder, "results")))
+            s, line = line_of(os.path.join(folder, "results"))
+            return sharpened(s, calmed(s, line, smooth))
 
 
 def names_place(texts, case):
