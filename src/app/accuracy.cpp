@@ -53,7 +53,8 @@ class Loop {
         open_(cases_.size()) {}
 
   std::optional<Results> run() {
-    std::optional<Results> last;
+    std::optional<Results> last, best;  // best: of those before the last, if it is better
+    int number_of_best = 0;
     AccuracyReport report{.of = spec_.of, .asked = spec_.value, .excluded = spec_.exclude, .solves = {}, .reason = {}};
     Seconds seconds;
     std::string said;
@@ -75,6 +76,12 @@ class Loop {
         seconds += r.seconds;
         report.solves.push_back({free_unknowns(r), open_[worst_] ? 0 : estimated(r), r.seconds.total()});
         if (spec_.of == Goal::peak) require_peak(r);
+        const int number = int(report.solves.size());
+        if (last && is_better({&*last, number - 1}, {&r, number}) &&
+            (!best || is_better({&*last, number - 1}, {&*best, number_of_best}))) {
+          best = std::move(last);
+          number_of_best = number - 1;
+        }
         last = std::move(r);
         report.reason = why_to_stop(*last, report);
         if (report.reached() || !report.reason.empty()) break;
@@ -86,6 +93,12 @@ class Loop {
     } catch (const InputError& error) {  // a mesh that gmsh does not make
       if (!last) throw;
       report.reason = error.what();
+    }
+    if (best && !report.reached() && is_better({&*best, number_of_best}, {&*last, int(report.solves.size())})) {
+      last = std::move(best);
+      report.reason += "; the answer is that of solve " + std::to_string(number_of_best);
+      std::rotate(report.solves.begin() + number_of_best - 1, report.solves.begin() + number_of_best,
+                  report.solves.end());
     }
     complete(*last, std::move(report), seconds);
     return last;
@@ -269,6 +282,19 @@ class Loop {
   }
 
   double estimated(const Results& r) const { return estimated_error(r, spec_.of); }
+  // What the report would ask of an answer, infinite where its estimate says nothing.
+  struct Numbered {
+    const Results* results;
+    int number;  // of the solve, from 1
+  };
+  bool is_better(const Numbered& one, const Numbered& other) const {
+    const auto off = [&](const Numbered& of) {
+      const bool says = tells_sizes(*of.results) && is_pressed(*of.results);
+      return says ? AccuracyReport::confirmed(estimated(*of.results), of.number)
+                  : std::numeric_limits<double>::infinity();
+    };
+    return off(one) < off(other);
+  }
 
   // Throws InputError where p has no largest value.
   void require_peak(const Results& r) const {

@@ -32,8 +32,8 @@ struct SingularPoint {
 
   /// Whether p has no limit there.
   bool is_unbounded() const { return pressure_exponent < 1 || log_pressure > 0; }
-  /// Whether p is as smooth there as elsewhere though the bodies' stress has no limit: p_h swings from node to node, the
-  /// more the shorter the edges.
+  /// Whether p is as smooth there as elsewhere though the bodies' stress has no limit: p_h swings from node to node,
+  /// the more the shorter the edges.
   bool is_swinging() const { return meeting == Meeting::tip && !is_unbounded(); }
 };
 

@@ -105,7 +105,8 @@ void add_end_windows(const std::vector<ContactPair>& pairs, std::vector<Pressure
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     PressureEstimate& e = list[k];
     if (e.windows.empty()) continue;
-    e.fluctuation = pressure_fluctuation(pairs[k], e.line, either(e.excluded, swinging(e)), 2 * e.windows[0].place.reach);
+    e.fluctuation =
+        pressure_fluctuation(pairs[k], e.line, either(e.excluded, swinging(e)), 2 * e.windows[0].place.reach);
     e.windows = with_end_windows(pairs[k], e.line, e.local.borders, e.excluded, std::move(e.windows));
   }
 }

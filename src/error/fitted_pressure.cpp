@@ -80,7 +80,8 @@ Walk walk_along(const Mesh& mesh, const ContactPair& pair, const PressureEstimat
   for (Index i = 0; line.closed && i < last; ++i)
     if (!carries(i) || !std::isnan(power_at(estimate, i, length))) start = i;
   const std::vector<Facing> facing = facings(mesh, pair);
-  Walk walk{.vertex = {}, .s = VecX(last + 1), .p = VecX(last + 1), .carries = {}, .facing = {}, .power = {}, .swings = {}};
+  Walk walk{
+      .vertex = {}, .s = VecX(last + 1), .p = VecX(last + 1), .carries = {}, .facing = {}, .power = {}, .swings = {}};
   for (Index k = 0; k <= last; ++k) {
     const Index i = start + k > last ? start + k - last : start + k;
     walk.vertex.push_back(i);

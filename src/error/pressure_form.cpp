@@ -95,13 +95,19 @@ VecX multiplier_moments(const LoadedPiece& piece) {
   return moments;
 }
 
-// By which forces summed up to each vertex count, squared: as p's own square along the line, whatever the edges.
-VecX sum_weights(const LoadedPiece& piece) {
+// By which forces summed up to each vertex count, squared: as p's own square along the line, whatever the edges; where
+// q has no knot beside the tip of a crack, as that of a p which varies over so much.
+VecX sum_weights(const LoadedPiece& piece, const std::array<double, 2>& ends) {
   const Index count = piece.s.size();
+  const double smooth = piece.swing.part * (ends[1] - ends[0]);
   VecX weights(count);
   for (Index i = 0; i < count; ++i) {
     const double length = piece.s(std::min(i + 1, count - 1)) - piece.s(std::max<Index>(i - 1, 0));
-    weights(i) = 2 / (length * std::max(piece.width(i), 1e-3 * piece.width.maxCoeff()));
+    const bool beside = std::ranges::any_of(std::array{0, 1}, [&](int k) {
+      return piece.end[k].swings && !piece.end[k].border && std::abs(piece.s(i) - ends[k]) < smooth;
+    });
+    const double varies = beside ? smooth * smooth / length : length / 2;
+    weights(i) = 1 / (varies * std::max(piece.width(i), 1e-3 * piece.width.maxCoeff()));
   }
   return weights;
 }
@@ -164,7 +170,8 @@ std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::ar
   const Triplets entries = spline_moments(piece, ends, form.knots_);
   const Index columns = form.knots_.size() - degree - 1, count = piece.s.size(), sums = count - 1;
   if (columns > count) return std::nullopt;
-  const VecX sizes = column_sizes(entries, columns), weights = sum_weights(piece), moments = multiplier_moments(piece);
+  const VecX sizes = column_sizes(entries, columns), weights = sum_weights(piece, ends),
+             moments = multiplier_moments(piece);
   const double force = moments.cwiseAbs().maxCoeff(), heaviest = weights.maxCoeff(),
                length = piece.s(sums) - piece.s(0);
   if (!(force > 0)) return std::nullopt;
@@ -195,9 +202,12 @@ std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::ar
 LoadedPiece every_other(const LoadedPiece& piece) {
   const Index edges = piece.s.size() - 1, count = edges / 2 + 1;
   const auto kept = [&](Index k) { return k + 1 < count ? 2 * k : edges; };  // an odd edge belongs to the last one
-  LoadedPiece coarse{
-      .s = VecX(count), .p = VecX(count), .width = VecX(count), .end = piece.end, .moments = VecX::Zero(count),
-      .swing = piece.swing};
+  LoadedPiece coarse{.s = VecX(count),
+                     .p = VecX(count),
+                     .width = VecX(count),
+                     .end = piece.end,
+                     .moments = VecX::Zero(count),
+                     .swing = piece.swing};
   for (Index k = 0; k < count; ++k) {
     coarse.s(k) = piece.s(kept(k));
     coarse.p(k) = piece.p(kept(k));

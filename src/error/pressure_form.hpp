@@ -35,8 +35,9 @@ struct LoadedPiece {
   Eigen::Index loaded(int which) const;  ///< the first (0) or the last (1) vertex that carries p
 };
 
-/// p* = (s - A)^a (B - s)^b q(s), q a cubic spline with knots at the vertices, none beside an end where p_h swings. Its moments with the hat functions are those of p_h; where these are more than q has, in least
-/// squares of the forces summed from one end, the whole force and moment exactly.
+/// p* = (s - A)^a (B - s)^b q(s), q a cubic spline with knots at the vertices, none beside an end where p_h swings. Its
+/// moments with the hat functions are those of p_h; where these are more than q has, in least squares of the forces
+/// summed from one end, the whole force and moment exactly.
 class PressureForm {
  public:
   double operator()(double s) const;  ///< p*, stress; 0 beyond the ends; infinite at an end of negative power

@@ -10,7 +10,7 @@ namespace mortise {
 namespace {
 
 constexpr Eigen::Index beside = swing_reach;
-constexpr Eigen::Index cubic = 4;   // coefficients
+constexpr Eigen::Index cubic = 4;  // coefficients
 
 // p(i) less the cubic that fits nodes first ... first + count - 1, over the root of 1 - q, with q the part of p(i)
 // itself in the cubic there: by that root a fit comes nearer to what it was made with, at the end of a line more than

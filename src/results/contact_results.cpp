@@ -72,18 +72,20 @@ struct Asked {
     const auto s = stress.points.row(point_of(points, body, at.node));
     const bool on_line = at.on_multiplier.edge >= 0;
     const double p = on_line ? interpolate(pair, pressure, at.on_multiplier) : 0;
+    const bool faces =
+        on_line && at.faces;  // the multiplier of an edge that faces a part goes on to its end, p does not
     return {.node = at.node,
             .s = at.s,
             .position = mesh.nodes.row(at.node).transpose(),
             .normal = at.normal,
             .u_n = u.segment<2>(2 * at.node).dot(at.normal),
-            .p = p,
+            .p = faces ? p : 0,
             .gap = at.faces ? gap(at) : nan,
             .sigma_n = normal_stress(s, at.own_normal),
             .sigma_2 = s(1),
             .on_multiplier = at.on_multiplier,
             .p_multiplier = p,
-            .p_fluid = on_line ? interpolate(pair, fluid, at.on_multiplier) : 0};
+            .p_fluid = faces ? interpolate(pair, fluid, at.on_multiplier) : 0};
   }
 
   // Deformed.
@@ -119,7 +121,7 @@ void set_extremes(ContactResults& r) {
   r.p_min = std::numeric_limits<double>::infinity();
   r.p_max = -r.p_min;
   for (const ContactNode& n : r.multiplier.nodes) {
-    if (std::isnan(n.gap) && n.p == 0) continue;
+    if (std::isnan(n.gap)) continue;
     r.p_min = std::min(r.p_min, n.p);
     r.p_max = largest(r.p_max, n.p);
   }
@@ -213,7 +215,7 @@ void set_fitted_pressure(const Points& nodes, const Curve& multiplier, const Fit
   for (ContactSide* side : {&results.multiplier, &results.opposite})
     for (ContactNode& node : side->nodes) {
       const auto [edge, xi] = node.on_multiplier;
-      if (edge < 0) continue;
+      if (edge < 0 || std::isnan(node.gap)) continue;
       if (const auto p = fitted.at(start(edge) + (1 + xi) / 2 * (start(edge + 1) - start(edge)))) node.p = *p;
     }
   set_extremes(results);

@@ -51,10 +51,11 @@ struct AccuracyReport {
   };
   Goal of = Goal::pressure;  ///< AccuracySpec
   double asked, excluded;
-  std::vector<Solve> solves;
-  std::string reason;  ///< why it ended where the accuracy was not reached
+  std::vector<Solve> solves;  ///< the answer's is the last
+  std::string reason;         ///< why it ended where the accuracy was not reached
   /// A first solve, which nothing confirms, must be three times as good.
-  bool reached() const { return !solves.empty() && (solves.size() == 1 ? 3 : 1) * solves.back().estimated <= asked; }
+  static double confirmed(double estimated, int number) { return (number == 1 ? 3 : 1) * estimated; }
+  bool reached() const { return !solves.empty() && confirmed(solves.back().estimated, int(solves.size())) <= asked; }
 };
 
 struct Results {

@@ -94,6 +94,31 @@ TEST(Cracks, UnderEqualPressureAllRoundPressAsIfThereWereNone) {
   }
 }
 
+// Under pressure across a plate a crack that lies aslant slides: sigma = -1 in one direction presses it by cos^2 of its
+// angle. However short the edges are at its tips, p_h swings there.
+TEST(Cracks, ThatSlidePressEvenlyUpToTheirTips) {
+  std::mt19937 random(39);
+  std::uniform_real_distribution<double> degrees(5, 50), place(-3, 3);
+  for (int k = 0; k < 6; ++k) {
+    const Crack crack{.half_width = 60, .angle = degrees(random), .x = place(random), .y = place(random)};
+    SCOPED_TRACE(crack.angle);
+    const Results r = solved(crack, R"({ on = ["bottom", "top"], pressure = 1 })",
+                             {{"accuracy.value", "0.005"}, {"accuracy.first_edges", std::to_string(10 + 5 * k)}});
+    EXPECT_EQ(r.status, Status::solved) << r.accuracy->reason;
+    const double exact = std::pow(std::cos(std::numbers::pi / 180 * crack.angle), 2);
+    for (const ContactNode& node : r.recovery.contacts[0].multiplier.nodes) {
+      EXPECT_NEAR(node.p, exact, std::max(node.p_error, 1e-3)) << node.s;  // the plate is 60 cracks wide
+      EXPECT_NEAR(node.p, exact, 0.01 * exact) << node.s;
+    }
+    const auto& singular = r.estimate->pressures[0].singular;
+    ASSERT_EQ(singular.size(), 2u);
+    for (const SingularPoint& tip : singular) {
+      EXPECT_EQ(tip.exponent, 0.5);
+      EXPECT_FALSE(tip.is_unbounded());
+    }
+  }
+}
+
 // Inner crack of half length 1 in a plate that is large under stress s (x0 - x) across it: by Westergaard's function it
 // is open up to b, where the stress intensity of the open part vanishes, and pressed by p beyond.
 TEST(Cracks, ThatCloseInPartEndWhereTheyOpenWithoutStressIntensity) {

@@ -73,6 +73,21 @@ TEST(BodyCorners, AreThoseThatTurnInwards) {
   EXPECT_NEAR(found[0].exponent, 0.5444837367, 1e-4);  // Williams (1952)
 }
 
+// A cut of no width: the faces are in one place, the cells between them all around.
+TEST(BodyCorners, AreTheTipsOfCracks) {
+  Mesh mesh = quarters(4);
+  const int end = int(mesh.nodes.rows());
+  mesh.nodes.conservativeResize(end + 1, 2);
+  mesh.nodes.row(end) = mesh.nodes.row(mesh.cells[0].nodes[1]);  // on the common side of the first and the last cell
+  for (int a = 0; a < node_count(mesh.cells[3].kind); ++a)
+    if (mesh.cells[3].nodes[a] == mesh.cells[0].nodes[1]) mesh.cells[3].nodes[a] = end;
+  const auto found = corners_of(mesh, std::vector(4, steel));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].node, 0);
+  EXPECT_NEAR(found[0].exponent, 0.5, 1e-4);
+  EXPECT_NEAR(corner_exponent(mesh, 0, no_constraints(mesh), steel), 0.5, 1e-9);
+}
+
 TEST(BodyCorners, AreWhereASupportEnds) {
   const Mesh mesh = quarters(2);
   Constraints constraints = no_constraints(mesh);

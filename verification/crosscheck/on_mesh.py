@@ -22,10 +22,8 @@ METHOD = {"multipliers": "linear", "integration": "segments", "gauss": 5}
 def line(scene, mesh, curves, folder):
     """Rows: pair, x, y, p, weighted gap. Straight sides; P2 on 6-node triangles or two of each quadrilateral, P1 on
     linear cells; gaps and segments as of the cross-check. StudyError where FreeFEM has no such model."""
-    if any("stiffness" in entry for entry in scene["contact"]):
-        raise StudyError("a contact that gives way")
     for entry in scene["contact"]:
-        scenes.refuse_others(entry, {"between", "condition", "initial_gap", "multipliers_on", "within"})
+        scenes.refuse_others(entry, {"between", "condition", "initial_gap", "multipliers_on", "stiffness", "within"})
     sides = {entry["between"].index(on) if on in entry["between"] else None for entry, on in zip(scene["contact"], curves)}
     gaps = {entry.get("initial_gap", "curve") for entry in scene["contact"]}
     conditions = {entry.get("condition", "unilateral") for entry in scene["contact"]}

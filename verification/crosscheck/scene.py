@@ -197,6 +197,14 @@ def gap_lines(scene, gap, values):
     return ["gap given", f"points {POINTS}"] if gap == "curve" else [f"gap {gap}"]
 
 
+def stiffness_lines(scene):
+    """StudyError where pairs give way by several laws, or by one that is not linear."""
+    first, *others = [entry.get("stiffness") for entry in scene["contact"]]
+    if any(other != first for other in others) or not isinstance(first, (int, float, type(None))):
+        raise StudyError(f"FreeFEM is not told the stiffness {first}; expected one number for all pairs")
+    return [f"stiffness {float(first)!r}"] if first is not None else []
+
+
 def case_text(scene, bodies, pairs, tags, freefem, gap, values, areas):
     """The case file; `bodies`: their names, `pairs`: the tags of the multiplier and the opposite side of each. `values`:
     Quantities, to which the scene's expressions are added; `areas`: of the curves, by tag."""
@@ -210,6 +218,7 @@ def case_text(scene, bodies, pairs, tags, freefem, gap, values, areas):
         f"multipliers {ORDER_OF_MULTIPLIERS[freefem['multipliers']]}",
         *(f"{key} {freefem[key]}" for key in ("integration", "gauss", "springs") if key in freefem),
         *gap_lines(scene, gap, values),
+        *stiffness_lines(scene),
         *boundary_lines(scene, tags, values, areas),
         "end",
     ]
