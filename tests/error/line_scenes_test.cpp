@@ -206,7 +206,8 @@ MeshSize{:} = 2; MeshSize{5} = 0.08;)");
   };
   const auto by_node = [](const Results& r) {
     std::map<int, std::pair<double, double>> found;
-    for (const ContactNode& node : r.recovery.contacts[0].multiplier.nodes) found[node.node] = {node.p, node.p_error};
+    for (const ContactNode& node : r.recovery.contacts[0].multiplier.nodes)
+      if (!std::isnan(node.gap)) found[node.node] = {node.p, node.p_error};
     return found;
   };
   const Results first = solved(0);
