@@ -31,6 +31,7 @@ void add_contact(std::vector<ContactCurves> curves, Problem& p) {
   SaddlePointSystem& system = p.discretisation.system;
   set_contact(p.pairs, system);
   p.fluid = dry_rows(p.mesh, p.pairs, system.B.rows());
+  if (p.fluid.size() > 0) p.fluid_loads = fluid_loads(p.mesh, p.discretisation.model, p.pairs, system.B.rows());
   p.warnings = p.mesh.notes;
   append_lines(p.warnings, audit(p.mesh, p.entries.boundaries, p.pairs));
   require_closed(p.mesh, p.pairs);

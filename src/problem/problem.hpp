@@ -29,6 +29,7 @@ struct Problem {
   DataMisfits misfits;            ///< of the functions of place
   std::vector<ContactPair> pairs;
   VecX fluid;                   ///< m: pressure of the fluid in wet rows, stress, 0 in dry ones; empty: no pair has any
+  SparseRows fluid_loads;       ///< m x n: forces on both faces of unit pressure in each row, where a pair has any
   std::vector<char> dirichlet;  ///< of domain decomposition: whether a body takes the displacement
   Floating floating;            ///< what only contact holds
   std::vector<std::vector<RigidMotion>> held;  ///< motions that nothing holds and no load drives, held

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "app/accuracy.hpp"
 #include "app/gradients.hpp"
@@ -177,6 +178,82 @@ force = [0, -2]
 )" + held));
 }
 
+// ---- Curves that part: a ring between a floor and a lid, and a groove ----
+
+struct SealRing {
+  double radius = 3, x = 0, pressure = 0.004;
+  bool from_right = false;
+  std::string side = "skin";
+};
+
+// The floor and the lid reach 20 radii to each side.
+Results solved_ring(const SealRing& ring) {
+  const TemporaryFolder folder;
+  std::ostringstream geo, text;
+  geo << "r = " << ring.radius << "; x = " << ring.x << R"(; W = 20*r; e = 0.01*r; f = 0.12*r;
+Point(1) = {x, r, 0}; Point(2) = {x, 0, 0, e}; Point(3) = {x + r, r, 0, f}; Point(4) = {x, 2*r, 0, e}; Point(5) = {x - r, r, 0, f};
+Circle(1) = {2, 1, 3}; Circle(2) = {3, 1, 4}; Circle(3) = {4, 1, 5}; Circle(4) = {5, 1, 2};
+q = 0.6*r; Point(6) = {x, r - q, 0, f}; Point(7) = {x + q, r, 0, f}; Point(8) = {x, r + q, 0, f}; Point(9) = {x - q, r, 0, f};
+Circle(5) = {6, 1, 7}; Circle(6) = {7, 1, 8}; Circle(7) = {8, 1, 9}; Circle(8) = {9, 1, 6};
+Curve Loop(1) = {1 : 4}; Curve Loop(2) = {5 : 8}; Plane Surface(1) = {1, 2};
+Point(11) = {-W, -r, 0, r}; Point(12) = {W, -r, 0, r}; Point(13) = {W, 0, 0, r}; Point(14) = {x, 0, 0, e}; Point(15) = {-W, 0, 0, r};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 15}; Line(15) = {15, 11};
+Curve Loop(3) = {11 : 15}; Plane Surface(2) = {3};
+Point(21) = {-W, 2*r, 0, r}; Point(22) = {x, 2*r, 0, e}; Point(23) = {W, 2*r, 0, r}; Point(24) = {W, 3*r, 0, r}; Point(25) = {-W, 3*r, 0, r};
+Line(21) = {21, 22}; Line(22) = {22, 23}; Line(23) = {23, 24}; Line(24) = {24, 25}; Line(25) = {25, 21};
+Curve Loop(4) = {21 : 25}; Plane Surface(3) = {4};
+Mesh.ElementOrder = 2;
+Physical Surface("ring") = {1}; Physical Surface("floor") = {2}; Physical Surface("lid") = {3};
+Physical Curve("skin") = {1 : 4}; Physical Curve("bore") = {5 : 8}; Physical Curve("seat") = {13, 14};
+Physical Curve("bottom") = {11}; Physical Curve("under") = {21, 22}; Physical Curve("top") = {24};
+)";
+  folder.write("ring.geo", geo.str());
+  const double from = ring.x + (ring.from_right ? 0.7 : -0.7) * ring.radius;
+  text << R"(mesh.file = "ring.geo"
+materials = { steel = { young = 210000, poisson = 0.3 }, rubber = { young = 9, poisson = 0.4 } }
+bodies = { ring = "rubber", floor = "steel", lid = "steel" }
+boundary = [{ on = "bottom", displacement = { x = 0, y = 0 } }, { on = "bore", displacement = { x = 0 } },
+            { on = "top", displacement = { x = 0, y = )"
+       << -0.01 * ring.radius << R"( } }]
+contact = [{ between = ["skin", "seat"], multipliers_on = ")"
+       << ring.side << "\", fluid = { pressure = " << ring.pressure << ", from = [" << from << ", " << 0.2 * ring.radius
+       << "] } }, { between = [\"skin\", \"under\"] }]\n";
+  return solve_scene(read_scene(folder.write("ring.toml", text.str())));
+}
+
+// Of a floor that is long it meets the ring's normals nearly to where these are level.
+TEST(Fluid, StopsAtContactOfARingWhicheverSideHasTheMultipliers) {
+  std::mt19937 random(3);
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (int i = 0; i < 4; ++i) {
+    SealRing ring{.radius = draw(1, 5), .pressure = draw(0.001, 0.006), .from_right = i % 2 == 1};
+    ring.x = draw(-2, 2) * ring.radius;
+    SCOPED_TRACE(std::to_string(i) + ", radius " + std::to_string(ring.radius) + ", " + std::to_string(ring.pressure));
+    const Results of_ring = solved_ring(ring);
+    ring.side = "seat";
+    const Results of_seat = solved_ring(ring);
+    for (const Results* r : {&of_ring, &of_seat}) {
+      EXPECT_EQ(r->status, Status::solved);
+      for (const ContactNode& n : r->recovery.contacts[0].multiplier.nodes)
+        if (n.p_fluid > 0) EXPECT_EQ(n.position.x() > ring.x, ring.from_right);
+    }
+    const ContactResults &a = of_ring.recovery.contacts[0], &b = of_seat.recovery.contacts[0];
+    const double pushed = ring.pressure * ring.radius;  // by the fluid, either way
+    EXPECT_NEAR(a.fluid->force.y(), -b.fluid->force.y(), 0.01 * pushed);
+    EXPECT_NEAR(a.fluid->force.y(), pushed, 0.05 * pushed);
+    EXPECT_NEAR(a.fluid->force.x() * (ring.from_right ? -1 : 1), pushed, 0.1 * pushed);
+    const double far = 20 * ring.radius + (ring.from_right ? -ring.x : ring.x),
+                 front = std::atan(far / ring.radius) - a.fluid->wet_length / ring.radius;  // angle
+    EXPECT_NEAR(std::sin(front), 1 - b.fluid->wet_length / ring.radius, 0.02);
+    EXPECT_NEAR(a.p_max, b.p_max, 0.03 * a.p_max);  // whose normals count, on the undeformed ring
+    EXPECT_NEAR(a.length_in_contact, b.length_in_contact, 0.05 * a.length_in_contact);
+    for (const std::size_t support : {0, 1, 2})
+      EXPECT_LT((of_ring.recovery.reactions.entries[support].force - of_seat.recovery.reactions.entries[support].force)
+                    .norm(),
+                0.03 * pushed);
+  }
+}
+
 const std::string springs = "[[boundary]]\non = \"top\"\nfoundation = 10\n";
 
 TEST(Fluid, LiftsAFlangeOffItsSeat) {
@@ -196,6 +273,38 @@ TEST(Fluid, LiftsAFlangeOffItsSeat) {
   }
   expect_contains(report_text(report_of(r), {}), "gap closed, fluid at 3, ");
   expect_contains(report_text(report_of(r), {}), "fluid at 3 has wet 1; of the force it makes (0, ");
+}
+
+// Its walls face nothing; the seat leads on under it.
+TEST(Fluid, GetsAcrossAGroove) {
+  const TemporaryFolder folder;
+  folder.write("groove.geo", R"(e = 0.05;
+Point(1) = {0, 0, 0, e}; Point(2) = {0.4, 0, 0, e}; Point(3) = {0.4, 0.3, 0, e}; Point(4) = {0.6, 0.3, 0, e};
+Point(5) = {0.6, 0, 0, e}; Point(6) = {1, 0, 0, e}; Point(7) = {1, 1, 0, e}; Point(8) = {0, 1, 0, e};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 7};
+Line(7) = {7, 8}; Line(8) = {8, 1}; Curve Loop(1) = {1 : 8}; Plane Surface(1) = {1};
+Point(11) = {0, 0, 0, e}; Point(12) = {1, 0, 0, e}; Point(13) = {1, -1, 0, e}; Point(14) = {0, -1, 0, e};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 11};
+Curve Loop(2) = {11 : 14}; Plane Surface(2) = {2}; Mesh.ElementOrder = 2;
+Physical Surface("upper") = {1}; Physical Surface("lower") = {2};
+Physical Curve("face") = {1 : 5}; Physical Curve("seat") = {11}; Physical Curve("top") = {7};
+Physical Curve("bottom") = {13}; Physical Curve("left") = {8, 14};
+)");
+  for (const char* side : {"face", "seat"}) {
+    SCOPED_TRACE(side);
+    const Results r = solve_scene(read_scene(folder.write("scene.toml", R"(mesh.file = "groove.geo"
+materials.m = { young = 1000, poisson = 0 }
+bodies = { "*" = "m" }
+contact = [{ between = ["face", "seat"], fluid = { from = [0, 0], pressure = 3 }, multipliers_on = ")" +
+                                                                            std::string(side) + R"(" }]
+boundary = [{ on = "left", displacement = { x = 0 } }, { on = "bottom", displacement = { y = 0 } },
+            { on = "top", foundation = 10 }, { on = "top", pressure = 2 }]
+)")));
+    EXPECT_EQ(r.status, Status::solved);
+    EXPECT_NEAR(r.recovery.contacts[0].fluid->wet_length, 1, 1e-9);
+    EXPECT_NEAR(std::abs(r.recovery.contacts[0].fluid->force.y()), 3, 1e-9);
+    EXPECT_NEAR(r.recovery.contacts[0].length_in_contact, 0, 1e-9);
+  }
 }
 
 TEST(Fluid, SaysWhatItBlowsAway) {
