@@ -11,7 +11,7 @@
 namespace mortise {
 namespace {
 
-enum class State { free, prescribed, apart, tip, weightless, hardly_facing, unsupported };
+enum class State { free, prescribed, apart, tip, tied_tip, weightless, hardly_facing, unsupported };
 
 std::string reason(State state) {
   switch (state) {
@@ -23,6 +23,8 @@ std::string reason(State state) {
       return "with normal displacement prescribed on both sides, which stay apart: pressure zero";
     case State::tip:
       return "of both sides, the tip of a crack: pressure of the nearest free node";
+    case State::tied_tip:
+      return "where a tie ends, the tip of a crack: pressure of the nearest free node";
     case State::weightless:
     case State::hardly_facing:
       return "whose edges hardly face the other side: pressure of the nearest free node";
@@ -61,6 +63,21 @@ std::optional<double> prescribed_gap(const Numbering& of, int e, int local) {
   return gap;
 }
 
+// Whether a tie ends at this end of the multiplier side and holds it to the end of the other, which has its place.
+bool is_tied_to_an_end(const Mesh& mesh, const ContactInterface& interface, int node) {
+  if (!is_end(interface.multiplier, node)) return false;
+  const auto holds = [&](const TiedNode& one) {
+    return std::ranges::any_of(one.weights, [&](const auto& weight) {
+      const int other = weight.first;
+      return (one.node == node && is_end(interface.opposite, other)) ||
+             (other == node && is_end(interface.opposite, one.node));
+    });
+  };
+  return std::ranges::any_of(mesh.ties, [&](const Tie& tie) {
+    return tie.turn.isIdentity() && !tie.pretension && std::ranges::any_of(tie.nodes, holds);
+  });
+}
+
 std::vector<State> find_states(const Numbering& of, const Support& support, const Coupling& coupling) {
   const Mesh& mesh = of.mesh;
   const Curve& multiplier = of.interface.multiplier;
@@ -93,6 +110,8 @@ std::vector<State> find_states(const Numbering& of, const Support& support, cons
         found = *gap > round_off ? State::apart : State::prescribed;
       else if (as_rich && is_end(of.interface.opposite, coupling.node[a]))
         found = State::tip;
+      else if (as_rich && is_tied_to_an_end(mesh, of.interface, coupling.node[a]))
+        found = State::tied_tip;
       else if (support.weight(a) < 0.05 * std::max(support.scale(a), support.lagrange(a)))
         found = State::weightless;
       else if (support.faced(a) < faced_limit * length(a) && support.nearest(a) < length(a) / 2)

@@ -119,6 +119,46 @@ TEST(Cracks, ThatSlidePressEvenlyUpToTheirTips) {
   }
 }
 
+// Of two blocks that are tied beside the crack: each tie ends at a tip, which is a node of either block.
+TEST(Cracks, BetweenTiedSeamsPressAsIfThereWereNone) {
+  std::mt19937 random(29);
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (int i = 0; i < 16; ++i) {
+    const TemporaryFolder folder;
+    std::ostringstream geo;
+    geo << "a = " << draw(-0.6, -0.2) << "; b = " << draw(0.1, 0.7) << "; e = " << draw(0.05, 0.3)
+        << "; f = " << (i % 3 == 0 ? "e" : "0.7 * e") << "; Mesh.RecombineAll = " << i / 2 % 2
+        << "; Mesh.ElementOrder = " << 1 + i % 2 << R"(; Mesh.SecondOrderIncomplete = 1;
+Point(1) = {-1, 0, 0, e}; Point(2) = {a, 0, 0, e}; Point(3) = {b, 0, 0, e}; Point(4) = {1, 0, 0, e}; Point(5) = {1, 1, 0, e}; Point(6) = {-1, 1, 0, e};
+Point(11) = {-1, 0, 0, f}; Point(12) = {a, 0, 0, f}; Point(13) = {b, 0, 0, f}; Point(14) = {1, 0, 0, f}; Point(15) = {1, -1, 0, f}; Point(16) = {-1, -1, 0, f};
+For k In {1 : 5}
+  Line(k) = {k, k + 1}; Line(10 + k) = {10 + k, 11 + k};
+EndFor
+Line(6) = {6, 1}; Line(16) = {16, 11}; Curve Loop(1) = {1 : 6}; Curve Loop(2) = {11 : 16}; Plane Surface(1) = {1}; Plane Surface(2) = {2};
+Physical Surface("one") = {1}; Physical Surface("other") = {2};
+Physical Curve("upper_left") = {1}; Physical Curve("upper") = {2}; Physical Curve("upper_right") = {3};
+Physical Curve("lower_left") = {11}; Physical Curve("lower") = {12}; Physical Curve("lower_right") = {13};
+Physical Curve("top") = {5}; Physical Curve("bottom") = {15}; Physical Curve("side") = {6, 16};
+)";
+    folder.write("seams.geo", geo.str());
+    const std::string side = i / 4 % 2 ? "upper" : "lower", space = i % 4 == 3   ? "dual"
+                                                                    : i % 4 == 1 ? "quadratic"
+                                                                                 : "linear";
+    SCOPED_TRACE(std::to_string(i) + ", " + space + " on " + side);
+    const Results r = solve_scene(read_scene(folder.write("seams.toml", R"(mesh.file = "seams.geo"
+materials.m = { young = 1000, poisson = 0.3 }
+bodies."*" = "m"
+boundary = [{ on = "bottom", displacement = { y = 0 } }, { on = "side", displacement = { x = 0 } },
+            { on = "top", pressure = 2 }]
+contact = [{ between = ["upper", "lower"], multipliers_on = ")" + side + R"(" },
+           { between = ["upper_left", "lower_left"], condition = "tied" },
+           { between = ["upper_right", "lower_right"], condition = "tied" }]
+method.multipliers = ")" + space + "\"\n")));
+    EXPECT_EQ(r.status, Status::solved);
+    EXPECT_LE((r.recovery.contacts[0].pressure.array() - 2).abs().maxCoeff(), 1e-8);
+  }
+}
+
 // Inner crack of half length 1 in a plate that is large under stress s (x0 - x) across it: by Westergaard's function it
 // is open up to b, where the stress intensity of the open part vanishes, and pressed by p beyond.
 TEST(Cracks, ThatCloseInPartEndWhereTheyOpenWithoutStressIntensity) {
