@@ -9,6 +9,7 @@
 
 #include "base/printable.hpp"
 #include "contact/curve_resolution.hpp"
+#include "fem/edges.hpp"
 #include "results/checks.hpp"
 #include "results/large_displacement.hpp"
 
@@ -88,6 +89,21 @@ void warn_of_gap(const ContactPair& pair, const Results& r, double displacement,
   text << pair.spec.key << ": initial_gap = \"closed\" leaves out gaps of " << low << " ... " << high
        << ", which are not small against the displacements (up to " << displacement
        << "); a clearance or an interference that is meant needs the default, initial_gap = \"curve\"";
+  lines.push_back(text.str());
+}
+
+// Curves that touch although the drawing has them further apart than they are long: meant were others, or other units.
+void warn_of_drawn_gap(const ContactPair& pair, const ContactResults& contact, const Results& r, Lines& lines) {
+  const InitialGap gap = pair.spec.initial_gap;
+  if ((gap != InitialGap::curve && gap != InitialGap::measured) || !(pair.spec.clearance == Field())) return;
+  const Points& nodes = r.problem.mesh.nodes;
+  const double length = std::min(curve_length(nodes, pair.multiplier), curve_length(nodes, pair.opposite));
+  if (contact.length_in_contact == 0 || pair.coupling.gap_min <= length) return;
+  std::ostringstream text;
+  text.precision(3);
+  text << pair.spec.key << ": '" << pair.spec.between[0] << "' and '" << pair.spec.between[1]
+       << "' touch, but are drawn " << pair.coupling.gap_min << " apart, " << pair.coupling.gap_min / length
+       << " times their length; expected bodies drawn where they touch";
   lines.push_back(text.str());
 }
 
@@ -213,6 +229,7 @@ std::vector<std::string> warnings(const Results& r) {
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     warn_of_dropped(r.problem.pairs[k], r, lines);
     warn_of_gap(r.problem.pairs[k], r, displacement, lines);
+    warn_of_drawn_gap(r.problem.pairs[k], r.recovery.contacts[k], r, lines);
     warn_of_geometry(r.problem.pairs[k], r, lines);
     warn_of_shape(r.problem.pairs[k], r, lines);
     warn_of_far_origin(r.problem.pairs[k], r, lines);

@@ -214,3 +214,14 @@ def test_peak_under_a_wedge_is_refused(said):
                  files={"w.geo": WEDGE.encode()}, command="solve")  # fmt: skip
     assert "p has no largest value near (0, 0), where it grows as the logarithm of 1/r" in found
     assert '; expected of = "pressure", which leaves out what is near, or a rounded corner' in found
+
+
+def test_curves_drawn_far_apart_are_told_where_they_touch(said):
+    apart = plates.mesh_of([
+        plates.Body("lower", plates.even(2), 1, plates.between(0, 1, 0, 1), plates.QUAD4),
+        plates.Body("upper", plates.even(3), 1, plates.between(0, 1, 501, 502), plates.QUAD4),
+    ])  # fmt: skip
+    more = "\n[[boundary]]\non = 'upper_top'\nfoundation = 1e3\n"
+    found = said("boundary.2.pressure=1e9", more=more, command="solve",
+                 files={"plates.msh": msh_file.write(msh_file.sections(apart, "4.1 ascii"), "4.1 ascii")})  # fmt: skip
+    assert "'upper_bottom' and 'lower_top' touch, but are drawn 500 apart, 500 times their length; expected " in found
