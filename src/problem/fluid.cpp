@@ -84,6 +84,7 @@ std::vector<Station> gap_line(const Mesh& mesh, const ContactPair& pair) {
 // Where fluid gets in: the nearest of the line.
 std::vector<int> inlets(const Mesh& mesh, const ContactPair& pair, const std::vector<Station>& line) {
   std::vector<int> found;
+  if (line.empty()) return found;  // prescribed displacements leave the sides apart everywhere
   for (const Vec2& x : pair.spec.fluid->from) {
     const auto nearest = std::ranges::min_element(line, {}, [&](const Station& s) { return (s.x - x).norm(); });
     const double away = (nearest->x - x).norm();
