@@ -25,6 +25,11 @@ constexpr double round_off = 1e-9;
 // eps.
 constexpr double round_off_of_directions = 300;
 
+// The same times m / h with m the misfit of the edges beside, which is noise of the places where they tell no more, as
+// of a circle of a large radius that is far from its centre: a polynomial of degree n that is off by r has a slope that
+// is off by n^2 r / (h / 2) or less (Markov), and r is 2 m or less, as noise between the places is as large as at them.
+constexpr double misfit_of_directions = 256;
+
 // Kinks of both bodies are one where their angles add up to 2 pi to this part of their turn: a rebuilt line's, of three
 // nodes or more a side, are off by less.
 constexpr double one_kink = 0.1;
@@ -71,7 +76,9 @@ struct LineSide {
   Vec2 after(const Vertex& v) const { return line.at(v.after, -1).tangent; }
   double turn(const Vertex& v) const { return v.is_end() ? 0 : straight - interior_angle(before(v), after(v)); }
   double turn_error(const Vertex& v) const {
-    return round_off + (v.before < 0 ? 0 : end_error(v.before, 1)) + (v.after < 0 ? 0 : end_error(v.after, -1));
+    const double misfit = misfit_at(v);
+    return round_off + (v.before < 0 ? 0 : end_error(v.before, 1, misfit)) +
+           (v.after < 0 ? 0 : end_error(v.after, -1, misfit));
   }
   bool is_kink(const Vertex& v) const { return std::abs(turn(v)) > turn_error(v); }
   double edge_at(const Vertex& v) const {
@@ -89,7 +96,8 @@ struct LineSide {
   Corner corner(const Vertex& v) const;
 
  private:
-  double end_error(int e, int end) const;
+  double misfit_at(const Vertex& v) const;
+  double end_error(int e, int end, double misfit) const;
 };
 
 constexpr int last_place = std::tuple_size_v<decltype(SamplePiece::places)> - 1;
@@ -111,9 +119,18 @@ PlaceWeights slope_weights(int at) {
   return weights;
 }
 
+// Of the drawn edges beside a vertex, the larger.
+double LineSide::misfit_at(const Vertex& v) const {
+  double misfit = 0;
+  if (curve.samples.empty()) return misfit;
+  for (const int e : {v.before, v.after})
+    if (e >= 0) misfit = std::max(misfit, curve.samples[e].misfit);
+  return misfit;
+}
+
 // What the tangent at an end of a drawn edge may be off by, radians: as much as that of every second place of the piece
 // there is, and what round-off makes of it.
-double LineSide::end_error(int e, int end) const {
+double LineSide::end_error(int e, int end, double misfit) const {
   static const std::array<PlaceWeights, 2> all{slope_weights(0), slope_weights(last_place)};
   if (curve.samples.empty()) return 0;
   const std::vector<SamplePiece>& pieces = curve.samples[e].pieces;
@@ -124,8 +141,9 @@ double LineSide::end_error(int e, int end) const {
   for (int k = 0; k <= last_place; k += 2)
     if (k != at) slope += weights[k] * (x[k] - x[at]);
   const double size = x[at].lpNorm<Eigen::Infinity>(), length = (x[last_place] - x[0]).norm();
-  return angle_between(slope, line.at(e, end).tangent) +
-         round_off_of_directions * std::numeric_limits<double>::epsilon() * size / length;
+  const double off =
+      round_off_of_directions * std::numeric_limits<double>::epsilon() * size + misfit_of_directions * misfit;
+  return angle_between(slope, line.at(e, end).tangent) + off / length;
 }
 
 Corner LineSide::corner(const Vertex& v) const {

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
+#include <tuple>
 
 #include "base/errors.hpp"
 #include "base/stopwatch.hpp"
@@ -365,6 +367,62 @@ accuracy.value = 0.01
               read_scene(folder.write("b.toml", text + "contact = [{ between = [\"x\", \"y\"] }]\n"));
             }).find("a mesh has no geometry to refine"),
             std::string::npos);
+}
+
+// A crowned block on a flat one: an arc whose places are differences of its radius.
+std::string crowned_block(double radius) {
+  std::ostringstream out;
+  out.precision(17);
+  const double rise = radius - std::sqrt(radius * radius - 100);
+  out << "Point(1) = {-10, " << rise << ", 0}; Point(2) = {0, " << radius << ", 0}; Point(3) = {10, " << rise << ", 0};"
+      << R"(
+Circle(1) = {1, 2, 3};
+Point(4) = {10, 12, 0}; Point(5) = {-10, 12, 0}; Line(2) = {3, 4}; Line(3) = {4, 5}; Line(4) = {5, 1};
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Physical Surface("up") = {1};
+Physical Curve("foot") = {1}; Physical Curve("head") = {3};
+Point(6) = {-15, -15, 0}; Point(7) = {15, -15, 0}; Point(8) = {15, 0, 0}; Point(9) = {-15, 0, 0};
+Line(5) = {6, 7}; Line(6) = {7, 8}; Line(7) = {8, 9}; Line(8) = {9, 6};
+Curve Loop(2) = {5:8}; Plane Surface(2) = {2}; Physical Surface("low") = {2};
+Physical Curve("bottom") = {5}; Physical Curve("top") = {7};
+Mesh.ElementOrder = 2; Mesh.SecondOrderIncomplete = 1; MeshSize{:} = 1;
+)";
+  return out.str();
+}
+
+// No point of the arc is singular, and the meshes are those of any other arc.
+TEST(Accuracy, OfCrownsIsReachedHoweverFlatTheyAre) {
+  for (const auto& [radius, force, edges] :
+       {std::tuple{1e5, "60", "14"}, {1e5, "60", "16"}, {5e4, "60", "20"}, {2e4, "5", "20"}}) {
+    const TemporaryFolder folder;
+    folder.write("a.geo", crowned_block(radius));
+    const Scene scene = read_scene(folder.write("a.toml", std::string(R"([mesh]
+file = "a.geo"
+[model]
+plane = "strain"
+[materials]
+steel = { young = 210e3, poisson = 0.3 }
+aluminium = { young = 70e3, poisson = 0.33 }
+[bodies]
+up = "steel"
+low = "aluminium"
+[[boundary]]
+on = "bottom"
+displacement = { x = 0, y = 0 }
+[[boundary]]
+on = "head"
+rigid = { x = 0, rotation = 0, force = [0, -)") + force + R"(] }
+[[contact]]
+between = ["foot", "top"]
+)"),
+                                   {{"accuracy.value", "1%"}, {"accuracy.first_edges", edges}});
+    const auto r = solve_to_accuracy(scene);
+    ASSERT_TRUE(r && r->accuracy->reached()) << radius;
+    EXPECT_EQ(r->status, Status::solved) << radius;
+    EXPECT_TRUE(r->estimate->pressures[0].singular.empty()) << radius;
+    EXPECT_LE(r->accuracy->solves.size(), 4u) << radius;
+    const ContactPair& pair = r->problem.pairs[0];
+    for (const EdgeSamples& edge : pair.multiplier.samples) EXPECT_EQ(edge.pieces.size(), 1u) << radius;
+  }
 }
 
 }  // namespace
