@@ -48,6 +48,20 @@ TEST(ContactResults, PositionsRunFromZeroToTheLengthOnBothSides) {
   }
 }
 
+// The multiplier of an edge of which a part faces the other side goes on to its end.
+TEST(ContactResults, NodesThatFaceNothingHaveNoPressure) {
+  Results r = solved_with("punch.toml", {{"contact.0.multipliers_on", "block_top"}, {"mesh.parameters.n_block", "83"}});
+  estimate(r);
+  int left_out = 0;
+  for (const ContactNode& node : r.recovery.contacts[0].multiplier.nodes) {
+    if (!std::isnan(node.gap)) continue;
+    EXPECT_EQ(node.p, 0) << node.s;
+    EXPECT_TRUE(std::isnan(node.p_error)) << node.s;
+    left_out += node.p_multiplier > 0;
+  }
+  EXPECT_GT(left_out, 0);
+}
+
 // The parabola's own normal leans there, by a slope of 1.
 TEST(ContactResults, NormalsAtEndsOnSymmetryPlanesLieInThem) {
   const Results r = solved_with("parabola_1.toml", quadratic);
