@@ -103,7 +103,7 @@ def test_gap_and_normals_of_each_case(table):
             if not curve:
                 assert gaps.setdefault(case.scene, step.gap) == step.gap
     assert {scene for scene, gap in gaps.items() if gap == "measured"} == {
-        "gap_close", "hertz", "hertz_sphere", "pellets", "punch", "rollers",
+        "gap_close", "hertz", "hertz_sphere", "pellets", "punch", "rollers", "rough",
     }
     curves = [case for case in table if case.name.endswith("/curve")]
     scenes_of = lambda cases: {(case.scene, case.steps[0].condition) for case in cases}

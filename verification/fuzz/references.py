@@ -119,7 +119,7 @@ class References:
         ends = borders(self.line(case.reference(4, ()), case.smooth))
         return [within(self.line(case.reference(coarser, ends), case.smooth)) for coarser in (1, 2)]
 
-    def line(self, files, smooth):
+    def line(self, files, smooth=()):
         name = hashlib.sha1(b"".join(files[key] for key in sorted(files))).hexdigest()
         with lock_of(name):
             if name not in self.known:
