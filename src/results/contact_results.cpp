@@ -8,7 +8,6 @@
 #include "error/pressure_form.hpp"
 #include "error/pressure_line.hpp"
 #include "fem/edges.hpp"
-#include "model/resultant.hpp"
 #include "results/contact_length.hpp"
 
 namespace mortise {
@@ -121,7 +120,7 @@ void set_extremes(ContactResults& r) {
   r.p_min = std::numeric_limits<double>::infinity();
   r.p_max = -r.p_min;
   for (const ContactNode& n : r.multiplier.nodes) {
-    if (std::isnan(n.gap)) continue;
+    if (std::isnan(n.gap) && n.p == 0) continue;
     r.p_min = std::min(r.p_min, n.p);
     r.p_max = largest(r.p_max, n.p);
   }
@@ -144,6 +143,16 @@ double mean_pressure(const ContactPair& pair, const VecX& pressure) {
 VecX fluid_rows(const Problem& problem, const ContactPair& pair) {
   const Eigen::Index rows = pair.coupling.B.rows();
   return problem.fluid.size() > 0 ? VecX(problem.fluid.segment(pair.first_row, rows)) : VecX(VecX::Zero(rows));
+}
+
+Resultant fluid_besides(const Problem& p, const ContactPair& pair, const VecX& of_fluid) {
+  VecX rows = VecX::Zero(p.fluid.size());
+  rows.segment(pair.first_row, of_fluid.size()) = of_fluid;
+  const VecX forces = p.fluid_loads.transpose() * rows - p.discretisation.system.B.transpose() * rows;
+  Resultant sum;
+  for (Eigen::Index i = 0; i < p.mesh.nodes.rows(); ++i)
+    if (const Vec2 f = forces.segment<2>(2 * i); f.any()) sum.add(p.mesh.nodes.row(i).transpose(), f);
+  return sum;
 }
 
 double wet_length(const ContactPair& pair, const VecX& fluid) {
@@ -182,6 +191,9 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   const Asked asked{mesh, pair, problem.points, stress, solution.u, r.pressure, fluid};
   r.multiplier = asked.side(pair.multiplier, nodes.multiplier);
   r.opposite = asked.side(pair.opposite, nodes.opposite);
+  if (std::ranges::all_of(r.multiplier.nodes, [](const ContactNode& n) { return std::isnan(n.gap); }))
+    for (ContactNode& n : r.multiplier.nodes)
+      n.p = n.p_multiplier;  // contact lies between nodes: these are all there are
   r.length = nodes.multiplier.length;
   const bool backwards = runs_backwards(mesh.nodes, pair.multiplier);
   run_together(backwards, nodes, r);
@@ -202,7 +214,8 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   r.centre = centre_of(mesh.nodes, pair.multiplier.edges);
   if (pair.spec.fluid)
     r.fluid = FluidResults{.force = force_on_multiplier_side(mesh.nodes, pair.coupling, -of_fluid).force,
-                           .wet_length = wet_length(pair, fluid)};
+                           .wet_length = wet_length(pair, fluid),
+                           .besides = fluid_besides(problem, pair, of_fluid)};
   return r;
 }
 

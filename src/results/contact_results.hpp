@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "fem/stress.hpp"
+#include "model/resultant.hpp"
 #include "results/contact_nodes.hpp"
 
 namespace mortise {
@@ -42,6 +43,8 @@ struct ContactCentre {
 struct FluidResults {
   Vec2 force = Vec2::Zero();  ///< its part of ContactResults::force
   double wet_length = 0;      ///< of the multiplier side where it faces the other
+  /// On the opposite side, besides what balances `force`: there it presses along that side's own normals.
+  Resultant besides{};
 };
 
 struct ContactSide {

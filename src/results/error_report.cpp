@@ -123,7 +123,7 @@ void set_fitted_pressures(Results& r) {
 void set_bars(const PressureEstimate& estimate, ContactResults& contact) {
   for (ContactSide* side : {&contact.multiplier, &contact.opposite})
     for (ContactNode& node : side->nodes) {
-      if (node.on_multiplier.edge < 0 || std::isnan(node.gap)) continue;
+      if (node.on_multiplier.edge < 0 || (std::isnan(node.gap) && node.p == 0)) continue;
       const auto [edge, xi] = node.on_multiplier;
       const double end = (1 + xi) / 2;
       node.p_error = (1 - end) * estimate.bar(edge) + end * estimate.bar(edge + 1);

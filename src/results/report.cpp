@@ -74,9 +74,12 @@ Json contact_json(const ContactPair& pair, const ContactResults& c) {
             {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
   if (pair.spec.stiffness) json["stiffness"] = law_json(*pair.spec.stiffness);
   if (c.fluid)
-    json["fluid"] = {{"pressure", pair.spec.fluid->pressure},
-                     {"wet_length", c.fluid->wet_length},
-                     {"force", {c.fluid->force.x(), c.fluid->force.y()}}};
+    json["fluid"] = {
+        {"pressure", pair.spec.fluid->pressure},
+        {"wet_length", c.fluid->wet_length},
+        {"force", {c.fluid->force.x(), c.fluid->force.y()}},
+        {"besides",
+         {{"force", {c.fluid->besides.force.x(), c.fluid->besides.force.y()}}, {"moment", c.fluid->besides.moment}}}};
   return json;
 }
 

@@ -32,10 +32,12 @@ def feasible(assembly):
 
 
 def forces(told):
-    """(curve with the multipliers, the other, force and moment on the first's body) of every pair."""
+    """(curve with the multipliers, the other, force and moment on the first's body and on the other's) of every pair."""
     for pair, side in zip(told["contact"], told["method"]["multipliers_on"]):
         other = next(curve for curve in pair["between"] if curve != side)
-        yield side, other, np.array([*pair["force"], pair["moment"]])
+        force = np.array([*pair["force"], pair["moment"]])
+        besides = pair.get("fluid", {}).get("besides", {"force": (0, 0), "moment": 0})
+        yield side, other, force, np.array([*besides["force"], besides["moment"]]) - force
 
 
 def unbalanced(told, assembly):
@@ -47,9 +49,9 @@ def unbalanced(told, assembly):
         sums[curve.split("_")[0]] += force
         largest = max(largest, np.abs(force).max())
 
-    for side, other, force in forces(told):
+    for side, other, force, back in forces(told):
         add(side, force)
-        add(other, -force)
+        add(other, back)
     for tie in told["model"].get("ties", []):
         force = np.array([*tie["force"], tie["moment"]])
         add(tie["follows"], force)
@@ -88,7 +90,7 @@ def round_off(told):
 
 def by_pair(told):
     """The force of each pair, on the curve that is first by its name."""
-    return {frozenset((side, other)): force[:2] if side < other else -force[:2] for side, other, force in forces(told)}
+    return {frozenset((side, other)): force[:2] if side < other else -force[:2] for side, other, force, _ in forces(told)}
 
 
 def bars_of(told, folder):
