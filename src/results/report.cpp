@@ -40,8 +40,9 @@ Json or_null(const std::optional<double>& value) { return value ? Json(*value) :
 
 // The bar where p is largest.
 Json peak_error(const ContactResults& c) {
-  const auto peak = std::ranges::find(c.multiplier.nodes, c.p_max, &ContactNode::p);
-  if (peak == c.multiplier.nodes.end() || std::isnan(peak->p_error)) return nullptr;
+  const auto peak = std::ranges::find_if(
+      c.multiplier.nodes, [&](const ContactNode& n) { return n.p == c.p_max && !std::isnan(n.p_error); });
+  if (peak == c.multiplier.nodes.end()) return nullptr;
   return peak->p_error;
 }
 
