@@ -54,6 +54,7 @@ class Loop {
 
   std::optional<Results> run() {
     std::optional<Results> last, best;  // best: of those before the last, if it is better
+    double off_last = std::numeric_limits<double>::infinity(), off_best = off_last;
     int number_of_best = 0;
     AccuracyReport report{.of = spec_.of, .asked = spec_.value, .excluded = spec_.exclude, .solves = {}, .reason = {}};
     Seconds seconds;
@@ -77,12 +78,14 @@ class Loop {
         report.solves.push_back({free_unknowns(r), open_[worst_] ? 0 : estimated(r), r.seconds.total()});
         if (spec_.of == Goal::peak) require_peak(r);
         const int number = int(report.solves.size());
-        if (last && is_better({&*last, number - 1}, {&r, number}) &&
-            (!best || is_better({&*last, number - 1}, {&*best, number_of_best}))) {
+        const double off = confirmed(r, number);
+        if (last && off_last < std::min(off, off_best)) {
           best = std::move(last);
+          off_best = off_last;
           number_of_best = number - 1;
         }
         last = std::move(r);
+        off_last = off;
         report.reason = why_to_stop(*last, report);
         if (report.reached() || !report.reason.empty()) break;
         sizes = sizes_after(*last, std::move(sizes), report.solves.size() == 1);
@@ -94,7 +97,7 @@ class Loop {
       if (!last) throw;
       report.reason = error.what();
     }
-    if (best && !report.reached() && is_better({&*best, number_of_best}, {&*last, int(report.solves.size())})) {
+    if (best && !report.reached() && off_best < off_last) {
       last = std::move(best);
       report.reason += "; the answer is that of solve " + std::to_string(number_of_best);
       std::rotate(report.solves.begin() + number_of_best - 1, report.solves.begin() + number_of_best,
@@ -282,18 +285,11 @@ class Loop {
   }
 
   double estimated(const Results& r) const { return estimated_error(r, spec_.of); }
-  // What the report would ask of an answer, infinite where its estimate says nothing.
-  struct Numbered {
-    const Results* results;
-    int number;  // of the solve, from 1
-  };
-  bool is_better(const Numbered& one, const Numbered& other) const {
-    const auto off = [&](const Numbered& of) {
-      const bool says = tells_sizes(*of.results) && is_pressed(*of.results);
-      return says ? AccuracyReport::confirmed(estimated(*of.results), of.number)
-                  : std::numeric_limits<double>::infinity();
-    };
-    return off(one) < off(other);
+  // What the report holds against what is asked; infinite where the estimate says nothing. `number`: of the solve,
+  // from 1.
+  double confirmed(const Results& r, int number) const {
+    const bool says = tells_sizes(r) && is_pressed(r);
+    return says ? AccuracyReport::confirmed(estimated(r), number) : std::numeric_limits<double>::infinity();
   }
 
   // Throws InputError where p has no largest value.

@@ -158,7 +158,11 @@ void add_overlaps(const Mesh& mesh, const ContactPair& pair, const OpenPoints& o
   error.missed = VecX::Zero(edges + 1);
   for (Eigen::Index e = 0; e < edges; ++e) {
     if (overlap(e) == 0) continue;
-    const double a = width(e) / 2, p0 = modulus * overlap(e) / a, half = std::sqrt(2 * a / 3) * p0;
+    const double a = width(e) / 2;
+    double p0 = modulus * overlap(e) / a;
+    if (pair.spec.stiffness) p0 = std::min(p0, pair.spec.stiffness->pressure(overlap(e)));
+    if (!(p0 > loaded_part * largest_entry(line.p))) continue;  // as of a layer that hardly resists at first
+    const double half = std::sqrt(2 * a / 3) * p0;
     error.missed_at.push_back(
         {edge_point(mesh.nodes, pair.multiplier.edges[e], deepest(e)).position, a / edges_of_contact});
     for (const Eigen::Index i : {e, e + 1}) {

@@ -251,6 +251,19 @@ TEST(Accuracy, TakesNoMoreSolvesThanItMay) {
   EXPECT_NE(largest_error(*r).find("of 'cylinder_foot' on 'block_top'"), std::string::npos) << largest_error(*r);
 }
 
+// p is constant: what is estimated is round-off, which rises with the unknowns.
+TEST(Accuracy, ThatIsNotReachedHasTheBestOfItsAnswers) {
+  const auto r = solve_to_accuracy(scene_to_accuracy("patch_flat", "1e-13%"));
+  ASSERT_TRUE(r);
+  EXPECT_FALSE(r->accuracy->reached());
+  const std::vector<AccuracyReport::Solve>& solves = r->accuracy->solves;
+  ASSERT_GE(solves.size(), 3u);
+  EXPECT_EQ(r->estimate->pressure(), solves.back().estimated);
+  EXPECT_EQ(free_unknowns(*r), solves.back().unknowns);
+  for (const AccuracyReport::Solve& solve : solves)
+    EXPECT_LE(solves.back().estimated, (&solve == solves.data() ? 3 : 1) * solve.estimated);
+}
+
 TEST(Accuracy, HasEverySecondInAStage) {
   const Stopwatch watch;
   const auto r = solve_to_accuracy(scene_to_accuracy("hertz", "1%"));
