@@ -188,6 +188,16 @@ TEST_P(PowerLaws, UnderARigidCylinder) {
 
 INSTANTIATE_TEST_SUITE_P(ContactStiffness, PowerLaws, testing::Values(2.5, 14));
 
+// Beside contact the sides overlap by more than bodies without a layer could, under next to no pressure.
+TEST(ContactStiffness, OverlapsThatHardlyPressAreNoMissedContact) {
+  Results r = solve_scene(rough_scene("hertz", {{"contact.0.stiffness", "{pressure=5e8, overlap=1e-3, exponent=20}"},
+                                                {"mesh.parameters.n_upper", "40"},
+                                                {"mesh.parameters.n_lower", "50"}}));
+  estimate(r);
+  EXPECT_EQ(r.status, Status::solved);
+  EXPECT_LT(r.estimate->pressure(), 0.02);
+}
+
 TEST(ContactStiffness, CornersHaveAPressure) {
   Results hard = solve_scene(rough_scene("punch", {})),
           soft = solve_scene(rough_scene("punch", {{"contact.0.stiffness", "1e12"}}));

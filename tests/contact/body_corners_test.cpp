@@ -110,6 +110,8 @@ TEST(BodyCorners, AreWhereMaterialsMeet) {
   const auto inside = corners_of(quarters(4), {stiff, soft, soft, soft});
   ASSERT_FALSE(inside.empty());
   EXPECT_EQ(inside[0].node, 0);
+  const std::vector<Wedge> all_around{wedge(90 * degree, stiff), wedge(270 * degree, soft)};
+  EXPECT_NEAR(inside[0].exponent, bonded_exponent_inside(all_around).real(), 1e-4);
 }
 
 TEST(Williams, BondedWedgesOfOneMaterialAreOneWedge) {
