@@ -104,10 +104,10 @@ struct Range {
 // How a piece ends at vertex v, beyond which edge e is; nothing where that faces the other side in part: its moments
 // are no hat functions'.
 std::optional<PieceEnd> end_at(const Walk& walk, Index v, Index e) {
-  if (walk.cut(v)) return PieceEnd{.power = walk.power[v], .swings = walk.swings[v] != 0};
+  if (walk.cut(v)) return PieceEnd{.power = walk.power[v], .tip = walk.swings[v] != 0};
   if (e < 0 || e >= walk.edges() || walk.facing[e] == Facing::none) return PieceEnd{};
   if (walk.facing[e] == Facing::part || walk.carries[e == v ? v + 1 : v - 1]) return std::nullopt;
-  return PieceEnd{.power = 0.5, .border = true, .swings = true};
+  return PieceEnd{.power = 0.5, .border = true};
 }
 
 std::vector<Range> loaded_ranges(const Walk& walk) {
@@ -199,10 +199,10 @@ std::optional<PressureForm> fit_of_every_other(const LoadedPiece& piece) {
 std::vector<Swing> swings_to_try(const Range& range) {
   const auto any = [&](auto has) { return has(range.end[0]) || has(range.end[1]); };
   std::vector<Swing> all;
-  if (any([](const PieceEnd& end) { return end.swings && !end.border; }))
+  if (any([](const PieceEnd& end) { return end.tip; }))
     for (const double part : smooth_parts) all.push_back({swing_edges[0], part});
   if (all.empty()) all.push_back({swing_edges[0], 0});
-  if (any([](const PieceEnd& end) { return end.swings; }))
+  if (any([](const PieceEnd& end) { return end.tip || end.border; }))
     for (std::size_t k = 1; k < swing_edges.size(); ++k) all.push_back({swing_edges[k], 0});
   return all;
 }

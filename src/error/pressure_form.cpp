@@ -15,6 +15,11 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 
 constexpr int degree = 3;
 
+// Whether a place is so near to the tip at this end that q has no knot there.
+bool beside_tip(const LoadedPiece& piece, const std::array<double, 2>& ends, int which, double s) {
+  return piece.end[which].tip && std::abs(s - ends[which]) < piece.swing.part * (ends[1] - ends[0]);
+}
+
 // The knots of q: its ends, and the vertices between them but for those next to each end. Without an end's own
 // condition a cubic leaves out one (not a knot); at r = 0 one more, as that moment is none.
 VecX knots_of(const LoadedPiece& piece, const std::array<double, 2>& ends) {
@@ -23,11 +28,9 @@ VecX knots_of(const LoadedPiece& piece, const std::array<double, 2>& ends) {
     if (s > ends[0] && s < ends[1]) places.push_back(s);
   places.push_back(ends[1]);
   const Index last = piece.s.size() - 1;
-  const double smooth = piece.swing.part * (ends[1] - ends[0]);
   const auto skipped = [&](int k) -> Index {
-    if (!piece.end[k].swings) return piece.width(k * last) == 0 ? 3 : 2;
-    if (piece.end[k].border) return piece.swing.edges;
-    const auto within = std::ranges::count_if(places, [&](double s) { return std::abs(s - ends[k]) < smooth; });
+    if (!piece.end[k].tip && !piece.end[k].border) return piece.width(k * last) == 0 ? 3 : 2;
+    const auto within = std::ranges::count_if(places, [&](double s) { return beside_tip(piece, ends, k, s); });
     return std::max<Index>(piece.swing.edges, within);
   };
   const Index count = std::max<Index>(Index(places.size()) - skipped(0) - skipped(1), 0);
@@ -103,9 +106,7 @@ VecX sum_weights(const LoadedPiece& piece, const std::array<double, 2>& ends) {
   VecX weights(count);
   for (Index i = 0; i < count; ++i) {
     const double length = piece.s(std::min(i + 1, count - 1)) - piece.s(std::max<Index>(i - 1, 0));
-    const bool beside = std::ranges::any_of(std::array{0, 1}, [&](int k) {
-      return piece.end[k].swings && !piece.end[k].border && std::abs(piece.s(i) - ends[k]) < smooth;
-    });
+    const bool beside = beside_tip(piece, ends, 0, piece.s(i)) || beside_tip(piece, ends, 1, piece.s(i));
     const double varies = beside ? smooth * smooth / length : length / 2;
     weights(i) = 1 / (varies * std::max(piece.width(i), 1e-3 * piece.width.maxCoeff()));
   }

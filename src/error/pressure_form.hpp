@@ -14,13 +14,13 @@ struct PieceEnd {
   double power = 0;  ///< p goes as so much of the distance from it: 1/2 at a border, exponent - 1 at a singular point
   bool border = false;  ///< contact ends between vertices
   bool even = false;    ///< on the axis of rings: p has no slope there
-  bool swings = false;  ///< p_h swings beside it, however short the edges: at the tip of a crack and at a border
+  bool tip = false;     ///< of a crack that slides: p_h swings beside it as at a border, the more the shorter the edges
 };
 
-/// How far from an end beside which p_h swings q has no knot.
+/// How far from a border or a tip, beside which p_h swings, q has no knot.
 struct Swing {
   int edges = 0;
-  double part = 0;  ///< of the piece's length, beside one that is no border
+  double part = 0;  ///< of the piece's length, beside a tip
 };
 
 /// The vertices of a piece of a line that carries p, and beyond a border up to two more, at which it is 0.

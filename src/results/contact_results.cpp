@@ -71,8 +71,8 @@ struct Asked {
     const auto s = stress.points.row(point_of(points, body, at.node));
     const bool on_line = at.on_multiplier.edge >= 0;
     const double p = on_line ? interpolate(pair, pressure, at.on_multiplier) : 0;
-    const bool faces =
-        on_line && at.faces;  // the multiplier of an edge that faces a part goes on to its end, p does not
+    // The multiplier of an edge of which a part faces the other side goes on to its end, p does not.
+    const bool faces = on_line && at.faces;
     return {.node = at.node,
             .s = at.s,
             .position = mesh.nodes.row(at.node).transpose(),
@@ -191,9 +191,9 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   const Asked asked{mesh, pair, problem.points, stress, solution.u, r.pressure, fluid};
   r.multiplier = asked.side(pair.multiplier, nodes.multiplier);
   r.opposite = asked.side(pair.opposite, nodes.opposite);
+  // Where contact lies between nodes, these are all there are.
   if (std::ranges::all_of(r.multiplier.nodes, [](const ContactNode& n) { return std::isnan(n.gap); }))
-    for (ContactNode& n : r.multiplier.nodes)
-      n.p = n.p_multiplier;  // contact lies between nodes: these are all there are
+    for (ContactNode& n : r.multiplier.nodes) n.p = n.p_multiplier;
   r.length = nodes.multiplier.length;
   const bool backwards = runs_backwards(mesh.nodes, pair.multiplier);
   run_together(backwards, nodes, r);

@@ -242,6 +242,9 @@ TEST(Fluid, StopsAtContactOfARingWhicheverSideHasTheMultipliers) {
     EXPECT_NEAR(a.fluid->force.y(), -b.fluid->force.y(), 0.01 * pushed);
     EXPECT_NEAR(a.fluid->force.y(), pushed, 0.05 * pushed);
     EXPECT_NEAR(a.fluid->force.x() * (ring.from_right ? -1 : 1), pushed, 0.1 * pushed);
+    // On either body, whichever side tells it.
+    EXPECT_LT((a.fluid->force - (b.fluid->besides.force - b.fluid->force)).norm(), 0.05 * pushed);
+    EXPECT_LT((b.fluid->force - (a.fluid->besides.force - a.fluid->force)).norm(), 0.05 * pushed);
     const double far = 20 * ring.radius + (ring.from_right ? -ring.x : ring.x),
                  front = std::atan(far / ring.radius) - a.fluid->wet_length / ring.radius;  // angle
     EXPECT_NEAR(std::sin(front), 1 - b.fluid->wet_length / ring.radius, 0.02);

@@ -80,8 +80,7 @@ def calmed(s, line, places):
         end = int(np.argmin(np.linalg.norm(line.x - place, axis=1)))
         far = end - np.arange(SWINGS, 3 * SWINGS) if end > len(s) // 2 else end + np.arange(SWINGS, 3 * SWINGS)
         if (p[far] > 0).all():
-            near = np.arange(min(end, far[0]), max(end, far[0]))  # the end itself too, whichever side it is on
-            near = np.unique(np.r_[near, end])
+            near = np.arange(min(end, far[0] + 1), max(end + 1, far[0]))
             size = np.abs(s[far] - s[end]).max()
             p[near] = np.polyval(np.polyfit((s[far] - s[end]) / size, p[far], 2), (s[near] - s[end]) / size)
     return Line(line.x, p, line.bar)
