@@ -228,7 +228,7 @@ class Loop {
   Mesh mesh_of(const SizeAt& sizes, double& factor) {
     for (int refused = 0;; ++refused) try {
         Mesh mesh = mesher_.mesh(sizes, spec_.recombine);
-        mesh.facing = facing_;
+        mesh.known_pairs = known_pairs_;
         return mesh;
       } catch (const InputError&) {
         if (refused == most_others) throw;
@@ -270,11 +270,12 @@ class Loop {
   bool tells_sizes(const Results& r) const { return r.status != Status::not_converged && std::isfinite(estimated(r)); }
 
   // A point once found stays on all meshes that follow, and so does a pair of curves (half an edge, within which
-  // patterns find them, becomes less than the gap between them) and its multiplier side (p hangs on whose normals
+  // patterns find them, becomes less than the gap between them) and its multiplier side (p depends on whose normals
   // count).
   void keep_found(const Results& r) {
-    facing_.clear();
-    for (const ContactPair& pair : r.problem.pairs) facing_.push_back(curve_names(r.problem.mesh, pair));
+    known_pairs_.clear();
+    for (const ContactPair& pair : r.problem.pairs)
+      known_pairs_.push_back({.curves = curve_names(r.problem.mesh, pair), .first_is_multiplier = true});
     std::vector<FoundPoint> found;
     for (std::size_t k = 0; k < r.problem.pairs.size(); ++k)
       for (const SingularPoint& point : r.estimate->pressures[k].singular)
@@ -382,10 +383,10 @@ class Loop {
   std::size_t worst_ = 0;                    // case
   std::optional<WantedSizes> wanted_;        // of several cases on the last mesh, where any of them tells
   std::vector<FoundPoint> found_;            // singular points, of all solves so far
-  std::vector<std::array<std::string, 2>> facing_;  // pairs, by the names of their curves
-  std::string told_;                                // of the solve before, in the progress line
-  int others_ = 0;                                  // meshes since the last that told the sizes of the next
-  bool at_limit_ = false;                           // the mesh has been held to unknowns_max
+  std::vector<KnownPair> known_pairs_;
+  std::string told_;       // of the solve before, in the progress line
+  int others_ = 0;         // meshes since the last that told the sizes of the next
+  bool at_limit_ = false;  // the mesh has been held to unknowns_max
 };
 
 }  // namespace

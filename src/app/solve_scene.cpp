@@ -1,5 +1,6 @@
 #include "app/solve_scene.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -207,12 +208,29 @@ void take_problem(Problem&& problem, Results& r) {
   r.seconds.couple = r.problem.couple_seconds;
 }
 
+// The mesh of a solution in which bodies go through one another at pairs that patterns mean, with these known now; none
+// where no such pair is missed: all others are open, however far the patterns look.
+std::optional<Mesh> with_missed_pairs(Results& r) {
+  std::vector<KnownPair>& known = r.problem.mesh.known_pairs;
+  const std::size_t before = known.size();
+  for (const KnownPair& pair : r.audited->missed)
+    if (std::ranges::none_of(known, [&](const KnownPair& k) { return k.curves == pair.curves; })) known.push_back(pair);
+  if (known.size() == before) return std::nullopt;
+  return std::move(r.problem.mesh);
+}
+
 Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
   require_same_mesh(mesh);
-  Results r;
-  take_problem(prepared(scene, tightened(scene, std::move(mesh), progress), progress, start), r);
-  solve_problem(*solver_of(r.problem), progress, r);
-  return r;
+  for (Seconds spent;;) {
+    Results r;
+    take_problem(prepared(scene, tightened(scene, std::move(mesh), progress), progress, start), r);
+    solve_problem(*solver_of(r.problem), progress, r);
+    r.seconds += spent;
+    auto again = with_missed_pairs(r);
+    if (!again) return r;
+    mesh = *std::move(again);
+    spent = r.seconds;
+  }
 }
 
 }  // namespace
@@ -245,13 +263,13 @@ bool CaseSolver::take(const Scene& scene) {
   return true;
 }
 
-void CaseSolver::begin(const Scene& scene, const Progress& progress) {
+void CaseSolver::begin(const Scene& scene, std::optional<Mesh> known, const Progress& progress) {
   scene_.reset();
   results_ = {};
   results_.memory = std::make_shared<EstimateMemory>(true);
   Stopwatch watch;
   if (progress) progress("mesh");
-  Mesh mesh = mesh_ ? *mesh_ : scene_mesh(scene, &results_.mesh_cached);
+  Mesh mesh = known ? *std::move(known) : scene_mesh(scene, &results_.mesh_cached);
   results_.seconds.mesh = watch.lap();
   require_same_mesh(mesh);
   mesh = tightened(scene, std::move(mesh), progress);
@@ -264,8 +282,14 @@ void CaseSolver::begin(const Scene& scene, const Progress& progress) {
 
 Results& CaseSolver::solve(const Scene& scene, const Progress& progress) {
   return told_with_path(scene, [&]() -> Results& {
-    if (!take(scene)) begin(scene, progress);
+    if (!take(scene)) begin(scene, mesh_, progress);
     solve_problem(*solver_, progress, results_);
+    while (auto again = with_missed_pairs(results_)) {
+      const Seconds spent = results_.seconds;
+      begin(scene, std::move(again), progress);
+      solve_problem(*solver_, progress, results_);
+      results_.seconds += spent;
+    }
     start_ = active_set(results_);
     return results_;
   });

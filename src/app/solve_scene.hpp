@@ -40,7 +40,7 @@ class CaseSolver {
 
  private:
   bool take(const Scene& scene);
-  void begin(const Scene& scene, const Progress& progress);
+  void begin(const Scene& scene, std::optional<Mesh> known, const Progress& progress);
 
   std::optional<Mesh> mesh_;
   std::optional<Scene> scene_;  // that what is kept is of; none: nothing is kept

@@ -61,6 +61,10 @@ std::vector<double> sagittas(const Points& nodes, const Curve& curve) {
   return list;
 }
 
+double one_curve_gap(double sagitta, double other_sagitta, double longer_edge, double slack) {
+  return 2 * (sagitta + other_sagitta) + slack * longer_edge;
+}
+
 std::optional<OpenPlace> open_place(const Points& nodes, const ContactInterface& interface, double slack) {
   const Curve &multiplier = interface.multiplier, &opposite = interface.opposite;
   const std::vector<double> sagitta = sagittas(nodes, multiplier), opposite_sagitta = sagittas(nodes, opposite);
@@ -70,7 +74,7 @@ std::optional<OpenPlace> open_place(const Points& nodes, const ContactInterface&
   std::optional<OpenPlace> worst;
   for (const ContactPoint& p : interface.points) {
     const int e = p.edge, o = p.opposite_edge;
-    const double limit = 2 * (sagitta[e] + opposite_sagitta[o]) + slack * std::max(length[e], opposite_length[o]);
+    const double limit = one_curve_gap(sagitta[e], opposite_sagitta[o], std::max(length[e], opposite_length[o]), slack);
     if (std::abs(p.gap) > limit && (!worst || std::abs(p.gap) - limit > std::abs(worst->gap) - worst->limit))
       worst = OpenPlace{edge_point(nodes, multiplier.edges[e], p.xi).position, p.gap, limit};
   }

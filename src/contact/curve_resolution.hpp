@@ -15,14 +15,17 @@ namespace mortise {
 /// mesh's.
 std::vector<double> sagittas(const Points& nodes, const Curve& curve);
 
+/// The most that two meshes of one curve are apart, by the sagittas and the longer one of two edges; `slack`: part of
+/// it.
+double one_curve_gap(double sagitta, double other_sagitta, double longer_edge, double slack = 0.01);
+
 /// A contact point whose gap is more than two meshes of one curve can show, and what they can.
 struct OpenPlace {
   Vec2 position;  ///< on the multiplier side
   double gap, limit;
 };
 
-/// The point whose gap is furthest above its limit, which is twice the two edges' sagittas and `slack` of the longer
-/// edge; nothing if all gaps are within.
+/// The point whose gap is furthest above its limit, one_curve_gap; nothing if all gaps are within.
 std::optional<OpenPlace> open_place(const Points& nodes, const ContactInterface& interface, double slack = 0.01);
 
 struct Turn {

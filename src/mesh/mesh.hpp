@@ -106,6 +106,13 @@ struct Tie {
   Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();
 };
 
+/// Two boundaries, by name, that an earlier solve of the same geometry knows to be in contact: patterns pair them
+/// however far apart they are drawn (problem/contact_curves.hpp).
+struct KnownPair {
+  std::array<std::string, 2> curves;
+  bool first_is_multiplier;  ///< and stays it; else the choice is free
+};
+
 struct Mesh {
   std::string source;                ///< the file it came from, for messages
   Points nodes;                      ///< every node belongs to at least one cell
@@ -116,10 +123,7 @@ struct Mesh {
   std::vector<Tie> ties;             ///< as the scene has them (problem/ties.hpp)
   std::vector<std::string> notes;    ///< what was mended when it was read, a sentence each
   bool named_by_tag = false;         ///< whether a body or a boundary had no name in the file
-  /// Pairs of boundaries, by name, that were in contact on an earlier mesh of the same geometry, first the multiplier
-  /// side, which stays it; where patterns found them they stay pairs (problem/contact_curves.hpp), however short the
-  /// edges have become.
-  std::vector<std::array<std::string, 2>> facing;
+  std::vector<KnownPair> known_pairs;
 };
 
 /// Index of the body or boundary called `name`. Throws InputError with the known names.

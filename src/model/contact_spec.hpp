@@ -24,7 +24,7 @@ struct ContactSpec {
   std::string key;
   /// Physical curves; or patterns (model/patterns.hpp), for all pairs of theirs that face each other.
   std::array<std::string, 2> between;
-  std::optional<double> within;  ///< how far apart these may be, length; none: half an edge
+  std::optional<double> within;  ///< how far apart these may be, length; none: problem/facing_pairs.hpp
   bool found = false;            ///< a pair of a pattern's: its curves need not face each other all along
   Condition condition = Condition::unilateral;
   InitialGap initial_gap = InitialGap::curve;

@@ -63,6 +63,13 @@ void require_two_bodies(const Mesh& mesh, const ContactSpec& spec, const std::ar
 // Whether the pairs of the entry find themselves.
 bool is_found(const ContactSpec& spec) { return is_pattern(spec.between[0]) || is_pattern(spec.between[1]); }
 
+// Curves that are tied, or have no gap whatever is drawn, are drawn as one.
+bool is_one_curve(const ContactSpec& spec) {
+  return spec.condition == Condition::tied || spec.initial_gap == InitialGap::closed;
+}
+
+Nearness nearness(const ContactSpec& spec) { return {.within = spec.within, .as_one_curve = is_one_curve(spec)}; }
+
 using BoundaryPair = std::pair<int, int>;
 
 // Those that an entry of their own has, with its settings.
@@ -78,17 +85,18 @@ std::set<BoundaryPair> named_pairs(const Scene& scene, const EntrySides& entries
   return pairs;
 }
 
-// Pairs of boundaries, and which of the two has the multipliers.
-using KnownPairs = std::map<BoundaryPair, int>;
+// Pairs of boundaries, and which of the two has the multipliers: none where the choice is free.
+using KnownPairs = std::map<BoundaryPair, std::optional<int>>;
 
-KnownPairs numbers_of(const Mesh& mesh, const std::vector<std::array<std::string, 2>>& names) {
+KnownPairs numbers_of(const Mesh& mesh, const std::vector<KnownPair>& known) {
   std::map<std::string, int> numbers;
   for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) numbers.emplace(mesh.boundaries[b].name, int(b));
   KnownPairs pairs;
-  for (const auto& [first, second] : names)
-    if (const auto one = numbers.find(first), other = numbers.find(second);
+  for (const auto& [names, first_is_multiplier] : known)
+    if (const auto one = numbers.find(names[0]), other = numbers.find(names[1]);
         one != numbers.end() && other != numbers.end())
-      pairs.emplace(std::minmax(one->second, other->second), one->second);
+      pairs.emplace(std::minmax(one->second, other->second),
+                    first_is_multiplier ? std::optional(one->second) : std::nullopt);
   return pairs;
 }
 
@@ -97,8 +105,7 @@ double size_of(const Mesh& mesh) { return (mesh.nodes.colwise().maxCoeff() - mes
 // The pairs of curves that entries are, in their order.
 class PairFinder {
  public:
-  // `known`: Mesh::facing.
-  PairFinder(const Scene& scene, const Mesh& mesh, const std::vector<std::array<std::string, 2>>& known)
+  PairFinder(const Scene& scene, const Mesh& mesh, const std::vector<KnownPair>& known)
       : mesh_(mesh),
         seeks_accuracy_(scene.accuracy),
         entries_(mesh),
@@ -134,14 +141,17 @@ class PairFinder {
       std::erase_if(side, [&](int boundary) { return !is_of_one_body(mesh_, boundary, table_); });
       for (const int boundary : side) curve_of(boundary);
     }
-    auto pairs = facing_pairs(mesh_, curves_, sides, by_pattern ? spec.within : size_of(mesh_));
+    auto pairs = facing_pairs(mesh_, curves_, sides, by_pattern ? nearness(spec) : Nearness{size_of(mesh_)});
     if (by_pattern && !known_.empty()) add_known(sides, pairs);
     if (pairs.empty())
       throw SceneError(spec.key + ".between: no curves '" + spec.between[0] + "' and '" + spec.between[1] +
                        "' of two bodies face each other " +
                        (!by_pattern   ? "anywhere; expected others"
                         : spec.within ? "within contact.within; expected others, or a larger distance"
-                                      : "within half an edge; expected others, or contact.within = a larger distance"));
+                        : is_one_curve(spec)
+                            ? "as near as two meshes of one curve; expected others, or contact.within "
+                              "= how far apart they are drawn"
+                            : "within half an edge; expected others, or contact.within = a larger distance"));
     return pairs;
   }
 
@@ -154,8 +164,11 @@ class PairFinder {
     for (const auto& [first, second] : pairs) there.insert(std::minmax(first, second));
     for (const auto& [pair, multiplier] : known_)
       for (const auto& [first, second] : {pair, BoundaryPair(pair.second, pair.first)})
-        if (places[0].contains(first) && places[1].contains(second) && there.insert(pair).second)
+        if (places[0].contains(first) && places[1].contains(second) && !there.contains(pair) &&
+            !facing_pairs(mesh_, curves_, {{{first}, {second}}}, {size_of(mesh_)}).empty()) {
+          there.insert(pair);
           pairs.push_back({first, second});
+        }
     std::ranges::sort(pairs, {}, [&](const std::array<int, 2>& pair) {
       return std::pair(places[0].at(pair[0]), places[1].at(pair[1]));
     });
@@ -172,8 +185,8 @@ class PairFinder {
       contact.edge_size[i] = curve_length(mesh_.nodes, curve) / double(curve.edges.size());
     }
     if (const auto known = known_.find(std::minmax(pair[0], pair[1]));
-        known != known_.end() && contact.spec.multipliers_on.empty())
-      contact.spec.multipliers_on = mesh_.boundaries[known->second].name;
+        known != known_.end() && known->second && contact.spec.multipliers_on.empty())
+      contact.spec.multipliers_on = mesh_.boundaries[*known->second].name;
     if (auto& [one, other] = contact.curves; whole_[one.body] == whole_[other.body]) {  // faces of one crack
       one.thickness = thickness_.behind(one, &other);
       other.thickness = thickness_.behind(other, &one);
@@ -197,7 +210,7 @@ class PairFinder {
 };
 
 std::vector<ContactCurves> curves_of(const Scene& scene, const std::vector<ContactSpec>& specs, const Mesh& mesh,
-                                     const std::vector<std::array<std::string, 2>>& known) {
+                                     const std::vector<KnownPair>& known) {
   std::vector<ContactCurves> all;
   if (specs.empty()) return all;
   PairFinder finder(scene, mesh, known);
@@ -208,11 +221,22 @@ std::vector<ContactCurves> curves_of(const Scene& scene, const std::vector<Conta
 }  // namespace
 
 std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh) {
-  return curves_of(scene, scene.contacts, mesh, mesh.facing);
+  return curves_of(scene, scene.contacts, mesh, mesh.known_pairs);
 }
 
 std::vector<ContactCurves> tied_curves(const Scene& scene, const Mesh& mesh) {
   return curves_of(scene, scene.ties, mesh, {});
+}
+
+std::vector<PatternSides> patterns_without_distance(const Scene& scene, const Mesh& mesh) {
+  std::vector<PatternSides> all;
+  std::optional<EntrySides> entries;
+  for (const ContactSpec& spec : scene.contacts) {
+    if (!is_found(spec) || spec.within || is_one_curve(spec)) continue;
+    if (!entries) entries.emplace(mesh);
+    all.push_back(entries->of(spec));
+  }
+  return all;
 }
 
 }  // namespace mortise

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "contact/curve_resolution.hpp"
 #include "contact/projection.hpp"
 #include "fem/edges.hpp"
 #include "mesh/body_points.hpp"
@@ -25,12 +26,20 @@ Box box_of(const Points& nodes, const Curve& curve) {
 
 struct Candidate {
   const Curve& curve;
-  double edge;  // mean length
+  double edge;     // mean length
+  double sagitta;  // the largest
   Box box;
 };
 
 Candidate candidate(const Points& nodes, const Curve& curve) {
-  return {curve, curve_length(nodes, curve) / double(curve.edges.size()), box_of(nodes, curve)};
+  return {curve, curve_length(nodes, curve) / double(curve.edges.size()), std::ranges::max(sagittas(nodes, curve)),
+          box_of(nodes, curve)};
+}
+
+double limit(const Nearness& near, const Candidate& one, const Candidate& other) {
+  if (near.within) return *near.within;
+  if (near.as_one_curve) return one_curve_gap(one.sagitta, other.sagitta, std::max(one.edge, other.edge));
+  return std::min(one.edge, other.edge) / 2;
 }
 
 bool faces(const Points& nodes, const Candidate& from, const Candidate& to, double within) {
@@ -48,8 +57,7 @@ bool faces(const Points& nodes, const Candidate& from, const Candidate& to, doub
 }  // namespace
 
 std::vector<std::array<int, 2>> facing_pairs(const Mesh& mesh, const std::map<int, Curve>& curves,
-                                             const std::array<std::vector<int>, 2>& sides,
-                                             const std::optional<double>& within) {
+                                             const std::array<std::vector<int>, 2>& sides, const Nearness& near) {
   const Points& nodes = mesh.nodes;
   const std::vector<int> bonded = bonded_to(mesh, body_points(mesh));
   std::vector<Candidate> others;
@@ -58,20 +66,26 @@ std::vector<std::array<int, 2>> facing_pairs(const Mesh& mesh, const std::map<in
     others.push_back(candidate(nodes, curves.at(boundary)));
     boxes.push_back(others.back().box);
   }
+  if (others.empty()) return {};
+  Candidate largest = others.front();  // of sizes
+  for (const Candidate& other : others) {
+    largest.edge = std::max(largest.edge, other.edge);
+    largest.sagitta = std::max(largest.sagitta, other.sagitta);
+  }
   const BoxIndex index(boxes);
   std::vector<std::array<int, 2>> pairs;
   std::set<std::pair<int, int>> tried;
   for (const int first : sides[0]) {
     const Candidate own = candidate(nodes, curves.at(first));
-    const double reach = within.value_or(own.edge / 2);
+    const double reach = limit(near, own, largest);
     const Box wide(own.box.min() - Vec2(reach, reach), own.box.max() + Vec2(reach, reach));
     for (const int k : index.meeting(wide)) {
       const int second = sides[1][k];
       const Candidate& other = others[k];
       if (bonded[own.curve.body] == bonded[other.curve.body] || !tried.insert(std::minmax(first, second)).second)
         continue;
-      const double limit = within.value_or(std::min(own.edge, other.edge) / 2);
-      if (faces(nodes, own, other, limit) || faces(nodes, other, own, limit)) pairs.push_back({first, second});
+      const double within = limit(near, own, other);
+      if (faces(nodes, own, other, within) || faces(nodes, other, own, within)) pairs.push_back({first, second});
     }
   }
   return pairs;

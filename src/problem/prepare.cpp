@@ -72,6 +72,7 @@ Problem prepare(const Scene& scene, Mesh mesh, const Progress& progress, const A
   if (p.method.solver == Solver::ddm)
     p.dirichlet = dirichlet_bodies(p.method.dirichlet, p.mesh, p.discretisation, curves);
   add_contact(std::move(curves), p);
+  p.patterns = patterns_without_distance(scene, p.mesh);
   if (start) p.discretisation.system.start = starting_rows(*start, p.mesh, p.pairs);
   p.couple_seconds = watch.lap();
   return p;

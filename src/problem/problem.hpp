@@ -5,6 +5,7 @@
 #include "model/expectation.hpp"
 #include "model/method.hpp"
 #include "model/probe_spec.hpp"
+#include "problem/contact_curves.hpp"
 #include "problem/contact_pair.hpp"
 #include "problem/data_misfit.hpp"
 #include "problem/discretisation.hpp"
@@ -28,6 +29,7 @@ struct Problem {
   Discretisation discretisation;  ///< with the rows of all pairs
   DataMisfits misfits;            ///< of the functions of place
   std::vector<ContactPair> pairs;
+  std::vector<PatternSides> patterns;  ///< that may have more pairs (results/audit_solution.hpp)
   VecX fluid;                   ///< m: pressure of the fluid in wet rows, stress, 0 in dry ones; empty: no pair has any
   SparseRows fluid_loads;       ///< m x n: forces on both faces of unit pressure in each row, where a pair has any
   std::vector<char> dirichlet;  ///< of domain decomposition: whether a body takes the displacement

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "base/printable.hpp"
@@ -18,6 +19,7 @@ constexpr double of_relative = 0.01, of_largest = 1e-4;
 struct Crossing {
   double depth = 0;
   std::vector<int> edges, others;
+  std::set<std::pair<int, int>> faced;  // boundaries that face each other there
 };
 
 Vec2 displaced(const Outline& deformed, const Outline& drawn, int edge, double xi) {
@@ -31,22 +33,59 @@ struct Moved {
   double largest;  // displacement
 };
 
-struct Depth {
-  double value = 0;
-  int other = -1;  // the edge of the other piece; none where nothing crosses
+// A point of an edge that has come into another piece.
+struct Inside {
+  EdgeAndPiece of;
+  double xi;
+  EdgePoint at;
+  OutlinePlace nearest;
 };
 
-// How far a point of an edge has come into another piece; nothing where it has not, or a pair stands there.
-Depth depth_at(const Moved& all, int edge, double xi, int piece) {
+// How far the point has come in; 0 where it has not, or a pair stands there.
+double depth_of(const Moved& all, const Inside& in) {
   const auto& [b, deformed, largest] = all;
-  const Edge& nodes = deformed.edges[edge].edge;
-  const OutlinePlace place = nearest(deformed, piece, edge_point(deformed.nodes, nodes, xi).position);
-  if (-place.distance <= of_largest * largest || nearly_paired(b, edge, place.edge)) return {};
-  const Vec2 moved = displaced(deformed, b.outline, edge, xi) - displaced(deformed, b.outline, place.edge, place.xi);
-  const double drawn = nearest(b.outline, piece, edge_point(b.outline.nodes, nodes, xi).position).distance;
-  const double depth = -place.distance - std::max(0., -drawn);
-  if (depth <= of_relative * moved.norm() + of_largest * largest) return {};
-  return {depth, place.edge};
+  const auto& [of, xi, at, place] = in;
+  if (nearly_paired(b, of.edge, place.edge)) return 0;
+  const Vec2 moved = displaced(deformed, b.outline, of.edge, xi) - displaced(deformed, b.outline, place.edge, place.xi);
+  const Vec2 from = edge_point(b.outline.nodes, deformed.edges[of.edge].edge, xi).position;
+  const double depth = -place.distance - std::max(0., -nearest(b.outline, of.piece, from).distance);
+  return depth > of_relative * moved.norm() + of_largest * largest ? depth : 0;
+}
+
+template <typename Work>
+void for_points_inside(const Moved& all, const std::vector<EdgeAndPiece>& some, Work work) {
+  static const LineRule rule = gauss_legendre(3);
+  for (const EdgeAndPiece& of : some)
+    if (edge_box(all.deformed, of.edge, 0).intersects(all.deformed.pieces[of.piece].box))
+      for (const double xi : rule.points) {
+        const EdgePoint at = edge_point(all.deformed.nodes, all.deformed.edges[of.edge].edge, xi);
+        const OutlinePlace place = nearest(all.deformed, of.piece, at.position);
+        if (-place.distance > of_largest * all.largest) work(Inside{of, xi, at, place});
+      }
+}
+
+// By pieces: how deep they lie in one another where a pair stands between them, as its gap is not the drawn one or it
+// gives way.
+std::map<std::pair<int, int>, double> depths_in_pairs(const Moved& all, const std::vector<EdgeAndPiece>& some) {
+  std::map<std::pair<int, int>, double> depths;
+  for_points_inside(all, some, [&](const Inside& in) {
+    if (!nearly_paired(all.b, in.of.edge, in.nearest.edge)) return;
+    double& depth = depths[std::minmax(all.deformed.edges[in.of.edge].piece, in.of.piece)];
+    depth = std::max(depth, -in.nearest.distance);
+  });
+  return depths;
+}
+
+// Whether curves of one pair are within `reach` of a point: the corner of what lies that deep in the other body has
+// come out at another side.
+bool is_beside_pair(const Moved& all, const Inside& in, double reach) {
+  const Outline& o = all.deformed;
+  const Box near(in.at.position - Vec2(reach, reach), in.at.position + Vec2(reach, reach));
+  const PieceOutline &own = o.pieces[o.edges[in.of.edge].piece], &other = o.pieces[in.of.piece];
+  const std::vector<int> others = other.edges.meeting(near);
+  return std::ranges::any_of(own.edges.meeting(near), [&](int e) {
+    return std::ranges::any_of(others, [&](int f) { return paired(all.b, own.first + e, other.first + f); });
+  });
 }
 
 std::string line(const AuditedBodies& b, int first, int second, const Crossing& c, double largest) {
@@ -84,18 +123,50 @@ std::vector<EdgeAndPiece> meeting(const Outline& o, double margin) {
   return list;
 }
 
-void add_crossing(const Moved& all, const EdgeAndPiece& of, std::map<std::pair<int, int>, Crossing>& crossings) {
+void add(const Moved& all, const Inside& in, double depth, std::map<std::pair<int, int>, Crossing>& crossings) {
   const Outline& deformed = all.deformed;
-  const int body = deformed.edges[of.edge].body, other_body = deformed.pieces[of.piece].body;
-  static const LineRule rule = gauss_legendre(3);
-  for (const double xi : rule.points) {
-    const auto [depth, other] = depth_at(all, of.edge, xi, of.piece);
-    if (other < 0) continue;
-    Crossing& c = crossings[std::minmax(body, other_body)];
-    c.depth = std::max(c.depth, depth);
-    c.edges.push_back(body > other_body ? other : of.edge);
-    c.others.push_back(body > other_body ? of.edge : other);
+  const int edge = in.of.edge, other = in.nearest.edge;
+  const int body = deformed.edges[edge].body, other_body = deformed.pieces[in.of.piece].body;
+  Crossing& c = crossings[std::minmax(body, other_body)];
+  c.depth = std::max(c.depth, depth);
+  c.edges.push_back(body > other_body ? other : edge);
+  c.others.push_back(body > other_body ? edge : other);
+  if (!face_each_other(in.at.normal(), in.nearest)) return;
+  for (const int first : all.b.names[edge])
+    for (const int second : all.b.names[other]) c.faced.insert(std::minmax(first, second));
+}
+
+// By bodies.
+std::map<std::pair<int, int>, Crossing> crossings_of(const Moved& all, const std::vector<EdgeAndPiece>* some) {
+  const std::vector<EdgeAndPiece> near = some ? *some : meeting(all.deformed, 0);
+  std::vector<std::pair<Inside, double>> found;  // and their depths
+  for_points_inside(all, near, [&](const Inside& in) {
+    if (const double depth = depth_of(all, in); depth > 0) found.emplace_back(in, depth);
+  });
+  std::map<std::pair<int, int>, Crossing> crossings;
+  if (found.empty()) return crossings;
+  const auto in_pairs = depths_in_pairs(all, some ? meeting(all.deformed, 0) : near);
+  for (const auto& [in, depth] : found) {
+    const auto in_pair = in_pairs.find(std::minmax(all.deformed.edges[in.of.edge].piece, in.of.piece));
+    if (in_pair == in_pairs.end() || !is_beside_pair(all, in, in_pair->second)) add(all, in, depth, crossings);
   }
+  return crossings;
+}
+
+bool means(const PatternSides& pattern, int first, int second) {
+  return std::ranges::binary_search(pattern[0], first) && std::ranges::binary_search(pattern[1], second);
+}
+
+// Of boundaries that have gone through one another those that a pattern would have paired, had they been drawn nearer.
+std::vector<KnownPair> missed_pairs(const Problem& p, const std::set<std::pair<int, int>>& faced) {
+  std::vector<KnownPair> missed;
+  for (const auto& [first, second] : faced)
+    if (std::ranges::any_of(p.patterns, [&](const PatternSides& pattern) {
+          return means(pattern, first, second) || means(pattern, second, first);
+        }))
+      missed.push_back(
+          {.curves = {p.mesh.boundaries[first].name, p.mesh.boundaries[second].name}, .first_is_multiplier = false});
+  return missed;
 }
 
 }  // namespace
@@ -107,18 +178,17 @@ std::vector<EdgeAndPiece> may_cross(const AuditedBodies& b, double largest) {
   return list;
 }
 
-std::vector<std::string> crossing_lines(const AuditedBodies& b, const Results& r,
-                                        const std::vector<EdgeAndPiece>* some) {
+std::vector<std::string> crossing_lines(const AuditedBodies& b, const Results& r, const std::vector<EdgeAndPiece>* some,
+                                        std::vector<KnownPair>& missed) {
   if (!r.solution.u.allFinite() || (some && some->empty())) return {};
   const double largest = largest_entry(r.solution.u);
   const Outline deformed = outline(
       b.boundary, r.problem.mesh.nodes + Eigen::Map<const Points>(r.solution.u.data(), r.problem.mesh.nodes.rows(), 2));
-  std::map<std::pair<int, int>, Crossing> crossings;
-  for (const EdgeAndPiece& of : some ? *some : meeting(deformed, 0))
-    if (edge_box(deformed, of.edge, 0).intersects(deformed.pieces[of.piece].box))
-      add_crossing({b, deformed, largest}, of, crossings);
   std::vector<std::string> lines;
-  for (const auto& [bodies, c] : crossings) lines.push_back(line(b, bodies.first, bodies.second, c, largest));
+  for (const auto& [bodies, c] : crossings_of({b, deformed, largest}, some)) {
+    lines.push_back(line(b, bodies.first, bodies.second, c, largest));
+    std::ranges::move(missed_pairs(r.problem, c.faced), std::back_inserter(missed));
+  }
   return lines;
 }
 

@@ -18,9 +18,10 @@ const std::vector<EdgeAndPiece>& those_that_may_cross(AuditMemory& memory, doubl
 }  // namespace
 
 std::vector<std::string> audit_solution(const Results& r) {
+  AuditMemory& memory = *r.audited;
+  memory.missed.clear();
   if (r.status == Status::not_converged) return {};  // where the bodies are is not known
   if (r.problem.mesh.bodies.size() < 2 && r.problem.pairs.empty()) return {};
-  AuditMemory& memory = *r.audited;
   const bool known = memory.bodies && &memory.bodies->mesh == &r.problem.mesh;
   if (!known) {
     memory = {};
@@ -28,7 +29,7 @@ std::vector<std::string> audit_solution(const Results& r) {
   }
   std::vector<std::string> lines = end_lines(*memory.bodies, r);
   const auto* some = known ? &those_that_may_cross(memory, largest_entry(r.solution.u)) : nullptr;
-  append_lines(lines, crossing_lines(*memory.bodies, r, some));
+  append_lines(lines, crossing_lines(*memory.bodies, r, some, memory.missed));
   append_lines(lines, drawn_overlap_lines(r));
   return lines;
 }

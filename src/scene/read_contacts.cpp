@@ -164,8 +164,9 @@ Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
                "a list of two physical curves"),
       key("within", contact.within, above(0),
           "of patterns: > 0, how far apart the curves may be where they face each other"
-          "; with an accuracy, on any of its meshes",
-          "half an edge"),
+          "; with an accuracy, on any of its meshes. By default also curves further apart that bodies go through one "
+          "another at, which are found by another solve",
+          "half an edge; tied or closed: what two meshes of one curve differ by"),
       key("condition", contact.condition,
           one_of({Condition::unilateral, Condition::bilateral, Condition::tied, Condition::cyclic}),
           "`\"unilateral\"`, `\"bilateral\"`, `\"tied\"` or `\"cyclic\"`. Tied: both bodies are one where their meshes "

@@ -106,12 +106,12 @@ Physical Curve("head") = {5}; Physical Curve("ground") = {11}; Physical Curve("t
 TEST(MultiplierSide, StaysThatOfAnEarlierMesh) {
   const Scene scene = read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/hertz.toml", {});
   Mesh mesh = scene_mesh(scene);
-  const auto side = [&](std::vector<std::array<std::string, 2>> facing) {
-    mesh.facing = std::move(facing);
+  const auto side = [&](std::vector<KnownPair> known) {
+    mesh.known_pairs = std::move(known);
     return prepare(scene, mesh).pairs[0].spec.multipliers_on;
   };
-  EXPECT_EQ(side({{"block_top", "cylinder_foot"}}), "block_top");
-  EXPECT_EQ(side({{"cylinder_foot", "block_top"}}), "cylinder_foot");
+  EXPECT_EQ(side({{{"block_top", "cylinder_foot"}, true}}), "block_top");
+  EXPECT_EQ(side({{{"cylinder_foot", "block_top"}, true}}), "cylinder_foot");
 }
 
 }  // namespace

@@ -151,6 +151,29 @@ TEST(Audit, FindsACurvedBodyThatTouchesAtAPoint) {
   expect_contains(after(scene), "bodies 'block' and 'roller' pass through one another");
 }
 
+// A gap that is not as drawn: the bodies' corners come out of one another's sides, which says nothing; without the pair
+// it says so.
+TEST(Audit, LeavesBodiesInOneAnotherThatAPairKeepsApartByItsOwnGap) {
+  const TemporaryFolder folder;
+  for (const double turn : {-0.02, 0., 0.01}) {
+    const auto lines = [&](const std::string& contact) {
+      return after(drawn(
+          folder,
+          "Mesh.MeshSizeMax = 0.04; Rectangle(1) = {0, 0, 0, 4, 1}; Rectangle(2) = {0, 1, 0, 4, 1}; a() = Boundary{ "
+          "Surface{1}; };"
+          "b() = Boundary{ Surface{2}; }; Physical Surface(\"a\") = {1}; Physical Surface(\"b\") = {2};"
+          "Physical Curve(\"ground\") = {a(0)}; Physical Curve(\"a_top\") = {a(2)};"
+          "Physical Curve(\"a_side\") = {a(3)}; Physical Curve(\"b_foot\") = {b(0)};"
+          "Physical Curve(\"top\") = {b(2)};",
+          {"a", "b"},
+          held("ground") +
+              boundary("top", "rigid = { x = -0.01, rotation = " + std::to_string(turn) + ", y = -0.11 }") + contact));
+    };
+    EXPECT_EQ(lines(pair("a_top", "b_foot") + "initial_gap = 0.1\n").find("pass through"), std::string::npos) << turn;
+    expect_contains(lines(""), "pass through one another by 0.1");
+  }
+}
+
 // ---- Bodies drawn over one another ----
 
 TEST(Audit, RefusesBodiesDrawnOverOneAnother) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "app/solve_scene.hpp"
+#include "support/audited_scenes.hpp"
 #include "support/differences.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
@@ -111,6 +112,83 @@ TEST(FacingPairs, AreNotThroughABody) {
                     check_scene(wall({{"contact.within", "1e9"}}));
                   }),
                   "initial_gap = \"closed\", but 'brick_");
+}
+
+// Further apart than half an edge, whatever the mesh: a pair that the heads' way closes is found by another solve, one
+// that stays open is none. The same by the solver of cases, forth and back.
+TEST(FacingPairs, AreThoseThatBodiesWouldGoThrough) {
+  const TemporaryFolder folder;
+  const auto scene_of = [&](double gap, double way) {
+    folder.write("a.geo", R"(SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 4, 1}; Rectangle(2) = {0, 1, 0, 1, 1}; Rectangle(3) = {2.5, )" +
+                              std::to_string(1 + gap) +
+                              R"(, 0, 1, 1};
+Transfinite Curve{1 : 12} = 9; Transfinite Surface{1 : 3}; Recombine Surface{1 : 3};
+Physical Surface("base") = {1}; Physical Surface("left") = {2}; Physical Surface("right") = {3};
+Physical Curve("ground") = {1}; Physical Curve("base_top") = {3};
+Physical Curve("left_foot") = {5}; Physical Curve("left_head") = {7};
+Physical Curve("right_foot") = {9}; Physical Curve("right_head") = {11};
+)");
+    return read_scene(folder.write("a.toml", R"(
+mesh.file = "a.geo"
+materials = { steel = { young = 210e9, poisson = 0.3 } }
+bodies = { "*" = "steel" }
+boundary = [
+  { on = "ground", displacement = { x = 0, y = 0 } },
+  { on = "*_head", displacement = { x = 0, y = )" +
+                                                 std::to_string(-way) + R"( } },
+]
+contact = [{ between = ["base_*", "*_foot"] }]
+)"));
+  };
+  const auto force_on_right = [](const Results& r) {
+    for (const ContactPair& pair : r.problem.pairs)
+      if (pair.spec.between[1] == "right_foot")
+        return std::abs(r.recovery.contacts[&pair - &r.problem.pairs[0]].force.y());
+    return 0.;
+  };
+  for (const double gap : {0.07, 0.1, 0.15}) {
+    CaseSolver cases;
+    for (const double part : {0.5, 0.9, 1.1, 1.5}) {
+      const Scene scene = scene_of(gap, part * gap);
+      const Results alone = solve_scene(scene);
+      EXPECT_EQ(alone.problem.pairs.size(), part > 1 ? 2u : 1u) << gap << " " << part;
+      EXPECT_EQ(joined(alone.warnings).find("pass through"), std::string::npos) << joined(alone.warnings);
+      EXPECT_NEAR(force_on_right(cases.solve(scene)), force_on_right(alone), 1e-9 * force_on_right(alone));
+      Scene named = scene;
+      named.contacts[0].between = {"base_top", "left_foot"};
+      named.contacts.push_back(named.contacts[0]);
+      named.contacts[1].between[1] = "right_foot";
+      EXPECT_NEAR(force_on_right(solve_scene(named)), force_on_right(alone), 1e-6 * force_on_right(alone));
+      EXPECT_EQ(force_on_right(alone) > 0, part > 1);
+      EXPECT_GT(alone.seconds.factorise, 0);
+    }
+  }
+}
+
+// Sheets that lie on one another have no pairs through a sheet, however thin it is.
+TEST(FacingPairs, OfClosedCurvesAreOneCurve) {
+  const TemporaryFolder folder;
+  for (const double thickness : {0.3, 0.1, 0.02})
+    for (const std::string how : {"initial_gap = \"closed\"", "condition = \"tied\""}) {
+      std::string geo = "SetFactory(\"OpenCASCADE\"); Mesh.MeshSizeMin = 1; Mesh.MeshSizeMax = 1;\n";
+      for (int k = 1; k <= 4; ++k) {
+        const std::string n = std::to_string(k);
+        geo += "Rectangle(" + n + ") = {0, " + std::to_string(k * thickness) + ", 0, 6, " + std::to_string(thickness) +
+               "}; Transfinite Curve{" + std::to_string(4 * k - 3) + "," + std::to_string(4 * k - 1) +
+               "} = " + std::to_string(5 + k) + "; Physical Surface(\"s_" + n + "\") = {" + n +
+               "}; Physical Curve(\"s_" + n + "_foot\") = {" + std::to_string(4 * k - 3) + "}; Physical Curve(\"s_" +
+               n + "_top\") = {" + std::to_string(4 * k - 1) + "};\n";
+      }
+      folder.write("a.geo", geo);
+      const Problem checked = check_scene(read_scene(folder.write("a.toml", R"(
+mesh.file = "a.geo"
+materials = { steel = { young = 210e9, poisson = 0.3 } }
+bodies = { "*" = "steel" }
+boundary = [{ on = "s_1_foot", displacement = { x = 0, y = 0 } }, { on = "s_4_top", displacement = { x = 0 } }]
+contact = [{ between = ["s_*", "s_*"], )" + how + " }]\n")));
+      EXPECT_EQ(checked.pairs.size() + checked.mesh.ties.size(), 3u) << thickness << " " << how;
+    }
 }
 
 TEST(FacingPairs, LeaveWhatIsNamedItsOwnSettings) {
