@@ -124,12 +124,16 @@ std::vector<State> find_states(const Numbering& of, const Support& support, cons
 
 bool closes_in_the_next_sector(const Mesh& mesh, const Curve& curve) {
   const int start = curve.edges.front().nodes[0], end = curve.edges.back().nodes[1];
-  const auto follows = [&](const TiedNode& one) {
-    const int other = one.node == start ? end : one.node == end ? start : -1;
-    return std::ranges::any_of(one.weights, [&](const auto& w) { return w.first == other && w.second > 0.99; });
-  };
-  return std::ranges::any_of(
-      mesh.ties, [&](const Tie& tie) { return !tie.turn.isIdentity() && std::ranges::any_of(tie.nodes, follows); });
+  const double near =
+      0.1 * std::min(edge_length(mesh.nodes, curve.edges.front()), edge_length(mesh.nodes, curve.edges.back()));
+  // By places: on meshes that do not match the end of a coarse cut follows several nodes.
+  return std::ranges::any_of(mesh.ties, [&](const Tie& tie) {
+    return !tie.turn.isIdentity() && std::ranges::any_of(tie.nodes, [&](const TiedNode& one) {
+      if (one.node != start && one.node != end) return false;
+      const int other = one.node == start ? end : start;
+      return (mesh.nodes.row(one.node).transpose() - tie.turn * mesh.nodes.row(other).transpose()).norm() <= near;
+    });
+  });
 }
 
 std::vector<int> multipliers_along(const Coupling& coupling) {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "app/solve_scene.hpp"
+#include "contact/multiplier_rows.hpp"
 #include "results/error_report.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
@@ -135,8 +136,9 @@ TEST(CyclicSymmetry, TheCentreOfADiscIsHeld) {
 }
 
 // A lobed ring on a shaft, pressed on by its overlap; both may slide round. `whole`: all sectors, with common nodes.
-// `apart`: the cuts of the ring beside those of the shaft, radians.
-Results pressed_on(int sectors, bool whole, int order, double apart = 0) {
+// `apart`: the cuts of the ring beside those of the shaft, radians. `follows`: the cut, "low" or "high"; with one given
+// the low cuts have twice the edges of the high ones.
+Results pressed_on(int sectors, bool whole, int order, double apart = 0, const std::string& follows = "") {
   const TemporaryFolder folder;
   std::ostringstream geo;
   geo << "n = " << sectors << "; whole = " << whole << "; apart = " << apart << "; a = 2 * Pi / n; h = 0.12;"
@@ -185,9 +187,12 @@ If (!whole)
 EndIf
 Mesh.SecondOrderIncomplete = 1; Mesh.ElementOrder = )"
       << order << ";\n";
+  if (!follows.empty()) geo << "Transfinite Curve{10000, 10001} = 9; Transfinite Curve{10100, 10101} = 5;\n";
   folder.write("fit.geo", geo.str());
-  const std::string cuts =
-      R"(, { between = ["shaft_low", "shaft_high"], condition = "cyclic" }, { between = ["ring_low", "ring_high"], condition = "cyclic" })";
+  std::string cuts;
+  for (const std::string body : {"shaft", "ring"})
+    cuts += ", { between = [\"" + body + "_low\", \"" + body + "_high\"], condition = \"cyclic\"" +
+            (follows.empty() ? "" : ", multipliers_on = \"" + body + "_" + follows + "\"") + " }";
   Results r = solve_scene(read_scene(folder.write("fit.toml", R"(mesh.file = "fit.geo"
 materials.one = { young = 1000, poisson = 0.3 }
 bodies = { shaft = "one", ring = "one" }
@@ -201,6 +206,16 @@ TEST(CyclicSymmetry, CutsThatDoNotMeetAtTheContactAreAnError) {
   for (const double apart : {-0.2, 0.05})
     expect_contains(message_of([&] { pressed_on(5, false, 2, apart); }),
                     "both go on in the next sector, but face each other on");
+}
+
+TEST(CyclicSymmetry, ContactGoesOnInTheNextSectorWhicheverCutFollows) {
+  for (const char* follows : {"low", "high"})
+    for (const int order : {1, 2}) {
+      const Results r = pressed_on(5, false, order, 0, follows);
+      const Coupling& coupling = r.problem.pairs[0].coupling;
+      const std::vector<int> line = multipliers_along(coupling);
+      EXPECT_EQ(coupling.row[line.front()], coupling.row[line.back()]) << follows << order;
+    }
 }
 
 TEST(CyclicSymmetry, ASectorIsPressedAsTheWholeIs) {
