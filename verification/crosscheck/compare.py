@@ -35,6 +35,7 @@ class Curve:
     s: np.ndarray
     mortise: np.ndarray
     freefem: np.ndarray
+    fluid: tuple = (0.0, 0.0)  # what of it is a fluid's, in mortise and in FreeFEM
 
 
 @dataclass
@@ -113,7 +114,7 @@ def pressures(solved, side):
     names = [tuple(curve.name for curve in pair) for pair in solved.pairs]
     if set(names) != set(numbers):
         raise StudyError(f"contact of {sorted(set(names) ^ set(numbers))} is known to one program only")
-    table, parts, length = read_numbers(solved.folder / "freefem_contact.txt", 5), [], 0.0
+    table, parts, length = read_numbers(solved.folder / "freefem_contact.txt", 6), [], 0.0
     for number, name in enumerate(names):
         ours = (found["pair"] == numbers[name]) & (found["curve"] == name[0])
         theirs = table[table[:, 0] == number, 1:]
@@ -121,9 +122,13 @@ def pressures(solved, side):
         row = match(theirs[:, :2], places, size, f"multipliers on {name[0]}")
         s, p = found["s"][ours][row], found.get("p_multiplier", found["p"])[ours][row]
         order = np.argsort(s)
-        parts.append([length + s[order], p[order], theirs[order, 2]])
+        fluid = found["p_fluid"][ours][row] if "p_fluid" in found else np.zeros(len(p))
+        untold = (p != 0) & (found["p"][ours][row] == 0)  # the node itself faces nothing
+        fluid = np.where(untold, theirs[:, 4], fluid)
+        parts.append([length + s[order], p[order], theirs[order, 2], fluid[order], theirs[order, 4]])
         length += s.max()
-    return Curve(side, *np.concatenate(parts, axis=1))
+    s, p, p_freefem, *fluid = np.concatenate(parts, axis=1)
+    return Curve(side, s, p, p_freefem, tuple(fluid))
 
 
 def compare(solved, step):
@@ -154,16 +159,17 @@ def energy_difference(comparison):
 
 def largest_differences(comparison):
     """Same discretisation: max |du| / max |u|, max |dp| / max |p|, the energy; multipliers that only one has under
-    pressure, above what both have digits for."""
+    pressure, above what both have digits for, or wet."""
     difference = max(lengths(f.mortise - f.freefem).max() for f in comparison.fields)
     size = max(lengths(f.freefem).max() for f in comparison.fields)
     curve = comparison.curve
     none = NOTHING * np.abs(curve.freefem).max()
+    states = [(p - fluid > none, np.broadcast_to(fluid, p.shape) > 0) for p, fluid in zip((curve.mortise, curve.freefem), curve.fluid)]
     return {
         "displacement": ratio(difference, size),
         "pressure": ratio(np.abs(curve.mortise - curve.freefem).max(), np.abs(curve.freefem).max()),
         "energy": energy_difference(comparison),
-        "active": int(np.sum((curve.mortise > none) != (curve.freefem > none))),
+        "active": int(np.sum(np.not_equal(*states).any(axis=0))),
     }
 
 

@@ -22,17 +22,21 @@ METHOD = {"multipliers": "linear", "integration": "segments", "gauss": 5}
 def line(scene, mesh, curves, folder):
     """Rows: pair, x, y, p, weighted gap. Straight sides; P2 on 6-node triangles or two of each quadrilateral, P1 on
     linear cells; gaps and segments as of the cross-check. StudyError where FreeFEM has no such model."""
-    for entry in scene["contact"]:
-        scenes.refuse_others(entry, {"between", "condition", "initial_gap", "multipliers_on", "stiffness", "within"})
-    sides = {entry["between"].index(on) if on in entry["between"] else None for entry, on in zip(scene["contact"], curves)}
-    gaps = {entry.get("initial_gap", "curve") for entry in scene["contact"]}
-    conditions = {entry.get("condition", "unilateral") for entry in scene["contact"]}
-    if len(sides) > 1 or None in sides or len(gaps) > 1 or len(conditions) > 1 or not conditions <= run.SCRIPTS.keys():
+    entries = [entry for _, entry in scenes.contacts(scene)]
+    for entry in entries:
+        scenes.refuse_others(entry, {"between", "condition", "fluid", "initial_gap", "multipliers_on", "stiffness", "within"})
+    sides = {entry["between"].index(on) if on in entry["between"] else None for entry, on in zip(entries, curves)}
+    gaps = {entry.get("initial_gap", "curve") for entry in entries}
+    conditions = {entry.get("condition", "unilateral") for entry in entries}
+    if unknown := conditions - run.SCRIPTS.keys():
+        raise StudyError(f'FreeFEM is not told condition = "{unknown.pop()}"')
+    if len(sides) > 1 or None in sides or len(gaps) > 1 or len(conditions) > 1:
         raise StudyError("pairs of several kinds, or multipliers on other curves in each")
     order = 1 if {"triangle", "quad"} & {cells.type for cells in meshio.read(mesh, file_format="gmsh").cells} else 2
     (gap,), (condition,) = gaps, conditions
     side, gap = scenes.SIDES[sides.pop()], gap if gap == "curve" else "scene"
-    step = Step(mesh.stem, (), side, {}, {}, METHOD | {"order": order}, condition, gap, same_nodes=False)
+    springs = {"springs": 1e-6} if any(map(scenes.is_cut, scene["contact"])) else {}  # sectors may turn about the origin
+    step = Step(mesh.stem, (), side, {}, {}, METHOD | {"order": order} | springs, condition, gap, same_nodes=False)
     run.convert_step(step, scene, mesh, folder)
     run.call_freefem(run.SCRIPTS[condition], folder=folder)
     return np.loadtxt(folder / "freefem_contact.txt", ndmin=2)

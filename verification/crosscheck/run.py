@@ -53,6 +53,12 @@ def contact_settings(step):
     return gap if step.gap == "curve" else {**gap, "method.normals": "edges"}
 
 
+def of_each_contact(scene, settings):
+    """Settings of all contact, entry by entry: the cuts of a sector have none of them."""
+    numbers = [k for k, _ in scenes.contacts(scene)]
+    return {key.replace("contact.", f"contact.{k}."): value for key, value in settings.items() for k in numbers}
+
+
 def inline(value):
     """A value as TOML, in a line."""
     if isinstance(value, dict):
@@ -62,16 +68,15 @@ def inline(value):
 
 def settings_of(step, mesh_file):
     """mortise's, on the mesh as it lies in the file; its physics are the scene's and the step's."""
-    pairs = enumerate(scenes.read_scene(launch.scene_file(step.scene), {})["contact"])
+    scene = scenes.read_scene(launch.scene_file(step.scene), {})
     return {
         **{key: inline(value) for key, value in step.settings.items()},
         "mesh.file": mesh_file.absolute(),
         "mesh.parameters": "{}",
-        **{f"contact.{k}.multipliers_on": scenes.multipliers_on(entry, step.side) for k, entry in pairs},
-        "contact.condition": step.condition,
+        **{f"contact.{k}.multipliers_on": scenes.multipliers_on(entry, step.side) for k, entry in enumerate(scene["contact"])},
         "method.multipliers": step.mortise["multipliers"],
         "method.integration": step.mortise["integration"],
-        **contact_settings(step),
+        **of_each_contact(scene, {"contact.condition": step.condition, **contact_settings(step)}),
     }
 
 
@@ -102,8 +107,9 @@ def convert_step(step, scene, mesh_file, folder):
     convert.write_mesh(list(bodies.values()), folder / scenes.MESH)
     of_pairs = [[side.tag for side in pair] for pair in pairs]
     values = Quantities()
-    areas = scenes.areas_of_curves(bodies, tags, scene.get("model", {}).get("plane"))
-    text = scenes.case_text(scene, list(bodies), of_pairs, tags, step.freefem, step.gap, values, areas)
+    model = scene.get("model", {})
+    areas = scenes.areas_of_curves(bodies, tags, model.get("plane"), float(model.get("thickness", 1)))
+    text = scenes.case_text(scene, list(bodies), of_pairs, tags, step.freefem, step.gap, values, areas, step.side)
     (folder / "case.txt").write_text(text)
     (folder / scenes.EXPRESSIONS).unlink(missing_ok=True)
     if values.code:

@@ -48,6 +48,16 @@ def named(patterns, names):
 # ---- Contact ----
 
 
+def is_cut(entry):
+    """Whether a [[contact]] entry ties the cuts of a sector."""
+    return entry.get("condition") == "cyclic"
+
+
+def contacts(scene):
+    """The [[contact]] entries that are contact, each with its number among all."""
+    return [(k, entry) for k, entry in enumerate(scene["contact"]) if not is_cut(entry)]
+
+
 @dataclass
 class Side:
     """One curve of a contact pair."""
@@ -98,7 +108,7 @@ def contact_pairs(scene, side, bodies, tags):
                 vertices = contact_points.vertices_of(bodies[owners[0]], tags[name])
                 yield Side(name, owners[0], tags[name], vertices)
 
-    for entry in scene["contact"]:
+    for _, entry in contacts(scene):
         on = multipliers_on(entry, side)
         other = entry["between"][on == entry["between"][0]]
         ours, theirs = list(of_one_body(on)), list(of_one_body(other))
@@ -131,12 +141,12 @@ def material_of(scene, body):
     return scene["materials"][scene["bodies"][pattern]]
 
 
-def areas_of_curves(bodies, tags, plane):
-    """By tag, of straight edges: a plane model is one deep, a ring goes all round."""
+def areas_of_curves(bodies, tags, plane, thickness=1.0):
+    """By tag, of straight edges: a plane model has a thickness, a ring goes all round."""
     areas = dict.fromkeys(tags.values(), 0.0)
     for body in bodies.values():
         x = body.points[body.edges]
-        depth = 2 * np.pi * x[:, :, 0].mean(axis=1) if plane == "axisymmetric" else 1.0
+        depth = 2 * np.pi * x[:, :, 0].mean(axis=1) if plane == "axisymmetric" else thickness
         for tag, area in zip(body.labels, np.linalg.norm(x[:, 1] - x[:, 0], axis=1) * depth):
             areas[tag] = areas.get(tag, 0.0) + area
     return areas
@@ -192,25 +202,50 @@ def body_lines(scene, bodies, values):
 def gap_lines(scene, gap, values):
     """FreeFEM has the gap and the normals of curves from a file of points; the scene's own gap is a value."""
     if gap == "scene":
-        (own,) = {entry["initial_gap"] for entry in scene["contact"]}
+        (own,) = {entry["initial_gap"] for _, entry in contacts(scene)}
         return [f"gap {values.word(own)}"]
     return ["gap given", f"points {POINTS}"] if gap == "curve" else [f"gap {gap}"]
 
 
 def stiffness_lines(scene):
     """StudyError where pairs give way by several laws, or by one that is not linear."""
-    first, *others = [entry.get("stiffness") for entry in scene["contact"]]
+    first, *others = [entry.get("stiffness") for _, entry in contacts(scene)]
     if any(other != first for other in others) or not isinstance(first, (int, float, type(None))):
         raise StudyError(f"FreeFEM is not told the stiffness {first}; expected one number for all pairs")
     return [f"stiffness {float(first)!r}"] if first is not None else []
 
 
-def case_text(scene, bodies, pairs, tags, freefem, gap, values, areas):
+def fluid_lines(scene, pairs, tags):
+    """A line for each place from which a fluid comes. StudyError beside what FreeFEM has no fluid with."""
+    for k, entry in contacts(scene):
+        if "fluid" not in entry:
+            continue
+        others = [f"contact.{k}.stiffness"] * ("stiffness" in entry) + ['condition = "cyclic"'] * any(map(is_cut, scene["contact"]))
+        if others:
+            raise StudyError(f"FreeFEM is not told contact.{k}.fluid beside {others[0]}")
+        pair = [set(pair) for pair in pairs].index({tags[name] for name in entry["between"]})
+        places = entry["fluid"]["from"]
+        for x, y in places if isinstance(places[0], list) else [places]:
+            yield f"fluid {pair} {float(entry['fluid']['pressure'])!r} {float(x)!r} {float(y)!r}"
+
+
+def cut_lines(scene, side, tags):
+    """The cuts of sectors, first the one that follows: as of a contact's multipliers, by `side`."""
+    for entry in filter(is_cut, scene["contact"]):
+        refuse_others(entry, {"between", "condition", "multipliers_on"})
+        follows = multipliers_on(entry, side)
+        leads = entry["between"][follows == entry["between"][0]]
+        yield f"cyclic {tags[follows]} {tags[leads]}"
+
+
+def case_text(scene, bodies, pairs, tags, freefem, gap, values, areas, side="first"):
     """The case file; `bodies`: their names, `pairs`: the tags of the multiplier and the opposite side of each. `values`:
-    Quantities, to which the scene's expressions are added; `areas`: of the curves, by tag."""
-    refuse_others(scene.get("model", {}), {"plane", "gravity"})
+    Quantities, to which the scene's expressions are added; `areas`: of the curves, by tag; `side`: as of multipliers_on."""
+    model = scene.get("model", {})
+    refuse_others(model, {"plane", "gravity", "thickness"})
     lines = [
-        f"plane {scene.get('model', {}).get('plane', 'strain')}",
+        f"plane {model.get('plane', 'strain')}",
+        *([f"thickness {float(model['thickness'])!r}"] if "thickness" in model else []),
         f"mesh {MESH}",
         *body_lines(scene, bodies, values),
         *("contact {} {}".format(*pair) for pair in pairs),
@@ -219,6 +254,8 @@ def case_text(scene, bodies, pairs, tags, freefem, gap, values, areas):
         *(f"{key} {freefem[key]}" for key in ("integration", "gauss", "springs") if key in freefem),
         *gap_lines(scene, gap, values),
         *stiffness_lines(scene),
+        *fluid_lines(scene, pairs, tags),
+        *cut_lines(scene, side, tags),
         *boundary_lines(scene, tags, values, areas),
         "end",
     ]

@@ -89,8 +89,38 @@ def test_case_file_holds_the_physics_of_the_scene():
         "displacement 2 y 0.0", "displacement 7 y 0.0", "displacement 4 x 0.0", "displacement 9 x 0.0",
         f"initial_strain 0 {strain} {strain} {strain} 0.0",
     }  # fmt: skip
+    scene["model"]["thickness"] = 0.2
+    thick = scenes.case_text(scene, ["outer", "inner"], [[10, 3]], tags, freefem, "closed", Quantities(), {}).splitlines()
+    assert set(thick) - set(lines) == {"thickness 0.2"}
     of_curves = scenes.case_text(scene, ["outer", "inner"], [[10, 3]], tags, freefem, "curve", Quantities(), {}).splitlines()
-    assert set(of_curves) ^ set(lines) == {"gap closed", "gap given", f"points {scenes.POINTS}"}
+    assert set(of_curves) ^ set(thick) == {"gap closed", "gap given", f"points {scenes.POINTS}"}
+
+
+def test_a_fluid_has_a_line_for_each_place_it_comes_from():
+    """By the number of its pair; beside laws and cuts FreeFEM has none."""
+    tags = {"foot": 3, "top": 7, "low": 8, "high": 9}
+    fluid = {"between": ["foot", "top"], "fluid": {"pressure": 2, "from": [[1, 0], [-1, 0]]}}
+    lines = lambda *entries: list(scenes.fluid_lines({"contact": [*entries]}, [[8, 9], [7, 3]], tags))
+    assert lines({"between": ["low", "high"]}, fluid) == ["fluid 1 2.0 1.0 0.0", "fluid 1 2.0 -1.0 0.0"]
+    one_place = fluid | {"fluid": {"pressure": 2, "from": [1, 0]}}
+    assert lines(one_place) == ["fluid 1 2.0 1.0 0.0"]
+    with pytest.raises(StudyError, match="FreeFEM is not told contact.0.fluid beside contact.0.stiffness"):
+        lines(fluid | {"stiffness": 1e9})
+    with pytest.raises(StudyError, match='FreeFEM is not told contact.1.fluid beside condition = "cyclic"'):
+        lines({"between": ["low", "high"], "condition": "cyclic"}, fluid)
+
+
+def test_the_cuts_of_a_sector_are_no_contact():
+    """The curve that follows is first, by the side; gap and condition are the other entries'."""
+    cuts = {"between": ["low", "high"], "condition": "cyclic"}
+    scene, tags = {"contact": [cuts, {"between": ["foot", "top"]}]}, {"low": 8, "high": 9}
+    lines = lambda side: list(scenes.cut_lines(scene, side, tags))
+    assert lines("first") == ["cyclic 8 9"] and lines("second") == ["cyclic 9 8"]
+    settings = {"contact.condition": "unilateral", "method.normals": "edges"}
+    assert run.of_each_contact(scene, settings) == {"contact.1.condition": "unilateral", "method.normals": "edges"}
+    scene["contact"][0] = cuts | {"pretension": 5}
+    with pytest.raises(StudyError, match="FreeFEM is not told 'pretension'"):
+        lines("first")
 
 
 def test_patterns_and_values_of_a_case():

@@ -1,6 +1,7 @@
 """The runner: what it says and its exit status, a case of each level from end to end, and that the comparison sees it
 where one of the two programs has something wrong."""
 
+import dataclasses
 import json
 
 import meshio
@@ -11,8 +12,10 @@ import cases
 import contact_points
 import crosscheck
 import launch
+import on_mesh
 import run
 import scene as scenes
+from cases import StudyError
 from judge import judge
 
 CASES = {
@@ -22,6 +25,8 @@ CASES = {
 }
 CASE = "same_discretisation/parabola_1/8x10/P2-P1/segments/upper_contact"
 OF_CURVES = CASE + "/curve"
+WETTED = "same_discretisation/wetted/8x10/P1-P1/segments/block_top/unilateral"
+SECTOR = "same_discretisation/sector/6x8/P2-P1/segments/second/unilateral"
 LIMIT = 1e-8
 
 
@@ -67,7 +72,7 @@ def test_a_program_that_fails_is_told_with_its_last_lines(freefem, monkeypatch, 
     assert "exit status 3" in said and "bad news" in said and f"error: {CASE}\n" in said
 
 
-@pytest.mark.parametrize("name", [CASE, OF_CURVES])
+@pytest.mark.parametrize("name", [CASE, OF_CURVES, WETTED, SECTOR])
 def test_the_right_result_passes(freefem, tmp_path, name):
     result = judged(name, tmp_path)
     assert result.status == "ok" and max(figure.value for figure in result.figures) <= LIMIT
@@ -102,13 +107,33 @@ def segment(replace, folder):
     replace(run, "solve_by_mortise", without_last_edge)
 
 
+def spoil(replace, folder, condition, part, line):
+    """A line more behind a part of FreeFEM's script."""
+    text, include, script = run.SCRIPTS[condition].read_text(), f'include "{part}"', folder / "spoilt.edp"
+    assert text.count(include) == 1
+    script.write_text(text.replace(include, f"{include}\n{line}"))
+    replace(run, "call_freefem", lambda old, _, **options: old(script, **options))
+
+
 def normal(replace, folder):
     """The normal of one contact point is flipped in FreeFEM's system."""
-    text, include, script = run.SCRIPTS["bilateral"].read_text(), 'include "contact.idp"', folder / "flipped.edp"
-    assert text.count(include) == 1
     flip = "{ int wrong = points / 3; nx[wrong] = -nx[wrong]; ny[wrong] = -ny[wrong]; }"
-    script.write_text(text.replace(include, f"{include}\n{flip}"))
-    replace(run, "call_freefem", lambda old, _, **options: old(script, **options))
+    spoil(replace, folder, "bilateral", "contact.idp", flip)
+
+
+def fluid_on_one_side(replace, folder):
+    """The fluid does not press on the opposite side."""
+    spoil(replace, folder, "unilateral", "contact.idp", "wFluid = 0;")
+
+
+def fluid_along_other_normals(replace, folder):
+    """The fluid presses on the opposite side along the other one's normals."""
+    spoil(replace, folder, "unilateral", "fluid.idp", "{ matrix sizes = [rowScale]; push = sizes * B; }")
+
+
+def turn(replace, folder):
+    """The displacement of a sector's cut is turned to the other side."""
+    spoil(replace, folder, "unilateral", "contact.idp", "turn = -turn;")
 
 
 def handed_normal(replace, folder):
@@ -127,7 +152,8 @@ def handed_gap(replace, folder):
 
 
 WRONG = [(CASE, poisson, 1e-5), (CASE, segment, 1e-3), (CASE, normal, 1e-3), (OF_CURVES, handed_normal, 1e-3),
-         (OF_CURVES, handed_gap, 1e-3)]  # fmt: skip
+         (OF_CURVES, handed_gap, 1e-3), (WETTED, fluid_on_one_side, 1e-3), (WETTED, fluid_along_other_normals, 1e-3),
+         (SECTOR, turn, 1e-3)]  # fmt: skip
 
 
 @pytest.fixture
@@ -150,6 +176,30 @@ def test_what_is_wrong_is_caught(replace, tmp_path, name, wrong, least):
     assert result.status == "failed", result.message
     assert min(figures["displacement"], figures["pressure"]) > LIMIT
     assert max(figures["displacement"], figures["pressure"]) > least
+
+
+def test_a_sector_that_may_turn(freefem, tmp_path):
+    """Nothing holds it from that, for `mortise certify`: p is even, that of whole rings that turn (Lame)."""
+    (case,) = cases.choose(cases.all_cases(), [SECTOR], quick=False)
+    run.prepare(case.steps[0], tmp_path)
+    even = {"boundary.0.foundation": 1e10, "boundary.1.pressure": 2e7}
+    p = on_mesh.line(scenes.read_scene(launch.scene_file("sector"), even), tmp_path / "mesh.msh", ["bore"], tmp_path)[:, 3]
+    assert p == pytest.approx(5.714677e6, rel=0.01)
+
+
+def test_what_freefem_has_no_rows_for_is_refused(replace, tmp_path):
+    """A displacement on a cut that follows, a fluid whose line has two parts, and tied curves."""
+    (case,) = cases.choose(cases.all_cases(), [SECTOR], quick=False)
+    held = {"boundary.0.on": ["shaft_high"], "boundary.0.displacement": {"x": 0}}
+    run.prepare(dataclasses.replace(case.steps[0], settings=held), tmp_path)
+    with pytest.raises(StudyError, match="a displacement is prescribed on a cut that follows another"):
+        run.call_freefem(run.SCRIPTS["unilateral"], folder=tmp_path)
+    scene = scenes.read_scene(launch.scene_file("sector"), {"contact.1.condition": "tied"})
+    with pytest.raises(StudyError, match='FreeFEM is not told condition = "tied"'):
+        on_mesh.line(scene, tmp_path / "mesh.msh", ["seat"], tmp_path)
+    parts = "{ int[int] two = [supported[0], supported[2]]; supported.resize(2); supported = two; }"
+    spoil(replace, tmp_path, "unilateral", "system.idp", parts)
+    assert "fluid: multipliers that face nothing lie between those that do" in judged(WETTED, tmp_path).message
 
 
 def test_a_pair_that_one_program_does_not_know_is_told(replace, tmp_path):
