@@ -134,7 +134,8 @@ void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint
     set_fitted_pressures(r);
   }
   append_lines(r.warnings, error_warnings(r));
-  if (auto check = estimate_check(r)) r.checks.push_back(*std::move(check));
+  if (spec.of == Goal::pressure || spec.of == Goal::peak)
+    if (auto check = estimate_check(r)) r.checks.push_back(*std::move(check));
   r.status = std::max(r.status, verdict(r));
   r.seconds.estimate = watch.lap();
 }

@@ -13,8 +13,11 @@ using Eigen::Index;
 constexpr double whole_edge = 1e-6;     // of an edge's length, that it may lack of facing the other side all along
 constexpr double same_place = 1e-9;     // of the line's length
 constexpr double credible_part = 0.95;  // of the vertices: bars are made to hold at so many
-constexpr Index least_edges = 4;        // of a piece: a cubic has as many coefficients
-constexpr int tension_places = 200;     // along a piece, at which p* is looked at
+// Of swings of p* over those of p_h, squares. p_h has S of a smooth p and N of noise, of which p* makes S and a N. At
+// the vertices p_h is off by S / 12 and N / 4, p* by a N / 4: it is nearer only if (a^2 - 1) N^2 < S^2 / 9.
+constexpr double most_swing = 10. / 9;
+constexpr Index least_edges = 4;     // of a piece: a cubic has as many coefficients
+constexpr int tension_places = 200;  // along a piece, at which p* is looked at
 // Edges beside an end over which p_h swings, as they see contact end at a vertex: +9, -4, -36 % over the last five of
 // Hertz' pressure; as many at the tip of a crack that slides. Fewer if waves of p leave no cubic over ten.
 constexpr std::array swing_edges{10, 6, 4};
@@ -165,6 +168,21 @@ std::optional<double> fluid_beside(const Walk& walk, const Range& range, const P
   return fluid;
 }
 
+// How much a function's slopes jump at the vertices inside a range, which ends leave alone: int of the squares of what
+// swings from vertex to vertex, but for a factor.
+template <typename Function>
+double swing_of(const Walk& walk, const Range& range, const PressureEstimate& estimate, Function p) {
+  constexpr Index beside = 2;
+  double sum = 0;
+  for (Index k = range.first + beside; k <= range.last - beside; ++k) {
+    if (!estimate.counts(walk.vertex[k])) continue;
+    const double before = walk.s(k) - walk.s(k - 1), after = walk.s(k + 1) - walk.s(k), h = (before + after) / 2;
+    const double jump = (p(k + 1) - p(k)) / after - (p(k) - p(k - 1)) / before;
+    sum += h * h * h * jump * jump;
+  }
+  return sum;
+}
+
 // `missed`: at each vertex of the line what p_h may miss along it.
 bool credible(const PressureForm& form, const Walk& walk, const Range& range, const PressureEstimate& estimate,
               const VecX& missed, bool unilateral) {
@@ -178,6 +196,8 @@ bool credible(const PressureForm& form, const Walk& walk, const Range& range, co
     if (unilateral && p < 0) return false;
   }
   if (!(within >= credible_part * counted)) return false;
+  const double swing = swing_of(walk, range, estimate, [&](Index k) { return form(walk.s(k)); });
+  if (swing > most_swing * swing_of(walk, range, estimate, [&](Index k) { return walk.p(k); })) return false;
   const auto [from, to] = form.ends();
   for (int k = 1; unilateral && k < tension_places; ++k)
     if (!(form(from + (to - from) * k / tension_places) >= 0)) return false;

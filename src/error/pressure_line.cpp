@@ -223,6 +223,11 @@ void LineError::add_data(Eigen::Index vertex, double by) {
   data(vertex) = std::hypot(data(vertex), by);
 }
 
+void LineError::add_weak(const Weak& of) {
+  add_data(of.vertex, of.part);
+  weak.push_back(of);
+}
+
 VecX LineError::whole() const {
   VecX largest = along();
   for (const VecX& other : {swing, missed})

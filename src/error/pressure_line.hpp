@@ -53,6 +53,14 @@ struct LineError {
   VecX l2;  ///< of each vertex, stress sqrt(length)
   /// Likewise, of what no pressure along the line tells, such as a gap that the mesh does not follow; empty: nothing.
   VecX data{};
+  /// Parts of `data` at points where p goes as a small power of the distance or its logarithm: they fall as `power` of
+  /// the length of the edges there.
+  struct Weak {
+    Eigen::Index vertex;
+    double part, power;
+    bool at_end;  ///< of the line: the bodies' angles say how p goes; else what is known of it hangs on the slide
+  };
+  std::vector<Weak> weak{};
   /// Likewise, of what p swings by about its slopes; empty: nothing. Edges of the next mesh are made by `l2` and
   /// `data`, whose rates are known.
   VecX swing{};
@@ -79,6 +87,7 @@ struct LineError {
   VecX least{};
   void raise(Eigen::Index vertex, double by);     ///< `least` at a vertex
   void add_data(Eigen::Index vertex, double by);  ///< a square to that of `data`
+  void add_weak(const Weak& weak);                ///< to `data` too
   VecX along() const;                             ///< the sum of `l2` and `data`
   VecX whole() const;                             ///< of each vertex the largest of along(), `swing` and `missed`
   /// At each vertex what p is off by, stress: the largest within four edges. What the border makes falls with the

@@ -16,6 +16,9 @@ constexpr double coarsen = 0.4, refine = 6;  // by what sizes may fall at once w
 constexpr double line_refine = 8;
 constexpr double corner_share = 0.2;  // of the target of the far field, for all corners of the bodies
 constexpr double border_share = 0.5;  // of the target of the local error, for all borders
+// Likewise for all points where p goes as a small power of the distance: rings of edges around a point are few, however
+// short these are, so that they cost next to nothing.
+constexpr double weak_share = 0.3;
 constexpr double least_size = 2e-7,
                  least_layer = 3e-5;  // of the scene's size; gmsh makes flat triangles at corners below 1e-5
 
@@ -103,9 +106,11 @@ void add_corner_layers(const ErrorEstimate& estimate, const VecX& sizes, double 
   }
 }
 
-// By what the edges at each vertex of a pair are to shorten.
-VecX line_refinement(const PressureEstimate& e, double target, double borders, double border) {
-  const VecX l2 = e.local.along();
+// By what the edges at each vertex of a pair are to shorten. `least`: the shortest that are made at a corner.
+VecX line_refinement(const PressureEstimate& e, double target, double borders, double border, double weak,
+                     double least) {
+  VecX l2 = e.local.along();
+  for (const LineError::Weak& of : e.local.weak) l2(of.vertex) = std::max(l2(of.vertex) - of.part, 0.);
   VecX r = VecX::Constant(l2.size(), coarsen);
   if (!(target > 0)) return r;
   double sum = 0;
@@ -118,6 +123,10 @@ VecX line_refinement(const PressureEstimate& e, double target, double borders, d
            : border > 0       ? std::min(border, line_refine)
                               : std::clamp(l2(i) / (border_share * target / std::sqrt(borders)), 0.7, line_refine);
   }
+  for (const LineError::Weak& of : e.local.weak)
+    r(of.vertex) =
+        std::max(r(of.vertex), std::min(std::pow(of.part / (weak_share * target / std::sqrt(weak)), 1 / of.power),
+                                        of.at_end ? e.line.h(of.vertex) / least : line_refine));
   return r;
 }
 
@@ -173,10 +182,11 @@ VecX node_sizes(const Mesh& mesh, const ErrorEstimate& estimate, const VecX& ref
 }
 
 // By what the edges at each vertex of each pair are to shorten, for p and for the goal.
-std::vector<VecX> lines_refinement(const ErrorEstimate& estimate, const ErrorFactors& factors) {
-  double p2 = 0, borders = 0;
+std::vector<VecX> lines_refinement(const ErrorEstimate& estimate, const ErrorFactors& factors, double least) {
+  double p2 = 0, borders = 0, weak = 0;
   for (const PressureEstimate& e : estimate.pressures) {
     p2 += e.p2;
+    weak += double(e.local.weak.size());
     borders += double(std::ranges::count(e.local.border, 1));
   }
   const double target = estimate.slopes() * std::sqrt(p2) / factors.line;
@@ -185,7 +195,8 @@ std::vector<VecX> lines_refinement(const ErrorEstimate& estimate, const ErrorFac
   for (std::size_t k = 0; k < estimate.pressures.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];
     VecX& shorter = all.emplace_back(VecX::Constant(e.line.p.size(), coarsen));
-    if (!estimate.goal || estimate.goal->local > 0) shorter = line_refinement(e, target, borders, factors.border);
+    if (!estimate.goal || estimate.goal->local > 0)
+      shorter = line_refinement(e, target, borders, factors.border, weak, least);
     if (estimate.goal) shorter = shorter.cwiseMax(goal_line_refinement(e, estimate.goal->lines[k], lines));
   }
   return all;
@@ -227,7 +238,7 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
   const double scene = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
   add_corner_layers(estimate, wanted.sizes, corner_share * far_parts / factors.far_field, least_layer * scene,
                     wanted.layers);
-  const std::vector<VecX> shorter = lines_refinement(estimate, factors);
+  const std::vector<VecX> shorter = lines_refinement(estimate, factors, least_layer * scene);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];
     lower_sizes(mesh, pairs[k], e, e.line.h.cwiseQuotient(shorter[k]).cwiseMax(least_size * scene), wanted);

@@ -29,7 +29,7 @@ void add_weak_points(const PressureLine& line, std::vector<SingularPoint>& point
     double p = std::abs(line.p(i));  // at an edge's length, or extrapolated to the point
     for (const Eigen::Index next : {i - 1, i + 1})
       if (next >= 0 && next < line.p.size()) p = std::max(p, std::abs(line.p(next)));
-    error.add_data(i, missed(d, std::abs(d) * p) * std::sqrt(line.h(i)));
+    error.add_weak({i, missed(d, std::abs(d) * p) * std::sqrt(line.h(i)), 0.5 + std::min(d, 0.), true});
     error.raise(i, p * std::abs(std::exp(-folds * d) - 1));
     return true;
   });
@@ -46,7 +46,7 @@ void add_layer_ends(const PressureLine& line, const std::vector<SingularPoint>& 
     const double p = std::abs(line.p(i)) * (rollers ? std::abs(d) : 1), h = line.h(i);
     const double longer = h * law.slope(law.overlap(std::abs(line.p(i)))) / modulus;  // the edge than E* / k
     const double soft = hats_in_l2 * std::abs(d) * p * longer, closed = missed(std::max(d, 0.0), std::abs(d) * p);
-    error.add_data(i, soft * closed / (soft + closed) * std::sqrt(h));
+    error.add_weak({i, soft * closed / (soft + closed) * std::sqrt(h), 0.5 + closed / (soft + closed), true});
     error.raise(i, p * std::abs(std::expm1(-d * std::log1p(hats_at_end * longer))));
   }
 }
@@ -54,7 +54,7 @@ void add_layer_ends(const PressureLine& line, const std::vector<SingularPoint>& 
 // The limit of a small power with p d = amplitude; hats that are symmetric about the place miss the same on both sides.
 void add_weak_logarithm(const PressureLine& line, const Vec2& place, double amplitude, LineError& error) {
   const Eigen::Index i = line.nearest(place);
-  error.add_data(i, std::numbers::sqrt2 * missed(0, amplitude) * std::sqrt(line.h(i)));
+  error.add_weak({i, std::numbers::sqrt2 * missed(0, amplitude) * std::sqrt(line.h(i)), 0.5, false});
   error.raise(i, folds * amplitude);
 }
 

@@ -9,6 +9,10 @@
 namespace mortise {
 namespace {
 
+// So far outside, in a triangle's own coordinates, a place on a body's curve may lie between the curve and its chord:
+// that of an arc of 40 degrees.
+constexpr double beside = 0.1;
+
 // How deep outside the triangle x lies, in its own coordinates; 0 inside. `at`: the coordinates, cut off at the sides.
 double outside(const std::array<Vec2, 3>& t, const Vec2& x, Eigen::Vector3d& at) {
   const double twice_area = cross(Vec2(t[1] - t[0]), Vec2(t[2] - t[0]));
@@ -28,7 +32,7 @@ std::vector<Box> boxes_of(const std::vector<Triangle>& triangles) {
   for (const Triangle& t : triangles) {
     Box box(t.x[0]);
     box.extend(t.x[1]).extend(t.x[2]);
-    const Vec2 margin = Vec2::Constant(0.1 * box.sizes().norm());
+    const Vec2 margin = Vec2::Constant(beside * box.sizes().norm());
     boxes.emplace_back(box.min() - margin, box.max() + margin);
   }
   return boxes;
@@ -47,6 +51,7 @@ std::vector<SizeField::Triangle> SizeField::triangles_of(const Mesh& mesh, const
   for (const Cell& cell : mesh.cells)
     for (int k = 2; k < corner_count(cell.kind); ++k) {
       Triangle& t = triangles.emplace_back();
+      t.body = cell.body;
       for (int a = 0; a < 3; ++a) {
         const int node = cell.nodes[a == 0 ? 0 : k - 2 + a];
         t.x[a] = mesh.nodes.row(node);
@@ -58,24 +63,33 @@ std::vector<SizeField::Triangle> SizeField::triangles_of(const Mesh& mesh, const
 
 double SizeField::operator()(const Vec2& x) const {
   constexpr double inside = 1e-6;  // in the triangle's own coordinates
-  double size = std::numeric_limits<double>::infinity(), nearest = size, at_nearest = size;
+  struct Nearest {
+    int body;
+    double depth, size;
+  };
+  std::vector<Nearest> bodies;  // a few
   const auto look_at = [&](int number) {
     const Triangle& t = triangles_[number];
     Eigen::Vector3d at;
     const double depth = outside(t.x, x, at);
     const double value = at(0) * t.size[0] + at(1) * t.size[1] + at(2) * t.size[2];
-    if (depth <= inside) size = std::min(size, value);
-    if (depth < nearest) {
-      nearest = depth;
-      at_nearest = value;
-    }
+    const auto of = std::ranges::find(bodies, t.body, &Nearest::body);
+    if (of == bodies.end())
+      bodies.push_back({t.body, depth, value});
+    else if (depth <= inside && of->depth <= inside)
+      *of = {t.body, depth, std::min(of->size, value)};
+    else if (depth < of->depth)
+      *of = {t.body, depth, value};
   };
   for (const int number : boxes_.meeting(Box(x))) look_at(number);
   constexpr int looked_at = 8;
-  if (!std::isfinite(nearest))  // far outside
+  if (bodies.empty())  // far outside
     for (const int number : boxes_.nearest(x, looked_at)) look_at(number);
-  if (nearest > inside) size = at_nearest;
-  return std::min(size, layers_(x));
+  const double near = std::max(beside, std::ranges::min(bodies, {}, &Nearest::depth).depth);
+  double size = layers_(x);
+  for (const Nearest& of : bodies)
+    if (of.depth <= near) size = std::min(size, of.size);
+  return size;
 }
 
 void limit_growth(const Mesh& mesh, double growth, VecX& sizes) {

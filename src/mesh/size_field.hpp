@@ -8,7 +8,7 @@
 namespace mortise {
 
 /// Sizes at the vertices of a mesh, linear over its triangles (quadrilaterals are cut in two); outside the mesh those
-/// of the nearest one. Where triangles of two bodies meet, and under layers, the least. `sizes`: one a node, length;
+/// of the nearest one. Where two bodies meet or overlap, and under layers, the least. `sizes`: one a node, length;
 /// those of second-order nodes are not looked at.
 class SizeField {
  public:
@@ -20,6 +20,7 @@ class SizeField {
   struct Triangle {
     std::array<Vec2, 3> x;
     std::array<double, 3> size;
+    int body;
   };
   explicit SizeField(std::vector<Triangle> triangles, std::vector<SizeLayers> layers);
   static std::vector<Triangle> triangles_of(const Mesh& mesh, const VecX& sizes);

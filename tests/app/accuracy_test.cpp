@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <sstream>
 #include <tuple>
 
@@ -436,6 +437,78 @@ between = ["foot", "top"]
     const ContactPair& pair = r->problem.pairs[0];
     for (const EdgeSamples& edge : pair.multiplier.samples) EXPECT_EQ(edge.pieces.size(), 1u) << radius;
   }
+}
+
+// Two bodies pressed together along a joint that leans, drawn at random: at its ends p goes as a small power of the
+// distance, which falls as the root of the edges' length.
+TEST(Accuracy, OfLeaningJointsTakesFewSolves) {
+  const TemporaryFolder folder;
+  std::mt19937 draw(40);
+  const auto between = [&](double from, double to) { return std::uniform_real_distribution(from, to)(draw); };
+  for (int k = 0; k < 5; ++k) {
+    const double lean = between(0.5, 2) * (k % 2 == 0 ? 1 : -1);
+    std::ostringstream geo;
+    geo << "a = " << lean << R"(;
+Point(1) = {-20, 0, 0}; Point(2) = {a, 0, 0}; Point(3) = {-a, 10, 0}; Point(4) = {-20, 10, 0};
+Point(5) = {a, 0, 0}; Point(6) = {20, 0, 0}; Point(7) = {20, 10, 0}; Point(8) = {-a, 10, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};
+Curve Loop(1) = {1 : 4}; Curve Loop(2) = {5 : 8}; Plane Surface(1) = {1}; Plane Surface(2) = {2};
+Physical Surface("l") = {1}; Physical Surface("r") = {2}; Physical Curve("left") = {4}; Physical Curve("right") = {6};
+Physical Curve("l_joint") = {2}; Physical Curve("r_joint") = {8}; Physical Curve("base") = {5};
+MeshSize{:} = 1;
+)";
+    folder.write("s.geo", geo.str());
+    const auto r = solve_to_accuracy(read_scene(folder.write("s.toml", R"(
+mesh.file = "s.geo"
+materials = { soft = { young = 70e3, poisson = 0.33 }, hard = { young = )" +
+                                                                           std::to_string(between(50e3, 400e3)) +
+                                                                           R"(, poisson = 0.3 } }
+bodies = { l = "soft", r = "hard" }
+boundary = [
+  { on = "left", displacement = { x = 0, y = 0 } },
+  { on = "right", displacement = { x = -0.01 } }, { on = "base", displacement = { y = 0 } },
+]
+contact = [{ between = ["l_joint", "r_joint"], initial_gap = "closed" }]
+accuracy.value = "0.3%"
+)")));
+    ASSERT_TRUE(r && r->accuracy->reached()) << lean;
+    EXPECT_LE(r->accuracy->solves.size(), 4u) << lean;
+  }
+}
+
+// A roller drawn into a block, its curve inside the block: edges as short as those of a roller that is drawn touching.
+TEST(Accuracy, OfRoundBodiesDrawnIntoOthersIsReached) {
+  const TemporaryFolder folder;
+  for (const double overlap : {0.2, 0.05, 0.01, 0.})
+    for (const char* side : {"rim", "top"}) {
+      std::ostringstream geo;
+      geo << "d = " << overlap << R"(;
+Point(1) = {0, 4 - d, 0}; Point(2) = {0, -d, 0}; Point(3) = {4, 4 - d, 0}; Circle(1) = {2, 1, 3};
+Line(2) = {3, 1}; Line(3) = {1, 2}; Curve Loop(1) = {1 : 3}; Plane Surface(1) = {1};
+Point(4) = {0, -9, 0}; Point(5) = {9, -9, 0}; Point(6) = {9, 0, 0}; Point(7) = {0, 0, 0};
+Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 4}; Curve Loop(2) = {4 : 7}; Plane Surface(2) = {2};
+Physical Surface("roller") = {1}; Physical Surface("block") = {2}; Physical Curve("axis") = {3, 7};
+Physical Curve("rim") = {1}; Physical Curve("top") = {6}; Physical Curve("ground") = {4}; Physical Curve("head") = {2};
+MeshSize{:} = 1.5;
+)";
+      folder.write("s.geo", geo.str());
+      const auto r = solve_to_accuracy(read_scene(folder.write("s.toml", R"(
+mesh.file = "s.geo"
+materials.steel = { young = 210e3, poisson = 0.3 }
+bodies = { "*" = "steel" }
+boundary = [
+  { on = "axis", displacement = { x = 0 } }, { on = "ground", displacement = { y = 0 } },
+  { on = "head", pressure = 100 },
+]
+contact = [{ between = ["rim", "top"], multipliers_on = ")" + std::string(side) +
+                                                                             R"(" }]
+accuracy.value = "1%"
+)")));
+      ASSERT_TRUE(r && r->accuracy->reached()) << overlap << " " << side;
+      EXPECT_LE(r->accuracy->solves.size(), 5u) << overlap << " " << side;
+      EXPECT_LE(free_unknowns(*r), 20000) << overlap << " " << side;
+    }
 }
 
 }  // namespace

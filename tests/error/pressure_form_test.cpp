@@ -9,6 +9,7 @@
 #include <random>
 
 #include "app/solve_scene.hpp"
+#include "error/fitted_pressure.hpp"
 #include "fem/quadrature.hpp"
 
 namespace mortise::test {
@@ -186,6 +187,40 @@ TEST(FittedPressure, OfHertzsSphereIsNearerThanTheMultiplier) {
     all_h += off_h;
   }
   EXPECT_LT(std::sqrt(all), std::sqrt(all_h) / 3);
+}
+
+// Bars so wide that they hold anything: p* that would swing by more than the multiplier's noise is none.
+TEST(FittedPressure, IsNoneWhereItWouldSwingMoreThanTheMultiplier) {
+  Scene scene = read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/hertz_sphere.toml");
+  scene.mesh_parameters["n_upper"] = 80;
+  scene.mesh_parameters["n_lower"] = 100;
+  Results r = solve_scene(scene);
+  estimate(r);
+  const PressureEstimate smooth = r.estimate->pressures[0];
+  const FittedPiece& fitted = smooth.fitted.pieces.at(0);
+  std::mt19937 draw(39);
+  int taken = 0, left = 0;
+  for (int k = 0; k < 40; ++k) {
+    const double size = std::pow(10, std::uniform_real_distribution(-5., 0.)(draw)) * smooth.line.p.maxCoeff();
+    PressureEstimate e = smooth;
+    for (Eigen::Index i = 0; i < e.line.p.size(); ++i) {
+      if (e.line.p(i) > 0) e.line.p(i) += size * std::normal_distribution()(draw);
+      e.local.raise(i, e.line.p.maxCoeff());
+    }
+    find_fitted_pressure(r.problem, r.problem.pairs[0], e);
+    double off = 0, off_h = 0;
+    for (Eigen::Index i = 0; i < e.line.p.size(); ++i) {
+      if (!(e.line.p(i) > 0) || e.local.border[i]) continue;
+      const double exact = fitted.form(e.line.s(i));
+      const double p = e.fitted.pieces.empty() ? e.line.p(i) : e.fitted.pieces[0].form(e.line.s(i));
+      off += std::pow(p - exact, 2);
+      off_h += std::pow(e.line.p(i) - exact, 2);
+    }
+    EXPECT_LE(off, 2 * off_h) << size;
+    (e.fitted.pieces.empty() ? left : taken)++;
+  }
+  EXPECT_GT(taken, 10);
+  EXPECT_GT(left, 10);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "support/two_plates.hpp"
 
 namespace mortise {
@@ -34,6 +36,25 @@ TEST(SizeField, TakesTheLeastWhereBodiesMeetAndUnderLayers) {
   EXPECT_EQ(field(Vec2(0.31, 0.3)), 0.5);
   EXPECT_NEAR(field(Vec2(0.8, 0.6)), 1e-3, 1e-15);
   EXPECT_NEAR(field(Vec2(0.8, 0.5)), 1e-3 + 0.2, 1e-12);
+}
+
+// A disc of which each edge stands for an arc, in a block that is as coarse as the disc is large: drawn interference.
+TEST(SizeField, IsThatOfABodyOnItsCurvesInsideAnotherBody) {
+  constexpr int edges = 12;
+  Mesh mesh;
+  mesh.nodes.resize(edges + 5, 2);
+  const auto on_disc = [](double k) {
+    return Vec2(std::cos(k * std::numbers::pi / 6), std::sin(k * std::numbers::pi / 6));
+  };
+  for (int k = 0; k < edges; ++k) mesh.nodes.row(k) = on_disc(k).transpose();
+  mesh.nodes.bottomRows(5) << 0, 0, -4, -9, 4, -9, 4, -0.9, -4, -0.9;
+  for (int k = 0; k < edges; ++k) mesh.cells.push_back({CellKind::tri3, 0, {k, (k + 1) % edges, edges}});
+  for (const int k : {2, 3}) mesh.cells.push_back({CellKind::tri3, 1, {edges + 1, edges + k, edges + k + 1}});
+  VecX sizes = VecX::Constant(edges + 5, 3);
+  sizes.head(edges + 1).setConstant(0.01);
+  const SizeField field(mesh, sizes, {});
+  for (int k = 0; k < 10 * edges; ++k) EXPECT_NEAR(field(on_disc(0.1 * k)), 0.01, 1e-12) << k;
+  EXPECT_NEAR(field(Vec2(0, -1.5)), 3, 1e-12);
 }
 
 TEST(SizeField, GrowsNoFasterThanItMay) {
