@@ -12,6 +12,19 @@
 namespace mortise {
 namespace {
 
+// At how many of its ends contact ends within the curve: at one, it is half of an ellipse.
+int ends_within(const ContactResults& contact) {
+  const double round_off = 1e-9 * contact.length;
+  if (contact.length_in_contact > contact.length - round_off) return 0;
+  if (!contact.ends) return 2;
+  return ((*contact.ends)[0] > round_off) + ((*contact.ends)[1] < contact.length - round_off);
+}
+
+// What p that falls to zero at both ends as an ellipse is off by in L2, shifted by a part of its width.
+double of_ellipse(double shift) {
+  return shift > 0 ? std::min(1., shift * std::sqrt(3 * std::max(1., 0.9 - std::log(shift)))) : 0;
+}
+
 // By how much an edge turns, radians.
 double rotation(const Points& nodes, const VecX& u, const Edge& edge) {
   const Vec2 chord = (nodes.row(edge.nodes[1]) - nodes.row(edge.nodes[0])).transpose();
@@ -53,6 +66,11 @@ Largest largest_in_contact(const Results& r) {
       worst.take({along, x, 100 * along, "the sides slide along one another by ", " % of the length in contact"});
       worst.take({turned * turned, x, turned, "a side turns by ", " radians"});
     }
+    const int within = ends_within(contact);
+    if (within == 0) continue;  // p ends with the curve and moves with it
+    if (const auto all = line_motion(r.problem.mesh.nodes, pair, contact, r.solution.u))
+      worst.take({of_ellipse(all->slid * within / 2), all->position, 100 * all->slid,
+                  "the sides slide along one another by ", " % of the length in contact, all in one direction,"});
   }
   return worst;
 }

@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <fstream>
+#include <random>
 
+#include "app/accuracy.hpp"
 #include "app/solve_scene.hpp"
 #include "results/data_warnings.hpp"
 #include "support/plate_scenes.hpp"
@@ -152,6 +154,42 @@ TEST(Notes, SidesThatSlideAreALargeDisplacement) {
   EXPECT_EQ(notes_with(r, "the sides slide along one another by 5 % of the length in contact"), 1) << all(r);
   s.boundaries.back().what = Displacement{0.004, {}};
   EXPECT_EQ(notes_with(solve_scene(s, mesh_of({})), "large displacements"), 0);
+}
+
+// A shaft that slides down the flank it is pressed on, by loads drawn at random: what is said of p is what the normals
+// of one curve instead of the other's change it by.
+TEST(Notes, AContactThatSlidesHasItsPressureShifted) {
+  std::mt19937 draw(41);
+  for (int k = 0; k < 3; ++k) {
+    const double load = std::pow(10, std::uniform_real_distribution(7.5, 8.7)(draw));
+    std::array<std::vector<ContactNode>, 2> nodes;
+    double said = 0;
+    for (const int side : {0, 1}) {
+      const auto r = solve_to_accuracy(read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/v_block.toml",
+                                                  {{"accuracy.value", "0.5%"},
+                                                   {"body_force.0.force", "[0, -" + std::to_string(load) + "]"},
+                                                   {"contact.0.multipliers_on", side == 0 ? "shaft_foot" : "flank"}}));
+      ASSERT_TRUE(r && r->accuracy->reached());
+      const ContactResults& contact = r->recovery.contacts[0];
+      nodes[side] = side == 0 ? contact.multiplier.nodes : contact.opposite.nodes;
+      for (const std::string& note : r->warnings)
+        if (const auto at = note.find("all in one direction"); at != std::string::npos)
+          said = std::stod(note.substr(note.find("p may be off by ") + 16)) / 100;
+    }
+    const auto p = [&](int side, double s) {
+      const auto next = std::ranges::upper_bound(nodes[side], s, {}, &ContactNode::s);
+      if (next == nodes[side].begin() || next == nodes[side].end()) return 0.;
+      const ContactNode &a = *std::prev(next), &b = *next;
+      return a.p + (s - a.s) / (b.s - a.s) * (b.p - a.p);
+    };
+    double off = 0, all_of_it = 0;
+    for (double s = 0; s < nodes[0].back().s; s += nodes[0].back().s / 1e5) {
+      off += std::pow(p(0, s) - p(1, s), 2);
+      all_of_it += std::pow(p(0, s), 2);
+    }
+    EXPECT_NEAR(std::sqrt(off / all_of_it), said, 0.2 * said) << load;
+    EXPECT_GT(said, 0.01) << load;
+  }
 }
 
 TEST(Notes, ATurnOfTheWholeIsALargeDisplacement) {
