@@ -13,15 +13,10 @@ namespace {
 constexpr double linear_cell = 0.01, linear_piece = 0.05, small_piece = 1e-7, hidden_in_cell = 1. / 256;
 constexpr std::size_t most_cell_pieces = 400;
 constexpr int blind_splits = 6;  // 64 pieces where no range is known
-constexpr int piece_points = 9;
+constexpr int rule_side = 4, piece_points = rule_side * rule_side;
 
 CellPoint cell_point(const Points& nodes, const Cell& cell, const Vec2& xi) {
   return cell_point(nodes, cell, cell_shape(cell.kind, xi));
-}
-
-CellPiece whole(CellKind kind) {
-  if (corner_count(kind) == 3) return {3, {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(0, 0)}};
-  return {4, {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}};
 }
 
 Vec2 centre(const CellPiece& piece) {
@@ -139,9 +134,14 @@ bool all_have_ranges(const std::vector<ScaledField>& fields) {
 
 }  // namespace
 
+CellPiece whole_cell(CellKind kind) {
+  if (corner_count(kind) == 3) return {3, {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(0, 0)}};
+  return {4, {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}};
+}
+
 std::vector<CellPiece> resolving_pieces(const Points& nodes, const Cell& cell, const std::vector<ScaledField>& fields) {
   const Looking looking(nodes, cell, fields);
-  const Looked all = looking.look(whole(cell.kind));
+  const Looked all = looking.look(whole_cell(cell.kind));
   const bool blind = !all_have_ranges(fields);
   if (!blind && !all.hidden && all.error <= linear_cell) return {};
   bool linear = all.error <= linear_cell;
@@ -177,7 +177,7 @@ std::vector<CellPiece> resolving_pieces(const Points& nodes, const Cell& cell, c
 CellRule piece_rule(const std::vector<CellPiece>& pieces) {
   static const ForEachKind<CellRule> rules = [] {
     ForEachKind<CellRule> of;
-    for (const CellKind kind : all_cell_kinds) of[int(kind)] = product_rule(kind, 3);
+    for (const CellKind kind : all_cell_kinds) of[int(kind)] = product_rule(kind, rule_side);
     return of;
   }();
   CellRule all;

@@ -24,12 +24,15 @@ struct CellPiece {
 };
 
 /// Pieces of a cell on each of which the fields vary nearly linearly (by 0.05 of the scale) or which are so small that
-/// it does not matter (1e-7 of the cell, at most 400 pieces): 3 x 3 points a piece then integrate them, of a jump to
-/// 1e-3 of the cell or better. Empty where they are linear to 0.01 on the whole cell: its own rule will do. What lies
+/// it does not matter (1e-7 of the cell, at most 400 pieces): 4 x 4 points a piece then integrate them, of a jump to
+/// 1e-3 of the cell or better. Empty where they are linear to 0.01 on the whole cell, which need not be cut. What lies
 /// between samples is found by the fields' ranges; where one is not known it is looked at in 64 pieces first.
 std::vector<CellPiece> resolving_pieces(const Points& nodes, const Cell& cell, const std::vector<ScaledField>& fields);
 
-/// 3 x 3 points on each piece.
+/// All of a cell.
+CellPiece whole_cell(CellKind kind);
+
+/// 4 x 4 points on each piece: of degree 6, so that with the shape functions what smooth fields leave is 1e-8 of them.
 CellRule piece_rule(const std::vector<CellPiece>& pieces);
 
 /// Functions less the linear one that stands for them.

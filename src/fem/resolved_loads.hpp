@@ -8,7 +8,7 @@
 
 namespace mortise {
 
-/// The rule for functions of place on a cell where its own does not do (fem/cell_cuts.hpp); no points: it does.
+/// The rule for functions of place on a cell (fem/cell_cuts.hpp); no points: its own, there are none.
 using CellRules = std::function<CellRule(const Cell&)>;
 
 /// As the functions of these names in assembly.hpp; empty `rules` and `cuts`: the same as they.

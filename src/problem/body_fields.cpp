@@ -59,4 +59,10 @@ std::vector<CellPiece> BodyFields::pieces(const Cell& cell) const {
   return resolving_pieces(mesh_.nodes, cell, fields_[cell.body]);
 }
 
+CellRule BodyFields::rule(const Cell& cell) const {
+  if (!any(cell.body)) return {};
+  const std::vector<CellPiece> cut = pieces(cell);
+  return piece_rule(cut.empty() ? std::vector{whole_cell(cell.kind)} : cut);
+}
+
 }  // namespace mortise

@@ -22,8 +22,8 @@ class BodyFields {
 
   /// resolving_pieces of a cell for the fields of its body.
   std::vector<CellPiece> pieces(const Cell& cell) const;
-  /// The rule on them; without points where the cell's own does.
-  CellRule rule(const Cell& cell) const { return piece_rule(pieces(cell)); }
+  /// The rule on them, or on the whole cell where there are none; without points where no field of its body varies.
+  CellRule rule(const Cell& cell) const;
 
  private:
   const Mesh& mesh_;

@@ -21,7 +21,7 @@ double integral(const std::string& text, CellKind kind, int* cut = nullptr) {
   for (const Cell& cell : mesh.cells) {
     const auto pieces = resolving_pieces(mesh.nodes, cell, {{&field, FieldRange(field), 1}});
     if (cut) *cut += pieces.empty() ? 0 : 1;
-    const CellRule rule = pieces.empty() ? product_rule(cell.kind, 3) : piece_rule(pieces);
+    const CellRule rule = piece_rule(pieces.empty() ? std::vector{whole_cell(cell.kind)} : pieces);
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const CellShape shape = cell_shape(cell.kind, rule.points[q]);
       Vec2 x = Vec2::Zero();
