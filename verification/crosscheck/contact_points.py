@@ -47,8 +47,12 @@ def cross(a, b):
 # ---- The curve through the vertices ----
 
 
-def kinks(x):
-    """Inner vertices at which the curve turns: much more than the edges beside turn, or by more than 60 degrees."""
+def is_closed(x):
+    return (x[0] == x[-1]).all()
+
+
+def inner_kinks(x):
+    """Vertices between the ends at which the curve turns: much more than at those beside, or by more than 60 degrees."""
     along = np.diff(x, axis=0)
     turn = np.abs(np.arctan2(cross(along[:-1], along[1:]), np.sum(along[:-1] * along[1:], axis=1)))
     beside = np.minimum(np.append(np.inf, turn[:-1]), np.append(turn[1:], np.inf))
@@ -57,6 +61,14 @@ def kinks(x):
     inner = (np.arange(len(turn)) > 0) & (np.arange(len(turn)) < len(turn) - 1)
     alone = inner & (turn > LEAST_KINK) & (turn > 3 * most)
     return 1 + np.flatnonzero((turn > KINK) & ~alike | alone)
+
+
+def kinks(x):
+    """Of an open curve the inner ones; of a closed one all, its start as 0."""
+    if not is_closed(x):
+        return inner_kinks(x)
+    found = inner_kinks(np.concatenate([x[-3:-1], x, x[1:3]])) - 2
+    return found[(found >= 0) & (found < len(x) - 1)]
 
 
 def tangents(x):
@@ -71,17 +83,22 @@ def tangents(x):
     return np.array(found)
 
 
-def smooth_cubics(x):
+def smooth_cubics(x, slope):
     """Of each edge: Hermite's, with these tangents at its ends."""
-    length, slope = np.linalg.norm(np.diff(x, axis=0), axis=1)[:, None], tangents(x)
+    length = np.linalg.norm(np.diff(x, axis=0), axis=1)[:, None]
     a, b, ta, tb = x[:-1], x[1:], length * slope[:-1], length * slope[1:]
     return np.stack([a, ta, 3 * (b - a) - 2 * ta - tb, 2 * (a - b) + ta + tb], axis=1)
 
 
 def chain_through(x):
-    """The curve through vertices, smooth between its kinks."""
-    ends = [0, *kinks(x), len(x) - 1]
-    return Chain(x, np.concatenate([smooth_cubics(x[a : b + 1]) for a, b in zip(ends, ends[1:])]))
+    """The curve through vertices, smooth between its kinks; of a closed one across its start too."""
+    turns = kinks(x)
+    if is_closed(x) and len(turns) == 0:
+        return Chain(x, smooth_cubics(x, tangents(np.concatenate([x[-4:-1], x, x[1:4]]))[3:-3]))
+    start = turns[0] if is_closed(x) else 0
+    from_start, ends = np.concatenate([x[start:], x[1 : start + 1]]), sorted({0, *(turns - start), len(x) - 1})
+    parts = [from_start[a : b + 1] for a, b in zip(ends, ends[1:])]
+    return Chain(x, np.roll(np.concatenate([smooth_cubics(part, tangents(part)) for part in parts]), start, axis=0))
 
 
 def vertices_of(body, label):

@@ -96,6 +96,23 @@ def test_a_closed_curve_comes_back_to_its_start():
     assert cp.vertices_of(body, 1).tolist() == square[[0, 1, 2, 3, 0]].tolist()
 
 
+def test_a_closed_curve_has_no_end_at_its_start():
+    """A circle's normals are as good there as elsewhere; a square's corners are kinks, whichever vertex is the first."""
+    angle = np.linspace(0, 2 * np.pi, 33)
+    circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    circle[-1] = circle[0]
+    chain = cp.chain_through(circle)
+    off = [cp.cross(chain.x[edge], chain.normal(edge, 0)) for edge in range(32)]
+    np.testing.assert_allclose(off, off[0], atol=1e-13)
+    square = np.array([[0, 0], [1, 0], [2, 0], [2, 1], [2, 2], [1, 2], [0, 2], [0, 1]], dtype=float)
+    for first in range(8):
+        x = np.roll(square, -first, axis=0)
+        chain = cp.chain_through(np.concatenate([x, x[:1]]))
+        assert sorted((cp.kinks(chain.x) + first) % 8) == [0, 2, 4, 6]
+        for edge in range(8):
+            np.testing.assert_allclose(chain.curve(edge, 0.3), chain.place(edge, 0.3), atol=1e-14)
+
+
 def quarter(radius, edges):
     angle = np.linspace(0, np.pi / 2, edges + 1)
     return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
