@@ -132,6 +132,14 @@ def test_an_unknown_case_is_refused_with_the_nearest(table):
         cases.choose(table, ["timing/*"], quick=True)
 
 
+def test_ctest_runs_every_quick_case(table):
+    tests = launch.MORTISE.parent / "tests/CTestTestfile.cmake"
+    if not tests.exists():
+        pytest.skip("a build without tests")
+    globs = re.findall(r'crosscheck\.py" "--quick" "--case" "([^"]+)"', tests.read_text())
+    assert [case.name for case in table if case.quick and not cases.matches(case.name, globs)] == []
+
+
 @pytest.mark.parametrize("text", ["8", "8x", "8x10x12", "axb", "0x8"])
 def test_a_mesh_that_is_none_is_refused(text):
     with pytest.raises(cases.StudyError, match="expected two numbers"):

@@ -27,6 +27,9 @@ CASE = "same_discretisation/parabola_1/8x10/P2-P1/segments/upper_contact"
 OF_CURVES = CASE + "/curve"
 WETTED = "same_discretisation/wetted/8x10/P1-P1/segments/block_top/unilateral"
 SECTOR = "same_discretisation/sector/6x8/P2-P1/segments/second/unilateral"
+MANUFACTURED = "same_discretisation/manufactured/8x10/P1-P1/segments/upper_contact"
+FOUNDED = "same_discretisation/founded/8x10/P2-P1/segments/lower_contact/scene"
+PIN = "same_discretisation/pin/20x28/P1-P1/segments/hole/unilateral/curve"
 LIMIT = 1e-8
 
 
@@ -72,7 +75,7 @@ def test_a_program_that_fails_is_told_with_its_last_lines(freefem, monkeypatch, 
     assert "exit status 3" in said and "bad news" in said and f"error: {CASE}\n" in said
 
 
-@pytest.mark.parametrize("name", [CASE, OF_CURVES, WETTED, SECTOR])
+@pytest.mark.parametrize("name", [CASE, OF_CURVES, WETTED, SECTOR, MANUFACTURED, FOUNDED, PIN])
 def test_the_right_result_passes(freefem, tmp_path, name):
     result = judged(name, tmp_path)
     assert result.status == "ok" and max(figure.value for figure in result.figures) <= LIMIT
