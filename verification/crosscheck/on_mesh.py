@@ -20,7 +20,7 @@ METHOD = {"multipliers": "linear", "integration": "segments", "gauss": 5}
 
 
 def line(scene, mesh, curves, folder):
-    """Rows: pair, x, y, p, weighted gap. Straight sides; P2 on 6-node triangles or two of each quadrilateral, P1 on
+    """Rows: pair, x, y, p, weighted gap, a fluid's part of p. Straight sides; P2 on 6-node triangles or two of each quadrilateral, P1 on
     linear cells; gaps and segments as of the cross-check. StudyError where FreeFEM has no such model."""
     entries = [entry for _, entry in scenes.contacts(scene)]
     for entry in entries:

@@ -41,7 +41,7 @@ def execute(run):
             said = next((short for long, short in FAILURES.items() if long in str(failure)), str(failure))
             return {"failed": said, "error": None, "seconds": None}
         seconds = launch.processor_seconds() - before
-    _, x, y, p, _ = lines.T
+    _, x, y, p, *_ = lines.T
     at = benchmark_cases.places(case, {"x": x, "y": y})
     return {"failed": "", "error": benchmark_cases.error(case, at, p), "seconds": seconds}
 
