@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -34,6 +35,43 @@ std::string without_mesh(const std::string& geo) {
   std::string text;
   for (std::string line; std::getline(lines, line);)
     if (std::ranges::none_of(dropped, [&](const char* word) { return line.starts_with(word); })) text += line + "\n";
+  return text;
+}
+
+bool is_closed(int curve) {
+  gmsh::vectorpair ends;
+  gmsh::model::getBoundary({{1, curve}}, ends, false, false);
+  return ends.size() == 2 && ends[0] == ends[1];
+}
+
+// gmsh writes one Curve Loop with all curves of a surface and sorts them as it reads it: but not those that are loops
+// by themselves, which are loops of their own here.
+std::string with_loops_apart(const std::string& geo) {
+  gmsh::vectorpair surfaces;
+  gmsh::model::getEntities(surfaces, 2);
+  int last = std::ranges::max(surfaces).second;  // a loop has its surface's tag
+  std::istringstream lines(geo);
+  std::string text, loops;
+  for (std::string line; std::getline(lines, line);) {
+    int tag = 0, from = 0;
+    if (std::sscanf(line.c_str(), "Curve Loop(%d) = {%n", &tag, &from) == 1 && from > 0) {
+      std::string open;
+      loops.clear();
+      std::istringstream curves(line.substr(from));
+      for (int curve = 0; curves >> curve; curves.ignore())
+        if (is_closed(std::abs(curve))) {
+          text += "Curve Loop(" + std::to_string(++last) + ") = {" + std::to_string(curve) + "};\n";
+          loops += ", " + std::to_string(last);
+        } else {
+          open += (open.empty() ? "" : ", ") + std::to_string(curve);
+        }
+      line = open.empty() ? "" : "Curve Loop(" + std::to_string(tag) + ") = {" + open + "};";
+      loops = open.empty() ? loops.substr(2) : std::to_string(tag) + loops;
+    } else if (std::sscanf(line.c_str(), "Plane Surface(%d) = {%n", &tag, &from) == 1 && from > 0) {
+      line = line.substr(0, from) + loops + "};";
+    }
+    text += line + "\n";
+  }
   return text;
 }
 
@@ -95,7 +133,7 @@ FreeGeometry read_free_geometry(GmshSession& session, const std::string& file,
   require_drawn(file);
   FreeGeometry geometry{.file = file, .parameters = parameters, .text = {}, .groups = open_groups()};
   if (drawn_by_opencascade(file)) return geometry;
-  geometry.text = without_mesh(unrolled(session, file));
+  geometry.text = with_loops_apart(without_mesh(unrolled(session, file)));
   geometry.shift = move_to_origin(geometry.text);
   return geometry;
 }

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/vectors.hpp"
@@ -210,6 +211,61 @@ TEST(FreeMesher, AGeometryOfOpenCascadeToo) {
   for (const Cell& cell : mesh.cells) EXPECT_EQ(cell.kind, CellKind::tri6);
   EXPECT_NEAR(free_area(mesh, 0), M_PI / 4, 1e-4);
   EXPECT_NEAR(free_area(mesh, 1), 2, 1e-12);
+}
+
+// Round bodies with holes in them, at random: each rim one closed curve, which is a loop by itself, or two.
+TEST(FreeMesher, LoopsOfOneClosedCurve) {
+  const TemporaryFolder folder;
+  std::mt19937 random(5);
+  const auto one_of = [&](int count) { return int(random() % unsigned(count)); };
+  for (int variant = 0; variant < 15; ++variant) {
+    const bool opencascade = variant % 5 == 4;
+    std::ostringstream geo;
+    geo << (opencascade ? "SetFactory(\"OpenCASCADE\");\n" : "") << "Mesh.ElementOrder = 2; Mesh.MeshSizeMax = 0.15;\n";
+    int points = one_of(50), curves = one_of(50), loops = 0;
+    std::string list;
+    const auto draw = [&](const Vec2& centre, double radius) {
+      const bool whole = one_of(3) > 0;
+      std::string kind = one_of(2) == 0 ? "Spline" : "BSpline";
+      if (whole && !opencascade && kind == "BSpline") kind = "Spline";  // gmsh 4.8 has it pass beside its own end
+      points += 10;                                                     // OpenCASCADE adds some
+      const int first = points + 1, turn = one_of(2) == 0 ? 1 : -1;
+      for (int i = 0; i < 8; ++i) {
+        const double angle = turn * std::numbers::pi * i / 4;
+        geo << "Point(" << ++points << ") = {" << centre.x() + radius * std::cos(angle) << ", "
+            << centre.y() + radius * std::sin(angle) << ", 0};\n";
+      }
+      const auto add = [&](int from, int to) {
+        geo << kind << "(" << ++curves << ") = {" << from << ":" << to
+            << (to == points ? ", " + std::to_string(first) : "") << "};\n";
+      };
+      const int from = curves + 1;
+      if (whole) {
+        add(first, points);
+      } else {
+        add(first, first + 4);
+        add(first + 4, points);
+      }
+      geo << "Curve Loop(" << ++loops << ") = {" << from << ":" << curves << "}; Physical Curve(" << loops << ") = {"
+          << from << ":" << curves << "};\n";
+      list += (list.empty() ? "" : ", ") + std::to_string(loops);
+    };
+    for (int body = 1; body <= 2; ++body) {
+      const int holes = one_of(4);
+      list.clear();
+      const Vec2 centre(10. * body, -2);
+      draw(centre, 1.7);
+      for (int i = 0; i < holes; ++i) draw(centre + Vec2(0.8 * (i - 1), 0.1 * i), 0.35);
+      geo << "Plane Surface(" << body << ") = {" << list << "}; Physical Surface(" << body << ") = {" << body << "};\n";
+    }
+    const std::string file = folder.write("a.geo", geo.str());
+    SCOPED_TRACE(geo.str());
+    const Mesh own = load_mesh(file, {}), mesh = FreeMesher(file, {}).mesh([](const Vec2&) { return 0.15; });
+    ASSERT_EQ(mesh.bodies, own.bodies);
+    EXPECT_EQ(boundary_names(mesh), boundary_names(own));
+    for (int body = 0; body < 2; ++body)
+      EXPECT_NEAR(free_area(mesh, body), free_area(own, body), 1e-3 * free_area(own, body));
+  }
 }
 
 TEST(FreeMesher, QuadrilateralsOnRequest) {
