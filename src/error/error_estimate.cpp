@@ -346,6 +346,14 @@ double ErrorEstimate::pressure_square() const {
 double ErrorEstimate::pressure() const {
   return error_safety * error_norm(pressures, 1, 1) / std::sqrt(pressure_square());
 }
+double ErrorEstimate::pressure_of(const std::vector<std::size_t>& pairs) const {
+  double error2 = 0, p2 = 0;
+  for (const std::size_t k : pairs) {
+    error2 += pressures[k].local2 + pressures[k].far2;
+    p2 += pressures[k].p2;
+  }
+  return error_safety * std::sqrt(error2 / p2);
+}
 double ErrorEstimate::line() const { return error_norm(pressures, 1, 0) / std::sqrt(pressure_square()); }
 double ErrorEstimate::slopes() const {
   double square = 0;

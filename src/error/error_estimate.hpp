@@ -41,6 +41,7 @@ struct ErrorEstimate {
   /// L2 norms of the estimated error of p over that of p on all contact lines, singular points left out: of the whole,
   /// and of its two parts before the safety factor. NaN where nothing is loaded or all is excluded.
   double pressure() const;
+  double pressure_of(const std::vector<std::size_t>& pairs) const;  ///< likewise, of these pairs alone
   double line() const;
   double slopes() const;  ///< the line's part without what p swings by
   double far_field() const;

@@ -54,6 +54,11 @@ FarError far_at(const PressureEstimate& e, Eigen::Index i) {
   return found;
 }
 
+// Whether p is known better than to its own size.
+bool is_known(const PressureEstimate& e, Eigen::Index i) {
+  return std::abs(e.line.whole(i)) > (e.local.least.size() > 0 ? e.local.least(i) : 0);
+}
+
 }  // namespace
 
 void find_excluded(double part, PressureEstimate& e) {
@@ -68,13 +73,15 @@ void find_excluded(double part, PressureEstimate& e) {
       if (point.is_unbounded() && (line.position[i] - point.position).norm() < e.excluded_distance) e.excluded[i] = 1;
   // A mesh too coarse to tell what is near such a point from the rest of the contact: all of it counts.
   bool left = false;
-  for (Eigen::Index i = 0; i < line.p.size(); ++i) left = left || (line.loaded[i] && line.p(i) != 0 && !e.excluded[i]);
+  for (Eigen::Index i = 0; i < line.p.size(); ++i)
+    left = left || (line.loaded[i] && line.p(i) != 0 && !e.excluded[i] && is_known(e, i));
   if (!left) e.excluded.assign(line.p.size(), 0);
 }
 
 void find_bars(PressureEstimate& e) {
   const PressureLine& line = e.line;
   e.local2 = e.far2 = e.p2 = 0;
+  bool known = false;
   const VecX local = e.local.whole();
   e.bar = e.local.pointwise(line);
   if (e.local.least.size() > 0) e.bar = e.bar.cwiseMax(e.local.least);
@@ -89,7 +96,9 @@ void find_bars(PressureEstimate& e) {
     e.far2 += (far.mean * far.mean + fluctuation * fluctuation) * line.h(i);
     const double p = line.whole(i);
     e.p2 += p * p * line.h(i);
+    known = known || is_known(e, i);
   }
+  if (!known) e.local2 = std::max(e.local2, e.p2);
 }
 
 }  // namespace mortise

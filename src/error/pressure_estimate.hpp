@@ -23,7 +23,8 @@ struct PressureEstimate {
   std::vector<SingularPoint> singular;             ///< of its loaded part
   double excluded_distance = 0;  ///< from a point where p has no limit: there p is left out of the norm
   std::vector<char> excluded;    ///< of each vertex
-  /// Squares of L2 norms along what is not excluded, stress^2 length: of the local error, the far field's and p.
+  /// Squares of L2 norms along what is not excluded, stress^2 length: of the local error, the far field's and p. Where
+  /// p is known at no vertex better than to its own size, the local error is no less than that.
   double local2 = 0, far2 = 0, p2 = 0;
 
   /// Whether a vertex is in these.

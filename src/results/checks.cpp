@@ -113,14 +113,6 @@ void balance_of_contact(const Results& r, std::vector<Check>& checks) {
   checks.push_back({"contact moments equal and opposite", moment, 1e-10});
 }
 
-// A pressure that matters to no body, stress: 1e-3 of the largest stress in any, or round-off. It does not change
-// where bodies are moved as a whole.
-double negligible_pressure(const Results& r, double round_off) {
-  const double stress =
-      r.recovery.stress.points.size() > 0 ? r.recovery.stress.points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0;
-  return largest(1e-3 * stress, round_off);
-}
-
 // p >= 0, gap >= 0 and p gap = 0 on unilateral rows, in the sense of the multipliers (docs/theory.md eq. 24).
 void unilateral_checks(const Results& r, double limit, std::vector<Check>& checks) {
   const SaddlePointSystem& s = r.problem.discretisation.system;
@@ -134,7 +126,8 @@ void unilateral_checks(const Results& r, double limit, std::vector<Check>& check
   gap = gap.cwiseQuotient(s.row_scale).eval();
   const double displacement = largest_entry(solution.u),
                round_off = round_off_pressure(r.problem.mesh, r.problem.pairs, s.stiffness_scale, displacement),
-               least = negligible_pressure(r, round_off), p_size = largest(10 * least, largest_entry(solution.lambda));
+               least = largest(negligible_pressure(r), round_off),
+               p_size = largest(10 * least, largest_entry(solution.lambda));
   double tension = 0, penetration = 0, product = 0, dip = 0;
   for (Eigen::Index a = 0; a < gap.size(); ++a) {
     if (!unilateral[a]) continue;
@@ -153,6 +146,12 @@ void unilateral_checks(const Results& r, double limit, std::vector<Check>& check
 }
 
 }  // namespace
+
+double negligible_pressure(const Results& r) {
+  return r.recovery.stress.points.size() > 0
+             ? 1e-3 * r.recovery.stress.points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>()
+             : 0;
+}
 
 std::string to_string(Status status) {
   switch (status) {

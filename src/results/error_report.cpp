@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <sstream>
 
+#include "base/each_once.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
 #include "contact/singular_points.hpp"
 #include "error/force_errors.hpp"
 #include "error/pressure_form.hpp"
+#include "results/checks.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -21,14 +25,69 @@ std::string percent(double part) {
   return text.str();
 }
 
+// The one that does most to the windows' means of these pairs.
+const Cell& worst_cell(const Results& r, const std::vector<std::size_t>& pairs) {
+  const FarField& far = r.estimate->far;
+  std::vector<std::size_t> first{0};  // window of each pair
+  for (const PressureEstimate& e : r.estimate->pressures) first.push_back(first.back() + e.windows.size());
+  std::vector<int> duals;
+  for (const std::size_t k : pairs)
+    duals.insert(duals.end(), far.windows.dual.begin() + std::ptrdiff_t(first[k]),
+                 far.windows.dual.begin() + std::ptrdiff_t(first[k + 1]));
+  keep_each_once(duals);
+  VecX parts = VecX::Zero(Eigen::Index(r.problem.mesh.cells.size()));
+  for (const int dual : duals) parts += far.parts.col(dual).cwiseAbs();
+  Eigen::Index cell = 0;
+  parts.maxCoeff(&cell);
+  return r.problem.mesh.cells[cell];
+}
+
+std::vector<std::size_t> all_pairs(const Results& r) {
+  std::vector<std::size_t> all(r.problem.pairs.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+// Of those that matter the one whose p is known least, where that is worse than what is said of all: above the limit,
+// or, where that is told of all, twice as far off.
+std::optional<std::string> warning_of_pairs(const Results& r, double all) {
+  double worst = all > pressure_error_limit ? 2 * all : pressure_error_limit;
+  const double limit = worst;
+  std::size_t of = 0;
+  int count = 0;
+  for (const std::size_t k : pairs_that_matter(r)) {
+    const double error = r.estimate->pressure_of({k});
+    count += error > limit;
+    if (!(error > worst)) continue;
+    worst = error;
+    of = k;
+  }
+  if (count == 0) return {};
+  const std::string more = count == 1 ? ""
+                           : count == 2
+                               ? ", and of another pair by more than " + percent(limit)
+                               : ", and of " + std::to_string(count - 1) + " more pairs by more than " + percent(limit);
+  return r.problem.pairs[of].spec.key + ": p may be off by " + percent(worst) + " of its own, the most from " +
+         largest_error(r, {of}) + more + "; expected a finer mesh there";
+}
+
 }  // namespace
 
-std::string largest_error(const Results& r) {
+std::vector<std::size_t> pairs_that_matter(const Results& r) {
+  const double least = negligible_pressure(r);
+  std::vector<std::size_t> pairs = all_pairs(r);
+  std::erase_if(pairs, [&](std::size_t k) {
+    return r.estimate->pressures[k].p2 == 0 || !(largest_entry(r.recovery.contacts[k].pressure) > least);
+  });
+  return pairs;
+}
+
+std::string largest_error(const Results& r) { return largest_error(r, all_pairs(r)); }
+
+std::string largest_error(const Results& r, const std::vector<std::size_t>& pairs) {
   // Along the lines, vertex by vertex; of the far field the cell with the largest part.
   const ErrorEstimate& estimate = *r.estimate;
-  Eigen::Index cell = 0;
-  if (estimate.far.parts.size() > 0) estimate.far.parts.cwiseAbs().rowwise().sum().maxCoeff(&cell);
-  const Cell& at = r.problem.mesh.cells[cell];
+  const Cell& at = worst_cell(r, pairs);
   const auto between = [&](std::size_t k) {
     return " of '" + r.recovery.contacts[k].multiplier.curve + "' on '" + r.recovery.contacts[k].opposite.curve + "'";
   };
@@ -36,7 +95,7 @@ std::string largest_error(const Results& r) {
       "the mesh of body '" + r.problem.mesh.bodies[at.body] + "' " + near_point(centre_of(r.problem.mesh.nodes, at));
   double largest = -1;
   std::string words;
-  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
+  for (const std::size_t k : pairs) {
     const PressureEstimate& e = estimate.pressures[k];
     if (e.far2 > std::max(largest, e.local2)) {
       largest = e.far2;
@@ -48,7 +107,7 @@ std::string largest_error(const Results& r) {
     double size = -1;
     const VecX local = e.local.whole();
     for (Eigen::Index i = 0; i < local.size(); ++i) {
-      if (e.excluded[i] || !(local(i) > size)) continue;
+      if (!e.counts(i) || !(local(i) > size)) continue;
       size = local(i);
       worst = i;
     }
@@ -69,6 +128,7 @@ std::vector<std::string> error_warnings(const Results& r) {
   if (error > pressure_error_limit)
     lines.push_back("the contact pressure may be off by " + percent(error) + ", the most from " + largest_error(r) +
                     "; expected a finer mesh there");
+  if (auto line = warning_of_pairs(r, error)) lines.push_back(*std::move(line));
   return lines;
 }
 

@@ -31,5 +31,9 @@ void set_fitted_pressures(Results& results);
 
 /// The largest source of the estimated error of p, in words with its place: "the border of contact near (0.01, 0)".
 std::string largest_error(const Results& results);
+std::string largest_error(const Results& results, const std::vector<std::size_t>& pairs);  ///< of these alone
+
+/// The pairs whose p matters to any body (checks.hpp), in their order.
+std::vector<std::size_t> pairs_that_matter(const Results& results);
 
 }  // namespace mortise

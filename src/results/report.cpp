@@ -56,6 +56,12 @@ Json law_json(const ContactLaw& law) {
   return table;
 }
 
+// Of its own p; null where nothing is loaded.
+Json relative_error(const Results& r, std::size_t k) {
+  if (!r.estimate || r.estimate->pressures[k].p2 == 0) return nullptr;
+  return r.estimate->pressure_of({k});
+}
+
 Json contact_json(const ContactPair& pair, const ContactResults& c) {
   const auto& error = c.force_error;
   Json json{{"between", pair.spec.between},
@@ -207,8 +213,10 @@ Json counts_json(const Results& r) {
 
 Json contacts_json(const Results& r) {
   Json list = Json::array();
-  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k)
+  for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     list.push_back(contact_json(r.problem.pairs[k], r.recovery.contacts[k]));
+    list.back()["pressure"]["error"] = relative_error(r, k);
+  }
   return list;
 }
 

@@ -64,6 +64,31 @@ TEST(Bars, SquaresAreThoseOfTheNormsOfWhatCounts) {
   EXPECT_NEAR(all.slopes(), std::sqrt(local2 / p2), 1e-12);
 }
 
+// As of edges that hardly face the other side: what is left beside points where p has no limit says nothing then.
+TEST(Bars, WhereNoVertexIsKnownTheErrorIsPItself) {
+  PressureEstimate e = made_by_hand();
+  for (int i = 0; i < 5; ++i) e.local.raise(i, e.line.p(i));
+  e.local.l2.setZero();
+  e.far.setZero();
+  find_bars(e);
+  ErrorEstimate all;
+  all.pressures = {e};
+  EXPECT_NEAR(all.pressure(), error_safety, 1e-12);
+  e.local.least(2) /= 2;
+  find_bars(e);
+  EXPECT_EQ(e.local2, 0);
+  // Vertex 2 alone is known, and lies beside such a point: all counts.
+  SingularPoint corner{};
+  corner.position = e.line.position[2];
+  corner.pressure_exponent = 0.5;
+  e.singular = {corner};
+  find_excluded(0.1, e);
+  EXPECT_EQ(std::ranges::count(e.excluded, 1), 0);
+  e.local.least.setZero();
+  find_excluded(0.1, e);
+  EXPECT_EQ(e.excluded[2], 1);
+}
+
 // Contact that ends d further on has p = c sqrt(r + d) in the place of c sqrt(r): at the border c sqrt(d), and no more
 // than that beside it. The mean of its square over where a vertex may stand in its edge counts for the far field.
 TEST(Bars, BesideABorderAreThoseOfTheRootThatItMovesTo) {

@@ -4,9 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <random>
+#include <sstream>
 
 #include "app/solve_scene.hpp"
+#include "results/error_report.hpp"
 #include "results/line_motion.hpp"
 #include "support/messages.hpp"
 #include "support/plate_scenes.hpp"
@@ -114,6 +119,53 @@ TEST(LineChecks, APressureThatIsOffByMoreThanHalfFails) {
   Results fine = solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/hertz.toml"));
   estimate(fine);
   EXPECT_EQ(fine.status, Status::solved);
+}
+
+// A pad that carries nearly all, and at random places beside it a pin of any radius: alone, no edge tells its contact.
+TEST(LineChecks, APairThatIsNotResolvedFailsBesideAnyOther) {
+  const TemporaryFolder folder;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int variant = 0; variant < 4; ++variant) {
+    const double radius = 1 + unit(random), force = std::pow(10, 2 * unit(random)), x = 40 + 15 * unit(random);
+    std::ostringstream geo, toml;
+    geo << "SetFactory(\"OpenCASCADE\"); Mesh.ElementOrder = 2; Mesh.MeshSizeMax = 1.5;\n"
+        << "Rectangle(1) = {0, -10, 0, 60, 10}; Rectangle(2) = {0, 0, 0, 30, 8}; Disk(3) = {" << x << ", " << radius
+        << ", 0, " << radius << "};\n"
+        << R"(Physical Surface("block") = {1}; Physical Surface("pad") = {2}; Physical Surface("pin") = {3};
+Physical Curve("ground") = {1}; Physical Curve("track") = {3}; Physical Curve("foot") = {5}; Physical Curve("top") = {7};
+Physical Curve("side") = {8}; Physical Curve("rim") = {9};)";
+    folder.write("pin.geo", geo.str());
+    toml << R"(mesh.file = "pin.geo"
+model.plane = "strain"
+materials.steel = { young = 210e3, poisson = 0.3 }
+bodies = { "*" = "steel" }
+boundary = [
+  { on = "ground", displacement = { x = 0, y = 0 } },
+  { on = "side", displacement = { x = 0 } },
+  { on = "top", pressure = 20 },
+]
+body_force = [{ body = "pin", force = [0, )"
+         << -force / (std::numbers::pi * radius * radius) << R"(] }]
+contact = [{ between = ["foot", "track"], initial_gap = "closed" }, { between = ["rim", "track"] }]
+)";
+    SCOPED_TRACE(toml.str());
+    Results r = solve_scene(read_scene(folder.write("pin.toml", toml.str())));
+    estimate(r);
+    ASSERT_LT(r.estimate->pressure(), 0.3);
+    EXPECT_EQ(r.status, Status::check_failed);
+    EXPECT_NEAR(r.checks.back().value, r.estimate->pressure_of({1}), 1e-12);
+    expect_contains(r.checks.back().where,
+                    "of all that presses on body 'pin', the most from the border of contact of 'rim'");
+    EXPECT_TRUE(std::ranges::any_of(r.warnings, [](const std::string& line) {
+      return line.starts_with("contact.1") && line.find(" % of its own, the most from the border") != std::string::npos;
+    }));
+    // Where it hardly presses at all it matters to no one.
+    r.recovery.stress.points *= 1e3 * r.recovery.contacts[1].p_max / r.recovery.stress.points.cwiseAbs().maxCoeff();
+    EXPECT_TRUE(estimate_check(r)->ok());
+    EXPECT_TRUE(
+        std::ranges::none_of(error_warnings(r), [](const std::string& line) { return line.starts_with("contact.1"); }));
+  }
 }
 
 // A block that stands half beside the other, in one curve from end to end.
