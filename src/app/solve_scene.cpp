@@ -1,6 +1,7 @@
 #include "app/solve_scene.hpp"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -155,10 +156,62 @@ void find_unheld(Results& r) {
   Problem& p = r.problem;
   const auto free = motions_through(p.mesh, p.floating.motions, p.floating.grounded, r.solution.rigid_modes);
   append_lines(r.warnings, held_lines(p.mesh, free));
-  r.unheld = p.held;
+  r.unheld = p.held.motions;
   r.unheld.insert(r.unheld.end(), free.begin(), free.end());
   for (const int unknown : held_unknowns(p.floating.grounded, r.solution))
     p.discretisation.system.constraints.fixed[unknown] = 1;
+}
+
+// What rows open by in round-off, over their size.
+double round_off_of_rows(const Solution& solution) { return solution.constraint_tolerance * largest_entry(solution.u); }
+
+// Displacements along motions that nothing holds mean nothing, so that they are to be the least there are. Where held
+// motions change closed rows, if only by the corners of the meshes, these are prescribed; whether any is.
+bool prescribe_held(Problem& p, const Solution& solution) {
+  if (p.held.motions.empty() || solution.status != SolveStatus::converged) return false;
+  SaddlePointSystem& system = p.discretisation.system;
+  const std::vector<MotionSet> sets = motion_sets(p.mesh, p.held.motions);
+  const std::vector<VecX> parts = least_parts(p.mesh, sets, solution.u);
+  VecX shift = VecX::Zero(solution.u.size());
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const VecX of_set = sets[s].fields * parts[s];
+    for (Eigen::Index i = 0; i < of_set.size(); ++i) shift(sets[s].unknown(i)) = of_set(i);
+  }
+  VecX opening = (system.B * shift).cwiseQuotient(system.row_scale);
+  for (Eigen::Index a = 0; a < opening.size(); ++a)
+    if (!solution.active[a]) opening(a) = 0;
+  if (largest_entry(opening) <= round_off_of_rows(solution)) return false;
+  for (const int unknown : p.held.grounded) system.constraints.value(unknown) += shift(unknown);
+  system.start = solution.active;
+  return true;
+}
+
+// Takes the other motions out of u, as far as closed rows stay closed and open ones open.
+void take_out_unheld(const Problem& p, const std::vector<std::vector<RigidMotion>>& unheld, Solution& solution) {
+  if (unheld.empty() || solution.status != SolveStatus::converged) return;
+  const SaddlePointSystem& system = p.discretisation.system;
+  const double round_off = round_off_of_rows(solution);
+  VecX gap = system.B * solution.u - system.g;
+  if (solution.compression.size() > 0) gap += system.layers.B * solution.compression;
+  const std::vector<MotionSet> sets = motion_sets(p.mesh, unheld);
+  const std::vector<VecX> parts = least_parts(p.mesh, sets, solution.u);
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const VecX shift = sets[s].fields * parts[s];
+    std::map<Eigen::Index, double> opening;
+    for (Eigen::Index i = 0; i < shift.size(); ++i)
+      for (SparseMatrix::InnerIterator it(system.B, sets[s].unknown(i)); it; ++it)
+        opening[it.row()] += it.value() * shift(i);
+    double part = 1;
+    for (const auto& [row, by] : opening) {
+      if (std::abs(by) <= round_off * system.row_scale(row)) continue;
+      if (solution.active[row])
+        part = 0;
+      else if (by < 0)
+        part = std::min(part, std::max(0.0, -gap(row) / by));
+    }
+    for (Eigen::Index i = 0; i < shift.size(); ++i) solution.u(sets[s].unknown(i)) += part * shift(i);
+    for (const auto& [row, by] : opening) gap(row) += part * by;
+  }
 }
 
 void judge(Results& r) {
@@ -192,7 +245,14 @@ void solve_problem(SystemSolver& solver, const Progress& progress, Results& r) {
   if (progress) progress("solve for " + std::to_string(free_unknowns(r)) + " unknowns");
   r.solution = solve_wet(solver, p);
   require_solution(p, r.solution);
+  if (prescribe_held(p, r.solution)) {
+    const double factorise = r.solution.factorise_seconds;
+    r.solution = solve_wet(solver, p);
+    require_solution(p, r.solution);
+    r.solution.factorise_seconds += factorise;
+  }
   find_unheld(r);
+  take_out_unheld(p, r.unheld, r.solution);
   r.seconds.factorise = r.solution.factorise_seconds;
   r.seconds.solve = watch.lap() - r.seconds.factorise;
 

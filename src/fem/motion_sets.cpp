@@ -6,6 +6,8 @@
 #include "base/dense.hpp"
 #include "base/each_once.hpp"
 #include "base/union_find.hpp"
+#include "fem/elements.hpp"
+#include "fem/quadrature.hpp"
 
 namespace mortise {
 
@@ -38,6 +40,39 @@ std::vector<MotionSet> motion_sets(const Mesh& mesh, const std::vector<std::vect
         }
   }
   return sets;
+}
+
+std::vector<VecX> least_parts(const Mesh& mesh, const std::vector<MotionSet>& sets, const VecX& u) {
+  std::vector<MatX> products;  // of motions by motions and, in the last column, by u
+  std::vector<int> set_of(mesh.nodes.rows(), -1), row_of(mesh.nodes.rows(), -1);
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const Eigen::Index count = sets[s].fields.cols();
+    products.emplace_back(MatX::Zero(count, count + 1));
+    for (std::size_t i = 0; i < sets[s].nodes.size(); ++i) {
+      set_of[sets[s].nodes[i]] = int(s);
+      row_of[sets[s].nodes[i]] = int(2 * i);
+    }
+  }
+  for (const Cell& cell : mesh.cells) {
+    const int count = node_count(cell.kind), set = set_of[cell.nodes[0]];
+    if (set < 0 || std::any_of(cell.nodes.begin(), cell.nodes.begin() + count, [&](int i) { return set_of[i] != set; }))
+      continue;
+    const MatX& fields = sets[set].fields;
+    const CellRule rule = product_rule(cell.kind, 3);  // exact for motions times u
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const CellShape shape = cell_shape(cell.kind, rule.points[q]);
+      MatX at = MatX::Zero(2, fields.cols() + 1);
+      for (int a = 0; a < count; ++a) {
+        at.leftCols(fields.cols()) += shape.N[a] * fields.middleRows<2>(row_of[cell.nodes[a]]);
+        at.rightCols<1>() += shape.N[a] * u.segment<2>(2 * cell.nodes[a]);
+      }
+      const double area = rule.weights[q] * cell_point(mesh.nodes, cell, shape).jacobian();
+      products[set] += area * at.leftCols(fields.cols()).transpose() * at;
+    }
+  }
+  std::vector<VecX> parts;
+  for (const MatX& p : products) parts.push_back(-p.leftCols(p.rows()).ldlt().solve(p.rightCols<1>()));
+  return parts;
 }
 
 std::vector<int> grounding_unknowns(const Mesh& mesh, const Constraints& constraints,

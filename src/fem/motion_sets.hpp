@@ -20,6 +20,9 @@ std::vector<MotionSet> motion_sets(const Mesh& mesh, const std::vector<std::vect
 /// The set's motions at its unknowns, a row for each motion.
 MatX motions_at(const MotionSet& set, const std::vector<int>& unknowns);
 
+/// Of each set how much of its motions, added to u (2 nodes), makes the mean square of u over its bodies' areas least.
+std::vector<VecX> least_parts(const Mesh& mesh, const std::vector<MotionSet>& sets, const VecX& u);
+
 /// One free unknown for each free motion of single bodies, spread as far apart as they go: springs there would hold
 /// the bodies. `motions` as found without contact rows.
 std::vector<int> grounding_unknowns(const Mesh& mesh, const Constraints& constraints,

@@ -36,7 +36,7 @@ void add_contact(std::vector<ContactCurves> curves, Problem& p) {
   append_lines(p.warnings, audit(p.mesh, p.entries.boundaries, p.pairs));
   require_closed(p.mesh, p.pairs);
   p.held = hold_free_motions(p.mesh, p.pairs, p.warnings, system);
-  append_lines(p.warnings, held_lines(p.mesh, p.held));
+  append_lines(p.warnings, held_lines(p.mesh, p.held.motions));
   p.floating = find_floating(p.mesh, system.constraints);
   system.grounded = p.floating.grounded;
 }

@@ -34,7 +34,7 @@ struct Problem {
   SparseRows fluid_loads;       ///< m x n: forces on both faces of unit pressure in each row, where a pair has any
   std::vector<char> dirichlet;  ///< of domain decomposition: whether a body takes the displacement
   Floating floating;            ///< what only contact holds
-  std::vector<std::vector<RigidMotion>> held;  ///< motions that nothing holds and no load drives, held
+  Floating held;                ///< what nothing holds and no load drives, held
   std::vector<ProbePlace> probes;
   std::vector<Expectation> expectations;
   std::vector<std::string> warnings;  ///< of the mesh and the audit, and of motions held

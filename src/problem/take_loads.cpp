@@ -78,7 +78,7 @@ bool take_loads(const Scene& scene, Problem& p) {
   std::vector<char> fixed = std::move(system.constraints.fixed);
   take_loads(p.entries, p.mesh, p.discretisation);
   system.constraints.fixed = std::move(fixed);  // with held motions
-  refuse_driven(p.mesh, p.pairs, p.held, {}, system.f);
+  refuse_driven(p.mesh, p.pairs, p.held.motions, {}, system.f);
   p.misfits = data_misfits(p.entries, p.mesh, p.discretisation.laws);
   p.fluid.setZero();
   return take_gaps(scene, p);

@@ -136,15 +136,16 @@ void refuse_driven(const Mesh& mesh, const std::vector<ContactPair>& pairs,
                        (findings.empty() ? "" : ": " + findings.front()));
 }
 
-std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                                                        const std::vector<std::string>& findings,
-                                                        SaddlePointSystem& system) {
-  std::vector<std::vector<RigidMotion>> held;
+Floating hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                           const std::vector<std::string>& findings, SaddlePointSystem& system) {
+  Floating held;
   const auto hold = [&](const std::vector<std::vector<RigidMotion>>& motions) {
     refuse_driven(mesh, pairs, motions, findings, system.f);
-    held.insert(held.end(), motions.begin(), motions.end());
-    for (const int unknown : unknowns_to_hold(mesh, pairs, system.constraints, motions))
+    held.motions.insert(held.motions.end(), motions.begin(), motions.end());
+    for (const int unknown : unknowns_to_hold(mesh, pairs, system.constraints, motions)) {
+      held.grounded.push_back(unknown);
       system.constraints.fixed[unknown] = 1;
+    }
   };
   auto motions = free_motions(mesh, system.constraints, unit_rows(system));
   if (std::ranges::count(driven(mesh, pairs, motions, system.f), 1) > 0) {

@@ -15,12 +15,11 @@ struct Floating {
 Floating find_floating(const Mesh& mesh, const Constraints& constraints);
 
 /// Motions that neither prescribed displacements nor closed contact resist: the one that a load drives is an
-/// SceneError, the others are held at one unknown of the system each, which changes no pressure, and returned, for
-/// held_lines. Contact resists them by its rows, and as the multiplier side's curve does (smooth_normals): a disc turns
-/// freely whatever its chords say. The first of the audit's `findings` ends an error: probably a pair is missing.
-std::vector<std::vector<RigidMotion>> hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                                                        const std::vector<std::string>& findings,
-                                                        SaddlePointSystem& system);
+/// SceneError, the others are held at one unknown of the system each, which changes no pressure, and returned. Contact
+/// resists them by its rows, and as the multiplier side's curve does (smooth_normals): a disc turns freely whatever its
+/// chords say. The first of the audit's `findings` ends an error: probably a pair is missing.
+Floating hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                           const std::vector<std::string>& findings, SaddlePointSystem& system);
 
 /// Throws the SceneError of hold_free_motions if the load, n, drives one of the motions.
 void refuse_driven(const Mesh& mesh, const std::vector<ContactPair>& pairs,

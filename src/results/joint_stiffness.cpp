@@ -75,7 +75,7 @@ DualAnswers responses(const SaddlePointSystem& s, const ContactFactor& factor, c
 std::optional<Eigen::Matrix3d> stiffness_of(const Problem& p, const Solution& solution, const ContactFactor& factor,
                                             const RigidCurve* rigid, const MatX& q) {
   const SaddlePointSystem& s = p.discretisation.system;
-  const bool all_held = p.held.empty() && solution.rigid_modes.cols() == 0;
+  const bool all_held = p.held.motions.empty() && solution.rigid_modes.cols() == 0;
   const std::vector<int> free = free_motions(s.constraints, rigid, q);
   if (!free.empty() && !all_held) return std::nullopt;
   const auto [u, lambda] = responses(s, factor, rigid, q, free);

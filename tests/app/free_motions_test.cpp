@@ -7,6 +7,7 @@
 #include <random>
 #include <sstream>
 
+#include "app/accuracy.hpp"
 #include "app/solve_scene.hpp"
 #include "support/differences.hpp"
 #include "support/messages.hpp"
@@ -255,6 +256,117 @@ TEST(FreeMotions, WhatAnOvalLineHoldsIsHeld) {
   TwoPlates plates = saddle(12, CellKind::quad8);
   plates.height = [](double x) { return 1.02 * std::sqrt(0.25 - (x - 0.4) * (x - 0.4)) - 0.1; };
   EXPECT_EQ(held_notes(solve_scene(pressed_on(), mesh_of(plates))), 0);
+}
+
+// A pin in a V-block that gives way by 1 under it: flats at an angle to the horizontal, on edges of the pin's radius
+// over `edges` (drawn along a circle that starts anywhere) or as an accuracy asks for.
+struct PinInVBlock {
+  double radius, angle, start;  // length, radians
+  Vec2 centre;
+  int edges, order;
+  bool accurate;
+};
+
+Results solved(const PinInVBlock& v) {
+  const TemporaryFolder folder;
+  const double R = v.radius, s = std::sin(v.angle), c = std::cos(v.angle), weight = std::numbers::pi * R * R;
+  std::ostringstream geo, scene;
+  geo << "SetFactory(\"OpenCASCADE\"); R = " << R << "; x = " << v.centre.x() << "; y = " << v.centre.y() << ";\n"
+      << "s = " << s << "; c = " << c << "; t = y - 1.001 * R / c;\n"  // of the V: the flats are R / 1000 away
+      << "Point(1) = {x, t, 0}; Point(2) = {x + 2 * R * c, t + 2 * R * s, 0}; Point(3) = {x + 2 * R * c, t - R, 0};\n"
+      << "Point(4) = {x - 2 * R * c, t - R, 0}; Point(5) = {x - 2 * R * c, t + 2 * R * s, 0};\n"
+      << "For k In {1 : 5}\nLine(k) = {k, k % 5 + 1};\nEndFor\n"
+      << "Curve Loop(1) = {1 : 5}; Plane Surface(1) = {1}; Circle(6) = {x, y, 0, R, " << v.start << ", " << v.start
+      << " + 2 * Pi}; Curve Loop(2) = {6}; Plane Surface(2) = {2};\n"
+      << "Physical Surface(\"block\") = {1}; Physical Surface(\"pin\") = {2}; Physical Curve(\"flats\") = {1, 5};\n"
+      << "Physical Curve(\"base\") = {3}; Physical Curve(\"sides\") = {2, 4}; Physical Curve(\"rim\") = {6};\n"
+      << "MeshSize{ : } = R / " << v.edges << "; Mesh.ElementOrder = " << v.order << ";\n";
+  folder.write("v.geo", geo.str());
+  scene << "mesh.file = \"v.geo\"\nmaterials.steel = { young = 1e6, poisson = 0.3 }\n"
+        << "bodies = { block = \"steel\", pin = \"steel\" }\ncontact = [{ between = [\"flats\", \"rim\"], "
+           "multipliers_on = \"rim\" }]\n"
+        << "boundary = [{ on = \"base\", foundation = " << weight / (4 * R * c) << " }, "
+        << "{ on = \"sides\", displacement = { x = 0 } }]\nbody_force = [{ body = \"pin\", force = [0, -1] }]\n";
+  if (!v.accurate) return solve_scene(read_scene(folder.write("v.toml", scene.str())));
+  scene << "accuracy.value = 0.03\n";
+  return *solve_to_accuracy(read_scene(folder.write("v.toml", scene.str())));
+}
+
+// Of the body's nodes about their centre: radians.
+double turn_of(const Results& r, const std::string& body) {
+  const Problem& p = r.problem;
+  const auto b = std::ranges::find(p.mesh.bodies, body) - p.mesh.bodies.begin();
+  const std::vector<int> nodes(p.points.node.begin() + p.points.first[b],
+                               p.points.node.begin() + p.points.first[b + 1]);
+  const Points x = p.mesh.nodes(nodes, Eigen::all);
+  const Points arms = x.rowwise() - x.colwise().mean();
+  double turned = 0;
+  for (Eigen::Index i = 0; i < arms.rows(); ++i)
+    turned += arms(i, 0) * r.solution.u(2 * nodes[i] + 1) - arms(i, 1) * r.solution.u(2 * nodes[i]);
+  return turned / arms.squaredNorm();
+}
+
+// That the spin of a pin is free says nothing of it: none is an answer as good as any, and says so on every mesh.
+TEST(FreeMotions, APinThatSinksDoesNotSpin) {
+  std::mt19937 random(61);
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (int i = 0; i < 12; ++i) {
+    const PinInVBlock v{.radius = std::pow(10, draw(0.5, 1.5)),
+                        .angle = draw(0.3, 1),
+                        .start = draw(0, 6),
+                        .centre = Vec2(draw(-50, 50), draw(-50, 50)),
+                        .edges = int(draw(4, 12)),
+                        .order = 1 + i % 2,
+                        .accurate = i % 3 == 2};
+    SCOPED_TRACE(std::to_string(i) + ": radius " + std::to_string(v.radius) + ", angle " + std::to_string(v.angle));
+    Results r = solved(v);
+    EXPECT_NE(r.status, Status::not_converged);
+    EXPECT_FALSE(r.unheld.empty());
+    EXPECT_GT(largest_entry(r.solution.u), 0.9);
+    EXPECT_LE(largest_entry(r.solution.u), 1.2);
+    EXPECT_LE(std::abs(turn_of(r, "pin")) * v.radius, 5e-3);
+    r.solution.unbalanced.resize(0);  // the answer still is one
+    measure_residuals(r.problem.discretisation.system, r.solution);
+    EXPECT_LE(r.solution.force_residual, 1e-10);
+    EXPECT_LE(r.solution.constraint_residual, 1e-9);
+  }
+}
+
+// A block that may slide between walls, `left` and `right` of it, and swells: from its middle, if no wall is in the
+// way.
+TEST(FreeMotions, WhatMaySlideStaysWhereItIsOrWhereAWallLeavesIt) {
+  for (const auto& [left, right] : {std::pair{0.5, 0.5}, {0.002, 0.5}, {0.5, 0.002}}) {
+    SCOPED_TRACE(std::to_string(left) + ", " + std::to_string(right));
+    const TemporaryFolder folder;
+    std::ostringstream geo;
+    geo << "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 0.5}; Rectangle(2) = {-2, -1, 0, 5, 1};\n"
+        << "Rectangle(3) = {-1, 0.2, 0, " << 1 - left << ", 1}; Rectangle(4) = {" << 1 + right << ", 0.2, 0, 1, 1};\n"
+        << "Physical Surface(\"block\") = {1}; Physical Surface(\"ground\") = {2}; Physical Surface(\"l\") = {3};\n"
+        << "Physical Surface(\"r\") = {4}; Physical Curve(\"foot\") = {1}; Physical Curve(\"floor\") = {7};\n"
+        << "Physical Curve(\"ends_l\") = {4}; Physical Curve(\"ends_r\") = {2}; Physical Curve(\"base\") = {5};\n"
+        << "Physical Curve(\"wall_l\") = {10}; Physical Curve(\"wall_r\") = {16};\n"
+        << "Physical Curve(\"back\") = {12, 14}; MeshSize{ : } = 0.2;\n";
+    folder.write("block.geo", geo.str());
+    const std::string scene =
+        "mesh.file = \"block.geo\"\nmaterials.one = { young = 1000, poisson = 0, thermal_expansion = 0.01 }\n"
+        "bodies = { block = \"one\", ground = \"one\", l = \"one\", r = \"one\" }\n"
+        "contact = [{ between = [\"foot\", \"floor\"] }, { between = [\"ends_l\", \"wall_l\"] }, "
+        "{ between = [\"ends_r\", \"wall_r\"] }]\n"
+        "boundary = [{ on = [\"base\", \"back\"], displacement = { x = 0, y = 0 } }]\n"
+        "body_force = [{ body = \"block\", force = [0, -1] }]\ninitial_strain = [{ body = \"block\", "
+        "temperature_change = 1 "
+        "}]\n";
+    const Results r = solve_scene(read_scene(folder.write("block.toml", scene)));
+    EXPECT_EQ(r.status, Status::solved);
+    const auto moved = [&](std::size_t pair) {  // of the end that faces a wall, in its middle
+      const std::vector<int> nodes = curve_nodes(r.problem.pairs[pair].multiplier);
+      double sum = 0;
+      for (const int node : nodes) sum += r.solution.u(2 * node);
+      return sum / double(nodes.size());
+    };
+    EXPECT_NEAR(moved(1), left < 0.005 ? -left : right < 0.005 ? right - 0.01 : -0.005, 2e-4);
+    EXPECT_NEAR(moved(2), left < 0.005 ? 0.01 - left : right < 0.005 ? right : 0.005, 2e-4);
+  }
 }
 
 }  // namespace
