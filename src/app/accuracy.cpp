@@ -28,6 +28,7 @@ constexpr double largest_step = 16;  // by which one mesh is to lower the error:
 constexpr double aimed = 0.7;        // of what was asked, lest a mesh that just misses it be solved in vain
 constexpr double another = 1.5;      // by which all sizes change where a mesh tells nothing of the next, or is not made
 constexpr int most_others = 2;       // such meshes in succession
+constexpr double says_little = 0.3;  // an estimate from which the next may be anything: p is not resolved at all yet
 
 // Of a mesh with these sizes: about four unknowns a triangle. `areas`: of the cells.
 double expected_unknowns(const Mesh& mesh, const VecX& areas, const SizeField& sizes) {
@@ -75,7 +76,7 @@ class Loop {
           continue;
         }
         seconds += r.seconds;
-        report.solves.push_back({free_unknowns(r), open_[worst_] ? 0 : estimated(r), r.seconds.total()});
+        report.solves.push_back({free_unknowns(r), open_[worst_] ? 0 : told(r), r.seconds.total()});
         if (spec_.of == Goal::peak) require_peak(r);
         const int number = int(report.solves.size());
         const double off = confirmed(r, number);
@@ -100,8 +101,7 @@ class Loop {
     if (best && !report.reached() && off_best < off_last) {
       last = std::move(best);
       report.reason += "; the answer is that of solve " + std::to_string(number_of_best);
-      std::rotate(report.solves.begin() + number_of_best - 1, report.solves.begin() + number_of_best,
-                  report.solves.end());
+      report.later = int(report.solves.size()) - number_of_best;
     }
     complete(*last, std::move(report), seconds);
     return last;
@@ -286,6 +286,10 @@ class Loop {
   }
 
   double estimated(const Results& r) const { return estimated_error(r, spec_.of); }
+  // Nothing where the solver did not converge, as its last iterate is the solution of nothing.
+  double told(const Results& r) const {
+    return r.status == Status::not_converged ? std::numeric_limits<double>::quiet_NaN() : estimated(r);
+  }
   // What the report holds against what is asked; infinite where the estimate says nothing. `number`: of the solve,
   // from 1.
   double confirmed(const Results& r, int number) const {
@@ -321,9 +325,11 @@ class Loop {
                                                : "nothing is loaded there";
     if (int(n) >= spec_.solves_max) return std::to_string(n) + " solve" + (n > 1 ? "s" : "");
     if (at_limit_ || solves.back().unknowns >= spec_.unknowns_max) return "unknowns_max";
-    if (n >= 4 && solves[n - 1].estimated > solves[n - 2].estimated &&
-        solves[n - 2].estimated > solves[n - 3].estimated)
-      return "the estimate rises";
+    const auto rises = [&](std::size_t from) {
+      return solves[from].estimated < says_little && solves[from + 1].estimated > solves[from].estimated &&
+             solves[from + 1].unknowns > solves[from].unknowns;
+    };
+    if (n >= 4 && rises(n - 3) && rises(n - 2)) return "the estimate rises";
     return "";
   }
 

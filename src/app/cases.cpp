@@ -70,7 +70,8 @@ struct SharedMesh {
 bool estimate_case(const AccuracySpec& spec, const SharedMesh& on, std::size_t k, Results& r) {
   estimate(r, spec, on.found.found);
   r.accuracy = on.found.report;
-  r.accuracy->solves.back() = {free_unknowns(r), on.open[k] ? 0 : estimated_error(r, spec.of), r.seconds.total()};
+  r.accuracy->solves[on.found.report.answer() - 1] = {free_unknowns(r), on.open[k] ? 0 : estimated_error(r, spec.of),
+                                                      r.seconds.total()};
   const bool reached = r.accuracy->reached();
   if (reached)
     r.accuracy->reason.clear();

@@ -134,7 +134,8 @@ Json accuracy_json(const Results& r) {
           {"reason", a.reason},
           {"largest", a.reached() ? Json() : Json(largest_error(r))},
           {"excluded", a.excluded},
-          {"solves", solves}};
+          {"solves", solves},
+          {"answer", a.answer()}};
 }
 
 Json steps_json(const Results& r) {

@@ -121,7 +121,9 @@ void print_accuracy(const Json& report, std::ostream& out) {
   const Json& pressure = report["estimate"]["pressure"];
   if (!std::isfinite(pressure["error"].get<double>())) return;
   const bool asked = !accuracy.is_null();
-  const double found = (asked ? accuracy["solves"].back()["estimated"] : pressure["error"]).get<double>();
+  const double found =
+      (asked ? accuracy["solves"][accuracy["answer"].get<std::size_t>() - 1]["estimated"] : pressure["error"])
+          .get<double>();
   out << std::setprecision(2) << "  accuracy  ";
   print_goal(asked ? accuracy["of"] : "pressure", asked && std::isfinite(found) ? accuracy["value"] : Json(), out);
   if (std::isfinite(found))

@@ -51,11 +51,13 @@ struct AccuracyReport {
   };
   Goal of = Goal::pressure;  ///< AccuracySpec
   double asked, excluded;
-  std::vector<Solve> solves;  ///< the answer's is the last
+  std::vector<Solve> solves;  ///< one after another
   std::string reason;         ///< why it ended where the accuracy was not reached
+  int later = 0;              ///< solves after that of the answer, none of which is as good
+  int answer() const { return int(solves.size()) - later; }  ///< number of its solve, from 1
   /// A first solve, which nothing confirms, must be three times as good.
   static double confirmed(double estimated, int number) { return (number == 1 ? 3 : 1) * estimated; }
-  bool reached() const { return !solves.empty() && confirmed(solves.back().estimated, int(solves.size())) <= asked; }
+  bool reached() const { return !solves.empty() && confirmed(solves[answer() - 1].estimated, answer()) <= asked; }
 };
 
 struct Results {

@@ -70,7 +70,7 @@ def carry_out(options):
     one = lambda run: store.row(run, accuracy_runs.execute)
     drawn = one(accuracy_runs.answer("parabola_1", 0.01))
     coarse = one(accuracy_runs.even(1, 1))
-    even = one(accuracy_runs.even(coarse["mesh"]["dofs"], drawn["accuracy"]["solves"][-1]["unknowns"]))
+    even = one(accuracy_runs.even(coarse["mesh"]["dofs"], drawn["accuracy"]["solves"][drawn["accuracy"]["answer"] - 1]["unknowns"]))
     verdicts = list(judge_answers.verdicts(rows, accuracy_runs.whole_process("1%")))
     return rows, known, (drawn, even), verdicts
 

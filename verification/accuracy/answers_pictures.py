@@ -23,7 +23,7 @@ def draw_band(asked, even, path):
     length, excluded = asked["line"]["s"][-1], zones(asked)[1]
     for axes, limits in ((whole, (0, length)), (near, (0, 0.4 * length))):
         band(axes, even, "C1", f"even meshes, {even['mesh']['dofs']} unknowns")
-        unknowns = asked["accuracy"]["solves"][-1]["unknowns"]
+        unknowns = asked["accuracy"]["solves"][asked["accuracy"]["answer"] - 1]["unknowns"]
         band(axes, asked, "C0", f"--accuracy 1%, {unknowns} unknowns")
         for at in (0, length - excluded):
             axes.axvspan(at, at + excluded, color="0.5", alpha=0.15, linewidth=0)

@@ -38,7 +38,8 @@ def title_of(case):
 
 def found(figure, summary):
     """The figure and its bar: by its dotted key, or as parts of the components of a displacement or a stress."""
-    estimated, factor = summary["accuracy"]["solves"][-1]["estimated"], figure.get("factor", 1)
+    accuracy, factor = summary["accuracy"], figure.get("factor", 1)
+    estimated = accuracy["solves"][accuracy["answer"] - 1]["estimated"]
     if "parts" in figure:
         values, parts = (np.array(a, float) for a in (summary["accuracy"]["value"], figure["parts"]))
         return parts @ values, estimated * np.linalg.norm(values) * np.abs(parts).sum()
