@@ -14,10 +14,6 @@ std::vector<Check> checks(const Results& results);
 /// solved where the solver converged, all checks hold and all is finite.
 Status verdict(const Results& results);
 
-/// A pressure that matters to no body, stress: 1e-3 of the largest stress in any. It does not change where bodies are
-/// moved as a whole.
-double negligible_pressure(const Results& results);
-
 /// The results that are not finite, in words; empty if all are.
 std::string not_finite(const Results& results);
 

@@ -12,7 +12,6 @@
 #include "contact/singular_points.hpp"
 #include "error/force_errors.hpp"
 #include "error/pressure_form.hpp"
-#include "results/checks.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {

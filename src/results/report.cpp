@@ -56,10 +56,10 @@ Json law_json(const ContactLaw& law) {
   return table;
 }
 
-// Of its own p; null where nothing is loaded.
+// Of its own p; null where none counts.
 Json relative_error(const Results& r, std::size_t k) {
-  if (!r.estimate || r.estimate->pressures[k].p2 == 0) return nullptr;
-  return r.estimate->pressure_of({k});
+  const double error = r.estimate ? r.estimate->pressure_of({k}) : std::nan("");
+  return std::isfinite(error) ? Json(error) : Json(nullptr);
 }
 
 Json contact_json(const ContactPair& pair, const ContactResults& c) {

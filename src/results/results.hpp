@@ -79,6 +79,10 @@ struct Results {
   bool mesh_cached = false;  ///< whether the mesh was not made now, but kept from an earlier run
 };
 
+/// A pressure that matters to no body, stress: 1e-3 of the largest stress in any. It does not change where bodies are
+/// moved as a whole.
+double negligible_pressure(const Results& results);
+
 /// Displacement unknowns that are not prescribed.
 int free_unknowns(const Results& results);
 

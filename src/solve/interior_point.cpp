@@ -159,10 +159,10 @@ InteriorPoint find_interior_point(ContactRows& rows) {
   while (!best.converged && path.finite() && best.steps < most_steps && left > 0 && !path.runs_away() && path.step()) {
     ++best.steps;
     const bool nearer = path.error() <= std::max(least, balanced);
-    left = least > good_enough || (nearer && path.product() < 0.5 * smallest) ? least_progress : left - 1;
+    left = least > good_enough || path.product() < 0.5 * smallest ? least_progress : left - 1;
+    smallest = std::min(smallest, path.product());
     if (nearer) {
       least = std::min(least, path.error());
-      smallest = path.product();
       best.at = path.at();
       best.closed = path.closed();
     }

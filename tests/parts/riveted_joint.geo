@@ -1,0 +1,23 @@
+// Two straps of two plates each, held by a rivet that draws them together; a gap of 0.05 around its shank.
+Mesh.ElementOrder = 2; Mesh.SecondOrderIncomplete = 1;
+Point(101) = {0, 0, 0}; Point(102) = {17.95, 0, 0}; Point(103) = {17.95, 5, 0}; Point(104) = {0, 5, 0};
+Line(101) = {101, 102}; Line(102) = {102, 103}; Line(103) = {103, 104}; Line(104) = {104, 101};
+Curve Loop(100) = {101 : 104}; Plane Surface(100) = {100}; Physical Surface("lo") = {100};
+Physical Curve("lo_b1") = {101}; Physical Curve("lo_h1") = {102}; Physical Curve("lo_t1") = {103}; Physical Curve("lo_end") = {104};
+Point(201) = {26.05, 0, 0}; Point(202) = {40, 0, 0}; Point(203) = {40, 5, 0}; Point(204) = {26.05, 5, 0};
+Line(201) = {201, 202}; Line(202) = {202, 203}; Line(203) = {203, 204}; Line(204) = {204, 201};
+Curve Loop(200) = {201 : 204}; Plane Surface(200) = {200}; Physical Surface("lo2") = {200};
+Physical Curve("lo2_b2") = {201}; Physical Curve("lo2_e") = {202}; Physical Curve("lo2_t2") = {203}; Physical Curve("lo2_h2") = {204};
+Point(301) = {4, 5, 0}; Point(302) = {17.95, 5, 0}; Point(303) = {17.95, 10, 0}; Point(304) = {4, 10, 0};
+Line(301) = {301, 302}; Line(302) = {302, 303}; Line(303) = {303, 304}; Line(304) = {304, 301};
+Curve Loop(300) = {301 : 304}; Plane Surface(300) = {300}; Physical Surface("up") = {300};
+Physical Curve("up_b1") = {301}; Physical Curve("up_h1") = {302}; Physical Curve("up_t1") = {303}; Physical Curve("up_e") = {304};
+Point(401) = {26.05, 5, 0}; Point(402) = {70, 5, 0}; Point(403) = {70, 10, 0}; Point(404) = {26.05, 10, 0};
+Line(401) = {401, 402}; Line(402) = {402, 403}; Line(403) = {403, 404}; Line(404) = {404, 401};
+Curve Loop(400) = {401 : 404}; Plane Surface(400) = {400}; Physical Surface("up2") = {400};
+Physical Curve("up2_b2") = {401}; Physical Curve("up2_end") = {402}; Physical Curve("up2_t2") = {403}; Physical Curve("up2_h2") = {404};
+Point(501) = {18, 0, 0}; Point(502) = {14, 0, 0}; Point(503) = {14, -3, 0}; Point(504) = {30, -3, 0}; Point(505) = {30, 0, 0}; Point(506) = {26, 0, 0}; Point(507) = {26, 10, 0}; Point(508) = {30, 10, 0}; Point(509) = {30, 13, 0}; Point(510) = {14, 13, 0}; Point(511) = {14, 10, 0}; Point(512) = {18, 10, 0};
+Line(501) = {501, 502}; Line(502) = {502, 503}; Line(503) = {503, 504}; Line(504) = {504, 505}; Line(505) = {505, 506}; Line(506) = {506, 507}; Line(507) = {507, 508}; Line(508) = {508, 509}; Line(509) = {509, 510}; Line(510) = {510, 511}; Line(511) = {511, 512}; Line(512) = {512, 501};
+Curve Loop(500) = {501 : 512}; Plane Surface(500) = {500}; Physical Surface("riv") = {500};
+Physical Curve("riv_hl1") = {501}; Physical Curve("riv_hl2") = {505}; Physical Curve("riv_s2") = {506}; Physical Curve("riv_hu2") = {507}; Physical Curve("riv_hu1") = {511}; Physical Curve("riv_s1") = {512};
+MeshSize{:} = 1.5;
