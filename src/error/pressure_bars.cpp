@@ -76,6 +76,8 @@ void find_excluded(double part, PressureEstimate& e) {
   for (Eigen::Index i = 0; i < line.p.size(); ++i)
     left = left || (line.loaded[i] && line.p(i) != 0 && !e.excluded[i] && is_known(e, i));
   if (!left) e.excluded.assign(line.p.size(), 0);
+  // Where contact ends in what is left out, p is a root of nothing beyond.
+  for (Eigen::Index i = 0; i < line.p.size(); ++i) e.local.border[i] = e.local.border[i] && !e.excluded[i];
 }
 
 void find_bars(PressureEstimate& e) {

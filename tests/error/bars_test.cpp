@@ -89,6 +89,25 @@ TEST(Bars, WhereNoVertexIsKnownTheErrorIsPItself) {
   EXPECT_EQ(e.excluded[2], 1);
 }
 
+// Contact that ends beside a corner, in what is left out around it, has a border there that moves no root beyond.
+TEST(Bars, ABorderBesideAPointWithoutLimitIsNone) {
+  PressureEstimate e = made_by_hand();
+  find_excluded(0.1, e);
+  EXPECT_GT(std::ranges::count(e.local.border, 1), 0);
+  e.local.l2(5) = 1e3;
+  find_bars(e);
+  const double spread = e.bar(0);
+  SingularPoint corner{};
+  corner.position = e.line.position[5];
+  corner.pressure_exponent = 0.5;
+  e.singular = {corner};
+  find_excluded(0.3, e);
+  EXPECT_EQ(e.excluded[5], 1);
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(e.local.border[i] && e.excluded[i]) << i;
+  find_bars(e);
+  EXPECT_LT(e.bar(0), spread / 10);
+}
+
 // Contact that ends d further on has p = c sqrt(r + d) in the place of c sqrt(r): at the border c sqrt(d), and no more
 // than that beside it. The mean of its square over where a vertex may stand in its edge counts for the far field.
 TEST(Bars, BesideABorderAreThoseOfTheRootThatItMovesTo) {
