@@ -126,7 +126,8 @@ bool closes_in_the_next_sector(const Mesh& mesh, const Curve& curve) {
   const int start = curve.edges.front().nodes[0], end = curve.edges.back().nodes[1];
   const double near =
       0.1 * std::min(edge_length(mesh.nodes, curve.edges.front()), edge_length(mesh.nodes, curve.edges.back()));
-  // By places: on meshes that do not match the end of a coarse cut follows several nodes.
+  // By places, as near as ties must be (problem/ties.cpp): on meshes that do not match the end of a coarse cut follows
+  // several nodes.
   return std::ranges::any_of(mesh.ties, [&](const Tie& tie) {
     return !tie.turn.isIdentity() && std::ranges::any_of(tie.nodes, [&](const TiedNode& one) {
       if (one.node != start && one.node != end) return false;

@@ -58,7 +58,7 @@ struct LineError {
   struct Weak {
     Eigen::Index vertex;
     double part, power;
-    bool at_end;  ///< of the line: the bodies' angles say how p goes; else what is known of it hangs on the slide
+    bool at_end;  ///< of the line: the bodies' angles say how p goes; else it depends on how far they slide
   };
   std::vector<Weak> weak{};
   /// Likewise, of what p swings by about its slopes; empty: nothing. Edges of the next mesh are made by `l2` and

@@ -234,7 +234,7 @@ std::vector<PatternSides> patterns_without_distance(const Scene& scene, const Me
   for (const ContactSpec& spec : scene.contacts) {
     if (!is_found(spec) || spec.within || is_one_curve(spec)) continue;
     if (!entries) entries.emplace(mesh);
-    all.push_back(entries->of(spec));
+    for (std::vector<int>& side : all.emplace_back(entries->of(spec))) std::ranges::sort(side);
   }
   return all;
 }

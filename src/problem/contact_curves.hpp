@@ -21,7 +21,7 @@ struct ContactCurves {
 std::vector<ContactCurves> contact_curves(const Scene& scene, const Mesh& mesh);
 std::vector<ContactCurves> tied_curves(const Scene& scene, const Mesh& mesh);
 
-/// Of each [[contact]] entry of patterns without a distance the boundaries of both sides.
+/// Of each [[contact]] entry of patterns without a distance the boundaries of both sides, rising.
 using PatternSides = std::array<std::vector<int>, 2>;
 std::vector<PatternSides> patterns_without_distance(const Scene& scene, const Mesh& mesh);
 

@@ -27,13 +27,13 @@ Box box_of(const Points& nodes, const Curve& curve) {
 struct Candidate {
   const Curve& curve;
   double edge;     // mean length
-  double sagitta;  // the largest
+  double sagitta;  // the largest, where it counts
   Box box;
 };
 
-Candidate candidate(const Points& nodes, const Curve& curve) {
-  return {curve, curve_length(nodes, curve) / double(curve.edges.size()), std::ranges::max(sagittas(nodes, curve)),
-          box_of(nodes, curve)};
+Candidate candidate(const Points& nodes, const Curve& curve, const Nearness& near) {
+  return {curve, curve_length(nodes, curve) / double(curve.edges.size()),
+          near.as_one_curve ? std::ranges::max(sagittas(nodes, curve)) : 0, box_of(nodes, curve)};
 }
 
 double limit(const Nearness& near, const Candidate& one, const Candidate& other) {
@@ -63,7 +63,7 @@ std::vector<std::array<int, 2>> facing_pairs(const Mesh& mesh, const std::map<in
   std::vector<Candidate> others;
   std::vector<Box> boxes;
   for (const int boundary : sides[1]) {
-    others.push_back(candidate(nodes, curves.at(boundary)));
+    others.push_back(candidate(nodes, curves.at(boundary), near));
     boxes.push_back(others.back().box);
   }
   if (others.empty()) return {};
@@ -76,7 +76,7 @@ std::vector<std::array<int, 2>> facing_pairs(const Mesh& mesh, const std::map<in
   std::vector<std::array<int, 2>> pairs;
   std::set<std::pair<int, int>> tried;
   for (const int first : sides[0]) {
-    const Candidate own = candidate(nodes, curves.at(first));
+    const Candidate own = candidate(nodes, curves.at(first), near);
     const double reach = limit(near, own, largest);
     const Box wide(own.box.min() - Vec2(reach, reach), own.box.max() + Vec2(reach, reach));
     for (const int k : index.meeting(wide)) {

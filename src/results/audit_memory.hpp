@@ -17,8 +17,8 @@ struct AuditMemory {
   /// Those that displacements up to a largest one may bring into one another where no pair stands between them.
   std::vector<EdgeAndPiece> may_cross;
   double up_to = 0;
-  std::vector<KnownPair>
-      missed;  ///< pairs that patterns mean, at which bodies of the last solution go through one another
+  /// Pairs that patterns mean, at which bodies of the last solution go through one another.
+  std::vector<KnownPair> missed;
 };
 
 }  // namespace mortise

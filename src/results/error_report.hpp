@@ -33,7 +33,7 @@ void set_fitted_pressures(Results& results);
 std::string largest_error(const Results& results);
 std::string largest_error(const Results& results, const std::vector<std::size_t>& pairs);  ///< of these alone
 
-/// The pairs whose p matters to any body (checks.hpp), in their order.
+/// The pairs whose p matters to any body (negligible_pressure), in their order.
 std::vector<std::size_t> pairs_that_matter(const Results& results);
 
 }  // namespace mortise

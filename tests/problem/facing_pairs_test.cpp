@@ -166,6 +166,27 @@ contact = [{ between = ["base_*", "*_foot"] }]
   }
 }
 
+// A whole that falls into pieces has these at its place in the list, whose numbers come after all others'.
+TEST(FacingPairs, OfPatternsAreByNumber) {
+  const TemporaryFolder folder;
+  folder.write("a.geo", R"(SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 4, 1}; Rectangle(2) = {0, 1, 0, 1, 1}; Rectangle(3) = {2.5, 1, 0, 1, 1};
+Mesh.MeshSizeMax = 0.3; Physical Surface("base") = {1}; Physical Surface("left") = {2}; Physical Surface("right") = {3};
+Physical Curve("a_base") = {1, 3}; Physical Curve("b_base") = {2};
+Physical Curve("left_foot") = {5}; Physical Curve("right_foot") = {9}; Physical Curve("heads") = {7, 11};
+)");
+  const Problem p = check_scene(read_scene(folder.write("a.toml", R"(
+mesh.file = "a.geo"
+materials = { steel = { young = 210e9, poisson = 0.3 } }
+bodies = { "*" = "steel" }
+boundary = [{ on = "b_base", displacement = { x = 0, y = 0 } }, { on = "heads", displacement = { x = 0, y = 0 } }]
+contact = [{ between = ["*_base", "*_foot"] }]
+)")));
+  ASSERT_EQ(p.patterns.size(), 1u);
+  EXPECT_EQ(p.patterns[0][0].size(), 3u);
+  for (const std::vector<int>& side : p.patterns[0]) EXPECT_TRUE(std::ranges::is_sorted(side));
+}
+
 // Sheets that lie on one another have no pairs through a sheet, however thin it is.
 TEST(FacingPairs, OfClosedCurvesAreOneCurve) {
   const TemporaryFolder folder;
