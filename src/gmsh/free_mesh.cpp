@@ -26,6 +26,7 @@ void set_mesh_options(bool recombine) {
       {"Mesh.MeshSizeFromPoints", 0},
       {"Mesh.MeshSizeFromCurvature", 0},
       {"Mesh.MeshSizeExtendFromBoundary", 0},
+      {"Mesh.SmoothRatio", 1e4},  // of lengths along curves, which may grow as asked
       {"Mesh.MinimumCircleNodes", 0},
       {"Mesh.MinimumCurveNodes", 0},
       {"Mesh.LcIntegrationPrecision", 1e-5},  // of a count of edges; less gives the same meshes, later

@@ -1,9 +1,11 @@
 #include "gmsh/free_mesher.hpp"
 
 #include <filesystem>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "fem/elements.hpp"
+#include "gmsh/flat_triangles.hpp"
 #include "gmsh/load_mesh.hpp"
 #include "mesh_files/assemble_mesh.hpp"
 
@@ -19,7 +21,9 @@ FreeMesher::FreeMesher(const std::string& file, const std::map<std::string, doub
 }
 
 Mesh FreeMesher::mesh_once(const SizeAt& size, bool recombine) {
-  Mesh mesh = assemble_mesh(gmsh_.mesh_freely(drawing_.geometry, size, recombine));
+  MeshData data = gmsh_.mesh_freely(drawing_.geometry, size, recombine);
+  swap_flat_triangles(data);
+  Mesh mesh = assemble_mesh(std::move(data));
   check_cells(mesh);
   return mesh;
 }

@@ -329,6 +329,34 @@ TEST(FreeMesher, NoCellIsFlatWhereSizesAreTiny) {
     }
 }
 
+// Ends of contact on a straight side, with edges down to 5e-8 of the whole: gmsh leaves triangles of three points of the
+// side, with any sizes near these.
+TEST(FreeMesher, NoCellIsFlatAlongASideWithTinyEdges) {
+  const TemporaryFolder folder;
+  FreeMesher mesher(folder.write("a.geo", R"(
+Point(1) = {-30, 4, 0}; Point(2) = {30, 4, 0}; Point(3) = {30, 14, 0}; Point(4) = {-30, 14, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Physical Surface("pad") = {1}; Physical Curve("side") = {1};)"),
+                    {});
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> along(-25, 25), tiny(-5.5, -4.5), growth(0.2, 0.6);
+  for (int i = 0; i < 20; ++i) {
+    std::vector<std::pair<Vec2, double>> ends;
+    for (int k = 0; k < 8; ++k) ends.emplace_back(Vec2(along(random), 4), std::pow(10, tiny(random)));
+    const double rate = growth(random);
+    const SizeAt size = [&](const Vec2& x) {
+      double least = 2;
+      for (const auto& [end, h] : ends) least = std::min(least, h + rate * (x - end).norm());
+      return least;
+    };
+    const Mesh mesh = mesher.mesh(size);
+    std::vector<double> ratios;
+    for (const Edge& edge : mesh.boundaries[0].edges) ratios.push_back(size_ratio(mesh, edge, size));
+    std::ranges::sort(ratios);
+    EXPECT_GE(ratios[ratios.size() / 2], 0.95) << i << ", " << ratios.size();
+  }
+}
+
 TEST(FreeMesher, RefusesWhatHasNoGeometry) {
   const TemporaryFolder folder;
   const std::string rings = MORTISE_SOURCE_DIR "/geo/rings.geo";
