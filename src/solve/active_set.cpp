@@ -156,14 +156,17 @@ void descend(ContactRows& rows, const InteriorPoint& from, ActiveSetResult& r) {
 
 bool ended(const ActiveSetResult& r) { return r.status != SolveStatus::not_converged || r.infeasible.empty(); }
 
-// No answer may hang on which of the rows that just touch the interior point called closed: rows without pressure are
-// open, and motions that no row holds then are the least that leave all of them open.
+// No answer may hang on which of the rows that just touch were called closed: rows without pressure are open, and
+// motions that no row holds then are the least that leave all of them open.
 void move_least(ContactRows& rows, const ActiveSetOptions& options, ActiveSetResult& r) {
+  if (rows.motions() == 0) return;
   const ActiveSetResult touching = r;
   const VecX stress = r.lambda.cwiseQuotient(rows.scale());
+  if (r.interior_steps == 0 && !(largest_entry(stress) > r.negligible_tension)) return;
   std::vector<char> pressed = r.active;
   for (std::size_t a = 0; a < pressed.size(); ++a)
     if (rows.unilateral()[a] && stress(Eigen::Index(a)) > -without_pressure * largest_entry(stress)) pressed[a] = 0;
+  if (pressed == r.active && r.interior_steps == 0) return;
   if (pressed != r.active) iterate(rows, pressed, touching.mu, options.settling_steps, options.settling_steps, r);
   if (r.status == SolveStatus::converged) {
     const MatX free = rows.free_motions();
@@ -202,7 +205,6 @@ void find(ContactRows& rows, std::vector<char> start, const ActiveSetOptions& op
     return;
   }
   descend(rows, point, r);
-  if (r.status == SolveStatus::converged) move_least(rows, options, r);
 }
 
 }  // namespace
@@ -210,7 +212,9 @@ void find(ContactRows& rows, std::vector<char> start, const ActiveSetOptions& op
 ActiveSetResult find_active_set(ContactRows& rows, std::vector<char> start, const ActiveSetOptions& options) {
   ActiveSetResult r;
   find(rows, std::move(start), options, r);
-  if (r.status == SolveStatus::converged) r.free_motions = rows.free_motions();
+  if (r.status != SolveStatus::converged) return r;
+  move_least(rows, options, r);
+  r.free_motions = rows.free_motions();
   return r;
 }
 
@@ -237,7 +241,10 @@ ActiveSetResult find_active_set(const ComplementarityProblem& p, const VecX& rhs
     for (std::size_t a = 0; a < next.size(); ++a) r.steps.back().changed += next[a] != r.active[a];
     find(rows, std::move(next), options, r);
   }
-  if (r.status == SolveStatus::converged) r.free_motions = rows.free_motions();
+  if (r.status == SolveStatus::converged) {
+    if (!correction) move_least(rows, options, r);
+    r.free_motions = rows.free_motions();
+  }
   r.system = rows.take_system();
   return r;
 }

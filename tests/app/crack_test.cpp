@@ -106,10 +106,13 @@ TEST(Cracks, ThatSlidePressEvenlyUpToTheirTips) {
                              {{"accuracy.value", "0.005"}, {"accuracy.first_edges", std::to_string(10 + 5 * k)}});
     EXPECT_EQ(r.status, Status::solved) << r.accuracy->reason;
     const double exact = std::pow(std::cos(std::numbers::pi / 180 * crack.angle), 2);
+    double off = 0, swing = 0;
     for (const ContactNode& node : r.recovery.contacts[0].multiplier.nodes) {
       EXPECT_NEAR(node.p, exact, std::max(node.p_error, 1e-3)) << node.s;  // the plate is 60 cracks wide
-      EXPECT_NEAR(node.p, exact, 0.01 * exact) << node.s;
+      off = std::max(off, std::abs(node.p - exact));
+      swing = std::max(swing, std::abs(node.p_multiplier - exact));
     }
+    EXPECT_LE(off, 0.1 * swing);
     const auto& singular = r.estimate->pressures[0].singular;
     ASSERT_EQ(singular.size(), 2u);
     for (const SingularPoint& tip : singular) {

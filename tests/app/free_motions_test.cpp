@@ -332,6 +332,22 @@ TEST(FreeMotions, APinThatSinksDoesNotSpin) {
   }
 }
 
+// Rollers without load touch at no pressure, if at all: they stay where they are, whatever rows were closed at first,
+// and move no further than those that carry the shaft, by 0.05 and a little for what these leave them.
+TEST(FreeMotions, RollersWithoutLoadStayWhereTheyAre) {
+  std::mt19937 random(17);
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (const Solver solver : {Solver::direct, Solver::direct, Solver::feti}) {
+    Scene scene = read_scene(MORTISE_SOURCE_DIR "/geo/rollers.toml");
+    scene.mesh_parameters = {{"rollers", int(draw(8, 15))}, {"fine", draw(0.07, 0.12)}};
+    scene.method.solver = solver;
+    SCOPED_TRACE(scene.mesh_parameters["rollers"]);
+    const Results r = solve_scene(scene);
+    EXPECT_EQ(r.status, Status::solved);
+    EXPECT_LE(largest_entry(r.solution.u), 0.1);
+  }
+}
+
 // A block that may slide between walls, `left` and `right` of it, and swells: from its middle, if no wall is in the
 // way.
 TEST(FreeMotions, WhatMaySlideStaysWhereItIsOrWhereAWallLeavesIt) {

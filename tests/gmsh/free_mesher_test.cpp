@@ -329,8 +329,8 @@ TEST(FreeMesher, NoCellIsFlatWhereSizesAreTiny) {
     }
 }
 
-// Ends of contact on a straight side, with edges down to 5e-8 of the whole: gmsh leaves triangles of three points of the
-// side, with any sizes near these.
+// Ends of contact on a straight side, with edges down to 5e-8 of the whole: gmsh leaves triangles of three points of
+// the side, with any sizes near these.
 TEST(FreeMesher, NoCellIsFlatAlongASideWithTinyEdges) {
   const TemporaryFolder folder;
   FreeMesher mesher(folder.write("a.geo", R"(
