@@ -97,17 +97,6 @@ CellPlace place_of(const Mesh& mesh, const AccuracySpec& spec) {
                    "; expected a place in one");
 }
 
-// Throws SceneError where the place is a corner at which stresses have no limit.
-void require_stress(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place, const Vec2& x) {
-  const double exponent = exponent_at(mesh, discretisation, place, x);
-  if (exponent > singular_limit) return;
-  std::ostringstream text;
-  text.precision(2);
-  text << "accuracy.at: the stress has no limit " << near_point(x) << ", where it grows as r^" << exponent - 1
-       << "; expected a place beside it, or a rounded corner";
-  throw SceneError(text.str());
-}
-
 // Those of the body with a corner in common with a cell.
 std::vector<int> cells_around(const Mesh& mesh, int centre) {
   const Cell& middle = mesh.cells[centre];
@@ -167,13 +156,36 @@ MatX stress_loads(const Mesh& mesh, const Discretisation& discretisation, const 
   return loads / area;
 }
 
-double exponent_at(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place, const Vec2& x) {
+std::optional<double> singular_exponent(const Problem& problem, const std::vector<PressureEstimate>& pressures,
+                                        const CellPlace& place, const Vec2& x) {
+  constexpr double at = 1e-6;  // of an edge
+  if (const SingularPoint* point = singular_point_at(pressures, x, at)) return point->exponent;
+  const Mesh& mesh = problem.mesh;
+  const Discretisation& d = problem.discretisation;
   const Cell& cell = mesh.cells[place.cell];
   const double size = (mesh.nodes.row(cell.nodes[1]) - mesh.nodes.row(cell.nodes[0])).norm();
-  for (int a = 0; a < corner_count(cell.kind); ++a)
-    if ((mesh.nodes.row(cell.nodes[a]).transpose() - x).norm() <= 1e-6 * size)
-      return corner_exponent(mesh, cell.nodes[a], discretisation.system.constraints, discretisation.laws[cell.body]);
-  return 1;
+  for (int a = 0; a < corner_count(cell.kind); ++a) {
+    if ((mesh.nodes.row(cell.nodes[a]).transpose() - x).norm() > at * size) continue;
+    const double exponent = corner_exponent(mesh, cell.nodes[a], d.system.constraints, d.laws[cell.body]);
+    if (exponent <= singular_limit) return exponent;
+  }
+  return std::nullopt;
+}
+
+void require_stress(const Problem& problem, const std::vector<PressureEstimate>& pressures,
+                    const GoalFunctionals& functionals, const AccuracySpec& spec) {
+  if (spec.of != Goal::stress || !functionals.place) return;
+  const auto exponent = singular_exponent(problem, pressures, *functionals.place, spec.at);
+  if (!exponent) return;
+  std::ostringstream text;
+  text.precision(2);
+  text << "accuracy.at: the stress has no limit " << near_point(spec.at) << ", where it grows as ";
+  if (*exponent < 1)
+    text << "r^" << *exponent - 1;
+  else
+    text << "ln 1/r";
+  text << "; expected a place beside it, or a rounded corner";
+  throw SceneError(text.str());
 }
 
 GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discretisation, const ContactPair& pair,
@@ -202,7 +214,6 @@ GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discret
       break;
     case Goal::stress:
       goal.place = place_of(mesh, spec);
-      require_stress(mesh, discretisation, *goal.place, spec.at);
       goal.loads = stress_loads(mesh, discretisation, *goal.place);
       break;
   }

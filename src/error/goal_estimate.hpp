@@ -2,6 +2,7 @@
 #pragma once
 
 #include "error/line_part.hpp"
+#include "error/pressure_estimate.hpp"
 #include "fem/locate.hpp"
 #include "fem/patch_recovery.hpp"
 #include "model/method.hpp"
@@ -22,8 +23,7 @@ struct GoalFunctionals {
   MatX opening;
 };
 
-/// `line`: of spec.pair. Throws SceneError where spec.at lies in no body or, none being named, in several; and for a
-/// stress where it is a corner at which that has no limit.
+/// `line`: of spec.pair. Throws SceneError where spec.at lies in no body or, none being named, in several.
 GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discretisation, const ContactPair& pair,
                                  const PressureLine& line, const AccuracySpec& spec);
 
@@ -33,9 +33,14 @@ MatX displacement_loads(const Mesh& mesh, const CellPlace& place);
 /// n x 3: of the stress (11, 22, 12) there, its mean over the cells around, initial strains left out.
 MatX stress_loads(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place);
 
-/// By which the displacements grow with the distance from the place, if it is a corner (contact/singular_points.hpp);
-/// at most singular_limit where stresses have no limit. 1 elsewhere.
-double exponent_at(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place, const Vec2& x);
+/// Where stresses have no limit at a place, x, the exponent by which displacements grow with the distance from it: at a
+/// corner of its body, or where contact has a singular point (1: stresses grow as a logarithm). None elsewhere.
+std::optional<double> singular_exponent(const Problem& problem, const std::vector<PressureEstimate>& pressures,
+                                        const CellPlace& place, const Vec2& x);
+
+/// Throws SceneError where a stress has no limit at spec.at.
+void require_stress(const Problem& problem, const std::vector<PressureEstimate>& pressures,
+                    const GoalFunctionals& functionals, const AccuracySpec& spec);
 
 /// 11, 22, 12: the stress recovered at the place less the elements' own. `patches`: u in its first field.
 Eigen::Vector3d stress_difference(const Problem& problem, const VecX& u, const StressPatches& patches,

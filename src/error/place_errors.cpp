@@ -102,7 +102,7 @@ std::vector<PlaceError> place_errors(const Problem& problem, const Solution& sol
       error.tail<3>() += local;
       if (touches(mesh.cells[probe.in[i].cell], boundary)) error.tail<3>().array() += probe.spread[i];
       error.tail<3>().array() += largest_at(mesh.cells[probe.in[i].cell], bars_of_p) / error_safety;
-      if (exponent_at(mesh, d, probe.in[i], probe.x[i]) <= singular_limit)
+      if (singular_exponent(problem, pressures, probe.in[i], probe.x[i]))
         error.tail<3>().setConstant(std::numeric_limits<double>::quiet_NaN());
       errors.push_back({error_safety * error.head<2>(), error_safety * error.tail<3>()});
     }

@@ -33,4 +33,13 @@ struct PressureEstimate {
   }
 };
 
+/// The singular point of contact at a place, nearer than this part of its edge; null where there is none.
+inline const SingularPoint* singular_point_at(const std::vector<PressureEstimate>& pressures, const Vec2& place,
+                                              double part_of_edge) {
+  for (const PressureEstimate& e : pressures)
+    for (const SingularPoint& point : e.singular)
+      if ((point.position - place).norm() < part_of_edge * point.edge) return &point;
+  return nullptr;
+}
+
 }  // namespace mortise

@@ -134,12 +134,7 @@ std::vector<std::string> error_warnings(const Results& r) {
 bool grows_without_limit(const Results& r, const Extreme& stress) {
   r.memory->keep_for(r.problem);
   if (r.memory->exponent_at(r.problem, stress.node, stress.of) <= singular_limit) return true;
-  if (!r.estimate) return false;
-  return std::ranges::any_of(r.estimate->pressures, [&](const PressureEstimate& e) {
-    return std::ranges::any_of(e.singular, [&](const SingularPoint& point) {
-      return (point.position - stress.place).norm() < 0.05 * point.edge;
-    });
-  });
+  return r.estimate && singular_point_at(r.estimate->pressures, stress.place, 0.05);
 }
 
 namespace {

@@ -185,6 +185,19 @@ TEST(Accuracy, OfAPlaceThatIsNotOneIsRefused) {
   expect_contains(told("[0, 0]"), "the stress has no limit near (0, 0), where it grows as r^-0.29");  // clamped corner
 }
 
+// Where contact ends at a corner of the punch neither body is a corner that is singular by itself.
+TEST(Accuracy, OfAStressAtTheEndOfContactIsRefused) {
+  for (const std::string body : {"punch", "block"})
+    for (const char* at : {"[0.2, 0.2]", "[0.4, 0.2]"}) {
+      const std::string said = message_of([&] {
+        solve_to_accuracy(scene_to_accuracy("punch", "5%",
+                                            {{"accuracy.of", "stress"}, {"accuracy.at", at}, {"accuracy.body", body}}));
+      });
+      expect_contains(said, "accuracy.at: the stress has no limit near (0.");
+      expect_contains(said, "where it grows as r^-0.");
+    }
+}
+
 TEST(Accuracy, OfAStressGoesBesideALineWhereBodiesMeet) {
   const auto at_line = [](const std::string& body, const std::string& asked) {
     const auto r = solve_to_accuracy(scene_to_accuracy(
