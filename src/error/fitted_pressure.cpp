@@ -258,6 +258,36 @@ void lower_errors(const Walk& walk, const Range& range, const PressureForm& form
   }
 }
 
+// How much p* swings beside an end: squares of what its slopes jump by, over half an edge before and after each vertex
+// and middle of an edge, times that length, so that each edge counts as another, however short.
+double swing_beside(const PressureForm& form, const LoadedPiece& piece, int which) {
+  const Index last = piece.s.size() - 1;
+  const auto vertex = [&](Index k) { return piece.s(which == 0 ? k : last - k); };
+  const auto at = [&](Index k) { return (vertex(k / 2) + vertex((k + 1) / 2)) / 2; };
+  double sum = 0;
+  for (Index k = 2; k < last; ++k) {  // not from the end, at which p* may be infinite
+    const double before = at(k) - at(k - 1), after = at(k + 1) - at(k);
+    const double jump = (form(at(k + 1)) - form(at(k))) / after - (form(at(k)) - form(at(k - 1))) / before;
+    sum += std::pow(jump * (before + after) / 2, 2);
+  }
+  return sum;
+}
+
+// The share of p that goes as the power of a singular point may be none, as where other bodies close the corner: then
+// no q is smooth, and p* with q alone is the smoother one beside that end.
+template <typename Credible>
+void leave_powers(const std::array<double, 2>& ends, Credible credible, LoadedPiece& piece, PressureForm& form) {
+  for (const int which : {0, 1}) {
+    if (piece.end[which].border || piece.end[which].power == 0) continue;
+    LoadedPiece plain = piece;
+    plain.end[which].power = 0;
+    const auto other = fit_pressure(plain, ends);
+    if (!other || !credible(*other) || swing_beside(*other, piece, which) >= swing_beside(form, piece, which)) continue;
+    form = *other;
+    piece = plain;
+  }
+}
+
 }  // namespace
 
 void find_fitted_pressure(const Problem& problem, const ContactPair& pair, PressureEstimate& estimate) {
@@ -275,8 +305,12 @@ void find_fitted_pressure(const Problem& problem, const ContactPair& pair, Press
     const std::array<double, 2> ends = ends_of(piece);
     for (const Swing& swing : swings_to_try(range)) {
       piece.swing = swing;
-      const auto form = fit_pressure(piece, ends);
-      if (!form || !credible(*form, walk, range, estimate, missed, unilateral)) continue;
+      auto form = fit_pressure(piece, ends);
+      const auto is_credible = [&](const PressureForm& found) {
+        return credible(found, walk, range, estimate, missed, unilateral);
+      };
+      if (!form || !is_credible(*form)) continue;
+      leave_powers(ends, is_credible, piece, *form);
       fitted.pieces.push_back({*form, {piece.s(0), piece.s(piece.s.size() - 1)}, *fluid});
       if (const auto coarse = fit_of_every_other(piece)) lower_errors(walk, range, *form, *coarse, estimate);
       break;

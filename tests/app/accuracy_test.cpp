@@ -195,6 +195,7 @@ TEST(Accuracy, OfAStressAtTheEndOfContactIsRefused) {
       });
       expect_contains(said, "accuracy.at: the stress has no limit near (0.");
       expect_contains(said, "where it grows as r^-0.");
+      expect_contains(said, "; expected a place beside it, or a rounded corner");
     }
 }
 

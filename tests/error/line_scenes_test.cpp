@@ -14,6 +14,7 @@
 #include "app/solve_scene.hpp"
 #include "error/contact_reach.hpp"
 #include "error/gap_misfit.hpp"
+#include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise::test {
@@ -72,6 +73,12 @@ TEST(GivenGap, ThatRisesFromALineOfSymmetryMakesALogarithm) {
     EXPECT_NEAR(point.log_pressure, modulus / 2 * 6e-5 * std::cos(6 * point.position.x()), 1e-9);
     EXPECT_TRUE(point.is_unbounded());
   }
+  AccuracySpec spec;
+  spec.of = Goal::stress;
+  spec.at = points[0].position;
+  spec.body = "upper";
+  Results r = sloped;
+  expect_contains(message_of([&] { estimate(r, spec); }), "where it grows as ln 1/r; expected a place beside it");
 }
 
 // Of p = s: the mean over half a window at the end, 0.3 of the windows' distance, is int z (1 - z^2)^3 / int (1 -

@@ -7,10 +7,13 @@
 #include <functional>
 #include <numbers>
 #include <random>
+#include <sstream>
 
+#include "app/accuracy.hpp"
 #include "app/solve_scene.hpp"
 #include "error/fitted_pressure.hpp"
 #include "fem/quadrature.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mortise::test {
 namespace {
@@ -221,6 +224,59 @@ TEST(FittedPressure, IsNoneWhereItWouldSwingMoreThanTheMultiplier) {
   }
   EXPECT_GT(taken, 10);
   EXPECT_GT(left, 10);
+}
+
+// A bush in pieces in a housing that is too tight by 0.01: its joints are closed, so that p is the same all round
+// (Lame), though each pair's own two bodies would make it grow without limit at a joint.
+TEST(FittedPressure, IsSmoothWhereAThirdBodyClosesTheCorner) {
+  std::mt19937 random(40);
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (int n = 2; n <= 5; ++n) {
+    const TemporaryFolder folder;
+    std::ostringstream geo, scene;
+    geo << "n = " << n << "; t = " << draw(1, 6) << "; from = " << draw(0, 1) << ";\n"
+        << R"(Mesh.ElementOrder = 2; Mesh.MeshSizeMax = 4;
+Point(1) = {0, 0, 0};
+For k In {0 : n - 1}
+  o = 100 + 20 * k;
+  For j In {0 : 2}
+    a = from + 2 * Pi * (k + j / 2) / n;
+    Point(o + j) = {22 * Cos(a), 22 * Sin(a), 0}; Point(o + 5 + j) = {(22 - t) * Cos(a), (22 - t) * Sin(a), 0};
+  EndFor
+  Circle(o + 1) = {o, 1, o + 1}; Circle(o + 2) = {o + 1, 1, o + 2};
+  Circle(o + 3) = {o + 7, 1, o + 6}; Circle(o + 4) = {o + 6, 1, o + 5};
+  Line(o + 5) = {o + 5, o}; Line(o + 6) = {o + 2, o + 7};
+  Curve Loop(o) = {o + 1, o + 2, o + 6, o + 3, o + 4, o + 5}; Plane Surface(o) = {o};
+  Physical Surface(Sprintf("piece_%g", k)) = {o}; Physical Curve(Sprintf("back_%g", k)) = {o + 1, o + 2};
+  Physical Curve(Sprintf("start_%g", k)) = {o + 5}; Physical Curve(Sprintf("end_%g", k)) = {o + 6};
+EndFor
+For j In {0 : 3}
+  Point(10 + j) = {22 * Cos(Pi * j / 2), 22 * Sin(Pi * j / 2), 0}; Point(20 + j) = {34 * Cos(Pi * j / 2), 34 * Sin(Pi * j / 2), 0};
+EndFor
+For j In {0 : 3}
+  Circle(10 + j) = {10 + j, 1, 10 + (j + 1) % 4}; Circle(20 + j) = {20 + j, 1, 20 + (j + 1) % 4};
+EndFor
+Curve Loop(1) = {20 : 23}; Curve Loop(2) = {10 : 13}; Plane Surface(1) = {1, 2};
+Physical Surface("housing") = {1}; Physical Curve("bore") = {10 : 13}; Physical Curve("rim") = {20 : 23};
+)";
+    folder.write("a.geo", geo.str());
+    scene
+        << "mesh.file = \"a.geo\"\nmaterials.steel = { young = 210e3, poisson = 0.3 }\nbodies = { \"*\" = \"steel\" }\n"
+        << "boundary = [{ on = \"rim\", displacement = { x = 0, y = 0 } }]\naccuracy.value = 0.01\ncontact = [\n";
+    for (int k = 0; k < n; ++k)
+      scene << "{ between = [\"back_" << k << "\", \"bore\"], clearance = -0.01 },\n{ between = [\"end_" << k
+            << "\", \"start_" << (k + 1) % n << "\"], initial_gap = \"closed\" },\n";
+    scene << "]\n";
+    const Results r = *solve_to_accuracy(read_scene(folder.write("a.toml", scene.str())));
+    EXPECT_TRUE(r.accuracy->reached()) << n;
+    double p_max = 0, p_min = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < r.recovery.contacts.size(); k += 2)
+      for (const ContactNode& node : r.recovery.contacts[k].multiplier.nodes) {
+        p_max = std::max(p_max, node.p);
+        p_min = std::min(p_min, node.p);
+      }
+    EXPECT_LE(p_max, 1.01 * p_min) << n;
+  }
 }
 
 }  // namespace
