@@ -113,10 +113,9 @@ class Loop {
  private:
   // `sizes`: of the mesh that r is on; `first`: of all.
   SizeAt sizes_after(const Results& r, SizeAt sizes, bool first) {
-    const bool pressed = is_pressed(r);
-    others_ = tells_sizes(r) || !pressed ? 0 : others_ + 1;
-    if (!pressed) return with_wanted(r, small_at_gaps(finer(sizes)));
-    return others_ == 0 ? next_sizes(r, first) : finer(sizes);
+    const bool pressed = is_pressed(r), tells = pressed && tells_sizes(r);
+    others_ = tells || !pressed ? 0 : others_ + 1;
+    return tells ? next_sizes(r, first) : with_wanted(r, small_at_gaps(r, finer(sizes)));
   }
 
   // With what only the last results have. `seconds`: of all solves.
@@ -257,11 +256,14 @@ class Loop {
     return open;
   }
 
-  // Edges an eighth as long where the curves are nearest.
-  SizeAt small_at_gaps(const SizeAt& sizes) const {
+  // Edges an eighth as long where the curves of pairs that carry nothing are nearest.
+  static SizeAt small_at_gaps(const Results& r, const SizeAt& sizes) {
     std::vector<SizeLayers> layers;
-    for (const LeastGap& gap : gaps_[worst_])
+    for (const ContactPair& pair : r.problem.pairs) {
+      if (r.solution.lambda.segment(pair.first_row, pair.coupling.B.rows()).cwiseAbs().maxCoeff() > 0) continue;
+      const LeastGap gap = least_gap(r.problem.mesh.nodes, r.solution.u, pair);
       if (std::isfinite(gap.gap)) layers.push_back({gap.place, gap.edge / 8, size_growth});
+    }
     return [sizes, layered = std::make_shared<LayeredSizes>(std::move(layers))](const Vec2& x) {
       return std::min(sizes(x), (*layered)(x));
     };

@@ -331,9 +331,12 @@ double ErrorEstimate::peak() const {
 }
 
 double ErrorEstimate::half_width() const {
+  if (pressure_square() == 0) return std::numeric_limits<double>::infinity();
   double part = 0;
-  for (const PressureEstimate& e : pressures)
+  for (const PressureEstimate& e : pressures) {
+    if (!e.local.missed_at.empty()) part = std::max(part, 1.0);  // a contact that is there and has no width yet
     for (const LineError::Border& border : e.local.borders) part = std::max(part, border.part);
+  }
   return part;
 }
 

@@ -347,10 +347,51 @@ boundary = [{ on = ["ground"], displacement = { x = 0, y = 0 } },
             { on = ["head"], displacement = { x = 0, y = -5e-6 } }]
 contact = [{ between = ["round", "face"] }]
 accuracy = { value = "5%", first_edges = 6 })");
-  const auto r = solve_to_accuracy(read_scene(file, {}));
-  ASSERT_TRUE(r);
-  EXPECT_TRUE(r->accuracy->reached()) << r->accuracy->reason;
-  EXPECT_GT(largest_entry(r->solution.lambda), 0);
+  std::map<std::string, double> forces;
+  for (const char* of : {"pressure", "peak", "half_width", "force"}) {
+    const auto r = solve_to_accuracy(read_scene(file, {{"accuracy.of", of}}));
+    ASSERT_TRUE(r);
+    EXPECT_TRUE(r->accuracy->reached()) << of << ": " << r->accuracy->reason;
+    forces[of] = r->recovery.contacts[0].force.y();
+  }
+  for (const auto& [of, force] : forces) {
+    EXPECT_LT(force, 0) << of;
+    EXPECT_NEAR(force, forces["force"], 0.05 * std::abs(force)) << of;
+  }
+}
+
+// A pad presses on a beam, which so comes down on a stop: other contact is there, and the stop's is shorter than its
+// edges.
+TEST(Accuracy, OfShortContactBesideAnotherPairIsFound) {
+  const test::TemporaryFolder folder;
+  folder.write("beam.geo", R"(
+Point(1) = {0, 0, 0}; Point(2) = {60, 0, 0}; Point(3) = {60, 6, 0}; Point(4) = {0, 6, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Point(11) = {26, 6, 0}; Point(12) = {34, 6, 0}; Point(13) = {34, 9, 0}; Point(14) = {26, 9, 0};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 11};
+Curve Loop(2) = {11:14}; Plane Surface(2) = {2};
+Point(21) = {55, -10, 0}; Point(22) = {45, -10, 0}; Point(23) = {55, 0, 0}; Point(24) = {65, -10, 0};
+Circle(21) = {22, 21, 23}; Circle(22) = {23, 21, 24}; Line(23) = {24, 22};
+Curve Loop(3) = {21:23}; Plane Surface(3) = {3};
+Physical Surface("beam") = {1}; Physical Surface("pad") = {2}; Physical Surface("stop") = {3};
+Physical Curve("root") = {4}; Physical Curve("under") = {1}; Physical Curve("over") = {3}; Physical Curve("foot") = {11};
+Physical Curve("head") = {13}; Physical Curve("round") = {21, 22}; Physical Curve("base") = {23};)");
+  const std::string file = folder.write("beam.toml", R"(
+mesh.file = "beam.geo"
+materials.steel = { young = 210e3, poisson = 0.3 }
+bodies = { "*" = "steel" }
+boundary = [{ on = ["root", "base"], displacement = { x = 0, y = 0 } }, { on = "head", rigid = { x = 0, force = [0, -0.3] } }]
+contact = [{ between = ["foot", "over"] }, { between = ["round", "under"] }]
+accuracy = { value = "2%" })");
+  std::map<std::string, double> forces;
+  for (const std::string of : {"pressure", "half_width", "force"}) {
+    const auto r = solve_to_accuracy(
+        read_scene(file, {{"accuracy.of", of}, {of == "force" ? "accuracy.pair" : "accuracy.exclude", of == "force" ? "1" : "0.1"}}));
+    ASSERT_TRUE(r);
+    EXPECT_TRUE(r->accuracy->reached()) << of << ": " << r->accuracy->reason;
+    forces[of] = r->recovery.contacts[1].force.norm();
+  }
+  for (const auto& [of, force] : forces) EXPECT_NEAR(force, forces["force"], 0.04 * forces["force"]) << of;
 }
 
 TEST(Accuracy, KeepsTheLastCompleteAnswerWhenInterrupted) {
