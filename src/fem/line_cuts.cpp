@@ -13,7 +13,8 @@ constexpr double tolerance = 1e-9;  // of the scale: what is left is round-off b
 constexpr double hidden_part = 1. / 256;
 constexpr double shortest = 0x1p-40;  // xi of such pieces is told from their ends'
 constexpr std::size_t most_pieces = 4096;
-constexpr int blind_pieces = 16;  // where no range is known
+constexpr int blind_pieces = 16;                                        // where no range is known
+constexpr double epsilon = 8 * std::numeric_limits<double>::epsilon();  // of a few operations
 
 const LineRule& rule() {
   static const LineRule four = gauss_legendre(rule_points);
@@ -96,33 +97,65 @@ void LineScale::look_at(const LineFunction& f) {
 
 double LineScale::value() const { return scale_of(values_.value_or(Interval{1, 1}), range_); }
 
+namespace {
+
+Interval between(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
+
+}  // namespace
+
 LineFunction along_edge(const Points& nodes, const Edge& edge, const Field& field, const FieldRange& range,
                         const std::function<double(double xi)>& s) {
   const bool uses_s = field.uses_arc_length();
   const auto place = [&nodes, edge](double xi) { return edge_point(nodes, edge, xi).position; };
   return {.at = [&field, s, place, uses_s](double xi) { return field(place(xi), uses_s ? s(xi) : 0); },
-          .range = [&range, s, place, uses_s](double from, double to) -> std::optional<Interval> {
+          .range = [&nodes, edge, &range, s, place, uses_s](double from, double to) -> std::optional<Interval> {
             if (!range.known()) return {};
             // The piece is a parabola: it lies within the triangle of its ends and of the crossing of its tangents.
             const Vec2 start = place(from), end = place(to), middle = place((from + to) / 2),
                        crossing = 2 * middle - (start + end) / 2;
             const Vec2 low = start.cwiseMin(end).cwiseMin(crossing), high = start.cwiseMax(end).cwiseMax(crossing);
-            const double s_from = uses_s ? s(from) : 0, s_to = uses_s ? s(to) : 0;
-            return range({{low.x(), high.x()}, {low.y(), high.y()}, {std::min(s_from, s_to), std::max(s_from, s_to)}});
-          }};
+            const PlaceRange box{
+                {low.x(), high.x()}, {low.y(), high.y()}, between(uses_s ? s(from) : 0, uses_s ? s(to) : 0)};
+            const Vec2 leaves = edge_point(nodes, edge, from).tangent, arrives = edge_point(nodes, edge, to).tangent;
+            return range.along({.box = box,
+                                .middle = middle,
+                                .s = uses_s ? s((from + to) / 2) : 0,
+                                .dx = between(leaves.x(), arrives.x()),
+                                .dy = between(leaves.y(), arrives.y()),
+                                .half = (to - from) / 2});
+          },
+          .round_off =
+              [&field, &range, s, place, uses_s](double xi) {
+                const Vec2 x = place(xi);
+                const double along = uses_s ? s(xi) : 0, of_value = epsilon * std::abs(field(x, along));
+                if (!range.known()) return of_value;
+                const double moved = epsilon * x.cwiseAbs().maxCoeff();
+                const Interval all =
+                    range({{x.x() - moved, x.x() + moved}, {x.y() - moved, x.y() + moved}, {along, along}});
+                return of_value + (all.high - all.low);
+              }};
 }
 
 std::vector<double> resolving_cuts(const LineFunction& f) {
   const Sampled all = sample(f, -1, 1);
   const int count = f.range(-1, 1) ? 1 : blind_pieces;
+  std::optional<double> round_off;  // where it is needed
+  const auto settles = [&](const Piece& piece) {
+    if (piece.error <= tolerance * f.scale) return true;
+    if (!round_off) {
+      round_off = 0;
+      for (const double xi : all.at) round_off = std::max(*round_off, f.round_off(xi));
+    }
+    return piece.error <= *round_off * piece.whole.length();
+  };
   std::priority_queue<Piece> pieces;
   std::vector<Sampled> settled;
   const auto add = [&](const Sampled& whole) {
     Piece piece = piece_of(f, whole);
-    if (piece.error > tolerance * f.scale && whole.length() > shortest)
-      pieces.push(std::move(piece));
-    else
+    if (settles(piece) || whole.length() <= shortest)
       settled.push_back(whole);
+    else
+      pieces.push(std::move(piece));
   };
   for (int k = 0; k < count; ++k) add(count == 1 ? all : sample(f, -1 + 2. * k / count, -1 + 2. * (k + 1) / count));
   while (!pieces.empty() && pieces.size() + settled.size() < most_pieces) {
@@ -133,7 +166,8 @@ std::vector<double> resolving_cuts(const LineFunction& f) {
   for (; !pieces.empty(); pieces.pop()) settled.push_back(pieces.top().whole);
   Moments sum = Moments::Zero();
   for (const Sampled& piece : settled) sum += piece.moments(0, 1);
-  if ((sum - all.moments(0, 1)).cwiseAbs().maxCoeff() <= tolerance * f.scale) return {-1, 1};
+  if ((sum - all.moments(0, 1)).cwiseAbs().maxCoeff() <= std::max(tolerance * f.scale, 2 * round_off.value_or(0)))
+    return {-1, 1};
   std::vector<double> cuts{-1};
   for (const Sampled& piece : settled) cuts.push_back(piece.to);
   std::ranges::sort(cuts);

@@ -18,6 +18,8 @@ struct LineFunction {
   std::function<double(double xi)> at;
   /// An interval that contains all its values from one xi to another; nothing where that is not known.
   std::function<std::optional<Interval>(double from, double to)> range;
+  /// What round-off may change the value at xi by: of its terms, and of the place.
+  std::function<double(double xi)> round_off;
   double scale = 1;  ///< by how much it varies, > 0: tolerances are parts of it
 };
 
@@ -37,10 +39,11 @@ LineFunction along_edge(const Points& nodes, const Edge& edge, const Field& fiel
                         const std::function<double(double xi)>& s);
 
 /// Cuts, ascending, from -1 to 1: between two of them four Gauss points integrate f, f xi and f xi^2 to 1e-9 of the
-/// scale. {-1, 1} where they do so on the whole edge. Pieces are halved, the worst first (Piessens et al., QUADPACK,
-/// 1983), while both halves integrate to something else, or while the range says that f goes beyond its samples by more
-/// than they differ and a 256th of the scale: so what lies between the samples is found however narrow it is. Without a
-/// range f is looked at in 64 points first. A jump ends up in a piece of 2^-30 of the edge; no edge has more than 4096.
+/// scale, or as near as round-off lets them. {-1, 1} where they do so on the whole edge. Pieces are halved, the worst
+/// first (Piessens et al., QUADPACK, 1983), while both halves integrate to something else, or while the range says that
+/// f goes beyond its samples by more than they differ and a 256th of the scale: so what lies between the samples is
+/// found however narrow it is. Without a range f is looked at in 64 points first. A jump ends up in a piece of 2^-30 of
+/// the edge; no edge has more than 4096.
 std::vector<double> resolving_cuts(const LineFunction& f);
 
 /// The places at which resolving_cuts cuts an edge; may be empty.

@@ -342,4 +342,14 @@ Interval ExpressionRange::operator()(const std::vector<Interval>& variables) con
   return {std::max(over.range.low, mean.low), std::min(over.range.high, mean.high)};
 }
 
+Interval ExpressionRange::along(const std::vector<Interval>& variables, const std::vector<double>& middle,
+                                const std::vector<Interval>& rates, double half) const {
+  const Value over = value_on(variables, true);
+  std::vector<Interval> at;
+  for (const double value : middle) at.push_back(one(value));
+  Interval rate = one(0);
+  for (std::size_t v = 0; v < rates.size(); ++v) rate = number(rate + times(over.slopes[v], number(rates[v])));
+  return number(value_on(at, false).range + times(rate, {-half, half}));
+}
+
 }  // namespace mortise

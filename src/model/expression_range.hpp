@@ -22,6 +22,11 @@ class ExpressionRange {
   /// the mean value theorem bounds it too (Moore, Kearfott & Cloud 2009, chapter 6).
   Interval operator()(const std::vector<Interval>& variables) const;
 
+  /// An interval that contains all values on a path in the box, on which the variables are `middle` in the middle and
+  /// change by `rates` with a parameter, up to `half` away: by the mean value theorem along it.
+  Interval along(const std::vector<Interval>& variables, const std::vector<double>& middle,
+                 const std::vector<Interval>& rates, double half) const;
+
  private:
   friend class RangeParser;
   using Apply = Interval (*)(const Interval* arguments, int count);

@@ -11,6 +11,15 @@ struct PlaceRange {
   Interval x, y, s;
 };
 
+/// Places on a piece of a path, by a parameter that goes from -half to half about its middle.
+struct PathRange {
+  PlaceRange box;
+  Vec2 middle;
+  double s;         ///< arc length there
+  Interval dx, dy;  ///< derivatives by the parameter
+  double half;
+};
+
 /// The ranges of a field.
 class FieldRange {
  public:
@@ -20,6 +29,8 @@ class FieldRange {
   bool known() const { return bool(expression_); }
   /// An interval that contains all values on a set of places. Expects known().
   Interval operator()(const PlaceRange& places) const;
+  /// Likewise on a path, along which what varies in the box may be constant: r on a circle, a height on a level.
+  Interval along(const PathRange& path) const;
 
  private:
   std::optional<ExpressionRange> expression_;

@@ -385,8 +385,9 @@ contact = [{ between = ["foot", "over"] }, { between = ["round", "under"] }]
 accuracy = { value = "2%" })");
   std::map<std::string, double> forces;
   for (const std::string of : {"pressure", "half_width", "force"}) {
-    const auto r = solve_to_accuracy(
-        read_scene(file, {{"accuracy.of", of}, {of == "force" ? "accuracy.pair" : "accuracy.exclude", of == "force" ? "1" : "0.1"}}));
+    const auto r = solve_to_accuracy(read_scene(
+        file,
+        {{"accuracy.of", of}, {of == "force" ? "accuracy.pair" : "accuracy.exclude", of == "force" ? "1" : "0.1"}}));
     ASSERT_TRUE(r);
     EXPECT_TRUE(r->accuracy->reached()) << of << ": " << r->accuracy->reason;
     forces[of] = r->recovery.contacts[1].force.norm();

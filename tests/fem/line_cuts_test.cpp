@@ -22,6 +22,18 @@ class OnEdge {
     return sum;
   }
   LineMisfit what_is_left() const { return misfit(function(), cuts()); }
+  OnEdge&& moved_to(const Points& nodes) && {
+    nodes_ = nodes;
+    if (nodes.rows() == 3) edge_ = {3, {0, 1, 2}};
+    return std::move(*this);
+  }
+  int looked_at() const {  // places, for the cuts
+    int count = 0;
+    LineFunction f = function();
+    f.at = [at = f.at, &count](double xi) { return ++count, at(xi); };
+    resolving_cuts(f);
+    return count;
+  }
 
  private:
   // As a function of a file: no range is known of it.
@@ -37,8 +49,8 @@ class OnEdge {
     return f;
   }
 
-  const Points nodes_{{0.0, 0.0}, {1.0, 0.0}};
-  const Edge edge_{2, {0, 1, -1}};
+  Points nodes_{{0.0, 0.0}, {1.0, 0.0}};
+  Edge edge_{2, {0, 1, -1}};
   Field field_;
   FieldRange range_;
 };
@@ -46,6 +58,23 @@ class OnEdge {
 TEST(LineCuts, AreNoneOfWhatFourPointsIntegrate) {
   for (const char* text : {"1 + x - 3 * x^2", "x * (1 - x)", "exp(x / 10) + sin(x / 10)"})
     EXPECT_EQ(OnEdge(text).cuts(), (std::vector<double>{-1, 1})) << text;
+}
+
+// What is constant but for round-off needs no looking, as a formula or along its edge.
+TEST(LineCuts, AreNoneOfConstants) {
+  const Points level{{-3.7, 30.1}, {5.3, 30.1}},
+      circle{{33, 0}, {33 * std::cos(0.1), 33 * std::sin(0.1)}, {33 * std::cos(0.05), 33 * std::sin(0.05)}};
+  for (const char* text : {"1.3", "1.3 + 0 * cos(2 * theta)", "1 + 1e-14 * x", "x > 99 ? 1 : 1", "9.81e3 * (30.1 - y)",
+                           "2.5 * y", "1e6 * (30.1 - y) + 3", "cos(y)^2"}) {
+    const OnEdge on = OnEdge(text).moved_to(level);
+    EXPECT_EQ(on.cuts(), (std::vector<double>{-1, 1})) << text;
+    EXPECT_LE(on.looked_at(), 100) << text;
+  }
+  for (const char* text : {"r", "sqrt(x^2 + y^2) + 3", "1 + r^2"}) {
+    const OnEdge on = OnEdge(text).moved_to(circle);
+    EXPECT_EQ(on.cuts(), (std::vector<double>{-1, 1})) << text;
+    EXPECT_LE(on.looked_at(), 2000) << text;
+  }
 }
 
 TEST(LineCuts, MakeIntegralsOfSpikesWavesAndJumpsExact) {

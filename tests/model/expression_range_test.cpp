@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "fem/line_cuts.hpp"
 #include "model/field_range.hpp"
 
 namespace mortise::test {
@@ -114,6 +115,17 @@ TEST(ExpressionRange, ContainsAllValues) {
       const double value = field(start + Vec2(part(random), part(random)).cwiseProduct(size));
       EXPECT_GE(value, all.low - 1e-9 * std::abs(value)) << field.words();
       EXPECT_LE(value, all.high + 1e-9 * std::abs(value)) << field.words();
+    }
+    Points nodes(3, 2);  // of a curved edge
+    nodes << start.transpose(), (start + size).transpose(),
+        (start + size / 2).transpose() + 0.2 * Vec2(part(random), part(random)).transpose();
+    const LineFunction on_edge = along_edge(nodes, {3, {0, 1, 2}}, field, range, {});
+    const double from = part(random) - 1, to = from + std::pow(10, -4 * part(random));
+    const Interval piece = *on_edge.range(from, to);
+    for (int i = 0; i < 20; ++i) {
+      const double value = on_edge.at(from + (to - from) * part(random));
+      EXPECT_GE(value, piece.low - 1e-9 * std::abs(value)) << field.words();
+      EXPECT_LE(value, piece.high + 1e-9 * std::abs(value)) << field.words();
     }
   }
 }
