@@ -99,6 +99,34 @@ def test_a_peak_is_shown_where_p_has_a_limit(singular, shown):
     assert not drawn_pressure.has_limit({"estimate": None}, 0)
 
 
+README = re.findall(r"```\w*\n(.*?)```", (launch.ROOT / "README.md").read_text(), re.DOTALL)
+
+
+def test_curves_of_a_few_edges_end_where_they_face_nothing(mortise, tmp_path):
+    """3-node triangles: means over edges, 3 of either side face each other, along a line that is twice half an edge longer."""
+    for name, start in (("punch.geo", "SetFactory"), ("punch.toml", 'title = "A punch')):
+        (tmp_path / name).write_text(next(text for text in README if text.startswith(start)))
+    launch.solve(tmp_path / "punch.toml", {}, tmp_path / "out")
+    drawing, axes = figure.panels(1, 1, (4, 3))
+    drawn_pressure.draw_pair(axes, result_tables.contact_table(tmp_path / "out", centres=True), 0, False)
+    assert axes.get_xlim() == pytest.approx((0, 0.2)) and "off the scale" not in axes.get_xlabel()
+    for line in axes.get_lines():
+        s, p = np.array(line.get_data())[:, np.isfinite(line.get_ydata())]
+        np.testing.assert_allclose(s, [0.1 / 3, 0.1, 0.5 / 3])
+        assert p.min() > 7e6
+        assert np.isfinite(line.get_data()[0]).all(), "one piece"
+
+
+def test_p_ends_where_contact_does(solve):
+    table, pairs = (result_tables.contact_table(solve("wall")), json.loads((solve("wall") / "summary.json").read_text())["contact"])
+    drawing, axes = figure.panels(1, len(pairs), (40, 3))
+    drawn_pairs.draw_small(axes, table, pairs, range(len(pairs)))
+    for panel in axes:
+        p = panel.get_lines()[0].get_ydata()
+        p = p[np.isfinite(p)]
+        assert p.min() > 0.9 * p.max() and panel.get_ylabel() in ("", "$10^{6}$", "$10^{5}$")
+
+
 def test_forces_act_where_the_pressure_does():
     table = {"s": np.array([0.0, 1, 2, 3]), "x": np.array([0.0, 1, 2, 3]), "y": np.zeros(4), "p": np.array([0.0, 0, 3, 3])}
     np.testing.assert_allclose(drawn_forces.place_of_force(table, np.full(4, True)), (2.5, 0))
@@ -163,6 +191,16 @@ def test_the_power_of_ten_is_in_the_label(limits, label, tick):
     drawing.canvas.draw()
     texts = [text.get_text().replace("\u2212", "-") for text in axes.get_yticklabels()]
     assert axes.get_ylabel() == label and tick in texts and not axes.yaxis.get_offset_text().get_text()
+
+
+@pytest.mark.parametrize("value", [1.1e6, -3.0])
+def test_round_off_is_drawn_as_a_constant(value):
+    drawing, axes = figure.panels(1, 1, (4, 3))
+    axes.plot([0, 1, 2], [value, value * (1 + 1e-7), value])
+    figure.scientific(axes.yaxis, "p")
+    drawing.canvas.draw()
+    texts = [text.get_text() for text in axes.get_yticklabels()]
+    assert len(set(texts)) == len(texts) > 2 and 0 in axes.get_ylim()
 
 
 def test_the_columns_that_cases_are_drawn_over():

@@ -96,7 +96,7 @@ def field_of(mesh, curve, field):
 def stress_range(stress, areas):
     """Without the singular corners. A uniform stress gets a range around it."""
     low, high = percentiles(stress, areas, [0.5, 99.5])
-    if high - low < 1e-3 * abs(high):
+    if high - low < figure.STEADY * abs(high):
         return 0.0, 1.25 * high or 1.0
     return low, high
 

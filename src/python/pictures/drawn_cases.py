@@ -81,7 +81,7 @@ def pressures(folder, table, pair):
     if len(names) > MOST_LINES:
         names = [names[round(k)] for k in np.linspace(0, len(names) - 1, MOST_LINES)]
     for name in names:
-        found = result_tables.columns(folder / "cases" / name / "contact.csv")
+        found = result_tables.contact_table(folder / "cases" / name)
         on, s = result_tables.line_of(found, result_tables.sides_of(found, pair)[0])
         yield name, s, found["p"][on], found["curve"][on][0]
 

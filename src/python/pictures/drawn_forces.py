@@ -93,7 +93,7 @@ def draw_arrows(axes, points, model, at_work, turned=False):
 
 def place_of_force(table, rows):
     """Where a pair's pressure acts on the whole: rows of one side, in the order of their arc length."""
-    s, p = table["s"][rows], table["p"][rows]
+    s, p = table["s"][rows], np.nan_to_num(table["p"][rows])
     weights = np.maximum(p, 0) * np.abs(np.gradient(s)) if len(s) > 1 else np.ones(1)
     weights = weights if weights.sum() > 0 else np.ones(len(s))
     return np.average(np.stack([table["x"][rows], table["y"][rows]], axis=1), axis=0, weights=weights)

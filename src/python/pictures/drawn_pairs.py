@@ -42,13 +42,13 @@ def most_loaded(pairs):
 
 def draw_small(panels, table, pairs, numbers):
     """p of the pairs with its bar, on one scale."""
-    top = 1.05 * max((np.nanmax(table["p"][sides_of(table, k)[0]]) for k in numbers), default=0)
+    top = 1.05 * max((np.nan_to_num(table["p"][sides_of(table, k)[0]]).max() for k in numbers), default=0)
     for k, axes in zip(numbers, panels):
         on, s = line_of(table, sides_of(table, k)[0])
-        p = np.nan_to_num(table["p"][on])
+        p = table["p"][on]
         left, right = loaded_part(s, p)
         if "p_error" in table:
-            bar = np.nan_to_num(table["p_error"][on])
+            bar = table["p_error"][on]
             axes.fill_between(s, p - bar, p + bar, color="0.82", linewidth=0)
         axes.plot(s, p, color=PAIR_COLOURS[0], linewidth=1.2)
         axes.set(xlim=(left, right) if right > left else None, ylim=(0, top) if top > 0 else None)
@@ -73,7 +73,7 @@ def draw_runs(panels, runs, numbers, summary):
             xy, p = np.stack([table["x"][on], table["y"][on]], axis=1), table["p"][on]
             if number == 0:
                 line, length = xy, s
-                axes.set_xlim(*loaded_part(s, np.nan_to_num(p)))
+                axes.set_xlim(*loaded_part(s, p))
             s, colour = arc_length_on(line, length, xy), PAIR_COLOURS[number % len(PAIR_COLOURS)]
             order = np.argsort(s)
             if "p_error" in table:

@@ -4,18 +4,21 @@ import figure
 import numpy as np
 from drawn_bodies import PAIR_COLOURS
 from drawn_cells import percentiles
-from result_tables import arc_length_on, line_of, sides_of
+from result_tables import arc_length_on, closing_of, line_of, sides_of
 
 COLOURS = ["#e8452c", "#4aa3e8"]  # multiplier side, opposite side
 
 
-def loaded_part(s, p):
-    """Limits of x: where p acts and a fifth as much again, or all of the line where it acts on most of it."""
-    loaded = s[p > 1e-9 * np.abs(p).max()]
-    if len(loaded) == 0 or np.ptp(loaded) > 0.8 * np.ptp(s):
-        return s.min(), s.max()
-    margin = max(np.ptp(loaded), 1e-6 * np.ptp(s)) / 10
-    return max(s.min(), loaded.min() - margin), min(s.max(), loaded.max() + margin)
+def loaded_part(s, p, half=0.0):
+    """Limits of x: where p acts and a fifth as much again, or all of the line where it acts on most of it. `half`: of the
+    lengths of edges, where s are their middles."""
+    left, right, p = s - half, s + half, np.nan_to_num(p)
+    loaded = p > 1e-9 * np.abs(p).max()
+    whole = left.min(), right.max()
+    if not loaded.any() or np.ptp(s[loaded]) > 0.8 * np.ptp(s):
+        return whole
+    margin = max(np.ptp(s[loaded]), 1e-6 * np.ptp(s)) / 10
+    return max(whole[0], left[loaded].min() - margin), min(whole[1], right[loaded].max() + margin)
 
 
 def pressure_range(curves):
@@ -24,6 +27,8 @@ def pressure_range(curves):
     values = np.concatenate([value for _, value in curves])
     kept = np.isfinite(values)
     values = values[kept]
+    if len(values) == 0:
+        return -1.0, 1.0
     first, last = percentiles(values, lengths[kept], [2, 98])
     middle, half = (first + last) / 2, max((last - first) / 2, 0.02 * abs(first + last) / 2)
     low = min(max(middle - 1.6 * half, values.min() - 0.25 * half), middle - 1.1 * half)
@@ -45,7 +50,6 @@ def draw_pair(axes, table, pair, bounded, label="$p$", colour=PAIR_COLOURS[0]):
     xy = np.stack([table["x"], table["y"]], axis=1)
     first, other = sides_of(table, pair)
     multiplier_side, opposite = (figure.short(table["curve"][side][0]) for side in (first, other))
-    other &= np.isfinite(table.get("gap", table["s"]))
     on, s = line_of(table, first)
     p, s_other = table["p"][on], arc_length_on(xy[on], s, xy[other])
     mine, theirs = -table["sigma_n"][on], -table["sigma_n"][other]
@@ -55,16 +59,16 @@ def draw_pair(axes, table, pair, bounded, label="$p$", colour=PAIR_COLOURS[0]):
     axes.plot(s, p, color=colour, linewidth=1.7, label=label, zorder=2)
     axes.plot(s, mine, color=COLOURS[0], linewidth=0.9, label=f"$-\\sigma_n$ of {multiplier_side}", zorder=3)
     label = f"$-\\sigma_n$ of {opposite}"
-    seam = np.flatnonzero(np.abs(np.diff(s_other)) > np.ptp(s) / 2) + 1  # of a closed curve: no line across the whole graph
+    seam = np.flatnonzero(np.abs(np.diff(s_other)) > np.ptp(s) / 2) + 1 if closing_of(table, first) else []  # no line across the whole graph
     axes.plot(np.insert(s_other, seam, np.nan), np.insert(theirs, seam, np.nan), color=COLOURS[1], linewidth=0.9, dashes=(5, 2), label=label, zorder=4)
-    left, right = loaded_part(s, p)
+    left, right = loaded_part(s, p, table["half"][on] if "half" in table else 0)
     shown, shown_other = (s >= left) & (s <= right), (s_other >= left) & (s_other <= right)
     low, high = pressure_range([(s[shown], p[shown]), (s[shown], mine[shown]), (s_other[shown_other], theirs[shown_other])])
     if bounded:
-        low, high = min(low, 1.05 * p.min()), max(high, 1.05 * p.max())
+        low, high = min(low, 1.05 * np.nan_to_num(p).min()), max(high, 1.05 * np.nan_to_num(p).max())
     axes.set_ylim(low, high)
     axes.set_xlim(left, right)
-    everything = np.concatenate([p, mine, theirs])
+    everything = np.concatenate([p[shown], mine[shown], theirs[shown_other]])
     off = everything[(everything > high) | (everything < low)]
     label = f"arc length $s$ along {multiplier_side}"
     if len(off) > 0:

@@ -15,6 +15,7 @@ from PIL import Image
 
 RED = "#c00000"  # what fails
 COLOURS = 64  # of a drawing in docs/
+STEADY = 1e-3  # of a value: what differs by less is drawn as constant
 LONGEST = 24  # letters of a name on a picture: two of them in a legend of four entries fill its width
 # A letter that the font lacks is drawn as a box, and needs no words.
 warnings.filterwarnings("ignore", message="Glyph .* missing")
@@ -65,14 +66,17 @@ def wrapped(text, width=95, lines=3):
 
 def scientific(axis, label):
     """Ticks of large and small numbers, their power of ten in the label, where it lies over nothing. Of an axis whose limits
-    are set."""
-    largest = np.abs(axis.get_view_interval()).max()
+    are set; those that would magnify round-off are widened to nought."""
+    low, high = axis.get_view_interval()
+    largest = max(abs(low), abs(high))
+    if high - low < STEADY * largest:
+        getattr(axis.axes, f"set_{axis.axis_name}lim")(min(1.25 * low, 0), max(1.25 * high, 0))
     power = math.floor(math.log10(largest)) if largest > 0 else 0
     if -3 <= power < 4:
         axis.set_major_formatter(ScalarFormatter(useOffset=False))
         return axis.set_label_text(label)
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / 10.0**power:.4g}"))
-    return axis.set_label_text(f"{label}, $10^{{{power}}}$")
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / 10.0**power:.6g}"))
+    return axis.set_label_text(", ".join(filter(None, [label, f"$10^{{{power}}}$"])))
 
 
 def grouped(value):

@@ -64,7 +64,7 @@ def summary_of(results):
 def table_of(results, mesh):
     """contact.csv; with 3-node triangles, whose p zigzags, the means over edges."""
     zigzags = any(block.type == "triangle" for block in mesh.cells)
-    return result_tables.columns(results / ("contact_centres.csv" if zigzags else "contact.csv")), zigzags
+    return result_tables.contact_table(results, zigzags), zigzags
 
 
 def shown_pairs(summary, options):
@@ -109,7 +109,7 @@ def draw(results, picture, options):
     shown, pairs = shown_pairs(summary, options), summary["contact"]
     mesh = meshio.vtu.read(results / "result.vtu")
     curve = meshio.vtu.read(results / "contact.vtu") if pairs else None
-    table = result_tables.columns(results / "contact.csv") if pairs else {}
+    table = result_tables.contact_table(results) if pairs else {}
     if options.zoom == CONTACT and not pairs:
         raise SystemExit("picture.py: --zoom: the scene has no contact pair")
     of_shown = {name: column[np.isin(table["pair"], shown)] for name, column in table.items()}

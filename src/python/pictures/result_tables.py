@@ -38,6 +38,23 @@ def columns(path):
     return {key: of(values) for key, values in lists.items()}
 
 
+def contact_table(folder, centres=False):
+    """The columns of contact.csv, or of the centres of its edges, contact_centres.csv, with its gap and the half of each
+    edge's length. What faces nothing has no p there, nor -sigma_n to compare it with: NaN."""
+    table = nodes = columns(Path(folder) / "contact.csv")
+    if centres:
+        table = columns(Path(folder) / "contact_centres.csv")
+        table |= {"gap": np.full(len(table["s"]), np.nan), "half": np.zeros(len(table["s"]))}
+        for pair, curve in set(zip(table["pair"], table["curve"])):
+            edges, ends = ((t["pair"] == pair) & (t["curve"] == curve) for t in (table, nodes))
+            s, middles = nodes["s"][ends], table["s"][edges]
+            table["gap"][edges] = np.interp(middles, s, nodes["gap"][ends])
+            table["half"][edges] = middles - s[np.searchsorted(s, middles) - 1]
+    for name in table.keys() & {"p", "p_error", "sigma_n"}:
+        table[name] = np.where(np.isfinite(table["gap"]), table[name], np.nan)
+    return table
+
+
 def contact(folder, curve=None, table="contact.csv"):
     """Columns of a table of the contact line, of one curve: by default of the first pair's multiplier side."""
     found = columns(Path(folder) / table)
@@ -52,16 +69,21 @@ def sides_of(table, pair):
     return first, on & ~first
 
 
+def closing_of(table, side):
+    """How far the last place of a closed curve is from its first; 0 of an open one."""
+    rows = np.flatnonzero(side)
+    s, places = table["s"][rows], np.stack([table["x"][rows], table["y"][rows]], axis=1)
+    closing = np.linalg.norm(places[0] - places[-1])
+    return closing if len(s) > 2 and closing < 1.5 * max(s[1] - s[0], s[-1] - s[-2]) and closing < 0.2 * np.ptp(s) else 0.0
+
+
 def line_of(table, side):
     """Row numbers of a side (rows of contact.csv) in the order in which they are drawn, and their arc lengths. A closed curve that carries
     pressure across its first node is drawn from the middle of where it carries none, with s below 0 before that node."""
-    rows = np.flatnonzero(side)
+    rows, closing = np.flatnonzero(side), closing_of(table, side)
     s, p = table["s"][rows], np.nan_to_num(table["p"][rows])
-    places = np.stack([table["x"][rows], table["y"][rows]], axis=1)
-    closing = np.linalg.norm(places[0] - places[-1])
-    closed = len(s) > 2 and closing < 1.5 * max(s[1] - s[0], s[-1] - s[-2]) and closing < 0.2 * np.ptp(s)
     free = np.flatnonzero(p <= 1e-9 * p.max())
-    if not closed or len(free) == 0 or free[0] == 0 or free[-1] == len(s) - 1:
+    if not closing or len(free) == 0 or free[0] == 0 or free[-1] == len(s) - 1:
         return rows, s
     parts = np.split(free, np.flatnonzero(np.diff(free) > 1) + 1)
     longest = max(parts, key=lambda part: s[part[-1]] - s[part[0]])
