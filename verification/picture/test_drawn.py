@@ -214,6 +214,20 @@ def test_the_columns_that_cases_are_drawn_over():
     assert drawn_cases.load_axis(table, None)[0] == "case"
 
 
+def test_cases_that_differ_in_more_than_their_scale_are_lines_of_their_own():
+    table = {"case": np.array(["pull_0.5", "pull_10", "push_2", "push_1", "alone"]), "scale": np.array([0.5, 10, 2, 1, 1]),
+             "boundary.2.pressure": np.array([np.nan, np.nan, 50, 50, 60]), "status": np.array(["solved"] * 5)}  # fmt: skip
+    groups = drawn_cases.histories(table)
+    assert [(name, list(rows)) for name, rows in groups] == [("pull", [0, 1]), ("push", [2, 3]), ("alone", [4])]
+    drawing, axes = figure.panels(1, 1, (4, 3))
+    drawn_cases.draw_over(axes, groups, table["scale"], np.arange(5.0), np.zeros(5), "p", "scale")
+    assert [list(line.get_xdata()) for line in axes.get_lines()] == [[0.5, 10], [1, 2], [1]]
+    unscaled = table | {"scale": np.ones(5)}
+    assert [list(rows) for _, rows in drawn_cases.histories(unscaled)] == [[0, 1, 2, 3, 4]]
+    assert drawn_cases.load_axis(unscaled, None)[0] == "case"  # two have no pressure of their own
+    assert drawn_cases.history_name(["a", "b"]) == "a ... b"
+
+
 def test_a_turned_scene_is_the_same_scene(solve):
     results = solve("pellets")
     mesh, curve = (meshio.read(results / f"{name}.vtu") for name in ("result", "contact"))

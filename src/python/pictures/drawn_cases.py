@@ -8,6 +8,7 @@ import result_tables
 from drawn_pressure import loaded_part
 
 MOST_LINES = 6  # of p along the contact line
+MANY_NAMES = 12  # more are not written on the picture
 
 
 def varies(column):
@@ -15,18 +16,45 @@ def varies(column):
     return column.dtype.kind == "f" and np.isfinite(column).sum() > 1 and np.nanmax(column) > np.nanmin(column)
 
 
+def changed(table):
+    """The columns of what cases change, besides the scale."""
+    names = list(table)
+    return [name for name in names[1 : names.index("status")] if name != "scale"]
+
+
 def load_axis(table, asked):
-    """Name and values of what the cases are drawn over: a column that is asked for, else the scale, else the first
-    number that cases change, else their numbers."""
+    """Name and values of what the cases are drawn over: a column that is asked for, else the scale, else the only number that
+    cases change, if each has one, else their numbers."""
     if asked is not None:
         if asked not in table:
             raise SystemExit(f"picture.py: --along {asked}: no such column; expected one of cases.csv: {', '.join(table)}")
         return asked, table[asked]
-    names = list(table)
-    for name in names[1 : names.index("status")]:
-        if varies(table[name]):
-            return name, table[name]
+    if "scale" in table and varies(table["scale"]):
+        return "scale", table["scale"]
+    names = changed(table)
+    if len(names) == 1 and varies(table[names[0]]) and np.isfinite(table[names[0]]).all():
+        return names[0], table[names[0]]
     return "case", np.arange(len(table["case"]), dtype=float)
+
+
+def histories(table):
+    """Names and row numbers of cases that differ in their scale alone; where none are scaled, of all."""
+    rows = np.arange(len(table["case"]))
+    if "scale" not in table or not varies(table["scale"]):
+        return [("", rows)]
+    found = {}
+    for k in rows:
+        found.setdefault(tuple(str(table[name][k]) for name in changed(table)), []).append(k)
+    names = [name_of(case) for case in table["case"]]
+    return [(history_name([names[k] for k in of]), np.array(of)) for of in found.values()]
+
+
+def history_name(names):
+    """What a list of scales was named, pull of pull_0.5 and pull_1; else the first and the last name."""
+    heads = {name.rpartition("_")[0] for name in names}
+    if len(heads) == 1 < len(names) and "" not in heads:
+        return heads.pop()
+    return " ... ".join(dict.fromkeys([names[0], names[-1]]))
 
 
 def approach(table):
@@ -50,28 +78,36 @@ def contact_panels(table, pair):
     ]
 
 
-def draw_over(axes, x, values, bars, label, name):
-    """Values with their bars over x, in its order."""
-    order = np.argsort(x, kind="stable")
-    order = order[np.isfinite(values[order]) & np.isfinite(x[order])]
+def in_order(groups, x, values):
+    """The rows of each history that have both, in the order of x."""
+    known = np.isfinite(x) & np.isfinite(values)
+    return [(name, rows[known[rows]][np.argsort(x[rows[known[rows]]], kind="stable")]) for name, rows in groups]
+
+
+def draw_over(axes, groups, x, values, bars, label, name):
+    """Values with their bars over x, a line a history."""
     bars = np.where(np.isfinite(bars), bars, 0)
-    axes.fill_between(x[order], (values - bars)[order], (values + bars)[order], color="0.82", linewidth=0)
-    axes.plot(x[order], values[order], "o-", markersize=3, linewidth=1.2)
+    for of, rows in in_order(groups, x, values):
+        axes.fill_between(x[rows], (values - bars)[rows], (values + bars)[rows], color="0.82", linewidth=0)
+        axes.plot(x[rows], values[rows], "o-", markersize=3, linewidth=1.2, label=figure.short(of))
     figure.label(axes, figure.short(name), "")
     figure.scientific(axes.yaxis, label)
 
 
-def draw_stiffness(axes, name, moved, reaction):
-    """Reaction over displacement, and its slope on an axis of its own."""
-    known = np.isfinite(moved) & np.isfinite(reaction)
-    order = np.flatnonzero(known)[np.argsort(moved[known])]
-    u, force = moved[order], reaction[order]
-    axes.plot(u, force, "o-", markersize=3, linewidth=1.2)
+def draw_stiffness(axes, groups, name, moved, reaction):
+    """Reaction over displacement, and its slope on an axis of its own, a line a history."""
+    slopes = []
+    for _, rows in in_order(groups, moved, reaction):
+        u, force = moved[rows], reaction[rows]
+        (line,) = axes.plot(u, force, "o-", markersize=3, linewidth=1.2)
+        if len(np.unique(u)) == len(u) > 2:
+            slopes.append((u, np.gradient(force, u), "0.4" if len(groups) == 1 else line.get_color()))
     figure.label(axes, figure.short(name), "")
     figure.scientific(axes.yaxis, "reaction")
-    if len(np.unique(u)) == len(u) > 2:
+    if slopes:
         slope = axes.twinx()
-        slope.plot(u, np.gradient(force, u), "--", color="0.4", linewidth=1)
+        for u, stiffness, colour in slopes:
+            slope.plot(u, stiffness, "--", color=colour, linewidth=1)
         figure.scientific(slope.yaxis, "stiffness dF/du (dashed)")
 
 
@@ -95,7 +131,7 @@ def draw_history(folder, picture, options):
     """One picture of the cases in a folder."""
     summary = json.loads((folder / "summary.json").read_text())
     table = result_tables.columns(folder / "cases.csv")
-    name, x = load_axis(table, options.along)
+    (name, x), groups = load_axis(table, options.along), histories(table)
     pair = options.pair or 0
     if f"contact.{pair}.pressure.max" not in table:
         raise SystemExit(f"picture.py: {folder}: cases.csv has no contact pair {pair}")
@@ -105,9 +141,13 @@ def draw_history(folder, picture, options):
     drawing, panels = figure.panels(count, 1, (8, 2.4 * count + 0.6), squeeze=False)
     rest = iter(panels[:, 0])
     for label, values, bars in contact_panels(table, pair):
-        draw_over(next(rest), x, values, bars, label, name)
+        draw_over(axes := next(rest), groups, x, values, bars, label, name)
+        if name == "case" and len(x) <= MANY_NAMES:
+            axes.set_xticks(x, [figure.short(name_of(case)) for case in table["case"]], rotation=20)
+    if 1 < len(groups) <= MANY_NAMES:
+        panels[0, 0].legend(frameon=False)
     if moves:
-        draw_stiffness(next(rest), *moves)
+        draw_stiffness(next(rest), groups, *moves)
     if lines:
         axes = next(rest)
         for case, s, p, curve in lines:
