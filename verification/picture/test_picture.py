@@ -214,6 +214,17 @@ def test_the_history_of_cases(mortise, call, tmp_path):
     assert call(folder, tmp_path / "along.svg", "--history", "--along", "energy")[0] == 0
     assert "energy" in (tmp_path / "along.svg").read_text()
     assert call(folder / "cases/part_1", tmp_path / "one.png")[0] == 0
+    with_contact = tmp_path / "contact_only"
+    subprocess.run([mortise, "solve", scene, "--set", "cases.write=contact", "-o", with_contact, "--quiet"], check=True)
+    half, whole = (with_contact / "cases" / name for name in ("part_0.5", "part_1"))
+    for words in ((half,), (half, "--pressure"), (half, whole), (folder / "cases/part_1", half)):
+        drawn = tmp_path / "p.svg"
+        assert call(*words, drawn) == (0, f"{drawn}\n") and "contact pressure" in drawn.read_text()
+        drawn.unlink()
+    for words in (["--bodies"], ["--zoom"], ["--scale", "5"], ["--field", "error"]):
+        status, said = call(half, *words)
+        assert status == 2 and 'no result.vtu there, and so no bodies to draw; expected a scene with [cases] write = "all"' in said
+    assert subprocess.run([mortise, "report", half], capture_output=True, check=False).returncode == 0
     reader = meshio.vtu.read(folder / "cases/part_0.5/result.vtu")
     assert f'file="cases/part_0.5/result.vtu"' in (folder / "cases.pvd").read_text() and len(reader.points) > 0
     for words, text in [((folder,), "the cases of a scene; expected --history, or the folder cases/NAME"),
@@ -227,6 +238,44 @@ def test_the_history_of_cases(mortise, call, tmp_path):
     assert subprocess.run([mortise, "report", folder / "cases/part_1"], capture_output=True, check=False).returncode == 0
     refused = subprocess.run([mortise, "certify", scene, "-o", tmp_path / "certificate"], capture_output=True, text=True, check=False)
     assert refused.returncode == 1 and "one load is certified; expected --set case=[]" in refused.stderr
+
+
+@pytest.mark.parametrize("option", [["--bodies"], ["--scale", "5"], ["--pair", "0"], ["--zoom"], ["--zoom", "0.1,0.5,0.1,0.3"], ["--pressure"]])
+def test_the_picture_s_name_stands_anywhere(call, solve, option, tmp_path):
+    drawn = tmp_path / "a.png"
+    for words in ([solve("punch"), *option, drawn], [*option, solve("punch"), drawn], [solve("punch"), drawn, *option]):
+        assert call(*words, "--dpi", "40") == (0, f"{drawn}\n")
+        drawn.unlink()
+
+
+def test_what_shows_nothing_is_refused(call, solve, tmp_path):
+    for scene, words, text in [
+        ("punch", ["--zoom", "5,6,5,6"], "--zoom 5,6,5,6: no body is there; expected a box within -0.0"),
+        ("pellets", ["--zoom", "50,60,5,6"], "--zoom 50,60,5,6: no body is there"),
+        ("punch", ["--scale", "nan"], "expected a number, found 'nan'"),
+        ("punch", ["--scale", "inf"], "expected a number, found 'inf'"),
+    ]:
+        status, said = call(solve(scene), tmp_path / "a.png", *words)
+        assert status and text in said and not (tmp_path / "a.png").exists()
+    assert call(solve("punch"), tmp_path / "a.png", "--zoom", "0.3001,0.3002,0.1001,0.1002", "--scale", "1", "--dpi", "40")[0] == 0  # within a cell
+
+
+ALONE = """
+mesh.file = "alone.geo"
+materials.m = { young = 1, poisson = 0.3 }
+bodies = { block = "m" }
+boundary = [{ on = "low", displacement = { x = 0, y = 0 } }, { on = "high", pressure = 1e-3 }]
+"""
+
+
+def test_p_of_a_scene_without_contact_is_refused(call, tmp_path):
+    (tmp_path / "alone.geo").write_text('''SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 1, 1};
+        Physical Surface("block") = {1}; Physical Curve("low") = {1}; Physical Curve("high") = {3};''')
+    (tmp_path / "alone.toml").write_text(ALONE)
+    launch.solve(tmp_path / "alone.toml", {}, tmp_path / "out")
+    for words, text in (["--pressure"], "p"), (["--pair", "0"], "--pair"), (["--zoom"], "--zoom"):
+        assert call(tmp_path / "out", tmp_path / "a.png", *words) == (1, f"picture.py: {text}: the scene has no contact pair")
+    assert call(tmp_path / "out", tmp_path / "a.png")[0] == 0
 
 
 def test_what_cannot_be_drawn_is_refused(call, solve, tmp_path):

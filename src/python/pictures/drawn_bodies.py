@@ -4,7 +4,7 @@ import math
 
 import figure
 import numpy as np
-from drawn_cells import areas_at_nodes, at_points, inside, joined, nearest, outlines, percentiles, polylines, shaded_triangles, size_of
+from drawn_cells import areas_at_nodes, at_points, inside, joined, nearest, outlines, percentiles, polylines, shaded_triangles, size_of, touches
 from drawn_forces import colour_bar, draw_arrows, forces_at_work, label_places
 from matplotlib.collections import LineCollection
 from result_tables import arc_length_on, sides_of
@@ -128,6 +128,13 @@ def turn(mesh, curve, table):
     table |= {name: table[other] for name, other in (("x", "y"), ("y", "x")) if table}
 
 
+def refuse_box(points, box, turned):
+    """Ends the program where nothing of the bodies, magnified as they are, is in a box."""
+    words = lambda numbers: ",".join(f"{number:.4g}" for number in (numbers[2:] + numbers[:2] if turned else numbers))
+    there = np.stack([points.min(axis=0), points.max(axis=0)], axis=1).ravel().tolist()
+    raise SystemExit(f"picture.py: --zoom {words(box)}: no body is there; expected a box within {words(there)}, or another --scale")
+
+
 def draw_bodies(axes, mesh, curve, summary, table, options, turned):
     """The deformed bodies; returns the magnification and, in words, why it is no larger. `curve`: contact.vtu, if any."""
     points, u = mesh.points[:, :2], mesh.point_data["displacement"][:, :2]
@@ -145,6 +152,8 @@ def draw_bodies(axes, mesh, curve, summary, table, options, turned):
     moved, values = points + scale * u, field_of(mesh, curve, options.field)
     low, high = stress_range(values[seen], areas_at_nodes(mesh)[seen])
     xy, colours, triangles = shaded_triangles(mesh, moved, values)
+    if options.zoom not in (None, CONTACT) and not touches(xy[triangles], box):
+        refuse_box(xy, options.zoom, turned)
     shading = axes.tripcolor(*xy.T, triangles, colours, shading="gouraud", cmap="viridis", vmin=low, vmax=high, rasterized=True)
     edges = outlines(mesh)
     dots = {"rasterized": len(edges) > MANY_EDGES}

@@ -116,5 +116,15 @@ def nearest(points, places):
     return np.concatenate([(square - 2 * part @ places.T).argmin(axis=1) for part in parts])
 
 
+def touches(corners, box):
+    """Whether any of these triangles (n x 3 x 2) and a box have a place in common: no side of either lies between them."""
+    frame = np.array([box[0], (box[1][0], box[0][1]), box[1], (box[0][0], box[1][1])])
+    sides = np.roll(corners, -1, axis=1) - corners
+    axes = np.concatenate([sides[:, :, ::-1] * (1, -1), np.broadcast_to(np.eye(2), (len(corners), 2, 2))], axis=1)
+    of_cells, of_box = axes @ corners.swapaxes(1, 2), axes @ frame.T
+    apart = (of_cells.max(axis=2) < of_box.min(axis=2)) | (of_box.max(axis=2) < of_cells.min(axis=2))
+    return not apart.any(axis=1).all()
+
+
 def inside(points, box):
     return ((points >= box[0]) & (points <= box[1])).all(axis=1)

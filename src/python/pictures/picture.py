@@ -10,7 +10,7 @@ RESULTS is the folder that `mortise solve` wrote; read are result.vtu, contact.v
 (docs/files.md) and contact.csv, or with 3-node triangles contact_centres.csv: p zigzags at their nodes. PICTURE is a
 .png, .pdf or .svg, by default RESULTS.png beside the folder (--format: another kind). With --history RESULTS
 is the folder of a scene with cases, and the picture what cases.csv says over the load, or over any of its COLUMNs. With MORE folders it is p of all runs
-over each other, with --pressure p of one. A scene that is much taller than wide is turned. --scale magnifies the
+over each other, with --pressure p of one, as of a case without result.vtu. A scene that is much taller than wide is turned. --scale magnifies the
 displacements; by default the largest is drawn as about 4 % of the size of what is shown, less where bodies whose gap
 closes would be drawn over each other. --zoom shows the bodies where contact carries pressure, or in a box, without loads
 and reactions; --pair K takes the Kth contact pair alone, from 0. --field: von_mises; sigma_n, the normal stress across
@@ -21,6 +21,7 @@ reaction and their moments at the point that they are about.
 
 import argparse
 import json
+import math
 import sys
 from pathlib import Path
 
@@ -61,10 +62,15 @@ def summary_of(results):
     return summary
 
 
-def table_of(results, mesh):
-    """contact.csv; with 3-node triangles, whose p zigzags, the means over edges."""
-    zigzags = any(block.type == "triangle" for block in mesh.cells)
-    return result_tables.contact_table(results, zigzags), zigzags
+def zigzags(results):
+    """Whether p at the nodes does: with 3-node triangles, or where no bodies were written with edges of two nodes."""
+    name, kind = ("contact.vtu", "line") if without_bodies(results) else ("result.vtu", "triangle")
+    return any(block.type == kind for block in meshio.vtu.read(results / name).cells)
+
+
+def without_bodies(results):
+    """Whether it is a case of [cases] write = "contact"."""
+    return not (results / "result.vtu").is_file() and (results.resolve().parent.parent / "cases.csv").is_file()
 
 
 def shown_pairs(summary, options):
@@ -73,8 +79,14 @@ def shown_pairs(summary, options):
     if options.pair is None:
         return list(range(len(pairs)))
     if not 0 <= options.pair < len(pairs):
+        refuse_without(pairs, "--pair")
         raise SystemExit(f"picture.py: --pair {options.pair}: the scene's pairs have the numbers 0 to {len(pairs) - 1}")
     return [options.pair]
+
+
+def refuse_without(pairs, asked):
+    if not pairs:
+        raise SystemExit(f"picture.py: {asked}: the scene has no contact pair")
 
 
 def entitle(row, summary):
@@ -110,8 +122,8 @@ def draw(results, picture, options):
     mesh = meshio.vtu.read(results / "result.vtu")
     curve = meshio.vtu.read(results / "contact.vtu") if pairs else None
     table = result_tables.contact_table(results) if pairs else {}
-    if options.zoom == CONTACT and not pairs:
-        raise SystemExit("picture.py: --zoom: the scene has no contact pair")
+    if options.zoom == CONTACT:
+        refuse_without(pairs, "--zoom")
     of_shown = {name: column[np.isin(table["pair"], shown)] for name, column in table.items()}
     extent = np.ptp(shown_box(mesh, of_shown, options.zoom), axis=0)
     turned = bool(extent[1] > SLENDER * extent[0])
@@ -136,33 +148,37 @@ def draw(results, picture, options):
     if many:
         draw_many(rows, mesh, table, pairs, turned)
     elif pairs:
-        table, zigzags = table_of(results, mesh)
-        label = ("$p$ (means over edges)",) if zigzags else ()
-        for row, k in zip(rows, shown):
-            colour = PAIR_COLOURS[k] if len(pairs) <= MANY_PAIRS else PAIR_COLOURS[0]
-            draw_pair(row.subplots(), table, k, has_limit(summary, k), *label, colour=colour)
+        draw_pairs(rows, results, summary, shown, len(pairs) <= MANY_PAIRS)
     figure.save(drawing, picture, options.dpi)
+
+
+def draw_pairs(rows, results, summary, numbers, coloured):
+    """p along the lines of these pairs; means over edges where p zigzags at the nodes."""
+    means = zigzags(results)
+    table, label = result_tables.contact_table(results, means), "$p$ (means over edges)" if means else "$p$"
+    for row, k in zip(rows, numbers):
+        draw_pair(row.subplots(), table, k, has_limit(summary, k), label, PAIR_COLOURS[k] if coloured else PAIR_COLOURS[0])
+
+
+def run_of(folder):
+    """Name, summary and table of a run."""
+    summary = summary_of(folder)
+    return folder.name or folder.resolve().name, summary, result_tables.contact_table(folder, zigzags(folder)) if summary["contact"] else {}
 
 
 def draw_pressures(folders, picture, options):
     """p along the lines alone, of several runs over each other; of many pairs the most loaded."""
-    runs = []
-    for folder in folders:
-        table, _ = table_of(folder, meshio.vtu.read(folder / "result.vtu"))
-        runs.append((folder.name or folder.resolve().name, summary_of(folder), table))
-    summary = runs[0][1]
+    summary = summary_of(folders[0])
+    refuse_without(summary["contact"], "p")
     numbers = shown_pairs(summary, options)
-    if not numbers:
-        raise SystemExit("picture.py: the scene has no contact pair, and so no p to draw")
     if len(numbers) > MANY_PAIRS:
         numbers = most_loaded(summary["contact"])[:MANY_PAIRS]
     drawing, rows = rows_of_panels([3.2] * len(numbers))
     entitle(rows[0], summary)
-    if len(runs) == 1:
-        for row, k in zip(rows, numbers):
-            draw_pair(row.subplots(), runs[0][2], k, has_limit(summary, k))
+    if len(folders) == 1:
+        draw_pairs(rows, folders[0], summary, numbers, False)
     else:
-        draw_runs([row.subplots() for row in rows], runs, numbers, summary)
+        draw_runs([row.subplots() for row in rows], list(map(run_of, folders)), numbers, summary)
     figure.save(drawing, picture, options.dpi)
 
 
@@ -177,6 +193,15 @@ def box_of(text):
     except ValueError:
         pass
     raise argparse.ArgumentTypeError(f"'{text}' is no box; expected X0,X1,Y0,Y1 with X0 < X1 and Y0 < Y1")
+
+
+def finite(text):
+    try:
+        if math.isfinite(number := float(text)):
+            return number
+    except ValueError:
+        pass
+    raise argparse.ArgumentTypeError(f"expected a number, found '{text}'")
 
 
 def with_box(arguments):
@@ -203,9 +228,9 @@ def main():
     parser.add_argument("--pressure", action="store_true", help="p along the lines only, without the bodies")
     parser.add_argument("--history", action="store_true", help="of a scene's cases: figures over the load, from cases.csv")
     parser.add_argument("--along", metavar="COLUMN", help="of --history: over this column (default: the scale, or what cases change)")
-    parser.add_argument("--scale", type=float, help="magnification of the displacements")
+    parser.add_argument("--scale", type=finite, help="magnification of the displacements")
     parser.add_argument("--dpi", type=int, default=130)
-    options = parser.parse_args(with_box(sys.argv[1:]))
+    options = parser.parse_intermixed_args(with_box(sys.argv[1:]))
     *others, last = [options.results, *options.more]
     folders = [*others, last] if last.is_dir() or not options.more else others
     for folder in folders:
@@ -215,13 +240,16 @@ def main():
         if options.history != (folder / "cases.csv").is_file():
             parser.error(f"{folder}: no cases.csv there; expected the folder of a scene with [[case]]" if options.history
                          else f"{folder}: the cases of a scene; expected --history, or the folder cases/NAME of one of them")
+    of_bodies = options.bodies or options.zoom or options.scale is not None or options.field != parser.get_default("field")
+    if of_bodies and without_bodies(options.results):
+        parser.error(f'{options.results}: no result.vtu there, and so no bodies to draw; expected a scene with [cases] write = "all"')
     picture = options.results.with_name(f"{options.results.resolve().name}.{options.format or FORMATS[0]}") if last in folders else last
     if picture.suffix[1:] not in FORMATS:
         parser.error(f"{picture}: expected a name that ends in {', '.join(f'.{name}' for name in FORMATS)}")
     try:
         if options.history:
             draw_history(options.results, picture, options)
-        elif options.pressure or len(folders) > 1:
+        elif options.pressure or len(folders) > 1 or without_bodies(options.results):
             draw_pressures(folders, picture, options)
         else:
             draw(options.results, picture, options)
