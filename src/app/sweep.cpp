@@ -18,6 +18,14 @@ namespace fs = std::filesystem;
 
 using Run = std::vector<Override>;
 
+Scene scene_of_run(const std::string& path, const Run& run) {
+  Scene scene = read_scene(path, run);
+  if (!scene.cases.empty())
+    throw InputError(scene.path +
+                     ": the scene has cases of its own; expected mortise solve, or a scene without [[case]]");
+  return scene;
+}
+
 RunRow row_of_results(Results& results, bool diagnosed) {
   if (diagnosed) diagnose(results);
   judge_expectations(results);
@@ -63,12 +71,20 @@ std::vector<Run> runs_in(const Json& group, const std::vector<Override>& overrid
 
 }  // namespace
 
+std::string refusal_of(const std::string& path, const std::vector<Run>& runs) {
+  std::string first;
+  for (const Run& run : runs) try {
+      scene_of_run(path, run);
+      return {};
+    } catch (const InputError& error) {
+      if (first.empty()) first = error.what();
+    }
+  return first;
+}
+
 RunRow solve_run(const std::string& path, const std::vector<Override>& overrides, bool diagnosed, CaseSolver& solver,
                  const Progress& progress) try {
-  const Scene scene = read_scene(path, overrides);
-  if (!scene.cases.empty())
-    throw InputError(scene.path +
-                     ": the scene has cases of its own; expected mortise solve, or a scene without [[case]]");
+  const Scene scene = scene_of_run(path, overrides);
   if (scene.accuracy) {
     Results results = *solve_to_accuracy(scene, progress);
     return row_of_results(results, diagnosed);
@@ -86,7 +102,9 @@ void serve_sweep(const std::string& path, const std::vector<Override>& overrides
   CaseSolver solver;
   for (std::string line; std::getline(in, line);) {
     const std::vector<Run> runs = runs_in(Json::parse(line), overrides);
-    out << Json{{"key", key_of(path, runs, diagnosed)}} << std::endl;
+    Json about = {{"key", key_of(path, runs, diagnosed)}};
+    if (const std::string refusal = refusal_of(path, runs); !refusal.empty()) about["refused"] = printable(refusal);
+    out << about << std::endl;
     if (!std::getline(in, line) || line != "solve") continue;
     solver.forget_rows();
     for (const Run& run : runs) out << json_of(solve_run(path, run, diagnosed, solver)) << std::endl;

@@ -196,6 +196,26 @@ def test_command_lines_that_are_refused(mortise, folder):
     assert not (folder / "no.csv").exists()
 
 
+def test_a_scene_or_a_key_that_no_run_can_be_read_with(mortise, folder):
+    """One error, before anything runs or is written."""
+    cases = folder / "cases.toml"
+    cases.write_text((GEO / "lift_off.toml").read_text().replace("lift_off.geo", str(GEO / "lift_off.geo")) + "\n[[case]]\nscale = [1, 2]\n")
+    for scene, vary, why in [("no.toml", ["x=1"], "no.toml: no such file"), (cases, ["boundary.2.pressure=1,2"], "the scene has cases of its own"),
+                             (SCENE, ["boundary.2.presure=1,2,3,4,5"], "unknown key 'presure'; did you mean 'pressure'"),
+                             (SCENE, ["boundary.2.pressure=1,2", "model.plan=strain"], "unknown key 'plan'; did you mean 'plane'")]:  # fmt: skip
+        assert why in run(mortise, scene, *(f"--vary={text}" for text in vary), "-o", folder / "none/no.csv", status=1), vary
+    assert not (folder / "none").exists()
+
+
+def test_brackets_and_quotes_hold_a_value_together(mortise, folder):
+    for text, values in [("model.gravity=[0,-1],[0,-2]", ["[0,-1]", "[0,-2]"]), ('title="a,b",c', ['"a,b"', "c"]),
+                         ("boundary.2.pressure=1e6*(1+0*atan2(x,y)),1e6", ["1e6*(1+0*atan2(x,y))", "1e6"])]:  # fmt: skip
+        run(mortise, SCENE, "--vary", text, "--set", "materials.steel.density=1", "-o", folder / "held.csv", "--quiet")
+        with open(folder / "held.csv", newline="") as file:
+            assert [row[0] for row in list(csv.reader(file))[1:]] == values
+    assert "expected ] before the end" in run(mortise, SCENE, "--vary", "model.gravity=[0,-1", status=1)
+
+
 def test_fields_are_those_of_other_tables(mortise, folder):
     """Quotes, and an apostrophe before what a spreadsheet would take for a formula."""
     run(mortise, SCENE, "--vary", "title==1+1,-5,say \"x\"; y", "-o", folder / "words.csv", "--quiet", status=2)
@@ -221,6 +241,8 @@ def main(mortise):
         test_a_row_a_run(mortise, folder)
         test_what_is_not_its_own_stays(mortise, folder)
         test_command_lines_that_are_refused(mortise, folder)
+        test_a_scene_or_a_key_that_no_run_can_be_read_with(mortise, folder)
+        test_brackets_and_quotes_hold_a_value_together(mortise, folder)
         test_fields_are_those_of_other_tables(mortise, folder)
 
 

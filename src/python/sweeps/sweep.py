@@ -22,6 +22,7 @@ from pathlib import Path
 GROUP = 4  # runs that start from one another
 MOST_RUNS = 100_000  # with a hundredth of a second each a quarter of an hour, and each row is kept in memory
 JOURNAL = "mortise sweep: runs that are complete"
+OPENED = {"(": ")", "[": "]", "{": "}"}
 EXAMPLE = "expected KEY=VALUE1,VALUE2,... such as mesh.parameters.n_upper=20,40,80"
 
 
@@ -52,7 +53,26 @@ def variation(text):
         raise Refused(f"--vary '{text}': {EXAMPLE}")
     if not values:
         raise Refused(f"--vary {text}: no value; {EXAMPLE}")
-    return key, values.removesuffix(",").split(",")
+    return key, parted(text, values.removesuffix(","))
+
+
+def parted(text, values):
+    """Values between commas; what brackets or quotes hold is one."""
+    parts, waiting = [""], []  # what closes those that are open, the innermost last
+    for c in values:
+        if c == "," and not waiting:
+            parts.append("")
+            continue
+        parts[-1] += c
+        if waiting and c == waiting[-1]:
+            waiting.pop()
+        elif c in "'\"" and (not waiting or waiting[-1] not in "'\""):
+            waiting.append(c)
+        elif c in OPENED and (not waiting or waiting[-1] not in "'\""):
+            waiting.append(OPENED[c])
+    if waiting:
+        raise Refused(f"--vary {text}: expected {waiting[-1]} before the end")
+    return parts
 
 
 def runs_of(variations):
@@ -200,6 +220,13 @@ class Worker:
     def ask(self, words):
         print(words, file=self.process.stdin, flush=True)
 
+    def refusal(self, values):
+        """Why none of these runs can be read; nothing where one can."""
+        self.ask(json.dumps(values))
+        words = self.answer().get("refused")
+        self.ask("keep")
+        return words
+
     def rows(self, values, kept):
         """The key of a group, whether it is kept, and its rows, solved one after another if not."""
         self.ask(json.dumps(values))
@@ -234,13 +261,38 @@ def share(workers, groups, solve):
 # ---- The sweep ----
 
 
+def refuse_unreadable(worker, groups):
+    """Where no run of the sweep can be read: that is the scene's fault, or of a key."""
+    first = None
+    for values in groups:
+        if not (words := worker.refusal(values)):
+            return
+        first = first or words
+    raise Refused(f"{first}{' (every run)' if len(groups[0]) > 1 else ''}")
+
+
 def sweep(options, keys, runs, path):
     """Solves a part and writes its table after each run; returns its rows."""
+    command = [os.environ.get("MORTISE_PROGRAM", "mortise"), "solve-runs", options.scene, *options.passed]
+    workers = []
+    try:
+        workers.append(Worker(command))
+        refuse_unreadable(workers[0], [[list(zip(keys, runs[k])) for k in group] for group in groups_of(runs, 1, 1)])
+        return solve_part(options, keys, runs, path, workers, command)
+    except (EOFError, BrokenPipeError):
+        raise Refused(f"{path}: a process of the sweep has ended before its runs were complete; the same command goes on with those that are missing") from None
+    finally:
+        for worker in workers:
+            worker.process.kill()
+            worker.process.wait()
+
+
+def solve_part(options, keys, runs, path, workers, command):
+    """As sweep, by `workers`, to which it adds."""
     groups = groups_of(runs, *options.part)
     path.parent.mkdir(parents=True, exist_ok=True)
     check_target(path, options.scene, is_table)
     journal = Journal(path.with_name(f".{path.name}.runs"), options.scene)
-    command = [os.environ.get("MORTISE_PROGRAM", "mortise"), "solve-runs", options.scene, *options.passed]
 
     def solve(worker, group):
         values = [list(zip(keys, runs[k])) for k in group]
@@ -250,24 +302,17 @@ def sweep(options, keys, runs, path):
             done.append(row)
             yield k, row, kept, (key, done) if len(done) == len(group) and not kept else None
 
-    found, workers = {}, []
-    try:
-        for _ in range(max(min(options.jobs, len(groups)), 1)):
-            workers.append(Worker(command))
-        for k, row, kept, complete in share(workers, groups, solve):
-            found[k] = row
-            write_table(path, keys, runs, found)
-            if complete:
-                journal.add(*complete)
-            if not options.quiet:
-                values = "".join(f" {key}={value}" for key, value in zip(keys, runs[k]))
-                say(f"{k + 1}/{len(runs)}{values}: {row['status']}{' (kept)' * kept}")
-    except (EOFError, BrokenPipeError):
-        raise Refused(f"{path}: a process of the sweep has ended before its runs were complete; the same command goes on with those that are missing") from None
-    finally:
-        for worker in workers:
-            worker.process.kill()
-            worker.process.wait()
+    found = {}
+    while len(workers) < min(options.jobs, len(groups)):
+        workers.append(Worker(command))
+    for k, row, kept, complete in share(workers, groups, solve):
+        found[k] = row
+        write_table(path, keys, runs, found)
+        if complete:
+            journal.add(*complete)
+        if not options.quiet:
+            values = "".join(f" {key}={value}" for key, value in zip(keys, runs[k]))
+            say(f"{k + 1}/{len(runs)}{values}: {row['status']}{' (kept)' * kept}")
     if not groups:
         write_table(path, keys, runs, found)
     journal.remove()
