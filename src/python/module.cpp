@@ -144,6 +144,13 @@ std::vector<Row> rows(CaseSolver& solver, const std::string& path, const std::ve
   return rows;
 }
 
+// As of app/sweep.hpp.
+std::string refusal(const std::string& path, const std::vector<Changes>& runs) {
+  std::vector<std::vector<Override>> overrides;
+  for (const Changes& changes : runs) overrides.push_back(overrides_of(changes));
+  return refusal_of(path, overrides);
+}
+
 // Values, derivatives, bounds of gradients (app/gradients.hpp). `solver`: as of rows().
 py::tuple gradient(CaseSolver& solver, const std::string& path, const Changes& changes,
                    const std::vector<std::pair<std::string, std::vector<double>>>& of,
@@ -157,6 +164,8 @@ py::tuple gradient(CaseSolver& solver, const std::string& path, const Changes& c
     const py::gil_scoped_release others_run;
     const std::vector<Override> overrides = overrides_of(changes);
     const Scene scene = parametrised(path, overrides, parameters);
+    if (!scene.cases.empty())
+      throw InputError(path + ": the scene has cases; expected changes={\"case\": []}, and what the case changes");
     if (scene.accuracy)
       found = gradients(*solve_to_accuracy(scene, check_signals), path, overrides, figures, parameters);
     else
@@ -171,6 +180,7 @@ PYBIND11_MODULE(_mortise, m) {
   py::register_exception<InputError>(m, "InputError", PyExc_ValueError);
   m.def("solve", &solve);
   m.def("cases", &cases);
+  m.def("refusal", &refusal);
   m.def("set_threads", &set_solver_threads);
   py::class_<CaseSolver>(m, "Solver").def(py::init<>()).def("rows", &rows).def("gradient", &gradient);
 }

@@ -115,3 +115,8 @@ def test_what_has_no_gradient_is_refused(figure, key, message):
 def test_without_pressure_the_norm_has_none():
     with pytest.raises(mortise.InputError, match="nothing is loaded, where the norm has no derivative"):
         mortise.gradient(gap_close()[0], [("contact.0.pressure.norm", 2)], {"boundary.2.displacement.y": -1e-6})
+
+
+def test_cases_are_refused_as_by_solve():
+    with pytest.raises(mortise.InputError, match="the scene has cases; expected changes="):
+        mortise.gradient(launch.scene_file("punch"), ["energy"], {"boundary.2.pressure": 1e6}, {"case": [{"scale": [1, 2]}]})

@@ -96,6 +96,52 @@ def test_errors_are_exceptions_with_the_words_of_the_program():
 
 
 @solves
+def test_errors_of_a_dict_name_its_keys():
+    steel = {"young": 1, "poisson": 0.3}
+    scene = {"mesh": {"file": launch.ROOT / "geo/punch.geo"}, "materials": {"steel": steel}, "bodies": {"block": "steel", "punch": "steel"}}
+    held = {"boundary": [{"on": ["ground", "head"], "displacement": {"x": 0, "y": 0}}], "contact": [{"between": ["foot", "block_top"]}]}
+    soft = {"materials": {"steel": steel | {"young": -1}}}
+    words = "materials.steel.young: expected a number > 0, found -1"
+    with pytest.raises(mortise.InputError, match=f"^{words}$"):
+        mortise.solve(scene | held | soft)
+    with pytest.raises(mortise.InputError, match="^bodies: body 'punch' of .* has no material"):
+        mortise.solve(scene | held | {"bodies": {"block": "steel"}})
+    table = mortise.cases(scene | held, {"case": [{"name": "a"}, {"name": "b", "mesh.parameters.n_block": 0.5}]})
+    assert table["status"][0] == "solved" and table["status"][1].startswith("bad input: ") and "scene.toml" not in table["status"][1]
+    table = mortise.sweep(scene | held, {"materials.steel.young": [1, -1]})
+    assert list(table["status"]) == ["solved", f"bad input: --set materials.steel.young=-1: {words}"]
+
+
+@solves
+def test_what_is_no_list_is_refused():
+    scene = launch.scene_file("punch")
+    for vary, text in ({"model.plane": "stress"}, "'stress'"), ({"boundary.2.pressure": 1e6}, "1000000.0"):
+        with pytest.raises(mortise.InputError, match=f"{[*vary][0]}: expected a list, found {text}"):
+            mortise.sweep(scene, vary)
+    with pytest.raises(mortise.InputError, match="of: expected a list, found 'energy'"):
+        mortise.gradient(scene, "energy", {"boundary.2.pressure": 10e6})
+
+
+@solves
+def test_a_sweep_of_which_no_run_can_be_read():
+    with pytest.raises(mortise.InputError, match="unknown key 'presure'"):
+        mortise.sweep(launch.scene_file("punch"), {"boundary.2.presure": [1, 2]})
+    with pytest.raises(mortise.InputError, match="no.toml: no such file"):
+        mortise.sweep("no.toml", {"boundary.2.pressure": [1, 2]})
+
+
+@solves
+def test_a_case_without_bodies_is_read(tmp_path):
+    launch.call("solve", launch.scene_file("punch"), "--set", "case=[{name='a'}]", "--set", "cases.write=contact", "-o", tmp_path / "out")
+    run, whole = mortise.read(tmp_path / "out/cases/a"), mortise.solve(launch.scene_file("punch"))
+    np.testing.assert_allclose(run.p, whole.p, rtol=1e-9)
+    with pytest.raises(AttributeError, match="no result.vtu"):
+        run.stress
+    with pytest.raises(mortise.InputError, match="expected the folder cases/NAME of one of them"):
+        mortise.read(tmp_path / "out")
+
+
+@solves
 def test_the_scripts_of_the_page_run(tmp_path):
     blocks = re.compile(r"```\w*\n(.*?)```", re.DOTALL)
     readme = blocks.findall((launch.ROOT / "README.md").read_text())

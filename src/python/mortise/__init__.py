@@ -35,16 +35,22 @@ class Results:
     contact  columns of contact.csv by name: pair, curve, s, x, y, u_n, p, gap, sigma_n, sigma_2, p_error and p_multiplier if estimated,
              p_fluid if a fluid gets into a gap
     x, u     places and displacements (n, 2) of the points of result.vtu; stress (n, 4): 11, 22, 33, 12
+             (not of a case that [cases] write = "contact" left without them)
     summary  summary.json (docs/files.md); status and checks of it
     s, p, p_error, gap: of the first pair's multiplier side, in the order of s; of another: side(curve)
     """
 
     def __init__(self, contact, fields, summary):
         self.contact = contact
-        self.x, self.u, self.stress = fields["x"], fields["u"], fields["stress"]
+        vars(self).update(fields)
         self.summary = summary
         self.status = summary["status"]
         self.checks = {check["name"]: check for check in summary["checks"]}
+
+    def __getattr__(self, name):
+        if name in ("x", "u", "stress"):
+            raise AttributeError(f'{name}: the folder has no result.vtu; expected a scene with [cases] write = "all"')
+        raise AttributeError(name)
 
     def side(self, curve):
         """The columns of `contact` along one curve."""
@@ -87,6 +93,7 @@ def cases(scene, changes=None, estimate=True):
 
     with _file_of(scene) as path:
         words, numbers = _mortise.cases(path, [(key, _toml(value)) for key, value in (changes or {}).items()], estimate)
+    words["status"] = [_of_dict(scene, path, status) for status in words["status"]]
     table = {name: np.array(column) for name, column in words.items()} | numbers
     if "scale" in table:
         table["scale"] = table["scale"].astype(float)
@@ -101,16 +108,19 @@ def sweep(scene, vary, executor=None, changes=None):
     """Solves every combination of the values of `vary`, {"boundary.2.pressure": [1e6, 2e6], ...}, the last key fastest, by
     any executor of concurrent.futures; without one here, run by run. Returns the columns of the table of `mortise sweep` by
     name, as arrays with a value a run: those of `vary`, "status" ("solved", or "bad input: ..." of a run whose figures are
-    nan), figures. They do not depend on the executor, but for the seconds. Files that the scene names must be there for all
+    nan), figures. Raises InputError where no run can be read. They do not depend on the executor, but for the seconds. Files that the scene names must be there for all
     workers; a worker keeps the last mesh and factor, and if it is another process it has one thread. Where a process of the
     executor is killed, processes of our own do what it left; a run that kills two of these raises BrokenExecutor."""
-    runs = list(itertools.product(*vary.values()))
+    from . import _mortise
+
+    runs = list(itertools.product(*(_listed(key, values) for key, values in vary.items())))
     words = [[(key, _toml(value)) for key, value in ((changes or {}) | dict(zip(vary, run))).items()] for run in runs]
     groups = [words[k : k + _group] for k in range(0, len(words), _group)]
     scene = _anywhere(scene)
+    with _file_of(scene) as path:
+        if refusal := _mortise.refusal(path, words):
+            raise InputError(refusal)
     if executor is None:
-        from . import _mortise
-
         solver = _mortise.Solver()
         done = [_rows(scene, group, solver) for group in groups]
     else:
@@ -140,10 +150,16 @@ def gradient(scene, of, by, changes=None):
     columns of cases.csv: "energy", "probe.0.u_x", "contact.0.force.y", "contact.0.pressure.mean", also of a window,
     ("contact.0.pressure.mean", 0.1, 0.3), and ("contact.0.pressure.norm", 8): (int p^8 dA / int dA)^(1/8). A thread keeps the
     mesh and the factor for its next call."""
-    figures = [(name, []) if isinstance(name, str) else (name[0], list(name[1:])) for name in of]
+    figures = [(name, []) if isinstance(name, str) else (name[0], list(name[1:])) for name in _listed("of", of)]
     words = [(key, _toml(value)) for key, value in (changes or {}).items()]
     with _file_of(_anywhere(scene)) as path:
         return Gradients(*_own_solver().gradient(path, words, figures, list(by.items())))
+
+
+def _listed(name, values):
+    if isinstance(values, (str, dict)) or not np.iterable(values):
+        raise InputError(f"{name}: expected a list, found {values!r}")
+    return list(values)
 
 
 def _own_solver():
@@ -197,15 +213,19 @@ def _task(caller, scene, group):
 
 def _rows(scene, group, solver):
     with _file_of(scene) as path:
-        return solver.rows(path, group)
+        return [(_of_dict(scene, path, status), figures) for status, figures in solver.rows(path, group)]
 
 
 def read(folder):
-    """The results that `mortise solve` wrote into a folder."""
+    """The results that `mortise solve` wrote into a folder; of a scene with cases those of one, in cases/NAME of it."""
     folder = Path(folder)
+    if (folder / "cases.csv").exists():
+        raise InputError(f"{folder}: the cases of a scene; expected the folder cases/NAME of one of them")
     contact = _columns(folder / "contact.csv") if (folder / "contact.csv").exists() else {}
-    arrays = _appended(folder / "result.vtu")
-    fields = {"x": arrays["Points"][:, :2], "u": arrays["displacement"][:, :2], "stress": arrays["stress"]}
+    fields = {}
+    if (folder / "result.vtu").exists() or not contact:
+        arrays = _appended(folder / "result.vtu")
+        fields = {"x": arrays["Points"][:, :2], "u": arrays["displacement"][:, :2], "stress": arrays["stress"]}
     return Results(contact, fields, json.loads((folder / "summary.json").read_text()))
 
 
@@ -232,7 +252,15 @@ def _file_of(scene):
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.toml"
         path.write_text("".join(f"{_key(key)} = {_toml(value)}\n" for key, value in tables.items()))
-        yield str(path)
+        try:
+            yield str(path)
+        except InputError as error:
+            raise InputError(_of_dict(scene, path, str(error))) from None
+
+
+def _of_dict(scene, path, words):
+    """A message about a scene; of a dict without its file, which is there no more."""
+    return re.sub(re.escape(str(path)) + r"(:\d+)*: ", "", words) if isinstance(scene, dict) else words
 
 
 def _key(key):
