@@ -3,10 +3,13 @@
 import copy
 import csv
 import json
+import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import meshio
@@ -155,6 +158,30 @@ def test_a_run_that_ends_without_an_answer_is_a_trouble(mortise, tmp_path):
     status = {run["name"]: run["status"] for run in found["runs"]}
     assert status["feti"] == "failed" and status["other_side"] == "skipped" and not found["agrees"]
     assert found["troubles"] == ["feti: "] and found["skipped"] == ["other_side: no"]
+
+
+@pytest.mark.parametrize("script, words", [("certify", [PUNCH]), ("report", [])])
+def test_an_interrupt_is_no_traceback(mortise, tmp_path, script, words):
+    """While the program runs, which is another here."""
+    subprocess.run([mortise, "solve", PUNCH, "-o", tmp_path / "out", "--quiet"], check=True)
+    program = tmp_path / "program"
+    program.write_text(f"#!/bin/sh\ntouch {tmp_path}/started\nexec sleep 60\n")
+    program.chmod(0o755)
+    # A shell that runs the tests in the background tells them to ignore SIGINT.
+    command = [sys.executable, ROOT / f"src/python/reports/{script}.py", *(words or [tmp_path / "out"])]
+    heard = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL), "start_new_session": True}
+    running = subprocess.Popen(command, cwd=tmp_path, env=os.environ | {"MORTISE_PROGRAM": str(program)}, stderr=subprocess.PIPE, text=True, **heard)
+    while not (tmp_path / "started").exists() and running.poll() is None:
+        time.sleep(0.02)
+    os.killpg(running.pid, signal.SIGINT)
+    assert running.communicate(timeout=20)[1] == "" and running.returncode == -signal.SIGINT
+
+
+def test_a_reader_who_leaves_has_the_page(mortise, tmp_path):
+    command = [mortise, "certify", RINGS, "--no-freefem", "-o", tmp_path / "runs"]
+    running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    running.stdout.close()
+    assert running.stderr.read() == "" and running.wait() == -signal.SIGPIPE and (tmp_path / "runs.html").is_file()
 
 
 def test_bad_input_is_refused_as_by_solve(mortise, tmp_path):

@@ -278,6 +278,14 @@ def test_p_of_a_scene_without_contact_is_refused(call, tmp_path):
     assert call(tmp_path / "out", tmp_path / "a.png")[0] == 0
 
 
+def test_pictures_that_cannot_be_written_are_told_in_one_line(mortise, solve, tmp_path):
+    (tmp_path / "file").write_text("")
+    geo, drawn = launch.ROOT / "geo/punch", tmp_path / "file/a.png"
+    for words in (["picture", solve("punch"), drawn], ["check", geo.with_suffix(".toml"), "--picture", drawn], ["check", geo.with_suffix(".geo"), "--picture", drawn]):
+        ended = subprocess.run([mortise, *words], capture_output=True, text=True, check=False)
+        assert ended.returncode == 1 and ended.stderr == f"mortise: error: {drawn}: cannot be written: File exists\n"
+
+
 def test_what_cannot_be_drawn_is_refused(call, solve, tmp_path):
     """No results, a picture of no known kind, results of an older mortise."""
     known = "a.txt: expected a name that ends in .png, .pdf, .svg"

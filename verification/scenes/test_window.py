@@ -168,6 +168,15 @@ print("graph", kind, largest)
 """
 
 
+def test_no_display_is_an_error(mortise, tmp_path):
+    if importlib.util.find_spec("gmsh") is None:
+        pytest.skip("no Python's gmsh: ./dev setup installs it")
+    (tmp_path / "punch.geo").write_text(PUNCH)
+    ended = subprocess.run([mortise, "window", "punch.geo"], cwd=tmp_path, env=os.environ | {"DISPLAY": ":none"}, capture_output=True, text=True, check=False)
+    assert ended.returncode == 1 and "Traceback" not in ended.stderr
+    assert ended.stderr.splitlines()[-1].startswith("mortise: error: the window cannot be opened: Can't open display: :none")
+
+
 def test_gmsh_s_own_menu_runs_it(mortise, tmp_path):
     if importlib.util.find_spec("gmsh") is None:
         pytest.skip("no Python's gmsh: ./dev setup installs it")

@@ -114,8 +114,11 @@ def leave_out_overlaps(figure, texts):
 
 def save(figure, path, dpi=85):
     """Writes the figure (format by the name's ending) and closes it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=dpi, **({"pil_kwargs": {"optimize": True}} if path.suffix == ".png" else {}))
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        figure.savefig(path, dpi=dpi, **({"pil_kwargs": {"optimize": True}} if path.suffix == ".png" else {}))
+    except OSError as error:
+        raise SystemExit(f"mortise: error: {path}: cannot be written: {error.strerror or error}") from None
     plt.close(figure)
 
 

@@ -22,6 +22,7 @@ reaction and their moments at the point that they are about.
 import argparse
 import json
 import math
+import signal
 import sys
 from pathlib import Path
 
@@ -260,4 +261,6 @@ def main():
 
 
 if __name__ == "__main__":
+    for end in (signal.SIGINT, signal.SIGPIPE):  # without a traceback
+        signal.signal(end, signal.SIG_DFL)
     main()

@@ -10,6 +10,7 @@ SETUP.json is what mortise writes for it (src/results/setup_json.hpp).
 import argparse
 import json
 import pathlib
+import signal
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
@@ -249,4 +250,6 @@ def main():
 
 
 if __name__ == "__main__":
+    for end in (signal.SIGINT, signal.SIGPIPE):  # without a traceback
+        signal.signal(end, signal.SIG_DFL)
     main()

@@ -12,6 +12,7 @@ import json
 import math
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -361,12 +362,14 @@ def main():
     output = options.output or Path("out") / f"{options.scene.stem}_certificate"
     mortise = os.environ.get("MORTISE_PROGRAM", "mortise")
     found = certify(mortise, options.scene, output, options.set, options.accuracy, not options.no_freefem)
-    print(text_of(found))
     page = output.with_name(output.resolve().name + ".html")
     write_report(output, page, mortise)
+    print(text_of(found))
     print(f"  report    {page}")
     sys.exit(0 if found["agrees"] else 2)
 
 
 if __name__ == "__main__":
+    for end in (signal.SIGINT, signal.SIGPIPE):  # without a traceback
+        signal.signal(end, signal.SIG_DFL)
     main()

@@ -12,6 +12,7 @@ import html
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -336,4 +337,6 @@ def main():
 
 
 if __name__ == "__main__":
+    for end in (signal.SIGINT, signal.SIGPIPE):  # without a traceback
+        signal.signal(end, signal.SIG_DFL)
     main()

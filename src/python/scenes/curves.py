@@ -6,6 +6,7 @@ Usage: curves.py GEOMETRY.json [--picture PICTURE] [--quiet]
 
 import argparse
 import json
+import signal
 import sys
 from pathlib import Path
 
@@ -95,4 +96,6 @@ def main():
 
 
 if __name__ == "__main__":
+    for end in (signal.SIGINT, signal.SIGPIPE):  # without a traceback
+        signal.signal(end, signal.SIG_DFL)
     sys.exit(main())

@@ -8,6 +8,7 @@ import argparse
 import json
 import os
 import re
+import signal
 import sys
 from pathlib import Path
 
@@ -110,4 +111,6 @@ def main():
 
 
 if __name__ == "__main__":
+    for end in (signal.SIGINT, signal.SIGPIPE):  # without a traceback
+        signal.signal(end, signal.SIG_DFL)
     main()

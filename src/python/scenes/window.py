@@ -95,9 +95,15 @@ class Window:
         self.refresh()
         if max(np.abs(curve.points).max() for curve in self.curves.values()) > new.METRES:
             gmsh.onelab.setNumber(YOUNG, [210e3])
-        gmsh.fltk.initialize()
+        self.open()
         for item in ("0Mortise", "0Mortise/3Pick"):
             gmsh.fltk.openTreeItem(item)
+
+    def open(self):
+        try:
+            gmsh.fltk.initialize()
+        except Exception as error:  # of gmsh, which has no other
+            sys.exit(f"mortise: error: the window cannot be opened: {error}; expected a display that DISPLAY names")
 
     def scene(self):
         return tomllib.loads(self.file.read_text())
@@ -322,4 +328,5 @@ def main():
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     main()
