@@ -113,8 +113,8 @@ TEST(ExpressionRange, ContainsAllValues) {
     const Interval all = range({{start.x(), start.x() + size.x()}, {start.y(), start.y() + size.y()}, {}});
     for (int i = 0; i < 20; ++i) {
       const double value = field(start + Vec2(part(random), part(random)).cwiseProduct(size));
-      EXPECT_GE(value, all.low - 1e-9 * std::abs(value)) << field.words();
-      EXPECT_LE(value, all.high + 1e-9 * std::abs(value)) << field.words();
+      EXPECT_GE(value, all.low - 1e-9 * std::abs(value) - 1e-12) << field.words();
+      EXPECT_LE(value, all.high + 1e-9 * std::abs(value) + 1e-12) << field.words();
     }
     Points nodes(3, 2);  // of a curved edge
     nodes << start.transpose(), (start + size).transpose(),
@@ -124,8 +124,8 @@ TEST(ExpressionRange, ContainsAllValues) {
     const Interval piece = *on_edge.range(from, to);
     for (int i = 0; i < 20; ++i) {
       const double value = on_edge.at(from + (to - from) * part(random));
-      EXPECT_GE(value, piece.low - 1e-9 * std::abs(value)) << field.words();
-      EXPECT_LE(value, piece.high + 1e-9 * std::abs(value)) << field.words();
+      EXPECT_GE(value, piece.low - 1e-9 * std::abs(value) - 1e-12) << field.words();
+      EXPECT_LE(value, piece.high + 1e-9 * std::abs(value) + 1e-12) << field.words();
     }
   }
 }
