@@ -19,8 +19,9 @@ constexpr double border_share = 0.5;  // of the target of the local error, for a
 // Likewise for all points where p goes as a small power of the distance: rings of edges around a point are few, however
 // short these are, so that they cost next to nothing.
 constexpr double weak_share = 0.3;
-constexpr double least_size = 2e-7,
-                 least_layer = 3e-5;  // of the scene's size; gmsh makes flat triangles at corners below 1e-5
+// Of the scene's size: an edge of which round-off of its ends' coordinates is a millionth.
+constexpr double least_size = 1e-9;
+constexpr double least_layer = 3e-5;  // likewise; corners have no less to tell from there on
 
 // Window by window the squares of what duals say of a place, as one number: stress length^(1/2).
 class WindowNorm {

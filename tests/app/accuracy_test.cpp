@@ -360,6 +360,19 @@ accuracy = { value = "5%", first_edges = 6 })");
   }
 }
 
+// Hertz' contact may be 1e-5 of the radius.
+TEST(Accuracy, OfHertzIsReachedHoweverLightTheLoad) {
+  std::mt19937 random(6);
+  for (int k = 0; k < 6; ++k) {
+    const double part = std::pow(10, std::uniform_real_distribution<double>(-k - 1, -k)(random));
+    std::ostringstream pressure;
+    pressure << 4.6e6 * part;
+    const auto r = solve_to_accuracy(scene_to_accuracy("hertz", "0.2%", {{"boundary.2.pressure", pressure.str()}}));
+    EXPECT_TRUE(r->accuracy->reached()) << part << ": " << r->accuracy->reason;
+    EXPECT_NEAR(r->recovery.contacts[0].p_max, 581.29e6 * std::sqrt(part), 0.002 * 581.29e6 * std::sqrt(part)) << part;
+  }
+}
+
 // A pad presses on a beam, which so comes down on a stop: other contact is there, and the stop's is shorter than its
 // edges.
 TEST(Accuracy, OfShortContactBesideAnotherPairIsFound) {
