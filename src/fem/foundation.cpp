@@ -28,4 +28,12 @@ SparseMatrix spring_rows(const SparseMatrix& stiffness) {
   return rows;
 }
 
+VecX spring_parts(const SparseMatrix& stiffness, const SparseMatrix& of_elements) {
+  const VecX springs = stiffness.diagonal(), own = of_elements.diagonal();
+  VecX parts = VecX::Zero(springs.size());
+  for (Eigen::Index i = 0; i < parts.size(); ++i)
+    if (springs(i) > 0) parts(i) = own(i) > 0 ? springs(i) / own(i) : 1;
+  return parts;
+}
+
 }  // namespace mortise

@@ -12,6 +12,8 @@
 namespace mortise {
 namespace {
 
+constexpr double least_part = 1e-7;  // of a motion; conditions that see less of it do not resist it
+
 // Motion k of a body (0, 1: translations; 2: rotation by 1/size) at x, component c.
 double motion_at(int k, const Vec2& x, const Vec2& centre, double size, int c) {
   if (k < 2) return k == c ? 1 : 0;
@@ -121,13 +123,21 @@ SparseMatrix prescribed_couplings(const Constraints& constraints) {
   return rows;
 }
 
+// The springs' rows by what their work is of that of the elements: where that is round-off of these, no factor tells
+// that the springs are there.
+SparseMatrix resisting(const Constraints& constraints) {
+  constexpr double round_off = 1e-13;  // that a factor leaves of a stiffness
+  const VecX weights = (least_part * least_part / round_off * constraints.spring_parts).cwiseSqrt().cwiseMin(1);
+  return weights.asDiagonal() * constraints.springs;
+}
+
 // What the constraints and springs see of the motions, and the jumps between bodies that share nodes: they move
 // together.
 void add_supports(const Bodies& bodies, const Constraints& constraints, Gram& gram) {
   if (constraints.rings)  // all but translations along x2 strain them
     for (int b = 0; b < int(bodies.mesh.bodies.size()); ++b)
       for (const int k : {0, 2}) gram.add({{b, Eigen::RowVector3d::Unit(k)}});
-  if (constraints.springs.cols() > 0) add_openings(bodies, constraints.springs, gram);
+  if (constraints.springs.cols() > 0) add_openings(bodies, resisting(constraints), gram);
   if (constraints.multipoint) add_openings(bodies, prescribed_couplings(constraints), gram);
   const auto is_own = [&](int unknown) {
     return constraints.fixed[unknown] && !(constraints.multipoint && constraints.multipoint->coupled[unknown]);
@@ -219,7 +229,7 @@ std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Const
   Gram gram(int(mesh.bodies.size()));
   add_supports(bodies, constraints, gram);
   add_openings(bodies, rows, gram);
-  return unresisted(bodies, gram, 1e-7);
+  return unresisted(bodies, gram, least_part);
 }
 
 std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Constraints& constraints,

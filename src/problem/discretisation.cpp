@@ -95,8 +95,9 @@ void add_springs(const Springs& springs, Discretisation& d) {
   if (springs.empty()) return;
   d.springs.resize(d.system.K.rows(), d.system.K.cols());
   d.springs.setFromTriplets(springs.begin(), springs.end());
-  d.system.K += d.springs;
   d.system.constraints.springs = spring_rows(d.springs);
+  d.system.constraints.spring_parts = spring_parts(d.springs, d.system.K);
+  d.system.K += d.springs;
 }
 
 void apply_multipoint(const Entries& entries, const Mesh& mesh, Discretisation& d) {
@@ -140,9 +141,11 @@ Discretisation discretise(const Entries& entries, const Mesh& mesh) {
 
 void take_loads(const Entries& entries, const Mesh& mesh, Discretisation& d) {
   SparseMatrix springs = std::move(d.system.constraints.springs);
+  VecX parts = std::move(d.system.constraints.spring_parts);
   load_bodies(entries, mesh, d);
   apply_boundaries(entries, mesh, d);
   d.system.constraints.springs = std::move(springs);
+  d.system.constraints.spring_parts = std::move(parts);
   apply_multipoint(entries, mesh, d);
 }
 

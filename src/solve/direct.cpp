@@ -44,8 +44,10 @@ class Passes {
     solution_.u(free_) += factor_.backward(y, *lambda);
     solution_.lambda += s_.stiffness_scale * lambda->head(m).cwiseQuotient(s_.row_scale);
     measure_residuals(s_, solution_);
-    const bool exact = largest(solution_.force_residual, solution_.constraint_residual) < 1e-11;
-    if (solution_.status != SolveStatus::converged || (pass_ > 0 && !infeasible_ && !exact)) return false;
+    const double left = largest(solution_.force_residual, solution_.constraint_residual),
+                 before = std::exchange(left_, left);
+    const bool exact = left<1e-11, stands = pass_> 0 && !infeasible_ && !(left < before / 2);
+    if (solution_.status != SolveStatus::converged || (stands && !exact)) return false;
     infeasible_ = is_infeasible(s_, solution_, tension_);
     if (!exact && !infeasible_) feasible_ = solution_;
     ++pass_;
@@ -93,6 +95,7 @@ class Passes {
   // What is refined, where its rows are as they must be: what it leaves of the forces on a body without load, round-off
   // of the others', may pull at rows that the refinement keeps closed.
   std::optional<Solution> feasible_;
+  double left_ = 0;     // residual of the pass before
   double tension_ = 0;  // that is round-off, as the first pass has it
 };
 

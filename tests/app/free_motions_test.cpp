@@ -332,6 +332,43 @@ TEST(FreeMotions, APinThatSinksDoesNotSpin) {
   }
 }
 
+// A disc shrunk into a ring that a soft spring or foundation holds: whether its stiffness counts or is round-off of the
+// bodies', p is the same. A foundation's normals on edges tell of the ring's spin, if only by the corners of the mesh.
+TEST(FreeMotions, SoftSupportsChangeNothingHoweverSoft) {
+  const TemporaryFolder folder;
+  folder.write("ring.geo", R"(
+Point(1) = {0, 0, 0};
+For j In {0 : 3}
+  Point(10 + j) = {10 * Cos(Pi * j / 2), 10 * Sin(Pi * j / 2), 0}; Point(20 + j) = {14 * Cos(Pi * j / 2), 14 * Sin(Pi * j / 2), 0};
+  Point(30 + j) = {10 * Cos(Pi * j / 2), 10 * Sin(Pi * j / 2), 0};
+EndFor
+For j In {0 : 3}
+  Circle(10 + j) = {10 + j, 1, 10 + (j + 1) % 4}; Circle(20 + j) = {20 + j, 1, 20 + (j + 1) % 4};
+  Circle(30 + j) = {30 + j, 1, 30 + (j + 1) % 4};
+EndFor
+Curve Loop(1) = {20 : 23}; Curve Loop(2) = {10 : 13}; Curve Loop(3) = {30 : 33};
+Plane Surface(1) = {1, 2}; Plane Surface(2) = {3};
+Physical Surface("ring") = {1}; Physical Surface("disc") = {2}; Physical Curve("hole") = {10 : 13};
+Physical Curve("out") = {20 : 23}; Physical Curve("rim") = {30 : 33}; Physical Point("pt") = {20};
+Mesh.ElementOrder = 2; Mesh.MeshSizeMax = 1.5;
+)");
+  std::mt19937 random(5);
+  std::vector<double> forces;
+  for (int k = 0; k < 40; ++k) {
+    const double stiffness = std::pow(10, std::uniform_real_distribution<double>(-12, 1)(random));
+    SCOPED_TRACE(stiffness);
+    std::ostringstream scene;
+    scene << "mesh.file = \"ring.geo\"\nmaterials.steel = { young = 210e3, poisson = 0.3 }\nbodies = { \"*\" = "
+             "\"steel\" }\n"
+          << "contact = [{ between = [\"rim\", \"hole\"], initial_gap = -0.01 }]\nboundary = [{ on = \""
+          << (k % 2 ? "out\", foundation = " : "pt\", spring = ") << stiffness << " }]\n";
+    const Results r = solve_scene(read_scene(folder.write("ring.toml", scene.str())));
+    EXPECT_EQ(r.status, Status::solved);
+    EXPECT_LE(largest_entry(r.solution.u), 0.02);
+    EXPECT_NEAR(r.recovery.contacts[0].p_max, 56.52, 0.3);  // Lame
+  }
+}
+
 // Rollers without load touch at no pressure, if at all: they stay where they are, whatever rows were closed at first,
 // and move no further than those that carry the shaft, by 0.05 and a little for what these leave them.
 TEST(FreeMotions, RollersWithoutLoadStayWhereTheyAre) {
