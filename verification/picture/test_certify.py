@@ -266,6 +266,20 @@ def test_what_is_expected_is_of_the_scene_as_it_is(wrong):
     assert not kinds and found["agrees"], found["troubles"]
 
 
+def test_places_on_a_curved_edge_are_not_apart_from_it():
+    """However few pieces it would be drawn in: at 0.7 of a radius of 10 a chord of six is off by 2e-4."""
+    draw = np.random.default_rng(3)
+    for _ in range(20):
+        nodes = [10 * np.array([np.cos(a), np.sin(a)]) for a in np.array([0, 0.07, 0.035]) + draw.uniform(0, 6)]
+        nodes[2] = nodes[2] + draw.uniform(-0.02, 0.02, 2)
+        xi, off = draw.uniform(-0.9, 0.9), draw.uniform(-0.01, 0.01)
+        place = xi * (xi - 1) / 2 * nodes[0] + xi * (xi + 1) / 2 * nodes[1] + (1 - xi * xi) * nodes[2]
+        tangent = (nodes[1] - nodes[0]) / 2 + xi * (nodes[0] + nodes[1] - 2 * nodes[2])
+        x = place + off * np.array([-tangent[1], tangent[0]]) / np.linalg.norm(tangent)
+        assert figures.distance_to_edge(nodes, xi + draw.uniform(-0.1, 0.1), x) == pytest.approx(abs(off), abs=1e-9)
+        assert figures.distance_to_edge(nodes[:2], 0.0, (nodes[0] + nodes[1]) / 2) < 1e-12
+
+
 def test_bodies_that_slid_beyond_an_end_are_not_apart(mortise, tmp_path):
     """A block held by nothing but friction, which there is none of, and by a wall that presses it along."""
     (tmp_path / "slide.geo").write_text("""SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 1, 1}; Rectangle(2) = {0, -1, 0, 1, 1};

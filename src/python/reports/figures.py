@@ -277,6 +277,18 @@ def of_freefem(run, path):
     return Run(run.folder, run.summary, None, lines=lines)
 
 
+def distance_to_edge(nodes, xi, x):
+    """Of x from an edge of two or three nodes (start, end, middle), from the place xi on: by Newton's method."""
+    start, end = nodes[:2]
+    middle = nodes[2] if len(nodes) > 2 else (start + end) / 2
+    bend = start + end - 2 * middle
+    for _ in range(4):
+        off = xi * (xi - 1) / 2 * start + xi * (xi + 1) / 2 * end + (1 - xi * xi) * middle - x
+        tangent = (end - start) / 2 + xi * bend
+        xi = np.clip(xi - tangent @ off / (tangent @ tangent + bend @ off), -1, 1)
+    return np.linalg.norm(xi * (xi - 1) / 2 * start + xi * (xi + 1) / 2 * end + (1 - xi * xi) * middle - x)
+
+
 def deformed_gaps(run):
     """Where p acts that is not a fluid's, how far the deformed sides of the drawn pairs are apart or overlap: the largest distance of a vertex of
     the multiplier side from the deformed other curve, or from its tangent at an end, as far as anything slid beyond; None without such
@@ -306,6 +318,11 @@ def deformed_gaps(run):
             if not row["gap"] or float(row["p"] or 0) <= float(row.get("p_fluid", 0)):  # beyond the other's end it faces nothing
                 continue
             t = np.clip(((moved[number] - start) * step).sum(axis=1) / (step**2).sum(axis=1), low, high)
-            distance = np.linalg.norm(start + t[:, None] * step - moved[number], axis=1).min()
+            distances = np.linalg.norm(start + t[:, None] * step - moved[number], axis=1)
+            near = int(distances.argmin())
+            distance = distances[near]
+            if 0 <= t[near] <= 1:  # between two points of an edge, which may be curved
+                edge, xi = others[near // pieces], -1 + 2 * (near % pieces + t[near]) / pieces
+                distance = distance_to_edge([moved[node] for node in edge if node >= 0], xi, moved[number])
             largest = max(largest or 0, float(distance))
     return largest
