@@ -331,7 +331,8 @@ double ErrorEstimate::peak() const {
 }
 
 double ErrorEstimate::half_width() const {
-  if (pressure_square() == 0) return std::numeric_limits<double>::infinity();
+  const auto is_pressed = [](const PressureEstimate& e) { return largest_entry(e.line.p) > 0; };
+  if (std::ranges::none_of(pressures, is_pressed)) return std::numeric_limits<double>::infinity();
   double part = 0;
   for (const PressureEstimate& e : pressures) {
     if (!e.local.missed_at.empty()) part = std::max(part, 1.0);  // a contact that is there and has no width yet

@@ -35,6 +35,26 @@ TEST(ReportText, OfAWallFitsOneScreenAndNamesItsExtremes) {
   EXPECT_TRUE(contains(text, "(" + spec.between[0] + " - " + spec.between[1] + ")\n            largest force")) << text;
 }
 
+// A force that balances within its own contact has a bar in its own unit, or none: no percent of nothing.
+TEST(ReportText, BarsOfForcesArePartsOfThemOnlyWhereTheyAreLess) {
+  const Wall w = wall(2);
+  Results r = solve_scene(w.scene, w.mesh);
+  estimate(r);
+  Json report = report_of(r);
+  report["contact"][0]["pressure"]["mean"] = 1;
+  report["contact"][0]["length"] = 2;
+  const auto told = [&](double force, double error) {
+    report["contact"][0]["force"] = {0, force};
+    report["contact"][0]["force_error"] = {error, 0};
+    return contact_text(report);
+  };
+  EXPECT_TRUE(contains(told(2, 0.03), " within 1.5 %\n"));
+  EXPECT_TRUE(contains(told(0.002, 0.03), " within 0.03\n"));
+  EXPECT_TRUE(contains(told(1e-12, 0.03), " within 0.03\n"));
+  EXPECT_FALSE(contains(told(1e-12, 1e-11), " within "));
+  EXPECT_FALSE(contains(told(2, 1e-7), " within "));
+}
+
 TEST(Listed, NamesAllOfFewAndTheFirstOfMany) {
   EXPECT_EQ(listed({}), "");
   EXPECT_EQ(listed({"a", "b"}), "a, b");
