@@ -5,31 +5,10 @@
 #include <sstream>
 
 #include "base/printable.hpp"
-#include "base/vectors.hpp"
-#include "fem/edges.hpp"
 #include "results/line_motion.hpp"
 
 namespace mortise {
 namespace {
-
-// At how many of its ends contact ends within the curve: at one, it is half of an ellipse.
-int ends_within(const ContactResults& contact) {
-  const double round_off = 1e-9 * contact.length;
-  if (contact.length_in_contact > contact.length - round_off) return 0;
-  if (!contact.ends) return 2;
-  return ((*contact.ends)[0] > round_off) + ((*contact.ends)[1] < contact.length - round_off);
-}
-
-// What p that falls to zero at both ends as an ellipse is off by in L2, shifted by a part of its width.
-double of_ellipse(double shift) {
-  return shift > 0 ? std::min(1., shift * std::sqrt(3 * std::max(1., 0.9 - std::log(shift)))) : 0;
-}
-
-// By how much an edge turns, radians.
-double rotation(const Points& nodes, const VecX& u, const Edge& edge) {
-  const Vec2 chord = (nodes.row(edge.nodes[1]) - nodes.row(edge.nodes[0])).transpose();
-  return angle_between(chord, chord + u.segment<2>(2 * edge.nodes[1]) - u.segment<2>(2 * edge.nodes[0]));
-}
 
 // What p is off by at most, and why.
 struct Largest {
@@ -49,28 +28,17 @@ Largest largest_in_contact(const Results& r) {
     const ContactPair& pair = r.problem.pairs[k];
     const ContactResults& contact = r.recovery.contacts[k];
     if (contact.length_in_contact == 0) continue;
-    const std::vector<double> curvature = edge_curvatures(r.problem.mesh.nodes, pair.multiplier),
-                              opposite_curvature = edge_curvatures(r.problem.mesh.nodes, pair.opposite);
-    for (const ContactPoint& c : pair.points) {
-      if (!(interpolate(pair, contact.pressure, {c.edge, c.xi}) > 1e-3 * contact.p_max)) continue;
-      const Edge &edge = pair.multiplier.edges[c.edge], &other = pair.opposite.edges[c.opposite_edge];
-      const Vec2 x = edge_point(r.problem.mesh.nodes, edge, c.xi).position;
-      const Vec2 moved = edge_value(r.solution.u, other, c.eta) - edge_value(r.solution.u, edge, c.xi);
-      const double slip = std::abs(moved.x() * c.normal.y() - moved.y() * c.normal.x());
-      const double curved = moved.norm() * std::max(curvature[c.edge], opposite_curvature[c.opposite_edge]),
-                   along = slip / contact.length_in_contact,
-                   turned = std::max(rotation(r.problem.mesh.nodes, r.solution.u, edge),
-                                     rotation(r.problem.mesh.nodes, r.solution.u, other));
-      worst.take(
-          {curved, x, 100 * curved, "the sides move against one another by ", " % of the contact line's radius"});
+    for (const PlaceMotion& place : place_motions(r.problem.mesh.nodes, pair, contact, r.solution.u)) {
+      const Vec2& x = place.position;
+      const double along = std::abs(place.slid) / contact.length_in_contact;
+      worst.take({place.curved, x, 100 * place.curved, "the sides move against one another by ",
+                  " % of the contact line's radius"});
       worst.take({along, x, 100 * along, "the sides slide along one another by ", " % of the length in contact"});
-      worst.take({turned * turned, x, turned, "a side turns by ", " radians"});
+      worst.take({place.turned * place.turned, x, place.turned, "a side turns by ", " radians"});
     }
-    const int within = ends_within(contact);
-    if (within == 0) continue;  // p ends with the curve and moves with it
     if (const auto all = line_motion(r.problem.mesh.nodes, pair, contact, r.solution.u))
-      worst.take({of_ellipse(all->slid * within / 2), all->position, 100 * all->slid,
-                  "the sides slide along one another by ", " % of the length in contact, all in one direction,"});
+      worst.take({all->shifted, all->position, 100 * all->slid, "the sides slide along one another by ",
+                  " % of the length in contact, all in one direction,"});
   }
   return worst;
 }

@@ -51,6 +51,28 @@ std::map<int, std::vector<std::size_t>> pairs_of_bodies(const Results& r) {
   return bodies;
 }
 
+// What of a pair's p the displacements take away, at most all of it, and the words for that.
+struct LostPressure {
+  double part = 0;
+  std::string why;
+};
+
+LostPressure lost_pressure(const LineMotion& motion) {
+  LostPressure lost;
+  const auto take = [&](double part, const char* before, double shown, const char* after) {
+    if (!(part > lost.part)) return;
+    std::ostringstream text;
+    text.precision(2);
+    text << before << shown << after;
+    lost = {std::min(1., part), text.str()};
+  };
+  take(motion.turned, " turns by ", motion.turned, " radians as a whole");
+  take(motion.shifted, " slides by ", 100 * motion.slid, " % of the loaded length");
+  take(motion.curved, " moves by ", 100 * motion.curved, " % of its radius of curvature");
+  take(motion.strained, " turns and stretches so that ", 100 * motion.strained, " % of its pressure are lost");
+  return lost;
+}
+
 }  // namespace
 
 Check coverage_check(const Results& r) {
@@ -73,31 +95,22 @@ Check coverage_check(const Results& r) {
 
 Check motion_check(const Results& r) {
   Check check{"turn and slide of contact lines", 0, 0.5};
-  if (!r.solution.u.allFinite()) check.value = std::numeric_limits<double>::quiet_NaN();
-  std::vector<std::optional<LineMotion>> motions;
-  double norm = 0;
+  double norm = 0, lost = 0, most = 0;
+  std::string where;
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
-    motions.push_back(line_motion(r.problem.mesh.nodes, r.problem.pairs[k], r.recovery.contacts[k], r.solution.u));
-    if (motions[k]) norm = std::hypot(norm, motions[k]->norm);
-  }
-  for (std::size_t k = 0; k < motions.size(); ++k) {
-    const std::optional<LineMotion>& motion = motions[k];
+    const std::optional<LineMotion> motion =
+        line_motion(r.problem.mesh.nodes, r.problem.pairs[k], r.recovery.contacts[k], r.solution.u);
     if (!motion) continue;
-    const auto take = [&](double off, const char* before, double shown, const char* after) {
-      const double part = off * motion->norm / norm;
-      if (!(part > check.value)) return;
-      check.value = part;
-      if (check.ok()) return;
-      std::ostringstream text;
-      text.precision(2);
-      text << r.problem.pairs[k].spec.key << ": the contact line " << near_point(motion->position) << before << shown
-           << after << ", more than small displacements bear: forces and pressures are those of the undeformed bodies";
-      check.where = text.str();
-    };
-    take(motion->turned, " turns by ", motion->turned, " radians as a whole");
-    take(motion->slid, " slides by ", 100 * motion->slid, " % of the loaded length");
-    take(motion->curved, " moves by ", 100 * motion->curved, " % of its radius of curvature");
+    const LostPressure of_pair = lost_pressure(*motion);
+    norm = std::hypot(norm, motion->norm);
+    lost = std::hypot(lost, of_pair.part * motion->norm);
+    if (!(of_pair.part * motion->norm > most)) continue;
+    most = of_pair.part * motion->norm;
+    where = r.problem.pairs[k].spec.key + ": the contact line " + near_point(motion->position) + of_pair.why +
+            ", more than small displacements bear: forces and pressures are those of the undeformed bodies";
   }
+  check.value = r.solution.u.allFinite() ? fraction(lost, norm) : std::numeric_limits<double>::quiet_NaN();
+  if (!check.ok()) check.where = where;
   return check;
 }
 

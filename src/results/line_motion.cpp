@@ -41,8 +41,7 @@ double turn(const std::vector<Moved>& side) {
   return std::abs(std::atan2(sine, cosine));
 }
 
-}  // namespace
-
+// Curvature of the line that each edge stands for, 1 / length, kinks left out.
 std::vector<double> edge_curvatures(const Points& nodes, const Curve& curve) {
   const std::size_t count = curve.edges.size();
   const auto tangent = [&](std::size_t e, double xi) { return edge_point(nodes, curve.edges[e], xi).tangent; };
@@ -59,32 +58,91 @@ std::vector<double> edge_curvatures(const Points& nodes, const Curve& curve) {
   return list;
 }
 
-std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pair, const ContactResults& contact,
-                                      const VecX& u) {
+// By how much an edge turns, radians.
+double rotation(const Vec2& chord, const Vec2& grown) { return angle_between(chord, chord + grown); }
+
+// By which part of its length an edge grows or shrinks, to first order: the stretch of small displacements.
+double stretch(const Vec2& chord, const Vec2& grown) { return std::abs(chord.dot(grown)) / chord.squaredNorm(); }
+
+// Takes what the edge turns and stretches by, where that is more.
+void take_edge(PlaceMotion& place, const Points& nodes, const VecX& u, const Edge& edge) {
+  const Vec2 chord = (nodes.row(edge.nodes[1]) - nodes.row(edge.nodes[0])).transpose();
+  const Vec2 grown = u.segment<2>(2 * edge.nodes[1]) - u.segment<2>(2 * edge.nodes[0]);
+  place.turned = std::max(place.turned, rotation(chord, grown));
+  place.stretched = std::max(place.stretched, stretch(chord, grown));
+}
+
+// At how many of its ends contact ends within the curve: at one, p is half of an ellipse.
+int ends_within(const ContactResults& contact) {
+  const double round_off = 1e-9 * contact.length;
+  if (contact.length_in_contact > contact.length - round_off) return 0;
+  if (!contact.ends) return 2;
+  return ((*contact.ends)[0] > round_off) + ((*contact.ends)[1] < contact.length - round_off);
+}
+
+// What p that falls to zero at both ends as an ellipse is off by in L2, shifted by a part of its width.
+double of_ellipse(double shift) {
+  return shift > 0 ? std::min(1., shift * std::sqrt(3 * std::max(1., 0.9 - std::log(shift)))) : 0;
+}
+
+}  // namespace
+
+std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& pair, const ContactResults& contact,
+                                       const VecX& u) {
   const std::vector<double> curvature = edge_curvatures(nodes, pair.multiplier),
                             opposite_curvature = edge_curvatures(nodes, pair.opposite);
-  std::vector<Moved> side, other;
-  double force = 0, square = 0, length = 0, slid = 0, curved = 0;
   const bool both_ways = pair.spec.condition != Condition::unilateral;  // tension too
   const double least = 1e-3 * largest_entry(contact.pressure);
+  std::vector<PlaceMotion> places;
   for (const ContactPoint& c : pair.points) {
     const double signed_p = interpolate(pair, contact.pressure, {c.edge, c.xi});
     const double p = both_ways ? std::abs(signed_p) : signed_p;
     if (!(p > least)) continue;
     const Edge &edge = pair.multiplier.edges[c.edge], &facing = pair.opposite.edges[c.opposite_edge];
-    side.push_back({p * c.dA, edge_point(nodes, edge, c.xi).position, edge_value(u, edge, c.xi)});
-    other.push_back({p * c.dA, edge_point(nodes, facing, c.eta).position, edge_value(u, facing, c.eta)});
-    const Vec2 moved = other.back().u - side.back().u;
-    force += p * c.dA;
-    square += p * p * c.dA;
-    length += c.ds;
-    slid += p * c.dA * cross(moved, c.normal);
-    curved += p * c.dA * moved.norm() * std::max(curvature[c.edge], opposite_curvature[c.opposite_edge]);
+    PlaceMotion& place = places.emplace_back(PlaceMotion{.position = edge_point(nodes, edge, c.xi).position,
+                                                         .p = p,
+                                                         .ds = c.ds,
+                                                         .dA = c.dA,
+                                                         .facing = edge_point(nodes, facing, c.eta).position,
+                                                         .u = edge_value(u, edge, c.xi),
+                                                         .facing_u = edge_value(u, facing, c.eta),
+                                                         .slid = 0,
+                                                         .curved = 0,
+                                                         .turned = 0,
+                                                         .stretched = 0});
+    const Vec2 moved = place.facing_u - place.u;
+    place.slid = cross(moved, c.normal);
+    place.curved = moved.norm() * std::max(curvature[c.edge], opposite_curvature[c.opposite_edge]);
+    take_edge(place, nodes, u, edge);
+    take_edge(place, nodes, u, facing);
+  }
+  return places;
+}
+
+std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pair, const ContactResults& contact,
+                                      const VecX& u) {
+  std::vector<Moved> side, other;
+  double force = 0, square = 0, length = 0, slid = 0, curved = 0, strained = 0;
+  for (const PlaceMotion& place : place_motions(nodes, pair, contact, u)) {
+    const double weight = place.p * place.dA, of_square = place.p * weight;
+    side.push_back({weight, place.position, place.u});
+    other.push_back({weight, place.facing, place.facing_u});
+    force += weight;
+    square += of_square;
+    length += place.ds;
+    slid += weight * place.slid;
+    curved += weight * place.curved;
+    const double off = std::min(1., std::max(place.turned * place.turned, place.stretched));
+    strained += of_square * off * off;
   }
   if (!(force > 0)) return {};
+  const double part = std::abs(slid / force) / length;
+  const int within = ends_within(contact);
   return LineMotion{.turned = std::max(turn(side), turn(other)),
-                    .slid = std::abs(slid / force) / length,
+                    .slid = part,
+                    .shifted = within > 0 ? of_ellipse(part * within / 2) : part,
                     .curved = curved / force,
+                    .strained = std::sqrt(strained / square),
                     .position = mean_place(side),
                     .norm = std::sqrt(square)};
 }

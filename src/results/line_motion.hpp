@@ -1,29 +1,47 @@
-// How far the contact line of a pair has moved as a whole, against the small displacements that its equations take.
+// How far the contact line of a pair has moved, against the small displacements that its equations take.
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "problem/contact_pair.hpp"
 #include "results/contact_results.hpp"
 
 namespace mortise {
 
+/// A loaded place of a contact line, and how it has moved.
+struct PlaceMotion {
+  Vec2 position;     ///< on the multiplier side
+  double p, ds, dA;  ///< |p|, length and length times depth that the place stands for
+  Vec2 facing;       ///< the place of the opposite side
+  Vec2 u, facing_u;  ///< how far either has moved
+  double slid;       ///< how far they slide along one another, with its sign
+  double curved;     ///< how far they move against one another, over the line's radius of curvature
+  double turned;     ///< radians: the turn of the edge of either side, the larger
+  double stretched;  ///< by which part of its length that edge grows or shrinks, the larger
+};
+
+/// Places with less than a thousandth of the pair's largest pressure are not loaded; tension loads bonded pairs as
+/// pressure does, contact not at all. `u`: all displacements, two a node.
+std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& pair, const ContactResults& contact,
+                                       const VecX& u);
+
 /// Means over the loaded part of a pair's contact line, weighted with the force of each place: a singular corner, whose
 /// surroundings turn by more on every finer mesh, carries little of it. Contact is written on the undeformed bodies, so
 /// each is about the part by which contact forces and their places are off.
 struct LineMotion {
-  double turned;  ///< radians: the turn of either side (the larger) that is nearest to its motion in least squares
-  double slid;    ///< how far the sides slide along one another, over the loaded length
+  double turned;   ///< radians: the turn of either side (the larger) that is nearest to its motion in least squares
+  double slid;     ///< how far the sides slide along one another, over the loaded length
+  double shifted;  ///< the part of p, in L2, that such a slide puts in a wrong place: more where p ends within a curve
   double curved;  ///< how far they move against one another, over the line's radius of curvature: a turn of the normals
+  double
+      strained;   ///< the part of p, in L2, that is lost where edges turn (by the square) or stretch: at most all of it
   Vec2 position;  ///< the middle of what is loaded
   double norm;    ///< root of the integral of p^2 dA, stress times root of length times depth
 };
 
-/// Places with less than a thousandth of the pair's largest pressure are not loaded. Nothing where none is.
+/// Nothing where no place is loaded.
 std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pair, const ContactResults& contact,
                                       const VecX& u);
-
-/// Curvature of the line that each edge stands for, 1 / length, kinks left out.
-std::vector<double> edge_curvatures(const Points& nodes, const Curve& curve);
 
 }  // namespace mortise
