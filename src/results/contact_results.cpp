@@ -19,17 +19,20 @@ double normal_stress(const Eigen::Ref<const Eigen::RowVector4d>& s, const Vec2& 
   return s(0) * n.x() * n.x() + s(1) * n.y() * n.y() + 2 * s(3) * n.x() * n.y();
 }
 
-// `nodes`: of the same side, in the curve's order.
-std::vector<ContactCentre> centre_results(const Curve& curve, const std::vector<EdgeMiddle>& middles,
-                                          const std::vector<ContactNode>& nodes, const StressField& stress) {
-  const auto p = [&](std::size_t k) { return nodes[k % nodes.size()].p; };
-  std::vector<ContactCentre> list;
+// Of each edge of one side of a pair; of one that faces the other side in part, what acts there over all its length.
+// `nodes`: of that side, in the curve's order; `acting`: the integral of p over what faces the other side, an edge.
+std::vector<double> mean_pressures(const Points& places, const Curve& curve, const std::vector<ContactNode>& nodes,
+                                   const std::vector<double>& acting) {
+  std::vector<double> list;
   for (std::size_t e = 0; e < curve.edges.size(); ++e) {
-    const EdgeMiddle& middle = middles[e];
-    const auto row = stress.centres.row(curve.sides[e].cell);
-    const double mean =
-        curve.edges[e].node_count == 2 ? (p(e) + p(e + 1)) / 2 : (p(2 * e) + 4 * p(2 * e + 1) + p(2 * e + 2)) / 6;
-    list.push_back({middle.s, middle.position, mean, normal_stress(row, middle.normal), row(1)});
+    const std::size_t steps = curve.edges[e].node_count - 1;
+    const auto node = [&](std::size_t k) -> const ContactNode& { return nodes[(steps * e + k) % nodes.size()]; };
+    bool faces = true;
+    for (std::size_t k = 0; k <= steps; ++k) faces = faces && !std::isnan(node(k).gap);
+    if (!faces)
+      list.push_back(acting[e] / edge_length(places, curve.edges[e]));
+    else
+      list.push_back(steps == 1 ? (node(0).p + node(1).p) / 2 : (node(0).p + 4 * node(1).p + node(2).p) / 6);
   }
   return list;
 }
@@ -103,8 +106,27 @@ struct Asked {
     ContactSide found;
     found.curve = mesh.boundaries[curve.boundary].name;
     for (const FacingNode& at : along.nodes) found.nodes.push_back(node(at, curve.body));
-    found.centres = centre_results(curve, along.middles, found.nodes, stress);
+    found.centres = centres(curve, along.middles, mean_pressures(mesh.nodes, curve, found.nodes, acting(curve)));
     return found;
+  }
+
+  // The integral of p along each edge of either curve.
+  std::vector<double> acting(const Curve& curve) const {
+    std::vector<double> list(curve.edges.size(), 0);
+    for (const ContactPoint& c : pair.points)
+      list[&curve == &pair.multiplier ? c.edge : c.opposite_edge] += c.ds * interpolate(pair, pressure, {c.edge, c.xi});
+    return list;
+  }
+
+  // `p`: one an edge.
+  std::vector<ContactCentre> centres(const Curve& curve, const std::vector<EdgeMiddle>& middles,
+                                     const std::vector<double>& p) const {
+    std::vector<ContactCentre> list;
+    for (std::size_t e = 0; e < curve.edges.size(); ++e) {
+      const auto row = stress.centres.row(curve.sides[e].cell);
+      list.push_back({middles[e].s, middles[e].position, p[e], normal_stress(row, middles[e].normal), row(1)});
+    }
+    return list;
   }
 };
 

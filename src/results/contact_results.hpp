@@ -35,7 +35,9 @@ struct ContactNode {
 struct ContactCentre {
   double s;
   Vec2 position;
-  double p;  ///< mean over the edge: on 3-node triangles better than at the nodes, where it zigzags
+  /// Mean over the edge, of which what faces nothing has none: all of them carry the pair's force. On 3-node triangles
+  /// better than at the nodes, where it zigzags.
+  double p;
   double sigma_n, sigma_2;
 };
 

@@ -62,6 +62,29 @@ TEST(ContactResults, NodesThatFaceNothingHaveNoPressure) {
   EXPECT_GT(left_out, 0);
 }
 
+// A coarse block: edges beside the foot that end at its corner face nothing (6), or a part of it (7).
+TEST(ContactResults, MeansOverEdgesCarryTheForceWhereEdgesFaceAPartOfTheOther) {
+  for (const std::string side : {"foot", "block_top"})
+    for (const std::string edges : {"6", "7", "83", "90"}) {
+      const Results r =
+          solved_with("punch.toml", {{"contact.0.multipliers_on", side}, {"mesh.parameters.n_block", edges}});
+      const ContactResults& c = r.recovery.contacts[0];
+      for (const auto* line : {&c.multiplier, &c.opposite}) {
+        const auto& nodes = line->nodes;
+        double force = 0;
+        for (std::size_t e = 0; e < line->centres.size(); ++e) {
+          const double p = line->centres[e].p, begin = nodes[2 * e].s, end = nodes[2 * e + 2].s;
+          force += p * (end - begin);
+          if (line->curve == "block_top" &&
+              (nodes[2 * e + 2].position.x() < 0.2 + 1e-9 || nodes[2 * e].position.x() > 0.4 - 1e-9)) {
+            EXPECT_EQ(p, 0) << side << edges;
+          }
+        }
+        EXPECT_NEAR(force, 2e6, 0.06 * 2e6) << side << edges << line->curve;
+      }
+    }
+}
+
 // The parabola's own normal leans there, by a slope of 1.
 TEST(ContactResults, NormalsAtEndsOnSymmetryPlanesLieInThem) {
   const Results r = solved_with("parabola_1.toml", quadratic);
