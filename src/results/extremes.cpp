@@ -6,8 +6,7 @@
 
 namespace mortise {
 
-Extremes find_extremes(const Mesh& mesh, const BodyPoints& points, const StressField& stress,
-                       const std::vector<ContactResults>& contacts) {
+Extremes find_extremes(const Mesh& mesh, const BodyPoints& points, const StressField& stress) {
   int von_mises_at = 0, max_at = 0, min_at = 0;
   double largest_von_mises = -1, max = -std::numeric_limits<double>::infinity(), min = -max;
   for (int p = 0; p < int(points.node.size()); ++p) {
@@ -22,11 +21,14 @@ Extremes find_extremes(const Mesh& mesh, const BodyPoints& points, const StressF
     const int body = int(std::ranges::upper_bound(points.first, p) - points.first.begin()) - 1, node = points.node[p];
     return Extreme{value, body, node, mesh.nodes.row(node).transpose()};
   };
-  Extremes found{at(largest_von_mises, von_mises_at), at(max, max_at), at(min, min_at), {}};
-  for (int k = 0; k < int(contacts.size()); ++k)
-    for (const ContactNode& n : contacts[k].multiplier.nodes)
-      if (!found.pressure || n.p > found.pressure->value) found.pressure = {n.p, k, n.node, n.position};
-  return found;
+  return {at(largest_von_mises, von_mises_at), at(max, max_at), at(min, min_at)};
+}
+
+std::optional<Extreme> largest_pressure(const std::vector<ContactResults>& contacts) {
+  if (contacts.empty()) return {};
+  const auto pair = std::ranges::max_element(contacts, {}, &ContactResults::p_max);
+  const auto node = std::ranges::max_element(pair->multiplier.nodes, {}, &ContactNode::p);
+  return Extreme{pair->p_max, int(pair - contacts.begin()), node->node, node->position};
 }
 
 }  // namespace mortise

@@ -16,10 +16,11 @@ struct Extreme {
 
 struct Extremes {
   Extreme von_mises, principal_max, principal_min;  ///< of the stresses in result.vtu (StressField::points)
-  std::optional<Extreme> pressure;                  ///< at the nodes of the multiplier sides; none without a pair
 };
 
-Extremes find_extremes(const Mesh& mesh, const BodyPoints& points, const StressField& stress,
-                       const std::vector<ContactResults>& contacts);
+Extremes find_extremes(const Mesh& mesh, const BodyPoints& points, const StressField& stress);
+
+/// The largest ContactResults::p_max of all pairs, as it stands now (p* where it is known); none without a pair.
+std::optional<Extreme> largest_pressure(const std::vector<ContactResults>& contacts);
 
 }  // namespace mortise

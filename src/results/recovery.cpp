@@ -16,7 +16,7 @@ Recovery recover(const Problem& p, const std::vector<ContactNodes>& nodes, const
     r.contacts[k] = contact_results(p, p.pairs[k], nodes[k], r.stress, solution, displacement);
   });
   r.probes = probe_values(p, u, r.stress);
-  r.extremes = find_extremes(p.mesh, p.points, r.stress, r.contacts);
+  r.extremes = find_extremes(p.mesh, p.points, r.stress);
   r.reactions = find_reactions(p, solution);
   return r;
 }

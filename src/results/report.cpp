@@ -31,7 +31,7 @@ Json extremes_json(const Results& r) {
             {"principal", {{"max", in_body(found.principal_max)}, {"min", in_body(found.principal_min)}}}};
   json["displacement"] = r.solution.u.cwiseAbs().maxCoeff();
   json["von_mises"]["limit"] = !grows_without_limit(r, found.von_mises);
-  if (const auto& p = found.pressure)
+  if (const auto p = largest_pressure(r.recovery.contacts))
     json["pressure"] = {{"value", p->value}, {"pair", p->of}, {"position", {p->place.x(), p->place.y()}}};
   return json;
 }
