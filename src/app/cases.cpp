@@ -210,22 +210,11 @@ void write_collection(const Scene& scene, const CaseTable& table, const fs::path
   file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
   for (const auto& [k, row] : table.rows)
     if (!row.figures.empty())
-      file << "<DataSet timestep=\"" << k << "\" part=\"0\" file=\"cases/" << scene.cases[k].name
+      file << "<DataSet timestep=\"" << k << "\" part=\"0\" file=\"" << case_folder << "/" << scene.cases[k].name
            << "/result.vtu\"/>\n";
   file << "</Collection>\n</VTKFile>\n";
   file.close();
   if (!file) throw InputError(path.string() + ": cannot be written");
-}
-
-// Folders of cases that an earlier run had.
-void remove_older_cases(const Scene& scene, const fs::path& folder) {
-  std::set<std::string> kept;
-  if (scene.case_files != CaseFiles::table)
-    for (const LoadCase& load : scene.cases) kept.insert(load.name);
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-    if (!kept.contains(entry.path().filename().string())) remove_results(entry.path());
-  fs::remove(folder, ignored);  // if nothing is left in it
 }
 
 double figure(const RunRow& row, const std::string& name) {
@@ -313,10 +302,11 @@ Scene case_of(const Scene& scene, const std::string& name) {
 
 CaseTable write_cases(const Scene& scene, const CaseOptions& options, const Progress& progress,
                       const fs::path& folder) {
-  const fs::path parts = folder / "cases";
+  std::set<std::string> written;
   const TakeCase take = [&](const LoadCase& load, Results& results) {
     Json report = report_of(results);
-    write_results(results, report, parts / load.name, scene.case_files == CaseFiles::all);
+    write_results(results, report, folder / case_folder / load.name, scene.case_files == CaseFiles::all);
+    written.insert(load.name);
   };
   const CaseTable table =
       solve_cases(scene, options, progress, scene.case_files == CaseFiles::table ? TakeCase() : take);
@@ -327,8 +317,7 @@ CaseTable write_cases(const Scene& scene, const CaseOptions& options, const Prog
   file << summary_of(scene, table).dump(2) << "\n";
   file.close();
   if (!file) throw InputError(folder.string() + ": cannot write summary.json");
-  output.commit();
-  remove_older_cases(scene, parts);
+  output.commit(written);
   return table;
 }
 

@@ -72,6 +72,22 @@ fs::path nearest_folder(fs::path target) {
   return target;
 }
 
+// What a run of ours has written into a folder, and the folder where nothing else is in it.
+void remove_results(const fs::path& target) {
+  std::error_code ignored;
+  if (fs::is_symlink(target, ignored) || !fs::is_directory(target, ignored) || !holds_results(target)) return;
+  for (const std::string_view name : own_files) fs::remove(target / name, ignored);
+  fs::remove(target, ignored);  // if nothing else is in it
+}
+
+// Results in folders of cases, but for those of the names in `kept`.
+void remove_older_cases(const fs::path& folder, const std::set<std::string>& kept) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (!kept.contains(entry.path().filename().string())) remove_results(entry.path());
+  fs::remove(folder, ignored);  // if nothing is left in it
+}
+
 }  // namespace
 
 void check_output_folder(const fs::path& target) try {
@@ -91,13 +107,6 @@ OutputFolder::OutputFolder(fs::path target) : target_(std::move(target)) {
   if (!fs::is_directory(target_)) fail(target_, error.message());
 }
 
-void remove_results(const fs::path& target) {
-  std::error_code ignored;
-  if (fs::is_symlink(target, ignored) || !fs::is_directory(target, ignored) || !holds_results(target)) return;
-  for (const std::string_view name : own_files) fs::remove(target / name, ignored);
-  fs::remove(target, ignored);  // if nothing else is in it
-}
-
 fs::path OutputFolder::path(const std::string& name) {
   if (std::ranges::find(own_files, name) == own_files.end())
     throw std::logic_error(name + ": a new output belongs into own_files");
@@ -111,7 +120,9 @@ std::string OutputFolder::with_target(std::string message) const {
   return message;
 }
 
-void OutputFolder::commit() {
+void OutputFolder::commit(const std::optional<std::set<std::string>>& cases) {
+  // Without a table of cases, folders of that name are results that the user has put there.
+  const bool had_cases = fs::exists(target_ / "cases.csv");
   const auto written = [&](std::string_view name) {
     return std::ranges::any_of(files_, [&](const File& file) { return file.place.filename() == name; });
   };
@@ -122,6 +133,7 @@ void OutputFolder::commit() {
   } catch (const fs::filesystem_error& error) {
     fail(target_, error.code().message());
   }
+  if (cases || had_cases) remove_older_cases(target_ / case_folder, cases.value_or(std::set<std::string>()));
   for (const bool last : {false, true})
     for (File& file : files_)
       if ((file.place.filename() == summary) == last) file.staged.commit(false);

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <list>
+#include <optional>
+#include <set>
 #include <string>
 
 #include "base/staged_file.hpp"
@@ -14,8 +16,8 @@ namespace mortise {
 /// written.
 void check_output_folder(const std::filesystem::path& target);
 
-/// Removes what a run of ours has written into a folder, and the folder where nothing else is in it.
-void remove_results(const std::filesystem::path& target);
+/// The folder within one of results that has a folder of results for each case.
+constexpr const char* case_folder = "cases";
 
 /// Files are written under hidden names in the folder; commit() removes the old summary.json, puts them in their places
 /// and the new summary.json last: a folder that has one is the whole of one run, whenever a process was killed. The
@@ -29,9 +31,10 @@ class OutputFolder {
   std::filesystem::path path(const std::string& name);
   /// A message with the file's name in the target, as it was given, for its hidden one.
   std::string with_target(std::string message) const;
-  /// Once, after all files are written and closed. Removes files of ours that this run does not have. Throws InputError
-  /// if the file system refuses.
-  void commit();
+  /// Once, after all files are written and closed. Removes files of ours that this run does not have, and of a run with
+  /// cases (in either run) the results of those that are not among `cases`. Throws InputError if the file system
+  /// refuses.
+  void commit(const std::optional<std::set<std::string>>& cases = {});
 
  private:
   struct File {

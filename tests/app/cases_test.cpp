@@ -153,5 +153,20 @@ TEST(WriteCases, AsMuchAsIsAsked) {
   EXPECT_TRUE(fs::exists(out / "cases.csv"));
 }
 
+// Nor may the results that it had before, with other loads, pass for those of this run.
+TEST(WriteCases, OneWithoutASolutionHasNoResults) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& scale) {
+    write_cases(with_cases({{"boundary.2", "{on = \"top\", pressure = 1e6}"},
+                            {"case", "[{name = \"a\"}, {name = \"b\", scale = " + scale + "}]"},
+                            {"cases.write", "contact"}}),
+                {}, {}, folder.path("out"));
+    EXPECT_TRUE(fs::exists(folder.path("out/cases/a/contact.csv")));
+    return fs::exists(folder.path("out/cases/b/contact.csv"));
+  };
+  EXPECT_TRUE(write("2"));
+  EXPECT_FALSE(write("-1"));
+}
+
 }  // namespace
 }  // namespace mortise::test

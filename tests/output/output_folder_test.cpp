@@ -73,6 +73,22 @@ TEST(OutputFolder, ReplacesOurFilesAndKeepsTheUsers) {
   EXPECT_EQ(text_of(target / "notes.txt") + text_of(target / "pictures" / "a.png"), "minemine too");
 }
 
+// Those of an earlier run of ours; what the user has put into a folder of that name stays.
+TEST(OutputFolder, OfARunWithoutCasesKeepsNoneOfAnotherRun) {
+  const TemporaryFolder scratch;
+  const fs::path target = scratch.path() / "run1";
+  write_results(target / "cases" / "a", "old");
+  write_results(target / "cases" / "b", "old");
+  scratch.write("run1/cases/b/notes.txt", "mine");
+  write_results(target, "not of a run with cases");
+  EXPECT_EQ(names_in(target / "cases" / "a"), whole);
+  scratch.write("run1/cases.csv", "of one");
+  write_results(target, "new");
+  EXPECT_EQ(names_in(target / "cases"), Names{"b"});
+  EXPECT_EQ(names_in(target / "cases" / "b"), Names{"notes.txt"});
+  EXPECT_EQ(text_of(target / "result.vtu"), "new");
+}
+
 TEST(OutputFolder, WritesOnlyWhatItWouldReplace) {
   const TemporaryFolder scratch;
   OutputFolder folder(scratch.path() / "run1");
