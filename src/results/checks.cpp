@@ -26,6 +26,8 @@ double rigid_force(const Results& r) {
   return rigid_part * largest_entry(VecX(r.problem.discretisation.system.K.diagonal())) * largest_entry(r.solution.u);
 }
 
+double balance_limit(const Results& r) { return std::max(1e-9, 10 * r.solution.force_tolerance); }
+
 // Nodes of each body, those of bodies that hang together as one: their common nodes' forces belong to both.
 std::vector<std::vector<int>> nodes_of_bodies(const Results& r) {
   const std::vector<int> first = bonded_to(r.problem.mesh, r.problem.points);
@@ -153,6 +155,8 @@ double negligible_pressure(const Results& r) {
              : 0;
 }
 
+double unseen_force(const Results& r) { return balance_limit(r) * rigid_force(r); }
+
 std::string to_string(Status status) {
   switch (status) {
     case Status::solved:
@@ -188,7 +192,7 @@ std::vector<Check> checks(const Results& r) {
   const Solution& s = r.solution;
   std::vector<Check> list{{"residual of the forces", s.force_residual, s.force_tolerance},
                           {"residual of the contact condition", s.constraint_residual, s.constraint_tolerance}};
-  balance_of_bodies(r, std::max(1e-9, 10 * s.force_tolerance), list);
+  balance_of_bodies(r, balance_limit(r), list);
   balance_of_all(r, s.iteration ? std::max(1e-10, 10 * s.force_tolerance) : 1e-10, list);
   balance_of_contact(r, list);
   if (!r.problem.pairs.empty()) list.push_back(coverage_check(r));

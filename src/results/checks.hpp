@@ -14,6 +14,9 @@ std::vector<Check> checks(const Results& results);
 /// solved where the solver converged, all checks hold and all is finite.
 Status verdict(const Results& results);
 
+/// A force on a body that its balance does not see, times depth: what round-off makes of stiffness times displacement.
+double unseen_force(const Results& results);
+
 /// The results that are not finite, in words; empty if all are.
 std::string not_finite(const Results& results);
 

@@ -117,22 +117,27 @@ void print_asked(const Json& accuracy, double found, std::ostream& out) {
 // What p is within, and what was asked.
 void print_accuracy(const Json& report, std::ostream& out) {
   const Json& accuracy = report["accuracy"];
-  if (report["estimate"].is_null() || report["estimate"]["pressure"].is_null()) return;
-  const Json& pressure = report["estimate"]["pressure"];
-  if (!std::isfinite(pressure["error"].get<double>())) return;
+  if (report["estimate"].is_null()) return;
+  const Json& pressure = report["estimate"]["pressure"];  // null: nothing is pressed
   const bool asked = !accuracy.is_null();
-  const double found =
-      (asked ? accuracy["solves"][accuracy["answer"].get<std::size_t>() - 1]["estimated"] : pressure["error"])
-          .get<double>();
+  double found = std::numeric_limits<double>::quiet_NaN();
+  if (asked)
+    found = accuracy["solves"][accuracy["answer"].get<std::size_t>() - 1]["estimated"].get<double>();
+  else if (!pressure.is_null())
+    found = pressure["error"].get<double>();
+  if (!asked && !std::isfinite(found)) return;
+  const std::string of = asked ? accuracy["of"].get<std::string>() : "pressure";
   out << std::setprecision(2) << "  accuracy  ";
-  print_goal(asked ? accuracy["of"] : "pressure", asked && std::isfinite(found) ? accuracy["value"] : Json(), out);
-  if (std::isfinite(found))
+  print_goal(of, asked && std::isfinite(found) ? accuracy["value"] : Json(), out);
+  if (pressure.is_null() && goal_words(of) != of)
+    out << " is 0, as contact carries nothing";
+  else if (std::isfinite(found))
     out << " within " << 100 * found << " %";
   else
     out << " not known";
   if (asked) print_asked(accuracy, found, out);
   out << "\n";
-  if (!asked || accuracy["of"] == "pressure") print_left_out(pressure["singular"], out);
+  if (of == "pressure" && !pressure.is_null()) print_left_out(pressure["singular"], out);
   out << std::setprecision(6);
 }
 

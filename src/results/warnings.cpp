@@ -139,9 +139,25 @@ void warn_of_shape(const ContactPair& pair, const Results& r, Lines& lines) {
 // Positions are rounded to this part of themselves.
 constexpr double round_off = std::numeric_limits<double>::epsilon();
 
+// Where no load, no prescribed displacement and no strain acts, and no overlap is more than round-off of the places.
+bool moves_nothing(const Results& r) {
+  const SaddlePointSystem& s = r.problem.discretisation.system;
+  const double farthest = r.problem.mesh.nodes.cwiseAbs().maxCoeff();
+  return largest_entry(s.f) == 0 && largest_entry(s.constraints.value) == 0 &&
+         largest_entry(r.solution.u) <= round_off * farthest;
+}
+
+// A load that was forgotten.
+void warn_of_no_load(const Results& r, Lines& lines) {
+  if (moves_nothing(r))
+    lines.push_back(
+        "nothing loads the scene: all displacements, stresses and pressures are zero; expected a load (boundary, "
+        "body_force), a prescribed displacement other than 0, an initial strain or bodies drawn with an overlap");
+}
+
 // A gap is a difference of positions: far from the origin it is round-off.
 void warn_of_far_origin(const ContactPair& pair, const Results& r, Lines& lines) {
-  if (pair.spec.initial_gap == InitialGap::closed) return;
+  if (pair.spec.initial_gap == InitialGap::closed || moves_nothing(r)) return;
   const double farthest = r.problem.mesh.nodes.cwiseAbs().maxCoeff();
   const double gap = std::max(std::abs(pair.coupling.gap_min), std::abs(pair.coupling.gap_max));
   const double size = std::max(gap, r.solution.u.cwiseAbs().maxCoeff());
@@ -189,7 +205,10 @@ void warn_of_locking(const Problem& p, Lines& lines) {
 }
 
 // Forces at the points of an entry, of a load or of a support.
-void warn_of_points(const Problem& p, const Reactions& reactions, Lines& lines) {
+void warn_of_points(const Results& r, Lines& lines) {
+  const Problem& p = r.problem;
+  const Reactions& reactions = r.recovery.reactions;
+  const double unseen = unseen_force(r);
   double most = reactions.loads.size;
   for (const Resultant& entry : reactions.entries) most = std::max(most, entry.size);
   for (int i = 0; i < int(p.entries.boundaries.size()); ++i) {
@@ -202,7 +221,7 @@ void warn_of_points(const Problem& p, const Reactions& reactions, Lines& lines) 
       const std::string& name = p.mesh.points[point].name;
       names.push_back("'" + name + "'");
       for (const Reaction& of : reactions.curves)
-        if (of.entry == i && of.on == name) force += of.sum.force.norm();
+        if (of.entry == i && of.on == name && of.sum.force.norm() > unseen) force += of.sum.force.norm();
     }
     if (!(force > 1e-6 * most)) continue;
     std::ostringstream text;
@@ -222,9 +241,10 @@ std::vector<std::string> warnings(const Results& r) {
   warn_of_active_set(r, lines);
   warn_of_iteration(r.solution, lines);
   warn_of_what_is_not_finite(r, lines);
+  warn_of_no_load(r, lines);
   if (auto line = large_displacement(r)) lines.push_back(*std::move(line));
   warn_of_locking(r.problem, lines);
-  warn_of_points(r.problem, r.recovery.reactions, lines);
+  warn_of_points(r, lines);
   const double displacement = largest_entry(r.solution.u);
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     warn_of_dropped(r.problem.pairs[k], r, lines);

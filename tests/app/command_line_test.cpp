@@ -94,6 +94,10 @@ TEST(CommandLine, AnAccuracyIsAskedForAndToldWithWhatIsLeftOut) {
   EXPECT_NE(less.out.find("not reached: unknowns_max; largest part: "), std::string::npos) << less.out;
   EXPECT_EQ(summary(folder.path("run"))["status"], "accuracy_not_reached");
 
+  const Outcome none = mortise(
+      {"solve", geo("punch.toml"), "--accuracy", "5%", "--set", "boundary.2.pressure=0", "-o", folder.path("run")});
+  EXPECT_NE(none.out.find("accuracy  p is 0, as contact carries nothing (asked 5 %): "), std::string::npos) << none.out;
+
   const auto mean = [&](const std::string& window) {
     return mortise({"solve", geo("hertz.toml"), "--accuracy", "5%", "--set", "accuracy.of=mean", "--set",
                     "accuracy.window=" + window, "-o", folder.path("run")});

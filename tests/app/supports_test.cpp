@@ -204,6 +204,29 @@ boundary = [
                                               "boundary.4 (line 12): a force of 0.5 at the point 'top_right'"}));
 }
 
+// A body that grows freely pushes on nothing; held on both sides it does push.
+TEST(Supports, PointsThatHoldAgainstNothingAreNotLoaded) {
+  const TemporaryFolder folder;
+  folder.write("bar.geo", R"(
+SetFactory("OpenCASCADE"); Mesh.ElementOrder = 2;
+Rectangle(1) = {1, 0, 0, 2, 4};
+Physical Surface("bar") = {1}; Physical Curve("bottom") = {1}; Physical Point("corner") = {1}; Physical Point("tip") = {3};
+)");
+  const auto told = [&](const std::string& more) {
+    const Results r = solve_scene(read_scene(folder.write("bar.toml", R"(
+mesh.file = "bar.geo"
+materials.m = { young = 1000, poisson = 0.25, thermal_expansion = 1e-4 }
+bodies = { bar = "m" }
+initial_strain = [{ body = "bar", temperature_change = 100 }]
+boundary = [{ on = "bottom", displacement = { y = 0 } }, { on = "corner", displacement = { x = 0 } })" +
+                                                                          more + "]")));
+    return std::ranges::count_if(
+        r.warnings, [](const std::string& line) { return line.find("at the point") != std::string::npos; });
+  };
+  EXPECT_EQ(told(""), 0);
+  EXPECT_EQ(told(R"(, { on = "tip", displacement = { x = 0 } })"), 2);
+}
+
 // The node of the corner is held twice, and what holds it is each support's own.
 TEST(Supports, TwoThatMeetReactAlongTheirOwnNormals) {
   const TemporaryFolder folder;

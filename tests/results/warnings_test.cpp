@@ -64,6 +64,19 @@ TEST(Notes, SixNodeTrianglesAreNotToldToBeSixNodeTriangles) {
   }
 }
 
+// Round-off of the coordinates is no reason, be the contact closed, measured or none; a small load is a load.
+TEST(Notes, ALoadThatWasForgottenIsTold) {
+  const std::string said = "nothing loads the scene: all displacements, stresses and pressures are zero";
+  for (const char* scene : {"geo/punch.toml", "geo/parabola_1.toml"})
+    for (const char* gap : {"closed", "curve"}) {
+      const Results none = solved(scene, {{"boundary.2.pressure", "0"}, {"contact.0.initial_gap", gap}});
+      EXPECT_EQ(notes_with(none, said), 1) << all(none);
+      EXPECT_EQ(notes_with(none, "coordinates up to"), 0) << all(none);
+      EXPECT_EQ(notes_with(solved(scene, {{"boundary.2.pressure", "1e-12"}}), said), 0);
+    }
+  EXPECT_EQ(notes_with(solved("tests/parts/drawn_interference.toml", {}), said), 0);
+}
+
 // ---- Closed and measured gaps ----
 
 TEST(Notes, ClosedSaysWhatItLeavesOut) {
