@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
 
 #include "base/union_find.hpp"
 
@@ -52,6 +53,24 @@ std::vector<int> bonded_to(const Mesh& mesh, const BodyPoints& points) {
   std::vector<int> first(mesh.bodies.size());
   for (int body = 0; body < int(first.size()); ++body) first[body] = bodies.find(body);
   return first;
+}
+
+std::vector<SharedNodes> shared_nodes(const Mesh& mesh, const BodyPoints& points) {
+  std::map<std::pair<int, int>, std::vector<int>> nodes;  // of two bodies
+  std::vector<int> owner(mesh.nodes.rows(), -1);
+  for (int body = 0; body < int(mesh.bodies.size()); ++body)
+    for (int p = points.first[body]; p < points.first[body + 1]; ++p) {
+      const int node = points.node[p];
+      if (owner[node] < 0)
+        owner[node] = body;
+      else
+        nodes[{owner[node], body}].push_back(node);
+    }
+  std::vector<SharedNodes> shared;
+  for (const auto& [bodies, common] : nodes)
+    shared.push_back(
+        {bodies.first, bodies.second, int(common.size()), mesh.nodes.row(common[common.size() / 2]).transpose()});
+  return shared;
 }
 
 int point_of(const BodyPoints& points, int body, int node) {

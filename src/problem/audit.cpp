@@ -1,5 +1,9 @@
 #include "problem/audit.hpp"
 
+#include <algorithm>
+
+#include "base/printable.hpp"
+#include "mesh/body_points.hpp"
 #include "problem/audit_lines.hpp"
 
 namespace mortise {
@@ -17,12 +21,35 @@ std::vector<std::string> self_contact_lines(const Mesh& mesh, const std::vector<
   return lines;
 }
 
+bool have_a_pair(const SharedNodes& bodies, const std::vector<ContactPair>& pairs) {
+  return std::ranges::any_of(pairs, [&](const ContactPair& pair) {
+    return std::minmax(pair.multiplier.body, pair.opposite.body) == std::minmax(bodies.first, bodies.second);
+  });
+}
+
+// One line, of the first two: who has cut all bodies out of one another has many.
+std::vector<std::string> one_piece_lines(const Mesh& mesh, const Entries& entries,
+                                         const std::vector<ContactPair>& pairs) {
+  std::vector<SharedNodes> found = shared_nodes(mesh, body_points(mesh));
+  std::erase_if(found, [&](const SharedNodes& bodies) {
+    return entries.body(bodies.first).material != entries.body(bodies.second).material || have_a_pair(bodies, pairs);
+  });
+  if (found.empty()) return {};
+  const SharedNodes& first = found.front();
+  return {
+      "bodies '" + mesh.bodies[first.first] + "' and '" + mesh.bodies[first.second] + "' share " +
+      (first.count > 1 ? std::to_string(first.count) + " nodes " : "a node ") + near_point(first.position) +
+      (found.size() > 1 ? ", and so do " + std::to_string(found.size() - 1) + " more" : "") +
+      ": they are one piece there; contact between them needs nodes of their own (in a .geo: a curve for each body, "
+      "no BooleanFragments or Coherence)"};
+}
+
 }  // namespace
 
-std::vector<std::string> audit(const Mesh& mesh, const std::vector<BoundaryEntry>& entries,
-                               const std::vector<ContactPair>& pairs) {
-  refuse_double_loads(mesh, entries);
+std::vector<std::string> audit(const Mesh& mesh, const Entries& entries, const std::vector<ContactPair>& pairs) {
+  refuse_double_loads(mesh, entries.boundaries);
   std::vector<std::string> lines = self_contact_lines(mesh, pairs);
+  append_lines(lines, one_piece_lines(mesh, entries, pairs));
   const AuditedBodies bodies = audited_bodies(mesh, pairs);
   if (bodies.outline.pieces.size() < 2) return lines;
   const std::vector<Encounter> found = encounters(bodies);

@@ -23,7 +23,8 @@ struct Entries {
   std::vector<int> initial_strain_of;  ///< likewise
   std::optional<Vec2> gravity;         ///< acceleration
 
-  const Material& material(int body) const { return materials.at(bodies[body_of[body]].material); }
+  const BodySpec& body(int body) const { return bodies[body_of[body]]; }  ///< of the mesh
+  const Material& material(int of) const { return materials.at(body(of).material); }
 };
 
 /// Throws SceneError where the scene names what the mesh does not have, leaves a body without material, or says two

@@ -19,7 +19,7 @@ auto audited(const Problem& p, Find find) {
   try {
     return find();
   } catch (const InputError&) {
-    audit(p.mesh, p.entries.boundaries, {});
+    audit(p.mesh, p.entries, {});
     throw;
   }
 }
@@ -33,7 +33,7 @@ void add_contact(std::vector<ContactCurves> curves, Problem& p) {
   p.fluid = dry_rows(p.mesh, p.pairs, system.B.rows());
   if (p.fluid.size() > 0) p.fluid_loads = fluid_loads(p.mesh, p.discretisation.model, p.pairs, system.B.rows());
   p.warnings = p.mesh.notes;
-  append_lines(p.warnings, audit(p.mesh, p.entries.boundaries, p.pairs));
+  append_lines(p.warnings, audit(p.mesh, p.entries, p.pairs));
   require_closed(p.mesh, p.pairs);
   p.held = hold_free_motions(p.mesh, p.pairs, p.warnings, system);
   append_lines(p.warnings, held_lines(p.mesh, p.held.motions));

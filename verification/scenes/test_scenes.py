@@ -121,6 +121,16 @@ def test_a_new_scene_of_an_unnamed_geometry_solves(call, tmp_path):
     np.testing.assert_allclose([float(part) for part in force.groups()], [0, 2e6], atol=1)  # 10 MPa on 0.2 m
 
 
+def test_bodies_that_share_a_curve_are_told_to_be_one_piece(call, tmp_path):
+    joined = PUNCH + "f() = BooleanFragments{ Surface{1}; Delete; }{ Surface{2}; Delete; };\n"
+    (tmp_path / "punch.geo").write_text(PUNCH)
+    assert "one piece" not in call("check", "punch.geo")
+    (tmp_path / "joined.geo").write_text(joined)
+    call("new", "joined.geo")
+    for text in (call("check", "joined.geo"), (tmp_path / "joined.toml").read_text()):
+        assert len(re.findall(r"share \d+ nodes near \(.*, 0.2\), one piece; contact between them needs a curve for each", text)) == 1
+
+
 def test_a_new_scene_of_a_mesh_and_what_is_refused(call, tmp_path):
     (tmp_path / "punch.geo").write_text(PUNCH)
     (tmp_path / "scene.toml").write_text(SCENE.replace("BOTTOM", "curve_1").replace("TOP", "curve_7") + 'contact = [{ between = ["curve_3", "curve_5"] }]')

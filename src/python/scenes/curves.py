@@ -51,6 +51,7 @@ def text(part, pairs):
         lines.append(f"  curve     {curve.name} of {', '.join(part.bodies[k] for k in curve.bodies)}: length {curve.length:.4g}, {curve.words()}")
     if len(part.curves) > MANY_LINES:
         lines.append(f"            and {len(part.curves) - MANY_LINES} more curves")
+    lines += [f"  joined    {words}" for words in part.one_piece()[:MANY_LINES]]
     for pair in pairs[:MANY_LINES]:
         kind = "meet     " if pair.close() else "near     "
         lines.append(f"  {kind} {pair.curves[0].name} - {pair.curves[1].name}: along {pair.along:.3g}, {gap_words(pair)}")

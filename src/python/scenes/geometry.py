@@ -121,6 +121,17 @@ class Geometry:
         low, high = self.box(body)
         return "{:.4g} x {:.4g}, centre {}".format(*(high - low), place((low + high) / 2))
 
+    def one_piece(self):
+        """Bodies that share nodes, two a line: no contact can be between them."""
+        owner, shared = {}, {}
+        for k, body in enumerate(self.json["bodies"]):
+            for node in {node for cell in body["cells"] for node in cell}:
+                if owner.setdefault(node, k) != k:
+                    shared.setdefault((owner[node], k), []).append(node)
+        needs = "one piece; contact between them needs a curve for each (no BooleanFragments or Coherence)"
+        return [f"{self.bodies[a]}, {self.bodies[b]}: share {len(nodes)} node{'s' * (len(nodes) > 1)} near {place(self.nodes[sorted(nodes)[len(nodes) // 2]])}, {needs}"
+                for (a, b), nodes in shared.items()]  # fmt: skip
+
     def meetings(self):
         """Pairs of curves of different bodies that face each other at no distance or a small one."""
         found = [meeting(a, b) for a, b in combinations(self.curves, 2) if not set(a.bodies) & set(b.bodies)]

@@ -74,6 +74,7 @@ def scene(part, target):
         *boundary_lines(part, sides, pressure),
         "]",
         "contact = [",
+        *(f"  # {words}" for words in part.one_piece()[:MANY_BODIES]),
         *(f"  {'' if pair.close() else '# '}{entry(pair, {})},  # {gap_words(pair)}, along {pair.along:.3g}" for pair in pairs),
         "]",
         *("", "[materials.steel]", f"# young = {young}", "# poisson = 0.3"),
