@@ -1,4 +1,7 @@
 // [constants] and [fields]
+#include <algorithm>
+#include <cctype>
+
 #include "scene/files.hpp"
 #include "scene/sections.hpp"
 
@@ -43,7 +46,49 @@ void for_each_new_name(const Node& root, const char* section, const Scene& scene
   }
 }
 
+bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+void add_words(const std::string& text, std::set<std::string>& words) {
+  for (auto start = std::ranges::find_if(text, in_word); start != text.end();) {
+    const auto end = std::find_if_not(start, text.end(), in_word);
+    words.emplace(start, end);
+    start = std::find_if(end, text.end(), in_word);
+  }
+}
+
+void add_words_of(const Node& node, std::set<std::string>& words) {
+  if (node.kind == Node::Kind::string) add_words(node.text, words);
+  for (const Node& item : node.items) add_words_of(item, words);
+}
+
+// `what`: "constant".
+void require_each_used(const std::map<std::string, Node>& given, const char* what, const std::set<std::string>& words) {
+  std::vector<std::string> used;
+  for (const auto& [name, node] : given)
+    if (words.contains(name)) used.push_back(name);
+  for (const auto& [name, node] : given) {
+    if (words.contains(name)) continue;
+    const std::string meant = nearest_name(name, used);
+    fail(node, std::string("no expression has the ") + what + " '" + name + "'; " +
+                   (meant.empty() ? "expected it in one" : "did you mean '" + meant + "'?"));
+  }
+}
+
 }  // namespace
+
+void GivenNames::take(const Node& root) {
+  for (const Node& section : root.items) {
+    if (section.name == "constants" || section.name == "fields")
+      for (const Node& node : section.items) (section.name == "fields" ? fields : constants).emplace(node.name, node);
+    else if (section.name != "title")
+      add_words_of(section, words);
+  }
+}
+
+void GivenNames::require_used() const {
+  require_each_used(constants, "constant", words);
+  require_each_used(fields, "field", words);
+}
 
 Keys field_keys(FieldSpec& spec) {
   return {

@@ -31,12 +31,13 @@ void read_model(const Node& root, Scene& scene) {
     fail(*thickness, "an axisymmetric model has none; expected plane = \"strain\" or \"stress\" with it");
 }
 
-Scene read_sections(const Node& root, const std::string& path) {
+Scene read_sections(const Node& root, const std::string& path, GivenNames& names) {
   std::vector<std::string> known;
   for (const Section& section : sections()) known.push_back(section.name);
   expect_keys(root, known);
   Scene scene;
   scene.path = path;
+  names.take(root);
   if (const Node* title = find(root, "title")) scene.title = text(*title);
   read_mesh_section(root, scene);
   read_copies(root, scene);
@@ -53,7 +54,7 @@ Scene read_sections(const Node& root, const std::string& path) {
   read_method(root, scene);
   read_accuracy(root, scene);
   read_cases(
-      root, [&](const Node& changed) { return read_sections(changed, path); }, scene);
+      root, [&](const Node& changed) { return read_sections(changed, path, names); }, scene);
   return scene;
 }
 
@@ -77,8 +78,13 @@ namespace mortise {
 
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
   scene_file::Node root = scene_file::load_document(path);
+  scene_file::GivenNames names;
+  names.take(root);
+  names.constants.clear();  // what an override makes of them counts
+  names.fields.clear();
   for (const Override& change : overrides) scene_file::apply_override(root, change);
-  Scene scene = scene_file::read_sections(root, path);
+  Scene scene = scene_file::read_sections(root, path, names);
+  names.require_used();
   for (const Override& change : overrides) scene.changes.push_back(change.key + "=" + change.value);
   for (LoadCase& load : scene.cases) load.scene.changes = scene.changes;
   return scene;

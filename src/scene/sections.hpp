@@ -4,6 +4,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,17 @@ void read_constants(const Node& root, Scene& scene);
 /// [fields]: names that expressions may use, and the files that their values are in. Before whatever may be one.
 Keys field_keys(FieldSpec& field);
 void read_fields(const Node& root, Scene& scene);
+
+/// The names in [constants] and [fields] of documents that belong together, and the words that any text in the rest of
+/// them has: a scene as it is written, after overrides, and each of its cases. A name is used where it is a word.
+struct GivenNames {
+  std::map<std::string, Node> constants, fields;
+  std::set<std::string> words;
+
+  void take(const Node& root);
+  /// Refuses a name that nothing uses: a slip of the pen, that would change nothing.
+  void require_used() const;
+};
 
 /// A table [materials.NAME]; of an isotropic material what is needed.
 Keys material_keys(Material& material);

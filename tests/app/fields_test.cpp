@@ -88,14 +88,17 @@ TEST(Fields, WhatCannotBeIsToldAtTheScene) {
   expect_contains(
       message("initial_strain = [{ body = \"ring\", temperature_change = \"q\" }]\nfields.q.file = \"table.csv\""),
       scene + " fields.q (line 7): (");
-  expect_contains(message("fields.q = { file = \"table.csv\", values = \"Q\" }"),
-                  scene + " fields.q (line 6): " + folder.path("table.csv") + ":1: unknown column 'Q'");
+  expect_contains(message("initial_strain = [{ body = \"ring\", temperature_change = \"q\" }]\nfields.q = { file = "
+                          "\"table.csv\", values = \"Q\" }"),
+                  scene + " fields.q (line 7): " + folder.path("table.csv") + ":1: unknown column 'Q'");
   expect_contains(message("fields.q = { file = \"tables.csv\" }"), "no such file; did you mean 'table.csv'?");
   expect_contains(message("fields.q = { file = \"ring.geo\" }"), "expected a file that ends in .vtu or .csv");
   expect_contains(message("fields.x = { file = \"table.csv\" }"), "'x' cannot be a name in expressions");
   expect_contains(message("constants.T = 1\nfields.T = { file = \"table.csv\" }"),
                   "fields.T: is one of [constants] too; expected another name");
   expect_contains(message("fields.q = { file = \"table.csv\", component = 0 }"), "is of the arrays of a .vtu");
+  expect_contains(message("fields.q = { file = \"table.csv\" }"),
+                  scene + "6: fields.q: no expression has the field 'q'; expected it in one");
 }
 
 }  // namespace

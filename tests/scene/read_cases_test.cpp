@@ -37,6 +37,56 @@ clearance = 5e-6
 )" + cases));
 }
 
+// Wherever an expression may stand, and whatever then takes its place.
+TEST(Constants, AreUsedByAnyExpressionOfTheSceneAndItsCases) {
+  const TemporaryFolder folder;
+  folder.write("block.msh", "");
+  folder.write("cases.csv", "name,boundary.0.pressure\nall,2 * load_of_case\n");
+  const auto read = [&](const std::string& rest, const std::vector<Override>& overrides = {}) {
+    return message_of([&] {
+      read_scene(folder.write("scene.toml", "title = \"loads of cc\"\n" + shortest_scene + R"(
+[[boundary]]
+on = "top"
+pressure = "c * x"
+)" + rest),
+                 overrides);
+    });
+  };
+  const std::string none = "(nothing was thrown)";
+  const std::string entries = R"(
+[[contact]]
+between = ["a", "b"]
+clearance = "c_1"
+stiffness = 1e9
+[[body_force]]
+body = "block"
+force = [0, "3*gravity_*y"]
+[[initial_strain]]
+body = "block"
+strain = { xx = "hot" }
+[[expect]]
+pair = 0
+pressure = "wanted"
+tolerance = 0.1
+[[case]]
+"boundary.0.pressure" = "of_case"
+[[case]]
+"constants.c" = 3
+[[case]]
+file = "cases.csv"
+)";
+  EXPECT_EQ(read(entries + "[constants]\nc = 1\nc_1 = 1\ngravity_ = 1\nhot = 0.5\nwanted = 1\nof_case = 1\n" +
+                 "load_of_case = 1"),
+            none);
+  EXPECT_EQ(read("[constants]\nc = 1", {{"boundary.0.pressure", "5"}}), none);
+  EXPECT_EQ(read("", {{"constants.c", "5"}}), none);
+  const std::string unused = ": no expression has the constant 'cc'; did you mean 'c'?";
+  expect_contains(read("[constants]\nc = 1\ncc = 1"), unused);
+  expect_contains(read("[constants]\nc = 1", {{"constants.cc", "5"}}), "--set constants.cc=5: constants.cc" + unused);
+  expect_contains(read("[constants]\nc = 1\n[[case]]\n\"constants.cc\" = 2"), unused);
+  expect_contains(read("[constants]\nc = 1\ndepth = 1"), "no expression has the constant 'depth'; expected it in one");
+}
+
 const Scene& only(const Scene& scene) { return scene.cases.at(0).scene; }
 
 double pressure(const Scene& scene) { return std::get<Pressure>(scene.boundaries[1].what).value.constant(); }

@@ -47,7 +47,7 @@ def test_command_lines_that_are_refused(said, tmp_path):
             in said(command="mesh", options=["-o", "taken.msh"]))  # fmt: skip
     (tmp_path / "res").mkdir()
     assert ("T.vtu lies in the results folder; expected -o another folder"
-            in said('fields.T={ file = "res/T.vtu" }', files={"res/T.vtu": VTU.encode()}, command="solve",
+            in said('fields.T={ file = "res/T.vtu" }', "boundary.2.pressure=T", files={"res/T.vtu": VTU.encode()}, command="solve",
                     options=["-o", "res"]))  # fmt: skip
 
 

@@ -26,7 +26,7 @@ copies = [
   { body = "block", name = "b_*", grid = { count = [2, 1], step = [1, 1] } },
   { body = "block", name = "c_*", places = [[0, 1], [2, 0, 90]] },
 ]
-boundary = [{ on = "top", displacement = { x = 0, y = "x" } }, { on = "b", rigid = { y = 0 } }, { on = "c", pressure = 1 }]
+boundary = [{ on = "top", displacement = { x = 0, y = "x" } }, { on = "b", rigid = { y = 0 } }, { on = "c", pressure = "T" }]
 body_force = [{ body = "upper", force = [0, 1] }]
 initial_strain = [{ body = "upper", strain = { xx = 0 } }, { body = "lower", temperature_change = 1 }]
 contact = [{ between = ["a", "b"], initial_gap = "closed" }]
