@@ -153,7 +153,7 @@ class Loop {
     r.seconds.mesh = meshing;
     std::ostringstream text;
     text.precision(2);
-    text << " (" << to_string(spec_.of) << " was within " << 100 * estimated(r) << " % with " << free_unknowns(r)
+    text << " (" << to_string(spec_.of) << " was within " << percent(estimated(r)) << " with " << free_unknowns(r)
          << " unknowns)";
     told_ = text.str();
     return r;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 
@@ -89,6 +90,22 @@ std::string listed(const std::vector<std::string>& names) {
 
 void append_lines(std::vector<std::string>& lines, const std::vector<std::string>& more) {
   lines.insert(lines.end(), more.begin(), more.end());
+}
+
+std::string percent(double part) {
+  if (part > 10) return "more than 1000 %";
+  std::array<char, 40> text{};
+  if (part >= 0.995)  // which two digits would make 1e+02
+    std::snprintf(text.data(), text.size(), "%.0f %%", 10 * std::round(10 * part));
+  else
+    std::snprintf(text.data(), text.size(), "%.2g %%", 100 * part);
+  return text.data();
+}
+
+std::string two_digits(double value) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.2g", value);
+  return text.data();
 }
 
 std::string near_point(const Vec2& point) {

@@ -25,6 +25,12 @@ std::string listed(const std::vector<std::string>& names);
 /// Puts more lines behind the lines.
 void append_lines(std::vector<std::string>& lines, const std::vector<std::string>& more);
 
+/// "1.2 %" of 0.012, "310 %", "more than 1000 %": two digits, and never as 3.1e+02.
+std::string percent(double part);
+
+/// "1.2"
+std::string two_digits(double value);
+
 /// "near (0.4, 0.3)": where to look in the mesh, six digits.
 std::string near_point(const Vec2& point);
 

@@ -91,8 +91,8 @@ bool is_beside_pair(const Moved& all, const Inside& in, double reach) {
 std::string line(const AuditedBodies& b, int first, int second, const Crossing& c, double largest) {
   std::ostringstream text;
   text << two_bodies(b.mesh, first, second) << " pass through one another by " << c.depth << " ("
-       << std::lround(100 * c.depth / largest) << " % of the largest displacement) "
-       << near_point(middle_of(b, c.edges)) << " (" << name_of(b, c.edges) << ", " << name_of(b, c.others)
+       << percent(c.depth / largest) << " of the largest displacement) " << near_point(middle_of(b, c.edges)) << " ("
+       << name_of(b, c.edges) << ", " << name_of(b, c.others)
        << "), and no contact pair keeps them apart there: the results are not those of two bodies; "
        << advice(b, c.edges, c.others);
   return text.str();

@@ -25,12 +25,8 @@ std::string force_within(const Json& contact) {
                pressed = contact["pressure"]["mean"].get<double>() * contact["length"].get<double>();
   if (!(error > round_off * std::max(force, pressed))) return "";
   std::ostringstream text;
-  text << std::setprecision(2) << " within ";
-  if (error < force)
-    text << 100 * error / force << " %";
-  else
-    text << error;
-  return text.str();
+  text << std::setprecision(2) << error;
+  return " within " + (error < force ? percent(error / force) : text.str());
 }
 
 std::string length_within(const Json& contact) {

@@ -14,8 +14,8 @@ std::string line_of(const EntryMisfit& entry) {
   std::ostringstream text;
   text.precision(2);
   text << entry.key << " varies within elements " << near_point(entry.at) << ": over a length of " << entry.finest
-       << ", where they are " << entry.size << " wide; " << 100 * entry.part
-       << " % of it in the mean is not what they can follow. Its sum is right all the same; stresses near there are not"
+       << ", where they are " << entry.size << " wide; " << percent(entry.part)
+       << " of it in the mean is not what they can follow. Its sum is right all the same; stresses near there are not"
           "; expected elements of about "
        << entry.finest;
   return text.str();

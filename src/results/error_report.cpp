@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <sstream>
 
 #include "base/each_once.hpp"
 #include "base/parallel.hpp"
@@ -16,13 +15,6 @@
 
 namespace mortise {
 namespace {
-
-std::string percent(double part) {
-  std::ostringstream text;
-  text.precision(2);
-  text << 100 * part << " %";
-  return text.str();
-}
 
 // The one that does most to the windows' means of these pairs.
 const Cell& worst_cell(const Results& r, const std::vector<std::size_t>& pairs) {

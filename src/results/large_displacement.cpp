@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "base/printable.hpp"
 #include "results/line_motion.hpp"
@@ -16,7 +15,9 @@ struct Largest {
   Vec2 position = Vec2::Zero();
   double shown = 0;
   const char *before = "", *after = "";
+  bool is_part = true;  // what is shown
 
+  std::string amount() const { return is_part ? percent(shown) : two_digits(shown); }
   void take(const Largest& other) {
     if (other.part > part) *this = other;
   }
@@ -31,14 +32,14 @@ Largest largest_in_contact(const Results& r) {
     for (const PlaceMotion& place : place_motions(r.problem.mesh.nodes, pair, contact, r.solution.u)) {
       const Vec2& x = place.position;
       const double along = std::abs(place.slid) / contact.length_in_contact;
-      worst.take({place.curved, x, 100 * place.curved, "the sides move against one another by ",
-                  " % of the contact line's radius"});
-      worst.take({along, x, 100 * along, "the sides slide along one another by ", " % of the length in contact"});
-      worst.take({place.turned * place.turned, x, place.turned, "a side turns by ", " radians"});
+      worst.take(
+          {place.curved, x, place.curved, "the sides move against one another by ", " of the contact line's radius"});
+      worst.take({along, x, along, "the sides slide along one another by ", " of the length in contact"});
+      worst.take({place.turned * place.turned, x, place.turned, "a side turns by ", " radians", false});
     }
     if (const auto all = line_motion(r.problem.mesh.nodes, pair, contact, r.solution.u))
-      worst.take({all->shifted, all->position, 100 * all->slid, "the sides slide along one another by ",
-                  " % of the length in contact, all in one direction,"});
+      worst.take({all->shifted, all->position, all->slid, "the sides slide along one another by ",
+                  " of the length in contact, all in one direction,"});
   }
   return worst;
 }
@@ -46,19 +47,15 @@ Largest largest_in_contact(const Results& r) {
 }  // namespace
 
 std::optional<std::string> large_displacement(const Results& r) {
-  std::ostringstream text;
-  text.precision(2);
   const Vec2 size = (r.problem.mesh.nodes.colwise().maxCoeff() - r.problem.mesh.nodes.colwise().minCoeff()).transpose();
   const double whole = largest_entry(r.solution.u) / size.norm();
   if (const Largest worst = largest_in_contact(r); worst.part > 0.01)
-    text << "large displacements: " << worst.before << worst.shown << worst.after << " " << near_point(worst.position)
-         << "; contact is written on the undeformed bodies, so p may be off by " << 100 * worst.part << " %";
-  else if (whole > 0.02)
-    text << "large displacements: up to " << 100 * whole
-         << " % of the size of the scene; the equations assume small displacements";
-  else
-    return {};
-  return text.str();
+    return "large displacements: " + (worst.before + worst.amount()) + worst.after + " " + near_point(worst.position) +
+           "; contact is written on the undeformed bodies, so p may be off by " + percent(worst.part);
+  if (whole > 0.02)
+    return "large displacements: up to " + percent(whole) +
+           " of the size of the scene; the equations assume small displacements";
+  return {};
 }
 
 }  // namespace mortise

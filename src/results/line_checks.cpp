@@ -59,17 +59,13 @@ struct LostPressure {
 
 LostPressure lost_pressure(const LineMotion& motion) {
   LostPressure lost;
-  const auto take = [&](double part, const char* before, double shown, const char* after) {
-    if (!(part > lost.part)) return;
-    std::ostringstream text;
-    text.precision(2);
-    text << before << shown << after;
-    lost = {std::min(1., part), text.str()};
+  const auto take = [&](double part, const std::string& before, const std::string& shown, const std::string& after) {
+    if (part > lost.part) lost = {std::min(1., part), before + shown + after};
   };
-  take(motion.turned, " turns by ", motion.turned, " radians as a whole");
-  take(motion.shifted, " slides by ", 100 * motion.slid, " % of the loaded length");
-  take(motion.curved, " moves by ", 100 * motion.curved, " % of its radius of curvature");
-  take(motion.strained, " turns and stretches so that ", 100 * motion.strained, " % of its pressure are lost");
+  take(motion.turned, " turns by ", two_digits(motion.turned), " radians as a whole");
+  take(motion.shifted, " slides by ", percent(motion.slid), " of the loaded length");
+  take(motion.curved, " moves by ", percent(motion.curved), " of its radius of curvature");
+  take(motion.strained, " turns and stretches so that ", percent(motion.strained), " of its pressure are lost");
   return lost;
 }
 

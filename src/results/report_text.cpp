@@ -71,8 +71,8 @@ void print_extremes(const Json& extremes, std::ostream& out) {
 void print_estimate(const Json& estimate, std::ostream& out) {
   if (estimate.is_null()) return;
   const Json& most = estimate["largest"];
-  out << std::setprecision(2) << "  estimate  stresses off by " << 100 * estimate["error"].get<double>()
-      << " % (energy norm), the most in " << most["body"].get<std::string>() << " " << near(most["position"]) << "\n"
+  out << std::setprecision(2) << "  estimate  stresses off by " << percent(estimate["error"].get<double>())
+      << " (energy norm), the most in " << most["body"].get<std::string>() << " " << near(most["position"]) << "\n"
       << std::setprecision(6);
 }
 
@@ -106,7 +106,7 @@ void print_goal(const std::string& of, const Json& value, std::ostream& out) {
 
 void print_asked(const Json& accuracy, double found, std::ostream& out) {
   const std::size_t solves = accuracy["solves"].size();
-  out << " (asked " << 100 * accuracy["asked"].get<double>() << " %): ";
+  out << " (asked " << percent(accuracy["asked"].get<double>()) << "): ";
   out << (solves == 1 ? "1 solve, which no second confirms" : std::to_string(solves) + " solves");
   if (accuracy["of"] == "half_width" && found == 0) out << "; contact ends nowhere within a line";
   if (!accuracy["reached"])
@@ -132,7 +132,7 @@ void print_accuracy(const Json& report, std::ostream& out) {
   if (pressure.is_null() && goal_words(of) != of)
     out << " is 0, as contact carries nothing";
   else if (std::isfinite(found))
-    out << " within " << 100 * found << " %";
+    out << " within " << percent(found);
   else
     out << " not known";
   if (asked) print_asked(accuracy, found, out);
@@ -162,7 +162,7 @@ void print_expected(const Json& expected, std::ostream& out) {
     if (std::isfinite(found)) out << " " << found;
     out << ": " << std::setprecision(2);
     if (std::isfinite(off))
-      out << 100 * off << " % off ";
+      out << percent(off) << " off ";
     else
       out << "not known; ";
     out << std::setprecision(6);
@@ -170,7 +170,7 @@ void print_expected(const Json& expected, std::ostream& out) {
       out << e["value"].get<double>();
     else
       out << printable(e["value"]);
-    out << std::setprecision(2) << ", " << 100 * e["tolerance"].get<double>() << " % allowed";
+    out << std::setprecision(2) << ", " << percent(e["tolerance"].get<double>()) << " allowed";
     if (e["source"] != "") out << " (" << printable(e["source"]) << ")";
     out << "\n";
   }

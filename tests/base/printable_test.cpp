@@ -30,5 +30,16 @@ TEST(InShort, ALongLineLosesItsMiddle) {
   EXPECT_TRUE(in_short(line).ends_with(" end"));
 }
 
+TEST(Percent, HasTwoDigitsAndNoPowerOfTen) {
+  EXPECT_EQ(percent(0.000123), "0.012 %");
+  EXPECT_EQ(percent(0.0123), "1.2 %");
+  EXPECT_EQ(percent(0.994), "99 %");
+  EXPECT_EQ(percent(0.996), "100 %");
+  EXPECT_EQ(percent(3.12), "310 %");
+  EXPECT_EQ(percent(9.99), "1000 %");
+  EXPECT_EQ(percent(200), "more than 1000 %");
+  EXPECT_EQ(two_digits(1.234), "1.2");
+}
+
 }  // namespace
 }  // namespace mortise

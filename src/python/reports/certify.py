@@ -24,7 +24,7 @@ from pathlib import Path
 
 try:
     from figures import compare, deformed_gaps, line_difference, middles, of_freefem, read_run, stress_difference, tilt
-    from report import write_report
+    from report import percent, write_report
 except ImportError as missing:
     raise SystemExit(f"certify.py: {missing}: apt-get install python3-numpy python3-meshio") from missing
 
@@ -222,11 +222,11 @@ def troubles_of(base, runs, asked, geometry, gap, stress):
     troubles = [f"{v.name}: {v.words}" for v in runs if not v.counts and v.status != "skipped"]
     told = (base.run.summary["estimate"] or {}).get("pressure")
     if not geometry and told and told["error"] > asked:
-        troubles.append(f"p is within {100 * told['error']:.2g} % only on the scene's own mesh, {100 * asked:g} % are asked")
+        troubles.append(f"p is within {percent(told['error'])} only on the scene's own mesh, {100 * asked:g} % are asked")
     if gap and not gap["agrees"]:
         troubles.append(f"the deformed sides are apart by {gap['off']:.2g} of the largest displacement where p acts, {gap['allowed']:.2g} expected")
     if stress and not stress["agrees"]:
-        troubles.append(f"p is off by {100 * stress['off']:.2g} % from the stresses of both bodies, {100 * stress['allowed']:.2g} % expected")
+        troubles.append(f"p is off by {percent(stress['off'])} from the stresses of both bodies, {percent(stress['allowed'])} expected")
     if not any(v.counts and not (geometry and v.weaker_than(asked)) for v in runs):
         troubles.append("no other run could be made")
     return troubles
@@ -244,7 +244,7 @@ def certificate(base, runs, skipped, asked, geometry, seconds):
     left, alone = untold_of(base, counted)
     troubles += [f"no other run determines {name}" for name in alone]
     skipped += [f"{name}: undetermined in {', '.join(by)}" for name, by in left.items() if name not in alone]
-    skipped += [f"{v.name}: it knows p to {100 * v.run.summary['estimate']['pressure']['error']:.2g} % only, and confirms nothing" for v in weak]
+    skipped += [f"{v.name}: it knows p to {percent(v.run.summary['estimate']['pressure']['error'])} only, and confirms nothing" for v in weak]
     describe = lambda v: {
         "name": v.name, "what": v.what, "status": v.status, "seconds": round(v.seconds, 2), "command": v.command,
         "unknowns": v.run.summary["mesh"]["dofs"] if v.run else None,
@@ -295,12 +295,12 @@ def text_of(found):
     for row in found["study"]:
         off = "" if row["off"] is None else f", {row['off']:.2g} from the finest"
         rate = "" if row["rate"] is None else f", falling as the estimate to the power {row['rate']:.1f}"
-        lines.append(f"  mesh      {row['run']}: {row['unknowns']} unknowns, p estimated within {100 * row['estimated']:.2g} %{off}{rate}")
+        lines.append(f"  mesh      {row['run']}: {row['unknowns']} unknowns, p estimated within {percent(row['estimated'])}{off}{rate}")
     if gap := found["deformed_gap"]:
         off = f"{gap['off']:.2g} of the largest displacement ({gap['allowed']:.2g} expected)"
         lines.append(f"  gaps      where p acts the deformed sides are apart by {off}; their normals by {gap['tilt']:.2g} radians")
     if stress := found["stress_difference"]:
-        lines.append(f"  stresses  p is off from those of the nearer body by {100 * stress['off']:.2g} % ({100 * stress['allowed']:.2g} % expected)")
+        lines.append(f"  stresses  p is off from those of the nearer body by {percent(stress['off'])} ({percent(stress['allowed'])} expected)")
     lines += [f"  warning   {words}" for words in found["large_displacements"]]
     lines += [f"  trouble   {words}" for words in found["troubles"]]
     lines += [f"  skipped   {words}" for words in found["skipped"]]

@@ -54,7 +54,7 @@ def number(value, digits=5):
 
 
 def percent(part):
-    return f"{100 * part:.2g} %"
+    return "more than 1000 %" if part > 10 else f"{round(10 * part) * 10} %" if part >= 0.995 else f"{100 * part:.2g} %"
 
 
 def vector(values, digits=5):
