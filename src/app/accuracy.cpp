@@ -418,14 +418,16 @@ double estimated_error(const Results& r, Goal of) {
 
 AccurateMesh mesh_to_accuracy(const std::vector<const Scene*>& cases, const Progress& progress) {
   const std::function<bool()> never;
-  Loop loop(cases, progress, never);
-  Results results = *loop.run();
-  return {std::move(results.problem.mesh), std::move(*results.accuracy), loop.found(), loop.open()};
+  return told_with_path(*cases.front(), [&]() -> AccurateMesh {
+    Loop loop(cases, progress, never);
+    Results results = *loop.run();
+    return {std::move(results.problem.mesh), std::move(*results.accuracy), loop.found(), loop.open()};
+  });
 }
 
 std::optional<Results> solve_to_accuracy(const Scene& scene, const Progress& progress,
                                          const std::function<bool()>& interrupted) {
-  return Loop({&scene}, progress, interrupted).run();
+  return told_with_path(scene, [&] { return Loop({&scene}, progress, interrupted).run(); });
 }
 
 }  // namespace mortise

@@ -100,8 +100,17 @@ int solve_all_cases(const Options& options, const Scene& scene, const std::files
   return exit_code(worst);
 }
 
+// As with --accuracy: its mesh is found by estimates.
+void refuse_no_estimate(const Options& options, const Scene& scene) {
+  const auto asks = [](const LoadCase& load) { return bool(load.scene.accuracy); };
+  if (options.no_estimate && (scene.accuracy || std::ranges::any_of(scene.cases, asks)))
+    throw InputError("command line: --no-estimate: " + scene.path +
+                     " asks for an accuracy, which is found by estimates; expected one or the other");
+}
+
 int solve(const Options& options) {
   const Scene scene = scene_of(options);
+  refuse_no_estimate(options, scene);
   const std::filesystem::path folder = options.output.empty() ? "out/" + stem(options) : options.output;
   check_output_folder(folder);
   check_fields_stay(scene, folder);
@@ -277,6 +286,17 @@ CLI::App* add_scripted(CLI::App& app, const std::string& name, const std::string
   return command;
 }
 
+// CLI11 says only that there is none.
+void refuse_unknown_subcommand(const CLI::App& app, int argc, const char* const* argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return;
+    if (!command->get_group().empty()) names.push_back(command->get_name());
+  }
+  throw InputError("command line: " + unknown_name("subcommand", argv[1], names));
+}
+
 // The exit status of --help and --version; none of a command.
 std::optional<int> parse(CLI::App& app, int argc, const char* const* argv) {
   try {
@@ -310,6 +330,7 @@ int parse_and_run(int argc, const char* const* argv) {
       add_scripted(app, "certify", "solve a scene by several means and say which figures agree within their bars");
   CLI::App* report_command = add_scripted(app, "report", "write one page of the results in a folder, to hand over");
   CLI::App* window_command = add_scripted(app, "window", "look at a scene in gmsh's window, pick, check and solve");
+  refuse_unknown_subcommand(app, argc, argv);
   if (const auto status = parse(app, argc, argv)) return *status;
 
   if (*sweep_command) become_script("sweeps/sweep.py", sweep_command->remaining());

@@ -70,6 +70,7 @@ LinearisedFigure pressure_of(const Results& r, std::size_t k, const Figure& figu
   spec.of = Goal::mean;
   spec.window = {figure.numbers[0], figure.numbers[1]};
   const PressureLine line = pressure_line(r.problem.mesh, pair, r.solution.lambda, 0);
+  if (const std::string trouble = window_trouble(line, spec.window); !trouble.empty()) refuse(figure, trouble);
   const MatX rows = goal_functionals(r.problem.mesh, r.problem.discretisation, pair, line, spec).rows;
   return of_lambda(r, rows.col(0));
 }

@@ -73,16 +73,6 @@ Mesh tightened(const Scene& scene, Mesh mesh, const Progress& progress) {
   return std::move(p.mesh);
 }
 
-// What `work` returns; what it refuses of the scene is told with the scene's path.
-template <typename Work>
-decltype(auto) told_with_path(const Scene& scene, Work work) {
-  try {
-    return work();
-  } catch (const SceneError& error) {
-    throw InputError(scene.path + ": " + error.what());
-  }
-}
-
 }  // namespace
 
 Mesh scene_mesh(const Scene& scene, bool* cached) {

@@ -3,10 +3,21 @@
 
 #include <memory>
 
+#include "base/errors.hpp"
 #include "results/results.hpp"
 #include "scene/scene.hpp"
 
 namespace mortise {
+
+/// What `work` returns; what it refuses of the scene is told with the scene's path.
+template <typename Work>
+decltype(auto) told_with_path(const Scene& scene, Work work) {
+  try {
+    return work();
+  } catch (const SceneError& error) {
+    throw InputError(scene.path + ": " + error.what());
+  }
+}
 
 /// Reads or makes the mesh, with the copies in it. `cached`: as of load_mesh. Throws InputError.
 Mesh scene_mesh(const Scene& scene, bool* cached = nullptr);

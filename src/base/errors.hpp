@@ -21,6 +21,18 @@ class SceneError : public InputError {
   using InputError::InputError;
 };
 
+/// What `work` returns. What it refuses becomes a SceneError with `key` before it; one that has its key stays.
+template <typename Work>
+decltype(auto) told_with_key(const std::string& key, Work work) {
+  try {
+    return work();
+  } catch (const SceneError&) {
+    throw;
+  } catch (const InputError& error) {
+    throw SceneError(key + ": " + error.what());
+  }
+}
+
 /// The candidate nearest to `name` in edit distance; empty if none is near (more than half of its letters differ).
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
 

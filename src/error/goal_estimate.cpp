@@ -203,6 +203,8 @@ GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discret
     case Goal::half_width:
       break;
     case Goal::mean:
+      if (const std::string trouble = window_trouble(line, spec.window); !trouble.empty())
+        throw SceneError("accuracy.window: " + trouble);
       set(mean_functional(mesh, pair, line, along_edges(mesh, pair, line, spec.window)));
       break;
     case Goal::force:
@@ -286,6 +288,15 @@ void add_stress_error(const Problem& problem, const GoalFunctionals& functionals
   const Eigen::Vector3d own = stress_difference(problem, u, patches, place).cwiseAbs();
   goal.besides += own;
   goal.parts.row(place.cell) = goal.parts.row(place.cell).cwiseAbs() + own.transpose();
+}
+
+std::string window_trouble(const PressureLine& line, const Vec2& window) {
+  const double length = line.s(line.s.size() - 1);
+  if (window(0) < window(1) && window(1) > 0 && window(0) < length) return "";
+  std::ostringstream text;
+  text << "expected a window [from, to] with from < to on the contact line, which is " << length << " long, found ["
+       << window(0) << ", " << window(1) << "]";
+  return text.str();
 }
 
 double mean_error(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& errors,

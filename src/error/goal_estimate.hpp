@@ -80,6 +80,9 @@ void add_displacement_error(const Problem& problem, const GoalFunctionals& funct
 /// the place has a larger part.
 void add_stress_error(const Problem& problem, const GoalFunctionals& functionals, const VecX& u, GoalEstimate& goal);
 
+/// Why a window of a mean is none: reversed, or nowhere on the line. Empty where it is one.
+std::string window_trouble(const PressureLine& line, const Vec2& window);
+
 /// Mean of the errors at the vertices of the edges that have a part in the window of spec.
 double mean_error(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& errors,
                   const Vec2& window);

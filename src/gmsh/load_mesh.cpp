@@ -57,9 +57,9 @@ void check_mesh_file(const std::string& file, const std::map<std::string, double
   std::error_code error;
   if (!fs::is_regular_file(file, error)) throw InputError(file + ": no such file");
   if (is_geo(file)) {
-    check_geo(file, parameters);
+    told_with_key("mesh.parameters", [&] { check_geo(file, parameters); });
   } else if (!parameters.empty()) {
-    throw InputError(file + ": parameter '" + parameters.begin()->first +
+    throw SceneError("mesh.parameters: " + file + ": parameter '" + parameters.begin()->first +
                      "' given to a mesh; only a .geo has parameters");
   }
 }

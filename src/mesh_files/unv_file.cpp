@@ -104,7 +104,8 @@ class UnvReader {
       const int type = kind_of(descriptor);
       if (type != 0 && element_type(type)->node_count != count)
         deck_.fail(head, "expected " + std::to_string(element_type(type)->node_count) +
-                             " nodes of an element of the kind " + head.fields[1] + ", found " + head.fields[5]);
+                             " nodes of an element of the kind " + head.fields[1] + ", found " + head.fields[5] +
+                             (count == 9 ? "; the format has no quadrilateral of 9 nodes: expected 8, or a .msh" : ""));
       std::vector<int>& nodes = deck_.add_element(head, type).nodes;
       if (is_beam(descriptor)) next(lines, i, 1);
       while (std::int64_t(nodes.size()) < count) {

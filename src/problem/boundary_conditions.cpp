@@ -122,7 +122,9 @@ Resultant apply(const Mesh& mesh, const Model& model, const BoundaryEntry& entry
   const BoundarySpec& spec = entry.spec;
   Resultant sum;
   const auto load = [&](const auto& traction) { sum = add_load(mesh, model, entry, traction, system.f); };
-  std::visit(Overloaded{[&](const Displacement& u) { prescribe(mesh, entry, u, system.constraints); },
+  std::visit(Overloaded{[&](const Displacement& u) {
+                          told_with_key(entry.spec.key, [&] { prescribe(mesh, entry, u, system.constraints); });
+                        },
                         [](const NormalDisplacement&) {}, [](const DirectedDisplacement&) {}, [](const RigidSpec&) {},
                         [&](const Pressure& p) {
                           load([&](const Vec2& x, const Vec2& n, double s) -> Vec2 { return -p.value(x, s) * n; });

@@ -90,7 +90,9 @@ ContactPair coupled(const Method& method, const Mesh& mesh, const Discretisation
     pair.geometry.s.emplace(mesh.nodes, pair.multiplier);
   pair.points = contact_points(mesh.nodes, pair, method.integration);
   find_one_line(mesh.nodes, pair);
-  pair.coupling = couple(mesh, pair, d.system.constraints, {method.multipliers, spec.initial_gap});
+  pair.coupling = told_with_key(spec.key, [&] {
+    return couple(mesh, pair, d.system.constraints, {method.multipliers, spec.initial_gap});
+  });
   return pair;
 }
 

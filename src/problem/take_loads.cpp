@@ -51,7 +51,9 @@ bool take_gap(const ContactSpec& spec, const Problem& p, ContactPair& of) {
     pair.geometry.s.emplace(p.mesh.nodes, pair.multiplier);
   pair.points = contact_points(p.mesh.nodes, pair, p.method.integration);
   find_one_line(p.mesh.nodes, pair);
-  pair.coupling = couple(p.mesh, pair, p.discretisation.system.constraints, {p.method.multipliers, spec.initial_gap});
+  pair.coupling = told_with_key(spec.key, [&] {
+    return couple(p.mesh, pair, p.discretisation.system.constraints, {p.method.multipliers, spec.initial_gap});
+  });
   const bool same = same_rows(pair.coupling, of.coupling);
   of = std::move(pair);
   return same;

@@ -79,7 +79,8 @@ void Once::take(const std::string& what, const Node& node, const Node& entry) {
   const bool blames_first = &blame(*first->second.node, node) == first->second.node;
   const Node& guilty = blames_first ? *first->second.node : node;
   const Node& other = blames_first ? entry : *first->second.entry;
-  fail(guilty, what + " twice; expected once, but it does so in " + locate(other) + " too");
+  const std::string where = &entry == first->second.entry ? "" : ", in " + locate(other) + " too";
+  fail(guilty, what + " twice" + where + "; expected once");
 }
 
 }  // namespace mortise::scene_file

@@ -114,6 +114,7 @@ void add_table(const Node& file, const std::string& scene_path, std::vector<Draf
     keys.push_back(parts_of(std::string(name)));
     refuse_cases_in_cases(keys.back(), place, std::string(name));
   }
+  const std::size_t before = drafts.size();
   while (std::getline(stream, line)) {
     ++place.line;
     if (is_blank_line(line)) continue;
@@ -139,6 +140,7 @@ void add_table(const Node& file, const std::string& scene_path, std::vector<Draf
     }
     drafts.push_back(draft);
   }
+  if (drafts.size() == before) fail(file, "'" + path.string() + "' has no rows; expected one a case, below the names");
 }
 
 std::vector<Draft> drafts_of(const std::vector<const Node*>& given, const std::string& scene_path) {

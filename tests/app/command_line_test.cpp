@@ -106,9 +106,24 @@ TEST(CommandLine, AnAccuracyIsAskedForAndToldWithWhatIsLeftOut) {
   const auto of_mean = summary(folder.path("run"))["accuracy"];
   EXPECT_EQ(of_mean["of"], "mean");
   EXPECT_NEAR(of_mean["value"][0].get<double>(), 556.46e6, 0.05 * 556.46e6);
+  const Outcome off = mean("[5, 6]");
+  EXPECT_EQ(off.status, 1);
+  EXPECT_NE(
+      off.err.find("hertz.toml: accuracy.window: expected a window [from, to] with from < to on the contact line"),
+      std::string::npos)
+      << off.err;
   const Outcome open = mean("[0.3, 0.5]");
   EXPECT_EQ(open.status, 2);
   EXPECT_NE(open.out.find("mean p not known (asked 5 %)"), std::string::npos) << open.out;
+}
+
+TEST(CommandLine, ACommandThatIsNoneIsNamed) {
+  EXPECT_EQ(
+      mortise({"chek", geo("punch.toml")})
+          .err.find(
+              "mortise: error: command line: unknown subcommand 'chek'; did you mean 'check'? known: solve, check"),
+      0u);
+  EXPECT_NE(mortise({}).err.find("subcommand is required"), std::string::npos);
 }
 
 TEST(CommandLine, ContactCsvHasOneRowANodeOrderedByArcLength) {
@@ -207,15 +222,25 @@ const BadInput bad_input[] = {
      {"upper_contakt", "upper_contact"}},
     {"NothingHoldsTheLowerBody", {"--set", "boundary.1.displacement={x=0}"}, {"nothing holds", "translation"}},
     {"NothingHoldsAnything", {"--set", "boundary=[{on=[\"top\"], pressure=1e6}]"}, {"nothing holds"}},
-    {"BoundariesDisagree", {"--set", "boundary.1.displacement={x=0.1,y=0}"}, {"one value a node", "(0, 0)"}},
+    {"BoundariesDisagree",
+     {"--set", "boundary.1.displacement={x=0.1,y=0}"},
+     {"patch_flat.toml: boundary.1 (", "one value a node", "(0, 0)"}},
     {"ContactCurveInTwoPieces", {"--set", "contact.0.between=[\"upper_contact\",\"lower_left\"]"}, {"lower_left"}},
-    {"UnknownParameterOfTheGeo", {"--set", "mesh.parameters.n_uper=4"}, {"n_uper", "n_upper"}},
+    {"UnknownParameterOfTheGeo",
+     {"--set", "mesh.parameters.n_uper=4"},
+     {"patch_flat.toml: mesh.parameters: ", "patch_flat.geo", "n_uper", "n_upper"}},
     {"ElementsOfThirdOrder",
      {"--set", "mesh.parameters.order=3"},
      {"patch_flat.geo", "Mesh.ElementOrder = 3", "expected 1"}},
     {"NoSuchMesh", {"--set", "mesh.file=/no/such.geo"}, {"/no/such.geo"}},
     {"OverrideWithoutValue", {"--set", "method.kind"}, {"method.kind"}},
     {"UnknownOption", {"--fast"}, {"--fast"}},
+    {"NoEstimateOfAnAccuracy",
+     {"--set", "accuracy.value=5%", "--no-estimate"},
+     {"--no-estimate: ", "asks for an accuracy"}},
+    {"AccuracyOfAMeshParameterThatIsNotThere",
+     {"--accuracy", "5%", "--set", "mesh.parameters.n_uper=4"},
+     {"patch_flat.toml: mesh.parameters: ", "n_uper"}},
     {"AccuracyOfNothing", {"--accuracy", ""}, {"--accuracy", "1%", "empty"}},
     {"AccuracyOfAWord", {"--accuracy", "good"}, {"accuracy.value", "1%", "'good'"}},
     {"OutputOfNoName", {"-o", ""}, {"--output", "path", "empty"}},

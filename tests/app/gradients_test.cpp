@@ -110,6 +110,15 @@ TEST(Gradients, TellWhereRowsChange) {
 
 // ---- What is refused ----
 
+TEST(Gradients, AreNoneOfAMeanOverNoPartOfTheLine) {
+  for (const auto& window : {std::vector<double>{5, 6}, {0.3, 0.1}, {-2, 0}})
+    EXPECT_NE(
+        message_of([&] {
+          gradients_in("gap_close", {}, {{"contact.0.pressure.mean", window}}, {{"boundary.2.displacement.y", -3e-4}});
+        }).find("figure 'contact.0.pressure.mean': expected a window [from, to] with from < to on the contact line"),
+        std::string::npos);
+}
+
 TEST(Gradients, AreNoneWhereTheRowsThemselvesChange) {
   // Both sides' corners on the left are held, so that no row is theirs: with their gap closed the next one's p is.
   const Overrides held{{"boundary",

@@ -109,6 +109,9 @@ TEST(UniversalFile, WhatCannotBeReadIsNamedWithItsLine) {
             ", line 24: there is no node 9");
   EXPECT_EQ(trouble("a.unv", nodes_unv + "    -1\n  2412\n 1 44 1 1 7 3\n 1 2 5\n    -1\n"),
             ", line 23: expected 4 nodes of an element of the kind 44, found 3");
+  EXPECT_EQ(trouble("a.unv", nodes_unv + "    -1\n  2412\n 1 94 1 1 7 9\n 1 2 3 4 5 6 7 8\n 9\n    -1\n"),
+            ", line 23: expected 4 nodes of an element of the kind 94, found 9; the format has no quadrilateral of 9 "
+            "nodes: expected 8, or a .msh");
   EXPECT_EQ(trouble("a.unv", nodes_unv), ": no elements of plane bodies");
   EXPECT_EQ(trouble("a.unv", nodes_unv + nodes_unv + elements_unv), ", line 28: the node 1 is listed twice");
 }

@@ -69,7 +69,7 @@ def test_scene_is_refused(said, setting, message):
 
 
 @pytest.mark.parametrize("more, message", [
-    ("[[contact]]\nbetween = ['upper_bottom', 'lower_top']", "stands twice; expected once, but it does so in contact.0"),
+    ("[[contact]]\nbetween = ['upper_bottom', 'lower_top']", "stands twice, in contact.0 (line 14) too; expected once"),
     ("[[boundary]]\non = 'upper_right'\nrigid = {}\n[[boundary]]\non = 'upper_right'\n"
      "displacement = { direction = [1, 1], value = 0 }", "holds a node of a rigid curve; expected no other support there"),
     ("[[boundary]]\non = 'upper_right'\ndisplacement = { direction = [1, 1], value = 0 }\n[[boundary]]\n"
