@@ -27,12 +27,21 @@ bool have_a_pair(const SharedNodes& bodies, const std::vector<ContactPair>& pair
   });
 }
 
+// Who cuts a bolt to stretch it has it in pieces that are one.
+bool is_in_a_bolt(const SharedNodes& bodies, const std::vector<Tie>& ties) {
+  return std::ranges::any_of(ties, [&](const Tie& tie) {
+    return tie.pretension &&
+           std::ranges::any_of(tie.body, [&](int body) { return body == bodies.first || body == bodies.second; });
+  });
+}
+
 // One line, of the first two: who has cut all bodies out of one another has many.
 std::vector<std::string> one_piece_lines(const Mesh& mesh, const Entries& entries,
                                          const std::vector<ContactPair>& pairs) {
   std::vector<SharedNodes> found = shared_nodes(mesh, body_points(mesh));
   std::erase_if(found, [&](const SharedNodes& bodies) {
-    return entries.body(bodies.first).material != entries.body(bodies.second).material || have_a_pair(bodies, pairs);
+    return entries.body(bodies.first).material != entries.body(bodies.second).material || have_a_pair(bodies, pairs) ||
+           is_in_a_bolt(bodies, mesh.ties);
   });
   if (found.empty()) return {};
   const SharedNodes& first = found.front();

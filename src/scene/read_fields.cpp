@@ -62,12 +62,13 @@ void add_words_of(const Node& node, std::set<std::string>& words) {
 }
 
 // `what`: "constant".
-void require_each_used(const std::map<std::string, Node>& given, const char* what, const std::set<std::string>& words) {
+void require_each_used(const std::map<std::string, Node>& given, const char* what, const std::set<std::string>& words,
+                       bool overridden) {
   std::vector<std::string> used;
   for (const auto& [name, node] : given)
     if (words.contains(name)) used.push_back(name);
   for (const auto& [name, node] : given) {
-    if (words.contains(name)) continue;
+    if (words.contains(name) || (overridden && node.place.setting.empty())) continue;
     const std::string meant = nearest_name(name, used);
     fail(node, std::string("no expression has the ") + what + " '" + name + "'; " +
                    (meant.empty() ? "expected it in one" : "did you mean '" + meant + "'?"));
@@ -85,9 +86,9 @@ void GivenNames::take(const Node& root) {
   }
 }
 
-void GivenNames::require_used() const {
-  require_each_used(constants, "constant", words);
-  require_each_used(fields, "field", words);
+void GivenNames::require_used(bool overridden) const {
+  require_each_used(constants, "constant", words, overridden);
+  require_each_used(fields, "field", words, overridden);
 }
 
 Keys field_keys(FieldSpec& spec) {

@@ -1,4 +1,6 @@
 // A scene file from text to checked data.
+#include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "model/mesh_endings.hpp"
@@ -29,6 +31,12 @@ void read_model(const Node& root, Scene& scene) {
   read(*model, model_keys(scene));
   if (const Node* thickness = find(*model, "thickness"); thickness && scene.model.axisymmetric())
     fail(*thickness, "an axisymmetric model has none; expected plane = \"strain\" or \"stress\" with it");
+}
+
+// Of an override, or something in it.
+bool may_have_an_expression(const Override& change) {
+  return std::ranges::any_of(std::array{"boundary", "body_force", "initial_strain", "contact", "expect", "case"},
+                             [&](const char* section) { return change.key.starts_with(section); });
 }
 
 Scene read_sections(const Node& root, const std::string& path, GivenNames& names) {
@@ -79,12 +87,9 @@ namespace mortise {
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
   scene_file::Node root = scene_file::load_document(path);
   scene_file::GivenNames names;
-  names.take(root);
-  names.constants.clear();  // what an override makes of them counts
-  names.fields.clear();
   for (const Override& change : overrides) scene_file::apply_override(root, change);
   Scene scene = scene_file::read_sections(root, path, names);
-  names.require_used();
+  names.require_used(std::ranges::any_of(overrides, scene_file::may_have_an_expression));
   for (const Override& change : overrides) scene.changes.push_back(change.key + "=" + change.value);
   for (LoadCase& load : scene.cases) load.scene.changes = scene.changes;
   return scene;

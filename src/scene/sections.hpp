@@ -40,14 +40,15 @@ Keys field_keys(FieldSpec& field);
 void read_fields(const Node& root, Scene& scene);
 
 /// The names in [constants] and [fields] of documents that belong together, and the words that any text in the rest of
-/// them has: a scene as it is written, after overrides, and each of its cases. A name is used where it is a word.
+/// them has: a scene after overrides, and each of its cases. A name is used where it is a word.
 struct GivenNames {
   std::map<std::string, Node> constants, fields;
   std::set<std::string> words;
 
   void take(const Node& root);
-  /// Refuses a name that nothing uses: a slip of the pen, that would change nothing.
-  void require_used() const;
+  /// Refuses a name that nothing uses: a slip of the pen, that would change nothing. `overridden`: the command line may
+  /// have put something else in the place of what used a name of the file.
+  void require_used(bool overridden) const;
 };
 
 /// A table [materials.NAME]; of an isotropic material what is needed.

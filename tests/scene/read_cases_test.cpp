@@ -80,8 +80,10 @@ file = "cases.csv"
             none);
   EXPECT_EQ(read("[constants]\nc = 1", {{"boundary.0.pressure", "5"}}), none);
   EXPECT_EQ(read("", {{"constants.c", "5"}}), none);
+  EXPECT_EQ(read("[constants]\nc = 1\nd = 2", {{"boundary.0.pressure", "c"}}), none);  // or "d", of a sweep
   const std::string unused = ": no expression has the constant 'cc'; did you mean 'c'?";
-  expect_contains(read("[constants]\nc = 1\ncc = 1"), unused);
+  for (const std::vector<Override>& overrides : {std::vector<Override>{}, {{"model.plane", "stress"}}})
+    expect_contains(read("[constants]\nc = 1\ncc = 1", overrides), unused);
   expect_contains(read("[constants]\nc = 1", {{"constants.cc", "5"}}), "--set constants.cc=5: constants.cc" + unused);
   expect_contains(read("[constants]\nc = 1\n[[case]]\n\"constants.cc\" = 2"), unused);
   expect_contains(read("[constants]\nc = 1\ndepth = 1"), "no expression has the constant 'depth'; expected it in one");
