@@ -25,7 +25,7 @@ struct Constraints {
   /// What springs in the stiffness resist: a motion u with springs * u = 0 they do not. A column a degree of freedom;
   /// empty: there are none.
   SparseMatrix springs = {};
-  VecX spring_parts = {};  ///< of each of their rows: its stiffness over that of the elements there
+  VecX spring_parts = {};  ///< of each of their rows: the springs' stiffness over the elements' there
   std::optional<MultipointConstraints> multipoint = {};  ///< none: q is u
 };
 

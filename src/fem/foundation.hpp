@@ -23,7 +23,8 @@ void add_foundation(const Mesh& mesh, const Model& model, const CutSides& on, co
 /// over its largest entry, so that weak springs count as strong ones do.
 SparseMatrix spring_rows(const SparseMatrix& stiffness);
 
-/// Of each of these rows its largest entry over that of the elements' own stiffness there (both lower triangles).
+/// Of each degree of freedom the springs' own stiffness over that of the elements, the diagonals' entries; 1 where no
+/// element has it, 0 where no spring does. Both lower triangles.
 VecX spring_parts(const SparseMatrix& stiffness, const SparseMatrix& of_elements);
 
 }  // namespace mortise

@@ -44,6 +44,8 @@ struct Sampled {
   }
 };
 
+Interval between(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
+
 struct Piece {
   Sampled whole;
   std::array<Sampled, 2> halves;
@@ -96,12 +98,6 @@ void LineScale::look_at(const LineFunction& f) {
 }
 
 double LineScale::value() const { return scale_of(values_.value_or(Interval{1, 1}), range_); }
-
-namespace {
-
-Interval between(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
-
-}  // namespace
 
 LineFunction along_edge(const Points& nodes, const Edge& edge, const Field& field, const FieldRange& range,
                         const std::function<double(double xi)>& s) {

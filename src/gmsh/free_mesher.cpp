@@ -28,8 +28,8 @@ Mesh FreeMesher::mesh_once(const SizeAt& size, bool recombine) {
   return mesh;
 }
 
-// gmsh 4.8 leaves flat triangles at kinks and corners where edges are below about 1e-7 of the whole, and inverted ones
-// where a curve turns within an edge; other sizes a little smaller avoid them.
+// gmsh 4.8 leaves inverted triangles where a curve turns within an edge, and flat ones that no swap mends; other sizes
+// a little smaller avoid them.
 Mesh FreeMesher::mesh(const SizeAt& size, bool recombine) {
   constexpr int attempts = 6;
   double part = 1;

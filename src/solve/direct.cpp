@@ -46,7 +46,8 @@ class Passes {
     measure_residuals(s_, solution_);
     const double left = largest(solution_.force_residual, solution_.constraint_residual),
                  before = std::exchange(left_, left);
-    const bool exact = left<1e-11, stands = pass_> 0 && !infeasible_ && !(left < before / 2);
+    const bool exact = left < 1e-11;
+    const bool stands = pass_ > 0 && !infeasible_ && !(left < before / 2);
     if (solution_.status != SolveStatus::converged || (stands && !exact)) return false;
     infeasible_ = is_infeasible(s_, solution_, tension_);
     if (!exact && !infeasible_) feasible_ = solution_;
