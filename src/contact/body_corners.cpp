@@ -28,13 +28,6 @@ double least_free_angle() {
   return angle;
 }
 
-// The wedges of the cells around a node counter-clockwise, those of one material as one.
-struct Fan {
-  std::vector<Wedge> wedges;
-  bool closed = false;  // all around the node
-  Face first = Face::free, last = Face::free;
-};
-
 Vec2 direction_at(const Mesh& mesh, const SideAtNode& side) {
   const Edge edge = side_edge(mesh.cells[side.side.cell], side.side.side);
   return side.starts ? edge_point(mesh.nodes, edge, -1).tangent : Vec2(-edge_point(mesh.nodes, edge, 1).tangent);
@@ -65,16 +58,18 @@ bool go_around(const Mesh& mesh, std::span<const SideAtNode> sides, int start, S
   return false;
 }
 
+// The wedges of the cells around a node, those of one material as one.
 Fan fan_from(const Mesh& mesh, std::span<const SideAtNode> sides, int start, const std::vector<ElasticLaw>& laws) {
   Fan fan;
   int law = -1;
-  fan.closed = go_around(mesh, sides, start, [&](int body, double angle) {
+  const bool closed = go_around(mesh, sides, start, [&](int body, double angle) {
     if (law >= 0 && same_law(laws[law], laws[body]))
       fan.wedges.back().angle += angle;
     else
       fan.wedges.push_back(wedge(angle, laws[body]));
     law = body;
   });
+  if (!fan.wedges.empty()) fan.joints.assign(fan.wedges.size() - (closed ? 0 : 1), Joint::bonded);
   return fan;
 }
 
@@ -96,7 +91,7 @@ bool is_regular(const Fan& fan) {
 
 double exponent_of(Fan fan, TipTable& tips) {
   for (Wedge& w : fan.wedges) w.angle = alike_angle * std::round(w.angle / alike_angle);
-  return fan.closed ? tips.inside(fan.wedges) : tips.corner(fan.wedges, fan.first, fan.last);
+  return tips.find(fan).stress.real();
 }
 
 }  // namespace
@@ -162,9 +157,11 @@ double corner_exponent(const Mesh& mesh, int node, const Constraints& constraint
   const Edge &before = outline[ordered ? 0 : 1], &after = outline[ordered ? 1 : 0];
   double angle = 0;
   go_around(mesh, table.at(node), after.nodes[1], [&](int, double of_cell) { angle += of_cell; });
-  return wedge_exponent(wedge(angle, law, face_of(mesh.nodes, before, constraints)),
-                        face_of(mesh.nodes, after, constraints))
-      .real();
+  return exponents({{wedge(angle, law)},
+                    {},
+                    face_of(mesh.nodes, after, constraints),
+                    face_of(mesh.nodes, before, constraints)})
+      .stress.real();
 }
 
 }  // namespace mortise

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 
+#include "base/parallel.hpp"
 #include "base/vectors.hpp"
 #include "contact/projection.hpp"
 #include "fem/edges.hpp"
+#include "mesh/box_index.hpp"
 
 namespace mortise {
 namespace {
@@ -51,15 +54,6 @@ std::vector<Vertex> vertices_of(const Curve& curve) {
   if (!curve.closed) list.push_back({curve.edges.back().nodes[1], count - 1, -1});
   return list;
 }
-
-// What a body is at a point of its contact line.
-struct Corner {
-  Wedge wedge;
-  bool end;          // its curve does not go on
-  double edge;       // length of the longest one of its curve there
-  double error = 0;  // of the angle
-  int node = -1;     // of its vertex; -1 where it has none there
-};
 
 // One of the two curves with the line that it stands for.
 struct LineSide {
@@ -200,33 +194,80 @@ double log_amplitude(const Wedge& a, const Wedge& b, double jump) {
   return 2 * std::abs(jump) / (a.compliance() + b.compliance());
 }
 
-// `given_slope`: of the gap away from an end, beside that of the curves. The position is left to the caller.
-SingularPoint singular_point(const std::array<Corner, 2>& corners, bool on_both_sides, bool one_curve,
-                             double given_slope, TipTable& tips) {
-  const auto& [a, b] = corners;
-  SingularPoint point{Vec2::Zero(), std::max(a.edge, b.edge), 1, 1, meeting_of(a, b, one_curve), {a.wedge, b.wedge}};
+// A joint of a fan of sliding ones.
+struct FanJoint {
+  Fan fan;
+  std::size_t joint;
+};
+
+// All bodies in contact at a place, each with the next, from one whose first face is free of contact, and the joint of
+// the place's own two. Nothing where they are all.
+std::optional<FanJoint> fan_at(const ContactPlace& place, const std::vector<const ContactPlace*>& all) {
+  struct Next {
+    int body;
+    const Corner *before, *after;
+  };
+  std::map<int, Next> next;
+  std::map<int, int> previous;
+  for (const ContactPlace* at : all)
+    for (const int k : {0, 1}) {
+      if (!at->joined[k] || at->soft) continue;
+      const int body = at->bodies[k], other = at->bodies[1 - k];
+      const auto after = next.try_emplace(body, other, &at->corners[k], &at->corners[1 - k]).first;
+      const auto before = previous.try_emplace(other, body).first;
+      if (after->second.body != other || before->second != body) return {};  // a body that is there twice
+    }
+  if (place.soft || next.size() < 2) return {};
+  const int own = place.bodies[place.joined[0] ? 0 : 1];
+  int start = own;
+  for (auto at = previous.find(start); at != previous.end() && at->second != own; at = previous.find(start))
+    start = at->second;
+  FanJoint found{};
+  for (int body = start; next.contains(body);) {
+    const auto& [other, before, after] = next.at(body);
+    if (body == own) found.joint = found.fan.joints.size();
+    if (body == start) {
+      found.fan.wedges.push_back(before->wedge);
+      found.fan.first = before->wedge.outer;
+    }
+    found.fan.joints.push_back(Joint::sliding);
+    if (other == start) break;
+    found.fan.wedges.push_back(after->wedge);
+    found.fan.last = after->wedge.outer;
+    body = other;
+  }
+  if (found.fan.wedges.size() < 3) return {};
+  return found;
+}
+
+SingularPoint singular_point(const ContactPlace& place, const std::optional<FanJoint>& several, TipTable& tips) {
+  const auto& [a, b] = place.corners;
+  SingularPoint point{place.position,    std::max(a.edge, b.edge), 1, 1, meeting_of(a, b, place.one_curve),
+                      {a.wedge, b.wedge}};
   auto& [first, second] = point.wedges;
   TipExponents found;
   double jump = 0, given_jump = 0;
-  if (point.meeting == Meeting::kink) {
+  if (several) {
+    found = tips.find(several->fan, several->joint);
+  } else if (point.meeting == Meeting::kink) {
     fit_kink(first, second);
     if (const double turn = std::abs(first.angle - straight); turn > least_shared_kink)
-      found = tips.kinks(first, second);
+      found = tips.find(kink_fan(first, second), 0);
     else
       point.small_turn = turn;
-  } else if (!a.end && !b.end && on_both_sides) {
-    found = tips.ends(half_of(first), half_of(second));
+  } else if (!a.end && !b.end && place.joined[0] && place.joined[1]) {
+    found = tips.find(end_fan(half_of(first), half_of(second)), 0);
     jump = 2 * straight - first.angle - second.angle;
   } else {
-    found = tips.ends(first, second);
+    found = tips.find(end_fan(first, second), 0);
     if (a.end && b.end && first.outer == Face::symmetric && second.outer == Face::symmetric) {
       jump = 2 * (straight - first.angle - second.angle);
-      given_jump = 2 * given_slope;
+      given_jump = 2 * place.given_slope;
     }
   }
   if (found.stress.real() <= singular_limit) point.exponent = found.stress.real();
   if (found.pressure.real() <= singular_limit) point.pressure_exponent = found.pressure.real();
-  if (one_curve || std::abs(jump) <= 2 * (a.error + b.error)) jump = 0;
+  if (place.one_curve || std::abs(jump) <= 2 * (a.error + b.error)) jump = 0;
   if (point.pressure_exponent == 1) point.log_pressure = log_amplitude(first, second, jump + given_jump);
   if (point.exponent == 1 && point.log_pressure == 0 && (a.end || b.end))
     point.small_power = found.pressure.real() < 1 ? found.pressure.real() - 1 : found.falling - 1;
@@ -235,17 +276,18 @@ SingularPoint singular_point(const std::array<Corner, 2>& corners, bool on_both_
 
 // The tip of a crack whose faces touch: modes that slide press nothing between bodies that are alike; between others p
 // has no limit either (Comninou 1977).
-SingularPoint crack_tip(const Corner& a, const Corner& b) {
+SingularPoint crack_tip(const ContactPlace& place) {
+  const auto& [a, b] = place.corners;
   const bool alike = a.wedge.shear == b.wedge.shear && a.wedge.kolosov == b.wedge.kolosov;
-  return {Vec2::Zero(), std::max(a.edge, b.edge), 0.5, alike ? 1 : 0.5, Meeting::tip, {a.wedge, b.wedge}};
+  return {place.position, std::max(a.edge, b.edge), 0.5, alike ? 1 : 0.5, Meeting::tip, {a.wedge, b.wedge}};
 }
 
 }  // namespace
 
-std::vector<SingularPoint> singular_points(const Surroundings& around, const Curve& first, const Curve& second,
-                                           const ContactReach& reach, const GivenGap& given) {
+std::vector<ContactPlace> contact_places(const Surroundings& around, const Curve& first, const Curve& second,
+                                         const ContactReach& reach, const GivenGap& given) {
   const LineSide sides[] = {{around, first}, {around, second}};
-  std::vector<SingularPoint> points;
+  std::vector<ContactPlace> places;
   std::vector<int> seen;  // vertices of the second curve that face one of the first
   for (const int k : {0, 1}) {
     const std::vector<Vertex> vertices = vertices_of(sides[k].curve);
@@ -257,18 +299,43 @@ std::vector<SingularPoint> singular_points(const Surroundings& around, const Cur
       const auto opposite = facing(sides[k], v, sides[1 - k]);
       if (!opposite) continue;
       if (k == 0) seen.push_back(opposite->node);
-      const bool both = at.before && at.after;
-      const double slope = k == 0 && v.is_end() ? given.end_slopes[i == 0 ? 0 : 1] : 0;
-      std::array<Corner, 2> corners{sides[k].corner(v), *opposite};
-      if (k == 1) std::swap(corners[0], corners[1]);
-      const bool is_tip = corners[0].node >= 0 && corners[0].node == corners[1].node;
-      SingularPoint point = is_tip ? crack_tip(corners[0], corners[1])
-                                   : singular_point(corners, both, given.one_curve, slope, around.tips);
-      point.position = sides[k].position(v);
-      if (point.exponent <= singular_limit || point.log_pressure > 0 || point.small_power != 0 || point.small_turn > 0)
-        points.push_back(point);
+      ContactPlace place{.position = sides[k].position(v),
+                         .bodies = {first.body, second.body},
+                         .corners = {sides[k].corner(v), *opposite},
+                         .joined = {at.before && v.before >= 0, at.after && v.after >= 0},
+                         .one_curve = given.one_curve,
+                         .given_slope = k == 0 && v.is_end() ? given.end_slopes[i == 0 ? 0 : 1] : 0};
+      if (k == 1) {
+        std::swap(place.corners[0], place.corners[1]);
+        std::swap(place.joined[0], place.joined[1]);
+      }
+      places.push_back(place);
     }
   }
+  return places;
+}
+
+std::vector<std::vector<SingularPoint>> singular_points(const std::vector<std::vector<ContactPlace>>& of_pairs,
+                                                        TipTable& tips, int threads) {
+  std::vector<const ContactPlace*> all;
+  std::vector<Box> boxes;
+  for (const auto& places : of_pairs)
+    for (const ContactPlace& place : places) {
+      const Vec2 near = Vec2::Constant(at_one_place * std::max(place.corners[0].edge, place.corners[1].edge));
+      all.push_back(&place);
+      boxes.emplace_back(place.position - near, place.position + near);
+    }
+  const BoxIndex index(boxes);
+  std::vector<std::vector<SingularPoint>> points(of_pairs.size());
+  for_each_index(of_pairs.size(), threads, [&](std::size_t k) {
+    for (const ContactPlace& place : of_pairs[k]) {
+      std::vector<const ContactPlace*> here;
+      for (const int i : index.meeting(Box(place.position))) here.push_back(all[i]);
+      const SingularPoint point = place.is_tip() ? crack_tip(place) : singular_point(place, fan_at(place, here), tips);
+      if (point.exponent <= singular_limit || point.log_pressure > 0 || point.small_power != 0 || point.small_turn > 0)
+        points[k].push_back(point);
+    }
+  });
   return points;
 }
 

@@ -55,16 +55,45 @@ struct GivenGap {
   bool operator==(const GivenGap&) const = default;
 };
 
-/// Both bodies as wedges at each place that contact reaches, however far from each other they are drawn
-/// (contact/williams.hpp): their angles from the curves that the edges stand for and, at an end, the edge of the body's
-/// boundary beyond it, whose prescribed displacements say what holds it. A body whose curve goes on there is a straight
-/// wedge, or one of its kink's angle, free beyond. Kinks of both curves are one where their angles add up to 2 pi, as
-/// they do where the drawn curves coincide, or where `given` says that both are meant to: the bodies then share
-/// both faces, the exponent is the smallest of all modes, and a load that is symmetric about the bisector does not
-/// excite the antisymmetric ones. Else the slope of the gap jumps there: where contact is closed on both sides the
-/// bodies share both faces as those of a symmetric load do, elsewhere one; so it does at an end on a line of symmetry
-/// from which a given gap rises or falls. As if contact were closed.
-std::vector<SingularPoint> singular_points(const Surroundings& around, const Curve& first, const Curve& second,
-                                           const ContactReach& reach, const GivenGap& given = {});
+/// What a body is at a point of its contact line.
+struct Corner {
+  Wedge wedge;
+  bool end;          ///< its curve does not go on
+  double edge;       ///< length of the longest one of its curve there
+  double error = 0;  ///< of the angle, radians
+  int node = -1;     ///< of its vertex; -1 where it has none there
+};
+
+/// A kink or an end of either curve of a pair that contact reaches.
+struct ContactPlace {
+  Vec2 position;
+  std::array<int, 2> bodies;      ///< of the first and the second curve
+  std::array<Corner, 2> corners;  ///< of both bodies
+  /// Whether contact is closed between the first body's last face (Fan) and the second one's first, and between the
+  /// second body's last face and the first one's first.
+  std::array<bool, 2> joined;
+  bool one_curve;      ///< both curves are meant to be one
+  double given_slope;  ///< of a given gap away from the place
+  bool soft = false;   ///< what is between both holds no face: they are no part of what is rigid in contact
+
+  /// Whether it is the tip of a crack, whose faces both curves are.
+  bool is_tip() const { return corners[0].node >= 0 && corners[0].node == corners[1].node; }
+};
+
+/// Those of one pair, however far from each other both curves are drawn. The wedges' angles are from the curves that
+/// the edges stand for and, at an end, from the edge of the body's boundary beyond it, whose prescribed displacements
+/// say what holds it. A body whose curve goes on there is a straight wedge, or one of its kink's angle, free beyond.
+std::vector<ContactPlace> contact_places(const Surroundings& around, const Curve& first, const Curve& second,
+                                         const ContactReach& reach, const GivenGap& given = {});
+
+/// Of each pair those of its places at which a stress is singular, by the bodies as wedges (contact/williams.hpp).
+/// Where pairs have a place in common, all bodies in contact there are one fan. Kinks of both curves of a pair are one
+/// where their angles add up to 2 pi, as they do where the drawn curves coincide, or where `one_curve` says that both
+/// are meant to: the bodies then share both faces, the exponent is the smallest of all modes, and a load that is
+/// symmetric about the bisector does not excite the antisymmetric ones. Else the slope of the gap jumps there: where
+/// contact is closed on both sides the bodies share both faces as those of a symmetric load do, elsewhere one; so it
+/// does at an end on a line of symmetry from which a given gap rises or falls. As if contact were closed.
+std::vector<std::vector<SingularPoint>> singular_points(const std::vector<std::vector<ContactPlace>>& of_pairs,
+                                                        TipTable& tips, int threads = 1);
 
 }  // namespace mortise

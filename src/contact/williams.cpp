@@ -1,6 +1,7 @@
 #include "contact/williams.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -47,37 +48,57 @@ Rows rows_of(Face face, Complex lambda, double theta, double kappa) {
   return rows;
 }
 
-Complex determinant(const Rows& a, const Rows& b) {
-  Eigen::Matrix<Complex, 4, 4> all;
-  all << a, b;
-  return all.determinant();
+using Matrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
+
+// Eq. (43), or of a bonded joint: the four rows on the wedges before and after it; displacements in those of the softer
+// one, so that all rows are of one size.
+void set_joint(Joint joint, const Wedge& before, const Wedge& after, Complex lambda, Eigen::Ref<Matrix> of_before,
+               Eigen::Ref<Matrix> of_after) {
+  const double soft = std::min(before.shear, after.shear);
+  const auto u = [&](const Wedge& w, double theta) {
+    return Rows(soft / w.shear * rows_of(Face::clamped, lambda, theta, w.kolosov));
+  };
+  const Rows t = rows_of(Face::free, lambda, before.angle, before.kolosov),
+             t_after = rows_of(Face::free, lambda, 0, after.kolosov);
+  if (joint == Joint::bonded) {
+    of_before << u(before, before.angle), t;
+    of_after << -u(after, 0), -t_after;
+  } else {
+    of_before << u(before, before.angle).row(1), t.row(0), t.row(1), Rows::Zero().row(0);
+    of_after << -u(after, 0).row(1), -t_after.row(0), Rows::Zero().row(0), t_after.row(1);
+  }
 }
 
-// Of a wedge whose other face, in contact, slides along a rigid wall or is free: zero where it has a mode of its own.
-// On that face (sigma_rtheta = 0) sigma_thetatheta : 2 mu u_theta / (kappa + 1) = free : wall.
-struct Response {
-  Complex wall, free;
-  double size;  // bound of both (Hadamard)
-};
-
-Response response(const Wedge& w, Complex lambda) {
-  const Rows outer = rows_of(w.outer, lambda, w.angle, w.kolosov),
-             wall = rows_of(Face::symmetric, lambda, 0, w.kolosov), free = rows_of(Face::free, lambda, 0, w.kolosov);
-  return {determinant(outer, wall), determinant(outer, free),
-          outer.rowwise().norm().prod() * free.rowwise().norm().prod()};
+// Eq. (44): the conditions on A, B, C, D of all wedges, singular where the fan has a mode.
+Matrix conditions(const Fan& fan, Complex lambda) {
+  const Eigen::Index count = Eigen::Index(fan.wedges.size());
+  Matrix all = Matrix::Zero(4 * count, 4 * count);
+  for (std::size_t i = 0; i < fan.joints.size(); ++i) {
+    const std::size_t next = (i + 1) % fan.wedges.size();
+    Matrix before(4, 4), after(4, 4);
+    set_joint(fan.joints[i], fan.wedges[i], fan.wedges[next], lambda, before, after);
+    all.block(4 * i, 4 * i, 4, 4) += before;
+    all.block(4 * i, 4 * next, 4, 4) += after;
+  }
+  if (fan.joints.size() < fan.wedges.size()) {
+    const Wedge& last = fan.wedges.back();
+    all.block(4 * count - 4, 0, 2, 4) = rows_of(fan.first, lambda, 0, fan.wedges[0].kolosov);
+    all.block(4 * count - 2, 4 * count - 4, 2, 4) += rows_of(fan.last, lambda, last.angle, last.kolosov);
+  }
+  return all;
 }
 
-// Eq. (44): equal sigma_thetatheta on both sides, opposite u_theta.
-Complex matching(const Wedge& a, const Wedge& b, Complex lambda) {
-  const Response ra = response(a, lambda), rb = response(b, lambda);
-  const double ca = a.compliance(), cb = b.compliance();
-  return (ca * ra.wall * rb.free + cb * rb.wall * ra.free) / (ca + cb);
-}
-
-// A mode in which either wedge has sigma_thetatheta = 0 on the face in contact has it on both sides.
-bool loads_contact(const Wedge& a, const Wedge& b, Complex lambda) {
-  const Response ra = response(a, lambda), rb = response(b, lambda);
-  return std::abs(ra.free) > 1e-7 * ra.size && std::abs(rb.free) > 1e-7 * rb.size;
+// Whether a mode at lambda presses on a joint: what is smaller is round-off of a zero that is found to 1e-7.
+bool loads(const Fan& fan, std::size_t joint, Complex lambda) {
+  constexpr double least = 1e-6;
+  const Eigen::JacobiSVD<Matrix> svd(conditions(fan, lambda), Eigen::ComputeFullV);
+  const Eigen::Index size = svd.cols();
+  const VecX values = svd.singularValues();
+  Eigen::Index modes = 1;
+  while (modes < size && values(size - 1 - modes) < least * values(0)) ++modes;
+  const Wedge& w = fan.wedges[joint];
+  const Eigen::Matrix<Complex, 1, 4> pressure = rows_of(Face::free, lambda, w.angle, w.kolosov).row(0);
+  return (pressure * svd.matrixV().block(4 * joint, size - modes, 4, modes)).norm() > least * pressure.norm();
 }
 
 // How far arg f turns on the way from one place to another. Steps are short beside the distance to the zeros at 0 and
@@ -140,41 +161,11 @@ std::optional<Complex> next_zero(const Function& f, double begin) {
   return Complex(std::clamp(z.real(), begin, end), std::abs(z.imag()) < 1e-8 ? 0 : std::abs(z.imag()));
 }
 
-Wedge half_of(Wedge w, Face bisector) {
-  w.angle /= 2;
-  w.outer = bisector;
-  return w;
-}
-
-using Matrix4 = Eigen::Matrix<Complex, 4, 4>;
-
-// What neighbours have in common along a ray: u_r, u_theta, sigma_thetatheta, sigma_rtheta, of A, B, C, D.
-Matrix4 state(const Wedge& w, Complex lambda, double theta) {
-  Matrix4 rows;
-  rows << rows_of(Face::clamped, lambda, theta, w.kolosov) / w.shear, rows_of(Face::free, lambda, theta, w.kolosov);
-  return rows;
-}
-
-// From A, B, C, D of the first wedge to those of the last. The state at theta = 0 can be inverted but for lambda = -1.
-Matrix4 transfer(std::span<const Wedge> wedges, Complex lambda) {
-  Matrix4 all = Matrix4::Identity();
-  for (std::size_t i = 0; i + 1 < wedges.size(); ++i)
-    all = state(wedges[i + 1], lambda, 0).inverse() * state(wedges[i], lambda, wedges[i].angle) * all;
-  return all;
-}
-
-// Stiffnesses over that of the first: only their ratios count.
-std::vector<Wedge> relative(std::span<const Wedge> wedges) {
-  std::vector<Wedge> list(wedges.begin(), wedges.end());
-  for (Wedge& w : list) w.shear /= wedges[0].shear;
-  return list;
-}
-
 // The least real exponent above a regular one, of a mode that loads the contact: of faces that meet at other than right
 // angles p = 0 at the very end, if neither shear nor the free face leaves anything else.
-double falling_exponent(const Wedge& a, const Wedge& b) {
+double falling_exponent(const Fan& fan, std::size_t joint) {
   constexpr double begin = 2 - regular_exponent, step = 0.01;
-  const auto f = [&](double lambda) { return matching(a, b, lambda).real(); };
+  const auto f = [&](double lambda) { return conditions(fan, lambda).determinant().real(); };
   for (double left = begin, right; left < falling_limit; left = right) {
     right = std::min(left + step, falling_limit);
     const double at_left = f(left);
@@ -184,12 +175,21 @@ double falling_exponent(const Wedge& a, const Wedge& b) {
       const double middle = (low + high) / 2;
       (at_left * f(middle) < 0 ? high : low) = middle;
     }
-    if (loads_contact(a, b, low)) return low;
+    if (loads(fan, joint, low)) return low;
   }
   return 1;
 }
 
-bool lower(Complex a, Complex b) { return a.real() < b.real(); }
+// What is alike makes one key, the angles as whoever comes first has them.
+std::vector<double> key_of(Fan& fan, std::optional<std::size_t> joint) {
+  std::vector<double> key{joint ? double(*joint) : -1, double(fan.first), double(fan.last)};
+  for (const Joint of_two : fan.joints) key.push_back(double(of_two));
+  for (Wedge& w : fan.wedges) {
+    w.angle = 1e-10 * std::round(1e10 * w.angle);
+    key.insert(key.end(), {w.angle, w.shear / fan.wedges[0].shear, w.kolosov});
+  }
+  return key;
+}
 
 }  // namespace
 
@@ -198,94 +198,33 @@ Wedge wedge(double angle, const ElasticLaw& law, Face outer) {
   return {angle, mu, (coupling + 3 * mu) / (coupling + mu), outer};
 }
 
-Complex wedge_exponent(const Wedge& w, Face other) {
-  const Function f = [&](Complex lambda) {
-    return determinant(rows_of(w.outer, lambda, w.angle, w.kolosov), rows_of(other, lambda, 0, w.kolosov));
-  };
-  return next_zero(f, first_exponent).value_or(1);
-}
+Fan end_fan(const Wedge& a, const Wedge& b) { return {{a, b}, {Joint::sliding}, a.outer, b.outer}; }
 
-std::complex<double> bonded_exponent(std::span<const Wedge> bonded, Face first, Face last) {
-  const std::vector<Wedge> wedges = relative(bonded);
-  const Wedge& end = wedges.back();
-  const Function f = [&](Complex lambda) {
-    const Rows at_last = rows_of(last, lambda, end.angle, end.kolosov) * transfer(wedges, lambda);
-    return determinant(at_last, rows_of(first, lambda, 0, wedges[0].kolosov));
-  };
-  return next_zero(f, first_exponent).value_or(1);
-}
+Fan kink_fan(const Wedge& a, const Wedge& b) { return {{a, b}, {Joint::sliding, Joint::sliding}}; }
 
-std::complex<double> bonded_exponent_inside(std::span<const Wedge> bonded) {
-  const std::vector<Wedge> wedges = relative(bonded);
-  const Function f = [&](Complex lambda) {
-    const Matrix4 around = state(wedges.back(), lambda, wedges.back().angle) * transfer(wedges, lambda);
-    return (around - state(wedges[0], lambda, 0)).determinant();
-  };
-  return next_zero(f, first_exponent).value_or(1);
-}
-
-TipExponents end_exponents(const Wedge& a, const Wedge& b) {
-  const Function f = [&](Complex lambda) { return matching(a, b, lambda); };
+TipExponents exponents(const Fan& fan, std::optional<std::size_t> joint) {
+  const Function f = [&](Complex lambda) { return conditions(fan, lambda).determinant(); };
   TipExponents found;
   for (auto zero = next_zero(f, first_exponent); zero; zero = next_zero(f, zero->real() + 1e-6)) {
     if (found.stress == 1.0) found.stress = *zero;
-    if (!loads_contact(a, b, *zero)) continue;
-    found.pressure = *zero;
+    if (joint && !loads(fan, *joint, *zero)) continue;
+    if (joint) found.pressure = *zero;
     break;
   }
-  if (found.stress == 1.0) found.falling = falling_exponent(a, b);
+  if (joint && found.stress == 1.0) found.falling = falling_exponent(fan, *joint);
   return found;
 }
 
-TipExponents kink_exponents(const Wedge& a, const Wedge& b, Face bisector) {
-  return end_exponents(half_of(a, bisector), half_of(b, bisector));
-}
-
-TipExponents kink_exponents(const Wedge& a, const Wedge& b) {
-  const TipExponents s = kink_exponents(a, b, Face::symmetric), t = kink_exponents(a, b, Face::antisymmetric);
-  return {std::min(s.stress, t.stress, lower), std::min(s.pressure, t.pressure, lower)};
-}
-
-TipExponents TipTable::find(bool kink, Wedge a, Wedge b) {
-  for (Wedge* w : {&a, &b}) w->angle = 1e-10 * std::round(1e10 * w->angle);  // whoever comes first
-  const Key key{kink, a.angle, a.shear, a.kolosov, a.outer, b.angle, b.shear, b.kolosov, b.outer};
+TipExponents TipTable::find(const Fan& asked, std::optional<std::size_t> joint) {
+  Fan fan = asked;
+  const std::vector<double> key = key_of(fan, joint);
   {
     const std::lock_guard lock(mutex_);
     if (const auto at = known_.find(key); at != known_.end()) return at->second;
   }
-  const TipExponents found = kink ? kink_exponents(a, b) : end_exponents(a, b);
+  const TipExponents found = exponents(fan, joint);
   const std::lock_guard lock(mutex_);
   return known_.emplace(key, found).first->second;
 }
-
-template <typename Find>
-double TipTable::find_corner(const std::vector<Wedge>& wedges, double first, double last, const Find& find) {
-  std::vector<double> key{first, last};
-  for (const Wedge& w : wedges) key.insert(key.end(), {w.angle, w.shear / wedges[0].shear, w.kolosov});
-  {
-    const std::lock_guard lock(mutex_);
-    if (const auto at = known_corners_.find(key); at != known_corners_.end()) return at->second;
-  }
-  const double found = find().real();
-  const std::lock_guard lock(mutex_);
-  return known_corners_.emplace(key, found).first->second;
-}
-
-double TipTable::corner(const std::vector<Wedge>& wedges, Face first, Face last) {
-  return find_corner(wedges, double(first), double(last), [&]() -> Complex {
-    if (wedges.size() > 1) return bonded_exponent(wedges, first, last);
-    Wedge one = wedges[0];
-    one.outer = last;
-    return wedge_exponent(one, first);
-  });
-}
-
-double TipTable::inside(const std::vector<Wedge>& wedges) {
-  return find_corner(wedges, -1, -1, [&] { return bonded_exponent_inside(wedges); });
-}
-
-TipExponents TipTable::ends(const Wedge& a, const Wedge& b) { return find(false, a, b); }
-
-TipExponents TipTable::kinks(const Wedge& a, const Wedge& b) { return find(true, a, b); }
 
 }  // namespace mortise

@@ -119,7 +119,6 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
   const double round_off = round_off_pressure(p.mesh, p.pairs, d.system.stiffness_scale, largest_entry(solution.u));
   std::vector<PressureEstimate> list(p.pairs.size());
   reached.resize(p.pairs.size());
-  const Surroundings around = memory.around(p);
   for_each_index(p.pairs.size(), solver_threads(), [&](std::size_t k) {
     PressureEstimate& e = list[k];
     const ContactPair& pair = p.pairs[k];
@@ -130,14 +129,19 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
     add_gap_error(e.line, gap_error(pair, d.laws, e.line), e.local);
     e.windows = pressure_windows(pair, e.line);
     reached[k] = contact_reach(p.mesh, pair, e.line, options.found);
+  });
+  const std::vector<std::vector<SingularPoint>> points = memory.points(p, reached);
+  for_each_index(p.pairs.size(), solver_threads(), [&](std::size_t k) {
+    PressureEstimate& e = list[k];
+    const ContactPair& pair = p.pairs[k];
     if (!pair.spec.stiffness)  // p is no larger than k times the overlap
-      e.singular = that_count(memory.points(around, pair, k, reached[k]), e.line, spec.value);
+      e.singular = that_count(points[k], e.line, spec.value);
     forget_borders(swinging(e), e.local);
     add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
     const double modulus = contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]);
     if (pair.spec.stiffness) {
-      add_layer_ends(e.line, memory.points(around, pair, k, reached[k]), *pair.spec.stiffness, modulus, e.local);
+      add_layer_ends(e.line, points[k], *pair.spec.stiffness, modulus, e.local);
     } else {
       judge_small_kinks(pair, modulus, solution.u, spec.value, e);
       add_curvature_jumps(p.mesh.nodes, pair, modulus, solution.u, reached[k][0], e);

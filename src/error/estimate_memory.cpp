@@ -1,6 +1,8 @@
 #include "error/estimate_memory.hpp"
 
+#include "base/parallel.hpp"
 #include "contact/gap_cuts.hpp"
+#include "solve/threads.hpp"
 
 namespace mortise {
 
@@ -11,9 +13,10 @@ void EstimateMemory::keep_for(const Problem& p) {
     corners_.reset();
     exponents_.clear();
     statics_.reset();
-    points_.clear();
+    known_.clear();
   }
-  points_.resize(p.pairs.size());
+  known_.resize(p.pairs.size());
+  places_.resize(p.pairs.size());
 }
 
 Surroundings EstimateMemory::around(const Problem& p) {
@@ -38,15 +41,20 @@ double EstimateMemory::exponent_at(const Problem& p, int node, int body) {
   return known->second;
 }
 
-const std::vector<SingularPoint>& EstimateMemory::points(const Surroundings& around, const ContactPair& pair,
-                                                         std::size_t k, const ContactReach& reach) {
-  std::optional<KnownPoints>& known = points_[k];
-  const bool one_curve = pair.spec.initial_gap == InitialGap::closed || pair.spec.initial_gap == InitialGap::given;
-  const GivenGap given{.one_curve = one_curve,
-                       .end_slopes = gap_slopes_at_ends(around.mesh.nodes, pair.multiplier, pair.geometry)};
-  if (!known || known->reach != reach || known->given != given)
-    known = {reach, given, singular_points(around, pair.multiplier, pair.opposite, reach, given)};
-  return known->points;
+std::vector<std::vector<SingularPoint>> EstimateMemory::points(const Problem& p,
+                                                               const std::vector<ContactReach>& reached) {
+  const Surroundings of = around(p);
+  for_each_index(p.pairs.size(), solver_threads(), [&](std::size_t k) {
+    const ContactPair& pair = p.pairs[k];
+    const bool one_curve = pair.spec.initial_gap == InitialGap::closed || pair.spec.initial_gap == InitialGap::given;
+    const GivenGap given{.one_curve = one_curve,
+                         .end_slopes = gap_slopes_at_ends(of.mesh.nodes, pair.multiplier, pair.geometry)};
+    if (known_[k] && known_[k]->reach == reached[k] && known_[k]->given == given) return;
+    known_[k] = {reached[k], given};
+    places_[k] = contact_places(of, pair.multiplier, pair.opposite, reached[k], given);
+    for (ContactPlace& place : places_[k]) place.soft = pair.spec.stiffness.has_value();
+  });
+  return singular_points(places_, tips_, solver_threads());
 }
 
 }  // namespace mortise

@@ -26,15 +26,13 @@ class EstimateMemory {
   const Statics& statics(const Problem& problem);
   /// As corner_exponent.
   double exponent_at(const Problem& problem, int node, int body);
-  /// Of pair k, found again where contact reaches other vertices or the gap is another. Of several pairs at once.
-  const std::vector<SingularPoint>& points(const Surroundings& around, const ContactPair& pair, std::size_t k,
-                                           const ContactReach& reach);
+  /// Of each pair; its places are found again where contact reaches other vertices or the gap is another.
+  std::vector<std::vector<SingularPoint>> points(const Problem& problem, const std::vector<ContactReach>& reached);
 
  private:
-  struct KnownPoints {
+  struct KnownPlaces {
     ContactReach reach;
     GivenGap given;
-    std::vector<SingularPoint> points;
   };
   TipTable tips_;
   std::optional<SideTable> sides_;
@@ -42,7 +40,8 @@ class EstimateMemory {
   std::optional<std::vector<BodyCorner>> corners_;
   std::map<std::pair<int, int>, double> exponents_;  // of node and body
   std::optional<Statics> statics_;
-  std::vector<std::optional<KnownPoints>> points_;  // of each pair
+  std::vector<std::optional<KnownPlaces>> known_;  // of each pair
+  std::vector<std::vector<ContactPlace>> places_;
 };
 
 }  // namespace mortise

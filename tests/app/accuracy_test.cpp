@@ -620,5 +620,27 @@ TEST(Accuracy, OfARivetedJointHasAnActiveSetOnEachMesh) {
   for (const auto& solve : r->accuracy->solves) EXPECT_TRUE(std::isfinite(solve.estimated));
 }
 
+// Of two of them the exponents are others than those of the three that meet.
+TEST(Accuracy, OfABlockOnTwoKnowsThePowerOfAllThreeBodies) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(0.25, 0.95), power(-1, 1);
+  int unbounded = 0;
+  for (int k = 0; k < 4; ++k) {
+    std::vector<Override> drawn{{"accuracy.value", "0.3%"}, {"accuracy.solves_max", "5"}};
+    for (const char* end : {"bottom", "top"})
+      drawn.push_back({std::string("mesh.parameters.") + end, std::to_string(k == 0 ? 0.6 : place(random))});
+    for (const char* body : {"left", "right", "block"})
+      drawn.push_back(
+          {std::string("materials.") + body + ".young", std::to_string(30e9 * std::pow(10, power(random)))});
+    const auto r =
+        solve_to_accuracy(read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/block_on_two.toml", drawn));
+    ASSERT_TRUE(r) << k;
+    EXPECT_EQ(r->status, Status::solved) << k;
+    for (const SingularPoint& point : r->estimate->pressures[0].singular)
+      unbounded += point.is_unbounded() && point.position.y() > 0.5;
+  }
+  EXPECT_GE(unbounded, 2);
+}
+
 }  // namespace
 }  // namespace mortise::test

@@ -6,9 +6,14 @@
 #include <numbers>
 
 #include "support/two_plates.hpp"
+#include "support/wedges.hpp"
 
 namespace mortise {
 namespace {
+
+using test::bonded_exponent;
+using test::bonded_exponent_inside;
+using test::wedge_exponent;
 
 constexpr double degree = std::numbers::pi / 180;
 const ElasticLaw steel = elastic_law(210e9, 0.3, {Plane::strain});

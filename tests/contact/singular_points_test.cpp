@@ -14,6 +14,7 @@
 #include "gmsh/load_mesh.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/two_plates.hpp"
+#include "support/wedges.hpp"
 
 namespace mortise {
 namespace {
@@ -23,7 +24,15 @@ ContactReach reached_everywhere(const Curve& first, const Curve& second) {
           std::vector<Reach>(second.edges.size() + 1, {true, true})};
 }
 
+using test::end_exponents;
+using test::kink_exponents;
 using test::TwoPlates;
+using test::wedge_exponent;
+
+std::vector<SingularPoint> points_of_pair(const Surroundings& around, const Curve& first, const Curve& second,
+                                          const ContactReach& reach) {
+  return singular_points({contact_places(around, first, second, reach)}, around.tips)[0];
+}
 
 constexpr double deg = std::numbers::pi / 180;
 
@@ -41,8 +50,8 @@ std::vector<SingularPoint> points_of(const TwoPlates& plates, const Sides& held)
   TipTable tips;
   const Curve lower = contact_curve(mesh, boundary_index(mesh, "lower_contact")),
               upper = contact_curve(mesh, boundary_index(mesh, "upper_contact"));
-  return singular_points({mesh, SideTable(mesh), constraints, laws, tips}, lower, upper,
-                         reached_everywhere(lower, upper));
+  return points_of_pair({mesh, SideTable(mesh), constraints, laws, tips}, lower, upper,
+                        reached_everywhere(lower, upper));
 }
 
 const std::vector<std::string> all_sides{"upper_left", "upper_right", "lower_left", "lower_right"};
@@ -104,8 +113,8 @@ TEST(SingularPoints, AnEndWithinTheOthersEdgeIsNoMeetingOfCorners) {
     for (const int node : of_upper) mesh.nodes(node, 0) += edges * 0.1;
     const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
     TipTable tips;
-    const auto points = singular_points({mesh, SideTable(mesh), no_constraints(mesh), laws, tips}, lower, upper,
-                                        reached_everywhere(lower, upper));
+    const auto points = points_of_pair({mesh, SideTable(mesh), no_constraints(mesh), laws, tips}, lower, upper,
+                                       reached_everywhere(lower, upper));
     const auto end = std::ranges::find_if(
         points, [&](const SingularPoint& p) { return std::abs(p.position.x() - edges * 0.1) < 1e-12; });
     ASSERT_NE(end, points.end()) << edges;
@@ -154,7 +163,7 @@ TEST(SingularPoints, AreNotMadeByRoundOffOfDrawnArcs) {
       reach[curves.size() - 1] = reached;
     }
     const auto points =
-        singular_points({mesh, SideTable(mesh), no_constraints(mesh), laws, tips}, curves[0], curves[1], reach);
+        points_of_pair({mesh, SideTable(mesh), no_constraints(mesh), laws, tips}, curves[0], curves[1], reach);
     EXPECT_TRUE(points.empty()) << i << ": edges of " << scale << " times the plates'";
   }
 }
@@ -308,7 +317,7 @@ std::vector<Vec2> kinks_of(const FootFile& file, const DrawnFoot& foot) {
   reach[0].front() = reach[0].back() = {false, false};
   std::vector<Vec2> found;
   for (const SingularPoint& p :
-       singular_points({mesh, SideTable(mesh), no_constraints(mesh), laws, tips}, upper, lower, reach))
+       points_of_pair({mesh, SideTable(mesh), no_constraints(mesh), laws, tips}, upper, lower, reach))
     found.push_back(p.position);
   // Smooth within an edge, too: a circle is one polynomial to round-off of its centre.
   for (std::size_t e = 0; e < upper.samples.size() && foot.pieces.size() == 1; ++e)
@@ -416,7 +425,7 @@ std::vector<SingularPoint> points_of(const WedgeOnFlat& wedge, const std::vector
   ContactReach reach = reached_everywhere(lower, upper);
   for (Reach& at : reach[0]) at = {false, false};
   if (!upper_reach.empty()) reach[1] = upper_reach;
-  return singular_points({mesh, SideTable(mesh), constraints, laws, tips}, lower, upper, reach);
+  return points_of_pair({mesh, SideTable(mesh), constraints, laws, tips}, lower, upper, reach);
 }
 
 // Johnson (1985), section 5.2: p = E* slope / pi arccosh(a / x), whose logarithm has half of what a cone's has.
@@ -455,6 +464,53 @@ TEST(SingularPoints, AWedgesTipOnASymmetryLineIsOne) {
   ASSERT_FALSE(points.empty());
   EXPECT_NEAR(points[0].position.x(), 0, 1e-12);
   EXPECT_NEAR(points[0].log_pressure, 210e9 / (1 - 0.09) / 2 * 2 * std::atan(0.05) / 4, 1e-3 * points[0].log_pressure);
+}
+
+// ---- More than two bodies at a place ----
+
+// The faces of each body lie on those of its neighbours, all around or from a free face to another; each pair knows
+// its own two, as its first and second curve in either order, none at quite the same place.
+TEST(SingularPoints, OfSeveralBodiesAtAPlaceAreThoseOfAllThatAreInContact) {
+  std::mt19937 random(8);
+  TipTable tips;
+  for (int k = 0; k < 40; ++k) {
+    const int count = 3 + k % 3;
+    const bool closed = k % 2 == 0;
+    Fan fan{{}, std::vector<Joint>(count - (closed ? 0 : 1), Joint::sliding)};
+    double sum = 0;
+    for (int i = 0; i < count; ++i) {
+      const double young = draw_power(random, -1, 1), angle = draw(random, 40, 120) * deg;
+      sum += fan.wedges.emplace_back(wedge(angle, elastic_law(young, 0.3, {Plane::strain}))).angle;
+    }
+    for (Wedge& w : fan.wedges) w.angle *= (closed ? 1 : draw(random, 0.6, 1)) * 2 * straight / sum;
+    std::vector<std::vector<ContactPlace>> of_pairs;
+    for (int i = 0; i < int(fan.joints.size()); ++i) {
+      const int next = (i + 1) % count, first = int(random() % 2);
+      ContactPlace place{.position = {1e-3 * draw(random, -1, 1), 1e-3 * draw(random, -1, 1)},
+                         .bodies = {i, next},
+                         .corners = {Corner{fan.wedges[i], true, 0.1}, Corner{fan.wedges[next], true, 0.1}},
+                         .joined = {true, false},
+                         .one_curve = false,
+                         .given_slope = 0};
+      if (first == 1) {
+        std::swap(place.bodies[0], place.bodies[1]);
+        std::swap(place.corners[0], place.corners[1]);
+        std::swap(place.joined[0], place.joined[1]);
+      }
+      of_pairs.push_back({place});
+    }
+    std::vector<std::vector<ContactPlace>> soft = of_pairs;
+    soft[0][0].soft = true;
+    const auto points = singular_points(of_pairs, tips), beside_soft = singular_points(soft, tips);
+    for (std::size_t j = 0; j < fan.joints.size(); ++j) {
+      const TipExponents exact = exponents(fan, j);
+      const double of_all = exact.pressure.real() <= singular_limit ? exact.pressure.real() : 1;
+      EXPECT_NEAR(points[j].empty() ? 1 : points[j][0].pressure_exponent, of_all, 1e-6) << k << " " << j;
+    }
+    const double of_two = end_exponents(fan.wedges[0], fan.wedges[1]).pressure.real();
+    EXPECT_NEAR(beside_soft[0].empty() ? 1 : beside_soft[0][0].pressure_exponent, of_two <= singular_limit ? of_two : 1,
+                1e-6);
+  }
 }
 
 }  // namespace

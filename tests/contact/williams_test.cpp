@@ -9,9 +9,14 @@
 #include <optional>
 #include <random>
 
+#include "support/wedges.hpp"
+
 namespace mortise {
 namespace {
 
+using test::end_exponents;
+using test::kink_exponents;
+using test::wedge_exponent;
 using Complex = std::complex<double>;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 
@@ -92,10 +97,11 @@ TEST(Williams, ATableKeepsTipsApart) {
                                            {wedge_of(180), wedge_of(90)}};
   for (int again = 0; again < 2; ++again)
     for (const auto& [a, b] : asked)
-      EXPECT_NEAR(std::abs(tips.ends(a, b).stress - end_exponents(a, b).stress), 0, 1e-9);
-  EXPECT_EQ(tips.ends(asked[0].first, asked[0].second).stress, tips.ends(asked[1].first, asked[1].second).stress);
+      EXPECT_NEAR(std::abs(tips.find(end_fan(a, b), 0).stress - end_exponents(a, b).stress), 0, 1e-9);
+  EXPECT_EQ(tips.find(end_fan(asked[0].first, asked[0].second)).stress,
+            tips.find(end_fan(asked[1].first, asked[1].second)).stress);
   const Wedge a = wedge_of(100), b = wedge_of(260);
-  EXPECT_NEAR(std::abs(tips.kinks(a, b).stress - kink_exponents(a, b).stress), 0, 1e-9);
+  EXPECT_NEAR(std::abs(tips.find(kink_fan(a, b), 0).stress - kink_exponents(a, b).stress), 0, 1e-9);
 }
 
 TEST(Williams, QuarterPlanesThatMeetHaveNoneUnlessTheyAreClamped) {
@@ -213,9 +219,98 @@ TEST(Williams, ModesOfAKinkSatisfyTheConditionsOnBothFaces) {
         ASSERT_LT(lambda.real(), 1);
         EXPECT_EQ(lambda.imag(), 0);
         EXPECT_LE(residual(kink_conditions(a, b, lambda.real())), 1e-11) << turn;
-        EXPECT_LE(kink_exponents(a, b).stress.real(), lambda.real());
+        EXPECT_LE(kink_exponents(a, b).stress.real(), lambda.real() + 1e-9);
       }
   EXPECT_EQ(kink_exponents(wedge_of(180), wedge_of(180)).stress, 1.0);
+}
+
+// ---- Fans of several bodies ----
+
+// Wedges one after the other from theta = 0 up, each by potentials of its own.
+Eigen::MatrixXd fan_conditions(const Fan& fan, double lambda) {
+  const Eigen::Index count = Eigen::Index(fan.wedges.size());
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(4 * count, 4 * count);
+  Eigen::Index row = 0;
+  std::vector<double> begin{0};
+  for (const Wedge& w : fan.wedges) begin.push_back(begin.back() + w.angle);
+  for (std::size_t i = 0; i < fan.joints.size(); ++i) {
+    const std::size_t next = (i + 1) % fan.wedges.size();
+    const Fields a = fields(fan.wedges[i], lambda, begin[i + 1]), b = fields(fan.wedges[next], lambda, begin[next]);
+    M.block<1, 4>(row, 4 * i) = a.shear;
+    M.block<1, 4>(row + 1, 4 * next) = b.shear;
+    M.block<1, 4>(row + 2, 4 * i) = a.normal;
+    M.block<1, 4>(row + 2, 4 * next) = -b.normal;
+    M.block<1, 4>(row + 3, 4 * i) = a.ut;
+    M.block<1, 4>(row + 3, 4 * next) = -b.ut;
+    row += 4;
+  }
+  if (row == 4 * count) return M;
+  Wedge first = fan.wedges.front(), last = fan.wedges.back();
+  first.outer = fan.first;
+  last.outer = fan.last;
+  M.block<2, 4>(row, 0) = held(first, lambda, 0);
+  M.block<2, 4>(row + 2, 4 * count - 4) = held(last, lambda, begin[count]);
+  return M;
+}
+
+// How near the conditions are to a mode, and its pressure on a joint.
+std::pair<double, double> mode_of(const Fan& fan, double lambda, std::size_t joint) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(fan_conditions(fan, lambda), Eigen::ComputeFullV);
+  const Eigen::Index last = svd.singularValues().size() - 1;
+  double angle = 0;
+  for (std::size_t i = 0; i <= joint; ++i) angle += fan.wedges[i].angle;
+  const Fields at = fields(fan.wedges[joint], lambda, angle);
+  return {svd.singularValues()(last) / svd.singularValues()(0),
+          std::abs(at.normal * svd.matrixV().col(last).segment(4 * joint, 4))};
+}
+
+Fan random_fan(std::mt19937& random, int count, bool closed) {
+  Fan fan{{}, std::vector<Joint>(count - (closed ? 0 : 1), Joint::sliding)};
+  double sum = 0;
+  for (int i = 0; i < count; ++i) sum += fan.wedges.emplace_back(random_wedge(random, 150)).angle;
+  const double all = 2 * pi * (closed ? 1 : std::uniform_real_distribution(0.4, 1.0)(random));
+  for (Wedge& w : fan.wedges) w.angle *= all / sum;
+  fan.first = fan.wedges.front().outer;
+  fan.last = fan.wedges.back().outer;
+  return fan;
+}
+
+// The smallest real one is none that the determinant in potentials does not have: no sign changes below.
+TEST(Williams, ModesOfSeveralBodiesSatisfyTheConditionsOfAllJoints) {
+  std::mt19937 random(11);
+  int singular = 0, smaller = 0;
+  for (int k = 0; k < 60; ++k) {
+    const Fan fan = random_fan(random, 3 + k % 2, k % 4 < 2);
+    const std::size_t joint = random() % fan.joints.size();
+    const TipExponents found = exponents(fan, joint);
+    if (found.stress.imag() == 0 && found.stress.real() < 1) {
+      ++singular;
+      const auto [residual, pressure] = mode_of(fan, found.stress.real(), joint);
+      EXPECT_LE(residual, 1e-9) << k;
+      EXPECT_EQ(found.pressure == found.stress, pressure > 1e-5) << k;
+    }
+    const auto sign = [&](double lambda) { return fan_conditions(fan, lambda).determinant() > 0; };
+    for (double lambda = 0.012; lambda < found.stress.real() - 0.004; lambda += 0.002)
+      EXPECT_EQ(sign(lambda), sign(lambda - 0.002)) << k << " " << lambda;
+    const Fan two{{fan.wedges[0], fan.wedges[1]}, {Joint::sliding}, fan.first};
+    smaller += exponents(two, 0).stress != found.stress;
+  }
+  EXPECT_GE(singular, 30);
+  EXPECT_GE(smaller, 30);
+}
+
+// A body on two that are each other's image: the modes of one half beside its bisector, of one kind or the other.
+TEST(Williams, ABodyOnTwoOfAKindHasTheModesOfItsHalves) {
+  for (const double stiffness : {0.1, 1.0, 20.0})
+    for (const double degrees : {60.0, 90.0, 120.0}) {
+      const Wedge block = wedge_of(degrees, Face::free, stiffness), base = wedge_of(180);
+      const auto beside = [&](Face middle) { return end_exponents(block, wedge_of(90, middle)); };
+      const Fan open{{block, base, block}, {Joint::sliding, Joint::sliding}};
+      const TipExponents found = exponents(open, 0), same = exponents(open, 1);
+      const double modes[] = {beside(Face::symmetric).pressure.real(), beside(Face::antisymmetric).pressure.real()};
+      EXPECT_NEAR(found.pressure.real(), std::min(modes[0], modes[1]), 1e-7);
+      EXPECT_NEAR(std::abs(found.pressure - same.pressure), 0, 1e-9);
+    }
 }
 
 }  // namespace

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/williams.hpp"
+#include "support/wedges.hpp"
 
 namespace mortise {
 namespace {
+
+using test::end_exponents;
 
 constexpr double degree = std::numbers::pi / 180;
 
