@@ -40,35 +40,17 @@ double angle_from(const Vec2& a, const Vec2& b) {
 
 bool same_law(const ElasticLaw& a, const ElasticLaw& b) { return a.stiffness == b.stiffness; }
 
-// Calls see(body, angle) of the cells around a node, from that whose first side starts there and goes to `start`;
-// whether they come back to it.
-template <typename See>
-bool go_around(const Mesh& mesh, std::span<const SideAtNode> sides, int start, See see) {
-  int from = start;
-  for (std::size_t k = 0; k < sides.size(); ++k) {
-    const auto first =
-        std::ranges::find_if(sides, [&](const SideAtNode& side) { return side.starts && side.other == from; });
-    if (first == sides.end()) return false;
-    const auto last = std::ranges::find_if(
-        sides, [&](const SideAtNode& side) { return !side.starts && side.side.cell == first->side.cell; });
-    see(mesh.cells[first->side.cell].body, angle_from(direction_at(mesh, *first), direction_at(mesh, *last)));
-    from = last->other;
-    if (from == start) return true;
-  }
-  return false;
-}
-
 // The wedges of the cells around a node, those of one material as one.
-Fan fan_from(const Mesh& mesh, std::span<const SideAtNode> sides, int start, const std::vector<ElasticLaw>& laws) {
+Fan fan_from(const Mesh& mesh, std::span<const SideAtNode> sides, int first, const std::vector<ElasticLaw>& laws) {
   Fan fan;
-  int law = -1;
-  const bool closed = go_around(mesh, sides, start, [&](int body, double angle) {
-    if (law >= 0 && same_law(laws[law], laws[body]))
+  const auto [angles, closed] = bodies_around(mesh, sides, first);
+  for (const auto& [body, angle] : angles) {
+    const Wedge next = wedge(angle, laws[body]);
+    if (!fan.wedges.empty() && fan.wedges.back().is_alike(next))
       fan.wedges.back().angle += angle;
     else
-      fan.wedges.push_back(wedge(angle, laws[body]));
-    law = body;
-  });
+      fan.wedges.push_back(next);
+  }
   if (!fan.wedges.empty()) fan.joints.assign(fan.wedges.size() - (closed ? 0 : 1), Joint::bonded);
   return fan;
 }
@@ -104,6 +86,24 @@ std::vector<Edge> outline_at(const Mesh& mesh, const SideTable& table, int node)
         }))
       outline.push_back(side_edge(mesh.cells[at.side.cell], at.side.side));
   return outline;
+}
+
+AnglesAround bodies_around(const Mesh& mesh, std::span<const SideAtNode> sides, int first) {
+  AnglesAround around{{}, false};
+  int from = first;
+  for (std::size_t k = 0; k < sides.size() && !around.closed; ++k) {
+    const auto begin =
+        std::ranges::find_if(sides, [&](const SideAtNode& side) { return side.starts && side.other == from; });
+    if (begin == sides.end()) break;
+    const auto end = std::ranges::find_if(
+        sides, [&](const SideAtNode& side) { return !side.starts && side.side.cell == begin->side.cell; });
+    const int body = mesh.cells[begin->side.cell].body;
+    if (around.angles.empty() || around.angles.back().first != body) around.angles.emplace_back(body, 0);
+    around.angles.back().second += angle_from(direction_at(mesh, *begin), direction_at(mesh, *end));
+    from = end->other;
+    around.closed = from == first;
+  }
+  return around;
 }
 
 Face face_of(const Points& nodes, const Edge& edge, const Constraints& constraints) {
@@ -156,7 +156,7 @@ double corner_exponent(const Mesh& mesh, int node, const Constraints& constraint
   const bool ordered = outline[0].nodes[1] == node;
   const Edge &before = outline[ordered ? 0 : 1], &after = outline[ordered ? 1 : 0];
   double angle = 0;
-  go_around(mesh, table.at(node), after.nodes[1], [&](int, double of_cell) { angle += of_cell; });
+  for (const auto& [body, of_body] : bodies_around(mesh, table.at(node), after.nodes[1]).angles) angle += of_body;
   return exponents({{wedge(angle, law)},
                     {},
                     face_of(mesh.nodes, after, constraints),

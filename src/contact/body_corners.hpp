@@ -14,6 +14,14 @@ inline constexpr double singular_limit = 0.95;
 /// The sides of cells that end at a node and have no cell behind them, the body on their left.
 std::vector<Edge> outline_at(const Mesh& mesh, const SideTable& table, int node);
 
+/// The bodies whose cells stand around a node, counter-clockwise from the side to the node `first`, each with the angle
+/// of its cells one beside the other, radians; whether they come back to that side.
+struct AnglesAround {
+  std::vector<std::pair<int, double>> angles;
+  bool closed;
+};
+AnglesAround bodies_around(const Mesh& mesh, std::span<const SideAtNode> sides, int first);
+
 /// The condition on a face, by what is prescribed at all nodes of its edge.
 Face face_of(const Points& nodes, const Edge& edge, const Constraints& constraints);
 

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
 
 #include "base/parallel.hpp"
-#include "base/vectors.hpp"
-#include "contact/projection.hpp"
-#include "fem/edges.hpp"
 #include "mesh/box_index.hpp"
 
 namespace mortise {
@@ -20,151 +16,9 @@ namespace {
 // turn by less it is how far the bodies slide that says whether anything is seen of it (error/sliding_kinks.hpp).
 constexpr double least_shared_kink = 2 * straight / 180;
 
-// What directions of a drawn straight line differ by, and of a line rebuilt through the nodes (contact_line.hpp).
-constexpr double round_off = 1e-9;
-
-// What round-off of a drawn edge's places makes of its direction at an end, times eps x / h with h the length of the
-// piece there and x the largest coordinate: up to 66 of random arcs, and places that gmsh computes are off by several
-// eps.
-constexpr double round_off_of_directions = 300;
-
-// The same times m / h with m the misfit of the edges beside, which is noise of the places where they tell no more, as
-// of a circle of a large radius that is far from its centre: a polynomial of degree n that is off by r has a slope that
-// is off by n^2 r / (h / 2) or less (Markov), and r is 2 m or less, as noise between the places is as large as at them.
-constexpr double misfit_of_directions = 256;
-
 // Kinks of both bodies are one where their angles add up to 2 pi to this part of their turn: a rebuilt line's, of three
 // nodes or more a side, are off by less.
 constexpr double one_kink = 0.1;
-
-// A vertex lies at a place of the other curve where an edge does not tell them apart.
-constexpr double at_one_place = 0.05;
-
-// A vertex of a curve and the edges before and after it, -1 at an end.
-struct Vertex {
-  int node, before, after;
-  bool is_end() const { return before < 0 || after < 0; }
-};
-
-std::vector<Vertex> vertices_of(const Curve& curve) {
-  const int count = int(curve.edges.size());
-  std::vector<Vertex> list;
-  for (int e = 0; e < count; ++e)
-    list.push_back({curve.edges[e].nodes[0], e > 0 ? e - 1 : curve.closed ? count - 1 : -1, e});
-  if (!curve.closed) list.push_back({curve.edges.back().nodes[1], count - 1, -1});
-  return list;
-}
-
-// One of the two curves with the line that it stands for.
-struct LineSide {
-  const Surroundings& around;
-  const Curve& curve;
-  const ElasticLaw& law;
-  ContactLine line;
-
-  LineSide(const Surroundings& of, const Curve& along)
-      : around(of), curve(along), law(of.laws[along.body]), line(of.mesh.nodes, along) {}
-
-  Vec2 position(const Vertex& v) const { return around.mesh.nodes.row(v.node).transpose(); }
-  Vec2 before(const Vertex& v) const { return line.at(v.before, 1).tangent; }
-  Vec2 after(const Vertex& v) const { return line.at(v.after, -1).tangent; }
-  double turn(const Vertex& v) const { return v.is_end() ? 0 : straight - interior_angle(before(v), after(v)); }
-  double turn_error(const Vertex& v) const {
-    const double misfit = misfit_at(v);
-    return round_off + (v.before < 0 ? 0 : end_error(v.before, 1, misfit)) +
-           (v.after < 0 ? 0 : end_error(v.after, -1, misfit));
-  }
-  bool is_kink(const Vertex& v) const { return std::abs(turn(v)) > turn_error(v); }
-  double edge_at(const Vertex& v) const {
-    double length = 0;
-    for (const int e : {v.before, v.after})
-      if (e >= 0) length = std::max(length, edge_length(around.mesh.nodes, curve.edges[e]));
-    return length;
-  }
-  Vec2 normal(const Vertex& v) const {
-    Vec2 n = Vec2::Zero();
-    if (v.before >= 0) n += line.at(v.before, 1).normal();
-    if (v.after >= 0) n += line.at(v.after, -1).normal();
-    return n.normalized();
-  }
-  Corner corner(const Vertex& v) const;
-
- private:
-  double misfit_at(const Vertex& v) const;
-  double end_error(int e, int end, double misfit) const;
-};
-
-constexpr int last_place = std::tuple_size_v<decltype(SamplePiece::places)> - 1;
-using PlaceWeights = std::array<double, last_place + 1>;
-
-// Of places 0, 2, ... in the slope at place `at` of the polynomial through them.
-PlaceWeights slope_weights(int at) {
-  const auto z = [](int k) { return -std::cos(straight * k / last_place); };
-  PlaceWeights weights{};
-  for (int k = 0; k <= last_place; k += 2) {
-    if (k == at) continue;
-    weights[k] = 1;
-    for (int m = 0; m <= last_place; m += 2) {
-      if (m == k) continue;
-      weights[k] /= z(k) - z(m);
-      if (m != at) weights[k] *= z(at) - z(m);
-    }
-  }
-  return weights;
-}
-
-// Of the drawn edges beside a vertex, the larger.
-double LineSide::misfit_at(const Vertex& v) const {
-  double misfit = 0;
-  if (curve.samples.empty()) return misfit;
-  for (const int e : {v.before, v.after})
-    if (e >= 0) misfit = std::max(misfit, curve.samples[e].misfit);
-  return misfit;
-}
-
-// What the tangent at an end of a drawn edge may be off by, radians: as much as that of every second place of the piece
-// there is, and what round-off makes of it.
-double LineSide::end_error(int e, int end, double misfit) const {
-  static const std::array<PlaceWeights, 2> all{slope_weights(0), slope_weights(last_place)};
-  if (curve.samples.empty()) return 0;
-  const std::vector<SamplePiece>& pieces = curve.samples[e].pieces;
-  const auto& x = (end < 0 ? pieces.front() : pieces.back()).places;
-  const PlaceWeights& weights = all[end < 0 ? 0 : 1];
-  const int at = end < 0 ? 0 : last_place;
-  Vec2 slope = Vec2::Zero();
-  for (int k = 0; k <= last_place; k += 2)
-    if (k != at) slope += weights[k] * (x[k] - x[at]);
-  const double size = x[at].lpNorm<Eigen::Infinity>(), length = (x[last_place] - x[0]).norm();
-  const double off =
-      round_off_of_directions * std::numeric_limits<double>::epsilon() * size + misfit_of_directions * misfit;
-  return angle_between(slope, line.at(e, end).tangent) + off / length;
-}
-
-Corner LineSide::corner(const Vertex& v) const {
-  if (!v.is_end()) return {wedge(straight - turn(v), law), false, edge_at(v), turn_error(v), v.node};
-  for (const Edge& beyond : outline_at(around.mesh, around.table, v.node)) {
-    const bool starts = beyond.nodes[0] == v.node;
-    if (starts != (v.after < 0)) continue;  // the curve's own
-    const Vec2 tangent = edge_point(around.mesh.nodes, beyond, starts ? -1 : 1).tangent;
-    const double angle = starts ? interior_angle(before(v), tangent) : interior_angle(tangent, after(v));
-    return {wedge(angle, law, face_of(around.mesh.nodes, beyond, around.constraints)), true, edge_at(v), turn_error(v),
-            v.node};
-  }
-  return {wedge(straight, law), true, edge_at(v), turn_error(v), v.node};
-}
-
-// The body on the other side of a vertex, near it or far: where the normal there meets it.
-std::optional<Corner> facing(const LineSide& side, const Vertex& v, const LineSide& other) {
-  const Vec2 x = side.position(v);
-  const double edge = side.edge_at(v);
-  const Line line{x, side.normal(v), deepest_overlap(side.curve, std::max(v.before, v.after))};
-  const auto hit = project_onto_curve(side.around.mesh.nodes, other.curve, line);
-  const Vec2 place = hit ? Vec2(x + hit->distance * line.n) : x;
-  for (const Vertex& w : vertices_of(other.curve))
-    if ((other.position(w) - place).norm() < at_one_place * edge) return other.corner(w);
-  if (!hit) return {};
-  return Corner{wedge(straight, other.law), false, edge_length(other.around.mesh.nodes, other.curve.edges[hit->edge])};
-}
 
 Meeting meeting_of(const Corner& a, const Corner& b, bool one_curve) {
   if (a.end && b.end) return Meeting::ends;
@@ -194,61 +48,141 @@ double log_amplitude(const Wedge& a, const Wedge& b, double jump) {
   return 2 * std::abs(jump) / (a.compliance() + b.compliance());
 }
 
-// A joint of a fan of sliding ones.
-struct FanJoint {
-  Fan fan;
-  std::size_t joint;
-};
+// The bodies at a place by what each one's last face is joined to, counter-clockwise.
+class BodiesAround {
+ public:
+  explicit BodiesAround(const std::vector<const ContactPlace*>& places);
 
-// All bodies in contact at a place, each with the next, from one whose first face is free of contact, and the joint of
-// the place's own two. Nothing where they are all.
-std::optional<FanJoint> fan_at(const ContactPlace& place, const std::vector<const ContactPlace*>& all) {
+  struct Found {
+    Fan fan;
+    std::size_t joint;  // the place's own
+    double error;       // of the fan's angles
+    bool is_closed() const { return fan.joints.size() == fan.wedges.size(); }
+  };
+  // Those that are joined to a place's own two, from a free face on, else from one of them all around; bonded ones of
+  // one material as one. Nothing where a body is there twice.
+  std::optional<Found> fan(const ContactPlace& place) const;
+
+ private:
   struct Next {
     int body;
-    const Corner *before, *after;
+    Joint joint;
   };
-  std::map<int, Next> next;
-  std::map<int, int> previous;
-  for (const ContactPlace* at : all)
+  // Bodies that share a node of the mesh.
+  struct AtNode {
+    std::vector<std::pair<int, Wedge>> bodies;
+    std::optional<Vec2> before, after;
+  };
+  void see(const Corner& corner, int body, std::map<int, AtNode>& nodes);
+  void join(int body, int other, Joint joint);
+
+  std::map<int, Next> next_;
+  std::map<int, int> previous_;
+  std::map<int, Wedge> wedges_;
+  double error_ = 0;
+  bool is_clear_ = true;
+};
+
+BodiesAround::BodiesAround(const std::vector<const ContactPlace*>& places) {
+  std::map<int, AtNode> nodes;
+  for (const ContactPlace* place : places) {
+    if (place->soft || place->is_tip()) continue;
     for (const int k : {0, 1}) {
-      if (!at->joined[k] || at->soft) continue;
-      const int body = at->bodies[k], other = at->bodies[1 - k];
-      const auto after = next.try_emplace(body, other, &at->corners[k], &at->corners[1 - k]).first;
-      const auto before = previous.try_emplace(other, body).first;
-      if (after->second.body != other || before->second != body) return {};  // a body that is there twice
+      see(place->corners[k], place->bodies[k], nodes);
+      if (place->joined[k]) join(place->bodies[k], place->bodies[1 - k], Joint::sliding);
     }
-  if (place.soft || next.size() < 2) return {};
+  }
+  for (auto& [node, at] : nodes) {
+    if (at.before && at.after) {  // the angle between two curves, as they are drawn
+      double sum = 0;
+      for (const auto& [body, wedge] : at.bodies) sum += wedge.angle;
+      at.bodies.front().second.angle += interior_angle(*at.before, *at.after) - sum;
+    }
+    for (std::size_t i = 0; i < at.bodies.size(); ++i) {
+      wedges_.insert(at.bodies[i]);
+      if (i > 0) join(at.bodies[i - 1].first, at.bodies[i].first, Joint::bonded);
+    }
+  }
+}
+
+void BodiesAround::see(const Corner& corner, int body, std::map<int, AtNode>& nodes) {
+  error_ += corner.error;
+  if (corner.node < 0) {
+    wedges_.try_emplace(body, corner.wedge);
+    return;
+  }
+  AtNode& at = nodes[corner.node];
+  if (at.bodies.empty()) {
+    at.bodies = corner.bonded;
+    at.bodies.insert(corner.after ? at.bodies.begin() : at.bodies.end(), {body, corner.wedge});
+  }
+  if (corner.before) at.before = corner.before;
+  if (corner.after) at.after = corner.after;
+}
+
+void BodiesAround::join(int body, int other, Joint joint) {
+  const auto next = next_.try_emplace(body, other, joint).first;
+  const auto previous = previous_.try_emplace(other, body).first;
+  if (next->second.body != other || previous->second != body) is_clear_ = false;
+}
+
+std::optional<BodiesAround::Found> BodiesAround::fan(const ContactPlace& place) const {
+  if (!is_clear_) return {};
   const int own = place.bodies[place.joined[0] ? 0 : 1];
   int start = own;
-  for (auto at = previous.find(start); at != previous.end() && at->second != own; at = previous.find(start))
+  for (auto at = previous_.find(start); at != previous_.end() && at->second != own; at = previous_.find(start))
     start = at->second;
-  FanJoint found{};
-  for (int body = start; next.contains(body);) {
-    const auto& [other, before, after] = next.at(body);
-    if (body == own) found.joint = found.fan.joints.size();
+  Found found{{{wedges_.at(start)}, {}, wedges_.at(start).outer, wedges_.at(start).outer}, 0, error_};
+  auto& [wedges, joints, first, last] = found.fan;
+  for (auto at = next_.find(start); at != next_.end(); at = next_.find(at->second.body)) {
+    const auto [body, joint] = at->second;
+    if (at->first == own) found.joint = joints.size();
     if (body == start) {
-      found.fan.wedges.push_back(before->wedge);
-      found.fan.first = before->wedge.outer;
+      joints.push_back(joint);
+      break;
     }
-    found.fan.joints.push_back(Joint::sliding);
-    if (other == start) break;
-    found.fan.wedges.push_back(after->wedge);
-    found.fan.last = after->wedge.outer;
-    body = other;
+    const Wedge& wedge = wedges_.at(body);
+    if (joint == Joint::bonded && wedges.back().is_alike(wedge)) {
+      wedges.back().angle += wedge.angle;
+    } else {
+      wedges.push_back(wedge);
+      joints.push_back(joint);
+    }
+    last = wedge.outer;
   }
-  if (found.fan.wedges.size() < 3) return {};
   return found;
 }
 
-SingularPoint singular_point(const ContactPlace& place, const std::optional<FanJoint>& several, TipTable& tips) {
+// A place with its two bodies as a fan of no others has them.
+ContactPlace with_fan(ContactPlace place, const BodiesAround::Found& found) {
+  for (const int k : {0, 1}) {
+    const std::size_t i = (found.joint + (place.joined[0] ? k : 1 - k)) % 2;
+    Corner& corner = place.corners[k];
+    corner.wedge = found.fan.wedges[i];
+    corner.wedge.outer = i == 0 ? found.fan.first : found.fan.last;
+    corner.error = found.error;
+    if (found.is_closed()) corner.end = false;
+  }
+  if (found.is_closed()) place.joined = {true, true};
+  return place;
+}
+
+SingularPoint singular_point(const ContactPlace& drawn, const std::optional<BodiesAround::Found>& around,
+                             TipTable& tips) {
+  const bool of_two = !around || around->fan.wedges.size() == 2;
+  const ContactPlace place = around && of_two ? with_fan(drawn, *around) : drawn;
   const auto& [a, b] = place.corners;
   SingularPoint point{place.position,    std::max(a.edge, b.edge), 1, 1, meeting_of(a, b, place.one_curve),
                       {a.wedge, b.wedge}};
   auto& [first, second] = point.wedges;
   TipExponents found;
   double jump = 0, given_jump = 0;
-  if (several) {
-    found = tips.find(several->fan, several->joint);
+  double jump_error = a.error + b.error;
+  if (!of_two) {
+    found = tips.find(around->fan, around->joint);
+    if (around->is_closed()) jump = 2 * straight;
+    for (const Wedge& w : around->fan.wedges) jump -= around->is_closed() ? w.angle : 0;
+    jump_error = around->error;
   } else if (point.meeting == Meeting::kink) {
     fit_kink(first, second);
     if (const double turn = std::abs(first.angle - straight); turn > least_shared_kink)
@@ -267,7 +201,7 @@ SingularPoint singular_point(const ContactPlace& place, const std::optional<FanJ
   }
   if (found.stress.real() <= singular_limit) point.exponent = found.stress.real();
   if (found.pressure.real() <= singular_limit) point.pressure_exponent = found.pressure.real();
-  if (place.one_curve || std::abs(jump) <= 2 * (a.error + b.error)) jump = 0;
+  if (place.one_curve || std::abs(jump) <= 2 * jump_error) jump = 0;
   if (point.pressure_exponent == 1) point.log_pressure = log_amplitude(first, second, jump + given_jump);
   if (point.exponent == 1 && point.log_pressure == 0 && (a.end || b.end))
     point.small_power = found.pressure.real() < 1 ? found.pressure.real() - 1 : found.falling - 1;
@@ -278,42 +212,11 @@ SingularPoint singular_point(const ContactPlace& place, const std::optional<FanJ
 // has no limit either (Comninou 1977).
 SingularPoint crack_tip(const ContactPlace& place) {
   const auto& [a, b] = place.corners;
-  const bool alike = a.wedge.shear == b.wedge.shear && a.wedge.kolosov == b.wedge.kolosov;
-  return {place.position, std::max(a.edge, b.edge), 0.5, alike ? 1 : 0.5, Meeting::tip, {a.wedge, b.wedge}};
+  return {place.position, std::max(a.edge, b.edge), 0.5, a.wedge.is_alike(b.wedge) ? 1 : 0.5,
+          Meeting::tip,   {a.wedge, b.wedge}};
 }
 
 }  // namespace
-
-std::vector<ContactPlace> contact_places(const Surroundings& around, const Curve& first, const Curve& second,
-                                         const ContactReach& reach, const GivenGap& given) {
-  const LineSide sides[] = {{around, first}, {around, second}};
-  std::vector<ContactPlace> places;
-  std::vector<int> seen;  // vertices of the second curve that face one of the first
-  for (const int k : {0, 1}) {
-    const std::vector<Vertex> vertices = vertices_of(sides[k].curve);
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const Vertex& v = vertices[i];
-      const Reach& at = reach[k][i];
-      if (!at.any() || (!v.is_end() && !sides[k].is_kink(v))) continue;
-      if (k == 1 && std::ranges::count(seen, v.node) > 0) continue;
-      const auto opposite = facing(sides[k], v, sides[1 - k]);
-      if (!opposite) continue;
-      if (k == 0) seen.push_back(opposite->node);
-      ContactPlace place{.position = sides[k].position(v),
-                         .bodies = {first.body, second.body},
-                         .corners = {sides[k].corner(v), *opposite},
-                         .joined = {at.before && v.before >= 0, at.after && v.after >= 0},
-                         .one_curve = given.one_curve,
-                         .given_slope = k == 0 && v.is_end() ? given.end_slopes[i == 0 ? 0 : 1] : 0};
-      if (k == 1) {
-        std::swap(place.corners[0], place.corners[1]);
-        std::swap(place.joined[0], place.joined[1]);
-      }
-      places.push_back(place);
-    }
-  }
-  return places;
-}
 
 std::vector<std::vector<SingularPoint>> singular_points(const std::vector<std::vector<ContactPlace>>& of_pairs,
                                                         TipTable& tips, int threads) {
@@ -331,7 +234,9 @@ std::vector<std::vector<SingularPoint>> singular_points(const std::vector<std::v
     for (const ContactPlace& place : of_pairs[k]) {
       std::vector<const ContactPlace*> here;
       for (const int i : index.meeting(Box(place.position))) here.push_back(all[i]);
-      const SingularPoint point = place.is_tip() ? crack_tip(place) : singular_point(place, fan_at(place, here), tips);
+      const SingularPoint point = place.is_tip() ? crack_tip(place)
+                                  : place.soft   ? singular_point(place, {}, tips)
+                                                 : singular_point(place, BodiesAround(here).fan(place), tips);
       if (point.exponent <= singular_limit || point.log_pressure > 0 || point.small_power != 0 || point.small_turn > 0)
         points[k].push_back(point);
     }

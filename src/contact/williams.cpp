@@ -161,8 +161,8 @@ std::optional<Complex> next_zero(const Function& f, double begin) {
   return Complex(std::clamp(z.real(), begin, end), std::abs(z.imag()) < 1e-8 ? 0 : std::abs(z.imag()));
 }
 
-// The least real exponent above a regular one, of a mode that loads the contact: of faces that meet at other than right
-// angles p = 0 at the very end, if neither shear nor the free face leaves anything else.
+// The least real exponent above a regular one, of a mode that loads the contact: where no constant stress does, as at
+// the end of faces that meet at other than right angles, p = 0 at the very place.
 double falling_exponent(const Fan& fan, std::size_t joint) {
   constexpr double begin = 2 - regular_exponent, step = 0.01;
   const auto f = [&](double lambda) { return conditions(fan, lambda).determinant().real(); };
@@ -211,7 +211,7 @@ TipExponents exponents(const Fan& fan, std::optional<std::size_t> joint) {
     if (joint) found.pressure = *zero;
     break;
   }
-  if (joint && found.stress == 1.0) found.falling = falling_exponent(fan, *joint);
+  if (joint && found.stress == 1.0 && !loads(fan, *joint, 1)) found.falling = falling_exponent(fan, *joint);
   return found;
 }
 

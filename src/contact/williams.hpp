@@ -28,6 +28,7 @@ struct Wedge {
   Face outer = Face::free;
 
   double compliance() const { return (kolosov + 1) / shear; }  ///< 8 / E'
+  bool is_alike(const Wedge& other) const { return shear == other.shear && kolosov == other.kolosov; }
 };
 
 Wedge wedge(double angle, const ElasticLaw& law, Face outer = Face::free);
