@@ -59,6 +59,10 @@ struct LineSide {
            (v.after < 0 ? 0 : end_error(v.after, -1, misfit));
   }
   bool is_kink(const Vertex& v) const { return std::abs(turn(v)) > turn_error(v); }
+  double shortest_at(const Vertex& v) const {
+    const auto length = [&](int e) { return edge_length(around.mesh.nodes, curve.edges[e]); };
+    return v.is_end() ? edge_at(v) : std::min(length(v.before), length(v.after));
+  }
   double edge_at(const Vertex& v) const {
     double length = 0;
     for (const int e : {v.before, v.after})
@@ -181,7 +185,8 @@ std::vector<ContactPlace> contact_places(const Surroundings& around, const Curve
                          .corners = {sides[k].corner(v), *opposite},
                          .joined = {at.before && v.before >= 0, at.after && v.after >= 0},
                          .one_curve = given.one_curve,
-                         .given_slope = k == 0 && v.is_end() ? given.end_slopes[i == 0 ? 0 : 1] : 0};
+                         .given_slope = k == 0 && v.is_end() ? given.end_slopes[i == 0 ? 0 : 1] : 0,
+                         .shortest = sides[k].shortest_at(v)};
       if (k == 1) {
         std::swap(place.corners[0], place.corners[1]);
         std::swap(place.joined[0], place.joined[1]);

@@ -51,7 +51,8 @@ struct ContactPlace {
   std::array<bool, 2> joined;
   bool one_curve;      ///< both curves are meant to be one
   double given_slope;  ///< of a given gap away from the place
-  bool soft = false;   ///< what is between both holds no face: they are no part of what is rigid in contact
+  double shortest;     ///< length of the shortest edge that meets there, of the curve whose end or kink it is
+  bool soft = false;   ///< what is between both holds no face: they are no part of what is in contact without it
 
   /// Whether it is the tip of a crack, whose faces both curves are.
   bool is_tip() const { return corners[0].node >= 0 && corners[0].node == corners[1].node; }

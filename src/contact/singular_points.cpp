@@ -224,7 +224,7 @@ std::vector<std::vector<SingularPoint>> singular_points(const std::vector<std::v
   std::vector<Box> boxes;
   for (const auto& places : of_pairs)
     for (const ContactPlace& place : places) {
-      const Vec2 near = Vec2::Constant(at_one_place * std::max(place.corners[0].edge, place.corners[1].edge));
+      const Vec2 near = Vec2::Constant(at_one_place * place.shortest);
       all.push_back(&place);
       boxes.emplace_back(place.position - near, place.position + near);
     }

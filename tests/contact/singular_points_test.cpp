@@ -361,6 +361,55 @@ TEST(SingularPoints, DrawnCurvesThatMeetAtAnyAngleAreFoundAsKinks) {
   }
 }
 
+// At its kinks and at vertices of smooth pieces, each part a contact of its own.
+TEST(SingularPoints, AreThoseOfTheWholeCurveHoweverManyNamesItHas) {
+  std::mt19937 random(10);
+  int kinks = 0;
+  for (int i = 0; i < 40; ++i) {
+    const DrawnFoot foot = random_foot(random, 1 + int(random() % 3), -3);
+    const test::TemporaryFolder folder;
+    const Mesh mesh = load_mesh(folder.write("a.geo", file_of(foot).geo), {});
+    const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
+    const Constraints free = no_constraints(mesh);
+    const SideTable table(mesh);
+    TipTable tips;
+    const Surroundings around{mesh, table, free, laws, tips};
+    const Curve upper = contact_curve(mesh, boundary_index(mesh, "foot")),
+                lower = contact_curve(mesh, boundary_index(mesh, "flat"));
+    ContactReach reach = reached_everywhere(upper, lower);
+    reach[0].front() = reach[0].back() = {false, false};
+    const auto whole = singular_points({contact_places(around, upper, lower, reach)}, tips)[0];
+    std::set<std::size_t> cuts{0, upper.edges.size()};
+    for (std::size_t e = 1; e < upper.edges.size(); ++e) {
+      const Vec2 x = mesh.nodes.row(upper.edges[e].nodes[0]).transpose();
+      const bool is_kink = std::ranges::any_of(whole, [&](const SingularPoint& p) { return p.position == x; });
+      if (random() % (is_kink ? 2 : 8) == 0) cuts.insert(e);
+    }
+    std::vector<std::vector<ContactPlace>> places;
+    for (auto from = cuts.begin(), to = std::next(from); to != cuts.end(); from = to++) {
+      Curve part = upper;
+      part.edges = {upper.edges.begin() + *from, upper.edges.begin() + *to};
+      part.samples = {upper.samples.begin() + *from, upper.samples.begin() + *to};
+      ContactReach of_part = reached_everywhere(part, lower);
+      if (*from == 0) of_part[0].front() = {false, false};
+      if (*to == upper.edges.size()) of_part[0].back() = {false, false};
+      places.push_back(contact_places(around, part, lower, of_part));
+    }
+    std::vector<SingularPoint> found;
+    for (const auto& points : singular_points(places, tips))
+      for (const SingularPoint& point : points)
+        if (std::ranges::none_of(found, [&](const auto& p) { return p.position == point.position; }))
+          found.push_back(point);
+    ASSERT_EQ(found.size(), whole.size()) << i << ": " << name_of(foot);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_NEAR(found[k].pressure_exponent, whole[k].pressure_exponent, 1e-6) << i;
+      EXPECT_NEAR(found[k].log_pressure, whole[k].log_pressure, 1e-6 * whole[k].log_pressure) << i;
+    }
+    kinks += int(whole.size());
+  }
+  EXPECT_GE(kinks, 20);
+}
+
 // The preprint's parabola has slopes 1 and -1 at its ends, with elements of any kind, and no corner between them.
 TEST(SingularPoints, AParabolaMeetsItsSlidingSidesAtTheAnglesOfTheCurve) {
   TwoPlates plates;
@@ -491,7 +540,8 @@ TEST(SingularPoints, OfSeveralBodiesAtAPlaceAreThoseOfAllThatAreInContact) {
                          .corners = {Corner{fan.wedges[i], true, 0.1}, Corner{fan.wedges[next], true, 0.1}},
                          .joined = {true, false},
                          .one_curve = false,
-                         .given_slope = 0};
+                         .given_slope = 0,
+                         .shortest = 0.1};
       if (first == 1) {
         std::swap(place.bodies[0], place.bodies[1]);
         std::swap(place.corners[0], place.corners[1]);
@@ -510,6 +560,40 @@ TEST(SingularPoints, OfSeveralBodiesAtAPlaceAreThoseOfAllThatAreInContact) {
     const double of_two = end_exponents(fan.wedges[0], fan.wedges[1]).pressure.real();
     EXPECT_NEAR(beside_soft[0].empty() ? 1 : beside_soft[0][0].pressure_exponent, of_two <= singular_limit ? of_two : 1,
                 1e-6);
+  }
+}
+
+// Two parts of one body of two materials, both on another that goes on.
+TEST(SingularPoints, OfBondedPartsInContactWithOneBodyAreThoseOfAllThree) {
+  std::mt19937 random(12);
+  for (int k = 0; k < 20; ++k) {
+    const auto of = [&](double angle) {
+      return wedge(angle, elastic_law(draw_power(random, -1, 1), 0.3, {Plane::strain}));
+    };
+    const double angle = draw(random, 40, 140) * deg;
+    const Wedge left = of(straight - angle), right = of(angle), base = of(straight);
+    ContactPlace of_left{.position = {0, 0},
+                         .bodies = {0, 2},
+                         .corners = {Corner{left, true, 0.1, 0, 7}, Corner{base, false, 0.1}},
+                         .joined = {true, false},
+                         .one_curve = false,
+                         .given_slope = 0,
+                         .shortest = 0.1},
+        of_right = of_left;
+    of_right.bodies = {1, 2};
+    of_right.joined = {false, true};
+    of_right.corners[0].wedge = right;
+    of_left.corners[0].before = of_right.corners[0].after = Vec2(1, 0);
+    of_left.corners[0].bonded = {{1, right}};
+    of_right.corners[0].bonded = {{0, left}};
+    TipTable tips;
+    const auto points = singular_points({{of_left}, {of_right}}, tips);
+    const Fan fan{{left, base, right}, {Joint::sliding, Joint::sliding, Joint::bonded}};
+    for (const std::size_t pair : {0, 1}) {
+      const double exact = exponents(fan, pair).pressure.real();
+      EXPECT_NEAR(points[pair].empty() ? 1 : points[pair][0].pressure_exponent, exact > singular_limit ? 1 : exact,
+                  1e-6);
+    }
   }
 }
 
