@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "error/border_overlaps.hpp"
 #include "error/data_works.hpp"
 #include "error/fitted_pressure.hpp"
 #include "error/gap_error.hpp"
@@ -116,12 +117,13 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
                                                  const EstimateOptions& options, std::vector<ContactReach>& reached) {
   const Discretisation& d = p.discretisation;
   const AccuracySpec& spec = options.spec;
-  const double round_off = round_off_pressure(p.mesh, p.pairs, d.system.stiffness_scale, largest_entry(solution.u));
+  const double displacement = largest_entry(solution.u);
   std::vector<PressureEstimate> list(p.pairs.size());
   reached.resize(p.pairs.size());
   for_each_index(p.pairs.size(), solver_threads(), [&](std::size_t k) {
     PressureEstimate& e = list[k];
     const ContactPair& pair = p.pairs[k];
+    const double round_off = round_off_pressure(p.mesh, pair, d.laws, displacement);
     e.line = pressure_line(p.mesh, pair, solution.lambda, round_off, p.fluid);
     e.local = line_error(e.line);
     if (!e.line.p.any() && solution.lambda.segment(pair.first_row, pair.coupling.B.rows()).any())
@@ -197,6 +199,14 @@ std::vector<LinePart> line_parts(const std::vector<ContactPair>& pairs, const st
     parts.push_back(line_part(pairs[k], pressures[k].line, pressures[k].local, opened));
   }
   return parts;
+}
+
+// To the borders of each pair, in equal parts.
+void add_overlaps(const MatX& changes, std::vector<LinePart>& lines) {
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    MatX& borders = lines[k].borders;
+    if (borders.rows() > 0) borders.rowwise() += changes.row(Eigen::Index(k)) / double(borders.rows());
+  }
 }
 
 // Of each window what the cells' parts make it off by.
@@ -301,6 +311,7 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
     estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
     estimate.goal->lines =
         line_parts(p.pairs, estimate.pressures, kept.rightCols(goals), options.spec.pair, goal.opening);
+    add_overlaps(BorderOverlaps(p, solution, estimate.pressures).changes(goal.rows, goal.loads), estimate.goal->lines);
   }
   if (!has_duals) return;
   estimate.data_works.resize(works.rows(), shared + goals);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "error/border_overlaps.hpp"
 #include "fem/edges.hpp"
 #include "solve/contact_factor.hpp"
 
@@ -104,7 +105,8 @@ ForcesAsked ask_forces(const Problem& problem, const Solution& solution, const s
   return asked;
 }
 
-std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const std::vector<PressureEstimate>& pressures,
+std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const Solution& solution,
+                                          const std::vector<PressureEstimate>& pressures,
                                           const std::vector<Vec2>& centres, const ForcesAsked& asked,
                                           const FoundDuals& duals) {
   const std::vector<ContactPair>& pairs = problem.pairs;
@@ -115,7 +117,9 @@ std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const std::vec
         known.array().isNaN().select(sum_of_bars(problem.mesh, pairs[k], pressures[k], centres[k]), known));
   }
   if (asked.by_duals.empty()) return errors;
-  const VecX found = duals.sums + errors_of_lines(problem, pressures, centres, asked, duals.z);
+  const MatX overlaps = BorderOverlaps(problem, solution, pressures).changes(asked.rows, {});
+  const VecX found =
+      duals.sums + errors_of_lines(problem, pressures, centres, asked, duals.z) + overlaps.colwise().sum().transpose();
   for (std::size_t k = 0; k < asked.by_duals.size(); ++k)
     errors[asked.by_duals[k].pair](asked.by_duals[k].component) = error_safety * found(Eigen::Index(k));
   return errors;
@@ -129,7 +133,7 @@ std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const Solution
   FoundDuals duals;
   if (!asked.by_duals.empty())
     duals = find_duals(problem, solution.u, contact_factor(problem.discretisation.system, solution), asked.rows);
-  return force_errors(problem, pressures, centres, asked, duals);
+  return force_errors(problem, solution, pressures, centres, asked, duals);
 }
 
 }  // namespace mortise

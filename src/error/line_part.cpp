@@ -9,15 +9,6 @@
 namespace mortise {
 namespace {
 
-// The edges whose p a border may move: the one on which contact ends, and the next within it (-1: there is none).
-std::array<Eigen::Index, 2> edges_at(const PressureLine& line, Eigen::Index e) {
-  const Eigen::Index edges = line.p.size() - 1;
-  const bool loaded_before = std::abs(line.p(e)) > std::abs(line.p(e + 1));
-  Eigen::Index within = loaded_before ? e - 1 : e + 1;
-  if (line.closed) within = (within + edges) % edges;
-  return {e, within >= 0 && within < edges && line.faced[within] ? within : -1};
-}
-
 bool among(const std::array<Eigen::Index, 2>& edges, Eigen::Index e) { return e == edges[0] || e == edges[1]; }
 
 std::vector<char> pressed(const PressureLine& line) {
@@ -27,6 +18,14 @@ std::vector<char> pressed(const PressureLine& line) {
 }
 
 }  // namespace
+
+std::array<Eigen::Index, 2> edges_at(const PressureLine& line, Eigen::Index e) {
+  const Eigen::Index edges = line.p.size() - 1;
+  const bool loaded_before = std::abs(line.p(e)) > std::abs(line.p(e + 1));
+  Eigen::Index within = loaded_before ? e - 1 : e + 1;
+  if (line.closed) within = (within + edges) % edges;
+  return {e, within >= 0 && within < edges && line.faced[within] ? within : -1};
+}
 
 MatX openings(const ContactPair& pair, const MatX& z) {
   MatX opened(Eigen::Index(pair.points.size()), z.cols());

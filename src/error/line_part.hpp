@@ -5,6 +5,9 @@
 
 namespace mortise {
 
+/// The edges whose p a border of contact on edge e may move: e, and the next within (-1: there is none).
+std::array<Eigen::Index, 2> edges_at(const PressureLine& line, Eigen::Index e);
+
 /// At each contact point of a pair by how much it opens under displacements z (n x F), length: points x F.
 MatX openings(const ContactPair& pair, const MatX& z);
 

@@ -2,6 +2,7 @@
 
 #include "contact/singular_points.hpp"
 #include "error/body_products.hpp"
+#include "error/border_overlaps.hpp"
 #include "error/goal_estimate.hpp"
 #include "mesh/boundary_edges.hpp"
 
@@ -72,6 +73,7 @@ std::vector<PlaceError> place_errors(const Problem& problem, const Solution& sol
   const std::shared_ptr<const ContactFactor> factor = contact_factor(d.system, solution);
   const StressPatches patches = recover_patches(mesh, problem.points, sample_stresses(mesh, d.laws, solution.u));
   const std::vector<char> boundary = boundary_nodes(mesh);
+  const BorderOverlaps overlaps(problem, solution, pressures);
   const VecX bars_of_p = bars_at_nodes(mesh, pairs, pressures);
   for (const ProbedPlaces& probe : probes) {
     const Eigen::Matrix3d turn = turning(probe.angle);
@@ -92,6 +94,7 @@ std::vector<PlaceError> place_errors(const Problem& problem, const Solution& sol
     const ErrorProducts found = products.with_duals(problem, solution.u, factor,
                                                     {MatX::Zero(d.system.B.rows(), loads.cols()), loads}, add_lines);
     far += off_by(found.products.rightCols(loads.cols()));
+    far += overlaps.changes(MatX::Zero(d.system.B.rows(), loads.cols()), loads).colwise().sum().transpose();
     std::size_t next = 0;
     for (int i = 0; i < int(probe.in.size()); ++i) {
       if (with_duals[next] < i) ++next;

@@ -58,12 +58,11 @@ double PressureLine::distance(double one, double other) const {
   return closed ? std::min(r, s(s.size() - 1) - r) : r;
 }
 
-double round_off_pressure(const Mesh& mesh, std::span<const ContactPair> pairs, double stiffness_scale,
+double round_off_pressure(const Mesh& mesh, const ContactPair& pair, const std::vector<ElasticLaw>& laws,
                           double displacement) {
   double edge = std::numeric_limits<double>::infinity();
-  for (const ContactPair& pair : pairs)
-    for (const Edge& e : pair.multiplier.edges) edge = std::min(edge, edge_length(mesh.nodes, e));
-  return 1e-12 * stiffness_scale * displacement / edge;
+  for (const Edge& e : pair.multiplier.edges) edge = std::min(edge, edge_length(mesh.nodes, e));
+  return 1e-12 * std::min(laws[pair.multiplier.body].young, laws[pair.opposite.body].young) * displacement / edge;
 }
 
 namespace {

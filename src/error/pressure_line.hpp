@@ -40,9 +40,9 @@ struct PressureLine {
 PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX& lambda, double round_off,
                            const VecX& fluid = {});
 
-/// What round-off of the displacements makes of a contact that carries nothing, stress. `stiffness_scale`: of the
-/// system; `displacement`: the largest.
-double round_off_pressure(const Mesh& mesh, std::span<const ContactPair> pairs, double stiffness_scale,
+/// What round-off of the displacements makes of a contact that carries nothing, stress: as the softer body feels it,
+/// for the stiffer one's displacements give way to it. `laws`: one a body; `displacement`: the largest.
+double round_off_pressure(const Mesh& mesh, const ContactPair& pair, const std::vector<ElasticLaw>& laws,
                           double displacement);
 
 /// What the pressure along the line is off by, from itself: near a vertex where the slope of p jumps by J it is a

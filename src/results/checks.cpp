@@ -126,14 +126,17 @@ void unilateral_checks(const Results& r, double limit, std::vector<Check>& check
   VecX gap = s.B * solution.u - s.g;
   if (solution.compression.size() > 0) gap += s.layers.B * solution.compression;
   gap = gap.cwiseQuotient(s.row_scale).eval();
-  const double displacement = largest_entry(solution.u),
-               round_off = round_off_pressure(r.problem.mesh, r.problem.pairs, s.stiffness_scale, displacement),
-               least = largest(negligible_pressure(r), round_off),
+  const double displacement = largest_entry(solution.u);
+  VecX round_off = VecX::Zero(gap.size());
+  for (const ContactPair& pair : r.problem.pairs)
+    round_off.segment(pair.first_row, pair.coupling.B.rows())
+        .setConstant(round_off_pressure(r.problem.mesh, pair, r.problem.discretisation.laws, displacement));
+  const double least = largest(negligible_pressure(r), largest_entry(round_off)),
                p_size = largest(10 * least, largest_entry(solution.lambda));
   double tension = 0, penetration = 0, product = 0, dip = 0;
   for (Eigen::Index a = 0; a < gap.size(); ++a) {
     if (!unilateral[a]) continue;
-    tension = largest(tension, lambda(a) - round_off);
+    tension = largest(tension, lambda(a) - round_off(a));
     penetration = largest(penetration, -gap(a));
     product = largest(product, std::abs(lambda(a) * gap(a)));
   }

@@ -222,8 +222,7 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   r.p_least = least_pressure(pair, r.pressure);
   set_extremes(r);
   r.p_mean = mean_pressure(pair, r.pressure);
-  const double round_off =
-      round_off_pressure(mesh, {&pair, 1}, problem.discretisation.system.stiffness_scale, displacement);
+  const double round_off = round_off_pressure(mesh, pair, problem.discretisation.laws, displacement);
   const ContactLength in_contact =
       gives_way(pair) ? length_in_contact(mesh.nodes, pair, overlaps(pair, r), fluid, 1e-12 * displacement)
                       : length_in_contact(mesh.nodes, pair, r.pressure, fluid, round_off);

@@ -152,5 +152,19 @@ TEST(CylinderOnABlock, NafemsInMetresAgreesWithMillimetres) {
             1e-8 * m.recovery.contacts[0].p_max);
 }
 
+// Round-off is that of the softer body, whose contact it would be taken for.
+TEST(Hertz, AStiffBodyOfAnyModulusHidesNoContact) {
+  const auto length = [](const char* young) {
+    const Results r = solve_scene(read_scene(
+        MORTISE_SOURCE_DIR "/geo/hertz.toml",
+        {{"materials.stiff", "{ young = " + std::string(young) + ", poisson = 0.3 }"}, {"bodies.block", "stiff"}}));
+    EXPECT_EQ(r.status, Status::solved) << young;
+    return r.recovery.contacts[0].length_in_contact;
+  };
+  const double rigid = length("210e14");
+  EXPECT_GT(rigid, 1e-3);
+  for (const char* young : {"210e16", "210e18", "210e21"}) EXPECT_NEAR(length(young), rigid, 1e-4 * rigid) << young;
+}
+
 }  // namespace
 }  // namespace mortise::test

@@ -1,0 +1,68 @@
+#include "error/border_overlaps.hpp"
+
+#include <algorithm>
+
+#include "error/line_part.hpp"
+#include "error/pressure_windows.hpp"
+
+namespace mortise {
+namespace {
+
+// Of the edges at which contact ends the largest overlap of the bodies on them, length; 0 on all others.
+VecX overlaps_at_borders(const ContactPair& pair, const PressureEstimate& estimate, const VecX& u) {
+  const VecX opened = openings(pair, u);
+  VecX on_edge = VecX::Zero(Eigen::Index(pair.multiplier.edges.size())), at_borders = on_edge;
+  for (std::size_t i = 0; i < pair.points.size(); ++i) {
+    const ContactPoint& point = pair.points[i];
+    on_edge(point.edge) = std::max(on_edge(point.edge), -(point.gap + opened(Eigen::Index(i))));
+  }
+  for (const LineError::Border& border : estimate.local.borders) {
+    const std::array<Eigen::Index, 2> edges = edges_at(estimate.line, border.edge);
+    double most = 0;
+    for (const Eigen::Index e : edges)
+      if (e >= 0) most = std::max(most, on_edge(e));
+    for (const Eigen::Index e : edges)
+      if (e >= 0) at_borders(e) = std::max(at_borders(e), most);
+  }
+  return at_borders;
+}
+
+// m: of the rows of all pairs.
+VecX opened_rows(const ContactPair& pair, const VecX& overlaps, Eigen::Index rows) {
+  VecX weights = VecX::Zero(pair.coupling.B.rows()), all = VecX::Zero(rows);
+  for (const ContactPoint& point : pair.points)
+    if (overlaps(point.edge) > 0) add_pressure_at(pair, point.edge, point.xi, point.dA * overlaps(point.edge), weights);
+  all.segment(pair.first_row, weights.size()) = weights;
+  return all;
+}
+
+}  // namespace
+
+BorderOverlaps::BorderOverlaps(const Problem& problem, const Solution& solution,
+                               const std::vector<PressureEstimate>& pressures)
+    : pairs_(Eigen::Index(problem.pairs.size())) {
+  const SaddlePointSystem& system = problem.discretisation.system;
+  MatX rows(system.B.rows(), 0);
+  for (Eigen::Index k = 0; k < pairs_; ++k) {
+    const ContactPair& pair = problem.pairs[k];
+    if (pair.spec.stiffness || pressures[k].local.borders.empty()) continue;
+    const VecX overlaps = overlaps_at_borders(pair, pressures[k], solution.u);
+    if (!overlaps.any()) continue;
+    rows.conservativeResize(Eigen::NoChange, rows.cols() + 1);
+    rows.rightCols(1) = opened_rows(pair, overlaps, rows.rows());
+    pair_.push_back(k);
+  }
+  if (!pair_.empty()) answers_ = contact_factor(system, solution)->answers(rows, {});
+}
+
+MatX BorderOverlaps::changes(const MatX& rows, const MatX& loads) const {
+  MatX all = MatX::Zero(pairs_, rows.cols());
+  for (std::size_t i = 0; i < pair_.size(); ++i) {
+    Eigen::RowVectorXd change = -answers_.mu.col(Eigen::Index(i)).transpose() * rows;
+    if (loads.cols() > 0) change.tail(loads.cols()) += answers_.z.col(Eigen::Index(i)).transpose() * loads;
+    all.row(pair_[i]) = change.cwiseAbs();
+  }
+  return all;
+}
+
+}  // namespace mortise

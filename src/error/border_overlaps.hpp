@@ -1,0 +1,29 @@
+// What a solution leaves beside the ends of contact: bodies that overlap between the means in which contact is held.
+#pragma once
+
+#include "error/pressure_estimate.hpp"
+#include "problem/problem.hpp"
+#include "solve/contact_factor.hpp"
+
+namespace mortise {
+
+/// Contact is held in the mean over a hat. Where the hat's edges are short beside the contact nothing is left of the
+/// gap between. At an end of contact, and the more where a contact is less than an edge wide, the bodies overlap in a
+/// part of the edge and are open in the rest; in truth they touch, and are that overlap farther apart. What this does
+/// to functionals of the solution no dual of the closed rows shows (docs/theory.md eq. 48d).
+class BorderOverlaps {
+ public:
+  BorderOverlaps(const Problem& problem, const Solution& solution, const std::vector<PressureEstimate>& pressures);
+
+  /// Of each pair by how much the functionals loads^T u - rows^T lambda change if the edges at which its contact ends
+  /// are opened by the largest overlap on them: pairs x F, in the functionals' units, no sign. `loads`: of the last
+  /// functionals (n a column), those before have none.
+  MatX changes(const MatX& rows, const MatX& loads) const;
+
+ private:
+  Eigen::Index pairs_;
+  std::vector<Eigen::Index> pair_;  // of each answer
+  DualAnswers answers_;
+};
+
+}  // namespace mortise
