@@ -60,8 +60,11 @@ MatX BorderOverlaps::changes(const MatX& rows, const MatX& loads) const {
   for (std::size_t i = 0; i < pair_.size(); ++i) {
     Eigen::RowVectorXd change = -answers_.mu.col(Eigen::Index(i)).transpose() * rows;
     if (loads.cols() > 0) change.tail(loads.cols()) += answers_.z.col(Eigen::Index(i)).transpose() * loads;
-    all.row(pair_[i]) = change.cwiseAbs();
+    all.row(pair_[i]) = change;
   }
+  const Eigen::RowVectorXd sums = all.colwise().sum().cwiseAbs(), sizes = all.colwise().lpNorm<1>();
+  for (Eigen::Index f = 0; f < all.cols(); ++f)
+    if (sizes(f) > 0) all.col(f) = sums(f) / sizes(f) * all.col(f).cwiseAbs();
   return all;
 }
 

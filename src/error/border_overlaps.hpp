@@ -15,9 +15,10 @@ class BorderOverlaps {
  public:
   BorderOverlaps(const Problem& problem, const Solution& solution, const std::vector<PressureEstimate>& pressures);
 
-  /// Of each pair by how much the functionals loads^T u - rows^T lambda change if the edges at which its contact ends
-  /// are opened by the largest overlap on them: pairs x F, in the functionals' units, no sign. `loads`: of the last
-  /// functionals (n a column), those before have none.
+  /// By how much the functionals loads^T u - rows^T lambda change if all edges at which contact ends are opened by the
+  /// largest overlap on them, as shares of the pairs: pairs x F, in the functionals' units, no sign. Posts of one kind
+  /// under a beam that all overlap alike change no force. `loads`: of the last functionals (n a column), those before
+  /// have none.
   MatX changes(const MatX& rows, const MatX& loads) const;
 
  private:
