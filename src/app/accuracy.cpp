@@ -5,11 +5,11 @@
 #include <sstream>
 
 #include "app/drawn_sizes.hpp"
+#include "app/next_sizes.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "base/stopwatch.hpp"
 #include "contact/least_gap.hpp"
-#include "error/wanted_sizes.hpp"
 #include "gmsh/free_mesher.hpp"
 #include "results/error_report.hpp"
 
@@ -21,24 +21,12 @@ struct Interrupted {};
 // A scene that is refused on a mesh that was made.
 struct RefusedOnMesh {
   InputError error;
+  std::vector<SizeLayers> wanted = {};  // as of EdgesTooLong
 };
 
 constexpr int least_edges = 10;      // along a contact curve, of any mesh after the first
-constexpr double largest_step = 16;  // by which one mesh is to lower the error: a coarse one's estimate is not exact
-constexpr double aimed = 0.7;        // of what was asked, lest a mesh that just misses it be solved in vain
-constexpr double another = 1.5;      // by which all sizes change where a mesh tells nothing of the next, or is not made
 constexpr int most_others = 2;       // such meshes in succession
 constexpr double says_little = 0.3;  // an estimate from which the next may be anything: p is not resolved at all yet
-
-// Of a mesh with these sizes: about four unknowns a triangle. `areas`: of the cells.
-double expected_unknowns(const Mesh& mesh, const VecX& areas, const SizeField& sizes) {
-  double count = 0;
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const double size = sizes(centre_of(mesh.nodes, mesh.cells[e]));
-    count += 4 * areas(e) / (std::sqrt(3.0) / 4 * size * size);
-  }
-  return count;
-}
 
 class Loop {
  public:
@@ -70,9 +58,13 @@ class Loop {
         try {
           r = solve_on(sizes, start ? &*start : nullptr, int(report.solves.size()) + 1);
         } catch (const RefusedOnMesh& refused) {  // perhaps for this mesh alone: a finer one then says something else
+          if (are_shorter(refused.wanted, sizes)) {
+            sizes = with_layers(sizes, refused.wanted);
+            continue;
+          }
           if (refused.error.what() == said || others_++ == most_others) throw InputError(refused.error);
           said = refused.error.what();
-          sizes = finer(sizes);
+          sizes = scaled(sizes, 1 / another);
           continue;
         }
         seconds += r.seconds;
@@ -115,7 +107,7 @@ class Loop {
   SizeAt sizes_after(const Results& r, SizeAt sizes, bool first) {
     const bool pressed = is_pressed(r), tells = pressed && tells_sizes(r);
     others_ = tells || !pressed ? 0 : others_ + 1;
-    return tells ? next_sizes(r, first) : with_wanted(r, small_at_gaps(r, finer(sizes)));
+    return tells ? next_sizes(r, first) : with_wanted(r, small_at_gaps(r, scaled(sizes, 1 / another)));
   }
 
   // With what only the last results have. `seconds`: of all solves.
@@ -148,8 +140,8 @@ class Loop {
       at_limit_ = true;
     }
     const double meshing = watch.lap();
-    Results r =
-        cases_.size() == 1 ? solve_one(std::move(mesh), stage, start) : solve_all(std::move(mesh), stage, number);
+    Results r = cases_.size() == 1 ? solve_one(std::move(mesh), stage, start)
+                                   : solve_all(std::move(mesh), sizes, stage, number);
     r.seconds.mesh = meshing;
     std::ostringstream text;
     text.precision(2);
@@ -177,7 +169,7 @@ class Loop {
   }
 
   // That of the cases which is farthest from what was asked; what all want of the next mesh is kept.
-  Results solve_all(Mesh mesh, const Progress& stage, int number) {
+  Results solve_all(Mesh mesh, const SizeAt& sizes, const Progress& stage, int number) {
     wanted_.reset();
     CaseSolver solver(std::move(mesh));
     std::optional<InputError> refused;
@@ -187,11 +179,14 @@ class Loop {
         Results& r = solver.solve(*cases_[k], of_case);
         estimate_one(r);
         open_[k] = is_open(r, k);
-        if (is_pressed(r) && tells_sizes(r)) add_wanted(wanted(r, number == 1));
+        if (is_pressed(r) && tells_sizes(r)) add_wanted(wanted_next(r, spec_, number == 1));
         const double off = open_[k] ? 0 : tells_sizes(r) ? estimated(r) : std::numeric_limits<double>::infinity();
         if (off <= most) continue;
         most = off;
         worst_ = k;
+      } catch (const EdgesTooLong& error) {
+        if (are_shorter(error.wanted, sizes)) throw RefusedOnMesh{error, error.wanted};
+        if (!refused) refused = error;
       } catch (const InputError& error) {
         if (!refused) refused = error;
       }
@@ -210,14 +205,12 @@ class Loop {
     wanted_->layers.insert(wanted_->layers.end(), wanted.layers.begin(), wanted.layers.end());
   }
 
-  static SizeAt finer(const SizeAt& sizes) {
-    return [sizes](const Vec2& x) { return sizes(x) / another; };
-  }
-
   template <typename Work>
   static Results refusable(Work work) {
     try {
       return work();
+    } catch (const EdgesTooLong& error) {
+      throw RefusedOnMesh{error, error.wanted};
     } catch (const InputError& error) {
       throw RefusedOnMesh{error};
     }
@@ -254,19 +247,6 @@ class Loop {
     for (std::size_t i = 0; i < gaps.size() && open; ++i) open = stays_open(before[i], gaps[i], round_off);
     before = std::move(gaps);
     return open;
-  }
-
-  // Edges an eighth as long where the curves of pairs that carry nothing are nearest.
-  static SizeAt small_at_gaps(const Results& r, const SizeAt& sizes) {
-    std::vector<SizeLayers> layers;
-    for (const ContactPair& pair : r.problem.pairs) {
-      if (r.solution.lambda.segment(pair.first_row, pair.coupling.B.rows()).cwiseAbs().maxCoeff() > 0) continue;
-      const LeastGap gap = least_gap(r.problem.mesh.nodes, r.solution.u, pair);
-      if (std::isfinite(gap.gap)) layers.push_back({gap.place, gap.edge / 8, size_growth});
-    }
-    return [sizes, layered = std::make_shared<LayeredSizes>(std::move(layers))](const Vec2& x) {
-      return std::min(sizes(x), (*layered)(x));
-    };
   }
 
   bool tells_sizes(const Results& r) const { return r.status != Status::not_converged && std::isfinite(estimated(r)); }
@@ -335,30 +315,9 @@ class Loop {
     return "";
   }
 
-  // On the first mesh p swings about corners that have no layers yet: its edges are judged by the slopes alone.
-  WantedSizes wanted(const Results& r, bool first) const {
-    const ErrorEstimate& e = *r.estimate;
-    // What was asked of another quantity, as an error of p that is as far above what it should be.
-    const double found = estimated(r), asked = spec_.value * (spec_.of == Goal::pressure ? 1 : e.pressure() / found);
-    // As few meshes as can be, of which each lowers the error by the same part.
-    const double fall = e.pressure() / (aimed * asked),
-                 meshes = std::max(1.0, std::ceil(std::log(fall) / std::log(largest_step))),
-                 target = aimed * asked * std::pow(fall, 1 - 1 / meshes) / error_safety;
-    ErrorFactors factors{.line = std::clamp((first ? e.slopes() : e.line()) / (0.8 * target), 0.4, largest_step),
-                         .far_field = std::clamp(e.far_field() / (0.5 * target), 0.25, 5 * largest_step),
-                         .target = target};
-    if (spec_.of == Goal::half_width) factors.border = found / (aimed * spec_.value);
-    if (e.goal) {
-      const double parts = e.goal->local > 0 ? 3 : 2,
-                   each = aimed * spec_.value * e.goal->value.norm() / (parts * error_safety);
-      factors.line = std::clamp(e.goal->local / each, 0.4, largest_step);
-      factors.goal_line = std::clamp(e.goal->line() / each, 0.4, largest_step);
-      factors.far_field = std::clamp(e.goal->far() / each, 0.25, 5 * largest_step);
-    }
-    return wanted_sizes(r.problem.mesh, r.problem.pairs, e, factors);
+  SizeAt next_sizes(const Results& r, bool first) {
+    return sizes_as(r, wanted_ ? *wanted_ : wanted_next(r, spec_, first));
   }
-
-  SizeAt next_sizes(const Results& r, bool first) { return sizes_as(r, wanted_ ? *wanted_ : wanted(r, first)); }
 
   // Where other cases than this one want sizes too.
   SizeAt with_wanted(const Results& r, SizeAt sizes) {
@@ -398,23 +357,6 @@ class Loop {
 };
 
 }  // namespace
-
-double estimated_error(const Results& r, Goal of) {
-  switch (of) {
-    case Goal::pressure:
-      return r.estimate->pressure();
-    case Goal::peak:
-      return r.estimate->peak();
-    case Goal::half_width:
-      return r.estimate->half_width();
-    case Goal::mean:
-    case Goal::force:
-    case Goal::displacement:
-    case Goal::stress:
-      return r.estimate->goal->error();
-  }
-  return 0;
-}
 
 AccurateMesh mesh_to_accuracy(const std::vector<const Scene*>& cases, const Progress& progress) {
   const std::function<bool()> never;

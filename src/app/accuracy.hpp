@@ -25,7 +25,4 @@ struct AccurateMesh {
 /// asked. Cases that are refused are left out. Throws InputError where all are.
 AccurateMesh mesh_to_accuracy(const std::vector<const Scene*>& cases, const Progress& progress = {});
 
-/// By which part of it the figure that an accuracy is asked of is off, as estimated.
-double estimated_error(const Results& results, Goal of);
-
 }  // namespace mortise

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "app/accuracy.hpp"
+#include "app/next_sizes.hpp"
 #include "app/run_table.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"

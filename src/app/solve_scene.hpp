@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "base/errors.hpp"
+#include "app/short_edges.hpp"
 #include "results/results.hpp"
 #include "scene/scene.hpp"
 
@@ -14,6 +14,8 @@ template <typename Work>
 decltype(auto) told_with_path(const Scene& scene, Work work) {
   try {
     return work();
+  } catch (const EdgesTooLong& error) {
+    throw EdgesTooLong(scene.path + ": " + error.what(), error.wanted);
   } catch (const SceneError& error) {
     throw InputError(scene.path + ": " + error.what());
   }

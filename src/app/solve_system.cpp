@@ -1,17 +1,16 @@
 #include "app/solve_system.hpp"
 
+#include "app/short_edges.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "ddm/solve_feti.hpp"
 #include "ddm/substructures.hpp"
-#include "fem/edges.hpp"
 #include "fem/motion_sets.hpp"
 #include "preprint_solvers/mssor.hpp"
 #include "preprint_solvers/solve_ddm.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/layered_system.hpp"
 #include "solve/multipoint_system.hpp"
-#include "solve/nonnegative_fit.hpp"
 #include "solve/solve_layers.hpp"
 
 namespace mortise {
@@ -29,45 +28,20 @@ std::string dependent_row(const Mesh& mesh, const std::vector<ContactPair>& pair
               : solution.advice);
 }
 
-// Whether pressures at the ends of segments would carry the load, as those that are spread over edges do not.
-bool points_carry(const Problem& p) {
-  constexpr double round_off = 1e-8;  // of the largest terms
-  const auto& motions = p.floating.motions;
-  VecX work = VecX::Zero(Eigen::Index(motions.size()));
-  for (const MotionSet& set : motion_sets(p.mesh, motions))
-    for (std::size_t k = 0; k < set.motions.size(); ++k)
-      for (Eigen::Index i = 0; i < set.fields.rows(); ++i)
-        work(set.motions[k]) += set.fields(i, Eigen::Index(k)) * p.discretisation.system.f(set.unknown(i));
-  std::vector<VecX> opened;  // by the motions, at each point
-  for (const ContactPair& pair : p.pairs) {
-    if (pair.spec.condition != Condition::unilateral) return false;
-    for (const Segment& segment : find_segments(p.mesh.nodes, pair))
-      for (const double xi : {segment.begin, segment.end}) {
-        const auto point = contact_point(p.mesh.nodes, pair, segment.edge, xi, segment.opposite_edge);
-        if (!point) continue;
-        const Vec2 x = edge_point(p.mesh.nodes, pair.multiplier.edges[segment.edge], xi).position;
-        VecX& at = opened.emplace_back(VecX::Zero(work.size()));
-        for (std::size_t k = 0; k < motions.size(); ++k)
-          for (const RigidMotion& part : motions[k])
-            at(Eigen::Index(k)) += (int(part.body == pair.multiplier.body) - int(part.body == pair.opposite.body)) *
-                                   point->normal.dot(part.at(x));
-      }
-  }
-  MatX A(work.size(), Eigen::Index(opened.size()));
-  for (std::size_t i = 0; i < opened.size(); ++i) A.col(Eigen::Index(i)) = opened[i];
-  const NonnegativeFit fit = fit_nonnegative(A, work, std::vector<char>(opened.size(), 0));
-  return largest_entry(fit.residual) <= round_off * largest_entry(work.cwiseAbs() + A.cwiseAbs() * fit.x);
-}
-
-std::string unconstrained(const Problem& p, const Solution& solution) {
+[[noreturn]] void refuse_unconstrained(const Problem& p, const Solution& solution) {
+  std::vector<SizeLayers> shorter;
+  if (solution.driven_mode.size() > 0) shorter = edges_that_carry(p);
   const std::string expected =
-      solution.driven_mode.size() > 0 && points_carry(p)
+      !shorter.empty()
           ? " on this mesh; expected shorter edges where contact ends, whose pressures would carry the load"
           : "; expected a load that presses it on, or prescribed displacements that hold it" +
                 (solution.advice.empty() ? std::string() : " (" + solution.advice + ")");
-  if (solution.driven_mode.size() == 0) return "contact opens until nothing holds a body" + expected;
+  if (solution.driven_mode.size() == 0) throw SceneError("contact opens until nothing holds a body" + expected);
   const auto motion = motions_through(p.mesh, p.floating.motions, p.floating.grounded, solution.driven_mode)[0];
-  return "nothing holds " + describe(p.mesh, motion) + ": the load moves it away from the contact" + expected;
+  const std::string text =
+      "nothing holds " + describe(p.mesh, motion) + ": the load moves it away from the contact" + expected;
+  if (shorter.empty()) throw SceneError(text);
+  throw EdgesTooLong(text, std::move(shorter));
 }
 
 }  // namespace
@@ -168,7 +142,7 @@ void require_solution(const Problem& p, const Solution& solution) {
     case SolveStatus::dependent_row:
       throw SceneError(dependent_row(p.mesh, p.pairs, solution));
     case SolveStatus::unconstrained:
-      throw SceneError(unconstrained(p, solution));
+      refuse_unconstrained(p, solution);
     case SolveStatus::in_tension:
       throw SceneError(solution.advice);
   }

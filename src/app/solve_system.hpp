@@ -37,8 +37,8 @@ class SystemSolver {
 /// decomposition, n: the unknowns of the bodies that take the displacement.
 Solution solve_system(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet);
 
-/// Throws SceneError, with the place, where the solver found none: what SolveStatus says of it. Of a load that nothing
-/// carries, whether a finer mesh may.
+/// Throws SceneError, with the place, where the solver found none: what SolveStatus says of it; EdgesTooLong of a load
+/// that a finer mesh carries.
 void require_solution(const Problem& problem, const Solution& solution);
 
 }  // namespace mortise

@@ -1,0 +1,31 @@
+// What an accuracy asks of the sizes of the next mesh.
+#pragma once
+
+#include "error/wanted_sizes.hpp"
+#include "gmsh/free_mesher.hpp"
+#include "results/results.hpp"
+
+namespace mortise {
+
+/// By which all sizes change where a mesh tells nothing of the next, or is not made.
+inline constexpr double another = 1.5;
+
+/// By which part of it the figure that an accuracy is asked of is off, as estimated.
+double estimated_error(const Results& results, Goal of);
+
+/// Sizes with which that comes to what is asked, in as few meshes as can be. `first`: of all.
+WantedSizes wanted_next(const Results& results, const AccuracySpec& spec, bool first);
+
+/// The number of unknowns of a mesh with these sizes. `areas`: of the cells.
+double expected_unknowns(const Mesh& mesh, const VecX& areas, const SizeField& sizes);
+
+SizeAt scaled(const SizeAt& sizes, double factor);
+SizeAt with_layers(const SizeAt& sizes, std::vector<SizeLayers> layers);
+
+/// Edges an eighth as long where the curves of pairs that carry nothing are nearest.
+SizeAt small_at_gaps(const Results& results, const SizeAt& sizes);
+
+/// Whether layers ask for edges anywhere that are shorter than sizes do, by more than gmsh's differ from what is asked.
+bool are_shorter(const std::vector<SizeLayers>& layers, const SizeAt& sizes);
+
+}  // namespace mortise
