@@ -139,7 +139,7 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
     if (!pair.spec.stiffness)  // p is no larger than k times the overlap
       e.singular = that_count(points[k], e.line, spec.value);
     forget_borders(swinging(e), e.local);
-    add_weak_points(e.line, e.singular, e.local);
+    e.weak = add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
     const double modulus = contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]);
     if (pair.spec.stiffness) {
@@ -411,7 +411,7 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, Estimat
     estimate.goal->local = mean_error(p.mesh, p.pairs[spec.pair], e.line, e.local.pointwise(e.line), spec.window);
   }
   if (spec.of == Goal::displacement) add_displacement_error(p, goal, solution.u, *estimate.goal);
-  if (spec.of == Goal::stress) add_stress_error(p, goal, solution.u, *estimate.goal);
+  if (spec.of == Goal::stress) add_stress_error(p, estimate.pressures, goal, solution.u, *estimate.goal);
   for_each_index(p.pairs.size(), solver_threads(),
                  [&](std::size_t k) { find_fitted_pressure(p, p.pairs[k], estimate.pressures[k]); });
   add_far_errors(p.mesh, estimate);

@@ -34,7 +34,8 @@ MatX displacement_loads(const Mesh& mesh, const CellPlace& place);
 MatX stress_loads(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place);
 
 /// Where stresses have no limit at a place, x, the exponent by which displacements grow with the distance from it: at a
-/// corner of its body, or where contact has a singular point (1: stresses grow as a logarithm). None elsewhere.
+/// corner of its body, or where contact has a singular point (1: stresses grow as a logarithm) or p goes as a small
+/// power without limit. None elsewhere.
 std::optional<double> singular_exponent(const Problem& problem, const std::vector<PressureEstimate>& pressures,
                                         const CellPlace& place, const Vec2& x);
 
@@ -77,8 +78,9 @@ void add_displacement_error(const Problem& problem, const GoalFunctionals& funct
                             GoalEstimate& goal);
 
 /// The value of a stress becomes the recovered one; by what the elements' own differs from it there, the cell that has
-/// the place has a larger part.
-void add_stress_error(const Problem& problem, const GoalFunctionals& functionals, const VecX& u, GoalEstimate& goal);
+/// the place has a larger part. Where p falls to zero as a small power, it is off by what is left to fall.
+void add_stress_error(const Problem& problem, const std::vector<PressureEstimate>& pressures,
+                      const GoalFunctionals& functionals, const VecX& u, GoalEstimate& goal);
 
 /// Why a window of a mean is none: reversed, or nowhere on the line. Empty where it is one.
 std::string window_trouble(const PressureLine& line, const Vec2& window);

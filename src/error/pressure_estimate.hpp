@@ -21,6 +21,7 @@ struct PressureEstimate {
   TailShares tails;                                ///< what the mesh misses at the bodies' corners
   VecX bar;                                        ///< of p at each vertex of `line`, stress
   std::vector<SingularPoint> singular;             ///< of its loaded part
+  std::vector<SingularPoint> weak;                 ///< likewise, where p goes as a small power: left out nowhere
   double excluded_distance = 0;  ///< from a point where p has no limit: there p is left out of the norm
   std::vector<char> excluded;    ///< of each vertex
   /// Squares of L2 norms along what is not excluded, stress^2 length: of the local error, the far field's and p. Where
@@ -34,10 +35,11 @@ struct PressureEstimate {
 };
 
 /// The singular point of contact at a place, nearer than this part of its edge; null where there is none.
-inline const SingularPoint* singular_point_at(const std::vector<PressureEstimate>& pressures, const Vec2& place,
-                                              double part_of_edge) {
+inline const SingularPoint* singular_point_at(
+    const std::vector<PressureEstimate>& pressures, const Vec2& place, double part_of_edge,
+    std::vector<SingularPoint> PressureEstimate::*points = &PressureEstimate::singular) {
   for (const PressureEstimate& e : pressures)
-    for (const SingularPoint& point : e.singular)
+    for (const SingularPoint& point : e.*points)
       if ((point.position - place).norm() < part_of_edge * point.edge) return &point;
   return nullptr;
 }

@@ -20,7 +20,11 @@ constexpr double hats_in_l2 = 0.11, hats_at_end = 0.36;
 
 }  // namespace
 
-void add_weak_points(const PressureLine& line, std::vector<SingularPoint>& points, LineError& error) {
+double weak_change(double d) { return std::abs(std::expm1(-folds * d)); }
+
+std::vector<SingularPoint> add_weak_points(const PressureLine& line, std::vector<SingularPoint>& points,
+                                           LineError& error) {
+  std::vector<SingularPoint> weak;
   std::erase_if(points, [&](const SingularPoint& point) {
     const double d = point.small_power;
     if (d == 0) return false;
@@ -30,9 +34,11 @@ void add_weak_points(const PressureLine& line, std::vector<SingularPoint>& point
     for (const Eigen::Index next : {i - 1, i + 1})
       if (next >= 0 && next < line.p.size()) p = std::max(p, std::abs(line.p(next)));
     error.add_weak({i, missed(d, std::abs(d) * p) * std::sqrt(line.h(i)), 0.5 + std::min(d, 0.), true});
-    error.raise(i, p * std::abs(std::exp(-folds * d) - 1));
+    error.raise(i, p * weak_change(d));
+    weak.push_back(point);
     return true;
   });
+  return weak;
 }
 
 void add_layer_ends(const PressureLine& line, const std::vector<SingularPoint>& points, const ContactLaw& law,

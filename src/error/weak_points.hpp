@@ -11,8 +11,12 @@ namespace mortise {
 /// Where a free face meets the contact line at other than a right angle p is zero at the very end, and c r^d at a
 /// distance r from it; where rollers do it grows so, d < 0 (SingularPoint::small_power). Of a small d p is as good as
 /// constant a little further on: slopes between vertices show nothing. Takes such points from the list, which leaves
-/// nothing out around them, and adds to `error` what hats miss of r^d (docs/theory.md eq. 47b).
-void add_weak_points(const PressureLine& line, std::vector<SingularPoint>& points, LineError& error);
+/// nothing out around them, and adds to `error` what hats miss of r^d (docs/theory.md eq. 47b). Those that are loaded.
+std::vector<SingularPoint> add_weak_points(const PressureLine& line, std::vector<SingularPoint>& points,
+                                           LineError& error);
+
+/// By which part of itself r^d differs between an edge's length and a place that counts as the point.
+double weak_change(double d);
 
 /// The same where p = p0 +- amplitude ln r on both sides of a place, stress.
 void add_weak_logarithm(const PressureLine& line, const Vec2& place, double amplitude, LineError& error);

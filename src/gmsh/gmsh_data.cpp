@@ -44,7 +44,7 @@ void get_elements(MeshData& data, const TagRows& rows, int dimension, int entity
 
 }  // namespace
 
-MeshData gmsh_data(const std::string& file) {
+MeshData gmsh_data(const std::string& file, const std::map<int, std::vector<int>>& drawn) {
   MeshData data;
   data.file = file;
   const TagRows rows = get_nodes(data);
@@ -53,7 +53,10 @@ MeshData gmsh_data(const std::string& file) {
     gmsh::model::getPhysicalGroups(groups, dimension);
     for (const auto& [dim, group] : groups) data.groups.push_back({dim, group, group_name(dim, group)});
     gmsh::model::getEntities(entities, dimension);
-    for (const auto& [dim, entity] : entities) get_elements(data, rows, dim, entity, groups_of_entity(dim, entity));
+    for (const auto& [dim, entity] : entities) {
+      const auto as_drawn = dim == 1 ? drawn.find(entity) : drawn.end();
+      get_elements(data, rows, dim, entity, as_drawn != drawn.end() ? as_drawn->second : groups_of_entity(dim, entity));
+    }
   }
   return data;
 }

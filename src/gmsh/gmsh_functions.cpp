@@ -3,23 +3,49 @@
 #include <gmsh.h>
 
 #include <filesystem>
+#include <map>
 
+#include "gmsh/compound_curves.hpp"
 #include "gmsh/far_geometry.hpp"
 #include "gmsh/free_mesh.hpp"
 #include "gmsh/gmsh_data.hpp"
+#include "gmsh/gmsh_groups.hpp"
 #include "gmsh/gmsh_module.hpp"
 #include "gmsh/gmsh_session.hpp"
 
 namespace mortise {
 namespace {
 
+std::map<int, std::vector<int>> groups_of_curves() {
+  gmsh::vectorpair curves;
+  gmsh::model::getEntities(curves, 1);
+  std::map<int, std::vector<int>> groups;
+  for (const auto& [dimension, tag] : curves) groups[tag] = groups_of_entity(dimension, tag);
+  return groups;
+}
+
+// Compounds appear as surfaces are meshed, and take the groups of their members with them.
+CompoundCurves compound_curves(const std::map<int, std::vector<int>>& drawn) {
+  CompoundCurves found;
+  for (const auto& [tag, groups] : groups_of_curves()) {
+    const auto before = drawn.find(tag);
+    if (before == drawn.end())
+      found.compounds.push_back(tag);
+    else if (before->second != groups)
+      found.members.push_back(tag);
+  }
+  return found;
+}
+
 MeshData mesh_geo(const std::string& file, const std::map<std::string, double>& parameters, ForbiddenBy forbidden) {
   GmshSession session(forbidden);
   session.read(file, parameters);
   if (std::filesystem::path(file).extension() == ".msh" || session.has_cells()) return gmsh_data(file);
   const Vec2 shift = move_to_origin(session, file);
+  const std::map<int, std::vector<int>> drawn = groups_of_curves();
   session.run(file, "meshing", [] { gmsh::model::mesh::generate(2); });
-  MeshData data = gmsh_data(file);
+  MeshData data = gmsh_data(file, drawn);
+  leave_compounds(compound_curves(drawn), data);
   move(-shift, data);
   return data;
 }

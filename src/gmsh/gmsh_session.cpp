@@ -13,6 +13,7 @@
 #include "base/errors.hpp"
 #include "base/memory_file.hpp"
 #include "base/printable.hpp"
+#include "gmsh/gmsh_groups.hpp"
 #include "gmsh/sandbox.hpp"
 
 namespace mortise {

@@ -199,6 +199,58 @@ TEST(Accuracy, OfAStressAtTheEndOfContactIsRefused) {
     }
 }
 
+// A block under one whose left face leans over by a few degrees at the end of contact, inwards or outwards.
+Results leaning(const TemporaryFolder& folder, double angle, double edge, const AccuracySpec& spec) {
+  std::ostringstream geo;
+  geo << "Mesh.ElementOrder = 2; h = " << edge << "; c = 2 / Tan(" << angle << " * Pi / 180);\n"
+      << R"(Point(1) = {0, -2, 0, 0.3}; Point(2) = {4, -2, 0, 0.3}; Point(3) = {4, 0, 0, 0.3}; Point(4) = {0, 0, 0, h};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1 ... 4}; Plane Surface(1) = {1};
+Point(5) = {0, 0, 0, h}; Point(6) = {4, 0, 0, 0.3}; Point(7) = {4, 2, 0, 0.3}; Point(8) = {c, 2, 0, 0.3};
+Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5}; Curve Loop(2) = {5 ... 8}; Plane Surface(2) = {2};
+Physical Surface("low") = {1}; Physical Surface("up") = {2}; Physical Curve("ground") = {1}; Physical Curve("track") = {3};
+Physical Curve("foot") = {5}; Physical Curve("top") = {7}; Physical Curve("right") = {2, 6};
+)";
+  folder.write("leaning.geo", geo.str());
+  Results r = solve_scene(read_scene(folder.write("leaning.toml", R"(
+mesh.file = "leaning.geo"
+materials.steel = { young = 210e3, poisson = 0.3 }
+bodies = { low = "steel", up = "steel" }
+boundary = [
+  { on = "ground", displacement = { x = 0, y = 0 } },
+  { on = "right", displacement = { x = 0 } },
+  { on = "top", displacement = { y = -1e-3 } },
+]
+contact = [{ between = ["foot", "track"], initial_gap = "closed" }]
+)")));
+  estimate(r, spec);
+  return r;
+}
+
+// p goes as a small power there: of a face that leans out without limit, which is refused; of one that leans in to
+// zero, so slowly that no mesh shows it, and what is left to fall is told.
+TEST(Accuracy, OfAStressWherePGoesAsASmallPower) {
+  const TemporaryFolder folder;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int variant = 0; variant < 6; ++variant) {
+    const double lean = 2 + 4 * unit(random);
+    AccuracySpec spec;
+    spec.of = Goal::stress;
+    spec.at = Vec2::Zero();
+    spec.body = variant % 2 ? "up" : "low";
+    SCOPED_TRACE(spec.body + " " + std::to_string(lean));
+    const std::string said = message_of([&] { leaning(folder, 90 + lean, 0.1, spec); });
+    expect_contains(said, "accuracy.at: the stress has no limit near (0, 0), where it grows as r^-0.0");
+    const Results coarse = leaning(folder, 90 - lean, 0.1, spec), fine = leaning(folder, 90 - lean, 0.005, spec);
+    for (const Results* r : {&coarse, &fine})
+      EXPECT_LT(r->estimate->goal->error(), 1.5) << "to zero, and by nothing else";
+    const double fallen = 1 - fine.estimate->goal->value(1) / coarse.estimate->goal->value(1);
+    EXPECT_GT(fallen, 0);
+    EXPECT_GT(coarse.estimate->goal->error(), fallen);
+    EXPECT_GT(fine.estimate->goal->error(), fallen) << "there is as much to come";
+  }
+}
+
 TEST(Accuracy, OfAStressGoesBesideALineWhereBodiesMeet) {
   const auto at_line = [](const std::string& body, const std::string& asked) {
     const auto r = solve_to_accuracy(scene_to_accuracy(

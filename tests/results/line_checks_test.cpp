@@ -12,6 +12,7 @@
 
 #include "app/solve_scene.hpp"
 #include "results/error_report.hpp"
+#include "results/large_displacement.hpp"
 #include "results/line_motion.hpp"
 #include "support/messages.hpp"
 #include "support/plate_scenes.hpp"
@@ -91,6 +92,43 @@ TEST(LineChecks, CountAPairByItsPartInTheNormOfAllPressure) {
   const Check check = motion_check(r);
   EXPECT_TRUE(check.ok());
   EXPECT_NEAR(check.value, motion_of(r).value / std::sqrt(10.0), 1e-6);  // it stretches by 1e-4
+}
+
+// Of pairs drawn at random that slide along the same way: where the sum is to be told of, the line that is named is
+// that of the pair with the largest part in it, and says of it what it says of that pair alone.
+TEST(LineChecks, NameThePairOfWhichMostIsLostHoweverLittleOthersCarry) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int of_less_sliding = 0, silent = 0;
+  for (int variant = 0; variant < 40; ++variant) {
+    const Results one = moved(0, 0.1 * unit(random));
+    const auto turned = [&](double slide, double pressed) {
+      Results r = one;
+      for (ContactPoint& point : r.problem.pairs[0].points) point.normal = {std::sqrt(1 - slide * slide), slide};
+      r.recovery.contacts[0].pressure *= pressed;
+      return r;
+    };
+    const double slide[] = {1, unit(random)}, pressed[] = {std::pow(10, -3 * unit(random)), 1};
+    const Results alone[] = {turned(slide[0], pressed[0]), turned(slide[1], pressed[1])};
+    Results both = alone[0];
+    both.problem.pairs.push_back(alone[1].problem.pairs[0]);
+    both.recovery.contacts.push_back(alone[1].recovery.contacts[0]);
+    const auto lost = [&](int k) { return motion_check(alone[k]).value * pressed[k]; };
+    const double sum = std::hypot(lost(0), lost(1)) / std::hypot(pressed[0], pressed[1]);
+    if (std::abs(sum - 0.01) < 0.003) continue;  // the check takes means, the line places
+    const auto said = large_displacement(both);
+    const auto slides = [](const std::optional<std::string>& line) {
+      return line && line->find("slide along one another") != std::string::npos;
+    };
+    EXPECT_EQ(slides(said), sum > 0.01) << sum;
+    silent += !slides(said);
+    if (!slides(said) || std::abs(std::log(lost(0) / lost(1))) < 0.3) continue;
+    const int most = lost(0) > lost(1) ? 0 : 1;
+    EXPECT_EQ(said, large_displacement(alone[most]));
+    of_less_sliding += most;
+  }
+  EXPECT_GE(of_less_sliding, 5);
+  EXPECT_GE(silent, 3);
 }
 
 // Pressed by E, both ends of the foot turn by a radian each, and the line as a whole not at all. It does not
