@@ -18,7 +18,7 @@
 namespace mortise {
 namespace {
 
-constexpr double same_place = 1e-6;  // of an edge
+constexpr double at_place = 1e-6;  // of an edge
 
 struct Window {
   double from, to;
@@ -161,15 +161,15 @@ MatX stress_loads(const Mesh& mesh, const Discretisation& discretisation, const 
 
 std::optional<double> singular_exponent(const Problem& problem, const std::vector<PressureEstimate>& pressures,
                                         const CellPlace& place, const Vec2& x) {
-  if (const SingularPoint* point = singular_point_at(pressures, x, same_place)) return point->exponent;
-  if (const SingularPoint* point = singular_point_at(pressures, x, same_place, &PressureEstimate::weak))
+  if (const SingularPoint* point = singular_point_at(pressures, x, at_place)) return point->exponent;
+  if (const SingularPoint* point = singular_point_at(pressures, x, at_place, &PressureEstimate::weak))
     return point->small_power < 0 ? std::optional(1 + point->small_power) : std::nullopt;
   const Mesh& mesh = problem.mesh;
   const Discretisation& d = problem.discretisation;
   const Cell& cell = mesh.cells[place.cell];
   const double size = (mesh.nodes.row(cell.nodes[1]) - mesh.nodes.row(cell.nodes[0])).norm();
   for (int a = 0; a < corner_count(cell.kind); ++a) {
-    if ((mesh.nodes.row(cell.nodes[a]).transpose() - x).norm() > same_place * size) continue;
+    if ((mesh.nodes.row(cell.nodes[a]).transpose() - x).norm() > at_place * size) continue;
     const double exponent = corner_exponent(mesh, cell.nodes[a], d.system.constraints, d.laws[cell.body]);
     if (exponent <= singular_limit) return exponent;
   }
@@ -293,7 +293,7 @@ void add_stress_error(const Problem& problem, const std::vector<PressureEstimate
   const Eigen::Vector3d own = stress_difference(problem, u, patches, place).cwiseAbs();
   goal.besides += own;
   if (const SingularPoint* point =
-          singular_point_at(pressures, place_in(mesh, place), same_place, &PressureEstimate::weak))
+          singular_point_at(pressures, place_in(mesh, place), at_place, &PressureEstimate::weak))
     goal.besides += weak_change(point->small_power) * goal.value.cwiseAbs();
   goal.parts.row(place.cell) = goal.parts.row(place.cell).cwiseAbs() + own.transpose();
 }

@@ -52,7 +52,7 @@ double norm_of_error(const Results& r) {
   const PressureEstimate& e = r.estimate->pressures[0];
   return std::sqrt(e.local2) + std::sqrt(e.far2);
 }
-double largest_bar(const Results& r) { return largest_entry(r.estimate->pressures[0].bar); }
+double widest_bar(const Results& r) { return largest_entry(r.estimate->pressures[0].bar); }
 
 TEST(MissedContact, IsInTheBars) {
   std::mt19937 random(4);
@@ -66,7 +66,7 @@ TEST(MissedContact, IsInTheBars) {
     const Results fine = disc(0.3, std::sqrt(overlap) / 4, 0, gap, down);
     const double p = largest_pressure(fine);
     ASSERT_GT(p, 0);
-    EXPECT_GE(largest_bar(coarse), p - largest_pressure(coarse)) << "gap " << gap << ", down " << down;
+    EXPECT_GE(widest_bar(coarse), p - largest_pressure(coarse)) << "gap " << gap << ", down " << down;
     if (largest_pressure(coarse) > 0) continue;
     ++missed;
     EXPECT_GE(norm_of_error(coarse), std::sqrt(fine.estimate->pressures[0].p2)) << "gap " << gap << ", down " << down;
@@ -77,7 +77,7 @@ TEST(MissedContact, IsInTheBars) {
 TEST(MissedContact, IsNoneWhereCurvesStayApart) {
   const Results open = disc(0.7, 0.7, 0.1, 0.01, 0.009);
   EXPECT_EQ(largest_pressure(open), 0);
-  EXPECT_EQ(largest_bar(open), 0);
+  EXPECT_EQ(widest_bar(open), 0);
 }
 
 // A disc that nothing holds, drawn `below` over a floor and `above` under a ceiling, on edges of 0.7; the floor's foot
