@@ -47,9 +47,9 @@ double part_left(const std::vector<double>& squares) {
   if (squares.size() < most_levels) return 1;
   const double last = squares[0] / squares[1], before = squares[1] / squares[2];
   const double ratio = std::sqrt(std::max({last, before, best_ratio * best_ratio}));
-  if (!(ratio < 0.5)) return 1;  // a geometric series is then no less than its first term
   // By what the last is larger than it would be, had it fallen as the one before, does not fall with the edges.
   const double stays = std::max(0.0, 1 - before / last);
+  // From a ratio of 1/2 on a series is no less than its first term; of differences that are all 0 it is not known.
   return std::min(1.0, std::sqrt(std::pow(ratio / (1 - ratio), 2) + stays));
 }
 

@@ -185,6 +185,7 @@ TEST(FittedPressure, OfHertzsSphereIsNearerThanTheMultiplier) {
         EXPECT_NEAR(e.local.l2(i), border_left * of_multiplier.l2(i), 1e-9 * of_multiplier.l2(i)) << edges << " " << i;
       else
         EXPECT_LT(e.local.l2(i), 0.9 * of_multiplier.l2(i)) << edges << " " << i;
+      EXPECT_GT(e.local.worst(i), 1) << edges << " " << i;  // no vertex is the mean
     }
     all += off;
     all_h += off_h;
