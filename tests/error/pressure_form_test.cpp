@@ -159,7 +159,7 @@ TEST(FittedPressure, OfHertzsSphereIsNearerThanTheMultiplier) {
   std::mt19937 draw(38);
   const double E_star = 210e9 / (2 * (1 - 0.09)), force = std::numbers::pi * 48970.7517;
   const double a = std::cbrt(3 * force / (4 * E_star)), p0 = 3 * force / (2 * std::numbers::pi * a * a);
-  double all = 0, all_h = 0, worst = 0;
+  double all = 0, all_h = 0;
   for (int k = 0; k < 4; ++k) {
     const int edges = std::uniform_int_distribution(18, 40)(draw);
     Scene scene = read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/hertz_sphere.toml");
@@ -185,13 +185,11 @@ TEST(FittedPressure, OfHertzsSphereIsNearerThanTheMultiplier) {
         EXPECT_NEAR(e.local.l2(i), border_left * of_multiplier.l2(i), 1e-9 * of_multiplier.l2(i)) << edges << " " << i;
       else
         EXPECT_LT(e.local.l2(i), 0.9 * of_multiplier.l2(i)) << edges << " " << i;
-      if (!of_multiplier.border[i]) worst = std::max(worst, e.local.worst(i));
     }
     all += off;
     all_h += off_h;
   }
   EXPECT_LT(std::sqrt(all), std::sqrt(all_h) / 3);
-  EXPECT_GT(worst, 1.1);  // bars are those of the worst vertex, not of the root mean square
 }
 
 // Bars so wide that they hold anything: p* that would swing by more than the multiplier's noise is none.
