@@ -11,10 +11,10 @@
 namespace mortise {
 namespace {
 
-constexpr double fit_tolerance = 1e-10;  // of the largest terms: a hundred times what the fit is left with
-// Of the scene's size: an edge at the very end of contact that a load upon that end is not within fit_tolerance of, by
-// the hundreds that levers and terms may be of one another.
-constexpr double shortest = 1e3 * fit_tolerance;
+constexpr double fit_tolerance = 1e-8;  // of the largest terms
+// Of the scene's size: a load upon the very end of contact is not within fit_tolerance of an edge as long as that,
+// though levers and terms be tens of one another.
+constexpr double shortest = 100 * fit_tolerance;
 
 // A place of a segment that may press, and what each motion opens there.
 struct Presses {
@@ -33,7 +33,21 @@ VecX work_on(const Problem& p) {
   return work;
 }
 
-// At both ends of all segments, inwards by a part of the segment: 1/2 is its middle.
+// What each motion opens of each row by its pressure, motions x rows.
+MatX opened_rows(const Problem& p) {
+  const auto& motions = p.floating.motions;
+  const SaddlePointSystem& system = p.discretisation.system;
+  MatX opened(Eigen::Index(motions.size()), system.B.rows());
+  for (const MotionSet& set : motion_sets(p.mesh, motions))
+    for (std::size_t k = 0; k < set.motions.size(); ++k) {
+      VecX field = VecX::Zero(system.f.size());
+      for (Eigen::Index i = 0; i < set.fields.rows(); ++i) field(set.unknown(i)) = set.fields(i, Eigen::Index(k));
+      opened.row(set.motions[k]) = -(system.B * field).cwiseQuotient(system.row_scale).transpose();
+    }
+  return opened;
+}
+
+// At both ends of all segments, inwards by a part of the segment.
 std::vector<Presses> ends_moved(const Problem& p, double inwards) {
   const auto& motions = p.floating.motions;
   std::vector<Presses> list;
@@ -57,24 +71,22 @@ std::vector<Presses> ends_moved(const Problem& p, double inwards) {
   return list;
 }
 
-// Which of `ends` carry the work together with any of `middles`; nothing where they do not. They come in where they
+// Which of `ends` carry the work together with any rows; nothing where they do not. They come in where they
 // lessen what those before leave, and where none does, that proves that none can (Farkas' lemma): so no ends are among
-// them of bodies that the middles hold.
-std::optional<std::vector<std::size_t>> carriers(const VecX& work, const std::vector<Presses>& middles,
-                                                 const std::vector<Presses>& ends) {
-  std::vector<const Presses*> columns;
-  for (const Presses& at : middles) columns.push_back(&at);
+// them of bodies that rows hold.
+std::optional<std::vector<std::size_t>> carriers(const VecX& work, const MatX& rows, const std::vector<Presses>& ends) {
   std::vector<std::size_t> taken;
   std::vector<char> is_taken(ends.size(), 0);
   for (;;) {
-    MatX A(work.size(), Eigen::Index(columns.size()));
-    for (std::size_t i = 0; i < columns.size(); ++i) A.col(Eigen::Index(i)) = columns[i]->opened;
-    const NonnegativeFit fit = fit_nonnegative(A, work, std::vector<char>(columns.size(), 0));
+    MatX A(work.size(), rows.cols() + Eigen::Index(taken.size()));
+    A.leftCols(rows.cols()) = rows;
+    for (std::size_t i = 0; i < taken.size(); ++i) A.col(rows.cols() + Eigen::Index(i)) = ends[taken[i]].opened;
+    const NonnegativeFit fit = fit_nonnegative(A, work, std::vector<char>(std::size_t(A.cols()), 0));
     const VecX terms = work.cwiseAbs() + A.cwiseAbs() * fit.x;
     if (largest_entry(fit.residual) <= fit_tolerance * largest_entry(terms)) {
       std::vector<std::size_t> used;
       for (std::size_t i = 0; i < taken.size(); ++i)
-        if (fit.x(Eigen::Index(middles.size() + i)) > 0) used.push_back(taken[i]);
+        if (fit.x(rows.cols() + Eigen::Index(i)) > 0) used.push_back(taken[i]);
       return used;
     }
     const std::size_t before = taken.size();
@@ -84,7 +96,6 @@ std::optional<std::vector<std::size_t>> carriers(const VecX& work, const std::ve
         continue;
       is_taken[i] = 1;
       taken.push_back(i);
-      columns.push_back(&ends[i]);
     }
     if (taken.size() == before) return std::nullopt;
   }
@@ -97,14 +108,15 @@ std::vector<SizeLayers> edges_that_carry(const Problem& p) {
                           [](const ContactPair& pair) { return pair.spec.condition != Condition::unilateral; }))
     return {};
   const VecX work = work_on(p);
-  const std::vector<Presses> middles = ends_moved(p, 0.5);
-  if (!carriers(work, middles, ends_moved(p, 0))) return {};
+  const MatX rows = opened_rows(p);
+  const std::vector<Presses> at_ends = ends_moved(p, 0);
+  if (!carriers(work, rows, at_ends)) return {};
   const double scene = (p.mesh.nodes.colwise().maxCoeff() - p.mesh.nodes.colwise().minCoeff()).norm();
   double longest = 0;
-  for (const Presses& at : middles) longest = std::max(longest, at.length);
-  for (double inwards = 0.25; inwards * longest > shortest * scene; inwards /= 2) {
+  for (const Presses& at : at_ends) longest = std::max(longest, at.length);
+  for (double inwards = 0.5; inwards * longest > shortest * scene; inwards /= 2) {
     const std::vector<Presses> ends = ends_moved(p, inwards);
-    const auto used = carriers(work, middles, ends);
+    const auto used = carriers(work, rows, ends);
     if (!used) continue;
     std::vector<SizeLayers> wanted;
     for (const std::size_t i : *used) wanted.push_back({ends[i].place, inwards * ends[i].length, size_growth});

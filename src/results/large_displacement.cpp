@@ -23,12 +23,14 @@ struct Largest {
   }
 };
 
-// Of the pair of which that is most, by its part in the norm of all pressure; `lost`: what p of all is off by, as
-// motion_check sums it.
-Largest largest_in_contact(const Results& r, double& lost) {
-  Largest worst;
-  double most = 0, norm = 0;
-  lost = 0;
+struct LargestInContact {
+  Largest worst;    // of the pair of which most is lost, by its part in the norm of all pressure
+  double lost = 0;  // what p of all pairs is off by, as motion_check sums it
+};
+
+LargestInContact largest_in_contact(const Results& r) {
+  LargestInContact found;
+  double most = 0, norm = 0, lost = 0;
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     const ContactPair& pair = r.problem.pairs[k];
     const ContactResults& contact = r.recovery.contacts[k];
@@ -51,10 +53,10 @@ Largest largest_in_contact(const Results& r, double& lost) {
     lost = std::hypot(lost, of_all);
     if (!(of_all > most)) continue;
     most = of_all;
-    worst = of_pair;
+    found.worst = of_pair;
   }
-  lost = norm > 0 ? lost / norm : 0;
-  return worst;
+  if (norm > 0) found.lost = lost / norm;
+  return found;
 }
 
 }  // namespace
@@ -62,8 +64,7 @@ Largest largest_in_contact(const Results& r, double& lost) {
 std::optional<std::string> large_displacement(const Results& r) {
   const Vec2 size = (r.problem.mesh.nodes.colwise().maxCoeff() - r.problem.mesh.nodes.colwise().minCoeff()).transpose();
   const double whole = largest_entry(r.solution.u) / size.norm();
-  double lost;
-  if (const Largest worst = largest_in_contact(r, lost); lost > 0.01)
+  if (const auto [worst, lost] = largest_in_contact(r); lost > 0.01)
     return "large displacements: " + (worst.before + worst.amount()) + worst.after + " " + near_point(worst.position) +
            "; contact is written on the undeformed bodies, so p may be off by " + percent(worst.part);
   if (whole > 0.02)
