@@ -10,7 +10,7 @@ namespace mortise {
 /// Contact is held in the mean over a hat. Where the hat's edges are short beside the contact nothing is left of the
 /// gap between. At an end of contact, and the more where a contact is less than an edge wide, the bodies overlap in a
 /// part of the edge and are open in the rest; in truth they touch, and are that overlap farther apart. What this does
-/// to functionals of the solution no dual of the closed rows shows (docs/theory.md eq. 48d).
+/// to functionals of the solution no dual of the closed rows shows (docs/theory.md eq. 48f).
 class BorderOverlaps {
  public:
   BorderOverlaps(const Problem& problem, const Solution& solution, const std::vector<PressureEstimate>& pressures);
