@@ -17,6 +17,9 @@ std::vector<int> first_cells(const Mesh& mesh) {
   return first;
 }
 
+constexpr Eigen::Index at_once = 12;  // recovered stresses take far more room than displacements
+constexpr double alike = 1e-10;       // of a functional: what bars, of a few digits, do not tell
+
 bool same(const MatX& a, const MatX& b) { return a.rows() == b.rows() && a.cols() == b.cols() && a == b; }
 
 // Of a body's own points, rows of fields.
@@ -46,17 +49,14 @@ BodyProducts::Body BodyProducts::body_of(const Problem& problem, std::size_t b, 
   return body;
 }
 
-// `kept`: z by body, made where it is empty, and kept there; null: made and dropped.
-ErrorProducts BodyProducts::products(const Problem& problem, const VecX& u, const MatX& z,
-                                     std::vector<OtherFields>* kept) {
+ErrorProducts BodyProducts::products(const Problem& problem, const VecX& u, const Terms& terms) {
   const Mesh& mesh = problem.mesh;
   const BodyPoints& points = problem.points;
   const std::vector<int> first_cell = first_cells(mesh);
-  const Eigen::Index cells = Eigen::Index(mesh.cells.size()), count = 1 + z.cols();
-  ErrorProducts all{.products = MatX(cells, count), .norms = VecX(cells), .areas = VecX(cells)};
+  const Eigen::Index cells = Eigen::Index(mesh.cells.size()), count = terms.empty() ? 0 : terms[0].second.cols();
+  ErrorProducts all{.products = MatX::Zero(cells, 1 + count), .norms = VecX(cells), .areas = VecX(cells)};
   if (keeps_) bodies_.resize(mesh.bodies.size());
-  const bool known = kept && !kept->empty();
-  if (kept) kept->resize(mesh.bodies.size());
+  for (const auto& [duals, of] : terms) duals->by_body.resize(mesh.bodies.size());
   for_each_index(mesh.bodies.size(), solver_threads(), [&](std::size_t b) {
     Body made, &body = keeps_ ? bodies_[b] : made;
     if (body.mesh.cells.empty()) body = body_of(problem, b, first_cell[b]);
@@ -69,43 +69,110 @@ ErrorProducts BodyProducts::products(const Problem& problem, const VecX& u, cons
       own.patches = body.recovery->fit(samples);
       return own;
     };
-    OtherFields dropped, &others = kept ? (*kept)[b] : dropped;
-    if (z.cols() > 0 && !known) others = recovered(z);
+    std::vector<const OtherFields*> others;
+    for (const auto& [duals, of] : terms) {
+      OtherFields& own = duals->by_body[b];
+      if (own.count() == 0) own = recovered(duals->z);
+      others.push_back(&own);
+    }
     const ErrorProducts found = error_products(body.mesh, body.points, law, recovered(u), others);
     const Eigen::Index own_cells = found.areas.size();
-    all.products.middleRows(first_cell[b], own_cells) = found.products;
+    auto of_body = all.products.middleRows(first_cell[b], own_cells);
+    of_body.col(0) = found.products.col(0);
+    Eigen::Index first = 1;
+    for (const auto& [duals, of] : terms) {
+      of_body.rightCols(count).noalias() += found.products.middleCols(first, of.rows()) * of;
+      first += of.rows();
+      if (!keeps_) duals->by_body[b] = {};
+    }
     all.norms.segment(first_cell[b], own_cells) = found.norms;
     all.areas.segment(first_cell[b], own_cells) = found.areas;
   });
   return all;
 }
 
-BodyProducts::Duals& BodyProducts::find(const std::shared_ptr<const ContactFactor>& factor, DualsAsked asked) {
-  if (!keeps_ || factor_ != factor) duals_.clear();
-  factor_ = factor;
+std::unique_ptr<BodyProducts::Duals> BodyProducts::solved(const ContactFactor& factor, DualsAsked asked) {
+  MatX z = factor.duals(asked.functionals, asked.loads);
+  return std::make_unique<Duals>(Duals{std::move(asked), std::move(z), {}});
+}
+
+DualSums BodyProducts::sums_of(const Terms& terms) {
+  std::vector<DualSums::Term> all;
+  for (const auto& [duals, of] : terms) all.push_back({duals->z, of});
+  return DualSums(std::move(all));
+}
+
+// Solves for what of the functionals, which have no loads, is no sum of those known.
+void BodyProducts::add_unknown(const ContactFactor& factor, const MatX& functionals) {
+  MatX known(functionals.rows(), 0);
+  const auto add = [&](const auto& columns) {
+    known.conservativeResize(Eigen::NoChange, known.cols() + columns.cols());
+    known.rightCols(columns.cols()) = columns;
+  };
+  for (const auto& duals : duals_)
+    if (!duals->loaded()) add(duals->asked.functionals);
+  if (known.cols() > 2 * functionals.cols()) {
+    std::erase_if(duals_, [](const auto& duals) { return !duals->loaded(); });
+    known.resize(Eigen::NoChange, 0);
+  }
+  const Eigen::Index before = known.cols();
+  for (const auto& functional : functionals.colwise()) {
+    VecX rest = functional;
+    for (int pass = 0; pass < 2; ++pass) rest -= known * (known.transpose() * rest);  // once leaves round-off of it
+    if (rest.norm() > alike * functional.norm()) add(rest.normalized());
+  }
+  for (Eigen::Index first = before; first < known.cols(); first += at_once)
+    duals_.push_back(solved(factor, {known.middleCols(first, std::min(at_once, known.cols() - first)), {}}));
+}
+
+// Duals of functionals and loads that have been asked for together, or are now.
+BodyProducts::Duals& BodyProducts::loaded_duals(const ContactFactor& factor, DualsAsked asked) {
   for (const auto& duals : duals_)
     if (same(duals->asked.functionals, asked.functionals) && same(duals->asked.loads, asked.loads)) return *duals;
-  MatX z = factor->duals(asked.functionals, asked.loads);
-  return *duals_.emplace_back(std::make_unique<Duals>(Duals{std::move(asked), std::move(z), {}}));
+  return *duals_.emplace_back(solved(factor, std::move(asked)));
+}
+
+BodyProducts::Terms BodyProducts::find(const std::shared_ptr<const ContactFactor>& factor, const DualsAsked& asked) {
+  if (factor_ != factor) duals_.clear();
+  factor_ = factor;
+  const Eigen::Index count = asked.functionals.cols(), loaded = asked.loads.cols(), others = count - loaded;
+  Terms terms;
+  if (others > 0) {
+    add_unknown(*factor, asked.functionals.leftCols(others));
+    for (const auto& duals : duals_)
+      if (!duals->loaded()) {
+        MatX of = MatX::Zero(duals->z.cols(), count);
+        of.leftCols(others) = duals->asked.functionals.transpose() * asked.functionals.leftCols(others);
+        terms.emplace_back(duals.get(), std::move(of));
+      }
+  }
+  for (Eigen::Index first = 0; first < loaded; first += at_once) {
+    const Eigen::Index some = std::min(at_once, loaded - first);
+    Duals& duals = loaded_duals(*factor, {asked.functionals.middleCols(others + first, some),  //
+                                          asked.loads.middleCols(first, some)});
+    terms.emplace_back(&duals, MatX::Zero(some, count));
+    terms.back().second.middleCols(others + first, some).setIdentity();
+  }
+  return terms;
 }
 
 ErrorProducts BodyProducts::with_duals(const Problem& problem, const VecX& u,
                                        const std::shared_ptr<const ContactFactor>& factor, const DualsAsked& asked,
                                        const SeeDuals& see) {
-  constexpr Eigen::Index at_once = 12;  // recovered stresses take far more room than displacements
   const Eigen::Index count = asked.functionals.cols(), without_load = count - asked.loads.cols();
+  const auto products_of = [&](Eigen::Index first, const Terms& terms) {
+    if (see) see(first, sums_of(terms));
+    return products(problem, u, terms);
+  };
+  if (keeps_) return products_of(0, find(factor, asked));
   ErrorProducts all;
   for (Eigen::Index first = 0; first < count; first += at_once) {
     const Eigen::Index some = std::min(at_once, count - first);
     const Eigen::Index loaded = std::clamp(first + some - without_load, Eigen::Index(0), some);
-    Duals& duals = find(factor, {asked.functionals.middleCols(first, some),
-                                 asked.loads.middleCols(std::max(first - without_load, Eigen::Index(0)), loaded)});
-    if (see) {
-      MatX fields(u.size(), 1 + some);
-      fields << u, duals.z;
-      see(first, fields);
-    }
-    ErrorProducts found = products(problem, u, duals.z, keeps_ ? &duals.by_body : nullptr);
+    const auto duals =
+        solved(*factor, {asked.functionals.middleCols(first, some),
+                         asked.loads.middleCols(std::max(first - without_load, Eigen::Index(0)), loaded)});
+    ErrorProducts found = products_of(first, {{duals.get(), MatX::Identity(some, some)}});
     if (first == 0) {
       all = std::move(found);
       all.products.conservativeResize(Eigen::NoChange, 1 + count);
@@ -126,8 +193,8 @@ VecX off_by(const MatX& parts) {
 FoundDuals find_duals(const Problem& problem, const VecX& u, const std::shared_ptr<const ContactFactor>& factor,
                       const MatX& functionals) {
   FoundDuals found{.z = MatX(u.size(), functionals.cols()), .sums = {}};
-  const auto keep = [&](Eigen::Index first, const MatX& fields) {
-    found.z.middleCols(first, fields.cols() - 1) = fields.rightCols(fields.cols() - 1);
+  const auto keep = [&](Eigen::Index first, const DualSums& duals) {
+    found.z.middleCols(first, duals.count()) = duals.fields();
   };
   const ErrorProducts parts = BodyProducts().with_duals(problem, u, factor, {functionals, MatX(u.size(), 0)}, keep);
   found.sums = off_by(parts.products.rightCols(functionals.cols()));

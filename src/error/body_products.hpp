@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 
+#include "error/dual_sums.hpp"
 #include "fem/error_products.hpp"
 #include "problem/problem.hpp"
 #include "solve/contact_factor.hpp"
@@ -17,17 +18,18 @@ struct DualsAsked {
   MatX functionals, loads;
 };
 
-/// Called with u and, after it, the duals (n x some) of the functionals from the first on.
-using SeeDuals = std::function<void(Eigen::Index first, const MatX& fields)>;
+/// Called with the duals of the functionals from the first on.
+using SeeDuals = std::function<void(Eigen::Index first, const DualSums& duals)>;
 
 /// error_products of u and of duals: the same figures, found for each body alone, on all cores.
 class BodyProducts {
  public:
   /// `keeps`: what the mesh makes of it, and what was asked of the last factor, stays: for loads that come one after
-  /// another on one mesh and one law.
+  /// another on one mesh and one law. A functional that is a sum of those asked before has the same sum of their duals.
+  /// Of the functionals without loads no more are kept than twice those asked at once.
   explicit BodyProducts(bool keeps = false) : keeps_(keeps) {}
 
-  ErrorProducts of(const Problem& problem, const VecX& u) { return products(problem, u, MatX(u.size(), 0), nullptr); }
+  ErrorProducts of(const Problem& problem, const VecX& u) { return products(problem, u, {}); }
 
   /// In the order of u and the duals.
   ErrorProducts with_duals(const Problem& problem, const VecX& u, const std::shared_ptr<const ContactFactor>& factor,
@@ -39,19 +41,25 @@ class BodyProducts {
     BodyPoints points;
     std::unique_ptr<const PatchRecovery> recovery;  // none before the first field
   };
-  struct Duals {  // some of those that were asked for
+  struct Duals {  // some that were solved for
     DualsAsked asked;
     MatX z;
     std::vector<OtherFields> by_body;  // empty before the first product
+    bool loaded() const { return asked.loads.cols() > 0; }
   };
+  using Terms = std::vector<std::pair<Duals*, MatX>>;  // of DualSums
+  static DualSums sums_of(const Terms& terms);
   static Body body_of(const Problem& problem, std::size_t b, int first_cell);
-  ErrorProducts products(const Problem& problem, const VecX& u, const MatX& z, std::vector<OtherFields>* kept);
-  Duals& find(const std::shared_ptr<const ContactFactor>& factor, DualsAsked asked);
+  static std::unique_ptr<Duals> solved(const ContactFactor& factor, DualsAsked asked);
+  ErrorProducts products(const Problem& problem, const VecX& u, const Terms& terms);
+  Terms find(const std::shared_ptr<const ContactFactor>& factor, const DualsAsked& asked);
+  void add_unknown(const ContactFactor& factor, const MatX& functionals);
+  Duals& loaded_duals(const ContactFactor& factor, DualsAsked asked);
 
   bool keeps_;
   std::vector<Body> bodies_;
   std::shared_ptr<const ContactFactor> factor_;  // that duals_ are of
-  std::vector<std::unique_ptr<Duals>> duals_;    // if they are not kept the last ones
+  std::vector<std::unique_ptr<Duals>> duals_;    // functionals without loads are orthonormal
 };
 
 /// What the sum of parts, each known to its own size and with an error of its own, may be off by: its size, and twice

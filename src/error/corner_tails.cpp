@@ -77,12 +77,18 @@ double missed_energy(double exponent, int degree) {
   return part;
 }
 
-void CornerProducts::add_cell(int number, const MatX& fields, Eigen::Ref<Eigen::RowVectorXd> sums) const {
+void CornerProducts::add_cell(int number, const VecX& u, const DualSums& fields,
+                              Eigen::Ref<Eigen::RowVectorXd> sums) const {
   const Cell& cell = mesh_.cells[number];
   const ElasticLaw& law = laws_[cell.body];
   const int nodes = node_count(cell.kind);
-  MatX own(2 * nodes, fields.cols());
-  for (int a = 0; a < nodes; ++a) own.middleRows<2>(2 * a) = fields.middleRows<2>(2 * cell.nodes[a]);
+  const auto of_cell = [&](const auto& field) {
+    MatX own(2 * nodes, field.cols());
+    for (int a = 0; a < nodes; ++a) own.template middleRows<2>(2 * a) = field.template middleRows<2>(2 * cell.nodes[a]);
+    return own;
+  };
+  const VecX own = of_cell(u);
+  VecX forces = VecX::Zero(2 * nodes);  // of the stress, on the nodes
   const CellRule rule = product_rule(cell.kind, is_quadratic(cell.kind) ? 2 : 1);
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
     const CellShape shape = cell_shape(cell.kind, rule.points[q]);
@@ -99,22 +105,21 @@ void CornerProducts::add_cell(int number, const MatX& fields, Eigen::Ref<Eigen::
       const double hoop = law.model.axisymmetric() ? shape.N[a] / x1 : 0;
       B.middleCols<2>(2 * a) << d.x(), 0, 0, d.y(), hoop, 0, d.y(), d.x();
     }
-    const MatX strains = B * own;
-    const Vec4 stress = law.stiffness * Vec4(strains.col(0));
-    sums += rule.weights[q] * x_xi.determinant() * law.model.depth(x1) * (stress.transpose() * strains);
+    const Vec4 stress = law.stiffness * Vec4(B * own);
+    forces += rule.weights[q] * x_xi.determinant() * law.model.depth(x1) * (B.transpose() * stress);
   }
+  for (const auto& [z, of] : fields.terms()) sums += forces.transpose() * of_cell(z) * of;
 }
 
-void CornerProducts::add(const MatX& fields) {
-  const Eigen::Index count = Eigen::Index(corners_.size());
-  const Eigen::Index before = products_[0].cols(), more = fields.cols() - (before > 0 ? 1 : 0);
+void CornerProducts::add(const VecX& u, const DualSums& fields) {
+  const Eigen::Index count = Eigen::Index(corners_.size()), before = products_[0].cols(), more = fields.count();
   for (const int ring : {0, 1}) {
     MatX& products = products_[ring];
     products.conservativeResize(count, before + more);
     for (Eigen::Index c = 0; c < count; ++c) {
-      Eigen::RowVectorXd sums = Eigen::RowVectorXd::Zero(fields.cols());
-      for (const int cell : corners_[c].cells[ring]) add_cell(cell, fields, sums);
-      products.row(c).tail(more) = sums.tail(more);
+      Eigen::RowVectorXd sums = Eigen::RowVectorXd::Zero(more);
+      for (const int cell : corners_[c].cells[ring]) add_cell(cell, u, fields, sums);
+      products.row(c).tail(more) = sums;
     }
   }
 }

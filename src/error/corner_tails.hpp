@@ -3,6 +3,7 @@
 #pragma once
 
 #include "contact/body_corners.hpp"
+#include "error/dual_sums.hpp"
 
 namespace mortise {
 
@@ -31,15 +32,15 @@ class CornerProducts {
   CornerProducts(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const std::vector<CornerRings>& corners)
       : mesh_(mesh), laws_(laws), corners_(corners) {}
 
-  /// `fields` (n x F): field 0 and those whose columns follow the ones that were added before.
-  void add(const MatX& fields);
+  /// Those whose columns follow the ones that were added before.
+  void add(const VecX& u, const DualSums& fields);
 
-  /// Corners x columns: of int sigma_0 : eps_k the part a r^(2 lambda) that grows from the corner, fitted beside b r^2
+  /// Corners x columns: of int sigma(u) : eps_k the part a r^(2 lambda) that grows from the corner, fitted beside b r^2
   /// to both rings, without its sign, times missed_energy and missed_more.
   MatX tails() const;
 
  private:
-  void add_cell(int cell, const MatX& fields, Eigen::Ref<Eigen::RowVectorXd> sums) const;
+  void add_cell(int cell, const VecX& u, const DualSums& fields, Eigen::Ref<Eigen::RowVectorXd> sums) const;
 
   const Mesh& mesh_;
   const std::vector<ElasticLaw>& laws_;

@@ -294,12 +294,11 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
   CornerProducts at_corners(p.mesh, p.discretisation.laws, estimate.tails.corners);
   MatX kept(more + goals > 0 ? solution.u.size() : 0, more + goals);
   MatX works(Eigen::Index(p.misfits.parts.size()), functionals.cols());
-  const auto see = [&](Eigen::Index first, const MatX& fields) {
-    at_corners.add(fields);
-    if (works.rows() > 0)
-      works.middleCols(first, fields.cols() - 1) = data_works(p, solution.u, fields.rightCols(fields.cols() - 1));
-    for (Eigen::Index k = std::max(first, shared); k < first + fields.cols() - 1; ++k)
-      kept.col(k - shared) = fields.col(1 + k - first);
+  const auto see = [&](Eigen::Index first, const DualSums& duals) {
+    at_corners.add(solution.u, duals);
+    if (works.rows() > 0) works.middleCols(first, duals.count()) = data_works(p, solution.u, duals.fields());
+    for (Eigen::Index k = std::max(first, shared); k < first + duals.count(); ++k)
+      kept.col(k - shared) = duals.field(k - first);
   };
   const bool has_duals = functionals.cols() > 0;
   const ErrorProducts found =
@@ -318,12 +317,12 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
   estimate.data_works.leftCols(shared) = works.leftCols(shared);
   estimate.data_works.rightCols(goals) = works.rightCols(goals);
   const MatX tails = at_corners.tails();
-  estimate.tails.parts = tails.middleCols(1, shared);
+  estimate.tails.parts = tails.leftCols(shared);
   estimate.tails.goal = tails.rightCols(goals);
   if (goals > 0) estimate.goal->besides += estimate.tails.goal.colwise().sum().transpose();
   estimate.also = {.z = kept.leftCols(more),
                    .sums = off_by(found.products.middleCols(1 + shared, more)) +
-                           tails.middleCols(1 + shared, more).colwise().sum().transpose()};
+                           tails.middleCols(shared, more).colwise().sum().transpose()};
 }
 
 void require_pair(const AccuracySpec& spec, std::size_t count) {

@@ -85,8 +85,8 @@ std::vector<PlaceError> place_errors(const Problem& problem, const Solution& sol
       loads.middleCols<3>(5 * k + 2) = stress_loads(mesh, d, place) * turn.transpose();
     }
     VecX far = VecX::Zero(loads.cols());
-    const auto add_lines = [&](Eigen::Index first, const MatX& fields) {
-      const auto z = fields.rightCols(fields.cols() - 1);
+    const auto add_lines = [&](Eigen::Index first, const DualSums& duals) {
+      const MatX z = duals.fields();
       for (std::size_t k = 0; k < pairs.size(); ++k)
         far.segment(first, z.cols()) +=
             line_part(pairs[k], pressures[k].line, pressures[k].local, openings(pairs[k], z)).sum();

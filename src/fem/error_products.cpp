@@ -140,7 +140,7 @@ class OwnField {
 // Adds the products of one cell with other fields.
 template <int components>
 void add_products(const CellFunctional<components>& of, const OtherFields& others, const Cell& cell,
-                  const Cell& on_points, Eigen::RowVectorXd& products) {
+                  const Cell& on_points, Eigen::Ref<Eigen::RowVectorXd> products) {
   using Row = Eigen::Map<const Eigen::RowVectorXd>;
   using Rows = Eigen::Map<const Eigen::Matrix<double, components, Eigen::Dynamic, Eigen::RowMajor>>;
   const Eigen::Index count = products.size();
@@ -157,16 +157,23 @@ void add_products(const CellFunctional<components>& of, const OtherFields& other
 
 template <int components>
 ErrorProducts products_of(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                          const RecoveredFields& field, const OtherFields& others) {
+                          const RecoveredFields& field, const std::vector<const OtherFields*>& others) {
   const std::vector<Cell> on_points = cells_on_points(mesh, points);
-  const Eigen::Index cells = Eigen::Index(mesh.cells.size()), count = others.count();
+  const Eigen::Index cells = Eigen::Index(mesh.cells.size());
+  Eigen::Index count = 0;
+  for (const OtherFields* some : others) count += some->count();
   ErrorProducts found{.products = MatX(cells, 1 + count), .norms = VecX(cells), .areas = VecX(cells)};
   OwnField<components> own(mesh, laws, field);
   Eigen::RowVectorXd products(count);
   for (Eigen::Index e = 0; e < cells; ++e) {
     own.integrate(mesh.cells[e], on_points[e]);
     products.setZero();
-    if (count > 0) add_products(own.functional, others, mesh.cells[e], on_points[e], products);
+    Eigen::Index first = 0;
+    for (const OtherFields* some : others) {
+      if (some->count() == 0) continue;
+      add_products(own.functional, *some, mesh.cells[e], on_points[e], products.segment(first, some->count()));
+      first += some->count();
+    }
     found.products.row(e) << own.energy, products;
     found.norms(e) = own.norm;
     found.areas(e) = own.area;
@@ -187,7 +194,7 @@ OtherFields::OtherFields(const RecoveredFields& fields)
 }
 
 ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                             const RecoveredFields& field, const OtherFields& others) {
+                             const RecoveredFields& field, const std::vector<const OtherFields*>& others) {
   return components(laws) == 4 ? products_of<4>(mesh, points, laws, field, others)
                                : products_of<3>(mesh, points, laws, field, others);
 }

@@ -31,9 +31,9 @@ struct OtherFields {
   Eigen::Index count() const { return u.cols() / 2; }
 };
 
-/// sigma* as recovered_stress. `field`: field 0 alone, `others`: those after it. What field 0 does to the patches and
-/// to the nodes of a cell is found once; each further field costs a few products a cell.
+/// sigma* as recovered_stress. `field`: field 0 alone, `others`: those after it, some and then more. What field 0 does
+/// to the patches and to the nodes of a cell is found once; each further field costs a few products a cell.
 ErrorProducts error_products(const Mesh& mesh, const BodyPoints& points, const std::vector<ElasticLaw>& laws,
-                             const RecoveredFields& field, const OtherFields& others);
+                             const RecoveredFields& field, const std::vector<const OtherFields*>& others);
 
 }  // namespace mortise

@@ -74,7 +74,8 @@ MatX tails_of(const Mesh& mesh, const MatX& fields) {
   EXPECT_EQ(rings.size(), 1u);
   const std::vector<ElasticLaw> laws{law};
   CornerProducts products(mesh, laws, rings);
-  products.add(fields);
+  const MatX identity = MatX::Identity(fields.cols(), fields.cols());
+  products.add(fields.col(0), DualSums({{fields, identity}}));
   return products.tails();
 }
 

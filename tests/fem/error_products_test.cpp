@@ -31,8 +31,8 @@ TEST(ErrorProducts, OfAFieldWithItselfAreTheSameBothWays) {
       const auto recovered = [&](MatX some) {
         return RecoveredFields{some, recover_patches(mesh, points, sample_stresses(mesh, laws, some))};
       };
-      const ErrorProducts found =
-          error_products(mesh, points, laws, recovered(fields.leftCols(1)), recovered(fields.rightCols(3)));
+      const OtherFields some = recovered(fields.col(1)), more = recovered(fields.rightCols(2));
+      const ErrorProducts found = error_products(mesh, points, laws, recovered(fields.col(0)), {&some, &more});
       const MatX& products = found.products;
       const double least = 1e-10 * products.col(0).norm();
       EXPECT_GT(products.col(0).minCoeff(), 0) << int(kind) << int(plane);
