@@ -303,7 +303,7 @@ bool CaseSolver::take(const Scene& scene) {
   results_.audited = std::move(before.audited);
   results_.nodes = std::move(before.nodes);
   results_.problem.discretisation.system.constraints.fixed = fixed_;
-  check_ranges(scene);
+  check_ranges(scene, &*scene_);
   load_fields(scene);
   if (!take_loads(scene, results_.problem)) return false;
   results_.problem.warnings = results_.warnings = warnings_;

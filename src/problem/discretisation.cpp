@@ -155,8 +155,11 @@ VecX spring_forces(const Discretisation& d, const VecX& u) {
 }
 
 double strain_energy(const Discretisation& d, const VecX& u) {
-  const VecX forces = d.system.K.selfadjointView<Eigen::Lower>() * u + spring_forces(d, u);
-  return 0.5 * u.dot(forces) - u.dot(d.initial_load) + d.initial_energy;
+  return strain_energy(d, u, d.system.K.selfadjointView<Eigen::Lower>() * u);
+}
+
+double strain_energy(const Discretisation& d, const VecX& u, const VecX& Ku) {
+  return 0.5 * u.dot(Ku + spring_forces(d, u)) - u.dot(d.initial_load) + d.initial_energy;
 }
 
 }  // namespace mortise

@@ -34,5 +34,7 @@ VecX spring_forces(const Discretisation& discretisation, const VecX& u);
 /// Strain energy of the bodies, without foundations', 1/2 int (eps - eps0) : C : (eps - eps0), times depth
 /// (model/model.hpp): J/m of a plane model in SI, J of rings.
 double strain_energy(const Discretisation& discretisation, const VecX& u);
+/// The same of K u that is known.
+double strain_energy(const Discretisation& discretisation, const VecX& u, const VecX& Ku);
 
 }  // namespace mortise

@@ -23,7 +23,7 @@ LeftOver left_over(const Results& r, const Resultant& sum, double size, double d
 
 // Forces smaller than this are round-off of stiffness times displacement.
 double rigid_force(const Results& r) {
-  return rigid_part * largest_entry(VecX(r.problem.discretisation.system.K.diagonal())) * largest_entry(r.solution.u);
+  return rigid_part * largest_stiffness(r.problem.discretisation.system.K) * largest_entry(r.solution.u);
 }
 
 double balance_limit(const Results& r) { return std::max(1e-9, 10 * r.solution.force_tolerance); }

@@ -9,7 +9,9 @@ Recovery recover(const Problem& p, const std::vector<ContactNodes>& nodes, const
   const VecX& u = solution.u;
   Recovery r;
   r.stress = recover_stress(p.mesh, p.points, p.discretisation.laws, u);
-  r.energy = strain_energy(p.discretisation, u);
+  const SaddlePointSystem& s = p.discretisation.system;
+  r.energy =
+      strain_energy(p.discretisation, u, s.f - s.B.transpose() * solution.lambda - unbalanced_forces(s, solution));
   r.contacts.resize(p.pairs.size());
   const double displacement = largest_entry(u);
   for_each_index(p.pairs.size(), solver_threads(), [&](std::size_t k) {

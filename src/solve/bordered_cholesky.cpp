@@ -180,6 +180,10 @@ BorderedCholesky::BorderedCholesky(BorderedCholesky&&) noexcept = default;
 
 int BorderedCholesky::failed_at() const { return factor_->failed_at; }
 
+int BorderedCholesky::unknowns() const { return factor_->n; }
+Eigen::Index BorderedCholesky::size() const { return factor_->n + factor_->m; }
+Eigen::Index BorderedCholesky::entries() const { return factor_->L ? Eigen::Index(factor_->L->xsize) : 0; }
+
 MatX BorderedCholesky::forward(const MatX& f) const {
   const Factor& F = *factor_;
   MatX b = MatX::Zero(F.n + F.m, f.cols());

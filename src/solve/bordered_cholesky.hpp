@@ -46,6 +46,11 @@ class BorderedCholesky {
   /// C = B K^-1 B^T, m x m, lower triangle. It is given away: the factor does not need it.
   MatX take_border_compliance() { return std::move(compliance_); }
 
+  /// n, n + m, and how many entries L has.
+  int unknowns() const;
+  Eigen::Index size() const;
+  Eigen::Index entries() const;
+
   /// These three column by column. y = L^-1 f for f, n; in an order of its own, for the next two.
   MatX forward(const MatX& f) const;
   /// V^T y = B K^-1 f, m.

@@ -6,7 +6,7 @@
 
 namespace mortise {
 
-DirectFactor::DirectFactor(const SaddlePointSystem& system, std::shared_ptr<const FactoredBodies> bodies,
+DirectFactor::DirectFactor(const SaddlePointSystem& system, std::shared_ptr<FactoredBodies> bodies,
                            MultiplierSystem multipliers)
     : row_scale_(system.row_scale),
       stiffness_scale_(system.stiffness_scale),
@@ -16,22 +16,25 @@ DirectFactor::DirectFactor(const SaddlePointSystem& system, std::shared_ptr<cons
       multipliers_(std::move(multipliers)) {}
 
 DualAnswers DirectFactor::answers(const MatX& functionals, const MatX& loads) const {
-  const auto& [free, factor] = *bodies_;
-  const Eigen::Index rows = functionals.rows(), count = functionals.cols(), without_load = count - loads.cols();
-  MatX multipliers(rows + springs_, count), y = MatX::Zero(factor.size(), count);
+  auto& [free, factor] = *bodies_;
+  const Eigen::Index rows = functionals.rows(), count = functionals.cols(), loaded = loads.cols(),
+                     without_load = count - loaded;
+  MatX multipliers(rows + springs_, count), y(factor.size(), loaded);
   for (Eigen::Index k = 0; k < count; ++k) {
     VecX rhs = VecX::Zero(rows + springs_);
     if (k >= without_load) {
       const VecX load = loads.col(k - without_load);
-      y.col(k) = factor.forward(load(free) / stiffness_scale_);
-      rhs = factor.at_border(y.col(k));
+      y.col(k - without_load) = factor.forward(load(free) / stiffness_scale_);
+      rhs = factor.at_border(y.col(k - without_load));
     }
     rhs.head(rows) -= functionals.col(k).cwiseQuotient(row_scale_);
     multipliers.col(k) = multipliers_.solve(rhs);
   }
   DualAnswers found{.z = MatX::Zero(unknowns_, count),
                     .mu = (stiffness_scale_ * row_scale_.cwiseInverse()).asDiagonal() * multipliers.topRows(rows)};
-  found.z(free, Eigen::all) = factor.backward(std::move(y), multipliers);
+  if (without_load > 0)
+    found.z.leftCols(without_load)(free, Eigen::all) = factor.at_rows(multipliers.leftCols(without_load));
+  if (loaded > 0) found.z.rightCols(loaded)(free, Eigen::all) = factor.backward(y, multipliers.rightCols(loaded));
   return found;
 }
 

@@ -36,8 +36,7 @@ struct FactoredBodies {
 class DirectFactor : public ContactFactor {
  public:
   /// `multipliers`: of the closed rows.
-  DirectFactor(const SaddlePointSystem& system, std::shared_ptr<const FactoredBodies> bodies,
-               MultiplierSystem multipliers);
+  DirectFactor(const SaddlePointSystem& system, std::shared_ptr<FactoredBodies> bodies, MultiplierSystem multipliers);
 
   DualAnswers answers(const MatX& functionals, const MatX& loads) const override;
 
@@ -45,7 +44,7 @@ class DirectFactor : public ContactFactor {
   VecX row_scale_;
   double stiffness_scale_;
   Eigen::Index unknowns_, springs_;
-  std::shared_ptr<const FactoredBodies> bodies_;
+  std::shared_ptr<FactoredBodies> bodies_;  // which learn from what they are asked
   MultiplierSystem multipliers_;
 };
 

@@ -19,7 +19,7 @@ class DirectSolver {
 
  private:
   const SaddlePointSystem& system_;
-  std::shared_ptr<const FactoredBodies> bodies_;
+  std::shared_ptr<FactoredBodies> bodies_;
   ComplementarityProblem problem_;
   KnownLoads loads_;
   std::shared_ptr<const DirectFactor> factor_;  // of the last solution

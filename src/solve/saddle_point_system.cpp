@@ -8,11 +8,18 @@ Points multiply(const SparseMatrix& lower, const VecX& u) {
   Points p = Points::Zero(u.size(), 2);
   for (int j = 0; j < int(lower.cols()); ++j) {
     double sum = p(j, 0), size = p(j, 1);
-    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
+    SparseMatrix::InnerIterator it(lower, j);
+    const auto add = [&] {
       const double term = it.value() * u(it.row());
       sum += term;
       size += std::abs(term);
-      if (it.row() == j) continue;
+    };
+    if (it && it.row() == j) {
+      add();
+      ++it;
+    }
+    for (; it; ++it) {
+      add();
       const double across = it.value() * u(j);
       p(it.row(), 0) += across;
       p(it.row(), 1) += std::abs(across);
@@ -30,6 +37,13 @@ std::vector<int> held_unknowns(const std::vector<int>& grounded, const Solution&
     if (solution.rigid_modes.cols() > 0 && largest_entry(solution.rigid_modes.row(k).transpose()) > 1e-6)
       held.push_back(grounded[k]);
   return held;
+}
+
+double largest_stiffness(const SparseMatrix& K) {
+  double most = 0;
+  for (int j = 0; j < int(K.cols()); ++j)  // whose first entry is on the diagonal, if it has that
+    if (const SparseMatrix::InnerIterator it(K, j); it && it.row() == j) most = largest(most, std::abs(it.value()));
+  return most;
 }
 
 VecX unbalanced_forces(const SaddlePointSystem& s, const Solution& solution) {

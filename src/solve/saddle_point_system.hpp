@@ -58,6 +58,9 @@ inline constexpr double rigid_part = 1e-3;
 /// forces.
 std::vector<int> held_unknowns(const std::vector<int>& grounded, const Solution& solution);
 
+/// Of the diagonal of K.
+double largest_stiffness(const SparseMatrix& K);
+
 /// f - K u - B^T lambda, where the solution has none computed.
 VecX unbalanced_forces(const SaddlePointSystem& system, const Solution& solution);
 

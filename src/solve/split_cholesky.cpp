@@ -179,11 +179,27 @@ VecX SplitCholesky::at_border(const VecX& y) const {
   return response;
 }
 
-MatX SplitCholesky::backward(const MatX& y, const MatX& lambda) const {
-  MatX u(unknowns_, y.cols()), outer(separators() + rows_, y.cols());
-  if (separator_factor_)
-    outer.topRows(separators()) = separator_factor_->backward(y.bottomRows(separators() + rows_), lambda);
+MatX SplitCholesky::beside_parts(const MatX& y, const MatX& lambda) const {
+  MatX outer(separators() + rows_, lambda.cols());
+  if (separator_factor_) outer.topRows(separators()) = separator_factor_->backward(y, lambda);
   outer.bottomRows(rows_) = lambda;
+  return outer;
+}
+
+MatX SplitCholesky::at_rows(const MatX& lambda) {
+  const MatX outer = beside_parts(MatX::Zero(separators() + rows_, lambda.cols()), lambda);
+  MatX u(unknowns_, lambda.cols());
+  u(separator_, Eigen::all) = outer.topRows(separators());
+  for_each_index(parts_.size(), solver_threads(), [&](std::size_t k) {
+    Part& part = parts_[k];
+    u(part.unknowns, Eigen::all) = part.responses.at(*part.factor, outer(part.border, Eigen::all));
+  });
+  return u;
+}
+
+MatX SplitCholesky::backward(const MatX& y, const MatX& lambda) const {
+  const MatX outer = beside_parts(y.bottomRows(separator_factor_ ? separators() + rows_ : 0), lambda);
+  MatX u(unknowns_, lambda.cols());
   u(separator_, Eigen::all) = outer.topRows(separators());
   for_each_part([&](const Part& part) {
     u(part.unknowns, Eigen::all) =

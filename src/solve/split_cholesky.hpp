@@ -1,7 +1,7 @@
 // The bordered factor of a structure that falls into parts: bodies that only the border joins, halves of large bodies.
 #pragma once
 
-#include "solve/bordered_cholesky.hpp"
+#include "solve/row_responses.hpp"
 
 namespace mortise {
 
@@ -31,6 +31,11 @@ class SplitCholesky {
   VecX forward(const VecX& f) const;
   VecX at_border(const VecX& y) const;
   MatX backward(const MatX& y, const MatX& lambda) const;
+  /// -K^-1 B^T lambda, by what is known of the rows. Not by several threads at once.
+  MatX at_rows(const MatX& lambda);
+
+  /// Of B and the springs.
+  Eigen::Index rows() const { return rows_; }
 
   /// Unknowns of separators.
   Eigen::Index separators() const { return Eigen::Index(separator_.size()); }
@@ -41,6 +46,7 @@ class SplitCholesky {
     std::vector<int> border;  // that reaches it: places among the separators' unknowns and then the rows of B
     Eigen::Index first = 0;   // in y
     std::unique_ptr<BorderedCholesky> factor;
+    RowResponses responses = {};
     Eigen::Index size() const { return Eigen::Index(unknowns.size() + border.size()); }
   };
   /// From the lower triangle of [-S . ; -F D] to C.
@@ -48,6 +54,8 @@ class SplitCholesky {
   /// Calls work(part) for each, several at once.
   template <typename Work>
   void for_each_part(Work work) const;
+  /// u of the separators and, below, lambda.
+  MatX beside_parts(const MatX& y, const MatX& lambda) const;
   /// Sum over p of E_p K_p^-1 f.
   VecX at_borders(const VecX& y) const;
 
