@@ -29,20 +29,55 @@ std::vector<MotionSet> motion_sets(const Mesh& mesh, const std::vector<std::vect
       sets[set].nodes.insert(sets[set].nodes.end(), points.node.begin() + points.first[motion.body],
                              points.node.begin() + points.first[motion.body + 1]);
   }
+  std::vector<int> row_of(mesh.nodes.rows());
   for (MotionSet& set : sets) {
     keep_each_once(set.nodes);
+    for (std::size_t i = 0; i < set.nodes.size(); ++i) row_of[set.nodes[i]] = int(2 * i);
     set.fields = MatX::Zero(2 * set.nodes.size(), set.motions.size());
     for (std::size_t k = 0; k < set.motions.size(); ++k)
       for (const RigidMotion& motion : motions[set.motions[k]])
-        for (int p = points.first[motion.body]; p < points.first[motion.body + 1]; ++p) {
-          const auto row = std::ranges::lower_bound(set.nodes, points.node[p]) - set.nodes.begin();
-          set.fields.block<2, 1>(2 * row, k) = motion.at(mesh.nodes.row(points.node[p]));
-        }
+        for (int p = points.first[motion.body]; p < points.first[motion.body + 1]; ++p)
+          set.fields.block<2, 1>(row_of[points.node[p]], k) = motion.at(mesh.nodes.row(points.node[p]));
   }
   return sets;
 }
 
+namespace {
+
+struct MassRule {
+  std::vector<double> weights;
+  std::vector<CellShape> shapes;
+};
+
+ForEachKind<MassRule> mass_rules() {
+  ForEachKind<MassRule> rules;
+  for (const CellKind kind : all_cell_kinds) {
+    const CellRule rule = product_rule(kind, 3);  // exact for motions times u
+    rules[int(kind)].weights = rule.weights;
+    for (const Vec2& xi : rule.points) rules[int(kind)].shapes.push_back(cell_shape(kind, xi));
+  }
+  return rules;
+}
+
+using MassOfCell = Eigen::Matrix<double, 9, 9>;
+
+// int N_a N_b over its area, of its nodes.
+MassOfCell mass_of(const Mesh& mesh, const Cell& cell, const MassRule& rule) {
+  MassOfCell mass = MassOfCell::Zero();
+  const int count = node_count(cell.kind);
+  for (std::size_t q = 0; q < rule.shapes.size(); ++q) {
+    const auto& N = rule.shapes[q].N;
+    const double area = rule.weights[q] * cell_point(mesh.nodes, cell, rule.shapes[q]).jacobian();
+    for (int b = 0; b < count; ++b)
+      for (int a = 0; a < count; ++a) mass(a, b) += area * N[a] * N[b];
+  }
+  return mass;
+}
+
+}  // namespace
+
 std::vector<VecX> least_parts(const Mesh& mesh, const std::vector<MotionSet>& sets, const VecX& u) {
+  const ForEachKind<MassRule> rules = mass_rules();
   std::vector<MatX> products;  // of motions by motions and, in the last column, by u
   std::vector<int> set_of(mesh.nodes.rows(), -1), row_of(mesh.nodes.rows(), -1);
   for (std::size_t s = 0; s < sets.size(); ++s) {
@@ -58,16 +93,18 @@ std::vector<VecX> least_parts(const Mesh& mesh, const std::vector<MotionSet>& se
     if (set < 0 || std::any_of(cell.nodes.begin(), cell.nodes.begin() + count, [&](int i) { return set_of[i] != set; }))
       continue;
     const MatX& fields = sets[set].fields;
-    const CellRule rule = product_rule(cell.kind, 3);  // exact for motions times u
-    for (std::size_t q = 0; q < rule.points.size(); ++q) {
-      const CellShape shape = cell_shape(cell.kind, rule.points[q]);
-      MatX at = MatX::Zero(2, fields.cols() + 1);
-      for (int a = 0; a < count; ++a) {
-        at.leftCols(fields.cols()) += shape.N[a] * fields.middleRows<2>(row_of[cell.nodes[a]]);
-        at.rightCols<1>() += shape.N[a] * u.segment<2>(2 * cell.nodes[a]);
+    const Eigen::Index motions = fields.cols();
+    const MassOfCell mass = mass_of(mesh, cell, rules[int(cell.kind)]);
+    for (Eigen::Index k = 0; k <= motions; ++k) {
+      const auto at = [&](int a) -> Vec2 {
+        return k < motions ? Vec2(fields.block<2, 1>(row_of[cell.nodes[a]], k)) : Vec2(u.segment<2>(2 * cell.nodes[a]));
+      };
+      for (int b = 0; b < count; ++b) {
+        Vec2 sum = Vec2::Zero();
+        for (int a = 0; a < count; ++a) sum += mass(a, b) * at(a);
+        for (Eigen::Index m = 0; m < motions; ++m)
+          products[set](m, k) += fields.block<2, 1>(row_of[cell.nodes[b]], m).dot(sum);
       }
-      const double area = rule.weights[q] * cell_point(mesh.nodes, cell, shape).jacobian();
-      products[set] += area * at.leftCols(fields.cols()).transpose() * at;
     }
   }
   std::vector<VecX> parts;

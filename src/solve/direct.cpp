@@ -22,7 +22,7 @@ bool is_without_solution(const Solution& solution) {
 // The first pass solves, as a rule to round-off of the residual itself; others refine where it did not.
 class Passes {
  public:
-  Passes(const SaddlePointSystem& s, FactoredBodies& bodies, KnownLoads& loads, ComplementarityProblem& problem,
+  Passes(const SaddlePointSystem& s, const FactoredBodies& bodies, KnownLoads& loads, ComplementarityProblem& problem,
          Solution& solution)
       : s_(s), factor_(bodies.factor), free_(bodies.free), loads_(loads), problem_(problem), solution_(solution) {
     solution_.u = s_.constraints.value;
@@ -36,12 +36,12 @@ class Passes {
     const Eigen::Index m = s_.B.rows();
     VecX unbalanced = pass_ > 0 ? solution_.unbalanced : s_.f;
     if (pass_ == 0 && solution_.u.any()) unbalanced -= s_.K.selfadjointView<Eigen::Lower>() * solution_.u;
-    const LoadResponse response = respond(on(free_, unbalanced) / s_.stiffness_scale);
-    VecX rhs = response.at_border;
+    const VecX load = on(free_, unbalanced) / s_.stiffness_scale, y = factor_.forward(load);
+    VecX rhs = factor_.at_border(y);
     rhs.head(m) -= (s_.g - s_.B * solution_.u).cwiseQuotient(s_.row_scale);
-    const std::optional<VecX> lambda = multipliers_for(response, rhs);
+    const std::optional<VecX> lambda = multipliers_for(load, y, rhs);
     if (!lambda) return false;
-    solution_.u(free_) += response.with(factor_, *lambda);
+    solution_.u(free_) += factor_.backward(y, *lambda);
     solution_.lambda += s_.stiffness_scale * lambda->head(m).cwiseQuotient(s_.row_scale);
     measure_residuals(s_, solution_);
     const double left = largest(solution_.force_residual, solution_.constraint_residual),
@@ -58,13 +58,8 @@ class Passes {
   std::optional<MultiplierSystem> system;  // of the active set
 
  private:
-  // What is unbalanced after the first pass, round-off, is no sum of loads.
-  LoadResponse respond(const VecX& load) const {
-    return pass_ > 0 ? mortise::respond(factor_, load, false) : loads_.respond(factor_, load, !s_.unilateral.empty());
-  }
-
   // What lambda and mu change by; nothing where no active set is found, or none for the better.
-  std::optional<VecX> multipliers_for(const LoadResponse& response, const VecX& rhs) {
+  std::optional<VecX> multipliers_for(const VecX& load, const VecX& y, const VecX& rhs) {
     if (pass_ > 0 && !infeasible_) return system->solve(rhs);
     if (pass_ > 0) {
       problem_.known = solution_.lambda.cwiseProduct(s_.row_scale) / s_.stiffness_scale;
@@ -72,7 +67,8 @@ class Passes {
       problem_.round_off = 0;
     } else if (!s_.unilateral.empty()) {
       // Of the largest displacement without contact, floating bodies held by their springs: gaps are its differences.
-      problem_.round_off = 1e-12 * largest(largest_entry(s_.constraints.value), largest_entry(response.u));
+      problem_.round_off =
+          1e-12 * largest(largest_entry(s_.constraints.value), loads_.displacement(factor_, rhs.size(), load, y));
     }
     ActiveSetResult set = find_active_set(problem_, rhs, pass_ > 0 ? solution_.active : s_.start);
     if (pass_ > 0 && set.status != SolveStatus::converged) {  // those before stay; the checks look at them
@@ -90,7 +86,7 @@ class Passes {
   }
 
   const SaddlePointSystem& s_;
-  SplitCholesky& factor_;
+  const SplitCholesky& factor_;
   const std::vector<int>& free_;
   KnownLoads& loads_;
   ComplementarityProblem& problem_;

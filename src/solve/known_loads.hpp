@@ -1,4 +1,4 @@
-// What loads do to bodies without contact, for many loads that are sums of a few.
+// How far loads move bodies without contact, for many loads that are sums of a few.
 #pragma once
 
 #include <vector>
@@ -7,32 +7,18 @@
 
 namespace mortise {
 
-/// Of a load f, in the words of BorderedCholesky.
-struct LoadResponse {
-  VecX at_border;  ///< B K^-1 f
-  VecX y;          ///< L^-1 f; empty where f is a sum of earlier loads
-  VecX u;          ///< K^-1 f; empty where it is neither asked for nor known
-
-  /// K^-1 (f - B^T lambda), n.
-  VecX with(SplitCholesky& factor, const VecX& lambda) const;
-};
-
-/// Of a load by itself. `with_u`: whether u is asked for.
-LoadResponse respond(const SplitCholesky& factor, const VecX& load, bool with_u);
-
 /// Remembers what the loads f that it is asked about do: one that adds up from these (a scaled load, another mixture of
-/// the same pressures) costs no substitution, unless the responses are far larger than their sum, whose round-off a
-/// solution by itself has not.
+/// the same pressures) costs no substitution. Only for what needs no more than a magnitude: sums of responses have
+/// round-off that a solution by itself has not.
 class KnownLoads {
  public:
-  LoadResponse respond(const SplitCholesky& factor, const VecX& load, bool with_u);
+  /// The largest entry of K^-1 f. `rows`: of the border; `y`: L^-1 f (BorderedCholesky).
+  double displacement(const SplitCholesky& factor, Eigen::Index rows, const VecX& load, const VecX& y);
 
  private:
   struct Known {
-    VecX load, y, at_border;  // orthogonal to the loads before, and what that does
-    VecX u;                   // empty before it is asked for
+    VecX load, u;  // orthogonal to the loads before, and what that does
   };
-  std::vector<double> parts(const SplitCholesky& factor, const VecX& load);
   std::vector<Known> known_;
 };
 

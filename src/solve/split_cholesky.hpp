@@ -31,11 +31,9 @@ class SplitCholesky {
   VecX forward(const VecX& f) const;
   VecX at_border(const VecX& y) const;
   MatX backward(const MatX& y, const MatX& lambda) const;
-  /// -K^-1 B^T lambda, by what is known of the rows. Not by several threads at once.
+  /// -K^-1 B^T lambda, by what is known of the rows: not the last digits that backward has, whatever was asked before.
+  /// Not by several threads at once.
   MatX at_rows(const MatX& lambda);
-
-  /// Of B and the springs.
-  Eigen::Index rows() const { return rows_; }
 
   /// Unknowns of separators.
   Eigen::Index separators() const { return Eigen::Index(separator_.size()); }
