@@ -10,7 +10,7 @@ void check_ranges(Scene scene, const Scene* checked) {
   using namespace scene_file;
   const auto changed = [&](auto... of) { return !checked || ((scene.*of != checked->*of) || ...); };
   if (changed(&Scene::mesh_file, &Scene::mesh_parameters, &Scene::geo_limits)) check(mesh_keys(scene), "mesh");
-  if (changed(&Scene::model)) check(model_keys(scene), "model");
+  if (changed(&Scene::model, &Scene::gravity)) check(model_keys(scene), "model");
   for (auto& [name, material] : scene.materials) {
     if (!material.stiffness) check(isotropic_keys(material), "materials." + name);
     check(material_keys(material), "materials." + name);
