@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "error/coarser_forms.hpp"
 #include "error/goal_estimate.hpp"
 #include "fem/edges.hpp"
 
@@ -205,6 +204,17 @@ bool credible(const PressureForm& form, const Walk& walk, const Range& range, co
   return true;
 }
 
+// p* as it would be of a mesh with every other vertex: of its moments, which are sums of the piece's.
+std::optional<PressureForm> fit_of_every_other(const LoadedPiece& piece) {
+  std::array<double, 2> ends = ends_of(piece);
+  for (const int which : {0, 1})
+    if (piece.end[which].border) ends[which] = border_place(piece, which, 2);
+  LoadedPiece coarse = every_other(piece);
+  for (coarse.swing.edges = (piece.swing.edges + 1) / 2; coarse.swing.edges >= 2; --coarse.swing.edges)
+    if (auto form = fit_pressure(coarse, ends)) return form;
+  return std::nullopt;
+}
+
 // The longest first.
 std::vector<Swing> swings_to_try(const Range& range) {
   const auto any = [&](auto has) { return has(range.end[0]) || has(range.end[1]); };
@@ -217,63 +227,34 @@ std::vector<Swing> swings_to_try(const Range& range) {
   return all;
 }
 
-// What is left of what p_h misses along a range: of its norm, and of the bar of each vertex.
-struct Left {
-  double norm, worst;
-};
-
-Left left_of(const Walk& walk, const Range& range, const PressureForm& form, const std::vector<PressureForm>& coarser,
-             const PressureEstimate& e) {
-  const LineError& local = e.local;
-  const VecX missed = local.pointwise(e.line);
-  std::vector<double> squares(coarser.size(), 0);
-  double worst = 0, of_multiplier = 0;
+// p* is at least as near as it would be of every other vertex: by as much as that is off from it, what p_h misses along
+// the line is lowered.
+void lower_errors(const Walk& walk, const Range& range, const PressureForm& form, const PressureForm& coarse,
+                  PressureEstimate& e) {
+  const PressureLine& line = e.line;
+  LineError& local = e.local;
+  const bool swings = local.swing.size() > 0;
+  const VecX missed = local.pointwise(line);
+  double worst = 0, square = 0, of_multiplier = 0;
   for (Index k = range.first; k <= range.last; ++k) {
     const Index i = walk.vertex[k];
-    if (!e.counts(i) || local.border[i]) continue;
-    of_multiplier += std::pow(local.swing.size() > 0 ? std::max(local.l2(i), local.swing(i)) : local.l2(i), 2);
-    double p = form(walk.s(k));
-    const double off = std::abs(p - coarser[0](walk.s(k)));
+    if (!e.counts(i)) continue;
+    if (local.border[i]) continue;
+    const double off = std::abs(form(walk.s(k)) - coarse(walk.s(k)));
     if (off > 0) worst = largest(worst, off / missed(i));
-    for (std::size_t level = 0; level < coarser.size(); ++level) {
-      const double of_coarser = coarser[level](walk.s(k));
-      squares[level] += std::pow(p - of_coarser, 2) * e.line.h(i);
-      p = of_coarser;
-    }
+    square += off * off * line.h(i);
+    of_multiplier += std::pow(swings ? std::max(local.l2(i), local.swing(i)) : local.l2(i), 2);
   }
-  return {part_left(squares) * std::sqrt(squares[0] / of_multiplier), worst};
-}
-
-// What p_h misses along the line is lowered to what p* may.
-void lower_errors(const Walk& walk, const Range& range, const Left& left, PressureEstimate& e) {
-  if (!(left.norm < 1)) return;
-  LineError& local = e.local;
-  if (local.worst.size() == 0) local.worst = VecX::Ones(e.line.p.size());
+  const double norm = std::sqrt(square / of_multiplier);
+  if (!(norm < 1)) return;
+  if (local.worst.size() == 0) local.worst = VecX::Ones(line.p.size());
   for (Index k = range.first; k <= range.last; ++k) {
     const Index i = walk.vertex[k];
     const bool known = !walk.cut(k) || (walk.swings[k] && (k == 0 || k > range.first));  // once where two pieces meet
     if (!known || local.border[i]) continue;
-    local.l2(i) *= left.norm;
-    if (local.swing.size() > 0) local.swing(i) *= left.norm;
-    local.worst(i) = std::max(1.0, std::min(left.worst, 1.0) / left.norm);
-  }
-}
-
-// Single vertices may be off by as much as before: one beside which contact ends is at the foot of the root.
-void lower_borders(const Walk& walk, const Range& range, PressureEstimate& e) {
-  LineError& local = e.local;
-  if (local.worst.size() == 0) local.worst = VecX::Ones(e.line.p.size());
-  for (const int which : {0, 1}) {
-    if (!range.end[which].border) continue;
-    const Index last = which == 0 ? range.first : range.last, inward = which == 0 ? 1 : -1;
-    const Index beyond = last - 2 * inward;
-    const bool shared = beyond >= 0 && beyond < Index(walk.carries.size()) && walk.carries[beyond];
-    for (Index k = shared ? last : last - inward; k != last + 2 * inward; k += inward) {
-      const Index i = walk.vertex[k];
-      if (!local.border[i]) continue;
-      local.l2(i) *= border_left;
-      local.worst(i) = 1 / border_left;
-    }
+    local.l2(i) *= norm;
+    if (swings) local.swing(i) *= norm;
+    local.worst(i) = std::max(1.0, std::min(worst, 1.0) / norm);
   }
 }
 
@@ -331,9 +312,7 @@ void find_fitted_pressure(const Problem& problem, const ContactPair& pair, Press
       if (!form || !is_credible(*form)) continue;
       leave_powers(ends, is_credible, piece, *form);
       fitted.pieces.push_back({*form, {piece.s(0), piece.s(piece.s.size() - 1)}, *fluid});
-      if (const auto coarser = coarser_forms(piece); !coarser.empty())
-        lower_errors(walk, range, left_of(walk, range, *form, coarser, estimate), estimate);
-      lower_borders(walk, range, estimate);
+      if (const auto coarse = fit_of_every_other(piece)) lower_errors(walk, range, *form, *coarse, estimate);
       break;
     }
   }
