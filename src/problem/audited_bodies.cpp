@@ -20,24 +20,16 @@ std::vector<int> with_neighbours(const Outline& o, int edge) {
   return list;
 }
 
-// The boundary that holds most of the edges' length, or -1 for none: of equals the one with fewer edges in all.
-int main_name(const AuditedBodies& b, const std::vector<int>& edges) {
-  std::map<int, double> lengths;
-  double total = 0;
-  for (const int e : edges) {
-    total += b.outline.length[e];
-    for (const int name : b.names[e]) lengths[name] += b.outline.length[e];
+// Whether a boundary lies on one body, as a contact curve does.
+bool on_one_body(const AuditedBodies& b, int name) {
+  int body = -1;
+  for (std::size_t e = 0; e < b.names.size(); ++e) {
+    if (!has(b.names[e], name)) continue;
+    const int of_edge = b.outline.edges[e].body;
+    if (body >= 0 && of_edge != body) return false;
+    body = of_edge;
   }
-  int best = -1;
-  double longest = 0;
-  for (const auto& [name, length] : lengths) {
-    const bool equal = length > (1 - 1e-9) * longest && length < (1 + 1e-9) * longest;
-    const bool shorter = best >= 0 && b.mesh.boundaries[name].edges.size() < b.mesh.boundaries[best].edges.size();
-    if (equal ? !shorter : length < longest) continue;
-    best = name;
-    longest = length;
-  }
-  return longest > total / 3 ? best : -1;
+  return true;
 }
 
 }  // namespace
@@ -89,6 +81,25 @@ std::string two_bodies(const Mesh& mesh, int first, int second) {
   return "bodies '" + mesh.bodies[first] + "' and '" + mesh.bodies[second] + "'";
 }
 
+int main_name(const AuditedBodies& b, const std::vector<int>& edges) {
+  std::map<int, double> lengths;
+  double total = 0;
+  for (const int e : edges) {
+    total += b.outline.length[e];
+    for (const int name : b.names[e]) lengths[name] += b.outline.length[e];
+  }
+  int best = -1;
+  double longest = 0;
+  for (const auto& [name, length] : lengths) {
+    const bool equal = length > (1 - 1e-9) * longest && length < (1 + 1e-9) * longest;
+    const bool shorter = best >= 0 && b.mesh.boundaries[name].edges.size() < b.mesh.boundaries[best].edges.size();
+    if (equal ? !shorter : length < longest) continue;
+    best = name;
+    longest = length;
+  }
+  return longest > total / 3 ? best : -1;
+}
+
 std::string name_of(const AuditedBodies& b, const std::vector<int>& edges) {
   const int name = main_name(b, edges);
   return name >= 0 ? "'" + b.mesh.boundaries[name].name + "'"
@@ -98,8 +109,12 @@ std::string name_of(const AuditedBodies& b, const std::vector<int>& edges) {
 std::string advice(const AuditedBodies& b, const std::vector<int>& edges, const std::vector<int>& others) {
   if (b.outline.edges[edges.front()].body == b.outline.edges[others.front()].body)
     return "make them one (in a .geo: BooleanFragments or Coherence), or two bodies with a contact pair";
-  const int first = main_name(b, edges), second = main_name(b, others);
-  const auto word = [&](int name) { return name >= 0 ? "\"" + b.mesh.boundaries[name].name + "\"" : "..."; };
+  const auto name = [&](const std::vector<int>& some) {
+    const int found = main_name(b, some);
+    return found >= 0 && on_one_body(b, found) ? found : -1;
+  };
+  const int first = name(edges), second = name(others);
+  const auto word = [&](int k) { return k >= 0 ? "\"" + b.mesh.boundaries[k].name + "\"" : "..."; };
   return std::string(first < 0 || second < 0 ? "name the boundaries there as physical curves and write" : "write") +
          " [[contact]] between = [" + word(first) + ", " + word(second) + "]";
 }

@@ -38,11 +38,15 @@ bool face_each_other(const Vec2& normal, const OutlinePlace& place);
 /// "bodies 'a' and 'b'", or "two pieces of body 'a'".
 std::string two_bodies(const Mesh& mesh, int first, int second);
 
+/// The boundary that holds most of the edges' length, or -1 for none: of equals the one with fewer edges in all.
+int main_name(const AuditedBodies& bodies, const std::vector<int>& edges);
+
 /// The name that covers most of the edges' length, quoted; "an unnamed boundary of 'body'" where no name covers a
 /// third.
 std::string name_of(const AuditedBodies& bodies, const std::vector<int>& edges);
 
-/// Advice that adds the contact: [[contact]] between the two names; of two pieces of one body, to join them.
+/// Advice that adds the contact: [[contact]] between the two names, if each is of one body; of two pieces of one body,
+/// to join them.
 std::string advice(const AuditedBodies& bodies, const std::vector<int>& edges, const std::vector<int>& others);
 
 /// The edge whose middle is nearest to the middle of all: where to look. Its middle.

@@ -101,6 +101,30 @@ TEST(Audit, NamesBoundariesThatMeetWithoutAPair) {
   expect_contains(lines, "[[contact]] between = [\"wall\", \"side\"]");
 }
 
+TEST(Audit, NamesEachPairOfCurvesThatMeets) {
+  const TemporaryFolder folder;
+  const Scene none = drawn(folder, block_in_an_L, {"L", "block"},
+                           held("ground") + boundary("top", "displacement = { x = 0, y = -0.01 }"));
+  const std::string lines = before(none);
+  EXPECT_EQ(lines_of(lines), 1) << lines;
+  expect_contains(lines, "over a length of 2 ('wall', 'side') and near (");
+  expect_contains(lines, "between = [\"wall\", \"side\"] and write [[contact]] between = [\"floor\", \"down\"]");
+}
+
+// A name that both bodies have is no contact curve.
+TEST(Audit, AdvisesNoNameOfSeveralBodies) {
+  const TemporaryFolder folder;
+  const Scene scene =
+      drawn(folder,
+            "Rectangle(1) = {0, 0, 0, 4, 1}; Rectangle(2) = {0, 1, 0, 4, 1}; a() = Boundary{ Surface{1}; };"
+            "b() = Boundary{ Surface{2}; }; Physical Surface(\"a\") = {1}; Physical Surface(\"b\") = {2};"
+            "Physical Curve(\"ground\") = {a(0)}; Physical Curve(\"top\") = {b(2)};"
+            "Physical Curve(\"joint\") = {a(2), b(0)};",
+            {"a", "b"}, held("ground") + boundary("top", "displacement = { x = 0, y = -0.01 }"));
+  expect_contains(before(scene),
+                  "name the boundaries there as physical curves and write [[contact]] between = [..., ...]");
+}
+
 TEST(Audit, EndsTheErrorOfABodyThatNothingHolds) {
   const TemporaryFolder folder;
   const Scene scene = drawn(folder, rectangles({"0, 0, 0, 4, 1", "1, 1, 0, 2, 1"}), {"b1", "b2"},
