@@ -4,6 +4,7 @@ Usage: sweep_test.py MORTISE
 """
 
 import csv
+import math
 import json
 import os
 import shutil
@@ -36,11 +37,22 @@ def rows(path):
     return [{key: value for key, value in row.items() if not key.startswith("seconds.")} for row in table]
 
 
+def same(table, other):
+    """Bars by 1e-12 of themselves: sums of dual solutions in the order in which runs on one factor asked for them."""
+    assert len(table) == len(other)
+    for row, of_other in zip(table, other):
+        assert row.keys() == of_other.keys()
+        for key, value in row.items():
+            bar = "error" in key and value not in ("", of_other[key])
+            assert value == of_other[key] or bar and math.isclose(float(value), float(of_other[key]), rel_tol=1e-12), key
+    return True
+
+
 def test_jobs(mortise, folder, whole):
     sweep(mortise, "--jobs", 2, "-o", folder / "jobs.csv")
-    assert rows(folder / "jobs.csv") == whole
+    assert same(rows(folder / "jobs.csv"), whole)
     sweep(mortise, "--jobs", 64, "-o", folder / "many.csv")
-    assert rows(folder / "many.csv") == whole
+    assert same(rows(folder / "many.csv"), whole)
 
 
 def test_parts(mortise, folder, whole):
@@ -50,7 +62,7 @@ def test_parts(mortise, folder, whole):
     said = sweep(mortise, "--join", 4, "-o", table, status=1)
     assert "parts.1_of_4.csv, part 1 of 4: no such file; expected what --part 1/4 writes" in said, said
     sweep(mortise, "--join", 3, "-o", table)
-    assert rows(table) == whole
+    assert same(rows(table), whole)
     # The text of the whole: its rows one after the other, with the header of the first part that has figures.
     texts = [(folder / f"parts.{part}_of_3.csv").read_text().splitlines() for part in (1, 2, 3)]
     assert table.read_text().splitlines() == texts[0] + texts[1][1:] + texts[2][1:]
@@ -66,14 +78,14 @@ def test_parts(mortise, folder, whole):
     second.write_bytes("".join(lines).encode().replace(b"solved", b"sol\xffed", 1))
     said = sweep(mortise, "--join", 3, "-o", table, status=1)
     assert "part 2 of 3: is damaged: it holds 'sol" in said, said
-    assert rows(table) == whole, "an error leaves the table standing"
+    assert same(rows(table), whole), "an error leaves the table standing"
 
 
 def test_more_parts_than_runs(mortise, folder, whole):
     for part in range(1, 8):
         subprocess.run(command(mortise, "--part", f"{part}/7", "-o", folder / "few.csv", "--quiet"), check=False)
     sweep(mortise, "--join", 7, "-o", folder / "few.csv")
-    assert rows(folder / "few.csv") == whole
+    assert same(rows(folder / "few.csv"), whole)
 
 
 def kill_after(running, journal, groups):
@@ -111,7 +123,7 @@ def test_killed(mortise, folder, whole, jobs):
     kept = sum(len(json.loads(line.split(" ", 1)[1])["rows"]) for line in lines[2:])
     said = sweep(mortise, "--jobs", jobs, "-o", table)
     assert not killed or said.count("(kept)") == kept, said
-    assert rows(table) == whole
+    assert same(rows(table), whole)
     assert not journal.exists()
     said = sweep(mortise, "-o", table)
     assert "(kept)" not in said, "what is complete is run anew"
