@@ -4,8 +4,8 @@ Usage: sweep_test.py MORTISE
 """
 
 import csv
-import math
 import json
+import math
 import os
 import shutil
 import signal
