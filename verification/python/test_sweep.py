@@ -26,11 +26,19 @@ VARY = {
 COARSE = {"mesh.parameters.n_block": 20}
 
 
+def assert_equal(name, column, other):
+    """Bars to 1e-9: functionals that are alike to 1e-10 share their dual solutions with other runs on the same factor."""
+    if "error" in name:
+        np.testing.assert_allclose(column, other, rtol=1e-9, atol=0, err_msg=name)
+    else:
+        np.testing.assert_array_equal(column, other, err_msg=name)
+
+
 def assert_same(table, alone):
     assert list(table) == list(alone)
     for name, column in alone.items():
         if not name.startswith("seconds"):
-            np.testing.assert_array_equal(table[name], column, err_msg=name)
+            assert_equal(name, table[name], column)
 
 
 @pytest.fixture(scope="module", name="alone")
@@ -52,7 +60,7 @@ def test_the_table_is_that_of_the_program(alone, tmp_path):
         if name == "status":
             assert list(alone["status"]) == column
         else:
-            np.testing.assert_array_equal(alone[name], [float(text) if text else np.nan for text in column])
+            assert_equal(name, alone[name], [float(text) if text else np.nan for text in column])
 
 
 def test_threads(alone):
