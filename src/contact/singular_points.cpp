@@ -48,7 +48,7 @@ double log_amplitude(const Wedge& a, const Wedge& b, double jump) {
   return 2 * std::abs(jump) / (a.compliance() + b.compliance());
 }
 
-// The bodies at a place by what each one's last face is joined to, counter-clockwise.
+// The bodies at a place, counter-clockwise: what each one's last face is joined to.
 class BodiesAround {
  public:
   explicit BodiesAround(const std::vector<const ContactPlace*>& places);
@@ -180,8 +180,10 @@ SingularPoint singular_point(const ContactPlace& drawn, const std::optional<Bodi
   double jump_error = a.error + b.error;
   if (!of_two) {
     found = tips.find(around->fan, around->joint);
-    if (around->is_closed()) jump = 2 * straight;
-    for (const Wedge& w : around->fan.wedges) jump -= around->is_closed() ? w.angle : 0;
+    if (around->is_closed()) {
+      jump = 2 * straight;
+      for (const Wedge& w : around->fan.wedges) jump -= w.angle;
+    }
     jump_error = around->error;
   } else if (point.meeting == Meeting::kink) {
     fit_kink(first, second);
