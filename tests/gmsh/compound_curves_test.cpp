@@ -13,6 +13,20 @@
 namespace mortise::test {
 namespace {
 
+// Of blocks.geo in the folder; `sides`: the [[contact]] entries.
+Scene scene_of(const TemporaryFolder& folder, const std::string& sides) {
+  return read_scene(folder.write("blocks.toml", R"(
+mesh.file = "blocks.geo"
+materials.steel = { young = 210e3, poisson = 0.3 }
+bodies = { low = "steel", up = "steel" }
+boundary = [
+  { on = "ground", displacement = { y = 0 } },
+  { on = "left", displacement = { x = 0 } },
+  { on = "top", pressure = 10 },
+]
+contact = [)" + sides + "]\n"));
+}
+
 // A block on a block, under 10 MPa. The upper one's foot is of pieces, of which some are one compound; `names`: the
 // physical curves of the foot's pieces.
 Scene with_compound(const TemporaryFolder& folder, const std::vector<double>& cuts, int first, int last,
@@ -37,16 +51,7 @@ Point(5) = {4, 2, 0}; Point(6) = {0, 2, 0}; Point(10) = {0, 0, 0};
 Physical Curve("ground") = {1}; Physical Curve("track") = {3}; Physical Curve("top") = {6}; Physical Curve("left") = {4, 7};
 )" << names;
   folder.write("blocks.geo", geo.str());
-  return read_scene(folder.write("blocks.toml", R"(
-mesh.file = "blocks.geo"
-materials.steel = { young = 210e3, poisson = 0.3 }
-bodies = { low = "steel", up = "steel" }
-boundary = [
-  { on = "ground", displacement = { y = 0 } },
-  { on = "left", displacement = { x = 0 } },
-  { on = "top", pressure = 10 },
-]
-contact = [)" + sides + "]\n"));
+  return scene_of(folder, sides);
 }
 
 TEST(CompoundCurves, OfAnyPiecesOfAFootCarryItsPressure) {
@@ -93,16 +98,7 @@ Compound Curve {5, 6}; Compound Surface {2, 3};
 Physical Surface("low") = {1}; Physical Surface("up") = {2, 3};
 Physical Curve("ground") = {1}; Physical Curve("track") = {3}; Physical Curve("top") = {8, 9}; Physical Curve("left") = {4, 10};
 )" + names);
-  return read_scene(folder.write("blocks.toml", R"(
-mesh.file = "blocks.geo"
-materials.steel = { young = 210e3, poisson = 0.3 }
-bodies = { low = "steel", up = "steel" }
-boundary = [
-  { on = "ground", displacement = { y = 0 } },
-  { on = "left", displacement = { x = 0 } },
-  { on = "top", pressure = 10 },
-]
-contact = [)" + sides + "]\n"));
+  return scene_of(folder, sides);
 }
 
 TEST(CompoundCurves, OfCompoundSurfacesCarryTheirPressure) {

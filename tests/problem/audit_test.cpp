@@ -111,16 +111,16 @@ TEST(Audit, NamesEachPairOfCurvesThatMeets) {
   expect_contains(lines, "between = [\"wall\", \"side\"] and write [[contact]] between = [\"floor\", \"down\"]");
 }
 
+const std::string two_plates =
+    "Rectangle(1) = {0, 0, 0, 4, 1}; Rectangle(2) = {0, 1, 0, 4, 1}; a() = Boundary{ Surface{1}; };"
+    "b() = Boundary{ Surface{2}; }; Physical Surface(\"a\") = {1}; Physical Surface(\"b\") = {2};"
+    "Physical Curve(\"ground\") = {a(0)}; Physical Curve(\"top\") = {b(2)};";
+
 // A name that both bodies have is no contact curve.
 TEST(Audit, AdvisesNoNameOfSeveralBodies) {
   const TemporaryFolder folder;
-  const Scene scene =
-      drawn(folder,
-            "Rectangle(1) = {0, 0, 0, 4, 1}; Rectangle(2) = {0, 1, 0, 4, 1}; a() = Boundary{ Surface{1}; };"
-            "b() = Boundary{ Surface{2}; }; Physical Surface(\"a\") = {1}; Physical Surface(\"b\") = {2};"
-            "Physical Curve(\"ground\") = {a(0)}; Physical Curve(\"top\") = {b(2)};"
-            "Physical Curve(\"joint\") = {a(2), b(0)};",
-            {"a", "b"}, held("ground") + boundary("top", "displacement = { x = 0, y = -0.01 }"));
+  const Scene scene = drawn(folder, two_plates + "Physical Curve(\"joint\") = {a(2), b(0)};", {"a", "b"},
+                            held("ground") + boundary("top", "displacement = { x = 0, y = -0.01 }"));
   expect_contains(before(scene),
                   "name the boundaries there as physical curves and write [[contact]] between = [..., ...]");
 }
@@ -137,11 +137,7 @@ TEST(Audit, EndsTheErrorOfABodyThatNothingHolds) {
 TEST(Audit, SaysWhereNoCurveHasAName) {
   const TemporaryFolder folder;
   const Scene scene =
-      drawn(folder,
-            "Rectangle(1) = {0, 0, 0, 4, 1}; Rectangle(2) = {0, 1, 0, 4, 1}; a() = Boundary{ Surface{1}; };"
-            "b() = Boundary{ Surface{2}; }; Physical Surface(\"a\") = {1}; Physical Surface(\"b\") = {2};"
-            "Physical Curve(\"ground\") = {a(0)}; Physical Curve(\"top\") = {b(2)};",
-            {"a", "b"}, held("ground") + boundary("top", "displacement = { x = 0, y = -0.01 }"));
+      drawn(folder, two_plates, {"a", "b"}, held("ground") + boundary("top", "displacement = { x = 0, y = -0.01 }"));
   expect_contains(before(scene), "(an unnamed boundary of 'a', an unnamed boundary of 'b')");
   const std::string crossing = after(scene);
   EXPECT_EQ(lines_of(crossing), 1) << crossing;
