@@ -155,18 +155,29 @@ void find_unheld(Results& r) {
 // What rows open by in round-off, over their size.
 double round_off_of_rows(const Solution& solution) { return solution.constraint_tolerance * largest_entry(solution.u); }
 
+using MovedNodes = std::vector<std::pair<int, Vec2>>;
+
+// What a motion of bodies does, each node once.
+MovedNodes moved_nodes(const Mesh& mesh, const BodyPoints& points, const std::vector<RigidMotion>& motion) {
+  MovedNodes moved;
+  for (const RigidMotion& of_body : motion)
+    for (int p = points.first[of_body.body]; p < points.first[of_body.body + 1]; ++p)
+      moved.emplace_back(points.node[p], of_body.at(mesh.nodes.row(points.node[p])));
+  std::ranges::sort(moved, {}, &MovedNodes::value_type::first);
+  const auto again = std::ranges::unique(moved, {}, &MovedNodes::value_type::first);
+  moved.erase(again.begin(), again.end());
+  return moved;
+}
+
 // Displacements along motions that nothing holds mean nothing, so that they are to be the least there are. Where held
 // motions change closed rows, if only by the corners of the meshes, these are prescribed; whether any is.
 bool prescribe_held(Problem& p, const Solution& solution) {
   if (p.held.motions.empty() || solution.status != SolveStatus::converged) return false;
   SaddlePointSystem& system = p.discretisation.system;
-  const std::vector<MotionSet> sets = motion_sets(p.mesh, p.held.motions);
-  const std::vector<VecX> parts = least_parts(p.mesh, sets, solution.u);
+  const BodyPoints points = body_points(p.mesh);
   VecX shift = VecX::Zero(solution.u.size());
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    const VecX of_set = sets[s].fields * parts[s];
-    for (Eigen::Index i = 0; i < of_set.size(); ++i) shift(sets[s].unknown(i)) = of_set(i);
-  }
+  for (const auto& set : least_motions(p.mesh, p.held.motions, solution.u))
+    for (const auto& [node, by] : moved_nodes(p.mesh, points, set)) shift.segment<2>(2 * node) = by;
   VecX opening = (system.B * shift).cwiseQuotient(system.row_scale);
   for (Eigen::Index a = 0; a < opening.size(); ++a)
     if (!solution.active[a]) opening(a) = 0;
@@ -183,14 +194,13 @@ void take_out_unheld(const Problem& p, const std::vector<std::vector<RigidMotion
   const double round_off = round_off_of_rows(solution);
   VecX gap = system.B * solution.u - system.g;
   if (solution.compression.size() > 0) gap += system.layers.B * solution.compression;
-  const std::vector<MotionSet> sets = motion_sets(p.mesh, unheld);
-  const std::vector<VecX> parts = least_parts(p.mesh, sets, solution.u);
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    const VecX shift = sets[s].fields * parts[s];
+  const BodyPoints points = body_points(p.mesh);
+  for (const auto& set : least_motions(p.mesh, unheld, solution.u)) {
+    const MovedNodes shift = moved_nodes(p.mesh, points, set);
     std::map<Eigen::Index, double> opening;
-    for (Eigen::Index i = 0; i < shift.size(); ++i)
-      for (SparseMatrix::InnerIterator it(system.B, sets[s].unknown(i)); it; ++it)
-        opening[it.row()] += it.value() * shift(i);
+    for (const auto& [node, by] : shift)
+      for (const int c : {0, 1})
+        for (SparseMatrix::InnerIterator it(system.B, 2 * node + c); it; ++it) opening[it.row()] += it.value() * by(c);
     double part = 1;
     for (const auto& [row, by] : opening) {
       if (std::abs(by) <= round_off * system.row_scale(row)) continue;
@@ -199,7 +209,7 @@ void take_out_unheld(const Problem& p, const std::vector<std::vector<RigidMotion
       else if (by < 0)
         part = std::min(part, std::max(0.0, -gap(row) / by));
     }
-    for (Eigen::Index i = 0; i < shift.size(); ++i) solution.u(sets[s].unknown(i)) += part * shift(i);
+    for (const auto& [node, by] : shift) solution.u.segment<2>(2 * node) += part * by;
     for (const auto& [row, by] : opening) gap(row) += part * by;
   }
 }

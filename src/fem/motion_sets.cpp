@@ -11,26 +11,38 @@
 
 namespace mortise {
 
-std::vector<MotionSet> motion_sets(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions) {
+namespace {
+
+// Motions that have bodies in common, directly or by others, ascending.
+std::vector<std::vector<int>> linked(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions) {
   UnionFind bodies(mesh.bodies.size());
   for (const auto& motion : motions)
     for (const RigidMotion& of_body : motion) bodies.join(motion.front().body, of_body.body);
-  const BodyPoints points = body_points(mesh);
   std::vector<int> set_of(mesh.bodies.size(), -1);
-  std::vector<MotionSet> sets;
+  std::vector<std::vector<int>> sets;
   for (int m = 0; m < int(motions.size()); ++m) {
     int& set = set_of[bodies.find(motions[m].front().body)];
     if (set < 0) {
       set = int(sets.size());
       sets.emplace_back();
     }
-    sets[set].motions.push_back(m);
-    for (const RigidMotion& motion : motions[m])
-      sets[set].nodes.insert(sets[set].nodes.end(), points.node.begin() + points.first[motion.body],
-                             points.node.begin() + points.first[motion.body + 1]);
+    sets[set].push_back(m);
   }
+  return sets;
+}
+
+}  // namespace
+
+std::vector<MotionSet> motion_sets(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions) {
+  const BodyPoints points = body_points(mesh);
+  std::vector<MotionSet> sets;
   std::vector<int> row_of(mesh.nodes.rows());
-  for (MotionSet& set : sets) {
+  for (auto& members : linked(mesh, motions)) {
+    MotionSet& set = sets.emplace_back(std::move(members));
+    for (const int m : set.motions)
+      for (const RigidMotion& motion : motions[m])
+        set.nodes.insert(set.nodes.end(), points.node.begin() + points.first[motion.body],
+                         points.node.begin() + points.first[motion.body + 1]);
     keep_each_once(set.nodes);
     for (std::size_t i = 0; i < set.nodes.size(); ++i) row_of[set.nodes[i]] = int(2 * i);
     set.fields = MatX::Zero(2 * set.nodes.size(), set.motions.size());
@@ -44,72 +56,100 @@ std::vector<MotionSet> motion_sets(const Mesh& mesh, const std::vector<std::vect
 
 namespace {
 
-struct MassRule {
+struct ShapedRule {
   std::vector<double> weights;
   std::vector<CellShape> shapes;
 };
 
-ForEachKind<MassRule> mass_rules() {
-  ForEachKind<MassRule> rules;
+// Exact for motions times u where cells' maps are affine.
+ForEachKind<ShapedRule> shaped_rules() {
+  ForEachKind<ShapedRule> rules;
   for (const CellKind kind : all_cell_kinds) {
-    const CellRule rule = product_rule(kind, 3);  // exact for motions times u
+    const CellRule rule = product_rule(kind, 3);
     rules[int(kind)].weights = rule.weights;
     for (const Vec2& xi : rule.points) rules[int(kind)].shapes.push_back(cell_shape(kind, xi));
   }
   return rules;
 }
 
-using MassOfCell = Eigen::Matrix<double, 9, 9>;
+using Vec3 = Eigen::Vector3d;
 
-// int N_a N_b over its area, of its nodes.
-MassOfCell mass_of(const Mesh& mesh, const Cell& cell, const MassRule& rule) {
-  MassOfCell mass = MassOfCell::Zero();
-  const int count = node_count(cell.kind);
-  for (std::size_t q = 0; q < rule.shapes.size(); ++q) {
-    const auto& N = rule.shapes[q].N;
-    const double area = rule.weights[q] * cell_point(mesh.nodes, cell, rule.shapes[q]).jacobian();
-    for (int b = 0; b < count; ++b)
-      for (int a = 0; a < count; ++a) mass(a, b) += area * N[a] * N[b];
+// Of a body's motions, translations and the turn about its centre: mean products over its area, with one another and
+// with u.
+struct MotionProducts {
+  Eigen::Matrix3d motions = Eigen::Matrix3d::Zero();
+  Vec3 u = Vec3::Zero();
+};
+
+std::vector<MotionProducts> motion_products(const Mesh& mesh, const std::vector<const RigidMotion*>& moved,
+                                            const VecX& u) {
+  std::vector<MotionProducts> products(mesh.bodies.size());
+  const ForEachKind<ShapedRule> rules = shaped_rules();
+  for (const Cell& cell : mesh.cells) {
+    if (!moved[cell.body]) continue;
+    const ShapedRule& rule = rules[int(cell.kind)];
+    for (std::size_t q = 0; q < rule.shapes.size(); ++q) {
+      Vec2 arm = -moved[cell.body]->centre, value = Vec2::Zero();
+      for (int a = 0; a < node_count(cell.kind); ++a) {
+        arm += rule.shapes[q].N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
+        value += rule.shapes[q].N[a] * u.segment<2>(2 * cell.nodes[a]);
+      }
+      Eigen::Matrix<double, 2, 3> fields;
+      fields << 1, 0, -arm.y(), 0, 1, arm.x();
+      const double area = rule.weights[q] * cell_point(mesh.nodes, cell, rule.shapes[q]).jacobian();
+      products[cell.body].motions += area * fields.transpose() * fields;
+      products[cell.body].u += area * fields.transpose() * value;
+    }
   }
-  return mass;
+  return products;
+}
+
+Vec3 components(const RigidMotion& motion) { return {motion.translation.x(), motion.translation.y(), motion.rotation}; }
+
+// The sum of `parts` of `motions`, of each body that has one.
+std::vector<RigidMotion> sum_of(const std::vector<std::vector<RigidMotion>>& motions, const VecX& parts) {
+  std::map<int, RigidMotion> sum;  // by body
+  for (std::size_t m = 0; m < motions.size(); ++m)
+    for (const RigidMotion& motion : motions[m]) {
+      RigidMotion& total = sum.try_emplace(motion.body, motion.body, Vec2::Zero(), 0.0, motion.centre).first->second;
+      total.translation += parts(m) * motion.translation;
+      total.rotation += parts(m) * motion.rotation;
+    }
+  std::vector<RigidMotion> list;
+  for (const auto& [body, motion] : sum) list.push_back(motion);
+  return list;
 }
 
 }  // namespace
 
-std::vector<VecX> least_parts(const Mesh& mesh, const std::vector<MotionSet>& sets, const VecX& u) {
-  const ForEachKind<MassRule> rules = mass_rules();
-  std::vector<MatX> products;  // of motions by motions and, in the last column, by u
-  std::vector<int> set_of(mesh.nodes.rows(), -1), row_of(mesh.nodes.rows(), -1);
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    const Eigen::Index count = sets[s].fields.cols();
-    products.emplace_back(MatX::Zero(count, count + 1));
-    for (std::size_t i = 0; i < sets[s].nodes.size(); ++i) {
-      set_of[sets[s].nodes[i]] = int(s);
-      row_of[sets[s].nodes[i]] = int(2 * i);
-    }
-  }
-  for (const Cell& cell : mesh.cells) {
-    const int count = node_count(cell.kind), set = set_of[cell.nodes[0]];
-    if (set < 0 || std::any_of(cell.nodes.begin(), cell.nodes.begin() + count, [&](int i) { return set_of[i] != set; }))
-      continue;
-    const MatX& fields = sets[set].fields;
-    const Eigen::Index motions = fields.cols();
-    const MassOfCell mass = mass_of(mesh, cell, rules[int(cell.kind)]);
-    for (Eigen::Index k = 0; k <= motions; ++k) {
-      const auto at = [&](int a) -> Vec2 {
-        return k < motions ? Vec2(fields.block<2, 1>(row_of[cell.nodes[a]], k)) : Vec2(u.segment<2>(2 * cell.nodes[a]));
-      };
-      for (int b = 0; b < count; ++b) {
-        Vec2 sum = Vec2::Zero();
-        for (int a = 0; a < count; ++a) sum += mass(a, b) * at(a);
-        for (Eigen::Index m = 0; m < motions; ++m)
-          products[set](m, k) += fields.block<2, 1>(row_of[cell.nodes[b]], m).dot(sum);
+std::vector<std::vector<RigidMotion>> least_motions(const Mesh& mesh,
+                                                    const std::vector<std::vector<RigidMotion>>& motions,
+                                                    const VecX& u) {
+  std::vector<const RigidMotion*> moved(mesh.bodies.size());
+  for (const auto& motion : motions)
+    for (const RigidMotion& of_body : motion) moved[of_body.body] = &of_body;
+  const std::vector<MotionProducts> products = motion_products(mesh, moved, u);
+  std::vector<std::vector<RigidMotion>> least;
+  for (const std::vector<int>& set : linked(mesh, motions)) {
+    std::vector<std::vector<RigidMotion>> own;
+    for (const int m : set) own.push_back(motions[m]);
+    MatX among(set.size(), set.size());
+    VecX with_u = VecX::Zero(set.size());
+    std::vector<Vec3> of_body(mesh.bodies.size(), Vec3::Zero());
+    for (std::size_t m = 0; m < set.size(); ++m) {
+      for (const RigidMotion& motion : own[m]) {
+        of_body[motion.body] = products[motion.body].motions * components(motion);
+        with_u(m) += products[motion.body].u.dot(components(motion));
       }
+      for (std::size_t k = 0; k < set.size(); ++k) {
+        among(k, m) = 0;
+        for (const RigidMotion& motion : own[k]) among(k, m) += of_body[motion.body].dot(components(motion));
+      }
+      for (const RigidMotion& motion : own[m]) of_body[motion.body].setZero();
     }
+    least.push_back(sum_of(own, -among.ldlt().solve(with_u)));
   }
-  std::vector<VecX> parts;
-  for (const MatX& p : products) parts.push_back(-p.leftCols(p.rows()).ldlt().solve(p.rightCols<1>()));
-  return parts;
+  return least;
 }
 
 std::vector<int> grounding_unknowns(const Mesh& mesh, const Constraints& constraints,
@@ -146,35 +186,27 @@ MatX motions_at(const MotionSet& set, const std::vector<int>& unknowns) {
 
 namespace {
 
-// `parts`: of each motion.
+// The sum of `parts` of `motions`, of unit size.
 std::vector<RigidMotion> combined(const std::vector<std::vector<RigidMotion>>& motions, const VecX& parts,
                                   const BodyFrames& frames) {
-  std::map<int, RigidMotion> sum;  // by body
-  for (std::size_t m = 0; m < motions.size(); ++m)
-    for (const RigidMotion& motion : motions[m]) {
-      RigidMotion& total = sum.try_emplace(motion.body, motion.body, Vec2::Zero(), 0.0, motion.centre).first->second;
-      total.translation += parts(m) * motion.translation;
-      total.rotation += parts(m) * motion.rotation;
-    }
+  std::vector<RigidMotion> sum = sum_of(motions, parts);
   double size = 0, turning = 0;
-  for (const auto& [body, motion] : sum) {
+  for (const RigidMotion& motion : sum) {
     size = std::max(size, motion.translation.norm());
-    turning = std::max(turning, std::abs(motion.rotation) * frames.size[body]);
+    turning = std::max(turning, std::abs(motion.rotation) * frames.size[motion.body]);
   }
   if (size < 1e-6 * turning) {  // round-off
     size = 0;
-    for (auto& [body, motion] : sum) {
+    for (RigidMotion& motion : sum) {
       motion.translation.setZero();
       size = std::max(size, std::abs(motion.rotation));
     }
   }
-  std::vector<RigidMotion> result;
-  for (auto& [body, motion] : sum) {
+  for (RigidMotion& motion : sum) {
     motion.translation /= size;
     motion.rotation /= size;
-    result.push_back(motion);
   }
-  return result;
+  return sum;
 }
 
 }  // namespace

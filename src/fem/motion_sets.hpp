@@ -20,8 +20,11 @@ std::vector<MotionSet> motion_sets(const Mesh& mesh, const std::vector<std::vect
 /// The set's motions at its unknowns, a row for each motion.
 MatX motions_at(const MotionSet& set, const std::vector<int>& unknowns);
 
-/// Of each set how much of its motions, added to u (2 nodes), makes the mean square of u over its bodies' areas least.
-std::vector<VecX> least_parts(const Mesh& mesh, const std::vector<MotionSet>& sets, const VecX& u);
+/// Of motions that have bodies in common, directly or by others, the sum that, added to u (2 nodes), makes the mean
+/// square of u over their bodies' areas least: a list for each such set, one entry a body.
+std::vector<std::vector<RigidMotion>> least_motions(const Mesh& mesh,
+                                                    const std::vector<std::vector<RigidMotion>>& motions,
+                                                    const VecX& u);
 
 /// One free unknown for each free motion of single bodies, spread as far apart as they go: springs there would hold
 /// the bodies. `motions` as found without contact rows.

@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 
+#include "fem/elements.hpp"
 #include "fem/motion_sets.hpp"
 #include "support/two_plates.hpp"
 #include "support/wall.hpp"
@@ -107,6 +108,52 @@ TEST(FreeMotions, OfManyBodiesAreHeldByTheirOwnNodes) {
     EXPECT_GT(std::abs(motions_at(set, grounding_unknowns(mesh, c, motions)).determinant()), 0.1);
   }
   EXPECT_EQ(entries, 3 * 2 * mesh.nodes.rows());
+}
+
+// Bodies that a motion joins, one of which moves in two: what least_motions adds leaves u orthogonal to each motion
+// over the bodies' areas, here by midpoints of cells that are cut into many.
+TEST(FreeMotions, OfLeastMeanSquareLeaveNothingAlongThemselves) {
+  const Mesh mesh = test::wall(2, 1).mesh;
+  const auto single = free_motions(mesh, no_constraints(mesh), SparseMatrix(0, 2 * mesh.nodes.rows()));
+  ASSERT_EQ(single.size(), 12U);
+  const auto joined = [&](std::size_t i, std::size_t j) {
+    auto both = single[i];
+    both.insert(both.end(), single[j].begin(), single[j].end());
+    return both;
+  };
+  const std::vector<std::vector<RigidMotion>> motions = {joined(0, 4), joined(5, 6), single[2], single[9]};
+  VecX u(2 * mesh.nodes.rows());
+  for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i) {
+    const Vec2 x = mesh.nodes.row(i);
+    u.segment<2>(2 * i) << 1 + x.x() * x.y(), x.x() - 2 * x.y();
+  }
+  const auto least = least_motions(mesh, motions, u);
+  ASSERT_EQ(least.size(), 2U);  // the last is a set of its own
+  const auto field = [&](const std::vector<RigidMotion>& motion, const Cell& cell, const Vec2& x) -> Vec2 {
+    Vec2 sum = Vec2::Zero();
+    for (const RigidMotion& of_body : motion)
+      if (of_body.body == cell.body) sum += of_body.at(x);
+    return sum;
+  };
+  VecX left = VecX::Zero(4), before = VecX::Zero(4);
+  const int n = 40;
+  for (const Cell& cell : mesh.cells)
+    for (int i = 0; i < n * n; ++i) {
+      const Vec2 xi(-1 + (2 * (i % n) + 1.0) / n, -1 + (2 * (i / n) + 1.0) / n);
+      const CellShape shape = cell_shape(cell.kind, xi);
+      Vec2 x = Vec2::Zero(), value = Vec2::Zero();
+      for (int a = 0; a < node_count(cell.kind); ++a) {
+        x += shape.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
+        value += shape.N[a] * u.segment<2>(2 * cell.nodes[a]);
+      }
+      const double area = 4.0 / (n * n) * cell_point(mesh.nodes, cell, shape).jacobian();
+      for (int m = 0; m < 4; ++m) {
+        before(m) += area * field(motions[m], cell, x).dot(value);
+        left(m) += area * field(motions[m], cell, x).dot(value + field(least[0], cell, x) + field(least[1], cell, x));
+      }
+    }
+  EXPECT_GT(before.cwiseAbs().minCoeff(), 1e-3);
+  EXPECT_LT(left.cwiseAbs().maxCoeff(), 1e-3 * before.cwiseAbs().maxCoeff());  // the midpoints' own error
 }
 
 // Blocks in rows, held where they stand: what moves is each row along itself, with all its blocks, and its blocks alone
