@@ -41,9 +41,12 @@ WantedSizes wanted_next(const Results& r, const AccuracySpec& spec, bool first) 
   const double fall = e.pressure() / (aimed * asked),
                meshes = std::max(1.0, std::ceil(std::log(fall) / std::log(largest_step))),
                target = aimed * asked * std::pow(fall, 1 - 1 / meshes) / error_safety;
-  ErrorFactors factors{.line = std::clamp((first ? e.slopes() : e.line()) / (0.8 * target), 0.4, largest_step),
-                       .far_field = std::clamp(e.far_field() / (0.5 * target), 0.25, 5 * largest_step),
-                       .target = target};
+  const double overlaps = e.overlaps().sum();
+  ErrorFactors factors{
+      .line = std::clamp((first ? e.slopes() : e.line()) / (0.8 * target), 0.4, largest_step),
+      .far_field = std::clamp(std::max(e.far_field() - overlaps, 0.) / (0.5 * target), 0.25, 5 * largest_step),
+      .target = target,
+      .overlaps = std::clamp(overlaps / (0.1 * target), 0.4, 5 * largest_step)};  // edges at borders are few
   if (spec.of == Goal::half_width) factors.border = found / (aimed * spec.value);
   if (e.goal) {
     const double parts = e.goal->local > 0 ? 3 : 2,

@@ -231,7 +231,7 @@ VecX far_fields(const Mesh& mesh, const FarField& far) {
 // What cells do to each window's mean, its corners' tails, and where windows share duals the stiffness of the whole.
 void add_far_errors(const Mesh& mesh, ErrorEstimate& estimate) {
   std::vector<TailShares> tails = tails_along(mesh, estimate.pressures, estimate.far.windows, estimate.tails);
-  const VecX far = far_fields(mesh, estimate.far);
+  const VecX far = far_fields(mesh, estimate.far) + estimate.far.overlaps.colwise().sum().transpose();
   const Eigen::Index of_windows = estimate.far.windows.count, others = estimate.far.parts.cols() - of_windows;
   const VecX fluctuations =
       off_by(estimate.far.parts.rightCols(others)) + estimate.tails.parts.rightCols(others).colwise().sum().transpose();
@@ -256,6 +256,19 @@ MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector
   for (std::size_t k = 0; k < pairs.size(); ++k)
     for (const PressureWindow& w : pressures[k].windows)
       columns.col(shared.dual[window++]).segment(pairs[k].first_row, w.weights.size()) += w.weights;
+  return columns;
+}
+
+// A column a window.
+MatX each_window(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
+                 Eigen::Index rows) {
+  std::size_t count = 0;
+  for (const PressureEstimate& e : pressures) count += e.windows.size();
+  MatX columns = MatX::Zero(rows, Eigen::Index(count));
+  Eigen::Index window = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (const PressureWindow& w : pressures[k].windows)
+      columns.col(window++).segment(pairs[k].first_row, w.weights.size()) = w.weights;
   return columns;
 }
 
@@ -306,13 +319,16 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
                 : products.of(p, solution.u);
   estimate.energy = energy_estimate(p.mesh, found, round_off_energy(found, system.stiffness_scale, solution.u));
   estimate.far.parts = found.products.middleCols(1, shared);
+  estimate.far.overlaps = MatX::Zero(Eigen::Index(p.pairs.size()), 0);
+  if (!has_duals) return;
+  const BorderOverlaps overlaps(p, solution, estimate.pressures);
+  estimate.far.overlaps = overlaps.changes(each_window(p.pairs, estimate.pressures, system.B.rows()), {});
   if (goals > 0) {
     estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
     estimate.goal->lines =
         line_parts(p.pairs, estimate.pressures, kept.rightCols(goals), options.spec.pair, goal.opening);
-    add_overlaps(BorderOverlaps(p, solution, estimate.pressures).changes(goal.rows, goal.loads), estimate.goal->lines);
+    add_overlaps(overlaps.changes(goal.rows, goal.loads), estimate.goal->lines);
   }
-  if (!has_duals) return;
   estimate.data_works.resize(works.rows(), shared + goals);
   estimate.data_works.leftCols(shared) = works.leftCols(shared);
   estimate.data_works.rightCols(goals) = works.rightCols(goals);
@@ -322,7 +338,8 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
   if (goals > 0) estimate.goal->besides += estimate.tails.goal.colwise().sum().transpose();
   estimate.also = {.z = kept.leftCols(more),
                    .sums = off_by(found.products.middleCols(1 + shared, more)) +
-                           tails.middleCols(shared, more).colwise().sum().transpose()};
+                           tails.middleCols(shared, more).colwise().sum().transpose() +
+                           overlaps.changes(options.also, {}).colwise().sum().transpose()};
 }
 
 void require_pair(const AccuracySpec& spec, std::size_t count) {
@@ -334,14 +351,16 @@ void require_pair(const AccuracySpec& spec, std::size_t count) {
 }  // namespace
 
 double ErrorEstimate::peak() const {
-  double p = 0, bar = std::numeric_limits<double>::quiet_NaN();
+  double p = 0, most = 0, bar = std::numeric_limits<double>::quiet_NaN();
   for (const PressureEstimate& e : pressures)
-    for (Eigen::Index i = 0; i < e.line.p.size(); ++i)
+    for (Eigen::Index i = 0; i < e.line.p.size(); ++i) {
+      most = std::max(most, e.line.whole(i) + e.bar(i));
       if (e.line.whole(i) > p) {
         p = e.line.whole(i);
         bar = e.bar(i);
       }
-  return bar / p;
+    }
+  return std::max(bar, most - p) / p;
 }
 
 double ErrorEstimate::half_width() const {
@@ -383,6 +402,14 @@ double ErrorEstimate::slopes() const {
   return std::sqrt(square / pressure_square());
 }
 double ErrorEstimate::far_field() const { return error_norm(pressures, 0, 1) / std::sqrt(pressure_square()); }
+VecX ErrorEstimate::overlaps() const {
+  VecX squares = VecX::Zero(far.overlaps.rows());
+  Eigen::Index k = 0;
+  for (const PressureEstimate& e : pressures)
+    for (const PressureWindow& window : e.windows)
+      squares += 2 * window.place.reach * far.overlaps.col(k++).cwiseAbs2();
+  return squares.cwiseSqrt() / std::sqrt(pressure_square());
+}
 
 ErrorEstimate estimate_error(const Problem& p, const Solution& solution, EstimateMemory& memory,
                              const EstimateOptions& options) {

@@ -27,6 +27,7 @@ struct EnergyEstimate {
 struct FarField {
   MatX parts;           ///< cells x duals, those of windows, then of fluctuations: int d_0 : C^-1 : d_k, stress
   SharedDuals windows;  ///< of all pairs, one after the other, and which of them the parts count for
+  MatX overlaps;  ///< pairs x windows: what overlaps at the pairs' borders do to them, stress (border_overlaps.hpp)
 };
 
 struct ErrorEstimate {
@@ -35,7 +36,7 @@ struct ErrorEstimate {
   FarField far;
   CornerTails tails;
   std::optional<GoalEstimate> goal;  ///< where one is asked for
-  FoundDuals also;                   ///< of further functionals; corners are in their sums
+  FoundDuals also;                   ///< of further functionals; corners and overlaps are in their sums
   MatX data_works;                   ///< misfits of data x (duals as of far.parts, then the goal's): data_works.hpp
 
   /// L2 norms of the estimated error of p over that of p on all contact lines, singular points left out: of the whole,
@@ -45,8 +46,9 @@ struct ErrorEstimate {
   double line() const;
   double slopes() const;  ///< the line's part without what p swings by
   double far_field() const;
-  /// Of the largest pressure its bar, relative; of half the width of a contact the edges on which it ends, whose
-  /// relative length is the largest: 0 where contact ends nowhere within a line.
+  VecX overlaps() const;  ///< of the latter the parts that are at the borders of each pair
+  /// Of the largest pressure its bar, or by how much p may be more elsewhere, relative; of half the width of a contact
+  /// the edges on which it ends, whose relative length is the largest: 0 where contact ends nowhere within a line.
   double peak() const;
   double half_width() const;
   double pressure_square() const;  ///< of p on these, stress^2 length

@@ -105,8 +105,7 @@ ForcesAsked ask_forces(const Problem& problem, const Solution& solution, const s
   return asked;
 }
 
-std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const Solution& solution,
-                                          const std::vector<PressureEstimate>& pressures,
+std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const std::vector<PressureEstimate>& pressures,
                                           const std::vector<Vec2>& centres, const ForcesAsked& asked,
                                           const FoundDuals& duals) {
   const std::vector<ContactPair>& pairs = problem.pairs;
@@ -117,9 +116,7 @@ std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const Solution
         known.array().isNaN().select(sum_of_bars(problem.mesh, pairs[k], pressures[k], centres[k]), known));
   }
   if (asked.by_duals.empty()) return errors;
-  const MatX overlaps = BorderOverlaps(problem, solution, pressures).changes(asked.rows, {});
-  const VecX found =
-      duals.sums + errors_of_lines(problem, pressures, centres, asked, duals.z) + overlaps.colwise().sum().transpose();
+  const VecX found = duals.sums + errors_of_lines(problem, pressures, centres, asked, duals.z);
   for (std::size_t k = 0; k < asked.by_duals.size(); ++k)
     errors[asked.by_duals[k].pair](asked.by_duals[k].component) = error_safety * found(Eigen::Index(k));
   return errors;
@@ -131,9 +128,11 @@ std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const Solution
   EstimateMemory memory;
   const ForcesAsked asked = ask_forces(problem, solution, centres, memory);
   FoundDuals duals;
-  if (!asked.by_duals.empty())
+  if (!asked.by_duals.empty()) {
     duals = find_duals(problem, solution.u, contact_factor(problem.discretisation.system, solution), asked.rows);
-  return force_errors(problem, solution, pressures, centres, asked, duals);
+    duals.sums += BorderOverlaps(problem, solution, pressures).changes(asked.rows, {}).colwise().sum().transpose();
+  }
+  return force_errors(problem, pressures, centres, asked, duals);
 }
 
 }  // namespace mortise

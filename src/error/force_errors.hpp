@@ -24,9 +24,9 @@ ForcesAsked ask_forces(const Problem& problem, const Solution& solution, const s
 /// by, times depth (model/model.hpp). Each is a functional of its own: a motion of that side by 1, with a dual solution
 /// (docs/theory.md, section 14). Where equilibrium fixes the force that is a rigid motion, which has no error:
 /// round-off of the forces is left, and nothing is solved for. Where more than most_own_duals are not fixed, and with
-/// multi-point constraints, they are sums of the bars of p. `duals`: of asked.rows.
-std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const Solution& solution,
-                                          const std::vector<PressureEstimate>& pressures,
+/// multi-point constraints, they are sums of the bars of p. `duals`: of asked.rows, with what overlaps at borders do in
+/// their sums.
+std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const std::vector<PressureEstimate>& pressures,
                                           const std::vector<Vec2>& centres, const ForcesAsked& asked,
                                           const FoundDuals& duals);
 

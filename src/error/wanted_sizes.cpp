@@ -149,21 +149,38 @@ GoalLines goal_lines(const GoalEstimate& goal, double factor) {
   return lines;
 }
 
+// At the borders of a pair by parts that fall as the square of their edges; `between`: the sum of all parts' cube roots
+// over what these may add up to.
+void shorten_at_borders(const PressureEstimate& e, const VecX& parts, double between, VecX& r) {
+  for (std::size_t b = 0; b < e.local.borders.size(); ++b) {
+    const double shorter = std::clamp(std::sqrt(between) * std::cbrt(parts(Eigen::Index(b))), 0.7, line_refine);
+    const Eigen::Index edge = e.local.borders[b].edge;
+    for (Eigen::Index i = std::max<Eigen::Index>(edge - 1, 0); i <= std::min(edge + 2, r.size() - 1); ++i)
+      r(i) = std::max(r(i), shorter);
+  }
+}
+
 // As line_refinement, by what the vertices and borders of a pair do to the goal.
 VecX goal_line_refinement(const PressureEstimate& e, const LinePart& part, const GoalLines& lines) {
   VecX r = VecX::Constant(e.line.p.size(), coarsen);
   if (!(lines.target > 0)) return r;
   const double between = lines.roots / lines.target;
-  const VecX vertices = goal_parts(part.vertices), borders = goal_parts(part.borders);
+  const VecX vertices = goal_parts(part.vertices);
   for (Eigen::Index i = 0; i < r.size(); ++i)
     r(i) = std::clamp(std::pow(between, 0.2) * std::pow(vertices(i), 1.0 / 6), coarsen, line_refine);
-  for (std::size_t b = 0; b < e.local.borders.size(); ++b) {
-    const double shorter = std::clamp(std::sqrt(between) * std::cbrt(borders(Eigen::Index(b))), 0.7, line_refine);
-    const Eigen::Index edge = e.local.borders[b].edge;
-    for (Eigen::Index i = std::max<Eigen::Index>(edge - 1, 0); i <= std::min(edge + 2, r.size() - 1); ++i)
-      r(i) = std::max(r(i), shorter);
-  }
+  shorten_at_borders(e, goal_parts(part.borders), between, r);
   return r;
+}
+
+// Of each pair what the overlaps at each of its borders do to p elsewhere, as ErrorEstimate::overlaps.
+std::vector<VecX> overlap_parts(const ErrorEstimate& estimate) {
+  const VecX of_pairs = estimate.overlaps();
+  std::vector<VecX> parts;
+  for (std::size_t k = 0; k < estimate.pressures.size(); ++k) {
+    const Eigen::Index count = Eigen::Index(estimate.pressures[k].local.borders.size());
+    parts.push_back(VecX::Constant(count, of_pairs(Eigen::Index(k)) / double(std::max<Eigen::Index>(count, 1))));
+  }
+  return parts;
 }
 
 // At each node the geometric mean of what its cells' sizes become; infinite where it is a corner of none.
@@ -192,12 +209,19 @@ std::vector<VecX> lines_refinement(const ErrorEstimate& estimate, const ErrorFac
   }
   const double target = estimate.slopes() * std::sqrt(p2) / factors.line;
   const GoalLines lines = estimate.goal ? goal_lines(*estimate.goal, factors.goal_line) : GoalLines{};
+  const std::vector<VecX> overlaps = overlap_parts(estimate);
+  double roots = 0, sum = 0;
+  for (const VecX& parts : overlaps) {
+    roots += parts.array().pow(1.0 / 3).sum();
+    sum += parts.sum();
+  }
   std::vector<VecX> all;
   for (std::size_t k = 0; k < estimate.pressures.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];
     VecX& shorter = all.emplace_back(VecX::Constant(e.line.p.size(), coarsen));
     if (!estimate.goal || estimate.goal->local > 0)
       shorter = line_refinement(e, target, borders, factors.border, weak, least);
+    if (!estimate.goal && sum > 0) shorten_at_borders(e, overlaps[k], roots * factors.overlaps / sum, shorter);
     if (estimate.goal) shorter = shorter.cwiseMax(goal_line_refinement(e, estimate.goal->lines[k], lines));
   }
   return all;

@@ -16,6 +16,7 @@ struct ErrorFactors {
   double line, far_field;
   double target;
   double border = 0;     ///< by which the edges are to shorten on which contact ends; 0: as the line's error asks
+  double overlaps = 1;   ///< by which what overlaps at borders do to p elsewhere is to fall
   double goal_line = 1;  ///< of another functional than p by which what the lines do to it is to fall
 };
 

@@ -152,7 +152,7 @@ void put_force_bars(const std::vector<Eigen::Vector3d>& errors, Results& r) {
 ForcesAsked ask_forces(const Results& r) { return ask_forces(r.problem, r.solution, centres_of(r), *r.memory); }
 
 void set_force_bars(const ForcesAsked& asked, const FoundDuals& duals, Results& r) {
-  put_force_bars(force_errors(r.problem, r.solution, r.estimate->pressures, centres_of(r), asked, duals), r);
+  put_force_bars(force_errors(r.problem, r.estimate->pressures, centres_of(r), asked, duals), r);
 }
 
 void set_force_bars(Results& r) {

@@ -38,12 +38,15 @@ Json extremes_json(const Results& r) {
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
-// The bar where p is largest.
+// The bar where p is largest, or by how much it may be more elsewhere.
 Json peak_error(const ContactResults& c) {
-  const auto peak = std::ranges::find_if(
-      c.multiplier.nodes, [&](const ContactNode& n) { return n.p == c.p_max && !std::isnan(n.p_error); });
-  if (peak == c.multiplier.nodes.end()) return nullptr;
-  return peak->p_error;
+  double most = std::numeric_limits<double>::quiet_NaN(), bar = most;
+  for (const ContactNode& n : c.multiplier.nodes) {
+    most = std::fmax(most, n.p + n.p_error);
+    if (n.p == c.p_max) bar = std::fmax(bar, n.p_error);
+  }
+  if (std::isnan(bar)) return nullptr;
+  return std::max(bar, most - c.p_max);
 }
 
 // As the scene has it.

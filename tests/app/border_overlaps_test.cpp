@@ -1,4 +1,5 @@
-// Forces and displacements where a mesh hardly sees contact: a ring on a plate touches by far less than an edge.
+// Forces, displacements and pressures where a mesh hardly sees contact: a ring on a plate touches by far less than an
+// edge, and so does the corner of a foot.
 #include "error/border_overlaps.hpp"
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 
 #include "app/accuracy.hpp"
 #include "results/error_report.hpp"
+#include "support/pressure_at.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise::test {
@@ -57,6 +59,50 @@ TEST(BorderOverlaps, ForcesAndDisplacementsAreRightWhereContactIsLessThanAnEdge)
       ASSERT_TRUE(r) << k;
       EXPECT_NEAR(r->recovery.contacts[0].force.y(), force, std::stod(value) * std::abs(force)) << k << " " << value;
       EXPECT_LE(std::abs(r->recovery.contacts[0].force.y() - force), r->recovery.contacts[0].force_error->y()) << k;
+    }
+  }
+}
+
+// A punch with a chamfer on a block, heated: it curls up and stands on the corner of its foot, by far less than an
+// edge.
+Scene curled(const TemporaryFolder& folder, std::mt19937& random, const std::string& asked) {
+  std::uniform_real_distribution<double> any(0, 1);
+  const double width = 15 + 5 * any(random), height = 10 + 15 * any(random), chamfer = 1 + 2 * any(random),
+               angle = 0.03 + 0.7 * any(random), heat = 30 + 70 * any(random);
+  std::ostringstream geo, toml;
+  geo << "Point(1) = {0, -11, 0}; Point(2) = {34, -11, 0}; Point(3) = {34, 0, 0}; Point(4) = {0, 0, 0};\n"
+      << "Point(5) = {0, 0, 0}; Point(6) = {" << width << ", 0, 0}; Point(7) = {" << width + chamfer << ", "
+      << chamfer * std::tan(angle) << ", 0};\n"
+      << "Point(8) = {" << width + chamfer << ", " << height << ", 0}; Point(9) = {0, " << height << ", 0};\n"
+      << "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Line(5) = {5, 6}; Line(6) = {6, 7};\n"
+      << "Line(7) = {7, 8}; Line(8) = {8, 9}; Line(9) = {9, 5}; Curve Loop(1) = {1 ... 4}; Plane Surface(1) = {1};\n"
+      << "Curve Loop(2) = {5 ... 9}; Plane Surface(2) = {2}; Physical Surface(\"base\") = {1};\n"
+      << "Physical Surface(\"punch\") = {2}; Physical Curve(\"ground\") = {1}; Physical Curve(\"top\") = {3};\n"
+      << "Physical Curve(\"foot\") = {5, 6}; Physical Curve(\"head\") = {8}; Physical Curve(\"middle\") = {4, 9};\n";
+  folder.write("curled.geo", geo.str());
+  toml << "mesh.file = \"curled.geo\"\nmodel.plane = \"" << (any(random) < 0.5 ? "strain" : "axisymmetric") << "\"\n"
+       << "materials.b = { young = 14120, poisson = 0.45 }\n"
+       << "materials.p = { young = 5138, poisson = 0.45, thermal_expansion = 1e-5 }\n"
+       << "bodies = { base = \"b\", punch = \"p\" }\ncontact = [{ between = [\"foot\", \"top\"] }]\n"
+       << "boundary = [{ on = \"ground\", displacement = { y = 0 } }, { on = \"head\", pressure = 0.323 },\n"
+       << "  { on = \"middle\", displacement = { x = 0 } }]\n"
+       << "initial_strain = [{ body = \"punch\", temperature_change = " << heat << " }]\n"
+       << "accuracy.value = " << asked << "\n";
+  return read_scene(folder.write("curled.toml", toml.str()));
+}
+
+// Where the foot's middle presses p is as good as its bar says, or the accuracy is not reached.
+TEST(BorderOverlaps, PressureIsRightWhereAnotherContactIsLessThanAnEdge) {
+  for (int seed = 1; seed <= 4; ++seed) {
+    const TemporaryFolder folder;
+    std::mt19937 random(seed), again(seed);
+    const auto exact = solve_to_accuracy(curled(folder, random, "0.001"));
+    const auto found = solve_to_accuracy(curled(folder, again, "0.01"));
+    ASSERT_TRUE(exact && found) << seed;
+    for (const double x : {0.5, 3.0, 6.0}) {
+      const double p = pressure_at(exact->recovery.contacts[0].multiplier.nodes, x);
+      ASSERT_GT(p, 0) << seed;
+      EXPECT_NEAR(pressure_at(found->recovery.contacts[0].multiplier.nodes, x), p, 0.01 * p) << seed << " " << x;
     }
   }
 }

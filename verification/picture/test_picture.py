@@ -248,6 +248,11 @@ def test_the_picture_s_name_stands_anywhere(call, solve, option, tmp_path):
         drawn.unlink()
 
 
+def test_each_of_two_pairs_is_drawn_alone(call, solve, tmp_path):
+    for pair in ("0", "1"):
+        assert call(solve("stack"), tmp_path / "a.png", "--pair", pair, "--dpi", "40")[0] == 0
+
+
 def test_what_shows_nothing_is_refused(call, solve, tmp_path):
     for scene, words, text in [
         ("punch", ["--zoom", "5,6,5,6"], "--zoom 5,6,5,6: no body is there; expected a box within -0.0"),

@@ -101,11 +101,11 @@ def stress_range(stress, areas):
     return low, high
 
 
-def draw_contact_lines(axes, curve, table, scale, pairs):
+def draw_contact_lines(axes, curve, scale, pairs):
     """Both curves of each pair, in its colour."""
     at = curve.points[:, :2] + scale * curve.point_data["displacement"][:, :2]
     lines = [(*row[:2], row[2] if len(row) > 2 else -1) for block in curve.cells for row in block.data]
-    colour_of = lambda line: PAIR_COLOURS[int(table["pair"][line[0]])]  # points stand in the order of contact.csv
+    colour_of = lambda line: PAIR_COLOURS[int(curve.point_data["pair"][line[0]])]
     colours = {"black": lines}
     if 1 < pairs <= MANY_PAIRS:
         colours = {colour: [line for line in lines if colour_of(line) == colour] for colour in PAIR_COLOURS[:pairs]}
@@ -160,7 +160,7 @@ def draw_bodies(axes, mesh, curve, summary, table, options, turned):
     axes.add_collection(LineCollection(joined(polylines(points, edges)), colors="0.6", linewidths=0.6, linestyles=(0, (5, 4)), **dots))
     axes.add_collection(LineCollection(joined(polylines(moved, edges)), colors="black", linewidths=0.8, **dots))
     if summary["contact"]:
-        draw_contact_lines(axes, curve, table, scale, len(summary["contact"]))
+        draw_contact_lines(axes, curve, scale, len(summary["contact"]))
     if options.zoom:
         shift = scale * u[seen].mean(axis=0) if options.zoom == CONTACT else np.zeros(2)
         axes.set_xlim(*(box[:, 0] + shift[0]))

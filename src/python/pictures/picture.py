@@ -123,6 +123,8 @@ def draw(results, picture, options):
     mesh = meshio.vtu.read(results / "result.vtu")
     curve = meshio.vtu.read(results / "contact.vtu") if pairs else None
     table = result_tables.contact_table(results) if pairs else {}
+    if pairs:
+        curve.point_data["pair"] = table["pair"]  # points stand in the order of contact.csv
     if options.zoom == CONTACT:
         refuse_without(pairs, "--zoom")
     of_shown = {name: column[np.isin(table["pair"], shown)] for name, column in table.items()}
