@@ -20,7 +20,6 @@
 #include "app/version.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
-#include "ddm/ranks.hpp"
 #include "gmsh/mesh_cache.hpp"
 #include "gmsh/write_msh.hpp"
 #include "model/mesh_endings.hpp"
@@ -86,9 +85,6 @@ Scene scene_of(const Options& options) {
 
 int solve_all_cases(const Options& options, const Scene& scene, const std::filesystem::path& folder,
                     std::optional<StageLine>& line) {
-  if (ranks().count() > 1)
-    throw InputError("command line: several processes solve one of the cases of " + scene.path +
-                     "; expected --case NAME after mpirun");
   const CaseTable table = write_cases(
       scene, {!options.no_estimate, options.diagnose}, [&](const std::string& name) { (*line)(name); }, folder);
   line.reset();
@@ -131,7 +127,7 @@ int solve(const Options& options) {
   malloc_trim(0);  // what is written takes as much memory, in blocks of its own
   stage("write");
   Json report = report_of(results);
-  if (ranks().rank() == 0) write_results(results, report, folder);
+  write_results(results, report, folder);
   line.reset();
   if (!options.quiet) say(report_text(report, folder));
   if (results.status == Status::accuracy_not_reached)
@@ -338,12 +334,8 @@ int parse_and_run(int argc, const char* const* argv) {
   if (*certify_command) become_script("reports/certify.py", certify_command->remaining());
   if (*report_command) become_script("reports/report.py", report_command->remaining());
   if (*window_command) become_script("scenes/window.py", window_command->remaining());
-  set_solver_threads(options.threads > 0 || ranks().count() == 1 ? options.threads : 1);
+  set_solver_threads(options.threads);
   set_mesh_cache(!options.no_cache);
-  if (ranks().count() > 1) {
-    if (!*solve_command) throw InputError("command line: several processes solve; expected mortise solve after mpirun");
-    options.no_programs = true;  // each process reads the .geo
-  }
   if (*solve_command) return solve(options);
   if (*check_command) return check(options);
   if (*new_command) return new_scene(options);

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
-#include <string_view>
 #include <utility>
 
 #include "app/solve_system.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "base/stopwatch.hpp"
-#include "ddm/ranks.hpp"
 #include "error/data_estimate.hpp"
 #include "fields/load_fields.hpp"
 #include "gmsh/load_mesh.hpp"
@@ -31,19 +28,6 @@
 
 namespace mortise {
 namespace {
-
-// Each rank reads or meshes the file by itself.
-void require_same_mesh(const Mesh& mesh) {
-  if (ranks().count() == 1) return;
-  const std::string_view bytes(reinterpret_cast<const char*>(mesh.nodes.data()), mesh.nodes.size() * sizeof(double));
-  std::size_t hash = std::hash<std::string_view>{}(bytes);
-  for (const Cell& cell : mesh.cells)
-    for (int a = 0; a < node_count(cell.kind); ++a) hash = 31 * hash + std::size_t(cell.nodes[a]);
-  const double own = double(hash >> 24);  // sums of it are exact
-  double sum = own;
-  ranks().sum(&sum, 1);
-  if (sum != own * ranks().count()) throw std::runtime_error(mesh.source + ": the ranks have different meshes of it");
-}
 
 std::unique_ptr<SystemSolver> solver_of(const Problem& p) {
   return std::make_unique<SystemSolver>(p.method, p.discretisation.system, unknowns_of(p.mesh, p.dirichlet));
@@ -281,7 +265,6 @@ std::optional<Mesh> with_missed_pairs(Results& r) {
 }
 
 Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const ActiveSet* start) {
-  require_same_mesh(mesh);
   for (Seconds spent;;) {
     Results r;
     take_problem(prepared(scene, tightened(scene, std::move(mesh), progress), progress, start), r);
@@ -332,7 +315,6 @@ void CaseSolver::begin(const Scene& scene, std::optional<Mesh> known, const Prog
   if (progress) progress("mesh");
   Mesh mesh = known ? *std::move(known) : scene_mesh(scene, &results_.mesh_cached);
   results_.seconds.mesh = watch.lap();
-  require_same_mesh(mesh);
   mesh = tightened(scene, std::move(mesh), progress);
   take_problem(prepared(scene, std::move(mesh), progress, start_ ? &*start_ : nullptr), results_);
   fixed_ = results_.problem.discretisation.system.constraints.fixed;

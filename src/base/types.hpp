@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <vector>
 
 namespace mortise {
 
@@ -43,6 +44,9 @@ using SparseMatrix = MovableSparse<Eigen::ColMajor>;
 
 /// Compressed rows: few of them with many columns, at no cost for the columns that are empty.
 using SparseRows = MovableSparse<Eigen::RowMajor>;
+
+/// Entries of a sparse matrix (row, column, value), in any order; those of one place add up.
+using Triplets = std::vector<Eigen::Triplet<double>>;
 
 /// Largest absolute value; 0 of an empty vector, NaN where there is one.
 inline double largest_entry(const VecX& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0; }

@@ -30,8 +30,8 @@ void number_multipliers(const Curve& curve, Multipliers space, Coupling& couplin
 
 // What the contact points say of each multiplier before any is dropped.
 struct Accumulated {
-  std::vector<Eigen::Triplet<double>> own, opposite;  // of B's two sides, multiplier x degree of freedom
-  VecX gap;                                           // int psi g0
+  Triplets own, opposite;  // of B's two sides, multiplier x degree of freedom
+  VecX gap;                // int psi g0
   Support support;
 };
 
@@ -136,7 +136,7 @@ Coupling couple(const Mesh& mesh, const ContactInterface& interface, const Const
     coupling.scale(coupling.row[a]) += sums.support.scale(a);
   }
   std::vector<std::map<int, double>> rows(coupling.gap0.size());
-  const auto add = [&](const std::vector<Eigen::Triplet<double>>& side) {
+  const auto add = [&](const Triplets& side) {
     for (const auto& t : side)
       if (coupling.row[t.row()] >= 0) rows[coupling.row[t.row()]][t.col()] += t.value();
     return rows_of(rows, 2 * mesh.nodes.rows());

@@ -10,7 +10,7 @@ namespace mortise {
 SparseMatrix pressure_norm(const Points& nodes, const ContactInterface& interface, Multipliers space) {
   const std::vector<ContactPoint>& points = interface.points;
   const Coupling& coupling = interface.coupling;
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (auto first = points.begin(); first != points.end();) {
     const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
     const Edge& edge = interface.multiplier.edges[first->edge];

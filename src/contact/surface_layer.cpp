@@ -6,8 +6,8 @@
 
 namespace mortise {
 
-std::vector<Eigen::Triplet<double>> surface_layer(const ContactInterface& interface) {
-  std::vector<Eigen::Triplet<double>> rows;
+Triplets surface_layer(const ContactInterface& interface) {
+  Triplets rows;
   for (std::size_t q = 0; q < interface.points.size(); ++q) {
     const ContactPoint& point = interface.points[q];
     const auto& multipliers = interface.coupling.on_edge[point.edge];

@@ -7,7 +7,7 @@ namespace mortise {
 
 /// The layer is compressed by d at each of the pair's points, under the pressure that the multipliers have there,
 /// -sum N_a lambda_a (docs/theory.md eq. 13a, 19). Entries of the rows: row, point: int N_a dA, length times depth.
-std::vector<Eigen::Triplet<double>> surface_layer(const ContactInterface& interface);
+Triplets surface_layer(const ContactInterface& interface);
 
 /// What is left of openings at the pair's points (a row a point, a column a field) once the layer has followed them
 /// between `closed` vertices of the multiplier side: less their means with the hat functions of these.

@@ -34,17 +34,16 @@ SparseMatrix with_diagonal(const SparseMatrix& A, const VecX& added) {
   return A + D;
 }
 
-SparseMatrix sum_of_ranks(SparseMatrix A) {
-  if (ranks().count() == 1) return A;
-  Triplets entries;
-  for (int j = 0; j < A.cols(); ++j)
-    for (SparseMatrix::InnerIterator it(A, j); it; ++it) entries.emplace_back(int(it.row()), j, it.value());
-  entries = ranks().of_all(std::move(entries));
-  A.setFromTriplets(entries.begin(), entries.end());
-  return A;
+// Column by column.
+VecX dot(const MatX& a, const MatX& b) { return a.cwiseProduct(b).colwise().sum(); }
+
+VecX largest_entries(const MatX& columns) {
+  VecX found(columns.cols());
+  for (Eigen::Index k = 0; k < found.size(); ++k) found(k) = largest_entry(columns.col(k));
+  return found;
 }
 
-// What own rows of H under lambda do at most on any motion of each motion's bodies, s.
+// What rows of H under lambda do at most on any motion of each motion's bodies, s.
 VecX most_work(const SparseMatrix& H, const VecX& lambda) {
   VecX most = VecX::Zero(H.rows()), sum = VecX::Zero(H.cols());
   for (int k = 0; k < H.cols(); ++k)
@@ -52,40 +51,37 @@ VecX most_work(const SparseMatrix& H, const VecX& lambda) {
       most(it.row()) = std::max(most(it.row()), std::abs(it.value()));
   for (int k = 0; k < H.cols(); ++k)
     for (SparseMatrix::InnerIterator it(H, k); it; ++it) sum(k) += most(it.row()) * std::abs(lambda(it.row()));
-  ranks().sum(sum.data(), sum.size());
   return sum;
 }
 
 }  // namespace
 
 ClosedRows::ClosedRows(const DualSystem& system, const std::vector<char>& closed)
-    : system_(system), rows_(system.rows()), of_parts_(system.closed_of_parts(closed)) {
+    : system_(system), of_parts_(system.closed_of_parts(closed)) {
   share_jumps(closed);
   if (dependent_row >= 0) return;
   hold_motions();
   if (system.slender.empty()) return;
   slender_.emplace(system.slender, closed);
-  VecX compact = VecX::Ones(Eigen::Index(closed.size()));
-  compact(system.slender.rows).setZero();
-  compact_ = rows_.own(compact);
+  compact_ = VecX::Ones(Eigen::Index(closed.size()));
+  compact_(system.slender.rows).setZero();
 }
 
 // Open rows keep their diagonal, which nothing reaches.
-void ClosedRows::share_jumps(const std::vector<char>& flags) {
+void ClosedRows::share_jumps(const std::vector<char>& closed) {
   SparseMatrix sharing = system_.sharing;
-  const VecX closed = ones_and_zeros(flags);
+  closed_ = ones_and_zeros(closed);
   for (int j = 0; j < sharing.cols(); ++j)
     for (SparseMatrix::InnerIterator it(sharing, j); it; ++it)
-      if (it.row() != j) it.valueRef() *= closed(it.row()) * closed(j);
+      if (it.row() != j) it.valueRef() *= closed_(it.row()) * closed_(j);
   const VecX size = sharing.diagonal();
-  closed_ = rows_.own(closed);
-  weights_ = closed_.cwiseQuotient(rows_.own(size));
+  weights_ = closed_.cwiseQuotient(size);
   sharing_.compute(sharing);
   if (size.size() == 0) return;
   const VecX pivots = sharing_.vectorD();
   for (Eigen::Index k = 0; k < pivots.size() && dependent_row < 0; ++k) {
     const int row = sharing_.permutationPinv().indices()(k);
-    if (closed(row) > 0 && !(pivots(k) > dependent_limit * size(row))) dependent_row = row;
+    if (closed[row] && !(pivots(k) > dependent_limit * size(row))) dependent_row = row;
   }
 }
 
@@ -125,7 +121,7 @@ void ClosedRows::hold_motions() {
   const Eigen::Index springs = H.cols();
   free_motions.resize(springs, 0);
   if (springs == 0) return;
-  const SparseMatrix E = sum_of_ranks(SparseMatrix(H.transpose()) * SparseMatrix(weights_.asDiagonal() * H));
+  const SparseMatrix E = SparseMatrix(H.transpose()) * SparseMatrix(weights_.asDiagonal() * H);
   VecX size = E.diagonal();
   const double most = size.maxCoeff();
   for (double& of_motion : size)
@@ -152,12 +148,14 @@ MatX ClosedRows::coarse(MatX b) const {
 MatX ClosedRows::balanced(MatX lambda, const MatX& h) const {
   lambda = on_closed(lambda);
   for (int pass = 0; pass < 2; ++pass)
-    lambda += weights_.asDiagonal() * MatX(system_.H * coarse(h - resultants(lambda)));
+    lambda += weights_.asDiagonal() * MatX(system_.H * coarse(h - system_.resultants(lambda)));
   return lambda;
 }
 
 // Those that leave least of a residual, in the norm of the weights.
-MatX ClosedRows::motions(const MatX& residual) const { return coarse(resultants(weights_.asDiagonal() * residual)); }
+MatX ClosedRows::motions(const MatX& residual) const {
+  return coarse(system_.resultants(weights_.asDiagonal() * residual));
+}
 
 // This projection, and its transpose below, twice: once leaves round-off of what the stiffest parts do in the way of
 // the softest ones.
@@ -167,21 +165,13 @@ MatX ClosedRows::without_motions(MatX residual) const {
 }
 
 MatX ClosedRows::without_resultants(MatX lambda) const {
-  for (int pass = 0; pass < 2; ++pass) lambda -= weights_.asDiagonal() * MatX(system_.H * coarse(resultants(lambda)));
+  for (int pass = 0; pass < 2; ++pass)
+    lambda -= weights_.asDiagonal() * MatX(system_.H * coarse(system_.resultants(lambda)));
   return lambda;
 }
 
-// What lambda does to the motions, s.
-MatX ClosedRows::resultants(const MatX& lambda) const {
-  MatX found = system_.H.transpose() * lambda;
-  ranks().sum(found.data(), found.size());
-  return found;
-}
-
 // A^-1 of a jump of the rows.
-MatX ClosedRows::unshared(const MatX& jump) const {
-  return on_closed(rows_.own(solve_together(sharing_, rows_.whole(jump))));
-}
+MatX ClosedRows::unshared(const MatX& jump) const { return on_closed(solve_together(sharing_, jump)); }
 
 // Of a jump, the pressures by the parts' stiffness.
 MatX ClosedRows::stiffened(const MatX& jump) const {
@@ -190,8 +180,7 @@ MatX ClosedRows::stiffened(const MatX& jump) const {
 
 MatX ClosedRows::precondition(const MatX& residual) const {
   if (!slender_) return stiffened(residual);
-  return compact_.asDiagonal() * stiffened(compact_.asDiagonal() * residual) +
-         rows_.own(slender_->multiply(rows_.whole(residual)));
+  return compact_.asDiagonal() * stiffened(compact_.asDiagonal() * residual) + slender_->multiply(residual);
 }
 
 // Those that are iterated on, and what they are of.
@@ -212,10 +201,10 @@ struct ClosedRows::Columns {
 };
 
 std::vector<Residuals> ClosedRows::residuals(const Columns& at) const {
-  const VecX C_lambda = rows_.largest(at.C_lambda), gaps = rows_.largest(at.gaps), r = rows_.largest(at.r),
-             moved = rows_.largest(on_closed(at.gaps - at.C_lambda)), z = rows_.largest(at.z),
-             lambda = rows_.largest(at.lambda),
-             energy = at.energy - 2 * rows_.dot(at.response, at.lambda) + rows_.dot(at.lambda, at.C_lambda);
+  const VecX C_lambda = largest_entries(at.C_lambda), gaps = largest_entries(at.gaps), r = largest_entries(at.r),
+             moved = largest_entries(on_closed(at.gaps - at.C_lambda)), z = largest_entries(at.z),
+             lambda = largest_entries(at.lambda),
+             energy = at.energy - 2 * dot(at.response, at.lambda) + dot(at.lambda, at.C_lambda);
   std::vector<Residuals> all;
   for (Eigen::Index k = 0; k < r.size(); ++k) {
     const double size = system_.size(moved(k), largest(C_lambda(k), gaps(k)));
@@ -235,9 +224,9 @@ std::vector<Residuals> ClosedRows::residuals(const Columns& at) const {
 void ClosedRows::solve(const DualSystem::Forces& forces, std::span<IterationMonitor> monitors, DualSolution& x) const {
   const Eigen::Index count = forces.r.cols();
   Columns at{.of = std::vector<int>(count),
-             .gaps = rows_.own(forces.r),
-             .response = rows_.own(forces.response),
-             .lambda = balanced(rows_.own(x.lambda), forces.h),
+             .gaps = forces.r,
+             .response = forces.response,
+             .lambda = balanced(x.lambda, forces.h),
              .C_lambda = {},
              .r = {},
              .z = {},
@@ -248,8 +237,8 @@ void ClosedRows::solve(const DualSystem::Forces& forces, std::span<IterationMoni
   at.C_lambda = on_closed(system_.multiply(at.lambda, of_parts_));
   at.r = without_motions(on_closed(at.gaps - at.C_lambda));
   at.p = at.z = without_resultants(precondition(at.r));
-  at.rz = rows_.dot(at.r, at.z);
-  MatX lambda(at.gaps.rows(), count), left(at.gaps.rows(), count);
+  at.rz = dot(at.r, at.z);
+  MatX left(at.gaps.rows(), count);
   while (true) {
     const std::vector<Residuals> found = residuals(at);
     std::vector<int> go_on;
@@ -258,29 +247,28 @@ void ClosedRows::solve(const DualSystem::Forces& forces, std::span<IterationMoni
         go_on.push_back(int(k));
         continue;
       }
-      lambda.col(at.of[k]) = at.lambda.col(Eigen::Index(k));
+      x.lambda.col(at.of[k]) = at.lambda.col(Eigen::Index(k));
       left.col(at.of[k]) = at.gaps.col(Eigen::Index(k)) - at.C_lambda.col(Eigen::Index(k));
     }
     if (go_on.empty()) break;
     if (go_on.size() < at.of.size()) at.keep(go_on);
     const MatX Cp = on_closed(system_.multiply(at.p, of_parts_));
-    const VecX alpha = at.rz.cwiseQuotient(rows_.dot(at.p, Cp)), before = at.rz;
+    const VecX alpha = at.rz.cwiseQuotient(dot(at.p, Cp)), before = at.rz;
     at.lambda += at.p * alpha.asDiagonal();
     at.C_lambda += Cp * alpha.asDiagonal();
     at.r -= without_motions(Cp) * alpha.asDiagonal();
     at.z = without_resultants(precondition(at.r));
-    at.rz = rows_.dot(at.r, at.z);
+    at.rz = dot(at.r, at.z);
     at.p = at.z + at.p * at.rz.cwiseQuotient(before).asDiagonal();
   }
   x.mu = motions(on_closed(left));
-  x.lambda = rows_.whole(lambda);
 }
 
 VecX ClosedRows::driven_motion(const VecX& h, const VecX& lambda) const {
   VecX driven = VecX::Zero(h.size());
   if (free_.empty()) return driven;
   const VecX work = h - system_.resultants(lambda), terms = system_.work_terms(h, lambda);
-  const VecX noise = normal_noise * most_work(system_.H, rows_.own(lambda));
+  const VecX noise = normal_noise * most_work(system_.H, lambda);
   const double round_off = work_round_off * largest_entry(terms);
   for (const auto& motion : free_motions.colwise())
     if (std::abs(motion.dot(work)) > std::max({negligible_work * motion.cwiseAbs().dot(terms),

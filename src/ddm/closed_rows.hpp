@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// lambda, m, zero on open rows; mu, s. Both on all ranks, a column each of several.
+/// lambda, m, zero on open rows; mu, s. A column each of several.
 struct DualSolution {
   MatX lambda, mu;
 };
@@ -46,7 +46,6 @@ class ClosedRows {
   MatX stiffened(const MatX& jump) const;
   MatX precondition(const MatX& residual) const;
   std::vector<Residuals> residuals(const Columns& at) const;
-  MatX resultants(const MatX& lambda) const;
   MatX unshared(const MatX& jump) const;
   void share_jumps(const std::vector<char>& closed);
   std::vector<int> springs_left_free(const SparseMatrix& E, const VecX& size);
@@ -54,16 +53,14 @@ class ClosedRows {
 
   using SparseCholesky = Eigen::SimplicialLDLT<SparseMatrix>;
 
-  // Vectors of the iteration have the own rows, a column each of several.
   const DualSystem& system_;
-  const DealtRows& rows_;
   std::vector<SomeRows> of_parts_;  // DualSystem::closed_of_parts
   VecX closed_;                     // 1 or 0
   VecX weights_;                    // of closed rows: about the inverse of C's diagonal
   std::vector<int> free_;           // springs whose motions no closed row holds
   SparseCholesky sharing_, coarse_;
   std::optional<SlenderInverse> slender_;
-  VecX compact_;  // 1 or 0: own rows that slender parts do not see; empty where there are none of these
+  VecX compact_;  // 1 or 0: rows that slender parts do not see; empty where there are none of these
 };
 
 }  // namespace mortise

@@ -19,10 +19,9 @@ class DualPart {
   virtual ~DualPart() = default;
 
   std::vector<int> unknowns, rows, springs;
-  std::vector<int> places;  ///< of the rows, in the vectors that this rank's parts see
-  MatX H;                   ///< rows x springs: B R, as BodyGroup
-  SparseMatrix sharing;     ///< rows x rows: B W^-1 B^T, as DualSystem
-  BodyGroup::Answer load;   ///< to its own
+  MatX H;                  ///< rows x springs: B R, as BodyGroup
+  SparseMatrix sharing;    ///< rows x rows: B W^-1 B^T, as DualSystem
+  BodyGroup::Answer load;  ///< to its own
 
   /// -1, or the unknown of the whole at which it is not positive definite: nothing else may be used then.
   int failed_at() const { return body_->failed_at < 0 ? -1 : unknowns[body_->failed_at]; }

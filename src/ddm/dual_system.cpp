@@ -1,6 +1,5 @@
 #include "ddm/dual_system.hpp"
 
-#include "base/each_once.hpp"
 #include "base/parallel.hpp"
 #include "solve/threads.hpp"
 
@@ -15,9 +14,7 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
   factorise(s);
   for (const auto& part : parts_)
     if (failed_at < 0) failed_at = part->failed_at();
-  failed_at = ranks().largest(failed_at);
   if (failed_at >= 0) return;
-  deal_rows(s.B.rows());
   gather(s);
   if (!slender.empty()) {
     TouchingParts touching;
@@ -31,7 +28,7 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
 }
 
 void DualSystem::factorise(const SaddlePointSystem& s) {
-  const Substructures all(s, ranks().rank(), ranks().count());
+  const Substructures all(s);
   std::vector<char> bends(all.size());
   for_each_index(all.size(), solver_threads(), [&](std::size_t k) { bends[k] = is_slender(all[k]); });
   Triplets slender_stiffness;
@@ -44,7 +41,7 @@ void DualSystem::factorise(const SaddlePointSystem& s) {
                  [&](std::size_t k) { parts_[k] = dual_part(all[k], bends[k], alike[k].get()); });
 }
 
-// `diagonal`, H and `sharing`, of all ranks' parts.
+// `diagonal`, H and `sharing`.
 void DualSystem::gather(const SaddlePointSystem& s) {
   const Eigen::Index m = s.B.rows();
   diagonal = VecX::Zero(m);
@@ -59,12 +56,8 @@ void DualSystem::gather(const SaddlePointSystem& s) {
       for (SparseMatrix::InnerIterator it(own, j); it; ++it)
         if (it.row() >= j) of_sharing.emplace_back(part->rows[it.row()], part->rows[j], it.value());
   }
-  diagonal = sum_over_ranks(std::move(diagonal));
-  of_H = ranks().of_all(std::move(of_H));
-  SparseRows all_H(m, Eigen::Index(s.grounded.size()));
-  all_H.setFromTriplets(of_H.begin(), of_H.end());
-  H = rows_->own(all_H);
-  of_sharing = ranks().of_all(std::move(of_sharing));
+  H.resize(m, Eigen::Index(s.grounded.size()));
+  H.setFromTriplets(of_H.begin(), of_H.end());
   sharing.resize(m, m);
   sharing.setFromTriplets(of_sharing.begin(), of_sharing.end());
 }
@@ -79,33 +72,11 @@ void DualSystem::add_up(Eigen::Index count, Answer& answer) const {
     answer.h(parts_[k]->springs, Eigen::all) = part.work;
     answer.energy += part.y.colwise().squaredNorm();
   }
-  answer.response = sum_over_ranks(std::move(answer.response));
-  answer.h = sum_over_ranks(std::move(answer.h));
-  answer.energy = sum_over_ranks(std::move(answer.energy));
   answer.r = answer.response;
 }
 
-void DualSystem::deal_rows(Eigen::Index m) {
-  std::vector<int> seen;
-  for (const auto& part : parts_) seen.insert(seen.end(), part->rows.begin(), part->rows.end());
-  keep_each_once(seen);
-  rows_ = ranks().deal(m, seen);
-  for (const auto& part : parts_) part->places = rows_->places(part->rows);
-}
-
-MatX DualSystem::sum_over_ranks(MatX sum) {
-  ranks().sum(sum.data(), sum.size());
-  return sum;
-}
-
 VecX DualSystem::work_terms(const VecX& h, const VecX& lambda) const {
-  return h.cwiseAbs() + sum_over_ranks(H.cwiseAbs().transpose() * rows_->own(lambda).cwiseAbs());
-}
-
-MatX DualSystem::all_openings() const {
-  MatX all(sharing.rows(), H.cols());
-  for (Eigen::Index k = 0; k < H.cols(); ++k) all.col(k) = rows_->whole(VecX(H.col(k)));
-  return all;
+  return h.cwiseAbs() + H.cwiseAbs().transpose() * lambda.cwiseAbs();
 }
 
 SparseMatrix DualSystem::matrix() const {
@@ -120,19 +91,16 @@ SparseMatrix DualSystem::matrix() const {
         entries.emplace_back(int(m) + part->springs[k], part->rows[b], part->H(b, k));
     }
   }
-  entries = ranks().of_all(std::move(entries));
   SparseMatrix all(size, size);
   all.setFromTriplets(entries.begin(), entries.end());
   return all;
 }
 
-VecX DualSystem::stiffness() const {
-  return sum_over_ranks(H.cwiseAbs2().transpose() * rows_->own(diagonal).cwiseInverse());
-}
+VecX DualSystem::stiffness() const { return H.cwiseAbs2().transpose() * diagonal.cwiseInverse(); }
 
 namespace {
 
-// The sum over the parts of what each, by its number, makes of the entries of x in the places of its rows. `count`:
+// The sum over the parts of what each, by its number, makes of the entries of x in its rows. `count`:
 // of the rows of a part that count.
 template <typename Parts, typename Count, typename Product>
 MatX sum_of_products(const Parts& parts, const MatX& x, Count count, Product product) {
@@ -140,18 +108,18 @@ MatX sum_of_products(const Parts& parts, const MatX& x, Count count, Product pro
   double work = 0;
   for (std::size_t k = 0; k < parts.size(); ++k) work += double(count(k)) * double(count(k)) * double(x.cols());
   for_each_index(parts.size(), work > worth_threads ? solver_threads() : 1,
-                 [&](std::size_t k) { products[k] = product(k, MatX(x(parts[k]->places, Eigen::all))); });
+                 [&](std::size_t k) { products[k] = product(k, MatX(x(parts[k]->rows, Eigen::all))); });
   MatX sum = MatX::Zero(x.rows(), x.cols());
-  for (std::size_t k = 0; k < parts.size(); ++k) sum(parts[k]->places, Eigen::all) += products[k];
+  for (std::size_t k = 0; k < parts.size(); ++k) sum(parts[k]->rows, Eigen::all) += products[k];
   return sum;
 }
 
 }  // namespace
 
 MatX DualSystem::multiply(const MatX& lambda) const {
-  return rows_->sum_of_seen(sum_of_products(
-      parts_, rows_->seen(lambda), [&](std::size_t k) { return parts_[k]->rows.size(); },
-      [&](std::size_t k, const MatX& own) { return parts_[k]->pressed(own); }));
+  return sum_of_products(
+      parts_, lambda, [&](std::size_t k) { return parts_[k]->rows.size(); },
+      [&](std::size_t k, const MatX& own) { return parts_[k]->pressed(own); });
 }
 
 std::vector<SomeRows> DualSystem::closed_of_parts(const std::vector<char>& closed) const {
@@ -166,15 +134,15 @@ std::vector<SomeRows> DualSystem::closed_of_parts(const std::vector<char>& close
 }
 
 MatX DualSystem::multiply(const MatX& lambda, const std::vector<SomeRows>& closed) const {
-  return rows_->sum_of_seen(sum_of_products(
-      parts_, rows_->seen(lambda), [&](std::size_t k) { return closed[k].rows.size(); },
-      [&](std::size_t k, const MatX& own) { return parts_[k]->pressed(own, closed[k]); }));
+  return sum_of_products(
+      parts_, lambda, [&](std::size_t k) { return closed[k].rows.size(); },
+      [&](std::size_t k, const MatX& own) { return parts_[k]->pressed(own, closed[k]); });
 }
 
 MatX DualSystem::multiply_stiffness(const MatX& x, const std::vector<SomeRows>& closed) const {
-  return rows_->sum_of_seen(sum_of_products(
-      parts_, rows_->seen(x), [&](std::size_t k) { return closed[k].rows.size(); },
-      [&](std::size_t k, const MatX& own) { return parts_[k]->stiffened(own, closed[k]); }));
+  return sum_of_products(
+      parts_, x, [&](std::size_t k) { return closed[k].rows.size(); },
+      [&](std::size_t k, const MatX& own) { return parts_[k]->stiffened(own, closed[k]); });
 }
 
 DualSystem::Answer DualSystem::answer(const MatX& forces) const {
@@ -187,14 +155,11 @@ DualSystem::Answer DualSystem::answer(const MatX& forces) const {
 }
 
 void DualSystem::add_displacements(const Answer& forces, const MatX& lambda, const MatX& mu, Eigen::Ref<MatX> u) const {
-  MatX added = MatX::Zero(u.rows(), u.cols());
   for_each_index(parts_.size(), solver_threads(), [&](std::size_t k) {
     const DualPart& part = *parts_[k];
-    added(part.unknowns, Eigen::all) =
+    u(part.unknowns, Eigen::all) +=
         part.displacements(forces.parts[k], lambda(part.rows, Eigen::all), mu(part.springs, Eigen::all));
   });
-  ranks().sum(added.data(), added.size());
-  u += added;
 }
 
 }  // namespace mortise

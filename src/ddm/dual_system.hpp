@@ -2,7 +2,6 @@
 #pragma once
 
 #include "ddm/dual_part.hpp"
-#include "ddm/ranks.hpp"
 #include "ddm/slender_parts.hpp"
 
 namespace mortise {
@@ -11,8 +10,7 @@ namespace mortise {
 ///
 ///   [C  H; H^T  0] (lambda, mu) = (r, h),   C = sum of the parts' B K^-1 B^T,   H = B R   (docs/theory.md eq. 51a)
 ///
-/// with s rigid motions R that only contact holds, as in BodyGroup; dimensionless, as the bordered system. Each rank
-/// has the parts of its block; what has m or s entries is on all of them, unless it says "own" (DealtRows). A column
+/// with s rigid motions R that only contact holds, as in BodyGroup; dimensionless, as the bordered system. A column
 /// each of several vectors.
 class DualSystem {
  public:
@@ -20,7 +18,7 @@ class DualSystem {
 
   /// -1, or the unknown at which K is not positive definite: nothing below may be used then.
   int failed_at = -1;
-  SparseMatrix H;  ///< own rows x s
+  SparseMatrix H;  ///< m x s
 
   /// What forces on the parts make of the right-hand side. The parts alone open the rows by `response`, with the energy
   /// f^T K^-1 f: where springs hold a body against its load, both are far more than of its balance with lambda.
@@ -29,7 +27,7 @@ class DualSystem {
     VecX energy;
   };
   struct Answer : Forces {
-    std::vector<BodyGroup::Answer> parts;  // of this rank
+    std::vector<BodyGroup::Answer> parts;
   };
   Answer load;  ///< to the system's own, and its gaps
   /// To forces, n, over the stiffness scale.
@@ -48,15 +46,11 @@ class DualSystem {
     return H.cols() > 0 ? largest(moved, 1e-5 * terms) : largest(moved, terms);
   }
 
-  const DealtRows& rows() const { return *rows_; }
-  /// C lambda; own of both.
+  /// C lambda, H motions, H^T lambda.
   MatX multiply(const MatX& lambda) const;
-  /// On all ranks, of vectors on all ranks: C lambda, H motion, H^T lambda.
-  VecX pressed(const VecX& lambda) const { return rows_->whole(multiply(rows_->own(lambda))); }
-  VecX opening(const VecX& motion) const { return rows_->whole(H * motion); }
-  VecX resultants(const VecX& lambda) const { return sum_over_ranks(H.transpose() * rows_->own(lambda)); }
-  MatX all_openings() const;  ///< m x s: H on all ranks
-  /// [C, H; H^T, 0], m + s, lower triangle, on all ranks. A slender part's C takes a solve a row.
+  MatX opening(const MatX& motions) const { return H * motions; }
+  MatX resultants(const MatX& lambda) const { return H.transpose() * lambda; }
+  /// [C, H; H^T, 0], m + s, lower triangle. A slender part's C takes a solve a row.
   SparseMatrix matrix() const;
   /// |h| + |H|^T |lambda|: what the work that lambda leaves of h is a difference of.
   VecX work_terms(const VecX& h, const VecX& lambda) const;
@@ -64,7 +58,7 @@ class DualSystem {
   VecX stiffness() const;
   /// Of each part those of its rows that are closed (m).
   std::vector<SomeRows> closed_of_parts(const std::vector<char>& closed) const;
-  /// On these rows, of vectors that are zero on all others, where the results mean nothing; own: C lambda.
+  /// On these rows, of vectors that are zero on all others, where the results mean nothing: C lambda.
   MatX multiply(const MatX& lambda, const std::vector<SomeRows>& closed) const;
   /// B W^-1 S W^-1 B^T x, likewise, with S the stiffness of the parts' contact nodes, all other nodes free (the Schur
   /// complement); of all parts but the slender ones.
@@ -78,11 +72,8 @@ class DualSystem {
 
   void factorise(const SaddlePointSystem& system);
   void gather(const SaddlePointSystem& system);
-  void deal_rows(Eigen::Index m);
-  static MatX sum_over_ranks(MatX sum);
 
   std::vector<std::unique_ptr<DualPart>> parts_;
-  std::unique_ptr<const DealtRows> rows_;
 };
 
 }  // namespace mortise

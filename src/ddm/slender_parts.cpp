@@ -38,7 +38,6 @@ void add_stiffness(const Substructure& part, Triplets& entries) {
 }
 
 SlenderParts slender_parts(Triplets stiffness, const SaddlePointSystem& s) {
-  stiffness = ranks().of_all(std::move(stiffness));
   SlenderParts parts;
   if (stiffness.empty()) return parts;
   std::vector<int> unknown(s.K.cols(), -1);
@@ -82,12 +81,10 @@ void TouchingParts::add(const SlenderParts& parts, const std::vector<int>& of_ro
 
 void set_touching(SlenderParts& parts, TouchingParts touching, const VecX& local) {
   const auto rows = Eigen::Index(parts.rows.size());
-  touching.D = ranks().of_all(std::move(touching.D));
   for (int a = 0; a < rows; ++a) touching.D.emplace_back(a, a, least_compliance * local(parts.rows[a]));
   parts.D.resize(rows, rows);
   parts.D.setFromTriplets(touching.D.begin(), touching.D.end());
 
-  touching.H = ranks().of_all(std::move(touching.H));
   std::map<int, int> column;  // of a spring
   for (auto& entry : touching.H)
     entry = {entry.row(), column.try_emplace(entry.col(), int(column.size())).first->second, entry.value()};

@@ -3,7 +3,6 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "ddm/ranks.hpp"
 #include "ddm/substructures.hpp"
 
 namespace mortise {
@@ -11,7 +10,7 @@ namespace mortise {
 /// Whether a part bends so easily that its contact nodes' stiffness says little of what its pressures do.
 bool is_slender(const Substructure& part);
 
-/// The slender parts of all ranks, on each of them; dimensionless, as the bordered system.
+/// The slender parts; dimensionless, as the bordered system.
 struct SlenderParts {
   std::vector<int> rows;   ///< that they see, ascending
   std::vector<int> place;  ///< m: of each row in these, or -1
@@ -29,7 +28,7 @@ struct SlenderParts {
 /// A slender part's stiffness, in unknowns of the whole system.
 void add_stiffness(const Substructure& part, Triplets& entries);
 
-/// `stiffness`: of this rank's; D is left empty.
+/// `stiffness`: of all of them. D and H are left empty.
 SlenderParts slender_parts(Triplets stiffness, const SaddlePointSystem& s);
 
 /// What another part adds: the compliance C of its rows, and its motions H where slender parts see all of its rows.
@@ -42,7 +41,7 @@ struct TouchingParts {
            const std::vector<int>& springs);
 };
 
-/// D and H, of this rank's. `local`: m, a small compliance of each row.
+/// D and H. `local`: m, a small compliance of each row.
 void set_touching(SlenderParts& parts, TouchingParts touching, const VecX& local);
 
 /// (B K^-1 B^T + D)^-1 on closed rows, 0 on the others: what pressures without work on H close given gaps. With C the

@@ -35,8 +35,7 @@ class FetiFactor : public ContactFactor {
   DualAnswers answers(const MatX& functionals, const MatX& loads) const override {
     const Eigen::Index count = functionals.cols(), blocks = (count + most_at_once - 1) / most_at_once;
     DualAnswers duals{.z = MatX::Zero(unknowns_, count), .mu = MatX(functionals.rows(), count)};
-    const int threads = ranks().count() > 1 ? 1 : solver_threads();  // ranks meet in the same order
-    for_each_index(blocks, threads, [&](std::size_t k) {
+    for_each_index(blocks, solver_threads(), [&](std::size_t k) {
       const Eigen::Index first = Eigen::Index(k) * count / blocks,
                          some = (Eigen::Index(k) + 1) * count / blocks - first;
       MatX forces = MatX::Zero(unknowns_, some);
@@ -127,7 +126,7 @@ class FetiRows : public ContactRows {
     answer.status = monitor_.status();
     answer.lambda = x_.lambda;
     answer.mu = x_.mu;
-    const VecX pressed = system_.pressed(answer.lambda), moved = system_.opening(answer.mu);
+    const VecX pressed = system_.multiply(answer.lambda), moved = system_.opening(answer.mu);
     answer.w = state_.u.size() > 0 ? opening(s_, state_.u) : VecX(system_.load.r - pressed - moved);
     const VecX displaced = answer.w + s_.g.cwiseQuotient(s_.row_scale);  // one side against the other
     const double terms = largest(largest_entry(system_.load.r), largest_entry(pressed)),
@@ -151,9 +150,9 @@ class FetiRows : public ContactRows {
   Eigen::Index motions() const override { return system_.H.cols(); }
   VecX diagonal() const override { return system_.diagonal; }
   VecX stiffness() const override { return system_.stiffness(); }
-  MatX openings() const override { return system_.all_openings(); }
+  MatX openings() const override { return system_.H; }
   VecX gaps(const Forces& forces) const override {
-    return system_.load.r - system_.pressed(forces.lambda) - system_.opening(forces.mu);
+    return system_.load.r - system_.multiply(forces.lambda) - system_.opening(forces.mu);
   }
   VecX unbalanced(const VecX& lambda) const override { return system_.load.h - system_.resultants(lambda); }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "base/each_once.hpp"
+#include "base/union_find.hpp"
 
 namespace mortise {
 namespace {
@@ -13,20 +13,12 @@ namespace {
 // The part of each node, numbered in the order of their first nodes.
 std::vector<int> parts_of_nodes(const SparseMatrix& K) {
   const int nodes = int(K.cols()) / 2;
-  std::vector<int> parent(nodes);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  UnionFind connected(nodes);
   for (int j = 0; j < K.cols(); ++j)
-    for (SparseMatrix::InnerIterator it(K, j); it; ++it) {
-      const int a = root(j / 2), b = root(int(it.row()) / 2);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    for (SparseMatrix::InnerIterator it(K, j); it; ++it) connected.join(j / 2, int(it.row()) / 2);
   std::vector<int> part(nodes);
   int count = 0;
-  for (int i = 0; i < nodes; ++i) part[i] = root(i) == i ? count++ : part[root(i)];
+  for (int i = 0; i < nodes; ++i) part[i] = connected.find(i) == i ? count++ : part[connected.find(i)];
   return part;
 }
 
@@ -136,7 +128,7 @@ int part_count(const SparseMatrix& K) {
   return part.empty() ? 0 : *std::ranges::max_element(part) + 1;
 }
 
-Substructures::Substructures(const SaddlePointSystem& s, int rank, int ranks) : system_(s), local_(s.K.cols()) {
+Substructures::Substructures(const SaddlePointSystem& s) : system_(s), local_(s.K.cols()) {
   const std::vector<int> part = parts_of_nodes(s.K);
   parts_.resize(part.empty() ? 0 : *std::ranges::max_element(part) + 1);
   for (int i = 0; i < int(local_.size()); ++i) {
@@ -145,13 +137,6 @@ Substructures::Substructures(const SaddlePointSystem& s, int rank, int ranks) : 
     unknowns.push_back(i);
   }
   for (std::size_t k = 0; k < s.grounded.size(); ++k) parts_[part[s.grounded[k] / 2]].springs.push_back(int(k));
-  // The parts whose middle unknown, with all counted through, is in the block of this rank.
-  Eigen::Index before = 0;
-  std::erase_if(parts_, [&](const Part& one) {
-    const Eigen::Index size = Eigen::Index(one.unknowns.size()), middle = before + size / 2;
-    before += size;
-    return middle * ranks / s.K.cols() != rank;
-  });
 }
 
 Substructure Substructures::operator[](std::size_t k) const {

@@ -20,11 +20,11 @@ int part_count(const SparseMatrix& K);
 std::vector<int> contact_unknowns(const SaddlePointSystem& part);
 
 /// The parts of a system, in the order of their first unknowns. Each is made when it is asked for: all of them together
-/// would take as much memory as the system. Of several ranks: a block of them for each, with about as many unknowns.
+/// would take as much memory as the system.
 class Substructures {
  public:
   /// Keeps a reference to `system`. Time and memory as its unknowns.
-  explicit Substructures(const SaddlePointSystem& system, int rank = 0, int ranks = 1);
+  explicit Substructures(const SaddlePointSystem& system);
 
   std::size_t size() const { return parts_.size(); }
   /// Time and memory as its entries of K and B.

@@ -11,8 +11,6 @@ namespace {
 
 using Eigen::Index;
 using Cubics = Eigen::Spline<double, 1, 3>;
-using Triplets = std::vector<Eigen::Triplet<double>>;
-
 constexpr int degree = 3;
 
 // Whether a place is so near to the tip at this end that q has no knot there.

@@ -6,7 +6,7 @@
 namespace mortise {
 
 void add_foundation(const Mesh& mesh, const Model& model, const CutSides& on, const Foundation& foundation,
-                    std::vector<Eigen::Triplet<double>>& entries) {
+                    Triplets& entries) {
   on.for_each_point(mesh, model, [&](const Edge& edge, const EdgePoint& p, const EdgeShape& s, double dA) {
     const Eigen::Matrix2d k = dA * foundation(p.position, p.normal());
     for (int i = 0; i < 2 * edge.node_count; ++i)

@@ -17,7 +17,7 @@ using Foundation = std::function<Eigen::Matrix2d(const Vec2& position, const Vec
 /// Appends int N_a k N_b ds, times depth (model/model.hpp), over the sides of a boundary: entries of the lower triangle
 /// of a matrix like the stiffness. Four Gauss points on each piece of an edge.
 void add_foundation(const Mesh& mesh, const Model& model, const CutSides& on, const Foundation& foundation,
-                    std::vector<Eigen::Triplet<double>>& entries);
+                    Triplets& entries);
 
 /// The springs' stiffness (lower triangle given) as conditions: motions with rows * u = 0 they do not resist. Each row
 /// over its largest entry, so that weak springs count as strong ones do.

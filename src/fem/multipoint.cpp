@@ -290,7 +290,7 @@ std::map<int, HeldTwice> MultipointBuilder::finish() {
     if (!rows_.contains(q)) multipoint.coupled[q] = 1;
     for (const auto& [other, weight] : weights) inverse_.emplace_back(q, other, -weight);
   }
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (int u = 0; u < int(n); ++u) {
     std::map<int, double> row{{u, 0}};
     if (multipoint.coupled[u])

@@ -94,10 +94,10 @@ class MultipointBuilder {
   std::map<int, HeldTwice> held_twice_;
   std::set<int> rigid_;  // nodes
   using Weights = std::vector<std::pair<int, double>>;
-  std::map<int, Weights> rows_;                // of T without the ties, by u: those that are not q of their own number
-  std::map<int, Weights> ties_;                // of q, by u
-  std::vector<Eigen::Triplet<double>> drawn_;  // of q, by the q of an overlap that is an unknown
-  std::vector<Eigen::Triplet<double>> inverse_;
+  std::map<int, Weights> rows_;  // of T without the ties, by u: those that are not q of their own number
+  std::map<int, Weights> ties_;  // of q, by u
+  Triplets drawn_;               // of q, by the q of an overlap that is an unknown
+  Triplets inverse_;
 };
 
 }  // namespace mortise

@@ -81,7 +81,7 @@ class Gram {
 
   // Of a connected set, ascending, with `held` added to the blocks of its bodies.
   SparseMatrix of_bodies(const std::vector<int>& set, const std::vector<Block>& held) const {
-    std::vector<Eigen::Triplet<double>> entries;
+    Triplets entries;
     const auto append = [&](int i, int j, const Block& block) {
       for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c) entries.emplace_back(3 * i + r, 3 * j + c, block(r, c));

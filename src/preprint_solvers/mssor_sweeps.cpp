@@ -11,7 +11,7 @@ namespace {
 SparseMatrix free_stiffness(const SaddlePointSystem& s, const std::vector<int>& unknown) {
   std::vector<int> place(s.K.cols(), -1);
   for (std::size_t k = 0; k < unknown.size(); ++k) place[unknown[k]] = int(k);
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   entries.reserve(s.K.nonZeros());
   for (int j = 0; j < s.K.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(s.K, j); it; ++it) {
@@ -44,7 +44,7 @@ void split(const SparseMatrix& lower, SweepSystem& r) {
 }
 
 void set_rows(const SaddlePointSystem& s, SweepSystem& r) {
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (std::size_t k = 0; k < r.unknown.size(); ++k)
     for (SparseMatrix::InnerIterator it(s.B, r.unknown[k]); it; ++it)
       entries.emplace_back(int(it.row()), int(k), it.value() / s.row_scale(it.row()));

@@ -85,7 +85,7 @@ double modulus(const BoundarySpec& spec, const Field& field, const Vec2& x, doub
 // `stiffness` as add_load's traction.
 template <typename AtPlace>
 void add_springs(const Mesh& mesh, const Model& model, const BoundaryEntry& entry, const AtPlace& stiffness,
-                 std::vector<Eigen::Triplet<double>>& springs) {
+                 Triplets& springs) {
   const BoundaryFields fields(mesh, entry.curves, fields_of(entry.spec.what));
   for (const NamedBoundary& on : entry.curves)
     for_each_piece(mesh, on, fields, [&](const std::vector<CellSide>& sides, const auto& s, const EdgeCuts& cuts) {
@@ -107,8 +107,7 @@ void prescribe(const Mesh& mesh, const BoundaryEntry& entry, const Displacement&
   prescribe(mesh, entry.curves, 1, u.y, constraints);
 }
 
-void add_point_springs(const Mesh& mesh, const BoundaryEntry& entry, const Vec2& stiffness,
-                       std::vector<Eigen::Triplet<double>>& springs) {
+void add_point_springs(const Mesh& mesh, const BoundaryEntry& entry, const Vec2& stiffness, Triplets& springs) {
   for (const int point : entry.points)
     for (const int node : mesh.points[point].nodes)
       for (int c = 0; c < 2; ++c)
@@ -118,7 +117,7 @@ void add_point_springs(const Mesh& mesh, const BoundaryEntry& entry, const Vec2&
 }  // namespace
 
 Resultant apply(const Mesh& mesh, const Model& model, const BoundaryEntry& entry, SaddlePointSystem& system,
-                std::vector<Eigen::Triplet<double>>& springs) {
+                Triplets& springs) {
   const BoundarySpec& spec = entry.spec;
   Resultant sum;
   const auto load = [&](const auto& traction) { sum = add_load(mesh, model, entry, traction, system.f); };

@@ -12,6 +12,6 @@ namespace mortise {
 /// foundation or springs to `springs` (other displacements: multipoint_supports.hpp). Returns the sum of the forces
 /// that it makes. Throws SceneError where two values are prescribed at one node, or a field has no value.
 Resultant apply(const Mesh& mesh, const Model& model, const BoundaryEntry& entry, SaddlePointSystem& system,
-                std::vector<Eigen::Triplet<double>>& springs);
+                Triplets& springs);
 
 }  // namespace mortise

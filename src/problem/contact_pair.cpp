@@ -61,7 +61,7 @@ bool on_second(Scheme scheme, const Points& nodes, const ContactCurves& contact,
   return first_finer;
 }
 
-void append(const SparseRows& rows, int first, std::vector<Eigen::Triplet<double>>& entries) {
+void append(const SparseRows& rows, int first, Triplets& entries) {
   for (Eigen::Index row = 0; row < rows.rows(); ++row)
     for (SparseRows::InnerIterator it(rows, row); it; ++it)
       entries.emplace_back(first + int(row), int(it.col()), it.value());
@@ -98,7 +98,7 @@ ContactPair coupled(const Method& method, const Mesh& mesh, const Discretisation
 
 // The layers of all pairs, one behind another.
 SurfaceLayers surface_layers(const std::vector<ContactPair>& pairs, Eigen::Index rows) {
-  std::vector<Eigen::Triplet<double>> B;
+  Triplets B;
   std::vector<double> weight;
   SurfaceLayers layers;
   for (const ContactPair& pair : pairs) {
@@ -159,7 +159,7 @@ std::vector<int> row_nodes(const std::vector<ContactPair>& pairs) {
 void set_contact(const std::vector<ContactPair>& pairs, SaddlePointSystem& system) {
   int rows = 0;
   for (const ContactPair& pair : pairs) rows += int(pair.coupling.B.rows());
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   system.g.resize(rows);
   system.row_scale.resize(rows);
   system.unilateral.clear();

@@ -80,18 +80,16 @@ Resultant add_gravity(const Entries& entries, const Mesh& mesh, VecX& f) {
   return add_body_forces(mesh, entries.model, weights, f);
 }
 
-using Springs = std::vector<Eigen::Triplet<double>>;
-
 // All that lies on boundaries; the entries of springs are returned.
-Springs apply_boundaries(const Entries& entries, const Mesh& mesh, Discretisation& d) {
-  Springs springs;
+Triplets apply_boundaries(const Entries& entries, const Mesh& mesh, Discretisation& d) {
+  Triplets springs;
   d.boundary_sums.clear();
   for (const BoundaryEntry& entry : entries.boundaries)
     d.boundary_sums.push_back(apply(mesh, d.model, entry, d.system, springs));
   return springs;
 }
 
-void add_springs(const Springs& springs, Discretisation& d) {
+void add_springs(const Triplets& springs, Discretisation& d) {
   if (springs.empty()) return;
   d.springs.resize(d.system.K.rows(), d.system.K.cols());
   d.springs.setFromTriplets(springs.begin(), springs.end());

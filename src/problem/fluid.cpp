@@ -129,8 +129,7 @@ std::vector<int> rows_beside(const ContactPair& pair) {
 }
 
 // Of unit pressure in each row on the opposite side, where that faces the multiplier side, along its own normals.
-void add_opposite(const Mesh& mesh, const Model& model, const ContactPair& pair,
-                  std::vector<Eigen::Triplet<double>>& loads) {
+void add_opposite(const Mesh& mesh, const Model& model, const ContactPair& pair, Triplets& loads) {
   ContactInterface back{
       .multiplier = pair.opposite, .opposite = pair.multiplier, .geometry = {}, .points = {}, .coupling = {}};
   back.geometry.model = model;
@@ -151,7 +150,7 @@ void add_opposite(const Mesh& mesh, const Model& model, const ContactPair& pair,
 }  // namespace
 
 SparseRows fluid_loads(const Mesh& mesh, const Model& model, const std::vector<ContactPair>& pairs, Eigen::Index rows) {
-  std::vector<Eigen::Triplet<double>> loads;
+  Triplets loads;
   for (const ContactPair& pair : pairs) {
     if (!pair.spec.fluid) continue;
     for (Eigen::Index row = 0; row < pair.coupling.own.rows(); ++row)

@@ -12,7 +12,7 @@ namespace {
 
 // S of all pairs, each over its contact modulus E* (1 / E* = sum of the bodies' 1 / E').
 SparseMatrix stacked_norm(const Results& r) {
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (const ContactPair& pair : r.problem.pairs) {
     const std::vector<ElasticLaw>& laws = r.problem.discretisation.laws;
     const double compliance = 1 / contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);

@@ -16,7 +16,7 @@ CoarseRows join_rows(const ComplementarityProblem& fine, const VecX& rhs) {
   c.scale = VecX::Zero(count);
   for (int a = 0; a < m; ++a) c.scale(group[a]) += fine.scale(a);
 
-  std::vector<Eigen::Triplet<double>> entries;  // each row's part of its group; the springs stay as they are
+  Triplets entries;  // each row's part of its group; the springs stay as they are
   for (int a = 0; a < m; ++a) entries.emplace_back(a, group[a], fine.scale(a) / c.scale(group[a]));
   for (int k = 0; k < springs; ++k) entries.emplace_back(int(m) + k, count + k, 1.0);
   SparseMatrix P(m + springs, count + springs);

@@ -5,8 +5,6 @@ namespace {
 
 constexpr double least_slope = 1e-9;  // of a layer's largest: open contact may have none
 
-using Triplets = std::vector<Eigen::Triplet<double>>;
-
 void append(const SparseMatrix& A, Eigen::Index row, Eigen::Index column, Triplets& entries) {
   for (int j = 0; j < A.cols(); ++j)
     for (SparseMatrix::InnerIterator it(A, j); it; ++it)

@@ -19,7 +19,7 @@ struct SplitBody {
   std::array<std::vector<int>, 3> sides;  ///< its unknowns by side, ascending
   std::array<EliminationOrder, 2> order;  ///< of the halves: places in `sides`
   /// Entries of the separator's rows in columns of the separator and the border, upper triangle.
-  std::vector<Eigen::Triplet<double>> separated;
+  Triplets separated;
 
   int halves() const { return halved ? 2 : 1; }
 };

@@ -60,8 +60,6 @@ const std::vector<Foreign> foreigners{
     {"CHOLMOD", R"((.*/)?cholmod.*)", {"solve"}, true},
     {"AMD", R"((.*/)?amd\.h)", {"solve"}, true},
     {"nlohmann-json", R"(nlohmann/.*)", {"results", "scene"}, false},
-    {"PETSc", R"(petsc.*)", {"ddm"}, true},
-    {"MPI", R"(mpi\.h)", {"ddm"}, true},
     {"CLI11", R"(CLI/.*)", {"app"}, false},
     {"toml++", R"(toml\+\+.*)", {"scene"}, true},
     {"pybind11", R"(pybind11/.*)", {"python"}, true},

@@ -8,7 +8,7 @@ namespace {
 
 // Chains of `length` unknowns with springs of 1 between neighbours; chain k hangs from a spring of held(k).
 SparseMatrix chains(int length, const std::vector<double>& held) {
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (int k = 0; k < int(held.size()); ++k) {
     const int first = k * length;
     entries.emplace_back(first, first, held[k]);

@@ -16,7 +16,7 @@ struct Row {
 Row chain(int bodies, int each, std::mt19937& random) {
   std::normal_distribution<double> draw;
   const int rows = each * (bodies + 1);
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (int b = 0; b < bodies; ++b) {
     const int count = 2 * each, first = b * each;
     const MatX half = MatX::NullaryExpr(count, count, [&] { return draw(random); });

@@ -5,7 +5,6 @@
 
 #include <random>
 
-#include "ddm/ranks.hpp"
 #include "ddm/substructures.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/direct.hpp"

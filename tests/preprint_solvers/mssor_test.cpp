@@ -39,7 +39,7 @@ SaddlePointSystem by_hand() {
 // second (it may move by (1, 1)) by the rows of B alone.
 SaddlePointSystem two_long_chains(int nodes = 12, int rows = 5) {
   SaddlePointSystem p;
-  std::vector<Eigen::Triplet<double>> entries, of_rows;
+  Triplets entries, of_rows;
   const auto spring = [&](int a, int b, double k) {
     entries.emplace_back(a, a, k);
     entries.emplace_back(b, b, k);
@@ -259,7 +259,7 @@ TEST(Mssor, SymmetricQmrNeedsAboutTheStepsOfGmres) {
 TEST(Mssor, ToldWhereThereIsNoSolution) {
   SaddlePointSystem p = two_long_chains();
   SparseMatrix doubled(6, p.B.cols());
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (int j = 0; j < p.B.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(p.B, j); it; ++it) {
       entries.emplace_back(it.row(), j, it.value());
@@ -305,7 +305,7 @@ TEST(Mssor, ATolerancePastRoundOffEnds) {
 
 TEST(BandOrder, NumbersAShuffledChainAlongItself) {
   const std::vector<int> along{4, 0, 6, 2, 5, 1, 3};
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (int i = 0; i < 7; ++i) entries.emplace_back(i, i, 2);
   for (std::size_t k = 0; k + 1 < along.size(); ++k)
     entries.emplace_back(std::max(along[k], along[k + 1]), std::min(along[k], along[k + 1]), -1);

@@ -24,7 +24,7 @@ Grid grid(int columns, bool quadratic) {
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x)
       if (const int odd = x % 2 + y % 2; odd == 0 || (quadratic && odd == 1)) number[y * side + x] = nodes++;
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (int y = 0; y + 2 < side; y += 2)
     for (int x = 0; x + 2 < side; x += 2) {
       std::vector<int> of_element;

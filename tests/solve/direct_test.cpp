@@ -11,7 +11,7 @@ namespace {
 
 // A chain of nodes with two unknowns each: positive definite but for what its end leaves free.
 SparseMatrix chain_stiffness(int nodes) {
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (int i = 0; i + 1 < nodes; ++i)
     for (int c = 0; c < 2; ++c) {
       const int a = 2 * i + c, b = a + 2;
@@ -35,7 +35,7 @@ SaddlePointSystem two_chains(bool with_constraints) {
   const int nodes = 12;
   const SparseMatrix one = chain_stiffness(nodes);
   SaddlePointSystem p;
-  std::vector<Eigen::Triplet<double>> entries, rows;
+  Triplets entries, rows;
   for (int block = 0; block < 2; ++block)
     for (int j = 0; j < one.outerSize(); ++j)
       for (SparseMatrix::InnerIterator it(one, j); it; ++it)
@@ -134,7 +134,7 @@ TEST(Direct, NamesTheUnknownThatNothingHolds) {
 TEST(Direct, NamesTheRowThatFollowsFromOthers) {
   SaddlePointSystem p = two_chains(true);
   SparseMatrix twice(6, p.B.cols());
-  std::vector<Eigen::Triplet<double>> rows;
+  Triplets rows;
   for (int j = 0; j < p.B.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(p.B, j); it; ++it) {
       rows.emplace_back(int(it.row()), j, it.value());

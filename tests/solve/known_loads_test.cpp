@@ -9,7 +9,7 @@ namespace {
 
 // K = tridiag(-1, 2.1, -1) with rows of B on a few unknowns, as SplitCholesky takes it.
 SplitCholesky chain(int n, const std::vector<int>& rows) {
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (int i = 0; i < n; ++i) {
     entries.emplace_back(i, i, 2.1);
     if (i > 0) entries.emplace_back(i - 1, i, -1);

@@ -9,7 +9,7 @@ namespace {
 
 // K = tridiag in two directions of a grid n by n, whose factor has more entries an unknown than there are rows of B.
 BorderedCholesky grid(int n, int rows) {
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   const int size = n * n;
   for (int i = 0; i < size; ++i) {
     entries.emplace_back(i, i, 4.1);

@@ -16,7 +16,6 @@ ELSEWHERE = {
     "has more than 2^31 entries": "ten million unknowns of one body",
     "the copies have": "a thousand million nodes",
     "interrupted before the first solve": "a Ctrl-C of the right moment; Accuracy.* sees that nothing comes back",
-    "several processes solve": "mpirun; tests/ddm/ranks_test.py, where it is built for that",
     "its folder cannot be opened": "a user who may not read it: tests may run as root",
     "what was written cannot be read back": "a fault of our own writer",
     "what was written is not the whole mesh": "a fault of our own writer",

@@ -121,12 +121,6 @@ def test_snippets_of_a_scene(desk, number):
     assert "unknown" not in run(desk, "mortise check scene.toml")
 
 
-def test_commands_for_several_processes(desk):
-    """All but mpirun and what it needs."""
-    (command,) = [line for line in markdown.commands(TEXTS["scaling.md"]) if line.startswith("mpirun")]
-    run(desk, re.sub(r"^mpirun -n \d build/mpi/mortise", "mortise", command))
-
-
 def test_links_between_pages():
     for page in PAGES:
         for link in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", markdown.FENCE.sub("", page.read_text())):
