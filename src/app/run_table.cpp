@@ -113,7 +113,7 @@ RunRow row_of(const Results& results, const Json& report) {
 }
 
 Status status_of(const RunRow& row) {
-  for (const Status status : {Status::solved, Status::accuracy_not_reached, Status::not_converged})
+  for (const Status status : all_of(Status{}))
     if (row.status == to_string(status)) return status;
   return Status::check_failed;
 }

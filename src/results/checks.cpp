@@ -1,5 +1,6 @@
 #include "results/checks.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -50,15 +51,12 @@ void balance_of_bodies(const Results& r, double limit, std::vector<Check>& check
   LeftOver worst{0, 0};
   for (const std::vector<int>& nodes : nodes_of_bodies(r)) {
     if (nodes.empty()) continue;  // counted with another body
-    Vec2 low(1e300, 1e300), high(-1e300, -1e300);
-    for (const int node : nodes) {
-      low = low.cwiseMin(r.problem.mesh.nodes.row(node).transpose());
-      high = high.cwiseMax(r.problem.mesh.nodes.row(node).transpose());
-    }
+    Eigen::AlignedBox2d box;
+    for (const int node : nodes) box.extend(r.problem.mesh.nodes.row(node).transpose());
     Resultant sum;
     for (const int node : nodes)
-      sum.add(r.problem.mesh.nodes.row(node).transpose() - (low + high) / 2, forces.segment<2>(2 * node));
-    const LeftOver left = left_over(r, sum, largest(sum.size, rigid), (high - low).norm());
+      sum.add(r.problem.mesh.nodes.row(node).transpose() - (box.min() + box.max()) / 2, forces.segment<2>(2 * node));
+    const LeftOver left = left_over(r, sum, largest(sum.size, rigid), box.diagonal().norm());
     worst = {largest(worst.force, left.force), largest(worst.moment, left.moment)};
   }
   checks.push_back({"force balance of each body", worst.force, limit});
@@ -159,20 +157,6 @@ double negligible_pressure(const Results& r) {
 }
 
 double unseen_force(const Results& r) { return balance_limit(r) * rigid_force(r); }
-
-std::string to_string(Status status) {
-  switch (status) {
-    case Status::solved:
-      return "solved";
-    case Status::accuracy_not_reached:
-      return "accuracy_not_reached";
-    case Status::check_failed:
-      return "check_failed";
-    case Status::not_converged:
-      return "not_converged";
-  }
-  return "";
-}
 
 Seconds& Seconds::operator+=(const Seconds& other) {
   mesh += other.mesh;

@@ -8,8 +8,7 @@
 namespace mortise {
 
 /// In the order of severity.
-enum class Status { solved, accuracy_not_reached, check_failed, not_converged };
-std::string to_string(Status status);
+MORTISE_WORDS(Status, solved, accuracy_not_reached, check_failed, not_converged)
 
 /// One figure that must stay below its limit.
 struct Check {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -51,12 +50,17 @@ Kind<Vec2> a_pair();
 Kind<Field> a_field(const FieldUse& use);
 Kind<VectorField> two_fields(const FieldUse& use);
 
-/// One of the words of an enum.
+/// One of some words of an enum; any of them.
 template <class Enum>
-Kind<Enum> one_of(std::initializer_list<Enum> values) {
+Kind<Enum> one_of(const std::vector<Enum>& values) {
   Json words = Json::array();
   for (const Enum value : values) words.push_back(to_string(value));
-  return {{{"enum", words}}, [values = std::vector<Enum>(values)](const Node& node) { return choice(node, values); }};
+  return {{{"enum", words}}, [values](const Node& node) { return choice(node, values); }};
+}
+
+template <class Enum>
+Kind<Enum> any_of() {
+  return one_of(all_of(Enum{}));
 }
 
 /// A number as a page has it: 2, not 2.0.

@@ -35,9 +35,7 @@ Keys accuracy_keys(AccuracySpec& a, int last_pair) {
                    "`Recombine` do not count",
                    "none: the mesh is the file's"),
                "a part such as 0.01 or \"1%\""),
-      key("of", a.of,
-          one_of({Goal::pressure, Goal::peak, Goal::half_width, Goal::mean, Goal::force, Goal::displacement,
-                  Goal::stress}),
+      key("of", a.of, any_of<Goal>(),
           "what the accuracy is asked of: `\"pressure\"` along all contact lines; `\"peak\"`, the largest $p$, refused "
           "where $p$ has no limit; `\"half_width\"` of every contact, by the edge on which it ends; `\"mean\"`, the "
           "mean $p$ over `accuracy.window`; `\"force\"` of a pair; `\"displacement\"` (x, y) or `\"stress\"` (11, 22, "

@@ -180,7 +180,7 @@ void check_name(const Draft& draft, std::set<std::string>& taken) {
 
 Keys cases_keys(Scene& scene) {
   return {
-      key("write", scene.case_files, one_of({CaseFiles::table, CaseFiles::contact, CaseFiles::all}),
+      key("write", scene.case_files, any_of<CaseFiles>(),
           "what is written of cases: `\"table\"`, cases.csv; `\"contact\"`, also a folder `cases/NAME` of each, with "
           "its "
           "summary.json and what runs along the contact lines; `\"all\"`, the whole results of each there, and "
@@ -233,11 +233,3 @@ void read_cases(const Node& root, const std::function<Scene(const Node&)>& read_
 }
 
 }  // namespace mortise::scene_file
-
-namespace mortise {
-
-std::string to_string(CaseFiles value) {
-  return value == CaseFiles::table ? "table" : value == CaseFiles::contact ? "contact" : "all";
-}
-
-}  // namespace mortise

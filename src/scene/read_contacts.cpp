@@ -167,8 +167,7 @@ Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
           "; with an accuracy, on any of its meshes. By default also curves further apart that bodies go through one "
           "another at, which are found by another solve",
           "half an edge; tied or closed: what two meshes of one curve differ by"),
-      key("condition", contact.condition,
-          one_of({Condition::unilateral, Condition::bilateral, Condition::tied, Condition::cyclic}),
+      key("condition", contact.condition, any_of<Condition>(),
           "`\"unilateral\"`, `\"bilateral\"`, `\"tied\"` or `\"cyclic\"`. Tied: both bodies are one where their meshes "
           "do not match, in "
           "both components and in tension too. `multipliers_on` names the curve whose nodes follow the other then "

@@ -76,25 +76,25 @@ void check_stiffness(const Node& node, const Scene& scene) {
 
 Kind<Acceleration> acceleration_of(const std::optional<Solver>& solver) {
   using enum Acceleration;
-  if (solver == Solver::ddm) return one_of({none, aitken, anderson, krylov});
-  if (solver == Solver::mssor) return one_of({none, krylov, minres});
-  return one_of({none, aitken, anderson, krylov, minres});
+  if (solver == Solver::ddm) return one_of<Acceleration>({none, aitken, anderson, krylov});
+  if (solver == Solver::mssor) return one_of<Acceleration>({none, krylov, minres});
+  return any_of<Acceleration>();
 }
 
 }  // namespace
 
-Kind<Solver> solver_word() { return one_of({Solver::direct, Solver::mssor, Solver::ddm, Solver::feti}); }
+Kind<Solver> solver_word() { return any_of<Solver>(); }
 
 Keys method_keys(Method& m) {
   const bool mssor = m.solver == Solver::mssor, feti = m.solver == Solver::feti;
   double& tolerance = mssor ? m.mssor.tolerance : feti ? m.feti.tolerance : m.ddm.tolerance;
   int& most = mssor ? m.mssor.max_iterations : feti ? m.feti.max_iterations : m.ddm.max_iterations;
   return {
-      key("multipliers", m.multipliers, one_of({Multipliers::quadratic, Multipliers::linear, Multipliers::dual}),
+      key("multipliers", m.multipliers, any_of<Multipliers>(),
           "`\"linear\"`, `\"quadratic\"`, `\"dual\"` (theory, section 4)"),
-      key("integration", m.integration, one_of({Integration::segments, Integration::elements}),
+      key("integration", m.integration, any_of<Integration>(),
           "`\"segments\"`, or `\"elements\"`: whole edges without cutting"),
-      key("normals", m.normals, one_of({Normals::edges, Normals::curve}),
+      key("normals", m.normals, any_of<Normals>(),
           "along which contact acts: those of the drawn `\"curve\"` of the multiplier side, or of its `\"edges\"`, for "
           "studies (theory, section 9)"),
       {"solver", solver_word().schema,
@@ -109,8 +109,7 @@ Keys method_keys(Method& m) {
       key("tau", m.mssor.tau, above(0),
           "`mssor` only: > 0, step of the multipliers; `acceleration = \"none\"` converges below a limit that the "
           "summary gives"),
-      key("scheme", m.ddm.scheme,
-          one_of({Scheme::neumann_dirichlet, Scheme::neumann_neumann, Scheme::dirichlet_dirichlet}),
+      key("scheme", m.ddm.scheme, any_of<Scheme>(),
           "`ddm` only, as all below but where `mssor` is named: `\"neumann_dirichlet\"`, `\"neumann_neumann\"`, "
           "`\"dirichlet_dirichlet\"`"),
       key("dirichlet", m.dirichlet, some_names(),

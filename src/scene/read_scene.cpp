@@ -70,7 +70,7 @@ Scene read_sections(const Node& root, const std::string& path, GivenNames& names
 
 Keys model_keys(Scene& scene) {
   return {
-      key("plane", scene.model.plane, one_of({Plane::strain, Plane::stress, Plane::axisymmetric}),
+      key("plane", scene.model.plane, any_of<Plane>(),
           "`\"strain\"`, `\"stress\"`, or `\"axisymmetric\"`: x is the radius, y along the axis x = 0, whose nodes are "
           "held; forces and energy are those of the whole ring"),
       key("thickness", scene.model.thickness, above(0),

@@ -21,8 +21,7 @@ namespace mortise {
 struct LoadCase;
 
 /// What of cases is written besides their table: nothing, what runs along the contact lines, or all.
-enum class CaseFiles { table, contact, all };
-std::string to_string(CaseFiles value);
+MORTISE_WORDS(CaseFiles, table, contact, all)
 
 /// Units are the user's own, used throughout (SI if E is in Pa and lengths in m).
 struct Scene {
