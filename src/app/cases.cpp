@@ -33,11 +33,7 @@ void refuse_if_all_are(const Scene& scene, const CaseTable& table) {
     throw InputError(first.substr(bad_input.size()) + (scene.cases.size() > 1 ? " (every case)" : ""));
 }
 
-std::string shortest(double value) {
-  std::ostringstream text;
-  text << std::setprecision(15) << value;
-  return text.str();
-}
+std::string shortest(double value) { return worded(std::setprecision(15), value); }
 
 // The columns that say which case it is.
 void set_keys(const Scene& scene, CaseTable& table) {

@@ -250,11 +250,7 @@ std::string result_of(const std::string& answer) {
   }
 }
 
-std::string seconds_in_words(double seconds) {
-  std::ostringstream words;
-  words << seconds << " seconds";
-  return words.str();
-}
+std::string seconds_in_words(double seconds) { return worded(seconds, " seconds"); }
 
 }  // namespace
 

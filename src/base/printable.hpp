@@ -1,6 +1,7 @@
 // Text for messages.
 #pragma once
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,14 @@ std::string percent(double part);
 
 /// "1.2"
 std::string two_digits(double value);
+
+/// The parts as a stream prints them, one behind the other: numbers with six digits.
+template <class... Parts>
+std::string worded(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
 
 /// "near (0.4, 0.3)": where to look in the mesh, six digits.
 std::string near_point(const Vec2& point);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <sstream>
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "contact/multiplier_rows.hpp"
 #include "contact/multiplier_space.hpp"
 #include "fem/edges.hpp"
@@ -99,11 +99,10 @@ void require_one_sector(const Mesh& mesh, const Curve& multiplier, const Curve& 
   if (covered > (1 - sliver) * length || !closes_in_the_next_sector(mesh, multiplier) ||
       !closes_in_the_next_sector(mesh, opposite))
     return;
-  std::ostringstream text;
-  text << mesh.source << ": contact between '" << mesh.boundaries[multiplier.boundary].name << "' and '"
-       << mesh.boundaries[opposite.boundary].name << "': both go on in the next sector, but face each other on "
-       << covered << " of " << length << "; expected cuts of the two bodies that cross contact at one place";
-  throw InputError(text.str());
+  throw InputError(worded(mesh.source, ": contact between '", mesh.boundaries[multiplier.boundary].name, "' and '",
+                          mesh.boundaries[opposite.boundary].name,
+                          "': both go on in the next sector, but face each other on ", covered, " of ", length,
+                          "; expected cuts of the two bodies that cross contact at one place"));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "contact/multiplier_rows.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
@@ -100,11 +99,9 @@ std::vector<State> find_states(const Numbering& of, const Support& support, cons
       const auto gap = prescribed_gap(of, int(e), i);
       const double round_off = 1e-9 * length(a);
       if (gap && *gap < -round_off) {
-        std::ostringstream text;
-        text << between(of) << "the prescribed displacements of the two sides overlap by " << -*gap << " "
-             << near_point(mesh.nodes.row(coupling.node[a]).transpose())
-             << "; expected values that close the gap or leave it open";
-        throw InputError(text.str());
+        throw InputError(worded(between(of), "the prescribed displacements of the two sides overlap by ", -*gap, " ",
+                                near_point(mesh.nodes.row(coupling.node[a]).transpose()),
+                                "; expected values that close the gap or leave it open"));
       }
       if (gap)
         found = *gap > round_off ? State::apart : State::prescribed;

@@ -301,10 +301,8 @@ void add_stress_error(const Problem& problem, const std::vector<PressureEstimate
 std::string window_trouble(const PressureLine& line, const Vec2& window) {
   const double length = line.s(line.s.size() - 1);
   if (window(0) < window(1) && window(1) > 0 && window(0) < length) return "";
-  std::ostringstream text;
-  text << "expected a window [from, to] with from < to on the contact line, which is " << length << " long, found ["
-       << window(0) << ", " << window(1) << "]";
-  return text.str();
+  return worded("expected a window [from, to] with from < to on the contact line, which is ", length, " long, found [",
+                window(0), ", ", window(1), "]");
 }
 
 double mean_error(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& errors,

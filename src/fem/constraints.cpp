@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
@@ -16,11 +15,9 @@ Constraints no_constraints(const Mesh& mesh) {
 void prescribe(const Mesh& mesh, const std::string& name, int dof, double value, Constraints& constraints) {
   const double other = constraints.value(dof), round_off = 1e-12 * std::max(std::abs(value), std::abs(other));
   if (constraints.fixed[dof] && std::abs(value - other) > round_off) {
-    std::ostringstream text;
-    text << mesh.source << ": boundary '" << name << "': displacement " << (dof % 2 ? "y" : "x") << " = " << value
-         << " " << near_point(mesh.nodes.row(dof / 2).transpose()) << ", where another boundary prescribes " << other
-         << "; expected one value a node";
-    throw InputError(text.str());
+    throw InputError(worded(mesh.source, ": boundary '", name, "': displacement ", (dof % 2 ? "y" : "x"), " = ", value,
+                            " ", near_point(mesh.nodes.row(dof / 2).transpose()),
+                            ", where another boundary prescribes ", other, "; expected one value a node"));
   }
   constraints.fixed[dof] = 1;
   constraints.value(dof) = value;

@@ -1,7 +1,5 @@
 #include "fem/elements.hpp"
 
-#include <sstream>
-
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "fem/edges.hpp"
@@ -120,11 +118,10 @@ void check_cells(const Mesh& mesh) {
       const double jacobian = at.jacobian();
       // Round-off of the determinant is far below this; a cell flatter than 1e-10 is no cell.
       if (jacobian > 1e-10 * at.x_xi.squaredNorm()) continue;
-      std::ostringstream text;
-      text << mesh.source << ": body '" << mesh.bodies[cell.body] << "': the element "
-           << near_point(mesh.nodes.row(cell.nodes[0]).transpose()) << " is inverted or degenerate (Jacobian "
-           << jacobian << "); expected a positive Jacobian everywhere";
-      throw InputError(text.str());
+      throw InputError(worded(mesh.source, ": body '", mesh.bodies[cell.body], "': the element ",
+                              near_point(mesh.nodes.row(cell.nodes[0]).transpose()),
+                              " is inverted or degenerate (Jacobian ", jacobian,
+                              "); expected a positive Jacobian everywhere"));
     }
   }
 }

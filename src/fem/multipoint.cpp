@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "base/each_once.hpp"
 #include "base/errors.hpp"
@@ -20,10 +19,8 @@ Vec2 turned(const Vec2& place, const Vec2& about) { return {about.y() - place.y(
 bool agree(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
 
 std::string other_value(const Vec2& direction, double value, double other) {
-  std::ostringstream text;
-  text << "prescribes a displacement of " << value << " along (" << direction.x() << ", " << direction.y()
-       << "), where another entry makes it " << other << "; expected one value a node,";
-  return text.str();
+  return worded("prescribes a displacement of ", value, " along (", direction.x(), ", ", direction.y(),
+                "), where another entry makes it ", other, "; expected one value a node,");
 }
 
 // The node that is farthest from the first one along x or y, and the displacement at right angles, which shows the
@@ -130,11 +127,10 @@ void MultipointBuilder::require_same_motion(const std::string& key, int node, co
     const double made = motion[k].value_or(0) + lever(k) * turn,
                  size = std::max({std::abs(there), std::abs(made), std::abs(lever(k) * turn)});
     if (known && std::abs(made - there) <= 1e-9 * size) continue;
-    std::ostringstream text;
-    text << "makes a node rigid whose displacement " << (k == 0 ? "x" : "y") << " another entry prescribes as " << there
-         << "; expected rigid = { " << (k == 0 ? "x" : "y")
-         << ", rotation } that prescribe the same there, or no such support";
-    refuse(key, node, text.str());
+    refuse(key, node,
+           worded("makes a node rigid whose displacement ", (k == 0 ? "x" : "y"), " another entry prescribes as ",
+                  there, "; expected rigid = { ", (k == 0 ? "x" : "y"),
+                  ", rotation } that prescribe the same there, or no such support"));
   }
 }
 

@@ -2,11 +2,11 @@
 
 #include <Eigen/LU>
 #include <filesystem>
-#include <sstream>
 
 #include "base/child_process.hpp"
 #include "base/errors.hpp"
 #include "base/packed.hpp"
+#include "base/printable.hpp"
 #include "fem/locate.hpp"
 #include "fields/csv_points.hpp"
 #include "fields/grid_module.hpp"
@@ -43,11 +43,9 @@ class NodalField {
   [[noreturn]] void fail_outside(const std::string& key, const Vec2& x) const {
     Eigen::Index nearest = 0;
     const double away = (mesh_.nodes.rowwise() - x.transpose()).rowwise().norm().minCoeff(&nearest);
-    std::ostringstream text;
-    text << key << ": (" << x.x() << ", " << x.y() << ") is outside of " << mesh_.source << ", whose nearest point, ("
-         << mesh_.nodes(nearest, 0) << ", " << mesh_.nodes(nearest, 1) << "), is " << away
-         << " away; expected values all over the bodies and curves that take them";
-    throw SceneError(text.str());
+    throw SceneError(worded(key, ": (", x.x(), ", ", x.y(), ") is outside of ", mesh_.source,
+                            ", whose nearest point, (", mesh_.nodes(nearest, 0), ", ", mesh_.nodes(nearest, 1),
+                            "), is ", away, " away; expected values all over the bodies and curves that take them"));
   }
 
   Mesh mesh_;

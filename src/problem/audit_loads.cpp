@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <sstream>
 #include <tuple>
 
 #include "base/errors.hpp"
@@ -48,10 +47,9 @@ void refuse_double_loads(const Mesh& mesh, const std::vector<BoundaryEntry>& ent
   };
   const Edge& edge = mesh.boundaries[first->boundary].edges[first->edge];
   const Vec2 middle = (mesh.nodes.row(edge.nodes[0]) + mesh.nodes.row(edge.nodes[1])) / 2;
-  std::ostringstream text;
-  text << what(*first) << " and " << what(*second) << " load the same edges, " << near_point(middle)
-       << " and over a length of " << length << " in all: they would add up; expected at most one load on each edge";
-  throw SceneError(text.str());
+  throw SceneError(worded(what(*first), " and ", what(*second), " load the same edges, ", near_point(middle),
+                          " and over a length of ", length,
+                          " in all: they would add up; expected at most one load on each edge"));
 }
 
 }  // namespace mortise

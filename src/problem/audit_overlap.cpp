@@ -105,13 +105,11 @@ double thickness(const PieceOutline& piece) { return 2 * piece.area / piece.peri
 }
 
 std::string line(const AuditedBodies& b, const Overlap& overlap, int first, int second) {
-  std::ostringstream text;
-  text << two_bodies(b.mesh, first, second) << " are drawn into one another by " << overlap.depth << " "
-       << near_point(middle_of(b, overlap.edges[0])) << " (" << name_of(b, overlap.edges[0]) << ", "
-       << name_of(b, overlap.edges[1])
-       << "), and no contact pair presses them apart there: " << advice(b, overlap.edges[0], overlap.edges[1])
-       << (first == second ? "" : " or draw them apart");
-  return text.str();
+  return worded(two_bodies(b.mesh, first, second), " are drawn into one another by ", overlap.depth, " ",
+                near_point(middle_of(b, overlap.edges[0])), " (", name_of(b, overlap.edges[0]), ", ",
+                name_of(b, overlap.edges[1]),
+                "), and no contact pair presses them apart there: ", advice(b, overlap.edges[0], overlap.edges[1]),
+                (first == second ? "" : " or draw them apart"));
 }
 
 }  // namespace

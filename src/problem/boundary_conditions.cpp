@@ -1,7 +1,5 @@
 #include "problem/boundary_conditions.hpp"
 
-#include <sstream>
-
 #include "base/overloaded.hpp"
 #include "base/printable.hpp"
 #include "fem/assembly.hpp"
@@ -76,10 +74,8 @@ Resultant add_load(const Mesh& mesh, const Model& model, const BoundaryEntry& en
 double modulus(const BoundarySpec& spec, const Field& field, const Vec2& x, double s) {
   const double k = field(x, s);
   if (k >= 0) return k;
-  std::ostringstream text;
-  text << spec.key << ".foundation: '" << field.words() << "' is " << k << " " << near_point(x)
-       << "; expected a modulus >= 0";
-  throw SceneError(text.str());
+  throw SceneError(
+      worded(spec.key, ".foundation: '", field.words(), "' is ", k, " ", near_point(x), "; expected a modulus >= 0"));
 }
 
 // `stiffness` as add_load's traction.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "contact/multiplier_rows.hpp"
 #include "contact/segments.hpp"
 #include "fem/edges.hpp"
@@ -89,11 +89,9 @@ std::vector<int> inlets(const Mesh& mesh, const ContactPair& pair, const std::ve
     const auto nearest = std::ranges::min_element(line, {}, [&](const Station& s) { return (s.x - x).norm(); });
     const double away = (nearest->x - x).norm();
     if (const double length = curve_length(mesh.nodes, pair.multiplier); away > length) {
-      std::ostringstream text;
-      text << pair.spec.key << ".fluid.from: (" << x.x() << ", " << x.y() << ") lies " << away << " from '"
-           << mesh.boundaries[pair.multiplier.boundary].name << "', more than that is long, " << length
-           << "; expected a place on the curve, such as one of its ends";
-      throw SceneError(text.str());
+      throw SceneError(worded(pair.spec.key, ".fluid.from: (", x.x(), ", ", x.y(), ") lies ", away, " from '",
+                              mesh.boundaries[pair.multiplier.boundary].name, "', more than that is long, ", length,
+                              "; expected a place on the curve, such as one of its ends"));
     }
     found.push_back(int(nearest - line.begin()));
   }

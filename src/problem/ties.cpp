@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -52,11 +51,9 @@ Eigen::Matrix2d turn_between(const Mesh& mesh, const ContactSpec& spec, const Cu
   const Vec2 a = farthest(from), b = farthest(to);
   const double angle = std::atan2(cross(a, b), a.dot(b)), count = 2 * std::numbers::pi / std::abs(angle);
   if (!(std::abs(count - std::round(count)) < whole * count)) {
-    std::ostringstream text;
-    text << spec.key << ".condition = \"cyclic\": from '" << spec.between[0] << "' to '" << spec.between[1]
-         << "' there are " << 180 / std::numbers::pi * std::abs(angle)
-         << " degrees about the origin; expected a whole part of 360";
-    throw SceneError(text.str());
+    throw SceneError(worded(spec.key, ".condition = \"cyclic\": from '", spec.between[0], "' to '", spec.between[1],
+                            "' there are ", 180 / std::numbers::pi * std::abs(angle),
+                            " degrees about the origin; expected a whole part of 360"));
   }
   const double turn = std::copysign(2 * std::numbers::pi / std::round(count), angle);
   return Eigen::Matrix2d{{std::cos(turn), -std::sin(turn)}, {std::sin(turn), std::cos(turn)}};
@@ -106,10 +103,8 @@ void require_near(const Mesh& mesh, const Tie& tie, double edge) {
     const Vec2 drawn = mesh.nodes.row(one.node).transpose();
     const double apart = (place_of(mesh.nodes, tie, one) - drawn).norm();
     if (apart <= 0.1 * edge) continue;
-    std::ostringstream text;
-    text << tie.key << ": '" << tie.curves[0] << "' and '" << tie.curves[1] << "' are " << apart << " apart "
-         << near_point(drawn) << "; expected tied curves that coincide, to a tenth of an edge";
-    throw SceneError(text.str());
+    throw SceneError(worded(tie.key, ": '", tie.curves[0], "' and '", tie.curves[1], "' are ", apart, " apart ",
+                            near_point(drawn), "; expected tied curves that coincide, to a tenth of an edge"));
   }
 }
 

@@ -4,7 +4,6 @@
 #include <iterator>
 #include <limits>
 #include <set>
-#include <sstream>
 
 #include "base/dense.hpp"
 #include "base/errors.hpp"
@@ -182,12 +181,10 @@ void require_closed(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
     if (pair.spec.initial_gap != InitialGap::closed) continue;
     const auto open = open_place(mesh.nodes, pair);
     if (!open) continue;
-    std::ostringstream text;
-    text << pair.spec.key << ".initial_gap = \"closed\", but '" << pair.spec.between[0] << "' and '"
-         << pair.spec.between[1] << "' are " << open->gap << " apart " << near_point(open->position)
-         << ", where two meshes of one curve differ by at most " << open->limit
-         << "; expected the default, initial_gap = \"curve\", or curves that are one curve";
-    throw SceneError(text.str());
+    throw SceneError(worded(pair.spec.key, ".initial_gap = \"closed\", but '", pair.spec.between[0], "' and '",
+                            pair.spec.between[1], "' are ", open->gap, " apart ", near_point(open->position),
+                            ", where two meshes of one curve differ by at most ", open->limit,
+                            "; expected the default, initial_gap = \"curve\", or curves that are one curve"));
   }
 }
 

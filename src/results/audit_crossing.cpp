@@ -2,7 +2,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "base/printable.hpp"
 #include "fem/edges.hpp"
@@ -89,13 +88,11 @@ bool is_beside_pair(const Moved& all, const Inside& in, double reach) {
 }
 
 std::string line(const AuditedBodies& b, int first, int second, const Crossing& c, double largest) {
-  std::ostringstream text;
-  text << two_bodies(b.mesh, first, second) << " pass through one another by " << c.depth << " ("
-       << percent(c.depth / largest) << " of the largest displacement) " << near_point(middle_of(b, c.edges)) << " ("
-       << name_of(b, c.edges) << ", " << name_of(b, c.others)
-       << "), and no contact pair keeps them apart there: the results are not those of two bodies; "
-       << advice(b, c.edges, c.others);
-  return text.str();
+  return worded(two_bodies(b.mesh, first, second), " pass through one another by ", c.depth, " (",
+                percent(c.depth / largest), " of the largest displacement) ", near_point(middle_of(b, c.edges)), " (",
+                name_of(b, c.edges), ", ", name_of(b, c.others),
+                "), and no contact pair keeps them apart there: the results are not those of two bodies; ",
+                advice(b, c.edges, c.others));
 }
 
 // `moved`: the most that any point moves by. What is nearest to a point then was farther by two such ways on either

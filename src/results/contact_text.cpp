@@ -24,17 +24,13 @@ std::string force_within(const Json& contact) {
   const double error = norm(contact["force_error"]), force = norm(contact["force"]),
                pressed = contact["pressure"]["mean"].get<double>() * contact["length"].get<double>();
   if (!(error > round_off * std::max(force, pressed))) return "";
-  std::ostringstream text;
-  text << std::setprecision(2) << error;
-  return " within " + (error < force ? percent(error / force) : text.str());
+  return " within " + (error < force ? percent(error / force) : worded(std::setprecision(2), error));
 }
 
 std::string length_within(const Json& contact) {
   const Json& error = contact["length_in_contact_error"];
   if (error.is_null() || !(error.get<double>() > 0)) return "";
-  std::ostringstream text;
-  text << std::setprecision(2) << " within " << error.get<double>();
-  return text.str();
+  return worded(std::setprecision(2), " within ", error.get<double>());
 }
 
 std::string condition_and_gap(const Json& report, std::size_t k) {

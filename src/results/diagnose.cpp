@@ -1,7 +1,5 @@
 #include "results/diagnose.hpp"
 
-#include <sstream>
-
 #include "base/printable.hpp"
 #include "contact/pressure_norm.hpp"
 #include "solve/inf_sup.hpp"
@@ -42,11 +40,10 @@ std::optional<InfSupReport> inf_sup_report(const Results& r) {
 
 std::optional<std::string> inf_sup_warning(const InfSupReport& report) {
   if (report.beta >= inf_sup_limit) return {};
-  std::ostringstream text;
-  text << "the inf-sup constant is " << report.beta << " (below " << inf_sup_limit
-       << "): the meshes do not feel a pressure that swings " << near_point(report.position)
-       << ", so p may be noise there; expected multipliers_on the other curve, or a finer mesh on the opposite one";
-  return text.str();
+  return worded(
+      "the inf-sup constant is ", report.beta, " (below ", inf_sup_limit,
+      "): the meshes do not feel a pressure that swings ", near_point(report.position),
+      ", so p may be noise there; expected multipliers_on the other curve, or a finer mesh on the opposite one");
 }
 
 }  // namespace mortise

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "base/overloaded.hpp"
+#include "base/printable.hpp"
 #include "results/report.hpp"
 
 namespace mortise {
@@ -13,11 +14,7 @@ Json json_of(const Vec2& v) { return {v.x(), v.y()}; }
 Json json_of(const Field& f) { return f.is_constant() ? Json(f.constant()) : Json(f.words()); }
 Json json_of(const VectorField& v) { return {json_of(v.x), json_of(v.y)}; }
 
-std::string pair_of(const Vec2& v) {
-  std::ostringstream text;
-  text << "(" << v.x() << ", " << v.y() << ")";
-  return text.str();
-}
+std::string pair_of(const Vec2& v) { return worded("(", v.x(), ", ", v.y(), ")"); }
 
 // A long expression without its end, which is in the entry itself.
 std::string words(const Field& f) {

@@ -7,11 +7,7 @@
 namespace mortise {
 namespace {
 
-std::string pair_of(const Json& v) {
-  std::ostringstream text;
-  text << "(" << v[0].get<double>() << ", " << v[1].get<double>() << ")";
-  return text.str();
-}
+std::string pair_of(const Json& v) { return worded("(", v[0].get<double>(), ", ", v[1].get<double>(), ")"); }
 
 std::string listed_numbers(const Json& numbers) {
   std::ostringstream text;

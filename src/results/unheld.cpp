@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <set>
-#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"
@@ -58,11 +57,9 @@ void require_held(const Results& r, const AccuracySpec& spec) {
     if (!spec.body.empty() && r.problem.mesh.bodies[b] != spec.body) continue;
     const std::array<bool, 2> unheld = unheld_at(r, b, spec.at);
     if (!(unheld[0] || unheld[1]) || !locate(r.problem.mesh, b, spec.at)) continue;
-    std::ostringstream where;
-    where << "accuracy.at: (" << spec.at.x() << ", " << spec.at.y() << "): the displacement " << direction(unheld)
-          << " is undetermined: nothing holds " << motion_words(r, b)
-          << "; expected a support that does, or another quantity in accuracy.of";
-    throw SceneError(where.str());
+    throw SceneError(worded("accuracy.at: (", spec.at.x(), ", ", spec.at.y(), "): the displacement ", direction(unheld),
+                            " is undetermined: nothing holds ", motion_words(r, b),
+                            "; expected a support that does, or another quantity in accuracy.of"));
   }
 }
 

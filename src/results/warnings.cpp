@@ -1,5 +1,6 @@
 #include "results/warnings.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -55,18 +56,15 @@ void warn_of_what_is_not_finite(const Results& r, Lines& lines) {
 
 // "x = 0.1 ... 0.9, y = 0.2"
 std::string range(const std::vector<Vec2>& places) {
-  Vec2 low = places[0], high = places[0];
-  for (const Vec2& x : places) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
+  Eigen::AlignedBox2d box;
+  for (const Vec2& x : places) box.extend(x);
   std::ostringstream text;
   const auto write = [&](const char* name, double from, double to) {
     text << name << from + 0.0;
-    if (to - from > 1e-6 * (high - low).norm()) text << " ... " << to + 0.0;
+    if (to - from > 1e-6 * box.diagonal().norm()) text << " ... " << to + 0.0;
   };
-  write("x = ", low.x(), high.x());
-  write(", y = ", low.y(), high.y());
+  write("x = ", box.min().x(), box.max().x());
+  write(", y = ", box.min().y(), box.max().y());
   return text.str();
 }
 
@@ -85,11 +83,9 @@ void warn_of_gap(const ContactPair& pair, const Results& r, double displacement,
   const double low = pair.coupling.gap_min, high = pair.coupling.gap_max;
   if (pair.spec.initial_gap != InitialGap::closed || std::max(-low, high) <= 0.01 * displacement) return;
   if (!is_drawn(pair) && !open_place(r.problem.mesh.nodes, pair, 1e-6)) return;
-  std::ostringstream text;
-  text << pair.spec.key << ": initial_gap = \"closed\" leaves out gaps of " << low << " ... " << high
-       << ", which are not small against the displacements (up to " << displacement
-       << "); a clearance or an interference that is meant needs the default, initial_gap = \"curve\"";
-  lines.push_back(text.str());
+  lines.push_back(worded(pair.spec.key, ": initial_gap = \"closed\" leaves out gaps of ", low, " ... ", high,
+                         ", which are not small against the displacements (up to ", displacement,
+                         "); a clearance or an interference that is meant needs the default, initial_gap = \"curve\""));
 }
 
 // Curves that touch although the drawing has them further apart than they are long: meant were others, or other units.
@@ -162,10 +158,9 @@ void warn_of_far_origin(const ContactPair& pair, const Results& r, Lines& lines)
   const double gap = std::max(std::abs(pair.coupling.gap_min), std::abs(pair.coupling.gap_max));
   const double size = std::max(gap, r.solution.u.cwiseAbs().maxCoeff());
   if (round_off * farthest <= 1e-8 * size) return;
-  std::ostringstream text;
-  text << pair.spec.key << ": coordinates up to " << farthest << " are rounded to about " << round_off * farthest
-       << ", but gaps and displacements are only up to " << size << "; expected an origin near the bodies";
-  lines.push_back(text.str());
+  lines.push_back(worded(pair.spec.key, ": coordinates up to ", farthest, " are rounded to about ",
+                         round_off * farthest, ", but gaps and displacements are only up to ", size,
+                         "; expected an origin near the bodies"));
 }
 
 // What Poisson's ratio does to a body's elements, and what would not: docs/stability.md, near incompressibility.
@@ -197,10 +192,8 @@ void warn_of_locking(const Problem& p, Lines& lines) {
     };
     const bool linear = any(has_linear);
     if (poisson < (linear ? 0.4 : 0.49)) continue;
-    std::ostringstream text;
-    text << "body '" << spec.name << "' is nearly incompressible (poisson = " << poisson
-         << "): " << locking(linear, any(has_quadrilaterals));
-    lines.push_back(text.str());
+    lines.push_back(worded("body '", spec.name, "' is nearly incompressible (poisson = ", poisson,
+                           "): ", locking(linear, any(has_quadrilaterals))));
   }
 }
 
@@ -224,13 +217,10 @@ void warn_of_points(const Results& r, Lines& lines) {
         if (of.entry == i && of.on == name && of.sum.force.norm() > unseen) force += of.sum.force.norm();
     }
     if (!(force > 1e-6 * most)) continue;
-    std::ostringstream text;
-    text << entry.spec.key << ": a force of " << force << " at the point" << (names.size() > 1 ? "s " : " ")
-         << listed(names)
-         << ": stresses and the displacement there are unbounded and grow as the mesh is refined; results a few "
-            "elements "
-            "away are right";
-    lines.push_back(text.str());
+    lines.push_back(
+        worded(entry.spec.key, ": a force of ", force, " at the point", (names.size() > 1 ? "s " : " "), listed(names),
+               ": stresses and the displacement there are unbounded and grow as the mesh is refined; results a few "
+               "elements away are right"));
   }
 }
 

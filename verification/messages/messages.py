@@ -11,7 +11,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 STRING = r'R"\(.*?\)"|"(?:[^"\\\n]|\\.)*"'
 SAYS = re.compile(r"\b(?:InputError|SceneError|ExpressionError)\(|\b(?:fail\w*|refuse|conflict)\(|"
-                  r"\b(?:lines|notes)\.push_back|\b(?:text|where|advice)\s*<<|\badvice\b")  # fmt: skip
+                  r"\bworded\(|\b(?:lines|notes)\.push_back|\b(?:text|where|advice)\s*<<|\badvice\b")  # fmt: skip
 
 Message = namedtuple("Message", "place words")  # "file:line", its texts
 

@@ -278,7 +278,7 @@ def sentence(found):
     return "does not agree: " + "; ".join([*wrong, *found["troubles"]]) if wrong or found["troubles"] else "nothing to compare"
 
 
-def text_of(found):
+def worded(found):
     """The certificate for a terminal."""
     lines = [found["title"] or found["scene"], f"  {sentence(found)}"]
     for run in found["runs"]:
@@ -364,7 +364,7 @@ def main():
     found = certify(mortise, options.scene, output, options.set, options.accuracy, not options.no_freefem)
     page = output.with_name(output.resolve().name + ".html")
     write_report(output, page, mortise)
-    print(text_of(found))
+    print(worded(found))
     print(f"  report    {page}")
     sys.exit(0 if found["agrees"] else 2)
 
