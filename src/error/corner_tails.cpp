@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/each_once.hpp"
 #include "fem/elements.hpp"
 #include "fem/locate.hpp"
 #include "fem/quadrature.hpp"
@@ -12,15 +13,10 @@
 namespace mortise {
 namespace {
 
-void sort_out(std::vector<int>& cells) {
-  std::ranges::sort(cells);
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-}
-
 std::vector<int> cells_at(const SideTable& table, int node) {
   std::vector<int> cells;
   for (const SideAtNode& side : table.at(node)) cells.push_back(side.side.cell);
-  sort_out(cells);
+  keep_each_once(cells);
   return cells;
 }
 
@@ -29,7 +25,7 @@ std::vector<int> cells_beside(const Mesh& mesh, const SideTable& table, const st
   for (const int e : ring)
     for (int a = 0; a < corner_count(mesh.cells[e].kind); ++a)
       for (const int cell : cells_at(table, mesh.cells[e].nodes[a])) near.push_back(cell);
-  sort_out(near);
+  keep_each_once(near);
   std::ranges::set_difference(near, ring, std::back_inserter(beside));
   return beside;
 }

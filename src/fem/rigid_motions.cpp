@@ -1,5 +1,6 @@
 #include "fem/rigid_motions.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -211,14 +212,10 @@ Motions unresisted(const Bodies& bodies, const Gram& gram, double part) {
 BodyFrames body_frames(const Mesh& mesh, const BodyPoints& points) {
   BodyFrames frames;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
-    Vec2 low = mesh.nodes.row(points.node[points.first[b]]).transpose(), high = low;
-    for (int p = points.first[b]; p < points.first[b + 1]; ++p) {
-      const Vec2 x = mesh.nodes.row(points.node[p]).transpose();
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
-    frames.centre.push_back((low + high) / 2);
-    frames.size.push_back((high - low).norm() / 2);
+    Eigen::AlignedBox2d box;
+    for (int p = points.first[b]; p < points.first[b + 1]; ++p) box.extend(mesh.nodes.row(points.node[p]).transpose());
+    frames.centre.push_back((box.min() + box.max()) / 2);
+    frames.size.push_back(box.diagonal().norm() / 2);
   }
   return frames;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/module.hpp"
 #include "base/types.hpp"
 
 namespace mortise {
@@ -23,6 +24,10 @@ struct GridModule {
 };
 
 /// Loads it at the first call. Throws InputError with the loader's words.
-const GridModule& grid_module();
+inline const GridModule& grid_module() {
+  static const auto& module =
+      load_module<GridModule>("mortise_grid", "values at points are read by VTK (Debian package mortise-vtk)");
+  return module;
+}
 
 }  // namespace mortise

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/module.hpp"
 #include "gmsh/free_geometry.hpp"
 #include "gmsh/gmsh_curves.hpp"
 #include "gmsh/sandbox.hpp"
@@ -40,6 +41,10 @@ struct GmshModule {
 
 /// Loads it at the first call, from where the program's RPATH says. Throws InputError with the loader's words if it or
 /// a library that it needs is not there.
-const GmshModule& gmsh_module();
+inline const GmshModule& gmsh_module() {
+  static const auto& module =
+      load_module<GmshModule>("mortise_gmsh", "a .geo is meshed by gmsh (Debian package mortise-gmsh)");
+  return module;
+}
 
 }  // namespace mortise

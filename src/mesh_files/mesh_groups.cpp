@@ -1,5 +1,6 @@
 #include "mesh_files/mesh_groups.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <map>
@@ -17,14 +18,10 @@ constexpr std::array section_kinds{"point", "curve", "surface"};  // by dimensio
 
 /// The node of these elements that is nearest to the middle of them all, for messages.
 std::string near_block(const MeshData& data, const ElementBlock& block) {
-  Vec2 low = Vec2::Constant(1e300);
-  Vec2 high = -low;
+  Eigen::AlignedBox2d box;
   const auto point = [&](int node) { return Vec2(data.nodes[node][0], data.nodes[node][1]); };
-  for (const int node : block.nodes) {
-    low = low.cwiseMin(point(node));
-    high = high.cwiseMax(point(node));
-  }
-  const Vec2 middle = 0.5 * (low + high);
+  for (const int node : block.nodes) box.extend(point(node));
+  const Vec2 middle = 0.5 * (box.min() + box.max());
   const auto nearer = [&](int a, int b) {
     return (point(a) - middle).squaredNorm() < (point(b) - middle).squaredNorm();
   };

@@ -1,5 +1,6 @@
 #include "problem/body_fields.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace mortise {
@@ -7,12 +8,9 @@ namespace {
 
 // The box of a cell's corners.
 PlaceRange box_of(const Mesh& mesh, const Cell& cell) {
-  Vec2 low = mesh.nodes.row(cell.nodes[0]), high = low;
-  for (int a = 1; a < corner_count(cell.kind); ++a) {
-    low = low.cwiseMin(mesh.nodes.row(cell.nodes[a]).transpose());
-    high = high.cwiseMax(mesh.nodes.row(cell.nodes[a]).transpose());
-  }
-  return {{low.x(), high.x()}, {low.y(), high.y()}, {}};
+  Eigen::AlignedBox2d box;
+  for (int a = 0; a < corner_count(cell.kind); ++a) box.extend(mesh.nodes.row(cell.nodes[a]).transpose());
+  return {{box.min().x(), box.max().x()}, {box.min().y(), box.max().y()}, {}};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/each_once.hpp"
 #include "base/parallel.hpp"
 #include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
@@ -49,8 +50,7 @@ Encounter encounter(const AuditedBodies& b, int edge, int piece) {
     const EdgePoint at = edge_point(o.nodes, o.edges[edge].edge, rule.points[i]);
     look(b, at, rule.weights[i] * at.jacobian(), found, all_tight);
   }
-  std::sort(found.facing.begin(), found.facing.end());
-  found.facing.erase(std::unique(found.facing.begin(), found.facing.end()), found.facing.end());
+  keep_each_once(found.facing);
   const bool beside =
       std::any_of(found.facing.begin(), found.facing.end(), [&](int other) { return nearly_paired(b, edge, other); });
   if (beside && !all_tight) found.meets = 0;

@@ -1,11 +1,46 @@
 #include "problem/entries.hpp"
 
+#include <functional>
+
 #include "base/errors.hpp"
-#include "problem/body_entries.hpp"
+#include "model/patterns.hpp"
 #include "scene/scene.hpp"
 
 namespace mortise {
 namespace {
+
+// An entry that names bodies: where it stands, for messages, and a body's name or a pattern.
+struct BodyEntry {
+  std::string key, body;
+};
+
+// The index of each body's entry, -1 if there is none. A name of its own counts before a pattern. Where two patterns
+// name a body the first one counts, after `twice(body, first, second)`, which may throw.
+std::vector<int> entries_of_bodies(
+    const Mesh& mesh, const SceneNames& names, const std::vector<BodyEntry>& entries,
+    const std::function<void(const std::string& body, std::size_t first, std::size_t second)>& twice) {
+  std::vector<int> of_bodies(mesh.bodies.size(), -1);
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    for (const int b : names.bodies(entries[i].key, entries[i].body)) {
+      int& before = of_bodies[b];
+      const bool pattern = is_pattern(entries[i].body);
+      if (before >= 0 && pattern && is_pattern(entries[before].body)) twice(mesh.bodies[b], std::size_t(before), i);
+      if (before < 0 || !pattern) before = int(i);
+    }
+  return of_bodies;
+}
+
+// The entry of [[body_force]] or [[initial_strain]] that acts on each body; -1: none.
+template <typename Spec>
+std::vector<int> loads_of(const std::vector<Spec>& specs, const Mesh& mesh, const SceneNames& names) {
+  std::vector<BodyEntry> entries;
+  for (const Spec& spec : specs) entries.push_back({spec.key, spec.body});
+  return entries_of_bodies(mesh, names, entries, [&](const std::string& body, std::size_t first, std::size_t second) {
+    throw SceneError(entries[second].key + ": body '" + body + "' is a '" + entries[second].body + "', and a '" +
+                     entries[first].body + "' of " + entries[first].key +
+                     "; expected one of them, or an entry with the body's own name, which counts before patterns");
+  });
+}
 
 std::vector<int> bodies_of(const Scene& scene, const Mesh& mesh, const SceneNames& names) {
   std::vector<BodyEntry> entries;

@@ -82,26 +82,28 @@ void for_each_side(const Results& r, Add add) {
   }
 }
 
+void add_columns(std::vector<CsvColumn>& columns, std::initializer_list<const char*> names) {
+  for (const char* name : names) columns.push_back({name, {}, {}});
+}
+
+// Columns 0 and 2 on take the numbers, column 1 the word.
+void add_row(std::vector<CsvColumn>& columns, const std::string& word, const std::vector<double>& numbers) {
+  columns[1].words.push_back(word);
+  for (std::size_t k = 0; k < numbers.size(); ++k) columns[k == 0 ? 0 : k + 1].numbers.push_back(numbers[k]);
+}
+
 void write_contact_csv(const Results& r, const std::filesystem::path& path) {
-  std::vector<CsvColumn> columns;
-  for (const char* name : {"pair", "curve", "s", "x", "y", "u_n", "p", "gap", "sigma_n", "sigma_2"})
-    columns.push_back({name, {}, {}});
-  if (r.estimate)
-    for (const char* name : {"p_error", "p_multiplier"}) columns.push_back({name, {}, {}});
   const bool fluid = r.problem.fluid.size() > 0;
-  if (fluid) columns.push_back({"p_fluid", {}, {}});
+  std::vector<CsvColumn> columns;
+  add_columns(columns, {"pair", "curve", "s", "x", "y", "u_n", "p", "gap", "sigma_n", "sigma_2"});
+  if (r.estimate) add_columns(columns, {"p_error", "p_multiplier"});
+  if (fluid) add_columns(columns, {"p_fluid"});
   for_each_side(r, [&](double pair, const ContactSide& side) {
     for (const ContactNode& n : side.nodes) {
-      columns[1].words.push_back(side.curve);
-      std::size_t c = 0;
-      for (const double value : {pair, n.s, n.position.x(), n.position.y(), n.u_n, n.p, n.gap, n.sigma_n, n.sigma_2}) {
-        columns[c].numbers.push_back(value);
-        c += c == 0 ? 2 : 1;
-      }
-      if (fluid) columns.back().numbers.push_back(n.p_fluid);
-      if (!r.estimate) continue;
-      columns[c].numbers.push_back(n.p_error);
-      columns[c + 1].numbers.push_back(n.p_multiplier);
+      std::vector<double> row{pair, n.s, n.position.x(), n.position.y(), n.u_n, n.p, n.gap, n.sigma_n, n.sigma_2};
+      if (r.estimate) row.insert(row.end(), {n.p_error, n.p_multiplier});
+      if (fluid) row.push_back(n.p_fluid);
+      add_row(columns, side.curve, row);
     }
   });
   write_csv(path, columns);
@@ -109,41 +111,35 @@ void write_contact_csv(const Results& r, const std::filesystem::path& path) {
 
 void write_centres_csv(const Results& r, const std::filesystem::path& path) {
   std::vector<CsvColumn> columns;
-  for (const char* name : {"pair", "curve", "s", "x", "y", "p", "sigma_n", "sigma_2"})
-    columns.push_back({name, {}, {}});
+  add_columns(columns, {"pair", "curve", "s", "x", "y", "p", "sigma_n", "sigma_2"});
   for_each_side(r, [&](double pair, const ContactSide& side) {
-    for (const ContactCentre& n : side.centres) {
-      columns[1].words.push_back(side.curve);
-      std::size_t c = 0;
-      for (const double value : {pair, n.s, n.position.x(), n.position.y(), n.p, n.sigma_n, n.sigma_2}) {
-        columns[c].numbers.push_back(value);
-        c += c == 0 ? 2 : 1;
-      }
-    }
+    for (const ContactCentre& n : side.centres)
+      add_row(columns, side.curve, {pair, n.s, n.position.x(), n.position.y(), n.p, n.sigma_n, n.sigma_2});
   });
   write_csv(path, columns);
 }
 
 void write_iteration_csv(const Iteration& iteration, const std::filesystem::path& path) {
   std::vector<CsvColumn> columns;
-  for (const char* name : {"step", "kinematic", "force", "beta", "seconds"}) columns.push_back({name, {}, {}});
-  for (std::size_t k = 0; k < iteration.history.size(); ++k) {
-    const IterationStep& step = iteration.history[k];
-    std::size_t c = 0;
-    for (const double value : {double(k + 1), step.residuals.kinematic, step.residuals.force, step.beta, step.seconds})
-      columns[c++].numbers.push_back(value);
+  add_columns(columns, {"step", "kinematic", "force", "beta", "seconds"});
+  for (const IterationStep& step : iteration.history) {
+    columns[0].numbers.push_back(double(columns[0].numbers.size() + 1));
+    columns[1].numbers.push_back(step.residuals.kinematic);
+    columns[2].numbers.push_back(step.residuals.force);
+    columns[3].numbers.push_back(step.beta);
+    columns[4].numbers.push_back(step.seconds);
   }
   write_csv(path, columns);
 }
 
 void write_probes_csv(const Results& r, const std::filesystem::path& path) {
-  std::vector<CsvColumn> columns{{"probe", {}, {}}, {"body", {}, {}}};
+  std::vector<CsvColumn> columns;
+  add_columns(columns, {"probe", "body"});
   for (const auto& [name, value] : probe_figures(r.recovery.probes[0])) columns.push_back({name, {}, {}});
   for (const ProbeValue& v : r.recovery.probes) {
-    columns[0].numbers.push_back(v.place.probe);
-    columns[1].words.push_back(r.problem.mesh.bodies[r.problem.mesh.cells[v.place.in.cell].body]);
-    std::size_t c = 2;
-    for (const auto& [name, value] : probe_figures(v)) columns[c++].numbers.push_back(value);
+    std::vector<double> row{double(v.place.probe)};
+    for (const auto& [name, value] : probe_figures(v)) row.push_back(value);
+    add_row(columns, r.problem.mesh.bodies[r.problem.mesh.cells[v.place.in.cell].body], row);
   }
   write_csv(path, columns);
 }

@@ -60,6 +60,14 @@ double size_ratio(const Mesh& mesh, const Edge& edge, const SizeAt& size) {
   return (b - a).norm() / size((a + b) / 2);
 }
 
+// By half of the edges along the first boundary.
+void expect_as_asked(const Mesh& mesh, const SizeAt& size, int number) {
+  std::vector<double> ratios;
+  for (const Edge& edge : mesh.boundaries[0].edges) ratios.push_back(size_ratio(mesh, edge, size));
+  std::ranges::sort(ratios);
+  EXPECT_GE(ratios[ratios.size() / 2], 0.95) << number << ", " << ratios.size();
+}
+
 // Exact for sides that are parabolas.
 double free_area(const Mesh& mesh, int body) {
   double sum = 0;
@@ -132,11 +140,7 @@ Curve Loop(1) = {1:8}; Plane Surface(1) = {1}; Physical Surface("pad") = {1}; Ph
       for (const auto& [tip, h] : tips) least = std::min(least, h + 0.5 * (x - tip).norm());
       return std::min(least, 2.0);
     };
-    const Mesh mesh = mesher.mesh(size);
-    std::vector<double> ratios;
-    for (const Edge& edge : mesh.boundaries[0].edges) ratios.push_back(size_ratio(mesh, edge, size));
-    std::ranges::sort(ratios);
-    EXPECT_GE(ratios[ratios.size() / 2], 0.95) << i << ", " << ratios.size();
+    expect_as_asked(mesher.mesh(size), size, i);
   }
 }
 
@@ -349,11 +353,7 @@ Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Physical Surface("pad") = {1}; Ph
       for (const auto& [end, h] : ends) least = std::min(least, h + rate * (x - end).norm());
       return least;
     };
-    const Mesh mesh = mesher.mesh(size);
-    std::vector<double> ratios;
-    for (const Edge& edge : mesh.boundaries[0].edges) ratios.push_back(size_ratio(mesh, edge, size));
-    std::ranges::sort(ratios);
-    EXPECT_GE(ratios[ratios.size() / 2], 0.95) << i << ", " << ratios.size();
+    expect_as_asked(mesher.mesh(size), size, i);
   }
 }
 

@@ -35,12 +35,7 @@ TEST(Extremes, OfARingUnderPressureLieInItsBore) {
   s.boundaries = {{.key = "cut", .on = {"ring_east"}, .what = Displacement{{}, 0}},
                   {.key = "cut", .on = {"ring_west"}, .what = Displacement{0, {}}},
                   {.key = "bore", .on = {"ring_south"}, .what = Pressure{10e6}}};
-  const Results r = solve_scene(s, mesh_of({{"ring", 32, 16,
-                                             [](double a, double t) {
-                                               const double angle = std::numbers::pi / 2 * (1 - a);
-                                               return Vec2((1 + t) * Vec2(std::cos(angle), std::sin(angle)));
-                                             }}},
-                                           CellKind::quad8));
+  const Results r = solve_scene(s, mesh_of({test::ring("ring", 32, 16, {0, 0}, 1, 2, 90, 0)}, CellKind::quad8));
   const Extremes& found = r.recovery.extremes;
   EXPECT_NEAR(found.principal_max.value, 5.0 / 3 * 10e6, 2e-3 * 10e6);
   EXPECT_NEAR(found.principal_min.value, -10e6, 5e-3 * 10e6);

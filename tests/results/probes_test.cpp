@@ -62,12 +62,7 @@ Results ring(int n, const std::vector<ProbeSpec>& probes, CellKind kind = CellKi
                   {.key = "cut", .on = {"ring_west"}, .what = Displacement{0, {}}},
                   {.key = "bore", .on = {"ring_south"}, .what = Pressure{10e6}}};
   s.probes = probes;
-  return solve_scene(s, mesh_of({{"ring", 2 * n, n,
-                                  [](double a, double t) {
-                                    const double angle = std::numbers::pi / 2 * (1 - a);
-                                    return Vec2((1 + t) * Vec2(std::cos(angle), std::sin(angle)));
-                                  }}},
-                                kind));
+  return solve_scene(s, mesh_of({test::ring("ring", 2 * n, n, {0, 0}, 1, 2, 90, 0)}, kind));
 }
 
 TEST(Probes, AlongARadiusOfLamesRingConvergeFasterThanTheElementsOwnStress) {

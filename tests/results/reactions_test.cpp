@@ -74,12 +74,7 @@ TEST(Reactions, OfACantilever) {
 TEST(Reactions, CarryTheWeightOfABodyWithCurvedSides) {
   // A quarter disc of radius 2 without its inner one: area 3 pi / 4, centroid at 28 / (9 pi) from both axes. Gravity 7
   // per area; quadratic sides leave the area 1e-6 off, and the same in both sums.
-  const Mesh mesh = mesh_of({{"ring", 8, 4,
-                              [](double s, double t) {
-                                const double angle = std::numbers::pi / 2 * (1 - s);
-                                return Vec2((1 + t) * Vec2(std::cos(angle), std::sin(angle)));
-                              }}},
-                            CellKind::quad8);
+  const Mesh mesh = mesh_of({test::ring("ring", 8, 4, {0, 0}, 1, 2, 90, 0)}, CellKind::quad8);
   Scene s = one_body("ring");
   s.boundaries = {held({"ring_east"}, 0, 0)};
   s.body_forces = {{"weight", "ring", Vec2(0, -7)}};
@@ -96,12 +91,7 @@ TEST(Reactions, CarryTheWeightOfABodyWithCurvedSides) {
 TEST(Reactions, OfARingUnderPressure) {
   // Lame: the cuts of a quarter ring under the pressure p in its bore, of radius a, carry p a each, wherever the hoop
   // stress is: statics. A polygon of quadratic edges has the same chord.
-  const Mesh mesh = mesh_of({{"ring", 8, 4,
-                              [](double s, double t) {
-                                const double angle = std::numbers::pi / 2 * (1 - s);
-                                return Vec2((1 + t) * Vec2(std::cos(angle), std::sin(angle)));
-                              }}},
-                            CellKind::quad8);
+  const Mesh mesh = mesh_of({test::ring("ring", 8, 4, {0, 0}, 1, 2, 90, 0)}, CellKind::quad8);
   Scene s = one_body("ring");
   s.boundaries = {held({"ring_east"}, {}, 0), held({"ring_west"}, 0, {}), pressed("ring_south", 10e6)};
   const Results r = solve_scene(s, mesh);
