@@ -1,7 +1,6 @@
 #include "app/short_edges.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "error/wanted_sizes.hpp"
 #include "fem/edges.hpp"

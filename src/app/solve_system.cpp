@@ -126,10 +126,6 @@ Solution SystemSolver::solve_independent(const SaddlePointSystem& system) {
   return solution;
 }
 
-Solution solve_system(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet) {
-  return SystemSolver(method, system, dirichlet).solve();
-}
-
 void require_solution(const Problem& p, const Solution& solution) {
   switch (solution.status) {
     case SolveStatus::converged:

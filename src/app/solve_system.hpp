@@ -14,10 +14,12 @@ Solver solver_for(const Method& method, const SaddlePointSystem& system);
 class SystemSolver {
  public:
   /// Keeps references. f, g, the prescribed values and the rows to start from may change between solves; by the direct
-  /// solver all have one factor. `dirichlet`: as of solve_system.
+  /// solver all have one factor. `dirichlet`: of domain decomposition, n: the unknowns of the bodies that take the
+  /// displacement.
   SystemSolver(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet)
       : method_(method), system_(system), dirichlet_(dirichlet) {}
 
+  /// By the direct solver after all where nobody named feti and it does not converge.
   Solution solve();
 
  private:
@@ -32,10 +34,6 @@ class SystemSolver {
   std::unique_ptr<SaddlePointSystem> layered_;      // of one with surface layers
   std::optional<DirectSolver> direct_;
 };
-
-/// By the direct solver after all where nobody named feti and it does not converge. `dirichlet`: of domain
-/// decomposition, n: the unknowns of the bodies that take the displacement.
-Solution solve_system(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet);
 
 /// Throws SceneError, with the place, where the solver found none: what SolveStatus says of it; EdgesTooLong of a load
 /// that a finer mesh carries.

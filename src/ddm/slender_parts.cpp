@@ -1,6 +1,5 @@
 #include "ddm/slender_parts.hpp"
 
-#include <algorithm>
 #include <map>
 
 #include "ddm/solve_together.hpp"

@@ -1,7 +1,5 @@
 #include "ddm/solve_feti.hpp"
 
-#include <cmath>
-
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "ddm/closed_rows.hpp"

@@ -1,6 +1,5 @@
 #include "error/force_errors.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "error/border_overlaps.hpp"

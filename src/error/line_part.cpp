@@ -1,6 +1,5 @@
 #include "error/line_part.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "contact/surface_layer.hpp"

@@ -196,11 +196,6 @@ StressPatches LocalRecovery::recover(const Mesh& mesh, const BodyPoints& points,
   return recovery_->fit(samples);
 }
 
-StressPatches recover_patches_at(const std::vector<int>& some, const Mesh& mesh, const BodyPoints& points,
-                                 const std::vector<ElasticLaw>& laws, const MatX& fields) {
-  return LocalRecovery(some, mesh, points).recover(mesh, points, laws, fields);
-}
-
 Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, const StressPatches& patches,
                                     const CellPlace& place) {
   const Cell& cell = mesh.cells[place.cell];

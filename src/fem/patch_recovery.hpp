@@ -91,9 +91,6 @@ class LocalRecovery {
   std::optional<PatchRecovery> recovery_;
 };
 
-StressPatches recover_patches_at(const std::vector<int>& some, const Mesh& mesh, const BodyPoints& points,
-                                 const std::vector<ElasticLaw>& laws, const MatX& fields);
-
 /// The stresses of all fields at a place of a cell, a row: the patches of its vertices, blended by the linear shape
 /// functions of its corners.
 Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, const StressPatches& patches,

@@ -2,7 +2,6 @@
 
 #include <gmsh.h>
 
-#include <algorithm>
 #include <cstdlib>
 
 #include "base/each_once.hpp"

@@ -1,7 +1,6 @@
 #include "mesh/size_field.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <queue>
 
 #include "base/vectors.hpp"

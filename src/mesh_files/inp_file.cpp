@@ -1,8 +1,6 @@
 #include "mesh_files/inp_file.hpp"
 
-#include <algorithm>
 #include <cstring>
-#include <numeric>
 #include <optional>
 
 #include "mesh_files/element_types.hpp"

@@ -1,6 +1,5 @@
 #include "mesh_files/msh_file.hpp"
 
-#include <algorithm>
 #include <set>
 
 #include "mesh_files/msh_sections.hpp"

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <tuple>
 
 #include "base/errors.hpp"
 #include "base/printable.hpp"

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <sstream>
 
 #include "base/errors.hpp"

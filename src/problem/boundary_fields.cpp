@@ -1,7 +1,5 @@
 #include "problem/boundary_fields.hpp"
 
-#include <algorithm>
-
 namespace mortise {
 namespace {
 

@@ -1,8 +1,6 @@
 #include "problem/contact_pair.hpp"
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <sstream>
 #include <tuple>
 

@@ -1,6 +1,5 @@
 #include "problem/multipoint_supports.hpp"
 
-#include <cmath>
 #include <numbers>
 
 #include "base/vectors.hpp"

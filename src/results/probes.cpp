@@ -1,10 +1,5 @@
 #include "results/probes.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <sstream>
-
 #include "fem/patch_recovery.hpp"
 
 namespace mortise {

@@ -1,5 +1,4 @@
 // [[boundary]]
-#include <algorithm>
 #include <cmath>
 
 #include "scene/sections.hpp"

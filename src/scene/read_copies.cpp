@@ -1,6 +1,5 @@
 // [[copies]]
 #include <algorithm>
-#include <cmath>
 
 #include "base/printable.hpp"
 #include "model/patterns.hpp"

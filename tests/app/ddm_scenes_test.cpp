@@ -1,8 +1,6 @@
 // Domain decomposition from scene to results: the mortar method's answer, at the rates that the spectrum predicts.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "base/errors.hpp"
 #include "preprint_solvers/interface.hpp"
 #include "problem/dirichlet_neumann.hpp"

@@ -1,7 +1,6 @@
 // Which room may enter which (docs/architecture.md), held against the sources themselves.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>

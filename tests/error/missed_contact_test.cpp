@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "app/solve_scene.hpp"

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "mesh/grid.hpp"
 #include "support/two_plates.hpp"
 

@@ -110,7 +110,7 @@ TEST(RecoverPatches, AtSomePointsAreThoseOfAllPoints) {
     for (Eigen::Index i = 0; i < u.size(); ++i) u(i) = std::sin(double(i));
     const StressPatches all = recover_patches(mesh, points, sample_stresses(mesh, laws, u));
     const int corner = point_of(points, 0, mesh.cells[0].nodes[0]), other = point_of(points, 0, mesh.cells[9].nodes[1]);
-    const StressPatches some = recover_patches_at({corner, other}, mesh, points, laws, u);
+    const StressPatches some = LocalRecovery({corner, other}, mesh, points).recover(mesh, points, laws, u);
     EXPECT_EQ(some.coefficients.rows(), 12);
     for (const int p : {corner, other}) {
       EXPECT_EQ(some.terms[p], all.terms[p]);

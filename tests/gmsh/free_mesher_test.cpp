@@ -4,7 +4,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <array>
 #include <clocale>
 #include <cmath>
 #include <filesystem>

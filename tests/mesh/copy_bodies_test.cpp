@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "../mesh/grid.hpp"
 #include "support/messages.hpp"

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "app/solve_scene.hpp"
 #include "results/error_report.hpp"
 #include "results/report.hpp"
