@@ -25,30 +25,6 @@ namespace {
 // displacements drive it, p everywhere is off by that, which the nearest windows of shared duals do not tell.
 constexpr double uneven = 3;
 
-// `round_off`: what round-off of the displacements makes of stresses squared, over their stiffness.
-EnergyEstimate energy_estimate(const Mesh& mesh, const ErrorProducts& found, double round_off) {
-  const VecX errors = found.products.col(0);
-  EnergyEstimate estimate{.error = std::sqrt(errors.sum() / found.norms.sum()),
-                          .density = errors.cwiseQuotient(found.areas),
-                          .areas = found.areas,
-                          .body = 0,
-                          .part = 0,
-                          .position = Vec2::Zero()};
-  if (found.norms.sum() <= round_off * found.areas.sum()) estimate.error = 0;  // no stress
-  VecX of_body = VecX::Zero(Eigen::Index(mesh.bodies.size()));
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e) of_body(mesh.cells[e].body) += errors(e);
-  of_body.maxCoeff(&estimate.body);
-  if (errors.sum() > 0) estimate.part = of_body(estimate.body) / errors.sum();
-  double largest = -1;
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const Cell& cell = mesh.cells[e];
-    if (cell.body != estimate.body || !(errors(e) > largest)) continue;
-    largest = errors(e);
-    estimate.position = centre_of(mesh.nodes, cell);
-  }
-  return estimate;
-}
-
 // Those whose logarithm counts: from the scene's size down to the least edges that are made (wanted_sizes.cpp), 15
 // times e-fold, it adds more to p than this part of p's mean, or than what is asked.
 std::vector<SingularPoint> that_count(std::vector<SingularPoint> points, const PressureLine& line, double asked) {
@@ -67,11 +43,6 @@ double error_norm(const std::vector<PressureEstimate>& pressures, double local, 
   double error = 0;
   for (const PressureEstimate& e : pressures) error += local * e.local2 + far * e.far2;
   return std::sqrt(error);
-}
-
-double round_off_energy(const ErrorProducts& found, double stiffness_scale, const VecX& u) {
-  const double strain = 1e-12 * largest_entry(u) / std::sqrt(found.areas.minCoeff());
-  return stiffness_scale * strain * strain;
 }
 
 // Of each vertex, whether p_h swings there from node to node however short the edges, which the line's own error tells.
@@ -99,17 +70,21 @@ std::vector<char> either(std::vector<char> one, const std::vector<char>& other) 
 }
 
 // If each window keeps a dual of its own with them: windows at ends and borders, and the fluctuations.
-void add_end_windows(const std::vector<ContactPair>& pairs, std::vector<PressureEstimate>& list) {
+// Returns how many more lie beside borders.
+int add_end_windows(const std::vector<ContactPair>& pairs, std::vector<PressureEstimate>& list) {
   std::size_t count = 0;
   for (const PressureEstimate& e : list) count += e.windows.size() + 2 + e.local.borders.size();
-  if (count > most_own_duals) return;
+  if (count > most_own_duals) return 0;
+  int beside = 0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     PressureEstimate& e = list[k];
     if (e.windows.empty()) continue;
     e.fluctuation =
         pressure_fluctuation(pairs[k], e.line, either(e.excluded, swinging(e)), 2 * e.windows[0].place.reach);
     e.windows = with_end_windows(pairs[k], e.line, e.local.borders, e.excluded, std::move(e.windows));
+    beside += windows_beside_borders(e.line, e.local.borders);
   }
+  return beside;
 }
 
 // `reached`: of each pair the vertices that contact reaches.
@@ -151,7 +126,6 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
     find_excluded(spec.exclude, e);
   });
   add_missed_contact(p, solution, list);
-  add_end_windows(p.pairs, list);
   return list;
 }
 
@@ -317,7 +291,7 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
   const ErrorProducts found =
       has_duals ? products.with_duals(p, solution.u, contact_factor(system, solution), {functionals, goal.loads}, see)
                 : products.of(p, solution.u);
-  estimate.energy = energy_estimate(p.mesh, found, round_off_energy(found, system.stiffness_scale, solution.u));
+  estimate.energy = energy_estimate(p.mesh, found, system.stiffness_scale, solution.u);
   estimate.far.parts = found.products.middleCols(1, shared);
   estimate.far.overlaps = MatX::Zero(Eigen::Index(p.pairs.size()), 0);
   if (!has_duals) return;
@@ -369,7 +343,10 @@ double ErrorEstimate::half_width() const {
   double part = 0;
   for (const PressureEstimate& e : pressures) {
     if (!e.local.missed_at.empty()) part = std::max(part, 1.0);  // a contact that is there and has no width yet
-    for (const LineError::Border& border : e.local.borders) part = std::max(part, border.part);
+    for (const LineError::Border& border : e.local.borders) {
+      const double edge = e.line.s(border.edge + 1) - e.line.s(border.edge);
+      part = std::max(part, border.part * (1 + error_safety * border_motion(e, border) / edge));
+    }
   }
   return part;
 }
@@ -420,10 +397,11 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, Estimat
   memory.keep_for(p);
   std::vector<ContactReach> reached;
   estimate.pressures = lines_with_windows(p, memory, solution, options, reached);
+  const int beside_borders = add_end_windows(p.pairs, estimate.pressures);
   std::vector<JudgedLine> lines;
   for (PressureEstimate& e : estimate.pressures) lines.push_back({e.line, e.excluded, e.local});
   add_swings(p, solution.u, lines, memory.beside);
-  estimate.far.windows = share_duals(p.mesh, window_places(estimate.pressures), options.own_duals);
+  estimate.far.windows = share_duals(p.mesh, window_places(estimate.pressures), options.own_duals + beside_borders);
   GoalFunctionals goal;
   if (!p.pairs.empty())
     goal = goal_functionals(p.mesh, d, p.pairs[spec.pair], estimate.pressures[spec.pair].line, spec);

@@ -3,6 +3,7 @@
 
 #include "contact/williams.hpp"
 #include "error/contact_reach.hpp"
+#include "error/energy_estimate.hpp"
 #include "error/estimate_memory.hpp"
 #include "error/goal_estimate.hpp"
 #include "error/pressure_estimate.hpp"
@@ -11,17 +12,6 @@
 #include "model/method.hpp"
 
 namespace mortise {
-
-/// What stresses recovered by patches say of the discretisation error (fem/patch_recovery.hpp). Blind to where contact
-/// ends within an edge, and to what a load does within an element.
-struct EnergyEstimate {
-  double error;   ///< energy norm of the error over that of the stresses; 0 where these are round-off of displacements
-  VecX density;   ///< squared, of each cell by its area: energy per volume times two, stress
-  VecX areas;     ///< of each cell, length^2
-  int body;       ///< whose part of the squared error is the largest
-  double part;    ///< that part, 0 ... 1
-  Vec2 position;  ///< the cell in it with the largest share
-};
 
 /// What the bodies' error does to the windows' means, cell by cell.
 struct FarField {

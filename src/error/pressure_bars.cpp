@@ -28,6 +28,14 @@ double between_windows(const PressureEstimate& e, Eigen::Index i) {
   return far;
 }
 
+// The distance from a border at which what moves it is what the nearest window tells.
+double centre_of_window(const PressureEstimate& e, const LineError::Border& border) {
+  const double open = e.line.s(open_vertex(e.line, border));
+  const auto from_border = [&](const PressureWindow& window) { return e.line.distance(window.s, open); };
+  const PressureWindow& nearest = *std::ranges::min_element(e.windows, {}, from_border);
+  return nearest.from_border > 0 ? nearest.from_border : from_border(nearest);
+}
+
 // What the bodies' errors make of p at a vertex, stress: at most, and as a mean over where in its edge a border may be.
 struct FarError {
   double most, mean;
@@ -41,11 +49,8 @@ FarError far_at(const PressureEstimate& e, Eigen::Index i) {
   FarError found{far, far};
   if (!(far > 0)) return found;
   for (const LineError::Border& border : e.local.borders) {
-    const double open = line.s(line.p(border.edge) == 0 ? border.edge : border.edge + 1);
-    const auto from_border = [&](const PressureWindow& window) { return line.distance(window.s, open); };
-    const PressureWindow& nearest = *std::ranges::min_element(e.windows, {}, from_border);
-    const double centre = nearest.from_border > 0 ? nearest.from_border : from_border(nearest);
-    if (line.distance(line.s(i), nearest.s) > centre) continue;
+    const double open = line.s(open_vertex(line, border)), centre = centre_of_window(e, border);
+    if (line.distance(line.s(i), open) > centre) continue;
     const double quarter = far * std::sqrt(centre) / (2 * border.root),
                  r = std::max(line.distance(line.s(i), open), quarter);
     found.most = std::max(found.most, far * std::sqrt(centre / r));
@@ -54,12 +59,36 @@ FarError far_at(const PressureEstimate& e, Eigen::Index i) {
   return found;
 }
 
+// At vertices beyond a border that it may move to the p that it brings, c sqrt(d - r), of which the safety factor makes
+// a motion by its square.
+void add_beyond(const LineError::Border& border, double moved, PressureEstimate& e) {
+  const PressureLine& line = e.line;
+  const double safe = error_safety * error_safety * moved;
+  const Eigen::Index last = line.p.size() - 1, open = open_vertex(line, border), step = open == border.edge ? -1 : 1;
+  for (Eigen::Index i = open, left = last; left > 0; --left) {
+    if (line.closed && i == (step < 0 ? 0 : last)) i = last - i;  // one vertex
+    i += step;
+    if (i < 0 || i > last || !line.faced[step < 0 ? i : i - 1] || line.p(i) != 0) break;
+    const double beyond = line.distance(line.s(i), line.s(open));
+    if (beyond >= safe) break;
+    const double p = border.root * std::sqrt(safe - beyond);
+    e.bar(i) = std::max(e.bar(i), p);
+    if (!line.loaded[i] && !e.excluded[i]) e.far2 += p * p / (error_safety * error_safety) * line.h(i);
+  }
+}
+
 // Whether p is known better than to its own size.
 bool is_known(const PressureEstimate& e, Eigen::Index i) {
   return std::abs(e.line.whole(i)) > (e.local.least.size() > 0 ? e.local.least(i) : 0);
 }
 
 }  // namespace
+
+double border_motion(const PressureEstimate& e, const LineError::Border& border) {
+  if (e.windows.empty()) return 0;
+  const double far = between_windows(e, open_vertex(e.line, border));
+  return 2 * far * std::sqrt(centre_of_window(e, border)) / border.root;
+}
 
 void find_excluded(double part, PressureEstimate& e) {
   const PressureLine& line = e.line;
@@ -100,6 +129,7 @@ void find_bars(PressureEstimate& e) {
     e.p2 += p * p * line.h(i);
     known = known || is_known(e, i);
   }
+  for (const LineError::Border& border : e.local.borders) add_beyond(border, border_motion(e, border), e);
   if (!known) e.local2 = std::max(e.local2, e.p2);
 }
 

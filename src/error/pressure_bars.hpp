@@ -11,4 +11,7 @@ void find_excluded(double part, PressureEstimate& estimate);
 /// Sets the bars and the squares of an estimate whose line, local errors and far field are there.
 void find_bars(PressureEstimate& estimate);
 
+/// By how much the bodies' errors may move a border of contact, length (docs/theory.md eq. 48e).
+double border_motion(const PressureEstimate& estimate, const LineError::Border& border);
+
 }  // namespace mortise

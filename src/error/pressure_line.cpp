@@ -29,6 +29,30 @@ double border_part_of(const PressureLine& line, Eigen::Index e, bool loaded_befo
   return edge / std::max(ends ? length / 2 : length, edge);
 }
 
+// How far from a border on edge e the force of p is that of a root, (2/3) c r^(3/2), with a c^2 that stays the same to
+// a factor of two; r from the middle of the edge, as where on it contact ends is not known. No less than `least_edges`,
+// over which that matters, and no farther than the loaded piece goes.
+double root_reach(const PressureLine& line, Eigen::Index e, bool loaded_before, double least) {
+  constexpr int least_edges = 4;
+  const Eigen::Index last = line.p.size() - 1, step = loaded_before ? -1 : 1;
+  Eigen::Index i = loaded_before ? e : e + 1;
+  double r = (line.s(e + 1) - line.s(e)) / 2, force = r * std::abs(line.p(i)) * 2 / 3;
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+  for (Eigen::Index k = 1; k < last; ++k, i += step) {
+    if (line.closed && i == (step < 0 ? 0 : last)) i = last - i;  // one vertex
+    if (i + step < 0 || i + step > last || !(std::abs(line.p(i + step)) > least)) break;
+    const double length = std::abs(line.s(i + step) - line.s(i));
+    force += length * (std::abs(line.p(i)) + std::abs(line.p(i + step))) / 2;
+    r += length;
+    if (k < least_edges) continue;
+    const double square = force * force / (r * r * r);
+    smallest = std::min(smallest, square);
+    largest = std::max(largest, square);
+    if (largest > 2 * smallest) break;
+  }
+  return r;
+}
+
 void mark_loaded(const ContactPair& pair, PressureLine& line) {
   const Eigen::Index count = line.p.size();
   const double least = loaded_part * largest_entry(line.p);
@@ -178,7 +202,8 @@ LineError line_error(const PressureLine& line) {
     const Eigen::Index before = vertex(start ? e - 1 : e + 2);
     double p = std::abs(line.p(start ? e : e + 1));
     if (before >= 0 && before <= last) p = std::max(p, std::abs(line.p(before)) / std::sqrt(2.0));
-    error.borders.push_back({e, border_part_of(line, e, start, least), p / std::sqrt(line.s(e + 1) - line.s(e))});
+    error.borders.push_back({e, border_part_of(line, e, start, least), p / std::sqrt(line.s(e + 1) - line.s(e)),
+                             root_reach(line, e, start, least)});
     for (const Eigen::Index beside : {e - 1, e, e + 1, e + 2})
       if (const Eigen::Index i = vertex(beside); i >= 0 && i <= last) last_p(i) = std::max(last_p(i), p);
   }
@@ -191,6 +216,10 @@ LineError line_error(const PressureLine& line) {
     error.border[i] = 1;
   }
   return error;
+}
+
+Eigen::Index open_vertex(const PressureLine& line, const LineError::Border& border) {
+  return std::abs(line.p(border.edge)) < std::abs(line.p(border.edge + 1)) ? border.edge : border.edge + 1;
 }
 
 VecX LineError::pointwise(const PressureLine& line) const {

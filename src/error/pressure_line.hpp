@@ -80,6 +80,7 @@ struct LineError {
     Eigen::Index edge;  ///< on which contact ends
     double part;        ///< its length over half the width of the contact beside it
     double root;        ///< p rises as this times the root of the distance, stress / sqrt(length)
+    double reach;       ///< as far as it does so, length
   };
   std::vector<Border> borders;
   /// What p is off by at least, of vertices at which it goes as a small power of the distance, or that hardly face the
@@ -96,6 +97,9 @@ struct LineError {
 };
 
 LineError line_error(const PressureLine& line);
+
+/// The vertex beyond a border.
+Eigen::Index open_vertex(const PressureLine& line, const LineError::Border& border);
 
 /// Raises `least` where the edges of a vertex hardly face the other side: its p is that of the nearest free node (or
 /// what little they face makes of it), and is known no better than to its own size.

@@ -10,7 +10,7 @@ namespace mortise {
 namespace {
 
 constexpr int windows_a_piece = 3, most_windows = 9;
-constexpr double half_width = window_width / 2;  // of the distance between two centres
+constexpr double apart = 3;  // by which windows beside a border lie farther from it, each than the one before
 
 }  // namespace
 
@@ -69,20 +69,20 @@ LoadedPlace loaded_place(const LoadedLength& loaded, double t) {
 }
 
 // About that place, not beyond what is not loaded; nothing where it is narrower than the mesh, or where nothing is
-// faced.
-std::optional<PressureWindow> window_at(const ContactPair& pair, const PressureLine& line, const LoadedLength& loaded,
-                                        const LoadedPlace& centre) {
+// faced. `reach`: as of WindowPlace.
+std::optional<PressureWindow> window_at(const ContactPair& pair, const PressureLine& line, const LoadedPlace& centre,
+                                        double reach) {
   const Eigen::Index c = centre.edge;
   const double length = line.s(c + 1) - line.s(c), part = centre.part;
   PressureWindow window{.s = line.s(c) + part * length,
-                        .place = {(1 - part) * line.position[c] + part * line.position[c + 1], loaded.distance / 2},
+                        .place = {(1 - part) * line.position[c] + part * line.position[c + 1], reach},
                         .weights = VecX::Zero(pair.coupling.B.rows())};
   double mass = 0, inverse_roots = 0;
   for (const ContactPoint& point : pair.points) {
     const Eigen::Index e = point.edge;
     if (!is_loaded(line, e)) continue;
     const double r = line.distance(line.s(e) + (line.s(e + 1) - line.s(e)) * (1 + point.xi) / 2, window.s);
-    const double z = r / (half_width * loaded.distance);
+    const double z = r / (window_width * reach);
     if (z >= 1) continue;
     const double weight = std::pow(1 - z * z, 3) * point.dA;
     mass += weight;
@@ -95,14 +95,43 @@ std::optional<PressureWindow> window_at(const ContactPair& pair, const PressureL
   return window;
 }
 
+// The place at a distance from the vertex beyond a border, if the piece that ends there goes so far.
+std::optional<LoadedPlace> within(const PressureLine& line, const LineError::Border& border, double r) {
+  const Eigen::Index edges = line.p.size() - 1, step = open_vertex(line, border) == border.edge ? 1 : -1;
+  Eigen::Index e = border.edge;
+  for (Eigen::Index left = edges; left > 0 && e >= 0 && e < edges && is_loaded(line, e); --left) {
+    const double length = line.s(e + 1) - line.s(e);
+    if (r <= length) return LoadedPlace{e, step > 0 ? r / length : 1 - r / length};
+    r -= length;
+    e += step;
+    if (line.closed) e = (e + edges) % edges;
+  }
+  return {};
+}
+
+// Distances from a border of the windows between it and those that are `distance` apart, the nearest of which is half
+// of that away: from where p no longer is a root's.
+std::vector<double> beside_border(const LineError::Border& border, double distance) {
+  std::vector<double> all;
+  for (double r = border.reach / 2; r * std::sqrt(apart) < distance / 2; r *= apart) all.push_back(r);
+  return all;
+}
+
 }  // namespace
+
+int windows_beside_borders(const PressureLine& line, const std::vector<LineError::Border>& borders) {
+  const double distance = loaded_length(line).distance;
+  std::size_t count = 0;
+  for (const LineError::Border& border : borders) count += beside_border(border, distance).size();
+  return int(count);
+}
 
 std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line) {
   const LoadedLength loaded = loaded_length(line);
   std::vector<PressureWindow> windows;
   if (!(loaded.distance > 0)) return windows;
   for (int k = 0; k < loaded.count; ++k)
-    if (auto window = window_at(pair, line, loaded, loaded_place(loaded, (k + 0.5) * loaded.distance))) {
+    if (auto window = window_at(pair, line, loaded_place(loaded, (k + 0.5) * loaded.distance), loaded.distance / 2)) {
       window->from_border = 0;
       windows.push_back(std::move(*window));
     }
@@ -116,8 +145,8 @@ std::vector<PressureWindow> with_end_windows(const ContactPair& pair, const Pres
   const LoadedLength loaded = loaded_length(line);
   const Eigen::Index last = line.p.size() - 1;
   if (!(loaded.distance > 0)) return windows;
-  const auto add = [&](const LoadedPlace& centre, bool is_border) {
-    auto window = window_at(pair, line, loaded, centre);
+  const auto add = [&](const LoadedPlace& centre, double reach, bool is_border) {
+    auto window = window_at(pair, line, centre, reach);
     if (!window) return;
     if (!is_border) window->from_border = 0;
     windows.push_back(std::move(*window));
@@ -125,11 +154,16 @@ std::vector<PressureWindow> with_end_windows(const ContactPair& pair, const Pres
   const auto add_end = [&](Eigen::Index edge, double part) {
     const Eigen::Index end = edge + Eigen::Index(part);
     if (!line.closed && line.loaded[edge] && line.loaded[edge + 1] && !excluded[end] && line.p(end) != 0)
-      add({edge, part}, false);
+      add({edge, part}, loaded.distance / 2, false);
   };
   add_end(0, 0);
   add_end(last - 1, 1);
-  for (const LineError::Border& border : borders) add({border.edge, line.p(border.edge) == 0 ? 0.0 : 1.0}, true);
+  for (const LineError::Border& border : borders) {
+    const LoadedPlace open{border.edge, double(open_vertex(line, border) - border.edge)};
+    add(open, std::min(loaded.distance, border.reach) / 2, true);
+    for (const double r : beside_border(border, loaded.distance))
+      if (const auto centre = within(line, border, r)) add(*centre, r, false);
+  }
   std::ranges::sort(windows, {}, &PressureWindow::s);
   return windows;
 }

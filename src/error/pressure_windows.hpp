@@ -23,10 +23,16 @@ struct PressureWindow {
 std::vector<PressureWindow> pressure_windows(const ContactPair& pair, const PressureLine& line);
 
 /// With windows of half the width at the ends of a line that is loaded up to them, unless they are left out, and at the
-/// borders of contact: there p may be off by more than anywhere within. `borders`: LineError::borders.
+/// borders of contact: there p may be off by more than anywhere within. Where p is a root's over a shorter length than
+/// the windows' distance, that at the border is no wider than this allows, and more of them, each three times as far
+/// away as the one before, lead from there to the others: what moves the border is large over that length alone.
+/// `borders`: LineError::borders.
 std::vector<PressureWindow> with_end_windows(const ContactPair& pair, const PressureLine& line,
                                              const std::vector<LineError::Border>& borders,
                                              const std::vector<char>& excluded, std::vector<PressureWindow> windows);
+
+/// How many of these lie between borders and the windows that are even distances apart.
+int windows_beside_borders(const PressureLine& line, const std::vector<LineError::Border>& borders);
 
 /// Adds weight times -lambda at a place of the multiplier side, as the rows' values make it, to `weights` (the
 /// pair's rows).

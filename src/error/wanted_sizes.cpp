@@ -28,7 +28,7 @@ class WindowNorm {
  public:
   explicit WindowNorm(const ErrorEstimate& estimate) : windows_(estimate.far.windows) {
     for (const PressureEstimate& e : estimate.pressures)
-      lengths_.insert(lengths_.end(), e.windows.size(), e.line.h.sum() / double(e.windows.size()));
+      for (const PressureWindow& window : e.windows) lengths_.push_back(2 * window.place.reach);
     for (const PressureEstimate& e : estimate.pressures)
       if (e.fluctuation) of_fluctuations_.push_back(e.fluctuation->length);
   }

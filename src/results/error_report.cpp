@@ -10,6 +10,7 @@
 #include "base/printable.hpp"
 #include "contact/singular_points.hpp"
 #include "error/force_errors.hpp"
+#include "error/length_error.hpp"
 #include "error/pressure_form.hpp"
 #include "solve/threads.hpp"
 
@@ -140,10 +141,8 @@ std::vector<Vec2> centres_of(const Results& r) {
 void put_force_bars(const std::vector<Eigen::Vector3d>& errors, Results& r) {
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     r.recovery.contacts[k].force_error = errors[k];
-    const PressureEstimate& e = r.estimate->pressures[k];
-    double length = 0;
-    for (const LineError::Border& border : e.local.borders) length += e.line.s(border.edge + 1) - e.line.s(border.edge);
-    r.recovery.contacts[k].length_error = length;
+    r.recovery.contacts[k].length_error =
+        length_error(r.problem, r.problem.pairs[k], r.solution.u, r.estimate->pressures[k]);
   }
 }
 

@@ -157,9 +157,46 @@ TEST(Bars, OfThePeakIsThatOfTheLargestPressureOfAllPairsOrWhatMayBeMore) {
   EXPECT_NEAR(all.peak(), (4.9 + 4 - 5) / 5, 1e-15);
   all.pressures[1].line.p(2) = 8;
   EXPECT_NEAR(all.peak(), 4.0 / 8, 1e-15);
-  all.pressures[0].local.borders = {{.edge = 0, .part = 0.1}, {.edge = 3, .part = 0.5}, {.edge = 4, .part = 0.2}};
-  all.pressures[1].local.borders = {{.edge = 1, .part = 0.3}};
+  const auto border = [](Eigen::Index edge, double part) {
+    return LineError::Border{.edge = edge, .part = part, .root = 1, .reach = 1};
+  };
+  for (PressureEstimate& e : all.pressures) e.far.setZero();
+  all.pressures[0].local.borders = {border(0, 0.1), border(3, 0.5), border(4, 0.2)};
+  all.pressures[1].local.borders = {border(1, 0.3)};
   EXPECT_EQ(all.half_width(), 0.5);
+  all.pressures[1].far.setConstant(1);
+  const double moved = border_motion(all.pressures[1], all.pressures[1].local.borders[0]);
+  EXPECT_NEAR(moved, 2 * std::sqrt(0.5), 1e-15);  // vertex 1, at 1, is open; the window at 1.5
+  EXPECT_NEAR(all.half_width(), 0.3 * (1 + error_safety * moved / 2), 1e-15);
+}
+
+// A border that moves out by d brings p = c sqrt(d - r) to vertices that were open; so far its bars reach.
+TEST(Bars, BeyondABorderAreThoseOfTheRootThatItBrings) {
+  PressureEstimate e = made_by_hand();
+  for (const double s : {8.0, 9.0, 20.0}) {
+    e.line.s.conservativeResize(e.line.s.size() + 1);
+    e.line.s(e.line.s.size() - 1) = s;
+    e.line.position.emplace_back(s, 0);
+    e.line.faced.push_back(1);
+    e.line.loaded.push_back(0);
+    e.excluded.push_back(0);
+  }
+  e.line.p.conservativeResizeLike(VecX::Zero(9));
+  e.line.h.conservativeResizeLike(VecX::Ones(9));
+  e.local = line_error(e.line);
+  const double c = 2, d = 1;
+  e.local.l2.setZero();
+  e.far.setConstant(c * d / (2 * std::sqrt(2.5)));
+  ASSERT_EQ(e.local.borders.size(), 1U);
+  EXPECT_NEAR(border_motion(e, e.local.borders[0]), d, 1e-12);
+  find_bars(e);
+  const double safe = error_safety * error_safety * d;
+  for (const int i : {6, 7, 8})
+    EXPECT_NEAR(e.bar(i), c * std::sqrt(std::max(0.0, safe - (e.line.s(i) - 7))), 1e-12) << i;
+  const double beyond = e.far2;
+  e.excluded[6] = e.excluded[7] = 1;
+  find_bars(e);
+  EXPECT_NEAR(beyond - e.far2, c * c * (safe - 1 + safe - 2) / (error_safety * error_safety), 1e-12);
 }
 
 TEST(Bars, WhatLiesBesideAPointWithoutLimitIsLeftOut) {
@@ -204,6 +241,34 @@ TEST(PressureLine, LengthsAreHalvesOfTheEdgesAndTheOneEdgeOfAnEnd) {
     EXPECT_EQ(none.p.cwiseAbs().maxCoeff(), 0);
     EXPECT_EQ(none.loaded, std::vector<char>(line.p.size(), 0));
   }
+}
+
+// p = c sqrt(r) over half of the contact of cylinders, and over a bump beside a long piece of little p as far as the
+// bump.
+TEST(PressureWindows, BesideABorderAreAsShortAsPIsARoot) {
+  PressureLine line{.s = VecX::LinSpaced(2001, 0, 20), .p = VecX::Zero(2001), .faced = std::vector<char>(2000, 1)};
+  const auto reach = [&](auto p) {
+    for (Eigen::Index i = 0; i <= 2000; ++i) line.p(i) = p(15.005 - line.s(i));  // in the middle of an edge
+    line.loaded.assign(2001, 0);
+    for (Eigen::Index i = 0; i < 2000; ++i) line.loaded[i] = line.p(i) > 0;
+    line.h = VecX::Constant(2001, 0.01);
+    line.position.assign(2001, Vec2::Zero());
+    const LineError error = line_error(line);
+    EXPECT_EQ(error.borders.size(), 1U);
+    return error.borders[0];
+  };
+  const auto bump = [](double r) { return r < 0 ? 0 : std::sqrt(r * std::max(0.0, 2 - r)) + 1e-3 * std::sqrt(r); };
+  const LineError::Border hertz = reach([](double r) { return r < 0 ? 0 : std::sqrt(r * std::max(0.0, 30 - r)); });
+  EXPECT_GT(hertz.reach, 0.9 * 15);
+  EXPECT_EQ(windows_beside_borders(line, {hertz}), 0);  // theirs are 5 apart
+  const LineError::Border beam = reach(bump);
+  EXPECT_NEAR(beam.reach, 1.6, 0.05);
+  EXPECT_EQ(windows_beside_borders(line, {beam}), 1);  // at 0.8; 2.4 sqrt(3) is farther than half of 5
+  const LineError::Border thin = reach([&](double r) { return bump(10 * r); });
+  EXPECT_NEAR(thin.reach, 0.16, 0.03);
+  EXPECT_EQ(windows_beside_borders(line, {thin}), 3);
+  const LineError::Border closing = reach([](double r) { return r < 0 ? 0 : std::sqrt(r * (r + 0.5)); });
+  EXPECT_LT(closing.reach, 1);
 }
 
 // A window over a border has the mean of 1 / sqrt(r) of its weight (1 - z^2)^3 over half of it, at 0.1212 of its width.

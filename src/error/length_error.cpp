@@ -1,0 +1,66 @@
+#include "error/length_error.hpp"
+
+#include <algorithm>
+
+#include "contact/least_gap.hpp"
+#include "error/goal_estimate.hpp"
+#include "error/pressure_bars.hpp"
+
+namespace mortise {
+namespace {
+
+// Of each edge the widest gap.
+VecX widest_gaps(const ContactPair& pair, const VecX& u) {
+  VecX gaps = VecX::Zero(Eigen::Index(pair.multiplier.edges.size()));
+  for (const ContactPoint& point : pair.points) gaps(point.edge) = std::max(gaps(point.edge), gap_at(u, pair, point));
+  return gaps;
+}
+
+// Edges that carry p, but no more than it may be off by.
+void add_hardly_pressed(const PressureEstimate& e, std::vector<char>& undecided) {
+  const PressureLine& line = e.line;
+  const auto hardly = [&](Eigen::Index i) { return line.p(i) > 0 && !e.excluded[i] && line.p(i) <= e.bar(i); };
+  for (Eigen::Index edge = 0; edge + 1 < line.p.size(); ++edge)
+    if (line.faced[edge] && hardly(edge) && hardly(edge + 1)) undecided[edge] = 1;
+}
+
+// Edges beyond a border that what p is off by along the line there would close.
+void add_hardly_open(const PressureEstimate& e, const LineError::Border& border, double modulus, const VecX& gaps,
+                     std::vector<char>& undecided) {
+  const PressureLine& line = e.line;
+  const Eigen::Index last = line.p.size() - 1, open = open_vertex(line, border), step = open == border.edge ? -1 : 1;
+  const double off = error_safety * e.local.pointwise(line)(open);
+  double length = 0;
+  for (Eigen::Index i = open, left = last; left > 0; --left, i += step) {
+    if (line.closed && i == (step < 0 ? 0 : last)) i = last - i;  // one vertex
+    const Eigen::Index edge = step < 0 ? i - 1 : i;
+    if (edge < 0 || edge >= last || !line.faced[edge] || line.p(i + step) != 0) return;
+    length += line.s(edge + 1) - line.s(edge);
+    if (modulus * gaps(edge) > 2 * length * off) return;
+    undecided[edge] = 1;
+  }
+}
+
+}  // namespace
+
+double length_error(const Problem& problem, const ContactPair& pair, const VecX& u, const PressureEstimate& e) {
+  const PressureLine& line = e.line;
+  const std::vector<ElasticLaw>& laws = problem.discretisation.laws;
+  std::vector<char> undecided(line.faced.size(), 0);
+  double error = 0;
+  for (const LineError::Border& border : e.local.borders) {
+    undecided[border.edge] = 1;
+    error += error_safety * border_motion(e, border);
+  }
+  if (pair.spec.condition == Condition::unilateral && !pair.spec.stiffness) {
+    const double modulus = contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
+    const VecX gaps = widest_gaps(pair, u);
+    add_hardly_pressed(e, undecided);
+    for (const LineError::Border& border : e.local.borders) add_hardly_open(e, border, modulus, gaps, undecided);
+  }
+  for (std::size_t edge = 0; edge < undecided.size(); ++edge)
+    if (undecided[edge]) error += line.s(Eigen::Index(edge) + 1) - line.s(Eigen::Index(edge));
+  return error;
+}
+
+}  // namespace mortise
