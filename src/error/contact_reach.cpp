@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/least_gap.hpp"
 #include "fem/edges.hpp"
 
 namespace mortise {
@@ -14,14 +15,35 @@ Reach reach_of(bool closed, bool before, bool after, bool faced_before, bool fac
   return before || after ? Reach{before, after} : Reach{faced_before, faced_after};
 }
 
-std::vector<Reach> by_vertices(const PressureLine& line) {
+// Of each edge whether the sides overlap at the contact points nearest to its start and its end.
+std::vector<std::array<bool, 2>> overlaps_at_ends(const ContactPair& pair, const VecX& u) {
+  std::vector<std::array<bool, 2>> overlaps(pair.multiplier.edges.size(), {false, false});
+  std::vector<Vec2> nearest(overlaps.size(), Vec2(1, -1));
+  for (const ContactPoint& point : pair.points)
+    for (const int end : {0, 1}) {
+      double& xi = nearest[point.edge](end);
+      if (end == 0 ? point.xi >= xi : point.xi <= xi) continue;
+      xi = point.xi;
+      overlaps[point.edge][end] = gap_at(u, pair, point) <= 0;
+    }
+  return overlaps;
+}
+
+// A row holds the gap in the mean of its edges: at a corner beyond which it is wide the row may be open though the
+// sides are closed, and overlap, up to the corner.
+std::vector<Reach> by_vertices(const ContactPair& pair, const PressureLine& line, const VecX& u) {
+  const std::vector<std::array<bool, 2>> overlaps = overlaps_at_ends(pair, u);
   const Eigen::Index last = line.p.size() - 1;
   const auto closed = [&](Eigen::Index i) { return line.p(i) != 0; };
   std::vector<Reach> reach;
   for (Eigen::Index i = 0; i <= last; ++i) {
-    const auto [before, after] = line.faced_beside(i);
-    reach.push_back(reach_of(closed(i), before && closed(i > 0 ? i - 1 : last - 1),
-                             after && closed(i < last ? i + 1 : 1), before, after));
+    const auto [faced_before, faced_after] = line.faced_beside(i);
+    const Eigen::Index edge_before = i > 0 ? i - 1 : last - 1, edge_after = i < last ? i : 0;
+    const bool before = faced_before && closed(edge_before), after = faced_after && closed(edge_after + 1);
+    if (closed(i))
+      reach.push_back(reach_of(true, before, after, faced_before, faced_after));
+    else
+      reach.push_back({before && overlaps[edge_before][1], after && overlaps[edge_after][0]});
   }
   return reach;
 }
@@ -72,7 +94,7 @@ void add_found(const Mesh& mesh, const Curve& curve, const std::vector<Vec2>& pl
     const std::size_t e = std::min(i, curve.edges.size() - 1);
     const Vec2 x = mesh.nodes.row(curve.edges[e].nodes[i == e ? 0 : 1]).transpose();
     const double near = one_place * edge_length(mesh.nodes, curve.edges[e]);
-    if (std::ranges::any_of(places, [&](const Vec2& place) { return (place - x).norm() < near; }))
+    if (!reach[i].any() && std::ranges::any_of(places, [&](const Vec2& place) { return (place - x).norm() < near; }))
       reach[i] = {true, true};
   }
 }
@@ -88,7 +110,7 @@ std::array<std::string, 2> curve_names(const Mesh& mesh, const ContactPair& pair
   return {mesh.boundaries[pair.multiplier.boundary].name, mesh.boundaries[pair.opposite.boundary].name};
 }
 
-ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const PressureLine& line,
+ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& u,
                            const std::vector<FoundPoint>& found) {
   std::vector<Vec2> places;
   const auto [multiplier, opposite] = curve_names(mesh, pair);
@@ -97,7 +119,7 @@ ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const Pres
     if ((first == multiplier && second == opposite) || (first == opposite && second == multiplier))
       places.push_back(point.position);
   }
-  ContactReach reach{by_vertices(line), by_points(pair, line)};
+  ContactReach reach{by_vertices(pair, line, u), by_points(pair, line)};
   add_found(mesh, pair.multiplier, places, reach[0]);
   add_found(mesh, pair.opposite, places, reach[1]);
   return reach;

@@ -15,9 +15,10 @@ struct FoundPoint {
   bool is(const FoundPoint& other) const;
 };
 
-/// On the multiplier side by p at the vertices and their neighbours; on the opposite side by p where the normals meet
-/// it. Vertices at places of `found` count as reached from both sides.
-ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const PressureLine& line,
+/// On the multiplier side by p at the vertices and their neighbours, and where the sides overlap beside a vertex up to
+/// it; on the opposite side by p where the normals meet it. Vertices at places of `found` count as reached from both
+/// sides. `u`: displacements.
+ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& u,
                            const std::vector<FoundPoint>& found);
 
 /// The pair's names as FoundPoint has them.

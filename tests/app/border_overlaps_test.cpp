@@ -107,5 +107,44 @@ TEST(BorderOverlaps, PressureIsRightWhereAnotherContactIsLessThanAnEdge) {
   }
 }
 
+// A punch with a chamfer, half of it, pressed on a block.
+Scene chamfered(const TemporaryFolder& folder, std::mt19937& random) {
+  std::uniform_real_distribution<double> any(0, 1);
+  const double width = 15 + 5 * any(random), height = 5 + 15 * any(random), chamfer = 1 + 2 * any(random),
+               angle = 0.2 + 0.6 * any(random), young = 1000 * std::pow(7, any(random));
+  std::ostringstream geo, toml;
+  geo << "Point(1) = {0, -11, 0}; Point(2) = {34, -11, 0}; Point(3) = {34, 0, 0}; Point(4) = {0, 0, 0};\n"
+      << "Point(5) = {0, 0, 0}; Point(6) = {" << width << ", 0, 0}; Point(7) = {" << width + chamfer << ", "
+      << chamfer * std::tan(angle) << ", 0};\n"
+      << "Point(8) = {" << width + chamfer << ", " << height << ", 0}; Point(9) = {0, " << height << ", 0};\n"
+      << "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Line(5) = {5, 6}; Line(6) = {6, 7};\n"
+      << "Line(7) = {7, 8}; Line(8) = {8, 9}; Line(9) = {9, 5}; Curve Loop(1) = {1 ... 4}; Plane Surface(1) = {1};\n"
+      << "Curve Loop(2) = {5 ... 9}; Plane Surface(2) = {2}; Physical Surface(\"base\") = {1};\n"
+      << "Physical Surface(\"punch\") = {2}; Physical Curve(\"ground\") = {1}; Physical Curve(\"top\") = {3};\n"
+      << "Physical Curve(\"foot\") = {5, 6}; Physical Curve(\"head\") = {8}; Physical Curve(\"middle\") = {4, 9};\n";
+  folder.write("chamfered.geo", geo.str());
+  toml << "mesh.file = \"chamfered.geo\"\nmaterials.b = { young = 1000, poisson = 0.3 }\n"
+       << "materials.p = { young = " << young << ", poisson = 0.3 }\n"
+       << "bodies = { base = \"b\", punch = \"p\" }\n"
+       << "contact = [{ between = [\"foot\", \"top\"], multipliers_on = \"foot\" }]\n"
+       << "boundary = [{ on = \"ground\", displacement = { y = 0 } }, { on = \"head\", pressure = 0.3 },\n"
+       << "  { on = \"middle\", displacement = { x = 0 } }]\naccuracy.value = 0.01\n";
+  return read_scene(folder.write("chamfered.toml", toml.str()));
+}
+
+// The row at the corner, half of which is the chamfer's gap, is open, and p is zero there however short the edges.
+TEST(BorderOverlaps, APunchStandsOnTheCornerBeforeItsChamfer) {
+  for (int seed = 1; seed <= 5; ++seed) {
+    const TemporaryFolder folder;
+    std::mt19937 random(seed);
+    const auto r = solve_to_accuracy(chamfered(folder, random));
+    ASSERT_TRUE(r) << seed;
+    EXPECT_TRUE(r->accuracy->reached()) << seed;
+    EXPECT_LE(r->accuracy->solves.size(), 4u) << seed;
+    ASSERT_EQ(r->estimate->pressures[0].singular.size(), 1u) << seed;
+    EXPECT_NEAR(r->estimate->pressures[0].singular[0].pressure_exponent, 0.5, 0.3) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace mortise::test

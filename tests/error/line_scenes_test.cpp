@@ -151,7 +151,7 @@ TEST(GapMisfit, OfAnEvenGapIsNone) {
 TEST(ContactReach, IsWhereTheSidesFaceEachOtherAndAreClosed) {
   const Results r = solved(blocks(0.25, 0), {});
   const PressureLine& line = r.estimate->pressures[0].line;
-  const ContactReach reach = contact_reach(r.problem.mesh, r.problem.pairs[0], line, {});
+  const ContactReach reach = contact_reach(r.problem.mesh, r.problem.pairs[0], line, r.solution.u, {});
   ASSERT_EQ(reach[1].size(), 11u);
   for (int i = 0; i <= 10; ++i) EXPECT_EQ(reach[1][i].any(), i <= 8) << i;
   for (const Reach& at : reach[0]) EXPECT_TRUE(at.any());
@@ -162,8 +162,8 @@ TEST(ContactReach, IsNotLostAtAPlaceThatWasFoundBefore) {
   const PressureLine& line = r.estimate->pressures[0].line;
   const FoundPoint found{.between = {"seat", "foot"}, .position = {0, 0.5}},
       other{.between = {"a", "b"}, .position = {0, 0.5}};
-  EXPECT_TRUE(contact_reach(r.problem.mesh, r.problem.pairs[0], line, {found})[1].back().any());
-  EXPECT_FALSE(contact_reach(r.problem.mesh, r.problem.pairs[0], line, {other})[1].back().any());
+  EXPECT_TRUE(contact_reach(r.problem.mesh, r.problem.pairs[0], line, r.solution.u, {found})[1].back().any());
+  EXPECT_FALSE(contact_reach(r.problem.mesh, r.problem.pairs[0], line, r.solution.u, {other})[1].back().any());
 }
 
 // p near a kink of 0.02 goes as E* turn slide / 2 pi r: listed; of a turn of 1e-7 nothing is seen.
