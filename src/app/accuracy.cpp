@@ -228,12 +228,20 @@ class Loop {
       }
   }
 
+  // By more than round-off.
   static bool is_pressed(const Results& r) {
-    return r.status == Status::not_converged || largest_entry(r.solution.lambda) > 0;
+    return r.status == Status::not_converged ||
+           std::ranges::any_of(r.estimate->pressures, [](const PressureEstimate& e) { return e.line.p.any(); });
+  }
+
+  static bool touches(const Results& r, const ContactPair& pair) {
+    const auto first = r.solution.active.begin() + pair.first_row;
+    return std::any_of(first, first + pair.coupling.B.rows(), [](char closed) { return closed != 0; });
   }
 
   // Whether nothing is pressed, between the points of this mesh too: a round body may have come through the other where
-  // no edge is as short as the contact. Keeps where the curves are nearest.
+  // no edge is as short as the contact. A pair that touches all the same moves a body that nothing holds back. Keeps
+  // where the curves are nearest.
   bool is_open(const Results& r, std::size_t k) {
     std::vector<LeastGap>& before = gaps_[k];
     if (is_pressed(r)) {
@@ -244,7 +252,8 @@ class Loop {
     for (const ContactPair& pair : r.problem.pairs) gaps.push_back(least_gap(r.problem.mesh.nodes, r.solution.u, pair));
     const double round_off = 1e-9 * largest_entry(r.solution.u);
     bool open = gaps.size() == before.size();
-    for (std::size_t i = 0; i < gaps.size() && open; ++i) open = stays_open(before[i], gaps[i], round_off);
+    for (std::size_t i = 0; i < gaps.size() && open; ++i)
+      open = stays_open(before[i], gaps[i], round_off) || touches(r, r.problem.pairs[i]);
     before = std::move(gaps);
     return open;
   }

@@ -1,8 +1,10 @@
 // Bodies that nothing but contact holds are in balance under its forces alone, whichever side has the multipliers.
 #include <gtest/gtest.h>
 
+#include <random>
 #include <sstream>
 
+#include "app/accuracy.hpp"
 #include "app/solve_scene.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -73,6 +75,41 @@ TEST(RollerBalance, DiscsInARowPassOnTheWholeForceWhicheverSideHasTheMultipliers
       for (const ContactResults& contact : r.recovery.contacts)
         EXPECT_NEAR(std::abs(contact.force.x()), 3e-6, 3e-6 * 1e-7);
     }
+}
+
+// A slab between a base and a punch that comes down, farther than to the slab, less far than both gaps.
+Scene pushed_slab(const TemporaryFolder& folder, std::mt19937& random) {
+  std::uniform_real_distribution<double> any(0, 1);
+  const double below = 1e-3 * (1 + any(random)), above = 1e-2 * (1 + any(random)),
+               down = above + below * (0.05 + 0.9 * any(random));
+  std::ostringstream geo, toml;
+  geo.precision(17);
+  geo << "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, -10, 0, 40, 10};\n"
+      << "Rectangle(2) = {5, " << below << ", 0, 30, 10}; Rectangle(3) = {10, " << 10 + below + above
+      << ", 0, 20, 10};\n"
+      << "Physical Surface(\"base\") = {1}; Physical Surface(\"slab\") = {2}; Physical Surface(\"punch\") = {3};\n"
+      << "Physical Curve(\"ground\") = {1}; Physical Curve(\"top\") = {3}; Physical Curve(\"foot\") = {5};\n"
+      << "Physical Curve(\"side\") = {8}; Physical Curve(\"slab_top\") = {7}; Physical Curve(\"punch_foot\") = {9};\n"
+      << "Physical Curve(\"head\") = {11};\n";
+  folder.write("slab.geo", geo.str());
+  toml << "mesh.file = \"slab.geo\"\nmaterials.steel = { young = 210e3, poisson = 0.3 }\nbodies = { \"*\" = \"steel\" "
+          "}\n"
+       << "boundary = [{ on = \"ground\", displacement = { x = 0, y = 0 } },\n"
+       << "  { on = \"side\", displacement = { x = 0 } }, { on = \"head\", displacement = { x = 0, y = " << -down
+       << " } }]\ncontact = [{ between = [\"foot\", \"top\"] }, { between = [\"punch_foot\", \"slab_top\"] }]\n"
+       << "accuracy.value = 0.01\n";
+  return read_scene(folder.write("slab.toml", toml.str()));
+}
+
+TEST(RollerBalance, ABodyThatNothingHoldsBackIsMovedByNoPressure) {
+  std::mt19937 random(7);
+  for (int k = 0; k < 4; ++k) {
+    const TemporaryFolder folder;
+    const auto r = solve_to_accuracy(pushed_slab(folder, random));
+    ASSERT_TRUE(r) << k;
+    EXPECT_TRUE(r->accuracy->reached()) << k << r->accuracy->reason;
+    EXPECT_LT(r->recovery.contacts[1].p_max, 1e-15 * 210e3) << k;  // round-off of the modulus
+  }
 }
 
 }  // namespace
