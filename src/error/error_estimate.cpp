@@ -295,13 +295,19 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
   estimate.far.parts = found.products.middleCols(1, shared);
   estimate.far.overlaps = MatX::Zero(Eigen::Index(p.pairs.size()), 0);
   if (!has_duals) return;
-  const BorderOverlaps overlaps(p, solution, estimate.pressures);
-  estimate.far.overlaps = overlaps.changes(each_window(p.pairs, estimate.pressures, system.B.rows()), {});
+  const MatX windows = each_window(p.pairs, estimate.pressures, system.B.rows());
+  const bool own = estimate.far.windows.own();  // a dual a pair is no more than these; where they are shared it is
+  std::optional<BorderOverlaps> overlaps;
+  if (own || goals + more > 0) overlaps.emplace(p, solution, estimate.pressures);
+  const auto changed = [&](const MatX& rows, const MatX& loads) -> MatX {
+    return overlaps ? overlaps->changes(rows, loads) : MatX::Zero(Eigen::Index(p.pairs.size()), rows.cols());
+  };
+  estimate.far.overlaps = own ? changed(windows, {}) : MatX::Zero(Eigen::Index(p.pairs.size()), windows.cols());
   if (goals > 0) {
     estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
     estimate.goal->lines =
         line_parts(p.pairs, estimate.pressures, kept.rightCols(goals), options.spec.pair, goal.opening);
-    add_overlaps(overlaps.changes(goal.rows, goal.loads), estimate.goal->lines);
+    add_overlaps(changed(goal.rows, goal.loads), estimate.goal->lines);
   }
   estimate.data_works.resize(works.rows(), shared + goals);
   estimate.data_works.leftCols(shared) = works.leftCols(shared);
@@ -313,7 +319,7 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
   estimate.also = {.z = kept.leftCols(more),
                    .sums = off_by(found.products.middleCols(1 + shared, more)) +
                            tails.middleCols(shared, more).colwise().sum().transpose() +
-                           overlaps.changes(options.also, {}).colwise().sum().transpose()};
+                           changed(options.also, {}).colwise().sum().transpose()};
 }
 
 void require_pair(const AccuracySpec& spec, std::size_t count) {
