@@ -63,13 +63,10 @@ TEST(BorderOverlaps, ForcesAndDisplacementsAreRightWhereContactIsLessThanAnEdge)
   }
 }
 
-// A punch with a chamfer on a block, heated: it curls up and stands on the corner of its foot, by far less than an
-// edge.
-Scene curled(const TemporaryFolder& folder, std::mt19937& random, const std::string& asked) {
-  std::uniform_real_distribution<double> any(0, 1);
-  const double width = 15 + 5 * any(random), height = 10 + 15 * any(random), chamfer = 1 + 2 * any(random),
-               angle = 0.03 + 0.7 * any(random), heat = 30 + 70 * any(random);
-  std::ostringstream geo, toml;
+// Half of a punch with a chamfer behind the corner of its foot, on a block; `angle`, radians, is the chamfer's with the
+// block's top, the foot's curve goes on along it.
+std::string chamfered_punch(double width, double height, double chamfer, double angle) {
+  std::ostringstream geo;
   geo << "Point(1) = {0, -11, 0}; Point(2) = {34, -11, 0}; Point(3) = {34, 0, 0}; Point(4) = {0, 0, 0};\n"
       << "Point(5) = {0, 0, 0}; Point(6) = {" << width << ", 0, 0}; Point(7) = {" << width + chamfer << ", "
       << chamfer * std::tan(angle) << ", 0};\n"
@@ -79,7 +76,16 @@ Scene curled(const TemporaryFolder& folder, std::mt19937& random, const std::str
       << "Curve Loop(2) = {5 ... 9}; Plane Surface(2) = {2}; Physical Surface(\"base\") = {1};\n"
       << "Physical Surface(\"punch\") = {2}; Physical Curve(\"ground\") = {1}; Physical Curve(\"top\") = {3};\n"
       << "Physical Curve(\"foot\") = {5, 6}; Physical Curve(\"head\") = {8}; Physical Curve(\"middle\") = {4, 9};\n";
-  folder.write("curled.geo", geo.str());
+  return geo.str();
+}
+
+// Heated, it curls up and stands on the corner of its foot, by far less than an edge.
+Scene curled(const TemporaryFolder& folder, std::mt19937& random, const std::string& asked) {
+  std::uniform_real_distribution<double> any(0, 1);
+  const double width = 15 + 5 * any(random), height = 10 + 15 * any(random), chamfer = 1 + 2 * any(random),
+               angle = 0.03 + 0.7 * any(random), heat = 30 + 70 * any(random);
+  std::ostringstream toml;
+  folder.write("curled.geo", chamfered_punch(width, height, chamfer, angle));
   toml << "mesh.file = \"curled.geo\"\nmodel.plane = \"" << (any(random) < 0.5 ? "strain" : "axisymmetric") << "\"\n"
        << "materials.b = { young = 14120, poisson = 0.45 }\n"
        << "materials.p = { young = 5138, poisson = 0.45, thermal_expansion = 1e-5 }\n"
@@ -91,7 +97,7 @@ Scene curled(const TemporaryFolder& folder, std::mt19937& random, const std::str
   return read_scene(folder.write("curled.toml", toml.str()));
 }
 
-// Where the foot's middle presses p is as good as its bar says, or the accuracy is not reached.
+// Where the foot's middle presses p is as good as was asked.
 TEST(BorderOverlaps, PressureIsRightWhereAnotherContactIsLessThanAnEdge) {
   for (int seed = 1; seed <= 4; ++seed) {
     const TemporaryFolder folder;
@@ -107,22 +113,13 @@ TEST(BorderOverlaps, PressureIsRightWhereAnotherContactIsLessThanAnEdge) {
   }
 }
 
-// A punch with a chamfer, half of it, pressed on a block.
+// Pressed on the block, with the multipliers on the foot.
 Scene chamfered(const TemporaryFolder& folder, std::mt19937& random) {
   std::uniform_real_distribution<double> any(0, 1);
   const double width = 15 + 5 * any(random), height = 5 + 15 * any(random), chamfer = 1 + 2 * any(random),
                angle = 0.2 + 0.6 * any(random), young = 1000 * std::pow(7, any(random));
-  std::ostringstream geo, toml;
-  geo << "Point(1) = {0, -11, 0}; Point(2) = {34, -11, 0}; Point(3) = {34, 0, 0}; Point(4) = {0, 0, 0};\n"
-      << "Point(5) = {0, 0, 0}; Point(6) = {" << width << ", 0, 0}; Point(7) = {" << width + chamfer << ", "
-      << chamfer * std::tan(angle) << ", 0};\n"
-      << "Point(8) = {" << width + chamfer << ", " << height << ", 0}; Point(9) = {0, " << height << ", 0};\n"
-      << "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Line(5) = {5, 6}; Line(6) = {6, 7};\n"
-      << "Line(7) = {7, 8}; Line(8) = {8, 9}; Line(9) = {9, 5}; Curve Loop(1) = {1 ... 4}; Plane Surface(1) = {1};\n"
-      << "Curve Loop(2) = {5 ... 9}; Plane Surface(2) = {2}; Physical Surface(\"base\") = {1};\n"
-      << "Physical Surface(\"punch\") = {2}; Physical Curve(\"ground\") = {1}; Physical Curve(\"top\") = {3};\n"
-      << "Physical Curve(\"foot\") = {5, 6}; Physical Curve(\"head\") = {8}; Physical Curve(\"middle\") = {4, 9};\n";
-  folder.write("chamfered.geo", geo.str());
+  std::ostringstream toml;
+  folder.write("chamfered.geo", chamfered_punch(width, height, chamfer, angle));
   toml << "mesh.file = \"chamfered.geo\"\nmaterials.b = { young = 1000, poisson = 0.3 }\n"
        << "materials.p = { young = " << young << ", poisson = 0.3 }\n"
        << "bodies = { base = \"b\", punch = \"p\" }\n"
