@@ -202,6 +202,14 @@ VecX far_fields(const Mesh& mesh, const FarField& far) {
   return all;
 }
 
+// |p|, stress; where p has no limit its largest node measures the mesh.
+double largest_that_counts(const PressureEstimate& e) {
+  double most = 0;
+  for (Eigen::Index i = 0; i < e.line.p.size(); ++i)
+    if (e.counts(i)) most = std::max(most, std::abs(e.line.p(i)));
+  return most;
+}
+
 // What cells do to each window's mean, its corners' tails, and where windows share duals the stiffness of the whole.
 void add_far_errors(const Mesh& mesh, ErrorEstimate& estimate) {
   std::vector<TailShares> tails = tails_along(mesh, estimate.pressures, estimate.far.windows, estimate.tails);
@@ -216,7 +224,7 @@ void add_far_errors(const Mesh& mesh, ErrorEstimate& estimate) {
     e.tails = std::move(tails[k]);
     e.far = far.segment(window, Eigen::Index(e.windows.size())) + e.tails.means;
     if (e.fluctuation) e.fluctuation->far = fluctuations(fluctuation++);
-    if (!estimate.far.windows.own()) e.far.array() += stiffness_part * largest_entry(e.line.p);
+    if (!estimate.far.windows.own()) e.far.array() += stiffness_part * largest_that_counts(e);
     window += Eigen::Index(e.windows.size());
     find_bars(e);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "app/accuracy.hpp"
 #include "app/solve_scene.hpp"
 #include "support/wall.hpp"
 
@@ -162,6 +163,20 @@ TEST(SharedDuals, OfAWallKeepTheBars) {
     }
   EXPECT_GT(nodes, 400);
   EXPECT_GE(held, 0.95 * nodes);
+}
+
+// The pellets of a fuel rod press the cladding with sharp rims, where p has no limit: a fourth pellet, with which they
+// share duals, costs no more mesh than each of three that have duals of their own.
+TEST(SharedDuals, OfManyRimsCostNoMoreMeshThanTheirOwn) {
+  const auto unknowns = [](int pellets, bool own) {
+    const Scene rod = read_scene(MORTISE_SOURCE_DIR "/geo/rod.toml",
+                                 {{"accuracy.value", "1%"}, {"mesh.parameters.pellets", std::to_string(pellets)}});
+    const auto r = solve_to_accuracy(rod);
+    EXPECT_TRUE(r->accuracy->reached());
+    EXPECT_EQ(r->estimate->far.windows.own(), own);
+    return double(free_unknowns(*r)) / pellets;
+  };
+  EXPECT_LE(unknowns(4, false), 1.5 * unknowns(3, true));
 }
 
 }  // namespace
