@@ -202,7 +202,10 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
                       const std::string& output) {
   CLI::App* command = app.add_subcommand(name, what);
   command->add_option("scene", options.scene, "scene file (.toml)")->required();
-  command->add_option("--set", options.set, "KEY=VALUE: override a value of the scene, e.g. mesh.parameters.n_upper=40")
+  command
+      ->add_option("--set", options.set,
+                   "override a value of the scene, e.g. mesh.parameters.n_upper=40; may be given several times")
+      ->option_text("KEY=VALUE")
       ->allow_extra_args(false);
   if (!output.empty()) command->add_option("-o,--output", options.output, output)->check(filled("a path"));
   command->add_flag("--quiet", options.quiet, "print errors only");

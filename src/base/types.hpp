@@ -48,6 +48,20 @@ using SparseRows = MovableSparse<Eigen::RowMajor>;
 /// Entries of a sparse matrix (row, column, value), in any order; those of one place add up.
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
+template <typename Matrix = SparseMatrix>
+Matrix filled(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
+  Matrix A(rows, columns);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+/// Calls visit(row, column, value) for each entry of a sparse matrix, int row and column.
+template <typename Matrix, typename Visit>
+void for_each_entry(const Matrix& A, Visit visit) {
+  for (Eigen::Index k = 0; k < A.outerSize(); ++k)
+    for (typename Matrix::InnerIterator it(A, k); it; ++it) visit(int(it.row()), int(it.col()), it.value());
+}
+
 /// Largest absolute value; 0 of an empty vector, NaN where there is one.
 inline double largest_entry(const VecX& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0; }
 

@@ -30,10 +30,13 @@ Vec2 place_of(const Points& nodes, const ContactInterface& interface, const Cont
 
 }  // namespace
 
+Vec2 parted(const VecX& u, const ContactInterface& interface, const ContactPoint& point) {
+  return edge_value(u, interface.opposite.edges[point.opposite_edge], point.eta) -
+         edge_value(u, interface.multiplier.edges[point.edge], point.xi);
+}
+
 double gap_at(const VecX& u, const ContactInterface& interface, const ContactPoint& point) {
-  const Vec2 apart = edge_value(u, interface.opposite.edges[point.opposite_edge], point.eta) -
-                     edge_value(u, interface.multiplier.edges[point.edge], point.xi);
-  return point.gap + apart.dot(point.normal);
+  return point.gap + parted(u, interface, point).dot(point.normal);
 }
 
 std::vector<Trough> troughs(const Points& nodes, const VecX& u, const ContactInterface& interface) {

@@ -16,6 +16,9 @@ struct LeastGap {
 /// `u`: displacements, two a node.
 LeastGap least_gap(const Points& nodes, const VecX& u, const ContactInterface& interface);
 
+/// By how much `u` parts the sides at a point of the interface, length.
+Vec2 parted(const VecX& u, const ContactInterface& interface, const ContactPoint& point);
+
 /// How far the sides are apart at a point of the interface, undeformed gap and opening by `u` (two a node), length.
 double gap_at(const VecX& u, const ContactInterface& interface, const ContactPoint& point);
 

@@ -26,9 +26,7 @@ SparseMatrix pressure_norm(const Points& nodes, const ContactInterface& interfac
         }
     }
   }
-  SparseMatrix norm(coupling.gap0.size(), coupling.gap0.size());
-  norm.setFromTriplets(entries.begin(), entries.end());
-  return norm;
+  return filled(coupling.gap0.size(), coupling.gap0.size(), entries);
 }
 
 }  // namespace mortise

@@ -52,14 +52,12 @@ void DualSystem::gather(const SaddlePointSystem& s) {
       for (std::size_t j = 0; j < part->springs.size(); ++j)
         of_H.emplace_back(part->rows[a], part->springs[j], part->H(a, j));
     const SparseMatrix own = std::exchange(part->sharing, {});
-    for (int j = 0; j < own.cols(); ++j)
-      for (SparseMatrix::InnerIterator it(own, j); it; ++it)
-        if (it.row() >= j) of_sharing.emplace_back(part->rows[it.row()], part->rows[j], it.value());
+    for_each_entry(own, [&](int i, int j, double value) {
+      if (i >= j) of_sharing.emplace_back(part->rows[i], part->rows[j], value);
+    });
   }
-  H.resize(m, Eigen::Index(s.grounded.size()));
-  H.setFromTriplets(of_H.begin(), of_H.end());
-  sharing.resize(m, m);
-  sharing.setFromTriplets(of_sharing.begin(), of_sharing.end());
+  H = filled(m, s.grounded.size(), of_H);
+  sharing = filled(m, m, of_sharing);
 }
 
 void DualSystem::add_up(Eigen::Index count, Answer& answer) const {
@@ -91,9 +89,7 @@ SparseMatrix DualSystem::matrix() const {
         entries.emplace_back(int(m) + part->springs[k], part->rows[b], part->H(b, k));
     }
   }
-  SparseMatrix all(size, size);
-  all.setFromTriplets(entries.begin(), entries.end());
-  return all;
+  return filled(size, size, entries);
 }
 
 VecX DualSystem::stiffness() const { return H.cwiseAbs2().transpose() * diagonal.cwiseInverse(); }

@@ -53,15 +53,13 @@ SlenderParts slender_parts(Triplets stiffness, const SaddlePointSystem& s) {
     if (parts.place[a] >= 0) parts.rows[parts.place[a]] = int(a);
 
   for (auto& entry : stiffness) entry = {unknown[entry.row()], unknown[entry.col()], entry.value()};
-  parts.K.resize(unknowns, unknowns);
-  parts.K.setFromTriplets(stiffness.begin(), stiffness.end());
+  parts.K = filled(unknowns, unknowns, stiffness);
   Triplets coupling;
   for (int i = 0; i < s.B.cols(); ++i)
     if (unknown[i] >= 0)
       for (SparseMatrix::InnerIterator it(s.B, i); it; ++it)
         coupling.emplace_back(parts.place[it.row()], unknown[i], it.value() / s.row_scale(it.row()));
-  parts.B.resize(Eigen::Index(parts.rows.size()), unknowns);
-  parts.B.setFromTriplets(coupling.begin(), coupling.end());
+  parts.B = filled(parts.rows.size(), unknowns, coupling);
   return parts;
 }
 
@@ -81,16 +79,14 @@ void TouchingParts::add(const SlenderParts& parts, const std::vector<int>& of_ro
 void set_touching(SlenderParts& parts, TouchingParts touching, const VecX& local) {
   const auto rows = Eigen::Index(parts.rows.size());
   for (int a = 0; a < rows; ++a) touching.D.emplace_back(a, a, least_compliance * local(parts.rows[a]));
-  parts.D.resize(rows, rows);
-  parts.D.setFromTriplets(touching.D.begin(), touching.D.end());
+  parts.D = filled(rows, rows, touching.D);
 
   std::map<int, int> column;  // of a spring
   for (auto& entry : touching.H)
     entry = {entry.row(), column.try_emplace(entry.col(), int(column.size())).first->second, entry.value()};
   parts.springs_of_H.resize(column.size());
   for (const auto& [spring, of] : column) parts.springs_of_H[of] = spring;
-  parts.H.resize(rows, Eigen::Index(column.size()));
-  parts.H.setFromTriplets(touching.H.begin(), touching.H.end());
+  parts.H = filled(rows, column.size(), touching.H);
 }
 
 SlenderInverse::SlenderInverse(const SlenderParts& parts, const std::vector<char>& closed)
@@ -98,9 +94,8 @@ SlenderInverse::SlenderInverse(const SlenderParts& parts, const std::vector<char
   for (std::size_t a = 0; a < rows_.size(); ++a) closed_(a) = closed[rows_[a]] ? 1 : 0;
   Triplets all;
   const auto add = [&](const SparseMatrix& A, Eigen::Index row, Eigen::Index column, auto value) {
-    for (int j = 0; j < A.cols(); ++j)
-      for (SparseMatrix::InnerIterator it(A, j); it; ++it)
-        all.emplace_back(int(row + it.row()), int(column + j), value(it.row(), j, it.value()));
+    for_each_entry(
+        A, [&](int i, int j, double entry) { all.emplace_back(int(row) + i, int(column) + j, value(i, j, entry)); });
   };
   add(parts.K, 0, 0, [](Eigen::Index, Eigen::Index, double entry) { return entry; });
   add(parts.B, unknowns_, 0, [&](Eigen::Index a, Eigen::Index, double entry) { return closed_(a) * entry; });
@@ -111,9 +106,7 @@ SlenderInverse::SlenderInverse(const SlenderParts& parts, const std::vector<char
       [&](Eigen::Index a, Eigen::Index, double entry) { return -closed_(a) * entry; });
   add(parts.D, unknowns_, unknowns_,
       [&](Eigen::Index a, Eigen::Index b, double entry) { return a == b ? -entry : -closed_(a) * closed_(b) * entry; });
-  SparseMatrix matrix(unknowns_ + closed_.size(), unknowns_ + closed_.size());
-  matrix.setFromTriplets(all.begin(), all.end());
-  factor_.compute(matrix);
+  factor_.compute(filled(unknowns_ + closed_.size(), unknowns_ + closed_.size(), all));
 }
 
 MatX SlenderInverse::multiply(const MatX& gaps) const {

@@ -87,21 +87,10 @@ void CornerProducts::add_cell(int number, const VecX& u, const DualSums& fields,
   const CellRule rule = product_rule(cell.kind, is_quadratic(cell.kind) ? 2 : 1);
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
     const CellShape shape = cell_shape(cell.kind, rule.points[q]);
-    Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero();  // (i, j) = d x_j / d xi_i
-    double x1 = 0;
-    for (int a = 0; a < nodes; ++a) {
-      x_xi += shape.dN[a] * mesh_.nodes.row(cell.nodes[a]);
-      x1 += shape.N[a] * mesh_.nodes(cell.nodes[a], 0);
-    }
-    const Eigen::Matrix2d xi_x = x_xi.inverse();
-    MatX B = MatX::Zero(4, 2 * nodes);
-    for (int a = 0; a < nodes; ++a) {
-      const Vec2 d = xi_x * shape.dN[a];
-      const double hoop = law.model.axisymmetric() ? shape.N[a] / x1 : 0;
-      B.middleCols<2>(2 * a) << d.x(), 0, 0, d.y(), hoop, 0, d.y(), d.x();
-    }
+    const CellPoint at = cell_point(mesh_.nodes, cell, shape);
+    const NodalStrains B = nodal_strains(cell, law.model, shape, at);
     const Vec4 stress = law.stiffness * Vec4(B * own);
-    forces += rule.weights[q] * x_xi.determinant() * law.model.depth(x1) * (B.transpose() * stress);
+    forces += rule.weights[q] * at.jacobian() * law.model.depth(at.x.x()) * (B.transpose() * stress);
   }
   for (const auto& [z, of] : fields.terms()) sums += forces.transpose() * of_cell(z) * of;
 }

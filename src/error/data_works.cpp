@@ -28,12 +28,6 @@ double longest_side(const Mesh& mesh, const Cell& cell) {
   return longest;
 }
 
-Vec2 place_of(const Mesh& mesh, const Cell& cell, const CellShape& shape) {
-  Vec2 x = Vec2::Zero();
-  for (int a = 0; a < node_count(cell.kind); ++a) x += shape.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
-  return x;
-}
-
 class Duals {
  public:
   Duals(const Problem& problem, const MatX& fields)
@@ -52,14 +46,12 @@ class Duals {
     double volume = 0;
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const CellShape shape = cell_shape(cell.kind, rule.points[q]);
-      const Vec2 x = place_of(mesh_, cell, shape);
-      Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero();
-      for (int a = 0; a < node_count(cell.kind); ++a) x_xi += shape.dN[a] * mesh_.nodes.row(cell.nodes[a]);
-      const double dV = rule.weights[q] * (x_xi(0, 0) * x_xi(1, 1) - x_xi(0, 1) * x_xi(1, 0)) * law.model.depth(x.x());
+      const CellPoint at = cell_point(mesh_.nodes, cell, shape);
+      const double dV = rule.weights[q] * at.jacobian() * law.model.depth(at.x.x());
       volume += dV;
       const Eigen::RowVectorXd recovered = recovered_stress(mesh_, points_, patches_, {e, rule.points[q], 0});
       for (Eigen::Index k = 0; k < count; ++k) {
-        const Vec4 d = whole_stress(laws_, cell.body, recovered.segment(each * k, each), x) -
+        const Vec4 d = whole_stress(laws_, cell.body, recovered.segment(each * k, each), at.x) -
                        stress_at(mesh_, cell, law, fields_[k], shape);
         squares(k) += dV * d.dot(law.compliance * d);
       }
@@ -83,7 +75,8 @@ class Duals {
       Vec2 mean = Vec2::Zero();
       for (int i = 0; i < 3; ++i) {
         const CellShape shape = cell_shape(cell.kind, first + i / 2. * (second - first));
-        const Vec4 s = stress_at(mesh_, cell, law, fields_[k], shape) - law.stress0(place_of(mesh_, cell, shape));
+        const Vec4 s =
+            stress_at(mesh_, cell, law, fields_[k], shape) - law.stress0(cell_point(mesh_.nodes, cell, shape).x);
         const Vec2 n = edge_point(mesh_.nodes, edge, i - 1.).normal();
         t[i] = {s(0) * n.x() + s(3) * n.y(), s(3) * n.x() + s(1) * n.y()};
         mean += weights[i] * t[i];
@@ -103,17 +96,6 @@ class Duals {
   StressPatches patches_;
 };
 
-}  // namespace
-
-double largest_on(const Mesh& mesh, const DataMisfit& part, const VecX& u) {
-  const Edge edge = side_edge(mesh.cells[part.cell], part.side);
-  double most = 0;
-  for (int a = 0; a < edge.node_count; ++a) most = std::max(most, u.segment<2>(2 * edge.nodes[a]).norm());
-  return most;
-}
-
-namespace {
-
 // Of each dual.
 VecX works_of(const Mesh& mesh, const DataMisfit& part, const VecX& u, const Duals& duals,
               std::map<int, CellErrors>& known) {
@@ -125,6 +107,13 @@ VecX works_of(const Mesh& mesh, const DataMisfit& part, const VecX& u, const Dua
 }
 
 }  // namespace
+
+double largest_on(const Mesh& mesh, const DataMisfit& part, const VecX& u) {
+  const Edge edge = side_edge(mesh.cells[part.cell], part.side);
+  double most = 0;
+  for (int a = 0; a < edge.node_count; ++a) most = std::max(most, u.segment<2>(2 * edge.nodes[a]).norm());
+  return most;
+}
 
 MatX data_works(const Problem& problem, const VecX& u, const MatX& z) {
   const std::vector<DataMisfit>& parts = problem.misfits.parts;

@@ -65,8 +65,7 @@ Functional mean_functional(const Mesh& mesh, const ContactPair& pair, const Pres
 // The multiplier side's nodes moved by 1 along x and y.
 Functional force_functionals(const ContactPair& pair) {
   MatX weights = MatX::Zero(pair.coupling.own.rows(), 2);
-  for (Eigen::Index row = 0; row < pair.coupling.own.rows(); ++row)
-    for (SparseRows::InnerIterator it(pair.coupling.own, row); it; ++it) weights(row, it.col() % 2) += it.value();
+  for_each_entry(pair.coupling.own, [&](int row, int column, double value) { weights(row, column % 2) += value; });
   MatX opening(Eigen::Index(pair.points.size()), 2);
   for (std::size_t i = 0; i < pair.points.size(); ++i)
     opening.row(Eigen::Index(i)) = -pair.points[i].normal.transpose();
@@ -114,10 +113,7 @@ std::vector<int> cells_around(const Mesh& mesh, int centre) {
 
 Vec2 place_in(const Mesh& mesh, const CellPlace& place) {
   const Cell& cell = mesh.cells[place.cell];
-  const CellShape shape = cell_shape(cell.kind, place.xi);
-  Vec2 x = Vec2::Zero();
-  for (int a = 0; a < node_count(cell.kind); ++a) x += shape.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
-  return x;
+  return cell_point(mesh.nodes, cell, cell_shape(cell.kind, place.xi)).x;
 }
 
 }  // namespace
@@ -140,20 +136,13 @@ MatX stress_loads(const Mesh& mesh, const Discretisation& discretisation, const 
     const CellRule rule = product_rule(cell.kind, 3);
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const CellShape shape = cell_shape(cell.kind, rule.points[q]);
-      Eigen::Matrix2d x_xi = Eigen::Matrix2d::Zero();  // (i, j) = d x_j / d xi_i
-      double x1 = 0;
-      for (int a = 0; a < node_count(cell.kind); ++a) {
-        x_xi += shape.dN[a] * mesh.nodes.row(cell.nodes[a]);
-        x1 += shape.N[a] * mesh.nodes(cell.nodes[a], 0);
-      }
-      const double weight = rule.weights[q] * x_xi.determinant();
+      const CellPoint at = cell_point(mesh.nodes, cell, shape);
+      const double weight = rule.weights[q] * at.jacobian();
       area += weight;
-      for (int a = 0; a < node_count(cell.kind); ++a) {
-        const Vec2 d = weight * (x_xi.inverse() * shape.dN[a]);
-        const double hoop = law.model.axisymmetric() ? weight * shape.N[a] / x1 : 0;
-        const Eigen::Matrix<double, 4, 2> strain{{d.x(), 0}, {0, d.y()}, {hoop, 0}, {d.y(), d.x()}};
-        loads.middleRows<2>(2 * cell.nodes[a]) += (law.stiffness({0, 1, 3}, Eigen::all) * strain).transpose();
-      }
+      const NodalStrains strains = weight * nodal_strains(cell, law.model, shape, at);
+      for (int a = 0; a < node_count(cell.kind); ++a)
+        loads.middleRows<2>(2 * cell.nodes[a]) +=
+            (law.stiffness({0, 1, 3}, Eigen::all) * strains.middleCols<2>(2 * a)).transpose();
     }
   }
   return loads / area;

@@ -186,9 +186,7 @@ std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::ar
     add_both(moment, columns + i, (piece.s(i + 1) - piece.s(i)) / length, system);
   }
   add_slopes(piece, ends, form.knots_, sizes, moment + 1, system);
-  Eigen::SparseMatrix<double> matrix(all, all);
-  matrix.setFromTriplets(system.begin(), system.end());
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(matrix);
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(filled(all, all, system));
   if (factor.info() != Eigen::Success) return std::nullopt;
   VecX right = VecX::Zero(all);
   right.segment(at_row, count) = moments / force;

@@ -4,21 +4,16 @@
 #include <limits>
 #include <numbers>
 
+#include "base/vectors.hpp"
 #include "contact/curvature_jumps.hpp"
+#include "contact/least_gap.hpp"
 #include "error/weak_points.hpp"
-#include "fem/edges.hpp"
 
 namespace mortise {
 namespace {
 
 constexpr double seen = 1. / 3;        // of what is asked: squares of errors add up, a tenth more
 constexpr double least_asked = 0.001;  // of a mesh of one's own: bars are judged at the nodes
-
-Vec2 value_at(const Edge& edge, const EdgeShape& shape, const VecX& u) {
-  Vec2 value = Vec2::Zero();
-  for (int a = 0; a < edge.node_count; ++a) value += shape.N[a] * u.segment<2>(2 * edge.nodes[a]);
-  return value;
-}
 
 // How far the sides slide at the contact point nearest to a place.
 double slide_at(const ContactPair& pair, const PressureLine& line, const Vec2& x, const VecX& u) {
@@ -28,10 +23,7 @@ double slide_at(const ContactPair& pair, const PressureLine& line, const Vec2& x
     const Vec2 at = (1 - end) * line.position[point.edge] + end * line.position[point.edge + 1];
     if ((at - x).norm() >= nearest) continue;
     nearest = (at - x).norm();
-    const Edge &own = pair.multiplier.edges[point.edge], &other = pair.opposite.edges[point.opposite_edge];
-    const Vec2 jump = value_at(other, edge_shape(other.node_count, point.eta), u) -
-                      value_at(own, edge_shape(own.node_count, point.xi), u);
-    slide = std::abs(jump.x() * point.normal.y() - jump.y() * point.normal.x());
+    slide = std::abs(cross(parted(u, pair, point), point.normal));
   }
   return slide;
 }

@@ -262,8 +262,7 @@ void MultipointBuilder::add_row(int u, double weight, int depth, std::map<int, d
 void MultipointBuilder::take_overlaps(MultipointConstraints& multipoint) {
   if (drawn_.empty()) return;
   for (const auto& along : drawn_) constraints_.fixed[along.col()] = 0;
-  SparseRows others(multipoint.T.rows(), multipoint.T.cols());
-  others.setFromTriplets(drawn_.begin(), drawn_.end());
+  const auto others = filled<SparseRows>(multipoint.T.rows(), multipoint.T.cols(), drawn_);
   multipoint.T += SparseRows(multipoint.T * others);
   multipoint.inverse -= SparseRows(others * multipoint.inverse);
 }
@@ -277,8 +276,7 @@ std::map<int, HeldTwice> MultipointBuilder::finish() {
         rows_[2 * node + c].emplace_back(axis.q, axis.direction(c));
         inverse_.emplace_back(axis.q, 2 * node + c, axis.direction(c));
       }
-  MultipointConstraints multipoint{SparseRows(n, n), SparseRows(n, n), std::vector<char>(n, 0),
-                                   std::vector<char>(n, 0)};
+  MultipointConstraints multipoint{{}, {}, std::vector<char>(n, 0), std::vector<char>(n, 0)};
   for (const auto& [u, row] : rows_) multipoint.coupled[u] = 1;
   for (const auto& [q, weights] : ties_) {
     constraints_.fixed[q] = multipoint.tied[q] = 1;
@@ -295,8 +293,8 @@ std::map<int, HeldTwice> MultipointBuilder::finish() {
       inverse_.emplace_back(u, u, row[u] = 1);
     for (const auto& [q, part] : row) entries.emplace_back(u, q, part);
   }
-  multipoint.T.setFromTriplets(entries.begin(), entries.end());
-  multipoint.inverse.setFromTriplets(inverse_.begin(), inverse_.end());
+  multipoint.T = filled<SparseRows>(n, n, entries);
+  multipoint.inverse = filled<SparseRows>(n, n, inverse_);
   take_overlaps(multipoint);
   constraints_.multipoint = std::move(multipoint);
   return std::move(held_twice_);

@@ -200,8 +200,7 @@ Eigen::RowVectorXd recovered_stress(const Mesh& mesh, const BodyPoints& points, 
                                     const CellPlace& place) {
   const Cell& cell = mesh.cells[place.cell];
   const CellShape shape = cell_shape(cell.kind, place.xi), linear = cell_shape(linear_kind(cell.kind), place.xi);
-  Vec2 x = Vec2::Zero();
-  for (int a = 0; a < node_count(cell.kind); ++a) x += shape.N[a] * mesh.nodes.row(cell.nodes[a]).transpose();
+  const Vec2 x = cell_point(mesh.nodes, cell, shape).x;
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(patches.coefficients.cols());
   for (int a = 0; a < corner_count(cell.kind); ++a)
     patches.add_at(point_of(points, cell.body, cell.nodes[a]), x, linear.N[a], sum);

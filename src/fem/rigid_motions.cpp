@@ -92,9 +92,7 @@ class Gram {
       for (auto at = blocks_.lower_bound({set[i], 0}); at != blocks_.end() && at->first.first == set[i]; ++at)
         append(i, int(std::ranges::lower_bound(set, at->first.second) - set.begin()), at->second);
     }
-    SparseMatrix A(3 * set.size(), 3 * set.size());
-    A.setFromTriplets(entries.begin(), entries.end());
-    return A;
+    return filled(3 * set.size(), 3 * set.size(), entries);
   }
 
  private:

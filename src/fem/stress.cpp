@@ -46,6 +46,17 @@ ForEachKind<Recovery> all_recoveries() {
 
 }  // namespace
 
+NodalStrains nodal_strains(const Cell& cell, const Model& model, const CellShape& shape, const CellPoint& at) {
+  const Eigen::Matrix2d xi_x = at.x_xi.inverse();
+  NodalStrains strains(4, 2 * node_count(cell.kind));
+  for (int a = 0; a < node_count(cell.kind); ++a) {
+    const Vec2 d = xi_x * shape.dN[a];
+    const double hoop = model.axisymmetric() ? shape.N[a] / at.x.x() : 0;
+    strains.middleCols<2>(2 * a) << d.x(), 0, 0, d.y(), hoop, 0, d.y(), d.x();
+  }
+  return strains;
+}
+
 Vec4 stress_at(const Mesh& mesh, const Cell& cell, const ElasticLaw& law, const VecX& u, const CellShape& shape) {
   const CellPoint at = cell_point(mesh.nodes, cell, shape);
   Eigen::Matrix2d u_xi = Eigen::Matrix2d::Zero();  // (i, j) = d u_j / d xi_i

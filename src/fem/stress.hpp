@@ -9,6 +9,10 @@
 
 namespace mortise {
 
+/// Of each node's displacement the strain (11, 22, 33, gamma_12) at a point of a cell: 4 x 2 n, components alternate.
+using NodalStrains = Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 18>;
+NodalStrains nodal_strains(const Cell& cell, const Model& model, const CellShape& shape, const CellPoint& at);
+
 /// Stress (11, 22, 33, 12) at one point of a cell. `u` holds all degrees of freedom.
 Vec4 stress_at(const Mesh& mesh, const Cell& cell, const ElasticLaw& law, const VecX& u, const CellShape& shape);
 

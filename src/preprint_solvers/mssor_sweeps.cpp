@@ -13,14 +13,11 @@ SparseMatrix free_stiffness(const SaddlePointSystem& s, const std::vector<int>& 
   for (std::size_t k = 0; k < unknown.size(); ++k) place[unknown[k]] = int(k);
   Triplets entries;
   entries.reserve(s.K.nonZeros());
-  for (int j = 0; j < s.K.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator it(s.K, j); it; ++it) {
-      const int a = place[it.row()], b = place[j];
-      if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), it.value() / s.stiffness_scale);
-    }
-  SparseMatrix K(unknown.size(), unknown.size());
-  K.setFromTriplets(entries.begin(), entries.end());
-  return K;
+  for_each_entry(s.K, [&](int i, int j, double value) {
+    const int a = place[i], b = place[j];
+    if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), value / s.stiffness_scale);
+  });
+  return filled(unknown.size(), unknown.size(), entries);
 }
 
 // D and the rows of L.
@@ -48,8 +45,7 @@ void set_rows(const SaddlePointSystem& s, SweepSystem& r) {
   for (std::size_t k = 0; k < r.unknown.size(); ++k)
     for (SparseMatrix::InnerIterator it(s.B, r.unknown[k]); it; ++it)
       entries.emplace_back(int(it.row()), int(k), it.value() / s.row_scale(it.row()));
-  r.B.resize(s.B.rows(), r.n());
-  r.B.setFromTriplets(entries.begin(), entries.end());
+  r.B = filled<decltype(r.B)>(s.B.rows(), r.n(), entries);
 }
 
 // Prescribed displacements to the right-hand side.

@@ -59,12 +59,6 @@ bool on_second(Scheme scheme, const Points& nodes, const ContactCurves& contact,
   return first_finer;
 }
 
-void append(const SparseRows& rows, int first, Triplets& entries) {
-  for (Eigen::Index row = 0; row < rows.rows(); ++row)
-    for (SparseRows::InnerIterator it(rows, row); it; ++it)
-      entries.emplace_back(first + int(row), int(it.col()), it.value());
-}
-
 // `contact` is moved from.
 ContactPair coupled(const Method& method, const Mesh& mesh, const Discretisation& d, ContactCurves& contact,
                     const std::vector<char>& dirichlet) {
@@ -110,8 +104,7 @@ SurfaceLayers surface_layers(const std::vector<ContactPair>& pairs, Eigen::Index
     layers.laws.push_back({*pair.spec.stiffness, int(weight.size())});
   }
   layers.weight = Eigen::Map<const VecX>(weight.data(), Eigen::Index(weight.size()));
-  layers.B.resize(rows, layers.weight.size());
-  layers.B.setFromTriplets(B.begin(), B.end());
+  layers.B = filled(rows, layers.weight.size(), B);
   return layers;
 }
 
@@ -163,13 +156,13 @@ void set_contact(const std::vector<ContactPair>& pairs, SaddlePointSystem& syste
   system.unilateral.clear();
   for (const ContactPair& pair : pairs) {
     const Coupling& c = pair.coupling;
-    append(c.B, pair.first_row, entries);
+    for_each_entry(
+        c.B, [&](int row, int column, double value) { entries.emplace_back(pair.first_row + row, column, value); });
     system.g.segment(pair.first_row, c.gap0.size()) = -c.gap0;
     system.row_scale.segment(pair.first_row, c.scale.size()) = c.scale;
     system.unilateral.insert(system.unilateral.end(), c.gap0.size(), pair.spec.condition == Condition::unilateral);
   }
-  system.B.resize(rows, system.f.size());
-  system.B.setFromTriplets(entries.begin(), entries.end());
+  system.B = filled(rows, system.f.size(), entries);
   system.layers = surface_layers(pairs, rows);
 }
 

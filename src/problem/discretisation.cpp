@@ -91,8 +91,7 @@ Triplets apply_boundaries(const Entries& entries, const Mesh& mesh, Discretisati
 
 void add_springs(const Triplets& springs, Discretisation& d) {
   if (springs.empty()) return;
-  d.springs.resize(d.system.K.rows(), d.system.K.cols());
-  d.springs.setFromTriplets(springs.begin(), springs.end());
+  d.springs = filled(d.system.K.rows(), d.system.K.cols(), springs);
   d.system.constraints.springs = spring_rows(d.springs);
   d.system.constraints.spring_parts = spring_parts(d.springs, d.system.K);
   d.system.K += d.springs;

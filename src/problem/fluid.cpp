@@ -151,14 +151,11 @@ SparseRows fluid_loads(const Mesh& mesh, const Model& model, const std::vector<C
   Triplets loads;
   for (const ContactPair& pair : pairs) {
     if (!pair.spec.fluid) continue;
-    for (Eigen::Index row = 0; row < pair.coupling.own.rows(); ++row)
-      for (SparseRows::InnerIterator it(pair.coupling.own, row); it; ++it)
-        loads.emplace_back(pair.first_row + int(row), int(it.col()), it.value());
+    for_each_entry(pair.coupling.own,
+                   [&](int row, int column, double value) { loads.emplace_back(pair.first_row + row, column, value); });
     add_opposite(mesh, model, pair, loads);
   }
-  SparseRows of(rows, 2 * mesh.nodes.rows());
-  of.setFromTriplets(loads.begin(), loads.end());
-  return of;
+  return filled<SparseRows>(rows, 2 * mesh.nodes.rows(), loads);
 }
 
 VecX dry_rows(const Mesh& mesh, const std::vector<ContactPair>& pairs, Eigen::Index rows) {

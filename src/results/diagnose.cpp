@@ -15,14 +15,12 @@ SparseMatrix stacked_norm(const Results& r) {
     const std::vector<ElasticLaw>& laws = r.problem.discretisation.laws;
     const double compliance = 1 / contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
     const SparseMatrix S = pressure_norm(r.problem.mesh.nodes, pair, r.problem.method.multipliers);
-    for (Eigen::Index j = 0; j < S.outerSize(); ++j)
-      for (SparseMatrix::InnerIterator it(S, j); it; ++it)
-        entries.emplace_back(pair.first_row + int(it.row()), pair.first_row + int(it.col()), compliance * it.value());
+    for_each_entry(S, [&](int i, int j, double value) {
+      entries.emplace_back(pair.first_row + i, pair.first_row + j, compliance * value);
+    });
   }
   const Eigen::Index rows = r.problem.discretisation.system.B.rows();
-  SparseMatrix all(rows, rows);
-  all.setFromTriplets(entries.begin(), entries.end());
-  return all;
+  return filled(rows, rows, entries);
 }
 
 }  // namespace

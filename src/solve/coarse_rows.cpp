@@ -19,8 +19,7 @@ CoarseRows join_rows(const ComplementarityProblem& fine, const VecX& rhs) {
   Triplets entries;  // each row's part of its group; the springs stay as they are
   for (int a = 0; a < m; ++a) entries.emplace_back(a, group[a], fine.scale(a) / c.scale(group[a]));
   for (int k = 0; k < springs; ++k) entries.emplace_back(int(m) + k, count + k, 1.0);
-  SparseMatrix P(m + springs, count + springs);
-  P.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix P = filled(m + springs, count + springs, entries);
   const MatX half = MatX(fine.compliance.selfadjointView<Eigen::Lower>()) * P;
   c.compliance = P.transpose() * half;
   c.round_off = fine.round_off;

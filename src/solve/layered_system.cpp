@@ -6,15 +6,7 @@ namespace {
 constexpr double least_slope = 1e-9;  // of a layer's largest: open contact may have none
 
 void append(const SparseMatrix& A, Eigen::Index row, Eigen::Index column, Triplets& entries) {
-  for (int j = 0; j < A.cols(); ++j)
-    for (SparseMatrix::InnerIterator it(A, j); it; ++it)
-      entries.emplace_back(int(row + it.row()), int(column + j), it.value());
-}
-
-SparseMatrix filled(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
-  SparseMatrix A(rows, columns);
-  A.setFromTriplets(entries.begin(), entries.end());
-  return A;
+  for_each_entry(A, [&](int i, int j, double value) { entries.emplace_back(int(row) + i, int(column) + j, value); });
 }
 
 }  // namespace

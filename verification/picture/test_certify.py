@@ -184,9 +184,13 @@ def test_a_reader_who_leaves_has_the_page(mortise, tmp_path):
     assert running.stderr.read() == "" and running.wait() == -signal.SIGPIPE and (tmp_path / "runs.html").is_file()
 
 
-def test_bad_input_is_refused_as_by_solve(mortise, tmp_path):
-    ended = subprocess.run([mortise, "certify", tmp_path / "no.toml"], capture_output=True, text=True)
-    assert ended.returncode == 1 and "no.toml" in ended.stderr and "Traceback" not in ended.stderr
+@pytest.mark.parametrize("words, said", [(["certify", "no.toml"], "mortise certify: error: no.toml: No such file or directory\n"),
+                                         (["certify"], "the following arguments are required: scene"),
+                                         (["certify", PUNCH, "--accuracy", "x"], "argument --accuracy: invalid part_of value: 'x'"),
+                                         (["report", "no"], "no: no summary.json there"), (["report"], "required: folder")])  # fmt: skip
+def test_bad_input_is_refused_as_by_solve(mortise, tmp_path, words, said):
+    ended = subprocess.run([mortise, *words], cwd=tmp_path, capture_output=True, text=True)
+    assert ended.returncode == 1 and said in ended.stderr and "Errno" not in ended.stderr and "Traceback" not in ended.stderr
 
 
 def test_what_the_normals_of_the_other_curve_change_is_told_apart(mortise, tmp_path, monkeypatch):

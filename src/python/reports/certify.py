@@ -7,7 +7,6 @@ Each run is a `mortise solve` with a few --set, and its results stay in a folder
 can be run again by hand. Exit status: 0 all figures agree; 1 bad input; 2 one does not, or the scene's own run fails.
 """
 
-import argparse
 import json
 import math
 import os
@@ -24,7 +23,7 @@ from pathlib import Path
 
 try:
     from figures import compare, deformed_gaps, line_difference, middles, of_freefem, read_run, stress_difference, tilt
-    from report import percent, write_report
+    from report import Parser, percent, write_report
 except ImportError as missing:
     raise SystemExit(f"certify.py: {missing}: apt-get install python3-numpy python3-meshio") from missing
 
@@ -314,7 +313,7 @@ def certify(mortise, scene, output, changes=(), accuracy=None, freefem=True, spo
     try:
         tables = tomllib.loads(scene.read_text())
     except (OSError, ValueError) as error:
-        raise SystemExit(f"mortise certify: error: {scene}: {error}") from None
+        raise SystemExit(f"mortise certify: error: {scene}: {getattr(error, 'strerror', None) or error}") from None
     if tables.get("case") and not any(change.replace(" ", "") == "case=[]" for change in changes):
         raise SystemExit(f"mortise certify: error: {scene}: one load is certified; expected --set case=[], and a --set of what the case changes")
     start, output = time.perf_counter(), output.absolute()
@@ -352,7 +351,7 @@ def part_of(text):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="mortise certify", description=__doc__.split("\n\n")[0])
+    parser = Parser(prog="mortise certify", description=__doc__.split("\n\n")[0])
     parser.add_argument("scene", type=Path, help="scene file (.toml)")
     parser.add_argument("--accuracy", type=part_of, help="of p, such as 1%% (default: the scene's, else 1%%)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a value of the scene, in all runs")

@@ -317,8 +317,13 @@ def write_report(folder, page, mortise):
     page.write_text(page_of(folder / "own" if found else folder, found, mortise))
 
 
+class Parser(argparse.ArgumentParser):
+    def exit(self, status=0, message=None):  # 1 for bad input, as all of mortise; 2 is a check that fails
+        super().exit(min(status, 1), message)
+
+
 def main():
-    parser = argparse.ArgumentParser(prog="mortise report", description=__doc__.split("\n\n")[0])
+    parser = Parser(prog="mortise report", description=__doc__.split("\n\n")[0])
     parser.add_argument("folder", type=Path, help="that mortise solve or mortise certify wrote")
     parser.add_argument("page", type=Path, nargs="?", help=".html (default: FOLDER.html)")
     options = parser.parse_args()
