@@ -277,12 +277,12 @@ CLI::App* add_solve_runs(CLI::App& app, Options& options) {
   return command->group("");
 }
 
-// A script reads the options.
-CLI::App* add_scripted(CLI::App& app, const std::string& name, const std::string& what) {
+// A script reads the options, and takes the place of this process.
+void add_scripted(CLI::App& app, const std::string& name, const std::string& script, const std::string& what) {
   CLI::App* command = app.add_subcommand(name, what + " (mortise " + name + " --help has the options)");
   command->set_help_flag();
   command->prefix_command();
-  return command;
+  command->callback([command, script] { become_script(script, command->remaining()); });
 }
 
 // CLI11 says only that there is none.
@@ -323,20 +323,15 @@ int parse_and_run(int argc, const char* const* argv) {
   CLI::App* new_command = add_new(app, options);
   CLI::App* mesh_command = add_mesh(app, options);
   add_solve_runs(app, options);
-  CLI::App* sweep_command = add_scripted(app, "sweep", "solve a scene many times, one CSV row a run");
-  CLI::App* picture_command = add_scripted(app, "picture", "draw the results in a folder");
-  CLI::App* certify_command =
-      add_scripted(app, "certify", "solve a scene by several means and say which figures agree within their bars");
-  CLI::App* report_command = add_scripted(app, "report", "write one page of the results in a folder, to hand over");
-  CLI::App* window_command = add_scripted(app, "window", "look at a scene in gmsh's window, pick, check and solve");
+  add_scripted(app, "sweep", "sweeps/sweep.py", "solve a scene many times, one CSV row a run");
+  add_scripted(app, "picture", "pictures/picture.py", "draw the results in a folder");
+  add_scripted(app, "certify", "reports/certify.py",
+               "solve a scene by several means and say which figures agree within their bars");
+  add_scripted(app, "report", "reports/report.py", "write one page of the results in a folder, to hand over");
+  add_scripted(app, "window", "scenes/window.py", "look at a scene in gmsh's window, pick, check and solve");
   refuse_unknown_subcommand(app, argc, argv);
   if (const auto status = parse(app, argc, argv)) return *status;
 
-  if (*sweep_command) become_script("sweeps/sweep.py", sweep_command->remaining());
-  if (*picture_command) return draw_picture(picture_command->remaining());
-  if (*certify_command) become_script("reports/certify.py", certify_command->remaining());
-  if (*report_command) become_script("reports/report.py", report_command->remaining());
-  if (*window_command) become_script("scenes/window.py", window_command->remaining());
   set_solver_threads(options.threads);
   set_mesh_cache(!options.no_cache);
   if (*solve_command) return solve(options);

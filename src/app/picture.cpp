@@ -47,6 +47,7 @@ std::vector<char*> argv_of(std::vector<std::string>& words) {
                    "): apt-get install python3-matplotlib python3-meshio");
 }
 
+// 0, or 1 where it did nothing and said why on the standard error.
 int run_script(const std::string& name, const std::vector<std::string>& arguments) {
   std::vector<std::string> words = words_of(name, arguments);
   pid_t process = 0;
@@ -54,7 +55,7 @@ int run_script(const std::string& name, const std::vector<std::string>& argument
     fail_without_python(name);
   int status = 0;
   ::waitpid(process, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? 0 : 1;
 }
 
 struct TemporaryFile {
@@ -71,10 +72,6 @@ struct TemporaryFile {
 
 }  // namespace
 
-int draw_picture(const std::vector<std::string>& arguments) {
-  return run_script("pictures/picture.py", arguments) == 0 ? 0 : 1;
-}
-
 void become_script(const std::string& name, const std::vector<std::string>& arguments) {
   std::vector<std::string> words = words_of(name, arguments);
   ::setenv("MORTISE_PROGRAM", fs::read_symlink("/proc/self/exe").c_str(), 1);
@@ -86,13 +83,13 @@ int run_on_geometry(const std::string& name, const Mesh& mesh, std::vector<std::
   const TemporaryFile file;
   write_geometry(mesh, file.path);
   arguments.insert(arguments.begin(), file.path);
-  return run_script("scenes/" + name + ".py", arguments) == 0 ? 0 : 1;
+  return run_script("scenes/" + name + ".py", arguments);
 }
 
 int draw_setup(const Problem& problem, const fs::path& picture) {
   const TemporaryFile file;
   write_setup(problem, file.path);
-  return run_script("pictures/setup.py", {file.path, picture.string()}) == 0 ? 0 : 1;
+  return run_script("pictures/setup.py", {file.path, picture.string()});
 }
 
 }  // namespace mortise

@@ -7,7 +7,6 @@ RESULTS are folders that `mortise solve` wrote with method.solver = "ddm"; read 
 PICTURE is a .png, .pdf or .svg.
 """
 
-import argparse
 import json
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from matplotlib.ticker import MaxNLocator
 
 import figure
 import result_tables
+from script import Parser, run
 
 
 def read(folder):
@@ -50,7 +50,7 @@ def draw(lines, path, dpi=130):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = Parser(__doc__)
     parser.add_argument("folders", type=Path, nargs="+", metavar="RESULTS")
     parser.add_argument("picture", type=Path, metavar="PICTURE")
     options = parser.parse_args()
@@ -62,4 +62,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

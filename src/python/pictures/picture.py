@@ -22,7 +22,6 @@ reaction and their moments at the point that they are about.
 import argparse
 import json
 import math
-import signal
 import sys
 from pathlib import Path
 
@@ -39,6 +38,7 @@ from drawn_cases import draw_history
 from drawn_forces import draw_forces
 from drawn_pairs import COLUMNS, SMALL, draw_along, draw_runs, draw_small, most_loaded, shared_curve
 from drawn_pressure import draw_pair, has_limit
+from script import Parser, run
 
 
 FORMATS = ("png", "pdf", "svg")
@@ -219,7 +219,7 @@ def with_box(arguments):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = Parser(__doc__)
     parser.add_argument("results", type=Path, help="folder that mortise solve wrote")
     parser.add_argument("more", type=Path, nargs="*", help="more such folders: p of all runs; a .png, .pdf or .svg (default: RESULTS.png)")
     parser.add_argument("--format", choices=FORMATS, help="of the picture without a name (default: png)")
@@ -263,6 +263,4 @@ def main():
 
 
 if __name__ == "__main__":
-    for end in (signal.SIGINT, signal.SIGPIPE):  # without a traceback
-        signal.signal(end, signal.SIG_DFL)
-    main()
+    run(main)

@@ -7,10 +7,8 @@ Usage: setup.py SETUP.json PICTURE
 SETUP.json is what mortise writes for it (src/results/setup_json.hpp).
 """
 
-import argparse
 import json
 import pathlib
-import signal
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
@@ -24,6 +22,7 @@ from drawn_bodies import MANY_EDGES, MANY_PAIRS, PAIR_COLOURS, SLENDER
 from drawn_cells import joined, size_of
 from drawn_curves import lines_of
 from drawn_forces import LOAD, REACTION, label_places
+from script import Parser, run
 
 FILLS = ["#dbe7f3", "#f4e6d4", "#dff0dc", "#eee0f0", "#f3f0cf", "#e4e4e4"]  # a material each
 MANY_NAMES = 40  # more are not written on the picture
@@ -238,7 +237,7 @@ def listed(names, between=", "):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = Parser(__doc__)
     parser.add_argument("setup", type=pathlib.Path, help=".json")
     parser.add_argument("picture", type=pathlib.Path, help=".png, .pdf or .svg")
     options = parser.parse_args()
@@ -250,6 +249,4 @@ def main():
 
 
 if __name__ == "__main__":
-    for end in (signal.SIGINT, signal.SIGPIPE):  # without a traceback
-        signal.signal(end, signal.SIG_DFL)
-    main()
+    run(main)

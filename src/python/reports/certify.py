@@ -11,7 +11,6 @@ import json
 import math
 import os
 import shutil
-import signal
 import subprocess
 import sys
 import time
@@ -23,7 +22,8 @@ from pathlib import Path
 
 try:
     from figures import compare, deformed_gaps, line_difference, middles, of_freefem, read_run, stress_difference, tilt
-    from report import Parser, percent, write_report
+    from report import percent, write_report
+    from script import Parser, run
 except ImportError as missing:
     raise SystemExit(f"certify.py: {missing}: apt-get install python3-numpy python3-meshio") from missing
 
@@ -351,7 +351,7 @@ def part_of(text):
 
 
 def main():
-    parser = Parser(prog="mortise certify", description=__doc__.split("\n\n")[0])
+    parser = Parser(__doc__, prog="mortise certify")
     parser.add_argument("scene", type=Path, help="scene file (.toml)")
     parser.add_argument("--accuracy", type=part_of, help="of p, such as 1%% (default: the scene's, else 1%%)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a value of the scene, in all runs")
@@ -369,6 +369,4 @@ def main():
 
 
 if __name__ == "__main__":
-    for end in (signal.SIGINT, signal.SIGPIPE):  # without a traceback
-        signal.signal(end, signal.SIG_DFL)
-    main()
+    run(main)

@@ -5,18 +5,19 @@ warnings and the scene itself. A single HTML file without links to others, for a
 Usage: report.py FOLDER [PAGE.html] (mortise report does the same). FOLDER is one that `mortise solve` or `mortise certify` wrote.
 """
 
-import argparse
 import csv
 import datetime
 import html
 import json
 import os
 import re
-import signal
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "pictures"))
+from script import Parser, run
 
 STYLE = """
 :root { color-scheme: light dark; --paper: #fff; --ink: #1a1a1a; --soft: #5c5c5c; --line: #d5d5d5;
@@ -317,13 +318,8 @@ def write_report(folder, page, mortise):
     page.write_text(page_of(folder / "own" if found else folder, found, mortise))
 
 
-class Parser(argparse.ArgumentParser):
-    def exit(self, status=0, message=None):  # 1 for bad input, as all of mortise; 2 is a check that fails
-        super().exit(min(status, 1), message)
-
-
 def main():
-    parser = Parser(prog="mortise report", description=__doc__.split("\n\n")[0])
+    parser = Parser(__doc__, prog="mortise report")
     parser.add_argument("folder", type=Path, help="that mortise solve or mortise certify wrote")
     parser.add_argument("page", type=Path, nargs="?", help=".html (default: FOLDER.html)")
     options = parser.parse_args()
@@ -342,6 +338,4 @@ def main():
 
 
 if __name__ == "__main__":
-    for end in (signal.SIGINT, signal.SIGPIPE):  # without a traceback
-        signal.signal(end, signal.SIG_DFL)
-    main()
+    run(main)

@@ -4,13 +4,12 @@ Usage: curves.py GEOMETRY.json [--picture PICTURE] [--quiet]
 (mortise check PART.geo --picture PICTURE does it)
 """
 
-import argparse
 import json
-import signal
 import sys
 from pathlib import Path
 
 import geometry
+from script import Parser, run
 
 MANY_LINES = 60  # of curves; more are not listed one by one
 
@@ -80,7 +79,7 @@ def draw(part, pairs, picture):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = Parser(__doc__)
     parser.add_argument("geometry", type=Path, help=".json")
     parser.add_argument("--picture", type=Path, help=".png, .pdf or .svg")
     parser.add_argument("--quiet", action="store_true", help="draw only")
@@ -97,6 +96,4 @@ def main():
 
 
 if __name__ == "__main__":
-    for end in (signal.SIGINT, signal.SIGPIPE):  # without a traceback
-        signal.signal(end, signal.SIG_DFL)
-    sys.exit(main())
+    run(main)

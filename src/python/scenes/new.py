@@ -4,11 +4,9 @@ Usage: new.py GEOMETRY.json SCENE.toml
 (mortise new PART.geo does it)
 """
 
-import argparse
 import json
 import os
 import re
-import signal
 import sys
 from pathlib import Path
 
@@ -16,6 +14,7 @@ import numpy as np
 
 import geometry
 from curves import entry, gap_words
+from script import Parser, run
 
 METRES = 5  # a part that is larger is drawn in millimetres, more likely than not
 MANY_BODIES = 20
@@ -99,7 +98,7 @@ def body_force_lines(part, sides):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = Parser(__doc__)
     parser.add_argument("geometry", type=Path, help=".json")
     parser.add_argument("scene", type=Path, help=".toml to write; one that is there stays")
     options = parser.parse_args()
@@ -112,6 +111,4 @@ def main():
 
 
 if __name__ == "__main__":
-    for end in (signal.SIGINT, signal.SIGPIPE):  # without a traceback
-        signal.signal(end, signal.SIG_DFL)
-    main()
+    run(main)
