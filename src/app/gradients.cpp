@@ -1,11 +1,10 @@
 #include "app/gradients.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <limits>
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "fem/assembly.hpp"
 #include "fields/load_fields.hpp"
 #include "problem/take_loads.hpp"
@@ -18,13 +17,8 @@
 namespace mortise {
 namespace {
 
-std::string exact(double value) {
-  std::array<char, 40> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
-
 std::vector<Override> with_parameters(std::vector<Override> overrides, const std::vector<Parameter>& by) {
-  for (const Parameter& one : by) overrides.push_back({one.key, exact(one.value)});
+  for (const Parameter& one : by) overrides.push_back({one.key, shortest(one.value)});
   return overrides;
 }
 
@@ -89,7 +83,7 @@ class Equations {
 
   Left at(const Parameter& p, double value) {
     std::vector<Override> changed = overrides_;
-    changed.push_back({p.key, exact(value)});
+    changed.push_back({p.key, shortest(value)});
     const Scene scene = read_scene(path_, changed);
     Scene alike = scene;
     if (std::ranges::none_of(own_.ties, &ContactSpec::locked)) alike.materials = own_.materials;

@@ -10,12 +10,6 @@
 namespace mortise {
 namespace {
 
-double figure(const Json& report, const std::string& dotted) {
-  std::string path = "/" + dotted;
-  std::ranges::replace(path, '.', '/');
-  return report.at(Json::json_pointer(path)).get<double>();
-}
-
 using Figures = std::vector<std::pair<std::string, double>>;
 
 // "AT.x", "AT.y" of [x, y]; nothing of null.
@@ -29,12 +23,15 @@ void add_pair(const std::string& at, const Json& pair, Figures& row) {
 Figures figures(const Json& r) {
   Figures row;
   for (const char* name : {"nodes", "elements", "dofs", "multipliers"}) row.emplace_back(name, r["mesh"][name]);
-  for (const char* name : {"iterations.contact", "energy", "seconds.mesh"}) row.emplace_back(name, figure(r, name));
-  row.emplace_back("seconds.solve", figure(r, "seconds.total") - figure(r, "seconds.mesh"));
+  const double meshing = r["seconds"]["mesh"];
+  row.emplace_back("iterations.contact", r["iterations"]["contact"]);
+  row.emplace_back("energy", r["energy"]);
+  row.emplace_back("seconds.mesh", meshing);
+  row.emplace_back("seconds.solve", r["seconds"]["total"].get<double>() - meshing);
   if (const Json& iteration = r["iteration"]; !iteration.is_null()) {
     for (const auto& [name, value] : iteration.items())
       if (value.is_number() && name != "kinematic" && name != "force") row.emplace_back("iteration." + name, value);
-    row.emplace_back("iteration.seconds", figure(r, "seconds.solve"));
+    row.emplace_back("iteration.seconds", r["seconds"]["solve"]);
   }
   if (const Json& estimate = r["estimate"]; !estimate.is_null()) {
     row.emplace_back("estimate.error", estimate["error"]);

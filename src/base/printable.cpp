@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -106,6 +107,11 @@ std::string two_digits(double value) {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%.2g", value);
   return text.data();
+}
+
+std::string shortest(double number) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
 }
 
 std::string near_point(const Vec2& point) {

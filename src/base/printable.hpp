@@ -32,6 +32,9 @@ std::string percent(double part);
 /// "1.2"
 std::string two_digits(double value);
 
+/// The shortest decimal that reads back as the same number.
+std::string shortest(double number);
+
 /// The parts as a stream prints them, one behind the other: numbers with six digits.
 template <class... Parts>
 std::string worded(const Parts&... parts) {

@@ -9,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "gmsh/far_geometry.hpp"
+#include "gmsh/gmsh_groups.hpp"
 
 namespace mortise {
 namespace {
@@ -18,11 +19,7 @@ std::vector<PhysicalGroup> open_groups() {
   for (const int dimension : {0, 1, 2}) {
     gmsh::vectorpair found;
     gmsh::model::getPhysicalGroups(found, dimension);
-    for (const auto& [dim, tag] : found) {
-      std::string name;
-      gmsh::model::getPhysicalName(dim, tag, name);
-      groups.push_back({dim, tag, name});
-    }
+    for (const auto& [dim, tag] : found) groups.push_back({dim, tag, group_name(dim, tag)});
   }
   return groups;
 }

@@ -76,11 +76,9 @@ void remove_oldest() {
   }
 }
 
-}  // namespace
-
-namespace {
 bool is_on = false;
-}
+
+}  // namespace
 
 void set_mesh_cache(bool on) { is_on = on; }
 bool mesh_cache_on() { return is_on; }

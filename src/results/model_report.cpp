@@ -9,7 +9,6 @@
 namespace mortise {
 namespace {
 
-Json json_of(const Vec2& v) { return {v.x(), v.y()}; }
 Json json_of(const Field& f) { return f.is_constant() ? Json(f.constant()) : Json(f.words()); }
 Json json_of(const VectorField& v) { return {json_of(v.x), json_of(v.y)}; }
 
@@ -55,7 +54,7 @@ Json json_of(const Material& m) {
             {"shear", o->g12},
             {"angle", o->angle * 180 / std::numbers::pi}};
   } else if (m.stiffness) {
-    for (const auto& row : m.stiffness->rowwise()) json["stiffness"].push_back({row(0), row(1), row(2), row(3)});
+    for (const auto& row : m.stiffness->rowwise()) json["stiffness"].push_back(row);
   } else {
     json = {{"young", m.young}, {"poisson", m.poisson}};
   }
@@ -64,7 +63,7 @@ Json json_of(const Material& m) {
 }
 
 Json json_of(const RigidSpec& rigid) {
-  Json json{{"force", json_of(rigid.force)}, {"moment", rigid.moment}};
+  Json json{{"force", rigid.force}, {"moment", rigid.moment}};
   if (rigid.x) json["x"] = *rigid.x;
   if (rigid.y) json["y"] = *rigid.y;
   if (rigid.rotation) json["rotation"] = *rigid.rotation;
@@ -95,7 +94,7 @@ Told told(const BoundaryCondition& what) {
                  },
                  [](const DirectedDisplacement& u) -> Told {
                    return {"displacement",
-                           {{"direction", json_of(u.direction)}, {"value", json_of(u.value)}},
+                           {{"direction", u.direction}, {"value", json_of(u.value)}},
                            "u = " + words(u.value) + " along " + pair_of(u.direction)};
                  },
                  [](const RigidSpec& rigid) -> Told {
@@ -108,7 +107,7 @@ Told told(const BoundaryCondition& what) {
                    return {"traction", json_of(t.value), "traction " + words(t.value)};
                  },
                  [](const TotalForce& f) -> Told {
-                   return {"force", json_of(f.value), "force " + pair_of(f.value)};
+                   return {"force", f.value, "force " + pair_of(f.value)};
                  },
                  [](const NormalFoundation& k) -> Told {
                    return {"foundation", json_of(k.modulus), "foundation " + words(k.modulus) + " along the normal"};
@@ -117,7 +116,7 @@ Told told(const BoundaryCondition& what) {
                    return {"foundation", json_of(k.moduli), "foundation " + words(k.moduli)};
                  },
                  [](const PointSpring& k) -> Told {
-                   return {"spring", json_of(k.stiffness), "springs " + pair_of(k.stiffness)};
+                   return {"spring", k.stiffness, "springs " + pair_of(k.stiffness)};
                  }},
       what);
 }
@@ -138,23 +137,23 @@ void add_sum(Json& entry, const char* force, const Resultant& sum) {
 
 Json load_json(Json entry, const Resultant& load) {
   add_sum(entry, "sum", load);
-  entry["centre"] = json_of(load.centre());
+  entry["centre"] = load.centre();
   return entry;
 }
 
 Json reaction_json(const Reaction& r) {
   Json json{{"on", r.on}};
   add_sum(json, "reaction", r.sum);
-  json["centre"] = json_of(r.centre);
+  json["centre"] = r.centre;
   json["moment_about_centre"] = r.sum.moment_about(r.centre);
   return json;
 }
 
 Json stiffness_json(const JointStiffness& stiffness) {
-  Json json{{"about", json_of(stiffness.about)}, {"matrix", nullptr}};
+  Json json{{"about", stiffness.about}, {"matrix", nullptr}};
   if (!stiffness.matrix) return json;
   json["matrix"] = Json::array();
-  for (const auto& row : stiffness.matrix->rowwise()) json["matrix"].push_back({row(0), row(1), row(2)});
+  for (const auto& row : stiffness.matrix->rowwise()) json["matrix"].push_back(row);
   return json;
 }
 
@@ -166,8 +165,8 @@ Json support_json(const Problem& p, const Reactions* reactions, std::size_t i) {
   const auto& rigid = p.discretisation.multipoint.rigid_curves;
   for (std::size_t k = 0; k < rigid.size(); ++k)
     if (rigid[k].entry == int(i)) {
-      entry["rigid"]["about"] = json_of(rigid[k].curve.about);
-      entry["rigid"]["displacement"] = json_of(Vec2(reactions->rigid_motions[k].head<2>()));
+      entry["rigid"]["about"] = rigid[k].curve.about;
+      entry["rigid"]["displacement"] = Vec2(reactions->rigid_motions[k].head<2>());
       entry["rigid"]["turned"] = reactions->rigid_motions[k](2);
     }
   for (const JointStiffness& s : reactions->stiffnesses)
@@ -201,7 +200,7 @@ Json loads_json(const Problem& p) {
     if (const BoundarySpec& spec = entries.boundaries[i].spec; is_load(spec.what))
       loads.push_back(load_json(boundary_json(spec), d.boundary_sums[i]));
   if (const auto& g = entries.gravity)
-    loads.push_back(load_json({{"gravity", json_of(*g)}, {"words", "gravity " + pair_of(*g)}}, d.weight));
+    loads.push_back(load_json({{"gravity", *g}, {"words", "gravity " + pair_of(*g)}}, d.weight));
   for (std::size_t i = 0; i < entries.body_forces.size(); ++i) {
     const BodyForceSpec& spec = entries.body_forces[i];
     loads.push_back(load_json(

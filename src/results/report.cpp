@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vectors.hpp"
 #include "problem/dirichlet_neumann.hpp"
 #include "results/checks.hpp"
 #include "results/error_report.hpp"
@@ -12,9 +13,7 @@ namespace mortise {
 namespace {
 
 Json balance_json(const Results& results) {
-  const auto of = [](const Resultant& sum) -> Json {
-    return {{"force", {sum.force.x(), sum.force.y()}}, {"moment", sum.moment}};
-  };
+  const auto of = [](const Resultant& sum) -> Json { return {{"force", sum.force}, {"moment", sum.moment}}; };
   const Reactions& r = results.recovery.reactions;
   Json balance{{"loads", of(r.loads)}, {"reactions", of(r.all)}, {"held", of(r.held)}};
   for (std::size_t b = 0; b < r.held_bodies.size(); ++b)
@@ -24,7 +23,7 @@ Json balance_json(const Results& results) {
 
 Json extremes_json(const Results& r) {
   const auto in_body = [&](const Extreme& e) -> Json {
-    return {{"value", e.value}, {"body", r.problem.mesh.bodies[e.of]}, {"position", {e.place.x(), e.place.y()}}};
+    return {{"value", e.value}, {"body", r.problem.mesh.bodies[e.of]}, {"position", e.place}};
   };
   const Extremes& found = r.recovery.extremes;
   Json json{{"von_mises", in_body(found.von_mises)},
@@ -32,7 +31,7 @@ Json extremes_json(const Results& r) {
   json["displacement"] = r.solution.u.cwiseAbs().maxCoeff();
   json["von_mises"]["limit"] = !grows_without_limit(r, found.von_mises);
   if (const auto p = largest_pressure(r.recovery.contacts))
-    json["pressure"] = {{"value", p->value}, {"pair", p->of}, {"position", {p->place.x(), p->place.y()}}};
+    json["pressure"] = {{"value", p->value}, {"pair", p->of}, {"position", p->place}};
   return json;
 }
 
@@ -54,9 +53,7 @@ Json law_json(const ContactLaw& law) {
   const Vec2& last = law.points.back();
   if (law.is_linear()) return law.slope(0);
   if (law.exponent != 1) return {{"pressure", last.y()}, {"overlap", last.x()}, {"exponent", law.exponent}};
-  Json table = Json::array();
-  for (const Vec2& point : law.points) table.push_back({point.x(), point.y()});
-  return table;
+  return law.points;
 }
 
 // Of its own p; null where none counts.
@@ -71,12 +68,12 @@ Json contact_json(const ContactPair& pair, const ContactResults& c) {
             {"length", c.length},
             {"length_in_contact", c.length_in_contact},
             {"length_in_contact_error", or_null(c.length_error)},
-            {"ends", c.ends ? Json{(*c.ends)[0], (*c.ends)[1]} : Json()},
-            {"force", {c.force.x(), c.force.y()}},
-            {"force_error", error ? Json{(*error)(0), (*error)(1)} : Json()},
+            {"ends", c.ends ? Json(*c.ends) : Json()},
+            {"force", c.force},
+            {"force_error", error ? Json(Vec2(error->head<2>())) : Json()},
             {"moment", c.moment},
-            {"centre", {c.centre.x(), c.centre.y()}},
-            {"moment_about_centre", c.moment - (c.centre.x() * c.force.y() - c.centre.y() * c.force.x())},
+            {"centre", c.centre},
+            {"moment_about_centre", c.moment - cross(c.centre, c.force)},
             {"moment_about_centre_error", error ? Json((*error)(2)) : Json()},
             {"pressure", {{"min", c.p_min}, {"mean", c.p_mean}, {"max", c.p_max}, {"max_error", peak_error(c)}}},
             {"drawn", is_drawn(pair)},
@@ -84,12 +81,10 @@ Json contact_json(const ContactPair& pair, const ContactResults& c) {
             {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
   if (pair.spec.stiffness) json["stiffness"] = law_json(*pair.spec.stiffness);
   if (c.fluid)
-    json["fluid"] = {
-        {"pressure", pair.spec.fluid->pressure},
-        {"wet_length", c.fluid->wet_length},
-        {"force", {c.fluid->force.x(), c.fluid->force.y()}},
-        {"besides",
-         {{"force", {c.fluid->besides.force.x(), c.fluid->besides.force.y()}}, {"moment", c.fluid->besides.moment}}}};
+    json["fluid"] = {{"pressure", pair.spec.fluid->pressure},
+                     {"wet_length", c.fluid->wet_length},
+                     {"force", c.fluid->force},
+                     {"besides", {{"force", c.fluid->besides.force}, {"moment", c.fluid->besides.moment}}}};
   return json;
 }
 
@@ -100,7 +95,7 @@ Json pressure_json(const Results& r) {
   for (std::size_t k = 0; k < e.pressures.size(); ++k) {
     for (const SingularPoint& point : e.pressures[k].singular)
       singular.push_back({{"pair", k},
-                          {"position", {point.position.x(), point.position.y()}},
+                          {"position", point.position},
                           {"exponent", point.exponent},
                           {"pressure_exponent", point.pressure_exponent},
                           {"logarithmic", point.log_pressure > 0},
@@ -118,8 +113,7 @@ Json estimate_json(const Results& r) {
   if (!r.estimate) return nullptr;
   const EnergyEstimate& e = r.estimate->energy;
   return {{"error", e.error},
-          {"largest",
-           {{"body", r.problem.mesh.bodies[e.body]}, {"part", e.part}, {"position", {e.position.x(), e.position.y()}}}},
+          {"largest", {{"body", r.problem.mesh.bodies[e.body]}, {"part", e.part}, {"position", e.position}}},
           {"pressure", pressure_json(r)}};
 }
 
@@ -129,15 +123,10 @@ Json accuracy_json(const Results& r) {
   Json solves = Json::array();
   for (const AccuracyReport::Solve& s : a.solves)
     solves.push_back({{"unknowns", s.unknowns}, {"estimated", s.estimated}, {"seconds", s.seconds}});
-  return {{"of", to_string(a.of)},
-          {"value", r.estimate->goal ? Json(std::vector(r.estimate->goal->value.begin(), r.estimate->goal->value.end()))
-                                     : Json()},
-          {"asked", a.asked},
-          {"reached", a.reached()},
-          {"reason", a.reason},
-          {"largest", a.reached() ? Json() : Json(largest_error(r))},
-          {"excluded", a.excluded},
-          {"solves", solves},
+  return {{"of", to_string(a.of)},  {"value", r.estimate->goal ? Json(r.estimate->goal->value) : Json()},
+          {"asked", a.asked},       {"reached", a.reached()},
+          {"reason", a.reason},     {"largest", a.reached() ? Json() : Json(largest_error(r))},
+          {"excluded", a.excluded}, {"solves", solves},
           {"answer", a.answer()}};
 }
 
@@ -272,7 +261,7 @@ Json report_of(const Results& r) {
               {"checks", checks_json(r.checks)},
               {"warnings", r.warnings}};
   if (!r.expected.empty()) report["expected"] = expected_json(r.expected);
-  if (r.inf_sup) report["inf_sup_position"] = {r.inf_sup->position.x(), r.inf_sup->position.y()};
+  if (r.inf_sup) report["inf_sup_position"] = r.inf_sup->position;
   return report;
 }
 

@@ -27,7 +27,7 @@ Json round(const Cell& cell) {
 
 Json nodes_json(const Mesh& mesh) {
   Json nodes = Json::array();
-  for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) nodes.push_back({mesh.nodes(n, 0), mesh.nodes(n, 1)});
+  for (const auto& node : mesh.nodes.rowwise()) nodes.push_back(node);
   return nodes;
 }
 
@@ -43,13 +43,10 @@ Json drawn_places(const EdgeSamples& samples) {
   std::vector<Vec2> places;
   for (const SamplePiece& piece : samples.pieces) places.insert(places.end(), piece.places.begin(), piece.places.end());
   const Vec2 chord = places.back() - places.front();
-  Json drawn = Json::array();
-  if (std::ranges::all_of(places, [&](const Vec2& x) {
-        return std::abs(cross(chord, x - places.front())) <= 1e-9 * chord.squaredNorm();
-      }))
-    return drawn;
-  for (const Vec2& x : places) drawn.push_back({x.x(), x.y()});
-  return drawn;
+  const auto is_on_chord = [&](const Vec2& x) {
+    return std::abs(cross(chord, x - places.front())) <= 1e-9 * chord.squaredNorm();
+  };
+  return std::ranges::all_of(places, is_on_chord) ? Json::array() : Json(places);
 }
 
 using DrawnEdges = std::map<std::array<int, 2>, Json>;  // by their ends, both ways

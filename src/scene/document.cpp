@@ -7,23 +7,15 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <charconv>
 #include <sstream>
 #include <utility>
 
+#include "base/printable.hpp"
 #include "scene/fail.hpp"
 
 namespace mortise::scene_file {
 namespace {
-
-/// The shortest decimal that reads back as the same number.
-std::string shortest(double number) {
-  std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
-  return {digits.data(), end.ptr};
-}
 
 Node convert(const toml::node& source, std::string name, std::string path, const Place& document);
 

@@ -72,7 +72,7 @@ int whole(const Node& node, int least, int most) {
 }
 
 bool boolean(const Node& node) {
-  if (node.kind != Node::Kind::boolean) fail(node, "expected true or false, found " + describe(node));
+  if (node.kind != Node::Kind::boolean) fail_expected(node, "true or false");
   return node.text == "true";
 }
 

@@ -48,6 +48,11 @@ std::string file_trouble(const fs::path& path) {
   return "no such file" + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
 }
 
+void require_file(const Node& file, const fs::path& path) {
+  if (const std::string trouble = file_trouble(path); !trouble.empty())
+    fail(file, "'" + path.string() + "': " + trouble);
+}
+
 std::string read_text(const fs::path& path) {
   Place place;
   place.file = path.string();

@@ -100,8 +100,7 @@ void add_entry(const Node& entry, const CaseEntry& of, std::vector<Draft>& draft
 // A row a case: its name, its scale, and values of keys; empty fields change nothing.
 void add_table(const Node& file, const std::string& scene_path, std::vector<Draft>& drafts) {
   const std::filesystem::path path = resolve(file, scene_path);
-  if (const std::string trouble = file_trouble(path); !trouble.empty())
-    fail(file, "'" + path.string() + "': " + trouble);
+  require_file(file, path);
   Place place{.file = path.string(), .line = 1, .column = 0, .setting = {}};
   std::ifstream stream(path, std::ios::binary);
   std::string header, line;

@@ -9,9 +9,7 @@ namespace mortise::scene_file {
 namespace {
 
 std::array<std::string, 2> read_between(const Node& node, const Node& entry, Once& once) {
-  if (node.kind != Node::Kind::list || node.items.size() != 2) {
-    fail(node, "expected a list of two names, found " + describe(node));
-  }
+  if (node.kind != Node::Kind::list || node.items.size() != 2) fail_expected(node, "a list of two names");
   const std::vector<const Node*> curves = names(node);
   const std::string &first = curves[0]->text, &second = curves[1]->text;
   if (first == second && !is_pattern(first)) fail(node, "expected two different curves, found '" + first + "' twice");
@@ -43,7 +41,7 @@ void read_initial_gap(const Node* node, const Scene& scene, ContactSpec& contact
     return;
   }
   if (node->kind != Node::Kind::number && node->kind != Node::Kind::string)
-    fail(*node, "expected a length, an expression or a word, found " + describe(*node));
+    fail_expected(*node, "a length, an expression or a word");
   contact.initial_gap = InitialGap::given;
   contact.gap = field(*node, expression_use(scene, true));
 }

@@ -51,11 +51,11 @@ std::vector<CopyPlace> read_grid(const Node& node) {
 
 std::vector<CopyPlace> read_places(const Node& node) {
   if (node.kind != Node::Kind::list || node.items.empty())
-    fail(node, "expected a list of places [[x, y], [x, y, degrees], ...], found " + describe(node));
+    fail_expected(node, "a list of places [[x, y], [x, y, degrees], ...]");
   std::vector<CopyPlace> places;
   for (const Node& item : node.items) {
     if (item.kind != Node::Kind::list || item.items.size() < 2 || item.items.size() > 3)
-      fail(item, "expected [x, y] or [x, y, degrees], found " + describe(item));
+      fail_expected(item, "[x, y] or [x, y, degrees]");
     const double degrees = item.items.size() == 3 ? number(item.items[2]) : 0;
     places.push_back({int(places.size()), 0, degrees, Vec2(number(item.items[0]), number(item.items[1]))});
   }
@@ -89,10 +89,10 @@ std::string name_of(const std::string& pattern, bool grid, const CopyPlace& plac
 void check_name(const Node& node, bool grid, std::size_t count) {
   const auto stars = std::ranges::count(name(node), '*');
   if (stars > (grid ? 2 : 1) || (stars == 0 && count > 1))
-    fail(node, std::string("expected a name with * for the number of the copy, such as \"block_*\"") +
-                   (grid ? " or \"block_*_*\"" : "") + ", found " + describe(node));
+    fail_expected(node, std::string("a name with * for the number of the copy, such as \"block_*\"") +
+                            (grid ? " or \"block_*_*\"" : ""));
   if (printable(node.text) != node.text || node.text.find('"') != std::string::npos)
-    fail(node, "expected one line of text without quotation marks, found " + describe(node));
+    fail_expected(node, "one line of text without quotation marks");
 }
 
 void read_entry(const Node& entry, Scene& scene) {

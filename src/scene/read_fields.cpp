@@ -24,8 +24,7 @@ FieldSpec read_field(const Node& node, const std::string& scene_path) {
   const fs::path path = resolve(file, scene_path);
   if (const std::string ending = path.extension().string(); ending != ".vtu" && ending != ".csv")
     fail(file, "expected a file that ends in .vtu or .csv, found '" + file.text + "'");
-  if (const std::string trouble = file_trouble(path); !trouble.empty())
-    fail(file, "'" + path.string() + "': " + trouble);
+  require_file(file, path);
   spec.file = path.string();
   spec.function->name = node.name;
   const Node* component = find(node, "component");

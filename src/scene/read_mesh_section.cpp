@@ -15,8 +15,7 @@ void check_mesh_file(const Node& file, const fs::path& path) {
     fail(file, std::string("expected a file that ends in ") + mesh_endings_in_words + ", found '" + file.text + "'" +
                    mesh_ending_advice(file.text));
   }
-  const std::string trouble = file_trouble(path);
-  if (!trouble.empty()) fail(file, "'" + path.string() + "': " + trouble);
+  require_file(file, path);
 }
 
 }  // namespace
