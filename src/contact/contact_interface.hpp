@@ -1,6 +1,9 @@
 // Two curves that may touch, and what contact makes of them.
 #pragma once
 
+#include <algorithm>
+#include <span>
+
 #include "contact/contact_geometry.hpp"
 #include "contact/coupling_rows.hpp"
 
@@ -26,5 +29,17 @@ struct ContactInterface {
   std::vector<ContactPoint> points;  ///< at which contact is integrated (segments.hpp)
   Coupling coupling;                 ///< the rows (coupling.hpp)
 };
+
+/// Of the points of an interface those of each edge of the multiplier side, one behind another.
+template <typename Points>
+auto edge_by_edge(Points& points) {
+  std::vector<decltype(std::span(points))> runs;
+  for (auto first = points.begin(); first != points.end();) {
+    const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
+    runs.emplace_back(first, last);
+    first = last;
+  }
+  return runs;
+}
 
 }  // namespace mortise

@@ -49,13 +49,11 @@ Accumulated accumulate(const ContactInterface& interface, const CouplingOptions&
                     .nearest = VecX::Constant(count, std::numeric_limits<double>::infinity())}};
   sums.own.reserve(points.size() * 18);
   sums.opposite.reserve(points.size() * 18);
-  for (auto first = points.begin(); first != points.end();) {
-    const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
-    const Edge& edge = interface.multiplier.edges[first->edge];
-    const auto& multipliers = coupling.on_edge[first->edge];
-    const EdgeMultipliers space = edge_multipliers(edge, options.multipliers, {first, last});
-    for (; first != last; ++first) {
-      const ContactPoint& p = *first;
+  for (const auto& of_edge : edge_by_edge(points)) {
+    const Edge& edge = interface.multiplier.edges[of_edge[0].edge];
+    const auto& multipliers = coupling.on_edge[of_edge[0].edge];
+    const EdgeMultipliers space = edge_multipliers(edge, options.multipliers, of_edge);
+    for (const ContactPoint& p : of_edge) {
       const Edge& other = interface.opposite.edges[p.opposite_edge];
       const EdgeShape N = edge_shape(edge.node_count, p.xi), M = edge_shape(other.node_count, p.eta);
       const Eigen::Vector3d shape = space.shape(p.xi), psi = p.dA * shape;
@@ -161,9 +159,9 @@ VecX multiplier_values(const Coupling& coupling, const VecX& row_values) {
 
 std::map<int, Vec2> contact_forces(const SparseRows& B, const VecX& row_values) {
   std::map<int, Vec2> forces;
-  for (Eigen::Index row = 0; row < B.rows(); ++row)
-    for (SparseRows::InnerIterator it(B, row); it; ++it)
-      forces.try_emplace(int(it.col() / 2), Vec2::Zero()).first->second(it.col() % 2) -= it.value() * row_values(row);
+  for_each_entry(B, [&](int row, int column, double value) {
+    forces.try_emplace(column / 2, Vec2::Zero()).first->second(column % 2) -= value * row_values(row);
+  });
   return forces;
 }
 

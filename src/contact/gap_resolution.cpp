@@ -23,17 +23,15 @@ struct EdgeGaps {
 std::vector<EdgeGaps> gaps_by_edge(const Points& nodes, const Curve& multiplier, const ContactGeometry& geometry,
                                    std::vector<ContactPoint>& points) {
   std::vector<EdgeGaps> list;
-  for (auto first = points.begin(); first != points.end();) {
-    const int edge = first->edge;
+  for (const std::span<ContactPoint> of_edge : edge_by_edge(points)) {
+    const int edge = of_edge[0].edge;
     const Edge& of = multiplier.edges[edge];
-    const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != edge; });
-    EdgeGaps gaps{edge, {first, last}, {}, closed_strain * edge_length(nodes, of)};
+    EdgeGaps gaps{edge, of_edge, {}, closed_strain * edge_length(nodes, of)};
     for (ContactPoint& p : gaps.points) {
       p.unknown = geometry.multiplier->uncertainty(edge) + geometry.opposite->uncertainty(p.opposite_edge);
       gaps.drawn.push_back(p.gap - geometry.clearance_at(edge_point(nodes, of, p.xi).position, {edge, p.xi}));
     }
     list.push_back(std::move(gaps));
-    first = last;
   }
   return list;
 }

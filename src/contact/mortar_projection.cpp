@@ -16,11 +16,8 @@ std::vector<TiedNode> mortar_projection(const Points& nodes, const Curve& multip
   const std::vector<ContactPoint> points = contact_points(nodes, edges, Integration::segments);
   std::map<int, std::map<int, double>> M;
   std::map<int, int> beside;
-  for (std::size_t first = 0; first < points.size();) {
-    const Edge& edge = multiplier.edges[points[first].edge];
-    std::size_t last = first;
-    while (last < points.size() && points[last].edge == points[first].edge) ++last;
-    const std::span of_edge(points.data() + first, last - first);
+  for (const auto& of_edge : edge_by_edge(points)) {
+    const Edge& edge = multiplier.edges[of_edge[0].edge];
     const EdgeMultipliers space = edge_multipliers(edge, Multipliers::dual, of_edge);
     for (int a = 0; a < edge.node_count; ++a) beside[edge.nodes[a]] = edge.nodes[edge.node_count == 3 ? 2 : 1 - a];
     for (const ContactPoint& p : of_edge) {
@@ -30,7 +27,6 @@ std::vector<TiedNode> mortar_projection(const Points& nodes, const Curve& multip
       for (int a = 0; a < space.count; ++a)
         for (int c = 0; c < other.node_count; ++c) M[edge.nodes[a]][other.nodes[c]] += p.dA * psi(a) * shape.N[c];
     }
-    first = last;
   }
   std::vector<TiedNode> tied;
   for (const auto& [node, row] : M) {

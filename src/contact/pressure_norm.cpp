@@ -8,21 +8,19 @@
 namespace mortise {
 
 SparseMatrix pressure_norm(const Points& nodes, const ContactInterface& interface, Multipliers space) {
-  const std::vector<ContactPoint>& points = interface.points;
   const Coupling& coupling = interface.coupling;
   Triplets entries;
-  for (auto first = points.begin(); first != points.end();) {
-    const auto last = std::find_if(first, points.end(), [&](const ContactPoint& p) { return p.edge != first->edge; });
-    const Edge& edge = interface.multiplier.edges[first->edge];
-    const auto& on = coupling.on_edge[first->edge];
-    const EdgeMultipliers shapes = edge_multipliers(edge, space, {first, last});
+  for (const auto& points : edge_by_edge(interface.points)) {
+    const Edge& edge = interface.multiplier.edges[points[0].edge];
+    const auto& on = coupling.on_edge[points[0].edge];
+    const EdgeMultipliers shapes = edge_multipliers(edge, space, points);
     const double h = edge_length(nodes, edge);
-    for (; first != last; ++first) {
-      const Eigen::Vector3d psi = shapes.shape(first->xi);
+    for (const ContactPoint& p : points) {
+      const Eigen::Vector3d psi = shapes.shape(p.xi);
       for (int i = 0; i < shapes.count; ++i)
         for (int j = 0; j < shapes.count; ++j) {
           const int a = coupling.row[on[i]], b = coupling.row[on[j]];
-          if (a >= 0 && b >= 0) entries.emplace_back(a, b, h * first->dA * psi(i) * psi(j));
+          if (a >= 0 && b >= 0) entries.emplace_back(a, b, h * p.dA * psi(i) * psi(j));
         }
     }
   }

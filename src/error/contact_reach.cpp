@@ -113,12 +113,8 @@ std::array<std::string, 2> curve_names(const Mesh& mesh, const ContactPair& pair
 ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& u,
                            const std::vector<FoundPoint>& found) {
   std::vector<Vec2> places;
-  const auto [multiplier, opposite] = curve_names(mesh, pair);
-  for (const FoundPoint& point : found) {
-    const auto& [first, second] = point.between;
-    if ((first == multiplier && second == opposite) || (first == opposite && second == multiplier))
-      places.push_back(point.position);
-  }
+  for (const FoundPoint& point : found)
+    if (point.is({curve_names(mesh, pair), point.position})) places.push_back(point.position);
   ContactReach reach{by_vertices(pair, line, u), by_points(pair, line)};
   add_found(mesh, pair.multiplier, places, reach[0]);
   add_found(mesh, pair.opposite, places, reach[1]);

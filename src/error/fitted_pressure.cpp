@@ -32,14 +32,13 @@ struct Walk {
   std::vector<Index> vertex;  // of the line
   VecX s, p;                  // p: 0 where it is none
   std::vector<char> carries;
-  std::vector<Facing> facing;  // of each edge
-  /// Of each vertex at which the form of p is known, as which power of the distance it goes; else NaN.
-  std::vector<double> power;
-  std::vector<char> swings;  // as of SingularPoint
+  std::vector<Facing> facing;               // of each edge
+  std::vector<const SingularPoint*> point;  // at each vertex, where the form of p is known; else null
 
   Index edges() const { return Index(facing.size()); }
   bool loaded(Index e) const { return carries[e] && carries[e + 1] && facing[e] == Facing::whole; }
-  bool cut(Index v) const { return !std::isnan(power[v]); }
+  bool cut(Index v) const { return point[v] != nullptr; }
+  bool swings(Index v) const { return cut(v) && point[v]->is_swinging(); }
 };
 
 std::vector<Facing> facings(const Mesh& mesh, const ContactPair& pair) {
@@ -59,40 +58,29 @@ const SingularPoint* singular_at(const PressureEstimate& estimate, Index i, doub
   return nullptr;
 }
 
-double power_at(const PressureEstimate& estimate, Index i, double length) {
-  const SingularPoint* point = singular_at(estimate, i, length);
-  if (!point) return std::numeric_limits<double>::quiet_NaN();
-  return point->small_power != 0 ? point->small_power : point->pressure_exponent - 1;
-}
-
-bool swings_at(const PressureEstimate& estimate, Index i, double length) {
-  const SingularPoint* point = singular_at(estimate, i, length);
-  return point && point->is_swinging();
-}
-
 Walk walk_along(const Mesh& mesh, const ContactPair& pair, const PressureEstimate& estimate) {
   const PressureLine& line = estimate.line;
   const Index last = line.p.size() - 1;
   const double least = loaded_part * largest_entry(line.p), length = line.s(last);
   const bool bilateral = pair.spec.condition == Condition::bilateral;
-  // p_h may be zero where it swings.
-  const auto carries = [&](Index i) {
-    return bilateral ? line.loaded[i] != 0 : line.p(i) > least || (line.loaded[i] && swings_at(estimate, i, length));
+  std::vector<const SingularPoint*> points;
+  for (Index i = 0; i <= last; ++i) points.push_back(singular_at(estimate, i, length));
+  const auto carries = [&](Index i) {  // p_h may be zero where it swings
+    return bilateral ? line.loaded[i] != 0
+                     : line.p(i) > least || (line.loaded[i] && points[i] && points[i]->is_swinging());
   };
   Index start = 0;
   for (Index i = 0; line.closed && i < last; ++i)
-    if (!carries(i) || !std::isnan(power_at(estimate, i, length))) start = i;
+    if (!carries(i) || points[i]) start = i;
   const std::vector<Facing> facing = facings(mesh, pair);
-  Walk walk{
-      .vertex = {}, .s = VecX(last + 1), .p = VecX(last + 1), .carries = {}, .facing = {}, .power = {}, .swings = {}};
+  Walk walk{.vertex = {}, .s = VecX(last + 1), .p = VecX(last + 1), .carries = {}, .facing = {}, .point = {}};
   for (Index k = 0; k <= last; ++k) {
     const Index i = start + k > last ? start + k - last : start + k;
     walk.vertex.push_back(i);
     walk.s(k) = line.s(i) + (start + k > last ? length : 0);
     walk.carries.push_back(carries(i));
     walk.p(k) = walk.carries[k] ? line.p(i) : 0;
-    walk.power.push_back(power_at(estimate, i, length));
-    walk.swings.push_back(swings_at(estimate, i, length));
+    walk.point.push_back(points[i]);
     if (k < last) walk.facing.push_back(facing[i % last]);
   }
   return walk;
@@ -107,7 +95,11 @@ struct Range {
 // How a piece ends at vertex v, beyond which edge e is; nothing where that faces the other side in part: its moments
 // are no hat functions'.
 std::optional<PieceEnd> end_at(const Walk& walk, Index v, Index e) {
-  if (walk.cut(v)) return PieceEnd{.power = walk.power[v], .tip = walk.swings[v] != 0};
+  if (walk.cut(v)) {
+    const SingularPoint& point = *walk.point[v];
+    return PieceEnd{.power = point.small_power != 0 ? point.small_power : point.pressure_exponent - 1,
+                    .tip = point.is_swinging()};
+  }
   if (e < 0 || e >= walk.edges() || walk.facing[e] == Facing::none) return PieceEnd{};
   if (walk.facing[e] == Facing::part || walk.carries[e == v ? v + 1 : v - 1]) return std::nullopt;
   return PieceEnd{.power = 0.5, .border = true};
@@ -233,7 +225,6 @@ void lower_errors(const Walk& walk, const Range& range, const PressureForm& form
                   PressureEstimate& e) {
   const PressureLine& line = e.line;
   LineError& local = e.local;
-  const bool swings = local.swing.size() > 0;
   const VecX missed = local.pointwise(line);
   double worst = 0, square = 0, of_multiplier = 0;
   for (Index k = range.first; k <= range.last; ++k) {
@@ -243,17 +234,16 @@ void lower_errors(const Walk& walk, const Range& range, const PressureForm& form
     const double off = std::abs(form(walk.s(k)) - coarse(walk.s(k)));
     if (off > 0) worst = largest(worst, off / missed(i));
     square += off * off * line.h(i);
-    of_multiplier += std::pow(swings ? std::max(local.l2(i), local.swing(i)) : local.l2(i), 2);
+    of_multiplier += std::pow(std::max(local.l2(i), local.swing(i)), 2);
   }
   const double norm = std::sqrt(square / of_multiplier);
   if (!(norm < 1)) return;
-  if (local.worst.size() == 0) local.worst = VecX::Ones(line.p.size());
   for (Index k = range.first; k <= range.last; ++k) {
     const Index i = walk.vertex[k];
-    const bool known = !walk.cut(k) || (walk.swings[k] && (k == 0 || k > range.first));  // once where two pieces meet
+    const bool known = !walk.cut(k) || (walk.swings(k) && (k == 0 || k > range.first));  // once where two pieces meet
     if (!known || local.border[i]) continue;
     local.l2(i) *= norm;
-    if (swings) local.swing(i) *= norm;
+    local.swing(i) *= norm;
     local.worst(i) = std::max(1.0, std::min(worst, 1.0) / norm);
   }
 }

@@ -155,7 +155,6 @@ void add_overlaps(const Mesh& mesh, const ContactPair& pair, const OpenPoints& o
     width(point.edge) = std::min(parabola, length);
   }
   if (overlap.sum() == 0) return;
-  error.missed = VecX::Zero(edges + 1);
   for (Eigen::Index e = 0; e < edges; ++e) {
     if (overlap(e) == 0) continue;
     const double a = width(e) / 2;

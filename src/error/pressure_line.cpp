@@ -189,9 +189,8 @@ VecX slope_jumps(const PressureLine& line) {
 LineError line_error(const PressureLine& line) {
   const Eigen::Index last = line.p.size() - 1;
   const VecX jump = slope_jumps(line);
-  LineError error{.l2 = (line.h.array().cube() * jump.array().square() / 120).sqrt(),
-                  .border = std::vector<char>(last + 1, 0),
-                  .borders = {}};
+  LineError error(last + 1);
+  error.l2 = (line.h.array().cube() * jump.array().square() / 120).sqrt();
   const double least = loaded_part * largest_entry(line.p);
   VecX last_p = VecX::Zero(last + 1);
   const auto vertex = [&](Eigen::Index i) { return line.closed ? (i + last) % last : i; };
@@ -224,8 +223,7 @@ Eigen::Index open_vertex(const PressureLine& line, const LineError::Border& bord
 
 VecX LineError::pointwise(const PressureLine& line) const {
   constexpr Eigen::Index reach = 4;
-  VecX at = whole().array() / line.h.array().sqrt() * pointwise_factor;
-  if (worst.size() > 0) at = at.cwiseProduct(worst);
+  const VecX at = whole().array() / line.h.array().sqrt() * pointwise_factor * worst.array();
   const Eigen::Index count = at.size(), period = count - 1;
   VecX found = at;
   for (Eigen::Index i = 0; i < count; ++i)
@@ -244,29 +242,16 @@ VecX LineError::pointwise(const PressureLine& line) const {
   return found;
 }
 
-VecX LineError::along() const { return data.size() > 0 ? VecX(l2 + data) : l2; }
-
-void LineError::add_data(Eigen::Index vertex, double by) {
-  if (data.size() == 0) data = VecX::Zero(l2.size());
-  data(vertex) = std::hypot(data(vertex), by);
-}
+void LineError::add_data(Eigen::Index vertex, double by) { data(vertex) = std::hypot(data(vertex), by); }
 
 void LineError::add_weak(const Weak& of) {
   add_data(of.vertex, of.part);
   weak.push_back(of);
 }
 
-VecX LineError::whole() const {
-  VecX largest = along();
-  for (const VecX& other : {swing, missed})
-    if (other.size() > 0) largest = largest.cwiseMax(other);
-  return largest;
-}
+VecX LineError::whole() const { return along().cwiseMax(swing).cwiseMax(missed); }
 
-void LineError::raise(Eigen::Index vertex, double by) {
-  if (least.size() == 0) least = VecX::Zero(l2.size());
-  least(vertex) = std::max(least(vertex), by);
-}
+void LineError::raise(Eigen::Index vertex, double by) { least(vertex) = std::max(least(vertex), by); }
 
 void add_hardly_faced(const ContactPair& pair, const PressureLine& line, LineError& error) {
   const Eigen::Index last = line.p.size() - 1;

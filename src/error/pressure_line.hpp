@@ -50,9 +50,20 @@ double round_off_pressure(const Mesh& mesh, const ContactPair& pair, const std::
 /// rises as a root, p an edge further on times sqrt(h) / 4 (docs/theory.md eq. 47). Where the other side ends, within
 /// an edge or not, is known: that is an end of the line, no border.
 struct LineError {
+  LineError() = default;
+  /// Of a pressure that is known.
+  explicit LineError(Eigen::Index vertices)
+      : l2(VecX::Zero(vertices)),
+        data(l2),
+        swing(l2),
+        worst(VecX::Ones(vertices)),
+        missed(l2),
+        border(vertices, 0),
+        least(l2) {}
+
   VecX l2;  ///< of each vertex, stress sqrt(length)
-  /// Likewise, of what no pressure along the line tells, such as a gap that the mesh does not follow; empty: nothing.
-  VecX data{};
+  /// Likewise, of what no pressure along the line tells, such as a gap that the mesh does not follow.
+  VecX data;
   /// Parts of `data` at points where p goes as a small power of the distance or its logarithm: they fall as `power` of
   /// the length of the edges there.
   struct Weak {
@@ -60,19 +71,17 @@ struct LineError {
     double part, power;
     bool at_end;  ///< of the line: the bodies' angles say how p goes; else it depends on how far they slide
   };
-  std::vector<Weak> weak{};
-  /// Likewise, of what p swings by about its slopes; empty: nothing. Edges of the next mesh are made by `l2` and
-  /// `data`, whose rates are known.
-  VecX swing{};
-  /// By how much more than l2 says p is off at the worst of these vertices; empty: 1.
-  VecX worst{};
-  /// Likewise, of contact that the mesh does not notice; empty: none.
-  VecX missed{};
+  std::vector<Weak> weak;
+  /// Likewise, of what p swings by about its slopes. Edges of the next mesh are made by `l2` and `data`, whose rates
+  /// are known.
+  VecX swing;
+  VecX worst;   ///< by how much more than l2 says p is off at the worst of these vertices
+  VecX missed;  ///< likewise, of contact that the mesh does not notice
   struct Missed {
     Vec2 place;
     double edge;  ///< so long are edges that would notice it
   };
-  std::vector<Missed> missed_at{};
+  std::vector<Missed> missed_at;
   /// Of the worst of a piecewise linear function's error, J h / 8, over l2 / sqrt(h), which is sqrt(h^2 J^2 / 120).
   static constexpr double pointwise_factor = 1.3693063937629153;  // sqrt(120) / 8
   std::vector<char> border;                                       ///< whether the border of contact makes it
@@ -84,13 +93,13 @@ struct LineError {
   };
   std::vector<Border> borders;
   /// What p is off by at least, of vertices at which it goes as a small power of the distance, or that hardly face the
-  /// other side, stress; empty: there are none.
-  VecX least{};
+  /// other side, stress.
+  VecX least;
   void raise(Eigen::Index vertex, double by);     ///< `least` at a vertex
   void add_data(Eigen::Index vertex, double by);  ///< a square to that of `data`
   void add_weak(const Weak& weak);                ///< to `data` too
-  VecX along() const;                             ///< the sum of `l2` and `data`
-  VecX whole() const;                             ///< of each vertex the largest of along(), `swing` and `missed`
+  VecX along() const { return l2 + data; }
+  VecX whole() const;  ///< of each vertex the largest of along(), `swing` and `missed`
   /// At each vertex what p is off by, stress: the largest within four edges. What the border makes falls with the
   /// distance r from it as sqrt(h / r): that is what moving it does to a root.
   VecX pointwise(const PressureLine& line) const;

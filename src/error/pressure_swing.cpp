@@ -103,7 +103,6 @@ VecX means_at_vertices(const PressureNodes& nodes, const VecX& figures) {
 }
 
 void set_swing(const VecX& errors, const PressureLine& line, LineError& local) {
-  local.swing = VecX::Zero(errors.size());
   for (Eigen::Index i = 0; i < errors.size(); ++i)
     if (line.loaded[i] && std::isfinite(errors(i))) local.swing(i) = errors(i) * std::sqrt(line.h(i));
 }

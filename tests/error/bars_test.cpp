@@ -295,7 +295,7 @@ TEST(Bars, OfAFittedPressureAskForTheMultipliersWithinTheirs) {
   const Results& r = solved("/geo/hertz.toml");
   PressureEstimate e = r.estimate->pressures[0];
   EXPECT_EQ(e.fitted.pieces.size(), 1U);
-  e.local = {.l2 = VecX::Zero(e.line.p.size()), .border = std::vector<char>(e.line.p.size(), 0), .borders = {}};
+  e.local = LineError(e.line.p.size());
   find_fitted_pressure(r.problem, r.problem.pairs[0], e);
   EXPECT_TRUE(e.fitted.pieces.empty());
 }

@@ -48,7 +48,7 @@ TEST(GapError, IsNoneWhereTheGapIsWiderAndNothingIsLoaded) {
 
 TEST(GapError, IsAddedSoThatBarsShowItInFull) {
   const PressureLine line = loaded_line({1, 1, 1});
-  LineError error{.l2 = VecX::Zero(3), .border = {0, 0, 0}, .borders = {}};
+  LineError error(3);
   add_gap_error(line, VecX::Constant(3, 7), error);
   EXPECT_NEAR(error.pointwise(line)(1), 7, 1e-12);
 }

@@ -146,7 +146,7 @@ TEST(HardlyFaced, VerticesAreKnownNoBetterThanToTheirOwnSize) {
   pair.points.back().ds = 0.2;
   LineError well = line_error(line);
   add_hardly_faced(pair, line, well);
-  EXPECT_EQ(well.least.size(), 0);
+  EXPECT_FALSE(well.least.any());
 }
 
 }  // namespace

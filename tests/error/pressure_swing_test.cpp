@@ -83,7 +83,8 @@ TEST(Swings, RaiseTheLocalErrorOnlyWhereTheyAreMore) {
   PressureLine line;
   line.h = Eigen::Vector3d(4, 4, 4);
   line.loaded = {1, 1, 0};
-  LineError local{.l2 = Eigen::Vector3d(1, 3, 0), .border = {0, 0, 0}, .borders = {}};
+  LineError local(3);
+  local.l2 = Eigen::Vector3d(1, 3, 0);
   set_swing(Eigen::Vector3d(1, 1, 1), line, local);
   EXPECT_EQ(local.whole(), Eigen::Vector3d(2, 3, 0));
 }

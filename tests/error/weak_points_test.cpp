@@ -50,7 +50,7 @@ TEST(WeakPoints, AreEndsWhoseFacesAreNotAtRightAngles) {
 TEST(WeakPoints, MissInL2WhatHatsMissOfThePower) {
   for (const auto& [d, of_it] : {std::pair{0.0175, 0.4964}, {0.1, 0.3777}}) {
     const PressureLine line = power(30, d);
-    LineError error{.l2 = VecX::Zero(31), .border = std::vector<char>(31, 0), .borders = {}};
+    LineError error(31);
     std::vector<SingularPoint> points{weak(d)};
     add_weak_points(line, points, error);
     EXPECT_NEAR(error.data.norm(), of_it * d * line.p(1) * std::sqrt(1.0 / 30), 0.02 * error.data.norm());
@@ -60,7 +60,7 @@ TEST(WeakPoints, MissInL2WhatHatsMissOfThePower) {
 
 TEST(WeakPoints, HaveBarsThatReachZeroAndLeaveTheList) {
   const PressureLine line = power(30, 0.1);
-  LineError error{.l2 = VecX::Zero(31), .border = std::vector<char>(31, 0), .borders = {}};
+  LineError error(31);
   SingularPoint other = weak(0);
   other.exponent = other.pressure_exponent = 0.5;
   std::vector<SingularPoint> points{weak(0.1), other};
@@ -105,7 +105,7 @@ TEST(WeakPoints, MissOfALogarithmWhatHatsMissOfIt) {
     square += weight * value * value;
   }
   const double missed = std::sqrt(square - right.dot(mass.ldlt().solve(right)));
-  LineError error{.l2 = VecX::Zero(edges + 1), .border = std::vector<char>(edges + 1, 0), .borders = {}};
+  LineError error(edges + 1);
   add_weak_logarithm(line, line.position[at], 3, error);
   ASSERT_EQ(error.data.size(), edges + 1);
   EXPECT_NEAR(error.data.norm(), 3 * missed, 0.03 * error.data.norm());
@@ -121,7 +121,7 @@ TEST(WeakPoints, OfContactThatGivesWayAreRoundedOffByTheLayer) {
   const PressureLine line = power(edges, d);
   const double p = line.p(0);
   const auto at_end = [&](double power, double stiffness) {
-    LineError error{.l2 = VecX::Zero(edges + 1), .border = std::vector<char>(edges + 1, 0), .borders = {}};
+    LineError error(edges + 1);
     add_layer_ends(line, {weak(power)}, {.points = {Vec2(1, stiffness)}}, modulus, error);
     EXPECT_EQ(error.data.tail(edges).norm() + error.least.tail(edges).norm(), 0);
     return Vec2(error.data(0), error.least(0));
@@ -129,7 +129,7 @@ TEST(WeakPoints, OfContactThatGivesWayAreRoundedOffByTheLayer) {
   const double soft = 1e-3 * modulus / h;
   EXPECT_NEAR(at_end(d, soft)(0), 0.1095 * d * p * soft / modulus * std::pow(h, 1.5), 0.01 * at_end(d, soft)(0));
   EXPECT_NEAR(at_end(-d, soft)(1), 0.3606 * d * p * soft / modulus * h, 0.01 * at_end(-d, soft)(1));
-  LineError closed{.l2 = VecX::Zero(edges + 1), .border = std::vector<char>(edges + 1, 0), .borders = {}};
+  LineError closed(edges + 1);
   std::vector<SingularPoint> points{weak(d)};
   add_weak_points(line, points, closed);
   const double hard = 1e5 * modulus / h;
@@ -138,7 +138,7 @@ TEST(WeakPoints, OfContactThatGivesWayAreRoundedOffByTheLayer) {
   EXPECT_NEAR(at_end(-d, hard)(1), p * (std::pow(0.36e5, d) - 1), 1e-3 * p);
   SingularPoint rollers = weak(-d);
   for (Wedge& wedge : rollers.wedges) wedge.outer = Face::symmetric;
-  LineError between{.l2 = VecX::Zero(edges + 1), .border = std::vector<char>(edges + 1, 0), .borders = {}};
+  LineError between(edges + 1);
   add_layer_ends(line, {rollers}, {.points = {Vec2(1, soft)}}, modulus, between);
   EXPECT_NEAR(between.data(0), d * at_end(-d, soft)(0), 1e-9 * between.data(0));
   EXPECT_NEAR(between.least(0), d * at_end(-d, soft)(1), 1e-9 * between.least(0));
