@@ -6,31 +6,17 @@
 #include "app/solve_scene.hpp"
 #include "results/report_text.hpp"
 #include "support/messages.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/two_blocks.hpp"
 
 namespace mortise::test {
 namespace {
 
-// Two two_blocks 0 <= x <= 2, the lower one from y = 0 to 1, the upper one to 1.6, on meshes that do not match; E =
-// 1000.
+// Two blocks 0 <= x <= 2, the lower one from y = 0 to 1, the upper one to 1.6; E = 1000.
 const std::string two_blocks = R"toml(
 SetFactory("OpenCASCADE");
-Mesh.ElementOrder = 2;
 Rectangle(1) = {0, 0, 0, 2, 1};
 Rectangle(2) = {0, 1, 0, 2, 0.6};
-Transfinite Curve{1, 3} = 6; Transfinite Curve{2, 4} = 4;
-Transfinite Curve{5, 7} = 9; Transfinite Curve{6, 8} = 3;
-Physical Surface("lower") = {1};
-Physical Surface("upper") = {2};
-Physical Curve("bottom") = {1};
-Physical Curve("lower_right") = {2};
-Physical Curve("lower_contact") = {3};
-Physical Curve("lower_left") = {4};
-Physical Curve("upper_contact") = {5};
-Physical Curve("upper_right") = {6};
-Physical Curve("top") = {7};
-Physical Curve("upper_left") = {8};
-)toml";
+)toml" + unlike_blocks;
 
 Scene loaded_scene(const TemporaryFolder& folder, const std::string& poisson, const std::string& rest,
                    const std::string& geo = two_blocks) {
@@ -339,7 +325,7 @@ TEST(FunctionsOfPlace, WhatCannotBeIsNamedWithItsPlace) {
 TEST(FunctionsOfPlace, ArcLengthNeedsOneChain) {
   const TemporaryFolder folder;
   std::string geo = two_blocks;
-  geo.replace(geo.find("{1};\nPhysical Curve(\"lower_right\")"), 3, "{1, 7}");
+  geo.replace(geo.find("{1}; Physical Curve(\"lower_right\")"), 3, "{1, 7}");
   const std::string message = message_of(
       [&] { check_scene(loaded_scene(folder, "0.3", "boundary = [{ on = \"bottom\", pressure = \"s\" }]\n", geo)); });
   expect_contains(message, "boundary 'bottom' belongs to more than one body");

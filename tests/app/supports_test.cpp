@@ -7,7 +7,7 @@
 
 #include "app/solve_scene.hpp"
 #include "support/messages.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/two_blocks.hpp"
 
 namespace mortise::test {
 namespace {
@@ -15,38 +15,14 @@ namespace {
 // Two blocks 0 <= x <= 2, the lower one from y = 0 to 1, the upper one to 1.6, turned about the origin, on meshes that
 // do not match.
 std::string blocks(double degrees) {
-  std::ostringstream geo;
-  const Eigen::Rotation2Dd turn(degrees * std::numbers::pi / 180);
-  const Vec2 corners[] = {{0, 0}, {2, 0}, {2, 1}, {0, 1}, {0, 1}, {2, 1}, {2, 1.6}, {0, 1.6}};
-  geo.precision(17);
-  for (int i = 0; i < 8; ++i) {
-    const Vec2 x = turn * corners[i];
-    geo << "Point(" << i + 1 << ") = {" << x.x() << ", " << x.y() << ", 0};\n";
-  }
-  for (int i = 0; i < 8; ++i)
-    geo << "Line(" << i + 1 << ") = {" << i + 1 << ", " << (i % 4 == 3 ? i - 2 : i + 2) << "};\n";
-  geo << R"(
-Mesh.ElementOrder = 2;
+  return outlines({{{0, 0}, {2, 0}, {2, 1}, {0, 1}, {0, 1}, {2, 1}, {2, 1.6}, {0, 1.6}}}, degrees) + R"(
 Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1};
 Curve Loop(2) = {5 : 8}; Plane Surface(2) = {2};
-Transfinite Curve{1, 3} = 6; Transfinite Curve{2, 4} = 4;
-Transfinite Curve{5, 7} = 9; Transfinite Curve{6, 8} = 3;
 Transfinite Surface{1, 2};
 Physical Point("corner") = {1};
 Physical Point("feet") = {1, 2};
 Physical Point("top_right") = {7};
-Physical Surface("lower") = {1};
-Physical Surface("upper") = {2};
-Physical Curve("bottom") = {1};
-Physical Curve("lower_right") = {2};
-Physical Curve("lower_contact") = {3};
-Physical Curve("lower_left") = {4};
-Physical Curve("upper_contact") = {5};
-Physical Curve("upper_right") = {6};
-Physical Curve("top") = {7};
-Physical Curve("upper_left") = {8};
-)";
-  return geo.str();
+)" + unlike_blocks;
 }
 
 Scene supported_scene(const TemporaryFolder& folder, const std::string& rest, double degrees = 0,

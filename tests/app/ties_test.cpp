@@ -7,7 +7,7 @@
 
 #include "app/solve_scene.hpp"
 #include "support/messages.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/two_blocks.hpp"
 
 namespace mortise::test {
 namespace {
@@ -110,16 +110,8 @@ TEST(Ties, EndOnSupportsAlongAnyDirection) {
   const auto plate = [](double degrees, const std::string& held) {
     const TemporaryFolder folder;
     const Eigen::Rotation2Dd turn(degrees * std::numbers::pi / 180);
-    const Vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 0}, {2, 0}, {2, 1}, {1, 1}};
-    std::ostringstream geo;
-    geo.precision(17);
-    for (int i = 0; i < 8; ++i) {
-      const Vec2 x = turn * corners[i];
-      geo << "Point(" << i + 1 << ") = {" << x.x() << ", " << x.y() << ", 0};\n";
-    }
-    for (int i = 0; i < 8; ++i)
-      geo << "Line(" << i + 1 << ") = {" << i + 1 << ", " << (i % 4 == 3 ? i - 2 : i + 2) << "};\n";
-    geo << R"(
+    folder.write("plate.geo",
+                 outlines({{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 0}, {2, 0}, {2, 1}, {1, 1}}}, degrees) + R"(
 Mesh.ElementOrder = 2;
 Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1};
 Curve Loop(2) = {5 : 8}; Plane Surface(2) = {2};
@@ -128,8 +120,7 @@ Transfinite Surface{1, 2};
 Physical Surface("a") = {1}; Physical Surface("b") = {2};
 Physical Curve("bottom") = {1, 5}; Physical Curve("left") = {4}; Physical Curve("right") = {6};
 Physical Curve("a_tie") = {2}; Physical Curve("b_tie") = {8};
-)";
-    folder.write("plate.geo", geo.str());
+)");
     const Vec2 n = turn * Vec2::UnitY();
     std::ostringstream across;
     across.precision(17);

@@ -6,33 +6,20 @@
 
 #include "app/solve_scene.hpp"
 #include "support/pressure_at.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/two_blocks.hpp"
 
 namespace mortise::test {
 namespace {
 
 // Two blocks 2 wide. `load`: of the scene besides the pressure on top.
 Results loaded_blocks(int lower, int upper, const std::string& load) {
-  const TemporaryFolder folder;
   const auto edges = [](int count) { return std::to_string(count + 1); };
-  folder.write("blocks.geo", R"(SetFactory("OpenCASCADE"); Mesh.ElementOrder = 2;
-Rectangle(1) = {0, 0, 0, 2, 1}; Rectangle(2) = {0, 1, 0, 2, 0.6};
-Transfinite Curve{1, 3} = )" + edges(lower) +
-                                 "; Transfinite Curve{2, 4} = " + edges(lower / 2) + "; Transfinite Curve{5, 7} = " +
-                                 edges(upper) + "; Transfinite Curve{6, 8} = " + edges(3 * upper / 10) + R"(;
-Transfinite Surface{1, 2};
-Physical Surface("lower") = {1}; Physical Surface("upper") = {2}; Physical Curve("bottom") = {1};
-Physical Curve("sides") = {2, 4, 6, 8}; Physical Curve("lower_contact") = {3}; Physical Curve("upper_contact") = {5};
-Physical Curve("top") = {7};)");
-  Results r = solve_scene(read_scene(folder.write("scene.toml", R"(mesh.file = "blocks.geo"
-materials.m = { young = 1000, poisson = 0.3 }
-bodies = { lower = "m", upper = "m" }
-boundary = [{ on = "bottom", displacement = { y = 0 } }, { on = "sides", displacement = { x = 0 } },
-  { on = "top", pressure = 1 }]
-contact = [{ between = ["upper_contact", "lower_contact"], multipliers_on = "lower_contact" }]
-)" + load)));
-  estimate(r);
-  return r;
+  return pressed_blocks(
+      "Mesh.ElementOrder = 2; Rectangle(1) = {0, 0, 0, 2, 1}; Rectangle(2) = {0, 1, 0, 2, 0.6};\n"
+      "Transfinite Curve{1, 3} = " +
+          edges(lower) + "; Transfinite Curve{2, 4} = " + edges(lower / 2) +
+          "; Transfinite Curve{5, 7} = " + edges(upper) + "; Transfinite Curve{6, 8} = " + edges(3 * upper / 10) + ";",
+      "multipliers_on = \"lower_contact\"", load);
 }
 
 // The upper one strained in a square 0.1 wide that stands on the line; its edges are vertices of meshes of 80 edges.

@@ -8,32 +8,19 @@
 
 #include "app/solve_scene.hpp"
 #include "support/pressure_at.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/two_blocks.hpp"
 
 namespace mortise::test {
 namespace {
 
 // Two blocks 1 wide of triangles of some order, pressed together over a clearance of four waves.
 Results waved_blocks(int order, int edges) {
-  const TemporaryFolder folder;
   const std::string count = std::to_string(edges + 1), across = std::to_string(edges / 5 + 1);
-  folder.write("blocks.geo", R"(SetFactory("OpenCASCADE"); Mesh.ElementOrder = )" + std::to_string(order) + R"(;
-Rectangle(1) = {0, 0, 0, 1, 0.4}; Rectangle(2) = {0, 0.4, 0, 1, 0.4};
-Transfinite Curve{1, 3, 5, 7} = )" +
-                                 count + "; Transfinite Curve{2, 4, 6, 8} = " + across + R"(;
-Transfinite Surface{1, 2};
-Physical Surface("lower") = {1}; Physical Surface("upper") = {2}; Physical Curve("bottom") = {1};
-Physical Curve("sides") = {2, 4, 6, 8}; Physical Curve("lower_contact") = {3}; Physical Curve("upper_contact") = {5};
-Physical Curve("top") = {7};)");
-  Results r = solve_scene(read_scene(folder.write("scene.toml", R"(mesh.file = "blocks.geo"
-materials.m = { young = 1000, poisson = 0.3 }
-bodies = { lower = "m", upper = "m" }
-boundary = [{ on = "bottom", displacement = { y = 0 } }, { on = "sides", displacement = { x = 0 } },
-  { on = "top", pressure = 1 }]
-contact = [{ between = ["upper_contact", "lower_contact"], clearance = "2e-5 * cos(8 * pi * x) + 0" }]
-)")));
-  estimate(r);
-  return r;
+  return pressed_blocks("Mesh.ElementOrder = " + std::to_string(order) + ";\n" +
+                            "Rectangle(1) = {0, 0, 0, 1, 0.4}; Rectangle(2) = {0, 0.4, 0, 1, 0.4};\n"
+                            "Transfinite Curve{1, 3, 5, 7} = " +
+                            count + "; Transfinite Curve{2, 4, 6, 8} = " + across + ";",
+                        "clearance = \"2e-5 * cos(8 * pi * x) + 0\"");
 }
 
 // Linear triangles are too stiff for the waves by a tenth to a half, all of the line's means are right, and p is

@@ -26,14 +26,8 @@ TEST(PrincipalStresses, AreThoseOfTheThreeDirections) {
 
 TEST(Extremes, OfARingUnderPressureLieInItsBore) {
   // Lame: in the bore sigma_r = -p, sigma_theta = 5/3 p; von Mises' stress with sigma_33 = nu (sigma_r + sigma_theta).
-  Scene s;
-  s.path = "test scene";
-  s.materials["steel"] = {210e9, 0.3, 0};
-  s.bodies = {{"ring", "steel"}};
-  s.boundaries = {{.key = "cut", .on = {"ring_east"}, .what = Displacement{{}, 0}},
-                  {.key = "cut", .on = {"ring_west"}, .what = Displacement{0, {}}},
-                  {.key = "bore", .on = {"ring_south"}, .what = Pressure{10e6}}};
-  const Results r = solve_scene(s, mesh_of({test::ring("ring", 32, 16, {0, 0}, 1, 2, 90, 0)}, CellKind::quad8));
+  const Results r =
+      solve_scene(bored_scene(), mesh_of({test::ring("ring", 32, 16, {0, 0}, 1, 2, 90, 0)}, CellKind::quad8));
   const Extremes& found = r.recovery.extremes;
   EXPECT_NEAR(found.principal_max.value, 5.0 / 3 * 10e6, 2e-3 * 10e6);
   EXPECT_NEAR(found.principal_min.value, -10e6, 5e-3 * 10e6);
@@ -46,10 +40,7 @@ TEST(Extremes, OfARingUnderPressureLieInItsBore) {
 
 TEST(Extremes, NameTheBodyAndTheCornerWithoutLimit) {
   // Clamped all along one side and pulled: in plane strain the stress has no limit at the ends of the clamp.
-  Scene s;
-  s.path = "test scene";
-  s.materials["steel"] = {210e9, 0.3, 0};
-  s.bodies = {{"idle", "steel"}, {"pulled", "steel"}};
+  Scene s = steel_scene({"idle", "pulled"});
   s.boundaries = {{.key = "clamp", .on = {"pulled_west", "idle_west"}, .what = Displacement{0, 0}},
                   {.key = "load", .on = {"pulled_east"}, .what = SurfaceTraction{Vec2(10e6, 0)}}};
   const auto block = [](const std::string& name, double y) {

@@ -54,13 +54,7 @@ TEST(Probes, LeaveOutTheStrainOfAnExpansionThatNothingHinders) {
 
 // A quarter ring, 1 < r < 2, under pressure in its bore.
 Results ring(int n, const std::vector<ProbeSpec>& probes, CellKind kind = CellKind::quad8) {
-  Scene s;
-  s.path = "test scene";
-  s.materials["steel"] = {210e9, 0.3, 0};
-  s.bodies = {{"ring", "steel"}};
-  s.boundaries = {{.key = "cut", .on = {"ring_east"}, .what = Displacement{{}, 0}},
-                  {.key = "cut", .on = {"ring_west"}, .what = Displacement{0, {}}},
-                  {.key = "bore", .on = {"ring_south"}, .what = Pressure{10e6}}};
+  Scene s = bored_scene();
   s.probes = probes;
   return solve_scene(s, mesh_of({test::ring("ring", 2 * n, n, {0, 0}, 1, 2, 90, 0)}, kind));
 }

@@ -21,11 +21,22 @@ BoundarySpec pressed(std::vector<std::string> on) {
 
 }  // namespace
 
-Scene bare_scene() {
+Scene steel_scene(const std::vector<std::string>& bodies) {
   Scene s;
   s.path = "test scene";
   s.materials["steel"] = {210e9, 0.3, 0};
-  s.bodies = {{"upper", "steel"}, {"lower", "steel"}};
+  for (const std::string& body : bodies) s.bodies.push_back({body, "steel"});
+  return s;
+}
+
+Scene bored_scene() {
+  Scene s = steel_scene({"ring"});
+  s.boundaries = {held({"ring_east"}, {}, 0), held({"ring_west"}, 0, {}), pressed({"ring_south"})};
+  return s;
+}
+
+Scene bare_scene() {
+  Scene s = steel_scene({"upper", "lower"});
   ContactSpec contact;
   contact.key = "contact.0";
   contact.between = {"upper_contact", "lower_contact"};

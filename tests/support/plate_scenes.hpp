@@ -6,6 +6,10 @@
 
 namespace mortise::test {
 
+/// Bodies of steel, nothing held or loaded.
+Scene steel_scene(const std::vector<std::string>& bodies);
+/// A body "ring" of patches.hpp from the x axis to the y axis, with 10 MPa in its bore, between lines of symmetry.
+Scene bored_scene();
 /// Steel, one closed contact pair, nothing held or loaded. Bilateral.
 Scene bare_scene();
 /// Symmetry on the left, free on the right, rolling bottom, 10 MPa on top: sigma_22 = -10 MPa.
