@@ -39,33 +39,43 @@ VecX opened_rows(const ContactPair& pair, const VecX& overlaps, Eigen::Index row
 }  // namespace
 
 BorderOverlaps::BorderOverlaps(const Problem& problem, const Solution& solution,
-                               const std::vector<PressureEstimate>& pressures)
-    : pairs_(Eigen::Index(problem.pairs.size())) {
+                               const std::vector<PressureEstimate>& pressures, bool each) {
   const SaddlePointSystem& system = problem.discretisation.system;
+  const Eigen::Index pairs = Eigen::Index(problem.pairs.size());
   MatX rows(system.B.rows(), 0);
-  for (Eigen::Index k = 0; k < pairs_; ++k) {
+  shares_.resize(pairs, 0);
+  for (Eigen::Index k = 0; k < pairs; ++k) {
     const ContactPair& pair = problem.pairs[k];
     if (pair.spec.stiffness || pressures[k].local.borders.empty()) continue;
-    const VecX overlaps = overlaps_at_borders(pair, pressures[k], solution.u);
-    if (!overlaps.any()) continue;
-    rows.conservativeResize(Eigen::NoChange, rows.cols() + 1);
-    rows.rightCols(1) = opened_rows(pair, overlaps, rows.rows());
-    pair_.push_back(k);
+    const VecX opened = opened_rows(pair, overlaps_at_borders(pair, pressures[k], solution.u), rows.rows());
+    if (!opened.any()) continue;
+    if (each || rows.cols() == 0) {
+      rows.conservativeResize(Eigen::NoChange, rows.cols() + 1);
+      rows.rightCols(1).setZero();
+      shares_.conservativeResize(Eigen::NoChange, rows.cols());
+      shares_.rightCols(1).setZero();
+    }
+    rows.rightCols(1) += opened;
+    shares_.rightCols(1)(k) = opened.lpNorm<1>();
   }
-  if (!pair_.empty()) answers_ = contact_factor(system, solution)->answers(rows, {});
+  if (rows.cols() == 0) return;
+  shares_ *= shares_.colwise().sum().cwiseInverse().asDiagonal();
+  answers_ = contact_factor(system, solution)->answers(rows, {});
 }
 
 MatX BorderOverlaps::changes(const MatX& rows, const MatX& loads) const {
-  MatX all = MatX::Zero(pairs_, rows.cols());
-  for (std::size_t i = 0; i < pair_.size(); ++i) {
-    Eigen::RowVectorXd change = -answers_.mu.col(Eigen::Index(i)).transpose() * rows;
-    if (loads.cols() > 0) change.tail(loads.cols()) += answers_.z.col(Eigen::Index(i)).transpose() * loads;
-    all.row(pair_[i]) = change;
-  }
-  const Eigen::RowVectorXd sums = all.colwise().sum().cwiseAbs(), sizes = all.colwise().lpNorm<1>();
+  if (shares_.cols() == 0) return MatX::Zero(shares_.rows(), rows.cols());
+  MatX found = -answers_.mu.transpose() * rows;
+  if (loads.cols() > 0) found.rightCols(loads.cols()) += answers_.z.transpose() * loads;
+  MatX all = shares_ * found.cwiseAbs();
+  const Eigen::RowVectorXd sums = found.colwise().sum().cwiseAbs(), sizes = all.colwise().sum();
   for (Eigen::Index f = 0; f < all.cols(); ++f)
-    if (sizes(f) > 0) all.col(f) = sums(f) / sizes(f) * all.col(f).cwiseAbs();
+    if (sizes(f) > 0) all.col(f) *= sums(f) / sizes(f);
   return all;
+}
+
+VecX BorderOverlaps::motion(Eigen::Index unknowns) const {
+  return shares_.cols() > 0 ? VecX(answers_.z.rowwise().sum()) : VecX::Zero(unknowns);
 }
 
 }  // namespace mortise

@@ -13,17 +13,21 @@ namespace mortise {
 /// to functionals of the solution no dual of the closed rows shows (docs/theory.md eq. 48f).
 class BorderOverlaps {
  public:
-  BorderOverlaps(const Problem& problem, const Solution& solution, const std::vector<PressureEstimate>& pressures);
+  /// `each`: what the overlaps of each pair do is found by itself; else what all of them do is, one dual in the place
+  /// of one a pair, and a pair's share is that of its overlaps, length^2.
+  BorderOverlaps(const Problem& problem, const Solution& solution, const std::vector<PressureEstimate>& pressures,
+                 bool each = true);
 
   /// By how much the functionals loads^T u - rows^T lambda change if all edges at which contact ends are opened by the
   /// largest overlap on them, as shares of the pairs: pairs x F, in the functionals' units, no sign. Posts of one kind
   /// under a beam that all overlap alike change no force. `loads`: of the last functionals (n a column), those before
   /// have none.
   MatX changes(const MatX& rows, const MatX& loads) const;
+  /// What it does to the displacements, n = `unknowns`.
+  VecX motion(Eigen::Index unknowns) const;
 
  private:
-  Eigen::Index pairs_;
-  std::vector<Eigen::Index> pair_;  // of each answer
+  MatX shares_;  // pairs x answers, the columns' sums are 1
   DualAnswers answers_;
 };
 

@@ -125,7 +125,6 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
     }
     find_excluded(spec.exclude, e);
   });
-  add_missed_contact(p, solution, list);
   return list;
 }
 
@@ -282,7 +281,8 @@ MatX all_functionals(const Problem& p, const GoalFunctionals& goal, const MatX& 
 
 // The errors of cells and at the bodies' corners, and what they do to the functionals.
 void add_products(const Problem& p, const Solution& solution, const GoalFunctionals& goal,
-                  const EstimateOptions& options, BodyProducts& products, ErrorEstimate& estimate) {
+                  const EstimateOptions& options, const BorderOverlaps& overlaps, BodyProducts& products,
+                  ErrorEstimate& estimate) {
   const SaddlePointSystem& system = p.discretisation.system;
   const MatX functionals = all_functionals(p, goal, options.also, estimate);
   const Eigen::Index goals = goal.rows.cols(), more = options.also.cols(), shared = functionals.cols() - goals - more;
@@ -301,21 +301,13 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
                 : products.of(p, solution.u);
   estimate.energy = energy_estimate(p.mesh, found, system.stiffness_scale, solution.u);
   estimate.far.parts = found.products.middleCols(1, shared);
-  estimate.far.overlaps = MatX::Zero(Eigen::Index(p.pairs.size()), 0);
+  estimate.far.overlaps = overlaps.changes(each_window(p.pairs, estimate.pressures, system.B.rows()), {});
   if (!has_duals) return;
-  const MatX windows = each_window(p.pairs, estimate.pressures, system.B.rows());
-  const bool own = estimate.far.windows.own();  // a dual a pair is no more than these; where they are shared it is
-  std::optional<BorderOverlaps> overlaps;
-  if (own || goals + more > 0) overlaps.emplace(p, solution, estimate.pressures);
-  const auto changed = [&](const MatX& rows, const MatX& loads) -> MatX {
-    return overlaps ? overlaps->changes(rows, loads) : MatX::Zero(Eigen::Index(p.pairs.size()), rows.cols());
-  };
-  estimate.far.overlaps = own ? changed(windows, {}) : MatX::Zero(Eigen::Index(p.pairs.size()), windows.cols());
   if (goals > 0) {
     estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
     estimate.goal->lines =
         line_parts(p.pairs, estimate.pressures, kept.rightCols(goals), options.spec.pair, goal.opening);
-    add_overlaps(changed(goal.rows, goal.loads), estimate.goal->lines);
+    add_overlaps(overlaps.changes(goal.rows, goal.loads), estimate.goal->lines);
   }
   estimate.data_works.resize(works.rows(), shared + goals);
   estimate.data_works.leftCols(shared) = works.leftCols(shared);
@@ -327,7 +319,7 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
   estimate.also = {.z = kept.leftCols(more),
                    .sums = off_by(found.products.middleCols(1 + shared, more)) +
                            tails.middleCols(shared, more).colwise().sum().transpose() +
-                           changed(options.also, {}).colwise().sum().transpose()};
+                           overlaps.changes(options.also, {}).colwise().sum().transpose()};
 }
 
 void require_pair(const AccuracySpec& spec, std::size_t count) {
@@ -412,10 +404,12 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, Estimat
   std::vector<ContactReach> reached;
   estimate.pressures = lines_with_windows(p, memory, solution, options, reached);
   const int beside_borders = add_end_windows(p.pairs, estimate.pressures);
+  estimate.far.windows = share_duals(p.mesh, window_places(estimate.pressures), options.own_duals + beside_borders);
+  const BorderOverlaps overlaps(p, solution, estimate.pressures, estimate.far.windows.own());
+  add_missed_contact(p, solution.u, overlaps.motion(solution.u.size()), estimate.pressures);
   std::vector<JudgedLine> lines;
   for (PressureEstimate& e : estimate.pressures) lines.push_back({e.line, e.excluded, e.local});
   add_swings(p, solution.u, lines, memory.beside);
-  estimate.far.windows = share_duals(p.mesh, window_places(estimate.pressures), options.own_duals + beside_borders);
   GoalFunctionals goal;
   if (!p.pairs.empty())
     goal = goal_functionals(p.mesh, d, p.pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
@@ -423,7 +417,7 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, Estimat
   if (estimate.far.windows.count + goal.rows.cols() + options.also.cols() > 0)
     estimate.tails.corners = corner_rings(p.mesh, memory.around(p).table,
                                           free_corners(memory.corners(p), p.mesh.nodes.rows(), p.pairs, reached));
-  add_products(p, solution, goal, options, memory.products, estimate);
+  add_products(p, solution, goal, options, overlaps, memory.products, estimate);
   if (spec.of == Goal::mean) {
     const PressureEstimate& e = estimate.pressures[spec.pair];
     estimate.goal->local = mean_error(p.mesh, p.pairs[spec.pair], e.line, e.local.pointwise(e.line), spec.window);

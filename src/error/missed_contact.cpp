@@ -1,10 +1,12 @@
 #include "error/missed_contact.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/dense.hpp"
 #include "contact/least_gap.hpp"
+#include "error/goal_estimate.hpp"
 #include "fem/edges.hpp"
 #include "solve/nonnegative_fit.hpp"
 
@@ -67,19 +69,23 @@ MatX left_free(const Problem& p, const std::vector<Motion>& motions, const std::
   return kernel_of(rows, 1e-8);  // what the errors of drawn curves make of a turn about the centre of a circle
 }
 
-// Gaps count as wide as they may be.
-OpenPoints open_points(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& u) {
+// Gaps count as wide as they may be; where they are least, as in the one of both displaced states in which they are
+// less: elsewhere a spin that hardly anything holds makes of a round body's gap what it would not be.
+OpenPoints open_points(const Mesh& mesh, const ContactPair& pair, const PressureLine& line,
+                       const std::array<VecX, 2>& states) {
   OpenPoints open;
   if (pair.spec.condition != Condition::unilateral) return open;
   std::vector<double> gaps, curvature;
-  const auto add = [&](const ContactPoint& point, double bend) {
+  const auto add = [&](const ContactPoint& point, double gap, double bend) {
     if (line.loaded[point.edge] || line.loaded[point.edge + 1]) return;
     open.points.push_back(point);
-    gaps.push_back(gap_at(u, pair, point) + point.unknown);
+    gaps.push_back(gap + point.unknown);
     curvature.push_back(bend);
   };
-  for (const ContactPoint& point : pair.points) add(point, 0);
-  for (const Trough& trough : troughs(mesh.nodes, u, pair)) add(trough.point, trough.curvature);
+  for (const ContactPoint& point : pair.points) add(point, gap_at(states[0], pair, point), 0);
+  for (const Trough& trough : troughs(mesh.nodes, states[0], pair))
+    add(trough.point, std::min(gap_at(states[0], pair, trough.point), gap_at(states[1], pair, trough.point)),
+        trough.curvature);
   open.gaps = Eigen::Map<VecX>(gaps.data(), Eigen::Index(gaps.size()));
   open.curvature = Eigen::Map<VecX>(curvature.data(), Eigen::Index(gaps.size()));
   return open;
@@ -145,10 +151,11 @@ void add_overlaps(const Mesh& mesh, const ContactPair& pair, const OpenPoints& o
   for (Eigen::Index k = 0; k < open.gaps.size(); ++k) {
     if (open.gaps(k) >= -least) continue;
     const ContactPoint& point = open.points[k];
-    if (-open.gaps(k) > overlap(point.edge)) deepest(point.edge) = point.xi;
+    const bool deeper = -open.gaps(k) > overlap(point.edge);
+    if (deeper) deepest(point.edge) = point.xi;
     overlap(point.edge) = std::max(overlap(point.edge), -open.gaps(k));
     width(point.edge) += point.ds;
-    if (point.ds > 0) continue;
+    if (point.ds > 0 || !deeper) continue;
     // A trough, which comes after the other points: as wide as its parabola, if that is less than the edge.
     const double length = edge_length(mesh.nodes, pair.multiplier.edges[point.edge]),
                  parabola = 2 * std::sqrt(-2 * open.gaps(k) / open.curvature(k));
@@ -175,13 +182,14 @@ void add_overlaps(const Mesh& mesh, const ContactPair& pair, const OpenPoints& o
 
 }  // namespace
 
-void add_missed_contact(const Problem& p, const Solution& solution, std::vector<PressureEstimate>& list) {
+void add_missed_contact(const Problem& p, const VecX& u, const VecX& of_overlaps, std::vector<PressureEstimate>& list) {
+  const std::array<VecX, 2> states = {u, u + of_overlaps};
   std::vector<OpenPoints> open;
   double overlap = 0;
   for (std::size_t k = 0; k < p.pairs.size(); ++k) {
-    overlap = std::max(overlap, open.emplace_back(open_points(p.mesh, p.pairs[k], list[k].line, solution.u)).overlap());
+    overlap = std::max(overlap, open.emplace_back(open_points(p.mesh, p.pairs[k], list[k].line, states)).overlap());
   }
-  const double least = round_off * largest_entry(solution.u);
+  const double least = round_off * largest_entry(u);
   if (overlap <= least) return;
   const std::vector<Motion>& motions = p.floating.motions;
   if (!motions.empty() && int(motions.size()) <= many_motions) {

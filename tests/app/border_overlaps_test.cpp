@@ -1,10 +1,11 @@
 // Forces, displacements and pressures where a mesh hardly sees contact: a ring on a plate touches by far less than an
-// edge, and so does the corner of a foot.
+// edge, and so do the corner of a foot and discs that press one another a little.
 #include "error/border_overlaps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <sstream>
 
@@ -141,6 +142,118 @@ TEST(BorderOverlaps, APunchStandsOnTheCornerBeforeItsChamfer) {
     ASSERT_EQ(r->estimate->pressures[0].singular.size(), 1u) << seed;
     EXPECT_NEAR(r->estimate->pressures[0].singular[0].pressure_exponent, 0.5, 0.3) << seed;
   }
+}
+
+// Discs of radius 1 heaped up in a box that they fill: rows of `columns`, one less in each, every one touched in a
+// point by all of its neighbours, the floor and the walls.
+class Heap {
+ public:
+  Heap(int columns, int rows) {
+    const double height = 2 + (rows - 1) * std::numbers::sqrt3;
+    add_block("floor", -1, 2 * columns + 1, -1, 0);
+    add_block("left", -1, 0, 0.02, height);
+    add_block("right", 2 * columns, 2 * columns + 1, 0.02, height);
+    for (int row = 0; row < rows; ++row)
+      for (int k = 0; k < columns - row; ++k) add_disc({1 + row + 2 * k, 1 + row * std::numbers::sqrt3}, columns);
+  }
+
+  // `weights`: force per area of each disc, all bodies have a modulus of 55e3.
+  Scene scene(const TemporaryFolder& folder, const std::vector<double>& weights, const std::string& asked) const {
+    folder.write("heap.geo", geo_.str());
+    std::ostringstream toml;
+    toml << "mesh.file = \"heap.geo\"\nmaterials.m = { young = 55e3, poisson = 0.3 }\nbodies = { \"*\" = \"m\" }\n"
+         << "boundary = [{ on = [\"floor_1\", \"left_4\", \"right_2\"], displacement = { x = 0, y = 0 } }]\n"
+         << "contact = [" << pairs_.str() << "]\nbody_force = [\n";
+    for (std::size_t k = 0; k < centres_.size(); ++k)
+      toml << "{ body = \"disc" << k << "\", force = [0, " << -weights[k] << "] },\n";
+    toml << "]\n[accuracy]\n" << asked << "\n";
+    return read_scene(folder.write("heap.toml", toml.str()));
+  }
+
+ private:
+  void add_surface(const std::string& name, int first) {
+    ++surface_;
+    geo_ << "Curve Loop(" << surface_ << ") = {" << first << " ... " << curve_ << "}; Plane Surface(" << surface_
+         << ") = {" << surface_ << "}; Physical Surface(\"" << name << "\") = {" << surface_ << "};\n";
+  }
+  void add_point(double x, double y) { geo_ << "Point(" << ++point_ << ") = {" << x << ", " << y << ", 0};\n"; }
+
+  void add_block(const std::string& name, double left, double right, double bottom, double top) {
+    const int p = point_, first = curve_ + 1;
+    add_point(left, bottom);
+    add_point(right, bottom);
+    add_point(right, top);
+    add_point(left, top);
+    for (int k = 0; k < 4; ++k) {
+      geo_ << "Line(" << ++curve_ << ") = {" << p + 1 + k << ", " << p + 1 + (k + 1) % 4 << "};\n";
+      geo_ << "Physical Curve(\"" << name << "_" << k + 1 << "\") = {" << curve_ << "};\n";
+    }
+    add_surface(name, first);
+  }
+
+  void add_disc(const Vec2& centre, int columns) {
+    const int p = point_, first = curve_ + 1;
+    const std::string disc = std::to_string(centres_.size()), rim = "\"rim" + disc + "\"";
+    add_point(centre.x(), centre.y());
+    for (const Vec2& d : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)})
+      add_point(centre.x() + d.x(), centre.y() + d.y());
+    for (int k = 0; k < 4; ++k)
+      geo_ << "Circle(" << ++curve_ << ") = {" << p + 2 + k << ", " << p + 1 << ", " << p + 2 + (k + 1) % 4 << "};\n";
+    geo_ << "Physical Curve(" << rim << ") = {" << first << " ... " << curve_ << "};\n";
+    add_surface("disc" + disc, first);
+    const auto touch = [&](bool here, const std::string& other) {
+      if (here) pairs_ << "{ between = [" << rim << ", \"" << other << "\"] },\n";
+    };
+    touch(centre.y() < 1.1, "floor_3");
+    touch(centre.x() < 1.1, "left_2");
+    touch(centre.x() > 2 * columns - 1.1, "right_4");
+    for (std::size_t k = 0; k < centres_.size(); ++k)
+      touch((centre - centres_[k]).norm() < 2.1, "rim" + std::to_string(k));
+    centres_.push_back(centre);
+  }
+
+  std::ostringstream geo_ = [] {
+    std::ostringstream exact;
+    exact.precision(17);
+    return exact;
+  }();
+  std::ostringstream pairs_;
+  std::vector<Vec2> centres_;
+  int point_ = 0, curve_ = 0, surface_ = 0;
+};
+
+// Each pair's force is that of a finer answer, within the bars of both.
+void expect_forces(const Results& r, const Results& finer, const std::string& which) {
+  ASSERT_TRUE(r.accuracy->reached() && finer.accuracy->reached()) << which;
+  for (std::size_t k = 0; k < r.recovery.contacts.size(); ++k) {
+    const ContactResults &found = r.recovery.contacts[k], &exact = finer.recovery.contacts[k];
+    EXPECT_NEAR(found.force.norm(), exact.force.norm(),
+                found.force_error->norm() + exact.force_error->norm() + 1e-9 * exact.force.norm())
+        << which << ", pair " << k;
+  }
+}
+
+// By its own weight a disc widens by far less than an edge at the walls sags.
+TEST(BorderOverlaps, ADiscPressesTheWallsOfABox) {
+  const Heap box(1, 1);
+  for (const double weight : {2.0, 0.55, 0.2}) {
+    const TemporaryFolder folder;
+    const auto found = solve_to_accuracy(box.scene(folder, {weight}, "value = 0.02")),
+               finer = solve_to_accuracy(box.scene(folder, {weight}, "value = 0.003\nfirst_edges = 31"));
+    EXPECT_NEAR(finer->recovery.contacts[2].force.norm() / (std::numbers::pi * weight), 0.0185, 0.002) << weight;
+    expect_forces(*found, *finer, std::to_string(weight));
+  }
+}
+
+// Where some press others apart, pairs that carry little are as coarse as they may be, and as far off as their edges
+// sag: others are open by that, or not.
+TEST(BorderOverlaps, DiscsOfAHeapTouchWhereEdgesOfOthersAreCoarse) {
+  const Heap heap(4, 2);
+  const std::vector<double> weights = {3.846, 3.817, 0.6979, 0.7971, 3.424, 3.076, 2.844};
+  const TemporaryFolder folder;
+  const auto found = solve_to_accuracy(heap.scene(folder, weights, "value = 0.05")),
+             finer = solve_to_accuracy(heap.scene(folder, weights, "value = 0.02\nfirst_edges = 27"));
+  expect_forces(*found, *finer, "heap");
 }
 
 }  // namespace

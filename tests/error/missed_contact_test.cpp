@@ -1,4 +1,6 @@
 // Contact between the nodes of a coarse mesh: its pressures are in the bars.
+#include "error/missed_contact.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -77,6 +79,23 @@ TEST(MissedContact, IsNoneWhereCurvesStayApart) {
   const Results open = disc(0.7, 0.7, 0.1, 0.01, 0.009);
   EXPECT_EQ(largest_pressure(open), 0);
   EXPECT_EQ(widest_bar(open), 0);
+}
+
+// Of bodies that overlaps elsewhere hold a millimetre apart.
+TEST(MissedContact, IsWhereOverlapsOfOtherPairsKeepCurvesApart) {
+  const Results open = disc(0.7, 0.7, 0.1, 0.01, 0.009);
+  const Mesh& mesh = open.problem.mesh;
+  VecX of_overlaps = VecX::Zero(open.solution.u.size());
+  for (const Cell& cell : mesh.cells)
+    if (mesh.bodies[cell.body] == "disc")
+      for (int a = 0; a < node_count(cell.kind); ++a) of_overlaps(2 * cell.nodes[a] + 1) = -0.002;
+  for (const double part : {0, 1}) {
+    std::vector<PressureEstimate> list = open.estimate->pressures;
+    add_missed_contact(open.problem, open.solution.u, part * of_overlaps, list);
+    const std::vector<LineError::Missed>& missed = list[0].local.missed_at;
+    ASSERT_EQ(missed.size(), part);
+    if (part == 1) EXPECT_LE(missed[0].place.norm(), 0.1);
+  }
 }
 
 // A disc that nothing holds, drawn `below` over a floor and `above` under a ceiling, on edges of 0.7; the floor's foot
