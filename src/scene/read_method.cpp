@@ -110,7 +110,7 @@ Keys method_keys(Method& m) {
           "`mssor` only: > 0, step of the multipliers; `acceleration = \"none\"` converges below a limit that the "
           "summary gives"),
       key("scheme", m.ddm.scheme, any_of<Scheme>(),
-          "`ddm` only, as all below but where `mssor` is named: `\"neumann_dirichlet\"`, `\"neumann_neumann\"`, "
+          "`ddm` only, as all below but where another is named: `\"neumann_dirichlet\"`, `\"neumann_neumann\"`, "
           "`\"dirichlet_dirichlet\"`"),
       key("dirichlet", m.dirichlet, some_names(),
           "a body or a list of them that take the displacement; their opposites take the pressure",
@@ -123,10 +123,11 @@ Keys method_keys(Method& m) {
           "relaxation > 0, or `\"auto\"`; of accelerated iterations the first step's. `\"krylov\"` has none",
           "`\"auto\"`"),
       key("tolerance", tolerance, above(0),
-          "> 0, of the kinematic and the force residual, both relative; also with `mssor`", "1e-8; `mssor`: 1e-10"),
+          "> 0, of the kinematic and the force residual, both relative; also with `feti` and `mssor`",
+          "1e-8; `feti`, `mssor`: 1e-10"),
       key("max_iterations", most, whole_number(1, 1000000),
-          "≥ 1, evaluations of the iteration (the start is the first); also with `mssor`: steps",
-          "100; `mssor`: 20000"),
+          "≥ 1, evaluations of the iteration (the start is the first); also with `feti` and `mssor`: steps",
+          "100; `feti`: 1000; `mssor`: 20000"),
   };
 }
 
