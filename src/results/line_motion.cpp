@@ -58,16 +58,55 @@ std::vector<double> edge_curvatures(const Points& nodes, const Curve& curve) {
   return list;
 }
 
+// A turn about a centre.
+struct Spin {
+  Vec2 centre = Vec2::Zero();
+  double angle = 0;  // radians
+
+  Vec2 of_chord(const Vec2& chord) const { return angle * Vec2(-chord.y(), chord.x()); }
+  Vec2 at(const Vec2& x) const { return of_chord(x - centre); }
+};
+
+// Where a curve's first vertex and those a third and two thirds on lie on a circle, its centre.
+Vec2 centre_through(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 ab = b - a, ac = c - a;
+  const Vec2 across = ab.squaredNorm() * ac - ac.squaredNorm() * ab;
+  return a + Vec2(across.y(), -across.x()) / (2 * cross(ab, ac));
+}
+
+// That of a whole circle, in least squares: it takes the circle and its normals along themselves. None of other curves.
+Spin spin_of(const Points& nodes, const Curve& curve, const VecX& u) {
+  constexpr double digits = 1e-6;  // of the radius: as of a mesh file with few
+  const std::size_t count = curve.edges.size();
+  if (!curve.closed || count < 3) return {};
+  const auto vertex = [&](std::size_t e) -> Vec2 { return nodes.row(curve.edges[e].nodes[0]).transpose(); };
+  Spin spin{.centre = centre_through(vertex(0), vertex(count / 3), vertex(2 * count / 3))};
+  const double radius = (vertex(0) - spin.centre).norm();
+  Vec2 arms = Vec2::Zero(), moved = Vec2::Zero();
+  double turned = 0, squares = 0;
+  for (std::size_t e = 0; e < count; ++e) {
+    const Vec2 arm = vertex(e) - spin.centre, by = u.segment<2>(2 * curve.edges[e].nodes[0]);
+    if (!(std::abs(arm.norm() - radius) <= digits * radius)) return {};
+    arms += arm;
+    moved += by;
+    turned += cross(arm, by);
+    squares += arm.squaredNorm();
+  }
+  // With the translation that is nearest beside it.
+  spin.angle = (turned - cross(arms, moved) / double(count)) / (squares - arms.squaredNorm() / double(count));
+  return spin;
+}
+
 // By how much an edge turns, radians.
 double rotation(const Vec2& chord, const Vec2& grown) { return angle_between(chord, chord + grown); }
 
 // By which part of its length an edge grows or shrinks, to first order: the stretch of small displacements.
 double stretch(const Vec2& chord, const Vec2& grown) { return std::abs(chord.dot(grown)) / chord.squaredNorm(); }
 
-// Takes what the edge turns and stretches by, where that is more.
-void take_edge(PlaceMotion& place, const Points& nodes, const VecX& u, const Edge& edge) {
+// Takes what the edge turns and stretches by beside its curve's spin, where that is more.
+void take_edge(PlaceMotion& place, const Points& nodes, const VecX& u, const Edge& edge, const Spin& spin) {
   const Vec2 chord = (nodes.row(edge.nodes[1]) - nodes.row(edge.nodes[0])).transpose();
-  const Vec2 grown = u.segment<2>(2 * edge.nodes[1]) - u.segment<2>(2 * edge.nodes[0]);
+  const Vec2 grown = u.segment<2>(2 * edge.nodes[1]) - u.segment<2>(2 * edge.nodes[0]) - spin.of_chord(chord);
   place.turned = std::max(place.turned, rotation(chord, grown));
   place.stretched = std::max(place.stretched, stretch(chord, grown));
 }
@@ -91,6 +130,7 @@ std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& p
                                        const VecX& u) {
   const std::vector<double> curvature = edge_curvatures(nodes, pair.multiplier),
                             opposite_curvature = edge_curvatures(nodes, pair.opposite);
+  const Spin spin = spin_of(nodes, pair.multiplier, u);
   const bool both_ways = pair.spec.condition != Condition::unilateral;  // tension too
   const double least = 1e-3 * largest_entry(contact.pressure);
   std::vector<PlaceMotion> places;
@@ -110,11 +150,12 @@ std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& p
                                                          .curved = 0,
                                                          .turned = 0,
                                                          .stretched = 0});
+    place.u -= spin.at(place.position);
     const Vec2 moved = place.facing_u - place.u;
     place.slid = cross(moved, c.normal);
     place.curved = moved.norm() * std::max(curvature[c.edge], opposite_curvature[c.opposite_edge]);
-    take_edge(place, nodes, u, edge);
-    take_edge(place, nodes, u, facing);
+    take_edge(place, nodes, u, edge, spin);
+    take_edge(place, nodes, u, facing, {});
   }
   return places;
 }

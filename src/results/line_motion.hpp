@@ -14,7 +14,7 @@ struct PlaceMotion {
   Vec2 position;     ///< on the multiplier side
   double p, ds, dA;  ///< |p|, length and length times depth that the place stands for
   Vec2 facing;       ///< the place of the opposite side
-  Vec2 u, facing_u;  ///< how far either has moved
+  Vec2 u, facing_u;  ///< how far either has moved, the former without its curve's spin
   double slid;       ///< how far they slide along one another, with its sign
   double curved;     ///< how far they move against one another, over the line's radius of curvature
   double turned;     ///< radians: the turn of the edge of either side, the larger
@@ -22,7 +22,9 @@ struct PlaceMotion {
 };
 
 /// Places with less than a thousandth of the pair's largest pressure are not loaded; tension loads bonded pairs as
-/// pressure does, contact not at all. `u`: all displacements, two a node.
+/// pressure does, contact not at all. A multiplier side that is a whole circle may spin: that takes it and its normals,
+/// along which contact acts, along themselves, so that gaps and p are what they were (hardly anything holds a roller
+/// against it). `u`: all displacements, two a node.
 std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& pair, const ContactResults& contact,
                                        const VecX& u);
 

@@ -159,6 +159,51 @@ TEST(LineChecks, APinThatFallsByHalfItsRadiusFails) {
   expect_contains(motion_of(r).where, "of its radius of curvature");
 }
 
+// A pin of any radius on a block, in the plane of its cross-section.
+Results pin_on_block(const TemporaryFolder& folder, double radius, const std::string& multipliers_on) {
+  std::ostringstream geo, toml;
+  geo << "SetFactory(\"OpenCASCADE\"); Mesh.ElementOrder = 2; Mesh.MeshSizeMax = " << radius / 8
+      << ";\nRectangle(1) = {-4, -2, 0, 8, 2}; Disk(2) = {0, " << radius << ", 0, " << radius << "};\n"
+      << R"(Physical Surface("block") = {1}; Physical Surface("pin") = {2};
+Physical Curve("ground") = {1}; Physical Curve("track") = {3}; Physical Curve("rim") = {5};)";
+  folder.write("pin.geo", geo.str());
+  toml << R"(mesh.file = "pin.geo"
+materials.steel = { young = 210e3, poisson = 0.3 }
+bodies = { "*" = "steel" }
+boundary = [{ on = "ground", displacement = { x = 0, y = 0 } }]
+body_force = [{ body = "pin", force = [0, -300] }]
+contact = [{ between = ["rim", "track"], multipliers_on = ")"
+       << multipliers_on << "\" }]\n";
+  return solve_scene(read_scene(folder.write("pin.toml", toml.str())));
+}
+
+// Contact acts along the pin's normals, and a spin takes these and its rim along themselves; along the block's it does
+// not: there the spin is a tilt of the gap.
+TEST(LineChecks, ARimMaySpinWhereContactActsAlongItsNormals) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int k = 0; k < 4; ++k) {
+    const TemporaryFolder folder;
+    const double radius = 0.5 + unit(random), angle = std::copysign(0.02 + 0.3 * unit(random), unit(random) - 0.5);
+    for (const bool on_rim : {true, false}) {
+      Results r = pin_on_block(folder, radius, on_rim ? "rim" : "track");
+      for (const Cell& cell : r.problem.mesh.cells)
+        for (int a = 0; a < node_count(cell.kind) && r.problem.mesh.bodies[cell.body] == "pin"; ++a) {
+          const Vec2 arm = r.problem.mesh.nodes.row(cell.nodes[a]).transpose() - Vec2(0, radius);
+          r.solution.u(2 * cell.nodes[a]) = -angle * arm.y();
+          r.solution.u(2 * cell.nodes[a] + 1) = angle * arm.x();
+        }
+      const double lost = motion_check(r).value;
+      const std::string told = large_displacement(r).value_or("");
+      EXPECT_EQ(told.find("slide") != std::string::npos, !on_rim) << told;
+      if (on_rim)
+        EXPECT_LT(lost, 0.05) << radius << " " << angle;
+      else
+        EXPECT_EQ(lost, 1) << radius << " " << angle;
+    }
+  }
+}
+
 TEST(LineChecks, APressureThatIsOffByMoreThanHalfFails) {
   Results coarse = solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/v_block.toml"));
   EXPECT_EQ(coarse.status, Status::solved);
