@@ -424,8 +424,9 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, Estimat
   }
   if (spec.of == Goal::displacement) add_displacement_error(p, goal, solution.u, *estimate.goal);
   if (spec.of == Goal::stress) add_stress_error(p, estimate.pressures, goal, solution.u, *estimate.goal);
-  for_each_index(p.pairs.size(), solver_threads(),
-                 [&](std::size_t k) { find_fitted_pressure(p, p.pairs[k], estimate.pressures[k]); });
+  for_each_index(p.pairs.size(), solver_threads(), [&](std::size_t k) {
+    memory.with_fits(k, [&](PressureFits& fits) { find_fitted_pressure(p, p.pairs[k], fits, estimate.pressures[k]); });
+  });
   add_far_errors(p.mesh, estimate);
   return estimate;
 }

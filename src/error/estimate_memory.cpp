@@ -17,6 +17,7 @@ void EstimateMemory::keep_for(const Problem& p) {
   }
   known_.resize(p.pairs.size());
   places_.resize(p.pairs.size());
+  fits_.resize(p.pairs.size());
 }
 
 Surroundings EstimateMemory::around(const Problem& p) {

@@ -5,6 +5,7 @@
 
 #include "contact/singular_points.hpp"
 #include "error/body_products.hpp"
+#include "error/pressure_form.hpp"
 #include "error/statics.hpp"
 
 namespace mortise {
@@ -17,7 +18,7 @@ class EstimateMemory {
   std::optional<LocalRecovery> beside;  ///< the curves of the pairs that swing
 
   /// `keeps`: as of BodyProducts.
-  explicit EstimateMemory(bool keeps = false) : products(keeps) {}
+  explicit EstimateMemory(bool keeps = false) : products(keeps), keeps_(keeps) {}
 
   /// Before all below: forgets what was made with other unknowns fixed.
   void keep_for(const Problem& problem);
@@ -26,6 +27,12 @@ class EstimateMemory {
   const Statics& statics(const Problem& problem);
   /// As corner_exponent.
   double exponent_at(const Problem& problem, int node, int body);
+  /// Of pair k, to work with; of several pairs at once.
+  template <typename Work>
+  void with_fits(std::size_t k, Work work) {
+    PressureFits own;
+    work(keeps_ ? fits_[k] : own);
+  }
   /// Of each pair; its places are found again where contact reaches other vertices or the gap is another.
   std::vector<std::vector<SingularPoint>> points(const Problem& problem, const std::vector<ContactReach>& reached);
 
@@ -34,6 +41,7 @@ class EstimateMemory {
     ContactReach reach;
     GivenGap given;
   };
+  bool keeps_;
   TipTable tips_;
   std::optional<SideTable> sides_;
   std::vector<char> fixed_;
@@ -42,6 +50,7 @@ class EstimateMemory {
   std::optional<Statics> statics_;
   std::vector<std::optional<KnownPlaces>> known_;  // of each pair
   std::vector<std::vector<ContactPlace>> places_;
+  std::vector<PressureFits> fits_;
 };
 
 }  // namespace mortise

@@ -197,13 +197,13 @@ bool credible(const PressureForm& form, const Walk& walk, const Range& range, co
 }
 
 // p* as it would be of a mesh with every other vertex: of its moments, which are sums of the piece's.
-std::optional<PressureForm> fit_of_every_other(const LoadedPiece& piece) {
+std::optional<PressureForm> fit_of_every_other(const LoadedPiece& piece, PressureFits& fits) {
   std::array<double, 2> ends = ends_of(piece);
   for (const int which : {0, 1})
     if (piece.end[which].border) ends[which] = border_place(piece, which, 2);
   LoadedPiece coarse = every_other(piece);
   for (coarse.swing.edges = (piece.swing.edges + 1) / 2; coarse.swing.edges >= 2; --coarse.swing.edges)
-    if (auto form = fit_pressure(coarse, ends)) return form;
+    if (auto form = fits.fit(coarse, ends)) return form;
   return std::nullopt;
 }
 
@@ -266,12 +266,13 @@ double swing_beside(const PressureForm& form, const LoadedPiece& piece, int whic
 // The share of p that goes as the power of a singular point may be none, as where other bodies close the corner: then
 // no q is smooth, and p* with q alone is the smoother one beside that end.
 template <typename Credible>
-void leave_powers(const std::array<double, 2>& ends, Credible credible, LoadedPiece& piece, PressureForm& form) {
+void leave_powers(const std::array<double, 2>& ends, Credible credible, PressureFits& fits, LoadedPiece& piece,
+                  PressureForm& form) {
   for (const int which : {0, 1}) {
     if (piece.end[which].border || piece.end[which].power == 0) continue;
     LoadedPiece plain = piece;
     plain.end[which].power = 0;
-    const auto other = fit_pressure(plain, ends);
+    const auto other = fits.fit(plain, ends);
     if (!other || !credible(*other) || swing_beside(*other, piece, which) >= swing_beside(form, piece, which)) continue;
     form = *other;
     piece = plain;
@@ -280,7 +281,9 @@ void leave_powers(const std::array<double, 2>& ends, Credible credible, LoadedPi
 
 }  // namespace
 
-void find_fitted_pressure(const Problem& problem, const ContactPair& pair, PressureEstimate& estimate) {
+void find_fitted_pressure(const Problem& problem, const ContactPair& pair, PressureFits& fits,
+                          PressureEstimate& estimate) {
+  fits.begin();
   const PressureLine& line = estimate.line;
   FittedPressure& fitted = estimate.fitted;
   fitted = {.pieces = {}, .around = line.closed ? line.s(line.s.size() - 1) : 0};
@@ -295,14 +298,14 @@ void find_fitted_pressure(const Problem& problem, const ContactPair& pair, Press
     const std::array<double, 2> ends = ends_of(piece);
     for (const Swing& swing : swings_to_try(range)) {
       piece.swing = swing;
-      auto form = fit_pressure(piece, ends);
+      auto form = fits.fit(piece, ends);
       const auto is_credible = [&](const PressureForm& found) {
         return credible(found, walk, range, estimate, missed, unilateral);
       };
       if (!form || !is_credible(*form)) continue;
-      leave_powers(ends, is_credible, piece, *form);
+      leave_powers(ends, is_credible, fits, piece, *form);
       fitted.pieces.push_back({*form, {piece.s(0), piece.s(piece.s.size() - 1)}, *fluid});
-      if (const auto coarse = fit_of_every_other(piece)) lower_errors(walk, range, *form, *coarse, estimate);
+      if (const auto coarse = fit_of_every_other(piece, fits)) lower_errors(walk, range, *form, *coarse, estimate);
       break;
     }
   }

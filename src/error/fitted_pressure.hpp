@@ -10,7 +10,8 @@ namespace mortise {
 /// that has fluid on one side alone. p* of a piece is credible if it differs from p_h, at 95 % of the vertices that
 /// count, by no more than p_h may miss along the line as the estimate has it, the bodies' errors apart, and is nowhere
 /// tension in a unilateral pair. There the line's errors are lowered to those of p*, as every other vertex tells them
-/// (48d). Time as the vertices.
-void find_fitted_pressure(const Problem& problem, const ContactPair& pair, PressureEstimate& estimate);
+/// (48d). `fits`: of the pair. Time as the vertices.
+void find_fitted_pressure(const Problem& problem, const ContactPair& pair, PressureFits& fits,
+                          PressureEstimate& estimate);
 
 }  // namespace mortise

@@ -3,6 +3,7 @@
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <unsupported/Eigen/Splines>
+#include <utility>
 
 #include "fem/quadrature.hpp"
 
@@ -161,39 +162,76 @@ double PressureForm::operator()(double s) const {
 
 // With c the sums of what is left of the moments: min sum_i w_i c_i^2 / 2 with c_i - c_{i-1} = m_i - (M q)_i, no force
 // left (the last c is 0), no moment (sum_i c_i h_i = 0) and no slope on an axis, by its saddle point, which is sparse.
-std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::array<double, 2>& ends) {
-  PressureForm form;
-  form.ends_ = ends;
-  form.powers_ = {piece.end[0].power, piece.end[1].power};
-  form.knots_ = knots_of(piece, ends);
-  const Triplets entries = spline_moments(piece, ends, form.knots_);
-  const Index columns = form.knots_.size() - degree - 1, count = piece.s.size(), sums = count - 1;
-  if (columns > count) return std::nullopt;
-  const VecX sizes = column_sizes(entries, columns), weights = sum_weights(piece, ends),
-             moments = multiplier_moments(piece);
-  const double force = moments.cwiseAbs().maxCoeff(), heaviest = weights.maxCoeff(),
-               length = piece.s(sums) - piece.s(0);
-  if (!(force > 0)) return std::nullopt;
+struct PressureFit::Factor {
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> lu;
+};
+
+PressureFit::PressureFit(const LoadedPiece& piece, const std::array<double, 2>& ends) {
+  form_.ends_ = ends;
+  form_.powers_ = {piece.end[0].power, piece.end[1].power};
+  form_.knots_ = knots_of(piece, ends);
+  const Triplets entries = spline_moments(piece, ends, form_.knots_);
+  const Index columns = form_.knots_.size() - degree - 1, count = piece.s.size(), sums = count - 1;
+  if (columns > count) return;
+  sizes_ = column_sizes(entries, columns);
+  const VecX weights = sum_weights(piece, ends);
+  const double heaviest = weights.maxCoeff(), length = piece.s(sums) - piece.s(0);
   // Unknowns: q, c, the multipliers of the rows, of the moment, of the slopes at both ends.
   const Index at_row = columns + sums, moment = at_row + count, all = moment + 3;
   Triplets system;
   for (const auto& entry : entries)
-    add_both(at_row + entry.row(), entry.col(), entry.value() / sizes(entry.col()), system);
+    add_both(at_row + entry.row(), entry.col(), entry.value() / sizes_(entry.col()), system);
   for (Index i = 0; i < sums; ++i) {
     system.emplace_back(columns + i, columns + i, weights(i) / heaviest);
     add_both(at_row + i, columns + i, 1, system);
     add_both(at_row + i + 1, columns + i, -1, system);
     add_both(moment, columns + i, (piece.s(i + 1) - piece.s(i)) / length, system);
   }
-  add_slopes(piece, ends, form.knots_, sizes, moment + 1, system);
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(filled(all, all, system));
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  VecX right = VecX::Zero(all);
-  right.segment(at_row, count) = moments / force;
-  const VecX found = factor.solve(right);
-  form.q_ = force * found.head(columns).cwiseQuotient(sizes);
+  add_slopes(piece, ends, form_.knots_, sizes_, moment + 1, system);
+  factor_ = std::make_unique<Factor>();
+  factor_->lu.compute(filled(all, all, system));
+}
+
+PressureFit::~PressureFit() = default;
+PressureFit::PressureFit(PressureFit&&) noexcept = default;
+PressureFit& PressureFit::operator=(PressureFit&&) noexcept = default;
+
+std::optional<PressureForm> PressureFit::form(const LoadedPiece& piece) const {
+  const VecX moments = multiplier_moments(piece);
+  const double force = moments.cwiseAbs().maxCoeff();
+  if (!factor_ || factor_->lu.info() != Eigen::Success || !(force > 0)) return std::nullopt;
+  const Index columns = sizes_.size();
+  VecX right = VecX::Zero(factor_->lu.rows());
+  right.segment(columns + moments.size() - 1, moments.size()) = moments / force;
+  PressureForm form = form_;
+  form.q_ = force * factor_->lu.solve(right).head(columns).cwiseQuotient(sizes_);
   if (!form.q_.allFinite()) return std::nullopt;
   return form;
+}
+
+std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::array<double, 2>& ends) {
+  return PressureFit(piece, ends).form(piece);
+}
+
+void PressureFits::begin() { before_ = std::exchange(asked_, {}); }
+
+std::optional<PressureForm> PressureFits::fit(const LoadedPiece& piece, const std::array<double, 2>& ends) {
+  const auto is_same = [&](const Asked& other) {
+    return other.ends == ends && other.piece.end == piece.end && other.piece.swing == piece.swing &&
+           other.piece.s.size() == piece.s.size() && other.piece.s == piece.s && other.piece.width == piece.width;
+  };
+  auto known = std::ranges::find_if(asked_, is_same);
+  if (known == asked_.end()) {
+    const auto before = std::ranges::find_if(before_, is_same);
+    if (before == before_.end()) {
+      asked_.push_back({piece, ends, {}});
+      return fit_pressure(piece, ends);
+    }
+    known = asked_.insert(asked_.end(), std::move(*before));
+    before_.erase(before);
+  }
+  if (!known->fit) known->fit.emplace(piece, ends);
+  return known->fit->form(piece);
 }
 
 LoadedPiece every_other(const LoadedPiece& piece) {

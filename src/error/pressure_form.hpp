@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,12 +16,16 @@ struct PieceEnd {
   bool border = false;  ///< contact ends between vertices
   bool even = false;    ///< on the axis of rings: p has no slope there
   bool tip = false;     ///< of a crack that slides: p_h swings beside it as at a border, the more the shorter the edges
+
+  bool operator==(const PieceEnd&) const = default;
 };
 
 /// How far from a border or a tip, beside which p_h swings, q has no knot.
 struct Swing {
   int edges = 0;
   double part = 0;  ///< of the piece's length, beside a tip
+
+  bool operator==(const Swing&) const = default;
 };
 
 /// The vertices of a piece of a line that carries p, and beyond a border up to two more, at which it is 0.
@@ -44,13 +49,49 @@ class PressureForm {
   const std::array<double, 2>& ends() const { return ends_; }  ///< A, B
 
  private:
-  friend std::optional<PressureForm> fit_pressure(const LoadedPiece&, const std::array<double, 2>&);
+  friend class PressureFit;
   std::array<double, 2> ends_, powers_;
   VecX knots_, q_;
 };
 
-/// Nothing where the moments do not determine q. Time as the vertices.
+/// What places alone make of a fit, whatever p there is.
+class PressureFit {
+ public:
+  PressureFit(const LoadedPiece& piece, const std::array<double, 2>& ends);
+  ~PressureFit();
+  PressureFit(PressureFit&&) noexcept;
+  PressureFit& operator=(PressureFit&&) noexcept;
+
+  /// Of a piece with the same places. Nothing where the moments do not determine q.
+  std::optional<PressureForm> form(const LoadedPiece& piece) const;
+
+ private:
+  struct Factor;
+  PressureForm form_;               // without q
+  VecX sizes_;                      // of the columns of q
+  std::unique_ptr<Factor> factor_;  // none where q has more columns than there are moments
+};
+
+/// Time as the vertices.
 std::optional<PressureForm> fit_pressure(const LoadedPiece& piece, const std::array<double, 2>& ends);
+
+/// Fits on one line under loads that come one after another. What is asked for a second time is kept as long as each
+/// load asks for it: where borders move, that is nothing.
+class PressureFits {
+ public:
+  /// Before a load: forgets what that before did not ask for.
+  void begin();
+  /// As fit_pressure.
+  std::optional<PressureForm> fit(const LoadedPiece& piece, const std::array<double, 2>& ends);
+
+ private:
+  struct Asked {
+    LoadedPiece piece;
+    std::array<double, 2> ends;
+    std::optional<PressureFit> fit;
+  };
+  std::vector<Asked> before_, asked_;
+};
 
 /// Where the border at an end of a piece of three vertices or more lies, s: p goes as a root there (Johnson 1985,
 /// section 4.2), so that the line through the squares of the last three vertices' p is zero at it, not before the last

@@ -296,7 +296,8 @@ TEST(Bars, OfAFittedPressureAskForTheMultipliersWithinTheirs) {
   PressureEstimate e = r.estimate->pressures[0];
   EXPECT_EQ(e.fitted.pieces.size(), 1U);
   e.local = LineError(e.line.p.size());
-  find_fitted_pressure(r.problem, r.problem.pairs[0], e);
+  PressureFits fits;
+  find_fitted_pressure(r.problem, r.problem.pairs[0], fits, e);
   EXPECT_TRUE(e.fitted.pieces.empty());
 }
 

@@ -97,6 +97,35 @@ TEST(PressureForm, HasTheForceAndTheMomentOfTheMultiplier) {
   }
 }
 
+// Whatever pieces came before: other vertices, widths, ends, swings, places of the ends, and pressures.
+TEST(PressureFits, AreThoseOfEachPieceAlone) {
+  std::mt19937 draw(43);
+  std::uniform_real_distribution<double> part(0.5, 1.5);
+  const VecX even = vertices(1, 3, 16, draw), uneven = vertices(1, 3, 16, draw);
+  const LoadedPiece first{.s = even, .p = {}, .width = VecX::Ones(even.size()), .end = {{{.power = 0.2}, {}}}};
+  std::vector<LoadedPiece> pieces(7, first);
+  pieces[1].s = uneven;
+  pieces[2].width = even;
+  pieces[3].end[1] = {.power = 0.5};
+  pieces[4].end[1] = {.power = 0, .tip = true};
+  pieces[4].swing = {.edges = 4};
+  pieces[5] = pieces[4];
+  pieces[5].swing = {.edges = 6};
+  PressureFits fits;
+  for (int load = 0; load < 40; ++load) {
+    fits.begin();
+    for (int asked = 0; asked < 4; ++asked) {
+      const std::size_t k = draw() % pieces.size();
+      LoadedPiece piece = pieces[k];
+      piece.p = VecX::NullaryExpr(piece.s.size(), [&] { return part(draw); });
+      const std::array<double, 2> ends{k == 6 ? 1.01 : 1, 3};
+      const auto form = fits.fit(piece, ends), alone = fit_pressure(piece, ends);
+      ASSERT_TRUE(form && alone) << k;
+      for (double x = 1.02; x < 3; x += 0.1) EXPECT_EQ((*form)(x), (*alone)(x)) << load << " " << k;
+    }
+  }
+}
+
 TEST(PressureForm, HasNoSlopeOnAnAxis) {
   // p = sqrt(1 - r^2) (1 + r^2 / 3) of rings: the moment of the vertex on the axis is none, its p all the same there.
   std::mt19937 draw(37);
@@ -210,7 +239,8 @@ TEST(FittedPressure, IsNoneWhereItWouldSwingMoreThanTheMultiplier) {
       if (e.line.p(i) > 0) e.line.p(i) += size * std::normal_distribution()(draw);
       e.local.raise(i, e.line.p.maxCoeff());
     }
-    find_fitted_pressure(r.problem, r.problem.pairs[0], e);
+    PressureFits fits;
+    find_fitted_pressure(r.problem, r.problem.pairs[0], fits, e);
     double off = 0, off_h = 0;
     for (Eigen::Index i = 0; i < e.line.p.size(); ++i) {
       if (!(e.line.p(i) > 0) || e.local.border[i]) continue;
