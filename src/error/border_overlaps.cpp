@@ -59,7 +59,7 @@ BorderOverlaps::BorderOverlaps(const Problem& problem, const Solution& solution,
     shares_.rightCols(1)(k) = opened.lpNorm<1>();
   }
   if (rows.cols() == 0) return;
-  shares_ *= shares_.colwise().sum().cwiseInverse().asDiagonal();
+  for (auto column : shares_.colwise()) column /= column.sum();
   answers_ = contact_factor(system, solution)->answers(rows, {});
 }
 
@@ -72,6 +72,24 @@ MatX BorderOverlaps::changes(const MatX& rows, const MatX& loads) const {
   for (Eigen::Index f = 0; f < all.cols(); ++f)
     if (sizes(f) > 0) all.col(f) *= sums(f) / sizes(f);
   return all;
+}
+
+WindowOverlaps BorderOverlaps::of_windows(const std::vector<ContactPair>& pairs,
+                                          const std::vector<PressureEstimate>& pressures) const {
+  std::vector<double> windows;
+  VecX squares = VecX::Zero(shares_.cols());
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (const PressureWindow& window : pressures[k].windows) {
+      if (shares_.cols() == 0) {
+        windows.push_back(0);
+        continue;
+      }
+      const VecX found = answers_.mu.middleRows(pairs[k].first_row, window.weights.size()).transpose() * window.weights;
+      const double sum = std::abs(found.sum()), size = found.lpNorm<1>();
+      windows.push_back(sum);
+      if (size > 0) squares += 2 * window.place.reach * (sum / size * found).cwiseAbs2();
+    }
+  return {Eigen::Map<VecX>(windows.data(), Eigen::Index(windows.size())), shares_ * squares.cwiseSqrt()};
 }
 
 VecX BorderOverlaps::motion(Eigen::Index unknowns) const {

@@ -7,6 +7,12 @@
 
 namespace mortise {
 
+/// What overlaps at borders do to the windows' means.
+struct WindowOverlaps {
+  VecX windows;  ///< of each of all pairs, one after the other, stress
+  VecX pairs;    ///< what is at the borders of each: its norm over the windows, stress length^(1/2)
+};
+
 /// Contact is held in the mean over a hat. Where the hat's edges are short beside the contact nothing is left of the
 /// gap between. At an end of contact, and the more where a contact is less than an edge wide, the bodies overlap in a
 /// part of the edge and are open in the rest; in truth they touch, and are that overlap farther apart. What this does
@@ -23,6 +29,8 @@ class BorderOverlaps {
   /// under a beam that all overlap alike change no force. `loads`: of the last functionals (n a column), those before
   /// have none.
   MatX changes(const MatX& rows, const MatX& loads) const;
+  WindowOverlaps of_windows(const std::vector<ContactPair>& pairs,
+                            const std::vector<PressureEstimate>& pressures) const;
   /// What it does to the displacements, n = `unknowns`.
   VecX motion(Eigen::Index unknowns) const;
 

@@ -212,7 +212,7 @@ double largest_that_counts(const PressureEstimate& e) {
 // What cells do to each window's mean, its corners' tails, and where windows share duals the stiffness of the whole.
 void add_far_errors(const Mesh& mesh, ErrorEstimate& estimate) {
   std::vector<TailShares> tails = tails_along(mesh, estimate.pressures, estimate.far.windows, estimate.tails);
-  const VecX far = far_fields(mesh, estimate.far) + estimate.far.overlaps.colwise().sum().transpose();
+  const VecX far = far_fields(mesh, estimate.far) + estimate.far.overlaps.windows;
   const Eigen::Index of_windows = estimate.far.windows.count, others = estimate.far.parts.cols() - of_windows;
   const VecX fluctuations =
       off_by(estimate.far.parts.rightCols(others)) + estimate.tails.parts.rightCols(others).colwise().sum().transpose();
@@ -237,19 +237,6 @@ MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector
   for (std::size_t k = 0; k < pairs.size(); ++k)
     for (const PressureWindow& w : pressures[k].windows)
       columns.col(shared.dual[window++]).segment(pairs[k].first_row, w.weights.size()) += w.weights;
-  return columns;
-}
-
-// A column a window.
-MatX each_window(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
-                 Eigen::Index rows) {
-  std::size_t count = 0;
-  for (const PressureEstimate& e : pressures) count += e.windows.size();
-  MatX columns = MatX::Zero(rows, Eigen::Index(count));
-  Eigen::Index window = 0;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    for (const PressureWindow& w : pressures[k].windows)
-      columns.col(window++).segment(pairs[k].first_row, w.weights.size()) = w.weights;
   return columns;
 }
 
@@ -301,7 +288,7 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
                 : products.of(p, solution.u);
   estimate.energy = energy_estimate(p.mesh, found, system.stiffness_scale, solution.u);
   estimate.far.parts = found.products.middleCols(1, shared);
-  estimate.far.overlaps = overlaps.changes(each_window(p.pairs, estimate.pressures, system.B.rows()), {});
+  estimate.far.overlaps = overlaps.of_windows(p.pairs, estimate.pressures);
   if (!has_duals) return;
   if (goals > 0) {
     estimate.goal = goal_estimate(goal, solution, found.products.rightCols(goals));
@@ -385,14 +372,7 @@ double ErrorEstimate::slopes() const {
   return std::sqrt(square / pressure_square());
 }
 double ErrorEstimate::far_field() const { return error_norm(pressures, 0, 1) / std::sqrt(pressure_square()); }
-VecX ErrorEstimate::overlaps() const {
-  VecX squares = VecX::Zero(far.overlaps.rows());
-  Eigen::Index k = 0;
-  for (const PressureEstimate& e : pressures)
-    for (const PressureWindow& window : e.windows)
-      squares += 2 * window.place.reach * far.overlaps.col(k++).cwiseAbs2();
-  return squares.cwiseSqrt() / std::sqrt(pressure_square());
-}
+VecX ErrorEstimate::overlaps() const { return far.overlaps.pairs / std::sqrt(pressure_square()); }
 
 ErrorEstimate estimate_error(const Problem& p, const Solution& solution, EstimateMemory& memory,
                              const EstimateOptions& options) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/williams.hpp"
+#include "error/border_overlaps.hpp"
 #include "error/contact_reach.hpp"
 #include "error/energy_estimate.hpp"
 #include "error/estimate_memory.hpp"
@@ -17,7 +18,7 @@ namespace mortise {
 struct FarField {
   MatX parts;           ///< cells x duals, those of windows, then of fluctuations: int d_0 : C^-1 : d_k, stress
   SharedDuals windows;  ///< of all pairs, one after the other, and which of them the parts count for
-  MatX overlaps;  ///< pairs x windows: what overlaps at the pairs' borders do to them, stress (border_overlaps.hpp)
+  WindowOverlaps overlaps;
 };
 
 struct ErrorEstimate {
