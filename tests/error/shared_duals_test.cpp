@@ -111,6 +111,7 @@ TEST(SharedDuals, OfAWallDoNotGrowWithItsPairs) {
   ASSERT_EQ(r.estimate->pressures.size(), 60U);
   EXPECT_EQ(r.estimate->far.windows.dual.size(), 180U);
   EXPECT_EQ(r.estimate->far.parts.cols(), shared_count);
+  EXPECT_EQ(r.estimate->far.overlaps.windows.size() + r.estimate->far.overlaps.pairs.size(), 240);
   for (const PressureEstimate& e : r.estimate->pressures)
     for (const PressureWindow& window : e.windows) EXPECT_LE(window.weights.size(), 5);
 }
@@ -163,6 +164,26 @@ TEST(SharedDuals, OfAWallKeepTheBars) {
     }
   EXPECT_GT(nodes, 400);
   EXPECT_GE(held, 0.95 * nodes);
+}
+
+// What overlaps at all borders do to each window is the same by one dual of all pairs as by one of each, and the shares
+// of the pairs are all of it.
+TEST(SharedDuals, KeepWhatOverlapsAtBordersDo) {
+  const Results r = solve_scene(read_scene(MORTISE_SOURCE_DIR "/geo/rod.toml", {{"mesh.parameters.pellets", "3"}}));
+  const auto estimated = [&](int own_duals) {
+    return estimate_error(r.problem, r.solution, *r.memory, {.own_duals = own_duals});
+  };
+  const ErrorEstimate own = estimated(1000), shared = estimated(0);
+  ASSERT_TRUE(own.far.windows.own() && !shared.far.windows.own());
+  const VecX &windows = shared.far.overlaps.windows, &pairs = shared.far.overlaps.pairs;
+  EXPECT_GT(windows.maxCoeff(), 0);
+  EXPECT_LE((windows - own.far.overlaps.windows).cwiseAbs().maxCoeff(), 1e-9 * windows.maxCoeff());
+  ASSERT_GT((pairs.array() > 0).count(), 2);
+  double square = 0;
+  Eigen::Index k = 0;
+  for (const PressureEstimate& e : shared.pressures)
+    for (const PressureWindow& window : e.windows) square += 2 * window.place.reach * std::pow(windows(k++), 2);
+  EXPECT_NEAR(pairs.sum(), std::sqrt(square), 1e-9 * pairs.sum());
 }
 
 // The pellets of a fuel rod press the cladding with sharp rims, where p has no limit: a fourth pellet, with which they
