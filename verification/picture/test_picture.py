@@ -89,10 +89,9 @@ def test_fields_are_drawn_by_the_program(mortise, call, solve, tmp_path):
 
 
 def test_the_program_refuses_what_the_script_refuses(mortise, call, solve, tmp_path):
-    wrong = (["--pair", "7"], 1, "numbers 0 to 0"), (["--field", "heat"], 2, "invalid choice"), (["--zoom", "1,0,0,1"], 2, "no box")
-    for words, status, text in wrong:
-        found, said = call(solve("punch"), tmp_path / "a.png", *words)
-        assert found == status and text in said and not (tmp_path / "a.png").exists()
+    for words, text in (["--pair", "7"], "numbers 0 to 0"), (["--field", "heat"], "invalid choice"), (["--zoom", "1,0,0,1"], "no box"):
+        status, said = call(solve("punch"), tmp_path / "a.png", *words)
+        assert status == 1 and text in said and not (tmp_path / "a.png").exists()
     run = subprocess.run([mortise, "picture", solve("punch"), tmp_path / "a.png", *words], capture_output=True, text=True, check=False)
     assert run.returncode == 1 and text in run.stderr
 
