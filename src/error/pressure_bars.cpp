@@ -78,9 +78,7 @@ void add_beyond(const LineError::Border& border, double moved, PressureEstimate&
 }
 
 // Whether p is known better than to its own size.
-bool is_known(const PressureEstimate& e, Eigen::Index i) {
-  return std::abs(e.line.whole(i)) > (e.local.least.size() > 0 ? e.local.least(i) : 0);
-}
+bool is_known(const PressureEstimate& e, Eigen::Index i) { return std::abs(e.line.whole(i)) > e.local.least(i); }
 
 }  // namespace
 
@@ -114,8 +112,7 @@ void find_bars(PressureEstimate& e) {
   e.local2 = e.far2 = e.p2 = 0;
   bool known = false;
   const VecX local = e.local.whole();
-  e.bar = e.local.pointwise(line);
-  if (e.local.least.size() > 0) e.bar = e.bar.cwiseMax(e.local.least);
+  e.bar = e.local.pointwise(line).cwiseMax(e.local.least);
   for (Eigen::Index i = 0; i < line.p.size(); ++i) {
     const FarError far = far_at(e, i);
     const double amplitude = e.fluctuation ? e.fluctuation->part() * e.fluctuation->amplitude(i) : 0,

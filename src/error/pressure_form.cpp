@@ -160,12 +160,12 @@ double PressureForm::operator()(double s) const {
   return factor_at(ends_, powers_, s) * q;
 }
 
-// With c the sums of what is left of the moments: min sum_i w_i c_i^2 / 2 with c_i - c_{i-1} = m_i - (M q)_i, no force
-// left (the last c is 0), no moment (sum_i c_i h_i = 0) and no slope on an axis, by its saddle point, which is sparse.
 struct PressureFit::Factor {
   Eigen::SparseLU<Eigen::SparseMatrix<double>> lu;
 };
 
+// With c the sums of what is left of the moments: min sum_i w_i c_i^2 / 2 with c_i - c_{i-1} = m_i - (M q)_i, no force
+// left (the last c is 0), no moment (sum_i c_i h_i = 0) and no slope on an axis, by its saddle point, which is sparse.
 PressureFit::PressureFit(const LoadedPiece& piece, const std::array<double, 2>& ends) {
   form_.ends_ = ends;
   form_.powers_ = {piece.end[0].power, piece.end[1].power};
