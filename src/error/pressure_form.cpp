@@ -97,17 +97,18 @@ VecX multiplier_moments(const LoadedPiece& piece) {
   return moments;
 }
 
-// By which forces summed up to each vertex count, squared: as p's own square along the line, whatever the edges; where
-// q has no knot beside the tip of a crack, as that of a p which varies over so much.
+// By which forces summed up to each edge count, squared: as p's own square along the line, the same near the axis of
+// rings as away from it, whatever the edges; where q has no knot beside the tip of a crack, as that of a p which varies
+// over so much.
 VecX sum_weights(const LoadedPiece& piece, const std::array<double, 2>& ends) {
-  const Index count = piece.s.size();
+  const Index edges = piece.s.size() - 1;
   const double smooth = piece.swing.part * (ends[1] - ends[0]);
-  VecX weights(count);
-  for (Index i = 0; i < count; ++i) {
-    const double length = piece.s(std::min(i + 1, count - 1)) - piece.s(std::max<Index>(i - 1, 0));
-    const bool beside = beside_tip(piece, ends, 0, piece.s(i)) || beside_tip(piece, ends, 1, piece.s(i));
-    const double varies = beside ? smooth * smooth / length : length / 2;
-    weights(i) = 1 / (varies * std::max(piece.width(i), 1e-3 * piece.width.maxCoeff()));
+  VecX weights(edges);
+  for (Index e = 0; e < edges; ++e) {
+    const double length = piece.s(e + 1) - piece.s(e), middle = (piece.s(e) + piece.s(e + 1)) / 2;
+    const bool beside = beside_tip(piece, ends, 0, middle) || beside_tip(piece, ends, 1, middle);
+    const double varies = beside ? smooth * smooth / length : length;
+    weights(e) = 1 / (varies * std::pow((piece.width(e) + piece.width(e + 1)) / 2, 2));
   }
   return weights;
 }
@@ -235,8 +236,10 @@ std::optional<PressureForm> PressureFits::fit(const LoadedPiece& piece, const st
 }
 
 LoadedPiece every_other(const LoadedPiece& piece) {
-  const Index edges = piece.s.size() - 1, count = edges / 2 + 1;
-  const auto kept = [&](Index k) { return k + 1 < count ? 2 * k : edges; };  // an odd edge belongs to the last one
+  const Index edges = piece.s.size() - 1, coarse_edges = edges % 2 == 0 ? edges / 2 : edges / 4 * 2 + 1;
+  // Two edges are one, counted from both ends; of an odd number one or three are that in the middle.
+  const auto kept = [&](Index k) { return 2 * k <= coarse_edges ? 2 * k : edges - 2 * (coarse_edges - k); };
+  const Index count = coarse_edges + 1;
   LoadedPiece coarse{.s = VecX(count),
                      .p = VecX(count),
                      .width = VecX(count),
@@ -274,11 +277,16 @@ double border_place(const LoadedPiece& piece, int which, Index stride) {
 }
 
 std::optional<double> FittedPressure::at(double s) const {
-  for (const double round : {0.0, around})
-    for (const FittedPiece& piece : pieces)
-      if (s + round >= piece.vertices[0] && s + round <= piece.vertices[1])
-        if (const double p = piece.form(s + round) + piece.fluid; std::isfinite(p)) return p;
-  return std::nullopt;
+  double sum = 0;
+  int count = 0;
+  for (const FittedPiece& piece : pieces)
+    for (const double round : {0.0, around}) {
+      if (!(s + round >= piece.vertices[0] && s + round <= piece.vertices[1])) continue;
+      sum += piece.form(s + round) + piece.fluid;
+      ++count;
+      break;
+    }
+  return count > 0 && std::isfinite(sum) ? std::optional(sum / count) : std::nullopt;
 }
 
 }  // namespace mortise

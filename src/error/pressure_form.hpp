@@ -109,7 +109,7 @@ struct FittedPressure {
   std::vector<FittedPiece> pieces;  ///< by s
   double around = 0;                ///< length of a closed curve, whose s goes on beyond its first vertex; else 0
 
-  /// p* at s of the line, stress; nothing where p is the multiplier's.
+  /// p* at s of the line, stress; where pieces meet their mean. Nothing where p is the multiplier's.
   std::optional<double> at(double s) const;
 };
 

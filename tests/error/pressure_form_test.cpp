@@ -97,6 +97,32 @@ TEST(PressureForm, HasTheForceAndTheMomentOfTheMultiplier) {
   }
 }
 
+// Whatever the multiplier and the ends: p* does not know in which direction s runs.
+TEST(PressureForm, MirrorsAsItsMultiplierDoes) {
+  std::mt19937 draw(47);
+  std::uniform_real_distribution<double> power(-0.3, 0.5), part(0.5, 1.5);
+  const auto an_end = [&] {
+    const int kind = int(draw() % 3);
+    return kind == 0   ? PieceEnd{}
+           : kind == 1 ? PieceEnd{.power = 0.5, .border = true}
+                       : PieceEnd{.power = power(draw), .tip = draw() % 2 == 0};
+  };
+  for (int k = 0; k < 100; ++k) {
+    const VecX s = vertices(1, 3, 12 + k, draw), p = VecX::NullaryExpr(s.size(), [&] { return part(draw); }),
+               width = k % 2 == 0 ? VecX::Ones(s.size()) : s;
+    const Swing swing{.edges = 3 + k % 8, .part = k % 3 == 0 ? 0.1 : 0};
+    const LoadedPiece piece{.s = s, .p = p, .width = width, .end = {an_end(), an_end()}, .swing = swing};
+    const LoadedPiece mirrored{.s = 4 - s.reverse().array(),
+                               .p = p.reverse(),
+                               .width = width.reverse(),
+                               .end = {piece.end[1], piece.end[0]},
+                               .swing = swing};
+    const auto form = fit_pressure(piece, {1, 3}), other = fit_pressure(mirrored, {1, 3});
+    ASSERT_TRUE(form && other) << k;
+    for (double x = 1.01; x < 3; x += 0.03) EXPECT_NEAR((*form)(x), (*other)(4 - x), 1e-7) << k << " at " << x;
+  }
+}
+
 // Whatever pieces came before: other vertices, widths, ends, swings, places of the ends, and pressures.
 TEST(PressureFits, AreThoseOfEachPieceAlone) {
   std::mt19937 draw(43);
@@ -168,8 +194,12 @@ TEST(PressureForm, OfEveryOtherVertexHasTheMomentsOfItsHats) {
     const VecX s = vertices(1, 3, 6 + k, draw), p = VecX::Random(s.size()),
                width = k % 2 == 0 ? VecX::Ones(s.size()) : s;
     const LoadedPiece coarse = every_other({.s = s, .p = p, .width = width, .end = {}});
-    ASSERT_EQ(coarse.s.size(), (s.size() - 1) / 2 + 1);
-    EXPECT_EQ(coarse.s(coarse.s.size() - 1), 3);
+    const Eigen::Index edges = s.size() - 1, last = coarse.s.size() - 1;
+    ASSERT_EQ(last, edges % 2 == 0 ? edges / 2 : edges / 4 * 2 + 1);
+    for (Eigen::Index i = 0; 2 * i < last; ++i) {
+      EXPECT_EQ(coarse.s(i), s(2 * i));
+      EXPECT_EQ(coarse.s(last - i), s(edges - 2 * i));
+    }
     const VecX all = mass(s, width) * p;
     for (Eigen::Index i = 0; i < coarse.s.size(); ++i) {
       double moment = 0;  // a hat of the coarse vertices is a sum of hats of the fine ones, by its values there
