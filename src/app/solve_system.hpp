@@ -6,8 +6,8 @@
 
 namespace mortise {
 
-/// The one that is named; else feti from 1000 rows on, where three parts or more hang together by contact alone: from
-/// there on it is faster than the direct solver's dense compliance. Else direct.
+/// The one that is named; else feti where three parts or more hang together by contact alone and it is faster than the
+/// direct solver's dense compliance: rows that are many for the parts' unknowns. Else direct.
 Solver solver_for(const Method& method, const SaddlePointSystem& system);
 
 /// Solves one system under as many loads as come.

@@ -6,9 +6,13 @@
 #include <stdexcept>
 #include <string>
 
-extern "C" void dgeev_(const char* left, const char* right, const int* n, double* a, const int* lda, double* re,
-                       double* im, double* vl, const int* ldvl, double* vr, const int* ldvr, double* work,
-                       const int* lwork, int* info);
+extern "C" {
+void dpotrf_(const char* triangle, const int* n, double* a, const int* lda, int* info);
+void dtrsm_(const char* side, const char* triangle, const char* transposed, const char* unit, const int* m,
+            const int* n, const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
+void dgeev_(const char* left, const char* right, const int* n, double* a, const int* lda, double* re, double* im,
+            double* vl, const int* ldvl, double* vr, const int* ldvr, double* work, const int* lwork, int* info);
+}
 
 namespace mortise {
 
@@ -39,6 +43,29 @@ MatX kernel_of(const MatX& A, double threshold) {
   if (threshold > 0) factor.setThreshold(threshold);
   return factor.dimensionOfKernel() > 0 ? MatX(factor.kernel()) : MatX(A.cols(), 0);
 }
+
+DenseCholesky::DenseCholesky(MatX A) : L_(std::move(A)) {
+  const int n = int(L_.rows());
+  int info = 0;
+  if (n > 0) dpotrf_("L", &n, L_.data(), &n, &info);
+  failed_ = info - 1;
+}
+
+MatX DenseCholesky::lower(MatX b) const {
+  const int n = int(b.rows()), columns = int(b.cols());
+  const double one = 1;
+  if (b.size() > 0) dtrsm_("L", "L", "N", "N", &n, &columns, &one, L_.data(), &n, b.data(), &n);
+  return b;
+}
+
+MatX DenseCholesky::upper(MatX b) const {
+  const int n = int(b.rows()), columns = int(b.cols());
+  const double one = 1;
+  if (b.size() > 0) dtrsm_("L", "L", "T", "N", &n, &columns, &one, L_.data(), &n, b.data(), &n);
+  return b;
+}
+
+MatX DenseCholesky::solve(MatX b) const { return upper(lower(std::move(b))); }
 
 struct LeastSquares::Factor {
   Eigen::ColPivHouseholderQR<MatX> qr;

@@ -30,6 +30,24 @@ MatX orthonormal(const MatX& columns);
 /// of the largest, or round-off of it where that is 0.
 MatX kernel_of(const MatX& A, double threshold = 0);
 
+/// A = L L^T of a symmetric matrix, of which the lower triangle is read (LAPACK's dpotrf).
+class DenseCholesky {
+ public:
+  DenseCholesky() = default;
+  explicit DenseCholesky(MatX A);
+  /// The row and column whose pivot is not positive: A is indefinite, and only the rows of L before it are known. -1:
+  /// none.
+  int failed() const { return failed_; }
+  double pivot(Eigen::Index i) const { return L_(i, i); }  ///< of L
+  MatX solve(MatX b) const;                                ///< A^-1 b
+  MatX lower(MatX b) const;                                ///< L^-1 b
+  MatX upper(MatX b) const;                                ///< L^-T b
+
+ private:
+  MatX L_;
+  int failed_ = -1;
+};
+
 /// x of the least |A x - b|, by QR with pivoting of the columns.
 class LeastSquares {
  public:

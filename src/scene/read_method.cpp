@@ -102,8 +102,8 @@ Keys method_keys(Method& m) {
        "them by conjugate gradients (theory, section 15); `\"mssor\"`: block SSOR for saddle points, plain or as "
        "preconditioner, for contact that stays closed (theory, section 12); `\"ddm\"`: domain decomposition (theory, "
        "section 11). `kind = \"ddm\"` in older scene files means that",
-       "`\"direct\"`; `\"feti\"` from 1000 multipliers on if there are three bodies or more, and `\"direct\"` after "
-       "all where its iteration does not converge"},
+       "`\"direct\"`; `\"feti\"` for many small bodies: three or more, with so many multipliers that a dense matrix of "
+       "them costs more than its steps; and `\"direct\"` after all where its iteration does not converge"},
       {"kind", {{"enum", {"mortar", "ddm"}}}, "in older scenes; `solver` says it now", "`\"mortar\"`"},
       key("omega", m.mssor.omega, between(0, 2), "`mssor` only: 0 < `omega` < 2, relaxation of the sweeps"),
       key("tau", m.mssor.tau, above(0),

@@ -82,10 +82,10 @@ bool DenseRows::soften(const VecX& compliance) {
   }
   MatX C = p_.compliance(coupled_, coupled_);
   C.diagonal() += compliance(coupled_);
-  softened_.compute(C);
-  if (softened_.info() != Eigen::Success) return false;
+  softened_ = DenseCholesky(std::move(C));
+  if (softened_.failed() >= 0) return false;
   if (springs() == 0) return true;
-  reduced_ = softened_.matrixL().solve(MatX(Ht()(Eigen::all, coupled_).transpose()));
+  reduced_ = softened_.lower(Ht()(Eigen::all, coupled_).transpose());
   MatX T = reduced_.transpose() * reduced_ + Ht() * soft_.asDiagonal() * Ht().transpose();
   T.diagonal().array() += unheld * T.diagonal().mean();
   motions_.compute(T);
@@ -93,13 +93,13 @@ bool DenseRows::soften(const VecX& compliance) {
 }
 
 ContactRows::Forces DenseRows::solve_softened(const VecX& gap, const VecX& work) {
-  VecX y = softened_.matrixL().solve(gap(coupled_)), mu = VecX::Zero(springs());
+  VecX y = softened_.lower(gap(coupled_)), mu = VecX::Zero(springs());
   if (springs() > 0) {
     mu = motions_.solve(reduced_.transpose() * y + Ht() * soft_.cwiseProduct(gap) - work);
     y -= reduced_ * mu;
   }
   VecX lambda = soft_.cwiseProduct(gap - opened(mu));
-  lambda(coupled_) = VecX(softened_.matrixU().solve(y));
+  lambda(coupled_) = VecX(softened_.upper(y));
   return {.lambda = lambda, .mu = mu};
 }
 

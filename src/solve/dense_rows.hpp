@@ -1,6 +1,8 @@
 // The rows of a complementarity problem whose compliance is dense.
 #pragma once
 
+#include <Eigen/Cholesky>
+
 #include "solve/complementarity_problem.hpp"
 #include "solve/contact_rows.hpp"
 #include "solve/multiplier_system.hpp"
@@ -42,7 +44,7 @@ class DenseRows : public ContactRows {
   // Of rows that give way: those that press on others; their L L^T = C + compliance and L^-1 H; 1 / compliance of the
   // soft ones, 0 of others; what all do against motions.
   std::vector<int> coupled_;
-  Eigen::LLT<MatX> softened_;
+  DenseCholesky softened_;
   MatX reduced_;
   VecX soft_;
   Eigen::LDLT<MatX> motions_;

@@ -27,7 +27,7 @@ MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs,
     H_.row(j) = compliance.col(column).tail(springs_).transpose();
   }
   diagonal_ = C.diagonal();
-  cholesky_.compute(C);
+  cholesky_ = DenseCholesky(std::move(C));
   if (springs_ == 0 || m_ == 0 || dependent_row() >= 0) return;
 
   MatX T = MatX::Zero(springs_, springs_);
@@ -46,21 +46,16 @@ MultiplierSystem::MultiplierSystem(const MatX& compliance, Eigen::Index springs,
 }
 
 int MultiplierSystem::dependent_row() const {
-  if (active_.empty()) return -1;
-  // Its pivot is round-off of its own size, or the factorisation stopped there (its row of the factor does not give
-  // back the diagonal then).
-  const MatX& L = cholesky_.matrixLLT();
-  for (Eigen::Index i = 0; i < diagonal_.size(); ++i) {
-    const double pivot = L(i, i) * L(i, i), size = L.row(i).head(i + 1).squaredNorm();
-    if (!(pivot > 1e-13 * diagonal_(i)) || !(std::abs(size - diagonal_(i)) < 1e-8 * diagonal_(i))) return active_[i];
-  }
-  return -1;
+  const Eigen::Index known = cholesky_.failed() < 0 ? diagonal_.size() : cholesky_.failed();
+  for (Eigen::Index i = 0; i < known; ++i)  // a pivot that is round-off of its own size
+    if (!(std::pow(cholesky_.pivot(i), 2) > 1e-13 * diagonal_(i))) return active_[i];
+  return cholesky_.failed() < 0 ? -1 : active_[known];
 }
 
 VecX MultiplierSystem::on_active(const VecX& rhs) const {
   VecX r(active_.size());
   for (std::size_t i = 0; i < active_.size(); ++i) r(i) = rhs(active_[i]);
-  return active_.empty() ? r : cholesky_.solve(r);
+  return cholesky_.solve(r);
 }
 
 VecX MultiplierSystem::solve(const VecX& rhs) const {

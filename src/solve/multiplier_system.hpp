@@ -1,10 +1,9 @@
 // The dense system of the multipliers, on those rows of B that are active.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <vector>
 
-#include "base/types.hpp"
+#include "base/dense.hpp"
 
 namespace mortise {
 
@@ -42,11 +41,11 @@ class MultiplierSystem {
 
   Eigen::Index m_, springs_;
   std::vector<int> active_;
-  Eigen::LLT<MatX> cholesky_;  // of C_AA
-  VecX diagonal_;              // of C_AA
-  MatX H_, reduced_;           // H_A, C_AA^-1 H_A
-  MatX held_, rigid_modes_;    // eigenvectors of H_A^T C_AA^-1 H_A
-  VecX stiffness_;             // and the eigenvalues of those held
+  DenseCholesky cholesky_;   // of C_AA
+  VecX diagonal_;            // of C_AA
+  MatX H_, reduced_;         // H_A, C_AA^-1 H_A
+  MatX held_, rigid_modes_;  // eigenvectors of H_A^T C_AA^-1 H_A
+  VecX stiffness_;           // and the eigenvalues of those held
 };
 
 }  // namespace mortise
