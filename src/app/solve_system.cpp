@@ -51,7 +51,7 @@ std::string dependent_row(const Mesh& mesh, const std::vector<ContactPair>& pair
 // Both by operations for each set of closed rows. Direct: a dense factor of the rows. FETI: a hundred steps, each of
 // them twice through the factors of the parts, which wait for memory where a dense one does not.
 Solver solver_for(const Method& method, const SaddlePointSystem& system) {
-  constexpr double steps = 100, waits = 10;
+  constexpr double steps = 150, waits = 10;
   if (method.solver) return *method.solver;
   const double rows = double(system.B.rows()), unknowns = double(system.K.cols());
   const int parts = part_count(system.K);
