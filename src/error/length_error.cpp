@@ -28,13 +28,17 @@ void add_hardly_pressed(const PressureEstimate& e, std::vector<char>& undecided)
 void add_hardly_open(const PressureEstimate& e, const LineError::Border& border, double modulus, const VecX& gaps,
                      std::vector<char>& undecided) {
   const PressureLine& line = e.line;
-  const Eigen::Index last = line.p.size() - 1, open = open_vertex(line, border), step = open == border.edge ? -1 : 1;
+  const Eigen::Index open = open_vertex(line, border);
+  const int step = open == border.edge ? -1 : 1;
   const double off = error_safety * e.local.pointwise(line)(open);
   double length = 0;
-  for (Eigen::Index i = open, left = last; left > 0; --left, i += step) {
-    if (line.closed && i == (step < 0 ? 0 : last)) i = last - i;  // one vertex
-    const Eigen::Index edge = step < 0 ? i - 1 : i;
-    if (edge < 0 || edge >= last || !line.faced[edge] || line.p(i + step) != 0) return;
+  Eigen::Index i = open;
+  for (Eigen::Index left = line.p.size() - 1; left > 0; --left) {
+    const auto next = line.beside(i, step);
+    if (!next) return;
+    i = *next;
+    const Eigen::Index edge = line.edge_to(i, step);
+    if (!line.faced[edge] || line.p(i) != 0) return;
     length += line.s(edge + 1) - line.s(edge);
     if (modulus * gaps(edge) > 2 * length * off) return;
     undecided[edge] = 1;

@@ -64,17 +64,32 @@ FarError far_at(const PressureEstimate& e, Eigen::Index i) {
 void add_beyond(const LineError::Border& border, double moved, PressureEstimate& e) {
   const PressureLine& line = e.line;
   const double safe = error_safety * error_safety * moved;
-  const Eigen::Index last = line.p.size() - 1, open = open_vertex(line, border), step = open == border.edge ? -1 : 1;
-  for (Eigen::Index i = open, left = last; left > 0; --left) {
-    if (line.closed && i == (step < 0 ? 0 : last)) i = last - i;  // one vertex
-    i += step;
-    if (i < 0 || i > last || !line.faced[step < 0 ? i : i - 1] || line.p(i) != 0) break;
+  const Eigen::Index open = open_vertex(line, border);
+  const int step = open == border.edge ? -1 : 1;
+  Eigen::Index i = open;
+  for (Eigen::Index left = line.p.size() - 1; left > 0; --left) {
+    const auto next = line.beside(i, step);
+    if (!next) break;
+    i = *next;
+    if (!line.faced[line.edge_to(i, step)] || line.p(i) != 0) break;
     const double beyond = line.distance(line.s(i), line.s(open));
     if (beyond >= safe) break;
     const double p = border.root * std::sqrt(safe - beyond);
     e.bar(i) = std::max(e.bar(i), p);
     if (!line.loaded[i] && !e.excluded[i]) e.far2 += p * p / (error_safety * error_safety) * line.h(i);
   }
+}
+
+// On how many sides of points where p has no limit the line is loaded.
+int sides_without_limit(const PressureEstimate& e) {
+  int sides = 0;
+  for (const SingularPoint& point : e.singular)
+    for (const int step : {-1, 1}) {
+      const Eigen::Index at = e.line.nearest(point.position);
+      const auto next = e.line.beside(at, step);
+      sides += point.is_unbounded() && next && e.line.loaded[at] && e.line.loaded[*next];
+    }
+  return sides;
 }
 
 // Whether p is known better than to its own size.
@@ -93,7 +108,7 @@ void find_excluded(double part, PressureEstimate& e) {
   double length = 0;
   for (Eigen::Index i = 0; i + 1 < line.p.size(); ++i)
     if (line.loaded[i] && line.loaded[i + 1]) length += line.s(i + 1) - line.s(i);
-  e.excluded_distance = part * length;
+  e.excluded_distance = part * length * std::min(1.0, 2.0 / std::max(sides_without_limit(e), 1));
   e.excluded.assign(line.p.size(), 0);
   for (Eigen::Index i = 0; i < line.p.size(); ++i)
     for (const SingularPoint& point : e.singular)

@@ -5,7 +5,8 @@
 
 namespace mortise {
 
-/// Leaves out of the norm what lies nearer than this part of the loaded length to a singular point.
+/// Leaves out of the norm what lies nearer than this part of the loaded length to a point where p has no limit; where
+/// the line is loaded on more than two sides of such points, so much less that no more is left out than beside two.
 void find_excluded(double part, PressureEstimate& estimate);
 
 /// Sets the bars and the squares of an estimate whose line, local errors and far field are there.

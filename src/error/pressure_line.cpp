@@ -15,15 +15,16 @@ constexpr double border_part = 0.25;  // of the p at one edge from the border
 // Length of edge e over half that of the loaded piece that ends on it; over all of it where the piece's other end is
 // that of the line, on a symmetry axis as a rule.
 double border_part_of(const PressureLine& line, Eigen::Index e, bool loaded_before, double least) {
-  const Eigen::Index last = line.p.size() - 1, step = loaded_before ? -1 : 1;
+  const int step = loaded_before ? -1 : 1;
   Eigen::Index i = loaded_before ? e : e + 1;
   double length = 0;
   bool ends = false;
-  for (Eigen::Index left = last; left > 0 && !ends; --left, i += step) {
-    if (line.closed && i == (step < 0 ? 0 : last)) i = last - i;  // one vertex
-    if (i + step < 0 || i + step > last) break;
-    ends = !(std::abs(line.p(i + step)) > least);
-    if (!ends) length += std::abs(line.s(i + step) - line.s(i));
+  for (Eigen::Index left = line.p.size() - 1; left > 0 && !ends; --left) {
+    const auto next = line.beside(i, step);
+    if (!next) break;
+    ends = !(std::abs(line.p(*next)) > least);
+    if (!ends) length += line.distance(line.s(*next), line.s(i));
+    i = *next;
   }
   const double edge = line.s(e + 1) - line.s(e);
   return edge / std::max(ends ? length / 2 : length, edge);
@@ -34,16 +35,17 @@ double border_part_of(const PressureLine& line, Eigen::Index e, bool loaded_befo
 // over which that matters, and no farther than the loaded piece goes.
 double root_reach(const PressureLine& line, Eigen::Index e, bool loaded_before, double least) {
   constexpr int least_edges = 4;
-  const Eigen::Index last = line.p.size() - 1, step = loaded_before ? -1 : 1;
+  const int step = loaded_before ? -1 : 1;
   Eigen::Index i = loaded_before ? e : e + 1;
   double r = (line.s(e + 1) - line.s(e)) / 2, force = r * std::abs(line.p(i)) * 2 / 3;
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
-  for (Eigen::Index k = 1; k < last; ++k, i += step) {
-    if (line.closed && i == (step < 0 ? 0 : last)) i = last - i;  // one vertex
-    if (i + step < 0 || i + step > last || !(std::abs(line.p(i + step)) > least)) break;
-    const double length = std::abs(line.s(i + step) - line.s(i));
-    force += length * (std::abs(line.p(i)) + std::abs(line.p(i + step))) / 2;
+  for (Eigen::Index k = 1; k + 1 < line.p.size(); ++k) {
+    const auto next = line.beside(i, step);
+    if (!next || !(std::abs(line.p(*next)) > least)) break;
+    const double length = line.distance(line.s(*next), line.s(i));
+    force += length * (std::abs(line.p(i)) + std::abs(line.p(*next))) / 2;
     r += length;
+    i = *next;
     if (k < least_edges) continue;
     const double square = force * force / (r * r * r);
     smallest = std::min(smallest, square);
@@ -71,6 +73,13 @@ std::array<bool, 2> PressureLine::faced_beside(Eigen::Index i) const {
   const Eigen::Index last = p.size() - 1;
   const auto at = [&](Eigen::Index e) { return faced[closed ? (e + last) % last : e] != 0; };
   return {(closed || i > 0) && at(i - 1), (closed || i < last) && at(i)};
+}
+
+std::optional<Eigen::Index> PressureLine::beside(Eigen::Index i, int step) const {
+  const Eigen::Index last = p.size() - 1;
+  if (closed && i == (step < 0 ? 0 : last)) i = last - i;  // one vertex
+  i += step;
+  return i < 0 || i > last ? std::nullopt : std::optional(i);
 }
 
 Eigen::Index PressureLine::nearest(const Vec2& x) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "problem/contact_pair.hpp"
@@ -27,6 +28,10 @@ struct PressureLine {
   double whole(Eigen::Index i) const { return fluid.size() > 0 ? p(i) + fluid(i) : p(i); }  ///< pressure at vertex i
   /// Whether edges are faced before and after vertex i.
   std::array<bool, 2> faced_beside(Eigen::Index i) const;
+  /// The next vertex by 1 or -1, around a closed line on and on; none beyond an end.
+  std::optional<Eigen::Index> beside(Eigen::Index i, int step) const;
+  /// The edge between a vertex and the one before it by `step`.
+  static Eigen::Index edge_to(Eigen::Index i, int step) { return step < 0 ? i : i - 1; }
   /// The vertex nearest to a place.
   Eigen::Index nearest(const Vec2& x) const;
   /// Between two places by their arc lengths; around a closed line the shorter way.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <random>
 
 #include "app/solve_scene.hpp"
 #include "error/error_estimate.hpp"
@@ -87,6 +89,49 @@ TEST(Bars, WhereNoVertexIsKnownTheErrorIsPItself) {
   e.local.least.setZero();
   find_excluded(0.1, e);
   EXPECT_EQ(e.excluded[2], 1);
+}
+
+// Teeth of one curve, each loaded by itself between two corners: a fifth of their length is left out, however many there
+// are and wherever a closed curve begins.
+TEST(Bars, LeaveOutAFifthOfTheLoadedLengthHoweverManyPointsThereAre) {
+  std::mt19937 draw(61);
+  for (int k = 0; k < 40; ++k) {
+    const int teeth = 1 + k % 9, edges = 60 * teeth, turned = k % 2 == 0 ? 0 : int(draw() % edges);
+    PressureEstimate e;
+    e.line = {.closed = k % 2 == 1,
+              .position = {},
+              .s = VecX::LinSpaced(edges + 1, 0, edges),
+              .p = VecX::Zero(edges + 1),
+              .fluid = {},
+              .middle = {},
+              .h = VecX::Ones(edges + 1),
+              .faced = std::vector<char>(edges, 1),
+              .loaded = std::vector<char>(edges + 1, 0)};
+    for (int i = 0; i <= edges; ++i)
+      e.line.position.emplace_back(std::cos(2 * std::numbers::pi * i / edges), std::sin(2 * std::numbers::pi * i / edges));
+    if (!e.line.closed)
+      for (int i = 0; i <= edges; ++i) e.line.position[i] = {i, 0};
+    double loaded = 0;
+    for (int tooth = 0; tooth < teeth; ++tooth) {
+      const int length = 20 + int(draw() % 30), from = 60 * tooth + 3;
+      loaded += length;
+      for (const int end : {0, length}) {
+        SingularPoint corner{};
+        corner.position = e.line.position[(from + end + turned) % edges];
+        corner.pressure_exponent = 0.7;
+        e.singular.push_back(corner);
+      }
+      for (int i = from; i <= from + length; ++i) {
+        const int at = (i + turned) % edges;
+        e.line.loaded[at] = 1;
+        e.line.p(at) = 1;
+        if (at == 0 && e.line.closed) e.line.loaded[edges] = e.line.p(edges) = 1;
+      }
+    }
+    e.local = LineError(edges + 1);
+    find_excluded(0.1, e);
+    EXPECT_NEAR(2 * teeth * e.excluded_distance, 0.2 * loaded, 1e-9) << k;
+  }
 }
 
 // Contact that ends beside a corner, in what is left out around it, has a border there that moves no root beyond.
