@@ -141,6 +141,24 @@ TEST(GapMisfit, OfAJumpIsItsPlaceAndOfASpikeAStress) {
     EXPECT_GE(std::min(local(e), local(e + 1)), of_spike.l2(e)) << e;
 }
 
+// A gap that rises by powers of ten within edges beyond contact closes none of them, whatever these make of it.
+TEST(GapMisfit, OfEdgesThatStayOpenIsInNoBar) {
+  for (const int power : {16, 24, 40}) {
+    const std::string gap = "1e-2 * (x / 0.8)^" + std::to_string(power);
+    const Results r = solved(blocks(0, 0), {.contact = ", initial_gap = \"" + gap + "\""});
+    const PressureEstimate& e = r.estimate->pressures[0];
+    const GapErrors off = gap_errors(r.problem.mesh, r.problem.pairs[0], r.problem.discretisation.laws);
+    const double largest = e.line.p.maxCoeff();
+    int steep = 0;
+    for (Eigen::Index i = 1; i + 1 < e.line.p.size(); ++i) {
+      if (e.line.p(i - 1) != 0 || e.line.p(i) != 0 || e.line.p(i + 1) != 0) continue;
+      EXPECT_LT(e.bar(i), largest) << power << " " << i;
+      steep += std::max(off.l2(i - 1), off.l2(i)) > largest * std::sqrt(e.line.h(i));
+    }
+    EXPECT_GT(steep, 0) << power;
+  }
+}
+
 TEST(GapMisfit, OfAnEvenGapIsNone) {
   const Results even = solved(blocks(0, 0), {.contact = ", initial_gap = 0"});
   EXPECT_EQ(gap_errors(even.problem.mesh, even.problem.pairs[0], even.problem.discretisation.laws).l2.size(), 0);
