@@ -87,9 +87,11 @@ std::vector<Segment> cut(const std::vector<Segment>& segments, const std::vector
   return pieces;
 }
 
-int gauss_count(const Edge& edge, const Edge& opposite) {
-  const int degree = edge.node_count - 1;
-  return (degree + std::max(degree, opposite.node_count - 1) + 2) / 2;
+int gauss_count(const Edge& edge, const Edge& opposite, const Model& model) {
+  constexpr int of_gap = 2;
+  const int of_multiplier = edge.node_count - 1, of_radius = model.axisymmetric(),
+            degree = of_multiplier + std::max({of_multiplier, opposite.node_count - 1, of_gap}) + of_radius;
+  return (degree + 2) / 2;
 }
 
 }  // namespace
@@ -140,7 +142,7 @@ std::vector<ContactPoint> contact_points(const Points& nodes, const ContactInter
   for (const Segment& piece : pieces) {
     const Edge& edge = multiplier.edges[piece.edge];
     const Edge& other = opposite.edges[std::max(piece.opposite_edge, 0)];
-    const LineRule rule = gauss_legendre(gauss_count(edge, other));
+    const LineRule rule = gauss_legendre(gauss_count(edge, other, geometry.model));
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const double half = (piece.end - piece.begin) / 2, xi = piece.begin + half * (1 + rule.points[q]);
       // A segment knows its opposite edge, but where a cut was merged away.

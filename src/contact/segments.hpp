@@ -21,7 +21,8 @@ struct Segment {
 /// Pieces that face nothing are left out (partial overlap).
 std::vector<Segment> find_segments(const Points& nodes, const ContactInterface& interface);
 
-/// Gauss points on each segment: exact on straight edges for the product of both sides' shape functions.
+/// Gauss points on each segment: exact on straight edges for the product of both sides' shape functions, and of a
+/// multiplier's and a gap that is quadratic; of rings with their radius.
 /// Integration::elements takes the same rule on whole edges without cutting; points that face nothing are left out.
 std::vector<ContactPoint> contact_points(const Points& nodes, const ContactInterface& interface,
                                          Integration integration);

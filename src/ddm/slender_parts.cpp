@@ -7,8 +7,7 @@
 namespace mortise {
 namespace {
 
-constexpr double slender = 6;              // slenderness
-constexpr int few_rows = 100;              // conjugate gradients find so many by themselves
+constexpr double compact = 2;              // slenderness; of 100 random stacks all end with 1 or 2, four not with 4
 constexpr double soft_spring = 1e-8;       // at free motions, for their pivots
 constexpr double least_compliance = 1e-3;  // of a row's own, where nothing but slender parts touch
 
@@ -22,9 +21,7 @@ int number(std::vector<int>& entries) {
 
 }  // namespace
 
-bool is_slender(const Substructure& part) {
-  return part.rows.size() > few_rows && slenderness(part.system.K) > slender;
-}
+bool is_slender(const Substructure& part) { return !part.rows.empty() && slenderness(part.system.K) > compact; }
 
 void add_stiffness(const Substructure& part, Triplets& entries) {
   const SaddlePointSystem& s = part.system;

@@ -37,7 +37,7 @@ struct DdmOptions {
   Acceleration acceleration = Acceleration::krylov;  ///< none, aitken, anderson or krylov
   std::optional<double> beta;                        ///< relaxation, > 0; default: estimated
   double tolerance = 1e-8;                           ///< of both residuals
-  int max_iterations = 100;
+  int max_iterations = 1000;
 
   bool operator==(const DdmOptions&) const = default;
 };

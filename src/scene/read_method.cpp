@@ -127,7 +127,7 @@ Keys method_keys(Method& m) {
           "1e-8; `feti`, `mssor`: 1e-10"),
       key("max_iterations", most, whole_number(1, 1000000),
           "≥ 1, evaluations of the iteration (the start is the first); also with `feti` and `mssor`: steps",
-          "100; `feti`: 1000; `mssor`: 20000"),
+          "1000; `mssor`: 20000"),
   };
 }
 

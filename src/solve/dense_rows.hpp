@@ -30,6 +30,9 @@ class DenseRows : public ContactRows {
   /// Of the last closed rows.
   std::optional<MultiplierSystem> take_system() { return std::move(system_); }
 
+ protected:
+  const VecX& rhs() const { return rhs_; }
+
  private:
   Eigen::Index rows() const { return p_.scale.size(); }
   Eigen::Index springs() const { return rhs_.size() - rows(); }

@@ -21,7 +21,7 @@ namespace mortise {
 ///   diverged               the same, maybe not finite      -                -
 ///   not_positive_definite  -                               unknown of K     -
 ///   dependent_row          -                               row of B         -
-///   unconstrained          -                               -                the motion, where it is known
+///   unconstrained          -                               -                the motion
 ///   in_tension             -                               -                -
 ///
 /// dependent_row: the contact condition follows from the others. unconstrained: the load drives a body away until

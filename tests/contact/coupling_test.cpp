@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "base/errors.hpp"
 #include "base/vectors.hpp"
 #include "contact/multiplier_space.hpp"
@@ -214,6 +216,29 @@ TEST(Dropped, MultipliersThatFaceNothingAreZeroAndNamed) {
   const Coupling c = couple(p.mesh, p, no_constraints(p.mesh), {});
   EXPECT_EQ(c.dropped.size(), 4u);  // vertices at 0, 1/11, 2/11, 3/11 of 0.8; the one at 4/11 = 0.29 still counts
   EXPECT_NEAR(c.covered_length, 0.5, 1e-12);
+}
+
+// Of the first multiplier on the axis, 1 - r / h: 2 pi int (1 - r / h) r^3 dr, and of its neighbour.
+TEST(Coupling, AQuadraticGapIsExactAlsoOnTheAxisOfRings) {
+  for (const CellKind kind : {CellKind::quad4, CellKind::quad8}) {
+    TwoPlates plates;
+    plates.kind_lower = plates.kind_upper = kind;
+    Pair p;
+    p.mesh = test::mesh_of(plates);
+    p.geometry.model = {.plane = Plane::axisymmetric};
+    p.multiplier = contact_curve(p.mesh, boundary_index(p.mesh, "lower_contact"));
+    p.opposite = contact_curve(p.mesh, boundary_index(p.mesh, "upper_contact"));
+    const double h = plates.width / plates.n_lower;
+    double first = 0, second = 0;
+    for (const ContactPoint& point : contact_points(p.mesh.nodes, p, Integration::segments)) {
+      const double r = edge_point(p.mesh.nodes, p.multiplier.edges[point.edge], point.xi).position.x();
+      if (r > h) continue;
+      first += (1 - r / h) * r * r * point.dA;
+      second += r / h * r * r * point.dA;
+    }
+    EXPECT_NEAR(first / (2 * std::numbers::pi * std::pow(h, 4) / 20), 1, 1e-12);
+    EXPECT_NEAR(second / (2 * std::numbers::pi * std::pow(h, 4) / 5), 1, 1e-12);
+  }
 }
 
 TEST(Coupling, CurvesThatDoNotFaceAreAnError) {

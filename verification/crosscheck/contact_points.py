@@ -16,6 +16,7 @@ from cases import StudyError
 LEAST_KINK, KINK, SURE_KINK = np.radians([0.1, 20, 60])  # a vertex between edges that turn by more
 NEAR_VERTEX = 5e-10  # of an edge's length
 BEYOND = 0.25  # of its length: how far the curve of an edge goes on beyond the edge's ends
+PIECES = 30  # of an edge and what is beyond: a cubic has at most three feet of a point, and a twentieth apart they are one
 
 
 @dataclass
@@ -29,10 +30,10 @@ class Chain:
         return (1 - t) * self.x[edge] + t * self.x[edge + 1]
 
     def curve(self, edge, t):
-        return np.array([1, t, t**2, t**3]) @ self.cubics[edge]
+        return np.power.outer(t, np.arange(4)) @ self.cubics[edge]
 
     def tangent(self, edge, t):
-        return np.array([0, 1, 2 * t, 3 * t**2]) @ self.cubics[edge]
+        return np.power.outer(t, np.arange(3)) @ (self.cubics[edge][1:] * [[1], [2], [3]])
 
     def normal(self, edge, t):
         """Out of the body."""
@@ -118,18 +119,30 @@ def vertices_of(body, label):
 # ---- From one side to the other ----
 
 
-def zero(function):
-    """The coordinate near an edge at which it vanishes, None if it keeps its sign."""
-    ends = -BEYOND, 1 + BEYOND
+def zeros(function):
+    """The coordinates near an edge at which it changes its sign."""
+    near = np.linspace(-BEYOND, 1 + BEYOND, PIECES + 1)
+    positive = function(near) > 0
+    return [zero(function, *near[k : k + 2]) for k in np.flatnonzero(positive[1:] != positive[:-1])]
+
+
+def zero(function, *ends):
+    """Between two coordinates; the better of them where the function is round-off at one."""
     if function(ends[0]) * function(ends[1]) > 0:
-        return None
+        return min(ends, key=lambda t: abs(function(t)))
     # At worst it takes the square of the 50 steps of bisection (Brent 1973, section 4.4).
     return brentq(function, *ends, xtol=1e-15, rtol=1e-15, maxiter=2500)
 
 
 def foot(chain, edge, x):
-    """Where the normal of an edge's curve passes through x."""
-    return zero(lambda t: (x - chain.curve(edge, t)) @ chain.tangent(edge, t))
+    """The nearest place whose normal on an edge's curve passes through x, None where there is none near the edge."""
+    found = zeros(lambda t: np.sum((x - chain.curve(edge, t)) * chain.tangent(edge, t), axis=-1))
+    return min(found, key=lambda t: np.linalg.norm(x - chain.curve(edge, t)), default=None)
+
+
+def crossing(chain, edge, x, n, at):
+    """The place nearest to `at` in which an edge's curve meets the line through x along n, None where there is none."""
+    return min(zeros(lambda t: cross(chain.curve(edge, t) - x, n)), key=lambda t: abs(t - at), default=None)
 
 
 def facing(opposite, x, n):
@@ -173,11 +186,13 @@ def contact_points(chain, opposite, gauss):
             for s, w in zip(a + (b - a) * (1 + at) / 2, (b - a) * length * weight / 2):
                 x = chain.place(edge, s)
                 here = foot(chain, edge, x)
+                if here is None:
+                    raise StudyError(f"no normal of the contact curve passes through its edge near ({x[0]:.6g}, {x[1]:.6g}); expected shorter edges there")
                 n = chain.normal(edge, here)
                 hit = facing(opposite.x, x, n)
                 if hit is None:
                     continue
-                there = zero(lambda t, edge=hit[0]: cross(opposite.curve(edge, t) - x, n))
+                there = crossing(opposite, hit[0], x, n, hit[1])
                 if there is None:  # n passes the curve by beside the edge, as at the end of a half circle
                     continue
                 gap = (opposite.curve(hit[0], there) - chain.curve(edge, here)) @ n

@@ -5,6 +5,7 @@ import pytest
 
 import contact_points as cp
 import convert
+from cases import StudyError
 
 
 def arc(radius, edges, outwards):
@@ -122,3 +123,28 @@ def quarter(radius, edges):
 def test_two_meshes_of_one_line_have_no_gap(gap, closed):
     rows = cp.points_of_pairs([(quarter(2, 8), quarter(2 + gap, 10)[::-1])], 3)
     assert len(rows) > 20 and (rows[:, 7] == 0).all() == closed
+
+
+def test_of_several_feet_the_nearest_counts():
+    """A fillet of two edges, as long as those before are short, whose cubic has two normals through a place of its edge."""
+    x = np.array([[0, 0], [0.7, 0], [1.6, 0], [3, 0], [4.9, 0], [7.1, 0.8], [8.4, 3.5]])
+    chain = cp.chain_through(x)
+    twice = 0
+    for edge in range(len(x) - 1):
+        for s in np.linspace(0.02, 0.98, 25):
+            place, near = chain.place(edge, s), np.linspace(-cp.BEYOND, 1 + cp.BEYOND, 20001)
+            away = np.linalg.norm(place - chain.curve(edge, near), axis=1)
+            here = cp.foot(chain, edge, place)
+            assert abs(here - near[np.argmin(away)]) < 1e-4
+            assert abs((place - chain.curve(edge, here)) @ chain.tangent(edge, here)) < 1e-12
+            turns = np.diff(np.sign(np.diff(away)))
+            twice += np.count_nonzero(turns) > 1
+    assert twice > 0
+
+
+def test_an_edge_without_a_foot_is_named():
+    """Its curve lies beyond what is near the edge."""
+    line = cp.chain_through(np.array([[0, 0], [1, 0], [2, 0.0]]))
+    line.cubics[1] += [[5, 0], [0, 0], [0, 0], [0, 0]]
+    with pytest.raises(StudyError, match=r"no normal of the contact curve passes through its edge near \(1\..*, 0\); expected shorter edges there"):
+        cp.contact_points(line, cp.chain_through(np.array([[2, -1], [0, -1.0]])), 2)

@@ -189,3 +189,9 @@ def test_gmsh_s_own_menu_runs_it(mortise, tmp_path):
     shown = [float(word) for word in done.stdout.splitlines()[-1].split()[1:]]
     table = launch.contact(tmp_path / "out/punch")
     assert shown == [2, pytest.approx(table["p"].max())]
+
+
+@pytest.mark.parametrize("name", ["nothing.toml", "nothing.geo"])
+def test_a_file_that_is_not_there_is_named(mortise, tmp_path, name):
+    ended = subprocess.run([mortise, "window", name], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (1, "", f"mortise: error: {name}: no such file\n")

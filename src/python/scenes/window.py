@@ -316,9 +316,11 @@ class Window:
 
 
 def main():
-    if len(sys.argv) != 2 or not Path(sys.argv[1]).is_file() or Path(sys.argv[1]).suffix not in (".toml", ".geo"):
+    if len(sys.argv) != 2 or Path(sys.argv[1]).suffix not in (".toml", ".geo"):
         print(__doc__.strip())
         sys.exit(0 if sys.argv[1:] in (["--help"], ["-h"]) else "mortise: error: expected SCENE.toml or PART.geo")
+    if not Path(sys.argv[1]).is_file():
+        sys.exit(f"mortise: error: {sys.argv[1]}: no such file")
     window = Window(Path(sys.argv[1]))
     while window.step():
         pass
