@@ -323,5 +323,48 @@ TEST(CurvatureJumps, AreNotMadeByRoundOff) {
   }
 }
 
+// Where edges are too short for their curvatures those further away tell of the jump, and where it is; a curvature that
+// varies, as that of a parabola, makes none.
+TEST(CurvatureJumps, AreSeenHoweverShortTheEdgesThere) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> exponent(-7, -3), place(-40, 40), angle(-3, 3), growth(1.2, 2), part(0, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const double radius = 10 + std::abs(place(random)), turned = angle(random), grows = growth(random);
+    const Vec2 centre(place(random), place(random));
+    const bool parabola = i % 2 == 1;
+    const auto shape = [&](double t) {
+      const Vec2 x = parabola ? Vec2(t, t * t / 2 / radius)
+                     : t < 0  ? Vec2(t, 0)
+                              : Vec2(radius * std::sin(t / radius), radius - radius * std::cos(t / radius));
+      return Vec2(centre + Vec2(std::cos(turned) * x.x() - std::sin(turned) * x.y(),
+                                std::sin(turned) * x.x() + std::cos(turned) * x.y()));
+    };
+    const auto places = [&](const std::vector<double>& t) {
+      std::vector<Vec2> list;
+      for (const double value : t) list.push_back(shape(value));
+      return list;
+    };
+    std::vector<double> ends{0};
+    for (const double side : {-1, 1})
+      for (double h = std::pow(10, exponent(random)), t = side * h; std::abs(t) < 5; h *= grows, t += side * h)
+        ends.push_back(t);
+    std::ranges::sort(ends);
+    Curve curve{.boundary = 0, .body = 0, .edges = {}, .sides = {}, .closed = false};
+    Points nodes(ends.size(), 2);
+    for (int k = 0; k < int(ends.size()); ++k) {
+      nodes.row(k) = shape(ends[k]).transpose();
+      if (k + 1 < int(ends.size())) {
+        curve.edges.push_back({2, {k, k + 1, -1}});
+        curve.samples.push_back(sample_edges(places, {{ends[k], ends[k + 1]}})[0]);
+      }
+    }
+    const std::vector<CurvatureJump> jumps = curvature_jumps(nodes, curve, ContactLine(nodes, curve));
+    ASSERT_EQ(jumps.size(), parabola ? 0 : 1) << i;
+    if (parabola) continue;
+    EXPECT_NEAR(ends[jumps[0].edge], 0, 1e-6 * radius) << i;  // what round-off leaves of the turn
+    EXPECT_NEAR(jumps[0].jump, 1 / radius, 0.2 / radius) << i;
+  }
+}
+
 }  // namespace
 }  // namespace mortise

@@ -91,8 +91,8 @@ TEST(Bars, WhereNoVertexIsKnownTheErrorIsPItself) {
   EXPECT_EQ(e.excluded[2], 1);
 }
 
-// Teeth of one curve, each loaded by itself between two corners: a fifth of their length is left out, however many there
-// are and wherever a closed curve begins.
+// Teeth of one curve, each loaded by itself between two corners: a fifth of their length is left out, however many
+// there are and wherever a closed curve begins.
 TEST(Bars, LeaveOutAFifthOfTheLoadedLengthHoweverManyPointsThereAre) {
   std::mt19937 draw(61);
   for (int k = 0; k < 40; ++k) {
@@ -108,7 +108,8 @@ TEST(Bars, LeaveOutAFifthOfTheLoadedLengthHoweverManyPointsThereAre) {
               .faced = std::vector<char>(edges, 1),
               .loaded = std::vector<char>(edges + 1, 0)};
     for (int i = 0; i <= edges; ++i)
-      e.line.position.emplace_back(std::cos(2 * std::numbers::pi * i / edges), std::sin(2 * std::numbers::pi * i / edges));
+      e.line.position.emplace_back(std::cos(2 * std::numbers::pi * i / edges),
+                                   std::sin(2 * std::numbers::pi * i / edges));
     if (!e.line.closed)
       for (int i = 0; i <= edges; ++i) e.line.position[i] = {i, 0};
     double loaded = 0;
