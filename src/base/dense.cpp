@@ -8,8 +8,8 @@
 
 extern "C" {
 void dpotrf_(const char* triangle, const int* n, double* a, const int* lda, int* info);
-void dtrsm_(const char* side, const char* triangle, const char* transposed, const char* unit, const int* m,
-            const int* n, const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
+void dtrtrs_(const char* triangle, const char* transposed, const char* unit, const int* n, const int* columns,
+             const double* a, const int* lda, double* b, const int* ldb, int* info);
 void dgeev_(const char* left, const char* right, const int* n, double* a, const int* lda, double* re, double* im,
             double* vl, const int* ldvl, double* vr, const int* ldvr, double* work, const int* lwork, int* info);
 }
@@ -51,19 +51,16 @@ DenseCholesky::DenseCholesky(MatX A) : L_(std::move(A)) {
   failed_ = info - 1;
 }
 
-MatX DenseCholesky::lower(MatX b) const {
+// Not BLAS's dtrsm, whose kernels for small matrices lose digits on some processors (OpenBLAS 0.3.21, SkylakeX).
+MatX DenseCholesky::solve_triangle(const char* transposed, MatX b) const {
   const int n = int(b.rows()), columns = int(b.cols());
-  const double one = 1;
-  if (b.size() > 0) dtrsm_("L", "L", "N", "N", &n, &columns, &one, L_.data(), &n, b.data(), &n);
+  int info = 0;
+  if (b.size() > 0) dtrtrs_("L", transposed, "N", &n, &columns, L_.data(), &n, b.data(), &n, &info);
   return b;
 }
 
-MatX DenseCholesky::upper(MatX b) const {
-  const int n = int(b.rows()), columns = int(b.cols());
-  const double one = 1;
-  if (b.size() > 0) dtrsm_("L", "L", "T", "N", &n, &columns, &one, L_.data(), &n, b.data(), &n);
-  return b;
-}
+MatX DenseCholesky::lower(MatX b) const { return solve_triangle("N", std::move(b)); }
+MatX DenseCholesky::upper(MatX b) const { return solve_triangle("T", std::move(b)); }
 
 MatX DenseCholesky::solve(MatX b) const { return upper(lower(std::move(b))); }
 

@@ -44,6 +44,8 @@ class DenseCholesky {
   MatX upper(MatX b) const;                                ///< L^-T b
 
  private:
+  MatX solve_triangle(const char* transposed, MatX b) const;
+
   MatX L_;
   int failed_ = -1;
 };
