@@ -88,6 +88,16 @@ void face_from_multiplier_side(const Mesh& mesh, const ContactPair& pair, Facing
   if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite, line)) node.faces = {line, *hit};
 }
 
+// Whether the line meets the opposite side there first: not behind the body that another part of that side, nearer to
+// the line's origin, bounds, nor at the back of one.
+bool seen_along(const Points& nodes, const Curve& opposite, const FacingNode& node, const Line& line, const Hit& own) {
+  if (node.own_normal.dot(line.n) >= 0) return false;
+  if (-own.distance > std::min(line.depth, deepest_overlap(opposite, own.edge))) return false;
+  const auto first = project_onto_curve(nodes, opposite, line);
+  // Beside the node, as between two edges' normals or those of lines, the line meets the same face of that body.
+  return !first || std::abs(own.distance) - std::abs(first->distance) <= deepest_overlap(opposite, first->edge);
+}
+
 // `along`: the nodes of the multiplier side.
 void face_from_opposite_side(const Mesh& mesh, const ContactPair& pair, const std::vector<FacingNode>& along,
                              FacingNode& node) {
@@ -101,10 +111,13 @@ void face_from_opposite_side(const Mesh& mesh, const ContactPair& pair, const st
   const double same = 1e-9 * edge_length(nodes, pair.multiplier.edges[foot->edge]);
   const auto vertex = std::ranges::find_if(
       along, [&](const FacingNode& c) { return (nodes.row(c.node).transpose() - line.x).norm() < same; });
-  node.normal = vertex != along.end() ? vertex->normal : line.n;
+  const Vec2 n = vertex != along.end() ? vertex->normal : line.n;
+  const Line out{line.x, n, line.depth};
+  const Hit own{node.place.edge, node.place.xi, (x - line.x).dot(n)};
+  if (!seen_along(nodes, pair.opposite, node, out, own)) return;
+  node.normal = n;
   node.on_multiplier = *foot;
-  const Hit own{node.place.edge, node.place.xi, (x - line.x).dot(node.normal)};
-  node.faces = {{line.x, node.normal, line.depth}, own};
+  node.faces = {out, own};
 }
 
 ContactNodes nodes_of(const Problem& problem, const ContactPair& pair) {

@@ -114,6 +114,40 @@ TEST(ContactResults, NormalsOfClosedCurvesAreMeansOfBothEdgesAtTheSeamToo) {
       EXPECT_NEAR(std::abs(n.normal.dot(n.position)), n.position.norm(), 1e-12) << n.position.transpose();
 }
 
+// The normals of the lower plate meet the wheel at its foot first; they go on through its top, and the hub's.
+TEST(ContactResults, TheBackOfAClosedCurveHasNoPressure) {
+  for (const bool along_lines : {false, true}) {
+    Scene scene;
+    scene.path = "wheel";
+    scene.materials["steel"] = {210e3, 0.3};
+    scene.bodies = {{"plate", "steel"}, {"wheel", "steel"}};
+    scene.boundaries = {{.key = "support", .on = {"plate_south"}, .what = Displacement{0, 0}},
+                        {.key = "load", .on = {"wheel_south"}, .what = Displacement{0, -0.05}}};
+    scene.contacts = {{.key = "contact.0", .between = {"plate_north", "wheel_north"}, .multipliers_on = "plate_north"}};
+    scene.contacts[0].condition = Condition::unilateral;
+    scene.contacts[0].initial_gap = InitialGap::curve;
+    scene.method.normals = along_lines ? Normals::curve : Normals::edges;
+    const auto level = [](double y) { return [y](double) { return y; }; };
+    test::Patch wheel = test::ring("wheel", 360, 8, {0, 2}, 1, 2, 450, 90);
+    wheel.closed = true;
+    const Results r = solve_scene(
+        scene, test::mesh_of({wheel, test::block("plate", 60, 8, -1, 1, level(-1), level(0))}, CellKind::quad8));
+    const ContactResults& c = r.recovery.contacts[0];
+    double force = 0;
+    int pressed = 0;
+    for (std::size_t i = 0; i < c.opposite.nodes.size(); ++i) {
+      const ContactNode &n = c.opposite.nodes[i], &next = c.opposite.nodes[(i + 1) % c.opposite.nodes.size()];
+      force += (n.p + next.p) / 2 * (next.position - n.position).norm();
+      pressed += n.p > 0;
+      if (n.position.y() > 2) {
+        EXPECT_TRUE(n.p == 0 && std::isnan(n.gap)) << n.position.transpose();
+      }
+    }
+    EXPECT_GT(pressed, 5);
+    EXPECT_NEAR(force, std::abs(c.force.y()), 0.03 * force) << along_lines;
+  }
+}
+
 TEST(ContactResults, NormalStressesOfCurvedSidesAreThePressures) {
   const Results r = solved_with("shrink_fit.toml", {});
   const ContactResults& c = r.recovery.contacts[0];
