@@ -4,11 +4,13 @@
 #include <gmsh.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/memory_file.hpp"
@@ -99,6 +101,12 @@ std::string number_text(double value) {
   return digits.data();
 }
 
+std::string shortest(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
 /// Assignments, then the .geo itself: DefineConstant leaves a variable alone that exists already.
 /// gmsh's own way, -setnumber, cannot be undone: its values outlive gmsh::finalize and would leak into the next mesh.
 /// Without parameters too: of a .geo that it opens itself, gmsh 4.8 silently drops the last statement if no newline
@@ -111,12 +119,19 @@ std::string preamble(const std::string& path, const std::map<std::string, double
   return text + "Include \"" + path + "\";\n";
 }
 
-// gmsh writes beyond its tables at orders that it does not have.
-void require_order(const std::string& file) {
-  double order = 0;
-  gmsh::option::getNumber("Mesh.ElementOrder", order);
-  if (order != 1 && order != 2)
-    throw InputError(file + ": Mesh.ElementOrder = " + number_text(order) + ": expected 1 (linear) or 2 (quadratic)");
+// gmsh writes beyond its tables at orders that it does not have. Of its options for meshes and geometries one alone
+// changes a mesh as it is saved, which is what `gmsh -2` would have made of the same file.
+void require_options(const std::string& file) {
+  const auto require = [&](const std::string& name, std::initializer_list<double> known, const std::string& expected) {
+    double value = 0;
+    gmsh::option::getNumber(name, value);
+    if (std::ranges::find(known, value) == known.end())
+      throw InputError(file + ": " + name + " = " + shortest(value) + ": expected " + expected);
+  };
+  require("Mesh.ElementOrder", {1, 2}, "1 (linear) or 2 (quadratic)");
+  require("Mesh.ScalingFactor", {1},
+          "1: gmsh scales a mesh as it saves it, and here it is taken as it is drawn; draw it in the units of the "
+          "calculation, scale what is drawn (Dilate), or name the .msh that `gmsh -2` saves");
 }
 
 /// The toolkit of gmsh's windows would write its settings to ~/.fltk as gmsh starts: a home where nothing can be made.
@@ -181,7 +196,7 @@ void GmshSession::read(const std::string& file, const std::map<std::string, doub
   try {
     run(file, "reading", [&] { gmsh::open(script.path()); });
     set_options();
-    require_order(file);
+    require_options(file);
     group_by_entity();
   } catch (const InputError& error) {
     throw InputError(quoted.shown(error.what()));

@@ -325,6 +325,18 @@ TEST(CommandLineFiles, ResultsGoNowhereThatIsNoFolderOfTheirOwn) {
   EXPECT_TRUE(fs::is_directory(folder.path("run/result.vtu")));
 }
 
+TEST(CommandLineFiles, AMeshThatGmshWouldScaleAsItSavesItIsRefused) {
+  const TemporaryFolder folder;
+  const std::string scene = scene_in(folder, "Mesh.ScalingFactor = 0.001;\n");
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"check", scene}, {"check", folder.path("patch_flat.geo")}, {"solve", scene, "--accuracy", "5%"}})
+    expect_refused(
+        mortise(command),
+        "patch_flat.geo: Mesh.ScalingFactor = 0.001: expected 1: gmsh scales a mesh as it saves it, and here "
+        "it is taken as it is drawn; draw it in the units of the calculation, scale what is drawn (Dilate), "
+        "or name the .msh that `gmsh -2` saves");
+}
+
 TEST(CommandLineFiles, WithoutProgramsAGeoThatRunsOneIsRefused) {
   const TemporaryFolder folder;
   const std::string proof = folder.path("proof");
