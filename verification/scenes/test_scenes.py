@@ -82,6 +82,19 @@ def test_a_gap_between_arcs_is_found_whatever_the_mesh(call, tmp_path):
     assert "closed, radius 19.9 round (0, 0)" in call("check", "pin.geo")
 
 
+def test_the_gap_of_curves_that_stick_out_past_each_other(call, tmp_path):
+    """The least is at the end of one: where the upper block's foot comes down to the lower one's last corner, at x = 2."""
+    (tmp_path / "steps.geo").write_text(
+        "Point(1) = {1, 0.05, 0}; Point(2) = {3, 0.01, 0}; Point(3) = {3, 1, 0}; Point(4) = {1, 1, 0};\n"
+        "Point(5) = {0, -1, 0}; Point(6) = {2, -1, 0}; Point(7) = {2, 0, 0}; Point(8) = {0, 0, 0};\n"
+        "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
+        "Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};\n"
+        "Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1}; Curve Loop(2) = {5 : 8}; Plane Surface(2) = {2};\n"
+        "Mesh.MeshSizeMax = 0.5;\n"
+    )
+    assert re.search(r"curve_1 - curve_7: along \S+, gap 0\.03$", call("check", "steps.geo"), re.MULTILINE)
+
+
 def test_curves_of_corners_and_of_one_body_do_not_meet(call, tmp_path):
     (tmp_path / "punch.geo").write_text(PUNCH)
     assert call("check", "punch.geo").count("\n  meet") == 1  # not the punch's sides, which end on the block

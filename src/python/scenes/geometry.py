@@ -29,10 +29,14 @@ class Curve:
     numbered: bool  # without a name of its own
     arcs: np.ndarray  # n x 9 x 2: coefficients of Chebyshev's polynomials, from -1 to 1 along each arc
 
+    def on(self, u):
+        """The same places' u on the curve: of a closed one any, of others none beyond an end."""
+        count = len(self.arcs)
+        return np.mod(u, count) if np.array_equal(self.points[0], self.points[-1]) else np.clip(u, 0, count)
+
     def at(self, u):
         """Places where u = k + 1/2 is the middle of arc k, and is so for all u of a closed curve."""
-        count = len(self.arcs)
-        u = np.mod(u, count) if np.array_equal(self.points[0], self.points[-1]) else np.clip(u, 0, count)
+        count, u = len(self.arcs), self.on(u)
         k = np.minimum(u.astype(int), count - 1)
         T = chebyshev.chebvander(2 * (u - k) - 1, self.arcs.shape[1] - 1)
         return np.einsum("ij,ijk->ik", T, self.arcs[k])
@@ -184,7 +188,7 @@ def nearest(function, at, known):
 def gaps_to(b, x):
     """How far places lie before b, along its normals (negative: behind it); infinite beyond its ends."""
     places = lambda v: b.at(v.ravel()).reshape(*v.shape, 2)
-    v = nearest(lambda v: np.linalg.norm(places(v) - x[:, None], axis=2), b.near(x), 1e-9)
+    v = b.on(nearest(lambda v: np.linalg.norm(places(v) - x[:, None], axis=2), b.near(x), 1e-9))  # at an end, not behind it
     across, along = x - places(v), places(v + 1e-6) - places(v - 1e-6)
     along /= np.linalg.norm(along, axis=1)[:, None]
     beyond = np.abs((across * along).sum(axis=1)) > 1e-3 * np.linalg.norm(across, axis=1) + 1e-7 * b.length
