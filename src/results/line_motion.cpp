@@ -1,6 +1,7 @@
 #include "results/line_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -111,17 +112,67 @@ void take_edge(PlaceMotion& place, const Points& nodes, const VecX& u, const Edg
   place.stretched = std::max(place.stretched, stretch(chord, grown));
 }
 
-// At how many of its ends contact ends within the curve: at one, p is half of an ellipse.
-int ends_within(const ContactResults& contact) {
+// Curvature of rings along their circles, 1 / length: none of plane models and of what faces along the axis.
+double curvature_round_axis(const ContactPair& pair, const Vec2& x, const Vec2& normal) {
+  return pair.geometry.model.axisymmetric() && x.x() > 0 ? std::abs(normal.x()) / x.x() : 0;
+}
+
+// Numbers loaded places in the order of their edges: one patch as long as no unloaded place and no edge lie between.
+struct Patches {
+  int last = -1;                   // the last patch
+  int first_edge = -1, edge = -1;  // of the first place; of the last, -1 behind an unloaded one
+
+  int take(int at) {
+    if (last < 0) first_edge = at;
+    if (edge < 0 || at > edge + 1) ++last;
+    edge = at;
+    return last;
+  }
+  void end() { edge = -1; }
+  // Whether of a closed curve with so many edges the last one goes on as the first; no other is between them.
+  bool meet(int edges) const { return last > 0 && first_edge == 0 && edge == edges - 1; }
+};
+
+// At which of its ends contact ends within the curve: where it does at one, p is half of an ellipse.
+std::array<bool, 2> ends_within(const ContactResults& contact) {
   const double round_off = 1e-9 * contact.length;
-  if (contact.length_in_contact > contact.length - round_off) return 0;
-  if (!contact.ends) return 2;
-  return ((*contact.ends)[0] > round_off) + ((*contact.ends)[1] < contact.length - round_off);
+  if (contact.length_in_contact > contact.length - round_off) return {false, false};
+  if (!contact.ends) return {true, true};
+  return {(*contact.ends)[0] > round_off, (*contact.ends)[1] < contact.length - round_off};
 }
 
 // What p that falls to zero at both ends as an ellipse is off by in L2, shifted by a part of its width.
 double of_ellipse(double shift) {
   return shift > 0 ? std::min(1., shift * std::sqrt(3 * std::max(1., 0.9 - std::log(shift)))) : 0;
+}
+
+// How far a patch slides, and what of p it has.
+struct Slide {
+  double force = 0, square = 0, length = 0, slid = 0;
+
+  void add(const PlaceMotion& place, double weight) {
+    force += weight;
+    square += weight * place.p;
+    length += place.ds;
+    slid += weight * place.slid;
+  }
+  double part() const { return force > 0 ? std::abs(slid / force) / length : 0; }
+};
+
+// By which part of its length the patch slides that loses most of p, and what all lose, stress times root of length
+// times depth. Between two patches both end within the curve.
+std::pair<double, double> of_patches(const std::vector<Slide>& slides, const std::array<bool, 2>& within) {
+  double slid = 0, most = 0, lost = 0;
+  for (std::size_t k = 0; k < slides.size(); ++k) {
+    const int ends = (k > 0 || within[0]) + (k + 1 < slides.size() || within[1]);
+    const double part = slides[k].part();
+    const double of_patch = (ends > 0 ? of_ellipse(part * ends / 2) : part) * std::sqrt(slides[k].square);
+    lost = std::hypot(lost, of_patch);
+    if (!(of_patch > most)) continue;
+    most = of_patch;
+    slid = part;
+  }
+  return {slid, lost};
 }
 
 }  // namespace
@@ -134,10 +185,14 @@ std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& p
   const bool both_ways = pair.spec.condition != Condition::unilateral;  // tension too
   const double least = 1e-3 * largest_entry(contact.pressure);
   std::vector<PlaceMotion> places;
+  Patches patches;
   for (const ContactPoint& c : pair.points) {
     const double signed_p = interpolate(pair, contact.pressure, {c.edge, c.xi});
     const double p = both_ways ? std::abs(signed_p) : signed_p;
-    if (!(p > least)) continue;
+    if (!(p > least)) {
+      patches.end();
+      continue;
+    }
     const Edge &edge = pair.multiplier.edges[c.edge], &facing = pair.opposite.edges[c.opposite_edge];
     PlaceMotion& place = places.emplace_back(PlaceMotion{.position = edge_point(nodes, edge, c.xi).position,
                                                          .p = p,
@@ -149,39 +204,44 @@ std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& p
                                                          .slid = 0,
                                                          .curved = 0,
                                                          .turned = 0,
-                                                         .stretched = 0});
+                                                         .stretched = 0,
+                                                         .patch = patches.take(c.edge)});
     place.u -= spin.at(place.position);
     const Vec2 moved = place.facing_u - place.u;
     place.slid = cross(moved, c.normal);
-    place.curved = moved.norm() * std::max(curvature[c.edge], opposite_curvature[c.opposite_edge]);
+    place.curved = std::max(moved.norm() * std::max(curvature[c.edge], opposite_curvature[c.opposite_edge]),
+                            std::abs(moved.dot(c.normal)) * curvature_round_axis(pair, place.position, c.normal));
     take_edge(place, nodes, u, edge, spin);
     take_edge(place, nodes, u, facing, {});
   }
+  if (pair.multiplier.closed && patches.meet(int(pair.multiplier.edges.size())))
+    for (PlaceMotion& place : places)
+      if (place.patch == patches.last) place.patch = 0;
   return places;
 }
 
 std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pair, const ContactResults& contact,
                                       const VecX& u) {
   std::vector<Moved> side, other;
-  double force = 0, square = 0, length = 0, slid = 0, curved = 0, strained = 0;
+  std::vector<Slide> slides;
+  double force = 0, square = 0, curved = 0, strained = 0;
   for (const PlaceMotion& place : place_motions(nodes, pair, contact, u)) {
     const double weight = place.p * place.dA, of_square = place.p * weight;
     side.push_back({weight, place.position, place.u});
     other.push_back({weight, place.facing, place.facing_u});
     force += weight;
     square += of_square;
-    length += place.ds;
-    slid += weight * place.slid;
+    if (std::size_t(place.patch) >= slides.size()) slides.resize(place.patch + 1);
+    slides[place.patch].add(place, weight);
     curved += weight * place.curved;
     const double off = std::min(1., std::max(place.turned * place.turned, place.stretched));
     strained += of_square * off * off;
   }
   if (!(force > 0)) return {};
-  const double part = std::abs(slid / force) / length;
-  const int within = ends_within(contact);
+  const auto [slid, shifted] = of_patches(slides, ends_within(contact));
   return LineMotion{.turned = std::max(turn(side), turn(other)),
-                    .slid = part,
-                    .shifted = within > 0 ? of_ellipse(part * within / 2) : part,
+                    .slid = slid,
+                    .shifted = shifted / std::sqrt(square),
                     .curved = curved / force,
                     .strained = std::sqrt(strained / square),
                     .position = mean_place(side),

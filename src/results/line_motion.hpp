@@ -16,9 +16,11 @@ struct PlaceMotion {
   Vec2 facing;       ///< the place of the opposite side
   Vec2 u, facing_u;  ///< how far either has moved, the former without its curve's spin
   double slid;       ///< how far they slide along one another, with its sign
-  double curved;     ///< how far they move against one another, over the line's radius of curvature
+  double curved;     ///< how far they move against one another, over the line's radius of curvature; of rings also
+                     ///< along the normal, over that of the line's circle round the axis
   double turned;     ///< radians: the turn of the edge of either side, the larger
   double stretched;  ///< by which part of its length that edge grows or shrinks, the larger
+  int patch = 0;     ///< of loaded places one behind another, counted from 0; what lies apart slides by itself
 };
 
 /// Places with less than a thousandth of the pair's largest pressure are not loaded; tension loads bonded pairs as
@@ -33,8 +35,9 @@ std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& p
 /// each is about the part by which contact forces and their places are off.
 struct LineMotion {
   double turned;   ///< radians: the turn of either side (the larger) that is nearest to its motion in least squares
-  double slid;     ///< how far the sides slide along one another, over the loaded length
-  double shifted;  ///< the part of p, in L2, that such a slide puts in a wrong place: more where p ends within a curve
+  double slid;     ///< how far the sides slide along one another, over the loaded length: of the patch that loses most
+  double shifted;  ///< the part of p, in L2, that such slides of each patch put in a wrong place: more where p ends
+                   ///< within a curve
   double curved;  ///< how far they move against one another, over the line's radius of curvature: a turn of the normals
   double
       strained;   ///< the part of p, in L2, that is lost where edges turn (by the square) or stretch: at most all of it

@@ -54,6 +54,30 @@ TEST(LineMotion, IsTheTurnAndTheSlideOfTheWhole) {
               0.2 / 0.8, 1e-3);
 }
 
+// Two patches that move apart: each slides by a part of its own length, and neither hides the other.
+TEST(LineMotion, OfPatchesIsThatOfEach) {
+  Results r = moved(0, 0);
+  const ContactPair& pair = r.problem.pairs[0];
+  VecX& p = r.recovery.contacts[0].pressure;
+  for (std::size_t e = 0; e < pair.multiplier.edges.size(); ++e)
+    for (const int a : pair.coupling.on_edge[e])
+      if (a >= 0 && std::abs(r.problem.mesh.nodes(pair.multiplier.edges[e].nodes[0], 0) - 0.4) < 0.12) p(a) = 0;
+  r.solution.u.setZero();
+  for (const Cell& cell : r.problem.mesh.cells)
+    if (cell.body == pair.opposite.body)
+      for (int i = 0; i < node_count(cell.kind); ++i)
+        r.solution.u(2 * cell.nodes[i]) = r.problem.mesh.nodes(cell.nodes[i], 0) < 0.4 ? -0.02 : 0.02;
+  const auto motion = line_motion(r.problem.mesh.nodes, pair, r.recovery.contacts[0], r.solution.u);
+  ASSERT_TRUE(motion);
+  EXPECT_GT(motion->slid, 0.02 / 0.4);
+  EXPECT_LT(motion->slid, 0.02 / 0.15);
+  EXPECT_GT(motion->shifted, motion->slid / 2);
+  double largest = 0;
+  for (const PlaceMotion& place : place_motions(r.problem.mesh.nodes, pair, r.recovery.contacts[0], r.solution.u))
+    largest = std::max(largest, double(place.patch));
+  EXPECT_EQ(largest, 1);
+}
+
 // Tension carries a bonded line as pressure does, and a contact line not at all.
 TEST(LineMotion, OfABondedLineInTensionIsThatUnderPressure) {
   Results r = moved(0.3, 0.1);

@@ -10,6 +10,7 @@
 #include "app/accuracy.hpp"
 #include "app/solve_scene.hpp"
 #include "results/data_warnings.hpp"
+#include "support/patches.hpp"
 #include "support/plate_scenes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -156,6 +157,26 @@ TEST(Notes, AClearanceOfThreePercentOfTheRadiusIsALargeDisplacement) {
   EXPECT_EQ(notes_with(r, "of the contact line's radius"), 1) << all(r);
   const Results small = solved("tests/parts/pin_in_hole.toml", {{"mesh.parameters.clearance", "0.0003"}});
   EXPECT_EQ(notes_with(small, "large displacements"), 0) << all(small);
+}
+
+// Rings, one shrunk onto the other by 5 % of the radius, as they are round the axis, whatever their length along it.
+TEST(Notes, AnInterferenceOfRingsIsALargeDisplacement) {
+  const auto level = [](double y) { return [y](double) { return y; }; };
+  for (const double length : {20., 1000.}) {
+    Scene s;
+    s.path = "rings";
+    s.model.plane = Plane::axisymmetric;
+    s.materials["rubber"] = {5, 0.3};
+    s.bodies = {{"inner", "rubber"}, {"outer", "rubber"}};
+    for (const char* face : {"inner_south", "inner_north", "outer_south", "outer_north"})
+      s.boundaries.push_back({.key = face, .on = {face}, .what = Displacement{{}, 0}});
+    s.contacts = {{.key = "contact.0", .between = {"inner_east", "outer_west"}, .initial_gap = InitialGap::given}};
+    s.contacts[0].gap = -5;
+    const Results r = solve_scene(s, test::mesh_of({test::block("inner", 8, 3, 50, 100, level(0), level(length)),
+                                                    test::block("outer", 8, 4, 100, 150, level(0), level(length))},
+                                                   CellKind::quad8));
+    EXPECT_EQ(notes_with(r, "move against one another by 5 % of the contact line's radius"), 1) << all(r);
+  }
 }
 
 // The upper plate slides by 5 % of the length, on a straight line and without a turn.
