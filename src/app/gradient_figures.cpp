@@ -25,6 +25,15 @@ std::size_t numbered(const Figure& figure, const std::string& number, std::size_
   refuse(figure, "of " + what + " the scene has " + std::to_string(count) + ", counted from 0");
 }
 
+// The index of the pair with a number (contact_numbers); throws where there is none.
+std::size_t pair_numbered(const Figure& figure, const std::string& number, const Problem& problem) {
+  const std::vector<int> numbers = contact_numbers(problem).pairs;
+  const int last = numbers.empty() ? -1 : numbers.back();
+  const auto found = std::ranges::find(numbers, int(numbered(figure, number, std::size_t(last + 1), "pairs")));
+  if (found == numbers.end()) refuse(figure, "that entry of the scene's contact is tied");
+  return found - numbers.begin();
+}
+
 LinearisedFigure of_lambda(const Results& r, const VecX& rows) {
   return {-rows.dot(r.solution.lambda), VecX::Zero(r.solution.u.size()), -rows};
 }
@@ -109,15 +118,14 @@ LinearisedFigure linearised(const Results& r, const Figure& figure) {
         "expected energy, probe.I.u_x, probe.I.u_y, contact.K.force.x, contact.K.force.y, contact.K.pressure.mean or "
         "contact.K.pressure.norm");
   if (name[6].matched) {
-    const std::size_t k = numbered(figure, name[3], r.problem.pairs.size(), "pairs");
-    return pressure_of(r, k, figure, name[6] == "norm");
+    return pressure_of(r, pair_numbered(figure, name[3], r.problem), figure, name[6] == "norm");
   }
   require_numbers(figure, {0}, "no number");
   if (name[1].matched)
     return displacement_of(r, r.problem.probes[numbered(figure, name[1], r.problem.probes.size(), "probes")],
                            name[2] == "y" ? 1 : 0);
   if (!name[3].matched) return energy_of(r);
-  return force_of(r, numbered(figure, name[3], r.problem.pairs.size(), "pairs"), name[5] == "y" ? 1 : 0);
+  return force_of(r, pair_numbered(figure, name[3], r.problem), name[5] == "y" ? 1 : 0);
 }
 
 }  // namespace mortise

@@ -20,7 +20,8 @@ void add_pair(const std::string& at, const Json& pair, Figures& row) {
 }
 
 // Columns by the dotted keys of summary.json, but for a few that are shorter.
-Figures figures(const Json& r) {
+// `numbers`: of the pairs.
+Figures figures(const Json& r, const std::vector<int>& numbers) {
   Figures row;
   for (const char* name : {"nodes", "elements", "dofs", "multipliers"}) row.emplace_back(name, r["mesh"][name]);
   const double meshing = r["seconds"]["mesh"];
@@ -42,7 +43,7 @@ Figures figures(const Json& r) {
   if (!r["inf_sup"].is_null()) row.emplace_back("inf_sup", r["inf_sup"]);
   for (std::size_t k = 0; k < r["contact"].size(); ++k) {
     const Json& c = r["contact"][k];
-    const std::string at = "contact." + std::to_string(k) + ".";
+    const std::string at = "contact." + std::to_string(numbers[k]) + ".";
     for (const auto& [name, value] : c["pressure"].items())
       if (!value.is_null()) row.emplace_back(at + "pressure." + name, value);
     add_pair(at + "force", c["force"], row);
@@ -65,6 +66,17 @@ void add_stiffness(const std::string& at, const Json& matrix, Figures& row) {
     for (std::size_t j = i; j < 3; ++j) row.emplace_back(at + motions[i] + "." + motions[j], matrix[i][j]);
 }
 
+// The force and the moment that drive a rigid curve, about its point: what the scene gives and what holds it.
+void add_acting(const std::string& at, const Json& support, Figures& row) {
+  const Json& rigid = support["rigid"];
+  const auto sum = [&](int i) { return rigid["force"][i].get<double>() + support["reaction"][i].get<double>(); };
+  const double x = rigid["about"][0], y = rigid["about"][1], held = support["moment"];
+  const double about = held - (x * support["reaction"][1].get<double>() - y * support["reaction"][0].get<double>());
+  row.emplace_back(at + "x", sum(0));
+  row.emplace_back(at + "y", sum(1));
+  row.emplace_back(at + "turn", rigid["moment"].get<double>() + about);
+}
+
 // Reactions; of rigid curves how they moved.
 void add_supports(const Json& supports, Figures& row) {
   for (std::size_t i = 0; i < supports.size(); ++i) {
@@ -76,6 +88,7 @@ void add_supports(const Json& supports, Figures& row) {
     if (!support.contains("rigid")) continue;
     add_pair(at + "displacement", support["rigid"]["displacement"], row);
     row.emplace_back(at + "turned", support["rigid"]["turned"]);
+    add_acting(at + "acting.", support, row);
   }
 }
 
@@ -99,12 +112,14 @@ void add_probes(const std::vector<ProbeValue>& probes, Figures& row) {
 }  // namespace
 
 RunRow row_of(const Results& results, const Json& report) {
-  RunRow row{report["status"], figures(report)};
+  const ContactNumbers numbers = contact_numbers(results.problem);
+  RunRow row{report["status"], figures(report, numbers.pairs)};
   add_supports(report["model"]["supports"], row.figures);
   const Json ties = report["model"].value("ties", Json::array());
   for (std::size_t i = 0; i < ties.size(); ++i)
     for (const std::string name : {"overlap", "tension"})
-      if (ties[i].contains(name)) row.figures.emplace_back("tie." + std::to_string(i) + "." + name, ties[i][name]);
+      if (ties[i].contains(name))
+        row.figures.emplace_back("tie." + std::to_string(numbers.ties[i]) + "." + name, ties[i][name]);
   add_probes(results.recovery.probes, row.figures);
   return row;
 }

@@ -99,6 +99,7 @@ struct Pretension {
 /// Two curves that are one: the nodes of the first follow the second, or that turned about the origin.
 struct Tie {
   std::string key;  ///< of the scene, for messages
+  int entry = 0;    ///< which of the scene's [[contact]]
   std::array<std::string, 2> curves;
   std::array<int, 2> boundary, body;
   std::vector<TiedNode> nodes;

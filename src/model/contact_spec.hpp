@@ -22,6 +22,7 @@ struct FluidSpec {
 
 struct ContactSpec {
   std::string key;
+  int entry = 0;  ///< which of the scene's [[contact]], tied ones counted
   /// Physical curves; or patterns (model/patterns.hpp), for all pairs of theirs that face each other.
   std::array<std::string, 2> between;
   std::optional<double> within;  ///< how far apart these may be, length; none: problem/facing_pairs.hpp

@@ -67,7 +67,7 @@ Points turned(Points nodes, const Curve& curve, const Eigen::Matrix2d& turn) {
 // A node that follows another curve already is left out.
 Tie tie_of(const Model& model, const Mesh& mesh, const ContactCurves& pair, std::set<int>& followers) {
   const int first = following(pair);
-  Tie tie{.key = pair.spec.key, .curves = {}, .boundary = {}, .body = {}, .nodes = {}};
+  Tie tie{.key = pair.spec.key, .entry = pair.spec.entry, .curves = {}, .boundary = {}, .body = {}, .nodes = {}};
   const Curve &follows = pair.curves[first], &leads = pair.curves[1 - first];
   if (pair.spec.condition == Condition::cyclic) {
     tie.turn = turn_between(mesh, pair.spec, leads, follows);

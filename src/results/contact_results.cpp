@@ -203,6 +203,19 @@ Resultant force_on_multiplier_side(const Points& nodes, const Coupling& coupling
 
 }  // namespace
 
+ContactNumbers contact_numbers(const Problem& problem) {
+  const auto& pairs = problem.pairs;
+  const auto& ties = problem.mesh.ties;
+  ContactNumbers numbers;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    numbers.pairs.push_back(
+        int(k + std::ranges::count_if(ties, [&](const Tie& tie) { return tie.entry < pairs[k].spec.entry; })));
+  for (std::size_t k = 0; k < ties.size(); ++k)
+    numbers.ties.push_back(int(
+        k + std::ranges::count_if(pairs, [&](const ContactPair& pair) { return pair.spec.entry < ties[k].entry; })));
+  return numbers;
+}
+
 ContactResults contact_results(const Problem& problem, const ContactPair& pair, const ContactNodes& nodes,
                                const StressField& stress, const Solution& solution, double displacement) {
   const Mesh& mesh = problem.mesh;

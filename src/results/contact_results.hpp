@@ -78,6 +78,14 @@ struct ContactResults {
 ContactResults contact_results(const Problem& problem, const ContactPair& pair, const ContactNodes& nodes,
                                const StressField& stress, const Solution& solution, double displacement);
 
+/// The N of names as contact.N.force.x: places of the problem's pairs and of its ties among both, in the order of the
+/// scene's entries. A pair keeps it where another is tied.
+struct ContactNumbers {
+  std::vector<int> pairs, ties;
+};
+
+ContactNumbers contact_numbers(const Problem& problem);
+
 /// p* (error/pressure_form.hpp) into the nodes and the extremes of p. The multiplier's p stays at the centres and
 /// where p* is not known.
 void set_fitted_pressure(const Points& nodes, const Curve& multiplier, const FittedPressure& fitted,

@@ -24,9 +24,12 @@ double number_at(const Json& report, const std::string& dotted) try {
   return unknown;
 }
 
-// summary.json, and the rows of probes.csv as probe.0, probe.1, ...
+// summary.json, its pairs by their numbers (contact_numbers), and the rows of probes.csv as probe.0, probe.1, ...
 Json named_figures(const Results& r) {
   Json report = report_of(r);
+  Json pairs = Json::array();
+  for (const Json& pair : report["contact"]) pairs[pair["number"].get<std::size_t>()] = pair;
+  report["contact"] = pairs;
   for (const ProbeValue& value : r.recovery.probes) {
     Json& row = report["probe"].emplace_back();
     for (const auto& [name, number] : probe_figures(value)) row[name] = number;

@@ -206,8 +206,10 @@ Json counts_json(const Results& r) {
 
 Json contacts_json(const Results& r) {
   Json list = Json::array();
+  const ContactNumbers numbers = contact_numbers(r.problem);
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     list.push_back(contact_json(r.problem.pairs[k], r.recovery.contacts[k]));
+    list.back()["number"] = numbers.pairs[k];
     list.back()["pressure"]["error"] = relative_error(r, k);
   }
   return list;

@@ -217,6 +217,7 @@ void read_contacts(const Node& root, Scene& scene) {
     ContactSpec contact;
     read(*entry, contact_keys(contact, expression_use(scene, true)));
     contact.key = locate(*entry);
+    contact.entry = int(scene.contacts.size() + scene.ties.size());
     contact.between = read_between(*find(*entry, "between"), *entry, once);
     if (contact.within && !is_pattern(contact.between[0]) && !is_pattern(contact.between[1]))
       fail(*find(*entry, "within"),

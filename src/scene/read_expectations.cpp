@@ -6,9 +6,8 @@ namespace mortise::scene_file {
 Keys expectation_keys(Expectation& expectation, const FieldUse& use) {
   return {
       key("figure", expectation.figure, a_name(),
-          "a number of summary.json by its dotted key, such as `\"contact.0.pressure.max\"`, or of a row of "
-          "probes.csv, "
-          "from 0: `\"probe.0.u_y\"`",
+          "a number of summary.json by its dotted key, such as `\"contact.0.pressure.max\"` (pairs by their "
+          "`number`), or of a row of probes.csv, from 0: `\"probe.0.u_y\"`",
           "this, or `pressure`"),
       {"value", a_number().schema, "what it should be, not 0", "required with `figure`"},
       key("pressure", expectation.value, a_field(use),

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
+#include "app/gradient_figures.hpp"
 #include "app/solve_scene.hpp"
 #include "base/errors.hpp"
 #include "results/report.hpp"
@@ -54,6 +56,42 @@ TEST(SolveCases, SayWhatEachSaysAlone) {
   EXPECT_GT(figure(table.rows.at(0), "contact.0.pressure.max_error"), 0);
   EXPECT_EQ(figure(table.rows.at(0), "contact.0.from"), 0);
   EXPECT_GT(figure(table.rows.at(0), "contact.0.to"), 0);
+}
+
+// Of three blocks one upon another, half as wide each.
+TEST(SolveCases, PairsKeepTheirColumnsWhereOthersAreTied) {
+  const TemporaryFolder folder;
+  folder.write("stack.geo",
+               "SetFactory(\"OpenCASCADE\"); Mesh.MeshSizeMax = 1;\n"
+               "Rectangle(1) = {0, 0, 0, 4, 1}; Rectangle(2) = {0, 1, 0, 2, 1}; Rectangle(3) = {0, 2, 0, 1, 1};\n"
+               "Physical Surface(\"a\") = {1}; Physical Surface(\"b\") = {2}; Physical Surface(\"c\") = {3};\n"
+               "Physical Curve(\"ground\") = {1}; Physical Curve(\"a_top\") = {3}; Physical Curve(\"b_foot\") = {5};\n"
+               "Physical Curve(\"b_top\") = {7}; Physical Curve(\"c_foot\") = {9}; Physical Curve(\"top\") = {11};\n");
+  const Scene scene = read_scene(
+      folder.write("stack.toml",
+                   "mesh.file = \"stack.geo\"\nmaterials.m = { young = 1000, poisson = 0.3 }\nbodies.\"*\" = \"m\"\n"
+                   "boundary = [ { on = \"ground\", displacement = { x = 0, y = 0 } }, "
+                   "{ on = \"top\", traction = [0, -10] } ]\n"
+                   "contact = [ { between = [\"b_foot\", \"a_top\"] }, { between = [\"c_foot\", \"b_top\"] } ]\n"
+                   "expect = [ { figure = \"contact.1.pressure.mean\", value = 10, tolerance = 1e-6 } ]\n"
+                   "[[case]]\nname = \"loose\"\n[[case]]\nname = \"glued\"\ncontact.0.condition = \"tied\"\n"
+                   "[[case]]\nname = \"drawn\"\ncontact.1.condition = \"tied\"\ncontact.1.overlap = 0.01\n"));
+  std::vector<double> gradients;
+  const CaseTable table = solve_cases(scene, {}, {}, [&](const LoadCase& load, const Results& r) {
+    if (load.name == "drawn") {
+      EXPECT_THROW(linearised(r, {"contact.1.pressure.mean", {}}), InputError);
+    } else {
+      gradients.push_back(linearised(r, {"contact.1.pressure.mean", {}}).value);
+    }
+  });
+  for (const int k : {0, 1}) {
+    EXPECT_EQ(table.rows.at(k).status, "solved");
+    EXPECT_NEAR(figure(table.rows.at(k), "contact.1.pressure.mean"), 10, 1e-9);
+    EXPECT_NEAR(gradients.at(k), 10, 1e-9);
+  }
+  EXPECT_TRUE(std::isnan(figure(table.rows.at(1), "contact.0.pressure.mean")));
+  EXPECT_GT(figure(table.rows.at(2), "contact.0.pressure.mean"), 0);
+  EXPECT_NEAR(figure(table.rows.at(2), "tie.1.overlap"), 0.01, 1e-12);
 }
 
 TEST(SolveCases, OneWithoutASolutionSaysSo) {

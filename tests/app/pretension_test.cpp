@@ -231,7 +231,7 @@ TEST(Pretension, HasGradients) {
     const std::string path = scene_of(folder, {.tie = tie}).path;
     const std::vector<Parameter> by{{key, value}};
     const Results r = solve_scene(parametrised(path, {}, by));
-    return gradients(r, path, {}, {{"energy", {}}, {"contact.0.pressure.mean", {}}}, by).derivatives;
+    return gradients(r, path, {}, {{"energy", {}}, {"contact.1.pressure.mean", {}}}, by).derivatives;
   };
   const MatX by_force = slopes("pretension = 3", "contact.0.pretension", 3);
   EXPECT_NEAR(by_force(0), 0.024, 1e-9);

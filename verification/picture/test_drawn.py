@@ -206,10 +206,16 @@ def test_round_off_is_drawn_as_a_constant(value):
 def test_the_columns_that_cases_are_drawn_over():
     table = {"case": np.array(["a", "b"]), "scale": np.array([1.0, 1.0]), "boundary.2.pressure": np.array([2.0, 1.0]),
              "status": np.array(["solved"] * 2), "support.1.displacement.x": np.array([0.0, 1.0]),
-             "support.1.displacement.y": np.array([0.0, -3.0]), "support.1.reaction.y": np.array([5.0, 6.0])}  # fmt: skip
+             "support.1.displacement.y": np.array([0.0, -3.0]), "support.1.turned": np.array([0.0, 1e-20]),
+             "support.1.acting.x": np.array([0.0, 1.0]), "support.1.acting.y": np.array([5.0, 6.0]),
+             "support.1.acting.turn": np.array([1e3, 1e3]), "energy": np.array([0.0, 9.0])}  # fmt: skip
     assert drawn_cases.load_axis(table, None)[0] == "boundary.2.pressure"
     name, moved, reaction = drawn_cases.approach(table)
     assert name == "support.1.displacement.y" and moved[1] == -3 and reaction[1] == 6
+    shaft = table | {"support.1.displacement.x": np.array([0.0, 1e-19]), "support.1.displacement.y": np.array([0.0, -1e-19])}
+    assert drawn_cases.approach(shaft) is None  # moves by round-off
+    name, moved, moment = drawn_cases.approach(shaft | {"support.1.turned": np.array([0.0, 1e-4])})  # held in x and y, it turns
+    assert name == "support.1.turned" and moved[1] == 1e-4 and moment[1] == 1e3
     del table["boundary.2.pressure"]
     assert drawn_cases.load_axis(table, None)[0] == "case"
 

@@ -5,6 +5,7 @@ import json
 import figure
 import numpy as np
 import result_tables
+from drawn_forces import ROUND_OFF
 from drawn_pressure import loaded_part
 
 MOST_LINES = 6  # of p along the contact line
@@ -58,17 +59,24 @@ def history_name(names):
 
 
 def approach(table):
-    """Displacement and reaction of the rigid curve that moves most, and their names; nothing where none moves."""
-    moves = [name for name in table if ".displacement." in name and name.startswith("support.") and varies(table[name])]
-    if not moves:
-        return None
-    name = max(moves, key=lambda name: np.ptp(table[name][np.isfinite(table[name])]))
-    return name, table[name], table[name.replace("displacement", "reaction")]
+    """How a rigid curve moves or turns, the force or moment at work on it, and the name of the first: of that motion by which
+    most work is done; nothing where all that is done is round-off of the bodies' energy."""
+    motions = {"displacement.x": "acting.x", "displacement.y": "acting.y", "turned": "acting.turn"}
+    most, best = ROUND_OFF * np.abs(np.nan_to_num(table.get("energy", np.zeros(1)))).max(), None
+    for name in table:
+        support, motion = ".".join(name.split(".")[:2]), ".".join(name.split(".")[2:])
+        if motion not in motions or not support.startswith("support.") or not varies(table[name]):
+            continue
+        force = table[f"{support}.{motions[motion]}"]
+        work = np.ptp(table[name][np.isfinite(table[name])]) * np.nanmax(np.abs(force))
+        if work > most:
+            most, best = work, (name, table[name], force)
+    return best
 
 
-def contact_panels(table, pair):
+def contact_panels(table, number):
     """Of each panel its label, its values and their bars."""
-    at = f"contact.{pair}."
+    at = f"contact.{number}."
     column = lambda name: table.get(at + name, np.full(len(table["case"]), np.nan))
     force = np.hypot(column("force.x"), column("force.y"))
     return [
@@ -95,7 +103,7 @@ def draw_over(axes, groups, x, values, bars, label, name):
 
 
 def draw_stiffness(axes, groups, name, moved, reaction):
-    """Reaction over displacement, and its slope on an axis of its own, a line a history."""
+    """Force over displacement, or moment over turn, and its slope on an axis of its own, a line a history."""
     slopes = []
     for _, rows in in_order(groups, moved, reaction):
         u, force = moved[rows], reaction[rows]
@@ -103,20 +111,25 @@ def draw_stiffness(axes, groups, name, moved, reaction):
         if len(np.unique(u)) == len(u) > 2:
             slopes.append((u, np.gradient(force, u), "0.4" if len(groups) == 1 else line.get_color()))
     figure.label(axes, figure.short(name), "")
-    figure.scientific(axes.yaxis, "reaction")
+    turns = name.endswith(".turned")
+    figure.scientific(axes.yaxis, "moment" if turns else "force")
     if slopes:
         slope = axes.twinx()
         for u, stiffness, colour in slopes:
             slope.plot(u, stiffness, "--", color=colour, linewidth=1)
-        figure.scientific(slope.yaxis, "stiffness dF/du (dashed)")
+        figure.scientific(slope.yaxis, f"stiffness {'dM/da' if turns else 'dF/du'} (dashed)")
 
 
-def pressures(folder, table, pair):
-    """Case, s, p and curve of the multiplier side of a pair, of some of the cases that have a contact.csv."""
+def pressures(folder, table, number):
+    """Case, s, p and curve of the multiplier side of the pair with that number, of some of the cases that have a contact.csv."""
     names = [name for name in map(name_of, table["case"]) if (folder / "cases" / name / "contact.csv").is_file()]
     if len(names) > MOST_LINES:
         names = [names[round(k)] for k in np.linspace(0, len(names) - 1, MOST_LINES)]
     for name in names:
+        pairs = json.loads((folder / "cases" / name / "summary.json").read_text())["contact"]
+        pair = next((k for k, contact in enumerate(pairs) if contact["number"] == number), None)
+        if pair is None:  # tied in this case
+            continue
         found = result_tables.contact_table(folder / "cases" / name)
         on, s = result_tables.line_of(found, result_tables.sides_of(found, pair)[0])
         yield name, s, found["p"][on], found["curve"][on][0]
@@ -132,15 +145,16 @@ def draw_history(folder, picture, options):
     summary = json.loads((folder / "summary.json").read_text())
     table = result_tables.columns(folder / "cases.csv")
     (name, x), groups = load_axis(table, options.along), histories(table)
-    pair = options.pair or 0
-    if f"contact.{pair}.pressure.max" not in table:
-        raise SystemExit(f"picture.py: {folder}: cases.csv has no contact pair {pair}")
-    lines = list(pressures(folder, table, pair))
+    numbers = [int(name.split(".")[1]) for name in table if name.startswith("contact.") and name.endswith(".pressure.max")]
+    number = min(numbers, default=0) if options.pair is None else options.pair
+    if number not in numbers:
+        raise SystemExit(f"picture.py: {folder}: cases.csv has no contact pair {number}")
+    lines = list(pressures(folder, table, number))
     moves = approach(table)
     count = 3 + bool(moves) + bool(lines)
     drawing, panels = figure.panels(count, 1, (8, 2.4 * count + 0.6), squeeze=False)
     rest = iter(panels[:, 0])
-    for label, values, bars in contact_panels(table, pair):
+    for label, values, bars in contact_panels(table, number):
         draw_over(axes := next(rest), groups, x, values, bars, label, name)
         if name == "case" and len(x) <= MANY_NAMES:
             axes.set_xticks(x, [figure.short(name_of(case)) for case in table["case"]], rotation=20)
