@@ -61,7 +61,7 @@ LargestInContact largest_in_contact(const Results& r) {
     }
     const auto all = line_motion(r.problem.mesh.nodes, pair, contact, r.solution.u);
     if (!all) continue;
-    of_pair.take({all->shifted, all->position, all->slid, "the sides slide along one another by ",
+    of_pair.take({all->shifted, all->slid_at, all->slid, "the sides slide along one another by ",
                   " of the length in contact, all in one direction,"});
     const double of_all = std::min(1., of_pair.part) * all->norm;
     norm = std::hypot(norm, all->norm);

@@ -149,20 +149,23 @@ double of_ellipse(double shift) {
 // How far a patch slides, and what of p it has.
 struct Slide {
   double force = 0, square = 0, length = 0, slid = 0;
+  Vec2 arms = Vec2::Zero();
 
   void add(const PlaceMotion& place, double weight) {
     force += weight;
     square += weight * place.p;
     length += place.ds;
     slid += weight * place.slid;
+    arms += weight * place.position;
   }
   double part() const { return force > 0 ? std::abs(slid / force) / length : 0; }
 };
 
-// By which part of its length the patch slides that loses most of p, and what all lose, stress times root of length
-// times depth. Between two patches both end within the curve.
-std::pair<double, double> of_patches(const std::vector<Slide>& slides, const std::array<bool, 2>& within) {
-  double slid = 0, most = 0, lost = 0;
+// The patch whose slide loses most of p, and what the slides of all lose, stress times root of length times depth.
+// Between two patches both end within the curve.
+std::pair<Slide, double> of_patches(const std::vector<Slide>& slides, const std::array<bool, 2>& within) {
+  Slide worst = slides.front();
+  double most = 0, lost = 0;
   for (std::size_t k = 0; k < slides.size(); ++k) {
     const int ends = (k > 0 || within[0]) + (k + 1 < slides.size() || within[1]);
     const double part = slides[k].part();
@@ -170,9 +173,9 @@ std::pair<double, double> of_patches(const std::vector<Slide>& slides, const std
     lost = std::hypot(lost, of_patch);
     if (!(of_patch > most)) continue;
     most = of_patch;
-    slid = part;
+    worst = slides[k];
   }
-  return {slid, lost};
+  return {worst, lost};
 }
 
 }  // namespace
@@ -238,9 +241,10 @@ std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pa
     strained += of_square * off * off;
   }
   if (!(force > 0)) return {};
-  const auto [slid, shifted] = of_patches(slides, ends_within(contact));
+  const auto [slide, shifted] = of_patches(slides, ends_within(contact));
   return LineMotion{.turned = std::max(turn(side), turn(other)),
-                    .slid = slid,
+                    .slid = slide.part(),
+                    .slid_at = slide.arms / slide.force,
                     .shifted = shifted / std::sqrt(square),
                     .curved = curved / force,
                     .strained = std::sqrt(strained / square),

@@ -36,6 +36,7 @@ std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& p
 struct LineMotion {
   double turned;   ///< radians: the turn of either side (the larger) that is nearest to its motion in least squares
   double slid;     ///< how far the sides slide along one another, over the loaded length: of the patch that loses most
+  Vec2 slid_at;    ///< the middle of that patch
   double shifted;  ///< the part of p, in L2, that such slides of each patch put in a wrong place: more where p ends
                    ///< within a curve
   double curved;  ///< how far they move against one another, over the line's radius of curvature: a turn of the normals

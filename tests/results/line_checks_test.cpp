@@ -72,6 +72,7 @@ TEST(LineMotion, OfPatchesIsThatOfEach) {
   EXPECT_GT(motion->slid, 0.02 / 0.4);
   EXPECT_LT(motion->slid, 0.02 / 0.15);
   EXPECT_GT(motion->shifted, motion->slid / 2);
+  EXPECT_GT(std::abs(motion->slid_at.x() - 0.4), 0.1);
   double largest = 0;
   for (const PlaceMotion& place : place_motions(r.problem.mesh.nodes, pair, r.recovery.contacts[0], r.solution.u))
     largest = std::max(largest, double(place.patch));

@@ -183,6 +183,23 @@ def test_reactions_that_are_round_off_are_not_drawn():
     assert axes.texts
 
 
+def test_labels_of_forces_far_from_the_bodies_stay_in_the_panel():
+    """A moment has no arrow, but a label; a place far off makes the panel wider, and labels with it."""
+    drawing, axes = figure.panels(1, 1, (8, 3))
+    far = {"rigid": {"force": [0, 0], "moment": -320.0, "about": [0, 0]}, "reaction": [7, -20], "moment": 0, "curves": []}
+    clamp = {"displacement": {"x": 0, "y": 0}, "curves": [{"reaction": [-7, 20], "centre": [20, -1], "moment_about_centre": -64.0}]}
+    drawn_forces.draw_arrows(axes, np.array([[12.0, -4], [20, 3]]), {"loads": [], "supports": [far, clamp]}, at_work=20.0)
+    axes.autoscale_view()
+    axes.set_aspect("equal")
+    drawing.canvas.draw()
+    labels = [text for text in axes.texts if text.get_text()]
+    assert {text.get_text() for text in labels} == {"moment -320", "21.2", "21.2\nmoment -64"}
+    panel = axes.get_window_extent()
+    for text in labels:
+        at = text.get_window_extent()
+        assert panel.x0 <= at.x0 and at.x1 <= panel.x1, text.get_text()
+
+
 @pytest.mark.parametrize("limits, label, tick", [((0, 2e7), "p, $10^{7}$", "1.5"), ((0, 15), "p", "4"), ((-4e-5, 0), "p, $10^{-5}$", "-2")])
 def test_the_power_of_ten_is_in_the_label(limits, label, tick):
     drawing, axes = figure.panels(1, 1, (4, 3))

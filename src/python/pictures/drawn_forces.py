@@ -61,34 +61,61 @@ def colour_bar(axes, drawn, label, turned, extend="neither"):
     figure.scientific(bar.ax.xaxis if turned else bar.ax.yaxis, label)
 
 
+def stroke(force, place, middle, size, largest):
+    """Start and end of a force's arrow, onto what it pushes, away from what it pulls; of none its place twice."""
+    norm = np.linalg.norm(force)
+    if norm == 0:
+        return place, place
+    step = size * (0.05 + 0.09 * norm / largest) * force / norm
+    return (place - step, place) if np.dot(middle - place, force) > 1e-3 * size * norm else (place, place + step)
+
+
+def label_of(force, moment, counts):
+    """What stands at an arrow: the force, and the moment about its place where it `counts`."""
+    words = [f"{np.linalg.norm(force):.3g}"] * bool(np.any(force)) + [f"moment {moment:.3g}"] * bool(counts)
+    return "\n".join(words)
+
+
+def beside(label, start, end, place, point, turned):
+    """Where a label begins, whether it goes on to the left, and the corner that it reaches, `point` being one of its units."""
+    free = end if np.array_equal(start, place) else start
+    left = (free - place)[0] < -0.3 * np.linalg.norm(free - place)
+    long, high = 5.2 * max(map(len, label.split("\n"))) * point, 9 * (1 + label.count("\n")) * point
+    return free, left, free + [-long if left else long, -high if turned else high]
+
+
 def draw_arrows(axes, points, model, at_work, turned=False):
     """Forces as arrows whose length goes with them, the shortest still to be seen: onto what they push, away from what
-    they pull. None that are round-off of the forces `at_work` in contact. `turned`: the points are (drawn_bodies.turn)."""
+    they pull; moments as words. None that are round-off of the forces `at_work` in contact. `turned`: the points are
+    (drawn_bodies.turn)."""
     order = slice(None, None, -1 if turned else 1)
     forces = [(colour, force[order], place[order], moment) for colour, force, place, moment in acting_forces(model)]
     largest = max((np.linalg.norm(force) for _, force, _, _ in forces), default=0)
-    shown = [f for f in forces if np.linalg.norm(f[1]) > max(1e-6 * largest, ROUND_OFF * at_work)]
+    size, middle = size_of(points) * (0.3 if turned else 1), (points.min(axis=0) + points.max(axis=0)) / 2
+    least, turns = max(1e-6 * largest, ROUND_OFF * at_work), max((abs(moment) for *_, moment in forces), default=0)
+    shown = []
+    for colour, force, place, moment in forces:
+        force = force if np.linalg.norm(force) > least else np.zeros(2)
+        label = label_of(force, moment, abs(moment) > max(1e-3 * largest * size, 1e-6 * turns, ROUND_OFF * at_work * size))
+        if label:
+            shown.append((colour, label, place, *stroke(force, place, middle, size, largest)))
     drawn_on = axes.get_figure()
     width, height = drawn_on.bbox.size * 72 / drawn_on.dpi * 0.75  # of the panel, points, about
-    point = max(np.ptp(points[:, 0]) / width, np.ptp(points[:, 1]) / height)
-    size, middle = size_of(points) * (0.3 if turned else 1), (points.min(axis=0) + points.max(axis=0)) / 2
-    for colour, force, place, moment in shown:
-        norm = np.linalg.norm(force)
-        step = size * (0.05 + 0.09 * norm / largest) * force / norm
-        pushes = np.dot(middle - place, force) > 1e-3 * size * norm
-        start, end = (place - step, place) if pushes else (place, place + step)
+    labelled = len(shown) <= 12
+    drawn = corners = np.array([*points[[0]], points.min(axis=0), points.max(axis=0), *(end for row in shown for end in row[3:])])
+    for _ in range(3):  # the labels beside the ticks, not over them: what they reach makes the panel wider
+        point = max(np.ptp(corners[:, 0]) / width, np.ptp(corners[:, 1]) / height)
+        reach = [beside(label, start, end, place, point, turned) for _, label, place, start, end in shown if labelled]
+        corners = np.array([*drawn, *(corner for *_, corner in reach)])
+    axes.update_datalim(corners)
+    for colour, _, _, start, end in shown:
         style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.8, "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0}
-        axes.annotate("", xy=end, xytext=start, arrowprops=style, zorder=6)
-        axes.update_datalim([start, end])
-        if len(shown) <= 12:
-            label = f"{norm:.3g}" + (f"\nmoment {moment:.3g}" if abs(moment) > 1e-3 * largest * size else "")
-            free = start if pushes else end
-            left = (free - place)[0] < -0.3 * np.linalg.norm(free - place)
-            options = {"textcoords": "offset points", "ha": "right" if left else "left", "va": "bottom", "fontsize": 7}
-            text = axes.annotate(label, free, (0 if left else 3, 2), color=colour, zorder=7, **options)
-            text.set_path_effects([withStroke(linewidth=2, foreground="white")])
-            long, high = 5.2 * max(map(len, label.split("\n"))) * point, 9 * (1 + label.count("\n")) * point
-            axes.update_datalim([free + [-long if left else long, -high if turned else high]])  # beside the ticks, not over them
+        if not np.array_equal(start, end):
+            axes.annotate("", xy=end, xytext=start, arrowprops=style, zorder=6)
+    for (colour, label, *_), (free, left, _) in zip(shown, reach):
+        options = {"textcoords": "offset points", "ha": "right" if left else "left", "va": "bottom", "fontsize": 7}
+        text = axes.annotate(label, free, (0 if left else 3, 2), color=colour, zorder=7, **options)
+        text.set_path_effects([withStroke(linewidth=2, foreground="white")])
 
 
 def place_of_force(table, rows):
