@@ -143,7 +143,7 @@ TEST(GapMisfit, OfAJumpIsItsPlaceAndOfASpikeAStress) {
 
 // A gap that rises by powers of ten within edges beyond contact closes none of them, whatever these make of it.
 TEST(GapMisfit, OfEdgesThatStayOpenIsInNoBar) {
-  for (const int power : {16, 24, 40}) {
+  for (const int power : {16, 20, 24}) {
     const std::string gap = "1e-2 * (x / 0.8)^" + std::to_string(power);
     const Results r = solved(blocks(0, 0), {.contact = ", initial_gap = \"" + gap + "\""});
     const PressureEstimate& e = r.estimate->pressures[0];

@@ -280,8 +280,8 @@ contact = [{ between = ["foot", "track"], initial_gap = "closed" }, { between = 
     EXPECT_TRUE(std::ranges::any_of(r.warnings, [](const std::string& line) {
       return line.starts_with("contact.1") && line.find(" % of its own, the most from the border") != std::string::npos;
     }));
-    // Where it hardly presses at all it matters to no one.
-    r.recovery.stress.points *= 1e3 * r.recovery.contacts[1].p_max / r.recovery.stress.points.cwiseAbs().maxCoeff();
+    // Where it hardly presses at all it matters to no one: by half of what counts.
+    r.recovery.stress.points *= 2e3 * r.recovery.contacts[1].p_max / r.recovery.stress.points.cwiseAbs().maxCoeff();
     EXPECT_TRUE(estimate_check(r)->ok());
     EXPECT_TRUE(
         std::ranges::none_of(error_warnings(r), [](const std::string& line) { return line.starts_with("contact.1"); }));

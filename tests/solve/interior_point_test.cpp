@@ -81,7 +81,9 @@ void expect_optimal(const ConvexProblem& p, const ActiveSetResult& r) {
   if (p.motions() == 0) return;
   const VecX left = p.rhs.tail(p.motions()) - p.H().transpose() * r.lambda;
   const VecX terms = p.rhs.tail(p.motions()).cwiseAbs() + p.H().cwiseAbs().transpose() * r.lambda.cwiseAbs();
-  EXPECT_LE(largest_entry(left), 1e-9 * largest_entry(terms) + 1e-15);
+  // Where no force is needed lambda is round-off of what the gaps would press.
+  const double none = 1e-14 * gap * p.H().cwiseAbs().maxCoeff() / p.C().diagonal().minCoeff();
+  EXPECT_LE(largest_entry(left), 1e-9 * largest_entry(terms) + none);
 }
 
 // Farkas: opens no row to below zero, and the load works on it.
