@@ -28,19 +28,6 @@ struct LargestInContact {
   double lost = 0;  // what p of all pairs is off by, as motion_check sums it
 };
 
-// Of each patch, by its part of the loaded length of all.
-std::vector<double> lengths_in_contact(const std::vector<PlaceMotion>& places, double of_all) {
-  std::vector<double> lengths;
-  double loaded = 0;
-  for (const PlaceMotion& place : places) {
-    if (std::size_t(place.patch) >= lengths.size()) lengths.resize(place.patch + 1);
-    lengths[place.patch] += place.ds;
-    loaded += place.ds;
-  }
-  for (double& length : lengths) length *= of_all / loaded;
-  return lengths;
-}
-
 LargestInContact largest_in_contact(const Results& r) {
   LargestInContact found;
   double most = 0, norm = 0, lost = 0;
@@ -49,11 +36,9 @@ LargestInContact largest_in_contact(const Results& r) {
     const ContactResults& contact = r.recovery.contacts[k];
     if (contact.length_in_contact == 0) continue;
     Largest of_pair;
-    const std::vector<PlaceMotion> places = place_motions(r.problem.mesh.nodes, pair, contact, r.solution.u);
-    const std::vector<double> lengths = lengths_in_contact(places, contact.length_in_contact);
-    for (const PlaceMotion& place : places) {
+    for (const PlaceMotion& place : place_motions(r.problem.mesh.nodes, pair, contact, r.solution.u)) {
       const Vec2& x = place.position;
-      const double along = std::abs(place.slid) / lengths[place.patch];
+      const double along = std::abs(place.slid) / contact.length_in_contact;
       of_pair.take(
           {place.curved, x, place.curved, "the sides move against one another by ", " of the contact line's radius"});
       of_pair.take({along, x, along, "the sides slide along one another by ", " of the length in contact"});

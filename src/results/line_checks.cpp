@@ -63,7 +63,7 @@ LostPressure lost_pressure(const LineMotion& motion) {
     if (part > lost.part) lost = {std::min(1., part), before + shown + after};
   };
   take(motion.turned, " turns by ", two_digits(motion.turned), " radians as a whole");
-  take(motion.shifted, " slides by ", percent(motion.slid), " of the loaded length");
+  take(motion.shifted_as_one, " slides by ", percent(motion.slid_as_one), " of the loaded length");
   take(motion.curved, " moves by ", percent(motion.curved), " of its radius of curvature");
   take(motion.strained, " turns and stretches so that ", percent(motion.strained), " of its pressure are lost");
   return lost;

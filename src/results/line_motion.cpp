@@ -161,6 +161,9 @@ struct Slide {
   double part() const { return force > 0 ? std::abs(slid / force) / length : 0; }
 };
 
+// What p is off by in L2 that slides by a part of its length and ends at so many places within the curve.
+double lost_by(double part, int ends) { return ends > 0 ? of_ellipse(part * ends / 2) : part; }
+
 // The patch whose slide loses most of p, and what the slides of all lose, stress times root of length times depth.
 // Between two patches both end within the curve.
 std::pair<Slide, double> of_patches(const std::vector<Slide>& slides, const std::array<bool, 2>& within) {
@@ -168,8 +171,7 @@ std::pair<Slide, double> of_patches(const std::vector<Slide>& slides, const std:
   double most = 0, lost = 0;
   for (std::size_t k = 0; k < slides.size(); ++k) {
     const int ends = (k > 0 || within[0]) + (k + 1 < slides.size() || within[1]);
-    const double part = slides[k].part();
-    const double of_patch = (ends > 0 ? of_ellipse(part * ends / 2) : part) * std::sqrt(slides[k].square);
+    const double of_patch = lost_by(slides[k].part(), ends) * std::sqrt(slides[k].square);
     lost = std::hypot(lost, of_patch);
     if (!(of_patch > most)) continue;
     most = of_patch;
@@ -227,29 +229,32 @@ std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pa
                                       const VecX& u) {
   std::vector<Moved> side, other;
   std::vector<Slide> slides;
-  double force = 0, square = 0, curved = 0, strained = 0;
+  Slide as_one;
+  double curved = 0, strained = 0;
   for (const PlaceMotion& place : place_motions(nodes, pair, contact, u)) {
     const double weight = place.p * place.dA, of_square = place.p * weight;
     side.push_back({weight, place.position, place.u});
     other.push_back({weight, place.facing, place.facing_u});
-    force += weight;
-    square += of_square;
+    as_one.add(place, weight);
     if (std::size_t(place.patch) >= slides.size()) slides.resize(place.patch + 1);
     slides[place.patch].add(place, weight);
     curved += weight * place.curved;
     const double off = std::min(1., std::max(place.turned * place.turned, place.stretched));
     strained += of_square * off * off;
   }
-  if (!(force > 0)) return {};
-  const auto [slide, shifted] = of_patches(slides, ends_within(contact));
+  if (!(as_one.force > 0)) return {};
+  const std::array<bool, 2> within = ends_within(contact);
+  const auto [slide, shifted] = of_patches(slides, within);
   return LineMotion{.turned = std::max(turn(side), turn(other)),
                     .slid = slide.part(),
                     .slid_at = slide.arms / slide.force,
-                    .shifted = shifted / std::sqrt(square),
-                    .curved = curved / force,
-                    .strained = std::sqrt(strained / square),
+                    .shifted = shifted / std::sqrt(as_one.square),
+                    .slid_as_one = as_one.part(),
+                    .shifted_as_one = lost_by(as_one.part(), within[0] + within[1]),
+                    .curved = curved / as_one.force,
+                    .strained = std::sqrt(strained / as_one.square),
                     .position = mean_place(side),
-                    .norm = std::sqrt(square)};
+                    .norm = std::sqrt(as_one.square)};
 }
 
 }  // namespace mortise

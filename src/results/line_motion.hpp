@@ -39,6 +39,8 @@ struct LineMotion {
   Vec2 slid_at;    ///< the middle of that patch
   double shifted;  ///< the part of p, in L2, that such slides of each patch put in a wrong place: more where p ends
                    ///< within a curve
+  double slid_as_one, shifted_as_one;  ///< both as if its patches were one: a small one may slide by all of its length
+                                       ///< and leave p as it is, as a rim that moves along a straight wall
   double curved;  ///< how far they move against one another, over the line's radius of curvature: a turn of the normals
   double
       strained;   ///< the part of p, in L2, that is lost where edges turn (by the square) or stretch: at most all of it
