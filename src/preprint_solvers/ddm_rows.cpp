@@ -51,7 +51,8 @@ bool DdmRows::refine() {
 RelaxationOptions DdmRows::relaxation(const InterfaceIteration& iteration) {
   RelaxationOptions relaxation{options_.acceleration, 1, tolerance_,
                                std::max(1, options_.max_iterations - int(history_.size()))};
-  if (options_.acceleration != Acceleration::krylov) {
+  beta_ = 0;
+  if (options_.acceleration != Acceleration::krylov && interface_.gap.size() > 0) {
     spectrum_ = spectrum(iteration, interface_.gap.size());
     relaxation.beta = beta_ = options_.beta.value_or(spectrum_.best_beta());
   }

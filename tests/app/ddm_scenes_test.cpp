@@ -261,6 +261,19 @@ void expect_direct_solution(const std::string& file, const char* solver, const s
   EXPECT_LT(displacement_difference(r, direct), 1e-6) << on_failure;
 }
 
+TEST(Decompose, ContactThatStaysOpenHasNothingToRelax) {
+  for (const char* scheme : {"neumann_dirichlet", "neumann_neumann", "dirichlet_dirichlet"})
+    for (const char* acceleration : {"none", "aitken", "anderson", "krylov"}) {
+      const Results r = ddm(
+          "gap_close",
+          {{"method.scheme", scheme}, {"method.acceleration", acceleration}, {"boundary.2.displacement.y", "-0.5e-4"}});
+      EXPECT_EQ(r.solution.status, SolveStatus::converged) << scheme << " " << acceleration;
+      EXPECT_EQ(largest_entry(r.solution.lambda), 0) << scheme << " " << acceleration;
+      for (const auto& [name, value] : r.solution.iteration->figures)
+        EXPECT_TRUE(std::isfinite(value)) << scheme << " " << acceleration << " " << name;
+    }
+}
+
 // A leaf between two others is a million times as stiff against what presses on both its sides as they are, whatever
 // their moduli.
 TEST(Decompose, FindsWhichRowsOfLeavesAreClosed) {
