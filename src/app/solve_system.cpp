@@ -45,8 +45,8 @@ std::string dependent_row(const Mesh& mesh, const std::vector<ContactPair>& pair
 
 }  // namespace
 
-// Both by operations for each set of closed rows. Direct: a dense factor of the rows. FETI: a hundred steps, each of
-// them twice through the factors of the parts, which wait for memory where a dense one does not.
+// Both by operations for each set of closed rows. Direct: a dense factor of the rows. FETI: so many steps, each of them
+// twice through the factors of the parts, which wait for memory where a dense one does not (docs/solver.md).
 Solver solver_for(const Method& method, const SaddlePointSystem& system) {
   constexpr double steps = 150, waits = 10;
   if (method.solver) return *method.solver;
