@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <utility>
 
 #include "app/drawn_sizes.hpp"
 #include "app/next_sizes.hpp"
@@ -44,8 +43,7 @@ class Loop {
 
   std::optional<Results> run() {
     std::optional<Results> last, best;  // best: of those before the last, if it is better
-    // Checks that do not hold come before what is estimated.
-    std::pair<Status, double> off_last{}, off_best{Status::not_converged, std::numeric_limits<double>::infinity()};
+    double off_last = std::numeric_limits<double>::infinity(), off_best = off_last;
     int number_of_best = 0;
     AccuracyReport report{.of = spec_.of, .asked = spec_.value, .excluded = spec_.exclude, .solves = {}, .reason = {}};
     Seconds seconds;
@@ -73,7 +71,7 @@ class Loop {
         report.solves.push_back({free_unknowns(r), open_[worst_] ? 0 : told(r), r.seconds.total()});
         if (spec_.of == Goal::peak) require_peak(r);
         const int number = int(report.solves.size());
-        const std::pair off{r.status, confirmed(r, number)};
+        const double off = confirmed(r, number);
         if (last && off_last < std::min(off, off_best)) {
           best = std::move(last);
           off_best = off_last;

@@ -7,6 +7,7 @@
 
 #include "base/vectors.hpp"
 #include "fem/edges.hpp"
+#include "mesh/thickness.hpp"
 
 namespace mortise {
 namespace {
@@ -24,6 +25,12 @@ int quadratic_roots(double c0, double c1, double c2, std::array<double, 2>& root
   if (std::abs(c2) <= 1e-14 * std::abs(q)) return 1;  // the other root is far away
   roots[1] = q / c2;
   return 2;
+}
+
+// Whether x, `depth` in front of a place on the edge as n points, lies outside the edge's body: what the line meets
+// there is a face that the body itself hides.
+bool is_hidden(const Curve& curve, const Edge& edge, const Vec2& place, const Vec2& n, double depth) {
+  return curve.outline && curve.outline->way_out(edge, place, n, depth) < depth;
 }
 
 }  // namespace
@@ -60,6 +67,7 @@ std::optional<Hit> project_onto_edge(const Points& nodes, const Curve& curve, in
     if (p.normal().dot(n) >= 0) continue;
     const double distance = (p.position - x).dot(n);
     if (-distance > std::min(depth, deepest_overlap(curve, edge))) continue;
+    if (distance < 0 && is_hidden(curve, e, p.position, n, -distance)) continue;
     if (!best || std::abs(distance) < std::abs(best->distance)) best = Hit{edge, xi, distance};
   }
   return best;

@@ -33,8 +33,8 @@ Line line_from(const Points& nodes, const Curve& curve, int edge, double xi);
 
 /// Where the line x + distance * n meets the edge: the roots of (edge(xi) - x) x n = 0, a polynomial of the edge's
 /// own degree (docs/theory.md eq. 8), solved in closed form. Only where the edge faces the line (its outward normal
-/// against n) and lies no deeper behind x than both bodies allow (Line::depth, deepest_overlap of the edge); of two
-/// such places the one nearer to x.
+/// against n) and lies no deeper behind x than both bodies allow (Line::depth, deepest_overlap of the edge), x within
+/// the other body; of two such places the one nearer to x.
 std::optional<Hit> project_onto_edge(const Points& nodes, const Curve& curve, int edge, const Line& line);
 
 /// The nearest of all edges of the curve that face the line. Nothing if the line misses the curve.

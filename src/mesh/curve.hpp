@@ -1,11 +1,14 @@
 // A contact curve: the edges of a boundary, strung into one chain.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "mesh/side_table.hpp"
 
 namespace mortise {
+
+class BodyOutline;  // mesh/thickness.hpp
 
 /// Edges in the order and direction in which the body lies on the left, so that the outward normal is on the right.
 /// edges[i].nodes[1] == edges[i+1].nodes[0].
@@ -18,6 +21,7 @@ struct Curve {
   std::vector<EdgeSamples> samples{};  ///< of each edge, from its start to its end; empty: only the mesh is known
   /// Thickness of the body behind each edge, length (mesh/thickness.hpp); empty: not asked for, without limit.
   std::vector<double> thickness{};
+  std::shared_ptr<const BodyOutline> outline{};  ///< of the body; none: not asked for
 };
 
 /// The edges of a boundary by the pieces that hang together, from that with the leftmost, then lowest node on.

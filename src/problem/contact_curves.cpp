@@ -132,6 +132,7 @@ class PairFinder {
     if (at != curves_.end()) return at->second;
     Curve curve = contact_curve(mesh_, boundary, table_);
     curve.thickness = thickness_.behind(curve);
+    curve.outline = thickness_.outline(curve.body);
     return curves_.emplace(boundary, std::move(curve)).first->second;
   }
 
@@ -190,6 +191,7 @@ class PairFinder {
     if (auto& [one, other] = contact.curves; whole_[one.body] == whole_[other.body]) {  // faces of one crack
       one.thickness = thickness_.behind(one, &other);
       other.thickness = thickness_.behind(other, &one);
+      one.outline = other.outline = nullptr;  // which the other face is a part of
     }
     require_own_nodes(mesh_, points_, contact.spec, contact.curves);
     require_two_bodies(mesh_, contact.spec, contact.curves);

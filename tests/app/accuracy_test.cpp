@@ -318,18 +318,33 @@ TEST(Accuracy, TakesNoMoreSolvesThanItMay) {
   EXPECT_NE(largest_error(*r).find("of 'cylinder_foot' on 'block_top'"), std::string::npos) << largest_error(*r);
 }
 
+void expect_best_of_its_answers(const Results& r) {
+  EXPECT_FALSE(r.accuracy->reached());
+  const std::vector<AccuracyReport::Solve>& solves = r.accuracy->solves;
+  ASSERT_GE(solves.size(), 3u);
+  const AccuracyReport::Solve& best = solves[std::size_t(r.accuracy->answer()) - 1];
+  EXPECT_EQ(r.estimate->pressure(), best.estimated);
+  EXPECT_EQ(free_unknowns(r), best.unknowns);
+  for (const AccuracyReport::Solve& solve : solves)
+    EXPECT_LE(best.estimated, (&solve == solves.data() ? 3 : 1) * solve.estimated);
+}
+
+// A key that tips: on meshes that are fine enough its edge digs in, which is more than small displacements bear.
+TEST(Accuracy, ThatIsNotReachedHasTheBestOfItsAnswersWhateverTheirChecksSay) {
+  Scene scene = read_scene(
+      std::string(MORTISE_SOURCE_DIR) + "/tests/parts/key.toml",
+      {{"mesh.parameters", "{b=16.5,h=12.12,depth=6.63,c=0.005,fillet=0.7,R=35.7}"}, {"accuracy.value", "2%"}});
+  const auto r = solve_to_accuracy(scene);
+  ASSERT_TRUE(r);
+  expect_best_of_its_answers(*r);
+}
+
 // p is constant: what is estimated is round-off, which rises with the unknowns.
 TEST(Accuracy, ThatIsNotReachedHasTheBestOfItsAnswers) {
   const auto r = solve_to_accuracy(scene_to_accuracy("patch_flat", "1e-13%"));
   ASSERT_TRUE(r);
-  EXPECT_FALSE(r->accuracy->reached());
+  expect_best_of_its_answers(*r);
   const std::vector<AccuracyReport::Solve>& solves = r->accuracy->solves;
-  ASSERT_GE(solves.size(), 3u);
-  const AccuracyReport::Solve& best = solves[std::size_t(r->accuracy->answer()) - 1];
-  EXPECT_EQ(r->estimate->pressure(), best.estimated);
-  EXPECT_EQ(free_unknowns(*r), best.unknowns);
-  for (const AccuracyReport::Solve& solve : solves)
-    EXPECT_LE(best.estimated, (&solve == solves.data() ? 3 : 1) * solve.estimated);
   ASSERT_LT(r->accuracy->answer(), int(solves.size()));
   EXPECT_NE(r->accuracy->reason.find("the answer is that of solve " + std::to_string(r->accuracy->answer())),
             std::string::npos);

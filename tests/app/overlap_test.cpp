@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "app/solve_scene.hpp"
 #include "support/patches.hpp"
@@ -137,6 +138,28 @@ TEST(Overlap, FarSidesOfThinPlatesAreNoContact) {
         for (const ContactPoint& p : f.pairs[0].points) EXPECT_NEAR(p.gap, -overlap, 1e-12) << n << " " << on;
         EXPECT_NEAR(f.pairs[0].coupling.covered_length, 1, 1e-9);
       }
+}
+
+TEST(Overlap, NoneIsSeenThroughABodysOwnSides) {
+  // Keys in keyways that clear them. Beside a keyway the shaft's round side has the key's bottom behind it.
+  std::mt19937 random(1);
+  const auto between = [&](double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(random);
+  };
+  for (int draw = 0; draw < 24; ++draw) {
+    std::vector<Override> drawn{{"contact.0.multipliers_on", "shaft_side"}};
+    const double height = between(6, 14);
+    for (const auto& [name, value] : {std::pair("b", between(6, 20)),
+                                      {"h", height},
+                                      {"depth", between(0.4, 0.7) * height},
+                                      {"c", between(0.01, 0.1)},
+                                      {"fillet", draw % 3 * between(0.3, 0.5)},
+                                      {"size", between(2, 12)}})
+      drawn.emplace_back(std::string("mesh.parameters.") + name, std::to_string(value));
+    const Problem key = check_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/key.toml", drawn));
+    for (const ContactPair& pair : key.pairs)
+      for (const ContactPoint& point : pair.points) ASSERT_GE(point.gap, -1e-9) << "draw " << draw;
+  }
 }
 
 TEST(Overlap, OfAPinInAHoleReachesTheNearSideOfTheHole) {
