@@ -12,9 +12,6 @@
 namespace mortise {
 namespace {
 
-constexpr double sharpest_joint =
-    2 * std::numbers::pi / 180;  // as of kinks that exponents tell of (singular_points.cpp)
-
 // A jump that would turn the normals of the whole curve by less: p feels it by its product with the sliding, which is
 // a small part of the length again.
 constexpr double least_turn = 0.01;
@@ -69,7 +66,7 @@ class Joints {
       const double from = before->last.curvature(), to = after->first.curvature(), jump = std::abs(to - from),
                    off = std::max(before->off, after->off);
       if (jump > std::max(least_, off))
-        return away == 0 ? std::optional(Found{jump}) : from_afar(k, away, from, to, off / jump);
+        return away == 0 ? std::optional(Found{to - from}) : from_afar(k, away, from, to, off / jump);
       if (off <= least_) return std::nullopt;
     }
   }
@@ -104,7 +101,7 @@ class Joints {
     if (-miss > piece(k - 1)->length / 2 + known || miss > piece(k)->length / 2 + known) return std::nullopt;
     constexpr double far_less = 0.25;  // a curvature that varies evenly does so by half on one side
     const double varies = std::max(std::abs(from - before.first.curvature()), std::abs(to - after.last.curvature()));
-    return varies < far_less * jump ? std::optional(Found{jump, std::abs(miss), away}) : std::nullopt;
+    return varies < far_less * jump ? std::optional(Found{to - from, std::abs(miss), away}) : std::nullopt;
   }
 
   const std::vector<MeasuredPiece>& pieces_;

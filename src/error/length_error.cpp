@@ -5,6 +5,7 @@
 #include "contact/least_gap.hpp"
 #include "error/goal_estimate.hpp"
 #include "error/pressure_bars.hpp"
+#include "error/sliding_kinks.hpp"
 
 namespace mortise {
 namespace {
@@ -59,6 +60,7 @@ double length_error(const Problem& problem, const ContactPair& pair, const VecX&
   if (pair.spec.condition == Condition::unilateral && !pair.spec.stiffness) {
     const double modulus = contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
     const VecX gaps = widest_gaps(pair, u);
+    error += opened_by_kinks(pair, modulus, u, e);
     add_hardly_pressed(e, undecided);
     for (const LineError::Border& border : e.local.borders) add_hardly_open(e, border, modulus, gaps, undecided);
   }

@@ -58,9 +58,32 @@ void add_curvature_jumps(const Points& nodes, const ContactPair& pair, double mo
         at.xi > -1 ? reach[at.edge].after && reach[at.edge + 1].before : reach[at.edge].before && reach[at.edge].after;
     if (!closed) continue;
     const Vec2 place = line.at(at.edge, at.xi).position;
-    const double slope = at.jump * slide_at(pair, estimate.line, place, u);
+    const double slope = std::abs(at.jump) * slide_at(pair, estimate.line, place, u);
     add_weak_logarithm(estimate.line, place, modulus * slope / (2 * std::numbers::pi), estimate.local);
   }
+}
+
+double opened_by_kinks(const ContactPair& pair, double modulus, const VecX& u, const PressureEstimate& estimate) {
+  const PressureLine& line = estimate.line;
+  double opened = 0;
+  for (const SingularPoint& point : estimate.singular) {
+    const Eigen::Index kink = line.nearest(point.position);
+    const auto [before, after] = line.faced_beside(kink);
+    const double turn = std::numbers::pi - point.wedges[0].angle, other = std::numbers::pi - point.wedges[1].angle;
+    if (point.meeting != Meeting::corner || !before || !after || std::abs(turn) < sharpest_joint) continue;
+    const double least =
+        modulus * std::abs(turn + other) * slide_at(pair, line, point.position, u) / (2 * std::numbers::pi);
+    for (const int step : {-1, 1}) {
+      double pressed = 0;
+      for (auto i = line.beside(kink, step); i && *i != kink; i = line.beside(*i, step)) {
+        const double r = line.distance(line.s(kink), line.s(*i));
+        if (line.p(*i) > 0) pressed = r;
+        if (line.p(*i) * r >= least) break;
+      }
+      opened = std::max(opened, pressed);
+    }
+  }
+  return opened;
 }
 
 }  // namespace mortise

@@ -20,4 +20,10 @@ void judge_small_kinks(const ContactPair& pair, double modulus, const VecX& u, d
 void add_curvature_jumps(const Points& nodes, const ContactPair& pair, double modulus, const VecX& u,
                          const std::vector<Reach>& reach, PressureEstimate& estimate);
 
+/// Where contact goes on across a kink of the multiplier side that the other has not, its normals turn by theta: what
+/// bodies slide by, s, opens the gap on one side of the kink by theta s and closes it on the other, which no motion of
+/// the bodies does. p = p0 +- E* theta s / (2 pi r): how far that is more than p, length, is how far from the kink the
+/// end of contact is not known. 0 if no such kink is in contact.
+double opened_by_kinks(const ContactPair& pair, double modulus, const VecX& u, const PressureEstimate& estimate);
+
 }  // namespace mortise

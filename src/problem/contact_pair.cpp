@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
+#include "base/vectors.hpp"
 #include "contact/curvature_jumps.hpp"
 #include "contact/gap_resolution.hpp"
 #include "contact/surface_layer.hpp"
@@ -29,14 +30,31 @@ int covered_curve(const Points& nodes, const std::array<Curve, 2>& curves) {
   return second > first ? 1 : 0;
 }
 
-bool is_smooth(const Points& nodes, const Curve& curve) {
-  return curvature_jumps(nodes, curve, ContactLine(nodes, curve)).empty();
+// Whether the curve turns at a place on both sides of which it faces the other: contact may go on across it.
+bool has_faced_kink(const Points& nodes, const Curve& curve, const ContactLine& line, const Curve& opposite) {
+  const int count = int(curve.edges.size());
+  const auto faces = [&](int e, double xi) {
+    return project_onto_curve(nodes, opposite, line_from(nodes, curve, e, xi)).has_value();
+  };
+  for (int e = curve.closed ? 0 : 1; e < count; ++e) {
+    const int before = (e + count - 1) % count;
+    if (angle_between(line.at(before, 1).tangent, line.at(e, -1).tangent) > sharpest_joint && faces(before, 1) &&
+        faces(e, -1))
+      return true;
+  }
+  return false;
+}
+
+bool is_smooth(const Points& nodes, const Curve& curve, const Curve& opposite) {
+  const ContactLine line(nodes, curve);
+  return curvature_jumps(nodes, curve, line).empty() && !has_faced_kink(nodes, curve, line, opposite);
 }
 
 // True if the multipliers lie on the second curve of a pair, where the scene does not say. On meshes that [accuracy]
 // makes the edges of both are alike but for chance; where the curves part p hangs on whose normals count, and one pair
-// would differ from mesh to mesh, or two that are alike from one another. Normals of a curve whose curvature jumps make
-// p grow without limit there (error/sliding_kinks.hpp), so the other curve's count if that is smooth.
+// would differ from mesh to mesh, or two that are alike from one another. Normals of a curve that turns at a place, or
+// whose curvature jumps, make p grow without limit there where bodies slide (error/sliding_kinks.hpp), so the other
+// curve's count if that is smooth.
 bool on_second(Scheme scheme, const Points& nodes, const ContactCurves& contact, const std::vector<ElasticLaw>& laws,
                const std::vector<char>& dirichlet) {
   const auto& [curves, edge_size] = std::tie(contact.curves, contact.edge_size);
@@ -48,7 +66,8 @@ bool on_second(Scheme scheme, const Points& nodes, const ContactCurves& contact,
     const double first = contact_modulus(laws[curves[0].body]), second = contact_modulus(laws[curves[1].body]);
     if (std::max(first, second) > (1 + margin) * stiffer_limit * std::min(first, second)) return second < first;
     if (contact.on_free_mesh)
-      if (const bool one = is_smooth(nodes, curves[0]); one != is_smooth(nodes, curves[1])) return !one;
+      if (const bool one = is_smooth(nodes, curves[0], curves[1]); one != is_smooth(nodes, curves[1], curves[0]))
+        return !one;
     if (const int covered = covered_curve(nodes, curves); covered >= 0) return covered == 1;
     if (contact.on_free_mesh) return false;
     const double ratio = std::max(edge_size[0] / edge_size[1], edge_size[1] / edge_size[0]);

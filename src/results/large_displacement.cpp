@@ -5,6 +5,7 @@
 
 #include "base/printable.hpp"
 #include "results/line_motion.hpp"
+#include "results/slides_across_jumps.hpp"
 
 namespace mortise {
 namespace {
@@ -30,13 +31,15 @@ struct LargestInContact {
 
 LargestInContact largest_in_contact(const Results& r) {
   LargestInContact found;
+  const std::vector<ElasticLaw>& laws = r.problem.discretisation.laws;
   double most = 0, norm = 0, lost = 0;
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     const ContactPair& pair = r.problem.pairs[k];
     const ContactResults& contact = r.recovery.contacts[k];
     if (contact.length_in_contact == 0) continue;
     Largest of_pair;
-    for (const PlaceMotion& place : place_motions(r.problem.mesh.nodes, pair, contact, r.solution.u)) {
+    const std::vector<PlaceMotion> places = place_motions(r.problem.mesh.nodes, pair, contact, r.solution.u);
+    for (const PlaceMotion& place : places) {
       const Vec2& x = place.position;
       const double along = std::abs(place.slid) / contact.length_in_contact;
       of_pair.take(
@@ -44,6 +47,10 @@ LargestInContact largest_in_contact(const Results& r) {
       of_pair.take({along, x, along, "the sides slide along one another by ", " of the length in contact"});
       of_pair.take({place.turned * place.turned, x, place.turned, "a side turns by ", " radians", false});
     }
+    const double modulus = contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
+    if (const auto at = slide_across_jumps(r.problem.mesh.nodes, pair, places, modulus))
+      of_pair.take({at->part, at->position, at->slid, "the sides slide along one another by ",
+                    " across a jump of curvature", false});
     const auto all = line_motion(r.problem.mesh.nodes, pair, contact, r.solution.u);
     if (!all) continue;
     of_pair.take({all->shifted, all->slid_at, all->slid, "the sides slide along one another by ",

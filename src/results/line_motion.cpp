@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/vectors.hpp"
 #include "fem/edges.hpp"
 
 namespace mortise {
 namespace {
-
-constexpr double kink = 20 * std::numbers::pi / 180;  // more is no curvature
 
 // A place of one side: where it was and by how much it moved, with the force there.
 struct Moved {
@@ -40,23 +37,6 @@ double turn(const std::vector<Moved>& side) {
     cosine += m.force * arm.dot(arm + m.u);
   }
   return std::abs(std::atan2(sine, cosine));
-}
-
-// Curvature of the line that each edge stands for, 1 / length, kinks left out.
-std::vector<double> edge_curvatures(const Points& nodes, const Curve& curve) {
-  const std::size_t count = curve.edges.size();
-  const auto tangent = [&](std::size_t e, double xi) { return edge_point(nodes, curve.edges[e], xi).tangent; };
-  std::vector<double> list;
-  for (std::size_t e = 0; e < count; ++e) {
-    double turn = angle_between(tangent(e, -1), tangent(e, 1));
-    const auto take = [&](std::size_t a, std::size_t b) {
-      if (const double found = angle_between(tangent(a, 0), tangent(b, 0)); found < kink) turn = std::max(turn, found);
-    };
-    if (e + 1 < count || curve.closed) take(e, (e + 1) % count);
-    if (e > 0 || curve.closed) take((e + count - 1) % count, e);
-    list.push_back(turn / edge_length(nodes, curve.edges[e]));
-  }
-  return list;
 }
 
 // A turn about a centre.
@@ -184,8 +164,6 @@ std::pair<Slide, double> of_patches(const std::vector<Slide>& slides, const std:
 
 std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& pair, const ContactResults& contact,
                                        const VecX& u) {
-  const std::vector<double> curvature = edge_curvatures(nodes, pair.multiplier),
-                            opposite_curvature = edge_curvatures(nodes, pair.opposite);
   const Spin spin = spin_of(nodes, pair.multiplier, u);
   const bool both_ways = pair.spec.condition != Condition::unilateral;  // tension too
   const double least = 1e-3 * largest_entry(contact.pressure);
@@ -214,7 +192,9 @@ std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& p
     place.u -= spin.at(place.position);
     const Vec2 moved = place.facing_u - place.u;
     place.slid = cross(moved, c.normal);
-    place.curved = std::max(moved.norm() * std::max(curvature[c.edge], opposite_curvature[c.opposite_edge]),
+    const double curvature = std::max(std::abs(pair.geometry.multiplier->at(c.edge, c.xi).curvature()),
+                                      std::abs(pair.geometry.opposite->at(c.opposite_edge, c.eta).curvature()));
+    place.curved = std::max(moved.norm() * curvature,
                             std::abs(moved.dot(c.normal)) * curvature_round_axis(pair, place.position, c.normal));
     take_edge(place, nodes, u, edge, spin);
     take_edge(place, nodes, u, facing, {});

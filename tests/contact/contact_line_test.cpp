@@ -265,7 +265,7 @@ TEST(CurvatureJumps, AreWhereDrawnArcsJoinAndNotAtKinks) {
   EXPECT_EQ(jumps[0].edge, 1);
   EXPECT_NEAR(jumps[0].jump, 1 / 2., 1e-9);
   EXPECT_EQ(jumps[1].edge, 2);
-  EXPECT_NEAR(jumps[1].jump, 1 / 2. - 1 / 5., 1e-9);
+  EXPECT_NEAR(jumps[1].jump, 1 / 5. - 1 / 2., 1e-9);
   curve.samples.clear();
   EXPECT_TRUE(curvature_jumps(nodes, curve, ContactLine(nodes, curve)).empty());
 }
@@ -319,7 +319,7 @@ TEST(CurvatureJumps, AreNotMadeByRoundOff) {
     for (const int k : {2, 3}) nodes.row(k) = straight({k == 2 ? h : radius})[0].transpose();
     const std::vector<CurvatureJump> jumps = curvature_jumps(nodes, curve, ContactLine(nodes, curve));
     ASSERT_EQ(jumps.size(), 1) << i;
-    EXPECT_NEAR(jumps[0].jump, 1 / radius, 0.2 / radius) << i;
+    EXPECT_NEAR(jumps[0].jump, -1 / radius, 0.2 / radius) << i;
   }
 }
 

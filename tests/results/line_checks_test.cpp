@@ -229,6 +229,81 @@ TEST(LineChecks, ARimMaySpinWhereContactActsAlongItsNormals) {
   }
 }
 
+// A foot, flat up to x = 4 and of radius 3 beyond, on a block that grows under it, by symmetry: `moved` takes the joint
+// of line and arc with the foot, which the equations do not. A groove is a block that fits the foot.
+Results rounded_foot(const TemporaryFolder& folder, double growth, const std::string& block_side, double moved,
+                     bool groove) {
+  const auto arc = [](int point, double angle, double size) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "Point(" << point << ") = {" << 4 + 3 * std::sin(angle) << ", " << 3 - 3 * std::cos(angle) << ", 0, "
+         << size << "};\n";
+    return text.str();
+  };
+  std::ostringstream geo, toml;
+  geo << "Mesh.ElementOrder = 2; Mesh.MeshSizeMax = 1;\n"
+      << arc(1, 0, 0.01) << arc(2, 0.05, 0.01) << arc(3, 0.5, 0.3) << arc(11, 0, 0.01)
+      << (groove ? arc(12, 0.05, 0.01) + arc(13, 0.5, 0.3)
+                 : "Point(12) = {4.15, 0, 0, 0.01}; Point(13) = {10, 0, 0};\n")
+      << R"(Point(4) = {4 + 3 * Sin(0.5), 5, 0}; Point(5) = {0, 5, 0}; Point(6) = {0, 0, 0, 0.5}; Point(7) = {4, 3, 0};
+Point(14) = {10, -6, 0}; Point(15) = {0, -6, 0}; Point(16) = {0, 0, 0, 0.5};
+Line(1) = {6, 1}; Circle(2) = {1, 7, 2}; Circle(3) = {2, 7, 3}; Line(4) = {3, 4}; Line(5) = {4, 5}; Line(6) = {5, 6};
+Line(11) = {16, 11}; Line(14) = {13, 14}; Line(15) = {14, 15}; Line(16) = {15, 16};
+)" << (groove ? "Circle(12) = {11, 7, 12}; Circle(13) = {12, 7, 13};" : "Line(12) = {11, 12}; Line(13) = {12, 13};")
+      << R"(
+Curve Loop(1) = {1:6}; Plane Surface(1) = {1}; Curve Loop(2) = {11:16}; Plane Surface(2) = {2};
+Physical Surface("foot") = {1}; Physical Surface("block") = {2}; Physical Curve("sole") = {1, 2, 3};
+Physical Curve("top") = {11, 12, 13}; Physical Curve("middle") = {6, 16}; Physical Curve("head") = {5};
+Physical Curve("ground") = {15};)";
+  folder.write("foot.geo", geo.str());
+  toml.precision(17);
+  toml << R"(mesh.file = "foot.geo"
+materials.steel = { young = 200e3, poisson = 0.3, thermal_expansion = 1e-5 }
+bodies."*" = "steel"
+boundary = [{ on = "middle", displacement = { x = 0 } }, { on = "ground", displacement = { y = 0 } }, { on = "head", pressure = 100 }]
+initial_strain = [{ body = "block", temperature_change = )"
+       << growth / 4e-5 << R"( }]
+contact = [{ between = ["sole", "top"], multipliers_on = ")"
+       << block_side << R"(", clearance = "(max(0, x - 4 - )" << moved << ")^2 - max(0, x - 4)^2) / 6\" }]\n";
+  return solve_scene(read_scene(folder.write("foot.toml", toml.str())));
+}
+
+// Of p in L2, what a run says that a slide across a jump of curvature may put it off by; 0 where it says nothing.
+double told_of_jump(const Results& r) {
+  const std::string told = large_displacement(r).value_or("");
+  if (told.find(" across a jump of curvature near (4, ") == std::string::npos) return 0;
+  const std::string before = "p may be off by ";
+  return std::stod(told.substr(told.find(before) + before.size())) / 100;
+}
+
+double difference(const Results& one, const Results& other) {
+  const ContactPair& pair = one.problem.pairs[0];
+  double off = 0, whole = 0;
+  for (const ContactPoint& point : pair.points) {
+    const auto p = [&](const Results& r) {
+      return interpolate(pair, r.recovery.contacts[0].pressure, {point.edge, point.xi});
+    };
+    off += std::pow(p(one) - p(other), 2) * point.ds;
+    whole += std::pow(p(one), 2) * point.ds;
+  }
+  return std::sqrt(off / whole);
+}
+
+// What is told is what moving the joint by the slide does to p, to a factor of two or so; without a slide and where
+// both sides have the joint there is nothing to tell.
+TEST(LineChecks, TellOfSlidesAcrossAJumpOfCurvatureHowFarPIsOff) {
+  const TemporaryFolder folder;
+  const double growth = 0.01;
+  const Results drawn = rounded_foot(folder, growth, "top", 0, false);
+  const double measured = difference(drawn, rounded_foot(folder, growth, "top", -growth, false));
+  const double told = told_of_jump(drawn);
+  EXPECT_GT(told, measured / 1.5) << measured;
+  EXPECT_LT(told, 2.5 * measured) << measured;
+  EXPECT_NEAR(told_of_jump(rounded_foot(folder, growth, "sole", 0, false)), told, told / 2);
+  EXPECT_EQ(told_of_jump(rounded_foot(folder, growth, "top", 0, true)), 0);
+  EXPECT_EQ(told_of_jump(rounded_foot(folder, 0, "top", 0, false)), 0);
+}
+
 TEST(LineChecks, APressureThatIsOffByMoreThanHalfFails) {
   Results coarse = solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/v_block.toml"));
   EXPECT_EQ(coarse.status, Status::solved);
