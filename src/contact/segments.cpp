@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "contact/gap_cuts.hpp"
+#include "contact/gap_steps.hpp"
 #include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
 
@@ -133,7 +134,7 @@ std::vector<ContactPoint> contact_points(const Points& nodes, const ContactInter
   const ContactGeometry& geometry = interface.geometry;
   std::vector<Segment> pieces;
   if (integration == Integration::segments) {
-    pieces = find_segments(nodes, interface);
+    pieces = up_to_steps(nodes, interface, find_segments(nodes, interface));
   } else {
     for (int e = 0; e < int(multiplier.edges.size()); ++e) pieces.push_back({e, -1, 1, -1});
   }

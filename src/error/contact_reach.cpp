@@ -72,30 +72,41 @@ std::vector<FacingEdge> facing_edges(const ContactPair& pair, const PressureLine
   return edges;
 }
 
-std::vector<Reach> by_points(const ContactPair& pair, const PressureLine& line) {
-  const std::vector<FacingEdge> edges = facing_edges(pair, line);
+// Of each vertex of the opposite side whether edges before and after it face the other.
+std::vector<Reach> faced_by_points(const std::vector<FacingEdge>& edges, bool closed) {
   const std::size_t count = edges.size();
-  const bool closed = pair.opposite.closed;
+  const auto faced = [&](std::size_t edge, int end) { return edges[edge].away[end] < 2; };
+  std::vector<Reach> all;
+  for (std::size_t i = 0; i <= count; ++i)
+    all.push_back({(i > 0 || closed) && faced(i > 0 ? i - 1 : count - 1, 1),
+                   (i < count || closed) && faced(i < count ? i : 0, 0)});
+  return all;
+}
+
+std::vector<Reach> by_points(const std::vector<FacingEdge>& edges, bool closed, const std::vector<Reach>& faced) {
+  const std::size_t count = edges.size();
   std::vector<Reach> reach;
   for (std::size_t i = 0; i <= count; ++i) {
     FacingEdge before, after;
     if (i > 0 || closed) before = edges[i > 0 ? i - 1 : count - 1];
     if (i < count || closed) after = edges[i < count ? i : 0];
     reach.push_back(reach_of(before.closed[1] || after.closed[0], before.closed[1] && before.closed_beyond[1],
-                             after.closed[0] && after.closed_beyond[0], before.away[1] < 2, after.away[0] < 2));
+                             after.closed[0] && after.closed_beyond[0], faced[i].before, faced[i].after));
   }
   return reach;
 }
 
-// Vertices of drawn corners are in one place on all meshes, to gmsh's round-off.
-void add_found(const Mesh& mesh, const Curve& curve, const std::vector<Vec2>& places, std::vector<Reach>& reach) {
+// Vertices of drawn corners are in one place on all meshes, to gmsh's round-off. Contact is found up to them from the
+// sides that face the other.
+void add_found(const Mesh& mesh, const Curve& curve, const std::vector<Vec2>& places, const std::vector<Reach>& faced,
+               std::vector<Reach>& reach) {
   constexpr double one_place = 1e-6;  // of the edge
   for (std::size_t i = 0; i < reach.size() && !places.empty(); ++i) {
     const std::size_t e = std::min(i, curve.edges.size() - 1);
     const Vec2 x = mesh.nodes.row(curve.edges[e].nodes[i == e ? 0 : 1]).transpose();
     const double near = one_place * edge_length(mesh.nodes, curve.edges[e]);
     if (!reach[i].any() && std::ranges::any_of(places, [&](const Vec2& place) { return (place - x).norm() < near; }))
-      reach[i] = {true, true};
+      reach[i] = faced[i].any() ? faced[i] : Reach{true, true};
   }
 }
 
@@ -115,9 +126,15 @@ ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const Pres
   std::vector<Vec2> places;
   for (const FoundPoint& point : found)
     if (point.is({curve_names(mesh, pair), point.position})) places.push_back(point.position);
-  ContactReach reach{by_vertices(pair, line, u), by_points(pair, line)};
-  add_found(mesh, pair.multiplier, places, reach[0]);
-  add_found(mesh, pair.opposite, places, reach[1]);
+  const std::vector<FacingEdge> opposite = facing_edges(pair, line);
+  std::array<std::vector<Reach>, 2> faced{{{}, faced_by_points(opposite, pair.opposite.closed)}};
+  for (Eigen::Index i = 0; i < line.p.size(); ++i) {
+    const auto [before, after] = line.faced_beside(i);
+    faced[0].push_back({before, after});
+  }
+  ContactReach reach{by_vertices(pair, line, u), by_points(opposite, pair.opposite.closed, faced[1])};
+  add_found(mesh, pair.multiplier, places, faced[0], reach[0]);
+  add_found(mesh, pair.opposite, places, faced[1], reach[1]);
   return reach;
 }
 

@@ -16,8 +16,8 @@ struct FoundPoint {
 };
 
 /// On the multiplier side by p at the vertices and their neighbours, and where the sides overlap beside a vertex up to
-/// it; on the opposite side by p where the normals meet it. Vertices at places of `found` count as reached from both
-/// sides. `u`: displacements.
+/// it; on the opposite side by p where the normals meet it. Vertices at places of `found` count as reached from
+/// both sides that face the other. `u`: displacements.
 ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& u,
                            const std::vector<FoundPoint>& found);
 

@@ -10,6 +10,7 @@
 #include "base/vectors.hpp"
 #include "contact/curvature_jumps.hpp"
 #include "contact/gap_resolution.hpp"
+#include "contact/gap_steps.hpp"
 #include "contact/surface_layer.hpp"
 #include "fem/edges.hpp"
 #include "model/patterns.hpp"
@@ -50,6 +51,18 @@ bool is_smooth(const Points& nodes, const Curve& curve, const Curve& opposite) {
   return curvature_jumps(nodes, curve, line).empty() && !has_faced_kink(nodes, curve, line, opposite);
 }
 
+// Whether the other curve ends somewhere as seen from this one, and goes on farther away: p ends within an edge there,
+// while on the other's side it ends at a vertex.
+bool sees_steps(const Points& nodes, const Curve& curve, const Curve& opposite) {
+  ContactInterface seen;
+  seen.multiplier = curve;
+  seen.opposite = opposite;
+  seen.geometry.multiplier = ContactLine(nodes, curve);
+  seen.geometry.normals = true;
+  const std::vector<Segment> segments = find_segments(nodes, seen);
+  return up_to_steps(nodes, seen, segments).size() < segments.size();
+}
+
 // True if the multipliers lie on the second curve of a pair, where the scene does not say. On meshes that [accuracy]
 // makes the edges of both are alike but for chance; where the curves part p hangs on whose normals count, and one pair
 // would differ from mesh to mesh, or two that are alike from one another. Normals of a curve that turns at a place, or
@@ -68,6 +81,9 @@ bool on_second(Scheme scheme, const Points& nodes, const ContactCurves& contact,
     if (contact.on_free_mesh)
       if (const bool one = is_smooth(nodes, curves[0], curves[1]); one != is_smooth(nodes, curves[1], curves[0]))
         return !one;
+    if (contact.on_free_mesh)
+      if (const bool one = sees_steps(nodes, curves[0], curves[1]); one != sees_steps(nodes, curves[1], curves[0]))
+        return one;
     if (const int covered = covered_curve(nodes, curves); covered >= 0) return covered == 1;
     if (contact.on_free_mesh) return false;
     const double ratio = std::max(edge_size[0] / edge_size[1], edge_size[1] / edge_size[0]);

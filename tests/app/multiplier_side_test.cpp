@@ -138,6 +138,51 @@ accuracy = { value = "0.1%", of = "half_width" }
   }
 }
 
+// A punch whose foot and the overhangs beside it are one curve: contact ends at corners beyond which it faces the block
+// again. On its own side that is at vertices; on the block's the edges see both.
+TEST(MultiplierSide, IsThatOnWhichContactEndsAtVertices) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> overhang(0.02, 0.2), height(0.01, 0.15);
+  for (int i = 0; i < 3; ++i) {
+    const TemporaryFolder folder;
+    std::ostringstream geo;
+    geo << "o = " << (i == 0 ? 0.2 : overhang(random)) << "; h = " << height(random) << ";\n"
+        << R"(SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 0.6, 0.2};
+Point(11) = {0.2, 0.2, 0}; Point(12) = {0.4, 0.2, 0}; Point(13) = {0.4, 0.2 + h, 0}; Point(14) = {0.4 + o, 0.2 + h, 0};
+Point(15) = {0.4 + o, 0.4, 0}; Point(16) = {0.2 - o, 0.4, 0}; Point(17) = {0.2 - o, 0.2 + h, 0}; Point(18) = {0.2, 0.2 + h, 0};
+For i In {11:17}
+  Line(i) = {i, i + 1};
+EndFor
+Line(18) = {18, 11}; Curve Loop(11) = {11:18}; Plane Surface(11) = {11};
+Physical Surface("block") = {1}; Physical Surface("punch") = {11}; Physical Curve("ground") = {1};
+Physical Curve("top") = {3}; Physical Curve("under") = {17, 18, 11, 12, 13}; Physical Curve("head") = {15};)";
+    folder.write("punch.geo", geo.str());
+    const std::string between = i % 2 == 0 ? R"(["top", "under"])" : R"(["under", "top"])";
+    const std::filesystem::path path = folder.write("punch.toml", R"(mesh.file = "punch.geo"
+materials.steel = { young = 210e9, poisson = 0.3 }
+bodies."*" = "steel"
+boundary = [{ on = "ground", displacement = { x = 0, y = 0 } }, { on = "head", displacement = { x = 0 } }, { on = "head", pressure = 10e6 }]
+contact = [{ between = )" + between + R"( }]
+accuracy = { value = "1%" }
+)");
+    std::vector<double> middle;
+    for (const std::string side : {"under", "top"}) {
+      const auto r = solve_to_accuracy(read_scene(
+          path, side == "top" ? std::vector<Override>{{"contact.0.multipliers_on", side}} : std::vector<Override>{}));
+      ASSERT_TRUE(r && r->accuracy->reached()) << side << " " << i;
+      EXPECT_EQ(r->problem.pairs[0].spec.multipliers_on, side) << i;
+      const PressureEstimate& estimate = r->estimate->pressures[0];
+      ASSERT_EQ(estimate.singular.size(), 2) << side << " " << i;
+      for (const SingularPoint& point : estimate.singular) {
+        EXPECT_NEAR(std::abs(point.position.x() - 0.3), 0.1, 1e-9);
+        EXPECT_LT(point.pressure_exponent, 1);
+      }
+      middle.push_back(estimate.line.p(estimate.line.nearest({0.3, 0.2})));
+    }
+    EXPECT_NEAR(middle[0], middle[1], 0.02 * middle[0]) << i;
+  }
+}
+
 // Whatever a finer mesh says of edges and of how much of a curve faces the other.
 TEST(MultiplierSide, StaysThatOfAnEarlierMesh) {
   const Scene scene = read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/hertz.toml", {});
