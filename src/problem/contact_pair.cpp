@@ -10,7 +10,6 @@
 #include "base/vectors.hpp"
 #include "contact/curvature_jumps.hpp"
 #include "contact/gap_resolution.hpp"
-#include "contact/gap_steps.hpp"
 #include "contact/surface_layer.hpp"
 #include "fem/edges.hpp"
 #include "model/patterns.hpp"
