@@ -25,6 +25,19 @@ def mortise():
     return launch.MORTISE
 
 
+@pytest.fixture
+def call(mortise, tmp_path):
+    """Runs mortise, or another program, in the test's folder, and returns what it says; its exit status must be `expected`."""
+
+    def run(*words, expected=0, program=mortise, **environment):
+        done, _ = launch.run([program, *words], range(-64, 256), cwd=tmp_path, env={**os.environ, **environment})
+        said = done.stdout + done.stderr
+        assert done.returncode == expected, said
+        return said
+
+    return run
+
+
 @pytest.fixture(scope="session")
 def freefem(mortise):
     if shutil.which("FreeFem++") is None:

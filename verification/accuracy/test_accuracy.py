@@ -1,8 +1,5 @@
 """The study on one scene, and its verdicts on answers that are known."""
 
-import json
-import subprocess
-
 import meshio
 import numpy as np
 import pytest
@@ -47,14 +44,12 @@ def test_the_study_of_one_scene(mortise, tmp_path, capsys):
 def test_rollers_between_the_nodes_of_a_first_mesh_carry_load(mortise, tmp_path, rollers):
     """Coarse first edges pass through the rollers at the sides; a mesh of one's own, fine at all of them, does not."""
 
-    def forces(name, fine, *more):
-        changes = f"mesh.parameters={{rollers={rollers}, fine={fine}}}"
-        scene = str(launch.ROOT / "geo/rollers.toml")
-        subprocess.run([str(mortise), "solve", scene, "-o", name, "--set", changes, *more], cwd=tmp_path, capture_output=True)
-        pairs = json.loads((tmp_path / name / "summary.json").read_text())["contact"]
+    def forces(fine, *more):
+        changes = {"mesh.parameters": f"{{rollers={rollers}, fine={fine}}}"}
+        pairs = launch.solve("rollers", changes, tmp_path, *more)["contact"]
         return np.array([np.hypot(*pair["force"]) for pair in sorted(pairs, key=lambda pair: sorted(pair["between"]))])
 
-    found, expected = forces("found", 0.2, "--accuracy", "5%"), forces("expected", 0.15)
+    found, expected = forces(0.2, "--accuracy", "5%"), forces(0.15)
     assert (expected > 0.1 * expected.max()).sum() >= 6 and np.abs(found - expected).max() < 0.015 * expected.max()
 
 
@@ -82,8 +77,8 @@ def test_a_pin_that_just_touches_the_floor_gets_no_long_row_of_tiny_edges(mortis
     """Where it dips into the floor between two nodes a mesh must be fine, but not all the way between them."""
     (tmp_path / "pin.geo").write_text(PIN)
     (tmp_path / "pin.toml").write_text(SCENE)
-    subprocess.run([str(mortise), "solve", "pin.toml", "-o", "out"], cwd=tmp_path, check=True)
-    first, second, *_ = (solve["unknowns"] for solve in json.loads((tmp_path / "out/summary.json").read_text())["accuracy"]["solves"])
+    summary = launch.solve(tmp_path / "pin.toml", {}, tmp_path / "out", expected=[0])
+    first, second, *_ = (solve["unknowns"] for solve in summary["accuracy"]["solves"])
     assert second < 5 * first
 
 
@@ -91,12 +86,11 @@ def test_a_pin_that_just_touches_the_floor_gets_no_long_row_of_tiny_edges(mortis
 def test_a_pin_that_just_touches_a_wall_presses_on_it_as_it_widens(mortise, tmp_path, weight, edges):
     """By its own weight, so little that no point at which contact is integrated on a first mesh sees it."""
     (tmp_path / "pin.geo").write_text(PIN.replace("play = 1e-4", "play = 0"))
-    scene = SCENE.replace("[2.4e-6, 0]", f"[0, -{weight}]")
+    (tmp_path / "pin.toml").write_text(SCENE.replace("[2.4e-6, 0]", f"[0, -{weight}]"))
 
     def wall(accuracy, first):
-        (tmp_path / "pin.toml").write_text(scene.replace("value = 0.1, first_edges = 10", f"value = {accuracy}, first_edges = {first}"))
-        subprocess.run([str(mortise), "solve", "pin.toml", "-o", "out"], cwd=tmp_path, capture_output=True)
-        told = json.loads((tmp_path / "out/summary.json").read_text())["contact"][1]
+        settings = {"accuracy.value": accuracy, "accuracy.first_edges": first}
+        told = launch.solve(tmp_path / "pin.toml", settings, tmp_path / "out")["contact"][1]
         return np.hypot(*told["force"]), np.hypot(*told["force_error"])
 
     (found, bar), (expected, known) = wall(0.1, edges), wall(0.01, 100)
@@ -107,18 +101,17 @@ def test_a_pin_that_just_touches_a_wall_presses_on_it_as_it_widens(mortise, tmp_
 def test_displacements_at_random_places_lie_within_their_bars(mortise, tmp_path, scene):
     """In large cells, within which u itself errs: no dual of a place shows the cell that has it."""
 
-    def solve(accuracy, *more):
-        file = str(launch.ROOT / f"geo/{scene}.toml")
-        subprocess.run([str(mortise), "solve", file, "-o", "out", "--accuracy", accuracy, *more], cwd=tmp_path, check=True)
-        return launch.columns(tmp_path / "out/probes.csv") if more else meshio.read(tmp_path / "out/result.vtu")
+    def solve(accuracy, settings):
+        launch.solve(scene, settings, tmp_path, "--accuracy", accuracy, expected=[0])
+        return launch.columns(tmp_path / "probes.csv") if settings else meshio.read(tmp_path / "result.vtu")
 
-    mesh, draw = solve("1%"), np.random.default_rng(35)
+    mesh, draw = solve("1%", {}), np.random.default_rng(35)
     corners = [cell[: 3 if cells.type.startswith("tri") else 4] for cells in mesh.cells for cell in cells.data]
     corners.sort(key=lambda cell: np.ptp(mesh.points[cell], axis=0).max())
     chosen = [corners[-1 - k] for k in draw.choice(len(corners) // 3, 60, replace=False)]
     places = [draw.dirichlet(np.full(len(cell), 4.0)) @ mesh.points[cell, :2] for cell in chosen]
-    probes = "probe=[" + ", ".join(f"{{at = [{x:.17g}, {y:.17g}]}}" for x, y in places) + "]"
-    found, exact = solve("1%", "--set", probes), solve("0.02%", "--set", probes)
+    probes = {"probe": "[" + ", ".join(f"{{at = [{x:.17g}, {y:.17g}]}}" for x, y in places) + "]"}
+    found, exact = solve("1%", probes), solve("0.02%", probes)
     for u in ("u_x", "u_y"):
         off, bar = np.abs(found[u] - exact[u]), found[u + "_error"] + exact[u + "_error"]
         assert (off <= bar).all() and np.median(off / bar) > 0.02, (off / bar).max()
@@ -138,9 +131,8 @@ contact = [{ between = ["*_face", "*_face"] }]
 """)
     forces = []
     for entry in ('["*_face", "*_face"]', '["lower_face", "upper_face"]'):
-        words = ["--accuracy", "0.5%", "--set", f"contact.0.between={entry}", "-o", tmp_path / "out", "--quiet"]
-        subprocess.run([mortise, "solve", tmp_path / "two.toml", *words], check=True)
-        summary = json.loads((tmp_path / "out/summary.json").read_text())
+        settings = {"accuracy.value": 0.005, "contact.0.between": entry}
+        summary = launch.solve(tmp_path / "two.toml", settings, tmp_path / "out", expected=[0])
         (pair,) = summary["contact"]
         lines = (tmp_path / "out/contact.csv").read_text().splitlines()[1:]
         edges = [sum(f",{name}," in line for line in lines) / 2 for name in pair["between"]]  # of three nodes

@@ -9,7 +9,6 @@ Seconds are those of assembly to recovery in summary.json, one thread, medians o
 and writing too.
 """
 
-import json
 import statistics
 import tempfile
 from pathlib import Path
@@ -58,7 +57,7 @@ def half_scene(name, folder):
 def solve(scene, settings, folder):
     """summary.json of one run on one thread, with the seconds of the process as `process`."""
     process = launch.call("solve", scene, *launch.options(settings), "-o", folder, "--quiet", "--threads", 1)
-    return {**json.loads((folder / "summary.json").read_text()), "process": process}
+    return {**launch.summary(folder), "process": process}
 
 
 def stages(summary):

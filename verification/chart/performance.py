@@ -7,7 +7,6 @@ its own; programs that are missing are left out, aloud. Written are OUT/performa
 performance.md; the runs are kept in OUT/runs. --docs writes docs/performance.md.
 """
 
-import json
 import math
 import os
 import statistics
@@ -76,7 +75,7 @@ def solve_asked(run, folder):
     """One run of mortise by --accuracy from the .geo, the loop over meshes and all."""
     words = [launch.need(launch.MORTISE), "solve", launch.scene_file("parabola_1"), "--accuracy", run["asked"]]
     found = [programs.measured([*words, "-o", folder / "out", "--quiet", "--threads", 1]) for _ in range(5)]
-    unknowns = json.loads((folder / "out/summary.json").read_text())["mesh"]["dofs"]
+    unknowns = launch.summary(folder / "out")["mesh"]["dofs"]
     return row_of(found, unknowns, "mortise", folder)
 
 

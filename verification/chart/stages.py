@@ -7,7 +7,6 @@ pairs' ratios. MB is the peak of the process, of CHOLMOD's beside what it starte
 """
 
 import argparse
-import json
 import statistics
 import tempfile
 from pathlib import Path
@@ -33,7 +32,7 @@ def solved(scene, settings, threads, *words):
     with tempfile.TemporaryDirectory() as folder:
         words = [*launch.options(settings), "-o", folder, "--quiet", *(["--threads", threads] if threads else []), *words]
         found = programs.measured([launch.need(launch.MORTISE), "solve", launch.scene_file(scene), *words], own_threads=True)
-        summary = json.loads((Path(folder) / "summary.json").read_text())
+        summary = launch.summary(folder)
     own = summary["seconds"]
     return summary, own["total"] - own["mesh"] - own["write"], found["megabytes"]
 

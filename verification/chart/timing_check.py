@@ -7,7 +7,6 @@ What remains should be the chart's seconds: the ratio of the two is near 1, a li
 `mortise solve` less `mortise mesh`, which starts, meshes and writes a file of about the same size.
 """
 
-import json
 import os
 import statistics
 import tempfile
@@ -36,7 +35,7 @@ def timed(problem, settings, folder):
     arguments = [launch.scene_file(problem), *launch.options(settings)]
     whole, processor = seconds_of("solve", *arguments, "-o", folder, "--quiet", "--no-estimate", "--threads", 1)
     _, meshing = seconds_of("mesh", *arguments, "-o", folder / "mesh.msh")
-    own = json.loads((folder / "summary.json").read_text())["seconds"]
+    own = launch.summary(folder)["seconds"]
     return whole - own["mesh"] - own["write"], own["total"] - own["mesh"] - own["write"], processor - meshing
 
 

@@ -73,9 +73,9 @@ def processor_seconds():
     return used.ru_utime + used.ru_stime
 
 
-def call(*arguments):
+def call(*arguments, expected=SOLVED):
     """Runs mortise, or says why it did not run; returns its seconds."""
-    return run([need(MORTISE), *arguments])[1]
+    return run([need(MORTISE), *arguments], expected)[1]
 
 
 def scene_file(name):
@@ -105,9 +105,15 @@ def stiffness(ratio):
     return {"materials.other": f"{{ young = {YOUNG * ratio!r}, poisson = 0.3 }}", "bodies.upper": "other"}
 
 
-def solve(scene, settings, folder):
-    """Solves geo/SCENE.toml, or the scene file at a path, into a folder; returns the table of summary.json."""
-    call("solve", scene_file(scene), *options(settings), "-o", folder, "--quiet")
+def solve(scene, settings, folder, *words, expected=SOLVED):
+    """Solves geo/SCENE.toml, or the scene file at a path, into a folder; returns the table of summary.json. `words`: more
+    of the command line."""
+    call("solve", scene_file(scene), *options(settings), "-o", folder, "--quiet", *words, expected=expected)
+    return summary(folder)
+
+
+def summary(folder):
+    """The table of summary.json of a folder of results."""
     return json.loads((Path(folder) / "summary.json").read_text())
 
 
@@ -118,11 +124,11 @@ def measured(text, measure, settings=None):
         scene = Path(folder) / "scene.toml"
         scene.write_text(text)
         try:
-            summary = solve(scene, settings or {}, scene.with_name("out"))
+            table = solve(scene, settings or {}, scene.with_name("out"))
         except StudyError as error:
             return {"failed": str(error)}
-        failed = "" if summary["status"] == "solved" else summary["status"]
-        return {"failed": failed} | measure(scene.with_name("out"), summary)
+        failed = "" if table["status"] == "solved" else table["status"]
+        return {"failed": failed} | measure(scene.with_name("out"), table)
 
 
 def sweep(scene, settings, vary):

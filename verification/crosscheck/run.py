@@ -1,6 +1,5 @@
 """Both programs on one mesh: gmsh's mesh through mortise, its conversion, the two solutions, the time of each."""
 
-import json
 import os
 import shutil
 from dataclasses import dataclass
@@ -139,7 +138,7 @@ def solve_step(step, folder):
 
 
 def mortise_summary(folder):
-    return json.loads((folder / "mortise/summary.json").read_text())
+    return launch.summary(folder / "mortise")
 
 
 def freefem_summary(folder):

@@ -4,7 +4,6 @@ A case is a geometry with its parameters, the scene beside [mesh], what is measu
 that gives the largest relative error) and its source.
 """
 
-import json
 from dataclasses import dataclass
 from math import cbrt, pi
 from typing import Callable
@@ -42,10 +41,6 @@ def pressure_error(exact):
     return measure
 
 
-def summary(folder):
-    return json.loads((folder / "summary.json").read_text())
-
-
 def blocks(materials, extra, left=0):
     """Two blocks, one on the other, on a smooth ground; u_x on their left side."""
     return (
@@ -78,7 +73,7 @@ def shrink_fit(delta):
 def sphere_errors(folder):
     force = pi * 48970.7517
     a = cbrt(3 * force / (4 * E / (2 * (1 - NU**2))))
-    pair = summary(folder)["contact"][0]
+    pair = launch.summary(folder)["contact"][0]
     return max(abs(pair["length_in_contact"] / a - 1), abs(pair["pressure"]["max"] / (1.5 * force / (pi * a * a)) - 1))
 
 
@@ -121,7 +116,7 @@ def flat_punch_error(folder):
     *_, sinking, pressure = flat_punch(100e6)
     line = launch.contact(folder)
     inner = line["x"] < 0.8
-    moved = next(s["rigid"]["displacement"][1] for s in summary(folder)["model"]["supports"] if "rigid" in s)
+    moved = next(s["rigid"]["displacement"][1] for s in launch.summary(folder)["model"]["supports"] if "rigid" in s)
     return max(np.abs(line["p"][inner] / pressure(line["x"][inner]) - 1).max(), abs(moved / -sinking - 1))
 
 

@@ -1,13 +1,10 @@
 """How the rollers of a bearing with stiff rings share its load: as Stribeck (1901) and Sjovall (1933) say."""
 
-import json
-import subprocess
-
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from launch import ROOT
+import launch
 
 YOUNG, POISSON, LOAD = 210e3, 0.3, np.pi * (30**2 - 20**2)  # geo/rollers.toml
 RADIUS, RACES = 5, (-30, 40)  # of a roller; of the races, < 0 where they are convex towards it
@@ -31,12 +28,9 @@ def shares(rollers, play):
 
 @pytest.mark.parametrize("rollers, play", [(10, 0), (11, 0), (9, 2e-3)])
 def test_rollers_share_the_load_of_stiff_rings(mortise, tmp_path, rollers, play):
-    changes = [f"mesh.parameters={{rollers={rollers}}}", f"contact.0.clearance={play / 2}", "materials.stiff.young=210e6",
-               "materials.stiff.poisson=0.3", "bodies.inner=stiff", "bodies.outer=stiff"]  # fmt: skip
-    options = [word for change in changes for word in ("--set", change)]
-    command = [str(mortise), "solve", str(ROOT / "geo/rollers.toml"), "--accuracy", "5%", "-o", "out", *options]
-    subprocess.run(command, cwd=tmp_path, check=True)
-    pairs = json.loads((tmp_path / "out/summary.json").read_text())["contact"]
+    changes = {"mesh.parameters": f"{{rollers={rollers}}}", "contact.0.clearance": play / 2, "bodies.inner": "stiff",
+               "bodies.outer": "stiff", "materials.stiff": "{ young = 210e6, poisson = 0.3 }"}  # fmt: skip
+    pairs = launch.solve("rollers", changes, tmp_path, "--accuracy", "5%", expected=[0])["contact"]
     outer = {name: np.hypot(*pair["force"]) for pair in pairs for name in pair["between"] if name.endswith("_out")}
     found, expected = np.array([outer[f"roller_{k}_out"] for k in range(rollers)]), shares(rollers, play)
     assert np.abs(found - expected).max() < 0.005 * expected.max()
@@ -49,7 +43,6 @@ def test_rollers_without_load_answer_any_load_on_the_shaft(mortise, tmp_path):
     scales = 10 ** np.random.default_rng(1).uniform(-2, 1, 40)
     for rollers, fine, some in [(9, 0.06, scales), (12, 0.02, [0.9982, 0.02678])]:  # by the factor of all; body by body
         cases = ", ".join(f'{{name="case_{k}", scale={scale:.4g}}}' for k, scale in enumerate(some))
-        changes = [f"mesh.parameters={{rollers={rollers}, fine={fine}, coarse=5}}", f"case=[{cases}]"]
-        options = [word for change in changes for word in ("--set", change)]
-        command = [str(mortise), "solve", str(ROOT / "geo/rollers.toml"), "--no-estimate", "-o", "out", *options]
-        assert subprocess.run(command, cwd=tmp_path).returncode == 0, rollers
+        changes = {"mesh.parameters": f"{{rollers={rollers}, fine={fine}, coarse=5}}", "case": f"[{cases}]"}
+        options = launch.options(changes)
+        launch.call("solve", launch.scene_file("rollers"), *options, "--no-estimate", "-o", tmp_path, expected=[0])

@@ -1,14 +1,10 @@
 """Contact whose border moves with the bodies' displacements: thin shells and beams pressed on a wall, and waves that are
 about to close. Drawn at random; p and the length in contact are within what is said of them."""
 
-import json
-import subprocess
-
 import numpy as np
 import pytest
 
-import launch  # noqa: F401
-from result_tables import contact
+import launch
 
 RADIUS = 20
 
@@ -57,24 +53,25 @@ boundary = [
     return geo, scene
 
 
-def solved(mortise, folder, accuracy, *changes):
-    options = [word for change in changes for word in ("--set", change)]
-    command = [str(mortise), "solve", "s.toml", "--accuracy", accuracy, *options]
-    assert subprocess.run(command, cwd=folder).returncode == 0
-    results = folder / "out/s"
-    line = {key: np.array(values) for key, values in contact(results, "out").items() if key in ("y", "p", "p_error")}
+def solved(folder, geo, scene, accuracy, settings=None):
+    (folder / "s.geo").write_text(geo)
+    (folder / "s.toml").write_text(scene)
+    return launch.solve(folder / "s.toml", settings or {}, folder / "out", "--accuracy", accuracy, expected=[0])
+
+
+def line_of(folder):
+    """y, p and p_error along the curve `out`, by y."""
+    line = launch.contact(folder / "out", "out")
     order = np.argsort(line["y"])
-    return json.loads((results / "summary.json").read_text()), {key: line[key][order] for key in line}
+    return {key: line[key][order] for key in ("y", "p", "p_error")}
 
 
 @pytest.mark.parametrize("rings", [True, False])
 @pytest.mark.parametrize("seed", range(6))
 def test_shells_on_a_wall_are_within_their_bars(mortise, tmp_path, seed, rings):
     geo, scene = drawn(np.random.default_rng([seed, rings]), rings)
-    (tmp_path / "s.geo").write_text(geo)
-    (tmp_path / "s.toml").write_text(scene)
-    summary, line = solved(mortise, tmp_path, "1%")
-    fine, finer = solved(mortise, tmp_path, "0.1%", "accuracy.first_edges=33")
+    summary, line = solved(tmp_path, geo, scene, "1%"), line_of(tmp_path)
+    fine, finer = solved(tmp_path, geo, scene, "0.1%", {"accuracy.first_edges": 33}), line_of(tmp_path)
     at = np.union1d(line["y"], finer["y"])
     true, found = np.interp(at, finer["y"], finer["p"]), np.interp(at, line["y"], line["p"])
     off = np.sqrt(np.trapz((found - true) ** 2, at) / np.trapz(true**2, at))
@@ -96,8 +93,7 @@ def test_waves_about_to_close_know_how_long_they_touch(mortise, tmp_path, accura
     geo += 'Physical Surface("lower") = {10}; Physical Surface("upper") = {20};\n'
     closing = np.pi * young / (2 * (1 - poisson**2)) * height / (2 * half)
     for part in 1 - 10 ** np.random.default_rng(1).uniform(-5, -1.5, 5):
-        (tmp_path / "s.geo").write_text(geo)
-        (tmp_path / "s.toml").write_text(f"""mesh.file = "s.geo"
+        scene = f"""mesh.file = "s.geo"
 materials.steel = {{ young = {young}, poisson = {poisson} }}
 bodies = {{ lower = "steel", upper = "steel" }}
 contact = [{{ between = ["foot", "top"], initial_gap = "{height} * (1 - cos(pi * x / {half}))" }}]
@@ -105,10 +101,8 @@ boundary = [
   {{ on = ["left", "right", "upper_left", "upper_right"], displacement = {{ x = 0 }} }}, {{ on = "ground", displacement = {{ y = 0 }} }},
   {{ on = "head", pressure = {float(part * closing)!r} }},
 ]
-""")
-        command = [str(mortise), "solve", "s.toml", "--accuracy", accuracy]
-        assert subprocess.run(command, cwd=tmp_path).returncode == 0
-        pair = json.loads((tmp_path / "out/s/summary.json").read_text())["contact"][0]
+"""
+        pair = solved(tmp_path, geo, scene, accuracy)["contact"][0]
         length = 2 * half / np.pi * np.arcsin(np.sqrt(part))
         assert abs(pair["length_in_contact"] - length) < pair["length_in_contact_error"], part
         assert pair["length_in_contact_error"] < half / 10 or accuracy == "1%"

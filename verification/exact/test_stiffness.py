@@ -1,14 +1,11 @@
 """Contact that gives way against what is exact: rough surfaces in Hertz's contact."""
 
-import csv
-import json
-import subprocess
 import tomllib
 
 import numpy as np
 import pytest
 
-from launch import ROOT
+import launch
 
 LOAD, RADIUS, MODULUS = 9.2e6, 1.0, 210e9 / 0.91 / 2  # geo/hertz.toml
 
@@ -59,14 +56,12 @@ LAWS = {
 @pytest.mark.parametrize("law", LAWS)
 def test_rough_hertz(mortise, tmp_path, law):
     """p from the line of symmetry on, within its bar at 95 % of the nodes, as bars promise; the largest within 0.1 %."""
-    command = [mortise, "solve", ROOT / "geo/hertz.toml", "--set", f"contact.0.stiffness={law}", "--accuracy", "0.3%"]
-    subprocess.run([*command, "-o", tmp_path, "--quiet"], check=True)
+    settings = {"contact.0.stiffness": law}
+    (pair,) = launch.solve("hertz", settings, tmp_path, "--accuracy", "0.3%", expected=[0])["contact"]
     pressure, slope = (lambda d, of=of: np.where(d > 0, of(np.maximum(d, 0)), 0) for of in LAWS[law])
     x, p, half_width = rough_hertz(pressure, slope)
-    pair = json.loads((tmp_path / "summary.json").read_text())["contact"][0]
-    with open(tmp_path / "contact.csv", newline="") as file:
-        rows = [row for row in csv.DictReader(file) if row["p_error"]]
-    at, found, bar = (np.array([float(row[name]) for row in rows]) for name in ("x", "p", "p_error"))
+    line = launch.columns(tmp_path / "contact.csv")
+    at, found, bar = (line[name][np.isfinite(line["p_error"])] for name in ("x", "p", "p_error"))
     assert pair["stiffness"] == tomllib.loads(f"law = {law}")["law"]
     assert pair["pressure"]["max"] == pytest.approx(p[0], rel=1e-3)
     assert pair["length_in_contact"] == pytest.approx(half_width, abs=pair["length_in_contact_error"])

@@ -2,7 +2,6 @@
 a convex problem's answer, and the same however it is solved.
 """
 
-import json
 import math
 import os
 import tempfile
@@ -118,7 +117,7 @@ def differs(case, told, folder, program, carried):
             return None
         if run.status not in (0, 2):
             return f"{case.variant}: exit status {run.status}: {run.said.strip()[:200]}"
-        again = json.loads(Path(second, "results/summary.json").read_text())
+        again = launch.summary(Path(second, "results"))
         if wrong := unsolved(again):
             return f"{case.variant}: {', '.join(wrong)}"
         if case.variant == "again":
@@ -153,7 +152,7 @@ def judge(case, run, folder, known):
         return "refused", None if run.status in (0, 2) else f"refused on finer meshes too: {run.said.strip()[:300]}"
     if run.status not in (0, 2):
         return "refused", f"refused, though contact carries the load: {run.said.strip()[:300]}" if carried else None
-    told = json.loads(Path(folder, "results/summary.json").read_text())
+    told = launch.summary(Path(folder, "results"))
     if carried is False:
         return "worse", f"{told['status']}, though nothing carries the load"
     wrong = violated(told, folder)

@@ -5,7 +5,6 @@ the finer one is off by. Where that is more than a part of what is asked, the ca
 """
 
 import hashlib
-import json
 import os
 import re
 import sys
@@ -156,7 +155,7 @@ def judge(case, run, folder, known):
     if run.status not in (0, 2):
         named = names_place([run.said], case)
         return "refused", None if named else f"refused without a place: {run.said.strip()[:300]}"
-    told = json.loads(Path(folder, "results/summary.json").read_text())
+    told = launch.summary(Path(folder, "results"))
     if case.asked and not told["accuracy"]["reached"]:
         return "not reached", None if told["accuracy"]["reason"] else "not reached, and no reason"
     try:

@@ -1,6 +1,5 @@
 """Each message of the program is provoked by a test that looks at it (messages.py); here those of the command line and of the machine."""
 
-import os
 import resource
 import shutil
 import signal
@@ -50,24 +49,18 @@ def test_command_lines_that_are_refused(said, tmp_path):
                     options=["-o", "res"]))  # fmt: skip
 
 
-def call(*words, **changed):
-    done = subprocess.run([str(word) for word in words], text=True, capture_output=True, timeout=100,
-                          env={**os.environ, **changed})  # fmt: skip
-    assert done.returncode == 1
-    return done.stderr
+def test_scenes_that_cannot_be_read(call):
+    assert "the name of the scene is empty; expected a scene file (.toml)" in call("check", "", expected=1)
+    assert "cannot be read; expected a readable file" in call("check", "/proc/self/mem", expected=1)
 
 
-def test_scenes_that_cannot_be_read(mortise):
-    assert "the name of the scene is empty; expected a scene file (.toml)" in call(mortise, "check", "")
-    assert "cannot be read; expected a readable file" in call(mortise, "check", "/proc/self/mem")
-
-
-def test_program_without_its_parts(mortise, tmp_path):
-    alone = shutil.copy(mortise, tmp_path)
-    assert "picture.py (Debian package mortise-python) is not there: expected in " in call(alone, "picture", tmp_path)
-    assert "a .geo is meshed by gmsh (Debian package mortise-gmsh), which cannot be loaded: " in call(alone, "check", launch.ROOT / "geo/patch_flat.toml", "--no-cache")
-    assert ("picture.py is run by Python, which is not there (/no/python): apt-get install python3-matplotlib"
-            in call(mortise, "picture", tmp_path, MORTISE_PYTHON="/no/python"))  # fmt: skip
+def test_program_without_its_parts(mortise, call, tmp_path):
+    alone = {"program": shutil.copy(mortise, tmp_path), "expected": 1}
+    assert "picture.py (Debian package mortise-python) is not there: expected in " in call("picture", tmp_path, **alone)
+    said = call("check", launch.ROOT / "geo/patch_flat.toml", "--no-cache", **alone)
+    assert "a .geo is meshed by gmsh (Debian package mortise-gmsh), which cannot be loaded: " in said
+    said = call("picture", tmp_path, expected=1, MORTISE_PYTHON="/no/python")
+    assert "picture.py is run by Python, which is not there (/no/python): apt-get install python3-matplotlib" in said
 
 
 def test_disk_that_is_full(mortise, tmp_path):

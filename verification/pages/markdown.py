@@ -5,8 +5,9 @@ commands. In the text, `KEY = NUMBER` is an entry of the summary.json of the las
 figure that a command of the section prints.
 """
 
-import json
 import re
+
+import launch
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NAME = re.compile(r"(?:^|and |; )`(\w+\.(?:geo|toml|py))`[^`]*$")
@@ -52,7 +53,7 @@ def wrong_figures(text, folder, said):
     prose, wrong = FENCE.sub("", text), []
     scenes = re.findall(r"mortise solve (\w+)\.toml", "\n".join(commands(text)))
     for key, value in re.findall(rf"`([\w.]+) = ({NUMBER})`", prose):
-        found = entry(json.loads((folder / "out" / scenes[-1] / "summary.json").read_text()), key)
+        found = entry(launch.summary(folder / "out" / scenes[-1]), key)
         if not near(found, float(value)):
             wrong.append(f"{key}: {value} printed, {found} found")
     numbers = [float(word) for word in re.findall(NUMBER, said)]

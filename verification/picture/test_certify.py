@@ -16,6 +16,7 @@ import meshio
 import numpy as np
 import pytest
 
+import launch
 from launch import ROOT
 
 sys.path.append(str(ROOT / "src/python/reports"))
@@ -54,9 +55,8 @@ def wrong(mortise, tmp_path, solved, monkeypatch):
     return find
 
 
-def test_certificate_of_hertz(mortise, tmp_path):
-    command = [mortise, "certify", HERTZ, "-o", tmp_path / "runs"]
-    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+def test_certificate_of_hertz(call, tmp_path):
+    said = call("certify", HERTZ, "-o", tmp_path / "runs")
     found = json.loads((tmp_path / "runs/certificate.json").read_text())
     assert found["agrees"] and found["troubles"] == []
     assert {row["kind"] for row in found["figures"]} == {
@@ -96,10 +96,9 @@ def test_what_one_run_has_wrong_is_named(wrong, scene, run, change, kinds):
     assert not found["agrees"] and kinds <= named.keys() and set(named.values()) == {run}
 
 
-def test_too_coarse_a_mesh_of_its_own(mortise, wrong, tmp_path):
+def test_too_coarse_a_mesh_of_its_own(call, wrong, tmp_path):
     mesh, scene = tmp_path / "coarse.msh", tmp_path / "coarse.toml"
-    sizes = ["--set", "mesh.parameters.n_punch=6", "--set", "mesh.parameters.n_block=15"]
-    subprocess.run([mortise, "mesh", PUNCH, *sizes, "-o", mesh, "--quiet"], check=True)
+    call("mesh", PUNCH, *launch.options({"mesh.parameters.n_punch": 6, "mesh.parameters.n_block": 15}), "-o", mesh, "--quiet")
     text = PUNCH.read_text().replace("punch.geo", str(mesh))
     scene.write_text("\n".join(line for line in text.splitlines() if not line.startswith("parameters")))
     _, found = wrong(scene)
@@ -107,10 +106,10 @@ def test_too_coarse_a_mesh_of_its_own(mortise, wrong, tmp_path):
     assert found["skipped"] == ["other meshes: the scene has a mesh of its own or copies, and no geometry to mesh anew"]
 
 
-def test_a_multiplier_space_that_is_wrong_for_a_mesh_of_its_own(mortise, tmp_path):
+def test_a_multiplier_space_that_is_wrong_for_a_mesh_of_its_own(mortise, call, tmp_path):
     """Quadratic multipliers on the edges of a body a hundred times as stiff as the other: p swings, and its bar knows."""
     mesh, scene = tmp_path / "own.msh", tmp_path / "own.toml"
-    subprocess.run([mortise, "mesh", HERTZ, "--set", "mesh.parameters={n_upper=10, n_lower=12}", "-o", mesh, "--quiet"], check=True)
+    call("mesh", HERTZ, "--set", "mesh.parameters={n_upper=10, n_lower=12}", "-o", mesh, "--quiet")
     text = HERTZ.read_text().replace("hertz.geo", str(mesh)).replace('block = "steel"', 'block = "hard"')
     lines = [line for line in text.splitlines() if not line.startswith("parameters")]
     scene.write_text("\n".join([*lines, "[materials.hard]", "young = 210e11", "poisson = 0.3"]))
@@ -131,7 +130,7 @@ def test_multipliers_beyond_the_end_of_the_other_curve_are_no_gap(wrong):
 
 def test_p_that_no_body_feels_is_seen(mortise, tmp_path):
     """Where it alone is larger, in the files."""
-    subprocess.run([mortise, "solve", HERTZ, "--accuracy", "0.2%", "-o", tmp_path / "own", "--quiet"], check=True)
+    launch.solve(HERTZ, {"accuracy.value": 0.002}, tmp_path / "own", expected=[0])
     base = certify.Variation("own", "", [], "solved", run=figures.read_run(tmp_path / "own"))
     kept = certify.by_stresses(base, 0.01)
     table = figures.rows_of(tmp_path / "own/contact.csv")
@@ -163,7 +162,7 @@ def test_a_run_that_ends_without_an_answer_is_a_trouble(mortise, tmp_path):
 @pytest.mark.parametrize("script, words", [("certify", [PUNCH]), ("report", [])])
 def test_an_interrupt_is_no_traceback(mortise, tmp_path, script, words):
     """While the program runs, which is another here."""
-    subprocess.run([mortise, "solve", PUNCH, "-o", tmp_path / "out", "--quiet"], check=True)
+    launch.solve(PUNCH, {}, tmp_path / "out", expected=[0])
     program = tmp_path / "program"
     program.write_text(f"#!/bin/sh\ntouch {tmp_path}/started\nexec sleep 60\n")
     program.chmod(0o755)
@@ -188,9 +187,9 @@ def test_a_reader_who_leaves_has_the_page(mortise, tmp_path):
                                          (["certify"], "the following arguments are required: scene"),
                                          (["certify", PUNCH, "--accuracy", "x"], "argument --accuracy: invalid part_of value: 'x'"),
                                          (["report", "no"], "no: no summary.json there"), (["report"], "required: folder")])  # fmt: skip
-def test_bad_input_is_refused_as_by_solve(mortise, tmp_path, words, said):
-    ended = subprocess.run([mortise, *words], cwd=tmp_path, capture_output=True, text=True)
-    assert ended.returncode == 1 and said in ended.stderr and "Errno" not in ended.stderr and "Traceback" not in ended.stderr
+def test_bad_input_is_refused_as_by_solve(call, words, said):
+    told = call(*words, expected=1)
+    assert said in told and "Errno" not in told and "Traceback" not in told
 
 
 def test_what_the_normals_of_the_other_curve_change_is_told_apart(mortise, tmp_path, monkeypatch):
@@ -214,7 +213,7 @@ def test_one_curve_has_one_normal(mortise, wrong):
 
 
 def test_freefem_is_compared_at_its_vertices(tmp_path, mortise):
-    subprocess.run([mortise, "solve", HERTZ, "-o", tmp_path / "own", "--quiet"], check=True)
+    launch.solve(HERTZ, {}, tmp_path / "own", expected=[0])
     run = figures.read_run(tmp_path / "own")
     (xy, p, _), = run.multipliers.values()
     for factor, agrees in ((1, True), (1.2, False), (float("nan"), False)):
@@ -226,11 +225,10 @@ def test_freefem_is_compared_at_its_vertices(tmp_path, mortise):
 
 def test_a_report_of_a_coarse_mesh_is_not_green(mortise, tmp_path):
     """And its set-up is that of the run."""
-    changes = ["mesh.parameters.n_punch=6", "mesh.parameters.n_block=8", "boundary.2.pressure=2e7"]
-    words = [word for change in changes for word in ("--set", change)]
-    subprocess.run([mortise, "solve", PUNCH, *words, "-o", tmp_path / "out", "--quiet"], check=False)
-    summary = json.loads((tmp_path / "out/summary.json").read_text())
-    assert summary["changes"] == changes and summary["estimate"]["pressure"]["error"] > report.COARSE
+    settings = {"mesh.parameters.n_punch": 6, "mesh.parameters.n_block": 8, "boundary.2.pressure": "2e7"}
+    summary = launch.solve(PUNCH, settings, tmp_path / "out")
+    assert summary["changes"] == [f"{key}={value}" for key, value in settings.items()]
+    assert summary["estimate"]["pressure"]["error"] > report.COARSE
     page = report.page_of(tmp_path / "out", None, mortise)
     assert "no other run; <code>mortise certify</code>" in page and "only: the mesh is too coarse" in page and "class='verdict bad'" in page and "--set boundary.2.pressure=2e7" in page
     summary["estimate"]["pressure"]["error"], summary["status"] = 0.05, "solved"
@@ -239,7 +237,7 @@ def test_a_report_of_a_coarse_mesh_is_not_green(mortise, tmp_path):
 
 def test_deformed_sides_that_part_are_seen(mortise, tmp_path):
     """Where only one of them is moved on, in the files."""
-    subprocess.run([mortise, "solve", HERTZ, "--accuracy", "1%", "-o", tmp_path / "own", "--quiet"], check=True)
+    launch.solve(HERTZ, {"accuracy.value": 0.01}, tmp_path / "own", expected=[0])
     base = certify.Variation("own", "", [], "solved", run=figures.read_run(tmp_path / "own"))
     kept = certify.told_apart(base, 0.01)
     path = tmp_path / "own/contact.vtu"
@@ -253,13 +251,12 @@ def test_deformed_sides_that_part_are_seen(mortise, tmp_path):
 
 
 def test_a_fluid_between_the_sides_does_not_part_them(mortise, tmp_path):
-    solve = [mortise, "solve", HERTZ, "--quiet", "-o"]
-    subprocess.run([*solve, tmp_path / "dry"], check=True)
+    launch.solve(HERTZ, {}, tmp_path / "dry", expected=[0])
     rows = figures.rows_of(tmp_path / "dry/contact.csv")
     end = max((row for row in rows if row["curve"] == rows[0]["curve"]), key=lambda row: float(row["s"]))
     pressure = 1e-3 * max(float(row["p"]) for row in rows)  # more would lift the cylinder off
-    fluid = [f"contact.0.fluid.pressure={pressure}", f"contact.0.fluid.from=[{end['x']}, {end['y']}]"]
-    subprocess.run([*solve, tmp_path / "wet", *(word for one in fluid for word in ("--set", one))], check=True)
+    fluid = {"contact.0.fluid.pressure": pressure, "contact.0.fluid.from": f"[{end['x']}, {end['y']}]"}
+    launch.solve(HERTZ, fluid, tmp_path / "wet", expected=[0])
     base = certify.Variation("wet", "", [], "solved", run=figures.read_run(tmp_path / "wet"))
     assert base.run.summary["contact"][0]["fluid"]["wet_length"] > 0
     assert certify.told_apart(base, 0.05)["agrees"]
@@ -296,7 +293,7 @@ bodies = { block = "one", ground = "one" }
 boundary = [{ on = "base", displacement = { x = 0, y = 0 } }, { on = "side", displacement = { x = 0.05 } }, { on = "top", pressure = 1 }]
 contact = [{ between = ["foot", "floor"] }]
 """)
-    subprocess.run([mortise, "solve", tmp_path / "slide.toml", "-o", tmp_path / "out", "--quiet"], check=True)
+    launch.solve(tmp_path / "slide.toml", {}, tmp_path / "out", expected=[0])
     run = figures.read_run(tmp_path / "out")
     assert figures.deformed_gaps(run) < 1e-4 * run.summary["extremes"]["displacement"]
 

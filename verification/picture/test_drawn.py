@@ -1,6 +1,5 @@
 """What the pictures of a run show, part by part, and that other programs can read what they are made from."""
 
-import json
 import re
 
 import meshio
@@ -22,7 +21,7 @@ import shapes
 @pytest.mark.parametrize("scene", ["parabola_1", "stack", "wall"])
 def test_arrows_are_in_balance(solve, scene):
     """Loads and reactions, each at its place with its moment about it: their sums vanish."""
-    model = json.loads((solve(scene) / "summary.json").read_text())["model"]
+    model = launch.summary(solve(scene))["model"]
     forces = list(drawn_forces.acting_forces(model))
     size = sum(np.linalg.norm(force) for _, force, _, _ in forces)
     assert np.linalg.norm(sum(force for _, force, _, _ in forces)) < 1e-10 * size
@@ -118,7 +117,7 @@ def test_curves_of_a_few_edges_end_where_they_face_nothing(mortise, tmp_path):
 
 
 def test_p_ends_where_contact_does(solve):
-    table, pairs = (result_tables.contact_table(solve("wall")), json.loads((solve("wall") / "summary.json").read_text())["contact"])
+    table, pairs = result_tables.contact_table(solve("wall")), launch.summary(solve("wall"))["contact"]
     drawing, axes = figure.panels(1, len(pairs), (40, 3))
     drawn_pairs.draw_small(axes, table, pairs, range(len(pairs)))
     for panel in axes:

@@ -1,7 +1,6 @@
 """From a geometry without names to a scene: what `mortise check PART.geo` lists and draws, and what `mortise new` writes."""
 
 import re
-import subprocess
 
 import meshio
 import numpy as np
@@ -29,16 +28,6 @@ boundary = [
 ]
 """
 GREY = "#8c8c8c"  # of curves that a scene does not use
-
-
-@pytest.fixture
-def call(mortise, tmp_path):
-    def run(*words, expected=0):
-        done = subprocess.run([mortise, *words], cwd=tmp_path, capture_output=True, text=True, check=False)
-        assert done.returncode == expected, done.stdout + done.stderr
-        return done.stdout + done.stderr
-
-    return run
 
 
 def lines_behind(said, heading):
@@ -98,7 +87,7 @@ def test_the_gap_of_curves_that_stick_out_past_each_other(call, tmp_path):
 def test_curves_of_corners_and_of_one_body_do_not_meet(call, tmp_path):
     (tmp_path / "punch.geo").write_text(PUNCH)
     assert call("check", "punch.geo").count("\n  meet") == 1  # not the punch's sides, which end on the block
-    assert len(re.findall(r"\n  (?:meet|near)", call("check", str(launch.ROOT / "geo/parabola_1.geo")))) == 1  # not over a corner
+    assert len(re.findall(r"\n  (?:meet|near)", call("check", launch.ROOT / "geo/parabola_1.geo"))) == 1  # not over a corner
 
 
 def test_pictures_show_every_curve(call, tmp_path):
@@ -118,7 +107,7 @@ def test_pictures_show_every_curve(call, tmp_path):
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in (launch.ROOT / "geo").glob("*.geo")))
 def test_a_new_scene_is_complete_when_it_is_filled_in(call, tmp_path, name):
-    call("new", str(launch.ROOT / f"geo/{name}.geo"), "-o", "new.toml")
+    call("new", launch.ROOT / f"geo/{name}.geo", "-o", "new.toml")
     said = call("check", "new.toml", expected=1)
     assert "materials.steel" in said and "young" in said
     (tmp_path / "new.toml").write_text(filled((tmp_path / "new.toml").read_text()))

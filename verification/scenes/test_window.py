@@ -1,12 +1,10 @@
 """`mortise window` under Xvfb: what is picked stands in the files, and p is the command line's."""
 
 import importlib.util
-import json
 import os
 import re
 import shutil
 import signal
-import subprocess
 import sys
 import tomllib
 from pathlib import Path
@@ -38,9 +36,9 @@ def screen():
         yield display
 
 
-def test_a_scene_by_mouse_is_the_scene_of_the_command_line(mortise, screen, tmp_path):
+def test_a_scene_by_mouse_is_the_scene_of_the_command_line(mortise, call, screen, tmp_path):
     (tmp_path / "punch.geo").write_text(PUNCH)
-    subprocess.run([mortise, "new", "punch.geo"], cwd=tmp_path, check=True)
+    call("new", "punch.geo")
     text = filled((tmp_path / "punch.toml").read_text())
     (tmp_path / "punch.toml").write_text(re.sub(r"\n  \{ between.*", "", text) + CASES)
     told = drive(mortise, screen, tmp_path, "punch", "punch.toml")
@@ -50,8 +48,7 @@ def test_a_scene_by_mouse_is_the_scene_of_the_command_line(mortise, screen, tmp_
     wanted = tomllib.loads(text.replace("10e6", "20e6").replace("curve_7", "head")) | {"contact": [{"between": ["curve_3", "curve_5"]}]} | {"case": scene["case"]}
     assert scene == wanted
     (tmp_path / "by_hand.toml").write_text((tmp_path / "punch.toml").read_text().replace('["curve_2", "nowhere"]', '"curve_1"'))
-    by_hand = [mortise, "solve", "by_hand.toml", "--accuracy", "1%", "--set", "cases.write=contact", "-o", "hand", "--quiet"]
-    subprocess.run(by_hand, cwd=tmp_path, check=True)
+    call("solve", "by_hand.toml", "--accuracy", "1%", "--set", "cases.write=contact", "-o", "hand", "--quiet")
     for number, name in ((1, "half"), (2, "full")):
         table = launch.contact(tmp_path / "hand/cases" / name)
         shown = told[f"case {number}"]
@@ -62,10 +59,10 @@ def test_a_scene_by_mouse_is_the_scene_of_the_command_line(mortise, screen, tmp_
     assert told["highlighted"] == ["curve_2"]
 
 
-def test_stop_ends_a_solve(mortise, screen, tmp_path):
+def test_stop_ends_a_solve(mortise, call, screen, tmp_path):
     """While gmsh meshes, in a process of its own: nothing goes on, nothing is written, and the window lives."""
     (tmp_path / "punch.geo").write_text(PUNCH)
-    subprocess.run([mortise, "new", "punch.geo"], cwd=tmp_path, check=True)
+    call("new", "punch.geo")
     (tmp_path / "punch.toml").write_text(filled((tmp_path / "punch.toml").read_text()))
     (tmp_path / "punch.geo").write_text(PUNCH + "Mesh.MeshSizeMax = 0.0004;\n")  # 1.7 million triangles
     told = drive(mortise, screen, tmp_path, "stop", "punch.toml")
@@ -90,9 +87,9 @@ Rectangle(3) = {0.35, 0.2, 0, 0.2, 0.1};
 """
 
 
-def test_p_of_the_chosen_pair_is_shown(mortise, screen, tmp_path):
+def test_p_of_the_chosen_pair_is_shown(mortise, call, screen, tmp_path):
     (tmp_path / "feet.geo").write_text(FEET)
-    subprocess.run([mortise, "new", "feet.geo"], cwd=tmp_path, check=True)
+    call("new", "feet.geo")
     (tmp_path / "feet.toml").write_text(filled((tmp_path / "feet.toml").read_text()))
     told = drive(mortise, screen, tmp_path, "feet", "feet.toml")
     table = launch.columns(tmp_path / "out/feet/contact.csv")
@@ -168,30 +165,28 @@ print("graph", kind, largest)
 """
 
 
-def test_no_display_is_an_error(mortise, tmp_path):
+def test_no_display_is_an_error(call, tmp_path):
     if importlib.util.find_spec("gmsh") is None:
         pytest.skip("no Python's gmsh: ./dev setup installs it")
     (tmp_path / "punch.geo").write_text(PUNCH)
-    ended = subprocess.run([mortise, "window", "punch.geo"], cwd=tmp_path, env=os.environ | {"DISPLAY": ":none"}, capture_output=True, text=True, check=False)
-    assert ended.returncode == 1 and "Traceback" not in ended.stderr
-    assert ended.stderr.splitlines()[-1].startswith("mortise: error: the window cannot be opened: Can't open display: :none")
+    said = call("window", "punch.geo", expected=1, DISPLAY=":none")
+    assert "Traceback" not in said and said.splitlines()[-1].startswith("mortise: error: the window cannot be opened: Can't open display: :none")
 
 
-def test_gmsh_s_own_menu_runs_it(mortise, tmp_path):
+def test_gmsh_s_own_menu_runs_it(mortise, call, tmp_path):
     if importlib.util.find_spec("gmsh") is None:
         pytest.skip("no Python's gmsh: ./dev setup installs it")
     (tmp_path / "punch.geo").write_text(PUNCH)
-    subprocess.run([mortise, "new", "punch.geo", "-o", "full.toml"], cwd=tmp_path, check=True)
+    call("new", "punch.geo", "-o", "full.toml")
     full = filled((tmp_path / "full.toml").read_text())
-    done = subprocess.run([sys.executable, "-c", ONELAB, launch.ROOT / "src/python/scenes/onelab.py", full], cwd=tmp_path, env=os.environ | {"MORTISE_PROGRAM": str(mortise)}, capture_output=True, text=True, timeout=60, check=False)
-    assert re.findall(r"^(?:check|compute) .*", done.stdout, re.MULTILINE) == ["check []", "compute []", "compute [0 1]"], done.stdout + done.stderr
+    said = call("-c", ONELAB, launch.ROOT / "src/python/scenes/onelab.py", full, program=sys.executable, MORTISE_PROGRAM=str(mortise))
+    assert re.findall(r"^(?:check|compute) .*", said, re.MULTILINE) == ["check []", "compute []", "compute [0 1]"], said
     assert (tmp_path / "punch.toml").read_text() == full
-    shown = [float(word) for word in done.stdout.splitlines()[-1].split()[1:]]
+    shown = [float(word) for word in re.search(r"^graph (.*)", said, re.MULTILINE)[1].split()]
     table = launch.contact(tmp_path / "out/punch")
     assert shown == [2, pytest.approx(table["p"].max())]
 
 
 @pytest.mark.parametrize("name", ["nothing.toml", "nothing.geo"])
-def test_a_file_that_is_not_there_is_named(mortise, tmp_path, name):
-    ended = subprocess.run([mortise, "window", name], cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert (ended.returncode, ended.stdout, ended.stderr) == (1, "", f"mortise: error: {name}: no such file\n")
+def test_a_file_that_is_not_there_is_named(call, name):
+    assert call("window", name, expected=1) == f"mortise: error: {name}: no such file\n"

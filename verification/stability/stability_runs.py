@@ -7,7 +7,6 @@ take the results folder and the run and return named figures), `arguments` (more
 """
 
 import hashlib
-import json
 import subprocess
 import tempfile
 import time
@@ -81,7 +80,7 @@ def is_of_the_curves(warning):
 
 def summary(folder, run):
     """Of summary.json: how it ended, steps, the checks that fail and the warning of p, warnings, the estimate."""
-    table = json.loads((folder / "summary.json").read_text())
+    table = launch.summary(folder)
     checks = {check["name"]: check["value"] for check in table["checks"]}
     failed = [check["name"] for check in table["checks"] if not check["ok"]]
     pressure = table["estimate"]["pressure"] or {"error": None, "singular": []}
@@ -108,7 +107,7 @@ def summary(folder, run):
 
 def inf_sup(folder, run):
     """The inf-sup constant of a run with --diagnose."""
-    return {"inf_sup": json.loads((folder / "summary.json").read_text())["inf_sup"]}
+    return {"inf_sup": launch.summary(folder)["inf_sup"]}
 
 
 def multiplier_side(folder):
