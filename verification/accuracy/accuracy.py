@@ -21,10 +21,7 @@ import page
 import answers_pictures
 import runs
 import template
-
-
-def percent(value):
-    return f"{100 * value:.2g} %"
+from template import percent
 
 
 def share(values):

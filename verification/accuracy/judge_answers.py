@@ -10,10 +10,10 @@ from scipy.interpolate import CubicSpline
 import launch
 import persson
 from accuracy_runs import ANGLE, BORDERS, PIN, STIFFNESS
+from lame import RINGS, lame
 from line import Line, at_vertices, fitted, inside_bars, pressure_of, rms_error, samples
 
 HERE = Path(__file__).resolve().parent
-RINGS = 4830258.30258  # exact, geo/rings.toml
 HERTZ_FORCE, HERTZ_RADIUS = 9.2e6, 1.0  # geo/hertz.toml
 SOLVING = ("assemble", "couple", "factorise", "solve", "recover")
 
@@ -41,7 +41,7 @@ def hp():
     return lambda x: p(np.minimum(x[:, 0], 0.8 - x[:, 0]))
 
 
-FORMULAS = {"rings": lambda x: np.full(len(x), RINGS), "hertz": hertz, "pin": pin, "parabola_1": hp()}
+FORMULAS = {"rings": lambda x: np.full(len(x), lame(RINGS["materials"])[0]), "hertz": hertz, "pin": pin, "parabola_1": hp()}
 # Where contact ends, the finest meshes are at their worst, and the form of p is known: sqrt(1 - t) times a polynomial.
 FORMS = {"hertz": (lambda x: x[:, 0] ** 2, 1), "pin": (lambda x: np.tan(angle(x) / 2) ** 2, 6)}
 

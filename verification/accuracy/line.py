@@ -6,6 +6,8 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.spatial import cKDTree
 
+from elements import edge
+
 GAUSS = 5  # points an edge: p is linear on it, the reference is not
 
 
@@ -28,8 +30,7 @@ class Line:
 def samples(line):
     """Places along the edges (curved through their middles), p there, and the length that each stands for."""
     xi, weight = np.polynomial.legendre.leggauss(GAUSS)
-    shape = np.stack([xi * (xi - 1) / 2, 1 - xi**2, xi * (xi + 1) / 2])
-    slope = np.stack([xi - 0.5, -2 * xi, xi + 0.5])
+    shape, slope = (part.T for part in edge(xi))
     ends = lambda values: np.stack([values[:-2:2], values[1::2], values[2::2]], 1)  # edges x 3
     x = np.einsum("eac,aq->eqc", ends(line.x), shape).reshape(-1, 2)
     ds = weight * np.linalg.norm(np.einsum("eac,aq->eqc", ends(line.x), slope), axis=2)

@@ -6,6 +6,7 @@ import chart_runs  # makes common/ known
 import pareto
 import template
 from chart_methods import METHODS, PANELS, PEERS, PROBLEMS, label
+from template import percent
 
 TEXTS = template.texts(Path(__file__).with_name("chart_texts.md"))
 TARGETS = (0.05, 0.01, 0.001)
@@ -26,10 +27,6 @@ def by_mortise(rows, problem):
     """On meshes that are given: what is compared by the seconds without meshing."""
     given = lambda row: row["method"] != "asked" and row["method"] not in PEERS
     return [row for row in of_problem(rows, problem) if given(row)]
-
-
-def percent(value):
-    return f"{value * 100:.2g} %"
 
 
 def table(rows):

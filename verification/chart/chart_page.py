@@ -4,8 +4,9 @@ import advice
 import economy
 import page
 import template
-from advice import TEXTS, of_problem, percent
+from advice import TEXTS, of_problem
 from chart_methods import PROBLEMS, TURNS, label
+from template import percent
 
 CHECKS = {"chart, s": "chart", "process, s": "process", "summary.json, s": "reported", "process / chart": "ratio",
           "processor, s": "processor", "processor / chart": "processor_ratio"}  # fmt: skip

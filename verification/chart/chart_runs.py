@@ -1,6 +1,5 @@
 """The runs of the chart: mortise by problem and mesh, kept in the store of runs, and their medians."""
 
-import json
 import os
 import statistics
 import tempfile
@@ -31,7 +30,8 @@ def make_store(output, quick):
     here = Path(__file__).parent
     files = [*(here / f"{name}.py" for name in MEASURES), *(launch.ROOT / "freefem" / name for name in FREEFEM)]
     files += [here.with_name("crosscheck") / f"{name}.py" for name in CROSSCHECK]
-    return runs.Store(output / ("runs_quick" if quick else "runs"), [*files, here / "manufactured.toml"])
+    files += [here.with_name("common") / "elements.py", here / "manufactured.toml"]
+    return runs.Store(output / ("runs_quick" if quick else "runs"), files)
 
 
 def arguments_of(problem, settings, folder):
@@ -53,7 +53,7 @@ def solve(problem, settings, folder):
     _, whole = launch.run([launch.need(launch.MORTISE), "solve", *arguments_of(problem, settings, folder), "-o", folder,
                            "--quiet", "--threads", 1, *words], env={**os.environ, **launch.ONE_THREAD})  # fmt: skip
     processor = launch.processor_seconds() - before
-    summary = json.loads((folder / "summary.json").read_text())
+    summary = launch.summary(folder)
     own, size = summary["seconds"], summary["mesh"]
     wall = own["total"] - own["write"] - (0 if asked else own["mesh"])
     return {

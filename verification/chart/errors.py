@@ -12,6 +12,7 @@ from numpy.polynomial.legendre import leggauss
 from scipy.spatial import cKDTree
 
 from chart_methods import ERRORS
+import elements
 import launch  # makes src/python/pictures known
 import shapes
 
@@ -73,10 +74,7 @@ def rule(kind):
     x, y, weights = (part.ravel() for part in (*np.meshgrid(s, s, indexing="ij"), np.outer(w, w)))
     if corners == 3:
         x, y, weights = (1 + x) / 2, (1 - x) * (1 + y) / 4, weights * (1 - x) / 8
-    powers, nodes = shapes.POWERS[: len(shapes.NODES[kind])], np.array(shapes.NODES[kind], dtype=float)
-    inverse = np.linalg.inv(np.stack([nodes[:, 0] ** m * nodes[:, 1] ** n for m, n in powers], axis=1))
-    along = [m * x ** max(m - 1, 0) * y**n for m, n in powers], [n * x**m * y ** max(n - 1, 0) for m, n in powers]
-    return shapes.shape_functions(kind, x, y), np.moveaxis(np.array(along), 2, 0) @ inverse, weights
+    return shapes.shape_functions(kind, x, y), elements.gradients(kind, x, y), weights
 
 
 def energy_error(fields, known):
@@ -104,7 +102,7 @@ def along_edges(values, xi):
     one = np.ones_like(xi)
     N, dN = np.stack([(1 - xi) / 2, (1 + xi) / 2]), np.stack([-one / 2, one / 2])
     if values.shape[1] == 3:
-        N, dN = np.stack([xi * (xi - 1) / 2, xi * (xi + 1) / 2, 1 - xi**2]), np.stack([xi - 0.5, xi + 0.5, -2 * xi])
+        N, dN = (part.T[[0, 2, 1]] for part in elements.edge(xi))
     return np.einsum("aq,ea...->eq...", N, values), np.einsum("aq,ea...->eq...", dN, values)
 
 

@@ -54,6 +54,10 @@ def texts(path):
     return {name: text.strip() for name, text in zip(["", *pieces[1::2]], pieces[::2])}
 
 
+def percent(value):
+    return f"{100 * value:.2g} %"
+
+
 def table(heading, rows):
     """A Markdown table; a pipe in a cell is escaped."""
     line = lambda cells: "| " + " | ".join(str(cell).replace("|", "\\|") for cell in cells) + " |"

@@ -26,6 +26,7 @@ import peers
 import persson
 import runs
 import template
+from template import percent
 
 ASKED = 0.01  # of --accuracy
 WIDTH_LIMIT = 5e-3  # of the half width of contact on the finest mesh
@@ -104,10 +105,6 @@ def truncation(store, quick):
     """The cylinder on blocks of 25 to 200 half widths."""
     wanted = [{"case": "cylinder", "size": 20 if quick else 160, "parameters": {"size": size}} for size in SIZES]
     return store.rows(wanted, execute, "size of the blocks")
-
-
-def percent(value):
-    return f"{100 * value:.2g} %"
 
 
 def half_widths(case, *rows):

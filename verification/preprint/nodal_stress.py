@@ -10,31 +10,25 @@ import meshio
 import numpy as np
 from scipy.spatial import cKDTree
 
-import launch
+import elements
+import launch  # makes src/python/pictures known
+import shapes
 
 YOUNG, POISSON = 210e9, 0.3  # of the preprint's scenes; plane strain
 HOOKE = (YOUNG / (1 + POISSON) / (1 - 2 * POISSON)) * np.array(
     [[1 - POISSON, POISSON, 0], [POISSON, 1 - POISSON, 0], [0, 0, 0.5 - POISSON]]
 )
 BODIES = {"upper_contact": 0, "lower_contact": 1}
-NODES = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0)])  # in VTK's order
+NODES = np.array(shapes.NODES["quad8"])
 SAMPLES = np.array([(a, b) for a in (-1, 1) for b in (-1, 1)]) / np.sqrt(3)
-
-
-def derivatives(x, y):
-    """d N_a / d (x, y) of the 8-node quadrilateral at a reference point: 8 x 2."""
-    monomials = [(0, 0), (1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2)]
-    at_nodes = np.stack([NODES[:, 0] ** m * NODES[:, 1] ** n for m, n in monomials])
-    along_x = [m * x ** max(m - 1, 0) * y**n for m, n in monomials]
-    along_y = [n * x**m * y ** max(n - 1, 0) for m, n in monomials]
-    return np.linalg.solve(at_nodes, np.stack([along_x, along_y], axis=1))
 
 
 def strains(points, x, y):
     """What makes strains 11, 22, 2 x 12 of the displacements (elements x 3 x 16) at a reference point of elements, and
     |d x / d xi| there; coordinates are elements x 8 x 2."""
-    J = points.transpose(0, 2, 1) @ derivatives(x, y)  # d x_i / d xi_j
-    G, B = derivatives(x, y) @ np.linalg.inv(J), np.zeros((len(points), 3, 16))
+    (dN,) = elements.gradients("quad8", np.array([x]), np.array([y]))
+    J = points.transpose(0, 2, 1) @ dN.T  # d x_i / d xi_j
+    G, B = dN.T @ np.linalg.inv(J), np.zeros((len(points), 3, 16))
     B[:, 0, ::2], B[:, 1, 1::2], B[:, 2, ::2], B[:, 2, 1::2] = G[..., 0], G[..., 1], G[..., 1], G[..., 0]
     return B, np.linalg.det(J)
 

@@ -4,7 +4,6 @@ A run is a scene, a mesh and settings. Curves are dictionaries of arrays: the co
 contact_centres.csv of one body, by x1.
 """
 
-import json
 import sys
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
+import elements
 import launch
 import nodal_stress
 import projected_elements
@@ -33,7 +33,8 @@ class Store(runs.Store):
     """The study's runs; the tables that were read are kept in memory."""
 
     def __init__(self, folder, jobs=1):
-        super().__init__(folder, [nodal_stress.__file__, projected_elements.__file__], jobs=jobs)
+        measures = elements, nodal_stress, projected_elements
+        super().__init__(folder, [module.__file__ for module in measures], jobs=jobs)
         self.tables = {}
 
     def run(self, scene, mesh, settings, fields=False):
@@ -54,7 +55,7 @@ class Store(runs.Store):
         return self.results([scene, mesh, settings, fields], solve, f"{scene}-{launch.mesh_name(mesh)}")
 
     def summary(self, scene, mesh, settings):
-        return json.loads((self.run(scene, mesh, settings) / "summary.json").read_text())
+        return launch.summary(self.run(scene, mesh, settings))
 
     def table(self, path):
         if path not in self.tables:

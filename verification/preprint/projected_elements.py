@@ -14,15 +14,10 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 import nodal_stress
+from elements import edge
 
 PRESSURE = 10e6
 GAUSS = np.sqrt(0.6) * np.array([-1, 0, 1]), np.array([5, 8, 5]) / 9
-
-
-def shape(xi):
-    """Of a 3-node edge, in the order start, middle, end: values and derivatives."""
-    values = np.stack([xi * (xi - 1) / 2, 1 - xi * xi, xi * (xi + 1) / 2], axis=-1)
-    return values, np.stack([xi - 0.5, -2 * xi, xi + 0.5], axis=-1)
 
 
 class Side:
@@ -34,7 +29,7 @@ class Side:
     def at(self, s):
         """The three nodes of the edge at each s (places in self.nodes), values and derivatives of their functions."""
         k = np.clip(s // 2, 0, len(self.x) // 2 - 1).astype(int)
-        return 2 * k[..., None] + [0, 1, 2], *shape(s - 2 * k - 1)
+        return 2 * k[..., None] + [0, 1, 2], *edge(s - 2 * k - 1)
 
     def position(self, s):
         near, N, _ = self.at(s)
@@ -61,7 +56,7 @@ def coupling(multiplier, opposite, out, size, cut=False):
     places = np.stack([ends[:-1], (ends[:-1] + ends[1:]) / 2, ends[1:]], axis=-1)
     Q = opposite.position(places)
     P = multiplier.position(multiplier.foot(Q))
-    N, dN = shape(GAUSS[0])
+    N, dN = edge(GAUSS[0])
     length = np.linalg.norm(dN @ P, axis=-1)
     normal = out * (dN @ P)[..., ::-1] * [-1, 1] / length[..., None]
     gap = ((N @ (Q - P)) * normal).sum(-1)
