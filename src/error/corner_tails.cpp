@@ -8,6 +8,7 @@
 #include "fem/elements.hpp"
 #include "fem/locate.hpp"
 #include "fem/quadrature.hpp"
+#include "fem/stress.hpp"
 
 namespace mortise {
 namespace {

@@ -1,5 +1,6 @@
 #include "fem/motion_sets.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <map>
 
