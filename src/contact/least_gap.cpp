@@ -39,6 +39,16 @@ double gap_at(const VecX& u, const ContactInterface& interface, const ContactPoi
   return point.gap + parted(u, interface, point).dot(point.normal);
 }
 
+std::vector<Interval> gap_ranges(const VecX& u, const ContactInterface& interface) {
+  std::vector<Interval> ranges(interface.multiplier.edges.size(), {infinity, -infinity});
+  for (const ContactPoint& point : interface.points) {
+    Interval& range = ranges[point.edge];
+    const double gap = gap_at(u, interface, point);
+    range = {std::min(range.low, gap), std::max(range.high, gap)};
+  }
+  return ranges;
+}
+
 std::vector<Trough> troughs(const Points& nodes, const VecX& u, const ContactInterface& interface) {
   const std::vector<ContactPoint>& points = interface.points;
   const bool closed = interface.multiplier.closed;

@@ -1,6 +1,7 @@
 // The nearest approach of the curves of a pair, also between the points at which contact is integrated.
 #pragma once
 
+#include "base/interval.hpp"
 #include "contact/segments.hpp"
 
 namespace mortise {
@@ -21,6 +22,10 @@ Vec2 parted(const VecX& u, const ContactInterface& interface, const ContactPoint
 
 /// How far the sides are apart at a point of the interface, undeformed gap and opening by `u` (two a node), length.
 double gap_at(const VecX& u, const ContactInterface& interface, const ContactPoint& point);
+
+/// On each edge of the multiplier side the gaps at its points; of an edge without points nothing: from infinity to
+/// -infinity.
+std::vector<Interval> gap_ranges(const VecX& u, const ContactInterface& interface);
 
 /// A place where the gap is less than on both sides of it.
 struct Trough {

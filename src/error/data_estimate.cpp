@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "contact/least_gap.hpp"
 #include "error/data_works.hpp"
 #include "error/gap_misfit.hpp"
 #include "error/pressure_bars.hpp"
@@ -28,22 +29,15 @@ void add_jumps(const GapErrors& gap, const PressureLine& line, std::vector<Singu
   }
 }
 
-// Of each edge of the multiplier side.
-VecX least_gaps(const ContactPair& pair, const VecX& u) {
-  VecX gaps = VecX::Constant(Eigen::Index(pair.multiplier.edges.size()), std::numeric_limits<double>::infinity());
-  for (const ContactPoint& point : pair.points) gaps(point.edge) = std::min(gaps(point.edge), gap_at(u, pair, point));
-  return gaps;
-}
-
 // An edge that carries nothing and stays open whatever its gap is off by has none.
 void add_gap_errors(const Problem& problem, const VecX& u, double excluded, std::vector<PressureEstimate>& pressures) {
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     const GapErrors gap = gap_errors(problem.mesh, problem.pairs[k], problem.discretisation.laws);
     if (gap.l2.size() == 0) continue;
     PressureEstimate& e = pressures[k];
-    const VecX least = least_gaps(problem.pairs[k], u);
+    const std::vector<Interval> gaps = gap_ranges(u, problem.pairs[k]);
     for (Eigen::Index i = 0; i < gap.l2.size(); ++i)
-      if (e.line.p(i) != 0 || e.line.p(i + 1) != 0 || least(i) <= gap.off(i))
+      if (e.line.p(i) != 0 || e.line.p(i + 1) != 0 || gaps[i].low <= gap.off(i))
         for (const int end : {0, 1}) e.local.add_data(i + end, gap.l2(i));
     if (!problem.pairs[k].spec.stiffness) add_jumps(gap, e.line, e.singular);
     find_excluded(excluded, e);

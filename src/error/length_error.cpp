@@ -1,7 +1,5 @@
 #include "error/length_error.hpp"
 
-#include <algorithm>
-
 #include "contact/least_gap.hpp"
 #include "error/goal_estimate.hpp"
 #include "error/pressure_bars.hpp"
@@ -9,13 +7,6 @@
 
 namespace mortise {
 namespace {
-
-// Of each edge the widest gap.
-VecX widest_gaps(const ContactPair& pair, const VecX& u) {
-  VecX gaps = VecX::Zero(Eigen::Index(pair.multiplier.edges.size()));
-  for (const ContactPoint& point : pair.points) gaps(point.edge) = std::max(gaps(point.edge), gap_at(u, pair, point));
-  return gaps;
-}
 
 // Edges that carry p, but no more than it may be off by.
 void add_hardly_pressed(const PressureEstimate& e, std::vector<char>& undecided) {
@@ -26,8 +17,8 @@ void add_hardly_pressed(const PressureEstimate& e, std::vector<char>& undecided)
 }
 
 // Edges beyond a border that what p is off by along the line there would close.
-void add_hardly_open(const PressureEstimate& e, const LineError::Border& border, double modulus, const VecX& gaps,
-                     std::vector<char>& undecided) {
+void add_hardly_open(const PressureEstimate& e, const LineError::Border& border, double modulus,
+                     const std::vector<Interval>& gaps, std::vector<char>& undecided) {
   const PressureLine& line = e.line;
   const Eigen::Index open = open_vertex(line, border);
   const int step = open == border.edge ? -1 : 1;
@@ -41,7 +32,7 @@ void add_hardly_open(const PressureEstimate& e, const LineError::Border& border,
     const Eigen::Index edge = line.edge_to(i, step);
     if (!line.faced[edge] || line.p(i) != 0) return;
     length += line.s(edge + 1) - line.s(edge);
-    if (modulus * gaps(edge) > 2 * length * off) return;
+    if (modulus * gaps[edge].high > 2 * length * off) return;
     undecided[edge] = 1;
   }
 }
@@ -59,7 +50,7 @@ double length_error(const Problem& problem, const ContactPair& pair, const VecX&
   }
   if (pair.spec.condition == Condition::unilateral && !pair.spec.stiffness) {
     const double modulus = contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
-    const VecX gaps = widest_gaps(pair, u);
+    const std::vector<Interval> gaps = gap_ranges(u, pair);
     error += opened_by_kinks(pair, modulus, u, e);
     add_hardly_pressed(e, undecided);
     for (const LineError::Border& border : e.local.borders) add_hardly_open(e, border, modulus, gaps, undecided);

@@ -43,6 +43,15 @@ std::vector<Edge> edges_of(const Mesh& mesh, const NamedBoundary& on) {
   return edges;
 }
 
+std::vector<Edge> edges_of(const Mesh& mesh, const BoundaryEntry& entry) {
+  std::vector<Edge> edges;
+  for (const NamedBoundary& on : entry.curves) {
+    const std::vector<Edge>& more = mesh.boundaries[on.boundary].edges;
+    edges.insert(edges.end(), more.begin(), more.end());
+  }
+  return edges;
+}
+
 BoundaryFields::BoundaryFields(const Mesh& mesh, const std::vector<NamedBoundary>& boundaries,
                                std::vector<const Field*> fields)
     : mesh_(mesh), fields_(std::move(fields)) {

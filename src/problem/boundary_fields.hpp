@@ -9,6 +9,9 @@ namespace mortise {
 /// Edges of a curve of the entry, in the order of its sides where it has some.
 std::vector<Edge> edges_of(const Mesh& mesh, const NamedBoundary& on);
 
+/// Of all curves of an entry, one after the other, as the mesh has them.
+std::vector<Edge> edges_of(const Mesh& mesh, const BoundaryEntry& entry);
+
 /// Those fields of an entry that vary, along its curves.
 class BoundaryFields {
  public:

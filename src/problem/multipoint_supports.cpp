@@ -59,11 +59,7 @@ void prescribe_direction(const Mesh& mesh, int number, const BoundaryEntry& entr
 
 RigidCurve make_rigid(const Mesh& mesh, const BoundaryEntry& entry, const RigidSpec& rigid, MultipointBuilder& builder,
                       SaddlePointSystem& system) {
-  std::vector<Edge> edges;
-  for (const NamedBoundary& on : entry.curves) {
-    const std::vector<Edge>& more = mesh.boundaries[on.boundary].edges;
-    edges.insert(edges.end(), more.begin(), more.end());
-  }
+  const std::vector<Edge> edges = edges_of(mesh, entry);
   std::vector<int> nodes;
   for (const Edge& edge : edges) nodes.insert(nodes.end(), edge.nodes.begin(), edge.nodes.begin() + edge.node_count);
   const bool rings = system.constraints.rings;  // they move along the axis alone

@@ -4,6 +4,7 @@
 
 #include "base/dense.hpp"
 #include "fem/edges.hpp"
+#include "problem/boundary_fields.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/layered_system.hpp"
 
@@ -13,21 +14,14 @@ namespace {
 // The nodes that an entry is on, each once.
 std::set<int> nodes_of(const Mesh& mesh, const BoundaryEntry& entry) {
   std::set<int> nodes;
-  for (const NamedBoundary& on : entry.curves)
-    for (const Edge& edge : mesh.boundaries[on.boundary].edges)
-      nodes.insert(edge.nodes.begin(), edge.nodes.begin() + edge.node_count);
+  for (const Edge& edge : edges_of(mesh, entry)) nodes.insert(edge.nodes.begin(), edge.nodes.begin() + edge.node_count);
   for (const int point : entry.points) nodes.insert(mesh.points[point].nodes.begin(), mesh.points[point].nodes.end());
   return nodes;
 }
 
 // The mean place along its curves, or of its points.
 Vec2 centre_of(const Mesh& mesh, const BoundaryEntry& entry) {
-  std::vector<Edge> edges;
-  for (const NamedBoundary& on : entry.curves) {
-    const std::vector<Edge>& more = mesh.boundaries[on.boundary].edges;
-    edges.insert(edges.end(), more.begin(), more.end());
-  }
-  if (!edges.empty()) return centre_of(mesh.nodes, edges);
+  if (const std::vector<Edge> edges = edges_of(mesh, entry); !edges.empty()) return centre_of(mesh.nodes, edges);
   const std::set<int> nodes = nodes_of(mesh, entry);
   return mesh.nodes(std::vector<int>(nodes.begin(), nodes.end()), Eigen::all).colwise().mean().transpose();
 }
