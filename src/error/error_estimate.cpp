@@ -8,6 +8,7 @@
 #include "base/parallel.hpp"
 #include "error/border_overlaps.hpp"
 #include "error/data_works.hpp"
+#include "error/dual_functionals.hpp"
 #include "error/fitted_pressure.hpp"
 #include "error/gap_error.hpp"
 #include "error/missed_contact.hpp"
@@ -229,49 +230,12 @@ void add_far_errors(const Mesh& mesh, ErrorEstimate& estimate) {
   }
 }
 
-// A column a dual, the sum of its windows, in the rows of all pairs.
-MatX window_functionals(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
-                        const SharedDuals& shared, Eigen::Index rows) {
-  MatX columns = MatX::Zero(rows, shared.count);
-  int window = 0;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    for (const PressureWindow& w : pressures[k].windows)
-      columns.col(shared.dual[window++]).segment(pairs[k].first_row, w.weights.size()) += w.weights;
-  return columns;
-}
-
-// A column a pair that has one.
-MatX fluctuation_functionals(const std::vector<ContactPair>& pairs, const std::vector<PressureEstimate>& pressures,
-                             Eigen::Index rows) {
-  const Eigen::Index count = std::ranges::count_if(pressures, [](const auto& e) { return e.fluctuation.has_value(); });
-  MatX columns = MatX::Zero(rows, count);
-  Eigen::Index column = 0;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (const auto& found = pressures[k].fluctuation)
-      columns.col(column++).segment(pairs[k].first_row, found->weights.size()) = found->weights;
-  return columns;
-}
-
-// A column a dual: those that the windows share, the fluctuations', those wanted besides, the goal's.
-MatX all_functionals(const Problem& p, const GoalFunctionals& goal, const MatX& also, const ErrorEstimate& estimate) {
-  const Eigen::Index rows = p.discretisation.system.B.rows();
-  const MatX fluctuations = fluctuation_functionals(p.pairs, estimate.pressures, rows);
-  const Eigen::Index windows = estimate.far.windows.count, shared = windows + fluctuations.cols();
-  const Eigen::Index goals = goal.rows.cols(), more = also.cols();
-  MatX functionals(rows, shared + more + goals);
-  functionals.leftCols(windows) = window_functionals(p.pairs, estimate.pressures, estimate.far.windows, rows);
-  functionals.middleCols(windows, fluctuations.cols()) = fluctuations;
-  if (more > 0) functionals.middleCols(shared, more) = also;
-  if (goals > 0) functionals.rightCols(goals) = goal.rows;
-  return functionals;
-}
-
 // The errors of cells and at the bodies' corners, and what they do to the functionals.
 void add_products(const Problem& p, const Solution& solution, const GoalFunctionals& goal,
                   const EstimateOptions& options, const BorderOverlaps& overlaps, BodyProducts& products,
                   ErrorEstimate& estimate) {
   const SaddlePointSystem& system = p.discretisation.system;
-  const MatX functionals = all_functionals(p, goal, options.also, estimate);
+  const MatX functionals = dual_functionals(p, estimate.pressures, estimate.far.windows, options.also, goal.rows);
   const Eigen::Index goals = goal.rows.cols(), more = options.also.cols(), shared = functionals.cols() - goals - more;
   CornerProducts at_corners(p.mesh, p.discretisation.laws, estimate.tails.corners);
   MatX kept(more + goals > 0 ? solution.u.size() : 0, more + goals);
