@@ -58,13 +58,13 @@ std::vector<Override> mesh(int order, int kind, int n_upper, int n_lower, bool o
 
 // ---- Equal materials: a / R = 0.01 ----
 
-const double half_width = 0.01;  // which holds n_upper and n_lower elements
+const double half_base = 0.01;  // which holds n_upper and n_lower elements
 
 // The exact slope is infinite at the edge of contact, which lies anywhere in an element: p swings there, each element
 // away from it by a third. So p is judged four elements away: up to 0.8 a with 20 elements, 0.9 a with 40.
 void expect_theory(const Results& r, double pressure, int n_upper, int n_lower) {
   const Hertz exact = theory(2 * pressure, 1, 210e9, 210e9);
-  const double h = half_width / std::min(n_upper, n_lower), reach = exact.a - 4 * h;
+  const double h = half_base / std::min(n_upper, n_lower), reach = exact.a - 4 * h;
   EXPECT_EQ(r.status, Status::solved);
   EXPECT_LE(r.solution.steps.size(), 12u);
   const ContactResults& contact = r.recovery.contacts[0];
@@ -106,7 +106,7 @@ TEST(CylinderOnABlock, AgreesWithHertzInEveryMultiplierSpace) {
 TEST(CylinderOnABlock, AgreesWithHertzWhereverTheEdgeLiesInAnElement) {
   for (const int order : {1, 2})
     for (int i = 0; i < 5; ++i) {
-      const double a = half_width * (1 + 0.2 * i / 20), E_star = 210e9 / 1.82;
+      const double a = half_base * (1 + 0.2 * i / 20), E_star = 210e9 / 1.82;
       const double pressure = std::numbers::pi * E_star * a * a / 8;
       SCOPED_TRACE("order " + std::to_string(order) + ", pressure " + std::to_string(pressure));
       auto overrides = mesh(order, 0, 20, 20, false);

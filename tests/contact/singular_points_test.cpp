@@ -7,32 +7,24 @@
 #include <numbers>
 #include <random>
 #include <set>
-#include <sstream>
 
 #include "base/vectors.hpp"
-#include "contact/curvature_jumps.hpp"
-#include "gmsh/load_mesh.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/drawn_foot.hpp"
+#include "support/points_of_pair.hpp"
 #include "support/two_plates.hpp"
 #include "support/wedges.hpp"
 
 namespace mortise {
 namespace {
 
-ContactReach reached_everywhere(const Curve& first, const Curve& second) {
-  return {std::vector<Reach>(first.edges.size() + 1, {true, true}),
-          std::vector<Reach>(second.edges.size() + 1, {true, true})};
-}
-
+using test::draw;
+using test::draw_power;
 using test::end_exponents;
 using test::kink_exponents;
+using test::points_of_pair;
+using test::reached_everywhere;
 using test::TwoPlates;
 using test::wedge_exponent;
-
-std::vector<SingularPoint> points_of_pair(const Surroundings& around, const Curve& first, const Curve& second,
-                                          const ContactReach& reach) {
-  return singular_points({contact_places(around, first, second, reach)}, around.tips)[0];
-}
 
 constexpr double deg = std::numbers::pi / 180;
 
@@ -166,248 +158,6 @@ TEST(SingularPoints, AreNotMadeByRoundOffOfDrawnArcs) {
         points_of_pair({mesh, SideTable(mesh), no_constraints(mesh), laws, tips}, curves[0], curves[1], reach);
     EXPECT_TRUE(points.empty()) << i << ": edges of " << scale << " times the plates'";
   }
-}
-
-// A body whose foot is a chain of curves that gmsh draws, above a flat one, turned and moved at random; lengths in
-// widths of the foot, angles from its chord.
-struct DrawnFoot {
-  struct Piece {
-    std::string kind;  // Line, Circle, Ellipse, Spline, BSpline, Bezier
-    double length, radius;
-    bool bulges;          // towards the flat body
-    double turn_to_next;  // radians
-  };
-  std::vector<Piece> pieces;
-  std::vector<double> sizes;  // of the mesh where the pieces begin and end
-  double width, place, angle;
-  int order;
-};
-
-double draw(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-double draw_power(std::mt19937& random, double low, double high) { return std::pow(10, draw(random, low, high)); }
-
-// `finest`: the decimal logarithm of the finest size.
-DrawnFoot random_foot(std::mt19937& random, int pieces, double finest) {
-  const std::array kinds{"Circle", "Ellipse", "Spline", "BSpline", "Bezier", "Line"};
-  DrawnFoot foot;
-  double angle = 0;
-  for (int i = 0; i < pieces; ++i) {
-    const std::string kind = kinds[random() % (pieces > 1 ? 6 : 5)];
-    double turn = draw_power(random, -2, 1.4) * deg;
-    if (angle > 0) turn = -turn;  // so that the foot stays level
-    angle += turn;
-    // An ellipse that is nearly a line gmsh draws past its own ends.
-    const double flattest = kind == "Ellipse" ? 3 : 5.7;
-    foot.pieces.push_back({kind, draw(random, 0.5, 1), draw_power(random, 0.7, flattest), random() % 2 == 1, turn});
-  }
-  double sum = 0;
-  for (const auto& piece : foot.pieces) sum += piece.length;
-  for (auto& piece : foot.pieces) {
-    piece.length /= sum;
-    piece.radius *= piece.length;
-  }
-  for (int i = 0; i <= pieces; ++i)
-    foot.sizes.push_back(i % 2 == 0 ? draw(random, 0.05, 0.2) : draw_power(random, finest, -1));
-  foot.width = draw_power(random, -2, 3);
-  foot.place = foot.width * draw(random, -1, 1) * (random() % 2 == 0 ? 1 : 30);
-  foot.angle = random() % 2 == 0 ? 0 : draw(random, -3, 3);
-  foot.order = 1 + int(random() % 2);
-  return foot;
-}
-
-struct FootFile {
-  std::string geo;
-  std::vector<Vec2> vertices;  // where pieces begin and end
-};
-
-FootFile file_of(const DrawnFoot& foot) {
-  FootFile file;
-  std::ostringstream out;
-  out.precision(17);
-  int tag = 1;
-  const auto moved = [&](const Vec2& x) {
-    const double c = std::cos(foot.angle), s = std::sin(foot.angle);
-    return Vec2(foot.width * Vec2(c * x.x() - s * x.y(), s * x.x() + c * x.y()) + foot.place * Vec2(1, -0.7));
-  };
-  const auto point = [&](const Vec2& x, double size) {
-    const Vec2 at = moved(x);
-    out << "Point(" << tag << ") = {" << at.x() << ", " << at.y() << ", 0, " << size * foot.width << "};\n";
-    return tag++;
-  };
-  const auto curve = [&](const std::string& kind, const std::vector<int>& points) {
-    out << kind << "(" << tag << ") = {";
-    for (std::size_t i = 0; i < points.size(); ++i) out << (i > 0 ? ", " : "") << points[i];
-    out << "};\n";
-    return tag++;
-  };
-  const auto surface = [&](const std::string& name, const std::vector<int>& curves) {
-    out << "Curve Loop(" << tag << ") = {";
-    for (std::size_t i = 0; i < curves.size(); ++i) out << (i > 0 ? ", " : "") << curves[i];
-    out << "}; Plane Surface(" << tag << ") = {" << tag << "}; Physical Surface(\"" << name << "\") = {" << tag
-        << "};\n";
-    ++tag;
-  };
-  const auto direction = [](double t) { return Vec2(std::cos(t), std::sin(t)); };
-  Vec2 x(0, 0);
-  double heading = 0;
-  int from = point(x, foot.sizes[0]);
-  const int first = from;
-  file.vertices.push_back(moved(x));
-  std::vector<int> loop;
-  for (std::size_t i = 0; i < foot.pieces.size(); ++i) {
-    const auto& piece = foot.pieces[i];
-    const double bend = piece.kind == "Line" ? 0 : piece.length / piece.radius * (piece.bulges ? 1 : -1);
-    const Vec2 chord = piece.length * direction(heading);
-    // Places of the arc about its middle, by the part of its turn.
-    const auto on_arc = [&](double part) {
-      if (bend == 0) return Vec2(x + part * chord);
-      const double r = piece.length / 2 / std::sin(bend / 2), a = bend * (part - 0.5);
-      const double along = r * std::sin(a),
-                   up = 2 * r * (std::pow(std::sin(bend / 4), 2) - std::pow(std::sin(a / 2), 2));
-      return Vec2(x + chord / 2 + along * direction(heading) - up * direction(heading + straight / 2));
-    };
-    std::vector<int> points{from};
-    const Vec2 end = on_arc(1);
-    const Vec2 centre =
-        x + chord / 2 + direction(heading + straight / 2) * (bend == 0 ? 0 : piece.length / 2 / std::tan(bend / 2));
-    if (piece.kind == "Circle") points.push_back(point(centre, 1));
-    if (piece.kind == "Ellipse") {  // half the length above the chord's middle; the foot's axis is its longer one
-      points.push_back(point(centre, 1));
-      points.push_back(point(centre + piece.length * direction(heading + 0.3), 1));
-    }
-    if (piece.kind == "Spline" || piece.kind == "BSpline" || piece.kind == "Bezier")
-      for (const double part : {0.2, 0.45, 0.8}) points.push_back(point(on_arc(part), 1));
-    from = point(end, foot.sizes[i + 1]);
-    points.push_back(from);
-    loop.push_back(curve(piece.kind, points));
-    x = end;
-    file.vertices.push_back(moved(x));
-    heading += piece.turn_to_next;
-  }
-  out << "Physical Curve(\"foot\") = {";
-  for (std::size_t i = 0; i < loop.size(); ++i) out << (i > 0 ? ", " : "") << loop[i];
-  out << "};\n";
-  const int right = point({1, 1}, 0.4), left = point({0, 1}, 0.4);
-  loop.push_back(curve("Line", {from, right}));
-  loop.push_back(curve("Line", {right, left}));
-  loop.push_back(curve("Line", {left, first}));
-  surface("upper", loop);
-  const std::vector<int> corners{point({-2, -2}, 1), point({3, -2}, 1), point({3, -0.7}, 1), point({-2, -0.7}, 1)};
-  loop.clear();
-  for (int i = 0; i < 4; ++i) loop.push_back(curve("Line", {corners[i], corners[(i + 1) % 4]}));
-  out << "Physical Curve(\"flat\") = {" << loop[2] << "};\n";
-  surface("lower", loop);
-  out << "Mesh.ElementOrder = " << foot.order << "; Mesh.SecondOrderIncomplete = 1;\n";
-  file.geo = out.str();
-  return file;
-}
-
-// Of the foot, without its ends.
-std::vector<Vec2> kinks_of(const FootFile& file, const DrawnFoot& foot) {
-  const test::TemporaryFolder folder;
-  const Mesh mesh = load_mesh(folder.write("a.geo", file.geo), {});
-  const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
-  TipTable tips;
-  const Curve upper = contact_curve(mesh, boundary_index(mesh, "foot")),
-              lower = contact_curve(mesh, boundary_index(mesh, "flat"));
-  EXPECT_EQ(upper.samples.size(), upper.edges.size()) << mesh.boundaries[upper.boundary].undrawn;
-  ContactReach reach = reached_everywhere(upper, lower);
-  reach[0].front() = reach[0].back() = {false, false};
-  std::vector<Vec2> found;
-  for (const SingularPoint& p :
-       points_of_pair({mesh, SideTable(mesh), no_constraints(mesh), laws, tips}, upper, lower, reach))
-    found.push_back(p.position);
-  // Smooth within an edge, too: a circle is one polynomial to round-off of its centre.
-  for (std::size_t e = 0; e < upper.samples.size() && foot.pieces.size() == 1; ++e)
-    if (foot.pieces[0].kind == "Circle") EXPECT_EQ(upper.samples[e].pieces.size(), 1u);
-  EXPECT_TRUE(curvature_jumps(mesh.nodes, upper, ContactLine(mesh.nodes, upper)).empty() || foot.pieces.size() > 1 ||
-              foot.pieces[0].kind.ends_with("pline"));
-  return found;
-}
-
-std::string name_of(const DrawnFoot& foot) {
-  std::ostringstream out;
-  for (const auto& piece : foot.pieces)
-    out << piece.kind << " " << piece.length << " R " << piece.radius << " then " << piece.turn_to_next / deg << "; ";
-  out << "sizes";
-  for (const double size : foot.sizes) out << " " << size;
-  out << " width " << foot.width << " at " << foot.place << " by " << foot.angle;
-  return out.str();
-}
-
-// Arcs of radii up to 1e6 times their half width, whose places are known no better than those of their centres.
-TEST(SingularPoints, WithinOneDrawnCurveThereAreNone) {
-  std::mt19937 random(8);
-  for (int i = 0; i < 40; ++i) {
-    const DrawnFoot foot = random_foot(random, 1, -4);
-    for (const Vec2& x : kinks_of(file_of(foot), foot))
-      ADD_FAILURE() << i << ": (" << x.transpose() << ") of " << name_of(foot);
-  }
-}
-
-TEST(SingularPoints, DrawnCurvesThatMeetAtAnyAngleAreFoundAsKinks) {
-  std::mt19937 random(9);
-  for (int i = 0; i < 40; ++i) {
-    const DrawnFoot foot = random_foot(random, 2 + int(random() % 2), -3);
-    const FootFile file = file_of(foot);
-    const std::vector<Vec2> found = kinks_of(file, foot);
-    EXPECT_EQ(found.size(), foot.pieces.size() - 1) << i << ": " << name_of(foot);
-    for (std::size_t k = 1; k < foot.pieces.size(); ++k)
-      EXPECT_TRUE(
-          std::ranges::any_of(found, [&](const Vec2& x) { return (x - file.vertices[k]).norm() < 1e-9 * foot.width; }))
-          << i << ": " << name_of(foot);
-  }
-}
-
-// At its kinks and at vertices of smooth pieces, each part a contact of its own.
-TEST(SingularPoints, AreThoseOfTheWholeCurveHoweverManyNamesItHas) {
-  std::mt19937 random(10);
-  int kinks = 0;
-  for (int i = 0; i < 40; ++i) {
-    const DrawnFoot foot = random_foot(random, 1 + int(random() % 3), -3);
-    const test::TemporaryFolder folder;
-    const Mesh mesh = load_mesh(folder.write("a.geo", file_of(foot).geo), {});
-    const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
-    const Constraints free = no_constraints(mesh);
-    const SideTable table(mesh);
-    TipTable tips;
-    const Surroundings around{mesh, table, free, laws, tips};
-    const Curve upper = contact_curve(mesh, boundary_index(mesh, "foot")),
-                lower = contact_curve(mesh, boundary_index(mesh, "flat"));
-    ContactReach reach = reached_everywhere(upper, lower);
-    reach[0].front() = reach[0].back() = {false, false};
-    const auto whole = singular_points({contact_places(around, upper, lower, reach)}, tips)[0];
-    std::set<std::size_t> cuts{0, upper.edges.size()};
-    for (std::size_t e = 1; e < upper.edges.size(); ++e) {
-      const Vec2 x = mesh.nodes.row(upper.edges[e].nodes[0]).transpose();
-      const bool is_kink = std::ranges::any_of(whole, [&](const SingularPoint& p) { return p.position == x; });
-      if (random() % (is_kink ? 2 : 8) == 0) cuts.insert(e);
-    }
-    std::vector<std::vector<ContactPlace>> places;
-    for (auto from = cuts.begin(), to = std::next(from); to != cuts.end(); from = to++) {
-      Curve part = upper;
-      part.edges = {upper.edges.begin() + *from, upper.edges.begin() + *to};
-      part.samples = {upper.samples.begin() + *from, upper.samples.begin() + *to};
-      ContactReach of_part = reached_everywhere(part, lower);
-      if (*from == 0) of_part[0].front() = {false, false};
-      if (*to == upper.edges.size()) of_part[0].back() = {false, false};
-      places.push_back(contact_places(around, part, lower, of_part));
-    }
-    std::vector<SingularPoint> found;
-    for (const auto& points : singular_points(places, tips))
-      for (const SingularPoint& point : points)
-        if (std::ranges::none_of(found, [&](const auto& p) { return p.position == point.position; }))
-          found.push_back(point);
-    ASSERT_EQ(found.size(), whole.size()) << i << ": " << name_of(foot);
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      EXPECT_NEAR(found[k].pressure_exponent, whole[k].pressure_exponent, 1e-6) << i;
-      EXPECT_NEAR(found[k].log_pressure, whole[k].log_pressure, 1e-6 * whole[k].log_pressure) << i;
-    }
-    kinks += int(whole.size());
-  }
-  EXPECT_GE(kinks, 20);
 }
 
 // The preprint's parabola has slopes 1 and -1 at its ends, with elements of any kind, and no corner between them.
