@@ -38,16 +38,6 @@ between = ["low", "high"]
 on = "ground"
 displacement = { x = 0, y = 0 }
 """
-BLOCKS_GEO = """
-DefineConstant[ n = 1 ];
-SetFactory("OpenCASCADE");
-Rectangle(1) = {0, 0, 0, 1, 1}; Rectangle(2) = {0, 0, 0, 1, 1};
-Physical Surface("coarse") = {1}; Physical Surface("fine") = {2};
-Physical Curve("bottom") = {1, 5}; Physical Curve("right") = {2, 6};
-Physical Curve("top") = {3, 7}; Physical Curve("left") = {4, 8};
-Transfinite Curve{1 : 4} = n + 1; Transfinite Curve{5 : 8} = n + 2;
-Transfinite Surface{1, 2}; Recombine Surface{1, 2};
-"""
 
 
 @pytest.fixture
@@ -115,9 +105,9 @@ def write_values(desk):
 @pytest.mark.parametrize("number", range(len(SNIPPETS)))
 def test_snippets_of_a_scene(desk, number):
     snippet = SNIPPETS[number]
-    write(desk, {"base.geo": BASE_GEO, "blocks.geo": BLOCKS_GEO})
+    write(desk, {"base.geo": BASE_GEO})
     write_values(desk)
-    write(desk, {"scene.toml": snippet if "mesh.file" in snippet else BASE_TOML + snippet})
+    write(desk, {"scene.toml": BASE_TOML + snippet})
     assert "unknown" not in run(desk, "mortise check scene.toml")
 
 
