@@ -302,10 +302,6 @@ double add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws,
   return energy;
 }
 
-double add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, VecX& load) {
-  return add_initial_strain(mesh, laws, {}, load);
-}
-
 Resultant add_body_forces(const Mesh& mesh, const Model& model, const std::vector<BodyForce>& forces,
                           const CellRules& rules, VecX& load) {
   Resultant sum;

@@ -15,10 +15,6 @@ namespace mortise {
 /// them.
 SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticLaw>& laws, int threads = 1);
 
-/// load += int B^T C : eps0, for the bodies whose law has an initial strain. Returns int 1/2 eps0 : C : eps0, the
-/// energy of these held at zero strain.
-double add_initial_strain(const Mesh& mesh, const std::vector<ElasticLaw>& laws, VecX& load);
-
 /// A force per volume as a function of the place; empty: none.
 using BodyForce = std::function<Vec2(const Vec2& position)>;
 

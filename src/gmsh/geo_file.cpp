@@ -86,7 +86,7 @@ void for_each_text(const fs::path& file, std::set<fs::path>& seen, Visit visit) 
   if (!is_text(file) || !seen.insert(fs::weakly_canonical(file, ignored)).second) return;
   const GeoText geo = read_geo_text(file);
   visit(geo);
-  for (const GeoInclude& include : includes_of(geo)) for_each_text(include.file, seen, visit);
+  for (const fs::path& include : included_files(geo)) for_each_text(include, seen, visit);
 }
 
 std::string decimal(double value) {
@@ -125,8 +125,8 @@ std::vector<fs::path> geo_inputs(const fs::path& file) {
   std::set<fs::path> seen;
   std::vector<fs::path> files{file};
   for_each_text(file, seen, [&](const GeoText& geo) {
-    for (const GeoInclude& include : includes_of(geo)) {
-      if (!include.file.empty()) files.push_back(include.file);
+    for (const fs::path& include : included_files(geo)) {
+      if (!include.empty()) files.push_back(include);
     }
   });
   return files;
@@ -142,7 +142,7 @@ std::optional<std::vector<fs::path>> geo_sources(const fs::path& file) {
   try {
     for_each_text(file, seen, [&](const GeoText& geo) {
       for (const char* word : outward) closed = closed && ends_of_word(geo.code, word).empty();
-      for (const GeoInclude& include : includes_of(geo)) closed = closed && !include.file.empty();
+      for (const fs::path& include : included_files(geo)) closed = closed && !include.empty();
     });
   } catch (const InputError&) {  // a file that is not there
     return std::nullopt;

@@ -1,6 +1,5 @@
 #include "gmsh/geo_text.hpp"
 
-#include <algorithm>
 #include <cctype>
 #include <fstream>
 #include <sstream>
@@ -83,27 +82,19 @@ std::size_t skip_brackets(const std::string& code, std::size_t i) {
   return i;
 }
 
-std::string place_of(const GeoText& geo, std::size_t position) {
-  const auto end = geo.code.begin() + static_cast<std::ptrdiff_t>(position);
-  return geo.file.string() + ", line " + std::to_string(1 + std::count(geo.code.begin(), end, '\n'));
-}
-
-std::vector<GeoInclude> includes_of(const GeoText& geo) {
-  std::vector<GeoInclude> includes;
+std::vector<std::filesystem::path> included_files(const GeoText& geo) {
+  std::vector<std::filesystem::path> files;
   for (const char* word : {"Include", "Merge", "MergeFile", "MergeWithBoundingBox", "ShapeFromFile"}) {
     for (const std::size_t end : ends_of_word(geo.code, word)) {
       std::size_t start = skip_spaces(geo.code, end);
       if (start < geo.code.size() && geo.code[start] == '(') start = skip_spaces(geo.code, start + 1);
       const bool quoted = start < geo.code.size() && (geo.code[start] == '"' || geo.code[start] == '\'');
       const std::size_t stop = quoted ? geo.text.find(geo.text[start], start + 1) : std::string::npos;
-      if (stop == std::string::npos) {
-        includes.push_back({end, {}});
-      } else {
-        includes.push_back({end, geo.file.parent_path() / geo.text.substr(start + 1, stop - start - 1)});
-      }
+      const bool named = stop != std::string::npos;
+      files.push_back(named ? geo.file.parent_path() / geo.text.substr(start + 1, stop - start - 1) : "");
     }
   }
-  return includes;
+  return files;
 }
 
 }  // namespace mortise

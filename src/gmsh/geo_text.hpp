@@ -25,14 +25,7 @@ std::size_t skip_word(const std::string& code, std::size_t i);
 /// Position behind the bracket that closes the one at `i`; the end of the code if none does.
 std::size_t skip_brackets(const std::string& code, std::size_t i);
 
-/// "FILE, line N", of a position.
-std::string place_of(const GeoText& geo, std::size_t position);
-
-/// A file that is read by Include, Merge and the like.
-struct GeoInclude {
-  std::size_t position;        ///< of the command, for place_of
-  std::filesystem::path file;  ///< empty where the name is not a plain string
-};
-std::vector<GeoInclude> includes_of(const GeoText& geo);
+/// The files that are read by Include, Merge and the like; empty where the name is not a plain string.
+std::vector<std::filesystem::path> included_files(const GeoText& geo);
 
 }  // namespace mortise
