@@ -30,8 +30,6 @@ VecX eigenvalue_moduli(MatX A) {
   return (re.array().square() + im.array().square()).sqrt();
 }
 
-VecX solve_square(const MatX& A, const VecX& b) { return A.cols() > 0 ? VecX(A.partialPivLu().solve(b)) : b; }
-
 MatX inverse_of(const MatX& A) { return A.partialPivLu().inverse(); }
 
 MatX orthonormal(const MatX& columns) {

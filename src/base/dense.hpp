@@ -17,10 +17,7 @@ SymmetricEigen symmetric_eigen(const MatX& A);
 /// Moduli of the eigenvalues of a square matrix, in no order (LAPACK's dgeev).
 VecX eigenvalue_moduli(MatX A);
 
-/// A^-1 b of a square A, by LU with partial pivoting; b where both are empty.
-VecX solve_square(const MatX& A, const VecX& b);
-
-/// A^-1, likewise.
+/// A^-1 of a square A, by LU with partial pivoting.
 MatX inverse_of(const MatX& A);
 
 /// Orthonormal columns that span those of a matrix of full column rank.

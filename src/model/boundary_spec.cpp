@@ -16,8 +16,6 @@ bool is_load(const BoundaryCondition& what) { return is_any<Pressure, SurfaceTra
 
 bool is_foundation(const BoundaryCondition& what) { return is_any<NormalFoundation, AxesFoundation>(what); }
 
-bool is_skew(const BoundaryCondition& what) { return is_any<NormalDisplacement, DirectedDisplacement>(what); }
-
 std::vector<const Field*> fields_of(const BoundaryCondition& what) {
   using Fields = std::vector<const Field*>;
   return std::visit(

@@ -96,8 +96,6 @@ struct BoundarySpec {
 
 bool is_load(const BoundaryCondition& what);
 bool is_foundation(const BoundaryCondition& what);
-/// A displacement along a direction that is neither x nor y.
-bool is_skew(const BoundaryCondition& what);
 
 /// The functions of place in it.
 std::vector<const Field*> fields_of(const BoundaryCondition& what);

@@ -176,7 +176,6 @@ BorderedCholesky::BorderedCholesky(SparseMatrix&& given, EliminationOrder order)
 }
 
 BorderedCholesky::~BorderedCholesky() = default;
-BorderedCholesky::BorderedCholesky(BorderedCholesky&&) noexcept = default;
 
 int BorderedCholesky::failed_at() const { return factor_->failed_at; }
 

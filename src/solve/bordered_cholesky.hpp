@@ -38,7 +38,6 @@ class BorderedCholesky {
   BorderedCholesky(SparseMatrix&& matrix, const std::vector<int>& blocks);
   BorderedCholesky(SparseMatrix&& matrix, EliminationOrder order);
   ~BorderedCholesky();
-  BorderedCholesky(BorderedCholesky&&) noexcept;
 
   /// -1, or the unknown at which K turned out not to be positive definite: nothing below may be called then.
   int failed_at() const;

@@ -1,13 +1,13 @@
 // The program of docs/tour.md: what the page shows of it stands here as it is, and it prints what the page says.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
 
 #include "app/solve_scene.hpp"
 #include "app/solve_system.hpp"
-#include "base/dense.hpp"
 #include "contact/segments.hpp"
 #include "mortise/scene.hpp"
 
@@ -96,7 +96,7 @@ std::string walk() {
   bordered(m, m) = S.dot(free) - 1;
   VecX right(m + 1);
   right << B * factor.solve(f) - system.g.cwiseQuotient(system.row_scale), S.dot(factor.solve(f));
-  const VecX lambda = E * solve_square(bordered, right).head(m).cwiseQuotient(system.row_scale);
+  const VecX lambda = E * bordered.partialPivLu().solve(right).head(m).cwiseQuotient(system.row_scale);
 
   const Solution solution = SystemSolver(problem.method, system, problem.dirichlet).solve();
   const bool same = (lambda - solution.lambda).norm() < 1e-9 * lambda.norm();
