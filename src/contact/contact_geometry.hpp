@@ -25,6 +25,7 @@ struct ContactGeometry {
       one_line{};  ///< of each edge of the multiplier side, whether both lines are one there; empty: of none
   std::optional<ArcLength> s{};  ///< along the multiplier side, where these two ask for it
   Model model = {};
+  bool beyond_steps = false;  ///< whether all that faces counts on the far side of steps too: a fluid presses on it
 
   /// From a place on the multiplier side's edges along the normal there.
   Line line_from(const Points& nodes, const Curve& curve, const Place& at) const;

@@ -167,7 +167,7 @@ class Steps {
 
 std::vector<Segment> up_to_steps(const Points& nodes, const ContactInterface& interface,
                                  std::vector<Segment> segments) {
-  if (interface.geometry.given) return segments;
+  if (interface.geometry.given || interface.geometry.beyond_steps) return segments;
   const Steps steps(nodes, interface, segments);
   std::vector<char> far(segments.size(), 0);
   for (int k = 0; k < int(segments.size()); ++k) {

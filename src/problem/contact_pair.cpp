@@ -111,7 +111,8 @@ ContactPair coupled(const Method& method, const Mesh& mesh, const Discretisation
                    .given = spec.initial_gap == InitialGap::given ? std::optional(spec.gap) : std::nullopt,
                    .clearance = spec.clearance,
                    .s = {},
-                   .model = d.model};
+                   .model = d.model,
+                   .beyond_steps = spec.fluid.has_value()};
   if (spec.gap.uses_arc_length() || spec.clearance.uses_arc_length())
     pair.geometry.s.emplace(mesh.nodes, pair.multiplier);
   pair.points = contact_points(mesh.nodes, pair, method.integration);
