@@ -202,12 +202,13 @@ Keys contact_keys(ContactSpec& contact, const FieldUse& use) {
           "in place of `pretension`: how far the faces are drawn into each other, a length"),
       key("multipliers_on", contact.multipliers_on, a_name(), "one of the two curves",
           "that of the softer body where the other is more than 10 times as stiff (theory, section 13), else, on the "
-          "meshes of `[accuracy]`, that whose drawn curvature does not jump where the other's does, else that of a "
-          "curve which faces the other on at least 95 % of its length where the other does so on at most 90 %, else "
-          "the one with the shorter edges on average, the first if equal, as on the meshes of `[accuracy]`; but of "
-          "linear elements the longer edges if they are more than 1.5 times as long ([stability.md](stability.md)). In "
-          "domain decomposition: the curve of "
-          "the body that takes the displacement, or the coarser one where both bodies take both"),
+          "meshes of `[accuracy]`, that which alone is smooth as it is drawn: it does not turn at a place where it "
+          "faces the other on both sides, and its curvature does not jump, else that from which the other is not seen "
+          "to end and go on farther away, else that of a curve which faces the other on at least 95 % of its length "
+          "where the other does so on at most 90 %, else the one with the shorter edges on average, the first if "
+          "equal, as on the meshes of `[accuracy]`; but of linear elements the longer edges if they are more than 1.5 "
+          "times as long ([stability.md](stability.md)). In domain decomposition: the curve of the body that takes the "
+          "displacement, or the coarser one where both bodies take both"),
   };
 }
 
