@@ -27,8 +27,8 @@ int quadratic_roots(double c0, double c1, double c2, std::array<double, 2>& root
   return 2;
 }
 
-// Whether x, `depth` in front of a place on the edge as n points, lies outside the edge's body: what the line meets
-// there is a face that the body itself hides.
+// Whether the line from a place on the edge along n leaves the edge's body within `depth`, before it gets to x: then x
+// lies outside that body, which hides the face from it.
 bool is_hidden(const Curve& curve, const Edge& edge, const Vec2& place, const Vec2& n, double depth) {
   return curve.outline && curve.outline->way_out(edge, place, n, depth) < depth;
 }

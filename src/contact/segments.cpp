@@ -113,7 +113,9 @@ std::vector<Segment> find_segments(const Points& nodes, const ContactInterface& 
 
 namespace {
 
-constexpr double least_step = 0.02;  // of the edge: displacements beyond are told of (results/large_displacement.cpp)
+// Of the edge: a strain or a turn that closes more of it within the edge is no small one, and results/line_checks.cpp
+// and large_displacement.cpp judge it.
+constexpr double least_step = 0.02;
 constexpr double one_direction = 1e-6;  // radians: of normals on both sides of a place of a smooth line
 
 class Steps {

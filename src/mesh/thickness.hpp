@@ -22,8 +22,8 @@ class BodyOutline {
     double near;
   };
 
-  /// How far a line from a place on an edge, along a unit direction into the body, goes before it leaves the body;
-  /// without limit where it does not within `reach`.
+  /// How far a line from a place on an edge, along a unit direction into the body, goes before it leaves the body other
+  /// than by that edge, length; infinite where it does not within `reach`, length.
   double way_out(const Edge& edge, const Vec2& from, const Vec2& along, double reach, const Face& face = {}) const;
 
   double diagonal() const { return diagonal_; }

@@ -28,9 +28,9 @@ inline constexpr double facet_limit = 1.5;
 
 /// One a [[contact]] entry. Multipliers lie on the side the scene names, else on the much softer body (stiffer_limit),
 /// else, on meshes that [accuracy] makes, on the curve that alone is smooth in direction and curvature, else on that
-/// which alone sees no steps (up_to_steps), else on the
-/// one that is covered (covered_limit), else on much longer straight edges (facet_limit), else on the side with the
-/// shorter edges, the first if equal and on meshes that [accuracy] makes. In domain decomposition, where `dirichlet`
+/// which alone sees no steps (up_to_steps), else on the one that is covered (covered_limit), else on much longer
+/// straight edges (facet_limit), else on the side with the shorter edges, the first if equal and on meshes that
+/// [accuracy] makes. In domain decomposition, where `dirichlet`
 /// says of each body whether it takes the displacement, the default is that body's curve, or the one with the longer
 /// edges where both bodies take both.
 std::vector<ContactPair> couple_pairs(const Method& method, const Mesh& mesh, const Discretisation& discretisation,

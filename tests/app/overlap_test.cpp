@@ -158,7 +158,8 @@ TEST(Overlap, NoneIsSeenThroughABodysOwnSides) {
       drawn.emplace_back(std::string("mesh.parameters.") + name, std::to_string(value));
     const Problem key = check_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/key.toml", drawn));
     for (const ContactPair& pair : key.pairs)
-      for (const ContactPoint& point : pair.points) ASSERT_GE(point.gap, -1e-9) << "draw " << draw;
+      for (const ContactPoint& point : pair.points)
+        ASSERT_GE(point.gap, -1e-9) << "draw " << draw;  // of a shaft of 60: round-off of places is 1e-14
   }
 }
 
