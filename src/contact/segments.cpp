@@ -116,7 +116,8 @@ namespace {
 // Of the edge: a strain or a turn that closes more of it within the edge is no small one, and results/line_checks.cpp
 // and large_displacement.cpp judge it.
 constexpr double least_step = 0.02;
-constexpr double one_direction = 1e-6;  // radians: of normals on both sides of a place of a smooth line
+constexpr double steep = 0.1;           // slope of a gap: turns that close it are told of likewise, by their square
+constexpr double one_direction = 1e-6;  // radians: of the normals of two facets of a straight line
 
 class Steps {
  public:
@@ -136,16 +137,16 @@ class Steps {
     return follows && first.end == 1 && second.begin == -1 ? next : -1;
   }
 
-  // By how much the gap rises from a segment to the one behind it, length; 0 where it is no step.
-  double step(int k, int behind) const {
+  // Where the gap steps up between a segment and the one behind it: 1 behind, -1 before, 0 nowhere.
+  int far_side(int k, int behind) const {
     const Segment &first = segments_[k], &second = segments_[behind];
     const Line before = line(first.edge, first.end), after = line(second.edge, second.begin);
-    if ((before.n - after.n).norm() > one_direction) return 0;
     const auto from = project_onto_edge(nodes_, interface_.opposite, first.opposite_edge, before),
                to = project_onto_edge(nodes_, interface_.opposite, second.opposite_edge, after);
-    if (!from || !to) return 0;
+    if (!from || !to || turns_by_facets(before, after)) return 0;
     const double rise = to->distance - from->distance;
-    return std::abs(rise) > least_step * length(rise > 0 ? first.edge : second.edge) ? rise : 0;
+    if (std::abs(rise) > least_step * length(rise > 0 ? first.edge : second.edge)) return rise > 0 ? 1 : -1;
+    return steep_side(slope(before, *from), slope(after, *to));
   }
 
   // Whether two edges have a vertex in common.
@@ -155,6 +156,26 @@ class Steps {
   }
 
  private:
+  // At a corner, by the slopes on both sides of it: the side on which the gap opens at once, if not on both.
+  static int steep_side(double before, double behind) {
+    if (behind - before <= steep) return 0;
+    const bool opens_before = before<-steep, opens_behind = behind> steep;
+    return opens_before == opens_behind ? 0 : opens_behind ? 1 : -1;
+  }
+
+  // Facets have corners that the drawn curve has not.
+  bool turns_by_facets(const Line& before, const Line& after) const {
+    return !interface_.geometry.normals && (before.n - after.n).norm() > one_direction;
+  }
+
+  // Of the gap along the multiplier side.
+  double slope(const Line& from, const Hit& hit) const {
+    const ContactGeometry& geometry = interface_.geometry;
+    if (!geometry.normals || !geometry.opposite) return 0;
+    const Vec2 opposite = geometry.opposite->at(hit.edge, hit.xi).tangent, along(-from.n.y(), from.n.x());
+    return opposite.dot(from.n) / opposite.dot(along);
+  }
+
   Line line(int edge, double xi) const {
     return interface_.geometry.line_from(nodes_, interface_.multiplier, {edge, xi});
   }
@@ -174,13 +195,13 @@ std::vector<Segment> up_to_steps(const Points& nodes, const ContactInterface& in
   std::vector<char> far(segments.size(), 0);
   for (int k = 0; k < int(segments.size()); ++k) {
     const int behind = steps.beside(k, 1);
-    const double rise = behind < 0 ? 0 : steps.step(k, behind);
-    if (rise == 0) continue;
-    const int way = rise > 0 ? 1 : -1, near = rise > 0 ? k : behind;
-    for (int i = rise > 0 ? behind : k; i >= 0 && steps.touch(segments[i].edge, segments[near].edge);) {
+    const int way = behind < 0 ? 0 : steps.far_side(k, behind);
+    if (way == 0) continue;
+    const int near = way > 0 ? k : behind;
+    for (int i = way > 0 ? behind : k; i >= 0 && steps.touch(segments[i].edge, segments[near].edge);) {
       far[i] = 1;
       const int next = steps.beside(i, way);
-      if (next < 0 || next == near || steps.step(way > 0 ? i : next, way > 0 ? next : i) != 0) break;
+      if (next < 0 || next == near || steps.far_side(way > 0 ? i : next, way > 0 ? next : i) != 0) break;
       i = next;
     }
   }

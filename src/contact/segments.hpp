@@ -21,11 +21,11 @@ struct Segment {
 /// Pieces that face nothing are left out (partial overlap).
 std::vector<Segment> find_segments(const Points& nodes, const ContactInterface& interface);
 
-/// At a corner of the opposite side beyond which that faces the multiplier side again, the gap is a function with a
-/// step. A row over the step holds the mean of both sides, and would stay open up to an edge before the corner, which
+/// At a corner of either side the gap may step up, or rise at once: beyond an overhang, around the tip of a tooth. A
+/// row over the corner holds the mean of both sides, and would stay open up to an edge before it, so that the corner
 /// digs in. So contact ends there as at an end of the opposite side: of `segments`, in the order of the curve, those on
-/// the far side are left out on the edges whose multipliers have a part of them on the near side. Steps that strains of
-/// small displacements may close within an edge are none, nor are those of a gap that is given.
+/// the far side are left out on the edges whose multipliers have a part of them on the near side. What strains and
+/// turns of small displacements may close within an edge is no step, nor are steps of a gap that is given.
 std::vector<Segment> up_to_steps(const Points& nodes, const ContactInterface& interface, std::vector<Segment> segments);
 
 /// Gauss points on each segment: exact on straight edges for the product of both sides' shape functions, and of a

@@ -131,6 +131,7 @@ void add_opposite(const Mesh& mesh, const Model& model, const ContactPair& pair,
   ContactInterface back{
       .multiplier = pair.opposite, .opposite = pair.multiplier, .geometry = {}, .points = {}, .coupling = {}};
   back.geometry.model = model;
+  back.geometry.beyond_steps = true;
   const std::vector<int> rows = rows_beside(pair);
   for (const ContactPoint& c : contact_points(mesh.nodes, back, Integration::segments)) {
     const Edge &face = pair.opposite.edges[c.edge], &edge = pair.multiplier.edges[c.opposite_edge];

@@ -184,6 +184,17 @@ TEST(ContactReach, IsNotLostAtAPlaceThatWasFoundBefore) {
   EXPECT_FALSE(contact_reach(r.problem.mesh, r.problem.pairs[0], line, r.solution.u, {other})[1].back().any());
 }
 
+// Of the lower block's top, from x = 1 to 0, the part up to x = 0.2 faces the upper one.
+TEST(ContactReach, IsFoundFromTheSideThatFacesTheOther) {
+  const Results r = solved(blocks(0.25, 0), {});
+  PressureLine open = r.estimate->pressures[0].line;
+  open.p.setZero();
+  const FoundPoint found{.between = {"seat", "foot"}, .position = {0.2, 0.5}};
+  const Reach last = contact_reach(r.problem.mesh, r.problem.pairs[0], open, r.solution.u, {found})[1][8];
+  EXPECT_TRUE(last.before);
+  EXPECT_FALSE(last.after);
+}
+
 // p near a kink of 0.02 goes as E* turn slide / 2 pi r: listed; of a turn of 1e-7 nothing is seen.
 TEST(SlidingKinks, AreListedWhereWhatTheyDoIsSeen) {
   const auto kinks = [](const Results& r) {

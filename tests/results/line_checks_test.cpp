@@ -14,6 +14,7 @@
 #include "results/error_report.hpp"
 #include "results/large_displacement.hpp"
 #include "results/line_motion.hpp"
+#include "results/slides_across_jumps.hpp"
 #include "support/messages.hpp"
 #include "support/plate_scenes.hpp"
 #include "support/temporary_folder.hpp"
@@ -302,6 +303,12 @@ TEST(LineChecks, TellOfSlidesAcrossAJumpOfCurvatureHowFarPIsOff) {
   EXPECT_NEAR(told_of_jump(rounded_foot(folder, growth, "sole", 0, false)), told, told / 2);
   EXPECT_EQ(told_of_jump(rounded_foot(folder, growth, "top", 0, true)), 0);
   EXPECT_EQ(told_of_jump(rounded_foot(folder, 0, "top", 0, false)), 0);
+  const Points& nodes = drawn.problem.mesh.nodes;
+  const ContactPair& pair = drawn.problem.pairs[0];
+  const auto places = place_motions(nodes, pair, drawn.recovery.contacts[0], drawn.solution.u);
+  const double all = slide_across_jumps(nodes, pair, places, 1e30)->part;  // all of p stands elsewhere
+  EXPECT_GT(all, 1);
+  EXPECT_LE(all, std::numbers::sqrt2 * (1 + 1e-12));
 }
 
 TEST(LineChecks, APressureThatIsOffByMoreThanHalfFails) {
