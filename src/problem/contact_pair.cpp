@@ -57,7 +57,6 @@ bool sees_steps(const Points& nodes, const Curve& curve, const Curve& opposite) 
   seen.multiplier = curve;
   seen.opposite = opposite;
   seen.geometry.multiplier = ContactLine(nodes, curve);
-  seen.geometry.opposite = ContactLine(nodes, opposite);
   seen.geometry.normals = true;
   const std::vector<Segment> segments = find_segments(nodes, seen);
   return up_to_steps(nodes, seen, segments).size() < segments.size();

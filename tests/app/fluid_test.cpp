@@ -307,6 +307,7 @@ boundary = [{ on = "left", displacement = { x = 0 } }, { on = "bottom", displace
     EXPECT_NEAR(r.recovery.contacts[0].fluid->wet_length, 1, 1e-9);
     EXPECT_NEAR(std::abs(r.recovery.contacts[0].fluid->force.y()), 3, 1e-9);
     EXPECT_NEAR(r.recovery.contacts[0].length_in_contact, 0, 1e-9);
+    EXPECT_NEAR(r.recovery.reactions.entries[1].force.y(), 3, 1e-9);  // of the seat, which is wet all along
   }
 }
 

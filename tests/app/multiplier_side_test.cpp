@@ -140,17 +140,18 @@ accuracy = { value = "0.1%", of = "half_width" }
 }
 
 // A punch whose foot and the overhangs beside it are one curve: contact ends at corners beyond which it faces the block
-// again. On its own side that is at vertices; on the block's the edges see both.
+// again, farther away or on steep flanks. On its own side that is at vertices; on the block's the edges see both.
 TEST(MultiplierSide, IsThatOnWhichContactEndsAtVertices) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> overhang(0.02, 0.2), height(0.01, 0.15);
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 4; ++i) {
     const TemporaryFolder folder;
     std::ostringstream geo;
-    geo << "o = " << (i == 0 ? 0.2 : overhang(random)) << "; h = " << height(random) << ";\n"
+    geo << "o = " << (i == 0 ? 0.2 : overhang(random)) << "; h = " << height(random)
+        << "; flank = " << (i < 2 ? "0" : "0.1") << " * h;\n"
         << R"(SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 0.6, 0.2};
-Point(11) = {0.2, 0.2, 0}; Point(12) = {0.4, 0.2, 0}; Point(13) = {0.4, 0.2 + h, 0}; Point(14) = {0.4 + o, 0.2 + h, 0};
-Point(15) = {0.4 + o, 0.4, 0}; Point(16) = {0.2 - o, 0.4, 0}; Point(17) = {0.2 - o, 0.2 + h, 0}; Point(18) = {0.2, 0.2 + h, 0};
+Point(11) = {0.2, 0.2, 0}; Point(12) = {0.4, 0.2, 0}; Point(13) = {0.4 + flank, 0.2 + h, 0}; Point(14) = {0.4 + o, 0.2 + h, 0};
+Point(15) = {0.4 + o, 0.4, 0}; Point(16) = {0.2 - o, 0.4, 0}; Point(17) = {0.2 - o, 0.2 + h, 0}; Point(18) = {0.2 - flank, 0.2 + h, 0};
 For i In {11:17}
   Line(i) = {i, i + 1};
 EndFor
@@ -171,7 +172,7 @@ accuracy = { value = "1%" }
       const auto r = solve_to_accuracy(read_scene(
           path, side == "top" ? std::vector<Override>{{"contact.0.multipliers_on", side}} : std::vector<Override>{}));
       ASSERT_TRUE(r && r->accuracy->reached()) << side << " " << i;
-      EXPECT_EQ(r->problem.pairs[0].spec.multipliers_on, side) << i;
+      if (i < 2) EXPECT_EQ(r->problem.pairs[0].spec.multipliers_on, side) << i;
       const PressureEstimate& estimate = r->estimate->pressures[0];
       ASSERT_EQ(estimate.singular.size(), 2) << side << " " << i;
       for (const SingularPoint& point : estimate.singular) {
