@@ -4,8 +4,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "base/parallel.hpp"
+#include "base/vectors.hpp"
 #include "mesh/box_index.hpp"
 
 namespace mortise {
@@ -209,12 +211,26 @@ SingularPoint singular_point(const ContactPlace& drawn, const std::optional<Bodi
   return point;
 }
 
-// The tip of a crack whose faces touch: modes that slide press nothing between bodies that are alike; between others p
-// has no limit either (Comninou 1977).
+// Between the faces of a crack at its tip, radians or the slope of the gap.
+double opening_at_tip(const ContactPlace& place) {
+  const auto& [a, b] = place.corners;
+  const auto& [ends, begins] = a.before ? std::tie(a, b) : std::tie(b, a);
+  const double drawn = angle_between(*ends.before, -*begins.after);
+  return (place.one_curve || drawn <= 2 * (a.error + b.error) ? 0 : drawn) + place.given_slope;
+}
+
+// The tip of a crack whose faces touch: modes that slide press nothing between bodies that are alike, faces that were
+// apart press as a wedge does; between others p has no limit either (Comninou 1977).
 SingularPoint crack_tip(const ContactPlace& place) {
   const auto& [a, b] = place.corners;
-  return {place.position, std::max(a.edge, b.edge), 0.5, a.wedge.is_alike(b.wedge) ? 1 : 0.5,
-          Meeting::tip,   {a.wedge, b.wedge}};
+  const bool alike = a.wedge.is_alike(b.wedge);
+  return {.position = place.position,
+          .edge = std::max(a.edge, b.edge),
+          .exponent = 0.5,
+          .pressure_exponent = alike ? 1 : 0.5,
+          .meeting = Meeting::tip,
+          .wedges = {a.wedge, b.wedge},
+          .log_pressure = alike ? log_amplitude(a.wedge, b.wedge, opening_at_tip(place)) : 0};
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ struct Crack {
   double half_width = 2, angle = 0, x = 0, y = 0;  // of the plate; of the crack of half length 1, degrees, its centre
   bool edge = false;                               // its first end lies on the plate's left side
   bool two = false;                                // bodies, which are bonded where there is no crack
+  double open = 0;                                 // how far its upper face, a parabola, is drawn from the lower one
   int order = 2;
   double size = 0.1;  // of the edges along it
 };
@@ -26,7 +27,7 @@ struct Crack {
 std::string geo_of(const Crack& c) {
   std::ostringstream geo;
   geo << "W = " << c.half_width << "; a = Pi / 180 * " << c.angle << "; x = " << c.x << "; y = " << c.y
-      << "; h = " << c.size << "; edge = " << c.edge << "; two = " << c.two << ";\n"
+      << "; h = " << c.size << "; edge = " << c.edge << "; two = " << c.two << "; open = " << c.open << ";\n"
       << R"(Point(1) = {-W, -W, 0, W / 5}; Point(2) = {W, -W, 0, W / 5}; Point(3) = {W, y + (W - x) * Tan(a), 0, W / 5};
 Point(4) = {W, W, 0, W / 5}; Point(5) = {-W, W, 0, W / 5}; Point(6) = {-W, y - (W + x) * Tan(a), 0, edge ? h : W / 5};
 Point(8) = {x + Cos(a), y + Sin(a), 0, h};
@@ -37,7 +38,12 @@ If (edge)
   Curve Loop(1) = {1, 2, -8, -9, 6}; Curve Loop(2) = {3, 4, 5, 10, 8};
 Else
   Point(7) = {x - Cos(a), y - Sin(a), 0, h};
-  Line(5) = {5, 6}; Line(6) = {6, 1}; Line(7) = {6, 7}; Line(9) = {7, 8}; Line(10) = {7, 8};
+  Line(5) = {5, 6}; Line(6) = {6, 1}; Line(7) = {6, 7}; Line(9) = {7, 8}; Point(9) = {x - 2 * open * Sin(a), y + 2 * open * Cos(a), 0};
+  If (open > 0)
+    BSpline(10) = {7, 9, 8};
+  Else
+    Line(10) = {7, 8};
+  EndIf
   Curve Loop(1) = {1, 2, -8, -9, -7, 6}; Curve Loop(2) = {3, 4, 5, 7, 10, 8};
 EndIf
 Plane Surface(1) = {1}; Plane Surface(2) = {2};
@@ -118,6 +124,29 @@ TEST(Cracks, ThatSlidePressEvenlyUpToTheirTips) {
     for (const SingularPoint& tip : singular) {
       EXPECT_EQ(tip.exponent, 0.5);
       EXPECT_FALSE(tip.is_unbounded());
+    }
+  }
+}
+
+// A crack that is a parabola apart and closed by sigma: p = sigma - E' d / 2 pi (2 - x ln((1 + x) / (1 - x))) in a
+// plate without end, the stress of edge dislocations of density 2 d x. p has no limit at its tips.
+TEST(Cracks, ThatWereApartPressAsAWedgeAtTheirTips) {
+  const double d = 1.5e-3, modulus = 1000 / (1 - 0.3 * 0.3);
+  for (const bool drawn : {true, false}) {
+    SCOPED_TRACE(drawn);
+    std::vector<Override> overrides{{"accuracy.value", "0.005"}};
+    if (!drawn) overrides.push_back({"contact.0.clearance", '"' + std::to_string(d) + " * (1 - x^2)\""});
+    const Results r =
+        solved({.half_width = 60, .open = drawn ? d : 0}, R"({ on = ["bottom", "top"], pressure = 1 })", overrides);
+    EXPECT_EQ(r.status, Status::solved) << r.accuracy->reason;
+    const PressureEstimate& estimate = r.estimate->pressures[0];
+    ASSERT_EQ(estimate.singular.size(), 2u);
+    for (const SingularPoint& tip : estimate.singular) EXPECT_TRUE(tip.is_unbounded());
+    for (Eigen::Index i = 0; i < estimate.line.p.size(); ++i) {
+      if (!estimate.counts(i)) continue;
+      const double x = estimate.line.position[i].x(),
+                   exact = 1 - modulus * d / (2 * std::numbers::pi) * (2 - x * std::log((1 + x) / (1 - x)));
+      EXPECT_NEAR(estimate.line.whole(i), exact, estimate.bar(i) + 1e-3) << x;
     }
   }
 }
