@@ -12,6 +12,7 @@
 #include "contact/least_gap.hpp"
 #include "gmsh/free_mesher.hpp"
 #include "results/error_report.hpp"
+#include "results/unheld.hpp"
 
 namespace mortise {
 namespace {
@@ -240,8 +241,9 @@ class Loop {
   }
 
   // Whether nothing is pressed, between the points of this mesh too: a round body may have come through the other where
-  // no edge is as short as the contact. A pair that touches all the same moves a body that nothing holds back. Keeps
-  // where the curves are nearest.
+  // no edge is as short as the contact. A pair that touches all the same moves a body that nothing holds back, and one
+  // whose gap is not held is as near as that body happens to lie: both only if such bodies have room (missed_contact).
+  // Keeps where the curves are nearest.
   bool is_open(const Results& r, std::size_t k) {
     std::vector<LeastGap>& before = gaps_[k];
     if (is_pressed(r)) {
@@ -252,8 +254,11 @@ class Loop {
     for (const ContactPair& pair : r.problem.pairs) gaps.push_back(least_gap(r.problem.mesh.nodes, r.solution.u, pair));
     const double round_off = 1e-9 * largest_entry(r.solution.u);
     bool open = gaps.size() == before.size();
-    for (std::size_t i = 0; i < gaps.size() && open; ++i)
-      open = stays_open(before[i], gaps[i], round_off) || touches(r, r.problem.pairs[i]);
+    for (std::size_t i = 0; i < gaps.size() && open; ++i) {
+      const ContactPair& pair = r.problem.pairs[i];
+      const bool is_loose = touches(r, pair) || !is_gap_held(r, pair);
+      open = stays_open(before[i], gaps[i], round_off) || (is_loose && !r.estimate->pressures[i].local.missed.any());
+    }
     before = std::move(gaps);
     return open;
   }

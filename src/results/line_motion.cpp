@@ -164,6 +164,7 @@ std::pair<Slide, double> of_patches(const std::vector<Slide>& slides, const std:
 
 std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& pair, const ContactResults& contact,
                                        const VecX& u) {
+  if (contact.length_in_contact == 0) return {};  // p is round-off
   const Spin spin = spin_of(nodes, pair.multiplier, u);
   const bool both_ways = pair.spec.condition != Condition::unilateral;  // tension too
   const double least = 1e-3 * largest_entry(contact.pressure);

@@ -9,6 +9,9 @@ namespace mortise {
 /// displacement there is any, and what stands in the results is one of them.
 std::array<bool, 2> unheld_at(const Results& results, int body, const Vec2& x);
 
+/// Whether no such motion changes the gap of a pair where that is least: then it is an answer.
+bool is_gap_held(const Results& results, const ContactPair& pair);
+
 /// One line a probe whose displacements are such.
 std::vector<std::string> unheld_probes(const Results& results);
 

@@ -207,6 +207,50 @@ TEST(Accuracy, OfContactThatOpensEverywhereIsReachedOnTheSecondMesh) {
   EXPECT_EQ(largest_entry(r->solution.lambda), 0);
 }
 
+// Rollers that lie loose in a frame, under a pressure that does not bring it to them: where they lie is no answer.
+TEST(Accuracy, OfLooseBodiesThatNothingPressesIsReachedOnTheSecondMesh) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int i = 0; i < 4; ++i) {
+    const int count = 1 + i;
+    const double slack = 0.01 + 0.1 * part(random);
+    std::ostringstream geo, contact;
+    geo.precision(12);
+    geo << "SetFactory(\"OpenCASCADE\"); n = " << count << "; w = 2 * n + " << slack << "; h = 2 + " << slack << R"(;
+Point(1) = {-1, -1, 0}; Point(2) = {w + 1, -1, 0}; Point(3) = {w + 1, h + 1, 0}; Point(4) = {-1, h + 1, 0};
+Point(5) = {0, 0, 0}; Point(6) = {w, 0, 0}; Point(7) = {w, h, 0}; Point(8) = {0, h, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};
+Curve Loop(1) = {1:4}; Curve Loop(2) = {5:8}; Plane Surface(1) = {1, 2};
+Physical Surface("frame") = {1}; Physical Curve("hole") = {5:8}; Physical Curve("outside") = {1:4};
+)";
+    for (int k = 0; k < count; ++k) {
+      const double x = 1 + 2 * k + slack * (k + part(random)) / count, y = 1 + slack * part(random);
+      geo << "Disk(" << 10 + k << ") = {" << x << ", " << y << ", 0, 1}; Physical Surface(\"roller_" << k << "\") = {"
+          << 10 + k << "};\nPhysical Curve(\"rim_" << k << "\") = Boundary{ Surface{" << 10 + k << "}; };\n";
+      contact << "[[contact]]\nbetween = [\"rim_" << k << "\", \"hole\"]\n";
+      if (k > 0) contact << "[[contact]]\nbetween = [\"rim_" << k << "\", \"rim_" << k - 1 << "\"]\n";
+    }
+    const TemporaryFolder folder;
+    folder.write("rollers.geo", geo.str());
+    const std::filesystem::path scene = folder.write("rollers.toml", R"(mesh.file = "rollers.geo"
+materials.steel = { young = 210e3, poisson = 0.3 }
+bodies."*" = "steel"
+boundary = [{ on = "outside", pressure = 1 }]
+accuracy = { value = "2%" }
+)" + contact.str());
+    const auto r = solve_to_accuracy(read_scene(scene, {}));
+    ASSERT_TRUE(r) << i;
+    EXPECT_EQ(r->status, Status::solved) << i;
+    EXPECT_EQ(r->accuracy->solves.size(), 2u) << i;
+    if (i != 2) continue;
+    // The frame's long sides just reach the middle one.
+    const auto pressed = solve_to_accuracy(read_scene(scene, {{"boundary.0.pressure", "10"}}));
+    ASSERT_TRUE(pressed && pressed->accuracy->reached());
+    EXPECT_GT(pressed->recovery.contacts[1].p_max, 200);
+  }
+}
+
 TEST(Accuracy, KeepsTheLastCompleteAnswerWhenInterrupted) {
   int meshes = 0;
   bool stop = false;
