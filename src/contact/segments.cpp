@@ -146,7 +146,10 @@ class Steps {
     if (!from || !to || turns_by_facets(before, after)) return 0;
     const double rise = to->distance - from->distance;
     if (std::abs(rise) > least_step * length(rise > 0 ? first.edge : second.edge)) return rise > 0 ? 1 : -1;
-    return steep_side(slope(before, *from), slope(after, *to));
+    const int way = steep_side(slope(before, *from), slope(after, *to));
+    return way > 0 && rises(behind, 1, first.edge, from->distance) ? 1
+           : way < 0 && rises(k, -1, second.edge, to->distance)    ? -1
+                                                                   : 0;
   }
 
   // Whether two edges have a vertex in common.
@@ -161,6 +164,19 @@ class Steps {
     if (behind - before <= steep) return 0;
     const bool opens_before = before<-steep, opens_behind = behind> steep;
     return opens_before == opens_behind ? 0 : opens_behind ? 1 : -1;
+  }
+
+  // Whether from a segment on the gap becomes wider than at the corner before it by more than what is no step, on the
+  // edges that touch the one on the corner's near side: a notch less deep than that is none either.
+  bool rises(int k, int way, int near, double gap) const {
+    const double least = least_step * length(near);
+    for (int i = k; i >= 0 && touch(segments_[i].edge, near); i = beside(i, way)) {
+      const Segment& segment = segments_[i];
+      const auto hit = project_onto_edge(nodes_, interface_.opposite, segment.opposite_edge,
+                                         line(segment.edge, way > 0 ? segment.end : segment.begin));
+      if (hit && hit->distance - gap > least) return true;
+    }
+    return false;
   }
 
   // Facets have corners that the drawn curve has not.

@@ -193,6 +193,42 @@ TEST(Segments, CoverOnlyWhereTheCurvesFaceEachOther) {
   }
 }
 
+// From x = 1 to 0 along y = 0, in ten edges, and from 0 to 1 above it: along y = 0 up to 0.5, and from 0.5 + ramp on at
+// a height.
+struct Ramp {
+  Points nodes{11 + 12, 2};
+  Curve lower{0, 0, {}, {}, false}, upper{1, 1, {}, {}, false};
+
+  Ramp(double ramp, double height) {
+    for (int i = 0; i <= 10; ++i) nodes.row(i) << 1 - 0.1 * i, 0;
+    for (int i = 0; i <= 5; ++i) {
+      nodes.row(11 + i) << 0.1 * i, 0;
+      nodes.row(17 + i) << 0.5 + ramp + 0.2 * i * (0.5 - ramp), height;
+    }
+    for (int i = 0; i < 10; ++i) lower.edges.push_back({2, {i, i + 1, -1}});
+    for (int i = 11; i < 22; ++i) upper.edges.push_back({2, {i, i + 1, -1}});
+  }
+
+  // Of the lower one's ten edges, how many are covered up to steps.
+  double covered() const {
+    ContactInterface c{lower, upper, {}, {}, {}};
+    c.geometry.multiplier = ContactLine(nodes, lower);
+    c.geometry.opposite = ContactLine(nodes, upper);
+    c.geometry.normals = true;
+    double sum = 0;
+    for (const Segment& s : up_to_steps(nodes, c, find_segments(nodes, c))) sum += (s.end - s.begin) / 2;
+    return sum;
+  }
+};
+
+// On the edge beside the corner, unless strains and turns of small displacements may close the gap within it.
+TEST(Segments, EndAtStepsAndWhereTheGapRisesAtOnce) {
+  EXPECT_NEAR(Ramp(1e-3, 0.01).covered(), 9, 1e-9);
+  EXPECT_NEAR(Ramp(0.1, 0.1).covered(), 9, 1e-9);
+  EXPECT_NEAR(Ramp(0.3, 0.01).covered(), 10, 1e-9);   // too flat
+  EXPECT_NEAR(Ramp(1e-3, 1e-3).covered(), 10, 1e-9);  // not deep enough
+}
+
 TEST(Segments, VerticesThatAlmostCoincideMakeNoSlivers) {
   for (const double shift : {1e-14, 1e-12, -1e-12, 1e-11}) {
     TwoPlates plates;
