@@ -209,11 +209,11 @@ TEST(Accuracy, OfContactThatOpensEverywhereIsReachedOnTheSecondMesh) {
 
 // Rollers that lie loose in a frame, under a pressure that does not bring it to them: where they lie is no answer.
 TEST(Accuracy, OfLooseBodiesThatNothingPressesIsReachedOnTheSecondMesh) {
-  std::mt19937 random(7);
+  std::mt19937 random(5);
   std::uniform_real_distribution<double> part(0, 1);
-  for (int i = 0; i < 4; ++i) {
-    const int count = 1 + i;
-    const double slack = 0.01 + 0.1 * part(random);
+  for (int i = 0; i < 7; ++i) {
+    const int count = 1 + i % 4;
+    const double slack = i == 2 ? 0.011 : 0.01 + 0.1 * part(random);
     std::ostringstream geo, contact;
     geo.precision(12);
     geo << "SetFactory(\"OpenCASCADE\"); n = " << count << "; w = 2 * n + " << slack << "; h = 2 + " << slack << R"(;
