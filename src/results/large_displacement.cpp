@@ -5,6 +5,7 @@
 
 #include "base/printable.hpp"
 #include "results/line_motion.hpp"
+#include "results/other_normals.hpp"
 #include "results/slides_across_jumps.hpp"
 
 namespace mortise {
@@ -32,6 +33,7 @@ struct LargestInContact {
 LargestInContact largest_in_contact(const Results& r) {
   LargestInContact found;
   const std::vector<ElasticLaw>& laws = r.problem.discretisation.laws;
+  const std::vector<std::optional<OtherNormals>> others = other_normals(r);
   double most = 0, norm = 0, lost = 0;
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     const ContactPair& pair = r.problem.pairs[k];
@@ -51,6 +53,9 @@ LargestInContact largest_in_contact(const Results& r) {
     if (const auto at = slide_across_jumps(r.problem.mesh.nodes, pair, places, modulus))
       of_pair.take({at->part, at->position, at->slid, "the sides slide along one another by ",
                     " across a jump of curvature", false});
+    if (others[k])
+      of_pair.take(
+          {others[k]->part, others[k]->position, others[k]->angle, "the sides' normals differ by ", " radians", false});
     const auto all = line_motion(r.problem.mesh.nodes, pair, contact, r.solution.u);
     if (!all) continue;
     of_pair.take({all->shifted, all->slid_at, all->slid, "the sides slide along one another by ",
