@@ -42,19 +42,20 @@ std::optional<SparseRows> change_of_rows(const Problem& p, const ContactPair& pa
   return coupling.B - pair.coupling.B;
 }
 
+// By means: on the few rows of a coarse mesh p by itself changes by what moves the force within them.
 OtherNormals summed_up(const Points& nodes, const ContactPair& pair, const VecX& pressure, const VecX& change) {
   OtherNormals found{0, Vec2::Zero(), 0};
-  double off = 0, whole = 0, most = -1;
+  double off = 0, whole = 0, most = 0;
   for (const ContactPoint& point : pair.points) {
-    const double by = pressure_at(pair, change, point);
-    off += by * by * point.dA;
-    whole += std::pow(pressure_at(pair, pressure, point), 2) * point.dA;
-    if (std::abs(by) <= most) continue;
-    most = std::abs(by);
+    const double p = std::abs(pressure_at(pair, pressure, point));
+    off += pressure_at(pair, change, point) * point.dA;
+    whole += p * point.dA;
+    if (p <= most) continue;
+    most = p;
     found.position = edge_point(nodes, pair.multiplier.edges[point.edge], point.xi).position;
     found.angle = angle_between(point.normal, facing_normal(pair, point));
   }
-  found.part = std::sqrt(off / whole);
+  found.part = std::abs(off) / whole;
   return found;
 }
 

@@ -9,8 +9,8 @@
 namespace mortise {
 
 struct OtherNormals {
-  double part;    ///< of p in L2, by which it changes
-  Vec2 position;  ///< where it changes most
+  double part;    ///< of its mean, by which p changes
+  Vec2 position;  ///< of the largest p
   double angle;   ///< radians: between the normals of both sides there
 };
 
