@@ -162,7 +162,7 @@ class Steps {
   // At a corner, by the slopes on both sides of it: the side on which the gap opens at once, if not on both.
   static int steep_side(double before, double behind) {
     if (behind - before <= steep) return 0;
-    const bool opens_before = before<-steep, opens_behind = behind> steep;
+    const bool opens_before = -before > steep, opens_behind = behind > steep;
     return opens_before == opens_behind ? 0 : opens_behind ? 1 : -1;
   }
 

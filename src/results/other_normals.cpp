@@ -22,6 +22,11 @@ double pressure_at(const ContactPair& pair, const VecX& values, const ContactPoi
   return interpolate(pair, values, {point.edge, point.xi});
 }
 
+// Faces that give way have no normals that count, nor have facets those of a curve.
+bool is_pressed(const ContactPair& pair, const ContactResults& contact) {
+  return pair.geometry.normals && pair.geometry.opposite && !pair.spec.stiffness && contact.length_in_contact > 0;
+}
+
 // Where the normals of a loaded line agree somewhere they differ beside it by what the curvatures do, one way and the
 // other.
 bool agree_somewhere(const ContactPair& pair, const VecX& pressure) {
@@ -71,8 +76,7 @@ std::vector<std::optional<OtherNormals>> other_normals(const Results& r) {
   for (std::size_t k = 0; k < p.pairs.size(); ++k) {
     const ContactPair& pair = p.pairs[k];
     const ContactResults& contact = r.recovery.contacts[k];
-    if (!pair.geometry.opposite || pair.spec.stiffness || contact.length_in_contact == 0) continue;
-    if (agree_somewhere(pair, contact.pressure)) continue;
+    if (!is_pressed(pair, contact) || agree_somewhere(pair, contact.pressure)) continue;
     const auto change = change_of_rows(p, pair);
     if (!change) continue;
     const Eigen::Index rows = change->rows();
@@ -84,7 +88,7 @@ std::vector<std::optional<OtherNormals>> other_normals(const Results& r) {
   const VecX change = solution.factor->answers(gap, load).mu;
   for (std::size_t k = 0; k < p.pairs.size(); ++k) {
     const ContactPair& pair = p.pairs[k];
-    if (!pair.geometry.opposite || pair.spec.stiffness || r.recovery.contacts[k].length_in_contact == 0) continue;
+    if (!is_pressed(pair, r.recovery.contacts[k])) continue;
     const VecX values = multiplier_values(pair.coupling, change.segment(pair.first_row, pair.coupling.B.rows()));
     if (values.any()) found[k] = summed_up(p.mesh.nodes, pair, r.recovery.contacts[k].pressure, values);
   }
