@@ -227,6 +227,9 @@ TEST(Segments, EndAtStepsAndWhereTheGapRisesAtOnce) {
   EXPECT_NEAR(Ramp(0.1, 0.1).covered(), 9, 1e-9);
   EXPECT_NEAR(Ramp(0.3, 0.01).covered(), 10, 1e-9);   // too flat
   EXPECT_NEAR(Ramp(1e-3, 1e-3).covered(), 10, 1e-9);  // not deep enough
+  Ramp wedge(0.1, 0.1);
+  for (int i = 11; i <= 22; ++i) wedge.nodes.row(i) << (i - 11) / 11., std::abs((i - 11) / 11. - 6 / 11.);
+  EXPECT_NEAR(wedge.covered(), 10, 1e-9);  // as the gap opens both ways, from where contact begins
 }
 
 TEST(Segments, VerticesThatAlmostCoincideMakeNoSlivers) {

@@ -15,7 +15,8 @@ namespace mortise::test {
 namespace {
 
 // Half of a wedge that is pushed into a slot which leans by `apart` more, radians, from their lower end on.
-Results wedge(double lean, double apart, const std::string& push, const std::string& side) {
+Results wedge(double lean, double apart, const std::string& push, const std::string& side,
+              const std::vector<Override>& overrides = {}) {
   const TemporaryFolder folder;
   std::ostringstream geo, toml;
   geo.precision(17);
@@ -38,7 +39,7 @@ boundary = [{ on = "middle", displacement = { x = 0 } }, { on = "far", displacem
        << push << R"( }]
 contact = [{ between = ["flank", "slot"], multipliers_on = ")"
        << side << "\" }]\n";
-  return solve_scene(read_scene(folder.write("wedge.toml", toml.str())));
+  return solve_scene(read_scene(folder.write("wedge.toml", toml.str()), overrides));
 }
 
 double force(const Results& r) { return r.recovery.contacts[0].force.norm(); }
@@ -62,6 +63,11 @@ TEST(OtherNormals, MakeOfPWhatMultipliersOnTheOtherSideDo) {
       }
     }
   }
+}
+
+TEST(OtherNormals, OfFacetsAndOfFacesThatGiveWayAreNone) {
+  for (const Override& change : {Override{"method.normals", "edges"}, Override{"contact.0.stiffness", "1e4"}})
+    EXPECT_FALSE(other_normals(wedge(0.2, 3e-3, "pressure = 20", "flank", {change}))[0]) << change.key;
 }
 
 TEST(OtherNormals, OfLinesThatAreOneChangeNothing) {
