@@ -35,6 +35,18 @@ Vec2 parted(const VecX& u, const ContactInterface& interface, const ContactPoint
          edge_value(u, interface.multiplier.edges[point.edge], point.xi);
 }
 
+double opened(const Points& nodes, const std::vector<RigidMotion>& motion, const ContactInterface& interface,
+              const ContactPoint& point) {
+  const Vec2 x = place_of(nodes, interface, point),
+             y = edge_point(nodes, interface.opposite.edges[point.opposite_edge], point.eta).position;
+  Vec2 parted = Vec2::Zero();
+  for (const RigidMotion& part : motion) {
+    if (part.body == interface.multiplier.body) parted -= part.at(x);
+    if (part.body == interface.opposite.body) parted += part.at(y);
+  }
+  return parted.dot(point.normal);
+}
+
 double gap_at(const VecX& u, const ContactInterface& interface, const ContactPoint& point) {
   return point.gap + parted(u, interface, point).dot(point.normal);
 }

@@ -3,6 +3,7 @@
 
 #include "base/interval.hpp"
 #include "contact/segments.hpp"
+#include "fem/rigid_motions.hpp"
 
 namespace mortise {
 
@@ -19,6 +20,10 @@ LeastGap least_gap(const Points& nodes, const VecX& u, const ContactInterface& i
 
 /// By how much `u` parts the sides at a point of the interface, length.
 Vec2 parted(const VecX& u, const ContactInterface& interface, const ContactPoint& point);
+
+/// By how much a rigid motion opens the gap there, length.
+double opened(const Points& nodes, const std::vector<RigidMotion>& motion, const ContactInterface& interface,
+              const ContactPoint& point);
 
 /// How far the sides are apart at a point of the interface, undeformed gap and opening by `u` (two a node), length.
 double gap_at(const VecX& u, const ContactInterface& interface, const ContactPoint& point);

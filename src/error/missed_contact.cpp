@@ -31,20 +31,11 @@ struct OpenPoints {
 
 using Motion = std::vector<RigidMotion>;
 
-Vec2 moved(const Motion& motion, int body, const Vec2& x) {
-  for (const RigidMotion& part : motion)
-    if (part.body == body) return part.at(x);
-  return Vec2::Zero();
-}
-
 VecX openings_at(const Mesh& mesh, const ContactPair& pair, const ContactPoint& point,
                  const std::vector<Motion>& motions) {
-  const Vec2 x = edge_point(mesh.nodes, pair.multiplier.edges[point.edge], point.xi).position,
-             y = edge_point(mesh.nodes, pair.opposite.edges[point.opposite_edge], point.eta).position;
   VecX openings(Eigen::Index(motions.size()));
   for (std::size_t j = 0; j < motions.size(); ++j)
-    openings(Eigen::Index(j)) =
-        point.normal.dot(moved(motions[j], pair.opposite.body, y) - moved(motions[j], pair.multiplier.body, x));
+    openings(Eigen::Index(j)) = opened(mesh.nodes, motions[j], pair, point);
   return openings;
 }
 

@@ -30,7 +30,7 @@ bool is_pressed(const ContactPair& pair, const ContactResults& contact) {
 // Where the normals of a loaded line agree somewhere they differ beside it by what the curvatures do, one way and the
 // other.
 bool agree_somewhere(const ContactPair& pair, const VecX& pressure) {
-  const double least = 1e-3 * largest_entry(pressure);
+  const double least = 1e-3 * largest_entry(pressure);  // as of place_motions
   return std::ranges::any_of(pair.points, [&](const ContactPoint& point) {
     return std::abs(pressure_at(pair, pressure, point)) > least &&
            angle_between(point.normal, facing_normal(pair, point)) < least_angle;

@@ -7,7 +7,6 @@
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "contact/least_gap.hpp"
-#include "fem/edges.hpp"
 
 namespace mortise {
 namespace {
@@ -46,16 +45,8 @@ bool is_gap_held(const Results& r, const ContactPair& pair) {
   const VecX& u = r.solution.u;
   const ContactPoint& nearest =
       *std::ranges::min_element(pair.points, {}, [&](const ContactPoint& point) { return gap_at(u, pair, point); });
-  const Points& nodes = r.problem.mesh.nodes;
-  const Edge &edge = pair.multiplier.edges[nearest.edge], &facing = pair.opposite.edges[nearest.opposite_edge];
-  const Vec2 x = edge_point(nodes, edge, nearest.xi).position, y = edge_point(nodes, facing, nearest.eta).position;
   return std::ranges::none_of(r.unheld, [&](const std::vector<RigidMotion>& motion) {
-    Vec2 parted = Vec2::Zero();
-    for (const RigidMotion& part : motion) {
-      if (part.body == pair.multiplier.body) parted -= part.at(x);
-      if (part.body == pair.opposite.body) parted += part.at(y);
-    }
-    return std::abs(parted.dot(nearest.normal)) > moves;
+    return std::abs(opened(r.problem.mesh.nodes, motion, pair, nearest)) > moves;
   });
 }
 

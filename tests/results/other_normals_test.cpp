@@ -59,7 +59,7 @@ TEST(OtherNormals, MakeOfPWhatMultipliersOnTheOtherSideDo) {
         const auto other = other_normals(*r)[0];
         ASSERT_TRUE(other);
         EXPECT_NEAR(other->angle, by, 0.01 * by);
-        EXPECT_NEAR(other->part, change, 0.1 * change);
+        EXPECT_NEAR(other->part, change, 0.1 * change);  // of which the square is a twentieth
       }
     }
   }
