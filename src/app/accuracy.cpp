@@ -82,7 +82,7 @@ class Loop {
         off_last = off;
         report.reason = why_to_stop(*last, report);
         if (report.reached() || !report.reason.empty()) break;
-        sizes = sizes_after(*last, std::move(sizes), report.solves.size() == 1);
+        sizes = sizes_after(*last, std::move(sizes), report.solves);
       }
     } catch (const Interrupted&) {
       if (!last) return std::nullopt;
@@ -104,11 +104,20 @@ class Loop {
   const std::vector<char>& open() const { return open_; }
 
  private:
-  // `sizes`: of the mesh that r is on; `first`: of all.
-  SizeAt sizes_after(const Results& r, SizeAt sizes, bool first) {
+  // Whether the last of two meshes has not even halved the error: as much came back where sizes grew as went elsewhere.
+  static bool stagnates(const std::vector<AccuracyReport::Solve>& solves) {
+    const std::size_t n = solves.size();
+    return n >= 3 && solves[n - 1].estimated > solves[n - 2].estimated / 2;
+  }
+
+  // `sizes`: of the mesh that r is on.
+  SizeAt sizes_after(const Results& r, SizeAt sizes, const std::vector<AccuracyReport::Solve>& solves) {
     const bool pressed = is_pressed(r), tells = pressed && tells_sizes(r);
     others_ = tells || !pressed ? 0 : others_ + 1;
-    return tells ? next_sizes(r, first) : with_wanted(r, small_at_gaps(r, scaled(sizes, 1 / another)));
+    if (!tells) return with_wanted(r, small_at_gaps(r, scaled(sizes, 1 / another)));
+    const SizeAt next = next_sizes(r, solves.size() == 1);
+    if (!stagnates(solves)) return next;
+    return [next, kept = std::move(sizes)](const Vec2& x) { return std::min(next(x), kept(x)); };
   }
 
   // With what only the last results have. `seconds`: of all solves.

@@ -87,7 +87,7 @@ WindowOverlaps BorderOverlaps::of_windows(const std::vector<ContactPair>& pairs,
       const VecX found = answers_.mu.middleRows(pairs[k].first_row, window.weights.size()).transpose() * window.weights;
       const double sum = std::abs(found.sum()), size = found.lpNorm<1>();
       windows.push_back(sum);
-      if (size > 0) squares += 2 * window.place.reach * (sum / size * found).cwiseAbs2();
+      if (size > 0) squares += window.length * (sum / size * found).cwiseAbs2();
     }
   return {Eigen::Map<VecX>(windows.data(), Eigen::Index(windows.size())), shares_ * squares.cwiseSqrt()};
 }

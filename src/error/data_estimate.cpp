@@ -118,9 +118,10 @@ void add_loads_by_line(const Problem& problem, const Solution& solution, ErrorEs
       const auto [edge, away] = nearest_edge(e.line, part.at);
       if (!std::isfinite(away)) continue;
       const double d = std::max(away, part.spread / 2);
-      const double reaching = (on_side ? 2 : 1) * F * std::pow(std::min(1.0, h / d), on_side ? 3 : 2);
+      const int power = on_side ? 3 : 2;
+      const double reaching = (on_side ? 2 : 1) * F * std::pow(std::min(1.0, h / d), power);
       for (const Eigen::Index i : {edge, edge + 1}) {
-        e.local.add_data(i, std::sqrt(5 * force_below / 16 / d) * reaching);
+        e.local.add_load({i, std::sqrt(5 * force_below / 16 / d) * reaching, part.at, h, power});
         e.local.raise(i, force_below * reaching / std::max((e.line.position[i] - part.at).norm(), d));
       }
     }

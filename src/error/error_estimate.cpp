@@ -70,20 +70,25 @@ std::vector<char> either(std::vector<char> one, const std::vector<char>& other) 
   return one;
 }
 
-// If each window keeps a dual of its own with them: windows at ends and borders, and the fluctuations.
-// Returns how many more lie beside borders.
+// Windows at ends and borders, and the fluctuations if each window keeps a dual of its own with them. Returns how many
+// duals more those have that lie beside borders.
 int add_end_windows(const std::vector<ContactPair>& pairs, std::vector<PressureEstimate>& list) {
   std::size_t count = 0;
   for (const PressureEstimate& e : list) count += e.windows.size() + 2 + e.local.borders.size();
-  if (count > most_own_duals) return 0;
+  const bool own = count <= most_own_duals;
   int beside = 0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     PressureEstimate& e = list[k];
     if (e.windows.empty()) continue;
-    e.fluctuation =
-        pressure_fluctuation(pairs[k], e.line, either(e.excluded, swinging(e)), 2 * e.windows[0].place.reach);
-    e.windows = with_end_windows(pairs[k], e.line, e.local.borders, e.excluded, std::move(e.windows));
-    beside += windows_beside_borders(e.line, e.local.borders);
+    if (own)
+      e.fluctuation =
+          pressure_fluctuation(pairs[k], e.line, either(e.excluded, swinging(e)), 2 * e.windows[0].place.reach);
+    // Beside a point where p has no limit p_h may be zero at vertices that are left out: p does not end there.
+    std::vector<LineError::Border> borders = e.local.borders;
+    std::erase_if(borders, [&](const auto& b) { return e.excluded[b.edge] && e.excluded[b.edge + 1]; });
+    e.windows = with_end_windows(pairs[k], e.line, borders, e.excluded, std::move(e.windows));
+    if (own) beside += windows_beside_borders(e.line, borders);
+    find_window_lengths(e);
   }
   return beside;
 }

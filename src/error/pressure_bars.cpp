@@ -8,10 +8,14 @@
 namespace mortise {
 namespace {
 
-// At a vertex: linear between the windows' centres, constant beyond them, around a closed line from the last one to the
-// first; of what corners nearby do each by its shape.
-double between_windows(const PressureEstimate& e, Eigen::Index i) {
-  if (e.windows.empty()) return 0;
+// The windows before and after a vertex, and by how much it belongs to the latter: linear between their centres, the
+// nearest alone beyond them, around a closed line from the last one to the first.
+struct Between {
+  int before, after;
+  double part;
+};
+
+Between windows_beside(const PressureEstimate& e, Eigen::Index i) {
   const double s = e.line.s(i);
   const int count = int(e.windows.size());
   int k = 0;
@@ -19,7 +23,13 @@ double between_windows(const PressureEstimate& e, Eigen::Index i) {
   const int before = k > 0 || e.line.closed ? (k + count - 1) % count : 0,
             after = k < count || e.line.closed ? k % count : count - 1;
   const double from = e.line.distance(e.windows[before].s, s), to = e.line.distance(s, e.windows[after].s);
-  const double part = from + to > 0 ? from / (from + to) : 0;
+  return {before, after, from + to > 0 ? from / (from + to) : 0};
+}
+
+// At a vertex; of what corners nearby do each by its shape.
+double between_windows(const PressureEstimate& e, Eigen::Index i) {
+  if (e.windows.empty()) return 0;
+  const auto [before, after, part] = windows_beside(e, i);
   double far = (1 - part) * e.far(before) + part * e.far(after);
   for (const LocalTail& tail : e.tails.local) {
     if (tail.window == before) far += (1 - part) * tail.at(e.line.position[i]);
@@ -120,6 +130,16 @@ void find_excluded(double part, PressureEstimate& e) {
   if (!left) e.excluded.assign(line.p.size(), 0);
   // Where contact ends in what is left out, p is a root of nothing beyond.
   for (Eigen::Index i = 0; i < line.p.size(); ++i) e.local.border[i] = e.local.border[i] && !e.excluded[i];
+}
+
+void find_window_lengths(PressureEstimate& e) {
+  if (e.windows.empty()) return;
+  for (Eigen::Index i = 0; i < e.line.p.size(); ++i) {
+    if (!e.counts(i)) continue;
+    const auto [before, after, part] = windows_beside(e, i);
+    e.windows[before].length += (1 - part) * e.line.h(i);
+    e.windows[after].length += part * e.line.h(i);
+  }
 }
 
 void find_bars(PressureEstimate& e) {

@@ -258,6 +258,11 @@ void LineError::add_weak(const Weak& of) {
   weak.push_back(of);
 }
 
+void LineError::add_load(const Load& of) {
+  add_data(of.vertex, of.part);
+  loads.push_back(of);
+}
+
 VecX LineError::whole() const { return along().cwiseMax(swing).cwiseMax(missed); }
 
 void LineError::raise(Eigen::Index vertex, double by) { least(vertex) = std::max(least(vertex), by); }

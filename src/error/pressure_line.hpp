@@ -77,6 +77,15 @@ struct LineError {
     bool at_end;  ///< of the line: the bodies' angles say how p goes; else it depends on how far they slide
   };
   std::vector<Weak> weak;
+  /// Parts of `data` of loads beside the line that a cell does not follow: they fall as `power` of its size.
+  struct Load {
+    Eigen::Index vertex;
+    double part;
+    Vec2 place;
+    double cell;  ///< its size, length
+    int power;
+  };
+  std::vector<Load> loads;
   /// Likewise, of what p swings by about its slopes. Edges of the next mesh are made by `l2` and `data`, whose rates
   /// are known.
   VecX swing;
@@ -103,6 +112,7 @@ struct LineError {
   void raise(Eigen::Index vertex, double by);     ///< `least` at a vertex
   void add_data(Eigen::Index vertex, double by);  ///< a square to that of `data`
   void add_weak(const Weak& weak);                ///< to `data` too
+  void add_load(const Load& load);                ///< likewise
   VecX along() const { return l2 + data; }
   VecX whole() const;  ///< of each vertex the largest of along(), `swing` and `missed`
   /// At each vertex what p is off by, stress: the largest within four edges. What the border makes falls with the

@@ -14,6 +14,7 @@ struct PressureWindow {
   double s;           ///< its centre, arc length along the line's edges
   WindowPlace place;  ///< the same on the chord of its edge
   VecX weights;       ///< rows of the pair: the mean is -weights . lambda
+  double length = 0;  ///< of what counts of the line, between this window and those next to it, its share
   /// Of one at a border of contact the distance from it at which 1 / sqrt(r) has its mean over the window; else 0.
   double from_border = 0;
 };

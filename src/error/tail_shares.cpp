@@ -60,16 +60,15 @@ std::vector<TailShares> tail_shares(const Mesh& mesh, const std::vector<const Pr
     const auto add = [&](int number, double tail) {
       const auto [pair, w] = place[number];
       const PressureWindow& window = (*windows[pair])[w];
-      const double length = 2 * window.place.reach;
       if ((window.place.centre - x).norm() > nearby * window.place.reach) {
         shares[pair].means(w) += tail;
-        square += length * tail * tail;
+        square += window.length * tail * tail;
         return;
       }
       LocalTail local{x, rings.corner.exponent, rings.radius[0], w, 1};
       const Shape shape = shape_of(*lines[pair], window, local);
       local.amplitude = tail / shape.mean;
-      square += length * local.amplitude * local.amplitude * shape.square;
+      square += window.length * local.amplitude * local.amplitude * shape.square;
       shares[pair].local.push_back(local);
     };
     const int body = mesh.cells[rings.cells[0][0]].body;

@@ -16,8 +16,8 @@ constexpr double coarsen = 0.4, refine = 6;  // by what sizes may fall at once w
 constexpr double line_refine = 8;
 constexpr double corner_share = 0.2;  // of the target of the far field, for all corners of the bodies
 constexpr double border_share = 0.5;  // of the target of the local error, for all borders
-// Likewise for all points where p goes as a small power of the distance: rings of edges around a point are few, however
-// short these are, so that they cost next to nothing.
+// Likewise for all loads beside the line, and for all points where p goes as a small power of the distance: rings of
+// edges around a point are few, however short these are, so that they cost next to nothing.
 constexpr double weak_share = 0.3;
 // Of the scene's size: an edge of which round-off of its ends' coordinates is a millionth.
 constexpr double least_size = 1e-9;
@@ -28,7 +28,7 @@ class WindowNorm {
  public:
   explicit WindowNorm(const ErrorEstimate& estimate) : windows_(estimate.far.windows) {
     for (const PressureEstimate& e : estimate.pressures)
-      for (const PressureWindow& window : e.windows) lengths_.push_back(2 * window.place.reach);
+      for (const PressureWindow& window : e.windows) lengths_.push_back(window.length);
     for (const PressureEstimate& e : estimate.pressures)
       if (e.fluctuation) of_fluctuations_.push_back(e.fluctuation->length);
   }
@@ -112,6 +112,7 @@ VecX line_refinement(const PressureEstimate& e, double target, double borders, d
                      double least) {
   VecX l2 = e.local.along();
   for (const LineError::Weak& of : e.local.weak) l2(of.vertex) = std::max(l2(of.vertex) - of.part, 0.);
+  for (const LineError::Load& of : e.local.loads) l2(of.vertex) = std::max(l2(of.vertex) - of.part, 0.);
   VecX r = VecX::Constant(l2.size(), coarsen);
   if (!(target > 0)) return r;
   double sum = 0;
@@ -199,15 +200,30 @@ VecX node_sizes(const Mesh& mesh, const ErrorEstimate& estimate, const VecX& ref
   return sizes;
 }
 
+// Of the line's own error, stress length^(1/2).
+double line_target(const ErrorEstimate& estimate, const ErrorFactors& factors) {
+  return estimate.slopes() * std::sqrt(estimate.pressure_square()) / factors.line;
+}
+
+// Where loads stand that their cells do not follow: as far from the line as these are, its own edges do nothing for it.
+void add_load_layers(const ErrorEstimate& estimate, double target, double least, std::vector<SizeLayers>& layers) {
+  double count = 0;
+  for (const PressureEstimate& e : estimate.pressures) count += double(e.local.loads.size());
+  const double each = weak_share * target / std::sqrt(count);
+  for (const PressureEstimate& e : estimate.pressures)
+    for (const LineError::Load& of : e.local.loads)
+      if (e.counts(of.vertex) && of.part > each)
+        layers.push_back({of.place, std::max(of.cell * std::pow(each / of.part, 1.0 / of.power), least), size_growth});
+}
+
 // By what the edges at each vertex of each pair are to shorten, for p and for the goal.
 std::vector<VecX> lines_refinement(const ErrorEstimate& estimate, const ErrorFactors& factors, double least) {
-  double p2 = 0, borders = 0, weak = 0;
+  double borders = 0, weak = 0;
   for (const PressureEstimate& e : estimate.pressures) {
-    p2 += e.p2;
     weak += double(e.local.weak.size());
     borders += double(std::ranges::count(e.local.border, 1));
   }
-  const double target = estimate.slopes() * std::sqrt(p2) / factors.line;
+  const double target = line_target(estimate, factors);
   const GoalLines lines = estimate.goal ? goal_lines(*estimate.goal, factors.goal_line) : GoalLines{};
   const std::vector<VecX> overlaps = overlap_parts(estimate);
   double roots = 0, sum = 0;
@@ -263,6 +279,7 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
   const double scene = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
   add_corner_layers(estimate, wanted.sizes, corner_share * far_parts / factors.far_field, least_layer * scene,
                     wanted.layers);
+  add_load_layers(estimate, line_target(estimate, factors), least_size * scene, wanted.layers);
   const std::vector<VecX> shorter = lines_refinement(estimate, factors, least_layer * scene);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];

@@ -195,11 +195,11 @@ CellRule piece_rule(const std::vector<CellPiece>& pieces) {
   return all;
 }
 
-CellMisfit misfit(const Points& nodes, const Cell& cell, const std::vector<CellPiece>& pieces,
+CellMisfit misfit(const Points& nodes, const Cell& cell, const std::vector<CellPiece>& pieces, int degree,
                   const std::function<VecX(const Vec2&)>& values) {
   const CellRule rule = piece_rule(pieces);
   const Eigen::Index count = Eigen::Index(rule.points.size());
-  MatX f, terms(count, 3);  // a row a point
+  MatX f, terms(count, degree == 1 ? 3 : 6);  // a row a point
   VecX dA(count);
   Points x(count, 2);
   for (Eigen::Index q = 0; q < count; ++q) {
@@ -209,7 +209,9 @@ CellMisfit misfit(const Points& nodes, const Cell& cell, const std::vector<CellP
     f.row(q) = here;
     x.row(q) = point.x;
     dA(q) = rule.weights[q] * point.jacobian();
-    terms.row(q) << 1, rule.points[q].transpose();
+    const double xi = rule.points[q].x(), eta = rule.points[q].y();
+    terms.row(q).head<3>() << 1, xi, eta;
+    if (degree == 2) terms.row(q).tail<3>() << xi * xi, xi * eta, eta * eta;
   }
   const MatX weighted = dA.asDiagonal() * terms;
   const MatX rest = f - terms * (terms.transpose() * weighted).llt().solve(weighted.transpose() * f);

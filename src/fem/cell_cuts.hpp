@@ -35,7 +35,7 @@ CellPiece whole_cell(CellKind kind);
 /// 4 x 4 points on each piece: of degree 6, so that with the shape functions what smooth fields leave is 1e-8 of them.
 CellRule piece_rule(const std::vector<CellPiece>& pieces);
 
-/// Functions less the linear one that stands for them.
+/// Functions less the polynomials that stand for them.
 struct CellMisfit {
   double root_mean_square;  ///< over the cell, of the length of the vector of differences
   double mean;              ///< likewise, without squares
@@ -43,8 +43,9 @@ struct CellMisfit {
   double finest;            ///< side of a square as large as the smallest piece that has a hundredth of it, length
 };
 
-/// `values`: of all functions at a place. The linear functions are projections in L2.
-CellMisfit misfit(const Points& nodes, const Cell& cell, const std::vector<CellPiece>& pieces,
+/// `values`: of all functions at a place. The polynomials, in reference coordinates of degree 1 or 2, are projections
+/// in L2.
+CellMisfit misfit(const Points& nodes, const Cell& cell, const std::vector<CellPiece>& pieces, int degree,
                   const std::function<VecX(const Vec2&)>& values);
 
 }  // namespace mortise

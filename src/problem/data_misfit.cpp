@@ -192,7 +192,9 @@ void Misfits::add_over(const std::string& key, DataMisfit::Kind kind, BodyFields
     const std::vector<CellPiece> pieces = fields.pieces(cell);
     if (fields.any(cell.body)) collector.add_all(area * values(cell.body, centre).norm());
     if (pieces.empty()) continue;
-    const CellMisfit m = misfit(mesh_.nodes, cell, pieces, [&](const Vec2& x) { return values(cell.body, x); });
+    // Stresses that are recovered follow those of a smooth strain: fem/patch_recovery.hpp.
+    const int degree = kind == DataMisfit::Kind::strain && is_quadratic(cell.kind) ? 2 : 1;
+    const CellMisfit m = misfit(mesh_.nodes, cell, pieces, degree, [&](const Vec2& x) { return values(cell.body, x); });
     const double volume = area * model_.depth(centre.x());
     collector.add({.kind = kind,
                    .cell = e,

@@ -10,8 +10,9 @@
 namespace mortise {
 
 /// What an entry's functions are off by, in a cell or along one of its sides, from what stands for them there in the
-/// mean: a polynomial of degree 2 along an edge, 1 over a cell; of prescribed displacements what the nodes make of
-/// them. Loads and displacements have the right mean all the same, by quadrature that is as fine as the function.
+/// mean: a polynomial of degree 2 along an edge, 1 over a cell, of initial strains that of the stresses that are
+/// recovered there (2 in quadratic cells); of prescribed displacements what the nodes make of them. Loads and
+/// displacements have the right mean all the same, by quadrature that is as fine as the function.
 struct DataMisfit {
   enum class Kind { force, foundation, strain, displacement };
   Kind kind;

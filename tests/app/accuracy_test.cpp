@@ -189,6 +189,53 @@ accuracy.value = "1%"
   EXPECT_TRUE(r->accuracy->reached()) << r->accuracy->reason;
 }
 
+// Hot pellets press on their cladding with their rims, where p has no limit, and with their middles; between, p falls
+// to zero or nearly so. Temperatures bend within cells as far as these may.
+TEST(Accuracy, OfRodsIsReachedHoweverManyPellets) {
+  std::mt19937 random(7);
+  const auto one_of = [&](const std::vector<std::string>& all) { return all[random() % all.size()]; };
+  for (int k = 0; k < 8; ++k) {
+    const std::vector<Override> changes{
+        {"mesh.parameters.pellets", one_of({"2", "2", "3", "4"})},
+        {"accuracy.value", one_of({"2%", "1%", "0.5%"})},
+        {"accuracy.first_edges", one_of({"10", "20", "27", "40"})},
+        {"initial_strain.0.temperature_change", one_of({"300", "500", "800"}) + " + 700 * (1 - (x / 4)^2)"}};
+    const auto r = solve_to_accuracy(read_scene(MORTISE_SOURCE_DIR "/geo/rod.toml", changes));
+    std::ostringstream drawn;
+    for (const auto& [key, value] : changes) drawn << key << " = " << value << ' ';
+    EXPECT_TRUE(r->accuracy->reached()) << drawn.str() << r->accuracy->reason;
+  }
+}
+
+// A peak of pressure far narrower than any edge, 0.1 to 0.5 from the line: short edges where it stands, not on the
+// line.
+TEST(Accuracy, OfNarrowLoadsHasShortEdgesWhereTheyStand) {
+  const TemporaryFolder folder;
+  std::mt19937 random(5);
+  const auto between = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
+  int unknowns = 0;
+  for (int k = 0; k < 8; ++k) {
+    std::ostringstream geo, scene;
+    geo << R"(SetFactory("OpenCASCADE"); Rectangle(1) = {0, -0.4, 0, 1, 0.4}; Rectangle(2) = {0, 0, 0, 1, )"
+        << between(0.1, 0.5) << R"(}; Physical Surface("lower") = {1}; Physical Surface("upper") = {2};
+Physical Curve("seat") = {3}; Physical Curve("bottom") = {1}; Physical Curve("foot") = {5}; Physical Curve("top") = {7};
+Physical Curve("sides") = {2, 4, 6, 8};)";
+    folder.write("blocks.geo", geo.str());
+    scene << R"(mesh.file = "blocks.geo"
+materials.m = { young = 1000, poisson = 0.3 }
+bodies = { lower = "m", upper = "m" }
+boundary = [{ on = "bottom", displacement = { y = 0 } }, { on = "sides", displacement = { x = 0 } },
+  { on = "top", pressure = "1 + )"
+          << between(10, 40) << " * exp(-((x - " << between(0.2, 0.8) << ") / " << between(0.002, 0.01)
+          << ")^2)\" }]\ncontact = [{ between = [\"foot\", \"seat\"] }]\naccuracy.value = \""
+          << (k % 2 == 0 ? "2%" : "1%") << "\"\n";
+    const auto r = solve_to_accuracy(read_scene(folder.write("scene.toml", scene.str())));
+    EXPECT_TRUE(r->accuracy->reached()) << scene.str() << geo.str();
+    unknowns += free_unknowns(*r);
+  }
+  EXPECT_LT(unknowns, 9000);  // 11300 where the line's edges are shortened
+}
+
 TEST(Accuracy, HasEverySecondInAStage) {
   const Stopwatch watch;
   const auto r = solve_to_accuracy(scene_to_accuracy("hertz", "1%"));

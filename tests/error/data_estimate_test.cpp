@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <random>
+#include <sstream>
 
+#include "app/accuracy.hpp"
 #include "app/solve_scene.hpp"
 #include "support/pressure_at.hpp"
 #include "support/two_blocks.hpp"
@@ -54,6 +57,43 @@ TEST(DataEstimate, AForceWithinACellBesideTheLineIsInTheBarsBeneathIt) {
       EXPECT_LE(off, node.p_error) << edges << " edges, x = " << node.position.x();
     }
   }
+}
+
+// Springs under a block on a place narrower than the edges there bear most of a load, and their dent in it, of which
+// the mesh shows nothing, is a part of how far all else sinks.
+TEST(DataEstimate, StiffSpringsWithinAnEdgeAreInTheBars) {
+  const TemporaryFolder folder;
+  std::mt19937 random(11);
+  const auto between = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
+  int nodes = 0, inside = 0;
+  for (int k = 0; k < 8; ++k) {
+    std::ostringstream geo, scene;
+    const int edges = std::uniform_int_distribution(8, 20)(random);
+    geo << "Mesh.ElementOrder = 2;\n"
+        << outlines({{{0, 0}, {1, 0}, {1, 0.36}, {0, 0.36}, {0, 0.36}, {1, 0.36}, {1, 0.74}, {0, 0.74}}}, 0)
+        << "Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1}; Curve Loop(2) = {5 : 8}; Plane Surface(2) = {2};\n"
+        << unlike_blocks << "Transfinite Curve{1, 3} = " << edges + 1 << "; Transfinite Curve{2, 4} = " << edges / 3 + 1
+        << "; Transfinite Curve{5, 7} = " << edges + 4 << "; Transfinite Curve{6, 8} = " << edges / 3 + 2 << ";\n";
+    folder.write("blocks.geo", geo.str());
+    scene << R"(mesh.file = "blocks.geo"
+materials.m = { young = 1000, poisson = 0.3 }
+bodies = { lower = "m", upper = "m" }
+contact = [{ between = ["upper_contact", "lower_contact"] }]
+boundary = [{ on = ["lower_left", "lower_right", "upper_left", "upper_right"], displacement = { x = 0 } },
+  { on = "top", pressure = 1 }, { on = "bottom", foundation = "1000 * (1 + (abs(x - )"
+          << between(0.2, 0.8) << ") < " << between(0.003, 0.01) << " ? " << between(20, 60) << " : 0))\" }]\n";
+    const std::string path = folder.write("scene.toml", scene.str());
+    Results coarse = solve_scene(read_scene(path));
+    estimate(coarse);
+    const auto fine = solve_to_accuracy(read_scene(path, {{"accuracy.value", "0.1%"}}));
+    ASSERT_TRUE(fine->accuracy->reached());
+    for (const ContactNode& node : coarse.recovery.contacts[0].multiplier.nodes) {
+      ++nodes;
+      inside += std::abs(node.p - pressure_at(fine->recovery.contacts[0].multiplier.nodes, node.position.x())) <=
+                node.p_error;
+    }
+  }
+  EXPECT_GE(inside, 0.95 * nodes) << nodes;
 }
 
 // Two rings that are their own copies under quarter turns, on foundations that are alike in all directions; the outer

@@ -28,6 +28,7 @@ Setting with_corner(double away) {
     PressureWindow window;
     window.s = x;
     window.place = {.centre = {x, 0}, .reach = 0.1};
+    window.length = 0.2;
     s.windows.push_back(window);
     s.duals.places.push_back(window.place);
   }

@@ -59,7 +59,7 @@ TEST(CellCuts, MakeIntegralsOfSpotsAndJumpsExact) {
   }
 }
 
-TEST(CellMisfit, IsWhatALinearFunctionLeaves) {
+TEST(CellMisfit, IsWhatAPolynomialLeaves) {
   TwoPlates plates;
   plates.kind_upper = plates.kind_lower = CellKind::quad8;
   const Mesh mesh = mesh_of(plates);
@@ -70,8 +70,15 @@ TEST(CellMisfit, IsWhatALinearFunctionLeaves) {
   step << "x < " << (x0 + x1) / 2 << " ? 0 : 1";
   const Field field(step.str(), {.key = "body_force.0"});
   const auto pieces = resolving_pieces(mesh.nodes, cell, {{&field, FieldRange(field), 1}});
-  const CellMisfit left = misfit(mesh.nodes, cell, pieces, [&](const Vec2& x) { return VecX::Constant(1, field(x)); });
-  EXPECT_NEAR(left.root_mean_square, 0.25, 2e-3);  // of a step less 1/2 + 3/4 xi: int (1/2 - 3/4 t)^2 dt = 1/16
+  for (const int degree : {1, 2})  // of a step less 1/2 + 3/4 xi, without xi^2: int (1/2 - 3/4 t)^2 dt = 1/16
+    EXPECT_NEAR(misfit(mesh.nodes, cell, pieces, degree, [&](const Vec2& x) { return VecX::Constant(1, field(x)); })
+                    .root_mean_square,
+                0.25, 2e-3);
+  const auto parabola = [&](const Vec2& x) {
+    return VecX::Constant(1, std::pow((2 * x.x() - x0 - x1) / (x1 - x0), 2));
+  };
+  EXPECT_NEAR(misfit(mesh.nodes, cell, pieces, 1, parabola).root_mean_square, std::sqrt(4. / 45), 1e-12);
+  EXPECT_NEAR(misfit(mesh.nodes, cell, pieces, 2, parabola).root_mean_square, 0, 1e-12);
 }
 
 }  // namespace
