@@ -52,19 +52,25 @@ std::vector<Facing> facings(const Mesh& mesh, const ContactPair& pair) {
   return all;
 }
 
-const SingularPoint* singular_at(const PressureEstimate& estimate, Index i, double length) {
-  for (const SingularPoint& point : estimate.singular)
-    if ((point.position - estimate.line.position[i]).norm() < same_place * length) return &point;
-  return nullptr;
+// Of each vertex the singular point that is there, or that it faces; else null.
+std::vector<const SingularPoint*> points_at_vertices(const PressureEstimate& estimate) {
+  const PressureLine& line = estimate.line;
+  const Index last = line.p.size() - 1;
+  std::vector<const SingularPoint*> points(last + 1, nullptr);
+  for (const SingularPoint& point : estimate.singular) {
+    const Vec2 foot = line.foot(point.position);
+    for (Index i = 0; i <= last; ++i)
+      if (!points[i] && (foot - line.position[i]).norm() < same_place * line.s(last)) points[i] = &point;
+  }
+  return points;
 }
 
 Walk walk_along(const Mesh& mesh, const ContactPair& pair, const PressureEstimate& estimate) {
   const PressureLine& line = estimate.line;
   const Index last = line.p.size() - 1;
-  const double least = loaded_part * largest_entry(line.p), length = line.s(last);
+  const double least = loaded_part * largest_entry(line.p);
   const bool bilateral = pair.spec.condition == Condition::bilateral;
-  std::vector<const SingularPoint*> points;
-  for (Index i = 0; i <= last; ++i) points.push_back(singular_at(estimate, i, length));
+  const std::vector<const SingularPoint*> points = points_at_vertices(estimate);
   const auto carries = [&](Index i) {  // p_h may be zero where it swings
     return bilateral ? line.loaded[i] != 0
                      : line.p(i) > least || (line.loaded[i] && points[i] && points[i]->is_swinging());
@@ -77,7 +83,7 @@ Walk walk_along(const Mesh& mesh, const ContactPair& pair, const PressureEstimat
   for (Index k = 0; k <= last; ++k) {
     const Index i = start + k > last ? start + k - last : start + k;
     walk.vertex.push_back(i);
-    walk.s(k) = line.s(i) + (start + k > last ? length : 0);
+    walk.s(k) = line.s(i) + (start + k > last ? line.s(last) : 0);
     walk.carries.push_back(carries(i));
     walk.p(k) = walk.carries[k] ? line.p(i) : 0;
     walk.point.push_back(points[i]);

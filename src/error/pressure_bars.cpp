@@ -120,9 +120,12 @@ void find_excluded(double part, PressureEstimate& e) {
     if (line.loaded[i] && line.loaded[i + 1]) length += line.s(i + 1) - line.s(i);
   e.excluded_distance = part * length * std::min(1.0, 2.0 / std::max(sides_without_limit(e), 1));
   e.excluded.assign(line.p.size(), 0);
-  for (Eigen::Index i = 0; i < line.p.size(); ++i)
-    for (const SingularPoint& point : e.singular)
-      if (point.is_unbounded() && (line.position[i] - point.position).norm() < e.excluded_distance) e.excluded[i] = 1;
+  for (const SingularPoint& point : e.singular) {
+    if (!point.is_unbounded()) continue;
+    const Vec2 foot = line.foot(point.position);
+    for (Eigen::Index i = 0; i < line.p.size(); ++i)
+      if ((line.position[i] - foot).norm() < e.excluded_distance) e.excluded[i] = 1;
+  }
   // A mesh too coarse to tell what is near such a point from the rest of the contact: all of it counts.
   bool left = false;
   for (Eigen::Index i = 0; i < line.p.size(); ++i)

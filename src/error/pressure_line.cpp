@@ -86,6 +86,17 @@ Eigen::Index PressureLine::nearest(const Vec2& x) const {
   return std::ranges::min_element(position, {}, [&](const Vec2& y) { return (y - x).norm(); }) - position.begin();
 }
 
+Vec2 PressureLine::foot(const Vec2& x) const {
+  Vec2 nearest = position[0];
+  for (std::size_t e = 0; e + 1 < position.size(); ++e) {
+    const Vec2 along = position[e + 1] - position[e];
+    const double part = std::clamp((x - position[e]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const Vec2 place = position[e] + part * along;
+    if ((place - x).squaredNorm() < (nearest - x).squaredNorm()) nearest = place;
+  }
+  return nearest;
+}
+
 double PressureLine::distance(double one, double other) const {
   const double r = std::abs(one - other);
   return closed ? std::min(r, s(s.size() - 1) - r) : r;

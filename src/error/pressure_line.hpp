@@ -34,6 +34,8 @@ struct PressureLine {
   static Eigen::Index edge_to(Eigen::Index i, int step) { return step < 0 ? i : i - 1; }
   /// The vertex nearest to a place.
   Eigen::Index nearest(const Vec2& x) const;
+  /// The place on the chords of its edges nearest to a place, such as a corner of the opposite side across a gap.
+  Vec2 foot(const Vec2& x) const;
   /// Between two places by their arc lengths; around a closed line the shorter way.
   double distance(double one, double other) const;
 };

@@ -289,7 +289,8 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
     const double scale = e.line.h.sum() / 2;
     for (const SingularPoint& point : e.singular) {
       const double least = scale * std::pow(0.3 * factors.target, 1 / (2 * point.exponent));
-      wanted.layers.push_back({point.position, std::max(least, least_layer * scene), size_growth});
+      for (const Vec2& place : {point.position, e.line.foot(point.position)})
+        wanted.layers.push_back({place, std::max(least, least_layer * scene), size_growth});
     }
   }
   limit_growth(mesh, size_growth, wanted.sizes);

@@ -135,6 +135,22 @@ TEST(Bars, LeaveOutAFifthOfTheLoadedLengthHoweverManyPointsThereAre) {
   }
 }
 
+// The corner of a side that was drawn farther away than that.
+TEST(Bars, LeaveOutWhatFacesACornerAcrossAGap) {
+  PressureEstimate e = made_by_hand();
+  SingularPoint corner{};
+  corner.pressure_exponent = 0.5;
+  const auto left_out = [&](double gap) {
+    corner.position = e.line.position[5] + Vec2(0, gap);
+    e.singular = {corner};
+    find_excluded(0.3, e);
+    return e.excluded;
+  };
+  const std::vector<char> drawn = left_out(0);
+  EXPECT_EQ(drawn[5], 1);
+  EXPECT_EQ(left_out(3 * e.excluded_distance), drawn);
+}
+
 // Contact that ends beside a corner, in what is left out around it, has a border there that moves no root beyond.
 TEST(Bars, ABorderBesideAPointWithoutLimitIsNone) {
   PressureEstimate e = made_by_hand();
