@@ -174,7 +174,7 @@ boundary = [
   // The corner is held, but nothing pushes against it.
   std::vector<std::string> forces;
   for (const std::string& line : r.warnings)
-    if (const auto end = line.find(": stresses and the displacement there are unbounded"); end != std::string::npos)
+    if (const auto end = line.find(": stresses and the displacement there"); end != std::string::npos)
       forces.push_back(line.substr(0, end));
   EXPECT_EQ(forces, (std::vector<std::string>{"boundary.2 (line 10): a force of 1.5 at the point 'feet'",
                                               "boundary.4 (line 12): a force of 0.5 at the point 'top_right'"}));
