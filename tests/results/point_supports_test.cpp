@@ -53,6 +53,10 @@ double part_changed(const Results& one, const Results& other) {
   return off / whole;
 }
 
+bool is_told(const Results& r, const std::string& words) {
+  return std::ranges::any_of(r.warnings, [&](const std::string& line) { return line.find(words) != line.npos; });
+}
+
 TEST(PointSupports, ChangePAsTheirElementsBecomeShorter) {
   std::mt19937 random(3);
   for (int k = 0; k < 6; ++k) {
@@ -72,15 +76,13 @@ TEST(PointSupports, ChangeNothingThatEquilibriumGives) {
   for (const std::string prop : {"displacement = { y = 0 }", "spring = [0, 800]"}) {
     const Results r = propped(3, 0.05, "displacement = { x = 0 }", prop);
     EXPECT_LT(changes_by_point_supports(r)[0], 1e-6) << prop;
+    EXPECT_TRUE(is_told(r, "the displacement there are unbounded and grow as the mesh is refined; results a few"));
   }
 }
 
 TEST(PointSupports, AreWarnedOfWithTheirShare) {
-  const std::vector<std::string> lines =
-      propped(4.5, 0.05, "displacement = { x = 0, y = 0 }", "displacement = { y = 0 }").warnings;
-  EXPECT_TRUE(std::ranges::any_of(lines, [](const std::string& line) {
-    return line.find("elements there a tenth as long change p by another") != std::string::npos;
-  }));
+  EXPECT_TRUE(is_told(propped(4.5, 0.05, "displacement = { x = 0, y = 0 }", "displacement = { y = 0 }"),
+                      "elements there a tenth as long change p by another"));
 }
 
 }  // namespace
