@@ -1,6 +1,7 @@
 #include "results/point_supports.hpp"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 

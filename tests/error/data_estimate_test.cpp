@@ -44,6 +44,16 @@ TEST(DataEstimate, AStrainWithinACellOnTheLineIsInTheBarsBesideIt) {
   }
 }
 
+// Recovered stresses follow it, and the estimate of cells has what it does.
+TEST(DataEstimate, AStrainThatIsAParabolaInAQuadraticCellIsNoMisfit) {
+  const Results r = loaded_blocks(4, 4, R"([[initial_strain]]
+body = "upper"
+strain = { yy = "1e-3 * x^2", xx = 0, zz = 0, xy = 0 }
+)");
+  ASSERT_FALSE(r.problem.misfits.parts.empty());
+  for (const DataMisfit& part : r.problem.misfits.parts) EXPECT_LT(part.size, 1e-9);  // 1e-3 of a linear function
+}
+
 // In the upper block a force of 0.05 in a square 0.04 wide, 0.05 above the line: of the bars' windows the narrowest is
 // six times as wide as that. Cells are 0.08 to 0.17 wide, and those of the reference 0.0125.
 TEST(DataEstimate, AForceWithinACellBesideTheLineIsInTheBarsBeneathIt) {
