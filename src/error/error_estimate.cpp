@@ -122,12 +122,13 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
     forget_borders(swinging(e), e.local);
     e.weak = add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
-    const double modulus = contact_modulus(d.laws[pair.multiplier.body], d.laws[pair.opposite.body]);
+    const std::array<ElasticLaw, 2> laws{d.laws[pair.multiplier.body], d.laws[pair.opposite.body]};
+    const double modulus = contact_modulus(laws[0], laws[1]);
     if (pair.spec.stiffness) {
       add_layer_ends(e.line, points[k], *pair.spec.stiffness, modulus, e.local);
     } else {
       judge_small_kinks(pair, modulus, solution.u, spec.value, e);
-      add_curvature_jumps(p.mesh.nodes, pair, modulus, solution.u, reached[k][0], e);
+      add_curvature_jumps(p.mesh.nodes, pair, laws, solution.u, reached[k][0], e);
     }
     find_excluded(spec.exclude, e);
   });

@@ -8,6 +8,7 @@
 #include "contact/curvature_jumps.hpp"
 #include "contact/least_gap.hpp"
 #include "error/weak_points.hpp"
+#include "fem/edges.hpp"
 
 namespace mortise {
 namespace {
@@ -28,17 +29,26 @@ double slide_at(const ContactPair& pair, const PressureLine& line, const Vec2& x
   return slide;
 }
 
-}  // namespace
+struct Loaded {
+  double length, mean;  // of p in L2
+};
 
-void judge_small_kinks(const ContactPair& pair, double modulus, const VecX& u, double asked,
-                       PressureEstimate& estimate) {
-  const PressureLine& line = estimate.line;
+Loaded loaded(const PressureLine& line) {
   double length = 0, square = 0;
   for (Eigen::Index i = 0; i < line.p.size(); ++i) {
     if (line.loaded[i]) length += line.h(i);
     square += line.h(i) * line.p(i) * line.p(i);
   }
-  const double mean = std::sqrt(square / length), least = seen * (asked > 0 ? asked : least_asked);
+  return {length, std::sqrt(square / length)};
+}
+
+}  // namespace
+
+void judge_small_kinks(const ContactPair& pair, double modulus, const VecX& u, double asked,
+                       PressureEstimate& estimate) {
+  const PressureLine& line = estimate.line;
+  const auto [length, mean] = loaded(line);
+  const double least = seen * (asked > 0 ? asked : least_asked);
   std::erase_if(estimate.singular, [&](SingularPoint& point) {
     if (point.small_turn == 0) return false;
     const double opens =
@@ -49,17 +59,30 @@ void judge_small_kinks(const ContactPair& pair, double modulus, const VecX& u, d
   });
 }
 
-void add_curvature_jumps(const Points& nodes, const ContactPair& pair, double modulus, const VecX& u,
-                         const std::vector<Reach>& reach, PressureEstimate& estimate) {
+void add_curvature_jumps(const Points& nodes, const ContactPair& pair, const std::array<ElasticLaw, 2>& laws,
+                         const VecX& u, const std::vector<Reach>& reach, PressureEstimate& estimate) {
   if (!pair.geometry.normals) return;
   const ContactLine& line = *pair.geometry.multiplier;
+  const double mean = loaded(estimate.line).mean;
   for (const CurvatureJump& at : curvature_jumps(nodes, pair.multiplier, line)) {
-    const bool closed =
-        at.xi > -1 ? reach[at.edge].after && reach[at.edge + 1].before : reach[at.edge].before && reach[at.edge].after;
-    if (!closed) continue;
+    const bool within = at.xi > -1;
+    const bool before = within ? reach[at.edge].after : reach[at.edge].before,
+               after = within ? reach[at.edge + 1].before : reach[at.edge].after;
+    if (!before && !after) continue;
     const Vec2 place = line.at(at.edge, at.xi).position;
-    const double slope = std::abs(at.jump) * slide_at(pair, estimate.line, place, u);
-    add_weak_logarithm(estimate.line, place, modulus * slope / (2 * std::numbers::pi), estimate.local);
+    const double amplitude = contact_modulus(laws[0], laws[1]) * std::abs(at.jump) *
+                             slide_at(pair, estimate.line, place, u) / (2 * std::numbers::pi);
+    if (amplitude > mean) {
+      estimate.singular.push_back({.position = place,
+                                   .edge = edge_length(nodes, pair.multiplier.edges[at.edge]),
+                                   .exponent = 1,
+                                   .pressure_exponent = 1,
+                                   .meeting = Meeting::corner,
+                                   .wedges = {wedge(std::numbers::pi, laws[0]), wedge(std::numbers::pi, laws[1])},
+                                   .log_pressure = amplitude});
+    } else if (before && after) {
+      add_weak_logarithm(estimate.line, place, amplitude, estimate.local);
+    }
   }
 }
 

@@ -233,6 +233,19 @@ TEST(Accuracy, OfARivetedJointHasAnActiveSetOnEachMesh) {
   for (const auto& solve : r->accuracy->solves) EXPECT_TRUE(std::isfinite(solve.estimated));
 }
 
+// It turns on the rounded edge of its foot, and slides across where that begins: contact goes on there by what normals
+// that turn make of the slide, within 1e-4, and p would grow to 50 GPa.
+TEST(Accuracy, OfAKeyLeavesOutWhereItSlidesAcrossTheBeginOfItsFillet) {
+  const auto r = solve_to_accuracy(
+      read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/key.toml", {{"accuracy.value", "5%"}}));
+  ASSERT_TRUE(r && r->accuracy->reached());
+  EXPECT_TRUE(std::ranges::any_of(r->estimate->pressures[0].singular, [](const SingularPoint& point) {
+    return point.log_pressure > 0 && (point.position - Vec2(-7, 24.5)).norm() < 1e-6;
+  }));
+  EXPECT_LE(r->accuracy->solves.size(), 6u);
+  EXPECT_LE(free_unknowns(*r), 35000);
+}
+
 // Of two of them the exponents are others than those of the three that meet.
 TEST(Accuracy, OfABlockOnTwoKnowsThePowerOfAllThreeBodies) {
   std::mt19937 random(5);
