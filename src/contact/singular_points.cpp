@@ -206,7 +206,8 @@ SingularPoint singular_point(const ContactPlace& drawn, const std::optional<Bodi
   if (found.pressure.real() <= singular_limit) point.pressure_exponent = found.pressure.real();
   if (place.one_curve || std::abs(jump) <= 2 * jump_error) jump = 0;
   if (point.pressure_exponent == 1) point.log_pressure = log_amplitude(first, second, jump + given_jump);
-  if (point.exponent == 1 && point.log_pressure == 0 && (a.end || b.end))
+  const bool ends = a.end || b.end || place.joined[0] != place.joined[1];
+  if (point.exponent == 1 && point.log_pressure == 0 && ends)
     point.small_power = found.pressure.real() < 1 ? found.pressure.real() - 1 : found.falling - 1;
   return point;
 }

@@ -30,7 +30,9 @@ void add_jumps(const GapErrors& gap, const PressureLine& line, std::vector<Singu
 }
 
 // An edge that carries nothing and stays open whatever its gap is off by has none.
-void add_gap_errors(const Problem& problem, const VecX& u, double excluded, std::vector<PressureEstimate>& pressures) {
+void add_gap_errors(const Problem& problem, const VecX& u, const AccuracySpec& spec,
+                    std::vector<PressureEstimate>& pressures) {
+  const double negligible = negligible_force(pressures, spec);
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     const GapErrors gap = gap_errors(problem.mesh, problem.pairs[k], problem.discretisation.laws);
     if (gap.l2.size() == 0) continue;
@@ -40,7 +42,7 @@ void add_gap_errors(const Problem& problem, const VecX& u, double excluded, std:
       if (e.line.p(i) != 0 || e.line.p(i + 1) != 0 || gaps[i].low <= gap.off(i))
         for (const int end : {0, 1}) e.local.add_data(i + end, gap.l2(i));
     if (!problem.pairs[k].spec.stiffness) add_jumps(gap, e.line, e.singular);
-    find_excluded(excluded, e);
+    find_excluded(spec.exclude, negligible, e);
     find_bars(e);
   }
 }
@@ -133,7 +135,7 @@ void add_loads_by_line(const Problem& problem, const Solution& solution, ErrorEs
 void add_data_errors(const Problem& problem, const Solution& solution, const AccuracySpec& spec,
                      ErrorEstimate& estimate) {
   const std::vector<DataMisfit>& parts = problem.misfits.parts;
-  add_gap_errors(problem, solution.u, spec.exclude, estimate.pressures);
+  add_gap_errors(problem, solution.u, spec, estimate.pressures);
   if (parts.empty() || problem.pairs.empty()) return;
   add_strains_on_line(problem, estimate);
   add_loads_by_line(problem, solution, estimate);

@@ -114,6 +114,7 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
     reached[k] = contact_reach(p.mesh, pair, e.line, solution.u, options.found);
   });
   const std::vector<std::vector<SingularPoint>> points = memory.points(p, reached);
+  const double negligible = negligible_force(list, spec);
   for_each_index(p.pairs.size(), solver_threads(), [&](std::size_t k) {
     PressureEstimate& e = list[k];
     const ContactPair& pair = p.pairs[k];
@@ -130,7 +131,7 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
       judge_small_kinks(pair, modulus, solution.u, spec.value, e);
       add_curvature_jumps(p.mesh.nodes, pair, laws, solution.u, reached[k][0], e);
     }
-    find_excluded(spec.exclude, e);
+    find_excluded(spec.exclude, negligible, e);
   });
   return list;
 }

@@ -102,6 +102,8 @@ int sides_without_limit(const PressureEstimate& e) {
   return sides;
 }
 
+double force_along(const PressureLine& line) { return line.h.dot(line.p.cwiseAbs()); }
+
 // Whether p is known better than to its own size.
 bool is_known(const PressureEstimate& e, Eigen::Index i) { return std::abs(e.line.whole(i)) > e.local.least(i); }
 
@@ -113,12 +115,24 @@ double border_motion(const PressureEstimate& e, const LineError::Border& border)
   return 2 * far * std::sqrt(centre_of_window(e, border)) / border.root;
 }
 
-void find_excluded(double part, PressureEstimate& e) {
+double negligible_force(const std::vector<PressureEstimate>& pressures, const AccuracySpec& spec) {
+  double sum = 0;
+  for (const PressureEstimate& e : pressures) sum += force_along(e.line);
+  return seen_of_asked * spec.value * sum;
+}
+
+void find_excluded(double part, double negligible, PressureEstimate& e) {
   const PressureLine& line = e.line;
   double length = 0;
   for (Eigen::Index i = 0; i + 1 < line.p.size(); ++i)
     if (line.loaded[i] && line.loaded[i + 1]) length += line.s(i + 1) - line.s(i);
   e.excluded_distance = part * length * std::min(1.0, 2.0 / std::max(sides_without_limit(e), 1));
+  const double force = force_along(line);
+  if (force > 0 && force < negligible && std::ranges::any_of(e.singular, &SingularPoint::is_unbounded)) {
+    e.excluded.assign(line.p.size(), 1);
+    e.local.border.assign(line.p.size(), 0);
+    return;
+  }
   e.excluded.assign(line.p.size(), 0);
   for (const SingularPoint& point : e.singular) {
     if (!point.is_unbounded()) continue;

@@ -6,8 +6,13 @@
 namespace mortise {
 
 /// Leaves out of the norm what lies nearer than this part of the loaded length to a point where p has no limit; where
-/// the line is loaded on more than two sides of such points, so much less that no more is left out than beside two.
-void find_excluded(double part, PressureEstimate& estimate);
+/// the line is loaded on more than two sides of such points, so much less that no more is left out than beside two. A
+/// contact with such a point whose force (a depth) is less than `negligible` is left out as a whole.
+void find_excluded(double part, double negligible, PressureEstimate& estimate);
+
+/// The force (a depth) that is not seen in p of all pairs: a third of the part that is asked. On a tenth of the loaded
+/// length it is about what is asked of p's norm; a point may have it, and has no p in L2.
+double negligible_force(const std::vector<PressureEstimate>& pressures, const AccuracySpec& spec);
 
 /// Sets what each window stands for: by the convexity of squares far2 is no more than the sum of lengths times the
 /// squares of what the windows' means are off by.

@@ -9,6 +9,9 @@
 
 namespace mortise {
 
+/// What is seen of the error that is asked: squares add up, to a tenth more.
+inline constexpr double seen_of_asked = 1. / 3;
+
 /// What the pressure of a pair is off by (docs/theory.md eq. 45 to 48): the local error of a piecewise linear function
 /// along the line, and what the bodies' far field makes of it, seen by dual solutions of windowed means.
 struct PressureEstimate {

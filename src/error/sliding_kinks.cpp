@@ -13,7 +13,6 @@
 namespace mortise {
 namespace {
 
-constexpr double seen = 1. / 3;        // of what is asked: squares of errors add up, a tenth more
 constexpr double least_asked = 0.001;  // of a mesh of one's own: bars are judged at the nodes
 
 // How far the sides slide at the contact point nearest to a place.
@@ -48,7 +47,7 @@ void judge_small_kinks(const ContactPair& pair, double modulus, const VecX& u, d
                        PressureEstimate& estimate) {
   const PressureLine& line = estimate.line;
   const auto [length, mean] = loaded(line);
-  const double least = seen * (asked > 0 ? asked : least_asked);
+  const double least = seen_of_asked * (asked > 0 ? asked : least_asked);
   std::erase_if(estimate.singular, [&](SingularPoint& point) {
     if (point.small_turn == 0) return false;
     const double opens =

@@ -233,6 +233,20 @@ TEST(Accuracy, OfARivetedJointHasAnActiveSetOnEachMesh) {
   for (const auto& solve : r->accuracy->solves) EXPECT_TRUE(std::isfinite(solve.estimated));
 }
 
+// One pair carries a thousandth of the forces at its corner, where p goes as r^-0.504 and has no norm.
+TEST(Accuracy, OfARivetedJointLeavesOutACornerWhoseForceIsNotSeen) {
+  const auto r = solve_to_accuracy(read_scene(std::string(MORTISE_SOURCE_DIR) + "/tests/parts/riveted_joint.toml",
+                                              {{"accuracy.value", "1%"},
+                                               {"accuracy.first_edges", "27"},
+                                               {"materials.steel", "{ young = 63e3, poisson = 0.45 }"},
+                                               {"materials.aluminium", "{ young = 70e3, poisson = 0.45 }"}}));
+  ASSERT_TRUE(r && r->accuracy->reached());
+  EXPECT_LE(r->accuracy->solves.size(), 5u);
+  const PressureEstimate& e = r->estimate->pressures[1];
+  EXPECT_GT(e.line.p.maxCoeff(), 0);
+  EXPECT_EQ(e.p2, 0);
+}
+
 // It turns on the rounded edge of its foot, and slides across where that begins: contact goes on there by what normals
 // that turn make of the slide, within 1e-4, and p would grow to 50 GPa.
 TEST(Accuracy, OfAKeyLeavesOutWhereItSlidesAcrossTheBeginOfItsFillet) {

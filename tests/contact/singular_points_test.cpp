@@ -253,6 +253,18 @@ TEST(SingularPoints, UnderACornerPressedOnOneFaceItIsThatOfAWedge) {
               1e-3);
 }
 
+// Exponents of 0.95 and more do not tell: p falls to zero as a power of the distance under a corner of 75 degrees.
+TEST(SingularPoints, UnderASharpCornerPressedOnOneFaceItIsASmallPower) {
+  std::vector<Reach> reach(9, {false, false});
+  reach[4] = {true, false};
+  const double slope = 1.3, angle = 180 * deg - 2 * std::atan(slope);
+  const Fan fan = end_fan(steel_wedge(angle, Face::free), steel_wedge(180 * deg, Face::free));
+  const auto points = points_of({slope, 0.4}, reach, {});
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_GT(points[0].small_power, 0.05);
+  EXPECT_NEAR(points[0].small_power, exponents(fan, 0).falling - 1, 1e-3);
+}
+
 TEST(SingularPoints, WhatContactDoesNotReachIsNone) {
   EXPECT_TRUE(points_of({0.5, 0.4}, std::vector<Reach>(9, {false, false}), {}).empty());
 }

@@ -84,10 +84,10 @@ TEST(Bars, WhereNoVertexIsKnownTheErrorIsPItself) {
   corner.position = e.line.position[2];
   corner.pressure_exponent = 0.5;
   e.singular = {corner};
-  find_excluded(0.1, e);
+  find_excluded(0.1, 0, e);
   EXPECT_EQ(std::ranges::count(e.excluded, 1), 0);
   e.local.least.setZero();
-  find_excluded(0.1, e);
+  find_excluded(0.1, 0, e);
   EXPECT_EQ(e.excluded[2], 1);
 }
 
@@ -130,7 +130,7 @@ TEST(Bars, LeaveOutAFifthOfTheLoadedLengthHoweverManyPointsThereAre) {
       }
     }
     e.local = LineError(edges + 1);
-    find_excluded(0.1, e);
+    find_excluded(0.1, 0, e);
     EXPECT_NEAR(2 * teeth * e.excluded_distance, 0.2 * loaded, 1e-9) << k;
   }
 }
@@ -143,7 +143,7 @@ TEST(Bars, LeaveOutWhatFacesACornerAcrossAGap) {
   const auto left_out = [&](double gap) {
     corner.position = e.line.position[5] + Vec2(0, gap);
     e.singular = {corner};
-    find_excluded(0.3, e);
+    find_excluded(0.3, 0, e);
     return e.excluded;
   };
   const std::vector<char> drawn = left_out(0);
@@ -154,7 +154,7 @@ TEST(Bars, LeaveOutWhatFacesACornerAcrossAGap) {
 // Contact that ends beside a corner, in what is left out around it, has a border there that moves no root beyond.
 TEST(Bars, ABorderBesideAPointWithoutLimitIsNone) {
   PressureEstimate e = made_by_hand();
-  find_excluded(0.1, e);
+  find_excluded(0.1, 0, e);
   EXPECT_GT(std::ranges::count(e.local.border, 1), 0);
   e.local.l2(5) = 1e3;
   find_bars(e);
@@ -163,7 +163,7 @@ TEST(Bars, ABorderBesideAPointWithoutLimitIsNone) {
   corner.position = e.line.position[5];
   corner.pressure_exponent = 0.5;
   e.singular = {corner};
-  find_excluded(0.3, e);
+  find_excluded(0.3, 0, e);
   EXPECT_EQ(e.excluded[5], 1);
   for (int i = 0; i < 5; ++i) EXPECT_FALSE(e.local.border[i] && e.excluded[i]) << i;
   find_bars(e);
@@ -266,17 +266,17 @@ TEST(Bars, WhatLiesBesideAPointWithoutLimitIsLeftOut) {
   SingularPoint point{
       .position = {3, 0}, .edge = 1, .exponent = 0.5, .pressure_exponent = 1, .meeting = {}, .wedges = {}};
   e.singular = {point};
-  find_excluded(0.3, e);
+  find_excluded(0.3, 0, e);
   EXPECT_EQ(e.excluded, std::vector<char>(6, 0));  // p has a limit there
   e.singular[0].pressure_exponent = 0.5;
-  find_excluded(0.3, e);
+  find_excluded(0.3, 0, e);
   EXPECT_NEAR(e.excluded_distance, 0.3 * 6, 1e-15);
   EXPECT_EQ(e.excluded, (std::vector<char>{0, 0, 1, 1, 0, 0}));
   e.singular[0].pressure_exponent = 1;
   e.singular[0].log_pressure = 1;
-  find_excluded(0.3, e);
+  find_excluded(0.3, 0, e);
   EXPECT_EQ(e.excluded, (std::vector<char>{0, 0, 1, 1, 0, 0}));
-  find_excluded(2, e);  // nothing would be left: all counts
+  find_excluded(2, 0, e);  // nothing would be left: all counts
   EXPECT_EQ(e.excluded, std::vector<char>(6, 0));
 }
 
