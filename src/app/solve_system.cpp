@@ -108,7 +108,7 @@ Solution SystemSolver::solve_by_factor(const SaddlePointSystem& system) {
 }
 
 Solution SystemSolver::solve_independent(const SaddlePointSystem& system) {
-  const Solver solver = solver_for(method_, system);
+  const Solver solver = direct_ ? Solver::direct : solver_for(method_, system);  // one that has the factor goes on
   Solution solution;
   switch (solver) {
     case Solver::direct:

@@ -27,14 +27,18 @@ bool is_pressed(const ContactPair& pair, const ContactResults& contact) {
   return pair.geometry.normals && pair.geometry.opposite && !pair.spec.stiffness && contact.length_in_contact > 0;
 }
 
-// Where the normals of a loaded line agree somewhere they differ beside it by what the curvatures do, one way and the
-// other.
+// Where the normals of a loaded line agree somewhere, perhaps between its points, they differ beside it by what the
+// curvatures do, one way and the other.
 bool agree_somewhere(const ContactPair& pair, const VecX& pressure) {
   const double least = 1e-3 * largest_entry(pressure);  // as of place_motions
-  return std::ranges::any_of(pair.points, [&](const ContactPoint& point) {
-    return std::abs(pressure_at(pair, pressure, point)) > least &&
-           angle_between(point.normal, facing_normal(pair, point)) < least_angle;
-  });
+  bool left = false, right = false;
+  for (const ContactPoint& point : pair.points) {
+    if (std::abs(pressure_at(pair, pressure, point)) <= least) continue;
+    const double turn = cross(point.normal, facing_normal(pair, point));  // the sine of the angle between them
+    left = left || turn > -least_angle;
+    right = right || turn < least_angle;
+  }
+  return left && right;
 }
 
 // B of the pair with the other side's normals less its own; nothing where other rows have support.

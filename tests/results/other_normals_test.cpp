@@ -74,5 +74,12 @@ TEST(OtherNormals, OfLinesThatAreOneChangeNothing) {
   EXPECT_FALSE(other_normals(wedge(0.2, 0, "pressure = 20", "flank"))[0]);
 }
 
+// Those of a coarse mesh differ at all points, one way and the other.
+TEST(OtherNormals, OfRollersAgreeBetweenThePoints) {
+  const Results r = solve_scene(
+      read_scene(MORTISE_SOURCE_DIR "/geo/rollers.toml", {{"mesh.parameters", "{ rollers = 6, fine = 0.1 }"}}));
+  for (const auto& other : other_normals(r)) EXPECT_FALSE(other);
+}
+
 }  // namespace
 }  // namespace mortise::test
