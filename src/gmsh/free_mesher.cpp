@@ -29,13 +29,14 @@ Mesh FreeMesher::mesh_once(const SizeAt& size, bool recombine) {
 }
 
 // gmsh 4.8 leaves inverted triangles where a curve turns within an edge, and flat ones that no swap mends; other sizes
-// a little smaller avoid them.
+// a little smaller avoid them. Where it makes quadrilaterals of edges far shorter than the next, those are inverted at
+// many sizes: triangles then.
 Mesh FreeMesher::mesh(const SizeAt& size, bool recombine) {
-  constexpr int attempts = 6;
+  constexpr int attempts = 6, with_quadrilaterals = 2;
   double part = 1;
   for (int attempt = 1;; ++attempt, part *= 0.9) {
     try {
-      return mesh_once([&](const Vec2& x) { return part * size(x); }, recombine);
+      return mesh_once([&](const Vec2& x) { return part * size(x); }, recombine && attempt <= with_quadrilaterals);
     } catch (const InputError&) {
       if (attempt == attempts) throw;
     }

@@ -22,7 +22,8 @@ class FreeMesher {
   /// For the first sizes, before there is a mesh.
   const std::vector<DrawnCurve>& curves() const { return drawing_.curves; }
 
-  /// 6-node triangles, or 8-node quadrilaterals with a few triangles between them. The same sizes give the same mesh.
+  /// 6-node triangles, or 8-node quadrilaterals with a few triangles between them, triangles alone where these
+  /// quadrilaterals are inverted. The same sizes give the same mesh.
   /// `size` is called in the child: what it throws comes through as run_in_child
   /// says, and what it writes to is not seen here. Throws std::domain_error where it is not > 0; InputError as
   /// load_mesh does, and where cells stay flat or inverted at 0.6 of the sizes too.

@@ -347,5 +347,18 @@ Physical Surface("quarter") = {1}; Physical Curve("arc") = {2};)");
   }
 }
 
+// Edges of 1e-8 of the geometry, as contacts that are found late ask for: quadrilaterals come out inverted at many
+// sizes.
+TEST(FreeMesher, MakesTrianglesWhereQuadrilateralsAreInverted) {
+  FreeMesher mesher(MORTISE_SOURCE_DIR "/geo/rollers.geo", {{"rollers", 6}});
+  for (const auto& [least, growth] :
+       {std::pair(1.20481e-06, 0.49331), {1.10031e-06, 0.210613}, {2.39388e-06, 0.662866}}) {
+    const auto size = [&](const Vec2& x) {
+      return std::min(5.0, least + growth * std::min((x - Vec2(0, 40)).norm(), (x - Vec2(0, -40)).norm()));
+    };
+    EXPECT_NO_THROW(mesher.mesh(size, true)) << least;
+  }
+}
+
 }  // namespace
 }  // namespace mortise
