@@ -15,10 +15,10 @@ void judge_small_kinks(const ContactPair& pair, double modulus, const VecX& u, d
                        PressureEstimate& estimate);
 
 /// Where the curvature of the multiplier side jumps by k the normals turn on beyond, and the gap's slope jumps by k s
-/// where bodies slide by s: p = p0 +- A ln r, A = E* k s / 2 pi, and one side opens within r0 = L e^(-p0 / A), with L
-/// the loaded length. Where contact reaches such a place, and what is within r0 counts as above, it is one of those
-/// where p has no limit; else what the line misses of the logarithm is added to the local error, if contact is closed
-/// on both sides. `laws`: of the multiplier side's body and the other's.
+/// where bodies slide by s: p = p0 +- A ln r, A = E* k s / 2 pi. If contact reaches such a place and A is more than the
+/// mean of p in L2, these normals alone say where contact ends: it is one of those where p has no limit. Else what the
+/// line misses of the logarithm is added to the local error, if contact is closed on both sides. `laws`: of the
+/// multiplier side's body and the other's.
 void add_curvature_jumps(const Points& nodes, const ContactPair& pair, const std::array<ElasticLaw, 2>& laws,
                          const VecX& u, const std::vector<Reach>& reach, PressureEstimate& estimate);
 
