@@ -46,14 +46,16 @@ void add_layer_ends(const PressureLine& line, const std::vector<SingularPoint>& 
   for (const SingularPoint& point : points) {
     const double d = point.small_power != 0 ? point.small_power : point.pressure_exponent - 1;
     const Eigen::Index i = line.nearest(point.position);
-    if (d == 0 || !line.loaded[i]) continue;
+    if ((d == 0 && point.log_pressure == 0) || !line.loaded[i]) continue;
     // Between rollers p is constant but for a part of about d of it; elsewhere r^d is all of it.
     const bool rollers = std::ranges::all_of(point.wedges, [](const Wedge& w) { return w.outer == Face::symmetric; });
     const double p = std::abs(line.p(i)) * (rollers ? std::abs(d) : 1), h = line.h(i);
+    const double amplitude = d == 0 ? point.log_pressure : std::abs(d) * p;
     const double longer = h * law.slope(law.overlap(std::abs(line.p(i)))) / modulus;  // the edge than E* / k
-    const double soft = hats_in_l2 * std::abs(d) * p * longer, closed = missed(std::max(d, 0.0), std::abs(d) * p);
+    const double soft = hats_in_l2 * amplitude * longer, closed = missed(std::max(d, 0.0), amplitude);
     error.add_weak({i, soft * closed / (soft + closed) * std::sqrt(h), 0.5 + closed / (soft + closed), true});
-    error.raise(i, p * std::abs(std::expm1(-d * std::log1p(hats_at_end * longer))));
+    const double folds_to_end = std::log1p(hats_at_end * longer);
+    error.raise(i, d == 0 ? amplitude * folds_to_end : p * std::abs(std::expm1(-d * folds_to_end)));
   }
 }
 

@@ -22,9 +22,9 @@ double weak_change(double d);
 void add_weak_logarithm(const PressureLine& line, const Vec2& place, double amplitude, LineError& error);
 
 /// The same where contact gives way as `law` says. The layer rounds off what p of closed contact does at any such
-/// point, r^d, within a length E* / k, k the law's slope: p there is off by no more than from an edge's length down to
-/// that. On edges shorter than it the bodies' stresses still go as d p ln r, as at closed contact, and the overlap as d
-/// p r ln r / E*. `modulus`: E*.
+/// point, r^d or its limit A ln r, within a length E* / k, k the law's slope: p there is off by no more than from an
+/// edge's length down to that. On edges shorter than it the bodies' stresses still go as d p ln r, as at closed
+/// contact, and the overlap as d p r ln r / E*. `modulus`: E*.
 void add_layer_ends(const PressureLine& line, const std::vector<SingularPoint>& points, const ContactLaw& law,
                     double modulus, LineError& error);
 

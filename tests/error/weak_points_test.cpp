@@ -144,5 +144,23 @@ TEST(WeakPoints, OfContactThatGivesWayAreRoundedOffByTheLayer) {
   EXPECT_NEAR(between.least(0), d * at_end(-d, soft)(1), 1e-9 * between.least(0));
 }
 
+// p = -A ln r where the slope of a given gap ends on a line of symmetry: the limit of d p = A.
+TEST(WeakPoints, OfContactThatGivesWayMayBeLogarithms) {
+  const int edges = 30;
+  const double h = 1.0 / edges, modulus = 500, amplitude = 3;
+  const PressureLine line = power(edges, 0);
+  SingularPoint end = weak(0);
+  end.log_pressure = amplitude;
+  const auto at_end = [&](double stiffness) {
+    LineError error(edges + 1);
+    add_layer_ends(line, {end}, {.points = {Vec2(1, stiffness)}}, modulus, error);
+    return Vec2(error.data(0), error.least(0));
+  };
+  const double soft = 1e-3 * modulus / h, hard = 1e5 * modulus / h;
+  EXPECT_NEAR(at_end(soft)(0), 0.1095 * amplitude * soft / modulus * std::pow(h, 1.5), 0.01 * at_end(soft)(0));
+  EXPECT_NEAR(at_end(soft)(1), 0.3606 * amplitude * soft / modulus * h, 0.01 * at_end(soft)(1));
+  EXPECT_NEAR(at_end(hard)(1), amplitude * std::log(0.36e5), 1e-3 * at_end(hard)(1));
+}
+
 }  // namespace
 }  // namespace mortise
