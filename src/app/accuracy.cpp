@@ -324,6 +324,9 @@ class Loop {
     const auto& solves = report.solves;
     const std::size_t n = solves.size();
     if (report.reached()) return "";
+    const double change = spec_.of == Goal::pressure ? changed_by_point_supports(r) : 0;
+    if (change > spec_.value && r.estimate->pressure() <= std::max(spec_.value, seen_of_asked * change))
+      return "elements a tenth as long at a support at a point change p by another " + percent(change);
     if (others_ == most_others && !tells_sizes(r))
       return r.status == Status::not_converged ? "the solver did not converge"
              : spec_.of == Goal::pressure      ? "nothing is loaded, apart from what is left out"

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "contact/least_gap.hpp"
+#include "results/point_supports.hpp"
 
 namespace mortise {
 namespace {
@@ -14,10 +15,15 @@ constexpr double aimed = 0.7;        // of what was asked, lest a mesh that just
 
 }  // namespace
 
+double changed_by_point_supports(const Results& r) {
+  const std::vector<double> changes = changes_by_point_supports(r);
+  return changes.empty() ? 0 : std::ranges::max(changes);
+}
+
 double estimated_error(const Results& r, Goal of) {
   switch (of) {
     case Goal::pressure:
-      return r.estimate->pressure();
+      return std::hypot(r.estimate->pressure(), changed_by_point_supports(r));
     case Goal::peak:
       return r.estimate->peak();
     case Goal::half_width:

@@ -10,7 +10,11 @@ namespace mortise {
 /// By which all sizes change where a mesh tells nothing of the next, or is not made.
 inline constexpr double another = 1.5;
 
-/// By which part of it the figure that an accuracy is asked of is off, as estimated.
+/// By which part of it p changes as elements at supports at points become a tenth as long (results/point_supports).
+double changed_by_point_supports(const Results& results);
+
+/// By which part of it the figure that an accuracy is asked of is off, as estimated; of p with what supports at points,
+/// which have no p of a finest mesh, change of it.
 double estimated_error(const Results& results, Goal of);
 
 /// Sizes with which that comes to what is asked, in as few meshes as can be. `first`: of all.

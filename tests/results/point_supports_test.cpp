@@ -7,6 +7,7 @@
 #include <random>
 #include <sstream>
 
+#include "app/accuracy.hpp"
 #include "app/solve_scene.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -15,7 +16,8 @@ namespace {
 
 // A block, held at its left side where `left` says so and at a point of its underside, bears another. `at_point`: what
 // holds there, elements `size` long.
-Results propped(double x, double size, const std::string& left, const std::string& at_point) {
+Results propped(double x, double size, const std::string& left, const std::string& at_point,
+                const std::string& more = "") {
   const TemporaryFolder folder;
   std::ostringstream geo;
   const bool at_corner = x == 6;
@@ -30,13 +32,14 @@ Curve Loop(1) = {1 : 5}; Plane Surface(1) = {1}; Curve Loop(2) = {6 : 9}; Plane 
 Physical Surface("lower") = {1}; Physical Surface("upper") = {2};
 Physical Curve("left") = {5}; Physical Curve("seat") = {4}; Physical Curve("foot") = {6}; Physical Curve("head") = {8};)";
   folder.write("prop.geo", geo.str());
-  return solve_scene(read_scene(folder.write("scene.toml", R"(mesh.file = "prop.geo"
+  const Scene scene = read_scene(folder.write("scene.toml", R"(mesh.file = "prop.geo"
 materials.m = { young = 1000, poisson = 0.3 }
 bodies = { lower = "m", upper = "m" }
 contact = [{ between = ["foot", "seat"] }]
 boundary = [{ on = "prop", )" + at_point + R"( }, { on = "head", pressure = "1 + x / 5" },
-  { on = "head", displacement = { x = 0 } }, { on = "left", )" +
-                                                               left + " }]\n")));
+  { on = "head", displacement = { x = 0 } }, { on = "left", )" + left +
+                                                                " }]\n" + more));
+  return scene.accuracy ? *solve_to_accuracy(scene) : solve_scene(scene);
 }
 
 double force_at(const Results& r) { return r.recovery.reactions.entries[0].force.y(); }
@@ -83,6 +86,19 @@ TEST(PointSupports, ChangeNothingThatEquilibriumGives) {
 TEST(PointSupports, AreWarnedOfWithTheirShare) {
   EXPECT_TRUE(is_told(propped(4.5, 0.05, "displacement = { x = 0, y = 0 }", "displacement = { y = 0 }"),
                       "elements there a tenth as long change p by another"));
+}
+
+TEST(PointSupports, HaveNoPThatAnAccuracyCouldReach) {
+  const auto reached = [](const std::string& left, const std::string& asked) {
+    return propped(4.5, 1, left, "displacement = { y = 0 }", "accuracy.value = \"" + asked + "\"\n");
+  };
+  const Results r = reached("displacement = { x = 0, y = 0 }", "1%");
+  EXPECT_EQ(r.status, Status::accuracy_not_reached);
+  EXPECT_LE(r.estimate->pressure(), 0.01);
+  EXPECT_TRUE(r.accuracy->reason.starts_with("elements a tenth as long at a support at a point change p by another "))
+      << r.accuracy->reason;
+  EXPECT_TRUE(reached("displacement = { x = 0 }", "1%").accuracy->reached());  // equilibrium gives its force
+  EXPECT_TRUE(reached("displacement = { x = 0, y = 0 }", "30%").accuracy->reached());
 }
 
 }  // namespace
