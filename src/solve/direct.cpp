@@ -36,8 +36,7 @@ class Passes {
     const Eigen::Index m = s_.B.rows();
     VecX unbalanced = pass_ > 0 ? solution_.unbalanced : s_.f;
     if (pass_ == 0 && solution_.u.any()) unbalanced -= s_.K.selfadjointView<Eigen::Lower>() * solution_.u;
-    const VecX load = on(free_, unbalanced) / s_.stiffness_scale;
-    const VecX y = pass_ == 0 ? loads_.forward(factor_, load) : factor_.forward(load);
+    const VecX load = on(free_, unbalanced) / s_.stiffness_scale, y = factor_.forward(load);
     VecX rhs = factor_.at_border(y);
     rhs.head(m) -= (s_.g - s_.B * solution_.u).cwiseQuotient(s_.row_scale);
     const std::optional<VecX> lambda = multipliers_for(load, y, rhs);

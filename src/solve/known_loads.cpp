@@ -13,13 +13,6 @@ constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-VecX KnownLoads::forward(const SplitCholesky& factor, const VecX& load) {
-  const double part = last_.load.size() == load.size() ? last_.load.dot(load) / last_.load.squaredNorm() : 0;
-  if (part != 0 && (load - part * last_.load).norm() <= rounding * load.norm()) return part * last_.y;
-  last_ = {load, factor.forward(load)};
-  return last_.y;
-}
-
 double KnownLoads::displacement(const SplitCholesky& factor, Eigen::Index rows, const VecX& load, const VecX& y) {
   VecX rest = load, sum = VecX::Zero(load.size());
   for (const Known& known : known_) {

@@ -47,22 +47,5 @@ TEST(KnownLoads, AnswerAsIfAskedFirst) {
   EXPECT_EQ(loads.displacement(factor, 3, VecX::Zero(n), VecX::Zero(factor.size())), 0);
 }
 
-// Multiples of the one before, and such as hardly are.
-TEST(KnownLoads, GoForwardAsTheFactorDoes) {
-  const int n = 60;
-  const SplitCholesky factor = chain(n, {3, 20, 41});
-  std::mt19937 random(6);
-  std::normal_distribution<double> normal;
-  const auto draw = [&] { return VecX(VecX::NullaryExpr(n, [&] { return normal(random); })); };
-  KnownLoads loads;
-  VecX load = VecX::Zero(n);
-  for (int k = 0; k < 60; ++k) {
-    load = k % 4 == 1 ? draw() : VecX(normal(random) * load);
-    if (k % 4 == 3) load += std::pow(10, -k % 12) * draw();
-    const VecX y = factor.forward(load);
-    EXPECT_LE((loads.forward(factor, load) - y).norm(), 1e-14 * y.norm()) << k;
-  }
-}
-
 }  // namespace
 }  // namespace mortise
