@@ -1,6 +1,5 @@
 #include "app/command_line.hpp"
 
-#include <malloc.h>
 #include <sys/prctl.h>
 
 #include <CLI/CLI.hpp>
@@ -124,7 +123,6 @@ int solve(const Options& options) {
   }
   judge_expectations(results);
   results.solution.factor.reset();
-  malloc_trim(0);  // what is written takes as much memory, in blocks of its own
   stage("write");
   Json report = report_of(results);
   write_results(results, report, folder);
