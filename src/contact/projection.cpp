@@ -33,6 +33,16 @@ bool is_hidden(const Curve& curve, const Edge& edge, const Vec2& place, const Ve
   return curve.outline && curve.outline->way_out(edge, place, n, depth) < depth;
 }
 
+// The next edge that the line may meet: the offset from the line changes by no more than the way along the curve, so
+// all control polygons that end nearer to this edge's end than its offset lie on one side of the line, by its margin
+// below.
+int next_within_reach(const Points& nodes, const Curve& curve, int edge, const Line& line) {
+  if (curve.along.empty()) return edge + 1;
+  const double offset = std::abs(cross(nodes.row(curve.edges[edge].nodes[1]).transpose() - line.x, line.n));
+  const double reach = curve.along[edge + 1] + offset / (1 + 10 * projection_tolerance);
+  return int(std::upper_bound(curve.along.begin() + edge + 2, curve.along.end(), reach) - curve.along.begin()) - 1;
+}
+
 }  // namespace
 
 double deepest_overlap(const Curve& curve, int edge) {
@@ -75,7 +85,7 @@ std::optional<Hit> project_onto_edge(const Points& nodes, const Curve& curve, in
 
 std::optional<Hit> project_onto_curve(const Points& nodes, const Curve& curve, const Line& line) {
   std::optional<Hit> best;
-  for (int edge = 0; edge < int(curve.edges.size()); ++edge) {
+  for (int edge = 0; edge < int(curve.edges.size()); edge = next_within_reach(nodes, curve, edge, line)) {
     const std::optional<Hit> hit = project_onto_edge(nodes, curve, edge, line);
     if (hit && (!best || std::abs(hit->distance) < std::abs(best->distance))) best = hit;
   }

@@ -11,11 +11,19 @@
 namespace mortise {
 namespace {
 
+Vec2 point(const Mesh& mesh, int node) { return mesh.nodes.row(node).transpose(); }
+
+/// Of the control polygon, from the start to where the tangents of both ends meet to the end.
+double polygon_length(const Mesh& mesh, const Edge& edge) {
+  const Vec2 start = point(mesh, edge.nodes[0]), end = point(mesh, edge.nodes[1]);
+  if (edge.node_count == 2) return (end - start).norm();
+  const Vec2 corner = 2 * point(mesh, edge.nodes[2]) - (start + end) / 2;
+  return (corner - start).norm() + (end - corner).norm();
+}
+
 /// Edges by the node they start from or end at. Seen from its body every edge runs the same way round, so on a chain
 /// a node starts one edge at most and ends one at most.
 using EdgeAt = std::unordered_map<int, std::size_t>;
-
-Vec2 point(const Mesh& mesh, int node) { return mesh.nodes.row(node).transpose(); }
 
 [[noreturn]] void fail(const Mesh& mesh, int boundary, const std::string& trouble) {
   throw InputError(mesh.source + ": boundary '" + mesh.boundaries[boundary].name + "' " + trouble);
@@ -145,6 +153,8 @@ Curve contact_curve(const Mesh& mesh, int boundary, const SideTable& table) {
     curve.samples.push_back(backwards ? reversed(source.samples[i]) : source.samples[i]);
   }
   curve.closed = curve.edges.back().nodes[1] == curve.edges.front().nodes[0];
+  curve.along.assign(1, 0.0);
+  for (const Edge& edge : curve.edges) curve.along.push_back(curve.along.back() + polygon_length(mesh, edge));
   return curve;
 }
 

@@ -22,6 +22,9 @@ struct Curve {
   /// Thickness of the body behind each edge, length (mesh/thickness.hpp); empty: not asked for, without limit.
   std::vector<double> thickness{};
   std::shared_ptr<const BodyOutline> outline{};  ///< of the body; none: not asked for
+  /// How far along the chain each edge begins and the last ends, length: sums of the edges' control polygons, which are
+  /// no shorter than the edges. Empty: not known.
+  std::vector<double> along{};
 };
 
 /// The edges of a boundary by the pieces that hang together, from that with the leftmost, then lowest node on.

@@ -122,6 +122,36 @@ TEST(Projection, OfAnEdgeThatGoesPastTheLineAndBackIsWhereItFacesIt) {
   EXPECT_NEAR(hit->distance, 1 - at.position.y(), 1e-14);
 }
 
+// A curve that knows its lengths passes over edges that the line cannot meet: it must find what all edges give.
+TEST(Projection, PassesOverNoEdgeThatTheLineMeets) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> part(-1, 1);
+  int hits = 0;
+  for (int k = 0; k < 200; ++k) {
+    test::TwoPlates plates;  // waves of any height and length, with normals that meet one another and edges that bend
+    const double height = 0.15 * part(random), waves = 20 * part(random);
+    plates.height = [=](double x) { return 0.3 + height * std::sin(waves * x); };
+    plates.n_upper = plates.n_lower = 1 + int(30 * std::abs(part(random)));
+    plates.kind_lower = k % 2 ? CellKind::quad8 : CellKind::quad4;
+    const Mesh mesh = test::mesh_of(plates);
+    const Curve curve = contact_curve(mesh, boundary_index(mesh, "lower_contact"));
+    Curve of_unknown_length = curve;
+    of_unknown_length.along.clear();
+    for (int i = 0; i < 20; ++i) {
+      const Line line{Vec2(0.4 + part(random), 0.3 + 0.5 * part(random)), Vec2(part(random), part(random)).normalized(),
+                      1};
+      const auto hit = project_onto_curve(mesh.nodes, curve, line),
+                 of_all = project_onto_curve(mesh.nodes, of_unknown_length, line);
+      ASSERT_EQ(hit.has_value(), of_all.has_value()) << k << " " << i;
+      if (!hit) continue;
+      EXPECT_TRUE(hit->edge == of_all->edge && hit->xi == of_all->xi && hit->distance == of_all->distance)
+          << k << " " << i;
+      ++hits;
+    }
+  }
+  EXPECT_GT(hits, 500);
+}
+
 // ---- Segments ----
 
 using test::TwoPlates;
