@@ -1,6 +1,7 @@
 // Which room may enter which (docs/architecture.md), held against the sources themselves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -151,13 +152,32 @@ std::vector<std::string> unnamed_units(const std::string& page) {
   return found;
 }
 
+std::string text_of(const fs::path& file) {
+  std::ifstream text(file);
+  return {std::istreambuf_iterator<char>(text), {}};
+}
+
 TEST(IncludeRules, ThePageNamesEveryUnit) {
-  std::ifstream text(project / "docs/architecture.md");
-  ASSERT_TRUE(text);
-  const std::string page((std::istreambuf_iterator<char>(text)), {});
+  const std::string page = text_of(project / "docs/architecture.md");
   for (const std::string& unit : unnamed_units(page))
     ADD_FAILURE() << "docs/architecture.md does not name src/" << unit;
   EXPECT_GT(unnamed_units("`coupling`").size(), 100u);
+}
+
+// "room (thousands of lines)", to half a thousand.
+TEST(IncludeRules, ThePageKnowsTheSizesOfTheRooms) {
+  const std::string page = text_of(project / "docs/architecture.md");
+  for (const auto& [room, others] : may_enter) {
+    double lines = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(project / "src" / room))
+      if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp")
+        lines += double(std::ranges::count(text_of(entry.path()), '\n'));
+    std::smatch size;
+    if (std::regex_search(page, size, std::regex("\\b" + room + R"( \(([0-9.]+)\))")))
+      EXPECT_NEAR(std::stod(size[1]), lines / 1000, 0.5) << room;
+    else
+      EXPECT_LT(lines, 500) << room << ": no size on docs/architecture.md";
+  }
 }
 
 TEST(IncludeRules, NameFileAndLineOfAForbiddenInclude) {
