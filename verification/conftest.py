@@ -45,5 +45,5 @@ def freefem(mortise):
 
 
 def pytest_collection_modifyitems(items):
-    """The files that take longest first, so that two processes that take a file at a time (--dist loadfile) end together."""
-    items.sort(key=lambda item: item.path.parent.name not in ("picture", "preprint", "chart"))
+    """The files that take longest first, so that processes that take a file at a time (--dist loadfile) end together."""
+    items.sort(key=lambda item: item.path.parent.name not in ("picture", "scenes", "chart", "preprint"))

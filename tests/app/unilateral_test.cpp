@@ -197,7 +197,7 @@ TEST(InitialGaps, AClosedGapThatIsOpenIsAnError) {
 TEST(InitialGaps, MeshesOfOneCurveAreClosedHoweverCoarse) {
   for (const char* name : {"cosine", "circle", "parabola_2", "tent_c", "rings"})
     for (const char* order : {"1", "2"})
-      for (const auto& [a, b] : {std::pair("8", "11"), {"16", "20"}, {"40", "12"}}) {
+      for (const auto& [a, b] : {std::pair("8", "11"), {"40", "12"}}) {
         const bool rings = std::string(name) == "rings";
         EXPECT_NO_THROW(check_scene(scene(name, {{"mesh.parameters.order", order},
                                                  {rings ? "mesh.parameters.n_inner" : "mesh.parameters.n_upper", a},

@@ -79,7 +79,7 @@ Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Physical Surface("pad") = {1}; Ph
                     {});
   std::mt19937 random(7);
   std::uniform_real_distribution<double> along(-25, 25), tiny(-5.5, -4.5), growth(0.2, 0.6);
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 10; ++i) {
     std::vector<std::pair<Vec2, double>> ends;
     for (int k = 0; k < 8; ++k) ends.emplace_back(Vec2(along(random), 4), std::pow(10, tiny(random)));
     const double rate = growth(random);

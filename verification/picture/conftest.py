@@ -1,6 +1,7 @@
 from functools import cache
 
 import pytest
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 import launch
 
@@ -16,3 +17,9 @@ def solve(mortise, tmp_path_factory):
         return folder
 
     return run
+
+
+@pytest.fixture(autouse=True)
+def no_layout(monkeypatch):
+    """matplotlib's, which takes as long as all else and is not looked at here."""
+    monkeypatch.setattr(ConstrainedLayoutEngine, "execute", lambda self, drawing: None)
