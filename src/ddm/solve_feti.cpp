@@ -126,8 +126,9 @@ class FetiRows : public ContactRows {
     answer.mu = x_.mu;
     const VecX pressed = system_.multiply(answer.lambda), moved = system_.opening(answer.mu);
     answer.w = state_.u.size() > 0 ? opening(s_, state_.u) : VecX(system_.load.r - pressed - moved);
-    const VecX displaced = answer.w + s_.g.cwiseQuotient(s_.row_scale);  // one side against the other
-    const double terms = largest(largest_entry(system_.load.r), largest_entry(pressed)),
+    const VecX gap = s_.g.cwiseQuotient(s_.row_scale), displaced = answer.w + gap;  // one side against the other
+    // Gaps as they are drawn, which may be far wider than anything moves, are no terms that the iteration has off.
+    const double terms = largest(largest_entry(system_.load.r + gap), largest_entry(pressed)),
                  size = system_.size(largest(largest_entry(displaced), largest_entry(moved)), terms);
     answer.negligible_tension = round_off * tolerance_ * largest_entry(answer.lambda.cwiseQuotient(s_.row_scale));
     answer.negligible_penetration = round_off * tolerance_ * size;

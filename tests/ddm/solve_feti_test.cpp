@@ -140,6 +140,24 @@ TEST(Feti, OpensTheRowsThatTheDirectMethodOpens) {
   expect_same(solve_by_feti(s, {}), direct, 1e-8);
 }
 
+// A gap that is drawn far wider than anything moves hides no overlap of another row.
+TEST(Feti, ClosesARowThatOverlapsALittleBesideAWideGap) {
+  for (const double wide : {1e2, 1e4, 1e6}) {
+    SaddlePointSystem s = tower(2, {.unilateral = true});
+    s.grounded.clear();  // held, both
+    for (const int unknown : {2 * nodes + 4, 2 * nodes + 5, 2 * nodes + 11}) s.constraints.fixed[unknown] = 1;
+    s.g(2) = s.g(3) = -wide;
+    const Solution open = solve_by_feti(s, {});
+    ASSERT_EQ(open.status, SolveStatus::converged);
+    s.g(3) = (s.B * open.u)(3) + 1e-7 * largest_entry(open.u);
+    s.start = {open.active.begin(), open.active.end()};
+    const Solution found = solve_by_feti(s, {});
+    EXPECT_TRUE(found.active[3]) << wide;
+    EXPECT_FALSE(found.active[2]) << wide;
+    EXPECT_EQ(found.active, solve_directly(s).active) << wide;
+  }
+}
+
 // The lowest ring has a node that is moved up or down, away from the row on it.
 TEST(Feti, OpensTheRowsThatAPrescribedDisplacementOpens) {
   std::vector<std::ptrdiff_t> open;
