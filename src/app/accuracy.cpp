@@ -4,15 +4,14 @@
 #include <cmath>
 #include <sstream>
 
+#include "app/accuracy_end.hpp"
 #include "app/drawn_sizes.hpp"
 #include "app/next_sizes.hpp"
 #include "base/errors.hpp"
 #include "base/printable.hpp"
 #include "base/stopwatch.hpp"
-#include "contact/least_gap.hpp"
 #include "gmsh/free_mesher.hpp"
 #include "results/error_report.hpp"
-#include "results/unheld.hpp"
 
 namespace mortise {
 namespace {
@@ -25,9 +24,8 @@ struct RefusedOnMesh {
   std::vector<SizeLayers> wanted = {};  // as of EdgesTooLong
 };
 
-constexpr int least_edges = 10;      // along a contact curve, of any mesh after the first
-constexpr int most_others = 2;       // such meshes in succession
-constexpr double says_little = 0.3;  // an estimate from which the next may be anything: p is not resolved at all yet
+constexpr int least_edges = 10;  // along a contact curve, of any mesh after the first
+constexpr int most_others = 2;   // such meshes in succession
 
 class Loop {
  public:
@@ -43,46 +41,24 @@ class Loop {
         open_(cases_.size()) {}
 
   std::optional<Results> run() {
-    std::optional<Results> last, best;  // best: of those before the last, if it is better
-    double off_last = std::numeric_limits<double>::infinity(), off_best = off_last;
-    int number_of_best = 0;
+    std::optional<Answer> last, best;  // best: of those before the last, if it is better
     AccuracyReport report{.of = spec_.of, .asked = spec_.value, .excluded = spec_.exclude, .solves = {}, .reason = {}};
     Seconds seconds;
-    std::string said;
     const LayeredSizes first = drawn_sizes(mesher_.curves(), scene_, spec_.first_edges);
     SizeAt sizes = [&first](const Vec2& x) { return first(x); };
     try {
-      for (;;) {
-        std::optional<ActiveSet> start;
-        if (last) start = active_set(*last);
-        Results r;
-        try {
-          r = solve_on(sizes, start ? &*start : nullptr, int(report.solves.size()) + 1);
-        } catch (const RefusedOnMesh& refused) {  // perhaps for this mesh alone: a finer one then says something else
-          if (are_shorter(refused.wanted, sizes)) {
-            sizes = with_layers(sizes, refused.wanted);
-            continue;
-          }
-          if (refused.error.what() == said || others_++ == most_others) throw InputError(refused.error);
-          said = refused.error.what();
-          sizes = scaled(sizes, 1 / another);
-          continue;
-        }
+      for (int number = 1;; ++number) {
+        Results r = solve_on_a_mesh(sizes, last, number);
         seconds += r.seconds;
         report.solves.push_back({free_unknowns(r), open_[worst_] ? 0 : told(r), r.seconds.total()});
-        if (spec_.of == Goal::peak) require_peak(r);
-        const int number = int(report.solves.size());
+        if (spec_.of == Goal::peak) require_peak(scene_, r);
         const double off = confirmed(r, number);
-        if (last && off_last < std::min(off, off_best)) {
-          best = std::move(last);
-          off_best = off_last;
-          number_of_best = number - 1;
-        }
-        last = std::move(r);
-        off_last = off;
-        report.reason = why_to_stop(*last, report);
+        if (last && last->off < std::min(off, best ? best->off : off)) best = std::move(last);
+        last = Answer{std::move(r), off, number};
+        const bool tells_no_more = others_ == most_others && !tells_sizes(last->results);
+        report.reason = why_to_stop(last->results, report, spec_, tells_no_more, at_limit_);
         if (report.reached() || !report.reason.empty()) break;
-        sizes = sizes_after(*last, std::move(sizes), report.solves);
+        sizes = sizes_after(last->results, std::move(sizes), report.solves);
       }
     } catch (const Interrupted&) {
       if (!last) return std::nullopt;
@@ -91,19 +67,42 @@ class Loop {
       if (!last) throw;
       report.reason = error.what();
     }
-    if (best && !report.reached() && off_best < off_last) {
+    if (best && !report.reached() && best->off < last->off) {
+      report.reason += "; the answer is that of solve " + std::to_string(best->number);
+      report.later = int(report.solves.size()) - best->number;
       last = std::move(best);
-      report.reason += "; the answer is that of solve " + std::to_string(number_of_best);
-      report.later = int(report.solves.size()) - number_of_best;
     }
-    complete(*last, std::move(report), seconds);
-    return last;
+    complete(last->results, std::move(report), seconds);
+    return std::move(last->results);
   }
 
   const std::vector<FoundPoint>& found() const { return found_; }
   const std::vector<char>& open() const { return open_; }
 
  private:
+  struct Answer {
+    Results results;
+    double off;  // what the report holds against what is asked
+    int number;  // of the solve, from 1
+  };
+
+  // Where the scene is refused on a mesh of these sizes, on others, which are of `sizes` then.
+  Results solve_on_a_mesh(SizeAt& sizes, const std::optional<Answer>& last, int number) {
+    std::optional<ActiveSet> start;
+    if (last) start = active_set(last->results);
+    for (;;) try {
+        return solve_on(sizes, start ? &*start : nullptr, number);
+      } catch (const RefusedOnMesh& refused) {  // perhaps for this mesh alone: a finer one then says something else
+        if (are_shorter(refused.wanted, sizes)) {
+          sizes = with_layers(sizes, refused.wanted);
+          continue;
+        }
+        if (refused.error.what() == refusal_ || others_++ == most_others) throw InputError(refused.error);
+        refusal_ = refused.error.what();
+        sizes = scaled(sizes, 1 / another);
+      }
+  }
+
   // Whether the last of two meshes has not even halved the error: as much came back where sizes grew as went elsewhere.
   static bool stagnates(const std::vector<AccuracyReport::Solve>& solves) {
     const std::size_t n = solves.size();
@@ -174,7 +173,7 @@ class Loop {
     Results r = refusable([&] { return solve_scene(scene_, std::move(mesh), stage, start); });
     stage("estimate");
     estimate_one(r);
-    open_[0] = is_open(r, 0);  // then p = 0 is an answer
+    open_[0] = gaps_[0].are_the_answer(r);  // then p = 0 is an answer
     return r;
   }
 
@@ -188,7 +187,7 @@ class Loop {
         const auto of_case = [&](const std::string& name) { stage("case " + std::to_string(k + 1) + ", " + name); };
         Results& r = solver.solve(*cases_[k], of_case);
         estimate_one(r);
-        open_[k] = is_open(r, k);
+        open_[k] = gaps_[k].are_the_answer(r);
         if (is_pressed(r) && tells_sizes(r)) add_wanted(wanted_next(r, spec_, number == 1));
         const double off = open_[k] ? 0 : tells_sizes(r) ? estimated(r) : std::numeric_limits<double>::infinity();
         if (off <= most) continue;
@@ -238,40 +237,6 @@ class Loop {
       }
   }
 
-  // By more than round-off.
-  static bool is_pressed(const Results& r) {
-    return r.status == Status::not_converged ||
-           std::ranges::any_of(r.estimate->pressures, [](const PressureEstimate& e) { return e.line.p.any(); });
-  }
-
-  static bool touches(const Results& r, const ContactPair& pair) {
-    const auto first = r.solution.active.begin() + pair.first_row;
-    return std::any_of(first, first + pair.coupling.B.rows(), [](char closed) { return closed != 0; });
-  }
-
-  // Whether nothing is pressed, between the points of this mesh too: a round body may have come through the other where
-  // no edge is as short as the contact. A pair that touches all the same moves a body that nothing holds back, and one
-  // whose gap is not held is as near as that body happens to lie: both only if such bodies have room (missed_contact).
-  // Keeps where the curves are nearest.
-  bool is_open(const Results& r, std::size_t k) {
-    std::vector<LeastGap>& before = gaps_[k];
-    if (is_pressed(r)) {
-      before.clear();
-      return false;
-    }
-    std::vector<LeastGap> gaps;
-    for (const ContactPair& pair : r.problem.pairs) gaps.push_back(least_gap(r.problem.mesh.nodes, r.solution.u, pair));
-    const double round_off = 1e-9 * largest_entry(r.solution.u);
-    bool open = gaps.size() == before.size();
-    for (std::size_t i = 0; i < gaps.size() && open; ++i) {
-      const ContactPair& pair = r.problem.pairs[i];
-      const bool is_loose = touches(r, pair) || !is_gap_held(r, pair);
-      open = stays_open(before[i], gaps[i], round_off) || (is_loose && !r.estimate->pressures[i].local.missed.any());
-    }
-    before = std::move(gaps);
-    return open;
-  }
-
   bool tells_sizes(const Results& r) const { return r.status != Status::not_converged && std::isfinite(estimated(r)); }
 
   // A point once found stays on all meshes that follow, and so does a pair of curves (half an edge, within which
@@ -300,45 +265,6 @@ class Loop {
   double confirmed(const Results& r, int number) const {
     const bool says = tells_sizes(r) && is_pressed(r);
     return says ? AccuracyReport::confirmed(estimated(r), number) : std::numeric_limits<double>::infinity();
-  }
-
-  // Throws InputError where p has no largest value.
-  void require_peak(const Results& r) const {
-    for (const PressureEstimate& e : r.estimate->pressures)
-      for (const SingularPoint& point : e.singular) {
-        if (!point.is_unbounded()) continue;
-        std::ostringstream text;
-        text.precision(2);
-        text << scene_.path << ": accuracy.of = \"peak\": p has no largest value " << near_point(point.position)
-             << ", where it grows as ";
-        if (point.pressure_exponent < 1)
-          text << "r^" << point.pressure_exponent - 1;
-        else
-          text << "the logarithm of 1/r";
-        text << "; expected of = \"pressure\", which leaves out what is near, or a rounded corner";
-        throw InputError(text.str());
-      }
-  }
-
-  std::string why_to_stop(const Results& r, const AccuracyReport& report) const {
-    const auto& solves = report.solves;
-    const std::size_t n = solves.size();
-    if (report.reached()) return "";
-    const double change = spec_.of == Goal::pressure ? changed_by_point_supports(r) : 0;
-    if (change > spec_.value && r.estimate->pressure() <= std::max(spec_.value, seen_of_asked * change))
-      return "elements a tenth as long at a support at a point change p by another " + percent(change);
-    if (others_ == most_others && !tells_sizes(r))
-      return r.status == Status::not_converged ? "the solver did not converge"
-             : spec_.of == Goal::pressure      ? "nothing is loaded, apart from what is left out"
-                                               : "nothing is loaded there";
-    if (int(n) >= spec_.solves_max) return std::to_string(n) + " solve" + (n > 1 ? "s" : "");
-    if (at_limit_ || solves.back().unknowns >= spec_.unknowns_max) return "unknowns_max";
-    const auto rises = [&](std::size_t from) {
-      return solves[from].estimated < says_little && solves[from + 1].estimated > solves[from].estimated &&
-             solves[from + 1].unknowns > solves[from].unknowns;
-    };
-    if (n >= 4 && rises(n - 3) && rises(n - 2)) return "the estimate rises";
-    return "";
   }
 
   SizeAt next_sizes(const Results& r, bool first) {
@@ -370,14 +296,15 @@ class Loop {
   const Progress& progress_;
   const std::function<bool()>& interrupted_;
   FreeMesher mesher_;
-  LayeredSizes largest_;                     // sizes that no mesh goes above
-  std::vector<std::vector<LeastGap>> gaps_;  // of each case all pairs, on the last mesh if nothing was pressed on it
-  std::vector<char> open_;                   // of each case: nothing is pressed, and that is the answer
-  std::size_t worst_ = 0;                    // case
-  std::optional<WantedSizes> wanted_;        // of several cases on the last mesh, where any of them tells
-  std::vector<FoundPoint> found_;            // singular points, of all solves so far
+  LayeredSizes largest_;               // sizes that no mesh goes above
+  std::vector<OpenGaps> gaps_;         // of each case
+  std::vector<char> open_;             // of each case: nothing is pressed, and that is the answer
+  std::size_t worst_ = 0;              // case
+  std::optional<WantedSizes> wanted_;  // of several cases on the last mesh, where any of them tells
+  std::vector<FoundPoint> found_;      // singular points, of all solves so far
   std::vector<KnownPair> known_pairs_;
   std::string told_;       // of the solve before, in the progress line
+  std::string refusal_;    // of the last mesh on which the scene was refused
   int others_ = 0;         // meshes since the last that told the sizes of the next
   bool at_limit_ = false;  // the mesh has been held to unknowns_max
 };
