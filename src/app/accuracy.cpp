@@ -25,7 +25,7 @@ struct RefusedOnMesh {
 };
 
 constexpr int least_edges = 10;  // along a contact curve, of any mesh after the first
-constexpr int most_others = 2;   // such meshes in succession
+constexpr int most_others = 2;   // meshes in succession that tell no sizes of the next
 
 class Loop {
  public:
