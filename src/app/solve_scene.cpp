@@ -216,7 +216,6 @@ Solution solve_wet(SystemSolver& solver, Problem& p) {
     solution = solver.solve();
     solution.factorise_seconds += factorise;
   }
-  add_fluids(p, solution);
   return solution;
 }
 
@@ -235,6 +234,7 @@ void solve_problem(SystemSolver& solver, const Progress& progress, Results& r) {
     require_solution(p, r.solution);
     r.solution.factorise_seconds += factorise;
   }
+  add_fluids(p, r.solution);
   find_unheld(r);
   take_out_unheld(p, r.unheld, r.solution);
   r.seconds.factorise = r.solution.factorise_seconds;

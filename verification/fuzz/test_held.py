@@ -12,6 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "exact"))
 import assemblies
 import assembly_oracles
 import data_cases
+import fuzz
 import layer
 import one_call
 import outline_cases
@@ -184,3 +185,9 @@ def test_assemblies_that_went_round(program, tmp_path, numbered):
     seed, number = numbered.split(":")
     label, wrong = answer(make_case(seed, int(number), ("assembly",)), program, tmp_path, lambda p: p)
     assert wrong is None and label in ("kept", "refused")
+
+
+def test_a_fluid_presses_once_beside_motions_that_are_held(program):
+    """Discs between two plane sides, which may all slide: solved again with these motions where least is known of them."""
+    outcome, wrong = fuzz.examine(program, make_case(778001, 84, ("assembly",)), references.References(program))
+    assert outcome.status in (0, 2) and not wrong
