@@ -33,9 +33,9 @@ bool is_hidden(const Curve& curve, const Edge& edge, const Vec2& place, const Ve
   return curve.outline && curve.outline->way_out(edge, place, n, depth) < depth;
 }
 
-// The next edge that the line may meet: the offset from the line changes by no more than the way along the curve, so
-// all control polygons that end nearer to this edge's end than its offset lie on one side of the line, by its margin
-// below.
+// The next edge that the line may meet. The offset from the line changes by no more than the way along the curve, so
+// edges whose control polygons end nearer to the end of this one than its offset lie on one side of the line, by the
+// margin of project_onto_edge.
 int next_within_reach(const Points& nodes, const Curve& curve, int edge, const Line& line) {
   if (curve.along.empty()) return edge + 1;
   const double offset = std::abs(cross(nodes.row(curve.edges[edge].nodes[1]).transpose() - line.x, line.n));

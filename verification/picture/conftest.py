@@ -21,5 +21,5 @@ def solve(mortise, tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def no_layout(monkeypatch):
-    """matplotlib's, which takes as long as all else and is not looked at here."""
+    """Without matplotlib's layout, which takes as long as all else and which no test here looks at."""
     monkeypatch.setattr(ConstrainedLayoutEngine, "execute", lambda self, drawing: None)
