@@ -86,7 +86,7 @@ class Loop {
     int number;  // of the solve, from 1
   };
 
-  // Where the scene is refused on a mesh of these sizes, on others, which are of `sizes` then.
+  // On a mesh of these sizes; if the scene is refused there, on others, whose sizes they become.
   Results solve_on_a_mesh(SizeAt& sizes, const std::optional<Answer>& last, int number) {
     std::optional<ActiveSet> start;
     if (last) start = active_set(last->results);

@@ -140,7 +140,8 @@ TEST(Feti, OpensTheRowsThatTheDirectMethodOpens) {
   expect_same(solve_by_feti(s, {}), direct, 1e-8);
 }
 
-// A gap that is drawn far wider than anything moves hides no overlap of another row.
+// A gap that is drawn far wider than anything moves hides no overlap of another row, of a hundred times what counts as
+// none.
 TEST(Feti, ClosesARowThatOverlapsALittleBesideAWideGap) {
   for (const double wide : {1e2, 1e4, 1e6}) {
     SaddlePointSystem s = tower(2, {.unilateral = true});

@@ -188,6 +188,6 @@ def test_assemblies_that_went_round(program, tmp_path, numbered):
 
 
 def test_a_fluid_presses_once_beside_motions_that_are_held(program):
-    """Discs between two plane sides, which may all slide: solved again with these motions where least is known of them."""
+    """Discs between two plane sides may all slide: they are solved a second time, with the slide by which they move least."""
     outcome, wrong = fuzz.examine(program, make_case(778001, 84, ("assembly",)), references.References(program))
     assert outcome.status in (0, 2) and not wrong
