@@ -239,7 +239,7 @@ class Loop {
 
   bool tells_sizes(const Results& r) const { return r.status != Status::not_converged && std::isfinite(estimated(r)); }
 
-  // A point once found stays on all meshes that follow, and so does a pair of curves (half an edge, within which
+  // A point once found stays on the meshes that follow, and so does a pair of curves (half an edge, within which
   // patterns find them, becomes less than the gap between them) and its multiplier side (p depends on whose normals
   // count).
   void keep_found(const Results& r) {

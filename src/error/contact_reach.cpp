@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/least_gap.hpp"
 #include "fem/edges.hpp"
@@ -96,6 +97,31 @@ std::vector<Reach> by_points(const std::vector<FacingEdge>& edges, bool closed, 
   return reach;
 }
 
+// Whether contact ends before a place by what is seen at the contact point nearest to it. At a border p is c sqrt(r)
+// within, and beyond it the gap (4/3) c r sqrt(r) / E* (Johnson 1985, section 4.2), so that E* gap / 2 r is two thirds
+// of p as far within: half of that tells a border's gap from what a mesh leaves of a corner's.
+bool ends_before(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, double modulus, const VecX& u,
+                 const Vec2& place) {
+  const ContactPoint* nearest = nullptr;
+  double away = std::numeric_limits<double>::infinity();
+  for (const ContactPoint& point : pair.points) {
+    const Vec2 x = edge_point(mesh.nodes, pair.multiplier.edges[point.edge], point.xi).position;
+    if ((x - place).norm() >= away) continue;
+    away = (x - place).norm();
+    nearest = &point;
+  }
+  if (!nearest) return false;
+  const double start = line.s(nearest->edge), end = line.s(nearest->edge + 1);
+  const double at = start + (1 + nearest->xi) / 2 * (end - start);
+  double p = 0, r = std::numeric_limits<double>::infinity();  // at the closed vertex nearest to that point
+  for (Eigen::Index i = 0; i < line.p.size(); ++i)
+    if (line.p(i) != 0 && line.distance(line.s(i), at) < r) {
+      p = line.p(i);
+      r = line.distance(line.s(i), at);
+    }
+  return p > 0 && modulus * gap_at(u, pair, *nearest) / (2 * r) > p / 3;
+}
+
 // Vertices of drawn corners are in one place on all meshes, to gmsh's round-off. Contact is found up to them from the
 // sides that face the other.
 void add_found(const Mesh& mesh, const Curve& curve, const std::vector<Vec2>& places, const std::vector<Reach>& faced,
@@ -121,11 +147,14 @@ std::array<std::string, 2> curve_names(const Mesh& mesh, const ContactPair& pair
   return {mesh.boundaries[pair.multiplier.boundary].name, mesh.boundaries[pair.opposite.boundary].name};
 }
 
-ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& u,
-                           const std::vector<FoundPoint>& found) {
+ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const std::vector<ElasticLaw>& laws,
+                           const PressureLine& line, const VecX& u, const std::vector<FoundPoint>& found) {
+  const double modulus = contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
   std::vector<Vec2> places;
   for (const FoundPoint& point : found)
-    if (point.is({curve_names(mesh, pair), point.position})) places.push_back(point.position);
+    if (point.is({curve_names(mesh, pair), point.position}) &&
+        !ends_before(mesh, pair, line, modulus, u, point.position))
+      places.push_back(point.position);
   const std::vector<FacingEdge> opposite = facing_edges(pair, line);
   std::array<std::vector<Reach>, 2> faced{{{}, faced_by_points(opposite, pair.opposite.closed)}};
   for (Eigen::Index i = 0; i < line.p.size(); ++i) {

@@ -17,9 +17,10 @@ struct FoundPoint {
 
 /// On the multiplier side by p at the vertices and their neighbours, and where the sides overlap beside a vertex up to
 /// it; on the opposite side by p where the normals meet it. Vertices at places of `found` count as reached from
-/// both sides that face the other. `u`: displacements.
-ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& u,
-                           const std::vector<FoundPoint>& found);
+/// both sides that face the other, but where the gap there is that of a border before them. `laws`: one a body; `u`:
+/// displacements.
+ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const std::vector<ElasticLaw>& laws,
+                           const PressureLine& line, const VecX& u, const std::vector<FoundPoint>& found);
 
 /// The pair's names as FoundPoint has them.
 std::array<std::string, 2> curve_names(const Mesh& mesh, const ContactPair& pair);

@@ -111,7 +111,7 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
       for (Eigen::Index i = 0; i < e.line.p.size(); ++i) e.local.raise(i, round_off);  // of what was set to 0
     add_gap_error(e.line, gap_error(pair, d.laws, e.line), e.local);
     e.windows = pressure_windows(pair, e.line);
-    reached[k] = contact_reach(p.mesh, pair, e.line, solution.u, options.found);
+    reached[k] = contact_reach(p.mesh, pair, d.laws, e.line, solution.u, options.found);
   });
   const std::vector<std::vector<SingularPoint>> points = memory.points(p, reached);
   const double negligible = negligible_force(list, spec);

@@ -151,6 +151,67 @@ between = ["foot", "top"]
   }
 }
 
+// A roller whose profile is Lundberg's, -drop ln(1 - 0.998 x^2) on half its length, on a flat block.
+std::string profiled_roller(double drop) {
+  constexpr int points = 9;
+  std::ostringstream out;
+  out.precision(17);
+  for (int i = 0; i < points; ++i) {
+    const double x = -1 + 2. * i / (points - 1);
+    out << "Point(" << i + 1 << ") = {" << x << ", " << -drop * std::log(1 - 0.998 * x * x) << ", 0};\n";
+  }
+  out << R"(Spline(1) = {1:9}; Point(10) = {1, 0.6, 0}; Point(11) = {-1, 0.6, 0};
+Line(2) = {9, 10}; Line(3) = {10, 11}; Line(4) = {11, 1}; Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Point(21) = {-1.6, -1, 0}; Point(22) = {1.6, -1, 0}; Point(23) = {1.6, 0, 0}; Point(24) = {-1.6, 0, 0};
+Line(21) = {21, 22}; Line(22) = {22, 23}; Line(23) = {23, 24}; Line(24) = {24, 21};
+Curve Loop(2) = {21:24}; Plane Surface(2) = {2};
+Physical Surface("roller") = {1}; Physical Surface("block") = {2};
+Physical Curve("crown") = {1}; Physical Curve("head") = {3}; Physical Curve("bottom") = {21}; Physical Curve("top") = {23};
+)";
+  return out.str();
+}
+
+// On a first mesh contact reaches the ends of a profile, where p would have no limit; on finer ones it ends before.
+// (The block's top may carry the multipliers, and is longer.)
+TEST(Accuracy, DropsAnEndThatContactReachesOnTheFirstMeshAlone) {
+  std::mt19937 random(3);
+  const auto power_of_ten = [&](double low, double high) {
+    return std::pow(10, std::uniform_real_distribution<double>(low, high)(random));
+  };
+  int reached = 0, on_first = 0;
+  for (int k = 0; k < 16; ++k) {
+    const TemporaryFolder folder;
+    folder.write("a.geo", profiled_roller(power_of_ten(-3.7, -2.7)));
+    const std::string file = folder.write("a.toml", R"(
+mesh.file = "a.geo"
+materials.steel = { young = 210e3, poisson = 0.3 }
+bodies = { roller = "steel", block = "steel" }
+boundary = [{ on = "bottom", displacement = { x = 0, y = 0 } },
+            { on = "head", displacement = { x = 0, y = -)" +
+                                                        std::to_string(power_of_ten(-3.2, -2)) +
+                                                        R"( } }]
+contact = [{ between = ["crown", "top"] }]
+)");
+    const auto answer = [&](const char* accuracy, const char* edges) {
+      auto r = solve_to_accuracy(read_scene(file, {{"accuracy.value", accuracy}, {"accuracy.first_edges", edges}}));
+      EXPECT_TRUE(r && r->accuracy->reached()) << k;
+      return *std::move(r);
+    };
+    const auto ends = [](const Results& r) { return r.estimate->pressures[0].singular.size(); };
+    const Results fine = answer("0.5%", "40");
+    const double length = fine.recovery.contacts[0].length_in_contact;
+    if (ends(fine) > 0) {
+      EXPECT_EQ(ends(answer("3%", "5")), 2u) << k;
+      ++reached;
+    } else if (length < 0.98 * 2) {
+      EXPECT_EQ(ends(answer("3%", "5")), 0u) << k << ", in contact along " << length;
+      on_first += ends(answer("50%", "5")) > 0;
+    }
+  }
+  EXPECT_GT(reached, 1);
+  EXPECT_GT(on_first, 1);
+}
+
 // Two bodies pressed together along a joint that leans, drawn at random: at its ends p goes as a small power of the
 // distance, which falls as the root of the edges' length.
 TEST(Accuracy, OfLeaningJointsTakesFewSolves) {

@@ -169,7 +169,8 @@ TEST(GapMisfit, OfAnEvenGapIsNone) {
 TEST(ContactReach, IsWhereTheSidesFaceEachOtherAndAreClosed) {
   const Results r = solved(blocks(0.25, 0), {});
   const PressureLine& line = r.estimate->pressures[0].line;
-  const ContactReach reach = contact_reach(r.problem.mesh, r.problem.pairs[0], line, r.solution.u, {});
+  const ContactReach reach =
+      contact_reach(r.problem.mesh, r.problem.pairs[0], r.problem.discretisation.laws, line, r.solution.u, {});
   ASSERT_EQ(reach[1].size(), 11u);
   for (int i = 0; i <= 10; ++i) EXPECT_EQ(reach[1][i].any(), i <= 8) << i;
   for (const Reach& at : reach[0]) EXPECT_TRUE(at.any());
@@ -180,8 +181,14 @@ TEST(ContactReach, IsNotLostAtAPlaceThatWasFoundBefore) {
   const PressureLine& line = r.estimate->pressures[0].line;
   const FoundPoint found{.between = {"seat", "foot"}, .position = {0, 0.5}},
       other{.between = {"a", "b"}, .position = {0, 0.5}};
-  EXPECT_TRUE(contact_reach(r.problem.mesh, r.problem.pairs[0], line, r.solution.u, {found})[1].back().any());
-  EXPECT_FALSE(contact_reach(r.problem.mesh, r.problem.pairs[0], line, r.solution.u, {other})[1].back().any());
+  EXPECT_TRUE(
+      contact_reach(r.problem.mesh, r.problem.pairs[0], r.problem.discretisation.laws, line, r.solution.u, {found})[1]
+          .back()
+          .any());
+  EXPECT_FALSE(
+      contact_reach(r.problem.mesh, r.problem.pairs[0], r.problem.discretisation.laws, line, r.solution.u, {other})[1]
+          .back()
+          .any());
 }
 
 // Of the lower block's top, from x = 1 to 0, the part up to x = 0.2 faces the upper one.
@@ -190,7 +197,8 @@ TEST(ContactReach, IsFoundFromTheSideThatFacesTheOther) {
   PressureLine open = r.estimate->pressures[0].line;
   open.p.setZero();
   const FoundPoint found{.between = {"seat", "foot"}, .position = {0.2, 0.5}};
-  const Reach last = contact_reach(r.problem.mesh, r.problem.pairs[0], open, r.solution.u, {found})[1][8];
+  const Reach last = contact_reach(r.problem.mesh, r.problem.pairs[0], r.problem.discretisation.laws, open,
+                                   r.solution.u, {found})[1][8];
   EXPECT_TRUE(last.before);
   EXPECT_FALSE(last.after);
 }
