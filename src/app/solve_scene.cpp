@@ -202,7 +202,7 @@ void judge(Results& r) {
   r.checks = checks(r);
   r.status = verdict(r);
   append_lines(r.warnings, warnings(r));
-  if (!r.problem.seeks_accuracy) append_lines(r.warnings, data_warnings(r.problem.misfits));
+  if (!r.problem.accuracy) append_lines(r.warnings, data_warnings(r.problem.misfits));
   append_lines(r.warnings, audit_solution(r));
   append_lines(r.warnings, unheld_probes(r));
 }

@@ -53,7 +53,7 @@ Problem prepare(const Scene& scene, Mesh mesh, const Progress& progress, const A
   p.scene = scene.path;
   p.changes = scene.changes;
   p.method = scene.method;
-  p.seeks_accuracy = scene.accuracy.has_value();
+  if (scene.accuracy) p.accuracy = scene.accuracy->value;
   p.fields = scene.fields;
   add_pieces(scene, mesh);
   p.mesh = tied(scene, std::move(mesh));

@@ -21,9 +21,9 @@ struct Problem {
   std::string title, scene;          ///< the scene's title, and the path of its file
   std::vector<std::string> changes;  ///< of the scene: KEY=VALUE of each `--set`
   Method method;
-  bool seeks_accuracy = false;    ///< whether the mesh is one of those that [accuracy] makes
-  std::vector<FieldSpec> fields;  ///< functions of place from files
-  Mesh mesh;                      ///< with its ties
+  std::optional<double> accuracy;  ///< that is asked for, where the mesh is one of those that [accuracy] makes
+  std::vector<FieldSpec> fields;   ///< functions of place from files
+  Mesh mesh;                       ///< with its ties
   BodyPoints points;
   Entries entries;
   Discretisation discretisation;  ///< with the rows of all pairs

@@ -115,7 +115,7 @@ std::optional<Check> estimate_check(const Results& r) {
   if (std::isnan(error)) return {};  // nothing is loaded
   Check check{"estimated error of p", error, 0.5};
   std::string of;
-  if (check.ok() && !r.problem.seeks_accuracy)  // that is asked of all lines together
+  if (check.ok() && !r.problem.accuracy)  // that is asked of all lines together
     for (const auto& [body, pairs] : pairs_of_bodies(r)) {
       const double of_body = r.estimate->pressure_of(pairs);
       if (!(of_body > std::max(check.limit, check.value))) continue;

@@ -206,6 +206,16 @@ std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& p
   return places;
 }
 
+std::vector<std::pair<int, Vec2>> moved_by_spin(const Points& nodes, const Curve& curve, const VecX& u) {
+  const Spin spin = spin_of(nodes, curve, u);
+  std::vector<std::pair<int, Vec2>> moved;
+  if (spin.angle == 0) return moved;
+  for (const Edge& edge : curve.edges)
+    for (int a = 0; a < edge.node_count; ++a)
+      if (a != 1) moved.emplace_back(edge.nodes[a], spin.at(nodes.row(edge.nodes[a]).transpose()));
+  return moved;
+}
+
 std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pair, const ContactResults& contact,
                                       const VecX& u) {
   std::vector<Moved> side, other;

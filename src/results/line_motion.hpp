@@ -30,6 +30,9 @@ struct PlaceMotion {
 std::vector<PlaceMotion> place_motions(const Points& nodes, const ContactPair& pair, const ContactResults& contact,
                                        const VecX& u);
 
+/// What the spin of a curve that is a whole circle moves its nodes by; nothing of others.
+std::vector<std::pair<int, Vec2>> moved_by_spin(const Points& nodes, const Curve& curve, const VecX& u);
+
 /// Means over the loaded part of a pair's contact line, weighted with the force of each place: a singular corner, whose
 /// surroundings turn by more on every finer mesh, carries little of it. Contact is written on the undeformed bodies, so
 /// each is about the part by which contact forces and their places are off.

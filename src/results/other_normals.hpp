@@ -9,16 +9,18 @@
 namespace mortise {
 
 struct OtherNormals {
-  double part;    ///< of its mean, by which p changes
-  Vec2 position;  ///< of the largest p
-  double angle;   ///< radians: between the normals of both sides there
+  double part = 0;               ///< of p, in L2, by which it changes
+  Vec2 position = Vec2::Zero();  ///< where most
+  double angle = 0;              ///< radians: between the normals of both sides there
 };
 
-/// Contact acts along the multiplier side's normals. Where the opposite side's have another direction all along, as
-/// of a wedge in a slot that leans by a little more, the faces turn against one another until they have one, which
-/// small displacements know nothing of: either side's would do. p of each pair with the other side's in those whose
-/// normals agree nowhere in contact, to first order: K du + B^T dl = -dB^T l, B du = -dB u on closed rows. Nothing
-/// where there are none, or where the solver has no factor.
-std::vector<std::optional<OtherNormals>> other_normals(const Results& results);
+/// Contact acts along the multiplier side's normals, of the undeformed body; the opposite side's would do as well, and
+/// where the sides slide along one another by s and the normals differ by the angle a, the gaps differ by s a. p of
+/// each pair with the other sides' normals, to first order: K du + B^T dl = -dB^T l, B du = -dB u on closed rows; of
+/// unilateral contact the change is nowhere more than sqrt(2) p, as p that is lost stands elsewhere. A spin of a whole
+/// circle that is the multiplier side counts for nothing (line_motion.hpp). `least`: a part that matters; where all are
+/// far less, by what half-planes would do, they are left at 0. Nothing of pairs that the answer does not tell: whose
+/// faces give way or are facets, or where the solver has no factor.
+std::vector<std::optional<OtherNormals>> other_normals(const Results& results, double least);
 
 }  // namespace mortise

@@ -14,7 +14,6 @@
 #include "results/error_report.hpp"
 #include "results/large_displacement.hpp"
 #include "results/line_motion.hpp"
-#include "results/slides_across_jumps.hpp"
 #include "support/messages.hpp"
 #include "support/plate_scenes.hpp"
 #include "support/temporary_folder.hpp"
@@ -174,8 +173,9 @@ TEST(LineChecks, HoldWhereASingularCornerTurnsByItself) {
   const Results r =
       solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/punch.toml", {{"boundary.2.pressure", "4e10"}}));
   EXPECT_TRUE(motion_of(r).ok()) << motion_of(r).where;
-  EXPECT_TRUE(std::ranges::any_of(
-      r.warnings, [](const std::string& line) { return line.find("a side turns by 0.3") != std::string::npos; }));
+  EXPECT_TRUE(std::ranges::any_of(r.warnings, [](const std::string& line) {
+    return line.find("the contact line turns and stretches so that ") != std::string::npos;
+  }));
 }
 
 TEST(LineChecks, APinThatFallsByHalfItsRadiusFails) {
@@ -269,10 +269,10 @@ contact = [{ between = ["sole", "top"], multipliers_on = ")"
   return solve_scene(read_scene(folder.write("foot.toml", toml.str())));
 }
 
-// Of p in L2, what a run says that a slide across a jump of curvature may put it off by; 0 where it says nothing.
-double told_of_jump(const Results& r) {
+// Of p in L2, what a run says that a slide across the joint may put it off by; 0 where it says nothing.
+double told_of_joint(const Results& r) {
   const std::string told = large_displacement(r).value_or("");
-  if (told.find(" across a jump of curvature near (4, ") == std::string::npos) return 0;
+  if (told.find("slide along one another where their normals differ by ") == std::string::npos) return 0;
   const std::string before = "p may be off by ";
   return std::stod(told.substr(told.find(before) + before.size())) / 100;
 }
@@ -292,23 +292,17 @@ double difference(const Results& one, const Results& other) {
 
 // What is told is what moving the joint by the slide does to p, to a factor of two or so; without a slide and where
 // both sides have the joint there is nothing to tell.
-TEST(LineChecks, TellOfSlidesAcrossAJumpOfCurvatureHowFarPIsOff) {
+TEST(LineChecks, TellOfSlidesAcrossAJointHowFarPIsOff) {
   const TemporaryFolder folder;
   const double growth = 0.01;
   const Results drawn = rounded_foot(folder, growth, "top", 0, false);
   const double measured = difference(drawn, rounded_foot(folder, growth, "top", -growth, false));
-  const double told = told_of_jump(drawn);
+  const double told = told_of_joint(drawn);
   EXPECT_GT(told, measured / 1.5) << measured;
   EXPECT_LT(told, 2.5 * measured) << measured;
-  EXPECT_NEAR(told_of_jump(rounded_foot(folder, growth, "sole", 0, false)), told, told / 2);
-  EXPECT_EQ(told_of_jump(rounded_foot(folder, growth, "top", 0, true)), 0);
-  EXPECT_EQ(told_of_jump(rounded_foot(folder, 0, "top", 0, false)), 0);
-  const Points& nodes = drawn.problem.mesh.nodes;
-  const ContactPair& pair = drawn.problem.pairs[0];
-  const auto places = place_motions(nodes, pair, drawn.recovery.contacts[0], drawn.solution.u);
-  const double all = slide_across_jumps(nodes, pair, places, 1e30)->part;  // all of p stands elsewhere
-  EXPECT_GT(all, 1);
-  EXPECT_LE(all, std::numbers::sqrt2 * (1 + 1e-12));
+  EXPECT_NEAR(told_of_joint(rounded_foot(folder, growth, "sole", 0, false)), told, told / 2);
+  EXPECT_EQ(told_of_joint(rounded_foot(folder, growth, "top", 0, true)), 0);
+  EXPECT_EQ(told_of_joint(rounded_foot(folder, 0, "top", 0, false)), 0);
 }
 
 TEST(LineChecks, APressureThatIsOffByMoreThanHalfFails) {

@@ -235,6 +235,20 @@ def test_a_report_of_a_coarse_mesh_is_not_green(mortise, tmp_path):
     assert report.verdict(summary, None)[1]
 
 
+def test_a_report_finds_its_scene_from_any_folder(tmp_path, monkeypatch):
+    """By its name from where it was solved; another of that name where the report is asked for is not it."""
+    (tmp_path / "job/out/own").mkdir(parents=True)
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    for folder, words in (("job", "solved"), ("elsewhere", "another")):
+        (tmp_path / folder / "a.toml").write_text(words)
+    for folder in ("job/out", "job/out/own"):
+        assert report.scene_file(tmp_path / folder, "a.toml").read_text() == "solved"
+    assert report.scene_file(Path("../job/out"), "a.toml").read_text() == "solved"
+    assert report.scene_file(tmp_path / "job/out", str(tmp_path / "elsewhere/a.toml")).read_text() == "another"
+    assert "cannot be read any more" in report.scene_text(report.scene_file(tmp_path / "job/out", "gone.toml"))
+
+
 def test_deformed_sides_that_part_are_seen(mortise, tmp_path):
     """Where only one of them is moved on, in the files."""
     launch.solve(HERTZ, {"accuracy.value": 0.01}, tmp_path / "own", expected=[0])

@@ -266,9 +266,15 @@ def certificate_section(c):
 # ---- The page ----
 
 
+def scene_file(folder, scene):
+    """The scene by its name in the summary, which is from where the run was started: most often above its results."""
+    places = [start / scene for start in (*folder.resolve().parents, Path())]
+    return next((path for path in places if path.is_file()), Path(scene))
+
+
 def scene_text(path):
     try:
-        return f"<pre>{text(Path(path).read_text())}</pre>"
+        return f"<pre>{text(path.read_text())}</pre>"
     except (OSError, ValueError):
         return f'<p class="no">{text(path)} cannot be read any more</p>'
 
@@ -277,11 +283,12 @@ def page_of(folder, certificate, mortise):
     """The whole page."""
     s = json.loads((folder / "summary.json").read_text())
     title = s["title"] or s["scene"]
+    scene = scene_file(folder, s["scene"])
     words, good = verdict(s, certificate)
     picture = [sys.executable, Path(__file__).resolve().parents[1] / "pictures/picture.py", folder]
     with tempfile.TemporaryDirectory() as at:
         changes = [word for change in s.get("changes", []) for word in ("--set", change)]
-        setup = figure("The set-up", [mortise, "check", s["scene"], *changes, "--quiet", "--no-programs", "--picture"], at)
+        setup = figure("The set-up", [mortise, "check", scene, *changes, "--quiet", "--no-programs", "--picture"], at)
         dots = ["--dpi", "100"]  # of the bodies' colours
         whole = figure("Deformed bodies; p along the contact lines with its bar", picture, at, dots)
         zoomed = figure("Where contact carries pressure", picture, at, ["--zoom=contact", "--bodies", *dots]) if s["contact"] else ""
@@ -305,7 +312,7 @@ def page_of(folder, certificate, mortise):
         section("Checks", table(["check", "value", "limit", ""], checks)),
         section("Warnings", listed(s["warnings"]) or "<p>None.</p>"),
         section("Versions", f"<p>mortise {text(s['version'])}; {text(s['dense_kernel'])}; page of {datetime.date.today()}</p>"),
-        section("The scene", f'<p class="soft">{text(" ".join([s["scene"], *(f"--set {change}" for change in s.get("changes", []))]))}</p>', scene_text(s["scene"])),
+        section("The scene", f'<p class="soft">{text(" ".join([s["scene"], *(f"--set {change}" for change in s.get("changes", []))]))}</p>', scene_text(scene)),
     ]
     head = f'<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>{text(title)}</title>'
     return f'<!doctype html>\n<html lang="en"><head>{head}<style>{STYLE}</style></head><body>{"".join(body)}</body></html>\n'
