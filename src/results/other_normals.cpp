@@ -130,7 +130,7 @@ std::vector<std::optional<OtherNormals>> other_normals(const Results& r, double 
     load -= change->transpose() * solution.lambda.segment(pair.first_row, rows);
     gap.segment(pair.first_row, rows) -= *change * u;
   });
-  const VecX change = solution.factor->answers(gap, load).mu;
+  const VecX change = solution.factor->multipliers(gap, load);
   for (std::size_t k = 0; k < p.pairs.size(); ++k) {
     if (!found[k]) continue;
     const ContactPair& pair = p.pairs[k];

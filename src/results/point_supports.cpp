@@ -99,7 +99,7 @@ std::vector<double> changes_by_point_supports(const Results& r) {
       load = -(system.K.selfadjointView<Eigen::Lower>() * by);
       gap = -(system.B * by);
     }
-    parts[i] = part_of_pressure(r, r.solution.factor->answers(gap, load).mu);
+    parts[i] = part_of_pressure(r, r.solution.factor->multipliers(gap, load));
   }
   return parts;
 }

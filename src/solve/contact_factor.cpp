@@ -15,23 +15,37 @@ DirectFactor::DirectFactor(const SaddlePointSystem& system, std::shared_ptr<Fact
       bodies_(std::move(bodies)),
       multipliers_(std::move(multipliers)) {}
 
-DualAnswers DirectFactor::answers(const MatX& functionals, const MatX& loads) const {
-  auto& [free, factor] = *bodies_;
+DirectFactor::Border DirectFactor::border(const MatX& functionals, const MatX& loads) const {
+  const auto& [free, factor] = *bodies_;
   const Eigen::Index rows = functionals.rows(), count = functionals.cols(), loaded = loads.cols(),
                      without_load = count - loaded;
-  MatX multipliers(rows + springs_, count), y(factor.size(), loaded);
+  Border found{.multipliers = MatX(rows + springs_, count), .y = MatX(factor.size(), loaded)};
   for (Eigen::Index k = 0; k < count; ++k) {
     VecX rhs = VecX::Zero(rows + springs_);
     if (k >= without_load) {
       const VecX load = loads.col(k - without_load);
-      y.col(k - without_load) = factor.forward(load(free) / stiffness_scale_);
-      rhs = factor.at_border(y.col(k - without_load));
+      found.y.col(k - without_load) = factor.forward(load(free) / stiffness_scale_);
+      rhs = factor.at_border(found.y.col(k - without_load));
     }
     rhs.head(rows) -= functionals.col(k).cwiseQuotient(row_scale_);
-    multipliers.col(k) = multipliers_.solve(rhs);
+    found.multipliers.col(k) = multipliers_.solve(rhs);
   }
-  DualAnswers found{.z = MatX::Zero(unknowns_, count),
-                    .mu = (stiffness_scale_ * row_scale_.cwiseInverse()).asDiagonal() * multipliers.topRows(rows)};
+  return found;
+}
+
+MatX DirectFactor::in_units(const MatX& multipliers) const {
+  return (stiffness_scale_ * row_scale_.cwiseInverse()).asDiagonal() * multipliers.topRows(row_scale_.size());
+}
+
+MatX DirectFactor::multipliers(const MatX& functionals, const MatX& loads) const {
+  return in_units(border(functionals, loads).multipliers);
+}
+
+DualAnswers DirectFactor::answers(const MatX& functionals, const MatX& loads) const {
+  auto& [free, factor] = *bodies_;
+  const Eigen::Index loaded = loads.cols(), without_load = functionals.cols() - loaded;
+  const auto [multipliers, y] = border(functionals, loads);
+  DualAnswers found{.z = MatX::Zero(unknowns_, functionals.cols()), .mu = in_units(multipliers)};
   if (without_load > 0)
     found.z.leftCols(without_load)(free, Eigen::all) = factor.at_rows(multipliers.leftCols(without_load));
   if (loaded > 0) found.z.rightCols(loaded)(free, Eigen::all) = factor.backward(y, multipliers.rightCols(loaded));
@@ -39,9 +53,13 @@ DualAnswers DirectFactor::answers(const MatX& functionals, const MatX& loads) co
 }
 
 DualAnswers MultipointFactor::answers(const MatX& functionals, const MatX& loads) const {
-  DualAnswers found = of_q_->answers(functionals, loads.size() > 0 ? MatX(T_.transpose() * loads) : loads);
+  DualAnswers found = of_q_->answers(functionals, loads_of_q(loads));
   found.z = T_ * found.z;
   return found;
+}
+
+MatX MultipointFactor::multipliers(const MatX& functionals, const MatX& loads) const {
+  return of_q_->multipliers(functionals, loads_of_q(loads));
 }
 
 std::shared_ptr<const ContactFactor> factorise_contact(const SaddlePointSystem& s, const std::vector<char>& closed,

@@ -24,6 +24,8 @@ class ContactFactor {
   MatX duals(const MatX& functionals, const MatX& loads = {}) const { return answers(functionals, loads).z; }
   /// The same with mu.
   virtual DualAnswers answers(const MatX& functionals, const MatX& loads) const = 0;
+  /// mu alone, which may cost half.
+  virtual MatX multipliers(const MatX& functionals, const MatX& loads) const { return answers(functionals, loads).mu; }
 };
 
 /// The factor of the bodies, and their unknowns that it has.
@@ -39,8 +41,16 @@ class DirectFactor : public ContactFactor {
   DirectFactor(const SaddlePointSystem& system, std::shared_ptr<FactoredBodies> bodies, MultiplierSystem multipliers);
 
   DualAnswers answers(const MatX& functionals, const MatX& loads) const override;
+  MatX multipliers(const MatX& functionals, const MatX& loads) const override;
 
  private:
+  // Those of rows and springs, a column a question, and L^-1 of each load (BorderedCholesky).
+  struct Border {
+    MatX multipliers, y;
+  };
+  Border border(const MatX& functionals, const MatX& loads) const;
+  MatX in_units(const MatX& multipliers) const;
+
   VecX row_scale_;
   double stiffness_scale_;
   Eigen::Index unknowns_, springs_;
@@ -54,8 +64,11 @@ class MultipointFactor : public ContactFactor {
   MultipointFactor(const SparseRows& T, std::shared_ptr<const ContactFactor> of_q) : T_(T), of_q_(std::move(of_q)) {}
 
   DualAnswers answers(const MatX& functionals, const MatX& loads) const override;
+  MatX multipliers(const MatX& functionals, const MatX& loads) const override;
 
  private:
+  MatX loads_of_q(const MatX& loads) const { return loads.size() > 0 ? MatX(T_.transpose() * loads) : loads; }
+
   SparseRows T_;
   std::shared_ptr<const ContactFactor> of_q_;
 };
