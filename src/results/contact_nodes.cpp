@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/parallel.hpp"
+#include "contact/contact_places.hpp"
 #include "fem/edges.hpp"
 #include "solve/threads.hpp"
 
@@ -80,12 +81,22 @@ std::optional<Place> foot_of(const Mesh& mesh, const Curve& multiplier, const st
   return best;
 }
 
+bool is_end(const Curve& curve, const Place& at) {
+  return !curve.closed && ((at.edge == 0 && at.xi == -1) || (at.edge + 1 == int(curve.edges.size()) && at.xi == 1));
+}
+
+// An end that sticks out past the other side by less than tells places apart faces its end.
 void face_from_multiplier_side(const Mesh& mesh, const ContactPair& pair, FacingNode& node) {
   node.normal = node.own_normal;
   node.on_multiplier = node.place;
-  const Line line{mesh.nodes.row(node.node).transpose(), node.normal,
-                  deepest_overlap(pair.multiplier, node.place.edge)};
-  if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite, line)) node.faces = {line, *hit};
+  const Edge& edge = pair.multiplier.edges[node.place.edge];
+  const auto face = [&](double xi) {
+    const Line line{edge_point(mesh.nodes, edge, xi).position, node.normal,
+                    deepest_overlap(pair.multiplier, node.place.edge)};
+    if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite, line)) node.faces = {line, *hit};
+  };
+  face(node.place.xi);
+  if (!node.faces && is_end(pair.multiplier, node.place)) face(node.place.xi * (1 - 2 * at_one_place));
 }
 
 // Whether the line meets the opposite side there first: not behind the body that another part of that side, nearer to

@@ -176,6 +176,24 @@ TEST(ContactReach, IsWhereTheSidesFaceEachOtherAndAreClosed) {
   for (const Reach& at : reach[0]) EXPECT_TRUE(at.any());
 }
 
+// By up to a twentieth of an edge, as round-off of a drawing, it faces the other side's end; beyond it has no pressure.
+TEST(ContactNodes, AnEndThatSticksOutALittleHasThePressureThere) {
+  std::mt19937 random(2);
+  for (int k = 0; k < 8; ++k) {
+    const double part = std::pow(10, std::uniform_real_distribution<double>(-4, k < 4 ? -1.4 : -1.0)(random));
+    const Results r = solved(blocks(-part / 12, 0), {.contact = ", initial_gap = 0"});  // twelve edges
+    const ContactNode& end = r.recovery.contacts[0].multiplier.nodes.front();
+    EXPECT_LT(r.problem.mesh.nodes(end.node, 0), 0);
+    if (part < 0.049)
+      EXPECT_NEAR(end.p, 1e-3, 2 * part * 1e-3 + 1e-9) << part;
+    else if (part > 0.051)
+      EXPECT_EQ(end.p, 0) << part;
+  }
+  EXPECT_EQ(
+      solved(blocks(-0.06 / 12, 0), {.contact = ", initial_gap = 0"}).recovery.contacts[0].multiplier.nodes.front().p,
+      0);
+}
+
 TEST(ContactReach, IsNotLostAtAPlaceThatWasFoundBefore) {
   const Results r = solved(blocks(0.25, 0), {});
   const PressureLine& line = r.estimate->pressures[0].line;
