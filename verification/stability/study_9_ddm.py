@@ -43,10 +43,10 @@ FIXED = {
     "method.solver": "ddm",
     "body_force": '[{ body = "upper", force = [1e7, 0] }]',
     "method.acceleration": "none",
-    "method.tolerance": 1e-10,
+    "method.tolerance": 1e-9,  # of a kinematic residual that starts at 1e3: above round-off, which hides a factor
     "method.max_iterations": MOST_FIXED,
 }
-ENOUGH_STEPS = 20  # fewer do not show an asymptote
+ENOUGH_STEPS = 25  # fewer, so factors below 0.4, do not show an asymptote: of a narrow spectrum, many modes still matter
 LIMIT = 0.05  # of the factors' deviation
 TIE = 1e-6  # relative: far above the round-off of the eigenvalues
 FLOATING = "upper"
