@@ -249,7 +249,7 @@ class Loop {
     std::vector<FoundPoint> found;
     for (std::size_t k = 0; k < r.problem.pairs.size(); ++k)
       for (const SingularPoint& point : r.estimate->pressures[k].singular)
-        found.push_back({curve_names(r.problem.mesh, r.problem.pairs[k]), point.position});
+        found.push_back({curve_names(r.problem.mesh, r.problem.pairs[k]), point.position, point.is_swinging()});
     for (const FoundPoint& old : found_)
       if (std::ranges::none_of(found, [&](const FoundPoint& point) { return point.is(old); })) found.push_back(old);
     found_ = std::move(found);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "contact/least_gap.hpp"
+#include "error/pressure_swing.hpp"
 #include "fem/edges.hpp"
 
 namespace mortise {
@@ -99,18 +100,24 @@ std::vector<Reach> by_points(const std::vector<FacingEdge>& edges, bool closed, 
 
 // Whether contact ends before a place by what is seen at the contact point nearest to it. At a border p is c sqrt(r)
 // within, and beyond it the gap (4/3) c r sqrt(r) / E* (Johnson 1985, section 4.2), so that E* gap / 2 r is two thirds
-// of p as far within: half of that tells a border's gap from what a mesh leaves of a corner's.
+// of p as far within: half of that tells a border's gap from what a mesh leaves of a corner's. The vertices next to the
+// place say nothing, at the tip of a crack those over which p_h swings: it is as wrong there as stresses are large, and
+// may be in tension.
 bool ends_before(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, double modulus, const VecX& u,
-                 const Vec2& place) {
+                 const FoundPoint& found) {
   const ContactPoint* nearest = nullptr;
   double away = std::numeric_limits<double>::infinity();
   for (const ContactPoint& point : pair.points) {
     const Vec2 x = edge_point(mesh.nodes, pair.multiplier.edges[point.edge], point.xi).position;
-    if ((x - place).norm() >= away) continue;
-    away = (x - place).norm();
+    if ((x - found.position).norm() >= away) continue;
+    away = (x - found.position).norm();
     nearest = &point;
   }
   if (!nearest) return false;
+  const int beside = found.swings ? swing_reach : 1;
+  const Eigen::Index first = std::max(nearest->edge + 1 - beside, 0),
+                     last = std::min<Eigen::Index>(nearest->edge + beside, line.p.size() - 1);
+  if (line.p.segment(first, last + 1 - first).any()) return false;
   const double start = line.s(nearest->edge), end = line.s(nearest->edge + 1);
   const double at = start + (1 + nearest->xi) / 2 * (end - start);
   double p = 0, r = std::numeric_limits<double>::infinity();  // at the closed vertex nearest to that point
@@ -152,8 +159,7 @@ ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const std:
   const double modulus = contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
   std::vector<Vec2> places;
   for (const FoundPoint& point : found)
-    if (point.is({curve_names(mesh, pair), point.position}) &&
-        !ends_before(mesh, pair, line, modulus, u, point.position))
+    if (point.is({curve_names(mesh, pair), point.position}) && !ends_before(mesh, pair, line, modulus, u, point))
       places.push_back(point.position);
   const std::vector<FacingEdge> opposite = facing_edges(pair, line);
   std::array<std::vector<Reach>, 2> faced{{{}, faced_by_points(opposite, pair.opposite.closed)}};

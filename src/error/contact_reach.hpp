@@ -10,6 +10,7 @@ namespace mortise {
 struct FoundPoint {
   std::array<std::string, 2> between;  ///< the pair's curves, the multiplier side's first
   Vec2 position;
+  bool swings = false;  ///< SingularPoint::is_swinging
 
   /// Whether it is the same place of the same pair.
   bool is(const FoundPoint& other) const;

@@ -15,6 +15,7 @@
 #include "error/pressure_bars.hpp"
 #include "error/recovered_pressure.hpp"
 #include "error/sliding_kinks.hpp"
+#include "error/tip_rings.hpp"
 #include "error/weak_points.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/threads.hpp"
@@ -46,7 +47,6 @@ double error_norm(const std::vector<PressureEstimate>& pressures, double local, 
   return std::sqrt(error);
 }
 
-// Of each vertex, whether p_h swings there from node to node however short the edges, which the line's own error tells.
 std::vector<char> swinging(const PressureEstimate& e) {
   const Eigen::Index last = e.line.p.size() - 1;
   std::vector<char> all(last + 1, 0);
@@ -82,7 +82,7 @@ int add_end_windows(const std::vector<ContactPair>& pairs, std::vector<PressureE
     if (e.windows.empty()) continue;
     if (own)
       e.fluctuation =
-          pressure_fluctuation(pairs[k], e.line, either(e.excluded, swinging(e)), 2 * e.windows[0].place.reach);
+          pressure_fluctuation(pairs[k], e.line, either(e.excluded, e.swings), 2 * e.windows[0].place.reach);
     // Beside a point where p has no limit p_h may be zero at vertices that are left out: p does not end there.
     std::vector<LineError::Border> borders = e.local.borders;
     std::erase_if(borders, [&](const auto& b) { return e.excluded[b.edge] && e.excluded[b.edge + 1]; });
@@ -120,7 +120,8 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
     const ContactPair& pair = p.pairs[k];
     if (!pair.spec.stiffness)  // p is no larger than k times the overlap
       e.singular = that_count(points[k], e.line, spec.value);
-    forget_borders(swinging(e), e.local);
+    e.swings = swinging(e);
+    forget_borders(e.swings, e.local);
     e.weak = add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
     const std::array<ElasticLaw, 2> laws{d.laws[pair.multiplier.body], d.laws[pair.opposite.body]};
@@ -191,8 +192,8 @@ void add_overlaps(const MatX& changes, std::vector<LinePart>& lines) {
 }
 
 // Of each window what the cells' parts make it off by.
-VecX far_fields(const Mesh& mesh, const FarField& far) {
-  if (far.windows.own()) return off_by(far.parts.leftCols(far.windows.count));
+VecX far_fields(const Mesh& mesh, const FarField& far, const std::vector<PressureEstimate>& pressures) {
+  if (far.windows.own()) return off_by(far.parts.leftCols(far.windows.count), tip_rings(mesh, pressures));
   const Eigen::Index count = Eigen::Index(far.windows.dual.size());
   MatX sums = MatX::Zero(count, 3);  // of the parts, their squares and their sizes
   for (Eigen::Index e = 0; e < far.parts.rows(); ++e) {
@@ -220,7 +221,7 @@ double largest_that_counts(const PressureEstimate& e) {
 // What cells do to each window's mean, its corners' tails, and where windows share duals the stiffness of the whole.
 void add_far_errors(const Mesh& mesh, ErrorEstimate& estimate) {
   std::vector<TailShares> tails = tails_along(mesh, estimate.pressures, estimate.far.windows, estimate.tails);
-  const VecX far = far_fields(mesh, estimate.far) + estimate.far.overlaps.windows;
+  const VecX far = far_fields(mesh, estimate.far, estimate.pressures) + estimate.far.overlaps.windows;
   const Eigen::Index of_windows = estimate.far.windows.count, others = estimate.far.parts.cols() - of_windows;
   const VecX fluctuations =
       off_by(estimate.far.parts.rightCols(others)) + estimate.tails.parts.rightCols(others).colwise().sum().transpose();

@@ -72,8 +72,7 @@ Walk walk_along(const Mesh& mesh, const ContactPair& pair, const PressureEstimat
   const bool bilateral = pair.spec.condition == Condition::bilateral;
   const std::vector<const SingularPoint*> points = points_at_vertices(estimate);
   const auto carries = [&](Index i) {  // p_h may be zero where it swings
-    return bilateral ? line.loaded[i] != 0
-                     : line.p(i) > least || (line.loaded[i] && points[i] && points[i]->is_swinging());
+    return bilateral ? line.loaded[i] != 0 : line.p(i) > least || (line.loaded[i] && estimate.swings[i]);
   };
   Index start = 0;
   for (Index i = 0; line.closed && i < last; ++i)

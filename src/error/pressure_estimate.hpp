@@ -25,6 +25,9 @@ struct PressureEstimate {
   VecX bar;                                        ///< of p at each vertex of `line`, stress
   std::vector<SingularPoint> singular;             ///< of its loaded part
   std::vector<SingularPoint> weak;                 ///< likewise, where p goes as a small power: left out nowhere
+  /// Of each vertex, whether p_h swings there from node to node however short the edges, which the line's own error
+  /// tells.
+  std::vector<char> swings;
   double excluded_distance = 0;  ///< from a point where p has no limit: there p is left out of the norm
   std::vector<char> excluded;    ///< of each vertex
   /// Squares of L2 norms along what is not excluded, stress^2 length: of the local error, the far field's and p. Where

@@ -221,6 +221,26 @@ TEST(ContactReach, IsFoundFromTheSideThatFacesTheOther) {
   EXPECT_FALSE(last.after);
 }
 
+// Where the gap is a border's, contact ends before the place; next to the place p_h says nothing, at a tip as far as it
+// swings there.
+TEST(ContactReach, EndsBeforeAPlaceThatWasFoundWhereVerticesBesideItAreOpen) {
+  const Results r = solved(blocks(0.25, 0), {});
+  const ContactPair& pair = r.problem.pairs[0];
+  VecX apart = r.solution.u;
+  for (const Edge& edge : pair.multiplier.edges)
+    for (const int node : edge.nodes) apart(2 * node + 1) = 0.01;
+  for (const bool swings : {false, true})
+    for (int open = 1; open <= 6; ++open) {
+      PressureLine line = r.estimate->pressures[0].line;
+      const Eigen::Index corner = line.nearest({0.25, 0.5}), step = corner == 0 ? 1 : -1;
+      for (int i = 0; i < open; ++i) line.p(corner + i * step) = 0;
+      const FoundPoint found{.between = {"foot", "seat"}, .position = {0.25, 0.5}, .swings = swings};
+      const ContactReach reach =
+          contact_reach(r.problem.mesh, pair, r.problem.discretisation.laws, line, apart, {found});
+      EXPECT_EQ(reach[0][corner].any(), open <= (swings ? 4 : 1)) << swings << ", " << open;
+    }
+}
+
 // p near a kink of 0.02 goes as E* turn slide / 2 pi r: listed; of a turn of 1e-7 nothing is seen.
 TEST(SlidingKinks, AreListedWhereWhatTheyDoIsSeen) {
   const auto kinks = [](const Results& r) {
