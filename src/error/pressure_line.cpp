@@ -141,6 +141,16 @@ void take_fluid(const ContactPair& pair, const VecX& fluid, PressureLine& line) 
   for (Eigen::Index e = 0; e < line.middle.size(); ++e) line.middle(e) -= (line.fluid(e) + line.fluid(e + 1)) / 2;
 }
 
+// Contact that is shorter than an edge may be carried by its middle alone: then its vertices stand for it.
+void share_middles(PressureLine& line, double least) {
+  const Eigen::Index last = line.p.size() - 1;
+  for (Eigen::Index e = 0; e < line.middle.size(); ++e) {
+    if (!(std::abs(line.middle(e)) > least) || line.p(e) != 0 || line.p(e + 1) != 0) continue;
+    line.p(e) = line.p(e + 1) = line.middle(e) / 2;
+    if (line.closed && (e == 0 || e + 1 == last)) line.p(0) = line.p(last) = line.middle(e) / 2;
+  }
+}
+
 }  // namespace
 
 PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX& lambda, double round_off,
@@ -180,6 +190,7 @@ PressureLine pressure_line(const Mesh& mesh, const ContactPair& pair, const VecX
   }
   if (largest_entry(line.p) <= round_off) line.p.setZero();
   if (pair.spec.fluid && fluid.size() > 0) take_fluid(pair, fluid, line);
+  share_middles(line, round_off);
   mark_loaded(pair, line);
   return line;
 }

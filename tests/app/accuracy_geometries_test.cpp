@@ -212,6 +212,51 @@ contact = [{ between = ["crown", "top"] }]
   EXPECT_GT(on_first, 1);
 }
 
+// Contact is shorter than the edges of the first meshes: on some of them only the middle of one presses, as of an odd
+// number of edges under the lowest point of a ball.
+TEST(Accuracy, IsNotThatOfNothingWhereOnlyTheMiddleOfAnEdgePresses) {
+  const TemporaryFolder folder;
+  folder.write("a.geo", R"(
+DefineConstant[R = 1];
+x = 0.6 * R; y = R - Sqrt(R * R - x * x);
+Point(1) = {-x, y, 0}; Point(2) = {0, 0, 0}; Point(3) = {x, y, 0}; Point(4) = {x, y + 1, 0}; Point(5) = {-x, y + 1, 0}; Point(6) = {0, R, 0};
+Circle(1) = {1, 6, 2}; Circle(2) = {2, 6, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 1};
+Curve Loop(1) = {1 : 5}; Plane Surface(1) = {1};
+Point(11) = {-4, -3, 0}; Point(12) = {4, -3, 0}; Point(13) = {4, 0, 0}; Point(14) = {-4, 0, 0};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 11};
+Curve Loop(2) = {11 : 14}; Plane Surface(2) = {2};
+Physical Surface("ball") = {1}; Physical Surface("block") = {2};
+Physical Curve("skin") = {1, 2}; Physical Curve("face") = {13}; Physical Curve("head") = {4}; Physical Curve("floor") = {11};
+)");
+  std::mt19937 random(8);
+  const auto power_of_ten = [&](double low, double high) {
+    return std::pow(10, std::uniform_real_distribution<double>(low, high)(random));
+  };
+  for (int k = 0; k < 10; ++k) {
+    const std::string file = folder.write("a.toml", R"(
+mesh = { file = "a.geo", parameters = { R = )" + std::to_string(power_of_ten(0, 1)) +
+                                                        R"( } }
+materials.one = { young = 1, poisson = 0.3 }
+materials.other = { young = )" + std::to_string(power_of_ten(0, 1.5)) +
+                                                        R"(, poisson = 0.3 }
+bodies = { ball = "other", block = "one" }
+boundary = [{ on = "floor", displacement = { x = 0, y = 0 } },
+            { on = "head", displacement = { x = 0, y = -)" +
+                                                        std::to_string(power_of_ten(-4, -2.5)) +
+                                                        R"( } }]
+contact = [{ between = ["skin", "face"], multipliers_on = "face" }]
+)");
+    const auto force = [&](const char* multipliers, const std::string& edges) {
+      const auto r = solve_to_accuracy(read_scene(
+          file, {{"accuracy.value", "3%"}, {"accuracy.first_edges", edges}, {"method.multipliers", multipliers}}));
+      EXPECT_TRUE(r && r->accuracy->reached()) << k;
+      return r->recovery.contacts[0].force.y();
+    };
+    const double exact = force("linear", "20");
+    EXPECT_NEAR(force(k % 2 ? "quadratic" : "dual", std::to_string(3 + random() % 12)) / exact, 1, 0.02) << k;
+  }
+}
+
 // Two bodies pressed together along a joint that leans, drawn at random: at its ends p goes as a small power of the
 // distance, which falls as the root of the edges' length.
 TEST(Accuracy, OfLeaningJointsTakesFewSolves) {
