@@ -88,7 +88,6 @@ int add_end_windows(const std::vector<ContactPair>& pairs, std::vector<PressureE
     std::erase_if(borders, [&](const auto& b) { return e.excluded[b.edge] && e.excluded[b.edge + 1]; });
     e.windows = with_end_windows(pairs[k], e.line, borders, e.excluded, std::move(e.windows));
     if (own) beside += windows_beside_borders(e.line, borders);
-    find_window_lengths(e);
   }
   return beside;
 }
@@ -359,6 +358,7 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, Estimat
   estimate.far.windows = share_duals(p.mesh, window_places(estimate.pressures), options.own_duals + beside_borders);
   const BorderOverlaps overlaps(p, solution, estimate.pressures, estimate.far.windows.own());
   add_missed_contact(p, solution.u, overlaps.motion(solution.u.size()), estimate.pressures);
+  for (PressureEstimate& e : estimate.pressures) find_window_lengths(e);
   std::vector<JudgedLine> lines;
   for (PressureEstimate& e : estimate.pressures) lines.push_back({e.line, e.excluded, e.local});
   add_swings(p, solution.u, lines, memory.beside);

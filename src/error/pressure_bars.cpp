@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "error/goal_estimate.hpp"
 
@@ -90,16 +91,55 @@ void add_beyond(const LineError::Border& border, double moved, PressureEstimate&
   }
 }
 
-// On how many sides of points where p has no limit the line is loaded.
-int sides_without_limit(const PressureEstimate& e) {
-  int sides = 0;
+// The pieces of a line that are loaded, each by itself.
+struct LoadedPieces {
+  std::vector<int> of_edge;        // -1: none
+  std::vector<double> length;      // of each
+  std::vector<int> without_limit;  // of each, on how many sides of points where p has none it is loaded
+
+  // That at a vertex, else the nearest.
+  int at(const PressureLine& line, Eigen::Index vertex) const {
+    double away = std::numeric_limits<double>::infinity();
+    int nearest = -1;
+    for_each_vertex([&](Eigen::Index i, int piece) {
+      if (!(line.distance(line.s(i), line.s(vertex)) < away)) return;
+      away = line.distance(line.s(i), line.s(vertex));
+      nearest = piece;
+    });
+    return nearest;
+  }
+  template <typename Visit>
+  void for_each_vertex(const Visit& visit) const {
+    for (std::size_t e = 0; e < of_edge.size(); ++e)
+      for (const Eigen::Index end : {Eigen::Index(e), Eigen::Index(e) + 1})
+        if (of_edge[e] >= 0) visit(end, of_edge[e]);
+  }
+};
+
+LoadedPieces loaded_pieces(const PressureEstimate& e) {
+  const PressureLine& line = e.line;
+  const Eigen::Index edges = line.p.size() - 1;
+  LoadedPieces pieces{std::vector<int>(edges, -1), {}, {}};
+  for (Eigen::Index i = 0; i < edges; ++i) {
+    if (!line.loaded[i] || !line.loaded[i + 1]) continue;
+    if (i == 0 || pieces.of_edge[i - 1] < 0) pieces.length.push_back(0);
+    pieces.of_edge[i] = int(pieces.length.size()) - 1;
+    pieces.length.back() += line.s(i + 1) - line.s(i);
+  }
+  const int last = edges > 0 ? pieces.of_edge.back() : -1;
+  if (line.closed && last > 0 && pieces.of_edge.front() == 0) {  // it goes on over the seam
+    pieces.length[0] += pieces.length[last];
+    std::ranges::replace(pieces.of_edge, last, 0);
+  }
+  pieces.without_limit.assign(pieces.length.size(), 0);
   for (const SingularPoint& point : e.singular)
     for (const int step : {-1, 1}) {
-      const Eigen::Index at = e.line.nearest(point.position);
-      const auto next = e.line.beside(at, step);
-      sides += point.is_unbounded() && next && e.line.loaded[at] && e.line.loaded[*next];
+      const Eigen::Index at = line.nearest(point.position);
+      const auto next = line.beside(at, step);
+      if (!point.is_unbounded() || !next || !line.loaded[at] || !line.loaded[*next]) continue;
+      ++pieces.without_limit[pieces.of_edge[line.edge_to(*next, step)]];
     }
-  return sides;
+  return pieces;
 }
 
 double force_along(const PressureLine& line) { return line.h.dot(line.p.cwiseAbs()); }
@@ -123,34 +163,37 @@ double negligible_force(const std::vector<PressureEstimate>& pressures, const Ac
 
 void find_excluded(double part, double negligible, PressureEstimate& e) {
   const PressureLine& line = e.line;
-  double length = 0;
-  for (Eigen::Index i = 0; i + 1 < line.p.size(); ++i)
-    if (line.loaded[i] && line.loaded[i + 1]) length += line.s(i + 1) - line.s(i);
-  e.excluded_distance = part * length * std::min(1.0, 2.0 / std::max(sides_without_limit(e), 1));
+  e.excluded_distance = 0;
+  e.excluded.assign(line.p.size(), 0);
+  const LoadedPieces pieces = loaded_pieces(e);
+  for (const SingularPoint& point : e.singular) {
+    const int piece = pieces.at(line, line.nearest(point.position));
+    if (!point.is_unbounded() || piece < 0) continue;
+    const double distance = part * pieces.length[piece] * std::min(1.0, 2.0 / std::max(pieces.without_limit[piece], 1));
+    e.excluded_distance = std::max(e.excluded_distance, distance);
+    const Vec2 foot = line.foot(point.position);
+    for (Eigen::Index i = 0; i < line.p.size(); ++i)
+      if ((line.position[i] - foot).norm() < distance) e.excluded[i] = 1;
+  }
   const double force = force_along(line);
   if (force > 0 && force < negligible && std::ranges::any_of(e.singular, &SingularPoint::is_unbounded)) {
     e.excluded.assign(line.p.size(), 1);
     e.local.border.assign(line.p.size(), 0);
     return;
   }
-  e.excluded.assign(line.p.size(), 0);
-  for (const SingularPoint& point : e.singular) {
-    if (!point.is_unbounded()) continue;
-    const Vec2 foot = line.foot(point.position);
-    for (Eigen::Index i = 0; i < line.p.size(); ++i)
-      if ((line.position[i] - foot).norm() < e.excluded_distance) e.excluded[i] = 1;
-  }
-  // A mesh too coarse to tell what is near such a point from the rest of the contact: all of it counts.
-  bool left = false;
-  for (Eigen::Index i = 0; i < line.p.size(); ++i)
-    left = left || (line.loaded[i] && line.p(i) != 0 && !e.excluded[i] && is_known(e, i));
-  if (!left) e.excluded.assign(line.p.size(), 0);
+  // A mesh too coarse to tell what is near such a point from the rest of its piece: all of that counts.
+  std::vector<char> left(pieces.length.size(), 0);
+  pieces.for_each_vertex([&](Eigen::Index i, int piece) {
+    left[piece] = left[piece] || (line.p(i) != 0 && !e.excluded[i] && is_known(e, i));
+  });
+  pieces.for_each_vertex([&](Eigen::Index i, int piece) { e.excluded[i] = e.excluded[i] && left[piece]; });
   // Where contact ends in what is left out, p is a root of nothing beyond.
   for (Eigen::Index i = 0; i < line.p.size(); ++i) e.local.border[i] = e.local.border[i] && !e.excluded[i];
 }
 
 void find_window_lengths(PressureEstimate& e) {
   if (e.windows.empty()) return;
+  for (PressureWindow& window : e.windows) window.length = 0;
   for (Eigen::Index i = 0; i < e.line.p.size(); ++i) {
     if (!e.counts(i)) continue;
     const auto [before, after, part] = windows_beside(e, i);

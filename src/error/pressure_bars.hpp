@@ -5,8 +5,9 @@
 
 namespace mortise {
 
-/// Leaves out of the norm what lies nearer than this part of the loaded length to a point where p has no limit; where
-/// the line is loaded on more than two sides of such points, so much less that no more is left out than beside two. A
+/// Leaves out of the norm what lies nearer than this part of a loaded piece's length to a point of it where p has no
+/// limit; if it is loaded on more than two sides of such points, so much less that no more is left out than beside two;
+/// none of it where nothing would be left. A
 /// contact with such a point whose force (a depth) is less than `negligible` is left out as a whole.
 void find_excluded(double part, double negligible, PressureEstimate& estimate);
 
