@@ -7,8 +7,8 @@ namespace mortise {
 
 /// Leaves out of the norm what lies nearer than this part of a loaded piece's length to a point of it where p has no
 /// limit; if it is loaded on more than two sides of such points, so much less that no more is left out than beside two;
-/// none of it where nothing would be left. A
-/// contact with such a point whose force (a depth) is less than `negligible` is left out as a whole.
+/// nothing of a piece of which nothing else would be left. A contact with such a point whose force (a depth) is less
+/// than `negligible` is left out as a whole.
 void find_excluded(double part, double negligible, PressureEstimate& estimate);
 
 /// The force (a depth) that is not seen in p of all pairs: a third of the part that is asked. On a tenth of the loaded

@@ -50,9 +50,8 @@ Keys accuracy_keys(AccuracySpec& a, int last_pair) {
       key("body", a.body, a_text(), "the body that has the place, where several do: on a contact line", "the only one"),
       key("exclude", a.exclude, a_part(),
           "0 < part < 1 of the length of a loaded piece, on either side of a point of it where p has no limit: left "
-          "out of "
-          "the norm; beside several points no more in all than beside its two ends; of a pair that carries less than a "
-          "third of the asked part of all forces the whole, if it has such a point"),
+          "out of the norm; beside several points no more in all than beside its two ends; of a pair that carries less "
+          "than a third of the asked part of all forces the whole, if it has such a point"),
       key("unknowns_max", a.unknowns_max, whole_number(100, 1000000000),
           "100 to 1e9: no finer mesh is made from one that has as many"),
       key("solves_max", a.solves_max, whole_number(1, 100),

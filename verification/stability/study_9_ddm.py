@@ -46,7 +46,7 @@ FIXED = {
     "method.tolerance": 1e-9,  # of a kinematic residual that starts at 1e3: above round-off, which hides a factor
     "method.max_iterations": MOST_FIXED,
 }
-ENOUGH_STEPS = 25  # fewer, so factors below 0.4, do not show an asymptote: of a narrow spectrum, many modes still matter
+ENOUGH_STEPS = 25  # fewer (a factor below 0.4) do not show an asymptote where all modes decay nearly alike
 LIMIT = 0.05  # of the factors' deviation
 TIE = 1e-6  # relative: far above the round-off of the eigenvalues
 FLOATING = "upper"
