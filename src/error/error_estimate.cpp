@@ -47,6 +47,7 @@ double error_norm(const std::vector<PressureEstimate>& pressures, double local, 
   return std::sqrt(error);
 }
 
+// PressureEstimate::swings, by its singular points.
 std::vector<char> swinging(const PressureEstimate& e) {
   const Eigen::Index last = e.line.p.size() - 1;
   std::vector<char> all(last + 1, 0);

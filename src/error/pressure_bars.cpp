@@ -132,13 +132,13 @@ LoadedPieces loaded_pieces(const PressureEstimate& e) {
     std::ranges::replace(pieces.of_edge, last, 0);
   }
   pieces.without_limit.assign(pieces.length.size(), 0);
-  for (const SingularPoint& point : e.singular)
-    for (const int step : {-1, 1}) {
-      const Eigen::Index at = line.nearest(point.position);
-      const auto next = line.beside(at, step);
-      if (!point.is_unbounded() || !next || !line.loaded[at] || !line.loaded[*next]) continue;
-      ++pieces.without_limit[pieces.of_edge[line.edge_to(*next, step)]];
-    }
+  for (const SingularPoint& point : e.singular) {
+    if (!point.is_unbounded()) continue;
+    const Eigen::Index at = line.nearest(point.position);
+    for (const int step : {-1, 1})
+      if (const auto next = line.beside(at, step); next && line.loaded[at] && line.loaded[*next])
+        ++pieces.without_limit[pieces.of_edge[line.edge_to(*next, step)]];
+  }
   return pieces;
 }
 

@@ -81,10 +81,6 @@ std::optional<Place> foot_of(const Mesh& mesh, const Curve& multiplier, const st
   return best;
 }
 
-bool is_end(const Curve& curve, const Place& at) {
-  return !curve.closed && ((at.edge == 0 && at.xi == -1) || (at.edge + 1 == int(curve.edges.size()) && at.xi == 1));
-}
-
 // An end that sticks out past the other side by less than tells places apart faces its end.
 void face_from_multiplier_side(const Mesh& mesh, const ContactPair& pair, FacingNode& node) {
   node.normal = node.own_normal;
@@ -96,7 +92,7 @@ void face_from_multiplier_side(const Mesh& mesh, const ContactPair& pair, Facing
     if (const auto hit = project_onto_curve(mesh.nodes, pair.opposite, line)) node.faces = {line, *hit};
   };
   face(node.place.xi);
-  if (!node.faces && is_end(pair.multiplier, node.place)) face(node.place.xi * (1 - 2 * at_one_place));
+  if (!node.faces && is_end(pair.multiplier, node.node)) face(node.place.xi * (1 - 2 * at_one_place));
 }
 
 // Whether the line meets the opposite side there first: not behind the body that another part of that side, nearer to
