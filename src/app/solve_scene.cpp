@@ -12,7 +12,6 @@
 #include "fields/load_fields.hpp"
 #include "gmsh/load_mesh.hpp"
 #include "mesh/copy_bodies.hpp"
-#include "problem/dirichlet_neumann.hpp"
 #include "problem/fluid.hpp"
 #include "problem/take_loads.hpp"
 #include "results/audit_solution.hpp"
@@ -29,10 +28,6 @@
 namespace mortise {
 namespace {
 
-std::unique_ptr<SystemSolver> solver_of(const Problem& p) {
-  return std::make_unique<SystemSolver>(p.method, p.discretisation.system, unknowns_of(p.mesh, p.dirichlet));
-}
-
 // The scene's fields read, too.
 Problem prepared(const Scene& scene, Mesh mesh, const Progress& progress = {}, const ActiveSet* start = nullptr) {
   check_ranges(scene);
@@ -46,7 +41,7 @@ Mesh tightened(const Scene& scene, Mesh mesh, const Progress& progress) {
   Scene alone = scaled_loads(scene, 0);
   for (ContactSpec& tie : alone.ties) tie.locked = false;
   Problem p = prepared(alone, std::move(mesh), progress);
-  const Solution solution = solver_of(p)->solve();
+  const Solution solution = SystemSolver(p).solve();
   require_solution(p, solution);
   if (solution.status != SolveStatus::converged)
     throw SceneError(
@@ -268,7 +263,8 @@ Results solve_on(const Scene& scene, Mesh mesh, const Progress& progress, const 
   for (Seconds spent;;) {
     Results r;
     take_problem(prepared(scene, tightened(scene, std::move(mesh), progress), progress, start), r);
-    solve_problem(*solver_of(r.problem), progress, r);
+    SystemSolver solver(r.problem);
+    solve_problem(solver, progress, r);
     r.seconds += spent;
     auto again = with_missed_pairs(r);
     if (!again) return r;
@@ -319,7 +315,7 @@ void CaseSolver::begin(const Scene& scene, std::optional<Mesh> known, const Prog
   take_problem(prepared(scene, std::move(mesh), progress, start_ ? &*start_ : nullptr), results_);
   fixed_ = results_.problem.discretisation.system.constraints.fixed;
   warnings_ = results_.warnings;
-  solver_ = solver_of(results_.problem);
+  solver_ = std::make_unique<SystemSolver>(results_.problem);
   scene_ = scene;
 }
 

@@ -8,8 +8,10 @@
 #include "ddm/solve_feti.hpp"
 #include "ddm/substructures.hpp"
 #include "fem/motion_sets.hpp"
+#include "mesh/slenderness.hpp"
 #include "preprint_solvers/mssor.hpp"
 #include "preprint_solvers/solve_ddm.hpp"
+#include "problem/dirichlet_neumann.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/layered_system.hpp"
 #include "solve/multipoint_system.hpp"
@@ -118,10 +120,10 @@ Solution SystemSolver::solve_independent(const SaddlePointSystem& system) {
       solution = solve_by_mssor(system, method_.mssor);
       break;
     case Solver::ddm:
-      solution = solve_by_ddm(system, dirichlet_, method_.ddm);
+      solution = solve_by_ddm(system, unknowns_of(mesh_, dirichlet_), method_.ddm);
       break;
     case Solver::feti:
-      solution = solve_by_feti(system, method_.feti);
+      solution = solve_by_feti(system, method_.feti, slenderness(mesh_));
       break;
   }
   solution.solver = solver;

@@ -13,11 +13,13 @@ Solver solver_for(const Method& method, const SaddlePointSystem& system);
 /// Solves one system under as many loads as come.
 class SystemSolver {
  public:
-  /// Keeps references. f, g, the prescribed values and the rows to start from may change between solves; by the direct
-  /// solver all have one factor. `dirichlet`: of domain decomposition, n: the unknowns of the bodies that take the
-  /// displacement.
-  SystemSolver(const Method& method, const SaddlePointSystem& system, const std::vector<char>& dirichlet)
-      : method_(method), system_(system), dirichlet_(dirichlet) {}
+  /// Keeps a reference. f, g, the prescribed values and the rows to start from may change between solves; by the direct
+  /// solver all have one factor.
+  explicit SystemSolver(const Problem& problem)
+      : mesh_(problem.mesh),
+        method_(problem.method),
+        system_(problem.discretisation.system),
+        dirichlet_(problem.dirichlet) {}
 
   /// By the direct solver after all where nobody named feti and it does not converge.
   Solution solve();
@@ -27,9 +29,10 @@ class SystemSolver {
   Solution solve_independent(const SaddlePointSystem& system);
   Solution solve_by_factor(const SaddlePointSystem& system);
 
+  const Mesh& mesh_;
   const Method& method_;
   const SaddlePointSystem& system_;
-  const std::vector<char> dirichlet_;
+  const std::vector<char>& dirichlet_;              // bodies
   std::unique_ptr<SaddlePointSystem> independent_;  // of one with multi-point constraints
   std::unique_ptr<SaddlePointSystem> layered_;      // of one with surface layers
   std::optional<DirectSolver> direct_;

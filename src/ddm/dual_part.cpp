@@ -1,7 +1,6 @@
 #include "ddm/dual_part.hpp"
 
 #include "base/parallel.hpp"
-#include "ddm/slender_parts.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -76,31 +75,33 @@ class FullPart : public DualPart {
  public:
   MatX pressed(const MatX& lambda) const override { return C_ * lambda; }
   MatX compliance() const override { return C_; }
-  VecX diagonal() const override { return C_.diagonal(); }
   SomeRows some(std::vector<int> which) const override {
     if (Eigen::Index(which.size()) == C_.rows()) return {.rows = std::move(which), .C = {}, .stiffness = {}};
-    return {.rows = which, .C = C_(which, which), .stiffness = stiffness_(which, which)};
+    return {.rows = which,
+            .C = C_(which, which),
+            .stiffness = stiffness_.size() > 0 ? MatX(stiffness_(which, which)) : MatX()};
   }
   MatX pressed(const MatX& lambda, const SomeRows& some) const override {
     return product(C_, lambda, some.rows, some.C);
   }
   MatX stiffened(const MatX& x, const SomeRows& some) const override {
+    if (stiffness_.size() == 0) return MatX::Zero(x.rows(), x.cols());
     return product(stiffness_, x, some.rows, some.stiffness);
   }
 
  protected:
-  MatX C_, stiffness_;
+  MatX C_, stiffness_;  // the second empty: of a slender part
 };
 
 // With a factor of its own.
 class OwnPart : public FullPart {
  public:
-  OwnPart(const SaddlePointSystem& s, const std::vector<int>& contact, const SparseMatrix& Y) {
+  OwnPart(const SaddlePointSystem& s, const std::vector<int>& contact, const SparseMatrix& Y, bool slender) {
     auto body = std::make_shared<BodyGroup>(s, all_unknowns(s));
     body->compliance.resize(0, 0);
     C_ = std::move(body->C);
     H = std::move(body->H);
-    stiffness_ = contact_stiffness(s, contact, Y);
+    if (!slender) stiffness_ = contact_stiffness(s, contact, Y);
     load = std::move(body->load);
     body_ = std::move(body);
   }
@@ -137,10 +138,10 @@ class AlikePart : public FullPart {
   SparseMatrix rows_of_body_;  // rows x contact unknowns
 };
 
-// Solved for each vector anew: the body has no rows.
-class SlenderPart : public DualPart {
+// Slender, with many rows: solved for each vector anew, as the body has no rows.
+class SolvedPart : public DualPart {
  public:
-  SlenderPart(SaddlePointSystem s, SparseMatrix B) : B_(std::move(B)) {
+  SolvedPart(SaddlePointSystem s, SparseMatrix B) : B_(std::move(B)) {
     s.B.resize(0, s.B.cols());
     s.row_scale.resize(0);
     body_ = std::make_shared<const BodyGroup>(s, all_unknowns(s));
@@ -162,16 +163,15 @@ class SlenderPart : public DualPart {
     for (Eigen::Index a = 0; a < B_.rows(); ++a) all.col(a) = pressed(VecX::Unit(B_.rows(), a));
     return all;
   }
-  VecX diagonal() const override { return sharing.diagonal(); }
   SomeRows some(std::vector<int> which) const override { return {.rows = std::move(which), .C = {}, .stiffness = {}}; }
   MatX pressed(const MatX& lambda, const SomeRows&) const override { return pressed(lambda); }
   MatX stiffened(const MatX& x, const SomeRows&) const override { return MatX::Zero(x.rows(), x.cols()); }
+  bool is_full() const override { return false; }
   MatX displacements(const BodyGroup::Answer& forces, const MatX& lambda, const MatX& mu) const override {
     BodyGroup::Answer left = forces;
     left.y -= body_->answer(B_.transpose() * lambda).y;
     return moved(left, MatX(0, mu.cols()), mu);
   }
-  bool is_slender() const override { return true; }
 
  private:
   SparseMatrix B_;
@@ -199,13 +199,13 @@ MatX DualPart::moved(const BodyGroup::Answer& forces, const MatX& lambda, const 
 }
 
 std::vector<std::shared_ptr<const AlikeBody>> alike_bodies(const Substructures& parts,
-                                                           const std::vector<char>& slender) {
+                                                           const std::vector<PartKind>& kinds) {
   const std::vector<int> first = first_alike(parts);
   std::vector<std::size_t> counts(parts.size(), 0);
   for (const int k : first) ++counts[k];
   std::vector<std::shared_ptr<const AlikeBody>> of_first(parts.size()), bodies(parts.size());
   for_each_index(parts.size(), solver_threads(), [&](std::size_t k) {
-    if (slender[k] || counts[k] < 2) return;
+    if (kinds[k] != PartKind::compact || counts[k] < 2) return;
     if (Substructure part = parts[k]; worth_sharing(part, counts[k]))
       of_first[k] = std::make_shared<AlikeBody>(std::move(part.system));
   });
@@ -213,21 +213,25 @@ std::vector<std::shared_ptr<const AlikeBody>> alike_bodies(const Substructures& 
   return bodies;
 }
 
-std::unique_ptr<DualPart> dual_part(Substructure of, bool slender, const AlikeBody* alike) {
+std::unique_ptr<DualPart> dual_part(Substructure of, PartKind kind, const AlikeBody* alike) {
   const SparseMatrix B = rows_of(of.system);
   const std::vector<int> contact = contact_unknowns(of.system);
   const SparseMatrix Y = shared_out(of.system, contact, B);
   std::unique_ptr<DualPart> part;
-  if (slender)
-    part = std::make_unique<SlenderPart>(std::move(of.system), B);
+  const VecX row_scale = of.system.row_scale;
+  if (kind == PartKind::slender_with_many_rows)
+    part = std::make_unique<SolvedPart>(std::move(of.system), B);
   else if (alike)
     part = std::make_unique<AlikePart>(of.system, *alike, B, Y);
   else
-    part = std::make_unique<OwnPart>(of.system, contact, Y);
+    part = std::make_unique<OwnPart>(of.system, contact, Y, kind == PartKind::slender);
   part->unknowns = std::move(of.unknowns);
   part->rows = std::move(of.rows);
   part->springs = std::move(of.springs);
   part->sharing = B * Y;
+  if (part->failed_at() >= 0) return part;
+  part->diagonal = kind == PartKind::compact ? VecX(part->compliance().diagonal())
+                                             : VecX(part->sharing.diagonal().cwiseProduct(row_scale));
   return part;
 }
 

@@ -1,5 +1,6 @@
 #include "ddm/dual_system.hpp"
 
+#include "base/each_once.hpp"
 #include "base/parallel.hpp"
 #include "solve/threads.hpp"
 
@@ -10,8 +11,8 @@ constexpr double worth_threads = 2e6;  // multiplications of one product, for th
 
 }  // namespace
 
-DualSystem::DualSystem(const SaddlePointSystem& s) {
-  factorise(s);
+DualSystem::DualSystem(const SaddlePointSystem& s, const std::vector<double>& slenderness) {
+  factorise(s, slenderness);
   for (const auto& part : parts_)
     if (failed_at < 0) failed_at = part->failed_at();
   if (failed_at >= 0) return;
@@ -19,26 +20,33 @@ DualSystem::DualSystem(const SaddlePointSystem& s) {
   if (!slender.empty()) {
     TouchingParts touching;
     for (const auto& part : parts_)
-      if (!part->is_slender()) touching.add(slender, part->rows, part->compliance(), part->H, part->springs);
-    set_touching(slender, std::move(touching), sharing.diagonal());
+      if (part->is_full()) touching.add(slender, part->rows, part->compliance(), part->H, part->springs);
+    set_touching(slender, std::move(touching), sharing.diagonal().cwiseProduct(s.row_scale));
   }
   for (const auto& part : parts_) load.parts.push_back(std::move(part->load));
   add_up(1, load);
   load.r -= (s.g - s.B * s.constraints.value).cwiseQuotient(s.row_scale);
 }
 
-void DualSystem::factorise(const SaddlePointSystem& s) {
+void DualSystem::factorise(const SaddlePointSystem& s, const std::vector<double>& slenderness) {
   const Substructures all(s);
-  std::vector<char> bends(all.size());
-  for_each_index(all.size(), solver_threads(), [&](std::size_t k) { bends[k] = is_slender(all[k]); });
-  Triplets slender_stiffness;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (bends[k]) add_stiffness(all[k], slender_stiffness);
-  slender = slender_parts(std::move(slender_stiffness), s);
-  const auto alike = alike_bodies(all, bends);
+  std::vector<PartKind> kinds(all.size(), PartKind::compact);
+  if (!slenderness.empty())
+    for_each_index(all.size(), solver_threads(), [&](std::size_t k) { kinds[k] = kind_of(all[k], slenderness); });
+  std::vector<int> rows;
+  Triplets stiffness;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (kinds[k] == PartKind::compact) continue;
+    const Substructure part = all[k];
+    rows.insert(rows.end(), part.rows.begin(), part.rows.end());
+    if (kinds[k] == PartKind::slender_with_many_rows) add_stiffness(part, stiffness);
+  }
+  keep_each_once(rows);
+  slender = slender_parts(std::move(rows), std::move(stiffness), s);
+  const auto alike = alike_bodies(all, kinds);
   parts_.resize(all.size());
   for_each_index(all.size(), solver_threads(),
-                 [&](std::size_t k) { parts_[k] = dual_part(all[k], bends[k], alike[k].get()); });
+                 [&](std::size_t k) { parts_[k] = dual_part(all[k], kinds[k], alike[k].get()); });
 }
 
 // `diagonal`, H and `sharing`.
@@ -47,7 +55,7 @@ void DualSystem::gather(const SaddlePointSystem& s) {
   diagonal = VecX::Zero(m);
   Triplets of_H, of_sharing;
   for (const auto& part : parts_) {
-    diagonal(part->rows) += part->diagonal();
+    diagonal(part->rows) += part->diagonal;
     for (std::size_t a = 0; a < part->rows.size(); ++a)
       for (std::size_t j = 0; j < part->springs.size(); ++j)
         of_H.emplace_back(part->rows[a], part->springs[j], part->H(a, j));

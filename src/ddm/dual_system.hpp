@@ -14,7 +14,8 @@ namespace mortise {
 /// each of several vectors.
 class DualSystem {
  public:
-  explicit DualSystem(const SaddlePointSystem& system);
+  /// `slenderness`: as of solve_by_feti.
+  DualSystem(const SaddlePointSystem& system, const std::vector<double>& slenderness);
 
   /// -1, or the unknown at which K is not positive definite: nothing below may be used then.
   int failed_at = -1;
@@ -50,7 +51,7 @@ class DualSystem {
   MatX multiply(const MatX& lambda) const;
   MatX opening(const MatX& motions) const { return H * motions; }
   MatX resultants(const MatX& lambda) const { return H.transpose() * lambda; }
-  /// [C, H; H^T, 0], m + s, lower triangle. A slender part's C takes a solve a row.
+  /// [C, H; H^T, 0], m + s, lower triangle. A slender part's C takes a solve a row if these are many.
   SparseMatrix matrix() const;
   /// |h| + |H|^T |lambda|: what the work that lambda leaves of h is a difference of.
   VecX work_terms(const VecX& h, const VecX& lambda) const;
@@ -70,7 +71,7 @@ class DualSystem {
  private:
   void add_up(Eigen::Index count, Answer& answer) const;
 
-  void factorise(const SaddlePointSystem& system);
+  void factorise(const SaddlePointSystem& system, const std::vector<double>& slenderness);
   void gather(const SaddlePointSystem& system);
 
   std::vector<std::unique_ptr<DualPart>> parts_;

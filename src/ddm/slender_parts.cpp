@@ -1,13 +1,16 @@
 #include "ddm/slender_parts.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <utility>
 
 #include "ddm/solve_together.hpp"
 
 namespace mortise {
 namespace {
 
-constexpr double compact = 2;              // slenderness; of 100 random stacks all end with 1 or 2, four not with 4
+constexpr double slender_from = 6;         // slenderness
 constexpr double soft_spring = 1e-8;       // at free motions, for their pivots
 constexpr double least_compliance = 1e-3;  // of a row's own, where nothing but slender parts touch
 
@@ -21,7 +24,16 @@ int number(std::vector<int>& entries) {
 
 }  // namespace
 
-bool is_slender(const Substructure& part) { return !part.rows.empty() && slenderness(part.system.K) > compact; }
+PartKind kind_of(const Substructure& part, const std::vector<double>& slenderness) {
+  const auto bends = [&](int unknown) {
+    const std::size_t node = unknown / 2;
+    return node < slenderness.size() && slenderness[node] > slender_from;
+  };
+  if (part.rows.empty() || std::ranges::none_of(part.unknowns, bends)) return PartKind::compact;
+  // Operations to factorise the rows' compliance, or the part (nested dissection in the plane: George 1973).
+  const double rows = double(part.rows.size()), unknowns = double(part.unknowns.size()), band = 4 * std::log2(unknowns);
+  return rows * rows * rows / 3 <= unknowns * band * band ? PartKind::slender : PartKind::slender_with_many_rows;
+}
 
 void add_stiffness(const Substructure& part, Triplets& entries) {
   const SaddlePointSystem& s = part.system;
@@ -33,22 +45,18 @@ void add_stiffness(const Substructure& part, Triplets& entries) {
   }
 }
 
-SlenderParts slender_parts(Triplets stiffness, const SaddlePointSystem& s) {
+SlenderParts slender_parts(std::vector<int> rows, Triplets stiffness, const SaddlePointSystem& s) {
   SlenderParts parts;
-  if (stiffness.empty()) return parts;
+  if (rows.empty()) return parts;
+  parts.rows = std::move(rows);
+  parts.place.assign(s.B.rows(), -1);
+  for (std::size_t a = 0; a < parts.rows.size(); ++a) parts.place[parts.rows[a]] = int(a);
+
   std::vector<int> unknown(s.K.cols(), -1);
   for (const auto& entry : stiffness) unknown[entry.row()] = 0;
   const int unknowns = number(unknown);
   for (std::size_t k = 0; k < s.grounded.size(); ++k)
     if (unknown[s.grounded[k]] >= 0) parts.springs.emplace_back(unknown[s.grounded[k]], int(k));
-  parts.place.assign(s.B.rows(), -1);
-  for (int i = 0; i < s.B.cols(); ++i)
-    if (unknown[i] >= 0)
-      for (SparseMatrix::InnerIterator it(s.B, i); it; ++it) parts.place[it.row()] = 0;
-  parts.rows.resize(number(parts.place));
-  for (std::size_t a = 0; a < parts.place.size(); ++a)
-    if (parts.place[a] >= 0) parts.rows[parts.place[a]] = int(a);
-
   for (auto& entry : stiffness) entry = {unknown[entry.row()], unknown[entry.col()], entry.value()};
   parts.K = filled(unknowns, unknowns, stiffness);
   Triplets coupling;

@@ -7,14 +7,18 @@
 
 namespace mortise {
 
-/// Whether a part bends so easily that its contact nodes' stiffness says little of what its pressures do.
-bool is_slender(const Substructure& part);
+/// Slender parts bend so easily that their contact nodes' stiffness says little of what their pressures do. They have
+/// a full compliance, as compact parts do, where their rows are few.
+enum class PartKind { compact, slender, slender_with_many_rows };
+
+/// `slenderness`: of the whole system's nodes (mesh/slenderness.hpp); none of those beyond its end.
+PartKind kind_of(const Substructure& part, const std::vector<double>& slenderness);
 
 /// The slender parts; dimensionless, as the bordered system.
 struct SlenderParts {
   std::vector<int> rows;   ///< that they see, ascending
   std::vector<int> place;  ///< m: of each row in these, or -1
-  SparseMatrix K;          ///< of their free unknowns, lower triangle; not held where they float
+  SparseMatrix K;          ///< free unknowns of those with many rows, lower triangle; not held where they float
   SparseMatrix B;          ///< rows x these unknowns
   SparseMatrix D;          ///< rows x rows, lower triangle: compliance of all other parts
   SparseMatrix H;          ///< rows x motions of other parts that these rows alone hold
@@ -28,11 +32,11 @@ struct SlenderParts {
 /// A slender part's stiffness, in unknowns of the whole system.
 void add_stiffness(const Substructure& part, Triplets& entries);
 
-/// `stiffness`: of all of them. D and H are left empty.
-SlenderParts slender_parts(Triplets stiffness, const SaddlePointSystem& s);
+/// `rows`: of all of them, ascending; `stiffness`: of those with many. D and H are left empty.
+SlenderParts slender_parts(std::vector<int> rows, Triplets stiffness, const SaddlePointSystem& s);
 
-/// What another part adds: the compliance C of its rows, and its motions H where slender parts see all of its rows.
-/// (Others hold the rest as well as its springs do.)
+/// What a part with a full compliance C of its rows adds: that, and its motions H where slender parts see all of its
+/// rows. (Others hold the rest as well as its springs do.)
 struct TouchingParts {
   Triplets D;  ///< rows, lower triangle
   Triplets H;  ///< row, spring of the whole system

@@ -125,13 +125,10 @@ class FetiRows : public ContactRows {
     answer.lambda = x_.lambda;
     answer.mu = x_.mu;
     const VecX pressed = system_.multiply(answer.lambda), moved = system_.opening(answer.mu);
-    answer.w = state_.u.size() > 0 ? opening(s_, state_.u) : VecX(system_.load.r - pressed - moved);
-    const VecX gap = s_.g.cwiseQuotient(s_.row_scale), displaced = answer.w + gap;  // one side against the other
-    // Gaps as they are drawn, which may be far wider than anything moves, are no terms that the iteration has off.
-    const double terms = largest(largest_entry(system_.load.r + gap), largest_entry(pressed)),
-                 size = system_.size(largest(largest_entry(displaced), largest_entry(moved)), terms);
+    answer.w = corrects ? opening(s_, state_.u) : VecX(system_.load.r - pressed - moved);
     answer.negligible_tension = round_off * tolerance_ * largest_entry(answer.lambda.cwiseQuotient(s_.row_scale));
-    answer.negligible_penetration = round_off * tolerance_ * size;
+    answer.negligible_penetration =
+        round_off * tolerance_ * (corrects ? largest_entry(state_.u) : size_of(answer.w, pressed, moved));
     answer.driven_mode = rows_->driven_motion(system_.load.h, answer.lambda);
     answer.opening = system_.opening(answer.driven_mode);
     return answer;
@@ -167,6 +164,14 @@ class FetiRows : public ContactRows {
   const std::shared_ptr<const ClosedRows>& rows() const { return rows_; }
 
  private:
+  // What openings w are compared with, where they are those of pressures and motions.
+  double size_of(const VecX& w, const VecX& pressed, const VecX& moved) const {
+    const VecX gap = s_.g.cwiseQuotient(s_.row_scale), displaced = w + gap;  // one side against the other
+    // Gaps as they are drawn, which may be far wider than anything moves, are no terms that the iteration has off.
+    const double terms = largest(largest_entry(system_.load.r + gap), largest_entry(pressed));
+    return system_.size(largest(largest_entry(displaced), largest_entry(moved)), terms);
+  }
+
   // A slender body moves far under pressures that are off by round-off.
   void correct_round_off() {
     state_ = {.u = s_.constraints.value, .lambda = stresses(s_, x_.lambda)};
@@ -202,11 +207,11 @@ std::vector<char> closed_at_first(const SaddlePointSystem& s) {
 
 }  // namespace
 
-Solution solve_by_feti(const SaddlePointSystem& s, const FetiOptions& options) {
+Solution solve_by_feti(const SaddlePointSystem& s, const FetiOptions& options, const std::vector<double>& slenderness) {
   Solution solution;
   solution.constraint_tolerance = options.tolerance;
   Stopwatch watch;
-  const auto system = std::make_shared<const DualSystem>(s);
+  const auto system = std::make_shared<const DualSystem>(s, slenderness);
   if (system->failed_at >= 0) {
     solution.status = SolveStatus::not_positive_definite;
     solution.failed_at = system->failed_at;

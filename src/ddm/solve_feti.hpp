@@ -13,7 +13,9 @@ namespace mortise {
 /// for mortar rows Stefanica 2001). Unilateral rows by the primal-dual active set method around it (as
 /// solve/active_set.hpp; Avery & Farhat 2009), each started from the one before. docs/theory.md eq. 51a to 54.
 ///
-/// `system`: as for solve_directly; no dense matrix is larger than the rows of one part. Status as solve_directly's.
-Solution solve_by_feti(const SaddlePointSystem& system, const FetiOptions& options);
+/// `system`: as for solve_directly; no dense matrix is larger than the rows of one part. `slenderness`: of each node
+/// (mesh/slenderness.hpp), which says what parts bend; empty: none. Status as solve_directly's.
+Solution solve_by_feti(const SaddlePointSystem& system, const FetiOptions& options,
+                       const std::vector<double>& slenderness = {});
 
 }  // namespace mortise

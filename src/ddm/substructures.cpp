@@ -51,39 +51,7 @@ bool same_stiffness(const SparseMatrix& one, const SparseMatrix& other) {
   return (a - b).cwiseAbs().maxCoeff() <= alike_stiffness * largest_entry(a);
 }
 
-// The nodes in the order of their distance from the first one, in edges of the graph; and the largest distance.
-struct Levels {
-  std::vector<int> nodes;
-  int count;
-};
-
-Levels levels_from(int first, const std::vector<std::vector<int>>& neighbours) {
-  std::vector<char> seen(neighbours.size(), 0);
-  Levels levels{.nodes = {first}, .count = 0};
-  seen[first] = 1;
-  for (std::size_t start = 0; start < levels.nodes.size(); ++levels.count) {
-    const std::size_t end = levels.nodes.size();
-    for (; start < end; ++start)
-      for (const int node : neighbours[levels.nodes[start]])
-        if (!std::exchange(seen[node], 1)) levels.nodes.push_back(node);
-  }
-  return levels;
-}
-
 }  // namespace
-
-double slenderness(const SparseMatrix& K) {
-  std::vector<std::vector<int>> neighbours(K.cols() / 2);
-  for (int j = 0; j < K.cols(); j += 2)
-    for (SparseMatrix::InnerIterator it(K, j); it; ++it)
-      if (const int i = int(it.row()) / 2; it.row() % 2 == 0 && i != j / 2) {
-        neighbours[i].push_back(j / 2);
-        neighbours[j / 2].push_back(i);
-      }
-  const int end = levels_from(0, neighbours).nodes.back();
-  const double levels = levels_from(end, neighbours).count;
-  return levels * levels / double(neighbours.size());
-}
 
 std::vector<int> contact_unknowns(const SaddlePointSystem& part) {
   std::vector<int> seen;

@@ -43,8 +43,4 @@ class Substructures {
 /// by unknown, with the same of them fixed, held by springs and in contact. The rows may differ.
 std::vector<int> first_alike(const Substructures& parts);
 
-/// Levels of nodes from end to end, squared, over all nodes: about a third of length over thickness where elements have
-/// 8 nodes and are as long as wide, below 1 of compact bodies; half of it of rings. K: lower triangle, connected.
-double slenderness(const SparseMatrix& K);
-
 }  // namespace mortise

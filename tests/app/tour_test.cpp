@@ -98,7 +98,7 @@ std::string walk() {
   right << B * factor.solve(f) - system.g.cwiseQuotient(system.row_scale), S.dot(factor.solve(f));
   const VecX lambda = E * bordered.partialPivLu().solve(right).head(m).cwiseQuotient(system.row_scale);
 
-  const Solution solution = SystemSolver(problem.method, system, problem.dirichlet).solve();
+  const Solution solution = SystemSolver(problem).solve();
   const bool same = (lambda - solution.lambda).norm() < 1e-9 * lambda.norm();
   out << "by hand and by the direct solver: " << (same ? "the same" : "not the same") << "\n";
 

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "ddm/substructures.hpp"
+#include "ddm/dual_system.hpp"
 #include "solve/contact_factor.hpp"
 #include "solve/direct.hpp"
 
@@ -172,10 +172,10 @@ TEST(Feti, OpensTheRowsThatAPrescribedDisplacementOpens) {
   EXPECT_GT(open.front() + open.back(), 0);
 }
 
-// A beam of 240 nodes, held by one end, whose every other node touches a ring of springs, three a ring. Every other
-// ring is held by one node, the others lie on the beam.
-SaddlePointSystem beam_and_rings() {
-  constexpr int length = 240, rings = 40;
+// A beam, held by one end, whose every other node touches a ring of springs, three a ring. Every other ring is held by
+// one node, the others lie on the beam.
+SaddlePointSystem beam_and_rings(int rings, double stiffness = 1) {
+  const int length = 6 * rings;  // nodes
   SaddlePointSystem s;
   Triplets K, B;
   const auto spring = [&](int a, int b, double k) {
@@ -196,7 +196,7 @@ SaddlePointSystem beam_and_rings() {
   int row = 0;
   for (int r = 0; r < rings; ++r) {
     const int first = length + nodes * r;
-    for (int i = 0; i < nodes; ++i) spring(first + i, first + (i + 1) % nodes, 1 + 0.1 * i);
+    for (int i = 0; i < nodes; ++i) spring(first + i, first + (i + 1) % nodes, stiffness * (1 + 0.1 * i));
     for (int i = 0; i < 3; ++i, ++row) {
       B.emplace_back(row, 2 * (first + i) + 1, 1);
       B.emplace_back(row, 2 * (6 * r + 2 * i) + 1, -1);
@@ -220,41 +220,62 @@ SaddlePointSystem beam_and_rings() {
   return s;
 }
 
-TEST(Substructures, KnowSlenderParts) {
-  const auto of = [](int columns, int rows, bool closed) {  // a grid of springs
-    Triplets K;
-    const auto join = [&](int a, int b) {
-      for (int c = 0; c < 2; ++c) {
-        K.emplace_back(2 * a + c, 2 * a + c, 1);
-        K.emplace_back(2 * b + c, 2 * b + c, 1);
-        K.emplace_back(2 * std::max(a, b) + c, 2 * std::min(a, b) + c, -1);
-      }
-    };
-    for (int i = 0; i < columns; ++i)
-      for (int j = 0; j < rows; ++j) {
-        if (i + 1 < columns || closed) join(i * rows + j, (i + 1) % columns * rows + j);
-        if (j + 1 < rows) join(i * rows + j, i * rows + j + 1);
-      }
-    SparseMatrix lower(2 * columns * rows, 2 * columns * rows);
-    lower.setFromTriplets(K.begin(), K.end());
-    return slenderness(lower);
-  };
-  EXPECT_EQ(of(100, 1, false), 100);
-  EXPECT_EQ(of(100, 1, true), 51.0 * 51 / 100);
-  EXPECT_EQ(of(10, 10, false), 19.0 * 19 / 100);
-  EXPECT_EQ(of(1, 1, false), 1);
+std::vector<double> slender_beam(int rings) { return std::vector<double>(6 * rings, 100); }
+
+// Of few rows for its nodes, which has a full compliance, and of many.
+TEST(Feti, TakesFewStepsWithASlenderPart) {
+  for (const int rings : {30, 50})
+    for (const bool unilateral : {false, true}) {
+      SCOPED_TRACE(testing::Message() << rings << unilateral);
+      SaddlePointSystem s = beam_and_rings(rings);
+      if (unilateral) s.unilateral.assign(s.B.rows(), 1);
+      if (unilateral) s.f(Eigen::seqN(5 * rings + 1, 10, 2)).setConstant(-9);  // away from them
+      const Solution direct = solve_directly(s), found = solve_by_feti(s, {}, slender_beam(rings));
+      EXPECT_EQ(std::ranges::count(direct.active, 0) > 0, unilateral);
+      expect_same(found, direct,
+                  1e-17 * std::pow(6 * rings, 4));  // a beam's condition is the fourth power of its nodes
+      EXPECT_LE(found.iteration->steps, 30 + 4 * int(found.steps.size()));  // 574 closed, by the nodes' stiffness
+    }
 }
 
-TEST(Feti, TakesFewStepsWithASlenderPart) {
-  for (const bool unilateral : {false, true}) {
-    SCOPED_TRACE(unilateral);
-    SaddlePointSystem s = beam_and_rings();
-    if (unilateral) s.unilateral.assign(s.B.rows(), 1);
-    if (unilateral) s.f(Eigen::seqN(2 * 100 + 1, 10, 2)).setConstant(-9);  // away from them
-    const Solution direct = solve_directly(s), found = solve_by_feti(s, {});
-    EXPECT_EQ(std::ranges::count(direct.active, 0) > 0, unilateral);
-    expect_same(found, direct, 1e-8);
-    EXPECT_LE(found.iteration->steps, 30 + 4 * int(found.steps.size()));  // 574 closed, by the nodes' stiffness
+// Rows and gaps in other units of length, forces to depth with them.
+TEST(Feti, SolvesSlenderPartsInAnyUnits) {
+  for (const int rings : {30, 50}) {
+    const SaddlePointSystem s = beam_and_rings(rings);
+    const Solution in_metres = solve_by_feti(s, {}, slender_beam(rings));
+    for (const double unit : {0x1p-10, 0x1p10}) {
+      SCOPED_TRACE(testing::Message() << rings << " " << unit);
+      SaddlePointSystem other = s;
+      other.B *= unit;
+      other.row_scale *= unit;
+      other.f *= unit;
+      other.g *= unit * unit;
+      const Solution found = solve_by_feti(other, {}, slender_beam(rings));
+      EXPECT_EQ(found.iteration->steps, in_metres.iteration->steps);
+      EXPECT_LE(largest_entry(found.lambda - in_metres.lambda), 1e-12 * largest_entry(in_metres.lambda));
+      EXPECT_LE(largest_entry(found.u / unit - in_metres.u), 1e-12 * largest_entry(in_metres.u));
+      const VecX local = DualSystem(s, slender_beam(rings)).diagonal;
+      EXPECT_LE(largest_entry(DualSystem(other, slender_beam(rings)).diagonal - local), 1e-12 * largest_entry(local));
+    }
+  }
+}
+
+// Gaps far smaller than what moves, in a beam that the loads alone would bend much further.
+TEST(Feti, LeavesNoOverlapOfSlenderParts) {
+  constexpr int rings = 50;
+  SaddlePointSystem s = beam_and_rings(rings, 1e5);
+  s.unilateral.assign(s.B.rows(), 1);
+  s.f(Eigen::seqN(0, 6 * rings, 2)).setZero();  // nothing stretches the beam
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> part(-1, 1);
+  for (int i = 0; i < 20; ++i) {
+    s.g = VecX::NullaryExpr(s.B.rows(), [&] { return 1e-6 * part(random); });
+    s.start.assign(s.B.rows(), 1);
+    for (char& closed : s.start) closed = part(random) < 0.9;
+    const Solution found = solve_by_feti(s, {}, slender_beam(rings));
+    ASSERT_EQ(found.status, SolveStatus::converged);
+    const VecX gap = (s.B * found.u - s.g).cwiseQuotient(s.row_scale);
+    EXPECT_GE(gap.minCoeff(), -1e-9 * largest_entry(found.u)) << i;
   }
 }
 
