@@ -163,17 +163,18 @@ double negligible_force(const std::vector<PressureEstimate>& pressures, const Ac
 
 void find_excluded(double part, double negligible, PressureEstimate& e) {
   const PressureLine& line = e.line;
-  e.excluded_distance = 0;
+  e.left_out.assign(e.singular.size(), 0);
   e.excluded.assign(line.p.size(), 0);
   const LoadedPieces pieces = loaded_pieces(e);
-  for (const SingularPoint& point : e.singular) {
-    const int piece = pieces.at(line, line.nearest(point.position));
+  std::vector<int> piece_of(e.singular.size(), -1);
+  for (std::size_t k = 0; k < e.singular.size(); ++k) {
+    const SingularPoint& point = e.singular[k];
+    const int piece = piece_of[k] = pieces.at(line, line.nearest(point.position));
     if (!point.is_unbounded() || piece < 0) continue;
-    const double distance = part * pieces.length[piece] * std::min(1.0, 2.0 / std::max(pieces.without_limit[piece], 1));
-    e.excluded_distance = std::max(e.excluded_distance, distance);
+    e.left_out[k] = part * pieces.length[piece] * std::min(1.0, 2.0 / std::max(pieces.without_limit[piece], 1));
     const Vec2 foot = line.foot(point.position);
     for (Eigen::Index i = 0; i < line.p.size(); ++i)
-      if ((line.position[i] - foot).norm() < distance) e.excluded[i] = 1;
+      if ((line.position[i] - foot).norm() < e.left_out[k]) e.excluded[i] = 1;
   }
   const double force = force_along(line);
   if (force > 0 && force < negligible && std::ranges::any_of(e.singular, &SingularPoint::is_unbounded)) {
@@ -187,6 +188,8 @@ void find_excluded(double part, double negligible, PressureEstimate& e) {
     left[piece] = left[piece] || (line.p(i) != 0 && !e.excluded[i] && is_known(e, i));
   });
   pieces.for_each_vertex([&](Eigen::Index i, int piece) { e.excluded[i] = e.excluded[i] && left[piece]; });
+  for (std::size_t k = 0; k < e.singular.size(); ++k)
+    if (piece_of[k] >= 0 && !left[piece_of[k]]) e.left_out[k] = 0;
   // Where contact ends in what is left out, p is a root of nothing beyond.
   for (Eigen::Index i = 0; i < line.p.size(); ++i) e.local.border[i] = e.local.border[i] && !e.excluded[i];
 }

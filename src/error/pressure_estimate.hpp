@@ -28,8 +28,8 @@ struct PressureEstimate {
   /// Of each vertex, whether p_h swings there from node to node however short the edges, which the line's own error
   /// tells.
   std::vector<char> swings;
-  double excluded_distance = 0;  ///< the largest, from a point where p has no limit: there p is left out of the norm
-  std::vector<char> excluded;    ///< of each vertex
+  std::vector<double> left_out;  ///< of each of `singular`, length: p nearer to it is left out of the norm; 0: none is
+  std::vector<char> excluded;    ///< of each vertex, whether p is left out there
   /// Squares of L2 norms along what is not excluded, stress^2 length: of the local error, the far field's and p. Where
   /// p is known at no vertex better than to its own size, the local error is no less than that.
   double local2 = 0, far2 = 0, p2 = 0;

@@ -91,22 +91,19 @@ Json contact_json(const ContactPair& pair, const ContactResults& c) {
 Json pressure_json(const Results& r) {
   const ErrorEstimate& e = *r.estimate;
   if (e.pressures.empty() || e.pressure_square() == 0) return nullptr;
-  Json singular = Json::array(), excluded = Json::array();
-  for (std::size_t k = 0; k < e.pressures.size(); ++k) {
-    for (const SingularPoint& point : e.pressures[k].singular)
+  Json singular = Json::array();
+  for (std::size_t k = 0; k < e.pressures.size(); ++k)
+    for (std::size_t i = 0; i < e.pressures[k].singular.size(); ++i) {
+      const SingularPoint& point = e.pressures[k].singular[i];
       singular.push_back({{"pair", k},
                           {"position", point.position},
                           {"exponent", point.exponent},
                           {"pressure_exponent", point.pressure_exponent},
                           {"logarithmic", point.log_pressure > 0},
-                          {"unbounded", point.is_unbounded()}});
-    excluded.push_back(e.pressures[k].excluded_distance);
-  }
-  return {{"error", e.pressure()},
-          {"line", e.line()},
-          {"far_field", e.far_field()},
-          {"singular", singular},
-          {"excluded", excluded}};
+                          {"unbounded", point.is_unbounded()},
+                          {"left_out", e.pressures[k].left_out[i]}});
+    }
+  return {{"error", e.pressure()}, {"line", e.line()}, {"far_field", e.far_field()}, {"singular", singular}};
 }
 
 Json estimate_json(const Results& r) {

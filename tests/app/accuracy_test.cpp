@@ -78,9 +78,9 @@ TEST(Accuracy, LeavesOutSingularPointsAndSaysWhere) {
   for (Eigen::Index i = 0; i < e.line.p.size(); ++i)
     EXPECT_EQ(e.excluded[i] != 0,
               std::min({(e.line.position[i] - Vec2(0, 0.2)).norm(), (e.line.position[i] - Vec2(0.4, 0.4)).norm(),
-                        (e.line.position[i] - Vec2(0.8, 0.2)).norm()}) < e.excluded_distance);
+                        (e.line.position[i] - Vec2(0.8, 0.2)).norm()}) < e.left_out[0]);
   const auto wider = solve_to_accuracy(scene_to_accuracy("tent_b", "1%", {{"accuracy.exclude", "0.2"}}));
-  EXPECT_NEAR(wider->estimate->pressures[0].excluded_distance, 2 * e.excluded_distance, 1e-6);
+  EXPECT_NEAR(wider->estimate->pressures[0].left_out[0], 2 * e.left_out[0], 1e-6);
 }
 
 TEST(Accuracy, NeedsASecondSolveToConfirmAFirstThatIsNotThreeTimesAsGood) {

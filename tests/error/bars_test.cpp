@@ -107,16 +107,17 @@ TEST(Bars, LeaveOutATenthOfEachPieceAtItsEndsHoweverManyPiecesThereAre) {
               .h = VecX::Ones(edges + 1),
               .faced = std::vector<char>(edges, 1),
               .loaded = std::vector<char>(edges + 1, 0)};
+    const double radius = edges / (2 * std::numbers::pi);
     for (int i = 0; i <= edges; ++i)
-      e.line.position.emplace_back(std::cos(2 * std::numbers::pi * i / edges),
-                                   std::sin(2 * std::numbers::pi * i / edges));
+      e.line.position.emplace_back(radius * std::cos(i / radius), radius * std::sin(i / radius));
     if (!e.line.closed)
       for (int i = 0; i <= edges; ++i) e.line.position[i] = {i, 0};
-    int longest = 0;
+    int longest = 0, shortest = edges;
     std::vector<char> expected(edges + 1, 0);
     for (int tooth = 0; tooth < teeth; ++tooth) {
       const int length = 5 + int(draw() % 50), from = 60 * tooth + 3;
       longest = std::max(longest, length);
+      shortest = std::min(shortest, length);
       for (const int end : {0, length}) {
         SingularPoint corner{};
         corner.position = e.line.position[(from + end + turned) % edges];
@@ -133,8 +134,9 @@ TEST(Bars, LeaveOutATenthOfEachPieceAtItsEndsHoweverManyPiecesThereAre) {
     }
     e.local = LineError(edges + 1);
     find_excluded(0.1, 0, e);
-    EXPECT_NEAR(e.excluded_distance, 0.1 * longest, 1e-9) << k;
-    for (int i = 0; i <= edges && !e.line.closed; ++i)  // positions are not as far apart as s around a closed line
+    EXPECT_NEAR(*std::ranges::max_element(e.left_out), 0.1 * longest, 1e-9) << k;
+    EXPECT_NEAR(*std::ranges::min_element(e.left_out), 0.1 * shortest, 1e-9) << k;
+    for (int i = 0; i <= edges && !e.line.closed; ++i)  // chords are shorter than s around a closed line
       if (e.line.loaded[i]) EXPECT_EQ(e.excluded[i], expected[i]) << k << ", " << i;
   }
 }
@@ -152,7 +154,7 @@ TEST(Bars, LeaveOutWhatFacesACornerAcrossAGap) {
   };
   const std::vector<char> drawn = left_out(0);
   EXPECT_EQ(drawn[5], 1);
-  EXPECT_EQ(left_out(3 * e.excluded_distance), drawn);
+  EXPECT_EQ(left_out(3 * e.left_out[0]), drawn);
 }
 
 // Contact that ends beside a corner, in what is left out around it, has a border there that moves no root beyond.
@@ -274,7 +276,7 @@ TEST(Bars, WhatLiesBesideAPointWithoutLimitIsLeftOut) {
   EXPECT_EQ(e.excluded, std::vector<char>(6, 0));  // p has a limit there
   e.singular[0].pressure_exponent = 0.5;
   find_excluded(0.3, 0, e);
-  EXPECT_NEAR(e.excluded_distance, 0.3 * 6, 1e-15);
+  EXPECT_NEAR(e.left_out[0], 0.3 * 6, 1e-15);
   EXPECT_EQ(e.excluded, (std::vector<char>{0, 0, 1, 1, 0, 0}));
   e.singular[0].pressure_exponent = 1;
   e.singular[0].log_pressure = 1;
@@ -282,6 +284,7 @@ TEST(Bars, WhatLiesBesideAPointWithoutLimitIsLeftOut) {
   EXPECT_EQ(e.excluded, (std::vector<char>{0, 0, 1, 1, 0, 0}));
   find_excluded(2, 0, e);  // nothing would be left: all that is loaded counts
   EXPECT_EQ(e.excluded, (std::vector<char>{0, 0, 0, 0, 0, 1}));
+  EXPECT_EQ(e.left_out[0], 0);
 }
 
 const Results& solved(const std::string& scene) {

@@ -56,10 +56,8 @@ def functions(scene, references):
 
 def zones(row):
     """Points where p has no limit, and the distance within which it is left out."""
-    pressure = row["estimate"]["pressure"]
-    endless = lambda point: point["pressure_exponent"] < 1 or point["logarithmic"]
-    points = [point["position"] for point in pressure["singular"] if endless(point)]
-    return points, pressure["excluded"][0]
+    points = [point for point in row["estimate"]["pressure"]["singular"] if point["unbounded"]]
+    return [point["position"] for point in points], max((point["left_out"] for point in points), default=0)
 
 
 def judged(scene, run, row, references):

@@ -113,8 +113,7 @@ def measure(folder, summary, fields):
     told = summary["estimate"]["pressure"]
     counts = np.ones(len(s), bool)
     for point in told["singular"]:
-        if point["pressure_exponent"] < 1:
-            counts &= np.hypot(x - point["position"][0], y - point["position"][1]) >= told["excluded"][0]
+        counts &= np.hypot(x - point["position"][0], y - point["position"][1]) >= point["left_out"]
     s, p, bar, exact, error = (v[counts] for v in (s, p, bar, exact, error))
     root = lambda v: np.sqrt(np.trapz(v**2, s))
     said = told["error"] * root(p) if told["error"] is not None else np.nan

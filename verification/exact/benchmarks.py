@@ -35,9 +35,8 @@ SIZES = (25, 50, 100, 200)  # of the blocks that stand for half planes
 
 def left_out_at_axis(summary):
     """What --accuracy leaves out beside a point on the axis at which p has no limit, as the wedge's tip."""
-    pressure = summary["estimate"]["pressure"]
-    on_axis = any(point["position"][0] == 0 for point in pressure["singular"])
-    return pressure["excluded"][0] if on_axis else 0
+    points = summary["estimate"]["pressure"]["singular"]
+    return max((point["left_out"] for point in points if point["position"][0] == 0), default=0)
 
 
 def execute(run):

@@ -54,10 +54,9 @@ def rows_of(path):
 
 
 def has_no_limit(summary, k):
-    """The places of pair k's line at which p has no limit, and the distance within which it does not count."""
-    told = summary["estimate"]["pressure"]
-    places = [at["position"] for at in told["singular"] if at["pair"] == k and at["unbounded"]]
-    return np.array(places).reshape(-1, 2), told["excluded"][k]
+    """The places of pair k's line at which p has no limit, each with the distance within which it does not count."""
+    points = summary["estimate"]["pressure"]["singular"]
+    return [(np.array(at["position"]), at["left_out"]) for at in points if at["pair"] == k and at["unbounded"]]
 
 
 def sides_of(table, k):
@@ -71,8 +70,7 @@ def read_line(run, side, k, of="p"):
     xy = np.array([[float(row["x"]), float(row["y"])] for row in side]).reshape(-1, 2)
     p, s = (np.array([float(row[name]) for row in side]) for name in (of, "s"))
     length = np.gradient(s) if len(s) > 1 else np.ones(len(s))
-    places, distance = has_no_limit(run.summary, k)
-    for place in places:
+    for place, distance in has_no_limit(run.summary, k):
         length = np.where(np.linalg.norm(xy - place, axis=1) < distance, 0, length)
     return xy, p, length
 
@@ -102,7 +100,7 @@ def read_pairs(run):
         faced = [row for row in sides_of(table, k)[0] if row["gap"]]
         run.lines[pair_key(pair)] = read_line(run, faced, k)
         run.multipliers[pair_key(pair)] = read_line(run, faced, k, "p_multiplier")
-        if len(has_no_limit(summary, k)[0]):
+        if has_no_limit(summary, k):
             run.left_out.append(f"largest p of {name}: it has no limit there")
         elif k in by_node and by_node[k].get("p_error"):
             value, bar = float(by_node[k]["p"]), float(by_node[k]["p_error"])
