@@ -3,13 +3,14 @@
 #include <limits>
 #include <numeric>
 
+#include "solve/refine.hpp"
+
 namespace mortise {
 namespace {
 
 // Of what the rows do against a motion alone: the root of round-off, which the two errors that it trades, of the zero
 // that it stands for and of pivots that it makes large, have in common. Refinement takes both away.
 const double motion_softness = std::sqrt(std::numeric_limits<double>::epsilon());
-constexpr int most_soft_refinements = 10;
 
 SparseMatrix with_stored_diagonal(const SparseMatrix& A) {
   SparseMatrix zeros(A.rows(), A.cols());
@@ -37,9 +38,14 @@ SparseMatrix uncoupled(const SparseMatrix& A, const std::vector<char>& kept) {
 }  // namespace
 
 SoftRows::SoftRows(const SparseMatrix& system, Eigen::Index rows)
-    : matrix_(with_stored_diagonal(system)), own_(matrix_.diagonal()), rows_(rows) {
+    : matrix_(with_stored_diagonal(system)), own_(matrix_.diagonal()), row_sums_(VecX::Zero(rows)), rows_(rows) {
   unit_ = stacked(own_.head(rows), stiffness()).cwiseSqrt();
   unit_ = unit_.cwiseMax(std::numeric_limits<double>::min());
+  for_each_entry(system, [&](int i, int j, double value) {
+    if (i >= rows) return;
+    row_sums_(i) += std::abs(value);
+    if (i != j) row_sums_(j) += std::abs(value);
+  });
 }
 
 VecX SoftRows::stiffness() const {
@@ -59,7 +65,7 @@ bool SoftRows::factorise(const VecX& compliance) {
                .cwiseSqrt()
                .cwiseInverse();
   std::vector<char> coupled(rows_);
-  for (Eigen::Index a = 0; a < rows_; ++a) coupled[a] = compliance(a) <= far_more * own_(a);
+  for (Eigen::Index a = 0; a < rows_; ++a) coupled[a] = compliance(a) <= far_more * row_sums_(a);
   SparseMatrix scaled = scale_.asDiagonal() * uncoupled(matrix_, coupled) * scale_.asDiagonal();
   scaled.diagonal().tail(held.size()).setConstant(border_beta);
   std::vector<int> one_by_one(rows_);
@@ -79,18 +85,10 @@ VecX SoftRows::solved(const VecX& rhs) const {
 }
 
 ContactRows::Forces SoftRows::solve(const VecX& gap, const VecX& work) const {
-  const VecX rhs = stacked(gap, work);
-  VecX x = VecX::Zero(rhs.size()), left = rhs;
-  double least = std::numeric_limits<double>::infinity();
-  for (int pass = 0; pass < most_soft_refinements; ++pass) {
-    const VecX next = x + solved(left), now = rhs - matrix_.selfadjointView<Eigen::Lower>() * next;
-    const double size = largest_entry(now.cwiseQuotient(unit_));
-    if (!(size < least / 2)) break;
-    least = size;
-    x = next;
-    left = now;
-  }
-  return {.lambda = x.head(rows_), .mu = x.tail(rhs.size() - rows_)};
+  const VecX x = refined(
+      stacked(gap, work), unit_, [&](const VecX& left) { return solved(left); },
+      [&](const VecX& found) -> VecX { return matrix_.selfadjointView<Eigen::Lower>() * found; });
+  return {.lambda = x.head(rows_), .mu = x.tail(work.size())};
 }
 
 }  // namespace mortise

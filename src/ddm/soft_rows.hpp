@@ -31,6 +31,7 @@ class SoftRows {
 
   SparseMatrix matrix_;  // lower triangle, with a diagonal
   VecX own_;             // its diagonal without D
+  VecX row_sums_;        // of the absolute values of C
   VecX unit_;            // of gaps and work: the root of a row's compliance, of a motion's stiffness
   Eigen::Index rows_;
   VecX scale_;  // of both in the factors, whose diagonals are then of unit size

@@ -58,8 +58,9 @@ class ContactRows {
   virtual MatX free_motions() const = 0;
 };
 
-/// Of a row's own compliance in C: what gives way more is soft. Left out of a step are then terms of its inverse.
-inline constexpr double far_more = 1e3;
+/// Of the sum of |C_ab| over all rows b: a row a that gives way by more is soft. What is left out between soft rows and
+/// all others then changes their pressures by a tenth at most (Gershgorin 1931), and is solved for again (refine.hpp).
+inline constexpr double far_more = 10;
 
 /// What a row's unit normal is off by: places are drawn to gmsh's Geometry.Tolerance, 1e-8 of the size, and turn an
 /// edge of a tenth of it so much. Pressures do so much work on motions that should not feel them, such as a disc's

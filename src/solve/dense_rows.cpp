@@ -1,5 +1,9 @@
 #include "solve/dense_rows.hpp"
 
+#include <limits>
+
+#include "solve/refine.hpp"
+
 namespace mortise {
 namespace {
 
@@ -12,6 +16,17 @@ std::vector<int> active_rows(const std::vector<char>& active) {
   for (std::size_t a = 0; a < active.size(); ++a)
     if (active[a]) rows.push_back(int(a));
   return rows;
+}
+
+// Of the absolute values of the first m rows and columns of a lower triangle.
+VecX row_sums(const MatX& lower, Eigen::Index m) {
+  VecX sums = VecX::Zero(m);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    const auto below = lower.col(j).segment(j + 1, m - j - 1).cwiseAbs();
+    sums(j) += std::abs(lower(j, j)) + below.sum();
+    sums.tail(m - j - 1) += below;
+  }
+  return sums;
 }
 
 }  // namespace
@@ -72,10 +87,12 @@ VecX DenseRows::gaps(const Forces& forces) const {
 VecX DenseRows::unbalanced(const VecX& lambda) const { return rhs_.tail(springs()) - Ht() * unknown(lambda); }
 
 bool DenseRows::soften(const VecX& compliance) {
+  compliance_ = compliance;
+  if (row_sums_.size() == 0) row_sums_ = row_sums(p_.compliance, rows());
   coupled_.clear();
   soft_ = VecX::Zero(rows());
   for (Eigen::Index a = 0; a < rows(); ++a) {
-    if (compliance(a) <= far_more * p_.compliance(a, a))
+    if (compliance(a) <= far_more * row_sums_(a))
       coupled_.push_back(int(a));
     else
       soft_(a) = 1 / (compliance(a) + p_.compliance(a, a));
@@ -92,7 +109,22 @@ bool DenseRows::soften(const VecX& compliance) {
   return true;
 }
 
+// What is left out between soft rows and all others is solved for again: pressures far away may move a row by more than
+// its gap, however soft it is.
 ContactRows::Forces DenseRows::solve_softened(const VecX& gap, const VecX& work) {
+  const VecX unit = stacked(diagonal(), stiffness()).cwiseSqrt().cwiseMax(std::numeric_limits<double>::min());
+  const auto C = p_.compliance.topLeftCorner(rows(), rows()).selfadjointView<Eigen::Lower>();
+  const VecX x = refined(
+      stacked(gap, work), unit,
+      [&](const VecX& left) { return uncoupled_solution(left.head(rows()), left.tail(springs())); },
+      [&](const VecX& found) {
+        const VecX lambda = found.head(rows());
+        return stacked(C * lambda + compliance_.cwiseProduct(lambda) + opened(found.tail(springs())), Ht() * lambda);
+      });
+  return {.lambda = x.head(rows()), .mu = x.tail(springs())};
+}
+
+VecX DenseRows::uncoupled_solution(const VecX& gap, const VecX& work) const {
   VecX y = softened_.lower(gap(coupled_)), mu = VecX::Zero(springs());
   if (springs() > 0) {
     mu = motions_.solve(reduced_.transpose() * y + Ht() * soft_.cwiseProduct(gap) - work);
@@ -100,7 +132,7 @@ ContactRows::Forces DenseRows::solve_softened(const VecX& gap, const VecX& work)
   }
   VecX lambda = soft_.cwiseProduct(gap - opened(mu));
   lambda(coupled_) = VecX(softened_.upper(y));
-  return {.lambda = lambda, .mu = mu};
+  return stacked(lambda, mu);
 }
 
 }  // namespace mortise

@@ -44,8 +44,12 @@ class DenseRows : public ContactRows {
   const VecX& rhs_;
   double negligible_stress_ = 0;  // opens no row by more than round-off
   std::optional<MultiplierSystem> system_;
-  // Of rows that give way: those that press on others; their L L^T = C + compliance and L^-1 H; 1 / compliance of the
-  // soft ones, 0 of others; what all do against motions.
+  // (lambda, mu) where soft rows press on motions alone.
+  VecX uncoupled_solution(const VecX& gap, const VecX& work) const;
+
+  // Of rows that give way: by how much; those that press on others; their L L^T = C + compliance and L^-1 H; 1 /
+  // compliance of the soft ones, 0 of others; what all do against motions.
+  VecX compliance_, row_sums_;
   std::vector<int> coupled_;
   DenseCholesky softened_;
   MatX reduced_;
