@@ -47,9 +47,10 @@ class DenseRows : public ContactRows {
   // (lambda, mu) where soft rows press on motions alone.
   VecX uncoupled_solution(const VecX& gap, const VecX& work) const;
 
+  VecX row_sums_;  // of |C|
   // Of rows that give way: by how much; those that press on others; their L L^T = C + compliance and L^-1 H; 1 /
   // compliance of the soft ones, 0 of others; what all do against motions.
-  VecX compliance_, row_sums_;
+  VecX compliance_;
   std::vector<int> coupled_;
   DenseCholesky softened_;
   MatX reduced_;

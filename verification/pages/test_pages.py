@@ -149,3 +149,21 @@ def test_commands_of_dev():
         assert call[1] in names | {"NAME"}, f"{page}: {call[0]}"
         for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", call[2]):
             assert option in known or option in STUDY_OPTIONS, f"{page}: {call[0]}"
+
+
+@pytest.mark.parametrize(
+    "template, page",
+    [
+        ("accuracy/accuracy", "accuracy"),
+        ("chart/performance", "performance"),
+        ("exact/benchmarks", "benchmarks"),
+        ("exact/exact", "exact"),
+        ("exact/public_cases", "cases"),
+    ],
+)
+def test_a_page_has_its_template_s_prose(template, page):
+    """A page is made anew from its template: what is written in one of them alone is lost, or not shown."""
+    lines = (launch.ROOT / "verification" / f"{template}.md").read_text().splitlines()
+    prose = [line for line in lines if "{" not in line]
+    assert len(prose) > 10
+    assert [line for line in prose if line not in TEXTS[f"{page}.md"]] == []
