@@ -100,6 +100,7 @@ class OwnPart : public FullPart {
     auto body = std::make_shared<BodyGroup>(s, all_unknowns(s));
     body->compliance.resize(0, 0);
     C_ = std::move(body->C);
+    diagonal = C_.diagonal();
     H = std::move(body->H);
     if (!slender) stiffness_ = contact_stiffness(s, contact, Y);
     load = std::move(body->load);
@@ -119,6 +120,7 @@ class AlikePart : public FullPart {
     body_ = alike.body;
     if (body_->failed_at >= 0) return;
     C_ = rows_of_body_ * MatX(body_->C * rows_of_body_.transpose());
+    diagonal = C_.diagonal();
     H = rows_of_body_ * body_->H;
     const SparseMatrix y = SparseMatrix(alike.units.transpose()) * Y;
     stiffness_ = y.transpose() * MatX(alike.stiffness * y);
@@ -229,9 +231,7 @@ std::unique_ptr<DualPart> dual_part(Substructure of, PartKind kind, const AlikeB
   part->rows = std::move(of.rows);
   part->springs = std::move(of.springs);
   part->sharing = B * Y;
-  if (part->failed_at() >= 0) return part;
-  part->diagonal = kind == PartKind::compact ? VecX(part->compliance().diagonal())
-                                             : VecX(part->sharing.diagonal().cwiseProduct(row_scale));
+  if (kind != PartKind::compact) part->diagonal = part->sharing.diagonal().cwiseProduct(row_scale);
   return part;
 }
 

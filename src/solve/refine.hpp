@@ -11,7 +11,7 @@ namespace mortise {
 /// lowers the largest entry of what is left, over `unit`; ten times at most.
 template <typename Solve, typename Multiply>
 VecX refined(const VecX& rhs, const VecX& unit, const Solve& solve, const Multiply& multiply) {
-  constexpr int most_passes = 10;
+  constexpr int most_passes = 10;  // to 1e-10, where a tenth is left each time
   VecX x = VecX::Zero(rhs.size()), left = rhs;
   double least = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < most_passes; ++pass) {

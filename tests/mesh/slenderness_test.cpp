@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -24,6 +25,7 @@ Strip strip(std::mt19937& random) {
   const int nx = cells(random), ny = 1 + cells(random) / 5;
   Strip drawn{.length = std::exp(3 * part(random)), .thickness = std::exp(part(random) - 0.5), .mesh = {}};
   drawn.mesh = plate(all_cell_kinds[kind(random)], nx, ny);
+  std::ranges::shuffle(drawn.mesh.cells, random);  // the first may lie anywhere
   const double grading = 1 + 2 * part(random);
   for (auto node : drawn.mesh.nodes.rowwise())
     node = Eigen::RowVector2d(drawn.length * std::pow(node.x() / nx, grading), drawn.thickness * node.y() / ny);
