@@ -17,7 +17,8 @@ struct EdgeGaps {
   int edge;
   std::span<ContactPoint> points;
   std::vector<double> drawn;  // of each point, length
-  double closed;              // below it a gap is none, length
+  double closed;              // no more than this is none, length
+  double largest = 0;         // without sign
 };
 
 std::vector<EdgeGaps> gaps_by_edge(const Points& nodes, const Curve& multiplier, const ContactGeometry& geometry,
@@ -30,6 +31,7 @@ std::vector<EdgeGaps> gaps_by_edge(const Points& nodes, const Curve& multiplier,
     for (ContactPoint& p : gaps.points) {
       p.unknown = geometry.multiplier->uncertainty(edge) + geometry.opposite->uncertainty(p.opposite_edge);
       gaps.drawn.push_back(p.gap - geometry.clearance_at(edge_point(nodes, of, p.xi).position, {edge, p.xi}));
+      gaps.largest = std::max(gaps.largest, std::abs(gaps.drawn.back()));
     }
     list.push_back(std::move(gaps));
   }
@@ -44,14 +46,15 @@ bool all_below(const EdgeGaps& gaps, const Limit& limit) {
   return true;
 }
 
-// How often the gap changes its sign on edges first ... last.
+// How often the gap changes its sign on edges first ... last; that which is none has no sign.
 std::size_t changes_of_sign(const std::vector<EdgeGaps>& list, std::size_t first, std::size_t last) {
   std::size_t changes = 0;
   double before = 0;
   for (std::size_t e = first; e <= last; ++e)
     for (const double gap : list[e].drawn) {
+      if (std::abs(gap) <= list[e].closed) continue;
       changes += before * gap < 0;
-      if (gap != 0) before = gap;
+      before = gap;
     }
   return changes;
 }
@@ -64,17 +67,17 @@ bool goes_from_side_to_side(const std::vector<EdgeGaps>& list, std::size_t k) {
 }
 
 // Takes the gaps of edges first ... last for closed, and keeps what that costs if the lines may as well be apart: their
-// gap stays on one side for longer than two edges on average, as that between two meshes of one line does not.
+// gap stays on one side for longer than two of the edges that have one on average, as that between two meshes of one
+// line does not.
 void close(const std::vector<EdgeGaps>& list, std::size_t first, std::size_t last) {
-  const bool apart = 2 * changes_of_sign(list, first, last) < last - first + 1;
-  for (std::size_t k = first; k <= last; ++k) {
-    double largest = 0;
-    for (const double gap : list[k].drawn) largest = std::max(largest, std::abs(gap));
+  std::size_t with_gap = 0;
+  for (std::size_t k = first; k <= last; ++k) with_gap += list[k].largest > list[k].closed;
+  const bool apart = 2 * changes_of_sign(list, first, last) < with_gap;
+  for (std::size_t k = first; k <= last; ++k)
     for (std::size_t i = 0; i < list[k].points.size(); ++i) {
       list[k].points[i].gap -= list[k].drawn[i];
-      list[k].points[i].unknown = apart && largest > list[k].closed ? largest : 0;
+      list[k].points[i].unknown = apart && list[k].largest > list[k].closed ? list[k].largest : 0;
     }
-  }
 }
 
 }  // namespace

@@ -56,8 +56,9 @@ struct CellValues {
 
   void reinit(const Points& all, const Cell& cell) {
     for (int a = 0; a < n<kind>; ++a) nodes.row(a) = all.row(cell.nodes[a]);
+    const Eigen::Matrix<double, n<kind>, 2> from_first = nodes.rowwise() - nodes.row(0);  // as cell_point
     for (Eigen::Index q = 0; q < points<kind>; ++q) {
-      const Eigen::Matrix<double, 1, 2> x_xi = table.dxi.row(q) * nodes, x_eta = table.deta.row(q) * nodes;
+      const Eigen::Matrix<double, 1, 2> x_xi = table.dxi.row(q) * from_first, x_eta = table.deta.row(q) * from_first;
       const double J = x_xi(0) * x_eta(1) - x_xi(1) * x_eta(0);
       d1.row(q) = (x_eta(1) * table.dxi.row(q) - x_xi(1) * table.deta.row(q)) / J;
       d2.row(q) = (x_xi(0) * table.deta.row(q) - x_eta(0) * table.dxi.row(q)) / J;

@@ -14,7 +14,7 @@ EdgePoint edge_point(const Points& nodes, const Edge& edge, double xi) {
   EdgePoint p{Vec2::Zero(), Vec2::Zero()};
   for (int a = 0; a < edge.node_count; ++a) {
     p.position += s.N[a] * nodes.row(edge.nodes[a]).transpose();
-    p.tangent += s.dN[a] * nodes.row(edge.nodes[a]).transpose();
+    p.tangent += s.dN[a] * (nodes.row(edge.nodes[a]) - nodes.row(edge.nodes[0])).transpose();
   }
   return p;
 }
@@ -29,12 +29,12 @@ Vec2 edge_value(const VecX& u, const Edge& edge, double xi) {
 double length_to(const Points& nodes, const Edge& edge, double xi) {
   static const LineRule rule = gauss_legendre(8);
   const double half = (xi + 1) / 2;
-  const Vec2 start = nodes.row(edge.nodes[0]), end = nodes.row(edge.nodes[1]);
-  const Vec2 middle = edge.node_count == 3 ? Vec2(nodes.row(edge.nodes[2])) : Vec2::Zero();
+  const Vec2 start = nodes.row(edge.nodes[0]), end = nodes.row(edge.nodes[1]).transpose() - start;
+  const Vec2 middle = edge.node_count == 3 ? Vec2(nodes.row(edge.nodes[2]).transpose() - start) : Vec2::Zero();
   double length = 0;
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
     const EdgeShape s = edge_shape(edge.node_count, -1 + half * (1 + rule.points[q]));
-    length += rule.weights[q] * half * (s.dN[0] * start + s.dN[1] * end + s.dN[2] * middle).norm();
+    length += rule.weights[q] * half * (s.dN[1] * end + s.dN[2] * middle).norm();
   }
   return length;
 }

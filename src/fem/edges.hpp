@@ -29,6 +29,7 @@ struct EdgePoint {
   double jacobian() const { return tangent.norm(); }
 };
 
+/// The tangent by differences from the start, as cell_point's slopes.
 EdgePoint edge_point(const Points& nodes, const Edge& edge, double xi);
 
 /// xi of an edge's node a: start, end, middle.

@@ -26,11 +26,12 @@ struct CellPoint {
   double jacobian() const { return x_xi(0, 0) * x_xi(1, 1) - x_xi(1, 0) * x_xi(0, 1); }
 };
 
+/// Slopes by differences from the first node: the cell's size, not its distance from the origin, rounds them.
 inline CellPoint cell_point(const Points& nodes, const Cell& cell, const CellShape& shape) {
   CellPoint at;
   for (int a = 0; a < node_count(cell.kind); ++a) {
     at.x += shape.N[a] * nodes.row(cell.nodes[a]).transpose();
-    at.x_xi += shape.dN[a] * nodes.row(cell.nodes[a]);
+    at.x_xi += shape.dN[a] * (nodes.row(cell.nodes[a]) - nodes.row(cell.nodes[0]));
   }
   return at;
 }

@@ -63,7 +63,7 @@ Vec4 stress_at(const Mesh& mesh, const Cell& cell, const ElasticLaw& law, const 
   double u1 = 0;
   for (int a = 0; a < node_count(cell.kind); ++a) {
     const int node = cell.nodes[a];
-    u_xi += shape.dN[a] * u.segment<2>(2 * node).transpose();
+    u_xi += shape.dN[a] * (u.segment<2>(2 * node) - u.segment<2>(2 * cell.nodes[0])).transpose();
     u1 += shape.N[a] * u(2 * node);
   }
   const Eigen::Matrix2d grad = at.x_xi.inverse() * u_xi;  // (i, j) = d u_j / d x_i

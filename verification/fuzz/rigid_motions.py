@@ -45,19 +45,26 @@ def segments_of(assembly, curve):
     return segments(next(part for part in assembly.parts if part.name == name), piece)
 
 
-def openings(assembly, pair):
-    """Of each place of the first curve from which a normal meets the second: the place, the normal, the gap."""
+MIDDLE = (0.5,)
+TO_THE_ENDS = (1e-6, 0.5, 1 - 1e-6)  # a load may press at the very end of a side
+
+
+def openings(assembly, pair, at=MIDDLE):
+    """Of each place of the first curve from which a normal meets the second: the place, the normal, the gap. `at`: parts of
+    each short piece of the curve."""
     mine, other = (segments_of(assembly, curve) for curve in pair)
-    middle, along, beyond = mine.mean(1), mine[:, 1] - mine[:, 0], other[:, 1] - other[:, 0]
+    along, beyond = mine[:, 1] - mine[:, 0], other[:, 1] - other[:, 0]
+    place = np.concatenate([mine[:, 0] + part * along for part in at])
+    along = np.tile(along, (len(at), 1))
     normal = np.column_stack([along[:, 1], -along[:, 0]]) / np.linalg.norm(along, axis=1)[:, None]
     cross = lambda a, b: a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-    away, across = other[None, :, 0] - middle[:, None], cross(normal[:, None], beyond[None])
+    away, across = other[None, :, 0] - place[:, None], cross(normal[:, None], beyond[None])
     with np.errstate(divide="ignore", invalid="ignore"):
         gap, t = cross(away, beyond[None]) / across, cross(away, normal[:, None]) / across
     # The second curve faces the first, and lies before it: an overlap is a small part of an edge.
     met = (t >= 0) & (t <= 1) & (gap > -0.1 * assembly.size) & (across < 0)
     gap = np.where(met, gap, np.inf).min(1)
-    return middle[np.isfinite(gap)], normal[np.isfinite(gap)], gap[np.isfinite(gap)]
+    return place[np.isfinite(gap)], normal[np.isfinite(gap)], gap[np.isfinite(gap)]
 
 
 def centre_of(assembly, curve):
@@ -101,7 +108,7 @@ def drift(assembly, near_only):
     pairs = [*assembly.pairs, *([] if near_only else [pair[::-1] for pair in assembly.pairs])]
     for pair in pairs:
         first, second = (column[end.split("_")[0]] for end in pair)
-        for place, normal, gap in zip(*(nearest if near_only else openings)(assembly, pair)):
+        for place, normal, gap in zip(*(nearest(assembly, pair) if near_only else openings(assembly, pair, TO_THE_ENDS))):
             row = np.zeros(len(work))
             row[first : first + 3], row[second : second + 3] = at(place, normal), -at(place + gap * normal, normal)
             closes.append(row)
