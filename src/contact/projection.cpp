@@ -28,9 +28,11 @@ int quadratic_roots(double c0, double c1, double c2, std::array<double, 2>& root
 }
 
 // Whether the line from a place on the edge along n leaves the edge's body within `depth`, before it gets to x: then x
-// lies outside that body, which hides the face from it.
-bool is_hidden(const Curve& curve, const Edge& edge, const Vec2& place, const Vec2& n, double depth) {
-  return curve.outline && curve.outline->way_out(edge, place, n, depth) < depth;
+// lies outside that body, which hides the face from it. On the outline, as corners of two bodies on one side face are,
+// it does not.
+bool is_hidden(const Curve& curve, const Edge& edge, const EdgePoint& place, const Vec2& n, double depth) {
+  return curve.outline &&
+         curve.outline->way_out(edge, place.position, n, depth) < depth - projection_tolerance * place.jacobian();
 }
 
 // The next edge that the line may meet. The offset from the line changes by no more than the way along the curve, so
@@ -77,7 +79,7 @@ std::optional<Hit> project_onto_edge(const Points& nodes, const Curve& curve, in
     if (p.normal().dot(n) >= 0) continue;
     const double distance = (p.position - x).dot(n);
     if (-distance > std::min(depth, deepest_overlap(curve, edge))) continue;
-    if (distance < 0 && is_hidden(curve, e, p.position, n, -distance)) continue;
+    if (distance < 0 && is_hidden(curve, e, p, n, -distance)) continue;
     if (!best || std::abs(distance) < std::abs(best->distance)) best = Hit{edge, xi, distance};
   }
   return best;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "contact/gap_resolution.hpp"
 #include "fem/edges.hpp"
 #include "support/two_plates.hpp"
 
@@ -136,6 +137,23 @@ TEST(OpenPlace, IsARealGap) {
   EXPECT_NEAR(open->limit, 1e-3, 1e-12);
   EXPECT_NEAR(open->position.y(), 0.3, 1e-12);
   EXPECT_FALSE(open_place(c.mesh.nodes, c, 0.021));
+}
+
+// Every second gap of an arc's meshes half of what they show, the others round-off of either sign.
+TEST(OneLine, GapsThatAreNoneHaveNoSign) {
+  GapCurves c = gap_curves_of(circle(20, 31, CellKind::quad4));
+  c.geometry.multiplier = ContactLine(c.mesh.nodes, c.multiplier);
+  c.geometry.opposite = ContactLine(c.mesh.nodes, c.opposite);
+  c.geometry.gap = true;
+  const double least = std::ranges::min(sagittas(c.mesh.nodes, c.multiplier));
+  const auto one_line = [&](double first, double second) {
+    for (std::size_t i = 0; i < c.points.size(); ++i) c.points[i].gap = i % 2 == 0 ? first : second;
+    find_one_line(c.mesh.nodes, c);
+    return std::ranges::count(c.geometry.one_line, 1);
+  };
+  EXPECT_EQ(one_line(least / 2, -least / 2), 31);
+  EXPECT_EQ(one_line(least / 2, 1e-17), 0);
+  EXPECT_EQ(one_line(least / 2, -1e-17), 0);
 }
 
 }  // namespace

@@ -55,6 +55,23 @@ TEST(Projection, IgnoresWhatDoesNotFaceOrLiesDeeperThanItsLineOrEdgeAllows) {
   EXPECT_TRUE(project_onto_edge(e.nodes, e.curve, 0, {Vec2(0.5, -0.9), Vec2(0, -1), 1.2}));
 }
 
+// A corner of another body stands on the side face of the first, inside the first's height: what lies on an outline is
+// not outside it, however its place is rounded.
+TEST(Projection, ABodyHidesNothingOnItsOutline) {
+  const Points nodes = (Points(4, 2) << 0, 0, 1, 0, 1, 1, 0, 1).finished();
+  const auto edge = [](int start) { return Edge{2, {start, (start + 1) % 4, -1}}; };
+  Curve top{0, 0, {edge(2)}, {}, false};
+  top.outline = std::make_shared<BodyOutline>(nodes, std::vector<Edge>{edge(0), edge(1), edge(2), edge(3)});
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> part(0.01, 0.4);
+  for (int k = 0; k < 200; ++k) {
+    const double aside = part(random), down = part(random);
+    const Vec2 n = Vec2(aside, -down).normalized(), corner(1, 1 - down);
+    EXPECT_TRUE(project_onto_edge(nodes, top, 0, {corner, n, 1})) << aside << ' ' << down;
+    EXPECT_FALSE(project_onto_edge(nodes, top, 0, {corner + 1e-6 * n, n, 1}));
+  }
+}
+
 TEST(Projection, EndsCountToTheTolerance) {
   const StraightEdge e;
   for (const double x : {0.0, 1.0, -1e-12, 1 + 1e-12})
@@ -72,6 +89,17 @@ TEST(Projection, OnABentEdgeTheHitLiesOnTheLine) {
       const Vec2 at = edge_point(e.nodes, e.curve.edges[0], hit->xi).position;
       EXPECT_NEAR((at - from - hit->distance * n).norm(), 0, 1e-14);
     }
+}
+
+TEST(Edges, HaveTheSameTangentAndLengthFarFromTheOrigin) {
+  BentEdge e;
+  e.nodes(2, 1) = 0.125;  // all of them doubles there as well
+  const Edge& edge = e.curve.edges[0];
+  const Vec2 tangent = edge_point(e.nodes, edge, 0.3).tangent;
+  const double length = edge_length(e.nodes, edge);
+  e.nodes.array() += 4294967296;
+  EXPECT_EQ((edge_point(e.nodes, edge, 0.3).tangent - tangent).norm(), 0);
+  EXPECT_EQ(edge_length(e.nodes, edge), length);
 }
 
 TEST(Foot, IsWhereTheNormalPassesThroughThePoint) {

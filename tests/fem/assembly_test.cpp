@@ -46,6 +46,24 @@ TEST(Stiffness, ResistsNoRigidMotion) {
   }
 }
 
+// Coordinates and displacements that doubles have exactly there as well.
+TEST(Stiffness, IsTheSameFarFromTheOriginAndSoAreStresses) {
+  constexpr double unit = 1. / (1 << 20), far = 4294967296;  // 2^32
+  const auto rounded = [&](double value) { return std::round(value / unit) * unit; };
+  const std::vector<ElasticLaw> laws(2, elastic_law(1, 0.3, {Plane::strain}));
+  for (const CellKind kind : kinds) {
+    Mesh mesh = curved_plates(kind);
+    mesh.nodes = mesh.nodes.unaryExpr(rounded).eval();
+    const VecX u =
+        field(mesh, [](const Vec2& x) { return Vec2(std::sin(3 * x.x()), x.x() * x.y()); }).unaryExpr(rounded);
+    const SparseMatrix K = assemble_stiffness(mesh, laws);
+    const Stresses stress = recover_stress(mesh, body_points(mesh), laws, u).points;
+    mesh.nodes.array() += far;
+    EXPECT_EQ((assemble_stiffness(mesh, laws) - K).norm(), 0);
+    EXPECT_EQ((recover_stress(mesh, body_points(mesh), laws, u.array() + far).points - stress).norm(), 0);
+  }
+}
+
 TEST(Stiffness, IsTheSameOnAnyNumberOfThreads) {
   TwoPlates plates;  // enough nodes for three
   plates.n_upper = 90;
