@@ -47,15 +47,25 @@ double error_norm(const std::vector<PressureEstimate>& pressures, double local, 
   return std::sqrt(error);
 }
 
+// How far p_h swings from a tip on, in steps of 1 or -1: swing_reach vertices, and on as long as a single one of the next
+// so many is without p_h. The swings are the larger, the shorter the edges, and opens every second vertex as far as they
+// are larger than p; where contact ends, all beyond are open.
+Eigen::Index swing_end(const PressureLine& line, Eigen::Index tip, int step) {
+  const Eigen::Index last = line.p.size() - 1, to_end = step < 0 ? tip : last - tip;
+  const auto p = [&](Eigen::Index away) { return line.p(tip + step * away); };
+  Eigen::Index end = std::min<Eigen::Index>(swing_reach, to_end);
+  for (Eigen::Index away = 1; away < to_end && away <= end + swing_reach; ++away)
+    if (p(away) == 0 && p(away - 1) != 0 && p(away + 1) != 0) end = std::max(end, away);
+  return tip + step * end;
+}
+
 // PressureEstimate::swings, by its singular points.
 std::vector<char> swinging(const PressureEstimate& e) {
-  const Eigen::Index last = e.line.p.size() - 1;
-  std::vector<char> all(last + 1, 0);
+  std::vector<char> all(e.line.p.size(), 0);
   for (const SingularPoint& point : e.singular) {
     if (!point.is_swinging()) continue;
     const Eigen::Index tip = e.line.nearest(point.position);
-    for (Eigen::Index i = std::max<Eigen::Index>(tip - swing_reach, 0); i <= std::min(tip + swing_reach, last); ++i)
-      all[i] = 1;
+    for (Eigen::Index i = swing_end(e.line, tip, -1); i <= swing_end(e.line, tip, 1); ++i) all[i] = 1;
   }
   return all;
 }

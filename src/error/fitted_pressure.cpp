@@ -23,7 +23,7 @@ constexpr int tension_places = 200;  // along a piece, at which p* is looked at
 constexpr std::array swing_edges{10, 6, 4};
 // At the tip of a crack the swings are the larger, the shorter the edges, and p is as smooth there as elsewhere: the
 // cubic goes on over so much of the piece, if waves of p leave it.
-constexpr std::array smooth_parts{0.25, 0.0625, 0.015625, 0.0};
+constexpr std::array smooth_parts{1.0, 0.25, 0.0625, 0.015625, 0.0};
 
 enum class Facing { none, part, whole };
 

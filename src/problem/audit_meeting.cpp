@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "base/printable.hpp"
@@ -20,13 +21,14 @@ struct Side {
   std::map<Names, Meeting> places;
 };
 
-// The longest first; not what corners see beside them.
+// The longest first, those that are as long but for round-off by their names; not what corners see beside them.
 std::vector<const Meeting*> in_order(const Side& side) {
-  constexpr double beside = 0.01;
+  constexpr double beside = 0.01, round_off = 1e-9;
   std::vector<const Meeting*> list;
   for (const auto& [names, place] : side.places)
     if (place.length > beside * side.length) list.push_back(&place);
-  std::ranges::stable_sort(list, std::ranges::greater(), &Meeting::length);
+  std::ranges::stable_sort(list, std::ranges::greater(),
+                           [&](const Meeting* m) { return std::round(m->length / (round_off * side.length)); });
   return list;
 }
 

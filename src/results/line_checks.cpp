@@ -112,7 +112,7 @@ Check motion_check(const Results& r) {
 
 std::optional<Check> estimate_check(const Results& r) {
   const double error = r.estimate->pressure();
-  if (std::isnan(error)) return {};  // nothing is loaded
+  if (std::isnan(error) && r.estimate->pressure_square() == 0) return {};  // nothing is loaded
   Check check{"estimated error of p", error, 0.5};
   std::string of;
   if (check.ok() && !r.problem.accuracy)  // that is asked of all lines together

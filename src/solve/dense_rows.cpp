@@ -33,9 +33,7 @@ VecX row_sums(const MatX& lower, Eigen::Index m) {
 
 DenseRows::DenseRows(const ComplementarityProblem& problem, const VecX& rhs) : p_(problem), rhs_(rhs) {
   if (p_.round_off > 0)
-    negligible_stress_ =
-        p_.round_off /
-        largest_entry(p_.compliance.topLeftCorner(rows(), rows()).selfadjointView<Eigen::Lower>() * p_.scale);
+    negligible_stress_ = p_.round_off / largest_entry(p_.compliance.diagonal().head(rows()).cwiseProduct(p_.scale));
 }
 
 ContactRows::Answer DenseRows::solve(const std::vector<char>& closed, const VecX& at) {

@@ -144,6 +144,16 @@ TEST(WeakPoints, OfContactThatGivesWayAreRoundedOffByTheLayer) {
   EXPECT_NEAR(between.least(0), d * at_end(-d, soft)(1), 1e-9 * between.least(0));
 }
 
+// A row that opens at the end of contact that gives way: p is 0 there and begins at the next vertex.
+TEST(WeakPoints, AnEndWithoutPressureMissesNothing) {
+  const int edges = 30;
+  PressureLine line = power(edges, 0.1);
+  line.p(0) = 0;
+  LineError error(edges + 1);
+  add_layer_ends(line, {weak(0.1)}, {.points = {Vec2(1, 20)}}, 500, error);
+  EXPECT_EQ(error.data.norm() + error.least.norm(), 0);
+}
+
 // p = -A ln r where the slope of a given gap ends on a line of symmetry: the limit of d p = A.
 TEST(WeakPoints, OfContactThatGivesWayMayBeLogarithms) {
   const int edges = 30;

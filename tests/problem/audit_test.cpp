@@ -107,8 +107,8 @@ TEST(Audit, NamesEachPairOfCurvesThatMeets) {
                            held("ground") + boundary("top", "displacement = { x = 0, y = -0.01 }"));
   const std::string lines = before(none);
   EXPECT_EQ(lines_of(lines), 1) << lines;
-  expect_contains(lines, "over a length of 2 ('wall', 'side') and near (");
-  expect_contains(lines, "between = [\"wall\", \"side\"] and write [[contact]] between = [\"floor\", \"down\"]");
+  expect_contains(lines, "over a length of 2 ('floor', 'down') and near (");
+  expect_contains(lines, "between = [\"floor\", \"down\"] and write [[contact]] between = [\"wall\", \"side\"]");
 }
 
 const std::string two_plates =

@@ -315,6 +315,8 @@ TEST(LineChecks, APressureThatIsOffByMoreThanHalfFails) {
   Results fine = solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/hertz.toml"));
   estimate(fine);
   EXPECT_EQ(fine.status, Status::solved);
+  fine.estimate->pressures[0].local2 = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(estimate_check(fine)->ok());
 }
 
 // A pad that carries nearly all, and at random places beside it a pin of any radius: alone, no edge tells its contact.
