@@ -51,7 +51,7 @@ void add_layer_ends(const PressureLine& line, const std::vector<SingularPoint>& 
     const bool rollers = std::ranges::all_of(point.wedges, [](const Wedge& w) { return w.outer == Face::symmetric; });
     const double p = std::abs(line.p(i)) * (rollers ? std::abs(d) : 1), h = line.h(i);
     const double amplitude = d == 0 ? point.log_pressure : std::abs(d) * p;
-    if (amplitude == 0) continue;  // p begins beside it
+    if (amplitude == 0) continue;                                                     // p begins beside it
     const double longer = h * law.slope(law.overlap(std::abs(line.p(i)))) / modulus;  // the edge than E* / k
     const double soft = hats_in_l2 * amplitude * longer, closed = missed(std::max(d, 0.0), amplitude);
     error.add_weak({i, soft * closed / (soft + closed) * std::sqrt(h), 0.5 + closed / (soft + closed), true});

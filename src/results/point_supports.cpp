@@ -1,5 +1,6 @@
 #include "results/point_supports.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -53,6 +54,21 @@ std::set<int> nodes_of(const Mesh& mesh, const BoundaryEntry& entry) {
   return nodes;
 }
 
+// What entry i holds its points with, n; of a point that is several bodies', all that is held there.
+VecX forces_at_points(const Reactions& reactions, const Mesh& mesh, const BoundaryEntry& entry, int i) {
+  VecX forces = VecX::Zero(reactions.nodal.size());
+  auto reaction = std::ranges::find(reactions.curves, i, &Reaction::entry);
+  reaction += std::ptrdiff_t(entry.curves.size());
+  for (const int point : entry.points) {
+    const std::vector<int>& nodes = mesh.points[point].nodes;
+    for (const int node : nodes)
+      forces.segment<2>(2 * node) =
+          nodes.size() == 1 ? reaction->sum.force : Vec2(reactions.nodal.segment<2>(2 * node));
+    ++reaction;
+  }
+  return forces;
+}
+
 // What an entry's points sink by, n.
 VecX sinking(const Problem& p, const VecX& forces, const BoundaryEntry& entry) {
   VecX by = VecX::Zero(forces.size());
@@ -88,7 +104,7 @@ std::vector<double> changes_by_point_supports(const Results& r) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const BoundaryEntry& entry = p.entries.boundaries[i];
     if (entry.points.empty() || std::holds_alternative<TotalForce>(entry.spec.what)) continue;
-    const VecX by = sinking(p, r.recovery.reactions.nodal, entry);
+    const VecX by = sinking(p, forces_at_points(r.recovery.reactions, p.mesh, entry, int(i)), entry);
     if (!by.any()) continue;
     VecX load, gap = VecX::Zero(system.B.rows());
     if (const auto* spring = std::get_if<PointSpring>(&entry.spec.what)) {

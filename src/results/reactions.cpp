@@ -101,20 +101,34 @@ Resultant reaction_at(const std::vector<int>& nodes, const BoundaryCondition& wh
       what);
 }
 
-std::vector<Reaction> reactions_of(const Mesh& mesh, const BoundaryEntry& entry, int number, Collector& collector,
-                                   Collector& springs) {
-  std::vector<Reaction> reactions;
+// Of an entry's curves, or of its points, added to those that are known of it.
+void add_reactions(const Mesh& mesh, const BoundaryEntry& entry, int number, bool of_points, Collector& collector,
+                   Collector& springs, std::vector<Reaction>& reactions) {
   const auto add = [&](const std::string& name, const std::vector<int>& nodes, const Vec2& centre) {
     reactions.push_back({number, name, centre, reaction_at(nodes, entry.spec.what, number, collector, springs)});
   };
+  if (of_points) {
+    for (const int p : entry.points) {
+      const NamedPoint& point = mesh.points[p];
+      add(point.name, point.nodes, mesh.nodes(point.nodes, Eigen::all).colwise().mean().transpose());
+    }
+    return;
+  }
   for (const NamedBoundary& on : entry.curves) {
     const Boundary& curve = mesh.boundaries[on.boundary];
     add(curve.name, nodes_of(curve), centre_of(mesh.nodes, curve.edges));
   }
-  for (const int p : entry.points) {
-    const NamedPoint& point = mesh.points[p];
-    add(point.name, point.nodes, mesh.nodes(point.nodes, Eigen::all).colwise().mean().transpose());
-  }
+}
+
+// By entry: what curves hold is theirs, so that a point on them has the rest.
+std::vector<std::vector<Reaction>> reactions_of_entries(const Problem& problem, Collector& collector,
+                                                        Collector& springs) {
+  const std::vector<BoundaryEntry>& entries = problem.entries.boundaries;
+  std::vector<std::vector<Reaction>> reactions(entries.size());
+  for (const bool of_points : {false, true})
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (!is_load(entries[i].spec.what))
+        add_reactions(problem.mesh, entries[i], int(i), of_points, collector, springs, reactions[i]);
   return reactions;
 }
 
@@ -144,11 +158,9 @@ Reactions find_reactions(const Problem& problem, const Solution& solution) {
     Resultant& sum = r.ties.emplace_back();
     for (const TiedNode& one : tie.nodes) sum.add(mesh.nodes.row(one.node).transpose(), tying.segment<2>(2 * one.node));
   }
-  for (const BoundaryEntry& entry : problem.entries.boundaries) {
-    const int number = int(r.entries.size());
+  for (std::vector<Reaction>& of_entry : reactions_of_entries(problem, collector, springs)) {
     Resultant& all = r.entries.emplace_back();
-    if (is_load(entry.spec.what)) continue;
-    for (Reaction& part : reactions_of(mesh, entry, number, collector, springs)) {
+    for (Reaction& part : of_entry) {
       all += part.sum;
       r.curves.push_back(std::move(part));
     }

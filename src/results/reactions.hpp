@@ -7,8 +7,8 @@
 
 namespace mortise {
 
-/// One curve or point of a support. A node that several hold along one direction counts for the
-/// first that names it.
+/// One curve or point of a support. A node that several hold along one direction counts for the first curve that names
+/// it, where there is none for the first point.
 struct Reaction {
   int entry;       ///< of Entries::boundaries
   std::string on;  ///< name of the curve or point

@@ -83,6 +83,30 @@ TEST(PointSupports, ChangeNothingThatEquilibriumGives) {
   }
 }
 
+// The corner of a curve that rollers hold, pinned along them, is how plates are held as a rule: what the corner bears
+// of the rollers' load is not the point's, whichever stands first.
+TEST(PointSupports, BearNothingOfTheCurvesThatTheyAreOn) {
+  const std::string rollers = R"({ on = "seat_foot", displacement = { y = 0 } })";
+  for (const std::string pin : {"{ x = 0 }", "{ x = 0, y = 0 }"})
+    for (const bool first : {false, true}) {
+      const TemporaryFolder folder;
+      folder.write("blocks.geo", R"(SetFactory("OpenCASCADE"); Mesh.MeshSizeMax = 0.4; Mesh.ElementOrder = 2;
+Rectangle(1) = {0, 0, 0, 2, 1}; Rectangle(2) = {0, 1, 0, 2, 1}; a() = Boundary{ Surface{1}; }; b() = Boundary{ Surface{2}; };
+Physical Surface("lower") = {1}; Physical Surface("upper") = {2}; Physical Curve("seat_foot") = {a(0)};
+Physical Curve("seat") = {a(2)}; Physical Curve("foot") = {b(0)}; Physical Curve("head") = {b(2)};
+Physical Point("corner") = {1};)");
+      const std::string corner = R"({ on = "corner", displacement = )" + pin + " }";
+      const Results r = solve_scene(read_scene(folder.write("scene.toml", R"(mesh.file = "blocks.geo"
+materials.m = { young = 1000, poisson = 0.3 }
+bodies = { lower = "m", upper = "m" }
+contact = [{ between = ["foot", "seat"] }]
+boundary = [{ on = "head", pressure = 3 }, )" + (first ? corner + ", " + rollers : rollers + ", " + corner) +
+                                                                              "]\n")));
+      EXPECT_NEAR(r.recovery.reactions.entries[first ? 2 : 1].force.y(), 6, 1e-9);
+      for (const double change : changes_by_point_supports(r)) EXPECT_LT(change, 1e-9) << pin << ' ' << first;
+    }
+}
+
 TEST(PointSupports, AreWarnedOfWithTheirShare) {
   EXPECT_TRUE(is_told(propped(4.5, 0.05, "displacement = { x = 0, y = 0 }", "displacement = { y = 0 }"),
                       "elements there a tenth as long change p by another"));
