@@ -127,25 +127,43 @@ MatX displacement_loads(const Mesh& mesh, const CellPlace& place) {
   return loads;
 }
 
-MatX stress_loads(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place) {
-  const ElasticLaw& law = discretisation.laws[mesh.cells[place.cell].body];
-  MatX loads = MatX::Zero(2 * mesh.nodes.rows(), 3);
-  double area = 0;
-  for (const int e : cells_around(mesh, place.cell)) {
+namespace {
+
+// Visits the integration points of some cells: visit(cell, shape, point, weight times area).
+template <typename Visit>
+void for_each_point(const Mesh& mesh, const std::vector<int>& cells, Visit visit) {
+  for (const int e : cells) {
     const Cell& cell = mesh.cells[e];
     const CellRule rule = product_rule(cell.kind, 3);
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       const CellShape shape = cell_shape(cell.kind, rule.points[q]);
       const CellPoint at = cell_point(mesh.nodes, cell, shape);
-      const double weight = rule.weights[q] * at.jacobian();
-      area += weight;
-      const NodalStrains strains = weight * nodal_strains(cell, law.model, shape, at);
-      for (int a = 0; a < node_count(cell.kind); ++a)
-        loads.middleRows<2>(2 * cell.nodes[a]) +=
-            (law.stiffness({0, 1, 3}, Eigen::all) * strains.middleCols<2>(2 * a)).transpose();
+      visit(cell, shape, at, rule.weights[q] * at.jacobian());
     }
   }
-  return loads / area;
+}
+
+}  // namespace
+
+MatX stress_loads(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place) {
+  const ElasticLaw& law = discretisation.laws[mesh.cells[place.cell].body];
+  const std::vector<int> around = cells_around(mesh, place.cell);
+  const Vec2 x = place_in(mesh, place);
+  const double size = std::sqrt(cell_area(mesh, place.cell));
+  const auto linear = [&](const Vec2& at) { return Eigen::Vector3d(1, (at - x).x() / size, (at - x).y() / size); };
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  for_each_point(mesh, around, [&](const Cell&, const CellShape&, const CellPoint& at, double area) {
+    products += area * linear(at.x) * linear(at.x).transpose();
+  });
+  const Eigen::Vector3d to_place = products.ldlt().solve(linear(x));
+  MatX loads = MatX::Zero(2 * mesh.nodes.rows(), 3);
+  for_each_point(mesh, around, [&](const Cell& cell, const CellShape& shape, const CellPoint& at, double area) {
+    const NodalStrains strains = area * to_place.dot(linear(at.x)) * nodal_strains(cell, law.model, shape, at);
+    for (int a = 0; a < node_count(cell.kind); ++a)
+      loads.middleRows<2>(2 * cell.nodes[a]) +=
+          (law.stiffness({0, 1, 3}, Eigen::all) * strains.middleCols<2>(2 * a)).transpose();
+  });
+  return loads;
 }
 
 std::optional<double> singular_exponent(const Problem& problem, const std::vector<PressureEstimate>& pressures,
@@ -279,7 +297,7 @@ void add_stress_error(const Problem& problem, const std::vector<PressureEstimate
   const StressPatches patches = recover_patches(mesh, problem.points, sample_stresses(mesh, laws, u));
   goal.value = recovered_stress(mesh, problem.points, patches, place).head<3>().transpose() +
                laws[mesh.cells[place.cell].body].stress0(place_in(mesh, place))({0, 1, 3});
-  const Eigen::Vector3d own = stress_difference(problem, u, patches, place).cwiseAbs();
+  const Eigen::Vector3d own = cell_stress_error(problem, u, patches, place, Eigen::Matrix3d::Identity());
   goal.besides += own;
   if (const SingularPoint* point =
           singular_point_at(pressures, place_in(mesh, place), at_place, &PressureEstimate::weak))
