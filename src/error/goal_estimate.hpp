@@ -30,8 +30,8 @@ GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discret
 /// n x 2: of u at a place.
 MatX displacement_loads(const Mesh& mesh, const CellPlace& place);
 
-/// n x 3: of the stress (11, 22, 12) there, as the linear function that fits it best in the cells around has it, initial
-/// strains left out. Their mean would be blind to bending where they are a slender body's whole thickness.
+/// n x 3: of the stress (11, 22, 12) there, as the linear function that fits it best in the cells around has it,
+/// initial strains left out. Their mean would be blind to bending where they are a slender body's whole thickness.
 MatX stress_loads(const Mesh& mesh, const Discretisation& discretisation, const CellPlace& place);
 
 /// Where stresses have no limit at a place, x, the exponent by which displacements grow with the distance from it: at a
