@@ -59,14 +59,30 @@ struct Turned {
   std::string body;  // the first one with such cells
 };
 
+/// Of the cells from `first` on. Only nodes of cells count: a .geo may keep points of construction anywhere.
+void check_plane(const Mesh& mesh, const MeshData& data, std::size_t first, double size) {
+  for (std::size_t c = first; c < mesh.cells.size(); ++c) {
+    const Cell& cell = mesh.cells[c];
+    for (int i = 0; i < node_count(cell.kind); ++i) {
+      const int node = cell.nodes[i];
+      const double z = data.nodes[node][2];
+      if (std::abs(z) <= 1e-9 * size) continue;
+      throw InputError(mesh.source + ": body '" + mesh.bodies[cell.body] + "' leaves the plane z = 0 " +
+                       near_point(mesh.nodes.row(node).transpose()) + ", z = " + std::to_string(z) +
+                       "; expected a plane mesh");
+    }
+  }
+}
+
 void add_body(Mesh& mesh, Turned& turned, const MeshData& data, const PhysicalGroup& group,
-              const std::vector<const ElementBlock*>& blocks) {
+              const std::vector<const ElementBlock*>& blocks, double size) {
   const int body = static_cast<int>(mesh.bodies.size());
   mesh.bodies.push_back(group.name);
   if (blocks.empty()) throw InputError(data.file + ": physical surface '" + group.name + "' has no cells");
   std::size_t first = mesh.cells.size();
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     append_cells(mesh, *blocks[k], body);
+    check_plane(mesh, data, first, size);
     if (k + 1 < blocks.size() && blocks[k + 1]->entity == blocks[k]->entity) continue;
     const std::size_t count = orient_cells(mesh, first);
     if (turned.count == 0 && count > 0) turned.body = group.name;
@@ -125,20 +141,6 @@ void check_not_upright(const MeshData& data) {
   }
 }
 
-/// Only nodes of cells count: a .geo may keep points of construction anywhere.
-void check_plane(const Mesh& mesh, const MeshData& data) {
-  const double size = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
-  for (const Cell& cell : mesh.cells) {
-    for (int i = 0; i < node_count(cell.kind); ++i) {
-      const int node = cell.nodes[i];
-      const double z = data.nodes[node][2];
-      if (std::abs(z) <= 1e-9 * size) continue;
-      throw InputError(mesh.source + ": body '" + mesh.bodies[cell.body] + "' leaves the plane z = 0 " +
-                       near_point(mesh.nodes.row(node).transpose()) + ", z = " + std::to_string(z));
-    }
-  }
-}
-
 }  // namespace
 
 Mesh assemble_mesh(MeshData data) {
@@ -159,15 +161,15 @@ Mesh assemble_mesh(MeshData data) {
     mesh.nodes.row(static_cast<Eigen::Index>(i)) << data.nodes[i][0], data.nodes[i][1];
   }
   check_not_upright(data);
+  const double size = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
   Turned turned;
   BlocksOf blocks = blocks_by_group(data);
   for (const PhysicalGroup& group : data.groups) {
-    if (group.dimension == 2) add_body(mesh, turned, data, group, blocks[{2, group.tag}]);
+    if (group.dimension == 2) add_body(mesh, turned, data, group, blocks[{2, group.tag}], size);
   }
   if (turned.count > 0)
     mesh.notes.push_back(std::to_string(turned.count) + " cells, the first of body '" + turned.body +
                          "', ran the other way round than the rest of their surface and were turned");
-  check_plane(mesh, data);
   for (const PhysicalGroup& group : data.groups) {
     if (group.dimension == 1) add_boundary(mesh, data, group, blocks[{1, group.tag}]);
     if (group.dimension == 0) add_point(mesh, group, blocks[{0, group.tag}]);

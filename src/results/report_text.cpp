@@ -80,7 +80,8 @@ void print_estimate(const Json& estimate, std::ostream& out) {
 void print_left_out(const Json& singular, std::ostream& out) {
   std::vector<std::string> places;
   for (const Json& point : singular)
-    if (point["unbounded"]) places.push_back(near(point["position"]));
+    if (const std::string place = near(point["position"]); point["unbounded"] && !std::ranges::count(places, place))
+      places.push_back(place);
   if (places.empty()) return;
   out << "            left out where p has no limit, ";
   for (std::size_t i = 0; i < std::min<std::size_t>(places.size(), 3); ++i) out << (i == 0 ? "" : ", ") << places[i];

@@ -75,13 +75,13 @@ void convert_scalar(const toml::node& source, Node& node) {
   }
 }
 
-/// `document` is the place of the whole document; the line is added unless it is an override.
+/// `document` is the place of the whole document; the line is added unless it is an override or a row of a table.
 Node convert(const toml::node& source, std::string name, std::string path, const Place& document) {
   Node node;
   node.name = std::move(name);
   node.path = std::move(path);
   node.place = document;
-  if (document.setting.empty()) node.place.line = static_cast<int>(source.source().begin.line);
+  if (document.setting.empty() && document.line == 0) node.place.line = static_cast<int>(source.source().begin.line);
   if (const auto* table = source.as_table()) {
     node.kind = Node::Kind::table;
     node.items = convert_entries(*table, node.path, document);

@@ -194,6 +194,8 @@ TEST(ReadCases, Miswritten) {
   expect_of_table("name,scale\n\n", "cases.csv' has no rows; expected one a case, below the names");
   expect_of_table("name,scale\na\n", "cases.csv:2: 1 fields; expected 2, as the first line has");
   expect_of_table("name,scale\na,b\n", "cases.csv:2: scale: expected a number");
+  expect_of_table("name,materials.steel.young\na,1e9\nb,-3\n",
+                  "cases.csv:3: materials.steel.young: expected a number > 0");
   expect_of_table("boundary.1.presure\n1\n", "unknown key 'presure'");
   expect_of_table("cases.write\nall\n", "cases.csv:1: cases.write: a case has no cases");
   expect_of_table(
