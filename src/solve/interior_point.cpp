@@ -5,11 +5,11 @@
 namespace mortise {
 namespace {
 
-constexpr int most_steps = 150;                           // a guard: ten pipes in a rack take 50, and least_progress ends
-constexpr int least_progress = 5;                         // good enough, and so many steps without any: round-off
-constexpr double exact = 1e-12;                           // of the largest terms: some thousand round-offs
-constexpr double balanced = 1e-10;                        // likewise, of the equations: differences of springs' terms
-constexpr double path_round_off = 1e-15;                  // of the largest terms, its square of their product
+constexpr int most_steps = 150;           // a guard: ten pipes in a rack take 50
+constexpr int least_progress = 5;         // so many steps in which lambda w does not halve: round-off, or no solution
+constexpr double exact = 1e-12;           // of the largest terms: some thousand round-offs
+constexpr double balanced = 1e-10;        // likewise, of the equations: differences of springs' terms
+constexpr double path_round_off = 1e-15;  // of the largest terms, its square of their product
 constexpr double least_told = path_round_off / balanced;  // pressures, of the start: what is balanced can be computed
 constexpr double apart = 1e5;          // pressure over gap, or gap over pressure, of a row that is told
 constexpr double good_enough = 1e-5;   // the same, for the rows to be told apart
@@ -155,18 +155,19 @@ InteriorPoint find_interior_point(ContactRows& rows) {
   Path path(rows);
   InteriorPoint best{.converged = path.trivial(), .steps = 0, .at = path.at(), .closed = path.closed()};
   double least = path.error(), smallest = path.product();
+  constexpr double round_off = path_round_off * path_round_off;
   int left = least_progress;
   while (!best.converged && path.finite() && best.steps < most_steps && left > 0 && !path.runs_away() && path.step()) {
     ++best.steps;
     const bool nearer = path.error() <= std::max(least, balanced);
-    left = least > good_enough || path.product() < 0.5 * smallest ? least_progress : left - 1;
+    left = smallest > round_off && path.product() < 0.5 * smallest ? least_progress : left - 1;
     smallest = std::min(smallest, path.product());
     if (nearer) {
       least = std::min(least, path.error());
       best.at = path.at();
       best.closed = path.closed();
     }
-    best.converged = path.error() <= balanced && (path.told() || path.product() <= path_round_off * path_round_off);
+    best.converged = path.error() <= balanced && (path.told() || path.product() <= round_off);
   }
   best.converged = least <= good_enough;
   return best;
