@@ -141,10 +141,9 @@ void run_together(bool multiplier_runs_backwards, const ContactNodes& nodes, Con
 void set_extremes(ContactResults& r) {
   r.p_min = std::numeric_limits<double>::infinity();
   r.p_max = -r.p_min;
-  for (const ContactNode& n : r.multiplier.nodes) {
-    if (std::isnan(n.gap) && n.p == 0) continue;
-    r.p_min = std::min(r.p_min, n.p);
-    r.p_max = largest(r.p_max, n.p);
+  for (const ContactNode* n : nodes_of_extremes(r)) {
+    r.p_min = std::min(r.p_min, n->p);
+    r.p_max = largest(r.p_max, n->p);
   }
   if (r.p_min > r.p_max) {  // the opposite side faces parts of edges only
     r.p_min = r.pressure.minCoeff();
@@ -233,6 +232,7 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   const bool backwards = runs_backwards(mesh.nodes, pair.multiplier);
   run_together(backwards, nodes, r);
   r.p_least = least_pressure(pair, r.pressure);
+  r.gives_way = gives_way(pair);
   set_extremes(r);
   r.p_mean = mean_pressure(pair, r.pressure);
   const double round_off = round_off_pressure(mesh, pair, problem.discretisation.laws, displacement);
@@ -251,6 +251,15 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
                            .wet_length = wet_length(pair, fluid),
                            .besides = fluid_besides(problem, pair, of_fluid)};
   return r;
+}
+
+std::vector<const ContactNode*> nodes_of_extremes(const ContactResults& r) {
+  std::vector<const ContactNode*> nodes;
+  for (const ContactNode& n : r.multiplier.nodes)
+    if (!std::isnan(n.gap) || n.p != 0) nodes.push_back(&n);
+  for (const ContactNode& n : r.opposite.nodes)
+    if (r.gives_way && !std::isnan(n.gap)) nodes.push_back(&n);
+  return nodes;
 }
 
 void set_fitted_pressure(const Points& nodes, const Curve& multiplier, const FittedPressure& fitted,

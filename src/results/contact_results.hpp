@@ -68,10 +68,15 @@ struct ContactResults {
   std::optional<Eigen::Vector3d> force_error;
   std::optional<double> length_error;
   std::optional<FluidResults> fluid;
-  double p_min = 0, p_max = 0;  ///< at the nodes of the multiplier side that face the other or carry pressure
+  bool gives_way = false;       ///< by a layer: p is bounded where the other side ends
+  double p_min = 0, p_max = 0;  ///< at nodes_of_extremes()
   double p_mean = 0;            ///< over what faces the other side
   double p_least = 0;           ///< the smallest between the nodes too, where the sides face each other
 };
+
+/// Of the multiplier side those that face the other or carry pressure. Where contact gives way those of the other side
+/// too: p may be largest where that ends, between nodes of the first.
+std::vector<const ContactNode*> nodes_of_extremes(const ContactResults& results);
 
 /// s runs along both curves from the end of the multiplier side with the smaller x (then y).
 /// `pair`: one of the problem's, with its nodes; `displacement`: the solution's largest.

@@ -27,8 +27,10 @@ Extremes find_extremes(const Mesh& mesh, const BodyPoints& points, const StressF
 std::optional<Extreme> largest_pressure(const std::vector<ContactResults>& contacts) {
   if (contacts.empty()) return {};
   const auto pair = std::ranges::max_element(contacts, {}, &ContactResults::p_max);
-  const auto node = std::ranges::max_element(pair->multiplier.nodes, {}, &ContactNode::p);
-  return Extreme{pair->p_max, int(pair - contacts.begin()), node->node, node->position};
+  const ContactNode* most = &pair->multiplier.nodes.front();
+  for (const ContactNode* node : nodes_of_extremes(*pair))
+    if (node->p > most->p) most = node;
+  return Extreme{pair->p_max, int(pair - contacts.begin()), most->node, most->position};
 }
 
 }  // namespace mortise

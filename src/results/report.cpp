@@ -40,9 +40,9 @@ Json or_null(const std::optional<double>& value) { return value ? Json(*value) :
 // The bar where p is largest, or by how much it may be more elsewhere.
 Json peak_error(const ContactResults& c) {
   double most = std::numeric_limits<double>::quiet_NaN(), bar = most;
-  for (const ContactNode& n : c.multiplier.nodes) {
-    most = std::fmax(most, n.p + n.p_error);
-    if (n.p == c.p_max) bar = std::fmax(bar, n.p_error);
+  for (const ContactNode* n : nodes_of_extremes(c)) {
+    most = std::fmax(most, n->p + n->p_error);
+    if (n->p == c.p_max) bar = std::fmax(bar, n->p_error);
   }
   if (std::isnan(bar)) return nullptr;
   return std::max(bar, most - c.p_max);

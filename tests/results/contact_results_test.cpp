@@ -7,7 +7,9 @@
 #include "app/solve_scene.hpp"
 #include "contact/coupling.hpp"
 #include "fem/quadrature.hpp"
+#include "results/extremes.hpp"
 #include "support/patches.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mortise {
 namespace {
@@ -217,6 +219,27 @@ TEST(ContactResults, TheMeanPressureOfRingsIsTheForceOverTheArea) {
   double area = 0;
   for (const ContactPoint& point : r.problem.pairs[0].points) area += point.dA;
   EXPECT_NEAR(std::abs(c.p_mean) * area, std::abs(c.force.y()), 1e-9 * c.p_max * area);
+}
+
+// A hard punch tilts on a base that goes on beyond it and has the multipliers: p of the layer, which is linear, is
+// largest at the punch's edge, between two nodes of the base.
+TEST(ContactResults, TheLargestPressureOfALayerMayBeWhereTheOtherSideEnds) {
+  const test::TemporaryFolder folder;
+  folder.write("punch.geo", R"(SetFactory("OpenCASCADE"); Mesh.MeshSizeMax = 1.5; Mesh.ElementOrder = 2;
+Rectangle(1) = {-10, -6, 0, 20, 6}; Rectangle(2) = {-4, 0, 0, 8, 4}; a() = Boundary{ Surface{1}; }; b() = Boundary{ Surface{2}; };
+Physical Surface("base") = {1}; Physical Surface("punch") = {2}; Physical Curve("ground") = {a(0)};
+Physical Curve("top") = {a(2)}; Physical Curve("foot") = {b(0)}; Physical Curve("head") = {b(2)};)");
+  const Results r = solve_scene(read_scene(folder.write("scene.toml", R"(mesh.file = "punch.geo"
+materials.hard = { young = 1e9, poisson = 0.3 }
+bodies = { base = "hard", punch = "hard" }
+boundary = [{ on = "ground", displacement = { x = 0, y = 0 } },
+  { on = "head", rigid = { x = 0, force = [0, -80], moment = -30, about = [0, 0] } }]
+contact = [{ between = ["foot", "top"], stiffness = 10, multipliers_on = "top" }]
+)")));
+  const ContactResults& c = r.recovery.contacts[0];
+  const double exact = 80. / 8 + 6. * 30 / (8 * 8);
+  EXPECT_NEAR(c.p_max, exact, 1e-3 * exact);
+  EXPECT_NEAR(largest_pressure(r.recovery.contacts)->place.x(), 4, 1e-9);
 }
 
 }  // namespace
