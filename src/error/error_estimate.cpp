@@ -47,9 +47,9 @@ double error_norm(const std::vector<PressureEstimate>& pressures, double local, 
   return std::sqrt(error);
 }
 
-// How far p_h swings from a tip on, in steps of 1 or -1: swing_reach vertices, and on as long as a single one of the
-// next so many is without p_h. The swings are the larger, the shorter the edges, and opens every second vertex as far
-// as they are larger than p; where contact ends, all beyond are open.
+// How far p_h swings from a tip on, in steps of 1 or -1: swing_reach vertices, and on as long as one of the next so
+// many is without p_h between two that have it. The shorter the edges, the larger the swings; where they are larger
+// than p, single vertices open, where contact ends, all that follow.
 Eigen::Index swing_end(const PressureLine& line, Eigen::Index tip, int step) {
   const Eigen::Index last = line.p.size() - 1, to_end = step < 0 ? tip : last - tip;
   const auto p = [&](Eigen::Index away) { return line.p(tip + step * away); };

@@ -14,7 +14,7 @@ struct ComplementarityProblem {
   MatX compliance;               ///< (m + s) x (m + s), lower triangle, as MultiplierSystem wants it
   VecX scale;                    ///< m: lambda_a / scale_a is what is compared with other rows'
   std::vector<char> unilateral;  ///< m: rows that may open
-  /// A w that is smaller is round-off of what it was computed from, and so are lambda that make no larger w.
+  /// A w that is smaller is round-off of what it was computed from, and so are lambda that alone make no larger w.
   double round_off = 0;
   /// Of a correction: the multipliers, m, whose work r and h are without, so that lambda is they and what is added; and
   /// the largest displacement, of which w may be round-off. Else empty and 0.

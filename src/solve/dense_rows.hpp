@@ -42,7 +42,7 @@ class DenseRows : public ContactRows {
 
   const ComplementarityProblem& p_;
   const VecX& rhs_;
-  double negligible_stress_ = 0;  // opens no row by more than round-off
+  double negligible_stress_ = 0;  // alone opens no row by more than round-off
   std::optional<MultiplierSystem> system_;
   // (lambda, mu) where soft rows press on motions alone.
   VecX uncoupled_solution(const VecX& gap, const VecX& work) const;
