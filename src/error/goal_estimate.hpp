@@ -17,7 +17,7 @@ inline constexpr double error_safety = 1.5;
 /// A column a component: loads^T u - rows^T lambda. No columns where no functional is asked for.
 struct GoalFunctionals {
   MatX rows;   ///< m x components: of the mean (1), of the force on the multiplier side's body (2)
-  MatX loads;  ///< n x components: of a displacement (2), of a stress (11, 22, 12), its mean over the cells around
+  MatX loads;  ///< n x components: of a displacement (2), of a stress (11, 22, 12), as of stress_loads
   std::optional<CellPlace> place;  ///< of a displacement or a stress
   /// At each contact point of the pair by how much the dual solutions are to open it: points x components.
   MatX opening;

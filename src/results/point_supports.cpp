@@ -103,7 +103,7 @@ std::vector<double> changes_by_point_supports(const Results& r) {
   if (!r.solution.factor || p.pairs.empty()) return parts;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const BoundaryEntry& entry = p.entries.boundaries[i];
-    if (entry.points.empty() || std::holds_alternative<TotalForce>(entry.spec.what)) continue;
+    if (entry.points.empty() || is_load(entry.spec.what)) continue;
     const VecX by = sinking(p, forces_at_points(r.recovery.reactions, p.mesh, entry, int(i)), entry);
     if (!by.any()) continue;
     VecX load, gap = VecX::Zero(system.B.rows());

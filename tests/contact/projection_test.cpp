@@ -91,17 +91,6 @@ TEST(Projection, OnABentEdgeTheHitLiesOnTheLine) {
     }
 }
 
-TEST(Edges, HaveTheSameTangentAndLengthFarFromTheOrigin) {
-  BentEdge e;
-  e.nodes(2, 1) = 0.125;  // all of them doubles there as well
-  const Edge& edge = e.curve.edges[0];
-  const Vec2 tangent = edge_point(e.nodes, edge, 0.3).tangent;
-  const double length = edge_length(e.nodes, edge);
-  e.nodes.array() += 4294967296;
-  EXPECT_EQ((edge_point(e.nodes, edge, 0.3).tangent - tangent).norm(), 0);
-  EXPECT_EQ(edge_length(e.nodes, edge), length);
-}
-
 TEST(Foot, IsWhereTheNormalPassesThroughThePoint) {
   const BentEdge e;
   for (const double xi : {-0.99, -0.5, 0.0, 0.3, 0.9})

@@ -52,5 +52,16 @@ TEST(ArcLength, OfAClosedCurveBeginsAtItsLeftmostNode) {
   }
 }
 
+// Coordinates that doubles have exactly there as well.
+TEST(Edges, HaveTheSameTangentAndLengthFarFromTheOrigin) {
+  const Edge edge{3, {0, 1, 2}};
+  Points nodes = (Points(3, 2) << 1, 0, 0, 0, 0.5, 0.125).finished();
+  const Vec2 tangent = edge_point(nodes, edge, 0.3).tangent;
+  const double length = edge_length(nodes, edge);
+  nodes.array() += 4294967296;  // 2^32
+  EXPECT_EQ((edge_point(nodes, edge, 0.3).tangent - tangent).norm(), 0);
+  EXPECT_EQ(edge_length(nodes, edge), length);
+}
+
 }  // namespace
 }  // namespace mortise
