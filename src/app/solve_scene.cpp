@@ -96,7 +96,7 @@ void estimate(Results& r, const AccuracySpec& spec, const std::vector<FoundPoint
   add_data_errors(r.problem, r.solution, spec, *r.estimate);
   for (std::size_t k = 0; k < recovery.contacts.size(); ++k) set_bars(r.estimate->pressures[k], recovery.contacts[k]);
   const std::vector<PlaceError> of_probes =
-      place_errors(r.problem, r.solution, r.estimate->pressures, probed_places(recovery.probes), r.memory->products);
+      place_errors(r.problem, r.solution, r.estimate->pressures, probed_places(recovery.probes), *r.memory);
   for (std::size_t i = 0; i < of_probes.size(); ++i) recovery.probes[i].error = of_probes[i];
   leave_out_unheld(r);
   if (last) {

@@ -40,19 +40,48 @@ double angle_from(const Vec2& a, const Vec2& b) {
 
 bool same_law(const ElasticLaw& a, const ElasticLaw& b) { return a.stiffness == b.stiffness; }
 
-// The wedges of the cells around a node, those of one material as one.
-Fan fan_from(const Mesh& mesh, std::span<const SideAtNode> sides, int first, const std::vector<ElasticLaw>& laws) {
-  Fan fan;
-  const auto [angles, closed] = bodies_around(mesh, sides, first);
-  for (const auto& [body, angle] : angles) {
-    const Wedge next = wedge(angle, laws[body]);
+// The wedges of what is around a vertex, those of one material as one. Of several turns about the origin nothing.
+Fan fan_of(const Surroundings& around, const BodiesAtVertex& at) {
+  Fan fan{{}, {}, face_at(around, at.first), face_at(around, at.last)};
+  if (at.turn != 0) return fan;
+  for (const BodyAtVertex& b : at.bodies) {
+    const Wedge next = wedge(b.angle, around.laws[b.body]);
     if (!fan.wedges.empty() && fan.wedges.back().is_alike(next))
-      fan.wedges.back().angle += angle;
+      fan.wedges.back().angle += b.angle;
     else
       fan.wedges.push_back(next);
   }
-  if (!fan.wedges.empty()) fan.joints.assign(fan.wedges.size() - (closed ? 0 : 1), Joint::bonded);
+  if (!fan.wedges.empty()) fan.joints.assign(fan.wedges.size() - (at.closed ? 0 : 1), Joint::bonded);
   return fan;
+}
+
+// The bodies whose cells stand around a vertex, counter-clockwise from the side to the node `first`.
+BodiesAtVertex bodies_from(const Surroundings& around, int node, int first) {
+  const auto sides = around.table.at(node);
+  BodiesAtVertex at{{}, {node, first}, {node, first}};
+  for (std::size_t k = 0; k < sides.size() && !at.closed; ++k) {
+    const auto begin =
+        std::ranges::find_if(sides, [&](const SideAtNode& side) { return side.starts && side.other == at.last.other; });
+    if (begin == sides.end()) break;
+    const auto end = std::ranges::find_if(
+        sides, [&](const SideAtNode& side) { return !side.starts && side.side.cell == begin->side.cell; });
+    const int body = around.mesh.cells[begin->side.cell].body;
+    if (at.bodies.empty() || at.bodies.back().body != body) at.bodies.push_back({body, node, 0});
+    at.bodies.back().angle += angle_from(direction_at(around.mesh, *begin), direction_at(around.mesh, *end));
+    at.last.other = end->other;
+    at.closed = at.last.other == first;
+  }
+  return at;
+}
+
+// Those between two edges of the outline, one of which is given.
+BodiesAtVertex bodies_behind(const Surroundings& around, const EdgeAtVertex& face) {
+  for (const Edge& edge : outline_at(around.mesh, around.table, face.vertex)) {
+    if (edge.nodes[0] != face.vertex) continue;
+    const BodiesAtVertex at = bodies_from(around, face.vertex, edge.nodes[1]);
+    if (at.first == face || at.last == face) return at;
+  }
+  return {{}, face, face};
 }
 
 bool several_materials(const Mesh& mesh, std::span<const SideAtNode> sides, const std::vector<ElasticLaw>& laws) {
@@ -66,6 +95,7 @@ bool several_materials(const Mesh& mesh, std::span<const SideAtNode> sides, cons
 // Whether its exponent is known to be above the limit without a search.
 bool is_regular(const Fan& fan) {
   if (fan.wedges.size() != 1) return fan.wedges.empty();
+  if (!fan.joints.empty()) return true;  // inside one material
   const double angle = fan.wedges[0].angle;
   if (fan.first == Face::free && fan.last == Face::free) return angle < least_free_angle();
   return fan.first == fan.last && std::abs(angle - straight) < smooth;
@@ -88,24 +118,6 @@ std::vector<Edge> outline_at(const Mesh& mesh, const SideTable& table, int node)
   return outline;
 }
 
-AnglesAround bodies_around(const Mesh& mesh, std::span<const SideAtNode> sides, int first) {
-  AnglesAround around{{}, false};
-  int from = first;
-  for (std::size_t k = 0; k < sides.size() && !around.closed; ++k) {
-    const auto begin =
-        std::ranges::find_if(sides, [&](const SideAtNode& side) { return side.starts && side.other == from; });
-    if (begin == sides.end()) break;
-    const auto end = std::ranges::find_if(
-        sides, [&](const SideAtNode& side) { return !side.starts && side.side.cell == begin->side.cell; });
-    const int body = mesh.cells[begin->side.cell].body;
-    if (around.angles.empty() || around.angles.back().first != body) around.angles.emplace_back(body, 0);
-    around.angles.back().second += angle_from(direction_at(mesh, *begin), direction_at(mesh, *end));
-    from = end->other;
-    around.closed = from == first;
-  }
-  return around;
-}
-
 Face face_of(const Points& nodes, const Edge& edge, const Constraints& constraints) {
   std::optional<Vec2> held;  // the direction in which all nodes are, where none is held in both
   for (int k = 0; k < edge.node_count; ++k) {
@@ -124,44 +136,69 @@ double interior_angle(const Vec2& before, const Vec2& after) {
   return straight - std::atan2(cross(before, after), before.dot(after));
 }
 
-std::vector<BodyCorner> body_corners(const Surroundings& around) {
-  const auto& [mesh, table, constraints, laws, tips] = around;
-  std::vector<BodyCorner> corners;
-  for (int node = 0; node < int(mesh.nodes.rows()); ++node) {
-    const auto sides = table.at(node);
-    if (sides.empty()) continue;
-    Fan fan;
-    if (const std::vector<Edge> outline = outline_at(mesh, table, node); outline.size() == 2) {
-      const bool ordered = outline[0].nodes[1] == node;
-      const Edge &before = outline[ordered ? 0 : 1], &after = outline[ordered ? 1 : 0];
-      fan = fan_from(mesh, sides, after.nodes[1], laws);
-      fan.first = face_of(mesh.nodes, after, constraints);
-      fan.last = face_of(mesh.nodes, before, constraints);
-    } else if (outline.empty() && several_materials(mesh, sides, laws)) {
-      fan = fan_from(mesh, sides, sides[0].other, laws);
-    } else {
-      continue;
+Face face_at(const Surroundings& around, const EdgeAtVertex& face) {
+  if (face.vertex < 0) return Face::free;
+  for (const Edge& edge : outline_at(around.mesh, around.table, face.vertex))
+    if (edge.nodes[0] == face.other || edge.nodes[1] == face.other)
+      return face_of(around.mesh.nodes, edge, around.constraints);
+  return Face::free;
+}
+
+BodiesAtVertex bodies_at(const Surroundings& around, const EdgeAtVertex& face) {
+  BodiesAtVertex at = bodies_behind(around, face);
+  for (const bool ahead : {false, true}) {
+    double turn = 0;
+    EdgeAtVertex& end = ahead ? at.last : at.first;
+    while (const AcrossTie* tie = at.closed ? nullptr : around.ties.across(end)) {
+      turn += tie->turn;
+      at.closed = tie->edge == (ahead ? at.first : at.last);
+      if (at.closed) break;
+      BodiesAtVertex next{{{tie->body, -1, straight}}, tie->edge, tie->edge};
+      if (tie->edge.vertex >= 0) {
+        if (std::ranges::count(at.bodies, tie->edge.vertex, &BodyAtVertex::node) > 0) break;
+        next = bodies_behind(around, tie->edge);
+      }
+      for (BodyAtVertex& b : next.bodies) b.turn = turn;
+      at.bodies.insert(ahead ? at.bodies.end() : at.bodies.begin(), next.bodies.begin(), next.bodies.end());
+      end = ahead ? next.last : next.first;
     }
+    if (at.closed) at.turn = turn;
+  }
+  return at;
+}
+
+namespace {
+
+// Of a vertex of an outline or where materials meet; no wedges: none of them.
+Fan fan_at(const Surroundings& around, int node) {
+  const auto sides = around.table.at(node);
+  if (sides.empty()) return {};
+  const std::vector<Edge> outline = outline_at(around.mesh, around.table, node);
+  if (outline.size() == 2) {
+    const Edge& after = outline[outline[0].nodes[0] == node ? 0 : 1];
+    return fan_of(around, bodies_at(around, {node, after.nodes[1]}));
+  }
+  if (outline.empty() && several_materials(around.mesh, sides, around.laws))
+    return fan_of(around, bodies_from(around, node, sides[0].other));
+  return {};
+}
+
+}  // namespace
+
+std::vector<BodyCorner> body_corners(const Surroundings& around) {
+  std::vector<BodyCorner> corners;
+  for (int node = 0; node < int(around.mesh.nodes.rows()); ++node) {
+    const Fan fan = fan_at(around, node);
     if (is_regular(fan)) continue;
-    const double exponent = exponent_of(fan, tips);
-    if (exponent <= singular_limit) corners.push_back({node, mesh.nodes.row(node).transpose(), exponent});
+    const double exponent = exponent_of(fan, around.tips);
+    if (exponent <= singular_limit) corners.push_back({node, around.mesh.nodes.row(node).transpose(), exponent});
   }
   return corners;
 }
 
-double corner_exponent(const Mesh& mesh, int node, const Constraints& constraints, const ElasticLaw& law) {
-  const SideTable table(mesh);
-  const std::vector<Edge> outline = outline_at(mesh, table, node);
-  if (outline.size() != 2) return 1;
-  const bool ordered = outline[0].nodes[1] == node;
-  const Edge &before = outline[ordered ? 0 : 1], &after = outline[ordered ? 1 : 0];
-  double angle = 0;
-  for (const auto& [body, of_body] : bodies_around(mesh, table.at(node), after.nodes[1]).angles) angle += of_body;
-  return exponents({{wedge(angle, law)},
-                    {},
-                    face_of(mesh.nodes, after, constraints),
-                    face_of(mesh.nodes, before, constraints)})
-      .stress.real();
+double corner_exponent(const Surroundings& around, int node) {
+  const Fan fan = fan_at(around, node);
+  return is_regular(fan) ? 1 : around.tips.find(fan).stress.real();
 }
 
 }  // namespace mortise

@@ -133,20 +133,21 @@ Corner LineSide::corner(const Vertex& v) const {
   if (v.before >= 0) corner.before = before(v);
   if (v.after >= 0) corner.after = after(v);
   if (!v.is_end()) return corner;
-  for (const Edge& beyond : outline_at(around.mesh, around.table, v.node)) {
-    const bool starts = beyond.nodes[0] == v.node;
-    if (starts != (v.after < 0)) continue;  // the curve's own
-    const Vec2 tangent = edge_point(around.mesh.nodes, beyond, starts ? -1 : 1).tangent;
-    corner.wedge.angle = starts ? interior_angle(*corner.before, tangent) : interior_angle(tangent, *corner.after);
-    const int first = starts ? beyond.nodes[1] : curve.edges[v.after].nodes[1];
-    for (const auto& [body, angle] : bodies_around(around.mesh, around.table.at(v.node), first).angles) {
-      if (body == curve.body) continue;
-      corner.bonded.emplace_back(body, wedge(angle, around.laws[body]));
-      corner.wedge.angle -= angle;
-    }
-    Wedge& last = corner.bonded.empty() ? corner.wedge : (starts ? corner.bonded.front() : corner.bonded.back()).second;
-    last.outer = face_of(around.mesh.nodes, beyond, around.constraints);
-  }
+  const bool begins = v.after >= 0;
+  const Edge& edge = curve.edges[begins ? v.after : v.before];
+  const BodiesAtVertex at = bodies_at(around, {v.node, edge.nodes[begins ? 1 : 0]});
+  if (at.bodies.empty()) return corner;
+  for (const BodyAtVertex& b : at.bodies)
+    corner.bonded.push_back({b.body, b.node, wedge(b.angle, around.laws[b.body]), b.turn});
+  Wedge& last = (begins ? corner.bonded.back() : corner.bonded.front()).wedge;
+  last.outer = face_at(around, begins ? at.last : at.first);
+  const auto own = begins ? corner.bonded.begin() : corner.bonded.end() - 1;
+  const Vec2 drawn = begins ? *corner.after : *corner.before,
+             meshed = edge_point(around.mesh.nodes, edge, begins ? -1 : 1).tangent;
+  const double off = std::atan2(cross(drawn, meshed), drawn.dot(meshed));
+  corner.wedge = own->wedge;
+  corner.wedge.angle += begins ? off : -off;
+  corner.bonded.erase(own);
   return corner;
 }
 
@@ -164,6 +165,13 @@ std::optional<Corner> facing(const LineSide& side, const Vertex& v, const LineSi
 }
 
 }  // namespace
+
+bool ContactPlace::is_tip() const {
+  const auto& [a, b] = corners;
+  if (a.node < 0 || a.node == b.node) return a.node >= 0;
+  const auto is_alike = [&](const BondedBody& one) { return one.wedge.is_alike(a.wedge); };
+  return std::ranges::count(a.bonded, b.node, &BondedBody::node) > 0 && std::ranges::all_of(a.bonded, is_alike);
+}
 
 std::vector<ContactPlace> contact_places(const Surroundings& around, const Curve& first, const Curve& second,
                                          const ContactReach& reach, const GivenGap& given) {

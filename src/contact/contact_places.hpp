@@ -8,9 +8,6 @@
 
 namespace mortise {
 
-/// A vertex lies at a place of the other curve where this part of an edge does not tell them apart.
-inline constexpr double at_one_place = 0.05;
-
 /// Of a vertex of a contact curve, whether contact is closed on its edges before and after it, up to it.
 struct Reach {
   bool before, after;
@@ -29,6 +26,13 @@ struct GivenGap {
   bool operator==(const GivenGap&) const = default;
 };
 
+/// A body that shares a node with another, or is tied to it.
+struct BondedBody {
+  int body, node;
+  Wedge wedge;
+  double turn;  ///< as of AcrossTie
+};
+
 /// What a body is at a point of its contact line.
 struct Corner {
   Wedge wedge;
@@ -37,8 +41,8 @@ struct Corner {
   double error = 0;                             ///< of the angle, radians
   int node = -1;                                ///< of its vertex; -1 where it has none there
   std::optional<Vec2> before = {}, after = {};  ///< tangents of its curve that ends, that begins there
-  /// Bodies that share the node, between the curve's end and the outline's next edge, counter-clockwise.
-  std::vector<std::pair<int, Wedge>> bonded = {};
+  /// The bodies that are one with it there, between the curve's end and the next face, counter-clockwise.
+  std::vector<BondedBody> bonded = {};
 };
 
 /// A kink or an end of either curve of a pair that contact reaches.
@@ -54,8 +58,8 @@ struct ContactPlace {
   double shortest;     ///< length of the shortest edge that meets there, of the curve whose end or kink it is
   bool soft = false;   ///< what is between both holds no face: they are no part of what is in contact without it
 
-  /// Whether it is the tip of a crack, whose faces both curves are.
-  bool is_tip() const { return corners[0].node >= 0 && corners[0].node == corners[1].node; }
+  /// Whether it is the tip of a crack, whose faces both curves are: a node of both, or one material all around.
+  bool is_tip() const;
 };
 
 /// Those of one pair, however far from each other both curves are drawn. The wedges' angles are from the curves that

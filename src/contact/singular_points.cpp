@@ -1,9 +1,12 @@
 #include "contact/singular_points.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include "base/parallel.hpp"
@@ -49,6 +52,12 @@ double log_amplitude(const Wedge& a, const Wedge& b, double jump) {
   return 2 * std::abs(jump) / (a.compliance() + b.compliance());
 }
 
+// A body by its vertex at a place, -1 where it has none.
+struct Member {
+  int body, node;
+  auto operator<=>(const Member&) const = default;
+};
+
 // The bodies at a place, counter-clockwise: what each one's last face is joined to.
 class BodiesAround {
  public:
@@ -61,88 +70,107 @@ class BodiesAround {
     bool is_closed() const { return fan.joints.size() == fan.wedges.size(); }
   };
   // Those that are joined to a place's own two, from a free face on, else from one of them all around; bonded ones of
-  // one material as one. Nothing where a body is there twice.
+  // one material as one. Nothing where one is there twice.
   std::optional<Found> fan(const ContactPlace& place) const;
 
  private:
   struct Next {
-    int body;
+    Member member;
     Joint joint;
   };
-  // Bodies that share a node of the mesh.
+  // Members that are one body.
   struct AtNode {
-    std::vector<std::pair<int, Wedge>> bodies;
+    std::vector<BondedBody> bodies;
+    bool from_first;  // as the first one's corner has them, else as the last one's
     std::optional<Vec2> before, after;
   };
   void see(const Corner& corner, int body, std::map<int, AtNode>& nodes);
-  void join(int body, int other, Joint joint);
+  void join(const Member& member, const Member& other, Joint joint);
+  Member member(const ContactPlace& place, int k) const;
 
-  std::map<int, Next> next_;
-  std::map<int, int> previous_;
-  std::map<int, Wedge> wedges_;
+  std::map<int, int> nodes_;  // of bodies
+  std::map<Member, Next> next_;
+  std::map<Member, Member> previous_;
+  std::map<Member, Wedge> wedges_;
   double error_ = 0;
   bool is_clear_ = true;
 };
 
 BodiesAround::BodiesAround(const std::vector<const ContactPlace*>& places) {
+  std::vector<const ContactPlace*> held;
+  std::ranges::copy_if(places, std::back_inserter(held), [](const auto* p) { return !p->soft && !p->is_tip(); });
+  for (const ContactPlace* place : held)
+    for (const int k : {0, 1})
+      if (place->corners[k].node >= 0) nodes_.try_emplace(place->bodies[k], place->corners[k].node);
   std::map<int, AtNode> nodes;
-  for (const ContactPlace* place : places) {
-    if (place->soft || place->is_tip()) continue;
+  for (const ContactPlace* place : held)
     for (const int k : {0, 1}) {
       see(place->corners[k], place->bodies[k], nodes);
-      if (place->joined[k]) join(place->bodies[k], place->bodies[1 - k], Joint::sliding);
+      if (place->joined[k]) join(member(*place, k), member(*place, 1 - k), Joint::sliding);
     }
-  }
   for (auto& [node, at] : nodes) {
-    if (at.before && at.after) {  // the angle between two curves, as they are drawn
+    if (at.before && at.after) {  // the angle between two curves, as they are drawn: the farther one was its mesh's
       double sum = 0;
-      for (const auto& [body, wedge] : at.bodies) sum += wedge.angle;
-      at.bodies.front().second.angle += interior_angle(*at.before, *at.after) - sum;
+      for (const BondedBody& b : at.bodies) sum += b.wedge.angle;
+      Wedge& farther = (at.from_first ? at.bodies.back() : at.bodies.front()).wedge;
+      farther.angle += std::remainder(interior_angle(*at.before, *at.after) - sum, 2 * straight);
     }
     for (std::size_t i = 0; i < at.bodies.size(); ++i) {
-      wedges_.insert(at.bodies[i]);
-      if (i > 0) join(at.bodies[i - 1].first, at.bodies[i].first, Joint::bonded);
+      const Member here{at.bodies[i].body, at.bodies[i].node};
+      wedges_.emplace(here, at.bodies[i].wedge);
+      if (i > 0) join({at.bodies[i - 1].body, at.bodies[i - 1].node}, here, Joint::bonded);
     }
   }
+  for (const ContactPlace* place : held)  // those without a vertex
+    for (const int k : {0, 1}) wedges_.try_emplace(member(*place, k), place->corners[k].wedge);
+}
+
+Member BodiesAround::member(const ContactPlace& place, int k) const {
+  const int body = place.bodies[k], node = place.corners[k].node;
+  const auto known = nodes_.find(body);
+  return {body, node < 0 && known != nodes_.end() ? known->second : node};
 }
 
 void BodiesAround::see(const Corner& corner, int body, std::map<int, AtNode>& nodes) {
   error_ += corner.error;
-  if (corner.node < 0) {
-    wedges_.try_emplace(body, corner.wedge);
-    return;
-  }
-  AtNode& at = nodes[corner.node];
+  if (corner.node < 0) return;
+  int first = corner.node;
+  for (const BondedBody& b : corner.bonded)
+    if (b.node >= 0) first = std::min(first, b.node);
+  AtNode& at = nodes[first];
   if (at.bodies.empty()) {
     at.bodies = corner.bonded;
-    at.bodies.insert(corner.after ? at.bodies.begin() : at.bodies.end(), {body, corner.wedge});
+    at.from_first = corner.after.has_value();
+    at.bodies.insert(at.from_first ? at.bodies.begin() : at.bodies.end(), {body, corner.node, corner.wedge, 0});
   }
-  if (corner.before) at.before = corner.before;
-  if (corner.after) at.after = corner.after;
+  const auto own = std::ranges::find(at.bodies, corner.node, &BondedBody::node);
+  const Eigen::Rotation2D<double> turn(own == at.bodies.end() ? 0 : own->turn);
+  if (corner.before) at.before = turn * *corner.before;
+  if (corner.after) at.after = turn * *corner.after;
 }
 
-void BodiesAround::join(int body, int other, Joint joint) {
-  const auto next = next_.try_emplace(body, other, joint).first;
-  const auto previous = previous_.try_emplace(other, body).first;
-  if (next->second.body != other || previous->second != body) is_clear_ = false;
+void BodiesAround::join(const Member& member, const Member& other, Joint joint) {
+  const auto next = next_.try_emplace(member, other, joint).first;
+  const auto previous = previous_.try_emplace(other, member).first;
+  if (next->second.member != other || previous->second != member) is_clear_ = false;
 }
 
 std::optional<BodiesAround::Found> BodiesAround::fan(const ContactPlace& place) const {
   if (!is_clear_) return {};
-  const int own = place.bodies[place.joined[0] ? 0 : 1];
-  int start = own;
+  const Member own = member(place, place.joined[0] ? 0 : 1);
+  Member start = own;
   for (auto at = previous_.find(start); at != previous_.end() && at->second != own; at = previous_.find(start))
     start = at->second;
   Found found{{{wedges_.at(start)}, {}, wedges_.at(start).outer, wedges_.at(start).outer}, 0, error_};
   auto& [wedges, joints, first, last] = found.fan;
-  for (auto at = next_.find(start); at != next_.end(); at = next_.find(at->second.body)) {
-    const auto [body, joint] = at->second;
+  for (auto at = next_.find(start); at != next_.end(); at = next_.find(at->second.member)) {
+    const auto [member, joint] = at->second;
     if (at->first == own) found.joint = joints.size();
-    if (body == start) {
+    if (member == start) {
       joints.push_back(joint);
       break;
     }
-    const Wedge& wedge = wedges_.at(body);
+    const Wedge& wedge = wedges_.at(member);
     if (joint == Joint::bonded && wedges.back().is_alike(wedge)) {
       wedges.back().angle += wedge.angle;
     } else {
@@ -212,6 +240,32 @@ SingularPoint singular_point(const ContactPlace& drawn, const std::optional<Bodi
   return point;
 }
 
+using PlacesOfNodes = std::multimap<int, const ContactPlace*>;
+
+bool is_turned(const BondedBody& b) { return b.turn != 0; }
+
+// By their vertices, those at the cuts of sectors.
+PlacesOfNodes turned_places(const std::vector<const ContactPlace*>& all) {
+  PlacesOfNodes places;
+  for (const ContactPlace* place : all)
+    for (const Corner& corner : place->corners)
+      if (std::ranges::any_of(corner.bonded, is_turned)) places.emplace(corner.node, place);
+  return places;
+}
+
+// What is here of the next sector: it stands at the other cut.
+void add_turned(const PlacesOfNodes& elsewhere, std::vector<const ContactPlace*>& here) {
+  std::set<const ContactPlace*> added;
+  for (const ContactPlace* place : here)
+    for (const Corner& corner : place->corners)
+      for (const BondedBody& b : corner.bonded) {
+        if (!is_turned(b)) continue;
+        const auto [first, last] = elsewhere.equal_range(b.node);
+        for (auto at = first; at != last; ++at) added.insert(at->second);
+      }
+  here.insert(here.end(), added.begin(), added.end());
+}
+
 // Between the faces of a crack at its tip, radians or the slope of the gap.
 double opening_at_tip(const ContactPlace& place) {
   const auto& [a, b] = place.corners;
@@ -247,11 +301,13 @@ std::vector<std::vector<SingularPoint>> singular_points(const std::vector<std::v
       boxes.emplace_back(place.position - near, place.position + near);
     }
   const BoxIndex index(boxes);
+  const PlacesOfNodes elsewhere = turned_places(all);
   std::vector<std::vector<SingularPoint>> points(of_pairs.size());
   for_each_index(of_pairs.size(), threads, [&](std::size_t k) {
     for (const ContactPlace& place : of_pairs[k]) {
       std::vector<const ContactPlace*> here;
       for (const int i : index.meeting(Box(place.position))) here.push_back(all[i]);
+      add_turned(elsewhere, here);
       const SingularPoint point = place.is_tip() ? crack_tip(place)
                                   : place.soft   ? singular_point(place, {}, tips)
                                                  : singular_point(place, BodiesAround(here).fan(place), tips);

@@ -376,7 +376,7 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, Estimat
   GoalFunctionals goal;
   if (!p.pairs.empty())
     goal = goal_functionals(p.mesh, d, p.pairs[spec.pair], estimate.pressures[spec.pair].line, spec);
-  require_stress(p, estimate.pressures, goal, spec);
+  require_stress(memory.around(p), estimate.pressures, goal, spec);
   if (estimate.far.windows.count + goal.rows.cols() + options.also.cols() > 0)
     estimate.tails.corners = corner_rings(p.mesh, memory.around(p).table,
                                           free_corners(memory.corners(p), p.mesh.nodes.rows(), p.pairs, reached));

@@ -11,7 +11,6 @@ void EstimateMemory::keep_for(const Problem& p) {
   if (fixed != fixed_) {
     fixed_ = fixed;
     corners_.reset();
-    exponents_.clear();
     statics_.reset();
     known_.clear();
   }
@@ -22,7 +21,8 @@ void EstimateMemory::keep_for(const Problem& p) {
 
 Surroundings EstimateMemory::around(const Problem& p) {
   if (!sides_) sides_.emplace(p.mesh);
-  return {p.mesh, *sides_, p.discretisation.system.constraints, p.discretisation.laws, tips_};
+  if (!ties_) ties_.emplace(p.mesh, *sides_);
+  return {p.mesh, *sides_, *ties_, p.discretisation.system.constraints, p.discretisation.laws, tips_};
 }
 
 const std::vector<BodyCorner>& EstimateMemory::corners(const Problem& p) {
@@ -33,13 +33,6 @@ const std::vector<BodyCorner>& EstimateMemory::corners(const Problem& p) {
 const Statics& EstimateMemory::statics(const Problem& p) {
   if (!statics_) statics_.emplace(p.mesh, p.points, p.discretisation.system);
   return *statics_;
-}
-
-double EstimateMemory::exponent_at(const Problem& p, int node, int body) {
-  const auto [known, is_new] = exponents_.try_emplace({node, body}, 1);
-  const Discretisation& d = p.discretisation;
-  if (is_new) known->second = corner_exponent(p.mesh, node, d.system.constraints, d.laws[body]);
-  return known->second;
 }
 
 std::vector<std::vector<SingularPoint>> EstimateMemory::points(const Problem& p,

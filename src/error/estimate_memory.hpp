@@ -25,8 +25,6 @@ class EstimateMemory {
   Surroundings around(const Problem& problem);
   const std::vector<BodyCorner>& corners(const Problem& problem);
   const Statics& statics(const Problem& problem);
-  /// As corner_exponent.
-  double exponent_at(const Problem& problem, int node, int body);
   /// Of pair k, to work with; of several pairs at once.
   template <typename Work>
   void with_fits(std::size_t k, Work work) {
@@ -44,9 +42,9 @@ class EstimateMemory {
   bool keeps_;
   TipTable tips_;
   std::optional<SideTable> sides_;
+  std::optional<TiedVertices> ties_;
   std::vector<char> fixed_;
   std::optional<std::vector<BodyCorner>> corners_;
-  std::map<std::pair<int, int>, double> exponents_;  // of node and body
   std::optional<Statics> statics_;
   std::vector<std::optional<KnownPlaces>> known_;  // of each pair
   std::vector<std::vector<ContactPlace>> places_;

@@ -166,27 +166,26 @@ MatX stress_loads(const Mesh& mesh, const Discretisation& discretisation, const 
   return loads;
 }
 
-std::optional<double> singular_exponent(const Problem& problem, const std::vector<PressureEstimate>& pressures,
+std::optional<double> singular_exponent(const Surroundings& around, const std::vector<PressureEstimate>& pressures,
                                         const CellPlace& place, const Vec2& x) {
   if (const SingularPoint* point = singular_point_at(pressures, x, at_place)) return point->exponent;
   if (const SingularPoint* point = singular_point_at(pressures, x, at_place, &PressureEstimate::weak))
     return point->small_power < 0 ? std::optional(1 + point->small_power) : std::nullopt;
-  const Mesh& mesh = problem.mesh;
-  const Discretisation& d = problem.discretisation;
+  const Mesh& mesh = around.mesh;
   const Cell& cell = mesh.cells[place.cell];
   const double size = (mesh.nodes.row(cell.nodes[1]) - mesh.nodes.row(cell.nodes[0])).norm();
   for (int a = 0; a < corner_count(cell.kind); ++a) {
     if ((mesh.nodes.row(cell.nodes[a]).transpose() - x).norm() > at_place * size) continue;
-    const double exponent = corner_exponent(mesh, cell.nodes[a], d.system.constraints, d.laws[cell.body]);
+    const double exponent = corner_exponent(around, cell.nodes[a]);
     if (exponent <= singular_limit) return exponent;
   }
   return std::nullopt;
 }
 
-void require_stress(const Problem& problem, const std::vector<PressureEstimate>& pressures,
+void require_stress(const Surroundings& around, const std::vector<PressureEstimate>& pressures,
                     const GoalFunctionals& functionals, const AccuracySpec& spec) {
   if (spec.of != Goal::stress || !functionals.place) return;
-  const auto exponent = singular_exponent(problem, pressures, *functionals.place, spec.at);
+  const auto exponent = singular_exponent(around, pressures, *functionals.place, spec.at);
   if (!exponent) return;
   std::ostringstream text;
   text.precision(2);

@@ -37,11 +37,11 @@ MatX stress_loads(const Mesh& mesh, const Discretisation& discretisation, const 
 /// Where stresses have no limit at a place, x, the exponent by which displacements grow with the distance from it: at a
 /// corner of its body, or where contact has a singular point (1: stresses grow as a logarithm) or p goes as a small
 /// power without limit. None elsewhere.
-std::optional<double> singular_exponent(const Problem& problem, const std::vector<PressureEstimate>& pressures,
+std::optional<double> singular_exponent(const Surroundings& around, const std::vector<PressureEstimate>& pressures,
                                         const CellPlace& place, const Vec2& x);
 
 /// Throws SceneError where a stress has no limit at spec.at.
-void require_stress(const Problem& problem, const std::vector<PressureEstimate>& pressures,
+void require_stress(const Surroundings& around, const std::vector<PressureEstimate>& pressures,
                     const GoalFunctionals& functionals, const AccuracySpec& spec);
 
 /// 11, 22, 12: the stress recovered at the place less the elements' own. `patches`: u in its first field.

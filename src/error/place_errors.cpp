@@ -1,8 +1,8 @@
 #include "error/place_errors.hpp"
 
 #include "contact/singular_points.hpp"
-#include "error/body_products.hpp"
 #include "error/border_overlaps.hpp"
+#include "error/estimate_memory.hpp"
 #include "error/goal_estimate.hpp"
 #include "mesh/boundary_edges.hpp"
 
@@ -64,12 +64,13 @@ double largest_at(const Cell& cell, const VecX& at_nodes) {
 
 std::vector<PlaceError> place_errors(const Problem& problem, const Solution& solution,
                                      const std::vector<PressureEstimate>& pressures,
-                                     const std::vector<ProbedPlaces>& probes, BodyProducts& products) {
+                                     const std::vector<ProbedPlaces>& probes, EstimateMemory& memory) {
   std::vector<PlaceError> errors;
   if (probes.empty()) return errors;
   const Mesh& mesh = problem.mesh;
   const Discretisation& d = problem.discretisation;
   const std::vector<ContactPair>& pairs = problem.pairs;
+  const Surroundings around = memory.around(problem);
   const std::shared_ptr<const ContactFactor> factor = contact_factor(d.system, solution);
   const StressPatches patches = recover_patches(mesh, problem.points, sample_stresses(mesh, d.laws, solution.u));
   const std::vector<char> boundary = boundary_nodes(mesh);
@@ -91,8 +92,8 @@ std::vector<PlaceError> place_errors(const Problem& problem, const Solution& sol
         far.segment(first, z.cols()) +=
             line_part(pairs[k], pressures[k].line, pressures[k].local, openings(pairs[k], z)).sum();
     };
-    const ErrorProducts found = products.with_duals(problem, solution.u, factor,
-                                                    {MatX::Zero(d.system.B.rows(), loads.cols()), loads}, add_lines);
+    const ErrorProducts found = memory.products.with_duals(
+        problem, solution.u, factor, {MatX::Zero(d.system.B.rows(), loads.cols()), loads}, add_lines);
     far += off_by(found.products.rightCols(loads.cols()));
     far += overlaps.changes(MatX::Zero(d.system.B.rows(), loads.cols()), loads).colwise().sum().transpose();
     std::size_t next = 0;
@@ -105,7 +106,7 @@ std::vector<PlaceError> place_errors(const Problem& problem, const Solution& sol
       error.tail<3>() += local;
       if (touches(mesh.cells[probe.in[i].cell], boundary)) error.tail<3>().array() += probe.spread[i];
       error.tail<3>().array() += largest_at(mesh.cells[probe.in[i].cell], bars_of_p) / error_safety;
-      if (singular_exponent(problem, pressures, probe.in[i], probe.x[i]))
+      if (singular_exponent(around, pressures, probe.in[i], probe.x[i]))
         error.tail<3>().setConstant(std::numeric_limits<double>::quiet_NaN());
       errors.push_back({error_safety * error.head<2>(), error_safety * error.tail<3>()});
     }

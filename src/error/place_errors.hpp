@@ -29,6 +29,6 @@ struct PlaceError {
 /// `pressures`: estimated, one a pair.
 std::vector<PlaceError> place_errors(const Problem& problem, const Solution& solution,
                                      const std::vector<PressureEstimate>& pressures,
-                                     const std::vector<ProbedPlaces>& probes, BodyProducts& products);
+                                     const std::vector<ProbedPlaces>& probes, EstimateMemory& memory);
 
 }  // namespace mortise

@@ -76,12 +76,21 @@ void print_estimate(const Json& estimate, std::ostream& out) {
       << std::setprecision(6);
 }
 
-// Where p has no limit, and is left out of its norm.
+// Whether a reader sees one place: a hundredth of what is left out about it is far more than round-off.
+bool is_one_place(const Json& a, const Json& b) {
+  const auto x = a["position"].get<std::array<double, 2>>(), y = b["position"].get<std::array<double, 2>>();
+  return std::hypot(x[0] - y[0], x[1] - y[1]) <=
+         0.01 * std::max(a["left_out"].get<double>(), b["left_out"].get<double>());
+}
+
+// Where p has no limit, and is left out of its norm: a place of several pairs once.
 void print_left_out(const Json& singular, std::ostream& out) {
-  std::vector<std::string> places;
+  std::vector<Json> points;
   for (const Json& point : singular)
-    if (const std::string place = near(point["position"]); point["unbounded"] && !std::ranges::count(places, place))
-      places.push_back(place);
+    if (point["unbounded"] && std::ranges::none_of(points, [&](const Json& p) { return is_one_place(p, point); }))
+      points.push_back(point);
+  std::vector<std::string> places;
+  for (const Json& point : points) places.push_back(near(point["position"]));
   if (places.empty()) return;
   out << "            left out where p has no limit, ";
   for (std::size_t i = 0; i < std::min<std::size_t>(places.size(), 3); ++i) out << (i == 0 ? "" : ", ") << places[i];

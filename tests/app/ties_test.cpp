@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <numbers>
+#include <random>
+#include <set>
 #include <sstream>
 
 #include "app/solve_scene.hpp"
@@ -87,6 +89,76 @@ method.solver = )toml";
     EXPECT_LE(largest_entry(other.recovery.contacts[0].pressure - direct.recovery.contacts[0].pressure),
               1e-7 * largest_entry(direct.recovery.contacts[0].pressure));
   }
+}
+
+// A block of two halves, of one material or two, under a plate: what their cut does where it meets the contact line is
+// the same whether they share its nodes or are tied.
+TEST(Ties, ACutThatMeetsAContactLineIsWhatOneOfSharedNodesIs) {
+  std::mt19937 random(31);
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  std::set<std::size_t> counts;
+  for (int k = 0; k < 10; ++k) {
+    std::ostringstream geo;
+    geo << "xt = " << draw(0.7, 1.3) << "; xb = " << draw(0.4, 1.6) << "; bend = " << draw(-0.1, 0.1) << ";\n"
+        << R"(Mesh.ElementOrder = 2; Mesh.MeshSizeMax = 0.15;
+Point(1) = {0, 0, 0}; Point(2) = {xb, 0, 0}; Point(3) = {xt, 1, 0}; Point(4) = {0, 1, 0};
+Point(5) = {2, 0, 0}; Point(6) = {2, 1, 0}; Point(10) = {(xb + xt) / 2 + bend, 0.5, 0};
+Line(1) = {1, 2}; Spline(2) = {2, 10, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+If (tied)
+  Point(7) = {xb, 0, 0}; Point(8) = {xt, 1, 0}; Point(11) = {(xb + xt) / 2 + bend, 0.5, 0}; Spline(8) = {8, 11, 7};
+  Line(5) = {7, 5}; Line(7) = {6, 8}; Transfinite Curve{2} = 8; Transfinite Curve{8} = 10;
+Else
+  Line(5) = {2, 5}; Line(7) = {6, 3}; Transfinite Curve{2} = 8;
+EndIf
+Line(6) = {5, 6};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+If (tied)
+  Curve Loop(2) = {5, 6, 7, 8};
+Else
+  Curve Loop(2) = {5, 6, 7, -2};
+EndIf
+Plane Surface(2) = {2};
+Point(20) = {0, 1, 0}; Point(21) = {2, 1, 0}; Point(22) = {2, 1.5, 0}; Point(23) = {0, 1.5, 0};
+Line(20) = {20, 21}; Line(21) = {21, 22}; Line(22) = {22, 23}; Line(23) = {23, 20};
+Curve Loop(3) = {20 : 23}; Plane Surface(3) = {3};
+Physical Surface("left") = {1}; Physical Surface("right") = {2}; Physical Surface("plate") = {3};
+Physical Curve("bottom") = {1, 5}; Physical Curve("left_top") = {3}; Physical Curve("right_top") = {7};
+Physical Curve("plate_bottom") = {20}; Physical Curve("plate_top") = {22};
+If (tied)
+  Physical Curve("left_cut") = {2}; Physical Curve("right_cut") = {8};
+EndIf
+)";
+    const double stiffness = k % 2 == 0 ? 1000 : 20000;
+    const auto solved = [&](bool tied) {
+      const TemporaryFolder folder;
+      folder.write("block.geo", "tied = " + std::to_string(tied) + ";\n" + geo.str());
+      std::ostringstream scene;
+      scene << "mesh.file = \"block.geo\"\nmaterials.m = { young = 1000, poisson = 0.3 }\n"
+            << "materials.n = { young = " << stiffness << ", poisson = 0.3 }\n"
+            << "bodies = { left = \"m\", right = \"n\", plate = \"m\" }\n"
+            << R"(boundary = [
+  { on = "bottom", displacement = { x = 0, y = 0 } }, { on = "plate_top", displacement = { x = 0, y = -0.01 } },
+]
+contact = [
+  { between = ["left_top", "plate_bottom"] }, { between = ["right_top", "plate_bottom"] },)"
+            << (tied ? R"({ between = ["left_cut", "right_cut"], condition = "tied" })" : "") << "]\n";
+      Results r = solve_scene(read_scene(folder.write("scene.toml", scene.str())));
+      estimate(r);
+      return r;
+    };
+    const Results one = solved(false), two = solved(true);
+    for (const std::size_t pair : {0, 1}) {
+      const auto &bonded = one.estimate->pressures[pair].singular, &tied = two.estimate->pressures[pair].singular;
+      ASSERT_EQ(tied.size(), bonded.size()) << k;
+      for (std::size_t i = 0; i < tied.size(); ++i) {
+        EXPECT_LE((tied[i].position - bonded[i].position).norm(), 1e-6);
+        EXPECT_NEAR(tied[i].exponent, bonded[i].exponent, 1e-6);
+        EXPECT_NEAR(tied[i].pressure_exponent, bonded[i].pressure_exponent, 1e-6);
+      }
+      counts.insert(tied.size());
+    }
+  }
+  EXPECT_EQ(counts, (std::set<std::size_t>{0, 1}));  // of one material none
 }
 
 // Without a pair in contact there is no limit to tau, and none is told: it was infinite, which no file can say.

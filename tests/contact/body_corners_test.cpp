@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <random>
 
 #include "support/two_plates.hpp"
 #include "support/wedges.hpp"
@@ -40,7 +41,12 @@ Mesh quarters(int count) {
 std::vector<BodyCorner> corners_of(const Mesh& mesh, const Constraints& constraints,
                                    const std::vector<ElasticLaw>& laws) {
   TipTable tips;
-  return body_corners({mesh, SideTable(mesh), constraints, laws, tips});
+  return body_corners({mesh, SideTable(mesh), TiedVertices(), constraints, laws, tips});
+}
+
+double exponent_at(const Mesh& mesh, int node, const Constraints& constraints, const std::vector<ElasticLaw>& laws) {
+  TipTable tips;
+  return corner_exponent({mesh, SideTable(mesh), TiedVertices(), constraints, laws, tips}, node);
 }
 
 std::vector<BodyCorner> corners_of(const Mesh& mesh, const std::vector<ElasticLaw>& laws) {
@@ -90,7 +96,7 @@ TEST(BodyCorners, AreTheTipsOfCracks) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].node, 0);
   EXPECT_NEAR(found[0].exponent, 0.5, 1e-4);
-  EXPECT_NEAR(corner_exponent(mesh, 0, no_constraints(mesh), steel), 0.5, 1e-9);
+  EXPECT_NEAR(exponent_at(mesh, 0, no_constraints(mesh), std::vector(4, steel)), 0.5, 1e-9);
 }
 
 TEST(BodyCorners, AreWhereASupportEnds) {
@@ -117,6 +123,75 @@ TEST(BodyCorners, AreWhereMaterialsMeet) {
   EXPECT_EQ(inside[0].node, 0);
   const std::vector<Wedge> all_around{wedge(90 * degree, stiff), wedge(270 * degree, soft)};
   EXPECT_NEAR(inside[0].exponent, bonded_exponent_inside(all_around).real(), 1e-4);
+}
+
+// Each quarter with nodes of its own, as far as `tied` says with faces that are tied to those beside it.
+Mesh loose_quarters(int count, const std::vector<char>& tied, std::mt19937& random) {
+  const Mesh whole = quarters(count);
+  Mesh mesh;
+  mesh.bodies = whole.bodies;
+  mesh.nodes.resize(4 * count, 2);
+  for (int q = 0; q < count; ++q) {
+    Cell cell = whole.cells[q];
+    for (int a = 0; a < 4; ++a) {
+      mesh.nodes.row(4 * q + a) = whole.nodes.row(cell.nodes[a]);
+      cell.nodes[a] = 4 * q + a;
+    }
+    mesh.cells.push_back(cell);
+    mesh.boundaries.push_back({"first" + std::to_string(q), {{2, {4 * q, 4 * q + 1, -1}}}});
+    mesh.boundaries.push_back({"last" + std::to_string(q), {{2, {4 * q, 4 * q + 3, -1}}}});
+  }
+  for (int q = 0; q < count; ++q) {
+    const int next = (q + 1) % count;
+    if (!tied[q]) continue;
+    std::array<int, 2> boundary{2 * q + 1, 2 * next}, body{q, next};
+    if (random() % 2 == 0) std::swap(boundary[0], boundary[1]), std::swap(body[0], body[1]);
+    mesh.ties.push_back({.key = "", .curves = {}, .boundary = boundary, .body = body, .nodes = {}});
+  }
+  return mesh;
+}
+
+// What is tied is one: the same as of parts that share nodes, at every node of the place.
+TEST(BodyCorners, AcrossTiesAreThoseOfBondedParts) {
+  std::mt19937 random(5);
+  for (int k = 0; k < 60; ++k) {
+    const int count = 2 + int(random() % 3);
+    std::vector<ElasticLaw> laws;
+    for (int q = 0; q < count; ++q)
+      laws.push_back(elastic_law(random() % 2 == 0 ? 1 : 20, 0.3, {random() % 2 == 0 ? Plane::strain : Plane::stress}));
+    std::vector<char> tied(count, 1);
+    if (count < 4) tied.back() = 0;
+    const Mesh loose = loose_quarters(count, tied, random);
+    const SideTable table(loose);
+    TipTable tips;
+    const auto found = body_corners({loose, table, TiedVertices(loose, table), no_constraints(loose), laws, tips});
+    const auto exact = corners_of(quarters(count), laws);
+    std::size_t nodes = 0;
+    for (const BodyCorner& corner : found) {
+      const auto same = std::ranges::find_if(exact, [&](const auto& c) { return c.position == corner.position; });
+      ASSERT_NE(same, exact.end()) << k;
+      EXPECT_NEAR(corner.exponent, same->exponent, 1e-6) << k;
+    }
+    for (const BodyCorner& corner : exact)
+      for (Eigen::Index i = 0; i < loose.nodes.rows(); ++i) nodes += loose.nodes.row(i).transpose() == corner.position;
+    EXPECT_EQ(found.size(), nodes) << k;
+  }
+}
+
+// The end of a tied curve within an edge of the other, which goes on.
+TEST(BodyCorners, OfABlockTiedToALongerOneIsWhatBothMake) {
+  std::mt19937 random(6);
+  Mesh mesh = loose_quarters(4, {0, 0, 0, 1}, random);  // the fourth below the first
+  for (const int node : {12, 13, 14, 15}) mesh.nodes(node, 0) = 3 * mesh.nodes(node, 0) - 1;
+  const std::vector<ElasticLaw> laws(4, steel);
+  const SideTable table(mesh);
+  TipTable tips;
+  const auto found = body_corners({mesh, table, TiedVertices(mesh, table), no_constraints(mesh), laws, tips});
+  ASSERT_EQ(found.size(), 2u);
+  for (const BodyCorner& corner : found) {
+    EXPECT_EQ(corner.node, &corner - found.data());
+    EXPECT_NEAR(corner.exponent, 0.5444837367, 1e-4);  // three quarters (Williams 1952)
+  }
 }
 
 TEST(Williams, BondedWedgesOfOneMaterialAreOneWedge) {

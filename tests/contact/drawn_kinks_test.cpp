@@ -28,7 +28,7 @@ std::vector<Vec2> kinks_of(const FootFile& file, const DrawnFoot& foot) {
   reach[0].front() = reach[0].back() = {false, false};
   std::vector<Vec2> found;
   for (const SingularPoint& p :
-       points_of_pair({mesh, SideTable(mesh), no_constraints(mesh), laws, tips}, upper, lower, reach))
+       points_of_pair({mesh, SideTable(mesh), TiedVertices(), no_constraints(mesh), laws, tips}, upper, lower, reach))
     found.push_back(p.position);
   // Smooth within an edge, too: a circle is one polynomial to round-off of its centre.
   for (std::size_t e = 0; e < upper.samples.size() && foot.pieces.size() == 1; ++e)
@@ -73,8 +73,9 @@ TEST(DrawnKinks, AreThoseOfTheWholeCurveHoweverManyNamesItHas) {
     const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
     const Constraints free = no_constraints(mesh);
     const SideTable table(mesh);
+    const TiedVertices ties;
     TipTable tips;
-    const Surroundings around{mesh, table, free, laws, tips};
+    const Surroundings around{mesh, table, ties, free, laws, tips};
     const Curve upper = contact_curve(mesh, boundary_index(mesh, "foot")),
                 lower = contact_curve(mesh, boundary_index(mesh, "flat"));
     ContactReach reach = reached_everywhere(upper, lower);

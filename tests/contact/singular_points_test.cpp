@@ -42,7 +42,7 @@ std::vector<SingularPoint> points_of(const TwoPlates& plates, const Sides& held)
   TipTable tips;
   const Curve lower = contact_curve(mesh, boundary_index(mesh, "lower_contact")),
               upper = contact_curve(mesh, boundary_index(mesh, "upper_contact"));
-  return points_of_pair({mesh, SideTable(mesh), constraints, laws, tips}, lower, upper,
+  return points_of_pair({mesh, SideTable(mesh), TiedVertices(), constraints, laws, tips}, lower, upper,
                         reached_everywhere(lower, upper));
 }
 
@@ -52,16 +52,20 @@ Wedge steel_wedge(double angle, Face outer) { return wedge(angle, elastic_law(21
 
 TEST(SingularPoints, OfABodyAloneAreItsCornersByWhatHoldsThem) {
   const Mesh mesh = test::mesh_of(TwoPlates{});
-  const ElasticLaw law = elastic_law(210e9, 0.3, {Plane::strain});
+  const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
+  TipTable tips;
+  const auto exponent_at = [&](int node, const Constraints& constraints) {
+    return corner_exponent({mesh, SideTable(mesh), TiedVertices(), constraints, laws, tips}, node);
+  };
   Constraints constraints = no_constraints(mesh);
   const Curve side = contact_curve(mesh, boundary_index(mesh, "lower_left"));
   const int corner = side.edges.front().nodes[0], middle = side.edges.front().nodes[1];
-  EXPECT_EQ(corner_exponent(mesh, corner, constraints, law), 1);
-  EXPECT_EQ(corner_exponent(mesh, middle, constraints, law), 1);
+  EXPECT_EQ(exponent_at(corner, constraints), 1);
+  EXPECT_EQ(exponent_at(middle, constraints), 1);
   for (const int c : {0, 1}) prescribe(mesh, boundary_index(mesh, "lower_left"), c, 0, constraints);
-  EXPECT_NEAR(corner_exponent(mesh, corner, constraints, law),
-              wedge_exponent(steel_wedge(90 * deg, Face::free), Face::clamped).real(), 1e-9);
-  EXPECT_EQ(corner_exponent(mesh, middle, constraints, law), 1);
+  EXPECT_NEAR(exponent_at(corner, constraints), wedge_exponent(steel_wedge(90 * deg, Face::free), Face::clamped).real(),
+              1e-9);
+  EXPECT_EQ(exponent_at(middle, constraints), 1);
 }
 
 TEST(SingularPoints, OfAFlatLineBetweenFreeOrSlidingSidesThereAreNone) {
@@ -105,8 +109,8 @@ TEST(SingularPoints, AnEndWithinTheOthersEdgeIsNoMeetingOfCorners) {
     for (const int node : of_upper) mesh.nodes(node, 0) += edges * 0.1;
     const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
     TipTable tips;
-    const auto points = points_of_pair({mesh, SideTable(mesh), no_constraints(mesh), laws, tips}, lower, upper,
-                                       reached_everywhere(lower, upper));
+    const auto points = points_of_pair({mesh, SideTable(mesh), TiedVertices(), no_constraints(mesh), laws, tips}, lower,
+                                       upper, reached_everywhere(lower, upper));
     const auto end = std::ranges::find_if(
         points, [&](const SingularPoint& p) { return std::abs(p.position.x() - edges * 0.1) < 1e-12; });
     ASSERT_NE(end, points.end()) << edges;
@@ -154,8 +158,8 @@ TEST(SingularPoints, AreNotMadeByRoundOffOfDrawnArcs) {
       }
       reach[curves.size() - 1] = reached;
     }
-    const auto points =
-        points_of_pair({mesh, SideTable(mesh), no_constraints(mesh), laws, tips}, curves[0], curves[1], reach);
+    const auto points = points_of_pair({mesh, SideTable(mesh), TiedVertices(), no_constraints(mesh), laws, tips},
+                                       curves[0], curves[1], reach);
     EXPECT_TRUE(points.empty()) << i << ": edges of " << scale << " times the plates'";
   }
 }
@@ -224,7 +228,7 @@ std::vector<SingularPoint> points_of(const WedgeOnFlat& wedge, const std::vector
   ContactReach reach = reached_everywhere(lower, upper);
   for (Reach& at : reach[0]) at = {false, false};
   if (!upper_reach.empty()) reach[1] = upper_reach;
-  return points_of_pair({mesh, SideTable(mesh), constraints, laws, tips}, lower, upper, reach);
+  return points_of_pair({mesh, SideTable(mesh), TiedVertices(), constraints, laws, tips}, lower, upper, reach);
 }
 
 // Johnson (1985), section 5.2: p = E* slope / pi arccosh(a / x), whose logarithm has half of what a cone's has.
@@ -325,7 +329,7 @@ TEST(SingularPoints, OfSeveralBodiesAtAPlaceAreThoseOfAllThatAreInContact) {
   }
 }
 
-// Two parts of one body of two materials, both on another that goes on.
+// Two parts of two materials, of one node or tied, both on another body that goes on.
 TEST(SingularPoints, OfBondedPartsInContactWithOneBodyAreThoseOfAllThree) {
   std::mt19937 random(12);
   for (int k = 0; k < 20; ++k) {
@@ -345,9 +349,10 @@ TEST(SingularPoints, OfBondedPartsInContactWithOneBodyAreThoseOfAllThree) {
     of_right.bodies = {1, 2};
     of_right.joined = {false, true};
     of_right.corners[0].wedge = right;
+    of_right.corners[0].node = 7 + k % 2;
     of_left.corners[0].before = of_right.corners[0].after = Vec2(1, 0);
-    of_left.corners[0].bonded = {{1, right}};
-    of_right.corners[0].bonded = {{0, left}};
+    of_left.corners[0].bonded = {{1, 7 + k % 2, right, 0}};
+    of_right.corners[0].bonded = {{0, 7, left, 0}};
     TipTable tips;
     const auto points = singular_points({{of_left}, {of_right}}, tips);
     const Fan fan{{left, base, right}, {Joint::sliding, Joint::sliding, Joint::bonded}};
@@ -355,6 +360,79 @@ TEST(SingularPoints, OfBondedPartsInContactWithOneBodyAreThoseOfAllThree) {
       const double exact = exponents(fan, pair).pressure.real();
       EXPECT_NEAR(points[pair].empty() ? 1 : points[pair][0].pressure_exponent, exact > singular_limit ? 1 : exact,
                   1e-6);
+    }
+  }
+}
+
+// Two bodies that slide on one another up to a third one, of another material, on which both are tied.
+TEST(SingularPoints, WhereContactEndsOnABodyThatBothAreTiedToAreThoseOfAllThree) {
+  std::mt19937 random(14);
+  for (int k = 0; k < 20; ++k) {
+    const auto of = [&](double angle) {
+      return wedge(angle, elastic_law(draw_power(random, -1, 1), 0.3, {Plane::strain}));
+    };
+    const double angle = draw(random, 40, 140) * deg, turn = draw(random, -3, 3);
+    const Wedge first = of(angle), last = of(straight - angle), base = of(straight);
+    const Vec2 along(std::cos(turn), std::sin(turn));
+    const ContactPlace place{.position = {0, 0},
+                             .bodies = {2, 0},
+                             .corners = {Corner{last, true, 0.1, 0, 8, -along, {}, {{0, 6, first, 0}, {1, 7, base, 0}}},
+                                         Corner{first, true, 0.1, 0, 6, {}, along, {{1, 7, base, 0}, {2, 8, last, 0}}}},
+                             .joined = {true, false},
+                             .one_curve = false,
+                             .given_slope = 0,
+                             .shortest = 0.1};
+    TipTable tips;
+    const auto points = singular_points({{place}}, tips);
+    const TipExponents exact = exponents({{first, base, last}, {Joint::bonded, Joint::bonded, Joint::sliding}}, 2);
+    ASSERT_EQ(points[0].size(), 1u);
+    EXPECT_NEAR(points[0][0].exponent, exact.stress.real(), 1e-6);
+    EXPECT_NEAR(points[0][0].pressure_exponent, exact.pressure.real() > singular_limit ? 1 : exact.pressure.real(),
+                1e-6);
+  }
+}
+
+// A wheel and its tyre, cut to a sector along any line: at each cut stands what the next sector has at the other one.
+TEST(SingularPoints, AtTheCutsOfASectorAreThoseOfAllAround) {
+  std::mt19937 random(13);
+  for (int k = 0; k < 40; ++k) {
+    Fan fan{{}, {Joint::bonded, Joint::sliding, Joint::bonded, Joint::sliding}};
+    double sum = 0;
+    for (int i = 0; i < 4; ++i) {  // the wheel here and there, the tyre there and here
+      const double stiffness =
+          i % 2 == 1 && random() % 2 == 0 ? fan.wedges.back().shear * 2.6 : draw_power(random, -1, 1);
+      fan.wedges.push_back(wedge(draw(random, 1, 3), elastic_law(stiffness, 0.3, {Plane::strain})));
+      sum += fan.wedges.back().angle;
+    }
+    for (Wedge& w : fan.wedges) w.angle *= 2 * straight / sum;
+    const auto& [wheel, next_wheel, next_tyre, tyre] =
+        std::tie(fan.wedges[0], fan.wedges[1], fan.wedges[2], fan.wedges[3]);
+    const double turn = draw(random, -2, 2), end = wheel.angle + next_wheel.angle - turn;
+    const auto along = [](double a) { return Vec2(std::cos(a), std::sin(a)); };
+    const auto off = [](Wedge w) {  // as its mesh has it, not the drawn curve
+      w.angle += 0.01;
+      return w;
+    };
+    ContactPlace here{.position = {1, 2},
+                      .bodies = {2, 0},
+                      .corners = {Corner{tyre, true, 0.1, 0, 3, -along(0), {}, {{3, 4, off(next_tyre), turn}}},
+                                  Corner{wheel, true, 0.1, 0, 1, {}, along(0), {{1, 2, off(next_wheel), turn}}}},
+                      .joined = {true, false},
+                      .one_curve = false,
+                      .given_slope = 0,
+                      .shortest = 0.1},
+        there = here;
+    there.position = {-2, 1};
+    there.bodies = {1, 3};
+    there.corners = {Corner{next_wheel, true, 0.1, 0, 2, -along(end), {}, {{0, 1, off(wheel), -turn}}},
+                     Corner{next_tyre, true, 0.1, 0, 4, {}, along(end), {{2, 3, off(tyre), -turn}}}};
+    TipTable tips;
+    const auto points = singular_points({{here}, {there}}, tips);
+    for (const std::size_t pair : {0, 1}) {
+      const double exact = exponents(fan, pair == 0 ? 3 : 1).pressure.real();
+      EXPECT_NEAR(points[pair].empty() ? 1 : points[pair][0].pressure_exponent, exact > singular_limit ? 1 : exact,
+                  1e-6)
+          << k;
     }
   }
 }

@@ -70,7 +70,7 @@ MatX tails_of(const Mesh& mesh, const MatX& fields) {
   const SideTable table(mesh);
   TipTable tips;
   const std::vector<CornerRings> rings =
-      corner_rings(mesh, table, body_corners({mesh, table, no_constraints(mesh), {law}, tips}));
+      corner_rings(mesh, table, body_corners({mesh, table, TiedVertices(), no_constraints(mesh), {law}, tips}));
   EXPECT_EQ(rings.size(), 1u);
   const std::vector<ElasticLaw> laws{law};
   CornerProducts products(mesh, laws, rings);
