@@ -61,7 +61,8 @@ std::vector<Interval> gap_ranges(const VecX& u, const ContactInterface& interfac
   return ranges;
 }
 
-std::vector<Trough> troughs(const Points& nodes, const VecX& u, const ContactInterface& interface) {
+std::vector<Trough> troughs(const Points& nodes, const VecX& u, const ContactInterface& interface,
+                            const std::vector<char>& on) {
   const std::vector<ContactPoint>& points = interface.points;
   const bool closed = interface.multiplier.closed;
   const int count = int(points.size());
@@ -74,6 +75,7 @@ std::vector<Trough> troughs(const Points& nodes, const VecX& u, const ContactInt
   };
   std::vector<Trough> found;
   for (int i = 0; i < count; ++i) {
+    if (!on.empty() && !on[points[i].edge]) continue;
     const int before = closed ? (i + count - 1) % count : i - 1, after = closed ? (i + 1) % count : i + 1;
     const bool first = before < 0, last = after == count;
     if ((!first && gap(before) <= gap(i)) || (!last && gap(after) < gap(i))) continue;

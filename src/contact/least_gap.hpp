@@ -40,8 +40,9 @@ struct Trough {
 };
 
 /// All of them, with the gap deformed by `u`: between points that are next to one another on the curve, and to its
-/// ends.
-std::vector<Trough> troughs(const Points& nodes, const VecX& u, const ContactInterface& interface);
+/// ends. `on`: of each edge of the multiplier side, whether those of its points are looked for; empty: of all.
+std::vector<Trough> troughs(const Points& nodes, const VecX& u, const ContactInterface& interface,
+                            const std::vector<char>& on = {});
 
 /// Whether curves without pressure on a mesh and on a finer one at their least gap are open between its points too:
 /// they come nearer nowhere by more than `round_off`, or the least gap, which is then known to half of itself, is open.

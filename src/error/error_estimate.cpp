@@ -12,6 +12,7 @@
 #include "error/fitted_pressure.hpp"
 #include "error/gap_error.hpp"
 #include "error/missed_contact.hpp"
+#include "error/narrow_contact.hpp"
 #include "error/pressure_bars.hpp"
 #include "error/recovered_pressure.hpp"
 #include "error/sliding_kinks.hpp"
@@ -368,6 +369,7 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, Estimat
   const int beside_borders = add_end_windows(p.pairs, estimate.pressures);
   estimate.far.windows = share_duals(p.mesh, window_places(estimate.pressures), options.own_duals + beside_borders);
   const BorderOverlaps overlaps(p, solution, estimate.pressures, estimate.far.windows.own());
+  add_narrow_contact(p, solution.u, estimate.pressures);
   add_missed_contact(p, solution.u, overlaps.motion(solution.u.size()), estimate.pressures);
   for (PressureEstimate& e : estimate.pressures) find_window_lengths(e);
   std::vector<JudgedLine> lines;

@@ -7,15 +7,15 @@
 #include "base/dense.hpp"
 #include "contact/least_gap.hpp"
 #include "error/goal_estimate.hpp"
+#include "error/narrow_contact.hpp"
 #include "fem/edges.hpp"
 #include "solve/nonnegative_fit.hpp"
 
 namespace mortise {
 namespace {
 
-constexpr double round_off = 1e-9;   // of the largest displacement
-constexpr int edges_of_contact = 4;  // from its middle to its end: about what a first mesh tells of a known one
-constexpr int many_motions = 200;    // that fit_nonnegative is not made for: these bodies stay where they are
+constexpr double round_off = 1e-9;  // of the largest displacement
+constexpr int many_motions = 200;   // that fit_nonnegative is not made for: these bodies stay where they are
 // What moving a body by a length costs over what an overlap of that length does, to choose one of many places: its
 // square of the way is left of an overlap that the body could leave, which is less than gaps are known to.
 constexpr double of_moving = 1e-5;

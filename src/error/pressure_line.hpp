@@ -93,11 +93,13 @@ struct LineError {
   VecX swing;
   VecX worst;   ///< by how much more than l2 says p is off at the worst of these vertices
   VecX missed;  ///< likewise, of contact that the mesh does not notice
-  struct Missed {
+  /// A place of contact that is narrower than the edges there.
+  struct Narrow {
     Vec2 place;
-    double edge;  ///< so long are edges that would notice it
+    double edge;  ///< so long are edges that show its width
   };
-  std::vector<Missed> missed_at;
+  std::vector<Narrow> missed_at;  ///< of contact that the mesh does not notice
+  std::vector<Narrow> narrow_at;  ///< of contact that it does (error/narrow_contact.hpp)
   /// Of the worst of a piecewise linear function's error, J h / 8, over l2 / sqrt(h), which is sqrt(h^2 J^2 / 120).
   static constexpr double pointwise_factor = 1.3693063937629153;  // sqrt(120) / 8
   std::vector<char> border;                                       ///< whether the border of contact makes it

@@ -284,8 +284,9 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];
     lower_sizes(mesh, pairs[k], e, e.line.h.cwiseQuotient(shorter[k]).cwiseMax(least_size * scene), wanted);
-    for (const LineError::Missed& missed : e.local.missed_at)
-      wanted.layers.push_back({missed.place, std::max(missed.edge, least_size * scene), size_growth});
+    for (const auto* places : {&e.local.missed_at, &e.local.narrow_at})
+      for (const LineError::Narrow& narrow : *places)
+        wanted.layers.push_back({narrow.place, std::max(narrow.edge, least_size * scene), size_growth});
     const double scale = e.line.h.sum() / 2;
     for (const SingularPoint& point : e.singular) {
       const double least = scale * std::pow(0.3 * factors.target, 1 / (2 * point.exponent));

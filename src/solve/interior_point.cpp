@@ -5,8 +5,8 @@
 namespace mortise {
 namespace {
 
-constexpr int most_steps = 150;           // a guard: ten pipes in a rack take 50
-constexpr int least_progress = 5;         // so many steps in which lambda w does not halve: round-off, or no solution
+constexpr int most_steps = 150;           // a guard: ten pipes in a rack take 52
+constexpr int least_progress = 5;         // lambda w that does not halve in so many steps: round-off, or no solution
 constexpr double exact = 1e-12;           // of the largest terms: some thousand round-offs
 constexpr double balanced = 1e-10;        // likewise, of the equations: differences of springs' terms
 constexpr double path_round_off = 1e-15;  // of the largest terms, its square of their product
@@ -154,20 +154,20 @@ class Path {
 InteriorPoint find_interior_point(ContactRows& rows) {
   Path path(rows);
   InteriorPoint best{.converged = path.trivial(), .steps = 0, .at = path.at(), .closed = path.closed()};
-  double least = path.error(), smallest = path.product();
+  double least = path.error();
   constexpr double round_off = path_round_off * path_round_off;
-  int left = least_progress;
-  while (!best.converged && path.finite() && best.steps < most_steps && left > 0 && !path.runs_away() && path.step()) {
+  Halving product(path.product(), least_progress);
+  bool goes_on = !best.converged;
+  while (goes_on && path.finite() && best.steps < most_steps && !path.runs_away() && path.step()) {
     ++best.steps;
     const bool nearer = path.error() <= std::max(least, balanced);
-    left = smallest > round_off && path.product() < 0.5 * smallest ? least_progress : left - 1;
-    smallest = std::min(smallest, path.product());
     if (nearer) {
       least = std::min(least, path.error());
       best.at = path.at();
       best.closed = path.closed();
     }
-    best.converged = path.error() <= balanced && (path.told() || path.product() <= round_off);
+    const bool converged = path.error() <= balanced && (path.told() || path.product() <= round_off);
+    goes_on = product.goes_on(std::max(path.product(), round_off)) && !converged;
   }
   best.converged = least <= good_enough;
   return best;

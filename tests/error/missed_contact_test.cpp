@@ -92,7 +92,7 @@ TEST(MissedContact, IsWhereOverlapsOfOtherPairsKeepCurvesApart) {
   for (const double part : {0, 1}) {
     std::vector<PressureEstimate> list = open.estimate->pressures;
     add_missed_contact(open.problem, open.solution.u, part * of_overlaps, list);
-    const std::vector<LineError::Missed>& missed = list[0].local.missed_at;
+    const std::vector<LineError::Narrow>& missed = list[0].local.missed_at;
     ASSERT_EQ(missed.size(), part);
     if (part == 1) EXPECT_LE(missed[0].place.norm(), 0.1);
   }

@@ -159,6 +159,18 @@ TEST_P(InteriorPointAlone, FindsTheRowsOfRandomProblems) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, InteriorPointAlone, testing::Values(Kind::carried, Kind::apart));
 
+// Ten pipes in a rack: lambda w falls to 0.6 of itself for many steps, and yet to zero.
+TEST(Halving, GoesOnAsLongAsAMeasureFalls) {
+  for (const double factor : {0.1, 0.6, 0.86, 0.88, 0.99, 1.0, 2.0}) {
+    Halving product(1, 5);
+    double now = 1;
+    int steps = 0;
+    do now *= factor;
+    while (product.goes_on(now) && ++steps < 100);
+    EXPECT_EQ(steps, factor < 0.87 ? 100 : 4) << factor;  // 0.87^5 = 1/2
+  }
+}
+
 TEST(InteriorPoint, EndsWhereNothingIsPressed) {
   std::mt19937 random(6);
   for (int run = 0; run < 100; ++run) {

@@ -1,0 +1,80 @@
+#include "error/narrow_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "contact/least_gap.hpp"
+#include "fem/edges.hpp"
+
+namespace mortise {
+namespace {
+
+// Contact that is two edges wide or less presses on so many vertices, side by side.
+constexpr std::size_t most_vertices = 4;
+
+// Those about an edge that are pressed without a break, if they are no more than that.
+std::vector<Eigen::Index> few_pressed(const PressureLine& line, Eigen::Index edge) {
+  std::vector<Eigen::Index> pressed;
+  for (const int step : {-1, 1}) {
+    std::optional<Eigen::Index> at = step < 0 ? edge : edge + 1;
+    for (; at && line.p(*at) > 0; at = line.beside(*at, step)) {
+      if (pressed.size() == most_vertices) return {};
+      pressed.push_back(*at);
+    }
+  }
+  return pressed;
+}
+
+// int N_i 2 pi r ds of each vertex.
+VecX circles_of(const ContactPair& pair, const PressureLine& line) {
+  VecX circles = VecX::Zero(line.p.size());
+  for (const ContactPoint& point : pair.points) {
+    circles(point.edge) += (1 - point.xi) / 2 * point.dA;
+    circles(point.edge + 1) += (1 + point.xi) / 2 * point.dA;
+  }
+  return circles;
+}
+
+}  // namespace
+
+void add_narrow_contact(const Problem& p, const VecX& u, std::vector<PressureEstimate>& list) {
+  for (std::size_t k = 0; k < p.pairs.size(); ++k) {
+    const ContactPair& pair = p.pairs[k];
+    PressureEstimate& e = list[k];
+    if (pair.spec.condition != Condition::unilateral || pair.spec.stiffness) continue;
+    std::vector<std::vector<Eigen::Index>> pressed;  // about each edge
+    std::vector<char> few;
+    for (Eigen::Index edge = 0; edge + 1 < e.line.p.size(); ++edge)
+      few.push_back(!pressed.emplace_back(few_pressed(e.line, edge)).empty());
+    if (!std::ranges::count(few, 1)) continue;
+    const std::vector<ElasticLaw>& laws = p.discretisation.laws;
+    const double modulus = contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
+    const bool rings = pair.geometry.model.axisymmetric();
+    const VecX circles = circles_of(pair, e.line);
+    std::vector<Trough> all = troughs(p.mesh.nodes, u, pair, few);
+    const std::vector<Trough> drawn = troughs(p.mesh.nodes, VecX::Zero(u.size()), pair, few);
+    all.insert(all.end(), drawn.begin(), drawn.end());
+    for (const Trough& trough : all) {
+      if (!(trough.curvature > 0)) continue;
+      const Edge& edge = pair.multiplier.edges[trough.point.edge];
+      const EdgePoint at = edge_point(p.mesh.nodes, edge, trough.point.xi);
+      const double length = edge_length(p.mesh.nodes, edge);
+      const std::vector<Eigen::Index>& there = pressed[trough.point.edge];
+      const VecX p_there = e.line.p(there);
+      const double by_length = p_there.dot(e.line.h(there)), about_axis = p_there.dot(circles(there));
+      const bool on_axis = rings && at.position.x() < length;
+      const double half = on_axis ? std::cbrt(3 * about_axis / (4 * modulus * trough.curvature))
+                                  : std::sqrt(4 * by_length / (std::numbers::pi * modulus * trough.curvature));
+      if (half > length) continue;
+      const Edge& other = pair.opposite.edges[trough.point.opposite_edge];
+      const EdgePoint opposite = edge_point(p.mesh.nodes, other, trough.point.eta);
+      for (const EdgePoint& place : {at, opposite})
+        for (const int end : {-1, 0, 1})
+          e.local.narrow_at.push_back(
+              {place.position + end * half * place.tangent.normalized(), half / edges_of_contact});
+    }
+  }
+}
+
+}  // namespace mortise
