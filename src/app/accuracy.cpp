@@ -50,9 +50,11 @@ class Loop {
       for (int number = 1;; ++number) {
         Results r = solve_on_a_mesh(sizes, last, number);
         seconds += r.seconds;
-        report.solves.push_back({free_unknowns(r), open_[worst_] ? 0 : told(r), r.seconds.total()});
+        report.solves.push_back({free_unknowns(r), open_[worst_] ? 0 : told(r), r.seconds.total(), is_narrow(r)});
         if (spec_.of == Goal::peak) require_peak(scene_, r);
-        const double off = confirmed(r, number);
+        const bool says = tells_sizes(r) && is_pressed(r);
+        const double off =
+            says ? AccuracyReport::confirmed(report.solves.back(), number) : std::numeric_limits<double>::infinity();
         if (last && last->off < std::min(off, best ? best->off : off)) best = std::move(last);
         last = Answer{std::move(r), off, number};
         const bool tells_no_more = others_ == most_others && !tells_sizes(last->results);
@@ -82,7 +84,7 @@ class Loop {
  private:
   struct Answer {
     Results results;
-    double off;  // what the report holds against what is asked
+    double off;  // what the report holds against what is asked; infinite where the estimate says nothing
     int number;  // of the solve, from 1
   };
 
@@ -260,11 +262,8 @@ class Loop {
   double told(const Results& r) const {
     return r.status == Status::not_converged ? std::numeric_limits<double>::quiet_NaN() : estimated(r);
   }
-  // What the report holds against what is asked; infinite where the estimate says nothing. `number`: of the solve,
-  // from 1.
-  double confirmed(const Results& r, int number) const {
-    const bool says = tells_sizes(r) && is_pressed(r);
-    return says ? AccuracyReport::confirmed(estimated(r), number) : std::numeric_limits<double>::infinity();
+  static bool is_narrow(const Results& r) {
+    return std::ranges::any_of(r.estimate->pressures, [](const auto& e) { return !e.local.narrow_at.empty(); });
   }
 
   SizeAt next_sizes(const Results& r, bool first) {

@@ -18,7 +18,8 @@ bool touches(const Results& r, const ContactPair& pair) {
   return std::any_of(first, first + pair.coupling.B.rows(), [](char closed) { return closed != 0; });
 }
 
-// Twice in succession, on meshes that were finer.
+}  // namespace
+
 bool estimate_rises(const std::vector<AccuracyReport::Solve>& solves) {
   const auto rises = [&](std::size_t from) {
     return solves[from].estimated < says_little && solves[from + 1].estimated > solves[from].estimated &&
@@ -27,8 +28,6 @@ bool estimate_rises(const std::vector<AccuracyReport::Solve>& solves) {
   const std::size_t n = solves.size();
   return n >= 4 && rises(n - 3) && rises(n - 2);
 }
-
-}  // namespace
 
 bool is_pressed(const Results& r) {
   return r.status == Status::not_converged ||

@@ -28,6 +28,10 @@ class OpenGaps {
 /// Throws InputError where p has no largest value.
 void require_peak(const Scene& scene, const Results& results);
 
+/// Whether the estimate has risen twice in succession, on meshes that were finer: those that it rose from told p, to
+/// 30 % (else the next may say anything).
+bool estimate_rises(const std::vector<AccuracyReport::Solve>& solves);
+
 /// What ends the loop short of what was asked; empty: it goes on, or has reached that. `tells_no_more`: the last
 /// meshes told no sizes of a next one. `at_limit`: the mesh has been held to unknowns_max.
 std::string why_to_stop(const Results& results, const AccuracyReport& report, const AccuracySpec& asked,

@@ -86,14 +86,16 @@ std::vector<Trough> troughs(const Points& nodes, const VecX& u, const ContactInt
     std::optional<ContactPoint> point = point_at(nodes, interface, number);
     if (!point || !(gap_at(u, interface, *point) <= gap(i))) point = points[i];
     point->ds = point->dA = 0;
-    double curvature = 0;
+    double curvature = 0, least_curvature = infinity;
     for (const int beside : {before, after}) {
       if (beside < 0 || beside == count) continue;
       point->unknown = std::max(point->unknown, points[beside].unknown);
       const Vec2 apart = place_of(nodes, interface, points[beside]) - place_of(nodes, interface, *point);
-      curvature = std::max(curvature, 2 * (gap(beside) - gap_at(u, interface, *point)) / apart.squaredNorm());
+      const double of_side = 2 * (gap(beside) - gap_at(u, interface, *point)) / apart.squaredNorm();
+      curvature = std::max(curvature, of_side);
+      least_curvature = std::min(least_curvature, of_side);
     }
-    found.push_back({*point, curvature});
+    found.push_back({*point, curvature, least_curvature});
   }
   return found;
 }

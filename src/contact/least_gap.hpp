@@ -35,8 +35,9 @@ std::vector<Interval> gap_ranges(const VecX& u, const ContactInterface& interfac
 /// A place where the gap is less than on both sides of it.
 struct Trough {
   ContactPoint point;  ///< without weight
-  double
-      curvature;  ///< of the gap along the multiplier side, 1 / length: of the parabola that the points beside it make
+  /// Of the gap along the multiplier side, 1 / length: of the parabolas that the points on either side of it make, the
+  /// larger and the smaller.
+  double curvature, least_curvature;
 };
 
 /// All of them, with the gap deformed by `u`: between points that are next to one another on the curve, and to its

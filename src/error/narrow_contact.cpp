@@ -26,6 +26,12 @@ std::vector<Eigen::Index> few_pressed(const PressureLine& line, Eigen::Index edg
   return pressed;
 }
 
+// Whether the gap is as of round bodies: at corners and ends of flat ones it opens otherwise to either side.
+bool is_parabola(const Trough& trough) {
+  constexpr double alike = 2;  // elastic displacements are in it
+  return trough.least_curvature > 0 && trough.curvature < alike * trough.least_curvature;
+}
+
 // int N_i 2 pi r ds of each vertex.
 VecX circles_of(const ContactPair& pair, const PressureLine& line) {
   VecX circles = VecX::Zero(line.p.size());
@@ -56,7 +62,7 @@ void add_narrow_contact(const Problem& p, const VecX& u, std::vector<PressureEst
     const std::vector<Trough> drawn = troughs(p.mesh.nodes, VecX::Zero(u.size()), pair, few);
     all.insert(all.end(), drawn.begin(), drawn.end());
     for (const Trough& trough : all) {
-      if (!(trough.curvature > 0)) continue;
+      if (!is_parabola(trough)) continue;
       const Edge& edge = pair.multiplier.edges[trough.point.edge];
       const EdgePoint at = edge_point(p.mesh.nodes, edge, trough.point.xi);
       const double length = edge_length(p.mesh.nodes, edge);
@@ -69,10 +75,13 @@ void add_narrow_contact(const Problem& p, const VecX& u, std::vector<PressureEst
       if (half > length) continue;
       const Edge& other = pair.opposite.edges[trough.point.opposite_edge];
       const EdgePoint opposite = edge_point(p.mesh.nodes, other, trough.point.eta);
+      const double most = on_axis ? 3 * about_axis / (2 * std::numbers::pi * half * half)
+                                  : 2 * by_length / (std::numbers::pi * half),
+                   square = (on_axis ? 2 : 4) * most * most * half / 3;
       for (const EdgePoint& place : {at, opposite})
         for (const int end : {-1, 0, 1})
-          e.local.narrow_at.push_back(
-              {place.position + end * half * place.tangent.normalized(), half / edges_of_contact});
+          e.local.narrow_at.push_back({place.position + end * half * place.tangent.normalized(),
+                                       half / edges_of_contact, square / (2 * 6)});  // of two states
     }
   }
 }

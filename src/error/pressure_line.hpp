@@ -96,7 +96,8 @@ struct LineError {
   /// A place of contact that is narrower than the edges there.
   struct Narrow {
     Vec2 place;
-    double edge;  ///< so long are edges that show its width
+    double edge;        ///< so long are edges that show its width
+    double square = 0;  ///< its share of int p^2 ds, where that is known
   };
   std::vector<Narrow> missed_at;  ///< of contact that the mesh does not notice
   std::vector<Narrow> narrow_at;  ///< of contact that it does (error/narrow_contact.hpp)

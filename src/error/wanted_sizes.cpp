@@ -15,6 +15,7 @@ constexpr double coarsen = 0.4, refine = 6;  // by what sizes may fall at once w
 // one are for nothing.
 constexpr double line_refine = 8;
 constexpr double corner_share = 0.2;  // of the target of the far field, for all corners of the bodies
+constexpr double most_missed = 0.1;   // of p in L2: a mesh whose error is larger is not aimed at
 constexpr double border_share = 0.5;  // of the target of the local error, for all borders
 // Likewise for all loads beside the line, and for all points where p goes as a small power of the distance: rings of
 // edges around a point are few, however short these are, so that they cost next to nothing.
@@ -216,6 +217,20 @@ void add_load_layers(const ErrorEstimate& estimate, double target, double least,
         layers.push_back({of.place, std::max(of.cell * std::pow(each / of.part, 1.0 / of.power), least), size_growth});
 }
 
+// At contact that is narrower than its edges; but where p is asked for, to `target`, not at that which may be missed
+// altogether: its pressures add up to less than half of what is left to all.
+void add_narrow_layers(const ErrorEstimate& estimate, double target, double least, std::vector<SizeLayers>& layers) {
+  std::vector<LineError::Narrow> all;
+  for (const PressureEstimate& e : estimate.pressures)
+    all.insert(all.end(), e.local.narrow_at.begin(), e.local.narrow_at.end());
+  std::ranges::sort(all, {}, &LineError::Narrow::square);
+  double square = estimate.pressure_square();
+  for (const LineError::Narrow& narrow : all) square += narrow.square;
+  double left = estimate.goal ? 0 : square * std::pow(std::min(target, most_missed) / 2, 2);
+  for (const LineError::Narrow& narrow : all)
+    if ((left -= narrow.square) < 0) layers.push_back({narrow.place, std::max(narrow.edge, least), size_growth});
+}
+
 // By what the edges at each vertex of each pair are to shorten, for p and for the goal.
 std::vector<VecX> lines_refinement(const ErrorEstimate& estimate, const ErrorFactors& factors, double least) {
   double borders = 0, weak = 0;
@@ -280,13 +295,13 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
   add_corner_layers(estimate, wanted.sizes, corner_share * far_parts / factors.far_field, least_layer * scene,
                     wanted.layers);
   add_load_layers(estimate, line_target(estimate, factors), least_size * scene, wanted.layers);
+  add_narrow_layers(estimate, factors.target, least_size * scene, wanted.layers);
   const std::vector<VecX> shorter = lines_refinement(estimate, factors, least_layer * scene);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];
     lower_sizes(mesh, pairs[k], e, e.line.h.cwiseQuotient(shorter[k]).cwiseMax(least_size * scene), wanted);
-    for (const auto* places : {&e.local.missed_at, &e.local.narrow_at})
-      for (const LineError::Narrow& narrow : *places)
-        wanted.layers.push_back({narrow.place, std::max(narrow.edge, least_size * scene), size_growth});
+    for (const LineError::Narrow& missed : e.local.missed_at)
+      wanted.layers.push_back({missed.place, std::max(missed.edge, least_size * scene), size_growth});
     const double scale = e.line.h.sum() / 2;
     for (const SingularPoint& point : e.singular) {
       const double least = scale * std::pow(0.3 * factors.target, 1 / (2 * point.exponent));

@@ -45,8 +45,9 @@ struct Seconds {
 struct AccuracyReport {
   struct Solve {
     int unknowns;
-    double estimated;  ///< of what was asked for
-    double seconds;    ///< mesh to estimate
+    double estimated;     ///< of what was asked for
+    double seconds;       ///< mesh to estimate
+    bool narrow = false;  ///< contact was narrower than the edges there (error/narrow_contact.hpp)
   };
   Goal of = Goal::pressure;  ///< AccuracySpec
   double asked, excluded;
@@ -54,9 +55,13 @@ struct AccuracyReport {
   std::string reason;         ///< why it ended where the accuracy was not reached
   int later = 0;              ///< solves after that of the answer, none of which is as good
   int answer() const { return int(solves.size()) - later; }  ///< number of its solve, from 1
-  /// A first solve, which nothing confirms, must be three times as good.
-  static double confirmed(double estimated, int number) { return (number == 1 ? 3 : 1) * estimated; }
-  bool reached() const { return !solves.empty() && confirmed(solves[answer() - 1].estimated, answer()) <= asked; }
+  /// What the estimate of a solve, its number from 1, is held to be: a first one, which nothing confirms, must be three
+  /// times as good, and tells nothing of contact that it does not show.
+  static double confirmed(const Solve& solve, int number) {
+    if (number > 1) return solve.estimated;
+    return solve.narrow ? std::numeric_limits<double>::infinity() : 3 * solve.estimated;
+  }
+  bool reached() const { return !solves.empty() && confirmed(solves[answer() - 1], answer()) <= asked; }
 };
 
 struct Results {
