@@ -32,14 +32,22 @@ bool is_parabola(const Trough& trough) {
   return trough.least_curvature > 0 && trough.curvature < alike * trough.least_curvature;
 }
 
-// int N_i 2 pi r ds of each vertex.
-VecX circles_of(const ContactPair& pair, const PressureLine& line) {
-  VecX circles = VecX::Zero(line.p.size());
-  for (const ContactPoint& point : pair.points) {
-    circles(point.edge) += (1 - point.xi) / 2 * point.dA;
-    circles(point.edge + 1) += (1 + point.xi) / 2 * point.dA;
-  }
-  return circles;
+// Whether a place is as near as that to an end of the multiplier side: one half of a contact whose other half a line of
+// symmetry has left out.
+bool is_at_end(const Mesh& mesh, const Curve& curve, const Vec2& x, double near) {
+  const auto is_near = [&](int node) { return (mesh.nodes.row(node).transpose() - x).norm() < near; };
+  return !curve.closed && (is_near(curve.edges.front().nodes[0]) || is_near(curve.edges.back().nodes[1]));
+}
+
+// Of each vertex its force by length, int N_i p_i ds, and of rings about the axis, int N_i p_i 2 pi r ds.
+MatX forces_of(const ContactPair& pair, const PressureLine& line) {
+  MatX forces = MatX::Zero(line.p.size(), 2);
+  for (const ContactPoint& point : pair.points)
+    for (const int end : {0, 1}) {
+      const double p = (end == 0 ? 1 - point.xi : 1 + point.xi) / 2 * line.p(point.edge + end);
+      forces.row(point.edge + end) += p * Eigen::RowVector2d(point.ds, point.dA);
+    }
+  return forces;
 }
 
 }  // namespace
@@ -57,7 +65,7 @@ void add_narrow_contact(const Problem& p, const VecX& u, std::vector<PressureEst
     const std::vector<ElasticLaw>& laws = p.discretisation.laws;
     const double modulus = contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
     const bool rings = pair.geometry.model.axisymmetric();
-    const VecX circles = circles_of(pair, e.line);
+    const MatX forces = forces_of(pair, e.line);
     std::vector<Trough> all = troughs(p.mesh.nodes, u, pair, few);
     const std::vector<Trough> drawn = troughs(p.mesh.nodes, VecX::Zero(u.size()), pair, few);
     all.insert(all.end(), drawn.begin(), drawn.end());
@@ -66,17 +74,15 @@ void add_narrow_contact(const Problem& p, const VecX& u, std::vector<PressureEst
       const Edge& edge = pair.multiplier.edges[trough.point.edge];
       const EdgePoint at = edge_point(p.mesh.nodes, edge, trough.point.xi);
       const double length = edge_length(p.mesh.nodes, edge);
-      const std::vector<Eigen::Index>& there = pressed[trough.point.edge];
-      const VecX p_there = e.line.p(there);
-      const double by_length = p_there.dot(e.line.h(there)), about_axis = p_there.dot(circles(there));
+      const Eigen::RowVector2d force = forces(pressed[trough.point.edge], Eigen::all).colwise().sum();
       const bool on_axis = rings && at.position.x() < length;
-      const double half = on_axis ? std::cbrt(3 * about_axis / (4 * modulus * trough.curvature))
-                                  : std::sqrt(4 * by_length / (std::numbers::pi * modulus * trough.curvature));
+      double half = on_axis ? std::cbrt(3 * force(1) / (4 * modulus * trough.curvature))
+                            : std::sqrt(4 * force(0) / (std::numbers::pi * modulus * trough.curvature));
+      if (!on_axis && is_at_end(p.mesh, pair.multiplier, at.position, half)) half *= std::numbers::sqrt2;
       if (half > length) continue;
       const Edge& other = pair.opposite.edges[trough.point.opposite_edge];
       const EdgePoint opposite = edge_point(p.mesh.nodes, other, trough.point.eta);
-      const double most = on_axis ? 3 * about_axis / (2 * std::numbers::pi * half * half)
-                                  : 2 * by_length / (std::numbers::pi * half),
+      const double most = modulus * trough.curvature * half * (on_axis ? 2 / std::numbers::pi : 0.5),
                    square = (on_axis ? 2 : 4) * most * most * half / 3;
       for (const EdgePoint& place : {at, opposite})
         for (const int end : {-1, 0, 1})

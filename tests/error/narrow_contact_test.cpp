@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -15,12 +16,15 @@
 namespace mortise::test {
 namespace {
 
-// A ball of radius 1 (or a cylinder) on a block, both of E* = 1 / 2 (1 - nu^2), edges h long and with a vertex at `at`
-// on the ball, radians from its lowest point, and on the block; its upper face is pressed with `force`.
-Scene ball(const TemporaryFolder& folder, bool axisymmetric, double h, double at, double force) {
+enum class Model { whole, half, ball };
+
+// A cylinder of radius 1, or one half of it on a line of symmetry, or a ball, on a block, both of E* = 1 / 2 (1 -
+// nu^2), edges h long and with a vertex at `at` on the round body, radians from its lowest point, and on the block; its
+// upper face is pressed with `force`.
+Scene ball(const TemporaryFolder& folder, Model model, double h, double at, double force) {
   std::ostringstream geo, scene;
   geo.precision(17), scene.precision(17);
-  geo << "h = " << h << "; t = " << at << "; left = " << (axisymmetric ? 0 : -1) << ";\n"
+  geo << "h = " << h << "; t = " << at << "; left = " << (model == Model::whole ? -1 : 0) << ";\n"
       << R"(Mesh.ElementOrder = 2; Mesh.MeshSizeMax = h;
 Point(1) = {3 * left, -3, 0}; Point(2) = {3, -3, 0}; Point(3) = {3, 0, 0}; Point(4) = {3 * left, 0, 0};
 Point(5) = {1.3 * t, 0, 0}; Point(10) = {0, 1, 0}; Point(11) = {left, 1, 0}; Point(12) = {1, 1, 0};
@@ -35,14 +39,18 @@ Else
 EndIf
 Plane Surface(2) = {2};
 Physical Surface("block") = {1}; Physical Surface("ball") = {2};
+Physical Curve("axis") = {left < 0 ? 13 : 14, 5};
 Physical Curve("round") = {11, 12}; Physical Curve("flat") = {3, 4}; Physical Curve("top") = {13}; Physical Curve("foot") = {1};
 )";
   folder.write("a.geo", geo.str());
   scene << "mesh.file = \"a.geo\"\n"
-        << (axisymmetric ? "model.plane = \"axisymmetric\"\n" : "") << R"(materials.one = { young = 1, poisson = 0.3 }
+        << (model == Model::ball ? "model.plane = \"axisymmetric\"\n" : "")
+        << R"(materials.one = { young = 1, poisson = 0.3 }
 bodies = { block = "one", ball = "one" }
-boundary = [{ on = "foot", displacement = { x = 0, y = 0 } }, { on = "top", rigid = { )"
-        << (axisymmetric ? "" : "x = 0, rotation = 0, ") << R"(force = [0, )" << -force << R"(] } }]
+boundary = [)"
+        << (model == Model::half ? "{ on = \"axis\", displacement = { x = 0 } }, " : "")
+        << R"({ on = "foot", displacement = { x = 0, y = 0 } }, { on = "top", rigid = { )"
+        << (model == Model::ball ? "" : "x = 0, rotation = 0, ") << R"(force = [0, )" << -force << R"(] } }]
 contact = [{ between = ["round", "flat"] }]
 )";
   return read_scene(folder.write("a.toml", scene.str()));
@@ -53,14 +61,16 @@ TEST(NarrowContact, IsAsWideAsHertzHasIt) {
   const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   const double modulus = 0.5 / (1 - 0.3 * 0.3);
   for (int k = 0; k < 24; ++k) {
-    const bool axisymmetric = k % 2;
+    const Model model = std::array{Model::whole, Model::half, Model::ball}[k % 3];
     const double h = draw(0.1, 0.3), half = h * std::pow(10, draw(-3, -0.5));
-    const double force =
-        axisymmetric ? 4 * modulus * std::pow(half, 3) / 3 : std::numbers::pi * modulus * half * half / 4;
-    const double at = draw(0.2, 1.5) * h * (axisymmetric ? 1 : std::copysign(1, draw(-1, 1)));
+    const double cylinder = std::numbers::pi * modulus * half * half / 4,
+                 force = model == Model::ball   ? 4 * modulus * std::pow(half, 3) / 3
+                         : model == Model::half ? cylinder / 2
+                                                : cylinder,
+                 at = draw(0.2, 1.5) * h * (model == Model::whole ? std::copysign(1, draw(-1, 1)) : 1);
     SCOPED_TRACE(std::to_string(k) + ": " + std::to_string(half / h));
     const TemporaryFolder folder;
-    Results r = solve_scene(ball(folder, axisymmetric, h, at, force));
+    Results r = solve_scene(ball(folder, model, h, at, force));
     estimate(r);
     const std::vector<LineError::Narrow>& narrow = r.estimate->pressures[0].local.narrow_at;
     ASSERT_GE(narrow.size(), 6u);
@@ -75,7 +85,7 @@ TEST(NarrowContact, IsAsWideAsHertzHasIt) {
 TEST(NarrowContact, IsNoneWhereEdgesShowIt) {
   const double modulus = 0.5 / (1 - 0.3 * 0.3), half = 0.3;
   const TemporaryFolder folder;
-  Results r = solve_scene(ball(folder, false, 0.05, 0.01, std::numbers::pi * modulus * half * half / 4));
+  Results r = solve_scene(ball(folder, Model::whole, 0.05, 0.01, std::numbers::pi * modulus * half * half / 4));
   estimate(r);
   EXPECT_TRUE(r.estimate->pressures[0].local.narrow_at.empty());
 }
