@@ -47,7 +47,7 @@ struct BodiesAtVertex {
   double turn = 0;           ///< of closed ones: as of AcrossTie, once around
 };
 
-/// Around the vertex of an edge of the outline, of what begins or ends there.
+/// What is around the vertex of an edge of the outline that begins or ends there.
 BodiesAtVertex bodies_at(const Surroundings& around, const EdgeAtVertex& face);
 
 /// The condition on an edge of the outline; free: none.

@@ -58,7 +58,8 @@ struct ContactPlace {
   double shortest;     ///< length of the shortest edge that meets there, of the curve whose end or kink it is
   bool soft = false;   ///< what is between both holds no face: they are no part of what is in contact without it
 
-  /// Whether it is the tip of a crack, whose faces both curves are: a node of both, or one material all around.
+  /// Whether it is the tip of a crack, whose faces both curves are: they share its node, or are tied there and of one
+  /// material all around.
   bool is_tip() const;
 };
 

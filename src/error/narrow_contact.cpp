@@ -50,6 +50,24 @@ MatX forces_of(const ContactPair& pair, const PressureLine& line) {
   return forces;
 }
 
+// A contact as Hertz has it.
+struct Patch {
+  double half;    // of its width, length
+  double square;  // int p^2 ds, stress^2 length
+};
+
+Patch cylinders(double force, double modulus, double curvature) {
+  const double half = std::sqrt(4 * force / (std::numbers::pi * modulus * curvature)),
+               most = modulus * curvature * half / 2;
+  return {half, 4 * most * most * half / 3};
+}
+
+Patch spheres(double force, double modulus, double curvature) {
+  const double half = std::cbrt(3 * force / (4 * modulus * curvature)),
+               most = 2 * modulus * curvature * half / std::numbers::pi;
+  return {half, 2 * most * most * half / 3};
+}
+
 }  // namespace
 
 void add_narrow_contact(const Problem& p, const VecX& u, std::vector<PressureEstimate>& list) {
@@ -76,18 +94,17 @@ void add_narrow_contact(const Problem& p, const VecX& u, std::vector<PressureEst
       const double length = edge_length(p.mesh.nodes, edge);
       const Eigen::RowVector2d force = forces(pressed[trough.point.edge], Eigen::all).colwise().sum();
       const bool on_axis = rings && at.position.x() < length;
-      double half = on_axis ? std::cbrt(3 * force(1) / (4 * modulus * trough.curvature))
-                            : std::sqrt(4 * force(0) / (std::numbers::pi * modulus * trough.curvature));
-      if (!on_axis && is_at_end(p.mesh, pair.multiplier, at.position, half)) half *= std::numbers::sqrt2;
-      if (half > length) continue;
+      Patch patch =
+          on_axis ? spheres(force(1), modulus, trough.curvature) : cylinders(force(0), modulus, trough.curvature);
+      if (!on_axis && is_at_end(p.mesh, pair.multiplier, at.position, patch.half))
+        patch = cylinders(2 * force(0), modulus, trough.curvature);
+      if (patch.half > length) continue;
       const Edge& other = pair.opposite.edges[trough.point.opposite_edge];
       const EdgePoint opposite = edge_point(p.mesh.nodes, other, trough.point.eta);
-      const double most = modulus * trough.curvature * half * (on_axis ? 2 / std::numbers::pi : 0.5),
-                   square = (on_axis ? 2 : 4) * most * most * half / 3;
       for (const EdgePoint& place : {at, opposite})
         for (const int end : {-1, 0, 1})
-          e.local.narrow_at.push_back({place.position + end * half * place.tangent.normalized(),
-                                       half / edges_of_contact, square / (2 * 6)});  // of two states
+          e.local.narrow_at.push_back({place.position + end * patch.half * place.tangent.normalized(),
+                                       patch.half / edges_of_contact, patch.square / (2 * 6)});  // of two states
     }
   }
 }

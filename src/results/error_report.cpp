@@ -125,7 +125,6 @@ std::vector<std::string> error_warnings(const Results& r) {
 }
 
 bool grows_without_limit(const Results& r, const Extreme& stress) {
-  r.memory->keep_for(r.problem);
   if (corner_exponent(r.memory->around(r.problem), stress.node) <= singular_limit) return true;
   return r.estimate && singular_point_at(r.estimate->pressures, stress.place, 0.05);
 }

@@ -1,6 +1,7 @@
 #include "results/report_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <map>

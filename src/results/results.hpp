@@ -1,6 +1,8 @@
 // Everything a run knows at its end.
 #pragma once
 
+#include <limits>
+
 #include "error/error_estimate.hpp"
 #include "results/audit_memory.hpp"
 #include "results/recovery.hpp"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 #include <sstream>
 
 #include "app/accuracy.hpp"
@@ -56,6 +57,13 @@ contact = [{ between = ["round", "flat"] }]
   return read_scene(folder.write("a.toml", scene.str()));
 }
 
+std::set<int> body_nodes(const Mesh& mesh, const std::string& body) {
+  std::set<int> nodes;
+  for (const Cell& cell : mesh.cells)
+    if (mesh.bodies[cell.body] == body) nodes.insert(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind));
+  return nodes;
+}
+
 TEST(NarrowContact, IsAsWideAsHertzHasIt) {
   std::mt19937 random(8);
   const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
@@ -87,6 +95,46 @@ TEST(NarrowContact, IsNoneWhereEdgesShowIt) {
   const TemporaryFolder folder;
   Results r = solve_scene(ball(folder, Model::whole, 0.05, 0.01, std::numbers::pi * modulus * half * half / 4));
   estimate(r);
+  EXPECT_TRUE(r.estimate->pressures[0].local.narrow_at.empty());
+}
+
+// A block that tilts beneath a ball on a coarse mesh takes the least of the gap away from the ball's lowest point.
+TEST(NarrowContact, IsWhereBodiesAreDrawnNearestToo) {
+  const double modulus = 0.5 / (1 - 0.3 * 0.3), half = 0.002;
+  const TemporaryFolder folder;
+  Results r = solve_scene(ball(folder, Model::whole, 0.2, 0.05, std::numbers::pi * modulus * half * half / 4));
+  estimate(r);
+  std::vector<PressureEstimate> list = r.estimate->pressures;
+  list[0].local.narrow_at.clear();
+  VecX u = r.solution.u;
+  const Mesh& mesh = r.problem.mesh;
+  for (const int node : body_nodes(mesh, "block"))
+    u.segment<2>(2 * node) += 0.5 * Vec2(-mesh.nodes(node, 1), mesh.nodes(node, 0));
+  add_narrow_contact(r.problem, u, list);
+  ASSERT_EQ(list[0].local.narrow_at.size(), 6u);
+  for (const int middle : {1, 4}) EXPECT_LE(list[0].local.narrow_at[middle].place.norm(), half);
+}
+
+// A corner between faces that lean by 2 and by 40 degrees is no round body, however little it is pressed.
+TEST(NarrowContact, IsNoneUnderACorner) {
+  const TemporaryFolder folder;
+  folder.write("a.geo", R"(Mesh.ElementOrder = 2; Mesh.MeshSizeMax = 0.2; d = Pi / 180;
+Point(1) = {-3, -3, 0}; Point(2) = {3, -3, 0}; Point(3) = {3, 0, 0}; Point(4) = {-3, 0, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1};
+Point(11) = {-1, Tan(2 * d), 0}; Point(12) = {0, 0, 0}; Point(13) = {1, Tan(40 * d), 0}; Point(14) = {1, 2, 0}; Point(15) = {-1, 2, 0};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 15}; Line(15) = {15, 11};
+Curve Loop(2) = {11 : 15}; Plane Surface(2) = {2};
+Physical Surface("block") = {1}; Physical Surface("foot") = {2};
+Physical Curve("ground") = {1}; Physical Curve("flat") = {3}; Physical Curve("sole") = {11, 12}; Physical Curve("top") = {14};
+)");
+  Results r = solve_scene(read_scene(folder.write("a.toml", R"(mesh.file = "a.geo"
+materials.one = { young = 1, poisson = 0.3 }
+bodies = { block = "one", foot = "one" }
+boundary = [{ on = "ground", displacement = { x = 0, y = 0 } }, { on = "top", rigid = { x = 0, rotation = 0, force = [0, -1e-5] } }]
+contact = [{ between = ["sole", "flat"], multipliers_on = "sole" }]
+)")));
+  estimate(r);
+  EXPECT_TRUE(r.estimate->pressures[0].line.p.any());
   EXPECT_TRUE(r.estimate->pressures[0].local.narrow_at.empty());
 }
 
