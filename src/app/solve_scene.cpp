@@ -161,6 +161,7 @@ bool prescribe_held(Problem& p, const Solution& solution) {
   for (Eigen::Index a = 0; a < opening.size(); ++a)
     if (!solution.active[a]) opening(a) = 0;
   if (largest_entry(opening) <= round_off_of_rows(solution)) return false;
+  if (const auto& multipoint = system.constraints.multipoint) shift = (multipoint->inverse * shift).eval();
   for (const int unknown : p.held.grounded) system.constraints.value(unknown) += shift(unknown);
   system.start = solution.active;
   return true;

@@ -74,15 +74,18 @@ Walk walk_along(const Mesh& mesh, const ContactPair& pair, const PressureEstimat
   const auto carries = [&](Index i) {  // p_h may be zero where it swings
     return bilateral ? line.loaded[i] != 0 : line.p(i) > least || (line.loaded[i] && estimate.swings[i]);
   };
+  // Not between a piece and the vertices beyond its border.
   Index start = 0;
   for (Index i = 0; line.closed && i < last; ++i)
     if (!carries(i) || points[i]) start = i;
+  for (Index i = 0; line.closed && i < last; ++i)
+    if (!carries(i) && !carries((i + 1) % last) && !carries((i + last - 1) % last)) start = i;
   const std::vector<Facing> facing = facings(mesh, pair);
   Walk walk{.vertex = {}, .s = VecX(last + 1), .p = VecX(last + 1), .carries = {}, .facing = {}, .point = {}};
   for (Index k = 0; k <= last; ++k) {
-    const Index i = start + k > last ? start + k - last : start + k;
+    const Index i = line.closed ? (start + k) % last : k;
     walk.vertex.push_back(i);
-    walk.s(k) = line.s(i) + (start + k > last ? line.s(last) : 0);
+    walk.s(k) = line.s(i) + (start + k >= last && line.closed ? line.s(last) : 0);
     walk.carries.push_back(carries(i));
     walk.p(k) = walk.carries[k] ? line.p(i) : 0;
     walk.point.push_back(points[i]);
@@ -251,6 +254,8 @@ void lower_errors(const Walk& walk, const Range& range, const PressureForm& form
     local.swing(i) *= norm;
     local.worst(i) = std::max(1.0, std::min(worst, 1.0) / norm);
   }
+  if (!line.closed) return;
+  for (VecX* each : {&local.l2, &local.swing, &local.worst}) (*each)(each->size() - 1) = (*each)(0);
 }
 
 // How much p* swings beside an end: squares of what its slopes jump by, over half an edge before and after each vertex
@@ -266,6 +271,17 @@ double swing_beside(const PressureForm& form, const LoadedPiece& piece, int whic
     sum += std::pow(jump * (before + after) / 2, 2);
   }
   return sum;
+}
+
+void place_borders(const LoadedPiece& piece, const std::array<double, 2>& ends, const PressureLine& line,
+                   LineError& local) {
+  const double around = line.s(line.s.size() - 1);
+  for (const int which : {0, 1}) {
+    if (!piece.end[which].border) continue;
+    const double s = line.closed ? std::fmod(ends[which], around) : ends[which];
+    for (LineError::Border& border : local.borders)
+      if (line.s(border.edge) <= s && s <= line.s(border.edge + 1)) border.place = s;
+  }
 }
 
 // The share of p that goes as the power of a singular point may be none, as where other bodies close the corner: then
@@ -310,6 +326,7 @@ void find_fitted_pressure(const Problem& problem, const ContactPair& pair, Press
       if (!form || !is_credible(*form)) continue;
       leave_powers(ends, is_credible, fits, piece, *form);
       fitted.pieces.push_back({*form, {piece.s(0), piece.s(piece.s.size() - 1)}, *fluid});
+      place_borders(piece, ends, line, estimate.local);
       if (const auto coarse = fit_of_every_other(piece, fits)) lower_errors(walk, range, *form, *coarse, estimate);
       break;
     }

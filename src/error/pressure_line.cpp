@@ -97,6 +97,13 @@ Vec2 PressureLine::foot(const Vec2& x) const {
   return nearest;
 }
 
+Vec2 PressureLine::at(double place) const {
+  const Eigen::Index edge =
+      std::clamp<Eigen::Index>(std::ranges::upper_bound(s, place) - s.begin(), 1, s.size() - 1) - 1;
+  const double part = (place - s(edge)) / (s(edge + 1) - s(edge));
+  return (1 - part) * position[edge] + part * position[edge + 1];
+}
+
 double PressureLine::distance(double one, double other) const {
   const double r = std::abs(one - other);
   return closed ? std::min(r, s(s.size() - 1) - r) : r;
@@ -234,10 +241,8 @@ LineError line_error(const PressureLine& line) {
     if (before >= 0 && before <= last) p = std::max(p, std::abs(line.p(before)) / std::sqrt(2.0));
     error.borders.push_back({e, border_part_of(line, e, start, least), p / std::sqrt(line.s(e + 1) - line.s(e)),
                              root_reach(line, e, start, least)});
-    for (const Eigen::Index beside : {e - 1, e, e + 1, e + 2})
-      if (const Eigen::Index i = vertex(beside); i >= 0 && i <= last) last_p(i) = std::max(last_p(i), p);
+    for (const Eigen::Index i : vertices_at(line, error.borders.back())) last_p(i) = std::max(last_p(i), p);
   }
-  if (line.closed) last_p(last) = last_p(0);
   for (Eigen::Index i = 0; i <= last; ++i) {
     if (!line.loaded[i]) error.l2(i) = 0;
     const double at_border = border_part * last_p(i) * std::sqrt(line.h(i));
@@ -246,6 +251,16 @@ LineError line_error(const PressureLine& line) {
     error.border[i] = 1;
   }
   return error;
+}
+
+std::vector<Eigen::Index> vertices_at(const PressureLine& line, const LineError::Border& border) {
+  const Eigen::Index last = line.p.size() - 1;
+  std::vector<Eigen::Index> vertices;
+  for (Eigen::Index i = border.edge - 1; i <= border.edge + 2; ++i) {
+    if (line.closed || (i >= 0 && i <= last)) vertices.push_back(line.closed ? (i + last) % last : i);
+    if (line.closed && i % last == 0) vertices.push_back(last);  // the first again
+  }
+  return vertices;
 }
 
 Eigen::Index open_vertex(const PressureLine& line, const LineError::Border& border) {

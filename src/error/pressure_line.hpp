@@ -36,6 +36,7 @@ struct PressureLine {
   Eigen::Index nearest(const Vec2& x) const;
   /// The place on the chords of its edges nearest to a place, such as a corner of the opposite side across a gap.
   Vec2 foot(const Vec2& x) const;
+  Vec2 at(double place) const;  ///< on the chords of its edges, by arc length
   /// Between two places by their arc lengths; around a closed line the shorter way.
   double distance(double one, double other) const;
 };
@@ -105,10 +106,11 @@ struct LineError {
   static constexpr double pointwise_factor = 1.3693063937629153;  // sqrt(120) / 8
   std::vector<char> border;                                       ///< whether the border of contact makes it
   struct Border {
-    Eigen::Index edge;  ///< on which contact ends
-    double part;        ///< its length over half the width of the contact beside it
-    double root;        ///< p rises as this times the root of the distance, stress / sqrt(length)
-    double reach;       ///< as far as it does so, length
+    Eigen::Index edge;              ///< on which contact ends
+    double part;                    ///< its length over half the width of the contact beside it
+    double root;                    ///< p rises as this times the root of the distance, stress / sqrt(length)
+    double reach;                   ///< as far as it does so, length
+    std::optional<double> place{};  ///< its s, where that of p* is credible; else it is known to an edge
   };
   std::vector<Border> borders;
   /// What p is off by at least, of vertices at which it goes as a small power of the distance, or that hardly face the
@@ -126,6 +128,9 @@ struct LineError {
 };
 
 LineError line_error(const PressureLine& line);
+
+/// The vertices whose error a border makes: of its edge, and one beyond each end.
+std::vector<Eigen::Index> vertices_at(const PressureLine& line, const LineError::Border& border);
 
 /// The vertex beyond a border.
 Eigen::Index open_vertex(const PressureLine& line, const LineError::Border& border);

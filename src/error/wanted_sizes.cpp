@@ -11,12 +11,13 @@ namespace {
 
 constexpr double side_of_area = 1.5;         // side of a triangle over the root of its area
 constexpr double coarsen = 0.4, refine = 6;  // by what sizes may fall at once where the error is smooth
-// By what edges may shorten at once. Where contact ends is known to an edge: of those that it is refined to, all but
+// By what edges may shorten at once. Where contact ends is known to an edge, of those that it is refined to, all but
 // one are for nothing.
 constexpr double line_refine = 8;
-constexpr double corner_share = 0.2;  // of the target of the far field, for all corners of the bodies
-constexpr double most_missed = 0.1;   // of p in L2: a mesh whose error is larger is not aimed at
-constexpr double border_share = 0.5;  // of the target of the local error, for all borders
+constexpr double least_at_border = 0.7;  // the same at a border, which may lie in longer edges, but not in much longer
+constexpr double corner_share = 0.2;     // of the target of the far field, for all corners of the bodies
+constexpr double most_missed = 0.1;      // of p in L2: a mesh whose error is larger is not aimed at
+constexpr double border_share = 0.5;     // of the target of the local error, for all borders
 // Likewise for all loads beside the line, and for all points where p goes as a small power of the distance: rings of
 // edges around a point are few, however short these are, so that they cost next to nothing.
 constexpr double weak_share = 0.3;
@@ -108,29 +109,57 @@ void add_corner_layers(const ErrorEstimate& estimate, const VecX& sizes, double 
   }
 }
 
-// By what the edges at each vertex of a pair are to shorten. `least`: the shortest that are made at a corner.
-VecX line_refinement(const PressureEstimate& e, double target, double borders, double border, double weak,
-                     double least) {
+// By what edges of a pair are to shorten: those at each vertex, and those at each border whose place is known; these
+// are few, as sizes grow from there on, and shorten by as much as is asked.
+struct Shorter {
+  explicit Shorter(const PressureEstimate& e)
+      : vertices(VecX::Constant(e.line.p.size(), coarsen)), borders(VecX::Zero(Eigen::Index(e.local.borders.size()))) {}
+  void at_least(const Shorter& other) {
+    vertices = vertices.cwiseMax(other.vertices);
+    borders = borders.cwiseMax(other.borders);
+  }
+  VecX vertices, borders;
+};
+
+double edge_of(const PressureLine& line, const LineError::Border& border) {
+  return line.s(border.edge + 1) - line.s(border.edge);
+}
+
+// `least`: the shortest edges that are made at a corner.
+Shorter line_refinement(const PressureEstimate& e, double target, double borders, double border, double weak,
+                        double least) {
   VecX l2 = e.local.along();
   for (const LineError::Weak& of : e.local.weak) l2(of.vertex) = std::max(l2(of.vertex) - of.part, 0.);
   for (const LineError::Load& of : e.local.loads) l2(of.vertex) = std::max(l2(of.vertex) - of.part, 0.);
-  VecX r = VecX::Constant(l2.size(), coarsen);
-  if (!(target > 0)) return r;
+  Shorter shorter(e);
+  VecX& r = shorter.vertices;
+  if (!(target > 0)) return shorter;
   double sum = 0;
   for (Eigen::Index i = 0; i < l2.size(); ++i)
     if (!e.excluded[i]) sum += std::pow(l2(i), 0.4);
   const double all = std::pow(sum / (target * target), 0.25);
-  for (Eigen::Index i = 0; i < l2.size(); ++i) {
-    if (e.excluded[i] || !e.line.loaded[i]) continue;
-    r(i) = !e.local.border[i] ? std::clamp(all * std::pow(l2(i), 0.4), coarsen, line_refine)
-           : border > 0       ? std::min(border, line_refine)
-                              : std::clamp(l2(i) / (border_share * target / std::sqrt(borders)), 0.7, line_refine);
+  const auto at_border = [&](Eigen::Index i) {
+    return border > 0 ? border : std::max(l2(i) / (border_share * target / std::sqrt(borders)), least_at_border);
+  };
+  for (Eigen::Index i = 0; i < l2.size(); ++i)
+    if (!e.excluded[i] && e.line.loaded[i])
+      r(i) = e.local.border[i] ? std::min(at_border(i), line_refine)
+                               : std::clamp(all * std::pow(l2(i), 0.4), coarsen, line_refine);
+  for (std::size_t b = 0; b < e.local.borders.size(); ++b) {
+    const LineError::Border& known = e.local.borders[b];
+    if (!known.place) continue;
+    for (const Eigen::Index i : vertices_at(e.line, known)) {
+      if (!e.local.border[i] || !e.line.loaded[i]) continue;
+      r(i) = std::clamp(all * std::pow(l2(i), 0.4), coarsen, line_refine);
+      double& most = shorter.borders(Eigen::Index(b));
+      most = std::max(most, at_border(i) * edge_of(e.line, known) / e.line.h(i));
+    }
   }
   for (const LineError::Weak& of : e.local.weak)
     r(of.vertex) =
         std::max(r(of.vertex), std::min(std::pow(of.part / (weak_share * target / std::sqrt(weak)), 1 / of.power),
                                         of.at_end ? e.line.h(of.vertex) / least : line_refine));
-  return r;
+  return shorter;
 }
 
 // What the parts of the goal's lines that fall as h^power may add up to, and the sum of their roots with which the
@@ -153,25 +182,29 @@ GoalLines goal_lines(const GoalEstimate& goal, double factor) {
 
 // At the borders of a pair by parts that fall as the square of their edges; `between`: the sum of all parts' cube roots
 // over what these may add up to.
-void shorten_at_borders(const PressureEstimate& e, const VecX& parts, double between, VecX& r) {
+void shorten_at_borders(const PressureEstimate& e, const VecX& parts, double between, Shorter& shorter) {
   for (std::size_t b = 0; b < e.local.borders.size(); ++b) {
-    const double shorter = std::clamp(std::sqrt(between) * std::cbrt(parts(Eigen::Index(b))), 0.7, line_refine);
-    const Eigen::Index edge = e.local.borders[b].edge;
-    for (Eigen::Index i = std::max<Eigen::Index>(edge - 1, 0); i <= std::min(edge + 2, r.size() - 1); ++i)
-      r(i) = std::max(r(i), shorter);
+    const LineError::Border& border = e.local.borders[b];
+    const double asked = std::max(std::sqrt(between) * std::cbrt(parts(Eigen::Index(b))), least_at_border);
+    if (border.place)
+      shorter.borders(Eigen::Index(b)) = std::max(shorter.borders(Eigen::Index(b)), asked);
+    else
+      for (const Eigen::Index i : vertices_at(e.line, border))
+        shorter.vertices(i) = std::max(shorter.vertices(i), std::min(asked, line_refine));
   }
 }
 
 // As line_refinement, by what the vertices and borders of a pair do to the goal.
-VecX goal_line_refinement(const PressureEstimate& e, const LinePart& part, const GoalLines& lines) {
-  VecX r = VecX::Constant(e.line.p.size(), coarsen);
-  if (!(lines.target > 0)) return r;
+Shorter goal_line_refinement(const PressureEstimate& e, const LinePart& part, const GoalLines& lines) {
+  Shorter shorter(e);
+  VecX& r = shorter.vertices;
+  if (!(lines.target > 0)) return shorter;
   const double between = lines.roots / lines.target;
   const VecX vertices = goal_parts(part.vertices);
   for (Eigen::Index i = 0; i < r.size(); ++i)
     r(i) = std::clamp(std::pow(between, 0.2) * std::pow(vertices(i), 1.0 / 6), coarsen, line_refine);
-  shorten_at_borders(e, goal_parts(part.borders), between, r);
-  return r;
+  shorten_at_borders(e, goal_parts(part.borders), between, shorter);
+  return shorter;
 }
 
 // Of each pair what the overlaps at each of its borders do to p elsewhere, as ErrorEstimate::overlaps.
@@ -231,8 +264,8 @@ void add_narrow_layers(const ErrorEstimate& estimate, double target, double leas
     if ((left -= narrow.square) < 0) layers.push_back({narrow.place, std::max(narrow.edge, least), size_growth});
 }
 
-// By what the edges at each vertex of each pair are to shorten, for p and for the goal.
-std::vector<VecX> lines_refinement(const ErrorEstimate& estimate, const ErrorFactors& factors, double least) {
+// Of each pair, for p and for the goal.
+std::vector<Shorter> lines_refinement(const ErrorEstimate& estimate, const ErrorFactors& factors, double least) {
   double borders = 0, weak = 0;
   for (const PressureEstimate& e : estimate.pressures) {
     weak += double(e.local.weak.size());
@@ -246,14 +279,14 @@ std::vector<VecX> lines_refinement(const ErrorEstimate& estimate, const ErrorFac
     roots += parts.array().pow(1.0 / 3).sum();
     sum += parts.sum();
   }
-  std::vector<VecX> all;
+  std::vector<Shorter> all;
   for (std::size_t k = 0; k < estimate.pressures.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];
-    VecX& shorter = all.emplace_back(VecX::Constant(e.line.p.size(), coarsen));
+    Shorter& shorter = all.emplace_back(e);
     if (!estimate.goal || estimate.goal->local > 0)
       shorter = line_refinement(e, target, borders, factors.border, weak, least);
     if (!estimate.goal && sum > 0) shorten_at_borders(e, overlaps[k], roots * factors.overlaps / sum, shorter);
-    if (estimate.goal) shorter = shorter.cwiseMax(goal_line_refinement(e, estimate.goal->lines[k], lines));
+    if (estimate.goal) shorter.at_least(goal_line_refinement(e, estimate.goal->lines[k], lines));
   }
   return all;
 }
@@ -296,10 +329,17 @@ WantedSizes wanted_sizes(const Mesh& mesh, const std::vector<ContactPair>& pairs
                     wanted.layers);
   add_load_layers(estimate, line_target(estimate, factors), least_size * scene, wanted.layers);
   add_narrow_layers(estimate, factors.target, least_size * scene, wanted.layers);
-  const std::vector<VecX> shorter = lines_refinement(estimate, factors, least_layer * scene);
+  const std::vector<Shorter> shorter = lines_refinement(estimate, factors, least_layer * scene);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const PressureEstimate& e = estimate.pressures[k];
-    lower_sizes(mesh, pairs[k], e, e.line.h.cwiseQuotient(shorter[k]).cwiseMax(least_size * scene), wanted);
+    const VecX along = e.line.h.cwiseQuotient(shorter[k].vertices);
+    lower_sizes(mesh, pairs[k], e, along.cwiseMax(least_size * scene), wanted);
+    for (std::size_t b = 0; b < e.local.borders.size(); ++b) {
+      const LineError::Border& border = e.local.borders[b];
+      if (const double by = shorter[k].borders(Eigen::Index(b)); by > 0)
+        wanted.layers.push_back(
+            {e.line.at(*border.place), std::max(edge_of(e.line, border) / by, least_size * scene), size_growth});
+    }
     for (const LineError::Narrow& missed : e.local.missed_at)
       wanted.layers.push_back({missed.place, std::max(missed.edge, least_size * scene), size_growth});
     const double scale = e.line.h.sum() / 2;

@@ -60,6 +60,25 @@ double overlap_of(const TieOverlap& tie, const MultipointConstraints& multipoint
   return multipoint.inverse.row(tie.q).dot(u) / tie.part;
 }
 
+void hold_differences(const std::vector<std::array<int, 2>>& pairs, Constraints& constraints) {
+  if (pairs.empty()) return;
+  const Eigen::Index n = constraints.value.size();
+  SparseRows same(n, n);
+  same.setIdentity();
+  if (!constraints.multipoint) constraints.multipoint = {same, same, std::vector<char>(n, 0), std::vector<char>(n, 0)};
+  MultipointConstraints& multipoint = *constraints.multipoint;
+  Triplets differences;
+  for (const auto& [one, other] : pairs) {
+    differences.emplace_back(one, other, 1);
+    multipoint.coupled[one] = constraints.fixed[one] = 1;
+  }
+  const SparseRows added =
+      filled<SparseRows>(n, n, differences);  // the q before are (1 + this) times those from now on
+  const SparseRows of_T = multipoint.T * added, of_inverse = added * multipoint.inverse;
+  multipoint.T += of_T;
+  multipoint.inverse -= of_inverse;
+}
+
 MultipointBuilder::MultipointBuilder(const Mesh& mesh, Constraints& constraints)
     : mesh_(mesh), constraints_(constraints) {}
 

@@ -43,6 +43,10 @@ Eigen::Vector3d rigid_motion(const RigidCurve& curve, const MultipointConstraint
 /// The overlap, a length, of the nodes' displacements.
 double overlap_of(const TieOverlap& tie, const MultipointConstraints& multipoint, const VecX& u);
 
+/// Holds the difference of the two unknowns of each pair, u_0 - u_1 = 0, by forces that are equal and opposite: a
+/// couple, if both are displacements along one axis. All are free, q of their own number, and in one pair.
+void hold_differences(const std::vector<std::array<int, 2>>& pairs, Constraints& constraints);
+
 /// Collects, after all displacements along x and y, what the others prescribe.
 class MultipointBuilder {
  public:

@@ -11,6 +11,8 @@
 #include "contact/curve_resolution.hpp"
 #include "contact/outline.hpp"
 #include "contact/smooth_normals.hpp"
+#include "fem/multipoint.hpp"
+#include "mesh/box_index.hpp"
 
 namespace mortise {
 namespace {
@@ -122,6 +124,59 @@ std::vector<std::vector<RigidMotion>> idle_motions(const Mesh& mesh, const std::
   return idle;
 }
 
+// Two displacements of a body, along one axis, that its turn makes the more different the farther apart they are: of
+// the nodes away from contact curves those nearest to places half of the body's size apart, as forces there do least to
+// the contact. Nothing where there are none that are free.
+std::optional<std::array<int, 2>> unknowns_of_couple(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                                                     Constraints constraints, int body) {
+  for (const ContactPair& pair : pairs)
+    for (const Curve* curve : {&pair.multiplier, &pair.opposite})
+      for (const int node : curve_nodes(*curve)) constraints.fixed[2 * node] = constraints.fixed[2 * node + 1] = 1;
+  const BodyPoints points = body_points(mesh);
+  const std::span of_body(points.node.begin() + points.first[body], points.node.begin() + points.first[body + 1]);
+  Box box;
+  for (const int node : of_body) box.extend(mesh.nodes.row(node).transpose());
+  const int along = box.sizes().x() >= box.sizes().y() ? 0 : 1, moved = 1 - along;
+  std::array<int, 2> nodes{-1, -1};
+  std::array<double, 2> away{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  for (const int node : of_body) {
+    const int unknown = 2 * node + moved;
+    if (constraints.fixed[unknown] || (constraints.multipoint && constraints.multipoint->coupled[unknown])) continue;
+    for (const int end : {0, 1}) {
+      Vec2 place = box.center();
+      place(along) += (end - 0.5) / 2 * box.sizes()(along);
+      if (const double to = (mesh.nodes.row(node).transpose() - place).norm(); to < away[end]) {
+        away[end] = to;
+        nodes[end] = node;
+      }
+    }
+  }
+  if (nodes[0] < 0 || !(mesh.nodes(nodes[1], along) > mesh.nodes(nodes[0], along))) return {};
+  return std::array{2 * nodes[0] + moved, 2 * nodes[1] + moved};
+}
+
+// Holds the turns of single bodies by couples; the other motions. Where rows have the normals of a bore, they turn a
+// shaft beside its middle by a moment that it does not feel: a force that took this would be missing at the contact.
+std::vector<std::vector<RigidMotion>> hold_turns(const Mesh& mesh, const std::vector<ContactPair>& pairs,
+                                                 std::vector<std::vector<RigidMotion>> motions,
+                                                 Constraints& constraints, Floating& held) {
+  std::vector<int> motions_of(mesh.bodies.size(), 0);
+  for (const std::vector<RigidMotion>& motion : motions)
+    for (const RigidMotion& part : motion) ++motions_of[part.body];
+  std::vector<std::array<int, 2>> couples;
+  std::erase_if(motions, [&](const std::vector<RigidMotion>& motion) {
+    if (motion.size() != 1 || motion[0].rotation == 0 || motions_of[motion[0].body] != 1) return false;
+    const auto couple = unknowns_of_couple(mesh, pairs, constraints, motion[0].body);
+    if (!couple) return false;
+    couples.push_back(*couple);
+    held.motions.push_back(motion);
+    held.grounded.push_back((*couple)[0]);
+    return true;
+  });
+  hold_differences(couples, constraints);
+  return motions;
+}
+
 }  // namespace
 
 void refuse_driven(const Mesh& mesh, const std::vector<ContactPair>& pairs,
@@ -148,7 +203,7 @@ Floating hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pai
   };
   auto motions = free_motions(mesh, system.constraints, unit_rows(system));
   if (std::ranges::count(driven(mesh, pairs, motions, system.f), 1) > 0) {
-    hold(idle_motions(mesh, pairs, system));
+    hold(hold_turns(mesh, pairs, idle_motions(mesh, pairs, system), system.constraints, held));
     motions = free_motions(mesh, system.constraints, unit_rows(system));
   }
   hold(motions);

@@ -10,7 +10,6 @@
 #include "error/error_estimate.hpp"
 #include "error/fitted_pressure.hpp"
 #include "error/pressure_bars.hpp"
-#include "error/wanted_sizes.hpp"
 #include "fem/edges.hpp"
 
 namespace mortise {
@@ -368,23 +367,6 @@ TEST(Bars, OfAFittedPressureAskForTheMultipliersWithinTheirs) {
   PressureFits fits;
   find_fitted_pressure(r.problem, r.problem.pairs[0], fits, e);
   EXPECT_TRUE(e.fitted.pieces.empty());
-}
-
-// Of each edge of the mesh: sizes at its ends differ by no more than the growth over its length.
-TEST(WantedSizes, GrowWithinTheLimitOverEachEdge) {
-  const Results& r = solved("/geo/hertz.toml");
-  const Mesh& mesh = r.problem.mesh;
-  const VecX sizes =
-      wanted_sizes(mesh, r.problem.pairs, *r.estimate, {.line = 100, .far_field = 100, .target = 1e-4, .border = 0})
-          .sizes;
-  double steepest = 0;
-  for (const Cell& cell : mesh.cells)
-    for (int a = 0; a < corner_count(cell.kind); ++a) {
-      const int i = cell.nodes[a], j = cell.nodes[(a + 1) % corner_count(cell.kind)];
-      steepest = std::max(steepest, std::abs(sizes(i) - sizes(j)) / (mesh.nodes.row(i) - mesh.nodes.row(j)).norm());
-    }
-  EXPECT_LE(steepest, size_growth * (1 + 1e-12));
-  EXPECT_GE(steepest, 0.99 * size_growth);  // the limit is used
 }
 
 }  // namespace

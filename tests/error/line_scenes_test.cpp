@@ -252,8 +252,8 @@ TEST(SlidingKinks, AreListedWhereWhatTheyDoIsSeen) {
   EXPECT_EQ(kinks(solved(blocks(0, 2e-6), pushed)), 0);
 }
 
-// Where a closed curve begins, at its leftmost node, says nothing of the pressure: a disc on a block, turned with its
-// mesh.
+// Where a closed curve begins, at its leftmost node, says nothing of the pressure and its borders: a disc on a block,
+// turned with its mesh.
 TEST(ClosedCurves, TellTheSameWhereverTheyBegin) {
   const TemporaryFolder folder;
   folder.write("disc.geo", R"(
@@ -266,7 +266,7 @@ Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 1
 Curve Loop(2) = {11:14}; Plane Surface(2) = {2};
 Physical Surface("disc") = {1}; Physical Surface("block") = {2}; Physical Curve("rim") = {1:4};
 Physical Curve("ground") = {11}; Physical Curve("top") = {13};
-MeshSize{:} = 2; MeshSize{5} = 0.08;)");
+MeshSize{:} = 2; MeshSize{5} = 0.06;)");
   const auto solved = [&](double angle) {
     std::ostringstream scene;
     scene << std::setprecision(17) << "mesh.file = \"disc.geo\"\nmaterials.rubber = { young = 1000, poisson = 0.3 }\n"
@@ -292,13 +292,27 @@ MeshSize{:} = 2; MeshSize{5} = 0.08;)");
       if (!std::isnan(node.gap)) found[node.node] = {node.p, node.p_error};
     return found;
   };
+  const auto borders = [](const Results& r, double angle) {
+    const PressureEstimate& e = r.estimate->pressures[0];
+    std::vector<double> places;
+    for (const LineError::Border& border : e.local.borders)
+      if (border.place) places.push_back((Eigen::Rotation2Dd(-angle) * e.line.at(*border.place)).x());
+    std::ranges::sort(places);
+    return places;
+  };
   const Results first = solved(0);
+  const std::vector<double> first_borders = borders(first, 0);
+  ASSERT_EQ(first_borders.size(), 2U);
   const auto expected = by_node(first);
   const double largest = largest_entry(first.recovery.contacts[0].pressure);
   std::mt19937 random(8);
   std::uniform_real_distribution<double> near(-0.3, 0.3);
   for (int i = 0; i < 6; ++i) {
-    const Results r = solved(-std::numbers::pi / 2 + near(random));  // the contact is to the left
+    const double angle = -std::numbers::pi / 2 + near(random);  // the contact is to the left
+    const Results r = solved(angle);
+    const std::vector<double> places = borders(r, angle);
+    ASSERT_EQ(places.size(), 2U) << i;
+    for (const int b : {0, 1}) EXPECT_NEAR(places[b], first_borders[b], 1e-5) << i;
     EXPECT_NEAR(r.estimate->pressure(), first.estimate->pressure(), 1e-6 * first.estimate->pressure()) << i;
     for (const auto& [node, p] : by_node(r)) {
       EXPECT_NEAR(p.first, expected.at(node).first, 1e-6 * largest) << i;
