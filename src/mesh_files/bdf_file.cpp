@@ -86,8 +86,11 @@ std::vector<DeckRecord> read_entries(MshInput& input) {
   return entries;
 }
 
+/// Whether a coordinate system is that of x, y and z.
+bool is_basic(const std::string& system) { return system.empty() || system == "0"; }
+
 void read_node(Deck& deck, const DeckRecord& entry) {
-  if (const std::string system = entry.field(1); !system.empty() && system != "0")
+  if (const std::string system = entry.field(1); !is_basic(system))
     deck.fail(entry, "the coordinate system " + system + " is not supported; expected none, or 0");
   std::array<double, 3>& x = deck.add_node(entry);
   for (std::size_t k = 0; k < 3; ++k)
@@ -112,6 +115,11 @@ SetMesh read_bdf(const std::string& file) {
   std::vector<DeckRecord> nodes, elements;
   std::map<std::string, int> left_out;
   for (DeckRecord& entry : read_entries(deck.input)) {
+    if (entry.name[0] == '=')
+      deck.input.fail_at(entry.place, "replicated entries are not read; expected each entry written out");
+    if (entry.name == "GRDSET" && !is_basic(entry.field(1)))
+      deck.input.fail_at(entry.place,
+                         "GRDSET: the coordinate system " + entry.field(1) + " is not supported; expected none, or 0");
     if (entry.name == "INCLUDE")
       deck.input.fail_at(entry.place, "included files are not read; expected their text here");
     if (entry.name == "GRID")
@@ -131,8 +139,7 @@ SetMesh read_bdf(const std::string& file) {
     properties.push_back(read_element(deck, entry));
   }
   deck.number_elements();
-  for (const auto& [name, count] : left_out)
-    deck.mesh.notes.push_back("left out: " + std::to_string(count) + " entries " + name);
+  for (const auto& [name, count] : left_out) deck.leave_out(count, "entry", "entries", name);
   add_property_sets(properties, deck.mesh);
   return std::move(deck.mesh);
 }

@@ -76,4 +76,8 @@ int Deck::node(const DeckRecord& record, const std::string& field) const {
   return row;
 }
 
+void Deck::leave_out(int count, const std::string& kind, const std::string& kinds, const std::string& name) {
+  mesh.notes.push_back("left out: " + std::to_string(count) + " " + (count == 1 ? kind : kinds) + " " + name);
+}
+
 }  // namespace mortise

@@ -43,6 +43,9 @@ struct Deck {
   /// Row of the node whose tag the field is.
   int node(const DeckRecord& record, const std::string& field) const;
 
+  /// A note of what is not read: "left out: 2 KINDS NAME", or "1 KIND NAME".
+  void leave_out(int count, const std::string& kind, const std::string& kinds, const std::string& name);
+
   MshInput input;
   SetMesh mesh;
   bool short_exponents = false;  ///< whether the e may be left out: 1.5-3

@@ -44,6 +44,7 @@ class InpReader {
       own[c].end = int(deck_.mesh.elements.size());
     }
     deck_.number_elements();
+    for (const auto& [name, count] : couplings_) deck_.leave_out(count, "card", "cards", name);
     InpSets sets(deck_);
     for (std::size_t c = 0; c < cards_.size(); ++c) sets.read(cards_[c], own[c]);
     sets.finish();
@@ -59,6 +60,11 @@ class InpReader {
       fail(deck_.input, card,
            "included files are not read; expected their text here, or mesh.file = the one with the mesh");
     }
+    if (card.name == "SYSTEM" && !card.lines.empty())
+      fail(deck_.input, card, "is not supported; expected nodes in x, y and z");
+    for (const char* coupling : {"EQUATION", "MPC", "TIE", "RIGIDBODY", "COUPLING", "KINEMATICCOUPLING",
+                                 "DISTRIBUTINGCOUPLING", "CYCLICSYMMETRYMODEL", "EMBEDDEDELEMENT"})
+      if (card.name == coupling) ++couplings_["*" + card.name];
     if (card.name == "PART" && ++parts_ > 1)
       fail(deck_.input, card, "a second part; expected one, or a deck without parts");
     if (card.name != "INSTANCE") return;
@@ -94,9 +100,8 @@ class InpReader {
         while (card.lines[i].goes_on && i + 1 < card.lines.size()) ++i;
       }
     }
-    if (const std::size_t count = deck_.mesh.elements.size() - first; *type == 0 && count > 0) {
-      deck_.mesh.notes.push_back("left out: " + std::to_string(count) + " elements of the kind " + name);
-    }
+    if (const std::size_t count = deck_.mesh.elements.size() - first; *type == 0 && count > 0)
+      deck_.leave_out(int(count), "element of the kind", "elements of the kind", name);
   }
 
   /// From line `i` on, which is moved to the element's last.
@@ -118,6 +123,7 @@ class InpReader {
   Deck deck_;
   std::vector<InpCard> cards_;
   int parts_ = 0, instances_ = 0;
+  std::map<std::string, int> couplings_;
 };
 
 }  // namespace

@@ -135,6 +135,9 @@ void InpSets::add_faces(const DeckRecord& line, const std::vector<int>& cells, S
     const SetElement& cell = mesh_.elements[e];
     const int corners = is_cell(cell) ? corners_of(cell) : 0;
     const int side = face.size() == 2 && face[0] == 'S' ? face[1] - '1' : -1;
+    if (corners == 0)
+      deck_.fail(
+          line, "the element " + std::to_string(cell.tag) + " is of a kind that is left out; expected CPS, CPE or CAX");
     if (side < 0 || side >= corners) {
       deck_.fail(line, "the element " + std::to_string(cell.tag) + " has no face '" + face + "'; expected S1 to S" +
                            std::to_string(corners));

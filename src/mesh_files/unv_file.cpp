@@ -3,6 +3,7 @@
 #include <charconv>
 #include <iterator>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "base/each_once.hpp"
@@ -40,6 +41,7 @@ class UnvReader {
 
   SetMesh read() {
     read_datasets();
+    for (const auto& lines : datasets_[2420]) read_systems(lines);
     for (const int number : {781, 2411})
       for (const auto& lines : datasets_[number]) read_nodes(lines);
     deck_.number_nodes();
@@ -48,7 +50,7 @@ class UnvReader {
     for (const auto& [number, all] : datasets_)
       for (const auto& lines : all) read_groups(lines, entity_length(number));
     for (const auto& [kind, count] : left_out_)
-      deck_.mesh.notes.push_back("left out: " + std::to_string(count) + " elements of the kind " + kind);
+      deck_.leave_out(count, "element of the kind", "elements of the kind", kind);
     add_property_sets(properties_, deck_.mesh);
     return std::move(deck_.mesh);
   }
@@ -63,7 +65,8 @@ class UnvReader {
       if (!input.next_line(text)) break;
       int number = 0;
       std::from_chars(text.data(), text.data() + text.size(), number);
-      const bool wanted = number == 2411 || number == 781 || number == 2412 || entity_length(number) > 0;
+      const bool wanted =
+          number == 2411 || number == 781 || number == 2412 || number == 2420 || entity_length(number) > 0;
       std::vector<DeckRecord>& lines = datasets_[number].emplace_back();
       bool ends = false;
       while (!ends && input.next_line(text)) {
@@ -87,9 +90,30 @@ class UnvReader {
     return lines[at++];
   }
 
+  /// Coordinate systems: each has a label, a kind (0: Cartesian) and a colour, a name that may be blank, and four rows,
+  /// its axes and its origin.
+  void read_systems(const std::vector<DeckRecord>& lines) {
+    std::string label;
+    int row = 0;
+    bool moves = false;
+    for (const DeckRecord& line : lines) {
+      if (line.fields.size() != 3) continue;
+      if (line.fields[0].find('.') == std::string::npos) {
+        label = line.fields[0];
+        row = 0;
+        moves = line.fields[1] != "0";
+        continue;
+      }
+      for (int k = 0; k < 3; ++k) moves = moves || deck_.real(line, line.fields[k], "a coordinate") != (row == k);
+      if (++row == 4 && moves) moving_systems_.insert(label);
+    }
+  }
+
   void read_nodes(const std::vector<DeckRecord>& lines) {
     for (std::size_t i = 0; i < lines.size();) {
       const DeckRecord& head = next(lines, i, 1);
+      if (moving_systems_.contains(head.field(1)))
+        deck_.fail(head, "the coordinate system " + head.field(1) + " is not supported; expected x, y and z");
       std::array<double, 3>& place = deck_.add_node(head);
       const DeckRecord& x = next(lines, i, 3);
       for (int k = 0; k < 3; ++k) place[k] = deck_.real(x, x.fields[k], "a coordinate");
@@ -167,6 +191,7 @@ class UnvReader {
   std::map<int, std::vector<std::vector<DeckRecord>>> datasets_;
   std::vector<std::int64_t> properties_;  // of each element
   std::map<std::string, int> left_out_;
+  std::set<std::string> moving_systems_;  // labels of those that are not x, y and z
 };
 
 }  // namespace

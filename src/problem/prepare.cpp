@@ -6,6 +6,7 @@
 #include "problem/curve_pieces.hpp"
 #include "problem/dirichlet_neumann.hpp"
 #include "problem/fluid.hpp"
+#include "problem/held_pieces.hpp"
 #include "problem/problem.hpp"
 #include "problem/ties.hpp"
 #include "scene/scene.hpp"
@@ -35,6 +36,7 @@ void add_contact(std::vector<ContactCurves> curves, Problem& p) {
   p.warnings = p.mesh.notes;
   append_lines(p.warnings, audit(p.mesh, p.entries, p.pairs));
   require_closed(p.mesh, p.pairs);
+  require_held_pieces(p.mesh, system.constraints, p.warnings);
   p.held = hold_free_motions(p.mesh, p.pairs, p.warnings, system);
   append_lines(p.warnings, held_lines(p.mesh, p.held.motions));
   p.floating = find_floating(p.mesh, system.constraints);

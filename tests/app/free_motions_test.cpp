@@ -128,6 +128,38 @@ TEST(FreeMotions, AShaftThatIsDrawnAsideInItsBoreIsHeldWhosesoeverNormalsCount) 
   }
 }
 
+// A body of two blocks that are apart, of quadrilaterals of one size or of many, drawn at random: no factor tells round
+// off that the second is free, and no load need drive it.
+TEST(FreeMotions, APieceOfABodyThatNothingHoldsIsNamed) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> size(0.3, 2), far(3, 6);
+  const TemporaryFolder folder;
+  for (int i = 0; i < 20; ++i) {
+    const double x = far(random), a = size(random), b = size(random);
+    std::ostringstream geo, scene;
+    geo << "Mesh.ElementOrder = " << 1 + i % 2 << "; Mesh.RecombineAll = " << i / 2 % 2
+        << ";\nSetFactory(\"OpenCASCADE\");\n"
+        << "Rectangle(1) = {0, 0, 0, 2, 1}; Rectangle(2) = {" << x << ", 3, 0, " << a << ", " << b << "};\n"
+        << "Physical Surface(\"body\") = {1, 2}; Physical Curve(\"ground\") = {1}; Physical Curve(\"top\") = {7};\n"
+        << "Physical Curve(\"side\") = {8};\nMeshSize{:} = " << std::max(a, b) / (1 + i % 3) << ";\n";
+    folder.write("pieces.geo", geo.str());
+    const auto said = [&](const std::string& more) {
+      return message_of<InputError>([&] {
+        solve_scene(read_scene(folder.write("pieces.toml",
+                                            "mesh.file = \"pieces.geo\"\nmaterials.m = { young = 1, poisson = 0.3 }\n"
+                                            "bodies.body = \"m\"\n[[boundary]]\non = \"ground\"\n"
+                                            "displacement = { x = 0, y = 0 }\n" +
+                                                more)));
+      });
+    };
+    const std::string loaded = "[[boundary]]\non = \"top\"\npressure = 1\n",
+                      on_rollers = "[[boundary]]\non = \"side\"\ndisplacement = { x = 0 }\n";
+    for (const std::string& more : {std::string(), loaded, on_rollers, on_rollers + loaded})
+      expect_contains(said(more), "body 'body' is 2 pieces, of which nothing but contact can hold that near (");
+    EXPECT_EQ(said("[[boundary]]\non = \"side\"\ndisplacement = { x = 0, y = 0 }\n" + loaded), "(nothing was thrown)");
+  }
+}
+
 TEST(FreeMotions, WhatAnOvalLineHoldsIsHeld) {
   TwoPlates plates = saddle(12, CellKind::quad8);
   plates.height = [](double x) { return 1.02 * std::sqrt(0.25 - (x - 0.4) * (x - 0.4)) - 0.1; };

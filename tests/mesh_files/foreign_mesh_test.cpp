@@ -145,7 +145,7 @@ TEST(BulkData, PropertiesAreBodiesAndCurves) {
   EXPECT_EQ(boundary_names(mesh), (std::vector<std::string>{"curve_3"}));
   EXPECT_EQ(length(mesh, "curve_3"), 2);
   for (const Measure& body : body_measures(mesh)) EXPECT_NEAR(body.size, 1, 1e-15);
-  EXPECT_EQ(mesh.notes, (std::vector<std::string>{"left out: 1 entries CELAS2"}));
+  EXPECT_EQ(mesh.notes, (std::vector<std::string>{"left out: 1 entry CELAS2"}));
   EXPECT_TRUE(mesh.named_by_tag);
 }
 
@@ -158,9 +158,32 @@ TEST(BulkData, WithoutPropertiesPartsAreBodies) {
   EXPECT_TRUE(boundary_names(mesh).empty());
 }
 
+// Of coordinate systems, whose names may be blank, those that nodes are in and that are not x, y and z.
+TEST(UniversalFile, NodesInOtherCoordinateSystemsAreRefused) {
+  const auto file = [](const std::string& name, const std::string& kind, const std::string& axis,
+                       const std::string& origin, const std::string& of_node) {
+    return "-1\n2420\n1\nPart\n1 0 0\nCS1\n1. 0. 0.\n0. 1. 0.\n0. 0. 1.\n0. 0. 0.\n5 " + kind + " 0\n" + name +
+           "\n1.0E+00 0. 0.\n" + axis + "\n0. 0. 1.\n" + origin + "\n-1\n-1\n2411\n1 " + of_node +
+           " 1 11\n0. 0. 0.\n-1\n";
+  };
+  for (const std::string name : {"CS5", ""}) {
+    const std::string refused = "the coordinate system 5 is not supported; expected x, y and z", none = "no elements";
+    const auto said = [&](auto... parts) { return trouble("a.unv", file(name, parts...)); };
+    EXPECT_NE(said("0", "0. 1. 0.", "0. -5.0D-01 0.", "5").find(refused), std::string::npos);
+    EXPECT_NE(said("1", "0. 1. 0.", "0. 0. 0.", "5").find(refused), std::string::npos);
+    EXPECT_NE(said("0", "0. 0. 1.", "0. 0. 0.", "5").find(refused), std::string::npos);
+    EXPECT_NE(said("0", "0. 1. 0.", "0. -5.0D-01 0.", "1").find(none), std::string::npos);
+    EXPECT_NE(said("0", "0. 1. 0.", "0. 0. 0.", "5").find(none), std::string::npos);
+  }
+}
+
 TEST(BulkData, WhatCannotBeReadIsNamedWithItsLine) {
   EXPECT_EQ(trouble("a.bdf", "GRID,1,2,0.,0.\n"),
             ", line 1: GRID: the coordinate system 2 is not supported; expected none, or 0");
+  EXPECT_EQ(trouble("a.bdf", "GRDSET,,0\nGRDSET,,5\n"),
+            ", line 2: GRDSET: the coordinate system 5 is not supported; expected none, or 0");
+  EXPECT_EQ(trouble("a.bdf", "GRID,1,,0.,0.\n=,*(1),=,*(1.),==\n=(3)\n"),
+            ", line 2: replicated entries are not read; expected each entry written out");
   EXPECT_EQ(trouble("a.bdf", "GRID,1,,0.,1.2.3\n"), ", line 1: GRID: expected a coordinate, found '1.2.3'");
   EXPECT_EQ(trouble("a.nas", "GRID,1\nCTRIA3,1,1,1,2,3\n"), ", line 2: CTRIA3: there is no node 2");
   EXPECT_EQ(trouble("a.bdf", "GRID,1\n$\nGRID,1\n"), ", line 3: the node 1 is listed twice");

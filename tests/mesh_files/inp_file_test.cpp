@@ -193,6 +193,13 @@ TEST(InpFile, SetsOfSetsAndOnePart) {
   EXPECT_EQ(inp_length(mesh, "left"), 1);
 }
 
+TEST(InpFile, SaysWhichCouplingsAreLeftOut) {
+  const TemporaryFolder folder;
+  const std::string text = nodes + cells + "*TIE, NAME=t\na, b\n*SYSTEM\n*EQUATION\n2\n*EQUATION\n2\n*STEP\n";
+  EXPECT_EQ(load_mesh(folder.write("a.inp", text), {}).notes,
+            (std::vector<std::string>{"left out: 2 cards *EQUATION", "left out: 1 card *TIE"}));
+}
+
 TEST(InpFile, SaysWhatIsWrongAndWhere) {
   const std::string all = nodes + cells;
   for (const auto& [text, said] : std::vector<std::pair<std::string, std::string>>{
@@ -225,6 +232,9 @@ TEST(InpFile, SaysWhatIsWrongAndWhere) {
            {all + "*NGEN\n1, 2\n", "line 15: *NGEN: is not supported; expected all nodes and elements to be listed"},
            {"*INCLUDE, INPUT=mesh.inp\n", "line 1: *INCLUDE: included files are not read"},
            {"*PART, NAME=a\n*END PART\n*PART, NAME=b\n", "line 3: *PART: a second part"},
+           {"*SYSTEM\n0, 1, 0\n", "line 1: *SYSTEM: is not supported; expected nodes in x, y and z"},
+           {all + "*ELEMENT, TYPE=DC2D4\n30, 1, 2, 3, 4\n*SURFACE, NAME=a\n30, S1\n",
+            "line 18: the element 30 is of a kind that is left out"},
            {"*INSTANCE, NAME=a\n1, 0, 0\n", "line 1: *INSTANCE: a part that is moved"},
        }) {
     const TemporaryFolder folder;
