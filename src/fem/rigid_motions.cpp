@@ -237,17 +237,29 @@ std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Const
 }
 
 std::string describe(const Mesh& mesh, const std::vector<RigidMotion>& motion) {
+  const double length = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
+  const auto turned = [&](const RigidMotion& m) { return std::abs(m.rotation) * length; };
+  double size = 0;
+  for (const RigidMotion& m : motion) size = std::max({size, m.translation.norm(), turned(m)});
   std::ostringstream text;
   text.precision(3);
-  double size = 0;
-  for (const RigidMotion& m : motion) size = std::max({size, m.translation.norm(), std::abs(m.rotation)});
-  const auto shown = [&](double value) { return std::abs(value) < 1e-6 * size ? 0 : value; };  // round-off
+  const auto write = [&](const Vec2& x, double largest) {  // round-off is 0
+    const auto shown = [&](double value) { return std::abs(value) < 1e-6 * largest ? 0 : value; };
+    text << "(" << shown(x.x()) << ", " << shown(x.y()) << ")";
+  };
   const char* separator = "";
   for (const RigidMotion& m : motion) {
-    if (m.translation.norm() < 1e-6 * size && std::abs(m.rotation) < 1e-6 * size) continue;
-    text << separator << "body '" << mesh.bodies[m.body] << "': translation (" << shown(m.translation.x()) << ", "
-         << shown(m.translation.y()) << "), rotation " << shown(m.rotation);
+    const bool turns = turned(m) > 1e-4 * m.translation.norm();  // else about a place that is out of sight
+    if ((turns ? turned(m) : m.translation.norm()) < 1e-6 * size) continue;
+    text << separator << "body '" << mesh.bodies[m.body] << "': ";
     separator = "; ";
+    if (turns) {
+      text << (m.rotation < 0 ? "clockwise rotation about " : "rotation about ");
+      write(m.centre + Vec2(-m.translation.y(), m.translation.x()) / m.rotation, length);
+    } else {
+      text << "translation ";
+      write(m.translation, size);
+    }
   }
   return text.str();
 }

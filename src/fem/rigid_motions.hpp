@@ -41,7 +41,7 @@ std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Const
 std::vector<std::vector<RigidMotion>> free_motions(const Mesh& mesh, const Constraints& constraints,
                                                    const std::vector<ContactNormal>& normals);
 
-/// "body 'upper': translation (0, 1), rotation 0; ..." for messages.
+/// "body 'upper': translation (0, 1); body 'pin': clockwise rotation about (2, 0)" for messages.
 std::string describe(const Mesh& mesh, const std::vector<RigidMotion>& motion);
 
 }  // namespace mortise

@@ -75,10 +75,11 @@ std::map<std::pair<int, int>, double> depths_in_pairs(const Moved& all, const st
   return depths;
 }
 
-// Whether curves of one pair are within `reach` of a point: the corner of what lies that deep in the other body has
-// come out at another side.
-bool is_beside_pair(const Moved& all, const Inside& in, double reach) {
+// Whether curves of one pair are near a point: what lies `depth` in the other body at these is nearer to another side
+// of it at its corners, and on a line of symmetry, where it may lie deeper, as rounds do.
+bool is_beside_pair(const Moved& all, const Inside& in, double depth) {
   const Outline& o = all.deformed;
+  const double reach = 2 * depth;
   const Box near(in.at.position - Vec2(reach, reach), in.at.position + Vec2(reach, reach));
   const PieceOutline &own = o.pieces[o.edges[in.of.edge].piece], &other = o.pieces[in.of.piece];
   const std::vector<int> others = other.edges.meeting(near);

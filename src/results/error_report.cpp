@@ -55,10 +55,9 @@ std::optional<std::string> warning_of_pairs(const Results& r, double all) {
     of = k;
   }
   if (count == 0) return {};
-  const std::string more = count == 1 ? ""
-                           : count == 2
-                               ? ", and of another pair by more than " + percent(limit)
-                               : ", and of " + std::to_string(count - 1) + " more pairs by more than " + percent(limit);
+  const std::string others = count == 2 ? "another pair" : std::to_string(count - 1) + " more pairs",
+                    most = percent(limit), least = most.starts_with("more than") ? most : "more than " + most,
+                    more = count == 1 ? "" : ", and of " + others + " by " + least;
   return r.problem.pairs[of].spec.key + ": p may be off by " + percent(worst) + " of its own, the most from " +
          largest_error(r, {of}) + more + "; expected a finer mesh there";
 }

@@ -88,10 +88,11 @@ OtherNormals summed_up(const Points& nodes, const ContactPair& pair, const VecX&
     const double by = std::min(std::abs(pressure_at(pair, change, point)), most * p);
     squares += by * by * point.dA;
     whole += p * p * point.dA;
-    if (by <= largest) continue;
-    largest = by;
+    const double angle = angle_between(point.normal, facing_normal(pair, point));
+    if (!(by * angle > largest)) continue;  // on a flat beside a round p changes, too
+    largest = by * angle;
     found.position = edge_point(nodes, pair.multiplier.edges[point.edge], point.xi).position;
-    found.angle = angle_between(point.normal, facing_normal(pair, point));
+    found.angle = angle;
   }
   found.part = std::sqrt(squares / whole);
   return found;

@@ -10,7 +10,7 @@ namespace mortise {
 
 struct OtherNormals {
   double part = 0;               ///< of p, in L2, by which it changes
-  Vec2 position = Vec2::Zero();  ///< where most
+  Vec2 position = Vec2::Zero();  ///< where it changes and the normals differ, the most of both
   double angle = 0;              ///< radians: between the normals of both sides there
 };
 

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/printable.hpp"
+#include "contact/coupling.hpp"
 #include "contact/curve_resolution.hpp"
 #include "fem/edges.hpp"
 #include "results/checks.hpp"
@@ -102,6 +103,29 @@ void warn_of_drawn_gap(const ContactPair& pair, const ContactResults& contact, c
        << "' touch, but are drawn " << pair.coupling.gap_min << " apart, " << pair.coupling.gap_min / length
        << " times their length; expected bodies drawn where they touch";
   lines.push_back(text.str());
+}
+
+// Sides that press one another by a gap that is given, where the drawing parts them by far less at one end than at the
+// other: meant was a gap beside the drawn one.
+void warn_of_given_gap(const ContactPair& pair, const ContactResults& contact, const Results& r, Lines& lines) {
+  if (pair.spec.initial_gap != InitialGap::given || contact.length_in_contact == 0) return;
+  constexpr double steep = 0.1;  // of the length in contact: another shape than the given one
+  const double least = 1e-3 * largest_entry(contact.pressure);  // as of other_normals
+  double low = std::numeric_limits<double>::infinity(), high = -low, beyond = 0;
+  for (const ContactPoint& point : pair.points) {
+    if (!(interpolate(pair, contact.pressure, {point.edge, point.xi}) > least)) continue;
+    const Points& nodes = r.problem.mesh.nodes;
+    const double drawn = (edge_point(nodes, pair.opposite.edges[point.opposite_edge], point.eta).position -
+                          edge_point(nodes, pair.multiplier.edges[point.edge], point.xi).position)
+                             .dot(point.normal);
+    low = std::min(low, drawn - point.gap);
+    high = std::max(high, drawn - point.gap);
+    beyond = std::max(beyond, drawn);
+  }
+  if (!(high - low > steep * contact.length_in_contact)) return;
+  lines.push_back(worded(pair.spec.key, ".initial_gap stands for the drawn gap, which is up to ", beyond, " where '",
+                         pair.spec.between[0], "' and '", pair.spec.between[1],
+                         "' press one another; expected clearance, which adds to it"));
 }
 
 // A geometry that the file draws and contact cannot use.
@@ -250,6 +274,7 @@ std::vector<std::string> warnings(const Results& r) {
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
     warn_of_dropped(r.problem.pairs[k], r, lines);
     warn_of_gap(r.problem.pairs[k], r, displacement, lines);
+    warn_of_given_gap(r.problem.pairs[k], r.recovery.contacts[k], r, lines);
     warn_of_drawn_gap(r.problem.pairs[k], r.recovery.contacts[k], r, lines);
     warn_of_geometry(r.problem.pairs[k], r, lines);
     warn_of_shape(r.problem.pairs[k], r, lines);

@@ -110,6 +110,8 @@ void add_table(const Node& file, const std::string& scene_path, std::vector<Draf
   std::vector<std::vector<std::string>> keys;
   for (const auto name : names) {
     if (name.empty()) fail(place, "", "a column without a name; expected name, scale or a key of the scene");
+    if (std::ranges::count(names, name) > 1)
+      fail(place, "", "two columns '" + std::string(name) + "'; expected one a key");
     keys.push_back(parts_of(std::string(name)));
     refuse_cases_in_cases(keys.back(), place, std::string(name));
   }

@@ -103,7 +103,8 @@ std::vector<Section> all_sections() {
       table("model", model_keys(scene)),
       named("materials", material_keys(material), {{"young", "poisson"}, {"stiffness"}}),
       {"bodies", any_name(a_name().schema),
-       "| `[bodies]` | table: physical surface, or a pattern of them = material | required |\n"},
+       "| `[bodies]` | table: physical surface, or a pattern of them = material. What contact alone holds is a surface "
+       "of its own, not a piece of one | required |\n"},
       entries_of("boundary", "supports and loads", boundary_keys(boundary), each_alone(boundary_conditions)),
       entries_of("body_force", "forces per volume", body_force_keys(body_force, {})),
       entries_of("initial_strain", "strains without stress", initial_strain_keys(initial_strain),

@@ -188,7 +188,7 @@ TEST(Axisymmetric, OnlyMotionsAlongTheAxisAreFree) {
   const Results r = solve_scene(scene, mesh);
   EXPECT_EQ(r.status, Status::solved);
   ASSERT_FALSE(r.warnings.empty());
-  expect_contains(r.warnings[0], "translation (0, 1), rotation 0");
+  expect_contains(r.warnings[0], "translation (0, 1)");
   scene.boundaries = {pressed("tube_north", 1e6)};
   expect_contains(message_of([&] { solve_scene(scene, mesh); }), "nothing holds body 'tube': translation (0, 1)");
 }

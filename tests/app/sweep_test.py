@@ -213,6 +213,7 @@ def test_a_scene_or_a_key_that_no_run_can_be_read_with(mortise, folder):
     cases = folder / "cases.toml"
     cases.write_text((GEO / "lift_off.toml").read_text().replace("lift_off.geo", str(GEO / "lift_off.geo")) + "\n[[case]]\nscale = [1, 2]\n")
     for scene, vary, why in [("no.toml", ["x=1"], "no.toml: no such file"), (cases, ["boundary.2.pressure=1,2"], "the scene has cases of its own"),
+                             (SCENE, ["boundary.2.pressure=1,2", "boundary.2.pressure=3,4"], "--vary boundary.2.pressure: given 2 times; expected one list"),
                              (SCENE, ["boundary.2.presure=1,2,3,4,5"], "unknown key 'presure'; did you mean 'pressure'"),
                              (SCENE, ["boundary.2.pressure=1,2", "model.plan=strain"], "unknown key 'plan'; did you mean 'plane'")]:  # fmt: skip
         assert why in run(mortise, scene, *(f"--vary={text}" for text in vary), "-o", folder / "none/no.csv", status=1), vary

@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(Spaces, LostContact, testing::Combine(testing::ValuesIn
 
 TEST(Floating, ALoadThatPullsIsAnErrorThatNamesTheMotion) {
   const std::string message = message_of([] { solved("lift_off", {{"boundary.2.pressure", "-1e6"}}); });
-  EXPECT_NE(message.find("body 'plate': translation (0, 1), rotation 0"), std::string::npos) << message;
+  EXPECT_NE(message.find("body 'plate': translation (0, 1)"), std::string::npos) << message;
   EXPECT_NE(message.find("away from the contact"), std::string::npos) << message;
 }
 
@@ -165,7 +165,7 @@ TEST(Floating, ABodyTipsOnceTheLoadLeavesItsFoot) {
 
 TEST(Floating, OfThreeBodiesTheOneThatIsPulledIsNamed) {
   const std::string message = message_of([] { solved("stack", {{"boundary.2.pressure", "-1e6"}}); });
-  EXPECT_NE(message.find("body 'upper': translation (0, 1), rotation 0: the load"), std::string::npos) << message;
+  EXPECT_NE(message.find("body 'upper': translation (0, 1): the load"), std::string::npos) << message;
 }
 
 TEST(Floating, BilateralContactPullsTheNextBodyAlong) {

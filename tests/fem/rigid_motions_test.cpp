@@ -185,5 +185,20 @@ TEST(FreeMotions, OfManyBodiesInContactAreFoundTogether) {
   EXPECT_TRUE(free_motions(mesh, c, joints).empty());
 }
 
+TEST(RigidMotions, AreDescribedByTheirDirectionOrTheirCentre) {
+  Mesh mesh;
+  mesh.bodies = {"pin", "block"};
+  mesh.nodes = Points{{0, 0}, {30, 40}};
+  const auto said = [&](std::vector<RigidMotion> motion) { return describe(mesh, motion); };
+  const Vec2 none(0, 0), centre(3, 4);
+  EXPECT_EQ(said({{0, Vec2(1, 1e-9), 0, centre}}), "body 'pin': translation (1, 0)");
+  EXPECT_EQ(said({{0, none, 0.2, centre}}), "body 'pin': rotation about (3, 4)");
+  // At (7, 4) a turn by -0.2 moves up by -0.2 * (7 - 3) = -0.8, which the translation takes back.
+  EXPECT_EQ(said({{1, Vec2(0, 0.8), -0.2, centre}}), "body 'block': clockwise rotation about (7, 4)");
+  EXPECT_EQ(said({{0, Vec2(0, 1), 1e-9, centre}, {1, none, 1e-12, centre}}), "body 'pin': translation (0, 1)");
+  EXPECT_EQ(said({{0, Vec2(1, 0), 0, centre}, {1, none, 1, centre}}),
+            "body 'pin': translation (1, 0); body 'block': rotation about (3, 4)");
+}
+
 }  // namespace
 }  // namespace mortise

@@ -203,6 +203,29 @@ TEST(Audit, LeavesBodiesInOneAnotherThatAPairKeepsApartByItsOwnGap) {
   }
 }
 
+// Half a roller on half a block: near the line of symmetry the side of the block that is on it is nearer than its top.
+TEST(Audit, LeavesWhatIsDeepInOneAnotherOnALineOfSymmetry) {
+  const TemporaryFolder folder;
+  for (const char* keys : {"clearance = 0.3\n", "clearance = 1\n", "stiffness = 12\n"})
+    EXPECT_EQ(
+        after(drawn(folder,
+                    "Point(1) = {0, 0, 0}; Point(2) = {20, 20, 0}; Point(3) = {0, 20, 0}; Circle(1) = {1, 3, 2};"
+                    "Line(2) = {2, 3}; Line(3) = {3, 1}; Curve Loop(1) = {1:3}; Plane Surface(1) = {1};"
+                    "Point(4) = {0, -30, 0}; Point(5) = {40, -30, 0}; Point(6) = {40, 0, 0}; Point(7) = {0, 0, 0};"
+                    "Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 4};"
+                    "Curve Loop(2) = {4:7}; Plane Surface(2) = {2}; Physical Surface(\"roller\") = {1};"
+                    "Physical Surface(\"block\") = {2}; Physical Curve(\"tread\") = {1};"
+                    "Physical Curve(\"head\") = {2}; Physical Curve(\"ground\") = {4};"
+                    "Physical Curve(\"top\") = {6}; Physical Curve(\"middle\") = {3, 7};"
+                    "MeshSize{1, 7} = 0.15; MeshSize{2:6} = 4;",
+                    {"roller", "block"},
+                    boundary("middle", "displacement = { x = 0 }") + boundary("ground", "displacement = { y = 0 }") +
+                        boundary("head", "pressure = 10") + pair("tread", "top") + keys))
+            .find("pass through"),
+        std::string::npos)
+        << keys;
+}
+
 // ---- Bodies drawn over one another ----
 
 TEST(Audit, RefusesBodiesDrawnOverOneAnother) {

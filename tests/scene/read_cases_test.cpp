@@ -191,6 +191,7 @@ TEST(ReadCases, Miswritten) {
     expect("[[case]]\nfile = \"cases.csv\"", part, table);
   };
   expect_of_table("name,\na,1\n", "cases.csv:1: a column without a name");
+  expect_of_table("name,scale,scale\na,1,2\n", "cases.csv:1: two columns 'scale'; expected one a key");
   expect_of_table("name,scale\n\n", "cases.csv' has no rows; expected one a case, below the names");
   expect_of_table("name,scale\na\n", "cases.csv:2: 1 fields; expected 2, as the first line has");
   expect_of_table("name,scale\na,b\n", "cases.csv:2: scale: expected a number");

@@ -123,6 +123,27 @@ def test_what_is_no_list_is_refused():
 
 
 @solves
+def test_what_is_no_value_is_refused(tmp_path):
+    scene, key = launch.scene_file("punch"), "boundary.2.pressure"
+    for wrong in None, 1j, {1}, [1, None], np.array([None]):
+        with pytest.raises(mortise.InputError, match=f"^{key}: expected a number, a text, a list or a dict, found "):
+            mortise.solve(scene, {key: wrong})
+        with pytest.raises(mortise.InputError, match="^mesh.parameters.n_block: expected a number, a text, a list or a dict, found "):
+            mortise.cases({"mesh": {"file": "punch.geo", "parameters": {"n_block": wrong}}})
+    for wrong in "10 * x", None, True, [1.0], np.array([1.0]):
+        with pytest.raises(mortise.InputError, match=f"^{key}: expected a number, found "):
+            mortise.gradient(scene, ["energy"], {key: wrong})
+    for call in lambda: mortise.solve(scene, [(key, 1)]), lambda: mortise.sweep(scene, [key]), lambda: mortise.gradient(scene, ["energy"], [key]):
+        with pytest.raises(mortise.InputError, match="^(changes|vary|by): expected a dict of keys and values, found "):
+            call()
+    for value in np.array(3e6), np.float32(3e6), np.int64(3000000):
+        assert mortise.gradient(scene, ["energy"], {key: value}).value == mortise.gradient(scene, ["energy"], {key: 3e6}).value
+        assert mortise.solve(scene, {key: value}).summary["energy"] == mortise.solve(scene, {key: 3e6}).summary["energy"]
+    with pytest.raises(mortise.InputError, match="no summary.json there; expected the folder of a run of mortise solve"):
+        mortise.read(tmp_path)
+
+
+@solves
 def test_a_sweep_of_which_no_run_can_be_read():
     with pytest.raises(mortise.InputError, match="unknown key 'presure'"):
         mortise.sweep(launch.scene_file("punch"), {"boundary.2.presure": [1, 2]})

@@ -80,9 +80,8 @@ def solve(scene, changes=None, estimate=True, case=""):
     the one of the scene's [[case]] entries that is solved."""
     from . import _mortise
 
-    words = [(key, _toml(value)) for key, value in (changes or {}).items()]
     with _file_of(scene) as path:
-        return _results(*_mortise.solve(path, words, estimate, case))
+        return _results(*_mortise.solve(path, _words(changes), estimate, case))
 
 
 def cases(scene, changes=None, estimate=True):
@@ -92,7 +91,7 @@ def cases(scene, changes=None, estimate=True):
     from . import _mortise
 
     with _file_of(scene) as path:
-        words, numbers = _mortise.cases(path, [(key, _toml(value)) for key, value in (changes or {}).items()], estimate)
+        words, numbers = _mortise.cases(path, _words(changes), estimate)
     words["status"] = [_of_dict(scene, path, status) for status in words["status"]]
     table = {name: np.array(column) for name, column in words.items()} | numbers
     if "scale" in table:
@@ -113,8 +112,8 @@ def sweep(scene, vary, executor=None, changes=None):
     executor is killed, processes of our own do what it left; a run that kills two of these raises BrokenExecutor."""
     from . import _mortise
 
-    runs = list(itertools.product(*(_listed(key, values) for key, values in vary.items())))
-    words = [[(key, _toml(value)) for key, value in ((changes or {}) | dict(zip(vary, run))).items()] for run in runs]
+    runs = list(itertools.product(*(_listed(key, values) for key, values in _dict("vary", vary).items())))
+    words = [_words(_dict("changes", changes or {}) | dict(zip(vary, run))) for run in runs]
     groups = [words[k : k + _group] for k in range(0, len(words), _group)]
     scene = _anywhere(scene)
     with _file_of(scene) as path:
@@ -151,9 +150,27 @@ def gradient(scene, of, by, changes=None):
     ("contact.0.pressure.mean", 0.1, 0.3), and ("contact.0.pressure.norm", 8): (int p^8 dA / int dA)^(1/8). A thread keeps the
     mesh and the factor for its next call."""
     figures = [(name, []) if isinstance(name, str) else (name[0], list(name[1:])) for name in _listed("of", of)]
-    words = [(key, _toml(value)) for key, value in (changes or {}).items()]
+    here = [(key, _number(key, value)) for key, value in _dict("by", by).items()]
     with _file_of(_anywhere(scene)) as path:
-        return Gradients(*_own_solver().gradient(path, words, figures, list(by.items())))
+        return Gradients(*_own_solver().gradient(path, _words(changes), figures, here))
+
+
+def _dict(name, values):
+    if not isinstance(values, dict):
+        raise InputError(f"{name}: expected a dict of keys and values, found {values!r}")
+    return values
+
+
+def _words(changes):
+    return [(key, _toml(value, key)) for key, value in _dict("changes", changes or {}).items()]
+
+
+def _number(key, value):
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise InputError(f"{key}: expected a number, found {value!r}")
+    return float(value)
 
 
 def _listed(name, values):
@@ -221,6 +238,8 @@ def read(folder):
     folder = Path(folder)
     if (folder / "cases.csv").exists():
         raise InputError(f"{folder}: the cases of a scene; expected the folder cases/NAME of one of them")
+    if not (folder / "summary.json").exists():
+        raise InputError(f"{folder}: no summary.json there; expected the folder of a run of mortise solve")
     contact = _columns(folder / "contact.csv") if (folder / "contact.csv").exists() else {}
     fields = {}
     if (folder / "result.vtu").exists() or not contact:
@@ -251,7 +270,7 @@ def _file_of(scene):
     tables = _anywhere(scene)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.toml"
-        path.write_text("".join(f"{_key(key)} = {_toml(value)}\n" for key, value in tables.items()))
+        path.write_text("".join(f"{_key(key)} = {_toml(value, key)}\n" for key, value in tables.items()))
         try:
             yield str(path)
         except InputError as error:
@@ -267,18 +286,22 @@ def _key(key):
     return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key, ensure_ascii=False)
 
 
-def _toml(value):
-    """A value as TOML writes it, tables inline."""
+def _toml(value, key):
+    """A value as TOML writes it, tables inline; `key` for messages."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{_key(key)} = {_toml(item)}" for key, item in value.items()) + "}"
-    if isinstance(value, (list, tuple, np.ndarray)):
-        return "[" + ", ".join(_toml(item) for item in value) + "]"
+        return "{" + ", ".join(f"{_key(of)} = {_toml(item, f'{key}.{of}')}" for of, item in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_toml(item, key) for item in value) + "]"
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
     if isinstance(value, (int, np.integer)):
         return str(int(value))
     if isinstance(value, (float, np.floating)):
         return repr(float(value))
+    if not isinstance(value, (str, os.PathLike)):
+        raise InputError(f"{key}: expected a number, a text, a list or a dict, found {value!r}")
     return json.dumps(os.fspath(value), ensure_ascii=False)
 
 

@@ -67,7 +67,10 @@ def parted(text, values):
 def runs_of(variations):
     """The values of each run, the last key fastest."""
     count = 1
+    keys = [key for key, _ in variations]
     for key, values in variations:
+        if keys.count(key) > 1:
+            raise Refused(f"--vary {key}: given {keys.count(key)} times; expected one list of its values")
         count *= len(values)
         if count > MOST_RUNS:
             raise Refused(f"--vary {key}: the values combine to more than {MOST_RUNS} runs; expected fewer, or several sweeps")
