@@ -90,9 +90,13 @@ def test_a_run_that_ends_its_process_is_an_error(monkeypatch):
         mortise.sweep(SCENE, {"boundary.2.pressure": [1e6]}, processes)
 
 
-def test_what_a_worker_raises_is_raised(tmp_path):
-    with futures.ThreadPoolExecutor(2) as threads, pytest.raises(TypeError):
-        mortise.sweep(SCENE, {"boundary.2.pressure": [1e6]}, threads, {"title": object()})
+def test_what_a_worker_raises_is_raised(monkeypatch):
+    def fail(*_):
+        raise MemoryError("of a worker")
+
+    monkeypatch.setattr(mortise, "_rows", fail)
+    with futures.ThreadPoolExecutor(2) as threads, pytest.raises(MemoryError, match="of a worker"):
+        mortise.sweep(SCENE, {"boundary.2.pressure": [1e6]}, threads)
 
 
 def test_a_dict_is_swept():
