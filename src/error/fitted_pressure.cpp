@@ -74,7 +74,7 @@ Walk walk_along(const Mesh& mesh, const ContactPair& pair, const PressureEstimat
   const auto carries = [&](Index i) {  // p_h may be zero where it swings
     return bilateral ? line.loaded[i] != 0 : line.p(i) > least || (line.loaded[i] && estimate.swings[i]);
   };
-  // Not between a piece and the vertices beyond its border.
+  // Where the line is cut or open, and best not next to a piece, which has vertices beyond its border.
   Index start = 0;
   for (Index i = 0; line.closed && i < last; ++i)
     if (!carries(i) || points[i]) start = i;
@@ -273,6 +273,7 @@ double swing_beside(const PressureForm& form, const LoadedPiece& piece, int whic
   return sum;
 }
 
+// Each border of the piece lies where its p* ends.
 void place_borders(const LoadedPiece& piece, const std::array<double, 2>& ends, const PressureLine& line,
                    LineError& local) {
   const double around = line.s(line.s.size() - 1);

@@ -14,7 +14,7 @@ constexpr double coarsen = 0.4, refine = 6;  // by what sizes may fall at once w
 // By what edges may shorten at once. Where contact ends is known to an edge, of those that it is refined to, all but
 // one are for nothing.
 constexpr double line_refine = 8;
-constexpr double least_at_border = 0.7;  // the same at a border, which may lie in longer edges, but not in much longer
+constexpr double least_at_border = 0.7;  // likewise at a border, where they hardly grow: it may move on to any of them
 constexpr double corner_share = 0.2;     // of the target of the far field, for all corners of the bodies
 constexpr double most_missed = 0.1;      // of p in L2: a mesh whose error is larger is not aimed at
 constexpr double border_share = 0.5;     // of the target of the local error, for all borders

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <limits>
 #include <set>
+#include <span>
 
 #include "base/dense.hpp"
 #include "base/errors.hpp"
@@ -124,49 +125,63 @@ std::vector<std::vector<RigidMotion>> idle_motions(const Mesh& mesh, const std::
   return idle;
 }
 
-// Two displacements of a body, along one axis, that its turn makes the more different the farther apart they are: of
-// the nodes away from contact curves those nearest to places half of the body's size apart, as forces there do least to
-// the contact. Nothing where there are none that are free.
-std::optional<std::array<int, 2>> unknowns_of_couple(const Mesh& mesh, const std::vector<ContactPair>& pairs,
-                                                     Constraints constraints, int body) {
+// Of each unknown, whether it is no place for a force: held, no q of its own number, or of a contact curve.
+std::vector<char> not_to_be_held(const std::vector<ContactPair>& pairs, const Constraints& constraints) {
+  std::vector<char> not_to_be = constraints.fixed;
+  if (const auto& multipoint = constraints.multipoint)
+    std::ranges::transform(not_to_be, multipoint->coupled, not_to_be.begin(), [](char a, char b) { return a || b; });
   for (const ContactPair& pair : pairs)
     for (const Curve* curve : {&pair.multiplier, &pair.opposite})
-      for (const int node : curve_nodes(*curve)) constraints.fixed[2 * node] = constraints.fixed[2 * node + 1] = 1;
-  const BodyPoints points = body_points(mesh);
-  const std::span of_body(points.node.begin() + points.first[body], points.node.begin() + points.first[body + 1]);
-  Box box;
-  for (const int node : of_body) box.extend(mesh.nodes.row(node).transpose());
-  const int along = box.sizes().x() >= box.sizes().y() ? 0 : 1, moved = 1 - along;
-  std::array<int, 2> nodes{-1, -1};
-  std::array<double, 2> away{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  for (const int node : of_body) {
-    const int unknown = 2 * node + moved;
-    if (constraints.fixed[unknown] || (constraints.multipoint && constraints.multipoint->coupled[unknown])) continue;
-    for (const int end : {0, 1}) {
-      Vec2 place = box.center();
-      place(along) += (end - 0.5) / 2 * box.sizes()(along);
-      if (const double to = (mesh.nodes.row(node).transpose() - place).norm(); to < away[end]) {
-        away[end] = to;
-        nodes[end] = node;
-      }
-    }
-  }
-  if (nodes[0] < 0 || !(mesh.nodes(nodes[1], along) > mesh.nodes(nodes[0], along))) return {};
-  return std::array{2 * nodes[0] + moved, 2 * nodes[1] + moved};
+      for (const int node : curve_nodes(*curve)) not_to_be[2 * node] = not_to_be[2 * node + 1] = 1;
+  return not_to_be;
 }
 
-// Holds the turns of single bodies by couples; the other motions. Where rows have the normals of a bore, they turn a
-// shaft beside its middle by a moment that it does not feel: a force that took this would be missing at the contact.
+// Two displacements of a body along one axis whose difference shows its turn: at the nodes nearest to places half of
+// the body's size apart, where forces do least to the contact. Nothing where there are none, or the motion does not
+// turn.
+std::optional<std::array<int, 2>> unknowns_of_couple(const Mesh& mesh, const BodyPoints& points,
+                                                     const std::vector<char>& not_to_be_held,
+                                                     const RigidMotion& motion) {
+  constexpr double round_off = 1e-6;  // of a motion's size, which is about 1
+  const std::span nodes(points.node.begin() + points.first[motion.body],
+                        points.node.begin() + points.first[motion.body + 1]);
+  Box box;
+  for (const int node : nodes) box.extend(mesh.nodes.row(node).transpose());
+  const int along = box.sizes().x() >= box.sizes().y() ? 0 : 1, moved = 1 - along;
+  std::array<int, 2> nearest{-1, -1};
+  for (const int end : {0, 1}) {
+    Vec2 place = box.center();
+    place(along) += (end - 0.5) / 2 * box.sizes()(along);
+    double least = std::numeric_limits<double>::infinity();
+    for (const int node : nodes)
+      if (const double away = (mesh.nodes.row(node).transpose() - place).norm();
+          away < least && !not_to_be_held[2 * node + moved]) {
+        least = away;
+        nearest[end] = node;
+      }
+  }
+  if (nearest[0] < 0) return {};
+  const double lever = mesh.nodes(nearest[1], along) - mesh.nodes(nearest[0], along);
+  if (!(std::abs(motion.rotation) * lever > round_off)) return {};
+  return std::array{2 * nearest[0] + moved, 2 * nearest[1] + moved};
+}
+
+// Holds the turns of single bodies by couples, and returns the other motions. Where rows have the normals of a bore,
+// they turn a shaft beside its middle by a moment that it does not feel: a force that took this would be missing at the
+// contact.
 std::vector<std::vector<RigidMotion>> hold_turns(const Mesh& mesh, const std::vector<ContactPair>& pairs,
                                                  std::vector<std::vector<RigidMotion>> motions,
                                                  Constraints& constraints, Floating& held) {
+  if (motions.empty()) return motions;
+  const BodyPoints points = body_points(mesh);
+  const std::vector<char> taken = not_to_be_held(pairs, constraints);
   std::vector<int> motions_of(mesh.bodies.size(), 0);
   for (const std::vector<RigidMotion>& motion : motions)
     for (const RigidMotion& part : motion) ++motions_of[part.body];
   std::vector<std::array<int, 2>> couples;
   std::erase_if(motions, [&](const std::vector<RigidMotion>& motion) {
-    if (motion.size() != 1 || motion[0].rotation == 0 || motions_of[motion[0].body] != 1) return false;
-    const auto couple = unknowns_of_couple(mesh, pairs, constraints, motion[0].body);
+    if (motion.size() != 1 || motions_of[motion[0].body] != 1) return false;
+    const auto couple = unknowns_of_couple(mesh, points, taken, motion[0]);
     if (!couple) return false;
     couples.push_back(*couple);
     held.motions.push_back(motion);
