@@ -21,8 +21,9 @@ struct ErrorFactors {
 };
 
 struct WantedSizes {
-  VecX sizes;                      ///< one a node, length; of vertices
-  std::vector<SizeLayers> layers;  ///< towards singular points, and on the other side of a border of contact
+  VecX sizes;  ///< one a node, length; of vertices
+  /// Towards singular points and borders of contact whose place is known, and on the other side of other borders.
+  std::vector<SizeLayers> layers;
 };
 
 /// The sizes with the fewest elements (docs/theory.md eq. 49, 50): the far field by each cell's part, which falls as

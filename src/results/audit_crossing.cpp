@@ -76,7 +76,8 @@ std::map<std::pair<int, int>, double> depths_in_pairs(const Moved& all, const st
 }
 
 // Whether curves of one pair are near a point: what lies `depth` in the other body at these is nearer to another side
-// of it at its corners, and on a line of symmetry, where it may lie deeper, as rounds do.
+// of it at its corners, and on a line of symmetry. There a round of radius R lies deeper than beyond `depth` from that
+// line, where the pair is nearest, by depth^2 / 2 R: less than twice as deep up to 2 R.
 bool is_beside_pair(const Moved& all, const Inside& in, double depth) {
   const Outline& o = all.deformed;
   const double reach = 2 * depth;

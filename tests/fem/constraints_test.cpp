@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fem/multipoint.hpp"
 #include "mesh/grid.hpp"
 #include "support/messages.hpp"
 
@@ -56,6 +57,21 @@ TEST(Constraints, DirectionsOfNodesThatFollowOthersAndOfTurnedOnes) {
   EXPECT_EQ(prescribed_directions(constraints, 1), (std::vector<Vec2>{Vec2::UnitX(), Vec2::UnitY()}));
   EXPECT_EQ(prescribed_directions(constraints, 2), (std::vector<Vec2>{Vec2(0.6, 0.8)}));
   EXPECT_TRUE(prescribed_directions(constraints, 3).empty());
+}
+
+// One held beside others that are there already: what is held is the difference, by equal and opposite forces.
+TEST(Constraints, HoldDifferencesOfUnknownsBesideOthers) {
+  Constraints constraints{.fixed = std::vector<char>(8, 0), .value = VecX::Zero(8)};
+  hold_differences({{0, 4}}, constraints);
+  hold_differences({{3, 7}, {1, 5}}, constraints);
+  EXPECT_EQ(constraints.fixed, (std::vector<char>{1, 1, 0, 1, 0, 0, 0, 0}));
+  const MultipointConstraints& multipoint = *constraints.multipoint;
+  EXPECT_EQ(multipoint.coupled, constraints.fixed);
+  const MatX T = multipoint.T, inverse = multipoint.inverse;
+  EXPECT_EQ(T * inverse, MatX::Identity(8, 8));
+  const VecX q{{0, 0, 3, 0.5, 4, 5, 6, 7}}, u = T * q;
+  EXPECT_EQ(u, (VecX{{4, 5, 3, 7.5, 4, 5, 6, 7}}));
+  for (const int held : {0, 1, 3}) EXPECT_EQ(inverse.row(held).sum(), 0);  // the forces that hold it
 }
 
 }  // namespace
