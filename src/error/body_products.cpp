@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/parallel.hpp"
+#include "error/data_works.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -197,7 +198,7 @@ FoundDuals find_duals(const Problem& problem, const VecX& u, const std::shared_p
     found.z.middleCols(first, duals.count()) = duals.fields();
   };
   const ErrorProducts parts = BodyProducts().with_duals(problem, u, factor, {functionals, MatX(u.size(), 0)}, keep);
-  found.sums = off_by(parts.products.rightCols(functionals.cols()));
+  found.sums = off_by(parts.products.rightCols(functionals.cols())) + off_by(data_works(problem, u, found.z));
   return found;
 }
 

@@ -139,7 +139,7 @@ void add_data_errors(const Problem& problem, const Solution& solution, const Acc
   if (parts.empty() || problem.pairs.empty()) return;
   add_strains_on_line(problem, estimate);
   add_loads_by_line(problem, solution, estimate);
-  const MatX& works = estimate.data_works;
+  const MatX works = estimate.data_works.cwiseAbs();
   if (works.cols() == 0) return;
   const Eigen::Index windows = estimate.far.windows.count, shared = estimate.far.parts.cols();
   VecX far = VecX::Zero(Eigen::Index(estimate.far.windows.dual.size())), fluctuations = VecX::Zero(shared - windows);

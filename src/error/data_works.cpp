@@ -4,7 +4,10 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
+#include "contact/body_corners.hpp"
+#include "error/body_products.hpp"
 #include "fem/edges.hpp"
 #include "fem/patch_recovery.hpp"
 #include "fem/quadrature.hpp"
@@ -34,13 +37,15 @@ double longest_side(const Mesh& mesh, const Cell& cell) {
 class Duals {
  public:
   Duals(const Problem& problem, const MatX& fields)
-      : mesh_(problem.mesh),
+      : problem_(problem),
+        mesh_(problem.mesh),
         points_(problem.points),
         laws_(problem.discretisation.laws),
-        fields_(fields.colwise().begin(), fields.colwise().end()),
-        patches_(recover_patches(mesh_, points_, sample_stresses(mesh_, laws_, fields))) {}
+        all_(fields),
+        fields_(fields.colwise().begin(), fields.colwise().end()) {}
 
-  CellErrors errors(int e) const {
+  CellErrors errors(int e) {
+    if (!patches_) patches_ = recover_patches(mesh_, points_, sample_stresses(mesh_, laws_, all_));
     const Cell& cell = mesh_.cells[e];
     const ElasticLaw& law = laws_[cell.body];
     const CellRule rule = product_rule(cell.kind, 3);
@@ -52,7 +57,7 @@ class Duals {
       const CellPoint at = cell_point(mesh_.nodes, cell, shape);
       const double dV = rule.weights[q] * at.jacobian() * law.model.depth(at.x.x());
       volume += dV;
-      const Eigen::RowVectorXd recovered = recovered_stress(mesh_, points_, patches_, {e, rule.points[q], 0});
+      const Eigen::RowVectorXd recovered = recovered_stress(mesh_, points_, *patches_, {e, rule.points[q], 0});
       for (Eigen::Index k = 0; k < count; ++k) {
         const Vec4 d = whole_stress(laws_, cell.body, recovered.segment(each * k, each), at.x) -
                        stress_at(mesh_, cell, law, fields_[k], shape);
@@ -103,18 +108,44 @@ class Duals {
     return works;
   }
 
+  // Of each dual z: what fills the space between a straight side and its curve carries f . z - sigma(u) : eps(z) per
+  // volume, which is the derivative of the functional by the place of a boundary that is free. Where a pressure acts on
+  // it, it moves along, and the stress counts by what it has more than that pressure in all directions.
+  VecX beyond(const DataMisfit& on, const VecX& u) const {
+    const Cell& cell = mesh_.cells[on.cell];
+    const ElasticLaw& law = laws_[cell.body];
+    const Edge edge = side_edge(cell, on.side);
+    const Points reference = reference_nodes(cell.kind);
+    const Vec2 middle = (reference.row(on.side) + reference.row((on.side + 1) % corner_count(cell.kind))) / 2;
+    const CellShape shape = cell_shape(cell.kind, middle);
+    const Vec2 n = edge_point(mesh_.nodes, edge, 0).normal(), force = problem_.entries.force_in(cell.body, on.at);
+    Vec4 stress = stress_at(mesh_, cell, law, u, shape);
+    if (face_of(mesh_.nodes, edge, problem_.discretisation.system.constraints) == Face::free) {
+      const double pressed = stress(0) * n.x() * n.x() + stress(1) * n.y() * n.y() + 2 * stress(3) * n.x() * n.y();
+      stress.head<3>().array() -= pressed;
+    }
+    VecX works(Eigen::Index(fields_.size()));
+    for (Eigen::Index k = 0; k < works.size(); ++k) {
+      const Vec4 strain = law.compliance * (stress_at(mesh_, cell, law, fields_[k], shape) - law.stress0(on.at));
+      works(k) = on.size * (force.dot(edge_value(fields_[k], edge, 0)) - stress.dot(strain));
+    }
+    return works;
+  }
+
  private:
+  const Problem& problem_;
   const Mesh& mesh_;
   const BodyPoints& points_;
   const std::vector<ElasticLaw>& laws_;
+  const MatX& all_;
   const std::vector<VecX> fields_;  // a dual each: as a column of them all it would be copied at each use
-  StressPatches patches_;
+  std::optional<StressPatches> patches_;
 };
 
 // Of each dual.
-VecX works_of(const Mesh& mesh, const DataMisfit& part, const VecX& u, const Duals& duals,
-              std::map<int, CellErrors>& known) {
+VecX works_of(const Mesh& mesh, const DataMisfit& part, const VecX& u, Duals& duals, std::map<int, CellErrors>& known) {
   if (part.kind == DataMisfit::Kind::displacement) return duals.works(part);
+  if (part.kind == DataMisfit::Kind::outline) return duals.beyond(part, u);
   auto at = known.find(part.cell);
   if (at == known.end()) at = known.emplace(part.cell, duals.errors(part.cell)).first;
   if (part.kind == DataMisfit::Kind::strain) return part.size * at->second.energy;
@@ -135,11 +166,19 @@ MatX data_works(const Problem& problem, const VecX& u, const MatX& z) {
   const std::vector<DataMisfit>& parts = problem.misfits.parts;
   MatX works(Eigen::Index(parts.size()), z.cols());
   if (works.size() == 0) return works;
-  const Duals duals(problem, z);
+  Duals duals(problem, z);
   std::map<int, CellErrors> known;
   for (std::size_t i = 0; i < parts.size(); ++i)
     works.row(Eigen::Index(i)) = works_of(problem.mesh, parts[i], u, duals, known);
   return works;
+}
+
+double outline_work(const Problem& problem, const VecX& u, const VecX& motion) {
+  const Duals duals(problem, motion);
+  std::vector<double> works;
+  for (const DataMisfit& part : problem.misfits.parts)
+    if (part.kind == DataMisfit::Kind::outline) works.push_back(duals.beyond(part, u)(0));
+  return off_by(MatX(VecX::Map(works.data(), Eigen::Index(works.size()))))(0);
 }
 
 }  // namespace mortise

@@ -5,9 +5,12 @@
 
 namespace mortise {
 
-/// Misfits (of the problem) x duals: at most what each does to the functional (docs/theory.md eq. 51), without sign.
-/// `z`: the duals, n x F.
+/// Misfits (of the problem) x duals: at most what each does to the functional (docs/theory.md eq. 51), without sign; of
+/// the outline (eq. 51c) what it does. `z`: the duals, n x F.
 MatX data_works(const Problem& problem, const VecX& u, const MatX& z);
+
+/// What all those of the outline make a functional off by that a rigid motion tells, n: they weigh.
+double outline_work(const Problem& problem, const VecX& u, const VecX& motion);
 
 /// The largest displacement of the nodes on the side of a cell that a foundation's misfit is of.
 double largest_on(const Mesh& mesh, const DataMisfit& part, const VecX& u);

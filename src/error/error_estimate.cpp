@@ -289,6 +289,7 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
   estimate.also = {.z = kept.leftCols(more),
                    .sums = off_by(found.products.middleCols(1 + shared, more)) +
                            tails.middleCols(shared, more).colwise().sum().transpose() +
+                           off_by(works.middleCols(shared, more)) +
                            overlaps.changes(options.also, {}).colwise().sum().transpose()};
 }
 

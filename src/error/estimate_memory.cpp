@@ -30,8 +30,8 @@ const std::vector<BodyCorner>& EstimateMemory::corners(const Problem& p) {
   return *corners_;
 }
 
-const Statics& EstimateMemory::statics(const Problem& p) {
-  if (!statics_) statics_.emplace(p.mesh, p.points, p.discretisation.system);
+const Statics& EstimateMemory::statics(const Problem& p, const std::vector<int>& idle) {
+  if (!statics_) statics_.emplace(p.mesh, p.points, p.discretisation.system, idle);
   return *statics_;
 }
 

@@ -24,7 +24,7 @@ class EstimateMemory {
   void keep_for(const Problem& problem);
   Surroundings around(const Problem& problem);
   const std::vector<BodyCorner>& corners(const Problem& problem);
-  const Statics& statics(const Problem& problem);
+  const Statics& statics(const Problem& problem, const std::vector<int>& idle);  ///< idle: as of Statics
   /// Of pair k, to work with; of several pairs at once.
   template <typename Work>
   void with_fits(std::size_t k, Work work) {

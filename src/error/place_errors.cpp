@@ -2,6 +2,7 @@
 
 #include "contact/singular_points.hpp"
 #include "error/border_overlaps.hpp"
+#include "error/data_works.hpp"
 #include "error/estimate_memory.hpp"
 #include "error/goal_estimate.hpp"
 #include "mesh/boundary_edges.hpp"
@@ -91,6 +92,7 @@ std::vector<PlaceError> place_errors(const Problem& problem, const Solution& sol
       for (std::size_t k = 0; k < pairs.size(); ++k)
         far.segment(first, z.cols()) +=
             line_part(pairs[k], pressures[k].line, pressures[k].local, openings(pairs[k], z)).sum();
+      far.segment(first, z.cols()) += off_by(data_works(problem, solution.u, z));
     };
     const ErrorProducts found = memory.products.with_duals(
         problem, solution.u, factor, {MatX::Zero(d.system.B.rows(), loads.cols()), loads}, add_lines);

@@ -1,5 +1,7 @@
 #include "error/statics.hpp"
 
+#include <algorithm>
+
 namespace mortise {
 namespace {
 
@@ -33,18 +35,20 @@ double unit_motion(const Mesh& mesh, int i, int c, const Vec2& centre) {
   return i % 2 == 0 ? -arm.y() : arm.x();
 }
 
-Statics::Statics(const Mesh& mesh, const BodyPoints& points, const SaddlePointSystem& system)
+Statics::Statics(const Mesh& mesh, const BodyPoints& points, const SaddlePointSystem& system,
+                 const std::vector<int>& idle)
     : row_scale_(system.row_scale) {
-  if (system.constraints.multipoint) return;
   motions_ = rigid_motions(mesh, points, system.constraints.rings);
   std::vector<int> fixed;
   for (int i = 0; i < int(system.constraints.fixed.size()); ++i)
-    if (system.constraints.fixed[i]) fixed.push_back(i);
+    if (system.constraints.fixed[i] && std::ranges::find(idle, i) == idle.end()) fixed.push_back(i);
   const MatX of_rows = row_scale_.cwiseInverse().asDiagonal() * (system.B * motions_).eval();
+  const auto& multipoint = system.constraints.multipoint;
+  const MatX q = multipoint ? MatX(multipoint->inverse * motions_) : motions_;
   const SparseMatrix& springs = system.constraints.springs;
   const MatX of_springs = springs.cols() > 0 ? MatX(springs * motions_) : MatX(0, motions_.cols());
   all_.resize(of_rows.rows() + Eigen::Index(fixed.size()) + of_springs.rows(), motions_.cols());
-  all_ << of_rows, motions_(fixed, Eigen::all), of_springs;
+  all_ << of_rows, q(fixed, Eigen::all), of_springs;
   if (all_.size() > 0) factor_.emplace(all_);
 }
 

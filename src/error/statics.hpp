@@ -16,8 +16,9 @@ double unit_motion(const Mesh& mesh, int i, int c, const Vec2& centre);
 /// nothing that is prescribed.
 class Statics {
  public:
-  /// Of the system B, the row scales and what is fixed count.
-  Statics(const Mesh& mesh, const BodyPoints& points, const SaddlePointSystem& system);
+  /// Of the system B, the row scales and what is fixed count, but for unknowns at which idle motions are held: these
+  /// bear nothing.
+  Statics(const Mesh& mesh, const BodyPoints& points, const SaddlePointSystem& system, const std::vector<int>& idle);
 
   /// That motion, n; `rows`: by how much they are to open.
   std::optional<VecX> motion(const VecX& rows) const;

@@ -5,6 +5,8 @@
 #include "base/dense.hpp"
 #include "base/overloaded.hpp"
 #include "base/vectors.hpp"
+#include "contact/outline.hpp"
+#include "fem/edges.hpp"
 #include "problem/body_fields.hpp"
 #include "problem/boundary_fields.hpp"
 
@@ -260,6 +262,36 @@ DataMisfits data_misfits(const Entries& entries, const Mesh& mesh, const std::ve
     });
   }
   return std::move(misfits.found);
+}
+
+std::vector<DataMisfit> outline_misfits(const Mesh& mesh, const Model& model) {
+  std::vector<DataMisfit> parts;
+  const Outline o = outline(boundary_edges(mesh), mesh.nodes);
+  for (std::size_t e = 0; e < o.edges.size(); ++e) {
+    const BoundaryEdge& at = o.edges[e];
+    if (at.shared) continue;
+    const double h = o.length[e];
+    const Vec2 start = edge_point(o.nodes, at.edge, -1).tangent, end = edge_point(o.nodes, at.edge, 1).tangent;
+    std::optional<double> curvature;  // the lesser of both ends: a corner of straight sides turns at one
+    for (const int side : {0, 1}) {
+      const int other = o.neighbour[e][side];
+      if (other < 0 || o.turn[e][side] >= smooth_turn) continue;
+      const Vec2 there = edge_point(o.nodes, o.edges[other].edge, side == 0 ? 1 : -1).tangent;
+      const double turn = std::copysign(o.turn[e][side], side == 0 ? cross(there, start) : cross(end, there));
+      const double bends = 2 * turn / (h + o.length[other]);
+      if (!curvature || std::abs(bends) < std::abs(*curvature)) curvature = bends;
+    }
+    // Round-off turns a straight line, and a bent side's own turn is what a chord's neighbours would show.
+    if (!curvature || !(std::abs(*curvature) * h > std::max(angle_between(start, end), 1e-7))) continue;
+    const Vec2 middle = edge_point(o.nodes, at.edge, 0).position;
+    parts.push_back({.kind = DataMisfit::Kind::outline,
+                     .cell = at.side.cell,
+                     .side = at.side.side,
+                     .size = *curvature * h * h * h / 12 * model.depth(middle.x()),
+                     .at = middle,
+                     .finest = h});
+  }
+  return parts;
 }
 
 }  // namespace mortise

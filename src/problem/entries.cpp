@@ -60,6 +60,12 @@ std::vector<int> bodies_of(const Scene& scene, const Mesh& mesh, const SceneName
 
 }  // namespace
 
+Vec2 Entries::force_in(int body, const Vec2& x) const {
+  Vec2 force = gravity ? Vec2(material(body).density * *gravity) : Vec2::Zero();
+  if (const int i = body_force_of[body]; i >= 0) force += body_forces[i].force(x);
+  return force;
+}
+
 Entries resolve(const Scene& scene, const Mesh& mesh) {
   const SceneNames names(mesh);
   const SideTable table(mesh);

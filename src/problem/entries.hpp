@@ -25,6 +25,9 @@ struct Entries {
 
   const BodySpec& body(int body) const { return bodies[body_of[body]]; }  ///< of the mesh
   const Material& material(int of) const { return materials.at(body(of).material); }
+
+  /// What acts in a body at a place, weight too: force over volume.
+  Vec2 force_in(int body, const Vec2& x) const;
 };
 
 /// Throws SceneError where the scene names what the mesh does not have, leaves a body without material, or says two

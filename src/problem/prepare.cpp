@@ -65,6 +65,7 @@ Problem prepare(const Scene& scene, Mesh mesh, const Progress& progress, const A
   p.entries = resolve(scene, p.mesh);
   p.discretisation = discretise(p.entries, p.mesh);
   p.misfits = data_misfits(p.entries, p.mesh, p.discretisation.laws);
+  std::ranges::move(outline_misfits(p.mesh, p.discretisation.model), std::back_inserter(p.misfits.parts));
   p.probes = locate_probes(scene, p.mesh);
   p.expectations = scene.expectations;
   p.assemble_seconds = watch.lap();

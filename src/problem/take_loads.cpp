@@ -81,7 +81,10 @@ bool take_loads(const Scene& scene, Problem& p) {
   take_loads(p.entries, p.mesh, p.discretisation);
   system.constraints.fixed = std::move(fixed);  // with held motions
   refuse_driven(p.mesh, p.pairs, p.held.motions, {}, system.f);
+  std::vector<DataMisfit> outline = std::move(p.misfits.parts);
+  std::erase_if(outline, [](const DataMisfit& part) { return part.kind != DataMisfit::Kind::outline; });
   p.misfits = data_misfits(p.entries, p.mesh, p.discretisation.laws);
+  std::ranges::move(outline, std::back_inserter(p.misfits.parts));
   p.fluid.setZero();
   return take_gaps(scene, p);
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "app/solve_scene.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -72,6 +74,77 @@ TEST(ForceErrors, HoldWhereTheStiffnessesShareTheLoad) {
     }
     EXPECT_LT(largest, before) << size;
     before = 0.7 * largest;
+  }
+}
+
+// What weighs rests on a block, of straight sides that cut a part off its rim and leave one too many in its hole.
+void expect_weight_within_bar(double hole, const std::string& elements) {
+  const TemporaryFolder folder;
+  const std::string disc = hole > 0 ? "Circle(2) = {0, 1, 0, 0.5}; Curve Loop(2) = {2}; Plane Surface(1) = {1, 2};"
+                                    : "Plane Surface(1) = {1};";
+  folder.write("d.geo", "SetFactory(\"OpenCASCADE\"); Circle(1) = {0, 1, 0, 1}; Curve Loop(1) = {1};" + disc + R"(
+Rectangle(3) = {-2, -1, 0, 4, 1}; c() = Abs(Boundary{ Surface{3}; });
+Physical Surface("disc") = {1}; Physical Surface("block") = {3};
+Physical Curve("rim") = {1}; Physical Curve("base") = {c(0)}; Physical Curve("top") = {c(2)};
+MeshSize{:} = 0.2; )" + elements);
+  Results r = solve_scene(read_scene(folder.write("d.toml", R"(
+mesh.file = "d.geo"
+model.gravity = [0, -1]
+materials = { a = { young = 1e3, poisson = 0.3, density = 1 }, b = { young = 1e3, poisson = 0.3, density = 1e-9 } }
+bodies = { disc = "a", block = "b" }
+boundary = [{ on = "base", displacement = { x = 0, y = 0 } }]
+contact = [{ between = ["rim", "top"] }]
+)")));
+  estimate(r);
+  const double weight = std::numbers::pi * (1 - hole * hole), bar = (*r.recovery.contacts[0].force_error)(1);
+  const double off = std::abs(std::abs(r.recovery.contacts[0].force.y()) - weight);
+  EXPECT_GT(off, 1e-5 * weight) << hole << elements;
+  EXPECT_LE(off, bar) << hole << elements;
+  EXPECT_LE(bar, 0.03 * weight) << hole << elements;
+}
+
+TEST(ForceErrors, KnowWhatStraightSidesCutOff) {
+  for (const double hole : {0., 0.5})
+    for (const char* elements : {"Mesh.ElementOrder = 1;", "Mesh.ElementOrder = 2; Mesh.SecondOrderLinear = 1;"})
+      expect_weight_within_bar(hole, elements);
+}
+
+// A tube in a tube, pressed from within, of straight sides: p by Lame, on a quarter of radius 2.
+TEST(ForceErrors, KnowWhatStraightSidesDoToStiffnesses) {
+  const TemporaryFolder folder;
+  for (const char* size : {"0.2", "0.1", "0.05"}) {
+    folder.write("t.geo", std::string("h = ") + size + R"(;
+Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {0, 1, 0}; Point(4) = {2, 0, 0}; Point(5) = {0, 2, 0};
+Circle(1) = {2, 1, 3}; Line(2) = {3, 5}; Circle(3) = {5, 1, 4}; Line(4) = {4, 2};
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Point(12) = {3.5, 0, 0}; Point(13) = {0, 3.5, 0}; Point(14) = {2, 0, 0}; Point(15) = {0, 2, 0};
+Circle(11) = {14, 1, 15}; Line(12) = {15, 13}; Circle(13) = {13, 1, 12}; Line(14) = {12, 14};
+Curve Loop(2) = {11:14}; Plane Surface(2) = {2};
+Physical Surface("inner") = {1}; Physical Surface("outer") = {2};
+Physical Curve("bore") = {1}; Physical Curve("in") = {3}; Physical Curve("out") = {11};
+Physical Curve("left") = {2, 12}; Physical Curve("bottom") = {4, 14};
+MeshSize{2:5} = h; MeshSize{12:15} = 1.6 * h; Mesh.ElementOrder = 2; Mesh.SecondOrderLinear = 1;
+)");
+    Results r = solve_scene(read_scene(folder.write("t.toml", R"(
+mesh.file = "t.geo"
+materials = { a = { young = 200, poisson = 0.3 }, b = { young = 70, poisson = 0.35 } }
+bodies = { inner = "a", outer = "b" }
+boundary = [{ on = "bore", pressure = 1 }, { on = "left", displacement = { x = 0 } },
+            { on = "bottom", displacement = { y = 0 } }]
+contact = [{ between = ["in", "out"] }]
+)")));
+    estimate(r);
+    const auto grows = [](double E, double nu, double a, double b, double r) {  // per unit of pressure at a, from within
+      return (1 + nu) / E * a * a / (b * b - a * a) * ((1 - 2 * nu) * r + b * b / r);
+    };
+    const double outside = (1 + 0.3) / 200 * 4 / (4 - 1) * ((1 - 0.6) * 2 + 1 / 2.);  // pressed at 2 from without
+    const double p = grows(200, 0.3, 1, 2, 2) / (outside + grows(70, 0.35, 2, 3.5, 2));
+    for (const int c : {0, 1}) {
+      const double off = std::abs(std::abs(r.recovery.contacts[0].force(c)) - 2 * p);
+      const double bar = (*r.recovery.contacts[0].force_error)(c);
+      EXPECT_LE(off, bar) << size;
+      EXPECT_LE(bar, 6 * off) << size;
+    }
   }
 }
 
