@@ -207,6 +207,7 @@ void judge(Results& r) {
 Solution solve_wet(SystemSolver& solver, Problem& p) {
   Solution solution = solver.solve();
   while (solution.status == SolveStatus::converged && spread_fluids(solution, p)) {
+    refuse_driven(p.mesh, p.pairs, p.held.motions, {"the fluid in the gaps pushes it"}, p.discretisation.system.f);
     p.discretisation.system.start = solution.active;
     const double factorise = solution.factorise_seconds;
     solution = solver.solve();

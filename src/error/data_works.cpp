@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "contact/body_corners.hpp"
-#include "error/body_products.hpp"
 #include "fem/edges.hpp"
 #include "fem/patch_recovery.hpp"
 #include "fem/quadrature.hpp"
@@ -173,12 +172,12 @@ MatX data_works(const Problem& problem, const VecX& u, const MatX& z) {
   return works;
 }
 
-double outline_work(const Problem& problem, const VecX& u, const VecX& motion) {
+VecX outline_works(const Problem& problem, const VecX& u, const VecX& motion) {
   const Duals duals(problem, motion);
   std::vector<double> works;
   for (const DataMisfit& part : problem.misfits.parts)
     if (part.kind == DataMisfit::Kind::outline) works.push_back(duals.beyond(part, u)(0));
-  return off_by(MatX(VecX::Map(works.data(), Eigen::Index(works.size()))))(0);
+  return VecX::Map(works.data(), Eigen::Index(works.size()));
 }
 
 }  // namespace mortise

@@ -109,8 +109,8 @@ ForcesAsked ask_forces(const Problem& problem, const Solution& solution, const s
     for (int c = 0; c < 3; ++c) {
       VecX opened = opened_rows(problem, centres, {k, c});
       if (const auto motion = statics.motion(opened)) {
-        asked.by_statics[k](c) =
-            work_left(problem, solution, idle, *motion) + error_safety * outline_work(problem, solution.u, *motion);
+        asked.by_statics[k](c) = work_left(problem, solution, idle, *motion) +
+                                 error_safety * off_by(MatX(outline_works(problem, solution.u, *motion)))(0);
       } else {
         asked.by_duals.push_back({k, c});
         rows.push_back(std::move(opened));

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+
+#include "base/vectors.hpp"
+#include "fem/edges.hpp"
 
 namespace mortise {
 namespace {
@@ -17,6 +21,12 @@ double missed(double d, double amplitude) { return 0.52 * amplitude * std::exp(-
 
 // What the best hats miss of c r ln r on even edges of length h: in L2 over c h sqrt(h), and at the end over c h.
 constexpr double hats_in_l2 = 0.11, hats_at_end = 0.36;
+
+// Of its chord; the body on the left bulges where it is positive.
+double curvature_of(const Points& nodes, const Edge& edge) {
+  const Vec2 start = edge_point(nodes, edge, -1).tangent, end = edge_point(nodes, edge, 1).tangent;
+  return std::atan2(cross(start, end), start.dot(end)) / edge_length(nodes, edge);
+}
 
 }  // namespace
 
@@ -65,6 +75,34 @@ void add_weak_logarithm(const PressureLine& line, const Vec2& place, double ampl
   const Eigen::Index i = line.nearest(place);
   error.add_weak({i, std::numbers::sqrt2 * missed(0, amplitude) * std::sqrt(line.h(i)), 0.5, false});
   error.raise(i, folds * amplitude);
+}
+
+void add_hidden_fillets(const Points& nodes, const ContactPair& pair, const PressureLine& line, LineError& error) {
+  struct Fillet {
+    double curvature;
+    Vec2 place;
+  };
+  std::map<Eigen::Index, Fillet> sharpest;  // by edges of the multiplier side
+  for (const ContactPoint& point : pair.points) {
+    if (!line.loaded[point.edge] || !line.loaded[point.edge + 1]) continue;
+    const Edge& opposite = pair.opposite.edges[point.opposite_edge];
+    const double curvature =
+        std::abs(curvature_of(nodes, opposite) + curvature_of(nodes, pair.multiplier.edges[point.edge]));
+    Fillet& known = sharpest[point.edge];
+    if (curvature > known.curvature) known = {curvature, edge_point(nodes, opposite, point.eta).position};
+  }
+  for (const auto& [edge, fillet] : sharpest) {
+    const double longer = (line.s(edge + 1) - line.s(edge)) * fillet.curvature;
+    if (!(longer > 1)) continue;
+    // Mean square of (h / s)^1/2 - 1 for s from r to h.
+    const double more = std::log(longer) - 4 * (1 - 1 / std::sqrt(longer)) + 1 - 1 / longer;
+    for (const Eigen::Index i : {edge, edge + 1}) {
+      const double p = std::abs(line.p(i));
+      error.add_data(i, p * std::sqrt(line.h(i) * more));
+      error.raise(i, p * (std::sqrt(longer) - 1));
+    }
+    error.narrow_at.push_back({fillet.place, 1 / fillet.curvature});
+  }
 }
 
 }  // namespace mortise

@@ -319,6 +319,37 @@ TEST(Fluid, SaysWhatItBlowsAway) {
 
 // ---- Loads, and what is refused ----
 
+// A block that nothing holds sideways, on a floor that carries the multipliers; one half of its foot rises by h. Drawn
+// at an angle, that motion is along no axis.
+TEST(Fluid, PushesABodyThatNothingHolds) {
+  for (const double angle : {0., 0.5, 1.1, 2.3})
+    for (const double height : {0.02, 0.3}) {
+      std::ostringstream geo;
+      geo << "a = " << angle << "; h = " << height << R"(;
+Point(1) = {-2, 0, 0}; Point(2) = {0, 0, 0}; Point(3) = {2, h, 0}; Point(4) = {2, 3, 0}; Point(5) = {-2, 3, 0};
+Point(11) = {-6, -4, 0}; Point(12) = {6, -4, 0}; Point(13) = {6, 0, 0}; Point(14) = {-6, 0, 0};
+Rotate{{0, 0, 1}, {0, 0, 0}, a}{ Point{1:5, 11:14}; }
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 1};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 11};
+Curve Loop(1) = {1:5}; Plane Surface(1) = {1}; Curve Loop(2) = {11:14}; Plane Surface(2) = {2};
+MeshSize{:} = 0.5; Mesh.ElementOrder = 2; Physical Surface("block") = {1}; Physical Surface("floor") = {2};
+Physical Curve("foot") = {1, 2}; Physical Curve("head") = {4}; Physical Curve("top") = {13}; Physical Curve("base") = {11};
+)";
+      const TemporaryFolder folder;
+      folder.write("a.geo", geo.str());
+      std::ostringstream text;
+      text << "mesh.file = \"a.geo\"\nmaterials.m = { young = 1000, poisson = 0.3 }\n"
+           << "bodies = { block = \"m\", floor = \"m\" }\n"
+           << "boundary = [{ on = \"base\", displacement = { x = 0, y = 0 } },\n{ on = \"head\", rigid = { rotation = "
+              "0, "
+           << "force = [" << 4 * std::sin(angle) << ", " << -4 * std::cos(angle) << "] } }]\n[[contact]]\nbetween = "
+           << "[\"foot\", \"top\"]\nmultipliers_on = \"top\"\nfluid = { pressure = 0.3, from = [" << 2 * std::cos(angle)
+           << ", " << 2 * std::sin(angle) << "] }\n";
+      const std::string scene = folder.write("a.toml", text.str());
+      expect_contains(message_of([&] { solve_scene(read_scene(scene)); }), "nothing holds body 'block'");
+    }
+}
+
 TEST(Fluid, IsALoadAmongCases) {
   const TemporaryFolder folder;
   const Scene scene = scene_of(folder, {});

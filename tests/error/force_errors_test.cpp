@@ -134,7 +134,8 @@ boundary = [{ on = "bore", pressure = 1 }, { on = "left", displacement = { x = 0
 contact = [{ between = ["in", "out"] }]
 )")));
     estimate(r);
-    const auto grows = [](double E, double nu, double a, double b, double r) {  // per unit of pressure at a, from within
+    const auto grows = [](double E, double nu, double a, double b,
+                          double r) {  // per unit of pressure at a, from within
       return (1 + nu) / E * a * a / (b * b - a * a) * ((1 - 2 * nu) * r + b * b / r);
     };
     const double outside = (1 + 0.3) / 200 * 4 / (4 - 1) * ((1 - 0.6) * 2 + 1 / 2.);  // pressed at 2 from without

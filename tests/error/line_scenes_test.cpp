@@ -321,5 +321,42 @@ MeshSize{:} = 2; MeshSize{5} = 0.06;)");
   }
 }
 
+// A stiff punch with edges of radius r on a soft base, whose edges carry the multipliers and are `edge` long.
+Results rounded_punch(double r, double edge) {
+  const TemporaryFolder folder;
+  folder.write("a.geo", "r = " + std::to_string(r) + "; h = " + std::to_string(edge) + R"(; Mesh.ElementOrder = 2;
+Point(1) = {-30, -20, 0, h}; Point(2) = {30, -20, 0, h}; Point(3) = {30, 0, 0, h}; Point(4) = {-30, 0, 0, h};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Point(5) = {r - 10, 0, 0, h}; Point(6) = {10 - r, 0, 0, h}; Point(7) = {10 - r, r, 0, h}; Point(8) = {10, r, 0, h};
+Point(9) = {10, 10, 0, h}; Point(10) = {-10, 10, 0, h}; Point(11) = {-10, r, 0, h}; Point(12) = {r - 10, r, 0, h};
+Line(5) = {5, 6}; Circle(6) = {6, 7, 8}; Line(7) = {8, 9}; Line(8) = {9, 10}; Line(9) = {10, 11};
+Circle(10) = {11, 12, 5}; Curve Loop(2) = {5:10}; Plane Surface(2) = {2};
+Physical Surface("base") = {1}; Physical Surface("punch") = {2}; Physical Curve("ground") = {1};
+Physical Curve("top") = {3}; Physical Curve("foot") = {5, 6, 10}; Physical Curve("head") = {8};
+)");
+  Results results = solve_scene(read_scene(folder.write("a.toml", R"(
+mesh.file = "a.geo"
+materials = { soft = { young = 3e3, poisson = 0.3 }, steel = { young = 210e3, poisson = 0.3 } }
+bodies = { base = "soft", punch = "steel" }
+boundary = [{ on = "ground", displacement = { x = 0, y = 0 } },
+            { on = "head", rigid = { x = 0, force = [0, -600], about = [0, 10] } }]
+contact = [{ between = ["foot", "top"], multipliers_on = "top" }]
+)")));
+  estimate(results);
+  return results;
+}
+
+// Largest p is 410, 302 and 639 by meshes that show the fillets, where these say 70 to 270; edges that do not face
+// fillets shorter than themselves know of none.
+TEST(HiddenFillets, AreInTheBars) {
+  for (const auto& [r, edge] : {std::pair(0.4, 2.5), std::pair(0.2, 2.5), std::pair(0.1, 0.6)}) {
+    const Results results = rounded_punch(r, edge);
+    EXPECT_GT(results.estimate->pressure(), 0.45) << r;
+    EXPECT_LT(results.estimate->pressure(), 2) << r;
+    EXPECT_EQ(results.estimate->pressures[0].local.narrow_at.size(), 2u) << r;
+  }
+  EXPECT_TRUE(rounded_punch(3, 2.5).estimate->pressures[0].local.narrow_at.empty());
+}
+
 }  // namespace
 }  // namespace mortise::test
