@@ -230,7 +230,7 @@ class Loop {
   // Where gmsh refuses these sizes, of larger ones.
   Mesh mesh_of(const SizeAt& sizes, double& factor) {
     for (int refused = 0;; ++refused) try {
-        Mesh mesh = mesher_.mesh(sizes, spec_.recombine);
+        Mesh mesh = mesher_.mesh(sizes, spec_.recombine, expected_nodes_);
         mesh.known_pairs = known_pairs_;
         return mesh;
       } catch (const InputError&) {
@@ -283,8 +283,10 @@ class Loop {
       wanted.sizes(i) = std::min(wanted.sizes(i), largest_(r.problem.mesh.nodes.row(i).transpose()));
     const auto field = std::make_shared<SizeField>(r.problem.mesh, wanted.sizes, std::move(wanted.layers));
     // More than may be, as far as the old mesh tells: all elements larger, and this is the last mesh.
-    const double excess = expected_unknowns(r.problem.mesh, r.estimate->energy.areas, *field) / spec_.unknowns_max;
+    const double expected = expected_unknowns(r.problem.mesh, r.estimate->energy.areas, *field),
+                 excess = expected / spec_.unknowns_max;
     at_limit_ = excess > 1;
+    expected_nodes_ = std::min<double>(expected, spec_.unknowns_max) / 2;
     return [field, factor = std::sqrt(std::max(1.0, excess))](const Vec2& x) { return factor * (*field)(x); };
   }
 
@@ -302,10 +304,11 @@ class Loop {
   std::optional<WantedSizes> wanted_;  // of several cases on the last mesh, where any of them tells
   std::vector<FoundPoint> found_;      // singular points, of all solves so far
   std::vector<KnownPair> known_pairs_;
-  std::string told_;       // of the solve before, in the progress line
-  std::string refusal_;    // of the last mesh on which the scene was refused
-  int others_ = 0;         // meshes since the last that told the sizes of the next
-  bool at_limit_ = false;  // the mesh has been held to unknowns_max
+  std::string told_;           // of the solve before, in the progress line
+  std::string refusal_;        // of the last mesh on which the scene was refused
+  int others_ = 0;             // meshes since the last that told the sizes of the next
+  bool at_limit_ = false;      // the mesh has been held to unknowns_max
+  double expected_nodes_ = 0;  // of the next mesh
 };
 
 }  // namespace

@@ -24,16 +24,19 @@ class FreeMesher {
 
   /// 6-node triangles, or 8-node quadrilaterals with a few triangles between them, triangles alone where these
   /// quadrilaterals are inverted. The same sizes give the same mesh.
-  /// `size` is called in the child: what it throws comes through as run_in_child
-  /// says, and what it writes to is not seen here. Throws std::domain_error where it is not > 0; InputError as
-  /// load_mesh does, and where cells stay flat or inverted at 0.6 of the sizes too.
-  Mesh mesh(const SizeAt& size, bool recombine = false);
+  /// `nodes`: about so many are expected, 0 if that is not known. gmsh 4.8 may go round for ever at some sizes: what
+  /// takes far longer than earlier meshes did, node for node, is stopped, and other sizes are tried first. `size` is
+  /// called in the child: what it throws comes through as run_in_child says, and what it writes to is not seen here.
+  /// Throws std::domain_error where it is not > 0; InputError as load_mesh does, and where cells stay flat or inverted
+  /// at 0.6 of the sizes too.
+  Mesh mesh(const SizeAt& size, bool recombine = false, double nodes = 0);
 
  private:
-  Mesh mesh_once(const SizeAt& size, bool recombine);
+  Mesh mesh_once(const SizeAt& size, bool recombine, double seconds);
 
   GmshProcess gmsh_;
   FreeDrawing drawing_;
+  double limit_, slowest_ = 0;  // seconds; of all meshes so far, seconds a node
 };
 
 }  // namespace mortise

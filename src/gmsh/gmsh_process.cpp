@@ -42,8 +42,8 @@ FreeDrawing unpacked_drawing(const std::string& bytes) {
 
 }  // namespace
 
-std::string GmshProcess::run(const std::function<std::string(ForbiddenBy)>& work) {
-  const ChildWork child{.file = file_, .seconds = limits_.seconds};
+std::string GmshProcess::run(const std::function<std::string(ForbiddenBy)>& work, double seconds) {
+  const ChildWork child{.file = file_, .seconds = seconds};
   if (!acts_) try {
       return run_in_child(child, [&] { return work(end_child_by_forbidden_act); });
     } catch (const ForbiddenAct& act) {
@@ -56,25 +56,27 @@ std::string GmshProcess::run(const std::function<std::string(ForbiddenBy)>& work
 
 MeshData GmshProcess::mesh_geo(const std::map<std::string, double>& parameters) {
   const GmshModule& gmsh = gmsh_module();  // loaded once, here
-  MeshData data = unpacked_mesh(
-      run([&](ForbiddenBy forbidden) { return packed_mesh(gmsh.mesh_geo(file_, parameters, forbidden)); }));
+  MeshData data =
+      unpacked_mesh(run([&](ForbiddenBy forbidden) { return packed_mesh(gmsh.mesh_geo(file_, parameters, forbidden)); },
+                        limits_.seconds));
   data.file = file_;
   return data;
 }
 
 FreeDrawing GmshProcess::read_drawing(const std::map<std::string, double>& parameters) {
   const GmshModule& gmsh = gmsh_module();
-  FreeDrawing drawing = unpacked_drawing(
-      run([&](ForbiddenBy forbidden) { return packed(gmsh.read_drawing(file_, parameters, forbidden)); }));
+  FreeDrawing drawing = unpacked_drawing(run(
+      [&](ForbiddenBy forbidden) { return packed(gmsh.read_drawing(file_, parameters, forbidden)); }, limits_.seconds));
   drawing.geometry.file = file_;
   drawing.geometry.parameters = parameters;
   return drawing;
 }
 
-MeshData GmshProcess::mesh_freely(const FreeGeometry& geometry, const SizeAt& size, bool recombine) {
+MeshData GmshProcess::mesh_freely(const FreeGeometry& geometry, const SizeAt& size, bool recombine, double seconds) {
   const GmshModule& gmsh = gmsh_module();
   MeshData data = unpacked_mesh(
-      run([&](ForbiddenBy forbidden) { return packed_mesh(gmsh.mesh_freely(geometry, size, recombine, forbidden)); }));
+      run([&](ForbiddenBy forbidden) { return packed_mesh(gmsh.mesh_freely(geometry, size, recombine, forbidden)); },
+          seconds));
   data.file = file_;
   return data;
 }

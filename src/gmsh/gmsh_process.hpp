@@ -23,13 +23,14 @@ class GmshProcess {
 
   MeshData mesh_geo(const std::map<std::string, double>& parameters);
   FreeDrawing read_drawing(const std::map<std::string, double>& parameters);
-  MeshData mesh_freely(const FreeGeometry& geometry, const SizeAt& size, bool recombine);
+  /// `seconds`: time limit.
+  MeshData mesh_freely(const FreeGeometry& geometry, const SizeAt& size, bool recombine, double seconds);
 
   /// Whether a call so far was stopped by the sandbox.
   bool acts() const { return acts_; }
 
  private:
-  std::string run(const std::function<std::string(ForbiddenBy)>& work);
+  std::string run(const std::function<std::string(ForbiddenBy)>& work, double seconds);
 
   std::string file_;
   GeoLimits limits_;

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "app/solve_scene.hpp"
 #include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mortise::test {
 namespace {
@@ -76,6 +78,39 @@ TEST(Gradients, OfALawThatIsNotLinear) {
     const double p = found.values(0), overlap = 1e-5 * std::pow(p / 2e7, 0.4), slope = 2.5 * p / overlap;
     EXPECT_NEAR(2e-4 - overlap, p * of_bodies, 1e-9 * 2e-4);
     EXPECT_NEAR(found.derivatives(0, 0) * (of_bodies + 1 / slope), -1, 1e-8);
+  }
+}
+
+// What a block of rubber carries is its load, whatever its Poisson's ratio: stiffnesses that are nearly infinite, and
+// their differences, are known to fewer digits.
+TEST(Gradients, OfNearlyIncompressibleBodies) {
+  const TemporaryFolder folder;
+  folder.write("nu.geo", R"(SetFactory("OpenCASCADE");
+Rectangle(1) = {-5, 0, 0, 10, 4}; Rectangle(2) = {-2, 4, 0, 4, 3}; Mesh.ElementOrder = 2;
+Transfinite Curve{1, 3} = 21; Transfinite Curve{2, 4} = 9; Transfinite Curve{5, 7} = 12; Transfinite Curve{6, 8} = 9;
+Transfinite Surface{1, 2};
+Physical Surface("low") = {1}; Physical Surface("up") = {2};
+Physical Curve("ground") = {1}; Physical Curve("top") = {3}; Physical Curve("foot") = {5}; Physical Curve("head") = {7};
+)");
+  const std::string path = folder.write("nu.toml", R"(
+mesh.file = "nu.geo"
+materials = { s = { young = 1000, poisson = 0.3 }, r = { young = 100, poisson = 0.3 } }
+bodies = { low = "s", up = "r" }
+boundary = [{ on = "ground", displacement = { x = 0, y = 0 } }, { on = "head", displacement = { x = 0 } },
+            { on = "head", pressure = 1 }]
+contact = [{ between = ["top", "foot"] }]
+)");
+  const auto at = [&](double poisson) {
+    const std::vector<Parameter> by{{"materials.r.poisson", poisson}};
+    return gradients(solve_scene(parametrised(path, {}, by)), path, {},
+                     {{"contact.0.force.y", {}}, {"contact.0.pressure.norm", {6}}}, by);
+  };
+  for (const double compressible : {1e-2, 1e-3, 1e-4}) {
+    const double poisson = 0.5 - compressible, step = compressible / 30;
+    const VecX found = at(poisson).derivatives,
+               slope = (at(poisson + step).values - at(poisson - step).values) / (2 * step);
+    EXPECT_NEAR(found(0), 0, 1e-3) << compressible;
+    EXPECT_NEAR(found(1), slope(1), 1e-3 * std::abs(slope(1))) << compressible;
   }
 }
 

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 #include <omp.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <clocale>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -150,6 +153,25 @@ TEST_P(EveryScene, IsMeshedFreely) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Geo, EveryScene, testing::ValuesIn(scenes()), [](const auto& info) { return info.param; });
+
+// The size function stands for gmsh: it never returns the first time.
+TEST(FreeMesher, WhatTakesFarLongerThanEarlierMeshesIsStopped) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.geo", kAllCurves);
+  FreeMesher mesher(file, {});
+  const Mesh first = mesher.mesh([](const Vec2&) { return 0.3; });
+  const fs::path mark = fs::path(file).replace_extension("mark");
+  const SizeAt hangs = [&](const Vec2&) {
+    if (!fs::exists(mark)) {
+      std::ofstream(mark) << "once";
+      ::sleep(600);
+    }
+    return 0.25;
+  };
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_GT(mesher.mesh(hangs, false, double(first.nodes.rows())).nodes.rows(), first.nodes.rows());
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+}
 
 TEST(FreeMesher, AGeometryOfOpenCascadeToo) {
   const TemporaryFolder folder;

@@ -87,6 +87,30 @@ def test_a_dict_is_a_scene():
 
 
 @solves
+def test_files_of_a_dict_are_where_one_works(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "load.csv").write_text("x,y,q\n-99,-99,2\n99,-99,2\n0,99,2\n")
+    (tmp_path / "cases.csv").write_text("name,boundary.2.pressure\none,1e6\ntwo,2e6\n")
+    scene = {
+        "mesh": {"file": os.path.relpath(launch.ROOT / "geo/punch.geo")},
+        "fields": {"q": {"file": "load.csv"}},
+        "materials": {"steel": {"young": 210e9, "poisson": 0.3}},
+        "bodies": {"*": "steel"},
+        "boundary": [
+            {"on": "ground", "displacement": {"x": 0, "y": 0}},
+            {"on": "head", "displacement": {"x": 0}},
+            {"on": "head", "pressure": "1e6 * q"},
+        ],
+        "contact": [{"between": ["foot", "block_top"]}],
+    }
+    by_field = mortise.solve(scene, estimate=False)
+    table = mortise.cases(scene | {"case": [{"file": "cases.csv"}]})
+    assert table["status"] == ["solved", "solved"]
+    forces = [float(force) for force in table["contact.0.force.y"]]
+    assert forces[1] == pytest.approx(2 * forces[0], rel=1e-9) == pytest.approx(by_field.summary["contact"][0]["force"][1], rel=1e-9)
+
+
+@solves
 def test_errors_are_exceptions_with_the_words_of_the_program():
     scene = launch.scene_file("punch")
     said = subprocess.run([launch.MORTISE, "solve", scene, "--set", "materials.steel.young=-1"], capture_output=True, text=True, check=False)

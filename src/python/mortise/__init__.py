@@ -256,9 +256,19 @@ def _anywhere(scene):
     """The same in any working directory."""
     if not isinstance(scene, dict):
         return os.path.abspath(scene)
-    if isinstance(scene.get("mesh"), dict) and isinstance(scene["mesh"].get("file"), (str, os.PathLike)):
-        return scene | {"mesh": scene["mesh"] | {"file": os.path.abspath(scene["mesh"]["file"])}}
-    return scene
+    return scene | {name: _with_whole_paths(scene[name]) for name in ("mesh", "fields", "case") if name in scene}
+
+
+def _with_whole_paths(value):
+    """Tables, with what they call `file` from the root on."""
+    if isinstance(value, (list, tuple)):
+        return [_with_whole_paths(item) for item in value]
+    if not isinstance(value, dict):
+        return value
+    whole = {key: _with_whole_paths(item) for key, item in value.items()}
+    if isinstance(whole.get("file"), (str, os.PathLike)):
+        whole["file"] = os.path.abspath(whole["file"])
+    return whole
 
 
 @contextlib.contextmanager
