@@ -127,8 +127,10 @@ void find_unheld(Results& r) {
   append_lines(r.warnings, held_lines(p.mesh, free));
   r.unheld = p.held.motions;
   r.unheld.insert(r.unheld.end(), free.begin(), free.end());
-  for (const int unknown : held_unknowns(p.floating.grounded, r.solution))
+  for (const int unknown : held_unknowns(p.floating.grounded, r.solution)) {
     p.discretisation.system.constraints.fixed[unknown] = 1;
+    p.idle.push_back(unknown);
+  }
 }
 
 // What rows open by in round-off, over their size.

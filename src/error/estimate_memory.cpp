@@ -13,6 +13,11 @@ void EstimateMemory::keep_for(const Problem& p) {
     corners_.reset();
     statics_.reset();
     known_.clear();
+    supports_.reset();
+    if (!p.idle.empty()) {
+      supports_ = p.discretisation.system.constraints;
+      for (const int unknown : p.idle) supports_->fixed[unknown] = 0;
+    }
   }
   known_.resize(p.pairs.size());
   places_.resize(p.pairs.size());
@@ -22,7 +27,8 @@ void EstimateMemory::keep_for(const Problem& p) {
 Surroundings EstimateMemory::around(const Problem& p) {
   if (!sides_) sides_.emplace(p.mesh);
   if (!ties_) ties_.emplace(p.mesh, *sides_);
-  return {p.mesh, *sides_, *ties_, p.discretisation.system.constraints, p.discretisation.laws, tips_};
+  const Constraints& supports = supports_ ? *supports_ : p.discretisation.system.constraints;
+  return {p.mesh, *sides_, *ties_, supports, p.discretisation.laws, tips_};
 }
 
 const std::vector<BodyCorner>& EstimateMemory::corners(const Problem& p) {
@@ -30,8 +36,8 @@ const std::vector<BodyCorner>& EstimateMemory::corners(const Problem& p) {
   return *corners_;
 }
 
-const Statics& EstimateMemory::statics(const Problem& p, const std::vector<int>& idle) {
-  if (!statics_) statics_.emplace(p.mesh, p.points, p.discretisation.system, idle);
+const Statics& EstimateMemory::statics(const Problem& p) {
+  if (!statics_) statics_.emplace(p.mesh, p.points, p.discretisation.system, p.idle);
   return *statics_;
 }
 

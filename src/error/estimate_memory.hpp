@@ -24,7 +24,7 @@ class EstimateMemory {
   void keep_for(const Problem& problem);
   Surroundings around(const Problem& problem);
   const std::vector<BodyCorner>& corners(const Problem& problem);
-  const Statics& statics(const Problem& problem, const std::vector<int>& idle);  ///< idle: as of Statics
+  const Statics& statics(const Problem& problem);
   /// Of pair k, to work with; of several pairs at once.
   template <typename Work>
   void with_fits(std::size_t k, Work work) {
@@ -44,6 +44,7 @@ class EstimateMemory {
   std::optional<SideTable> sides_;
   std::optional<TiedVertices> ties_;
   std::vector<char> fixed_;
+  std::optional<Constraints> supports_;  // those of the problem without what holds idle motions, where it does
   std::optional<std::vector<BodyCorner>> corners_;
   std::optional<Statics> statics_;
   std::vector<std::optional<KnownPlaces>> known_;  // of each pair

@@ -1,7 +1,6 @@
 #include "error/force_errors.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 
 #include "error/border_overlaps.hpp"
@@ -24,16 +23,9 @@ VecX opened_rows(const Problem& problem, const std::vector<Vec2>& centres, const
   return rows;
 }
 
-// Where motions are held that no load drives, from the start or as contact opens: forces there are none, or left.
-std::vector<int> idle_unknowns(const Problem& problem, const Solution& solution) {
-  std::vector<int> idle = problem.held.grounded;
-  std::ranges::copy(held_unknowns(problem.floating.grounded, solution), std::back_inserter(idle));
-  return idle;
-}
-
 // The work of a motion with the forces that the solution leaves, where none is held but as idle, and with round-off of
 // the load, without signs.
-double work_left(const Problem& problem, const Solution& solution, const std::vector<int>& idle, const VecX& motion) {
+double work_left(const Problem& problem, const Solution& solution, const VecX& motion) {
   const SaddlePointSystem& s = problem.discretisation.system;
   const Constraints& constraints = s.constraints;
   VecX left = unbalanced_forces(s, solution), q = motion;
@@ -42,7 +34,7 @@ double work_left(const Problem& problem, const Solution& solution, const std::ve
     q = constraints.multipoint->inverse * motion;
   }
   std::vector<char> held = constraints.fixed;
-  for (const int i : idle) held[i] = 0;
+  for (const int i : problem.idle) held[i] = 0;
   double work = std::numeric_limits<double>::epsilon() * s.f.cwiseAbs().dot(motion.cwiseAbs());
   for (Eigen::Index i = 0; i < left.size(); ++i)
     if (!held[i]) work += std::abs(left(i) * q(i));
@@ -102,14 +94,13 @@ ForcesAsked ask_forces(const Problem& problem, const Solution& solution, const s
   ForcesAsked asked{.by_statics = {pairs.size(), Eigen::Vector3d::Constant(unknown)}, .by_duals = {}, .rows = {}};
   if (pairs.size() > std::size_t(most_own_duals) || mesh.bodies.size() > std::size_t(most_own_duals)) return asked;
   memory.keep_for(problem);
-  const std::vector<int> idle = idle_unknowns(problem, solution);
-  const Statics& statics = memory.statics(problem, idle);
+  const Statics& statics = memory.statics(problem);
   std::vector<VecX> rows;
   for (std::size_t k = 0; k < pairs.size(); ++k)
     for (int c = 0; c < 3; ++c) {
       VecX opened = opened_rows(problem, centres, {k, c});
       if (const auto motion = statics.motion(opened)) {
-        asked.by_statics[k](c) = work_left(problem, solution, idle, *motion) +
+        asked.by_statics[k](c) = work_left(problem, solution, *motion) +
                                  error_safety * off_by(MatX(outline_works(problem, solution.u, *motion)))(0);
       } else {
         asked.by_duals.push_back({k, c});

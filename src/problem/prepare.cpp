@@ -38,6 +38,7 @@ void add_contact(std::vector<ContactCurves> curves, Problem& p) {
   require_closed(p.mesh, p.pairs);
   require_held_pieces(p.mesh, system.constraints, p.warnings);
   p.held = hold_free_motions(p.mesh, p.pairs, p.warnings, system);
+  p.idle = p.held.grounded;
   append_lines(p.warnings, held_lines(p.mesh, p.held.motions));
   p.floating = find_floating(p.mesh, system.constraints);
   system.grounded = p.floating.grounded;

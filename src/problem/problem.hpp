@@ -35,6 +35,7 @@ struct Problem {
   std::vector<char> dirichlet;  ///< of domain decomposition: whether a body takes the displacement
   Floating floating;            ///< what only contact holds
   Floating held;                ///< what nothing holds and no load drives, held
+  std::vector<int> idle;        ///< unknowns at which it is held, or what contact lets go as it opens: no supports
   std::vector<ProbePlace> probes;
   std::vector<Expectation> expectations;
   std::vector<std::string> warnings;  ///< of the mesh and the audit, and of motions held

@@ -105,7 +105,7 @@ def test_files_of_a_dict_are_where_one_works(tmp_path, monkeypatch):
     }
     by_field = mortise.solve(scene, estimate=False)
     table = mortise.cases(scene | {"case": [{"file": "cases.csv"}]})
-    assert table["status"] == ["solved", "solved"]
+    assert list(table["status"]) == ["solved", "solved"]
     forces = [float(force) for force in table["contact.0.force.y"]]
     assert forces[1] == pytest.approx(2 * forces[0], rel=1e-9) == pytest.approx(by_field.summary["contact"][0]["force"][1], rel=1e-9)
 
