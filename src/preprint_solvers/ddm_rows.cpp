@@ -31,7 +31,8 @@ DdmRows::DdmRows(const GroupPair& groups, const DdmOptions& options)
     : DenseRows(groups.problem, groups.rhs),
       groups_(groups),
       options_(options),
-      tolerance_(options.tolerance),
+      asked_(options.tolerance),
+      tolerance_(asked_),
       lambda_(VecX::Zero(groups.gap0.size())) {
   if (options.acceleration == Acceleration::krylov && std::ranges::count(groups.problem.unilateral, 1) > 0)
     tolerance_ = std::max(first_tolerance, options.tolerance);
@@ -43,8 +44,8 @@ Spectrum DdmRows::closed_spectrum() const {
 }
 
 bool DdmRows::refine() {
-  const bool better = tolerance_ > options_.tolerance;
-  tolerance_ = std::max(first_tolerance * tolerance_, options_.tolerance);
+  const bool better = tolerance_ > asked_;
+  tolerance_ = std::max(first_tolerance * tolerance_, asked_);
   return better;
 }
 

@@ -25,6 +25,7 @@ class DdmRows : public DenseRows {
 
   Answer solve(const std::vector<char>& closed, const VecX& at) override;
   bool refine() override;
+  void go_on_to(double tolerance) { asked_ = tolerance_ = tolerance; }  ///< below that of the options
   MatX free_motions() const override { return interface_.dirichlet_closed->rigid_modes(); }
 
   /// Of all solves.
@@ -42,7 +43,7 @@ class DdmRows : public DenseRows {
 
   const GroupPair& groups_;
   const DdmOptions& options_;
-  double tolerance_;
+  double asked_, tolerance_;
   VecX lambda_;
   Interface interface_;
   std::vector<IterationStep> history_;

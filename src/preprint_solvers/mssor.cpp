@@ -186,10 +186,10 @@ Solution solve_by_mssor(const SaddlePointSystem& s, const MssorOptions& options)
     if (solution.status == SolveStatus::diverged || monitor.exhausted()) break;
     if (converged && reached <= options.tolerance) break;
     solution.status = SolveStatus::not_converged;
-    if (!(reached < 0.5 * last)) break;  // all that this arithmetic gives
+    if (!(reached < last)) break;  // all that this arithmetic gives
     last = reached;
-    monitor.restart(converged ? 0.5 * std::min(1.0, options.tolerance / reached) * monitor.tolerance()
-                              : monitor.tolerance());
+    const double own = monitor.history().back().residuals.largest();  // of the last step, in its measure
+    monitor.restart(converged ? 0.5 * std::min(1.0, options.tolerance / reached) * own : monitor.tolerance());
     residual(reduced, x, r);
   }
   if (largest(solution.force_residual, solution.constraint_residual) <= options.tolerance)

@@ -199,6 +199,13 @@ std::string locking(bool linear, bool quadrilaterals) {
          "stresses inside are read";
 }
 
+// Poisson's ratio; of a stiffness of any kind that of a material as stiff against a change of area in the plane, and
+// against the shear that it resists most, as stiff fibres are no such thing: mu = (1 - 2 nu) (lambda + mu).
+double poisson_of(const Mat4& stiffness) {
+  const double all = (stiffness(0, 0) + stiffness(1, 1)) / 4, coupled = stiffness(0, 1) / 2;
+  return (1 - std::max(all - coupled, stiffness(3, 3)) / (all + coupled)) / 2;
+}
+
 // Poisson's ratio from which elements lock in plane strain and in rings.
 void warn_of_locking(const Problem& p, Lines& lines) {
   if (p.entries.model.plane == Plane::stress) return;
@@ -209,7 +216,8 @@ void warn_of_locking(const Problem& p, Lines& lines) {
   }
   for (int i = 0; i < int(p.entries.bodies.size()); ++i) {
     const BodySpec& spec = p.entries.bodies[i];
-    const double poisson = p.entries.materials.at(spec.material).poisson;
+    const Material& material = p.entries.materials.at(spec.material);
+    const double poisson = material.stiffness ? poisson_of(*material.stiffness) : material.poisson;
     const auto any = [&](const std::vector<char>& has) {
       for (std::size_t b = 0; b < has.size(); ++b)
         if (has[b] && p.entries.body_of[b] == i) return true;
@@ -217,8 +225,8 @@ void warn_of_locking(const Problem& p, Lines& lines) {
     };
     const bool linear = any(has_linear);
     if (poisson < (linear ? 0.4 : 0.49)) continue;
-    lines.push_back(worded("body '", spec.name, "' is nearly incompressible (poisson = ", poisson,
-                           "): ", locking(linear, any(has_quadrilaterals))));
+    lines.push_back(worded("body '", spec.name, "' is nearly incompressible (", material.stiffness ? "as of " : "",
+                           "poisson = ", poisson, "): ", locking(linear, any(has_quadrilaterals))));
   }
 }
 

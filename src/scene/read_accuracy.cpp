@@ -72,7 +72,8 @@ void read_accuracy(const Node& root, Scene& scene) {
   AccuracySpec accuracy;
   read(*node, accuracy_keys(accuracy, last_pair));
   if (scene.contacts.empty())
-    fail(*node, "the accuracy of the contact pressure is asked for where there is no [[contact]]");
+    fail(*node, std::string("the accuracy of the contact pressure is asked for where there is no [[contact]]") +
+                    (scene.ties.empty() ? "" : " but tied ones"));
   check_goal(*node, accuracy);
   if (!scene.mesh_file.ends_with(".geo"))
     fail(*node, "a mesh has no geometry to refine; expected mesh.file = a .geo (with a .msh every solve gives bars)");

@@ -279,6 +279,23 @@ TEST(Limits, NearlyIncompressibleBodiesAreNoted) {
   EXPECT_FALSE(noted(solve_scene(s, mesh_of({})), "nearly incompressible"));
 }
 
+// As of the same stiffness written out; fibres that are stiff along one axis are another matter.
+TEST(Limits, NearlyIncompressibleStiffnessesAreNoted) {
+  Scene s = uniaxial_scene();
+  TwoPlates plates;
+  plates.kind_upper = CellKind::quad4;
+  const auto with = [&](double along, double across, double coupled, double shear) {
+    Mat4 stiffness = Mat4::Zero();
+    stiffness.topLeftCorner<3, 3>().setConstant(coupled);
+    stiffness.diagonal() << along, across, across, shear;
+    s.materials["steel"].stiffness = stiffness * s.materials["steel"].young;
+    return solve_scene(s, mesh_of(plates));
+  };
+  const double poisson = 0.42, lambda = poisson / (1 + poisson) / (1 - 2 * poisson), mu = 0.5 / (1 + poisson);
+  EXPECT_TRUE(noted(with(lambda + 2 * mu, lambda + 2 * mu, lambda, mu), "(as of poisson = 0.42)"));
+  EXPECT_FALSE(noted(with(15, 1, 0.4, 0.5), "nearly incompressible"));
+}
+
 TEST(Limits, LargeDisplacementsAreNoted) {
   Scene s = uniaxial_scene();
   EXPECT_FALSE(noted(solve_scene(s, mesh_of({})), "large displacements"));

@@ -333,7 +333,7 @@ def main():
     if not any((options.folder / name).is_file() for name in ("summary.json", "certificate.json")):
         parser.error(f"{options.folder}: no summary.json there; expected the folder of a run of mortise solve or certify")
     if (options.folder / "cases.csv").is_file():
-        parser.error(f"{options.folder}: the cases of a scene; expected one of the folders cases/NAME in it")
+        parser.error(f"{options.folder}: the cases of a scene; expected one of the folders cases/NAME in it, which [cases] write = \"contact\" or \"all\" makes")
     page = options.page or options.folder.with_name(options.folder.resolve().name + ".html")
     if page.suffix != ".html":
         parser.error(f"{page}: expected a name that ends in .html")
