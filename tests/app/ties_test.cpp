@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <iomanip>
 #include <numbers>
 #include <random>
 #include <set>
@@ -264,6 +266,66 @@ Physical Curve("rim") = {40 : 43};
   const Results squeezed =
       solved(R"({ on = "bore", displacement = { x = "-1e-3 * y", y = "1e-3 * x" } }, { on = "rim", pressure = 1 })");
   EXPECT_EQ(squeezed.status, Status::solved) << squeezed.warnings.size();
+}
+
+// A block on a longer one whose edges are shorter, and follow: wherever it ends within an edge.
+TEST(Ties, OfABlockOnALongerOneMayEndAnywhere) {
+  const TemporaryFolder folder;
+  std::mt19937 random(3);
+  std::vector<double> moved{0, 1e-4, 1e-3, 0.01, 0.05, 1. / 6, 1. / 3};
+  for (int k = 0; k < 10; ++k) moved.push_back(std::uniform_real_distribution<double>(0, 0.5)(random));
+  for (const double by : moved)
+    for (const char* order : {"Mesh.ElementOrder = 1", "Mesh.ElementOrder = 2"}) {
+      folder.write("a.geo", "d = " + std::to_string(by) + "; " + order + R"(; SetFactory("OpenCASCADE");
+Rectangle(1) = {-5, 0, 0, 10, 2}; Rectangle(2) = {-3 + d, 2, 0, 6, 2};
+Transfinite Curve{1, 3} = 31; Transfinite Curve{2, 4} = 7; Transfinite Curve{5, 7} = 9; Transfinite Curve{6, 8} = 4;
+Transfinite Surface{1, 2}; Recombine Surface{1, 2};
+Physical Surface("low") = {1}; Physical Surface("up") = {2};
+Physical Curve("ground") = {1}; Physical Curve("top") = {3}; Physical Curve("foot") = {5}; Physical Curve("head") = {7};
+)");
+      std::vector<double> energy;
+      for (const char* follows : {"top", "foot"}) {
+        const Results r = solve_scene(read_scene(folder.write("a.toml", R"(mesh.file = "a.geo"
+materials.m = { young = 1000, poisson = 0.3 }
+bodies = { low = "m", up = "m" }
+boundary = [{ on = "ground", displacement = { x = 0, y = 0 } }, { on = "head", traction = [0.3, -1] }]
+contact = [{ between = ["top", "foot"], condition = "tied", multipliers_on = ")" +
+                                                                            std::string(follows) + "\" }]\n")));
+        EXPECT_EQ(r.status, Status::solved);
+        energy.push_back(r.recovery.energy);
+      }
+      EXPECT_NEAR(energy[0], energy[1], 0.025 * energy[1]) << by << order;
+    }
+}
+
+// A multiplier of rings has no weight at the end of a quadratic edge on the axis: round-off said whether that was tied.
+TEST(Ties, HoldOnTheAxis) {
+  const TemporaryFolder folder;
+  for (const double unit : {1., 0.1, 3., 25.4})
+    for (const auto& [lower, upper] : {std::pair(7, 9), std::pair(16, 5), std::pair(3, 30)}) {
+      std::ostringstream geo;
+      geo << std::setprecision(17) << "L = " << unit << "; Mesh.ElementOrder = 2; SetFactory(\"OpenCASCADE\");\n"
+          << "Rectangle(1) = {0, 0, 0, 2*L, L}; Rectangle(2) = {0, L, 0, 2*L, L};\nTransfinite Curve{1, 3} = "
+          << lower + 1 << "; Transfinite Curve{5, 7} = " << upper + 1 << R"(;
+Transfinite Curve{2, 4, 6, 8} = 4; Transfinite Surface{1, 2}; Recombine Surface{1, 2};
+Physical Surface("low") = {1}; Physical Surface("up") = {2};
+Physical Curve("ground") = {1}; Physical Curve("top") = {3}; Physical Curve("foot") = {5}; Physical Curve("head") = {7};
+)";
+      folder.write("a.geo", geo.str());
+      const Results r = solve_scene(read_scene(folder.write("a.toml", R"(mesh.file = "a.geo"
+model.plane = "axisymmetric"
+materials = { m = { young = 1000, poisson = 0.3 }, k = { young = 300, poisson = 0.4 } }
+bodies = { low = "m", up = "k" }
+boundary = [{ on = "ground", displacement = { y = 0 } }, { on = "head", pressure = 1 }]
+contact = [{ between = ["top", "foot"], condition = "tied" }]
+)")));
+      const Points& nodes = r.problem.mesh.nodes;
+      std::vector<double> along;
+      for (Eigen::Index i = 0; i < nodes.rows(); ++i)
+        if (nodes(i, 0) == 0 && std::abs(nodes(i, 1) - unit) < 1e-9 * unit) along.push_back(r.solution.u(2 * i + 1));
+      ASSERT_EQ(along.size(), 2u);
+      EXPECT_NEAR(along[0], along[1], 1e-12 * unit) << unit << " " << lower << " " << upper;
+    }
 }
 
 TEST(Ties, RefuseWhatCannotBeTied) {
