@@ -296,6 +296,27 @@ TEST(Limits, NearlyIncompressibleStiffnessesAreNoted) {
   EXPECT_FALSE(noted(with(15, 1, 0.4, 0.5), "nearly incompressible"));
 }
 
+TEST(Limits, BodiesThatAreNotIsotropicAreNoted) {
+  const auto with = [](double x, double y, double around, double shear, Plane plane) {
+    Scene s = uniaxial_scene();
+    s.model.plane = plane;
+    Mat4 stiffness = Mat4::Zero();
+    stiffness.topLeftCorner<3, 3>().setConstant(0.4);
+    stiffness.diagonal() << x, y, around, shear;
+    s.materials["steel"].stiffness = stiffness * s.materials["steel"].young;
+    return solve_scene(s, mesh_of({}));
+  };
+  using enum Plane;
+  EXPECT_FALSE(noted(with(1.4, 1.4, 1.4, 0.5, strain), "not isotropic"));
+  EXPECT_FALSE(noted(with(1.4, 1.4, 1.4, 0.5, axisymmetric), "not isotropic"));
+  EXPECT_TRUE(noted(with(1.4, 2, 1.4, 0.5, strain), "is judged as of an isotropic body"));
+  EXPECT_TRUE(noted(with(1.4, 1.4, 1.4, 0.6, strain), "is judged as of an isotropic body"));
+  const Results r = with(1.6, 1.6, 0.4, 0.6, axisymmetric);
+  EXPECT_TRUE(noted(r, "on the axis its stress has no limit, as it is stiffer along r than around: it grows as r^-0.5"))
+      << all_notes(r);
+  EXPECT_FALSE(noted(r, "is judged as"));
+}
+
 TEST(Limits, LargeDisplacementsAreNoted) {
   Scene s = uniaxial_scene();
   EXPECT_FALSE(noted(solve_scene(s, mesh_of({})), "large displacements"));
