@@ -11,7 +11,7 @@ namespace mortise {
 namespace {
 
 constexpr double largest_step = 16;  // by which one mesh is to lower the error: a coarse one's estimate is not exact
-constexpr double aimed = 0.7;        // of what was asked, lest a mesh that just misses it be solved in vain
+constexpr double least_miss = 0.7;   // of what was asked, lest a mesh that just misses it be solved in vain
 
 }  // namespace
 
@@ -38,8 +38,9 @@ double estimated_error(const Results& r, Goal of) {
 }
 
 // On the first mesh p swings about corners that have no layers yet: its edges are judged by the slopes alone.
-WantedSizes wanted_next(const Results& r, const AccuracySpec& spec, bool first) {
+WantedSizes wanted_next(const Results& r, const AccuracySpec& spec, bool first, double aim) {
   const ErrorEstimate& e = *r.estimate;
+  const double aimed = least_miss * aim;
   // What was asked of another quantity, as an error of p that is as far above what it should be.
   const double found = estimated_error(r, spec.of),
                asked = spec.value * (spec.of == Goal::pressure ? 1 : e.pressure() / found);

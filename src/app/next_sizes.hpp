@@ -17,8 +17,9 @@ double changed_by_point_supports(const Results& results);
 /// which have no p of a finest mesh, change of it.
 double estimated_error(const Results& results, Goal of);
 
-/// Sizes with which that comes to what is asked, in as few meshes as can be. `first`: of all.
-WantedSizes wanted_next(const Results& results, const AccuracySpec& spec, bool first);
+/// Sizes with which that comes to what is asked, in as few meshes as can be. `first`: of all. `aim`: less than 1 where
+/// meshes that were to come to it have missed it.
+WantedSizes wanted_next(const Results& results, const AccuracySpec& spec, bool first, double aim = 1);
 
 /// The number of unknowns of a mesh with these sizes. `areas`: of the cells.
 double expected_unknowns(const Mesh& mesh, const VecX& areas, const SizeField& sizes);

@@ -54,7 +54,7 @@ Iteration record(const DdmOptions& options, const DdmRows& rows, SolveStatus sta
       advice << (e.largest > stiff
                      ? "a body that takes the displacement is so much stiffer than its opposites, in "
                        "itself or between two of them"
-                     : "bodies that take the displacement hardly feel a multiplier, and round-off is left")
+                     : "a multiplier is hardly felt on the side that takes the displacement, and round-off is left")
              << "; expected method.solver = \"feti\" or \"direct\"";
     else
       advice << "beta converges below " << e.largest_beta() << ", best at " << e.best_beta();

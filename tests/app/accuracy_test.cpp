@@ -206,6 +206,32 @@ accuracy.value = "1%"
   EXPECT_TRUE(r->accuracy->reached()) << r->accuracy->reason;
 }
 
+// Two arcs that are one line, under an uneven load: meshes aimed at 0.7 of what is asked missed it by less and less, as
+// they hardly grew, for eight solves.
+TEST(Accuracy, MissedByAHairIsAimedLower) {
+  const TemporaryFolder folder;
+  folder.write("a.geo", R"(
+Point(1) = {-1, 0, 0}; Point(2) = {0, 0.1, 0}; Point(3) = {1, 0, 0}; Point(4) = {1, -1, 0}; Point(5) = {-1, -1, 0};
+Point(9) = {0, -4.95, 0}; Circle(1) = {1, 9, 2}; Circle(2) = {2, 9, 3}; Line(3) = {3, 4}; Line(4) = {4, 5};
+Line(5) = {5, 1}; Curve Loop(1) = {1:5}; Plane Surface(1) = {1};
+Point(11) = {-1, 0, 0}; Point(12) = {0, 0.1, 0}; Point(13) = {1, 0, 0}; Point(14) = {1, 1, 0}; Point(15) = {-1, 1, 0};
+Circle(11) = {11, 9, 12}; Circle(12) = {12, 9, 13}; Line(13) = {13, 14}; Line(14) = {14, 15}; Line(15) = {15, 11};
+Curve Loop(2) = {11:15}; Plane Surface(2) = {2}; Compound Curve{1, 2}; Compound Curve{11, 12};
+Physical Surface("lo") = {1}; Physical Surface("up") = {2}; Physical Curve("top") = {1, 2};
+Physical Curve("foot") = {11, 12}; Physical Curve("base") = {4}; Physical Curve("head") = {14};
+)");
+  const Results r = *solve_to_accuracy(read_scene(folder.write("a.toml", R"toml(mesh.file = "a.geo"
+materials = { a = { young = 100, poisson = 0.3 }, b = { young = 300, poisson = 0.2 } }
+bodies = { lo = "a", up = "b" }
+boundary = [{ on = "base", displacement = { x = 0, y = 0 } }, { on = "head", pressure = "1 + 0.2 * sin(3 * x)" },
+            { on = "head", displacement = { x = 0 } }]
+contact = [{ between = ["foot", "top"] }]
+accuracy.value = 1e-3
+)toml")));
+  EXPECT_TRUE(r.accuracy->reached());
+  EXPECT_LE(r.accuracy->solves.size(), 7u);
+}
+
 // Hot pellets press on their cladding with their rims, where p has no limit, and with their middles; between, p falls
 // to zero or nearly so. Temperatures bend within cells as far as these may.
 TEST(Accuracy, OfRodsIsReachedHoweverManyPellets) {
