@@ -112,12 +112,13 @@ class Loop {
     return n >= 3 && solves[n - 1].estimated > solves[n - 2].estimated / 2;
   }
 
-  // So near to what was asked the estimate's parts are known to fall as they should: a mesh that misses it all the same
-  // says by how much too little.
+  // So near to what was asked the estimate's parts are known to fall as they should: meshes that miss it all the same,
+  // twice, ask for too little.
   void aim_lower(const std::vector<AccuracyReport::Solve>& solves) {
     constexpr double near = 3, lower = 0.7;
     const std::size_t n = solves.size();
-    if (n >= 2 && solves[n - 2].estimated <= near * spec_.value && solves[n - 1].estimated > spec_.value) aim_ *= lower;
+    if (n < 2 || solves[n - 2].estimated > near * spec_.value || solves[n - 1].estimated <= spec_.value) return;
+    if (++near_misses_ > 1) aim_ *= lower;
   }
 
   // `sizes`: of the mesh that r is on.
@@ -316,6 +317,7 @@ class Loop {
   std::string told_;           // of the solve before, in the progress line
   std::string refusal_;        // of the last mesh on which the scene was refused
   double aim_ = 1;             // as of wanted_next
+  int near_misses_ = 0;        // of what was asked
   int others_ = 0;             // meshes since the last that told the sizes of the next
   bool at_limit_ = false;      // the mesh has been held to unknowns_max
   double expected_nodes_ = 0;  // of the next mesh

@@ -22,10 +22,14 @@ double missed(double d, double amplitude) { return 0.52 * amplitude * std::exp(-
 // What the best hats miss of c r ln r on even edges of length h: in L2 over c h sqrt(h), and at the end over c h.
 constexpr double hats_in_l2 = 0.11, hats_at_end = 0.36;
 
-// Of its chord; the body on the left bulges where it is positive.
-double curvature_of(const Points& nodes, const Edge& edge) {
-  const Vec2 start = edge_point(nodes, edge, -1).tangent, end = edge_point(nodes, edge, 1).tangent;
-  return std::atan2(cross(start, end), start.dot(end)) / edge_length(nodes, edge);
+// Of each edge; the body on the left bulges where it is positive.
+std::vector<double> curvatures(const Points& nodes, const Curve& curve) {
+  std::vector<double> all;
+  for (const Edge& edge : curve.edges) {
+    const Vec2 start = edge_point(nodes, edge, -1).tangent, end = edge_point(nodes, edge, 1).tangent;
+    all.push_back(std::atan2(cross(start, end), start.dot(end)) / edge_length(nodes, edge));
+  }
+  return all;
 }
 
 }  // namespace
@@ -82,14 +86,14 @@ void add_hidden_fillets(const Points& nodes, const ContactPair& pair, const Pres
     double curvature;
     Vec2 place;
   };
+  const std::vector<double> own = curvatures(nodes, pair.multiplier), opposite = curvatures(nodes, pair.opposite);
   std::map<Eigen::Index, Fillet> sharpest;  // by edges of the multiplier side
   for (const ContactPoint& point : pair.points) {
     if (!line.loaded[point.edge] || !line.loaded[point.edge + 1]) continue;
-    const Edge& opposite = pair.opposite.edges[point.opposite_edge];
-    const double curvature =
-        std::abs(curvature_of(nodes, opposite) + curvature_of(nodes, pair.multiplier.edges[point.edge]));
+    const double curvature = std::abs(own[point.edge] + opposite[point.opposite_edge]);
     Fillet& known = sharpest[point.edge];
-    if (curvature > known.curvature) known = {curvature, edge_point(nodes, opposite, point.eta).position};
+    if (curvature > known.curvature)
+      known = {curvature, edge_point(nodes, pair.opposite.edges[point.opposite_edge], point.eta).position};
   }
   for (const auto& [edge, fillet] : sharpest) {
     const double longer = (line.s(edge + 1) - line.s(edge)) * fillet.curvature;
