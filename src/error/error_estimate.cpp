@@ -135,8 +135,7 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
     forget_borders(e.swings, e.local);
     e.weak = add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
-    if (pair.spec.initial_gap == InitialGap::curve || pair.spec.initial_gap == InitialGap::measured)
-      add_hidden_fillets(p.mesh.nodes, pair, e.line, e.local);
+    add_hidden_fillets(p.mesh.nodes, pair, e.line, e.local);
     const std::array<ElasticLaw, 2> laws{d.laws[pair.multiplier.body], d.laws[pair.opposite.body]};
     const double modulus = contact_modulus(laws[0], laws[1]);
     if (pair.spec.stiffness) {

@@ -86,6 +86,7 @@ void add_hidden_fillets(const Points& nodes, const ContactPair& pair, const Pres
     double curvature;
     Vec2 place;
   };
+  if (pair.spec.initial_gap == InitialGap::closed || pair.spec.initial_gap == InitialGap::given) return;
   const std::vector<double> own = curvatures(nodes, pair.multiplier), opposite = curvatures(nodes, pair.opposite);
   std::map<Eigen::Index, Fillet> sharpest;  // by edges of the multiplier side
   for (const ContactPoint& point : pair.points) {

@@ -31,6 +31,7 @@ void add_layer_ends(const PressureLine& line, const std::vector<SingularPoint>& 
 /// Where an edge of the multiplier side faces a fillet of radius r less than its length h, p may grow towards it as at
 /// a sharp corner, at most as p sqrt(h / s) at s from h down to r, and the edge shows nothing of it (docs/theory.md eq.
 /// 47d). 1 / r: of both sides together, as these may follow each other. Such places are narrow ones, for edges of r.
+/// None where the scene gives the gap: it is that of no drawn fillet.
 void add_hidden_fillets(const Points& nodes, const ContactPair& pair, const PressureLine& line, LineError& error);
 
 }  // namespace mortise
