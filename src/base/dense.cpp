@@ -21,13 +21,16 @@ SymmetricEigen symmetric_eigen(const MatX& A) {
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
-VecX eigenvalue_moduli(MatX A) {
+Eigen::VectorXcd eigenvalues(MatX A) {
   const int n = int(A.rows()), one = 1, size = 64 * n + 1;
   VecX re(n), im(n), work(size);
   int info = 0;
   dgeev_("N", "N", &n, A.data(), &n, re.data(), im.data(), nullptr, &one, nullptr, &one, work.data(), &size, &info);
   if (info != 0) throw std::runtime_error("dgeev: " + std::to_string(info));
-  return (re.array().square() + im.array().square()).sqrt();
+  Eigen::VectorXcd values(n);
+  values.real() = re;
+  values.imag() = im;
+  return values;
 }
 
 MatX inverse_of(const MatX& A) { return A.partialPivLu().inverse(); }

@@ -14,8 +14,8 @@ struct SymmetricEigen {
 };
 SymmetricEigen symmetric_eigen(const MatX& A);
 
-/// Moduli of the eigenvalues of a square matrix, in no order (LAPACK's dgeev).
-VecX eigenvalue_moduli(MatX A);
+/// The eigenvalues of a square matrix, in no order (LAPACK's dgeev).
+Eigen::VectorXcd eigenvalues(MatX A);
 
 /// A^-1 of a square A, by LU with partial pivoting.
 MatX inverse_of(const MatX& A);

@@ -45,8 +45,8 @@ Fan fan_of(const Surroundings& around, const BodiesAtVertex& at) {
   Fan fan{{}, {}, face_at(around, at.first), face_at(around, at.last)};
   if (at.turn != 0) return fan;
   for (const BodyAtVertex& b : at.bodies) {
-    const Wedge next = wedge(b.angle, around.laws[b.body]);
-    if (!fan.wedges.empty() && fan.wedges.back().is_alike(next))
+    const Wedge next = wedge(b.angle, around.laws[b.body], Face::free, b.first);
+    if (!fan.wedges.empty() && fan.wedges.back().goes_on_in(next))
       fan.wedges.back().angle += b.angle;
     else
       fan.wedges.push_back(next);
@@ -66,8 +66,9 @@ BodiesAtVertex bodies_from(const Surroundings& around, int node, int first) {
     const auto end = std::ranges::find_if(
         sides, [&](const SideAtNode& side) { return !side.starts && side.side.cell == begin->side.cell; });
     const int body = around.mesh.cells[begin->side.cell].body;
-    if (at.bodies.empty() || at.bodies.back().body != body) at.bodies.push_back({body, node, 0});
-    at.bodies.back().angle += angle_from(direction_at(around.mesh, *begin), direction_at(around.mesh, *end));
+    const Vec2 direction = direction_at(around.mesh, *begin);
+    if (at.bodies.empty() || at.bodies.back().body != body) at.bodies.push_back({body, node, 0, angle_of(direction)});
+    at.bodies.back().angle += angle_from(direction, direction_at(around.mesh, *end));
     at.last.other = end->other;
     at.closed = at.last.other == first;
   }
@@ -97,12 +98,13 @@ bool is_regular(const Fan& fan) {
   if (fan.wedges.size() != 1) return fan.wedges.empty();
   if (!fan.joints.empty()) return true;  // inside one material
   const double angle = fan.wedges[0].angle;
-  if (fan.first == Face::free && fan.last == Face::free) return angle < least_free_angle();
+  if (fan.first == Face::free && fan.last == Face::free)
+    return angle < (!fan.wedges[0].first ? least_free_angle() : straight + smooth);
   return fan.first == fan.last && std::abs(angle - straight) < smooth;
 }
 
 double exponent_of(Fan fan, TipTable& tips) {
-  for (Wedge& w : fan.wedges) w.angle = alike_angle * std::round(w.angle / alike_angle);
+  for (Wedge& w : fan.wedges) w.round(alike_angle);
   return tips.find(fan).stress.real();
 }
 
@@ -132,6 +134,8 @@ Face face_of(const Points& nodes, const Edge& edge, const Constraints& constrain
   return std::abs(along.dot(*held)) > std::abs(cross(along, *held)) ? Face::antisymmetric : Face::symmetric;
 }
 
+double angle_of(const Vec2& direction) { return std::atan2(direction.y(), direction.x()); }
+
 double interior_angle(const Vec2& before, const Vec2& after) {
   return straight - std::atan2(cross(before, after), before.dot(after));
 }
@@ -153,7 +157,8 @@ BodiesAtVertex bodies_at(const Surroundings& around, const EdgeAtVertex& face) {
       turn += tie->turn;
       at.closed = tie->edge == (ahead ? at.first : at.last);
       if (at.closed) break;
-      BodiesAtVertex next{{{tie->body, -1, straight}}, tie->edge, tie->edge};
+      const double first = ahead ? at.bodies.back().first + at.bodies.back().angle : at.bodies.front().first - straight;
+      BodiesAtVertex next{{{tie->body, -1, straight, first}}, tie->edge, tie->edge};
       if (tie->edge.vertex >= 0) {
         if (std::ranges::count(at.bodies, tie->edge.vertex, &BodyAtVertex::node) > 0) break;
         next = bodies_behind(around, tie->edge);

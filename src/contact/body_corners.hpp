@@ -17,6 +17,9 @@ std::vector<Edge> outline_at(const Mesh& mesh, const SideTable& table, int node)
 /// The condition on a face, by what is prescribed at all nodes of its edge.
 Face face_of(const Points& nodes, const Edge& edge, const Constraints& constraints);
 
+/// Of a direction, counter-clockwise from x_1, radians.
+double angle_of(const Vec2& direction);
+
 /// Of a body on the left of an outline that goes on from one tangent to the other, radians in (0, 2 pi).
 double interior_angle(const Vec2& before, const Vec2& after);
 
@@ -36,6 +39,7 @@ struct BodyAtVertex {
   int body;
   int node;  ///< its own; -1 within an edge
   double angle;
+  double first;     ///< direction of the first of their sides, radians
   double turn = 0;  ///< as of AcrossTie, from the vertex that was asked for
 };
 

@@ -129,7 +129,8 @@ double LineSide::end_error(int e, int end, double misfit) const {
 }
 
 Corner LineSide::corner(const Vertex& v) const {
-  Corner corner{wedge(straight - turn(v), law), v.is_end(), edge_at(v), turn_error(v), v.node};
+  const double first = angle_of(v.after >= 0 ? after(v) : Vec2(-before(v)));
+  Corner corner{wedge(straight - turn(v), law, Face::free, first), v.is_end(), edge_at(v), turn_error(v), v.node};
   if (v.before >= 0) corner.before = before(v);
   if (v.after >= 0) corner.after = after(v);
   if (!v.is_end()) return corner;
@@ -138,7 +139,7 @@ Corner LineSide::corner(const Vertex& v) const {
   const BodiesAtVertex at = bodies_at(around, {v.node, edge.nodes[begins ? 1 : 0]});
   if (at.bodies.empty()) return corner;
   for (const BodyAtVertex& b : at.bodies)
-    corner.bonded.push_back({b.body, b.node, wedge(b.angle, around.laws[b.body]), b.turn});
+    corner.bonded.push_back({b.body, b.node, wedge(b.angle, around.laws[b.body], Face::free, b.first), b.turn});
   Wedge& last = (begins ? corner.bonded.back() : corner.bonded.front()).wedge;
   last.outer = face_at(around, begins ? at.last : at.first);
   const auto own = begins ? corner.bonded.begin() : corner.bonded.end() - 1;
@@ -147,6 +148,7 @@ Corner LineSide::corner(const Vertex& v) const {
   const double off = std::atan2(cross(drawn, meshed), drawn.dot(meshed));
   corner.wedge = own->wedge;
   corner.wedge.angle += begins ? off : -off;
+  if (begins && corner.wedge.first) corner.wedge.first = first;
   corner.bonded.erase(own);
   return corner;
 }
@@ -161,7 +163,9 @@ std::optional<Corner> facing(const LineSide& side, const Vertex& v, const LineSi
   for (const Vertex& w : vertices_of(other.curve))
     if ((other.position(w) - place).norm() < at_one_place * edge) return other.corner(w);
   if (!hit) return {};
-  return Corner{wedge(straight, other.law), false, edge_length(other.around.mesh.nodes, other.curve.edges[hit->edge])};
+  const Edge& met = other.curve.edges[hit->edge];
+  const double first = angle_of(edge_point(other.around.mesh.nodes, met, hit->xi).tangent);
+  return Corner{wedge(straight, other.law, Face::free, first), false, edge_length(other.around.mesh.nodes, met)};
 }
 
 }  // namespace

@@ -40,16 +40,18 @@ void fit_kink(Wedge& a, Wedge& b) {
     a.angle = 2 * straight - b.angle;
 }
 
-Wedge half_of(Wedge w) {
+// Of a wedge up to its bisector, or from there on.
+Wedge half_of(Wedge w, bool second) {
   w.angle /= 2;
+  if (second && w.first) *w.first += w.angle;
   w.outer = Face::symmetric;
   return w;
 }
 
-// Amplitude of the logarithm that a jump of the gap's slope makes, with the compliances 8 / E' of both bodies: E* jump
-// / 2 pi under a wedge, E* jump / 4 under a cone (Johnson 1985, sections 5.2 and 5.3); the larger.
+// Amplitude of the logarithm that a jump of the gap's slope makes: E* jump / 2 pi under a wedge, E* jump / 4 under a
+// cone (Johnson 1985, sections 5.2 and 5.3); the larger.
 double log_amplitude(const Wedge& a, const Wedge& b, double jump) {
-  return 2 * std::abs(jump) / (a.compliance() + b.compliance());
+  return std::abs(jump) / 4 / (1 / a.modulus + 1 / b.modulus);
 }
 
 // A body by its vertex at a place, -1 where it has none.
@@ -112,8 +114,10 @@ BodiesAround::BodiesAround(const std::vector<const ContactPlace*>& places) {
     if (at.before && at.after) {  // the angle between two curves, as they are drawn: the farther one was its mesh's
       double sum = 0;
       for (const BondedBody& b : at.bodies) sum += b.wedge.angle;
+      const double missing = std::remainder(interior_angle(*at.before, *at.after) - sum, 2 * straight);
       Wedge& farther = (at.from_first ? at.bodies.back() : at.bodies.front()).wedge;
-      farther.angle += std::remainder(interior_angle(*at.before, *at.after) - sum, 2 * straight);
+      farther.angle += missing;
+      if (!at.from_first && farther.first) *farther.first -= missing;
     }
     for (std::size_t i = 0; i < at.bodies.size(); ++i) {
       const Member here{at.bodies[i].body, at.bodies[i].node};
@@ -171,7 +175,7 @@ std::optional<BodiesAround::Found> BodiesAround::fan(const ContactPlace& place) 
       break;
     }
     const Wedge& wedge = wedges_.at(member);
-    if (joint == Joint::bonded && wedges.back().is_alike(wedge)) {
+    if (joint == Joint::bonded && wedges.back().goes_on_in(wedge)) {
       wedges.back().angle += wedge.angle;
     } else {
       wedges.push_back(wedge);
@@ -221,10 +225,10 @@ SingularPoint singular_point(const ContactPlace& drawn, const std::optional<Bodi
     else
       point.small_turn = turn;
   } else if (!a.end && !b.end && place.joined[0] && place.joined[1]) {
-    found = tips.find(end_fan(half_of(first), half_of(second)), 0);
+    found = tips.find(end_fan(half_of(first, true), half_of(second, false)), 0);
     jump = 2 * straight - first.angle - second.angle;
   } else {
-    found = tips.find(end_fan(first, second), 0);
+    found = tips.find(place.joined[0] ? end_fan(first, second) : end_fan(second, first), 0);
     if (a.end && b.end && first.outer == Face::symmetric && second.outer == Face::symmetric) {
       jump = 2 * (straight - first.angle - second.angle);
       given_jump = 2 * place.given_slope;

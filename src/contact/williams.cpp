@@ -1,104 +1,187 @@
 #include "contact/williams.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <numbers>
 #include <optional>
+
+#include "base/dense.hpp"
+#include "model/moduli.hpp"
 
 namespace mortise {
 namespace {
 
 using Complex = std::complex<double>;
-using Rows = Eigen::Matrix<Complex, 2, 4>;
 using Function = std::function<Complex(Complex)>;
+using Matrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
+using Matrix4 = Eigen::Matrix<Complex, 4, 4>;
 
 // Where zeros are looked for: from a real part, up to an imaginary one. None is above 0.5i on a grid of angles, faces
 // and materials.
 constexpr double first_exponent = 1e-3, highest = 1;
 
-// Williams (1952), docs/theory.md eq. (42): Airy's function r^(lambda + 1) F, F = A cos(lambda + 1) theta + B
-// sin(lambda + 1) theta + C cos(lambda - 1) theta + D sin(lambda - 1) theta. Of A, B, C, D, up to factors of r and
-// lambda:
-//   sigma_thetatheta = F, sigma_rtheta = F', 2 mu u_r = (kappa + 1) G_r - (lambda + 1) F,
-//   2 mu u_theta = (kappa + 1) G_theta - F'.
+// x / tanh^-1 x and so on are even and smooth at 0: below this the next term of the series is round-off.
+constexpr double small = 1e-3;
+
+Complex sinh_over(Complex x) { return std::abs(x) < small ? 1.0 + x * x / 6.0 : std::sinh(x) / x; }
+Complex atanh_over(Complex x) { return std::abs(x) < small ? 1.0 + x * x / 3.0 : std::atanh(x) / x; }
+
+// What y = (u_r, u_theta, phi_r, phi_theta), displacements times a modulus of the body and stress functions, is on the
+// last face of a wedge by what it is on the first: docs/theory.md eq. (42).
+class AcrossWedge {
+ public:
+  explicit AcrossWedge(const Wedge& w);
+  /// On the last face of that on the first, of y ~ r^lambda.
+  Matrix4 at(Complex lambda) const;
+
+ private:
+  std::array<Complex, 2> roots_;        // eigenvalues p of N, Im p > 0
+  std::array<Complex, 2> turns_;        // by how much ln(cos theta + p sin theta) grows across it
+  Complex slope_;                       // the divided difference of these
+  std::array<Matrix4, 4> polynomials_;  // Newton's, of the eigenvalues and their conjugates, in polar components
+};
+
+// N of y,2 = N y,1 (Stroh 1958): Hooke's law with sigma_i1 = -phi_i,2 and sigma_i2 = phi_i,1, and equilibrium. Of
+// compliances times a modulus.
+Mat4 stroh(const Eigen::Matrix3d& s) {
+  const double s11 = s(0, 0), r2 = s(0, 1) / s11, r6 = s(0, 2) / s11, n26 = s(1, 2) - s(0, 1) * r6;
+  Mat4 N;
+  N << r6, -1, s(2, 2) - s(0, 2) * r6, n26,  //
+      r2, 0, n26, s(1, 1) - s(0, 1) * r2,    //
+      -1 / s11, 0, r6, r2,                   //
+      0, 0, -1, 0;
+  return N;
+}
+
+// ln(cos theta + p sin theta), Im p > 0, with the argument that goes with theta.
+Complex logarithm(Complex p, double theta) {
+  const Complex log = std::log(std::cos(theta) + p * std::sin(theta));
+  return {log.real(), log.imag() + 2 * straight * std::round((theta - log.imag()) / (2 * straight))};
+}
+
+// Of it the divided difference between two p, however near each other.
+Complex logarithm_slope(Complex p, Complex q, double theta) {
+  const Complex half = std::sin(theta) / (2 * std::cos(theta) + (p + q) * std::sin(theta));
+  return 2.0 * half * atanh_over(half * (p - q));
+}
+
+Mat4 into_polar(double theta) {
+  Mat4 turn = Mat4::Zero();
+  turn.topLeftCorner<2, 2>() = turn.bottomRightCorner<2, 2>() = Eigen::Rotation2Dd(-theta).toRotationMatrix();
+  return turn;
+}
+
+double shear(const Wedge& w) { return 1 / w.compliance(2, 2); }
+
+AcrossWedge::AcrossWedge(const Wedge& w) {
+  const Mat4 N = stroh(shear(w) * w.compliance);
+  const double begin = w.first.value_or(0), end = begin + w.angle;
+  std::size_t count = 0;
+  for (const Complex& p : eigenvalues(N))
+    if (p.imag() > 0 && count < 2) roots_[count++] = p;
+  for (const int k : {0, 1}) turns_[k] = logarithm(roots_[k], end) - logarithm(roots_[k], begin);
+  slope_ = logarithm_slope(roots_[0], roots_[1], end) - logarithm_slope(roots_[0], roots_[1], begin);
+  Matrix4 product = into_polar(begin).transpose().cast<Complex>();
+  for (const int k : {0, 1, 2, 3}) {
+    polynomials_[k] = into_polar(end) * product;
+    product = N * product - (k < 2 ? roots_[k] : std::conj(roots_[k - 2])) * product;
+  }
+}
+
+// (cos theta + N sin theta)^lambda by Newton's divided differences on the eigenvalues of N, which are double in
+// isotropic bodies.
+Matrix4 AcrossWedge::at(Complex lambda) const {
+  const auto& [p, q] = roots_;
+  const Complex p2 = std::conj(p), q2 = std::conj(q);
+  const auto power = [&](Complex turn) { return std::exp(lambda * turn); };
+  const auto between = [&](Complex s, Complex t, Complex slope, Complex apart) {
+    return power((s + t) / 2.0) * lambda * slope * sinh_over(lambda * slope * apart / 2.0);
+  };
+  const Complex at_q = power(turns_[1]), at_p2 = power(std::conj(turns_[0])),
+                pq = between(turns_[0], turns_[1], slope_, p - q), qp2 = (at_p2 - at_q) / (p2 - q),
+                p2q2 = between(std::conj(turns_[0]), std::conj(turns_[1]), std::conj(slope_), p2 - q2),
+                pqp2 = (qp2 - pq) / (p2 - p), qp2q2 = (p2q2 - qp2) / (q2 - q), all = (qp2q2 - pqp2) / (q2 - p);
+  return power(turns_[0]) * polynomials_[0] + pq * polynomials_[1] + pqp2 * polynomials_[2] + all * polynomials_[3];
+}
+
+// Places in y. On a face sigma_rtheta ~ phi_r and sigma_thetatheta ~ phi_theta.
+enum Component { ur, ut, shear_stress, pressure };
+
 // The two of them that a face holds at zero.
-Rows rows_of(Face face, Complex lambda, double theta, double kappa) {
-  using Row = Eigen::Matrix<Complex, 1, 4>;
-  const Complex i(0, 1), p = lambda + 1.0, m = lambda - 1.0, e = std::exp(i * (lambda * theta)),
-                         e1 = std::polar(1.0, theta), ep = e * e1, em = e / e1, cp = (ep + 1.0 / ep) / 2.0,
-                         sp = (ep - 1.0 / ep) / (2.0 * i), c = (em + 1.0 / em) / 2.0, s = (em - 1.0 / em) / (2.0 * i);
-  const Row F(cp, sp, c, s), dF(-p * sp, p * cp, -m * s, m * c), Gr(0, 0, c, s), Gt(0, 0, s, -c);
-  Rows rows;
+std::array<Component, 2> held_by(Face face) {
   switch (face) {
     case Face::free:
-      rows << F, dF;
-      break;
+      return {shear_stress, pressure};
     case Face::clamped:
-      rows << (kappa + 1) * Gr - p * F, (kappa + 1) * Gt - dF;
-      break;
+      return {ur, ut};
     case Face::symmetric:
-      rows << Gt, dF;
-      break;
+      return {ut, shear_stress};
     case Face::antisymmetric:
-      rows << F, Gr;
+      return {ur, pressure};
   }
-  return rows;
+  std::abort();
 }
 
-using Matrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
+// Of a fan, the conditions on y on the first faces of all wedges.
+class Modes {
+ public:
+  explicit Modes(const Fan& fan) : fan_(fan), across_(fan.wedges.begin(), fan.wedges.end()) {}
+  Matrix conditions(Complex lambda) const;
+  Complex determinant(Complex lambda) const { return conditions(lambda).determinant(); }
+  bool loads(std::size_t joint, Complex lambda) const;
 
-// Eq. (43), or of a bonded joint: the four rows on the wedges before and after it; displacements in those of the softer
-// one, so that all rows are of one size.
-void set_joint(Joint joint, const Wedge& before, const Wedge& after, Complex lambda, Eigen::Ref<Matrix> of_before,
-               Eigen::Ref<Matrix> of_after) {
-  const double soft = std::min(before.shear, after.shear);
-  const auto u = [&](const Wedge& w, double theta) {
-    return Rows(soft / w.shear * rows_of(Face::clamped, lambda, theta, w.kolosov));
-  };
-  const Rows t = rows_of(Face::free, lambda, before.angle, before.kolosov),
-             t_after = rows_of(Face::free, lambda, 0, after.kolosov);
-  if (joint == Joint::bonded) {
-    of_before << u(before, before.angle), t;
-    of_after << -u(after, 0), -t_after;
-  } else {
-    of_before << u(before, before.angle).row(1), t.row(0), t.row(1), Rows::Zero().row(0);
-    of_after << -u(after, 0).row(1), -t_after.row(0), Rows::Zero().row(0), t_after.row(1);
-  }
-}
+ private:
+  const Fan& fan_;
+  std::vector<AcrossWedge> across_;
+};
 
-// Eq. (44): the conditions on A, B, C, D of all wedges, singular where the fan has a mode.
-Matrix conditions(const Fan& fan, Complex lambda) {
-  const Eigen::Index count = Eigen::Index(fan.wedges.size());
+// Eq. (43) and (44): singular where the fan has a mode. Displacements of a joint in those of the softer one, so that
+// all rows are of one size.
+Matrix Modes::conditions(Complex lambda) const {
+  const auto& [wedges, joints, first, last] = fan_;
+  const Eigen::Index count = Eigen::Index(wedges.size());
   Matrix all = Matrix::Zero(4 * count, 4 * count);
-  for (std::size_t i = 0; i < fan.joints.size(); ++i) {
-    const std::size_t next = (i + 1) % fan.wedges.size();
-    Matrix before(4, 4), after(4, 4);
-    set_joint(fan.joints[i], fan.wedges[i], fan.wedges[next], lambda, before, after);
-    all.block(4 * i, 4 * i, 4, 4) += before;
-    all.block(4 * i, 4 * next, 4, 4) += after;
-  }
-  if (fan.joints.size() < fan.wedges.size()) {
-    const Wedge& last = fan.wedges.back();
-    all.block(4 * count - 4, 0, 2, 4) = rows_of(fan.first, lambda, 0, fan.wedges[0].kolosov);
-    all.block(4 * count - 2, 4 * count - 4, 2, 4) += rows_of(fan.last, lambda, last.angle, last.kolosov);
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < wedges.size(); ++i) {
+    const std::size_t next = (i + 1) % wedges.size();
+    const Matrix4 across = across_[i].at(lambda);
+    if (i == joints.size()) {
+      for (const Component c : held_by(last)) all.block<1, 4>(row++, 4 * i) = across.row(c);
+      for (const Component c : held_by(first)) all(row++, c) = 1;
+      break;
+    }
+    const double soft = std::min(shear(wedges[i]), shear(wedges[next]));
+    for (const Component c : {ur, ut, shear_stress, pressure}) {
+      const bool moves = c == ur || c == ut;
+      if (joints[i] == Joint::sliding && (c == ur || c == shear_stress)) {
+        if (c == ur) continue;
+        all.block<1, 4>(row++, 4 * i) = across.row(c);
+        all(row++, 4 * next + c) += 1;
+      } else {
+        all.block<1, 4>(row, 4 * i) += (moves ? soft / shear(wedges[i]) : 1) * across.row(c);
+        all(row++, 4 * next + c) -= moves ? soft / shear(wedges[next]) : 1;
+      }
+    }
   }
   return all;
 }
 
 // Whether a mode at lambda presses on a joint: what is smaller is round-off of a zero that is found to 1e-7.
-bool loads(const Fan& fan, std::size_t joint, Complex lambda) {
+bool Modes::loads(std::size_t joint, Complex lambda) const {
   constexpr double least = 1e-6;
-  const Eigen::JacobiSVD<Matrix> svd(conditions(fan, lambda), Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Matrix> svd(conditions(lambda), Eigen::ComputeFullV);
   const Eigen::Index size = svd.cols();
   const VecX values = svd.singularValues();
   Eigen::Index modes = 1;
   while (modes < size && values(size - 1 - modes) < least * values(0)) ++modes;
-  const Wedge& w = fan.wedges[joint];
-  const Eigen::Matrix<Complex, 1, 4> pressure = rows_of(Face::free, lambda, w.angle, w.kolosov).row(0);
-  return (pressure * svd.matrixV().block(4 * joint, size - modes, 4, modes)).norm() > least * pressure.norm();
+  const Eigen::Matrix<Complex, 1, 4> on_joint = across_[joint].at(lambda).row(pressure);
+  return (on_joint * svd.matrixV().block(4 * joint, size - modes, 4, modes)).norm() > least * on_joint.norm();
 }
 
 // How far arg f turns on the way from one place to another. Steps are short beside the distance to the zeros at 0 and
@@ -163,9 +246,9 @@ std::optional<Complex> next_zero(const Function& f, double begin) {
 
 // The least real exponent above a regular one, of a mode that loads the contact: where no constant stress does, as at
 // the end of faces that meet at other than right angles, p = 0 at the very place.
-double falling_exponent(const Fan& fan, std::size_t joint) {
+double falling_exponent(const Modes& modes, std::size_t joint) {
   constexpr double begin = 2 - regular_exponent, step = 0.01;
-  const auto f = [&](double lambda) { return conditions(fan, lambda).determinant().real(); };
+  const auto f = [&](double lambda) { return modes.determinant(lambda).real(); };
   for (double left = begin, right; left < falling_limit; left = right) {
     right = std::min(left + step, falling_limit);
     const double at_left = f(left);
@@ -175,7 +258,7 @@ double falling_exponent(const Fan& fan, std::size_t joint) {
       const double middle = (low + high) / 2;
       (at_left * f(middle) < 0 ? high : low) = middle;
     }
-    if (loads(fan, joint, low)) return low;
+    if (modes.loads(joint, low)) return low;
   }
   return 1;
 }
@@ -185,17 +268,30 @@ std::vector<double> key_of(Fan& fan, std::optional<std::size_t> joint) {
   std::vector<double> key{joint ? double(*joint) : -1, double(fan.first), double(fan.last)};
   for (const Joint of_two : fan.joints) key.push_back(double(of_two));
   for (Wedge& w : fan.wedges) {
-    w.angle = 1e-10 * std::round(1e10 * w.angle);
-    key.insert(key.end(), {w.angle, w.shear / fan.wedges[0].shear, w.kolosov});
+    w.round(1e-10);
+    const Eigen::Matrix3d ratios = w.compliance / fan.wedges[0].compliance(2, 2);
+    key.insert(key.end(), {w.angle, w.first.value_or(0)});
+    key.insert(key.end(), ratios.data(), ratios.data() + ratios.size());
   }
   return key;
 }
 
 }  // namespace
 
-Wedge wedge(double angle, const ElasticLaw& law, Face outer) {
-  const double coupling = law.stiffness(0, 1), mu = law.stiffness(3, 3);
-  return {angle, mu, (coupling + 3 * mu) / (coupling + mu), outer};
+Wedge wedge(double angle, const ElasticLaw& law, Face outer, double first) {
+  constexpr std::array in_plane{0, 1, 3};
+  return {angle, inverse(Eigen::Matrix3d(law.stiffness(in_plane, in_plane))), contact_modulus(law), outer,
+          law.is_isotropic_in_plane() ? std::optional<double>() : first};
+}
+
+bool Wedge::goes_on_in(const Wedge& next) const {
+  constexpr double alike = 1e-6;  // radians, of directions of drawn curves
+  return is_alike(next) && (!first || std::abs(std::remainder(*first + angle - *next.first, 2 * straight)) < alike);
+}
+
+void Wedge::round(double to) {
+  angle = to * std::round(angle / to);
+  if (first) first = to * std::round(*first / to);
 }
 
 Fan end_fan(const Wedge& a, const Wedge& b) { return {{a, b}, {Joint::sliding}, a.outer, b.outer}; }
@@ -203,15 +299,16 @@ Fan end_fan(const Wedge& a, const Wedge& b) { return {{a, b}, {Joint::sliding}, 
 Fan kink_fan(const Wedge& a, const Wedge& b) { return {{a, b}, {Joint::sliding, Joint::sliding}}; }
 
 TipExponents exponents(const Fan& fan, std::optional<std::size_t> joint) {
-  const Function f = [&](Complex lambda) { return conditions(fan, lambda).determinant(); };
+  const Modes modes(fan);
+  const Function f = [&](Complex lambda) { return modes.determinant(lambda); };
   TipExponents found;
   for (auto zero = next_zero(f, first_exponent); zero; zero = next_zero(f, zero->real() + 1e-6)) {
     if (found.stress == 1.0) found.stress = *zero;
-    if (joint && !loads(fan, *joint, *zero)) continue;
+    if (joint && !modes.loads(*joint, *zero)) continue;
     if (joint) found.pressure = *zero;
     break;
   }
-  if (joint && found.stress == 1.0 && !loads(fan, *joint, 1)) found.falling = falling_exponent(fan, *joint);
+  if (joint && found.stress == 1.0 && !modes.loads(*joint, 1)) found.falling = falling_exponent(modes, *joint);
   return found;
 }
 

@@ -1,7 +1,8 @@
 // Exponents of the stress where wedges meet at a point, each bonded to the next or touching it without friction:
 // u ~ r^lambda, stress ~ r^(lambda - 1). docs/theory.md section 8, eq. (42) to (44).
 //
-// M. L. Williams (1952), one wedge; J. Dundurs, M. S. Lee (1972), a wedge on a half-plane.
+// M. L. Williams (1952), one wedge; J. Dundurs, M. S. Lee (1972), a wedge on a half-plane; A. N. Stroh (1958), bodies
+// that are not alike in all directions.
 #pragma once
 
 #include <complex>
@@ -22,16 +23,21 @@ constexpr double straight = std::numbers::pi;  // the angle of a boundary withou
 enum class Face { free, clamped, symmetric, antisymmetric };
 
 struct Wedge {
-  double angle;    ///< interior, radians, 0 ... 2 pi
-  double shear;    ///< shear modulus mu, stress
-  double kolosov;  ///< 3 - 4 nu in plane strain, (3 - nu) / (1 + nu) in plane stress
+  double angle = 0;  ///< interior, radians, 0 ... 2 pi
+  /// Strains (11, 22, gamma_12) of the stresses (11, 22, 12) in the plane, 1 / stress.
+  Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero();
+  double modulus = 0;  ///< contact_modulus, stress
   Face outer = Face::free;
+  /// Direction of its first face, counter-clockwise from x_1, radians; none of an isotropic body.
+  std::optional<double> first = {};
 
-  double compliance() const { return (kolosov + 1) / shear; }  ///< 8 / E'
-  bool is_alike(const Wedge& other) const { return shear == other.shear && kolosov == other.kolosov; }
+  bool is_alike(const Wedge& other) const { return compliance == other.compliance; }
+  bool goes_on_in(const Wedge& next) const;  ///< both are one material, alike as it lies
+  void round(double to);                     ///< both angles, to multiples of this
 };
 
-Wedge wedge(double angle, const ElasticLaw& law, Face outer = Face::free);
+/// Of a law that is not isotropic with the direction of its first face.
+Wedge wedge(double angle, const ElasticLaw& law, Face outer = Face::free, double first = 0);
 
 /// What a wedge's last face and the next one's first have in common: all, or u_theta and sigma_thetatheta without
 /// sigma_rtheta.
@@ -65,7 +71,8 @@ inline constexpr double falling_limit = 1.5;
 /// sliding joint: `stress` alone.
 TipExponents exponents(const Fan& fan, std::optional<std::size_t> joint = {});
 
-/// Two wedges that share one face: the end of a contact line, or a corner on another body.
+/// Two wedges of which the first one's last face is the second one's first: the end of a contact line, or a corner on
+/// another body.
 Fan end_fan(const Wedge& a, const Wedge& b);
 
 /// Two wedges that share both faces, a kink of the contact line: angles of sum 2 pi.

@@ -168,7 +168,7 @@ struct Columns {
 };
 
 // Whether normal strains make no shear stress and both directions are alike: fewer products.
-bool is_isotropic_in_plane(const Mat4& C) { return C(0, 0) == C(1, 1) && C(0, 3) == 0 && C(1, 3) == 0; }
+bool has_alike_axes(const Mat4& C) { return C(0, 0) == C(1, 1) && C(0, 3) == 0 && C(1, 3) == 0; }
 
 template <CellKind kind>
 void add_isotropic_plane(const Cell& cell, const ElasticLaw& law, const CellValues<kind>& v, const Columns& columns) {
@@ -221,7 +221,7 @@ void add_cells(const Mesh& mesh, const std::vector<ElasticLaw>& laws, const Colu
     if (cell.kind != kind || !columns.nodes.touches(cell)) continue;
     v.reinit(mesh.nodes, cell);
     const ElasticLaw& law = laws[cell.body];
-    if (!law.model.axisymmetric() && is_isotropic_in_plane(law.stiffness))
+    if (!law.model.axisymmetric() && has_alike_axes(law.stiffness))
       add_isotropic_plane<kind>(cell, law, v, columns);
     else
       add_any<kind>(cell, law, v, columns);

@@ -1,5 +1,6 @@
 #include "fem/material.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -27,6 +28,14 @@ double ElasticLaw::energy0(const Vec2& x) const {
   if (!initial_strain) return 0;
   const Vec4 strain = engineering(initial_strain(x));
   return 0.5 * strain.dot(stiffness * strain);
+}
+
+bool ElasticLaw::is_isotropic_in_plane() const {
+  constexpr double alike = 1e-6;
+  const Mat4& C = stiffness;
+  const double most = std::max(
+      {std::abs(C(0, 0) - C(1, 1)), std::abs(C(0, 3)), std::abs(C(1, 3)), std::abs((C(0, 0) - C(0, 1)) / 2 - C(3, 3))});
+  return most <= alike * C(0, 0);
 }
 
 ElasticLaw elastic_law(double young, double poisson, const Model& model, StrainField initial_strain) {

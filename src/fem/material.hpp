@@ -29,6 +29,8 @@ struct ElasticLaw {
   Vec4 stress0(const Vec2& x) const;
   /// Energy density 1/2 eps0 : C : eps0 of the initial strain held at zero strain, stress.
   double energy0(const Vec2& x) const;
+  /// To six digits.
+  bool is_isotropic_in_plane() const;
 };
 
 /// Isotropic. Expects young > 0 and -1 < poisson < 1/2.

@@ -212,7 +212,7 @@ Spectrum spectrum(const InterfaceIteration& iteration, Eigen::Index rows) {
     if (!(left > 1e-12 * hessenberg.cwiseAbs().maxCoeff())) break;
     V.col(steps) = image / left;
   }
-  const VecX sizes = eigenvalue_moduli(hessenberg.topLeftCorner(steps, steps));
+  const VecX sizes = eigenvalues(hessenberg.topLeftCorner(steps, steps)).cwiseAbs();
   return {sizes.minCoeff(), sizes.maxCoeff()};
 }
 

@@ -296,7 +296,7 @@ TEST(Limits, NearlyIncompressibleStiffnessesAreNoted) {
   EXPECT_FALSE(noted(with(15, 1, 0.4, 0.5), "nearly incompressible"));
 }
 
-TEST(Limits, BodiesThatAreNotIsotropicAreNoted) {
+TEST(Limits, BodiesThatAreStifferAlongTheRadiusThanAroundTheAxisAreNoted) {
   const auto with = [](double x, double y, double around, double shear, Plane plane) {
     Scene s = uniaxial_scene();
     s.model.plane = plane;
@@ -309,12 +309,10 @@ TEST(Limits, BodiesThatAreNotIsotropicAreNoted) {
   using enum Plane;
   EXPECT_FALSE(noted(with(1.4, 1.4, 1.4, 0.5, strain), "not isotropic"));
   EXPECT_FALSE(noted(with(1.4, 1.4, 1.4, 0.5, axisymmetric), "not isotropic"));
-  EXPECT_TRUE(noted(with(1.4, 2, 1.4, 0.5, strain), "is judged as of an isotropic body"));
-  EXPECT_TRUE(noted(with(1.4, 1.4, 1.4, 0.6, strain), "is judged as of an isotropic body"));
+  EXPECT_FALSE(noted(with(1.4, 2, 1.4, 0.5, strain), "not isotropic"));
   const Results r = with(1.6, 1.6, 0.4, 0.6, axisymmetric);
   EXPECT_TRUE(noted(r, "on the axis its stress has no limit, as it is stiffer along r than around: it grows as r^-0.5"))
       << all_notes(r);
-  EXPECT_FALSE(noted(r, "is judged as"));
 }
 
 TEST(Limits, LargeDisplacementsAreNoted) {

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <set>
 
 #include "base/vectors.hpp"
+#include "model/moduli.hpp"
 #include "support/drawn_foot.hpp"
 #include "support/points_of_pair.hpp"
 #include "support/two_plates.hpp"
@@ -115,6 +117,62 @@ TEST(SingularPoints, AnEndWithinTheOthersEdgeIsNoMeetingOfCorners) {
         points, [&](const SingularPoint& p) { return std::abs(p.position.x() - edges * 0.1) < 1e-12; });
     ASSERT_NE(end, points.end()) << edges;
     EXPECT_NEAR(end->pressure_exponent, exact, 1e-9) << edges;
+  }
+}
+
+// Bodies with directions, one pushed along the other, the drawing turned with its materials: each end of the line is
+// the upper plate's corner on the lower one or the lower one's under the upper, faces as they lie, whichever curve is
+// first.
+TEST(SingularPoints, KnowHowBodiesWithDirectionsLie) {
+  std::mt19937 random(8);
+  const OrthotropicModuli wood{12, 1, 0.8, 0.4, 0.35, 0.5, 0.7};
+  for (int i = 0; i < 30; ++i) {
+    TwoPlates plates;
+    plates.n_upper = plates.n_lower = 8;
+    const double shift = draw(random, -0.6, 0.6), turn = i == 0 ? 0 : draw(random, -3, 3),
+                 axes[] = {0.5, draw(random, -1, 1)};
+    Mesh mesh = test::mesh_of(plates);
+    const Curve upper = contact_curve(mesh, boundary_index(mesh, "upper_contact")),
+                lower = contact_curve(mesh, boundary_index(mesh, "lower_contact"));
+    std::set<int> of_upper;
+    for (const Cell& cell : mesh.cells)
+      if (cell.body == upper.body) of_upper.insert(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind));
+    for (const int node : of_upper) mesh.nodes(node, 0) += shift;
+    mesh.nodes = mesh.nodes * Eigen::Rotation2Dd(turn).toRotationMatrix().transpose();
+    std::vector<ElasticLaw> laws(2, elastic_law(1, 0.3, {Plane::strain}));
+    for (const int k : {0, 1}) {
+      OrthotropicModuli moduli = wood;
+      moduli.angle = axes[k] + turn;
+      laws[k == 0 ? upper.body : lower.body] = elastic_law(*orthotropic_stiffness(moduli), {Plane::strain}, 1);
+    }
+    const auto above = [&](double from, double angle) {
+      return wedge(angle * deg, laws[upper.body], Face::free, from * deg + turn);
+    };
+    const auto below = [&](double from, double angle) {
+      return wedge(angle * deg, laws[lower.body], Face::free, from * deg + turn);
+    };
+    // Counter-clockwise, the joint on the right of the place or on its left.
+    const bool right = shift > 0;
+    const double at_left = end_exponents(right ? below(180, 180) : below(270, 90), right ? above(0, 90) : above(0, 180))
+                               .stress.real(),
+                 at_right =
+                     end_exponents(right ? above(0, 180) : above(90, 90), right ? below(180, 90) : below(180, 180))
+                         .stress.real();
+    TipTable tips;
+    const Surroundings around{mesh, SideTable(mesh), TiedVertices(), no_constraints(mesh), laws, tips};
+    for (const bool lower_first : {true, false}) {
+      const Curve &first = lower_first ? lower : upper, &second = lower_first ? upper : lower;
+      const auto points = points_of_pair(around, first, second, reached_everywhere(first, second));
+      std::vector<double> found;
+      for (const SingularPoint& p : points) found.push_back(p.exponent);
+      std::vector<double> expected;
+      for (const double e : {at_left, at_right})
+        if (e <= singular_limit) expected.push_back(e);
+      std::ranges::sort(found);
+      std::ranges::sort(expected);
+      ASSERT_EQ(found.size(), expected.size()) << i;
+      for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-8) << i;
+    }
   }
 }
 

@@ -9,11 +9,14 @@
 #include <optional>
 #include <random>
 
+#include "base/dense.hpp"
+#include "model/moduli.hpp"
 #include "support/wedges.hpp"
 
 namespace mortise {
 namespace {
 
+using test::bonded_exponent_inside;
 using test::end_exponents;
 using test::kink_exponents;
 using test::wedge_exponent;
@@ -28,11 +31,15 @@ Wedge wedge_of(double degrees, Face outer = Face::free, double young = 1, double
 
 // ---- One wedge: Williams (1952) ----
 
+// Of an isotropic one; in the plane eps_11 = (kappa + 1) / 8 mu sigma_11.
+double shear(const Wedge& w) { return 1 / w.compliance(2, 2); }
+double kolosov(const Wedge& w) { return 8 * shear(w) * w.compliance(0, 0) - 1; }
+
 TEST(Williams, KolosovsConstantIsTheOneOfThePlane) {
   const Wedge strain = wedge_of(90), stress = wedge(1, elastic_law(1, 0.3, {Plane::stress}));
-  EXPECT_NEAR(strain.kolosov, 3 - 4 * 0.3, 1e-14);
-  EXPECT_NEAR(stress.kolosov, (3 - 0.3) / 1.3, 1e-14);
-  EXPECT_NEAR(stress.shear, 1 / 2.6, 1e-14);
+  EXPECT_NEAR(kolosov(strain), 3 - 4 * 0.3, 1e-14);
+  EXPECT_NEAR(kolosov(stress), (3 - 0.3) / 1.3, 1e-14);
+  EXPECT_NEAR(shear(stress), 1 / 2.6, 1e-14);
 }
 
 TEST(Williams, FreeFacesHaveTheRootsOfTheCharacteristicEquation) {
@@ -120,14 +127,45 @@ struct Fields {
   Eigen::RowVector4d normal, shear, ur, ut;  // sigma_thetatheta, sigma_rtheta, u
 };
 
+// Of a body with directions, whose angles are those from x_1: Lekhnitskii's functions A z^lambda, z = cos theta + mu
+// sin theta, of (Re A, Im A) for each root of s11 mu^4 - 2 s16 mu^3 + (2 s12 + s66) mu^2 - 2 s26 mu + s22 = 0.
+Fields directional_fields(const Wedge& w, double lambda, double theta) {
+  const Eigen::Matrix3d& s = w.compliance;
+  Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
+  companion.bottomLeftCorner<3, 3>().setIdentity();
+  companion.row(0) << 2 * s(0, 2), -2 * s(0, 1) - s(2, 2), 2 * s(1, 2), -s(1, 1);
+  companion.row(0) /= s(0, 0);
+  Fields f;
+  int k = 0;
+  const double c = std::cos(theta), d = std::sin(theta);
+  for (const Complex& mu : eigenvalues(companion)) {
+    if (mu.imag() < 0) continue;
+    Complex log = std::log(c + mu * d);
+    log.imag(log.imag() + 2 * pi * std::round((theta - log.imag()) / (2 * pi)));
+    for (const Complex& unit : {Complex(1), Complex(0, 1)}) {
+      const Complex A = unit * std::exp(lambda * log), stress = lambda * unit * std::exp((lambda - 1) * log);
+      const double u1 = ((s(0, 0) * mu * mu + s(0, 1) - s(0, 2) * mu) * A).real(),
+                   u2 = ((s(0, 1) * mu + s(1, 1) / mu - s(1, 2)) * A).real(), s11 = (mu * mu * stress).real(),
+                   s22 = stress.real(), s12 = -(mu * stress).real();
+      f.normal(k) = s11 * d * d + s22 * c * c - 2 * s12 * c * d;
+      f.shear(k) = (s22 - s11) * c * d + s12 * (c * c - d * d);
+      f.ur(k) = u1 * c + u2 * d;
+      f.ut(k) = -u1 * d + u2 * c;
+      ++k;
+    }
+  }
+  return f;
+}
+
 Fields fields(const Wedge& w, double lambda, double theta) {
+  if (w.first) return directional_fields(w, lambda, theta);
   Fields f;
   const Complex z = std::polar(1.0, theta), power = std::polar(1.0, lambda * theta);
   for (int k = 0; k < 4; ++k) {
     const Complex unit = k % 2 ? Complex(0, 1) : 1, phi = k < 2 ? unit * power : 0, psi = k < 2 ? 0 : unit * power;
     const Complex d_phi = lambda * phi / z, dd_phi = (lambda - 1) * d_phi / z, d_psi = lambda * psi / z;
     const Complex traction = 2 * d_phi.real() + z * z * (std::conj(z) * dd_phi + d_psi),
-                  u = (w.kolosov * phi - z * std::conj(d_phi) - std::conj(psi)) / z / (2 * w.shear);
+                  u = (kolosov(w) * phi - z * std::conj(d_phi) - std::conj(psi)) / z / (2 * shear(w));
     f.normal(k) = traction.real();
     f.shear(k) = traction.imag();
     f.ur(k) = u.real();
@@ -297,6 +335,90 @@ TEST(Williams, ModesOfSeveralBodiesSatisfyTheConditionsOfAllJoints) {
   }
   EXPECT_GE(singular, 30);
   EXPECT_GE(smaller, 30);
+}
+
+// ---- Bodies with directions ----
+
+ElasticLaw random_law(std::mt19937& random) {
+  const auto power = [&] { return std::exp(std::uniform_real_distribution(-1.5, 1.5)(random)); };
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  const OrthotropicModuli m{power(),         power(),         power(), uniform(-0.1, 0.3),
+                            uniform(0, 0.2), uniform(0, 0.2), power(), uniform(-2, 2)};
+  const auto stiffness = orthotropic_stiffness(m);
+  return stiffness ? elastic_law(*stiffness, {Plane::strain}, m.e1) : random_law(random);
+}
+
+// Fans whose bodies have directions, all or some, sliding and bonded, from one direction of the first face.
+Fan random_directional_fan(std::mt19937& random, int count, bool closed) {
+  Fan fan = random_fan(random, count, closed);
+  double begin = 0;
+  for (Wedge& w : fan.wedges) {
+    if (&w == &fan.wedges[0] || random() % 3 > 0) w = wedge(w.angle, random_law(random), w.outer, begin);
+    begin += w.angle;
+  }
+  return fan;
+}
+
+TEST(Directional, ModesSatisfyTheConditionsOfAllJointsInLekhnitskiisFunctions) {
+  std::mt19937 random(5);
+  int singular = 0;
+  for (int k = 0; k < 80; ++k) {
+    const Fan fan = random_directional_fan(random, 2 + k % 3, k % 4 < 2);
+    const std::size_t joint = random() % fan.joints.size();
+    const TipExponents found = exponents(fan, joint);
+    if (found.stress.imag() == 0 && found.stress.real() < 1) {
+      ++singular;
+      const auto [residual, pressure] = mode_of(fan, found.stress.real(), joint);
+      EXPECT_LE(residual, 1e-9) << k;
+      EXPECT_EQ(found.pressure == found.stress, pressure > 1e-5) << k;
+    }
+    const auto sign = [&](double lambda) { return fan_conditions(fan, lambda).determinant() > 0; };
+    for (double lambda = 0.012; lambda < found.stress.real() - 0.004; lambda += 0.002)
+      EXPECT_EQ(sign(lambda), sign(lambda - 0.002)) << k << " " << lambda;
+  }
+  EXPECT_GE(singular, 50);
+}
+
+// All bodies turned with their materials, and seen in a mirror.
+TEST(Directional, ExponentsTurnWithTheBodies) {
+  std::mt19937 random(6);
+  for (int k = 0; k < 40; ++k) {
+    Fan here{{}, {k % 2 ? Joint::sliding : Joint::bonded}, Face::free, Face(k % 4)}, there = here, mirror;
+    const double turn = std::uniform_real_distribution(-4.0, 4.0)(random);
+    double begin = 0.3;
+    for (int i = 0; i < 2; ++i) {
+      const double angle = std::uniform_real_distribution(0.6, 3.0)(random), axis = 0.7 * i + 0.2;
+      const OrthotropicModuli moduli{1, 5, 2, 0.1, 0.1, 0.1, 0.7};
+      const auto law = [&](double of_axis) {
+        OrthotropicModuli turned = moduli;
+        turned.angle = of_axis;
+        return elastic_law(*orthotropic_stiffness(turned), {Plane::strain}, 1);
+      };
+      here.wedges.push_back(wedge(angle, law(axis), Face::free, begin));
+      there.wedges.push_back(wedge(angle, law(axis + turn), Face::free, begin + turn));
+      mirror.wedges.insert(mirror.wedges.begin(), wedge(angle, law(-axis), Face::free, -begin - angle));
+      begin += angle;
+    }
+    mirror.joints = here.joints;
+    mirror.first = here.last;
+    mirror.last = here.first;
+    EXPECT_NEAR(std::abs(exponents(here).stress - exponents(there).stress), 0, 1e-9) << k;
+    EXPECT_NEAR(std::abs(exponents(here).stress - exponents(mirror).stress), 0, 1e-9) << k;
+  }
+}
+
+TEST(Directional, CracksAndHalfPlanesAreThoseOfAnyMaterial) {
+  std::mt19937 random(7);
+  for (int k = 0; k < 20; ++k) {
+    const ElasticLaw law = random_law(random);
+    const double first = std::uniform_real_distribution(-3.0, 3.0)(random);
+    const auto of = [&](double angle, double from) { return wedge(angle, law, Face::free, from); };
+    EXPECT_NEAR(std::abs(wedge_exponent(of(2 * pi, first), Face::free) - 0.5), 0, 1e-7) << k;
+    EXPECT_EQ(wedge_exponent(of(pi, first), Face::free), 1.0) << k;
+    EXPECT_EQ(bonded_exponent_inside({of(2, first), of(2 * pi - 2, first + 2)}), 1.0) << k;
+    const Wedge rigid = wedge_of(90, Face::free, 1e9);
+    EXPECT_NEAR(end_exponents(rigid, of(pi, first)).pressure.real(), 0.5, 1e-7) << k;
+  }
 }
 
 // A body on two that are each other's image: the modes of one half beside its bisector, of one kind or the other.

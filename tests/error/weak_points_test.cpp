@@ -38,7 +38,7 @@ SingularPoint weak(double d) {
 // The end of a line at which the bodies' free faces stand 5 degrees from the normal: by perturbation of right angles p
 // falls as r^(2.3 x 0.0873^2).
 TEST(WeakPoints, AreEndsWhoseFacesAreNotAtRightAngles) {
-  const auto wedge_of = [](double angle) { return Wedge{angle * degree, 1, 1.8}; };
+  const auto wedge_of = [](double angle) { return wedge(angle * degree, elastic_law(1, 0.3, {Plane::strain})); };
   const TipExponents lean = end_exponents(wedge_of(95), wedge_of(85));
   EXPECT_EQ(lean.pressure, 1.0);
   EXPECT_NEAR(lean.falling - 1, 2.3 * std::pow(5 * degree, 2), 0.003);

@@ -69,7 +69,7 @@ TEST(Interface, TheSpectrumsEndsAreThoseOfTheIterationsMatrix) {
   MatX A(g.m, g.m);  // x -> z(0) - z(x)
   for (int k = 0; k < g.m; ++k)
     A.col(k) = iteration.correction(VecX::Zero(g.m)) - iteration.correction(VecX::Unit(g.m, k));
-  const VecX sizes = eigenvalue_moduli(A);
+  const VecX sizes = eigenvalues(A).cwiseAbs();
   const Spectrum found = spectrum(iteration, g.m);
   EXPECT_NEAR(found.smallest, sizes.minCoeff(), 1e-8 * sizes.maxCoeff());
   EXPECT_NEAR(found.largest, sizes.maxCoeff(), 1e-8 * sizes.maxCoeff());

@@ -69,7 +69,8 @@ def read_line(run, side, k, of="p"):
     """The nodes of a side of pair k, those that count: places, p, and the length that each stands for."""
     xy = np.array([[float(row["x"]), float(row["y"])] for row in side]).reshape(-1, 2)
     p, s = (np.array([float(row[name]) for row in side]) for name in (of, "s"))
-    length = np.gradient(s) if len(s) > 1 else np.ones(len(s))
+    edges = np.diff(s)
+    length = (np.append(edges, 0) + np.append(0, edges)) / 2 if len(s) > 1 else np.ones(len(s))  # halves of the edges beside
     for place, distance in has_no_limit(run.summary, k):
         length = np.where(np.linalg.norm(xy - place, axis=1) < distance, 0, length)
     return xy, p, length
