@@ -14,6 +14,7 @@ struct DroppedMultiplier {
   int node;            ///< of the mesh
   std::string reason;  ///< to be read after "40 multipliers"
   bool faces;          ///< the other side, and was left out all the same
+  bool by_mesh;        ///< as of this mesh's edges: bars of p know it
 };
 
 /// Multipliers sit at nodes of the multiplier side; lambda = sum_a psi_a lambda_a (docs/theory.md eq. 10 to 12). Row r

@@ -51,16 +51,18 @@ std::vector<Reach> by_vertices(const ContactPair& pair, const PressureLine& line
 }
 
 // Of an opposite edge, whether contact is closed at the contact point nearest to each end, and in the half beyond its
-// middle: where p is at both ends of the multiplier side's edge.
+// middle: where p is at both ends of the multiplier side's edge, or at one and the sides overlap, as where a stiff
+// corner opens the vertex beside it.
 struct FacingEdge {
   std::array<double, 2> away{3, 3};  // of that point from the end, in the edge's coordinate
   std::array<bool, 2> closed{false, false}, closed_beyond{false, false};
 };
 
-std::vector<FacingEdge> facing_edges(const ContactPair& pair, const PressureLine& line) {
+std::vector<FacingEdge> facing_edges(const ContactPair& pair, const PressureLine& line, const VecX& u) {
   std::vector<FacingEdge> edges(pair.opposite.edges.size());
   for (const ContactPoint& point : pair.points) {
-    const bool closed = line.p(point.edge) != 0 && line.p(point.edge + 1) != 0;
+    const int ends = (line.p(point.edge) != 0) + (line.p(point.edge + 1) != 0);
+    const bool closed = ends == 2 || (ends == 1 && gap_at(u, pair, point) <= 0);
     FacingEdge& edge = edges[point.opposite_edge];
     for (const int end : {0, 1}) {
       const double away = std::abs(point.eta - (2 * end - 1));
@@ -161,7 +163,7 @@ ContactReach contact_reach(const Mesh& mesh, const ContactPair& pair, const std:
   for (const FoundPoint& point : found)
     if (point.is({curve_names(mesh, pair), point.position}) && !ends_before(mesh, pair, line, modulus, u, point))
       places.push_back(point.position);
-  const std::vector<FacingEdge> opposite = facing_edges(pair, line);
+  const std::vector<FacingEdge> opposite = facing_edges(pair, line, u);
   std::array<std::vector<Reach>, 2> faced{{{}, faced_by_points(opposite, pair.opposite.closed)}};
   for (Eigen::Index i = 0; i < line.p.size(); ++i) {
     const auto [before, after] = line.faced_beside(i);

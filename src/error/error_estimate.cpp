@@ -71,15 +71,31 @@ std::vector<char> swinging(const PressureEstimate& e) {
   return all;
 }
 
+std::vector<char> either(std::vector<char> one, const std::vector<char>& other) {
+  std::ranges::transform(one, other, one.begin(), [](char a, char b) { return a || b; });
+  return one;
+}
+
+// Where p has no limit p_h at the place's vertex may open the next one, with p on both sides of it: that and those
+// beside it.
+std::vector<char> opened_by_points(const PressureEstimate& e) {
+  const Eigen::Index last = e.line.p.size() - 1;
+  std::vector<char> all(last + 1, 0);
+  for (const SingularPoint& point : e.singular) {
+    const Eigen::Index at = e.line.nearest(point.position);
+    for (const Eigen::Index step : {-1, 1}) {
+      if (!(point.pressure_exponent < 1) || at + 2 * step < 0 || at + 2 * step > last) continue;
+      if (e.line.p(at) == 0 || e.line.p(at + step) != 0 || e.line.p(at + 2 * step) == 0) continue;
+      for (const Eigen::Index away : {0, 1, 2}) all[at + away * step] = 1;
+    }
+  }
+  return all;
+}
+
 // p_h may be zero where it swings: that is no border of contact.
 void forget_borders(const std::vector<char>& swinging, LineError& local) {
   std::erase_if(local.borders, [&](const LineError::Border& b) { return swinging[b.edge] || swinging[b.edge + 1]; });
   for (std::size_t i = 0; i < swinging.size(); ++i) local.border[i] = local.border[i] && !swinging[i];
-}
-
-std::vector<char> either(std::vector<char> one, const std::vector<char>& other) {
-  std::ranges::transform(one, other, one.begin(), [](char a, char b) { return a || b; });
-  return one;
 }
 
 // Windows at ends and borders, and the fluctuations if each window keeps a dual of its own with them. Returns how many
@@ -132,7 +148,7 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
     if (!pair.spec.stiffness)  // p is no larger than k times the overlap
       e.singular = that_count(points[k], e.line, spec.value);
     e.swings = swinging(e);
-    forget_borders(e.swings, e.local);
+    forget_borders(either(opened_by_points(e), e.swings), e.local);
     e.weak = add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
     add_hidden_fillets(p.mesh.nodes, pair, e.line, e.local);

@@ -1,5 +1,7 @@
 #include "error/length_error.hpp"
 
+#include <algorithm>
+
 #include "contact/least_gap.hpp"
 #include "error/goal_estimate.hpp"
 #include "error/pressure_bars.hpp"
@@ -8,10 +10,22 @@
 namespace mortise {
 namespace {
 
+// Whether p falls from the nearest vertex that is not left out to one beside a place where it has no limit: it may as
+// well be open there.
+bool falls_to(const PressureEstimate& e, Eigen::Index i) {
+  const Eigen::Index last = e.line.p.size() - 1;
+  const auto known = [&](Eigen::Index k) { return k >= 0 && k <= last && !e.excluded[k] ? e.line.p(k) : 0; };
+  for (Eigen::Index away = 1; away <= last; ++away)
+    if (const double p = std::max(known(i - away), known(i + away)); p > 0) return e.line.p(i) < p;
+  return false;
+}
+
 // Edges that carry p, but no more than it may be off by.
 void add_hardly_pressed(const PressureEstimate& e, std::vector<char>& undecided) {
   const PressureLine& line = e.line;
-  const auto hardly = [&](Eigen::Index i) { return line.p(i) > 0 && !e.excluded[i] && line.p(i) <= e.bar(i); };
+  const auto hardly = [&](Eigen::Index i) {
+    return line.p(i) > 0 && line.p(i) <= e.bar(i) && (!e.excluded[i] || falls_to(e, i));
+  };
   for (Eigen::Index edge = 0; edge + 1 < line.p.size(); ++edge)
     if (line.faced[edge] && hardly(edge) && hardly(edge + 1)) undecided[edge] = 1;
 }
@@ -52,9 +66,9 @@ double length_error(const Problem& problem, const ContactPair& pair, const VecX&
     const double modulus = contact_modulus(laws[pair.multiplier.body], laws[pair.opposite.body]);
     const std::vector<Interval> gaps = gap_ranges(u, pair);
     error += opened_by_kinks(pair, modulus, u, e);
-    add_hardly_pressed(e, undecided);
     for (const LineError::Border& border : e.local.borders) add_hardly_open(e, border, modulus, gaps, undecided);
   }
+  if (pair.spec.condition == Condition::unilateral) add_hardly_pressed(e, undecided);
   for (std::size_t edge = 0; edge < undecided.size(); ++edge)
     if (undecided[edge]) error += line.s(Eigen::Index(edge) + 1) - line.s(Eigen::Index(edge));
   return error;

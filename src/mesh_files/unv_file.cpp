@@ -13,18 +13,17 @@
 namespace mortise {
 namespace {
 
+bool is_beam(std::int64_t descriptor) { return descriptor == 11 || (descriptor >= 21 && descriptor <= 24); }
+
 /// gmsh's number of the kind of element that a finite-element descriptor names, 0 if it is left out. Corners and
-/// middles of second order take turns.
-int kind_of(std::int64_t descriptor) {
-  if (descriptor == 11 || descriptor == 21 || descriptor == 22) return line_type(2);
-  if (descriptor == 23 || descriptor == 24) return line_type(3);
+/// middles of second order take turns. `count`: of its nodes, which Salome's edges of second order have three of.
+int kind_of(std::int64_t descriptor, std::int64_t count) {
+  if (is_beam(descriptor)) return line_type(descriptor >= 23 || (descriptor == 22 && count == 3) ? 3 : 2);
   if (descriptor < 41 || descriptor > 95) return 0;
   static constexpr int nodes_by_last_digit[10] = {0, 3, 6, 0, 4, 8, 0, 0, 0, 0};
   return deck_cell_type(
       nodes_by_last_digit[descriptor % 10]);  // of plane stress, plane strain, plates, membranes, rings, shells
 }
-
-bool is_beam(std::int64_t descriptor) { return descriptor == 11 || (descriptor >= 21 && descriptor <= 24); }
 
 /// Integers of an entity in a dataset of groups; 0 of others.
 std::size_t entity_length(int dataset) {
@@ -125,7 +124,7 @@ class UnvReader {
       const DeckRecord& head = next(lines, i, 6);
       const std::int64_t descriptor = deck_.integer(head, head.fields[1], "a finite-element descriptor");
       const std::int64_t count = deck_.integer(head, head.fields[5], "a number of nodes");
-      const int type = kind_of(descriptor);
+      const int type = kind_of(descriptor, count);
       if (type != 0 && element_type(type)->node_count != count)
         deck_.fail(head, "expected " + std::to_string(element_type(type)->node_count) +
                              " nodes of an element of the kind " + head.fields[1] + ", found " + head.fields[5] +

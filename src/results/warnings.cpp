@@ -72,10 +72,11 @@ std::string range(const std::vector<Vec2>& places) {
 }
 
 // One line for each reason; those that face nothing have none.
+// On a mesh that an accuracy has found nobody can help what its edges face.
 void warn_of_dropped(const ContactPair& pair, const Results& r, Lines& lines) {
   std::map<std::string, std::vector<Vec2>> places;
   for (const DroppedMultiplier& d : pair.coupling.dropped)
-    if (!d.reason.empty() && (d.faces || !pair.spec.found))
+    if (!d.reason.empty() && (d.faces || !pair.spec.found) && !(d.by_mesh && r.problem.accuracy))
       places[d.reason].push_back(r.problem.mesh.nodes.row(d.node).transpose());
   for (const auto& [reason, at] : places)
     lines.push_back(pair.spec.key + ": " + std::to_string(at.size()) + (at.size() == 1 ? " node of '" : " nodes of '") +

@@ -41,7 +41,7 @@ Keys accuracy_keys(AccuracySpec& a, int last_pair) {
           "mean $p$ over `accuracy.window`; `\"force\"` of a pair; `\"displacement\"` (x, y) or `\"stress\"` (11, 22, "
           "12) at `accuracy.at`, a stress refused at a corner where it has no limit, a displacement where nothing "
           "holds the body against it"),
-      key("pair", a.pair, whole_number(0, last_pair), "of `mean` and `force`: the `[[contact]]` entry, from 0"),
+      key("pair", a.pair, whole_number(0, last_pair), "of `mean` and `force`: the pair, from 0, ties left out"),
       key("window", a.window, a_pair(),
           "of `mean`: `[from, to]`, arc lengths `s` as in contact.csv, along the side with the multipliers",
           "required"),

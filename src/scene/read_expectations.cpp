@@ -15,7 +15,7 @@ Keys expectation_keys(Expectation& expectation, const FieldUse& use) {
           "other, "
           "but for those within `accuracy.exclude` of a point where it has no limit",
           "this, or `figure`"),
-      key("pair", expectation.pair, whole_number(0, 1000000), "of `pressure`: the pair, from 0"),
+      key("pair", expectation.pair, whole_number(0, 1000000), "of `pressure`: the pair, from 0, ties left out"),
       required(
           key("tolerance", expectation.tolerance, a_part(),
               "a part of the value (of the largest that `pressure` says) by which it may be off: 0.01 or `\"1%\"`"),

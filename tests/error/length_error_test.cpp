@@ -48,7 +48,9 @@ TEST_F(LengthError, HasEdgesThatCarryNoMoreThanTheirBars) {
   EXPECT_EQ(error(), least);  // the vertex beside it carries more
   e.bar(inner + 1) = e.line.p(inner + 1);
   EXPECT_NEAR(error(), least + length(inner), 1e-12 * length(inner));
-  e.excluded[inner] = 1;
+  e.excluded[inner] = 1;  // p falls to it
+  EXPECT_NEAR(error(), least + length(inner), 1e-12 * length(inner));
+  e.line.p(inner) = e.bar(inner) = 2 * std::max(e.line.p(inner - 1), e.line.p(inner + 1));
   EXPECT_EQ(error(), least);
 }
 

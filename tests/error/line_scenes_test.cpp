@@ -16,6 +16,7 @@
 #include "error/contact_reach.hpp"
 #include "error/gap_misfit.hpp"
 #include "support/messages.hpp"
+#include "support/patches.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mortise::test {
@@ -59,6 +60,36 @@ contact = [{ between = ["foot", "seat"], multipliers_on = "foot")" +
 }
 
 double largest_bar(const Results& r) { return largest_entry(r.estimate->pressures[0].bar); }
+
+// A block 84 times as stiff on a wider one: its corner has nearly all p_h of the last edges, and opens the vertex
+// beside it, on finer meshes too. That is no border of contact.
+TEST(StiffCorner, ThatOpensTheVertexBesideItIsWherePHasNoLimit) {
+  for (const int each : {2, 4}) {
+    const auto level = [](double y) { return [=](double) { return y; }; };
+    Scene scene;
+    scene.materials = {{"soft", {.young = 2500, .poisson = 0.3}}, {"steel", {.young = 210e3, .poisson = 0.3}}};
+    scene.bodies = {{"lower", "soft"}, {"upper", "steel"}};
+    BoundarySpec floor{.key = "boundary.0", .on = {"lower_south"}},
+        axis{.key = "boundary.1", .on = {"lower_west", "upper_west"}}, load{.key = "boundary.2", .on = {"upper_north"}};
+    floor.what = Displacement{0, 0};
+    axis.what = Displacement{0, {}};
+    load.what = Pressure{1};
+    scene.boundaries = {floor, axis, load};
+    scene.contacts = {{.key = "contact.0", .between = {"upper_south", "lower_north"}, .multipliers_on = "lower_north"}};
+    Results r = solve_scene(scene, mesh_of({block("lower", 60 * each, 20 * each, 0, 60, level(0), level(20)),
+                                            block("upper", 20 * each, 20 * each, 0, 20, level(20), level(40))},
+                                           CellKind::quad4));
+    estimate(r);
+    const PressureEstimate& e = r.estimate->pressures[0];
+    const Eigen::Index corner = e.line.nearest({20, 20});
+    EXPECT_EQ((e.line.p.segment(corner - 2, 5).array() != 0).count(), 2) << each;  // the state that is meant
+    ASSERT_EQ(e.singular.size(), 1u) << each;
+    EXPECT_NEAR(e.singular[0].position.x(), 20, 1e-12);
+    EXPECT_TRUE(e.singular[0].is_unbounded());
+    EXPECT_TRUE(e.local.borders.empty()) << each;
+    EXPECT_LE(r.estimate->pressure(), 0.05) << each;
+  }
+}
 
 // Mirrored on the rollers, the gap has a kink there: p = -(E* / 4) 2 slope ln r under a cone (Johnson 1985,
 // section 5.3).

@@ -100,6 +100,19 @@ TEST(UniversalFile, WithoutGroupsItsPropertiesAre) {
   EXPECT_TRUE(mesh.named_by_tag);
 }
 
+// Salome's descriptor of an edge is 22 with two nodes as with three.
+TEST(UniversalFile, EdgesOfSecondOrderMayBeTaperedBeams) {
+  for (const char* kind : {"22", "24"}) {
+    const std::string more = "    -1\n  2411\n 7 1 1 11\n 2.0 0.5 0.0\n 8 1 1 11\n 1.0 0.5 0.0\n    -1\n";
+    const Mesh mesh = mesh_of("a.unv", nodes_unv + more + "    -1\n  2412\n 1 " + kind + " 2 1 7 3\n 0 1 1\n 1 2 3\n" +
+                                           " 2 42 5 1 7 6\n 1 2 3 7 6 8\n    -1\n");
+    ASSERT_EQ(mesh.boundaries.size(), 1u) << kind;
+    const Edge& edge = mesh.boundaries[0].edges[0];
+    ASSERT_EQ(edge.node_count, 3) << kind;
+    EXPECT_EQ(mesh.nodes(edge.nodes[2], 0), 1) << kind;
+  }
+}
+
 TEST(UniversalFile, WhatCannotBeReadIsNamedWithItsLine) {
   EXPECT_EQ(trouble("a.unv", "hello\n"), ", line 1: expected -1, where a dataset begins; is this a universal file?");
   EXPECT_EQ(trouble("a.unv", "    -1\n  2411\n 1 1 1 11\n"),
