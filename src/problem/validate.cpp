@@ -229,7 +229,7 @@ Floating hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pai
 }
 
 std::vector<std::string> held_lines(const Mesh& mesh, const std::vector<std::vector<RigidMotion>>& motions) {
-  const std::string held = " either: held, which changes no pressure";
+  const std::string held = " either: held";
   std::vector<std::string> lines;
   if (motions.size() <= told_in_full) {
     for (const std::vector<RigidMotion>& motion : motions)

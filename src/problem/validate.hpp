@@ -15,9 +15,10 @@ struct Floating {
 Floating find_floating(const Mesh& mesh, const Constraints& constraints);
 
 /// Motions that neither prescribed displacements nor closed contact resist: the one that a load drives is an
-/// SceneError, the others are held at one unknown of the system each, which changes no pressure, and returned. Contact
-/// resists them by its rows, and as the multiplier side's curve does (smooth_normals): a disc turns freely whatever its
-/// chords say. The first of the audit's `findings` ends an error: probably a pair is missing.
+/// SceneError, the others are held at one unknown of the system each, which takes no force but where normals of one
+/// side alone make one, and returned. Contact resists them by its rows, and as the multiplier side's curve does
+/// (smooth_normals): a disc turns freely whatever its chords say. The first of the audit's `findings` ends an error:
+/// probably a pair is missing.
 Floating hold_free_motions(const Mesh& mesh, const std::vector<ContactPair>& pairs,
                            const std::vector<std::string>& findings, SaddlePointSystem& system);
 

@@ -173,8 +173,12 @@ Reactions find_reactions(const Problem& problem, const Solution& solution) {
   std::vector<char> counted(mesh.nodes.rows(), 0);
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     for (int p = problem.points.first[b]; p < problem.points.first[b + 1]; ++p)
-      if (const int node = problem.points.node[p]; !std::exchange(counted[node], 1))
-        r.held_bodies[b].add(mesh.nodes.row(node).transpose(), collector.rest().segment<2>(2 * node));
+      if (const int node = problem.points.node[p]; !std::exchange(counted[node], 1)) {
+        const Vec2 x = mesh.nodes.row(node);
+        Vec2 force = collector.rest().segment<2>(2 * node);
+        if (d.model.axisymmetric() && x.x() <= 0) force.x() = 0;  // what the axis holds is no motion
+        r.held_bodies[b].add(x, force);
+      }
     r.held += r.held_bodies[b];
   }
   r.all += r.held;

@@ -250,6 +250,23 @@ void warn_of_axis(const Problem& p, Lines& lines) {
   }
 }
 
+// Bodies whose held motions (validate.hpp) take a force: contact acts along the normals of the multiplier side, and
+// where the other side's are not these, as of a flat one beneath a curved one, it may push along it.
+void warn_of_held(const Results& r, Lines& lines) {
+  constexpr double told_from = 0.01;
+  double most = 0;
+  for (const ContactResults& contact : r.recovery.contacts) most = std::max(most, contact.force.norm());
+  for (std::size_t b = 0; b < r.problem.mesh.bodies.size(); ++b) {
+    const double force = r.recovery.reactions.held_bodies[b].force.norm();
+    if (!r.unheld.empty() && most > 0 && force > told_from * most)
+      lines.push_back(worded("body '", r.problem.mesh.bodies[b], "': what holds it takes a force of ", force, ", ",
+                             percent(force / most),
+                             " of the largest contact force, as contact acts along the normals of the curves that have "
+                             "the multipliers; expected these on the body's own curves (contact.multipliers_on), or a "
+                             "support"));
+  }
+}
+
 // Forces at the points of an entry, of a load or of a support.
 void warn_of_points(const Results& r, Lines& lines) {
   constexpr double told_from = 0.01;  // of p
@@ -298,6 +315,7 @@ std::vector<std::string> warnings(const Results& r) {
   if (auto line = large_displacement(r)) lines.push_back(*std::move(line));
   warn_of_locking(r.problem, lines);
   warn_of_axis(r.problem, lines);
+  warn_of_held(r, lines);
   warn_of_points(r, lines);
   const double displacement = largest_entry(r.solution.u);
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "app/accuracy.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
@@ -75,6 +77,39 @@ TEST(Unheld, AProbeSaysSoAndHasNoBarOfThatComponent) {
     said += line.find("probe.0") == 0 && line.find("displacement along x near (1.4, 1.6) is undetermined") != line.npos;
   EXPECT_EQ(said, 1);
   for (const std::string& line : r.warnings) EXPECT_EQ(line.find("probe.1"), line.npos) << line;
+}
+
+// A layer on rollers under a round punch that turns: contact is off the punch's middle, and pushes along the normals of
+// the side that has the multipliers.
+TEST(Unheld, WhatHoldsABodyThatNoLoadDrivesAgainstAForceIsNoted) {
+  const TemporaryFolder folder;
+  folder.write("a.geo", R"(
+Point(1) = {0, 0, 0}; Point(2) = {100, 0, 0}; Point(3) = {100, 20, 0}; Point(4) = {0, 20, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1};
+Point(5) = {22, 20.2, 0}; Point(6) = {31, 20, 0}; Point(7) = {40, 20.2, 0}; Point(8) = {40, 40, 0}; Point(9) = {22, 40, 0};
+Point(10) = {31, 222.6, 0};
+Circle(5) = {5, 10, 6}; Circle(6) = {6, 10, 7}; Line(7) = {7, 8}; Line(8) = {8, 9}; Line(9) = {9, 5};
+Curve Loop(2) = {5 : 9}; Plane Surface(2) = {2};
+Physical Surface("layer") = {1}; Physical Surface("punch") = {2}; Physical Curve("floor") = {1}; Physical Curve("top") = {3};
+Physical Curve("foot") = {5, 6}; Physical Curve("head") = {8}; MeshSize{ : } = 4; MeshSize{5, 6, 7} = 1;
+)");
+  for (const std::string side : {"foot", "top"}) {
+    const Results r = solve_scene(read_scene(folder.write("a.toml", R"toml(
+mesh.file = "a.geo"
+materials.soft = { young = 20e3, poisson = 0.3 }
+bodies = { layer = "soft", punch = "soft" }
+boundary = [ { on = "floor", displacement = { y = 0 } },
+             { on = "head", rigid = { force = [0, -1200], x = 0, moment = -7000 } } ]
+contact = [{ between = ["foot", "top"], multipliers_on = ")toml" + side +
+                                                                        "\" }]\n")));
+    const Resultant& held = r.recovery.reactions.held_bodies[0];
+    EXPECT_EQ(std::ranges::any_of(r.warnings,
+                                  [](const std::string& line) {
+                                    return line.starts_with("body 'layer': what holds it takes a force of ");
+                                  }),
+              side == "foot");
+    if (side == "top") EXPECT_LE(held.force.norm(), 1e-9 * r.recovery.contacts[0].force.norm());
+  }
 }
 
 }  // namespace
