@@ -26,8 +26,9 @@ using Matrix4 = Eigen::Matrix<Complex, 4, 4>;
 // and materials.
 constexpr double first_exponent = 1e-3, highest = 1;
 
-// x / tanh^-1 x and so on are even and smooth at 0: below this the next term of the series is round-off.
-constexpr double small = 1e-3;
+// sinh x / x and tanh^-1 x / x are even: below this the next terms of their series, x^4 / 120 and x^4 / 5, are
+// round-off.
+constexpr double small = 1e-4;
 
 Complex sinh_over(Complex x) { return std::abs(x) < small ? 1.0 + x * x / 6.0 : std::sinh(x) / x; }
 Complex atanh_over(Complex x) { return std::abs(x) < small ? 1.0 + x * x / 3.0 : std::atanh(x) / x; }
@@ -37,7 +38,7 @@ Complex atanh_over(Complex x) { return std::abs(x) < small ? 1.0 + x * x / 3.0 :
 class AcrossWedge {
  public:
   explicit AcrossWedge(const Wedge& w);
-  /// On the last face of that on the first, of y ~ r^lambda.
+  /// Its matrix, of y ~ r^lambda.
   Matrix4 at(Complex lambda) const;
 
  private:
