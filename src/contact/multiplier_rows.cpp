@@ -86,12 +86,6 @@ std::vector<State> find_states(const Numbering& of, const Support& support, cons
   for (std::size_t e = 0; e < multiplier.edges.size(); ++e)
     for (const int a : coupling.on_edge[e])
       if (a >= 0) length(a) += edge_length(mesh.nodes, multiplier.edges[e]);
-  const auto faces = [&](int a) { return support.faced(a) >= faced_limit * length(a); };
-  VecX gap_beside = VecX::Constant(length.size(), clearance);  // of multipliers on its edges that face the other side
-  for (const auto& on : coupling.on_edge)
-    for (const int a : on)
-      for (const int b : on)
-        if (a >= 0 && b >= 0 && faces(b)) gap_beside(a) = std::max(gap_beside(a), support.nearest(b));
   for (std::size_t e = 0; e < multiplier.edges.size(); ++e)
     for (int i = 0; i < 3; ++i) {
       const int a = coupling.on_edge[e][i];
@@ -118,7 +112,7 @@ std::vector<State> find_states(const Numbering& of, const Support& support, cons
         found = State::tied_tip;
       else if (support.weight(a) < 0.05 * std::max(support.scale(a), support.lagrange(a)))
         found = State::weightless;
-      else if (!faces(a) && support.nearest(a) - gap_beside(a) < length(a) / 2)
+      else if (support.faced(a) < faced_limit * length(a) && support.nearest(a) - clearance < length(a) / 2)
         found = State::hardly_facing;
     }
   return state;

@@ -22,8 +22,8 @@ struct Support {
 std::vector<int> multipliers_along(const Coupling& coupling);
 
 /// Part of a multiplier's edges that must face the other side. Of less, what little gap there is weighs against the
-/// whole psi: p at the node would be extrapolated by about 1 / part. Where the sides are further apart than beside it,
-/// by more than these edges are long, it does not matter.
+/// whole psi: p at the node would be extrapolated by about 1 / part. Where the sides are further apart than these edges
+/// are long it does not matter.
 inline constexpr double faced_limit = 0.1;
 
 /// Whether the ends of a curve are one place of neighbouring sectors (Tie::turn).

@@ -90,8 +90,6 @@ TEST(MultiplierRows, WhatHardlyFacesSharesTheNearestUnlessTheSidesAreFarApart) {
   apart.support.faced(0) = 0.05 * r.h;
   apart.support.nearest(0) = 0.6 * r.h;
   EXPECT_EQ(apart.numbered(), (std::vector<int>{0, 1, 2, 3, 4, 5, 6}));
-  apart.support.nearest(1) = 0.3 * r.h;  // as far beside it, of a gap that is wide on the whole
-  EXPECT_EQ(apart.numbered(), (std::vector<int>{0, 0, 1, 2, 3, 4, 5}));
 }
 
 TEST(MultiplierRows, WhereAllHardlyFaceAllAreFree) {
