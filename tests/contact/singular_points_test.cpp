@@ -95,6 +95,14 @@ TEST(SingularPoints, WhatHoldsAnEndIsTheSideBesideIt) {
               1e-9);
 }
 
+// Moves a body along x.
+void push(Mesh& mesh, int body, double by) {
+  std::set<int> nodes;
+  for (const Cell& cell : mesh.cells)
+    if (cell.body == body) nodes.insert(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind));
+  for (const int node : nodes) mesh.nodes(node, 0) += by;
+}
+
 // A body that ends within the other's edge, nearer to its vertex or not, ends on a straight side.
 TEST(SingularPoints, AnEndWithinTheOthersEdgeIsNoMeetingOfCorners) {
   TwoPlates plates;
@@ -105,10 +113,7 @@ TEST(SingularPoints, AnEndWithinTheOthersEdgeIsNoMeetingOfCorners) {
     Mesh mesh = test::mesh_of(plates);
     const Curve upper = contact_curve(mesh, boundary_index(mesh, "upper_contact")),
                 lower = contact_curve(mesh, boundary_index(mesh, "lower_contact"));
-    std::set<int> of_upper;
-    for (const Cell& cell : mesh.cells)
-      if (cell.body == upper.body) of_upper.insert(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind));
-    for (const int node : of_upper) mesh.nodes(node, 0) += edges * 0.1;
+    push(mesh, upper.body, edges * 0.1);
     const std::vector<ElasticLaw> laws(2, elastic_law(210e9, 0.3, {Plane::strain}));
     TipTable tips;
     const auto points = points_of_pair({mesh, SideTable(mesh), TiedVertices(), no_constraints(mesh), laws, tips}, lower,
@@ -134,10 +139,7 @@ TEST(SingularPoints, KnowHowBodiesWithDirectionsLie) {
     Mesh mesh = test::mesh_of(plates);
     const Curve upper = contact_curve(mesh, boundary_index(mesh, "upper_contact")),
                 lower = contact_curve(mesh, boundary_index(mesh, "lower_contact"));
-    std::set<int> of_upper;
-    for (const Cell& cell : mesh.cells)
-      if (cell.body == upper.body) of_upper.insert(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind));
-    for (const int node : of_upper) mesh.nodes(node, 0) += shift;
+    push(mesh, upper.body, shift);
     mesh.nodes = mesh.nodes * Eigen::Rotation2Dd(turn).toRotationMatrix().transpose();
     std::vector<ElasticLaw> laws(2, elastic_law(1, 0.3, {Plane::strain}));
     for (const int k : {0, 1}) {
