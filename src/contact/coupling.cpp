@@ -1,7 +1,6 @@
 #include "contact/coupling.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include "base/errors.hpp"
@@ -45,8 +44,7 @@ Accumulated accumulate(const ContactInterface& interface, const CouplingOptions&
                     .scale = VecX::Zero(count),
                     .weight = VecX::Zero(count),
                     .lagrange = VecX::Zero(count),
-                    .faced = VecX::Zero(count),
-                    .nearest = VecX::Constant(count, std::numeric_limits<double>::infinity())}};
+                    .faced = VecX::Zero(count)}};
   sums.own.reserve(points.size() * 18);
   sums.opposite.reserve(points.size() * 18);
   for (const auto& of_edge : edge_by_edge(points)) {
@@ -65,7 +63,6 @@ Accumulated accumulate(const ContactInterface& interface, const CouplingOptions&
         sums.support.scale(a) += std::abs(psi(i));
         sums.support.weight(a) += psi(i);
         sums.support.faced(a) += p.ds;
-        sums.support.nearest(a) = std::min(sums.support.nearest(a), std::max(p.gap, 0.0));
         if (options.initial_gap != InitialGap::closed) sums.gap(a) += psi(i) * p.gap;
         for (int c = 0; c < 2; ++c) {
           for (int b = 0; b < edge.node_count; ++b)

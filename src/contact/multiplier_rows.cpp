@@ -81,7 +81,6 @@ std::vector<State> find_states(const Numbering& of, const Support& support, cons
   const Mesh& mesh = of.mesh;
   const Curve& multiplier = of.interface.multiplier;
   std::vector<State> state(coupling.node.size(), State::free);
-  const double clearance = state.empty() ? 0 : support.nearest.minCoeff();
   VecX length = VecX::Zero(state.size());  // of each multiplier's edges
   for (std::size_t e = 0; e < multiplier.edges.size(); ++e)
     for (const int a : coupling.on_edge[e])
@@ -112,7 +111,7 @@ std::vector<State> find_states(const Numbering& of, const Support& support, cons
         found = State::tied_tip;
       else if (support.weight(a) < 0.05 * std::max(support.scale(a), support.lagrange(a)))
         found = State::weightless;
-      else if (support.faced(a) < faced_limit * length(a) && support.nearest(a) - clearance < length(a) / 2)
+      else if (support.faced(a) < faced_limit * length(a))
         found = State::hardly_facing;
     }
   return state;
@@ -163,7 +162,7 @@ void number_rows(const Numbering& of, const Support& support, Coupling& coupling
   for (int i = 0; i < int(order.size()); ++i) {
     const int a = order[i];
     if (coupling.row[a] >= 0) continue;
-    coupling.dropped.push_back({.node = coupling.node[a],
+    coupling.dropped.push_back({.multiplier = a,
                                 .reason = reason(state[a]),
                                 .faces = state[a] == State::prescribed || state[a] == State::apart,
                                 .by_mesh = state[a] == State::weightless || state[a] == State::hardly_facing});

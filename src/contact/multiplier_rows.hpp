@@ -15,15 +15,13 @@ struct Support {
   VecX scale, weight;  ///< int |psi| dA, int psi dA, which for dual psi is int N dA
   VecX lagrange;       ///< int |N| dA
   VecX faced;          ///< how much of its edges faces the other side, length
-  VecX nearest;        ///< the smallest gap there, undeformed, length; 0 where the sides overlap
 };
 
 /// The multipliers along the curve: start, middle, end of each edge.
 std::vector<int> multipliers_along(const Coupling& coupling);
 
 /// Part of a multiplier's edges that must face the other side. Of less, what little gap there is weighs against the
-/// whole psi: p at the node would be extrapolated by about 1 / part. Where the sides are further apart than these edges
-/// are long it does not matter.
+/// whole psi: p at the node would be extrapolated by about 1 / part.
 inline constexpr double faced_limit = 0.1;
 
 /// Whether the ends of a curve are one place of neighbouring sectors (Tie::turn).

@@ -72,12 +72,15 @@ std::string range(const std::vector<Vec2>& places) {
 }
 
 // One line for each reason; those that face nothing have none.
-// On a mesh that an accuracy has found nobody can help what its edges face.
-void warn_of_dropped(const ContactPair& pair, const Results& r, Lines& lines) {
+// What a mesh's edges face is of no account where nothing presses, and on meshes that an accuracy has found nobody can
+// help it.
+void warn_of_dropped(const ContactPair& pair, const ContactResults& contact, const Results& r, Lines& lines) {
   std::map<std::string, std::vector<Vec2>> places;
-  for (const DroppedMultiplier& d : pair.coupling.dropped)
-    if (!d.reason.empty() && (d.faces || !pair.spec.found) && !(d.by_mesh && r.problem.accuracy))
-      places[d.reason].push_back(r.problem.mesh.nodes.row(d.node).transpose());
+  for (const DroppedMultiplier& d : pair.coupling.dropped) {
+    const bool harmless = d.by_mesh && (r.problem.accuracy || contact.pressure(d.multiplier) == 0);
+    if (!d.reason.empty() && (d.faces || !pair.spec.found) && !harmless)
+      places[d.reason].push_back(r.problem.mesh.nodes.row(pair.coupling.node[d.multiplier]).transpose());
+  }
   for (const auto& [reason, at] : places)
     lines.push_back(pair.spec.key + ": " + std::to_string(at.size()) + (at.size() == 1 ? " node of '" : " nodes of '") +
                     pair.spec.multipliers_on + "' (" + range(at) + ") " + reason);
@@ -319,7 +322,7 @@ std::vector<std::string> warnings(const Results& r) {
   warn_of_points(r, lines);
   const double displacement = largest_entry(r.solution.u);
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
-    warn_of_dropped(r.problem.pairs[k], r, lines);
+    warn_of_dropped(r.problem.pairs[k], r.recovery.contacts[k], r, lines);
     warn_of_gap(r.problem.pairs[k], r, displacement, lines);
     warn_of_given_gap(r.problem.pairs[k], r.recovery.contacts[k], r, lines);
     warn_of_drawn_gap(r.problem.pairs[k], r.recovery.contacts[k], r, lines);

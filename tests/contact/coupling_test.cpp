@@ -195,7 +195,7 @@ TEST(Dropped, EndsHeldOnBothSidesShareTheirNeighboursRow) {
     for (int c = 0; c < 2; ++c) prescribe(mesh, boundary_index(mesh, wall), c, 0, held);
   const Pair free = pair_of(plates, {}), tied = pair_of(plates, {}, &held);
   ASSERT_EQ(tied.coupling.dropped.size(), 1u);
-  EXPECT_EQ(mesh.nodes(tied.coupling.dropped[0].node, 0), 0);
+  EXPECT_EQ(mesh.nodes(tied.coupling.node[tied.coupling.dropped[0].multiplier], 0), 0);
   EXPECT_EQ(tied.coupling.B.rows(), free.coupling.B.rows() - 1);
   const VecX values = multiplier_values(tied.coupling, VecX::LinSpaced(tied.coupling.B.rows(), 1, 2));
   EXPECT_GT(values.minCoeff(), 0);  // the tied one has its neighbour's value

@@ -21,8 +21,7 @@ struct Rows {
                   .scale = VecX::Constant(7, h),
                   .weight = VecX::Constant(7, h),
                   .lagrange = VecX::Constant(7, h),
-                  .faced = VecX::Constant(7, 2 * h),
-                  .nearest = VecX::Zero(7)};
+                  .faced = VecX::Constant(7, 2 * h)};
   Coupling coupling;
 
   Rows() {
@@ -70,7 +69,7 @@ TEST(MultiplierRows, WhatFacesNothingHasNone) {
   r.support.extent(0) = r.support.extent(4) = 0;
   EXPECT_EQ(r.numbered(), (std::vector<int>{-1, 0, 1, 2, -1, 3, 4}));
   ASSERT_EQ(r.coupling.dropped.size(), 2u);
-  EXPECT_EQ(r.coupling.dropped[1].node, r.nodes[4]);
+  EXPECT_EQ(r.coupling.node[r.coupling.dropped[1].multiplier], r.nodes[4]);
   EXPECT_EQ(r.coupling.dropped[1].reason, "");
 }
 
@@ -81,15 +80,11 @@ TEST(MultiplierRows, WhatWeighsNothingSharesTheNearest) {
   EXPECT_EQ(r.coupling.gap0.size(), 6);
 }
 
-TEST(MultiplierRows, WhatHardlyFacesSharesTheNearestUnlessTheSidesAreFarApart) {
+TEST(MultiplierRows, WhatHardlyFacesSharesTheNearest) {
   Rows r;
   r.support.faced(0) = 0.05 * r.h;                                   // of an edge of h
   r.support.faced(3) = 0.1 * r.h;                                    // of two
   EXPECT_EQ(r.numbered(), (std::vector<int>{0, 0, 1, 2, 2, 3, 4}));  // of two as near the one after
-  Rows apart;
-  apart.support.faced(0) = 0.05 * r.h;
-  apart.support.nearest(0) = 0.6 * r.h;
-  EXPECT_EQ(apart.numbered(), (std::vector<int>{0, 1, 2, 3, 4, 5, 6}));
 }
 
 TEST(MultiplierRows, WhereAllHardlyFaceAllAreFree) {

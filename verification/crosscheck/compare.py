@@ -138,7 +138,7 @@ def compare(solved, step):
         fields = [without_rigid_difference(field) for field in fields]
     ours, theirs = run.mortise_summary(solved.folder), run.freefem_summary(solved.folder)
     rows = ours["mesh"]["multipliers"], int(theirs["multipliers"])
-    if step.same_nodes and rows[0] != rows[1]:
+    if step.same_nodes and rows[0] > rows[1]:  # of edges that hardly face the other side mortise's share one
         raise StudyError("{} multipliers in mortise, {} in FreeFEM".format(*rows))
     return Comparison(fields, curve, (ours["energy"], theirs["energy"]))
 
