@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "base/dense.hpp"
+#include "contact/joint_states.hpp"
 #include "model/moduli.hpp"
 
 namespace mortise {
@@ -136,8 +137,11 @@ class Modes {
   Matrix conditions(Complex lambda) const;
   Complex determinant(Complex lambda) const { return conditions(lambda).determinant(); }
   bool loads(std::size_t joint, Complex lambda) const;
+  TipMode mode(Complex lambda) const;
 
  private:
+  // What y on the first faces may be at an exponent, a column a mode.
+  Matrix null_space(Complex lambda) const;
   const Fan& fan_;
   std::vector<AcrossWedge> across_;
 };
@@ -173,16 +177,41 @@ Matrix Modes::conditions(Complex lambda) const {
   return all;
 }
 
-// Whether a mode at lambda presses on a joint: what is smaller is round-off of a zero that is found to 1e-7.
-bool Modes::loads(std::size_t joint, Complex lambda) const {
-  constexpr double least = 1e-6;
+// What is smaller is round-off of a zero that is found to 1e-7.
+constexpr double least = 1e-6;
+
+Matrix Modes::null_space(Complex lambda) const {
   const Eigen::JacobiSVD<Matrix> svd(conditions(lambda), Eigen::ComputeFullV);
   const Eigen::Index size = svd.cols();
   const VecX values = svd.singularValues();
   Eigen::Index modes = 1;
   while (modes < size && values(size - 1 - modes) < least * values(0)) ++modes;
+  return svd.matrixV().rightCols(modes);
+}
+
+// Whether a mode at lambda presses on a joint.
+bool Modes::loads(std::size_t joint, Complex lambda) const {
   const Eigen::Matrix<Complex, 1, 4> on_joint = across_[joint].at(lambda).row(pressure);
-  return (on_joint * svd.matrixV().block(4 * joint, size - modes, 4, modes)).norm() > least * on_joint.norm();
+  return (on_joint * null_space(lambda).middleRows(4 * joint, 4)).norm() > least * on_joint.norm();
+}
+
+TipMode Modes::mode(Complex lambda) const {
+  const Matrix found = null_space(lambda);
+  TipMode mode{.exponent = lambda, .pressure = {}};
+  mode.has_signs = found.cols() == 1 && lambda.imag() == 0;
+  Eigen::Index largest;
+  found.col(0).cwiseAbs().maxCoeff(&largest);
+  const Matrix y = found.col(0) / found(largest, 0);
+  const auto last_face = [&](std::size_t wedge, Component c) {
+    const Eigen::Matrix<Complex, 1, 4> row = across_[wedge].at(lambda).row(c);
+    const double value = (row * y.middleRows(4 * wedge, 4)).value().real();
+    return std::abs(value) > least * row.norm() ? value : 0;
+  };
+  for (std::size_t i = 0; i < fan_.joints.size(); ++i)
+    mode.pressure.push_back(fan_.joints[i] == Joint::sliding ? -last_face(i, pressure) : 0);
+  mode.first = y(ut, 0).real() / shear(fan_.wedges.front());
+  mode.last = last_face(fan_.wedges.size() - 1, ut) / shear(fan_.wedges.back());
+  return mode;
 }
 
 // How far arg f turns on the way from one place to another. Steps are short beside the distance to the zeros at 0 and
@@ -313,6 +342,15 @@ TipExponents exponents(const Fan& fan, std::optional<std::size_t> joint) {
   return found;
 }
 
+std::vector<TipMode> modes(const Fan& fan) {
+  const Modes of(fan);
+  const Function f = [&](Complex lambda) { return of.determinant(lambda); };
+  std::vector<TipMode> all;
+  for (auto zero = next_zero(f, first_exponent); zero; zero = next_zero(f, zero->real() + 1e-6))
+    all.push_back(of.mode(*zero));
+  return all;
+}
+
 TipExponents TipTable::find(const Fan& asked, std::optional<std::size_t> joint) {
   Fan fan = asked;
   const std::vector<double> key = key_of(fan, joint);
@@ -320,7 +358,7 @@ TipExponents TipTable::find(const Fan& asked, std::optional<std::size_t> joint) 
     const std::lock_guard lock(mutex_);
     if (const auto at = known_.find(key); at != known_.end()) return at->second;
   }
-  const TipExponents found = exponents(fan, joint);
+  const TipExponents found = joint ? exponents_of_states(fan, *joint) : exponents(fan);
   const std::lock_guard lock(mutex_);
   return known_.emplace(key, found).first->second;
 }

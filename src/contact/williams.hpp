@@ -71,6 +71,17 @@ inline constexpr double falling_limit = 1.5;
 /// sliding joint: `stress` alone.
 TipExponents exponents(const Fan& fan, std::optional<std::size_t> joint = {});
 
+/// A mode u ~ r^exponent of a fan, up to a factor.
+struct TipMode {
+  std::complex<double> exponent;
+  std::vector<double> pressure;  ///< -sigma_thetatheta on each sliding joint; 0 where it is round-off
+  double first = 0, last = 0;    ///< u_theta of the outer faces, those of a fan that is not closed
+  bool has_signs = false;        ///< it is the only one of a real exponent
+};
+
+/// Those of the exponents of real part in (0, regular_exponent), the smallest first.
+std::vector<TipMode> modes(const Fan& fan);
+
 /// Two wedges of which the first one's last face is the second one's first: the end of a contact line, or a corner on
 /// another body.
 Fan end_fan(const Wedge& a, const Wedge& b);

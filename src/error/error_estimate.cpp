@@ -151,6 +151,7 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
     forget_borders(either(opened_by_points(e), e.swings), e.local);
     e.weak = add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
+    add_axis_end(pair, e.line, e.local);
     add_hidden_fillets(p.mesh.nodes, pair, e.line, e.local);
     const std::array<ElasticLaw, 2> laws{d.laws[pair.multiplier.body], d.laws[pair.opposite.body]};
     const double modulus = contact_modulus(laws[0], laws[1]);

@@ -1,6 +1,7 @@
 #include "error/pressure_line.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -319,6 +320,19 @@ void add_hardly_faced(const ContactPair& pair, const PressureLine& line, LineErr
   }
   for (Eigen::Index i = 0; i <= last; ++i)
     if (line.loaded[i] && of_vertex(i) < faced_limit * length(i)) error.raise(i, std::abs(line.p(i)));
+}
+
+void add_axis_end(const ContactPair& pair, const PressureLine& line, LineError& error) {
+  const Eigen::Index last = line.p.size() - 1;
+  if (!pair.geometry.model.axisymmetric() || line.closed || last < 2) return;
+  const double round_off = 1e-9 * line.s(last);
+  for (const auto& [axis, next, after] :
+       {std::array{Eigen::Index(0), Eigen::Index(1), Eigen::Index(2)}, std::array{last, last - 1, last - 2}}) {
+    if (line.position[axis].x() > round_off || !line.loaded[axis] || !line.loaded[next] || !line.loaded[after])
+      continue;
+    const double near = std::pow(line.s(next) - line.s(axis), 2), far = std::pow(line.s(after) - line.s(axis), 2);
+    error.raise(axis, std::abs(line.p(axis) - (line.p(next) * far - line.p(after) * near) / (far - near)));
+  }
 }
 
 }  // namespace mortise

@@ -139,4 +139,9 @@ Eigen::Index open_vertex(const PressureLine& line, const LineError::Border& bord
 /// what little they face makes of it), and is known no better than to its own size.
 void add_hardly_faced(const ContactPair& pair, const PressureLine& line, LineError& error);
 
+/// Raises `least` at an end on the axis of rings, about which p is even, by what p is off there from the parabola
+/// through the next two vertices: on 3-node triangles the multiplier of the axis, which weighs next to nothing, is off
+/// by a part of h.
+void add_axis_end(const ContactPair& pair, const PressureLine& line, LineError& error);
+
 }  // namespace mortise

@@ -200,5 +200,41 @@ TEST(Axisymmetric, RefusesWhatLiesBeyondTheAxis) {
   expect_contains(message_of([&] { solve_scene(scene, mesh); }), "near (-1, 0), beyond the axis x = 0");
 }
 
+Mesh in_triangles(Mesh mesh) {
+  std::vector<Cell> cells;
+  for (const Cell& cell : mesh.cells)
+    for (const auto& [a, b, c] : {std::array{0, 1, 2}, std::array{0, 2, 3}})
+      cells.push_back(
+          {.kind = CellKind::tri3, .body = cell.body, .nodes = {cell.nodes[a], cell.nodes[b], cell.nodes[c]}});
+  mesh.cells = cells;
+  return mesh;
+}
+
+// The multiplier there weighs next to nothing, and on triangles in rows it is off by a part of h.
+TEST(Axisymmetric, BarsOfTheAxisHoldOnTrianglesInRows) {
+  const auto level = [](double z) { return [=](double) { return z; }; };
+  const auto at_axis = [&](int n, CellKind kind) {
+    Scene scene = rings_of({"lower", "upper"});
+    scene.boundaries = {held({"lower_south"}), pressed("upper_north", 0), held({"lower_west", "upper_west"})};
+    scene.boundaries[1].what = Pressure{Field("x < 0.3 ? 3e8 : 0", {.key = "boundary.1.pressure"})};
+    scene.boundaries[2].what = Displacement{0, {}};
+    scene.contacts = {{.key = "contact.0", .between = {"upper_south", "lower_north"}}};
+    const Mesh mesh = mesh_of(
+        {block("lower", 3 * n, n, 0, 3, level(0), level(1)), block("upper", n + 1, n / 2, 0, 1, level(1), level(1.5))},
+        kind);
+    Results r = solve_scene(scene, kind == CellKind::quad4 ? in_triangles(mesh) : mesh);
+    estimate(r, {});
+    return r.recovery.contacts[0].multiplier.nodes.front();
+  };
+  const double exact = at_axis(32, CellKind::quad8).p;
+  for (const int n : {16, 32, 64}) {
+    const ContactNode node = at_axis(n, CellKind::quad4);
+    EXPECT_EQ(node.s, 0);
+    const double error = std::abs(node.p - exact);
+    EXPECT_LE(error, node.p_error) << n;
+    EXPECT_LE(node.p_error, 3 * error) << n;
+  }
+}
+
 }  // namespace
 }  // namespace mortise::test

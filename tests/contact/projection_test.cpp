@@ -9,6 +9,7 @@
 #include "contact/least_gap.hpp"
 #include "contact/segments.hpp"
 #include "fem/edges.hpp"
+#include "mesh/thickness.hpp"
 #include "support/two_plates.hpp"
 
 namespace mortise {

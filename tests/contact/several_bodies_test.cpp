@@ -5,6 +5,7 @@
 #include <random>
 #include <tuple>
 
+#include "contact/joint_states.hpp"
 #include "contact/singular_points.hpp"
 #include "support/drawn_foot.hpp"
 #include "support/wedges.hpp"
@@ -52,7 +53,7 @@ TEST(PointsOfSeveralBodies, AreThoseOfAllThatAreInContact) {
     soft[0][0].soft = true;
     const auto points = singular_points(of_pairs, tips), beside_soft = singular_points(soft, tips);
     for (std::size_t j = 0; j < fan.joints.size(); ++j) {
-      const TipExponents exact = exponents(fan, j);
+      const TipExponents exact = exponents_of_states(fan, j);
       const double of_all = exact.pressure.real() <= singular_limit ? exact.pressure.real() : 1;
       EXPECT_NEAR(points[j].empty() ? 1 : points[j][0].pressure_exponent, of_all, 1e-6) << k << " " << j;
     }
@@ -90,7 +91,7 @@ TEST(PointsOfSeveralBodies, OfBondedPartsInContactWithOneBodyAreThoseOfAllThree)
     const auto points = singular_points({{of_left}, {of_right}}, tips);
     const Fan fan{{left, base, right}, {Joint::sliding, Joint::sliding, Joint::bonded}};
     for (const std::size_t pair : {0, 1}) {
-      const double exact = exponents(fan, pair).pressure.real();
+      const double exact = exponents_of_states(fan, pair).pressure.real();
       EXPECT_NEAR(points[pair].empty() ? 1 : points[pair][0].pressure_exponent, exact > singular_limit ? 1 : exact,
                   1e-6);
     }
@@ -162,7 +163,7 @@ TEST(PointsOfSeveralBodies, AtTheCutsOfASectorAreThoseOfAllAround) {
     TipTable tips;
     const auto points = singular_points({{here}, {there}}, tips);
     for (const std::size_t pair : {0, 1}) {
-      const double exact = exponents(fan, pair == 0 ? 3 : 1).pressure.real();
+      const double exact = exponents_of_states(fan, pair == 0 ? 3 : 1).pressure.real();
       EXPECT_NEAR(points[pair].empty() ? 1 : points[pair][0].pressure_exponent, exact > singular_limit ? 1 : exact,
                   1e-6)
           << k;
