@@ -9,6 +9,7 @@
 #include "error/border_overlaps.hpp"
 #include "error/data_works.hpp"
 #include "error/dual_functionals.hpp"
+#include "error/false_borders.hpp"
 #include "error/fitted_pressure.hpp"
 #include "error/gap_error.hpp"
 #include "error/missed_contact.hpp"
@@ -48,54 +49,9 @@ double error_norm(const std::vector<PressureEstimate>& pressures, double local, 
   return std::sqrt(error);
 }
 
-// How far p_h swings from a tip on, in steps of 1 or -1: swing_reach vertices, and on as long as one of the next so
-// many is without p_h between two that have it. The shorter the edges, the larger the swings; where they are larger
-// than p, single vertices open, where contact ends, all that follow.
-Eigen::Index swing_end(const PressureLine& line, Eigen::Index tip, int step) {
-  const Eigen::Index last = line.p.size() - 1, to_end = step < 0 ? tip : last - tip;
-  const auto p = [&](Eigen::Index away) { return line.p(tip + step * away); };
-  Eigen::Index end = std::min<Eigen::Index>(swing_reach, to_end);
-  for (Eigen::Index away = 1; away < to_end && away <= end + swing_reach; ++away)
-    if (p(away) == 0 && p(away - 1) != 0 && p(away + 1) != 0) end = std::max(end, away);
-  return tip + step * end;
-}
-
-// PressureEstimate::swings, by its singular points.
-std::vector<char> swinging(const PressureEstimate& e) {
-  std::vector<char> all(e.line.p.size(), 0);
-  for (const SingularPoint& point : e.singular) {
-    if (!point.is_swinging()) continue;
-    const Eigen::Index tip = e.line.nearest(point.position);
-    for (Eigen::Index i = swing_end(e.line, tip, -1); i <= swing_end(e.line, tip, 1); ++i) all[i] = 1;
-  }
-  return all;
-}
-
 std::vector<char> either(std::vector<char> one, const std::vector<char>& other) {
   std::ranges::transform(one, other, one.begin(), [](char a, char b) { return a || b; });
   return one;
-}
-
-// Where p has no limit p_h at the place's vertex may open the next one, with p on both sides of it: that and those
-// beside it.
-std::vector<char> opened_by_points(const PressureEstimate& e) {
-  const Eigen::Index last = e.line.p.size() - 1;
-  std::vector<char> all(last + 1, 0);
-  for (const SingularPoint& point : e.singular) {
-    const Eigen::Index at = e.line.nearest(point.position);
-    for (const Eigen::Index step : {-1, 1}) {
-      if (!(point.pressure_exponent < 1) || at + 2 * step < 0 || at + 2 * step > last) continue;
-      if (e.line.p(at) == 0 || e.line.p(at + step) != 0 || e.line.p(at + 2 * step) == 0) continue;
-      for (const Eigen::Index away : {0, 1, 2}) all[at + away * step] = 1;
-    }
-  }
-  return all;
-}
-
-// p_h may be zero where it swings: that is no border of contact.
-void forget_borders(const std::vector<char>& swinging, LineError& local) {
-  std::erase_if(local.borders, [&](const LineError::Border& b) { return swinging[b.edge] || swinging[b.edge + 1]; });
-  for (std::size_t i = 0; i < swinging.size(); ++i) local.border[i] = local.border[i] && !swinging[i];
 }
 
 // Windows at ends and borders, and the fluctuations if each window keeps a dual of its own with them. Returns how many
@@ -148,7 +104,7 @@ std::vector<PressureEstimate> lines_with_windows(const Problem& p, EstimateMemor
     if (!pair.spec.stiffness)  // p is no larger than k times the overlap
       e.singular = that_count(points[k], e.line, spec.value);
     e.swings = swinging(e);
-    forget_borders(either(opened_by_points(e), e.swings), e.local);
+    forget_false_borders(e);
     e.weak = add_weak_points(e.line, e.singular, e.local);
     add_hardly_faced(pair, e.line, e.local);
     add_axis_end(pair, e.line, e.local);
