@@ -53,9 +53,10 @@ CurveNodes nodes_along(const Mesh& mesh, const Curve& curve, const Constraints& 
   return found;
 }
 
-// Where the multiplier side's normal passes through a node of the opposite side, near its nearest node there.
+// Where the multiplier side's normal passes through a node of the opposite side, near its nearest node there. `edge`:
+// the length of the node's own.
 std::optional<Place> foot_of(const Mesh& mesh, const Curve& multiplier, const std::vector<FacingNode>& along,
-                             const Vec2& x) {
+                             const Vec2& x, double edge) {
   const auto nearest = std::ranges::min_element(
       along, {}, [&](const FacingNode& a) { return (mesh.nodes.row(a.node).transpose() - x).squaredNorm(); });
   std::optional<Place> best;
@@ -73,11 +74,13 @@ std::optional<Place> foot_of(const Mesh& mesh, const Curve& multiplier, const st
       best = Place{e, *xi};
     }
   }
-  // Between two edges' normals, or at the very node: the node itself, unless it is an end that lies off to the side.
+  // Between two edges' normals, or at the very node: the node itself, unless it lies off to the side; past an end, by
+  // more than tells places apart.
   const Vec2 away = x - mesh.nodes.row(nearest->node).transpose();
   const double sideways = std::abs(away.x() * nearest->own_normal.y() - away.y() * nearest->own_normal.x());
   const double size = edge_length(mesh.nodes, multiplier.edges[nearest->place.edge]);
-  if (away.norm() < distance && sideways < 0.1 * size) best = nearest->place;
+  const double near = is_end(multiplier, nearest->node) ? at_one_place * std::min(size, edge) : 0.1 * size;
+  if (away.norm() < distance && sideways < near) best = nearest->place;
   return best;
 }
 
@@ -111,7 +114,8 @@ void face_from_opposite_side(const Mesh& mesh, const ContactPair& pair, const st
   const Points& nodes = mesh.nodes;
   const Vec2 x = nodes.row(node.node).transpose();
   node.normal = -node.own_normal;
-  const auto foot = foot_of(mesh, pair.multiplier, along, x);
+  const double edge = edge_length(nodes, pair.opposite.edges[node.place.edge]);
+  const auto foot = foot_of(mesh, pair.multiplier, along, x, edge);
   if (!foot) return;
   const Line line = pair.geometry.line_from(nodes, pair.multiplier, *foot);
   // At a vertex of the multiplier side its mean normal, as in that side's own rows.

@@ -64,6 +64,28 @@ TEST(ContactResults, NodesThatFaceNothingHaveNoPressure) {
   EXPECT_GT(left_out, 0);
 }
 
+// Ends are one place up to a twentieth of the shorter edge, whichever side carries the multipliers.
+TEST(ContactResults, NodesBeyondAnEndOfTheMultiplierSideHaveNoPressure) {
+  const auto level = [](double y) { return [=](double) { return y; }; };
+  for (const double past : {0.02, 0.1, 0.3}) {  // of the block's edges, a tenth of the foot's
+    Scene scene;
+    scene.path = "foot";
+    scene.materials["steel"] = {210e9, 0.3};
+    scene.bodies = {{"block", "steel"}, {"foot", "steel"}};
+    scene.boundaries = {{.key = "support", .on = {"block_south"}, .what = Displacement{0, 0}},
+                        {.key = "side", .on = {"foot_west"}, .what = Displacement{0, {}}},
+                        {.key = "load", .on = {"foot_north"}, .what = Pressure{1e6}}};
+    scene.contacts = {{.key = "contact.0", .between = {"foot_south", "block_north"}}};
+    scene.contacts[0].multipliers_on = "foot_south";
+    const Results r =
+        solve_scene(scene, test::mesh_of({test::block("block", 30, 10, 0, 3, level(0), level(1)),
+                                          test::block("foot", 2, 2, 0, 2 - 0.1 * past, level(1), level(2))},
+                                         CellKind::quad8));
+    for (const ContactNode& node : r.recovery.contacts[0].opposite.nodes)
+      EXPECT_EQ(node.p > 0, node.position.x() < (past < 0.05 ? 2.01 : 1.99)) << past << " " << node.position.x();
+  }
+}
+
 // A coarse block: edges beside the foot that end at its corner face nothing (6), or a part of it (7).
 TEST(ContactResults, MeansOverEdgesCarryTheForceWhereEdgesFaceAPartOfTheOther) {
   for (const std::string side : {"foot", "block_top"})
