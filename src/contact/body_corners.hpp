@@ -3,7 +3,7 @@
 #pragma once
 
 #include "contact/tied_vertices.hpp"
-#include "contact/williams.hpp"
+#include "contact/tip_table.hpp"
 #include "fem/constraints.hpp"
 
 namespace mortise {

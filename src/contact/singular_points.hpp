@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/contact_places.hpp"
+#include "contact/tip_table.hpp"
 
 namespace mortise {
 

@@ -12,7 +12,6 @@
 #include <optional>
 
 #include "base/dense.hpp"
-#include "contact/joint_states.hpp"
 #include "model/moduli.hpp"
 
 namespace mortise {
@@ -293,19 +292,6 @@ double falling_exponent(const Modes& modes, std::size_t joint) {
   return 1;
 }
 
-// What is alike makes one key, the angles as whoever comes first has them.
-std::vector<double> key_of(Fan& fan, std::optional<std::size_t> joint) {
-  std::vector<double> key{joint ? double(*joint) : -1, double(fan.first), double(fan.last)};
-  for (const Joint of_two : fan.joints) key.push_back(double(of_two));
-  for (Wedge& w : fan.wedges) {
-    w.round(1e-10);
-    const Eigen::Matrix3d ratios = w.compliance / fan.wedges[0].compliance(2, 2);
-    key.insert(key.end(), {w.angle, w.first.value_or(0)});
-    key.insert(key.end(), ratios.data(), ratios.data() + ratios.size());
-  }
-  return key;
-}
-
 }  // namespace
 
 Wedge wedge(double angle, const ElasticLaw& law, Face outer, double first) {
@@ -349,18 +335,6 @@ std::vector<TipMode> modes(const Fan& fan) {
   for (auto zero = next_zero(f, first_exponent); zero; zero = next_zero(f, zero->real() + 1e-6))
     all.push_back(of.mode(*zero));
   return all;
-}
-
-TipExponents TipTable::find(const Fan& asked, std::optional<std::size_t> joint) {
-  Fan fan = asked;
-  const std::vector<double> key = key_of(fan, joint);
-  {
-    const std::lock_guard lock(mutex_);
-    if (const auto at = known_.find(key); at != known_.end()) return at->second;
-  }
-  const TipExponents found = joint ? exponents_of_states(fan, *joint) : exponents(fan);
-  const std::lock_guard lock(mutex_);
-  return known_.emplace(key, found).first->second;
 }
 
 }  // namespace mortise

@@ -6,8 +6,6 @@
 #pragma once
 
 #include <complex>
-#include <map>
-#include <mutex>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -88,15 +86,5 @@ Fan end_fan(const Wedge& a, const Wedge& b);
 
 /// Two wedges that share both faces, a kink of the contact line: angles of sum 2 pi.
 Fan kink_fan(const Wedge& a, const Wedge& b);
-
-/// The same for many tips, most of them alike: computed once for all whose angles are one to 1e-10. Any thread may ask.
-class TipTable {
- public:
-  TipExponents find(const Fan& fan, std::optional<std::size_t> joint = {});
-
- private:
-  std::map<std::vector<double>, TipExponents> known_;
-  std::mutex mutex_;
-};
 
 }  // namespace mortise

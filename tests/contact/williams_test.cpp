@@ -9,6 +9,7 @@
 #include <optional>
 #include <random>
 
+#include "contact/tip_table.hpp"
 #include "model/moduli.hpp"
 #include "support/wedge_fields.hpp"
 #include "support/wedges.hpp"
