@@ -53,15 +53,15 @@ void add_states(const Part& part, bool all_closed, TipExponents& found) {
     if (!mode.has_signs) continue;
     for (const double sign : {1., -1.}) {
       if (part.slides_along && !(sign * (mode.first - mode.last) > 0)) continue;
-      std::vector<char> drawn;
-      for (const double p : mode.pressure) drawn.push_back(sign * p < 0);
-      if (drawn[part.joint]) continue;  // it opens itself
-      if (std::ranges::count(drawn, 1) > 0) {
-        add_states(part_of(part, drawn), false, found);
+      std::vector<char> pulled;
+      for (const double p : mode.pressure) pulled.push_back(sign * p < 0);
+      if (pulled[part.joint]) continue;  // it opens itself
+      if (std::ranges::count(pulled, 1) > 0) {
+        add_states(part_of(part, pulled), false, found);
       } else if (!all_closed) {
         if (mode.exponent.real() < found.stress.real()) found.stress = mode.exponent;
-        if (mode.pressure[part.joint] > 0 || mode.pressure[part.joint] < 0)
-          if (mode.exponent.real() < found.pressure.real()) found.pressure = mode.exponent;
+        const bool presses = mode.pressure[part.joint] > 0 || mode.pressure[part.joint] < 0;
+        if (presses && mode.exponent.real() < found.pressure.real()) found.pressure = mode.exponent;
       }
     }
   }

@@ -42,7 +42,7 @@ struct SingularPoint {
 /// symmetric about the bisector does not excite the antisymmetric ones. Else the slope of the gap jumps there: where
 /// contact is closed on both sides the bodies share both faces as those of a symmetric load do, elsewhere one; so it
 /// does at an end on a line of symmetry from which a given gap rises or falls. As if contact were closed there, or open
-/// where a mode of closed joints draws (contact/joint_states.hpp).
+/// where a mode of closed joints pulls (contact/joint_states.hpp).
 std::vector<std::vector<SingularPoint>> singular_points(const std::vector<std::vector<ContactPlace>>& of_pairs,
                                                         TipTable& tips, int threads = 1);
 

@@ -20,7 +20,7 @@ Wedge of(double degrees, double young = 1) {
 
 constexpr Joint slides = Joint::sliding;
 
-// One foot draws as much as the other presses, so it opens; which of the two, the loads decide.
+// One foot is pulled as much as the other is pressed, so it opens; which of the two, the loads decide.
 TEST(JointStates, TheJointOfLikeBlocksOnAThirdIsThatBesideAFootThatOpens) {
   const Fan all{{of(180), of(90), of(90)}, {slides, slides, slides}};
   const Fan left_open{{of(180), of(90), of(90)}, {slides, slides}};
@@ -75,7 +75,7 @@ TEST(JointStates, AreNeverLargerThanAllClosedAndTheSameInAMirror) {
   }
 }
 
-// Modes that are not symmetric about a joint press nothing on it, and draw at one of two others.
+// Modes that are not symmetric about a joint press nothing on it, and pull at one of two others.
 TEST(JointStates, OfAJointOnALineOfSymmetryPIsUnboundedBesideOthersThatOpen) {
   std::mt19937 random(22);
   int smaller = 0;
@@ -89,7 +89,7 @@ TEST(JointStates, OfAJointOnALineOfSymmetryPIsUnboundedBesideOthersThatOpen) {
     const double least = std::min(all_closed.pressure.real(), open[0].exponent.real());
     if (open[0].pressure[0] * open[0].pressure[1] > 0)
       EXPECT_NEAR(found.pressure.real(), least, 1e-9) << k;
-    else  // one of these draws too
+    else  // one of these is pulled too
       EXPECT_GT(found.pressure.real(), least + 1e-3) << k;
     smaller += found.pressure.real() < all_closed.pressure.real() - 1e-3;
   }
