@@ -42,6 +42,10 @@ double limit(const Nearness& near, const Candidate& one, const Candidate& other)
   return std::min(one.edge, other.edge) / 2;
 }
 
+// Cosine between a normal and that of what it meets, against one another. Sides nearer to a right angle, as a side that
+// leans over beside its foot, close only as they slide ten times as far, or turn: not within small displacements.
+constexpr double least_cosine = 0.1;
+
 bool faces(const Points& nodes, const Candidate& from, const Candidate& to, double within) {
   const double reach = within + 1e-6 * to.edge;  // and round-off
   for (int e = 0; e < int(from.curve.edges.size()); ++e)
@@ -49,7 +53,8 @@ bool faces(const Points& nodes, const Candidate& from, const Candidate& to, doub
       const Line line = line_from(nodes, from.curve, e, xi);
       if (to.box.squaredExteriorDistance(line.x) > reach * reach) continue;
       const auto hit = project_onto_curve(nodes, to.curve, line);
-      if (hit && std::abs(hit->distance) <= within) return true;
+      if (!hit || std::abs(hit->distance) > within) continue;
+      if (-line.n.dot(edge_point(nodes, to.curve.edges[hit->edge], hit->xi).normal()) > least_cosine) return true;
     }
   return false;
 }

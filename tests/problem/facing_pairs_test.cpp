@@ -75,6 +75,33 @@ TEST(FacingPairs, AreThoseWithinADistance) {
   EXPECT_EQ(check_scene(squares(folder, R"(contact = [{ between = ["*", "*"], within = 0.02 }])")).pairs.size(), 2u);
 }
 
+// By a degree at most, over a mesh that is fine at the foot: along its normals the base is as near as edges are long.
+TEST(FacingPairs, AreNoneOfASideThatLeansOverBesideItsFoot) {
+  for (const double lean : {0.001, 0.009, 0.017}) {
+    const TemporaryFolder folder;
+    folder.write("a.geo", "lean = " + std::to_string(lean) + R"(;
+Point(1) = {0, 0, 0}; Point(2) = {4, 0, 0}; Point(3) = {4, 1, 0}; Point(4) = {0, 1, 0};
+Point(5) = {1, 1, 0}; Point(6) = {2, 1, 0}; Point(7) = {2 + lean, 2, 0}; Point(8) = {1 - lean, 2, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};
+Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1}; Curve Loop(5) = {5 : 8}; Plane Surface(5) = {5};
+Transfinite Curve{1 : 5, 7} = 11; Transfinite Curve{6} = 21 Using Progression 1.7; Transfinite Curve{-8} = 21 Using Progression 1.7;
+Transfinite Surface{1, 5}; Recombine Surface{1, 5};
+Physical Surface("base") = {1}; Physical Surface("block") = {5};
+Physical Curve("ground") = {1}; Physical Curve("base_top") = {3};
+Physical Curve("block_foot") = {5}; Physical Curve("block_right") = {6}; Physical Curve("block_left") = {8};
+)");
+    const Problem checked = check_scene(read_scene(folder.write("a.toml", R"(
+mesh.file = "a.geo"
+materials.steel = { young = 210e9, poisson = 0.3 }
+bodies = { "*" = "steel" }
+boundary = [{ on = "ground", displacement = { x = 0, y = 0 } }]
+contact = [{ between = ["*", "*"] }]
+)")));
+    EXPECT_EQ(pairs_of(checked), std::set<std::string>{"base_top block_foot"}) << lean;
+  }
+}
+
 TEST(FacingPairs, AreMeasuredBetweenTheCurvesAndNotBetweenTheBoxesAroundThem) {
   const TemporaryFolder folder;
   folder.write("a.geo", R"(
