@@ -1,6 +1,7 @@
 #include "error/length_error.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "contact/least_gap.hpp"
 #include "error/goal_estimate.hpp"
@@ -28,6 +29,25 @@ void add_hardly_pressed(const PressureEstimate& e, std::vector<char>& undecided)
   };
   for (Eigen::Index edge = 0; edge + 1 < line.p.size(); ++edge)
     if (line.faced[edge] && hardly(edge) && hardly(edge + 1)) undecided[edge] = 1;
+}
+
+// Where p falls to a place at which it has no limit, as P - K r^(lambda - 1), contact ends before it: at the r where
+// that is zero, K h^(lambda - 1) what p falls by along the edge.
+double ends_before_points(const PressureEstimate& e) {
+  const PressureLine& line = e.line;
+  double length = 0;
+  for (const SingularPoint& point : e.singular) {
+    if (!(point.pressure_exponent < 1)) continue;
+    const Eigen::Index at = line.nearest(point.position);
+    for (const int step : {-1, 1}) {
+      const auto next = line.beside(at, step);
+      if (!next || !(0 < line.p(at) && line.p(at) < line.p(*next))) continue;
+      const Eigen::Index edge = line.edge_to(*next, step);
+      const double falls = 1 - line.p(at) / line.p(*next);
+      length += (line.s(edge + 1) - line.s(edge)) * std::pow(falls, 1 / (1 - point.pressure_exponent));
+    }
+  }
+  return length;
 }
 
 // Edges beyond a border that what p is off by along the line there would close.
@@ -68,7 +88,10 @@ double length_error(const Problem& problem, const ContactPair& pair, const VecX&
     error += opened_by_kinks(pair, modulus, u, e);
     for (const LineError::Border& border : e.local.borders) add_hardly_open(e, border, modulus, gaps, undecided);
   }
-  if (pair.spec.condition == Condition::unilateral) add_hardly_pressed(e, undecided);
+  if (pair.spec.condition == Condition::unilateral) {
+    error += ends_before_points(e);
+    add_hardly_pressed(e, undecided);
+  }
   for (std::size_t edge = 0; edge < undecided.size(); ++edge)
     if (undecided[edge]) error += line.s(Eigen::Index(edge) + 1) - line.s(Eigen::Index(edge));
   return error;
