@@ -11,7 +11,7 @@ namespace mortise {
 
 /// A multiplier that was left out or tied to its neighbour, and why.
 struct DroppedMultiplier {
-  int multiplier;
+  int multiplier;      ///< in Coupling::node
   std::string reason;  ///< to be read after "40 multipliers"
   bool faces;          ///< the other side, and was left out all the same
   bool by_mesh;        ///< as of this mesh's edges: bars of p know it

@@ -8,7 +8,7 @@ namespace mortise {
 /// Exponents with all joints closed, and of the modes that hold with some of them open if those are smaller. A mode of
 /// closed joints that presses on some and pulls at others opens these, however little of it there is, and whatever its
 /// sign. They stay open if a mode then presses on all others and opens them further.
-/// docs/theory.md section 8.
+/// docs/theory.md section 8. `joint`: a sliding one, in Fan::joints.
 TipExponents exponents_of_states(const Fan& fan, std::size_t joint);
 
 }  // namespace mortise

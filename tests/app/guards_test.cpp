@@ -155,9 +155,11 @@ TEST(Curves, AMultiplierWhoseEdgeHardlyFacesTheOtherSideFollowsItsNeighbour) {
     EXPECT_NEAR(r.recovery.contacts[0].p_max, 10e6, 1e6) << width;
   }
   EXPECT_FALSE(noted(narrow_upper_plate(0.53), "hardly face"));
-  Results found = narrow_upper_plate(0.501);
+  Results found = narrow_upper_plate(0.501), open = found;
   found.problem.accuracy.emplace();  // nobody can help what its mesh faces
-  for (const std::string& line : warnings(found)) EXPECT_EQ(line.find("hardly face"), std::string::npos) << line;
+  open.recovery.contacts[0].pressure.setZero();
+  for (const Results* r : {&found, &open})
+    for (const std::string& line : warnings(*r)) EXPECT_EQ(line.find("hardly face"), std::string::npos) << line;
 }
 
 TEST(Curves, TheSideAtALimitDoesNotHangOnWhereTheSceneLies) {
