@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "contact/body_corners.hpp"
+#include "error/outline_works.hpp"
 #include "fem/edges.hpp"
 #include "fem/patch_recovery.hpp"
 #include "fem/quadrature.hpp"
@@ -107,29 +107,7 @@ class Duals {
     return works;
   }
 
-  // Of each dual z: what fills the space between a straight side and its curve carries f . z - sigma(u) : eps(z) per
-  // volume, which is the derivative of the functional by the place of a boundary that is free. Where a pressure acts on
-  // it, it moves along, and the stress counts by what it has more than that pressure in all directions.
-  VecX beyond(const DataMisfit& on, const VecX& u) const {
-    const Cell& cell = mesh_.cells[on.cell];
-    const ElasticLaw& law = laws_[cell.body];
-    const Edge edge = side_edge(cell, on.side);
-    const Points reference = reference_nodes(cell.kind);
-    const Vec2 middle = (reference.row(on.side) + reference.row((on.side + 1) % corner_count(cell.kind))) / 2;
-    const CellShape shape = cell_shape(cell.kind, middle);
-    const Vec2 n = edge_point(mesh_.nodes, edge, 0).normal(), force = problem_.entries.force_in(cell.body, on.at);
-    Vec4 stress = stress_at(mesh_, cell, law, u, shape);
-    if (face_of(mesh_.nodes, edge, problem_.discretisation.system.constraints) == Face::free) {
-      const double pressed = stress(0) * n.x() * n.x() + stress(1) * n.y() * n.y() + 2 * stress(3) * n.x() * n.y();
-      stress.head<3>().array() -= pressed;
-    }
-    VecX works(Eigen::Index(fields_.size()));
-    for (Eigen::Index k = 0; k < works.size(); ++k) {
-      const Vec4 strain = law.compliance * (stress_at(mesh_, cell, law, fields_[k], shape) - law.stress0(on.at));
-      works(k) = on.size * (force.dot(edge_value(fields_[k], edge, 0)) - stress.dot(strain));
-    }
-    return works;
-  }
+  const std::vector<VecX>& fields() const { return fields_; }
 
  private:
   const Problem& problem_;
@@ -142,9 +120,10 @@ class Duals {
 };
 
 // Of each dual.
-VecX works_of(const Mesh& mesh, const DataMisfit& part, const VecX& u, Duals& duals, std::map<int, CellErrors>& known) {
+VecX works_of(const Mesh& mesh, const DataMisfit& part, const VecX& u, Duals& duals, OutlineWorks& outline,
+              std::map<int, CellErrors>& known) {
   if (part.kind == DataMisfit::Kind::displacement) return duals.works(part);
-  if (part.kind == DataMisfit::Kind::outline) return duals.beyond(part, u);
+  if (part.kind == DataMisfit::Kind::outline) return outline.of(part, duals.fields());
   auto at = known.find(part.cell);
   if (at == known.end()) at = known.emplace(part.cell, duals.errors(part.cell)).first;
   if (part.kind == DataMisfit::Kind::strain) return part.size * at->second.energy;
@@ -166,18 +145,11 @@ MatX data_works(const Problem& problem, const VecX& u, const MatX& z) {
   MatX works(Eigen::Index(parts.size()), z.cols());
   if (works.size() == 0) return works;
   Duals duals(problem, z);
+  OutlineWorks outline(problem, u);
   std::map<int, CellErrors> known;
   for (std::size_t i = 0; i < parts.size(); ++i)
-    works.row(Eigen::Index(i)) = works_of(problem.mesh, parts[i], u, duals, known);
+    works.row(Eigen::Index(i)) = works_of(problem.mesh, parts[i], u, duals, outline, known);
   return works;
-}
-
-VecX outline_works(const Problem& problem, const VecX& u, const VecX& motion) {
-  const Duals duals(problem, motion);
-  std::vector<double> works;
-  for (const DataMisfit& part : problem.misfits.parts)
-    if (part.kind == DataMisfit::Kind::outline) works.push_back(duals.beyond(part, u)(0));
-  return VecX::Map(works.data(), Eigen::Index(works.size()));
 }
 
 }  // namespace mortise

@@ -9,9 +9,6 @@ namespace mortise {
 /// the outline (eq. 51c) what it does. `z`: the duals, n x F.
 MatX data_works(const Problem& problem, const VecX& u, const MatX& z);
 
-/// Those of the outline alone for a functional that a rigid motion tells, n: they weigh.
-VecX outline_works(const Problem& problem, const VecX& u, const VecX& motion);
-
 /// The largest displacement of the nodes on the side of a cell that a foundation's misfit is of.
 double largest_on(const Mesh& mesh, const DataMisfit& part, const VecX& u);
 

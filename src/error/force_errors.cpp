@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "error/border_overlaps.hpp"
-#include "error/data_works.hpp"
+#include "error/outline_works.hpp"
 #include "fem/edges.hpp"
 #include "solve/contact_factor.hpp"
 

@@ -56,9 +56,8 @@ Resultant add_force(const Mesh& mesh, const Vec2& force, const std::vector<int>&
   return sum;
 }
 
-// `traction` at a place, with its outward normal and s.
-template <typename AtPlace>
-Resultant add_load(const Mesh& mesh, const Model& model, const BoundaryEntry& entry, const AtPlace& traction, VecX& f) {
+Resultant add_load(const Mesh& mesh, const Model& model, const BoundaryEntry& entry, const TractionField& traction,
+                   VecX& f) {
   const BoundaryFields fields(mesh, entry.curves, fields_of(entry.spec.what));
   Resultant sum;
   for (const NamedBoundary& on : entry.curves)
@@ -78,7 +77,7 @@ double modulus(const BoundarySpec& spec, const Field& field, const Vec2& x, doub
       worded(spec.key, ".foundation: '", field.words(), "' is ", k, " ", near_point(x), "; expected a modulus >= 0"));
 }
 
-// `stiffness` as add_load's traction.
+// `stiffness` at a place, with its outward normal and s.
 template <typename AtPlace>
 void add_springs(const Mesh& mesh, const Model& model, const BoundaryEntry& entry, const AtPlace& stiffness,
                  Triplets& springs) {
@@ -112,29 +111,29 @@ void add_point_springs(const Mesh& mesh, const BoundaryEntry& entry, const Vec2&
 
 }  // namespace
 
+TractionField traction_of(const Mesh& mesh, const Model& model, const BoundaryEntry& entry) {
+  const BoundaryCondition& what = entry.spec.what;
+  if (const auto* p = std::get_if<Pressure>(&what))
+    return [p = *p](const Vec2& x, const Vec2& n, double s) -> Vec2 { return -p.value(x, s) * n; };
+  if (const auto* t = std::get_if<SurfaceTraction>(&what))
+    return [t = *t](const Vec2& x, const Vec2&, double s) -> Vec2 { return t.value(x, s); };
+  if (const auto* force = std::get_if<TotalForce>(&what); force && entry.points.empty())
+    return [t = traction_of_force(mesh, model, entry, force->value)](const Vec2&, const Vec2&, double) { return t; };
+  return {};
+}
+
 Resultant apply(const Mesh& mesh, const Model& model, const BoundaryEntry& entry, SaddlePointSystem& system,
                 Triplets& springs) {
   const BoundarySpec& spec = entry.spec;
   Resultant sum;
-  const auto load = [&](const auto& traction) { sum = add_load(mesh, model, entry, traction, system.f); };
+  if (const TractionField traction = traction_of(mesh, model, entry))
+    return add_load(mesh, model, entry, traction, system.f);
   std::visit(Overloaded{[&](const Displacement& u) {
                           told_with_key(entry.spec.key, [&] { prescribe(mesh, entry, u, system.constraints); });
                         },
                         [](const NormalDisplacement&) {}, [](const DirectedDisplacement&) {}, [](const RigidSpec&) {},
-                        [&](const Pressure& p) {
-                          load([&](const Vec2& x, const Vec2& n, double s) -> Vec2 { return -p.value(x, s) * n; });
-                        },
-                        [&](const SurfaceTraction& t) {
-                          load([&](const Vec2& x, const Vec2&, double s) -> Vec2 { return t.value(x, s); });
-                        },
-                        [&](const TotalForce& force) {
-                          if (!entry.points.empty()) {
-                            sum = add_force(mesh, force.value, entry.points, system.f);
-                            return;
-                          }
-                          const Vec2 traction = traction_of_force(mesh, model, entry, force.value);
-                          load([&](const Vec2&, const Vec2&, double) -> Vec2 { return traction; });
-                        },
+                        [](const Pressure&) {}, [](const SurfaceTraction&) {},
+                        [&](const TotalForce& force) { sum = add_force(mesh, force.value, entry.points, system.f); },
                         [&](const NormalFoundation& k) {
                           const auto normal = [&](const Vec2& x, const Vec2& n, double s) -> Eigen::Matrix2d {
                             return modulus(spec, k.modulus, x, s) * n * n.transpose();
