@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "contact/tied_vertices.hpp"
 #include "error/pressure_form.hpp"
 #include "error/pressure_line.hpp"
 #include "fem/edges.hpp"
@@ -272,7 +273,10 @@ void set_fitted_pressure(const Points& nodes, const Curve& multiplier, const Fit
     for (ContactNode& node : side->nodes) {
       const auto [edge, xi] = node.on_multiplier;
       if (edge < 0 || std::isnan(node.gap)) continue;
-      if (const auto p = fitted.at(start(edge) + (1 + xi) / 2 * (start(edge + 1) - start(edge)))) node.p = *p;
+      const auto p = fitted.at(start(edge) + (1 + xi) / 2 * (start(edge + 1) - start(edge)));
+      // At one place with a vertex where it has no limit, it may be any number: that of the vertex stands.
+      const bool at_vertex = 1 - std::abs(xi) < 2 * at_one_place && !fitted.at(start(xi < 0 ? edge : edge + 1));
+      if (p && !at_vertex) node.p = *p;
     }
   set_extremes(results);
 }

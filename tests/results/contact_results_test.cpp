@@ -5,6 +5,7 @@
 #include <random>
 
 #include "app/solve_scene.hpp"
+#include "base/printable.hpp"
 #include "contact/coupling.hpp"
 #include "fem/quadrature.hpp"
 #include "results/extremes.hpp"
@@ -47,6 +48,37 @@ TEST(ContactResults, PositionsRunFromZeroToTheLengthOnBothSides) {
                     (side->nodes[i].position - side->nodes[i - 1].position).norm(), 1e-3 * c.length);
     }
     EXPECT_LE((c.multiplier.nodes[0].position - c.opposite.nodes[0].position).norm(), 1e-3 * c.length);
+  }
+}
+
+// A foot whose p has no limit at its ends, on a block with nodes a little within them: as far as rounding, or what a
+// file's digits leave.
+TEST(ContactResults, NodesAtOnePlaceWithAnEndWithoutLimitHaveItsPressure) {
+  for (const double beside : {0., 1e-13, 1e-11, 1e-9, 1e-6, 1e-4, 2e-3}) {
+    const test::TemporaryFolder folder;
+    folder.write("foot.geo", worded(R"(SetFactory("OpenCASCADE"); Mesh.ElementOrder = 2;
+Rectangle(1) = {0, -2, 0, 3, 2}; Rectangle(2) = {1 - )",
+                                    beside, ", 0, 0, ", 1 + 2 * beside, R"(, 1};
+Transfinite Curve{1, 3} = 19; Transfinite Curve{2, 4} = 13; Transfinite Curve{5, 7} = 9; Transfinite Curve{6, 8} = 9;
+Transfinite Surface{1, 2};
+Physical Surface("block") = {1}; Physical Surface("punch") = {2}; Physical Curve("ground") = {1};
+Physical Curve("top") = {3}; Physical Curve("foot") = {5}; Physical Curve("head") = {7};
+)"));
+    Results r = solve_scene(read_scene(folder.write("foot.toml", R"(mesh.file = "foot.geo"
+materials.m = { young = 1000, poisson = 0.3 }
+bodies = { block = "m", punch = "m" }
+boundary = [{ on = "ground", displacement = { x = 0, y = 0 } }, { on = "head", displacement = { x = 0, y = -1e-3 } }]
+contact = [{ between = ["foot", "top"] }]
+)")));
+    estimate(r);
+    int ends = 0;
+    for (const ContactNode& node : r.recovery.contacts[0].opposite.nodes) {
+      if (std::abs(std::abs(node.position.x() - 1.5) - 0.5) > 1e-6) continue;
+      EXPECT_EQ(node.p, node.p_multiplier) << beside;
+      EXPECT_GT(node.p, 0) << beside;
+      ++ends;
+    }
+    EXPECT_EQ(ends, 2) << beside;
   }
 }
 
