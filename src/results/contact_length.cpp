@@ -30,9 +30,10 @@ double end_of_contact(const std::vector<Sample>& samples, double limit) {
 struct LoadedLine {
   const Points& nodes;
   const ContactPair& pair;
-  const VecX& pressure;  // or overlap, of a pair that gives way
+  const VecX& pressure;  // or overlap
   const VecX& fluid;     // of it, at wet multipliers
   double loaded;         // p above it
+  bool overlap = false;
 
   double solid(int multiplier) const { return pressure(multiplier) - fluid(multiplier); }
 };
@@ -40,12 +41,12 @@ struct LoadedLine {
 // Part of edge e that is in contact, where p ends on it: it carries p at vertex `last` (0: start, 1: end) only. Beyond
 // fluid p rises from what that presses with.
 double part_in_contact(const LoadedLine& line, int e, int last) {
-  const auto& [nodes, pair, pressure, fluid, loaded] = line;
+  const auto& [nodes, pair, pressure, fluid, loaded, overlap] = line;
   const int count = int(pair.multiplier.edges.size()), back = last == 0 ? -1 : 1;  // away from the end of contact
   const double length = edge_length(nodes, pair.multiplier.edges[e]);
   const double outside = fluid(pair.coupling.on_edge[e][1 - last]);
   const double at_last = pressure(pair.coupling.on_edge[e][last]) - outside;
-  if (gives_way(pair)) return at_last / (at_last - pressure(pair.coupling.on_edge[e][1 - last]));
+  if (overlap) return at_last / (at_last - pressure(pair.coupling.on_edge[e][1 - last]));
   std::vector<Sample> samples{{0, at_last * at_last}};
   double before = 0;
   for (int k = e + back; samples.size() < 3; k += back) {
@@ -66,7 +67,7 @@ struct EdgePart {
 };
 
 std::vector<EdgePart> parts_in_contact(const LoadedLine& line) {
-  const auto& [nodes, pair, pressure, fluid, loaded] = line;
+  const auto& [nodes, pair, pressure, fluid, loaded, overlap] = line;
   std::vector<EdgePart> parts(pair.multiplier.edges.size());
   if (pair.spec.condition != Condition::unilateral) return parts;
   for (std::size_t e = 0; e < parts.size(); ++e) {
@@ -78,12 +79,9 @@ std::vector<EdgePart> parts_in_contact(const LoadedLine& line) {
   return parts;
 }
 
-}  // namespace
-
-ContactLength length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure, const VecX& fluid,
-                                double round_off) {
-  const double loaded = std::max(round_off, 1e-9 * (pressure.size() > 0 ? pressure.maxCoeff() : 0));
-  const std::vector<EdgePart> parts = parts_in_contact({nodes, pair, pressure, fluid, loaded});
+ContactLength length_of(const LoadedLine& line) {
+  const auto& [nodes, pair, pressure, fluid, loaded, overlap] = line;
+  const std::vector<EdgePart> parts = parts_in_contact(line);
   ContactLength found;
   std::vector<char> faced(parts.size(), 0);
   for (const ContactPoint& c : pair.points) {
@@ -100,6 +98,22 @@ ContactLength length_in_contact(const Points& nodes, const ContactPair& pair, co
     s += length;
   }
   return found;
+}
+
+// Above round-off, of the values themselves too.
+double loaded(double round_off, const VecX& values) {
+  return std::max(round_off, 1e-9 * (values.size() > 0 ? values.maxCoeff() : 0));
+}
+
+}  // namespace
+
+ContactLength length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure, const VecX& fluid,
+                                double round_off) {
+  return length_of({nodes, pair, pressure, fluid, loaded(round_off, pressure)});
+}
+
+ContactLength length_of_overlap(const Points& nodes, const ContactPair& pair, const VecX& overlap, double round_off) {
+  return length_of({nodes, pair, overlap, VecX::Zero(overlap.size()), loaded(round_off, overlap), true});
 }
 
 }  // namespace mortise

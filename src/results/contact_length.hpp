@@ -21,11 +21,13 @@ inline bool gives_way(const ContactPair& pair) { return pair.spec.stiffness && !
 /// Length of the multiplier side that faces the opposite side and carries pressure; of bilateral pairs, that faces it.
 /// Where contact ends within an edge, p falls like the root of the distance to its end (Johnson 1985, section 4.2): the
 /// end lies where the line through the last three vertices' p^2 is zero. On Hertz' problem within 0.3 of an edge.
-/// Of a pair that gives way p falls as its law says: `pressure` is what the sides overlap there, < 0 where they do not,
-/// and contact ends where that is zero on the way between two vertices.
 /// `pressure`: one a multiplier, stress; `fluid`: what of it a fluid's is (of dry ones 0); none is carried where it is
 /// no more than `round_off`.
 ContactLength length_in_contact(const Points& nodes, const ContactPair& pair, const VecX& pressure, const VecX& fluid,
                                 double round_off);
+
+/// Of a pair that gives way, so that p falls as its law says: contact ends where what the sides overlap, `overlap`, one
+/// a multiplier, < 0 where they are apart, is zero on the way between two vertices.
+ContactLength length_of_overlap(const Points& nodes, const ContactPair& pair, const VecX& overlap, double round_off);
 
 }  // namespace mortise

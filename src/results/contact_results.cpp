@@ -194,6 +194,18 @@ VecX overlaps(const ContactPair& pair, const ContactResults& r) {
   return overlaps;
 }
 
+// Whether the sides overlap wherever they press, but for the vertices beside an end of contact. Those of a layer that
+// hardly gives way do in the mean alone: between vertices the bodies' own shapes are more than p over its stiffness.
+bool overlap_where_pressed(const ContactPair& pair, const VecX& pressure, const VecX& overlaps) {
+  std::vector<char> at_end(std::size_t(pressure.size()), 0);
+  for (const auto& on : pair.coupling.on_edge)
+    for (const int end : {0, 1})
+      if (!(pressure(on[end]) > 0)) at_end[on[1 - end]] = 1;
+  for (Eigen::Index a = 0; a < pressure.size(); ++a)
+    if (pressure(a) > 0 && !(overlaps(a) > 0) && !at_end[a]) return false;
+  return true;
+}
+
 Resultant force_on_multiplier_side(const Points& nodes, const Coupling& coupling, const VecX& row_values) {
   Resultant sum;
   for (const auto& [node, force] : contact_forces(coupling.own, row_values))
@@ -237,9 +249,10 @@ ContactResults contact_results(const Problem& problem, const ContactPair& pair, 
   set_extremes(r);
   r.p_mean = mean_pressure(pair, r.pressure);
   const double round_off = round_off_pressure(mesh, pair, problem.discretisation.laws, displacement);
-  const ContactLength in_contact =
-      gives_way(pair) ? length_in_contact(mesh.nodes, pair, overlaps(pair, r), fluid, 1e-12 * displacement)
-                      : length_in_contact(mesh.nodes, pair, r.pressure, fluid, round_off);
+  const VecX overlap = gives_way(pair) ? overlaps(pair, r) : VecX();
+  const ContactLength in_contact = gives_way(pair) && overlap_where_pressed(pair, r.pressure, overlap)
+                                       ? length_of_overlap(mesh.nodes, pair, overlap, 1e-12 * displacement)
+                                       : length_in_contact(mesh.nodes, pair, r.pressure, fluid, round_off);
   r.length_in_contact = in_contact.length;
   r.ends = in_contact.ends;
   if (r.ends && backwards) r.ends = {r.length - (*in_contact.ends)[1], r.length - (*in_contact.ends)[0]};

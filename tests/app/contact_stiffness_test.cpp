@@ -8,7 +8,9 @@
 #include <sstream>
 
 #include "app/solve_scene.hpp"
+#include "base/printable.hpp"
 #include "support/messages.hpp"
+#include "support/two_blocks.hpp"
 
 namespace mortise::test {
 namespace {
@@ -161,6 +163,38 @@ TEST(ContactStiffness, ContactEndsWhereTheSidesNoLongerOverlap) {
     }
     EXPECT_NEAR(contact.length_in_contact, a, 0.05 * edge) << k;
   }
+}
+
+// Layers far stiffer than the bodies' edges are: what these overlap between vertices says nothing of where p ends.
+TEST(ContactStiffness, ContactOfStiffLayersEndsWherePDoes) {
+  std::mt19937 random(3);
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  int apart = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    const double k = std::pow(10, draw(4, 8)), curved = draw(0.002, 0.02), middle = draw(0.2, 0.8);
+    const int lower = 5 + int(random() % 10), upper = 5 + int(random() % 10);
+    const std::string geo = worded("Rectangle(1) = {0, -0.5, 0, 1, 0.5}; Rectangle(2) = {0, 0, 0, 1, 0.7};\n",
+                                   "Mesh.ElementOrder = ", 1 + trial % 2, "; Mesh.RecombineAll = ", trial / 2 % 2,
+                                   ";\nTransfinite Curve{1, 3} = ", lower, "; Transfinite Curve{5, 7} = ", upper,
+                                   "; Transfinite Curve{2, 4, 6, 8} = 4;");
+    const Results r =
+        pressed_blocks(geo, worded("initial_gap = \"", curved, " * (x - ", middle, ")^2\", stiffness = ", k));
+    const ContactResults& contact = r.recovery.contacts[0];
+    double carries = 0, beside = 0;  // edges that carry p at both vertices, at one
+    std::vector<const ContactNode*> vertices;
+    for (const ContactNode& node : contact.multiplier.nodes)
+      if (std::abs(node.on_multiplier.xi) == 1) vertices.push_back(&node);
+    for (std::size_t i = 1; i < vertices.size(); ++i) {
+      const double edge = vertices[i]->s - vertices[i - 1]->s;
+      const int loaded = (vertices[i - 1]->p > 0) + (vertices[i]->p > 0);
+      if (loaded > 0) (loaded == 2 ? carries : beside) += edge;
+      apart += vertices[i]->p > 0 && vertices[i]->gap > 0;
+    }
+    SCOPED_TRACE(worded(geo, "\n", k, " ", curved, " ", middle));
+    EXPECT_LE(contact.length_in_contact, carries + 2 * beside + 1e-9);
+    EXPECT_GE(contact.length_in_contact, carries - beside - 1e-9);
+  }
+  EXPECT_GT(apart, 10);  // of vertices that press
 }
 
 // p = c g^n of the overlap g = (a^2 - x^2) / 2 R: with b(n) = sqrt(pi) Gamma(n + 1) / Gamma(n + 3/2) the load is
