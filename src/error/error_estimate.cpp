@@ -360,7 +360,8 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, Estimat
   add_products(p, solution, goal, options, overlaps, memory.products, estimate);
   if (spec.of == Goal::mean) {
     const PressureEstimate& e = estimate.pressures[spec.pair];
-    estimate.goal->local = mean_error(p.mesh, p.pairs[spec.pair], e.line, e.local.pointwise(e.line), spec.window);
+    estimate.goal->local =
+        mean_error(p.mesh, p.discretisation.model, p.pairs[spec.pair], e.line, e.local.pointwise(e.line), spec.window);
   }
   if (spec.of == Goal::displacement) add_displacement_error(p, goal, solution.u, *estimate.goal);
   if (spec.of == Goal::stress) add_stress_error(p, estimate.pressures, goal, solution.u, *estimate.goal);

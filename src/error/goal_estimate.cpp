@@ -35,8 +35,9 @@ struct Functional {
   MatX rows, opening;  // GoalFunctionals
 };
 
-// The mean of p over the window; zero where the line does not face the other side there.
-Functional mean_functional(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const Window& window) {
+// The mean of p over the window, of rings over its area; p is zero where the line does not face the other side.
+Functional mean_functional(const Mesh& mesh, const Model& model, const ContactPair& pair, const PressureLine& line,
+                           const Window& window) {
   const LineRule rule = gauss_legendre(3);
   VecX weights = VecX::Zero(pair.coupling.B.rows());
   double mass = 0;
@@ -46,10 +47,10 @@ Functional mean_functional(const Mesh& mesh, const ContactPair& pair, const Pres
                  end = std::min(1.0, 2 * (window.to - line.s(e)) / h - 1);
     for (std::size_t q = 0; start < end && q < rule.points.size(); ++q) {
       const double xi = (start + end) / 2 + (end - start) / 2 * rule.points[q];
-      const double ds =
-          rule.weights[q] * (end - start) / 2 * edge_point(mesh.nodes, pair.multiplier.edges[e], xi).jacobian();
-      mass += ds;
-      add_pressure_at(pair, e, xi, ds, weights);
+      const EdgePoint at = edge_point(mesh.nodes, pair.multiplier.edges[e], xi);
+      const double dA = rule.weights[q] * (end - start) / 2 * at.jacobian() * model.depth(at.position.x());
+      mass += dA;
+      add_pressure_at(pair, e, xi, dA, weights);
     }
   }
   if (mass > 0) weights /= mass;
@@ -57,7 +58,7 @@ Functional mean_functional(const Mesh& mesh, const ContactPair& pair, const Pres
   for (std::size_t i = 0; i < pair.points.size(); ++i) {
     const ContactPoint& point = pair.points[i];
     const double s = line.s(point.edge) + (line.s(point.edge + 1) - line.s(point.edge)) * (1 + point.xi) / 2;
-    if (mass > 0 && s >= window.from && s <= window.to) opening(Eigen::Index(i), 0) = point.ds / point.dA / mass;
+    if (mass > 0 && s >= window.from && s <= window.to) opening(Eigen::Index(i), 0) = 1 / mass;
   }
   return {weights, opening};
 }
@@ -215,7 +216,7 @@ GoalFunctionals goal_functionals(const Mesh& mesh, const Discretisation& discret
     case Goal::mean:
       if (const std::string trouble = window_trouble(line, spec.window); !trouble.empty())
         throw SceneError("accuracy.window: " + trouble);
-      set(mean_functional(mesh, pair, line, along_edges(mesh, pair, line, spec.window)));
+      set(mean_functional(mesh, discretisation.model, pair, line, along_edges(mesh, pair, line, spec.window)));
       break;
     case Goal::force:
       set(force_functionals(pair));
@@ -311,17 +312,18 @@ std::string window_trouble(const PressureLine& line, const Vec2& window) {
                 window(0), ", ", window(1), "]");
 }
 
-double mean_error(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& errors,
-                  const Vec2& window) {
+double mean_error(const Mesh& mesh, const Model& model, const ContactPair& pair, const PressureLine& line,
+                  const VecX& errors, const Vec2& window) {
   const Window along = along_edges(mesh, pair, line, window);
-  double sum = 0, length = 0;
+  double sum = 0, area = 0;
   for (Eigen::Index e = 0; e + 1 < line.s.size(); ++e) {
     const double h = line.s(e + 1) - line.s(e);
     if (line.s(e) > along.to || line.s(e) + h < along.from) continue;
-    sum += h * (errors(e) + errors(e + 1)) / 2;
-    length += h;
+    const double of_edge = h * model.depth((line.position[e].x() + line.position[e + 1].x()) / 2);
+    sum += of_edge * (errors(e) + errors(e + 1)) / 2;
+    area += of_edge;
   }
-  return length > 0 ? sum / length : 0;
+  return area > 0 ? sum / area : 0;
 }
 
 }  // namespace mortise

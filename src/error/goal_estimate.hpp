@@ -87,7 +87,7 @@ void add_stress_error(const Problem& problem, const std::vector<PressureEstimate
 std::string window_trouble(const PressureLine& line, const Vec2& window);
 
 /// Mean of the errors at the vertices of the edges that have a part in the window of spec.
-double mean_error(const Mesh& mesh, const ContactPair& pair, const PressureLine& line, const VecX& errors,
-                  const Vec2& window);
+double mean_error(const Mesh& mesh, const Model& model, const ContactPair& pair, const PressureLine& line,
+                  const VecX& errors, const Vec2& window);
 
 }  // namespace mortise

@@ -38,7 +38,8 @@ Keys accuracy_keys(AccuracySpec& a, int last_pair) {
       key("of", a.of, any_of<Goal>(),
           "what the accuracy is asked of: `\"pressure\"` along all contact lines; `\"peak\"`, the largest $p$, refused "
           "where $p$ has no limit; `\"half_width\"` of every contact, by the edge on which it ends; `\"mean\"`, the "
-          "mean $p$ over `accuracy.window`; `\"force\"` of a pair; `\"displacement\"` (x, y) or `\"stress\"` (11, 22, "
+          "mean $p$ over `accuracy.window`, of rings over its area; `\"force\"` of a pair; `\"displacement\"` (x, y) "
+          "or `\"stress\"` (11, 22, "
           "12) at `accuracy.at`, a stress refused at a corner where it has no limit, a displacement where nothing "
           "holds the body against it"),
       key("pair", a.pair, whole_number(0, last_pair), "of `mean` and `force`: the pair, from 0, ties left out"),

@@ -175,5 +175,23 @@ TEST(Gradients, AreNoneOfWhatHasNotConverged) {
             path_of("gap_close") + ": the solution has not converged, so that nothing is known of its gradients");
 }
 
+// Of rings a mean is over an area, of a part of the line as of all of it.
+TEST(Gradients, MeansOfRingsAreOverTheAreaOfTheirWindow) {
+  const Results r = solve_scene(read_scene(MORTISE_SOURCE_DIR "/geo/hertz_sphere.toml"));
+  const std::vector<ContactNode>& nodes = r.recovery.contacts[0].multiplier.nodes;
+  std::vector<const ContactNode*> vertices;
+  for (const ContactNode& node : nodes)
+    if (std::abs(node.on_multiplier.xi) == 1) vertices.push_back(&node);
+  double force = 0, area = 0;
+  for (std::size_t i = 1; i < vertices.size() / 2; ++i) {
+    const ContactNode &a = *vertices[i - 1], &b = *vertices[i];
+    const double ra = a.position.x(), rb = b.position.x(), h = b.s - a.s;
+    force += h * (a.p_multiplier * (2 * ra + rb) + b.p_multiplier * (ra + 2 * rb)) / 6;
+    area += h * (ra + rb) / 2;
+    const double mean = linearised(r, {"contact.0.pressure.mean", {vertices[0]->s, b.s}}).value;
+    EXPECT_NEAR(mean, force / area, 1e-6 * mean) << b.s;
+  }
+}
+
 }  // namespace
 }  // namespace mortise::test

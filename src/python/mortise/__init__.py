@@ -135,8 +135,8 @@ def sweep(scene, vary, executor=None, changes=None):
 
 class Gradients(NamedTuple):
     """value of the figures (n); derivative of each by each parameter (n, m); between (m, 2): the values of a parameter, the
-    others as they are, between which no row of contact opens or closes. Elsewhere the derivatives are others: at such a value
-    they are of one side."""
+    others as they are, between which no row of contact opens or closes (of moduli and what else the equations are not linear
+    in, as far as the tangents tell). Elsewhere the derivatives are others: at such a value they are of one side."""
 
     value: np.ndarray
     derivative: np.ndarray
