@@ -153,6 +153,10 @@ Corner LineSide::corner(const Vertex& v) const {
   return corner;
 }
 
+// Ends are flush to this part of an edge: what coordinates of six digits leave of one a hundredth as long as the body.
+// A step that is drawn, however small, is where p has no limit.
+constexpr double flush = 1e-4;
+
 // The body on the other side of a vertex, near it or far: where the normal there meets it.
 std::optional<Corner> facing(const LineSide& side, const Vertex& v, const LineSide& other) {
   const Vec2 x = side.position(v);
@@ -161,7 +165,7 @@ std::optional<Corner> facing(const LineSide& side, const Vertex& v, const LineSi
   const auto hit = project_onto_curve(side.around.mesh.nodes, other.curve, line);
   const Vec2 place = hit ? Vec2(x + hit->distance * line.n) : x;
   for (const Vertex& w : vertices_of(other.curve))
-    if ((other.position(w) - place).norm() < at_one_place * edge) return other.corner(w);
+    if ((other.position(w) - place).norm() < flush * edge) return other.corner(w);
   if (!hit) return {};
   const Edge& met = other.curve.edges[hit->edge];
   const double first = angle_of(edge_point(other.around.mesh.nodes, met, hit->xi).tangent);

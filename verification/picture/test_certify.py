@@ -96,6 +96,26 @@ def test_what_one_run_has_wrong_is_named(wrong, scene, run, change, kinds):
     assert not found["agrees"] and kinds <= named.keys() and set(named.values()) == {run}
 
 
+def test_finer_meshes_are_finer_where_the_first_is_fine_enough(wrong, tmp_path):
+    (tmp_path / "blocks.geo").write_text(
+        """SetFactory("OpenCASCADE"); Rectangle(1) = {0, -1, 0, 1, 1}; Rectangle(2) = {0, 0, 0, 1, 1};
+        Physical Surface("A") = {1}; Physical Surface("B") = {2}; Physical Curve("ground") = {1}; Physical Curve("seat") = {3};
+        Physical Curve("foot") = {5}; Physical Curve("head") = {7}; Physical Curve("left") = {4, 8};"""
+    )
+    scene = tmp_path / "blocks.toml"
+    scene.write_text(
+        """mesh.file = "blocks.geo"
+        materials.a = { young = 1000, poisson = 0.3 }
+        bodies."*" = "a"
+        boundary = [{ on = "ground", displacement = { y = 0 } }, { on = "left", displacement = { x = 0 } }, { on = "head", pressure = 1 }]
+        contact = [{ between = ["foot", "seat"] }]"""
+    )
+    for first in (20, 8):
+        _, found = wrong(scene, [f"accuracy.first_edges={first}"])
+        unknowns = {run["name"]: run["unknowns"] for run in found["runs"]}
+        assert found["agrees"] and 1.3 * unknowns["own"] < unknowns["finer_4"] and 1.3 * unknowns["finer_4"] < unknowns["finer_16"]
+
+
 def test_too_coarse_a_mesh_of_its_own(call, wrong, tmp_path):
     mesh, scene = tmp_path / "coarse.msh", tmp_path / "coarse.toml"
     call("mesh", PUNCH, *launch.options({"mesh.parameters.n_punch": 6, "mesh.parameters.n_block": 15}), "-o", mesh, "--quiet")
