@@ -21,6 +21,12 @@ bool falls_to(const PressureEstimate& e, Eigen::Index i) {
   return false;
 }
 
+// Edges on which p ends, though it may be no border: p_h is zero there as it swings, or beside a place without limit.
+void add_ends_of_pressure(const PressureLine& line, std::vector<char>& undecided) {
+  for (Eigen::Index edge = 0; edge + 1 < line.p.size(); ++edge)
+    if (line.faced[edge] && (line.p(edge) != 0) != (line.p(edge + 1) != 0)) undecided[edge] = 1;
+}
+
 // Edges that carry p, but no more than it may be off by.
 void add_hardly_pressed(const PressureEstimate& e, std::vector<char>& undecided) {
   const PressureLine& line = e.line;
@@ -90,6 +96,7 @@ double length_error(const Problem& problem, const ContactPair& pair, const VecX&
   }
   if (pair.spec.condition == Condition::unilateral) {
     error += ends_before_points(e);
+    add_ends_of_pressure(line, undecided);
     add_hardly_pressed(e, undecided);
   }
   for (std::size_t edge = 0; edge < undecided.size(); ++edge)

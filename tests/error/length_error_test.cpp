@@ -54,6 +54,14 @@ TEST_F(LengthError, HasEdgesThatCarryNoMoreThanTheirBars) {
   EXPECT_EQ(error(), least);
 }
 
+// A vertex without p that is taken for a swing, not for a border.
+TEST_F(LengthError, HasTheEdgesBesideAVertexThatCarriesNothing) {
+  const double least = error();
+  const Eigen::Index inner = open_vertex(e.line, border()) == border().edge ? border().edge + 4 : border().edge - 4;
+  e.line.p(inner) = 0;
+  EXPECT_NEAR(error(), least + length(inner - 1) + length(inner), 1e-12 * length(inner));
+}
+
 // Of which edges the gap is closed by a pressure E* g / 2 l.
 TEST_F(LengthError, HasEdgesBeyondABorderThatTheBarOfPWouldClose) {
   const double least = error();
