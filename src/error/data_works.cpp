@@ -36,8 +36,7 @@ double longest_side(const Mesh& mesh, const Cell& cell) {
 class Duals {
  public:
   Duals(const Problem& problem, const MatX& fields)
-      : problem_(problem),
-        mesh_(problem.mesh),
+      : mesh_(problem.mesh),
         points_(problem.points),
         laws_(problem.discretisation.laws),
         all_(fields),
@@ -110,7 +109,6 @@ class Duals {
   const std::vector<VecX>& fields() const { return fields_; }
 
  private:
-  const Problem& problem_;
   const Mesh& mesh_;
   const BodyPoints& points_;
   const std::vector<ElasticLaw>& laws_;
