@@ -1,5 +1,7 @@
 #include "error/outline_works.hpp"
 
+#include <algorithm>
+
 #include "contact/body_corners.hpp"
 #include "fem/edges.hpp"
 #include "fem/quadrature.hpp"
@@ -49,23 +51,21 @@ const std::vector<OutlineWorks::Load>& OutlineWorks::loads_on(const DataMisfit& 
   return found == loads_->end() ? none : found->second;
 }
 
-// On the curve less on the side. A force that is given as a whole keeps its sum.
-double OutlineWorks::work_of_load(const Load& load, const DataMisfit& on, const VecX& z) const {
+// A force that is given as a whole keeps its sum.
+std::vector<OutlineWorks::Forces> OutlineWorks::forces(const Load& load, const DataMisfit& on) const {
   static const LineRule rule = gauss_legendre(3);  // exact for a constant pressure
   const Mesh& mesh = problem_.mesh;
   const Model& model = problem_.entries.model;
-  const Cell& cell = mesh.cells[on.cell];
-  const Edge edge = side_edge(cell, on.side);
+  const Edge edge = side_edge(mesh.cells[on.cell], on.side);
   const double h = on.finest, curvature = 12 * on.size / (h * h * h * model.depth(on.at.x()));
-  const bool whole = std::holds_alternative<TotalForce>(load.entry->spec.what);
-  double work = 0;
+  std::vector<Forces> all;
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
     const double xi = rule.points[q];
     const EdgePoint side = edge_point(mesh.nodes, edge, xi);
     const CurvePoint curve = curve_at(side, xi, h, curvature);
     const Vec2 n = side.normal(), x = side.position + curve.away * n;
-    const double s = load.on->s ? load.on->s->at(load.edge, side.position) : 0;
-    const Vec2 traction = load.traction(side.position, n, s);
+    const double s = load.s_at(side.position), ds = rule.weights[q] * side.jacobian();
+    const Vec2 on_side = ds * model.depth(side.position.x()) * load.traction(side.position, n, s);
     const auto there = [&] {
       try {
         return load.traction(x, curve.area.normalized(), s);
@@ -73,13 +73,10 @@ double OutlineWorks::work_of_load(const Load& load, const DataMisfit& on, const 
         return load.traction(side.position, curve.area.normalized(), s);
       }
     };
-    const Vec2 dz = curve.away * derivative(mesh.nodes, cell, cell_shape(cell.kind, on_side(cell, on.side, xi)), z, n);
-    const Vec2 at_side = edge_value(z, edge, xi);
-    const double on_curve = whole ? traction.dot(at_side + dz) * model.depth(side.position.x())
-                                  : there().dot(at_side + dz) * curve.area.norm() * model.depth(x.x());
-    work += rule.weights[q] * side.jacobian() * (on_curve - traction.dot(at_side) * model.depth(side.position.x()));
+    const bool whole = std::holds_alternative<TotalForce>(load.entry->spec.what);
+    all.push_back({xi, curve.away, on_side, whole ? on_side : ds * curve.area.norm() * model.depth(x.x()) * there()});
   }
-  return work;
+  return all;
 }
 
 VecX OutlineWorks::of(const DataMisfit& on, const std::vector<VecX>& z) {
@@ -89,19 +86,24 @@ VecX OutlineWorks::of(const DataMisfit& on, const std::vector<VecX>& z) {
   const Edge edge = side_edge(cell, on.side);
   const CellShape shape = cell_shape(cell.kind, on_side(cell, on.side, 0));
   const Vec2 n = edge_point(mesh.nodes, edge, 0).normal(), force = problem_.entries.force_in(cell.body, on.at);
-  const std::vector<Load>& loads = loads_on(on);
+  std::vector<Forces> loaded;
+  for (const Load& load : loads_on(on)) std::ranges::move(forces(load, on), std::back_inserter(loaded));
   Vec4 stress = stress_at(mesh, cell, law, u_, shape);
   if (face_of(mesh.nodes, edge, problem_.discretisation.system.constraints) == Face::free) {
     double pressed = stress(0) * n.x() * n.x() + stress(1) * n.y() * n.y() + 2 * stress(3) * n.x() * n.y();
-    for (const Load& load : loads)
-      pressed -= n.dot(load.traction(on.at, n, load.on->s ? load.on->s->at(load.edge, on.at) : 0));
+    for (const Load& load : loads_on(on)) pressed -= n.dot(load.traction(on.at, n, load.s_at(on.at)));
     stress.head<3>().array() -= pressed;
   }
   VecX works(Eigen::Index(z.size()));
   for (std::size_t k = 0; k < z.size(); ++k) {
     const Vec4 strain = law.compliance * (stress_at(mesh, cell, law, z[k], shape) - law.stress0(on.at));
     double work = on.size * (force.dot(edge_value(z[k], edge, 0)) - stress.dot(strain));
-    for (const Load& load : loads) work += work_of_load(load, on, z[k]);
+    for (const Forces& at : loaded) {
+      const CellShape there = cell_shape(cell.kind, on_side(cell, on.side, at.xi));
+      const Vec2 z_side = edge_value(z[k], edge, at.xi),
+                 z_curve = z_side + at.away * derivative(mesh.nodes, cell, there, z[k], n);
+      work += at.on_curve.dot(z_curve) - at.on_side.dot(z_side);
+    }
     works(Eigen::Index(k)) = work;
   }
   return works;

@@ -25,10 +25,16 @@ class OutlineWorks {
     const NamedBoundary* on;
     int edge;
     TractionField traction;
+    double s_at(const Vec2& x) const { return on->s ? on->s->at(edge, x) : 0; }
+  };
+  // What it acts with at a point of the side, and at the curve `away` from there.
+  struct Forces {
+    double xi, away;
+    Vec2 on_side, on_curve;
   };
 
   const std::vector<Load>& loads_on(const DataMisfit& on);
-  double work_of_load(const Load& load, const DataMisfit& on, const VecX& z) const;
+  std::vector<Forces> forces(const Load& load, const DataMisfit& on) const;
 
   const Problem& problem_;
   const VecX& u_;
