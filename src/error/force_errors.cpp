@@ -41,6 +41,25 @@ double work_left(const Problem& problem, const Solution& solution, const VecX& m
   return work;
 }
 
+// What the work of a motion with all that fluids do besides their rows changes by where each front stands an edge away:
+// on sides that part, both are not pressed alike.
+double work_of_fronts(const Problem& problem, const VecX& motion) {
+  if (problem.fluid.size() == 0) return 0;
+  const VecX works = problem.fluid_loads * motion - problem.discretisation.system.B * motion;
+  double sum = 0;
+  for (const ContactPair& pair : problem.pairs) {
+    if (!pair.spec.fluid) continue;
+    for (const auto& on : pair.coupling.on_edge) {
+      const int a = pair.coupling.row[on[0]], b = pair.coupling.row[on[1]];
+      if (a < 0 || b < 0) continue;
+      const Eigen::Index first = pair.first_row + a, last = pair.first_row + b;
+      if ((problem.fluid(first) > 0) != (problem.fluid(last) > 0))
+        sum += pair.spec.fluid->pressure * std::max(std::abs(works(first)), std::abs(works(last)));
+    }
+  }
+  return sum;
+}
+
 // At each contact point of a pair a unit motion of the multiplier side along its normal.
 VecX along_normals(const Mesh& mesh, const ContactPair& pair, int component, const Vec2& centre) {
   VecX along(Eigen::Index(pair.points.size()));
@@ -100,7 +119,7 @@ ForcesAsked ask_forces(const Problem& problem, const Solution& solution, const s
     for (int c = 0; c < 3; ++c) {
       VecX opened = opened_rows(problem, centres, {k, c});
       if (const auto motion = statics.motion(opened)) {
-        asked.by_statics[k](c) = work_left(problem, solution, *motion) +
+        asked.by_statics[k](c) = work_left(problem, solution, *motion) + work_of_fronts(problem, *motion) +
                                  error_safety * off_by(MatX(outline_works(problem, solution.u, *motion)))(0);
       } else {
         asked.by_duals.push_back({k, c});

@@ -149,5 +149,48 @@ contact = [{ between = ["in", "out"] }]
   }
 }
 
+// Fluid between a block and a rounded foot, whose sides part: it presses both along the multiplier side's normals, so
+// that the force on the block hangs on where its front stands, and that on the foot is its load.
+TEST(ForceErrors, KnowWhatAFrontOfFluidMayDo) {
+  const auto force = [](double size, const char* on) {
+    const TemporaryFolder folder;
+    std::string geo = "SetFactory(\"OpenCASCADE\"); h = " + std::to_string(size) + R"(;
+For k In {0:12}
+  Point(k + 1) = {-0.6 + 0.1 * k, 0.5 * (-0.6 + 0.1 * k)^2, 0};
+EndFor
+Spline(1) = {1:13}; Point(14) = {0.6, 0.7, 0}; Point(15) = {-0.6, 0.7, 0}; Line(2) = {13, 14}; Line(3) = {14, 15};
+Line(4) = {15, 1}; Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Rectangle(2) = {-1.2, -0.8, 0, 2.4, 0.8}; c() = Abs(Boundary{ Surface{2}; });
+Physical Surface("foot") = {1}; Physical Surface("block") = {2}; Physical Curve("sole") = {1}; Physical Curve("head") = {3};
+Physical Curve("side") = {4}; Physical Curve("ground") = {c(0)}; Physical Curve("top") = {c(2)};
+Mesh.ElementOrder = 2; MeshSize{:} = h;
+)";
+    folder.write("f.geo", geo);
+    Results r = solve_scene(read_scene(folder.write("f.toml", std::string(R"(mesh.file = "f.geo"
+materials.m = { young = 1000, poisson = 0.3 }
+bodies."*" = "m"
+boundary = [{ on = "ground", displacement = { x = 0, y = 0 } }, { on = "side", displacement = { x = 0 } },
+            { on = "head", pressure = 20 }]
+contact = [{ between = ["sole", "top"], multipliers_on = ")") + on +
+                                                                  R"(", fluid = { pressure = 5, from = [0.6, 0.18] } }]
+)")));
+    estimate(r);
+    return std::pair(std::abs(r.recovery.contacts[0].force.y()), (*r.recovery.contacts[0].force_error)(1));
+  };
+  const double load = 20 * 1.2;
+  const auto [of_foot, round_off] = force(0.1, "sole");
+  EXPECT_NEAR(of_foot, load, 1e-9 * load);
+  EXPECT_LT(round_off, 1e-9 * load);
+  const auto [fine, fine_bar] = force(0.02, "top");
+  double before = 0.01 * load;
+  for (const double size : {0.16, 0.08, 0.04}) {
+    const auto [block, bar] = force(size, "top");
+    EXPECT_LE(std::abs(block - fine), bar + fine_bar) << size;
+    EXPECT_GT(std::abs(block - fine), 1e-6 * load) << size;
+    EXPECT_LT(bar, before) << size;
+    before = bar;
+  }
+}
+
 }  // namespace
 }  // namespace mortise::test
