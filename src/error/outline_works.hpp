@@ -15,7 +15,7 @@ class OutlineWorks {
   /// Of each dual solution z: what fills the space between a straight side and its curve carries f . z - sigma(u) :
   /// eps(z) per volume, which is the derivative of the functional by the place of a boundary that is free, and loads
   /// act on the curve with what their functions are there. What else presses on the side moves along with it, as a
-  /// pressure.
+  /// pressure. One a dual, signed, in the functionals' units; each z: n.
   VecX of(const DataMisfit& on, const std::vector<VecX>& z);
 
  private:
@@ -41,7 +41,7 @@ class OutlineWorks {
   std::optional<std::map<std::pair<int, int>, std::vector<Load>>> loads_;  // by cell and side
 };
 
-/// One a misfit of the outline, for a functional that a rigid motion tells: they weigh, and move the loads.
+/// One a misfit of the outline, for a functional that a rigid motion, n, tells: they weigh, and move the loads.
 VecX outline_works(const Problem& problem, const VecX& u, const VecX& motion);
 
 }  // namespace mortise

@@ -8,7 +8,7 @@
 
 namespace mortise {
 
-/// Traction at a place of a curve with this outward unit normal and s.
+/// Traction, stress, at a place of a curve with this outward unit normal and s.
 using TractionField = std::function<Vec2(const Vec2& x, const Vec2& n, double s)>;
 
 /// That of a load along curves; empty: the entry is none.
