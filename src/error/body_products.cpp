@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "base/parallel.hpp"
-#include "error/data_works.hpp"
 #include "solve/threads.hpp"
 
 namespace mortise {
@@ -189,17 +188,6 @@ VecX off_by(const MatX& parts) {
   for (Eigen::Index k = 0; k < all.size(); ++k)
     all(k) = off_by(parts.col(k).sum(), parts.col(k).squaredNorm(), parts.col(k).lpNorm<1>());
   return all;
-}
-
-FoundDuals find_duals(const Problem& problem, const VecX& u, const std::shared_ptr<const ContactFactor>& factor,
-                      const MatX& functionals) {
-  FoundDuals found{.z = MatX(u.size(), functionals.cols()), .sums = {}};
-  const auto keep = [&](Eigen::Index first, const DualSums& duals) {
-    found.z.middleCols(first, duals.count()) = duals.fields();
-  };
-  const ErrorProducts parts = BodyProducts().with_duals(problem, u, factor, {functionals, MatX(u.size(), 0)}, keep);
-  found.sums = off_by(parts.products.rightCols(functionals.cols())) + off_by(data_works(problem, u, found.z));
-  return found;
 }
 
 }  // namespace mortise

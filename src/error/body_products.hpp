@@ -77,7 +77,4 @@ struct FoundDuals {
   VecX sums;  ///< of each what the cells' parts make it off by
 };
 
-FoundDuals find_duals(const Problem& problem, const VecX& u, const std::shared_ptr<const ContactFactor>& factor,
-                      const MatX& functionals);
-
 }  // namespace mortise

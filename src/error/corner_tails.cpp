@@ -45,13 +45,19 @@ double angle_at(const Mesh& mesh, int node, const std::vector<int>& ring) {
 
 }  // namespace
 
+std::array<std::vector<int>, 2> rings_about(const Mesh& mesh, const SideTable& table, const std::vector<int>& nodes) {
+  std::vector<int> ring;
+  for (const int node : nodes) std::ranges::copy(cells_at(table, node), std::back_inserter(ring));
+  keep_each_once(ring);
+  std::vector<int> beside = cells_beside(mesh, table, ring);
+  return {std::move(ring), std::move(beside)};
+}
+
 std::vector<CornerRings> corner_rings(const Mesh& mesh, const SideTable& table,
                                       const std::vector<BodyCorner>& corners) {
   std::vector<CornerRings> all;
   for (const BodyCorner& corner : corners) {
-    CornerRings rings{.corner = corner, .cells = {}};
-    rings.cells[0] = cells_at(table, corner.node);
-    rings.cells[1] = cells_beside(mesh, table, rings.cells[0]);
+    CornerRings rings{.corner = corner, .cells = rings_about(mesh, table, {corner.node})};
     const double angle = angle_at(mesh, corner.node, rings.cells[0]);
     double area = 0;
     for (const int ring : {0, 1}) {

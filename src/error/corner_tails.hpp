@@ -15,6 +15,9 @@ struct CornerRings {
   int degree = 1;                         ///< of the stresses in the cells: 1 of quadratic ones, 0 of linear ones
 };
 
+/// The cells that have one of the nodes, and those next to them.
+std::array<std::vector<int>, 2> rings_about(const Mesh& mesh, const SideTable& table, const std::vector<int>& nodes);
+
 std::vector<CornerRings> corner_rings(const Mesh& mesh, const SideTable& table, const std::vector<BodyCorner>& corners);
 
 /// Of the energy of r^(exponent - 1) about a corner what polynomials of a degree in r miss at best, 0 ... 1:

@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "error/border_overlaps.hpp"
+#include "error/corner_cells.hpp"
 #include "error/data_works.hpp"
 #include "error/dual_functionals.hpp"
 #include "error/false_borders.hpp"
@@ -225,7 +226,7 @@ void add_far_errors(const Mesh& mesh, ErrorEstimate& estimate) {
 
 // The errors of cells and at the bodies' corners, and what they do to the functionals.
 void add_products(const Problem& p, const Solution& solution, const GoalFunctionals& goal,
-                  const EstimateOptions& options, const BorderOverlaps& overlaps, BodyProducts& products,
+                  const EstimateOptions& options, const BorderOverlaps& overlaps, EstimateMemory& memory,
                   ErrorEstimate& estimate) {
   const SaddlePointSystem& system = p.discretisation.system;
   const MatX functionals = dual_functionals(p, estimate.pressures, estimate.far.windows, options.also, goal.rows);
@@ -240,9 +241,9 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
       kept.col(k - shared) = duals.field(k - first);
   };
   const bool has_duals = functionals.cols() > 0;
-  const ErrorProducts found =
-      has_duals ? products.with_duals(p, solution.u, contact_factor(system, solution), {functionals, goal.loads}, see)
-                : products.of(p, solution.u);
+  const ErrorProducts found = has_duals ? memory.products.with_duals(p, solution.u, contact_factor(system, solution),
+                                                                     {functionals, goal.loads}, see)
+                                        : memory.products.of(p, solution.u);
   estimate.energy = energy_estimate(p.mesh, found, system.stiffness_scale, solution.u);
   estimate.far.parts = found.products.middleCols(1, shared);
   estimate.far.overlaps = overlaps.of_windows(p.pairs, estimate.pressures);
@@ -259,12 +260,17 @@ void add_products(const Problem& p, const Solution& solution, const GoalFunction
   const MatX tails = at_corners.tails();
   estimate.tails.parts = tails.leftCols(shared);
   estimate.tails.goal = tails.rightCols(goals);
-  if (goals > 0) estimate.goal->besides += estimate.tails.goal.colwise().sum().transpose();
-  estimate.also = {.z = kept.leftCols(more),
-                   .sums = off_by(found.products.middleCols(1 + shared, more)) +
-                           tails.middleCols(shared, more).colwise().sum().transpose() +
-                           off_by(works.middleCols(shared, more)) +
-                           overlaps.changes(options.also, {}).colwise().sum().transpose()};
+  if (goals > 0) {
+    const std::vector<int> cells = cells_at_contact(p.mesh, memory.around(p).table, p.pairs, estimate.pressures);
+    estimate.goal->besides += estimate.tails.goal.colwise().sum().transpose() +
+                              unseen_at_corners(p.mesh, cells, found.products.rightCols(goals));
+  }
+  if (more == 0) return;
+  const MatX of_more = found.products.middleCols(1 + shared, more);
+  estimate.also = {
+      .z = kept.leftCols(more),
+      .sums = off_by(of_more) + unseen_at_corners(p.mesh, cells_at_corners(p, estimate.pressures, memory), of_more) +
+              off_by(works.middleCols(shared, more)) + overlaps.changes(options.also, {}).colwise().sum().transpose()};
 }
 
 void require_pair(const AccuracySpec& spec, std::size_t count) {
@@ -357,7 +363,7 @@ ErrorEstimate estimate_error(const Problem& p, const Solution& solution, Estimat
   if (estimate.far.windows.count + goal.rows.cols() + options.also.cols() > 0)
     estimate.tails.corners = corner_rings(p.mesh, memory.around(p).table,
                                           free_corners(memory.corners(p), p.mesh.nodes.rows(), p.pairs, reached));
-  add_products(p, solution, goal, options, overlaps, memory.products, estimate);
+  add_products(p, solution, goal, options, overlaps, memory, estimate);
   if (spec.of == Goal::mean) {
     const PressureEstimate& e = estimate.pressures[spec.pair];
     estimate.goal->local =

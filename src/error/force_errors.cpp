@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "error/border_overlaps.hpp"
+#include "error/corner_cells.hpp"
+#include "error/data_works.hpp"
 #include "error/outline_works.hpp"
 #include "fem/edges.hpp"
 #include "solve/contact_factor.hpp"
@@ -102,6 +104,22 @@ Eigen::Vector3d sum_of_bars(const Mesh& mesh, const ContactPair& pair, const Pre
   return sum;
 }
 
+FoundDuals find_duals(const Problem& problem, const Solution& solution, const std::vector<PressureEstimate>& pressures,
+                      const MatX& functionals, EstimateMemory& memory) {
+  const VecX& u = solution.u;
+  FoundDuals found{.z = MatX(u.size(), functionals.cols()), .sums = {}};
+  const auto keep = [&](Eigen::Index first, const DualSums& duals) {
+    found.z.middleCols(first, duals.count()) = duals.fields();
+  };
+  const ErrorProducts products = memory.products.with_duals(
+      problem, u, contact_factor(problem.discretisation.system, solution), {functionals, MatX(u.size(), 0)}, keep);
+  const MatX parts = products.products.rightCols(functionals.cols());
+  found.sums = off_by(parts) + unseen_at_corners(problem.mesh, cells_at_corners(problem, pressures, memory), parts) +
+               off_by(data_works(problem, u, found.z)) +
+               BorderOverlaps(problem, solution, pressures).changes(functionals, {}).colwise().sum().transpose();
+  return found;
+}
+
 }  // namespace
 
 ForcesAsked ask_forces(const Problem& problem, const Solution& solution, const std::vector<Vec2>& centres,
@@ -154,14 +172,10 @@ std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const std::vec
 
 std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const Solution& solution,
                                           const std::vector<PressureEstimate>& pressures,
-                                          const std::vector<Vec2>& centres) {
-  EstimateMemory memory;
+                                          const std::vector<Vec2>& centres, EstimateMemory& memory) {
   const ForcesAsked asked = ask_forces(problem, solution, centres, memory);
   FoundDuals duals;
-  if (!asked.by_duals.empty()) {
-    duals = find_duals(problem, solution.u, contact_factor(problem.discretisation.system, solution), asked.rows);
-    duals.sums += BorderOverlaps(problem, solution, pressures).changes(asked.rows, {}).colwise().sum().transpose();
-  }
+  if (!asked.by_duals.empty()) duals = find_duals(problem, solution, pressures, asked.rows, memory);
   return force_errors(problem, pressures, centres, asked, duals);
 }
 

@@ -33,6 +33,6 @@ std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const std::vec
 /// The same with duals of its own. `solution`: as of estimate_error.
 std::vector<Eigen::Vector3d> force_errors(const Problem& problem, const Solution& solution,
                                           const std::vector<PressureEstimate>& pressures,
-                                          const std::vector<Vec2>& centres);
+                                          const std::vector<Vec2>& centres, EstimateMemory& memory);
 
 }  // namespace mortise

@@ -2,6 +2,7 @@
 
 #include "contact/singular_points.hpp"
 #include "error/border_overlaps.hpp"
+#include "error/corner_cells.hpp"
 #include "error/data_works.hpp"
 #include "error/estimate_memory.hpp"
 #include "error/goal_estimate.hpp"
@@ -76,6 +77,7 @@ std::vector<PlaceError> place_errors(const Problem& problem, const Solution& sol
   const StressPatches patches = recover_patches(mesh, problem.points, sample_stresses(mesh, d.laws, solution.u));
   const std::vector<char> boundary = boundary_nodes(mesh);
   const BorderOverlaps overlaps(problem, solution, pressures);
+  const std::vector<int> at_corners = cells_at_corners(problem, pressures, memory);
   const VecX bars_of_p = bars_at_nodes(mesh, pairs, pressures);
   for (const ProbedPlaces& probe : probes) {
     const Eigen::Matrix3d turn = turning(probe.angle);
@@ -96,7 +98,8 @@ std::vector<PlaceError> place_errors(const Problem& problem, const Solution& sol
     };
     const ErrorProducts found = memory.products.with_duals(
         problem, solution.u, factor, {MatX::Zero(d.system.B.rows(), loads.cols()), loads}, add_lines);
-    far += off_by(found.products.rightCols(loads.cols()));
+    const MatX parts = found.products.rightCols(loads.cols());
+    far += off_by(parts) + unseen_at_corners(mesh, at_corners, parts);
     far += overlaps.changes(MatX::Zero(d.system.B.rows(), loads.cols()), loads).colwise().sum().transpose();
     std::size_t next = 0;
     for (int i = 0; i < int(probe.in.size()); ++i) {

@@ -153,7 +153,7 @@ void set_force_bars(const ForcesAsked& asked, const FoundDuals& duals, Results& 
 }
 
 void set_force_bars(Results& r) {
-  put_force_bars(force_errors(r.problem, r.solution, r.estimate->pressures, centres_of(r)), r);
+  put_force_bars(force_errors(r.problem, r.solution, r.estimate->pressures, centres_of(r), *r.memory), r);
 }
 
 void set_fitted_pressures(Results& r) {
