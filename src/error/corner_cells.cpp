@@ -32,13 +32,6 @@ std::vector<int> vertices_at(const Points& nodes, const Curve& curve, const Vec2
 
 }  // namespace
 
-std::vector<int> cells_at_corners(const Mesh& mesh, const SideTable& table, const std::vector<BodyCorner>& corners) {
-  std::vector<int> cells;
-  for (const BodyCorner& corner : corners) append(rings_about(mesh, table, {corner.node}), cells);
-  keep_each_once(cells);
-  return cells;
-}
-
 std::vector<int> cells_at_contact(const Mesh& mesh, const SideTable& table, const std::vector<ContactPair>& pairs,
                                   const std::vector<PressureEstimate>& pressures) {
   std::vector<int> cells;
@@ -54,8 +47,8 @@ std::vector<int> cells_at_corners(const Problem& problem, const std::vector<Pres
                                   EstimateMemory& memory) {
   const SideTable& table = memory.around(problem).table;
   std::vector<int> cells = cells_at_contact(problem.mesh, table, problem.pairs, pressures);
-  const std::vector<int> others = cells_at_corners(problem.mesh, table, memory.corners(problem));
-  cells.insert(cells.end(), others.begin(), others.end());
+  for (const BodyCorner& corner : memory.corners(problem))
+    append(rings_about(problem.mesh, table, {corner.node}), cells);
   keep_each_once(cells);
   return cells;
 }
