@@ -15,8 +15,8 @@ std::string line_of(const EntryMisfit& entry) {
   text.precision(2);
   text << entry.key << " varies within elements " << near_point(entry.at) << ": over a length of " << entry.finest
        << ", where they are " << entry.size << " wide; " << percent(entry.part)
-       << " of it in the mean is not what they can follow. Its sum is right all the same; stresses near there are not"
-          "; expected elements of about "
+       << " of it in the mean is not what they can follow. Its sum is right to 0.3 % all the same; stresses near there"
+          " are not; expected elements of about "
        << entry.finest;
   return text.str();
 }
