@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
+#include <sstream>
 
 #include "app/solve_scene.hpp"
 #include "support/temporary_folder.hpp"
@@ -69,7 +71,8 @@ const std::string triangles = "Mesh.ElementOrder = 1;", quadrilaterals = "Mesh.R
                   quadratic_triangles = "Mesh.ElementOrder = 2;",
                   quadratic = "Mesh.RecombineAll = 1; Mesh.ElementOrder = 2; Mesh.SecondOrderIncomplete = 1;";
 
-// Of 24 forces 11 are off by more than their bars without these cells.
+// Of 24 forces 11 are off by more than their bars without these cells. With them 9 of 364 were, on the coarsest meshes:
+// of 24 one may be, by no more than half.
 TEST(CornerCells, AreInTheBarsOfForcesAndDisplacements) {
   int beyond = 0;
   for (unsigned seed = 0; seed < 8; ++seed) {
