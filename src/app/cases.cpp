@@ -193,6 +193,7 @@ Json summary_of(const Scene& scene, const CaseTable& table) {
                      {"warnings", table.warnings[k]}});
   return {{"title", scene.title},
           {"scene", scene.path},
+          {"changes", scene.changes},
           {"version", MORTISE_VERSION},
           {"dense_kernel", dense_kernel()},
           {"status", to_string(table.worst())},
@@ -219,16 +220,34 @@ double figure(const RunRow& row, const std::string& name) {
   return found == row.figures.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
 }
 
-// "solved, pressure 5.8e8 within 3.1e6, in contact 0.0101, force (0, -9.2e6)" of the first pair.
+// Of the pairs of a row, "contact.0", that with the largest p; whether there are others.
+std::pair<std::string, bool> most_pressed(const RunRow& row) {
+  constexpr std::string_view end = ".pressure.max";
+  std::string key;
+  double most = -std::numeric_limits<double>::infinity();
+  int pairs = 0;
+  for (const auto& [name, value] : row.figures) {
+    if (!name.starts_with("contact.") || !name.ends_with(end) || std::isnan(value)) continue;
+    ++pairs;
+    if (!(value > most)) continue;
+    most = value;
+    key = name.substr(0, name.size() - end.size());
+  }
+  return {key, pairs > 1};
+}
+
+// "solved, largest p 5.8e8 within 3.1e6, in contact 0.0101, force (0, -9.2e6)", of several pairs "on contact.1".
 std::string row_text(const RunRow& row) {
   std::ostringstream text;
   text << std::setprecision(6) << row.status;
-  const double pressure = figure(row, "contact.0.pressure.max"), bar = figure(row, "contact.0.pressure.max_error");
-  if (std::isnan(pressure)) return text.str();
-  text << ", largest p " << pressure;
-  if (!std::isnan(bar)) text << std::setprecision(2) << " within " << bar << std::setprecision(6);
-  text << ", in contact " << figure(row, "contact.0.length_in_contact") << ", force ("
-       << figure(row, "contact.0.force.x") << ", " << figure(row, "contact.0.force.y") << ")";
+  const auto [key, one_of_several] = most_pressed(row);
+  if (key.empty()) return text.str();
+  text << ", largest p " << figure(row, key + ".pressure.max");
+  if (const double bar = figure(row, key + ".pressure.max_error"); !std::isnan(bar))
+    text << std::setprecision(2) << " within " << bar << std::setprecision(6);
+  if (one_of_several) text << " on " << key;
+  text << ", in contact " << figure(row, key + ".length_in_contact") << ", force (" << figure(row, key + ".force.x")
+       << ", " << figure(row, key + ".force.y") << ")";
   return text.str();
 }
 

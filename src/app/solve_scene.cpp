@@ -199,7 +199,9 @@ void take_out_unheld(const Problem& p, const std::vector<std::vector<RigidMotion
 void judge(Results& r) {
   r.checks = checks(r);
   r.status = verdict(r);
-  append_lines(r.warnings, warnings(r));
+  const LargeDisplacement moved = large_displacement(r);
+  r.contact_moved = moved.lost;
+  append_lines(r.warnings, warnings(r, moved));
   if (!r.problem.accuracy) append_lines(r.warnings, data_warnings(r.problem.misfits));
   append_lines(r.warnings, audit_solution(r));
   append_lines(r.warnings, unheld_probes(r));

@@ -103,9 +103,7 @@ MeshData mesh_freely(const FreeGeometry& geometry, const SizeAt& size, bool reco
   open_free_geometry(session, geometry);
   set_mesh_options(recombine);
   generate(session, geometry.file, [&](const Vec2& x) { return size(x - geometry.shift); });
-  MeshData data = gmsh_data(geometry.file);
-  move(-geometry.shift, data);
-  return data;
+  return gmsh_data(geometry.file, geometry.shift);
 }
 
 }  // namespace mortise

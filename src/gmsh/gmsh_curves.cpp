@@ -52,7 +52,7 @@ std::vector<std::array<double, 2>> parameters_of(const std::vector<std::size_t>&
 }  // namespace
 
 void sample_curve(const std::vector<std::array<double, 3>>& nodes, const std::vector<std::size_t>& tags,
-                  ElementBlock& block) {
+                  const Vec2& shift, ElementBlock& block) {
   const int node_count = line_node_count(block.type);
   std::vector<EdgeSamples> samples;
   std::vector<std::array<double, 2>> ends;
@@ -73,7 +73,7 @@ void sample_curve(const std::vector<std::array<double, 3>>& nodes, const std::ve
       const auto& x = nodes[block.nodes[node_count * e + end]];
       const Vec2 node(x[0], x[1]);
       if ((found[end] - node).norm() <= on_curve * (found[1] - found[0]).norm() && ends[e][0] < ends[e][1]) continue;
-      block.undrawn = "the mesh does not follow it " + near_point(node);
+      block.undrawn = "the mesh does not follow it " + near_point(node - shift);
       return;
     }
   }

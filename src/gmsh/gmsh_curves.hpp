@@ -7,10 +7,10 @@ namespace mortise {
 
 /// Sets the samples of a block of edges of the model that gmsh has open, or says in `undrawn` why there are none: gmsh
 /// has no formula for the curve, or the mesh does not follow it. Neither where the curve is a mesh itself. `nodes`:
-/// MeshData's; `tags`: gmsh's, of the block's nodes. Only places are asked for, no derivatives: those of a Bezier curve
-/// are three times too large in gmsh 4.8.
+/// MeshData's; `tags`: gmsh's, of the block's nodes; `shift`: gmsh_data's. Only places are asked for, no derivatives:
+/// those of a Bezier curve are three times too large in gmsh 4.8.
 void sample_curve(const std::vector<std::array<double, 3>>& nodes, const std::vector<std::size_t>& tags,
-                  ElementBlock& block);
+                  const Vec2& shift, ElementBlock& block);
 
 /// A curve of a geometry.
 struct DrawnCurve {

@@ -28,7 +28,8 @@ TagRows get_nodes(MeshData& data) {
   return TagRows(std::vector<std::int64_t>(tags.begin(), tags.end()));
 }
 
-void get_elements(MeshData& data, const TagRows& rows, int dimension, int entity, const std::vector<int>& groups) {
+void get_elements(MeshData& data, const TagRows& rows, int dimension, int entity, const std::vector<int>& groups,
+                  const Vec2& shift) {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> element_tags;
   std::vector<std::vector<std::size_t>> node_tags;
@@ -37,14 +38,14 @@ void get_elements(MeshData& data, const TagRows& rows, int dimension, int entity
     ElementBlock block{.dimension = dimension, .entity = entity, .type = types[k], .groups = groups, .nodes = {}};
     block.nodes.reserve(node_tags[k].size());
     for (const std::size_t tag : node_tags[k]) block.nodes.push_back(rows.find(static_cast<std::int64_t>(tag)));
-    if (!groups.empty() && is_line(block.type)) sample_curve(data.nodes, node_tags[k], block);
+    if (!groups.empty() && is_line(block.type)) sample_curve(data.nodes, node_tags[k], shift, block);
     data.blocks.push_back(std::move(block));
   }
 }
 
 }  // namespace
 
-MeshData gmsh_data(const std::string& file, const std::map<int, std::vector<int>>& drawn) {
+MeshData gmsh_data(const std::string& file, const Vec2& shift, const std::map<int, std::vector<int>>& drawn) {
   MeshData data;
   data.file = file;
   const TagRows rows = get_nodes(data);
@@ -55,9 +56,11 @@ MeshData gmsh_data(const std::string& file, const std::map<int, std::vector<int>
     gmsh::model::getEntities(entities, dimension);
     for (const auto& [dim, entity] : entities) {
       const auto as_drawn = dim == 1 ? drawn.find(entity) : drawn.end();
-      get_elements(data, rows, dim, entity, as_drawn != drawn.end() ? as_drawn->second : groups_of_entity(dim, entity));
+      get_elements(data, rows, dim, entity, as_drawn != drawn.end() ? as_drawn->second : groups_of_entity(dim, entity),
+                   shift);
     }
   }
+  move(-shift, data);
   return data;
 }
 

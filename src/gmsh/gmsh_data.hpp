@@ -8,8 +8,9 @@
 
 namespace mortise {
 
-/// `drawn`: by tag the groups of curves that meshing may have changed. Throws InputError, naming `file`, where gmsh has
-/// made a node whose coordinates are not finite.
-MeshData gmsh_data(const std::string& file, const std::map<int, std::vector<int>>& drawn = {});
+/// `shift`: by which the geometry lies elsewhere than it is drawn; the mesh is moved back. `drawn`: by tag the groups
+/// of curves that meshing may have changed. Throws InputError, naming `file`, where gmsh has made a node whose
+/// coordinates are not finite.
+MeshData gmsh_data(const std::string& file, const Vec2& shift, const std::map<int, std::vector<int>>& drawn = {});
 
 }  // namespace mortise

@@ -40,13 +40,12 @@ CompoundCurves compound_curves(const std::map<int, std::vector<int>>& drawn) {
 MeshData mesh_geo(const std::string& file, const std::map<std::string, double>& parameters, ForbiddenBy forbidden) {
   GmshSession session(forbidden);
   session.read(file, parameters);
-  if (std::filesystem::path(file).extension() == ".msh" || session.has_cells()) return gmsh_data(file);
+  if (std::filesystem::path(file).extension() == ".msh" || session.has_cells()) return gmsh_data(file, Vec2::Zero());
   const Vec2 shift = move_to_origin(session, file);
   const std::map<int, std::vector<int>> drawn = groups_of_curves();
   session.run(file, "meshing", [] { gmsh::model::mesh::generate(2); });
-  MeshData data = gmsh_data(file, drawn);
+  MeshData data = gmsh_data(file, shift, drawn);
   leave_compounds(compound_curves(drawn), data);
-  move(-shift, data);
   return data;
 }
 

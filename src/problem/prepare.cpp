@@ -55,6 +55,7 @@ Problem prepare(const Scene& scene, Mesh mesh, const Progress& progress, const A
   p.title = scene.title;
   p.scene = scene.path;
   p.changes = scene.changes;
+  p.load_case = scene.load_case;
   p.method = scene.method;
   if (scene.accuracy) p.accuracy = scene.accuracy->value;
   p.fields = scene.fields;

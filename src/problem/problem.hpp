@@ -20,6 +20,7 @@ struct Scene;
 struct Problem {
   std::string title, scene;          ///< the scene's title, and the path of its file
   std::vector<std::string> changes;  ///< of the scene: KEY=VALUE of each `--set`
+  std::string load_case;             ///< its case's name, empty of a scene without
   Method method;
   std::optional<double> accuracy;  ///< that is asked for, where the mesh is one of those that [accuracy] makes
   std::vector<FieldSpec> fields;   ///< functions of place from files

@@ -60,17 +60,19 @@ LargestInContact largest_in_contact(const Results& r, double least) {
 
 }  // namespace
 
-std::optional<std::string> large_displacement(const Results& r) {
+LargeDisplacement large_displacement(const Results& r) {
   const Vec2 size = (r.problem.mesh.nodes.colwise().maxCoeff() - r.problem.mesh.nodes.colwise().minCoeff()).transpose();
   const double whole = largest_entry(r.solution.u) / size.norm();
   const double least = std::min(least_told, r.problem.accuracy.value_or(least_told));
-  if (const auto [worst, lost] = largest_in_contact(r, least); lost > least)
-    return "large displacements: " + worst.why + " " + near_point(worst.position) +
-           "; contact is written on the undeformed bodies, so p may be off by " + percent(worst.part);
-  if (whole > 0.02)
-    return "large displacements: up to " + percent(whole) +
-           " of the size of the scene; the equations assume small displacements";
-  return {};
+  const auto [worst, lost] = largest_in_contact(r, least);
+  LargeDisplacement found{lost, {}};
+  if (lost > least)
+    found.line = "large displacements: " + worst.why + " " + near_point(worst.position) +
+                 "; contact is written on the undeformed bodies, so p may be off by " + percent(worst.part);
+  else if (whole > 0.02)
+    found.line = "large displacements: up to " + percent(whole) +
+                 " of the size of the scene; the equations assume small displacements";
+  return found;
 }
 
 }  // namespace mortise

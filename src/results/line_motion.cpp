@@ -223,7 +223,7 @@ std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pa
   Slide as_one;
   double curved = 0, strained = 0;
   for (const PlaceMotion& place : place_motions(nodes, pair, contact, u)) {
-    const double weight = place.p * place.dA, of_square = place.p * weight;
+    const double weight = place.p * place.dA;
     side.push_back({weight, place.position, place.u});
     other.push_back({weight, place.facing, place.facing_u});
     as_one.add(place, weight);
@@ -231,7 +231,7 @@ std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pa
     slides[place.patch].add(place, weight);
     curved += weight * place.curved;
     const double off = std::min(1., std::max(place.turned * place.turned, place.stretched));
-    strained += of_square * off * off;
+    strained += weight * off;
   }
   if (!(as_one.force > 0)) return {};
   const std::array<bool, 2> within = ends_within(contact);
@@ -243,7 +243,7 @@ std::optional<LineMotion> line_motion(const Points& nodes, const ContactPair& pa
                     .slid_as_one = as_one.part(),
                     .shifted_as_one = lost_by(as_one.part(), within[0] + within[1]),
                     .curved = curved / as_one.force,
-                    .strained = std::sqrt(strained / as_one.square),
+                    .strained = strained / as_one.force,
                     .position = mean_place(side),
                     .norm = std::sqrt(as_one.square)};
 }

@@ -46,7 +46,7 @@ struct LineMotion {
                                        ///< and leave p as it is, as a rim that moves along a straight wall
   double curved;  ///< how far they move against one another, over the line's radius of curvature: a turn of the normals
   double
-      strained;   ///< the part of p, in L2, that is lost where edges turn (by the square) or stretch: at most all of it
+      strained;   ///< the part of the force that is lost where edges turn (by the square) or stretch: at most all of it
   Vec2 position;  ///< the middle of what is loaded
   double norm;    ///< root of the integral of p^2 dA, stress times root of length times depth
 };

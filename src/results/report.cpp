@@ -37,8 +37,11 @@ Json extremes_json(const Results& r) {
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
-// The bar where p is largest, or by how much it may be more elsewhere.
-Json peak_error(const ContactResults& c) {
+// The bar where p is largest, or by how much it may be more elsewhere; none where it has no limit.
+Json peak_error(const Results& r, std::size_t k) {
+  const ContactResults& c = r.recovery.contacts[k];
+  if (r.estimate && std::ranges::any_of(r.estimate->pressures[k].singular, &SingularPoint::is_unbounded))
+    return nullptr;
   double most = std::numeric_limits<double>::quiet_NaN(), bar = most;
   for (const ContactNode* n : nodes_of_extremes(c)) {
     most = std::fmax(most, n->p + n->p_error);
@@ -62,7 +65,9 @@ Json relative_error(const Results& r, std::size_t k) {
   return std::isfinite(error) ? Json(error) : Json(nullptr);
 }
 
-Json contact_json(const ContactPair& pair, const ContactResults& c) {
+Json contact_json(const Results& r, std::size_t k) {
+  const ContactPair& pair = r.problem.pairs[k];
+  const ContactResults& c = r.recovery.contacts[k];
   const auto& error = c.force_error;
   Json json{{"between", pair.spec.between},
             {"length", c.length},
@@ -75,7 +80,7 @@ Json contact_json(const ContactPair& pair, const ContactResults& c) {
             {"centre", c.centre},
             {"moment_about_centre", c.moment - cross(c.centre, c.force)},
             {"moment_about_centre_error", error ? Json((*error)(2)) : Json()},
-            {"pressure", {{"min", c.p_min}, {"mean", c.p_mean}, {"max", c.p_max}, {"max_error", peak_error(c)}}},
+            {"pressure", {{"min", c.p_min}, {"mean", c.p_mean}, {"max", c.p_max}, {"max_error", peak_error(r, k)}}},
             {"drawn", is_drawn(pair)},
             {"gap", gap_words(pair)},
             {"initial_gap", {{"min", pair.coupling.gap_min}, {"max", pair.coupling.gap_max}}}};
@@ -205,7 +210,7 @@ Json contacts_json(const Results& r) {
   Json list = Json::array();
   const ContactNumbers numbers = contact_numbers(r.problem);
   for (std::size_t k = 0; k < r.problem.pairs.size(); ++k) {
-    list.push_back(contact_json(r.problem.pairs[k], r.recovery.contacts[k]));
+    list.push_back(contact_json(r, k));
     list.back()["number"] = numbers.pairs[k];
     list.back()["pressure"]["error"] = relative_error(r, k);
   }
@@ -239,6 +244,7 @@ Json report_of(const Results& r) {
   Json report{{"title", r.problem.title},
               {"scene", r.problem.scene},
               {"changes", r.problem.changes},
+              {"case", r.problem.load_case.empty() ? Json() : Json(r.problem.load_case)},
               {"version", MORTISE_VERSION},
               {"dense_kernel", dense_kernel()},
               {"status", to_string(r.status)},
@@ -258,6 +264,7 @@ Json report_of(const Results& r) {
               {"balance", balance_json(r)},
               {"extremes", extremes_json(r)},
               {"checks", checks_json(r.checks)},
+              {"large_displacement", r.contact_moved},
               {"warnings", r.warnings}};
   if (!r.expected.empty()) report["expected"] = expected_json(r.expected);
   if (r.inf_sup) report["inf_sup_position"] = r.inf_sup->position;

@@ -79,6 +79,7 @@ struct Results {
   std::optional<InfSupReport> inf_sup;     ///< where the run was asked to diagnose
   std::vector<ExpectedFigure> expected;    ///< by the scene
   std::vector<Check> checks;
+  double contact_moved = 0;           ///< the part of p in L2 that displacements are too large for
   std::vector<std::string> warnings;  ///< what a user should know; nothing that fails
   Status status = Status::solved;
   Seconds seconds;

@@ -14,7 +14,6 @@
 #include "contact/curve_resolution.hpp"
 #include "fem/edges.hpp"
 #include "results/checks.hpp"
-#include "results/large_displacement.hpp"
 #include "results/point_supports.hpp"
 
 namespace mortise {
@@ -309,13 +308,13 @@ void warn_of_points(const Results& r, Lines& lines) {
 
 }  // namespace
 
-std::vector<std::string> warnings(const Results& r) {
+std::vector<std::string> warnings(const Results& r, const LargeDisplacement& moved) {
   Lines lines;
   warn_of_active_set(r, lines);
   warn_of_iteration(r.solution, lines);
   warn_of_what_is_not_finite(r, lines);
   warn_of_no_load(r, lines);
-  if (auto line = large_displacement(r)) lines.push_back(*std::move(line));
+  if (moved.line) lines.push_back(*moved.line);
   warn_of_locking(r.problem, lines);
   warn_of_axis(r.problem, lines);
   warn_of_held(r, lines);

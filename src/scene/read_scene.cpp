@@ -91,7 +91,10 @@ Scene read_scene(const std::string& path, const std::vector<Override>& overrides
   Scene scene = scene_file::read_sections(root, path, names);
   names.require_used(std::ranges::any_of(overrides, scene_file::may_have_an_expression));
   for (const Override& change : overrides) scene.changes.push_back(change.key + "=" + change.value);
-  for (LoadCase& load : scene.cases) load.scene.changes = scene.changes;
+  for (LoadCase& load : scene.cases) {
+    load.scene.changes = scene.changes;
+    load.scene.load_case = load.name;
+  }
   return scene;
 }
 

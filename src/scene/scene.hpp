@@ -27,6 +27,7 @@ MORTISE_WORDS(CaseFiles, table, contact, all)
 struct Scene {
   std::string path;                  ///< the .toml, for messages
   std::vector<std::string> changes;  ///< KEY=VALUE of each `--set`, for the report
+  std::string load_case;             ///< the name of the [[case]] that it is; empty: the scene itself
   std::string title;
   std::string mesh_file;  ///< absolute or relative to the working directory
   std::map<std::string, double> mesh_parameters;

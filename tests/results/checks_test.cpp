@@ -30,7 +30,7 @@ Results judged(const Scene& scene, Spoil spoil) {
   r.recovery.reactions = find_reactions(r.problem, r.solution);
   r.checks = checks(r);
   r.status = verdict(r);
-  r.warnings = warnings(r);
+  r.warnings = warnings(r, large_displacement(r));
   return r;
 }
 

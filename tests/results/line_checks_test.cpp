@@ -141,7 +141,7 @@ TEST(LineChecks, NameThePairOfWhichMostIsLostHoweverLittleOthersCarry) {
     const auto lost = [&](int k) { return motion_check(alone[k]).value * pressed[k]; };
     const double sum = std::hypot(lost(0), lost(1)) / std::hypot(pressed[0], pressed[1]);
     if (std::abs(sum - 0.01) < 0.003) continue;  // the check takes means, the line places
-    const auto said = large_displacement(both);
+    const auto said = large_displacement(both).line;
     const auto slides = [](const std::optional<std::string>& line) {
       return line && line->find("slide along one another") != std::string::npos;
     };
@@ -149,7 +149,7 @@ TEST(LineChecks, NameThePairOfWhichMostIsLostHoweverLittleOthersCarry) {
     silent += !slides(said);
     if (!slides(said) || std::abs(std::log(lost(0) / lost(1))) < 0.3) continue;
     const int most = lost(0) > lost(1) ? 0 : 1;
-    EXPECT_EQ(said, large_displacement(alone[most]));
+    EXPECT_EQ(said, large_displacement(alone[most]).line);
     of_less_sliding += most;
   }
   EXPECT_GE(of_less_sliding, 5);
@@ -163,7 +163,7 @@ TEST(LineChecks, FailWhereTurnsCancelInTheMeanOfTheLine) {
     const Results r = solve_scene(read_scene(std::string(MORTISE_SOURCE_DIR) + "/geo/punch.toml",
                                              {{"boundary.2.pressure", "2e11"}, {"mesh.parameters.n_punch", edges}}));
     EXPECT_EQ(r.status, Status::check_failed);
-    EXPECT_NEAR(motion_of(r).value, 0.69, 0.01);
+    EXPECT_NEAR(motion_of(r).value, 0.643, 0.005);
     expect_contains(motion_of(r).where, ": the contact line near (0.3, 0.2) turns and stretches so that 6");
   }
 }
@@ -220,7 +220,7 @@ TEST(LineChecks, ARimMaySpinWhereContactActsAlongItsNormals) {
           r.solution.u(2 * cell.nodes[a] + 1) = angle * arm.x();
         }
       const double lost = motion_check(r).value;
-      const std::string told = large_displacement(r).value_or("");
+      const std::string told = large_displacement(r).line.value_or("");
       EXPECT_EQ(told.find("slide") != std::string::npos, !on_rim) << told;
       if (on_rim)
         EXPECT_LT(lost, 0.05) << radius << " " << angle;
@@ -271,7 +271,7 @@ contact = [{ between = ["sole", "top"], multipliers_on = ")"
 
 // Of p in L2, what a run says that a slide across the joint may put it off by; 0 where it says nothing.
 double told_of_joint(const Results& r) {
-  const std::string told = large_displacement(r).value_or("");
+  const std::string told = large_displacement(r).line.value_or("");
   if (told.find("slide along one another where their normals differ by ") == std::string::npos) return 0;
   const std::string before = "p may be off by ";
   return std::stod(told.substr(told.find(before) + before.size())) / 100;

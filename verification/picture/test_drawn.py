@@ -236,6 +236,49 @@ def test_the_columns_that_cases_are_drawn_over():
     assert drawn_cases.load_axis(table, None)[0] == "case"
 
 
+def test_the_history_is_that_of_the_most_pressed_pair():
+    table = {"case": np.array(["a", "b"]), "contact.0.pressure.max": np.array([3.0, 2.0]), "contact.2.pressure.max": np.array([np.nan, 9.0])}
+    assert drawn_cases.most_pressed(table, [0, 2]) == 2
+    assert [label for label, _, _ in drawn_cases.contact_panels(table, 2, [0, 2])][0] == "largest p, contact.2"
+    assert [label for label, _, _ in drawn_cases.contact_panels(table, 0, [0])][0] == "largest p"
+
+
+def one_pair(places, p, first="foot", other="top"):
+    """The columns of contact.csv of two straight curves along x, `first` the multiplier side; s from where `top` starts, or `foot`."""
+    x, begin = np.array(places), {first: 0.0, other: 0.0, "top": 10.0}
+    sides = [{"curve": np.full(len(x), name), "s": x - x[0] + begin[name], "p": np.array(p)} for name in (first, other)]
+    table = {key: np.concatenate([side[key] for side in sides]) for key in ("curve", "s", "p")}
+    return table | {"pair": np.zeros(2 * len(x)), "x": np.tile(x, 2), "y": np.zeros(2 * len(x)), "gap": np.zeros(2 * len(x))}
+
+
+def test_p_of_all_cases_is_along_the_curve_of_the_first(tmp_path):
+    x, p = [0.0, 0.5, 1.0], [1.0, 2.0, 1.0]
+    for case, sides in [("a", ("foot", "top")), ("b", ("top", "foot"))]:
+        folder = tmp_path / "cases" / case
+        folder.mkdir(parents=True)
+        table = one_pair(x, p, *sides)
+        rows = [",".join(table), *(",".join(map(str, row)) for row in zip(*table.values()))]
+        (folder / "contact.csv").write_text("\n".join(rows) + "\n")
+        (folder / "summary.json").write_text('{"contact": [{"number": 0}]}')
+    found = list(drawn_cases.pressures(tmp_path, {"case": np.array(["a", "b"])}, 0))
+    assert [(case, list(s), curve) for case, s, _, curve in found] == [("a", x, "foot"), ("b", x, "foot")]
+
+
+def test_runs_are_drawn_on_the_line_of_the_first_or_on_their_own():
+    """Of one geometry, whichever side has the multipliers; of another, moved or longer, over their own arc length: none ends where
+    the first one's contact does."""
+    x, summary = np.linspace(0, 1, 11), {"contact": [{"between": ["foot", "top"]}]}
+    runs = [("narrow", summary, one_pair(x, np.where(x < 0.35, 1.0, 0.0))), ("wide", summary, one_pair(x, np.ones(11), "top", "foot")),
+            ("moved", summary, one_pair(x + 3, np.ones(11))), ("longer", summary, one_pair(2 * x, np.ones(11)))]  # fmt: skip
+    drawing, axes = figure.panels(1, 1, (4, 3))
+    drawn_pairs.draw_runs([axes], runs, [0], summary)
+    lines = axes.get_lines()
+    assert [line.get_label() for line in lines] == ["narrow", "wide", "moved, its own s", "longer, its own s"]
+    for line, s in zip(lines, (x, x, x, 2 * x)):
+        np.testing.assert_allclose(line.get_xdata(), s, atol=1e-12)
+    assert axes.get_xlim()[0] <= 0 and axes.get_xlim()[1] >= 2
+
+
 def test_cases_that_differ_in_more_than_their_scale_are_lines_of_their_own():
     table = {"case": np.array(["pull_0.5", "pull_10", "push_2", "push_1", "alone"]), "scale": np.array([0.5, 10, 2, 1, 1]),
              "boundary.2.pressure": np.array([np.nan, np.nan, 50, 50, 60]), "status": np.array(["solved"] * 5)}  # fmt: skip

@@ -122,12 +122,15 @@ def test_the_history_of_cases(call, picture_py, tmp_path):
     assert f'file="cases/part_0.5/result.vtu"' in (folder / "cases.pvd").read_text() and len(reader.points) > 0
     for words, text in [((folder,), "the cases of a scene; expected --history, or the folder cases/NAME"),
                         ((folder / "cases/part_1", "--history"), "no cases.csv there; expected the folder of a scene with [[case]]"),
-                        ((folder, "--history", "--along", "q"), "--along q: no such column; expected one of cases.csv: case, scale"),
+                        ((folder, "--history", "--along", "q"), "--along q: no such column; expected one of cases.csv: scale"),
+                        ((folder, "--history", "--along", "status"), "--along status: has no numbers; expected one of cases.csv: scale"),
                         ((folder, "--history", "--pair", "1"), "cases.csv has no contact pair 1")]:  # fmt: skip
         status, said = picture_py(*words)
         assert status and text in said
     assert "expected one of the folders cases/NAME" in call("report", folder, expected=1)
-    call("report", folder / "cases/part_1")
+    call("report", folder / "cases/pulled")
+    page = (folder / "cases/pulled.html").read_text()
+    assert ", case pulled</h1>" in page and "u_y = 0.0001" in page.replace("\u2009", " ")
     assert "one load is certified; expected --set case=[]" in call("certify", scene, "-o", tmp_path / "certificate", expected=1)
 
 

@@ -39,6 +39,13 @@ def test_results_are_read_as_the_files_have_them(punch):
     assert np.abs(run.u).max() == pytest.approx(1.07e-5, rel=0.01)  # the punch goes down by so much
     with pytest.raises(KeyError, match="known: foot, block_top"):
         run.side("nothing")
+    rows = run.contact["curve"] == "foot"
+    run.contact["pair"] = np.where(np.cumsum(rows) > 5, 1, 0)
+    assert len(run.side("foot", 0)["p"]) == 5 and len(run.side("foot", 1)["p"]) == rows.sum() - 5
+    with pytest.raises(KeyError, match=r"curve 'foot' is in the pairs 0, 1; expected side\('foot', pair\)"):
+        run.side("foot")
+    with pytest.raises(KeyError, match="curve 'foot' is not in pair 2; its pairs: 0, 1"):
+        run.side("foot", 2)
 
 
 def test_a_field_of_a_file_is_what_other_readers_find(punch):

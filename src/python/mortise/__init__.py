@@ -52,11 +52,17 @@ class Results:
             raise AttributeError(f'{name}: the folder has no result.vtu; expected a scene with [cases] write = "all"')
         raise AttributeError(name)
 
-    def side(self, curve):
-        """The columns of `contact` along one curve."""
+    def side(self, curve, pair=None):
+        """The columns of `contact` along one curve, which is in several pairs only with the number of one."""
         here = self.contact["curve"] == curve
         if not here.any():
             raise KeyError(f"no contact curve '{curve}'; known: {', '.join(dict.fromkeys(self.contact['curve']))}")
+        pairs = sorted({int(k) for k in self.contact["pair"][here]})
+        if pair is None and len(pairs) > 1:
+            raise KeyError(f"curve '{curve}' is in the pairs {', '.join(map(str, pairs))}; expected side('{curve}', pair)")
+        if pair is not None and pair not in pairs:
+            raise KeyError(f"curve '{curve}' is not in pair {pair}; its pairs: {', '.join(map(str, pairs))}")
+        here &= True if pair is None else self.contact["pair"] == pair
         return {name: column[here] for name, column in self.contact.items()}
 
     def _first(self, name):

@@ -27,8 +27,10 @@ def load_axis(table, asked):
     """Name and values of what the cases are drawn over: a column that is asked for, else the scale, else the only number that
     cases change, if each has one, else their numbers."""
     if asked is not None:
-        if asked not in table:
-            raise SystemExit(f"picture.py: --along {asked}: no such column; expected one of cases.csv: {', '.join(table)}")
+        numbers = [name for name in table if table[name].dtype.kind == "f"]
+        if asked not in numbers:
+            found = "has no numbers" if asked in table else "no such column"
+            raise SystemExit(f"picture.py: --along {asked}: {found}; expected one of cases.csv: {', '.join(numbers)}")
         return asked, table[asked]
     if "scale" in table and varies(table["scale"]):
         return "scale", table["scale"]
@@ -74,15 +76,22 @@ def approach(table):
     return best
 
 
-def contact_panels(table, number):
-    """Of each panel its label, its values and their bars."""
+def most_pressed(table, numbers):
+    """Of the pairs with these numbers that with the largest p of any case."""
+    largest = lambda k: np.nan_to_num(table[f"contact.{k}.pressure.max"], nan=-np.inf).max()
+    return max(numbers, key=largest, default=0)
+
+
+def contact_panels(table, number, numbers):
+    """Of each panel its label, its values and their bars. The pair is named where cases.csv has several."""
     at = f"contact.{number}."
+    of = f", contact.{number}" if len(numbers) > 1 else ""
     column = lambda name: table.get(at + name, np.full(len(table["case"]), np.nan))
     force = np.hypot(column("force.x"), column("force.y"))
     return [
-        ("largest p", column("pressure.max"), column("pressure.max_error")),
-        ("length in contact", column("length_in_contact"), column("length_in_contact_error")),
-        ("contact force", force, np.hypot(column("force_error.x"), column("force_error.y"))),
+        ("largest p" + of, column("pressure.max"), column("pressure.max_error")),
+        ("length in contact" + of, column("length_in_contact"), column("length_in_contact_error")),
+        ("contact force" + of, force, np.hypot(column("force_error.x"), column("force_error.y"))),
     ]
 
 
@@ -121,7 +130,9 @@ def draw_stiffness(axes, groups, name, moved, reaction):
 
 
 def pressures(folder, table, number):
-    """Case, s, p and curve of the multiplier side of the pair with that number, of some of the cases that have a contact.csv."""
+    """Case, s, p and curve of the pair with that number, of some of the cases that have a contact.csv: of the multiplier side of the
+    first, whichever side that is in the others."""
+    curve = None
     names = [name for name in map(name_of, table["case"]) if (folder / "cases" / name / "contact.csv").is_file()]
     if len(names) > MOST_LINES:
         names = [names[round(k)] for k in np.linspace(0, len(names) - 1, MOST_LINES)]
@@ -131,8 +142,12 @@ def pressures(folder, table, number):
         if pair is None:  # tied in this case
             continue
         found = result_tables.contact_table(folder / "cases" / name)
-        on, s = result_tables.line_of(found, result_tables.sides_of(found, pair)[0])
-        yield name, s, found["p"][on], found["curve"][on][0]
+        sides = {found["curve"][side][0]: side for side in result_tables.sides_of(found, pair)}
+        curve = curve or next(iter(sides))
+        if curve not in sides:  # of a pattern that finds other curves
+            continue
+        on, s = result_tables.line_of(found, sides[curve])
+        yield name, s, found["p"][on], curve
 
 
 def name_of(case):
@@ -146,7 +161,7 @@ def draw_history(folder, picture, options):
     table = result_tables.columns(folder / "cases.csv")
     (name, x), groups = load_axis(table, options.along), histories(table)
     numbers = [int(name.split(".")[1]) for name in table if name.startswith("contact.") and name.endswith(".pressure.max")]
-    number = min(numbers, default=0) if options.pair is None else options.pair
+    number = most_pressed(table, numbers) if options.pair is None else options.pair
     if number not in numbers:
         raise SystemExit(f"picture.py: {folder}: cases.csv has no contact pair {number}")
     lines = list(pressures(folder, table, number))
@@ -154,7 +169,7 @@ def draw_history(folder, picture, options):
     count = 3 + bool(moves) + bool(lines)
     drawing, panels = figure.panels(count, 1, (8, 2.4 * count + 0.6), squeeze=False)
     rest = iter(panels[:, 0])
-    for label, values, bars in contact_panels(table, number):
+    for label, values, bars in contact_panels(table, number, numbers):
         draw_over(axes := next(rest), groups, x, values, bars, label, name)
         if name == "case" and len(x) <= MANY_NAMES:
             axes.set_xticks(x, [figure.short(name_of(case)) for case in table["case"]], rotation=20)

@@ -4,7 +4,7 @@ import figure
 import numpy as np
 from drawn_bodies import PAIR_COLOURS
 from drawn_pressure import loaded_part
-from result_tables import arc_length_on, line_of, sides_of
+from result_tables import line_of, nearest_on, sides_of
 
 SMALL, COLUMNS = 12, 4  # panels of pairs
 
@@ -62,24 +62,33 @@ def draw_small(panels, table, pairs, numbers):
 
 
 def draw_runs(panels, runs, numbers, summary):
-    """p of several runs, (name, summary, table), over each other along the lines of the first one's pairs."""
+    """p of several runs, (name, summary, table), over each other along the lines of the first one's pairs; of a run that lies farther
+    from there than its edges are long, as one of another geometry, over its own arc length."""
     for k, axes in zip(numbers, panels):
         between = set(summary["contact"][k]["between"])
+        parts = []
         for number, (name, other, table) in enumerate(runs):
             same = [j for j, pair in enumerate(other["contact"]) if set(pair["between"]) == between]
             if not same:
                 raise SystemExit(f"picture.py: {name} has no pair of {' and '.join(sorted(between))}")
-            on, s = line_of(table, sides_of(table, same[0])[0])
+            sides = {table["curve"][side][0]: side for side in sides_of(table, same[0])}
+            curve = next(iter(sides)) if number == 0 else curve
+            on, s = line_of(table, sides.get(curve, sides_of(table, same[0])[0]))
             xy, p = np.stack([table["x"][on], table["y"][on]], axis=1), table["p"][on]
             if number == 0:
                 line, length = xy, s
-                axes.set_xlim(*loaded_part(s, p))
-            s, colour = arc_length_on(line, length, xy), PAIR_COLOURS[number % len(PAIR_COLOURS)]
-            order = np.argsort(s)
+            along, away = nearest_on(line, length, xy)
+            if away.max() <= np.diff(s).max():
+                s = along
+            else:
+                name += ", its own s"
+            parts.append(loaded_part(s, p))
+            order, colour = np.argsort(s), PAIR_COLOURS[number % len(PAIR_COLOURS)]
             if "p_error" in table:
                 bar = table["p_error"][on]
                 axes.fill_between(s[order], (p - bar)[order], (p + bar)[order], color=colour, alpha=0.18, linewidth=0)
             axes.plot(s[order], p[order], color=colour, linewidth=1.3, dashes=(None, None) if number == 0 else (5, 2), label=figure.short(name))
+        axes.set_xlim(min(part[0] for part in parts), max(part[1] for part in parts))
         figure.scientific(axes.yaxis, "contact pressure")
         axes.set_xlabel("arc length $s$, " + " \u2013 ".join(map(figure.short, summary["contact"][k]["between"])))
         axes.grid(color="0.9", linewidth=0.6)

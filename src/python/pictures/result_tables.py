@@ -91,11 +91,15 @@ def line_of(table, side):
     return np.roll(rows, -first), np.concatenate([s[first:] - np.ptp(s) - closing, s[:first]])
 
 
-def arc_length_on(along, s, points):
-    """Arc length at the place of the polyline `along` nearest to each point."""
+def nearest_on(along, s, points):
+    """Arc length at the place of the polyline `along` nearest to each point, and the distance to there."""
     start, step = along[:-1], np.diff(along, axis=0)
     from_start = points[:, None, :] - start[None]
     t = np.clip((from_start * step).sum(axis=2) / (step**2).sum(axis=1), 0, 1)
     distance = np.linalg.norm(from_start - t[..., None] * step, axis=2)
     nearest, row = distance.argmin(axis=1), np.arange(len(points))
-    return s[nearest] + t[row, nearest] * np.diff(s)[nearest]
+    return s[nearest] + t[row, nearest] * np.diff(s)[nearest], distance[row, nearest]
+
+
+def arc_length_on(along, s, points):
+    return nearest_on(along, s, points)[0]

@@ -7,6 +7,7 @@ Each run is a `mortise solve` with a few --set, and its results stay in a folder
 can be run again by hand. Exit status: 0 all figures agree; 1 bad input; 2 one does not, or the scene's own run fails.
 """
 
+import argparse
 import json
 import math
 import os
@@ -325,7 +326,7 @@ def certify(mortise, scene, output, changes=(), accuracy=None, freefem=True, spo
     if tables.get("case") and not any(change.replace(" ", "") == "case=[]" for change in changes):
         raise SystemExit(f"mortise certify: error: {scene}: one load is certified; expected --set case=[], and a --set of what the case changes")
     start, output = time.perf_counter(), output.absolute()
-    asked = accuracy or part_of(tables.get("accuracy", {}).get("value", "1%"))
+    asked = accuracy if accuracy is not None else part_of(tables.get("accuracy", {}).get("value", "1%"))
     geometry = str(tables.get("mesh", {}).get("file", "")).endswith(".geo") and not tables.get("copies")
     changes = [*changes, *([f"accuracy.value={asked:.6g}"] if geometry else [])]
     run = lambda variation, more=(): solve(mortise, scene, [*changes, *more], variation, output / variation.name)
@@ -365,10 +366,20 @@ def part_of(text):
     return float(text[:-1]) / 100 if text.endswith("%") else float(text)
 
 
+def asked_part(text):
+    try:
+        part = part_of(text)
+    except ValueError:
+        part = 0
+    if not 0 < part < 1:
+        raise argparse.ArgumentTypeError(f"{text}: expected a part above 0 and below 1, such as 1%")
+    return part
+
+
 def main():
     parser = Parser(__doc__, prog="mortise certify")
     parser.add_argument("scene", type=Path, help="scene file (.toml)")
-    parser.add_argument("--accuracy", type=part_of, help="of p, such as 1%% (default: the scene's, else 1%%)")
+    parser.add_argument("--accuracy", type=asked_part, help="of p, such as 1%% (default: the scene's, else 1%%)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a value of the scene, in all runs")
     parser.add_argument("--no-freefem", action="store_true", help="not by FreeFEM too, which takes some seconds")
     parser.add_argument("-o", "--output", type=Path, help="folder of all runs (default: out/SCENE_certificate)")

@@ -126,12 +126,15 @@ def verdict(s, certificate):
         asked = f", {percent(s['accuracy']['asked'])} were asked" if s["accuracy"] else ""
         only = " only: the mesh is too coarse for it" if coarse else ""
         words.append(f"the contact pressure is within {percent(told['error'])} along the lines (estimated{asked}){only}")
+    moved = s.get("large_displacement") or 0
+    if moved > max(told["error"] if told else 0, COARSE):
+        words.append(f"displacements are so large that it may be off by {percent(moved)}")
     words.append(f"not all checks hold: {', '.join(failed)}" if failed else f"all {len(s['checks'])} checks hold")
     if certificate:
         apart = [row for row in certificate["figures"] if row["of_normals"]]
         agreed = "agree within the bars" + (", but for which curve's normals p acts along" if apart else "")
         words.append("other meshes, side and solver " + (agreed if certificate["agrees"] else "do not agree"))
-    return "; ".join(words) + ".", s["status"] == "solved" and not coarse and (not certificate or certificate["agrees"])
+    return "; ".join(words) + ".", s["status"] == "solved" and not coarse and not moved > COARSE and (not certificate or certificate["agrees"])
 
 
 def material_words(name, material):
@@ -282,12 +285,13 @@ def scene_text(path):
 def page_of(folder, certificate, mortise):
     """The whole page."""
     s = json.loads((folder / "summary.json").read_text())
-    title = s["title"] or s["scene"]
+    title = (s["title"] or s["scene"]) + (f", case {s['case']}" if s.get("case") else "")
     scene = scene_file(folder, s["scene"])
     words, good = verdict(s, certificate)
     picture = [sys.executable, Path(__file__).resolve().parents[1] / "pictures/picture.py", folder]
     with tempfile.TemporaryDirectory() as at:
         changes = [word for change in s.get("changes", []) for word in ("--set", change)]
+        changes += ["--case", s["case"]] if s.get("case") else []
         setup = figure("The set-up", [mortise, "check", scene, *changes, "--quiet", "--no-programs", "--picture"], at)
         dots = ["--dpi", "100"]  # of the bodies' colours
         whole = figure("Deformed bodies; p along the contact lines with its bar", picture, at, dots)
