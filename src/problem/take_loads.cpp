@@ -78,6 +78,7 @@ bool take_loads(const Scene& scene, Problem& p) {
   p.expectations = scene.expectations;
   SaddlePointSystem& system = p.discretisation.system;
   std::vector<char> fixed = std::move(system.constraints.fixed);
+  p.load_case = scene.load_case;
   take_loads(p.entries, p.mesh, p.discretisation);
   system.constraints.fixed = std::move(fixed);  // with held motions
   refuse_driven(p.mesh, p.pairs, p.held.motions, {}, system.f);
