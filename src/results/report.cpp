@@ -40,7 +40,8 @@ Json or_null(const std::optional<double>& value) { return value ? Json(*value) :
 // The bar where p is largest, or by how much it may be more elsewhere; none where it has no limit.
 Json peak_error(const Results& r, std::size_t k) {
   const ContactResults& c = r.recovery.contacts[k];
-  if (r.estimate && std::ranges::any_of(r.estimate->pressures[k].singular, &SingularPoint::is_unbounded))
+  if (r.estimate && k < r.estimate->pressures.size() &&
+      std::ranges::any_of(r.estimate->pressures[k].singular, &SingularPoint::is_unbounded))
     return nullptr;
   double most = std::numeric_limits<double>::quiet_NaN(), bar = most;
   for (const ContactNode* n : nodes_of_extremes(c)) {
