@@ -245,7 +245,6 @@ Json report_of(const Results& r) {
   Json report{{"title", r.problem.title},
               {"scene", r.problem.scene},
               {"changes", r.problem.changes},
-              {"case", r.problem.load_case.empty() ? Json() : Json(r.problem.load_case)},
               {"version", MORTISE_VERSION},
               {"dense_kernel", dense_kernel()},
               {"status", to_string(r.status)},
@@ -267,6 +266,7 @@ Json report_of(const Results& r) {
               {"checks", checks_json(r.checks)},
               {"large_displacement", r.contact_moved},
               {"warnings", r.warnings}};
+  if (!r.problem.load_case.empty()) report["case"] = r.problem.load_case;
   if (!r.expected.empty()) report["expected"] = expected_json(r.expected);
   if (r.inf_sup) report["inf_sup_position"] = r.inf_sup->position;
   return report;
