@@ -206,6 +206,7 @@ def test_a_reader_who_leaves_has_the_page(mortise, tmp_path):
 @pytest.mark.parametrize("words, said", [(["certify", "no.toml"], "mortise certify: error: no.toml: No such file or directory\n"),
                                          (["certify"], "the following arguments are required: scene"),
                                          (["certify", PUNCH, "--accuracy", "x"], "argument --accuracy: x: expected a part above 0 and below 1, such as 1%"),
+                                         (["certify", PUNCH, "--accuracy", "0"], "argument --accuracy: 0: expected a part above 0 and below 1, such as 1%"),
                                          (["report", "no"], "no: no summary.json there"), (["report"], "required: folder")])  # fmt: skip
 def test_bad_input_is_refused_as_by_solve(call, words, said):
     told = call(*words, expected=1)
